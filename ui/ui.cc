@@ -12,10 +12,13 @@
 namespace relievo::ui {
 namespace {
 
-// Where in the node, as Node::tells_place has it.
-std::int32_t place_in(const Rect& rect, float x, float y) {
-  const auto part = [](float share) { return std::clamp(static_cast<std::int32_t>(share * 4096), 0, 4095); };
-  return part((x - rect.x) / std::max(1.0F, rect.w)) << 12 | part((y - rect.y) / std::max(1.0F, rect.h));
+// A picture is told where in its node it was touched.
+void tell_place(Action& action, const Rect& rect, float x, float y) {
+  auto* request = std::get_if<TechnicianRequest>(&action.ask);
+  auto* touch = request != nullptr ? std::get_if<TouchPicture>(request) : nullptr;
+  if (touch == nullptr) return;
+  touch->x = std::clamp((x - rect.x) / std::max(1.0F, rect.w), 0.0F, 1.0F);
+  touch->y = std::clamp((y - rect.y) / std::max(1.0F, rect.h), 0.0F, 1.0F);
 }
 
 constexpr float kSlopPx = 14;  // a finger that rests moves so far
@@ -136,7 +139,7 @@ void Ui::up(const Input& input, const ViewState& view) {
 void Ui::touch(const Node& node, Action action, const Input& input, const ViewState& view) {
   Node touched = node;
   touched.action = action;
-  if (node.tells_place) touched.action.detail = place_in(node.rect, input.x, input.y);
+  tell_place(touched.action, node.rect, input.x, input.y);
   activate(touched, view);
 }
 

@@ -15,7 +15,6 @@ namespace relievo::firmware {
 namespace {
 
 using ui::StaffPage;
-using ui::TechnicianAct;
 using ui::TechnicianPhase;
 using ui::TechnicianStage;
 using ui::TechnicianView;
@@ -127,12 +126,12 @@ std::vector<ui::TechnicianPoint> by_hand() {
 
 AlgorithmController edited(bool typing) {
   AlgorithmController controller;
-  controller.act({TechnicianAct::ChooseKind, 2});
-  controller.act({TechnicianAct::ChooseName, 2});
+  controller.act(ui::ChooseKind{2});
+  controller.act(ui::ChooseName{2});
   if (!typing) return controller;
-  controller.act({TechnicianAct::EditOption, 0});
-  for (const char digit : {'9', '9', '9'}) controller.act({TechnicianAct::TypeDigit, digit});
-  controller.act({TechnicianAct::UseTyped, 0});
+  controller.act(ui::EditOption{0});
+  for (const char digit : {'9', '9', '9'}) controller.act(ui::TypeDigit{digit});
+  controller.act(ui::DoTechnician{ui::TechnicianAct::UseTyped});
   return controller;
 }
 

@@ -2,7 +2,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 //
 // PageController: what lies behind one page of the staff's side: the real objects. The screen's half is a
-// function in ui/screens/service/; this half answers its verbs and fills its view.
+// function in ui/screens/service/; this half answers its requests and fills its view.
 //
 //   opened() -> ask(request) ... show(view) every frame -> closed()
 //

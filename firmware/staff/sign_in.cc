@@ -6,7 +6,7 @@
 
 #include "firmware/base/wall_time.h"
 #include "firmware/service/pin_hash.h"
-#include "ui/screens/service/pin_verbs.h"
+#include "ui/screens/service/pin_entry.h"
 #include "ui/view/staff_views.h"
 
 namespace relievo::firmware {
@@ -59,15 +59,16 @@ void SignIn::forget() {
 
 void SignIn::ask(const ui::StaffRequest& request, StaffRole role) {
   if (checking_) return;
-  if (request.page == StaffPage::Pin && request.verb == ui::kPinCheck) return check(request.text());
+  if (request.page == StaffPage::Pin && request.as<ui::CheckPin>() != nullptr) return check(request.text());
   const bool first = request.page == StaffPage::FirstStart && !set_up_;
-  if (request.verb == ui::kPinOffer &&
+  if (request.as<ui::OfferPin>() != nullptr &&
       (first || (request.page == StaffPage::Pins && role != StaffRole::None)))
     return offer(request.text(), role);
-  if (first && request.verb == ui::kClockMove) clock_moved_ += std::chrono::minutes(request.number);
-  if (first && request.verb == ui::kClockSet) set_clock();
-  if (first && request.verb == ui::kConsentTake) consent_.take();
-  if (first && request.verb == ui::kConsentRight) consent_right_ = true;
+  if (!first) return;
+  if (const auto* move = request.as<ui::MoveClock>()) clock_moved_ += std::chrono::minutes(move->minutes);
+  if (request.as<ui::SetClock>() != nullptr) set_clock();
+  if (request.as<ui::TakeConsentText>() != nullptr) consent_.take();
+  if (request.as<ui::ConfirmConsentText>() != nullptr) consent_right_ = true;
 }
 
 void SignIn::set_clock() {

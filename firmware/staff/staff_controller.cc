@@ -116,11 +116,11 @@ void StaffController::touched() { last_touch_ = parts_.device.clock().now(); }
 
 void StaffController::ask(const ui::StaffRequest& request) {
   touched();
-  if (request.verb == ui::kPageLeft) return leave();
+  if (request.as<ui::PageLeft>() != nullptr) return leave();
   const bool signs_in = request.page == StaffPage::Pin || request.page == StaffPage::FirstStart ||
                         request.page == StaffPage::Pins;
   if (!inside() && request.page != StaffPage::Pin && request.page != StaffPage::FirstStart) return;
-  if (request.verb == ui::kPageOpened) {
+  if (request.as<ui::PageOpened>() != nullptr) {
     close_page();
     if (signs_in) sign_in_.opened(request.page);
     page_ = may_open(role_, request.page) ? pages_[static_cast<std::size_t>(request.page)].get() : nullptr;

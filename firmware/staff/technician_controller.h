@@ -16,7 +16,7 @@ class TechnicianController final : public PageController {
       : PageController(services), test_capture_(test_capture), page_(page) {}
   void opened() override { test_capture_.opened(page_); }
   void ask(const ui::StaffRequest& request) override {
-    test_capture_.act({static_cast<ui::TechnicianAct>(request.verb), request.number});
+    if (const auto* asked = request.as<ui::TechnicianRequest>()) test_capture_.act(*asked);
   }
   void show(ui::ServiceView& view) override {
     view.technician = &test_capture_.view();

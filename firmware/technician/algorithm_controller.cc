@@ -116,24 +116,35 @@ void AlgorithmController::type(char letter) {
   refused_.clear();
 }
 
-void AlgorithmController::act(ui::TechnicianOrder order) {
-  const auto index = static_cast<std::size_t>(std::max<std::int64_t>(0, order.argument));
-  if (order.act == ui::TechnicianAct::ChooseKind && index < kinds_.size()) {
-    kind_ = index;
+bool AlgorithmController::takes(const ui::TechnicianRequest& request) {
+  if (const auto* alone = std::get_if<ui::DoTechnician>(&request))
+    return alone->act == ui::TechnicianAct::EraseDigit || alone->act == ui::TechnicianAct::UseTyped ||
+           alone->act == ui::TechnicianAct::UseDefault || alone->act == ui::TechnicianAct::LeaveOption ||
+           alone->act == ui::TechnicianAct::ResetSet;
+  return std::holds_alternative<ui::ChooseKind>(request) || std::holds_alternative<ui::ChooseName>(request) ||
+         std::holds_alternative<ui::EditOption>(request) || std::holds_alternative<ui::TypeDigit>(request);
+}
+
+void AlgorithmController::act(const ui::TechnicianRequest& request) {
+  if (const auto* kind = std::get_if<ui::ChooseKind>(&request);
+      kind != nullptr && kind->index < kinds_.size()) {
+    kind_ = kind->index;
     editing_ = false;
     rebuild();
   }
-  if (order.act == ui::TechnicianAct::ChooseName) {
+  if (const auto* name = std::get_if<ui::ChooseName>(&request)) {
     editing_ = false;
-    choose_name(index);
+    choose_name(name->index);
   }
-  if (order.act == ui::TechnicianAct::EditOption) edit(index);
-  if (order.act == ui::TechnicianAct::TypeDigit) type(static_cast<char>(order.argument));
-  if (order.act == ui::TechnicianAct::EraseDigit && !typed_.empty()) typed_.pop_back();
-  if (order.act == ui::TechnicianAct::UseTyped && editing_) use(typed_);
-  if (order.act == ui::TechnicianAct::UseDefault && editing_) use(shown_[edited_]->value);
-  if (order.act == ui::TechnicianAct::LeaveOption) editing_ = false;
-  if (order.act == ui::TechnicianAct::ResetSet) begin({});
+  if (const auto* option = std::get_if<ui::EditOption>(&request)) edit(option->index);
+  if (const auto* typed = std::get_if<ui::TypeDigit>(&request)) type(typed->digit);
+  const auto* alone = std::get_if<ui::DoTechnician>(&request);
+  if (alone == nullptr) return;
+  if (alone->act == ui::TechnicianAct::EraseDigit && !typed_.empty()) typed_.pop_back();
+  if (alone->act == ui::TechnicianAct::UseTyped && editing_) use(typed_);
+  if (alone->act == ui::TechnicianAct::UseDefault && editing_) use(shown_[edited_]->value);
+  if (alone->act == ui::TechnicianAct::LeaveOption) editing_ = false;
+  if (alone->act == ui::TechnicianAct::ResetSet) begin({});
 }
 
 ui::TechnicianChoice AlgorithmController::view() const {

@@ -13,8 +13,8 @@
 #include <vector>
 
 #include "pipeline/algorithms.h"
-#include "ui/technician/technician_act.h"
 #include "ui/technician/technician_choice.h"
+#include "ui/view/staff_request.h"
 
 namespace relievo::firmware {
 
@@ -22,7 +22,8 @@ class AlgorithmController {
  public:
   AlgorithmController();
   void begin(const pipeline::AlgorithmSet& set);
-  void act(ui::TechnicianOrder order);
+  static bool takes(const ui::TechnicianRequest& request);
+  void act(const ui::TechnicianRequest& request);
   const pipeline::AlgorithmSet& set() const { return set_; }
   // Until the next change.
   ui::TechnicianChoice view() const;

@@ -30,22 +30,31 @@ ui::TechnicianVerdict verdict_of(pipeline::CalibrationVerdict verdict) {
 
 }  // namespace
 
-void CalibrationController::act(ui::TechnicianOrder order) {
+void CalibrationController::act(const ui::TechnicianRequest& request) {
   if (running_) return;
-  const auto step = static_cast<int>(order.argument);
-  if (order.act == ui::TechnicianAct::Columns)
-    board_.corners_across = std::clamp(board_.corners_across + step, kLeastCorners, kMostCorners);
-  if (order.act == ui::TechnicianAct::Rows)
-    board_.corners_down = std::clamp(board_.corners_down + step, kLeastCorners, kMostCorners);
-  if (order.act == ui::TechnicianAct::Square)
-    board_.square_mm =
-        std::clamp(std::round(10 * board_.square_mm + step) / 10, kLeastSquareMm, kMostSquareMm);
-  if (order.act == ui::TechnicianAct::Charuco) board_.charuco = !board_.charuco;
-  if (order.act == ui::TechnicianAct::StoreCalibration) store();
-  if (order.act == ui::TechnicianAct::ExportCalibration) export_in_use();
-  if (order.act == ui::TechnicianAct::ImportCalibration) import_one();
-  if (order.act == ui::TechnicianAct::Activate)
-    activate(static_cast<std::size_t>(std::max<std::int64_t>(0, order.argument)));
+  if (const auto* change = std::get_if<ui::ChangeBoard>(&request)) change_board(*change);
+  if (const auto* use = std::get_if<ui::UseCalibration>(&request)) activate(use->row);
+  const auto* alone = std::get_if<ui::DoTechnician>(&request);
+  if (alone == nullptr) return;
+  if (alone->act == ui::TechnicianAct::SwitchCharuco) board_.charuco = !board_.charuco;
+  if (alone->act == ui::TechnicianAct::StoreCalibration) store();
+  if (alone->act == ui::TechnicianAct::ExportCalibration) export_in_use();
+  if (alone->act == ui::TechnicianAct::ImportCalibration) import_one();
+}
+
+void CalibrationController::change_board(const ui::ChangeBoard& change) {
+  switch (change.measure) {
+    case ui::BoardMeasure::Columns:
+      board_.corners_across = std::clamp(board_.corners_across + change.step, kLeastCorners, kMostCorners);
+      return;
+    case ui::BoardMeasure::Rows:
+      board_.corners_down = std::clamp(board_.corners_down + change.step, kLeastCorners, kMostCorners);
+      return;
+    case ui::BoardMeasure::Square:
+      board_.square_mm =
+          std::clamp(std::round(10 * board_.square_mm + change.step) / 10, kLeastSquareMm, kMostSquareMm);
+      return;
+  }
 }
 
 CalibrateJob::Order CalibrationController::order() const {

@@ -18,7 +18,7 @@
 #include "firmware/technician/calibrate_job.h"
 #include "firmware/work/pipeline_stages.h"
 #include "storage/store.h"
-#include "ui/technician/technician_act.h"
+#include "ui/view/staff_request.h"
 
 namespace relievo::firmware {
 
@@ -35,7 +35,7 @@ class CalibrationController {
   explicit CalibrationController(Parts parts) : parts_(std::move(parts)) {}
 
   // The board, the stored ones; beginning and stopping are the test capture's, since the machine takes part.
-  void act(ui::TechnicianOrder order);
+  void act(const ui::TechnicianRequest& request);
   CalibrateJob::Order order() const;
   void begun();
   // The job has.
@@ -46,6 +46,7 @@ class CalibrationController {
   bool running() const { return running_; }
 
  private:
+  void change_board(const ui::ChangeBoard& change);
   struct Row {
     storage::CalibrationInfo info;
     std::string made_at;

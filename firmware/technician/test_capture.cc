@@ -15,16 +15,6 @@ namespace {
 using ui::TechnicianAct;
 using ui::TechnicianPhase;
 
-constexpr float kTouchSteps = 4096;
-
-struct Share {
-  float x, y;
-};
-Share place_of(std::int64_t argument) {
-  return {static_cast<float>(argument >> 12 & 0xFFF) / kTouchSteps,
-          static_cast<float>(argument & 0xFFF) / kTouchSteps};
-}
-
 }  // namespace
 
 TestCapture::TestCapture(Parts parts)
@@ -61,7 +51,7 @@ void TestCapture::opened(ui::TechnicianPage page) {
   recording_.hide();
   if (page == ui::TechnicianPage::Cameras) watch_cameras(true);
   if (page == ui::TechnicianPage::Calibrate) calibrations_.load_history();
-  if (page == ui::TechnicianPage::Algorithms) algorithms_.act({TechnicianAct::LeaveOption, 0});
+  if (page == ui::TechnicianPage::Algorithms) algorithms_.act(ui::DoTechnician{TechnicianAct::LeaveOption});
   if (page == ui::TechnicianPage::Tables && at_rest()) tables_.turn(0, source());
 }
 
@@ -69,29 +59,30 @@ void TestCapture::closed(ui::TechnicianPage page) {
   if (page == ui::TechnicianPage::Cameras) watch_cameras(false);
 }
 
-void TestCapture::act(ui::TechnicianOrder order) {
+void TestCapture::act(const ui::TechnicianRequest& request) {
+  const auto* alone = std::get_if<ui::DoTechnician>(&request);
+  const bool ends = alone != nullptr && (alone->act == TechnicianAct::StopCalibration ||
+                                         alone->act == TechnicianAct::CancelCalibration);
   const bool calibrating = parts_.appliance.state() == State::Calibrate;
-  const bool ends =
-      order.act == TechnicianAct::StopCalibration || order.act == TechnicianAct::CancelCalibration;
   if (ends ? !calibrating : parts_.appliance.state() != State::Staff) return;
-  switch (order.act) {
-    case TechnicianAct::None:
-      break;
+  if (alone != nullptr) act_alone(alone->act);
+  if (const auto* again = std::get_if<ui::RunStages>(&request)) run(again->latest);
+  if (const auto* shown = std::get_if<ui::ShowStage>(&request)) stage_ = shown->stage;
+  if (const auto* shown = std::get_if<ui::ShowTable>(&request)) tables_.show(shown->table, source());
+  if (const auto* turned = std::get_if<ui::TurnTable>(&request)) tables_.turn(turned->pages, source());
+  if (const auto* finger = std::get_if<ui::TouchPicture>(&request)) touch(*finger);
+  if (const auto* dropped = std::get_if<ui::DropResult>(&request)) kept_.drop(dropped->index);
+  if (const auto* saved = std::get_if<ui::LoadSaved>(&request)) load(saved->row, saved->beside);
+  calibrations_.act(request);
+  if (AlgorithmController::takes(request)) choose(request);
+}
+
+void TestCapture::act_alone(TechnicianAct act) {
+  switch (act) {
     case TechnicianAct::Capture:
       return is_calibrated() ? wait_for_cameras(Next::Shot) : void();
-    case TechnicianAct::Run:
-      return run(order.argument);
     case TechnicianAct::Stop:
       return stop();
-    case TechnicianAct::ShowStage:
-      if (order.argument >= 0 && order.argument < static_cast<std::int64_t>(ui::TechnicianStage::Count))
-        stage_ = static_cast<ui::TechnicianStage>(order.argument);
-      return;
-    case TechnicianAct::Point:
-    case TechnicianAct::PointRight:
-    case TechnicianAct::Drag:
-    case TechnicianAct::DragRight:
-      return point(order);
     case TechnicianAct::RemovePair:
       return pairs_.remove();
     case TechnicianAct::ByHand:
@@ -102,14 +93,6 @@ void TestCapture::act(ui::TechnicianOrder order) {
       return apply_set();
     case TechnicianAct::KeepResult:
       return keep_result();
-    case TechnicianAct::DropResult:
-      return kept_.drop(static_cast<std::size_t>(std::max<std::int64_t>(0, order.argument)));
-    case TechnicianAct::ShowTable:
-      if (order.argument >= 0 && order.argument < static_cast<std::int64_t>(ui::TechnicianTable::Count))
-        tables_.show(static_cast<ui::TechnicianTable>(order.argument), source());
-      return;
-    case TechnicianAct::TurnPage:
-      return tables_.turn(order.argument, source());
     case TechnicianAct::WatchCameras:
       return watch_cameras(!watching_);
     case TechnicianAct::ShowRelief:
@@ -124,15 +107,6 @@ void TestCapture::act(ui::TechnicianOrder order) {
       return calibrate_.finish();
     case TechnicianAct::CancelCalibration:
       return parts_.side_tasks.stop(JobLane::Capture);
-    case TechnicianAct::StoreCalibration:
-    case TechnicianAct::Columns:
-    case TechnicianAct::Rows:
-    case TechnicianAct::Square:
-    case TechnicianAct::Charuco:
-    case TechnicianAct::ExportCalibration:
-    case TechnicianAct::ImportCalibration:
-    case TechnicianAct::Activate:
-      return calibrations_.act(order);
     case TechnicianAct::Record:
       return record();
     case TechnicianAct::StopRecording:
@@ -144,20 +118,16 @@ void TestCapture::act(ui::TechnicianOrder order) {
       return recording_.list();
     case TechnicianAct::LeaveSaved:
       return recording_.hide();
-    case TechnicianAct::Load:
-    case TechnicianAct::LoadBeside:
-      return load(static_cast<std::size_t>(std::max<std::int64_t>(0, order.argument)),
-                  order.act == TechnicianAct::LoadBeside);
-    case TechnicianAct::ChooseKind:
-    case TechnicianAct::ChooseName:
-    case TechnicianAct::EditOption:
-    case TechnicianAct::TypeDigit:
-    case TechnicianAct::EraseDigit:
+    case TechnicianAct::StoreCalibration:  // the calibrations' own
+    case TechnicianAct::SwitchCharuco:
+    case TechnicianAct::ExportCalibration:
+    case TechnicianAct::ImportCalibration:
+    case TechnicianAct::EraseDigit:  // the algorithms' own
     case TechnicianAct::UseTyped:
     case TechnicianAct::UseDefault:
     case TechnicianAct::LeaveOption:
     case TechnicianAct::ResetSet:
-      return choose(order);
+      return;
   }
 }
 
@@ -167,8 +137,8 @@ void TestCapture::wait_for_cameras(Next what) {
   watch_cameras(false);
 }
 
-void TestCapture::choose(ui::TechnicianOrder order) {
-  algorithms_.act(order);
+void TestCapture::choose(const ui::TechnicianRequest& request) {
+  algorithms_.act(request);
   changed_ = first_change(run_.making().set, algorithms_.set()) != State::Review;
   applied_ = false;
 }
@@ -321,17 +291,14 @@ void TestCapture::run_done(const std::optional<Error>& error) {
   tables_.show(tables_.view().table, source());
 }
 
-void TestCapture::point(ui::TechnicianOrder order) {
+void TestCapture::touch(const ui::TouchPicture& touch) {
   const Products* made = products();
   if (made == nullptr || !made->pair) return;
-  const Share at = place_of(order.argument);
-  if (!by_hand_ && order.act == TechnicianAct::Point && made->matches)
-    point_ = nearest_match(*made->pair, *made->matches, run_.figures(), at.x, at.y);
+  if (!by_hand_ && !touch.right && !touch.dragged && made->matches)
+    point_ = nearest_match(*made->pair, *made->matches, run_.figures(), touch.x, touch.y);
   if (!by_hand_) return;
-  const bool left = order.act == TechnicianAct::Point || order.act == TechnicianAct::Drag;
-  if (order.act == TechnicianAct::Point || order.act == TechnicianAct::PointRight)
-    pairs_.touch(*made->pair, left, at.x, at.y);
-  else pairs_.drag(*made->pair, left, at.x, at.y);
+  if (touch.dragged) pairs_.drag(*made->pair, !touch.right, touch.x, touch.y);
+  else pairs_.touch(*made->pair, !touch.right, touch.x, touch.y);
 }
 
 // The keeper writes it down and makes the pipeline; from then on visitors are measured with it.

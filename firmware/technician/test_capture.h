@@ -52,7 +52,7 @@ class TestCapture {
   TestCapture& operator=(const TestCapture&) = delete;
 
   // What a page asked for.
-  void act(ui::TechnicianOrder order);
+  void act(const ui::TechnicianRequest& request);
   // What a page has under way only while it is open begins and ends with it.
   void opened(ui::TechnicianPage page);
   void closed(ui::TechnicianPage page);
@@ -82,10 +82,11 @@ class TestCapture {
   void stop();
   void shot_done(const std::optional<Error>& error);
   void run_done(const std::optional<Error>& error);
-  void point(ui::TechnicianOrder order);
+  void touch(const ui::TouchPicture& touch);
   void apply_set();
   void watch_cameras(bool on);
-  void choose(ui::TechnicianOrder order);
+  void choose(const ui::TechnicianRequest& request);
+  void act_alone(ui::TechnicianAct act);
   void keep_result();
   void record();
   bool is_calibrated();

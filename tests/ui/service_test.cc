@@ -55,7 +55,7 @@ TEST_F(ServiceTest, APinIsDigitsAndIsWipedWithItsRequest) {
   act(ActionKind::StaffEnter);
   for (const char* key : {"4", "x", "7", "1", " ", "1"}) service.type(key);
   EXPECT_EQ(service.typed(), "4711");
-  act(ActionKind::StaffDo, 1);
+  service.act(Action(CheckPin{}), view);
   EXPECT_EQ(service.typed(), "");
   EXPECT_EQ(last_request()->text(), "4711");
   for (int i = 0; i < 20; ++i) service.type("9");
@@ -76,14 +76,14 @@ TEST_F(ServiceTest, BackLeadsOutOneStepAtATime) {
   staff.inner = true;
   act(ActionKind::Back);
   EXPECT_EQ(service.page, StaffPage::Records) << "what it showed within itself is closed first";
-  EXPECT_EQ(last_request()->verb, kPageOpened);
+  EXPECT_NE(last_request()->as<PageOpened>(), nullptr);
   EXPECT_EQ(service.typed(), "");
   staff.inner = false;
   act(ActionKind::Back);
   EXPECT_EQ(service.page, StaffPage::Menu);
   act(ActionKind::Back);
   EXPECT_FALSE(service.open);
-  EXPECT_EQ(last_request()->verb, kPageLeft);
+  EXPECT_NE(last_request()->as<PageLeft>(), nullptr);
 }
 
 TEST_F(ServiceTest, ANewDeviceAsksForItsPinsFirst) {

@@ -53,9 +53,6 @@ class Settings {
   std::array<std::int32_t, kSettings> values_{};
 };
 
-// The page's verbs; number: the Setting.
-inline constexpr std::uint8_t kSettingLess = 1, kSettingMore = 2;
-
 struct SettingsView {
   Settings settings;          // as they will be: what is being saved is shown already
   bool clock_jumped = false;  // nothing is erased by age until KeepDays is chosen anew

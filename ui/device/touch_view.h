@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: 2026 The Relievo authors
 // SPDX-License-Identifier: GPL-3.0-or-later
 //
-// What the page of the touch screen's correction draws, and its verbs. Four crosses are touched, then one
+// What the page of the touch screen's correction draws. Four crosses are touched, then one
 // more with the new correction: only if that one is met is it kept. Plain data. Thread: main.
 #pragma once
 
@@ -11,9 +11,6 @@
 #include "ui/device/touch_map.h"
 
 namespace relievo::ui {
-
-inline constexpr std::uint8_t kTouchBegin = 1;
-inline constexpr std::uint8_t kTouchPlain = 2;  // take the panel as it is
 
 // Where the crosses stand, in shares of their room; the last is the one that tests.
 inline constexpr std::array<TouchPoint, 5> kTouchCrosses{

@@ -14,23 +14,10 @@
 #include "hal/base/image_view.h"
 #include "pipeline/model/geometry.h"
 #include "ui/view/fault.h"
+#include "ui/view/staff_request.h"
 
 namespace relievo::ui {
 
-enum class TechnicianStage : std::uint8_t {
-  Input,
-  Processed,
-  Rectified,
-  Matches,
-  Disparity,
-  Cloud,
-  Mesh,
-  Texture,
-  Count
-};
-inline constexpr std::size_t kTechnicianStages = static_cast<std::size_t>(TechnicianStage::Count);
-enum class TechnicianTable : std::uint8_t { Matches, Points, Model, Calibration, Count };
-inline constexpr std::size_t kTechnicianTables = static_cast<std::size_t>(TechnicianTable::Count);
 enum class TechnicianPhase : std::uint8_t { Empty, Capturing, Running, Ready, Failed };
 
 struct TechnicianPicture {

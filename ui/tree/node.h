@@ -64,9 +64,8 @@ struct Node {
   float aspect = 0;       // of the picture: width over height; a stack with one is as large as fits
   bool pinned = false;    // in a stack: its middle lies at these shares of it; without a width it is as wide
   float pin_x = 0, pin_y = 0;
-  bool tells_place = false;  // its action's detail is where it was touched: x << 12 | y, 4096ths
-  bool mirrored = false;     // the picture or the sign, as in a mirror
-  bool covers = false;       // the picture fills its box and is cut; else it is seen whole
+  bool mirrored = false;  // the picture or the sign, as in a mirror
+  bool covers = false;    // the picture fills its box and is cut; else it is seen whole
   float share = 1, line_px = 0;
   float covered_px = 0;  // of a Face, at its lower end: the model stands in the middle of the rest
   std::int32_t parent = -1, first_child = -1, last_child = -1, next = -1;

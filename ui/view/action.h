@@ -7,6 +7,8 @@
 
 #include <cstdint>
 
+#include "ui/view/staff_request.h"
+
 namespace relievo::ui {
 
 enum class ActionKind : std::uint8_t {
@@ -51,16 +53,24 @@ enum class ActionKind : std::uint8_t {
   StaffEnter,
   StaffLeave,   // the staff's side (ui/view/service.h)
   StaffOpen,    // value: a StaffPage
-  StaffDo,      // value: one of the page's verbs, detail: its number
+  StaffDo,      // what: Action::ask
   StaffAnswer,  // the same, and the page's mode is its first again
   StaffMode,
   StaffChoose  // value: the page's mode; a row, detail: the mode
 };
 
 struct Action {
+  Action() = default;
+  Action(ActionKind of_kind, std::int32_t of_value = 0, std::int32_t of_detail = 0)
+      : kind(of_kind), value(of_value), detail(of_detail) {}
+  // What a page asks of the appliance; `answers`: and then shows its first mode again.
+  explicit Action(StaffAsk of_staff, bool answers = false)
+      : kind(answers ? ActionKind::StaffAnswer : ActionKind::StaffDo), ask(of_staff) {}
+
   ActionKind kind = ActionKind::None;
   std::int32_t value = 0;
   std::int32_t detail = 0;
+  StaffAsk ask{};
   bool operator==(const Action&) const = default;
 };
 

@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: 2026 The Relievo authors
 // SPDX-License-Identifier: GPL-3.0-or-later
 //
-// What the page of records draws, and the verbs it asks with. Borrowed for one frame. Thread: main.
+// What the page of records draws. Borrowed for one frame. Thread: main.
 #pragma once
 
 #include <cstdint>
@@ -9,12 +9,6 @@
 #include <string_view>
 
 namespace relievo::ui {
-
-inline constexpr std::uint8_t kRecordsSearch = 1;  // text: a part of the name, or a number; empty: everyone
-inline constexpr std::uint8_t kRecordsNewer = 2, kRecordsOlder = 3;
-inline constexpr std::uint8_t kRecordShow = 4, kRecordErase = 5;  // number: of the record
-inline constexpr std::uint8_t kRecordExport = 6;  // number: of the record; 0: of everyone who is found
-inline constexpr std::uint8_t kExportStop = 7;
 
 struct RecordRow {
   std::int64_t number = 0;

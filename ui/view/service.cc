@@ -34,8 +34,7 @@ void Service::act(const Action& action, const ViewState& view) {
   const ActionKind kind = action.kind;
   if (kind == ActionKind::StaffEnter) enter(view);
   if (kind == ActionKind::StaffOpen) go(static_cast<StaffPage>(action.value));
-  if (kind == ActionKind::StaffDo || kind == ActionKind::StaffAnswer)
-    request(static_cast<std::uint8_t>(action.value), action.detail);
+  if (kind == ActionKind::StaffDo || kind == ActionKind::StaffAnswer) request(action.ask);
   if (kind == ActionKind::StaffAnswer) mode = 0;
   if (kind == ActionKind::StaffMode) mode = action.value;
   if (kind == ActionKind::StaffChoose) {
@@ -48,7 +47,7 @@ void Service::act(const Action& action, const ViewState& view) {
 }
 
 void Service::leave() {
-  request(kPageLeft, 0);
+  request(PageLeft{});
   close();
 }
 
@@ -94,7 +93,7 @@ void Service::go(StaffPage to) {
   page = to;
   mode = 0;
   chosen = 0;
-  request(kPageOpened, 0);
+  request(PageOpened{});
 }
 
 void Service::close() {
@@ -105,16 +104,15 @@ void Service::close() {
   chosen = 0;
 }
 
-void Service::request(std::uint8_t verb, std::int64_t number) {
+void Service::request(const StaffAsk& ask) {
   if (request_count_ == requests_.size()) return;
   StaffRequest& next = requests_[request_count_++];
   next.page = page;
-  next.verb = verb;
-  next.number = number;
+  next.ask = ask;
   next.bytes = {};
   typed().copy(next.bytes.data(), kStaffTextBytes);
   // A PIN is not kept longer than its check, a name not longer than its search.
-  if (verb != kPageOpened) forget_typed();
+  if (!std::holds_alternative<PageOpened>(ask)) forget_typed();
 }
 
 std::optional<StaffRequest> Service::take_request() {

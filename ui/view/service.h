@@ -26,21 +26,9 @@ namespace relievo::ui {
 
 struct ViewState;
 
-inline constexpr std::size_t kStaffTextBytes = 128, kMostPinDigits = 8, kLeastPinDigits = 4;
+inline constexpr std::size_t kMostPinDigits = 8, kLeastPinDigits = 4;
 inline constexpr std::chrono::seconds kPinPatience{30};
 inline constexpr std::chrono::seconds kHold{3};  // a finger on the way in
-
-// Verbs every page has; its own begin at 1.
-inline constexpr std::uint8_t kPageOpened = 0, kPageLeft = 255;
-
-// What a page asks of the appliance: one of its verbs, a number, what was typed.
-struct StaffRequest {
-  StaffPage page = StaffPage::Menu;
-  std::uint8_t verb = kPageOpened;
-  std::int64_t number = 0;
-  std::array<char, kStaffTextBytes + 1> bytes{};
-  std::string_view text() const { return {bytes.data()}; }
-};
 
 class Service {
  public:
@@ -65,7 +53,7 @@ class Service {
  private:
   static constexpr std::size_t kRequests = 8;
   void go(StaffPage to);
-  void request(std::uint8_t verb, std::int64_t number);
+  void request(const StaffAsk& ask);
   void enter(const ViewState& view);
   void leave();
   void back(bool inner);

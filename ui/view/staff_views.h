@@ -59,8 +59,6 @@ struct LogView {
 };
 
 // --- consent text: which is in force, ViewState::consent says --------------------------------------
-inline constexpr std::uint8_t kConsentTake = 5;  // from the stick; also on the page of the first start
-
 struct ConsentTextsView {
   bool taking = false;
   Outcome outcome = Outcome::None;  // of the last try; Done: it is in force
@@ -68,7 +66,6 @@ struct ConsentTextsView {
 };
 
 // --- self-test --------------------------------------------------------------------------------------
-inline constexpr std::uint8_t kSelfTestBegin = 1;
 enum class Check : std::uint8_t { Memory, Store, Calibration, Disk, Cameras, Count };
 enum class CheckState : std::uint8_t { NotTested, Running, Good, Bad };
 inline constexpr std::size_t kChecks = static_cast<std::size_t>(Check::Count);
@@ -79,8 +76,6 @@ struct SelfTestView {
 };
 
 // --- trigger test -----------------------------------------------------------------------------------
-inline constexpr std::uint8_t kTriggerBegin = 1;
-
 struct TriggerView {
   int pulses = 0, pairs = 0;                      // given; seen by both cameras
   double apart_ms = 0;                            // between the two exposures, at most

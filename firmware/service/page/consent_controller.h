@@ -15,7 +15,7 @@ class ConsentController final : public PageController {
   using PageController::PageController;
   void opened() override { services().consent.opened(); }
   void ask(const ui::StaffRequest& request) override {
-    if (request.verb == ui::kConsentTake) services().consent.take();
+    if (request.as<ui::TakeConsentText>() != nullptr) services().consent.take();
   }
   void show(ui::ServiceView&) override {}
 };

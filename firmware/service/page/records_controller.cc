@@ -74,29 +74,21 @@ void RecordsController::told(const std::optional<Error>& error) {
 }
 
 void RecordsController::ask(const ui::StaffRequest& request) {
-  if (request.verb == ui::kExportStop) return services().side_tasks.stop(JobLane::Keeper);
+  if (request.as<ui::StopExport>() != nullptr) return services().side_tasks.stop(JobLane::Keeper);
   if (exporting_) return;
   erased_ = exported_ = false;
   outcome_ = ui::Outcome::None;
   asked_ = 0;
-  switch (request.verb) {
-    case ui::kRecordsSearch:
-      return search(request.text());
-    case ui::kRecordsNewer:
-      skip_ = std::max<std::int64_t>(0, skip_ - kPage);
-      return list();
-    case ui::kRecordsOlder:
-      skip_ += more_ ? kPage : 0;
-      return list();
-    case ui::kRecordShow:
-      return load(request.number);
-    case ui::kRecordErase:
-      return erase(request.number);
-    case ui::kRecordExport:
-      return take_out(request.number);
-    default:
-      return;
+  if (request.as<ui::FindRecords>() != nullptr) search(request.text());
+  if (const auto* turn = request.as<ui::TurnRecords>()) {
+    if (turn->older) skip_ += more_ ? kPage : 0;
+    else skip_ = std::max<std::int64_t>(0, skip_ - kPage);
+    list();
   }
+  if (const auto* show = request.as<ui::ShowRecord>()) load(show->record);
+  if (const auto* gone = request.as<ui::EraseRecord>()) erase(gone->record);
+  if (const auto* one = request.as<ui::ExportRecord>()) take_out(one->record);
+  if (request.as<ui::ExportFound>() != nullptr) take_out(0);
 }
 
 void RecordsController::search(std::string_view text) {

@@ -7,14 +7,12 @@ namespace relievo::firmware {
 void SettingsController::opened() { outcome_ = ui::Outcome::None; }
 
 void SettingsController::ask(const ui::StaffRequest& request) {
-  if ((request.verb != ui::kSettingLess && request.verb != ui::kSettingMore) || request.number < 0 ||
-      request.number >= static_cast<std::int64_t>(ui::kSettings))
-    return;
-  const auto setting = static_cast<ui::Setting>(request.number);
+  const auto* asked = request.as<ui::ChangeSetting>();
+  if (asked == nullptr) return;
+  const ui::Setting setting = asked->setting;
   const ui::SettingInfo& info = info_of(setting);
   if (!(services().role == ui::StaffRole::Technician ? info.technician : info.clerk)) return;
-  const std::int32_t value =
-      services().settings.wanted().beside(setting, request.verb == ui::kSettingMore ? 1 : -1);
+  const std::int32_t value = services().settings.wanted().beside(setting, asked->more ? 1 : -1);
   services().settings.change(setting, value, [this](const std::optional<Error>& error) {
     outcome_ = error ? outcome_of(*error) : ui::Outcome::Done;
   });

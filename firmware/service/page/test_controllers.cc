@@ -51,7 +51,7 @@ void SelfTestController::begin(Check check, JobLane lane, SideTasks::Work work) 
 }
 
 void SelfTestController::ask(const ui::StaffRequest& request) {
-  if (request.verb != ui::kSelfTestBegin || running_ > 0) return;
+  if (request.as<ui::BeginSelfTest>() == nullptr || running_ > 0) return;
   view_ = {};
   PageServices& t = services();
   t.log.say(ui::LogEvent::SelfTestBegun);
@@ -94,7 +94,7 @@ void TriggerController::closed() {
 }
 
 void TriggerController::ask(const ui::StaffRequest& request) {
-  if (request.verb != ui::kTriggerBegin || running_) return;
+  if (request.as<ui::BeginTriggerTest>() == nullptr || running_) return;
   running_ = true;
   view_ = {};
   const auto seen = std::make_shared<ui::TriggerView>();

@@ -16,8 +16,8 @@ class TouchController final : public PageController {
   void opened() override { services().touch.abandon(); }
   void closed() override { services().touch.abandon(); }
   void ask(const ui::StaffRequest& request) override {
-    if (request.verb == ui::kTouchBegin) services().touch.begin();
-    if (request.verb == ui::kTouchPlain) services().touch.take_plain();
+    if (request.as<ui::BeginTouchTrial>() != nullptr) services().touch.begin();
+    if (request.as<ui::TakePlainTouch>() != nullptr) services().touch.take_plain();
   }
   void show(ui::ServiceView& view) override { view.touch = &services().touch.view(); }
 };

@@ -78,7 +78,7 @@ class TechnicianRig {
     test_capture->turn();
     frame();
     while (const auto request = screen->take_staff_request()) {
-      test_capture->act({static_cast<ui::TechnicianAct>(request->verb), request->number});
+      if (const auto* asked = request->as<ui::TechnicianRequest>()) test_capture->act(*asked);
       test_capture->turn();
       frame();
     }

@@ -4,7 +4,7 @@
 // Which consent text visitors read, and how the operator's own comes from a stick: the operator's page, and a
 // step of the first start.
 #include "ui/screens/service/fault_words.h"
-#include "ui/screens/service/pin_verbs.h"
+#include "ui/screens/service/pin_entry.h"
 #include "ui/screens/service/staff_pages.h"
 #include "ui/view/staff_views.h"
 
@@ -63,7 +63,7 @@ void consent_in_force(StaffFrame& page) {
   page.tree.close();
   const bool busy = page.staff.consent == nullptr || page.staff.consent->taking;
   page.small_button("take consent", tr("Take it from the stick"), kFetch, ButtonLook::Quiet,
-                    busy ? Action{} : Action{ActionKind::StaffDo, kConsentTake});
+                    busy ? Action{} : Action(TakeConsentText{}));
 }
 
 void consent_text_page(StaffFrame& page) { consent_in_force(page); }

@@ -3,7 +3,7 @@
 //
 // The first start: language, clock, consent text, both PINs; and the page on which somebody changes their
 // own.
-#include "ui/screens/service/pin_verbs.h"
+#include "ui/screens/service/pin_entry.h"
 #include "ui/screens/service/staff_pages.h"
 #include "ui/view/staff_views.h"
 
@@ -48,8 +48,8 @@ void mover(StaffFrame& page, const char* label, std::string_view id, int minutes
     const std::string_view first = page.tree.keep(id), second = page.tree.keep(end);
     return std::string_view{first.data(), first.size() + second.size()};
   };
-  page.square_button(named(" less"), page.tr("Less"), "\uf374", {ActionKind::StaffDo, kClockMove, -minutes});
-  page.square_button(named(" more"), page.tr("More"), "\uf415", {ActionKind::StaffDo, kClockMove, minutes});
+  page.square_button(named(" less"), page.tr("Less"), "\uf374", Action(MoveClock{-minutes}));
+  page.square_button(named(" more"), page.tr("More"), "\uf415", Action(MoveClock{minutes}));
   page.tree.close();
   page.tree.close();
 }
@@ -83,7 +83,7 @@ void clock(StaffFrame& page) {
         "refused",
         tr("The system does not let this program set its clock. Set it there, then start again; or go on with this one."));
   page.tree.close();
-  page.button("clock right", tr("Go on"), page.onward(), ButtonLook::Main, {ActionKind::StaffDo, kClockSet});
+  page.button("clock right", tr("Go on"), page.onward(), ButtonLook::Main, Action(SetClock{}));
 }
 
 void consent(StaffFrame& page) {
@@ -93,7 +93,7 @@ void consent(StaffFrame& page) {
   page.heading("consent title", tr("What do visitors consent to?"), type::kHeading);
   consent_in_force(page);
   page.button("consent right", own ? tr("Go on with this text") : tr("Go on with the sample"), page.onward(),
-              ButtonLook::Main, busy ? Action{} : Action{ActionKind::StaffDo, kConsentRight});
+              ButtonLook::Main, busy ? Action{} : Action(ConfirmConsentText{}));
 }
 
 const char* title_of(const Words& tr, PinStep step) {
@@ -143,7 +143,7 @@ void new_pin(StaffFrame& page) {
   const bool ready = page.service.typed().size() >= kLeastPinDigits && !access.checking;
   const bool done = access.step == PinStep::Done;
   pin_entry(page, title_of(page.tr, access.step), words_of(page.tr, access),
-            ready && !done ? Action{ActionKind::StaffDo, kPinOffer} : Action{});
+            ready && !done ? Action(OfferPin{}) : Action{});
 }
 
 }  // namespace

@@ -4,7 +4,7 @@
 // The pages on which a PIN is typed: the way in, and choosing new ones.
 #include <cstdio>
 
-#include "ui/screens/service/pin_verbs.h"
+#include "ui/screens/service/pin_entry.h"
 #include "ui/screens/service/staff_pages.h"
 
 namespace relievo::ui {
@@ -81,8 +81,7 @@ void pin_page(StaffFrame& page) {
   page.begin(page.tr("Staff"), icon::kLock);
   const AccessView& access = page.staff.access;
   const bool ready = page.service.typed().size() >= kLeastPinDigits && !access.checking && access.wait_s == 0;
-  pin_entry(page, page.tr("Technician or operator"), words_of(page),
-            ready ? Action{ActionKind::StaffDo, kPinCheck} : Action{});
+  pin_entry(page, page.tr("Technician or operator"), words_of(page), ready ? Action(CheckPin{}) : Action{});
   page.end();
 }
 

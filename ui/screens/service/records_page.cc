@@ -12,10 +12,6 @@ namespace {
 
 enum RecordsMode : int { kList, kTyping, kErasing };
 
-Action ask(std::uint8_t verb, std::int64_t number = 0) {
-  return {ActionKind::StaffDo, verb, static_cast<std::int32_t>(number)};
-}
-
 std::string_view joined(StaffFrame& page, std::string_view first, std::string_view second) {
   const std::string_view a = page.tree.keep(first), b = page.tree.keep(second);
   return {a.data(), a.size() + b.size()};
@@ -39,7 +35,7 @@ void typing(StaffFrame& page) {
                            Weight::Medium, typed.empty() ? page.palette.ink_soft : page.palette.ink));
   page.tree.close();
   if (page.portrait) page.space(1);
-  keyboard(page, {ActionKind::StaffAnswer, kRecordsSearch});
+  keyboard(page, Action(FindRecords{}, true));
 }
 
 void working(StaffFrame& page) {
@@ -50,7 +46,8 @@ void working(StaffFrame& page) {
   page.body("do not pull", page.tr("Please do not pull it out."), TextAlign::Centre);
   page.progress("export progress", page.staff.work.progress);
   page.tree.close();
-  page.button("stop export", page.tr("Stop the export"), icon::kClose, ButtonLook::Quiet, ask(kExportStop));
+  page.button("stop export", page.tr("Stop the export"), icon::kClose, ButtonLook::Quiet,
+              Action(StopExport{}));
 }
 
 void whole_of(StaffFrame& page, const RecordsView& seen) {
@@ -92,7 +89,7 @@ void list(StaffFrame& page, const RecordsView& seen) {
   page.begin_list("records");
   for (const RecordRow& row : seen.rows)
     page.row(joined(page, "record ", row.code), row.name, page.date(row.since), Mood::Plain,
-             ask(kRecordShow, row.number));
+             Action(ShowRecord{row.number}));
   if (seen.rows.empty())
     page.nothing("nobody", icon::kPerson,
                  seen.searched.empty() ? tr("There are no records.") : tr("There is nobody of that name."));
@@ -103,11 +100,11 @@ void list(StaffFrame& page, const RecordsView& seen) {
   page.small_button("search", tr("Search"), "\uf349", ButtonLook::Main, {ActionKind::StaffMode, kTyping},
                     share);
   if (!seen.searched.empty())
-    page.small_button("all", tr("All"), nullptr, ButtonLook::Quiet, ask(kRecordsSearch), share);
+    page.small_button("all", tr("All"), nullptr, ButtonLook::Quiet, Action(FindRecords{}), share);
   if (seen.newer)
-    page.small_button("newer", tr("Newer"), nullptr, ButtonLook::Quiet, ask(kRecordsNewer), share);
+    page.small_button("newer", tr("Newer"), nullptr, ButtonLook::Quiet, Action(TurnRecords{false}), share);
   if (seen.older)
-    page.small_button("older", tr("Older"), nullptr, ButtonLook::Quiet, ask(kRecordsOlder), share);
+    page.small_button("older", tr("Older"), nullptr, ButtonLook::Quiet, Action(TurnRecords{true}), share);
   if (narrow) {
     page.tree.close();
     page.tree.open(page.box(Flow::Row, space::kS));
@@ -116,7 +113,7 @@ void list(StaffFrame& page, const RecordsView& seen) {
   }
   if (!seen.rows.empty())
     page.small_button("export all", tr("Export all to the stick"), "\uf553", ButtonLook::Quiet,
-                      ask(kRecordExport), share);
+                      Action(ExportFound{}), share);
   page.tree.close();
 }
 
@@ -151,7 +148,7 @@ void record(StaffFrame& page, const RecordsView& seen) {
   page.tree.close();
   said(page, seen);
   page.small_button("export", tr("Export to the stick"), "\uf553", ButtonLook::Main,
-                    ask(kRecordExport, seen.shown->number));
+                    Action(ExportRecord{seen.shown->number}));
   page.small_button("erase", tr("Erase this record"), icon::kBin, ButtonLook::Quiet,
                     {ActionKind::StaffMode, kErasing});
   page.tree.close();
@@ -171,9 +168,8 @@ void records_page(StaffFrame& page) {
   page.grave_question(
       tr("Erase for ever?"), {seen->shown->name, seen->shown->code, portrait_of},
       tr("Name, consent and every portrait of this person are erased. Nobody can bring them back."),
-      tr("Hold to erase"),
-      {ActionKind::StaffAnswer, kRecordErase, static_cast<std::int32_t>(seen->shown->number)},
-      tr("No, keep it"), {ActionKind::StaffMode, kList});
+      tr("Hold to erase"), Action(EraseRecord{seen->shown->number}, true), tr("No, keep it"),
+      {ActionKind::StaffMode, kList});
 }
 
 }  // namespace relievo::ui

@@ -12,12 +12,12 @@ namespace {
 
 void chooser(StaffFrame& page, const Settings& settings, Setting setting) {
   const SettingInfo& info = info_of(setting);
-  const auto ask = [&](std::uint8_t verb) {
-    const bool end = settings.beside(setting, verb == kSettingMore ? 1 : -1) == settings.of(setting);
-    return end ? Action{} : Action{ActionKind::StaffDo, verb, static_cast<std::int32_t>(setting)};
+  const auto ask = [&](bool more) {
+    const bool end = settings.beside(setting, more ? 1 : -1) == settings.of(setting);
+    return end ? Action{} : Action(ChangeSetting{setting, more});
   };
   page.stepper(info.key, name_of(page.tr, setting), said_value(page, setting, settings.of(setting)),
-               icon::kLess, ask(kSettingLess), icon::kMore, ask(kSettingMore));
+               icon::kLess, ask(false), icon::kMore, ask(true));
 }
 
 void group(StaffFrame& page, const char* title, std::span<const Setting> settings) {

@@ -67,7 +67,7 @@ void self_test_page(StaffFrame& page) {
   }
   page.tree.close();
   page.small_button("begin", tr("Begin the test"), icon::kAgain, ButtonLook::Main,
-                    page.staff.work.running ? Action{} : Action{ActionKind::StaffDo, kSelfTestBegin});
+                    page.staff.work.running ? Action{} : Action(BeginSelfTest{}));
 }
 
 void trigger_page(StaffFrame& page) {
@@ -94,7 +94,7 @@ void trigger_page(StaffFrame& page) {
   }
   page.tree.close();
   page.small_button("begin", tr("Begin the test"), icon::kAgain, ButtonLook::Main,
-                    page.staff.work.running ? Action{} : Action{ActionKind::StaffDo, kTriggerBegin});
+                    page.staff.work.running ? Action{} : Action(BeginTriggerTest{}));
 }
 
 void log_page(StaffFrame& page) {

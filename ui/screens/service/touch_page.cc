@@ -106,11 +106,10 @@ void touch_page(StaffFrame& page) {
   figures(page, *seen);
   const bool upright = page.portrait || page.text_share > 1.2F;
   page.tree.open(page.box(upright ? Flow::Column : Flow::Row, space::kS));
-  page.small_button("begin", tr("Touch the crosses"), kCross, ButtonLook::Main,
-                    {ActionKind::StaffDo, kTouchBegin});
+  page.small_button("begin", tr("Touch the crosses"), kCross, ButtonLook::Main, Action(BeginTouchTrial{}));
   if (seen->corrected)
     page.small_button("plain", tr("Take the panel as it is"), nullptr, ButtonLook::Quiet,
-                      {ActionKind::StaffDo, kTouchPlain});
+                      Action(TakePlainTouch{}));
   page.tree.close();
 }
 

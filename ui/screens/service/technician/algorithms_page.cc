@@ -33,7 +33,7 @@ void kinds(TechnicianFrame& f) {
     row.id = f.id("kind", i);
     row.name = label_of(f.tr, kind.key);
     row.role = Role::Button;
-    row.action = technician_action(TechnicianAct::ChooseKind, static_cast<std::int32_t>(i));
+    row.action = technician_action(ChooseKind{i});
     row.box.min_height = f.page.px(size::kStaffTarget);
     row.box.justify = Justify::Centre;
     row.box.radius = f.page.px(12);
@@ -57,7 +57,7 @@ void names(TechnicianFrame& f) {
       if (i >= choice.names.size()) f.page.space(1);
       else
         f.choice(f.id("name", i), f.left_to_right(choice.names[i].name), choice.names[i].chosen,
-                 technician_action(TechnicianAct::ChooseName, static_cast<std::int32_t>(i)));
+                 technician_action(ChooseName{i}));
     }
     f.page.tree.close();
   }
@@ -94,8 +94,7 @@ void options(TechnicianFrame& f) {
   f.page.tree.leaf(said);
   for (std::size_t i = 0; i < choice.options.size(); ++i) {
     const TechnicianOption& option = choice.options[i];
-    const Action action =
-        option.text ? Action{} : technician_action(TechnicianAct::EditOption, static_cast<std::int32_t>(i));
+    const Action action = option.text ? Action{} : technician_action(EditOption{i});
     f.page.row(f.id("option", i), f.left_to_right(option.key), value_of(f, option),
                option.changed ? Mood::Warn : Mood::Plain, action);
   }
@@ -130,7 +129,7 @@ void keys(TechnicianFrame& f) {
     for (const char* letter : line) {
       if (letter == nullptr) continue;
       key(f, f.id("type", static_cast<std::size_t>(*letter)), *letter == '.' ? decimal_mark : letter,
-          technician_action(TechnicianAct::TypeDigit, *letter));
+          technician_action(TypeDigit{*letter}));
     }
     if (*line[0] == '0') {
       Node erase = f.page.grown(f.page.box(Flow::Row), 3);

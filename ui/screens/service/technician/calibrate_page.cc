@@ -200,9 +200,8 @@ void history(TechnicianFrame& f) {
                                    : row.depth_error_mm > 0
                                        ? f.page.number(static_cast<double>(row.depth_error_mm), 3, "mm")
                                        : std::string_view("–");
-    f.page.row(
-        f.id("calibration", i), label, value, row.active ? Mood::Good : Mood::Plain,
-        row.active ? Action{} : technician_action(TechnicianAct::Activate, static_cast<std::int32_t>(i)));
+    f.page.row(f.id("calibration", i), label, value, row.active ? Mood::Good : Mood::Plain,
+               row.active ? Action{} : technician_action(UseCalibration{i}));
   }
   if (f.view.calibrated)
     f.page.row("calibration export", f.tr("Export to the stick"), {}, Mood::Plain,
@@ -213,18 +212,18 @@ void history(TechnicianFrame& f) {
 
 void board(TechnicianFrame& f) {
   const TechnicianCalibration& c = f.view.calibration;
-  const auto stepper = [&](std::string_view id, const char* label, std::string_view value, TechnicianAct act,
-                           std::int32_t step) {
-    f.page.stepper(id, label, value, icon::kLess, technician_action(act, -step), icon::kMore,
-                   technician_action(act, step));
+  const auto stepper = [&](std::string_view id, const char* label, std::string_view value,
+                           BoardMeasure measure, std::int32_t step) {
+    f.page.stepper(id, label, value, icon::kLess, technician_action(ChangeBoard{measure, -step}), icon::kMore,
+                   technician_action(ChangeBoard{measure, step}));
   };
   f.page.section(f.tr("The board"));
-  stepper("columns", f.tr("Inner corners across"), f.page.number(c.columns), TechnicianAct::Columns, 1);
-  stepper("rows", f.tr("Inner corners down"), f.page.number(c.rows), TechnicianAct::Rows, 1);
+  stepper("columns", f.tr("Inner corners across"), f.page.number(c.columns), BoardMeasure::Columns, 1);
+  stepper("rows", f.tr("Inner corners down"), f.page.number(c.rows), BoardMeasure::Rows, 1);
   stepper("square", f.tr("Side of a square"), f.page.number(static_cast<double>(c.square_mm), 1, "mm"),
-          TechnicianAct::Square, 5);
+          BoardMeasure::Square, 5);
   f.page.row("charuco", f.tr("With markers (ChArUco)"), c.charuco ? f.tr("yes") : f.tr("no"), Mood::Plain,
-             technician_action(TechnicianAct::Charuco));
+             technician_action(TechnicianAct::SwitchCharuco));
 }
 
 void at_rest(TechnicianFrame& f) {

@@ -107,7 +107,7 @@ class Columns {
     cross.id = f.id("drop", i);
     cross.name = f.tr("Drop this result");
     cross.role = Role::Button;
-    cross.action = technician_action(TechnicianAct::DropResult, static_cast<std::int32_t>(i));
+    cross.action = technician_action(DropResult{i});
     cross.box.justify = Justify::Centre;
     cross.box.align = Align::Centre;
     cross.box.radius = page.px(12);
@@ -256,9 +256,9 @@ void buttons(TechnicianFrame& f, bool there) {
   const bool room = f.view.put_aside + 1 < kCompared;
   if (there) {
     const auto next =
-        static_cast<std::int32_t>((static_cast<std::size_t>(f.view.stage) + 1) % kTechnicianStages);
+        static_cast<TechnicianStage>((static_cast<std::size_t>(f.view.stage) + 1) % kTechnicianStages);
     f.page.small_button("next stage", title_of(f.tr, f.view.stage), icon::kAgain, ButtonLook::Quiet,
-                        technician_action(TechnicianAct::ShowStage, next), grow);
+                        technician_action(ShowStage{next}), grow);
     if (room)
       f.page.small_button("keep", f.tr("Put this result aside"), nullptr, ButtonLook::Quiet,
                           technician_action(TechnicianAct::KeepResult), grow);
@@ -274,7 +274,7 @@ void buttons(TechnicianFrame& f, bool there) {
 void technician_compare_page(StaffFrame& page) {
   if (page.staff.technician == nullptr) return;
   TechnicianFrame f(page);
-  if (f.view.saved.listed) return f.saved_list(TechnicianAct::LoadBeside);
+  if (f.view.saved.listed) return f.saved_list(true);
   const bool there = f.capture_state();
   if (there) {
     Columns columns(f);

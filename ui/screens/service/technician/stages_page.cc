@@ -36,7 +36,7 @@ void tabs(TechnicianFrame& f) {
       tab.id = f.id("stage", i);
       tab.name = title_of(f.tr, stage);
       tab.role = Role::Button;
-      tab.action = technician_action(TechnicianAct::ShowStage, static_cast<std::int32_t>(i));
+      tab.action = technician_action(ShowStage{static_cast<TechnicianStage>(i)});
       tab.box.justify = Justify::Centre;
       tab.box.align = Align::Centre;
       tab.box.min_height = f.page.px(size::kStaffTarget);
@@ -66,9 +66,8 @@ void pair_pictures(TechnicianFrame& f) {
   f.page.tree.open(row);
   for (std::size_t side = 0; side < 2; ++side) {
     Action action{}, dragged{};
-    if (touchable) action = technician_action(side == 0 ? TechnicianAct::Point : TechnicianAct::PointRight);
-    if (makes_pairs(f))
-      dragged = technician_action(side == 0 ? TechnicianAct::Drag : TechnicianAct::DragRight);
+    if (touchable) action = technician_action(TouchPicture{side != 0, false});
+    if (makes_pairs(f)) dragged = technician_action(TouchPicture{side != 0, true});
     f.open_picture(side == 0 ? "left" : "right", side == 0 ? f.tr("Left camera") : f.tr("Right camera"),
                    f.view.shown[side], side == 0 ? PictureSlot::TechnicianLeft : PictureSlot::TechnicianRight,
                    action, dragged);
@@ -173,7 +172,7 @@ void pair_buttons(TechnicianFrame& f) {
                         technician_action(TechnicianAct::RemovePair));
   if (f.view.pairs_changed)
     f.page.small_button("run pairs", f.tr("Calculate with the pairs"), icon::kAgain, ButtonLook::Main,
-                        technician_action(TechnicianAct::Run));
+                        technician_action(RunStages{}));
 }
 
 void rule_rows(TechnicianFrame& f) {
@@ -227,7 +226,7 @@ void side_rows(TechnicianFrame& f) {
 void technician_stages_page(StaffFrame& page) {
   if (page.staff.technician == nullptr) return;
   TechnicianFrame f(page);
-  if (f.view.saved.listed) return f.saved_list(TechnicianAct::Load);
+  if (f.view.saved.listed) return f.saved_list(false);
   const bool there = f.capture_state();
   if (there) {
     tabs(f);

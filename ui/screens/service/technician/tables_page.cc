@@ -103,7 +103,7 @@ void pager(TechnicianFrame& f) {
     node.id = id;
     node.name = spoken;
     node.role = Role::Button;
-    node.action = technician_action(TechnicianAct::TurnPage, pages);
+    node.action = technician_action(TurnTable{pages});
     node.box.justify = Justify::Centre;
     node.box.align = Align::Centre;
     node.box.radius = f.page.px(18);
@@ -140,7 +140,7 @@ void technician_tables_page(StaffFrame& page) {
     for (std::size_t i = first; i < first + across; ++i) {
       const auto table = static_cast<TechnicianTable>(i);
       f.choice(f.id("table", i), name_of_table(f.tr, table), rows.table == table,
-               technician_action(TechnicianAct::ShowTable, static_cast<std::int32_t>(i)));
+               technician_action(ShowTable{static_cast<TechnicianTable>(i)}));
     }
     page.tree.close();
   }

@@ -134,7 +134,6 @@ void TechnicianFrame::open_picture(std::string_view id, std::string_view spoken,
   image.box.radius = page.px(12);
   image.action = action;
   image.dragged = dragged;
-  image.tells_place = action.kind != ActionKind::None;
   page.tree.leaf(image);
 }
 
@@ -295,7 +294,7 @@ void TechnicianFrame::stick_state() {
               Mood::Good);
 }
 
-void TechnicianFrame::saved_list(TechnicianAct load) {
+void TechnicianFrame::saved_list(bool beside) {
   problem(view.problem);
   if (view.saved.names.empty()) {
     page.nothing("no saved", icon::kDisk, tr("There is no saved reconstruction on the stick."));
@@ -305,7 +304,7 @@ void TechnicianFrame::saved_list(TechnicianAct load) {
     page.tree.open(page.box(Flow::Column, space::kS, 0, space::kXs));
     for (std::size_t i = 0; i < view.saved.names.size(); ++i)
       page.small_button(id("saved", i), left_to_right(breakable(view.saved.names[i])), icon::kShape,
-                        ButtonLook::Quiet, technician_action(load, static_cast<std::int32_t>(i)));
+                        ButtonLook::Quiet, technician_action(LoadSaved{i, beside}));
     page.tree.close();
     page.tree.close();
   }
@@ -330,10 +329,10 @@ void TechnicianFrame::capture_buttons(bool with_run, bool with_stick) {
                       grow);
     if (with_run && there)
       page.small_button("run", tr("Calculate again"), icon::kAgain, ButtonLook::Main,
-                        technician_action(TechnicianAct::Run), grow);
+                        technician_action(RunStages{}), grow);
     if (with_stick && there)
       page.small_button("run from", tr("Calculate again from here"), icon::kAgain, ButtonLook::Quiet,
-                        technician_action(TechnicianAct::Run, work_before(view.stage)), grow);
+                        technician_action(RunStages{work_before(view.stage)}), grow);
   }
   page.tree.close();
 }

@@ -10,14 +10,12 @@
 #include <string_view>
 
 #include "ui/screens/service/staff_frame.h"
-#include "ui/technician/technician_act.h"
 #include "ui/technician/technician_view.h"
 
 namespace relievo::ui {
 
-inline Action technician_action(TechnicianAct act, std::int32_t argument = 0) {
-  return {ActionKind::StaffDo, static_cast<std::int32_t>(act), argument};
-}
+inline Action technician_action(const TechnicianRequest& request) { return Action(StaffAsk(request)); }
+inline Action technician_action(TechnicianAct act) { return technician_action(DoTechnician{act}); }
 
 class TechnicianFrame {
  public:
@@ -73,8 +71,8 @@ class TechnicianFrame {
   void capture_buttons(bool with_run, bool with_stick = false);
   void problem(const Fault& fault);  // empty: nothing is shown
   void failure();                    // of the present result's stages
-  // The reconstructions on the stick, in place of the page: a touch asks for `load`.
-  void saved_list(TechnicianAct load);
+  // The reconstructions on the stick, in place of the page: a touch loads one, `beside` the present one.
+  void saved_list(bool beside);
   // What becomes of a recording, above the buttons that lead on.
   void stick_state();
 
