@@ -11,6 +11,7 @@
 
 #include "tests/pipeline/mesh/mesh_checks.h"
 #include "tests/support/head_album.h"
+#include "tests/support/proof.h"
 #include "tests/support/stage_fixture.h"
 
 namespace relievo::pipeline::test {
@@ -87,6 +88,7 @@ std::vector<Person> turning() {
 
 // At a quarter of the size a pixel is 1.4 mm: full size is tried by command (tests/system/json_head_test.cc).
 TEST_F(Heads, StandAboutWhereTheyDid) {
+  RELIEVO_MANY_TRIALS();
   auto shots = turning();
   shots.push_back({kPerson, standing(560, 0, 0, 0, 12)});
   const auto head = fuse(shots);

@@ -183,6 +183,7 @@ TEST(CaptureGate, TheSamePicturesTimeAndHistoryGiveTheSameAnswer) {
 
 // What is measured of a head at rest differs a little from picture to picture, however fast these come.
 TEST(CaptureGate, FastPicturesDoNotMakeARestingHeadHurry) {
+  RELIEVO_MANY_TRIALS();
   Rig rig;
   rig.every = std::chrono::milliseconds(5);
   for (std::uint64_t seed = 1; seed <= 20; ++seed) {

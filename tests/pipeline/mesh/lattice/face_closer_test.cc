@@ -5,8 +5,10 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <map>
+#include <span>
 #include <utility>
 #include <vector>
 
@@ -15,6 +17,7 @@
 #include "tests/pipeline/mesh/landmarks/field_head.h"
 #include "tests/pipeline/mesh/mesh_checks.h"
 #include "tests/pipeline/mesh/stage_room.h"
+#include "tests/support/proof.h"
 
 namespace relievo::pipeline {
 namespace {
@@ -91,7 +94,8 @@ double rms_between(const std::vector<Vec3d>& from, const std::vector<Vec3d>& to)
 constexpr double kFacing = 8;  // turned so, a head faces the place between the cameras
 
 TEST(FaceCloser, CutsTheSameOutlineHoweverTheHeadIsTurned) {
-  for (const std::uint32_t seed : {1U, 2U, 3U}) {
+  constexpr std::array kSeeds{1U, 2U, 3U};
+  for (const std::uint32_t seed : std::span(kSeeds).first(relievo::test::trials(3))) {
     const test::FieldHead head(seed);
     const auto cut_at = [&](double yaw, double pitch) {
       const hal::sim::HeadPose pose = turned(yaw, pitch);
