@@ -153,10 +153,13 @@ void add_calibrate(CLI::App& app, CommandArgs& chosen, CalibrateArgs& args, Cali
   });
 }
 
-void add_lod(CLI::App& command, int& triangles) {
-  command.add_option("--lod", triangles, "a lighter model beside it, light.*, of so many triangles")
+void add_further(CLI::App& command, FurtherModels& further) {
+  command.add_option("--lod", further.lod, "a lighter model beside it, light.*, of so many triangles")
       ->type_name("TRIANGLES")
       ->check(CLI::Range(100, 10'000'000));
+  command.add_flag(
+      "--watertight", further.watertight,
+      "a solid for printing beside it, solid.*: closed by a usual person's head, cut flat at the neck");
 }
 
 void add_reconstruct(CLI::App& app, CommandArgs& chosen, ReconstructArgs& args) {
@@ -201,7 +204,7 @@ void add_reconstruct(CLI::App& app, CommandArgs& chosen, ReconstructArgs& args) 
       ->default_str("head");
   command->add_flag("--despite-drift", args.despite_drift,
                     "go on though the cameras have moved since they were calibrated");
-  add_lod(*command, args.lod);
+  add_further(*command, args.further);
   add_algorithms(*command, args.algorithms);
   const char* const instead[] = {"pictures", "--calibration"};
   for (const char* other : instead) load->excludes(command->get_option(other));
@@ -259,7 +262,7 @@ void add_subjects(CLI::App& app, CommandArgs& chosen, SubjectsArgs& args) {
   verb("show", "the enrolments of one", Verb::Show);
   CLI::App* exported = verb("export", "the newest model of one as files", Verb::Export);
   exported->add_option("-o,--output", args.output)->required()->type_name("DIR");
-  add_lod(*exported, args.lod);
+  add_further(*exported, args.further);
   verb("erase", "one and everything known about them", Verb::Erase);
 }
 

@@ -75,6 +75,12 @@ struct AlgorithmArgs {
 
 inline constexpr std::size_t kMostPairs = 7;  // of a head that turned
 
+// What stands beside a model's files.
+struct FurtherModels {
+  int lod = 0;              // triangles of a lighter model, light.*; 0 for none
+  bool watertight = false;  // a solid for printing, solid.*
+};
+
 struct ReconstructArgs {
   std::vector<Path> pictures;      // left, right; of a head that turned further pairs, the frontal one first
   std::vector<Path> calibrations;  // one for all pairs, or one each
@@ -86,7 +92,7 @@ struct ReconstructArgs {
   Path output;
   bool camera_frame = false;   // --frame camera
   bool despite_drift = false;  // go on though the cameras have moved
-  int lod = 0;                 // triangles of a lighter model beside it; 0 for none
+  FurtherModels further;
   AlgorithmArgs algorithms;
 };
 
@@ -117,8 +123,8 @@ struct EnrolArgs {
 struct SubjectsArgs {
   enum class Verb { List, Show, Export, Erase } verb = Verb::List;
   std::string subject;
-  Path output;  // export
-  int lod = 0;  // export: triangles of a lighter model beside it; 0 for none
+  Path output;            // export
+  FurtherModels further;  // export
   Path store;
 };
 

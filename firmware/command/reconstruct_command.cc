@@ -2,11 +2,12 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include <cstdio>
 #include <string>
+#include <vector>
 
 #include "firmware/base/output_folder.h"
 #include "firmware/base/version.h"
 #include "firmware/command/commands.h"
-#include "firmware/command/light_model.h"
+#include "firmware/command/further_models.h"
 #include "firmware/reconstruct/head_reconstruction.h"
 #include "firmware/reconstruct/reconstruction.h"
 #include "hal/base/words.h"
@@ -22,7 +23,7 @@ WhenMoved when_moved(const ReconstructArgs& args) {
 
 // Model, pictures and report, all or nothing. `save` writes what else belongs to it.
 template <typename Made, typename Save>
-Result<std::string> write_results(const ReconstructArgs& args, Made& made, Save&& save) {
+Result<std::vector<std::string>> write_results(const ReconstructArgs& args, Made& made, Save&& save) {
   RELIEVO_TRY_ASSIGN(OutputFolder folder, OutputFolder::begin(args.output));
   RELIEVO_TRY_ASSIGN(const auto images, made.draw_images());
   storage::ExportOptions options(args.camera_frame ? storage::ExportFrame::Camera
@@ -32,37 +33,36 @@ Result<std::string> write_results(const ReconstructArgs& args, Made& made, Save&
   if (const auto files = storage::write_model_files(made.model(), folder.path(), options); !files) {
     return files.error().at(args.output.string());
   }
-  std::string light;
-  if (args.lod > 0) {
-    RELIEVO_TRY_ASSIGN(light,
-                       write_light_model(made.model(), args.lod, folder.path(), options.frame, args.output));
-  }
+  RELIEVO_TRY_ASSIGN(
+      const std::vector<std::string> further,
+      write_further_models(made.model(), args.further, folder.path(), options.frame, args.output));
   RELIEVO_TRY(write_text(folder.path() / "report.json", report_json(made.report()), args.output));
   RELIEVO_TRY(save());
   RELIEVO_TRY(folder.commit());
-  return light;
+  return further;
 }
 
-void say_of_model(const pipeline::FaceModel& model, const std::string& light, const Path& output,
-                  Console& console) {
+void say_of_model(const pipeline::FaceModel& model, const std::vector<std::string>& further,
+                  const Path& output, Console& console) {
   const pipeline::ModelQuality& q = model.quality;
   char line[160];
   std::snprintf(line, sizeof line, "%.0f x %.0f mm, nose %.1f mm before the cheeks, sigma %.3f mm",
                 q.width_mm, q.height_mm, q.nose_relief_mm, q.median_sigma_mm);
   console.say(line);
   if (model.unjudged) console.say("not judged to be a face: " + detail_of(*model.unjudged));
-  if (!light.empty()) console.say(light);
+  for (const std::string& one : further) console.say(one);
   console.say("model and report: " + output.string());
 }
 
 Result<void> reconstruct_head(const ReconstructArgs& args, Console& console) {
   HeadReconstruction head;
   RELIEVO_TRY(head.run(args.pictures, args.calibrations, args.algorithms, console, when_moved(args)));
-  RELIEVO_TRY_ASSIGN(const std::string light, write_results(args, head, [] { return Result<void>(); }));
+  RELIEVO_TRY_ASSIGN(const std::vector<std::string> further,
+                     write_results(args, head, [] { return Result<void>(); }));
   for (std::size_t k = 1; k < head.report().poses.size(); ++k)
     console.say(line_of(k + 1, head.report().poses[k]));
   console.say(line_of(*head.report().drift));
-  say_of_model(head.model(), light, args.output, console);
+  say_of_model(head.model(), further, args.output, console);
   return {};
 }
 
@@ -77,7 +77,7 @@ Result<void> run_reconstruct(const ReconstructArgs& args, Services& services) {
                   : reconstruction.load(args.load, args.from, args.algorithms, args.by_hand, services.console,
                                         when_moved(args)));
   const auto save = [&] { return args.save.empty() ? Result<void>() : reconstruction.save(args.save); };
-  RELIEVO_TRY_ASSIGN(const std::string light, write_results(args, reconstruction, save));
+  RELIEVO_TRY_ASSIGN(const std::vector<std::string> further, write_results(args, reconstruction, save));
 
   int number = static_cast<int>(State::Match);
   for (const StageRecord& stage : reconstruction.report().stages)
@@ -89,7 +89,7 @@ Result<void> run_reconstruct(const ReconstructArgs& args, Services& services) {
   for (const std::string& advice :
        {line_of_motion(*reconstruction.report().motion_px), line_of_light(*reconstruction.report().white)})
     if (!advice.empty()) services.console.say(advice);
-  say_of_model(reconstruction.model(), light, args.output, services.console);
+  say_of_model(reconstruction.model(), further, args.output, services.console);
   if (!args.save.empty()) services.console.say("saved, with the person's face: " + args.save.string());
   return {};
 }

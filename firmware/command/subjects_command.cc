@@ -9,7 +9,7 @@
 #include "firmware/base/version.h"
 #include "firmware/base/wall_time.h"
 #include "firmware/command/commands.h"
-#include "firmware/command/light_model.h"
+#include "firmware/command/further_models.h"
 #include "firmware/command/subject_lookup.h"
 #include "pipeline/recognition/recognition_images.h"
 #include "storage/export/model_files.h"
@@ -67,11 +67,9 @@ Result<void> export_newest(storage::Store& store, const storage::Subject& subjec
   if (const auto files = storage::write_model_files(model, folder.path(), options); !files) {
     return files.error().at(args.output.string());
   }
-  if (args.lod > 0) {
-    RELIEVO_TRY_ASSIGN(const std::string light, write_light_model(model, args.lod, folder.path(),
-                                                                  storage::ExportFrame::Head, args.output));
-    console.say(light);
-  }
+  RELIEVO_TRY_ASSIGN(const std::vector<std::string> further,
+                     write_further_models(model, args.further, folder.path(), options.frame, args.output));
+  for (const std::string& line : further) console.say(line);
   if (!newest.report_json.empty())
     RELIEVO_TRY(write_text(folder.path() / "report.json", newest.report_json, args.output));
   RELIEVO_TRY(folder.commit());

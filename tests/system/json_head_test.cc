@@ -2,7 +2,12 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 //
 // A head from several pairs by command, as a newcomer would try it.
+#include <algorithm>
+#include <array>
+#include <cstring>
 #include <filesystem>
+#include <map>
+#include <utility>
 
 #include <nlohmann/json.hpp>
 
@@ -35,10 +40,26 @@ TEST_F(HeadByCommand, IsMadeOfSeveralPairsAndSaysHowTheyStand) {
 
   // A calibration each does the same; two for three pairs are refused before anything is read.
   auto each = call;
+  each.push_back("--watertight");
   each.insert(each.begin() + 9, {"y-25/rig.yml", "y25/rig.yml"});
-  each.back() = "each";
-  done(each);
+  each[each.size() - 2] = "each";
+  EXPECT_NE(done(each).out.find("solid: "), std::string::npos);
   EXPECT_EQ(read_text(here / "each/model.ply"), read_text(here / "head/model.ply"));
+
+  // The solid beside it, as a printer reads it: every edge is run once in each direction.
+  const std::string stl = read_text(here / "each/solid.stl");
+  using Place = std::array<float, 3>;
+  std::map<std::pair<Place, Place>, int> edges;
+  ASSERT_GT(stl.size(), 84U + 50U * 100'000U);
+  for (std::size_t at = 84; at + 50 <= stl.size(); at += 50) {
+    std::array<Place, 3> corner;
+    std::memcpy(corner.data(), stl.data() + at + 12, sizeof corner);
+    for (std::size_t k = 0; k < 3; ++k) {
+      ++edges[{corner[k], corner[(k + 1) % 3]}];
+      --edges[{corner[(k + 1) % 3], corner[k]}];
+    }
+  }
+  EXPECT_TRUE(std::all_of(edges.begin(), edges.end(), [](const auto& e) { return e.second == 0; }));
 
   // What is no head's picture is named.
   auto wrong = call;

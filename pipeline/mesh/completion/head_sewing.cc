@@ -62,35 +62,6 @@ bool fits(const FaceMesh& mesh, std::span<const Edge> own, const Triangle& t, do
   return true;
 }
 
-// Where the border folds in the plane some of it stays open: each such hole gets a vertex in its middle.
-void close_holes(FaceMesh& mesh, Arena& scratch) {
-  constexpr std::uint32_t kNone = ~std::uint32_t{0};
-  std::pmr::vector<std::uint32_t> next(mesh.vertices_mm.size(), kNone, &scratch);
-  for (const auto& [from, to] : border_of(mesh, scratch)) next[to] = from;
-  std::pmr::vector<std::uint32_t> loop(&scratch);
-  for (std::uint32_t start = 0; start < next.size(); ++start) {
-    loop.clear();
-    for (std::uint32_t v = start; next[v] != kNone; v = std::exchange(next[v], kNone)) loop.push_back(v);
-    if (loop.empty()) continue;
-    if (loop.size() == 3) {
-      mesh.triangles.push_back({loop[0], loop[1], loop[2]});
-      continue;
-    }
-    Vec3f middle{};
-    float sigma = 0;
-    for (const std::uint32_t v : loop) {
-      middle = plus(middle, times(mesh.vertices_mm[v], 1 / static_cast<float>(loop.size())));
-      sigma = std::max(sigma, mesh.sigma_mm[v]);
-    }
-    const auto centre = static_cast<std::uint32_t>(mesh.vertices_mm.size());
-    mesh.vertices_mm.push_back(middle);
-    mesh.sigma_mm.push_back(sigma);
-    mesh.measured.push_back(0);
-    for (std::size_t k = 0; k < loop.size(); ++k)
-      mesh.triangles.push_back({loop[k], loop[(k + 1) % loop.size()], centre});
-  }
-}
-
 // What was added goes on from what was there without a crease: the plate over the globe knows nothing of skin
 // that stands upright on it.
 void fair_seam(FaceMesh& mesh, std::size_t own, double width_mm) {
@@ -144,6 +115,36 @@ FaceMesh compacted(const FaceMesh& mesh, Arena& output, Arena& scratch) {
 
 }  // namespace
 
+void fan_holes(FaceMesh& mesh, Arena& scratch) {
+  constexpr std::uint32_t kNone = ~std::uint32_t{0};
+  std::pmr::vector<std::uint32_t> next(mesh.vertices_mm.size(), kNone, &scratch);
+  for (const auto& [from, to] : border_of(mesh, scratch)) next[to] = from;
+  std::pmr::vector<std::uint32_t> loop(&scratch);
+  for (std::uint32_t start = 0; start < next.size(); ++start) {
+    loop.clear();
+    for (std::uint32_t v = start; next[v] != kNone; v = std::exchange(next[v], kNone)) loop.push_back(v);
+    if (loop.empty()) continue;
+    if (loop.size() == 3) {
+      mesh.triangles.push_back({loop[0], loop[1], loop[2]});
+      continue;
+    }
+    Vec3f middle{};
+    float sigma = 0;
+    for (const std::uint32_t v : loop) {
+      middle = plus(middle, times(mesh.vertices_mm[v], 1 / static_cast<float>(loop.size())));
+      sigma = std::max(sigma, mesh.sigma_mm[v]);
+    }
+    const auto centre = static_cast<std::uint32_t>(mesh.vertices_mm.size());
+    mesh.vertices_mm.push_back(middle);
+    mesh.sigma_mm.push_back(sigma);
+    mesh.measured.push_back(0);
+    for (std::size_t k = 0; k < loop.size(); ++k)
+      mesh.triangles.push_back({loop[k], loop[(k + 1) % loop.size()], centre});
+  }
+}
+
+bool has_border(const FaceMesh& mesh, Arena& scratch) { return !border_of(mesh, scratch).empty(); }
+
 FaceMesh sew(const FaceMesh& mesh, std::span<const Vec2f> plane, std::span<const Addition> added,
              const SewingRules& rules, StageContext& context) {
   FaceMesh whole(&context.scratch);
@@ -171,7 +172,8 @@ FaceMesh sew(const FaceMesh& mesh, std::span<const Vec2f> plane, std::span<const
   for (const Triangle& t : gap)
     if (fits(whole, own, t, rules.longest_edge_mm)) whole.triangles.push_back(t);
   keep_one_surface(whole.vertices_mm, whole.triangles, {0}, &context.scratch);
-  if (far_point) close_holes(whole, context.scratch);
+  // Where the border folds in the plane some of it stays open.
+  if (far_point) fan_holes(whole, context.scratch);
   if (rules.faired_mm > 0) fair_seam(whole, mesh.vertices_mm.size(), rules.faired_mm);
   compute_normals(whole, 1, &context.scratch);
   for (std::size_t v = 0; v < mesh.normals.size(); ++v)

@@ -32,4 +32,9 @@ struct SewingRules {
 FaceMesh sew(const FaceMesh& mesh, std::span<const Vec2f> plane, std::span<const Addition> added,
              const SewingRules& rules, StageContext& context);
 
+// Closes every hole: one of three edges by a triangle, a larger one by a fan about a vertex in its middle.
+void fan_holes(FaceMesh& mesh, Arena& scratch);
+
+bool has_border(const FaceMesh& mesh, Arena& scratch);
+
 }  // namespace relievo::pipeline

@@ -47,10 +47,11 @@ TEST(CommandLine, AHeadThatTurned) {
 
 TEST(CommandLine, ALighterModelBesideIt) {
   const auto reconstruct =
-      parse({"reconstruct", "l.png", "r.png", "--calibration", "rig.yml", "-o", "out", "--lod", "40000"});
-  EXPECT_EQ(std::get<ReconstructArgs>(reconstruct.command).lod, 40'000);
+      parse({"reconstruct", "l.png", "r.png", "--calibration", "rig.yml", "-o", "out", "--lod", "40000", "--watertight"});
+  EXPECT_EQ(std::get<ReconstructArgs>(reconstruct.command).further.lod, 40'000);
+  EXPECT_TRUE(std::get<ReconstructArgs>(reconstruct.command).further.watertight);
   const auto exported = parse({"subjects", "export", "Ada", "-o", "out", "--lod", "20000"});
-  EXPECT_EQ(std::get<SubjectsArgs>(exported.command).lod, 20'000);
+  EXPECT_EQ(std::get<SubjectsArgs>(exported.command).further.lod, 20'000);
 }
 
 TEST(CommandLine, Calibrate) {

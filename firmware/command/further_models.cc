@@ -1,0 +1,95 @@
+// SPDX-FileCopyrightText: 2026 The Relievo authors
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "firmware/command/further_models.h"
+
+#include <atomic>
+#include <cstdio>
+#include <memory>
+#include <memory_resource>
+
+#include "firmware/base/budget.h"
+#include "firmware/base/version.h"
+#include "firmware/jobs/pool_size.h"
+#include "hal/base/arena.h"
+#include "hal/base/thread_pool.h"
+#include "pipeline/algorithms.h"
+#include "pipeline/mesh/completion/solid_head.h"
+#include "pipeline/mesh/detail/level_of_detail.h"
+#include "storage/export/model_files.h"
+
+namespace relievo::firmware {
+
+namespace {
+
+Result<void> write_files(const pipeline::FaceModel& model, std::string_view stem,
+                         const std::filesystem::path& folder, storage::ExportFrame frame,
+                         const std::filesystem::path& place) {
+  storage::ExportOptions options(frame);
+  options.version = kVersion;
+  options.stem = stem;
+  const auto files = storage::write_model_files(model, folder, options);
+  return files ? Result<void>() : files.error().at(place.string());
+}
+
+Result<std::string> write_light(const pipeline::FaceModel& model, int triangles,
+                                const std::filesystem::path& folder, storage::ExportFrame frame,
+                                const std::filesystem::path& place) {
+  std::pmr::monotonic_buffer_resource memory;
+  pipeline::DetailOptions options;
+  options.triangles = triangles;
+  RELIEVO_TRY_ASSIGN(const pipeline::LighterModel light, pipeline::lighten(model, options, &memory));
+  RELIEVO_TRY(write_files(light.model, "light", folder, frame, place));
+  std::error_code unknown;
+  const auto glb_bytes = std::filesystem::file_size(folder / "light.glb", unknown);
+  char line[160];
+  std::snprintf(line, sizeof line,
+                "light: %zu triangles, %ju bytes as GLB, off the model by %.3f mm rms, %.3f mm at most",
+                light.model.mesh.triangles.size(), static_cast<std::uintmax_t>(glb_bytes), light.rms_error_mm,
+                light.max_error_mm);
+  return std::string(line);
+}
+
+Result<std::string> write_solid(const pipeline::FaceModel& model, const std::filesystem::path& folder,
+                                storage::ExportFrame frame, const std::filesystem::path& place) {
+  // Not value-initialised: pages stay untouched.
+  const std::unique_ptr<std::byte[]> output_block(new std::byte[budget::kOutputArenaBytes]),
+      scratch_block(new std::byte[budget::kScratchArenaBytes]);
+  Arena output({output_block.get(), budget::kOutputArenaBytes}),
+      scratch({scratch_block.get(), budget::kScratchArenaBytes});
+  ThreadPool pool(pool_size());
+  pipeline::Progress progress;
+  const std::atomic<bool> never{false};
+  pipeline::StageContext context{output, scratch, pool, progress, never};
+  pipeline::AlgorithmSet set;
+  RELIEVO_TRY(set.set("completion", "generic-head"));
+  RELIEVO_TRY_ASSIGN(const auto head, pipeline::make_completion(set));
+  auto mesh = pipeline::make_solid(model, *head, context);
+  if (!mesh) return mesh.error().at(place.string());
+  pipeline::FaceModel solid(&output);
+  solid.mesh = *std::move(mesh);
+  solid.landmarks = model.landmarks;
+  solid.head_from_camera = model.head_from_camera;
+  RELIEVO_TRY(write_files(solid, "solid", folder, frame, place));
+  return "solid: " + std::to_string(solid.mesh.triangles.size()) + " triangles, closed, cut flat at the neck";
+}
+
+}  // namespace
+
+Result<std::vector<std::string>> write_further_models(const pipeline::FaceModel& model,
+                                                      const FurtherModels& wanted,
+                                                      const std::filesystem::path& folder,
+                                                      storage::ExportFrame frame,
+                                                      const std::filesystem::path& place) {
+  std::vector<std::string> lines;
+  if (wanted.lod > 0) {
+    RELIEVO_TRY_ASSIGN(std::string line, write_light(model, wanted.lod, folder, frame, place));
+    lines.push_back(std::move(line));
+  }
+  if (wanted.watertight) {
+    RELIEVO_TRY_ASSIGN(std::string line, write_solid(model, folder, frame, place));
+    lines.push_back(std::move(line));
+  }
+  return lines;
+}
+
+}  // namespace relievo::firmware

@@ -1,0 +1,127 @@
+// SPDX-FileCopyrightText: 2026 The Relievo authors
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "pipeline/mesh/completion/solid_head.h"
+
+#include <algorithm>
+#include <array>
+#include <map>
+#include <vector>
+
+#include "pipeline/mesh/completion/head_sewing.h"
+#include "pipeline/mesh/surface_cleaner.h"
+#include "pipeline/model/vector3.h"
+
+namespace relievo::pipeline {
+namespace {
+
+constexpr double kNeckMm = -125;    // of the cut, from the tip of the nose
+constexpr double kBelowFaceMm = 5;  // as far below what was measured, at least
+constexpr double kStumpMm = 3;      // above the lowest point, at least: there is something to cut
+
+Vec3d in_head(const FaceModel& model, const Vec3f& v) {
+  return apply(model.head_from_camera,
+               {static_cast<double>(v.x), static_cast<double>(v.y), static_cast<double>(v.z)});
+}
+
+// The part of the mesh above the height, its border on the plane.
+FaceMesh above(const FaceMesh& mesh, std::span<const double> height, double cut, Arena& memory) {
+  FaceMesh part(&memory);
+  std::vector<std::uint32_t> place(mesh.vertices_mm.size(), ~std::uint32_t{0});
+  const auto kept = [&](std::uint32_t v) {
+    if (place[v] == ~std::uint32_t{0}) {
+      place[v] = static_cast<std::uint32_t>(part.vertices_mm.size());
+      part.vertices_mm.push_back(mesh.vertices_mm[v]);
+      part.sigma_mm.push_back(mesh.sigma_mm[v]);
+      part.measured.push_back(mesh.measured[v]);
+    }
+    return place[v];
+  };
+  std::map<std::array<std::uint32_t, 2>, std::uint32_t> on_edge;
+  const auto crossing = [&](std::uint32_t a, std::uint32_t b) {
+    if (a > b) std::swap(a, b);  // whichever triangle asks: the same place
+    const auto [at, fresh] = on_edge.try_emplace({a, b}, static_cast<std::uint32_t>(part.vertices_mm.size()));
+    if (fresh) {
+      const float share = static_cast<float>((cut - height[a]) / (height[b] - height[a]));
+      const Vec3f& p = mesh.vertices_mm[a];
+      part.vertices_mm.push_back(plus(p, times(minus(mesh.vertices_mm[b], p), share)));
+      part.sigma_mm.push_back(std::max(mesh.sigma_mm[a], mesh.sigma_mm[b]));
+      part.measured.push_back(0);
+    }
+    return at->second;
+  };
+  const auto is_above = [&](std::uint32_t v) { return height[v] >= cut; };
+  for (const Triangle& t : mesh.triangles) {
+    std::vector<std::uint32_t> corners;
+    for (std::size_t k = 0; k < 3; ++k) {
+      const std::uint32_t a = t[k], b = t[(k + 1) % 3];
+      if (is_above(a)) corners.push_back(kept(a));
+      if (is_above(a) != is_above(b)) corners.push_back(crossing(a, b));
+    }
+    for (std::size_t k = 2; k < corners.size(); ++k)
+      part.triangles.push_back({corners[0], corners[k - 1], corners[k]});
+  }
+  return part;
+}
+
+// Where the closed surface touches itself at a vertex, each of its sides gets that vertex for itself.
+void part_touching(FaceMesh& mesh) {
+  std::vector<std::vector<std::uint32_t>> around(mesh.vertices_mm.size());
+  for (std::uint32_t t = 0; t < mesh.triangles.size(); ++t)
+    for (const std::uint32_t v : mesh.triangles[t]) around[v].push_back(t);
+  const std::size_t before = around.size();
+  for (std::uint32_t v = 0; v < before; ++v) {
+    std::vector<std::uint32_t>& left = around[v];
+    for (bool first = true; !left.empty(); first = false) {
+      const std::uint32_t name = first ? v : static_cast<std::uint32_t>(mesh.vertices_mm.size());
+      if (!first) {
+        mesh.vertices_mm.push_back(Vec3f(mesh.vertices_mm[v]));
+        mesh.sigma_mm.push_back(float(mesh.sigma_mm[v]));
+        mesh.measured.push_back(std::uint8_t(mesh.measured[v]));
+      }
+      // From triangle to triangle once around.
+      auto next = left.begin();
+      while (next != left.end()) {
+        Triangle& t = mesh.triangles[*next];
+        left.erase(next);
+        const auto k = static_cast<std::size_t>(std::find(t.begin(), t.end(), v) - t.begin());
+        const std::uint32_t onward = t[(k + 2) % 3];
+        t[k] = name;
+        next = std::find_if(left.begin(), left.end(), [&](std::uint32_t other) {
+          const Triangle& o = mesh.triangles[other];
+          const auto at = static_cast<std::size_t>(std::find(o.begin(), o.end(), v) - o.begin());
+          return o[(at + 1) % 3] == onward;
+        });
+      }
+    }
+  }
+}
+
+}  // namespace
+
+Result<FaceMesh> make_solid(const FaceModel& model, const Completion& completion, StageContext& context) {
+  return run_stage(context, [&](StageContext& c) -> Result<FaceMesh> {
+    const RigidTransform back = inverse(model.head_from_camera);
+    const Vec3d across = apply(RigidTransform{back.rotation, {}}, Vec3d{1, 0, 0});
+    RELIEVO_TRY_ASSIGN(const FaceMesh head, completion.complete(FaceMesh(model.mesh), across, c));
+    if (has_border(head, c.scratch))  // nothing was added
+      return Error{
+          Errc::PoorGeometry,
+          "no head is found in it: no solid can be made of it; take the picture again from in front"};
+    std::vector<double> height;
+    double lowest = 0, measured = 0;
+    for (std::size_t v = 0; v < head.vertices_mm.size(); ++v) {
+      height.push_back(in_head(model, head.vertices_mm[v]).y);
+      lowest = std::min(lowest, height.back());
+      if (head.measured[v] != 0) measured = std::min(measured, height.back());
+    }
+    const double cut = std::max(std::min(kNeckMm, measured - kBelowFaceMm), lowest + kStumpMm);
+    FaceMesh solid = above(head, height, cut, c.output);
+    keep_one_surface(solid.vertices_mm, solid.triangles, {0}, &c.scratch);
+    fan_holes(solid, c.scratch);
+    part_touching(solid);
+    compute_normals(solid, 1, &c.scratch);
+    return solid;
+  });
+}
+
+}  // namespace relievo::pipeline
