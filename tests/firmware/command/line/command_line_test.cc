@@ -46,8 +46,8 @@ TEST(CommandLine, AHeadThatTurned) {
 }
 
 TEST(CommandLine, ALighterModelBesideIt) {
-  const auto reconstruct =
-      parse({"reconstruct", "l.png", "r.png", "--calibration", "rig.yml", "-o", "out", "--lod", "40000", "--watertight"});
+  const auto reconstruct = parse({"reconstruct", "l.png", "r.png", "--calibration", "rig.yml", "-o", "out",
+                                  "--lod", "40000", "--watertight"});
   EXPECT_EQ(std::get<ReconstructArgs>(reconstruct.command).further.lod, 40'000);
   EXPECT_TRUE(std::get<ReconstructArgs>(reconstruct.command).further.watertight);
   const auto exported = parse({"subjects", "export", "Ada", "-o", "out", "--lod", "20000"});
