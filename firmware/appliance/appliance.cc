@@ -97,7 +97,7 @@ void Appliance::ask(ui::Intent intent) {
 }
 
 void Appliance::ask_records(RecordQuestion question) {
-  if (looks_up_) return;
+  if (looks_up_) stop_job();  // of a visitor who has gone
   answer_ = {question.code.empty() ? ui::Known::Nobody : ui::Known::NoSuchCode};
   if (machine_.state() != State::Idle || running_ != nullptr) return;
   look_up_.give(std::move(question));
@@ -191,7 +191,9 @@ void Appliance::heard(const JobReport& report) {
   job_ = 0;
   if (looks_up_) {
     heard_answer();
-    if (report.error) note(*report.error);
+    if (!report.error) return;
+    note(*report.error);
+    if (is_fault(report.error->code)) handle(Event::Failed);
     return;
   }
   const State state = machine_.state();
@@ -290,6 +292,7 @@ void Appliance::close_session() {
   }
   if (session_.is_open()) record_ = {};
   keep_.give({});
+  (void)keep_.take();
   session_.close();
 }
 

@@ -134,9 +134,10 @@ ui::ViewState view_of(Appliance& appliance) {
   }
   // While a job runs, the products are the worker's; before Review nothing of them is shown.
   const bool at_rest = appliance.state() == State::Review || appliance.state() == State::Store;
+  if (!at_rest) return view;
   const Products& products = appliance.session().products();
-  if (at_rest && products.frame) view.frame = &*products.frame;
-  if (at_rest && products.model) view.model = &*products.model;
+  if (products.frame) view.frame = &*products.frame;
+  if (products.model) view.model = &*products.model;
   if (view.model != nullptr) view.model_number = appliance.session().stage_pictures().number(3) + 1;
   return view;
 }

@@ -64,13 +64,19 @@ Result<std::string> write_solid(const pipeline::FaceModel& model, const std::fil
   RELIEVO_TRY(set.set("completion", "generic-head"));
   RELIEVO_TRY_ASSIGN(const auto head, pipeline::make_completion(set));
   auto mesh = pipeline::make_solid(model, *head, context);
+  // The model is no worse for it.
+  if (!mesh && mesh.error().code == Errc::PoorGeometry)
+    return "no solid: " + std::string(mesh.error().what.view());
   if (!mesh) return mesh.error().at(place.string());
   pipeline::FaceModel solid(&output);
   solid.mesh = *std::move(mesh);
   solid.landmarks = model.landmarks;
   solid.head_from_camera = model.head_from_camera;
-  RELIEVO_TRY(write_files(solid, "solid", folder, frame, place));
-  return "solid: " + std::to_string(solid.mesh.triangles.size()) + " triangles, closed, cut flat at the neck";
+  const std::size_t triangles = solid.mesh.triangles.size();
+  const Result<void> written = write_files(solid, "solid", folder, frame, place);
+  output.wipe(), scratch.wipe();  // somebody's head
+  RELIEVO_TRY(written);
+  return "solid: " + std::to_string(triangles) + " triangles, closed, cut flat at the neck";
 }
 
 }  // namespace

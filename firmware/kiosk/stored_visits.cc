@@ -2,6 +2,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "firmware/kiosk/stored_visits.h"
 
+#include <string.h>
+
 #include "firmware/kiosk/code/code_guard.h"
 #include "firmware/records/disk_room.h"
 #include "firmware/records/receipt.h"
@@ -24,7 +26,9 @@ Result<KeptVisit> StoredVisits::keep(const VisitRecord& record, const pipeline::
                                                                   record.algorithms, json, record.renews}));
   RELIEVO_TRY_ASSIGN(const storage::Enrolment stored, store_.enrolment(kept.enrolment));
   RELIEVO_TRY_ASSIGN(const storage::Subject whom, store_.subject(stored.subject));
-  kept.receipt = receipt_of(whom);
+  std::string receipt = receipt_of(whom);
+  kept.receipt = std::string_view(receipt);
+  explicit_bzero(receipt.data(), receipt.size());
   return kept;
 }
 

@@ -19,6 +19,7 @@ Result<void> EnrolmentSession::open(std::string_view subject) {
   RELIEVO_ASSERT(output_.used() == 0 && scratch_touched_ == 0);
   subject.copy(subject_.data(), subject.size());
   make_products();
+  open_ = true;
   return {};
 }
 
@@ -69,6 +70,7 @@ void EnrolmentSession::rework(State from) {
 void EnrolmentSession::close() {
   if (!is_open()) return;
   wipe();
+  open_ = false;
   explicit_bzero(subject_.data(), subject_.size());
 }
 

@@ -65,7 +65,7 @@ class EnrolmentSession {
   // What comes into output() from now on is this stage's. Thread: worker.
   void begins(State stage);
   void close();
-  bool is_open() const { return products_ != nullptr; }
+  bool is_open() const { return open_; }
 
   // A capture of the session; its views lie in one of the two slots. Thread: capture.
   void took(const pipeline::StereoFrame& frame);
@@ -109,6 +109,7 @@ class EnrolmentSession {
   std::array<std::size_t, kStages.size()> stage_begins_{};  // in output_
   std::span<std::byte> scratch_block_;
   std::size_t scratch_touched_ = 0;
+  bool open_ = false;             // the main thread's, while jobs make and wipe the products
   Products* products_ = nullptr;  // at the front of output_
   std::array<char, budget::kSubjectNameBytes + 1> subject_{};
 };

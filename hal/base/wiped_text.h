@@ -20,9 +20,10 @@ class WipedText {
   WipedText(const WipedText&) = default;
   WipedText& operator=(const WipedText& other) { return *this = other.view(); }
   WipedText& operator=(std::string_view text) {
-    if (text.data() == text_.data()) return *this;
+    std::string held(text);  // it may be a part of this one
     wipe();
-    text_ = text;
+    text_ = held;
+    explicit_bzero(held.data(), held.size());
     return *this;
   }
   ~WipedText() { wipe(); }

@@ -119,6 +119,20 @@ TEST_F(ApplianceTest, WhatTheRecordsAnsweredIsHeardWhenTheyHave) {
   EXPECT_EQ(appliance.state(), State::Idle);
 }
 
+TEST_F(ApplianceTest, TheNextVisitorIsAnsweredThoughTheRecordsAreSlow) {
+  ASSERT_TRUE(reach(State::Idle));
+  records.known = {ui::Known::Code, storage::SubjectId{7}};
+  records.held.store(true);
+  appliance.ask_records({WipedText("Ada"), WipedText("4821"), true});
+  appliance.forget_answer();
+  records.held.store(false);
+  appliance.ask_records({WipedText("Bob"), WipedText(), true});
+  for (int turn = 0; turn < 60'000 && appliance.answer().known == ui::Known::Asking; ++turn)
+    appliance.step(milliseconds(1));
+  EXPECT_EQ(appliance.answer().known, ui::Known::Code) << "as these records say to everybody";
+  EXPECT_EQ(records.asked, "Bob/");
+}
+
 TEST_F(ApplianceTest, AnAnswerThatComesWhenItsVisitorHasGoneIsNobodys) {
   ASSERT_TRUE(reach(State::Idle));
   records.known = {ui::Known::Code, storage::SubjectId{7}};

@@ -41,7 +41,7 @@ constexpr std::array kPages{
                   technician_calibrate_page},
     StaffPageInfo{StaffPage::Stages, "open stages", mark_tr("Test capture"), kSteps, true, false,
                   technician_stages_page},
-    StaffPageInfo{StaffPage::Model, "open model", mark_tr("Model in 3D"), icon::kShape, true, false,
+    StaffPageInfo{StaffPage::Model, "open model", mark_tr("Model"), icon::kShape, true, false,
                   technician_model_page},
     StaffPageInfo{StaffPage::Tables, "open tables", mark_tr("Figures"), kTable, true, false,
                   technician_tables_page},

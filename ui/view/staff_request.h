@@ -210,10 +210,11 @@ struct LoadSaved {
 using TechnicianRequest =
     std::variant<DoTechnician, RunStages, ShowStage, ShowTable, TurnTable, TouchPicture, ChooseKind,
                  ChooseName, EditOption, TypeDigit, DropResult, ChangeBoard, UseCalibration, LoadSaved>;
-using StaffAsk = std::variant<PageOpened, PageLeft, CheckPin, OfferPin, MoveClock, SetClock, TakeConsentText,
-                              ConfirmConsentText, FindRecords, TurnRecords, ShowRecord, EraseRecord,
-                              ExportRecord, ExportFound, StopExport, ChangeSetting, BeginSelfTest,
-                              BeginTriggerTest, BeginTouchTrial, TakePlainTouch, TechnicianRequest>;
+using StaffAsk =
+    std::variant<std::monostate, PageOpened, PageLeft, CheckPin, OfferPin, MoveClock, SetClock,
+                 TakeConsentText, ConfirmConsentText, FindRecords, TurnRecords, ShowRecord, EraseRecord,
+                 ExportRecord, ExportFound, StopExport, ChangeSetting, BeginSelfTest, BeginTriggerTest,
+                 BeginTouchTrial, TakePlainTouch, TechnicianRequest>;
 
 inline constexpr std::size_t kStaffTextBytes = 128;
 

@@ -174,7 +174,7 @@ FaceMesh sew(const FaceMesh& mesh, std::span<const Vec2f> plane, std::span<const
   keep_one_surface(whole.vertices_mm, whole.triangles, {0}, &context.scratch);
   // Where the border folds in the plane some of it stays open.
   if (far_point) fan_holes(whole, context.scratch);
-  if (rules.faired_mm > 0) fair_seam(whole, mesh.vertices_mm.size(), rules.faired_mm);
+  if (rules.faired_mm > 0 && !context.stop()) fair_seam(whole, mesh.vertices_mm.size(), rules.faired_mm);
   compute_normals(whole, 1, &context.scratch);
   for (std::size_t v = 0; v < mesh.normals.size(); ++v)
     if (mesh.measured[v] != 0) whole.normals[v] = mesh.normals[v];

@@ -32,7 +32,7 @@ MeshLaplacian laplacian_of(std::span<const Eigen::Vector3d> at,
       const std::uint32_t a = t[k], b = t[(k + 1) % 3], c = t[(k + 2) % 3];
       const Eigen::Vector3d u = at[a] - at[c], v = at[b] - at[c];
       const double twice = u.cross(v).norm();
-      const double cotangent = std::min(u.dot(v) / std::max(twice, 1e-12), kMostCotangent);
+      const double cotangent = std::clamp(u.dot(v) / std::max(twice, 1e-12), -kMostCotangent, kMostCotangent);
       laplacian.area[c] += twice / 6;
       add(a, b, cotangent / 2), add(b, a, cotangent / 2);
     }
@@ -70,8 +70,9 @@ void fair(std::span<Eigen::Vector3d> at, std::span<const std::array<std::uint32_
   Eigen::MatrixX3d right(bend.rows(), 3);
   for (Eigen::Index r = 0; r < right.rows(); ++r) right.row(r) = -stays[static_cast<std::size_t>(r)];
   const Eigen::SimplicialLDLT<Sparse> solver(Sparse(bend.transpose() * bend));
+  if (solver.info() != Eigen::Success) return;
   const Eigen::MatrixX3d solved = solver.solve(bend.transpose() * right);
-  if (solver.info() != Eigen::Success || !solved.allFinite()) return;
+  if (!solved.allFinite()) return;
   for (std::size_t v = 0; v < at.size(); ++v)
     if (place[v] >= 0) at[v] = solved.row(place[v]).transpose();
 }

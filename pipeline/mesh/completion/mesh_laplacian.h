@@ -24,7 +24,7 @@ struct MeshLaplacian {
   std::vector<double> area;  // a third of the triangles around a vertex
 };
 
-// `at`: where the vertices lie, any unit. Needles count as if their angles were at least 3 degrees.
+// `at`: where the vertices lie, any unit. Angles count as at least 3 and at most 177 degrees.
 MeshLaplacian laplacian_of(std::span<const Eigen::Vector3d> at,
                            std::span<const std::array<std::uint32_t, 3>> triangles);
 

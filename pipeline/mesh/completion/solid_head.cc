@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <array>
+#include <cmath>
 #include <map>
 #include <vector>
 
@@ -14,9 +15,9 @@
 namespace relievo::pipeline {
 namespace {
 
-constexpr double kNeckMm = -125;    // of the cut, from the tip of the nose
-constexpr double kBelowFaceMm = 5;  // as far below what was measured, at least
-constexpr double kStumpMm = 3;      // above the lowest point, at least: there is something to cut
+// Above the lowest point of the usual head's neck, whose foot is rounded over 12 mm.
+constexpr double kStumpMm = 14;
+constexpr double kLeastFootMm2 = 2000;  // of a neck
 
 Vec3d in_head(const FaceModel& model, const Vec3f& v) {
   return apply(model.head_from_camera,
@@ -26,6 +27,8 @@ Vec3d in_head(const FaceModel& model, const Vec3f& v) {
 // The part of the mesh above the height, its border on the plane.
 FaceMesh above(const FaceMesh& mesh, std::span<const double> height, double cut, Arena& memory) {
   FaceMesh part(&memory);
+  part.vertices_mm.reserve(mesh.vertices_mm.size()), part.sigma_mm.reserve(mesh.vertices_mm.size());
+  part.measured.reserve(mesh.vertices_mm.size()), part.triangles.reserve(mesh.triangles.size());
   std::vector<std::uint32_t> place(mesh.vertices_mm.size(), ~std::uint32_t{0});
   const auto kept = [&](std::uint32_t v) {
     if (place[v] == ~std::uint32_t{0}) {
@@ -96,6 +99,31 @@ void part_touching(FaceMesh& mesh) {
   }
 }
 
+// Every edge is run once in each direction.
+bool is_closed(const FaceMesh& mesh) {
+  std::vector<std::array<std::uint32_t, 2>> edges;
+  edges.reserve(3 * mesh.triangles.size());
+  for (const Triangle& t : mesh.triangles)
+    for (std::size_t k = 0; k < 3; ++k) edges.push_back({t[k], t[(k + 1) % 3]});
+  std::sort(edges.begin(), edges.end());
+  if (std::adjacent_find(edges.begin(), edges.end()) != edges.end()) return false;
+  return std::all_of(edges.begin(), edges.end(), [&](const auto& e) {
+    return std::binary_search(edges.begin(), edges.end(), std::array<std::uint32_t, 2>{e[1], e[0]});
+  });
+}
+
+double foot_mm2(const FaceModel& model, const FaceMesh& solid, double cut) {
+  double area = 0;
+  for (const Triangle& t : solid.triangles) {
+    std::array<Vec3d, 3> at;
+    for (std::size_t k = 0; k < 3; ++k) at[k] = in_head(model, solid.vertices_mm[t[k]]);
+    if (std::max({at[0].y, at[1].y, at[2].y}) > cut + 0.01) continue;
+    area +=
+        std::abs((at[1].x - at[0].x) * (at[2].z - at[0].z) - (at[1].z - at[0].z) * (at[2].x - at[0].x)) / 2;
+  }
+  return area;
+}
+
 }  // namespace
 
 Result<FaceMesh> make_solid(const FaceModel& model, const Completion& completion, StageContext& context) {
@@ -108,18 +136,21 @@ Result<FaceMesh> make_solid(const FaceModel& model, const Completion& completion
           Errc::PoorGeometry,
           "no head is found in it: no solid can be made of it; take the picture again from in front"};
     std::vector<double> height;
-    double lowest = 0, measured = 0;
+    height.reserve(head.vertices_mm.size());
+    double lowest = 0;
     for (std::size_t v = 0; v < head.vertices_mm.size(); ++v) {
       height.push_back(in_head(model, head.vertices_mm[v]).y);
-      lowest = std::min(lowest, height.back());
-      if (head.measured[v] != 0) measured = std::min(measured, height.back());
+      if (head.measured[v] == 0) lowest = std::min(lowest, height.back());
     }
-    const double cut = std::max(std::min(kNeckMm, measured - kBelowFaceMm), lowest + kStumpMm);
+    const double cut = lowest + kStumpMm;
     FaceMesh solid = above(head, height, cut, c.output);
     keep_one_surface(solid.vertices_mm, solid.triangles, {0}, &c.scratch);
     fan_holes(solid, c.scratch);
     part_touching(solid);
     compute_normals(solid, 1, &c.scratch);
+    if (!is_closed(solid) || foot_mm2(model, solid, cut) < kLeastFootMm2)
+      return Error{Errc::PoorGeometry,
+                   "the head does not close to a solid: take the picture again from in front"};
     return solid;
   });
 }

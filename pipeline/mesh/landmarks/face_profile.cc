@@ -21,7 +21,7 @@ constexpr double kSubnasaleDepth = 2.0;
 constexpr double kChinFrom = -48, kChinTo = -98;  // sublabiale to the lowest chins, from the tip
 constexpr double kChinRise = 0.3;                 // of the chin out of the fold above it
 constexpr double kSecondRise = 0.5;  // as much lies a second fold behind what stands above and below it
-constexpr double kLipBeforeChin = 8;
+constexpr double kLipBeforeChin = 8, kAboveChinMm = 3;
 
 using Profile = std::span<const ProfilePoint>;
 
@@ -114,7 +114,7 @@ std::optional<ProfilePoint> below_lip(Profile profile, double from_mm, const Pro
   for (std::size_t k = below.size(); k-- > 0;) {
     deepest = std::min(deepest, below[k].z_mm);
     if (below[k].z_mm < deepest + kSecondRise || lip.z_mm < deepest + kSecondRise) continue;
-    const auto chin = extreme(profile, from_mm, below[k].y_mm + kSecondRise, 1);
+    const auto chin = extreme(profile, from_mm, below[k].y_mm + kAboveChinMm, 1);
     if (chin && chin->z_mm > lip.z_mm - kLipBeforeChin) return chin;
     break;
   }

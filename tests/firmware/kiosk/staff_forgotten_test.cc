@@ -121,7 +121,7 @@ TEST_P(StaffCommandTest, AScreenWhoseCorrectionIsWrongObeysAgain) {
   EXPECT_EQ(kiosk->ui().visit().step, ui::Step::Attract) << "the finger is taken for another place";
   kiosk.reset();
   ASSERT_EQ(staff(StaffArgs::Verb::PlainTouch), 0);
-  EXPECT_TRUE(log_says("The touch screen is taken as it is"));
+  EXPECT_TRUE(log_says("The touch screen is taken as it is."));
   start();
   tap("start");
   EXPECT_EQ(kiosk->ui().visit().step, ui::Step::Consent);

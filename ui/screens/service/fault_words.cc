@@ -69,7 +69,7 @@ LogWords words_of(const Words& tr, LogEvent event) {
     case LogEvent::OperatorPinForgotten:
       return {tr("The PIN was forgotten: {}"), tr("Operator")};
     case LogEvent::TouchPlain:
-      return {tr("The touch screen is taken as it is")};
+      return {tr("The touch screen is taken as it is.")};
     case LogEvent::TouchCorrected:
       return {tr("The touch screen was corrected")};
     case LogEvent::SettingChanged:

@@ -124,7 +124,7 @@ void portrait_of(StaffFrame& page) {
   page.tree.open(card);
   Node face = page.box(Flow::Column);
   face.id = "face";
-  face.name = page.tr("The portrait, to be turned with a finger");
+  face.name = page.tr("The model: turn it with a finger");
   face.role = Role::Picture;
   face.action = {ActionKind::TurnFace, 0};
   face.mark = page.staff.model == nullptr ? Mark::Shape : Mark::Face;

@@ -55,7 +55,7 @@ std::string_view said_value(StaffFrame& page, Setting setting, std::int32_t valu
     case Setting::Contrast:
     case Setting::Automatic:
     case Setting::TellsKnown:
-      return value != 0 ? page.tr("on") : page.tr("off");
+      return value != 0 ? page.tr("yes") : page.tr("no");
     case Setting::TextPercent:
       return page.number(value, 0, "%");
     case Setting::PatienceS:

@@ -34,7 +34,7 @@ void group(StaffFrame& page, const char* title, std::span<const Setting> setting
 
 void said(StaffFrame& page) {
   if (page.staff.work.outcome != Outcome::Done) return page.outcome();
-  page.status("outcome", page.tr("Saved. It applies from now on."), Mood::Good);
+  page.status("outcome", page.tr("It applies from now on."), Mood::Good);
 }
 
 }  // namespace

@@ -64,7 +64,7 @@ void technician_model_page(StaffFrame& page) {
   TechnicianFrame f(page);
   if (f.capture_state() && f.view.model == nullptr) {
     f.failure();
-    page.nothing("no model", icon::kShape, f.tr("There is no model: a stage before it gave up."));
+    page.nothing("no model", icon::kShape, f.tr("There is nothing: a stage before it gave up."));
   } else if (f.view.model != nullptr) {
     page.tree.open(page.grown(page.box(page.portrait ? Flow::Column : Flow::Row, space::kM)));
     body(f);

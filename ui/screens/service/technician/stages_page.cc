@@ -127,7 +127,7 @@ void point_rows(TechnicianFrame& f) {
     f.page.row("point none", f.tr("No match here"), {}, Mood::Warn);
     return;
   }
-  if (point.new_surface) f.page.row("point moved", f.tr("Surface here"), f.tr("new"), Mood::Good);
+  if (point.new_surface) f.page.row("point moved", f.tr("New surface"), f.tr("yes"), Mood::Good);
   else if (!std::isnan(point.moved_mm))
     f.page.row("point moved", f.tr("Surface came nearer by"),
                f.page.number(static_cast<double>(point.moved_mm), 2, "mm"));
@@ -150,7 +150,7 @@ void point_rows(TechnicianFrame& f) {
 void change_rows(TechnicianFrame& f) {
   if (f.view.pairs.empty()) return;
   f.page.rule();
-  f.page.row("pairs", f.tr("Pairs by hand"), f.page.number(static_cast<double>(f.view.pairs.size())));
+  f.page.row("pairs", f.tr("Match by hand"), f.page.number(static_cast<double>(f.view.pairs.size())));
   const TechnicianChange& change = f.view.change;
   if (!change.known) return;
   f.page.row("moved", f.tr("Surface moved"), f.page.number(static_cast<double>(change.moved_mm2), 0, "mm²"));

@@ -269,8 +269,8 @@ bool TechnicianFrame::capture_state() {
 void TechnicianFrame::stick_buttons() {
   const float grow = open_buttons();
   if (view.recording.running) {
-    page.small_button("stop recording", view.recording.reading ? tr("Stop") : tr("Stop recording"),
-                      icon::kClose, ButtonLook::Main, technician_action(TechnicianAct::StopRecording), grow);
+    page.small_button("stop recording", tr("Stop"), icon::kClose, ButtonLook::Main,
+                      technician_action(TechnicianAct::StopRecording), grow);
   } else {
     if (view.can_record)
       page.small_button("record", tr("Record on the stick"), icon::kDisk, ButtonLook::Quiet,
