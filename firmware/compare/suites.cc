@@ -88,8 +88,13 @@ struct Suite {
   Words (*make)();
 };
 constexpr std::array kSuites{
-    Suite{"peers", peers},         Suite{"matchers", matchers},           Suite{"constraints", constraints},
-    Suite{"selectors", selectors}, Suite{"preprocessors", preprocessors}, Suite{"meshers", meshers},
+    Suite{"peers", peers},
+    Suite{"matchers", matchers},
+    Suite{"constraints", constraints},
+    Suite{"selectors", selectors},
+    Suite{"preprocessors", preprocessors},
+    Suite{"meshers", meshers},
+    Suite{"dissertation-face", dissertation_face_sets},
 };
 
 }  // namespace

@@ -71,7 +71,6 @@ struct Action {
   std::int32_t value = 0;
   std::int32_t detail = 0;
   StaffAsk ask{};
-  bool operator==(const Action&) const = default;
 };
 
 }  // namespace relievo::ui

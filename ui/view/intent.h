@@ -11,7 +11,7 @@
 namespace relievo::ui {
 
 enum class Intent : std::uint8_t {
-  LookUp,  // is there a record of the name, or of the code, that was typed?
+  LookUp,  // is there a record of the name, or of the code, that was typed? (Appliance::ask_records)
   Pose,    // stand before the cameras: the live picture begins (a person who has agreed, with a name)
   Begin,   // take the picture
   Accept,

@@ -143,8 +143,6 @@ void fan_holes(FaceMesh& mesh, Arena& scratch) {
   }
 }
 
-bool has_border(const FaceMesh& mesh, Arena& scratch) { return !border_of(mesh, scratch).empty(); }
-
 FaceMesh sew(const FaceMesh& mesh, std::span<const Vec2f> plane, std::span<const Addition> added,
              const SewingRules& rules, StageContext& context) {
   FaceMesh whole(&context.scratch);

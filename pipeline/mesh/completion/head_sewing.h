@@ -35,6 +35,4 @@ FaceMesh sew(const FaceMesh& mesh, std::span<const Vec2f> plane, std::span<const
 // Closes every hole: one of three edges by a triangle, a larger one by a fan about a vertex in its middle.
 void fan_holes(FaceMesh& mesh, Arena& scratch);
 
-bool has_border(const FaceMesh& mesh, Arena& scratch);
-
 }  // namespace relievo::pipeline

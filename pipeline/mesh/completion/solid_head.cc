@@ -131,7 +131,7 @@ Result<FaceMesh> make_solid(const FaceModel& model, const Completion& completion
     const RigidTransform back = inverse(model.head_from_camera);
     const Vec3d across = apply(RigidTransform{back.rotation, {}}, Vec3d{1, 0, 0});
     RELIEVO_TRY_ASSIGN(const FaceMesh head, completion.complete(FaceMesh(model.mesh), across, c));
-    if (has_border(head, c.scratch))  // nothing was added
+    if (!is_closed(head))  // nothing was added
       return Error{
           Errc::PoorGeometry,
           "no head is found in it: no solid can be made of it; take the picture again from in front"};
