@@ -46,7 +46,6 @@ PoseReport report_of(const pipeline::RegisteredPose& pose) {
 
 }  // namespace
 
-// The other pairs first: the master's own products stay in the output arena.
 class HeadReconstruction::HeadJob final : public Job {
  public:
   HeadJob(const pipeline::HeadPipeline& pipeline, const std::vector<Shot>& shots, HeadReconstruction& owner,
@@ -72,7 +71,7 @@ class HeadReconstruction::HeadJob final : public Job {
     scratch_.wipe();
     auto done = work();
     StageRecord record;
-    record.name = pair == shots_.size() ? "Fuse" : "Pair";
+    record.name = pair == shots_.size() ? "Fuse" : owner_.report_.stages.size() == pair ? "Pair" : "Face";
     record.took = clock.now() - begin;
     record.in = pair == shots_.size() ? pair : pair + 1;
     record.arena_peak_bytes = scratch_.high_water();
@@ -101,23 +100,20 @@ Result<void> HeadReconstruction::HeadJob::run(JobControl& control) {
   pipeline::StageContext context{owner_.output_, scratch_, pool_, control.progress, control.cancelled};
   std::vector<pipeline::HeadPose> poses;
   for (std::size_t k = 0; k < shots_.size(); ++k) poses.emplace_back(&*owner_.kept_);
-  for (std::size_t k = 1; k < shots_.size(); ++k) {
+  for (std::size_t k = 0; k < shots_.size(); ++k) {
     const Arena::Mark mark(owner_.output_);
-    auto turned = timed(k, [&] {
-      return pipeline_.turned(shots_[k].pictures.frame(), shots_[k].calibration, context, *owner_.kept_);
+    auto pose = timed(k, [&] {
+      return pipeline_.measure(shots_[k].pictures.frame(), shots_[k].calibration, context, *owner_.kept_);
     });
-    if (!turned) return placed(turned.error(), k);
-    poses[k] = *std::move(turned);
+    if (!pose) return placed(pose.error(), k);
+    poses[k] = *std::move(pose);
+    if (k == 0) owner_.report_.drift = poses[k].drift;
     if (refused(poses[k].drift)) return placed(error_of(poses[k].drift), k);
   }
-  auto front = timed(0, [&] {
-    return pipeline_.front(shots_[0].pictures.frame(), shots_[0].calibration, context, *owner_.kept_);
-  });
-  if (!front) return placed(front.error(), 0);
-  poses[0] = std::move(front->pose);
-  owner_.report_.drift = poses[0].drift;
-  if (refused(poses[0].drift)) return placed(error_of(poses[0].drift), 0);
-  auto head = timed(shots_.size(), [&] { return pipeline_.fuse(std::move(front->face), poses, context); });
+  auto face =
+      timed(0, [&] { return pipeline_.face(shots_[0].pictures.frame(), shots_[0].calibration, context); });
+  if (!face) return placed(face.error(), 0);
+  auto head = timed(shots_.size(), [&] { return pipeline_.fuse(*face, poses, context); });
   if (!head) return head.error();
   owner_.head_.emplace(*std::move(head));
   return {};
@@ -140,9 +136,8 @@ Result<void> HeadReconstruction::run(const std::vector<Path>& pictures, const st
   kept_.emplace(std::span(kept_block_.get(), kept));
   ThreadPool pool(pool_size());
   HeadJob job(pipeline, shots, *this, pool, when_moved);
-  const Result<void> done = run_watched(job, console, [&] {
-    return std::string_view(job.at() == shots.size() ? "Fuse" : job.at() == 0 ? "Front" : "Turned");
-  });
+  const Result<void> done =
+      run_watched(job, console, [&] { return std::string_view(job.at() == shots.size() ? "Fuse" : "Pair"); });
   if (!done && done.error().code == Errc::Cancelled)
     return Error{Errc::Cancelled, "cancelled: nothing was written"};
   if (!done) return done.error();

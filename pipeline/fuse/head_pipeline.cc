@@ -29,28 +29,6 @@ void keep_photographs(const RectifiedPair& pair, HeadPose& pose) {
   pose.right_rgb.assign(pair.right.rgb.begin(), pair.right.rgb.end());
 }
 
-// A pair as far as its points, and what of it outlives the stages.
-struct Measured {
-  RectifiedPair pair;
-  PointCloud cloud;
-  HeadPose pose;
-};
-Result<Measured> measure(const Pipeline& pipeline, const StereoFrame& frame, StageContext& context,
-                         Arena& kept) {
-  RELIEVO_TRY_ASSIGN(RectifiedPair pair, pipeline.rectify(frame, context));
-  RELIEVO_TRY_ASSIGN(const MatchSet matches, pipeline.match(pair, context));
-  RELIEVO_TRY_ASSIGN(PointCloud cloud, pipeline.reconstruct(pair, matches, context));
-  StageContext keeping{kept, context.scratch, context.pool, context.progress, context.cancelled};
-  RELIEVO_TRY_ASSIGN(HeadPose pose, run_stage(keeping, [&](StageContext& c) -> Result<HeadPose> {
-                       HeadPose made(&c.output);
-                       RELIEVO_TRY_ASSIGN(made.surface, make_pose_surface(cloud, pair, c));
-                       keep_photographs(pair, made);
-                       return made;
-                     }));
-  pose.drift = judge_drift(matches.epipolar_shift, pipeline.calibration());
-  return Measured{std::move(pair), std::move(cloud), std::move(pose)};
-}
-
 // Both cameras of every pose, the master's first.
 std::pmr::vector<HeadView> views_of(std::span<const HeadPose> poses, const Registration& registration,
                                     std::pmr::memory_resource* memory) {
@@ -79,32 +57,37 @@ std::pmr::vector<HeadView> views_of(std::span<const HeadPose> poses, const Regis
 Result<HeadPipeline> HeadPipeline::make(const AlgorithmSet& set) {
   HeadPipeline made(set);
   if (set.get("face.radius_mm") == AlgorithmSet{}.get("face.radius_mm"))
-    RELIEVO_TRY(made.set_.set("face.radius_mm", kHeadRadiusMm));
+    RELIEVO_TRY(made.head_set_.set("face.radius_mm", kHeadRadiusMm));
   RELIEVO_TRY_ASSIGN(made.fuser_, make_head_fuser(set));
   return made;
 }
 
-Result<FrontPose> HeadPipeline::front(const StereoFrame& frame, const StereoCalibration& calibration,
-                                      StageContext& context, Arena& kept) const {
-  RELIEVO_TRY_ASSIGN(const Pipeline pipeline, Pipeline::make(set_, calibration));
-  RELIEVO_TRY_ASSIGN(Measured measured, measure(pipeline, frame, context, kept));
-  auto& [pair, cloud, pose] = measured;
+Result<FaceModel> HeadPipeline::face(const StereoFrame& frame, const StereoCalibration& calibration,
+                                     StageContext& context) const {
+  RELIEVO_TRY_ASSIGN(const Pipeline pipeline, Pipeline::make(face_set_, calibration));
+  RELIEVO_TRY_ASSIGN(RectifiedPair pair, pipeline.rectify(frame, context));
+  RELIEVO_TRY_ASSIGN(const MatchSet matches, pipeline.match(pair, context));
+  RELIEVO_TRY_ASSIGN(const PointCloud cloud, pipeline.reconstruct(pair, matches, context));
   RELIEVO_TRY_ASSIGN(FaceMesh mesh, pipeline.mesh(cloud, pair, context));
-  RELIEVO_TRY_ASSIGN(FaceModel face,
-                     pipeline.assemble(std::move(mesh), TextureAtlas(&context.output), pair, context));
-  pose.surface.head_from_camera = face.head_from_camera;
-  pose.surface.has_head = of(face.landmarks, LandmarkName::Pronasale).found;
-  return FrontPose{std::move(pose), std::move(face)};
+  return pipeline.assemble(std::move(mesh), TextureAtlas(&context.output), pair, context);
 }
 
-Result<HeadPose> HeadPipeline::turned(const StereoFrame& frame, const StereoCalibration& calibration,
-                                      StageContext& context, Arena& kept) const {
-  RELIEVO_TRY_ASSIGN(const Pipeline pipeline, Pipeline::make(set_, calibration, {}, Region::TurnedHead));
-  RELIEVO_TRY_ASSIGN(Measured measured, measure(pipeline, frame, context, kept));
-  HeadPose& pose = measured.pose;
+Result<HeadPose> HeadPipeline::measure(const StereoFrame& frame, const StereoCalibration& calibration,
+                                       StageContext& context, Arena& kept) const {
+  RELIEVO_TRY_ASSIGN(const Pipeline pipeline, Pipeline::make(head_set_, calibration, {}, Region::TurnedHead));
+  RELIEVO_TRY_ASSIGN(RectifiedPair pair, pipeline.rectify(frame, context));
+  RELIEVO_TRY_ASSIGN(const MatchSet matches, pipeline.match(pair, context));
+  RELIEVO_TRY_ASSIGN(const PointCloud cloud, pipeline.reconstruct(pair, matches, context));
+  StageContext keeping{kept, context.scratch, context.pool, context.progress, context.cancelled};
+  RELIEVO_TRY_ASSIGN(HeadPose pose, run_stage(keeping, [&](StageContext& c) -> Result<HeadPose> {
+                       HeadPose made(&c.output);
+                       RELIEVO_TRY_ASSIGN(made.surface, make_pose_surface(cloud, pair, c));
+                       keep_photographs(pair, made);
+                       return made;
+                     }));
+  pose.drift = judge_drift(matches.epipolar_shift, pipeline.calibration());
   const auto head = run_stage(context, [&](StageContext& c) -> Result<HeadFrame> {
-    RELIEVO_TRY_ASSIGN(const FaceMesh rough,
-                       lattice_sheet(measured.cloud, kRoughTriangles, kRoughAreaMm2, c));
+    RELIEVO_TRY_ASSIGN(const FaceMesh rough, lattice_sheet(cloud, kRoughTriangles, kRoughAreaMm2, c));
     return find_head_frame(rough, c);
   });
   if (!head && head.error().code != Errc::PoorGeometry) return head.error();
@@ -112,14 +95,17 @@ Result<HeadPose> HeadPipeline::turned(const StereoFrame& frame, const StereoCali
     pose.surface.head_from_camera = head->head_from_camera;
     pose.surface.has_head = true;
   }
-  return std::move(pose);
+  return pose;
 }
 
-Result<FusedHead> HeadPipeline::fuse(FaceModel face, std::span<HeadPose> poses, StageContext& context) const {
+Result<FusedHead> HeadPipeline::fuse(const FaceModel& face, std::span<HeadPose> poses,
+                                     StageContext& context) const {
   if (poses.size() > static_cast<std::size_t>(kMostPoses))
     return Error{Errc::InvalidInput, "at most seven pairs make a head"};
   std::pmr::vector<PoseSurface> surfaces(&context.output);
   for (HeadPose& pose : poses) surfaces.push_back(std::move(pose.surface));
+  surfaces[0].head_from_camera = face.head_from_camera;
+  surfaces[0].has_head = of(face.landmarks, LandmarkName::Pronasale).found;
   RELIEVO_TRY_ASSIGN(Registration registration,
                      run_stage(context, [&](StageContext& c) { return register_poses(surfaces, c); }));
   RELIEVO_TRY_ASSIGN(FaceMesh mesh, run_stage(context, [&](StageContext& c) {
@@ -130,24 +116,26 @@ Result<FusedHead> HeadPipeline::fuse(FaceModel face, std::span<HeadPose> poses, 
                        const auto views = views_of(poses, registration, &c.scratch);
                        return texture_head(mesh, views, kMostAtlasPx, c);
                      }));
+  FaceModel head(&context.output);
+  head.head_from_camera = face.head_from_camera;
+  head.landmarks = face.landmarks;
+  head.backdrop = face.backdrop;
+  head.unjudged = face.unjudged;
   // Area, coverage and sigma are the whole head's; size and relief of the face stay those of the master.
-  const ModelQuality of_face = face.quality;
+  head.quality = face.quality;
   RELIEVO_TRY(run_stage(context, [&](StageContext& c) -> Result<void> {
     HeadFrame frame;
-    frame.head_from_camera = face.head_from_camera;
-    face.quality = measure_quality(mesh, frame, c);
-    face.quality.texture_sharpness = texture_sharpness(atlas, c);
+    frame.head_from_camera = head.head_from_camera;
+    const ModelQuality whole = measure_quality(mesh, frame, c);
+    head.quality.median_sigma_mm = whole.median_sigma_mm;
+    head.quality.measured_area_mm2 = whole.measured_area_mm2;
+    head.quality.coverage = whole.coverage;
+    head.quality.texture_sharpness = texture_sharpness(atlas, c);
     return {};
   }));
-  face.quality.relief = of_face.relief;
-  face.quality.width_mm = of_face.width_mm;
-  face.quality.height_mm = of_face.height_mm;
-  face.quality.nose_relief_mm = of_face.nose_relief_mm;
-  face.quality.symmetry_residual_mm = of_face.symmetry_residual_mm;
-  face.quality.epipolar_residual_px = of_face.epipolar_residual_px;
-  face.mesh = std::move(mesh);
-  face.texture = std::move(atlas);
-  return FusedHead{std::move(face), std::move(registration)};
+  head.mesh = std::move(mesh);
+  head.texture = std::move(atlas);
+  return FusedHead{std::move(head), std::move(registration)};
 }
 
 }  // namespace relievo::pipeline

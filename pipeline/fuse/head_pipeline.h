@@ -4,13 +4,13 @@
 // HeadPipeline: a head from several pairs of pictures, between which it turned. The first pair is the master:
 // it gives the frame, the landmarks, the verdict whether it is a face, and the expression.
 //
-//   master pair -> front()  \                                                     / texture_head()
-//   other pairs -> turned()  > register_poses() -> HeadFuser -> one FaceMesh -> <
-//                           /                                                     \ quality of the whole
+//   every pair  -> measure() \                                                     / texture_head()
+//                             > register_poses() -> HeadFuser -> one FaceMesh -> <
+//   master pair -> face()    /                                                     \ quality of the whole
 //
-// Each pair may have a calibration of its own. What is kept of a pose lies in `kept`: 32 bytes a node of its
-// lattice and both rectified photographs, at 1920 x 1200 at most 24 MiB. Thread: worker; holds no state
-// between calls.
+// The face may also be what Pipeline made of the master pair, with its texture. Each pair may have a
+// calibration of its own. What is kept of a pose lies in `kept`: 32 bytes a node of its lattice and both
+// rectified photographs, at 1920 x 1200 at most 24 MiB. Thread: worker; holds no state between calls.
 #pragma once
 
 #include <memory_resource>
@@ -35,11 +35,6 @@ struct HeadPose {
   DriftJudgement drift;  // what the matches say of the calibration; the caller refuses
 };
 
-struct FrontPose {
-  HeadPose pose;
-  FaceModel face;  // of this pair alone, without texture
-};
-
 struct FusedHead {
   FaceModel model;  // in the first pair's left camera's frame
   Registration registration;
@@ -50,18 +45,20 @@ class HeadPipeline {
   // Errors: those of Pipeline::make.
   static Result<HeadPipeline> make(const AlgorithmSet& set);
 
-  // The stages' errors. `context.output` may be reset once they have returned, but for the face of front().
-  Result<FrontPose> front(const StereoFrame& frame, const StereoCalibration& calibration,
-                          StageContext& context, Arena& kept) const;
-  Result<HeadPose> turned(const StereoFrame& frame, const StereoCalibration& calibration,
-                          StageContext& context, Arena& kept) const;
-  // `poses`: the master's first; they are bent. Errors: PoorGeometry (a pair that meets none of the others,
-  // named by its number), Cancelled, OutOfMemory.
-  Result<FusedHead> fuse(FaceModel face, std::span<HeadPose> poses, StageContext& context) const;
+  // The stages' errors. `context.output` may be reset once it has returned.
+  Result<HeadPose> measure(const StereoFrame& frame, const StereoCalibration& calibration,
+                           StageContext& context, Arena& kept) const;
+  // Of the master pair alone, without texture. The stages' errors.
+  Result<FaceModel> face(const StereoFrame& frame, const StereoCalibration& calibration,
+                         StageContext& context) const;
+  // `poses`: the master's first, whose face it is; they are bent. Errors: InvalidInput (a face without its
+  // tip of the nose), PoorGeometry (a pair that meets none of the others, named by its number), Cancelled,
+  // OutOfMemory.
+  Result<FusedHead> fuse(const FaceModel& face, std::span<HeadPose> poses, StageContext& context) const;
 
  private:
-  explicit HeadPipeline(const AlgorithmSet& set) : set_(set) {}
-  AlgorithmSet set_;
+  explicit HeadPipeline(const AlgorithmSet& set) : face_set_(set), head_set_(set) {}
+  AlgorithmSet face_set_, head_set_;  // they differ in how far from the nose is measured
   HeadFuserOptions fuser_;
 };
 

@@ -57,22 +57,22 @@ class Heads : public ::testing::Test {
     std::vector<HeadPose> poses;
     for (std::size_t k = 0; k < shots.size(); ++k) poses.emplace_back(&kept);
     relievo::test::Developing how;
-    const auto develop = [&](std::size_t k) {
+    const auto photographed = [&](std::size_t k, auto&& use) {
       how.noise_seed = 10 + k;
-      return album.develop(album.shoot(shots[k].seed, shots[k].pose), how);
+      const hal::sim::PicturePair pictures = album.develop(album.shoot(shots[k].seed, shots[k].pose), how);
+      return use(StereoFrame{pictures.left.view(), pictures.right.view()});
     };
-    for (std::size_t k = 1; k < shots.size(); ++k) {
+    for (std::size_t k = 0; k < shots.size(); ++k) {
       const Arena::Mark mark(fixture.output);
-      const hal::sim::PicturePair pictures = develop(k);
-      RELIEVO_TRY_ASSIGN(poses[k], pipeline.turned({pictures.left.view(), pictures.right.view()},
-                                                   album.calibration(), fixture.context, kept));
+      RELIEVO_TRY_ASSIGN(poses[k], photographed(k, [&](const StereoFrame& frame) {
+                           return pipeline.measure(frame, album.calibration(), fixture.context, kept);
+                         }));
     }
-    const hal::sim::PicturePair pictures = develop(0);
-    RELIEVO_TRY_ASSIGN(FrontPose front, pipeline.front({pictures.left.view(), pictures.right.view()},
-                                                       album.calibration(), fixture.context, kept));
-    poses[0] = std::move(front.pose);
-    alone_mm2_ = front.face.quality.measured_area_mm2;
-    return pipeline.fuse(std::move(front.face), poses, fixture.context);
+    RELIEVO_TRY_ASSIGN(const FaceModel face, photographed(0, [&](const StereoFrame& frame) {
+                         return pipeline.face(frame, album.calibration(), fixture.context);
+                       }));
+    alone_mm2_ = face.quality.measured_area_mm2;
+    return pipeline.fuse(face, poses, fixture.context);
   }
   Result<FusedHead> fuse(const std::vector<Person>& shots) { return fuse(shots, fixture_, kept_); }
 
