@@ -7,6 +7,8 @@
 // same, where there is one.
 #pragma once
 
+#include <array>
+#include <cstddef>
 #include <cstdint>
 
 namespace relievo::pipeline {
@@ -35,5 +37,19 @@ enum class Advice : std::uint8_t {
   NotNeutral,       // ExpressionNeutrality: a smile
   Background,       // something beside the head: make room
 };
+
+// What somebody is told who turns the head after the frontal picture, and how far the sides are that are
+// photographed: yaw against the front, + to the picture's right.
+enum class TurnAdvice : std::uint8_t {
+  Lost,     // no head is found: look at the cameras again
+  ToLeft,   // turn on, to the picture's left
+  ToRight,  // to the picture's right
+  Level,    // chin up or down, ears level
+  Slower,
+  Hold,  // the side is right: it is photographed in a moment
+  Done
+};
+inline constexpr std::size_t kSides = 4;
+inline constexpr std::array<double, kSides> kSidesDeg{-45, -25, 25, 45};
 
 }  // namespace relievo::pipeline

@@ -1,0 +1,161 @@
+// SPDX-FileCopyrightText: 2026 The Relievo authors
+// SPDX-License-Identifier: GPL-3.0-or-later
+//
+// A simulated head that turns: where it stands is known. And the advice by its rules.
+#include "pipeline/gate/turn/turn_guide.h"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <numbers>
+
+#include "tests/support/gate_fixture.h"
+#include "tests/support/proof.h"
+
+namespace relievo::pipeline {
+namespace {
+
+using test::shared_album;
+using test::standing;
+using namespace std::chrono_literals;
+
+FrontFace front_of(std::uint32_t seed, test::GateFixture& gate) {
+  const GateLook look = gate.first_look(shared_album(), shared_album().shoot(seed, standing(560)));
+  return front_face(look.relief, look.answer.measures.head);
+}
+
+HeadTurn turned(std::uint32_t seed, const FrontFace& front, double yaw, double pitch, test::GateFixture& gate,
+                const HeadTurn& before = {}) {
+  const auto& shot = shared_album().shoot(seed, standing(560, 6, -4, yaw, pitch));
+  return follow_head(front, gate.first_look(shared_album(), shot).relief, before);
+}
+
+TEST(HeadTurn, IsMeasuredToEitherSideFromAnywhere) {
+  RELIEVO_MANY_TRIALS();
+  test::GateFixture gate;
+  for (const std::uint32_t seed : {5U, 11U}) {
+    const FrontFace front = front_of(seed, gate);
+    ASSERT_GT(front.count, 400U);
+    for (const double yaw : {-45.0, -25.0, 0.0, 12.0, 25.0, 45.0}) {
+      const HeadTurn turn = turned(seed, front, yaw, 0, gate);
+      ASSERT_TRUE(turn.known) << seed << " " << yaw;
+      EXPECT_NEAR(turn.yaw_deg, yaw, 3) << seed;
+      EXPECT_NEAR(turn.pitch_deg, 0, 3) << seed << " " << yaw;
+      EXPECT_NEAR(turn.roll_deg, 0, 3) << seed << " " << yaw;
+    }
+    EXPECT_NEAR(turned(seed, front, 0, 12, gate).pitch_deg, 12, 3) << seed;
+  }
+}
+
+TEST(HeadTurn, IsFollowedFromWhereItWasAndAnotherPlaceIsNoHead) {
+  test::GateFixture gate;
+  const FrontFace front = front_of(5, gate);
+  const HeadTurn at = turned(5, front, 25, 0, gate);
+  const HeadTurn on = turned(5, front, 45, 0, gate, at);
+  ASSERT_TRUE(on.known);
+  EXPECT_NEAR(on.yaw_deg, 45, 3);
+  // The simulated head turns about the middle of its face: what is 65 to 105 mm from there moves by this
+  // much.
+  const double by = 2 * std::sin(10 * std::numbers::pi / 180);
+  EXPECT_GT(moved_mm(front, at, on), 55 * by);
+  EXPECT_LT(moved_mm(front, at, on), 115 * by);
+  EXPECT_EQ(moved_mm(front, at, at), 0);
+  auto nobody = standing(560);
+  nobody.distance_mm = 0;
+  const auto look = gate.first_look(shared_album(), shared_album().shoot(5, nobody));
+  EXPECT_FALSE(follow_head(front, look.relief, at).known);
+  EXPECT_FALSE(follow_head({}, look.relief, {}).known) << "nobody was seen from the front";
+}
+
+// About the neck, as people do.
+hal::sim::HeadPose about_the_neck(double yaw_deg) {
+  constexpr double kNeckMm = 95;
+  const double yaw = yaw_deg * std::numbers::pi / 180;
+  hal::sim::HeadPose pose = standing(560);
+  pose.yaw_deg += yaw_deg;
+  pose.right_mm += kNeckMm * std::sin(yaw);
+  pose.distance_mm += kNeckMm * (1 - std::cos(yaw));
+  return pose;
+}
+
+// Fast heads and slow machines: from picture to picture it may be anywhere.
+TEST(HeadTurn, IsFoundAgainWhereverItJumped) {
+  RELIEVO_MANY_TRIALS();
+  test::GateFixture gate;
+  for (const std::uint32_t seed : {4U, 7U}) {
+    const FrontFace front = front_of(seed, gate);
+    HeadTurn before;
+    for (const double yaw : {-25.0, -45.0, 25.0, 45.0, 0.0, 45.0, -45.0, -25.0, 0.0, 25.0, 0.0, -25.0}) {
+      const GateLook look = gate.first_look(shared_album(), shared_album().shoot(seed, about_the_neck(yaw)));
+      before = follow_head(front, look.relief, before);
+      ASSERT_TRUE(before.known) << seed << " " << yaw;
+      EXPECT_NEAR(before.yaw_deg, yaw, 3.5) << seed;
+    }
+  }
+}
+
+// --- the advice -------------------------------------------------------------------------------------
+class TurnGuide : public testing::Test {
+ protected:
+  TurnGuide() {
+    front_.count = 1;
+    front_.points[0].at_mm = {0, 0, 500};
+    front_.pivot_mm = {0, 0, 600};
+  }
+  // The next picture, a tenth of a second later, in which the place has moved so far.
+  TurnAnswer look(double yaw, double moved = 0, double pitch = 0) {
+    HeadTurn turn;
+    turn.known = true;
+    turn.yaw_deg = yaw, turn.pitch_deg = pitch;
+    x_ += moved;
+    turn.now_from_front.translation_mm.x = x_;
+    now_ += 100ms;
+    return guide_turn(front_, turn, now_, 10, {}, history_);
+  }
+  FrontFace front_;
+  TurnHistory history_;
+  std::chrono::nanoseconds now_ = 1s;
+  double x_ = 0;
+};
+
+TEST_F(TurnGuide, LeadsToTheNearestSideAndTakesItOnlyWhenTheHeadIsSlow) {
+  EXPECT_EQ(look(-3).advice, TurnAdvice::ToLeft) << "the nearer one";
+  EXPECT_EQ(look(4).advice, TurnAdvice::ToRight);
+  EXPECT_EQ(look(22, 8).advice, TurnAdvice::Slower);
+  EXPECT_FALSE(look(24, 8).take);
+  EXPECT_FALSE(look(25, 0.2).take) << "one slow picture may be chance";
+  const TurnAnswer answer = look(25, 0.2);
+  EXPECT_EQ(answer.advice, TurnAdvice::Hold);
+  ASSERT_TRUE(answer.take);
+  EXPECT_EQ(kSidesDeg[*answer.take], 25);
+  history_.taken.set(*answer.take);
+  EXPECT_EQ(look(26).advice, TurnAdvice::ToRight) << "on to the next on this side";
+  EXPECT_EQ(look(60).advice, TurnAdvice::ToLeft) << "too far";
+  for (int i = 0; i < 2; ++i) EXPECT_EQ(look(45).advice, TurnAdvice::Hold);
+  history_.taken.set(3);
+  EXPECT_EQ(look(45).advice, TurnAdvice::ToLeft);
+  history_.taken.set();
+  EXPECT_EQ(look(0).advice, TurnAdvice::Done);
+}
+
+TEST_F(TurnGuide, TakesNoNoddingOrLostHead) {
+  for (int i = 0; i < 4; ++i) {
+    const TurnAnswer nods = look(25, 0, 20);
+    EXPECT_EQ(nods.advice, TurnAdvice::Level);
+    EXPECT_FALSE(nods.take);
+  }
+  EXPECT_FALSE(look(25).take);
+  EXPECT_EQ(guide_turn(front_, {}, now_ += 100ms, 10, {}, history_).advice, TurnAdvice::Lost);
+  EXPECT_FALSE(look(25).take) << "after it was lost nothing is known of its speed";
+  EXPECT_FALSE(look(25).take);
+  EXPECT_TRUE(look(25).take);
+}
+
+TEST_F(TurnGuide, TakesNothingFromTwoPicturesOfOneInstant) {
+  look(25), look(25);
+  now_ -= 90ms;
+  EXPECT_FALSE(look(25).take) << "10 ms after the one before";
+}
+
+}  // namespace
+}  // namespace relievo::pipeline
