@@ -53,7 +53,8 @@ Event event_of(ui::Intent intent) {
       return Event::Cancel;
     case ui::Intent::LookUp:
     case ui::Intent::StillHere:
-      break;  // no event: it only gives time
+    case ui::Intent::Enough:
+      break;  // no event: they give time, or end a job
     case ui::Intent::OpenStaff:
       return Event::StaffIn;
     case ui::Intent::LeaveStaff:
@@ -76,13 +77,17 @@ Appliance::Appliance(Parts parts)
       open_cameras_(grabber_, parts.device.preferred_mode(), parts.device.clock()),
       pose_(grabber_, session_, parts.device, parts.pool, parts.judge),
       grab_(grabber_, session_, parts.device, pose_),
+      turn_(grabber_, session_, parts.device, pose_, parts.judge),
       stage_(parts.stages, session_, parts.pool, parts.device.clock()),
+      head_(parts.stages, session_, parts.pool, parts.device.clock()),
       keep_(parts.records, session_),
       look_up_(parts.records),
       capture_(reports_),
       worker_(reports_),
       keeper_(reports_) {
-  records_.reserve(4 * budget::kCaptureAttempts);
+  records_.reserve(static_cast<std::size_t>(budget::kCaptureAttempts) *
+                   (kStages.size() + SidePairs::kPoses + 1));
+  has_judge_ = parts.judge != nullptr;
   start(capture_, open_cameras_);
 }
 
@@ -92,6 +97,7 @@ float Appliance::progress() const { return running_ != nullptr ? running_->progr
 
 void Appliance::ask(ui::Intent intent) {
   if (intent == ui::Intent::StillHere) return machine_.renew(device_.clock().now());
+  if (intent == ui::Intent::Enough) return turn_.finish();
   handle(event_of(intent));
   if (!session_.is_open()) record_ = {};
 }
@@ -182,9 +188,33 @@ void Appliance::heard_side(std::size_t lane, const JobReport& report) {
   if (side_listener_) side_listener_(static_cast<JobLane>(lane), report.error);
 }
 
+// What a job could not do: is the machine broken, or can another try or an advice help?
+void Appliance::failed(const Error& error) {
+  note(error);
+  const State state = machine_.state();
+  const bool advise = attended_ && state != State::Position && state != State::Store && session_.is_open();
+  handle(is_fault(error.code) || state == State::SelfTest ? Event::Failed
+         : advise                                         ? Event::AdviceGiven
+                                                          : Event::StageFailed);
+}
+
+// Done: no side comes any more; where the cameras' thread has not said so yet, Fuse is left as soon as it is
+// entered. Failed: the frontal picture did.
+void Appliance::heard_head(const JobReport& report) {
+  head_job_ = 0;
+  records_.insert(records_.end(), head_.records().begin(), head_.records().end());
+  if (session_.products().drift) note(*session_.products().drift);
+  if (report.error) return failed(*report.error);
+  if (machine_.state() == State::Fuse) handle(Event::StageDone);
+}
+
 void Appliance::heard(const JobReport& report) {
   for (std::size_t i = 0; i < kJobLanes; ++i) {
     if (report.job == side_jobs_[i] && report.job != 0) return heard_side(i, report);
+  }
+  if (report.job == head_job_ && report.job != 0) {
+    if (running_ == &worker_) running_ = nullptr, job_ = 0;
+    return heard_head(report);
   }
   if (report.job != job_) return;  // of a state that was left
   running_ = nullptr;
@@ -199,30 +229,30 @@ void Appliance::heard(const JobReport& report) {
   const State state = machine_.state();
   if (stage_.record().name == name_of(state)) records_.push_back(stage_.record());
   if (state == State::Match && session_.products().drift) note(*session_.products().drift);
-  if (report.error) {
-    note(*report.error);
-    const bool advise = attended_ && state != State::Position && state != State::Store && session_.is_open();
-    handle(is_fault(report.error->code) || state == State::SelfTest ? Event::Failed
-           : advise                                                 ? Event::AdviceGiven
-                                                                    : Event::StageFailed);
-  } else {
-    if (state == State::Store) kept_ = keep_.take();
-    if (state == State::SelfTest) problem_.reset();  // whatever led to it is over
-    handle(state == State::SelfTest  ? Event::Passed
-           : state == State::Capture ? Event::Triggered
-                                     : Event::StageDone);
-  }
+  const bool sides_end = state == State::Turn && report.error && !is_fault(report.error->code);
+  if (report.error && !sides_end) return failed(*report.error);
+  if (state == State::Store) kept_ = keep_.take();
+  if (state == State::SelfTest) problem_.reset();  // whatever led to it is over
+  const bool turns = attended_ && asks_for_sides_ && has_judge_ && session_.has_sides();
+  handle(state == State::SelfTest  ? Event::Passed
+         : state != State::Capture ? Event::StageDone
+         : turns                   ? Event::TurnAsked
+                                   : Event::Triggered);
 }
 
-void Appliance::start(JobThread& thread, Job& job) {
+JobId Appliance::start_on(JobThread& thread, Job& job) {
   if (thread.busy()) {  // with work of the staff's pages: a visitor comes first, its report still comes
     thread.cancel();
     thread.wait_until_idle();
   }
   const Result<JobId> id = thread.start(job);
   RELIEVO_ASSERT(id.has_value());  // entered() has stopped the job before
+  return *id;
+}
+
+void Appliance::start(JobThread& thread, Job& job) {
+  job_ = start_on(thread, job);
   running_ = &thread;
-  job_ = *id;
 }
 
 void Appliance::stop_job() {
@@ -233,6 +263,15 @@ void Appliance::stop_job() {
   job_ = 0;
   if (looks_up_) heard_answer();
 }
+
+void Appliance::stop_head() {
+  if (head_job_ == 0) return;
+  worker_.cancel();
+  worker_.wait_until_idle();
+  head_job_ = 0;
+}
+
+std::size_t Appliance::stages_done() const { return head_.stages_done(); }
 
 bool Appliance::open_session() {
   attempt_ = 0;
@@ -283,6 +322,14 @@ bool Appliance::enter_capture(const Change& change) {
   return true;
 }
 
+// Two jobs at once: the worker has the arenas, the cameras' thread memory of its own.
+void Appliance::enter_turn() {
+  session_.sides().begin();
+  turn_.begin_with(*session_.products().frame);
+  head_job_ = start_on(worker_, head_);
+  start(capture_, turn_);
+}
+
 // The technician's test capture lies in it, and the staff's pages may be at work on that.
 void Appliance::close_session() {
   for (JobThread* thread : {&capture_, &worker_}) {
@@ -298,6 +345,7 @@ void Appliance::close_session() {
 
 void Appliance::entered(const Change& change) {
   stop_job();
+  if (change.to != State::Fuse) stop_head();
   switch (change.to) {
     case State::SelfTest:
       start(capture_, open_cameras_);
@@ -307,6 +355,14 @@ void Appliance::entered(const Change& change) {
       break;
     case State::Capture:
       if (!enter_capture(change)) return;
+      break;
+    case State::Turn:
+      enter_turn();
+      break;
+    case State::Fuse:  // the head's job runs since Turn
+      if (head_job_ == 0) return handle(Event::StageDone);
+      running_ = &worker_;
+      job_ = head_job_;
       break;
     case State::Match:
     case State::Reconstruct:
@@ -328,7 +384,8 @@ void Appliance::entered(const Change& change) {
       close_session();
       break;
     case State::Review:
-      if (change.from == State::Assemble) problem_.reset();  // an attempt before it failed; this one did not
+      if (change.from == State::Assemble || change.from == State::Fuse)
+        problem_.reset();  // an attempt before it failed; this one did not
       break;
     case State::Calibrate:  // what they were entered for runs beside, as a side task of the staff's page
     case State::Export:

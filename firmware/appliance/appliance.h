@@ -21,7 +21,9 @@
 
 #include "firmware/machine/machine.h"
 #include "firmware/session/session.h"
+#include "firmware/work/head_job.h"
 #include "firmware/work/jobs.h"
+#include "firmware/work/turn_job.h"
 #include "hal/device.h"
 #include "ui/view/intent.h"
 
@@ -65,6 +67,10 @@ class Appliance {
   int attempt() const { return attempt_; }
   // Refused captures, until a person is asked to come again.
   void set_attempts(int most) { most_attempts_ = most; }
+  // Does a person at the screen come to Turn after the frontal picture? Never without a judge and the memory.
+  void ask_for_sides(bool asks) { asks_for_sides_ = asks; }
+  // Of the frontal picture, while the head turns: their pictures may be shown.
+  std::size_t stages_done() const;
   const std::optional<Error>& problem() const { return problem_; }
   // Of the last face that was matched: have the cameras moved?
   const std::optional<pipeline::DriftJudgement>& drift() const { return drift_; }
@@ -109,11 +115,16 @@ class Appliance {
   bool enter_position(const Change& change);
   bool enter_capture(const Change& change);
   bool open_session();
+  void enter_turn();
   void start(JobThread& thread, Job& job);
+  JobId start_on(JobThread& thread, Job& job);
   void stop_job();
+  void stop_head();
   JobThread& thread_at(JobLane lane);
   void heard_side(std::size_t lane, const JobReport& report);
   void heard(const JobReport& report);
+  void heard_head(const JobReport& report);
+  void failed(const Error& error);
   void close_session();
   void heard_answer();
   void note(const Error& error);
@@ -126,7 +137,9 @@ class Appliance {
   OpenCamerasJob open_cameras_;
   PoseJob pose_;
   GrabJob grab_;
+  TurnJob turn_;
   StageJob stage_;
+  HeadJob head_;
   KeepJob keep_;
   LookUpJob look_up_;
   VisitRecord record_;
@@ -135,6 +148,7 @@ class Appliance {
   bool looks_up_ = false, drops_answer_ = false;
   int attempt_ = 0, most_attempts_ = budget::kCaptureAttempts;
   bool attended_ = false;  // a person is at the screen: advice instead of another try
+  bool asks_for_sides_ = false, has_judge_ = false;
   std::optional<Error> problem_;
   std::optional<pipeline::DriftJudgement> drift_;
   std::string calibration_note_;
@@ -143,6 +157,7 @@ class Appliance {
   std::function<void(const Change&)> listener_;
   JobThread* running_ = nullptr;  // the thread whose job belongs to the present state
   JobId job_ = 0;
+  JobId head_job_ = 0;  // on the worker, from Turn until it reports in Fuse
   std::array<JobId, kJobLanes> side_jobs_{};
   std::function<void(JobLane, const std::optional<Error>&)> side_listener_;
   JobReports reports_;

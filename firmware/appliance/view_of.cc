@@ -2,6 +2,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "firmware/appliance/view_of.h"
 
+#include <algorithm>
+
 namespace relievo::firmware {
 namespace {
 
@@ -17,6 +19,10 @@ ui::Screen screen_of(State state) {
       return ui::Screen::Position;
     case State::Capture:
       return ui::Screen::Capture;
+    case State::Turn:
+      return ui::Screen::Turn;
+    case State::Fuse:
+      return ui::Screen::Fuse;
     case State::Match:
       return ui::Screen::Match;
     case State::Reconstruct:
@@ -82,12 +88,17 @@ ui::LiveView live_of(const LivePicture& live) {
   view.face_y = static_cast<float>(live.guidance.face_y);
   view.ideal_width = static_cast<float>(live.guidance.ideal_width);
   view.steady_s = static_cast<float>(live.guidance.steady_s);
+  if (const auto& turn = live.guidance.turn)
+    view.turn = ui::TurnView{turn->advice, static_cast<float>(turn->yaw_deg), turn->taken};
   return view;
 }
 
 // Stages whose thread has reported; the one under way draws its own.
-std::size_t stages_done(State state) {
-  switch (state) {
+std::size_t stages_done(const Appliance& appliance) {
+  switch (appliance.state()) {
+    case State::Turn:
+    case State::Fuse:
+      return std::min(kStagePictures, appliance.stages_done());
     case State::Reconstruct:
       return 1;
     case State::Mesh:
@@ -129,7 +140,7 @@ ui::ViewState view_of(Appliance& appliance) {
   view.subject = appliance.session().subject();
   view.live = live_of(appliance.live().newest());
   const StagePictures& pictures = appliance.session().stage_pictures();
-  for (std::size_t i = 0; i < stages_done(appliance.state()); ++i) {
+  for (std::size_t i = 0; i < stages_done(appliance); ++i) {
     if (pictures.number(i) != 0) view.stages[i] = {pictures.view(i), pictures.number(i)};
   }
   // While a job runs, the products are the worker's; before Review nothing of them is shown.

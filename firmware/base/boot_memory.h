@@ -21,20 +21,25 @@ namespace relievo::firmware {
 
 class BootMemory {
  public:
-  BootMemory() : BootMemory(budget::kFramePoolBytes, budget::kOutputArenaBytes, budget::kScratchArenaBytes) {}
-  // Tests shrink it until nothing fits.
-  BootMemory(std::size_t frame_bytes, std::size_t output_bytes, std::size_t scratch_bytes)
-      : block_(take(frame_bytes + output_bytes + scratch_bytes)),
+  BootMemory()
+      : BootMemory(budget::kFramePoolBytes, budget::kOutputArenaBytes, budget::kScratchArenaBytes,
+                   budget::kSidesBytes, budget::kFollowBytes) {}
+  // Tests shrink it until nothing fits; without sides one pair makes a face.
+  BootMemory(std::size_t frame_bytes, std::size_t output_bytes, std::size_t scratch_bytes,
+             std::size_t sides_bytes = 0, std::size_t follow_bytes = 0)
+      : block_(take(frame_bytes + output_bytes + scratch_bytes + sides_bytes + follow_bytes)),
         frames_(block_.get(), frame_bytes),
-        output_(block_.get() + frame_bytes, output_bytes),
-        scratch_(block_.get() + frame_bytes + output_bytes, scratch_bytes) {}
+        output_(frames_.data() + frame_bytes, output_bytes),
+        scratch_(output_.data() + output_bytes, scratch_bytes),
+        sides_(scratch_.data() + scratch_bytes, sides_bytes),
+        follow_(sides_.data() + sides_bytes, follow_bytes) {}
 
   std::span<std::byte> frames() const { return frames_; }
   std::span<std::byte> output() const { return output_; }
   std::span<std::byte> scratch() const { return scratch_; }
-  std::span<const std::byte> all() const {
-    return {block_.get(), frames_.size() + output_.size() + scratch_.size()};
-  }
+  std::span<std::byte> sides() const { return sides_; }
+  std::span<std::byte> follow() const { return follow_; }
+  std::span<const std::byte> all() const { return {block_.get(), follow_.data() + follow_.size()}; }
 
  private:
   static constexpr std::align_val_t kHugePage{std::size_t{2} << 20};
@@ -53,6 +58,8 @@ class BootMemory {
   std::span<std::byte> frames_;
   std::span<std::byte> output_;
   std::span<std::byte> scratch_;
+  std::span<std::byte> sides_;   // session/side_pairs.h
+  std::span<std::byte> follow_;  // of the capture thread, while the worker has the others
 };
 
 }  // namespace relievo::firmware

@@ -29,9 +29,14 @@ inline constexpr std::size_t kStereoSlots =
 inline constexpr std::size_t kFramePoolBytes = kStereoSlots * kStereoSlotBytes;
 inline constexpr std::size_t kOutputArenaBytes = 320 * kMiB;   // what the stages hand on
 inline constexpr std::size_t kScratchArenaBytes = 640 * kMiB;  // what one stage needs for itself
-// A head from several pairs (relievo reconstruct): of each, its surface and both rectified photographs.
-inline constexpr std::size_t kPoseBytes = 24 * kMiB;
-inline constexpr std::size_t kBlockBytes = kFramePoolBytes + kOutputArenaBytes + kScratchArenaBytes;
+// A head from several pairs: of each, its surface and both rectified photographs; at 1920 x 1200 24 MiB of it
+// are touched. The kiosk takes the front and four sides, of which one is copied to be worked on, and follows
+// the head in memory of its own while the worker is at the pairs before.
+inline constexpr std::size_t kPoseBytes = 56 * kMiB;
+inline constexpr std::size_t kSidesBytes = 5 * kPoseBytes * 10 / 9;
+inline constexpr std::size_t kFollowBytes = 48 * kMiB;
+inline constexpr std::size_t kBlockBytes =
+    kFramePoolBytes + kOutputArenaBytes + kScratchArenaBytes + kSidesBytes + kFollowBytes;
 
 // The technician's pages: both pictures of three stages and one of five; beside them, of every result that
 // was put aside, one picture of each stage and the model (a simulated face at 1920 x 1200: 463,000 triangles
@@ -45,7 +50,7 @@ inline constexpr std::size_t kTechnicianBytes =
 
 inline constexpr std::size_t kLibraryBytes = 256 * kMiB;  // OpenCV, CGAL, SQLite: measured, not enforced
 inline constexpr std::size_t kQueueBytes = 64 * 1024;
-inline constexpr std::size_t kApplianceBytes = 1536 * kMiB;  // of the machine's memory, for the process
+inline constexpr std::size_t kApplianceBytes = 2048 * kMiB;  // of the machine's memory, for the process
 static_assert(kBlockBytes + kTechnicianBytes + kLibraryBytes + kQueueBytes <= kApplianceBytes,
               "the parts need more than the appliance has");
 
@@ -79,6 +84,9 @@ inline constexpr int kBurstPairs = 5;       // of which the sharpest, stillest i
 inline constexpr milliseconds kSelfTestLimit{30'000};
 inline constexpr milliseconds kPositionLimit{120'000};  // nobody touches the screen: nothing is photographed
 inline constexpr milliseconds kCaptureLimit{30'000};
+inline constexpr milliseconds kTurnPatience{20'000};  // without a new side: what there is will do
+inline constexpr milliseconds kTurnLimit{90'000};
+inline constexpr milliseconds kFuseLimit{120'000};   // of the pairs that are left and the head of all
 inline constexpr milliseconds kStageLimit{60'000};   // a stage that runs longer is stopped
 inline constexpr milliseconds kReviewLimit{60'000};  // nobody answers: nothing is kept
 inline constexpr milliseconds kStoreLimit{30'000};

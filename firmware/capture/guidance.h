@@ -4,9 +4,19 @@
 // Guidance: what the person at the screen is told about where they stand, with one live picture. Plain data.
 #pragma once
 
+#include <bitset>
+#include <optional>
+
 #include "pipeline/model/advice.h"
 
 namespace relievo::firmware {
+
+// Of a head that turns after the frontal picture.
+struct TurnGuidance {
+  pipeline::TurnAdvice advice = pipeline::TurnAdvice::Lost;
+  double yaw_deg = 0;  // against the front, + to the picture's right
+  std::bitset<pipeline::kSides> taken;
+};
 
 struct Guidance {
   pipeline::Advice advice = pipeline::Advice::NoFace;
@@ -16,6 +26,7 @@ struct Guidance {
   double steady_s = 0;     // so long no picture has had a reason
   double focus_share =
       0;  // for a hand at the lens: sharpness against the sharpest of this visit; 0: not measured
+  std::optional<TurnGuidance> turn;
 };
 
 }  // namespace relievo::firmware

@@ -31,6 +31,11 @@ FaceBox box_at(const pipeline::CameraIntrinsics& camera, const pipeline::Vec3d& 
           static_cast<int>(width), static_cast<int>(height)};
 }
 
+Error uncalibrated() {
+  return {Errc::NotCalibrated,
+          "this device has no calibration yet: a technician has to calibrate its cameras"};
+}
+
 }  // namespace
 
 FaceBoxes face_boxes(const pipeline::StereoCalibration& calibration,
@@ -54,7 +59,7 @@ Result<LiveJudge> LiveJudge::open(int width_px) {
   pipeline::CaptureGateOptions options;
   options.relief.reduction = judged_reduction(width_px);
   RELIEVO_TRY_ASSIGN(auto gate, pipeline::CaptureGate::open(options));
-  return LiveJudge(std::move(gate));
+  return LiveJudge(std::move(gate), options.relief);
 }
 
 Guidance guidance_of(const pipeline::GateAnswer& answer, const pipeline::StereoCalibration& calibration,
@@ -75,11 +80,40 @@ Guidance guidance_of(const pipeline::GateAnswer& answer, const pipeline::StereoC
   return guidance;
 }
 
+Result<bool> LiveJudge::begin_turn(const pipeline::StereoFrame& front, pipeline::StageContext& context) {
+  turn_ = {};
+  front_ = {};
+  if (!calibration_) return uncalibrated();
+  pipeline::GateHistory nothing;
+  RELIEVO_TRY_ASSIGN(const pipeline::GateLook look,
+                     pipeline::run_stage(context, [&](pipeline::StageContext& c) {
+                       return gate_.look(front, *calibration_, {}, nothing, c);
+                     }));
+  front_ = front_face(look.relief, look.answer.measures.head);
+  return front_.count > 0;
+}
+
+Result<TurnMeasurement> LiveJudge::look_turned(const pipeline::StereoFrame& frame, hal::Instant now,
+                                               std::chrono::microseconds shutter,
+                                               pipeline::StageContext& context) {
+  if (!calibration_) return uncalibrated();
+  RELIEVO_TRY_ASSIGN(pipeline::Relief relief, pipeline::run_stage(context, [&](pipeline::StageContext& c) {
+                       return relief_.look(frame, *calibration_, c);
+                     }));
+  const pipeline::HeadTurn turn = follow_head(front_, relief, turn_.last);
+  constexpr pipeline::TurnLimits kLimits;
+  const double px_per_mm = calibration_->left.focal_px.x / front_.pivot_mm.z;
+  const double slow_mm_s = kLimits.smear_px / px_per_mm / std::chrono::duration<double>(shutter).count();
+  const pipeline::TurnAnswer answer =
+      guide_turn(front_, turn, now.time_since_epoch(), slow_mm_s, kLimits, turn_);
+  TurnMeasurement measured{{}, answer.take, std::move(relief)};
+  measured.guidance.turn = TurnGuidance{answer.advice, turn.yaw_deg, turn_.taken};
+  return measured;
+}
+
 Result<LiveMeasurement> LiveJudge::look(const pipeline::StereoFrame& frame, hal::Instant now,
                                         pipeline::StageContext& context) {
-  if (!calibration_)
-    return Error{Errc::NotCalibrated,
-                 "this device has no calibration yet: a technician has to calibrate its cameras"};
+  if (!calibration_) return uncalibrated();
   RELIEVO_TRY_ASSIGN(pipeline::GateLook look, pipeline::run_stage(context, [&](pipeline::StageContext& c) {
                        return gate_.look(frame, *calibration_, now.time_since_epoch(), history_, c);
                      }));

@@ -3,16 +3,19 @@
 //
 // LiveJudge: the capture gate before the person at the screen. It keeps the gate's history of one visit,
 // turns its measures into what the screen shows, and says where the face is in both whole pictures, for the
-// light meter and the burst. The relief it measures with is handed on, to be drawn. Thread: capture. Errors
-// of open() and look(): those of the gate, NotCalibrated; nobody in the picture is no error but an advice.
+// light meter and the burst. The relief it measures with is handed on, to be drawn. After the frontal picture
+// it follows the head that turns (pipeline/gate/turn). Thread: capture. Errors of open() and the looks: those
+// of the gate, NotCalibrated; nobody in the picture is no error but an advice.
 #pragma once
 
+#include <chrono>
 #include <optional>
 
 #include "firmware/capture/face_light.h"
 #include "firmware/capture/guidance.h"
 #include "hal/clock.h"
 #include "pipeline/gate/capture_gate.h"
+#include "pipeline/gate/turn/turn_guide.h"
 
 namespace relievo::firmware {
 
@@ -24,6 +27,12 @@ struct LiveMeasurement {
   Guidance guidance;
   std::optional<FaceBoxes> face;
   pipeline::Relief relief;  // in context.output
+};
+
+struct TurnMeasurement {
+  Guidance guidance;                // with its turn
+  std::optional<std::size_t> take;  // this pair shows that side
+  pipeline::Relief relief;          // in context.output
 };
 
 class LiveJudge {
@@ -39,10 +48,21 @@ class LiveJudge {
   Result<LiveMeasurement> look(const pipeline::StereoFrame& frame, hal::Instant now,
                                pipeline::StageContext& context);
 
+  // The pair that was taken from the front. False: it shows no head that could be followed.
+  Result<bool> begin_turn(const pipeline::StereoFrame& front, pipeline::StageContext& context);
+  // `shutter`: for how long each picture is exposed.
+  Result<TurnMeasurement> look_turned(const pipeline::StereoFrame& frame, hal::Instant now,
+                                      std::chrono::microseconds shutter, pipeline::StageContext& context);
+  void took(std::size_t side) { turn_.taken.set(side); }
+
  private:
-  explicit LiveJudge(pipeline::CaptureGate gate) : gate_(std::move(gate)) {}
+  LiveJudge(pipeline::CaptureGate gate, const pipeline::LiveReliefOptions& relief)
+      : gate_(std::move(gate)), relief_(relief) {}
 
   pipeline::CaptureGate gate_;
+  pipeline::LiveRelief relief_;
+  pipeline::FrontFace front_;
+  pipeline::TurnHistory turn_;
   std::optional<pipeline::StereoCalibration> calibration_;
   pipeline::GateHistory history_;
 };

@@ -97,7 +97,9 @@ Result<void> drive(Appliance& appliance, Console& console) {
       case State::Store:
         console.progress(name_of(appliance.state()), appliance.progress());
         break;
-      case State::Position:
+      case State::Position:  // and the two after it are for a person at a screen
+      case State::Turn:
+      case State::Fuse:
       case State::Calibrate:
       case State::Export:
       case State::Staff:

@@ -67,6 +67,12 @@ class Gallery {
     if (attempt > 0) view.trouble = Trouble::Refused;
     add(name, view, at(Step::Position));
   }
+  void add_turn(std::string_view name, pipeline::TurnAdvice advice, float yaw_deg, unsigned long taken) {
+    ui::ViewState view = idle();
+    view.screen = Screen::Turn;
+    view.live.turn = ui::TurnView{advice, yaw_deg, taken};
+    add(name, view, at(Step::Turn));
+  }
   void add_working(std::string_view name, Screen screen, std::size_t born) {
     ui::ViewState view = idle();
     view.screen = screen;
@@ -111,8 +117,11 @@ void add_capture(Gallery& g) {
   g.add_position("position_close", Advice::TooClose, 0, 0, 0);
   g.add_position("position_again", Advice::Moved, 0, 0, 1);
   g.add_position("position_countdown", Advice::None, 0, ui::kSteadyFor + 0.6F, 0);
+  g.add_turn("turn_begin", pipeline::TurnAdvice::ToLeft, 0, 0);
+  g.add_turn("turn", pipeline::TurnAdvice::Slower, 19, 0b0011);
   g.add_working("working_begin", Screen::Match, 0);
   g.add_working("working", Screen::Mesh, 2);
+  g.add_working("working_head", Screen::Fuse, 4);
   g.add_working("storing", Screen::Store, 4);
 }
 

@@ -77,6 +77,7 @@ Result<void> reach_review(Kiosk& kiosk, hal::Picture& live, ui::ViewState& view,
       live.height_px = picture.height_px;
       view.live = kiosk.view().live;
     }
+    if (step == ui::Step::Turn) tap(kiosk, "enough");
     if (step == ui::Step::Name) {
       kiosk.ui().visit().type("1");
       kiosk.turn();

@@ -4,6 +4,11 @@
 
 #include <string.h>
 
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <numeric>
+
 #include "firmware/appliance/view_of.h"
 #include "firmware/arguments/algorithm_choice.h"
 #include "firmware/base/budget.h"
@@ -87,6 +92,8 @@ Result<void> Kiosk::prepare(const KioskArgs& args, Services& services) {
   RELIEVO_TRY_ASSIGN(const auto newest, store_->subjects({.limit = 1}));
   if (!newest.empty()) newest_record_ = newest.front().created_at;
   RELIEVO_TRY_ASSIGN(device_, services.open_device(args.device));
+  if (args.device == "sim" && services.turn_head)
+    turn_head_ = [this, turn = services.turn_head](double yaw_deg) { turn(*device_, yaw_deg); };
   RELIEVO_TRY(set_up_measuring(args, services));
   memory_ = std::make_unique<BootMemory>();
   pool_ = std::make_unique<ThreadPool>(pool_size());
@@ -171,6 +178,8 @@ void Kiosk::look() {
   view_.languages = ui_->service().open ? std::bitset<ui::kLanguages>().set() : languages_;
   view_.settings = staff_->settings();
   appliance_->set_attempts(view_.settings.of(ui::Setting::Attempts));
+  // Recorded pictures turn nowhere.
+  appliance_->ask_for_sides(view_.settings.is_on(ui::Setting::Sides) && (device_->is_live() || turn_head_));
   view_.home = static_cast<ui::Language>(view_.settings.of(ui::Setting::Language));
   while (!view_.languages[static_cast<std::size_t>(view_.home)])
     view_.home = static_cast<ui::Language>((static_cast<std::size_t>(view_.home) + 1) % ui::kLanguages);
@@ -217,11 +226,29 @@ void Kiosk::ask(ui::Intent intent) {
   if (intent != ui::Intent::LookUp) appliance_->ask(intent);
 }
 
+// Before the simulated rig somebody does as the page says: on to the nearest side that is not taken.
+void Kiosk::turn_simulated_head() {
+  double to_deg = 0;
+  if (const auto& turn = view_.live.turn; turn && appliance_->state() == State::Turn) {
+    const auto nearer = [&](std::size_t a, std::size_t b) {
+      const auto far = [&](std::size_t i) {
+        return turn->taken[i] ? 1e3 : std::abs(pipeline::kSidesDeg[i] - turned_to_deg_);
+      };
+      return far(a) < far(b);
+    };
+    std::array<std::size_t, pipeline::kSides> sides{};
+    std::iota(sides.begin(), sides.end(), 0);
+    to_deg = pipeline::kSidesDeg[*std::min_element(sides.begin(), sides.end(), nearer)];
+  }
+  if (to_deg != turned_to_deg_) turn_head_(turned_to_deg_ = to_deg);
+}
+
 void Kiosk::turn() {
   appliance_->step(std::chrono::milliseconds(0));
   // Nobody uses cameras that are not the calibrated ones: that those are back must be noticed all the same.
   if (!exchanged_.empty() && appliance_->state() == State::Idle && camera_look_->due(view_.now))
     (void)appliance_->start_side_job(JobLane::Capture, *camera_look_);
+  if (turn_head_) turn_simulated_head();
   staff_->turn();
   if (appliance_->state() == State::Idle || appliance_->state() == State::Staff)
     moved_faces_->keep(revision_, {appliance_->moved_in_a_row(), std::string(appliance_->calibration_note())},

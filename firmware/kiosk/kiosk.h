@@ -11,6 +11,7 @@
 // Errors of open(): those of device, store, fonts, words and algorithms.
 #pragma once
 
+#include <functional>
 #include <memory>
 #include <optional>
 #include <string>
@@ -59,11 +60,14 @@ class Kiosk {
   Result<void> set_up_measuring(const KioskArgs& args, Services& services);
   std::unique_ptr<TestCapture> make_test_capture(const KioskArgs& args, Services& services);
   ui::Trouble out_of_order() const;
+  void turn_simulated_head();
   VisitRecord record_of(const ui::VisitRequest& request) const;
   void look();
   void ask(ui::Intent intent);
 
   std::unique_ptr<hal::Device> device_;
+  std::function<void(double yaw_deg)> turn_head_;  // of the simulated person; empty: a living one does it
+  double turned_to_deg_ = 0;
   std::unique_ptr<storage::Store> store_;
   std::unique_ptr<BootMemory> memory_;
   std::unique_ptr<ThreadPool> pool_;

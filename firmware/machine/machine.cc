@@ -14,6 +14,10 @@ std::optional<std::chrono::milliseconds> limit_of(State state) {
       return budget::kPositionLimit;
     case State::Capture:
       return budget::kCaptureLimit;
+    case State::Turn:
+      return budget::kTurnLimit;
+    case State::Fuse:
+      return budget::kFuseLimit;
     case State::Match:
     case State::Reconstruct:
     case State::Mesh:

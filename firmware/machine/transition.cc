@@ -16,6 +16,8 @@ std::string_view name_of(State state) {
       return "Position";
     case State::Capture:
       return "Capture";
+    case State::Turn:
+      return "Turn";
     case State::Match:
       return "Match";
     case State::Reconstruct:
@@ -26,6 +28,8 @@ std::string_view name_of(State state) {
       return "Texture";
     case State::Assemble:
       return "Assemble";
+    case State::Fuse:
+      return "Fuse";
     case State::Review:
       return "Review";
     case State::Store:
@@ -54,6 +58,8 @@ std::string_view name_of(Event event) {
       return "Begin";
     case Event::Triggered:
       return "Triggered";
+    case Event::TurnAsked:
+      return "TurnAsked";
     case Event::StageDone:
       return "StageDone";
     case Event::StageFailed:

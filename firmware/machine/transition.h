@@ -4,12 +4,15 @@
 // The whole life of the appliance, as one table.
 //
 //   SelfTest -> Idle -> Position -> Capture -> Match -> Reconstruct -> Mesh -> Texture -> Assemble
-//   Assemble -> Review -> Store -> Idle
+//                                   Capture -> Turn -> Fuse
+//   Assemble | Fuse -> Review -> Store -> Idle
 //   Review -> Capture | Position
 //   Idle -> Staff -> Calibrate | Export
 //
 // A command has no Position: it goes from Idle to Capture at once, and from a failure to Capture again.
-// A person at the screen finds their place first, with a live picture, and goes back there for advice.
+// A person at the screen finds their place first, with a live picture, and goes back there for advice. Who
+// may turn the head after the frontal picture comes to Turn: there the stages of that picture, and of each
+// side as it is taken, run beside the cameras; Fuse is what is left of them, and the head of all.
 //   Fault is entered when the machine cannot; it tests itself again.
 //
 // The compiler proves the table: one event leads one way, every state can be reached, every state
@@ -30,11 +33,13 @@ enum class State : std::uint8_t {
   Calibrate,
   Position,
   Capture,
+  Turn,
   Match,
   Reconstruct,
   Mesh,
   Texture,
   Assemble,
+  Fuse,
   Review,
   Store,
   Export,
@@ -56,6 +61,7 @@ enum class Event : std::uint8_t {
   PoseAsked,    // a person wants to see where to stand
   Begin,        // take the picture
   Triggered,    // both pictures are here
+  TurnAsked,    // they are, and now the sides
   StageDone,    // the job of the present state is done
   StageFailed,  // it could not, and another try may help
   AdviceGiven,  // it could not, and the person in front of the screen is told why
@@ -93,11 +99,26 @@ inline constexpr std::array kTransitions{
     Transition{State::Position, Event::Failed, State::Fault},
 
     Transition{State::Capture, Event::Triggered, State::Match},
+    Transition{State::Capture, Event::TurnAsked, State::Turn},
     Transition{State::Capture, Event::StageFailed, State::Capture},  // advice is shown, another try
     Transition{State::Capture, Event::AdviceGiven, State::Position},
     Transition{State::Capture, Event::Cancel, State::Idle},
     Transition{State::Capture, Event::Timeout, State::Idle},
     Transition{State::Capture, Event::Failed, State::Fault},
+
+    Transition{State::Turn, Event::StageDone, State::Fuse},
+    Transition{State::Turn, Event::StageFailed, State::Capture},  // of the frontal picture
+    Transition{State::Turn, Event::AdviceGiven, State::Position},
+    Transition{State::Turn, Event::Cancel, State::Idle},
+    Transition{State::Turn, Event::Timeout, State::Fuse},  // with the sides that are there
+    Transition{State::Turn, Event::Failed, State::Fault},
+
+    Transition{State::Fuse, Event::StageDone, State::Review},
+    Transition{State::Fuse, Event::StageFailed, State::Capture},
+    Transition{State::Fuse, Event::AdviceGiven, State::Position},
+    Transition{State::Fuse, Event::Cancel, State::Idle},
+    Transition{State::Fuse, Event::Timeout, State::Idle},
+    Transition{State::Fuse, Event::Failed, State::Fault},
 
     Transition{State::Match, Event::StageDone, State::Reconstruct},
     Transition{State::Match, Event::StageFailed, State::Capture},

@@ -9,9 +9,10 @@ namespace relievo::firmware {
 namespace {
 
 bool is_visit(State state) {
-  return state == State::Position || state == State::Capture || state == State::Match ||
-         state == State::Reconstruct || state == State::Mesh || state == State::Texture ||
-         state == State::Assemble || state == State::Review;
+  return state == State::Position || state == State::Capture || state == State::Turn ||
+         state == State::Match || state == State::Reconstruct || state == State::Mesh ||
+         state == State::Texture || state == State::Assemble || state == State::Fuse ||
+         state == State::Review;
 }
 
 ui::Refusal refusal_of(const Error& error) {
@@ -53,8 +54,9 @@ void Statistics::noted(const Change& change, const Error* problem, std::chrono::
                        (change.event == Event::AdviceGiven || change.event == Event::StageFailed ||
                         change.event == Event::Failed || change.event == Event::Timeout);
   if (change.from == State::Idle && is_visit(change.to)) count(visits_);
-  if (change.from == State::Capture && change.event == Event::Triggered) count(captures_);
-  if (change.to == State::Review && change.from == State::Assemble) {
+  if (change.from == State::Capture && (change.event == Event::Triggered || change.event == Event::TurnAsked))
+    count(captures_);
+  if (change.to == State::Review && (change.from == State::Assemble || change.from == State::Fuse)) {
     count(models_);
     ++times_[std::min(kSteps - 1, static_cast<std::size_t>(total / kStep))];
   }

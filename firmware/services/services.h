@@ -45,6 +45,9 @@ struct Services {
   // For scripted visits. Plugs a folder that plays a USB stick into a device without hardware; no name pulls
   // it. Errors: Unsupported (a device with hardware).
   std::function<Result<void>(hal::Device& device, const std::string& folder)> plug_stick{};
+  // The simulated person turns the head so far (+ to the picture's right), a moment later; may be empty.
+  // Nothing where the device is no simulated rig.
+  std::function<void(hal::Device& device, double yaw_deg)> turn_head{};
   // Pictures of every page, for people to look at (firmware/demo/screenshots.h); may be empty.
   std::function<Result<void>(const KioskArgs& args, Kiosk& kiosk, Console& console)> take_screenshots{};
   // How often this thread has taken memory from the heap; may be empty.

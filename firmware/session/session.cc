@@ -80,6 +80,7 @@ void EnrolmentSession::wipe() {
   slot_.wipe();
   live_.wipe();
   spare_slot_.wipe();
+  sides_.wipe();
 }
 
 void EnrolmentSession::wipe_products() {

@@ -21,6 +21,7 @@
 #include "firmware/capture/live_feed.h"
 #include "firmware/capture/stereo_slot.h"
 #include "firmware/machine/transition.h"
+#include "firmware/session/side_pairs.h"
 #include "firmware/session/stage_pictures.h"
 #include "hal/base/arena.h"
 #include "pipeline/calibrate/drift.h"
@@ -50,7 +51,9 @@ class EnrolmentSession {
       : slot_(memory.frames().first(memory.frames().size() / 2)),
         spare_slot_(memory.frames().subspan(memory.frames().size() / 2)),
         output_(memory.output()),
-        scratch_block_(memory.scratch()) {}
+        scratch_block_(memory.scratch()),
+        sides_(memory.sides()),
+        follow_block_(memory.follow()) {}
   ~EnrolmentSession() { close(); }
   EnrolmentSession(const EnrolmentSession&) = delete;
   EnrolmentSession& operator=(const EnrolmentSession&) = delete;
@@ -81,6 +84,11 @@ class EnrolmentSession {
   const StagePictures& stage_pictures() const { return stage_pictures_; }
   StereoSlot& spare_slot() { return spare_slot_; }  // of a burst, which keeps its best pair in one of the two
   Arena& output() { return output_; }
+  // Of a head that turns. Without memory for it (has_sides()) one pair makes a face.
+  bool has_sides() const { return !follow_block_.empty(); }
+  SidePairs& sides() { return sides_; }
+  // For the capture thread, while the worker has output() and the scratch: cut in two.
+  std::span<std::byte> follow_block() { return follow_block_; }
   // A scratch arena of one stage's own, so that its peak can be told; what it touched the session wipes.
   class Scratch {
    public:
@@ -109,6 +117,8 @@ class EnrolmentSession {
   std::array<std::size_t, kStages.size()> stage_begins_{};  // in output_
   std::span<std::byte> scratch_block_;
   std::size_t scratch_touched_ = 0;
+  SidePairs sides_;
+  std::span<std::byte> follow_block_;
   bool open_ = false;             // the main thread's, while jobs make and wipe the products
   Products* products_ = nullptr;  // at the front of output_
   std::array<char, budget::kSubjectNameBytes + 1> subject_{};

@@ -27,15 +27,32 @@ bool may_be_the_pictures(Errc code) {
          code == Errc::NotCalibrated;
 }
 
+Error uncalibrated() {
+  return {Errc::NotCalibrated,
+          "this device has no calibration yet: a technician has to calibrate its cameras"};
+}
+
 }  // namespace
+
+Result<pipeline::HeadPose> PipelineStages::measure_pose(const pipeline::StereoFrame& pair,
+                                                        pipeline::StageContext& context, Arena& kept) {
+  if (!pipeline_) return uncalibrated();
+  RELIEVO_TRY_ASSIGN(const auto head, pipeline::HeadPipeline::make(set_));
+  return head.measure(pair, pipeline_->calibration(), context, kept);
+}
+
+Result<pipeline::FusedHead> PipelineStages::fuse(const pipeline::FaceModel& face,
+                                                 std::span<pipeline::HeadPose> poses,
+                                                 pipeline::StageContext& context) {
+  RELIEVO_TRY_ASSIGN(const auto head, pipeline::HeadPipeline::make(set_));
+  return head.fuse(face, poses, context);
+}
 
 // A face that is not found, not matched or no face's shape may be the pictures' fault: then the cause is
 // told.
 Result<void> PipelineStages::run(State stage, Products& products, pipeline::StageContext& context,
                                  StageRecord& record) {
-  if (!pipeline_)
-    return Error{Errc::NotCalibrated,
-                 "this device has no calibration yet: a technician has to calibrate its cameras"};
+  if (!pipeline_) return uncalibrated();
   Result<void> done = run_stage_of(stage, products, context, record);
   // A surface that is there and has no face's relief needs no other cause.
   if (done || stage >= State::Texture || !may_be_the_pictures(done.error().code) || !products.frame)
@@ -62,6 +79,8 @@ Result<void> PipelineStages::run_stage_of(State stage, Products& products, pipel
     case State::Calibrate:
     case State::Position:
     case State::Capture:
+    case State::Turn:
+    case State::Fuse:
     case State::Review:
     case State::Store:
     case State::Export:

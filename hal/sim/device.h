@@ -30,6 +30,10 @@ struct SimDeviceOptions {
   int threads = 2;
 };
 
+// Turns the head of the simulated person from where it stands, about its neck; the pictures show it when they
+// are rendered, seconds later. Nothing where the device is another one, or holds a board. Thread: any.
+void turn_simulated_head(Device& device, double yaw_deg);
+
 // Renders at the first frame (seconds); later frames of the same scene only differ in noise.
 Result<std::unique_ptr<Device>> make_sim_device(const SimDeviceOptions& options);
 

@@ -42,6 +42,26 @@ class TestStages final : public StageRunner {
     if (stage == State::Assemble) products.model.emplace(&context.output);
     return {};
   }
+  std::deque<Errc> pose_errors;  // of the front and the sides, in their order
+  std::atomic<int> measured{0};
+  bool fuses = true;
+  Result<pipeline::HeadPose> measure_pose(const pipeline::StereoFrame&, pipeline::StageContext&,
+                                          Arena& kept) override {
+    ++measured;
+    if (!pose_errors.empty()) {
+      const Errc code = pose_errors.front();
+      pose_errors.pop_front();
+      if (code != Errc::Cancelled) return Error{code, "as the test says"};
+    }
+    return pipeline::HeadPose(&kept);
+  }
+  Result<pipeline::FusedHead> fuse(const pipeline::FaceModel&, std::span<pipeline::HeadPose> poses,
+                                   pipeline::StageContext& context) override {
+    if (!fuses) return Error{Errc::PoorGeometry, "as the test says"};
+    pipeline::FusedHead head{pipeline::FaceModel(&context.output), pipeline::Registration(&context.output)};
+    head.model.quality.width_mm = static_cast<double>(poses.size());
+    return head;
+  }
 };
 
 class ApplianceTest : public testing::Test {

@@ -56,6 +56,21 @@ class VisitTest : public testing::Test {
   Visit visit;
 };
 
+TEST_F(VisitTest, WhoTurnsTheHeadMaySayThatIsEnough) {
+  to_position();
+  act(ActionKind::TakePicture);
+  machine(Screen::Capture);
+  machine(Screen::Turn);
+  EXPECT_EQ(visit.step, Step::Turn);
+  EXPECT_EQ(pass(kPatience + kLastCall + std::chrono::seconds(1)), std::nullopt)
+      << "nobody touches the screen while the head turns";
+  EXPECT_EQ(act(ActionKind::EnoughSides), Intent::Enough);
+  machine(Screen::Fuse);
+  EXPECT_EQ(visit.step, Step::Working);
+  machine(Screen::Review);
+  EXPECT_EQ(visit.step, Step::Review);
+}
+
 TEST_F(VisitTest, NoCameraRunsBeforeConsentAndName) {
   EXPECT_EQ(visit.step, Step::Attract);
   EXPECT_EQ(act(ActionKind::Start), std::nullopt);

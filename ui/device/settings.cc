@@ -30,6 +30,7 @@ constexpr std::array<SettingInfo, kSettings> kInfos{{
     {Setting::PatienceS, "patience_s", kPatience, 45, true, true},
     {Setting::Automatic, "automatic_shot", kSwitch, 1, true, false},
     {Setting::CountdownMs, "countdown_ms", kCountdowns, 1500, true, false},
+    {Setting::Sides, "sides", kSwitch, 1, true, false},
     {Setting::Attempts, "attempts", kAttempts, 3, true, false},
     {Setting::StaffPatienceS, "staff_patience_s", kStaffPatience, 120, true, false},
     {Setting::TellsKnown, "tells_known", kSwitch, 1, false, true},

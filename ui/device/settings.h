@@ -21,6 +21,7 @@ enum class Setting : std::uint8_t {
   PatienceS,       // without a touch, until a visitor is asked whether they are there
   Automatic,       // the picture is taken by itself
   CountdownMs,     // before it is
+  Sides,           // after the frontal picture the head is turned and photographed from its sides
   Attempts,        // refused captures, until a person is asked to come again
   StaffPatienceS,  // without a touch, until staff are signed out
   TellsKnown,      // is a visitor told that their name is in the records already?

@@ -32,6 +32,7 @@ enum class ActionKind : std::uint8_t {
   Shift,
   Accents,  // value: a space types one, else the node's text
   TakePicture,
+  EnoughSides,
   Accept,
   Retake,
   TurnFace,  // dragged

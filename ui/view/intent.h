@@ -14,6 +14,7 @@ enum class Intent : std::uint8_t {
   LookUp,  // is there a record of the name, or of the code, that was typed? (Appliance::ask_records)
   Pose,    // stand before the cameras: the live picture begins (a person who has agreed, with a name)
   Begin,   // take the picture
+  Enough,  // no more sides of the head are taken
   Accept,
   Retake,
   Cancel,

@@ -16,6 +16,8 @@ std::string_view name_of(Screen screen) {
       return "Position";
     case Screen::Capture:
       return "Capture";
+    case Screen::Turn:
+      return "Turn";
     case Screen::Match:
       return "Match";
     case Screen::Reconstruct:
@@ -24,6 +26,8 @@ std::string_view name_of(Screen screen) {
       return "Mesh";
     case Screen::Texture:
       return "Texture";
+    case Screen::Fuse:
+      return "Fuse";
     case Screen::Review:
       return "Review";
     case Screen::Store:

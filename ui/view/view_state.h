@@ -9,6 +9,7 @@
 #include <array>
 #include <bitset>
 #include <cstdint>
+#include <optional>
 #include <string_view>
 
 #include "hal/clock.h"
@@ -30,10 +31,12 @@ enum class Screen : std::uint8_t {
   Calibrate,
   Position,
   Capture,
+  Turn,
   Match,
   Reconstruct,
   Mesh,
   Texture,
+  Fuse,
   Review,
   Store,
   Export,
@@ -71,6 +74,13 @@ enum class Known : std::uint8_t {
   NoSuchCode
 };
 
+// How a head stands that turns after the frontal picture. Directions are the picture's, not the mirror's.
+struct TurnView {
+  pipeline::TurnAdvice advice = pipeline::TurnAdvice::Lost;
+  float yaw_deg = 0;  // against the front, + to the picture's right
+  std::bitset<pipeline::kSides> taken;
+};
+
 // The newest picture of the left camera, made small, while a person finds their place.
 struct LiveView {
   ImageView picture;         // Rgb8; empty: none yet
@@ -79,6 +89,7 @@ struct LiveView {
   float face_x = 0, face_y = 0;  // its middle from the middle of where it should be, in widths of the face
   float ideal_width = 0;         // of a face at the best distance, share of the picture's width; 0: not known
   float steady_s = 0;            // so long everything has been right
+  std::optional<TurnView> turn;
 };
 
 // What a stage made, as a picture; kept while the session is open.

@@ -10,7 +10,7 @@ namespace {
 
 bool is_stage(Screen screen) {
   return screen == Screen::Capture || screen == Screen::Match || screen == Screen::Reconstruct ||
-         screen == Screen::Mesh || screen == Screen::Texture;
+         screen == Screen::Mesh || screen == Screen::Texture || screen == Screen::Fuse;
 }
 
 }  // namespace
@@ -91,6 +91,7 @@ std::optional<Intent> Visit::back(const ViewState& view) {
     case Step::Review:
       return Intent::Pose;
     case Step::Attract:
+    case Step::Turn:
     case Step::Working:
     case Step::Thanks:
     case Step::Trouble:
@@ -142,6 +143,7 @@ std::optional<Intent> Visit::act(Action action, const ViewState& view) {
     case ActionKind::Decline:
     case ActionKind::Done:
     case ActionKind::TakePicture:
+    case ActionKind::EnoughSides:
     case ActionKind::Accept:
     case ActionKind::Retake:
     case ActionKind::Finish:
@@ -208,6 +210,7 @@ std::optional<Intent> Visit::act_on_path(ActionKind kind, const ViewState& view)
     shot_ = true;
     return Intent::Begin;
   }
+  if (kind == ActionKind::EnoughSides) return Intent::Enough;
   if (kind == ActionKind::Accept) return Intent::Accept;
   if (kind == ActionKind::Retake) {
     look = {};
@@ -265,7 +268,8 @@ std::optional<Intent> Visit::follow(const ViewState& view) {
       go(Step::Position, view.now);
       last_touch_ = view.now;
       shot_ = false;
-    } else if (is_stage(view.screen) || view.screen == Screen::Store) go(Step::Working, view.now);
+    } else if (view.screen == Screen::Turn) go(Step::Turn, view.now);
+    else if (is_stage(view.screen) || view.screen == Screen::Store) go(Step::Working, view.now);
     else if (view.screen == Screen::Review) {
       go(Step::Review, view.now);
       last_touch_ = view.now;

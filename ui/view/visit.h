@@ -5,7 +5,7 @@
 // appliance knows nothing of them before Intent::Pose; what is typed lives here, in fixed memory, and
 // is wiped when they leave, are done, or nobody has touched the screen for kPatience.
 //
-//   Attract -> Consent -> Name (-> Known) -> Position -> Working -> Review -> Thanks -> Attract
+//   Attract -> Consent -> Name (-> Known) -> Position (-> Turn) -> Working -> Review -> Thanks -> Attract
 //      (from Position to Review the machine leads and the visit follows)
 //
 // Thread: main. Errors: none: what does not fit is not typed.
@@ -30,14 +30,16 @@ enum class Step : std::uint8_t {
   Name,
   Known,
   Position,
+  Turn,
   Working,
   Review,
   Thanks,
   Trouble,
   Starting
 };
-inline constexpr std::array<std::string_view, 10> kStepNames{
-    "Attract", "Consent", "Name", "Known", "Position", "Working", "Review", "Thanks", "Trouble", "Starting"};
+inline constexpr std::array<std::string_view, 11> kStepNames{"Attract",  "Consent", "Name",    "Known",
+                                                             "Position", "Turn",    "Working", "Review",
+                                                             "Thanks",   "Trouble", "Starting"};
 constexpr std::string_view name_of(Step step) { return kStepNames[static_cast<std::size_t>(step)]; }
 enum class Overlay : std::uint8_t { None, Help, Languages, Leave, StillThere };
 

@@ -25,6 +25,8 @@ class PairSource {
   };
   virtual ~PairSource() = default;
   virtual Result<Exposure> expose(Side side, std::uint32_t number) = 0;
+  // Only a simulated person can (hal/sim/device.h).
+  virtual void turn_head(double /*yaw_deg*/) {}
 };
 
 class ReplayCamera : public Camera {

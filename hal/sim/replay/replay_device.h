@@ -34,6 +34,7 @@ class ReplayDevice final : public Device {
   Clock& clock() override { return clock_; }
   Watchdog& watchdog() override { return watchdog_; }
   FolderMedia& folder_media() { return media_; }
+  PairSource& source() { return *source_; }
 
  private:
   std::string_view name_;

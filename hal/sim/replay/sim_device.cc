@@ -1,7 +1,11 @@
 // SPDX-FileCopyrightText: 2026 The Relievo authors
 // SPDX-License-Identifier: GPL-3.0-or-later
+#include <cmath>
+#include <condition_variable>
 #include <map>
 #include <mutex>
+#include <numbers>
+#include <thread>
 
 #include "hal/sim/device.h"
 #include "hal/sim/replay/replay_device.h"
@@ -9,8 +13,21 @@
 namespace relievo::hal {
 namespace {
 
+constexpr double kNeckMm = 95;  // about which a head turns, behind the middle of its face
+
+// The person turned the head.
+sim::HeadPose turned(sim::HeadPose pose, double yaw_deg) {
+  constexpr double kDegree = std::numbers::pi / 180;
+  const double before = pose.yaw_deg * kDegree, now = before + yaw_deg * kDegree;
+  pose.yaw_deg += yaw_deg;
+  pose.right_mm += kNeckMm * (std::sin(now) - std::sin(before));
+  pose.distance_mm += kNeckMm * (std::cos(before) - std::cos(now));
+  return pose;
+}
+
 // Exposes both views of a scene once; each further frame only rolls new noise over the same light. Of a
-// head a few rolls are made at the start and come by turns: a camera does not take a second for a picture.
+// head a few rolls are made at the start and come by turns: a camera does not take a second for a picture. A
+// head that turns is rendered beside the cameras, and kept.
 class RenderedSource final : public PairSource {
  public:
   RenderedSource(const SimDeviceOptions& options, std::vector<sim::BoardPose> poses)
@@ -18,30 +35,74 @@ class RenderedSource final : public PairSource {
         rig_(sim::make_rig(o_.rig)),
         pool_(options.threads),
         poses_(std::move(poses)) {
-    expose_both(
-        0);  // here, since a frame has a deadline, and a slow machine takes half a minute to make a head
-    if (!poses_.empty()) return;
-    rolls_.resize(2 * kRolls);
-    pool_.for_each_band(
-        static_cast<int>(rolls_.size()), static_cast<int>(rolls_.size()), [this](int begin, int end, int) {
-          for (int i = begin; i < end; ++i)
-            rolls_[static_cast<std::size_t>(i)] =
-                roll(i % 2 == 0 ? Side::Left : Side::Right, static_cast<std::uint32_t>(i / 2));
-        });
+    // Here, since a frame has a deadline, and a slow machine takes half a minute to make a head.
+    if (poses_.empty()) shown_ = &photograph(0);
+    else expose_both(0);
+  }
+  ~RenderedSource() override {
+    {
+      const std::lock_guard lock(mutex_);
+      leaving_ = true;
+    }
+    asked_.notify_one();
+    if (renderer_.joinable()) renderer_.join();
   }
 
   Result<Exposure> expose(Side side, std::uint32_t number) override {
-    if (poses_.empty())
-      return Exposure{rolls_[2 * (number % kRolls) + (side == Side::Left ? 0 : 1)],
-                      std::chrono::nanoseconds(0)};
     const std::lock_guard lock(mutex_);
+    if (poses_.empty())
+      return Exposure{(*shown_)[2 * (number % kRolls) + (side == Side::Left ? 0 : 1)],
+                      std::chrono::nanoseconds(0)};
     const std::size_t pose = (number - 1) % poses_.size();
     if (pose != pose_) expose_both(pose);
     return Exposure{roll(side, number), std::chrono::nanoseconds(0)};
   }
 
+  void turn_head(double yaw_deg) override {
+    if (!poses_.empty()) return;
+    {
+      const std::lock_guard lock(mutex_);
+      wanted_deg_ = yaw_deg;
+    }
+    asked_.notify_one();
+    if (!renderer_.joinable()) renderer_ = std::thread([this] { render_what_is_asked(); });
+  }
+
  private:
   static constexpr std::uint32_t kRolls = 2;
+  using Rolls = std::vector<Picture>;
+
+  void render_what_is_asked() {
+    double shown_deg = 0;
+    std::unique_lock lock(mutex_);
+    for (;;) {
+      asked_.wait(lock, [&] { return leaving_ || wanted_deg_ != shown_deg; });
+      if (leaving_) return;
+      const double yaw_deg = wanted_deg_;
+      lock.unlock();
+      const Rolls& made = photograph(yaw_deg);
+      lock.lock();
+      shown_ = &made;
+      shown_deg = yaw_deg;
+    }
+  }
+
+  // Only one thread makes them: first whoever makes the device, then the renderer.
+  const Rolls& photograph(double yaw_deg) {
+    Rolls& rolls = turned_[yaw_deg];
+    if (!rolls.empty()) return rolls;
+    if (!head_) head_ = sim::make_head(sim::traits_of(o_.seed), pool_);
+    expose_both(*sim::make_head_scene(head_, turned(o_.pose, yaw_deg), pool_));
+    Rolls made(2 * kRolls);
+    pool_.for_each_band(
+        static_cast<int>(made.size()), static_cast<int>(made.size()), [&](int begin, int end, int) {
+          for (int i = begin; i < end; ++i)
+            made[static_cast<std::size_t>(i)] =
+                roll(i % 2 == 0 ? Side::Left : Side::Right, static_cast<std::uint32_t>(i / 2));
+        });
+    rolls = std::move(made);
+    return rolls;
+  }
 
   Picture roll(Side side, std::uint32_t number) const {
     sim::SensorOptions sensor = o_.sensor;
@@ -52,13 +113,12 @@ class RenderedSource final : public PairSource {
   }
 
   void expose_both(std::size_t pose) {
-    std::unique_ptr<sim::Scene> scene;
-    if (o_.scene == sim::SceneKind::Board)
-      scene = std::make_unique<sim::BoardScene>(o_.board, poses_[pose], o_.board_look, 1 / rig_.left.fx_px);
-    else scene = sim::make_head_scene(sim::make_head(sim::traits_of(o_.seed), pool_), o_.pose, pool_);
-    left_ = sim::expose(*scene, rig_.left, o_.sensor, pool_);
-    right_ = sim::expose(*scene, rig_.right, o_.sensor, pool_);
+    expose_both(sim::BoardScene(o_.board, poses_[pose], o_.board_look, 1 / rig_.left.fx_px));
     pose_ = pose;
+  }
+  void expose_both(const sim::Scene& scene) {
+    left_ = sim::expose(scene, rig_.left, o_.sensor, pool_);
+    right_ = sim::expose(scene, rig_.right, o_.sensor, pool_);
   }
 
   sim::SimulationOptions o_;
@@ -67,11 +127,21 @@ class RenderedSource final : public PairSource {
   ThreadPool pool_;
   std::vector<sim::BoardPose> poses_;
   sim::LightPicture left_, right_;
-  std::vector<Picture> rolls_;
   std::size_t pose_ = 0;
+  std::shared_ptr<const sim::HeadModel> head_;
+  std::map<double, Rolls> turned_;  // by yaw
+  const Rolls* shown_ = nullptr;
+  std::thread renderer_;
+  std::condition_variable asked_;
+  double wanted_deg_ = 0;
+  bool leaving_ = false;
 };
 
 }  // namespace
+
+void turn_simulated_head(Device& device, double yaw_deg) {
+  if (auto* const played = dynamic_cast<ReplayDevice*>(&device)) played->source().turn_head(yaw_deg);
+}
 
 Result<std::unique_ptr<Device>> make_sim_device(const SimDeviceOptions& options) {
   const sim::SimulationOptions& o = options.simulation;

@@ -26,6 +26,9 @@ const char* help_for(const Page& page) {
     case Step::Position:
       return tr(
           "Stand about an arm's length away, so that your face fills the oval. Take off sunglasses and hat. When all is well the picture is taken by itself.");
+    case Step::Turn:
+      return tr(
+          "Pictures from the sides show your whole head. Turn it slowly and hold it level: each side is taken by itself. If you cannot or do not want to, touch the button below.");
     case Step::Working:
       return tr("Please wait a few seconds. To stop, touch the cross.");
     case Step::Review:

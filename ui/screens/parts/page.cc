@@ -28,6 +28,7 @@ int number_of(Step step) {
     case Step::Known:
       return 1;
     case Step::Position:
+    case Step::Turn:
       return 2;
     case Step::Working:
     case Step::Review:

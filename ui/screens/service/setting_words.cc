@@ -32,6 +32,8 @@ const char* name_of(const Words& tr, Setting setting) {
       return tr("The picture is taken by itself");
     case Setting::CountdownMs:
       return tr("Countdown before the picture");
+    case Setting::Sides:
+      return tr("Pictures of the sides of the head");
     case Setting::Attempts:
       return tr("Tries, if a picture is refused");
     case Setting::StaffPatienceS:
@@ -54,6 +56,7 @@ std::string_view said_value(StaffFrame& page, Setting setting, std::int32_t valu
       return info_of(static_cast<Language>(value)).own_name;
     case Setting::Contrast:
     case Setting::Automatic:
+    case Setting::Sides:
     case Setting::TellsKnown:
       return value != 0 ? page.tr("yes") : page.tr("no");
     case Setting::TextPercent:

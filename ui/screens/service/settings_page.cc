@@ -47,7 +47,8 @@ void settings_page(StaffFrame& page) {
   group(page, tr("How a visit begins"),
         std::array{Setting::Language, Setting::TextPercent, Setting::Contrast});
   group(page, tr("Waiting"), std::array{Setting::PatienceS, Setting::StaffPatienceS});
-  group(page, tr("Pictures"), std::array{Setting::Automatic, Setting::CountdownMs, Setting::Attempts});
+  group(page, tr("Pictures"),
+        std::array{Setting::Automatic, Setting::CountdownMs, Setting::Sides, Setting::Attempts});
   group(page, tr("Records"), std::array{Setting::TellsKnown, Setting::KeepDays, Setting::LeastRoomMib});
   if (page.staff.role == StaffRole::Operator && page.staff.settings->settings.is_on(Setting::KeepDays))
     page.line(tr(

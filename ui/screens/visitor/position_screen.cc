@@ -1,7 +1,8 @@
 // SPDX-FileCopyrightText: 2026 The Relievo authors
 // SPDX-License-Identifier: GPL-3.0-or-later
 //
-// The live picture as in a mirror, the oval, one advice at a time with a sign that says the same.
+// The live picture as in a mirror, the oval, one advice at a time with a sign that says the same: until the
+// person stands right, and while they turn their head.
 #include <algorithm>
 #include <cmath>
 
@@ -110,7 +111,8 @@ float room_above(const Page& page) {
   return page.portrait && last_time(page) != nullptr ? pill + 28 + 2 * type::kSmall * line : pill;
 }
 
-void oval(Page& page, bool good, std::optional<float> countdown) {
+// `share` of its line is bright.
+void oval(Page& page, bool good, float share) {
   Node room = page.box(Flow::Row);
   room.box.justify = Justify::Centre;
   room.box.align = Align::Centre;
@@ -133,12 +135,12 @@ void oval(Page& page, bool good, std::optional<float> countdown) {
   ring.box.fill = good ? page.palette.good : Colour{255, 255, 255, 255};
   ring.box.justify = Justify::Centre;
   ring.box.align = Align::Centre;
-  ring.share = countdown ? 1 - *countdown / page.visit.countdown_s() : 1.0F;
+  ring.share = share;
   page.tree.leaf(ring);
   page.tree.close();
 }
 
-void advice(Page& page, const Said& what, std::optional<float> countdown) {
+void advice(Page& page, const Said& what, std::optional<float> countdown = {}) {
   Node row = page.box(Flow::Row);
   row.box.justify = Justify::Centre;
   page.tree.open(row);
@@ -173,7 +175,109 @@ void advice(Page& page, const Said& what, std::optional<float> countdown) {
   page.tree.close();
 }
 
+Said said_of_turn(const Page& page) {
+  using pipeline::TurnAdvice;
+  const auto& tr = page.tr;
+  // In the mirror the picture's left is on the right.
+  const char* const on = tr("Turn your head slowly this way");
+  switch (page.view.live.turn ? page.view.live.turn->advice : TurnAdvice::Hold) {
+    case TurnAdvice::ToLeft:
+      return {on, icon::kNext};
+    case TurnAdvice::ToRight:
+      return {on, icon::kBack};
+    case TurnAdvice::Level:
+      return {tr("Please hold your head level"), icon::kPerson};
+    case TurnAdvice::Slower:
+      return {tr("A little slower, please"), icon::kStill};
+    case TurnAdvice::Hold:
+    case TurnAdvice::Done:
+      return {tr("Please hold still"), icon::kGood, true};
+    case TurnAdvice::Lost:
+      break;
+  }
+  return {tr("Look into the oval"), icon::kPerson};
+}
+
+// A stop for each side, as the mirror shows them, with a tick where it is taken; between them where the head
+// is.
+void sides(Page& page) {
+  const auto& turn = page.view.live.turn;
+  constexpr float kFurthestDeg = 62, kStopDp = 46, kMarkerDp = 22;
+  const auto pinned = [&](float deg, float across_dp) {
+    Node disc = page.sized(page.box(Flow::Column), across_dp, across_dp);
+    disc.pinned = true;
+    disc.pin_x = 0.5F - deg / (2 * kFurthestDeg);
+    disc.pin_y = 0.5F;
+    disc.box.radius = page.px(across_dp / 2);
+    disc.box.justify = Justify::Centre;
+    disc.box.align = Align::Centre;
+    return disc;
+  };
+  constexpr float kHighDp = kStopDp + 18;
+  Node rail = page.grown(page.box(Flow::Stack));
+  rail.box.max_width = page.px(620);
+  rail.box.height = page.px(kHighDp);
+  rail.id = "sides";
+  rail.role = Role::Status;
+  rail.name = page.tr("How far you are");
+  rail.box.fill = {8, 14, 26, 200};
+  rail.box.radius = page.px(kHighDp / 2);
+  rail.box.left_to_right = true;
+  page.tree.open(rail);
+  for (std::size_t i = 0; i < pipeline::kSides; ++i) {
+    const bool taken = turn && turn->taken[i];
+    Node stop = pinned(static_cast<float>(pipeline::kSidesDeg[i]), kStopDp);
+    stop.box.fill = taken ? page.palette.good : Colour{255, 255, 255, 40};
+    stop.box.border = taken ? page.palette.good : Colour{255, 255, 255, 200};
+    stop.box.border_px = page.px(2.5F);
+    page.tree.open(stop);
+    if (taken) page.sign(icon::kGood, 30, {8, 14, 26, 255});
+    page.tree.close();
+  }
+  if (turn && turn->advice != pipeline::TurnAdvice::Lost) {
+    Node marker = pinned(std::clamp(turn->yaw_deg, 2 - kFurthestDeg, kFurthestDeg - 2), kMarkerDp);
+    marker.id = "turned";
+    marker.box.fill = {255, 255, 255, 255};
+    page.tree.leaf(marker);
+  }
+  page.tree.close();
+}
+
 }  // namespace
+
+void turn_screen(Page& page) {
+  const Said what = said_of_turn(page);
+  const std::size_t taken = page.view.live.turn ? page.view.live.turn->taken.count() : 0;
+  Node root = page.box(Flow::Stack);
+  root.id = "page";
+  root.box.fill = page.palette.ground;
+  page.tree.open(root);
+  picture(page);
+  oval(page, what.good, static_cast<float>(taken) / pipeline::kSides);
+  page.tree.open(page.box(Flow::Column, space::kS, 40, kEdge));
+  advice(page, what);
+  page.space(1);
+  if (page.portrait) {
+    Node row = page.box(Flow::Row);
+    row.box.justify = Justify::Centre;
+    page.tree.open(row);
+    sides(page);
+    page.tree.close();
+  }
+  Node foot = page.box(Flow::Row, space::kS);
+  foot.box.align = Align::Centre;
+  foot.box.justify = Justify::Centre;
+  page.tree.open(foot);
+  page.square_button("help", page.tr("Help"), icon::kHelp, {ActionKind::ShowHelp, 0});
+  page.square_button("leave", page.tr("Stop and leave"), icon::kClose, {ActionKind::Leave, 0});
+  if (page.portrait) page.space(1);
+  else sides(page);
+  page.button("enough", page.tr(taken == 0 ? "I cannot turn my head" : "That is enough"), icon::kGood,
+              ButtonLook::Main, {ActionKind::EnoughSides, 0});
+  page.tree.close();
+  page.tree.close();
+  page.tree.close();
+}
 
 void position_screen(Page& page) {
   const Said what = said(page);
@@ -183,7 +287,7 @@ void position_screen(Page& page) {
   root.box.fill = page.palette.ground;
   page.tree.open(root);
   picture(page);
-  oval(page, what.good, countdown);
+  oval(page, what.good, countdown ? 1 - *countdown / page.visit.countdown_s() : 1.0F);
   page.tree.open(page.box(Flow::Column, space::kS, 40, kEdge));
   advice(page, what, countdown);
   if (const char* again = last_time(page); again != nullptr && !what.good) {

@@ -8,7 +8,8 @@ namespace relievo::ui {
 namespace {
 
 bool is_dark(Step step) {
-  return step == Step::Attract || step == Step::Position || step == Step::Trouble || step == Step::Starting;
+  return step == Step::Attract || step == Step::Position || step == Step::Turn || step == Step::Trouble ||
+         step == Step::Starting;
 }
 
 const Palette& palette_of(const Visit& visit) {
@@ -27,6 +28,8 @@ void step_screen(Page& page) {
       return known_screen(page);
     case Step::Position:
       return position_screen(page);
+    case Step::Turn:
+      return turn_screen(page);
     case Step::Working:
       return working_screen(page);
     case Step::Review:

@@ -22,6 +22,7 @@ void consent_screen(Page& page);
 void name_screen(Page& page);
 void known_screen(Page& page);
 void position_screen(Page& page);
+void turn_screen(Page& page);
 void working_screen(Page& page);
 void review_screen(Page& page);
 void thanks_screen(Page& page);

@@ -17,6 +17,7 @@ int stage_under_way(Screen screen) {
       return 2;
     case Screen::Texture:
       return 3;
+    case Screen::Fuse:
     case Screen::Review:
     case Screen::Store:
       return 4;
@@ -25,6 +26,7 @@ int stage_under_way(Screen screen) {
     case Screen::Calibrate:
     case Screen::Position:
     case Screen::Capture:
+    case Screen::Turn:
     case Screen::Export:
     case Screen::Staff:
     case Screen::Fault:
@@ -92,7 +94,10 @@ void card(Page& page, int stage, const char* words) {
 
 void progress(Page& page) {
   const int now = stage_under_way(page.view.screen);
-  const float done = now < 0 ? 0 : now >= 4 ? 1 : (static_cast<float>(now) + page.view.progress) / 4;
+  const float done = now < 0                            ? 0
+                     : page.view.screen == Screen::Fuse ? page.view.progress
+                     : now >= 4                         ? 1
+                                                        : (static_cast<float>(now) + page.view.progress) / 4;
   Node track = page.box(Flow::Row);
   track.id = "progress";
   track.role = Role::Status;

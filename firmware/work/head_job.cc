@@ -1,0 +1,80 @@
+// SPDX-FileCopyrightText: 2026 The Relievo authors
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "firmware/work/head_job.h"
+
+#include <utility>
+
+namespace relievo::firmware {
+namespace {
+
+constexpr float kSteps = kStages.size() + SidePairs::kPoses + 2;  // fusing takes as long as two
+
+void step(JobControl& control, std::size_t done) {
+  control.progress.done.store(static_cast<float>(done) / kSteps, std::memory_order_relaxed);
+}
+
+}  // namespace
+
+Result<void> HeadJob::run(JobControl& control) {
+  records_.clear();
+  stages_done_ = 0;
+  for (const State stage : kStages) {
+    JobControl inner{control.cancelled, inner_};
+    stage_.choose(stage);
+    RELIEVO_TRY(stage_.run(inner));
+    records_.push_back(stage_.record());
+    step(control, records_.size());
+    stages_done_.store(records_.size(), std::memory_order_release);
+  }
+  std::vector<pipeline::HeadPose> poses;
+  poses.reserve(SidePairs::kPoses);
+  while (const auto side = session_.sides().next(control.cancelled)) {
+    // What is wrong with a pair here spoils no face.
+    if (poses.empty() && !measure(*session_.products().frame, control, poses)) continue;
+    (void)measure(*side, control, poses);
+    step(control, records_.size());
+  }
+  if (poses.size() > 1) (void)fuse(control, poses);
+  if (control.cancelled.load()) return Error{Errc::Cancelled, "stopped while the head was made"};
+  return {};
+}
+
+template <typename Work>
+auto HeadJob::timed(std::string_view name, JobControl& control, Work&& work) {
+  EnrolmentSession::Scratch scratch(session_);
+  pipeline::StageContext context{session_.output(), scratch.arena(), pool_, inner_, control.cancelled};
+  StageRecord record;
+  record.name = name;
+  const hal::Instant begin = clock_.now();
+  auto done = pipeline::run_stage(context, [&](pipeline::StageContext& c) { return work(c, record); });
+  record.took = clock_.now() - begin;
+  record.arena_peak_bytes = session_.output().used() + scratch.arena().high_water();
+  if (done) records_.push_back(record);
+  return done;
+}
+
+Result<void> HeadJob::measure(const pipeline::StereoFrame& pair, JobControl& control,
+                              std::vector<pipeline::HeadPose>& poses) {
+  Arena& kept = session_.sides().kept(poses.size());
+  kept.reset();  // of a pose that came to nothing
+  return timed("Pose", control, [&](pipeline::StageContext& context, StageRecord& record) -> Result<void> {
+    const Arena::Mark mark(session_.output());
+    RELIEVO_TRY_ASSIGN(pipeline::HeadPose pose, runner_.measure_pose(pair, context, kept));
+    if (pose.drift.verdict == pipeline::DriftVerdict::Refuse) return error_of(pose.drift);
+    poses.push_back(std::move(pose));
+    record.in = poses.size();
+    return {};
+  });
+}
+
+Result<void> HeadJob::fuse(JobControl& control, std::vector<pipeline::HeadPose>& poses) {
+  return timed("Fuse", control, [&](pipeline::StageContext& context, StageRecord& record) -> Result<void> {
+    record.in = poses.size();
+    RELIEVO_TRY_ASSIGN(pipeline::FusedHead head, runner_.fuse(*session_.products().model, poses, context));
+    record.out = head.model.mesh.triangles.size();
+    session_.products().model = std::move(head.model);
+    return {};
+  });
+}
+
+}  // namespace relievo::firmware

@@ -1,0 +1,126 @@
+// SPDX-FileCopyrightText: 2026 The Relievo authors
+// SPDX-License-Identifier: GPL-3.0-or-later
+//
+// A visitor of the simulated rig who turns the head after the frontal picture, does not, or leaves.
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <set>
+#include <string>
+
+#include "hal/monotonic_clock.h"
+#include "hal/sim/device.h"
+#include "pipeline/calibrate/file/calibration_file.h"
+#include "storage/sqlite/sqlite_store.h"
+#include "tests/firmware/kiosk/kiosk_hands.h"
+#include "tests/support/small_rig.h"
+#include "tests/support/temporary_folder.h"
+
+namespace relievo::firmware {
+namespace {
+
+const hal::sim::RigOptions kRig = test::small_rig(0.5);
+
+class KioskTurn : public KioskHands {
+ protected:
+  KioskTurn() {
+    EXPECT_TRUE(ui::prepare_languages().has_value());
+    args.store = folder.path() / "store";
+    services.open_device = [](std::string_view) {
+      hal::SimDeviceOptions options;
+      options.simulation.rig = kRig;
+      options.simulation.seed = 4;
+      return hal::make_sim_device(options);
+    };
+    services.open_store = [this](const Path& at, bool) { return storage::open_sqlite_store(at, clock, {}); };
+    services.simulated_calibration = [this]() -> Result<pipeline::StereoCalibration> {
+      const Path file = folder.path() / "rig.yml";
+      RELIEVO_TRY(hal::sim::write_rig(file, hal::sim::make_rig(kRig)));
+      return pipeline::read_calibration(file);
+    };
+    services.turn_head = [this](hal::Device& device, double yaw_deg) {
+      if (turns) hal::turn_simulated_head(device, yaw_deg);
+      asked.insert(yaw_deg);
+    };
+    auto opened = Kiosk::open(args, services);
+    EXPECT_TRUE(opened.has_value()) << opened.error().what.view();
+    kiosk = std::move(*opened);
+    kiosk->ui().resize(1280, 800);
+  }
+  void to_turn() {
+    const auto played =
+        play("wait attract\ntap start\ntap agree\ntype Ada\ntap done\nwait position\nwait turn 600\n");
+    ASSERT_TRUE(played) << played.error().where();
+  }
+  // Which pairs measured the head that is shown; empty: it is a face of one pair.
+  std::set<int> poses() const {
+    const auto& pose = kiosk->view().model->mesh.pose;
+    return {pose.begin(), pose.end()};
+  }
+
+  test::TemporaryFolder folder;
+  hal::MonotonicClock clock;
+  Console console;
+  Services services{.console = console, .clock = clock};
+  KioskArgs args;
+  bool turns = true;
+  std::set<double> asked;
+};
+
+TEST_F(KioskTurn, WhoTurnsTheHeadSeesAllOfIt) {
+  to_turn();
+  EXPECT_TRUE(says("I cannot turn my head"));
+  std::string told;  // what the page said, where it changed
+  ASSERT_TRUE(until([&] {
+    if (const auto& turn = kiosk->view().live.turn) {
+      const std::string now = std::to_string(static_cast<int>(turn->advice)) + "@" +
+                              std::to_string(std::lround(turn->yaw_deg)) + "/" +
+                              std::to_string(turn->taken.count()) + " ";
+      if (!told.ends_with(now)) told += now;
+    }
+    return kiosk->ui().visit().step == ui::Step::Review;
+  }));
+  kiosk->turn();
+  ASSERT_NE(kiosk->view().model, nullptr);
+  std::string made;
+  for (const StageRecord& record : kiosk->appliance().records()) made += std::string(record.name) + " ";
+  EXPECT_EQ(made, "Match Reconstruct Mesh Texture Assemble Pose Pose Pose Pose Pose Fuse ") << told;
+  EXPECT_EQ(poses(), (std::set<int>{0, 1, 2, 3, 4}));
+  EXPECT_EQ(asked, (std::set<double>{-45, -25, 0, 25, 45}));
+  EXPECT_GT(kiosk->view().model->quality.measured_area_mm2, 45'000) << "more than any face";
+  tap("accept");
+  ASSERT_TRUE(reach(ui::Step::Thanks));
+  EXPECT_EQ((*storage::open_sqlite_store(args.store, clock, {.mode = storage::OpenMode::ReadOnly}))
+                ->subjects({})
+                ->size(),
+            1U);
+}
+
+TEST_F(KioskTurn, WhoCannotHasTheFaceOfOnePicture) {
+  turns = false;
+  to_turn();
+  tap("enough");
+  const auto reviewed = play("wait review 600\n");
+  ASSERT_TRUE(reviewed) << reviewed.error().where();
+  kiosk->turn();
+  ASSERT_NE(kiosk->view().model, nullptr);
+  EXPECT_TRUE(poses().empty());
+  for (const ui::StageView& stage : kiosk->view().stages) EXPECT_FALSE(stage.picture.empty());
+}
+
+TEST_F(KioskTurn, WhoLeavesLeavesNothing) {
+  turns = false;
+  to_turn();
+  ASSERT_TRUE(until([this] { return kiosk->view().live.turn.has_value(); }));
+  tap("help");
+  EXPECT_TRUE(says("Pictures from the sides"));
+  tap("close");
+  tap("leave");
+  tap("answer_quiet");
+  ASSERT_TRUE(reach(ui::Step::Attract));
+  EXPECT_EQ(kiosk->appliance().state(), State::Idle);
+  EXPECT_FALSE(kiosk->appliance().session().is_open());
+}
+
+}  // namespace
+}  // namespace relievo::firmware
