@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "hal/base/statistics.h"
 #include "pipeline/mesh/completion/fitted_head.h"
 #include "pipeline/mesh/landmarks/face_profile.h"
 #include "pipeline/mesh/landmarks/head_frame.h"
@@ -20,7 +21,8 @@ constexpr int kEvery = 3;  // nodes of the lattice a node of the rough surface t
 constexpr float kRoomMm = 25;  // on the chart, around what was measured
 constexpr float kReachMm =
     35;  // so far from what either side shows, at most, a face is continued to its outline
-constexpr float kSeamMm = 6;  // between what one side and what the generic head say
+constexpr float kSeamMm = 6;      // between what one side and what the generic head say
+constexpr float kNoseSeamMm = 1;  // the same below the tip of the nose; less shows the step between both
 constexpr double kHeadCellMm = 2, kHeadMisfitMm = 1.5;
 constexpr double kAboveJawMm = -35;  // from the tip of the nose: jaws differ too much
 constexpr float kUnsureMm = 8;       // of the outline, where that is only known about
@@ -28,9 +30,16 @@ constexpr float kRimMm = 2;          // so near to a hole ...
 constexpr float kCrumbMm = 1;        // half the width of the narrowest strip that stays
 constexpr float kSteepRim =
     1.5F;                         // ... surface steeper than this tangent was measured worst and is laid anew
+constexpr double kUnsure = 6;     // times the usual sigma: below the tip of a nose that is no skin
 constexpr double kStepCells = 8;  // of radius between neighbours, in widths of a cell: more is no slope
 constexpr double kChinBelowPogonion = 22;
 constexpr double kShortest = 70, kLongest = 110;  // of what lies below the tip of a nose
+
+// Nostrils, wings and what is between them and the lip: both sides hide there what the other would tell.
+bool below_nose(const PointLattice& l, const Vec3f& p) {
+  const Vec3d at = l.chart->in_head(p);
+  return std::abs(at.x) < 25 && at.y < 2 && at.y > -22;
+}
 
 // The measured surface, thinned out.
 FaceMesh rough_surface(const PointLattice& l, const LatticeSurface& surface, Arena& scratch) {
@@ -94,7 +103,8 @@ std::pmr::vector<double> mirrored(const PointLattice& l, const LatticeSurface& s
 }
 
 // Where neither side shows anything, the head that fits what was measured says how skin goes on. Not right
-// beside what the other side shows: between both nothing is known of how they meet.
+// beside what the other side shows: between both nothing is known of how they meet. Under a nose all is
+// beside that, and what a nose looks like is better than a lid from its tip to the lip.
 void add_generic_head(const FaceMesh& rough, const RigidTransform& head_from_camera, const PointLattice& l,
                       std::span<double> like, MaskShaper& shaper, Arena& scratch) {
   const UnrolledHead head(rough, head_from_camera, kHeadCellMm, scratch);
@@ -129,15 +139,20 @@ void add_generic_head(const FaceMesh& rough, const RigidTransform& head_from_cam
     }
   CellMask shown(l.size(), 0, &scratch);
   for (std::size_t k = 0; k < l.size(); ++k) shown[k] = like[k] > 0;
+  CellMask under_nose(shown, &scratch);
   shaper.dilate(shown, kSeamMm);
-  for (std::size_t k = 0; k < l.size(); ++k)
-    if (!shown[k]) like[k] = static_cast<double>(radius[k]);
+  shaper.dilate(under_nose, kNoseSeamMm);
+  for (std::size_t k = 0; k < l.size(); ++k) {
+    const auto at = static_cast<double>(radius[k]);
+    if (!(below_nose(l, l.on_ray(k, at)) ? under_nose : shown)[k]) like[k] = at;
+  }
 }
 
 // Before a gap the last rows of a nose's back, or of a cheek, are what the matcher's window mixed with what
-// lies behind: they would bend what is laid over the gap. So would crumbs in it.
-void drop_steep_rims(const PointLattice& l, LatticeSurface& surface, const Vec3f& from_mm, MaskShaper& shaper,
-                     Arena& scratch) {
+// lies behind: they would bend what is laid over the gap. So would crumbs in it, and the flaps that a matcher
+// leads into nostrils.
+void drop_poor_rims(const PointLattice& l, LatticeSurface& surface, const Vec3f& from_mm, MaskShaper& shaper,
+                    Arena& scratch) {
   CellMask kept(l.size(), 0, &scratch), near(l.size(), 0, &scratch);
   for (std::size_t k = 0; k < l.size(); ++k) {
     kept[k] = triangle_count(surface.cells[k]) == 2;
@@ -145,7 +160,17 @@ void drop_steep_rims(const PointLattice& l, LatticeSurface& surface, const Vec3f
   }
   shaper.dilate(near, kRimMm);
   const CellMask steep = steep_cells(l, surface, kSteepRim, from_mm, &scratch);
-  for (std::size_t k = 0; k < l.size(); ++k) kept[k] = kept[k] && !(near[k] && steep[k]);
+  std::pmr::vector<float> sigma(&scratch);
+  sigma.reserve(l.size());
+  for (std::size_t k = 0; k < l.size(); ++k)
+    if (kept[k]) sigma.push_back(l.sigma_mm[k]);
+  const double most = sigma.empty() ? 0 : kUnsure * median(sigma);
+  const auto w = static_cast<std::size_t>(l.columns);
+  const auto unsure = [&](std::size_t k) {
+    const auto worst = std::max({l.sigma_mm[k], l.sigma_mm[k + 1], l.sigma_mm[k + w], l.sigma_mm[k + w + 1]});
+    return static_cast<double>(worst) > most && below_nose(l, l.at_mm[k]);
+  };
+  for (std::size_t k = 0; k < l.size(); ++k) kept[k] = kept[k] && !(near[k] && steep[k]) && !unsure(k);
   shaper.open(kept, kCrumbMm);
   shaper.keep_largest_piece(kept);
   for (std::size_t k = 0; k < l.size(); ++k)
@@ -217,7 +242,7 @@ Result<std::optional<ClosedFace>> close_face(const PointLattice& seen, const Lat
   const Vec3d& centre = outline.chart.centre_mm;
   const Vec3f from{between_cameras(right_camera_mm.x, centre.x), between_cameras(right_camera_mm.y, centre.y),
                    between_cameras(right_camera_mm.z, centre.z)};
-  drop_steep_rims(l, surface, from, shaper, scratch);
+  drop_poor_rims(l, surface, from, shaper, scratch);
   auto mirror = mirrored(l, surface, scratch);
   add_generic_head(rough, head->head_from_camera, l, mirror, shaper, scratch);
   drop_beyond(l, surface, outline);

@@ -31,6 +31,8 @@ hal::sim::HeadPose turned(double yaw_deg, double pitch_deg) {
   return pose;
 }
 
+constexpr double kFacing = 8;  // turned so, a head faces the place between the cameras
+
 FaceMesh closed_face(const test::FieldHead& head, const hal::sim::HeadPose& pose, StageRoom& room) {
   const PointCloud cloud = head.cloud_of_two(pose, room.pool);
   auto mesh = room.run([&](StageContext& c) { return GridMesher({}).mesh(cloud, c); });
@@ -63,6 +65,31 @@ TEST(FaceCloser, LeavesNoHoleAndMovesNothingThatWasMeasured) {
   }
 }
 
+// In dark nostrils a matcher leads flaps from rim to rim, and says that it is unsure: they are laid anew.
+TEST(FaceCloser, LaysFlapsBelowANoseAnew) {
+  const test::FieldHead head(1);
+  const hal::sim::HeadPose pose = turned(kFacing, 0);
+  StageRoom room;
+  PointCloud cloud = head.cloud_of_two(pose, room.pool);
+  const auto from_tip = [&](const Vec3f& v) {
+    const hal::sim::Vec3 at{static_cast<double>(v.x), static_cast<double>(v.y), static_cast<double>(v.z)};
+    return pose.world_from_head().transposed() * (at - pose.origin_mm()) - head.field().nose.tip();
+  };
+  for (CloudPoint& p : cloud.points) {
+    const hal::sim::Vec3 at = from_tip(p.at_mm);
+    if (std::abs(at.x) > 9 || at.y > -8 || at.y < -17) continue;
+    for (float Vec3f::*const axis : {&Vec3f::x, &Vec3f::y, &Vec3f::z}) p.at_mm.*axis *= 0.994F;
+    p.sigma_mm *= 10;
+  }
+  auto mesh = room.run([&](StageContext& c) { return GridMesher({}).mesh(cloud, c); });
+  ASSERT_TRUE(mesh);
+  std::vector<double> off;
+  for (const Vec3f& v : mesh->vertices_mm)
+    if (const hal::sim::Vec3 at = from_tip(v); std::abs(at.x) < 9 && at.y < -4 && at.y > -17)
+      off.push_back(off_the_head(head, pose, v));
+  EXPECT_LT(percentile(off, 0.5), 0.5);
+}
+
 // The border, in the true head's frame.
 std::vector<Vec3d> outline(const FaceMesh& mesh, const hal::sim::HeadPose& pose) {
   std::map<std::pair<std::uint32_t, std::uint32_t>, int> triangles_of;
@@ -90,8 +117,6 @@ double rms_between(const std::vector<Vec3d>& from, const std::vector<Vec3d>& to)
   }
   return std::sqrt(sum / static_cast<double>(from.size()));
 }
-
-constexpr double kFacing = 8;  // turned so, a head faces the place between the cameras
 
 TEST(FaceCloser, CutsTheSameOutlineHoweverTheHeadIsTurned) {
   constexpr std::array kSeeds{1U, 2U, 3U};
