@@ -12,7 +12,7 @@
 #include <vector>
 
 #include "hal/monotonic_clock.h"
-#include "hal/sim/replay/manual_clock.h"
+#include "tests/support/manual_clock.h"
 
 namespace relievo::hal {
 namespace {

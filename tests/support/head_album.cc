@@ -10,10 +10,10 @@
 #include <numbers>
 
 #include "hal/sim/base/noise.h"
-#include "hal/sim/head/head_landmarks.h"
 #include "hal/sim/head/shape/head_traits.h"
 #include "hal/sim/target/artefact_scene.h"
 #include "pipeline/gate/head/mirror_plane.h"
+#include "tests/support/head_landmarks.h"
 #include "tests/support/rig_calibration.h"
 
 namespace relievo::test {

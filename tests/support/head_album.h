@@ -14,11 +14,11 @@
 #include <vector>
 
 #include "hal/base/thread_pool.h"
-#include "hal/sim/head/glasses_scene.h"
 #include "hal/sim/head/head_scene.h"
 #include "hal/sim/render.h"
 #include "pipeline/model/calibration.h"
 #include "pipeline/model/relief.h"
+#include "tests/support/glasses_scene.h"
 
 namespace relievo::test {
 

@@ -68,10 +68,6 @@ Vec3d mean_of_first(std::span<Vec3d> middle, Before&& before) {
 
 }  // namespace
 
-Vec3d nearest_tip(std::span<Vec3d> middle) {
-  return mean_of_first(middle, [](const Vec3d& a, const Vec3d& b) { return a.z < b.z; });
-}
-
 Vec3d outstanding_tip(std::span<Vec3d> middle) { return outstanding_tip(middle, middle.size()); }
 
 Vec3d outstanding_tip(std::span<Vec3d> middle, std::size_t candidates) {

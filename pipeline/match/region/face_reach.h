@@ -17,14 +17,10 @@ namespace relievo::pipeline {
 // Where, in shares of the face's width around its middle, every nose is: 38 mm on a grown-up.
 inline constexpr double kNoseReach = 0.25;
 
-// The mean of the nearest hundredth of points of the middle of the face, for a single stray point is none:
-// the tip of the nose, unless the head is bowed by 10 degrees or more, when the forehead is nearer. Any frame
-// whose z leads away from the cameras; reorders the points, of which there must be 10 or more.
-Vec3d nearest_tip(std::span<Vec3d> middle);
-
-// The tip of the nose of a head turned or bowed by 25 degrees and more: the mean of the hundredth of points
-// that stands out furthest towards the cameras from the plane that the rest of them lies about. As
-// nearest_tip() else.
+// The tip of the nose, however the head is turned or bowed: the mean of the hundredth of points (for a single
+// stray point is none) that stands out furthest towards the cameras from the plane that the rest of them lies
+// about. Any frame whose z leads away from the cameras; reorders the points, of which there must be 10 or
+// more.
 Vec3d outstanding_tip(std::span<Vec3d> middle);
 // The same where only the first `candidates` of the points, 10 or more, can be the tip.
 Vec3d outstanding_tip(std::span<Vec3d> middle, std::size_t candidates);

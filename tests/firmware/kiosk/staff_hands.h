@@ -18,12 +18,12 @@
 #include "hal/monotonic_clock.h"
 #include "hal/picture_file.h"
 #include "hal/sim/device.h"
-#include "hal/sim/replay/manual_clock.h"
 #include "hal/sim/replay/replay_device.h"
 #include "pipeline/calibrate/file/calibration_file.h"
 #include "storage/sqlite/sqlite_store.h"
 #include "tests/firmware/kiosk/kiosk_hands.h"
 #include "tests/storage/sample.h"
+#include "tests/support/manual_clock.h"
 #include "tests/support/small_rig.h"
 #include "tests/support/temporary_folder.h"
 

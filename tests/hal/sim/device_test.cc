@@ -9,10 +9,10 @@
 
 #include "hal/recording/capture_file.h"
 #include "hal/sim/replay/folder_media.h"
-#include "hal/sim/replay/manual_clock.h"
 #include "hal/sim/replay/picture_pairs.h"
 #include "hal/sim/replay/silent_trigger.h"
 #include "tests/hal/temporary_folder.h"
+#include "tests/support/manual_clock.h"
 
 namespace relievo::hal {
 namespace {

@@ -8,8 +8,8 @@
 #include <map>
 #include <vector>
 
-#include "hal/sim/replay/manual_clock.h"
 #include "tests/hal/temporary_folder.h"
+#include "tests/support/manual_clock.h"
 
 namespace relievo::hal {
 namespace {

@@ -4,8 +4,8 @@
 
 #include <gtest/gtest.h>
 
-#include "hal/sim/head/glasses_scene.h"
 #include "hal/sim/head/shape/head_field.h"
+#include "tests/support/glasses_scene.h"
 
 namespace relievo::hal::sim {
 namespace {

@@ -10,10 +10,10 @@
 #include <random>
 
 #include "hal/base/thread_pool.h"
-#include "hal/sim/head/head_landmarks.h"
 #include "hal/sim/head/head_scene.h"
 #include "pipeline/model/geometry.h"
 #include "pipeline/model/point_cloud.h"
+#include "tests/support/head_landmarks.h"
 
 namespace relievo::pipeline::test {
 

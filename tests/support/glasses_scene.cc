@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: 2026 The Relievo authors
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include "hal/sim/head/glasses_scene.h"
+#include "tests/support/glasses_scene.h"
 
 #include "hal/sim/head/head_model.h"
 

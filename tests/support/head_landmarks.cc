@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: 2026 The Relievo authors
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include "hal/sim/head/head_landmarks.h"
+#include "tests/support/head_landmarks.h"
 
 namespace relievo::hal::sim {
 namespace {

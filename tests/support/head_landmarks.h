@@ -1,8 +1,8 @@
 // SPDX-FileCopyrightText: 2026 The Relievo authors
 // SPDX-License-Identifier: GPL-3.0-or-later
 //
-// Where a simulated head's named points are, by its own construction. For tests and benchmarks
-// only. Names as Farkas (1994) has them; nasion is sellion, the profile's deepest point. Millimetres, head
+// Where a simulated head's named points are, by its own construction.
+// Names as Farkas (1994) has them; nasion is sellion, the profile's deepest point. Millimetres, head
 // frame (head_traits.h). Thread: any.
 #pragma once
 
