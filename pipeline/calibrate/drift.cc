@@ -8,6 +8,7 @@
 #include <Eigen/Dense>
 
 #include "hal/base/words.h"
+#include "pipeline/base/solving.h"
 
 namespace relievo::pipeline {
 namespace {
@@ -22,7 +23,7 @@ double statistic_of(const EpipolarShift& shift, double expected_px) {
   moments(1, 2) = moments(2, 1) = shift.correlation;
   const double unmoved = expected_px * expected_px + kSkinShiftPx * kSkinShiftPx;
   const Eigen::Matrix3d usual = covariance + unmoved * moments.inverse();
-  return field.dot(usual.ldlt().solve(field));
+  return field.dot(solved<3>(usual, field));
 }
 
 DriftVerdict verdict_of(const DriftJudgement& judgement) {

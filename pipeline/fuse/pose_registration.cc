@@ -10,6 +10,7 @@
 #include <string>
 
 #include "hal/base/statistics.h"
+#include "pipeline/base/solving.h"
 #include "pipeline/model/vector3.h"
 
 namespace relievo::pipeline {
@@ -199,7 +200,7 @@ class Solver {
           }
         });
         if (near < kFewestCoarse) return {};
-        const Vector6 step = normal.ldlt().solve(right);
+        const Vector6 step = solved<6>(normal, right);
         placed_[p].first_from_pose = product(small_motion(-step, pivot_), placed_[p].first_from_pose);
       }
     laid.placed = placed_[p].first_from_pose;

@@ -7,6 +7,8 @@
 
 #include <Eigen/Dense>
 
+#include "pipeline/base/solving.h"
+
 namespace relievo::pipeline {
 
 Result<PointCloud> LinearTriangulator::triangulate(const RectifiedPair& pair, const MatchSet& matches,
@@ -39,7 +41,7 @@ Result<PointCloud> LinearTriangulator::triangulate(const RectifiedPair& pair, co
     system.block<3, 1>(3, 4) = -right;
     known.tail<3>() = centre;
     const Eigen::Matrix<double, 5, 1> solution =
-        (system.transpose() * system).ldlt().solve(system.transpose() * known);
+        solved<5>(system.transpose() * system, system.transpose() * known);
     const double z = solution(2);
     if (!(z >= pair.near_mm && z <= pair.far_mm)) continue;  // outside the volume: not this person
     const Vec3d p = apply(left_from_rectified, {solution(0), solution(1), z});

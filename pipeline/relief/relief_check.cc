@@ -10,6 +10,7 @@
 #include <numbers>
 
 #include "hal/base/statistics.h"
+#include "pipeline/base/solving.h"
 #include "pipeline/relief/height_cells.h"
 #include "pipeline/relief/sheet_fit.h"
 
@@ -92,7 +93,7 @@ double curvature_of(const HeightCells& cells) {
       b += row * cells.cells[k].height_mm;
     });
     if (!full) continue;
-    const Row f = a.ldlt().solve(b);
+    const Row f = solved<6>(a, b);
     const double steep = 1 + f[1] * f[1] + f[2] * f[2];
     sum += std::abs(f[3] * f[5] - f[4] * f[4]) / (steep * std::sqrt(steep)) * cells.cell_mm * cells.cell_mm;
   }

@@ -9,6 +9,8 @@
 #include <cmath>
 #include <numbers>
 
+#include "pipeline/base/solving.h"
+
 namespace relievo::pipeline {
 namespace {
 
@@ -184,7 +186,7 @@ SheetFit fit_plane(const HeightCells& cells, StageContext& context) {
       a += w * row * row.transpose();
       b += w * c.height_mm * row;
     }
-    plane = a.ldlt().solve(b);
+    plane = solved<3>(a, b);
   }
   SheetFit fit(&context.scratch);
   fit.residual_mm.reserve(cells.cells.size());

@@ -4,9 +4,10 @@
 
 #include <cmath>
 
-#include <Eigen/Cholesky>
 #include <Eigen/Core>
 #include <Eigen/LU>
+
+#include "pipeline/base/solving.h"
 
 namespace relievo::pipeline {
 namespace {
@@ -85,7 +86,7 @@ std::optional<CornerGuess> predict(const Lattice& lattice, int column, int row) 
   if (count < 3 || !(spread.determinant() > 0.5)) return std::nullopt;
   n(6, 6) += kPerspectivePx * kPerspectivePx;
   n(7, 7) += kPerspectivePx * kPerspectivePx;
-  const Eigen::Matrix<double, 8, 1> h = n.ldlt().solve(g);
+  const Eigen::Matrix<double, 8, 1> h = solved<8>(n, g);
   if (!h.allFinite()) return std::nullopt;
   CornerGuess guess;
   guess.at = {h(2) + near.x, h(5) + near.y};

@@ -4,9 +4,9 @@
 
 #include <cmath>
 
-#include <Eigen/Cholesky>
 #include <Eigen/Geometry>
 
+#include "pipeline/base/solving.h"
 #include "pipeline/calibrate/fit/corner_terms.h"
 
 namespace relievo::pipeline::bundle {
@@ -133,11 +133,11 @@ Problem stepped(const Problem& p, const Normal& n, double damping) {
   for (std::size_t v = 0; v < n.c.size(); ++v) {
     Matrix6d c = n.c[v];
     c.diagonal() *= 1 + damping;
-    inverse[v] = c.ldlt().solve(Matrix6d::Identity());
+    inverse[v] = inverted<6>(c);
     s.noalias() -= n.b[v] * inverse[v] * n.b[v].transpose();
     g.noalias() -= n.b[v] * (inverse[v] * n.h[v]);
   }
-  const GlobalVector by = s.ldlt().solve(g);
+  const GlobalVector by = solved<kGlobals>(s, g);
   Problem moved = p;
   step_globals(moved, by);
   for (std::size_t v = 0; v < n.c.size(); ++v)
@@ -147,9 +147,8 @@ Problem stepped(const Problem& p, const Normal& n, double damping) {
 
 void keep_covariance(Problem& p, const Normal& n) {
   p.information = n.a;
-  for (std::size_t v = 0; v < n.c.size(); ++v)
-    p.information.noalias() -= n.b[v] * n.c[v].ldlt().solve(n.b[v].transpose());
-  p.covariance = p.information.ldlt().solve(Globals::Identity());
+  for (std::size_t v = 0; v < n.c.size(); ++v) p.information -= eliminated<6, kGlobals>(n.c[v], n.b[v]);
+  p.covariance = inverted<kGlobals>(p.information);
   for (int i = 0; i < kGlobals; ++i)
     if (!p.free[static_cast<std::size_t>(i)]) p.covariance(i, i) = 0;
 }
@@ -217,22 +216,21 @@ void step_globals(Problem& p, const GlobalVector& by) {
   p.right_from_left.step(by.tail<6>());
 }
 
-std::vector<Problem> without_each_view(const Problem& solved) {
+std::vector<Problem> without_each_view(const Problem& whole) {
   std::vector<Problem> without;
-  Problem one = solved;
-  for (const View& view : solved.views) {
+  Problem one = whole;
+  for (const View& view : whole.views) {
     one.views.assign(1, view);
     one.prior = {};
     one.aspect_weight = {};
     one.belief = {};
     const Normal n = linearise(one);
-    const auto to_pose = n.c[0].ldlt();
-    Globals information = solved.information - (n.a - n.b[0] * to_pose.solve(n.b[0].transpose()));
-    GlobalVector pull = n.b[0] * to_pose.solve(n.h[0]) - n.g;
+    Globals information = whole.information - (n.a - eliminated<6, kGlobals>(n.c[0], n.b[0]));
+    GlobalVector pull = n.b[0] * solved<6>(n.c[0], n.h[0]) - n.g;
     for (int i = 0; i < kGlobals; ++i)
-      if (!solved.free[static_cast<std::size_t>(i)]) information(i, i) = 1;
-    without.push_back(solved);
-    step_globals(without.back(), information.ldlt().solve(pull));
+      if (!whole.free[static_cast<std::size_t>(i)]) information(i, i) = 1;
+    without.push_back(whole);
+    step_globals(without.back(), solved<kGlobals>(information, pull));
   }
   return without;
 }
@@ -244,7 +242,7 @@ Globals information_of(const Problem& rig, const View& view) {
   one.aspect_weight = {};
   one.belief = {};
   const Normal n = linearise(one);
-  return n.a - n.b[0] * n.c[0].ldlt().solve(n.b[0].transpose());
+  return n.a - eliminated<6, kGlobals>(n.c[0], n.b[0]);
 }
 
 bool solve_poses(Problem& problem) {

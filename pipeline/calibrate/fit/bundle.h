@@ -96,7 +96,7 @@ bool solve_poses(Problem& problem);
 
 // Where the globals would go if view `v` had never been taken: one Newton step from the solution, poses
 // adapting (exact for a linear problem). Adds the step to the globals of a copy; its views are untouched.
-std::vector<Problem> without_each_view(const Problem& solved);
+std::vector<Problem> without_each_view(const Problem& whole);
 
 // What one more view would add to Problem::information at these globals; `rig` without views.
 Globals information_of(const Problem& rig, const View& view);

@@ -5,6 +5,7 @@
 #include <Eigen/Cholesky>
 #include <Eigen/Geometry>
 
+#include "pipeline/base/solving.h"
 #include "pipeline/calibrate/fit/corner_terms.h"
 
 namespace relievo::pipeline {
@@ -35,7 +36,7 @@ Miss miss_of(const RelationEvidence& view, const Pose& relation) {
   carry.bottomRightCorner<3, 3>() = r;
   const Matrix6d pull = view.right_information * carry;
   const Matrix6d both = view.left_information + carry.transpose() * pull;
-  miss.weight = view.right_information - pull * both.ldlt().solve(pull.transpose());
+  miss.weight = view.right_information - eliminated<6, 6>(both, pull);
   return miss;
 }
 
@@ -95,7 +96,7 @@ double misfit_but(std::span<const RelationEvidence> views, Pose relation, bool c
     }
     sum.diagonal() *= 1 + kFirm;
     sum.diagonal().array() += kFirm * sum.trace();
-    if (i < kSteps) relation.step(sum.ldlt().solve(pull));
+    if (i < kSteps) relation.step(solved<6>(sum, pull));
   }
   return cost;
 }
@@ -118,7 +119,7 @@ Pose fit_relation(std::span<const RelationEvidence> views, std::span<const std::
       sum.noalias() += weighted * miss.by_step;
       pull.noalias() -= weighted * miss.off;
     }
-    right_from_left.step(sum.ldlt().solve(pull));
+    right_from_left.step(solved<6>(sum, pull));
   }
   return right_from_left;
 }

@@ -7,6 +7,7 @@
 
 #include <Eigen/Dense>
 
+#include "pipeline/base/solving.h"
 #include "pipeline/calibrate/quality/rig_geometry.h"
 
 namespace relievo::pipeline {
@@ -42,7 +43,7 @@ double field_squared(const std::vector<Missed>& missed) {
     a += basis * basis.transpose();
     b += m.distance_px * basis;
   }
-  return b.dot(a.ldlt().solve(b));
+  return b.dot(solved<3>(a, b));
 }
 
 }  // namespace

@@ -7,6 +7,7 @@
 
 #include <Eigen/Dense>
 
+#include "pipeline/base/solving.h"
 #include "pipeline/match/epipolar/column_sample.h"
 #include "pipeline/match/image/box_filter.h"
 
@@ -142,7 +143,7 @@ std::span<const LocalShift> LocalShifts::measure(const RowShift& from) {
       Eigen::Matrix3d nuisance;
       nuisance << s[0] + 1, s[1], s[3], s[1], s[2] + 1, s[4], s[3], s[4], s[5];
       const Eigen::Vector3d along(s[6], s[7], s[8]);
-      const Eigen::Vector3d taken = nuisance.ldlt().solve(along);
+      const Eigen::Vector3d taken = solved<3>(nuisance, along);
       const double information = s[9] - taken.dot(along);
       if (!(information > kLeastInformation)) continue;
       const double x = patch.x / patch.samples, y = patch.y / patch.samples;

@@ -11,6 +11,7 @@
 #include <Eigen/Dense>
 
 #include "hal/base/statistics.h"
+#include "pipeline/base/solving.h"
 
 namespace relievo::pipeline {
 namespace {
@@ -87,7 +88,7 @@ Fit reweighted(std::span<const LocalShift> locals, bool slopes, const EpipolarSh
       fit.slope += prior[k] * inside * (1 - 5 * u * u) * b * b.transpose();
       right += weight[k] * locals[k].shift_px * b;
     }
-    fit.field = information.ldlt().solve(right);
+    fit.field = solved<3>(information, right);
   }
   return fit;
 }

@@ -2,7 +2,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "pipeline/mesh/eyes/eyeballs.h"
 
-#include <Eigen/Cholesky>
 #include <Eigen/Core>
 
 #include <algorithm>
@@ -13,6 +12,7 @@
 #include <vector>
 
 #include "hal/base/statistics.h"
+#include "pipeline/base/solving.h"
 #include "pipeline/mesh/landmarks/lid_finder.h"
 #include "pipeline/model/vector3.h"
 
@@ -96,7 +96,7 @@ class Fit {
         expect(slope, (at[0][k] + mirrored * at[1][k]) / kUnlikeSigmaMm,
                std::min(eyes_[0].weight(), eyes_[1].weight()));
       }
-      const Eigen::Matrix<double, 6, 1> step = normal.ldlt().solve(right);
+      const Eigen::Matrix<double, 6, 1> step = solved<6>(normal, right);
       at[0] += step.head<3>();
       at[1] += step.tail<3>();
     }

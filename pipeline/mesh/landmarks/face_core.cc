@@ -8,6 +8,7 @@
 
 #include <Eigen/Cholesky>
 
+#include "pipeline/base/solving.h"
 #include "pipeline/mesh/landmarks/face_relief.h"
 
 namespace relievo::pipeline {
@@ -48,7 +49,7 @@ bool height_at_middle(const FaceRelief& core, const Window& w, double& z_mm) {
       b += row * z;
       ++count;
     }
-  z_mm = a.ldlt().solve(b)[0];
+  z_mm = solved<5>(a, b)[0];
   return count > 200;
 }
 

@@ -7,9 +7,8 @@
 #include <cmath>
 #include <numbers>
 
-#include <Eigen/Cholesky>
-
 #include "hal/base/statistics.h"
+#include "pipeline/base/solving.h"
 
 namespace relievo::pipeline {
 namespace {
@@ -83,7 +82,7 @@ Pose descend(const HeightMap& map, std::span<const SurfacePoint> points, Pose po
       a += w * slope * slope.transpose();
       b -= w * r * slope;
     }
-    const Vector3d change = a.ldlt().solve(b);
+    const Vector3d change = solved<3>(a, b);
     if (!change.allFinite()) break;
     pose += change;
     if (std::abs(change[0]) + std::abs(change[1]) < 1e-5 && std::abs(change[2]) < 1e-3) break;

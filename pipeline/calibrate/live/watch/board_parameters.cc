@@ -6,8 +6,9 @@
 #include <cmath>
 #include <numbers>
 
-#include <Eigen/Cholesky>
 #include <Eigen/Core>
+
+#include "pipeline/base/solving.h"
 
 namespace relievo::pipeline {
 namespace {
@@ -47,7 +48,7 @@ BoardOutline extrapolated(const BoardCorners& corners, const BoardPattern& patte
     sum.noalias() += rows.transpose() * rows;
     pull.noalias() += rows.transpose() * Eigen::Vector2d(u, v);
   }
-  const Eigen::Matrix<double, 8, 1> h = sum.ldlt().solve(pull);
+  const Eigen::Matrix<double, 8, 1> h = solved<8>(sum, pull);
   BoardOutline outline;
   const double right = (pattern.columns - 1) * step;
   const double low = (pattern.rows - 1) * step;
