@@ -5,11 +5,13 @@
 // bits: NaN payloads and negative zero survive.
 #pragma once
 
+#include <algorithm>
 #include <bit>
 #include <cstddef>
 #include <cstdint>
 #include <cstring>
 #include <span>
+#include <string>
 #include <string_view>
 #include <type_traits>
 #include <vector>
@@ -115,6 +117,20 @@ class ByteReader {
 
 inline std::span<const std::byte> bytes_of(std::string_view text) {
   return std::as_bytes(std::span(text.data(), text.size()));
+}
+
+// A text behind its length.
+inline void put_text(ByteWriter& to, std::string_view text) {
+  to.put(static_cast<std::uint32_t>(text.size()));
+  to.put(bytes_of(text));
+}
+
+inline std::string get_text(ByteReader& from) {
+  const auto size = from.get<std::uint32_t>();
+  std::string text;
+  text.resize(std::min<std::size_t>(size, from.left()));
+  from.get_run<char>(std::span(text));
+  return text;
 }
 
 }  // namespace relievo::storage

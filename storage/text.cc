@@ -27,6 +27,8 @@ std::size_t character_bytes(std::string_view text) {
   return 0;
 }
 
+char lower(char c) { return c >= 'A' && c <= 'Z' ? static_cast<char>(c + ('a' - 'A')) : c; }
+
 }  // namespace
 
 bool is_name(std::string_view text) {
@@ -40,9 +42,16 @@ bool is_name(std::string_view text) {
 }
 
 bool contains_name(std::string_view name, std::string_view part) {
-  const auto lower = [](char c) { return c >= 'A' && c <= 'Z' ? static_cast<char>(c + ('a' - 'A')) : c; };
-  const auto alike = [&](char a, char b) { return lower(a) == lower(b); };
+  const auto alike = [](char a, char b) { return lower(a) == lower(b); };
   return part.empty() || std::search(name.begin(), name.end(), part.begin(), part.end(), alike) != name.end();
+}
+
+std::string normal_name(std::string_view name) {
+  const std::size_t first = name.find_first_not_of(' ');
+  if (first == std::string_view::npos) return {};
+  std::string normal(name.substr(first, name.find_last_not_of(' ') - first + 1));
+  for (char& c : normal) c = lower(c);
+  return normal;
 }
 
 }  // namespace relievo::storage

@@ -4,6 +4,7 @@
 // Names as people write them.
 #pragma once
 
+#include <string>
 #include <string_view>
 
 namespace relievo::storage {
@@ -13,5 +14,8 @@ bool is_name(std::string_view text);
 
 // `part` anywhere in `name`; ASCII letters in either case, all others as they are.
 bool contains_name(std::string_view name, std::string_view part);
+
+// Two names that are written alike but for ASCII capitals and spaces around them are one.
+std::string normal_name(std::string_view name);
 
 }  // namespace relievo::storage

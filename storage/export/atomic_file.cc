@@ -41,12 +41,12 @@ Error failed(const fs::path& file, int cause) {
 
 }  // namespace
 
-Result<PendingFile> PendingFile::create(const fs::path& target) {
+Result<PendingFile> PendingFile::create(const fs::path& target, unsigned mode) {
   // Short and plain, for the sake of FAT; hidden, in case it is ever left behind by a power cut.
   // The object first: once the file is there, nothing may throw before somebody removes it.
   PendingFile file(target, target.parent_path() / ("." + target.filename().string() + ".part"), -1);
   ::unlink(file.temporary_.c_str());
-  file.fd_ = ::open(file.temporary_.c_str(), O_CREAT | O_EXCL | O_WRONLY | O_CLOEXEC, 0666);
+  file.fd_ = ::open(file.temporary_.c_str(), O_CREAT | O_EXCL | O_WRONLY | O_CLOEXEC, mode);
   if (file.fd_ < 0) return failed(target, errno);
   return file;
 }

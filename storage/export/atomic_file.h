@@ -17,8 +17,8 @@ namespace relievo::storage {
 
 class PendingFile {
  public:
-  // Nothing that stands at `target` is touched before publish().
-  static Result<PendingFile> create(const std::filesystem::path& target);
+  // Nothing that stands at `target` is touched before publish(). `mode` as open(2) takes it.
+  static Result<PendingFile> create(const std::filesystem::path& target, unsigned mode = 0666);
   ~PendingFile();  // an unpublished file is removed
   PendingFile(PendingFile&& other) noexcept
       : target_(std::move(other.target_)),

@@ -16,10 +16,10 @@ struct Line {
   std::int64_t at_ms = 0;
   std::int64_t subject = 0;
   std::string_view what;
-  std::string_view detail;
+  std::span<const std::byte> detail;  // as it is stored
 };
 
-Sha256 chained(std::span<const std::byte> before, const Line& line) {
+std::vector<std::byte> chained(std::span<const std::byte> before, const Line& line) {
   std::vector<std::byte> bytes;
   bytes.reserve(before.size() + 5 * 8 + line.what.size() + line.detail.size());
   ByteWriter to(bytes);
@@ -28,16 +28,30 @@ Sha256 chained(std::span<const std::byte> before, const Line& line) {
   to.put(line.at_ms);
   to.put(line.subject);
   // Lengths first: moving a letter from one field to the next is a change too.
-  for (const std::string_view text : {line.what, line.detail}) {
-    to.put(static_cast<std::uint64_t>(text.size()));
-    to.put(bytes_of(text));
+  for (const auto field : {bytes_of(line.what), line.detail}) {
+    to.put(static_cast<std::uint64_t>(field.size()));
+    to.put(field);
   }
-  return sha256(bytes);
+  return bytes;
+}
+
+Place detail_of(std::int64_t line) { return {"audit", "detail", line}; }
+
+// Nothing stays nothing: most lines have no detail.
+std::vector<std::byte> sealed_detail(const StoreKeys& keys, std::int64_t line, std::string_view detail) {
+  if (detail.empty()) return {};
+  return seal(keys.device(), detail_of(line), bytes_of(detail));
+}
+
+Result<std::string> open_detail(const StoreKeys& keys, std::int64_t line, std::span<const std::byte> sealed) {
+  if (sealed.empty()) return std::string();
+  RELIEVO_TRY_ASSIGN(const auto plain, unseal(keys.device(), detail_of(line), sealed));
+  return std::string(reinterpret_cast<const char*>(plain.data()), plain.size());
 }
 
 struct End {
   std::int64_t number = 0;
-  Sha256 hash{};
+  KeyedHash hash{};
 };
 
 Error broken(const Database& database) {
@@ -56,23 +70,26 @@ Result<End> read_end(Database& database) {
 
 }  // namespace
 
-Result<void> append_audit_line(Database& database, const AuditEvent& event, WallTime at) {
+Result<std::int64_t> append_audit_line(Database& database, const StoreKeys& keys, const AuditEvent& event,
+                                       WallTime at) {
   if (event.what.empty() || event.what.size() > kMaxNameBytes || event.detail.size() > kMaxTextBytes) {
     return Error{Errc::InvalidInput, "a line of the audit log needs a word, and has a longest length"};
   }
   RELIEVO_TRY_ASSIGN(const End end, read_end(database));
-  const Line line{end.number + 1, to_ms(at), number(event.subject), event.what, event.detail};
-  const Sha256 hash = chained(end.hash, line);
+  const auto detail = sealed_detail(keys, end.number + 1, event.detail);
+  const Line line{end.number + 1, to_ms(at), number(event.subject), event.what, detail};
+  const KeyedHash hash = keyed_hash(keys.chain(), chained(end.hash, line));
   RELIEVO_TRY_ASSIGN(auto insert,
                      database.prepare("INSERT INTO audit (number, at_ms, what, subject_id, detail, hash) "
                                       "VALUES (?, ?, ?, ?, ?, ?)"));
-  insert.bind(line.number).bind(line.at_ms).bind(line.what).bind(line.subject).bind(line.detail).bind(hash);
+  insert.bind(line.number).bind(line.at_ms).bind(line.what).bind(line.subject).bind(detail).bind(hash);
   RELIEVO_TRY(insert.run());
   RELIEVO_TRY_ASSIGN(auto move, database.prepare("UPDATE audit_end SET number = ?, hash = ?"));
-  return move.bind(line.number).bind(hash).run();
+  RELIEVO_TRY(move.bind(line.number).bind(hash).run());
+  return line.number;
 }
 
-Result<void> check_audit_chain(Database& database) {
+Result<void> check_audit_chain(Database& database, const StoreKeys& keys) {
   RELIEVO_TRY_ASSIGN(const End end, read_end(database));
   RELIEVO_TRY_ASSIGN(auto query, database.prepare("SELECT number, at_ms, subject_id, what, detail, hash "
                                                   "FROM audit ORDER BY number"));
@@ -80,17 +97,52 @@ Result<void> check_audit_chain(Database& database) {
   for (;;) {
     RELIEVO_TRY_ASSIGN(const bool row, query.step());
     if (!row) break;
-    const Line line{query.integer(0), query.integer(1), query.integer(2), query.text(3), query.text(4)};
+    const Line line{query.integer(0), query.integer(1), query.integer(2), query.text(3), query.blob(4)};
     if (line.number != reached.number + 1) return broken(database);
-    reached = {line.number, chained(reached.hash, line)};
+    reached = {line.number, keyed_hash(keys.chain(), chained(reached.hash, line))};
     if (!std::ranges::equal(query.blob(5), reached.hash)) return broken(database);
+    RELIEVO_TRY(open_detail(keys, line.number, line.detail));
   }
   if (reached.number != end.number || reached.hash != end.hash) return broken(database);
   return {};
 }
 
+Result<void> seal_audit(Database& database, const StoreKeys& keys) {
+  RELIEVO_TRY_ASSIGN(const End end, read_end(database));
+  RELIEVO_TRY_ASSIGN(auto query, database.prepare("SELECT number, at_ms, subject_id, what, detail, hash "
+                                                  "FROM audit ORDER BY number"));
+  RELIEVO_TRY_ASSIGN(
+      auto update,
+      database.prepare("UPDATE audit SET sealed_detail = ?, detail = '', hash = ? WHERE number = ?"));
+  End old, made;
+  for (;;) {
+    RELIEVO_TRY_ASSIGN(const bool row, query.step());
+    if (!row) break;
+    Line line{query.integer(0), query.integer(1), query.integer(2), query.text(3), bytes_of(query.text(4))};
+    old.hash = sha256(chained(old.hash, line));
+    const bool whole = line.number == old.number + 1 && std::ranges::equal(query.blob(5), old.hash);
+    const auto detail = sealed_detail(keys, line.number, query.text(4));
+    line.detail = detail;
+    made = {line.number, keyed_hash(keys.chain(), chained(made.hash, line))};
+    const auto kept = whole ? std::span<const std::byte>(made.hash) : query.blob(5);
+    if (query.blob(5).size() == old.hash.size()) std::ranges::copy(query.blob(5), old.hash.begin());
+    old.number = line.number;
+    update.again();
+    RELIEVO_TRY(update.bind(detail).bind(kept).bind(line.number).run());
+  }
+  if (old.number != end.number || old.hash != end.hash) return {};
+  RELIEVO_TRY_ASSIGN(auto move, database.prepare("UPDATE audit_end SET hash = ?"));
+  return move.bind(made.hash).run();
+}
+
 Result<void> SqliteStore::append_audit(const AuditEvent& event) {
-  return change([&](WallTime at) { return append_audit_line(*database_, event, at); });
+  if (event.what == kSettingChanged || event.what == kSubjectErased)
+    return Error{Errc::InvalidInput, "only the store itself writes this line of the audit log"}.at(
+        event.what);
+  return change([&](WallTime at) -> Result<void> {
+    RELIEVO_TRY(append_audit_line(*database_, *keys_, event, at));
+    return {};
+  });
 }
 
 Result<std::vector<AuditRecord>> SqliteStore::audit(std::int64_t after_number, std::int64_t limit) {
@@ -103,10 +155,10 @@ Result<std::vector<AuditRecord>> SqliteStore::audit(std::int64_t after_number, s
     for (;;) {
       RELIEVO_TRY_ASSIGN(const bool row, query.step());
       if (!row) return records;
-      records.push_back(
-          {query.integer(0),
-           from_ms(query.integer(1)),
-           {std::string(query.text(2)), SubjectId{query.integer(3)}, std::string(query.text(4))}});
+      RELIEVO_TRY_ASSIGN(auto detail, open_detail(*keys_, query.integer(0), query.blob(4)));
+      records.push_back({query.integer(0),
+                         from_ms(query.integer(1)),
+                         {std::string(query.text(2)), SubjectId{query.integer(3)}, std::move(detail)}});
     }
   });
 }

@@ -1,8 +1,9 @@
 // SPDX-FileCopyrightText: 2026 The Relievo authors
 // SPDX-License-Identifier: GPL-3.0-or-later
-// SqliteStore: calibrations and settings.
+// SqliteStore: calibrations.
 #include <cmath>
 
+#include "storage/byte_order.h"
 #include "storage/calibration_record.h"
 #include "storage/sqlite/sqlite_audit.h"
 #include "storage/sqlite/sqlite_change.h"
@@ -32,16 +33,18 @@ Result<std::uint32_t> SqliteStore::insert_calibration(const pipeline::StereoCali
                                                       std::string_view note,
                                                       const CalibrationFigures& figures, WallTime at) {
   RELIEVO_TRY_ASSIGN(auto insert,
-                     database_->prepare("INSERT INTO calibration (created_at_ms, note, record, active) "
-                                        "VALUES (?, ?, zeroblob(0), 0)"));
-  RELIEVO_TRY(insert.bind(to_ms(at)).bind(note).run());
+                     database_->prepare("INSERT INTO calibration (created_at_ms, record, active) "
+                                        "VALUES (?, zeroblob(0), 0)"));
+  RELIEVO_TRY(insert.bind(to_ms(at)).run());
   pipeline::StereoCalibration numbered = calibration;
   numbered.revision = static_cast<std::uint32_t>(database_->last_row_id());
   const auto record = encode_calibration(numbered, figures);
-  RELIEVO_TRY_ASSIGN(auto fill, database_->prepare("UPDATE calibration SET record = ? WHERE revision = ?"));
-  RELIEVO_TRY(fill.bind(record).bind(std::int64_t{numbered.revision}).run());
-  RELIEVO_TRY(
-      append_audit_line(*database_, {"calibration.saved", {}, std::to_string(numbered.revision)}, at));
+  const auto sealed = seal(keys_->device(), calibration_note(numbered.revision), bytes_of(note));
+  RELIEVO_TRY_ASSIGN(auto fill,
+                     database_->prepare("UPDATE calibration SET record = ?, note = ? WHERE revision = ?"));
+  RELIEVO_TRY(fill.bind(record).bind(sealed).bind(std::int64_t{numbered.revision}).run());
+  RELIEVO_TRY(append_audit_line(*database_, *keys_,
+                                {"calibration.saved", {}, std::to_string(numbered.revision)}, at));
   return numbered.revision;
 }
 
@@ -90,11 +93,13 @@ Result<std::vector<CalibrationInfo>> SqliteStore::calibrations() {
       RELIEVO_TRY_ASSIGN(const bool row, query.step());
       if (!row) return found;
       RELIEVO_TRY_ASSIGN(const auto stored, decode_calibration(query.blob(4)));
+      RELIEVO_TRY_ASSIGN(const auto note,
+                         unseal(keys_->device(), calibration_note(query.integer(0)), query.blob(2)));
       const pipeline::StereoCalibration& calibration = stored.calibration;
       const pipeline::Vec3d& t = calibration.right_from_left.translation_mm;
       found.push_back({.revision = static_cast<std::uint32_t>(query.integer(0)),
                        .created_at = from_ms(query.integer(1)),
-                       .note = std::string(query.text(2)),
+                       .note = std::string(reinterpret_cast<const char*>(note.data()), note.size()),
                        .rms_px = calibration.rms_px,
                        .epipolar_shift_px = calibration.epipolar_shift_px,
                        .baseline_mm = std::hypot(t.x, t.y, t.z),
@@ -149,32 +154,9 @@ Result<pipeline::StereoCalibration> SqliteStore::active_calibration() {
 Result<void> SqliteStore::activate_calibration(std::uint32_t revision) {
   return change([&](WallTime at) -> Result<void> {
     RELIEVO_TRY(make_active(revision));
-    return append_audit_line(*database_, {"calibration.activated", {}, std::to_string(revision)}, at);
-  });
-}
-
-Result<std::string> SqliteStore::setting(std::string_view key) {
-  return without_exceptions(database_->where(), [&]() -> Result<std::string> {
-    RELIEVO_TRY_ASSIGN(auto query, database_->prepare("SELECT value FROM setting WHERE key = ?"));
-    RELIEVO_TRY_ASSIGN(const bool row, query.bind(key).step());
-    if (!row) return Error{Errc::NotFound, "this setting is not set"}.at(key);
-    return std::string(query.text(0));
-  });
-}
-
-Result<void> SqliteStore::set_setting(std::string_view key, std::string_view value) {
-  if (!is_name(key) || value.size() > kMaxTextBytes) {
-    return Error{Errc::InvalidInput, "a setting needs a short key, and a value of at most a million bytes"}
-        .at(key);
-  }
-  return change([&](WallTime at) -> Result<void> {
-    RELIEVO_TRY_ASSIGN(auto insert,
-                       database_->prepare("INSERT INTO setting (key, value, changed_at_ms) VALUES (?, ?, ?) "
-                                          "ON CONFLICT (key) DO UPDATE SET value = excluded.value, "
-                                          "changed_at_ms = excluded.changed_at_ms"));
-    RELIEVO_TRY(insert.bind(key).bind(value).bind(to_ms(at)).run());
-    // The key only: a value may be a secret.
-    return append_audit_line(*database_, {"setting.changed", {}, std::string(key)}, at);
+    RELIEVO_TRY(
+        append_audit_line(*database_, *keys_, {"calibration.activated", {}, std::to_string(revision)}, at));
+    return {};
   });
 }
 

@@ -1,10 +1,14 @@
 // SPDX-FileCopyrightText: 2026 The Relievo authors
 // SPDX-License-Identifier: GPL-3.0-or-later
 // SqliteStore: the long check.
+#include <algorithm>
+
 #include "storage/calibration_record.h"
 #include "storage/model_blob.h"
 #include "storage/sqlite/sqlite_audit.h"
 #include "storage/sqlite/sqlite_change.h"
+#include "storage/sqlite/sqlite_sealed_rows.h"
+#include "storage/sqlite/sqlite_settings.h"
 
 namespace relievo::storage {
 
@@ -12,8 +16,10 @@ Result<void> SqliteStore::check() {
   return without_exceptions(database_->where(), [&]() -> Result<void> {
     RELIEVO_TRY(check_pages());
     RELIEVO_TRY(check_calibrations());
+    RELIEVO_TRY(check_subjects());
     RELIEVO_TRY(check_models());
-    return check_audit_chain(*database_);
+    RELIEVO_TRY(read_settings(*database_, *keys_));
+    return check_audit_chain(*database_, *keys_);
   });
 }
 
@@ -42,18 +48,60 @@ Result<void> SqliteStore::check_calibrations() {
   RELIEVO_TRY_ASSIGN(auto query, database_->prepare("SELECT revision FROM calibration"));
   for (;;) {
     RELIEVO_TRY_ASSIGN(const bool row, query.step());
-    if (!row) return {};
+    if (!row) break;
     RELIEVO_TRY_ASSIGN(const auto read, calibration(static_cast<std::uint32_t>(query.integer(0))));
     RELIEVO_TRY(check_calibration(read));
   }
+  RELIEVO_TRY(calibrations());  // their notes
+  return {};
+}
+
+Result<void> SqliteStore::check_subjects() {
+  RELIEVO_TRY_ASSIGN(auto query, database_->prepare("SELECT id, created_at_ms, name, code, name_hash, "
+                                                    "code_hash FROM subject WHERE code_hash IS NOT NULL"));
+  KeySlots slots(*database_);
+  for (;;) {
+    RELIEVO_TRY_ASSIGN(const bool row, query.step());
+    if (!row) break;
+    RELIEVO_TRY_ASSIGN(const auto subject, subject_in(slots, query));
+    RELIEVO_TRY_ASSIGN(const auto code, open_code(*keys_, subject.id, query.blob(3)));
+    if (!std::ranges::equal(query.blob(4), keys_->name_hash(subject.name)) ||
+        !std::ranges::equal(query.blob(5), keys_->code_hash(code)))
+      return Error{Errc::StoreCorrupt, "this person would not be found by name or code: restore a copy"}.at(
+          "subject " + std::to_string(query.integer(0)) + ", name_hash or code_hash");
+  }
+  RELIEVO_TRY_ASSIGN(
+      const std::int64_t back,
+      database_->integer("SELECT subject.id FROM subject JOIN audit ON subject_id = subject.id AND "
+                         "what = 'subject.erased' WHERE code_hash IS NOT NULL"));
+  RELIEVO_TRY_ASSIGN(
+      const std::int64_t lost,
+      database_->integer("SELECT id FROM subject WHERE code_hash IS NULL AND NOT EXISTS (SELECT 1 FROM "
+                         "audit WHERE what = 'subject.erased' AND subject_id = subject.id)"));
+  if (lost != 0)
+    return Error{Errc::StoreCorrupt, "this person has lost their code without an erasure: restore a copy"}.at(
+        "subject " + std::to_string(lost));
+  RELIEVO_TRY_ASSIGN(const std::int64_t traces, database_->integer("SELECT plain_traces FROM store_info"));
+  if (traces != 0)
+    return Error{
+        Errc::MediaFull,
+        "names may still be read in the store's free pages: make room for a second copy, then open it again"}
+        .at(database_->where());
+  if (back != 0)
+    return Error{Errc::StoreCorrupt, "this person was erased, and was put back: erase them again"}.at(
+        "subject " + std::to_string(back));
+  return {};
 }
 
 Result<void> SqliteStore::check_models() {
-  RELIEVO_TRY_ASSIGN(auto query, database_->prepare("SELECT enrolment_id FROM model"));
+  RELIEVO_TRY_ASSIGN(auto query,
+                     database_->prepare("SELECT enrolment.id FROM enrolment JOIN subject ON subject.id "
+                                        "= subject_id WHERE code_hash IS NOT NULL"));
   for (;;) {
     RELIEVO_TRY_ASSIGN(const bool row, query.step());
     if (!row) return {};
     const EnrolmentId id{query.integer(0)};
+    RELIEVO_TRY(enrolment(id));  // its texts, its consent
     RELIEVO_TRY_ASSIGN(const auto bytes, model_bytes(id));
     if (const auto model = decode_model(bytes, std::pmr::new_delete_resource()); !model) {
       return model.error().at("enrolment " + std::to_string(number(id)));

@@ -10,7 +10,7 @@
 namespace relievo::storage {
 namespace {
 
-constexpr int kBlobPieceBytes = 256 * 1024;
+constexpr std::size_t kBlobPieceBytes = 256 * 1024 + 64;  // as large as a sealed piece (cipher/seal.h)
 
 // SQLite's own sqlite3_system_errno() forgets while it rolls back; the files remember.
 int system_errno_of(sqlite3* db) {
@@ -24,11 +24,6 @@ int system_errno_of(sqlite3* db) {
   }
   return cause;
 }
-
-struct BlobCloser {
-  sqlite3_blob* handle = nullptr;
-  ~BlobCloser() { sqlite3_blob_close(handle); }
-};
 
 }  // namespace
 
@@ -106,6 +101,11 @@ Result<void> Statement::run() {
   }
 }
 
+void Statement::again() {
+  sqlite3_reset(handle_);
+  bound_ = 0;
+}
+
 std::int64_t Statement::integer(int column) const { return sqlite3_column_int64(handle_, column); }
 std::string_view Statement::text(int column) const {
   // Out of memory while converting yields null: what follows fails at the next step().
@@ -179,27 +179,50 @@ bool Database::in_transaction() const { return sqlite3_get_autocommit(handle_) =
 
 Result<void> Database::write_blob(const char* table, const char* column, std::int64_t row,
                                   std::span<const std::byte> bytes) {
-  BlobCloser blob;
-  int code = sqlite3_blob_open(handle_, "main", table, column, row, 1, &blob.handle);
-  for (std::size_t at = 0; code == SQLITE_OK && at < bytes.size(); at += kBlobPieceBytes) {
-    const int size = static_cast<int>(std::min<std::size_t>(kBlobPieceBytes, bytes.size() - at));
-    code = sqlite3_blob_write(blob.handle, bytes.data() + at, size, static_cast<int>(at));
-  }
-  return code == SQLITE_OK ? Result<void>() : error(code);
+  RELIEVO_TRY_ASSIGN(auto blob, Blob::open(*this, table, column, row, true));
+  return blob.write(0, bytes);
 }
 
 Result<void> Database::read_blob(const char* table, const char* column, std::int64_t row,
                                  std::span<std::byte> bytes) {
-  BlobCloser blob;
-  int code = sqlite3_blob_open(handle_, "main", table, column, row, 0, &blob.handle);
-  if (code == SQLITE_OK && static_cast<std::size_t>(sqlite3_blob_bytes(blob.handle)) < bytes.size()) {
-    code = SQLITE_CORRUPT;
+  RELIEVO_TRY_ASSIGN(auto blob, Blob::open(*this, table, column, row, false));
+  return blob.read(0, bytes);
+}
+
+Result<Blob> Blob::open(Database& database, const char* table, const char* column, std::int64_t row,
+                        bool writable) {
+  sqlite3_blob* handle = nullptr;
+  const int code = sqlite3_blob_open(database.handle_, "main", table, column, row, writable ? 1 : 0, &handle);
+  Blob blob(database, handle);
+  if (code != SQLITE_OK) return database.error(code);
+  return blob;
+}
+
+Blob::~Blob() { sqlite3_blob_close(handle_); }
+
+std::size_t Blob::size() const { return static_cast<std::size_t>(sqlite3_blob_bytes(handle_)); }
+
+Result<void> Blob::write(std::size_t at, std::span<const std::byte> bytes) {
+  for (int code = SQLITE_OK; !bytes.empty();) {
+    const auto piece = bytes.first(std::min<std::size_t>(kBlobPieceBytes, bytes.size()));
+    code = sqlite3_blob_write(handle_, piece.data(), static_cast<int>(piece.size()), static_cast<int>(at));
+    if (code != SQLITE_OK) return database_.error(code);
+    at += piece.size();
+    bytes = bytes.subspan(piece.size());
   }
-  for (std::size_t at = 0; code == SQLITE_OK && at < bytes.size(); at += kBlobPieceBytes) {
-    const int size = static_cast<int>(std::min<std::size_t>(kBlobPieceBytes, bytes.size() - at));
-    code = sqlite3_blob_read(blob.handle, bytes.data() + at, size, static_cast<int>(at));
+  return {};
+}
+
+Result<void> Blob::read(std::size_t at, std::span<std::byte> bytes) {
+  for (int code = size() < at + bytes.size() ? SQLITE_CORRUPT : SQLITE_OK; !bytes.empty();) {
+    const auto piece = bytes.first(std::min<std::size_t>(kBlobPieceBytes, bytes.size()));
+    if (code == SQLITE_OK)
+      code = sqlite3_blob_read(handle_, piece.data(), static_cast<int>(piece.size()), static_cast<int>(at));
+    if (code != SQLITE_OK) return database_.error(code);
+    at += piece.size();
+    bytes = bytes.subspan(piece.size());
   }
-  return code == SQLITE_OK ? Result<void>() : error(code);
+  return {};
 }
 
 Result<void> Database::copy_to(const std::filesystem::path& target) {

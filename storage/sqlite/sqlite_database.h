@@ -20,6 +20,7 @@
 #include "hal/base/result.h"
 
 struct sqlite3;
+struct sqlite3_blob;
 struct sqlite3_stmt;
 
 namespace relievo::storage {
@@ -45,6 +46,7 @@ class Statement {
 
   Result<bool> step();  // true: there is a row
   Result<void> run();   // to the end, without rows
+  void again();         // to be bound and run once more
 
   std::int64_t integer(int column) const;
   // Valid until the next step().
@@ -80,7 +82,7 @@ class Database {
   // Whether closing moves the write-ahead log into the file: off until it is known to be ours.
   Result<void> tidy_up_on_close(bool on);
 
-  // One blob in pieces, so that SQLite never holds a second copy of a model. Unread remains zero.
+  // A whole one, as Blob.
   Result<void> write_blob(const char* table, const char* column, std::int64_t row,
                           std::span<const std::byte> bytes);
   Result<void> read_blob(const char* table, const char* column, std::int64_t row, std::span<std::byte> bytes);
@@ -94,10 +96,30 @@ class Database {
   Error error() const;  // for what failed last
 
  private:
+  friend class Blob;
   Error error(int code) const;
   sqlite3* handle_ = nullptr;
   std::filesystem::path file_;
   std::string where_;
+};
+
+// One blob, read or written in pieces, so that SQLite never holds a second copy of a model.
+class Blob {
+ public:
+  static Result<Blob> open(Database& database, const char* table, const char* column, std::int64_t row,
+                           bool writable);
+  ~Blob();
+  Blob(Blob&& other) noexcept : database_(other.database_), handle_(std::exchange(other.handle_, nullptr)) {}
+  Blob& operator=(Blob&&) = delete;
+
+  std::size_t size() const;
+  Result<void> write(std::size_t at, std::span<const std::byte> bytes);
+  Result<void> read(std::size_t at, std::span<std::byte> bytes);
+
+ private:
+  Blob(Database& database, sqlite3_blob* handle) : database_(database), handle_(handle) {}
+  Database& database_;
+  sqlite3_blob* handle_;
 };
 
 // BEGIN IMMEDIATE ... COMMIT; rolls back unless commit() succeeded.

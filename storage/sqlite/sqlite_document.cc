@@ -61,19 +61,6 @@ Sha256 digest_of(std::string_view name, std::span<const std::byte> data) {
   return sha256(both);
 }
 
-void put_text(ByteWriter& to, std::string_view text) {
-  to.put(static_cast<std::uint32_t>(text.size()));
-  to.put(bytes_of(text));
-}
-
-std::string get_text(ByteReader& from) {
-  const auto size = from.get<std::uint32_t>();
-  std::string text;
-  text.resize(std::min<std::size_t>(size, from.left()));
-  from.get_run<char>(std::span(text));
-  return text;
-}
-
 std::vector<std::byte> head_bytes(const DocumentHead& head) {
   std::vector<std::byte> bytes;
   bytes.reserve(256 + head.version.size() + head.algorithms.size() + 16 * head.by_hand.size());

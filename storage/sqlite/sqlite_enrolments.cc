@@ -4,29 +4,20 @@
 #include "storage/model_blob.h"
 #include "storage/sqlite/sqlite_audit.h"
 #include "storage/sqlite/sqlite_change.h"
+#include "storage/sqlite/sqlite_erasure.h"
 #include "storage/sqlite/sqlite_migration.h"
-#include "storage/sqlite/store_directory.h"
+#include "storage/sqlite/sqlite_sealed_rows.h"
 #include "storage/text.h"
 
 namespace relievo::storage {
 namespace {
 
 constexpr std::string_view kEnrolments =
-    "SELECT enrolment.id, subject_id, created_at_ms, wording, language, given_at_ms, "
-    "ifnull(calibration_revision, 0), algorithms, report_json, length(bytes) "
-    "FROM enrolment JOIN consent ON consent.enrolment_id = enrolment.id "
+    "SELECT enrolment.id, subject_id, enrolment.created_at_ms, ifnull(calibration_revision, 0), "
+    "enrolment.record, consent.record, length(bytes) "
+    "FROM enrolment JOIN subject ON subject.id = subject_id AND code_hash IS NOT NULL "
+    "JOIN consent ON consent.enrolment_id = enrolment.id "
     "JOIN model ON model.enrolment_id = enrolment.id ";
-
-Enrolment enrolment_in(const Statement& query) {
-  return {.id = EnrolmentId{query.integer(0)},
-          .subject = SubjectId{query.integer(1)},
-          .created_at = from_ms(query.integer(2)),
-          .consent = {std::string(query.text(3)), std::string(query.text(4)), from_ms(query.integer(5))},
-          .calibration_revision = static_cast<std::uint32_t>(query.integer(6)),
-          .algorithms = std::string(query.text(7)),
-          .report_json = std::string(query.text(8)),
-          .model_bytes = query.integer(9)};
-}
 
 Result<void> check_texts(const NewEnrolment& enrolment) {
   if (!is_name(enrolment.consent.wording) || !is_name(enrolment.consent.language)) {
@@ -40,6 +31,23 @@ Result<void> check_texts(const NewEnrolment& enrolment) {
 
 }  // namespace
 
+Result<Enrolment> SqliteStore::enrolment_in(KeySlots& slots, const Statement& row) {
+  Enrolment enrolment;
+  enrolment.id = EnrolmentId{row.integer(0)};
+  enrolment.subject = SubjectId{row.integer(1)};
+  enrolment.created_at = from_ms(row.integer(2));
+  enrolment.calibration_revision = static_cast<std::uint32_t>(row.integer(3));
+  RELIEVO_TRY(keys_->take_subject_key(slots, enrolment.subject));
+  RELIEVO_TRY_ASSIGN(auto texts, open_enrolment(*keys_, enrolment.id, row.blob(4)));
+  enrolment.algorithms = std::move(texts.algorithms);
+  enrolment.report_json = std::move(texts.report_json);
+  RELIEVO_TRY_ASSIGN(enrolment.consent, open_consent(*keys_, enrolment.id, row.blob(5)));
+  const auto sealed = static_cast<std::size_t>(row.integer(6));
+  enrolment.model_bytes = static_cast<std::int64_t>(SealedStream::plain_bytes(sealed));
+  return enrolment;
+}
+
+// The subject's key is in keys_ afterwards: what is sealed next is theirs.
 Result<SubjectId> SqliteStore::resolve(const SubjectChoice& subject, WallTime at) {
   if (const auto* made = std::get_if<NewSubject>(&subject)) return insert_subject(*made, at);
   const SubjectId id = std::get<SubjectId>(subject);
@@ -50,24 +58,21 @@ Result<SubjectId> SqliteStore::resolve(const SubjectChoice& subject, WallTime at
 Result<EnrolmentId> SqliteStore::insert_enrolment(SubjectId subject, const NewEnrolment& enrolment,
                                                   std::span<const std::byte> blob, WallTime at) {
   RELIEVO_TRY_ASSIGN(
-      auto row, database_->prepare("INSERT INTO enrolment (subject_id, created_at_ms, calibration_revision, "
-                                   "algorithms, report_json) VALUES (?, ?, ?, ?, ?)"));
+      auto row,
+      database_->prepare(
+          "INSERT INTO enrolment (subject_id, created_at_ms, calibration_revision) VALUES (?, ?, ?)"));
   row.bind(number(subject)).bind(to_ms(at));
   if (enrolment.calibration_revision == 0) row.bind_null();
   else row.bind(std::int64_t{enrolment.calibration_revision});
-  RELIEVO_TRY(row.bind(enrolment.algorithms).bind(enrolment.report_json).run());
+  RELIEVO_TRY(row.run());
   const EnrolmentId id{database_->last_row_id()};
-
-  RELIEVO_TRY_ASSIGN(auto consent,
-                     database_->prepare("INSERT INTO consent (enrolment_id, wording, language, given_at_ms) "
-                                        "VALUES (?, ?, ?, ?)"));
-  consent.bind(number(id)).bind(enrolment.consent.wording).bind(enrolment.consent.language);
-  RELIEVO_TRY(consent.bind(to_ms(enrolment.consent.given_at)).run());
-
-  RELIEVO_TRY_ASSIGN(auto model, database_->prepare("INSERT INTO model (enrolment_id, bytes) VALUES (?, ?)"));
-  RELIEVO_TRY(model.bind(number(id)).bind_zeros(static_cast<std::int64_t>(blob.size())).run());
-  RELIEVO_TRY(database_->write_blob("model", "bytes", number(id), blob));
-  RELIEVO_TRY(append_audit_line(*database_, {"enrolment.added", subject, std::to_string(number(id))}, at));
+  RELIEVO_TRY(seal_enrolment(*database_, *keys_, id, enrolment.algorithms, enrolment.report_json));
+  RELIEVO_TRY_ASSIGN(auto consent, database_->prepare("INSERT INTO consent (enrolment_id) VALUES (?)"));
+  RELIEVO_TRY(consent.bind(number(id)).run());
+  RELIEVO_TRY(seal_consent(*database_, *keys_, id, enrolment.consent));
+  RELIEVO_TRY(seal_model(*database_, *keys_, id, blob));
+  RELIEVO_TRY(
+      append_audit_line(*database_, *keys_, {"enrolment.added", subject, std::to_string(number(id))}, at));
   return id;
 }
 
@@ -88,7 +93,7 @@ Result<EnrolmentId> SqliteStore::add_enrolment(const SubjectChoice& subject, con
       if (enrolment.renews) RELIEVO_TRY(erase_others(id, made, at));
       return made;
     });
-    if (added && enrolment.renews) RELIEVO_TRY(empty_the_log());
+    if (added && enrolment.renews) RELIEVO_TRY(empty_the_log(*database_));
     return added;
   });
 }
@@ -97,7 +102,9 @@ Result<void> SqliteStore::erase_others(SubjectId subject, EnrolmentId but, WallT
   RELIEVO_TRY_ASSIGN(auto erase,
                      database_->prepare("DELETE FROM enrolment WHERE subject_id = ? AND id <> ?"));
   RELIEVO_TRY(erase.bind(number(subject)).bind(number(but)).run());
-  return append_audit_line(*database_, {"enrolment.renewed", subject, std::to_string(number(but))}, at);
+  RELIEVO_TRY(
+      append_audit_line(*database_, *keys_, {"enrolment.renewed", subject, std::to_string(number(but))}, at));
+  return {};
 }
 
 Result<std::vector<Enrolment>> SqliteStore::enrolments(SubjectId subject) {
@@ -105,11 +112,13 @@ Result<std::vector<Enrolment>> SqliteStore::enrolments(SubjectId subject) {
     RELIEVO_TRY_ASSIGN(auto query, database_->prepare(std::string(kEnrolments) +
                                                       "WHERE subject_id = ? ORDER BY enrolment.id"));
     query.bind(number(subject));
+    KeySlots slots(*database_);
     std::vector<Enrolment> found;
     for (;;) {
       RELIEVO_TRY_ASSIGN(const bool row, query.step());
       if (!row) return found;
-      found.push_back(enrolment_in(query));
+      RELIEVO_TRY_ASSIGN(auto enrolment, enrolment_in(slots, query));
+      found.push_back(std::move(enrolment));
     }
   });
 }
@@ -119,19 +128,20 @@ Result<Enrolment> SqliteStore::enrolment(EnrolmentId id) {
     RELIEVO_TRY_ASSIGN(auto query, database_->prepare(std::string(kEnrolments) + "WHERE enrolment.id = ?"));
     RELIEVO_TRY_ASSIGN(const bool row, query.bind(number(id)).step());
     if (!row) return not_found("there is no enrolment with this number", number(id));
-    return enrolment_in(query);
+    KeySlots slots(*database_);
+    return enrolment_in(slots, query);
   });
 }
 
 Result<std::vector<std::byte>> SqliteStore::model_bytes(EnrolmentId id) {
   RELIEVO_TRY_ASSIGN(auto query,
-                     database_->prepare("SELECT length(bytes) FROM model WHERE enrolment_id = ?"));
+                     database_->prepare("SELECT subject.id FROM enrolment JOIN subject ON subject.id "
+                                        "= subject_id AND code_hash IS NOT NULL WHERE enrolment.id = ?"));
   RELIEVO_TRY_ASSIGN(const bool row, query.bind(number(id)).step());
   if (!row) return not_found("there is no enrolment with this number", number(id));
-  // SQLite refuses lengths past SQLITE_MAX_LENGTH (1 GB), whatever the file says.
-  std::vector<std::byte> bytes(static_cast<std::size_t>(query.integer(0)));
-  RELIEVO_TRY(database_->read_blob("model", "bytes", number(id), bytes));
-  return bytes;
+  KeySlots slots(*database_);
+  RELIEVO_TRY(keys_->take_subject_key(slots, SubjectId{query.integer(0)}));
+  return open_model(*database_, *keys_, id);
 }
 
 Result<pipeline::FaceModel> SqliteStore::load_model(EnrolmentId id, std::pmr::memory_resource* memory) {

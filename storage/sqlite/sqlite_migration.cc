@@ -12,9 +12,13 @@
 
 #include "storage/export/atomic_file.h"
 #include "storage/schema/embedded_sql.h"
+#include "storage/sqlite/sqlite_sealing.h"
 
 namespace relievo::storage {
 namespace {
+
+// The migrations before and after the sealing of what an older store holds in the clear.
+constexpr std::int64_t kRoomToSeal = 7, kAllSealed = 8;
 
 std::filesystem::path copy_before(const std::filesystem::path& file, std::int64_t version) {
   return file.string() + ".before-" + std::to_string(version);
@@ -45,10 +49,40 @@ Result<void> copy_aside(Database& database, std::int64_t next_version) {
   return sync_directory(target.parent_path());
 }
 
-Result<void> apply(Database& database, std::int64_t version) {
-  if (version == 0) return database.run(std::string(schema_sql()).c_str());
-  for (auto n = static_cast<std::size_t>(version); n < migrations().size(); ++n) {
-    RELIEVO_TRY(database.run(std::string(migrations()[n]).c_str()));
+// One transaction: `before`, the migrations to version `to`, `after`.
+template <typename Before, typename After>
+Result<void> step(Database& database, std::int64_t from, std::int64_t to, const Before& before,
+                  const After& after) {
+  Transaction transaction(database);
+  RELIEVO_TRY(transaction.begin());
+  RELIEVO_TRY(before());
+  if (from == 0) RELIEVO_TRY(database.run(std::string(schema_sql()).c_str()));
+  for (std::int64_t n = from; from > 0 && n < to; ++n)
+    RELIEVO_TRY(database.run(std::string(migrations()[static_cast<std::size_t>(n)]).c_str()));
+  RELIEVO_TRY(after());
+  const std::string stamp = "PRAGMA application_id = " + std::to_string(kApplicationId) +
+                            "; PRAGMA user_version = " + std::to_string(to);
+  RELIEVO_TRY(database.run(stamp.c_str()));
+  RELIEVO_TRY_ASSIGN(auto broken, database.prepare("PRAGMA foreign_key_check"));
+  RELIEVO_TRY_ASSIGN(const bool found, broken.step());
+  if (found)
+    return Error{Errc::StoreCorrupt, "the store could not be migrated: a record in it has lost its owner"}.at(
+        database.where());
+  return transaction.commit();
+}
+
+Result<void> remove_copies(const std::filesystem::path& database_file, std::int64_t last) {
+  for (std::int64_t version = 2; version <= last; ++version) {
+    const auto copy = copy_before(database_file, version);
+    // The second: of a copy that a power cut stopped.
+    for (const auto& file : {copy, std::filesystem::path(copy.string() + ".tmp")}) {
+      if (::unlink(file.c_str()) != 0 && errno != ENOENT) {
+        return Error{Errc::IoFailed,
+                     "an old copy of the store, with people in it, could not be removed: remove it by hand",
+                     errno}
+            .at(file.string());
+      }
+    }
   }
   return {};
 }
@@ -78,34 +112,27 @@ Result<std::int64_t> version_of(Database& database) {
   return version;
 }
 
-Result<void> make_current(Database& database, std::int64_t version) {
-  if (version >= store_version()) return {};
-  if (version > 0) RELIEVO_TRY(copy_aside(database, version + 1));
-  Transaction transaction(database);
-  RELIEVO_TRY(transaction.begin());
-  RELIEVO_TRY(apply(database, version));
-  const std::string stamp = "PRAGMA application_id = " + std::to_string(kApplicationId) +
-                            "; PRAGMA user_version = " + std::to_string(store_version());
-  RELIEVO_TRY(database.run(stamp.c_str()));
-  RELIEVO_TRY_ASSIGN(auto broken, database.prepare("PRAGMA foreign_key_check"));
-  RELIEVO_TRY_ASSIGN(const bool found, broken.step());
-  if (found)
-    return Error{Errc::StoreCorrupt, "the store could not be migrated: a record in it has lost its owner"}.at(
-        database.where());
-  return transaction.commit();
+Result<void> make_current(Database& database, std::int64_t version, StoreKeys& keys, WallTime at) {
+  const auto nothing = [] { return Result<void>(); };
+  const auto make_keys = [&] { return keys.create(database, at); };
+  if (version == 0) return step(database, 0, store_version(), nothing, make_keys);
+  if (version >= store_version()) return keys.load(database);
+  // Half way through the sealing the copy is there already.
+  if (version != kRoomToSeal) RELIEVO_TRY(copy_aside(database, version + 1));
+  if (version < kRoomToSeal) RELIEVO_TRY(step(database, version, kRoomToSeal, nothing, make_keys));
+  else RELIEVO_TRY(keys.load(database));
+  if (version >= kAllSealed) return step(database, version, store_version(), nothing, nothing);
+  RELIEVO_TRY(seal_people(database, keys));
+  return step(
+      database, kRoomToSeal, store_version(), [&] { return seal_the_rest(database, keys); }, nothing);
 }
 
 Result<void> remove_old_copies(const std::filesystem::path& database_file) {
-  for (std::int64_t version = 2; version <= store_version(); ++version) {
-    const auto copy = copy_before(database_file, version);
-    if (::unlink(copy.c_str()) != 0 && errno != ENOENT) {
-      return Error{Errc::IoFailed,
-                   "an old copy of the store, with people in it, could not be removed: remove it by hand",
-                   errno}
-          .at(copy.string());
-    }
-  }
-  return {};
+  return remove_copies(database_file, store_version());
+}
+
+Result<void> remove_plain_copies(const std::filesystem::path& database_file) {
+  return remove_copies(database_file, kAllSealed);
 }
 
 }  // namespace relievo::storage

@@ -5,14 +5,17 @@
 //
 //   empty file ──► schema.sql ─────────────────────────► kStoreVersion
 //   version n  ──► copied aside ──► migrations n+1 ... ──► kStoreVersion
-//   newer, but compatible with ours ──► used as it is;   newer ──► StoreNewer, untouched
+//   version n < 7 ──► copied aside ──► migrations n+1 ... 7 ──► sealed (sqlite_sealing.h), 8 ... ──► the copy
+//   removed newer, but compatible with ours ──► used as it is;   newer ──► StoreNewer, untouched
 #pragma once
 
 #include <cstdint>
 #include <filesystem>
 
 #include "hal/base/result.h"
+#include "storage/record.h"
 #include "storage/sqlite/sqlite_database.h"
+#include "storage/sqlite/sqlite_keys.h"
 
 namespace relievo::storage {
 
@@ -24,10 +27,13 @@ std::int64_t store_version();  // of this program: the number of its migrations
 // of the file, 0 if it is empty.
 Result<std::int64_t> version_of(Database& database);
 
-// All in one transaction. MediaFull, IoFailed as every change.
-Result<void> make_current(Database& database, std::int64_t version);
+// Afterwards `keys` are those of the store: loaded, or made for one that had none. All in one transaction,
+// but for the sealing. MediaFull, IoFailed as every change, and what the keys' source says.
+Result<void> make_current(Database& database, std::int64_t version, StoreKeys& keys, WallTime at);
 
 // relievo.db.before-N, for each N this program can have made.
 Result<void> remove_old_copies(const std::filesystem::path& database_file);
+// Those in which people stand in the clear. What a power cut may have left is found at the next opening.
+Result<void> remove_plain_copies(const std::filesystem::path& database_file);
 
 }  // namespace relievo::storage

@@ -5,7 +5,9 @@
 #include <system_error>
 
 #include "storage/sqlite/sqlite_change.h"
+#include "storage/sqlite/sqlite_erasure.h"
 #include "storage/sqlite/sqlite_migration.h"
+#include "storage/sqlite/sqlite_sealing.h"
 #include "storage/sqlite/store_directory.h"
 
 namespace relievo::storage {
@@ -40,19 +42,23 @@ Result<void> set_up_writing(Database& database, const SqliteStoreOptions& option
   return {};
 }
 
-Result<void> open_to_write(Database& database, const SqliteStoreOptions& options) {
+Result<void> open_to_write(Database& database, StoreKeys& keys, WallTime at,
+                           const SqliteStoreOptions& options) {
   RELIEVO_TRY(make_private_file(database.file()));
   RELIEVO_TRY(database.open(true));
   RELIEVO_TRY(set_up(database, options));
   RELIEVO_TRY_ASSIGN(const std::int64_t version, version_of(database));
   RELIEVO_TRY(set_up_writing(database, options));
   RELIEVO_TRY(database.tidy_up_on_close(true));
-  RELIEVO_TRY(make_current(database, version));
-  // Power may have gone between an erasure and the emptying of the log.
+  RELIEVO_TRY(make_current(database, version, keys, at));
+  // Power may have gone in the middle of an erasure, or of the migration that sealed an older store.
+  RELIEVO_TRY(remove_erased_rows(database));
+  RELIEVO_TRY(remove_plain_copies(database.file()));
+  RELIEVO_TRY(remove_plain_traces(database));
   return database.run("PRAGMA wal_checkpoint(TRUNCATE)");
 }
 
-Result<void> open_to_read(Database& database, const SqliteStoreOptions& options) {
+Result<void> open_to_read(Database& database, StoreKeys& keys, const SqliteStoreOptions& options) {
   std::error_code ignored;
   if (!fs::exists(database.file(), ignored)) {
     return Error{Errc::NotFound, "there is no store: check the path"}.at(database.where());
@@ -64,14 +70,16 @@ Result<void> open_to_read(Database& database, const SqliteStoreOptions& options)
     return Error{Errc::InvalidState, "the store is of an older version: open it to write once"}.at(
         database.where());
   }
-  return {};
+  return keys.load(database);
+}
+
+WallTime time_of(const hal::Clock& clock) {
+  return std::chrono::time_point_cast<std::chrono::milliseconds>(clock.wall_now());
 }
 
 }  // namespace
 
-WallTime SqliteStore::now() const {
-  return std::chrono::time_point_cast<std::chrono::milliseconds>(clock_.wall_now());
-}
+WallTime SqliteStore::now() const { return time_of(clock_); }
 
 Error SqliteStore::not_found(Literal what, std::int64_t number) const {
   return Error{Errc::NotFound, what}.at(std::to_string(number));
@@ -88,14 +96,19 @@ Result<std::unique_ptr<Store>> open_sqlite_store(const fs::path& dir, const hal:
     auto lock = std::make_unique<StoreLock>();
     if (writable) RELIEVO_TRY(lock->take(home / "relievo.lock", options.wait_for_lock));
     auto database = std::make_unique<Database>(home / "relievo.db");
-    auto ready = writable ? open_to_write(*database, options) : open_to_read(*database, options);
+    RELIEVO_TRY_ASSIGN(auto keys,
+                       StoreKeys::make(options.keys ? options.keys : key_file(home / "relievo.key")));
+    const WallTime at = time_of(clock);
+    auto ready =
+        writable ? open_to_write(*database, *keys, at, options) : open_to_read(*database, *keys, options);
     if (!ready && ready.error().code == Errc::MediaFull && give_up_reserve(home)) {
       database = std::make_unique<Database>(home / "relievo.db");
-      ready = open_to_write(*database, options);
+      ready = open_to_write(*database, *keys, at, options);
     }
     if (!ready) return ready.error();
     if (writable) set_aside_reserve(home, options.reserve_bytes);
-    auto store = std::make_unique<SqliteStore>(std::move(lock), std::move(database), clock, options);
+    auto store =
+        std::make_unique<SqliteStore>(std::move(lock), std::move(database), std::move(keys), clock, options);
     return std::unique_ptr<Store>(std::move(store));
   });
 }

@@ -3,12 +3,14 @@
 //
 // The one way to open a store of SQLite. It lives in DIR/relievo.db (directory 0700, file 0600);
 // DIR/relievo.lock keeps a second writer out; DIR/relievo.db.before-N is the copy made before a
-// migration to version N, removed by the next erasure; DIR/relievo.reserve is room set aside, given
-// up when the disk is full so that the store still opens and people can still be erased.
+// migration to version N, removed by the next erasure, and at once where people stand in it in the clear;
+// DIR/relievo.key is the appliance's key, unless it has another place; DIR/relievo.reserve is room set aside,
+// given up when the disk is full so that the store still opens and people can still be erased.
 //
 // Errors: InvalidInput (another program's database, DIR is no directory); NotFound (opened to read,
 // nothing there); StoreNewer (made by a newer Relievo: left untouched); StoreCorrupt; Timeout
-// (another program has it open to write); MediaFull; IoFailed; OutOfMemory.
+// (another program has it open to write); MediaFull; IoFailed; OutOfMemory. Of the key: NotFound (it is not
+// there), InvalidInput (it is another store's, or others may read it).
 #pragma once
 
 #include <chrono>
@@ -26,6 +28,7 @@
 #include "hal/clock.h"
 #include "storage/receipt_number.h"
 #include "storage/sqlite/sqlite_database.h"
+#include "storage/sqlite/sqlite_keys.h"
 #include "storage/sqlite/store_directory.h"
 #include "storage/store.h"
 
@@ -39,15 +42,17 @@ struct SqliteStoreOptions {
   std::int64_t max_bytes = 0;               // of the database file; 0: as much as the disk holds
   std::int64_t reserve_bytes = 64'000'000;  // an erasure needs as much as it erases, for a moment
   std::int64_t (*draw_receipt)() = storage::draw_receipt;
+  std::shared_ptr<KeySource> keys{};  // empty: the file relievo.key beside the store
 };
 
 class SqliteStore final : public Store {
  public:
   // Of a database that open_sqlite_store() has made ready, and the lock that keeps other writers out.
-  SqliteStore(std::unique_ptr<StoreLock> lock, std::unique_ptr<Database> database, const hal::Clock& clock,
-              const SqliteStoreOptions& options)
+  SqliteStore(std::unique_ptr<StoreLock> lock, std::unique_ptr<Database> database,
+              std::unique_ptr<StoreKeys> keys, const hal::Clock& clock, const SqliteStoreOptions& options)
       : lock_(std::move(lock)),
         database_(std::move(database)),
+        keys_(std::move(keys)),
         clock_(clock),
         mode_(options.mode),
         draw_receipt_(options.draw_receipt) {}
@@ -81,11 +86,12 @@ class SqliteStore final : public Store {
   auto change(const Work& work) -> decltype(work(WallTime{}));
   WallTime now() const;
   Error not_found(Literal what, std::int64_t number) const;
-  Result<void> subject_must_exist(SubjectId id);
+  Result<void> subject_must_exist(SubjectId id);  // its key is in keys_ then
+  Result<Subject> subject_in(KeySlots& slots, const Statement& row);
+  Result<Enrolment> enrolment_in(KeySlots& slots, const Statement& row);
   Result<std::int64_t> fresh_receipt();
   Result<SubjectId> insert_subject(const NewSubject& subject, WallTime at);
   Result<void> erase_others(SubjectId subject, EnrolmentId but, WallTime at);
-  Result<void> empty_the_log();
   Result<SubjectId> resolve(const SubjectChoice& subject, WallTime at);
   Result<EnrolmentId> insert_enrolment(SubjectId subject, const NewEnrolment& enrolment,
                                        std::span<const std::byte> blob, WallTime at);
@@ -96,11 +102,13 @@ class SqliteStore final : public Store {
   Result<void> make_active(std::uint32_t revision);
   Result<std::vector<std::byte>> model_bytes(EnrolmentId id);
   Result<void> check_pages();
+  Result<void> check_subjects();
   Result<void> check_models();
   Result<void> check_calibrations();
 
   std::unique_ptr<StoreLock> lock_;  // outlives the database
   std::unique_ptr<Database> database_;
+  std::unique_ptr<StoreKeys> keys_;
   const hal::Clock& clock_;
   OpenMode mode_;
   std::int64_t (*draw_receipt_)();

@@ -3,33 +3,34 @@
 // SqliteStore: subjects.
 #include "storage/sqlite/sqlite_audit.h"
 #include "storage/sqlite/sqlite_change.h"
+#include "storage/sqlite/sqlite_erasure.h"
 #include "storage/sqlite/sqlite_migration.h"
+#include "storage/sqlite/sqlite_sealed_rows.h"
 #include "storage/sqlite/store_directory.h"
 #include "storage/text.h"
 
 namespace relievo::storage {
 namespace {
 
+// One without a code is erased, even while its row is there.
 constexpr std::string_view kSubjects =
-    "SELECT id, name, created_at_ms, (SELECT count(*) FROM enrolment WHERE subject_id = subject.id), "
-    "receipt FROM subject ";
-
-std::string_view name_in(const Statement& query) {
-  const auto bytes = query.blob(1);
-  return {reinterpret_cast<const char*>(bytes.data()), bytes.size()};
-}
-
-Subject subject_in(const Statement& query) {
-  return {SubjectId{query.integer(0)}, std::string(name_in(query)), from_ms(query.integer(2)),
-          static_cast<int>(query.integer(3)), query.integer(4)};
-}
+    "SELECT id, created_at_ms, name, code FROM subject WHERE code_hash IS NOT NULL ";
 
 }  // namespace
 
 Result<void> SqliteStore::subject_must_exist(SubjectId id) {
-  RELIEVO_TRY_ASSIGN(auto query, database_->prepare("SELECT 1 FROM subject WHERE id = ?"));
+  RELIEVO_TRY_ASSIGN(auto query, database_->prepare(std::string(kSubjects) + "AND id = ?"));
   RELIEVO_TRY_ASSIGN(const bool row, query.bind(number(id)).step());
-  return row ? Result<void>() : not_found("there is no subject with this number", number(id));
+  if (!row) return not_found("there is no subject with this number", number(id));
+  KeySlots slots(*database_);
+  return keys_->take_subject_key(slots, id);
+}
+
+Result<Subject> SqliteStore::subject_in(KeySlots& slots, const Statement& row) {
+  Subject subject{.id = SubjectId{row.integer(0)}, .name = {}, .created_at = from_ms(row.integer(1))};
+  RELIEVO_TRY(keys_->take_subject_key(slots, subject.id));
+  RELIEVO_TRY_ASSIGN(subject.name, open_name(*keys_, subject.id, row.blob(2)));
+  return subject;
 }
 
 // One that nobody has. The index would refuse a second; among a million people one draw in a million meets
@@ -38,8 +39,9 @@ Result<std::int64_t> SqliteStore::fresh_receipt() {
   constexpr int kMostDraws = 100;
   for (int draw = 0; draw < kMostDraws; ++draw) {
     const std::int64_t drawn = draw_receipt_();
-    RELIEVO_TRY_ASSIGN(auto query, database_->prepare("SELECT 1 FROM subject WHERE receipt = ?"));
-    RELIEVO_TRY_ASSIGN(const bool taken, query.bind(drawn).step());
+    const auto hash = keys_->code_hash(drawn);
+    RELIEVO_TRY_ASSIGN(auto query, database_->prepare("SELECT 1 FROM subject WHERE code_hash = ?"));
+    RELIEVO_TRY_ASSIGN(const bool taken, query.bind(hash).step());
     if (!taken) return drawn;
   }
   return Error{Errc::LibraryFailed,
@@ -50,12 +52,13 @@ Result<SubjectId> SqliteStore::insert_subject(const NewSubject& subject, WallTim
   if (!is_name(subject.name)) {
     return Error{Errc::InvalidInput, "a name has 1 to 200 bytes of UTF-8 and no control characters"};
   }
-  RELIEVO_TRY_ASSIGN(
-      auto insert, database_->prepare("INSERT INTO subject (created_at_ms, name, receipt) VALUES (?, ?, ?)"));
+  RELIEVO_TRY_ASSIGN(auto insert,
+                     database_->prepare("INSERT INTO subject (created_at_ms, name) VALUES (?, x'00')"));
   RELIEVO_TRY_ASSIGN(const std::int64_t receipt, fresh_receipt());
-  RELIEVO_TRY(insert.bind(to_ms(at)).bind(std::as_bytes(std::span(subject.name))).bind(receipt).run());
+  RELIEVO_TRY(insert.bind(to_ms(at)).run());
   const SubjectId id{database_->last_row_id()};
-  RELIEVO_TRY(append_audit_line(*database_, {"subject.added", id, ""}, at));
+  RELIEVO_TRY(seal_subject(*database_, *keys_, id, subject.name, receipt));
+  RELIEVO_TRY(append_audit_line(*database_, *keys_, {"subject.added", id, ""}, at));
   return id;
 }
 
@@ -65,18 +68,32 @@ Result<SubjectId> SqliteStore::add_subject(const NewSubject& subject) {
 
 Result<std::vector<Subject>> SqliteStore::subjects(const SubjectFilter& filter) {
   return without_exceptions(database_->where(), [&]() -> Result<std::vector<Subject>> {
-    RELIEVO_TRY_ASSIGN(auto query, database_->prepare(std::string(kSubjects) +
-                                                      "WHERE ?1 = 0 OR receipt = ?1 ORDER BY id DESC"));
-    query.bind(filter.receipt);
+    const bool by_name = filter.whole_name && !filter.name.empty(), by_code = filter.receipt != 0;
+    RELIEVO_TRY_ASSIGN(auto query,
+                       database_->prepare(std::string(kSubjects) + (by_code ? "AND code_hash = ? " : "") +
+                                          (by_name ? "AND name_hash = ? " : "") + "ORDER BY id DESC"));
+    RELIEVO_TRY_ASSIGN(auto count, database_->prepare("SELECT count(*) FROM enrolment WHERE subject_id = ?"));
+    const auto code_hash = keys_->code_hash(filter.receipt), name_hash = keys_->name_hash(filter.name);
+    if (by_code) query.bind(code_hash);
+    if (by_name) query.bind(name_hash);
+    KeySlots slots(*database_);
     std::vector<Subject> found;
-    // Names are compared here, not in SQL: there they will be cipher text.
     for (std::int64_t skip = filter.skip; static_cast<std::int64_t>(found.size()) < filter.limit;) {
       RELIEVO_TRY_ASSIGN(const bool row, query.step());
       if (!row) break;
-      const auto name = name_in(query);
-      if (filter.whole_name && !filter.name.empty() ? name != filter.name : !contains_name(name, filter.name))
-        continue;
-      if (skip-- <= 0) found.push_back(subject_in(query));
+      if (filter.name.empty() && skip-- > 0) continue;  // nothing to be read of these
+      RELIEVO_TRY_ASSIGN(auto subject, subject_in(slots, query));
+      if (by_name ? subject.name != filter.name : !contains_name(subject.name, filter.name)) continue;
+      if (!filter.name.empty() && skip-- > 0) continue;
+      RELIEVO_TRY_ASSIGN(subject.receipt, open_code(*keys_, subject.id, query.blob(3)));
+      if (by_code && subject.receipt != filter.receipt)
+        return Error{Errc::StoreCorrupt,
+                     "a code leads to somebody else's record: restore a copy of the store"}
+            .at("subject " + std::to_string(number(subject.id)) + ", code_hash");
+      count.again();
+      RELIEVO_TRY_ASSIGN(const bool counted, count.bind(number(subject.id)).step());
+      subject.enrolments = counted ? static_cast<int>(count.integer(0)) : 0;
+      found.push_back(std::move(subject));
     }
     return found;
   });
@@ -84,39 +101,48 @@ Result<std::vector<Subject>> SqliteStore::subjects(const SubjectFilter& filter) 
 
 Result<Subject> SqliteStore::subject(SubjectId id) {
   return without_exceptions(database_->where(), [&]() -> Result<Subject> {
-    RELIEVO_TRY_ASSIGN(auto query, database_->prepare(std::string(kSubjects) + "WHERE id = ?"));
+    RELIEVO_TRY_ASSIGN(auto query,
+                       database_->prepare("SELECT id, created_at_ms, name, code, (SELECT count(*) FROM "
+                                          "enrolment WHERE subject_id = subject.id) FROM subject "
+                                          "WHERE code_hash IS NOT NULL AND id = ?"));
     RELIEVO_TRY_ASSIGN(const bool row, query.bind(number(id)).step());
     if (!row) return not_found("there is no subject with this number", number(id));
-    return subject_in(query);
+    KeySlots slots(*database_);
+    RELIEVO_TRY_ASSIGN(auto subject, subject_in(slots, query));
+    RELIEVO_TRY_ASSIGN(subject.receipt, open_code(*keys_, id, query.blob(3)));
+    subject.enrolments = static_cast<int>(query.integer(4));
+    return subject;
   });
 }
 
+// Two steps: the key, which is small and makes all else unreadable for ever; then the room it took. Where the
+// second is cut off, opening the store makes up for it (sqlite_erasure.h).
 Result<void> SqliteStore::erase_subject(SubjectId id) {
   return without_exceptions(database_->where(), [&]() -> Result<void> {
     RELIEVO_TRY(subject_must_exist(id));
     if (mode_ == OpenMode::ReadWrite) RELIEVO_TRY(remove_old_copies(database_->file()));
-    const auto erase = [&](WallTime at) -> Result<void> {
-      RELIEVO_TRY_ASSIGN(auto statement, database_->prepare("DELETE FROM subject WHERE id = ?"));
-      RELIEVO_TRY(statement.bind(number(id)).run());
-      return append_audit_line(*database_, {"subject.erased", id, ""}, at);
-    };
-    auto erased = change(erase);
     // The way out of a full disk may not itself end there.
-    if (!erased && erased.error().code == Errc::MediaFull &&
-        give_up_reserve(database_->file().parent_path())) {
-      erased = change(erase);
-    }
-    if (!erased) return erased;
-    return empty_the_log();
+    const auto in_reserve = [&](const auto& step) {
+      auto done = change(step);
+      if (!done && done.error().code == Errc::MediaFull && give_up_reserve(database_->file().parent_path()))
+        done = change(step);
+      return done;
+    };
+    const auto destroyed = in_reserve([&](WallTime at) -> Result<void> {
+      RELIEVO_TRY(destroy_subject_key(*database_, id));
+      RELIEVO_TRY(append_audit_line(*database_, *keys_, {std::string(kSubjectErased), id, ""}, at));
+      return {};
+    });
+    if (!destroyed) return destroyed;
+    RELIEVO_TRY(empty_the_log(*database_));
+    const auto removed = in_reserve([&](WallTime) { return remove_erased_rows(*database_); });
+    if (!removed)
+      return Error{removed.error().code,
+                   "erased; the room it took is not free yet: close the store and open it again",
+                   removed.error().sys_errno}
+          .at(database_->where());
+    return empty_the_log(*database_);
   });
-}
-
-// The log still holds the pages as they were: move it into the file, and empty it.
-Result<void> SqliteStore::empty_the_log() {
-  RELIEVO_TRY_ASSIGN(const std::int64_t busy, database_->integer("PRAGMA wal_checkpoint(TRUNCATE)"));
-  if (busy == 0) return {};
-  return Error{Errc::Timeout, "erased, but another program keeps traces in the log: close it, then restart"}
-      .at(database_->where());
 }
 
 }  // namespace relievo::storage

@@ -2,15 +2,20 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // Migrations, and files that are not what they should be.
 #include <gtest/gtest.h>
-#include <sqlite3.h>
 
-#include <fstream>
+#include <algorithm>
+#include <cstdlib>
 #include <map>
 
+#include "storage/byte_order.h"
 #include "storage/calibration_record.h"
+#include "storage/model_blob.h"
 #include "storage/receipt_number.h"
 #include "storage/schema/embedded_sql.h"
+#include "storage/sodium_sha256.h"
 #include "storage/sqlite/sqlite_migration.h"
+#include "tests/storage/cut_writes.h"
+#include "tests/storage/raw_database.h"
 #include "tests/storage/sample.h"
 #include "tests/support/temporary_folder.h"
 
@@ -19,35 +24,10 @@ namespace {
 
 using relievo::test::TemporaryFolder;
 using test::opened;
+using test::Raw;
 
-class Raw {
- public:
-  explicit Raw(const std::filesystem::path& file) { EXPECT_EQ(sqlite3_open(file.c_str(), &db_), SQLITE_OK); }
-  ~Raw() { sqlite3_close_v2(db_); }
-  Raw(const Raw&) = delete;
-  Raw& operator=(const Raw&) = delete;
-  void run(const std::string& sql) {
-    char* message = nullptr;
-    EXPECT_EQ(sqlite3_exec(db_, sql.c_str(), nullptr, nullptr, &message), SQLITE_OK)
-        << sql << ": " << (message ? message : "");
-    sqlite3_free(message);
-  }
-  // Rows as text, columns joined by bars.
-  std::vector<std::string> rows(const std::string& sql) {
-    std::vector<std::string> found;
-    const auto keep = [](void* to, int count, char** values, char**) {
-      std::string row;
-      for (int i = 0; i < count; ++i) row += std::string(values[i] ? values[i] : "NULL") + "|";
-      static_cast<std::vector<std::string>*>(to)->push_back(row);
-      return 0;
-    };
-    EXPECT_EQ(sqlite3_exec(db_, sql.c_str(), keep, &found, nullptr), SQLITE_OK) << sql;
-    return found;
-  }
-
- private:
-  sqlite3* db_ = nullptr;
-};
+const SqliteStoreOptions kNoReserve{.reserve_bytes = 0};
+constexpr std::int64_t kLastPlain = 6;  // the last version that knew no keys
 
 std::string number(std::int64_t n) { return std::to_string(n); }
 
@@ -88,12 +68,13 @@ TEST(SqliteMigration, SumOfMigrationsIsTheSchema) {
   }
 }
 
-TEST(SqliteMigration, EveryOlderVersionIsBroughtUpAndCopiedAside) {
-  for (std::int64_t version = 1; version < store_version(); ++version) {
+TEST(SqliteMigration, EveryOlderVersionIsBroughtUpAndSealed) {
+  for (std::int64_t version = 1; version <= kLastPlain; ++version) {
     const TemporaryFolder folder;
     const auto dir = folder / "store";
     make_version(dir, version);
     Raw(dir / "relievo.db").run("INSERT INTO subject (created_at_ms, name) VALUES (1, x'416461')");
+    if (version == kLastPlain) Raw(dir / "relievo.db").run("UPDATE subject SET receipt = 77");
     EXPECT_EQ(refusal(dir, OpenMode::ReadOnly), Errc::InvalidState);
     auto store = opened(dir);
     ASSERT_TRUE(store);
@@ -105,17 +86,136 @@ TEST(SqliteMigration, EveryOlderVersionIsBroughtUpAndCopiedAside) {
     EXPECT_NE(store->subject(*store->add_subject({"Bob"}))->receipt, receipt);
     EXPECT_TRUE(store->set_setting("language", "de"));
     EXPECT_TRUE(store->check());
-    const auto copy = dir / ("relievo.db.before-" + number(version + 1));
-    ASSERT_TRUE(std::filesystem::exists(copy));
-    EXPECT_EQ(std::filesystem::status(copy).permissions(),
-              std::filesystem::perms::owner_read | std::filesystem::perms::owner_write);
-    EXPECT_EQ(Raw(copy).rows("PRAGMA user_version"), std::vector<std::string>{number(version) + "|"});
-    EXPECT_EQ(Raw(copy).rows("SELECT name FROM subject"), std::vector<std::string>{"Ada|"});
-    // A copy must not outlive the person in it.
-    EXPECT_TRUE(store->erase_subject(SubjectId{1}));
-    EXPECT_FALSE(std::filesystem::exists(copy));
+    EXPECT_FALSE(std::filesystem::exists(dir / ("relievo.db.before-" + number(version + 1))))
+        << "a copy in which people stand in the clear";
     EXPECT_EQ(test::all_bytes(dir).find("Ada"), std::string::npos);
+    EXPECT_TRUE(store->erase_subject(SubjectId{1}));
   }
+}
+
+// A store of version 6 as it was filled: people with models, notes, settings, a log.
+struct OfBefore {
+  explicit OfBefore(const std::filesystem::path& dir, int people) : dir_(dir) {
+    make_version(dir, kLastPlain);
+    Raw raw(dir / "relievo.db");
+    for (int i = 1; i <= people; ++i) {
+      const auto model = test::sample_model(8 + i % 7, static_cast<unsigned>(i));
+      const std::string id = number(i), name = name_of(i);
+      raw.run("INSERT INTO subject (id, created_at_ms, name, receipt) VALUES (" + id + ", 1, CAST('" + name +
+              "' AS BLOB), " + number(424'200'000'000 + i) + ")");
+      raw.run("INSERT INTO enrolment (id, subject_id, created_at_ms, algorithms, report_json) VALUES (" + id +
+              ", " + id + ", 2, 'algorithms of " + name + "', 'report of " + name + "')");
+      raw.run("INSERT INTO consent VALUES (" + id + ", 'wording for " + name + "', 'eo', 3)");
+      raw.run("INSERT INTO model (enrolment_id, bytes) VALUES (" + id + ", ?)", *encode_model(model));
+      if (people > 10 && i % 3 != 0) continue;  // to search for all of them takes minutes
+      for (const char* text : {"", "algorithms of ", "report of ", "wording for "})
+        traces.push_back(text + name);
+      traces.emplace_back(reinterpret_cast<const char*>(&model.mesh.vertices_mm[3]), 24);
+      traces.emplace_back(reinterpret_cast<const char*>(model.texture.rgb.data()) + 60, 24);
+    }
+    raw.run("INSERT INTO setting VALUES ('pin', 'hash of the PIN 4711', 1)");
+    calibration.revision = 1;
+    raw.run(
+        "INSERT INTO calibration (created_at_ms, note, record, active) VALUES (1, 'the note of Grete', ?, 1)",
+        encode_calibration(calibration, {}));
+    // The chain as it was made before there were keys.
+    std::vector<std::byte> bytes(32);
+    ByteWriter to(bytes);
+    for (const std::int64_t value : {1, 2, 0}) to.put(value);
+    for (const std::string_view field : {"calibration.drift", "detail of Grete"}) {
+      to.put(static_cast<std::uint64_t>(field.size()));
+      to.put(bytes_of(field));
+    }
+    const auto hash = sha256(bytes);
+    raw.run("INSERT INTO audit VALUES (1, 2, 'calibration.drift', 0, 'detail of Grete', ?)", hash);
+    raw.run("UPDATE audit_end SET number = 1, hash = ?", hash);
+    for (const char* text : {"hash of the PIN", "the note of Grete", "detail of Grete"})
+      traces.emplace_back(text);
+    people_ = people;
+  }
+  static std::string name_of(int i) { return "Canary-" + number(1000 + i) + "-Person"; }
+
+  // All of it is there, sealed, and nothing of it can be read in any file.
+  void judge(Store& store, const std::string& when) const {
+    const auto checked = store.check();
+    ASSERT_TRUE(checked) << when << ": " << checked.error().where() << ": " << checked.error().what.view();
+    const auto subjects = store.subjects({});
+    ASSERT_EQ(subjects->size(), static_cast<std::size_t>(people_)) << when;
+    for (int i = 1; i <= people_; ++i) {
+      const auto found = store.subjects({.name = name_of(i), .whole_name = true});
+      ASSERT_EQ(found->size(), 1U) << when;
+      EXPECT_EQ(store.subjects({.receipt = 424'200'000'000 + i})->front().name, name_of(i)) << when;
+      const auto enrolment = store.enrolment(EnrolmentId{i});
+      ASSERT_TRUE(enrolment) << when;
+      EXPECT_EQ(enrolment->report_json, "report of " + name_of(i));
+      EXPECT_EQ(enrolment->algorithms, "algorithms of " + name_of(i));
+      EXPECT_EQ(enrolment->consent.wording, "wording for " + name_of(i));
+      EXPECT_EQ(enrolment->consent.language, "eo");
+      EXPECT_EQ(enrolment->consent.given_at, WallTime(std::chrono::milliseconds(3)));
+      EXPECT_TRUE(test::identical(test::sample_model(8 + i % 7, static_cast<unsigned>(i)),
+                                  *store.load_model(EnrolmentId{i}, std::pmr::new_delete_resource())));
+    }
+    EXPECT_EQ(*store.setting("pin"), "hash of the PIN 4711");
+    EXPECT_EQ(store.calibrations()->front().note, "the note of Grete");
+    EXPECT_EQ(store.audit(0, 10)->front().event.detail, "detail of Grete");
+    EXPECT_EQ(readable(), 0) << when;
+  }
+  long readable() const {
+    const auto bytes = test::all_bytes(dir_);
+    return std::ranges::count_if(traces,
+                                 [&](const auto& trace) { return bytes.find(trace) != std::string::npos; });
+  }
+  std::filesystem::path dir_;
+  int people_ = 0;
+  pipeline::StereoCalibration calibration = test::sample_calibration();
+  std::vector<std::string> traces;
+};
+
+TEST(SqliteMigration, AFullStoreOfBeforeIsSealedToTheLastPage) {
+  const TemporaryFolder folder;
+  const OfBefore before(folder / "store", 230);  // more than one part
+  EXPECT_EQ(before.readable(), static_cast<long>(before.traces.size())) << "the search finds what is there";
+  auto store = opened(folder / "store", kNoReserve);
+  ASSERT_TRUE(store);
+  before.judge(*store, "open");
+  store.reset();
+  EXPECT_EQ(before.readable(), 0) << "closed";
+  before.judge(*opened(folder / "store", kNoReserve), "opened again");
+}
+
+TEST(SqliteMigration, CutOffAtAnyWriteItGoesOnAtTheNextOpening) {
+  const TemporaryFolder folder;
+  const OfBefore before(folder / "before", 3);
+  const long stride = std::getenv("RELIEVO_EVERY_POINT") != nullptr ? 1 : 5;
+  long cuts = 0, at_seven = 0;
+  for (long write = 1;; write += stride) {
+    const auto dir = folder / ("store-" + number(write));
+    std::filesystem::copy(folder / "before", dir);
+    const auto ended = test::cut_at_write(write, [&] { return opened(dir, kNoReserve) != nullptr; });
+    ASSERT_NE(ended, test::Ended::Failed) << write;
+    OfBefore here = before;
+    here.dir_ = dir;
+    if (ended == test::Ended::Cut) {
+      ++cuts;
+      at_seven += Raw(dir / "relievo.db").rows("PRAGMA user_version").front() == "7|" ? 1 : 0;
+      here.judge(*opened(dir, kNoReserve), "cut at write " + number(write));
+    }
+    here.dir_ = dir;
+    EXPECT_EQ(here.readable(), 0) << write;
+    std::filesystem::remove_all(dir);
+    if (ended == test::Ended::Finished || HasFailure()) break;
+  }
+  EXPECT_GT(cuts * stride, 100);
+  EXPECT_GT(at_seven, 0) << "also in the middle of the sealing";
+}
+
+TEST(SqliteMigration, ABrokenLogStaysBroken) {
+  const TemporaryFolder folder;
+  const OfBefore before(folder.path(), 1);
+  Raw(folder / "relievo.db").run("UPDATE audit SET detail = 'another detail'");
+  const auto checked = opened(folder.path())->check();
+  ASSERT_FALSE(checked) << "to seal is not to mend";
+  EXPECT_EQ(checked.error().code, Errc::StoreCorrupt);
 }
 
 TEST(SqliteMigration, CalibrationsOfBeforeAreReadAndNewOnesJoinThem) {
@@ -183,7 +283,9 @@ TEST(SqliteMigration, AnotherProgramsDatabaseIsLeftAlone) {
 // The audit log is whole, or check() says so.
 TEST(SqliteAudit, FindsEveryEditDropSwapAndCut) {
   const std::map<std::string, std::string> tampering = {
-      {"edited", "UPDATE audit SET detail = 'x' WHERE number = 3"},
+      {"edited", "UPDATE audit SET detail = x'78' WHERE number = 3"},
+      {"detail of another",
+       "UPDATE audit SET detail = (SELECT detail FROM audit WHERE number = 2) WHERE number = 3"},
       {"redated", "UPDATE audit SET at_ms = at_ms + 1 WHERE number = 3"},
       {"dropped", "DELETE FROM audit WHERE number = 3"},
       {"first dropped", "DELETE FROM audit WHERE number = 1"},

@@ -12,6 +12,8 @@
 #include <random>
 
 #include "storage/export/model_files.h"
+#include "tests/storage/cut_writes.h"
+#include "tests/storage/raw_database.h"
 #include "tests/storage/sample.h"
 #include "tests/support/temporary_folder.h"
 
@@ -24,6 +26,8 @@ using test::identical;
 using test::opened;
 using test::sample_enrolment;
 using test::sample_model;
+
+const SqliteStoreOptions kNoReserve{.reserve_bytes = 0};
 
 // Enrols without end; writes each number to the pipe after the store said it was safe.
 [[noreturn]] void enrol_for_ever(const std::filesystem::path& dir, const pipeline::FaceModel& model,
@@ -209,32 +213,42 @@ TEST(StoreFaults, NoDatabaseAtAllIsCalledDamaged) {
   EXPECT_EQ(store.error().code, Errc::StoreCorrupt);
 }
 
-// Neither the name nor a run of vertices, in no file, while the store is open and after.
+// Of a person that was erased not even what was sealed is left, in no file, while the store is open and
+// after: neither the wrapped key nor a run of any value.
 TEST(StoreFaults, ErasedMeansGone) {
   const TemporaryFolder folder;
   auto store = opened(folder.path());
   ASSERT_TRUE(store);
-  std::vector<std::string> traces;
   std::vector<SubjectId> erased;
   std::vector<EnrolmentId> kept;
+  std::string ids;
   for (unsigned i = 0; i < 40; ++i) {
     const auto model = sample_model(static_cast<int>(8 + i), i + 1);
-    const std::string name = "Canary-" + std::to_string(1000 + i) + "-Person";
-    auto enrolment = sample_enrolment(model);
-    const std::string report = "{\"note\": \"report-of-" + name + "\"}";
-    enrolment.report_json = report;
-    const auto id = store->add_enrolment(NewSubject{name}, enrolment);
+    const auto id = store->add_enrolment(NewSubject{"Person " + std::to_string(i)}, sample_enrolment(model));
     ASSERT_TRUE(id);
     if (i % 3 == 0) {
       kept.push_back(*id);
       continue;
     }
     erased.push_back(store->enrolment(*id)->subject);
-    traces.push_back(name);
-    // 24 bytes: two vertices, wherever they may lie on a page.
-    for (std::size_t v :
-         {std::size_t{0}, model.mesh.vertices_mm.size() / 2, model.mesh.vertices_mm.size() - 2}) {
-      traces.emplace_back(reinterpret_cast<const char*>(&model.mesh.vertices_mm[v]), 24);
+    ids += (ids.empty() ? "" : ",") + std::to_string(static_cast<std::int64_t>(erased.back()));
+  }
+  std::vector<std::string> traces;
+  for (const char* value :
+       {"substr(slots, 4097 + 72 * subject.id, 72)", "substr(name, 1, 24)", "substr(code, 1, 24)",
+        "substr(name_hash, 1, 24)", "code_hash", "substr(enrolment.record, 8, 24)",
+        "substr(consent.record, 8, 24)", "substr(bytes, 1, 24)", "substr(bytes, length(bytes) / 2, 24)",
+        "substr(bytes, length(bytes) - 24)"}) {
+    for (const auto& hex :
+         test::Raw(folder / "relievo.db")
+             .rows(std::string("SELECT hex(") + value +
+                   ") FROM subject_key, subject JOIN enrolment ON subject_id = subject.id JOIN consent ON "
+                   "consent.enrolment_id = enrolment.id JOIN model ON model.enrolment_id = "
+                   "enrolment.id WHERE subject.id IN (" +
+                   ids + ")")) {
+      std::string& trace = traces.emplace_back();
+      for (std::size_t at = 0; at + 2 < hex.size(); at += 2)
+        trace += static_cast<char>(std::stoi(hex.substr(at, 2), nullptr, 16));
     }
   }
   const auto count = [&] {
@@ -242,6 +256,7 @@ TEST(StoreFaults, ErasedMeansGone) {
     return std::ranges::count_if(traces,
                                  [&](const auto& trace) { return bytes.find(trace) != std::string::npos; });
   };
+  ASSERT_EQ(traces.size(), 10 * erased.size());
   ASSERT_GT(count(), static_cast<long>(traces.size()) * 9 / 10) << "the search finds what is there";
   for (const SubjectId id : erased) ASSERT_TRUE(store->erase_subject(id));
   EXPECT_EQ(count(), 0);
@@ -249,6 +264,45 @@ TEST(StoreFaults, ErasedMeansGone) {
   for (const EnrolmentId id : kept) EXPECT_TRUE(store->load_model(id, std::pmr::new_delete_resource()));
   store.reset();
   EXPECT_EQ(count(), 0);
+}
+
+// The key goes first: cut off at any write, a person is whole or is gone, and gone for good.
+TEST(StoreFaults, AnErasureThatIsCutOffLeavesTheWholePersonOrNobody) {
+  const TemporaryFolder folder;
+  const auto model = sample_model(30);
+  {
+    const auto store = opened(folder / "before", kNoReserve);
+    for (const char* name : {"Ada", "Bob", "Eva"})
+      ASSERT_TRUE(store->add_enrolment(NewSubject{name}, sample_enrolment(model)));
+  }
+  int whole = 0, gone = 0, begun = 0;
+  for (long write = 1;; ++write) {
+    const auto dir = folder / ("store-" + std::to_string(write));
+    std::filesystem::copy(folder / "before", dir);
+    const auto ended = test::cut_at_write(
+        write, [&] { return opened(dir, kNoReserve)->erase_subject(SubjectId{2}).has_value(); });
+    ASSERT_NE(ended, test::Ended::Failed) << write;
+    begun +=
+        test::Raw(dir / "relievo.db").rows("SELECT 1 FROM subject WHERE code_hash IS NULL").empty() ? 0 : 1;
+    const auto store = opened(dir, kNoReserve);
+    const auto checked = store->check();
+    ASSERT_TRUE(checked) << write << " " << checked.error().what.view();
+    const auto people = store->subjects({});
+    const bool there = people->size() == 3;
+    ASSERT_TRUE(there || people->size() == 2) << write;
+    (there ? whole : gone) += 1;
+    EXPECT_EQ(store->load_model(EnrolmentId{2}, std::pmr::new_delete_resource()).has_value(), there);
+    EXPECT_EQ(test::Raw(dir / "relievo.db").rows("SELECT 1 FROM enrolment WHERE id = 2").size(),
+              there ? 1U : 0U);
+    EXPECT_EQ(store->audit(0, 100)->back().event.what == "subject.erased", !there) << write;
+    if (ended == test::Ended::Finished) {
+      EXPECT_FALSE(there);
+      break;
+    }
+  }
+  EXPECT_GT(whole, 2);
+  EXPECT_GT(gone, 2);
+  EXPECT_GT(begun, 2) << "also between the key and the rows";
 }
 
 }  // namespace
