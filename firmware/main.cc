@@ -60,11 +60,37 @@ Result<std::unique_ptr<hal::Device>> open_device(std::string_view device) {
       .at(device);
 }
 
-Result<std::unique_ptr<storage::Store>> open_store(const Path& folder, bool to_write) {
-  static const hal::MonotonicClock clock;
+// The file of --key; or the credential that systemd hands this service; or the file beside the store.
+std::shared_ptr<storage::KeySource> key_source(const Path& folder, const Path& named) {
+  if (!named.empty()) return storage::key_file(named, false);
+  const char* credentials = getenv("CREDENTIALS_DIRECTORY");
+  std::error_code ignored;
+  if (const Path file = Path(credentials == nullptr ? "" : credentials) / storage::kKeyFile;
+      credentials != nullptr && std::filesystem::exists(file, ignored))
+    return storage::key_credential(file);
+  return storage::key_file(folder / storage::kKeyFile);
+}
+
+Result<std::unique_ptr<storage::Store>> open_store(const Path& folder, bool to_write, const Path& key,
+                                                   const hal::Clock& clock, Console& console) {
   storage::SqliteStoreOptions options;
   options.mode = to_write ? storage::OpenMode::ReadWrite : storage::OpenMode::ReadOnly;
-  return storage::open_sqlite_store(folder, clock, options);
+  options.keys = key_source(folder, key);
+  std::error_code ignored;
+  const bool first = to_write && !std::filesystem::exists(folder / storage::kStoreFile, ignored);
+  auto store = storage::open_sqlite_store(folder, clock, options);
+  if (store && first)
+    console.say(
+        "a new store; its key " + std::string(options.keys->protects()) +
+        ". Should the key be lost, recovery words open it: make them with relievo store recovery-words");
+  return store;
+}
+
+std::unique_ptr<storage::StoreKeeping> keep_store(const Path& folder, const Path& key,
+                                                  const hal::Clock& clock) {
+  storage::SqliteStoreOptions options;
+  options.keys = key_source(folder, key);
+  return storage::keep_sqlite_store(folder, clock, options);
 }
 
 Result<void> hold_picture(const HeldPictureArgs& held, const hal::sim::SimulationOptions& simulation,
@@ -225,19 +251,22 @@ int main(int argc, char** argv) {
   namespace fw = relievo::firmware;
   fw::Console console;
   const relievo::hal::MonotonicClock clock;
-  fw::Services services{.open_device = fw::open_device,
-                        .open_store = fw::open_store,
-                        .simulate = fw::simulate,
-                        .photograph = fw::photograph,
-                        .hold_board = fw::hold_board,
-                        .simulated_calibration = fw::simulated_calibration,
-                        .open_display = relievo::ui::open_sdl_display,
-                        .console = console,
-                        .clock = clock,
-                        .set_clock = fw::set_system_clock,
-                        .plug_stick = fw::plug_stick,
-                        .turn_head = relievo::hal::turn_simulated_head,
-                        .take_screenshots = fw::take_screenshots,
-                        .allocations = fw::allocation_count()};
-  return fw::run_command(fw::parse_command_line(argc, argv), services);
+  const fw::CommandLine line = fw::parse_command_line(argc, argv);
+  fw::Services services{
+      .open_device = fw::open_device,
+      .open_store = [&](const fw::Path& folder,
+                        bool to_write) { return fw::open_store(folder, to_write, line.key, clock, console); },
+      .keep_store = [&](const fw::Path& folder) { return fw::keep_store(folder, line.key, clock); },
+      .simulate = fw::simulate,
+      .photograph = fw::photograph,
+      .hold_board = fw::hold_board,
+      .simulated_calibration = fw::simulated_calibration,
+      .open_display = relievo::ui::open_sdl_display,
+      .console = console,
+      .clock = clock,
+      .set_clock = fw::set_system_clock,
+      .plug_stick = fw::plug_stick,
+      .take_screenshots = fw::take_screenshots,
+      .allocations = fw::allocation_count()};
+  return fw::run_command(line, services);
 }

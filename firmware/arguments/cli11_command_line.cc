@@ -369,6 +369,7 @@ struct AllArgs {
   EnrolArgs enrol;
   SubjectsArgs subjects;
   StaffArgs staff;
+  StoreArgs store;
   SimulateArgs simulate;
   SelfTestArgs selftest;
   AlgorithmsArgs algorithms;
@@ -389,6 +390,7 @@ CommandLine parse_command_line(int argc, const char* const* argv) {
   add_enrol(app, line.command, args.enrol);
   add_subjects(app, line.command, args.subjects);
   add_staff(app, line.command, args.staff);
+  add_store_keeping(app, line.command, args.store);
   add_simulate(app, line.command, args.simulate);
   add_selftest(app, line.command, args.selftest);
   add_algorithm_list(app, line.command, args.algorithms);
@@ -397,6 +399,10 @@ CommandLine parse_command_line(int argc, const char* const* argv) {
   try {
     app.parse(argc, argv);
     if (app.get_subcommands().empty()) line.command = args.kiosk;
+    const CLI::App* innermost = &app;
+    while (!innermost->get_subcommands().empty()) innermost = innermost->get_subcommands().front();
+    const CLI::Option* key = innermost->get_option_no_throw(kKeyOption);
+    if (key != nullptr && key->count() > 0) line.key = key->as<std::string>();
   } catch (const CLI::CallForHelp&) {
     std::printf("%s", app.help().c_str());  // of the innermost command that was named
     line.command = NothingArgs{};

@@ -8,6 +8,8 @@ namespace relievo::firmware {
 
 void add_store(CLI::App& command, Path& store) {
   command.add_option("--store", store, "folder of the store")->type_name("DIR");
+  command.add_option(kKeyOption, "file with the store's key, if it does not lie beside the store")
+      ->type_name("FILE");
 }
 
 }  // namespace relievo::firmware

@@ -135,6 +135,14 @@ struct StaffArgs {
   Path store;
 };
 
+// What whoever administers the device does with the store as a whole, the kiosk stopped.
+struct StoreArgs {
+  enum class Verb { Check, Backup, Rekey, RecoveryWords, Recover } verb = Verb::Check;
+  Path file;  // check: a copy to compare, may be empty; backup: where to; rekey: the key's new place, may be
+              // empty
+  Path store;
+};
+
 // A picture that is held before the cameras.
 struct HeldPictureArgs {
   Path picture;  // empty: none is
@@ -199,12 +207,13 @@ struct NothingArgs {};  // help was asked for and printed, or the words were wro
 
 using CommandArgs =
     std::variant<NothingArgs, CalibrateArgs, CalibrateLiveArgs, PrintPatternArgs, CalibrationArgs,
-                 ReconstructArgs, CompareArgs, EnrolArgs, SubjectsArgs, StaffArgs, SimulateArgs, SelfTestArgs,
-                 AlgorithmsArgs, MemoryArgs, VersionArgs, KioskArgs>;
+                 ReconstructArgs, CompareArgs, EnrolArgs, SubjectsArgs, StaffArgs, StoreArgs, SimulateArgs,
+                 SelfTestArgs, AlgorithmsArgs, MemoryArgs, VersionArgs, KioskArgs>;
 
 struct CommandLine {
   CommandArgs command;
   int exit_code = 0;  // with NothingArgs: 0 help was printed, 2 the words were wrong
+  Path key{};  // of the commands with a store: the file with the appliance's key; empty: its usual place
 };
 
 CommandLine parse_command_line(int argc, const char* const* argv);

@@ -18,10 +18,12 @@ namespace relievo::firmware {
 inline constexpr const char* kDevices =
     "sim; folder:DIR with recorded pairs; linux, or linux:FILE that says what is wired where (default /etc/relievo/board.toml)";
 
-void add_store(CLI::App& command, Path& store);
+inline constexpr const char* kKeyOption = "--key";
+void add_store(CLI::App& command, Path& store);  // and kKeyOption, which CommandLine::key takes up
 void add_kiosk(CLI::App& app, KioskArgs& args);  // the words before any command
 void add_calibration(CLI::App& app, CommandArgs& chosen, CalibrationArgs& args);
 void add_staff(CLI::App& app, CommandArgs& chosen, StaffArgs& args);
+void add_store_keeping(CLI::App& app, CommandArgs& chosen, StoreArgs& args);
 CLI::App* add_compare(CLI::App& app, CommandArgs& chosen, CompareArgs& args);
 // Of `relievo simulate photograph`, what no other scene has.
 void add_held_picture(CLI::App& command, HeldPictureArgs& args);

@@ -19,6 +19,7 @@ Result<void> run_compare(const CompareArgs& args, Services& services);
 Result<void> run_enrol(const EnrolArgs& args, Services& services);
 Result<void> run_subjects(const SubjectsArgs& args, Services& services);
 Result<void> run_staff(const StaffArgs& args, Services& services);
+Result<void> run_store(const StoreArgs& args, Services& services);
 Result<void> run_simulate(const SimulateArgs& args, Services& services);
 Result<void> run_selftest(const SelfTestArgs& args, Services& services);
 Result<void> run_optical_selftest(const SelfTestArgs& args, Services& services);

@@ -23,6 +23,7 @@ Result<void> run(const CompareArgs& args, Services& services) { return run_compa
 Result<void> run(const EnrolArgs& args, Services& services) { return run_enrol(args, services); }
 Result<void> run(const SubjectsArgs& args, Services& services) { return run_subjects(args, services); }
 Result<void> run(const StaffArgs& args, Services& services) { return run_staff(args, services); }
+Result<void> run(const StoreArgs& args, Services& services) { return run_store(args, services); }
 Result<void> run(const SimulateArgs& args, Services& services) { return run_simulate(args, services); }
 Result<void> run(const SelfTestArgs& args, Services& services) { return run_selftest(args, services); }
 Result<void> run(const KioskArgs& args, Services& services) { return run_kiosk(args, services); }

@@ -16,6 +16,7 @@
 #include "hal/clock.h"
 #include "hal/device.h"
 #include "storage/store.h"
+#include "storage/store_keeping.h"
 #include "ui/display.h"
 
 namespace relievo::firmware {
@@ -27,6 +28,8 @@ struct Services {
   std::function<Result<std::unique_ptr<hal::Device>>(std::string_view device)> open_device{};
   // Errors: the store's own. To write makes the folder; to read needs it.
   std::function<Result<std::unique_ptr<storage::Store>>(const Path& folder, bool to_write)> open_store{};
+  // For `relievo store` alone; may be empty.
+  std::function<std::unique_ptr<storage::StoreKeeping>(const Path& folder)> keep_store{};
   // Photographs with the simulated rig, into the folder. Errors: the rig's and the disk's.
   std::function<Result<void>(const SimulateArgs& args, const Path& folder)> simulate{};
   // Photographs the targets of the optical self-test with the simulated rig.

@@ -8,6 +8,7 @@
 
 #include <filesystem>
 #include <memory>
+#include <string_view>
 
 #include "hal/base/result.h"
 #include "storage/cipher/secret_key.h"
@@ -18,12 +19,19 @@ class KeySource {
  public:
   virtual ~KeySource() = default;
   virtual Result<void> read(SecretKey& key) = 0;
-  // Draws a new key and keeps it, on the disk when this returns. Unsupported: this source only reads.
-  virtual Result<void> make(SecretKey& key) = 0;
+  // A key is changed in two steps, so that a power cut leaves one that opens the store: the next lies beside
+  // the one in use until the store goes by it, then takes its place. On the disk when each returns.
+  // Unsupported: this source only reads.
+  virtual Result<void> make_next(SecretKey& key) = 0;  // drawn
+  virtual Result<void> read_next(SecretKey& key) = 0;
+  virtual Result<void> take_next() = 0;
+  // What it protects against and what not, in a sentence for whoever sets up the device.
+  virtual std::string_view protects() const = 0;
 };
 
-// A file of key_text(), 0600. One that others may read is refused.
-std::unique_ptr<KeySource> key_file(std::filesystem::path file);
+// A file of key_text(), 0600; the next one is FILE.next. One that others may read is refused.
+// `beside_the_store`: whoever takes the store takes it along.
+std::unique_ptr<KeySource> key_file(std::filesystem::path file, bool beside_the_store = true);
 
 // A systemd credential: a file in $CREDENTIALS_DIRECTORY, which systemd decrypted (systemd.exec(5)). Its
 // maker is the operator.

@@ -7,6 +7,7 @@
 #include "storage/model_blob.h"
 #include "storage/sqlite/sqlite_audit.h"
 #include "storage/sqlite/sqlite_change.h"
+#include "storage/sqlite/sqlite_erasure.h"
 #include "storage/sqlite/sqlite_sealed_rows.h"
 #include "storage/sqlite/sqlite_settings.h"
 
@@ -74,6 +75,12 @@ Result<void> SqliteStore::check_subjects() {
       const std::int64_t back,
       database_->integer("SELECT subject.id FROM subject JOIN audit ON subject_id = subject.id AND "
                          "what = 'subject.erased' WHERE code_hash IS NOT NULL"));
+  RELIEVO_TRY_ASSIGN(const auto again, erased_and_back(*database_, *keys_));
+  if (!again.empty())
+    return Error{
+        Errc::StoreCorrupt,
+        "this person was erased after this copy of the store was made: open it to write, and they are again"}
+        .at("subject " + std::to_string(number(again.front())));
   RELIEVO_TRY_ASSIGN(
       const std::int64_t lost,
       database_->integer("SELECT id FROM subject WHERE code_hash IS NULL AND NOT EXISTS (SELECT 1 FROM "

@@ -89,6 +89,7 @@ Result<EnrolmentId> SqliteStore::add_enrolment(const SubjectChoice& subject, con
           return not_found("there is no calibration of this revision", enrolment.calibration_revision);
       }
       RELIEVO_TRY_ASSIGN(const SubjectId id, resolve(subject, at));
+      if (enrolment.renews) RELIEVO_TRY(renew_key(id));
       RELIEVO_TRY_ASSIGN(const EnrolmentId made, insert_enrolment(id, enrolment, blob, at));
       if (enrolment.renews) RELIEVO_TRY(erase_others(id, made, at));
       return made;
@@ -96,6 +97,12 @@ Result<EnrolmentId> SqliteStore::add_enrolment(const SubjectChoice& subject, con
     if (added && enrolment.renews) RELIEVO_TRY(empty_the_log(*database_));
     return added;
   });
+}
+
+// What is left in any page of the earlier enrolments must be as unreadable as of somebody erased.
+Result<void> SqliteStore::renew_key(SubjectId id) {
+  RELIEVO_TRY_ASSIGN(const Subject known, subject(id));
+  return seal_subject(*database_, *keys_, id, known.name, known.receipt);
 }
 
 Result<void> SqliteStore::erase_others(SubjectId subject, EnrolmentId but, WallTime at) {

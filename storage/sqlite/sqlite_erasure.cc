@@ -2,13 +2,96 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "storage/sqlite/sqlite_erasure.h"
 
+#include <fcntl.h>
+#include <sys/stat.h>
+#include <unistd.h>
+
+#include <algorithm>
+#include <fstream>
+#include <string>
+
+#include "storage/byte_order.h"
+#include "storage/export/atomic_file.h"
 #include "storage/sqlite/sqlite_change.h"
 #include "storage/sqlite/sqlite_key_slots.h"
+#include "storage/sqlite/store_directory.h"
 
 namespace relievo::storage {
+namespace {
+
+constexpr off_t kRecordBytes = 8 + sizeof(KeyedHash);
+
+std::filesystem::path list_of(const Database& database) {
+  return database.file().parent_path() / "relievo.erased";
+}
+
+// Of the hash of the person's code, which nobody has a second time: not of a number, which a copy may give
+// again.
+KeyedHash trace_of(const StoreKeys& keys, std::span<const std::byte> code_hash) {
+  return keyed_hash(keys.chain(), code_hash);
+}
+
+Result<std::int64_t> last_line(Database& database) {
+  return database.integer("SELECT number FROM audit_end");
+}
+
+bool append(const std::filesystem::path& file, std::span<const std::byte> record) {
+  const int fd = ::open(file.c_str(), O_CREAT | O_WRONLY | O_CLOEXEC | O_NOFOLLOW, 0600);
+  if (fd < 0) return false;
+  // What a power cut left of a record does not shift those behind it.
+  struct stat status {};
+  bool done = ::fstat(fd, &status) == 0;
+  const off_t end = status.st_size - status.st_size % kRecordBytes;
+  done = done && ::pwrite(fd, record.data(), record.size(), end) == static_cast<ssize_t>(record.size()) &&
+         ::fsync(fd) == 0;
+  ::close(fd);
+  return done && sync_directory(file.parent_path()).has_value();
+}
+
+}  // namespace
+
+Result<void> remember_erased(Database& database, const StoreKeys& keys, SubjectId id) {
+  RELIEVO_TRY_ASSIGN(const std::int64_t line, last_line(database));
+  RELIEVO_TRY_ASSIGN(auto query, database.prepare("SELECT code_hash FROM subject WHERE id = ?"));
+  RELIEVO_TRY_ASSIGN(const bool row, query.bind(number(id)).step());
+  if (!row) return {};
+  std::vector<std::byte> record;
+  ByteWriter to(record);
+  to.put(static_cast<std::uint64_t>(line + 1));
+  to.put(trace_of(keys, query.blob(0)));
+  const auto list = list_of(database);
+  // An erasure does not wait for it.
+  if (!append(list, record) && give_up_reserve(list.parent_path())) (void)append(list, record);
+  return {};
+}
+
+Result<std::vector<SubjectId>> erased_and_back(Database& database, const StoreKeys& keys) {
+  std::ifstream file(list_of(database), std::ios::binary);
+  const std::string bytes(std::istreambuf_iterator<char>(file), {});
+  RELIEVO_TRY_ASSIGN(const std::int64_t last, last_line(database));
+  std::vector<KeyedHash> erased;
+  ByteReader from(bytes_of(bytes));
+  while (from.left() >= static_cast<std::size_t>(kRecordBytes)) {
+    const auto line = static_cast<std::int64_t>(from.get<std::uint64_t>());
+    KeyedHash trace{};
+    from.get_run<std::byte>(std::span<std::byte>(trace));
+    if (line > last) erased.push_back(trace);
+  }
+  std::vector<SubjectId> back;
+  if (erased.empty()) return back;
+  std::ranges::sort(erased);
+  RELIEVO_TRY_ASSIGN(auto people,
+                     database.prepare("SELECT id, code_hash FROM subject WHERE code_hash IS NOT NULL"));
+  for (;;) {
+    RELIEVO_TRY_ASSIGN(const bool row, people.step());
+    if (!row) return back;
+    if (std::ranges::binary_search(erased, trace_of(keys, people.blob(1))))
+      back.push_back(SubjectId{people.integer(0)});
+  }
+}
 
 Result<void> destroy_subject_key(Database& database, SubjectId id) {
-  RELIEVO_TRY(KeySlots(database).write(id, KeySlots::Slot{}));
+  RELIEVO_TRY(KeySlots(database, true).write(id, KeySlots::Slot{}));
   RELIEVO_TRY_ASSIGN(auto update, database.prepare("UPDATE subject SET name = x'00', name_hash = NULL, "
                                                    "code = NULL, code_hash = NULL WHERE id = ?"));
   return update.bind(number(id)).run();

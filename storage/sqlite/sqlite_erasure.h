@@ -5,14 +5,26 @@
 //
 //   key, name, code destroyed, log emptied ──► unreadable for ever ──► rows removed, log emptied
 //                                                    └─ power cut: opening the store goes on from here
-// Errors: the database's; Timeout (another program keeps traces in the log). Thread: the store's.
+// DIR/relievo.erased remembers everyone who was erased, by a hash of the key they had (40 bytes: u64 line of
+// the audit log, hash), which tells nobody who they were. So an older copy of relievo.db that is put back in
+// its place is noticed, and who was erased since is erased again when it is opened. Errors: the database's;
+// Timeout (another program keeps traces in the log). Thread: the store's.
 #pragma once
+
+#include <vector>
 
 #include "hal/base/result.h"
 #include "storage/record.h"
 #include "storage/sqlite/sqlite_database.h"
+#include "storage/sqlite/sqlite_keys.h"
 
 namespace relievo::storage {
+
+// Before their code is destroyed. That the list cannot be written is no error: an erasure does not wait for
+// it.
+Result<void> remember_erased(Database& database, const StoreKeys& keys, SubjectId id);
+// Whom this database still has although they were erased after it was copied.
+Result<std::vector<SubjectId>> erased_and_back(Database& database, const StoreKeys& keys);
 
 // Inside the caller's transaction, which writes the line of the audit log.
 Result<void> destroy_subject_key(Database& database, SubjectId id);

@@ -14,13 +14,13 @@ std::size_t offset_of(SubjectId id) {
 
 }  // namespace
 
-Result<void> KeySlots::open(SubjectId id, bool writable) {
+Result<void> KeySlots::open(SubjectId id) {
   const std::int64_t block = number(id) / kPerBlock;
   if (blob_ && block == block_) return {};
   blob_.reset();
   RELIEVO_TRY_ASSIGN(auto query, database_.prepare("SELECT 1 FROM subject_key WHERE block = ?"));
   RELIEVO_TRY_ASSIGN(const bool there, query.bind(block).step());
-  if (!there && !writable)
+  if (!there && !to_write_)
     return Error{Errc::StoreCorrupt, "the store has lost this person's key: restore a copy"}.at(
         "subject " + std::to_string(number(id)));
   if (!there) {
@@ -29,21 +29,21 @@ Result<void> KeySlots::open(SubjectId id, bool writable) {
     insert.bind(block).bind_zeros(kHead + kPerBlock * static_cast<std::int64_t>(sizeof(Slot)));
     RELIEVO_TRY(insert.run());
   }
-  RELIEVO_TRY_ASSIGN(auto blob, Blob::open(database_, "subject_key", "slots", block, writable));
+  RELIEVO_TRY_ASSIGN(auto blob, Blob::open(database_, "subject_key", "slots", block, to_write_));
   blob_.emplace(std::move(blob));
   block_ = block;
   return {};
 }
 
 Result<KeySlots::Slot> KeySlots::read(SubjectId id) {
-  RELIEVO_TRY(open(id, false));
+  RELIEVO_TRY(open(id));
   Slot slot{};
   RELIEVO_TRY(blob_->read(offset_of(id), slot));
   return slot;
 }
 
 Result<void> KeySlots::write(SubjectId id, std::span<const std::byte> wrapped) {
-  RELIEVO_TRY(open(id, true));
+  RELIEVO_TRY(open(id));
   return blob_->write(offset_of(id), wrapped);
 }
 

@@ -25,13 +25,15 @@ class KeySlots {
   using Slot = std::array<std::byte, kSealBytes + SecretKey::kBytes>;
   static constexpr std::int64_t kPerBlock = 1024, kHead = 4096;
 
-  explicit KeySlots(Database& database) : database_(database) {}
+  // To write, inside the caller's transaction.
+  explicit KeySlots(Database& database, bool to_write = false) : database_(database), to_write_(to_write) {}
   Result<Slot> read(SubjectId id);
-  Result<void> write(SubjectId id, std::span<const std::byte> wrapped);  // inside the caller's transaction
+  Result<void> write(SubjectId id, std::span<const std::byte> wrapped);
 
  private:
-  Result<void> open(SubjectId id, bool writable);
+  Result<void> open(SubjectId id);
   Database& database_;
+  bool to_write_;
   std::optional<Blob> blob_;
   std::int64_t block_ = -1;
 };

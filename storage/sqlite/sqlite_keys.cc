@@ -2,39 +2,50 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "storage/sqlite/sqlite_keys.h"
 
+#include <algorithm>
 #include <string>
 
 #include "storage/byte_order.h"
+#include "storage/cipher/recovery.h"
 #include "storage/sqlite/sqlite_change.h"
 #include "storage/text.h"
 
 namespace relievo::storage {
 namespace {
 
-constexpr std::string_view kAppliance = "appliance", kDevice = "device";
+constexpr std::string_view kAppliance = "appliance", kDevice = "device", kRecovery = "recovery",
+                           kRecoveryHalf = "recovery public half";
 enum Purpose : std::uint64_t { kSearch = 1, kChain = 2 };
 
 Place place_of(std::string_view kind) { return {"encryption_key", kind, 0}; }
 Place slot_of(SubjectId id) { return {"subject_key", "slots", number(id)}; }
 
-Result<std::int64_t> insert_key(Database& database, std::string_view kind, const SecretKey& by,
-                                const SecretKey& key, WallTime at) {
-  const auto wrapped = seal(by, place_of(kind), key.bytes());
+// Takes the place of the one that was there.
+Result<void> put_key(Database& database, std::string_view kind, std::span<const std::byte> wrapped,
+                     WallTime at) {
+  RELIEVO_TRY_ASSIGN(auto update,
+                     database.prepare("UPDATE encryption_key SET created_at_ms = ?, parameters = ? "
+                                      "WHERE kind = ?"));
+  RELIEVO_TRY(update.bind(to_ms(at)).bind(wrapped).bind(kind).run());
+  if (database.changes() > 0) return {};
   RELIEVO_TRY_ASSIGN(
       auto insert,
-      database.prepare("INSERT INTO encryption_key (kind, created_at_ms, parameters) VALUES (?, ?, ?)"));
-  RELIEVO_TRY(insert.bind(kind).bind(to_ms(at)).bind(wrapped).run());
-  return database.last_row_id();
+      database.prepare("INSERT INTO encryption_key (created_at_ms, parameters, kind) VALUES (?, ?, ?)"));
+  return insert.bind(to_ms(at)).bind(wrapped).bind(kind).run();
 }
 
+// 0: there is none.
 Result<std::int64_t> find_key(Database& database, std::string_view kind, std::vector<std::byte>& wrapped) {
   RELIEVO_TRY_ASSIGN(auto query,
                      database.prepare("SELECT id, parameters FROM encryption_key WHERE kind = ?"));
   RELIEVO_TRY_ASSIGN(const bool row, query.bind(kind).step());
-  if (!row)
-    return Error{Errc::StoreCorrupt, "the store has lost its keys: restore a copy"}.at(database.where());
+  if (!row) return 0;
   wrapped.assign(query.blob(1).begin(), query.blob(1).end());
   return query.integer(0);
+}
+
+Error lost_keys(const Database& database) {
+  return Error{Errc::StoreCorrupt, "the store has lost its keys: restore a copy"}.at(database.where());
 }
 
 }  // namespace
@@ -70,35 +81,112 @@ void StoreKeys::derive() {
 
 Result<void> StoreKeys::create(Database& database, WallTime at) {
   auto there = source_->read(appliance_);
-  if (!there && there.error().code == Errc::NotFound) there = source_->make(appliance_);
+  if (!there && there.error().code == Errc::NotFound) {
+    there = source_->make_next(appliance_);
+    if (there) there = source_->take_next();
+  }
   if (!there) return there;
   store_.draw();
   device_.draw();
-  RELIEVO_TRY_ASSIGN(id_, insert_key(database, kAppliance, appliance_, store_, at));
-  RELIEVO_TRY_ASSIGN(const auto device, insert_key(database, kDevice, store_, device_, at));
-  (void)device;
+  RELIEVO_TRY(put_key(database, kAppliance, seal(appliance_, place_of(kAppliance), store_.bytes()), at));
+  RELIEVO_TRY(put_key(database, kDevice, seal(store_, place_of(kDevice), device_.bytes()), at));
+  std::vector<std::byte> ignored;
+  RELIEVO_TRY_ASSIGN(id_, find_key(database, kAppliance, ignored));
   derive();
   return {};
 }
 
-Result<void> StoreKeys::load(Database& database) {
+Result<void> StoreKeys::load(Database& database, bool to_read) {
   std::vector<std::byte> wrapped;
   RELIEVO_TRY_ASSIGN(id_, find_key(database, kAppliance, wrapped));
-  RELIEVO_TRY(source_->read(appliance_));
-  if (!unwrap(appliance_, place_of(kAppliance), wrapped, store_))
-    return Error{Errc::InvalidInput,
-                 "this is not the key of this store: name the right one (--key), or recover the store"}
-        .at(database.where());
+  if (id_ == 0) return lost_keys(database);
+  const auto read = source_->read(appliance_);
+  if (!read && read.error().code != Errc::NotFound) return read;
+  if (!read || !unwrap(appliance_, place_of(kAppliance), wrapped, store_)) {
+    // Power may have gone between the store's going by a new key and the key's taking its place.
+    if (!source_->read_next(appliance_) || !unwrap(appliance_, place_of(kAppliance), wrapped, store_)) {
+      if (!read) return read;
+      return Error{Errc::InvalidInput,
+                   "this is not the key of this store: name the right one (--key), or recover the store"}
+          .at(database.where());
+    }
+    if (!to_read) RELIEVO_TRY(source_->take_next());
+  }
   RELIEVO_TRY_ASSIGN(const auto device, find_key(database, kDevice, wrapped));
-  (void)device;
+  if (device == 0) return lost_keys(database);
   RELIEVO_TRY(unwrap(store_, place_of(kDevice), wrapped, device_));
   derive();
   return {};
 }
 
+Result<void> StoreKeys::wrap_for_appliance(Database& database, KeySource& to, WallTime at) {
+  if (auto made = to.make_next(appliance_); !made && made.error().code == Errc::Unsupported)
+    RELIEVO_TRY(to.read(appliance_));
+  else if (!made) return made;
+  return put_key(database, kAppliance, seal(appliance_, place_of(kAppliance), store_.bytes()), at);
+}
+
+Result<void> StoreKeys::finish_change(KeySource& to) {
+  auto taken = to.take_next();
+  return !taken && taken.error().code == Errc::Unsupported ? Result<void>() : taken;
+}
+
+Result<void> StoreKeys::rekey(Database& database, KeySource& to, WallTime at) {
+  RELIEVO_TRY_ASSIGN(auto old, SecretKey::make());
+  std::ranges::copy(store_.bytes(), old.bytes().begin());
+  std::vector<std::byte> half;
+  RELIEVO_TRY_ASSIGN(const auto recovery, find_key(database, kRecoveryHalf, half));
+  if (recovery != 0) {
+    RELIEVO_TRY_ASSIGN(half, unseal(old, place_of(kRecoveryHalf), half));
+  }
+  store_.draw();
+  RELIEVO_TRY(wrap_for_appliance(database, to, at));
+  RELIEVO_TRY(put_key(database, kDevice, seal(store_, place_of(kDevice), device_.bytes()), at));
+  if (RecoveryPublic recipient{}; recovery != 0 && half.size() == recipient.size()) {
+    std::ranges::copy(half, recipient.begin());
+    RELIEVO_TRY(put_key(database, kRecoveryHalf, seal(store_, place_of(kRecoveryHalf), half), at));
+    RELIEVO_TRY(put_key(database, kRecovery, seal_for(recipient, store_), at));
+  }
+  RELIEVO_TRY_ASSIGN(auto people,
+                     database.prepare("SELECT id FROM subject WHERE code_hash IS NOT NULL ORDER BY id"));
+  KeySlots slots(database, true);
+  for (;;) {
+    RELIEVO_TRY_ASSIGN(const bool row, people.step());
+    if (!row) return {};
+    const SubjectId id{people.integer(0)};
+    RELIEVO_TRY_ASSIGN(const auto wrapped, slots.read(id));
+    RELIEVO_TRY(unwrap(old, slot_of(id), wrapped, subject_));
+    RELIEVO_TRY(slots.write(id, seal(store_, slot_of(id), subject_.bytes())));
+  }
+}
+
+Result<void> StoreKeys::keep_recovery_words(Database& database, std::string_view words, WallTime at) {
+  RELIEVO_TRY_ASSIGN(const auto secret, recovery_secret(words));
+  const RecoveryPublic half = recovery_public(secret);
+  // Sealed: nobody without the store's key puts their own half here, to be given the next store key.
+  RELIEVO_TRY(put_key(database, kRecoveryHalf, seal(store_, place_of(kRecoveryHalf), half), at));
+  return put_key(database, kRecovery, seal_for(half, store_), at);
+}
+
+Result<void> StoreKeys::recover(Database& database, std::string_view words, KeySource& to, WallTime at) {
+  RELIEVO_TRY_ASSIGN(const auto secret, recovery_secret(words));
+  std::vector<std::byte> wrapped;
+  RELIEVO_TRY_ASSIGN(const auto row, find_key(database, kRecovery, wrapped));
+  if (row == 0)
+    return Error{Errc::NotFound, "no recovery words were ever made for this store: only its key opens it"}.at(
+        database.where());
+  if (auto opened = open_recovered(secret, wrapped, store_); !opened)
+    return opened.error().at(database.where());
+  RELIEVO_TRY_ASSIGN(const auto device, find_key(database, kDevice, wrapped));
+  if (device == 0) return lost_keys(database);
+  RELIEVO_TRY(unwrap(store_, place_of(kDevice), wrapped, device_));
+  derive();
+  return wrap_for_appliance(database, to, at);
+}
+
 Result<void> StoreKeys::draw_subject_key(Database& database, SubjectId id) {
   subject_.draw();
-  return KeySlots(database).write(id, seal(store_, slot_of(id), subject_.bytes()));
+  return KeySlots(database, true).write(id, seal(store_, slot_of(id), subject_.bytes()));
 }
 
 Result<void> StoreKeys::take_subject_key(KeySlots& slots, SubjectId id) {

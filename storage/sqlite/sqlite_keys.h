@@ -7,6 +7,7 @@
 //                                          └────► device key ──► settings, notes, details of the audit log;
 //                                                   │            what names and codes are found by (BLAKE2b)
 //                                                   └─► key of the audit chain
+//   recovery words (recovery.h) ──► store key
 //
 // An arrow is "wraps" (seal.h); what is wrapped stands in encryption_key and in subject_key
 // (sqlite_key_slots.h). Errors: InvalidInput (another store's key), StoreCorrupt, the key source's own.
@@ -35,7 +36,16 @@ class StoreKeys {
   // Of a store that has none yet, in the caller's transaction. The appliance's key is made where it is
   // missing.
   Result<void> create(Database& database, WallTime at);
-  Result<void> load(Database& database);
+  // The appliance's key that a change of keys left half way takes its place, unless only `to_read`.
+  Result<void> load(Database& database, bool to_read);
+
+  // To change keys, in the caller's transaction; finish_change() when it is on the disk. `to`: where the
+  // appliance's new key goes; where it only reads, the key stays the one it is.
+  Result<void> rekey(Database& database, KeySource& to, WallTime at);
+  // Of a store whose appliance's key is lost: nothing is loaded before. NotFound, InvalidInput, StoreCorrupt.
+  Result<void> recover(Database& database, std::string_view words, KeySource& to, WallTime at);
+  static Result<void> finish_change(KeySource& to);
+  Result<void> keep_recovery_words(Database& database, std::string_view words, WallTime at);
 
   // The key of one subject at a time: drawn and wrapped for its slot, or unwrapped again.
   Result<void> draw_subject_key(Database& database, SubjectId id);
@@ -53,6 +63,7 @@ class StoreKeys {
  private:
   StoreKeys(std::shared_ptr<KeySource> source, SecretKey (&&rooms)[6], SealedStream stream);
   void derive();
+  Result<void> wrap_for_appliance(Database& database, KeySource& to, WallTime at);
 
   std::shared_ptr<KeySource> source_;
   SecretKey appliance_, store_, device_, search_, chain_, subject_;

@@ -24,31 +24,6 @@ std::filesystem::path copy_before(const std::filesystem::path& file, std::int64_
   return file.string() + ".before-" + std::to_string(version);
 }
 
-// The old file beside the new one, complete or not there at all.
-Result<void> copy_aside(Database& database, std::int64_t next_version) {
-  const auto target = copy_before(database.file(), next_version);
-  const auto unfinished = std::filesystem::path(target.string() + ".tmp");
-  const auto failed = [&] {
-    return Error{Errc::IoFailed, "the store could not be copied before its migration", errno}.at(
-        target.string());
-  };
-  ::unlink(unfinished.c_str());
-  // Made here so that nobody else may read it, not even while it grows.
-  const int made = ::open(unfinished.c_str(), O_CREAT | O_EXCL | O_WRONLY | O_CLOEXEC, 0600);
-  if (made < 0) return failed();
-  ::close(made);
-  if (auto copied = database.copy_to(unfinished); !copied) {
-    ::unlink(unfinished.c_str());
-    return copied;
-  }
-  if (::rename(unfinished.c_str(), target.c_str()) != 0) {
-    const Error error = failed();
-    ::unlink(unfinished.c_str());
-    return error;
-  }
-  return sync_directory(target.parent_path());
-}
-
 // One transaction: `before`, the migrations to version `to`, `after`.
 template <typename Before, typename After>
 Result<void> step(Database& database, std::int64_t from, std::int64_t to, const Before& before,
@@ -89,6 +64,29 @@ Result<void> remove_copies(const std::filesystem::path& database_file, std::int6
 
 }  // namespace
 
+Result<void> copy_whole(Database& database, const std::filesystem::path& target) {
+  const auto unfinished = std::filesystem::path(target.string() + ".tmp");
+  const auto failed = [&] {
+    return Error{Errc::IoFailed, "the store could not be copied here: check the place", errno}.at(
+        target.string());
+  };
+  ::unlink(unfinished.c_str());
+  // Made here so that nobody else may read it, not even while it grows.
+  const int made = ::open(unfinished.c_str(), O_CREAT | O_EXCL | O_WRONLY | O_CLOEXEC, 0600);
+  if (made < 0) return failed();
+  ::close(made);
+  if (auto copied = database.copy_to(unfinished); !copied) {
+    ::unlink(unfinished.c_str());
+    return copied;
+  }
+  if (::rename(unfinished.c_str(), target.c_str()) != 0) {
+    const Error error = failed();
+    ::unlink(unfinished.c_str());
+    return error;
+  }
+  return sync_directory(target.parent_path());
+}
+
 std::int64_t store_version() { return static_cast<std::int64_t>(migrations().size()); }
 
 Result<std::int64_t> version_of(Database& database) {
@@ -116,11 +114,11 @@ Result<void> make_current(Database& database, std::int64_t version, StoreKeys& k
   const auto nothing = [] { return Result<void>(); };
   const auto make_keys = [&] { return keys.create(database, at); };
   if (version == 0) return step(database, 0, store_version(), nothing, make_keys);
-  if (version >= store_version()) return keys.load(database);
+  if (version >= store_version()) return keys.load(database, false);
   // Half way through the sealing the copy is there already.
-  if (version != kRoomToSeal) RELIEVO_TRY(copy_aside(database, version + 1));
+  if (version != kRoomToSeal) RELIEVO_TRY(copy_whole(database, copy_before(database.file(), version + 1)));
   if (version < kRoomToSeal) RELIEVO_TRY(step(database, version, kRoomToSeal, nothing, make_keys));
-  else RELIEVO_TRY(keys.load(database));
+  else RELIEVO_TRY(keys.load(database, false));
   if (version >= kAllSealed) return step(database, version, store_version(), nothing, nothing);
   RELIEVO_TRY(seal_people(database, keys));
   return step(

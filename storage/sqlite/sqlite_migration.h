@@ -31,6 +31,9 @@ Result<std::int64_t> version_of(Database& database);
 // but for the sealing. MediaFull, IoFailed as every change, and what the keys' source says.
 Result<void> make_current(Database& database, std::int64_t version, StoreKeys& keys, WallTime at);
 
+// The database as it is now, in a file of 0600 that is whole or not there. IoFailed, MediaFull.
+Result<void> copy_whole(Database& database, const std::filesystem::path& target);
+
 // relievo.db.before-N, for each N this program can have made.
 Result<void> remove_old_copies(const std::filesystem::path& database_file);
 // Those in which people stand in the clear. What a power cut may have left is found at the next opening.

@@ -4,6 +4,7 @@
 
 #include <system_error>
 
+#include "storage/sqlite/sqlite_audit.h"
 #include "storage/sqlite/sqlite_change.h"
 #include "storage/sqlite/sqlite_erasure.h"
 #include "storage/sqlite/sqlite_migration.h"
@@ -42,6 +43,27 @@ Result<void> set_up_writing(Database& database, const SqliteStoreOptions& option
   return {};
 }
 
+// An older copy was put in the store's place: who was erased since is erased again.
+Result<void> erase_again(Database& database, StoreKeys& keys, WallTime at) {
+  RELIEVO_TRY_ASSIGN(const auto back, erased_and_back(database, keys));
+  if (back.empty()) return {};
+  Transaction transaction(database);
+  RELIEVO_TRY(transaction.begin());
+  for (const SubjectId id : back) {
+    RELIEVO_TRY(destroy_subject_key(database, id));
+    RELIEVO_TRY(append_audit_line(database, keys, {std::string(kSubjectErased), id, "again"}, at));
+  }
+  return transaction.commit();
+}
+
+Result<void> recover(Database& database, StoreKeys& keys, WallTime at, const SqliteStoreOptions& options) {
+  Transaction transaction(database);
+  RELIEVO_TRY(transaction.begin());
+  RELIEVO_TRY(keys.recover(database, options.recovery_words, *options.keys, at));
+  RELIEVO_TRY(transaction.commit());
+  return StoreKeys::finish_change(*options.keys);
+}
+
 Result<void> open_to_write(Database& database, StoreKeys& keys, WallTime at,
                            const SqliteStoreOptions& options) {
   RELIEVO_TRY(make_private_file(database.file()));
@@ -50,8 +72,10 @@ Result<void> open_to_write(Database& database, StoreKeys& keys, WallTime at,
   RELIEVO_TRY_ASSIGN(const std::int64_t version, version_of(database));
   RELIEVO_TRY(set_up_writing(database, options));
   RELIEVO_TRY(database.tidy_up_on_close(true));
+  if (!options.recovery_words.empty()) RELIEVO_TRY(recover(database, keys, at, options));
   RELIEVO_TRY(make_current(database, version, keys, at));
   // Power may have gone in the middle of an erasure, or of the migration that sealed an older store.
+  RELIEVO_TRY(erase_again(database, keys, at));
   RELIEVO_TRY(remove_erased_rows(database));
   RELIEVO_TRY(remove_plain_copies(database.file()));
   RELIEVO_TRY(remove_plain_traces(database));
@@ -70,7 +94,7 @@ Result<void> open_to_read(Database& database, StoreKeys& keys, const SqliteStore
     return Error{Errc::InvalidState, "the store is of an older version: open it to write once"}.at(
         database.where());
   }
-  return keys.load(database);
+  return keys.load(database, true);
 }
 
 WallTime time_of(const hal::Clock& clock) {
@@ -85,32 +109,38 @@ Error SqliteStore::not_found(Literal what, std::int64_t number) const {
   return Error{Errc::NotFound, what}.at(std::to_string(number));
 }
 
-Result<std::unique_ptr<Store>> open_sqlite_store(const fs::path& dir, const hal::Clock& clock,
-                                                 const SqliteStoreOptions& options) {
-  return without_exceptions(dir.native(), [&]() -> Result<std::unique_ptr<Store>> {
+Result<std::unique_ptr<SqliteStore>> SqliteStore::open(const fs::path& dir, const hal::Clock& clock,
+                                                       const SqliteStoreOptions& given) {
+  return without_exceptions(dir.native(), [&]() -> Result<std::unique_ptr<SqliteStore>> {
+    SqliteStoreOptions options = given;
     const bool writable = options.mode == OpenMode::ReadWrite;
     std::error_code failed;
     if (writable) RELIEVO_TRY(make_store_directory(fs::absolute(dir, failed)));
     // No link may stand in for the file; links on the way to it are the caller's business.
     const fs::path home = fs::weakly_canonical(dir, failed);
+    if (!options.keys) options.keys = key_file(home / kKeyFile);
     auto lock = std::make_unique<StoreLock>();
     if (writable) RELIEVO_TRY(lock->take(home / "relievo.lock", options.wait_for_lock));
-    auto database = std::make_unique<Database>(home / "relievo.db");
-    RELIEVO_TRY_ASSIGN(auto keys,
-                       StoreKeys::make(options.keys ? options.keys : key_file(home / "relievo.key")));
+    auto database = std::make_unique<Database>(home / kStoreFile);
+    RELIEVO_TRY_ASSIGN(auto keys, StoreKeys::make(options.keys));
     const WallTime at = time_of(clock);
     auto ready =
         writable ? open_to_write(*database, *keys, at, options) : open_to_read(*database, *keys, options);
     if (!ready && ready.error().code == Errc::MediaFull && give_up_reserve(home)) {
-      database = std::make_unique<Database>(home / "relievo.db");
+      database = std::make_unique<Database>(home / kStoreFile);
       ready = open_to_write(*database, *keys, at, options);
     }
     if (!ready) return ready.error();
     if (writable) set_aside_reserve(home, options.reserve_bytes);
-    auto store =
-        std::make_unique<SqliteStore>(std::move(lock), std::move(database), std::move(keys), clock, options);
-    return std::unique_ptr<Store>(std::move(store));
+    return std::make_unique<SqliteStore>(std::move(lock), std::move(database), std::move(keys), clock,
+                                         options);
   });
+}
+
+Result<std::unique_ptr<Store>> open_sqlite_store(const fs::path& dir, const hal::Clock& clock,
+                                                 const SqliteStoreOptions& options) {
+  RELIEVO_TRY_ASSIGN(auto store, SqliteStore::open(dir, clock, options));
+  return std::unique_ptr<Store>(std::move(store));
 }
 
 }  // namespace relievo::storage

@@ -31,6 +31,7 @@
 #include "storage/sqlite/sqlite_keys.h"
 #include "storage/sqlite/store_directory.h"
 #include "storage/store.h"
+#include "storage/store_keeping.h"
 
 namespace relievo::storage {
 
@@ -43,7 +44,13 @@ struct SqliteStoreOptions {
   std::int64_t reserve_bytes = 64'000'000;  // an erasure needs as much as it erases, for a moment
   std::int64_t (*draw_receipt)() = storage::draw_receipt;
   std::shared_ptr<KeySource> keys{};  // empty: the file relievo.key beside the store
+  // Not empty: the store is opened by them, and `keys` gets a new key of the appliance (store_keeping.h,
+  // recover()).
+  std::string recovery_words{};
 };
+
+inline constexpr const char *kStoreFile = "relievo.db",
+                            *kKeyFile = "relievo.key";  // in the store's directory
 
 class SqliteStore final : public Store {
  public:
@@ -56,6 +63,15 @@ class SqliteStore final : public Store {
         clock_(clock),
         mode_(options.mode),
         draw_receipt_(options.draw_receipt) {}
+
+  static Result<std::unique_ptr<SqliteStore>> open(const std::filesystem::path& dir, const hal::Clock& clock,
+                                                   const SqliteStoreOptions& options);
+
+  // As store_keeping.h has them.
+  Result<void> backup(const std::filesystem::path& file);
+  Result<std::vector<SubjectId>> erased_since(const std::filesystem::path& backup);
+  Result<void> rekey(KeySource& to);
+  Result<void> keep_recovery_words(std::string_view words);
 
   Result<void> check() override;
   Result<SubjectId> add_subject(const NewSubject& subject) override;
@@ -91,6 +107,7 @@ class SqliteStore final : public Store {
   Result<Enrolment> enrolment_in(KeySlots& slots, const Statement& row);
   Result<std::int64_t> fresh_receipt();
   Result<SubjectId> insert_subject(const NewSubject& subject, WallTime at);
+  Result<void> renew_key(SubjectId id);
   Result<void> erase_others(SubjectId subject, EnrolmentId but, WallTime at);
   Result<SubjectId> resolve(const SubjectChoice& subject, WallTime at);
   Result<EnrolmentId> insert_enrolment(SubjectId subject, const NewEnrolment& enrolment,
@@ -117,5 +134,8 @@ class SqliteStore final : public Store {
 // `clock` must outlive the store.
 Result<std::unique_ptr<Store>> open_sqlite_store(const std::filesystem::path& dir, const hal::Clock& clock,
                                                  const SqliteStoreOptions& options = {});
+
+std::unique_ptr<StoreKeeping> keep_sqlite_store(const std::filesystem::path& dir, const hal::Clock& clock,
+                                                const SqliteStoreOptions& options = {});
 
 }  // namespace relievo::storage

@@ -69,22 +69,26 @@ Result<SubjectId> SqliteStore::add_subject(const NewSubject& subject) {
 Result<std::vector<Subject>> SqliteStore::subjects(const SubjectFilter& filter) {
   return without_exceptions(database_->where(), [&]() -> Result<std::vector<Subject>> {
     const bool by_name = filter.whole_name && !filter.name.empty(), by_code = filter.receipt != 0;
-    RELIEVO_TRY_ASSIGN(auto query,
-                       database_->prepare(std::string(kSubjects) + (by_code ? "AND code_hash = ? " : "") +
-                                          (by_name ? "AND name_hash = ? " : "") + "ORDER BY id DESC"));
+    RELIEVO_TRY_ASSIGN(
+        auto query,
+        database_->prepare(std::string(kSubjects) + (by_code ? "AND code_hash = ? " : "") +
+                           (by_name ? "AND name_hash = ? " : "") + "ORDER BY id DESC LIMIT -1 OFFSET ?"));
     RELIEVO_TRY_ASSIGN(auto count, database_->prepare("SELECT count(*) FROM enrolment WHERE subject_id = ?"));
     const auto code_hash = keys_->code_hash(filter.receipt), name_hash = keys_->name_hash(filter.name);
     if (by_code) query.bind(code_hash);
     if (by_name) query.bind(name_hash);
+    // Of those skipped nothing has to be read, unless their names say whether they count.
+    const bool by_part = !filter.name.empty();
+    query.bind(by_part ? 0 : filter.skip);
     KeySlots slots(*database_);
     std::vector<Subject> found;
-    for (std::int64_t skip = filter.skip; static_cast<std::int64_t>(found.size()) < filter.limit;) {
+    for (std::int64_t skip = by_part ? filter.skip : 0;
+         static_cast<std::int64_t>(found.size()) < filter.limit;) {
       RELIEVO_TRY_ASSIGN(const bool row, query.step());
       if (!row) break;
-      if (filter.name.empty() && skip-- > 0) continue;  // nothing to be read of these
       RELIEVO_TRY_ASSIGN(auto subject, subject_in(slots, query));
       if (by_name ? subject.name != filter.name : !contains_name(subject.name, filter.name)) continue;
-      if (!filter.name.empty() && skip-- > 0) continue;
+      if (skip-- > 0) continue;
       RELIEVO_TRY_ASSIGN(subject.receipt, open_code(*keys_, subject.id, query.blob(3)));
       if (by_code && subject.receipt != filter.receipt)
         return Error{Errc::StoreCorrupt,
@@ -128,6 +132,7 @@ Result<void> SqliteStore::erase_subject(SubjectId id) {
         done = change(step);
       return done;
     };
+    if (mode_ == OpenMode::ReadWrite) RELIEVO_TRY(remember_erased(*database_, *keys_, id));
     const auto destroyed = in_reserve([&](WallTime at) -> Result<void> {
       RELIEVO_TRY(destroy_subject_key(*database_, id));
       RELIEVO_TRY(append_audit_line(*database_, *keys_, {std::string(kSubjectErased), id, ""}, at));

@@ -1,0 +1,87 @@
+// SPDX-FileCopyrightText: 2026 The Relievo authors
+// SPDX-License-Identifier: GPL-3.0-or-later
+//
+// `relievo store`: the store as a whole. It lets nobody else in while a kiosk has it.
+#include <iostream>
+#include <sstream>
+#include <string>
+
+#include "firmware/base/settings.h"
+#include "firmware/command/commands.h"
+#include "storage/cipher/recovery.h"
+#include "storage/receipt_number.h"
+
+namespace relievo::firmware {
+namespace {
+
+Result<void> check(const StoreArgs& args, const Path& folder, Services& services) {
+  RELIEVO_TRY_ASSIGN(const auto store, services.open_store(folder, false));
+  RELIEVO_TRY(store->check());
+  services.console.say("in order: " + folder.string());
+  if (args.file.empty()) return {};
+  RELIEVO_TRY_ASSIGN(const auto erased, services.keep_store(folder)->erased_since(args.file));
+  for (const storage::SubjectId id : erased)
+    services.console.say("subject " + std::to_string(static_cast<std::int64_t>(id)) +
+                         " has been erased since this copy was made: make a new copy and destroy it");
+  if (erased.empty()) services.console.say("nobody in this copy has been erased since");
+  return {};
+}
+
+// Printed once; they hold when whoever wrote them down has typed two of them.
+Result<void> make_words(storage::StoreKeeping& keeping, Services& services) {
+  const std::string words = storage::draw_recovery_words();
+  std::vector<std::string> sheet;
+  std::istringstream list(words);
+  for (std::string word; list >> word;) {
+    sheet.push_back(word);
+    services.console.say(std::to_string(sheet.size()) + ". " + word);
+  }
+  services.console.say(
+      "Write them down, in this order. Whoever has them and the store can read everyone in it.");
+  const auto first = static_cast<std::size_t>(storage::draw_receipt()) % (sheet.size() / 2);
+  for (const std::size_t asked : {first, first + sheet.size() / 2}) {
+    services.console.say("Type word " + std::to_string(asked + 1) + ":");
+    std::string typed;
+    if (!(std::cin >> typed) || typed != sheet[asked])
+      return Error{Errc::InvalidInput, "that was another word: nothing was changed, start again"};
+  }
+  RELIEVO_TRY(keeping.keep_recovery_words(words));
+  services.console.say("These words open the store from now on; an older sheet does not.");
+  return {};
+}
+
+Result<void> recover(storage::StoreKeeping& keeping, Services& services) {
+  std::string words;
+  std::size_t count = 0;
+  for (std::string word; count < storage::kRecoveryWords && std::cin >> word; ++count) words += word + " ";
+  RELIEVO_TRY(keeping.recover(words));
+  services.console.say("the store has a new key and opens again");
+  return {};
+}
+
+}  // namespace
+
+Result<void> run_store(const StoreArgs& args, Services& services) {
+  const Path folder = store_folder(args.store);
+  const auto keeping = services.keep_store(folder);
+  switch (args.verb) {
+    case StoreArgs::Verb::Check:
+      return check(args, folder, services);
+    case StoreArgs::Verb::Backup:
+      RELIEVO_TRY(keeping->backup(args.file));
+      services.console.say("copied to " + args.file.string() +
+                           "; keep its key, or the recovery words, elsewhere");
+      return {};
+    case StoreArgs::Verb::Rekey:
+      RELIEVO_TRY(keeping->rekey(args.file));
+      services.console.say("the keys are new; the old key opens only copies made before");
+      return {};
+    case StoreArgs::Verb::RecoveryWords:
+      return make_words(*keeping, services);
+    case StoreArgs::Verb::Recover:
+      break;
+  }
+  return recover(*keeping, services);
+}
+
+}  // namespace relievo::firmware

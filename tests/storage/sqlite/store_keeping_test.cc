@@ -1,0 +1,267 @@
+// SPDX-FileCopyrightText: 2026 The Relievo authors
+// SPDX-License-Identifier: GPL-3.0-or-later
+// The store as a whole: copies, new keys, recovery; each cut off anywhere.
+#include "storage/store_keeping.h"
+
+#include <gtest/gtest.h>
+#include <sys/stat.h>
+
+#include <fstream>
+
+#include "storage/cipher/recovery.h"
+#include "tests/storage/cut_writes.h"
+#include "tests/storage/raw_database.h"
+#include "tests/storage/sample.h"
+#include "tests/support/temporary_folder.h"
+
+namespace relievo::storage {
+namespace {
+
+using relievo::test::TemporaryFolder;
+using test::opened;
+using test::Raw;
+
+const SqliteStoreOptions kNoReserve{.reserve_bytes = 0};
+const test::StillClock kClock;
+
+std::unique_ptr<StoreKeeping> keeping(const std::filesystem::path& dir,
+                                      SqliteStoreOptions options = kNoReserve) {
+  return keep_sqlite_store(dir, kClock, options);
+}
+
+template <typename T>
+Errc code_of(const Result<T>& result) {
+  EXPECT_FALSE(result);
+  return result ? Errc::Cancelled : result.error().code;
+}
+
+void fill(const std::filesystem::path& dir, int people = 3) {
+  const auto store = opened(dir, kNoReserve);
+  const auto model = test::sample_model(20);
+  for (int i = 1; i <= people; ++i)
+    ASSERT_TRUE(
+        store->add_enrolment(NewSubject{"Person " + std::to_string(i)}, test::sample_enrolment(model)));
+  ASSERT_TRUE(store->set_setting("language", "eo"));
+}
+
+void judge(const std::filesystem::path& dir, const SqliteStoreOptions& options = kNoReserve, int people = 3) {
+  const auto store = opened(dir, options);
+  ASSERT_TRUE(store);
+  const auto sound = store->check();
+  ASSERT_TRUE(sound) << sound.error().where() << ": " << sound.error().what.view();
+  EXPECT_EQ(store->subjects({})->size(), static_cast<std::size_t>(people));
+  EXPECT_EQ(*store->setting("language"), "eo");
+  EXPECT_TRUE(test::identical(test::sample_model(20),
+                              *store->load_model(EnrolmentId{2}, std::pmr::new_delete_resource())));
+}
+
+// Vectors of BIP-39's own (github.com/trezor/python-mnemonic, vectors.json, English, 128 bits).
+TEST(RecoveryWords, AreThoseOfTheirStandard) {
+  const auto bits = [](unsigned char byte) {
+    RecoveryBits all;
+    all.fill(std::byte{byte});
+    return all;
+  };
+  const std::string zeros =
+      "abandon abandon abandon abandon abandon abandon abandon abandon abandon abandon abandon about";
+  EXPECT_EQ(words_of(bits(0x00)), zeros);
+  EXPECT_EQ(words_of(bits(0x7f)),
+            "legal winner thank year wave sausage worth useful legal winner thank yellow");
+  EXPECT_EQ(words_of(bits(0x80)),
+            "letter advice cage absurd amount doctor acoustic avoid letter advice cage above");
+  EXPECT_EQ(words_of(bits(0xff)), "zoo zoo zoo zoo zoo zoo zoo zoo zoo zoo zoo wrong");
+  EXPECT_EQ(*bits_of(zeros), bits(0x00));
+  EXPECT_EQ(*bits_of("  ZOO zoo\nzoo zoo zoo zoo zoo zoo zoo zoo zoo\twrong "), bits(0xff));
+  EXPECT_NE(draw_recovery_words(), draw_recovery_words());
+  EXPECT_EQ(code_of(bits_of("")), Errc::InvalidInput);
+  EXPECT_EQ(code_of(bits_of("zoo zoo zoo zoo zoo zoo zoo zoo zoo zoo zoo")), Errc::InvalidInput) << "eleven";
+  EXPECT_EQ(code_of(bits_of(zeros + " about")), Errc::InvalidInput) << "thirteen";
+  EXPECT_EQ(code_of(bits_of("zoo zoo zoo zoo zoo zoo zoo zoo zoo zoo zoo zoo")), Errc::InvalidInput)
+      << "checksum";
+  const auto misspelt = bits_of("zoo zoo zo zoo zoo zoo zoo zoo zoo zoo zoo wrong");
+  ASSERT_FALSE(misspelt);
+  EXPECT_EQ(misspelt.error().where(), "word 3");
+}
+
+TEST(StoreKeeping, WordsOpenTheStoreOfADeadBoard) {
+  const TemporaryFolder folder;
+  const auto dir = folder / "dead";
+  fill(dir);
+  const auto older = draw_recovery_words(), words = draw_recovery_words();
+  EXPECT_EQ(code_of(keeping(dir)->recover(words)), Errc::NotFound) << "none were made";
+  ASSERT_TRUE(keeping(dir)->keep_recovery_words(older));
+  ASSERT_TRUE(keeping(dir)->keep_recovery_words(words));
+  ASSERT_TRUE(keeping(dir)->rekey("")) << "the words stay good without being asked for";
+  EXPECT_EQ(test::all_bytes(dir).find(words.substr(0, 12)), std::string::npos);
+  std::filesystem::create_directory(folder / "board");
+  std::filesystem::copy(dir / "relievo.db", folder / "board/relievo.db");
+  const auto opening = open_sqlite_store(folder / "board", kClock, kNoReserve);
+  EXPECT_EQ(code_of(opening), Errc::NotFound);
+  EXPECT_EQ(code_of(keeping(folder / "board")->recover(older)), Errc::StoreCorrupt) << "an older sheet";
+  EXPECT_EQ(code_of(keeping(folder / "board")->recover("no words")), Errc::InvalidInput);
+  EXPECT_EQ(code_of(keeping(folder / "nowhere")->recover(words)), Errc::NotFound);
+  ASSERT_TRUE(keeping(folder / "board")->recover(words));
+  judge(folder / "board");
+  judge(dir);
+}
+
+TEST(StoreKeeping, AnOldKeyOpensNothingAfterANewOne) {
+  const TemporaryFolder folder;
+  const auto dir = folder / "store";
+  fill(dir);
+  std::filesystem::copy(dir / "relievo.key", folder / "old");
+  ASSERT_TRUE(keeping(dir)->rekey(""));
+  judge(dir);
+  auto options = kNoReserve;
+  options.keys = key_file(folder / "old");
+  EXPECT_EQ(code_of(open_sqlite_store(dir, kClock, options)), Errc::InvalidInput);
+  // To another place, and away from here.
+  std::filesystem::create_directory(folder / "stick");
+  ASSERT_TRUE(keeping(dir)->rekey(folder / "stick/key"));
+  EXPECT_EQ(code_of(open_sqlite_store(dir, kClock, kNoReserve)), Errc::InvalidInput);
+  options.keys = key_file(folder / "stick/key", false);
+  judge(dir, options);
+  // A credential is the operator's: the store's key is new, the credential stays.
+  auto credential = kNoReserve;
+  credential.keys = key_credential(folder / "stick/key");
+  const auto before = Raw(dir / "relievo.db").rows("SELECT hex(parameters) FROM encryption_key ORDER BY id");
+  ASSERT_TRUE(keeping(dir, credential)->rekey(""));
+  EXPECT_NE(before, Raw(dir / "relievo.db").rows("SELECT hex(parameters) FROM encryption_key ORDER BY id"));
+  judge(dir, credential);
+}
+
+// Cut off at every write of the store, and between the store and its key file.
+TEST(StoreKeeping, AChangeOfKeysThatIsCutOffIsDoneOrNotDone) {
+  const TemporaryFolder folder;
+  fill(folder / "before");
+  const auto words = draw_recovery_words();
+  ASSERT_TRUE(keeping(folder / "before")->keep_recovery_words(words));
+  int cuts = 0, half = 0;
+  for (const bool recover : {false, true}) {
+    for (long write = 1;; ++write) {
+      const auto dir = folder / ("store-" + std::to_string(write));
+      std::filesystem::copy(folder / "before", dir);
+      if (recover) std::filesystem::remove(dir / "relievo.key");
+      const auto ended = test::cut_at_write(write, [&] {
+        return (recover ? keeping(dir)->recover(words) : keeping(dir)->rekey("")).has_value();
+      });
+      ASSERT_NE(ended, test::Ended::Failed) << write;
+      const bool done =
+          Raw(dir / "relievo.db")
+              .rows(
+                  "SELECT hex(parameters) FROM encryption_key WHERE kind = "
+                  "'appliance'") != Raw(folder / "before/relievo.db")
+                                        .rows(
+                                            "SELECT hex(parameters) FROM encryption_key WHERE kind = "
+                                            "'appliance'");
+      half += done && std::filesystem::exists(dir / "relievo.key.next") ? 1 : 0;
+      if (recover && !done) {
+        EXPECT_EQ(code_of(open_sqlite_store(dir, kClock, kNoReserve)), Errc::NotFound);
+        ASSERT_TRUE(keeping(dir)->recover(words)) << "once more";
+      }
+      judge(dir);
+      auto read_only = kNoReserve;
+      read_only.mode = OpenMode::ReadOnly;
+      EXPECT_TRUE(open_sqlite_store(dir, kClock, read_only));
+      std::filesystem::remove_all(dir);
+      if (ended == test::Ended::Finished || HasFailure()) break;
+      ++cuts;
+    }
+  }
+  EXPECT_GT(cuts, 20);
+}
+
+// The moment that no write of SQLite's marks: the store goes by the new key, the file is not renamed yet.
+TEST(StoreKeeping, ANewKeyThatHasNotTakenItsPlaceIsFound) {
+  const TemporaryFolder folder;
+  fill(folder / "store");
+  std::filesystem::copy(folder / "store/relievo.key", folder / "old");
+  ASSERT_TRUE(keeping(folder / "store")->rekey(""));
+  for (const bool old_is_there : {true, false}) {
+    std::filesystem::rename(folder / "store/relievo.key", folder / "store/relievo.key.next");
+    if (old_is_there) std::filesystem::copy(folder / "old", folder / "store/relievo.key");
+    auto read_only = kNoReserve;
+    read_only.mode = OpenMode::ReadOnly;
+    judge(folder / "store", read_only);
+    EXPECT_TRUE(std::filesystem::exists(folder / "store/relievo.key.next")) << "to read changes nothing";
+    judge(folder / "store");
+    EXPECT_FALSE(std::filesystem::exists(folder / "store/relievo.key.next"));
+  }
+}
+
+TEST(StoreKeeping, ACopyIsSealedAndTellsWhoWasErasedSince) {
+  const TemporaryFolder folder;
+  const auto dir = folder / "store", copy = folder / "copy.db";
+  fill(dir, 4);
+  {
+    const auto store = opened(dir, kNoReserve);
+    ASSERT_TRUE(store->erase_subject(SubjectId{1}));
+  }
+  ASSERT_TRUE(keeping(dir)->backup(copy));
+  struct stat status {};
+  ::stat(copy.c_str(), &status);
+  EXPECT_EQ(status.st_mode & 0777, 0600U);
+  EXPECT_EQ(relievo::test::read_text(copy).find("Person"), std::string::npos);
+  EXPECT_TRUE(keeping(dir)->erased_since(copy)->empty());
+  {
+    const auto store = opened(dir, kNoReserve);
+    ASSERT_TRUE(store->erase_subject(SubjectId{3}));
+    ASSERT_TRUE(store->erase_subject(*store->add_subject({"Somebody who came later"})));
+  }
+  ASSERT_TRUE(keeping(dir)->rekey(""));
+  EXPECT_EQ(*keeping(dir)->erased_since(copy), std::vector<SubjectId>{SubjectId{3}});
+  fill(folder / "other");
+  EXPECT_EQ(code_of(keeping(folder / "other")->erased_since(copy)), Errc::InvalidInput);
+  EXPECT_EQ(code_of(keeping(dir)->backup(folder / "no/such/folder")), Errc::IoFailed);
+  EXPECT_EQ(code_of(keeping(folder / "nowhere")->backup(copy)), Errc::NotFound);
+  EXPECT_EQ(relievo::test::listing(folder.path()).find(".tmp"), std::string::npos);
+}
+
+// An older copy put in the store's place brings nobody back, and nobody else is taken for them.
+TEST(StoreKeeping, AnOlderCopyInItsPlaceErasesAgainWhoWasErasedSince) {
+  const TemporaryFolder folder;
+  const auto dir = folder / "store", copy = folder / "copy.db";
+  fill(dir, 4);
+  ASSERT_TRUE(keeping(dir)->backup(copy));
+  {
+    const auto store = opened(dir, kNoReserve);
+    ASSERT_TRUE(store->erase_subject(SubjectId{3}));
+    ASSERT_TRUE(store->erase_subject(*store->add_subject({"The fifth"})));
+    EXPECT_TRUE(store->check());
+  }
+  // What a power cut left of another.
+  std::ofstream(dir / "relievo.erased", std::ios::binary | std::ios::app) << "torn";
+  const auto put_back = [&] {
+    for (const char* gone : {"relievo.db", "relievo.db-wal", "relievo.db-shm"})
+      std::filesystem::remove(dir / gone);
+    std::filesystem::copy(copy, dir / "relievo.db");
+  };
+  put_back();
+  {
+    auto options = kNoReserve;
+    options.mode = OpenMode::ReadOnly;
+    const auto told = opened(dir, options)->check();
+    ASSERT_FALSE(told);
+    EXPECT_EQ(told.error().where(), "subject 3");
+    EXPECT_NE(told.error().what.view().find("was erased after this copy"), std::string_view::npos);
+  }
+  {
+    const auto store = opened(dir, kNoReserve);
+    ASSERT_TRUE(store);
+    EXPECT_EQ(code_of(store->subject(SubjectId{3})), Errc::NotFound);
+    EXPECT_EQ(store->subjects({})->size(), 3U);
+    EXPECT_EQ(store->audit(0, 100)->back().event.detail, "again");
+    EXPECT_TRUE(store->check());
+    // Has the number of one who was erased in the time that was lost.
+    EXPECT_EQ(*store->add_subject({"Another fifth"}), SubjectId{5});
+  }
+  EXPECT_EQ(opened(dir, kNoReserve)->subjects({})->size(), 4U);
+  EXPECT_TRUE(opened(dir, kNoReserve)->check());
+  // Torn bytes shift nothing: the next erasure is remembered, too.
+  ASSERT_TRUE(opened(dir, kNoReserve)->erase_subject(SubjectId{1}));
+  put_back();
+  EXPECT_EQ(opened(dir, kNoReserve)->subjects({})->size(), 2U) << "neither the first nor the third";
+}
+
+}  // namespace
+}  // namespace relievo::storage

@@ -1,0 +1,88 @@
+// SPDX-FileCopyrightText: 2026 The Relievo authors
+// SPDX-License-Identifier: GPL-3.0-or-later
+//
+// `relievo store`, as whoever looks after a device types it.
+#include <filesystem>
+
+#include "tests/system/relievo_process.h"
+
+namespace relievo::test {
+namespace {
+
+class StoreCommand : public RelievoProcess {
+ protected:
+  // Writes the words down and types the two that are asked for, or others.
+  Said make_words(const std::string& store, bool rightly) {
+    write_text(here / "type.sh", "coproc \"" RELIEVO_BINARY "\" store recovery-words --store " + store + R"(
+pid=$COPROC_PID
+exec 3<&${COPROC[0]} 4>&${COPROC[1]}
+while read -r line <&3; do
+  echo "$line"
+  case $line in
+    [0-9]*.*) words[${line%%.*}]=${line#*. } ;;
+    "Write them"*) echo "${words[*]}" > words ;;
+    "Type word"*) number=${line#Type word }; number=${number%:}
+                  )" + (rightly ? "echo ${words[$number]} >&4" : "echo wrong >&4") +
+                                     R"( ;;
+  esac
+done
+wait $pid)");
+    return run_program({"/bin/bash", "type.sh"}, here.path());
+  }
+};
+
+TEST_F(StoreCommand, KeepsCopiesKeysAndWords) {
+  const std::string path = here.path().string();
+  refused({"store", "check", "--store", "store"}, "store", "there is no store");
+  refused({"store", "backup", "copy", "--store", "store"}, "store", "there is no store");
+  refused({"store", "rekey", "--store", "store"}, "store", "there is no store");
+  // A store with nobody in it, its key on another device.
+  std::filesystem::create_directory(here / "stick");
+  done({"simulate", "board", "--pairs", "1", "--scale", "0.5", "-o", "board"});
+  const Said first =
+      done({"calibration", "import", "board/rig.yml", "--store", "store", "--key", "stick/key"});
+  EXPECT_NE(first.out.find("its key lies apart from the store"), std::string::npos) << first.out;
+  EXPECT_NE(first.out.find("whoever takes both"), std::string::npos) << first.out;
+  EXPECT_EQ(done({"calibration", "list", "--store", "store", "--key", "stick/key"}).out.find("its key"),
+            std::string::npos)
+      << "said once";
+  EXPECT_FALSE(std::filesystem::exists(here / "store/relievo.key"));
+  refused({"calibration", "list", "--store", "store"}, "relievo.key",
+          "put it back, or name its place (--key)");
+
+  done({"store", "rekey", "--store", "store", "--key", "stick/key", "--new-key", "store/relievo.key"});
+  const Said old_key = relievo({"store", "check", "--store", "store", "--key", "stick/key"});
+  EXPECT_EQ(old_key.exit_code, 1);
+  EXPECT_NE(old_key.err.find("not the key of this store"), std::string::npos) << old_key.err;
+  EXPECT_NE(done({"store", "check", "--store", "store"}).out.find("in order"), std::string::npos);
+
+  const Said wrong = make_words("store", false);
+  EXPECT_NE(wrong.exit_code, 0);
+  EXPECT_NE(wrong.err.find("nothing was changed"), std::string::npos) << wrong.err;
+  const Said right = make_words("store", true);
+  EXPECT_EQ(right.exit_code, 0) << right.out << right.err;
+  EXPECT_NE(right.out.find("These words open the store from now on"), std::string::npos) << right.out;
+
+  EXPECT_NE(done({"store", "backup", "copy.db", "--store", "store"}).out.find("copied to"),
+            std::string::npos);
+  EXPECT_NE(
+      done({"store", "check", "--backup", "copy.db", "--store", "store"}).out.find("nobody in this copy"),
+      std::string::npos);
+  std::filesystem::create_directory(here / "board2");
+  std::filesystem::copy(here / "copy.db", here / "board2/relievo.db");
+  EXPECT_NE(
+      relievo({"store", "check", "--store", "board2"}).err.find("relievo.key: the store's key is not there"),
+      std::string::npos);
+  const Said recovered = run_program(
+      {"/bin/sh", "-c", "\"" RELIEVO_BINARY "\" store recover --store board2 < words"}, here.path());
+  EXPECT_EQ(recovered.exit_code, 0) << recovered.err;
+  EXPECT_NE(done({"calibration", "list", "--store", "board2"}).out.find("rig.yml"), std::string::npos);
+  EXPECT_NE(
+      run_program({"/bin/sh", "-c", "echo zoo zoo | \"" RELIEVO_BINARY "\" store recover --store board2"},
+                  here.path())
+          .err.find("twelve words"),
+      std::string::npos);
+}
+
+}  // namespace
+}  // namespace relievo::test
