@@ -14,6 +14,7 @@
 #include <utility>
 
 #include "firmware/base/allocation_count.h"
+#include "firmware/base/core_dumps.h"
 #include "firmware/command/commands.h"
 #include "firmware/demo/hand_pairs.h"
 #include "firmware/demo/screenshots.h"
@@ -250,6 +251,10 @@ Result<void> plug_stick(hal::Device& device, const std::string& folder) {
 int main(int argc, char** argv) {
   namespace fw = relievo::firmware;
   fw::Console console;
+  if (const auto forbidden = fw::forbid_core_dumps(); !forbidden) {
+    console.fail(forbidden.error());
+    return 1;
+  }
   const relievo::hal::MonotonicClock clock;
   const fw::CommandLine line = fw::parse_command_line(argc, argv);
   fw::Services services{

@@ -20,7 +20,8 @@ while read -r line <&3; do
   echo "$line"
   case $line in
     [0-9]*.*) words[${line%%.*}]=${line#*. } ;;
-    "Write them"*) echo "${words[*]}" > words ;;
+    "Write them"*) echo "${words[*]}" > words
+                   grep -E 'core file size' /proc/$pid/limits > limits ;;
     "Type word"*) number=${line#Type word }; number=${number%:}
                   )" + (rightly ? "echo ${words[$number]} >&4" : "echo wrong >&4") +
                                      R"( ;;
@@ -82,6 +83,15 @@ TEST_F(StoreCommand, KeepsCopiesKeysAndWords) {
                   here.path())
           .err.find("twelve words"),
       std::string::npos);
+}
+
+// Words and keys are in it while it runs.
+TEST_F(StoreCommand, LeavesNoPictureOfItsMemory) {
+  done({"simulate", "board", "--pairs", "1", "--scale", "0.5", "-o", "board"});
+  done({"calibration", "import", "board/rig.yml", "--store", "store"});
+  make_words("store", true);
+  const std::string limits = read_text(here / "limits");
+  EXPECT_NE(limits.find("0                    0"), std::string::npos) << limits;
 }
 
 }  // namespace

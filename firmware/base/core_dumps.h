@@ -1,0 +1,16 @@
+// SPDX-FileCopyrightText: 2026 The Relievo authors
+// SPDX-License-Identifier: GPL-3.0-or-later
+//
+// No picture of this process's memory on any disk: people's faces and keys are in it. To be called first of
+// all. Thread: main.
+#pragma once
+
+#include "hal/base/result.h"
+
+namespace relievo::firmware {
+
+// No core file (RLIMIT_CORE, also for what it starts), none through a handler, no reading by others of the
+// same user (prctl(2), PR_SET_DUMPABLE). IoFailed: the system would not have it.
+Result<void> forbid_core_dumps();
+
+}  // namespace relievo::firmware
