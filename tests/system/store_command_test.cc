@@ -33,7 +33,6 @@ wait $pid)");
 };
 
 TEST_F(StoreCommand, KeepsCopiesKeysAndWords) {
-  const std::string path = here.path().string();
   refused({"store", "check", "--store", "store"}, "store", "there is no store");
   refused({"store", "backup", "copy", "--store", "store"}, "store", "there is no store");
   refused({"store", "rekey", "--store", "store"}, "store", "there is no store");
@@ -56,6 +55,16 @@ TEST_F(StoreCommand, KeepsCopiesKeysAndWords) {
   EXPECT_EQ(old_key.exit_code, 1);
   EXPECT_NE(old_key.err.find("not the key of this store"), std::string::npos) << old_key.err;
   EXPECT_NE(done({"store", "check", "--store", "store"}).out.find("in order"), std::string::npos);
+
+  // A service of systemd finds its credential by the environment.
+  std::filesystem::create_directory(here / "credentials");
+  std::filesystem::rename(here / "store/relievo.key", here / "credentials/relievo.key");
+  const Said credential =
+      run_program({"/usr/bin/env", "CREDENTIALS_DIRECTORY=" + (here / "credentials").string(), RELIEVO_BINARY,
+                   "store", "check", "--store", "store"},
+                  here.path());
+  EXPECT_EQ(credential.exit_code, 0) << credential.err;
+  std::filesystem::rename(here / "credentials/relievo.key", here / "store/relievo.key");
 
   const Said wrong = make_words("store", false);
   EXPECT_NE(wrong.exit_code, 0);

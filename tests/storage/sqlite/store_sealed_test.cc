@@ -186,6 +186,47 @@ TEST(StoreSealed, WhatIsChangedOrExchangedIsRefusedByName) {
   }
 }
 
+// Values of one person, under one key: the place alone tells them apart.
+TEST(StoreSealed, AValueIsBoundToItsTableItsRowAndItsColumn) {
+  const TemporaryFolder folder;
+  {
+    const auto store = opened(folder / "good", kNoReserve);
+    const auto ada = store->add_subject({"Ada"});
+    for (unsigned i = 1; i <= 2; ++i) {
+      const auto model = test::sample_model(60, i);
+      ASSERT_TRUE(store->add_enrolment(*ada, test::sample_enrolment(model)));
+      ASSERT_TRUE(store->save_calibration(test::sample_calibration(), "note"));
+    }
+  }
+  const auto exchange = [](const std::string& table, const std::string& columns, const std::string& key) {
+    return "CREATE TABLE t AS SELECT * FROM " + table + "; UPDATE " + table + " SET (" + columns +
+           ") = (SELECT " + columns + " FROM t WHERE t." + key + " <> " + table + "." + key +
+           "); DROP TABLE t";
+  };
+  const std::pair<std::string, std::string> exchanges[] = {
+      {exchange("enrolment", "record", "id"), "enrolment 1, record"},
+      {exchange("consent", "record", "enrolment_id"), "consent 1, record"},
+      {exchange("model", "nonce, bytes", "enrolment_id"), "model 1, bytes"},
+      {exchange("calibration", "note", "revision"), "note"},
+      {"UPDATE subject SET name = code, code = name", "subject 1, name"},
+      {"UPDATE enrolment SET record = (SELECT record FROM consent WHERE enrolment_id = 1) WHERE id = 1",
+       "enrolment 1, record"},
+      {"UPDATE consent SET record = (SELECT record FROM enrolment WHERE id = 1) WHERE enrolment_id = 1",
+       "consent 1, record"},
+  };
+  for (const auto& [sql, place] : exchanges) {
+    SCOPED_TRACE(sql);
+    const auto dir = folder / "bad";
+    std::filesystem::copy(folder / "good", dir);
+    Raw(dir / "relievo.db").run(sql);
+    const auto checked = opened(dir, kNoReserve)->check();
+    ASSERT_FALSE(checked);
+    EXPECT_EQ(checked.error().code, Errc::StoreCorrupt);
+    EXPECT_NE(checked.error().where().find(place), std::string_view::npos) << checked.error().where();
+    std::filesystem::remove_all(dir);
+  }
+}
+
 std::string slot(int id) { return std::to_string(KeySlots::kHead + 1 + id * 72); }
 
 TEST(StoreSealed, AKeyInAnotherPersonsSlotOpensNothing) {
