@@ -18,7 +18,7 @@ using pipeline::Vec2f;
 using pipeline::Vec3f;
 
 constexpr std::string_view kMagic{"RFACE\0", 6};
-constexpr std::uint16_t kVersion = 4;
+constexpr std::uint16_t kVersion = 5;
 constexpr std::size_t kHeaderBytes = 6 + 2 + 5 * 4;
 constexpr double ModelQuality::*kQuality[] = {&ModelQuality::median_sigma_mm,
                                               &ModelQuality::measured_area_mm2,
@@ -49,8 +49,16 @@ struct Shape {
   std::uint32_t vertices = 0, triangles = 0, width_px = 0, height_px = 0, flags = 0;
   std::uint16_t version = kVersion;
 
-  enum Flag : std::uint32_t { Normals = 1, Sigma = 2, Measured = 4, Uv = 8, VertexRgb = 16, Origin = 32 };
-  std::uint32_t known_flags() const { return version < 2 ? 31 : 63; }
+  enum Flag : std::uint32_t {
+    Normals = 1,
+    Sigma = 2,
+    Measured = 4,
+    Uv = 8,
+    VertexRgb = 16,
+    Origin = 32,
+    Pose = 64
+  };
+  std::uint32_t known_flags() const { return version < 2 ? 31 : version < 5 ? 63 : 127; }
 
   bool has(Flag flag) const { return (flags & flag) != 0; }
   std::size_t count(Flag flag, std::size_t of) const { return has(flag) ? of : 0; }
@@ -67,7 +75,8 @@ struct Shape {
     return kHeaderBytes + (12 + quality_figures(version) + relief_figures(version)) * 8 +
            landmark_bytes(version) + v * 12 + count(Normals, v) * 12 + count(Sigma, v) * 4 +
            count(Measured, v) + std::size_t{triangles} * 12 + texels * 3 + count(Origin, texels) +
-           count(Uv, std::size_t{triangles} * 3) * 8 + count(VertexRgb, v) * 3 + sizeof(Sha256);
+           count(Uv, std::size_t{triangles} * 3) * 8 + count(VertexRgb, v) * 3 + count(Pose, v) +
+           sizeof(Sha256);
   }
 };
 
@@ -96,7 +105,7 @@ Result<Shape> shape_of(const FaceModel& model) {
               static_cast<std::uint32_t>(texture.width_px), static_cast<std::uint32_t>(texture.height_px)};
   const bool lengths_fit =
       absent_or(mesh.normals, v, Shape::Normals, shape) && absent_or(mesh.sigma_mm, v, Shape::Sigma, shape) &&
-      absent_or(mesh.measured, v, Shape::Measured, shape) &&
+      absent_or(mesh.measured, v, Shape::Measured, shape) && absent_or(mesh.pose, v, Shape::Pose, shape) &&
       absent_or(texture.uv, mesh.triangles.size() * 3, Shape::Uv, shape) &&
       absent_or(texture.vertex_rgb, v * 3, Shape::VertexRgb, shape) &&
       absent_or(texture.origin, std::size_t{shape.width_px} * shape.height_px, Shape::Origin, shape);
@@ -189,6 +198,7 @@ Result<std::vector<std::byte>> encode_model(const FaceModel& model) {
   put_all<float>(to, model.texture.uv);
   put_all<std::uint8_t>(to, model.texture.vertex_rgb);
   put_all<std::uint8_t>(to, model.texture.origin);
+  put_all<std::uint8_t>(to, model.mesh.pose);
   const Sha256 digest = sha256(out);
   to.put(digest);
   return out;
@@ -215,6 +225,7 @@ Result<FaceModel> decode_model(std::span<const std::byte> bytes, std::pmr::memor
   get_all<std::uint8_t>(from, model.texture.vertex_rgb, shape.count(Shape::VertexRgb, v * 3));
   get_all<std::uint8_t>(from, model.texture.origin,
                         shape.count(Shape::Origin, std::size_t{shape.width_px} * shape.height_px));
+  get_all<std::uint8_t>(from, model.mesh.pose, shape.count(Shape::Pose, v));
   model.texture.width_px = static_cast<int>(shape.width_px);
   model.texture.height_px = static_cast<int>(shape.height_px);
   if (!from.ok() || from.left() != 0 || !indices_fit(model.mesh)) {

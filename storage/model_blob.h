@@ -7,9 +7,9 @@
 //   "RFACE\0" u16 version | 5 x u32 vertices triangles width_px height_px flags | 12 f64 head_from_camera
 //   | 9 f64 quality | 10 landmarks: x y z sigma f32, found u8 | 6 f64 relief | vertices 3 f32 | normals 3 f32
 //   | sigma f32 | measured u8 | triangles 3 u32 | texture rgb | uv 2 f32 a corner | vertex rgb | texture
-//   origin u8 | SHA-256 of all before it
+//   origin u8 | pose u8 (of a head from several pairs) | SHA-256 of all before it
 // Still read: version 1 with 7 figures of quality, no origin and no landmarks; version 2 with 8 and no
-// landmarks; version 3 without relief. Every number comes back bit for bit. The length follows from the
+// landmarks; version 3 without relief; version 4 without pose. Every number comes back bit for bit. The length follows from the
 // header alone, so a cut piece, a longer piece and hostile sizes are refused before anything is allocated.
 #pragma once
 
@@ -29,7 +29,7 @@ inline constexpr std::uint32_t kMaxModelTriangles = 8'000'000;
 inline constexpr std::uint32_t kMaxTextureSidePx = 8192;
 
 // InvalidInput: arrays whose lengths do not fit together, an index out of range, more than the
-// limits above. Normals, sigma, measured and vertex colours may be absent as a whole.
+// limits above. Normals, sigma, measured, vertex colours and pose may be absent as a whole.
 // May throw std::bad_alloc, as may decode_model().
 Result<std::vector<std::byte>> encode_model(const pipeline::FaceModel& model);
 

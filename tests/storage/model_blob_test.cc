@@ -118,10 +118,25 @@ TEST(ModelBlob, RefusesIndicesOutOfRangeUnderARightChecksum) {
 
 TEST(ModelBlob, SaysThatALaterFormIsNewer) {
   auto bytes = encoded(sample_model(4));
-  bytes[6] = std::byte{5};
+  bytes[6] = std::byte{6};
   const auto back = decode_model(bytes, std::pmr::new_delete_resource());
   ASSERT_FALSE(back);
   EXPECT_EQ(back.error().code, Errc::StoreNewer);
+}
+
+TEST(ModelBlob, AHeadOfSeveralPairsKeepsWhichOfThemMeasuredWhat) {
+  auto model = sample_model(4);
+  for (std::size_t v = 0; v < model.mesh.vertices_mm.size(); ++v)
+    model.mesh.pose.push_back(static_cast<std::uint8_t>(v % 5));
+  auto bytes = encoded(model);
+  const auto back = decode_model(bytes, std::pmr::new_delete_resource());
+  ASSERT_TRUE(back);
+  EXPECT_TRUE(identical(model, *back));
+  bytes[6] = std::byte{4};  // which knew no poses
+  seal(bytes);
+  EXPECT_FALSE(decode_model(bytes, std::pmr::new_delete_resource()));
+  model.mesh.pose.pop_back();
+  EXPECT_FALSE(encode_model(model));
 }
 
 // The first form: seven figures of quality, no word about where a texel's colour comes from.

@@ -122,10 +122,10 @@ bool same(const Vector& a, const Vector& b) {
 bool identical(const FaceModel& a, const FaceModel& b) {
   return same(a.mesh.vertices_mm, b.mesh.vertices_mm) && same(a.mesh.normals, b.mesh.normals) &&
          same(a.mesh.sigma_mm, b.mesh.sigma_mm) && same(a.mesh.measured, b.mesh.measured) &&
-         same(a.mesh.triangles, b.mesh.triangles) && same(a.texture.rgb, b.texture.rgb) &&
-         same(a.texture.uv, b.texture.uv) && same(a.texture.vertex_rgb, b.texture.vertex_rgb) &&
-         same(a.texture.origin, b.texture.origin) && a.texture.width_px == b.texture.width_px &&
-         a.texture.height_px == b.texture.height_px &&
+         same(a.mesh.triangles, b.mesh.triangles) && same(a.mesh.pose, b.mesh.pose) &&
+         same(a.texture.rgb, b.texture.rgb) && same(a.texture.uv, b.texture.uv) &&
+         same(a.texture.vertex_rgb, b.texture.vertex_rgb) && same(a.texture.origin, b.texture.origin) &&
+         a.texture.width_px == b.texture.width_px && a.texture.height_px == b.texture.height_px &&
          std::memcmp(&a.head_from_camera, &b.head_from_camera, sizeof a.head_from_camera) == 0 &&
          std::equal(a.landmarks.begin(), a.landmarks.end(), b.landmarks.begin(),
                     [](const auto& l, const auto& r) {
