@@ -26,7 +26,8 @@ struct TurnLimits {
 struct TurnHistory {
   HeadTurn last;
   std::chrono::nanoseconds last_at{};
-  int slow = 0;  // pictures in a row
+  int slow = 0;                      // pictures in a row
+  std::optional<std::size_t> asked;  // the side that is led to
   std::bitset<kSides> taken;
 };
 
