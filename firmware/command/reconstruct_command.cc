@@ -7,9 +7,9 @@
 #include "firmware/base/output_folder.h"
 #include "firmware/base/version.h"
 #include "firmware/command/commands.h"
-#include "firmware/command/further_models.h"
 #include "firmware/reconstruct/head_reconstruction.h"
 #include "firmware/reconstruct/reconstruction.h"
+#include "firmware/service/further_models.h"
 #include "hal/base/words.h"
 #include "storage/export/model_files.h"
 

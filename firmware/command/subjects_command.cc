@@ -9,8 +9,8 @@
 #include "firmware/base/version.h"
 #include "firmware/base/wall_time.h"
 #include "firmware/command/commands.h"
-#include "firmware/command/further_models.h"
 #include "firmware/command/subject_lookup.h"
+#include "firmware/service/further_models.h"
 #include "pipeline/recognition/recognition_images.h"
 #include "storage/export/model_files.h"
 

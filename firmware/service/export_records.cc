@@ -13,6 +13,7 @@
 #include "firmware/base/version.h"
 #include "firmware/base/wall_time.h"
 #include "firmware/records/receipt.h"
+#include "firmware/service/further_models.h"
 #include "firmware/service/page_controller.h"
 #include "firmware/service/stick_folder.h"
 #include "hal/whole_file.h"
@@ -54,8 +55,9 @@ std::string note_of(const storage::Subject& subject, const storage::Enrolment& n
 // One export: the errors of its steps, and its progress.
 class Export {
  public:
-  Export(storage::Store& store, hal::RemovableMedia& media, JobControl& control, ExportTrace& trace)
-      : store_(store), media_(media), control_(control), trace_(trace) {}
+  Export(storage::Store& store, hal::RemovableMedia& media, const FurtherModels& further, JobControl& control,
+         ExportTrace& trace)
+      : store_(store), media_(media), further_(further), control_(control), trace_(trace) {}
 
   Result<void> one(storage::SubjectId id, const fs::path& root, float done, float share) {
     RELIEVO_TRY(reach(ExportStep::Load, done));
@@ -72,6 +74,7 @@ class Export {
     options.version = kVersion;
     if (images) options.images = &*images;  // a head without eyes has none, and is still its person's record
     RELIEVO_TRY(storage::write_model_files(model, folder.path(), options));
+    RELIEVO_TRY(write_further_models(model, further_, folder.path(), options.frame, target));
     RELIEVO_TRY(write_text(folder.path() / "record.txt", note_of(subject, enrolments.back()), "record.txt"));
     if (!enrolments.back().report_json.empty())
       RELIEVO_TRY(write_text(folder.path() / "report.json", enrolments.back().report_json, "report.json"));
@@ -129,6 +132,7 @@ class Export {
 
   storage::Store& store_;
   hal::RemovableMedia& media_;
+  FurtherModels further_;
   JobControl& control_;
   ExportTrace& trace_;
   std::vector<std::pair<fs::path, Sums>> made_;
@@ -137,13 +141,13 @@ class Export {
 }  // namespace
 
 Result<void> export_records(storage::Store& store, hal::RemovableMedia& media,
-                            const std::vector<storage::SubjectId>& subjects, JobControl& control,
-                            ExportTrace& trace) {
+                            const std::vector<storage::SubjectId>& subjects, const FurtherModels& further,
+                            JobControl& control, ExportTrace& trace) {
   trace = {};
   const auto medium = media.current();
   if (!medium) return Error{Errc::MediaMissing, "there is no stick: plug one in"};
   tidy_folder(medium->root / "relievo", is_receipt);
-  Export work(store, media, control, trace);
+  Export work(store, media, further, control, trace);
   const float share = 1 / static_cast<float>(std::max<std::size_t>(1, subjects.size()));
   for (const storage::SubjectId id : subjects) {
     const Result<void> written = work.one(id, medium->root, static_cast<float>(trace.whole) * share, share);

@@ -11,6 +11,7 @@
 
 #include <vector>
 
+#include "firmware/arguments/command_line.h"
 #include "firmware/jobs/job_thread.h"
 #include "hal/removable_media.h"
 #include "storage/store.h"
@@ -26,9 +27,10 @@ struct ExportTrace {
   int whole = 0;  // records on the stick, read back and under their names
 };
 
+// `further`: what stands beside each portrait's files (service/further_models.h).
 Result<void> export_records(storage::Store& store, hal::RemovableMedia& media,
-                            const std::vector<storage::SubjectId>& subjects, JobControl& control,
-                            ExportTrace& trace);
+                            const std::vector<storage::SubjectId>& subjects, const FurtherModels& further,
+                            JobControl& control, ExportTrace& trace);
 
 // What its error means to who asked: the same error is another thing at another step.
 ui::Outcome outcome_of_export(const Error& error, const ExportTrace& trace);

@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: 2026 The Relievo authors
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include "firmware/command/further_models.h"
+#include "firmware/service/further_models.h"
 
 #include <atomic>
 #include <cstdio>

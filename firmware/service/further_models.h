@@ -3,7 +3,8 @@
 //
 // What may stand beside a model's files: a lighter model (light.*), a solid for printing (solid.*). Each
 // leaves a line that says what it is. Errors: those of lighten(), make_solid() and the files, with `place`
-// for what the caller was asked for. Thread: main.
+// for what the caller was asked for. Takes its memory while it works, and wipes what a solid used. Thread:
+// any.
 #pragma once
 
 #include <filesystem>

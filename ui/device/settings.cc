@@ -35,6 +35,7 @@ constexpr std::array<SettingInfo, kSettings> kInfos{{
     {Setting::StaffPatienceS, "staff_patience_s", kStaffPatience, 120, true, false},
     {Setting::TellsKnown, "tells_known", kSwitch, 1, false, true},
     {Setting::KeepDays, "keep_days", kDays, 0, false, true},
+    {Setting::Solids, "solids", kSwitch, 0, false, true},
     {Setting::LeastRoomMib, "least_room_mib", kRoom, 512, true, false},
 }};
 

@@ -26,6 +26,7 @@ enum class Setting : std::uint8_t {
   StaffPatienceS,  // without a touch, until staff are signed out
   TellsKnown,      // is a visitor told that their name is in the records already?
   KeepDays,        // since the last consent; 0: until somebody erases it
+  Solids,          // a solid for printing stands beside each portrait that is exported
   LeastRoomMib,    // so much of the disk stays free: a portrait that would need it is not stored
   Count
 };

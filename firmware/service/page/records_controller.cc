@@ -193,10 +193,12 @@ void RecordsController::take_out(std::int64_t number) {
   exporting_ = true;
   asked_ = static_cast<int>(subjects.size());
   const auto trace = std::make_shared<ExportTrace>();
+  const FurtherModels further{.watertight = services().settings.now().is_on(ui::Setting::Solids)};
   services().side_tasks.send(
       JobLane::Keeper,
-      [this, subjects = std::move(subjects), trace](JobControl& control) {
-        return export_records(services().store, services().device.media(), subjects, control, *trace);
+      [this, subjects = std::move(subjects), further, trace](JobControl& control) {
+        return export_records(services().store, services().device.media(), subjects, further, control,
+                              *trace);
       },
       [this, trace, visit = visit_](const std::optional<Error>& error) {
         if (trace->whole > 0)

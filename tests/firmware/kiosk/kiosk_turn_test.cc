@@ -8,8 +8,11 @@
 #include <set>
 #include <string>
 
+#include "firmware/service/export_records.h"
 #include "hal/monotonic_clock.h"
 #include "hal/sim/device.h"
+#include "hal/sim/replay/folder_media.h"
+#include "hal/whole_file.h"
 #include "pipeline/calibrate/file/calibration_file.h"
 #include "storage/sqlite/sqlite_store.h"
 #include "tests/firmware/kiosk/kiosk_hands.h"
@@ -90,10 +93,29 @@ TEST_F(KioskTurn, WhoTurnsTheHeadSeesAllOfIt) {
   EXPECT_GT(kiosk->view().model->quality.measured_area_mm2, 45'000) << "more than any face";
   tap("accept");
   ASSERT_TRUE(reach(ui::Step::Thanks));
-  EXPECT_EQ((*storage::open_sqlite_store(args.store, clock, {.mode = storage::OpenMode::ReadOnly}))
-                ->subjects({})
-                ->size(),
-            1U);
+  kiosk.reset();
+
+  // What is stored is exported whole: which pair measured what, and on request a solid.
+  auto store = storage::open_sqlite_store(args.store, clock, {});
+  ASSERT_TRUE(store);
+  const auto subjects = (*store)->subjects({});
+  ASSERT_EQ(subjects->size(), 1U);
+  hal::FolderMedia stick;
+  std::filesystem::create_directories(folder.path() / "stick");
+  stick.plug(folder.path() / "stick");
+  const std::atomic<bool> cancelled{false};
+  pipeline::Progress progress;
+  JobControl control{cancelled, progress};
+  ExportTrace trace;
+  const auto exported =
+      export_records(**store, stick, {subjects->front().id}, {.watertight = true}, control, trace);
+  ASSERT_TRUE(exported) << exported.error().what.view();
+  const Path record = std::filesystem::directory_iterator(folder.path() / "stick/relievo")->path();
+  const auto bytes = hal::read_whole_file(record / "model.ply", std::size_t{1} << 28);
+  ASSERT_TRUE(bytes);
+  const std::string_view ply(reinterpret_cast<const char*>(bytes->data()), 4000);
+  EXPECT_NE(ply.find("property uchar pose"), std::string_view::npos);
+  EXPECT_GT(std::filesystem::file_size(record / "solid.stl"), 1'000'000U);
 }
 
 TEST_F(KioskTurn, WhoCannotHasTheFaceOfOnePicture) {

@@ -100,7 +100,7 @@ void languages(Page& page) {
 }
 
 void leave(Page& page) {
-  page.heading("overlay_title", page.tr("Stop and leave?"));
+  page.heading("overlay_title", page.tr("Stop and leave"));
   page.body("overlay_text",
             page.tr("Everything you have entered and every picture are wiped at once. Nothing is kept."));
   answers(page, page.tr("Yes, wipe everything"), {ActionKind::LeaveNow, 0}, page.tr("No, go on"),

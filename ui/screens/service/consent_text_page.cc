@@ -62,7 +62,7 @@ void consent_in_force(StaffFrame& page) {
       "The first line is the title. Then, after an empty line each, the points: a title, and the words below it."));
   page.tree.close();
   const bool busy = page.staff.consent == nullptr || page.staff.consent->taking;
-  page.small_button("take consent", tr("Take it from the stick"), kFetch, ButtonLook::Quiet,
+  page.small_button("take consent", tr("Load from the stick"), kFetch, ButtonLook::Quiet,
                     busy ? Action{} : Action(TakeConsentText{}));
 }
 

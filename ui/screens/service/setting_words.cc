@@ -42,6 +42,8 @@ const char* name_of(const Words& tr, Setting setting) {
       return tr("Visitors are told that their name is already in the records");
     case Setting::KeepDays:
       return tr("Records are erased by themselves after");
+    case Setting::Solids:
+      return tr("A solid for printing with each exported portrait");
     case Setting::LeastRoomMib:
       return tr("Room kept free on the disk");
     case Setting::Count:
@@ -57,6 +59,7 @@ std::string_view said_value(StaffFrame& page, Setting setting, std::int32_t valu
     case Setting::Contrast:
     case Setting::Automatic:
     case Setting::Sides:
+    case Setting::Solids:
     case Setting::TellsKnown:
       return value != 0 ? page.tr("yes") : page.tr("no");
     case Setting::TextPercent:

@@ -49,7 +49,8 @@ void settings_page(StaffFrame& page) {
   group(page, tr("Waiting"), std::array{Setting::PatienceS, Setting::StaffPatienceS});
   group(page, tr("Pictures"),
         std::array{Setting::Automatic, Setting::CountdownMs, Setting::Sides, Setting::Attempts});
-  group(page, tr("Records"), std::array{Setting::TellsKnown, Setting::KeepDays, Setting::LeastRoomMib});
+  group(page, tr("Records"),
+        std::array{Setting::TellsKnown, Setting::KeepDays, Setting::Solids, Setting::LeastRoomMib});
   if (page.staff.role == StaffRole::Operator && page.staff.settings->settings.is_on(Setting::KeepDays))
     page.line(tr(
         "Counted from the newest consent. What is older is erased once a day, while nobody is at the screen."));

@@ -86,9 +86,8 @@ Words4 words_of(const Page& page) {
                      (page.view.trouble == Trouble::None || bars_the_way(page.view.out_of_order));
   switch (waits ? page.view.out_of_order : page.view.trouble) {
     case Trouble::Camera:
-      return {
-          icon::kNoCamera, tr("A camera does not answer"),
-          tr("Please tell the staff. This device tries again by itself every half minute. Nothing about you was kept.")};
+      return {icon::kNoCamera, tr("A camera does not answer"),
+              tr("Please tell the staff. This device tries again by itself. Nothing about you was kept.")};
     case Trouble::Calibration:
       return {
           icon::kWrench, tr("The cameras need adjusting"),
@@ -101,7 +100,7 @@ Words4 words_of(const Page& page) {
       return {icon::kDisk, tr("Nothing can be stored at the moment"),
               tr("Please tell the staff. Nothing about you was kept.")};
     case Trouble::TookTooLong:
-      return {icon::kWait, tr("That took too long"), tr("You can start again. Nothing about you was kept.")};
+      return {icon::kWait, tr("It took too long"), tr("You can start again. Nothing about you was kept.")};
     case Trouble::Uncalibrated:
       return {
           icon::kWrench, tr("This device is not set up yet"),

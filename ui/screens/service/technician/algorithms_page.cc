@@ -159,8 +159,7 @@ void editor(TechnicianFrame& f) {
   f.page.tree.open(words);
   f.page.tree.leaf(f.page.text(f.left_to_right(option.key), type::kBody, Weight::Bold, f.page.palette.ink));
   if (!f.view.choice.refused.empty()) {
-    Node no =
-        f.page.text(f.tr("This value is not possible."), type::kSmall, Weight::Bold, f.page.palette.bad);
+    Node no = f.page.text(f.tr("This cannot be accepted."), type::kSmall, Weight::Bold, f.page.palette.bad);
     no.id = "option refused";
     no.role = Role::Status;
     f.page.tree.leaf(no);

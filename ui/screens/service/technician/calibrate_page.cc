@@ -206,7 +206,7 @@ void history(TechnicianFrame& f) {
   if (f.view.calibrated)
     f.page.row("calibration export", f.tr("Export to the stick"), {}, Mood::Plain,
                technician_action(TechnicianAct::ExportCalibration));
-  f.page.row("calibration import", f.tr("Import from the stick"), {}, Mood::Plain,
+  f.page.row("calibration import", f.tr("Load from the stick"), {}, Mood::Plain,
              technician_action(TechnicianAct::ImportCalibration));
 }
 

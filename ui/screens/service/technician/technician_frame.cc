@@ -324,7 +324,7 @@ void TechnicianFrame::capture_buttons(bool with_run, bool with_stick) {
                       technician_action(TechnicianAct::Stop), grow);
   } else {
     const bool there = view.result.there;
-    page.small_button("capture", tr("New test capture"), icon::kCamera,
+    page.small_button("capture", tr("Test capture"), icon::kCamera,
                       there ? ButtonLook::Quiet : ButtonLook::Main, technician_action(TechnicianAct::Capture),
                       grow);
     if (with_run && there)
