@@ -189,6 +189,27 @@ TEST(StoreKeeping, ANewKeyThatHasNotTakenItsPlaceIsFound) {
   }
 }
 
+TEST(StoreKeeping, OnAFullDiskNothingIsHalf) {
+  const relievo::test::TinyDisk disk(3'000'000);
+  if (!disk.mounted()) GTEST_SKIP() << disk.why_not();
+  const auto dir = disk.path() / "store";
+  fill(dir, 20);
+  const auto before = Raw(dir / "relievo.db").rows("SELECT hex(parameters) FROM encryption_key");
+  {
+    std::ofstream junk(disk.path() / "junk", std::ios::binary);
+    for (const std::string block(4096, 'x'); junk.flush(); junk.write(block.data(), 4096)) continue;
+  }
+  EXPECT_EQ(code_of(keeping(dir)->rekey("")), Errc::MediaFull);
+  EXPECT_EQ(code_of(keeping(dir)->keep_recovery_words(draw_recovery_words())), Errc::MediaFull);
+  EXPECT_EQ(code_of(keeping(dir)->backup(disk.path() / "copy")), Errc::MediaFull);
+  EXPECT_FALSE(std::filesystem::exists(disk.path() / "copy"));
+  std::filesystem::remove(disk.path() / "junk");
+  EXPECT_EQ(before, Raw(dir / "relievo.db").rows("SELECT hex(parameters) FROM encryption_key"));
+  judge(dir, kNoReserve, 20);
+  ASSERT_TRUE(keeping(dir)->rekey(""));
+  judge(dir, kNoReserve, 20);
+}
+
 TEST(StoreKeeping, ACopyIsSealedAndTellsWhoWasErasedSince) {
   const TemporaryFolder folder;
   const auto dir = folder / "store", copy = folder / "copy.db";
