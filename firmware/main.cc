@@ -251,12 +251,14 @@ Result<void> plug_stick(hal::Device& device, const std::string& folder) {
 int main(int argc, char** argv) {
   namespace fw = relievo::firmware;
   fw::Console console;
-  if (const auto forbidden = fw::forbid_core_dumps(); !forbidden) {
+  const fw::CommandLine line = fw::parse_command_line(argc, argv);
+  // compare opens no store, and measures memory.
+  if (const auto forbidden = fw::forbid_core_dumps(std::holds_alternative<fw::CompareArgs>(line.command));
+      !forbidden) {
     console.fail(forbidden.error());
     return 1;
   }
   const relievo::hal::MonotonicClock clock;
-  const fw::CommandLine line = fw::parse_command_line(argc, argv);
   fw::Services services{
       .open_device = fw::open_device,
       .open_store = [&](const fw::Path& folder,

@@ -10,7 +10,9 @@
 namespace relievo::firmware {
 
 // No core file (RLIMIT_CORE, also for what it starts), none through a handler, no reading by others of the
-// same user (prctl(2), PR_SET_DUMPABLE). IoFailed: the system would not have it.
-Result<void> forbid_core_dumps();
+// same user (prctl(2), PR_SET_DUMPABLE). `measures_itself`: no core file, but dumpable: only then the system
+// lets it restart the count of its peak of memory (proc(5), clear_refs). IoFailed: the system would not have
+// it.
+Result<void> forbid_core_dumps(bool measures_itself = false);
 
 }  // namespace relievo::firmware
