@@ -3,37 +3,64 @@
 #include <CLI/CLI.hpp>
 
 #include <algorithm>
+#include <cstdint>
 #include <cstdio>
-#include <cstdlib>
-#include <sstream>
+#include <string>
 
 #include "firmware/arguments/command_line.h"
 #include "firmware/arguments/command_words.h"
 #include "firmware/arguments/two_numbers.h"
 
 namespace relievo::firmware {
-namespace {
 
-// CLI::Range lets "nan" through.
-CLI::Validator within(double least, double most) {
-  std::ostringstream words;
-  words << least << " to " << most;
-  return CLI::Validator(
-      [least, most, text = words.str()](std::string& word) {
-        const double number = std::strtod(word.c_str(), nullptr);
-        return number >= least && number <= most ? std::string()
-                                                 : "wants a number from " + text + ", not " + word;
-      },
-      words.str());
+void add_store(CLI::App& command, Path& store) {
+  command.add_option("--store", store, "folder of the store")->type_name("DIR");
+  command.add_option(kKeyOption, "file with the store's key, if it does not lie beside the store")
+      ->type_name("FILE");
 }
 
-// "10x7", 3 to 999 each.
-bool corner_counts(const std::string& text, int& across, int& down) {
-  const auto counts = two_numbers(text, 'x');
-  if (!counts || std::min(counts->first, counts->second) < 3 || std::max(counts->first, counts->second) > 999)
-    return false;
-  across = counts->first, down = counts->second;
+namespace {
+
+// "1280x800", 640x480 or more.
+bool window_size(const std::string& text, int& width, int& height) {
+  const auto size = two_numbers(text, 'x');
+  if (!size || size->first < 640 || size->second < 480) return false;
+  width = size->first, height = size->second;
   return true;
+}
+
+// The words before any command.
+void add_kiosk(CLI::App& app, KioskArgs& args) {
+  app.add_option("--board", args.device, "the kiosk's cameras: " + std::string(kDevices))
+      ->type_name("BOARD")
+      ->capture_default_str();
+  app.add_option("--calibration", args.calibration,
+                 "default: the one in the store; of the simulated rig, its own")
+      ->type_name("rig.yml");
+  add_store(app, args.store);
+  app.add_option_function<std::string>(
+         "--windowed",
+         [&args](const std::string& size) {
+           if (!window_size(size, args.width_px, args.height_px))
+             throw CLI::ValidationError("--windowed", "give a size such as 1280x800, of 640x480 or more");
+         },
+         "a window instead of the whole screen")
+      ->type_name("WxH");
+  app.add_option("--screenshots", args.screenshots, "pictures of all screens in all languages, as files")
+      ->type_name("DIR");
+  app.add_option("--script", args.script,
+                 "a visit by synthetic fingers, and what it cost; its pictures go to --screenshots")
+      ->type_name("FILE");
+  app.add_option(
+         "--only", args.only,
+         "of those, the sheets with this in their name, as 1280x800_100_de; behind a slash, the pages with this in theirs: 1280x800_100_de/thanks")
+      ->type_name("TEXT");
+  app.add_flag_function(
+      "--tell-nobody", [&args](std::int64_t) { args.tells_known = false; },
+      "who types a name is not told that it is in the records already");
+  app.add_flag("--showpiece", args.write_invitation_head,
+               "with --screenshots: only the head of the page that invites")
+      ->group("");
 }
 
 void add_algorithms(CLI::App& command, AlgorithmArgs& args) {
@@ -52,105 +79,6 @@ void add_algorithms(CLI::App& command, AlgorithmArgs& args) {
           "what to reconstruct")
       ->check(CLI::IsMember({"face", "all"}))
       ->default_str("face");
-}
-
-void add_board_words(CLI::App& command, BoardArgs& board, bool required) {
-  auto* corners = command
-                      .add_option_function<std::string>(
-                          "--corners",
-                          [&board](const std::string& text) {
-                            if (!corner_counts(text, board.corners_across, board.corners_down)) {
-                              throw CLI::ValidationError("--corners",
-                                                         "wants inner corners across and down, such as 10x7");
-                            }
-                          },
-                          "inner corners, across x down")
-                      ->type_name("10x7");
-  auto* square =
-      command.add_option("--square-mm", board.square_mm, "side of a square")->check(within(0.1, 1000));
-  if (required) corners->required(), square->required();
-  else
-    corners->default_str(std::to_string(board.corners_across) + "x" + std::to_string(board.corners_down)),
-        square->capture_default_str();
-  command
-      .add_option("--marker-mm", board.marker_mm,
-                  "side of a ChArUco marker; default seven tenths of a square")
-      ->check(within(0.03, 900));
-  command.add_option("--marker-bits", board.marker_bits, "of a ChArUco marker, a side")
-      ->check(CLI::Range(4, 7))
-      ->capture_default_str();
-}
-
-CLI::Option* add_kind(CLI::App& command, const char* name, BoardArgs& board, const char* help) {
-  return command
-      .add_option_function<std::string>(
-          name, [&board](const std::string& word) { board.charuco = word == "charuco"; }, help)
-      ->check(CLI::IsMember({"chessboard", "charuco"}));
-}
-
-CLI::Option* add_live(CLI::App& command, CalibrateLiveArgs& args) {
-  CLI::Option* live =
-      command.add_flag("--live")->description("no folder: pairs as they come, with advice what to show next");
-  command
-      .add_option("--board", args.cameras,
-                  "of --live; before sim a hand follows the advice; " + std::string(kDevices))
-      ->type_name("BOARD")
-      ->needs(live);
-  command
-      .add_option("--goal-mm", args.goal_mm,
-                  "of --live: the depth error at 560 mm to reach, one standard deviation")
-      ->check(within(0.001, 100))
-      ->capture_default_str()
-      ->needs(live);
-  command.add_option("--seed", args.seed, "of --live: another number, another simulated rig and hand")
-      ->capture_default_str()
-      ->needs(live);
-  return live;
-}
-
-void add_calibrate(CLI::App& app, CommandArgs& chosen, CalibrateArgs& args, CalibrateLiveArgs& live_args) {
-  CLI::App* command = app.add_subcommand(
-      "calibrate", "calibrate the rig from pictures of a printed board, or make that board");
-  CLI::Option* pictures =
-      command->add_option("pictures", args.pictures, "folder with left* and right* pictures")
-          ->type_name("DIR");
-  add_board_words(*command, args.board, true);
-  add_kind(*command, "--pattern", args.board, "what is printed on it")->default_str("chessboard");
-  command->add_option("-o,--output", args.output, "the calibration, or the page")
-      ->required()
-      ->type_name("rig.yml");
-  command->add_option("--report", args.report, "a page about it, index.html, with pictures")
-      ->type_name("DIR");
-  command
-      ->add_option(
-          "--baseline-mm", args.baseline_mm,
-          "known distance of the cameras, to notice a wrong square size; 0: unknown; default with --store: that of the "
-          "calibration in use")
-      ->check(within(0, 10000));
-  add_store(*command, args.store);
-  CLI::Option* print = add_kind(*command, "--print-pattern", args.board,
-                                "no pictures: a page with the board, as PDF or SVG, to print at 100 %");
-  for (const char* other : {"pictures", "--pattern", "--report", "--baseline-mm", "--store"})
-    print->excludes(command->get_option(other));
-  CLI::Option* live = add_live(*command, live_args);
-  for (CLI::Option* other : {pictures, print, command->get_option("--report")}) live->excludes(other);
-  command->callback([&args, &live_args, &chosen, pictures, print, live] {
-    if (print->count() > 0) {
-      chosen = PrintPatternArgs{args.board, args.output};
-      return;
-    }
-    if (live->count() > 0) {
-      if (live_args.cameras.empty()) throw CLI::RequiredError("--live: --board");
-      live_args.board = args.board;
-      live_args.output = args.output;
-      live_args.store = args.store;
-      live_args.baseline_mm = args.baseline_mm;
-      chosen = live_args;
-      return;
-    }
-    if (pictures->count() == 0) throw CLI::RequiredError("DIR with pictures");
-    chosen = args;
-  });
 }
 
 void add_further(CLI::App& command, FurtherModels& further) {
@@ -266,87 +194,30 @@ void add_subjects(CLI::App& app, CommandArgs& chosen, SubjectsArgs& args) {
   verb("erase", "one and everything known about them", Verb::Erase);
 }
 
-// What is printed, and how well it is seen.
-void add_simulated_board(CLI::App& command, SimulateArgs& args) {
-  args.printed = {10, 7, 20};
-  add_kind(command, "--pattern", args.printed, "what is printed on it")->default_str("chessboard");
-  add_board_words(command, args.printed, false);
-  command.add_option("--blur-px", args.blur_px, "of the lens, standard deviation")
-      ->check(within(0, 5))
-      ->capture_default_str();
-  command.add_option("--noise", args.noise, "of the sensor, times the usual")
-      ->check(within(0, 20))
-      ->capture_default_str();
-  const auto share = [&command](const char* name, double& value, const char* what) {
-    command.add_option(name, value, what)->check(within(0, 0.98))->capture_default_str();
-  };
-  share("--lamp", args.lamp, "share of the light lost from the board's left to its right");
-  share("--shadow", args.shadow, "share of the light lost in a shadow over a third of it");
-  share("--cover", args.cover, "share of its width that a hand covers");
-  command.add_option("--highlight", args.highlight, "a lamp's mirror image, in units of white paper")
-      ->check(within(0, 20))
-      ->capture_default_str();
-}
-
-void add_simulate(CLI::App& app, CommandArgs& chosen, SimulateArgs& args) {
-  CLI::App* command = app.add_subcommand("simulate", "photograph with the simulated rig");
+void add_staff(CLI::App& app, CommandArgs& chosen, StaffArgs& args) {
+  CLI::App* command = app.add_subcommand(
+      "staff",
+      "a PIN that was forgotten, a touch screen that nobody can use any more; while the kiosk is stopped");
   command->require_subcommand(1);
-  CLI::App* face = command->add_subcommand("face", "a face made of a seed");
-  CLI::App* held =
-      command->add_subcommand("photograph", "a picture held before the cameras, printed or on a screen");
-  add_held_picture(*held, args.held);
-  for (CLI::App* sub :
-       {command->add_subcommand("board", "a printed board in many poses, or in the one that is given"), face,
-        held}) {
-    const bool board = sub != face && sub != held;
-    if (board) add_simulated_board(*sub, args);
-    sub->add_option("-o,--output", args.output, "folder for left*.png, right*.png and the true rig.yml")
-        ->required()
-        ->type_name("DIR");
-    sub->add_option("--seed", args.seed, "another number, another face, other poses")->capture_default_str();
-    if (board)
-      sub->add_option("--pairs", args.pairs, "how many")->check(CLI::Range(1, 1000))->capture_default_str();
-    sub->add_option("--scale", args.scale, "size of the pictures")
-        ->check(within(0.1, 1))
-        ->capture_default_str();
-    sub->add_flag("--portrait", args.portrait, "cameras turned upright: pictures higher than wide");
-    const auto pose = [&args, sub](const char* name, double& value, double least, double most,
-                                   const char* what) {
-      sub->add_option(name, value, what)
-          ->check(within(least, most))
-          ->capture_default_str()
-          ->each([&args](const std::string&) { args.one_pose = true; });
-    };
-    pose("--yaw", args.yaw_deg, -60, 60, "turn about the upright axis, degrees");
-    pose("--pitch", args.pitch_deg, -45, 45, "nod, degrees");
-    pose("--roll", args.roll_deg, -60, 60, "lean, degrees");
-    pose("--distance", args.distance_mm, 250, 2000, "from the left camera to the middle, mm");
-    pose("--right", args.right_mm, -500, 500, "to the side, mm");
-    pose("--down", args.down_mm, -500, 500, "downwards, mm");
-    if (sub == face)
-      sub->add_flag("--truth", args.truth, "also write the true surface, for 'relievo compare'");
-    sub->callback([&args, &chosen, board] {
-      args.board = board;
+  const auto verb = [&](const char* name, const char* help, StaffArgs::Verb which) {
+    CLI::App* sub = command->add_subcommand(name, help);
+    add_store(*sub, args.store);
+    sub->callback([&args, &chosen, which] {
+      args.verb = which;
       chosen = args;
     });
-  }
-}
-
-void add_selftest(CLI::App& app, CommandArgs& chosen, SelfTestArgs& args) {
-  CLI::App* command = app.add_subcommand("selftest", "is everything in place?");
-  add_store(*command, args.store);
-  CLI::Option* optical =
-      command->add_flag("--optical", args.optical,
-                        "measure known spheres and plates through the whole chain instead (a minute)");
-  command->add_option("-o,--output", args.output, "folder for the report and a picture of every target")
-      ->type_name("DIR")
-      ->needs(optical);
-  command->add_option("--seed", args.seed, "another rig, other noise")->capture_default_str()->needs(optical);
-  command->add_option("--scale", args.scale, "size of the pictures; the limits grow as their pixels do")
-      ->check(within(0.5, 1))
-      ->capture_default_str()
-      ->needs(optical);
-  command->callback([&] { chosen = args; });
+    return sub;
+  };
+  CLI::App* forget = verb("forget-pin", "one role chooses its PIN anew at the next start; the other's stays",
+                          StaffArgs::Verb::ForgetPin);
+  forget
+      ->add_option_function<std::string>(
+          "role", [&args](const std::string& word) { args.technician = word == "technician"; }, "whose")
+      ->required()
+      ->type_name("ROLE")
+      ->check(CLI::IsMember({"technician", "operator"}));
+  verb("plain-touch", "the touch screen is taken as it is, without a correction",
+       StaffArgs::Verb::PlainTouch);
 }
 
 void add_algorithm_list(CLI::App& app, CommandArgs& chosen, AlgorithmsArgs& args) {

@@ -1,8 +1,9 @@
 // SPDX-FileCopyrightText: 2026 The Relievo authors
 // SPDX-License-Identifier: GPL-3.0-or-later
 //
-// The words of the commands that have files of their own, for cli11_command_line.cc. What they fill must
-// outlive the parsing; `args` of a command is copied into `chosen` when that command is met. Thread: main.
+// The words of the commands that cli11_command_line.cc does not hold itself: few files, since each pays five
+// seconds for CLI11. What they fill must outlive the parsing; `args` of a command is copied into `chosen`
+// when that command is met. Thread: main.
 #pragma once
 
 #include "firmware/arguments/command_line.h"
@@ -20,12 +21,11 @@ inline constexpr const char* kDevices =
 
 inline constexpr const char* kKeyOption = "--key";
 void add_store(CLI::App& command, Path& store);  // and kKeyOption, which CommandLine::key takes up
-void add_kiosk(CLI::App& app, KioskArgs& args);  // the words before any command
-void add_calibration(CLI::App& app, CommandArgs& chosen, CalibrationArgs& args);
-void add_staff(CLI::App& app, CommandArgs& chosen, StaffArgs& args);
 void add_store_keeping(CLI::App& app, CommandArgs& chosen, StoreArgs& args);
+void add_calibrate(CLI::App& app, CommandArgs& chosen, CalibrateArgs& args, CalibrateLiveArgs& live_args);
+void add_calibration(CLI::App& app, CommandArgs& chosen, CalibrationArgs& args);
+void add_simulate(CLI::App& app, CommandArgs& chosen, SimulateArgs& args);
+void add_selftest(CLI::App& app, CommandArgs& chosen, SelfTestArgs& args);
 CLI::App* add_compare(CLI::App& app, CommandArgs& chosen, CompareArgs& args);
-// Of `relievo simulate photograph`, what no other scene has.
-void add_held_picture(CLI::App& command, HeldPictureArgs& args);
 
 }  // namespace relievo::firmware

@@ -1,0 +1,332 @@
+// SPDX-FileCopyrightText: 2026 The Relievo authors
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "firmware/arguments/command_words.h"
+
+#include <CLI/CLI.hpp>
+
+#include <algorithm>
+#include <charconv>
+#include <cstdlib>
+#include <sstream>
+#include <string>
+
+#include "firmware/arguments/two_numbers.h"
+
+namespace relievo::firmware {
+namespace {
+
+using Verb = CalibrationArgs::Verb;
+
+// CLI::Range lets "nan" through.
+CLI::Validator within(double least, double most) {
+  std::ostringstream words;
+  words << least << " to " << most;
+  return CLI::Validator(
+      [least, most, text = words.str()](std::string& word) {
+        const double number = std::strtod(word.c_str(), nullptr);
+        return number >= least && number <= most ? std::string()
+                                                 : "wants a number from " + text + ", not " + word;
+      },
+      words.str());
+}
+
+// "1920x1200", 16 to 8192 each.
+bool picture_size(const std::string& text, int& width, int& height) {
+  const auto size = two_numbers(text, 'x');
+  if (!size || std::min(size->first, size->second) < 16 || std::max(size->first, size->second) > 8192)
+    return false;
+  width = size->first, height = size->second;
+  return true;
+}
+
+std::string check_unit(const std::string& word) {
+  double unit = 0;
+  const auto [end, bad] = std::from_chars(word.data(), word.data() + word.size(), unit);
+  const bool good = bad == std::errc() && end == word.data() + word.size() && unit >= 1e-6 && unit <= 1e6;
+  return good ? "" : "wants the millimetres of one unit, such as 1 or 1000, not " + word;
+}
+
+std::string check_revision(const std::string& word) {
+  const bool good =
+      !word.empty() && word.front() != '0' && word.find_first_not_of("0123456789") == std::string::npos;
+  return good ? "" : "wants a number as 'relievo calibration list' has it, from 1 on, not " + word;
+}
+
+void add_import(CLI::App& command, CalibrationArgs& args) {
+  command.add_option("file", args.file, "rig.yml; or one of intrinsics.yml, left.yaml")
+      ->required()
+      ->type_name("FILE");
+  command.add_option("other", args.other, "the other half of a pair; default: beside the first, by its name")
+      ->type_name("FILE");
+  command
+      .add_option_function<std::string>(
+          "--image-size",
+          [&args](const std::string& text) {
+            if (!picture_size(text, args.width_px, args.height_px))
+              throw CLI::ValidationError("--image-size",
+                                         "wants the pictures' width and height, such as 1920x1200");
+          },
+          "of the pictures, where the files do not say")
+      ->type_name("WIDTHxHEIGHT");
+  command.add_option("--unit-mm", args.unit_mm, "millimetres of one unit of T; default 1, of ROS files 1000")
+      ->check(check_unit)
+      ->type_name("MM");
+  command.add_option("--note", args.note, "what the list shall say of it")->type_name("TEXT");
+}
+
+void add_export(CLI::App& command, CalibrationArgs& args) {
+  command.add_option("-o,--output", args.file, "the file; for ros the folder")->required()->type_name("PATH");
+  CLI::Option* revision =
+      command.add_option("revision", args.revision, "which; default the one in use")->check(check_revision);
+  command.add_option("--calibration", args.source, "one of a file instead of the store's")
+      ->type_name("FILE")
+      ->excludes(revision);
+  command
+      .add_option_function<std::string>(
+          "--as", [&args](const std::string& word) { args.ros = word == "ros"; },
+          "rig: one file as OpenCV writes it; ros: left.yaml and right.yaml (camera_info)")
+      ->check(CLI::IsMember({"rig", "ros"}))
+      ->default_str("rig");
+}
+
+// "10x7", 3 to 999 each.
+bool corner_counts(const std::string& text, int& across, int& down) {
+  const auto counts = two_numbers(text, 'x');
+  if (!counts || std::min(counts->first, counts->second) < 3 || std::max(counts->first, counts->second) > 999)
+    return false;
+  across = counts->first, down = counts->second;
+  return true;
+}
+
+void add_board_words(CLI::App& command, BoardArgs& board, bool required) {
+  auto* corners = command
+                      .add_option_function<std::string>(
+                          "--corners",
+                          [&board](const std::string& text) {
+                            if (!corner_counts(text, board.corners_across, board.corners_down)) {
+                              throw CLI::ValidationError("--corners",
+                                                         "wants inner corners across and down, such as 10x7");
+                            }
+                          },
+                          "inner corners, across x down")
+                      ->type_name("10x7");
+  auto* square =
+      command.add_option("--square-mm", board.square_mm, "side of a square")->check(within(0.1, 1000));
+  if (required) corners->required(), square->required();
+  else
+    corners->default_str(std::to_string(board.corners_across) + "x" + std::to_string(board.corners_down)),
+        square->capture_default_str();
+  command
+      .add_option("--marker-mm", board.marker_mm,
+                  "side of a ChArUco marker; default seven tenths of a square")
+      ->check(within(0.03, 900));
+  command.add_option("--marker-bits", board.marker_bits, "of a ChArUco marker, a side")
+      ->check(CLI::Range(4, 7))
+      ->capture_default_str();
+}
+
+CLI::Option* add_kind(CLI::App& command, const char* name, BoardArgs& board, const char* help) {
+  return command
+      .add_option_function<std::string>(
+          name, [&board](const std::string& word) { board.charuco = word == "charuco"; }, help)
+      ->check(CLI::IsMember({"chessboard", "charuco"}));
+}
+
+CLI::Option* add_live(CLI::App& command, CalibrateLiveArgs& args) {
+  CLI::Option* live =
+      command.add_flag("--live")->description("no folder: pairs as they come, with advice what to show next");
+  command
+      .add_option("--board", args.cameras,
+                  "of --live; before sim a hand follows the advice; " + std::string(kDevices))
+      ->type_name("BOARD")
+      ->needs(live);
+  command
+      .add_option("--goal-mm", args.goal_mm,
+                  "of --live: the depth error at 560 mm to reach, one standard deviation")
+      ->check(within(0.001, 100))
+      ->capture_default_str()
+      ->needs(live);
+  command.add_option("--seed", args.seed, "of --live: another number, another simulated rig and hand")
+      ->capture_default_str()
+      ->needs(live);
+  return live;
+}
+
+// What is printed, and how well it is seen.
+void add_simulated_board(CLI::App& command, SimulateArgs& args) {
+  args.printed = {10, 7, 20};
+  add_kind(command, "--pattern", args.printed, "what is printed on it")->default_str("chessboard");
+  add_board_words(command, args.printed, false);
+  command.add_option("--blur-px", args.blur_px, "of the lens, standard deviation")
+      ->check(within(0, 5))
+      ->capture_default_str();
+  command.add_option("--noise", args.noise, "of the sensor, times the usual")
+      ->check(within(0, 20))
+      ->capture_default_str();
+  const auto share = [&command](const char* name, double& value, const char* what) {
+    command.add_option(name, value, what)->check(within(0, 0.98))->capture_default_str();
+  };
+  share("--lamp", args.lamp, "share of the light lost from the board's left to its right");
+  share("--shadow", args.shadow, "share of the light lost in a shadow over a third of it");
+  share("--cover", args.cover, "share of its width that a hand covers");
+  command.add_option("--highlight", args.highlight, "a lamp's mirror image, in units of white paper")
+      ->check(within(0, 20))
+      ->capture_default_str();
+}
+
+// Of `relievo simulate photograph`, what no other scene has.
+void add_held_picture(CLI::App& command, HeldPictureArgs& args) {
+  command.add_option("picture", args.picture, "what is held: a photograph of a face, PNG or JPEG")
+      ->required()
+      ->type_name("PICTURE");
+  command.add_option("--width-mm", args.width_mm, "of the picture as it is held; its height follows")
+      ->capture_default_str();
+  command
+      .add_option("--radius-mm", args.radius_mm,
+                  "bent: 30 or more towards the cameras, -30 or less away; 0 flat")
+      ->capture_default_str();
+  command
+      .add_option("--axis", args.axis_deg, "of the bend: 0 as on a column, 90 as on a lying roll, degrees")
+      ->capture_default_str();
+  command.add_option("--apex-mm", args.apex_mm, "bent to a cone with its apex this far away; 0 a roll")
+      ->capture_default_str();
+  command.add_option("--wave-mm", args.wave_mm, "bent to and fro, a wave this long; 0 one way")
+      ->capture_default_str();
+  command.add_option("--gloss", args.gloss, "share of the lamps' light that it mirrors: 0 matt, 0.04 glass")
+      ->capture_default_str();
+  command.add_flag("--screen", args.screen, "it shines by itself");
+}
+
+}  // namespace
+
+void add_calibrate(CLI::App& app, CommandArgs& chosen, CalibrateArgs& args, CalibrateLiveArgs& live_args) {
+  CLI::App* command = app.add_subcommand(
+      "calibrate", "calibrate the rig from pictures of a printed board, or make that board");
+  CLI::Option* pictures =
+      command->add_option("pictures", args.pictures, "folder with left* and right* pictures")
+          ->type_name("DIR");
+  add_board_words(*command, args.board, true);
+  add_kind(*command, "--pattern", args.board, "what is printed on it")->default_str("chessboard");
+  command->add_option("-o,--output", args.output, "the calibration, or the page")
+      ->required()
+      ->type_name("rig.yml");
+  command->add_option("--report", args.report, "a page about it, index.html, with pictures")
+      ->type_name("DIR");
+  command
+      ->add_option(
+          "--baseline-mm", args.baseline_mm,
+          "known distance of the cameras, to notice a wrong square size; 0: unknown; default with --store: that of the "
+          "calibration in use")
+      ->check(within(0, 10000));
+  add_store(*command, args.store);
+  CLI::Option* print = add_kind(*command, "--print-pattern", args.board,
+                                "no pictures: a page with the board, as PDF or SVG, to print at 100 %");
+  for (const char* other : {"pictures", "--pattern", "--report", "--baseline-mm", "--store"})
+    print->excludes(command->get_option(other));
+  CLI::Option* live = add_live(*command, live_args);
+  for (CLI::Option* other : {pictures, print, command->get_option("--report")}) live->excludes(other);
+  command->callback([&args, &live_args, &chosen, pictures, print, live] {
+    if (print->count() > 0) {
+      chosen = PrintPatternArgs{args.board, args.output};
+      return;
+    }
+    if (live->count() > 0) {
+      if (live_args.cameras.empty()) throw CLI::RequiredError("--live: --board");
+      live_args.board = args.board;
+      live_args.output = args.output;
+      live_args.store = args.store;
+      live_args.baseline_mm = args.baseline_mm;
+      chosen = live_args;
+      return;
+    }
+    if (pictures->count() == 0) throw CLI::RequiredError("DIR with pictures");
+    chosen = args;
+  });
+}
+
+void add_calibration(CLI::App& app, CommandArgs& chosen, CalibrationArgs& args) {
+  CLI::App* command = app.add_subcommand("calibration", "the calibrations in the store");
+  command->require_subcommand(1);
+  const auto verb = [&](const char* name, const char* help, Verb which) -> CLI::App& {
+    CLI::App* sub = command->add_subcommand(name, help);
+    add_store(*sub, args.store);
+    sub->callback([&args, &chosen, which] {
+      args.verb = which;
+      chosen = args;
+    });
+    return *sub;
+  };
+  verb("list", "every calibration, the newest last, and how good it was found", Verb::List);
+  verb("show", "the numbers of one", Verb::Show)
+      .add_option("revision", args.revision, "which; default the one in use")
+      ->check(check_revision);
+  verb("activate", "use an older one again", Verb::Activate)
+      .add_option("revision", args.revision)
+      ->required()
+      ->check(check_revision);
+  add_import(verb("import", "take one from a file, or two, into the store", Verb::Import), args);
+  add_export(verb("export", "write one to a file, or two", Verb::Export), args);
+}
+
+void add_simulate(CLI::App& app, CommandArgs& chosen, SimulateArgs& args) {
+  CLI::App* command = app.add_subcommand("simulate", "photograph with the simulated rig");
+  command->require_subcommand(1);
+  CLI::App* face = command->add_subcommand("face", "a face made of a seed");
+  CLI::App* held =
+      command->add_subcommand("photograph", "a picture held before the cameras, printed or on a screen");
+  add_held_picture(*held, args.held);
+  for (CLI::App* sub :
+       {command->add_subcommand("board", "a printed board in many poses, or in the one that is given"), face,
+        held}) {
+    const bool board = sub != face && sub != held;
+    if (board) add_simulated_board(*sub, args);
+    sub->add_option("-o,--output", args.output, "folder for left*.png, right*.png and the true rig.yml")
+        ->required()
+        ->type_name("DIR");
+    sub->add_option("--seed", args.seed, "another number, another face, other poses")->capture_default_str();
+    if (board)
+      sub->add_option("--pairs", args.pairs, "how many")->check(CLI::Range(1, 1000))->capture_default_str();
+    sub->add_option("--scale", args.scale, "size of the pictures")
+        ->check(within(0.1, 1))
+        ->capture_default_str();
+    sub->add_flag("--portrait", args.portrait, "cameras turned upright: pictures higher than wide");
+    const auto pose = [&args, sub](const char* name, double& value, double least, double most,
+                                   const char* what) {
+      sub->add_option(name, value, what)
+          ->check(within(least, most))
+          ->capture_default_str()
+          ->each([&args](const std::string&) { args.one_pose = true; });
+    };
+    pose("--yaw", args.yaw_deg, -60, 60, "turn about the upright axis, degrees");
+    pose("--pitch", args.pitch_deg, -45, 45, "nod, degrees");
+    pose("--roll", args.roll_deg, -60, 60, "lean, degrees");
+    pose("--distance", args.distance_mm, 250, 2000, "from the left camera to the middle, mm");
+    pose("--right", args.right_mm, -500, 500, "to the side, mm");
+    pose("--down", args.down_mm, -500, 500, "downwards, mm");
+    if (sub == face)
+      sub->add_flag("--truth", args.truth, "also write the true surface, for 'relievo compare'");
+    sub->callback([&args, &chosen, board] {
+      args.board = board;
+      chosen = args;
+    });
+  }
+}
+
+void add_selftest(CLI::App& app, CommandArgs& chosen, SelfTestArgs& args) {
+  CLI::App* command = app.add_subcommand("selftest", "is everything in place?");
+  add_store(*command, args.store);
+  CLI::Option* optical =
+      command->add_flag("--optical", args.optical,
+                        "measure known spheres and plates through the whole chain instead (a minute)");
+  command->add_option("-o,--output", args.output, "folder for the report and a picture of every target")
+      ->type_name("DIR")
+      ->needs(optical);
+  command->add_option("--seed", args.seed, "another rig, other noise")->capture_default_str()->needs(optical);
+  command->add_option("--scale", args.scale, "size of the pictures; the limits grow as their pixels do")
+      ->check(within(0.5, 1))
+      ->capture_default_str()
+      ->needs(optical);
+  command->callback([&] { chosen = args; });
+}
+
+}  // namespace relievo::firmware
