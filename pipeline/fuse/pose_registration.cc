@@ -11,6 +11,7 @@
 
 #include "hal/base/statistics.h"
 #include "pipeline/base/solving.h"
+#include "pipeline/fuse/skin_patches.h"
 #include "pipeline/model/vector3.h"
 
 namespace relievo::pipeline {
@@ -27,8 +28,7 @@ constexpr double kSamples = 18'000;  // nodes of a lattice that are laid onto th
 constexpr float kLeastTrust = 0.2F;  // of a node that is laid onto another pose's
 constexpr double kSameWay = 0.7;     // cosine between the normals of what is taken for the same skin
 constexpr double kLeastSigmaMm = 0.03;
-constexpr double kHeadCentreMm = 95;  // behind the tip of the nose
-constexpr double kNeckMm = -60;       // above the tip of the nose
+constexpr double kNeckMm = -60;  // above the tip of the nose
 constexpr double kFewestSamples = 300, kFewestCoarse = 80;
 constexpr double kRidge = 1e-9;
 constexpr double kStillMm = 1e-5;
@@ -42,12 +42,6 @@ constexpr std::array<Round, 5> kRounds{{{12, 6, 8}, {6, 2, 6}, {3, 0.7, 6}, {2, 
 constexpr Round kLast{1.5, 0.08, 12};
 // Surfaces of calibrations that differ lie off everywhere: no scale is narrower than what is usual.
 constexpr double kScaleOfUsual = 1.5;
-// Skin moves in patches: one whose mean lies further off than this has moved.
-constexpr double kPatchScaleMm = 0.05;
-constexpr double kPatchMm = 20;
-constexpr int kAcross = 24;  // patches
-constexpr std::size_t kPatches = std::size_t{kAcross} * kAcross * kAcross, kRegions = kPatches / 8;
-
 // How one pose is laid onto those before it, and from where it is tried, where its own head frame is no good
 // start.
 constexpr std::array<Round, 4> kCoarse{{{25, 12, 8}, {12, 6, 6}, {6, 2, 6}, {3, 0.7, 4}}};
@@ -103,7 +97,7 @@ class Solver {
         placed_(placed),
         context_(context),
         unknowns_(6 * static_cast<Eigen::Index>(poses.size() - 1)),
-        patches_(&context.scratch),
+        skin_(poses.size(), &context.scratch),
         known_(&context.scratch) {
     pivot_ = apply(inverse(poses[0].head_from_camera), Vec3d{0, 20, -kHeadCentreMm});
   }
@@ -136,9 +130,9 @@ class Solver {
     for (const Round& round : kRounds)
       for (int k = 0; k < round.times && move(round) > kStillMm; ++k)
         if (context_.stop()) return stopped();
-    patches_.assign(kPatches * poses_.size() * poses_.size(), Patch{});
+    skin_.watch();
     for (int k = 0; k < kLast.times; ++k) {
-      weigh_patches();
+      weigh_skin();
       if (context_.stop()) return stopped();
       if (move(kLast) <= kStillMm) break;
     }
@@ -147,9 +141,6 @@ class Solver {
   const Vec3d& pivot() const { return pivot_; }
 
  private:
-  struct Patch {
-    float sum = 0, weight = 0;
-  };
   struct Laid {
     RigidTransform placed;
     double count = 0;  // of samples on another pose's surface, each by its say
@@ -264,9 +255,9 @@ class Solver {
         Residual res{};
         res.at = apply(placed, wide(from.at_mm[k]));
         const Vec3d in_head = apply(poses_[0].head_from_camera, res.at);
-        const double say = patches_.empty() ? say_of(in_head) : in_head.y < kNeckMm ? 0 : 1;
+        const double say = !skin_.watched() ? say_of(in_head) : in_head.y < kNeckMm ? 0 : 1;
         if (say == 0) continue;
-        res.patch = patch_of(in_head);
+        res.patch = SkinPatches::at(in_head);
         visit(k, apply(placed.rotation, wide(from.normal[k])), say, res);
       }
   }
@@ -277,7 +268,7 @@ class Solver {
       for_each_sample(a, kSamples, [&](std::size_t k, const Vec3d& normal, double say, Residual& res) {
         for (std::size_t b = 0; b < poses_.size(); ++b)
           if (b != a && meet(poses_[a], k, normal, b, round, res)) {
-            res.weight *= say * still(res.patch, a, b);
+            res.weight *= say * skin_.still(res.patch, a, b);
             visit(a, b, res);
           }
       });
@@ -303,49 +294,13 @@ class Solver {
     return true;
   }
 
-  static std::size_t patch_of(const Vec3d& in_head) {
-    const auto cell = [](double x) {
-      return static_cast<std::size_t>(
-          std::clamp(static_cast<int>(std::floor(x / kPatchMm)) + kAcross / 2, 0, kAcross - 1));
-    };
-    return (cell(in_head.z + kHeadCentreMm) * kAcross + cell(in_head.y)) * kAcross + cell(in_head.x);
-  }
-  // Skin moves in regions of two patches each way.
-  static std::size_t region_of(std::size_t patch) {
-    const std::size_t x = patch % kAcross, y = patch / kAcross % kAcross, z = patch / kAcross / kAcross;
-    return ((z / 2) * (kAcross / 2) + y / 2) * (kAcross / 2) + x / 2;
-  }
-  // Of a patch of one pose's skin, about where it should be: half of that between two poses, robustly.
-  double skin_variance() const { return usual_patch_mm() * usual_patch_mm() / 2; }
-  // How far patches lie off between two poses, one standard deviation, robustly.
-  double usual_patch_mm() const {
-    std::pmr::vector<double> off(&context_.scratch);
-    for (const Patch& p : patches_)
-      if (p.weight > 0) off.push_back(std::abs(static_cast<double>(p.sum / p.weight)));
-    return off.empty() ? 0 : median(off) / 0.6745;
-  }
-  std::size_t patch_between(std::size_t patch, std::size_t a, std::size_t b) const {
-    return (patch * poses_.size() + std::min(a, b)) * poses_.size() + std::max(a, b);
-  }
-
-  // How far each patch of skin has moved between every two poses: the mean of what it lies off.
-  void weigh_patches() {
-    std::pmr::vector<Patch> sums(patches_.size(), Patch{}, &context_.scratch);
+  // How far each patch of skin has moved between every two poses.
+  void weigh_skin() {
+    SkinPatches::Sums sums = skin_.no_sums();
     for_each_residual(kLast, [&](std::size_t a, std::size_t b, const Residual& r) {
-      Patch& sum = sums[patch_between(r.patch, a, b)];
-      const double weight = r.weight / std::max(still(r.patch, a, b), 1e-6);
-      sum.sum += static_cast<float>(a < b ? weight * r.value : -weight * r.value);
-      sum.weight += static_cast<float>(weight);
+      skin_.add(sums, r.patch, a, b, r.value, r.weight);
     });
-    patches_ = sums;
-    patch_scale_mm_ = std::max(kPatchScaleMm, usual_patch_mm());
-  }
-  double still(std::size_t patch, std::size_t a, std::size_t b) const {
-    if (patches_.empty()) return 1;
-    const Patch& p = patches_[patch_between(patch, a, b)];
-    const double mean = p.weight > 0 ? static_cast<double>(p.sum / p.weight) : 0;
-    const double kept = patch_scale_mm_ * patch_scale_mm_ / (patch_scale_mm_ * patch_scale_mm_ + mean * mean);
-    return kept * kept;
+    skin_.take(sums);
   }
 
   // The covariance, and how well the poses lie on each other.
@@ -353,7 +308,7 @@ class Solver {
     Square normal = kRidge * Square::Identity(unknowns_, unknowns_);
     Column none = Column::Zero(unknowns_);
     // What it does to all poses when a region of one pose's skin stands a millimetre out.
-    std::pmr::vector<Column> pulls(kRegions * poses_.size(), Column::Zero(0), &context_.scratch);
+    std::pmr::vector<Column> pulls(SkinPatches::kRegions * poses_.size(), Column::Zero(0), &context_.scratch);
     struct Sum {
       double squares = 0, weight = 0, count = 0;
     };
@@ -362,7 +317,7 @@ class Solver {
       add(normal, none, a, b, r);
       const Vector6 one = r.weight * r.toward;
       for (const std::size_t p : {a, b}) {
-        Column& pull = pulls[region_of(r.patch) * poses_.size() + p];
+        Column& pull = pulls[SkinPatches::region_of(r.patch) * poses_.size() + p];
         if (pull.size() == 0) pull = Column::Zero(unknowns_);
         const double way = p == a ? 1 : -1;
         if (a > 0) pull.segment<6>(place(a)) += way * one;
@@ -379,7 +334,7 @@ class Solver {
       const Column moved = bread * pull;
       covariance += moved * moved.transpose();
     }
-    covariance *= skin_variance();
+    covariance *= skin_.variance_mm2();
     for (std::size_t p = 0; p < poses_.size(); ++p) {
       RegisteredPose& pose = placed_[p];
       if (sums[p].count < kFewestSamples) return meets_none(p);
@@ -396,9 +351,8 @@ class Solver {
   std::span<RegisteredPose> placed_;
   StageContext& context_;
   Eigen::Index unknowns_;
-  double usual_mm_ = 0;  // distance between the surfaces, in the step before
-  double patch_scale_mm_ = kPatchScaleMm;
-  std::pmr::vector<Patch> patches_;       // empty until the poses lie on each other
+  double usual_mm_ = 0;                   // distance between the surfaces, in the step before
+  SkinPatches skin_;                      // watched as soon as the poses lie on each other
   std::pmr::vector<std::uint8_t> known_;  // poses that others are laid onto, while they are placed
   Vec3d pivot_;
 };
