@@ -38,7 +38,7 @@ struct Tinted {
 
 float radians(float degrees) { return degrees * 0.017453293F; }
 
-struct Dot {
+struct Dot {  // head frame, with the point the head turns about as its origin
   float x, y, z;
 };
 
@@ -49,12 +49,10 @@ Dot dot_of(const pipeline::RigidTransform& t, const pipeline::Vec3f& v) {
 
 std::vector<Dot> dots_of(const pipeline::FaceModel& model, const pipeline::PointCloud* cloud) {
   std::vector<Dot> dots;
-  if (cloud == nullptr) {
+  if (cloud == nullptr)
     for (const auto& v : model.mesh.vertices_mm) dots.push_back(dot_of(model.head_from_camera, v));
-    return dots;
-  }
-  dots.reserve(cloud->points.size());
-  for (const auto& p : cloud->points) dots.push_back(dot_of(model.head_from_camera, p.at_mm));
+  else
+    for (const auto& p : cloud->points) dots.push_back(dot_of(model.head_from_camera, p.at_mm));
   return dots;
 }
 
@@ -99,7 +97,6 @@ std::vector<Tinted> tinted_of(const pipeline::FaceModel& model) {
   return corners;
 }
 
-// Head frame, with the point the head turns about as its origin.
 std::vector<Corner> corners_of(const pipeline::FaceModel& model) {
   const auto& t = model.head_from_camera;
   const std::vector<float> share = within(model.mesh);
@@ -110,16 +107,30 @@ std::vector<Corner> corners_of(const pipeline::FaceModel& model) {
       const std::uint32_t at = model.mesh.triangles[i][k];
       const auto& v = model.mesh.vertices_mm[at];
       const auto& n = model.mesh.normals[at];
-      const auto p = apply(t, pipeline::Vec3d{v.x, v.y, v.z});
+      const Dot p = dot_of(t, v);
       const auto m = apply(t.rotation, pipeline::Vec3d{n.x, n.y, n.z});
       const bool flat = model.texture.uv.size() <= 3 * i + k;
       const pipeline::Vec2f uv = flat ? pipeline::Vec2f{} : model.texture.uv[3 * i + k];
-      corners.push_back({static_cast<float>(p.x), static_cast<float>(p.y),
-                         static_cast<float>(p.z) + kMiddleBehindMm, static_cast<float>(m.x),
-                         static_cast<float>(m.y), static_cast<float>(m.z), uv.x, uv.y, share[at]});
+      corners.push_back({p.x, p.y, p.z, static_cast<float>(m.x), static_cast<float>(m.y),
+                         static_cast<float>(m.z), uv.x, uv.y, share[at]});
     }
   }
   return corners;
+}
+
+template <typename Item>
+void fill(GLenum target, GLuint& buffer, const std::vector<Item>& items) {
+  if (buffer == 0) glGenBuffers(1, &buffer);
+  glBindBuffer(target, buffer);
+  glBufferData(target, static_cast<GLsizeiptr>(items.size() * sizeof(Item)), items.data(), GL_STATIC_DRAW);
+}
+
+// Of the texture that is bound.
+void set_smooth_and_clamped() {
+  glTexParameteri(GL_TEXTURE_2D, GL_TEXTURE_MIN_FILTER, GL_LINEAR);
+  glTexParameteri(GL_TEXTURE_2D, GL_TEXTURE_MAG_FILTER, GL_LINEAR);
+  glTexParameteri(GL_TEXTURE_2D, GL_TEXTURE_WRAP_S, GL_CLAMP_TO_EDGE);
+  glTexParameteri(GL_TEXTURE_2D, GL_TEXTURE_WRAP_T, GL_CLAMP_TO_EDGE);
 }
 
 class GlesFaceView final : public FaceView {
@@ -182,7 +193,6 @@ class GlesFaceView final : public FaceView {
 
  private:
   void upload(const pipeline::FaceModel& model) {
-    if (buffer_ == 0) glGenBuffers(1, &buffer_);
     if (texture_ == 0) glGenTextures(1, &texture_);
     const std::vector<Corner> corners = corners_of(model);
     count_ = static_cast<int>(corners.size());
@@ -190,10 +200,10 @@ class GlesFaceView final : public FaceView {
         std::minmax_element(corners.begin(), corners.end(),
                             [](const Corner& one, const Corner& other) { return one.y < other.y; });
     middle_mm_ = corners.empty() ? 0 : (low->y + high->y) / 2;
-    glBindBuffer(GL_ARRAY_BUFFER, buffer_);
-    glBufferData(GL_ARRAY_BUFFER, static_cast<GLsizeiptr>(corners.size() * sizeof(Corner)), corners.data(),
-                 GL_STATIC_DRAW);
-    upload_backdrop(model);
+    fill(GL_ARRAY_BUFFER, buffer_, corners);
+    const std::vector<Tinted> behind = tinted_of(model);
+    backdrop_count_ = static_cast<int>(behind.size());
+    fill(GL_ARRAY_BUFFER, backdrop_buffer_, behind);
     glBindTexture(GL_TEXTURE_2D, texture_);
     glPixelStorei(GL_UNPACK_ALIGNMENT, 1);
     const auto& atlas = model.texture;
@@ -201,19 +211,7 @@ class GlesFaceView final : public FaceView {
     if (textured_)
       glTexImage2D(GL_TEXTURE_2D, 0, GL_RGB8, atlas.width_px, atlas.height_px, 0, GL_RGB, GL_UNSIGNED_BYTE,
                    atlas.rgb.data());
-    glTexParameteri(GL_TEXTURE_2D, GL_TEXTURE_MIN_FILTER, GL_LINEAR);
-    glTexParameteri(GL_TEXTURE_2D, GL_TEXTURE_MAG_FILTER, GL_LINEAR);
-    glTexParameteri(GL_TEXTURE_2D, GL_TEXTURE_WRAP_S, GL_CLAMP_TO_EDGE);
-    glTexParameteri(GL_TEXTURE_2D, GL_TEXTURE_WRAP_T, GL_CLAMP_TO_EDGE);
-  }
-
-  void upload_backdrop(const pipeline::FaceModel& model) {
-    if (backdrop_buffer_ == 0) glGenBuffers(1, &backdrop_buffer_);
-    const std::vector<Tinted> corners = tinted_of(model);
-    backdrop_count_ = static_cast<int>(corners.size());
-    glBindBuffer(GL_ARRAY_BUFFER, backdrop_buffer_);
-    glBufferData(GL_ARRAY_BUFFER, static_cast<GLsizeiptr>(corners.size() * sizeof(Tinted)), corners.data(),
-                 GL_STATIC_DRAW);
+    set_smooth_and_clamped();
   }
 
   void point_at_corners() const {
@@ -229,13 +227,10 @@ class GlesFaceView final : public FaceView {
   }
 
   void upload_points(const Face& subject) {
-    if (point_buffer_ == 0) glGenBuffers(1, &point_buffer_);
     const std::vector<Dot> dots = dots_of(*subject.model, subject.cloud);
     point_count_ = static_cast<int>(dots.size());
     points_version_ = subject.version;
-    glBindBuffer(GL_ARRAY_BUFFER, point_buffer_);
-    glBufferData(GL_ARRAY_BUFFER, static_cast<GLsizeiptr>(dots.size() * sizeof(Dot)), dots.data(),
-                 GL_STATIC_DRAW);
+    fill(GL_ARRAY_BUFFER, point_buffer_, dots);
   }
 
   // Indices of corners, so that sides have normals and texels. A level holds for a range of zooms.
@@ -251,11 +246,8 @@ class GlesFaceView final : public FaceView {
         corner[mesh.triangles[i][k]] = static_cast<std::uint32_t>(3 * i + k);
     for (const auto& [a, b] : edges_of(mesh, level_mm)) indices.insert(indices.end(), {corner[a], corner[b]});
     edge_count_ = static_cast<int>(indices.size());
-    if (edge_buffer_ == 0) glGenBuffers(1, &edge_buffer_);
     glBindVertexArray(array_);  // which keeps the buffer of indices
-    glBindBuffer(GL_ELEMENT_ARRAY_BUFFER, edge_buffer_);
-    glBufferData(GL_ELEMENT_ARRAY_BUFFER, static_cast<GLsizeiptr>(indices.size() * sizeof(std::uint32_t)),
-                 indices.data(), GL_STATIC_DRAW);
+    fill(GL_ELEMENT_ARRAY_BUFFER, edge_buffer_, indices);
   }
 
   void make_frame(int w, int h) {
@@ -266,10 +258,7 @@ class GlesFaceView final : public FaceView {
     height_ = h;
     glBindTexture(GL_TEXTURE_2D, colour_);
     glTexImage2D(GL_TEXTURE_2D, 0, GL_RGBA8, w, h, 0, GL_RGBA, GL_UNSIGNED_BYTE, nullptr);
-    glTexParameteri(GL_TEXTURE_2D, GL_TEXTURE_MIN_FILTER, GL_LINEAR);
-    glTexParameteri(GL_TEXTURE_2D, GL_TEXTURE_MAG_FILTER, GL_LINEAR);
-    glTexParameteri(GL_TEXTURE_2D, GL_TEXTURE_WRAP_S, GL_CLAMP_TO_EDGE);
-    glTexParameteri(GL_TEXTURE_2D, GL_TEXTURE_WRAP_T, GL_CLAMP_TO_EDGE);
+    set_smooth_and_clamped();
     glBindRenderbuffer(GL_RENDERBUFFER, depth_);
     glRenderbufferStorage(GL_RENDERBUFFER, GL_DEPTH_COMPONENT24, w, h);
     glBindFramebuffer(GL_FRAMEBUFFER, frame_);
@@ -296,7 +285,6 @@ class GlesFaceView final : public FaceView {
       clip[4 * c + 2] = a * turned[3 * c + 2];
       clip[4 * c + 3] = -turned[3 * c + 2];
     }
-    clip[12] = 0;
     clip[13] = -f * middle_mm_;
     clip[14] = -a * kDistanceMm + b;
     clip[15] = kDistanceMm;
