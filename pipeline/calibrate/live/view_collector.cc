@@ -8,11 +8,34 @@
 #include <utility>
 
 #include "hal/base/assert.h"
-#include "pipeline/calibrate/live/swapped_pair.h"
+#include "pipeline/calibrate/board/board_finder.h"
+#include "pipeline/calibrate/live/rig_problem.h"
 #include "pipeline/calibrate/live/view_planner.h"
+#include "pipeline/model/calibration.h"
 
 namespace relievo::pipeline {
 namespace {
+
+// Cables that were exchanged while a live calibration runs.
+
+// A rig known from few views may miss by pixels; an exchange makes it worse by far more than that.
+constexpr double kSuspectPx = 1;
+constexpr double kFarBetter = 0.3;
+
+double rms_px(bundle::Problem rig, const BoardCorners& left, const BoardCorners& right) {
+  rig.views.emplace_back(&left, &right, guessed_pose(rig, left));
+  if (!bundle::solve_poses(rig)) return 1e9;
+  return std::sqrt(2 * rig.squared_px / rig.residuals);
+}
+
+// True where the pair fits the calibration far better with left and right exchanged than as it is; the
+// two are in pair_order().
+bool is_exchanged(const StereoCalibration& calibration, const BoardPattern& pattern, const BoardCorners& left,
+                  const BoardCorners& right) {
+  const bundle::Problem rig = rig_problem(calibration, pattern);
+  const double as_given = rms_px(rig, left, right);
+  return as_given > kSuspectPx && rms_px(rig, right, left) < kFarBetter * as_given;
+}
 
 constexpr int kLeastCorners = 12;  // of a ChArUco board that both cameras see
 constexpr double kLeastCharucoShare = 0.3;

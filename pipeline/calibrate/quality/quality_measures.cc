@@ -6,17 +6,139 @@
 #include <array>
 #include <cmath>
 
+#include <Eigen/Dense>
+
 #include "hal/base/statistics.h"
+#include "pipeline/base/solving.h"
 #include "pipeline/calibrate/fit/board_bend.h"
 #include "pipeline/calibrate/fit/relation_evidence.h"
-#include "pipeline/calibrate/quality/held_out_shift.h"
-#include "pipeline/calibrate/quality/known_squares.h"
 #include "pipeline/calibrate/quality/limits.h"
 #include "pipeline/calibrate/quality/rig_geometry.h"
 #include "pipeline/calibrate/quality/rig_spread.h"
 
 namespace relievo::pipeline {
 namespace {
+
+// The calibration tried on boards whose size is known. One camera and the known squares say how far away
+// each corner is; both cameras together must find it there. That notices a camera that turned along the
+// rows, which no epipolar line does, and needs no model of what goes wrong.
+
+// Over the used views, each measured by the rig that is fitted without it. Root mean squares.
+struct KnownSquares {
+  double depth_mm = 0;        // of a whole board together: its corners' noise averages out
+  double point_depth_mm = 0;  // of a single corner, noise of finding it included
+  double length_percent = 0;  // of lengths on the board
+};
+
+struct Points {
+  Cloud board;     // as the squares say
+  Cloud expected;  // where the left camera sees them, by the size of the squares
+  Cloud found;     // by both cameras
+};
+
+// Empty where the view cannot be placed.
+Points points_of(const bundle::Problem& rig, const BoardView& view, const bundle::Pose& near) {
+  bundle::Problem left;
+  left.pattern = rig.pattern;
+  left.camera = rig.camera;
+  left.views.assign(1, {&view.left, nullptr, near});
+  if (!bundle::solve_poses(left)) return {};
+  const bundle::Pose& pose = left.views[0].left_from_board;
+  const auto most = static_cast<Eigen::Index>(view.left.size());
+  Points points{Cloud(3, most), Cloud(3, most), Cloud(3, most)};
+  Eigen::Index count = 0;
+  for (std::size_t i = 0; i < view.left.size(); ++i) {
+    if (!seen(view.left[i]) || !seen(view.right[i])) continue;
+    const int n = static_cast<int>(i);
+    const Eigen::Vector3d on_board(n % rig.pattern.columns * rig.pattern.square_mm,
+                                   n / rig.pattern.columns * rig.pattern.square_mm, 0);
+    points.board.col(count) = on_board;
+    points.expected.col(count) = pose.rotation * on_board + pose.translation_mm;
+    points.found.col(count) = point_of(rig, view.left[i], view.right[i]);
+    ++count;
+  }
+  for (Cloud* cloud : {&points.board, &points.expected, &points.found}) cloud->conservativeResize(3, count);
+  return points;
+}
+
+double squared(double value) { return value * value; }
+
+// Depth is brought to `distance_mm` as a disparity's error grows, with the distance squared.
+KnownSquares measure_known_squares(const Fitted& f, const RigSpread& spread, double distance_mm) {
+  double boards = 0;
+  double corners = 0;
+  double lengths = 0;
+  double views = 0;
+  double all = 0;
+  for (std::size_t i = 0; i < f.selection.used.size(); ++i) {
+    const Points p =
+        points_of(spread.without()[i], f.input.views[static_cast<std::size_t>(f.selection.used[i])],
+                  f.selection.fit.problem.views[i].left_from_board);
+    if (p.found.cols() < 4) continue;
+    const Eigen::ArrayXd off = (p.found.row(2) - p.expected.row(2)).transpose().array() *
+                               (distance_mm / p.expected.row(2).transpose().array()).square();
+    boards += squared(off.mean());
+    corners += off.square().sum();
+    lengths += squared(scale_between(p.board, p.found) - 1);
+    all += static_cast<double>(off.size());
+    views += 1;
+  }
+  views = std::max(views, 1.0);
+  return {std::sqrt(boards / views), std::sqrt(corners / std::max(all, 1.0)),
+          100 * std::sqrt(lengths / views)};
+}
+
+// What a calibration promises of the next picture: how far everything in it will lie off its epipolar
+// lines together. Single corners miss their lines by their own noise, too, which says nothing about
+// the rig; a linear field through a whole board's corners (offset, tilt across, tilt down) does, and it
+// is what drift.h measures on a face.
+
+struct Missed {
+  Vec2d at;
+  double distance_px = 0;  // signed, below the line
+};
+
+std::vector<Missed> missed_lines(const bundle::Problem& rig, const BoardView& view) {
+  const double focal = 0.5 * (rig.camera[1].focal_px.x + rig.camera[1].focal_px.y);
+  std::vector<Missed> all;
+  for (std::size_t i = 0; i < view.left.size(); ++i) {
+    if (!seen(view.left[i]) || !seen(view.right[i])) continue;
+    const Eigen::Vector3d turned = rig.right_from_left.rotation * ray_of(rig.camera[0], view.left[i]);
+    const Eigen::Vector3d line = rig.right_from_left.translation_mm.cross(turned);
+    const double distance = focal * line.dot(ray_of(rig.camera[1], view.right[i])) / line.head<2>().norm();
+    all.push_back({view.right[i], std::copysign(distance, line.y() * distance)});
+  }
+  return all;
+}
+
+// Sum over the corners of the squared linear field that fits their misses best.
+double field_squared(const std::vector<Missed>& missed) {
+  Vec2d middle;
+  for (const Missed& m : missed) middle = {middle.x + m.at.x, middle.y + m.at.y};
+  const auto count = static_cast<double>(missed.size());
+  Eigen::Matrix3d a = Eigen::Matrix3d::Zero();
+  Eigen::Vector3d b = Eigen::Vector3d::Zero();
+  for (const Missed& m : missed) {
+    const Eigen::Vector3d basis(1, (m.at.x - middle.x / count) / 100, (m.at.y - middle.y / count) / 100);
+    a += basis * basis.transpose();
+    b += m.distance_px * basis;
+  }
+  return b.dot(solved<3>(a, b));
+}
+
+// Root mean square over the corners of all used views, each judged by the rig that is fitted without it.
+double held_out_shift(const Fitted& f, const RigSpread& spread) {
+  double sum = 0;
+  double count = 0;
+  for (std::size_t i = 0; i < f.selection.used.size(); ++i) {
+    const auto missed =
+        missed_lines(spread.without()[i], f.input.views[static_cast<std::size_t>(f.selection.used[i])]);
+    if (missed.size() < 4) continue;
+    sum += field_squared(missed);
+    count += static_cast<double>(missed.size());
+  }
+  return std::sqrt(sum / std::max(count, 1.0));
+}
 
 constexpr int kGrid = 8;
 constexpr double kDegrees = 57.29577951308232;

@@ -3,11 +3,165 @@
 #include "pipeline/match/coarse/size_ladder.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
+#include <cstddef>
+#include <cstdint>
+#include <span>
 
-#include "pipeline/match/coarse/two_way.h"
+#include "hal/base/simd.h"
+#include "pipeline/base/stage.h"
+#include "pipeline/match/coarse/semi_global.h"
+#include "pipeline/match/image/image_pyramid.h"
 
 namespace relievo::pipeline {
+namespace {
+
+// TwoWay: both views of one size matched against each other by semi-global matching, and what leads from
+// one size to the next: a band of candidates around the coarser field (after Rothermel et al. 2012).
+// Memory: scratch; 2 * width * height * candidates * 3 bytes inside match_both.
+
+struct TwoWay {
+  TwoWay(std::pmr::memory_resource* memory, int w, int h)
+      : left(memory, w, h, kNoDisparity),
+        right(memory, w, h, kNoDisparity),
+        first_left(memory, w, h),
+        first_right(memory, w, h) {}
+  Plane<float> left, right;                     // disparities of the left and of the right view's pixels
+  Plane<std::int16_t> first_left, first_right;  // the band's first candidate at every pixel
+};
+
+// Errors: Cancelled.
+Result<void> match_both(const PyramidLevel& left, const PyramidLevel& right, int candidates,
+                        const SemiGlobalCosts& costs, StageContext& context, TwoWay& both) {
+  const int w = left.grey.width;
+  const int h = left.grey.height;
+  Plane<std::uint64_t> census_left(&context.scratch, w, h);
+  Plane<std::uint64_t> census_right(&context.scratch, w, h);
+  context.pool.for_each_band(h, 8, [&](int begin, int end, int) {
+    census_rows(left.grey, census_left, begin, end);
+    census_rows(right.grey, census_right, begin, end);
+  });
+  // One arena for two threads: each gets a block of its own, taken here.
+  const auto cells =
+      static_cast<std::size_t>(w) * static_cast<std::size_t>(h) * static_cast<std::size_t>(candidates);
+  const std::size_t share =
+      3 * cells + 64 * static_cast<std::size_t>(w) * (static_cast<std::size_t>(candidates) + 16) + 65536;
+  const std::span<std::byte> blocks(
+      static_cast<std::byte*>(context.scratch.allocate(2 * share, alignof(std::max_align_t))), 2 * share);
+  context.pool.for_each_band(2, 2, [&](int begin, int end, int) {
+    for (int side = begin; side < end; ++side) {
+      Arena own{blocks.subspan(static_cast<std::size_t>(side) * share, share)};
+      if (side == 0)
+        semi_global({census_left, census_right, left.valid, right.valid, +1}, both.first_left, candidates,
+                    costs, own, both.left, &context.cancelled);
+      else
+        semi_global({census_right, census_left, right.valid, left.valid, -1}, both.first_right, candidates,
+                    costs, own, both.right, &context.cancelled);
+    }
+  });
+  if (context.stop()) return Error{Errc::Cancelled, "stopped while matching coarsely"};
+  return {};
+}
+
+// Bands for the finer size: every pixel takes its coarse parent's disparity; where that is unknown, the
+// last one known on the row stands in. Between whole_first and whole_last, disparities of the finer size.
+void predict(const Plane<float>& coarse, int band, int whole_first, int whole_last,
+             Plane<std::int16_t>& first) {
+  for (int y = 0; y < first.height; ++y) {
+    const float* from = coarse.row(std::min(y / 2, coarse.height - 1));
+    float last = kNoDisparity;
+    for (int x = 0; x < coarse.width && last == kNoDisparity; ++x) last = from[x];
+    if (last == kNoDisparity) last = 0.25F * static_cast<float>(whole_first + whole_last);
+    for (int x = 0; x < first.width; ++x) {
+      const float d = from[std::min(x / 2, coarse.width - 1)];
+      if (d != kNoDisparity) last = d;
+      const int start = static_cast<int>(std::lround(2 * last)) - band / 2;
+      first.row(y)[x] =
+          static_cast<std::int16_t>(std::clamp(start, whole_first, std::max(whole_first, whole_last - band)));
+    }
+  }
+}
+
+inline void order(float& a, float& b) {
+  const float least = std::min(a, b);
+  b = std::max(a, b);
+  a = least;
+}
+
+// The median of nine by nineteen exchanges (Paeth, Median finding on a 3x3 grid, Graphics Gems, 1990).
+inline float median_of_nine(float* v) {
+  order(v[1], v[2]), order(v[4], v[5]), order(v[7], v[8]);
+  order(v[0], v[1]), order(v[3], v[4]), order(v[6], v[7]);
+  order(v[1], v[2]), order(v[4], v[5]), order(v[7], v[8]);
+  order(v[0], v[3]), order(v[5], v[8]), order(v[4], v[7]);
+  order(v[3], v[6]), order(v[1], v[4]), order(v[2], v[5]);
+  order(v[4], v[7]), order(v[4], v[2]), order(v[6], v[4]);
+  order(v[4], v[2]);
+  return v[4];
+}
+
+// Nine in order by twenty-five exchanges (Dobbelaere's list of sorting networks); the least known one of
+// `known` stands behind the unknown ones.
+inline float median_of_known(float* v, int known) {
+  constexpr std::array<std::array<std::int8_t, 2>, 25> kExchanges{
+      {{0, 3}, {1, 7}, {2, 5}, {4, 8}, {0, 7}, {2, 4}, {3, 8}, {5, 6}, {0, 2}, {1, 3}, {4, 5}, {7, 8}, {1, 4},
+       {3, 6}, {5, 7}, {0, 1}, {2, 4}, {3, 5}, {6, 8}, {2, 3}, {4, 5}, {6, 7}, {1, 2}, {3, 4}, {5, 6}}};
+#pragma GCC unroll 25
+  for (const auto& [a, b] : kExchanges) order(v[a], v[b]);
+  return v[9 - known + known / 2];
+}
+
+// As if all nine were known, as they are nearly everywhere, without a branch; the least and the most of the
+// nine tell whether they are.
+RELIEVO_SIMD void medians_of_nine(const float* above, const float* row, const float* below, int width,
+                                  float* median, float* least, float* most) {
+  for (int x = 1; x < width - 1; ++x) {
+    float v[9] = {above[x - 1], above[x],     above[x + 1], row[x - 1],  row[x],
+                  row[x + 1],   below[x - 1], below[x],     below[x + 1]};
+    float low = v[0], high = v[0];
+    for (int i = 1; i < 9; ++i) low = std::min(low, v[i]), high = std::max(high, v[i]);
+    least[x] = low;
+    most[x] = high;
+    median[x] = median_of_nine(v);
+  }
+}
+
+// `least`, `most`: a row of room each.
+void median_row(const Plane<float>& from, int y, float* least, float* most, float* to) {
+  medians_of_nine(from.row(y - 1), from.row(y), from.row(y + 1), from.width, to, least, most);
+  for (int x = 1; x < from.width - 1; ++x) {
+    if (least[x] != kNoDisparity) continue;
+    to[x] = from.row(y)[x];
+    if (most[x] == kNoDisparity) continue;
+    float near[9];
+    int known = 0;
+    for (int j = -1; j <= 1; ++j)
+      for (int i = -1; i <= 1; ++i) {
+        const float v = from.row(y + j)[x + i];
+        near[3 * (j + 1) + i + 1] = v;
+        known += v != kNoDisparity ? 1 : 0;
+      }
+    if (to[x] == kNoDisparity && known < 5) continue;
+    to[x] = median_of_known(near, known);
+  }
+}
+
+// A 3 x 3 median over what is known; closes single holes.
+void median3(Plane<float>& field, StageContext& context) {
+  Arena::Mark mark(context.scratch);
+  Plane<float> copy(&context.scratch, field.width, field.height);
+  copy.values = field.values;
+  constexpr int kMedianBands = 16;
+  Plane<float> least(&context.scratch, field.width, kMedianBands),
+      most(&context.scratch, field.width, kMedianBands);
+  context.pool.for_each_band(field.height, kMedianBands, [&](int begin, int end, int band) {
+    for (int y = std::max(begin, 1); y < std::min(end, field.height - 1); ++y)
+      median_row(copy, y, least.row(band), most.row(band), field.row(y));
+  });
+}
+
+}  // namespace
 
 DisparityRange whole_range(const RectifiedPair& pair) {
   return {pair.disparity_px(pair.far_mm), pair.disparity_px(pair.near_mm)};

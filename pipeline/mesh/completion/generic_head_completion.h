@@ -3,7 +3,7 @@
 //
 // The measured face becomes a closed head, from the crown to where the neck is cut: the generic head
 // (generic_head.h) is fitted to the measured radii by robust least squares with its modes' own spread as
-// prior, bent by what it differs beside the seam (globe_plate.h), and sewn on (head_sewing.h). Its sigma is
+// prior, bent by what it differs beside the seam (a thin plate), and sewn on (head_sewing.h). Its sigma is
 // the posterior's, with what the model cannot show; at the neck's end there is no head to be near to. Errors:
 // those of Completion. Thread: any.
 #pragma once
