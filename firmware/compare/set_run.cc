@@ -4,17 +4,84 @@
 
 #include <algorithm>
 #include <chrono>
+#include <cstddef>
+#include <cstdlib>
+#include <fstream>
+#include <string>
+#include <string_view>
 
 #include "firmware/base/boot_memory.h"
-#include "firmware/compare/page/surface_look.h"
-#include "firmware/measure/peak_memory.h"
+#include "firmware/measure/comparison.h"
 #include "firmware/measure/rule_figures.h"
 #include "firmware/measure/selector_figures.h"
 #include "firmware/measure/self_agreement.h"
+#include "firmware/work/stage_drawing.h"
+#include "hal/base/result.h"
+#include "hal/picture_file.h"
+#include "pipeline/model/face_model.h"
 #include "pipeline/pipeline.h"
 
 namespace relievo::firmware::compare {
 namespace {
+
+// PeakMemory: the most memory the process held resident since this was made, above what it held then: arenas
+// and every library's heap together. Linux counts it; elsewhere, or where /proc may not be written, 0.
+// Thread: any, one at a time.
+
+class PeakMemory {
+ public:
+  PeakMemory();
+  std::size_t above_bytes() const;
+
+ private:
+  std::size_t before_ = 0;
+};
+
+// A line of /proc/self/status: "VmHWM:	  123456 kB".
+std::size_t status_bytes(std::string_view key) {
+  std::ifstream file("/proc/self/status");
+  for (std::string line; std::getline(file, line);)
+    if (line.starts_with(key)) return std::strtoull(line.c_str() + key.size(), nullptr, 10) * 1024;
+  return 0;
+}
+
+// The high-water mark falls to what is held now (proc(5)).
+bool restart_peak() {
+  std::ofstream file("/proc/self/clear_refs");
+  return static_cast<bool>(file << "5" << std::flush);
+}
+
+PeakMemory::PeakMemory() : before_(restart_peak() ? status_bytes("VmRSS:") : 0) {}
+
+std::size_t PeakMemory::above_bytes() const {
+  const std::size_t peak = status_bytes("VmHWM:");
+  return before_ == 0 || peak < before_ ? 0 : peak - before_;
+}
+
+// What a model's surface looks like, in clay: from in front and from the side, each 230 mm across.
+// Times are left to the caller. Errors: those of the picture encoder. Thread: any.
+
+constexpr int kSidePx = 420;
+constexpr double kAcrossMm = 230, kTurnedDeg = 50;
+
+Result<std::vector<std::byte>> head_picture(const pipeline::FaceModel& model, double turned_deg) {
+  std::vector<std::uint8_t> rgb(std::size_t{3} * kSidePx * kSidePx);
+  StageCanvas canvas(rgb.data(), kSidePx);
+  draw_head(model.mesh, model.head_from_camera, turned_deg, kAcrossMm, canvas);
+  return hal::encode_png(
+      {reinterpret_cast<const std::byte*>(rgb.data()), kSidePx, kSidePx, 3 * kSidePx, PixelFormat::Rgb8});
+}
+
+Result<SurfaceLook> surface_look(const pipeline::FaceModel& model) {
+  SurfaceLook look;
+  look.vertices = model.mesh.vertices_mm.size();
+  look.measured =
+      static_cast<std::size_t>(std::count(model.mesh.measured.begin(), model.mesh.measured.end(), 1));
+  look.triangles = model.mesh.triangles.size();
+  RELIEVO_TRY_ASSIGN(look.front, head_picture(model, 0));
+  RELIEVO_TRY_ASSIGN(look.side, head_picture(model, kTurnedDeg));
+  return look;
+}
 
 // Runs the steps, each timed and with a scratch arena of its own.
 class StepRunner {

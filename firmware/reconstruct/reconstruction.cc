@@ -5,13 +5,14 @@
 #include <algorithm>
 #include <atomic>
 #include <utility>
+#include <vector>
 
 #include "firmware/arguments/algorithm_choice.h"
 #include "firmware/jobs/pool_size.h"
 #include "firmware/jobs/watched_job.h"
 #include "firmware/reconstruct/picture_pair.h"
 #include "firmware/work/first_change.h"
-#include "firmware/work/reconstruct_job.h"
+#include "firmware/work/jobs.h"
 #include "hal/monotonic_clock.h"
 #include "hal/whole_file.h"
 #include "pipeline/match/file/match_text.h"
@@ -20,6 +21,45 @@
 
 namespace relievo::firmware {
 namespace {
+
+// ReconstructJob: all stages in a row, or the last of them, on a frame that lies in the session already.
+// What the machine does state by state, as one job for commands that have no machine. Errors: those of the
+// stage that failed. Thread: worker; stage() and records() any, records() once done.
+
+class ReconstructJob final : public Job {
+ public:
+  ReconstructJob(StageRunner& runner, EnrolmentSession& session, ThreadPool& pool, const hal::Clock& clock)
+      : stage_(runner, session, pool, clock), clock_(clock) {}
+
+  State stage() const { return now_.load(std::memory_order_relaxed); }  // the one that runs, or ran last
+  const std::vector<StageRecord>& records() const { return records_; }
+  std::chrono::nanoseconds took() const { return took_; }
+  // The stages before this one are done, their products in the session. While it does not run.
+  void begin_with(State stage) { first_ = stage; }
+  Result<void> run(JobControl& control) override;
+
+ private:
+  StageJob stage_;
+  const hal::Clock& clock_;
+  State first_ = State::Match;
+  std::atomic<State> now_{State::Match};
+  std::vector<StageRecord> records_;
+  std::chrono::nanoseconds took_{0};
+};
+
+Result<void> ReconstructJob::run(JobControl& control) {
+  records_.clear();
+  const hal::Instant begin = clock_.now();
+  for (const State stage : kStages) {
+    if (stage < first_) continue;
+    now_.store(stage, std::memory_order_relaxed);
+    stage_.choose(stage);
+    RELIEVO_TRY(stage_.run(control));
+    records_.push_back(stage_.record());
+  }
+  took_ = clock_.now() - begin;
+  return {};
+}
 
 constexpr std::size_t kMostByHandBytes = std::size_t{64} << 20;
 
