@@ -272,8 +272,8 @@ void turn_screen(Page& page) {
   page.square_button("leave", page.tr("Stop and leave"), icon::kClose, {ActionKind::Leave, 0});
   if (page.portrait) page.space(1);
   else sides(page);
-  page.button("enough", page.tr(taken == 0 ? "I cannot turn my head" : "That is enough"), icon::kGood,
-              ButtonLook::Main, {ActionKind::EnoughSides, 0});
+  page.button("enough", taken == 0 ? page.tr("I cannot turn my head") : page.tr("That is enough"),
+              icon::kGood, ButtonLook::Main, {ActionKind::EnoughSides, 0});
   page.tree.close();
   page.tree.close();
   page.tree.close();
