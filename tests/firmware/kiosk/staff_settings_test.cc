@@ -50,7 +50,6 @@ TEST_F(StaffSettingsTest, WhatIsChosenHoldsAtOnceAndOverARestart) {
   choose("patience_s less", Setting::PatienceS, 30);
   choose("staff_patience_s less", Setting::StaffPatienceS, 60);
   choose("automatic_shot less", Setting::Automatic, 0);
-  choose("sides less", Setting::Sides, 0);
   EXPECT_EQ(find("automatic_shot less")->action.kind, ui::ActionKind::None) << "there is nothing before off";
   // Signed out after the time that was chosen, not the usual one.
   time.advance(std::chrono::seconds(61));
@@ -93,7 +92,6 @@ TEST_F(StaffSettingsTest, RecordsAreErasedWhenTheirTimeIsOver) {
   sign_in("80526", StaffRole::Operator);
   tap("open settings");
   EXPECT_EQ(find("attempts more"), nullptr) << "the technician's";
-  choose("solids more", Setting::Solids, 1);
   choose("keep_days more", Setting::KeepDays, 1825);
   time.advance(std::chrono::hours(24) * 90);
   ASSERT_TRUE(until([this] { return !kiosk->ui().service().open; }));
