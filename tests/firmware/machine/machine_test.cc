@@ -128,6 +128,18 @@ TEST(Machine, NoAnswerIsNoConsent) {
         {budget::kReviewLimit + ms(1), E::Accept, S::Idle}});
 }
 
+TEST(Machine, AHeadThatTurnsIsFusedHoweverTheTurningEnds) {
+  for (const E end : {E::StageDone, E::Count})  // Count: nothing but time
+    play({{ms(0), E::Passed, S::Idle},
+          {ms(0), E::PoseAsked, S::Position},
+          {ms(0), E::Begin, S::Capture},
+          {ms(0), E::TurnAsked, S::Turn},
+          {end == E::Count ? budget::kTurnLimit : ms(1), end, S::Fuse},
+          {budget::kTurnLimit + ms(1), E::StageDone, S::Review}});
+  EXPECT_EQ(next(S::Turn, E::AdviceGiven), S::Position) << "the frontal picture was no good";
+  EXPECT_EQ(next(S::Fuse, E::AdviceGiven), S::Position);
+}
+
 TEST(Machine, AnotherTryGetsItsTimeAnew) {
   const milliseconds most = budget::kCaptureLimit - ms(1);
   play({{ms(0), E::Passed, S::Idle},
@@ -159,6 +171,7 @@ TEST(Machine, EveryStateAnswersCancelTimeoutAndFailure) {
   const std::vector<Answer> answers{
       {S::SelfTest, S::SelfTest, S::Fault, S::Fault}, {S::Idle, S::Idle, S::Idle, S::Fault},
       {S::Position, S::Idle, S::Idle, S::Fault},      {S::Capture, S::Idle, S::Idle, S::Fault},
+      {S::Turn, S::Idle, S::Fuse, S::Fault},          {S::Fuse, S::Idle, S::Idle, S::Fault},
       {S::Match, S::Idle, S::Idle, S::Fault},         {S::Reconstruct, S::Idle, S::Idle, S::Fault},
       {S::Mesh, S::Idle, S::Idle, S::Fault},          {S::Texture, S::Idle, S::Idle, S::Fault},
       {S::Assemble, S::Idle, S::Idle, S::Fault},      {S::Review, S::Idle, S::Idle, S::Fault},
