@@ -20,9 +20,9 @@ constexpr std::chrono::milliseconds kPeriod{100};  // of the pairs
 constexpr double kOpenShare = 0.04;                // of the period the shutter is open
 constexpr int kMostHandPairs = 6000;
 
-class HandPairs final : public LivePairs {
+class HandBeforeRig final : public LivePairs {
  public:
-  HandPairs(HeldBoard board, std::uint32_t seed) : board_(std::move(board)), hand_({}, seed) {}
+  HandBeforeRig(HeldBoard board, std::uint32_t seed) : board_(std::move(board)), hand_({}, seed) {}
 
   Result<std::optional<LivePair>> next(const pipeline::LiveState& state) override {
     if (count_ == kMostHandPairs) return std::optional<LivePair>();
@@ -122,7 +122,7 @@ HeldPose AdvisedHand::follow(pipeline::LiveAdvice advice, double how_far) {
 }
 
 std::unique_ptr<LivePairs> make_hand_pairs(HeldBoard board, std::uint32_t seed) {
-  return std::make_unique<HandPairs>(std::move(board), seed);
+  return std::make_unique<HandBeforeRig>(std::move(board), seed);
 }
 
 }  // namespace relievo::firmware

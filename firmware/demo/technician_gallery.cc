@@ -53,12 +53,12 @@ ui::TechnicianResult made_up_result() {
   r.arena_peak_mib = 147;
   r.matches = 171004;
   r.accepted = 148220;
-  constexpr std::array<std::string_view, 3> kNames{"similarity", "uniqueness", "continuity"};
+  constexpr std::array<std::string_view, 3> kRules{"similarity", "uniqueness", "continuity"};
   constexpr std::array<std::uint64_t, 3> kRejected{17310, 2204, 3270};
   constexpr std::array<std::array<std::uint8_t, 3>, 3> kColours{
       {{31, 99, 173}, {214, 96, 6}, {134, 60, 156}}};
   r.rule_count = 3;
-  for (std::size_t i = 0; i < 3; ++i) r.rules[i] = {kNames[i], kColours[i], kRejected[i]};
+  for (std::size_t i = 0; i < 3; ++i) r.rules[i] = {kRules[i], kColours[i], kRejected[i]};
   r.median_sigma_mm = 0.061F;
   r.coverage = 0.957F;
   r.epipolar_px = 0.082F;

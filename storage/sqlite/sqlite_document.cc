@@ -20,7 +20,7 @@ namespace relievo::storage {
 namespace {
 
 constexpr std::string_view kMagic{"SQLite format 3\0", 16};
-constexpr std::uint32_t kApplicationId = 0x524C564F;  // "RLVO"
+constexpr std::uint32_t kDocumentId = 0x524C564F;  // "RLVO"
 constexpr std::uint32_t kForm = 3;
 constexpr std::string_view kTextPart{"text "};  // before the option that names its file
 constexpr std::size_t kHeaderBytes = 100;       // of SQLite's file: its file format, section 1.3
@@ -28,7 +28,7 @@ constexpr const char* kSchema =
     "PRAGMA application_id = 1380734543; PRAGMA user_version = 3;"
     "CREATE TABLE part (id INTEGER PRIMARY KEY, name TEXT NOT NULL UNIQUE, sha256 BLOB NOT NULL, data BLOB "
     "NOT NULL) STRICT;";
-static_assert(kApplicationId == 1380734543 && kForm == 3);
+static_assert(kDocumentId == 1380734543 && kForm == 3);
 
 Error damaged() {
   return {Errc::StoreCorrupt, "this saved reconstruction is cut off or damaged: take another copy of it"};
@@ -159,7 +159,7 @@ T header(std::span<const std::byte> bytes, std::size_t at) {
 Result<void> check_header(std::span<const std::byte> bytes) {
   const bool ours = bytes.size() >= kHeaderBytes &&
                     std::ranges::equal(bytes.first(kMagic.size()), bytes_of(kMagic)) &&
-                    header<std::uint32_t>(bytes, 68) == kApplicationId;
+                    header<std::uint32_t>(bytes, 68) == kDocumentId;
   if (!ours)
     return Error{Errc::InvalidInput,
                  "this is no saved reconstruction: choose a file that the technician's page or 'relievo "

@@ -45,13 +45,45 @@ function(relievo_precompile target)
   endif()
 endfunction()
 
+# relievo_together(TARGET SOURCES...): up to eight files of one folder are compiled as one: half of what a small file
+# costs is reading headers, and an edit still compiles a few seconds' worth. So the files of a folder may not have private
+# names in common. CMake's own UNITY_BUILD would name files by absolute paths, and ccache would not find them from
+# another checkout. Only the preset release does so: the others find a file that forgets an include.
+option(RELIEVO_UNITY "compile the files of a folder together" OFF)
+function(relievo_together target)
+  if(NOT RELIEVO_UNITY)
+    return()
+  endif()
+  set(parts)
+  foreach(source ${ARGN})
+    cmake_path(NORMAL_PATH source)
+    cmake_path(RELATIVE_PATH source BASE_DIRECTORY ${CMAKE_SOURCE_DIR})
+    cmake_path(GET source PARENT_PATH folder)
+    string(MAKE_C_IDENTIFIER ${folder} folder)
+    list(APPEND in_${folder} ${source})
+    list(LENGTH in_${folder} count)
+    math(EXPR part "(${count} - 1) / 8")
+    list(APPEND parts ${folder}_${part})
+    string(APPEND text_of_${folder}_${part} "#include \"${source}\"\n")
+  endforeach()
+  list(REMOVE_DUPLICATES parts)
+  foreach(part ${parts})
+    file(CONFIGURE OUTPUT ${CMAKE_CURRENT_BINARY_DIR}/together/${part}.cc CONTENT "${text_of_${part}}" @ONLY)
+    target_sources(${target} PRIVATE ${CMAKE_CURRENT_BINARY_DIR}/together/${part}.cc)
+  endforeach()
+  set_source_files_properties(${ARGN} PROPERTIES HEADER_FILE_ONLY ON)
+  # g++ 12 warns of a class that has a private one in it unless it stands in the file that is compiled.
+  target_compile_options(${target} PRIVATE $<$<CXX_COMPILER_ID:GNU>:-Wno-subobject-linkage>)
+endfunction()
+
 # relievo_room(NAME [READS_BYTES] [DIRS sub/folders...] [LIBS private libraries...] [ROOMS rooms it may use...]
-#              [PRECOMPILE headers of libraries...])
+#              [PRECOMPILE headers of libraries...] [ALONE regexes...])
 # One static library from every .cc below the folders named (default: all of the current folder). READS_BYTES: it takes
 # numbers out of bytes that come from outside, and is sanitized for alignment, too. PRECOMPILE: what many of its files
-# include beside the standard library.
+# include beside the standard library. ALONE: files that are compiled by themselves: those that take seconds, and those
+# that have private names in common with another file of their folder.
 function(relievo_room name)
-  cmake_parse_arguments(arg "READS_BYTES" "" "DIRS;EXCLUDE;LIBS;ROOMS;PRECOMPILE" ${ARGN})
+  cmake_parse_arguments(arg "READS_BYTES" "" "DIRS;EXCLUDE;LIBS;ROOMS;PRECOMPILE;ALONE" ${ARGN})
   if(NOT arg_DIRS)
     set(arg_DIRS .)
   endif()
@@ -64,6 +96,11 @@ function(relievo_room name)
     list(FILTER sources EXCLUDE REGEX ${pattern})
   endforeach()
   add_library(relievo_${name} STATIC ${sources})
+  set(together ${sources})
+  foreach(pattern ${arg_ALONE})
+    list(FILTER together EXCLUDE REGEX ${pattern})
+  endforeach()
+  relievo_together(relievo_${name} ${together})
   set_target_properties(relievo_${name} PROPERTIES LINKER_LANGUAGE CXX RELIEVO_READS_BYTES "${arg_READS_BYTES}")
   # Who uses an installed room gets its headers, not our warnings.
   target_link_libraries(relievo_${name} PUBLIC $<BUILD_INTERFACE:relievo_options> ${arg_ROOMS} PRIVATE ${arg_LIBS})

@@ -31,9 +31,9 @@ std::string drawn(const Window& window, const Png& png, const std::string& says,
 // A strip of colours with its ends and middle named.
 template <typename Colour>
 std::string strip(const std::string& says, const std::vector<std::string>& words, Colour&& colour) {
-  constexpr int kSteps = 96;
+  constexpr int kShades = 96;
   Drawing d({480, 40}, says);
-  for (int i = 0; i < kSteps; ++i) d.filled({{i * 5.0, 0}, {5.2, 14}}, hex(colour((i + 0.5) / kSteps)));
+  for (int i = 0; i < kShades; ++i) d.filled({{i * 5.0, 0}, {5.2, 14}}, hex(colour((i + 0.5) / kShades)));
   const char* const styles[] = {"tick", "tick middle", "tick end"};
   for (std::size_t i = 0; i < words.size() && i < 3; ++i)
     d.text(styles[i], {240.0 * static_cast<double>(i), 32}, words[i]);

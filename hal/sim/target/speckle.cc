@@ -19,12 +19,12 @@ double dots(Vec3 p_mm, double cell_mm, std::uint32_t seed) {
   return 1 - smoothstep(radius - soft, radius + soft, near.distance);
 }
 
-struct Panel {
+struct Lamp {
   Vec3 centre_mm;
   double power = 0;
 };
-constexpr std::array<Panel, 2> kPanels{Panel{{-330, -190, 40}, 0.62}, Panel{{470, -200, 60}, 0.46}};
-constexpr double kReferenceMm = 640;  // where a panel's power is what it says
+constexpr std::array<Lamp, 2> kLamps{Lamp{{-330, -190, 40}, 0.62}, Lamp{{470, -200, 60}, 0.46}};
+constexpr double kReferenceMm = 640;  // where a lamp's power is what it says
 
 }  // namespace
 
@@ -35,12 +35,12 @@ double speckle(Vec3 p, std::uint32_t seed) {
 
 double matt_light(Vec3 p, Vec3 normal) {
   double light = 0.16 + 0.05 * -normal.y;  // the room, a little more of it from above
-  for (const Panel& panel : kPanels) {
-    const Vec3 to = panel.centre_mm - p;
+  for (const Lamp& lamp : kLamps) {
+    const Vec3 to = lamp.centre_mm - p;
     const double d = length(to);
-    // A panel a quarter of a metre wide sets gently: the terminator is soft.
+    // A lamp a quarter of a metre wide sets gently: the terminator is soft.
     const double lit = std::max(0.0, (dot(normal, to) / d + 0.15) / 1.15);
-    light += panel.power * lit * (kReferenceMm / d) * (kReferenceMm / d);
+    light += lamp.power * lit * (kReferenceMm / d) * (kReferenceMm / d);
   }
   return light;
 }

@@ -4,14 +4,12 @@
 
 #include <utility>
 
+#include "pipeline/model/vector3.h"
+
 namespace relievo::pipeline {
 namespace {
 
 constexpr int kRelaxRounds = 150;
-
-Vec3d wide(const Vec3f& v) {
-  return {static_cast<double>(v.x), static_cast<double>(v.y), static_cast<double>(v.z)};
-}
 
 }  // namespace
 
