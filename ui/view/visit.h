@@ -49,7 +49,7 @@ inline constexpr float kSteadyFor = 0.6F,
                        kCountdown =
                            1.5F;  // seconds, before the picture is taken by itself; the second as above
 inline constexpr std::size_t kMostNameBytes = 128;
-inline constexpr const char* kConsentWording = "sample-1";  // where the operator has no text of their own
+inline constexpr const char* kConsentWording = "sample-2";  // where the operator has no text of their own
 inline constexpr int kMostLookUps = 5;                      // a visit; then nobody is told anything any more
 inline constexpr std::array<int, 3> kTextPercents{100, 125, 150};
 

@@ -56,8 +56,8 @@ void points(Page& page) {
   };
   open_row();
   point(
-      page, icon::kCamera, tr("We take one picture"),
-      tr("Two cameras photograph your face at the same moment. Nothing is photographed until you say yes."));
+      page, icon::kCamera, tr("We photograph your head"),
+      tr("Two cameras photograph your face at the same moment, and its sides if you turn your head. Nothing is photographed until you say yes."));
   point(page, icon::kShape, tr("You look at it first"),
         tr("This device computes a 3D portrait from it. Nothing leaves the device for this."));
   close_row();
