@@ -24,6 +24,7 @@ using Square =
     Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, 0, 6 * (kMostPoses - 1), 6 * (kMostPoses - 1)>;
 using Column = Eigen::Matrix<double, Eigen::Dynamic, 1, 0, 6 * (kMostPoses - 1), 1>;
 
+constexpr std::size_t kParts = 4;    // of a pose's samples, for the threads
 constexpr double kSamples = 18'000;  // nodes of a lattice that are laid onto the other poses, at most
 constexpr float kLeastTrust = 0.2F;  // of a node that is laid onto another pose's
 constexpr double kSameWay = 0.7;     // cosine between the normals of what is taken for the same skin
@@ -208,13 +209,34 @@ class Solver {
 
   // One Gauss-Newton step; returns how far it went, millimetres and radians together.
   double move(const Round& round) {
+    // Summed by parts, each by one thread, and the parts in their order: the same for any number of threads.
+    struct Part {
+      Square normal;
+      Column right;
+      std::vector<float> off;
+    };
+    std::vector<Part> parts(poses_.size() * kParts);
+    context_.pool.for_each_band(
+        static_cast<int>(parts.size()), static_cast<int>(parts.size()), [&](int begin, int end, int) {
+          for (auto i = static_cast<std::size_t>(begin); i < static_cast<std::size_t>(end); ++i) {
+            Part& part = parts[i];
+            part.normal = Square::Zero(unknowns_, unknowns_);
+            part.right = Column::Zero(unknowns_);
+            for_each_residual_of(i / kParts, i % kParts, kParts, round,
+                                 [&](std::size_t a, std::size_t b, const Residual& r) {
+                                   add(part.normal, part.right, a, b, r);
+                                   part.off.push_back(static_cast<float>(std::abs(r.value)));
+                                 });
+          }
+        });
     Square normal = kRidge * Square::Identity(unknowns_, unknowns_);
     Column right = Column::Zero(unknowns_);
-    std::pmr::vector<float> off(&context_.scratch);
-    for_each_residual(round, [&](std::size_t a, std::size_t b, const Residual& r) {
-      add(normal, right, a, b, r);
-      off.push_back(static_cast<float>(std::abs(r.value)));
-    });
+    std::vector<float> off;
+    for (const Part& part : parts) {
+      normal += part.normal;
+      right += part.right;
+      off.insert(off.end(), part.off.begin(), part.off.end());
+    }
     usual_mm_ = off.empty() ? 0 : median(off);
     const Column step = normal.ldlt().solve(right);
     for (std::size_t p = 1; p < poses_.size(); ++p)
@@ -243,11 +265,13 @@ class Solver {
   // Places of a pose that say something of how the skull stands: visit(node, normal in the first pose's
   // frame, say, residual with its place and patch).
   template <typename Visit>
-  void for_each_sample(std::size_t a, double most, Visit&& visit) const {
+  void for_each_sample(std::size_t a, double most, Visit&& visit, std::size_t part = 0,
+                       std::size_t parts = 1) const {
     const PoseSurface& from = poses_[a];
     const int every = std::max(1, static_cast<int>(std::sqrt(static_cast<double>(from.trust.size()) / most)));
     const RigidTransform& placed = placed_[a].first_from_pose;
-    for (int r = every / 2; r < from.rows; r += every)
+    const int step = every * static_cast<int>(parts);
+    for (int r = every / 2 + every * static_cast<int>(part); r < from.rows; r += step)
       for (int c = every / 2; c < from.columns; c += every) {
         const std::size_t k = static_cast<std::size_t>(r) * static_cast<std::size_t>(from.columns) +
                               static_cast<std::size_t>(c);
@@ -264,14 +288,20 @@ class Solver {
 
   template <typename Visit>
   void for_each_residual(const Round& round, Visit&& visit) const {
-    for (std::size_t a = 0; a < poses_.size(); ++a)
-      for_each_sample(a, kSamples, [&](std::size_t k, const Vec3d& normal, double say, Residual& res) {
-        for (std::size_t b = 0; b < poses_.size(); ++b)
-          if (b != a && meet(poses_[a], k, normal, b, round, res)) {
-            res.weight *= say * skin_.still(res.patch, a, b);
-            visit(a, b, res);
-          }
-      });
+    for (std::size_t a = 0; a < poses_.size(); ++a) for_each_residual_of(a, 0, 1, round, visit);
+  }
+  // Of one pose's samples, and of those every so many rows.
+  template <typename Visit>
+  void for_each_residual_of(std::size_t a, std::size_t part, std::size_t parts, const Round& round,
+                            Visit&& visit) const {
+    const auto against_others = [&](std::size_t k, const Vec3d& normal, double say, Residual& res) {
+      for (std::size_t b = 0; b < poses_.size(); ++b)
+        if (b != a && meet(poses_[a], k, normal, b, round, res)) {
+          res.weight *= say * skin_.still(res.patch, a, b);
+          visit(a, b, res);
+        }
+    };
+    for_each_sample(a, kSamples, against_others, part, parts);
   }
 
   // False where pose `b` shows nothing near, or the other side of something.
