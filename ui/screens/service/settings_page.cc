@@ -49,8 +49,7 @@ void settings_page(StaffFrame& page) {
   group(page, tr("Waiting"), std::array{Setting::PatienceS, Setting::StaffPatienceS});
   group(page, tr("Pictures"),
         std::array{Setting::Automatic, Setting::CountdownMs, Setting::Sides, Setting::Attempts});
-  group(page, tr("Records"),
-        std::array{Setting::TellsKnown, Setting::KeepDays, Setting::Solids, Setting::LeastRoomMib});
+  group(page, tr("Records"), std::array{Setting::TellsKnown, Setting::KeepDays, Setting::LeastRoomMib});
   if (page.staff.role == StaffRole::Operator && page.staff.settings->settings.is_on(Setting::KeepDays))
     page.line(tr(
         "Counted from the newest consent. What is older is erased once a day, while nobody is at the screen."));
@@ -62,6 +61,7 @@ void settings_page(StaffFrame& page) {
              own != nullptr ? Mood::Plain : Mood::Warn,
              {ActionKind::StaffOpen, static_cast<int>(StaffPage::Consent)});
   }
+  group(page, tr("Export to the stick"), std::array{Setting::Solids});
   if (page.staff.settings->clock_jumped)
     page.line(
         tr("The clock has jumped ahead: nothing is erased. Check the clock, then choose the time again."),

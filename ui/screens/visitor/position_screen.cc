@@ -231,7 +231,7 @@ void sides(Page& page) {
     stop.box.border = taken ? page.palette.good : Colour{255, 255, 255, 200};
     stop.box.border_px = page.px(2.5F);
     page.tree.open(stop);
-    if (taken) page.sign(icon::kGood, 30, {8, 14, 26, 255});
+    if (taken) page.sign(icon::kGood, 28 / page.text_share, {8, 14, 26, 255});
     page.tree.close();
   }
   if (turn && turn->advice != pipeline::TurnAdvice::Lost) {
