@@ -273,6 +273,7 @@ int main(int argc, char** argv) {
       .clock = clock,
       .set_clock = fw::set_system_clock,
       .plug_stick = fw::plug_stick,
+      .turn_head = relievo::hal::turn_simulated_head,
       .take_screenshots = fw::take_screenshots,
       .allocations = fw::allocation_count()};
   return fw::run_command(line, services);
