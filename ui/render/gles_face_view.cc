@@ -18,7 +18,9 @@
 namespace relievo::ui {
 namespace {
 
-constexpr float kDistanceMm = 640;     // of the viewer: a face is seen like this across a table
+constexpr float kDistanceMm = 640;  // of the viewer: a face is seen like this across a table
+// A face turns about the tip of its nose, a head, which is deeper, about its middle, and is seen whole.
+constexpr float kHeadDepthMm = 130, kHeadShare = 0.8F;
 constexpr float kSeenHeightMm = 272;   // of the window, at zoom 1: a face that is turned or nods stays inside
 constexpr float kMiddleBehindMm = 45;  // the head turns about a point behind the tip of its nose
 constexpr float kFadeMm = 6;           // of the rim, into what stands behind
@@ -200,6 +202,12 @@ class GlesFaceView final : public FaceView {
         std::minmax_element(corners.begin(), corners.end(),
                             [](const Corner& one, const Corner& other) { return one.y < other.y; });
     middle_mm_ = corners.empty() ? 0 : (low->y + high->y) / 2;
+    const auto [back, front] =
+        std::minmax_element(corners.begin(), corners.end(),
+                            [](const Corner& one, const Corner& other) { return one.z < other.z; });
+    const bool is_head = !corners.empty() && front->z - back->z > kHeadDepthMm;
+    axis_mm_ = is_head ? (back->z + front->z) / 2 : 0;
+    fit_ = is_head ? std::min(1.0F, kHeadShare * kSeenHeightMm / (high->y - low->y)) : 1;
     fill(GL_ARRAY_BUFFER, buffer_, corners);
     const std::vector<Tinted> behind = tinted_of(model);
     backdrop_count_ = static_cast<int>(behind.size());
@@ -276,7 +284,7 @@ class GlesFaceView final : public FaceView {
     Turned t{{}, {cy, sp * sy, -cp * sy, 0, cp, sp, sy, -sp * cy, cp * cy}};
     const float(&turned)[9] = t.turned;
     float(&clip)[16] = t.clip;
-    const float f = 2 * kDistanceMm / kSeenHeightMm * look_.zoom;
+    const float f = 2 * kDistanceMm / kSeenHeightMm * look_.zoom * fit_;
     const float aspect = static_cast<float>(width_) / static_cast<float>(height_);
     const float near = 200, far = 1200, a = (far + near) / (near - far), b = 2 * far * near / (near - far);
     for (std::size_t c = 0; c < 3; ++c) {
@@ -285,9 +293,12 @@ class GlesFaceView final : public FaceView {
       clip[4 * c + 2] = a * turned[3 * c + 2];
       clip[4 * c + 3] = -turned[3 * c + 2];
     }
-    clip[13] = -f * middle_mm_;
-    clip[14] = -a * kDistanceMm + b;
-    clip[15] = kDistanceMm;
+    // What turning about the axis moves the origin by.
+    const float x = -axis_mm_ * turned[6], y = -axis_mm_ * turned[7], z = axis_mm_ * (1 - turned[8]);
+    clip[12] = f / aspect * x;
+    clip[13] = f * (y - middle_mm_);
+    clip[14] = a * (z - kDistanceMm) + b;
+    clip[15] = kDistanceMm - z;
     for (std::size_t c = 0; c < 4; ++c)
       clip[4 * c + 1] += covered_ * clip[4 * c + 3];  // half the window is 1
     return t;
@@ -382,6 +393,7 @@ class GlesFaceView final : public FaceView {
   std::uint32_t version_ = 0, points_version_ = 0, edges_version_ = 0;
   FaceLook look_;
   float covered_ = 0, middle_mm_ = 0;  // where the middle of the model is, upwards, as it looks ahead
+  float axis_mm_ = 0, fit_ = 1;        // behind the nose, about which it turns; smaller than a face is shown
   float edge_level_mm_ = 0;
   int count_ = 0, point_count_ = 0, backdrop_count_ = 0, edge_count_ = 0, width_ = 0, height_ = 0;
   int times_ = 1;  // pixels of the frame for one of the screen
