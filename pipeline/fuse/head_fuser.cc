@@ -122,15 +122,6 @@ class Fusion {
     return all;
   }
 
-  // Whether any pose measured something near, whichever way it faces.
-  bool shown_near(const Vec3f& at) const {
-    constexpr float kNearMm = 2;
-    for (std::size_t k = 0; k < poses_.size(); ++k)
-      if (const auto hit = look(k, at); hit && squared_distance(at, hit->at_mm) < kNearMm * kNearMm)
-        return true;
-    return false;
-  }
-
   // Moves a vertex onto the mean of what the poses show; none where no pose shows anything there.
   struct Placed {
     Vec3f at_mm;
@@ -242,7 +233,7 @@ class Fusion {
   std::pmr::vector<RigidTransform> back_;
 };
 
-// Where the master's own face stands for what the poses do not show.
+// Where the master's own face stands: between its lids.
 class OwnFace {
  public:
   OwnFace(const BandVolume& volume, std::pmr::memory_resource* memory)
@@ -312,11 +303,12 @@ Result<FaceMesh> HeadFuser::fuse(std::span<PoseSurface> poses, const Registratio
   const Fusion fusion(poses, registration, options_, eyes, context);
   std::pmr::vector<FieldPoint> points = fusion.choose();
   if (points.empty()) return no_surface();
-  // What the master's mesher completed and nobody measured, and its eyes.
+  // The master's eyes. What its mesher completed is not taken over: the sides have seen it, or the holes are
+  // closed in the end.
   std::pmr::vector<std::uint32_t> own(&context.scratch);
   for (std::uint32_t v = 0; v < face.vertices_mm.size(); ++v) {
     const Vec3f& at = face.vertices_mm[v];
-    if (!eyes.holds(at) && (face.measured[v] != 0 || fusion.shown_near(at))) continue;
+    if (!eyes.holds(at)) continue;
     points.push_back({at, face.normals[v], kCompletedShare});
     own.push_back(v);
   }

@@ -46,8 +46,8 @@ void describe(HeadFuserOptions& o, Field&& field) {
 class HeadFuser {
  public:
   explicit HeadFuser(const HeadFuserOptions& options) : options_(options) {}
-  // `face`: the master's own mesh, whose completed parts fill what no pose measured; `landmarks` of it: what
-  // lies between the lids is the master's. Bends `poses` in place.
+  // `face`: the master's own mesh, of which what lies between the lids is taken, found by its `landmarks`.
+  // Bends `poses` in place.
   Result<FaceMesh> fuse(std::span<PoseSurface> poses, const Registration& registration, const FaceMesh& face,
                         const Landmarks& landmarks, StageContext& context) const;
 
