@@ -9,8 +9,9 @@
 //   | sigma f32 | measured u8 | triangles 3 u32 | texture rgb | uv 2 f32 a corner | vertex rgb | texture
 //   origin u8 | pose u8 (of a head from several pairs) | SHA-256 of all before it
 // Still read: version 1 with 7 figures of quality, no origin and no landmarks; version 2 with 8 and no
-// landmarks; version 3 without relief; version 4 without pose. Every number comes back bit for bit. The length follows from the
-// header alone, so a cut piece, a longer piece and hostile sizes are refused before anything is allocated.
+// landmarks; version 3 without relief; version 4 without pose. Every number comes back bit for bit. The
+// length follows from the header alone, so a cut piece, a longer piece and hostile sizes are refused before
+// anything is allocated.
 #pragma once
 
 #include <cstddef>
