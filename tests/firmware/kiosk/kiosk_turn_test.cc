@@ -22,7 +22,7 @@
 namespace relievo::firmware {
 namespace {
 
-const hal::sim::RigOptions kRig = test::small_rig(0.5);
+const hal::sim::RigOptions kRig = test::small_rig(0.3);  // small: turned heads are rendered while it waits
 
 class KioskTurn : public KioskHands {
  protected:
