@@ -82,15 +82,15 @@ Guidance guidance_of(const pipeline::GateAnswer& answer, const pipeline::StereoC
 
 Result<bool> LiveJudge::begin_turn(const pipeline::StereoFrame& front, pipeline::StageContext& context) {
   turn_ = {};
-  front_ = {};
+  front_->count = 0;
   if (!calibration_) return uncalibrated();
   pipeline::GateHistory nothing;
   RELIEVO_TRY_ASSIGN(const pipeline::GateLook look,
                      pipeline::run_stage(context, [&](pipeline::StageContext& c) {
                        return gate_.look(front, *calibration_, {}, nothing, c);
                      }));
-  front_ = front_face(look.relief, look.answer.measures.head);
-  return front_.count > 0;
+  *front_ = front_face(look.relief, look.answer.measures.head);
+  return front_->count > 0;
 }
 
 Result<TurnMeasurement> LiveJudge::look_turned(const pipeline::StereoFrame& frame, hal::Instant now,
@@ -100,12 +100,12 @@ Result<TurnMeasurement> LiveJudge::look_turned(const pipeline::StereoFrame& fram
   RELIEVO_TRY_ASSIGN(pipeline::Relief relief, pipeline::run_stage(context, [&](pipeline::StageContext& c) {
                        return relief_.look(frame, *calibration_, c);
                      }));
-  const pipeline::HeadTurn turn = follow_head(front_, relief, turn_.last);
+  const pipeline::HeadTurn turn = follow_head(*front_, relief, turn_.last);
   constexpr pipeline::TurnLimits kLimits;
-  const double px_per_mm = calibration_->left.focal_px.x / front_.pivot_mm.z;
+  const double px_per_mm = calibration_->left.focal_px.x / front_->pivot_mm.z;
   const double slow_mm_s = kLimits.smear_px / px_per_mm / std::chrono::duration<double>(shutter).count();
   const pipeline::TurnAnswer answer =
-      guide_turn(front_, turn, now.time_since_epoch(), slow_mm_s, kLimits, turn_);
+      guide_turn(*front_, turn, now.time_since_epoch(), slow_mm_s, kLimits, turn_);
   TurnMeasurement measured{{}, answer.take, std::move(relief)};
   measured.guidance.turn = TurnGuidance{answer.advice, turn.yaw_deg, turn_.taken};
   return measured;

@@ -9,6 +9,7 @@
 #pragma once
 
 #include <chrono>
+#include <memory>
 #include <optional>
 
 #include "firmware/capture/face_light.h"
@@ -61,7 +62,8 @@ class LiveJudge {
 
   pipeline::CaptureGate gate_;
   pipeline::LiveRelief relief_;
-  pipeline::FrontFace front_;
+  // Taken once, with the judge: it is too large for a stack.
+  std::unique_ptr<pipeline::FrontFace> front_ = std::make_unique<pipeline::FrontFace>();
   pipeline::TurnHistory turn_;
   std::optional<pipeline::StereoCalibration> calibration_;
   pipeline::GateHistory history_;
