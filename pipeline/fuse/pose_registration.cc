@@ -12,6 +12,7 @@
 #include "hal/base/statistics.h"
 #include "pipeline/base/solving.h"
 #include "pipeline/fuse/skin_patches.h"
+#include "pipeline/model/small_motion.h"
 #include "pipeline/model/vector3.h"
 
 namespace relievo::pipeline {
@@ -54,6 +55,7 @@ constexpr double kWellMetShare = 0.8, kMetShare = 0.5;
 constexpr std::array<Vec2d, 9> kTurnsDeg{
     {{0, 0}, {-25, 0}, {25, 0}, {-45, 0}, {45, 0}, {-65, 0}, {65, 0}, {0, -20}, {0, 20}}};  // yaw, pitch
 
+Vec3d vector(const Eigen::Vector3d& v) { return {v[0], v[1], v[2]}; }
 double radians(double degrees) { return degrees * std::numbers::pi / 180; }
 
 // How much the skin at a place in the head's frame has to say of how the skull stands.
@@ -67,20 +69,6 @@ double say_of(const Vec3d& p) {
   if (p.y > 20 && side < 60) return 0.05;     // lids and brows
   if (p.y > 0) return side > 30 ? 0.3 : 0.1;  // cheek bones
   return 0.02;                                // lips, chin, jaw
-}
-
-// The motion by a rotation vector and a translation about a pivot.
-RigidTransform small_motion(const Vector6& d, const Vec3d& pivot) {
-  const Eigen::Vector3d turn = d.head<3>();
-  const double angle = turn.norm();
-  const Eigen::Matrix3d r =
-      angle > 1e-12 ? Eigen::AngleAxisd(angle, turn / angle).toRotationMatrix() : Eigen::Matrix3d::Identity();
-  RigidTransform out;
-  for (int i = 0; i < 3; ++i)
-    for (int j = 0; j < 3; ++j) out.rotation.m[3 * i + j] = r(i, j);
-  const Vec3d turned = apply(out.rotation, pivot);
-  out.translation_mm = {pivot.x - turned.x + d[3], pivot.y - turned.y + d[4], pivot.z - turned.z + d[5]};
-  return out;
 }
 
 // What one sample of a pose says against another one's surface.
@@ -193,7 +181,9 @@ class Solver {
         });
         if (near < kFewestCoarse) return {};
         const Vector6 step = solved<6>(normal, right);
-        placed_[p].first_from_pose = product(small_motion(-step, pivot_), placed_[p].first_from_pose);
+        placed_[p].first_from_pose =
+            product(small_motion(vector(-step.head<3>()), vector(-step.tail<3>()), pivot_),
+                    placed_[p].first_from_pose);
       }
     laid.placed = placed_[p].first_from_pose;
     laid.share = laid.count / near;
@@ -240,8 +230,9 @@ class Solver {
     usual_mm_ = off.empty() ? 0 : median(off);
     const Column step = normal.ldlt().solve(right);
     for (std::size_t p = 1; p < poses_.size(); ++p)
-      placed_[p].first_from_pose =
-          product(small_motion(-step.segment<6>(place(p)), pivot_), placed_[p].first_from_pose);
+      placed_[p].first_from_pose = product(
+          small_motion(vector(-step.segment<3>(place(p))), vector(-step.segment<3>(place(p) + 3)), pivot_),
+          placed_[p].first_from_pose);
     return step.norm();
   }
 

@@ -3,12 +3,12 @@
 #include "pipeline/gate/turn/head_turn.h"
 
 #include <Eigen/Cholesky>
-#include <Eigen/Geometry>
 #include <algorithm>
 #include <cmath>
 #include <numbers>
 #include <optional>
 
+#include "pipeline/model/small_motion.h"
 #include "pipeline/model/vector3.h"
 
 namespace relievo::pipeline {
@@ -80,17 +80,6 @@ Laid lay(const FrontFace& front, const Relief& relief, const RigidTransform& mot
   return laid;
 }
 
-RigidTransform about(const Vec3d& pivot, const Eigen::Vector3d& turn, const Vec3d& shift) {
-  const double angle = turn.norm();
-  const Eigen::Matrix3d r =
-      angle > 1e-12 ? Eigen::AngleAxisd(angle, turn / angle).toRotationMatrix() : Eigen::Matrix3d::Identity();
-  RigidTransform out;
-  for (int i = 0; i < 3; ++i)
-    for (int j = 0; j < 3; ++j) out.rotation.m[static_cast<std::size_t>(3 * i + j)] = r(i, j);
-  out.translation_mm = plus(minus(pivot, apply(out.rotation, pivot)), shift);
-  return out;
-}
-
 HeadTurn settle(const FrontFace& front, const Relief& relief, RigidTransform motion) {
   for (const Round& round : kRounds)
     for (int k = 0; k < round.times; ++k) {
@@ -98,8 +87,9 @@ HeadTurn settle(const FrontFace& front, const Relief& relief, RigidTransform mot
       if (laid.used < kFewest) return {};
       laid.normal += 1e-6 * laid.normal.trace() * Matrix6::Identity();
       const Vector6 step = laid.normal.ldlt().solve(laid.right);
-      motion =
-          product(about(apply(motion, front.pivot_mm), step.head<3>(), {step[3], step[4], step[5]}), motion);
+      motion = product(small_motion({step[0], step[1], step[2]}, {step[3], step[4], step[5]},
+                                    apply(motion, front.pivot_mm)),
+                       motion);
       if (1000 * step.head<3>().norm() < kSettled && step.tail<3>().norm() < kSettled) break;
     }
   const Laid last = lay(front, relief, motion, kRounds.back());
@@ -148,10 +138,9 @@ HeadTurn follow_head(const FrontFace& front, const Relief& relief, const HeadTur
   HeadTurn best;
   if (before.known) best = settle(front, relief, before.now_from_front);
   if (best.known && best.met_share >= kSureShare) return best;
-  const Vec3d down = front.down;
   for (const double yaw : kStartsDeg) {
     const double angle = -yaw * std::numbers::pi / 180;  // about `down` a positive angle turns to the left
-    const RigidTransform start = about(front.pivot_mm, angle * Eigen::Vector3d(down.x, down.y, down.z), {});
+    const RigidTransform start = small_motion(times(front.down, angle), {}, front.pivot_mm);
     const HeadTurn turn = settle(front, relief, start);
     if (turn.known && (!best.known || turn.met_share > best.met_share)) best = turn;
   }
