@@ -46,10 +46,10 @@ PoseReport report_of(const pipeline::RegisteredPose& pose) {
 
 }  // namespace
 
-class HeadReconstruction::HeadJob final : public Job {
+class HeadReconstruction::PairsJob final : public Job {
  public:
-  HeadJob(const pipeline::HeadPipeline& pipeline, const std::vector<Shot>& shots, HeadReconstruction& owner,
-          ThreadPool& pool, WhenMoved when_moved)
+  PairsJob(const pipeline::HeadPipeline& pipeline, const std::vector<Shot>& shots, HeadReconstruction& owner,
+           ThreadPool& pool, WhenMoved when_moved)
       : pipeline_(pipeline),
         shots_(shots),
         owner_(owner),
@@ -64,14 +64,14 @@ class HeadReconstruction::HeadJob final : public Job {
 
  private:
   template <typename Work>
-  auto timed(std::size_t pair, Work&& work) {
+  auto timed(std::string_view name, std::size_t pair, Work&& work) {
     at_.store(pair, std::memory_order_relaxed);
     const hal::MonotonicClock clock;
     const hal::Instant begin = clock.now();
     scratch_.wipe();
     auto done = work();
     StageRecord record;
-    record.name = pair == shots_.size() ? "Fuse" : owner_.report_.stages.size() == pair ? "Pair" : "Face";
+    record.name = name;
     record.took = clock.now() - begin;
     record.in = pair == shots_.size() ? pair : pair + 1;
     record.arena_peak_bytes = scratch_.high_water();
@@ -96,13 +96,13 @@ class HeadReconstruction::HeadJob final : public Job {
   std::atomic<std::size_t> at_{0};
 };
 
-Result<void> HeadReconstruction::HeadJob::run(JobControl& control) {
+Result<void> HeadReconstruction::PairsJob::run(JobControl& control) {
   pipeline::StageContext context{owner_.output_, scratch_, pool_, control.progress, control.cancelled};
   std::vector<pipeline::HeadPose> poses;
   for (std::size_t k = 0; k < shots_.size(); ++k) poses.emplace_back(&*owner_.kept_);
   for (std::size_t k = 0; k < shots_.size(); ++k) {
     const Arena::Mark mark(owner_.output_);
-    auto pose = timed(k, [&] {
+    auto pose = timed("Pair", k, [&] {
       return pipeline_.measure(shots_[k].pictures.frame(), shots_[k].calibration, context, *owner_.kept_);
     });
     if (!pose) return placed(pose.error(), k);
@@ -110,10 +110,10 @@ Result<void> HeadReconstruction::HeadJob::run(JobControl& control) {
     if (k == 0) owner_.report_.drift = poses[k].drift;
     if (refused(poses[k].drift)) return placed(error_of(poses[k].drift), k);
   }
-  auto face =
-      timed(0, [&] { return pipeline_.face(shots_[0].pictures.frame(), shots_[0].calibration, context); });
+  auto face = timed(
+      "Face", 0, [&] { return pipeline_.face(shots_[0].pictures.frame(), shots_[0].calibration, context); });
   if (!face) return placed(face.error(), 0);
-  auto head = timed(shots_.size(), [&] { return pipeline_.fuse(*face, poses, context); });
+  auto head = timed("Fuse", shots_.size(), [&] { return pipeline_.fuse(*face, poses, context); });
   if (!head) return head.error();
   owner_.head_.emplace(*std::move(head));
   return {};
@@ -135,7 +135,7 @@ Result<void> HeadReconstruction::run(const std::vector<Path>& pictures, const st
   kept_block_.reset(new std::byte[kept]);  // not value-initialised: pages stay untouched
   kept_.emplace(std::span(kept_block_.get(), kept));
   ThreadPool pool(pool_size());
-  HeadJob job(pipeline, shots, *this, pool, when_moved);
+  PairsJob job(pipeline, shots, *this, pool, when_moved);
   const Result<void> done =
       run_watched(job, console, [&] { return std::string_view(job.at() == shots.size() ? "Fuse" : "Pair"); });
   if (!done && done.error().code == Errc::Cancelled)

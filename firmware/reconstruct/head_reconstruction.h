@@ -34,7 +34,7 @@ class HeadReconstruction {
   const Report& report() const { return report_; }
 
  private:
-  class HeadJob;
+  class PairsJob;
   BootMemory memory_;
   Arena output_;
   std::unique_ptr<std::byte[]> kept_block_;

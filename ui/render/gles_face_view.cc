@@ -198,13 +198,9 @@ class GlesFaceView final : public FaceView {
     if (texture_ == 0) glGenTextures(1, &texture_);
     const std::vector<Corner> corners = corners_of(model);
     count_ = static_cast<int>(corners.size());
-    const auto [low, high] =
-        std::minmax_element(corners.begin(), corners.end(),
-                            [](const Corner& one, const Corner& other) { return one.y < other.y; });
+    const auto [low, high] = std::ranges::minmax_element(corners, {}, &Corner::y);
     middle_mm_ = corners.empty() ? 0 : (low->y + high->y) / 2;
-    const auto [back, front] =
-        std::minmax_element(corners.begin(), corners.end(),
-                            [](const Corner& one, const Corner& other) { return one.z < other.z; });
+    const auto [back, front] = std::ranges::minmax_element(corners, {}, &Corner::z);
     const bool is_head = !corners.empty() && front->z - back->z > kHeadDepthMm;
     axis_mm_ = is_head ? (back->z + front->z) / 2 : 0;
     fit_ = is_head ? std::min(1.0F, kHeadShare * kSeenHeightMm / (high->y - low->y)) : 1;
