@@ -47,7 +47,7 @@ class Soup {
     return stack_.size();
   }
 
-  std::size_t keep_largest_component() {
+  void keep_largest_component() {
     std::fill(mark_.begin(), mark_.end(), kNone);
     std::uint32_t best = kNone;
     double best_area = -1;
@@ -59,13 +59,7 @@ class Soup {
         best = t;
       }
     }
-    std::size_t dropped = 0;
-    for (std::size_t t = 0; t < triangles_.size(); ++t) {
-      if (!alive_[t] || mark_[t] == best) continue;
-      alive_[t] = 0;
-      ++dropped;
-    }
-    return dropped;
+    for (std::size_t t = 0; t < triangles_.size(); ++t) alive_[t] = alive_[t] && mark_[t] == best;
   }
 
   // At a vertex of one open fan, triangles exceed shared edges by one; at a closed fan they are equal.
@@ -199,10 +193,12 @@ void keep_one_surface(std::span<const Vec3f> vertices, std::pmr::vector<Triangle
   if (triangles.empty()) return;
   Soup soup(vertices, triangles, scratch);
   soup.keep_largest_component();
-  for (int pass = 0; pass < options.ear_passes; ++pass)
-    if (soup.drop_ears() == 0) break;
-  // Every turn takes at least one triangle, so it ends.
-  while (soup.split_bow_ties() + soup.keep_largest_component() > 0) {
+  bool torn = false;  // since the largest component was told
+  for (int pass = 0; pass < options.ear_passes && soup.drop_ears() > 0; ++pass) torn = true;
+  // Every turn but the first takes at least one triangle, so it ends.
+  while (soup.split_bow_ties() > 0 || torn) {
+    soup.keep_largest_component();
+    torn = false;
   }
   std::size_t kept = 0;
   for (std::size_t t = 0; t < triangles.size(); ++t)

@@ -48,17 +48,27 @@ struct Eye {
 // Both balls' middles, the right eye's before the left one's; an eye that is not found follows the other.
 class Fit {
  public:
-  explicit Fit(const std::array<Eye, 2>& eyes) : eyes_(eyes) {
-    double best = 1e18;
-    for (const double deeper : {-1.0, 1.0})
-      for (const double aside : {-3.0, 0.0, 3.0})
-        for (const double above : {-2.0, 0.0, 2.0}) settle({aside, above, -kRadiusMm - deeper}, best);
+  Fit(const std::array<Eye, 2>& eyes, ThreadPool& pool) : eyes_(eyes) {
+    constexpr int kStarts = 18;
+    std::array<Settled, kStarts> ends;
+    pool.for_each_band(kStarts, kStarts, [&](int, int, int k) {
+      ends[static_cast<std::size_t>(k)] =
+          settle({3.0 * (k / 3 % 3) - 3, 2.0 * (k % 3) - 2, -kRadiusMm - (k < kStarts / 2 ? -1.0 : 1.0)});
+    });
+    middles_ = std::min_element(ends.begin(), ends.end(), [](const Settled& l, const Settled& r) {
+                 return l.cost < r.cost;
+               })->middles;
   }
   const Eigen::Vector3d& middle(std::size_t i) const { return middles_[i]; }
 
  private:
+  struct Settled {
+    std::array<Eigen::Vector3d, 2> middles;
+    double cost = 0;
+  };
+
   // Cauchy's weights, Gauss-Newton's steps.
-  void settle(const Eigen::Vector3d& off, double& best) {
+  Settled settle(const Eigen::Vector3d& off) const {
     std::array<Eigen::Vector3d, 2> at;
     for (std::size_t i = 0; i < 2; ++i)
       at[i] = eyes_[i].middle + Eigen::Vector3d(i == 0 ? -off.x() : off.x(), off.y(), off.z());
@@ -100,7 +110,7 @@ class Fit {
       at[0] += step.head<3>();
       at[1] += step.tail<3>();
     }
-    if (cost < best) best = cost, middles_ = at;
+    return {at, cost};
   }
 
   const std::array<Eye, 2>& eyes_;
@@ -127,14 +137,15 @@ void collect(Eye& eye, const FaceMesh& mesh, const std::pmr::vector<Vec3d>& in_h
   eye.middle.z() = median(depths);
 }
 
-// What spans from lid to lid: every vertex lies as high as its neighbours do in the mean, the nearer the
-// more.
-void span(const FaceMesh& mesh, const std::pmr::vector<std::uint8_t>& between,
-          std::pmr::vector<Vec3d>& in_head, Arena& scratch) {
-  struct Edge {
-    std::uint32_t from, to;
-    double weight;
-  };
+struct Edge {
+  std::uint32_t from, to;
+  double weight;
+};
+
+// Around the vertices whose `eye_of` is `eye`, by vertex; the nearer the more weight.
+std::pmr::vector<Edge> edges_of(std::uint8_t eye, const FaceMesh& mesh,
+                                const std::pmr::vector<std::uint8_t>& eye_of,
+                                const std::pmr::vector<Vec3d>& in_head, Arena& scratch) {
   std::pmr::vector<Edge> edges(&scratch);
   const auto add = [&](std::uint32_t a, std::uint32_t b) {
     edges.push_back(
@@ -142,9 +153,14 @@ void span(const FaceMesh& mesh, const std::pmr::vector<std::uint8_t>& between,
   };
   for (const auto& t : mesh.triangles)
     for (std::size_t k = 0; k < 3; ++k)
-      if (between[t[k]] != 0) add(t[k], t[(k + 1) % 3]), add(t[k], t[(k + 2) % 3]);
+      if (eye_of[t[k]] == eye) add(t[k], t[(k + 1) % 3]), add(t[k], t[(k + 2) % 3]);
   std::sort(edges.begin(), edges.end(),
             [](const Edge& a, const Edge& b) { return a.from != b.from ? a.from < b.from : a.to < b.to; });
+  return edges;
+}
+
+// What spans from lid to lid: every vertex lies as high as its neighbours do in the mean.
+void span(const std::pmr::vector<Edge>& edges, std::pmr::vector<Vec3d>& in_head) {
   for (int pass = 0; pass < kPasses; ++pass)
     for (std::size_t k = 0; k < edges.size();) {
       const std::uint32_t v = edges[k].from;
@@ -190,12 +206,15 @@ void lay_eyeballs(FaceMesh& mesh, const RigidTransform& head_from_camera, const 
     eyes[i].lids = lids[i];
     if (lids[i]) collect(eyes[i], mesh, in_head);
   }
-  const Fit balls(eyes);
-  std::pmr::vector<std::uint8_t> moved(in_head.size(), 0, &scratch);
-  for (const Eye& eye : eyes)
-    if (!eye.seen.empty())
-      for (const std::uint32_t v : eye.within) moved[v] = 1;
-  span(mesh, moved, in_head, scratch);
+  const Fit balls(eyes, context.pool);
+  std::pmr::vector<std::uint8_t> moved(in_head.size(), 0, &scratch);  // the eye, from 1
+  for (std::uint8_t i = 0; i < 2; ++i)
+    if (!eyes[i].seen.empty())
+      for (const std::uint32_t v : eyes[i].within) moved[v] = i + 1;
+  const std::array edges{edges_of(1, mesh, moved, in_head, scratch),
+                         edges_of(2, mesh, moved, in_head, scratch)};
+  context.pool.for_each_band(2, 2,
+                             [&](int, int, int i) { span(edges[static_cast<std::size_t>(i)], in_head); });
   for (std::size_t i = 0; i < 2; ++i)
     for (const std::uint32_t v : eyes[i].within) {
       if (moved[v] == 0) continue;

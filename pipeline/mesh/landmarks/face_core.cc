@@ -99,12 +99,12 @@ Vector3d tip_of(const FaceRelief& core) {
 
 }  // namespace
 
-FaceCore face_core(const FaceMesh& mesh, const RigidTransform& head_from_camera, Arena& scratch) {
-  const Arena::Mark mark(scratch);
+FaceCore face_core(const FaceMesh& mesh, const RigidTransform& head_from_camera, StageContext& context) {
+  const Arena::Mark mark(context.scratch);
   const ReliefBox box{-kCoreHalf, kCoreHalf, kCoreFrom - 5, kCoreTo + 5, kCoreCell};
-  FaceRelief core(box, &scratch), nose(box, &scratch);
-  core.add(mesh, head_from_camera);
-  nose.add(mesh, head_from_camera, true);  // below the tip nothing may be certain
+  FaceRelief core(box, &context.scratch),
+      nose(box, &context.scratch);  // below the tip nothing may be certain
+  FaceRelief::add_both(mesh, head_from_camera, core, nose, context);
   const Vector3d tip = tip_of(nose);
   core.symmetrise();
   return {nod_of(core), tip};

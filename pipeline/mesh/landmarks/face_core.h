@@ -9,7 +9,7 @@
 
 #include <Eigen/Core>
 
-#include "hal/base/arena.h"
+#include "pipeline/base/stage.h"
 #include "pipeline/model/face_mesh.h"
 #include "pipeline/model/geometry.h"
 
@@ -21,6 +21,6 @@ struct FaceCore {
 };
 
 // `head_from_camera`: a frame near the head's, x across the face, z out of it, the origin near the tip.
-FaceCore face_core(const FaceMesh& mesh, const RigidTransform& head_from_camera, Arena& scratch);
+FaceCore face_core(const FaceMesh& mesh, const RigidTransform& head_from_camera, StageContext& context);
 
 }  // namespace relievo::pipeline

@@ -5,12 +5,18 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <cstdint>
 #include <limits>
 
 namespace relievo::pipeline {
 namespace {
 
 constexpr float kNothing = std::numeric_limits<float>::quiet_NaN();
+constexpr int kParts = 4;  // of a mesh, laid side by side
+
+bool is_measured(const FaceMesh& mesh, const std::array<std::uint32_t, 3>& t) {
+  return mesh.measured[t[0]] != 0 && mesh.measured[t[1]] != 0 && mesh.measured[t[2]] != 0;
+}
 
 }  // namespace
 
@@ -33,8 +39,17 @@ double FaceRelief::at(double x_mm, double y_mm) const {
   return (1 - v) * ((1 - u) * value(0, 0) + u * value(1, 0)) + v * ((1 - u) * value(0, 1) + u * value(1, 1));
 }
 
-// Corners in cells; z in mm.
+Vec3f FaceRelief::in_cells(const Vec3f& vertex, const RigidTransform& frame_from_mesh) const {
+  const Vec3d p = apply(frame_from_mesh, {static_cast<double>(vertex.x), static_cast<double>(vertex.y),
+                                          static_cast<double>(vertex.z)});
+  return {static_cast<float>((p.x - box_.left_mm) / box_.cell_mm),
+          static_cast<float>((p.y - box_.bottom_mm) / box_.cell_mm), static_cast<float>(p.z)};
+}
+
 void FaceRelief::add_triangle(const Vec3f& a, const Vec3f& b, const Vec3f& c) {
+  if (a.x < -20 || a.y < -20 || a.x > static_cast<float>(columns_ + 20) ||
+      a.y > static_cast<float>(rows_ + 20))
+    return;
   const float area = (b.x - a.x) * (c.y - a.y) - (c.x - a.x) * (b.y - a.y);
   if (!(std::abs(area) > 1e-9F)) return;
   const int from_row = std::max(0, static_cast<int>(std::ceil(std::min({a.y, b.y, c.y}))));
@@ -55,22 +70,44 @@ void FaceRelief::add_triangle(const Vec3f& a, const Vec3f& b, const Vec3f& c) {
 }
 
 void FaceRelief::add(const FaceMesh& mesh, const RigidTransform& frame_from_mesh, bool completed_too) {
-  const auto cells = [&](std::uint32_t v) {
-    const Vec3f& m = mesh.vertices_mm[v];
-    const Vec3d p = apply(frame_from_mesh,
-                          {static_cast<double>(m.x), static_cast<double>(m.y), static_cast<double>(m.z)});
-    return Vec3f{static_cast<float>((p.x - box_.left_mm) / box_.cell_mm),
-                 static_cast<float>((p.y - box_.bottom_mm) / box_.cell_mm), static_cast<float>(p.z)};
+  const auto corner = [&](std::uint32_t v) { return in_cells(mesh.vertices_mm[v], frame_from_mesh); };
+  for (const auto& t : mesh.triangles)
+    if (completed_too || is_measured(mesh, t)) add_triangle(corner(t[0]), corner(t[1]), corner(t[2]));
+}
+
+void FaceRelief::add_both(const FaceMesh& mesh, const RigidTransform& frame_from_mesh, FaceRelief& measured,
+                          FaceRelief& shown, StageContext& context) {
+  const Arena::Mark mark(context.scratch);
+  std::pmr::vector<Vec3f> corners(mesh.vertices_mm.size(), Vec3f{}, &context.scratch);
+  context.pool.for_each_band(static_cast<int>(corners.size()), kParts, [&](int from, int to, int) {
+    for (auto v = static_cast<std::size_t>(from); v < static_cast<std::size_t>(to); ++v)
+      corners[v] = measured.in_cells(mesh.vertices_mm[v], frame_from_mesh);
+  });
+  struct Part {
+    FaceRelief measured, completed;
   };
-  for (const auto& t : mesh.triangles) {
-    if (!completed_too && (mesh.measured[t[0]] == 0 || mesh.measured[t[1]] == 0 || mesh.measured[t[2]] == 0))
-      continue;
-    const Vec3f a = cells(t[0]);
-    if (a.x < -20 || a.y < -20 || a.x > static_cast<float>(columns_ + 20) ||
-        a.y > static_cast<float>(rows_ + 20))
-      continue;
-    add_triangle(a, cells(t[1]), cells(t[2]));
+  std::pmr::vector<Part> parts(&context.scratch);
+  parts.reserve(kParts);
+  for (int k = 0; k < kParts; ++k)
+    parts.push_back({FaceRelief(shown.box_, &context.scratch), FaceRelief(shown.box_, &context.scratch)});
+  context.pool.for_each_band(static_cast<int>(mesh.triangles.size()), kParts, [&](int from, int to, int k) {
+    Part& part = parts[static_cast<std::size_t>(k)];
+    for (auto i = static_cast<std::size_t>(from); i < static_cast<std::size_t>(to); ++i) {
+      const auto& t = mesh.triangles[i];
+      FaceRelief& relief = is_measured(mesh, t) ? part.measured : part.completed;
+      relief.add_triangle(corners[t[0]], corners[t[1]], corners[t[2]]);
+    }
+  });
+  for (const Part& part : parts) {
+    measured.add_foremost(part.measured);
+    shown.add_foremost(part.measured);
+    shown.add_foremost(part.completed);
   }
+}
+
+void FaceRelief::add_foremost(const FaceRelief& other) {
+  for (std::size_t k = 0; k < z_.size(); ++k)
+    if (!std::isnan(other.z_[k]) && !(z_[k] >= other.z_[k])) z_[k] = other.z_[k];
 }
 
 void FaceRelief::symmetrise() {

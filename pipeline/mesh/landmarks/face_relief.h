@@ -9,6 +9,7 @@
 #include <memory_resource>
 #include <vector>
 
+#include "pipeline/base/stage.h"
 #include "pipeline/model/face_mesh.h"
 
 namespace relievo::pipeline {
@@ -37,6 +38,10 @@ class FaceRelief {
   // Lays the triangles whose three corners were measured, or all, into it. The box's left is its right,
   // mirrored.
   void add(const FaceMesh& mesh, const RigidTransform& frame_from_mesh, bool completed_too = false);
+  // Both at once, on the pool, for who lays a mesh many times: what was measured into `measured`, all of it
+  // into `shown`, two reliefs over one box. The same as add() twice.
+  static void add_both(const FaceMesh& mesh, const RigidTransform& frame_from_mesh, FaceRelief& measured,
+                       FaceRelief& shown, StageContext& context);
   // Both halves become their mean, or the one there is.
   void symmetrise();
   // A Gaussian over what is there; cells with nothing stay so.
@@ -47,7 +52,10 @@ class FaceRelief {
     return static_cast<std::size_t>(row) * static_cast<std::size_t>(columns_) +
            static_cast<std::size_t>(column);
   }
+  // In cells; z in mm.
+  Vec3f in_cells(const Vec3f& vertex, const RigidTransform& frame_from_mesh) const;
   void add_triangle(const Vec3f& a, const Vec3f& b, const Vec3f& c);
+  void add_foremost(const FaceRelief& other);
   void smooth_along(bool rows, const std::pmr::vector<float>& kernel, std::pmr::vector<float>& line);
 
   ReliefBox box_;

@@ -92,11 +92,16 @@ void keep(NoseCandidates& found, const NoseCandidate& candidate) {
 }
 
 // Any frame. Places at the rim of the surface, whose ring is not closed, do not stand as candidates.
-NoseCandidates find_nose_candidates(std::span<const SurfacePoint> points) {
-  NoseCandidates found;
+NoseCandidates find_nose_candidates(std::span<const SurfacePoint> points, StageContext& context) {
   const std::size_t every = std::max<std::size_t>(1, points.size() / 1000);
-  for (std::size_t i = 0; i < points.size(); i += every)
-    if (const double p = protrusion(points, points[i].at_mm); p > 3) keep(found, {points[i].at_mm, p});
+  std::pmr::vector<double> protrusions((points.size() + every - 1) / every, -1.0, &context.scratch);
+  context.pool.for_each_band(static_cast<int>(protrusions.size()), 16, [&](int from, int to, int) {
+    for (auto i = static_cast<std::size_t>(from); i < static_cast<std::size_t>(to); ++i)
+      protrusions[i] = protrusion(points, points[i * every].at_mm);
+  });
+  NoseCandidates found;
+  for (std::size_t i = 0; i < protrusions.size(); ++i)
+    if (protrusions[i] > 3) keep(found, {points[i * every].at_mm, protrusions[i]});
   return found;
 }
 
@@ -257,7 +262,7 @@ Result<Frame> upright_frame(const Points& points, const Vector3d& across, Symmet
             "nothing on the surface stands out like a nose: look straight into the cameras"};
   double best_score = 1e9;
   Frame frame;
-  const NoseCandidates noses = find_nose_candidates(points);
+  const NoseCandidates noses = find_nose_candidates(points, context);
   std::size_t chosen = noses.count;
   for (std::size_t i = 0; i < noses.count; ++i) {
     Points face = around(points, noses.best[i].at_mm, kHalfFace, context.scratch);
@@ -297,17 +302,13 @@ void turn(Frame& frame, Points& points, double nod_rad) {
   move(frame, points, turned);
 }
 
-FaceCore core_of(const FaceMesh& mesh, const Frame& frame, Arena& scratch) {
-  return face_core(mesh, to_transform(frame), scratch);
-}
-
 Result<void> set_upright(const FaceMesh& mesh, Frame& frame, Points& points, StageContext& context) {
   constexpr double kFurthest = 25;  // mm from the candidate: further on lies the chin, where this would walk
                                     // along a nose that is missing
   const Vector3d start = frame.origin;
   for (int round = 0; round < 8; ++round) {
     if (context.stop()) return Error{Errc::Cancelled, "the search for the head's frame was stopped"};
-    const FaceCore core = core_of(mesh, frame, context.scratch);
+    const FaceCore core = face_core(mesh, to_transform(frame), context);
     Frame tip;
     tip.origin = core.tip;
     if ((chained(frame, tip).origin - start).norm() < kFurthest) move(frame, points, tip);

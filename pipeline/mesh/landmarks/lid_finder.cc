@@ -186,11 +186,13 @@ bool is_eye(const Window& w, const Lids& lids, Arena& scratch) {
 }
 
 // Of all almonds the best, within a millimetre or two.
-Lids search(const Window& w) {
-  Lids best;
-  double most = -1e9;
+Lids search(const Window& w, ThreadPool& pool) {
+  struct Best {
+    Lids lids;
+    double value = -1e9;
+  };
   // Both lids of an almond with these corners do not depend on one another.
-  const auto consider = [&](const Vec2d& inner, const Vec2d& outer) {
+  const auto consider = [&](const Vec2d& inner, const Vec2d& outer, Best& best) {
     std::array<double, kHighest + 1> upper{}, lower{};
     for (std::size_t h = 1; h <= kHighest; ++h) {
       upper[h] = sum_below(w, inner, outer, static_cast<double>(h));
@@ -200,16 +202,21 @@ Lids search(const Window& w) {
       for (std::size_t l = 1; l <= kHighest; ++l) {
         const Lids lids{inner, outer, static_cast<double>(u), static_cast<double>(l)};
         const double value = upper[u] - lower[l] - cost(lids);
-        if (lids.upper + lids.lower >= kLeastOpenMm && value > most) most = value, best = lids;
+        if (lids.upper + lids.lower >= kLeastOpenMm && value > best.value) best = {lids, value};
       }
   };
-  for (int from = -19; from <= -7; from += 2)
+  std::array<Best, 7> found;  // one for each place of the inner corner
+  pool.for_each_band(7, 7, [&](int, int, int k) {
+    const int from = 2 * k - 19;
     for (int width = 22; width <= std::min(34, 20 - from); width += 2)
       for (int up = -12; up <= 12; ++up)
         for (const double tilt : {-4.0, -2.0, 0.0, 2.0, 4.0})
-          consider({kPupilMm + from, kUpMm + up - tilt / 2},
-                   {kPupilMm + from + width, kUpMm + up + tilt / 2});
-  return best;
+          consider({kPupilMm + from, kUpMm + up - tilt / 2}, {kPupilMm + from + width, kUpMm + up + tilt / 2},
+                   found[static_cast<std::size_t>(k)]);
+  });
+  return std::max_element(found.begin(), found.end(),
+                          [](const Best& l, const Best& r) { return l.value < r.value; })
+      ->lids;
 }
 
 // The best near `common`, uphill.
@@ -267,7 +274,7 @@ std::array<std::optional<Lids>, 2> find_lids(const FaceMesh& mesh, const RigidTr
   }
   std::array<std::optional<Lids>, 2> eyes;
   if (both.below.empty()) return eyes;
-  const Lids common = search(both);
+  const Lids common = search(both, context.pool);
   for (std::size_t i = 0; i < 2; ++i) {
     if (windows[i].below.empty()) continue;
     Lids lids = refine(windows[i], common);

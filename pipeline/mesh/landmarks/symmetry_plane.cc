@@ -96,20 +96,21 @@ struct Start {
 };
 
 // The best of a coarse raster; three of them, as a face a quarter turned has false optima.
-std::array<Start, 3> raster(const HeightMap& map, std::span<const SurfacePoint> points) {
-  std::array<Start, 3> best;
-  best.fill({1e30, Pose::Zero()});
-  const std::size_t every = std::max<std::size_t>(1, points.size() / 500);
+std::array<Start, 3> raster(const HeightMap& map, std::span<const SurfacePoint> points, ThreadPool& pool) {
+  constexpr int kYaws = 9, kRolls = 5, kOffsets = 5;
   constexpr double kDeg = std::numbers::pi / 180;
-  for (int yaw = -40; yaw <= 40; yaw += 10)
-    for (int roll = -16; roll <= 16; roll += 8)
-      for (int offset = -8; offset <= 8; offset += 4) {
-        const Pose pose{yaw * kDeg, roll * kDeg, static_cast<double>(offset)};
-        const double c = cost(map, points, every, pose);
-        if (c >= best.back().cost) continue;
-        best.back() = {c, pose};
-        std::sort(best.begin(), best.end(), [](const Start& l, const Start& r) { return l.cost < r.cost; });
-      }
+  std::array<Start, kYaws * kRolls * kOffsets> starts;
+  const std::size_t every = std::max<std::size_t>(1, points.size() / 500);
+  pool.for_each_band(static_cast<int>(starts.size()), kYaws, [&](int from, int to, int) {
+    for (int k = from; k < to; ++k) {
+      const int yaw = k / (kRolls * kOffsets), roll = k / kOffsets % kRolls, offset = k % kOffsets;
+      const Pose pose{(10 * yaw - 40) * kDeg, (8 * roll - 16) * kDeg, 4.0 * offset - 8};
+      starts[static_cast<std::size_t>(k)] = {cost(map, points, every, pose), pose};
+    }
+  });
+  std::array<Start, 3> best;
+  std::partial_sort_copy(starts.begin(), starts.end(), best.begin(), best.end(),
+                         [](const Start& l, const Start& r) { return l.cost < r.cost; });
   return best;
 }
 
@@ -160,14 +161,19 @@ Result<SymmetryPlane> find_symmetry_plane(std::span<const SurfacePoint> points, 
   const Error none{Errc::PoorGeometry,
                    "the surface has no plane of symmetry: it shows less than half a face"};
   const HeightMap map(points, kCellMm, &context.scratch);
-  Start best{1e30, Pose::Zero()};
-  for (const Start& start : raster(map, points)) {
-    if (context.stop()) return Error{Errc::Cancelled, "the search for the head's frame was stopped"};
-    // On a rough surface the descent may leave for where hardly anything meets: a start that was better
-    // stays.
-    for (const Pose& pose : {start.pose, descend(map, points, start.pose)})
-      if (const double c = cost(map, points, 1, pose); c < best.cost) best = {c, pose};
-  }
+  std::array<Start, 3> ends = raster(map, points, context.pool);
+  if (context.stop()) return Error{Errc::Cancelled, "the search for the head's frame was stopped"};
+  context.pool.for_each_band(static_cast<int>(ends.size()), static_cast<int>(ends.size()),
+                             [&](int, int, int k) {
+                               Start& end = ends[static_cast<std::size_t>(k)];
+                               const Pose pose = descend(map, points, end.pose);
+                               // On a rough surface the descent may leave for where hardly anything meets: a
+                               // start that was better stays.
+                               end.cost = cost(map, points, 1, end.pose);
+                               if (const double c = cost(map, points, 1, pose); c < end.cost) end = {c, pose};
+                             });
+  const Start& best = *std::min_element(ends.begin(), ends.end(),
+                                        [](const Start& l, const Start& r) { return l.cost < r.cost; });
   SymmetryPlane plane;
   plane.normal = normal_of(best.pose);
   plane.offset_mm = best.pose[2];

@@ -18,33 +18,23 @@ constexpr double kBowMm =
 // Twice the sigma of the carrying nodes nearby, from ring to ring.
 void spread_sigma(PointLattice& lattice, const CellMask& carrying, std::span<const std::uint32_t> free,
                   std::pmr::memory_resource* memory) {
-  CellMask known = carrying;
-  std::pmr::vector<std::uint32_t> ring(memory);
-  std::pmr::vector<std::uint32_t> left(free.begin(), free.end(), memory);
-  while (!left.empty()) {
-    ring.clear();
-    for (const std::uint32_t k : left) {
-      const int c = static_cast<int>(k) % lattice.columns;
-      const int r = static_cast<int>(k) / lattice.columns;
-      float sum = 0;
-      float count = 0;
-      for (int y = r - 1; y <= r + 1; ++y)
-        for (int x = c - 1; x <= c + 1; ++x) {
-          if (!lattice.inside(x, y) || !known[lattice.index(x, y)]) continue;
-          sum += lattice.sigma_mm[lattice.index(x, y)] * (carrying[lattice.index(x, y)] ? 2 : 1);
-          count += 1;
-        }
-      if (count == 0) continue;
-      lattice.sigma_mm[k] = sum / count;
-      ring.push_back(k);
-    }
-    if (ring.empty()) {  // an island without surface
-      for (const std::uint32_t k : left) lattice.sigma_mm[k] = 1;
-      return;
-    }
-    for (const std::uint32_t k : ring) known[k] = 1;
-    std::erase_if(left, [&](std::uint32_t k) { return known[k] != 0; });
-  }
+  CellMask known(carrying, memory);
+  const auto place = [&](std::uint32_t k) {
+    const int c = static_cast<int>(k) % lattice.columns;
+    const int r = static_cast<int>(k) / lattice.columns;
+    float sum = 0;
+    float count = 0;
+    for (int y = r - 1; y <= r + 1; ++y)
+      for (int x = c - 1; x <= c + 1; ++x) {
+        if (!lattice.inside(x, y) || !known[lattice.index(x, y)]) continue;
+        sum += lattice.sigma_mm[lattice.index(x, y)] * (carrying[lattice.index(x, y)] ? 2 : 1);
+        count += 1;
+      }
+    lattice.sigma_mm[k] = sum / count;
+  };
+  spread_inwards(lattice.columns, lattice.rows, free, known, place, memory);
+  for (const std::uint32_t k : free)
+    if (!known[k]) lattice.sigma_mm[k] = 1;  // an island without surface
 }
 
 // On a head's chart a node stays on its ray and the plate is one of radii: no fold can arise, and what

@@ -7,14 +7,51 @@
 // is in. Thread: any; deterministic. Throws std::bad_alloc when `memory` is used up.
 #pragma once
 
+#include <algorithm>
 #include <cstddef>
 #include <cstdint>
 #include <memory_resource>
+#include <span>
 #include <vector>
 
 namespace relievo::pipeline {
 
 using CellMask = std::pmr::vector<std::uint8_t>;
+
+// Calls place(k) for every cell of `free` that is reached from known ones through cells of `free`, corners
+// included: ring by ring, and a ring counts as known when all of it is placed.
+template <typename Place>
+void spread_inwards(int columns, int rows, std::span<const std::uint32_t> free, CellMask& known,
+                    Place&& place, std::pmr::memory_resource* memory) {
+  const auto for_each_beside = [&](std::uint32_t k, auto&& visit) {
+    const int column = static_cast<int>(k) % columns, row = static_cast<int>(k) / columns;
+    for (int r = std::max(row - 1, 0); r <= std::min(row + 1, rows - 1); ++r)
+      for (int c = std::max(column - 1, 0); c <= std::min(column + 1, columns - 1); ++c)
+        visit(static_cast<std::uint32_t>(r * columns + c));
+  };
+  CellMask open(known.size(), 0, memory);  // free, and in no ring yet
+  std::pmr::vector<std::uint32_t> ring(memory), next(memory);
+  ring.reserve(free.size());
+  next.reserve(free.size());
+  for (const std::uint32_t k : free) open[k] = known[k] == 0;
+  for (const std::uint32_t k : free) {
+    bool beside = false;
+    if (open[k]) for_each_beside(k, [&](std::uint32_t n) { beside = beside || known[n]; });
+    if (beside) ring.push_back(k);
+  }
+  for (const std::uint32_t k : ring) open[k] = 0;
+  while (!ring.empty()) {
+    for (const std::uint32_t k : ring) place(k);
+    for (const std::uint32_t k : ring) known[k] = 1;
+    next.clear();
+    for (const std::uint32_t k : ring)
+      for_each_beside(k, [&](std::uint32_t n) {
+        if (open[n]) next.push_back(n);
+        open[n] = 0;
+      });
+    std::swap(ring, next);
+  }
+}
 
 class MaskShaper {
  public:

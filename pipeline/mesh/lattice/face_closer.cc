@@ -232,7 +232,7 @@ Result<std::optional<ClosedFace>> close_face(const PointLattice& seen, const Lat
   if (!head && head.error().code == Errc::Cancelled) return head.error();
   if (!head) return std::optional<ClosedFace>{};
   const FaceOutline outline = outline_of(rough, head->head_from_camera, scratch);
-  PointLattice l = lay_on_head(seen, seen_surface, outline.chart, kRoomMm, &scratch);
+  PointLattice l = lay_on_head(seen, seen_surface, outline.chart, kRoomMm, context.pool, &scratch);
   if (!(l.cell_width_mm > 0 && l.cell_height_mm > 0)) return std::optional<ClosedFace>{};
   LatticeSurface surface = join_neighbours(l, limits, &scratch);
   MaskShaper shaper(l.columns, l.rows, l.cell_width_mm, l.cell_height_mm, &scratch);

@@ -13,6 +13,7 @@
 namespace relievo::pipeline {
 namespace {
 
+constexpr int kBands = 32;         // of rows, for the pool
 constexpr double kFarthest = 190;  // mm on a chart: behind the ears
 constexpr double kEvenPart = 0.4;  // of an axis, about its middle, that has cells of one size
 
@@ -78,6 +79,15 @@ class Reader {
     const Place at = place(u, v);
     const std::array<float, 4> w = corner_weights(cells_[from_.index(at.column, at.row)], at.tx, at.ty);
     return w[0] + w[1] + w[2] + w[3] > 0;
+  }
+
+  // Whether every cell from one place to another carries surface all over.
+  bool whole_around(float left, float top, float right, float bottom) const {
+    const Place from = place(left, top), to = place(right, bottom);
+    for (int r = from.row; r <= to.row; ++r)
+      for (int c = from.column; c <= to.column; ++c)
+        if (!whole(cells_[from_.index(c, r)])) return false;
+    return true;
   }
 
   Node read(const Place& at, Vec3f& point, float& sigma) const {
@@ -173,17 +183,20 @@ Nodes lay_nodes(const PointLattice& from, const LatticeSpacing& spacing, PointLa
   return at;
 }
 
-void read_nodes(const Reader& reader, const Nodes& at, PointLattice& to) {
+void read_nodes(const Reader& reader, const Nodes& at, PointLattice& to, ThreadPool& pool) {
   const std::size_t count = at.x.size() * at.y.size();
   to.node.assign(count, Node::Empty);
   to.at_mm.assign(count, Vec3f{});
   to.sigma_mm.assign(count, 0.0F);
-  std::size_t k = 0;
-  for (const float y : at.y)
-    for (const float x : at.x) {
-      to.node[k] = reader.read(reader.place(x, y), to.at_mm[k], to.sigma_mm[k]);
-      ++k;
-    }
+  pool.for_each_band(to.rows, kBands, [&](int from, int until, int) {
+    for (int r = from; r < until; ++r)
+      for (int c = 0; c < to.columns; ++c) {
+        const std::size_t k = to.index(c, r);
+        to.node[k] =
+            reader.read(reader.place(at.x[static_cast<std::size_t>(c)], at.y[static_cast<std::size_t>(r)]),
+                        to.at_mm[k], to.sigma_mm[k]);
+      }
+  });
 }
 
 // A cell of the new lattice in those of the old: its first corner, and how wide and high it is.
@@ -194,6 +207,8 @@ struct Window {
 // Which of the four triangles of the new cell the old surface carries, by samples no further apart than half
 // an old cell.
 std::uint8_t carried_parts(const Reader& reader, const Window& cell) {
+  if (reader.whole_around(cell.x, cell.y, cell.x + cell.width, cell.y + cell.height))
+    return kFalling | kRising;
   const int samples = 1 + static_cast<int>(std::ceil(2 * std::max(cell.width, cell.height)));
   std::uint8_t parts = kFalling | kRising;
   for (int j = 0; j < samples && parts != 0; ++j)
@@ -245,43 +260,51 @@ double expected_triangles(const ShapedLattice& old, float edge) {
 }
 
 ShapedLattice resample_lattice(const ShapedLattice& old, const LatticeSpacing& spacing, float max_slope,
-                               std::pmr::memory_resource* memory) {
+                               ThreadPool& pool, std::pmr::memory_resource* memory) {
   ShapedLattice made{PointLattice(memory), LatticeSurface(memory), CellMask(memory), old.closed};
   if (old.lattice.columns < 2 || old.lattice.rows < 2) return made;
   const Reader reader(old.lattice, old.surface);
   const Nodes at = lay_nodes(old.lattice, spacing, made.lattice, memory);
-  read_nodes(reader, at, made.lattice);
+  read_nodes(reader, at, made.lattice, pool);
   const PointLattice& l = made.lattice;
   made.surface.cells.assign(l.size(), 0);
   made.inside.assign(l.size(), 0);
-  for (int r = 0; r + 1 < l.rows; ++r)
-    for (int c = 0; c + 1 < l.columns; ++c) {
-      const std::size_t k = l.index(c, r);
-      const auto x = static_cast<std::size_t>(c);
-      const auto y = static_cast<std::size_t>(r);
-      const Window cell{at.x[x], at.y[y], at.x[x + 1] - at.x[x], at.y[y + 1] - at.y[y]};
-      const Place middle = reader.place(cell.x + 0.5F * cell.width, cell.y + 0.5F * cell.height);
-      made.inside[k] = old.inside[old.lattice.index(middle.column, middle.row)];
-      made.surface.cells[k] = cut_cell(l, c, r, carried_parts(reader, cell), max_slope, old.closed);
-    }
+  const auto cut = [&](int c, int r) {
+    const std::size_t k = l.index(c, r);
+    const auto x = static_cast<std::size_t>(c);
+    const auto y = static_cast<std::size_t>(r);
+    const Window cell{at.x[x], at.y[y], at.x[x + 1] - at.x[x], at.y[y + 1] - at.y[y]};
+    const Place middle = reader.place(cell.x + 0.5F * cell.width, cell.y + 0.5F * cell.height);
+    made.inside[k] = old.inside[old.lattice.index(middle.column, middle.row)];
+    made.surface.cells[k] = cut_cell(l, c, r, carried_parts(reader, cell), max_slope, old.closed);
+  };
+  pool.for_each_band(l.rows - 1, kBands, [&](int from, int to, int) {
+    for (int r = from; r < to; ++r)
+      for (int c = 0; c + 1 < l.columns; ++c) cut(c, r);
+  });
   return made;
 }
 
 PointLattice lay_on_head(const PointLattice& old, const LatticeSurface& surface, const HeadChart& chart,
-                         float margin_mm, std::pmr::memory_resource* memory) {
+                         float margin_mm, ThreadPool& pool, std::pmr::memory_resource* memory) {
   PointLattice made(memory);
   const Vec3f centre{static_cast<float>(chart.centre_mm.x), static_cast<float>(chart.centre_mm.y),
                      static_cast<float>(chart.centre_mm.z)};
   const double step =
       std::sqrt(static_cast<double>(old.cell_width_mm) * static_cast<double>(old.cell_height_mm));
   std::pmr::vector<Vec2f> place(old.size(), Vec2f{}, memory);  // in steps
+  pool.for_each_band(static_cast<int>(old.size()), kBands, [&](int from, int to, int) {
+    for (auto k = static_cast<std::size_t>(from); k < static_cast<std::size_t>(to); ++k) {
+      if (old.node[k] == Node::Empty) continue;
+      const Vec2d p = chart.place(minus(old.at_mm[k], centre));
+      place[k] = {static_cast<float>(p.x / step), static_cast<float>(p.y / step)};
+    }
+  });
   float aside = 0;
   float above = 0;
   float below = 0;
   for (std::size_t k = 0; k < old.size(); ++k) {
     if (old.node[k] == Node::Empty) continue;
-    const Vec2d p = chart.place(minus(old.at_mm[k], centre));
-    place[k] = {static_cast<float>(p.x / step), static_cast<float>(p.y / step)};
     aside = std::max(aside, std::abs(place[k].x));
     above = std::max(above, -place[k].y);
     below = std::max(below, place[k].y);

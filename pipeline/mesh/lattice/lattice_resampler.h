@@ -12,6 +12,7 @@
 
 #include <memory_resource>
 
+#include "hal/base/thread_pool.h"
 #include "pipeline/mesh/lattice/cell_mask.h"
 #include "pipeline/mesh/lattice/lattice_surface.h"
 
@@ -35,11 +36,11 @@ double expected_triangles(const ShapedLattice& old, float edge);
 
 // Throws std::bad_alloc when `memory` is used up.
 ShapedLattice resample_lattice(const ShapedLattice& old, const LatticeSpacing& spacing, float max_slope,
-                               std::pmr::memory_resource* memory);
+                               ThreadPool& pool, std::pmr::memory_resource* memory);
 
 // Lays it on a head's chart, about as fine, with room around what there is: nodes alone, join_neighbours()
 // joins them. Throws std::bad_alloc when `memory` is used up.
 PointLattice lay_on_head(const PointLattice& old, const LatticeSurface& surface, const HeadChart& chart,
-                         float margin_mm, std::pmr::memory_resource* memory);
+                         float margin_mm, ThreadPool& pool, std::pmr::memory_resource* memory);
 
 }  // namespace relievo::pipeline

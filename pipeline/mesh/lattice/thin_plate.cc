@@ -7,6 +7,8 @@
 #include <cmath>
 #include <vector>
 
+#include "pipeline/mesh/lattice/cell_mask.h"
+
 namespace relievo::pipeline {
 namespace {
 
@@ -15,11 +17,20 @@ constexpr std::size_t kCoarsest = 5000;  // free places that are solved for with
 constexpr int kMostTurns = 300,
               kTurnsBelow = 12;  // of conjugate gradients, on the coarsest grid and on those below
 
-// One second difference: weights times places.
+// Across a row, down a column, twist; between two places that are guided, across and down.
+enum DifferenceKind : std::uint32_t {
+  kBendAcross,
+  kBendDown,
+  kTwist,
+  kPullAcross,
+  kPullDown,
+  kDifferenceKinds
+};
+
+// One second difference: the places its kind's weights are for.
 struct Difference {
   std::array<std::uint32_t, 4> at{};
-  std::array<double, 4> weight{};
-  double wanted = 0;  // where no other surface says so
+  DifferenceKind kind{};
 };
 
 double squared(const std::pmr::vector<double>& v) {
@@ -40,18 +51,29 @@ class Plate {
         place_(value.size(), kNone, memory),
         placed_(known.begin(), known.end(), memory),
         differences_(memory),
-        step_(free.size(), 0.0, memory),
-        slope_(free.size(), 0.0, memory),
+        step_(free.size() + 1, 0.0, memory),
+        slope_(free.size() + 1, 0.0, memory),
         residual_(memory),
         change_(memory),
         memory_(memory) {
+    const double across = static_cast<double>(grid.height_to_width);  // cells may be oblong
+    constexpr double kTwice = 1.41421356;
+    const double pull = grid.tension;
+    weights_[kBendAcross] = {across, -across, across, -across};
+    weights_[kBendDown] = {1 / across, -1 / across, 1 / across, -1 / across};
+    weights_[kTwist] = {kTwice, -kTwice, -kTwice, kTwice};
+    weights_[kPullAcross] = {pull * std::sqrt(across), -pull * std::sqrt(across), 0, 0};
+    weights_[kPullDown] = {pull / std::sqrt(across), -pull / std::sqrt(across), 0, 0};
+    wanted_[kBendAcross] = wanted_[kBendDown] = across * grid.bow;
     for (std::size_t i = 0; i < free.size(); ++i) place_[free[i]] = static_cast<std::int32_t>(i);
   }
 
   void relax() {
     const bool coarser = free_.size() > kCoarsest && std::min(grid_.columns, grid_.rows) > 8;
     if (coarser) start_from_coarser();
-    spread();
+    spread_inwards(
+        grid_.columns, grid_.rows, free_, placed_, [this](std::uint32_t k) { place_from_neighbours(k); },
+        memory_);
     list_differences();
     solve(coarser ? kTurnsBelow : kMostTurns);
   }
@@ -105,24 +127,7 @@ class Plate {
     }
   }
 
-  // From the known inwards, ring by ring, where nothing has a value yet.
-  void spread() {
-    std::pmr::vector<std::uint32_t> left(memory_), ring(memory_);
-    left.reserve(free_.size());
-    ring.reserve(free_.size());
-    for (const std::uint32_t k : free_)
-      if (placed_[k] == 0) left.push_back(k);
-    while (!left.empty()) {
-      ring.clear();
-      for (const std::uint32_t k : left)
-        if (place_from_neighbours(k)) ring.push_back(k);
-      if (ring.empty()) return;
-      for (const std::uint32_t k : ring) placed_[k] = 1;
-      std::erase_if(left, [this](std::uint32_t k) { return placed_[k] != 0; });
-    }
-  }
-
-  bool place_from_neighbours(std::uint32_t k) {
+  void place_from_neighbours(std::uint32_t k) {
     double sum = 0;
     double count = 0;
     for (int r = row(k) - 1; r <= row(k) + 1; ++r)
@@ -131,8 +136,7 @@ class Plate {
         sum += value_[index(c, r)] + (guided(k) && guided(index(c, r)) ? like_[k] - like_[index(c, r)] : 0);
         count += 1;
       }
-    if (count > 0) value_[k] = sum / count;
-    return count > 0;
+    value_[k] = sum / count;
   }
 
   void list_differences() {
@@ -144,26 +148,22 @@ class Plate {
 
   template <typename Visit>
   void for_each_difference(Visit&& visit) const {
-    const double across = static_cast<double>(grid_.height_to_width);  // cells may be oblong
     for (const std::uint32_t k : free_) {
       const int c = column(k);
       const int r = row(k);
       for (int d = -1; d <= 1; ++d) {
-        take(k, {{{c + d - 1, r}, {c + d, r}, {c + d + 1, r}, {c + d, r}}},
-             {across, -across, across, -across}, across * grid_.bow, visit);
-        take(k, {{{c, r + d - 1}, {c, r + d}, {c, r + d + 1}, {c, r + d}}},
-             {1 / across, -1 / across, 1 / across, -1 / across}, across * grid_.bow, visit);
+        take(k, {{{c + d - 1, r}, {c + d, r}, {c + d + 1, r}, {c + d, r}}}, kBendAcross, visit);
+        take(k, {{{c, r + d - 1}, {c, r + d}, {c, r + d + 1}, {c, r + d}}}, kBendDown, visit);
       }
       if (grid_.tension > 0 && guided(k))
         for (int d = -1; d <= 0; ++d) {
-          pull(k, {{{c + d, r}, {c + d + 1, r}}}, grid_.tension * std::sqrt(across), visit);
-          pull(k, {{{c, r + d}, {c, r + d + 1}}}, grid_.tension / std::sqrt(across), visit);
+          pull(k, {{{c + d, r}, {c + d + 1, r}}}, kPullAcross, visit);
+          pull(k, {{{c, r + d}, {c, r + d + 1}}}, kPullDown, visit);
         }
-      constexpr double kTwist = 1.41421356;
       for (int dr = -1; dr <= 0; ++dr)
         for (int dc = -1; dc <= 0; ++dc)
           take(k, {{{c + dc, r + dr}, {c + dc + 1, r + dr}, {c + dc, r + dr + 1}, {c + dc + 1, r + dr + 1}}},
-               {kTwist, -kTwist, -kTwist, kTwist}, 0, visit);
+               kTwist, visit);
     }
   }
 
@@ -172,11 +172,16 @@ class Plate {
     change_.assign(differences_.size(), 0.0);
     for (std::size_t i = 0; i < differences_.size(); ++i) {
       const auto& at = differences_[i].at;
+      const auto& weight = weights_[differences_[i].kind];
       const bool bent = std::all_of(at.begin(), at.end(), [this](std::uint32_t k) { return guided(k); });
-      residual_[i] = bent ? 0 : differences_[i].wanted;
+      residual_[i] = bent ? 0 : wanted_[differences_[i].kind];
       for (std::size_t j = 0; j < 4; ++j)
-        residual_[i] -= differences_[i].weight[j] * (value_[at[j]] - (bent ? like_[at[j]] : 0));
+        residual_[i] -= weight[j] * (value_[at[j]] - (bent ? like_[at[j]] : 0));
     }
+    for (Difference& difference : differences_)
+      for (std::uint32_t& k : difference.at)
+        k = place_[k] != kNone ? static_cast<std::uint32_t>(place_[k])
+                               : static_cast<std::uint32_t>(free_.size());
     descend();
     step_ = slope_;
     double now = squared(slope_);
@@ -200,11 +205,10 @@ class Plate {
 
   // Each difference once: by the first of its free places.
   template <typename Visit>
-  void take(std::uint32_t owner, const std::array<Place, 4>& places, const std::array<double, 4>& weights,
-            double wanted, Visit&& visit) const {
+  void take(std::uint32_t owner, const std::array<Place, 4>& places, DifferenceKind kind,
+            Visit&& visit) const {
     Difference difference;
-    difference.weight = weights;
-    difference.wanted = wanted;
+    difference.kind = kind;
     for (std::size_t j = 0; j < 4; ++j) {
       if (!inside(places[j].c, places[j].r)) return;
       const std::uint32_t k = static_cast<std::uint32_t>(index(places[j].c, places[j].r));
@@ -215,30 +219,30 @@ class Plate {
   }
 
   template <typename Visit>
-  void pull(std::uint32_t owner, const std::array<Place, 2>& places, double weight, Visit&& visit) const {
+  void pull(std::uint32_t owner, const std::array<Place, 2>& places, DifferenceKind kind,
+            Visit&& visit) const {
     for (const Place& p : places)
       if (!inside(p.c, p.r) || !guided(index(p.c, p.r))) return;
-    take(owner, {{places[0], places[1], places[0], places[1]}}, {weight, -weight, 0, 0}, 0, visit);
+    take(owner, {{places[0], places[1], places[0], places[1]}}, kind, visit);
   }
 
   void bend() {  // change_ = differences of step_
     for (std::size_t i = 0; i < differences_.size(); ++i) {
+      const Difference& difference = differences_[i];
       change_[i] = 0;
-      for (std::size_t j = 0; j < 4; ++j) {
-        const std::int32_t place = place_[differences_[i].at[j]];
-        if (place != kNone) change_[i] += differences_[i].weight[j] * step_[static_cast<std::size_t>(place)];
-      }
+      for (std::size_t j = 0; j < 4; ++j)
+        change_[i] += weights_[difference.kind][j] * step_[difference.at[j]];
     }
   }
 
   void descend() {  // slope_ = where the residual pulls each free place
     std::fill(slope_.begin(), slope_.end(), 0.0);
-    for (std::size_t i = 0; i < differences_.size(); ++i)
-      for (std::size_t j = 0; j < 4; ++j) {
-        const std::int32_t place = place_[differences_[i].at[j]];
-        if (place != kNone)
-          slope_[static_cast<std::size_t>(place)] += differences_[i].weight[j] * residual_[i];
-      }
+    for (std::size_t i = 0; i < differences_.size(); ++i) {
+      const Difference& difference = differences_[i];
+      for (std::size_t j = 0; j < 4; ++j)
+        slope_[difference.at[j]] += weights_[difference.kind][j] * residual_[i];
+    }
+    slope_.back() = 0;
   }
 
   std::span<double> value_;
@@ -248,8 +252,10 @@ class Plate {
   std::span<const double> like_;
   std::pmr::vector<std::int32_t> place_;   // of a place among the free ones
   std::pmr::vector<std::uint8_t> placed_;  // 1 where it has a value
+  std::array<std::array<double, 4>, kDifferenceKinds> weights_{};
+  std::array<double, kDifferenceKinds> wanted_{};  // where no other surface says so
   std::pmr::vector<Difference> differences_;
-  std::pmr::vector<double> step_, slope_;       // one a free place
+  std::pmr::vector<double> step_, slope_;       // one a free place, and 0 for all that are known
   std::pmr::vector<double> residual_, change_;  // one a difference
   std::pmr::memory_resource* memory_;
 };

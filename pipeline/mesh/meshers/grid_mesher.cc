@@ -29,7 +29,7 @@ float tangent(double degrees) { return static_cast<float>(std::tan(degrees * std
 // On a lattice that makes good use of the triangles there may be: of a face far away finer than the points',
 // but not so fine that it would only repeat them; of a face near by coarser, above all towards the edges.
 ShapedLattice fill_budget(ShapedLattice shaped, double triangles, float max_slope, const GridMesherOptions& o,
-                          Arena& scratch) {
+                          StageContext& context) {
   const double present = expected_triangles(shaped, 1);
   if (present <= 0) return shaped;
   LatticeSpacing spacing{static_cast<float>(std::sqrt(present / triangles)), 1};
@@ -39,7 +39,7 @@ ShapedLattice fill_budget(ShapedLattice shaped, double triangles, float max_slop
   }
   spacing.cells = std::max(spacing.cells, static_cast<float>(o.finest_cells));
   while (spacing.cells != 1 || spacing.edge != 1) {
-    ShapedLattice other = resample_lattice(shaped, spacing, max_slope, &scratch);
+    ShapedLattice other = resample_lattice(shaped, spacing, max_slope, context.pool, &context.scratch);
     if (expected_triangles(other, 1) <= triangles) return other;
     spacing.cells *= kThinnerStep;
   }
@@ -85,7 +85,7 @@ Result<CutSurface> make_surface(const PointCloud& cloud, double triangles, const
   const ShapedLattice shaped =
       fill_budget(closed ? std::move(closed->shaped)
                          : ShapedLattice{std::move(lattice), std::move(surface), std::move(inside), false},
-                  triangles, max_slope, o, scratch);
+                  triangles, max_slope, o, context);
   CutSurface cut =
       cut_outline(shaped.lattice, shaped.surface, shaped.inside, smoothing, outline, max_slope, &scratch);
   keep_one_surface(cut.at_mm, cut.triangles, {}, &scratch);

@@ -31,7 +31,8 @@ Resampled resample(double (*depth)(double, double), const LatticeSpacing& spacin
   LatticeSurface joined = join_neighbours(lattice, kLimits, memory);
   CellMask inside(joined.cells.size(), 1, memory);
   ShapedLattice old{std::move(lattice), std::move(joined), std::move(inside)};
-  ShapedLattice made = resample_lattice(old, spacing, kLimits.max_slope, memory);
+  ThreadPool pool(2);
+  ShapedLattice made = resample_lattice(old, spacing, kLimits.max_slope, pool, memory);
   return {std::move(old.lattice), std::move(made.lattice), std::move(made.surface)};
 }
 
@@ -141,7 +142,8 @@ TEST(LatticeResampler, BridgesNoDepthStepAndFillsNoHole) {
 TEST(LatticeResampler, OfNothingMakesNothing) {
   auto* memory = std::pmr::get_default_resource();
   const ShapedLattice empty{PointLattice(memory), LatticeSurface(memory), CellMask(memory)};
-  EXPECT_EQ(resample_lattice(empty, {0.8F, 1}, 4, memory).lattice.size(), 0U);
+  ThreadPool pool(1);
+  EXPECT_EQ(resample_lattice(empty, {0.8F, 1}, 4, pool, memory).lattice.size(), 0U);
 }
 
 }  // namespace
