@@ -29,16 +29,17 @@ constexpr float kUnsureMm = 8;       // of the outline, where that is only known
 constexpr float kRimMm = 2;          // so near to a hole ...
 constexpr float kCrumbMm = 1;        // half the width of the narrowest strip that stays
 constexpr float kSteepRim =
-    1.5F;                         // ... surface steeper than this tangent was measured worst and is laid anew
-constexpr double kUnsure = 6;     // times the usual sigma: below the tip of a nose that is no skin
-constexpr double kStepCells = 8;  // of radius between neighbours, in widths of a cell: more is no slope
+    1.5F;                      // ... surface steeper than this tangent was measured worst and is laid anew
+constexpr double kUnsure = 6;  // times the usual sigma: in the lower face that is no skin
+constexpr double kBelowTipMm = 2;  // of a nose begins the lower face
+constexpr double kStepCells = 8;   // of radius between neighbours, in widths of a cell: more is no slope
 constexpr double kChinBelowPogonion = 22;
 constexpr double kShortest = 70, kLongest = 110;  // of what lies below the tip of a nose
 
 // Nostrils, wings and what is between them and the lip: both sides hide there what the other would tell.
 bool below_nose(const PointLattice& l, const Vec3f& p) {
   const Vec3d at = l.chart->in_head(p);
-  return std::abs(at.x) < 25 && at.y < 2 && at.y > -22;
+  return std::abs(at.x) < 25 && at.y < kBelowTipMm && at.y > -22;
 }
 
 // The measured surface, thinned out.
@@ -149,8 +150,8 @@ void add_generic_head(const FaceMesh& rough, const RigidTransform& head_from_cam
 }
 
 // Before a gap the last rows of a nose's back, or of a cheek, are what the matcher's window mixed with what
-// lies behind: they would bend what is laid over the gap. So would crumbs in it, and the flaps that a matcher
-// leads into nostrils.
+// lies behind: they would bend what is laid over the gap. So would crumbs in it, the flaps that a matcher
+// leads into nostrils, and pins of a jaw whose other side was measured well.
 void drop_poor_rims(const PointLattice& l, LatticeSurface& surface, const Vec3f& from_mm, MaskShaper& shaper,
                     Arena& scratch) {
   CellMask kept(l.size(), 0, &scratch), near(l.size(), 0, &scratch);
@@ -166,9 +167,16 @@ void drop_poor_rims(const PointLattice& l, LatticeSurface& surface, const Vec3f&
     if (kept[k]) sigma.push_back(l.sigma_mm[k]);
   const double most = sigma.empty() ? 0 : kUnsure * median(sigma);
   const auto w = static_cast<std::size_t>(l.columns);
+  const auto sigma_at = [&](std::size_t k) {
+    return static_cast<double>(
+        std::max({l.sigma_mm[k], l.sigma_mm[k + 1], l.sigma_mm[k + w], l.sigma_mm[k + w + 1]}));
+  };
   const auto unsure = [&](std::size_t k) {
-    const auto worst = std::max({l.sigma_mm[k], l.sigma_mm[k + 1], l.sigma_mm[k + w], l.sigma_mm[k + w + 1]});
-    return static_cast<double>(worst) > most && below_nose(l, l.at_mm[k]);
+    if (sigma_at(k) <= most) return false;
+    const std::size_t across = k - k % w + (w - 2 - k % w);  // the other side's cell
+    return below_nose(l, l.at_mm[k]) ||
+           (triangle_count(surface.cells[across]) == 2 && sigma_at(across) <= most &&
+            l.chart->in_head(l.at_mm[k]).y < kBelowTipMm);
   };
   for (std::size_t k = 0; k < l.size(); ++k) kept[k] = kept[k] && !(near[k] && steep[k]) && !unsure(k);
   shaper.open(kept, kCrumbMm);
