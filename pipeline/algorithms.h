@@ -16,15 +16,11 @@
 
 #include "hal/base/result.h"
 #include "pipeline/base/options.h"
-#include "pipeline/match/keypoint_selector.h"
-#include "pipeline/match/match_constraint.h"
-#include "pipeline/match/matcher.h"
-#include "pipeline/match/preprocessor.h"
+#include "pipeline/match/kinds.h"
 #include "pipeline/mesh/completion/completion.h"
 #include "pipeline/mesh/mesher.h"
 #include "pipeline/reconstruct/face_crop.h"
-#include "pipeline/reconstruct/outlier_filter.h"
-#include "pipeline/reconstruct/triangulator.h"
+#include "pipeline/reconstruct/kinds.h"
 #include "pipeline/relief/relief_check.h"
 #include "pipeline/texture/texturer.h"
 
@@ -59,6 +55,7 @@ struct AlgorithmDescription {
   const char* name;
   const char* sentence;  // what it is
   const char* source;    // author and year, or "own"
+  bool lattice = false;  // a selector's keypoints lie on a lattice; a mesher joins neighbours of one
 };
 
 // What may be chosen: for help texts, the technician's page and the documentation.
@@ -78,20 +75,23 @@ struct OptionDescription {
 };
 std::vector<OptionDescription> describe_algorithms();
 
+// Said before the first picture is looked at, not after minutes of matching. Errors: InvalidInput (a mesher
+// for lattices with a scattered selector).
+Result<void> check_neighbours(const AlgorithmSet& set);
+
 // Errors: InvalidInput where the options do not fit together.
-Result<std::unique_ptr<Preprocessor>> make_preprocessor(
-    const AlgorithmSet& set);  // null: the grey values stay
-Result<std::unique_ptr<KeypointSelector>> make_selector(const AlgorithmSet& set);
-Result<std::unique_ptr<Matcher>> make_matcher(const AlgorithmSet& set);
-Result<std::vector<std::unique_ptr<MatchConstraint>>> make_constraints(const AlgorithmSet& set);
-Result<std::unique_ptr<Triangulator>> make_triangulator(const AlgorithmSet& set);
-Result<std::unique_ptr<OutlierFilter>> make_outlier_filter(const AlgorithmSet& set);  // null: keep all points
+Result<Preprocessor> make_preprocessor(const AlgorithmSet& set);  // empty: the grey values stay
+Result<KeypointSelector> make_selector(const AlgorithmSet& set);
+Result<Matcher> make_matcher(const AlgorithmSet& set);
+Result<std::vector<MatchConstraint>> make_constraints(const AlgorithmSet& set);
+Result<Triangulator> make_triangulator(const AlgorithmSet& set);
+Result<OutlierFilter> make_outlier_filter(const AlgorithmSet& set);  // empty: keep all points
 Result<FaceCropOptions> make_face_crop(const AlgorithmSet& set);
-Result<std::unique_ptr<Mesher>> make_mesher(const AlgorithmSet& set);
-Result<std::unique_ptr<Completion>> make_completion(const AlgorithmSet& set);
+Result<Mesher> make_mesher(const AlgorithmSet& set);
+Result<Completion> make_completion(const AlgorithmSet& set);
 Result<std::optional<ReliefOptions>> make_relief_check(
     const AlgorithmSet& set);  // none: pictures of faces pass
-Result<std::unique_ptr<Texturer>> make_texturer(const AlgorithmSet& set);
+Result<Texturer> make_texturer(const AlgorithmSet& set);
 Result<HeadFuserOptions> make_head_fuser(const AlgorithmSet& set);  // pipeline/fuse/head_fuser.h
 
 }  // namespace relievo::pipeline

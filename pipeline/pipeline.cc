@@ -21,15 +21,6 @@ namespace {
 
 constexpr double kReachBeyondCrop = 1.15;  // so that the rough surface's own error cuts nothing off
 
-// Said before the first picture is looked at, not after minutes of matching.
-Result<void> check_neighbours(const KeypointSelector& selector, const Mesher& mesher) {
-  if (selector.on_lattice() || !mesher.needs_lattice()) return {};
-  return Error{
-      Errc::InvalidInput,
-      "this mesher joins neighbours of a lattice and this selector's points are scattered: choose mesher=delaunay, or selector=dense or grid-points"}
-      .at("selector=" + std::string(selector.name()) + " mesher=" + std::string(mesher.name()));
-}
-
 // From the left camera's centre to the right one's, in the left one's frame.
 Vec3d across(const StereoCalibration& calibration) {
   const Vec3d centre = inverse(calibration.right_from_left).translation_mm;
@@ -54,13 +45,12 @@ Result<Pipeline> Pipeline::make(const AlgorithmSet& set, const StereoCalibration
   RELIEVO_TRY_ASSIGN(pipeline.preprocessor_, make_preprocessor(set));
   RELIEVO_TRY_ASSIGN(pipeline.selector_, make_selector(set));
   RELIEVO_TRY_ASSIGN(pipeline.matcher_, make_matcher(set));
-  RELIEVO_TRY_ASSIGN(auto constraints, make_constraints(set));
-  for (auto& constraint : constraints) pipeline.constraints_.push_back(std::move(constraint));
+  RELIEVO_TRY_ASSIGN(pipeline.constraints_, make_constraints(set));
   RELIEVO_TRY_ASSIGN(pipeline.triangulator_, make_triangulator(set));
   RELIEVO_TRY_ASSIGN(pipeline.crop_, make_face_crop(set));
   RELIEVO_TRY_ASSIGN(pipeline.outliers_, make_outlier_filter(set));
   RELIEVO_TRY_ASSIGN(pipeline.mesher_, make_mesher(set));
-  RELIEVO_TRY(check_neighbours(*pipeline.selector_, *pipeline.mesher_));
+  RELIEVO_TRY(check_neighbours(set));
   RELIEVO_TRY_ASSIGN(pipeline.completion_, make_completion(set));
   RELIEVO_TRY_ASSIGN(pipeline.relief_, make_relief_check(set));
   RELIEVO_TRY_ASSIGN(pipeline.texturer_, make_texturer(set));
@@ -117,16 +107,15 @@ std::optional<Error> Pipeline::explain(const StereoFrame& frame, StageContext& c
 }
 
 Result<MatchSet> Pipeline::match(RectifiedPair& pair, StageContext& context) const {
-  if (preprocessor_ != nullptr)
-    RELIEVO_TRY(run_stage(context, [&](StageContext& c) { return preprocessor_->process(pair, c); }));
-  auto keypoints = run_stage(context, [&](StageContext& c) { return selector_->select(pair, c); });
+  if (preprocessor_) RELIEVO_TRY(run_stage(context, [&](StageContext& c) { return preprocessor_(pair, c); }));
+  auto keypoints = run_stage(context, [&](StageContext& c) { return selector_(pair, c); });
   if (!keypoints) return keypoints.error();
-  auto set = run_stage(context, [&](StageContext& c) { return matcher_->match(pair, *keypoints, c); });
+  auto set = run_stage(context, [&](StageContext& c) { return matcher_(pair, *keypoints, c); });
   if (!set) return set.error();
   std::uint16_t bit = 1;
   for (const auto& constraint : constraints_) {
     auto judged = run_stage(context, [&](StageContext& c) -> Result<void> {
-      constraint->judge(pair, set->matches, set->lattice_step_px, bit, c);
+      constraint(pair, set->matches, set->lattice_step_px, bit, c);
       return {};
     });
     if (!judged) return judged.error();
@@ -142,10 +131,10 @@ Result<PointCloud> Pipeline::reconstruct(const RectifiedPair& pair, const MatchS
     if (!by_hand.empty()) {
       RELIEVO_TRY_ASSIGN(joined, join_by_hand(pair, matches, by_hand, c));
     }
-    RELIEVO_TRY_ASSIGN(PointCloud cloud, triangulator_->triangulate(pair, joined ? *joined : matches, c));
+    RELIEVO_TRY_ASSIGN(PointCloud cloud, triangulator_(pair, joined ? *joined : matches, c));
     RELIEVO_TRY(crop_to_face(cloud, pair, crop_, c));
     const PointsByHand kept(cloud, by_hand, &c.scratch);
-    if (outliers_ != nullptr) RELIEVO_TRY(outliers_->reject(cloud, c));
+    if (outliers_) RELIEVO_TRY(outliers_(cloud, c));
     kept.put_back(cloud);
     return cloud;
   });
@@ -154,10 +143,10 @@ Result<PointCloud> Pipeline::reconstruct(const RectifiedPair& pair, const MatchS
 Result<FaceMesh> Pipeline::mesh(const PointCloud& cloud, const RectifiedPair& pair,
                                 StageContext& context) const {
   return run_stage(context, [&](StageContext& c) -> Result<FaceMesh> {
-    RELIEVO_TRY_ASSIGN(FaceMesh mesh, mesher_->mesh(cloud, c));
+    RELIEVO_TRY_ASSIGN(FaceMesh mesh, mesher_(cloud, c));
     if (const auto head = find_head_frame(mesh, c, across(calibration_)))
       lay_eyeballs(mesh, head->head_from_camera, pair, c);
-    return completion_->complete(std::move(mesh), across(calibration_), c);
+    return completion_(std::move(mesh), across(calibration_), c);
   });
 }
 
@@ -175,7 +164,7 @@ Result<void> Pipeline::judge_relief(FaceModel& model, const FaceMesh& mesh, cons
 
 Result<TextureAtlas> Pipeline::texture(const FaceMesh& mesh, const RectifiedPair& pair,
                                        StageContext& context) const {
-  return run_stage(context, [&](StageContext& c) { return texturer_->texture(mesh, pair, c); });
+  return run_stage(context, [&](StageContext& c) { return texturer_(mesh, pair, c); });
 }
 
 Result<FaceModel> Pipeline::assemble(FaceMesh mesh, TextureAtlas texture, const RectifiedPair& pair,

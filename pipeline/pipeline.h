@@ -73,18 +73,18 @@ class Pipeline {
   StereoCalibration calibration_;
   RectifierOptions volume_;
   Region region_ = Region::Face;
-  std::shared_ptr<FaceFinder> finder_;                // null where the whole view is wanted
-  std::shared_ptr<const Preprocessor> preprocessor_;  // null: the grey values stay
-  std::shared_ptr<const KeypointSelector> selector_;
-  std::shared_ptr<const Matcher> matcher_;
-  std::vector<std::shared_ptr<const MatchConstraint>> constraints_;
-  std::shared_ptr<const Triangulator> triangulator_;
+  std::shared_ptr<FaceFinder> finder_;  // null where the whole view is wanted
+  Preprocessor preprocessor_;           // empty: the grey values stay
+  KeypointSelector selector_;
+  Matcher matcher_;
+  std::vector<MatchConstraint> constraints_;
+  Triangulator triangulator_;
   FaceCropOptions crop_;
-  std::shared_ptr<const OutlierFilter> outliers_;  // null: every point is kept
-  std::shared_ptr<const Mesher> mesher_;
-  std::shared_ptr<const Completion> completion_;
+  OutlierFilter outliers_;  // empty: every point is kept
+  Mesher mesher_;
+  Completion completion_;
   std::optional<ReliefOptions> relief_;  // none: measured, never refused
-  std::shared_ptr<const Texturer> texturer_;
+  Texturer texturer_;
 };
 
 }  // namespace relievo::pipeline

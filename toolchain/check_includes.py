@@ -78,8 +78,8 @@ CHOSEN_BY = {
 ALGORITHMS = "pipeline/algorithms/"
 
 INCLUDE = re.compile(r'^\s*#\s*include\s+(["<])([^">]+)[">]')
-CLASS = re.compile(r"\b(?:class|struct)\s+(\w+)\s*(?:final\s*)?(?::([^;{]*))?\{")
-BASE = re.compile(r"\bpublic\s+(?:\w+::)*(\w+)")
+CHOSEN = re.compile(r"\balgorithm<&(\w+)::")
+STRUCT = re.compile(r"\bstruct\s+(\w+)\s*\{")
 
 
 def folder_of(path):
@@ -94,12 +94,10 @@ def sources(root):
 
 
 def concrete_algorithms(files):
-    """Headers below pipeline/ that define a class derived from one of pipeline/'s interfaces."""
-    headers = {p: t for p, t in files.items() if p.startswith("pipeline/") and p.endswith(".h")}
-    interfaces = {name for text in headers.values() if re.search(r"=\s*0\s*;", text)
-                  for name, bases in CLASS.findall(text) if not bases}
-    return {path for path, text in headers.items()
-            for _, bases in CLASS.findall(text) if interfaces & set(BASE.findall(bases))}
+    """Headers below pipeline/ that define an algorithm of a table in pipeline/algorithms/."""
+    chosen = {name for path, text in files.items() if path.startswith(ALGORITHMS) for name in CHOSEN.findall(text)}
+    return {path for path, text in files.items()
+            if path.startswith("pipeline/") and path.endswith(".h") and chosen & set(STRUCT.findall(text))}
 
 
 def stem(path):

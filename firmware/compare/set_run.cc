@@ -154,21 +154,20 @@ Result<void> match(const NamedSet& set, StepRunner& runner, Made& made) {
   RELIEVO_TRY_ASSIGN(const auto selector, pipeline::make_selector(set.set));
   RELIEVO_TRY_ASSIGN(const auto matcher, pipeline::make_matcher(set.set));
   RELIEVO_TRY_ASSIGN(const auto constraints, pipeline::make_constraints(set.set));
-  if (preprocessor != nullptr) {
-    RELIEVO_TRY(runner.step("preprocess",
-                            [&](pipeline::StageContext& c) { return preprocessor->process(*made.pair, c); }));
+  if (preprocessor) {
+    RELIEVO_TRY(
+        runner.step("preprocess", [&](pipeline::StageContext& c) { return preprocessor(*made.pair, c); }));
   }
   const pipeline::RectifiedPair& pair = *made.pair;
-  RELIEVO_TRY_ASSIGN(made.keypoints, runner.step("select", [&](pipeline::StageContext& c) {
-    return selector->select(pair, c);
-  }));
+  RELIEVO_TRY_ASSIGN(made.keypoints,
+                     runner.step("select", [&](pipeline::StageContext& c) { return selector(pair, c); }));
   RELIEVO_TRY_ASSIGN(made.matches, runner.step("match", [&](pipeline::StageContext& c) {
-    return matcher->match(pair, *made.keypoints, c);
+    return matcher(pair, *made.keypoints, c);
   }));
   return runner.step("judge", [&](pipeline::StageContext& c) -> Result<void> {
     std::uint16_t bit = 1;
     for (const auto& constraint : constraints) {
-      constraint->judge(pair, made.matches->matches, made.matches->lattice_step_px, bit, c);
+      constraint(pair, made.matches->matches, made.matches->lattice_step_px, bit, c);
       bit = static_cast<std::uint16_t>(bit << 1U);
     }
     return {};
@@ -244,7 +243,7 @@ Result<void> look_at_selector(const RunOrder& order, StepRunner& runner, const p
   RELIEVO_TRY_ASSIGN(const auto selector, pipeline::make_selector(order.set.set));
   const DisparityMap& region = facts.truth ? facts.truth->map : run.map;
   return runner.beside([&](pipeline::StageContext& c) -> Result<void> {
-    RELIEVO_TRY_ASSIGN(const auto right, select_in_right(*selector, pair, region, c));
+    RELIEVO_TRY_ASSIGN(const auto right, select_in_right(selector, pair, region, c));
     run.selector = selector_figures(pair, *made.keypoints, right, *made.matches, facts.truth);
     return {};
   });

@@ -171,7 +171,7 @@ Result<CubeTable> cube_table(const VirtualRig& rig, pipeline::StageContext& cont
   pipeline::AlgorithmSet set;
   RELIEVO_TRY(set.set("triangulator", "linear-least-squares"));
   RELIEVO_TRY_ASSIGN(const auto triangulator, pipeline::make_triangulator(set));
-  RELIEVO_TRY_ASSIGN(const pipeline::PointCloud cloud, triangulator->triangulate(pair, matches, context));
+  RELIEVO_TRY_ASSIGN(const pipeline::PointCloud cloud, triangulator(pair, matches, context));
   if (cloud.points.size() != kHands * corners.size())
     return Error{Errc::TooFewMatches,
                  "a corner of the cube lies beyond what the virtual rig sees: a fault of this program"};

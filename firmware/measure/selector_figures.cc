@@ -83,7 +83,7 @@ Result<pipeline::Keypoints> select_in_right(const pipeline::KeypointSelector& se
           swapped.region[map.index(near, y)] = 1;
       }
   }
-  return selector.select(swapped, context);
+  return selector(swapped, context);
 }
 
 SelectorFigures selector_figures(const pipeline::RectifiedPair& pair, const pipeline::Keypoints& left,

@@ -10,7 +10,7 @@
 
 #include "firmware/measure/comparison.h"
 #include "pipeline/base/stage.h"
-#include "pipeline/match/keypoint_selector.h"
+#include "pipeline/match/kinds.h"
 #include "pipeline/model/match_set.h"
 
 namespace relievo::firmware::compare {

@@ -163,8 +163,8 @@ Result<LeftRightFigures> left_right_figures(const pipeline::RectifiedPair& pair,
   const pipeline::RectifiedPair other = mirrored(pair, map);
   RELIEVO_TRY_ASSIGN(const auto selector, pipeline::make_selector(set));
   RELIEVO_TRY_ASSIGN(const auto matcher, pipeline::make_matcher(set));
-  RELIEVO_TRY_ASSIGN(const pipeline::Keypoints keypoints, selector->select(other, context));
-  RELIEVO_TRY_ASSIGN(const pipeline::MatchSet matches, matcher->match(other, keypoints, context));
+  RELIEVO_TRY_ASSIGN(const pipeline::Keypoints keypoints, selector(other, context));
+  RELIEVO_TRY_ASSIGN(const pipeline::MatchSet matches, matcher(other, keypoints, context));
   const DisparityMap back = disparity_map(matches, pair.width_px, pair.height_px);
   LeftRightFigures figures;
   std::vector<float> apart;

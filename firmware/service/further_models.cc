@@ -63,7 +63,7 @@ Result<std::string> write_solid(const pipeline::FaceModel& model, const std::fil
   pipeline::AlgorithmSet set;
   RELIEVO_TRY(set.set("completion", "generic-head"));
   RELIEVO_TRY_ASSIGN(const auto head, pipeline::make_completion(set));
-  auto mesh = pipeline::make_solid(model, *head, context);
+  auto mesh = pipeline::make_solid(model, head, context);
   // The model is no worse for it.
   if (!mesh && mesh.error().code == Errc::PoorGeometry)
     return "no solid: " + std::string(mesh.error().what.view());

@@ -60,15 +60,30 @@ std::vector<std::string> split_names(std::string_view text) {
 }
 
 std::vector<OptionDescription> describe_algorithms() {
+  const std::vector<Kind> kinds = all_kinds();
   std::vector<OptionDescription> all;
-  for (const Kind& kind : all_kinds()) {
+  for (const Kind& kind : kinds) {
     all.push_back({kind.key, kind.value, kind.sentence, {}, kind.algorithms, {}, false, kind.several});
     for (const AlgorithmDescription& algorithm : kind.algorithms)
       all.back().names.emplace_back(algorithm.name);
   }
-  for (const auto& options : {match_options(), surface_options()})
-    all.insert(all.end(), options.begin(), options.end());
+  for (const Kind& kind : kinds) all.insert(all.end(), kind.options.begin(), kind.options.end());
   return all;
+}
+
+Result<void> check_neighbours(const AlgorithmSet& set) {
+  const std::vector<Kind> kinds = all_kinds();
+  const auto on_lattice = [&](std::string_view key) {
+    for (const Kind& kind : kinds)
+      for (const AlgorithmDescription& algorithm : kind.algorithms)
+        if (kind.key == key && set.get(key) == algorithm.name) return algorithm.lattice;
+    return false;
+  };
+  if (on_lattice("selector") || !on_lattice("mesher")) return {};
+  return Error{
+      Errc::InvalidInput,
+      "this mesher joins neighbours of a lattice and this selector's points are scattered: choose mesher=delaunay, or selector=dense or grid-points"}
+      .at("selector=" + set.get("selector") + " mesher=" + set.get("mesher"));
 }
 
 namespace {

@@ -1,13 +1,13 @@
 // SPDX-FileCopyrightText: 2026 The Relievo authors
 // SPDX-License-Identifier: GPL-3.0-or-later
 //
-// The tables of algorithms: one line an algorithm, `with_options<Matcher, SsdMatcher,
-// SsdMatcherOptions>({name, what it is, source})`, is all that its name on the command line, its options,
-// their documentation and its making need.
+// The tables of algorithms: one line an algorithm, `algorithm<&SsdMatcher::match>({name, what it is,
+// source})`, is all that its name on the command line, its options, their documentation and its making need.
 #pragma once
 
 #include <algorithm>
-#include <memory>
+#include <array>
+#include <functional>
 #include <string>
 #include <string_view>
 #include <type_traits>
@@ -24,20 +24,19 @@ struct Kind {
   const char* value;  // the default
   const char* sentence;
   std::vector<AlgorithmDescription> algorithms;
-  bool several = false;  // names joined by '+'
+  std::vector<OptionDescription> options = {};  // of all of them
+  bool several = false;                         // names joined by '+'
 };
 
 std::vector<Kind> match_kinds();
 std::vector<Kind> surface_kinds();
-std::vector<OptionDescription> match_options();
-std::vector<OptionDescription> surface_options();
 
 // Names joined by '+', apart.
 std::vector<std::string> split_names(std::string_view text);
 
-// Adds the options of one algorithm of this kind, as they are by default.
+// Adds the options of one algorithm to its kind's, as they are by default.
 template <typename Options>
-void describe_options(std::string_view kind, std::string_view section, std::vector<OptionDescription>& all) {
+void describe_options(std::string_view section, Kind& kind) {
   Options options;
   describe(options, [&](const char* name, auto& value, const OptionRange& range, const char* sentence) {
     OptionDescription one;
@@ -49,8 +48,8 @@ void describe_options(std::string_view kind, std::string_view section, std::vect
     using Value = std::remove_reference_t<decltype(value)>;
     one.file = std::is_same_v<Value, TextFile>;
     one.text = one.file || std::is_same_v<Value, std::string>;
-    one.kind = kind;
-    all.push_back(std::move(one));
+    one.kind = kind.key;
+    kind.options.push_back(std::move(one));
   });
 }
 
@@ -83,52 +82,47 @@ class OptionReader {
   static double number(const std::string& text);
 };
 
-template <typename Interface>
+template <typename Form>  // one of the kinds: a std::function
 struct Algorithm {
   AlgorithmDescription about;
-  Result<std::unique_ptr<Interface>> (*make)(const AlgorithmSet& set, std::string_view section);
-  void (*describe)(std::string_view kind, std::string_view section, std::vector<OptionDescription>& all);
+  Result<Form> (*make)(const AlgorithmSet& set, std::string_view section);
+  void (*describe)(std::string_view section, Kind& kind);
 };
 
-template <typename Interface, typename Concrete, typename Options>
-constexpr Algorithm<Interface> with_options(const AlgorithmDescription& about) {
-  return {about,
-          [](const AlgorithmSet& set, std::string_view section) -> Result<std::unique_ptr<Interface>> {
-            RELIEVO_TRY_ASSIGN(const Options options, OptionReader::read<Options>(set, section));
-            return std::unique_ptr<Interface>(std::make_unique<Concrete>(options));
-          },
-          [](std::string_view kind, std::string_view section, std::vector<OptionDescription>& all) {
-            describe_options<Options>(kind, section, all);
-          }};
+template <auto kRun, typename Options, typename Returned, typename... Taken>
+constexpr auto algorithm(const AlgorithmDescription& about, Returned (Options::*)(Taken...) const) {
+  using Form = std::function<Returned(Taken...)>;
+  return Algorithm<Form>{about,
+                         [](const AlgorithmSet& set, std::string_view section) -> Result<Form> {
+                           RELIEVO_TRY_ASSIGN(const Options options,
+                                              OptionReader::read<Options>(set, section));
+                           return Form(std::bind_front(kRun, options));
+                         },
+                         describe_options<Options>};
 }
 
-template <typename Interface, typename Concrete>
-constexpr Algorithm<Interface> without_options(const AlgorithmDescription& about) {
-  return {about,
-          [](const AlgorithmSet&, std::string_view) -> Result<std::unique_ptr<Interface>> {
-            return std::unique_ptr<Interface>(std::make_unique<Concrete>());
-          },
-          [](std::string_view, std::string_view, std::vector<OptionDescription>&) {}};
+template <auto kRun>
+constexpr auto algorithm(const AlgorithmDescription& about) {
+  return algorithm<kRun>(about, kRun);
 }
 
 template <typename Table>
 Kind kind_of(const char* key, const char* value, const char* sentence, const Table& table) {
   Kind kind{key, value, sentence, {}};
-  for (const auto& algorithm : table) kind.algorithms.push_back(algorithm.about);
+  for (const auto& algorithm : table) {
+    kind.algorithms.push_back(algorithm.about);
+    algorithm.describe(algorithm.about.name, kind);
+  }
   return kind;
 }
 
-template <typename Table>
-void describe_table(std::string_view kind, const Table& table, std::vector<OptionDescription>& all) {
-  for (const auto& algorithm : table) algorithm.describe(kind, algorithm.about.name, all);
-}
-
-template <typename Interface, typename Table>
-Result<std::unique_ptr<Interface>> make_named(const Table& table, const AlgorithmSet& set,
-                                              std::string_view name) {
-  for (const Algorithm<Interface>& algorithm : table)
-    if (name == algorithm.about.name) return algorithm.make(set, algorithm.about.name);
-  return Error{Errc::NotFound, "no such algorithm"}.at(name);
+// "none", which is in no table, makes an empty function.
+template <typename Form, std::size_t kCount>
+Result<Form> make_named(const std::array<Algorithm<Form>, kCount>& table, const AlgorithmSet& set,
+                        std::string_view name) {
+  for (const Algorithm<Form>& algorithm : table)
+    if (name == algorithm.about.name) return algorithm.make(set, name);
+  return Form();
 }
 
 }  // namespace relievo::pipeline

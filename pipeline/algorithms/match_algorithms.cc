@@ -1,7 +1,5 @@
 // SPDX-FileCopyrightText: 2026 The Relievo authors
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include <array>
-
 #include "pipeline/algorithms/algorithm_table.h"
 #include "pipeline/match/coarse/sgm_matcher.h"
 #include "pipeline/match/constraints/continuity_constraint.h"
@@ -32,85 +30,78 @@ namespace relievo::pipeline {
 namespace {
 
 constexpr std::array kPreprocessors{
-    with_options<Preprocessor, HighlightRemover, HighlightRemoverOptions>(
-        {"remove-highlights", "takes out what lamps add that oily skin mirrors, by colour",
-         "Shafer 1985; after Mallick, Zickler, Kriegman, Belhumeur 2005"}),
-    with_options<Preprocessor, HistogramNormaliser, HistogramNormaliserOptions>(
+    algorithm<&HighlightRemover::process>({"remove-highlights",
+                                           "takes out what lamps add that oily skin mirrors, by colour",
+                                           "Shafer 1985; after Mallick, Zickler, Kriegman, Belhumeur 2005"}),
+    algorithm<&HistogramNormaliser::process>(
         {"histogram-normalise", "brings each view to the full range by its own cumulative histogram",
          "Bardsley 2004 (HistNorm); Hummel 1977"}),
-    with_options<Preprocessor, HistogramTransfer, HistogramTransferOptions>(
-        {"histogram-match", "gives the right view the left one's cumulative histogram",
-         "Bardsley 2004 (HistMatch); Gonzalez and Woods, section 3.3"}),
+    algorithm<&HistogramTransfer::process>({"histogram-match",
+                                            "gives the right view the left one's cumulative histogram",
+                                            "Bardsley 2004 (HistMatch); Gonzalez and Woods, section 3.3"}),
 };
 
 constexpr std::array kSelectors{
-    with_options<KeypointSelector, DenseSelector, DenseSelectorOptions>(
-        {"dense", "every node of a fine lattice in the face region", "own"}),
-    with_options<KeypointSelector, GridSelector, GridSelectorOptions>(
-        {"grid-points", "every step of a rectangle that is chosen, in the face region",
-         "Bardsley 2004 (PatternGrid)"}),
-    with_options<KeypointSelector, GoodFeaturesSelector, GoodFeaturesSelectorOptions>(
+    algorithm<&DenseSelector::select>(
+        {"dense", "every node of a fine lattice in the face region", "own", true}),
+    algorithm<&GridSelector::select>({"grid-points",
+                                      "every step of a rectangle that is chosen, in the face region",
+                                      "Bardsley 2004 (PatternGrid)", true}),
+    algorithm<&GoodFeaturesSelector::select>(
         {"good-features",
          "corners by the smaller eigenvalue of the structure tensor, several thresholds united",
          "Shi and Tomasi 1994; Bardsley 2004 (CvGoodTrackingFeatures)"}),
-    with_options<KeypointSelector, HarrisSelector, HarrisSelectorOptions>(
+    algorithm<&HarrisSelector::select>(
         {"harris", "corners by determinant and trace of the structure tensor", "Harris and Stephens 1988"}),
-    with_options<KeypointSelector, HaarSelector, HaarSelectorOptions>(
-        {"haar", "blobs by box filters on the integral image (Fast-Hessian)",
-         "Bay, Ess, Tuytelaars, Van Gool 2008 (SURF)"}),
-    with_options<KeypointSelector, WaveletSalientSelector, WaveletSalientSelectorOptions>(
-        {"wavelet-salient", "ends of the tracks of great wavelet coefficients",
-         "Loupias, Sebe, Bres, Jolion 2000"}),
-    with_options<KeypointSelector, RandomSelector, RandomSelectorOptions>(
+    algorithm<&HaarSelector::select>({"haar", "blobs by box filters on the integral image (Fast-Hessian)",
+                                      "Bay, Ess, Tuytelaars, Van Gool 2008 (SURF)"}),
+    algorithm<&WaveletSalientSelector::select>({"wavelet-salient",
+                                                "ends of the tracks of great wavelet coefficients",
+                                                "Loupias, Sebe, Bres, Jolion 2000"}),
+    algorithm<&RandomSelector::select>(
         {"random", "different pixels, each equally likely, the same for the same seed: the yardstick",
          "selection sampling, Knuth, The Art of Computer Programming 2, 3.4.2"}),
-    with_options<KeypointSelector, FileSelector, FileSelectorOptions>(
+    algorithm<&FileSelector::select>(
         {"file-points", "points of a text file, x,y a line, as many as there are", "by hand or elsewhere"}),
 };
 
 constexpr std::array kMatchers{
-    with_options<Matcher, RefinedMatcher, RefinedMatcherOptions>(
+    algorithm<&RefinedMatcher::match>(
         {"refined", "one least-squares surface over the whole face, from a coarse semi-global one",
          "own; coarse surface after Hirschmueller 2008"}),
-    with_options<Matcher, SsdMatcher, SsdMatcherOptions>(
-        {"ssd", "least sum of squared differences over a square window",
-         "Anandan 1989; Bardsley 2004, ch. 8"}),
-    with_options<Matcher, ZmnccMatcher, ZmnccMatcherOptions>(
-        {"zmncc", "greatest zero-mean normalised cross-correlation of a square window",
-         "Faugeras et al. 1993; Bardsley 2004, ch. 8"}),
-    with_options<Matcher, WaveletMatcher, WaveletMatcherOptions>(
-        {"wavelet", "coarse-to-fine comparison of dyadic wavelet coefficients",
-         "after Bhatti and Nahavandi 2008; Bhatti 2011"}),
-    with_options<Matcher, SgmMatcher, SgmMatcherOptions>(
-        {"sgm", "semi-global matching on the census transform, coarse to fine",
-         "Hirschmueller 2008; Rothermel et al. 2012 (tSGM)"}),
-    with_options<Matcher, SgbmMatcher, SgbmMatcherOptions>(
-        {"opencv-sgbm", "OpenCV's semi-global block matching, to compare with",
-         "Hirschmueller 2008; cv::StereoSGBM"}),
-    with_options<Matcher, FileMatcher, FileMatcherOptions>(
-        {"file-matches", "matches of a text file, x y disparity [sigma] a line",
-         "by hand or elsewhere; Bardsley 2004"}),
+    algorithm<&SsdMatcher::match>({"ssd", "least sum of squared differences over a square window",
+                                   "Anandan 1989; Bardsley 2004, ch. 8"}),
+    algorithm<&ZmnccMatcher::match>({"zmncc",
+                                     "greatest zero-mean normalised cross-correlation of a square window",
+                                     "Faugeras et al. 1993; Bardsley 2004, ch. 8"}),
+    algorithm<&WaveletMatcher::match>({"wavelet", "coarse-to-fine comparison of dyadic wavelet coefficients",
+                                       "after Bhatti and Nahavandi 2008; Bhatti 2011"}),
+    algorithm<&SgmMatcher::match>({"sgm", "semi-global matching on the census transform, coarse to fine",
+                                   "Hirschmueller 2008; Rothermel et al. 2012 (tSGM)"}),
+    algorithm<&SgbmMatcher::match>({"opencv-sgbm", "OpenCV's semi-global block matching, to compare with",
+                                    "Hirschmueller 2008; cv::StereoSGBM"}),
+    algorithm<&FileMatcher::match>({"file-matches", "matches of a text file, x y disparity [sigma] a line",
+                                    "by hand or elsewhere; Bardsley 2004"}),
 };
 
 constexpr std::array kConstraints{
-    with_options<MatchConstraint, SimilarityConstraint, SimilarityConstraintOptions>(
+    algorithm<&SimilarityConstraint::judge>(
         {"similarity",
          "both views look alike around the match: its cost stays under a limit; after zmncc, whose min_score is a limit too, only one below 1 - min_score says more",
          "Bardsley 2004"}),
-    with_options<MatchConstraint, UniquenessConstraint, UniquenessConstraintOptions>(
-        {"uniqueness", "a place of the right view shows one surface only",
-         "Marr and Poggio 1976; Bardsley 2004"}),
-    with_options<MatchConstraint, ContinuityConstraint, ContinuityConstraintOptions>(
-        {"continuity", "on a lattice, disparity varies smoothly nearly everywhere",
-         "Marr and Poggio 1976; Bardsley 2004"}),
-    with_options<MatchConstraint, OrderingConstraint, OrderingConstraintOptions>(
-        {"ordering", "along a row, points keep their order from view to view",
-         "Yuille and Poggio 1984; Fredman 1975; Bardsley 2004"}),
-    with_options<MatchConstraint, LeftRightConstraint, LeftRightConstraintOptions>(
+    algorithm<&UniquenessConstraint::judge>({"uniqueness", "a place of the right view shows one surface only",
+                                             "Marr and Poggio 1976; Bardsley 2004"}),
+    algorithm<&ContinuityConstraint::judge>({"continuity",
+                                             "on a lattice, disparity varies smoothly nearly everywhere",
+                                             "Marr and Poggio 1976; Bardsley 2004"}),
+    algorithm<&OrderingConstraint::judge>({"ordering",
+                                           "along a row, points keep their order from view to view",
+                                           "Yuille and Poggio 1984; Fredman 1975; Bardsley 2004"}),
+    algorithm<&LeftRightConstraint::judge>(
         {"left-right", "a match is found again from the right view", "Fua 1993; Bardsley 2004"}),
-    with_options<MatchConstraint, StatisticalConstraint, StatisticalConstraintOptions>(
-        {"statistical", "a match does not stand out from the others' disparities",
-         "Bardsley 2004; by median and absolute deviation, Huber 1981"}),
+    algorithm<&StatisticalConstraint::judge>({"statistical",
+                                              "a match does not stand out from the others' disparities",
+                                              "Bardsley 2004; by median and absolute deviation, Huber 1981"}),
 };
 
 }  // namespace
@@ -130,36 +121,23 @@ std::vector<Kind> match_kinds() {
   return kinds;
 }
 
-std::vector<OptionDescription> match_options() {
-  std::vector<OptionDescription> all;
-  describe_table("preprocessor", kPreprocessors, all);
-  describe_table("selector", kSelectors, all);
-  describe_table("matcher", kMatchers, all);
-  describe_table("constraints", kConstraints, all);
-  return all;
+Result<Preprocessor> make_preprocessor(const AlgorithmSet& set) {
+  return make_named(kPreprocessors, set, set.get("preprocessor"));
 }
 
-Result<std::unique_ptr<Preprocessor>> make_preprocessor(const AlgorithmSet& set) {
-  const std::string name = set.get("preprocessor");
-  if (name == "none") return std::unique_ptr<Preprocessor>();
-  return make_named<Preprocessor>(kPreprocessors, set, name);
+Result<KeypointSelector> make_selector(const AlgorithmSet& set) {
+  return make_named(kSelectors, set, set.get("selector"));
 }
 
-Result<std::unique_ptr<KeypointSelector>> make_selector(const AlgorithmSet& set) {
-  return make_named<KeypointSelector>(kSelectors, set, set.get("selector"));
+Result<Matcher> make_matcher(const AlgorithmSet& set) {
+  return make_named(kMatchers, set, set.get("matcher"));
 }
 
-Result<std::unique_ptr<Matcher>> make_matcher(const AlgorithmSet& set) {
-  return make_named<Matcher>(kMatchers, set, set.get("matcher"));
-}
-
-Result<std::vector<std::unique_ptr<MatchConstraint>>> make_constraints(const AlgorithmSet& set) {
-  std::vector<std::unique_ptr<MatchConstraint>> all;
+Result<std::vector<MatchConstraint>> make_constraints(const AlgorithmSet& set) {
+  std::vector<MatchConstraint> all;
   for (const std::string& name : split_names(set.get("constraints"))) {
     if (name == "none") continue;
-    auto one = make_named<MatchConstraint>(kConstraints, set, name);
-    if (!one) return one.error();
-    all.push_back(*std::move(one));
+    RELIEVO_TRY_ASSIGN(all.emplace_back(), make_named(kConstraints, set, name));
   }
   return all;
 }

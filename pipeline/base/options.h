@@ -1,11 +1,11 @@
 // SPDX-FileCopyrightText: 2026 The Relievo authors
 // SPDX-License-Identifier: GPL-3.0-or-later
 //
-// How an algorithm's settings describe themselves, once: every Options struct has a free function
+// How an algorithm's settings describe themselves, once: a struct with settings has a member function
 //
-//   template <typename Field> void describe(XOptions& o, Field&& field) {
-//     field("window_px", o.window_px, OptionRange{3, 63, 2}, "side of the window, pixels, odd");
-//     field("mode", o.mode, OptionRange{.names = kModes}, "3way: three paths, hh: eight paths");
+//   void describe(auto&& field) {
+//     field("window_px", window_px, OptionRange{3, 63, 2}, "side of the window, pixels, odd");
+//     field("mode", mode, OptionRange{.names = kModes}, "3way: three paths, hh: eight paths");
 //   }
 //
 // from which `--set`, the TOML file, the technician's page, the documentation and check_options() are made.
@@ -53,6 +53,11 @@ std::string option_text(const Value& value, const OptionRange& range) {
   else if constexpr (std::is_same_v<Value, TextFile>) return value.path;
   else if constexpr (std::is_enum_v<Value>) return range.names[static_cast<std::size_t>(value)];
   else return number_text(static_cast<double>(value), std::is_same_v<Value, float> ? 6 : 10);
+}
+
+template <typename Options>
+void describe(Options& options, auto&& field) {
+  if constexpr (requires { options.describe(field); }) options.describe(field);
 }
 
 // Errors: InvalidInput for the first number outside of its range; what the struct's own check() says, if it

@@ -30,18 +30,17 @@ struct HeadFuserOptions {
   double bend_width_mm = 8;  // sigma of its smoothing
   double still_mm = 0.05;    // less than this is noise
   double neck_mm = 112;      // below the tip of the nose
-};
 
-template <typename Field>
-void describe(HeadFuserOptions& o, Field&& field) {
-  field("voxel_mm", o.voxel_mm, OptionRange{0.5, 3}, "side of a voxel, mm");
-  field("most_bend_mm", o.most_bend_mm, OptionRange{0, 5},
-        "a pose's skin is bent by this much at most to meet the poses before it, mm");
-  field("bend_width_mm", o.bend_width_mm, OptionRange{2, 40}, "how smoothly, sigma in mm");
-  field("still_mm", o.still_mm, OptionRange{0, 1},
-        "what lies off by less than this is not bent but averaged, mm");
-  field("neck_mm", o.neck_mm, OptionRange{60, 300}, "how far below the tip of the nose the head is cut, mm");
-}
+  void describe(auto&& field) {
+    field("voxel_mm", voxel_mm, OptionRange{0.5, 3}, "side of a voxel, mm");
+    field("most_bend_mm", most_bend_mm, OptionRange{0, 5},
+          "a pose's skin is bent by this much at most to meet the poses before it, mm");
+    field("bend_width_mm", bend_width_mm, OptionRange{2, 40}, "how smoothly, sigma in mm");
+    field("still_mm", still_mm, OptionRange{0, 1},
+          "what lies off by less than this is not bent but averaged, mm");
+    field("neck_mm", neck_mm, OptionRange{60, 300}, "how far below the tip of the nose the head is cut, mm");
+  }
+};
 
 class HeadFuser {
  public:

@@ -5,7 +5,7 @@
 // Errors: PoorGeometry (no surface of a face's size), OutOfMemory, Cancelled.
 #pragma once
 
-#include <string_view>
+#include <functional>
 
 #include "pipeline/base/stage.h"
 #include "pipeline/model/face_mesh.h"
@@ -17,13 +17,6 @@ namespace relievo::pipeline {
 // but not measured: whichever mesher ran, a head's frame and its landmarks are found on the same.
 inline constexpr double kMeasuredSigmaMm = 0.75;
 
-class Mesher {
- public:
-  virtual ~Mesher() = default;
-  virtual std::string_view name() const = 0;
-  // It joins neighbours of a lattice: PointCloud::lattice_step_px must be set.
-  virtual bool needs_lattice() const { return false; }
-  virtual Result<FaceMesh> mesh(const PointCloud& cloud, StageContext& context) const = 0;
-};
+using Mesher = std::function<Result<FaceMesh>(const PointCloud& cloud, StageContext& context)>;
 
 }  // namespace relievo::pipeline

@@ -16,13 +16,12 @@ namespace relievo::pipeline {
 
 struct FaceCropOptions {
   double radius_mm = 104;  // tip of the nose to the hairline and the chin: 95 and 75 on a grown-up
-};
 
-template <typename Field>
-void describe(FaceCropOptions& o, Field&& field) {
-  field("radius_mm", o.radius_mm, OptionRange{40, 1000},
-        "surface further from the tip of the nose is not the face, mm");
-}
+  void describe(auto&& field) {
+    field("radius_mm", radius_mm, OptionRange{40, 1000},
+          "surface further from the tip of the nose is not the face, mm");
+  }
+};
 
 // Does nothing to a pair in which no face was looked for (face_width_px is 0).
 // Errors: NoFace when nothing was measured in the middle of the face.

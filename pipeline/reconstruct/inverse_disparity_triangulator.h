@@ -6,15 +6,13 @@
 // deviation along the line of sight follows: sigma_z = z^2 / (f B) * sigma_d.
 #pragma once
 
-#include "pipeline/reconstruct/triangulator.h"
+#include "pipeline/reconstruct/kinds.h"
 
 namespace relievo::pipeline {
 
-class InverseDisparityTriangulator final : public Triangulator {
- public:
-  std::string_view name() const override { return "inverse-disparity"; }
+struct InverseDisparityTriangulator {
   Result<PointCloud> triangulate(const RectifiedPair& pair, const MatchSet& matches,
-                                 StageContext& context) const override;
+                                 StageContext& context) const;
 };
 
 }  // namespace relievo::pipeline

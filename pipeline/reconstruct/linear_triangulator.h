@@ -8,15 +8,13 @@
 // it equals inverse-disparity; it differs where matches come from elsewhere.
 #pragma once
 
-#include "pipeline/reconstruct/triangulator.h"
+#include "pipeline/reconstruct/kinds.h"
 
 namespace relievo::pipeline {
 
-class LinearTriangulator final : public Triangulator {
- public:
-  std::string_view name() const override { return "linear-least-squares"; }
+struct LinearTriangulator {
   Result<PointCloud> triangulate(const RectifiedPair& pair, const MatchSet& matches,
-                                 StageContext& context) const override;
+                                 StageContext& context) const;
 };
 
 }  // namespace relievo::pipeline

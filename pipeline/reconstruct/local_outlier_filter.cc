@@ -37,7 +37,7 @@ struct Offset {
 
 class Filter {
  public:
-  Filter(const PointCloud& cloud, const LocalOutlierFilterOptions& options, Arena& scratch)
+  Filter(const PointCloud& cloud, const LocalOutlierFilter& options, Arena& scratch)
       : points_(cloud.points),
         options_(options),
         near_(cloud, &scratch),
@@ -181,7 +181,7 @@ class Filter {
   }
 
   std::span<const CloudPoint> points_;
-  const LocalOutlierFilterOptions& options_;
+  const LocalOutlierFilter& options_;
   Neighbourhood near_;
   float max_slope_;
   std::pmr::vector<Verdict> verdict_;
@@ -190,27 +190,18 @@ class Filter {
 
 }  // namespace
 
-Result<OutlierCounts> reject_outliers(PointCloud& cloud, const LocalOutlierFilterOptions& options,
-                                      StageContext& context) {
-  RELIEVO_TRY(check_options(options, "local"));
+Result<void> LocalOutlierFilter::reject(PointCloud& cloud, StageContext& context) const {
   const Error stopped{Errc::Cancelled, "the search for outliers was stopped"};
   if (context.stop()) return stopped;
-  Filter filter(cloud, options, context.scratch);
+  Filter filter(cloud, *this, context.scratch);
   if (!filter.judge(context)) return stopped;
   filter.drop_islands(context.scratch);
   if (context.stop()) return stopped;
-
-  OutlierCounts counts;
   std::size_t kept = 0;
-  for (std::size_t i = 0; i < cloud.points.size(); ++i) {
-    const Verdict verdict = filter.verdict(i);
-    if (verdict == Verdict::Kept) cloud.points[kept++] = cloud.points[i];
-    counts.unsupported += verdict == Verdict::Unsupported;
-    counts.spikes += verdict == Verdict::Spike;
-    counts.islands += verdict == Verdict::Island;
-  }
+  for (std::size_t i = 0; i < cloud.points.size(); ++i)
+    if (filter.verdict(i) == Verdict::Kept) cloud.points[kept++] = cloud.points[i];
   cloud.points.resize(kept);
-  return counts;
+  return {};
 }
 
 }  // namespace relievo::pipeline

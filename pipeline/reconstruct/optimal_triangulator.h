@@ -11,7 +11,7 @@
 // agree exactly leave nothing to correct: the result is then that of inverse-disparity. sigma_mm as there.
 #pragma once
 
-#include "pipeline/reconstruct/triangulator.h"
+#include "pipeline/reconstruct/kinds.h"
 
 namespace relievo::pipeline {
 
@@ -29,11 +29,9 @@ struct EpipolarRelation {
 // Moves both places so that their lines of sight meet.
 PlacePair correct_optimally(const EpipolarRelation& e, const PlacePair& seen);
 
-class OptimalTriangulator final : public Triangulator {
- public:
-  std::string_view name() const override { return "optimal"; }
+struct OptimalTriangulator {
   Result<PointCloud> triangulate(const RectifiedPair& pair, const MatchSet& matches,
-                                 StageContext& context) const override;
+                                 StageContext& context) const;
 };
 
 }  // namespace relievo::pipeline

@@ -36,7 +36,7 @@ struct Nearest {
  private:
   int most_;
   int count_ = 0;
-  std::array<float, StatisticalOutlierFilterOptions::kMostNeighbours> least_{};
+  std::array<float, StatisticalOutlierFilter::kMostNeighbours> least_{};
 };
 
 float mean_distance(const PointCloud& cloud, const Neighbourhood& near, std::uint32_t i, int column, int row,
@@ -65,14 +65,13 @@ float mean_distance(const PointCloud& cloud, const Neighbourhood& near, std::uin
 }  // namespace
 
 Result<void> StatisticalOutlierFilter::reject(PointCloud& cloud, StageContext& context) const {
-  RELIEVO_TRY(check_options(options_, "statistical"));
   const Neighbourhood near(cloud, &context.scratch);
   std::pmr::vector<float> distance(cloud.points.size(), kAlone, &context.scratch);
   context.pool.for_each_band(near.rows(), kBands, [&](int begin, int end, int) {
     for (int r = begin; r < end && !context.stop(); ++r)
       for (int c = 0; c < near.columns(); ++c)
         for (const std::uint32_t i : near.cell(c, r))
-          distance[i] = mean_distance(cloud, near, i, c, r, options_.neighbours);
+          distance[i] = mean_distance(cloud, near, i, c, r, neighbours);
   });
   if (context.stop()) return Error{Errc::Cancelled, "the search for outliers was stopped"};
   double n = 0;
@@ -85,8 +84,7 @@ Result<void> StatisticalOutlierFilter::reject(PointCloud& cloud, StageContext& c
     squares += static_cast<double>(d) * static_cast<double>(d);
   }
   const double mean = sum / std::max(1.0, n);
-  const double limit =
-      mean + options_.deviations * std::sqrt(std::max(0.0, squares / std::max(1.0, n) - mean * mean));
+  const double limit = mean + deviations * std::sqrt(std::max(0.0, squares / std::max(1.0, n) - mean * mean));
   std::size_t kept = 0;
   for (std::size_t i = 0; i < cloud.points.size(); ++i)
     if (distance[i] != kAlone && static_cast<double>(distance[i]) <= limit)

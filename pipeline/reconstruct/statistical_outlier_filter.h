@@ -11,32 +11,22 @@
 #pragma once
 
 #include "pipeline/base/options.h"
-#include "pipeline/reconstruct/outlier_filter.h"
+#include "pipeline/reconstruct/kinds.h"
 
 namespace relievo::pipeline {
 
-struct StatisticalOutlierFilterOptions {
+struct StatisticalOutlierFilter {
   static constexpr int kMostNeighbours = 64;
   int neighbours = 16;
   double deviations = 2;
-};
 
-template <typename Field>
-void describe(StatisticalOutlierFilterOptions& o, Field&& field) {
-  field("neighbours", o.neighbours, OptionRange{1, o.kMostNeighbours},
-        "points in space: the mean distance to so many nearest ones is judged");
-  field("deviations", o.deviations, OptionRange{0.1, 100},
-        "points in space: standard deviations above the cloud's mean at which a point goes");
-}
-
-class StatisticalOutlierFilter final : public OutlierFilter {
- public:
-  explicit StatisticalOutlierFilter(const StatisticalOutlierFilterOptions& options) : options_(options) {}
-  std::string_view name() const override { return "statistical"; }
-  Result<void> reject(PointCloud& cloud, StageContext& context) const override;
-
- private:
-  StatisticalOutlierFilterOptions options_;
+  void describe(auto&& field) {
+    field("neighbours", neighbours, OptionRange{1, kMostNeighbours},
+          "points in space: the mean distance to so many nearest ones is judged");
+    field("deviations", deviations, OptionRange{0.1, 100},
+          "points in space: standard deviations above the cloud's mean at which a point goes");
+  }
+  Result<void> reject(PointCloud& cloud, StageContext& context) const;
 };
 
 }  // namespace relievo::pipeline

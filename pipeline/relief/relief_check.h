@@ -31,16 +31,15 @@ struct ReliefOptions {
   double least_curvature_sr = 1.5;  // half again what 900 pictures of faces came to; of a face half may be
                                     // hidden, and noise takes from the rest
   double least_sigmas = 1.5;        // off_sheet_mm over the stated sigma: noise alone makes 0.55
-};
 
-template <typename Field>
-void describe(ReliefOptions& o, Field&& field) {
-  field("least_off_sheet_mm", o.least_off_sheet_mm, OptionRange{0, 100},
-        "rms by which a face leaves the nearest bent sheet at least, mm");
-  field("least_curvature_sr", o.least_curvature_sr, OptionRange{0, 100},
-        "what the middle of a face curves both ways at once at least, steradians");
-  field("least_sigmas", o.least_sigmas, OptionRange{0, 100}, "the same rms at least, times the stated sigma");
-}
+  void describe(auto&& field) {
+    field("least_off_sheet_mm", least_off_sheet_mm, OptionRange{0, 100},
+          "rms by which a face leaves the nearest bent sheet at least, mm");
+    field("least_curvature_sr", least_curvature_sr, OptionRange{0, 100},
+          "what the middle of a face curves both ways at once at least, steradians");
+    field("least_sigmas", least_sigmas, OptionRange{0, 100}, "the same rms at least, times the stated sigma");
+  }
+};
 
 // Of the measured surface within 60 mm of the middle of the face; of the whole surface's middle where no face
 // was looked for. All 0 where too little was measured there to tell. Errors: Cancelled.

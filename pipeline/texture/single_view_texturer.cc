@@ -6,7 +6,7 @@
 
 namespace relievo::pipeline {
 
-Result<void> SingleViewTexturerOptions::check() const {
+Result<void> SingleViewTexturer::check() const {
   if (4 * margin_px > max_atlas_px)
     return Error{Errc::InvalidInput, "margin_px must be at most a quarter of max_atlas_px"}.at("single-view");
   return {};
@@ -14,9 +14,8 @@ Result<void> SingleViewTexturerOptions::check() const {
 
 Result<TextureAtlas> SingleViewTexturer::texture(const FaceMesh& mesh, const RectifiedPair& pair,
                                                  StageContext& context) const {
-  RELIEVO_TRY(check_options(options_, "single-view"));
   LayerOptions layer;
-  layer.chart = {options_.max_atlas_px, options_.margin_px};
+  layer.chart = {max_atlas_px, margin_px};
   layer.shot.left_only = true;
   return lay_photographs(mesh, pair, layer, context);
 }

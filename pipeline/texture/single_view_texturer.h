@@ -13,28 +13,17 @@
 
 namespace relievo::pipeline {
 
-struct SingleViewTexturerOptions {
+struct SingleViewTexturer {
   int max_atlas_px = 2048;  // widest and highest atlas
   int margin_px = 8;        // texels left free around the face
 
   Result<void> check() const;
-};
 
-template <typename Field>
-void describe(SingleViewTexturerOptions& o, Field&& field) {
-  field("max_atlas_px", o.max_atlas_px, OptionRange{64, 8192}, "widest and highest atlas, pixels");
-  field("margin_px", o.margin_px, OptionRange{0, 256}, "texels left free around the face");
-}
-
-class SingleViewTexturer final : public Texturer {
- public:
-  explicit SingleViewTexturer(const SingleViewTexturerOptions& options) : options_(options) {}
-  std::string_view name() const override { return "single-view"; }
-  Result<TextureAtlas> texture(const FaceMesh& mesh, const RectifiedPair& pair,
-                               StageContext& context) const override;
-
- private:
-  SingleViewTexturerOptions options_;
+  void describe(auto&& field) {
+    field("max_atlas_px", max_atlas_px, OptionRange{64, 8192}, "widest and highest atlas, pixels");
+    field("margin_px", margin_px, OptionRange{0, 256}, "texels left free around the face");
+  }
+  Result<TextureAtlas> texture(const FaceMesh& mesh, const RectifiedPair& pair, StageContext& context) const;
 };
 
 }  // namespace relievo::pipeline

@@ -5,7 +5,7 @@
 // Errors: OutOfMemory, Cancelled, InvalidInput (a mesh without triangles).
 #pragma once
 
-#include <string_view>
+#include <functional>
 
 #include "pipeline/base/stage.h"
 #include "pipeline/model/face_mesh.h"
@@ -14,12 +14,7 @@
 
 namespace relievo::pipeline {
 
-class Texturer {
- public:
-  virtual ~Texturer() = default;
-  virtual std::string_view name() const = 0;
-  virtual Result<TextureAtlas> texture(const FaceMesh& mesh, const RectifiedPair& pair,
-                                       StageContext& context) const = 0;
-};
+using Texturer = std::function<Result<TextureAtlas>(const FaceMesh& mesh, const RectifiedPair& pair,
+                                                    StageContext& context)>;
 
 }  // namespace relievo::pipeline

@@ -6,7 +6,7 @@
 
 namespace relievo::pipeline {
 
-Result<void> TwoViewTexturerOptions::check() const {
+Result<void> TwoViewTexturer::check() const {
   if (4 * margin_px > max_atlas_px)
     return Error{Errc::InvalidInput, "margin_px must be at most a quarter of max_atlas_px"}.at("two-view");
   return {};
@@ -14,12 +14,11 @@ Result<void> TwoViewTexturerOptions::check() const {
 
 Result<TextureAtlas> TwoViewTexturer::texture(const FaceMesh& mesh, const RectifiedPair& pair,
                                               StageContext& context) const {
-  RELIEVO_TRY(check_options(options_, "two-view"));
   LayerOptions layer;
-  layer.chart = {options_.max_atlas_px, options_.margin_px, options_.finer};
-  layer.shot = {static_cast<float>(options_.angle_power), static_cast<float>(options_.occlusion_px),
-                static_cast<float>(options_.feather_px), false};
-  layer.highlight_level = static_cast<float>(options_.highlight_level);
+  layer.chart = {max_atlas_px, margin_px, finer};
+  layer.shot = {static_cast<float>(angle_power), static_cast<float>(occlusion_px),
+                static_cast<float>(feather_px), false};
+  layer.highlight_level = static_cast<float>(highlight_level);
   return lay_photographs(mesh, pair, layer, context);
 }
 

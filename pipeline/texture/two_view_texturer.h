@@ -16,7 +16,7 @@
 
 namespace relievo::pipeline {
 
-struct TwoViewTexturerOptions {
+struct TwoViewTexturer {
   int max_atlas_px = 2048;  // widest and highest atlas
   int margin_px = 8;        // texels left free around the face
   double finer = 1;        // texels a pixel and side of the better photograph: more of them show nothing more
@@ -26,33 +26,22 @@ struct TwoViewTexturerOptions {
   double highlight_level = 12;  // grey levels by which the brighter view loses its say; 0 keeps both
 
   Result<void> check() const;
-};
 
-template <typename Field>
-void describe(TwoViewTexturerOptions& o, Field&& field) {
-  field("max_atlas_px", o.max_atlas_px, OptionRange{64, 8192}, "widest and highest atlas, pixels");
-  field("margin_px", o.margin_px, OptionRange{0, 256}, "texels left free around the face");
-  field("finer", o.finer, OptionRange{0.25, 4},
-        "texels a pixel and side of the better photograph, as far as the atlas goes");
-  field("angle_power", o.angle_power, OptionRange{0, 64},
-        "weight of a view: cosine of its angle of incidence to this power");
-  field("occlusion_px", o.occlusion_px, OptionRange{0, 64},
-        "disparity by which something in front hides a point from the right view");
-  field("feather_px", o.feather_px, OptionRange{0, 32},
-        "pixels over which a view fades towards an occlusion");
-  field("highlight_level", o.highlight_level, OptionRange{0, 255},
-        "grey levels by which the brighter view loses its say");
-}
-
-class TwoViewTexturer final : public Texturer {
- public:
-  explicit TwoViewTexturer(const TwoViewTexturerOptions& options) : options_(options) {}
-  std::string_view name() const override { return "two-view"; }
-  Result<TextureAtlas> texture(const FaceMesh& mesh, const RectifiedPair& pair,
-                               StageContext& context) const override;
-
- private:
-  TwoViewTexturerOptions options_;
+  void describe(auto&& field) {
+    field("max_atlas_px", max_atlas_px, OptionRange{64, 8192}, "widest and highest atlas, pixels");
+    field("margin_px", margin_px, OptionRange{0, 256}, "texels left free around the face");
+    field("finer", finer, OptionRange{0.25, 4},
+          "texels a pixel and side of the better photograph, as far as the atlas goes");
+    field("angle_power", angle_power, OptionRange{0, 64},
+          "weight of a view: cosine of its angle of incidence to this power");
+    field("occlusion_px", occlusion_px, OptionRange{0, 64},
+          "disparity by which something in front hides a point from the right view");
+    field("feather_px", feather_px, OptionRange{0, 32},
+          "pixels over which a view fades towards an occlusion");
+    field("highlight_level", highlight_level, OptionRange{0, 255},
+          "grey levels by which the brighter view loses its say");
+  }
+  Result<TextureAtlas> texture(const FaceMesh& mesh, const RectifiedPair& pair, StageContext& context) const;
 };
 
 }  // namespace relievo::pipeline

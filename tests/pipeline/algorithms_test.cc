@@ -6,8 +6,14 @@
 
 #include <algorithm>
 #include <cmath>
+#include <functional>
+#include <typeinfo>
 
+#include "pipeline/match/constraints/uniqueness_constraint.h"
+#include "pipeline/match/refine/refined_matcher.h"
 #include "pipeline/match/window/ssd_matcher.h"
+#include "pipeline/reconstruct/linear_triangulator.h"
+#include "pipeline/texture/single_view_texturer.h"
 
 namespace relievo::pipeline {
 namespace {
@@ -55,13 +61,18 @@ TEST(Algorithms, OptionsBearTheNameOfTheirAlgorithm) {
   }
 }
 
+template <typename Concrete, typename Returned, typename... Taken>
+bool is(const std::function<Returned(Taken...)>& made, Returned (Concrete::*run)(Taken...) const) {
+  return made.target_type() == typeid(std::bind_front(run, Concrete{}));
+}
+
 TEST(Algorithms, WhatIsMadeIsWhatWasNamed) {
   AlgorithmSet set;
   ASSERT_TRUE(set.set("triangulator", "linear-least-squares"));
   ASSERT_TRUE(set.set("texturer", "single-view"));
-  EXPECT_EQ((*make_triangulator(set))->name(), "linear-least-squares");
-  EXPECT_EQ((*make_texturer(set))->name(), "single-view");
-  EXPECT_EQ((*make_matcher(set))->name(), "refined");
+  EXPECT_TRUE(is(*make_triangulator(set), &LinearTriangulator::triangulate));
+  EXPECT_TRUE(is(*make_texturer(set), &SingleViewTexturer::texture));
+  EXPECT_TRUE(is(*make_matcher(set), &RefinedMatcher::match));
 }
 
 TEST(Algorithms, DefaultsLieInTheirOwnRange) {
@@ -88,12 +99,12 @@ TEST(Algorithms, RangesAreWhatTheAlgorithmsThemselvesAccept) {
 }
 
 TEST(Algorithms, WhatIsOutOfRangeIsNamedWithItsValueAndItsRange) {
-  EXPECT_TRUE(check_options(SsdMatcherOptions{}, "ssd"));
-  const auto even = check_options(SsdMatcherOptions{.window_px = 10}, "ssd");
+  EXPECT_TRUE(check_options(SsdMatcher{}, "ssd"));
+  const auto even = check_options(SsdMatcher{.window_px = 10}, "ssd");
   ASSERT_FALSE(even);
   EXPECT_EQ(even.error().code, Errc::InvalidInput);
   EXPECT_EQ(even.error().where(), "ssd.window_px = 10 (3 to 63 in steps of 2)");
-  EXPECT_FALSE(check_options(SsdMatcherOptions{.max_difference = NAN}, "ssd"));
+  EXPECT_FALSE(check_options(SsdMatcher{.max_difference = NAN}, "ssd"));
   const auto set = AlgorithmSet{}.set("ssd.window_px", "10");
   ASSERT_FALSE(set);
   EXPECT_EQ(set.error().where(), even.error().where()) << "one range, wherever it is asked";
@@ -119,7 +130,7 @@ TEST(Algorithms, ConstraintsAreJoinedAndKeepTheirOrder) {
   const auto constraints = make_constraints(set);
   ASSERT_TRUE(constraints);
   ASSERT_EQ(constraints->size(), 2U);
-  EXPECT_EQ((*constraints)[0]->name(), "uniqueness");
+  EXPECT_TRUE(is((*constraints)[0], &UniquenessConstraint::judge));
   ASSERT_TRUE(set.set("constraints", "none"));
   EXPECT_TRUE(make_constraints(set)->empty());
 }

@@ -1,12 +1,16 @@
 // SPDX-FileCopyrightText: 2026 The Relievo authors
 // SPDX-License-Identifier: GPL-3.0-or-later
 //
-// Every algorithm of a kind, as the tables name them: contract tests run over these.
+// Every algorithm of a kind, as the tables name them: contract tests run over these, and one made by its
+// name.
 #pragma once
+
+#include <gtest/gtest.h>
 
 #include <algorithm>
 #include <string>
 #include <string_view>
+#include <utility>
 #include <vector>
 
 #include "pipeline/algorithms.h"
@@ -19,6 +23,18 @@ inline std::vector<std::string> names_of(std::string_view kind) {
     if (option.key == kind) names = option.names;
   std::erase(names, "none");
   return names;
+}
+
+using Settings = std::vector<std::pair<std::string, std::string>>;
+
+// `make` is one of algorithms.h, of this kind.
+auto made(auto make, const char* kind, const std::string& name, const Settings& settings = {}) {
+  pipeline::AlgorithmSet set;
+  EXPECT_TRUE(set.set(kind, name));
+  for (const auto& [key, value] : settings) EXPECT_TRUE(set.set(key, value)) << key;
+  auto algorithm = make(set);
+  EXPECT_TRUE(algorithm) << name;
+  return *std::move(algorithm);
 }
 
 // A test's name may hold letters and digits only.

@@ -19,7 +19,7 @@ constexpr int kBands = 32;
 
 }  // namespace
 
-Result<void> SgmMatcherOptions::check() const {
+Result<void> SgmMatcher::check() const {
   if (coarsest < finest) return Error{Errc::InvalidInput, "coarsest must be at least finest"}.at("sgm");
   return {};
 }
@@ -31,14 +31,14 @@ Result<MatchSet> SgmMatcher::match(const RectifiedPair& pair, const Keypoints& k
   MatchSet set(&context.output);
   set.lattice_step_px = keypoints.lattice_step_px;
   set.matches.reserve(keypoints.points.size());
-  const int scale = 1 << options_.finest;
+  const int scale = 1 << finest;
   Plane<float> field(&context.scratch, (pair.width_px + scale - 1) / scale,
                      (pair.height_px + scale - 1) / scale);
   {
     Arena::Mark mark(context.scratch);
-    const Pyramids pyramids = build_pyramids(pair, options_.coarsest + 1, context);
-    const SizeLadder ladder{options_.coarsest, options_.finest, options_.band, options_.cross_check_px};
-    RELIEVO_TRY(match_down(whole_range(pair), pyramids, ladder, options_.costs, context, 0.8F, field));
+    const Pyramids pyramids = build_pyramids(pair, coarsest + 1, context);
+    const SizeLadder ladder{coarsest, finest, band, cross_check_px};
+    RELIEVO_TRY(match_down(whole_range(pair), pyramids, ladder, costs, context, 0.8F, field));
   }
   std::pmr::vector<Match> found(keypoints.points.size(), Match{}, &context.scratch);
   const auto size = static_cast<float>(scale);

@@ -15,43 +15,32 @@
 
 #include "pipeline/base/options.h"
 #include "pipeline/match/coarse/semi_global.h"
-#include "pipeline/match/matcher.h"
+#include "pipeline/match/kinds.h"
 
 namespace relievo::pipeline {
 
-struct SgmMatcherOptions {
+struct SgmMatcher {
   SemiGlobalCosts costs;
   int finest = 1;            // the pictures are halved so often at the end: 0 is full size
   int coarsest = 3;          // and at first: every disparity is tried there
   int band = 12;             // candidates around the prediction
   float cross_check_px = 1;  // in pixels of each size
   Result<void> check() const;
-};
 
-template <typename Field>
-void describe(SgmMatcherOptions& o, Field&& field) {
-  field("finest", o.finest, OptionRange{0, 2},
-        "how often the pictures are halved at the end: 0 full size, 1 half, 2 a quarter");
-  field("coarsest", o.coarsest, OptionRange{0, 4},
-        "how often the pictures are halved at first, where every disparity is tried");
-  field("band", o.band, OptionRange{4, 64}, "disparities tried around what the coarser size found");
-  field("step_penalty", o.costs.step_penalty, OptionRange{0, 24},
-        "census bits for one disparity between neighbours");
-  field("jump_penalty", o.costs.jump_penalty, OptionRange{24, 1000},
-        "census bits for a jump between neighbours");
-  field("cross_check_px", o.cross_check_px, OptionRange{0.25, 16},
-        "how far the two views may disagree, pixels of each size");
-}
-
-class SgmMatcher final : public Matcher {
- public:
-  explicit SgmMatcher(const SgmMatcherOptions& options) : options_(options) {}
-  std::string_view name() const override { return "sgm"; }
-  Result<MatchSet> match(const RectifiedPair& pair, const Keypoints& keypoints,
-                         StageContext& context) const override;
-
- private:
-  SgmMatcherOptions options_;
+  void describe(auto&& field) {
+    field("finest", finest, OptionRange{0, 2},
+          "how often the pictures are halved at the end: 0 full size, 1 half, 2 a quarter");
+    field("coarsest", coarsest, OptionRange{0, 4},
+          "how often the pictures are halved at first, where every disparity is tried");
+    field("band", band, OptionRange{4, 64}, "disparities tried around what the coarser size found");
+    field("step_penalty", costs.step_penalty, OptionRange{0, 24},
+          "census bits for one disparity between neighbours");
+    field("jump_penalty", costs.jump_penalty, OptionRange{24, 1000},
+          "census bits for a jump between neighbours");
+    field("cross_check_px", cross_check_px, OptionRange{0.25, 16},
+          "how far the two views may disagree, pixels of each size");
+  }
+  Result<MatchSet> match(const RectifiedPair& pair, const Keypoints& keypoints, StageContext& context) const;
 };
 
 }  // namespace relievo::pipeline

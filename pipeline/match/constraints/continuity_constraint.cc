@@ -21,7 +21,7 @@ void ContinuityConstraint::judge(const RectifiedPair& pair, std::span<Match> mat
   };
   for (const Match& match : matches)
     if (match.rejected_by == 0) *cell(match) = match.disparity_px;
-  const float limit = options_.max_step * static_cast<float>(step);
+  const float limit = max_step * static_cast<float>(step);
   for (Match& match : matches) {
     if (match.rejected_by != 0) continue;
     const float* here = cell(match);
@@ -30,7 +30,7 @@ void ContinuityConstraint::judge(const RectifiedPair& pair, std::span<Match> mat
       for (int i = -1; i <= 1; ++i)
         if ((i != 0 || j != 0) && std::abs(here[j * disparity.width + i] - match.disparity_px) <= limit)
           ++support;
-    if (support < options_.least_support) match.rejected_by = bit;
+    if (support < least_support) match.rejected_by = bit;
   }
 }
 

@@ -7,31 +7,21 @@
 #pragma once
 
 #include "pipeline/base/options.h"
-#include "pipeline/match/match_constraint.h"
+#include "pipeline/match/kinds.h"
 
 namespace relievo::pipeline {
 
-struct ContinuityConstraintOptions {
+struct ContinuityConstraint {
   float max_step = 2.0F;  // disparity difference per pixel of distance: beyond 63 degrees of slant
   int least_support = 3;  // of the eight neighbours
-};
 
-template <typename Field>
-void describe(ContinuityConstraintOptions& o, Field&& field) {
-  field("max_step", o.max_step, OptionRange{0.01, 100},
-        "disparity difference to a neighbour, pixels per pixel of distance");
-  field("least_support", o.least_support, OptionRange{1, 8}, "how many of the eight neighbours must agree");
-}
-
-class ContinuityConstraint final : public MatchConstraint {
- public:
-  explicit ContinuityConstraint(const ContinuityConstraintOptions& options) : options_(options) {}
-  std::string_view name() const override { return "continuity"; }
+  void describe(auto&& field) {
+    field("max_step", max_step, OptionRange{0.01, 100},
+          "disparity difference to a neighbour, pixels per pixel of distance");
+    field("least_support", least_support, OptionRange{1, 8}, "how many of the eight neighbours must agree");
+  }
   void judge(const RectifiedPair& pair, std::span<Match> matches, int lattice_step_px, std::uint16_t bit,
-             StageContext& context) const override;
-
- private:
-  ContinuityConstraintOptions options_;
+             StageContext& context) const;
 };
 
 }  // namespace relievo::pipeline

@@ -15,7 +15,7 @@ constexpr int kBands = 32;
 enum class Answer : std::uint8_t { Confirmed, Elsewhere, Unasked };
 
 // `scores` has the views exchanged: its left view is the pair's right one, and disparities change sign.
-Answer ask_back(const Match& match, const LeftRightConstraintOptions& options, PatchScores& scores) {
+Answer ask_back(const Match& match, const LeftRightConstraint& options, PatchScores& scores) {
   const float right = match.left_px.x - match.disparity_px;
   const int middle = static_cast<int>(std::lround(match.disparity_px));
   const int count = 2 * options.search_px + 1;
@@ -46,19 +46,18 @@ void LeftRightConstraint::judge(const RectifiedPair& pair, std::span<Match> matc
                                 StageContext& context) const {
   if (matches.empty() || pair.left.grey.empty() || pair.right.grey.empty()) return;
   Arena::Mark mark(context.scratch);
-  ChannelPlanes planes = make_channel_planes(pair, 1, options_.window_px / 2, context);
+  ChannelPlanes planes = make_channel_planes(pair, 1, window_px / 2, context);
   std::swap(planes.left, planes.right);
   std::swap(planes.whole_left, planes.whole_right);
   std::pmr::vector<PatchScores> scores(&context.scratch);
   scores.reserve(kBands);
   for (int band = 0; band < kBands; ++band)
-    scores.emplace_back(planes, WindowScore::ZeroMeanCorrelation, 2 * options_.search_px + 1,
-                        &context.scratch);
+    scores.emplace_back(planes, WindowScore::ZeroMeanCorrelation, 2 * search_px + 1, &context.scratch);
   context.pool.for_each_band(static_cast<int>(matches.size()), kBands, [&](int begin, int end, int band) {
     for (int k = begin; k < end && !context.stop(); ++k) {
       Match& match = matches[static_cast<std::size_t>(k)];
       if (match.rejected_by != 0 || !(std::abs(match.disparity_px) < 1e6F)) continue;
-      if (ask_back(match, options_, scores[static_cast<std::size_t>(band)]) == Answer::Elsewhere)
+      if (ask_back(match, *this, scores[static_cast<std::size_t>(band)]) == Answer::Elsewhere)
         match.rejected_by = bit;
     }
   });

@@ -9,33 +9,23 @@
 #pragma once
 
 #include "pipeline/base/options.h"
-#include "pipeline/match/match_constraint.h"
+#include "pipeline/match/kinds.h"
 
 namespace relievo::pipeline {
 
-struct LeftRightConstraintOptions {
+struct LeftRightConstraint {
   int window_px = 15;  // odd
   int search_px = 8;   // to each side
   float limit_px = 1;
-};
 
-template <typename Field>
-void describe(LeftRightConstraintOptions& o, Field&& field) {
-  field("window_px", o.window_px, OptionRange{3, 63, 2},
-        "side of the window that is searched for, pixels, odd");
-  field("search_px", o.search_px, OptionRange{2, 128}, "how far it is searched for to each side, pixels");
-  field("limit_px", o.limit_px, OptionRange{0.05, 64}, "how far from the keypoint it may be found, pixels");
-}
-
-class LeftRightConstraint final : public MatchConstraint {
- public:
-  explicit LeftRightConstraint(const LeftRightConstraintOptions& options) : options_(options) {}
-  std::string_view name() const override { return "left-right"; }
+  void describe(auto&& field) {
+    field("window_px", window_px, OptionRange{3, 63, 2},
+          "side of the window that is searched for, pixels, odd");
+    field("search_px", search_px, OptionRange{2, 128}, "how far it is searched for to each side, pixels");
+    field("limit_px", limit_px, OptionRange{0.05, 64}, "how far from the keypoint it may be found, pixels");
+  }
   void judge(const RectifiedPair& pair, std::span<Match> matches, int lattice_step_px, std::uint16_t bit,
-             StageContext& context) const override;
-
- private:
-  LeftRightConstraintOptions options_;
+             StageContext& context) const;
 };
 
 }  // namespace relievo::pipeline

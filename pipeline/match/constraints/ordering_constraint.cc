@@ -60,7 +60,7 @@ void OrderingConstraint::judge(const RectifiedPair&, std::span<Match> matches, i
     const Match& m = matches[k];
     if (m.rejected_by != 0 || !std::isfinite(m.disparity_px)) continue;
     entries.push_back({static_cast<int>(std::lround(m.left_px.y)), m.left_px.x,
-                       m.left_px.x - m.disparity_px + options_.slack * m.left_px.x, k});
+                       m.left_px.x - m.disparity_px + slack * m.left_px.x, k});
   }
   std::sort(entries.begin(), entries.end(), [](const Entry& a, const Entry& b) {
     if (a.row != b.row) return a.row < b.row;

@@ -9,29 +9,19 @@
 #pragma once
 
 #include "pipeline/base/options.h"
-#include "pipeline/match/match_constraint.h"
+#include "pipeline/match/kinds.h"
 
 namespace relievo::pipeline {
 
-struct OrderingConstraintOptions {
+struct OrderingConstraint {
   float slack = 0.1F;  // 0: strict order; a disparity gradient up to 1 + slack along the row is in order
-};
 
-template <typename Field>
-void describe(OrderingConstraintOptions& o, Field&& field) {
-  field("slack", o.slack, OptionRange{0, 1},
-        "how far right places may fall back, as a share of the left ones' distance");
-}
-
-class OrderingConstraint final : public MatchConstraint {
- public:
-  explicit OrderingConstraint(const OrderingConstraintOptions& options) : options_(options) {}
-  std::string_view name() const override { return "ordering"; }
+  void describe(auto&& field) {
+    field("slack", slack, OptionRange{0, 1},
+          "how far right places may fall back, as a share of the left ones' distance");
+  }
   void judge(const RectifiedPair& pair, std::span<Match> matches, int lattice_step_px, std::uint16_t bit,
-             StageContext& context) const override;
-
- private:
-  OrderingConstraintOptions options_;
+             StageContext& context) const;
 };
 
 }  // namespace relievo::pipeline

@@ -7,7 +7,7 @@ namespace relievo::pipeline {
 void SimilarityConstraint::judge(const RectifiedPair&, std::span<Match> matches, int, std::uint16_t bit,
                                  StageContext&) const {
   for (Match& match : matches)
-    if (match.rejected_by == 0 && !(match.cost <= options_.max_cost)) match.rejected_by = bit;
+    if (match.rejected_by == 0 && !(match.cost <= max_cost)) match.rejected_by = bit;
 }
 
 }  // namespace relievo::pipeline

@@ -8,29 +8,19 @@
 #pragma once
 
 #include "pipeline/base/options.h"
-#include "pipeline/match/match_constraint.h"
+#include "pipeline/match/kinds.h"
 
 namespace relievo::pipeline {
 
-struct SimilarityConstraintOptions {
+struct SimilarityConstraint {
   float max_cost =
       0.95F;  // plain skin under noise correlates little and is still right: only the unrelated go
-};
 
-template <typename Field>
-void describe(SimilarityConstraintOptions& o, Field&& field) {
-  field("max_cost", o.max_cost, OptionRange{0, 2}, "one minus correlation above which a match is rejected");
-}
-
-class SimilarityConstraint final : public MatchConstraint {
- public:
-  explicit SimilarityConstraint(const SimilarityConstraintOptions& options) : options_(options) {}
-  std::string_view name() const override { return "similarity"; }
+  void describe(auto&& field) {
+    field("max_cost", max_cost, OptionRange{0, 2}, "one minus correlation above which a match is rejected");
+  }
   void judge(const RectifiedPair& pair, std::span<Match> matches, int lattice_step_px, std::uint16_t bit,
-             StageContext& context) const override;
-
- private:
-  SimilarityConstraintOptions options_;
+             StageContext& context) const;
 };
 
 }  // namespace relievo::pipeline

@@ -49,7 +49,7 @@ Cells cells_of(std::span<const Match> matches, float radius, std::pmr::memory_re
 }
 
 bool stands_out(std::uint32_t k, std::span<const Match> matches, const Cells& cells,
-                const StatisticalConstraintOptions& options) {
+                const StatisticalConstraint& options) {
   const Match& m = matches[k];
   const int c = cell_of(m.left_px.x, options.radius_px);
   const int r = cell_of(m.left_px.y, options.radius_px);
@@ -87,14 +87,14 @@ void StatisticalConstraint::judge(const RectifiedPair&, std::span<Match> matches
   if (all.size() < kFewest) return;
   const Spread whole = spread_of(all);
   std::pmr::vector<std::uint8_t> out(matches.size(), std::uint8_t{0}, &context.scratch);
-  const Cells cells = cells_of(matches, options_.radius_px, &context.scratch);
+  const Cells cells = cells_of(matches, radius_px, &context.scratch);
   context.pool.for_each_band(static_cast<int>(matches.size()), kBands, [&](int begin, int end, int) {
     for (auto k = static_cast<std::uint32_t>(begin); k < static_cast<std::uint32_t>(end) && !context.stop();
          ++k) {
       if (matches[k].rejected_by != 0) continue;
-      const float limit = options_.global_sigmas * std::max(whole.sigma, options_.floor_px);
-      const bool far = options_.global_sigmas > 0 && std::abs(matches[k].disparity_px - whole.median) > limit;
-      out[k] = far || (options_.local_sigmas > 0 && stands_out(k, matches, cells, options_)) ? 1 : 0;
+      const float limit = global_sigmas * std::max(whole.sigma, floor_px);
+      const bool far = global_sigmas > 0 && std::abs(matches[k].disparity_px - whole.median) > limit;
+      out[k] = far || (local_sigmas > 0 && stands_out(k, matches, cells, *this)) ? 1 : 0;
     }
   });
   for (std::size_t k = 0; k < matches.size(); ++k)

@@ -12,37 +12,27 @@
 #pragma once
 
 #include "pipeline/base/options.h"
-#include "pipeline/match/match_constraint.h"
+#include "pipeline/match/kinds.h"
 
 namespace relievo::pipeline {
 
-struct StatisticalConstraintOptions {
+struct StatisticalConstraint {
   float global_sigmas = 6;
   float local_sigmas = 4;
   float radius_px = 10;
   float floor_px = 0.5F;  // neighbours that agree better than this do not make the rule stricter
-};
 
-template <typename Field>
-void describe(StatisticalConstraintOptions& o, Field&& field) {
-  field("global_sigmas", o.global_sigmas, OptionRange{0, 100},
-        "distance from the median of all disparities, in their scatter; 0: any");
-  field("local_sigmas", o.local_sigmas, OptionRange{0, 100},
-        "distance from the median of the neighbours, in their scatter; 0: any");
-  field("radius_px", o.radius_px, OptionRange{1, 256}, "how far neighbours reach, pixels");
-  field("floor_px", o.floor_px, OptionRange{0.01, 64},
-        "least scatter the neighbours are taken to have, pixels");
-}
-
-class StatisticalConstraint final : public MatchConstraint {
- public:
-  explicit StatisticalConstraint(const StatisticalConstraintOptions& options) : options_(options) {}
-  std::string_view name() const override { return "statistical"; }
+  void describe(auto&& field) {
+    field("global_sigmas", global_sigmas, OptionRange{0, 100},
+          "distance from the median of all disparities, in their scatter; 0: any");
+    field("local_sigmas", local_sigmas, OptionRange{0, 100},
+          "distance from the median of the neighbours, in their scatter; 0: any");
+    field("radius_px", radius_px, OptionRange{1, 256}, "how far neighbours reach, pixels");
+    field("floor_px", floor_px, OptionRange{0.01, 64},
+          "least scatter the neighbours are taken to have, pixels");
+  }
   void judge(const RectifiedPair& pair, std::span<Match> matches, int lattice_step_px, std::uint16_t bit,
-             StageContext& context) const override;
-
- private:
-  StatisticalConstraintOptions options_;
+             StageContext& context) const;
 };
 
 }  // namespace relievo::pipeline

@@ -29,7 +29,7 @@ void UniquenessConstraint::judge(const RectifiedPair& pair, std::span<Match> mat
   for (Match& match : matches) {
     if (match.rejected_by != 0) continue;
     const float* at = place(match);
-    if (at == nullptr || *at - match.disparity_px > options_.margin_px) match.rejected_by = bit;
+    if (at == nullptr || *at - match.disparity_px > margin_px) match.rejected_by = bit;
   }
 }
 

@@ -7,29 +7,19 @@
 #pragma once
 
 #include "pipeline/base/options.h"
-#include "pipeline/match/match_constraint.h"
+#include "pipeline/match/kinds.h"
 
 namespace relievo::pipeline {
 
-struct UniquenessConstraintOptions {
+struct UniquenessConstraint {
   float margin_px = 1.5F;  // a slanted surface may land twice on one pixel
-};
 
-template <typename Field>
-void describe(UniquenessConstraintOptions& o, Field&& field) {
-  field("margin_px", o.margin_px, OptionRange{0, 64},
-        "how far behind another surface a match counts as hidden, pixels");
-}
-
-class UniquenessConstraint final : public MatchConstraint {
- public:
-  explicit UniquenessConstraint(const UniquenessConstraintOptions& options) : options_(options) {}
-  std::string_view name() const override { return "uniqueness"; }
+  void describe(auto&& field) {
+    field("margin_px", margin_px, OptionRange{0, 64},
+          "how far behind another surface a match counts as hidden, pixels");
+  }
   void judge(const RectifiedPair& pair, std::span<Match> matches, int lattice_step_px, std::uint16_t bit,
-             StageContext& context) const override;
-
- private:
-  UniquenessConstraintOptions options_;
+             StageContext& context) const;
 };
 
 }  // namespace relievo::pipeline

@@ -15,15 +15,13 @@ Result<MatchSet> FileMatcher::match(const RectifiedPair& pair, const Keypoints&,
                                     StageContext& context) const {
   if (pair.width_px <= 0 || pair.height_px <= 0 || pair.left.grey.empty() || pair.right.grey.empty())
     return Error{Errc::InvalidInput, "the rectified pair has no pixels"};
-  const TextFile& file = options_.file;
   if (file.path.empty())
     return Error{Errc::NotFound, "no file of matches is named: --set file-matches.path=FILE"}.at(
         "file-matches.path");
   if (file.text == nullptr)
     return Error{Errc::NotFound, "this file of matches could not be read; check its name"}.at(file.path);
   MatchSet set(&context.output);
-  RELIEVO_TRY_ASSIGN(set.matches,
-                     matches_in(*file.text, file.path, pair, options_.sigma_px, &context.output));
+  RELIEVO_TRY_ASSIGN(set.matches, matches_in(*file.text, file.path, pair, sigma_px, &context.output));
   for (Match& match : set.matches) {
     if (context.stop()) return Error{Errc::Cancelled, "stopped while reading matches"};
     match.cost = window_cost(pair, match.left_px, match.disparity_px, kCorrelationRadius);

@@ -10,32 +10,20 @@
 
 #include "pipeline/base/options.h"
 #include "pipeline/match/file/match_text.h"
-#include "pipeline/match/matcher.h"
+#include "pipeline/match/kinds.h"
 
 namespace relievo::pipeline {
 
-struct FileMatcherOptions {
+struct FileMatcher {
   TextFile file;                  // none: matching fails and says so
   float sigma_px = kHandSigmaPx;  // where the file has none
-};
 
-template <typename Field>
-void describe(FileMatcherOptions& o, Field&& field) {
-  field("path", o.file, OptionRange{0, 0},
-        "text file, a match a line: x y disparity [sigma], rectified pixels");
-  field("sigma_px", o.sigma_px, OptionRange{0.001, 100},
-        "standard deviation of matches whose line has none, pixels");
-}
-
-class FileMatcher final : public Matcher {
- public:
-  explicit FileMatcher(const FileMatcherOptions& options) : options_(options) {}
-  std::string_view name() const override { return "file-matches"; }
-  Result<MatchSet> match(const RectifiedPair& pair, const Keypoints& keypoints,
-                         StageContext& context) const override;
-
- private:
-  FileMatcherOptions options_;
+  void describe(auto&& field) {
+    field("path", file, OptionRange{}, "text file, a match a line: x y disparity [sigma], rectified pixels");
+    field("sigma_px", sigma_px, OptionRange{0.001, 100},
+          "standard deviation of matches whose line has none, pixels");
+  }
+  Result<MatchSet> match(const RectifiedPair& pair, const Keypoints& keypoints, StageContext& context) const;
 };
 
 }  // namespace relievo::pipeline

@@ -57,8 +57,8 @@ cv::Mat grey_of(const RectifiedPair& pair, const RectifiedView& view, const Crop
   return {crop.height, crop.width, CV_8UC1, bytes.data()};
 }
 
-cv::Mat compute(const RectifiedPair& pair, const SgbmMatcherOptions& options, const Crop& crop, int first,
-                int count, StageContext& context) {
+cv::Mat compute(const RectifiedPair& pair, const SgbmMatcher& options, const Crop& crop, int first, int count,
+                StageContext& context) {
   std::pmr::vector<std::uint8_t> left(&context.scratch);
   std::pmr::vector<std::uint8_t> right(&context.scratch);
   const int area = options.window_px * options.window_px;
@@ -85,13 +85,13 @@ Result<MatchSet> SgbmMatcher::match(const RectifiedPair& pair, const Keypoints& 
   const int needed = static_cast<int>(std::ceil(pair.disparity_px(pair.near_mm))) + 1 - first;
   const int count = (needed + 15) / 16 * 16;
   const Crop crop = crop_for(pair, keypoints, first, count);
-  if (crop.width <= count + options_.window_px || crop.height <= options_.window_px)
+  if (crop.width <= count + window_px || crop.height <= window_px)
     return Error{
         Errc::InvalidInput,
         "the pictures are narrower than the volume's disparities: narrow the volume (--near, --far)"};
   // Its own volumes: two of 16 bits.
   const double bytes = 4.0 * crop.width * crop.height * count;
-  if (options_.mode == SgbmMode::HH && bytes > kMostBytes)
+  if (mode == SgbmMode::HH && bytes > kMostBytes)
     return Error{
         Errc::OutOfMemory,
         "opencv-sgbm: hh would need more than 2 GiB here: choose 3way or narrow the volume (--near, --far)"};
@@ -100,7 +100,7 @@ Result<MatchSet> SgbmMatcher::match(const RectifiedPair& pair, const Keypoints& 
   set.lattice_step_px = keypoints.lattice_step_px;
   set.matches.reserve(keypoints.points.size());
   Plane<float> field(&context.scratch, crop.width, crop.height, kNothing);
-  const cv::Mat disparity = compute(pair, options_, crop, first, count, context);
+  const cv::Mat disparity = compute(pair, *this, crop, first, count, context);
   for (int y = 0; y < crop.height; ++y)
     for (int x = 0; x < crop.width; ++x)
       if (const int value = disparity.at<std::int16_t>(y, x); value >= 16 * first)

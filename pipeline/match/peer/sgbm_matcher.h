@@ -13,41 +13,30 @@
 #pragma once
 
 #include "pipeline/base/options.h"
-#include "pipeline/match/matcher.h"
+#include "pipeline/match/kinds.h"
 
 namespace relievo::pipeline {
 
 enum class SgbmMode { ThreeWay, HH };  // three paths (MODE_SGBM_3WAY), eight (MODE_HH)
 inline constexpr const char* kSgbmModes[] = {"3way", "hh"};
 
-struct SgbmMatcherOptions {
+struct SgbmMatcher {
   int window_px = 5;  // odd
   SgbmMode mode = SgbmMode::ThreeWay;
   int uniqueness = 10;   // per cent by which the best candidate must win
   int max_lr_px = 1;     // left-right check
   int speckle_px = 100;  // smaller patches of one disparity go; 0 keeps them
-};
 
-template <typename Field>
-void describe(SgbmMatcherOptions& o, Field&& field) {
-  field("window_px", o.window_px, OptionRange{1, 31, 2}, "side of the window, pixels, odd");
-  field("mode", o.mode, OptionRange{.names = kSgbmModes},
-        "3way: three paths (MODE_SGBM_3WAY), hh: eight paths (MODE_HH)");
-  field("uniqueness", o.uniqueness, OptionRange{0, 100}, "per cent by which the best candidate must win");
-  field("max_lr_px", o.max_lr_px, OptionRange{0, 64}, "how far the two views may disagree, pixels");
-  field("speckle_px", o.speckle_px, OptionRange{0, 100000},
-        "patches of one disparity smaller than this go, pixels");
-}
-
-class SgbmMatcher final : public Matcher {
- public:
-  explicit SgbmMatcher(const SgbmMatcherOptions& options) : options_(options) {}
-  std::string_view name() const override { return "opencv-sgbm"; }
-  Result<MatchSet> match(const RectifiedPair& pair, const Keypoints& keypoints,
-                         StageContext& context) const override;
-
- private:
-  SgbmMatcherOptions options_;
+  void describe(auto&& field) {
+    field("window_px", window_px, OptionRange{1, 31, 2}, "side of the window, pixels, odd");
+    field("mode", mode, OptionRange{.names = kSgbmModes},
+          "3way: three paths (MODE_SGBM_3WAY), hh: eight paths (MODE_HH)");
+    field("uniqueness", uniqueness, OptionRange{0, 100}, "per cent by which the best candidate must win");
+    field("max_lr_px", max_lr_px, OptionRange{0, 64}, "how far the two views may disagree, pixels");
+    field("speckle_px", speckle_px, OptionRange{0, 100000},
+          "patches of one disparity smaller than this go, pixels");
+  }
+  Result<MatchSet> match(const RectifiedPair& pair, const Keypoints& keypoints, StageContext& context) const;
 };
 
 }  // namespace relievo::pipeline

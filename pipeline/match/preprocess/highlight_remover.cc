@@ -326,7 +326,7 @@ void subtract(const Plane<float>& excess, const Part& part, int width_px, std::p
   }
 }
 
-void clean(RectifiedPair& pair, bool right, const HighlightRemoverOptions& options, const Gaussian& gaussian,
+void clean(RectifiedPair& pair, bool right, const HighlightRemover& options, const Gaussian& gaussian,
            StageContext& context) {
   RectifiedView& view = right ? pair.right : pair.left;
   const Part part = part_of(pair, right, kCell * gaussian.reach());
@@ -356,13 +356,12 @@ void clean(RectifiedPair& pair, bool right, const HighlightRemoverOptions& optio
 }  // namespace
 
 Result<void> HighlightRemover::process(RectifiedPair& pair, StageContext& context) const {
-  RELIEVO_TRY(check_options(options_, "remove-highlights"));
   RELIEVO_TRY(check_pixels(pair));
   if (pair.region.empty()) return {};  // no face is looked for: what is known of skin says nothing of leaves
-  const Gaussian gaussian(options_.radius_px / kCell);
+  const Gaussian gaussian(radius_px / kCell);
   for (const bool right : {false, true}) {
     if (context.stop()) return Error{Errc::Cancelled, "the preprocessing was stopped"};
-    clean(pair, right, options_, gaussian, context);
+    clean(pair, right, *this, gaussian, context);
   }
   return {};
 }

@@ -17,34 +17,24 @@
 #pragma once
 
 #include "pipeline/base/options.h"
-#include "pipeline/match/preprocessor.h"
+#include "pipeline/match/kinds.h"
 
 namespace relievo::pipeline {
 
-struct HighlightRemoverOptions {
+struct HighlightRemover {
   double radius_px =
       2.5;  // standard deviation of the Gaussian: finer than mirrored lamps, coarser than pores
   double dull = 0.5;
   double least = 10;
-};
 
-template <typename Field>
-void describe(HighlightRemoverOptions& o, Field&& field) {
-  field("radius_px", o.radius_px, OptionRange{0.5, 10},
-        "what is finer than this stays, pixels of the picture");
-  field("dull", o.dull, OptionRange{0.05, 0.95}, "share of the face that is taken to mirror no lamp");
-  field("least", o.least, OptionRange{0, 64},
-        "grey levels of brightness of which half is taken for a highlight's");
-}
-
-class HighlightRemover final : public Preprocessor {
- public:
-  explicit HighlightRemover(const HighlightRemoverOptions& options) : options_(options) {}
-  std::string_view name() const override { return "remove-highlights"; }
-  Result<void> process(RectifiedPair& pair, StageContext& context) const override;
-
- private:
-  HighlightRemoverOptions options_;
+  void describe(auto&& field) {
+    field("radius_px", radius_px, OptionRange{0.5, 10},
+          "what is finer than this stays, pixels of the picture");
+    field("dull", dull, OptionRange{0.05, 0.95}, "share of the face that is taken to mirror no lamp");
+    field("least", least, OptionRange{0, 64},
+          "grey levels of brightness of which half is taken for a highlight's");
+  }
+  Result<void> process(RectifiedPair& pair, StageContext& context) const;
 };
 
 }  // namespace relievo::pipeline

@@ -9,7 +9,6 @@
 namespace relievo::pipeline {
 
 Result<void> HistogramNormaliser::process(RectifiedPair& pair, StageContext& context) const {
-  RELIEVO_TRY(check_options(options_, "histogram-normalise"));
   RELIEVO_TRY(check_pixels(pair));
   for (RectifiedView* view : {&pair.left, &pair.right}) {
     if (context.stop()) return Error{Errc::Cancelled, "the preprocessing was stopped"};
@@ -20,12 +19,12 @@ Result<void> HistogramNormaliser::process(RectifiedPair& pair, StageContext& con
     const GreyHistogram histogram =
         GreyHistogram::of(view->grey, pair.width_px, pair.height_px, valid, context.pool);
     if (histogram.count() == 0) continue;
-    const double dark = histogram.grey_at(options_.tail);
+    const double dark = histogram.grey_at(tail);
     const double range =
-        std::max(1.0, histogram.grey_at(1 - options_.tail) - dark);  // noise of one level is no picture
+        std::max(1.0, histogram.grey_at(1 - tail) - dark);  // noise of one level is no picture
     GreyMap([&](double grey) {
       const double stretched = std::clamp((grey - dark) / range, 0.0, 1.0);
-      return 255 * (stretched + options_.equalise * (histogram.share_below(grey) - stretched));
+      return 255 * (stretched + equalise * (histogram.share_below(grey) - stretched));
     }).apply(view->grey, context.pool);
   }
   return {};

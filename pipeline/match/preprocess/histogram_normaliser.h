@@ -11,31 +11,21 @@
 #pragma once
 
 #include "pipeline/base/options.h"
-#include "pipeline/match/preprocessor.h"
+#include "pipeline/match/kinds.h"
 
 namespace relievo::pipeline {
 
-struct HistogramNormaliserOptions {
+struct HistogramNormaliser {
   double equalise = 1;
   double tail = 0.005;
-};
 
-template <typename Field>
-void describe(HistogramNormaliserOptions& o, Field&& field) {
-  field("equalise", o.equalise, OptionRange{0, 1},
-        "1: equalised by the cumulative histogram, 0: stretched linearly, between: a mixture");
-  field("tail", o.tail, OptionRange{0, 0.2},
-        "share of the pixels that the stretch sends to black, and to white");
-}
-
-class HistogramNormaliser final : public Preprocessor {
- public:
-  explicit HistogramNormaliser(const HistogramNormaliserOptions& options) : options_(options) {}
-  std::string_view name() const override { return "histogram-normalise"; }
-  Result<void> process(RectifiedPair& pair, StageContext& context) const override;
-
- private:
-  HistogramNormaliserOptions options_;
+  void describe(auto&& field) {
+    field("equalise", equalise, OptionRange{0, 1},
+          "1: equalised by the cumulative histogram, 0: stretched linearly, between: a mixture");
+    field("tail", tail, OptionRange{0, 0.2},
+          "share of the pixels that the stretch sends to black, and to white");
+  }
+  Result<void> process(RectifiedPair& pair, StageContext& context) const;
 };
 
 }  // namespace relievo::pipeline

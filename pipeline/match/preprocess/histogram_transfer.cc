@@ -33,7 +33,6 @@ struct Overlap {
 }  // namespace
 
 Result<void> HistogramTransfer::process(RectifiedPair& pair, StageContext& context) const {
-  RELIEVO_TRY(check_options(options_, "histogram-match"));
   RELIEVO_TRY(check_pixels(pair));
   if (context.stop()) return Error{Errc::Cancelled, "the preprocessing was stopped"};
   const Overlap overlap(pair);
@@ -46,7 +45,7 @@ Result<void> HistogramTransfer::process(RectifiedPair& pair, StageContext& conte
   if (left.count() == 0) return {};
   if (context.stop()) return Error{Errc::Cancelled, "the preprocessing was stopped"};
   GreyMap([&](double grey) {
-    return grey + options_.strength * (left.grey_at(right.share_below(grey)) - grey);
+    return grey + strength * (left.grey_at(right.share_below(grey)) - grey);
   }).apply(pair.right.grey, context.pool);
   return {};
 }

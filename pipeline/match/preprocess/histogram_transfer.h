@@ -11,28 +11,18 @@
 #pragma once
 
 #include "pipeline/base/options.h"
-#include "pipeline/match/preprocessor.h"
+#include "pipeline/match/kinds.h"
 
 namespace relievo::pipeline {
 
-struct HistogramTransferOptions {
+struct HistogramTransfer {
   double strength = 1;
-};
 
-template <typename Field>
-void describe(HistogramTransferOptions& o, Field&& field) {
-  field("strength", o.strength, OptionRange{0, 1},
-        "1: the right view takes the left one's histogram, 0: it stays, between: a mixture");
-}
-
-class HistogramTransfer final : public Preprocessor {
- public:
-  explicit HistogramTransfer(const HistogramTransferOptions& options) : options_(options) {}
-  std::string_view name() const override { return "histogram-match"; }
-  Result<void> process(RectifiedPair& pair, StageContext& context) const override;
-
- private:
-  HistogramTransferOptions options_;
+  void describe(auto&& field) {
+    field("strength", strength, OptionRange{0, 1},
+          "1: the right view takes the left one's histogram, 0: it stays, between: a mixture");
+  }
+  Result<void> process(RectifiedPair& pair, StageContext& context) const;
 };
 
 }  // namespace relievo::pipeline

@@ -102,46 +102,32 @@ void read_matches(const SurfaceField& field, const Keypoints& keypoints, const R
   }
 }
 
-}  // namespace
-
-Result<MatchSet> RefinedMatcher::match(const RectifiedPair& pair, const Keypoints& keypoints,
-                                       StageContext& context) const {
-  if (pair.width_px < 64 || pair.height_px < 64 || pair.left.grey.empty() || pair.right.grey.empty())
-    return Error{Errc::InvalidInput, "the rectified pair is smaller than 64 pixels"};
-  if (!is_small_scene(pair)) return match_at_size(pair, keypoints, context);
-  RELIEVO_TRY_ASSIGN(MatchSet found, match_at_size(enlarge(pair, &context.scratch),
-                                                   enlarge(keypoints, &context.scratch), context));
-  shrink(found, keypoints.lattice_step_px);
-  return found;
-}
-
-Result<MatchSet> RefinedMatcher::match_at_size(const RectifiedPair& pair, const Keypoints& keypoints,
-                                               StageContext& context) const {
+Result<MatchSet> match_at_size(const RefinedMatcher& o, const RectifiedPair& pair, const Keypoints& keypoints,
+                               StageContext& context) {
   MatchSet set(&context.output);
   set.lattice_step_px = keypoints.lattice_step_px;
   Pyramids pyramids = build_pyramids(pair, kLevels, context);
-  const double lambda = bending_weight(pair, options_.refiner.bending);
+  const double lambda = bending_weight(pair, o.refiner.bending);
   const auto scene_at = [&](int level) {
     return RefinerScene{pyramids.left[static_cast<std::size_t>(level)].grey,
                         pyramids.right[static_cast<std::size_t>(level)].grey,
                         pyramids.right[static_cast<std::size_t>(level)].valid, level, lambda};
   };
   const auto refine = [&](int level, SurfaceField& field) {
-    return refine_surface(scene_at(level), options_.refiner, context, field);
+    return refine_surface(scene_at(level), o.refiner, context, field);
   };
   const auto& half = pyramids.left[1].grey;
   const auto& fine = pyramids.left[kFineLevel].grey;
   SurfaceField field2(&context.scratch, half.width, half.height, kNodeStepPx);
-  RowAligner rows(pair, pyramids,
-                  {static_cast<double>(options_.align_beyond_px), options_.follow_motion != 0}, context);
+  RowAligner rows(pair, pyramids, {static_cast<double>(o.align_beyond_px), o.follow_motion != 0}, context);
   for (int pass = 0; pass < kPasses; ++pass) {
     if (is_scene(pair)) {
       Arena::Mark mark(context.scratch);
-      RELIEVO_TRY(find_coarse_surface(pair, pyramids, options_.coarse, context, field2));
+      RELIEVO_TRY(find_coarse_surface(pair, pyramids, o.coarse, context, field2));
     } else {
       Arena::Mark mark(context.scratch);
       SurfaceField field4(&context.scratch, fine.width, fine.height, 1 << kFineLevel);
-      RELIEVO_TRY(find_coarse_surface(pair, pyramids, options_.coarse, context, field4));
+      RELIEVO_TRY(find_coarse_surface(pair, pyramids, o.coarse, context, field4));
       context.progress.done.store(0.4F, std::memory_order_relaxed);
       RELIEVO_TRY(refine(kFineLevel, field4));
       keep_within_reach(pair, context, field4);
@@ -150,7 +136,7 @@ Result<MatchSet> RefinedMatcher::match_at_size(const RectifiedPair& pair, const 
     if (rows.align(field2) < kSearchAgainPx) break;
   }
   if (!is_scene(pair)) {
-    RELIEVO_TRY(search_edges(pair, pyramids, options_.coarse, context, field2));
+    RELIEVO_TRY(search_edges(pair, pyramids, o.coarse, context, field2));
     keep_within_reach(pair, context, field2);
   }
   RELIEVO_TRY(refine(1, field2));
@@ -162,12 +148,25 @@ Result<MatchSet> RefinedMatcher::match_at_size(const RectifiedPair& pair, const 
   RELIEVO_TRY(refine(0, field2));
   set.epipolar_shift = rows.measure_linear(field2);
   set.motion_px = rows.motion().rms_px;
-  read_matches(field2, keypoints, rows.motion(), options_.sigma_limit_px, set);
+  read_matches(field2, keypoints, rows.motion(), o.sigma_limit_px, set);
   // Of a whole face 100 are hardly any; where few places were asked for, a tenth of them.
   if (set.matches.size() < std::clamp<std::size_t>(keypoints.points.size() / 10, 1, 100))
     return Error{Errc::TooFewMatches,
                  "hardly anything matches between the views: is the face in both, in focus and lit?"};
   return set;
+}
+
+}  // namespace
+
+Result<MatchSet> RefinedMatcher::match(const RectifiedPair& pair, const Keypoints& keypoints,
+                                       StageContext& context) const {
+  if (pair.width_px < 64 || pair.height_px < 64 || pair.left.grey.empty() || pair.right.grey.empty())
+    return Error{Errc::InvalidInput, "the rectified pair is smaller than 64 pixels"};
+  if (!is_small_scene(pair)) return match_at_size(*this, pair, keypoints, context);
+  RELIEVO_TRY_ASSIGN(MatchSet found, match_at_size(*this, enlarge(pair, &context.scratch),
+                                                   enlarge(keypoints, &context.scratch), context));
+  shrink(found, keypoints.lattice_step_px);
+  return found;
 }
 
 }  // namespace relievo::pipeline

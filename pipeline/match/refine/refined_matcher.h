@@ -11,57 +11,43 @@
 
 #include "pipeline/base/options.h"
 #include "pipeline/match/coarse/coarse_surface.h"
-#include "pipeline/match/matcher.h"
+#include "pipeline/match/kinds.h"
 #include "pipeline/match/refine/surface_refiner.h"
 
 namespace relievo::pipeline {
 
-struct RefinedMatcherOptions {
+struct RefinedMatcher {
   CoarseSurfaceOptions coarse;
   SurfaceRefinerOptions refiner;
   float sigma_limit_px = 1.9F;    // a place less certain than this has no match
   float align_beyond_px = 0.03F;  // the rows are realigned on the face itself where they disagree by more
   int follow_motion = 1;          // whether what moved across the rows between the exposures is followed
-};
 
-template <typename Field>
-void describe(RefinedMatcherOptions& o, Field&& field) {
-  field("bending", o.refiner.bending, OptionRange{0.005, 5},
-        "how strongly a face is expected to bend; less is smoother");
-  field("crease", o.refiner.crease, OptionRange{0.05, 100},
-        "second differences beyond this many expected ones count as creases");
-  field("wrinkle", o.refiner.wrinkle, OptionRange{0, 100},
-        "at full size, patches that bend beyond this many expected ones count as relief; 0: none do");
-  field("local_window_px", o.refiner.local_window_px, OptionRange{5, 127},
-        "window over which offset and gain between the views are constant");
-  field("steps", o.refiner.steps, OptionRange{1, 32},
-        "warps at full size; at a half one less, at a quarter twice that");
-  field("solver_steps", o.refiner.solver_steps, OptionRange{1, 1000}, "conjugate-gradient steps a warp");
-  field("sigma_limit_px", o.sigma_limit_px, OptionRange{0.01, 10},
-        "a place less certain than this has no match");
-  field("align_beyond_px", o.align_beyond_px, OptionRange{0, 1000},
-        "rows of the two views that disagree by more are realigned on the face");
-  field("follow_motion", o.follow_motion, OptionRange{0, 1},
-        "1: what moved across the rows between the two exposures is followed");
-  field("band", o.coarse.band, OptionRange{4, 64}, "disparities tried around the coarse prediction");
-  field("largest_hole", o.coarse.largest_hole, OptionRange{0, 100000},
-        "enclosed holes up to this many pixels, at a quarter of the size, are bridged for refinement");
-  field("cross_check_px", o.coarse.cross_check_px, OptionRange{0.25, 16},
-        "how far the two views may disagree, pixels at a quarter of the size");
-}
-
-class RefinedMatcher final : public Matcher {
- public:
-  explicit RefinedMatcher(const RefinedMatcherOptions& options) : options_(options) {}
-  std::string_view name() const override { return "refined"; }
-  Result<MatchSet> match(const RectifiedPair& pair, const Keypoints& keypoints,
-                         StageContext& context) const override;
-
- private:
-  Result<MatchSet> match_at_size(const RectifiedPair& pair, const Keypoints& keypoints,
-                                 StageContext& context) const;
-
-  RefinedMatcherOptions options_;
+  void describe(auto&& field) {
+    field("bending", refiner.bending, OptionRange{0.005, 5},
+          "how strongly a face is expected to bend; less is smoother");
+    field("crease", refiner.crease, OptionRange{0.05, 100},
+          "second differences beyond this many expected ones count as creases");
+    field("wrinkle", refiner.wrinkle, OptionRange{0, 100},
+          "at full size, patches that bend beyond this many expected ones count as relief; 0: none do");
+    field("local_window_px", refiner.local_window_px, OptionRange{5, 127},
+          "window over which offset and gain between the views are constant");
+    field("steps", refiner.steps, OptionRange{1, 32},
+          "warps at full size; at a half one less, at a quarter twice that");
+    field("solver_steps", refiner.solver_steps, OptionRange{1, 1000}, "conjugate-gradient steps a warp");
+    field("sigma_limit_px", sigma_limit_px, OptionRange{0.01, 10},
+          "a place less certain than this has no match");
+    field("align_beyond_px", align_beyond_px, OptionRange{0, 1000},
+          "rows of the two views that disagree by more are realigned on the face");
+    field("follow_motion", follow_motion, OptionRange{0, 1},
+          "1: what moved across the rows between the two exposures is followed");
+    field("band", coarse.band, OptionRange{4, 64}, "disparities tried around the coarse prediction");
+    field("largest_hole", coarse.largest_hole, OptionRange{0, 100000},
+          "enclosed holes up to this many pixels, at a quarter of the size, are bridged for refinement");
+    field("cross_check_px", coarse.cross_check_px, OptionRange{0.25, 16},
+          "how far the two views may disagree, pixels at a quarter of the size");
+  }
+  Result<MatchSet> match(const RectifiedPair& pair, const Keypoints& keypoints, StageContext& context) const;
 };
 
 }  // namespace relievo::pipeline

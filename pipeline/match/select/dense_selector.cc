@@ -7,10 +7,9 @@
 namespace relievo::pipeline {
 
 Result<Keypoints> DenseSelector::select(const RectifiedPair& pair, StageContext& context) const {
-  RELIEVO_TRY(check_options(options_, "dense"));
   if (context.stop()) return Error{Errc::Cancelled, "the choice of keypoints was stopped"};
   RELIEVO_TRY(check_pixels_of_left(pair));
-  return lattice_keypoints(pair, options_.step_px, {0, 0, pair.width_px - 1, pair.height_px - 1}, context);
+  return lattice_keypoints(pair, step_px, {0, 0, pair.width_px - 1, pair.height_px - 1}, context);
 }
 
 }  // namespace relievo::pipeline

@@ -6,28 +6,17 @@
 #pragma once
 
 #include "pipeline/base/options.h"
-#include "pipeline/match/keypoint_selector.h"
+#include "pipeline/match/kinds.h"
 
 namespace relievo::pipeline {
 
-struct DenseSelectorOptions {
+struct DenseSelector {
   int step_px = 2;
-};
 
-template <typename Field>
-void describe(DenseSelectorOptions& o, Field&& field) {
-  field("step_px", o.step_px, OptionRange{1, 16}, "distance between keypoints, pixels");
-}
-
-class DenseSelector final : public KeypointSelector {
- public:
-  explicit DenseSelector(const DenseSelectorOptions& options) : options_(options) {}
-  std::string_view name() const override { return "dense"; }
-  bool on_lattice() const override { return true; }
-  Result<Keypoints> select(const RectifiedPair& pair, StageContext& context) const override;
-
- private:
-  DenseSelectorOptions options_;
+  void describe(auto&& field) {
+    field("step_px", step_px, OptionRange{1, 16}, "distance between keypoints, pixels");
+  }
+  Result<Keypoints> select(const RectifiedPair& pair, StageContext& context) const;
 };
 
 }  // namespace relievo::pipeline

@@ -12,7 +12,6 @@ namespace relievo::pipeline {
 Result<Keypoints> FileSelector::select(const RectifiedPair& pair, StageContext& context) const {
   RELIEVO_TRY(check_pixels_of_left(pair));
   if (context.stop()) return Error{Errc::Cancelled, "the choice of keypoints was stopped"};
-  const TextFile& file = options_.file;
   if (file.path.empty())
     return Error{Errc::NotFound, "no file of keypoints is named: --set file-points.path=FILE"}.at(
         "file-points.path");

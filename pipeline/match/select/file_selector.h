@@ -9,28 +9,18 @@
 #pragma once
 
 #include "pipeline/base/options.h"
-#include "pipeline/match/keypoint_selector.h"
+#include "pipeline/match/kinds.h"
 
 namespace relievo::pipeline {
 
-struct FileSelectorOptions {
+struct FileSelector {
   TextFile file;
-};
 
-template <typename Field>
-void describe(FileSelectorOptions& o, Field&& field) {
-  field("path", o.file, OptionRange{0, 0},
-        "text file of keypoints: x,y in pixels of the left rectified view, one a line");
-}
-
-class FileSelector final : public KeypointSelector {
- public:
-  explicit FileSelector(const FileSelectorOptions& options) : options_(options) {}
-  std::string_view name() const override { return "file-points"; }
-  Result<Keypoints> select(const RectifiedPair& pair, StageContext& context) const override;
-
- private:
-  FileSelectorOptions options_;
+  void describe(auto&& field) {
+    field("path", file, OptionRange{0, 0},
+          "text file of keypoints: x,y in pixels of the left rectified view, one a line");
+  }
+  Result<Keypoints> select(const RectifiedPair& pair, StageContext& context) const;
 };
 
 }  // namespace relievo::pipeline

@@ -79,22 +79,21 @@ Result<std::vector<float>> read_thresholds(const std::string& text) {
 
 }  // namespace
 
-Result<void> GoodFeaturesSelectorOptions::check() const {
+Result<void> GoodFeaturesSelector::check() const {
   if (const auto read = read_levels(levels); !read) return read.error();
   if (const auto read = read_thresholds(binary_thresholds); !read) return read.error();
   return {};
 }
 
 Result<Keypoints> GoodFeaturesSelector::select(const RectifiedPair& pair, StageContext& context) const {
-  RELIEVO_TRY(check_options(options_, "good-features"));
   RELIEVO_TRY(check_pixels_of_left(pair));
   const Error stopped{Errc::Cancelled, "the choice of keypoints was stopped"};
   if (context.stop()) return stopped;
-  RELIEVO_TRY_ASSIGN(const auto levels, read_levels(options_.levels));
-  RELIEVO_TRY_ASSIGN(const auto thresholds, read_thresholds(options_.binary_thresholds));
+  RELIEVO_TRY_ASSIGN(const auto wanted, read_levels(levels));
+  RELIEVO_TRY_ASSIGN(const auto thresholds, read_thresholds(binary_thresholds));
   const Selectable selectable(pair, &context.scratch);
   RELIEVO_TRY(check_selectable(selectable));
-  const CornerWindow window{options_.window_px / 2, 1};
+  const CornerWindow window{window_px / 2, 1};
   Plane<float> response(&context.scratch, pair.width_px, pair.height_px);
   Plane<float> chosen(&context.scratch, pair.width_px, pair.height_px);
 
@@ -103,10 +102,10 @@ Result<Keypoints> GoodFeaturesSelector::select(const RectifiedPair& pair, StageC
     const float strongest = greatest(response);
     if (!(strongest > 0)) return true;
     for (float& r : response.values) r /= strongest;
-    for (const Level& level : levels) {
+    for (const Level& level : wanted) {
       Arena::Mark mark(context.scratch);
       Candidates peaks = peaks_of(response, static_cast<float>(level.quality), 1, context, &context.scratch);
-      choose_spread(peaks, level.distance_px, options_.max_points, chosen, context.scratch);
+      choose_spread(peaks, level.distance_px, max_points, chosen, context.scratch);
       if (context.stop()) return false;
     }
     return true;
@@ -120,7 +119,7 @@ Result<Keypoints> GoodFeaturesSelector::select(const RectifiedPair& pair, StageC
       if (!search(binary)) return stopped;
     }
   }
-  return keypoints_of(chosen, options_.max_points, context);
+  return keypoints_of(chosen, max_points, context);
 }
 
 }  // namespace relievo::pipeline

@@ -17,37 +17,27 @@
 #include <string>
 
 #include "pipeline/base/options.h"
-#include "pipeline/match/keypoint_selector.h"
+#include "pipeline/match/kinds.h"
 
 namespace relievo::pipeline {
 
-struct GoodFeaturesSelectorOptions {
+struct GoodFeaturesSelector {
   std::string levels = "0.02:4+0.004:7+0.0005:10";
   std::string binary_thresholds = "none";
   int window_px = 7;
   int max_points = 20'000;
   Result<void> check() const;
-};
 
-template <typename Field>
-void describe(GoodFeaturesSelectorOptions& o, Field&& field) {
-  field("levels", o.levels, OptionRange{0, 0},
-        "QUALITY:DISTANCE_PX joined by '+': corners this good keep this distance; united");
-  field("binary_thresholds", o.binary_thresholds, OptionRange{0, 0},
-        "grey levels joined by '+' at which black and white outlines are searched too, or none");
-  field("window_px", o.window_px, OptionRange{3, 31, 2},
-        "side of the window a corner is judged in, pixels; odd");
-  field("max_points", o.max_points, OptionRange{1, 1'000'000}, "most keypoints: the strongest are kept");
-}
-
-class GoodFeaturesSelector final : public KeypointSelector {
- public:
-  explicit GoodFeaturesSelector(const GoodFeaturesSelectorOptions& options) : options_(options) {}
-  std::string_view name() const override { return "good-features"; }
-  Result<Keypoints> select(const RectifiedPair& pair, StageContext& context) const override;
-
- private:
-  GoodFeaturesSelectorOptions options_;
+  void describe(auto&& field) {
+    field("levels", levels, OptionRange{0, 0},
+          "QUALITY:DISTANCE_PX joined by '+': corners this good keep this distance; united");
+    field("binary_thresholds", binary_thresholds, OptionRange{0, 0},
+          "grey levels joined by '+' at which black and white outlines are searched too, or none");
+    field("window_px", window_px, OptionRange{3, 31, 2},
+          "side of the window a corner is judged in, pixels; odd");
+    field("max_points", max_points, OptionRange{1, 1'000'000}, "most keypoints: the strongest are kept");
+  }
+  Result<Keypoints> select(const RectifiedPair& pair, StageContext& context) const;
 };
 
 }  // namespace relievo::pipeline

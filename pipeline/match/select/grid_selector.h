@@ -9,38 +9,27 @@
 #pragma once
 
 #include "pipeline/base/options.h"
-#include "pipeline/match/keypoint_selector.h"
+#include "pipeline/match/kinds.h"
 
 namespace relievo::pipeline {
 
-struct GridSelectorOptions {
+struct GridSelector {
   int step_px = 8;
   int left_px = 0, top_px = 0;      // the rectangle's corner
   int width_px = 0, height_px = 0;  // 0: to the view's edge
-};
 
-template <typename Field>
-void describe(GridSelectorOptions& o, Field&& field) {
-  field("step_px", o.step_px, OptionRange{1, 256}, "distance between keypoints, pixels");
-  field("left_px", o.left_px, OptionRange{0, 8191},
-        "left edge of the rectangle, pixels of the left rectified view");
-  field("top_px", o.top_px, OptionRange{0, 8191},
-        "upper edge of the rectangle, pixels of the left rectified view");
-  field("width_px", o.width_px, OptionRange{0, 8192},
-        "width of the rectangle, pixels; 0: to the view's edge");
-  field("height_px", o.height_px, OptionRange{0, 8192},
-        "height of the rectangle, pixels; 0: to the view's edge");
-}
-
-class GridSelector final : public KeypointSelector {
- public:
-  explicit GridSelector(const GridSelectorOptions& options) : options_(options) {}
-  std::string_view name() const override { return "grid-points"; }
-  bool on_lattice() const override { return true; }
-  Result<Keypoints> select(const RectifiedPair& pair, StageContext& context) const override;
-
- private:
-  GridSelectorOptions options_;
+  void describe(auto&& field) {
+    field("step_px", step_px, OptionRange{1, 256}, "distance between keypoints, pixels");
+    field("left_px", left_px, OptionRange{0, 8191},
+          "left edge of the rectangle, pixels of the left rectified view");
+    field("top_px", top_px, OptionRange{0, 8191},
+          "upper edge of the rectangle, pixels of the left rectified view");
+    field("width_px", width_px, OptionRange{0, 8192},
+          "width of the rectangle, pixels; 0: to the view's edge");
+    field("height_px", height_px, OptionRange{0, 8192},
+          "height of the rectangle, pixels; 0: to the view's edge");
+  }
+  Result<Keypoints> select(const RectifiedPair& pair, StageContext& context) const;
 };
 
 }  // namespace relievo::pipeline

@@ -97,7 +97,6 @@ void mark_peaks(const Octave& octave, const Selectable& selectable, Plane<float>
 }  // namespace
 
 Result<Keypoints> HaarSelector::select(const RectifiedPair& pair, StageContext& context) const {
-  RELIEVO_TRY(check_options(options_, "haar"));
   RELIEVO_TRY(check_pixels_of_left(pair));
   const Error stopped{Errc::Cancelled, "the choice of keypoints was stopped"};
   if (context.stop()) return stopped;
@@ -105,7 +104,7 @@ Result<Keypoints> HaarSelector::select(const RectifiedPair& pair, StageContext& 
   RELIEVO_TRY(check_selectable(selectable));
   const FastHessian hessian(pair.left.grey, pair.width_px, pair.height_px, &context.scratch);
   Plane<float> found(&context.scratch, pair.width_px, pair.height_px);
-  for (int number = 0; number < options_.octaves; ++number) {
+  for (int number = 0; number < octaves; ++number) {
     Arena::Mark mark(context.scratch);
     Octave octave(number, pair.width_px, pair.height_px, &context.scratch);
     respond(hessian, selectable, context.pool, octave);
@@ -115,12 +114,11 @@ Result<Keypoints> HaarSelector::select(const RectifiedPair& pair, StageContext& 
   Plane<float> chosen(&context.scratch, pair.width_px, pair.height_px);
   if (const float strongest = greatest(found); strongest > 0) {
     for (float& r : found.values) r /= strongest;
-    Candidates peaks = peaks_of(found, static_cast<float>(options_.quality * options_.quality), 0, context,
-                                &context.scratch);
-    choose_spread(peaks, options_.min_distance_px, options_.max_points, chosen, context.scratch);
+    Candidates peaks = peaks_of(found, static_cast<float>(quality * quality), 0, context, &context.scratch);
+    choose_spread(peaks, min_distance_px, max_points, chosen, context.scratch);
   }
   if (context.stop()) return stopped;
-  return keypoints_of(chosen, options_.max_points, context);
+  return keypoints_of(chosen, max_points, context);
 }
 
 }  // namespace relievo::pipeline

@@ -13,34 +13,24 @@
 #pragma once
 
 #include "pipeline/base/options.h"
-#include "pipeline/match/keypoint_selector.h"
+#include "pipeline/match/kinds.h"
 
 namespace relievo::pipeline {
 
-struct HaarSelectorOptions {
+struct HaarSelector {
   int octaves = 2;
   double quality = 0.005;
   int min_distance_px = 3;
   int max_points = 20'000;
-};
 
-template <typename Field>
-void describe(HaarSelectorOptions& o, Field&& field) {
-  field("octaves", o.octaves, OptionRange{1, 4},
-        "ranges of blob sizes: filters of 9 to 27, 51, 99, 195 pixels");
-  field("quality", o.quality, OptionRange{1e-6, 1}, "least contrast, share of the strongest blob's");
-  field("min_distance_px", o.min_distance_px, OptionRange{1, 64}, "blobs keep this distance, pixels");
-  field("max_points", o.max_points, OptionRange{1, 1'000'000}, "most keypoints: the strongest are kept");
-}
-
-class HaarSelector final : public KeypointSelector {
- public:
-  explicit HaarSelector(const HaarSelectorOptions& options) : options_(options) {}
-  std::string_view name() const override { return "haar"; }
-  Result<Keypoints> select(const RectifiedPair& pair, StageContext& context) const override;
-
- private:
-  HaarSelectorOptions options_;
+  void describe(auto&& field) {
+    field("octaves", octaves, OptionRange{1, 4},
+          "ranges of blob sizes: filters of 9 to 27, 51, 99, 195 pixels");
+    field("quality", quality, OptionRange{1e-6, 1}, "least contrast, share of the strongest blob's");
+    field("min_distance_px", min_distance_px, OptionRange{1, 64}, "blobs keep this distance, pixels");
+    field("max_points", max_points, OptionRange{1, 1'000'000}, "most keypoints: the strongest are kept");
+  }
+  Result<Keypoints> select(const RectifiedPair& pair, StageContext& context) const;
 };
 
 }  // namespace relievo::pipeline

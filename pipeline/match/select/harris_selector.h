@@ -11,36 +11,26 @@
 #pragma once
 
 #include "pipeline/base/options.h"
-#include "pipeline/match/keypoint_selector.h"
+#include "pipeline/match/kinds.h"
 
 namespace relievo::pipeline {
 
-struct HarrisSelectorOptions {
+struct HarrisSelector {
   double sensitivity = 0.05;
   double quality = 0.02;
   int window_px = 3;
   int min_distance_px = 4;
   int max_points = 20'000;
-};
 
-template <typename Field>
-void describe(HarrisSelectorOptions& o, Field&& field) {
-  field("sensitivity", o.sensitivity, OptionRange{0.01, 0.24}, "how much an edge counts against a corner");
-  field("quality", o.quality, OptionRange{1e-6, 1}, "least contrast, share of the strongest corner's");
-  field("window_px", o.window_px, OptionRange{3, 15, 2},
-        "side of each of the three running means, pixels; odd");
-  field("min_distance_px", o.min_distance_px, OptionRange{1, 64}, "corners keep this distance, pixels");
-  field("max_points", o.max_points, OptionRange{1, 1'000'000}, "most keypoints: the strongest are kept");
-}
-
-class HarrisSelector final : public KeypointSelector {
- public:
-  explicit HarrisSelector(const HarrisSelectorOptions& options) : options_(options) {}
-  std::string_view name() const override { return "harris"; }
-  Result<Keypoints> select(const RectifiedPair& pair, StageContext& context) const override;
-
- private:
-  HarrisSelectorOptions options_;
+  void describe(auto&& field) {
+    field("sensitivity", sensitivity, OptionRange{0.01, 0.24}, "how much an edge counts against a corner");
+    field("quality", quality, OptionRange{1e-6, 1}, "least contrast, share of the strongest corner's");
+    field("window_px", window_px, OptionRange{3, 15, 2},
+          "side of each of the three running means, pixels; odd");
+    field("min_distance_px", min_distance_px, OptionRange{1, 64}, "corners keep this distance, pixels");
+    field("max_points", max_points, OptionRange{1, 1'000'000}, "most keypoints: the strongest are kept");
+  }
+  Result<Keypoints> select(const RectifiedPair& pair, StageContext& context) const;
 };
 
 }  // namespace relievo::pipeline

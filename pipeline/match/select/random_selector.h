@@ -8,30 +8,20 @@
 #pragma once
 
 #include "pipeline/base/options.h"
-#include "pipeline/match/keypoint_selector.h"
+#include "pipeline/match/kinds.h"
 
 namespace relievo::pipeline {
 
-struct RandomSelectorOptions {
+struct RandomSelector {
   int max_points = 20'000;
   int seed = 1;
-};
 
-template <typename Field>
-void describe(RandomSelectorOptions& o, Field&& field) {
-  field("max_points", o.max_points, OptionRange{1, 1'000'000},
-        "how many keypoints; all pixels where the region has no more");
-  field("seed", o.seed, OptionRange{0, 2'000'000'000}, "another seed draws other pixels");
-}
-
-class RandomSelector final : public KeypointSelector {
- public:
-  explicit RandomSelector(const RandomSelectorOptions& options) : options_(options) {}
-  std::string_view name() const override { return "random"; }
-  Result<Keypoints> select(const RectifiedPair& pair, StageContext& context) const override;
-
- private:
-  RandomSelectorOptions options_;
+  void describe(auto&& field) {
+    field("max_points", max_points, OptionRange{1, 1'000'000},
+          "how many keypoints; all pixels where the region has no more");
+    field("seed", seed, OptionRange{0, 2'000'000'000}, "another seed draws other pixels");
+  }
+  Result<Keypoints> select(const RectifiedPair& pair, StageContext& context) const;
 };
 
 }  // namespace relievo::pipeline

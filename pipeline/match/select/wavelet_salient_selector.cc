@@ -38,24 +38,22 @@ void mark_ends(const SalientTracks& tracks, const Selectable& selectable, Thread
 }  // namespace
 
 Result<Keypoints> WaveletSalientSelector::select(const RectifiedPair& pair, StageContext& context) const {
-  RELIEVO_TRY(check_options(options_, "wavelet-salient"));
   RELIEVO_TRY(check_pixels_of_left(pair));
   const Error stopped{Errc::Cancelled, "the choice of keypoints was stopped"};
   if (context.stop()) return stopped;
   const Selectable selectable(pair, &context.scratch);
   RELIEVO_TRY(check_selectable(selectable));
-  const SalientTracks tracks(pair.left.grey, pair.width_px, pair.height_px, options_.scales,
-                             &context.scratch);
+  const SalientTracks tracks(pair.left.grey, pair.width_px, pair.height_px, scales, &context.scratch);
   Plane<float> saliency(&context.scratch, pair.width_px, pair.height_px);
   mark_ends(tracks, selectable, context.pool, saliency);
   if (context.stop()) return stopped;
   Plane<float> chosen(&context.scratch, pair.width_px, pair.height_px);
   if (const float most = greatest(saliency); most > 0) {
     for (float& s : saliency.values) s /= most;
-    Candidates ends = peaks_of(saliency, static_cast<float>(options_.quality), 0, context, &context.scratch);
-    choose_spread(ends, options_.min_distance_px, options_.max_points, chosen, context.scratch);
+    Candidates ends = peaks_of(saliency, static_cast<float>(quality), 0, context, &context.scratch);
+    choose_spread(ends, min_distance_px, max_points, chosen, context.scratch);
   }
-  return keypoints_of(chosen, options_.max_points, context);
+  return keypoints_of(chosen, max_points, context);
 }
 
 }  // namespace relievo::pipeline

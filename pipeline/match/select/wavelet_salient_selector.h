@@ -13,34 +13,24 @@
 #pragma once
 
 #include "pipeline/base/options.h"
-#include "pipeline/match/keypoint_selector.h"
+#include "pipeline/match/kinds.h"
 
 namespace relievo::pipeline {
 
-struct WaveletSalientSelectorOptions {
+struct WaveletSalientSelector {
   int scales = 4;
   double quality = 0.01;
   int min_distance_px = 4;
   int max_points = 20'000;
-};
 
-template <typename Field>
-void describe(WaveletSalientSelectorOptions& o, Field&& field) {
-  field("scales", o.scales, OptionRange{1, 8},
-        "how many dyadic scales tracks may begin at: 2 to 2^scales pixels");
-  field("quality", o.quality, OptionRange{1e-6, 1}, "least saliency, share of the greatest");
-  field("min_distance_px", o.min_distance_px, OptionRange{1, 64}, "points keep this distance, pixels");
-  field("max_points", o.max_points, OptionRange{1, 1'000'000}, "most keypoints: the most salient are kept");
-}
-
-class WaveletSalientSelector final : public KeypointSelector {
- public:
-  explicit WaveletSalientSelector(const WaveletSalientSelectorOptions& options) : options_(options) {}
-  std::string_view name() const override { return "wavelet-salient"; }
-  Result<Keypoints> select(const RectifiedPair& pair, StageContext& context) const override;
-
- private:
-  WaveletSalientSelectorOptions options_;
+  void describe(auto&& field) {
+    field("scales", scales, OptionRange{1, 8},
+          "how many dyadic scales tracks may begin at: 2 to 2^scales pixels");
+    field("quality", quality, OptionRange{1e-6, 1}, "least saliency, share of the greatest");
+    field("min_distance_px", min_distance_px, OptionRange{1, 64}, "points keep this distance, pixels");
+    field("max_points", max_points, OptionRange{1, 1'000'000}, "most keypoints: the most salient are kept");
+  }
+  Result<Keypoints> select(const RectifiedPair& pair, StageContext& context) const;
 };
 
 }  // namespace relievo::pipeline

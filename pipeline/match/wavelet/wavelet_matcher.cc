@@ -13,7 +13,7 @@ namespace relievo::pipeline {
 namespace {
 
 constexpr int kBands = 32;
-using Most = WaveletMatcherOptions;
+using Most = WaveletMatcher;
 constexpr int kMostSamples = (2 * Most::kMostRadius + 1) * (2 * Most::kMostRadius + 1);
 constexpr int kStacked = 2;  // scales that make the last comparison
 
@@ -189,7 +189,7 @@ Fitted fit(const Place& place, const DisparityRange& range, int d, double sample
   return fitted;
 }
 
-Fitted match_place(const Place& place, const DisparityRange& range, const WaveletMatcherOptions& options,
+Fitted match_place(const Place& place, const DisparityRange& range, const WaveletMatcher& options,
                    double bias) {
   const auto coarsest = static_cast<std::size_t>(options.scales - 1);
   Candidates candidates = search_coarsest(place, range, coarsest, options.candidates);
@@ -214,16 +214,14 @@ Result<MatchSet> WaveletMatcher::match(const RectifiedPair& pair, const Keypoint
   MatchSet set(&context.output);
   set.lattice_step_px = keypoints.lattice_step_px;
   set.matches.reserve(keypoints.points.size());
-  const Scales left =
-      transform_dyadic(pair.left.grey, pair.width_px, pair.height_px, options_.scales, context);
-  const Scales right =
-      transform_dyadic(pair.right.grey, pair.width_px, pair.height_px, options_.scales, context);
+  const Scales left = transform_dyadic(pair.left.grey, pair.width_px, pair.height_px, scales, context);
+  const Scales right = transform_dyadic(pair.right.grey, pair.width_px, pair.height_px, scales, context);
   // The finest samples and their filters lie inside both pictures; coarser ones may reach over the edge.
-  const int reach = options_.radius + 1;
+  const int reach = radius + 1;
   const Plane<std::uint8_t> whole_left = whole_windows(pair, pair.left, reach, context);
   const Plane<std::uint8_t> whole_right = whole_windows(pair, pair.right, reach, context);
   const DisparityRange range = disparity_range(pair);
-  const double bias = method_bias_px(pair, 2 * (2 * options_.radius + 1));
+  const double bias = method_bias_px(pair, 2 * (2 * radius + 1));
   std::pmr::vector<Match> found(keypoints.points.size(), Match{}, &context.scratch);
   context.progress.done.store(0.1F, std::memory_order_relaxed);
   const auto inside = [](const Plane<std::uint8_t>& whole, float x, float y) {
@@ -232,13 +230,13 @@ Result<MatchSet> WaveletMatcher::match(const RectifiedPair& pair, const Keypoint
     return i >= 0 && j >= 0 && i < whole.width && j < whole.height && whole.row(j)[i] != 0;
   };
   context.pool.for_each_band(static_cast<int>(found.size()), kBands, [&](int begin, int end, int) {
-    Place place(left, right, options_.radius);
+    Place place(left, right, radius);
     for (int k = begin; k < end && !context.stop(); ++k) {
       const Vec2f at = keypoints.points[static_cast<std::size_t>(k)].at_px;
       if (!inside(whole_left, at.x, at.y)) continue;
       place.look_at(at);
-      const Fitted fitted = match_place(place, range, options_, bias);
-      if (fitted.sigma_px > 0 && fitted.sigma_px <= options_.sigma_limit_px &&
+      const Fitted fitted = match_place(place, range, *this, bias);
+      if (fitted.sigma_px > 0 && fitted.sigma_px <= sigma_limit_px &&
           inside(whole_right, at.x - fitted.disparity_px, at.y))
         found[static_cast<std::size_t>(k)] = {at, fitted.disparity_px, fitted.cost, fitted.sigma_px, 0};
     }

@@ -21,42 +21,31 @@
 #pragma once
 
 #include "pipeline/base/options.h"
-#include "pipeline/match/matcher.h"
+#include "pipeline/match/kinds.h"
 
 namespace relievo::pipeline {
 
-struct WaveletMatcherOptions {
+struct WaveletMatcher {
   static constexpr int kMostScales = 6, kMostRadius = 10, kMostCandidates = 8;
   int scales = 4;
   int radius = 4;            // samples to each side
   int candidates = 4;        // that are followed from the coarsest scale
   float min_score = 0.3F;    // mean correlation over the scales
   float sigma_limit_px = 1;  // a place less certain than this has no match
-};
 
-template <typename Field>
-void describe(WaveletMatcherOptions& o, Field&& field) {
-  field("scales", o.scales, OptionRange{2, o.kMostScales},
-        "dyadic scales: the coarsest is 2 to this power, pixels");
-  field("radius", o.radius, OptionRange{1, o.kMostRadius},
-        "samples to each side of a place, half a scale apart");
-  field("candidates", o.candidates, OptionRange{1, o.kMostCandidates},
-        "disparities followed from the coarsest scale to the finest");
-  field("min_score", o.min_score, OptionRange{0, 1},
-        "mean correlation over the scales below which there is no match");
-  field("sigma_limit_px", o.sigma_limit_px, OptionRange{0.01, 10},
-        "a place less certain than this has no match");
-}
-
-class WaveletMatcher final : public Matcher {
- public:
-  explicit WaveletMatcher(const WaveletMatcherOptions& options) : options_(options) {}
-  std::string_view name() const override { return "wavelet"; }
-  Result<MatchSet> match(const RectifiedPair& pair, const Keypoints& keypoints,
-                         StageContext& context) const override;
-
- private:
-  WaveletMatcherOptions options_;
+  void describe(auto&& field) {
+    field("scales", scales, OptionRange{2, kMostScales},
+          "dyadic scales: the coarsest is 2 to this power, pixels");
+    field("radius", radius, OptionRange{1, kMostRadius},
+          "samples to each side of a place, half a scale apart");
+    field("candidates", candidates, OptionRange{1, kMostCandidates},
+          "disparities followed from the coarsest scale to the finest");
+    field("min_score", min_score, OptionRange{0, 1},
+          "mean correlation over the scales below which there is no match");
+    field("sigma_limit_px", sigma_limit_px, OptionRange{0.01, 10},
+          "a place less certain than this has no match");
+  }
+  Result<MatchSet> match(const RectifiedPair& pair, const Keypoints& keypoints, StageContext& context) const;
 };
 
 }  // namespace relievo::pipeline

@@ -10,11 +10,10 @@ Result<MatchSet> SsdMatcher::match(const RectifiedPair& pair, const Keypoints& k
                                    StageContext& context) const {
   WindowRule rule;
   rule.score = WindowScore::SquaredDifferences;
-  rule.window_px = options_.window_px;
-  rule.channels = options_.channels;
-  rule.most_unlike =
-      static_cast<double>(options_.max_difference) * static_cast<double>(options_.max_difference);
-  rule.sigma_limit_px = options_.sigma_limit_px;
+  rule.window_px = window_px;
+  rule.channels = channels;
+  rule.most_unlike = static_cast<double>(max_difference) * static_cast<double>(max_difference);
+  rule.sigma_limit_px = sigma_limit_px;
   return match_windows(pair, keypoints, rule, context);
 }
 

@@ -12,36 +12,25 @@
 #pragma once
 
 #include "pipeline/base/options.h"
-#include "pipeline/match/matcher.h"
+#include "pipeline/match/kinds.h"
 
 namespace relievo::pipeline {
 
-struct SsdMatcherOptions {
+struct SsdMatcher {
   int window_px = 25;         // odd
   int channels = 1;           // 1: grey, 3: the three colours together
   float max_difference = 20;  // grey levels, rms over the window: less alike is no match
   float sigma_limit_px = 1;   // a place less certain than this has no match
-};
 
-template <typename Field>
-void describe(SsdMatcherOptions& o, Field&& field) {
-  field("window_px", o.window_px, OptionRange{3, 63, 2}, "side of the window, pixels, odd");
-  field("channels", o.channels, OptionRange{1, 3, 2}, "1: grey values, 3: the three colours together");
-  field("max_difference", o.max_difference, OptionRange{0.01, 255},
-        "rms difference of the windows above which there is no match, grey levels");
-  field("sigma_limit_px", o.sigma_limit_px, OptionRange{0.01, 10},
-        "a place less certain than this has no match");
-}
-
-class SsdMatcher final : public Matcher {
- public:
-  explicit SsdMatcher(const SsdMatcherOptions& options) : options_(options) {}
-  std::string_view name() const override { return "ssd"; }
-  Result<MatchSet> match(const RectifiedPair& pair, const Keypoints& keypoints,
-                         StageContext& context) const override;
-
- private:
-  SsdMatcherOptions options_;
+  void describe(auto&& field) {
+    field("window_px", window_px, OptionRange{3, 63, 2}, "side of the window, pixels, odd");
+    field("channels", channels, OptionRange{1, 3, 2}, "1: grey values, 3: the three colours together");
+    field("max_difference", max_difference, OptionRange{0.01, 255},
+          "rms difference of the windows above which there is no match, grey levels");
+    field("sigma_limit_px", sigma_limit_px, OptionRange{0.01, 10},
+          "a place less certain than this has no match");
+  }
+  Result<MatchSet> match(const RectifiedPair& pair, const Keypoints& keypoints, StageContext& context) const;
 };
 
 }  // namespace relievo::pipeline

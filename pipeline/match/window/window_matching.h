@@ -14,7 +14,7 @@
 // for that. Three channels are counted as one sample a pixel, because demosaicking joins their noise.
 #pragma once
 
-#include "pipeline/match/matcher.h"
+#include "pipeline/match/kinds.h"
 #include "pipeline/match/window/patch_scores.h"
 
 namespace relievo::pipeline {

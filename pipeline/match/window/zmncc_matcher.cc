@@ -10,11 +10,11 @@ Result<MatchSet> ZmnccMatcher::match(const RectifiedPair& pair, const Keypoints&
                                      StageContext& context) const {
   WindowRule rule;
   rule.score = WindowScore::ZeroMeanCorrelation;
-  rule.window_px = options_.window_px;
-  rule.channels = options_.channels;
-  rule.equiangular = options_.equiangular != 0;
-  rule.most_unlike = 1 - static_cast<double>(options_.min_score);
-  rule.sigma_limit_px = options_.sigma_limit_px;
+  rule.window_px = window_px;
+  rule.channels = channels;
+  rule.equiangular = equiangular != 0;
+  rule.most_unlike = 1 - static_cast<double>(min_score);
+  rule.sigma_limit_px = sigma_limit_px;
   return match_windows(pair, keypoints, rule, context);
 }
 

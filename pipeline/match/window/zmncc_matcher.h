@@ -11,38 +11,27 @@
 #pragma once
 
 #include "pipeline/base/options.h"
-#include "pipeline/match/matcher.h"
+#include "pipeline/match/kinds.h"
 
 namespace relievo::pipeline {
 
-struct ZmnccMatcherOptions {
+struct ZmnccMatcher {
   int window_px = 25;        // odd
   int channels = 1;          // 1: grey, 3: the three colours together
   float min_score = 0.4F;    // correlation, -1 .. 1
   int equiangular = 0;       // 1: two lines of equal slope instead of a parabola
   float sigma_limit_px = 1;  // a place less certain than this has no match
-};
 
-template <typename Field>
-void describe(ZmnccMatcherOptions& o, Field&& field) {
-  field("window_px", o.window_px, OptionRange{3, 63, 2}, "side of the window, pixels, odd");
-  field("channels", o.channels, OptionRange{1, 3, 2}, "1: grey values, 3: the three colours together");
-  field("min_score", o.min_score, OptionRange{0, 1}, "correlation below which there is no match");
-  field("equiangular", o.equiangular, OptionRange{0, 1},
-        "fit between pixels: 0 a parabola, 1 two lines of equal slope");
-  field("sigma_limit_px", o.sigma_limit_px, OptionRange{0.01, 10},
-        "a place less certain than this has no match");
-}
-
-class ZmnccMatcher final : public Matcher {
- public:
-  explicit ZmnccMatcher(const ZmnccMatcherOptions& options) : options_(options) {}
-  std::string_view name() const override { return "zmncc"; }
-  Result<MatchSet> match(const RectifiedPair& pair, const Keypoints& keypoints,
-                         StageContext& context) const override;
-
- private:
-  ZmnccMatcherOptions options_;
+  void describe(auto&& field) {
+    field("window_px", window_px, OptionRange{3, 63, 2}, "side of the window, pixels, odd");
+    field("channels", channels, OptionRange{1, 3, 2}, "1: grey values, 3: the three colours together");
+    field("min_score", min_score, OptionRange{0, 1}, "correlation below which there is no match");
+    field("equiangular", equiangular, OptionRange{0, 1},
+          "fit between pixels: 0 a parabola, 1 two lines of equal slope");
+    field("sigma_limit_px", sigma_limit_px, OptionRange{0.01, 10},
+          "a place less certain than this has no match");
+  }
+  Result<MatchSet> match(const RectifiedPair& pair, const Keypoints& keypoints, StageContext& context) const;
 };
 
 }  // namespace relievo::pipeline

@@ -7,19 +7,14 @@
 // is. Errors: OutOfMemory, Cancelled.
 #pragma once
 
-#include <string_view>
+#include <functional>
 
 #include "pipeline/base/stage.h"
 #include "pipeline/model/face_mesh.h"
 
 namespace relievo::pipeline {
 
-class Completion {
- public:
-  virtual ~Completion() = default;
-  virtual std::string_view name() const = 0;
-  // `across`: which way runs across the person, as find_head_frame() wants it.
-  virtual Result<FaceMesh> complete(FaceMesh mesh, const Vec3d& across, StageContext& context) const = 0;
-};
+// `across`: which way runs across the person, as find_head_frame() wants it.
+using Completion = std::function<Result<FaceMesh>(FaceMesh mesh, const Vec3d& across, StageContext& context)>;
 
 }  // namespace relievo::pipeline

@@ -171,7 +171,7 @@ Result<FaceMesh> GenericHeadCompletion::complete(FaceMesh mesh, const Vec3d& acr
   Arena& scratch = context.scratch;
   const Arena::Mark mark(scratch);
   const UnrolledHead face(mesh, frame->head_from_camera, kFitCellMm, scratch);
-  FittedGlobe fitted = fit_generic_globe(face, kFitCellMm, options_.misfit_mm, &scratch);
+  FittedGlobe fitted = fit_generic_globe(face, kFitCellMm, misfit_mm, &scratch);
   if (context.stop()) return stopped;
   Globe globe(kGlobeTimes, &scratch);
   std::array<std::pmr::vector<double>, 2> fields{std::move(fitted.radius_mm), std::move(fitted.sigma_mm)};

@@ -13,23 +13,13 @@
 
 namespace relievo::pipeline {
 
-struct GenericHeadOptions {
+struct GenericHeadCompletion {
   double misfit_mm = 1.5;  // what a person differs by from all that the model can be, one standard deviation
-};
 
-template <typename Field>
-void describe(GenericHeadOptions& o, Field&& field) {
-  field("misfit_mm", o.misfit_mm, OptionRange{0.1, 20}, "what a person differs by from the model, mm");
-}
-
-class GenericHeadCompletion final : public Completion {
- public:
-  explicit GenericHeadCompletion(const GenericHeadOptions& options) : options_(options) {}
-  std::string_view name() const override { return "generic-head"; }
-  Result<FaceMesh> complete(FaceMesh mesh, const Vec3d& across, StageContext& context) const override;
-
- private:
-  GenericHeadOptions options_;
+  void describe(auto&& field) {
+    field("misfit_mm", misfit_mm, OptionRange{0.1, 20}, "what a person differs by from the model, mm");
+  }
+  Result<FaceMesh> complete(FaceMesh mesh, const Vec3d& across, StageContext& context) const;
 };
 
 }  // namespace relievo::pipeline

@@ -4,16 +4,12 @@
 // Nothing is added. Thread: any.
 #pragma once
 
-#include <utility>
-
 #include "pipeline/mesh/completion/completion.h"
 
 namespace relievo::pipeline {
 
-class MeasuredOnly final : public Completion {
- public:
-  std::string_view name() const override { return "measured-only"; }
-  Result<FaceMesh> complete(FaceMesh mesh, const Vec3d&, StageContext& context) const override {
+struct MeasuredOnly {
+  Result<FaceMesh> complete(FaceMesh mesh, const Vec3d&, StageContext& context) const {
     if (context.stop()) return Error{Errc::Cancelled, "completion was stopped"};
     return mesh;
   }

@@ -130,7 +130,7 @@ Result<FaceMesh> make_solid(const FaceModel& model, const Completion& completion
   return run_stage(context, [&](StageContext& c) -> Result<FaceMesh> {
     const RigidTransform back = inverse(model.head_from_camera);
     const Vec3d across = apply(RigidTransform{back.rotation, {}}, Vec3d{1, 0, 0});
-    RELIEVO_TRY_ASSIGN(const FaceMesh head, completion.complete(FaceMesh(model.mesh), across, c));
+    RELIEVO_TRY_ASSIGN(const FaceMesh head, completion(FaceMesh(model.mesh), across, c));
     if (!is_closed(head))  // nothing was added
       return Error{
           Errc::PoorGeometry,

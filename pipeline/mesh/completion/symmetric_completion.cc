@@ -15,7 +15,7 @@ namespace {
 
 // Not where the border's own triangles still lie.
 std::pmr::vector<Addition> additions(const UnrolledHead& head, const RigidTransform& camera_from_head,
-                                     const SymmetricCompletionOptions& options, Arena& scratch) {
+                                     const SymmetricCompletion& options, Arena& scratch) {
   std::pmr::vector<Addition> all(&scratch);
   for (int r = 0; r < head.own.rows(); ++r)
     for (int c = 0; c < head.own.columns(); ++c) {
@@ -34,7 +34,7 @@ std::pmr::vector<Addition> additions(const UnrolledHead& head, const RigidTransf
 
 }  // namespace
 
-Result<void> SymmetricCompletionOptions::check() const {
+Result<void> SymmetricCompletion::check() const {
   if (longest_edge_mm < 2 * cell_mm)
     return Error{Errc::InvalidInput, "longest_edge_mm must be at least two cells"}.at("symmetric");
   return {};
@@ -49,17 +49,17 @@ Result<FaceMesh> SymmetricCompletion::complete(FaceMesh mesh, const Vec3d& acros
     return frame.error();
   }
   const Arena::Mark mark(context.scratch);
-  UnrolledHead head(mesh, frame->head_from_camera, options_.cell_mm, context.scratch);
+  UnrolledHead head(mesh, frame->head_from_camera, cell_mm, context.scratch);
   if (context.stop()) return stopped;
-  head.add([&head](int c, int r) { return head.own.z(head.own.columns() - 1 - c, r); }, options_.cell_mm,
+  head.add([&head](int c, int r) { return head.own.z(head.own.columns() - 1 - c, r); }, cell_mm,
            context.scratch);
   if (context.stop()) return stopped;
-  const auto added = additions(head, inverse(frame->head_from_camera), options_, context.scratch);
+  const auto added = additions(head, inverse(frame->head_from_camera), *this, context.scratch);
   if (added.empty()) return mesh;
   std::pmr::vector<Vec2f> plane(&context.scratch);
   plane.reserve(mesh.vertices_mm.size());
   for (const Vec3f& v : head.flat.vertices_mm) plane.push_back({v.x, v.y});
-  return sew(mesh, plane, added, {options_.longest_edge_mm}, context);
+  return sew(mesh, plane, added, {longest_edge_mm}, context);
 }
 
 }  // namespace relievo::pipeline

@@ -12,31 +12,21 @@
 
 namespace relievo::pipeline {
 
-struct SymmetricCompletionOptions {
+struct SymmetricCompletion {
   double cell_mm = 1.5;         // between completed vertices
   double longest_edge_mm = 12;  // wider gaps between both sides' surfaces stay open
   double sigma_mm = 0.7;
   double sigma_per_mm = 0.015;
   Result<void> check() const;
-};
 
-template <typename Field>
-void describe(SymmetricCompletionOptions& o, Field&& field) {
-  field("cell_mm", o.cell_mm, OptionRange{0.5, 10}, "between completed vertices, mm");
-  field("longest_edge_mm", o.longest_edge_mm, OptionRange{1, 50}, "longer edges join nothing, mm");
-  field("sigma_mm", o.sigma_mm, OptionRange{0, 20},
-        "standard deviation of a completed place at the seam, mm");
-  field("sigma_per_mm", o.sigma_per_mm, OptionRange{0, 1}, "how much more for each mm from the seam");
-}
-
-class SymmetricCompletion final : public Completion {
- public:
-  explicit SymmetricCompletion(const SymmetricCompletionOptions& options) : options_(options) {}
-  std::string_view name() const override { return "symmetric"; }
-  Result<FaceMesh> complete(FaceMesh mesh, const Vec3d& across, StageContext& context) const override;
-
- private:
-  SymmetricCompletionOptions options_;
+  void describe(auto&& field) {
+    field("cell_mm", cell_mm, OptionRange{0.5, 10}, "between completed vertices, mm");
+    field("longest_edge_mm", longest_edge_mm, OptionRange{1, 50}, "longer edges join nothing, mm");
+    field("sigma_mm", sigma_mm, OptionRange{0, 20},
+          "standard deviation of a completed place at the seam, mm");
+    field("sigma_per_mm", sigma_per_mm, OptionRange{0, 1}, "how much more for each mm from the seam");
+  }
+  Result<FaceMesh> complete(FaceMesh mesh, const Vec3d& across, StageContext& context) const;
 };
 
 }  // namespace relievo::pipeline

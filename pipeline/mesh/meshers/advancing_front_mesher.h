@@ -12,30 +12,20 @@
 
 namespace relievo::pipeline {
 
-struct AdvancingFrontMesherOptions {
+struct AdvancingFrontMesher {
   int max_points = 160'000;   // more are thinned evenly
   double max_edge_mm = 5;     // longest edge
   double max_edge_ratio = 6;  // longest edge, in usual distances between neighbours
   FinishOptions finish;
-};
 
-template <typename Field>
-void describe(AdvancingFrontMesherOptions& o, Field&& field) {
-  field("max_points", o.max_points, OptionRange{1000, 1'000'000}, "more points are thinned evenly");
-  field("max_edge_mm", o.max_edge_mm, OptionRange{0.1, 100}, "longest edge, mm");
-  field("max_edge_ratio", o.max_edge_ratio, OptionRange{1.5, 100},
-        "longest edge, in usual distances between neighbours");
-  describe_finish(o.finish, field);
-}
-
-class AdvancingFrontMesher final : public Mesher {
- public:
-  explicit AdvancingFrontMesher(const AdvancingFrontMesherOptions& options) : options_(options) {}
-  std::string_view name() const override { return "advancing-front"; }
-  Result<FaceMesh> mesh(const PointCloud& cloud, StageContext& context) const override;
-
- private:
-  AdvancingFrontMesherOptions options_;
+  void describe(auto&& field) {
+    field("max_points", max_points, OptionRange{1000, 1'000'000}, "more points are thinned evenly");
+    field("max_edge_mm", max_edge_mm, OptionRange{0.1, 100}, "longest edge, mm");
+    field("max_edge_ratio", max_edge_ratio, OptionRange{1.5, 100},
+          "longest edge, in usual distances between neighbours");
+    finish.describe(field);
+  }
+  Result<FaceMesh> mesh(const PointCloud& cloud, StageContext& context) const;
 };
 
 }  // namespace relievo::pipeline

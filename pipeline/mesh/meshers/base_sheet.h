@@ -41,18 +41,17 @@ struct FinishOptions {
   double max_gap_mm = 3;          // surface further than this from every measured point is cut off
   double max_incidence_deg = 80;  // steepest triangle, between its normal and the line of sight
   double min_area_mm2 = 2500;     // less surface than this is no face
-};
 
-template <typename Field>
-void describe_finish(FinishOptions& o, Field&& field) {
-  field("max_triangles", o.max_triangles, OptionRange{1000, 10'000'000},
-        "more triangles are simplified to so many");
-  field("max_gap_mm", o.max_gap_mm, OptionRange{0.1, 50},
-        "surface further than this from every measured point is cut off, mm");
-  field("max_incidence_deg", o.max_incidence_deg, OptionRange{30, 89},
-        "steepest triangle, between its normal and the line of sight, degrees");
-  field("min_area_mm2", o.min_area_mm2, OptionRange{0, 1e6}, "less surface than this is no face, square mm");
-}
+  void describe(auto&& field) {
+    field("max_triangles", max_triangles, OptionRange{1000, 10'000'000},
+          "more triangles are simplified to so many");
+    field("max_gap_mm", max_gap_mm, OptionRange{0.1, 50},
+          "surface further than this from every measured point is cut off, mm");
+    field("max_incidence_deg", max_incidence_deg, OptionRange{30, 89},
+          "steepest triangle, between its normal and the line of sight, degrees");
+    field("min_area_mm2", min_area_mm2, OptionRange{0, 1e6}, "less surface than this is no face, square mm");
+  }
+};
 
 // `triangles` may be any heap in which no directed edge is used twice. Errors: PoorGeometry, Cancelled.
 Result<FaceMesh> finish_surface(const FaceMesh& base, std::span<const Vec3f> vertices_mm,

@@ -7,15 +7,13 @@
 namespace relievo::pipeline {
 
 Result<FaceMesh> BezierMesher::mesh(const PointCloud& cloud, StageContext& context) const {
-  RELIEVO_TRY(check_options(options_, "bezier"));
   if (context.stop()) return Error{Errc::Cancelled, "meshing was stopped"};
-  RELIEVO_TRY_ASSIGN(const FaceMesh base, base_sheet(cloud, options_.max_points, context));
+  RELIEVO_TRY_ASSIGN(const FaceMesh base, base_sheet(cloud, max_points, context));
   const DepthSamples samples = sample_depths(base, &context.scratch);
-  const BezierNet net(samples, options_.patch_mm, options_.bending, &context.scratch);
+  const BezierNet net(samples, patch_mm, bending, &context.scratch);
   if (context.stop()) return Error{Errc::Cancelled, "meshing was stopped"};
   return mesh_sheet(
-      base, samples, [&net](auto us, double v, auto depths) { net.depths(us, v, depths); }, options_.sheet,
-      context);
+      base, samples, [&net](auto us, double v, auto depths) { net.depths(us, v, depths); }, sheet, context);
 }
 
 }  // namespace relievo::pipeline

@@ -13,29 +13,19 @@
 
 namespace relievo::pipeline {
 
-struct BezierMesherOptions {
+struct BezierMesher {
   int max_points = 160'000;  // more are thinned evenly
   double patch_mm = 1.5;     // side of a patch, where the face's usual depth is
   double bending = 0.003;    // weight of the bending term against the points'
   SheetOptions sheet;
-};
 
-template <typename Field>
-void describe(BezierMesherOptions& o, Field&& field) {
-  field("max_points", o.max_points, OptionRange{1000, 1'000'000}, "more points are thinned evenly");
-  field("patch_mm", o.patch_mm, OptionRange{0.5, 50}, "side of a patch, mm");
-  field("bending", o.bending, OptionRange{1e-6, 1000}, "weight of the bending term against the points'");
-  describe_sheet(o.sheet, field);
-}
-
-class BezierMesher final : public Mesher {
- public:
-  explicit BezierMesher(const BezierMesherOptions& options) : options_(options) {}
-  std::string_view name() const override { return "bezier"; }
-  Result<FaceMesh> mesh(const PointCloud& cloud, StageContext& context) const override;
-
- private:
-  BezierMesherOptions options_;
+  void describe(auto&& field) {
+    field("max_points", max_points, OptionRange{1000, 1'000'000}, "more points are thinned evenly");
+    field("patch_mm", patch_mm, OptionRange{0.5, 50}, "side of a patch, mm");
+    field("bending", bending, OptionRange{1e-6, 1000}, "weight of the bending term against the points'");
+    sheet.describe(field);
+  }
+  Result<FaceMesh> mesh(const PointCloud& cloud, StageContext& context) const;
 };
 
 }  // namespace relievo::pipeline

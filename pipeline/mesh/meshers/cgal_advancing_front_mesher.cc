@@ -61,15 +61,13 @@ std::pmr::vector<Triangle> grow(const FaceMesh& base, double longest_mm, StageCo
 }  // namespace
 
 Result<FaceMesh> AdvancingFrontMesher::mesh(const PointCloud& cloud, StageContext& context) const {
-  RELIEVO_TRY(check_options(options_, "advancing-front"));
   if (context.stop()) return Error{Errc::Cancelled, "meshing was stopped"};
-  RELIEVO_TRY_ASSIGN(const FaceMesh base, base_sheet(cloud, options_.max_points, context));
+  RELIEVO_TRY_ASSIGN(const FaceMesh base, base_sheet(cloud, max_points, context));
   const double longest =
-      std::min(options_.max_edge_mm,
-               options_.max_edge_ratio * static_cast<double>(usual_edge_mm(base, &context.scratch)));
+      std::min(max_edge_mm, max_edge_ratio * static_cast<double>(usual_edge_mm(base, &context.scratch)));
   std::pmr::vector<Triangle> triangles = grow(base, longest, context);
   if (context.stop()) return Error{Errc::Cancelled, "meshing was stopped"};
-  return finish_surface(base, base.vertices_mm, triangles, options_.finish, context);
+  return finish_surface(base, base.vertices_mm, triangles, finish, context);
 }
 
 }  // namespace relievo::pipeline

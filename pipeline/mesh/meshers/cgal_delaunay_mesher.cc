@@ -107,10 +107,9 @@ std::pmr::vector<Triangle> triangulate(const PointCloud& cloud, int max_triangle
 
 // `longest_mm`: of an edge, asked once all triangles are known.
 template <typename Longest>
-Result<FaceMesh> join(const PointCloud& cloud, const DelaunayMesherOptions& options, StageContext& context,
+Result<FaceMesh> join(const PointCloud& cloud, const DelaunayMesher& options, StageContext& context,
                       Longest&& longest_mm) {
   const Error stopped{Errc::Cancelled, "meshing was stopped"};
-  RELIEVO_TRY(check_options(options, "delaunay"));
   if (context.stop()) return stopped;
   if (cloud.points.size() < 3) return no_surface();
   std::pmr::vector<Triangle> triangles = triangulate(cloud, options.max_triangles, context.scratch);
@@ -143,15 +142,14 @@ Result<FaceMesh> join(const PointCloud& cloud, const DelaunayMesherOptions& opti
 }  // namespace
 
 Result<FaceMesh> DelaunayMesher::mesh(const PointCloud& cloud, StageContext& context) const {
-  return join(cloud, options_, context, [&](const auto& at, const auto& triangles) {
-    const float most = static_cast<float>(options_.max_edge_mm);
-    return std::min(most,
-                    static_cast<float>(options_.max_edge_ratio * even_distance_mm(at, triangles, most)));
+  return join(cloud, *this, context, [&](const auto& at, const auto& triangles) {
+    const float most = static_cast<float>(max_edge_mm);
+    return std::min(most, static_cast<float>(max_edge_ratio * even_distance_mm(at, triangles, most)));
   });
 }
 
 Result<FaceMesh> delaunay_sheet(const PointCloud& cloud, int max_triangles, StageContext& context) {
-  DelaunayMesherOptions options;
+  DelaunayMesher options;
   options.max_triangles = max_triangles;
   return join(cloud, options, context, [&](const auto& at, const auto& triangles) {
     return std::min(kSheetEdgeMm, kSheetEdges * usual_edge_mm(at, triangles, context.scratch));

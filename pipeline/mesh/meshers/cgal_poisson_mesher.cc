@@ -74,14 +74,12 @@ void smooth(BandVolume& volume, std::size_t stride, std::pmr::memory_resource* m
 
 Result<FaceMesh> PoissonMesher::mesh(const PointCloud& cloud, StageContext& context) const {
   const Error stopped{Errc::Cancelled, "meshing was stopped"};
-  RELIEVO_TRY(check_options(options_, "poisson"));
   if (context.stop()) return stopped;
-  RELIEVO_TRY_ASSIGN(const FaceMesh base, base_sheet(cloud, options_.max_points, context));
-  const float voxel =
-      std::max(static_cast<float>(options_.voxel_mm), 0.6F * usual_edge_mm(base, &context.scratch));
+  RELIEVO_TRY_ASSIGN(const FaceMesh base, base_sheet(cloud, max_points, context));
+  const float voxel = std::max(static_cast<float>(voxel_mm), 0.6F * usual_edge_mm(base, &context.scratch));
   BandVolume volume =
-      volume_around(base.vertices_mm, voxel, static_cast<int>(options_.band_voxels) + 2, &context.scratch);
-  if (!fill_field(base, volume, static_cast<float>(options_.band_voxels) * voxel, context))
+      volume_around(base.vertices_mm, voxel, static_cast<int>(band_voxels) + 2, &context.scratch);
+  if (!fill_field(base, volume, static_cast<float>(band_voxels) * voxel, context))
     return context.stop() ? stopped : no_surface();
   const std::size_t row = static_cast<std::size_t>(volume.nx);
   for (int pass = 0; pass < kSmoothings; ++pass)
@@ -90,7 +88,7 @@ Result<FaceMesh> PoissonMesher::mesh(const PointCloud& cloud, StageContext& cont
       smooth(volume, stride, &context.scratch);
     }
   Polygonised surface = polygonise(volume, &context.scratch);
-  return finish_surface(base, surface.vertices_mm, surface.triangles, options_.finish, context);
+  return finish_surface(base, surface.vertices_mm, surface.triangles, finish, context);
 }
 
 }  // namespace relievo::pipeline

@@ -16,7 +16,7 @@
 
 namespace relievo::pipeline {
 
-struct DelaunayMesherOptions {
+struct DelaunayMesher {
   int max_triangles = 320'000;  // more points are thinned evenly
   double max_edge_mm = 25;      // longest edge
   double max_edge_ratio =
@@ -25,31 +25,21 @@ struct DelaunayMesherOptions {
   int ear_passes = 3;             // how often triangles that hang on by one edge are trimmed; 0 to 16
   int normal_passes = 1;          // how often normals are averaged over the neighbours; 0 to 16
   double min_area_mm2 = 2500;     // less surface than this is no face
-};
 
-template <typename Field>
-void describe(DelaunayMesherOptions& o, Field&& field) {
-  field("max_triangles", o.max_triangles, OptionRange{1000, 10'000'000}, "more points are thinned evenly");
-  field("max_edge_mm", o.max_edge_mm, OptionRange{0.1, 100}, "longest edge, mm");
-  field("max_edge_ratio", o.max_edge_ratio, OptionRange{1.5, 100},
-        "longest edge, in usual distances between neighbours");
-  field("max_incidence_deg", o.max_incidence_deg, OptionRange{30, 89},
-        "steepest triangle, between its normal and the line of sight, degrees");
-  field("ear_passes", o.ear_passes, OptionRange{0, 16},
-        "how often triangles that hang on by one edge are trimmed");
-  field("normal_passes", o.normal_passes, OptionRange{0, 16},
-        "how often normals are averaged over the neighbours");
-  field("min_area_mm2", o.min_area_mm2, OptionRange{0, 1e6}, "less surface than this is no face, square mm");
-}
-
-class DelaunayMesher final : public Mesher {
- public:
-  explicit DelaunayMesher(const DelaunayMesherOptions& options) : options_(options) {}
-  std::string_view name() const override { return "delaunay"; }
-  Result<FaceMesh> mesh(const PointCloud& cloud, StageContext& context) const override;
-
- private:
-  DelaunayMesherOptions options_;
+  void describe(auto&& field) {
+    field("max_triangles", max_triangles, OptionRange{1000, 10'000'000}, "more points are thinned evenly");
+    field("max_edge_mm", max_edge_mm, OptionRange{0.1, 100}, "longest edge, mm");
+    field("max_edge_ratio", max_edge_ratio, OptionRange{1.5, 100},
+          "longest edge, in usual distances between neighbours");
+    field("max_incidence_deg", max_incidence_deg, OptionRange{30, 89},
+          "steepest triangle, between its normal and the line of sight, degrees");
+    field("ear_passes", ear_passes, OptionRange{0, 16},
+          "how often triangles that hang on by one edge are trimmed");
+    field("normal_passes", normal_passes, OptionRange{0, 16},
+          "how often normals are averaged over the neighbours");
+    field("min_area_mm2", min_area_mm2, OptionRange{0, 1e6}, "less surface than this is no face, square mm");
+  }
+  Result<FaceMesh> mesh(const PointCloud& cloud, StageContext& context) const;
 };
 
 }  // namespace relievo::pipeline

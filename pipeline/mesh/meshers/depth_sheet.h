@@ -31,15 +31,14 @@ struct SheetOptions {
   double step_mm = 0.7;  // from node to node, where the face's usual depth is
   int max_triangles = 320'000;
   double min_area_mm2 = 2500;  // less surface than this is no face
-};
 
-template <typename Field>
-void describe_sheet(SheetOptions& o, Field&& field) {
-  field("step_mm", o.step_mm, OptionRange{0.2, 10},
-        "from node to node of the lattice the function is laid on, mm");
-  field("max_triangles", o.max_triangles, OptionRange{1000, 10'000'000}, "never more triangles than this");
-  field("min_area_mm2", o.min_area_mm2, OptionRange{0, 1e6}, "less surface than this is no face, square mm");
-}
+  void describe(auto&& field) {
+    field("step_mm", step_mm, OptionRange{0.2, 10},
+          "from node to node of the lattice the function is laid on, mm");
+    field("max_triangles", max_triangles, OptionRange{1000, 10'000'000}, "never more triangles than this");
+    field("min_area_mm2", min_area_mm2, OptionRange{0, 1e6}, "less surface than this is no face, square mm");
+  }
+};
 
 // Asked for the depths of a row of places: `depths` gets one for each (us[i], v). Called from the pool.
 using DepthFunction = std::function<void(std::span<const double> us, double v, std::span<double> depths)>;

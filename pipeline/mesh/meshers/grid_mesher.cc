@@ -28,7 +28,7 @@ float tangent(double degrees) { return static_cast<float>(std::tan(degrees * std
 
 // On a lattice that makes good use of the triangles there may be: of a face far away finer than the points',
 // but not so fine that it would only repeat them; of a face near by coarser, above all towards the edges.
-ShapedLattice fill_budget(ShapedLattice shaped, double triangles, float max_slope, const GridMesherOptions& o,
+ShapedLattice fill_budget(ShapedLattice shaped, double triangles, float max_slope, const GridMesher& o,
                           StageContext& context) {
   const double present = expected_triangles(shaped, 1);
   if (present <= 0) return shaped;
@@ -54,7 +54,7 @@ void turn_outwards(CutSurface& cut, const Vec3d& centre_mm) {
   for (auto& t : cut.triangles) std::swap(t[1], t[2]);
 }
 
-Result<CutSurface> make_surface(const PointCloud& cloud, double triangles, const GridMesherOptions& o,
+Result<CutSurface> make_surface(const PointCloud& cloud, double triangles, const GridMesher& o,
                                 StageContext& context) {
   Arena& scratch = context.scratch;
   const LatticeLimits limits{tangent(o.max_incidence_deg), static_cast<float>(o.step_sigmas),
@@ -99,7 +99,6 @@ Result<CutSurface> make_surface(const PointCloud& cloud, double triangles, const
 
 Result<FaceMesh> GridMesher::mesh(const PointCloud& cloud, StageContext& context) const {
   const Error stopped{Errc::Cancelled, "meshing was stopped"};
-  RELIEVO_TRY(check_options(options_, "grid"));
   if (context.stop()) return stopped;
   if (cloud.points.empty()) return no_surface();
   if (cloud.lattice_step_px <= 0)
@@ -109,25 +108,25 @@ Result<FaceMesh> GridMesher::mesh(const PointCloud& cloud, StageContext& context
 
   // What the outline's cut takes is known once it is done: about a fiftieth, which may be had more of before.
   // Where it leaves too many, a thinner lattice fits.
-  double triangles = (1 + kCutAway) * options_.max_triangles;
+  double triangles = (1 + kCutAway) * max_triangles;
   for (;;) {
     const Arena::Mark attempt(context.scratch);
     if (context.stop()) return stopped;
-    RELIEVO_TRY_ASSIGN(const CutSurface surface, make_surface(cloud, triangles, options_, context));
+    RELIEVO_TRY_ASSIGN(const CutSurface surface, make_surface(cloud, triangles, *this, context));
     context.progress.done.store(0.8F, std::memory_order_relaxed);
     if (context.stop()) return stopped;
-    if (surface.triangles.empty() || area_mm2(surface.at_mm, surface.triangles) < options_.min_area_mm2)
+    if (surface.triangles.empty() || area_mm2(surface.at_mm, surface.triangles) < min_area_mm2)
       return no_surface();
-    if (surface.triangles.size() > static_cast<std::size_t>(options_.max_triangles)) {
+    if (surface.triangles.size() > static_cast<std::size_t>(max_triangles)) {
       triangles *= 1 - kCutAway / 2;
       continue;
     }
     FaceMesh made = pack_mesh(surface.at_mm.size(), surface.triangles, context, [&](std::size_t v) {
-      const bool certain = surface.sigma_mm[v] <= static_cast<float>(options_.measured_sigma_mm);
+      const bool certain = surface.sigma_mm[v] <= static_cast<float>(measured_sigma_mm);
       return PackedVertex{surface.at_mm[v], surface.sigma_mm[v],
                           certain ? surface.measured[v] : std::uint8_t{0}};
     });
-    compute_normals(made, options_.normal_passes, &context.scratch);
+    compute_normals(made, normal_passes, &context.scratch);
     turn_sigma_perpendicular(made);
     context.progress.done.store(1, std::memory_order_relaxed);
     return made;
@@ -136,7 +135,7 @@ Result<FaceMesh> GridMesher::mesh(const PointCloud& cloud, StageContext& context
 
 Result<FaceMesh> lattice_sheet(const PointCloud& cloud, int max_triangles, double min_area_mm2,
                                StageContext& context) {
-  GridMesherOptions options;
+  GridMesher options;
   options.max_triangles = max_triangles;
   options.min_area_mm2 = min_area_mm2;
   return GridMesher(options).mesh(cloud, context);

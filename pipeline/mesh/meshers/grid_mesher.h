@@ -22,7 +22,7 @@
 
 namespace relievo::pipeline {
 
-struct GridMesherOptions {
+struct GridMesher {
   int max_triangles = 470'000;  // the lattice is resampled to use them, and never more
   double finest_cells = 0.7;    // but to no finer than so many cells of the points' own lattice
   double edge_cells = 1.4;  // where they are not enough for that: the outermost cells, in those of the middle
@@ -40,53 +40,42 @@ struct GridMesherOptions {
   int normal_passes = 1;            // how often normals are averaged over the neighbours; 0 to 16
   double measured_sigma_mm = kMeasuredSigmaMm;
   double min_area_mm2 = 6000;  // less surface than this is no face: a third of a child's
-};
 
-template <typename Field>
-void describe(GridMesherOptions& o, Field&& field) {
-  field("max_triangles", o.max_triangles, OptionRange{1000, 10'000'000},
-        "the lattice is resampled to use so many triangles, and never more");
-  field("finest_cells", o.finest_cells, OptionRange{0.5, 4},
-        "the resampled lattice is no finer than so many cells of the points' own");
-  field("edge_cells", o.edge_cells, OptionRange{1, 4},
-        "how many times wider the outermost cells may be where triangles are scarce");
-  field("max_incidence_deg", o.max_incidence_deg, OptionRange{30, 89},
-        "steepest triangle, between its normal and the line of sight, degrees");
-  field("step_sigmas", o.step_sigmas, OptionRange{0, 100},
-        "a neighbour's depth may leave the local slope by this many sigmas");
-  field("step_slope_ratio", o.step_slope_ratio, OptionRange{1, 100},
-        "and by this many times the slope on either side");
-  field("min_step_mm", o.min_step_mm, OptionRange{0, 100},
-        "smaller steps are never an edge of something in front, mm");
-  field("max_hole_mm", o.max_hole_mm, OptionRange{0, 50}, "holes and cracks up to this wide are closed, mm");
-  field("gap_bend_deg", o.gap_bend_deg, OptionRange{0, 80},
-        "how far a closed gap's slope may leave that of both its sides, degrees");
-  field("max_rim_deg", o.max_rim_deg, OptionRange{30, 90},
-        "steepest surface that leads to the outside, between its normal and the line of sight, degrees");
-  field("min_width_mm", o.min_width_mm, OptionRange{0, 50},
-        "narrower strips along the outline are cut off, mm");
-  field("outline_wave_mm", o.outline_wave_mm, OptionRange{0, 30},
-        "how far waves of the outline are straightened, sigma in mm");
-  field("outline_smoothing_mm", o.outline_smoothing_mm, OptionRange{0, 10},
-        "how far the outline is smoothed, sigma in mm");
-  field("rim_smoothing_mm", o.rim_smoothing_mm, OptionRange{0, 10},
-        "how far the rims of open holes are smoothed, sigma in mm");
-  field("normal_passes", o.normal_passes, OptionRange{0, 16},
-        "how often normals are averaged over the neighbours");
-  field("measured_sigma_mm", o.measured_sigma_mm, OptionRange{0.01, 1000},
-        "surface less certain than this is shown, but not as measured, mm");
-  field("min_area_mm2", o.min_area_mm2, OptionRange{0, 1e6}, "less surface than this is no face, square mm");
-}
-
-class GridMesher final : public Mesher {
- public:
-  explicit GridMesher(const GridMesherOptions& options) : options_(options) {}
-  std::string_view name() const override { return "grid"; }
-  bool needs_lattice() const override { return true; }
-  Result<FaceMesh> mesh(const PointCloud& cloud, StageContext& context) const override;
-
- private:
-  GridMesherOptions options_;
+  void describe(auto&& field) {
+    field("max_triangles", max_triangles, OptionRange{1000, 10'000'000},
+          "the lattice is resampled to use so many triangles, and never more");
+    field("finest_cells", finest_cells, OptionRange{0.5, 4},
+          "the resampled lattice is no finer than so many cells of the points' own");
+    field("edge_cells", edge_cells, OptionRange{1, 4},
+          "how many times wider the outermost cells may be where triangles are scarce");
+    field("max_incidence_deg", max_incidence_deg, OptionRange{30, 89},
+          "steepest triangle, between its normal and the line of sight, degrees");
+    field("step_sigmas", step_sigmas, OptionRange{0, 100},
+          "a neighbour's depth may leave the local slope by this many sigmas");
+    field("step_slope_ratio", step_slope_ratio, OptionRange{1, 100},
+          "and by this many times the slope on either side");
+    field("min_step_mm", min_step_mm, OptionRange{0, 100},
+          "smaller steps are never an edge of something in front, mm");
+    field("max_hole_mm", max_hole_mm, OptionRange{0, 50}, "holes and cracks up to this wide are closed, mm");
+    field("gap_bend_deg", gap_bend_deg, OptionRange{0, 80},
+          "how far a closed gap's slope may leave that of both its sides, degrees");
+    field("max_rim_deg", max_rim_deg, OptionRange{30, 90},
+          "steepest surface that leads to the outside, between its normal and the line of sight, degrees");
+    field("min_width_mm", min_width_mm, OptionRange{0, 50},
+          "narrower strips along the outline are cut off, mm");
+    field("outline_wave_mm", outline_wave_mm, OptionRange{0, 30},
+          "how far waves of the outline are straightened, sigma in mm");
+    field("outline_smoothing_mm", outline_smoothing_mm, OptionRange{0, 10},
+          "how far the outline is smoothed, sigma in mm");
+    field("rim_smoothing_mm", rim_smoothing_mm, OptionRange{0, 10},
+          "how far the rims of open holes are smoothed, sigma in mm");
+    field("normal_passes", normal_passes, OptionRange{0, 16},
+          "how often normals are averaged over the neighbours");
+    field("measured_sigma_mm", measured_sigma_mm, OptionRange{0.01, 1000},
+          "surface less certain than this is shown, but not as measured, mm");
+    field("min_area_mm2", min_area_mm2, OptionRange{0, 1e6}, "less surface than this is no face, square mm");
+  }
+  Result<FaceMesh> mesh(const PointCloud& cloud, StageContext& context) const;
 };
 
 }  // namespace relievo::pipeline

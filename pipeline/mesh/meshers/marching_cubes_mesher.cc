@@ -26,15 +26,13 @@ void add_points(const FaceMesh& sheet, float share, std::pmr::vector<FieldPoint>
 }  // namespace
 
 Result<FaceMesh> MarchingCubesMesher::mesh(const PointCloud& cloud, StageContext& context) const {
-  RELIEVO_TRY(check_options(options_, "marching-cubes"));
   if (context.stop()) return Error{Errc::Cancelled, "meshing was stopped"};
-  RELIEVO_TRY_ASSIGN(const FaceMesh base, base_sheet(cloud, options_.max_points, context));
+  RELIEVO_TRY_ASSIGN(const FaceMesh base, base_sheet(cloud, max_points, context));
   // Points wide apart would leave holes between their balls: the voxels follow.
-  const float voxel =
-      std::max(static_cast<float>(options_.voxel_mm), 0.6F * usual_edge_mm(base, &context.scratch));
-  const float radius = static_cast<float>(options_.band_voxels) * voxel;
+  const float voxel = std::max(static_cast<float>(voxel_mm), 0.6F * usual_edge_mm(base, &context.scratch));
+  const float radius = static_cast<float>(band_voxels) * voxel;
   BandVolume volume =
-      volume_around(base.vertices_mm, voxel, static_cast<int>(options_.band_voxels) + 2, &context.scratch);
+      volume_around(base.vertices_mm, voxel, static_cast<int>(band_voxels) + 2, &context.scratch);
   const FaceMesh between = densify(base, kSparse * voxel, &context.scratch);
   std::pmr::vector<FieldPoint> points(&context.scratch);
   points.reserve(base.vertices_mm.size() + between.vertices_mm.size());
@@ -43,7 +41,7 @@ Result<FaceMesh> MarchingCubesMesher::mesh(const PointCloud& cloud, StageContext
   fill_field(points, radius, volume, context);
   if (context.stop()) return Error{Errc::Cancelled, "meshing was stopped"};
   Polygonised surface = polygonise(volume, &context.scratch);
-  return finish_surface(base, surface.vertices_mm, surface.triangles, options_.finish, context);
+  return finish_surface(base, surface.vertices_mm, surface.triangles, finish, context);
 }
 
 }  // namespace relievo::pipeline

@@ -13,30 +13,20 @@
 
 namespace relievo::pipeline {
 
-struct MarchingCubesMesherOptions {
+struct MarchingCubesMesher {
   int max_points = 160'000;  // more are thinned evenly
   double voxel_mm = 0.8;
   double band_voxels = 2.5;  // how far from a point the field reaches
   FinishOptions finish;
-};
 
-template <typename Field>
-void describe(MarchingCubesMesherOptions& o, Field&& field) {
-  field("max_points", o.max_points, OptionRange{1000, 1'000'000}, "more points are thinned evenly");
-  field("voxel_mm", o.voxel_mm, OptionRange{0.3, 10}, "side of a voxel, mm");
-  field("band_voxels", o.band_voxels, OptionRange{1.8, 5},
-        "how far from a point the field reaches, in voxels");
-  describe_finish(o.finish, field);
-}
-
-class MarchingCubesMesher final : public Mesher {
- public:
-  explicit MarchingCubesMesher(const MarchingCubesMesherOptions& options) : options_(options) {}
-  std::string_view name() const override { return "marching-cubes"; }
-  Result<FaceMesh> mesh(const PointCloud& cloud, StageContext& context) const override;
-
- private:
-  MarchingCubesMesherOptions options_;
+  void describe(auto&& field) {
+    field("max_points", max_points, OptionRange{1000, 1'000'000}, "more points are thinned evenly");
+    field("voxel_mm", voxel_mm, OptionRange{0.3, 10}, "side of a voxel, mm");
+    field("band_voxels", band_voxels, OptionRange{1.8, 5},
+          "how far from a point the field reaches, in voxels");
+    finish.describe(field);
+  }
+  Result<FaceMesh> mesh(const PointCloud& cloud, StageContext& context) const;
 };
 
 }  // namespace relievo::pipeline

@@ -13,31 +13,21 @@
 
 namespace relievo::pipeline {
 
-struct PoissonMesherOptions {
+struct PoissonMesher {
   int max_points = 30'000;  // more are thinned evenly: time and memory go with them
   double voxel_mm = 1;
   double band_voxels = 2.5;  // how far from a point its surface is looked for
   FinishOptions finish;
-};
 
-template <typename Field>
-void describe(PoissonMesherOptions& o, Field&& field) {
-  field("max_points", o.max_points, OptionRange{1000, 1'000'000},
-        "more points are thinned evenly: time and memory go with them");
-  field("voxel_mm", o.voxel_mm, OptionRange{0.3, 10}, "side of a voxel, mm");
-  field("band_voxels", o.band_voxels, OptionRange{1.8, 5},
-        "how far from a point its surface is looked for, in voxels");
-  describe_finish(o.finish, field);
-}
-
-class PoissonMesher final : public Mesher {
- public:
-  explicit PoissonMesher(const PoissonMesherOptions& options) : options_(options) {}
-  std::string_view name() const override { return "poisson"; }
-  Result<FaceMesh> mesh(const PointCloud& cloud, StageContext& context) const override;
-
- private:
-  PoissonMesherOptions options_;
+  void describe(auto&& field) {
+    field("max_points", max_points, OptionRange{1000, 1'000'000},
+          "more points are thinned evenly: time and memory go with them");
+    field("voxel_mm", voxel_mm, OptionRange{0.3, 10}, "side of a voxel, mm");
+    field("band_voxels", band_voxels, OptionRange{1.8, 5},
+          "how far from a point its surface is looked for, in voxels");
+    finish.describe(field);
+  }
+  Result<FaceMesh> mesh(const PointCloud& cloud, StageContext& context) const;
 };
 
 }  // namespace relievo::pipeline

@@ -20,7 +20,7 @@ double plate(double square) { return square > 0 ? 0.5 * square * std::log(square
 
 class Rbf {
  public:
-  Rbf(const DepthSamples& samples, const RbfMesherOptions& options, StageContext& context)
+  Rbf(const DepthSamples& samples, const RbfMesher& options, StageContext& context)
       : samples_(samples),
         options_(options),
         context_(context),
@@ -147,7 +147,7 @@ class Rbf {
   }
 
   const DepthSamples& samples_;
-  const RbfMesherOptions& options_;
+  const RbfMesher& options_;
   StageContext& context_;
   std::pmr::vector<std::uint32_t> centres_;
   std::pmr::vector<std::uint8_t> chosen_;
@@ -159,15 +159,14 @@ class Rbf {
 }  // namespace
 
 Result<FaceMesh> RbfMesher::mesh(const PointCloud& cloud, StageContext& context) const {
-  RELIEVO_TRY(check_options(options_, "rbf"));
   if (context.stop()) return Error{Errc::Cancelled, "meshing was stopped"};
-  RELIEVO_TRY_ASSIGN(const FaceMesh base, base_sheet(cloud, options_.max_points, context));
+  RELIEVO_TRY_ASSIGN(const FaceMesh base, base_sheet(cloud, max_points, context));
   const DepthSamples samples = sample_depths(base, &context.scratch);
-  Rbf function(samples, options_, context);
+  Rbf function(samples, *this, context);
   if (!function.fit()) return Error{Errc::Cancelled, "meshing was stopped"};
   return mesh_sheet(
-      base, samples, [&function](auto us, double v, auto depths) { function.depths(us, v, depths); },
-      options_.sheet, context);
+      base, samples, [&function](auto us, double v, auto depths) { function.depths(us, v, depths); }, sheet,
+      context);
 }
 
 }  // namespace relievo::pipeline

@@ -14,34 +14,24 @@
 
 namespace relievo::pipeline {
 
-struct RbfMesherOptions {
+struct RbfMesher {
   int max_points = 160'000;  // more are thinned evenly
   int max_centres = 1400;
   double accuracy_mm = 0.05;  // no centre is added where the function is as close as this
   double smoothing =
       0.02;  // how much a point's sigma lets the function leave it; 0 goes through every centre
   SheetOptions sheet;
-};
 
-template <typename Field>
-void describe(RbfMesherOptions& o, Field&& field) {
-  field("max_points", o.max_points, OptionRange{1000, 1'000'000}, "more points are thinned evenly");
-  field("max_centres", o.max_centres, OptionRange{20, 4000}, "how many centres the function may have");
-  field("accuracy_mm", o.accuracy_mm, OptionRange{0.001, 10},
-        "no centre is added where the function is as close to the points as this, mm");
-  field("smoothing", o.smoothing, OptionRange{0, 1000},
-        "how much a point's sigma lets the function leave it");
-  describe_sheet(o.sheet, field);
-}
-
-class RbfMesher final : public Mesher {
- public:
-  explicit RbfMesher(const RbfMesherOptions& options) : options_(options) {}
-  std::string_view name() const override { return "rbf"; }
-  Result<FaceMesh> mesh(const PointCloud& cloud, StageContext& context) const override;
-
- private:
-  RbfMesherOptions options_;
+  void describe(auto&& field) {
+    field("max_points", max_points, OptionRange{1000, 1'000'000}, "more points are thinned evenly");
+    field("max_centres", max_centres, OptionRange{20, 4000}, "how many centres the function may have");
+    field("accuracy_mm", accuracy_mm, OptionRange{0.001, 10},
+          "no centre is added where the function is as close to the points as this, mm");
+    field("smoothing", smoothing, OptionRange{0, 1000},
+          "how much a point's sigma lets the function leave it");
+    sheet.describe(field);
+  }
+  Result<FaceMesh> mesh(const PointCloud& cloud, StageContext& context) const;
 };
 
 }  // namespace relievo::pipeline

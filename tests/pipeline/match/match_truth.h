@@ -13,7 +13,7 @@
 #include <random>
 #include <vector>
 
-#include "pipeline/match/matcher.h"
+#include "pipeline/match/kinds.h"
 #include "tests/support/bump_scene.h"
 #include "tests/support/stage_fixture.h"
 
@@ -103,7 +103,7 @@ inline MatchErrors measure(const pipeline::Matcher& matcher, const MatchTrial& t
                                             ? scattered(pair, trial.scattered, 99, &fixture.output)
                                             : lattice(pair, 2, &fixture.output);
   const auto matches = pipeline::run_stage(
-      fixture.context, [&](pipeline::StageContext& c) { return matcher.match(pair, keypoints, c); });
+      fixture.context, [&](pipeline::StageContext& c) { return matcher(pair, keypoints, c); });
   EXPECT_TRUE(matches);
   if (!matches) return {};
   EXPECT_EQ(matches->lattice_step_px, keypoints.lattice_step_px);
@@ -113,6 +113,12 @@ inline MatchErrors measure(const pipeline::Matcher& matcher, const MatchTrial& t
                 errors.covered, errors.wrong, errors.rms_px, errors.within_sigma, errors.within_two_sigma,
                 errors.mean_cost);
   return errors;
+}
+
+// `Concrete`: a matcher with its options.
+template <typename Concrete>
+MatchErrors measure(const Concrete& matcher, const MatchTrial& trial) {
+  return measure(pipeline::Matcher(std::bind_front(&Concrete::match, matcher)), trial);
 }
 
 }  // namespace relievo::test

@@ -40,20 +40,13 @@ Stated stated(const std::string& name) {
 
 class Matchers : public testing::TestWithParam<std::string> {
  protected:
-  std::unique_ptr<Matcher> matcher() const {
-    AlgorithmSet set;
-    EXPECT_TRUE(set.set("matcher", GetParam()));
-    auto made = make_matcher(set);
-    EXPECT_TRUE(made);
-    return *std::move(made);
-  }
+  Matcher matcher() const { return test::made(make_matcher, "matcher", GetParam()); }
   BumpScene scene{.width_px = 192, .height_px = 128, .base_px = 20, .bump_px = 5, .bump_radius_px = 40};
 };
 
 TEST_P(Matchers, FindTheSurfaceOnALatticeAndAnywhere) {
-  EXPECT_EQ(matcher()->name(), GetParam());
   for (const int scattered : {0, 400}) {
-    const test::MatchErrors errors = test::measure(*matcher(), {.scene = scene, .scattered = scattered});
+    const test::MatchErrors errors = test::measure(matcher(), {.scene = scene, .scattered = scattered});
     EXPECT_GT(errors.covered, stated(GetParam()).covered) << scattered;
     EXPECT_LT(errors.rms_px, stated(GetParam()).rms_px) << scattered;
     EXPECT_LT(errors.wrong, 0.001) << scattered;
@@ -66,7 +59,7 @@ TEST_P(Matchers, KeepTheOrderOfTheKeypointsAndRejectNothing) {
   const RectifiedPair pair = scene.render(&fixture.output);
   const Keypoints keypoints = test::lattice(pair, 2, &fixture.output);
   const auto matches =
-      run_stage(fixture.context, [&](StageContext& c) { return matcher()->match(pair, keypoints, c); });
+      run_stage(fixture.context, [&](StageContext& c) { return matcher()(pair, keypoints, c); });
   ASSERT_TRUE(matches);
   std::size_t next = 0;
   for (const Match& m : matches->matches) {
@@ -85,7 +78,7 @@ TEST_P(Matchers, GiveTheSameBytesForAnyNumberOfThreads) {
     const RectifiedPair pair = scene.render(&fixture.output);
     const Keypoints keypoints = test::lattice(pair, 2, &fixture.output);
     const auto matches =
-        run_stage(fixture.context, [&](StageContext& c) { return matcher()->match(pair, keypoints, c); });
+        run_stage(fixture.context, [&](StageContext& c) { return matcher()(pair, keypoints, c); });
     ASSERT_TRUE(matches);
     if (first.empty()) first.assign(matches->matches.begin(), matches->matches.end());
     ASSERT_EQ(first.size(), matches->matches.size());
@@ -102,12 +95,11 @@ TEST_P(Matchers, RefuseAPairWithoutPixelsAndKeypointsThatAreNone) {
   StageFixture fixture(std::size_t{16} << 20, std::size_t{64} << 20);
   const RectifiedPair nothing(&fixture.output);
   const Keypoints none(&fixture.output);
-  auto matches =
-      run_stage(fixture.context, [&](StageContext& c) { return matcher()->match(nothing, none, c); });
+  auto matches = run_stage(fixture.context, [&](StageContext& c) { return matcher()(nothing, none, c); });
   ASSERT_FALSE(matches);
   EXPECT_EQ(matches.error().code, Errc::InvalidInput);
   const RectifiedPair pair = scene.render(&fixture.output);
-  matches = run_stage(fixture.context, [&](StageContext& c) { return matcher()->match(pair, none, c); });
+  matches = run_stage(fixture.context, [&](StageContext& c) { return matcher()(pair, none, c); });
   ASSERT_FALSE(matches);
   EXPECT_EQ(matches.error().code, Errc::TooFewMatches);
 }
@@ -119,7 +111,7 @@ TEST_P(Matchers, FindNothingOnAPlainWall) {
   const RectifiedPair pair = scene.render(&fixture.output);
   const Keypoints keypoints = test::lattice(pair, 2, &fixture.output);
   const auto matches =
-      run_stage(fixture.context, [&](StageContext& c) { return matcher()->match(pair, keypoints, c); });
+      run_stage(fixture.context, [&](StageContext& c) { return matcher()(pair, keypoints, c); });
   ASSERT_FALSE(matches);
   EXPECT_EQ(matches.error().code, Errc::TooFewMatches);
 }
@@ -134,7 +126,7 @@ TEST_P(Matchers, EveryArenaTooSmallSaysSo) {
   for (std::size_t size = 4096; size < (std::size_t{64} << 20) && !succeeded; size += size / 2) {
     StageFixture fixture(size, size);
     const auto matches =
-        run_stage(fixture.context, [&](StageContext& c) { return matcher()->match(pair, keypoints, c); });
+        run_stage(fixture.context, [&](StageContext& c) { return matcher()(pair, keypoints, c); });
     succeeded = matches.has_value();
     if (succeeded) break;
     EXPECT_EQ(matches.error().code, Errc::OutOfMemory) << size;
@@ -150,7 +142,7 @@ TEST_P(Matchers, StopWhenAsked) {
   const Keypoints keypoints = test::lattice(pair, 2, &fixture.output);
   fixture.cancelled = true;
   // Not through run_stage, which would not even begin.
-  const auto matches = matcher()->match(pair, keypoints, fixture.context);
+  const auto matches = matcher()(pair, keypoints, fixture.context);
   ASSERT_FALSE(matches);
   EXPECT_EQ(matches.error().code, Errc::Cancelled);
 }

@@ -13,7 +13,7 @@ namespace {
 
 using test::StageRoom;
 
-Result<FaceMesh> mesh_grid(const PointCloud& cloud, StageRoom& room, const GridMesherOptions& options = {}) {
+Result<FaceMesh> mesh_grid(const PointCloud& cloud, StageRoom& room, const GridMesher& options = {}) {
   return room.run([&](StageContext& c) { return GridMesher(options).mesh(cloud, c); });
 }
 
@@ -57,7 +57,7 @@ TEST(GridMesher, LeavesALargeHoleOpen) {
 
 TEST(GridMesher, LeavesEveryHoleOpenWhenAsked) {
   StageRoom room;
-  GridMesherOptions options;
+  GridMesher options;
   options.max_hole_mm = 0;
   const auto result = mesh_grid(pierced_sphere(4), room, options);
   ASSERT_TRUE(result);
@@ -134,7 +134,7 @@ TEST(GridMesher, CutsOffWhiskersAndKeepsCorners) {
   }
   EXPECT_LT(right, 26);
   EXPECT_LT(top, -136) << "the corner at (-75, -75) is rounded by no more than a few millimetres";
-  GridMesherOptions options;
+  GridMesher options;
   options.finest_cells = 1;
   options.min_width_mm = 0;
   options.max_rim_deg = 90;
@@ -175,7 +175,7 @@ PointCloud torn_sheet(int size_px) {
 TEST(GridMesher, TheCapHoldsWhateverTheLattice) {
   for (const int most : {1000, 3333, 60'000, 320'000}) {
     StageRoom room;
-    GridMesherOptions options;
+    GridMesher options;
     options.max_triangles = most;
     options.min_area_mm2 = 0;
     const auto result = mesh_grid(torn_sheet(600), room, options);
@@ -190,7 +190,7 @@ TEST(GridMesher, TheCapHoldsWhateverTheLattice) {
 TEST(GridMesher, ThinningKeepsWhatFits) {
   // 2 % too many nodes cost 2 % of them, not every second column.
   StageRoom room;
-  GridMesherOptions options;
+  GridMesher options;
   const PointCloud cloud = test::formula_cloud(2, 300, [](double, double) { return 500.0; });
   options.max_triangles = static_cast<int>(1.94 * static_cast<double>(cloud.points.size()));
   const auto result = mesh_grid(cloud, room, options);
@@ -225,8 +225,8 @@ TEST(GridMesher, NoSlivers) {
 }
 
 TEST(GridMesher, OptionsHaveLimits) {
-  EXPECT_TRUE(check_options(GridMesherOptions{}, "grid"));
-  GridMesherOptions options;
+  EXPECT_TRUE(check_options(GridMesher{}, "grid"));
+  GridMesher options;
   options.max_incidence_deg = std::numeric_limits<double>::quiet_NaN();
   EXPECT_FALSE(check_options(options, "grid"));
   options = {};
@@ -241,7 +241,7 @@ TEST(GridMesher, RenderedHeadStaysOnItsSurface) {
   if (!dir) GTEST_SKIP() << "RELIEVO_TEST_DATA does not name the rendered heads";
   StageRoom room;
   const PointCloud truth = test::truth_cloud(*dir, {});
-  GridMesherOptions options;
+  GridMesher options;
   options.finest_cells = 1;
   options.max_hole_mm = 0;
   options.outline_wave_mm = 0;

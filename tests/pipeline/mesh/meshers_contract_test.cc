@@ -15,19 +15,14 @@
 #include "tests/pipeline/mesh/mesh_checks.h"
 #include "tests/pipeline/mesh/stage_room.h"
 #include "tests/pipeline/mesh/truth_cloud.h"
+#include "tests/support/names_of.h"
 
 namespace relievo::pipeline {
 namespace {
 
 using test::StageRoom;
 
-std::unique_ptr<Mesher> make(const std::string& name) {
-  AlgorithmSet set;
-  EXPECT_TRUE(set.set("mesher", name));
-  auto mesher = make_mesher(set);
-  EXPECT_TRUE(mesher);
-  return mesher ? std::move(*mesher) : nullptr;
-}
+Mesher make(const std::string& name) { return relievo::test::made(make_mesher, "mesher", name); }
 
 // Every mesher in the table: a new one is found.
 std::vector<std::string> all_meshers() {
@@ -67,7 +62,7 @@ bool quick(const std::string& name) { return name == "grid" || name == "delaunay
 class MesherContract : public testing::TestWithParam<std::string> {
  protected:
   Result<FaceMesh> mesh(const PointCloud& cloud, StageRoom& room) const {
-    return room.run([&](StageContext& c) { return make(GetParam())->mesh(cloud, c); });
+    return room.run([&](StageContext& c) { return make(GetParam())(cloud, c); });
   }
 };
 
@@ -184,7 +179,7 @@ TEST_P(MesherContract, NeverMoreTrianglesThanAllowed) {
   const auto mesher = make_mesher(set);
   ASSERT_TRUE(mesher);
   const PointCloud cloud = sphere(0.05);
-  const auto result = room.run([&](StageContext& c) { return (*mesher)->mesh(cloud, c); });
+  const auto result = room.run([&](StageContext& c) { return (*mesher)(cloud, c); });
   ASSERT_TRUE(result);
   test::expect_clean(*result);
   EXPECT_LE(result->triangles.size(), 6000U);

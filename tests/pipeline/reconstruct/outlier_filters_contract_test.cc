@@ -18,13 +18,7 @@ using relievo::test::StageFixture;
 
 class OutlierFilters : public testing::TestWithParam<std::string> {
  protected:
-  std::unique_ptr<OutlierFilter> filter() const {
-    AlgorithmSet set;
-    EXPECT_TRUE(set.set("outliers", GetParam()));
-    auto made = make_outlier_filter(set);
-    EXPECT_TRUE(made);
-    return *std::move(made);
-  }
+  OutlierFilter filter() const { return relievo::test::made(make_outlier_filter, "outliers", GetParam()); }
   static PointCloud sphere() {
     return test::formula_cloud(
         2, 300, [](double sx, double sy) { return test::sphere_depth(sx, sy, 600, 90); }, 0.05);
@@ -32,7 +26,6 @@ class OutlierFilters : public testing::TestWithParam<std::string> {
 };
 
 TEST_P(OutlierFilters, TakeFlyingPointsAndLeaveTheSurface) {
-  EXPECT_EQ(filter()->name(), GetParam());
   for (const bool on_lattice : {true, false}) {
     PointCloud cloud = sphere();
     if (!on_lattice) cloud.lattice_step_px = 0;
@@ -45,7 +38,7 @@ TEST_P(OutlierFilters, TakeFlyingPointsAndLeaveTheSurface) {
     }
     cloud.points[7].at_mm.x = std::numeric_limits<float>::quiet_NaN();
     StageFixture fixture(1 << 16, std::size_t{32} << 20, 2);
-    const auto done = run_stage(fixture.context, [&](StageContext& c) { return filter()->reject(cloud, c); });
+    const auto done = run_stage(fixture.context, [&](StageContext& c) { return filter()(cloud, c); });
     ASSERT_TRUE(done);
     std::size_t flying = 0;
     for (const CloudPoint& p : cloud.points)
@@ -62,7 +55,7 @@ TEST_P(OutlierFilters, JudgeAlikeForAnyNumberOfThreads) {
   for (const int threads : {1, 2, 3}) {
     PointCloud cloud = sphere();
     StageFixture fixture(1 << 16, std::size_t{32} << 20, threads);
-    ASSERT_TRUE(run_stage(fixture.context, [&](StageContext& c) { return filter()->reject(cloud, c); }));
+    ASSERT_TRUE(run_stage(fixture.context, [&](StageContext& c) { return filter()(cloud, c); }));
     if (first == 0) first = cloud.points.size();
     EXPECT_EQ(cloud.points.size(), first);
   }
@@ -71,15 +64,15 @@ TEST_P(OutlierFilters, JudgeAlikeForAnyNumberOfThreads) {
 TEST_P(OutlierFilters, BearNothingTooLittleMemoryAndCancellation) {
   PointCloud nothing(std::pmr::get_default_resource());
   StageFixture small(1024, 1024, 1);
-  EXPECT_TRUE(run_stage(small.context, [&](StageContext& c) { return filter()->reject(nothing, c); }));
+  EXPECT_TRUE(run_stage(small.context, [&](StageContext& c) { return filter()(nothing, c); }));
   PointCloud cloud = sphere();
   const std::size_t all = cloud.points.size();
-  const auto refused = run_stage(small.context, [&](StageContext& c) { return filter()->reject(cloud, c); });
+  const auto refused = run_stage(small.context, [&](StageContext& c) { return filter()(cloud, c); });
   ASSERT_FALSE(refused);
   EXPECT_EQ(refused.error().code, Errc::OutOfMemory);
   StageFixture fixture(1 << 16, std::size_t{32} << 20, 2);
   fixture.cancelled = true;
-  const auto stopped = filter()->reject(cloud, fixture.context);
+  const auto stopped = filter()(cloud, fixture.context);
   ASSERT_FALSE(stopped);
   EXPECT_EQ(stopped.error().code, Errc::Cancelled);
   EXPECT_EQ(cloud.points.size(), all);

@@ -10,15 +10,14 @@
 #include "pipeline/reconstruct/inverse_disparity_triangulator.h"
 #include "pipeline/reconstruct/linear_triangulator.h"
 #include "pipeline/reconstruct/optimal_triangulator.h"
+#include "tests/support/names_of.h"
 #include "tests/support/stage_fixture.h"
 
 namespace relievo::pipeline {
 namespace {
 
-std::unique_ptr<Triangulator> make(const std::string& name) {
-  if (name == "linear-least-squares") return std::make_unique<LinearTriangulator>();
-  if (name == "optimal") return std::make_unique<OptimalTriangulator>();
-  return std::make_unique<InverseDisparityTriangulator>();
+Triangulator make(const std::string& name) {
+  return relievo::test::made(make_triangulator, "triangulator", name);
 }
 
 RectifiedPair rig() {
@@ -57,8 +56,8 @@ TEST_P(Triangulators, FindPointsWhereTheyWere) {
     truth.push_back(apply(transposed(pair.rectified_from_left), p));
   }
   set.matches[3].rejected_by = 1;  // is left out
-  const auto cloud = run_stage(fixture.context,
-                               [&](StageContext& c) { return make(GetParam())->triangulate(pair, set, c); });
+  const auto cloud =
+      run_stage(fixture.context, [&](StageContext& c) { return make(GetParam())(pair, set, c); });
   ASSERT_TRUE(cloud);
   ASSERT_EQ(cloud->points.size(), 499U);
   for (std::size_t k = 0; k < cloud->points.size(); ++k) {
@@ -77,8 +76,8 @@ TEST_P(Triangulators, RefuseNothingAndAllRejected) {
   test::StageFixture fixture(1 << 20, 1 << 20, 1);
   MatchSet set(&fixture.output);
   for (int pass = 0; pass < 2; ++pass) {
-    const auto cloud = run_stage(
-        fixture.context, [&](StageContext& c) { return make(GetParam())->triangulate(pair, set, c); });
+    const auto cloud =
+        run_stage(fixture.context, [&](StageContext& c) { return make(GetParam())(pair, set, c); });
     ASSERT_FALSE(cloud);
     EXPECT_EQ(cloud.error().code, Errc::TooFewMatches);
     set.matches.assign(50, {{500, 400}, 600, 0, 0.1F, 1});
@@ -90,8 +89,8 @@ TEST_P(Triangulators, LeaveOutWhatIsOutsideTheVolume) {
   test::StageFixture fixture(1 << 20, 1 << 20, 1);
   MatchSet set(&fixture.output);
   set.matches.assign(50, {{500, 400}, static_cast<float>(pair.disparity_px(2000)), 0, 0.1F, 0});
-  const auto cloud = run_stage(fixture.context,
-                               [&](StageContext& c) { return make(GetParam())->triangulate(pair, set, c); });
+  const auto cloud =
+      run_stage(fixture.context, [&](StageContext& c) { return make(GetParam())(pair, set, c); });
   ASSERT_FALSE(cloud);
   EXPECT_EQ(cloud.error().code, Errc::TooFewMatches);
 }
@@ -102,13 +101,11 @@ TEST_P(Triangulators, SayWhenMemoryIsUsedUpAndWhenCancelled) {
   test::StageFixture fixture(4096, 4096, 1);
   MatchSet set(std::pmr::get_default_resource());
   set.matches.assign(many.begin(), many.end());
-  auto cloud = run_stage(fixture.context,
-                         [&](StageContext& c) { return make(GetParam())->triangulate(pair, set, c); });
+  auto cloud = run_stage(fixture.context, [&](StageContext& c) { return make(GetParam())(pair, set, c); });
   ASSERT_FALSE(cloud);
   EXPECT_EQ(cloud.error().code, Errc::OutOfMemory);
   fixture.cancelled = true;
-  cloud = run_stage(fixture.context,
-                    [&](StageContext& c) { return make(GetParam())->triangulate(pair, set, c); });
+  cloud = run_stage(fixture.context, [&](StageContext& c) { return make(GetParam())(pair, set, c); });
   ASSERT_FALSE(cloud);
   EXPECT_EQ(cloud.error().code, Errc::Cancelled);
 }

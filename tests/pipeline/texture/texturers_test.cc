@@ -12,21 +12,21 @@
 #include "pipeline/texture/single_view_texturer.h"
 #include "pipeline/texture/two_view_texturer.h"
 #include "tests/pipeline/texture/painted_plane.h"
+#include "tests/support/names_of.h"
 
 namespace relievo::pipeline {
 namespace {
 
 using namespace test;  // NOLINT: the painted plane and its numbers
 
-std::unique_ptr<Texturer> make(const std::string& name) {
-  if (name == "single-view") return std::make_unique<SingleViewTexturer>(SingleViewTexturerOptions{});
-  return std::make_unique<TwoViewTexturer>(TwoViewTexturerOptions{});
+Texturer make(const std::string& name, const relievo::test::Settings& settings = {}) {
+  return relievo::test::made(make_texturer, "texturer", name, settings);
 }
 
 class TexturerContract : public testing::TestWithParam<std::string> {
  protected:
   Result<TextureAtlas> texture(const FaceMesh& mesh, const RectifiedPair& pair, StageRoom& room) const {
-    return room.run([&](StageContext& c) { return make(GetParam())->texture(mesh, pair, c); });
+    return room.run([&](StageContext& c) { return make(GetParam())(mesh, pair, c); });
   }
 };
 
@@ -59,16 +59,10 @@ TEST_P(TexturerContract, EveryCornerShowsThePaint) {
 
 TEST_P(TexturerContract, ASmallAtlasIsObeyed) {
   StageRoom room;
-  SingleViewTexturerOptions one;
-  one.max_atlas_px = 100;
-  TwoViewTexturerOptions two;
-  two.max_atlas_px = 100;
   const FaceMesh mesh = plane_mesh();
   const RectifiedPair pair = photographed_plane();
-  const auto atlas = room.run([&](StageContext& c) {
-    return GetParam() == "single-view" ? SingleViewTexturer(one).texture(mesh, pair, c)
-                                       : TwoViewTexturer(two).texture(mesh, pair, c);
-  });
+  const Texturer small = make(GetParam(), {{GetParam() + ".max_atlas_px", "100"}});
+  const auto atlas = room.run([&](StageContext& c) { return small(mesh, pair, c); });
   ASSERT_TRUE(atlas);
   EXPECT_LE(atlas->width_px, 100);
   EXPECT_LE(atlas->height_px, 100);
@@ -143,8 +137,7 @@ TEST_P(TexturerContract, TheSameTwiceAndForAnyNumberOfThreads) {
     StageRoom room;
     ThreadPool pool(threads);
     StageContext context{room.output, room.scratch, pool, room.progress, room.cancelled};
-    const auto b =
-        run_stage(context, [&](StageContext& c) { return make(GetParam())->texture(mesh, pair, c); });
+    const auto b = run_stage(context, [&](StageContext& c) { return make(GetParam())(mesh, pair, c); });
     ASSERT_TRUE(b);
     EXPECT_TRUE(a->rgb == b->rgb && a->origin == b->origin && a->vertex_rgb == b->vertex_rgb) << threads;
   }

@@ -54,7 +54,7 @@ TEST(TwoViewTexturer, AFinerAtlasShowsTheSameLarger) {
   StageRoom room;
   const FaceMesh mesh = plane_mesh();
   const RectifiedPair pair = photographed_plane();
-  TwoViewTexturerOptions twice, capped;
+  TwoViewTexturer twice, capped;
   twice.finer = 2;
   capped.finer = 4, capped.max_atlas_px = 300;
   const auto one = room.run([&](StageContext& c) { return TwoViewTexturer({}).texture(mesh, pair, c); });
@@ -191,12 +191,12 @@ TEST(TwoViewTexturer, WhatTheRightViewCannotSeeIsTakenFromTheLeft) {
 }
 
 TEST(Texturers, OptionsHaveLimits) {
-  EXPECT_TRUE(check_options(TwoViewTexturerOptions{}, "two-view"));
-  EXPECT_TRUE(check_options(SingleViewTexturerOptions{}, "single-view"));
-  TwoViewTexturerOptions two;
+  EXPECT_TRUE(check_options(TwoViewTexturer{}, "two-view"));
+  EXPECT_TRUE(check_options(SingleViewTexturer{}, "single-view"));
+  TwoViewTexturer two;
   two.angle_power = -1;
   EXPECT_FALSE(check_options(two, "two-view"));
-  SingleViewTexturerOptions one;
+  SingleViewTexturer one;
   one.margin_px = 1000;
   EXPECT_FALSE(check_options(one, "single-view"));
 }

@@ -19,16 +19,8 @@ namespace {
 using test::BumpScene;
 using test::StageFixture;
 
-std::unique_ptr<MatchConstraint> constraint(const std::string& name, const char* key = nullptr,
-                                            const char* value = nullptr) {
-  AlgorithmSet set;
-  EXPECT_TRUE(set.set("constraints", name));
-  if (key != nullptr) {
-    EXPECT_TRUE(set.set(key, value));
-  }
-  auto made = make_constraints(set);
-  EXPECT_TRUE(made);
-  return std::move(made->front());
+MatchConstraint constraint(const std::string& name, const test::Settings& settings = {}) {
+  return test::made(make_constraints, "constraints", name, settings).front();
 }
 
 // True matches of the bump scene with a little noise; every `wrong_every`-th is moved by 6 to 14 pixels.
@@ -70,9 +62,8 @@ struct Planted {
 class MatchConstraints : public testing::TestWithParam<std::string> {};
 
 TEST_P(MatchConstraints, LeaveATrueSurfaceAlone) {
-  EXPECT_EQ(constraint(GetParam())->name(), GetParam());
   Planted planted({.width_px = 200, .height_px = 140}, 0, 2);
-  constraint(GetParam())->judge(planted.pair, planted.matches, 2, 4, planted.fixture.context);
+  constraint(GetParam())(planted.pair, planted.matches, 2, 4, planted.fixture.context);
   EXPECT_LT(planted.rejected().second, 0.02);
 }
 
@@ -80,7 +71,7 @@ TEST_P(MatchConstraints, SetOnlyTheirBitAndOnlyOnAcceptedMatches) {
   Planted planted({.width_px = 200, .height_px = 140}, 7, 2);
   for (std::size_t k = 0; k < planted.matches.size(); k += 5) planted.matches[k].rejected_by = 1;
   const std::vector<Match> before = planted.matches;
-  constraint(GetParam())->judge(planted.pair, planted.matches, 2, 4, planted.fixture.context);
+  constraint(GetParam())(planted.pair, planted.matches, 2, 4, planted.fixture.context);
   for (std::size_t k = 0; k < before.size(); ++k) {
     const Match& m = planted.matches[k];
     EXPECT_TRUE(before[k].rejected_by == 1 ? m.rejected_by == 1 : m.rejected_by == 0 || m.rejected_by == 4);
@@ -96,7 +87,7 @@ TEST_P(MatchConstraints, JudgeAlikeForAnyNumberOfThreadsAndScattered) {
     for (const int threads : {1, 2, 3}) {
       planted.matches = before;
       StageFixture fixture(1 << 20, std::size_t{32} << 20, threads);
-      constraint(GetParam())->judge(planted.pair, planted.matches, step, 4, fixture.context);
+      constraint(GetParam())(planted.pair, planted.matches, step, 4, fixture.context);
       if (first.empty()) first = planted.matches;
       for (std::size_t k = 0; k < first.size(); ++k)
         ASSERT_EQ(first[k].rejected_by, planted.matches[k].rejected_by);
@@ -106,11 +97,11 @@ TEST_P(MatchConstraints, JudgeAlikeForAnyNumberOfThreadsAndScattered) {
 
 TEST_P(MatchConstraints, BearNothingAndTooLittleMemory) {
   Planted planted({.width_px = 160, .height_px = 110}, 7, 2);
-  constraint(GetParam())->judge(planted.pair, {}, 2, 4, planted.fixture.context);
+  constraint(GetParam())(planted.pair, {}, 2, 4, planted.fixture.context);
   for (std::size_t size = 1024; size < (std::size_t{32} << 20); size *= 4) {
     StageFixture fixture(1024, size, 2);
     const auto judged = run_stage(fixture.context, [&](StageContext& c) -> Result<void> {
-      constraint(GetParam())->judge(planted.pair, planted.matches, 2, 4, c);
+      constraint(GetParam())(planted.pair, planted.matches, 2, 4, c);
       return {};
     });
     if (!judged) {
@@ -137,13 +128,13 @@ TEST(SimilarityConstraint, AfterZmnccOnlyALimitBelowItsThresholdSaysSomething) {
   ASSERT_TRUE(set.set("matcher", "zmncc"));
   const auto matcher = make_matcher(set);
   auto found = run_stage(fixture.context, [&](StageContext& c) {
-    return (*matcher)->match(pair, test::lattice(pair, 4, &fixture.output), c);
+    return (*matcher)(pair, test::lattice(pair, 4, &fixture.output), c);
   });
   ASSERT_TRUE(found);
   std::vector<Match> matches(found->matches.begin(), found->matches.end());
   const auto reject = [&](const char* limit) {
     std::vector<Match> judged = matches;
-    constraint("similarity", "similarity.max_cost", limit)->judge(pair, judged, 4, 4, fixture.context);
+    constraint("similarity", {{"similarity.max_cost", limit}})(pair, judged, 4, 4, fixture.context);
     double bad = 0, bad_out = 0, good = 0, good_out = 0;
     for (const Match& m : judged) {
       const bool in_both = std::abs(m.left_px.y - 90) <= 13;  // the window lies across the seam
@@ -176,7 +167,7 @@ TEST(OrderingConstraint, TheLargestOrderedSetStays) {
     matches.push_back(
         {{static_cast<float>(60 + 10 * k), 4}, static_cast<float>(60 + 10 * k) - right[k], 0, 0.1F, 0});
   matches.push_back({{65, 5}, 0, 0, 0.1F, 0});  // another row
-  constraint("ordering", "ordering.slack", "0")->judge(pair, matches, 0, 2, fixture.context);
+  constraint("ordering", {{"ordering.slack", "0"}})(pair, matches, 0, 2, fixture.context);
   for (std::size_t k = 0; k < matches.size(); ++k)
     EXPECT_EQ(matches[k].rejected_by, k == 2 || k == 5 ? 2 : 0) << k;
 }
@@ -191,7 +182,7 @@ TEST(OrderingConstraint, NoLargerOrderedSetExists) {
     std::vector<Match> matches;
     for (int k = 0; k < 12; ++k)
       matches.push_back({{static_cast<float>(50 + 3 * k), 4}, unit(random), 0, 0.1F, 0});
-    constraint("ordering", "ordering.slack", "0")->judge(pair, matches, 0, 2, fixture.context);
+    constraint("ordering", {{"ordering.slack", "0"}})(pair, matches, 0, 2, fixture.context);
     int kept = 0;
     float last = -1e9F;
     for (const Match& m : matches) {
@@ -220,7 +211,7 @@ TEST(OrderingConstraint, NoLargerOrderedSetExists) {
 TEST(LeftRightConstraint, TakesWhatIsNotFoundFromTheOtherSide) {
   for (const int step : {2, 5}) {
     Planted planted({.width_px = 240, .height_px = 160}, 9, step);
-    constraint("left-right")->judge(planted.pair, planted.matches, step, 4, planted.fixture.context);
+    constraint("left-right")(planted.pair, planted.matches, step, 4, planted.fixture.context);
     EXPECT_GT(planted.rejected().first, 0.95);
     EXPECT_LT(planted.rejected().second, 0.01);
   }
@@ -233,22 +224,22 @@ TEST(LeftRightConstraint, CatchesAPixelBetweenPixels) {
     planted.matches[k].left_px = {planted.matches[k].left_px.x + 0.25F, planted.matches[k].left_px.y + 0.5F};
     planted.wrong[k] = true;
   }
-  constraint("left-right")->judge(planted.pair, planted.matches, 0, 4, planted.fixture.context);
+  constraint("left-right")(planted.pair, planted.matches, 0, 4, planted.fixture.context);
   EXPECT_GT(planted.rejected().first, 0.95);
   EXPECT_LT(planted.rejected().second, 0.01);
 }
 
 TEST(StatisticalConstraint, TakesWhatStandsOutFromItsNeighboursAndFromAll) {
   Planted near({.width_px = 240, .height_px = 160}, 9, 2);
-  constraint("statistical", "statistical.global_sigmas", "0")
-      ->judge(near.pair, near.matches, 2, 4, near.fixture.context);
+  constraint("statistical", {{"statistical.global_sigmas", "0"}})(near.pair, near.matches, 2, 4,
+                                                                  near.fixture.context);
   EXPECT_GT(near.rejected().first, 0.99);
   EXPECT_LT(near.rejected().second, 0.005);
   Planted all({.width_px = 240, .height_px = 160}, 9, 2);
   for (std::size_t k = 0; k < all.matches.size(); ++k)
     if (all.wrong[k]) all.matches[k].disparity_px += all.matches[k].disparity_px > 20 ? 60.0F : -60.0F;
-  constraint("statistical", "statistical.local_sigmas", "0")
-      ->judge(all.pair, all.matches, 2, 4, all.fixture.context);
+  constraint("statistical", {{"statistical.local_sigmas", "0"}})(all.pair, all.matches, 2, 4,
+                                                                 all.fixture.context);
   EXPECT_GT(all.rejected().first, 0.99);
   EXPECT_LT(all.rejected().second, 0.005);
 }

@@ -43,15 +43,8 @@ struct PreprocessFixture : StageFixture {
   }
 };
 
-using Settings = std::vector<std::pair<const char*, const char*>>;
-
-std::unique_ptr<Preprocessor> make(const std::string& name, const Settings& settings = {}) {
-  AlgorithmSet set;
-  EXPECT_TRUE(set.set("preprocessor", name));
-  for (const auto& [key, value] : settings) EXPECT_TRUE(set.set(key, value));
-  auto made = make_preprocessor(set);
-  EXPECT_TRUE(made);
-  return *std::move(made);
+Preprocessor make(const std::string& name, const test::Settings& settings = {}) {
+  return test::made(make_preprocessor, "preprocessor", name, settings);
 }
 
 Result<RectifiedPair> run(const Preprocessor& preprocessor, const RectifiedPair& pair,
@@ -59,7 +52,7 @@ Result<RectifiedPair> run(const Preprocessor& preprocessor, const RectifiedPair&
   return run_stage(fixture.context, [&](StageContext& c) -> Result<RectifiedPair> {
     RectifiedPair mine(&c.output);
     mine = pair;
-    RELIEVO_TRY(preprocessor.process(mine, c));
+    RELIEVO_TRY(preprocessor(mine, c));
     return mine;
   });
 }
@@ -71,7 +64,7 @@ TEST_P(PreprocessorContract, ChangesGreyValuesAndNothingElse) {
   RectifiedPair pair = fixture.scene();
   pair.region.assign(pair.left.grey.size(), 1);
   pair.region[5] = 0;
-  const auto done = run(*make(GetParam()), pair, fixture);
+  const auto done = run(make(GetParam()), pair, fixture);
   ASSERT_TRUE(done);
   EXPECT_EQ(done->left.rgb, pair.left.rgb);
   EXPECT_EQ(done->right.valid, pair.right.valid);
@@ -86,7 +79,7 @@ TEST_P(PreprocessorContract, ChangesGreyValuesAndNothingElse) {
 
 TEST_P(PreprocessorContract, APairWithoutPixelsIsRefused) {
   PreprocessFixture fixture;
-  const auto done = run(*make(GetParam()), RectifiedPair(&fixture.output), fixture);
+  const auto done = run(make(GetParam()), RectifiedPair(&fixture.output), fixture);
   ASSERT_FALSE(done);
   EXPECT_EQ(done.error().code, Errc::InvalidInput);
 }
@@ -95,7 +88,7 @@ TEST_P(PreprocessorContract, AViewThatSeesNothingStays) {
   PreprocessFixture fixture;
   RectifiedPair pair = fixture.scene();
   std::fill(pair.right.valid.begin(), pair.right.valid.end(), std::uint8_t{0});
-  const auto done = run(*make(GetParam()), pair, fixture);
+  const auto done = run(make(GetParam()), pair, fixture);
   ASSERT_TRUE(done);
   EXPECT_EQ(done->right.grey, pair.right.grey);
 }
@@ -108,7 +101,7 @@ TEST_P(PreprocessorContract, FlatPicturesStayFinite) {
     std::fill(pair.right.grey.begin(), pair.right.grey.end(), 255 - level);
     std::fill(pair.left.rgb.begin(), pair.left.rgb.end(), static_cast<std::uint8_t>(level));
     std::fill(pair.right.rgb.begin(), pair.right.rgb.end(), static_cast<std::uint8_t>(255 - level));
-    const auto done = run(*make(GetParam()), pair, fixture);
+    const auto done = run(make(GetParam()), pair, fixture);
     ASSERT_TRUE(done);
     for (const float grey : done->right.grey) ASSERT_EQ(grey, done->right.grey.front());
     ASSERT_TRUE(std::isfinite(done->right.grey.front()));
@@ -119,7 +112,7 @@ TEST_P(PreprocessorContract, StopsWhenAsked) {
   PreprocessFixture fixture;
   RectifiedPair pair = fixture.scene();
   fixture.cancelled = true;
-  const auto done = make(GetParam())->process(pair, fixture.context);
+  const auto done = make(GetParam())(pair, fixture.context);
   ASSERT_FALSE(done);
   EXPECT_EQ(done.error().code, Errc::Cancelled);
 }
@@ -128,7 +121,7 @@ TEST_P(PreprocessorContract, GivesTheSameBytesForAnyNumberOfThreads) {
   std::vector<float> first;
   for (const int threads : {1, 2, 3, 2}) {
     PreprocessFixture fixture(threads);
-    const auto done = run(*make(GetParam()), fixture.scene(), fixture);
+    const auto done = run(make(GetParam()), fixture.scene(), fixture);
     ASSERT_TRUE(done);
     std::vector<float> all(done->left.grey.begin(), done->left.grey.end());
     all.insert(all.end(), done->right.grey.begin(), done->right.grey.end());
@@ -192,7 +185,7 @@ TEST(Preprocessors, ExposuresAreUndone) {
       expose(pair, exposure);
       EXPECT_GT(unlikeness(scene, pair), 3 * least) << "this exposure is no trial";
       for (const std::string name : {"histogram-normalise", "histogram-match"}) {
-        const auto done = run(*make(name), pair, fixture);
+        const auto done = run(make(name), pair, fixture);
         ASSERT_TRUE(done);
         // The views show a slightly different part of the scene: their histograms are not the same.
         EXPECT_LT(unlikeness(scene, *done), 0.15) << name << " gain " << exposure.gain << " offset "
@@ -209,7 +202,7 @@ TEST(Preprocessors, TheStretchUndoesGainAndOffsetAndKeepsProportions) {
   PreprocessFixture fixture;
   RectifiedPair pair = scene.render(&fixture.output);
   expose(pair, {0.5, 90, 1});
-  const auto done = run(*make("histogram-normalise", {{"histogram-normalise.equalise", "0"}}), pair, fixture);
+  const auto done = run(make("histogram-normalise", {{"histogram-normalise.equalise", "0"}}), pair, fixture);
   ASSERT_TRUE(done);
   EXPECT_LT(unlikeness(scene, *done), 0.15);
   // Three grey values in a row keep the ratio of their distances.
@@ -231,7 +224,7 @@ TEST(Preprocessors, TheStretchUndoesGainAndOffsetAndKeepsProportions) {
 
 TEST(Preprocessors, TheEqualisedHistogramIsFlat) {
   PreprocessFixture fixture;
-  const auto done = run(*make("histogram-normalise"), fixture.scene(), fixture);
+  const auto done = run(make("histogram-normalise"), fixture.scene(), fixture);
   ASSERT_TRUE(done);
   std::vector<double> tenths(10);
   for (const float grey : done->left.grey)
@@ -246,7 +239,7 @@ TEST(Preprocessors, WhatOnlyOneViewSeesHasNoSayInTheTransfer) {
   PreprocessFixture fixture;
   RectifiedPair pair = scene.render(&fixture.output);
   expose(pair, {0.7, 30, 1.4});
-  const auto clean = run(*make("histogram-match"), pair, fixture);
+  const auto clean = run(make("histogram-match"), pair, fixture);
   ASSERT_TRUE(clean);
   // A white wall in what is marked as not seen, and a black one outside of the face's region.
   pair.region.assign(pair.left.grey.size(), 1);
@@ -262,7 +255,7 @@ TEST(Preprocessors, WhatOnlyOneViewSeesHasNoSayInTheTransfer) {
         pair.region[k] = 0;
       }
     }
-  const auto done = run(*make("histogram-match"), pair, fixture);
+  const auto done = run(make("histogram-match"), pair, fixture);
   ASSERT_TRUE(done);
   double worst = 0;
   for (int y = 50; y < pair.height_px; ++y)

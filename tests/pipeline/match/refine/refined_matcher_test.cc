@@ -193,7 +193,7 @@ TEST(RefinedMatcher, RealignsRowsThatDisagreeAndSaysByHowMuch) {
   const Keypoints keypoints = test::lattice(pair, 2, &fixture.output);
   const auto aligned = run_stage(
       fixture.context, [&](StageContext& c) { return RefinedMatcher({}).match(pair, keypoints, c); });
-  RefinedMatcherOptions off;
+  RefinedMatcher off;
   off.align_beyond_px = 100;
   const auto unaligned = run_stage(
       fixture.context, [&](StageContext& c) { return RefinedMatcher(off).match(pair, keypoints, c); });
@@ -221,7 +221,7 @@ TEST(RefinedMatcher, FollowsWhatMovedBetweenTheExposures) {
   StageFixture fixture;
   const RectifiedPair pair = scene.render(&fixture.output);
   const Keypoints keypoints = test::lattice(pair, 2, &fixture.output);
-  RefinedMatcherOptions off;
+  RefinedMatcher off;
   off.follow_motion = 0;
   const auto followed = run_stage(
       fixture.context, [&](StageContext& c) { return RefinedMatcher({}).match(pair, keypoints, c); });

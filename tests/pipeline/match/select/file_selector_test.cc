@@ -18,7 +18,7 @@ class FilePoints : public testing::Test {
     return choose((here_ / "points.csv").string());
   }
   Result<Keypoints> choose(const std::string& path) {
-    return fixture_.select(*test::make_selector("file-points", {{"file-points.path", path}}),
+    return fixture_.select(test::make_selector("file-points", {{"file-points.path", path}}),
                            SelectionFixture::rendered());
   }
   void refused(const std::string& text, const std::string& place) {
@@ -85,7 +85,7 @@ TEST_F(FilePoints, WhatWasNotReadIsNamed) {
   ASSERT_TRUE(set.set("selector", "file-points") && set.set("file-points.path", "gone.csv"));
   const auto made = make_selector(set);
   ASSERT_TRUE(made);
-  const auto chosen = fixture_.select(**made, SelectionFixture::rendered());
+  const auto chosen = fixture_.select(*made, SelectionFixture::rendered());
   ASSERT_FALSE(chosen);
   EXPECT_EQ(chosen.error().code, Errc::NotFound);
   EXPECT_EQ(chosen.error().where(), "gone.csv");

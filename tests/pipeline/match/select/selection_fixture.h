@@ -20,19 +20,14 @@
 
 namespace relievo::test {
 
-using Settings = std::vector<std::pair<std::string, std::string>>;
-
-inline std::unique_ptr<pipeline::KeypointSelector> make_selector(const std::string& name,
-                                                                 const Settings& settings = {}) {
-  pipeline::AlgorithmSet set;
-  EXPECT_TRUE(set.set("selector", name));
-  for (const auto& [key, value] : settings) {
-    EXPECT_TRUE(set.set(key, value)) << key;
-    if (key.ends_with(".path") && !value.empty()) set.keep_text(key, read_text(value));
-  }
-  auto made = pipeline::make_selector(set);
-  EXPECT_TRUE(made) << name;
-  return *std::move(made);
+inline pipeline::KeypointSelector make_selector(const std::string& name, const Settings& settings = {}) {
+  return made(
+      [&](pipeline::AlgorithmSet& set) {
+        for (const auto& [key, value] : settings)
+          if (key.ends_with(".path") && !value.empty()) set.keep_text(key, read_text(value));
+        return pipeline::make_selector(set);
+      },
+      "selector", name, settings);
 }
 
 // The selector `file-points` needs one.
@@ -71,7 +66,7 @@ struct SelectionFixture : StageFixture {
   }
   Result<pipeline::Keypoints> select(const pipeline::KeypointSelector& selector,
                                      const pipeline::RectifiedPair& pair) {
-    return pipeline::run_stage(context, [&](pipeline::StageContext& c) { return selector.select(pair, c); });
+    return pipeline::run_stage(context, [&](pipeline::StageContext& c) { return selector(pair, c); });
   }
 };
 

@@ -46,12 +46,12 @@ Figures figures_of(const std::string& name) {
   swapped = pair;
   std::swap(swapped.left, swapped.right);
   const auto run = [&](auto&& stage) { return run_stage(fixture.context, stage); };
-  const auto left = run([&](StageContext& c) { return selector->select(pair, c); });
-  const auto right = run([&](StageContext& c) { return selector->select(swapped, c); });
+  const auto left = run([&](StageContext& c) { return selector(pair, c); });
+  const auto right = run([&](StageContext& c) { return selector(swapped, c); });
   EXPECT_TRUE(left && right) << name;
   AlgorithmSet set;
   const auto matcher = make_matcher(set);
-  const auto matches = run([&](StageContext& c) { return (*matcher)->match(pair, *left, c); });
+  const auto matches = run([&](StageContext& c) { return (*matcher)(pair, *left, c); });
   EXPECT_TRUE(matches) << name;
   Figures f;
   double judged = 0;

@@ -14,8 +14,14 @@ using test::SelectionFixture;
 
 class SelectorContract : public testing::TestWithParam<std::string> {
  protected:
-  std::unique_ptr<KeypointSelector> selector() const {
+  KeypointSelector selector() const {
     return test::make_selector(GetParam(), {{"file-points.path", file_.path()}});
+  }
+  // As the table says, and as a mesher for lattices is told.
+  static bool on_lattice() {
+    AlgorithmSet set;
+    EXPECT_TRUE(set.set("selector", GetParam()));
+    return check_neighbours(set).has_value();
   }
   test::PointFile file_;
 };
@@ -32,7 +38,7 @@ TEST_P(SelectorContract, StaysInsideTheRegionAndTheValidPicture) {
       if (x + y < 130)
         pair.left.valid[k] = 0, pair.left.grey[k] = 0;  // an edge and corners, but no picture's
     }
-  const auto chosen = fixture.select(*selector(), pair);
+  const auto chosen = fixture.select(selector(), pair);
   ASSERT_TRUE(chosen);
   ASSERT_GT(chosen->points.size(), 20U);
   double edge = 0;
@@ -48,9 +54,9 @@ TEST_P(SelectorContract, StaysInsideTheRegionAndTheValidPicture) {
 
 TEST_P(SelectorContract, PointsStandInRowsFromTheTopEachOnce) {
   SelectionFixture fixture;
-  const auto chosen = fixture.select(*selector(), SelectionFixture::rendered());
+  const auto chosen = fixture.select(selector(), SelectionFixture::rendered());
   ASSERT_TRUE(chosen);
-  EXPECT_EQ(chosen->lattice_step_px > 0, selector()->on_lattice());
+  EXPECT_EQ(chosen->lattice_step_px > 0, on_lattice());
   EXPECT_EQ(chosen->points.get_allocator().resource(), &fixture.output);
   const auto& points = chosen->points;
   for (std::size_t k = 1; k < points.size(); ++k) {
@@ -65,7 +71,7 @@ TEST_P(SelectorContract, NoMoreThanAskedFor) {
   AlgorithmSet set;
   if (!set.set(key, "40")) return;  // it says where its points are, not how many
   const auto chosen =
-      fixture.select(*test::make_selector(GetParam(), {{key, "40"}}), SelectionFixture::rendered());
+      fixture.select(test::make_selector(GetParam(), {{key, "40"}}), SelectionFixture::rendered());
   ASSERT_TRUE(chosen);
   EXPECT_LE(chosen->points.size(), 40U);
   EXPECT_GE(chosen->points.size(), 20U);
@@ -79,23 +85,23 @@ TEST_P(SelectorContract, AnEmptyRegionIsNoFace) {
   RectifiedPair pair(&fixture.output);
   pair = SelectionFixture::rendered();
   pair.region.assign(pair.left.grey.size(), 0);
-  const auto chosen = fixture.select(*selector(), pair);
+  const auto chosen = fixture.select(selector(), pair);
   ASSERT_FALSE(chosen);
   EXPECT_EQ(chosen.error().code, Errc::NoFace);
 }
 
 TEST_P(SelectorContract, APairWithoutPixelsIsRefused) {
   SelectionFixture fixture;
-  const auto chosen = fixture.select(*selector(), RectifiedPair(&fixture.output));
+  const auto chosen = fixture.select(selector(), RectifiedPair(&fixture.output));
   ASSERT_FALSE(chosen);
   EXPECT_EQ(chosen.error().code, Errc::InvalidInput);
 }
 
 TEST_P(SelectorContract, APlainWallHasPointsOnlyWhereTheyDoNotDependOnIt) {
   SelectionFixture fixture;
-  const auto chosen = fixture.select(*selector(), fixture.plain());
+  const auto chosen = fixture.select(selector(), fixture.plain());
   if (chosen) {
-    EXPECT_TRUE(selector()->on_lattice() || GetParam() == "random" || GetParam() == "file-points");
+    EXPECT_TRUE(on_lattice() || GetParam() == "random" || GetParam() == "file-points");
     return;
   }
   EXPECT_EQ(chosen.error().code, Errc::TooFewMatches);
@@ -112,7 +118,7 @@ TEST_P(SelectorContract, TinyPicturesAreNoTrouble) {
       view->grey[0] = 200;
       view->valid.assign(static_cast<std::size_t>(width * height), 1);
     }
-    const auto chosen = fixture.select(*selector(), pair);
+    const auto chosen = fixture.select(selector(), pair);
     EXPECT_TRUE(!chosen || !chosen->points.empty());
   }
 }
@@ -121,8 +127,7 @@ TEST_P(SelectorContract, TooLittleMemoryIsAnError) {
   const RectifiedPair& pair = SelectionFixture::rendered();
   for (const std::size_t output : {std::size_t{16}, std::size_t{1} << 20}) {
     test::StageFixture fixture(output, output == 16 ? std::size_t{8} << 20 : 64);
-    const auto chosen =
-        run_stage(fixture.context, [&](StageContext& c) { return selector()->select(pair, c); });
+    const auto chosen = run_stage(fixture.context, [&](StageContext& c) { return selector()(pair, c); });
     if (chosen && output > 16) continue;  // a lattice asks for no scratch memory
     ASSERT_FALSE(chosen);
     EXPECT_EQ(chosen.error().code, Errc::OutOfMemory);
@@ -132,7 +137,7 @@ TEST_P(SelectorContract, TooLittleMemoryIsAnError) {
 TEST_P(SelectorContract, StopsWhenAsked) {
   SelectionFixture fixture;
   fixture.cancelled = true;
-  const auto chosen = selector()->select(SelectionFixture::rendered(), fixture.context);
+  const auto chosen = selector()(SelectionFixture::rendered(), fixture.context);
   ASSERT_FALSE(chosen);
   EXPECT_EQ(chosen.error().code, Errc::Cancelled);
 }
@@ -141,7 +146,7 @@ TEST_P(SelectorContract, GivesTheSameForAnyNumberOfThreads) {
   std::vector<float> first;
   for (const int threads : {1, 2, 3, 2}) {
     SelectionFixture fixture(threads);
-    const auto chosen = fixture.select(*selector(), SelectionFixture::rendered());
+    const auto chosen = fixture.select(selector(), SelectionFixture::rendered());
     ASSERT_TRUE(chosen);
     std::vector<float> all;
     for (const Keypoint& p : chosen->points) all.insert(all.end(), {p.at_px.x, p.at_px.y, p.strength});

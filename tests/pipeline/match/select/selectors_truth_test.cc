@@ -55,7 +55,7 @@ TEST_P(Corners, OfSquaresAreFoundAndTheirEdgesAreNot) {
   RectifiedPair pair = fixture.plain();
   const auto corners = paint_squares(pair);
   const auto found = fixture.select(
-      *make_selector(GetParam(), {{"good-features.levels", "0.3:4"}, {"harris.quality", "0.7"}}), pair);
+      make_selector(GetParam(), {{"good-features.levels", "0.3:4"}, {"harris.quality", "0.7"}}), pair);
   ASSERT_TRUE(found);
   EXPECT_EQ(found->points.size(), corners.size());
   for (const Vec2f& corner : corners) EXPECT_LT(nearest(corner, *found), 4.3F) << corner.x << " " << corner.y;
@@ -71,7 +71,7 @@ TEST(GoodFeatures, LevelsAreUnitedAndEachKeepsItsDistance) {
   const auto places = [&](const char* levels) {
     std::set<Place> all;
     const auto chosen =
-        fixture.select(*make_selector("good-features", {{"good-features.levels", levels}}), pair);
+        fixture.select(make_selector("good-features", {{"good-features.levels", levels}}), pair);
     EXPECT_TRUE(chosen);
     for (const Keypoint& p : chosen->points) all.insert({p.at_px.x, p.at_px.y});
     return all;
@@ -94,11 +94,10 @@ TEST(GoodFeatures, BinaryThresholdsFindOutlinesTheGreyPictureHides) {
   for (int y = 10; y < 20; ++y)
     for (int x = 150; x < 175; ++x) pixel(pair, x, y) = 44;  // four grey levels above the ground
   const Vec2f corner{149.5F, 9.5F};
-  const auto grey =
-      fixture.select(*make_selector("good-features", {{"good-features.levels", "0.3:4"}}), pair);
+  const auto grey = fixture.select(make_selector("good-features", {{"good-features.levels", "0.3:4"}}), pair);
   const auto binary = fixture.select(
-      *make_selector("good-features",
-                     {{"good-features.levels", "0.3:4"}, {"good-features.binary_thresholds", "42+100"}}),
+      make_selector("good-features",
+                    {{"good-features.levels", "0.3:4"}, {"good-features.binary_thresholds", "42+100"}}),
       pair);
   ASSERT_TRUE(grey && binary);
   EXPECT_GT(nearest(corner, *grey), 10);
@@ -169,8 +168,8 @@ TEST(Haar, BlobsOfDifferentSizesAreFoundInTheirMiddle) {
       for (const Blob& b : blobs)
         pixel(pair, x, y) += static_cast<float>(
             b.height * std::exp(-(std::pow(x - b.x, 2) + std::pow(y - b.y, 2)) / (2 * b.sigma * b.sigma)));
-  const auto found = fixture.select(
-      *make_selector("haar", {{"haar.quality", "0.45"}, {"haar.min_distance_px", "10"}}), pair);
+  const auto found =
+      fixture.select(make_selector("haar", {{"haar.quality", "0.45"}, {"haar.min_distance_px", "10"}}), pair);
   ASSERT_TRUE(found);
   EXPECT_EQ(found->points.size(), std::size(blobs));
   for (const Blob& b : blobs)
@@ -234,7 +233,7 @@ TEST(WaveletSalient, TracksEndWhereThePictureVaries) {
   RectifiedPair pair = fixture.plain();
   paint_squares(pair);
   pixel(pair, 95, 21) = 200;  // a speck varies at every scale, too
-  const auto found = fixture.select(*make_selector("wavelet-salient"), pair);
+  const auto found = fixture.select(make_selector("wavelet-salient"), pair);
   ASSERT_TRUE(found);
   EXPECT_LT(nearest({95, 21}, *found), 2.3F);
   for (const Keypoint& p : found->points) {
@@ -266,7 +265,7 @@ TEST(Random, EveryPlaceIsEquallyLikelyAndTheSeedDecides) {
   SelectionFixture fixture;
   const auto& pair = SelectionFixture::rendered();
   const auto draw = [&](const char* seed) {
-    return fixture.select(*make_selector("random", {{"random.max_points", "6400"}, {"random.seed", seed}}),
+    return fixture.select(make_selector("random", {{"random.max_points", "6400"}, {"random.seed", seed}}),
                           pair);
   };
   const auto one = draw("1"), again = draw("1"), other = draw("2");
@@ -289,15 +288,15 @@ TEST(Random, EveryPlaceIsEquallyLikelyAndTheSeedDecides) {
 TEST(GridPoints, EveryStepOfTheRectangleAndNowhereElse) {
   SelectionFixture fixture;
   const auto& pair = SelectionFixture::rendered();  // 200 x 160
-  const auto whole = fixture.select(*make_selector("grid-points"), pair);
+  const auto whole = fixture.select(make_selector("grid-points"), pair);
   ASSERT_TRUE(whole);
   EXPECT_EQ(whole->lattice_step_px, 8);
   EXPECT_EQ(whole->points.size(), 25U * 20U);
-  const auto part = fixture.select(*make_selector("grid-points", {{"grid-points.step_px", "7"},
-                                                                  {"grid-points.left_px", "31"},
-                                                                  {"grid-points.top_px", "12"},
-                                                                  {"grid-points.width_px", "22"},
-                                                                  {"grid-points.height_px", "14"}}),
+  const auto part = fixture.select(make_selector("grid-points", {{"grid-points.step_px", "7"},
+                                                                 {"grid-points.left_px", "31"},
+                                                                 {"grid-points.top_px", "12"},
+                                                                 {"grid-points.width_px", "22"},
+                                                                 {"grid-points.height_px", "14"}}),
                                    pair);
   ASSERT_TRUE(part);
   EXPECT_EQ(part->lattice_step_px, 7);
@@ -308,12 +307,12 @@ TEST(GridPoints, EveryStepOfTheRectangleAndNowhereElse) {
   }
   // Down to the view's edge, and what lies beyond it.
   const auto corner = fixture.select(
-      *make_selector("grid-points", {{"grid-points.left_px", "199"}, {"grid-points.top_px", "150"}}), pair);
+      make_selector("grid-points", {{"grid-points.left_px", "199"}, {"grid-points.top_px", "150"}}), pair);
   ASSERT_TRUE(corner);
   EXPECT_EQ(corner->points.size(), 2U);
   for (const char* option :
        {"grid-points.left_px", "grid-points.top_px", "grid-points.width_px", "grid-points.height_px"}) {
-    const auto beyond = fixture.select(*make_selector("grid-points", {{option, "201"}}), pair);
+    const auto beyond = fixture.select(make_selector("grid-points", {{option, "201"}}), pair);
     ASSERT_FALSE(beyond) << option;
     EXPECT_EQ(beyond.error().code, Errc::InvalidInput);
     EXPECT_EQ(beyond.error().where(), "grid-points (200 x 160)");
@@ -326,12 +325,12 @@ TEST(GridPoints, ARectangleBesideTheFaceSaysSo) {
   pair = SelectionFixture::rendered();
   pair.region.assign(pair.left.grey.size(), 0);
   for (std::size_t k = 0; k < 200U * 40U; ++k) pair.region[k] = 1;  // its upper quarter
-  const auto beside = fixture.select(*make_selector("grid-points", {{"grid-points.top_px", "40"}}), pair);
+  const auto beside = fixture.select(make_selector("grid-points", {{"grid-points.top_px", "40"}}), pair);
   ASSERT_FALSE(beside);
   EXPECT_EQ(beside.error().code, Errc::NoFace);
   EXPECT_NE(beside.error().what.view().find("rectangle"), std::string_view::npos);
   const auto across = fixture.select(
-      *make_selector("grid-points", {{"grid-points.top_px", "32"}, {"grid-points.height_px", "80"}}), pair);
+      make_selector("grid-points", {{"grid-points.top_px", "32"}, {"grid-points.height_px", "80"}}), pair);
   ASSERT_TRUE(across);
   EXPECT_EQ(across->points.size(), 25U);
 }

@@ -185,8 +185,8 @@ TEST(WindowMatchers, NoWindowLooksAtPixelsThatAreNotThere) {
 }
 
 TEST(WindowMatchers, EvenWindowsAndTwoChannelsAreRefused) {
-  EXPECT_FALSE(check_options(SsdMatcherOptions{.window_px = 10}, "ssd"));
-  EXPECT_FALSE(check_options(ZmnccMatcherOptions{.channels = 2}, "zmncc"));
+  EXPECT_FALSE(check_options(SsdMatcher{.window_px = 10}, "ssd"));
+  EXPECT_FALSE(check_options(ZmnccMatcher{.channels = 2}, "zmncc"));
 }
 
 }  // namespace

@@ -115,7 +115,7 @@ TEST(MesherCatalogue, OnTheTruthCloud) {
     const auto mesher = make_mesher(set);
     ASSERT_TRUE(mesher);
     StageRoom room;
-    const auto result = room.run([&](StageContext& c) { return (*mesher)->mesh(cloud, c); });
+    const auto result = room.run([&](StageContext& c) { return (*mesher)(cloud, c); });
     ASSERT_TRUE(result) << name;
     std::vector<double> off;
     for (std::size_t v = 0; v < result->vertices_mm.size(); v += 7) {

@@ -23,6 +23,7 @@
 #include "tests/pipeline/mesh/landmarks/field_head.h"
 #include "tests/pipeline/mesh/stage_room.h"
 #include "tests/pipeline/mesh/truth_cloud.h"
+#include "tests/support/names_of.h"
 
 namespace relievo::pipeline {
 namespace {
@@ -32,17 +33,13 @@ using Kernel = CGAL::Exact_predicates_inexact_constructions_kernel;
 using Mesh = CGAL::Surface_mesh<Kernel::Point_3>;
 using test::StageRoom;
 
-std::unique_ptr<Completion> usual_head() {
-  AlgorithmSet set;
-  EXPECT_TRUE(set.set("completion", "generic-head"));
-  return *make_completion(set);
-}
+Completion usual_head() { return relievo::test::made(make_completion, "completion", "generic-head"); }
 
 FaceModel face_of(std::uint32_t seed, double yaw_deg, StageRoom& room) {
   hal::sim::HeadPose pose;
   pose.yaw_deg = yaw_deg;
   const PointCloud cloud = test::FieldHead(seed).cloud(pose, room.pool);
-  GridMesherOptions coarse;
+  GridMesher coarse;
   coarse.max_triangles = 60'000;
   FaceModel model(std::pmr::get_default_resource());
   const auto mesh = room.run([&](StageContext& c) { return GridMesher(coarse).mesh(cloud, c); });
@@ -58,7 +55,7 @@ TEST(SolidHead, IsClosedManifoldTurnedOutwardsAndStandsOnAFlatNeck) {
   for (const double yaw_deg : {0.0, 25.0}) {
     StageRoom room;
     const FaceModel model = face_of(3, yaw_deg, room);
-    const auto solid = room.run([&](StageContext& c) { return make_solid(model, *usual_head(), c); });
+    const auto solid = room.run([&](StageContext& c) { return make_solid(model, usual_head(), c); });
     ASSERT_TRUE(solid) << solid.error().what.view();
     std::vector<Kernel::Point_3> points;
     for (const Vec3f& v : solid->vertices_mm) points.emplace_back(v.x, v.y, v.z);
@@ -112,7 +109,7 @@ TEST(SolidHead, WhereNoHeadIsFoundNothingIsMadeUp) {
   const auto mesh = room.run([&](StageContext& c) { return GridMesher({}).mesh(sheet, c); });
   ASSERT_TRUE(mesh);
   model.mesh = *mesh;
-  const auto solid = room.run([&](StageContext& c) { return make_solid(model, *usual_head(), c); });
+  const auto solid = room.run([&](StageContext& c) { return make_solid(model, usual_head(), c); });
   ASSERT_FALSE(solid);
   EXPECT_EQ(solid.error().code, Errc::PoorGeometry);
 }

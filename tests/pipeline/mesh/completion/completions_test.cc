@@ -51,15 +51,9 @@ const Turned& turned() {
   return one;
 }
 
-std::unique_ptr<Completion> named(const std::string& name) {
-  AlgorithmSet set;
-  EXPECT_TRUE(set.set("completion", name));
-  return *make_completion(set);
-}
-
 Result<FaceMesh> completed(const std::string& name, const FaceMesh& mesh, StageRoom& room) {
-  const auto completion = named(name);
-  return room.run([&](StageContext& c) { return completion->complete(FaceMesh(mesh), {1, 0, 0}, c); });
+  const auto completion = relievo::test::made(make_completion, "completion", name);
+  return room.run([&](StageContext& c) { return completion(FaceMesh(mesh), {1, 0, 0}, c); });
 }
 
 template <typename T>
@@ -91,9 +85,9 @@ TEST_P(Completions, AreTheSameForAnyNumberOfThreads) {
   const auto first = completed(GetParam(), turned().mesh, one);
   ThreadPool single(1);
   StageContext context{again.output, again.scratch, single, again.progress, again.cancelled};
-  const auto completion = named(GetParam());
+  const auto completion = relievo::test::made(make_completion, "completion", GetParam());
   const auto second = run_stage(context, [&](StageContext& c) {
-    return completion->complete(FaceMesh(turned().mesh), {1, 0, 0}, c);
+    return completion(FaceMesh(turned().mesh), {1, 0, 0}, c);
   });
   ASSERT_TRUE(first && second);
   EXPECT_TRUE(same(first->vertices_mm, second->vertices_mm) && same(first->triangles, second->triangles) &&
@@ -227,7 +221,7 @@ TEST(GenericHead, ClosesAndGoesOnWhereTheFaceEnds) {
   StageRoom room;
   const FieldHead head(3);
   const PointCloud cloud = head.cloud_of_two({}, room.pool);
-  GridMesherOptions coarse;
+  GridMesher coarse;
   coarse.max_triangles = 80'000;
   const auto face = room.run([&](StageContext& c) { return GridMesher(coarse).mesh(cloud, c); });
   ASSERT_TRUE(face);

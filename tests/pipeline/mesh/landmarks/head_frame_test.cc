@@ -79,7 +79,7 @@ PointCloud egg_head(double nose_mm = 26, double chin_mm = 6, double neck_mm = 0)
 }
 
 FaceMesh mesh_of(const PointCloud& cloud, StageRoom& room) {
-  GridMesherOptions whole;  // to the horizon: where the mesher ends a face is not the question here
+  GridMesher whole;  // to the horizon: where the mesher ends a face is not the question here
   whole.max_rim_deg = 90;
   auto mesh = room.run([&](StageContext& c) { return GridMesher(whole).mesh(cloud, c); });
   EXPECT_TRUE(mesh);

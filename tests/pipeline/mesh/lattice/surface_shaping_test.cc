@@ -23,7 +23,7 @@ using test::StageRoom;
 
 constexpr double kNothing = std::numeric_limits<double>::quiet_NaN();
 
-Result<FaceMesh> mesh_grid(const PointCloud& cloud, StageRoom& room, const GridMesherOptions& options = {}) {
+Result<FaceMesh> mesh_grid(const PointCloud& cloud, StageRoom& room, const GridMesher& options = {}) {
   return room.run([&](StageContext& c) { return GridMesher(options).mesh(cloud, c); });
 }
 
@@ -94,7 +94,7 @@ TEST(GridMesher, ARaggedOutlineIsCutSmooth) {
     return std::hypot(sx, sy) < 0.12 - early ? 500.0 : kNothing;
   });
   StageRoom room, other;
-  GridMesherOptions options;
+  GridMesher options;
   options.finest_cells = 1;
   const auto smooth = mesh_grid(cloud, room, options);
   options.outline_smoothing_mm = 0;
@@ -119,7 +119,7 @@ TEST(GridMesher, WavesOfTheOutlineAreStraightenedByGiveAndTake) {
     const double edge = 0.1 + 0.006 * std::sin(20 * std::atan2(sy, sx));
     return std::hypot(sx, sy) < edge ? test::sphere_depth(sx, sy, 600, 90) : kNothing;
   });
-  GridMesherOptions wavy;
+  GridMesher wavy;
   wavy.outline_wave_mm = 0;
   StageRoom room, other;
   const auto straight = mesh_grid(cloud, room);
@@ -177,7 +177,7 @@ TEST(GridMesher, AHoleAtTheOutlineIsNoNickInIt) {
     if (std::hypot(x, y) > 60 || std::hypot(x, y + 54) < 3 || std::hypot(x, y - 37) < 3) return kNothing;
     return 500.0;
   });
-  GridMesherOptions options;
+  GridMesher options;
   options.max_hole_mm = 0;
   StageRoom room;
   const auto result = mesh_grid(cloud, room, options);

@@ -74,11 +74,9 @@ TEST(SelectorFigures, SpreadIsTheShareOfTheRegionsCells) {
 }
 
 // Chooses every pixel of the region and remembers what it was shown.
-class Witness final : public pipeline::KeypointSelector {
- public:
-  std::string_view name() const override { return "witness"; }
-  Result<pipeline::Keypoints> select(const pipeline::RectifiedPair& pair,
-                                     pipeline::StageContext& context) const override {
+struct Witness {
+  Result<pipeline::Keypoints> operator()(const pipeline::RectifiedPair& pair,
+                                         pipeline::StageContext& context) {
     shown = pair.left.grey[100 * static_cast<std::size_t>(pair.width_px) + 100];
     pipeline::Keypoints all(&context.output);
     for (int y = 0; y < pair.height_px; ++y)
@@ -88,7 +86,7 @@ class Witness final : public pipeline::KeypointSelector {
           all.points.push_back({{static_cast<float>(x), static_cast<float>(y)}, 1});
     return all;
   }
-  mutable float shown = 0;
+  float shown = 0;
 };
 
 TEST(SelectorFigures, TheRightViewIsShownWithItsOwnRegion) {
@@ -98,8 +96,8 @@ TEST(SelectorFigures, TheRightViewIsShownWithItsOwnRegion) {
   DisparityMap map(scene.width_px, scene.height_px);
   map.values[map.index(150, 40)] = 25;
   test::StageFixture fixture(std::size_t{8} << 20, std::size_t{1} << 20, 1);
-  const Witness witness;
-  const auto right = select_in_right(witness, pair, map, fixture.context);
+  Witness witness;
+  const auto right = select_in_right(std::ref(witness), pair, map, fixture.context);
   ASSERT_TRUE(right);
   EXPECT_EQ(witness.shown, pair.right.grey[100 * static_cast<std::size_t>(pair.width_px) + 100]);
   ASSERT_EQ(right->points.size(), 3U) << "where the left's region went, a pixel around";
