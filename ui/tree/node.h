@@ -15,7 +15,8 @@
 
 namespace relievo::ui {
 
-enum class Role : std::uint8_t { Group, Heading, Text, Icon, Button, Key, Field, Picture, Status };
+// A status is told when there is quiet, an alert at once.
+enum class Role : std::uint8_t { Group, Heading, Text, Icon, Button, Key, Field, Picture, Status, Alert };
 enum class Flow : std::uint8_t { Column, Row, Stack };
 enum class Justify : std::uint8_t { Start, Centre, End, SpaceBetween };  // in the direction of the flow
 enum class Align : std::uint8_t { Stretch, Start, Centre, End };         // at right angles to it
@@ -45,14 +46,16 @@ struct Box {
 
 struct Node {
   std::string_view id;
-  std::string_view name;  // spoken; empty: the text
+  std::string_view name;   // spoken; empty: the text
+  std::string_view value;  // spoken after the name: where a gauge stands, what is in a field
   std::string_view text;
   Role role = Role::Group;
   Box box;
   TextStyle style;
   Colour colour{};
   Action action{};
-  bool modal = false;  // nothing under it can be touched
+  bool secret = false;  // a person's own, spoken into headphones alone: its value, and words without a name
+  bool modal = false;   // nothing under it can be touched
   // Where it is set, `action` is done when a finger comes down, and this wherever it goes from there.
   Action dragged{};
   bool hold = false;        // done by a finger that rests (ui/view/service.h: kHold), not by a tap

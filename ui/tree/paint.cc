@@ -213,6 +213,8 @@ std::string_view word(Role role) {
       return "picture";
     case Role::Status:
       return "status";
+    case Role::Alert:
+      return "alert";
   }
   return "";
 }
@@ -269,7 +271,8 @@ std::string Tree::to_json() const {
                   node.rect.y, node.rect.w, node.rect.h);
     if (out.size() > 1) out += ",\n ";
     out += "{\"id\":" + quoted(node.id) + ",\"role\":" + quoted(word(node.role)) +
-           ",\"name\":" + quoted(node.name.empty() ? node.text : node.name) + place;
+           ",\"name\":" + quoted(node.name.empty() ? node.text : node.name) +
+           (node.value.empty() ? std::string() : ",\"value\":" + quoted(node.value)) + place;
   }
   return out + "]\n";
 }

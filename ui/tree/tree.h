@@ -44,6 +44,11 @@ class Tree {
 
   const std::vector<Node>& nodes() const { return nodes_; }
   const Node* find(std::string_view id) const;
+  // What lies over the page, else the page; what is in it can be touched and is read.
+  const Node& top() const { return nodes_[modal_ < 0 ? 0 : static_cast<std::size_t>(modal_)]; }
+  bool is_on_top(const Node& node) const {
+    return !under_modal(static_cast<std::size_t>(&node - nodes_.data()));
+  }
   // The topmost node there that can be touched; the scroller there.
   const Node* at(float x, float y) const;
   const Node* scroller_at(float x, float y) const;
@@ -54,7 +59,7 @@ class Tree {
   // The scroller that goes on and holds the node; nullptr: none.
   const Node* scroller_around(const Node& node) const;
   bool right_to_left() const { return right_to_left_; }
-  // [{"id", "role", "name", "x", "y", "w", "h"}, ...] of everything that speaks or can be touched.
+  // [{"id", "role", "name", "value", "x", "y", "w", "h"}, ...] of everything that speaks or can be touched.
   std::string to_json() const;
 
  private:

@@ -108,11 +108,19 @@ void key(Page& page, std::string_view id, std::string_view letter, const char* s
   page.tree.leaf(node);
 }
 
+// What a voice would pass over.
+const char* spoken_sign(const Page& page, std::string_view letter) {
+  if (letter == "-") return page.tr("Hyphen");
+  if (letter == "'") return page.tr("Apostrophe");
+  return letter == "." ? page.tr("Full stop") : nullptr;
+}
+
 void letters(Page& page, KeyRow row) {
   for (const char* letter : row) {
     const std::string_view id = page.tree.keep("key ");
     const std::string_view rest = page.tree.keep(letter);
-    key(page, {id.data(), id.size() + rest.size()}, letter, nullptr, false, {ActionKind::TypeKey, 0});
+    key(page, {id.data(), id.size() + rest.size()}, letter, spoken_sign(page, letter), false,
+        {ActionKind::TypeKey, 0});
   }
 }
 

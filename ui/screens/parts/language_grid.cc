@@ -14,6 +14,7 @@ void language_key(Page& page, Language language) {
   node.style.size_px = page.px(22 * (1 + (page.text_share - 1) * 0.4F));
   node.style.language = info.code;
   node.id = info.code;
+  if (now) node.value = page.tr("chosen");
   node.role = Role::Button;
   node.action = {ActionKind::ChooseLanguage, static_cast<int>(language)};
   node.box.grow = 1;

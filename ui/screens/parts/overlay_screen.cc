@@ -112,10 +112,14 @@ void still_there(Page& page) {
   char number[8];
   std::snprintf(number, sizeof number, "%d", left);
   page.heading("overlay_title", page.tr("Are you still there?"));
-  page.body("overlay_text", page.filled(page.tr.plural("Everything is wiped in {} second.",
-                                                       "Everything is wiped in {} seconds.",
-                                                       static_cast<unsigned long>(left)),
-                                        number));
+  Node words = page.text(
+      page.filled(page.tr.plural("Everything is wiped in {} second.", "Everything is wiped in {} seconds.",
+                                 static_cast<unsigned long>(left)),
+                  number),
+      type::kBody, Weight::Regular, page.palette.ink_soft);
+  words.id = "overlay_text";
+  words.role = Role::Status;
+  page.tree.leaf(words);
   answers(page, page.tr("Stop now"), {ActionKind::LeaveNow, 0}, page.tr("Yes, go on"), {ActionKind::Stay, 0});
 }
 

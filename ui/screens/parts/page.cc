@@ -3,6 +3,7 @@
 #include "ui/screens/parts/page.h"
 
 #include <algorithm>
+#include <string>
 
 namespace relievo::ui {
 namespace {
@@ -136,15 +137,27 @@ void Page::button(std::string_view id, std::string_view label, const char* lette
 }
 
 void Page::reading_tools() {
-  square_button("bigger", tr("Bigger text"), icon::kText, {ActionKind::BiggerText, 0});
-  square_button("contrast", tr("More contrast"), icon::kContrast, {ActionKind::Contrast, 0});
+  bigger_text();
+  more_contrast();
   square_button("language", tr("Language"), icon::kTranslate, {ActionKind::ShowLanguages, 0});
 }
 
-void Page::square_button(std::string_view id, std::string_view spoken, const char* letter, Action action) {
+void Page::bigger_text() {
+  square_button("bigger", tr("Bigger text"), icon::kText, {ActionKind::BiggerText, 0},
+                filled("{} %", std::to_string(visit.text_percent())));
+}
+
+void Page::more_contrast() {
+  square_button("contrast", tr("More contrast"), icon::kContrast, {ActionKind::Contrast, 0},
+                visit.high_contrast ? tr("yes") : tr("no"));
+}
+
+void Page::square_button(std::string_view id, std::string_view spoken, const char* letter, Action action,
+                         std::string_view value) {
   Node node = sized(box(Flow::Row), size::kTarget, size::kTarget);
   node.id = id;
   node.name = spoken;
+  node.value = value;
   node.role = Role::Button;
   node.action = action;
   node.box.justify = Justify::Centre;
@@ -187,6 +200,10 @@ std::string_view Page::filled(const char* words, std::span<const std::string_vie
   return {first.data(), length + tree.keep(rest).size()};
 }
 
+std::string_view Page::share_of(std::size_t done, std::size_t all) {
+  return filled(tr("{} of {}"), {std::to_string(done), std::to_string(all)});
+}
+
 void Page::begin(bool with_back) {
   Node root = box(Flow::Column, space::kM, kPageMargin, kPageTop);
   root.id = "page";
@@ -222,6 +239,7 @@ void Page::steps() {
   row.box.align = Align::Centre;
   row.id = "steps";
   row.name = tr("How far you are");
+  row.value = share_of(static_cast<std::size_t>(now) + 1, 4);
   row.role = Role::Status;
   tree.open(row);
   for (int i = 0; i < 4; ++i) {

@@ -102,9 +102,12 @@ class Page {
     button(id, label, letter, look, action, grow,
            look == ButtonLook::Main ? size::kMainButton : size::kOtherButton);
   }
-  void square_button(std::string_view id, std::string_view spoken, const char* letter, Action action);
+  void square_button(std::string_view id, std::string_view spoken, const char* letter, Action action,
+                     std::string_view value = {});
   // What everybody needs who reads: larger letters, more contrast, another language. In an open row.
   void reading_tools();
+  void bigger_text();
+  void more_contrast();
   // Kept for the frame, with a zero at its end, as gettext wants its keys.
   const char* kept(std::string_view words);
   // "… {} …" with the value in it, kept apart from the direction of the words around.
@@ -114,6 +117,8 @@ class Page {
     return filled(words, std::span(values.begin(), values.size()));
   }
   std::string_view filled(const char* words, std::span<const std::string_view> values);
+  // "3 of 4": what a gauge says to who does not see it.
+  std::string_view share_of(std::size_t done, std::size_t all);
 
   // The frame of every page on the way: bar at the top, room for the rest. Closed by end().
   void begin(bool with_back);

@@ -19,8 +19,8 @@ void tools(Page& page) {
   Node row = page.box(Flow::Row, space::kS);
   row.box.justify = Justify::End;
   page.tree.open(row);
-  page.square_button("bigger", page.tr("Bigger text"), icon::kText, {ActionKind::BiggerText, 0});
-  page.square_button("contrast", page.tr("More contrast"), icon::kContrast, {ActionKind::Contrast, 0});
+  page.bigger_text();
+  page.more_contrast();
   page.square_button("help", page.tr("Help"), icon::kHelp, {ActionKind::ShowHelp, 0});
   page.tree.close();
 }

@@ -121,6 +121,17 @@ Words4 words_of(const Page& page) {
           tr("Please tell the staff. This device tries again by itself. Nothing about you was kept.")};
 }
 
+// Digit by digit, with a pause between groups.
+std::string_view spelled(Page& page, std::string_view code) {
+  const std::string_view first = page.tree.keep({});
+  std::size_t length = 0;
+  for (const char& c : code)
+    for (const std::string_view part :
+         {std::string_view(c == '-' ? "," : std::string_view(&c, 1)), std::string_view(" ")})
+      length += page.tree.keep(part).size();
+  return {first.data(), length};
+}
+
 }  // namespace
 
 void thanks_screen(Page& page) {
@@ -134,6 +145,10 @@ void thanks_screen(Page& page) {
   row.box.justify = Justify::Centre;
   page.tree.open(row);
   Node card = page.box(Flow::Column, 4, 48, 20);
+  card.id = "code";
+  card.name = tr("Your code");
+  card.value = spelled(page, page.view.receipt);
+  card.secret = true;
   card.box.fill = page.palette.card;
   card.box.border = page.palette.accent;
   card.box.border_px = page.px(3);

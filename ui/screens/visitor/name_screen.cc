@@ -26,6 +26,8 @@ void name_screen(Page& page) {
   field.id = "name";
   field.role = Role::Field;
   field.name = asked;
+  field.value = page.visit.name();
+  field.secret = true;
   field.box.min_height = page.px(72);
   field.box.align = Align::Centre;
   field.box.fill = page.palette.card;
@@ -49,7 +51,7 @@ void name_screen(Page& page) {
     Node note = page.text(tr("No record has this code. Please check it, or ask the staff."), type::kSmall,
                           Weight::Bold, page.palette.bad);
     note.id = "wrong_code";
-    note.role = Role::Status;
+    note.role = Role::Alert;
     page.tree.leaf(note);
   }
   if (page.portrait) page.space(1);

@@ -17,14 +17,22 @@ struct Said {
   const char* words = nullptr;
   const char* letter = nullptr;
   bool good = false;
+  const char* spoken = nullptr;  // to who does not see the sign, where the words need it
 };
+
+Said unseen(const Page& page) {
+  return {page.tr("Look into the oval"), icon::kPerson, false,
+          page.tr("The cameras do not see your face yet")};
+}
 
 // Where to move, as the person sees it in the mirror.
 Said side_of(const Page& page) {
   const LiveView& live = page.view.live;
   if (std::abs(live.face_x) >= std::abs(live.face_y))
-    return live.face_x > 0 ? Said{page.tr("Move a little this way"), icon::kNext}
-                           : Said{page.tr("Move a little this way"), icon::kBack};
+    return live.face_x > 0 ? Said{page.tr("Move a little this way"), icon::kNext, false,
+                                  page.tr("Move a little to your right")}
+                           : Said{page.tr("Move a little this way"), icon::kBack, false,
+                                  page.tr("Move a little to your left")};
   return live.face_y > 0 ? Said{page.tr("A little higher, please"), icon::kUp}
                          : Said{page.tr("A little lower, please"), icon::kDown};
 }
@@ -37,7 +45,7 @@ Said said(const Page& page) {
     case Advice::None:
       return {tr("Very good. Look straight ahead and hold still"), icon::kGood, true};
     case Advice::NoFace:
-      return {tr("Look into the oval"), icon::kPerson};
+      return unseen(page);
     case Advice::TooClose:
       return {tr("Please step back a little"), icon::kDown};
     case Advice::TooFar:
@@ -78,7 +86,7 @@ Said said(const Page& page) {
     case Advice::Background:
       return {tr("Please keep the space beside your head clear"), icon::kPerson};
   }
-  return {tr("Look into the oval"), icon::kPerson};
+  return unseen(page);
 }
 
 // Why the person is here again.
@@ -129,6 +137,8 @@ void oval(Page& page, bool good, float share) {
       std::min({wanted, page.height_dp * 0.76F, page.width_dp * 1.1F, page.height_dp - 2 * room_above(page)});
   Node ring = page.sized(page.box(Flow::Column), h * 0.74F, h);
   ring.id = "oval";
+  ring.role = Role::Picture;
+  ring.name = good ? page.tr("Your face is in the oval") : page.tr("An oval for your face");
   ring.mark = Mark::Ring;
   ring.line_px = page.px(10);
   ring.colour = {6, 10, 18, 150};
@@ -146,8 +156,8 @@ void advice(Page& page, const Said& what, std::optional<float> countdown = {}) {
   page.tree.open(row);
   Node pill = page.box(Flow::Row, 18, 32, 10);
   pill.id = "advice";
-  pill.role = Role::Status;
-  pill.name = what.words;
+  pill.role = Role::Alert;
+  pill.name = what.spoken != nullptr ? what.spoken : what.words;
   pill.box.align = Align::Centre;
   pill.box.justify = Justify::Centre;
   pill.box.max_width = page.px(page.portrait ? 700.0F : 1160.0F);
@@ -168,6 +178,7 @@ void advice(Page& page, const Said& what, std::optional<float> countdown = {}) {
     Node number = page.text(page.tree.keep({digit, 1}), type::kTitle, Weight::Bold, page.palette.good,
                             TextAlign::Centre);
     number.id = "countdown";
+    number.role = Role::Status;
     number.style.size_px = page.px(type::kTitle * (1 + (page.text_share - 1) * 0.4F));
     page.tree.leaf(number);
   }
@@ -182,9 +193,9 @@ Said said_of_turn(const Page& page) {
   const char* const on = tr("Turn your head slowly this way");
   switch (page.view.live.turn ? page.view.live.turn->advice : TurnAdvice::Hold) {
     case TurnAdvice::ToLeft:
-      return {on, icon::kNext};
+      return {on, icon::kNext, false, tr("Turn your head slowly to your right")};
     case TurnAdvice::ToRight:
-      return {on, icon::kBack};
+      return {on, icon::kBack, false, tr("Turn your head slowly to your left")};
     case TurnAdvice::Level:
       return {tr("Please hold your head level"), icon::kPerson};
     case TurnAdvice::Slower:
@@ -195,7 +206,7 @@ Said said_of_turn(const Page& page) {
     case TurnAdvice::Lost:
       break;
   }
-  return {tr("Look into the oval"), icon::kPerson};
+  return unseen(page);
 }
 
 // A stop for each side, as the mirror shows them, with a tick where it is taken; between them where the head
@@ -220,6 +231,7 @@ void sides(Page& page) {
   rail.id = "sides";
   rail.role = Role::Status;
   rail.name = page.tr("How far you are");
+  rail.value = page.share_of(turn ? turn->taken.count() : 0, pipeline::kSides);
   rail.box.fill = {8, 14, 26, 200};
   rail.box.radius = page.px(kHighDp / 2);
   rail.box.left_to_right = true;
@@ -318,7 +330,7 @@ void position_screen(Page& page) {
   if (page.portrait || page.text_share < 1.2F)
     page.button("back", page.tr("Back"), page.backward(), ButtonLook::Quiet, {ActionKind::Back, 0});
   else page.square_button("back", page.tr("Back"), page.backward(), {ActionKind::Back, 0});
-  page.square_button("bigger", page.tr("Bigger text"), icon::kText, {ActionKind::BiggerText, 0});
+  page.bigger_text();
   page.square_button("language", page.tr("Language"), icon::kTranslate, {ActionKind::ShowLanguages, 0});
   page.square_button("help", page.tr("Help"), icon::kHelp, {ActionKind::ShowHelp, 0});
   page.square_button("leave", page.tr("Stop and leave"), icon::kClose, {ActionKind::Leave, 0});

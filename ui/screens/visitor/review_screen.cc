@@ -101,7 +101,7 @@ void question(Page& page) {
         tr("It could not be stored: the memory is full. Nothing was kept. Please tell the staff, or try again."),
         22, Weight::Medium, page.palette.bad);
     trouble.id = "trouble";
-    trouble.role = Role::Status;
+    trouble.role = Role::Alert;
     page.tree.leaf(trouble);
   } else {
     assurance(page);

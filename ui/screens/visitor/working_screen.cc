@@ -2,6 +2,9 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 //
 // The first four stages, each with its picture as it is born.
+#include <algorithm>
+#include <string>
+
 #include "ui/screens/visitor/visitor_screens.h"
 
 namespace relievo::ui {
@@ -56,6 +59,7 @@ void card(Page& page, int stage, const char* words) {
   node.id = kIds[stage];
   node.role = Role::Status;
   node.name = words;
+  node.value = stage < now ? page.tr("done") : stage == now ? page.tr("under way") : page.tr("waiting");
   node.box.fill = page.palette.card;
   node.box.border = stage == now ? page.palette.accent : page.palette.card_border;
   node.box.border_px = page.px(stage == now ? 3.0F : 1.5F);
@@ -102,6 +106,9 @@ void progress(Page& page) {
   track.id = "progress";
   track.role = Role::Status;
   track.name = page.tr("How far it is");
+  constexpr int kStep = 25;  // who listens is told of a quarter, not of every step
+  track.value =
+      page.filled("{} %", std::to_string(static_cast<int>(std::min(1.0F, done) * 100) / kStep * kStep));
   track.box.height = page.px(14);
   track.box.radius = page.px(7);
   track.box.fill = page.palette.track;

@@ -1,0 +1,127 @@
+// SPDX-FileCopyrightText: 2026 The Relievo authors
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "ui/speech/narrator.h"
+
+#include <algorithm>
+#include <utility>
+
+namespace relievo::ui {
+namespace {
+
+// A page is another one, too, when its heading is: while a portrait is made, then stored.
+std::size_t print_of_page(const Tree& tree, const Narrator::Moment& moment, const Listener& to) {
+  std::size_t print = moment.page * 31 + static_cast<std::size_t>(to.tr.language());
+  for (const Node& node : tree.nodes()) {
+    if (node.role == Role::Heading) print = print * 31 + print_of(node.text);
+  }
+  return print;
+}
+
+const Node* field_of(const Tree& tree) {
+  const auto found = std::ranges::find(tree.nodes(), Role::Field, &Node::role);
+  return found == tree.nodes().end() ? nullptr : &*found;
+}
+
+std::string_view last_letter(std::string_view text) {
+  std::size_t at = text.size();
+  while (at > 0 && (static_cast<unsigned char>(text[--at]) & 0xC0U) == 0x80U) {
+  }
+  return text.substr(at);
+}
+
+}  // namespace
+
+void Narrator::read_again(std::string_view introduction) {
+  again_ = true;
+  introduction_ = introduction;
+}
+
+void Narrator::forget() {
+  said_.clear();
+  scratch_.clear();
+  page_ = focus_ = focused_ = typed_ = typed_bytes_ = told_count_ = 0;
+  read_again();
+}
+
+const Utterance& Narrator::follow(const Tree& tree, const Moment& moment, const Listener& to) {
+  said_.clear();
+  said_.language = info_of(to.tr.language()).code;
+  const std::size_t page = print_of_page(tree, moment, to);
+  if (std::exchange(page_, page) != page || again_) {
+    read_page(tree, moment, to);
+  } else if (!follow_focus(tree, moment.focus, to) && !follow_typing(tree, to)) {
+    follow_statuses(tree, moment, to, false);
+  }
+  return said_;
+}
+
+void Narrator::read_page(const Tree& tree, const Moment& moment, const Listener& to) {
+  again_ = false;
+  said_.say(std::exchange(introduction_, {}));
+  say_page(tree, to, said_);
+  told_count_ = 0;
+  follow_statuses(tree, moment, to, true);
+  // Whatever has the focus now, or stands in the field, was there when the page was read.
+  const Node* field = field_of(tree);
+  typed_ = field != nullptr ? print_of(field->value) : 0;
+  typed_bytes_ = field != nullptr ? field->value.size() : 0;
+  focus_ = print_of({});
+}
+
+bool Narrator::follow_focus(const Tree& tree, std::string_view focus, const Listener& to) {
+  const Node* node = focus.empty() ? nullptr : tree.find(focus);
+  scratch_.clear();
+  if (node != nullptr) say_focus(tree, *node, to, scratch_);
+  const std::size_t words = print_of(scratch_.text()), id = print_of(focus);
+  const bool same = focus_ == id && (node == nullptr || focused_ == words);
+  focus_ = id;
+  focused_ = words;
+  if (same || node == nullptr) return false;
+  if (node->role == Role::Button && !node->text.empty()) said_.language = node->style.language;
+  said_.say(scratch_.text());
+  scratch_.clear();
+  return true;
+}
+
+bool Narrator::follow_typing(const Tree& tree, const Listener& to) {
+  const Node* field = field_of(tree);
+  if (field == nullptr) return false;
+  const std::string_view typed = field->value;
+  const std::size_t before = std::exchange(typed_bytes_, typed.size());
+  if (std::exchange(typed_, print_of(typed)) == print_of(typed)) return false;
+  if (typed.size() < before) said_.say(to.tr("Erased"));
+  else if (!to.alone) said_.say(to.tr("Typed"));
+  else if (typed.size() - before <= last_letter(typed).size()) said_.say(last_letter(typed));
+  else said_.say(typed);
+  return true;
+}
+
+Narrator::Told* Narrator::told_of(std::size_t id) {
+  for (std::size_t i = 0; i < told_count_; ++i) {
+    if (told_[i].id == id) return &told_[i];
+  }
+  if (told_count_ == told_.size()) return nullptr;
+  told_[told_count_] = {.id = id};
+  return &told_[told_count_++];
+}
+
+void Narrator::follow_statuses(const Tree& tree, const Moment& moment, const Listener& to, bool said_all) {
+  for (const Node& node : tree.nodes()) {
+    if ((node.role != Role::Status && node.role != Role::Alert) || node.id.empty() || !tree.is_on_top(node))
+      continue;
+    Told* told = told_of(print_of(node.id));
+    if (told == nullptr) return;
+    scratch_.clear();
+    say_node(tree, node, to, scratch_);
+    const std::size_t words = print_of(scratch_.text());
+    if (std::exchange(told->seen, words) != words) told->since = moment.now;
+    const bool alert = node.role == Role::Alert;
+    const bool due = alert ? moment.now - told->since >= kSettled : !moment.busy;
+    if (words == told->said || (!due && !said_all)) continue;
+    told->said = words;
+    if (!said_all) said_.say(scratch_.text());
+  }
+  scratch_.clear();
+}
+
+}  // namespace relievo::ui

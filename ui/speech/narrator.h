@@ -1,0 +1,61 @@
+// SPDX-FileCopyrightText: 2026 The Relievo authors
+// SPDX-License-Identifier: GPL-3.0-or-later
+//
+// Narrator: what is to be said now, from what was said and the tree as it is. In this order, one thing at a
+// time:
+//
+//   another page, or asked to read it again  ->  the page
+//   another focus, or what has it changed    ->  what has the focus
+//   something was typed                      ->  the letter
+//   a status changed                         ->  the status: an alert as soon as it has stood for kSettled,
+//                                                any other when nothing is being said
+//
+// Nothing is said twice without one of these. It keeps prints of texts, no texts. Thread: main. Errors: none.
+#pragma once
+
+#include <array>
+#include <cstddef>
+#include <string_view>
+
+#include "hal/clock.h"
+#include "ui/speech/utterance.h"
+
+namespace relievo::ui {
+
+inline constexpr std::chrono::milliseconds kSettled{350};  // an advice that is gone by then helps nobody
+
+class Narrator {
+ public:
+  struct Moment {
+    std::size_t page = 0;    // another number for every page and what lies over it
+    std::string_view focus{};  // id; empty: none
+    hal::Instant now{};
+    bool busy = false;  // something is being said
+  };
+  // Empty: nothing. The utterance holds until the next call.
+  const Utterance& follow(const Tree& tree, const Moment& moment, const Listener& to);
+  // The page is read again, with an introduction before it if there is one.
+  void read_again(std::string_view introduction = {});
+  void forget();
+
+ private:
+  struct Told {
+    std::size_t id = 0, said = 0, seen = 0;  // prints
+    hal::Instant since{};                    // seen
+  };
+  static constexpr std::size_t kStatuses = 32;
+  void read_page(const Tree& tree, const Moment& moment, const Listener& to);
+  bool follow_focus(const Tree& tree, std::string_view focus, const Listener& to);
+  bool follow_typing(const Tree& tree, const Listener& to);
+  void follow_statuses(const Tree& tree, const Moment& moment, const Listener& to, bool said_all);
+  Told* told_of(std::size_t id);
+
+  Utterance said_, scratch_;
+  std::size_t page_ = 0, focus_ = 0, focused_ = 0, typed_ = 0, typed_bytes_ = 0;
+  std::array<Told, kStatuses> told_{};
+  std::size_t told_count_ = 0;
+  bool again_ = true;
+  std::string_view introduction_;
+};
+
+}  // namespace relievo::ui
