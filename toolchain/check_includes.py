@@ -44,6 +44,7 @@ LIBRARIES = {
     r"zip\.h$": "zip_",
     r"ZXing/": "zxing_",
     r"SDL2?/|SDL.*\.h$": "sdl_",
+    r"espeak-ng/": "espeak_",
     r"GLES[23]?/|EGL/|KHR/": "gles_",
     r"ft2build\.h$|freetype": "freetype_",
     r"hb.*\.h$|harfbuzz/": "harfbuzz_",
@@ -70,6 +71,7 @@ SYSTEM = re.compile(
 CHOSEN_BY = {
     "hal/linux/": "firmware/main.cc",
     "hal/sim/": "firmware/main.cc",
+    "hal/sound/": "firmware/main.cc",
     "storage/sqlite/": "firmware/main.cc",
     "ui/platform/": "firmware/main.cc",
     "firmware/command/": "firmware/main.cc",
