@@ -29,7 +29,7 @@ constexpr float kLeastTrust = 0.005F;          // of a point that counts at all
 constexpr int kRimEdges = 8, kRimRounds = 20;  // what is opened, how often rims are straightened ...
 constexpr float kSureMm = 0.15F;               // skin; hair that was half seen through is less certain
 constexpr float kRimMoveMm = 0.7F;             // ... and by how much at most
-constexpr float kHoleRimMm = 180;              // holes with a shorter rim are closed
+constexpr HoleLimits kHoles{400, 25};
 constexpr int kBands = 32;
 // What belongs to a head, in its frame: shoulders and background do not.
 constexpr double kHighestMm = 190, kFurthestMm = -215, kWidestMm = 120;
@@ -362,7 +362,7 @@ Result<FaceMesh> HeadFuser::fuse(std::span<PoseSurface> poses, const Registratio
   for (const BorderEdge& e : border) settle(e[0], unit(normals[e[0]]));
   part_equals(surface.vertices_mm, started, &context.scratch);
   // What closes a hole was not measured: nor is its rim, or its triangles would seem to be.
-  for (const std::uint32_t v : close_holes(surface.vertices_mm, border, kHoleRimMm, surface.triangles))
+  for (const std::uint32_t v : close_holes(surface.vertices_mm, normals, border, kHoles, surface.triangles))
     vertices[v].measured = 0;
 
   std::pmr::vector<std::uint8_t> pose(&context.output);

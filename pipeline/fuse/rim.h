@@ -30,10 +30,17 @@ void open_rims(std::span<const std::uint8_t> sure, std::pmr::vector<Triangle>& t
 void smooth_rims(std::span<Vec3f> vertices_mm, std::span<const BorderEdge> border, int rounds, float most_mm,
                  std::pmr::memory_resource* memory);
 
-// Closes every hole but the longest rim, where its rim is no longer than `most_mm`: without new vertices, by
-// the triangulation of least area (Barequet, Sharir 1995; CGAL). One whose closing would use an edge that is
-// there already stays open. Returns the vertices of the rims that were closed.
-std::vector<std::uint32_t> close_holes(std::span<const Vec3f> vertices_mm, std::span<const BorderEdge> border,
-                                       float most_mm, std::pmr::vector<Triangle>& triangles);
+struct HoleLimits {
+  float rim_mm;    // a hole's length around, at most
+  float mouth_mm;  // of a bay of the longest rim, at most
+};
+
+// Closes every hole but the longest rim, and that one's bays, straight from headland to headland: without new
+// vertices, by the triangulation of least area (Barequet, Sharir 1995; CGAL). One whose closing would use an
+// edge that is there already stays open. `normals`: outwards, any length. Returns the vertices of the rims
+// that were closed.
+std::vector<std::uint32_t> close_holes(std::span<const Vec3f> vertices_mm, std::span<const Vec3f> normals,
+                                       std::span<const BorderEdge> border, const HoleLimits& limits,
+                                       std::pmr::vector<Triangle>& triangles);
 
 }  // namespace relievo::pipeline

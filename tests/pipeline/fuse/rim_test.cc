@@ -38,6 +38,8 @@ float area(const FaceMesh& mesh) {
   return std::abs(sum);
 }
 
+std::vector<Vec3f> outwards(const FaceMesh& mesh) { return {mesh.vertices_mm.size(), Vec3f{0, 0, -1}}; }
+
 TEST(Rims, AreTheEdgesOfOneTriangle) {
   const FaceMesh mesh = sheet([](int, int) { return false; });
   const auto border = border_edges(mesh.triangles, std::pmr::get_default_resource());
@@ -49,7 +51,7 @@ TEST(Rims, AreTheEdgesOfOneTriangle) {
 TEST(Rims, OfHolesAreClosedAndTheOutlineIsNot) {
   FaceMesh mesh = sheet([](int x, int y) { return x >= 4 && x < 7 && y >= 4 && y < 6; });
   const auto border = border_edges(mesh.triangles, std::pmr::get_default_resource());
-  const auto closed = close_holes(mesh.vertices_mm, border, 15, mesh.triangles);
+  const auto closed = close_holes(mesh.vertices_mm, outwards(mesh), border, {15, 0}, mesh.triangles);
   EXPECT_EQ(closed.size(), 10U);
   EXPECT_NEAR(area(mesh), (kSide - 1) * (kSide - 1), 1e-3) << "closed, and facing the same way";
   EXPECT_EQ(border_edges(mesh.triangles, std::pmr::get_default_resource()).size(), 4U * (kSide - 1));
@@ -58,8 +60,20 @@ TEST(Rims, OfHolesAreClosedAndTheOutlineIsNot) {
 TEST(Rims, OfLargeHolesStayOpen) {
   FaceMesh mesh = sheet([](int x, int y) { return x >= 4 && x < 7 && y >= 4 && y < 6; });
   const auto border = border_edges(mesh.triangles, std::pmr::get_default_resource());
-  EXPECT_TRUE(close_holes(mesh.vertices_mm, border, 9, mesh.triangles).empty());
+  EXPECT_TRUE(close_holes(mesh.vertices_mm, outwards(mesh), border, {9, 0}, mesh.triangles).empty());
   EXPECT_NEAR(area(mesh), (kSide - 1) * (kSide - 1) - 6, 1e-3);
+}
+
+TEST(Rims, LoseTheBaysOfTheOutline) {
+  // From the right edge a bay two cells wide and five deep; from the lower one a dent a cell deep, which is
+  // none.
+  FaceMesh mesh =
+      sheet([](int x, int y) { return (x >= kSide - 6 && y >= 4 && y < 6) || (y == 0 && x >= 2 && x < 4); });
+  const auto border = border_edges(mesh.triangles, std::pmr::get_default_resource());
+  EXPECT_TRUE(close_holes(mesh.vertices_mm, outwards(mesh), border, {20, 1.5F}, mesh.triangles).empty())
+      << "too wide";
+  EXPECT_FALSE(close_holes(mesh.vertices_mm, outwards(mesh), border, {20, 3}, mesh.triangles).empty());
+  EXPECT_NEAR(area(mesh), (kSide - 1) * (kSide - 1) - 2, 1e-3) << "closed straight, and facing the same way";
 }
 
 TEST(Rims, LoseTheirThreadsAndKeepTheRest) {
