@@ -12,7 +12,7 @@ The rules, each with one line here and one planted violation in tests/toolchain/
   - a library's header appears only in .cc files named after the library (LIBRARIES);
   - a library that has no line here may not be used at all;
   - the folders in CHOSEN_BY are named only by the one file that chooses the implementation;
-  - a concrete algorithm's header is included only by pipeline/algorithms/, by its own .cc and by tests.
+  - a concrete algorithm's header is included only by pipeline/algorithms/, by .cc files beside it and by tests.
 """
 import pathlib
 import re
@@ -102,15 +102,6 @@ def concrete_algorithms(files):
             if path.startswith("pipeline/") and path.endswith(".h") and chosen & set(STRUCT.findall(text))}
 
 
-def stem(path):
-    """a/opencv_sgbm_matcher.cc and a/sgbm_matcher.h are one pair."""
-    folder, _, name = path.rpartition("/")
-    name = name.rsplit(".", 1)[0]
-    for prefix in set(LIBRARIES.values()):
-        name = name.removeprefix(prefix)
-    return f"{folder}/{name}"
-
-
 def library_problem(here, target):
     name, suffix = here.rsplit("/", 1)[-1], here.rsplit(".", 1)[-1]
     if target.startswith("Eigen/"):
@@ -179,8 +170,8 @@ def problems(root):
             for inside, chooser in CHOSEN_BY.items():
                 if target.startswith(inside) and not here.startswith((inside, "tests/")) and here != chooser:
                     said.append(f"only {chooser} may choose {target}")
-            if (target in concrete and not here.startswith(ALGORITHMS) and not here.startswith("tests/")
-                    and stem(here) != stem(target)):
+            own = here.endswith(".cc") and here.rpartition("/")[0] == target.rpartition("/")[0]
+            if target in concrete and not own and not here.startswith((ALGORITHMS, "tests/")):
                 said.append(f"only {ALGORITHMS} may choose {target}")
             yield from (f"{here}:{number}: {what}" for what in said if what)
 

@@ -12,13 +12,9 @@
 #include "pipeline/mesh/meshers/marching_cubes_mesher.h"
 #include "pipeline/mesh/meshers/poisson_mesher.h"
 #include "pipeline/mesh/meshers/rbf_mesher.h"
-#include "pipeline/reconstruct/inverse_disparity_triangulator.h"
-#include "pipeline/reconstruct/linear_triangulator.h"
-#include "pipeline/reconstruct/local_outlier_filter.h"
-#include "pipeline/reconstruct/optimal_triangulator.h"
-#include "pipeline/reconstruct/statistical_outlier_filter.h"
-#include "pipeline/texture/single_view_texturer.h"
-#include "pipeline/texture/two_view_texturer.h"
+#include "pipeline/reconstruct/outlier_filters.h"
+#include "pipeline/reconstruct/triangulators.h"
+#include "pipeline/texture/texturers.h"
 
 namespace relievo::pipeline {
 namespace {

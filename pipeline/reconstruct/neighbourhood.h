@@ -5,11 +5,9 @@
 // Every cell holds the points of one lattice node (at most one), or of one bucket (a few).
 #pragma once
 
-#include <cstddef>
 #include <cstdint>
 #include <memory_resource>
 #include <span>
-#include <vector>
 
 #include "pipeline/base/cells.h"
 #include "pipeline/model/point_cloud.h"

@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: 2026 The Relievo authors
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include "pipeline/reconstruct/statistical_outlier_filter.h"
+#include "pipeline/reconstruct/outlier_filters.h"
 
 #include <algorithm>
 #include <array>

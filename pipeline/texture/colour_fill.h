@@ -8,7 +8,6 @@
 #include <cstdint>
 #include <memory_resource>
 #include <span>
-#include <vector>
 
 #include "pipeline/base/stage.h"
 #include "pipeline/model/face_mesh.h"

@@ -9,11 +9,11 @@
 #include <functional>
 #include <typeinfo>
 
-#include "pipeline/match/constraints/uniqueness_constraint.h"
+#include "pipeline/match/constraints/constraints.h"
 #include "pipeline/match/refine/refined_matcher.h"
-#include "pipeline/match/window/ssd_matcher.h"
-#include "pipeline/reconstruct/linear_triangulator.h"
-#include "pipeline/texture/single_view_texturer.h"
+#include "pipeline/match/window/window_matchers.h"
+#include "pipeline/reconstruct/triangulators.h"
+#include "pipeline/texture/texturers.h"
 
 namespace relievo::pipeline {
 namespace {

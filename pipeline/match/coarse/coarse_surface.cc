@@ -3,7 +3,6 @@
 #include "pipeline/match/coarse/coarse_surface.h"
 
 #include <algorithm>
-#include <cmath>
 
 #include "pipeline/match/coarse/size_ladder.h"
 #include "pipeline/match/coarse/surface_labels.h"

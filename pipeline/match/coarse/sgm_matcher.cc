@@ -2,7 +2,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "pipeline/match/coarse/sgm_matcher.h"
 
-#include <algorithm>
 #include <cmath>
 
 #include "pipeline/match/coarse/size_ladder.h"

@@ -2,7 +2,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "pipeline/match/coarse/surface_labels.h"
 
-#include <algorithm>
 #include <cmath>
 
 namespace relievo::pipeline {

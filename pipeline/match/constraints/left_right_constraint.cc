@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: 2026 The Relievo authors
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include "pipeline/match/constraints/left_right_constraint.h"
+#include "pipeline/match/constraints/constraints.h"
 
 #include <cmath>
 #include <utility>

@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: 2026 The Relievo authors
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include "pipeline/match/constraints/statistical_constraint.h"
+#include "pipeline/match/constraints/constraints.h"
 
 #include <algorithm>
 #include <cmath>

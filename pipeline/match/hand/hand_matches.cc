@@ -7,7 +7,6 @@
 #include <queue>
 #include <string>
 #include <tuple>
-#include <utility>
 
 #include "pipeline/match/image/plane.h"
 #include "pipeline/match/window/row_search.h"

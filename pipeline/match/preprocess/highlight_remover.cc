@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: 2026 The Relievo authors
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include "pipeline/match/preprocess/highlight_remover.h"
+#include "pipeline/match/preprocess/preprocessors.h"
 
 #include <algorithm>
 #include <array>

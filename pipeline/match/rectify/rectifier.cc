@@ -4,7 +4,6 @@
 
 #include <algorithm>
 #include <array>
-#include <cmath>
 
 #include "hal/base/simd.h"
 #include "pipeline/match/image/plane.h"

@@ -5,7 +5,7 @@
 // least-squares surface over the whole face, refined from a quarter of the size to full size.
 // See coarse_surface.h and surface_refiner.h. sigma_px is the posterior of the fit; cost is one minus
 // the local correlation of the warped views. A small picture of a scene is matched at twice its size
-// (enlarged_scene.h). Keypoints may lie anywhere; on the lattice of dense_selector.h no interpolation is
+// (enlarged_scene.h). Keypoints may lie anywhere; on the lattice of DenseSelector no interpolation is
 // needed.
 #pragma once
 

@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: 2026 The Relievo authors
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include "pipeline/match/select/good_features_selector.h"
+#include "pipeline/match/select/selectors.h"
 
 #include <charconv>
 #include <optional>
@@ -86,37 +86,27 @@ Result<void> GoodFeaturesSelector::check() const {
 }
 
 Result<Keypoints> GoodFeaturesSelector::select(const RectifiedPair& pair, StageContext& context) const {
-  RELIEVO_TRY(check_pixels_of_left(pair));
-  const Error stopped{Errc::Cancelled, "the choice of keypoints was stopped"};
-  if (context.stop()) return stopped;
   RELIEVO_TRY_ASSIGN(const auto wanted, read_levels(levels));
   RELIEVO_TRY_ASSIGN(const auto thresholds, read_thresholds(binary_thresholds));
-  const Selectable selectable(pair, &context.scratch);
-  RELIEVO_TRY(check_selectable(selectable));
+  RELIEVO_TRY_ASSIGN(const Selectable selectable, selectable_of(pair, context));
   const CornerWindow window{window_px / 2, 1};
   Plane<float> response(&context.scratch, pair.width_px, pair.height_px);
   Plane<float> chosen(&context.scratch, pair.width_px, pair.height_px);
 
   const auto search = [&](const std::pmr::vector<float>& grey) {
     if (!corner_response(grey, selectable, window, smaller_eigenvalue, 0, context, response)) return false;
-    const float strongest = greatest(response);
-    if (!(strongest > 0)) return true;
-    for (float& r : response.values) r /= strongest;
-    for (const Level& level : wanted) {
-      Arena::Mark mark(context.scratch);
-      Candidates peaks = peaks_of(response, static_cast<float>(level.quality), 1, context, &context.scratch);
-      choose_spread(peaks, level.distance_px, max_points, chosen, context.scratch);
-      if (context.stop()) return false;
-    }
+    for (const Level& level : wanted)
+      if (!mark_peaks(response, {level.quality, 1, level.distance_px, max_points}, chosen, context))
+        return false;
     return true;
   };
-  if (!search(pair.left.grey)) return stopped;
+  if (!search(pair.left.grey)) return selection_stopped();
   if (!thresholds.empty()) {
     std::pmr::vector<float> binary(pair.left.grey.size(), &context.scratch);
     for (const float threshold : thresholds) {
       for (std::size_t k = 0; k < binary.size(); ++k)
         binary[k] = pair.left.grey[k] > threshold ? 255.0F : 0.0F;
-      if (!search(binary)) return stopped;
+      if (!search(binary)) return selection_stopped();
     }
   }
   return keypoints_of(chosen, max_points, context);

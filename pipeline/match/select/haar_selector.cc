@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: 2026 The Relievo authors
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include "pipeline/match/select/haar_selector.h"
+#include "pipeline/match/select/selectors.h"
 
 #include <algorithm>
 #include <array>
@@ -97,28 +97,18 @@ void mark_peaks(const Octave& octave, const Selectable& selectable, Plane<float>
 }  // namespace
 
 Result<Keypoints> HaarSelector::select(const RectifiedPair& pair, StageContext& context) const {
-  RELIEVO_TRY(check_pixels_of_left(pair));
-  const Error stopped{Errc::Cancelled, "the choice of keypoints was stopped"};
-  if (context.stop()) return stopped;
-  const Selectable selectable(pair, &context.scratch);
-  RELIEVO_TRY(check_selectable(selectable));
+  RELIEVO_TRY_ASSIGN(const Selectable selectable, selectable_of(pair, context));
   const FastHessian hessian(pair.left.grey, pair.width_px, pair.height_px, &context.scratch);
   Plane<float> found(&context.scratch, pair.width_px, pair.height_px);
   for (int number = 0; number < octaves; ++number) {
     Arena::Mark mark(context.scratch);
     Octave octave(number, pair.width_px, pair.height_px, &context.scratch);
     respond(hessian, selectable, context.pool, octave);
-    if (context.stop()) return stopped;
+    if (context.stop()) return selection_stopped();
     mark_peaks(octave, selectable, found);
   }
-  Plane<float> chosen(&context.scratch, pair.width_px, pair.height_px);
-  if (const float strongest = greatest(found); strongest > 0) {
-    for (float& r : found.values) r /= strongest;
-    Candidates peaks = peaks_of(found, static_cast<float>(quality * quality), 0, context, &context.scratch);
-    choose_spread(peaks, min_distance_px, max_points, chosen, context.scratch);
-  }
-  if (context.stop()) return stopped;
-  return keypoints_of(chosen, max_points, context);
+  return peak_keypoints(found, {quality * quality, 0, static_cast<double>(min_distance_px), max_points},
+                        context);
 }
 
 }  // namespace relievo::pipeline

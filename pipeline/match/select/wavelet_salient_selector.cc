@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: 2026 The Relievo authors
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include "pipeline/match/select/wavelet_salient_selector.h"
+#include "pipeline/match/select/selectors.h"
 
 #include <algorithm>
 
@@ -38,22 +38,12 @@ void mark_ends(const SalientTracks& tracks, const Selectable& selectable, Thread
 }  // namespace
 
 Result<Keypoints> WaveletSalientSelector::select(const RectifiedPair& pair, StageContext& context) const {
-  RELIEVO_TRY(check_pixels_of_left(pair));
-  const Error stopped{Errc::Cancelled, "the choice of keypoints was stopped"};
-  if (context.stop()) return stopped;
-  const Selectable selectable(pair, &context.scratch);
-  RELIEVO_TRY(check_selectable(selectable));
+  RELIEVO_TRY_ASSIGN(const Selectable selectable, selectable_of(pair, context));
   const SalientTracks tracks(pair.left.grey, pair.width_px, pair.height_px, scales, &context.scratch);
   Plane<float> saliency(&context.scratch, pair.width_px, pair.height_px);
   mark_ends(tracks, selectable, context.pool, saliency);
-  if (context.stop()) return stopped;
-  Plane<float> chosen(&context.scratch, pair.width_px, pair.height_px);
-  if (const float most = greatest(saliency); most > 0) {
-    for (float& s : saliency.values) s /= most;
-    Candidates ends = peaks_of(saliency, static_cast<float>(quality), 0, context, &context.scratch);
-    choose_spread(ends, min_distance_px, max_points, chosen, context.scratch);
-  }
-  return keypoints_of(chosen, max_points, context);
+  if (context.stop()) return selection_stopped();
+  return peak_keypoints(saliency, {quality, 0, static_cast<double>(min_distance_px), max_points}, context);
 }
 
 }  // namespace relievo::pipeline

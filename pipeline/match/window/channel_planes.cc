@@ -2,7 +2,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "pipeline/match/window/channel_planes.h"
 
-#include <algorithm>
 #include <cmath>
 
 namespace relievo::pipeline {

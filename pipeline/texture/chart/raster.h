@@ -4,7 +4,6 @@
 // From triangles to texels, in bands of rows that threads can share, and what each view sees in front.
 #pragma once
 
-#include <array>
 #include <cstddef>
 #include <cstdint>
 #include <memory_resource>

@@ -5,10 +5,8 @@
 // noisy corners, each calibrated by the product and measured with the truth.
 #pragma once
 
-#include <array>
 #include <cmath>
 #include <string>
-#include <vector>
 
 #include <Eigen/Cholesky>
 

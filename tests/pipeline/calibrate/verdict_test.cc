@@ -3,7 +3,6 @@
 //
 // A deliberately bad set of every kind, each with the right reason; and none of them said of a good set.
 #include <algorithm>
-#include <cmath>
 
 #include <gtest/gtest.h>
 

@@ -3,7 +3,6 @@
 #include "pipeline/gate/capture_gate.h"
 
 #include <gtest/gtest.h>
-#include <cmath>
 
 #include "hal/sim/head/shape/head_field.h"
 #include "tests/support/gate_fixture.h"

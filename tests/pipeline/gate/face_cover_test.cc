@@ -6,7 +6,6 @@
 
 #include <cmath>
 #include <functional>
-#include <vector>
 
 #include "pipeline/base/workspace.h"
 #include "pipeline/gate/relief/live_relief.h"

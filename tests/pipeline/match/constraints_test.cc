@@ -5,9 +5,7 @@
 #include <limits>
 #include <vector>
 
-#include "pipeline/match/constraints/continuity_constraint.h"
-#include "pipeline/match/constraints/similarity_constraint.h"
-#include "pipeline/match/constraints/uniqueness_constraint.h"
+#include "pipeline/match/constraints/constraints.h"
 #include "tests/support/stage_fixture.h"
 
 namespace relievo::pipeline {

@@ -3,7 +3,6 @@
 // The contract of every matcher in the table, whatever it does inside.
 #include <gtest/gtest.h>
 
-#include <cstring>
 #include <vector>
 
 #include "pipeline/algorithms.h"

@@ -6,7 +6,7 @@
 #include <cmath>
 #include <random>
 
-#include "pipeline/reconstruct/local_outlier_filter.h"
+#include "pipeline/reconstruct/outlier_filters.h"
 #include "tests/pipeline/mesh/stage_room.h"
 #include "tests/pipeline/mesh/truth_cloud.h"
 

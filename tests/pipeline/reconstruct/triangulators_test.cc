@@ -4,12 +4,9 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
-#include <memory>
 #include <random>
 
-#include "pipeline/reconstruct/inverse_disparity_triangulator.h"
-#include "pipeline/reconstruct/linear_triangulator.h"
-#include "pipeline/reconstruct/optimal_triangulator.h"
+#include "pipeline/reconstruct/triangulators.h"
 #include "tests/support/names_of.h"
 #include "tests/support/stage_fixture.h"
 

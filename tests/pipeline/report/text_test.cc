@@ -3,7 +3,6 @@
 #include "pipeline/report/text.h"
 
 #include <clocale>
-#include <cmath>
 #include <limits>
 
 #include <gtest/gtest.h>

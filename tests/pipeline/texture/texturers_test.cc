@@ -6,11 +6,9 @@
 
 #include <algorithm>
 #include <cmath>
-#include <memory>
 #include <string>
 
-#include "pipeline/texture/single_view_texturer.h"
-#include "pipeline/texture/two_view_texturer.h"
+#include "pipeline/texture/texturers.h"
 #include "tests/pipeline/texture/painted_plane.h"
 #include "tests/support/names_of.h"
 

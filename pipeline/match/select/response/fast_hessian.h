@@ -2,7 +2,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 //
 // FastHessian: second derivatives of a picture by box filters on its integral image (Bay et al. 2008),
-// at any size for the same cost. See haar_selector.h.
+// at any size for the same cost. See selectors.h.
 #pragma once
 
 #include <memory_resource>

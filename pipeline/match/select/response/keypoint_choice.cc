@@ -35,45 +35,15 @@ bool stronger(const Candidate& a, const Candidate& b) {
   return a.y != b.y ? a.y < b.y : a.x < b.x;
 }
 
-}  // namespace
+using Candidates = std::pmr::vector<Candidate>;
 
-Selectable::Selectable(const RectifiedPair& pair, std::pmr::memory_resource* memory)
-    : pair_(pair), valid_above_(memory, pair.width_px + 1, pair.height_px + 1, 0) {
-  for (int y = 0; y < pair.height_px; ++y) {
-    std::int32_t in_row = 0;
-    for (int x = 0; x < pair.width_px; ++x) {
-      in_row += pair.left.valid[static_cast<std::size_t>(y) * static_cast<std::size_t>(pair.width_px) +
-                                static_cast<std::size_t>(x)] != 0
-                    ? 1
-                    : 0;
-      valid_above_.row(y + 1)[x + 1] = valid_above_.row(y)[x + 1] + in_row;
-      count_ += selectable_at(pair, x, y) ? 1 : 0;
-    }
-  }
-}
-
-bool Selectable::valid_block(int x, int y, int side) const {
-  if (x < 0 || y < 0 || x + side > pair_.width_px || y + side > pair_.height_px) return false;
-  const std::int32_t* top = valid_above_.row(y) + x;
-  const std::int32_t* bottom = valid_above_.row(y + side) + x;
-  return bottom[side] - bottom[0] - top[side] + top[0] == side * side;
-}
-
-bool Selectable::operator()(int x, int y, int margin) const {
-  return valid_block(x - margin, y - margin, 2 * margin + 1) && selectable_at(pair_, x, y);
-}
-
-Result<void> check_pixels_of_left(const RectifiedPair& pair) {
+Result<void> check_start(const RectifiedPair& pair, StageContext& context) {
   const std::size_t pixels = static_cast<std::size_t>(std::max(0, pair.width_px)) *
                              static_cast<std::size_t>(std::max(0, pair.height_px));
   if (pixels == 0 || pair.left.grey.size() != pixels || pair.left.valid.size() != pixels ||
       !(pair.region.empty() || pair.region.size() == pixels))
     return Error{Errc::InvalidInput, "the rectified pair has no pixels"};
-  return {};
-}
-
-Result<void> check_selectable(const Selectable& selectable) {
-  if (selectable.empty()) return Error{Errc::NoFace, "the face region is empty: nothing to match"};
+  if (context.stop()) return selection_stopped();
   return {};
 }
 
@@ -100,10 +70,6 @@ Candidates peaks_of(const Plane<float>& response, float least, int radius, Stage
     each_peak(begin, end, [&](int x, int y) { peaks[next++] = {x, y, response.row(y)[x]}; });
   });
   return peaks;
-}
-
-float greatest(const Plane<float>& response) {
-  return response.values.empty() ? 0.0F : *std::max_element(response.values.begin(), response.values.end());
 }
 
 void choose_spread(Candidates& candidates, double min_distance, int max_points, Plane<float>& chosen,
@@ -135,6 +101,56 @@ void choose_spread(Candidates& candidates, double min_distance, int max_points, 
   }
 }
 
+}  // namespace
+
+Selectable::Selectable(const RectifiedPair& pair, std::pmr::memory_resource* memory)
+    : pair_(pair), valid_above_(memory, pair.width_px + 1, pair.height_px + 1, 0) {
+  for (int y = 0; y < pair.height_px; ++y) {
+    std::int32_t in_row = 0;
+    for (int x = 0; x < pair.width_px; ++x) {
+      in_row += pair.left.valid[static_cast<std::size_t>(y) * static_cast<std::size_t>(pair.width_px) +
+                                static_cast<std::size_t>(x)] != 0
+                    ? 1
+                    : 0;
+      valid_above_.row(y + 1)[x + 1] = valid_above_.row(y)[x + 1] + in_row;
+      count_ += selectable_at(pair, x, y) ? 1 : 0;
+    }
+  }
+}
+
+bool Selectable::valid_block(int x, int y, int side) const {
+  if (x < 0 || y < 0 || x + side > pair_.width_px || y + side > pair_.height_px) return false;
+  const std::int32_t* top = valid_above_.row(y) + x;
+  const std::int32_t* bottom = valid_above_.row(y + side) + x;
+  return bottom[side] - bottom[0] - top[side] + top[0] == side * side;
+}
+
+bool Selectable::operator()(int x, int y, int margin) const {
+  return valid_block(x - margin, y - margin, 2 * margin + 1) && selectable_at(pair_, x, y);
+}
+
+Error selection_stopped() { return {Errc::Cancelled, "the choice of keypoints was stopped"}; }
+
+Result<Selectable> selectable_of(const RectifiedPair& pair, StageContext& context) {
+  RELIEVO_TRY(check_start(pair, context));
+  Selectable selectable(pair, &context.scratch);
+  if (selectable.count() == 0) return Error{Errc::NoFace, "the face region is empty: nothing to match"};
+  return selectable;
+}
+
+bool mark_peaks(Plane<float>& response, const PeakChoice& choice, Plane<float>& chosen,
+                StageContext& context) {
+  const float greatest = *std::max_element(response.values.begin(), response.values.end());
+  if (!(greatest > 0)) return true;
+  for (float& r : response.values) r /= greatest;
+  Arena::Mark mark(context.scratch);
+  Candidates peaks =
+      peaks_of(response, static_cast<float>(choice.least), choice.radius_px, context, &context.scratch);
+  if (context.stop()) return false;
+  choose_spread(peaks, choice.distance_px, choice.max_points, chosen, context.scratch);
+  return !context.stop();
+}
+
 Result<Keypoints> keypoints_of(const Plane<float>& chosen, int max_points, StageContext& context) {
   Arena::Mark mark(context.scratch);
   const auto count = static_cast<std::size_t>(
@@ -162,8 +178,15 @@ Result<Keypoints> keypoints_of(const Plane<float>& chosen, int max_points, Stage
   return keypoints;
 }
 
+Result<Keypoints> peak_keypoints(Plane<float>& response, const PeakChoice& choice, StageContext& context) {
+  Plane<float> chosen(&context.scratch, response.width, response.height);
+  if (!mark_peaks(response, choice, chosen, context)) return selection_stopped();
+  return keypoints_of(chosen, choice.max_points, context);
+}
+
 Result<Keypoints> lattice_keypoints(const RectifiedPair& pair, int step_px, const LatticeArea& area,
                                     StageContext& context) {
+  RELIEVO_TRY(check_start(pair, context));
   const auto each_node = [&](auto&& take) {
     for (int y = area.top; y <= area.bottom; y += step_px)
       for (int x = area.left; x <= area.right; x += step_px)

@@ -22,7 +22,6 @@ namespace relievo::pipeline {
 class Selectable {
  public:
   Selectable(const RectifiedPair& pair, std::pmr::memory_resource* memory);
-  bool empty() const { return count_ == 0; }
   std::size_t count() const { return count_; }  // without any margin
   bool operator()(int x, int y, int margin_px) const;
   // The square from (x, y), `side` pixels wide, is all valid; the region is not asked.
@@ -34,37 +33,44 @@ class Selectable {
   std::size_t count_ = 0;
 };
 
-// Errors: InvalidInput (no pixels), NoFace (nothing selectable).
-Result<void> check_pixels_of_left(const RectifiedPair& pair);
-Result<void> check_selectable(const Selectable& selectable);
+// Where every selector but those of a lattice begins.
+// Errors: InvalidInput (no pixels), Cancelled, NoFace (nothing selectable).
+Result<Selectable> selectable_of(const RectifiedPair& pair, StageContext& context);
+Error selection_stopped();  // Cancelled
 
 struct Candidate {
   std::int32_t x, y;
   float strength;
 };
-using Candidates = std::pmr::vector<Candidate>;
 
-// Pixels above `least` that no neighbour within `radius_px` (a square) exceeds; of equal ones the first. In
-// rows from the top. `response` is 0 where nothing may be selected.
-Candidates peaks_of(const Plane<float>& response, float least, int radius_px, StageContext& context,
-                    std::pmr::memory_resource* memory);
-float greatest(const Plane<float>& response);
+// A peak is a pixel that no neighbour within `radius_px` (a square) exceeds, of equal ones the first, with
+// more than `least` of the strongest. The strongest are taken first, each at least distance_px from all
+// before it, until there are max_points; equal ones from the top left.
+struct PeakChoice {
+  double least = 0;
+  int radius_px = 0;
+  double distance_px = 0;
+  int max_points = 0;
+};
 
-// The strongest first, each at least min_distance_px from all before it, until there are max_points;
-// equal ones from the top left. Reorders the candidates. Marks what it takes in `chosen`.
-void choose_spread(Candidates& candidates, double min_distance_px, int max_points, Plane<float>& chosen,
-                   Arena& scratch);
+// Divides the response, which is 0 where nothing may be selected, by its greatest; marks the chosen peaks'
+// strength in `chosen`. False: cancelled.
+bool mark_peaks(Plane<float>& response, const PeakChoice& choice, Plane<float>& chosen,
+                StageContext& context);
 
 // What is marked (strength > 0), in rows from the top, at most the max_points strongest.
 // Error: TooFewMatches where nothing is.
 Result<Keypoints> keypoints_of(const Plane<float>& chosen, int max_points, StageContext& context);
+// The chosen peaks of one response. Errors: TooFewMatches, Cancelled.
+Result<Keypoints> peak_keypoints(Plane<float>& response, const PeakChoice& choice, StageContext& context);
 
 // First and last pixels of a rectangle of the left view.
 struct LatticeArea {
   int left, top, right, bottom;
 };
 
-// Every step_px pixels in both directions, from the area's upper left corner on. Error: NoFace.
+// Every step_px pixels in both directions, from the area's upper left corner on.
+// Errors: InvalidInput (no pixels), Cancelled, NoFace.
 Result<Keypoints> lattice_keypoints(const RectifiedPair& pair, int step_px, const LatticeArea& area,
                                     StageContext& context);
 

@@ -2,7 +2,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 //
 // SalientTracks: the Haar wavelet transform of a picture and the tracks through it from coarse to fine.
-// See wavelet_salient_selector.h.
+// See selectors.h.
 #pragma once
 
 #include <memory_resource>

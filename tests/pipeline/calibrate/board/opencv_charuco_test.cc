@@ -5,7 +5,6 @@
 // what we draw for the printer is the same picture.
 #include <cmath>
 #include <opencv2/aruco/charuco.hpp>
-#include <vector>
 
 #include <gtest/gtest.h>
 

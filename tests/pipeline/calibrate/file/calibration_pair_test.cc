@@ -4,10 +4,6 @@
 // The two-file forms: OpenCV's stereo sample and ROS camera_info.
 #include <gtest/gtest.h>
 
-#include <fstream>
-#include <utility>
-#include <vector>
-
 #include "pipeline/calibrate/file/camera_info.h"
 #include "tests/pipeline/calibrate/file/sample_rig.h"
 #include "tests/support/temporary_folder.h"

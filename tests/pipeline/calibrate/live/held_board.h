@@ -4,11 +4,9 @@
 // Corners of a board in a hand, as a known rig sees them: for the decisions of a live calibration.
 #pragma once
 
-#include <array>
 #include <chrono>
 #include <cmath>
 #include <random>
-#include <vector>
 
 #include "pipeline/calibrate/live/view_collector.h"
 #include "tests/pipeline/calibrate/simulated_boards.h"

@@ -5,8 +5,6 @@
 // corner, one without a board, and names that a page must not take for its own words.
 #pragma once
 
-#include <cmath>
-
 #include "pipeline/calibrate/report/calibration_report.h"
 #include "tests/pipeline/calibrate/simulated_boards.h"
 

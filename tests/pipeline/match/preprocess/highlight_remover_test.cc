@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: 2026 The Relievo authors
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include "pipeline/match/preprocess/highlight_remover.h"
 #include "hal/base/statistics.h"
+#include "pipeline/match/preprocess/preprocessors.h"
 
 #include <gtest/gtest.h>
 

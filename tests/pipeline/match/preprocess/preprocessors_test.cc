@@ -6,10 +6,7 @@
 
 #include <algorithm>
 #include <cmath>
-#include <memory>
-#include <numeric>
 #include <string>
-#include <utility>
 #include <vector>
 
 #include "pipeline/algorithms.h"

@@ -1,6 +1,5 @@
 // SPDX-FileCopyrightText: 2026 The Relievo authors
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include <cmath>
 #include <vector>
 
 #include "pipeline/match/file/number_lines.h"

@@ -7,10 +7,7 @@
 #include <gtest/gtest.h>
 
 #include <fstream>
-#include <memory>
 #include <string>
-#include <utility>
-#include <vector>
 
 #include "pipeline/algorithms.h"
 #include "tests/support/bump_scene.h"

@@ -2,7 +2,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 //
 // What every selector keeps, whichever it is.
-#include <algorithm>
 #include <cmath>
 
 #include "tests/pipeline/match/select/selection_fixture.h"

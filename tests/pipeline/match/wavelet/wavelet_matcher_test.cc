@@ -5,7 +5,6 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
-#include <cmath>
 
 #include "pipeline/match/wavelet/dyadic_wavelet.h"
 #include "tests/pipeline/match/match_truth.h"

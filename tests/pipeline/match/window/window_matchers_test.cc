@@ -5,8 +5,7 @@
 #include <cmath>
 #include <limits>
 
-#include "pipeline/match/window/ssd_matcher.h"
-#include "pipeline/match/window/zmncc_matcher.h"
+#include "pipeline/match/window/window_matchers.h"
 #include "tests/pipeline/match/match_truth.h"
 
 namespace relievo::pipeline {

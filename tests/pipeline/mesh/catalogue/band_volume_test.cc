@@ -8,7 +8,6 @@
 #include <map>
 #include <memory_resource>
 #include <random>
-#include <set>
 
 #include "pipeline/model/vector3.h"
 

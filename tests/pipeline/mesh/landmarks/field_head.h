@@ -5,8 +5,6 @@
 // where the right camera sees the same place, with noise along the ray. And its true pose and landmarks.
 #pragma once
 
-#include <cmath>
-#include <memory>
 #include <random>
 
 #include "hal/base/thread_pool.h"

@@ -1,9 +1,11 @@
 // SPDX-FileCopyrightText: 2026 The Relievo authors
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include "pipeline/match/constraints/ordering_constraint.h"
+#include "pipeline/match/constraints/constraints.h"
 
 #include <algorithm>
 #include <cmath>
+
+#include "pipeline/match/image/plane.h"
 
 namespace relievo::pipeline {
 namespace {
@@ -50,6 +52,62 @@ class RowJudge {
 };
 
 }  // namespace
+
+void SimilarityConstraint::judge(const RectifiedPair&, std::span<Match> matches, int, std::uint16_t bit,
+                                 StageContext&) const {
+  for (Match& match : matches)
+    if (match.rejected_by == 0 && !(match.cost <= max_cost)) match.rejected_by = bit;
+}
+
+void UniquenessConstraint::judge(const RectifiedPair& pair, std::span<Match> matches, int lattice_step_px,
+                                 std::uint16_t bit, StageContext& context) const {
+  Arena::Mark mark(context.scratch);
+  // One cell a lattice column of the right view: the largest disparity that landed there.
+  const int cell = std::max(1, lattice_step_px);
+  constexpr float kNothing = -1.0e9F;
+  Plane<float> nearest(&context.scratch, pair.width_px / cell + 1, pair.height_px / cell + 1, kNothing);
+  const auto place = [&](const Match& match) -> float* {
+    const float x = (match.left_px.x - match.disparity_px) / static_cast<float>(cell);
+    const int column = static_cast<int>(std::lround(x));
+    const int row = static_cast<int>(std::lround(match.left_px.y / static_cast<float>(cell)));
+    if (x < 0 || column >= nearest.width || row < 0 || row >= nearest.height) return nullptr;
+    return nearest.row(row) + column;
+  };
+  for (const Match& match : matches)
+    if (match.rejected_by == 0)
+      if (float* at = place(match)) *at = std::max(*at, match.disparity_px);
+  for (Match& match : matches) {
+    if (match.rejected_by != 0) continue;
+    const float* at = place(match);
+    if (at == nullptr || *at - match.disparity_px > margin_px) match.rejected_by = bit;
+  }
+}
+
+void ContinuityConstraint::judge(const RectifiedPair& pair, std::span<Match> matches, int lattice_step_px,
+                                 std::uint16_t bit, StageContext& context) const {
+  if (lattice_step_px <= 0) return;
+  Arena::Mark mark(context.scratch);
+  constexpr float kNothing = -1.0e9F;
+  const int step = lattice_step_px;
+  Plane<float> disparity(&context.scratch, pair.width_px / step + 3, pair.height_px / step + 3, kNothing);
+  const auto cell = [&](const Match& match) {
+    return disparity.row(static_cast<int>(match.left_px.y) / step + 1) +
+           static_cast<int>(match.left_px.x) / step + 1;
+  };
+  for (const Match& match : matches)
+    if (match.rejected_by == 0) *cell(match) = match.disparity_px;
+  const float limit = max_step * static_cast<float>(step);
+  for (Match& match : matches) {
+    if (match.rejected_by != 0) continue;
+    const float* here = cell(match);
+    int support = 0;
+    for (int j = -1; j <= 1; ++j)
+      for (int i = -1; i <= 1; ++i)
+        if ((i != 0 || j != 0) && std::abs(here[j * disparity.width + i] - match.disparity_px) <= limit)
+          ++support;
+    if (support < least_support) match.rejected_by = bit;
+  }
+}
 
 void OrderingConstraint::judge(const RectifiedPair&, std::span<Match> matches, int, std::uint16_t bit,
                                StageContext& context) const {

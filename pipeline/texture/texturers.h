@@ -1,6 +1,14 @@
 // SPDX-FileCopyrightText: 2026 The Relievo authors
 // SPDX-License-Identifier: GPL-3.0-or-later
 //
+// The texturers.
+#pragma once
+
+#include "pipeline/base/options.h"
+#include "pipeline/texture/texturer.h"
+
+namespace relievo::pipeline {
+
 // TwoViewTexturer (`two-view`, the default): both photographs, each where it sees the surface and the
 // more the straighter it looks at it. The right one is first brought to the left one's exposure and
 // white balance (exposure_match.h), both to one level where they still differ slowly (level_field.h);
@@ -9,13 +17,6 @@
 // Memory: atlas, uv and vertex colours in `output`, the rest in `scratch`; nothing else.
 // Errors: InvalidInput (a mesh without triangles, a pair without pixels), OutOfMemory, Cancelled.
 // Thread: any; keeps no state; shades on the pool, and the result does not depend on its size.
-#pragma once
-
-#include "pipeline/base/options.h"
-#include "pipeline/texture/texturer.h"
-
-namespace relievo::pipeline {
-
 struct TwoViewTexturer {
   int max_atlas_px = 2048;  // widest and highest atlas
   int margin_px = 8;        // texels left free around the face
@@ -40,6 +41,24 @@ struct TwoViewTexturer {
           "pixels over which a view fades towards an occlusion");
     field("highlight_level", highlight_level, OptionRange{0, 255},
           "grey levels by which the brighter view loses its say");
+  }
+  Result<TextureAtlas> texture(const FaceMesh& mesh, const RectifiedPair& pair, StageContext& context) const;
+};
+
+// SingleViewTexturer (`single-view`): the left photograph alone, as the dissertation does;
+// what it does not see is filled.
+// Memory: atlas, uv and vertex colours in `output`, the rest in `scratch`; nothing else.
+// Errors: InvalidInput (a mesh without triangles, a pair without pixels), OutOfMemory, Cancelled.
+// Thread: any; keeps no state.
+struct SingleViewTexturer {
+  int max_atlas_px = 2048;  // widest and highest atlas
+  int margin_px = 8;        // texels left free around the face
+
+  Result<void> check() const;
+
+  void describe(auto&& field) {
+    field("max_atlas_px", max_atlas_px, OptionRange{64, 8192}, "widest and highest atlas, pixels");
+    field("margin_px", margin_px, OptionRange{0, 256}, "texels left free around the face");
   }
   Result<TextureAtlas> texture(const FaceMesh& mesh, const RectifiedPair& pair, StageContext& context) const;
 };

@@ -1,12 +1,55 @@
 // SPDX-FileCopyrightText: 2026 The Relievo authors
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include "pipeline/reconstruct/optimal_triangulator.h"
+#include "pipeline/reconstruct/triangulators.h"
 
 #include <algorithm>
 #include <cmath>
 
+#include <Eigen/Dense>
+
+#include "pipeline/base/solving.h"
+
 namespace relievo::pipeline {
 namespace {
+
+// In the rectified frame.
+struct Placed {
+  Vec3d at_mm;
+  double stretch;  // of the line of sight: its length over its depth
+};
+
+// `place` says where a match lies. The standard deviation along the line of sight follows from its disparity's.
+template <typename Place>
+Result<PointCloud> place_matches(const RectifiedPair& pair, const MatchSet& matches, StageContext& context,
+                                 const Place& place) {
+  const auto accepted =
+      static_cast<std::size_t>(std::count_if(matches.matches.begin(), matches.matches.end(),
+                                             [](const Match& match) { return match.rejected_by == 0; }));
+  if (accepted < 3)
+    return Error{Errc::TooFewMatches, "every match was rejected: loosen the constraints or capture again"};
+  PointCloud cloud(&context.output);
+  cloud.lattice_step_px = matches.lattice_step_px;
+  cloud.right_camera_mm = pair.right_camera_mm();
+  cloud.points.reserve(accepted);
+  const Rotation left_from_rectified = transposed(pair.rectified_from_left);
+  for (std::size_t k = 0; k < matches.matches.size(); ++k) {
+    if (k % 16384 == 0 && context.stop()) return Error{Errc::Cancelled, "stopped while triangulating"};
+    const Match& match = matches.matches[k];
+    if (match.rejected_by != 0) continue;
+    const Placed placed = place(match);
+    const double z = placed.at_mm.z;
+    if (!(z >= pair.near_mm && z <= pair.far_mm)) continue;  // outside the volume: not this person
+    const Vec3d p = apply(left_from_rectified, placed.at_mm);
+    const double along = placed.stretch * z * z / (pair.focal_px * pair.baseline_mm);
+    cloud.points.push_back({{static_cast<float>(p.x), static_cast<float>(p.y), static_cast<float>(p.z)},
+                            match.left_px,
+                            static_cast<float>(along * static_cast<double>(match.sigma_px))});
+  }
+  if (cloud.points.size() < 3)
+    return Error{Errc::TooFewMatches,
+                 "nothing lies between the near and far limits: stand closer to the marked distance"};
+  return cloud;
+}
 
 // The cameras' frames and the rectified one.
 struct Frames {
@@ -36,6 +79,38 @@ double squares(const Step& s) {
 }
 
 }  // namespace
+
+Result<PointCloud> InverseDisparityTriangulator::triangulate(const RectifiedPair& pair, const MatchSet& matches,
+                                                             StageContext& context) const {
+  return place_matches(pair, matches, context, [&](const Match& match) {
+    const double z = pair.depth_mm(match.disparity_px);
+    const double u = (match.left_px.x - pair.left_centre_px.x) / pair.focal_px;
+    const double v = (match.left_px.y - pair.left_centre_px.y) / pair.focal_px;
+    return Placed{{u * z, v * z, z}, std::sqrt(1 + u * u + v * v)};
+  });
+}
+
+Result<PointCloud> LinearTriangulator::triangulate(const RectifiedPair& pair, const MatchSet& matches,
+                                                   StageContext& context) const {
+  const Eigen::Vector3d centre(pair.baseline_mm, 0, 0);  // of the right camera, rectified frame
+  return place_matches(pair, matches, context, [&](const Match& match) {
+    const double f = pair.focal_px;
+    const Eigen::Vector3d left((match.left_px.x - pair.left_centre_px.x) / f,
+                               (match.left_px.y - pair.left_centre_px.y) / f, 1);
+    const Eigen::Vector3d right((match.left_px.x - match.disparity_px - pair.right_centre_px.x) / f,
+                                (match.left_px.y - pair.right_centre_px.y) / f, 1);
+    Eigen::Matrix<double, 6, 5> system = Eigen::Matrix<double, 6, 5>::Zero();
+    Eigen::Matrix<double, 6, 1> known = Eigen::Matrix<double, 6, 1>::Zero();
+    system.topLeftCorner<3, 3>().setIdentity();
+    system.bottomLeftCorner<3, 3>().setIdentity();
+    system.block<3, 1>(0, 3) = -left;
+    system.block<3, 1>(3, 4) = -right;
+    known.tail<3>() = centre;
+    const Eigen::Matrix<double, 5, 1> solution =
+        solved<5>(system.transpose() * system, system.transpose() * known);
+    return Placed{{solution(0), solution(1), solution(2)}, left.norm()};
+  });
+}
 
 PlacePair correct_optimally(const EpipolarRelation& e, const PlacePair& seen) {
   const double* m = e.m;
@@ -67,21 +142,9 @@ PlacePair correct_optimally(const EpipolarRelation& e, const PlacePair& seen) {
 
 Result<PointCloud> OptimalTriangulator::triangulate(const RectifiedPair& pair, const MatchSet& matches,
                                                     StageContext& context) const {
-  const auto accepted =
-      static_cast<std::size_t>(std::count_if(matches.matches.begin(), matches.matches.end(),
-                                             [](const Match& match) { return match.rejected_by == 0; }));
-  if (accepted < 3)
-    return Error{Errc::TooFewMatches, "every match was rejected: loosen the constraints or capture again"};
-  PointCloud cloud(&context.output);
-  cloud.lattice_step_px = matches.lattice_step_px;
-  cloud.right_camera_mm = pair.right_camera_mm();
-  cloud.points.reserve(accepted);
   const Frames frames(pair);
   const double f = pair.focal_px;
-  for (std::size_t k = 0; k < matches.matches.size(); ++k) {
-    if (k % 16384 == 0 && context.stop()) return Error{Errc::Cancelled, "stopped while triangulating"};
-    const Match& match = matches.matches[k];
-    if (match.rejected_by != 0) continue;
+  return place_matches(pair, matches, context, [&](const Match& match) {
     const Vec3d left{(match.left_px.x - pair.left_centre_px.x) / f,
                      (match.left_px.y - pair.left_centre_px.y) / f, 1};
     const double row =
@@ -98,17 +161,8 @@ Result<PointCloud> OptimalTriangulator::triangulate(const RectifiedPair& pair, c
     const Vec2d u = on_plane(apply(pair.rectified_from_left, {moved.left.x, moved.left.y, 1}));
     const Vec2d v = on_plane(apply(pair.rectified_from_right, {moved.right.x, moved.right.y, 1}));
     const double z = pair.baseline_mm / (u.x - v.x);
-    if (!(z >= pair.near_mm && z <= pair.far_mm)) continue;  // outside the volume: not this person
-    const Vec3d p = apply(frames.left_from_rectified, {u.x * z, u.y * z, z});
-    const double along = std::sqrt(1 + u.x * u.x + u.y * u.y) * z * z / (f * pair.baseline_mm);
-    cloud.points.push_back({{static_cast<float>(p.x), static_cast<float>(p.y), static_cast<float>(p.z)},
-                            match.left_px,
-                            static_cast<float>(along * static_cast<double>(match.sigma_px))});
-  }
-  if (cloud.points.size() < 3)
-    return Error{Errc::TooFewMatches,
-                 "nothing lies between the near and far limits: stand closer to the marked distance"};
-  return cloud;
+    return Placed{{u.x * z, u.y * z, z}, std::sqrt(1 + u.x * u.x + u.y * u.y)};
+  });
 }
 
 }  // namespace relievo::pipeline

@@ -1,6 +1,14 @@
 // SPDX-FileCopyrightText: 2026 The Relievo authors
 // SPDX-License-Identifier: GPL-3.0-or-later
 //
+// The matchers by windows.
+#pragma once
+
+#include "pipeline/base/options.h"
+#include "pipeline/match/kinds.h"
+
+namespace relievo::pipeline {
+
 // SsdMatcher ("ssd"): the sum of squared differences over a square window, least over every disparity of
 // the volume, then a parabola through the minimum and its neighbours (Anandan 1989; Bardsley 2004, ch. 8).
 //
@@ -9,13 +17,6 @@
 // cost is S over the variation of both windows: one minus correlation where the exposure is equal, 1 where
 // they are unrelated. For sigma_px and lattices see window_matching.h.
 // Errors: as Matcher.
-#pragma once
-
-#include "pipeline/base/options.h"
-#include "pipeline/match/kinds.h"
-
-namespace relievo::pipeline {
-
 struct SsdMatcher {
   int window_px = 25;         // odd
   int channels = 1;           // 1: grey, 3: the three colours together
@@ -27,6 +28,32 @@ struct SsdMatcher {
     field("channels", channels, OptionRange{1, 3, 2}, "1: grey values, 3: the three colours together");
     field("max_difference", max_difference, OptionRange{0.01, 255},
           "rms difference of the windows above which there is no match, grey levels");
+    field("sigma_limit_px", sigma_limit_px, OptionRange{0.01, 10},
+          "a place less certain than this has no match");
+  }
+  Result<MatchSet> match(const RectifiedPair& pair, const Keypoints& keypoints, StageContext& context) const;
+};
+
+// ZmnccMatcher ("zmncc"): zero-mean normalised cross-correlation of a square window, greatest over every
+// disparity of the volume, then a fit between pixels (Faugeras et al. 1993; Bardsley 2004, ch. 8).
+//
+// Blind to gain and offset between the views within the window; with three channels each colour has an
+// offset of its own, and all three share the gain. Pixels.
+// cost is one minus the correlation. For sigma_px and lattices see window_matching.h.
+// Errors: as Matcher.
+struct ZmnccMatcher {
+  int window_px = 25;        // odd
+  int channels = 1;          // 1: grey, 3: the three colours together
+  float min_score = 0.4F;    // correlation, -1 .. 1
+  int equiangular = 0;       // 1: two lines of equal slope instead of a parabola
+  float sigma_limit_px = 1;  // a place less certain than this has no match
+
+  void describe(auto&& field) {
+    field("window_px", window_px, OptionRange{3, 63, 2}, "side of the window, pixels, odd");
+    field("channels", channels, OptionRange{1, 3, 2}, "1: grey values, 3: the three colours together");
+    field("min_score", min_score, OptionRange{0, 1}, "correlation below which there is no match");
+    field("equiangular", equiangular, OptionRange{0, 1},
+          "fit between pixels: 0 a parabola, 1 two lines of equal slope");
     field("sigma_limit_px", sigma_limit_px, OptionRange{0.01, 10},
           "a place less certain than this has no match");
   }

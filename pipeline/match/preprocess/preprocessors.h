@@ -1,0 +1,78 @@
+// SPDX-FileCopyrightText: 2026 The Relievo authors
+// SPDX-License-Identifier: GPL-3.0-or-later
+//
+// The preprocessors.
+#pragma once
+
+#include "pipeline/base/options.h"
+#include "pipeline/match/kinds.h"
+
+namespace relievo::pipeline {
+
+// HighlightRemover ("remove-highlights"): takes out of the grey values what lamps add that oily skin mirrors.
+// Two cameras see a lamp's mirror image at two places of the skin, so that who matches it finds a surface
+// behind the face: half a millimetre on a forehead, 1.5 to 4 mm at the tip of a nose. Skin's own colour is
+// reddish and what it mirrors has the lamp's colour (dichromatic reflection, Shafer 1985), white after the
+// camera's white balance. R - (G + B) / 2 of linear light does not see white (after Mallick, Zickler,
+// Kriegman, Belhumeur 2005); times what it is short of the brightness where the skin is dull, it says how
+// bright the skin would be without; lips, blemishes and noses that are redder than the rest go by the least
+// white nearby. What is brighter than that, over `radius_px`, is subtracted: little of what is less than
+// `least`, which stands above what compressed pictures get wrong in colours, most of what is twice that.
+// Pores and freckles, finer than that, stay. What has next to no colour is no skin (the white of an eye,
+// teeth, a beard) and stays. Looks only where a face may be: pictures in which no region is marked stay as
+// they are, and those without colour. The pictures' values are taken for sRGB's (IEC 61966-2-1). Errors:
+// InvalidInput (a view without pixels), OutOfMemory, Cancelled.
+struct HighlightRemover {
+  double radius_px =
+      2.5;  // standard deviation of the Gaussian: finer than mirrored lamps, coarser than pores
+  double dull = 0.5;
+  double least = 10;
+
+  void describe(auto&& field) {
+    field("radius_px", radius_px, OptionRange{0.5, 10},
+          "what is finer than this stays, pixels of the picture");
+    field("dull", dull, OptionRange{0.05, 0.95}, "share of the face that is taken to mirror no lamp");
+    field("least", least, OptionRange{0, 64},
+          "grey levels of brightness of which half is taken for a highlight's");
+  }
+  Result<void> process(RectifiedPair& pair, StageContext& context) const;
+};
+
+// HistogramNormaliser ("histogram-normalise"): each view's grey values are brought to the full range
+// 0..255 by the cumulative histogram of its own valid pixels; the dissertation's HistNorm.
+// equalise = 1 (the default): grey becomes 255 times the share of darker pixels, classical histogram
+// equalisation (Hummel 1977; Gonzalez and Woods, section 3.3): blind to any monotone change of exposure,
+// gamma included, as far as both views show the same things. equalise = 0: a linear stretch that sends
+// `tail` of the pixels to either end: keeps the proportions, undoes gain and offset. Between: a mixture.
+// Errors: InvalidInput (a view without pixels), OutOfMemory, Cancelled.
+struct HistogramNormaliser {
+  double equalise = 1;
+  double tail = 0.005;
+
+  void describe(auto&& field) {
+    field("equalise", equalise, OptionRange{0, 1},
+          "1: equalised by the cumulative histogram, 0: stretched linearly, between: a mixture");
+    field("tail", tail, OptionRange{0, 0.2},
+          "share of the pixels that the stretch sends to black, and to white");
+  }
+  Result<void> process(RectifiedPair& pair, StageContext& context) const;
+};
+
+// HistogramTransfer ("histogram-match"): the right view's grey values are changed so that their
+// cumulative histogram becomes the left view's (histogram specification; Gonzalez and Woods, section
+// 3.3); the dissertation's HistMatch. The left view stays as it is. Histograms are taken where both
+// views are valid and, where a face region is marked, in it: a pixel counts with the one it would
+// meet at the middle of the depth that is searched, so that what only one view sees has
+// no say. Blind to any monotone difference of exposure, gamma included.
+// Errors: InvalidInput (a view without pixels), OutOfMemory, Cancelled.
+struct HistogramTransfer {
+  double strength = 1;
+
+  void describe(auto&& field) {
+    field("strength", strength, OptionRange{0, 1},
+          "1: the right view takes the left one's histogram, 0: it stays, between: a mixture");
+  }
+  Result<void> process(RectifiedPair& pair, StageContext& context) const;
+};
+
+}  // namespace relievo::pipeline
