@@ -3,7 +3,6 @@
 #include "pipeline/pipeline.h"
 
 #include <cmath>
-#include <string>
 #include <utility>
 
 #include "pipeline/calibrate/drift.h"

@@ -5,7 +5,6 @@
 // Which one it is, firmware/main.cc says. Thread: main.
 #pragma once
 
-#include <memory>
 #include <optional>
 
 #include "hal/base/result.h"

@@ -2,7 +2,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "firmware/base/wall_time.h"
 
-#include <cstdio>
 #include <ctime>
 
 namespace relievo::firmware {

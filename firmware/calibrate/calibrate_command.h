@@ -14,7 +14,6 @@
 // args.store is the caller's business: the calibration comes back. Thread: main.
 #pragma once
 
-#include <filesystem>
 #include <optional>
 #include <ostream>
 #include <string>

@@ -21,7 +21,6 @@
 #include <cstdint>
 #include <mutex>
 #include <optional>
-#include <string_view>
 
 #include "firmware/base/budget.h"
 #include "firmware/capture/camera_link.h"

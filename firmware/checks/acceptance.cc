@@ -2,7 +2,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "firmware/checks/acceptance.h"
 
-#include <algorithm>
 #include <cmath>
 
 #include "firmware/measure/best_fit.h"

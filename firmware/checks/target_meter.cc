@@ -2,7 +2,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "firmware/checks/target_meter.h"
 
-#include <algorithm>
 #include <cmath>
 
 #include "firmware/checks/deviation_picture.h"

@@ -1,7 +1,5 @@
 // SPDX-FileCopyrightText: 2026 The Relievo authors
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include <span>
-#include <string>
 
 #include "firmware/calibrate/calibrate_command.h"
 #include "firmware/calibrate/print_pattern.h"

@@ -1,7 +1,6 @@
 // SPDX-FileCopyrightText: 2026 The Relievo authors
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include <cstdint>
-#include <memory>
 #include <memory_resource>
 #include <string>
 

@@ -6,7 +6,6 @@
 // linear least squares. Errors: the simulation's, the calibration's, the disk's. Thread: worker.
 #pragma once
 
-#include <filesystem>
 #include <functional>
 
 #include "firmware/arguments/command_line.h"

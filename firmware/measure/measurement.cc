@@ -3,7 +3,6 @@
 #include "firmware/measure/measurement.h"
 
 #include <algorithm>
-#include <limits>
 #include <vector>
 
 #include "firmware/measure/rigid_fit.h"

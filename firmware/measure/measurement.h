@@ -13,7 +13,6 @@
 #pragma once
 
 #include <cstddef>
-#include <string>
 
 #include "firmware/measure/truth_view.h"
 #include "pipeline/model/face_mesh.h"

@@ -5,7 +5,6 @@
 // need it. Owns the memory in which pictures and model lie. Thread: main.
 #pragma once
 
-#include <filesystem>
 #include <string_view>
 #include <vector>
 

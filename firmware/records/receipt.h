@@ -6,7 +6,6 @@
 // keyboard has them, and none looks like another.
 #pragma once
 
-#include <optional>
 #include <string>
 #include <string_view>
 

@@ -12,9 +12,7 @@
 #pragma once
 
 #include <filesystem>
-#include <memory>
 #include <optional>
-#include <string>
 
 #include "firmware/records/event_log.h"
 #include "firmware/service/side_tasks.h"

@@ -10,10 +10,8 @@
 // Thread: main. Errors: told in ServiceView::work.
 #pragma once
 
-#include <chrono>
 #include <cstdint>
 #include <filesystem>
-#include <string_view>
 
 #include "firmware/records/event_log.h"
 #include "firmware/service/consent_text_store.h"

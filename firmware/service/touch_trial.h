@@ -12,7 +12,6 @@
 // Thread: main; it is written on the keeper. Errors of look(): the store's.
 #pragma once
 
-#include <optional>
 #include <vector>
 
 #include "firmware/records/event_log.h"

@@ -3,7 +3,6 @@
 #include "firmware/work/pipeline_stages.h"
 
 #include <algorithm>
-#include <cstdio>
 #include <optional>
 #include <utility>
 

@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "firmware/work/stage_drawing.h"
 
+#include <algorithm>
 #include <cmath>
 #include <limits>
 #include <vector>

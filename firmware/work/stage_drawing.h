@@ -7,7 +7,6 @@
 // of dots. Thread: worker. Errors: none; what is missing stays dark.
 #pragma once
 
-#include <algorithm>
 #include <cstddef>
 #include <cstdint>
 

@@ -8,8 +8,6 @@
 // Thread: any; the same input gives the same result.
 #pragma once
 
-#include <optional>
-#include <string>
 #include <vector>
 
 #include "pipeline/calibrate/fit/calibrator_input.h"

@@ -2,7 +2,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "pipeline/recognition/range_image.h"
 
-#include <algorithm>
 #include <cmath>
 
 #include "pipeline/texture/chart/raster.h"

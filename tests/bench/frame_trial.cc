@@ -2,7 +2,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "tests/bench/frame_trial.h"
 
-#include <cmath>
 #include <numbers>
 
 #include "firmware/measure/rigid_fit.h"

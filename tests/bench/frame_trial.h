@@ -8,7 +8,6 @@
 
 #include <filesystem>
 #include <string>
-#include <vector>
 
 #include "firmware/measure/triangle_grid.h"
 #include "pipeline/mesh/landmarks/head_frame.h"

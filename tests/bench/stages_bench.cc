@@ -9,7 +9,6 @@
 #include <cstdlib>
 #include <optional>
 #include <thread>
-#include <vector>
 
 #include "hal/base/thread_pool.h"
 #include "hal/sim/head/shape/head_traits.h"

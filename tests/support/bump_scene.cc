@@ -2,7 +2,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "tests/support/bump_scene.h"
 
-#include <algorithm>
 #include <array>
 #include <cmath>
 #include <numbers>

@@ -5,8 +5,6 @@
 // Pixels, millimetres, radians.
 #pragma once
 
-#include <cmath>
-
 #include "hal/sim/optics/rig.h"
 #include "pipeline/model/calibration.h"
 

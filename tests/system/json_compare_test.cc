@@ -6,7 +6,6 @@
 #include <nlohmann/json.hpp>
 
 #include <csignal>
-#include <cstring>
 #include <fstream>
 #include <memory_resource>
 

@@ -4,7 +4,6 @@
 // Every word on a screen exists in every language.
 #include <gtest/gtest.h>
 
-#include <algorithm>
 #include <cctype>
 #include <filesystem>
 #include <fstream>

@@ -14,7 +14,6 @@
 
 #include <cstdio>
 #include <cstring>
-#include <initializer_list>
 #include <iostream>
 #include <sstream>
 #include <string>

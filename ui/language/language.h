@@ -7,9 +7,7 @@
 // and no thread's environment is touched. Thread: any, once prepare_languages() has been called.
 #pragma once
 
-#include <array>
 #include <cstdint>
-#include <string_view>
 
 #include "hal/base/result.h"
 

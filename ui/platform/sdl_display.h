@@ -6,6 +6,8 @@
 // Thread: main. Errors: LibraryFailed with SDL's words.
 #pragma once
 
+#include <memory>
+
 #include "ui/display.h"
 
 namespace relievo::ui {

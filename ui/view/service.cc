@@ -4,8 +4,6 @@
 
 #include <string.h>
 
-#include <algorithm>
-
 #include "ui/view/view_state.h"
 
 namespace relievo::ui {

@@ -7,8 +7,6 @@
 // wiped before it is reported. Thread: main.
 #pragma once
 
-#include <memory>
-#include <string>
 #include <vector>
 
 #include "firmware/service/page_controller.h"

@@ -8,7 +8,6 @@
 
 #include <span>
 #include <string>
-#include <vector>
 
 #include "firmware/measure/disparity_map.h"
 #include "firmware/session/session.h"

@@ -7,7 +7,6 @@
 // no job runs. Memory: one page of texts. Errors: none.
 #pragma once
 
-#include <array>
 #include <string>
 #include <string_view>
 #include <vector>

@@ -2,7 +2,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "firmware/technician/show/touched_point.h"
 
-#include <algorithm>
 #include <bit>
 #include <cmath>
 

@@ -3,7 +3,6 @@
 #include "pipeline/calibrate/board/marker_reader.h"
 
 #include <algorithm>
-#include <array>
 #include <cmath>
 #include <utility>
 

@@ -2,8 +2,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "pipeline/calibrate/fit/fitted_views.h"
 
-#include <cmath>
-
 #include "pipeline/calibrate/fit/stereo_fit.h"
 
 namespace relievo::pipeline {

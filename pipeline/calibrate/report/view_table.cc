@@ -2,7 +2,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include <algorithm>
 #include <cmath>
-#include <vector>
 
 #include "pipeline/calibrate/board/board_finder.h"
 #include "pipeline/calibrate/report/sections.h"

@@ -2,7 +2,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "pipeline/gate/head/face_cover.h"
 
-#include <algorithm>
 #include <array>
 #include <cmath>
 

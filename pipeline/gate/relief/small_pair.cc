@@ -3,7 +3,6 @@
 #include "pipeline/gate/relief/small_pair.h"
 
 #include <algorithm>
-#include <cstring>
 #include <memory_resource>
 #include <vector>
 

@@ -7,7 +7,6 @@
 // left camera's picture, not mirrored.
 #pragma once
 
-#include <array>
 #include <bitset>
 #include <chrono>
 #include <optional>

@@ -1,6 +1,5 @@
 // SPDX-FileCopyrightText: 2026 The Relievo authors
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include <cmath>
 
 #include <opencv2/aruco/charuco.hpp>
 #include <opencv2/calib3d.hpp>

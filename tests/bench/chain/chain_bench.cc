@@ -7,7 +7,6 @@
 //   chain_bench compare FILE FILE             exit code 0: identical in every byte, 1: not, and how far apart
 #include <cstdlib>
 #include <iostream>
-#include <string>
 #include <string_view>
 
 #include "tests/bench/chain/chain_difference.h"

@@ -12,7 +12,6 @@
 #include <array>
 #include <cstdio>
 #include <cstdlib>
-#include <string>
 
 #include "hal/sim/base/noise.h"
 #include "hal/sim/head/shape/head_field.h"

@@ -15,9 +15,7 @@
 
 #include <cmath>
 #include <cstdio>
-#include <cstdlib>
 #include <memory_resource>
-#include <vector>
 
 #include "pipeline/mesh/completion/generic_head.h"
 #include "pipeline/mesh/completion/globe.h"

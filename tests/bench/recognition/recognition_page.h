@@ -6,7 +6,6 @@
 // turned. Thread: any.
 #pragma once
 
-#include <span>
 #include <string>
 #include <vector>
 

@@ -9,7 +9,6 @@
 // PROGRAM is another renderer with heads of its own (photographer.h says how it is called); without it the
 // proof runs with our own heads only, and says so. FOLDER keeps pictures and surfaces: a run that was stopped
 // goes on. Writes FOLDER/recognition.html and FOLDER/scores.csv. Exit code 1 where rank 1 is below 99 %.
-#include <algorithm>
 #include <cstdio>
 #include <cstdlib>
 #include <fstream>

@@ -9,8 +9,6 @@
 #include <cstddef>
 #include <deque>
 #include <functional>
-#include <optional>
-#include <vector>
 
 #include "hal/camera.h"
 #include "hal/clock.h"

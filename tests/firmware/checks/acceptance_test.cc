@@ -5,8 +5,6 @@
 
 #include <gtest/gtest.h>
 
-#include <cmath>
-
 #include "firmware/checks/acceptance_report.h"
 #include "firmware/checks/deviation_picture.h"
 

@@ -7,11 +7,9 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
-#include <atomic>
 #include <chrono>
 #include <fstream>
 #include <thread>
-#include <vector>
 
 #include "firmware/kiosk/kiosk.h"
 #include "firmware/records/receipt.h"

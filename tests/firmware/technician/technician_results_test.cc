@@ -6,7 +6,6 @@
 
 #include <cmath>
 #include <filesystem>
-#include <set>
 #include <string>
 
 #include "firmware/measure/self_agreement.h"

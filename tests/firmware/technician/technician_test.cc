@@ -7,11 +7,9 @@
 
 #include <cmath>
 #include <filesystem>
-#include <set>
 #include <string>
 
 #include "firmware/measure/self_agreement.h"
-#include "storage/model_blob.h"
 
 namespace relievo::firmware {
 namespace {

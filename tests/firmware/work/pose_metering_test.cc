@@ -5,7 +5,6 @@
 // they are, and may burn out.
 #include <gtest/gtest.h>
 
-#include <algorithm>
 #include <atomic>
 #include <cmath>
 #include <functional>

@@ -3,8 +3,6 @@
 #include "pipeline/calibrate/live/watch/board_tracker.h"
 
 #include <algorithm>
-#include <cmath>
-#include <utility>
 
 #include "pipeline/calibrate/live/watch/edge_width.h"
 

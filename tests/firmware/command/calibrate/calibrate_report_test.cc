@@ -2,7 +2,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "firmware/calibrate/calibrate_report.h"
 
-#include <algorithm>
 #include <sstream>
 
 #include <gtest/gtest.h>

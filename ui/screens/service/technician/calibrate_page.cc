@@ -4,7 +4,6 @@
 // Calibration at the screen: the board and what is stored; then what the cameras see of it, what to show next
 // and how much has been seen; then the verdict in millimetres.
 #include <algorithm>
-#include <cstdio>
 
 #include "ui/screens/service/technician/technician_frame.h"
 

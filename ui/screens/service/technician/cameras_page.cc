@@ -3,7 +3,6 @@
 //
 // Both cameras, live, side by side, or the left one and its relief: light, focus, and whether they expose at
 // the same instant.
-#include <cstdlib>
 
 #include "ui/screens/service/technician/technician_frame.h"
 

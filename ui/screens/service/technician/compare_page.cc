@@ -5,7 +5,6 @@
 // the stage, or its surface, which one finger turns in all columns; the algorithms that were changed in any;
 // times, counts, and what each result says of itself.
 #include <algorithm>
-#include <array>
 #include <string>
 
 #include "ui/screens/service/fault_words.h"

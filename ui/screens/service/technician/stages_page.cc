@@ -6,7 +6,6 @@
 // with what the pairs by hand moved of it, texture.
 #include <algorithm>
 #include <cmath>
-#include <cstdio>
 
 #include "ui/screens/service/technician/technician_frame.h"
 
