@@ -11,6 +11,7 @@
 #include <unistd.h>
 
 #include "hal/whole_file.h"
+#include "storage/export/atomic_file.h"
 
 namespace relievo::firmware {
 namespace {
@@ -75,14 +76,18 @@ Result<void> OutputFolder::commit() {
     fs::rename(work_, target_, error);
     if (error) return failed(target_, error.value());
     work_.clear();
-    made_parent_.clear();
-    return {};
+    // The folders that were made on the way have names, too.
+    const fs::path made = std::exchange(made_parent_, {});
+    for (fs::path parent = target_.parent_path();; parent = parent.parent_path()) {
+      RELIEVO_TRY(storage::sync_directory(parent));
+      if (made.empty() || parent == made.parent_path()) return {};
+    }
   }
   for (const fs::directory_entry& entry : fs::directory_iterator(work_, error)) {
     fs::rename(entry.path(), target_ / entry.path().filename(), error);
     if (error) return failed(target_ / entry.path().filename(), error.value());
   }
-  return {};
+  return storage::sync_directory(target_);
 }
 
 Result<void> write_text(const fs::path& file, std::string_view text, const fs::path& place) {

@@ -49,7 +49,7 @@ Result<std::optional<ui::ConsentTexts>> take_from(const fs::path& stick, const f
   const Result<ui::ConsentTexts> kept = read_consent_version(folder->path(), found->version);
   if (!kept || !(*kept == *found))
     return Error{Errc::IoFailed, "was read twice and was not the same: use another stick"}.at(found->version);
-  if (!folder->commit() || !storage::sync_directory(own)) return not_kept().at(found->version);
+  if (!folder->commit()) return not_kept().at(found->version);
   return std::optional(*found);
 }
 

@@ -6,8 +6,6 @@
 #include <system_error>
 #include <vector>
 
-#include "storage/export/atomic_file.h"
-
 namespace relievo::firmware {
 namespace {
 
@@ -43,7 +41,6 @@ Result<void> replace_folder(OutputFolder& made, const fs::path& target) {
     if (replaces) fs::rename(before(target), target, error);
     return done;
   }
-  RELIEVO_TRY(storage::sync_directory(target.parent_path()));
   fs::remove_all(before(target), error);
   return {};
 }

@@ -12,16 +12,20 @@ namespace {
 
 constexpr std::size_t kBlobPieceBytes = 256 * 1024 + 64;  // as large as a sealed piece (cipher/seal.h)
 
+// Null: it is not open.
+sqlite3_file* log_of(sqlite3* db) {
+  sqlite3_file* log = nullptr;
+  const int code = sqlite3_file_control(db, "main", SQLITE_FCNTL_JOURNAL_POINTER, &log);
+  return code == SQLITE_OK && log != nullptr && log->pMethods != nullptr ? log : nullptr;
+}
+
 // SQLite's own sqlite3_system_errno() forgets while it rolls back; the files remember.
 int system_errno_of(sqlite3* db) {
   if (db == nullptr) return 0;
   int cause = sqlite3_system_errno(db);
   if (cause == 0) sqlite3_file_control(db, "main", SQLITE_FCNTL_LAST_ERRNO, &cause);
-  sqlite3_file* log = nullptr;
-  if (cause == 0 && sqlite3_file_control(db, "main", SQLITE_FCNTL_JOURNAL_POINTER, &log) == SQLITE_OK &&
-      log != nullptr && log->pMethods != nullptr) {
+  if (sqlite3_file* log = cause == 0 ? log_of(db) : nullptr)
     log->pMethods->xFileControl(log, SQLITE_FCNTL_LAST_ERRNO, &cause);
-  }
   return cause;
 }
 
@@ -150,6 +154,15 @@ Result<void> Database::open(bool writable) {
 Result<void> Database::tidy_up_on_close(bool on) {
   const int code = sqlite3_db_config(handle_, SQLITE_DBCONFIG_NO_CKPT_ON_CLOSE, on ? 0 : 1, nullptr);
   return code == SQLITE_OK ? Result<void>() : error(code);
+}
+
+Result<bool> Database::empty_log() {
+  RELIEVO_TRY_ASSIGN(const std::int64_t busy, integer("PRAGMA wal_checkpoint(TRUNCATE)"));
+  if (busy != 0) return false;
+  // SQLite cuts it off and leaves it to the system when: until then a power cut brings all of it back.
+  sqlite3_file* log = log_of(handle_);
+  const int code = log == nullptr ? SQLITE_OK : log->pMethods->xSync(log, SQLITE_SYNC_FULL);
+  return code == SQLITE_OK ? Result<bool>(true) : error(code);
 }
 
 Error Database::error(int code) const { return sqlite_error(code, system_errno_of(handle_), where_); }

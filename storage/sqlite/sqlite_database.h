@@ -81,6 +81,9 @@ class Database {
   bool in_transaction() const;
   // Whether closing moves the write-ahead log into the file: off until it is known to be ours.
   Result<void> tidy_up_on_close(bool on);
+  // Moves the write-ahead log into the file; on the disk nothing is left in it. false: a reader is in the
+  // way.
+  Result<bool> empty_log();
 
   // A whole one, as Blob.
   Result<void> write_blob(const char* table, const char* column, std::int64_t row,

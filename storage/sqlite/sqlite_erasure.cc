@@ -105,8 +105,8 @@ Result<void> remove_erased_rows(Database& database) {
 }
 
 Result<void> empty_the_log(Database& database) {
-  RELIEVO_TRY_ASSIGN(const std::int64_t busy, database.integer("PRAGMA wal_checkpoint(TRUNCATE)"));
-  if (busy == 0) return {};
+  RELIEVO_TRY_ASSIGN(const bool emptied, database.empty_log());
+  if (emptied) return {};
   return Error{Errc::Timeout, "erased, but another program keeps traces in the log: close it, then restart"}
       .at(database.where());
 }

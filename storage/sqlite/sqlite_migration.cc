@@ -47,11 +47,14 @@ Result<void> step(Database& database, std::int64_t from, std::int64_t to, const 
 }
 
 Result<void> remove_copies(const std::filesystem::path& database_file, std::int64_t last) {
+  bool removed = false;
   for (std::int64_t version = 2; version <= last; ++version) {
     const auto copy = copy_before(database_file, version);
     // The second: of a copy that a power cut stopped.
     for (const auto& file : {copy, std::filesystem::path(copy.string() + ".tmp")}) {
-      if (::unlink(file.c_str()) != 0 && errno != ENOENT) {
+      if (::unlink(file.c_str()) == 0) {
+        removed = true;
+      } else if (errno != ENOENT) {
         return Error{Errc::IoFailed,
                      "an old copy of the store, with people in it, could not be removed: remove it by hand",
                      errno}
@@ -59,7 +62,8 @@ Result<void> remove_copies(const std::filesystem::path& database_file, std::int6
       }
     }
   }
-  return {};
+  // A power cut may not bring them back.
+  return removed ? sync_directory(database_file.parent_path()) : Result<void>();
 }
 
 }  // namespace

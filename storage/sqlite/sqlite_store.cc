@@ -79,7 +79,8 @@ Result<void> open_to_write(Database& database, StoreKeys& keys, WallTime at,
   RELIEVO_TRY(remove_erased_rows(database));
   RELIEVO_TRY(remove_plain_copies(database.file()));
   RELIEVO_TRY(remove_plain_traces(database));
-  return database.run("PRAGMA wal_checkpoint(TRUNCATE)");
+  RELIEVO_TRY(database.empty_log());
+  return {};
 }
 
 Result<void> open_to_read(Database& database, StoreKeys& keys, const SqliteStoreOptions& options) {

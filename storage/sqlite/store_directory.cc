@@ -11,6 +11,8 @@
 #include <system_error>
 #include <thread>
 
+#include "storage/export/atomic_file.h"
+
 namespace relievo::storage {
 namespace {
 
@@ -48,15 +50,21 @@ Result<void> StoreLock::take(const fs::path& file, std::chrono::milliseconds wai
   return {};
 }
 
-Result<void> make_store_directory(const fs::path& dir) {
+Result<void> make_store_directory(const fs::path& named) {
+  const fs::path dir = named.has_filename() ? named : named.parent_path();  // "store/"
   std::error_code ignored;
   if (fs::is_directory(dir, ignored)) return {};
+  fs::path there = dir.parent_path();
+  while (there != there.parent_path() && !fs::exists(there, ignored)) there = there.parent_path();
   fs::create_directories(dir.parent_path(), ignored);
   if (::mkdir(dir.c_str(), 0700) != 0 && errno != EEXIST) {
     return failed(dir, errno);
   }
   if (!fs::is_directory(dir, ignored))
     return Error{Errc::InvalidInput, "the store needs a directory, this is none"}.at(dir.string());
+  // What is synced in it later is lost with its name.
+  for (fs::path made = dir; made != there; made = made.parent_path())
+    RELIEVO_TRY(sync_directory(made.parent_path()));
   return {};
 }
 

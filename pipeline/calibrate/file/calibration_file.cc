@@ -277,7 +277,8 @@ Result<StereoCalibration> read_calibration(const std::filesystem::path& file, co
 
 Result<void> write_calibration(const std::filesystem::path& file, const StereoCalibration& calibration) {
   RELIEVO_TRY(check_calibration(calibration));
-  std::string temporary = file.native() + ".XXXXXX";
+  // Hidden: what a power cut leaves of it is nobody's calibration.
+  std::string temporary = file.parent_path() / ("." + file.filename().native() + ".XXXXXX");
   File out(::mkostemp(temporary.data(), O_CLOEXEC));
   if (out.get() < 0)
     return failed("cannot be written here; does the folder exist, may you write to it?", file);
