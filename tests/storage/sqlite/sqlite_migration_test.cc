@@ -14,30 +14,23 @@
 #include "storage/schema/embedded_sql.h"
 #include "storage/sodium_sha256.h"
 #include "storage/sqlite/sqlite_migration.h"
-#include "tests/storage/cut_writes.h"
 #include "tests/storage/raw_database.h"
 #include "tests/storage/sample.h"
+#include "tests/storage/store_of_before.h"
 #include "tests/support/temporary_folder.h"
 
 namespace relievo::storage {
 namespace {
 
 using relievo::test::TemporaryFolder;
+using test::kLastPlain;
+using test::make_version;
+using test::OfBefore;
 using test::opened;
 using test::Raw;
 
 const SqliteStoreOptions kNoReserve{.reserve_bytes = 0};
-constexpr std::int64_t kLastPlain = 6;  // the last version that knew no keys
-
 std::string number(std::int64_t n) { return std::to_string(n); }
-
-void make_version(const std::filesystem::path& dir, std::int64_t version) {
-  std::filesystem::create_directories(dir);
-  Raw raw(dir / "relievo.db");
-  raw.run("PRAGMA journal_mode = WAL");
-  for (std::int64_t n = 0; n < version; ++n) raw.run(std::string(migrations()[static_cast<std::size_t>(n)]));
-  raw.run("PRAGMA application_id = " + number(kApplicationId) + "; PRAGMA user_version = " + number(version));
-}
 
 std::vector<std::string> schema_of(Raw& raw) {
   auto all = raw.rows("SELECT type, name, tbl_name, sql FROM sqlite_schema ORDER BY type, name");
@@ -93,84 +86,6 @@ TEST(SqliteMigration, EveryOlderVersionIsBroughtUpAndSealed) {
   }
 }
 
-// A store of version 6 as it was filled: people with models, notes, settings, a log.
-struct OfBefore {
-  explicit OfBefore(const std::filesystem::path& dir, int people) : dir_(dir) {
-    make_version(dir, kLastPlain);
-    Raw raw(dir / "relievo.db");
-    for (int i = 1; i <= people; ++i) {
-      const auto model = test::sample_model(8 + i % 7, static_cast<unsigned>(i));
-      const std::string id = number(i), name = name_of(i);
-      raw.run("INSERT INTO subject (id, created_at_ms, name, receipt) VALUES (" + id + ", 1, CAST('" + name +
-              "' AS BLOB), " + number(424'200'000'000 + i) + ")");
-      raw.run("INSERT INTO enrolment (id, subject_id, created_at_ms, algorithms, report_json) VALUES (" + id +
-              ", " + id + ", 2, 'algorithms of " + name + "', 'report of " + name + "')");
-      raw.run("INSERT INTO consent VALUES (" + id + ", 'wording for " + name + "', 'eo', 3)");
-      raw.run("INSERT INTO model (enrolment_id, bytes) VALUES (" + id + ", ?)", *encode_model(model));
-      if (people > 10 && i % 3 != 0) continue;  // to search for all of them takes minutes
-      for (const char* text : {"", "algorithms of ", "report of ", "wording for "})
-        traces.push_back(text + name);
-      traces.emplace_back(reinterpret_cast<const char*>(&model.mesh.vertices_mm[3]), 24);
-      traces.emplace_back(reinterpret_cast<const char*>(model.texture.rgb.data()) + 60, 24);
-    }
-    raw.run("INSERT INTO setting VALUES ('pin', 'hash of the PIN 4711', 1)");
-    calibration.revision = 1;
-    raw.run(
-        "INSERT INTO calibration (created_at_ms, note, record, active) VALUES (1, 'the note of Grete', ?, 1)",
-        encode_calibration(calibration, {}));
-    // The chain as it was made before there were keys.
-    std::vector<std::byte> bytes(32);
-    ByteWriter to(bytes);
-    for (const std::int64_t value : {1, 2, 0}) to.put(value);
-    for (const std::string_view field : {"calibration.drift", "detail of Grete"}) {
-      to.put(static_cast<std::uint64_t>(field.size()));
-      to.put(bytes_of(field));
-    }
-    const auto hash = sha256(bytes);
-    raw.run("INSERT INTO audit VALUES (1, 2, 'calibration.drift', 0, 'detail of Grete', ?)", hash);
-    raw.run("UPDATE audit_end SET number = 1, hash = ?", hash);
-    for (const char* text : {"hash of the PIN", "the note of Grete", "detail of Grete"})
-      traces.emplace_back(text);
-    people_ = people;
-  }
-  static std::string name_of(int i) { return "Canary-" + number(1000 + i) + "-Person"; }
-
-  // All of it is there, sealed, and nothing of it can be read in any file.
-  void judge(Store& store, const std::string& when) const {
-    const auto checked = store.check();
-    ASSERT_TRUE(checked) << when << ": " << checked.error().where() << ": " << checked.error().what.view();
-    const auto subjects = store.subjects({});
-    ASSERT_EQ(subjects->size(), static_cast<std::size_t>(people_)) << when;
-    for (int i = 1; i <= people_; ++i) {
-      const auto found = store.subjects({.name = name_of(i), .whole_name = true});
-      ASSERT_EQ(found->size(), 1U) << when;
-      EXPECT_EQ(store.subjects({.receipt = 424'200'000'000 + i})->front().name, name_of(i)) << when;
-      const auto enrolment = store.enrolment(EnrolmentId{i});
-      ASSERT_TRUE(enrolment) << when;
-      EXPECT_EQ(enrolment->report_json, "report of " + name_of(i));
-      EXPECT_EQ(enrolment->algorithms, "algorithms of " + name_of(i));
-      EXPECT_EQ(enrolment->consent.wording, "wording for " + name_of(i));
-      EXPECT_EQ(enrolment->consent.language, "eo");
-      EXPECT_EQ(enrolment->consent.given_at, WallTime(std::chrono::milliseconds(3)));
-      EXPECT_TRUE(test::identical(test::sample_model(8 + i % 7, static_cast<unsigned>(i)),
-                                  *store.load_model(EnrolmentId{i}, std::pmr::new_delete_resource())));
-    }
-    EXPECT_EQ(*store.setting("pin"), "hash of the PIN 4711");
-    EXPECT_EQ(store.calibrations()->front().note, "the note of Grete");
-    EXPECT_EQ(store.audit(0, 10)->front().event.detail, "detail of Grete");
-    EXPECT_EQ(readable(), 0) << when;
-  }
-  long readable() const {
-    const auto bytes = test::all_bytes(dir_);
-    return std::ranges::count_if(traces,
-                                 [&](const auto& trace) { return bytes.find(trace) != std::string::npos; });
-  }
-  std::filesystem::path dir_;
-  int people_ = 0;
-  pipeline::StereoCalibration calibration = test::sample_calibration();
-  std::vector<std::string> traces;
-};
-
 TEST(SqliteMigration, AFullStoreOfBeforeIsSealedToTheLastPage) {
   const TemporaryFolder folder;
   const OfBefore before(folder / "store", 230);  // more than one part
@@ -181,32 +96,6 @@ TEST(SqliteMigration, AFullStoreOfBeforeIsSealedToTheLastPage) {
   store.reset();
   EXPECT_EQ(before.readable(), 0) << "closed";
   before.judge(*opened(folder / "store", kNoReserve), "opened again");
-}
-
-TEST(SqliteMigration, CutOffAtAnyWriteItGoesOnAtTheNextOpening) {
-  const TemporaryFolder folder;
-  const OfBefore before(folder / "before", 3);
-  const long stride = std::getenv("RELIEVO_EVERY_POINT") != nullptr ? 1 : 5;
-  long cuts = 0, at_seven = 0;
-  for (long write = 1;; write += stride) {
-    const auto dir = folder / ("store-" + number(write));
-    std::filesystem::copy(folder / "before", dir);
-    const auto ended = test::cut_at_write(write, [&] { return opened(dir, kNoReserve) != nullptr; });
-    ASSERT_NE(ended, test::Ended::Failed) << write;
-    OfBefore here = before;
-    here.dir_ = dir;
-    if (ended == test::Ended::Cut) {
-      ++cuts;
-      at_seven += Raw(dir / "relievo.db").rows("PRAGMA user_version").front() == "7|" ? 1 : 0;
-      here.judge(*opened(dir, kNoReserve), "cut at write " + number(write));
-    }
-    here.dir_ = dir;
-    EXPECT_EQ(here.readable(), 0) << write;
-    std::filesystem::remove_all(dir);
-    if (ended == test::Ended::Finished || HasFailure()) break;
-  }
-  EXPECT_GT(cuts * stride, 100);
-  EXPECT_GT(at_seven, 0) << "also in the middle of the sealing";
 }
 
 TEST(SqliteMigration, ABrokenLogStaysBroken) {

@@ -12,7 +12,6 @@
 #include <random>
 
 #include "storage/export/model_files.h"
-#include "tests/storage/cut_writes.h"
 #include "tests/storage/raw_database.h"
 #include "tests/storage/sample.h"
 #include "tests/support/temporary_folder.h"
@@ -26,8 +25,6 @@ using test::identical;
 using test::opened;
 using test::sample_enrolment;
 using test::sample_model;
-
-const SqliteStoreOptions kNoReserve{.reserve_bytes = 0};
 
 // Enrols without end; writes each number to the pipe after the store said it was safe.
 [[noreturn]] void enrol_for_ever(const std::filesystem::path& dir, const pipeline::FaceModel& model,
@@ -264,45 +261,6 @@ TEST(StoreFaults, ErasedMeansGone) {
   for (const EnrolmentId id : kept) EXPECT_TRUE(store->load_model(id, std::pmr::new_delete_resource()));
   store.reset();
   EXPECT_EQ(count(), 0);
-}
-
-// The key goes first: cut off at any write, a person is whole or is gone, and gone for good.
-TEST(StoreFaults, AnErasureThatIsCutOffLeavesTheWholePersonOrNobody) {
-  const TemporaryFolder folder;
-  const auto model = sample_model(30);
-  {
-    const auto store = opened(folder / "before", kNoReserve);
-    for (const char* name : {"Ada", "Bob", "Eva"})
-      ASSERT_TRUE(store->add_enrolment(NewSubject{name}, sample_enrolment(model)));
-  }
-  int whole = 0, gone = 0, begun = 0;
-  for (long write = 1;; ++write) {
-    const auto dir = folder / ("store-" + std::to_string(write));
-    std::filesystem::copy(folder / "before", dir);
-    const auto ended = test::cut_at_write(
-        write, [&] { return opened(dir, kNoReserve)->erase_subject(SubjectId{2}).has_value(); });
-    ASSERT_NE(ended, test::Ended::Failed) << write;
-    begun +=
-        test::Raw(dir / "relievo.db").rows("SELECT 1 FROM subject WHERE code_hash IS NULL").empty() ? 0 : 1;
-    const auto store = opened(dir, kNoReserve);
-    const auto checked = store->check();
-    ASSERT_TRUE(checked) << write << " " << checked.error().what.view();
-    const auto people = store->subjects({});
-    const bool there = people->size() == 3;
-    ASSERT_TRUE(there || people->size() == 2) << write;
-    (there ? whole : gone) += 1;
-    EXPECT_EQ(store->load_model(EnrolmentId{2}, std::pmr::new_delete_resource()).has_value(), there);
-    EXPECT_EQ(test::Raw(dir / "relievo.db").rows("SELECT 1 FROM enrolment WHERE id = 2").size(),
-              there ? 1U : 0U);
-    EXPECT_EQ(store->audit(0, 100)->back().event.what == "subject.erased", !there) << write;
-    if (ended == test::Ended::Finished) {
-      EXPECT_FALSE(there);
-      break;
-    }
-  }
-  EXPECT_GT(whole, 2);
-  EXPECT_GT(gone, 2);
-  EXPECT_GT(begun, 2) << "also between the key and the rows";
 }
 
 }  // namespace

@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: 2026 The Relievo authors
 // SPDX-License-Identifier: GPL-3.0-or-later
-// The store as a whole: copies, new keys, recovery; each cut off anywhere.
+// The store as a whole: copies, new keys, recovery.
 #include "storage/store_keeping.h"
 
 #include <gtest/gtest.h>
@@ -9,7 +9,6 @@
 #include <fstream>
 
 #include "storage/cipher/recovery.h"
-#include "tests/storage/cut_writes.h"
 #include "tests/storage/raw_database.h"
 #include "tests/storage/sample.h"
 #include "tests/support/temporary_folder.h"
@@ -128,47 +127,6 @@ TEST(StoreKeeping, AnOldKeyOpensNothingAfterANewOne) {
   ASSERT_TRUE(keeping(dir, credential)->rekey(""));
   EXPECT_NE(before, Raw(dir / "relievo.db").rows("SELECT hex(parameters) FROM encryption_key ORDER BY id"));
   judge(dir, credential);
-}
-
-// Cut off at every write of the store, and between the store and its key file.
-TEST(StoreKeeping, AChangeOfKeysThatIsCutOffIsDoneOrNotDone) {
-  const TemporaryFolder folder;
-  fill(folder / "before");
-  const auto words = draw_recovery_words();
-  ASSERT_TRUE(keeping(folder / "before")->keep_recovery_words(words));
-  int cuts = 0, half = 0;
-  for (const bool recover : {false, true}) {
-    for (long write = 1;; ++write) {
-      const auto dir = folder / ("store-" + std::to_string(write));
-      std::filesystem::copy(folder / "before", dir);
-      if (recover) std::filesystem::remove(dir / "relievo.key");
-      const auto ended = test::cut_at_write(write, [&] {
-        return (recover ? keeping(dir)->recover(words) : keeping(dir)->rekey("")).has_value();
-      });
-      ASSERT_NE(ended, test::Ended::Failed) << write;
-      const bool done =
-          Raw(dir / "relievo.db")
-              .rows(
-                  "SELECT hex(parameters) FROM encryption_key WHERE kind = "
-                  "'appliance'") != Raw(folder / "before/relievo.db")
-                                        .rows(
-                                            "SELECT hex(parameters) FROM encryption_key WHERE kind = "
-                                            "'appliance'");
-      half += done && std::filesystem::exists(dir / "relievo.key.next") ? 1 : 0;
-      if (recover && !done) {
-        EXPECT_EQ(code_of(open_sqlite_store(dir, kClock, kNoReserve)), Errc::NotFound);
-        ASSERT_TRUE(keeping(dir)->recover(words)) << "once more";
-      }
-      judge(dir);
-      auto read_only = kNoReserve;
-      read_only.mode = OpenMode::ReadOnly;
-      EXPECT_TRUE(open_sqlite_store(dir, kClock, read_only));
-      std::filesystem::remove_all(dir);
-      if (ended == test::Ended::Finished || HasFailure()) break;
-      ++cuts;
-    }
-  }
-  EXPECT_GT(cuts, 20);
 }
 
 // The moment that no write of SQLite's marks: the store goes by the new key, the file is not renamed yet.
