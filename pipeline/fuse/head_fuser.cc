@@ -110,14 +110,21 @@ class Fusion {
     for (std::size_t k = 0; k < poses_.size(); ++k) {
       const PoseSurface& pose = poses_[k];
       const RigidTransform& placed = registration_.poses[k].first_from_pose;
-      for (std::size_t i = 0; i < pose.at_mm.size(); ++i) {
-        if (pose.trust[i] < kLeastTrust) continue;
-        const Vec3f at = narrow(apply(placed, wide(pose.at_mm[i])));
-        if (!on_head(at) || eyes_.holds(at)) continue;
-        const Vec3f normal = narrow(apply(placed.rotation, wide(pose.normal[i])));
-        if (!overruled(k, at, normal, pose.sigma_mm[i], pose.trust[i]))
-          all.push_back({at, normal, pose.trust[i] / squared(std::max(pose.sigma_mm[i], kLeastSigmaMm))});
-      }
+      const std::size_t first = all.size();
+      all.resize(first + pose.at_mm.size());  // weight 0: does not count
+      context_.pool.for_each_band(static_cast<int>(pose.at_mm.size()), kBands, [&](int from, int to, int) {
+        for (auto i = static_cast<std::size_t>(from); i < static_cast<std::size_t>(to); ++i) {
+          if (pose.trust[i] < kLeastTrust) continue;
+          const Vec3f at = narrow(apply(placed, wide(pose.at_mm[i])));
+          if (!on_head(at) || eyes_.holds(at)) continue;
+          const Vec3f normal = narrow(apply(placed.rotation, wide(pose.normal[i])));
+          if (!overruled(k, at, normal, pose.sigma_mm[i], pose.trust[i]))
+            all[first + i] = {at, normal, pose.trust[i] / squared(std::max(pose.sigma_mm[i], kLeastSigmaMm))};
+        }
+      });
+      all.erase(std::remove_if(all.begin() + static_cast<std::ptrdiff_t>(first), all.end(),
+                               [](const FieldPoint& p) { return p.weight <= 0; }),
+                all.end());
     }
     return all;
   }

@@ -26,7 +26,6 @@ using Square =
 using Column = Eigen::Matrix<double, Eigen::Dynamic, 1, 0, 6 * (kMostPoses - 1), 1>;
 
 constexpr std::size_t kParts = 4;    // of a pose's samples, for the threads
-constexpr double kSamples = 18'000;  // nodes of a lattice that are laid onto the other poses, at most
 constexpr float kLeastTrust = 0.2F;  // of a node that is laid onto another pose's
 constexpr double kSameWay = 0.7;     // cosine between the normals of what is taken for the same skin
 constexpr double kLeastSigmaMm = 0.03;
@@ -35,19 +34,25 @@ constexpr double kFewestSamples = 300, kFewestCoarse = 80;
 constexpr double kRidge = 1e-9;
 constexpr double kStillMm = 1e-5;
 // How far apart two surfaces may lie to be taken for the same skin, and the scale beyond which a distance
-// loses its say, round by round.
+// loses its say, round by round; and how many nodes of a lattice are laid onto the other poses, at most.
 struct Round {
   double reach_mm, scale_mm;
   int times;
+  double samples = 18'000;
 };
-constexpr std::array<Round, 5> kRounds{{{12, 6, 8}, {6, 2, 6}, {3, 0.7, 6}, {2, 0.25, 8}, {1.5, 0.12, 8}}};
+constexpr double kFewSamples = 4'500;
+constexpr std::array<Round, 5> kRounds{{{12, 6, 8, kFewSamples},
+                                        {6, 2, 6, kFewSamples},
+                                        {3, 0.7, 6, kFewSamples},
+                                        {2, 0.25, 8},
+                                        {1.5, 0.12, 8}}};
 constexpr Round kLast{1.5, 0.08, 12};
 // Surfaces of calibrations that differ lie off everywhere: no scale is narrower than what is usual.
 constexpr double kScaleOfUsual = 1.5;
 // How one pose is laid onto those before it, and from where it is tried, where its own head frame is no good
 // start.
-constexpr std::array<Round, 4> kCoarse{{{25, 12, 8}, {12, 6, 6}, {6, 2, 6}, {3, 0.7, 4}}};
-constexpr double kCoarseSamples = 4'500;
+constexpr std::array<Round, 4> kCoarse{
+    {{25, 12, 8, kFewSamples}, {12, 6, 6, kFewSamples}, {6, 2, 6, kFewSamples}, {3, 0.7, 4, kFewSamples}}};
 // A pose is well laid where so much of what lies near another pose's surface lies on it: from its own head
 // frame, and from the best of all starts.
 constexpr double kMetMm = 1;
@@ -165,20 +170,37 @@ class Solver {
     placed_[p].first_from_pose = start;
     Laid laid;
     double near = 0;
+    struct Part {
+      Matrix6 normal;
+      Vector6 right;
+      double near, count;
+    };
     for (const Round& round : kCoarse)
       for (int k = 0; k < round.times; ++k) {
+        std::array<Part, kParts> parts;
+        for_each_part(kParts, [&](std::size_t i) {
+          Part sum{Matrix6::Zero(), Vector6::Zero(), 0, 0};
+          const auto against_known = [&](std::size_t node, const Vec3d& n, double say, Residual& res) {
+            for (std::size_t b = 0; b < poses_.size(); ++b) {
+              if (known_[b] == 0 || b == p || !meet(poses_[p], node, n, b, round, res)) continue;
+              sum.normal += say * res.weight * res.toward * res.toward.transpose();
+              sum.right += say * res.weight * res.value * res.toward;
+              sum.near += say;
+              sum.count += std::abs(res.value) < kMetMm ? say : 0;
+            }
+          };
+          for_each_sample(p, round.samples, against_known, i, kParts);
+          parts[i] = sum;
+        });
         Matrix6 normal = kRidge * Matrix6::Identity();
         Vector6 right = Vector6::Zero();
         laid.count = near = 0;
-        for_each_sample(p, kCoarseSamples, [&](std::size_t node, const Vec3d& n, double say, Residual& res) {
-          for (std::size_t b = 0; b < poses_.size(); ++b) {
-            if (known_[b] == 0 || b == p || !meet(poses_[p], node, n, b, round, res)) continue;
-            normal += say * res.weight * res.toward * res.toward.transpose();
-            right += say * res.weight * res.value * res.toward;
-            near += say;
-            laid.count += std::abs(res.value) < kMetMm ? say : 0;
-          }
-        });
+        for (const Part& part : parts) {
+          normal += part.normal;
+          right += part.right;
+          near += part.near;
+          laid.count += part.count;
+        }
         if (near < kFewestCoarse) return {};
         const Vector6 step = solved<6>(normal, right);
         placed_[p].first_from_pose =
@@ -197,28 +219,32 @@ class Solver {
   static Error stopped() { return {Errc::Cancelled, "stopped while the poses were laid onto each other"}; }
   static Eigen::Index place(std::size_t pose) { return 6 * (static_cast<Eigen::Index>(pose) - 1); }
 
+  // Sums are made by parts, each by one thread, and put together in their order: the same for any number of
+  // threads.
+  template <typename Work>
+  void for_each_part(std::size_t parts, Work&& work) const {
+    context_.pool.for_each_band(static_cast<int>(parts), static_cast<int>(parts),
+                                [&](int, int, int i) { work(static_cast<std::size_t>(i)); });
+  }
+
   // One Gauss-Newton step; returns how far it went, millimetres and radians together.
   double move(const Round& round) {
-    // Summed by parts, each by one thread, and the parts in their order: the same for any number of threads.
     struct Part {
       Square normal;
       Column right;
       std::vector<float> off;
     };
     std::vector<Part> parts(poses_.size() * kParts);
-    context_.pool.for_each_band(
-        static_cast<int>(parts.size()), static_cast<int>(parts.size()), [&](int begin, int end, int) {
-          for (auto i = static_cast<std::size_t>(begin); i < static_cast<std::size_t>(end); ++i) {
-            Part& part = parts[i];
-            part.normal = Square::Zero(unknowns_, unknowns_);
-            part.right = Column::Zero(unknowns_);
-            for_each_residual_of(i / kParts, i % kParts, kParts, round,
-                                 [&](std::size_t a, std::size_t b, const Residual& r) {
-                                   add(part.normal, part.right, a, b, r);
-                                   part.off.push_back(static_cast<float>(std::abs(r.value)));
-                                 });
-          }
-        });
+    for_each_part(parts.size(), [&](std::size_t i) {
+      Part& part = parts[i];
+      part.normal = Square::Zero(unknowns_, unknowns_);
+      part.right = Column::Zero(unknowns_);
+      for_each_residual_of(i / kParts, i % kParts, kParts, round,
+                           [&](std::size_t a, std::size_t b, const Residual& r) {
+                             add(part.normal, part.right, a, b, r);
+                             part.off.push_back(static_cast<float>(std::abs(r.value)));
+                           });
+    });
     Square normal = kRidge * Square::Identity(unknowns_, unknowns_);
     Column right = Column::Zero(unknowns_);
     std::vector<float> off;
@@ -292,7 +318,7 @@ class Solver {
           visit(a, b, res);
         }
     };
-    for_each_sample(a, kSamples, against_others, part, parts);
+    for_each_sample(a, round.samples, against_others, part, parts);
   }
 
   // False where pose `b` shows nothing near, or the other side of something.
@@ -317,10 +343,20 @@ class Solver {
 
   // How far each patch of skin has moved between every two poses.
   void weigh_skin() {
-    SkinPatches::Sums sums = skin_.no_sums();
-    for_each_residual(kLast, [&](std::size_t a, std::size_t b, const Residual& r) {
-      skin_.add(sums, r.patch, a, b, r.value, r.weight);
+    struct Said {
+      std::size_t patch, a, b;
+      double value, weight;
+    };
+    std::vector<std::vector<Said>> parts(poses_.size() * kParts);
+    for_each_part(parts.size(), [&](std::size_t i) {
+      for_each_residual_of(i / kParts, i % kParts, kParts, kLast,
+                           [&](std::size_t a, std::size_t b, const Residual& r) {
+                             parts[i].push_back({r.patch, a, b, r.value, r.weight});
+                           });
     });
+    SkinPatches::Sums sums = skin_.no_sums();
+    for (const auto& part : parts)
+      for (const Said& s : part) skin_.add(sums, s.patch, s.a, s.b, s.value, s.weight);
     skin_.take(sums);
   }
 
