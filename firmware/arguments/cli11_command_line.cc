@@ -137,7 +137,7 @@ void add_reconstruct(CLI::App& app, CommandArgs& chosen, ReconstructArgs& args) 
   const char* const instead[] = {"pictures", "--calibration"};
   for (const char* other : instead) load->excludes(command->get_option(other));
   load->excludes(command->get_option("--region"));
-  command->callback([&chosen, &args, command, load, instead] {
+  command->callback([&chosen, &args, command, load] {
     if (load->count() == 0 && args.calibrations.empty()) throw CLI::RequiredError("--calibration");
     // Pictures after --calibration look like further calibrations: the first of them is the only one.
     if (args.pictures.empty() && args.calibrations.size() > 1) {

@@ -152,7 +152,7 @@ template <typename T>
 T header(std::span<const std::byte> bytes, std::size_t at) {
   T value = 0;
   for (std::size_t i = 0; i < sizeof(T); ++i)
-    value = static_cast<T>(value << 8 | std::to_integer<unsigned>(bytes[at + i]));
+    value = static_cast<T>(value << 8 | std::to_integer<T>(bytes[at + i]));
   return value;
 }
 

@@ -39,11 +39,11 @@ void halve_rows(const float* grey, const std::uint8_t* valid, int width, int hei
 }
 
 void halve_levels(std::pmr::vector<PyramidLevel>& levels, ThreadPool& pool) {
-  constexpr int kBands = 8;
+  constexpr int kPyramidBands = 8;
   for (std::size_t level = 1; level < levels.size(); ++level) {
     const PyramidLevel& from = levels[level - 1];
     PyramidLevel& to = levels[level];
-    pool.for_each_band(to.grey.height, kBands, [&](int begin, int end, int) {
+    pool.for_each_band(to.grey.height, kPyramidBands, [&](int begin, int end, int) {
       halve_rows(from.grey.values.data(), from.valid.values.data(), from.grey.width, from.grey.height, to,
                  begin, end);
     });

@@ -110,7 +110,9 @@ struct RowViews {
 // gain is drawn towards the whole face's where there is little texture to tell it from.
 RELIEVO_SIMD void residual_row(const Moments& m, const RowViews& s, int begin, int end, float level_scale,
                                float gain, float floor_variance, const RowTerms& out) {
+#ifndef __clang__
 #pragma GCC ivdep
+#endif
   for (int x = begin; x < end; ++x) {
     const float n = 1.0F / std::max(m.count[x], 1.0F);
     const float mean_left = m.left[x] * n;

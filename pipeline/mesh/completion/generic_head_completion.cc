@@ -176,7 +176,7 @@ Result<FaceMesh> GenericHeadCompletion::complete(FaceMesh mesh, const Vec3d& acr
   Globe globe(kGlobeTimes, &scratch);
   std::array<std::pmr::vector<double>, 2> fields{std::move(fitted.radius_mm), std::move(fitted.sigma_mm)};
   for (int k = 0; k < kFiner; ++k) globe.quarter(fields);
-  const auto& [radius, sigma] = fields;
+  const auto &radius = fields[0], &sigma = fields[1];  // clang 14's lambdas take no structured bindings
 
   const FaceMesh flat = laid_flat(mesh, frame->head_from_camera, scratch);
   FaceRelief own({-kPlaneMm, kPlaneMm, -kPlaneMm, kPlaneMm, kPlaneCellMm}, &scratch);
