@@ -3,7 +3,7 @@
 //
 // One hostile picture: the first bytes are its shape, the rest its content, in a block of exactly its size,
 // so that a sanitizer sees every byte read too many; what is written too much is seen in any build. Used by
-// tests/fuzz/raw_fuzz.cc and by the smoke test.
+// tests/fuzz/ and by the smoke test.
 #pragma once
 
 #include <algorithm>

@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: 2026 The Relievo authors
 // SPDX-License-Identifier: GPL-3.0-or-later
 //
-// A short, seeded run of what tests/fuzz/raw_fuzz.cc does for as long as one likes.
+// A short, seeded run of what `toolchain/fuzz 60 raw` does for as long as one likes.
 #include "tests/hal/raw/raw_fuzz.h"
 
 #include <gtest/gtest.h>

@@ -1,0 +1,78 @@
+// SPDX-FileCopyrightText: 2026 The Relievo authors
+// SPDX-License-Identifier: GPL-3.0-or-later
+// A store that somebody changed who has no key: the file and its log.
+#include "hal/base/assert.h"
+#include "storage/sqlite/sqlite_store.h"
+#include "tests/fuzz/fuzz_targets.h"
+#include "tests/storage/sample.h"
+#include "tests/support/temporary_folder.h"
+
+namespace relievo::test {
+namespace {
+
+using namespace storage;
+using storage::test::sample_model;
+
+const SqliteStoreOptions kNoReserve{.reserve_bytes = 0};
+
+struct GoodStore {
+  std::string file, log, key;
+  GoodStore() {
+    const TemporaryFolder folder;
+    const auto store = storage::test::opened(folder.path(), kNoReserve);
+    const auto model = sample_model(4);
+    RELIEVO_ASSERT(store->save_calibration(storage::test::sample_calibration(), "rig").has_value());
+    for (const char* name : {"Ada", "Bob"})
+      RELIEVO_ASSERT(
+          store->add_enrolment(NewSubject{name}, storage::test::sample_enrolment(model)).has_value());
+    RELIEVO_ASSERT(store->set_setting("language", "eo").has_value());
+    file = read_text(folder / "relievo.db");
+    log = read_text(folder / "relievo.db-wal");
+    key = read_text(folder / "relievo.key");
+  }
+};
+
+// Whatever it tells is true.
+bool tells_the_truth(Store& store) {
+  const bool sound = store.check().has_value();
+  if (const auto people = store.subjects({}))
+    for (const Subject& person : *people) RELIEVO_ASSERT(person.name == "Ada" || person.name == "Bob");
+  for (const int number : {1, 2}) {
+    const auto model = store.load_model(EnrolmentId{number}, std::pmr::new_delete_resource());
+    RELIEVO_ASSERT(!model || storage::test::identical(*model, sample_model(4)));
+    (void)store.enrolments(SubjectId{number}).has_value();
+    (void)store.calibration(static_cast<std::uint32_t>(number)).has_value();
+  }
+  const auto language = store.setting("language");
+  RELIEVO_ASSERT(!language || *language == "eo");
+  (void)store.calibrations().has_value();
+  (void)store.audit(0, 100).has_value();
+  return sound;
+}
+
+bool store(FuzzBytes input) {
+  static const GoodStore good;
+  static const TemporaryFolder folder;
+  static const storage::test::StillClock clock;
+  const std::string bytes = patched(good.file + good.log, input);
+  const std::size_t end = std::min(good.file.size(), bytes.size());
+  for (const char* left : {"relievo.db-shm", "relievo.erased", "relievo.key.next"})
+    std::filesystem::remove(folder / left);
+  write_text(folder / "relievo.db", bytes.substr(0, end));
+  write_text(folder / "relievo.db-wal", bytes.substr(end));
+  write_text(folder / "relievo.key", good.key);
+  std::filesystem::permissions(folder / "relievo.key",
+                               std::filesystem::perms::owner_read | std::filesystem::perms::owner_write);
+  const auto opened = open_sqlite_store(folder.path(), clock, kNoReserve);
+  if (!opened) return false;
+  const bool sound = tells_the_truth(**opened);
+  (void)(*opened)->add_subject({"Eva"}).has_value();
+  (void)(*opened)->erase_subject(SubjectId{1}).has_value();
+  return sound;
+}
+
+}  // namespace
+
+std::vector<FuzzTarget> store_targets() { return {{"store", store, {""}}}; }
+
+}  // namespace relievo::test
