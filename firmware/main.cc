@@ -20,6 +20,7 @@
 #include "firmware/demo/screenshots.h"
 #include "firmware/jobs/pool_size.h"
 #include "hal/linux/device.h"
+#include "hal/linux/headphone_jack.h"
 #include "hal/monotonic_clock.h"
 #include "hal/picture_file.h"
 #include "hal/sim/device.h"
@@ -27,6 +28,7 @@
 #include "hal/sim/replay/folder_media.h"
 #include "hal/sim/sheet/sheet_photo.h"
 #include "hal/sim/target/target_photo.h"
+#include "hal/sound/speaker.h"
 #include "pipeline/calibrate/file/calibration_file.h"
 #include "storage/sqlite/sqlite_store.h"
 #include "ui/platform/sdl_display.h"
@@ -236,6 +238,12 @@ Result<void> set_system_clock(std::chrono::system_clock::time_point time) {
   return {};
 }
 
+// A machine without a sound card is silent.
+std::unique_ptr<hal::Speaker> open_speaker() {
+  auto speaker = hal::open_sdl_speaker(hal::find_headphone_jack());
+  return speaker ? std::move(*speaker) : nullptr;
+}
+
 Result<void> plug_stick(hal::Device& device, const std::string& folder) {
   auto* const stick = dynamic_cast<hal::FolderMedia*>(&device.media());
   if (stick == nullptr)
@@ -269,6 +277,7 @@ int main(int argc, char** argv) {
       .hold_board = fw::hold_board,
       .simulated_calibration = fw::simulated_calibration,
       .open_display = relievo::ui::open_sdl_display,
+      .open_speaker = fw::open_speaker,
       .console = console,
       .clock = clock,
       .set_clock = fw::set_system_clock,

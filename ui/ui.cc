@@ -76,9 +76,44 @@ void Ui::feed(const Input& input, const ViewState& view) {
     case Input::Kind::Back:
       if (visit_.overlay == Overlay::None && service_.open) return service_.act({ActionKind::Back, 0}, view);
       return ask(visit_.act({ActionKind::Back, 0}, view));
+    case Input::Kind::Repeat:
+    case Input::Kind::Speech:
+    case Input::Kind::Quieter:
+    case Input::Kind::Louder:
+    case Input::Kind::Speed:
+      return hear(input.kind, view);
     case Input::Kind::Quit:
       return;
   }
+}
+
+// Who changes how they hear it hears it again: so the change can be judged.
+void Ui::hear(Input::Kind kind, const ViewState& view) {
+  if (kind == Input::Kind::Speech) ask(visit_.act({ActionKind::Speech, 0}, view));
+  if (kind == Input::Kind::Quieter) ask(visit_.act({ActionKind::Quieter, 0}, view));
+  if (kind == Input::Kind::Louder) ask(visit_.act({ActionKind::Louder, 0}, view));
+  if (kind == Input::Kind::Speed) ask(visit_.act({ActionKind::Speed, 0}, view));
+  narrator_.read_again();
+}
+
+const Utterance& Ui::speak(const ViewState& view, bool busy) {
+  const bool heard = is_heard(view);
+  const Listener to{Words(visit_.language), view.headphones};
+  if (heard != std::exchange(heard_, heard)) {
+    narrator_.forget();
+    if (heard && !service_.open)
+      narrator_.read_again(to.tr(
+          "These pages are now read to you. The arrow keys lead from one button to the next, Enter presses it. Help has volume and speed."));
+  }
+  if (!heard) return narrator_.nothing();
+  // Numbers of pages that no two have in common: the visitor's, the staff's.
+  const auto number = [](auto page, auto part) {
+    return static_cast<std::size_t>(page) * 256 + static_cast<std::size_t>(part);
+  };
+  const std::size_t over = static_cast<std::size_t>(visit_.overlay) << 32U;
+  const std::size_t page =
+      service_.open ? 65536 + number(service_.page, service_.mode) : number(visit_.step, 0);
+  return narrator_.follow(tree_, {over + page, focus(), view.now, busy}, to);
 }
 
 void Ui::down(const Input& input, const ViewState& view) {

@@ -14,6 +14,7 @@
 #include <memory>
 #include <optional>
 
+#include "ui/speech/narrator.h"
 #include "ui/text/text_engine.h"
 #include "ui/tree/tree.h"
 #include "ui/view/input.h"
@@ -42,6 +43,12 @@ class Ui {
   // The person has gone since the last call: pictures of them in other hands are to be wiped, too.
   bool take_forgotten();
 
+  // What is to be said of the newest frame; `busy`: something is being said. Empty: nothing new. The
+  // utterance holds until the next call.
+  const Utterance& speak(const ViewState& view, bool busy);
+  // Does anybody want to hear the pages? The staff's say names: they are for headphones alone.
+  bool is_heard(const ViewState& view) const { return visit_.spoken && (view.headphones || !service_.open); }
+
   const DrawList& draw_list() const { return list_; }
   TextEngine& text() { return *text_; }
   const Tree& tree() const { return tree_; }
@@ -64,6 +71,7 @@ class Ui {
   void draw(const ViewState& view);
   void follow_staff(const ViewState& view);
   void ask(std::optional<Intent> intent);
+  void hear(Input::Kind kind, const ViewState& view);
   void down(const Input& input, const ViewState& view);
   void move(const Input& input, const ViewState& view);
   void up(const Input& input, const ViewState& view);
@@ -82,6 +90,8 @@ class Ui {
   std::unique_ptr<TextEngine> text_;
   Visit visit_;
   Service service_;
+  Narrator narrator_;
+  bool heard_ = false;  // the last time it was asked what to say
   Tree tree_;
   Interaction hands_;
   DrawList list_;

@@ -138,6 +138,16 @@ void add_decision(Gallery& g, const ui::ViewState& review, const ui::ViewState& 
   g.add("thanks", done, g.at(Step::Thanks));
 }
 
+// Where pages can be read aloud.
+void add_heard(Gallery& g, const ui::ViewState& idle) {
+  ui::ViewState heard = idle;
+  heard.voices.set();
+  ui::Visit help = g.at(Step::Consent, Overlay::Help);
+  help.spoken = true;
+  g.add("attract_heard", heard, g.at(Step::Attract));
+  g.add("help_heard", heard, help);
+}
+
 // What lies over a page.
 void add_overlays(Gallery& g, const ui::ViewState& review, const ui::ViewState& idle) {
   g.add("help", idle, g.at(Step::Consent, Overlay::Help));
@@ -173,6 +183,7 @@ std::vector<Exhibit> gallery(const ui::ViewState& review, ui::Language language,
   add_capture(g);
   add_decision(g, review, idle);
   add_overlays(g, review, idle);
+  add_heard(g, idle);
   add_troubles(g, idle);
   add_staff_exhibits(g.exhibits, idle, g.at(Step::Attract));
   add_technician_exhibits(g.exhibits, review, idle, g.at(Step::Attract));

@@ -95,6 +95,7 @@ Result<void> Kiosk::prepare(const KioskArgs& args, Services& services) {
   if (args.device == "sim" && services.turn_head)
     turn_head_ = [this, turn = services.turn_head](double yaw_deg) { turn(*device_, yaw_deg); };
   RELIEVO_TRY(set_up_measuring(args, services));
+  open_speaker_ = services.open_speaker;
   memory_ = std::make_unique<BootMemory>();
   pool_ = std::make_unique<ThreadPool>(pool_size());
   if (auto piece = InvitationHead::read(asset_folder())) invitation_head_ = std::move(*piece);
@@ -190,6 +191,7 @@ void Kiosk::look() {
   view_.out_of_order = out_of_order();
   if (invitation_head_) view_.invitation_head = &invitation_head_->model();
   view_.service = &staff_->view();
+  if (voice_) voice_->look(view_);
 }
 
 void Kiosk::feed(const ui::Input& input) {
@@ -243,7 +245,15 @@ void Kiosk::turn_simulated_head() {
   if (to_deg != turned_to_deg_) turn_head_(turned_to_deg_ = to_deg);
 }
 
+// Who is spoken to is there, whatever the clocks of visit and machine say.
+void Kiosk::speak() {
+  if (!voice_->turn(*ui_, view_) || ui_->visit().overlay == ui::Overlay::StillThere) return;
+  ui_->visit().listens(view_.now);
+  appliance_->ask(ui::Intent::StillHere);
+}
+
 void Kiosk::turn() {
+  if (!voice_) voice_ = std::make_unique<Voice>(open_speaker_ ? open_speaker_() : nullptr);
   appliance_->step(std::chrono::milliseconds(0));
   // Nobody uses cameras that are not the calibrated ones: that those are back must be noticed all the same.
   if (!exchanged_.empty() && appliance_->state() == State::Idle && camera_look_->due(view_.now))
@@ -278,6 +288,7 @@ void Kiosk::turn() {
     look();
     ui_->frame(view_);
   }
+  speak();
   told_ = told_ || ui_->visit().step == ui::Step::Trouble;
   if (ui_->take_forgotten()) {
     appliance_->forget_kept();

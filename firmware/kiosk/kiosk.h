@@ -22,6 +22,7 @@
 #include "firmware/kiosk/moved_faces.h"
 #include "firmware/kiosk/run_mark.h"
 #include "firmware/kiosk/stored_visits.h"
+#include "firmware/kiosk/voice.h"
 #include "firmware/services/services.h"
 #include "firmware/staff/staff_controller.h"
 #include "firmware/work/camera_look.h"
@@ -61,6 +62,7 @@ class Kiosk {
   std::unique_ptr<TestCapture> make_test_capture(const KioskArgs& args, Services& services);
   ui::Trouble out_of_order() const;
   void turn_simulated_head();
+  void speak();
   VisitRecord record_of(const ui::VisitRequest& request) const;
   void look();
   void ask(ui::Intent intent);
@@ -75,6 +77,8 @@ class Kiosk {
   std::unique_ptr<LiveJudge> judge_;
   std::unique_ptr<InvitationHead> invitation_head_;
   std::unique_ptr<ui::Ui> ui_;
+  std::function<std::unique_ptr<hal::Speaker>()> open_speaker_;  // until the first turn: behind the display
+  std::unique_ptr<Voice> voice_;
   std::uint32_t revision_ = 0;
   std::bitset<ui::kLanguages> languages_;
   WipedText claimed_, quoted_;  // a name that is asked about, a code that is quoted

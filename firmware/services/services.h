@@ -15,6 +15,7 @@
 #include "firmware/checks/optical_target.h"
 #include "hal/clock.h"
 #include "hal/device.h"
+#include "hal/speaker.h"
 #include "storage/store.h"
 #include "storage/store_keeping.h"
 #include "ui/display.h"
@@ -41,6 +42,8 @@ struct Services {
   std::function<Result<pipeline::StereoCalibration>()> simulated_calibration{};
   // Window, device, or nothing to be seen: as the environment says. Errors: LibraryFailed.
   std::function<Result<std::unique_ptr<ui::Display>>(const ui::DisplayOptions&)> open_display{};
+  // Where texts and sounds are heard; may be empty, or give none: then nothing is.
+  std::function<std::unique_ptr<hal::Speaker>()> open_speaker{};
   Console& console;
   const hal::Clock& clock;
   // Sets the system's clock; may be empty. Errors: Unsupported (it may not).

@@ -100,6 +100,18 @@ TEST_F(SdlDisplayTest, AKeypadIsEnough) {
   EXPECT_FALSE(display->poll());
 }
 
+TEST_F(SdlDisplayTest, WhatIsHeardHasKeys) {
+  for (const SDL_Keycode key : {SDLK_F1, SDLK_F2, SDLK_KP_0, SDLK_VOLUMEDOWN, SDLK_KP_MINUS, SDLK_VOLUMEUP,
+                                SDLK_KP_PLUS, SDLK_F3, SDLK_KP_MULTIPLY})
+    push_key(key);
+  using enum Input::Kind;
+  for (const Input::Kind kind : {Speech, Repeat, Repeat, Quieter, Quieter, Louder, Louder, Speed, Speed}) {
+    const auto input = display->poll();
+    ASSERT_TRUE(input.has_value());
+    EXPECT_EQ(input->kind, kind);
+  }
+}
+
 TEST_F(SdlDisplayTest, AMouseThatOnlyPassesIsNoFinger) {
   SDL_Event event{};
   event.type = SDL_MOUSEMOTION;

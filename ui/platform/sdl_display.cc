@@ -17,7 +17,7 @@ class SdlDisplay final : public Display {
   ~SdlDisplay() override {
     if (context_ != nullptr) SDL_GL_DeleteContext(context_);
     if (window_ != nullptr) SDL_DestroyWindow(window_);
-    SDL_Quit();
+    SDL_QuitSubSystem(SDL_INIT_VIDEO);  // a speaker may go on
   }
 
   Result<void> open(const DisplayOptions& options) {
@@ -115,6 +115,20 @@ class SdlDisplay final : public Display {
       case SDLK_SPACE:
         if (key.repeat != 0) return std::nullopt;  // a key that is kept down is one press
         return Input{Input::Kind::Activate};
+      case SDLK_F1:
+        return Input{Input::Kind::Speech};
+      case SDLK_F2:
+      case SDLK_KP_0:
+        return Input{Input::Kind::Repeat};
+      case SDLK_VOLUMEDOWN:
+      case SDLK_KP_MINUS:
+        return Input{Input::Kind::Quieter};
+      case SDLK_VOLUMEUP:
+      case SDLK_KP_PLUS:
+        return Input{Input::Kind::Louder};
+      case SDLK_F3:
+      case SDLK_KP_MULTIPLY:
+        return Input{Input::Kind::Speed};
       case SDLK_ESCAPE:
       case SDLK_AC_BACK:
         return Input{Input::Kind::Back};

@@ -49,7 +49,7 @@ const Utterance& Narrator::follow(const Tree& tree, const Moment& moment, const 
   const std::size_t page = print_of_page(tree, moment, to);
   if (std::exchange(page_, page) != page || again_) {
     read_page(tree, moment, to);
-  } else if (!follow_focus(tree, moment.focus, to) && !follow_typing(tree, to)) {
+  } else if (!follow_focus(tree, moment.focus, to, false) && !follow_typing(tree, to)) {
     follow_statuses(tree, moment, to, false);
   }
   return said_;
@@ -65,10 +65,10 @@ void Narrator::read_page(const Tree& tree, const Moment& moment, const Listener&
   const Node* field = field_of(tree);
   typed_ = field != nullptr ? print_of(field->value) : 0;
   typed_bytes_ = field != nullptr ? field->value.size() : 0;
-  focus_ = print_of({});
+  (void)follow_focus(tree, moment.focus, to, true);
 }
 
-bool Narrator::follow_focus(const Tree& tree, std::string_view focus, const Listener& to) {
+bool Narrator::follow_focus(const Tree& tree, std::string_view focus, const Listener& to, bool was_there) {
   const Node* node = focus.empty() ? nullptr : tree.find(focus);
   scratch_.clear();
   if (node != nullptr) say_focus(tree, *node, to, scratch_);
@@ -76,7 +76,7 @@ bool Narrator::follow_focus(const Tree& tree, std::string_view focus, const List
   const bool same = focus_ == id && (node == nullptr || focused_ == words);
   focus_ = id;
   focused_ = words;
-  if (same || node == nullptr) return false;
+  if (same || was_there || node == nullptr) return false;
   if (node->role == Role::Button && !node->text.empty()) said_.language = node->style.language;
   said_.say(scratch_.text());
   scratch_.clear();

@@ -27,7 +27,7 @@ inline constexpr std::chrono::milliseconds kSettled{350};  // an advice that is 
 class Narrator {
  public:
   struct Moment {
-    std::size_t page = 0;    // another number for every page and what lies over it
+    std::size_t page = 0;      // another number for every page and what lies over it
     std::string_view focus{};  // id; empty: none
     hal::Instant now{};
     bool busy = false;  // something is being said
@@ -37,6 +37,10 @@ class Narrator {
   // The page is read again, with an introduction before it if there is one.
   void read_again(std::string_view introduction = {});
   void forget();
+  const Utterance& nothing() {
+    said_.clear();
+    return said_;
+  }
 
  private:
   struct Told {
@@ -45,7 +49,7 @@ class Narrator {
   };
   static constexpr std::size_t kStatuses = 32;
   void read_page(const Tree& tree, const Moment& moment, const Listener& to);
-  bool follow_focus(const Tree& tree, std::string_view focus, const Listener& to);
+  bool follow_focus(const Tree& tree, std::string_view focus, const Listener& to, bool was_there);
   bool follow_typing(const Tree& tree, const Listener& to);
   void follow_statuses(const Tree& tree, const Moment& moment, const Listener& to, bool said_all);
   Told* told_of(std::size_t id);

@@ -51,8 +51,9 @@ void Utterance::add(std::string_view letters) {
 }
 
 void Utterance::say(std::string_view words) {
-  if (words.empty()) return;
+  if (words.empty() || text().substr(last_) == words) return;
   if (!empty()) add(ends_a_sentence(text()) ? " " : ". ");
+  last_ = size_;
   for (std::size_t at = 0; at < words.size();) {
     const std::string_view letter = words.substr(at, length_of_letter(words[at]));
     add(as_spoken(letter));

@@ -28,9 +28,10 @@ class Utterance {
 
   void clear() {
     explicit_bzero(text_.data(), size_);
-    size_ = 0;
+    size_ = last_ = 0;
   }
-  void say(std::string_view words);  // as a sentence of its own, where there are any
+  // As a sentence of its own, where there are any; not the same one twice.
+  void say(std::string_view words);
   std::string_view text() const { return {text_.data(), size_}; }
   bool empty() const { return size_ == 0; }
   std::string_view language;  // BCP 47
@@ -39,7 +40,7 @@ class Utterance {
   void add(std::string_view letters);
   static constexpr std::size_t kMost = 24 * 1024;  // an operator's consent text has 20,000 bytes
   std::array<char, kMost> text_{};
-  std::size_t size_ = 0;
+  std::size_t size_ = 0, last_ = 0;  // last_: where the last sentence begins
 };
 
 struct Listener {

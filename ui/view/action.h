@@ -27,6 +27,10 @@ enum class ActionKind : std::uint8_t {
   CloseOverlay,
   BiggerText,
   Contrast,
+  Speech,
+  Quieter,
+  Louder,
+  Speed,  // what is heard (ui/speech/)
   TypeKey,
   Erase,
   Shift,

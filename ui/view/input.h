@@ -19,7 +19,12 @@ struct Input {
     Previous,  // the keypad: focus goes on, or back
     Activate,
     Back,  // what has the focus is done; one step back
-    Quit   // the window is closed
+    Speech,
+    Repeat,
+    Quieter,
+    Louder,
+    Speed,  // what is heard: on or off, the page once more, its volume and speed
+    Quit    // the window is closed
   };
   Kind kind = Kind::Down;
   std::int64_t finger = 0;

@@ -117,6 +117,8 @@ struct ViewState {
   std::uint32_t model_number = 0;                        // another for every model
   const pipeline::FaceModel* invitation_head = nullptr;  // a simulated head for the page that invites
   std::bitset<kLanguages> languages = std::bitset<kLanguages>().set();  // that a visitor may choose
+  std::bitset<kLanguages> voices;                                       // that have a voice here
+  bool headphones = false;                // are plugged: what is said is heard by one person alone
   Language home = Language::English;      // the one a visit begins in; one of them
   Settings settings;                      // the staff's
   const ServiceView* service = nullptr;   // for the staff's pages; none: there are none

@@ -113,6 +113,12 @@ std::optional<Intent> Visit::act(Action action, const ViewState& view) {
     case ActionKind::Contrast:
       act_on_page(action, view);
       break;
+    case ActionKind::Speech:
+    case ActionKind::Quieter:
+    case ActionKind::Louder:
+    case ActionKind::Speed:
+      hear(action.kind);
+      break;
     case ActionKind::LeaveNow:
       return leave_now(view);
     case ActionKind::Back:
@@ -176,7 +182,7 @@ void Visit::act_on_page(Action action, const ViewState& view) {
   else if (action.kind == ActionKind::ShowHelp) overlay = Overlay::Help;
   else if (action.kind == ActionKind::Leave) overlay = Overlay::Leave;
   else overlay = Overlay::None;
-  if (action.kind == ActionKind::ChooseLanguage && view.languages[static_cast<std::size_t>(action.value)])
+  if (action.kind == ActionKind::ChooseLanguage && offered(view)[static_cast<std::size_t>(action.value)])
     language = static_cast<Language>(action.value);
 }
 
@@ -245,11 +251,15 @@ std::optional<Intent> Visit::follow_look_up(const ViewState& view) {
   return std::nullopt;
 }
 
-// A language the operator's text does not exist in cannot be chosen.
+// A language the operator's text does not exist in, or who listens cannot hear, cannot be chosen.
 void Visit::follow_language(const ViewState& view) {
   if (home_ != view.home && (step == Step::Attract || step == Step::Starting)) language = view.home;
   home_ = view.home;
-  if (!view.languages[static_cast<std::size_t>(language)]) language = home_;
+  const auto languages = offered(view);
+  if (languages[static_cast<std::size_t>(language)]) return;
+  language = home_;
+  for (std::size_t i = 0; i < kLanguages && !languages[static_cast<std::size_t>(language)]; ++i)
+    language = static_cast<Language>(i);
 }
 
 bool Visit::person_expected() const {
@@ -258,6 +268,7 @@ bool Visit::person_expected() const {
 }
 
 std::optional<Intent> Visit::follow(const ViewState& view) {
+  follow_headphones(view);
   follow_language(view);
   follow_settings(view);
   const bool new_screen = view.screen != last_screen_;

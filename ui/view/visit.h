@@ -52,6 +52,9 @@ inline constexpr std::size_t kMostNameBytes = 128;
 inline constexpr const char* kConsentWording = "sample-2";  // where the operator has no text of their own
 inline constexpr int kMostLookUps = 5;                      // a visit; then nobody is told anything any more
 inline constexpr std::array<int, 3> kTextPercents{100, 125, 150};
+inline constexpr std::array<int, 5> kVolumePercents{20, 35, 50, 70, 100};
+inline constexpr std::array<int, 4> kSpeedPercents{75, 100, 135, 180};
+inline constexpr std::size_t kUsualVolume = 2, kUsualSpeed = 1;
 
 class Visit {
  public:
@@ -60,6 +63,8 @@ class Visit {
   Language language = Language::English;
   std::size_t text_size = 0;  // index into kTextPercents
   bool high_contrast = false;
+  bool spoken = false;  // the pages are read aloud: by the plug of headphones, or asked for
+  std::size_t volume = kUsualVolume, speed = kUsualSpeed;  // indices into kVolumePercents, kSpeedPercents
   bool capitals = true;
   bool accents = false;  // the keyboard shows á, ß, ø ...
   FaceLook look;
@@ -77,8 +82,17 @@ class Visit {
   std::optional<float> countdown(const LiveView& live) const;
   float countdown_s() const { return static_cast<float>(settings_.of(Setting::CountdownMs)) / 1000; }
 
+  // The languages to choose from: to who listens, those that can be heard.
+  std::bitset<kLanguages> offered(const ViewState& view) const {
+    return spoken ? view.languages & view.voices : view.languages;
+  }
+
   // A finger or key somewhere: the person is there.
   void touched(hal::Instant now);
+  // Something is being said to them: they cannot answer yet.
+  void listens(hal::Instant now) {
+    if (overlay != Overlay::StillThere) last_touch_ = now;
+  }
   // What is to be asked of the appliance, if anything.
   std::optional<Intent> act(Action action, const ViewState& view);
   // Follows the machine, and the time.
@@ -101,6 +115,8 @@ class Visit {
   std::optional<Intent> follow_look_up(const ViewState& view);
   std::optional<Intent> act_on_record(ActionKind kind);
   void follow_language(const ViewState& view);
+  void follow_headphones(const ViewState& view);
+  void hear(ActionKind kind);
   void follow_settings(const ViewState& view);
   void look_as_set();
   bool looks_as_set() const;
@@ -114,6 +130,8 @@ class Visit {
   hal::Instant entered_{};
   Screen last_screen_ = Screen::SelfTest;
   Language home_ = Language::English;
+  bool headphones_ = false;  // and a voice to be heard in them
+  bool voices_ = false;
   Settings settings_;  // as the last view had them
   EnrolmentKind enrolment_kind_ = EnrolmentKind::NewSubject;
   bool quotes_code_ = false;

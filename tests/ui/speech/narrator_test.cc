@@ -132,6 +132,11 @@ TEST_F(NarratorTest, FollowsTheFocusAndWhatItChanges) {
   moment.focus = "de";
   make();
   EXPECT_EQ(narrator.follow(tree, moment, to).language, "de") << "a language speaks for itself";
+  moment.focus = "go";
+  hear();
+  narrator.read_again();
+  EXPECT_EQ(hear(), "Stand here. Too far. Your name");
+  EXPECT_EQ(hear(), "") << "the focus, which stayed, does not cut it short";
   moment.focus = {};
   EXPECT_EQ(hear(), "");
 }

@@ -31,13 +31,14 @@ void language_key(Page& page, Language language) {
 
 // Rows of even length; each language keeps its place whichever is chosen.
 void language_grid(Page& page, std::size_t columns) {
-  const std::size_t count = page.view.languages.count();
+  const auto languages = page.visit.offered(page.view);
+  const std::size_t count = languages.count();
   const std::size_t rows = (count + columns - 1) / columns;
   const std::size_t abreast = (count + rows - 1) / rows;
   page.tree.open(page.box(Flow::Column, space::kS));
   std::size_t shown = 0;
   for (std::size_t i = 0; i < kLanguages; ++i) {
-    if (!page.view.languages[i]) continue;
+    if (!languages[i]) continue;
     if (shown % abreast == 0) page.tree.open(page.box(Flow::Row, space::kS));
     language_key(page, static_cast<Language>(i));
     if (++shown % abreast == 0) page.tree.close();

@@ -3,6 +3,7 @@
 //
 // What lies over a page: help, languages, "really leave?", "still there?". Nothing under it is touched.
 #include <cstdio>
+#include <string>
 
 #include "ui/screens/parts/overlay.h"
 
@@ -76,6 +77,19 @@ void answers(Page& page, const char* quiet, Action quiet_action, const char* mai
   page.tree.close();
 }
 
+// For who listens: volume and speed, which all keypads reach.
+void hearing(Page& page) {
+  const auto percent = [&](int value) { return page.filled("{} %", std::to_string(value)); };
+  const std::string_view volume = percent(kVolumePercents[page.visit.volume]);
+  Node row = page.box(Flow::Row, space::kS);
+  page.tree.open(row);
+  page.square_button("quieter", page.tr("Quieter"), icon::kQuieter, {ActionKind::Quieter, 0}, volume);
+  page.square_button("louder", page.tr("Louder"), icon::kSpeaker, {ActionKind::Louder, 0}, volume);
+  page.square_button("speed", page.tr("Speed of speech"), icon::kSpeed, {ActionKind::Speed, 0},
+                     percent(kSpeedPercents[page.visit.speed]));
+  page.tree.close();
+}
+
 // Large letters may need more than the screen: then the words can be scrolled.
 void help(Page& page) {
   page.heading("overlay_title", page.tr("Help"));
@@ -91,6 +105,7 @@ void help(Page& page) {
       "overlay_staff",
       page.tr("If you would rather not use this screen, ask the staff: they can do every step for you."));
   page.tree.close();
+  if (page.visit.spoken) hearing(page);
   page.button("close", page.tr("Go on"), icon::kCheck, ButtonLook::Main, {ActionKind::CloseOverlay, 0});
 }
 

@@ -19,6 +19,9 @@ void tools(Page& page) {
   Node row = page.box(Flow::Row, space::kS);
   row.box.justify = Justify::End;
   page.tree.open(row);
+  if ((page.view.languages & page.view.voices).any())
+    page.square_button("speech", page.tr("Read aloud"), icon::kSpeaker, {ActionKind::Speech, 0},
+                       page.visit.spoken ? page.tr("yes") : page.tr("no"));
   page.bigger_text();
   page.more_contrast();
   page.square_button("help", page.tr("Help"), icon::kHelp, {ActionKind::ShowHelp, 0});
@@ -28,7 +31,7 @@ void tools(Page& page) {
 // All languages are to be seen, each in its own letters; where large letters leave no room, behind one
 // button.
 void languages(Page& page) {
-  const std::size_t count = page.view.languages.count();
+  const std::size_t count = page.visit.offered(page.view).count();
   if (count < 2) return;
   if (page.portrait || page.text_share < 1.2F || count <= 4) return language_grid(page, 4);
   page.button("language", page.tr("Language"), icon::kTranslate, ButtonLook::Quiet,
