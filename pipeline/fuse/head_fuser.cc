@@ -7,6 +7,7 @@
 #include <limits>
 #include <numeric>
 
+#include "pipeline/fuse/head_zones.h"
 #include "pipeline/fuse/rim.h"
 #include "pipeline/fuse/skin_bender.h"
 #include "pipeline/mesh/mesher.h"
@@ -25,59 +26,21 @@ constexpr float kSameWay = 0.3F;     // cosine: a surface that faces elsewhere i
 constexpr float kReachMm = 1.2F;     // of a pose's surface from a vertex that is placed on it
 constexpr float kLeastSigmaMm = 0.005F;
 constexpr float kFullTrust = 0.95F;
-constexpr float kLeastTrust = 0.005F;          // of a point that counts at all
-constexpr int kRimEdges = 8, kRimRounds = 20;  // what is opened, how often rims are straightened ...
-constexpr float kSureMm = 0.15F;               // skin; hair that was half seen through is less certain
-constexpr float kRimMoveMm = 0.7F;             // ... and by how much at most
-constexpr HoleLimits kHoles{400, 25};
+constexpr float kLeastTrust = 0.005F;  // of a point that counts at all
+constexpr int kTuftEdges = 16;
+constexpr int kRimEdges = 8, kRimRounds = 20;        // what is opened, how often rims are straightened ...
+constexpr float kSureMm = 0.15F;                     // skin; hair that was half seen through is less certain
+constexpr float kRimMoveMm = 0.7F;                   // ... and by how much at most
+constexpr float kHoleRimMm = 400, kBayMouthMm = 25;  // of holes and bays that are closed
 constexpr int kBands = 32;
-// What belongs to a head, in its frame: shoulders and background do not.
-constexpr double kHighestMm = 190, kFurthestMm = -215, kWidestMm = 120;
-constexpr double kChinMm = -85, kNeckAxisMm = -95, kNeckRadiusMm = 75;
-
-// Eyes move and close, and what lies between the lids is measured badly: there the master's own face stands.
-class EyeZone {
- public:
-  EyeZone(const Landmarks& landmarks, const RigidTransform& head_from_camera)
-      : head_from_camera_(head_from_camera) {
-    using enum LandmarkName;
-    add(of(landmarks, EndocanthionLeft), of(landmarks, ExocanthionLeft));
-    add(of(landmarks, EndocanthionRight), of(landmarks, ExocanthionRight));
-  }
-  bool holds(const Vec3f& place) const {
-    const Vec3d p = apply(head_from_camera_, wide(place));
-    constexpr double kBehindMm = -90;
-    return p.z > kBehindMm && std::any_of(eyes_.begin(), eyes_.begin() + count_, [&](const Eye& e) {
-             return std::hypot((p.x - e.middle.x) / e.half_width, (p.y - e.middle.y) / e.half_height) < 1;
-           });
-  }
-
- private:
-  struct Eye {
-    Vec3d middle;
-    double half_width, half_height;
-  };
-  void add(const Landmark& inner, const Landmark& outer) {
-    if (!inner.found || !outer.found) return;
-    const Vec3d a = apply(head_from_camera_, wide(inner.at_mm)),
-                b = apply(head_from_camera_, wide(outer.at_mm));
-    constexpr double kWider = 1.2, kHigher = 0.75;  // than half the distance of the corners
-    const double half = distance(a, b) / 2;
-    eyes_[static_cast<std::size_t>(count_++)] = {times(plus(a, b), 0.5), kWider * half, kHigher * half};
-  }
-  RigidTransform head_from_camera_;
-  std::array<Eye, 2> eyes_{};
-  int count_ = 0;
-};
 
 class Fusion {
  public:
-  Fusion(std::span<const PoseSurface> poses, const Registration& registration,
-         const HeadFuserOptions& options, const EyeZone& eyes, StageContext& context)
+  Fusion(std::span<const PoseSurface> poses, const Registration& registration, const HeadZones& zones,
+         StageContext& context)
       : poses_(poses),
         registration_(registration),
-        options_(options),
-        eyes_(eyes),
+        zones_(zones),
         context_(context),
         back_(&context.scratch) {
     for (const RegisteredPose& p : registration.poses) back_.push_back(inverse(p.first_from_pose));
@@ -94,11 +57,11 @@ class Fusion {
     return hit;
   }
 
-  bool on_head(const Vec3f& place) const {
-    const Vec3d p = apply(poses_[0].head_from_camera, wide(place));
-    if (p.y < -options_.neck_mm || p.y > kHighestMm || p.z < kFurthestMm || std::abs(p.x) > kWidestMm)
-      return false;
-    return p.y > kChinMm || std::hypot(p.x, p.z - kNeckAxisMm) < kNeckRadiusMm;
+  bool is_seen_near(const Vec3f& place) const {
+    constexpr float kNearMm = 15;
+    for (std::size_t k = 0; k < poses_.size(); ++k)
+      if (const auto hit = look(k, place); hit && distance(hit->at_mm, place) < kNearMm) return true;
+    return false;
   }
 
   // The points that count, of all poses.
@@ -116,7 +79,7 @@ class Fusion {
         for (auto i = static_cast<std::size_t>(from); i < static_cast<std::size_t>(to); ++i) {
           if (pose.trust[i] < kLeastTrust) continue;
           const Vec3f at = narrow(apply(placed, wide(pose.at_mm[i])));
-          if (!on_head(at) || eyes_.holds(at)) continue;
+          if (!zones_.is_head(at) || zones_.is_eye(at)) continue;
           const Vec3f normal = narrow(apply(placed.rotation, wide(pose.normal[i])));
           if (!overruled(k, at, normal, pose.sigma_mm[i], pose.trust[i]))
             all[first + i] = {at, normal, pose.trust[i] / squared(std::max(pose.sigma_mm[i], kLeastSigmaMm))};
@@ -136,7 +99,7 @@ class Fusion {
     std::uint8_t pose;
   };
   std::optional<Placed> settle(Vec3f at, const Vec3f& normal) const {
-    if (eyes_.holds(at)) return std::nullopt;
+    if (zones_.is_eye(at)) return std::nullopt;
     std::optional<Placed> placed;
     for (int round = 0; round < 2; ++round) {
       const auto moved = step(at, normal);
@@ -234,8 +197,7 @@ class Fusion {
 
   std::span<const PoseSurface> poses_;
   const Registration& registration_;
-  const HeadFuserOptions& options_;
-  const EyeZone& eyes_;
+  const HeadZones& zones_;
   StageContext& context_;
   std::pmr::vector<RigidTransform> back_;
 };
@@ -306,16 +268,17 @@ Result<FaceMesh> HeadFuser::fuse(std::span<PoseSurface> poses, const Registratio
   bend_to_master(poses, registration, {options_.most_bend_mm, options_.bend_width_mm, options_.still_mm},
                  context);
   if (context.stop()) return stopped;
-  const EyeZone eyes(landmarks, poses[0].head_from_camera);
-  const Fusion fusion(poses, registration, options_, eyes, context);
+  const HeadZones zones(landmarks, poses[0].head_from_camera, options_.neck_mm);
+  const Fusion fusion(poses, registration, zones, context);
   std::pmr::vector<FieldPoint> points = fusion.choose();
   if (points.empty()) return no_surface();
-  // The master's eyes. What its mesher completed is not taken over: the sides have seen it, or the holes are
-  // closed in the end.
+  // The master's eyes, and what its mesher completed: about nose and mouth for where no pose measured,
+  // further out where none shows anything near, for there the sides know better.
   std::pmr::vector<std::uint32_t> own(&context.scratch);
   for (std::uint32_t v = 0; v < face.vertices_mm.size(); ++v) {
     const Vec3f& at = face.vertices_mm[v];
-    if (!eyes.holds(at)) continue;
+    const bool completed = face.measured[v] == 0 && (zones.is_middle(at) || !fusion.is_seen_near(at));
+    if (!completed && !zones.is_eye(at)) continue;
     points.push_back({at, face.normals[v], kCompletedShare});
     own.push_back(v);
   }
@@ -360,7 +323,18 @@ Result<FaceMesh> HeadFuser::fuse(std::span<PoseSurface> poses, const Registratio
   });
   std::pmr::vector<std::uint8_t> sure(&context.scratch);
   for (const Vertex& v : vertices) sure.push_back(v.measured != 0 && v.sigma_mm <= kSureMm ? 1 : 0);
+  // What closes a hole was not measured: nor is its rim, or its triangles would seem to be.
+  const auto close = [&](std::span<const BorderEdge> border, float mouth_mm) {
+    for (const std::uint32_t v :
+         close_holes(surface.vertices_mm, normals, border, {kHoleRimMm, mouth_mm}, surface.triangles))
+      vertices[v].measured = 0;
+  };
   open_rims(sure, surface.triangles, kRimEdges, &context.scratch);
+  keep_one_surface(surface.vertices_mm, surface.triangles, {}, &context.scratch);
+  close(border_edges(surface.triangles, &context.scratch), 0);
+  // Once only the outline is left: tufts of hair, however sure, but no ears.
+  for (std::size_t v = 0; v < sure.size(); ++v) sure[v] = sure[v] && zones.is_ear(surface.vertices_mm[v]);
+  open_rims(sure, surface.triangles, kTuftEdges, &context.scratch);
   keep_one_surface(surface.vertices_mm, surface.triangles, {}, &context.scratch);
   if (surface.triangles.empty()) return no_surface();
 
@@ -368,9 +342,7 @@ Result<FaceMesh> HeadFuser::fuse(std::span<PoseSurface> poses, const Registratio
   smooth_rims(surface.vertices_mm, border, kRimRounds, kRimMoveMm, &context.scratch);
   for (const BorderEdge& e : border) settle(e[0], unit(normals[e[0]]));
   part_equals(surface.vertices_mm, started, &context.scratch);
-  // What closes a hole was not measured: nor is its rim, or its triangles would seem to be.
-  for (const std::uint32_t v : close_holes(surface.vertices_mm, normals, border, kHoles, surface.triangles))
-    vertices[v].measured = 0;
+  close(border, kBayMouthMm);
 
   std::pmr::vector<std::uint8_t> pose(&context.output);
   pose.reserve(vertices.size());

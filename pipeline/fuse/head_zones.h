@@ -1,0 +1,72 @@
+// SPDX-FileCopyrightText: 2026 The Relievo authors
+// SPDX-License-Identifier: GPL-3.0-or-later
+//
+// What lies where on a head, for places in the master camera's frame, millimetres. Thread: any.
+#pragma once
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+
+#include "pipeline/model/landmarks.h"
+#include "pipeline/model/vector3.h"
+
+namespace relievo::pipeline {
+
+class HeadZones {
+ public:
+  // The neck is cut `neck_mm` below the tip of the nose.
+  HeadZones(const Landmarks& landmarks, const RigidTransform& head_from_camera, double neck_mm)
+      : head_from_camera_(head_from_camera), neck_mm_(neck_mm) {
+    using enum LandmarkName;
+    add_eye(of(landmarks, EndocanthionLeft), of(landmarks, ExocanthionLeft));
+    add_eye(of(landmarks, EndocanthionRight), of(landmarks, ExocanthionRight));
+  }
+
+  // Shoulders and background are not.
+  bool is_head(const Vec3f& place) const {
+    constexpr double kHighestMm = 190, kFurthestMm = -215, kWidestMm = 120;
+    constexpr double kChinMm = -85, kNeckAxisMm = -95, kNeckRadiusMm = 75;
+    const Vec3d p = in_head(place);
+    if (p.y < -neck_mm_ || p.y > kHighestMm || p.z < kFurthestMm || std::abs(p.x) > kWidestMm) return false;
+    return p.y > kChinMm || std::hypot(p.x, p.z - kNeckAxisMm) < kNeckRadiusMm;
+  }
+  // Eyes move and close, and what lies between the lids is measured badly.
+  bool is_eye(const Vec3f& place) const {
+    constexpr double kBehindMm = -90;
+    const Vec3d p = in_head(place);
+    return p.z > kBehindMm && std::any_of(eyes_.begin(), eyes_.begin() + count_, [&](const Eye& e) {
+             return std::hypot((p.x - e.middle.x) / e.half_width, (p.y - e.middle.y) / e.half_height) < 1;
+           });
+  }
+  // Nose and mouth.
+  bool is_middle(const Vec3f& place) const {
+    const Vec3d p = in_head(place);
+    return std::abs(p.x) < 40 && p.y > -52 && p.y < 40;
+  }
+  bool is_ear(const Vec3f& place) const {
+    const Vec3d p = in_head(place);
+    return std::abs(p.x) > 50 && std::abs(p.y) < 45 && p.z < -60;
+  }
+
+ private:
+  struct Eye {
+    Vec3d middle;
+    double half_width, half_height;
+  };
+  Vec3d in_head(const Vec3f& place) const { return apply(head_from_camera_, wide(place)); }
+  void add_eye(const Landmark& inner, const Landmark& outer) {
+    if (!inner.found || !outer.found) return;
+    constexpr double kWider = 1.2, kHigher = 0.75;  // than half the distance of the corners
+    const Vec3d a = in_head(inner.at_mm), b = in_head(outer.at_mm);
+    const double half = distance(a, b) / 2;
+    eyes_[static_cast<std::size_t>(count_++)] = {times(plus(a, b), 0.5), kWider * half, kHigher * half};
+  }
+
+  RigidTransform head_from_camera_;
+  double neck_mm_;
+  std::array<Eye, 2> eyes_{};
+  int count_ = 0;
+};
+
+}  // namespace relievo::pipeline
