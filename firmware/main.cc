@@ -18,7 +18,7 @@
 #include "firmware/command/commands.h"
 #include "firmware/demo/hand_pairs.h"
 #include "firmware/demo/screenshots.h"
-#include "firmware/jobs/pool_size.h"
+#include "firmware/jobs/job_thread.h"
 #include "hal/linux/device.h"
 #include "hal/linux/headphone_jack.h"
 #include "hal/monotonic_clock.h"

@@ -9,7 +9,7 @@
 #include <string>
 
 #include "firmware/calibrate/calibrate_command.h"
-#include "firmware/jobs/pool_size.h"
+#include "firmware/jobs/job_thread.h"
 #include "pipeline/calibrate/file/calibration_file.h"
 #include "pipeline/calibrate/live/live_calibration.h"
 

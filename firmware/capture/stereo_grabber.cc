@@ -2,12 +2,180 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "firmware/capture/stereo_grabber.h"
 
+#include <algorithm>
 #include <chrono>
+#include <string>
 #include <utility>
 
-#include "firmware/capture/rig_cameras.h"
+#include "hal/raw/raw_image.h"
 
 namespace relievo::firmware {
+namespace {
+
+using pipeline::RigCameras;
+
+std::string words(std::string_view kind, std::string_view name) {
+  const std::size_t room = pipeline::kMaxCameraWords - kind.size();
+  if (name.size() > room) name.remove_prefix(name.size() - room);  // names of sockets differ in their ends
+  std::string text(kind);
+  std::transform(name.begin(), name.end(), std::back_inserter(text),
+                 [](char c) { return c >= ' ' && c <= '~' ? c : '?'; });
+  return text;
+}
+
+std::string words_of(const hal::Camera& camera, bool by_serial) {
+  if (by_serial && !camera.serial().empty()) return words("serial ", camera.serial());
+  return camera.socket().empty() ? std::string() : words("at ", camera.socket());
+}
+
+// Of nobody known there is nothing to say.
+bool another(const std::string& calibrated, const std::string& found) {
+  return !calibrated.empty() && !found.empty() && calibrated != found;
+}
+
+}  // namespace
+
+using hal::Camera;
+using hal::Frame;
+
+namespace {
+const Error kAway{Errc::Disconnected, "the camera is away: check its plug; it is tried again by itself"};
+}  // namespace
+
+Result<void> CameraLink::run(const hal::CaptureMode& mode) {
+  if (camera_.state() == Camera::State::Closed) {
+    RELIEVO_TRY(camera_.open(mode));
+    ++opened_;
+  }
+  if (camera_.state() == Camera::State::Idle) {
+    last_.reset();  // a stream counts from its own beginning
+    RELIEVO_TRY(camera_.start());
+  }
+  return {};
+}
+
+Result<void> CameraLink::start(const hal::CaptureMode& mode) {
+  if (!gone()) return run(mode);
+  if (clock_.now() < due_) return kAway;
+  if (const Result<void> back = run(mode); !back) {
+    camera_.close();
+    ++counts_.refused;
+    wait_ = std::min(2 * wait_, budget::kCameraRetryMost);
+    due_ = clock_.now() + wait_;
+    return back;
+  }
+  ++counts_.returned;
+  wait_ = budget::kCameraRetryFirst;
+  gone_.store(false, std::memory_order_relaxed);
+  return {};
+}
+
+void CameraLink::stop() { camera_.stop(); }
+
+void CameraLink::restart() {
+  if (camera_.state() == Camera::State::Closed) return;
+  camera_.stop();
+  last_.reset();
+  if (!camera_.start()) lose();
+}
+
+void CameraLink::lose() {
+  camera_.close();
+  ++counts_.vanished;
+  wait_ = budget::kCameraRetryFirst;
+  due_ = clock_.now() + wait_;
+  gone_.store(true, std::memory_order_relaxed);
+}
+
+// Waits in short slices, so that a cancelled person does not wait for a camera.
+Result<Frame> CameraLink::wait(hal::Instant deadline, const std::atomic<bool>& cancelled) {
+  for (;;) {
+    if (cancelled.load(std::memory_order_relaxed)) return Error{Errc::Cancelled, "the capture was cancelled"};
+    const hal::Instant slice = std::min(deadline, clock_.now() + budget::kTick);
+    Result<Frame> frame = camera_.next_frame(slice);
+    if (frame || frame.error().code != Errc::Timeout) return frame;
+    if (clock_.now() >= deadline) return frame;
+  }
+}
+
+CameraLink::Verdict CameraLink::judge(const Frame& frame, hal::Instant asked) {
+  const std::uint32_t step = last_ ? frame.sequence() - *last_ : 1;  // wraps with the counter
+  const bool backwards = step > 0x8000'0000U;
+  if (step == 0) {
+    ++counts_.duplicate;
+    return Verdict::Skip;
+  }
+  last_ = frame.sequence();
+  if (!backwards) counts_.lost += step - 1;
+  if (backwards || frame.exposed_at() + budget::kStampSlack < asked) {
+    ++counts_.late;
+    return Verdict::Skip;
+  }
+  if (frame.damaged()) {
+    ++counts_.damaged;
+    return Verdict::Refuse;
+  }
+  if (hal::is_short(frame.raw())) {
+    ++counts_.too_short;
+    return Verdict::Refuse;
+  }
+  return Verdict::Take;
+}
+
+Result<Frame> CameraLink::next(hal::Instant asked, hal::Instant deadline,
+                               const std::atomic<bool>& cancelled) {
+  if (gone()) return kAway;
+  for (;;) {
+    Result<Frame> frame = wait(deadline, cancelled);
+    if (!frame) {
+      if (frame.error().code == Errc::Timeout) ++counts_.missing;
+      if (frame.error().code == Errc::Disconnected) lose();
+      return frame;
+    }
+    switch (judge(*frame, asked)) {
+      case Verdict::Take:
+        ++counts_.frames;
+        return frame;
+      case Verdict::Refuse:
+        return Error{Errc::IoFailed, "the camera's picture came damaged: check its cable"};
+      case Verdict::Skip:
+        // A camera that floods with old frames may not hold anybody past the deadline.
+        if (clock_.now() >= deadline) {
+          ++counts_.missing;
+          return Error{Errc::Timeout,
+                       "the camera gives only pictures from before the trigger: check its wire"};
+        }
+    }
+  }
+}
+
+RigCameras cameras_of(const hal::Camera& left, const hal::Camera& right) {
+  const bool one_device = left.socket() == right.socket();
+  const bool by_serial = one_device || left.serial() != right.serial();
+  return {words_of(left, by_serial), words_of(right, by_serial)};
+}
+
+Result<void> check_cameras(const RigCameras& calibrated, const RigCameras& found) {
+  const bool left = another(calibrated.left, found.left), right = another(calibrated.right, found.right);
+  if (!left && !right) return {};
+  const std::string at_left = calibrated.left + " → " + found.left,
+                    at_right = calibrated.right + " → " + found.right;
+  if (left && right && calibrated.left == found.right && calibrated.right == found.left)
+    return Error{Errc::NotCalibrated,
+                 "the left and the right camera have changed places: swap their plugs, or calibrate again"}
+        .at(at_left + "; " + at_right);
+  if (left && right)
+    return Error{Errc::NotCalibrated,
+                 "neither camera is the one that was calibrated: put those back, or calibrate again"}
+        .at(at_left + "; " + at_right);
+  if (left)
+    return Error{Errc::NotCalibrated,
+                 "the left camera is not the one that was calibrated: put that one back, or calibrate again"}
+        .at(at_left);
+  return Error{Errc::NotCalibrated,
+               "the right camera is not the one that was calibrated: put that one back, or calibrate again"}
+      .at(at_right);
+}
 
 using pipeline::StereoFrame;
 

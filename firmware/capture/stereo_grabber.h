@@ -18,14 +18,15 @@
 #pragma once
 
 #include <atomic>
+#include <chrono>
 #include <cstdint>
 #include <mutex>
 #include <optional>
 
 #include "firmware/base/budget.h"
-#include "firmware/capture/camera_link.h"
 #include "firmware/capture/grab_counts.h"
 #include "firmware/capture/stereo_slot.h"
+#include "hal/base/result.h"
 #include "hal/camera.h"
 #include "hal/clock.h"
 #include "hal/device.h"
@@ -34,6 +35,63 @@
 #include "pipeline/model/stereo_frame.h"
 
 namespace relievo::firmware {
+
+// CameraLink: one camera of the pair, kept alive. It drops frames that are late or came twice, refuses
+// damaged and short ones, and opens a camera that has vanished again, each time after a longer wait.
+//
+//   New --start()--> Running --vanishes--> Lost --start() when due, it answers--> Running
+//                                           |  ^
+//                                           +--+ start(), it does not: the wait doubles, kCameraRetryMost at
+//                                           most
+//
+// Thread: capture; gone() any.
+class CameraLink {
+ public:
+  CameraLink(hal::Camera& camera, const hal::Clock& clock, CameraCounts& counts)
+      : camera_(camera), clock_(clock), counts_(counts) {}
+
+  // Opens and starts what is not. What a camera that never ran says, or Disconnected: it is lost and
+  // either not due yet or still away.
+  Result<void> start(const hal::CaptureMode& mode);
+  void stop();
+  // Stops and starts the stream; a camera that does not start again counts as lost.
+  void restart();
+  // The next whole frame exposed at `asked` or later. Timeout, Cancelled, Disconnected (and it is lost),
+  // IoFailed (the frame was damaged or short), what the camera says.
+  Result<hal::Frame> next(hal::Instant asked, hal::Instant deadline, const std::atomic<bool>& cancelled);
+  bool gone() const { return gone_.load(std::memory_order_relaxed); }
+  hal::Instant due() const { return due_; }
+  // How often the camera was opened: each time it may be another one.
+  int opened() const { return opened_; }
+
+ private:
+  enum class Verdict : std::uint8_t { Take, Skip, Refuse };
+  Result<hal::Frame> wait(hal::Instant deadline, const std::atomic<bool>& cancelled);
+  Verdict judge(const hal::Frame& frame, hal::Instant asked);
+  Result<void> run(const hal::CaptureMode& mode);
+  void lose();
+
+  hal::Camera& camera_;
+  const hal::Clock& clock_;
+  CameraCounts& counts_;
+  std::atomic<bool> gone_{false};
+  std::optional<std::uint32_t> last_;  // sequence number of this stream's newest frame
+  hal::Instant due_;
+  int opened_ = 0;
+  std::chrono::milliseconds wait_ = budget::kCameraRetryFirst;
+};
+
+// Which two cameras these are, and whether they are the ones a calibration was made with. A serial number
+// tells a camera wherever it is plugged in; without one, or with the same one on both, it is told by its
+// socket: that an equal camera was put there is then not seen. What a camera says of itself is untrusted: it
+// is kept as printable ASCII, and its end where it is long. Thread: any, while no other opens the cameras.
+
+// After both were opened. Empty of a camera that tells nothing of itself.
+pipeline::RigCameras cameras_of(const hal::Camera& left, const hal::Camera& right);
+
+// NotCalibrated: another camera, or the two exchanged; the sentence says which and what to do, where() what
+// was expected and what is there. A side of which nothing is known says nothing.
+Result<void> check_cameras(const pipeline::RigCameras& calibrated, const pipeline::RigCameras& found);
 
 // What a screen may say of the cameras.
 enum class CameraWatch : std::uint8_t { Well, LeftGone, RightGone, BothGone };

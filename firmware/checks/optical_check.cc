@@ -2,10 +2,87 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "firmware/checks/optical_check.h"
 
+#include <cmath>
+
+#include "firmware/checks/deviation_picture.h"
 #include "firmware/checks/target_calibration.h"
+#include "firmware/jobs/job_thread.h"
+#include "firmware/measure/best_fit.h"
 
 namespace relievo::firmware {
 namespace {
+
+using pipeline::Vec3d;
+
+// How far around a target a surface is looked for: its edge must not be the region's.
+constexpr double kMarginMm = 4;
+
+const char* const kNothing = "nothing was measured";
+
+AcceptanceLine worst_of(std::string measure, double limit_mm) {
+  return {std::move(measure), kNothing, std::nan(""), limit_mm};
+}
+
+// What is no number is worse than any.
+void keep_worse(AcceptanceLine& line, const std::string& where, double value_mm) {
+  const bool first = line.where == kNothing;
+  if (!first && (std::isnan(line.value_mm) || std::abs(value_mm) <= std::abs(line.value_mm))) return;
+  line.where = where;
+  line.value_mm = value_mm;
+}
+
+Error at_target(const Error& error, const std::string& name) {
+  return error.code == Errc::Cancelled ? error : error.at(name);
+}
+
+template <typename Form>
+Result<void> show_reading(const TargetMeter& meter, const TargetReading& reading, const Form& form,
+                          const std::vector<Vec3d>& points, const Vec3d& centre_mm, double reach_mm,
+                          double range_mm, const ShowTarget& show) {
+  if (!show) return {};
+  std::vector<double> deviations;
+  deviations.reserve(points.size());
+  for (const Vec3d& p : points) deviations.push_back(deviation(form, p));
+  return show(reading.name, meter.picture_of(centre_mm, reach_mm, points, deviations, range_mm));
+}
+
+// What of the surface the certificate covers. `rod` points along the rod, unit length.
+std::vector<Vec3d> cap_of(const std::vector<Vec3d>& surface, const Vec3d& centre_mm, const Vec3d& rod) {
+  const double least = std::cos(kCapDeg * std::numbers::pi / 180);
+  std::vector<Vec3d> cap;
+  for (const Vec3d& p : surface) {
+    const Vec3d out = minus(p, centre_mm);
+    const bool faces = -dot(out, p) > least * length(out) * length(p);
+    const bool at_rod = dot(out, rod) > 0 && length(cross(out, rod)) < kRodMm;
+    if (faces && !at_rod) cap.push_back(p);
+  }
+  return cap;
+}
+
+Result<TargetReading> measure_sphere(TargetMeter& meter, const TargetShot& shot, const Vec3d& centre_mm,
+                                     const Vec3d& rod, const std::string& name, double picture_range_mm,
+                                     const ShowTarget& show) {
+  const double radius = shot.targets.sphere_diameter_mm / 2;
+  auto surface = meter.surface_around(centre_mm, radius + kMarginMm);
+  if (!surface) return at_target(surface.error(), name);
+  const std::vector<Vec3d> cap = cap_of(*surface, centre_mm, rod);
+  const auto read = measure::read_sphere(cap, kDiscardShare);
+  if (!read) return at_target(read.error(), name);
+  TargetReading reading{name,
+                        TargetKind::Dumbbell,
+                        surface->size(),
+                        read->used,
+                        read->discarded,
+                        read->range_mm,
+                        read->rms_mm,
+                        0,
+                        {}};
+  reading.size_mm = 2 * read->form.radius_mm - shot.targets.sphere_diameter_mm;
+  reading.centre_mm = read->form.centre_mm;
+  RELIEVO_TRY(
+      show_reading(meter, reading, read->form, cap, centre_mm, radius + kMarginMm, picture_range_mm, show));
+  return reading;
+}
 
 TargetShot series_of(const OpticalCheckOptions& options) {
   TargetShot shot;
@@ -16,6 +93,180 @@ TargetShot series_of(const OpticalCheckOptions& options) {
 }
 
 }  // namespace
+
+using pipeline::Vec3d;
+
+struct TargetMeter::Room {
+  Room(pipeline::Pipeline stages, const std::atomic<bool>& cancelled)
+      : memory(0, budget::kOutputArenaBytes, budget::kScratchArenaBytes),
+        output(memory.output()),
+        scratch(memory.scratch()),
+        pool(pool_size()),
+        context{output, scratch, pool, progress, cancelled},
+        pipeline(std::move(stages)) {}
+  BootMemory memory;
+  Arena output, scratch;
+  ThreadPool pool;
+  pipeline::Progress progress;
+  pipeline::StageContext context;
+  pipeline::Pipeline pipeline;
+  std::optional<pipeline::RectifiedPair> pair;
+};
+
+TargetMeter::TargetMeter() = default;
+TargetMeter::TargetMeter(TargetMeter&&) noexcept = default;
+TargetMeter::~TargetMeter() = default;
+
+Result<TargetMeter> TargetMeter::make(const pipeline::StereoCalibration& calibration,
+                                      const std::atomic<bool>& cancelled) {
+  pipeline::AlgorithmSet set;
+  RELIEVO_TRY(set.set("preprocessor", "none"));      // a target is no skin
+  RELIEVO_TRY(set.set("grid.min_area_mm2", "300"));  // a sphere of 20 mm, seen within 60 degrees
+  RELIEVO_TRY_ASSIGN(auto stages, pipeline::Pipeline::make(set, calibration, {}, pipeline::Region::All));
+  TargetMeter meter;
+  meter.room_ = std::make_unique<Room>(std::move(stages), cancelled);
+  return meter;
+}
+
+Result<void> TargetMeter::take(const TargetPictures& pictures) {
+  room_->pair.reset();
+  room_->output.reset();
+  RELIEVO_TRY_ASSIGN(room_->pair,
+                     room_->pipeline.rectify({pictures.left.view(), pictures.right.view()}, room_->context));
+  return {};
+}
+
+TargetMeter::Circle TargetMeter::circle_around(const Vec3d& centre_mm, double reach_mm) const {
+  const pipeline::RectifiedPair& pair = *room_->pair;
+  const Vec3d c = apply(pair.rectified_from_left, centre_mm);
+  const double scale = pair.focal_px / c.z;
+  return {scale * c.x + pair.left_centre_px.x, scale * c.y + pair.left_centre_px.y, scale * reach_mm};
+}
+
+Result<std::vector<Vec3d>> TargetMeter::surface_around(const Vec3d& centre_mm, double reach_mm) {
+  Room& room = *room_;
+  pipeline::RectifiedPair& pair = *room.pair;
+  const Circle circle = circle_around(centre_mm, reach_mm);
+  const auto width = static_cast<std::size_t>(pair.width_px);
+  pair.region.resize(width * static_cast<std::size_t>(pair.height_px));
+  for (int y = 0; y < pair.height_px; ++y)
+    for (int x = 0; x < pair.width_px; ++x)
+      pair.region[static_cast<std::size_t>(y) * width + static_cast<std::size_t>(x)] =
+          std::hypot(x - circle.x_px, y - circle.y_px) < circle.radius_px ? 1 : 0;
+  const Arena::Mark mark(room.output);  // the pair stays for the target's other parts
+  RELIEVO_TRY_ASSIGN(const auto matches, room.pipeline.match(pair, room.context));
+  RELIEVO_TRY_ASSIGN(const auto cloud, room.pipeline.reconstruct(pair, matches, room.context));
+  RELIEVO_TRY_ASSIGN(const auto mesh, room.pipeline.mesh(cloud, pair, room.context));
+  std::vector<Vec3d> points;
+  for (std::size_t i = 0; i < mesh.vertices_mm.size(); ++i)
+    if (mesh.measured[i] != 0) points.push_back(wide(mesh.vertices_mm[i]));
+  return points;
+}
+
+hal::Picture TargetMeter::picture_of(const Vec3d& centre_mm, double reach_mm,
+                                     const std::vector<Vec3d>& points_mm,
+                                     const std::vector<double>& deviations_mm, double range_mm) const {
+  const pipeline::RectifiedPair& pair = *room_->pair;
+  const Circle circle = circle_around(centre_mm, reach_mm);
+  DeviationPicture picture(
+      pair.left.rgb, pair.width_px, pair.height_px,
+      {static_cast<int>(circle.x_px - circle.radius_px), static_cast<int>(circle.y_px - circle.radius_px),
+       static_cast<int>(circle.x_px + circle.radius_px), static_cast<int>(circle.y_px + circle.radius_px)});
+  for (std::size_t i = 0; i < points_mm.size(); ++i) {
+    const Vec3d p = apply(pair.rectified_from_left, points_mm[i]);
+    picture.mark(pair.focal_px * p.x / p.z + pair.left_centre_px.x,
+                 pair.focal_px * p.y / p.z + pair.left_centre_px.y, deviations_mm[i] / range_mm);
+  }
+  return picture.finish();
+}
+
+AcceptanceLimits limits_at(double scale) {
+  const double coarser = 1 / scale;
+  return {0.8 * coarser, 0.1 * coarser, 0.05 * coarser, 0.8 * coarser};
+}
+
+bool AcceptanceLine::held() const { return std::abs(value_mm) <= limit_mm; }
+
+std::vector<AcceptanceLine> AcceptanceReport::lines(const AcceptanceLimits& limits) const {
+  std::vector<AcceptanceLine> all{
+      worst_of("probing error, form", limits.form_mm), worst_of("probing error, size", limits.size_mm),
+      worst_of("sphere spacing", limits.spacing_mm), worst_of("flatness", limits.flatness_mm)};
+  for (const TargetReading& target : targets) {
+    if (target.kind == TargetKind::Plate) {
+      keep_worse(all[3], target.name, target.range_mm);
+    } else {
+      keep_worse(all[0], target.name, target.range_mm);
+      keep_worse(all[1], target.name, target.size_mm);
+    }
+  }
+  for (const SpacingReading& spacing : spacings) keep_worse(all[2], spacing.name, spacing.error_mm);
+  return all;
+}
+
+Result<void> AcceptanceReport::verdict(const AcceptanceLimits& limits) const {
+  for (const AcceptanceLine& line : lines(limits))
+    if (!line.held())
+      return Error{Errc::PoorGeometry,
+                   "over the limit: the chain does not measure as it should; look at the table and at the "
+                   "pictures of -o"}
+          .at(line.measure + ", " + line.where);
+  return {};
+}
+
+// right, down, distance; pitch, yaw, roll.
+std::vector<TargetPlace> dumbbell_places() {
+  return {{0, 0, 560, 0, 0, 0},    {0, 0, 560, 0, 0, 90},   {-25, 0, 520, 0, 0, 45}, {25, 0, 620, 0, 0, -45},
+          {0, -20, 560, 0, 30, 0}, {0, 20, 560, 0, -30, 0}, {15, 0, 590, 30, 0, 90}};
+}
+
+std::vector<TargetPlace> plate_places() {
+  return {{0, 0, 560, 0, 0, 0},  {0, 0, 530, 0, 0, 0},   {0, 0, 650, 0, 0, 90},
+          {0, 0, 570, 0, 30, 0}, {0, 0, 570, 0, -30, 0}, {0, 0, 580, 30, 0, 0}};
+}
+
+Result<void> measure_dumbbell(TargetMeter& meter, const TargetShot& shot, double picture_range_mm,
+                              const ShowTarget& show, AcceptanceReport& report) {
+  const std::string name = "dumbbell " + std::to_string(shot.number + 1);
+  const Vec3d along = minus(left_from_target(shot.place, {1, 0, 0}), left_from_target(shot.place, {0, 0, 0}));
+  Vec3d centres[2];
+  for (const int side : {0, 1}) {
+    const double out = side == 0 ? -1 : 1;
+    const Vec3d nominal = left_from_target(shot.place, {out * shot.targets.sphere_spacing_mm / 2, 0, 0});
+    RELIEVO_TRY_ASSIGN(const TargetReading reading,
+                       measure_sphere(meter, shot, nominal, times(along, -out),
+                                      name + (side == 0 ? " a" : " b"), picture_range_mm, show));
+    centres[side] = reading.centre_mm;
+    report.targets.push_back(reading);
+  }
+  report.spacings.push_back({name, distance(centres[0], centres[1]) - shot.targets.sphere_spacing_mm});
+  return {};
+}
+
+Result<void> measure_plate(TargetMeter& meter, const TargetShot& shot, double picture_range_mm,
+                           const ShowTarget& show, AcceptanceReport& report) {
+  const std::string name = "plate " + std::to_string(shot.number + 1);
+  const Vec3d middle = left_from_target(shot.place, {0, 0, 0});
+  const Vec3d x = minus(left_from_target(shot.place, {1, 0, 0}), middle),
+              y = minus(left_from_target(shot.place, {0, 1, 0}), middle);
+  const double half_width = shot.targets.plate_width_mm / 2, half_height = shot.targets.plate_height_mm / 2;
+  const double reach = std::hypot(half_width, half_height) + kMarginMm;
+  auto surface = meter.surface_around(middle, reach);
+  if (!surface) return at_target(surface.error(), name);
+  std::vector<Vec3d> inside;
+  for (const Vec3d& p : *surface) {
+    const Vec3d from = minus(p, middle);
+    if (std::abs(dot(from, x)) < half_width - kRimMm && std::abs(dot(from, y)) < half_height - kRimMm)
+      inside.push_back(p);
+  }
+  const auto read = measure::read_plane(inside, kDiscardShare);
+  if (!read) return at_target(read.error(), name);
+  const TargetReading reading{
+      name, TargetKind::Plate, surface->size(), read->used, read->discarded, read->range_mm, read->rms_mm, 0,
+      {}};
+  RELIEVO_TRY(show_reading(meter, reading, read->form, inside, middle, reach, picture_range_mm, show));
+  report.targets.push_back(reading);
+  return {};
+}
 
 Result<AcceptanceReport> measure_targets(const pipeline::StereoCalibration& calibration,
                                          const Photograph& photograph, const OpticalCheckOptions& options,

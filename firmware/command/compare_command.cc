@@ -16,7 +16,7 @@
 #include "firmware/compare/page/dissertation_page.h"
 #include "firmware/compare/set_choice.h"
 #include "firmware/jobs/watched_job.h"
-#include "firmware/measure/pfm.h"
+#include "firmware/measure/disparity_map.h"
 #include "hal/whole_file.h"
 #include "storage/export/model_files.h"
 

@@ -9,7 +9,7 @@
 #include "firmware/base/interrupt.h"
 #include "firmware/command/commands.h"
 #include "firmware/command/subject_lookup.h"
-#include "firmware/jobs/pool_size.h"
+#include "firmware/jobs/job_thread.h"
 #include "firmware/kiosk/stored_visits.h"
 #include "firmware/report/report.h"
 #include "firmware/work/pipeline_stages.h"

@@ -4,7 +4,7 @@
 
 #include <utility>
 
-#include "firmware/jobs/pool_size.h"
+#include "firmware/jobs/job_thread.h"
 
 namespace relievo::firmware::compare {
 

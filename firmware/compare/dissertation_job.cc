@@ -2,13 +2,121 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "firmware/compare/dissertation_job.h"
 
+#include <algorithm>
+#include <cmath>
+#include <random>
+#include <sstream>
+
 #include "firmware/base/boot_memory.h"
+#include "firmware/calibrate/calibrate_command.h"
 #include "firmware/compare/suites.h"
-#include "firmware/jobs/pool_size.h"
+#include "firmware/jobs/job_thread.h"
 #include "hal/base/thread_pool.h"
+#include "pipeline/algorithms.h"
+#include "pipeline/calibrate/file/calibration_file.h"
+#include "pipeline/match/rectify/rectifier.h"
+#include "pipeline/model/vector3.h"
 
 namespace relievo::firmware::compare {
 namespace {
+
+using pipeline::CameraIntrinsics;
+using pipeline::Vec2d;
+using pipeline::Vec3d;
+
+constexpr double kUnitMm = 10;
+constexpr int kBoards = 8;
+constexpr std::size_t kHands = 100;
+
+// On the plane z = 1 (Brown 1971).
+Vec2d bent(const CameraIntrinsics& c, const Vec2d& p) {
+  const double* k = c.distortion;
+  const double r2 = p.x * p.x + p.y * p.y;
+  const double radial = 1 + r2 * (k[0] + r2 * (k[1] + r2 * k[4]));
+  return {p.x * radial + 2 * k[2] * p.x * p.y + k[3] * (r2 + 2 * p.x * p.x),
+          p.y * radial + k[2] * (r2 + 2 * p.y * p.y) + 2 * k[3] * p.x * p.y};
+}
+
+// Where a camera sees a point of its frame.
+Vec2d seen(const CameraIntrinsics& c, const Vec3d& p) {
+  const Vec2d b = bent(c, {p.x / p.z, p.y / p.z});
+  return {c.focal_px.x * b.x + c.centre_px.x, c.focal_px.y * b.y + c.centre_px.y};
+}
+
+// The direction that a pixel sees; the lens is undone by fixed-point steps.
+Vec3d ray(const CameraIntrinsics& c, const Vec2d& pixel) {
+  const Vec2d end{(pixel.x - c.centre_px.x) / c.focal_px.x, (pixel.y - c.centre_px.y) / c.focal_px.y};
+  Vec2d p = end;
+  for (int i = 0; i < 50; ++i) {
+    const Vec2d b = bent(c, p);
+    p = {p.x + end.x - b.x, p.y + end.y - b.y};
+  }
+  return {p.x, p.y, 1};
+}
+
+// Turned about y by 34 and about x by 26 degrees, so that three faces look at the cameras. Corners whose
+// numbers differ in one bit share an edge.
+std::vector<Vec3d> cube_corners(const Vec3d& middle) {
+  const double half = 0.5 * recorded::kCubeUnits * kUnitMm;
+  const double cy = std::cos(0.6), sy = std::sin(0.6), cx = std::cos(0.45), sx = std::sin(0.45);
+  std::vector<Vec3d> corners;
+  for (unsigned i = 0; i < 8; ++i) {
+    const auto at = [&](unsigned bit) { return (i & bit) != 0 ? half : -half; };
+    const Vec3d a{at(1) * cy + at(4) * sy, at(2), at(4) * cy - at(1) * sy};
+    corners.push_back({a.x + middle.x, a.y * cx - a.z * sx + middle.y, a.y * sx + a.z * cx + middle.z});
+  }
+  return corners;
+}
+
+// A hand's click in the photograph: on a whole pixel, half a pixel of tremble.
+class Hand {
+ public:
+  Vec2d click(const Vec2d& at) {
+    const double x = std::round(at.x + tremble_(random_));
+    return {x, std::round(at.y + tremble_(random_))};
+  }
+
+ private:
+  std::mt19937 random_{7};
+  std::normal_distribution<double> tremble_{0, 0.5};
+};
+
+// Two clicks as a match of the rectified pair.
+pipeline::Match match_of(const pipeline::RectifiedPair& pair, const pipeline::StereoCalibration& c,
+                         const Vec2d& left, const Vec2d& right) {
+  const auto rectified = [&pair](const pipeline::Rotation& turn, const Vec3d& direction,
+                                 const Vec2d& centre) {
+    const Vec3d p = pipeline::apply(turn, direction);
+    return Vec2d{pair.focal_px * p.x / p.z + centre.x, pair.focal_px * p.y / p.z + centre.y};
+  };
+  const Vec2d l = rectified(pair.rectified_from_left, ray(c.left, left), pair.left_centre_px);
+  const Vec2d r = rectified(pair.rectified_from_right, ray(c.right, right), pair.right_centre_px);
+  return {.left_px = {static_cast<float>(l.x), static_cast<float>(l.y)},
+          .disparity_px = static_cast<float>(l.x - r.x),
+          .sigma_px = 0.5F};
+}
+
+// The cloud holds every hand's corners, one hand after the other; the table is the first hand's.
+CubeTable table_of(const std::vector<Vec3d>& truth, const pipeline::PointCloud& cloud) {
+  const auto units = [](const Vec3d& p) { return Vec3d{p.x / kUnitMm, p.y / kUnitMm, p.z / kUnitMm}; };
+  CubeTable table;
+  double squares = 0;
+  for (std::size_t i = 0; i < cloud.points.size(); ++i) {
+    const pipeline::Vec3f& at = cloud.points[i].at_mm;
+    CubeTable::Corner corner{units(truth[i % truth.size()]), units({at.x, at.y, at.z})};
+    corner.off_units = length(minus(corner.found, corner.truth));
+    squares += corner.off_units * corner.off_units;
+    if (i >= truth.size()) continue;
+    table.worst_units = std::max(table.worst_units, corner.off_units);
+    table.corners.push_back(corner);
+  }
+  table.rms_units = std::sqrt(squares / static_cast<double>(cloud.points.size()));
+  for (std::size_t i = 0; i < truth.size(); ++i)
+    for (const std::size_t bit : {1U, 2U, 4U})
+      if ((i & bit) == 0)
+        table.side_units += length(minus(table.corners[i].found, table.corners[i | bit].found)) / 12;
+  return table;
+}
 
 Result<void> go_on(const JobControl& control) {
   if (control.cancelled.load()) return Error{Errc::Cancelled, "cancelled: nothing was written"};
@@ -23,6 +131,68 @@ Result<Comparison> compared(const ComparedPair& pair, std::vector<NamedSet> sets
 }
 
 }  // namespace
+
+Result<VirtualRig> calibrate_virtual_rig(const Simulate& simulate, const Path& folder) {
+  SimulateArgs args;
+  args.board = true;
+  args.printed = {.corners_across = 10, .corners_down = 7, .square_mm = 20};
+  args.pairs = kBoards;
+  args.rig = IdealRigArgs{.width_px = 640,
+                          .height_px = 480,
+                          .focal_px = 771,
+                          .baseline_mm = recorded::kBaselineUnits * kUnitMm,
+                          .convergence_mm = recorded::kDistanceUnits * kUnitMm};
+  RELIEVO_TRY(simulate(args, folder));
+  VirtualRig rig;
+  RELIEVO_TRY_ASSIGN(rig.truth, pipeline::read_calibration(folder / "rig.yml"));
+  std::ostringstream lines;  // a line a view: not of this report
+  RELIEVO_TRY_ASSIGN(const auto made, run_calibrate({.pictures = folder,
+                                                     .board = args.printed,
+                                                     .output = folder / "calibrated.yml",
+                                                     .report = {},
+                                                     .store = {}},
+                                                    lines));
+  rig.found = made.calibration;
+  rig.pair_rms_px = made.quality.pair_rms_px;
+  return rig;
+}
+
+RigTable rig_table(const VirtualRig& rig) {
+  const pipeline::StereoCalibration& c = rig.found;
+  return {.baseline_units = length(c.right_from_left.translation_mm) / kUnitMm,
+          .true_focal_px = rig.truth.left.focal_px.x,
+          .focal_px = {c.left.focal_px.x, c.right.focal_px.x},
+          .pair_rms_px = rig.pair_rms_px};
+}
+
+Result<CubeTable> cube_table(const VirtualRig& rig, pipeline::StageContext& context) {
+  const std::vector<std::byte> blank(static_cast<std::size_t>(rig.found.left.width_px) *
+                                     static_cast<std::size_t>(rig.found.left.height_px));
+  const ImageView view{blank.data(), rig.found.left.width_px, rig.found.left.height_px,
+                       rig.found.left.width_px, PixelFormat::Grey8};
+  RELIEVO_TRY_ASSIGN(
+      const pipeline::RectifiedPair pair,
+      pipeline::Rectifier({.near_mm = 400, .far_mm = 950}).rectify({view, view, 0, 0}, rig.found, context));
+  const Vec3d right_camera = pipeline::inverse(rig.truth.right_from_left).translation_mm;
+  const std::vector<Vec3d> corners = cube_corners(
+      {right_camera.x / 2, right_camera.y / 2, right_camera.z / 2 + recorded::kDistanceUnits * kUnitMm});
+  pipeline::MatchSet matches(&context.output);
+  Hand hand;
+  for (std::size_t i = 0; i < kHands * corners.size(); ++i) {
+    const Vec3d& corner = corners[i % corners.size()];
+    const Vec2d left = hand.click(seen(rig.truth.left, corner));
+    const Vec2d right = hand.click(seen(rig.truth.right, pipeline::apply(rig.truth.right_from_left, corner)));
+    matches.matches.push_back(match_of(pair, rig.found, left, right));
+  }
+  pipeline::AlgorithmSet set;
+  RELIEVO_TRY(set.set("triangulator", "linear-least-squares"));
+  RELIEVO_TRY_ASSIGN(const auto triangulator, pipeline::make_triangulator(set));
+  RELIEVO_TRY_ASSIGN(const pipeline::PointCloud cloud, triangulator(pair, matches, context));
+  if (cloud.points.size() != kHands * corners.size())
+    return Error{Errc::TooFewMatches,
+                 "a corner of the cube lies beyond what the virtual rig sees: a fault of this program"};
+  return table_of(corners, cloud);
+}
 
 std::string_view DissertationJob::now() const {
   switch (at_.load(std::memory_order_relaxed)) {

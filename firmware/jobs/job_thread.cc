@@ -2,9 +2,13 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "firmware/jobs/job_thread.h"
 
+#include <algorithm>
 #include <atomic>
 #include <exception>
 #include <new>
+#include <thread>
+
+#include "firmware/base/budget.h"
 
 namespace relievo::firmware {
 namespace {
@@ -23,6 +27,10 @@ Result<void> run_guarded(Job& job, JobControl& control) {
 }
 
 }  // namespace
+
+int pool_size() {
+  return std::clamp(static_cast<int>(std::thread::hardware_concurrency()), 1, budget::kMaxPoolThreads);
+}
 
 JobThread::JobThread(JobReports& reports) : reports_(reports), thread_([this] { serve(); }) {}
 

@@ -11,17 +11,65 @@
 // Errors: start() says InvalidState while busy.
 #pragma once
 
+#include <array>
 #include <atomic>
+#include <chrono>
 #include <condition_variable>
+#include <cstddef>
+#include <cstdint>
 #include <mutex>
+#include <optional>
 #include <thread>
 
-#include "firmware/jobs/job_report.h"
+#include "firmware/base/budget.h"
+#include "hal/base/assert.h"
 #include "hal/base/mailbox.h"
 #include "hal/base/result.h"
 #include "pipeline/base/stage.h"
 
 namespace relievo::firmware {
+
+// Threads for a stage, the worker counted: as many as the machine has, at most budget's limit.
+int pool_size();
+
+// JobReport: what a thread says when a job has ended. JobReports: the queue in which the main thread
+// hears it; of fixed length, so that nothing grows. One report per running job: it cannot overflow.
+// Thread: any thread puts, main takes.
+using JobId = std::uint32_t;  // 0 is no job
+
+struct JobReport {
+  JobId job = 0;
+  std::optional<Error> error;  // nothing: done
+};
+
+class JobReports {
+ public:
+  void put(const JobReport& report) {
+    {
+      const std::lock_guard lock(mutex_);
+      RELIEVO_ASSERT(count_ < ring_.size());
+      ring_[(first_ + count_++) % ring_.size()] = report;
+    }
+    arrived_.notify_one();
+  }
+  // Waits until something arrives or the time is over.
+  std::optional<JobReport> take_for(std::chrono::milliseconds wait) {
+    std::unique_lock lock(mutex_);
+    arrived_.wait_for(lock, wait, [this] { return count_ > 0; });
+    if (count_ == 0) return std::nullopt;
+    const JobReport report = ring_[first_];
+    first_ = (first_ + 1) % ring_.size();
+    --count_;
+    return report;
+  }
+
+ private:
+  std::mutex mutex_;
+  std::condition_variable arrived_;
+  std::array<JobReport, budget::kEventQueueLength> ring_{};
+  std::size_t first_ = 0;
+  std::size_t count_ = 0;
+};
 
 // What a running job looks at and writes to.
 struct JobControl {

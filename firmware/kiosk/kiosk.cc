@@ -13,7 +13,7 @@
 #include "firmware/arguments/algorithm_choice.h"
 #include "firmware/base/budget.h"
 #include "firmware/base/settings.h"
-#include "firmware/jobs/pool_size.h"
+#include "firmware/jobs/job_thread.h"
 #include "pipeline/calibrate/file/calibration_file.h"
 
 namespace relievo::firmware {

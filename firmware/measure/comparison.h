@@ -13,10 +13,24 @@
 
 #include "firmware/measure/disparity_score.h"
 #include "firmware/measure/measurement.h"
-#include "firmware/measure/self_agreement_figures.h"
 #include "pipeline/algorithms.h"
 
 namespace relievo::firmware::compare {
+
+// Figures of self_agreement.h, as plain data.
+struct LeftRightFigures {
+  std::size_t asked = 0;     // pixels of the left view with a disparity
+  std::size_t answered = 0;  // whose partner has one too
+  double median_px = 0;      // of the difference of the two
+  double p95_px = 0;
+  double within_1px = 0;  // share of the answered
+};
+
+struct PhotoFigures {
+  std::size_t asked = 0;  // windows that the model fills
+  double median = 0;      // correlation, -1 .. 1
+  double p5 = 0;          // of a twentieth it is lower
+};
 
 struct NamedSet {
   std::string name;

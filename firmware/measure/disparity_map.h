@@ -7,9 +7,11 @@
 
 #include <cmath>
 #include <cstddef>
+#include <filesystem>
 #include <limits>
 #include <vector>
 
+#include "hal/base/result.h"
 #include "pipeline/model/match_set.h"
 
 namespace relievo::firmware::compare {
@@ -41,5 +43,11 @@ DisparityMap disparity_map(const pipeline::MatchSet& set, int width_px, int heig
 
 // Scattered disparities as squares of this side, to be looked at; what is known stays.
 DisparityMap thickened(const DisparityMap& map, int side_px);
+
+// Portable float map, one channel ("Pf", width height, scale whose sign is the byte order, rows from the
+// bottom up): how Middlebury 2014 and others store disparities. Infinite or NaN is "none", both ways.
+// Errors: NotFound, IoFailed, InvalidInput (not such a file, of another length), each with the file.
+Result<DisparityMap> read_pfm(const std::filesystem::path& file);
+std::vector<std::byte> pfm_of(const DisparityMap& map);  // little-endian
 
 }  // namespace relievo::firmware::compare

@@ -4,7 +4,7 @@
 
 #include <algorithm>
 
-#include "firmware/measure/pfm.h"
+#include "firmware/measure/disparity_map.h"
 #include "hal/picture_file.h"
 
 namespace relievo::firmware::compare {

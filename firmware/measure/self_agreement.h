@@ -8,8 +8,8 @@
 
 #include <optional>
 
+#include "firmware/measure/comparison.h"
 #include "firmware/measure/disparity_map.h"
-#include "firmware/measure/self_agreement_figures.h"
 #include "hal/base/result.h"
 #include "pipeline/algorithms.h"
 #include "pipeline/base/stage.h"

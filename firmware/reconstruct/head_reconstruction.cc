@@ -9,7 +9,7 @@
 #include <utility>
 
 #include "firmware/arguments/algorithm_choice.h"
-#include "firmware/jobs/pool_size.h"
+#include "firmware/jobs/job_thread.h"
 #include "firmware/jobs/watched_job.h"
 #include "firmware/reconstruct/picture_pair.h"
 #include "hal/monotonic_clock.h"

@@ -8,7 +8,7 @@
 #include <vector>
 
 #include "firmware/arguments/algorithm_choice.h"
-#include "firmware/jobs/pool_size.h"
+#include "firmware/jobs/job_thread.h"
 #include "firmware/jobs/watched_job.h"
 #include "firmware/reconstruct/picture_pair.h"
 #include "firmware/work/first_change.h"
@@ -16,7 +16,7 @@
 #include "hal/monotonic_clock.h"
 #include "hal/whole_file.h"
 #include "pipeline/match/file/match_text.h"
-#include "pipeline/match/rectify/rectified_geometry.h"
+#include "pipeline/match/rectify/rectifier.h"
 #include "pipeline/recognition/recognition_images.h"
 
 namespace relievo::firmware {

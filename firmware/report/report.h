@@ -11,7 +11,7 @@
 #include <string>
 #include <vector>
 
-#include "firmware/work/stage_record.h"
+#include "firmware/work/stage_runner.h"
 #include "pipeline/calibrate/drift.h"
 #include "pipeline/match/diagnose/overexposure.h"
 #include "pipeline/model/face_model.h"

@@ -9,7 +9,7 @@
 
 #include "firmware/base/budget.h"
 #include "firmware/base/version.h"
-#include "firmware/jobs/pool_size.h"
+#include "firmware/jobs/job_thread.h"
 #include "hal/base/arena.h"
 #include "hal/base/thread_pool.h"
 #include "pipeline/algorithms.h"

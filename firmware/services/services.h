@@ -12,7 +12,7 @@
 #include "firmware/arguments/command_line.h"
 #include "firmware/base/console.h"
 #include "firmware/calibrate/calibrate_live_pairs.h"
-#include "firmware/checks/optical_target.h"
+#include "firmware/checks/target_calibration.h"
 #include "hal/clock.h"
 #include "hal/device.h"
 #include "hal/speaker.h"

@@ -7,7 +7,6 @@
 
 #include "firmware/base/wall_time.h"
 #include "firmware/staff/page_controllers.h"
-#include "firmware/staff/technician_controller.h"
 #include "hal/base/assert.h"
 
 namespace relievo::firmware {

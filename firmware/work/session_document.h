@@ -9,7 +9,7 @@
 
 #include "firmware/jobs/job_thread.h"
 #include "firmware/session/session.h"
-#include "firmware/work/stage_record.h"
+#include "firmware/work/stage_runner.h"
 #include "pipeline/algorithms.h"
 #include "storage/document/document.h"
 

@@ -6,13 +6,26 @@
 // Errors: the stage's own. Thread: worker.
 #pragma once
 
+#include <chrono>
+#include <cstddef>
+#include <cstdint>
+#include <string_view>
+
 #include "firmware/machine/transition.h"
 #include "firmware/session/session.h"
-#include "firmware/work/stage_record.h"
 #include "pipeline/base/stage.h"
 #include "pipeline/fuse/head_pipeline.h"
 
 namespace relievo::firmware {
+
+// StageRecord: what one stage cost and made.
+struct StageRecord {
+  std::string_view name;  // of the state
+  std::chrono::nanoseconds took{0};
+  std::uint64_t in = 0;              // what the stage was given: pixels, matches, points, triangles
+  std::uint64_t out = 0;             // and what it made: matches, points, triangles, texels
+  std::size_t arena_peak_bytes = 0;  // of both arenas together
+};
 
 class StageRunner {
  public:

@@ -13,7 +13,7 @@
 #include <string>
 #include <vector>
 
-#include "firmware/work/stage_record.h"
+#include "firmware/work/stage_runner.h"
 #include "hal/base/wiped_text.h"
 #include "pipeline/calibrate/drift.h"
 #include "pipeline/model/face_model.h"

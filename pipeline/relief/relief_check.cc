@@ -11,7 +11,6 @@
 
 #include "hal/base/statistics.h"
 #include "pipeline/base/solving.h"
-#include "pipeline/relief/height_cells.h"
 #include "pipeline/relief/sheet_fit.h"
 
 namespace relievo::pipeline {

@@ -4,7 +4,7 @@
 
 #include <numbers>
 
-#include "firmware/measure/rigid_fit.h"
+#include "firmware/measure/measurement.h"
 #include "firmware/reconstruct/picture_pair.h"
 #include "pipeline/pipeline.h"
 

@@ -19,7 +19,6 @@
 #include "pipeline/calibrate/file/calibration_file.h"
 #include "pipeline/pipeline.h"
 #include "pipeline/recognition/recognition_images.h"
-#include "pipeline/recognition/textured_view.h"
 #include "pipeline/texture/texture_sharpness.h"
 #include "pipeline/texture/texturers.h"
 #include "storage/export/format/export_mesh.h"

@@ -7,7 +7,7 @@
 #include <fstream>
 
 #include "pipeline/calibrate/file/calibration_file.h"
-#include "pipeline/match/rectify/rectified_geometry.h"
+#include "pipeline/match/rectify/rectifier.h"
 #include "tests/system/relievo_process.h"
 
 namespace relievo::test {

@@ -7,8 +7,7 @@
 #include <optional>
 
 #include "firmware/technician/show/touched_point.h"
-#include "pipeline/match/window/channel_planes.h"
-#include "pipeline/match/window/row_search.h"
+#include "pipeline/match/window/patch_scores.h"
 #include "pipeline/match/window/window_correlation.h"
 
 namespace relievo::firmware {

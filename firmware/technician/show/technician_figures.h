@@ -12,7 +12,7 @@
 
 #include "firmware/machine/transition.h"
 #include "firmware/session/session.h"
-#include "firmware/work/stage_record.h"
+#include "firmware/work/stage_runner.h"
 #include "pipeline/algorithms.h"
 #include "pipeline/base/stage.h"
 #include "ui/technician/technician_result.h"

@@ -10,7 +10,7 @@
 #include <utility>
 
 #include "pipeline/calibrate/file/calibration_fields.h"
-#include "pipeline/match/rectify/rectified_geometry.h"
+#include "pipeline/match/rectify/rectifier.h"
 
 namespace relievo::pipeline {
 namespace {

@@ -19,7 +19,7 @@ struct LiveOptions {
   int max_views = 40;          // bounds memory and time, too
   double plateau_gain = 0.02;  // it ends when no candidate view lowers the predicted error by this share
   double still_px = 2;         // root mean square of the corners' motion since the pair before
-  double edge_px = 4;          // width of the board's edges, 10 to 90 % (edge_width.h)
+  double edge_px = 4;          // width of the board's edges, 10 to 90 % (board_tracker.h)
   double new_distance = 0.2;   // distance_between() to every view taken, in either camera
   double least_worth = 0.3;  // of a view, once the cameras are known: share of what the best one would bring
   int patience_pairs = 100;  // on the way to one target, before another is chosen

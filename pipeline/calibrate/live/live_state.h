@@ -10,7 +10,7 @@
 #include <vector>
 
 #include "pipeline/calibrate/live/live_advice.h"
-#include "pipeline/calibrate/live/watch/coverage.h"
+#include "pipeline/calibrate/live/watch/board_parameters.h"
 
 namespace relievo::pipeline {
 

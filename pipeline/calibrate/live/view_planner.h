@@ -21,9 +21,21 @@
 #include "pipeline/calibrate/fit/bundle.h"
 #include "pipeline/calibrate/live/live_options.h"
 #include "pipeline/calibrate/live/view_target.h"
-#include "pipeline/calibrate/live/watch/coverage.h"
+#include "pipeline/calibrate/live/watch/board_parameters.h"
 
 namespace relievo::pipeline {
+
+// Poses in which a person can hold a board so that both cameras of a rig see it whole: nine places in
+// the picture, as far out as may be, at three distances, facing the camera and tilted eight ways.
+// Inside calibrate/ only. Thread: any.
+struct CandidatePose {
+  std::size_t number = 0;  // always the same for the same pose of the list
+  bundle::Pose left_from_board;
+  std::array<BoardCorners, 2> corners;  // as the two cameras would see them
+};
+
+// `quarter_turns`: how the person holds the board, clockwise from rows that run to the right.
+std::vector<CandidatePose> candidate_poses(const bundle::Problem& rig, double distance_mm, int quarter_turns);
 
 struct ViewPlan {
   std::optional<PlannedView> best;  // none when no candidate is new

@@ -6,7 +6,7 @@
 #include <cmath>
 
 #include "hal/base/statistics.h"
-#include "pipeline/match/rectify/rectified_geometry.h"
+#include "pipeline/match/rectify/rectifier.h"
 #include "pipeline/match/region/three_terms.h"
 #include "pipeline/model/vector3.h"
 

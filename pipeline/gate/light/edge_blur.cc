@@ -8,7 +8,7 @@
 #include <vector>
 
 #include "hal/base/statistics.h"
-#include "pipeline/match/rectify/rectified_geometry.h"
+#include "pipeline/match/rectify/rectifier.h"
 
 namespace relievo::pipeline {
 namespace {

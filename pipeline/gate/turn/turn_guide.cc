@@ -2,10 +2,114 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "pipeline/gate/turn/turn_guide.h"
 
+#include <algorithm>
 #include <cmath>
+#include <numbers>
+#include <optional>
+
+#include <Eigen/Cholesky>
+
+#include "pipeline/model/small_motion.h"
+#include "pipeline/model/vector3.h"
 
 namespace relievo::pipeline {
 namespace {
+
+using Vector6 = Eigen::Matrix<double, 6, 1>;
+using Matrix6 = Eigen::Matrix<double, 6, 6>;
+
+constexpr double kReachMm = 105, kBelowMm = 50;  // of the tip of the nose: the neck turns otherwise
+constexpr double kBehindMm = 85;                 // what is further behind it is hair or a collar
+constexpr double kPivotMm = 105;                 // behind the tip
+constexpr int kSlopePx = 3;                      // normals are those of the relief so far about a place
+constexpr double kSlopeStepMm = 25;              // more than that between neighbours is an edge
+constexpr double kSeenCosine = 0.35;             // a surface that is more inclined is hardly matched
+constexpr std::size_t kFewest = 80;
+constexpr double kMetMm = 4,
+                 kMetShare = 0.78;  // of a head that was found: elsewhere three quarters may seem to fit ...
+constexpr double kSureShare = 0.9;  // ... and where fewer do, other places are tried, too
+constexpr double kSettled = 0.02;   // mm and mrad of the last step
+// How far from the live surface a point may lie, and the scale beyond which its distance loses its say.
+struct Round {
+  double reach_mm, scale_mm;
+  int times;
+};
+constexpr std::array<Round, 3> kRounds{{{40, 15, 10}, {15, 6, 10}, {8, 3, 15}}};
+constexpr std::array<double, 9> kStartsDeg{0, -15, 15, -28, 28, -40, 40, -52, 52};
+
+std::optional<Vec3d> normal_at(const Relief& relief, int x, int y) {
+  const auto known = [&](int u, int v) { return relief.inside(u, v) && relief.known(u, v); };
+  if (!known(x - kSlopePx, y) || !known(x + kSlopePx, y) || !known(x, y - kSlopePx) ||
+      !known(x, y + kSlopePx))
+    return std::nullopt;
+  const Vec3d across = minus(relief.point(x + kSlopePx, y), relief.point(x - kSlopePx, y));
+  const Vec3d along_y = minus(relief.point(x, y + kSlopePx), relief.point(x, y - kSlopePx));
+  if (std::abs(across.z) > kSlopeStepMm || std::abs(along_y.z) > kSlopeStepMm) return std::nullopt;
+  return unit(cross(along_y, across));  // towards the camera
+}
+
+struct Laid {
+  std::size_t seen = 0, met = 0, used = 0;  // seen: where the relief is known
+  double squares = 0;
+  Matrix6 normal = Matrix6::Zero();
+  Vector6 right = Vector6::Zero();
+};
+
+// Each point of the face where `motion` puts it, against what the relief shows in that direction.
+Laid lay(const FrontFace& front, const Relief& relief, const RigidTransform& motion, const Round& round) {
+  Laid laid;
+  const Vec3d pivot = apply(motion, front.pivot_mm);
+  for (std::size_t i = 0; i < front.count; ++i) {
+    const Vec3d at = apply(motion, front.points[i].at_mm), n = apply(motion.rotation, front.points[i].normal);
+    if (-dot(n, unit(at)) < kSeenCosine) continue;
+    const Vec2d px = relief.pixel(at);
+    const int x = Relief::nearest(px.x), y = Relief::nearest(px.y);
+    if (!relief.inside(x, y)) continue;
+    if (!relief.known(x, y)) continue;
+    ++laid.seen;
+    const double off = dot(n, minus(relief.point(x, y), at));
+    if (std::abs(off) < kMetMm) ++laid.met, laid.squares += off * off;
+    if (std::abs(off) > round.reach_mm) continue;
+    const double s = round.scale_mm * round.scale_mm, w = s / (s + off * off);
+    const Vec3d lever = cross(minus(at, pivot), n);
+    Vector6 toward;
+    toward << lever.x, lever.y, lever.z, n.x, n.y, n.z;
+    laid.normal += w * w * toward * toward.transpose();
+    laid.right += w * w * off * toward;
+    ++laid.used;
+  }
+  return laid;
+}
+
+HeadTurn settle(const FrontFace& front, const Relief& relief, RigidTransform motion) {
+  for (const Round& round : kRounds)
+    for (int k = 0; k < round.times; ++k) {
+      Laid laid = lay(front, relief, motion, round);
+      if (laid.used < kFewest) return {};
+      laid.normal += 1e-6 * laid.normal.trace() * Matrix6::Identity();
+      const Vector6 step = laid.normal.ldlt().solve(laid.right);
+      motion = product(small_motion({step[0], step[1], step[2]}, {step[3], step[4], step[5]},
+                                    apply(motion, front.pivot_mm)),
+                       motion);
+      if (1000 * step.head<3>().norm() < kSettled && step.tail<3>().norm() < kSettled) break;
+    }
+  const Laid last = lay(front, relief, motion, kRounds.back());
+  HeadTurn turn;
+  turn.now_from_front = motion;
+  turn.met_share = static_cast<double>(last.met) / static_cast<double>(std::max<std::size_t>(1, last.seen));
+  turn.rms_mm = std::sqrt(last.squares / static_cast<double>(std::max<std::size_t>(1, last.met)));
+  turn.known = last.met >= kFewest && turn.met_share >= kMetShare;
+  const auto in_head = [&](const Vec3d& axis) {
+    const Vec3d now = apply(motion.rotation, axis);
+    return Vec3d{dot(now, front.right), dot(now, front.down), dot(now, front.away)};
+  };
+  const Vec3d faces = in_head(times(front.away, -1)), side = in_head(front.right);
+  constexpr double kDegrees = 180 / std::numbers::pi;
+  turn.yaw_deg = std::atan2(faces.x, -faces.z) * kDegrees;
+  turn.pitch_deg = std::atan2(faces.y, std::hypot(faces.x, faces.z)) * kDegrees;
+  turn.roll_deg = std::atan2(side.y, std::hypot(side.x, side.z)) * kDegrees;
+  return turn;
+}
 
 constexpr int kSlowPictures = 2;
 // A tracked head at rest wanders by tenths of a millimetre from picture to picture: of two that follow at
@@ -27,6 +131,50 @@ std::size_t next_side(double yaw_deg, const TurnHistory& history) {
 }
 
 }  // namespace
+
+FrontFace front_face(const Relief& relief, const HeadMeasurement& head) {
+  FrontFace face;
+  if (!head.known) return face;
+  face.right = head.right, face.down = head.down, face.away = head.away;
+  face.pivot_mm = along(head.tip_mm, kPivotMm, head.away);
+  const Vec2d at = relief.pixel(head.tip_mm);
+  const int reach = static_cast<int>(kReachMm * relief.focal_px / head.tip_mm.z) + 1;
+  constexpr int kAcross = 48;  // of a disc that is cut below and behind at most kMost remain
+  const int stride = std::max(1, (2 * reach + kAcross - 1) / kAcross);
+  for (int y = static_cast<int>(at.y) - reach; y <= static_cast<int>(at.y) + reach; y += stride)
+    for (int x = static_cast<int>(at.x) - reach; x <= static_cast<int>(at.x) + reach; x += stride) {
+      if (face.count == FrontFace::kMost) return face;
+      if (!relief.inside(x, y) || !relief.known(x, y)) continue;
+      const Vec3d p = relief.point(x, y), d = minus(p, head.tip_mm);
+      const double below = dot(d, head.down), behind = dot(d, head.away);
+      if (dot(d, d) > kReachMm * kReachMm || below > kBelowMm || behind > kBehindMm || behind < -15) continue;
+      if (const auto normal = normal_at(relief, x, y)) face.points[face.count++] = {p, *normal};
+    }
+  return face;
+}
+
+HeadTurn follow_head(const FrontFace& front, const Relief& relief, const HeadTurn& before) {
+  if (front.count < kFewest) return {};
+  HeadTurn best;
+  if (before.known) best = settle(front, relief, before.now_from_front);
+  if (best.known && best.met_share >= kSureShare) return best;
+  for (const double yaw : kStartsDeg) {
+    const double angle = -yaw * std::numbers::pi / 180;  // about `down` a positive angle turns to the left
+    const RigidTransform start = small_motion(times(front.down, angle), {}, front.pivot_mm);
+    const HeadTurn turn = settle(front, relief, start);
+    if (turn.known && (!best.known || turn.met_share > best.met_share)) best = turn;
+  }
+  return best;
+}
+
+double moved_mm(const FrontFace& front, const HeadTurn& from, const HeadTurn& to) {
+  double most = 0;
+  for (std::size_t i = 0; i < front.count; ++i) {
+    const Vec3d& p = front.points[i].at_mm;
+    most = std::max(most, distance(apply(from.now_from_front, p), apply(to.now_from_front, p)));
+  }
+  return most;
+}
 
 TurnAnswer guide_turn(const FrontFace& front, const HeadTurn& now, std::chrono::nanoseconds at,
                       double slow_mm_s, const TurnLimits& limits, TurnHistory& history) {

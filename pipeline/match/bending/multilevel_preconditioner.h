@@ -16,9 +16,13 @@
 
 #include "hal/base/thread_pool.h"
 #include "pipeline/match/bending/bending_system.h"
-#include "pipeline/match/bending/column_span.h"
 
 namespace relievo::pipeline {
+
+// ColumnSpan: columns of a row from `begin` up to `end`; none where they are equal.
+struct ColumnSpan {
+  int begin, end;
+};
 
 class MultilevelPreconditioner {
  public:

@@ -3,12 +3,138 @@
 #include "pipeline/match/coarse/coarse_surface.h"
 
 #include <algorithm>
+#include <cmath>
+#include <optional>
 
 #include "pipeline/match/coarse/size_ladder.h"
 #include "pipeline/match/coarse/surface_labels.h"
+#include "pipeline/match/image/box_filter.h"
 
 namespace relievo::pipeline {
 namespace {
+
+constexpr int kLevel = 1;       // the field's
+constexpr int kCoarsest = 2;    // where all depths of the box are tried
+constexpr int kBand = 24;       // of half the size, around what was found there
+constexpr int kBeside = 32;     // pixels of half the size around the field
+constexpr float kBeyond = 32;   // full-size pixels nearer and farther than the field
+constexpr int kWindow = 2;      // radius over which both disagree
+constexpr float kApart = 1.5F;  // full-size pixels
+
+// Of level 1, even, so that level 2 has the same box; the right view's lies `shift` pixels further left.
+struct Box {
+  int x = 0, y = 0, w = 0, h = 0, shift = 0;
+  DisparityRange range;  // beyond the shift, full-size pixels
+};
+
+int even(int v) { return v - (v & 1); }
+
+std::optional<Box> box_of(const SurfaceField& field) {
+  const int w = field.domain.width, h = field.domain.height;
+  int left = w, right = -1, top = h, bottom = -1;
+  float least = 1e9F, most = -1e9F;
+  for (int y = 0; y < h; ++y)
+    for (int x = 0; x < w; ++x) {
+      if (field.domain.row(y)[x] == 0) continue;
+      left = std::min(left, x), right = std::max(right, x), top = std::min(top, y), bottom = y;
+      least = std::min(least, field.disparity_px.row(y)[x]),
+      most = std::max(most, field.disparity_px.row(y)[x]);
+    }
+  if (right < 0) return std::nullopt;
+  Box box;
+  box.shift = even(static_cast<int>(std::lround(least + most) / 4));
+  const auto shift_px = static_cast<double>(2 * box.shift);
+  box.range = {static_cast<double>(least - kBeyond) - shift_px,
+               static_cast<double>(most + kBeyond) - shift_px};
+  box.x = even(std::max(0, left - kBeside)), box.y = even(std::max(0, top - kBeside));
+  box.w = even(std::min(w, right + kBeside + 1) - box.x),
+  box.h = even(std::min(h, bottom + kBeside + 1) - box.y);
+  return box;
+}
+
+// From (x, y) on; black and not valid beyond the picture.
+PyramidLevel cut(const PyramidLevel& from, int x, int y, int w, int h, std::pmr::memory_resource& memory) {
+  PyramidLevel part(&memory, w, h);
+  const int begin = std::clamp(-x, 0, w), end = std::clamp(from.grey.width - x, begin, w);
+  for (int row = 0; row < h && y + row < from.grey.height; ++row) {
+    std::copy(from.grey.row(y + row) + x + begin, from.grey.row(y + row) + x + end,
+              part.grey.row(row) + begin);
+    std::copy(from.valid.row(y + row) + x + begin, from.valid.row(y + row) + x + end,
+              part.valid.row(row) + begin);
+  }
+  return part;
+}
+
+Pyramids cut(const Pyramids& whole, const Box& box, std::pmr::memory_resource& memory) {
+  Pyramids part{std::pmr::vector<PyramidLevel>(&memory), std::pmr::vector<PyramidLevel>(&memory)};
+  for (int side = 0; side < 2; ++side) {
+    auto& levels = side == 0 ? part.left : part.right;
+    levels.reserve(kCoarsest + 1);
+    levels.emplace_back(&memory, 0, 0);  // full size is not asked for
+    for (int level = kLevel; level <= kCoarsest; ++level) {
+      const int scale = 1 << (level - kLevel);
+      const int x = (side == 0 ? box.x : box.x - box.shift) / scale;
+      levels.push_back(cut((side == 0 ? whole.left : whole.right)[static_cast<std::size_t>(level)], x,
+                           box.y / scale, box.w / scale, box.h / scale, memory));
+    }
+  }
+  return part;
+}
+
+// What was found of the face: one surface, full-size pixels.
+struct Found {
+  Found(std::pmr::memory_resource* memory, const Box& at)
+      : box(at), disparity(memory, at.w, at.h), face(memory, at.w, at.h) {}
+  Box box;
+  Plane<float> disparity;
+  Plane<std::uint8_t> face;
+};
+
+Result<void> find(const RectifiedPair& pair, const Pyramids& pyramids, const CoarseSurfaceOptions& options,
+                  StageContext& context, Found& found) {
+  Arena::Mark mark(context.scratch);
+  const Box& box = found.box;
+  Progress own;  // a step of the matcher's: what the bar shows must not go back
+  StageContext inner{context.output, context.scratch, context.pool, own, context.cancelled};
+  RELIEVO_TRY(match_down(box.range, cut(pyramids, box, context.scratch),
+                         {kCoarsest, kLevel, kBand, options.cross_check_px}, options.costs, inner, 1,
+                         found.disparity));
+  for (int y = 0; y < box.h; ++y)
+    for (int x = 0; x < box.w; ++x)
+      found.face.row(y)[x] =
+          pair.region[static_cast<std::size_t>(std::min(2 * (box.y + y), pair.height_px - 1)) *
+                          static_cast<std::size_t>(pair.width_px) +
+                      static_cast<std::size_t>(std::min(2 * (box.x + x), pair.width_px - 1))];
+  Plane<std::uint8_t> usable(&context.scratch, box.w, box.h);
+  for (int y = 0; y < box.h; ++y)
+    for (int x = 0; x < box.w; ++x)
+      usable.row(y)[x] = found.face.row(y)[x] & pyramids.left[kLevel].valid.row(box.y + y)[box.x + x];
+  Plane<int> label(&context.scratch, box.w, box.h);
+  const Surfaces surfaces =
+      label_surfaces(found.disparity, found.face, options.step_limit_px, label, context.scratch);
+  for (std::size_t k = 0; k < label.values.size(); ++k) {
+    found.face.values[k] = label.values[k] != 0 && label.values[k] == surfaces.largest ? 1 : 0;
+    found.disparity.values[k] = 2 * (found.disparity.values[k] + static_cast<float>(box.shift));
+  }
+  bridge_holes(usable, options.largest_hole, found.face, found.disparity, context.scratch);
+  return {};
+}
+
+// By how much what was found lies from the field, on average over a window.
+void measure_distance(const Found& found, const SurfaceField& field, StageContext& context,
+                      Plane<float>& mean) {
+  Plane<float> across(&context.scratch, found.box.w, found.box.h),
+      count(&context.scratch, found.box.w, found.box.h);
+  for (int y = 0; y < found.box.h; ++y)
+    for (int x = 0; x < found.box.w; ++x) {
+      if (found.face.row(y)[x] == 0 || field.domain.row(found.box.y + y)[found.box.x + x] == 0) continue;
+      mean.row(y)[x] = found.disparity.row(y)[x] - field.disparity_px.row(found.box.y + y)[found.box.x + x];
+      count.row(y)[x] = 1;
+    }
+  box_sum(mean, kWindow, context.pool, across, mean);
+  box_sum(count, kWindow, context.pool, across, count);
+  for (std::size_t k = 0; k < mean.values.size(); ++k) mean.values[k] /= std::max(count.values[k], 1.0F);
+}
 
 constexpr int kBorder = 4;       // pixels: the census knows nothing there
 constexpr int kLeastFace = 400;  // pixels
@@ -23,6 +149,26 @@ SizeLadder ladder_for(const CoarseSurfaceOptions& options, bool scene, int fines
 }
 
 }  // namespace
+
+Result<void> search_edges(const RectifiedPair& pair, const Pyramids& pyramids,
+                          const CoarseSurfaceOptions& options, StageContext& context, SurfaceField& field) {
+  Arena::Mark mark(context.scratch);
+  const auto box = box_of(field);
+  if (!box) return {};
+  Found found(&context.scratch, *box);
+  RELIEVO_TRY(find(pair, pyramids, options, context, found));
+  Plane<float> distance(&context.scratch, box->w, box->h);
+  measure_distance(found, field, context, distance);
+  for (int y = 0; y < box->h; ++y)
+    for (int x = 0; x < box->w; ++x) {
+      if (found.face.row(y)[x] == 0) continue;
+      std::uint8_t& inside = field.domain.row(box->y + y)[box->x + x];
+      if (inside == 0 || std::abs(distance.row(y)[x]) > kApart)
+        field.disparity_px.row(box->y + y)[box->x + x] = found.disparity.row(y)[x];
+      inside = 1;
+    }
+  return {};
+}
 
 Result<void> find_coarse_surface(const RectifiedPair& pair, const Pyramids& pyramids,
                                  const CoarseSurfaceOptions& options, StageContext& context,

@@ -6,7 +6,7 @@
 
 #include "pipeline/match/coarse/size_ladder.h"
 #include "pipeline/match/image/field_reader.h"
-#include "pipeline/match/image/pyramids.h"
+#include "pipeline/match/image/image_pyramid.h"
 #include "pipeline/match/window/window_correlation.h"
 
 namespace relievo::pipeline {

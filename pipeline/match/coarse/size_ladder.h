@@ -10,7 +10,7 @@
 
 #include "pipeline/base/stage.h"
 #include "pipeline/match/coarse/semi_global.h"
-#include "pipeline/match/image/pyramids.h"
+#include "pipeline/match/image/image_pyramid.h"
 #include "pipeline/model/rectified_pair.h"
 
 namespace relievo::pipeline {

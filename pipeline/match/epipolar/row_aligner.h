@@ -2,15 +2,49 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 //
 // RowAligner: keeps the rows of the right view's pictures in step with the left view's, and the account
-// of what that took: the linear shift of the whole face (a nudged camera; epipolar_alignment.h) and what
+// of what that took: the linear shift of the whole face (a nudged camera) and what
 // moved beside it between the two exposures (row_motion.h).
 // Every resampling starts from the pictures as they were: none is blurred twice.
 // Memory: scratch; it must outlive this. Thread: worker.
 #pragma once
 
-#include "pipeline/match/epipolar/epipolar_alignment.h"
+#include "pipeline/base/stage.h"
+#include "pipeline/match/coarse/coarse_surface.h"
+#include "pipeline/match/epipolar/row_motion.h"
+#include "pipeline/match/image/surface_field.h"
+#include "pipeline/model/match_set.h"
+#include "pipeline/model/rectified_pair.h"
 
 namespace relievo::pipeline {
+
+// How far corresponding points are from sharing a row after all, measured on the face's own texture,
+// and the right view resampled so that they do.
+//
+// A camera that was nudged, a mount that warmed up or a pair that was not exposed at the same instant
+// leaves a vertical disagreement that is, over one face, nearly linear in the picture. Patches of the
+// surface each say what it is there (local_shifts.h); one field is laid through them, and those that
+// contradict it (highlights, edges) lose their say (shift_field.h).
+//
+// What the same error does along the rows cannot be seen: it changes the depth of the face, not its
+// likeness.
+// Memory: scratch. Results do not depend on the number of threads. Thread: worker.
+
+// Search finds shifts of many pixels: from an eighth of the size down, on a surface good to about a
+// pixel of half the size. Refine measures what is left of one, at half the size on a finished surface.
+enum class EpipolarSearch : std::uint8_t { Search, Refine };
+
+// Without measured() where the face has too little texture to tell.
+EpipolarShift measure_epipolar_shift(const RectifiedPair& pair, const Pyramids& pyramids,
+                                     const SurfaceField& field, EpipolarSearch search, StageContext& context);
+
+// What moved beside the linear shift that the pictures still have, on a surface good to about a pixel of half
+// the size.
+RowMotion measure_row_motion(const RectifiedPair& pair, const Pyramids& pyramids, const SurfaceField& field,
+                             const EpipolarShift& linear, StageContext& context);
+
+// to(x, y) = from(x, y + shift), full size, by cubic convolution along the columns; pixels that would need
+// rows outside are copied.
+void shift_rows(const RowShift& shift, std::span<const float> from, Plane<float>& to, StageContext& context);
 
 struct RowAlignerLimits {
   double beyond_px = 0.03;  // a linear shift of less is left alone, rms over the face

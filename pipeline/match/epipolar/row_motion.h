@@ -4,7 +4,7 @@
 // What moved across the rows between the two exposures: cameras without a common trigger see a mouth
 // that opens, a jaw that sinks or an eyelid that closes at two instants, and corresponding points no
 // longer share a row there. A smooth field is laid through what the patches of the face say beyond the
-// linear shift (epipolar_alignment.h): a Gaussian prior of the amplitude that the data themselves show,
+// linear shift (row_aligner.h): a Gaussian prior of the amplitude that the data themselves show,
 // a sixth of the face's width in reach, and patches that contradict their surroundings lose their say.
 // Where the patches scatter no more than each is unsure, nothing moved and the field is zero.
 //
@@ -15,11 +15,35 @@
 
 #include <span>
 
+#include "hal/base/arena.h"
 #include "pipeline/base/stage.h"
-#include "pipeline/match/epipolar/shift_field.h"
 #include "pipeline/match/image/plane.h"
+#include "pipeline/model/match_set.h"
 
 namespace relievo::pipeline {
+
+// A linear field through many local measurements of a shift, by iteratively reweighted least squares
+// with Tukey's biweight. Its uncertainty is what the scatter of the measurements says, not what their
+// weights promise, and neighbours that err together are told by summing over blocks first (sandwich
+// covariance: Huber 1967; by clusters: Liang and Zeger 1986).
+// Pixels of full size. Thread: any.
+struct LocalShift {
+  double x_px = 0;
+  double y_px = 0;
+  double shift_px = 0;
+  double information = 0;  // larger is surer; only ratios matter, and beyond the median hardly more counts
+  int block = 0;           // 0 .. kShiftBlocks - 1: measurements of one block may err together
+};
+
+inline constexpr int kShiftBlocksAcross = 6;
+inline constexpr int kShiftBlocks = kShiftBlocksAcross * kShiftBlocksAcross;
+
+// With `slopes` the field may tilt, otherwise it is one offset. Without measured() where there are too
+// few, or in too few blocks.
+EpipolarShift fit_shift_field(std::span<const LocalShift> locals, bool slopes, Arena& scratch);
+
+// The field that moves by `first` and then by `second`, as uncertain as the second.
+EpipolarShift sum_of(const EpipolarShift& first, const EpipolarShift& second);
 
 inline constexpr int kMotionStepPx = 16;
 

@@ -9,7 +9,6 @@
 #include <tuple>
 
 #include "pipeline/match/image/plane.h"
-#include "pipeline/match/window/row_search.h"
 #include "pipeline/match/window/window_correlation.h"
 
 namespace relievo::pipeline {

@@ -6,9 +6,12 @@
 #pragma once
 
 #include <cstdint>
+#include <vector>
 
 #include "hal/base/thread_pool.h"
+#include "pipeline/base/stage.h"
 #include "pipeline/match/image/plane.h"
+#include "pipeline/model/rectified_pair.h"
 
 namespace relievo::pipeline {
 
@@ -25,5 +28,13 @@ void halve_rows(const float* grey, const std::uint8_t* valid, int width, int hei
 
 // Fills every level from the one before; the first must be filled.
 void halve_levels(std::pmr::vector<PyramidLevel>& levels, ThreadPool& pool);
+
+// Both views at full size, half, a quarter, ... (image_pyramid.h). On context.scratch.
+struct Pyramids {
+  std::pmr::vector<PyramidLevel> left;  // [level]; level 0 full size
+  std::pmr::vector<PyramidLevel> right;
+};
+
+Pyramids build_pyramids(const RectifiedPair& pair, int count, StageContext& context);
 
 }  // namespace relievo::pipeline

@@ -5,7 +5,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "pipeline/match/coarse/edge_search.h"
+#include "pipeline/match/coarse/coarse_surface.h"
 #include "pipeline/match/epipolar/row_aligner.h"
 #include "pipeline/match/refine/detail_search.h"
 #include "pipeline/match/refine/enlarged_scene.h"

@@ -6,7 +6,6 @@
 #include <cmath>
 
 #include "pipeline/match/bending/bending_system.h"
-#include "pipeline/match/bending/bending_weights.h"
 #include "pipeline/match/image/box_filter.h"
 #include "pipeline/match/refine/hanging_noise.h"
 #include "pipeline/match/refine/score_excess.h"

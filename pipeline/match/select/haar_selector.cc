@@ -6,7 +6,7 @@
 #include <array>
 #include <cmath>
 
-#include "pipeline/match/select/response/fast_hessian.h"
+#include "pipeline/match/select/response/corner_response.h"
 #include "pipeline/match/select/response/keypoint_choice.h"
 
 namespace relievo::pipeline {

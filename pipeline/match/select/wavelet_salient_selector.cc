@@ -4,8 +4,8 @@
 
 #include <algorithm>
 
+#include "pipeline/match/select/response/corner_response.h"
 #include "pipeline/match/select/response/keypoint_choice.h"
-#include "pipeline/match/select/response/salient_tracks.h"
 
 namespace relievo::pipeline {
 namespace {

@@ -5,9 +5,22 @@
 // pixels (bilinear): how alike a match is, for matchers whose own score is none, and for constraints.
 #pragma once
 
+#include <optional>
+
+#include "pipeline/model/match_set.h"
 #include "pipeline/model/rectified_pair.h"
 
 namespace relievo::pipeline {
+
+// One place of the left view looked for on its row of the right one, by zero-mean correlation of square
+// windows read from the pair itself: for a few places, where the matchers' tables would cost more than they
+// save. Candidates are whole disparities, a parabola goes through the best; sigma_px as in window_matching.h,
+// cost one minus the correlation. Pixels. Thread: any. Errors: none.
+
+// The best between two disparities, both included; none where no window correlates, or the best lies at an
+// end: what is looked for may then be beyond.
+std::optional<Match> match_on_row(const RectifiedPair& pair, Vec2f left_px, double least_px, double most_px,
+                                  int radius);
 
 // -1 .. 1; 0 where a window is plain, leaves its picture or touches pixels that are not valid.
 double window_correlation(const RectifiedPair& pair, Vec2f left_px, Vec2f right_px, int radius);

@@ -11,7 +11,7 @@
 #include "pipeline/model/mesh_border.h"
 #include "pipeline/model/photo_sampler.h"
 #include "pipeline/model/vector3.h"
-#include "pipeline/texture/chart/box_window.h"
+#include "pipeline/texture/chart/raster.h"
 
 namespace relievo::pipeline {
 namespace {

@@ -6,9 +6,144 @@
 #include <cmath>
 
 #include "pipeline/model/photo_sampler.h"
-#include "pipeline/texture/chart/box_window.h"
+#include "pipeline/texture/chart/raster.h"
 
 namespace relievo::pipeline {
+namespace {
+
+constexpr int kBlock = 4;          // texels a block and side
+constexpr float kSigmas = 2.5F;    // a block's mean difference beyond this many sigmas of a texel's ...
+constexpr float kLeastLevels = 3;  // ... and beyond this many grey levels is no noise
+constexpr std::size_t kFewestBlocks = 12;
+constexpr float kOneSided = 0.8F;  // of the difference, on one side: a reflection, not a movement
+
+}  // namespace
+
+ViewChoice::ViewChoice(const Chart& chart, const ShotPlanes& planes, const ExposureMatch& exposure,
+                       const LevelField& field, float margin_px, std::pmr::memory_resource* memory)
+    : columns_((chart.width_px + kBlock - 1) / kBlock),
+      rows_((chart.height_px + kBlock - 1) / kBlock),
+      blocks_(static_cast<std::size_t>(columns_) * static_cast<std::size_t>(rows_), Choice{}, memory) {
+  std::pmr::vector<float> excess(blocks_.size(), 0.0F, memory);      // of the left view, mean over the block
+  std::pmr::vector<float> difference(blocks_.size(), 0.0F, memory);  // its size, mean over the block
+  for (int v = 0; v < rows_; ++v)
+    for (int u = 0; u < columns_; ++u) {
+      const LevelField::Level level =
+          field.at(static_cast<float>(kBlock * u) + 1.5F, static_cast<float>(kBlock * v) + 1.5F);
+      float signed_sum = 0;
+      float sum = 0;
+      float count = 0;
+      for (int y = kBlock * v; y < std::min(kBlock * v + kBlock, chart.height_px); ++y)
+        for (int x = kBlock * u; x < std::min(kBlock * u + kBlock, chart.width_px); ++x) {
+          const std::size_t k = chart.index(x, y);
+          if (planes.say_left[k] == 0 || planes.say_right[k] == 0) continue;
+          for (std::size_t c = 0; c < 3; ++c) {
+            const float d = static_cast<float>(planes.left[3 * k + c]) + level[c] -
+                            exposure.matched(c, planes.right[3 * k + c]);
+            signed_sum += d / 3;
+            sum += std::abs(d) / 3;
+          }
+          count += 1;
+        }
+      if (count == 0) continue;
+      excess[index(u, v)] = signed_sum / count;
+      difference[index(u, v)] = sum / count;
+    }
+  const float sigma = (exposure.sigma[0] + exposure.sigma[1] + exposure.sigma[2]) / 3;
+  choose(chart, planes, excess, difference, std::max(kSigmas * sigma, kLeastLevels), memory);
+  const int reach = std::max(1, static_cast<int>(std::lround(margin_px / kBlock)));
+  widen(reach, memory);
+  fade(reach, memory);
+}
+
+// Every patch of differing blocks, joined through sides and corners, gets its camera.
+void ViewChoice::choose(const Chart& chart, const ShotPlanes& planes, std::span<const float> excess,
+                        std::span<const float> difference, float limit, std::pmr::memory_resource* memory) {
+  std::pmr::vector<std::uint8_t> taken(blocks_.size(), 0, memory);
+  std::pmr::vector<std::uint32_t> patch(memory);
+  patch.reserve(blocks_.size());
+  for (std::uint32_t seed = 0; seed < blocks_.size(); ++seed) {
+    if (taken[seed] != 0 || difference[seed] < limit) continue;
+    patch.assign(1, seed);
+    taken[seed] = 1;
+    float one_way = 0;
+    float all = 0;
+    float left = 0;
+    float right = 0;
+    for (std::size_t next = 0; next < patch.size(); ++next) {
+      const int u = static_cast<int>(patch[next]) % columns_;
+      const int v = static_cast<int>(patch[next]) / columns_;
+      one_way += excess[patch[next]];
+      all += difference[patch[next]];
+      const std::size_t k = chart.index(std::min(kBlock * u + 1, chart.width_px - 1),
+                                        std::min(kBlock * v + 1, chart.height_px - 1));
+      const float share = static_cast<float>(planes.share[k]) / 255;
+      left += static_cast<float>(planes.say_left[k]) * (1 - share);
+      right += static_cast<float>(planes.say_right[k]) * share;
+      for (int y = std::max(v - 1, 0); y <= std::min(v + 1, rows_ - 1); ++y)
+        for (int x = std::max(u - 1, 0); x <= std::min(u + 1, columns_ - 1); ++x) {
+          const std::uint32_t other = static_cast<std::uint32_t>(index(x, y));
+          if (taken[other] != 0 || difference[other] < limit) continue;
+          taken[other] = 1;
+          patch.push_back(other);
+        }
+    }
+    if (patch.size() < kFewestBlocks || std::abs(one_way) > kOneSided * all) continue;
+    for (const std::uint32_t k : patch) blocks_[k] = {right > left ? 1.0F : 0.0F, 1};
+  }
+}
+
+// Ring by ring; where two parts meet the stronger evidence is that of the first.
+void ViewChoice::widen(int reach, std::pmr::memory_resource* memory) {
+  std::pmr::vector<Choice> before(memory);
+  for (int ring = 0; ring < reach; ++ring) {
+    before = blocks_;
+    for (int v = 0; v < rows_; ++v)
+      for (int u = 0; u < columns_; ++u) {
+        if (before[index(u, v)].strength > 0) continue;
+        for (int y = std::max(v - 1, 0); y <= std::min(v + 1, rows_ - 1); ++y)
+          for (int x = std::max(u - 1, 0); x <= std::min(u + 1, columns_ - 1); ++x)
+            if (before[index(x, y)].strength > 0) blocks_[index(u, v)] = before[index(x, y)];
+      }
+  }
+}
+
+// Falls to nothing over so many blocks, and never before the widened part ends.
+void ViewChoice::fade(int reach, std::pmr::memory_resource* memory) {
+  std::pmr::vector<Choice> before(memory);
+  for (int ring = reach; ring > 0; --ring) {
+    const float strength = static_cast<float>(ring) / static_cast<float>(reach + 1);
+    before = blocks_;
+    for (int v = 0; v < rows_; ++v)
+      for (int u = 0; u < columns_; ++u) {
+        if (before[index(u, v)].strength > 0) continue;
+        Choice sum;
+        for (int y = std::max(v - 1, 0); y <= std::min(v + 1, rows_ - 1); ++y)
+          for (int x = std::max(u - 1, 0); x <= std::min(u + 1, columns_ - 1); ++x) {
+            sum.right += before[index(x, y)].right;
+            sum.strength += before[index(x, y)].strength;
+          }
+        if (sum.strength > 0) blocks_[index(u, v)] = {strength * sum.right / sum.strength, strength};
+      }
+  }
+}
+
+ViewChoice::Choice ViewChoice::at(float texel_x, float texel_y) const {
+  const float x = std::clamp((texel_x + 0.5F) / kBlock - 0.5F, 0.0F, static_cast<float>(columns_ - 1));
+  const float y = std::clamp((texel_y + 0.5F) / kBlock - 0.5F, 0.0F, static_cast<float>(rows_ - 1));
+  const int u = static_cast<int>(x);
+  const int v = static_cast<int>(y);
+  const float fx = x - static_cast<float>(u);
+  const float fy = y - static_cast<float>(v);
+  Choice mean;
+  for (int k = 0; k < 4; ++k) {
+    const float w = (k % 2 == 0 ? 1 - fx : fx) * (k < 2 ? 1 - fy : fy);
+    const Choice& block = blocks_[index(std::min(u + k % 2, columns_ - 1), std::min(v + k / 2, rows_ - 1))];
+    mean.right += w * block.right;
+    mean.strength += w * block.strength;
+  }
+  return mean;
+}
 
 ViewBlend::ViewBlend(const Chart& chart, const ShotPlanes& planes, const RowBands& bands,
                      float highlight_level, float margin_px, StageContext& context)

@@ -2,7 +2,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 //
 // Cameras that are unplugged and come back: how often they are tried, and what a screen says meanwhile.
-#include "firmware/capture/camera_link.h"
+#include "firmware/capture/stereo_grabber.h"
 
 #include <gtest/gtest.h>
 

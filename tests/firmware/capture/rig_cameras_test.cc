@@ -1,13 +1,12 @@
 // SPDX-FileCopyrightText: 2026 The Relievo authors
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include "firmware/capture/rig_cameras.h"
+#include "firmware/capture/stereo_grabber.h"
 
 #include <gtest/gtest.h>
 
 #include <atomic>
 #include <vector>
 
-#include "firmware/capture/stereo_grabber.h"
 #include "hal/linux/side_by_side.h"
 #include "hal/linux/v4l2_camera.h"
 #include "tests/support/kernel/v4l2_fake_kernel.h"

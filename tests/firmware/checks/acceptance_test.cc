@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: 2026 The Relievo authors
 // SPDX-License-Identifier: GPL-3.0-or-later
 // The judging of readings, without a rig; and how reports and pictures show them.
-#include "firmware/checks/acceptance.h"
+#include "firmware/checks/optical_check.h"
 
 #include <gtest/gtest.h>
 

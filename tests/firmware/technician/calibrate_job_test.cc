@@ -3,7 +3,7 @@
 //
 // Who reads the newest pair of a live calibration while the next one is being drawn sees left and right of
 // one instant.
-#include "firmware/technician/calibrate_job.h"
+#include "firmware/technician/calibration_controller.h"
 
 #include <gtest/gtest.h>
 

@@ -1,13 +1,11 @@
 // SPDX-FileCopyrightText: 2026 The Relievo authors
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include "pipeline/recognition/portrait.h"
+#include "pipeline/recognition/recognition_images.h"
 
 #include <gtest/gtest.h>
 
 #include <cmath>
 #include <vector>
-
-#include "pipeline/recognition/recognition_images.h"
 
 namespace relievo::pipeline {
 namespace {

@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: 2026 The Relievo authors
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include "pipeline/recognition/range_image.h"
 #include "hal/base/statistics.h"
+#include "pipeline/recognition/recognition_images.h"
 
 #include <gtest/gtest.h>
 
@@ -12,7 +12,6 @@
 #include "hal/sim/head/shape/head_traits.h"
 #include "hal/sim/render.h"
 #include "pipeline/pipeline.h"
-#include "pipeline/recognition/recognition_images.h"
 #include "tests/support/rig_calibration.h"
 #include "tests/support/small_rig.h"
 #include "tests/support/stage_fixture.h"

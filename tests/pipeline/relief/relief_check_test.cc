@@ -13,7 +13,6 @@
 
 #include "hal/sim/sheet/sheet_shape.h"
 #include "pipeline/mesh/meshers/delaunay_mesher.h"
-#include "pipeline/relief/height_cells.h"
 #include "pipeline/relief/sheet_fit.h"
 #include "tests/pipeline/mesh/landmarks/field_head.h"
 #include "tests/support/stage_fixture.h"

@@ -3,11 +3,113 @@
 #include "pipeline/calibrate/live/watch/board_tracker.h"
 
 #include <algorithm>
+#include <array>
+#include <cmath>
+#include <vector>
 
-#include "pipeline/calibrate/live/watch/edge_width.h"
+#include "hal/base/statistics.h"
 
 namespace relievo::pipeline {
 namespace {
+
+constexpr double kStepPx = 0.25;      // between samples of a profile
+constexpr double kMaxReachPx = 16;    // of a profile, from the edge to either side
+constexpr double kReachShare = 0.3;   // of the distance between corners, on plain squares
+constexpr double kMarkerReach = 0.8;  // of the way to a ChArUco square's marker
+constexpr double kMinReachPx = 2.5;
+constexpr double kAlong[] = {-0.15, 0, 0.15};  // profiles that are averaged, from the edge's middle
+constexpr double kMinContrast = 0.02;          // of full scale
+constexpr int kMaxSamples = static_cast<int>(2 * kMaxReachPx / kStepPx) + 1;
+
+class Brightness {
+ public:
+  explicit Brightness(const ImageView& picture) : picture_(picture) {}
+  double full_scale() const { return picture_.format == PixelFormat::Grey16 ? 65535 : 255; }
+  bool holds(double x, double y) const {
+    return x >= 0 && y >= 0 && x < picture_.width_px - 1 && y < picture_.height_px - 1;
+  }
+  double at(double x, double y) const {
+    const int column = static_cast<int>(x);
+    const int row = static_cast<int>(y);
+    const double u = x - column;
+    const double v = y - row;
+    return (1 - v) * ((1 - u) * pixel(column, row) + u * pixel(column + 1, row)) +
+           v * ((1 - u) * pixel(column, row + 1) + u * pixel(column + 1, row + 1));
+  }
+
+ private:
+  double pixel(int column, int row) const {
+    const std::uint8_t* bytes =
+        picture_.row(row) + static_cast<std::ptrdiff_t>(column) * bytes_per_pixel(picture_.format);
+    switch (picture_.format) {
+      case PixelFormat::Grey8:
+        return bytes[0];
+      case PixelFormat::Rgb8:
+        return 0.25 * bytes[0] + 0.5 * bytes[1] + 0.25 * bytes[2];
+      case PixelFormat::Grey16:
+        return bytes[0] + 256.0 * bytes[1];  // the machine's order: little-endian
+    }
+    return 0;
+  }
+  const ImageView& picture_;
+};
+
+using Profile = std::array<double, kMaxSamples>;
+
+// Averaged along the edge from a to b; false where it leaves the picture.
+bool profile_of(const Brightness& picture, const Vec2d& a, const Vec2d& b, double reach_px, Profile& profile,
+                int count) {
+  const Vec2d along = {b.x - a.x, b.y - a.y};
+  const double length = std::hypot(along.x, along.y);
+  const Vec2d normal = {-along.y / length, along.x / length};
+  profile.fill(0);
+  for (const double share : kAlong)
+    for (int i = 0; i < count; ++i) {
+      const double out = -reach_px + i * kStepPx;
+      const double x = a.x + (0.5 + share) * along.x + out * normal.x;
+      const double y = a.y + (0.5 + share) * along.y + out * normal.y;
+      if (!picture.holds(x, y)) return false;
+      profile[static_cast<std::size_t>(i)] += picture.at(x, y) / static_cast<double>(std::size(kAlong));
+    }
+  return true;
+}
+
+// Distance from the middle crossing outwards (`step` -1 or 1) to where `level` is passed, in samples.
+double passed(const Profile& profile, int count, int from, int step, double level) {
+  const bool rising = profile[static_cast<std::size_t>(from)] < level;
+  for (int i = from; i >= 0 && i < count; i += step) {
+    const double now = profile[static_cast<std::size_t>(i)];
+    if ((now < level) == rising) continue;
+    const double before = profile[static_cast<std::size_t>(i - step)];
+    return std::abs(i - from) - 1 + (level - before) / (now - before);
+  }
+  return step < 0 ? from : count - 1 - from;
+}
+
+double width_of(const Profile& profile, int count, double least_contrast) {
+  const int plain = std::max(1, count / 8);
+  double first = 0;
+  double last = 0;
+  for (int i = 0; i < plain; ++i) {
+    first += profile[static_cast<std::size_t>(i)] / plain;
+    last += profile[static_cast<std::size_t>(count - 1 - i)] / plain;
+  }
+  const double contrast = last - first;
+  if (std::abs(contrast) < least_contrast) return 0;
+  // The crossing nearest to where the corners say the edge is.
+  const int middle = count / 2;
+  int crossing = -1;
+  for (int off = 0; off < count / 3 && crossing < 0; ++off)
+    for (const int i : {middle - off, middle + off}) {
+      const double a = (profile[static_cast<std::size_t>(i)] - first) / contrast - 0.5;
+      const double b = (profile[static_cast<std::size_t>(i + 1)] - first) / contrast - 0.5;
+      if (a <= 0 && b > 0) crossing = i;
+    }
+  if (crossing < 1 || crossing + 2 >= count) return 0;
+  const double down = passed(profile, count, crossing + 1, -1, first + 0.1 * contrast);
+  const double up = passed(profile, count, crossing, 1, first + 0.9 * contrast);
+  return (down + up - 1) * kStepPx;
+}
 
 // The reduced picture is at least this wide: enough for a board that fills a fifth of it. Markers must
 // be read, which takes more.
@@ -80,6 +182,35 @@ void add_row(const ImageView& picture, int y, int factor, std::vector<std::uint3
 }
 
 }  // namespace
+
+double edge_width_px(const ImageView& picture, const BoardCorners& corners, const BoardPattern& pattern) {
+  const Brightness brightness(picture);
+  const double plain =
+      pattern.kind == BoardKind::Chessboard
+          ? kReachShare
+          : std::min(kReachShare, kMarkerReach * 0.5 * (1 - pattern.marker_side_mm() / pattern.square_mm));
+  std::array<std::vector<double>, 2> widths;  // of edges along rows, along columns
+  Profile profile;
+  for (int row = 0; row < pattern.rows; ++row)
+    for (int column = 0; column < pattern.columns; ++column)
+      for (const bool down : {false, true}) {
+        if ((down ? row + 1 >= pattern.rows : column + 1 >= pattern.columns)) continue;
+        const auto here = static_cast<std::size_t>(row * pattern.columns + column);
+        const Vec2d& a = corners[here];
+        const Vec2d& b = corners[here + static_cast<std::size_t>(down ? pattern.columns : 1)];
+        if (!seen(a) || !seen(b)) continue;
+        const double reach_px = std::min(kMaxReachPx, plain * std::hypot(b.x - a.x, b.y - a.y));
+        if (reach_px < kMinReachPx) continue;
+        const int count = static_cast<int>(2 * reach_px / kStepPx) + 1;
+        if (!profile_of(brightness, a, b, reach_px, profile, count)) continue;
+        const double width = width_of(profile, count, kMinContrast * brightness.full_scale());
+        if (width > 0) widths[down ? 1 : 0].push_back(width);
+      }
+  double widest = 0;
+  for (std::vector<double>& way : widths)
+    if (!way.empty()) widest = std::max(widest, median(way));
+  return widest;
+}
 
 void BoardTracker::reduce(const ImageView& picture) {
   const int wanted = pattern_.kind == BoardKind::Chessboard ? kReducedWidthPx : kReducedCharucoPx;

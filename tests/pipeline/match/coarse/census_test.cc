@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: 2026 The Relievo authors
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include "pipeline/match/coarse/census.h"
+#include "pipeline/match/coarse/semi_global.h"
 
 #include <gtest/gtest.h>
 

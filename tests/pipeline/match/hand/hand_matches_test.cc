@@ -12,7 +12,7 @@
 #include <limits>
 #include <set>
 
-#include "pipeline/match/window/row_search.h"
+#include "pipeline/match/window/window_correlation.h"
 #include "pipeline/pipeline.h"
 #include "tests/support/bump_scene.h"
 #include "tests/support/names_of.h"

@@ -7,7 +7,6 @@
 #include <cmath>
 #include <vector>
 
-#include "pipeline/match/rectify/rectified_geometry.h"
 #include "tests/support/lying_sensor.h"
 #include "tests/support/stage_fixture.h"
 

@@ -8,7 +8,7 @@
 #include <random>
 
 #include "hal/picture_file.h"
-#include "pipeline/match/region/checksum.h"
+#include "pipeline/match/region/checked_file.h"
 #include "pipeline/match/region/face_region.h"
 #include "tests/pipeline/mesh/stage_room.h"
 #include "tests/pipeline/mesh/truth_cloud.h"

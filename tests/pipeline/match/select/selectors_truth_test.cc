@@ -10,8 +10,6 @@
 #include <set>
 
 #include "pipeline/match/select/response/corner_response.h"
-#include "pipeline/match/select/response/fast_hessian.h"
-#include "pipeline/match/select/response/salient_tracks.h"
 #include "pipeline/pipeline.h"
 #include "tests/pipeline/match/select/selection_fixture.h"
 #include "tests/support/rig_calibration.h"

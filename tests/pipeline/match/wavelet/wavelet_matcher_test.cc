@@ -6,7 +6,6 @@
 
 #include <algorithm>
 
-#include "pipeline/match/wavelet/dyadic_wavelet.h"
 #include "tests/pipeline/match/match_truth.h"
 
 namespace relievo::pipeline {

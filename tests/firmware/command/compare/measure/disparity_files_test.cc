@@ -5,8 +5,8 @@
 #include <array>
 #include <cstring>
 
+#include "firmware/measure/disparity_map.h"
 #include "firmware/measure/disparity_truth.h"
-#include "firmware/measure/pfm.h"
 #include "hal/picture_file.h"
 #include "tests/support/temporary_folder.h"
 

@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: 2026 The Relievo authors
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include "pipeline/calibrate/live/watch/edge_width.h"
+#include "pipeline/calibrate/live/watch/board_tracker.h"
 
 #include <gtest/gtest.h>
 
