@@ -49,7 +49,7 @@ class ConsoleLines final : public std::streambuf {
 };
 
 // Of a store that is not there yet, or holds no calibration, nothing is known.
-Result<std::optional<pipeline::StereoCalibration>> in_use(const Path& folder, Services& services) {
+Result<std::optional<pipeline::StereoCalibration>> known_calibration(const Path& folder, Services& services) {
   const auto store = services.open_store(folder, false);
   if (!store && store.error().code == Errc::NotFound) return std::optional<pipeline::StereoCalibration>();
   if (!store) return store.error();
@@ -77,7 +77,7 @@ Result<void> calibrate_and_store(const Task& task, Services& services, const Cal
     RigToday today;
     today.made_at = text_of(std::chrono::floor<std::chrono::milliseconds>(services.clock.wall_now()));
     if (!task.store.empty()) {
-      RELIEVO_TRY_ASSIGN(today.in_use, in_use(task.store, services));
+      RELIEVO_TRY_ASSIGN(today.in_use, known_calibration(task.store, services));
     }
     RELIEVO_TRY_ASSIGN(const auto result, calibrate(out, today));
     if (task.store.empty()) return {};

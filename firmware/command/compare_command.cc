@@ -40,7 +40,7 @@ Result<void> write_result(const OutputFolder& folder, const Path& place, const R
 }
 
 // A line a run, for a terminal.
-std::string line_of(const Comparison& c, const Run& run) {
+std::string summary_of(const Comparison& c, const Run& run) {
   const std::string name = c.pairs[run.pair].name + ", " + c.sets[run.set].name + ": ";
   if (!run.failure.empty() && !run.score) return name + "failed: " + run.failure;
   char figures[200];
@@ -115,7 +115,7 @@ Result<void> run_dissertation(const CompareArgs& args, Services& services) {
   services.console.say(line);
   for (const compare::Figure& figure : compare::figures_of(made))
     for (const Run* run : figure.runs)
-      services.console.say("figure " + std::to_string(figure.number) + ": " + line_of(figure.of, *run));
+      services.console.say("figure " + std::to_string(figure.number) + ": " + summary_of(figure.of, *run));
   services.console.say("report and figures: " + args.output.string());
   return {};
 }
@@ -150,7 +150,7 @@ Result<void> run_compare(const CompareArgs& args, Services& services) {
                            compare::comparison_json(comparison, now_of(services))));
   if (args.keep_maps) RELIEVO_TRY(write_maps(comparison, folder, args.output));
   RELIEVO_TRY(folder.commit());
-  for (const Run& run : comparison.runs) services.console.say(line_of(comparison, run));
+  for (const Run& run : comparison.runs) services.console.say(summary_of(comparison, run));
   services.console.say("page and figures: " + args.output.string());
   return {};
 }

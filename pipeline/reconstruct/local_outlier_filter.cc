@@ -12,7 +12,7 @@
 namespace relievo::pipeline {
 namespace {
 
-constexpr int kBands = 32;
+constexpr int kJudgedBands = 32;
 
 enum class Verdict : std::uint8_t { Kept, Unsupported, Spike, Island };
 
@@ -48,7 +48,7 @@ class Filter {
 
   // Points without a cell were not finite; they stay unsupported.
   bool judge(StageContext& context) {
-    context.pool.for_each_band(near_.rows(), kBands, [&](int begin, int end, int) {
+    context.pool.for_each_band(near_.rows(), kJudgedBands, [&](int begin, int end, int) {
       for (int r = begin; r < end && !context.stop(); ++r)
         for (int c = 0; c < near_.columns(); ++c)
           for (const std::uint32_t i : near_.cell(c, r)) verdict_[i] = judge_point(i, c, r);

@@ -29,9 +29,9 @@ constexpr std::string_view kStyle = R"css(
 )css";
 constexpr const char* kUnknown = "not recorded";
 
-std::string percent(double share) { return figure(100 * share, 1) + " %"; }
-std::string percent(std::size_t part, std::size_t whole) {
-  return whole == 0 ? "–" : percent(static_cast<double>(part) / static_cast<double>(whole));
+std::string percent_of(double share) { return figure(100 * share, 1) + " %"; }
+std::string percent_of(std::size_t part, std::size_t whole) {
+  return whole == 0 ? "–" : percent_of(static_cast<double>(part) / static_cast<double>(whole));
 }
 std::string off_by(double found, double truth, int decimals) {
   return (found > truth ? "+" : "") + figure(found - truth, decimals);
@@ -120,10 +120,11 @@ std::string scores(const std::vector<const Run*>& runs, const Comparison& c) {
   for (const Run* run : runs) {
     std::vector<std::string> cells{"–", "–", "–"};
     if (run->score)
-      cells = {percent(run->score->bad_limit), percent(run->score->bad_given), percent(run->score->density)};
+      cells = {percent_of(run->score->bad_limit), percent_of(run->score->bad_given),
+               percent_of(run->score->density)};
     if (!truth)
-      cells = {percent(run->matches.accepted, run->matches.keypoints),
-               run->left_right ? percent(run->left_right->within_1px) : "–"};
+      cells = {percent_of(run->matches.accepted, run->matches.keypoints),
+               run->left_right ? percent_of(run->left_right->within_1px) : "–"};
     rows += row(sections::name_of(c, *run), cells);
   }
   return truth ? table({"", "bad", "bad of the given", "density"}, rows)
@@ -150,8 +151,8 @@ Result<std::string> figure_6(const Figure& f) {
   for (const Run* run : f.runs) {
     e.seen += (e.seen.empty() ? (run->score ? "Bad: " : "Matched: ") : ", ") + sections::name_of(f.of, *run) +
               " " +
-              (run->score ? percent(run->score->bad_limit)
-                          : percent(run->matches.accepted, run->matches.keypoints));
+              (run->score ? percent_of(run->score->bad_limit)
+                          : percent_of(run->matches.accepted, run->matches.keypoints));
     RELIEVO_TRY_ASSIGN(const std::string maps, sections::map_row(f.of, *run, sections::name_of(f.of, *run)));
     e.wide += maps;
   }
@@ -176,16 +177,16 @@ Result<std::string> rule_figure(const Figure& f, const Run& before) {
   const std::size_t had = run.matches.accepted + rule.rejected;
   std::string rows =
       row("matches before",
-          {std::to_string(had), percent(before.matches.accepted_bad, before.matches.accepted_judged)}) +
-      row("taken away", {std::to_string(rule.rejected), percent(rule.bad, rule.judged)}) +
+          {std::to_string(had), percent_of(before.matches.accepted_bad, before.matches.accepted_judged)}) +
+      row("taken away", {std::to_string(rule.rejected), percent_of(rule.bad, rule.judged)}) +
       row("left", {std::to_string(run.matches.accepted),
-                   percent(run.matches.accepted_bad, run.matches.accepted_judged)});
+                   percent_of(run.matches.accepted_bad, run.matches.accepted_judged)});
   e.ours += table({"", "matches", "truly bad"}, rows);
-  e.seen = "The constraint takes away " + percent(rule.rejected, had) + " of the matches";
+  e.seen = "The constraint takes away " + percent_of(rule.rejected, had) + " of the matches";
   if (rule.judged > 0)
-    e.seen += "; of these " + percent(rule.bad, rule.judged) + " are truly bad, of all before " +
-              percent(before.matches.accepted_bad, before.matches.accepted_judged) + ", of what is left " +
-              percent(run.matches.accepted_bad, run.matches.accepted_judged) + ".";
+    e.seen += "; of these " + percent_of(rule.bad, rule.judged) + " are truly bad, of all before " +
+              percent_of(before.matches.accepted_bad, before.matches.accepted_judged) + ", of what is left " +
+              percent_of(run.matches.accepted_bad, run.matches.accepted_judged) + ".";
   else e.seen += run.score ? "." : std::string(".") + kNoTruth;
   RELIEVO_TRY_ASSIGN(e.wide, sections::map_row(f.of, run, sections::name_of(f.of, run)));
   return section(e);
@@ -203,12 +204,12 @@ std::string figure_17(const Figure& f) {
     const measure::Measurement m = run->model.value_or(measure::Measurement{});
     rows +=
         row(sections::name_of(f.of, *run), {mm(m.interior_median_mm, 3), mm(m.accuracy_p95_mm, 2),
-                                            run->model ? percent(m.complete_half_mm) : "–",
+                                            run->model ? percent_of(m.complete_half_mm) : "–",
                                             run->surface ? std::to_string(run->surface->triangles) : "–"});
     models += run->surface ? 1 : 0;
     if (run->model)
       seen += (seen.empty() ? "" : "; ") + sections::name_of(f.of, *run) + " " +
-              figure(m.interior_median_mm, 3) + " mm, " + percent(m.complete_half_mm);
+              figure(m.interior_median_mm, 3) + " mm, " + percent_of(m.complete_half_mm);
   }
   e.ours = table({"", "median<small>error, mm</small>", "95 % within<small>mm</small>",
                   "complete<small>within 0.5 mm</small>", "triangles"},

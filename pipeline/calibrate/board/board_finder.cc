@@ -111,7 +111,7 @@ double step_px(const Lattice& lattice) {
   return count > 0 ? sum / count : 0;
 }
 
-constexpr int kMinSidePx = 32;
+constexpr int kLeastSidePx = 32;
 constexpr std::size_t kMostSaddles = 6000;  // of a picture: the largest board has 3600
 constexpr std::size_t kMostLattices = 12;   // that are looked into
 constexpr int kLeastGroup = 6;              // crossings
@@ -278,7 +278,7 @@ BoardCorners corners_of(const Lattice& lattice) {
 Result<BoardCorners> find_board(const ImageView& picture, const BoardPattern& pattern) {
   RELIEVO_TRY(pattern.check());
   if (picture.empty()) return Error{Errc::InvalidInput, "there is no picture to look for a board in"};
-  if (picture.width_px < kMinSidePx || picture.height_px < kMinSidePx)
+  if (picture.width_px < kLeastSidePx || picture.height_px < kLeastSidePx)
     return Error{Errc::NotFound, "no board found"};
   try {
     const auto lattice = Search(picture, pattern).run();

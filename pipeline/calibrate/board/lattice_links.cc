@@ -167,30 +167,30 @@ Links link_up(const SmoothPicture& picture, std::span<const Saddle> saddles) {
   return mutual;
 }
 
-struct Place {
+struct LinkPlace {
   int column, row;
   int turn;  // half edge k points in direction (k + turn) % 4: right, down, left, up
 };
 
 // Walks over the links from one crossing; a place that is taken stays with whom it has.
 std::map<std::pair<int, int>, int> walk(const Links& links, int start, std::vector<bool>& visited,
-                                        std::vector<Place>& place) {
+                                        std::vector<LinkPlace>& place) {
   std::map<std::pair<int, int>, int> at;
   std::vector<int> open{start};
   visited[static_cast<std::size_t>(start)] = true;
   place[static_cast<std::size_t>(start)] = {0, 0, 0};
   at[{0, 0}] = start;
   for (std::size_t k = 0; k < open.size(); ++k) {
-    const Place here = place[static_cast<std::size_t>(open[k])];
+    const LinkPlace here = place[static_cast<std::size_t>(open[k])];
     for (int ray = 0; ray < 4; ++ray) {
       const Link& link = links[static_cast<std::size_t>(open[k])][static_cast<std::size_t>(ray)];
       if (link.to < 0 || visited[static_cast<std::size_t>(link.to)]) continue;
       const int direction = (ray + here.turn) % 4;
       constexpr std::array<int, 4> kRight{1, 0, -1, 0};
       constexpr std::array<int, 4> kDown{0, 1, 0, -1};
-      const Place there{here.column + kRight[static_cast<std::size_t>(direction)],
-                        here.row + kDown[static_cast<std::size_t>(direction)],
-                        (direction + 2 - link.ray + 4) % 4};
+      const LinkPlace there{here.column + kRight[static_cast<std::size_t>(direction)],
+                            here.row + kDown[static_cast<std::size_t>(direction)],
+                            (direction + 2 - link.ray + 4) % 4};
       if (std::max(std::abs(there.column), std::abs(there.row)) > kMostSteps) continue;
       if (!at.emplace(std::pair{there.column, there.row}, link.to).second) continue;
       visited[static_cast<std::size_t>(link.to)] = true;
@@ -202,7 +202,7 @@ std::map<std::pair<int, int>, int> walk(const Links& links, int start, std::vect
 }
 
 Lattice lattice_of(const std::map<std::pair<int, int>, int>& at, std::span<const Saddle> saddles,
-                   const std::vector<Place>& place) {
+                   const std::vector<LinkPlace>& place) {
   int left = 0, right = 0, top = 0, bottom = 0;
   for (const auto& [where, who] : at) {
     left = std::min(left, where.first), right = std::max(right, where.first);
@@ -226,7 +226,7 @@ Lattice lattice_of(const std::map<std::pair<int, int>, int>& at, std::span<const
 std::vector<Lattice> find_lattices(const SmoothPicture& picture, std::span<const Saddle> saddles, int least) {
   const Links links = link_up(picture, saddles);
   std::vector<bool> visited(saddles.size());
-  std::vector<Place> place(saddles.size());
+  std::vector<LinkPlace> place(saddles.size());
   std::vector<Lattice> lattices;
   for (std::size_t i = 0; i < saddles.size(); ++i) {
     if (visited[i]) continue;

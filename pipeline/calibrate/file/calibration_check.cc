@@ -19,8 +19,6 @@ constexpr double kRotationTolerance = 1e-5;
 constexpr double kMinBaselineMm = 1;
 constexpr double kMaxBaselineMm = 10'000;
 
-Error wrong(Literal what, std::string_view where) { return Error{Errc::InvalidInput, what}.at(where); }
-
 // Distorted radius over undistorted radius must rise up to the middle of the farther edge, or two
 // rays share one pixel. (The corners may be extrapolated; no face is there.)
 bool unfolded(const CameraIntrinsics& camera) {

@@ -7,8 +7,6 @@
 namespace relievo::pipeline {
 namespace {
 
-Error wrong(Literal what, std::string_view field) { return Error{Errc::InvalidInput, what}.at(field); }
-
 Result<int> whole_number(const YamlFields& fields, std::string_view name) {
   const auto found = fields.numbers.find(name);
   if (found == fields.numbers.end())

@@ -12,6 +12,8 @@
 
 namespace relievo::pipeline {
 
+inline Error wrong(Literal what, std::string_view field) { return Error{Errc::InvalidInput, what}.at(field); }
+
 // One thing's names in different tools.
 struct FieldNames {
   std::string_view usual;

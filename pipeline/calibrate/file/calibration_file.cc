@@ -132,8 +132,6 @@ Error failed(Literal what, const std::filesystem::path& file) {
   return error.at(file.native());
 }
 
-Error wrong(Literal what, std::string_view place) { return Error{Errc::InvalidInput, what}.at(place); }
-
 Result<void> write_all(int descriptor, std::string_view text, const std::filesystem::path& file) {
   while (!text.empty()) {
     const ssize_t written = ::write(descriptor, text.data(), text.size());

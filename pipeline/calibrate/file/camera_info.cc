@@ -18,8 +18,6 @@ namespace {
 constexpr double kMmPerMetre = 1000;
 constexpr double kSame = 1e-5;  // of numbers written with a few decimals
 
-Error wrong(Literal what, std::string_view field) { return Error{Errc::InvalidInput, what}.at(field); }
-
 struct CameraInfo {
   CameraIntrinsics camera;
   Rotation rectified_from_camera;

@@ -11,7 +11,6 @@
 namespace relievo::pipeline::report {
 namespace {
 
-constexpr double kWidth = 480;
 constexpr int kGrid = 8;  // as CalibrationQuality.coverage_left counts
 
 struct Layers {
@@ -44,7 +43,7 @@ Layers layers_of(const CalibrationReport& r, std::size_t eye, double scale) {
 
 void grid(Drawing& d, const Layers& layers, double height) {
   Strokes gaps;
-  const Size cell{kWidth / kGrid, height / kGrid};
+  const Size cell{kFigureWidth / kGrid, height / kGrid};
   for (int y = 0; y < kGrid; ++y)
     for (int x = 0; x < kGrid; ++x) {
       const Vec2d corner{x * cell.width, y * cell.height};
@@ -56,24 +55,24 @@ void grid(Drawing& d, const Layers& layers, double height) {
   Strokes lines;
   for (int i = 1; i < kGrid; ++i) {
     lines.from({i * cell.width, 0}).to({i * cell.width, height});
-    lines.from({0, i * cell.height}).to({kWidth, i * cell.height});
+    lines.from({0, i * cell.height}).to({kFigureWidth, i * cell.height});
   }
   d.strokes("grid", lines);
 }
 
 std::string camera_figure(const CalibrationReport& r, std::size_t eye) {
   const CameraIntrinsics& camera = camera_of(r, eye);
-  const double scale = kWidth / camera.width_px;
+  const double scale = kFigureWidth / camera.width_px;
   const double height = scale * camera.height_px;
   const Layers layers = layers_of(r, eye, scale);
-  Drawing d({kWidth, height}, "Corners seen, in the frame of the picture");
+  Drawing d({kFigureWidth, height}, "Corners seen, in the frame of the picture");
   grid(d, layers, height);
   const std::string style(kCameraStyles[eye]);
   d.strokes("outline other", layers.other_outlines);
   d.strokes("outline " + style, layers.outlines);
   d.strokes("dots other", layers.other_dots);
   d.strokes("dots " + style, layers.dots);
-  d.box("frame", {{0.5, 0.5}, {kWidth - 1, height - 1}});
+  d.box("frame", {{0.5, 0.5}, {kFigureWidth - 1, height - 1}});
   const auto cells = std::count(layers.covered.begin(), layers.covered.end(), true);
   return figure_of(
       d.svg(), kCameraNames[eye],

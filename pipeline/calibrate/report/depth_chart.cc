@@ -10,23 +10,23 @@
 namespace relievo::pipeline::report {
 namespace {
 
-constexpr Size kSize{480, 440};
-constexpr Box kPlot{{58, 56}, {408, 334}};
+constexpr Size kDepthSize{480, 440};
+constexpr Box kDepthPlot{{58, 56}, {408, 334}};
 
 void axes(Drawing& d, const Axis& x, const Axis& y) {
   const double step = tick_step(y.high, 5);
   const int decimals = tick_decimals(step);
   for (int k = 0; k * step <= y.high + 0.01 * step; ++k) {
     const double value = k * step;
-    d.line(value == 0 ? "axis" : "grid", {kPlot.corner.x, y(value)}, {kPlot.right(), y(value)});
-    d.text("tick end", {kPlot.corner.x - 8, y(value) + 4.5}, figure(value, decimals));
+    d.line(value == 0 ? "axis" : "grid", {kDepthPlot.corner.x, y(value)}, {kDepthPlot.right(), y(value)});
+    d.text("tick end", {kDepthPlot.corner.x - 8, y(value) + 4.5}, figure(value, decimals));
   }
   for (int i = 0; i < kDepthSteps; ++i) {
     const double mm = kFirstDepthMm + i * kDepthStepMm;
-    d.line("axis", {x(mm), kPlot.bottom()}, {x(mm), kPlot.bottom() + 5});
-    d.text("tick middle", {x(mm), kPlot.bottom() + 20}, figure(mm, 0));
+    d.line("axis", {x(mm), kDepthPlot.bottom()}, {x(mm), kDepthPlot.bottom() + 5});
+    d.text("tick middle", {x(mm), kDepthPlot.bottom() + 20}, figure(mm, 0));
   }
-  d.text("label middle", {0.5 * (kPlot.corner.x + kPlot.right()), kSize.height - 8},
+  d.text("label middle", {0.5 * (kDepthPlot.corner.x + kDepthPlot.right()), kDepthSize.height - 8},
          "distance from the left camera, mm");
   d.text("label begin", {4, 16}, "depth uncertainty, one sigma, mm");
 }
@@ -41,7 +41,7 @@ void held(Drawing& d, const Axis& x, const CalibrationQuality& q) {
     farthest = std::max(farthest, std::min(view.distance_mm, x.high));
   }
   if (nearest < farthest)
-    d.box("held", {{x(nearest), kPlot.corner.y}, {x(farthest) - x(nearest), kPlot.size.height}});
+    d.box("held", {{x(nearest), kDepthPlot.corner.y}, {x(farthest) - x(nearest), kDepthPlot.size.height}});
 }
 
 void series(Drawing& d, std::string_view style, const std::vector<Vec2d>& points) {
@@ -52,7 +52,7 @@ void series(Drawing& d, std::string_view style, const std::vector<Vec2d>& points
 }
 
 void key(Drawing& d) {
-  const double y = kPlot.corner.y - 14;
+  const double y = kDepthPlot.corner.y - 14;
   const auto entry = [&d, y](double x, std::string_view style, std::string_view words) {
     d.line("series " + std::string(style), {x, y - 4.5}, {x + 22, y - 4.5});
     d.disc("point " + std::string(style), {x + 11, y - 4.5}, 3.5);
@@ -71,14 +71,14 @@ std::string depth_chart(const CalibrationReport& r) {
   const double step = tick_step(most, 5);
   double top = step;
   while (top < most) top += step;
-  const Axis x{kFirstDepthMm, kFirstDepthMm + (kDepthSteps - 1) * kDepthStepMm, kPlot.corner.x,
-               kPlot.right()};
-  const Axis y{0, top, kPlot.bottom(), kPlot.corner.y};
-  Drawing d(kSize, "Chart: depth uncertainty over the distance from the left camera");
+  const Axis x{kFirstDepthMm, kFirstDepthMm + (kDepthSteps - 1) * kDepthStepMm, kDepthPlot.corner.x,
+               kDepthPlot.right()};
+  const Axis y{0, top, kDepthPlot.bottom(), kDepthPlot.corner.y};
+  Drawing d(kDepthSize, "Chart: depth uncertainty over the distance from the left camera");
   held(d, x, r.output.quality);
   axes(d, x, y);
-  d.line("marker", {x(kFaceMm), kPlot.corner.y}, {x(kFaceMm), kPlot.bottom()});
-  d.text("note begin", {x(kFaceMm) + 5, kPlot.corner.y + 13},
+  d.line("marker", {x(kFaceMm), kDepthPlot.corner.y}, {x(kFaceMm), kDepthPlot.bottom()});
+  d.text("note begin", {x(kFaceMm) + 5, kDepthPlot.corner.y + 13},
          "faces, " + figure(kFaceMm, 0) + " mm: " +
              figure(r.output.quality.face_depth_sigma_mm, decimals_of(r.output.quality.face_depth_sigma_mm)));
   std::vector<Vec2d> worst;

@@ -13,7 +13,6 @@
 namespace relievo::pipeline::report {
 namespace {
 
-constexpr double kWidth = 480;
 constexpr double kLegend = 46;
 
 // Light to dark at an even pace, so that it prints in grey as well.
@@ -53,7 +52,7 @@ Scale scale_of(const CalibrationUncertainty& u) {
 
 void legend(Drawing& d, const Scale& scale, double top) {
   constexpr int kSlices = 96;
-  constexpr Box kBar{{0, 0}, {kWidth - 40, 12}};
+  constexpr Box kBar{{0, 0}, {kFigureWidth - 40, 12}};
   for (int i = 0; i < kSlices; ++i)
     d.filled({{i * kBar.size.width / kSlices, top}, {kBar.size.width / kSlices + 0.5, kBar.size.height}},
              colour((i + 0.5) / kSlices));
@@ -72,20 +71,20 @@ void legend(Drawing& d, const Scale& scale, double top) {
     d.line("axis", {x, top + 12}, {x, top + 17});
     d.text(i == 0 ? "tick begin" : "tick middle", {x, top + 32}, figure(ticks[i], tick_decimals(ticks[i])));
   }
-  d.text("tick end", {kWidth, top + 11}, "px");
+  d.text("tick end", {kFigureWidth, top + 11}, "px");
 }
 
 std::string map_figure(const CalibrationReport& r, std::size_t eye, const Scale& scale) {
   const ProjectionMap& map = r.output.quality.uncertainty.projection[eye];
   const CameraIntrinsics& camera = camera_of(r, eye);
-  const double height = kWidth * camera.height_px / camera.width_px;
-  Drawing d({kWidth, height + 14 + kLegend}, "Heat map: projection uncertainty over the picture");
+  const double height = kFigureWidth * camera.height_px / camera.width_px;
+  Drawing d({kFigureWidth, height + 14 + kLegend}, "Heat map: projection uncertainty over the picture");
   for (int row = 0; row < map.rows; ++row)
     for (int column = 0; column < map.columns; ++column)
-      d.filled({{column * kWidth / map.columns, row * height / map.rows},
-                {kWidth / map.columns, height / map.rows}},
+      d.filled({{column * kFigureWidth / map.columns, row * height / map.rows},
+                {kFigureWidth / map.columns, height / map.rows}},
                colour(scale.share(map.at(column, row))));
-  d.box("frame", {{0.5, 0.5}, {kWidth - 1, height - 1}});
+  d.box("frame", {{0.5, 0.5}, {kFigureWidth - 1, height - 1}});
   legend(d, scale, height + 14);
   std::vector<double> sigmas = map.sigma_px;
   const double middle = sigmas.empty() ? 0 : median(sigmas);

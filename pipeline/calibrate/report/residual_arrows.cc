@@ -13,7 +13,6 @@
 namespace relievo::pipeline::report {
 namespace {
 
-constexpr double kWidth = 480;
 constexpr double kKey = 34;
 constexpr double kUsualLength = 0.045;  // of the picture's width: what all but the longest arrows stay below
 
@@ -44,9 +43,9 @@ void arrow(Strokes& strokes, Vec2d base, Vec2d by) {
 
 std::string camera_figure(const CalibrationReport& r, std::size_t eye, double magnified, double usual) {
   const CameraIntrinsics& camera = camera_of(r, eye);
-  const double scale = kWidth / camera.width_px;
+  const double scale = kFigureWidth / camera.width_px;
   const double height = scale * camera.height_px;
-  Drawing d({kWidth, height + kKey}, "Residuals as arrows, in the frame of the picture");
+  Drawing d({kFigureWidth, height + kKey}, "Residuals as arrows, in the frame of the picture");
   const std::size_t stride = corner_stride(r);
   Strokes arrows;
   std::size_t count = 0;
@@ -57,7 +56,7 @@ std::string camera_figure(const CalibrationReport& r, std::size_t eye, double ma
   });
   const std::string style = "arrows " + std::string(kCameraStyles[eye]);
   d.strokes(style, arrows);
-  d.box("frame", {{0.5, 0.5}, {kWidth - 1, height - 1}});
+  d.box("frame", {{0.5, 0.5}, {kFigureWidth - 1, height - 1}});
   const double shown = rounded_down(usual);
   Strokes key;
   arrow(key, {1, height + 20}, {shown * scale * magnified, 0});

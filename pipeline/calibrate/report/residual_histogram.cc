@@ -13,8 +13,8 @@
 namespace relievo::pipeline::report {
 namespace {
 
-constexpr Size kSize{480, 190};
-constexpr Box kPlot{{4, 10}, {472, 136}};
+constexpr Size kHistogramSize{480, 190};
+constexpr Box kHistogramPlot{{4, 10}, {472, 136}};
 constexpr int kBins = 41;
 constexpr double kReach = 4;  // standard deviations
 
@@ -36,14 +36,16 @@ double deviation(const std::vector<double>& values) {
 }
 
 void ticks(Drawing& d, const Axis& x) {
-  d.line("axis", {kPlot.corner.x, kPlot.bottom()}, {kPlot.right(), kPlot.bottom()});
+  d.line("axis", {kHistogramPlot.corner.x, kHistogramPlot.bottom()},
+         {kHistogramPlot.right(), kHistogramPlot.bottom()});
   const double step = tick_step(x.high - x.low, 9);
   const int last = static_cast<int>(x.high / step);
   for (int i = -last; i <= last; ++i) {
-    d.line("axis", {x(i * step), kPlot.bottom()}, {x(i * step), kPlot.bottom() + 5});
-    d.text("tick middle", {x(i * step), kPlot.bottom() + 20}, figure(i * step, tick_decimals(step)));
+    d.line("axis", {x(i * step), kHistogramPlot.bottom()}, {x(i * step), kHistogramPlot.bottom() + 5});
+    d.text("tick middle", {x(i * step), kHistogramPlot.bottom() + 20}, figure(i * step, tick_decimals(step)));
   }
-  d.text("label middle", {0.5 * (kPlot.corner.x + kPlot.right()), kSize.height - 6},
+  d.text("label middle",
+         {0.5 * (kHistogramPlot.corner.x + kHistogramPlot.right()), kHistogramSize.height - 6},
          "residual of one coordinate, px");
 }
 
@@ -65,9 +67,9 @@ std::string camera_figure(const CalibrationReport& r, std::size_t eye, double re
            std::exp(-0.5 * value * value / (sigma * sigma));
   };
   const double top = std::max<double>(*std::max_element(bins.begin(), bins.end()), normal(0)) * 1.04;
-  const Axis x{-reach, reach, kPlot.corner.x, kPlot.right()};
-  const Axis y{0, std::max(top, 1.0), kPlot.bottom(), kPlot.corner.y};
-  Drawing d(kSize,
+  const Axis x{-reach, reach, kHistogramPlot.corner.x, kHistogramPlot.right()};
+  const Axis y{0, std::max(top, 1.0), kHistogramPlot.bottom(), kHistogramPlot.corner.y};
+  Drawing d(kHistogramSize,
             std::string(kCameraNames[eye]) + ": histogram of the residuals with a normal distribution");
   const std::string style(kCameraStyles[eye]);
   for (int i = 0; i < kBins; ++i) {

@@ -26,6 +26,7 @@ std::string view_table(const CalibrationReport& r);
 std::string number_tables(const CalibrationReport& r);
 
 // What several figures have in common.
+inline constexpr double kFigureWidth = 480;
 inline constexpr std::array<std::string_view, 2> kCameraNames = {"Left camera", "Right camera"};
 inline constexpr std::array<std::string_view, 2> kCameraStyles = {"left", "right"};
 

@@ -12,7 +12,7 @@ namespace relievo::pipeline {
 namespace {
 
 constexpr double kPupilMm = 31.5;  // from the middle of the face; people: 27 to 37
-constexpr double kHalfWidthMm = 20, kTopMm = -58, kBottomMm = -6;
+constexpr double kHalfEyeMm = 20, kTopMm = -58, kBottomMm = -6;
 constexpr double kSearchRightMm = 7, kHighestMm = -50, kLowestMm = -25;  // where an iris can be
 constexpr std::array kRadiiMm{5.4, 5.9, 6.4};
 constexpr double kAcrossMm = 1.0;     // to both sides of the edge
@@ -183,8 +183,8 @@ EyeMeasurement measure_eye(const FaceWindow& w, double side, StageContext& conte
 std::array<EyeMeasurement, 2> measure_eyes(const FacePhoto& photo, StageContext& context) {
   constexpr std::array kSides{-1.0, 1.0};
   const auto window = [&](double side) {
-    return cut_window(
-        photo, {side * kPupilMm - kHalfWidthMm, side * kPupilMm + kHalfWidthMm, kTopMm, kBottomMm}, context);
+    return cut_window(photo, {side * kPupilMm - kHalfEyeMm, side * kPupilMm + kHalfEyeMm, kTopMm, kBottomMm},
+                      context);
   };
   const std::array windows{window(kSides[0]), window(kSides[1])};
   std::array<EyeMeasurement, 2> eyes;

@@ -14,7 +14,7 @@
 namespace relievo::pipeline {
 namespace {
 
-constexpr double kHalfWidthMm = 42, kTopMm = 12;
+constexpr double kHalfWidthMm = 42, kMouthTopMm = 12;
 constexpr std::array kBottomsMm{74.0, 67.0,
                                 60.0};  // the lowest that the picture still shows: a chin may reach out of it
 constexpr double kHighestLineMm = 18, kLowestLineMm = 54;
@@ -192,7 +192,7 @@ double stands_before(const FacePhoto& photo, double line_mm) {
 MouthMeasurement measure_mouth(const FacePhoto& photo, StageContext& context) {
   MouthMeasurement mouth;
   const auto cut = [&](double bottom) {
-    return cut_window(photo, {-kHalfWidthMm, kHalfWidthMm, kTopMm, bottom}, context);
+    return cut_window(photo, {-kHalfWidthMm, kHalfWidthMm, kMouthTopMm, bottom}, context);
   };
   FaceWindow w = cut(kBottomsMm[0]);
   for (std::size_t i = 1; i < kBottomsMm.size() && w.empty(); ++i) w = cut(kBottomsMm[i]);

@@ -15,7 +15,7 @@ constexpr double kOwnMm2 = 300;             // where it covers so much there
 constexpr double kOwnShare = 0.6;    // of a field, for wide hair, a hat, the back of a head turned by 25
                                      // degrees (a third): fuller is what touches the head
 constexpr double kLeastSeen = 0.25;  // of a field: the rest is out of the picture
-constexpr std::size_t kSurfaces = 256;
+constexpr std::size_t kOwnSurfaces = 256;
 
 // The pixels of a rectangle before the head, `right` to the picture's right of the tip.
 struct Field {
@@ -41,18 +41,18 @@ bool level_with(const Vec3d& tip, float depth_mm) {
 }
 
 // Surfaces by the area they cover of the head itself.
-std::array<bool, kSurfaces> own_surfaces(const Relief& relief, const Vec3d& tip) {
-  std::array<int, kSurfaces> pixels{};
+std::array<bool, kOwnSurfaces> own_surfaces(const Relief& relief, const Vec3d& tip) {
+  std::array<int, kOwnSurfaces> pixels{};
   const Field head = within(relief, field(relief, tip, -kOwnMm, kOwnMm, tip.z));
   for (int y = head.y0; y <= head.y1; ++y)
     for (int x = head.x0; x <= head.x1; ++x) {
       const std::size_t i = relief.index(x, y);
-      if (relief.surface[i] != 0 && relief.surface[i] < kSurfaces && level_with(tip, relief.depth_mm[i]))
+      if (relief.surface[i] != 0 && relief.surface[i] < kOwnSurfaces && level_with(tip, relief.depth_mm[i]))
         ++pixels[relief.surface[i]];
     }
-  std::array<bool, kSurfaces> own{};
+  std::array<bool, kOwnSurfaces> own{};
   const double pixel_mm = tip.z / relief.focal_px;
-  for (std::size_t i = 0; i < kSurfaces; ++i) own[i] = pixels[i] * pixel_mm * pixel_mm > kOwnMm2;
+  for (std::size_t i = 0; i < kOwnSurfaces; ++i) own[i] = pixels[i] * pixel_mm * pixel_mm > kOwnMm2;
   return own;
 }
 
@@ -61,7 +61,7 @@ std::array<bool, kSurfaces> own_surfaces(const Relief& relief, const Vec3d& tip)
 double beside_share(const Relief& relief, const HeadMeasurement& head) {
   if (!head.known || relief.surface.empty()) return 0;
   const Vec3d& tip = head.tip_mm;
-  const std::array<bool, kSurfaces> own = own_surfaces(relief, tip);
+  const std::array<bool, kOwnSurfaces> own = own_surfaces(relief, tip);
   double most = 0;
   for (const double side : {-1.0, 1.0}) {
     // Seen at the depth of the ears.
@@ -74,7 +74,7 @@ double beside_share(const Relief& relief, const HeadMeasurement& head) {
       for (int x = seen.x0; x <= seen.x1; ++x) {
         const std::size_t i = relief.index(x, y);
         if (relief.surface[i] == 0 || !level_with(tip, relief.depth_mm[i])) continue;
-        ++(relief.surface[i] < kSurfaces && own[relief.surface[i]] ? owned : foreign);
+        ++(relief.surface[i] < kOwnSurfaces && own[relief.surface[i]] ? owned : foreign);
       }
     const double all = std::max(1, seen.pixels());
     most = std::max(most, foreign / all + std::max(0.0, owned / all - kOwnShare));

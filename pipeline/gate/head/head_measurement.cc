@@ -17,15 +17,15 @@
 namespace relievo::pipeline {
 namespace {
 
-constexpr double kDegree = std::numbers::pi / 180;
+constexpr double kRadians = std::numbers::pi / 180;
 constexpr double kReachMm = 78;  // of the tip of the nose: brows and chin, little hair
-constexpr std::size_t kLeastPoints = 60;
+constexpr std::size_t kLeastHeadPoints = 60;
 constexpr double kNoseReachMm = 27;    // left out where the slope of the face is measured
 constexpr double kMeanSlopeDeg = 2.6;  // of the average head that looks straight (hal/sim, seeds 1 and 2)
 constexpr double kSettledMm = 6;       // a tip found anew within that of the old one: the mirror plane holds
 constexpr int kRounds = 3;             // of that
 constexpr double kLeastNoseMm = 10;    // a nose stands out further
-constexpr double kHalfWidthMm = 52, kUpMm = 75, kDownMm = 55;  // the face about the tip of its nose
+constexpr double kHalfWidthMm = 52, kShapeUpMm = 75, kShapeDownMm = 55;  // the face about the tip of its nose
 
 std::pmr::vector<Vec3d> points_about(const Relief& relief, const Vec3d& tip, StageContext& context) {
   std::pmr::vector<Vec3d> points(&context.scratch);
@@ -89,9 +89,9 @@ double nose_height(std::span<const Vec3d> points, const HeadMeasurement& head) {
 void measure_cover(const Relief& relief, const FaceForm& form, HeadMeasurement& head) {
   const double pixel_mm = head.tip_mm.z / relief.focal_px, step = std::max(1.5, pixel_mm);
   int all = 0, before = 0, unknown = 0;
-  for (double down = -kUpMm; down <= kDownMm; down += step)
+  for (double down = -kShapeUpMm; down <= kShapeDownMm; down += step)
     for (double right = -kHalfWidthMm; right <= kHalfWidthMm; right += step) {
-      const double v = down < 0 ? down / kUpMm : down / kDownMm, u = right / kHalfWidthMm;
+      const double v = down < 0 ? down / kShapeUpMm : down / kShapeDownMm, u = right / kHalfWidthMm;
       if (u * u + v * v > 1) continue;
       const Vec3d level = along(along(head.tip_mm, right, head.right), down, head.down);
       const Vec3d guess = along(level, std::max(0.0, form.behind(right, down)), head.away);
@@ -120,7 +120,7 @@ void take_axes(const MirrorPlane& plane, const HeadAxes& axes, HeadMeasurement& 
 // What follows from the tip and the axes. False where no face can be fitted.
 bool fit_face(std::span<const Vec3d> points, HeadMeasurement& head, FaceForm& form) {
   form = fit_form(points, head);
-  head.pitch_deg = std::atan(form.slope) / kDegree - kMeanSlopeDeg;
+  head.pitch_deg = std::atan(form.slope) / kRadians - kMeanSlopeDeg;
   head.relief_mm = nose_height(points, head);
   return form.known;
 }
@@ -128,7 +128,7 @@ bool fit_face(std::span<const Vec3d> points, HeadMeasurement& head, FaceForm& fo
 // Everything that follows from where the tip is. False where no face can be fitted.
 bool measure_about(const Relief& relief, StageContext& context, HeadMeasurement& head, FaceForm& form) {
   const std::pmr::vector<Vec3d> points = points_about(relief, head.tip_mm, context);
-  if (points.size() < kLeastPoints) return false;
+  if (points.size() < kLeastHeadPoints) return false;
   const HeadAxes axes = axes_facing_the_rig(head.tip_mm, relief.baseline_mm);
   HeadMeasurement best;
   double least = 0;

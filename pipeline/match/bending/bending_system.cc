@@ -53,7 +53,7 @@ void measure_wrinkles(const Plane<float>& d, const Plane<std::uint8_t>& domain, 
   for (float& value : wrinkled.values) value = std::clamp(value - kPlain, 0.0F, kMostWrinkled);
 }
 
-constexpr int kBands = 8;  // fixed, so that sums do not depend on the number of threads
+constexpr int kSumBands = 8;  // fixed, so that sums do not depend on the number of threads
 
 ColumnSpan join(const ColumnSpan& a, const ColumnSpan& b) {
   return {std::min(a.begin, b.begin), std::max(a.end, b.end)};
@@ -145,8 +145,8 @@ RELIEVO_SIMD void step_row(const float* p, const float* ap, float alpha, ColumnS
 // `rows` works rows [begin, end) and says their part of the sum.
 template <typename Rows>
 double sum_over_bands(ThreadPool& pool, int height, Rows&& rows) {
-  std::array<double, kBands> parts{};
-  pool.for_each_band(height, kBands, [&](int begin, int end, int band) {
+  std::array<double, kSumBands> parts{};
+  pool.for_each_band(height, kSumBands, [&](int begin, int end, int band) {
     parts[static_cast<std::size_t>(band)] = rows(begin, end);
   });
   double sum = 0;
@@ -223,14 +223,14 @@ void solve(const BendingSystem& s, int steps, double tolerance, ThreadPool& pool
   Plane<float> z(&scratch, w, h);
   Plane<float> p(&scratch, w, h);
   Plane<float> ap(&scratch, w, h);
-  Plane<float> rolling(&scratch, rolling_floats(w), kBands);
+  Plane<float> rolling(&scratch, rolling_floats(w), kSumBands);
   const Spans spans(s, &scratch);
   const auto span = [&spans](int y) { return spans.out[static_cast<std::size_t>(y)]; };
   MultilevelPreconditioner preconditioner(s, pool, &scratch);
   std::fill(x.values.begin(), x.values.end(), 0.0F);
   r.values = s.rhs.values;
   const auto band_of = [h](int begin) {
-    return static_cast<int>((static_cast<long>(begin) * kBands + h - 1) / h);
+    return static_cast<int>((static_cast<long>(begin) * kSumBands + h - 1) / h);
   };
   const auto each = [&](auto&& rows) { return sum_over_bands(pool, h, rows); };
   const auto precondition = [&] {

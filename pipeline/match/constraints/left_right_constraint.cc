@@ -10,7 +10,7 @@
 namespace relievo::pipeline {
 namespace {
 
-constexpr int kBands = 32;
+constexpr int kAskedBands = 32;
 
 enum class Answer : std::uint8_t { Confirmed, Elsewhere, Unasked };
 
@@ -50,17 +50,18 @@ void LeftRightConstraint::judge(const RectifiedPair& pair, std::span<Match> matc
   std::swap(planes.left, planes.right);
   std::swap(planes.whole_left, planes.whole_right);
   std::pmr::vector<PatchScores> scores(&context.scratch);
-  scores.reserve(kBands);
-  for (int band = 0; band < kBands; ++band)
+  scores.reserve(kAskedBands);
+  for (int band = 0; band < kAskedBands; ++band)
     scores.emplace_back(planes, WindowScore::ZeroMeanCorrelation, 2 * search_px + 1, &context.scratch);
-  context.pool.for_each_band(static_cast<int>(matches.size()), kBands, [&](int begin, int end, int band) {
-    for (int k = begin; k < end && !context.stop(); ++k) {
-      Match& match = matches[static_cast<std::size_t>(k)];
-      if (match.rejected_by != 0 || !(std::abs(match.disparity_px) < 1e6F)) continue;
-      if (ask_back(match, *this, scores[static_cast<std::size_t>(band)]) == Answer::Elsewhere)
-        match.rejected_by = bit;
-    }
-  });
+  context.pool.for_each_band(
+      static_cast<int>(matches.size()), kAskedBands, [&](int begin, int end, int band) {
+        for (int k = begin; k < end && !context.stop(); ++k) {
+          Match& match = matches[static_cast<std::size_t>(k)];
+          if (match.rejected_by != 0 || !(std::abs(match.disparity_px) < 1e6F)) continue;
+          if (ask_back(match, *this, scores[static_cast<std::size_t>(band)]) == Answer::Elsewhere)
+            match.rejected_by = bit;
+        }
+      });
 }
 
 }  // namespace relievo::pipeline

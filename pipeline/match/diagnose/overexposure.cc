@@ -9,7 +9,7 @@ namespace {
 
 constexpr double kFaceWidthMm = 150;                   // a grown-up's, as in RectifiedPair::face_width_px
 constexpr double kHalfWidth = 0.4, kHalfHeight = 0.5;  // of that width: an ellipse of skin, no background
-constexpr int kEvery = 2;                              // pixels looked at
+constexpr int kEveryTexel = 2;                         // pixels looked at
 
 struct Oval {
   double x, y, half_width, half_height;
@@ -25,8 +25,8 @@ Oval oval(double x, double y, double face_width) {
 
 double white_share(const RectifiedView& view, const RectifiedPair& pair, const Oval& face) {
   long seen = 0, white = 0;
-  for (int y = 0; y < pair.height_px; y += kEvery)
-    for (int x = 0; x < pair.width_px; x += kEvery) {
+  for (int y = 0; y < pair.height_px; y += kEveryTexel)
+    for (int x = 0; x < pair.width_px; x += kEveryTexel) {
       const std::size_t k =
           static_cast<std::size_t>(y) * static_cast<std::size_t>(pair.width_px) + static_cast<std::size_t>(x);
       if (!view.valid[k] || !face.holds(x, y)) continue;

@@ -11,7 +11,7 @@
 namespace relievo::pipeline {
 namespace {
 
-constexpr int kBands = 16;
+constexpr int kAlignedBands = 16;
 constexpr int kFirstLevel = 3;
 constexpr int kLastLevel = 1;     // full size would add noise, hardly detail
 constexpr int kSearchRounds = 3;  // at each level
@@ -57,7 +57,7 @@ RowMotion measure_row_motion(const RectifiedPair& pair, const Pyramids& pyramids
 }
 
 void shift_rows(const RowShift& shift, std::span<const float> from, Plane<float>& to, StageContext& context) {
-  context.pool.for_each_band(to.height, kBands, [&](int begin, int end, int) {
+  context.pool.for_each_band(to.height, kAlignedBands, [&](int begin, int end, int) {
     for (int y = begin; y < end; ++y)
       for (int x = 0; x < to.width; ++x) {
         const double at = y + shift.at(x, y);

@@ -13,16 +13,16 @@
 namespace relievo::pipeline {
 namespace {
 
-constexpr float kSteep = 0.7F;  // disparity a pixel: skin so foreshortened says little
-constexpr int kGap = 3;         // nodes less steep that do not end a curtain
-constexpr int kBeside = 2;      // nodes beside a curtain that it still bends
-constexpr int kSlope = 5;       // nodes over which the slope of the surface beside it is taken
-constexpr int kMargin = 2;      // nodes beyond those beside it in which the cut is looked for
-constexpr int kWindow = 3;      // radius over which disagreement is added up
-constexpr int kReach = 4;       // full-size pixels by which a continued surface may be off
+constexpr float kSteep = 0.7F;      // disparity a pixel: skin so foreshortened says little
+constexpr int kGap = 3;             // nodes less steep that do not end a curtain
+constexpr int kBeside = 2;          // nodes beside a curtain that it still bends
+constexpr int kSlope = 5;           // nodes over which the slope of the surface beside it is taken
+constexpr int kCutMargin = 2;       // nodes beyond those beside it in which the cut is looked for
+constexpr int kWindow = 3;          // radius over which disagreement is added up
+constexpr int kContinuedReach = 4;  // full-size pixels by which a continued surface may be off
 constexpr int kStride = 2;
-constexpr int kOffsetWindow = 10;  // radius over which one view is brighter than the other by a constant
-constexpr float kLoud = 20;        // grey levels: what disagrees by more is as wrong as can be
+constexpr int kOffsetWindow = 10;   // radius over which one view is brighter than the other by a constant
+constexpr float kLoudContour = 20;  // grey levels: what disagrees by more is as wrong as can be
 
 // A row or a column of nodes: node i of it is values[first + i * stride].
 struct Line {
@@ -47,7 +47,9 @@ struct Surfaces {
 // is now.
 struct Disagreement {
   Disagreement(std::pmr::memory_resource* memory, int w, int h)
-      : before(memory, w, h, kLoud), behind(memory, w, h, kLoud), now(memory, w, h, kLoud) {}
+      : before(memory, w, h, kLoudContour),
+        behind(memory, w, h, kLoudContour),
+        now(memory, w, h, kLoudContour) {}
   Plane<float> before, behind, now;
 };
 
@@ -98,7 +100,7 @@ std::optional<Curtain> hang(const SurfaceField& field, const Line& line, const S
   const float limit = kSteep * static_cast<float>(field.step_px);
   const float slope_before = std::clamp((d(before) - d(before - kSlope)) / kSlope, -limit, limit);
   const float slope_behind = std::clamp((d(behind + kSlope) - d(behind)) / kSlope, -limit, limit);
-  const Curtain curtain{line, before - kMargin, behind + kMargin};
+  const Curtain curtain{line, before - kCutMargin, behind + kCutMargin};
   for (int i = curtain.from; i <= curtain.to; ++i) {
     surfaces.before.values[line.at(i)] = d(before) + slope_before * static_cast<float>(i - before);
     surfaces.behind.values[line.at(i)] = d(behind) + slope_behind * static_cast<float>(i - behind);
@@ -144,7 +146,7 @@ void measure_offset(const RefinerScene& scene, const SurfaceField& field, const 
       if (field.domain.row(y)[x] == 0 || surfaces.asked.row(y)[x] != 0) continue;
       const auto seen = seen_at(scene, x, y, field.disparity_px.row(y)[x]);
       if (!seen) continue;
-      offset.row(y)[x] = std::clamp(scene.left.row(y)[x] - *seen, -kLoud, kLoud);
+      offset.row(y)[x] = std::clamp(scene.left.row(y)[x] - *seen, -kLoudContour, kLoudContour);
       count.row(y)[x] = 1;
     }
   box_sum(offset, kOffsetWindow, context.pool, across, offset);
@@ -152,7 +154,7 @@ void measure_offset(const RefinerScene& scene, const SurfaceField& field, const 
   for (std::size_t k = 0; k < offset.values.size(); ++k) offset.values[k] /= std::max(count.values[k], 1.0F);
 }
 
-struct Views {
+struct ContourViews {
   const RefinerScene& scene;
   const std::pmr::vector<Curtain>& curtains;
   const Plane<float>& offset;
@@ -160,8 +162,8 @@ struct Views {
 };
 
 // The mean disagreement over a window of the curtain, the surface being d + shift.
-void disagree(const Views& views, const Plane<float>& d, float shift, ThreadPool& pool, Plane<float>& across,
-              Plane<float>& mean) {
+void disagree(const ContourViews& views, const Plane<float>& d, float shift, ThreadPool& pool,
+              Plane<float>& across, Plane<float>& mean) {
   std::fill(mean.values.begin(), mean.values.end(), 0.0F);
   for (const auto& [line, from, to] : views.curtains)
     for (int i = from; i <= to; ++i) {
@@ -169,8 +171,8 @@ void disagree(const Views& views, const Plane<float>& d, float shift, ThreadPool
       const int x = static_cast<int>(k) % d.width, y = static_cast<int>(k) / d.width;
       const auto seen = seen_at(views.scene, x, y, d.values[k] + shift);
       mean.values[k] =
-          seen ? std::min(kLoud, std::abs(views.scene.left.row(y)[x] - *seen - views.offset.values[k]))
-               : kLoud;
+          seen ? std::min(kLoudContour, std::abs(views.scene.left.row(y)[x] - *seen - views.offset.values[k]))
+               : kLoudContour;
     }
   box_sum(mean, kWindow, pool, across, mean);
   for (std::size_t k = 0; k < mean.values.size(); ++k)
@@ -178,9 +180,10 @@ void disagree(const Views& views, const Plane<float>& d, float shift, ThreadPool
 }
 
 // The least for a surface continued as `d`, which may well have bent on its way under the curtain.
-void disagree_least(const Views& views, const Plane<float>& d, StageContext& context, Plane<float>& least) {
+void disagree_least(const ContourViews& views, const Plane<float>& d, StageContext& context,
+                    Plane<float>& least) {
   Plane<float> across(&context.scratch, d.width, d.height), mean(&context.scratch, d.width, d.height);
-  for (int shift = -kReach; shift <= kReach; shift += kStride) {
+  for (int shift = -kContinuedReach; shift <= kContinuedReach; shift += kStride) {
     disagree(views, d, static_cast<float>(shift), context.pool, across, mean);
     for (std::size_t k = 0; k < mean.values.size(); ++k)
       least.values[k] = std::min(least.values[k], mean.values[k]);
@@ -194,7 +197,7 @@ void measure_disagreement(const RefinerScene& scene, const SurfaceField& field,
   Plane<float> offset(&context.scratch, w, h), across(&context.scratch, w, h), asked(&context.scratch, w, h);
   measure_offset(scene, field, surfaces, context, offset);
   box_sum(surfaces.asked, kWindow, context.pool, across, asked);
-  const Views views{scene, curtains, offset, asked};
+  const ContourViews views{scene, curtains, offset, asked};
   disagree_least(views, surfaces.before, context, sums.before);
   disagree_least(views, surfaces.behind, context, sums.behind);
   disagree(views, field.disparity_px, 0, context.pool, across, sums.now);

@@ -14,7 +14,7 @@
 namespace relievo::pipeline {
 namespace {
 
-constexpr int kBands = 16;
+constexpr int kRefinedBands = 16;
 constexpr int kFarLevel = 2;
 // Of the squared residual: the next warp solves what is left anew. A tenth of this changes no figure.
 constexpr double kSolved = 1e-3;
@@ -69,7 +69,7 @@ struct Work {
 // Adds what every pixel says to the nodes around it.
 void gather_data(const WarpTerms& terms, const Plane<float>* agreed, int step, Work& work, ThreadPool& pool) {
   BendingSystem& system = work.system;
-  pool.for_each_band(system.height(), kBands, [&](int begin, int end, int) {
+  pool.for_each_band(system.height(), kRefinedBands, [&](int begin, int end, int) {
     for (int j = begin; j < end; ++j)
       for (int i = 0; i < system.width(); ++i) {
         float a = 0;

@@ -12,7 +12,7 @@
 namespace relievo::pipeline {
 namespace {
 
-constexpr int kBands = 16;
+constexpr int kOctaveBands = 16;
 constexpr int kSizes = 4;
 
 // One octave: responses of four filter sizes on every step-th pixel.
@@ -33,7 +33,7 @@ struct Octave {
 };
 
 void respond(const FastHessian& hessian, const Selectable& selectable, ThreadPool& pool, Octave& octave) {
-  pool.for_each_band(octave.response[0].height, kBands, [&](int begin, int end, int) {
+  pool.for_each_band(octave.response[0].height, kOctaveBands, [&](int begin, int end, int) {
     for (std::size_t k = 0; k < kSizes; ++k)
       for (int j = begin; j < end; ++j)
         for (int i = 0; i < octave.response[k].width; ++i)

@@ -11,11 +11,11 @@
 namespace relievo::pipeline {
 namespace {
 
-constexpr int kBands = 16;
+constexpr int kPlaneBands = 16;
 constexpr float kMiddleGrey = 128;
 
 void fill_plane(const RectifiedView& view, int channel, int channels, ThreadPool& pool, Plane<float>& to) {
-  pool.for_each_band(to.height, kBands, [&](int begin, int end, int) {
+  pool.for_each_band(to.height, kPlaneBands, [&](int begin, int end, int) {
     const std::size_t first = static_cast<std::size_t>(begin) * static_cast<std::size_t>(to.width);
     const std::size_t last = static_cast<std::size_t>(end) * static_cast<std::size_t>(to.width);
     for (std::size_t k = first; k < last; ++k)

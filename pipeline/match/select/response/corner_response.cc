@@ -10,7 +10,7 @@
 namespace relievo::pipeline {
 namespace {
 
-constexpr int kBands = 16;
+constexpr int kCornerBands = 16;
 
 struct Gradient {
   float x, y;
@@ -27,7 +27,7 @@ Gradient sobel(const float* above, const float* here, const float* below, int x)
 // Products of the gradient; 0 along the picture's edge.
 template <typename Product>
 void products(const std::pmr::vector<float>& grey, Plane<float>& to, ThreadPool& pool, Product product) {
-  pool.for_each_band(to.height - 2, kBands, [&](int begin, int end, int) {
+  pool.for_each_band(to.height - 2, kCornerBands, [&](int begin, int end, int) {
     for (int y = begin + 1; y < end + 1; ++y) {
       const float* here = grey.data() + static_cast<std::ptrdiff_t>(y) * to.width;
       float* out = to.row(y);
@@ -173,7 +173,7 @@ bool corner_response(const std::pmr::vector<float>& grey, const Selectable& sele
   const float side = static_cast<float>(2 * window.radius_px + 1);
   const float mean = 1 / std::pow(side, static_cast<float>(2 * window.passes));
   const int margin = window.reach_px();
-  context.pool.for_each_band(response.height, kBands, [&](int begin, int end, int) {
+  context.pool.for_each_band(response.height, kCornerBands, [&](int begin, int end, int) {
     for (int y = begin; y < end; ++y)
       for (int x = 0; x < response.width; ++x)
         if (selectable(x, y, margin))
