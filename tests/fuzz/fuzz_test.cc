@@ -53,7 +53,7 @@ TEST_P(Fuzz, SeedsCutAndChangedDoNoHarm) {
     for (int i = 0; i < changes; ++i) {
       std::string input = seed;
       // As patched() takes it.
-      for (int n = seed.empty() ? 40 : 0; n > 0; --n) input += static_cast<char>(random());
+      for (int n = seed.empty() ? 400 : 0; n > 0; --n) input += static_cast<char>(random());
       for (unsigned n = 1 + random() % 4; n > 0; --n) {
         const std::size_t at = random() % (input.size() + 1);
         if (random() % 2 == 0 && at < input.size()) input[at] = static_cast<char>(random());

@@ -152,7 +152,8 @@ PowerCounts cut_power(const fs::path& folder, const std::vector<PowerStep>& step
     log = watched.log();
   }
   const PowerCounts counts = Cutter(log, steps, look).run();
-  std::cout << counts.points << " points, " << counts.cuts << " cuts and " << counts.kills << " kills left "
+  std::cout << ::testing::UnitTest::GetInstance()->current_test_info()->name() << ": " << counts.points
+            << " points, " << counts.cuts << " cuts and " << counts.kills << " kills left "
             << counts.different << " different disks, " << counts.cut_again
             << " of them cut again: " << counts.as_before << " as before the step, " << counts.as_after
             << " as after it\n";
