@@ -1,14 +1,15 @@
 // SPDX-FileCopyrightText: 2026 The Relievo authors
 // SPDX-License-Identifier: GPL-3.0-or-later
 //
-// Voice: the kiosk's speaker. It hands on what the pages say while somebody wants to hear it, and is silent
-// at once when nobody does. Thread: main, which it never holds up. Errors: none; without a speaker it is
-// silent.
+// Voice: the kiosk's speaker. It plays the sounds that tell everybody what has happened, hands on what the
+// pages say while somebody wants to hear it, and is silent at once when nobody does. Thread: main, which it
+// never holds up. Errors: none; without a speaker it is silent.
 #pragma once
 
 #include <memory>
 
 #include "hal/speaker.h"
+#include "ui/speech/cue.h"
 #include "ui/ui.h"
 
 namespace relievo::firmware {
@@ -23,7 +24,11 @@ class Voice {
   bool turn(ui::Ui& ui, const ui::ViewState& view);
 
  private:
+  void sound(const ui::Ui& ui, const ui::ViewState& view);
+
   std::unique_ptr<hal::Speaker> speaker_;
+  ui::Cues cues_;
+  hal::Instant guided_{};
   bool heard_ = false;
 };
 

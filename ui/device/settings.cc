@@ -36,6 +36,7 @@ constexpr std::array<SettingInfo, kSettings> kInfos{{
     {Setting::TellsKnown, "tells_known", kSwitch, 1, false, true},
     {Setting::KeepDays, "keep_days", kDays, 0, false, true},
     {Setting::Solids, "solids", kSwitch, 0, false, true},
+    {Setting::Sounds, "sounds", kSwitch, 1, true, true},
     {Setting::LeastRoomMib, "least_room_mib", kRoom, 512, true, false},
 }};
 

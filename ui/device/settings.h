@@ -27,6 +27,7 @@ enum class Setting : std::uint8_t {
   TellsKnown,      // is a visitor told that their name is in the records already?
   KeepDays,        // since the last consent; 0: until somebody erases it
   Solids,          // a solid for printing stands beside each portrait that is exported
+  Sounds,          // ticks of the countdown, shutter, done; who listens to the pages hears them always
   LeastRoomMib,    // so much of the disk stays free: a portrait that would need it is not stored
   Count
 };

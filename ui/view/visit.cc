@@ -28,6 +28,11 @@ std::optional<float> Visit::countdown(const LiveView& live) const {
   return std::max(0.0F, kSteadyFor + countdown_s() - live.steady_s);
 }
 
+int Visit::countdown_number(const LiveView& live) const {
+  const auto left = countdown(live);
+  return left ? 1 + std::clamp(static_cast<int>(*left / countdown_s() * 3), 0, 2) : 0;
+}
+
 void Visit::touched(hal::Instant now) {
   last_touch_ = now;
   if (overlay == Overlay::StillThere) overlay = Overlay::None;

@@ -80,6 +80,8 @@ class Visit {
   int seconds_left(hal::Instant now) const;
   // Seconds until the picture is taken by itself; nothing while something is to be mended first.
   std::optional<float> countdown(const LiveView& live) const;
+  // The same as a number of three that are counted down; 0: there is none.
+  int countdown_number(const LiveView& live) const;
   float countdown_s() const { return static_cast<float>(settings_.of(Setting::CountdownMs)) / 1000; }
 
   // The languages to choose from: to who listens, those that can be heard.

@@ -146,6 +146,10 @@ class KioskSpeechTest : public KioskHands {
     ASSERT_TRUE(hears(tr("Thank you. Your portrait is stored")));
     code_is_heard();
     all_in(info.code, since);
+    for (const hal::Sound sound : {hal::Sound::Shutter, hal::Sound::Done})
+      EXPECT_EQ(std::count_if(heard().begin() + static_cast<std::ptrdiff_t>(since), heard().end(),
+                              [&](const auto& one) { return one.text.empty() && one.sound == sound; }),
+                1);
     ASSERT_NO_FATAL_FAILURE(choose(tr("Done")));
     ASSERT_TRUE(hears("Your face in three dimensions")) << "and the next visitor's language";
     speaker->plug(false);

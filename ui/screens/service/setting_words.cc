@@ -44,6 +44,8 @@ const char* name_of(const Words& tr, Setting setting) {
       return tr("Records are erased by themselves after");
     case Setting::Solids:
       return tr("A solid for printing with each exported portrait");
+    case Setting::Sounds:
+      return tr("Quiet sounds for the countdown, the shutter and success");
     case Setting::LeastRoomMib:
       return tr("Room kept free on the disk");
     case Setting::Count:
@@ -60,6 +62,7 @@ std::string_view said_value(StaffFrame& page, Setting setting, std::int32_t valu
     case Setting::Automatic:
     case Setting::Sides:
     case Setting::Solids:
+    case Setting::Sounds:
     case Setting::TellsKnown:
       return value != 0 ? page.tr("yes") : page.tr("no");
     case Setting::TextPercent:

@@ -49,6 +49,7 @@ void settings_page(StaffFrame& page) {
   group(page, tr("Waiting"), std::array{Setting::PatienceS, Setting::StaffPatienceS});
   group(page, tr("Pictures"),
         std::array{Setting::Automatic, Setting::CountdownMs, Setting::Sides, Setting::Attempts});
+  group(page, tr("What is heard"), std::array{Setting::Sounds});
   group(page, tr("Records"), std::array{Setting::TellsKnown, Setting::KeepDays, Setting::LeastRoomMib});
   if (page.staff.role == StaffRole::Operator && page.staff.settings->settings.is_on(Setting::KeepDays))
     page.line(tr(

@@ -150,7 +150,7 @@ void oval(Page& page, bool good, float share) {
   page.tree.close();
 }
 
-void advice(Page& page, const Said& what, std::optional<float> countdown = {}) {
+void advice(Page& page, const Said& what, int countdown = 0) {
   Node row = page.box(Flow::Row);
   row.box.justify = Justify::Centre;
   page.tree.open(row);
@@ -170,11 +170,8 @@ void advice(Page& page, const Said& what, std::optional<float> countdown = {}) {
   page.sign(what.letter, 36, what.good ? page.palette.good : page.palette.warn);
   Node text = page.text(what.words, type::kButton, Weight::Medium, ink, TextAlign::Centre);
   page.tree.leaf(text);
-  if (countdown) {
-    const char digit[] = {
-        static_cast<char>('1' +
-                          std::clamp(static_cast<int>(*countdown / page.visit.countdown_s() * 3), 0, 2)),
-        0};
+  if (countdown != 0) {
+    const char digit[] = {static_cast<char>('0' + countdown), 0};
     Node number = page.text(page.tree.keep({digit, 1}), type::kTitle, Weight::Bold, page.palette.good,
                             TextAlign::Centre);
     number.id = "countdown";
@@ -301,7 +298,7 @@ void position_screen(Page& page) {
   picture(page);
   oval(page, what.good, countdown ? 1 - *countdown / page.visit.countdown_s() : 1.0F);
   page.tree.open(page.box(Flow::Column, space::kS, 40, kEdge));
-  advice(page, what, countdown);
+  advice(page, what, page.visit.countdown_number(page.view.live));
   if (const char* again = last_time(page); again != nullptr && !what.good) {
     Node row = page.box(Flow::Row);
     row.box.justify =
