@@ -201,6 +201,16 @@ void Ui::activate_focus(const ViewState& view) {
   key_held_ = true;
 }
 
+// A key that has changed its letter keeps the focus: who types a capital goes on from where they are.
+void Ui::keep_focus() {
+  if (!hands_.show_focus) return;
+  if (const Node* node = tree_.find(hands_.focus)) {
+    focus_at_ = static_cast<std::size_t>(node - tree_.nodes().data());
+  } else if (focus_at_ < tree_.nodes().size() && tree_.nodes()[focus_at_].role == Role::Key) {
+    hands_.focus = tree_.nodes()[focus_at_].id;
+  }
+}
+
 // What goes on is read to its end before the focus leaves it.
 void Ui::focus_on(int direction) {
   constexpr float kScreenful = 0.7F;  // the last lines of one are seen again, and none lies under a fade
@@ -311,6 +321,7 @@ void Ui::draw(const ViewState& view) {
   const Rect screen{0, 0, static_cast<float>(width_px_), static_cast<float>(height_px_)};
   const Palette& palette = service_.open ? build_staff_screen(tree_, view, visit_, service_, screen)
                                          : build_visitor_screen(tree_, view, visit_, screen);
+  keep_focus();
   tree_.layout(screen, *text_, hands_);
   if (service_.open) fill_staff_pictures(list_, view, visit_, service_);
   else fill_pictures(list_, view, visit_);

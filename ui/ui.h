@@ -76,6 +76,7 @@ class Ui {
   void move(const Input& input, const ViewState& view);
   void up(const Input& input, const ViewState& view);
   void focus_on(int direction);
+  void keep_focus();
   float scrolled_px(const Node& scroller) const {
     return hands_.scrolled == scroller.id ? hands_.scroll_px : 0;
   }
@@ -91,7 +92,8 @@ class Ui {
   Visit visit_;
   Service service_;
   Narrator narrator_;
-  bool heard_ = false;  // the last time it was asked what to say
+  bool heard_ = false;        // the last time it was asked what to say
+  std::size_t focus_at_ = 0;  // of the node with the focus, in the tree
   Tree tree_;
   Interaction hands_;
   DrawList list_;

@@ -6,6 +6,7 @@
 #include <array>
 #include <string>
 
+#include "hal/base/wiped_text.h"
 #include "hal/sound/mixer.h"
 #include "hal/sound/synthesizer.h"
 
@@ -71,9 +72,9 @@ class EspeakSynthesizer final : public Synthesizer {
     asked.languages = voice->name;
     if (const auto status = espeak_ng_SetVoiceByProperties(&asked); status != ENS_OK) return failed(status);
     espeak_ng_SetParameter(espeakRATE, kWordsPerMinute * speech.speed_percent / 100, 0);
-    const std::string text(speech.text);
+    const WipedText text(speech.text);
     Receiver receiver{&sink, std::clamp(speech.volume_percent, 0, 100)};
-    const auto status = espeak_ng_Synthesize(text.c_str(), text.size() + 1, 0, POS_CHARACTER, 0,
+    const auto status = espeak_ng_Synthesize(text.view().data(), text.view().size() + 1, 0, POS_CHARACTER, 0,
                                              espeakCHARS_UTF8, nullptr, &receiver);
     if (status != ENS_OK && status != ENS_SPEECH_STOPPED) return failed(status);
     return {};

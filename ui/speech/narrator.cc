@@ -49,8 +49,10 @@ const Utterance& Narrator::follow(const Tree& tree, const Moment& moment, const 
   const std::size_t page = print_of_page(tree, moment, to);
   if (std::exchange(page_, page) != page || again_) {
     read_page(tree, moment, to);
-  } else if (!follow_focus(tree, moment.focus, to, false) && !follow_typing(tree, to)) {
-    follow_statuses(tree, moment, to, false);
+  } else {
+    // A letter that was typed may have changed the key it is on: then it is the letter that counts.
+    const bool typed = follow_typing(tree, to);
+    if (!follow_focus(tree, moment.focus, to, typed) && !typed) follow_statuses(tree, moment, to, false);
   }
   return said_;
 }

@@ -5,8 +5,8 @@
 // time:
 //
 //   another page, or asked to read it again  ->  the page
-//   another focus, or what has it changed    ->  what has the focus
 //   something was typed                      ->  the letter
+//   another focus, or what has it changed    ->  what has the focus
 //   a status changed                         ->  the status: an alert as soon as it has stood for kSettled,
 //                                                any other when nothing is being said
 //

@@ -97,6 +97,38 @@ TEST_F(VoiceTest, AnAdviceIsSaidWithItsSideWhileThePageIsStillBeingRead) {
   }
 }
 
+TEST_F(VoiceTest, WhoTurnsTheHeadIsToldToWhichSide) {
+  speaker->plug(true);
+  for (const auto& [advice, words] :
+       {std::pair(pipeline::TurnAdvice::ToLeft, "Turn your head slowly to your right"),
+        std::pair(pipeline::TurnAdvice::ToRight, "Turn your head slowly to your left"),
+        std::pair(pipeline::TurnAdvice::Slower, "A little slower, please")}) {
+    view.live.turn = ui::TurnView{advice, 0, 0};
+    at(ui::Screen::Turn);
+    clock.advance(400ms);
+    at(ui::Screen::Turn);
+    EXPECT_NE(speaker->heard().back().text.find(words), std::string::npos) << speaker->heard().back().text;
+  }
+}
+
+TEST_F(VoiceTest, WhoTypesACapitalGoesOnFromItsKey) {
+  speaker->plug(true);
+  at(ui::Screen::Idle);
+  for (const auto kind : {ui::ActionKind::Start, ui::ActionKind::Agree}) screen->visit().act({kind, 0}, view);
+  at(ui::Screen::Idle);
+  const auto press = [&](ui::Input::Kind key) {
+    screen->feed({key}, view);
+    at(ui::Screen::Idle);
+  };
+  while (speaker->heard().back().text != "R") press(ui::Input::Kind::Next);
+  press(ui::Input::Kind::Activate);
+  EXPECT_EQ(screen->visit().name(), "R");
+  at(ui::Screen::Idle);
+  EXPECT_EQ(speaker->heard().back().text, "R") << "heard as it was typed, and no more";
+  press(ui::Input::Kind::Next);
+  EXPECT_EQ(speaker->heard().back().text, "t") << "its neighbour, small now";
+}
+
 TEST(Voice, WithoutASpeakerIsSilent) {
   ui::ViewState view;
   Voice voice(nullptr);

@@ -182,6 +182,10 @@ TEST_F(NarratorTest, WhatIsTypedIsToldLetterByLetterToHeadphones) {
   EXPECT_EQ(hear(), "Stand here. Too far. Your name. Köhler");
   moment.focus = "key k";
   EXPECT_EQ(hear(), "k");
+  moment.focus = "go";
+  shown.typed = "Köhlerk";
+  EXPECT_EQ(hear(), "k") << "not the key that the letter has changed";
+  EXPECT_EQ(hear(), "");
 }
 
 TEST_F(NarratorTest, NothingOfItIsToldToALoudspeaker) {
