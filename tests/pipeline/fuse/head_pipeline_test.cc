@@ -113,6 +113,7 @@ TEST_F(Heads, BecomeOneSurfaceThatShowsMoreThanOnePair) {
   const FaceMesh& mesh = head->model.mesh;
   expect_whole_arrays(mesh);
   expect_one_manifold_surface(mesh);
+  EXPECT_EQ(boundary_loops(mesh), 1U) << "open at its outline alone";
   EXPECT_GT(head->model.quality.measured_area_mm2, 1.4 * alone_mm2_);
   ASSERT_EQ(mesh.pose.size(), mesh.vertices_mm.size());
   std::array<int, 3> by_pose{};
