@@ -69,7 +69,7 @@ void say_overview(const Options& all, Console& console) {
 
 }  // namespace
 
-Result<void> run_algorithms(const AlgorithmsArgs& args, Services& services) {
+Result<void> run(const AlgorithmsArgs& args, Services& services) {
   const Options all = pipeline::describe_algorithms();
   if (args.name.empty()) {
     say_overview(all, services.console);

@@ -23,12 +23,12 @@ std::string mib(std::size_t bytes) {
 
 }  // namespace
 
-Result<void> run_version(const VersionArgs&, Services& services) {
+Result<void> run(const VersionArgs&, Services& services) {
   services.console.say("relievo " + std::string(kVersion));
   return {};
 }
 
-Result<void> run_memory(const MemoryArgs&, Services& services) {
+Result<void> run(const MemoryArgs&, Services& services) {
   Console& console = services.console;
   console.say("pictures        " + mib(budget::kFramePoolBytes));
   console.say("stage products  " + mib(budget::kOutputArenaBytes));
@@ -42,7 +42,7 @@ Result<void> run_memory(const MemoryArgs&, Services& services) {
 
 // What can be wrong before anybody stands in front of the cameras: memory, store, calibration, the
 // algorithms' own files.
-Result<void> run_selftest(const SelfTestArgs& args, Services& services) {
+Result<void> run(const SelfTestArgs& args, Services& services) {
   if (args.optical) return run_optical_selftest(args, services);
   const BootMemory memory;
   services.console.say("memory       in order: " + mib(memory.all().size()));

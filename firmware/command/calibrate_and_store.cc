@@ -107,13 +107,13 @@ Result<std::unique_ptr<LivePairs>> open_pairs(const CalibrateLiveArgs& args, Ser
 
 }  // namespace
 
-Result<void> run_calibrate_and_store(const CalibrateArgs& args, Services& services) {
+Result<void> run(const CalibrateArgs& args, Services& services) {
   return calibrate_and_store(
       {args.output, args.store, args.pictures.string()}, services,
       [&](std::ostream& out, const RigToday& today) { return run_calibrate(args, out, today); });
 }
 
-Result<void> run_calibrate_live_and_store(const CalibrateLiveArgs& args, Services& services) {
+Result<void> run(const CalibrateLiveArgs& args, Services& services) {
   const auto calibrate = [&](std::ostream& out, const RigToday& today) -> Result<pipeline::CalibratorOutput> {
     RELIEVO_TRY(pattern_of(args.board).check());
     RELIEVO_TRY_ASSIGN(const auto pairs, open_pairs(args, services));

@@ -63,7 +63,7 @@ Result<void> export_one(const CalibrationArgs& args, Services& services) {
 
 }  // namespace
 
-Result<void> run_calibration(const CalibrationArgs& args, Services& services) {
+Result<void> run(const CalibrationArgs& args, Services& services) {
   switch (args.verb) {
     case CalibrationArgs::Verb::List:
       return list(args, services);

@@ -1,8 +1,8 @@
 // SPDX-FileCopyrightText: 2026 The Relievo authors
 // SPDX-License-Identifier: GPL-3.0-or-later
 //
-// The commands, each in a file of its own. An error of one is told in one line; nothing half-written
-// stays. Thread: main; the long ones use the worker and stop at Ctrl-C.
+// The commands, each in a file of its own: what is asked for says which runs. An error of one is told in one
+// line; nothing half-written stays. Thread: main; the long ones use the worker and stop at Ctrl-C.
 #pragma once
 
 #include "firmware/base/settings.h"
@@ -10,23 +10,23 @@
 
 namespace relievo::firmware {
 
-Result<void> run_calibrate_and_store(const CalibrateArgs& args, Services& services);
-Result<void> run_calibrate_live_and_store(const CalibrateLiveArgs& args, Services& services);
-Result<void> run_print_pattern(const PrintPatternArgs& args, Services& services);
-Result<void> run_calibration(const CalibrationArgs& args, Services& services);
-Result<void> run_reconstruct(const ReconstructArgs& args, Services& services);
-Result<void> run_compare(const CompareArgs& args, Services& services);
-Result<void> run_enrol(const EnrolArgs& args, Services& services);
-Result<void> run_subjects(const SubjectsArgs& args, Services& services);
-Result<void> run_staff(const StaffArgs& args, Services& services);
-Result<void> run_store(const StoreArgs& args, Services& services);
-Result<void> run_simulate(const SimulateArgs& args, Services& services);
-Result<void> run_selftest(const SelfTestArgs& args, Services& services);
+Result<void> run(const CalibrateArgs& args, Services& services);
+Result<void> run(const CalibrateLiveArgs& args, Services& services);
+Result<void> run(const PrintPatternArgs& args, Services& services);
+Result<void> run(const CalibrationArgs& args, Services& services);
+Result<void> run(const ReconstructArgs& args, Services& services);
+Result<void> run(const CompareArgs& args, Services& services);
+Result<void> run(const EnrolArgs& args, Services& services);
+Result<void> run(const SubjectsArgs& args, Services& services);
+Result<void> run(const StaffArgs& args, Services& services);
+Result<void> run(const StoreArgs& args, Services& services);
+Result<void> run(const SimulateArgs& args, Services& services);
+Result<void> run(const SelfTestArgs& args, Services& services);
 Result<void> run_optical_selftest(const SelfTestArgs& args, Services& services);
-Result<void> run_kiosk(const KioskArgs& args, Services& services);
-Result<void> run_algorithms(const AlgorithmsArgs& args, Services& services);
-Result<void> run_memory(const MemoryArgs& args, Services& services);
-Result<void> run_version(const VersionArgs& args, Services& services);
+Result<void> run(const KioskArgs& args, Services& services);
+Result<void> run(const AlgorithmsArgs& args, Services& services);
+Result<void> run(const MemoryArgs& args, Services& services);
+Result<void> run(const VersionArgs& args, Services& services);
 
 // Does what was asked for. Returns the exit code; the error, if any, is told.
 int run_command(const CommandLine& line, Services& services);

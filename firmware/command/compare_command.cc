@@ -122,7 +122,7 @@ Result<void> run_dissertation(const CompareArgs& args, Services& services) {
 
 }  // namespace
 
-Result<void> run_compare(const CompareArgs& args, Services& services) {
+Result<void> run(const CompareArgs& args, Services& services) {
   interrupted();  // from here on Ctrl-C is heard: the output's folder must not be left behind
   if (args.suites == std::vector{std::string(compare::kDissertation)})
     return run_dissertation(args, services);

@@ -150,7 +150,7 @@ Result<void> log_drift(const Appliance& appliance, const Calibrated& calibrated,
 
 }  // namespace
 
-Result<void> run_enrol(const EnrolArgs& args, Services& services) {
+Result<void> run(const EnrolArgs& args, Services& services) {
   RELIEVO_TRY(check_subject(args.subject));
   RELIEVO_TRY_ASSIGN(const auto device, services.open_device(args.device));
   RELIEVO_TRY_ASSIGN(const Calibrated calibrated, find_calibration(args, device->preferred_mode(), services));

@@ -119,7 +119,7 @@ Result<void> run_script(ui::Display& display, Kiosk& kiosk, std::vector<ScriptAc
 
 }  // namespace
 
-Result<void> run_kiosk(const KioskArgs& args, Services& services) {
+Result<void> run(const KioskArgs& args, Services& services) {
   RELIEVO_TRY(ui::prepare_languages());
   std::vector<ScriptAction> script;
   const bool scripted = !args.script.empty(), pictures = !scripted && !args.screenshots.empty();

@@ -8,7 +8,7 @@
 
 namespace relievo::firmware {
 
-Result<void> run_print_pattern(const PrintPatternArgs& args, Services& services) {
+Result<void> run(const PrintPatternArgs& args, Services& services) {
   RELIEVO_TRY_ASSIGN(const PageFormat format, page_format(args.output.filename().native()));
   const pipeline::BoardPattern pattern = pattern_of(args.board);
   RELIEVO_TRY_ASSIGN(const PatternPage page, lay_out_pattern(pattern));

@@ -68,7 +68,7 @@ Result<void> reconstruct_head(const ReconstructArgs& args, Console& console) {
 
 }  // namespace
 
-Result<void> run_reconstruct(const ReconstructArgs& args, Services& services) {
+Result<void> run(const ReconstructArgs& args, Services& services) {
   if (args.pictures.size() > 2) return reconstruct_head(args, services.console);
   Reconstruction reconstruction;
   RELIEVO_TRY(args.load.empty()

@@ -25,7 +25,7 @@ class SimulateJob final : public Job {
 
 }  // namespace
 
-Result<void> run_simulate(const SimulateArgs& args, Services& services) {
+Result<void> run(const SimulateArgs& args, Services& services) {
   RELIEVO_TRY_ASSIGN(OutputFolder folder, OutputFolder::begin(args.output));
   SimulateJob job(args, folder.path(), services);
   if (const auto done = run_watched(job, services.console, [] { return "Simulate"; }); !done) {

@@ -24,7 +24,7 @@ Result<void> note(storage::Store& store, const Path& folder, const hal::Clock& c
 
 }  // namespace
 
-Result<void> run_staff(const StaffArgs& args, Services& services) {
+Result<void> run(const StaffArgs& args, Services& services) {
   const Path folder = store_folder(args.store);
   RELIEVO_TRY_ASSIGN(const auto store, open_kept_store(folder, services));
   if (args.verb == StaffArgs::Verb::PlainTouch) {

@@ -61,7 +61,7 @@ Result<void> recover(storage::StoreKeeping& keeping, Services& services) {
 
 }  // namespace
 
-Result<void> run_store(const StoreArgs& args, Services& services) {
+Result<void> run(const StoreArgs& args, Services& services) {
   const Path folder = store_folder(args.store);
   const auto keeping = services.keep_store(folder);
   switch (args.verb) {

@@ -79,7 +79,7 @@ Result<void> export_newest(storage::Store& store, const storage::Subject& subjec
 
 }  // namespace
 
-Result<void> run_subjects(const SubjectsArgs& args, Services& services) {
+Result<void> run(const SubjectsArgs& args, Services& services) {
   using Verb = SubjectsArgs::Verb;
   const Path folder = store_folder(args.store);
   RELIEVO_TRY_ASSIGN(const auto store, args.verb == Verb::Erase ? open_kept_store(folder, services)

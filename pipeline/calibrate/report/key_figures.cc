@@ -10,6 +10,53 @@
 namespace relievo::pipeline::report {
 namespace {
 
+struct Words {
+  std::string_view style;
+  std::string_view word;
+  std::string_view means;
+  std::string_view icon;  // told apart by outline, too: disc, triangle, octagon
+};
+
+Words words_of(CalibrationVerdict verdict) {
+  switch (verdict) {
+    case CalibrationVerdict::Pass:
+      return {"pass", "Pass", "Fit for measuring faces.",
+              "<circle cx=\"24\" cy=\"24\" r=\"21\"/><path d=\"M14 25l7 7 14-16\"/>"};
+    case CalibrationVerdict::Usable:
+      return {"usable", "Usable", "It measures, less well than it could.",
+              "<path class=\"body\" d=\"M24 4L46 43H2Z\"/><path d=\"M24 17v13M24 36.5v.5\"/>"};
+    case CalibrationVerdict::Refuse:
+      break;
+  }
+  return {"refuse", "Refuse", "Not to be measured with.",
+          "<path class=\"body\" d=\"M15 3h18l12 12v18L33 45H15L3 33V15Z\"/><path d=\"M16 16l16 16M32 16L16 "
+          "32\"/>"};
+}
+
+// Empty where all were used.
+std::string left_out(const CalibrationQuality& q) {
+  constexpr int kMostNames = 30;
+  std::string names;
+  int count = 0;
+  for (const ViewQuality& view : q.views) {
+    if (view.used) continue;
+    if (++count <= kMostNames) names += (names.empty() ? "<bdi>" : ", <bdi>") + escaped(view.name) + "</bdi>";
+  }
+  if (count == 0) return {};
+  if (count > kMostNames) names += " and " + std::to_string(count - kMostNames) + " more";
+  return "<p class=\"omitted\"><b>Left out:</b> " + counted(count, "pair", "pairs") + ": " + names +
+         ". Why, and by which rule, is told under <a href=\"#views\">The views</a>.</p>\n";
+}
+
+constexpr double kFaceWidthMm = 150;
+
+std::string tile(std::string_view what, std::string_view sign, double value, std::string_view unit,
+                 std::string_view explained) {
+  return "<div><h3>" + std::string(what) + "</h3><p class=\"large\">" + std::string(sign) +
+         figure(value, decimals_of(value)) + "&nbsp;<i>" + std::string(unit) + "</i></p><p>" +
+         std::string(explained) + "</p></div>\n";
+}
+
 enum class Grade { Good, Fair, Bad, Open };
 
 Grade low_is_good(double value, double good, double worst) {
@@ -142,6 +189,33 @@ void board_rows(const CalibrationReport& r, Table& t) {
 }
 
 }  // namespace
+
+std::string verdict_section(const CalibrationReport& r) {
+  const CalibrationQuality& q = r.output.quality;
+  const Words words = words_of(q.verdict);
+  std::string out = "<section class=\"verdict " + std::string(words.style) + "\">\n<div class=\"stamp\">";
+  out += "<svg viewBox=\"0 0 48 48\" aria-hidden=\"true\">" + std::string(words.icon) + "</svg>";
+  out += "<div><h2>" + std::string(words.word) + "</h2><p>" + std::string(words.means) +
+         "</p></div></div>\n<ul>\n";
+  for (const std::string& reason : q.reasons) out += "<li>" + escaped(sentence(reason)) + "</li>\n";
+  return out + "</ul>\n" + left_out(q) + "</section>\n";
+}
+
+std::string face_figures(const CalibrationReport& r) {
+  const CalibrationQuality& q = r.output.quality;
+  std::string out = "<section class=\"face\">\n<h2>How wrong it may be at a face, " + figure(kFaceMm, 0) +
+                    " mm away</h2>\n<div class=\"tiles\">\n";
+  out += tile("Depth", "±", kTwoSided95 * q.face_depth_sigma_mm, "mm",
+              "holds in 95 of 100 cases, predicted from the pictures of the board");
+  out += tile("Width of a face", "±", kTwoSided95 * q.uncertainty.scale_percent / 100 * kFaceWidthMm, "mm",
+              "over " + figure(kFaceWidthMm, 0) + " mm, 95 of 100 cases");
+  out += tile("Depth, measured", "", q.measured_depth_mm, "mm",
+              "boards left out in turn, against the known size of their squares");
+  out += tile("Epipolar error", "", q.held_out_epipolar_px, "px",
+              "in pairs left out in turn: what matching along rows meets");
+  out += tile("Reprojection", "", q.pair_rms_px, "px", "how far corners lie from where the fit puts them");
+  return out + "</div>\n</section>\n";
+}
 
 std::string key_figures(const CalibrationReport& r) {
   Table table;

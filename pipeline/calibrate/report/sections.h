@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: 2026 The Relievo authors
 // SPDX-License-Identifier: GPL-3.0-or-later
 //
-// The parts of the page, each in a file of its own name. Each gives valid HTML. Inside report/ only.
+// The parts of the page. Each gives valid HTML. Inside report/ only.
 #pragma once
 
 #include <array>

@@ -97,14 +97,11 @@ void key(Page& page, std::string_view id, std::string_view letter, const char* s
   node.mirrored = mirrored;
   node.id = id;
   if (spoken != nullptr) node.name = spoken;
+  frame(node, page.palette.card, page.palette.card_border, page.px(1.5F), page.px(16));
   node.role = Role::Key;
   node.action = action;
   node.box.grow = grow;
   node.box.min_height = page.px(page.portrait ? size::kTarget : size::kKeyLeast);
-  node.box.fill = page.palette.card;
-  node.box.border = page.palette.card_border;
-  node.box.border_px = page.px(1.5F);
-  node.box.radius = page.px(16);
   page.tree.leaf(node);
 }
 

@@ -13,17 +13,13 @@ void language_key(Page& page, Language language) {
                         now ? page.palette.accent_ink : page.palette.link, TextAlign::Centre);
   node.style.size_px = page.px(22 * (1 + (page.text_share - 1) * 0.4F));
   node.style.language = info.code;
-  node.id = info.code;
+  tell(node, Role::Button, info.code, {}, {ActionKind::ChooseLanguage, static_cast<int>(language)});
   if (now) node.value = page.tr("chosen");
-  node.role = Role::Button;
-  node.action = {ActionKind::ChooseLanguage, static_cast<int>(language)};
+  frame(node, now ? page.palette.accent : page.palette.quiet,
+        now ? page.palette.accent : page.palette.quiet_border, page.px(2), page.px(size::kRadius));
   node.box.grow = 1;
   node.box.min_height = page.px(size::kTarget);
   node.box.pad_x = page.px(6);
-  node.box.radius = page.px(size::kRadius);
-  node.box.fill = now ? page.palette.accent : page.palette.quiet;
-  node.box.border = now ? page.palette.accent : page.palette.quiet_border;
-  node.box.border_px = page.px(2);
   page.tree.leaf(node);
 }
 

@@ -45,20 +45,16 @@ const char* help_for(const Page& page) {
 
 void begin_card(Page& page) {
   Node veil = page.box(Flow::Column, 0, 40, 32);
+  centre(veil);
   veil.id = "veil";
   veil.modal = true;
   veil.box.fill = page.palette.veil;
-  veil.box.justify = Justify::Centre;
-  veil.box.align = Align::Centre;
   page.tree.open(veil);
   Node card = page.box(Flow::Column, space::kM, 44, 40);
+  frame(card, page.palette.card, page.palette.card_border, page.px(2), page.px(size::kCardRadius));
   card.id = "card";
   card.box.width = page.px(std::min(820.0F, page.width_dp - 80));
   card.box.shrink = true;
-  card.box.fill = page.palette.card;
-  card.box.border = page.palette.card_border;
-  card.box.border_px = page.px(2);
-  card.box.radius = page.px(size::kCardRadius);
   card.box.shadow = true;
   page.tree.open(card);
 }

@@ -115,19 +115,16 @@ void Page::button(std::string_view id, std::string_view label, const char* lette
   const bool main = look == ButtonLook::Main;
   Node node = box(Flow::Row, lengths.gap, text_share > 1.3F ? std::min(14.0F, lengths.pad_x) : lengths.pad_x,
                   lengths.pad_y);
-  node.id = id;
-  node.name = label;
-  node.role = Role::Button;
-  node.action = action;
-  node.box.justify = Justify::Centre;
-  node.box.align = Align::Centre;
+  tell(node, Role::Button, id, label, action);
+  centre(node);
+  frame(node,
+        main                        ? palette.accent
+        : look == ButtonLook::Quiet ? palette.quiet
+                                    : kNone,
+        main ? kNone : palette.quiet_border, main ? 0 : std::max(1.5F, px(2)), px(lengths.radius));
   node.box.grow = grow;
   node.box.min_height = px(lengths.height);
   node.box.min_width = px(lengths.width);
-  node.box.radius = px(lengths.radius);
-  node.box.fill = main ? palette.accent : look == ButtonLook::Quiet ? palette.quiet : kNone;
-  node.box.border = main ? kNone : palette.quiet_border;
-  node.box.border_px = main ? 0 : std::max(1.5F, px(2));
   node.box.shadow = main && lengths.shadow;
   const Colour ink = main ? palette.accent_ink : palette.link;
   tree.open(node);
@@ -155,17 +152,10 @@ void Page::more_contrast() {
 void Page::square_button(std::string_view id, std::string_view spoken, const char* letter, Action action,
                          std::string_view value) {
   Node node = sized(box(Flow::Row), size::kTarget, size::kTarget);
-  node.id = id;
-  node.name = spoken;
+  tell(node, Role::Button, id, spoken, action);
   node.value = value;
-  node.role = Role::Button;
-  node.action = action;
-  node.box.justify = Justify::Centre;
-  node.box.align = Align::Centre;
-  node.box.radius = px(size::kRadius);
-  node.box.fill = palette.quiet;
-  node.box.border = palette.quiet_border;
-  node.box.border_px = std::max(1.5F, px(2));
+  centre(node);
+  frame(node, palette.quiet, palette.quiet_border, std::max(1.5F, px(2)), px(size::kRadius));
   tree.open(node);
   Node sign_node = text(letter, 34 * std::min(1.0F, kMostSignShare / text_share), Weight::Regular,
                         palette.link, TextAlign::Centre);
@@ -236,11 +226,9 @@ void Page::steps() {
   const int now = number_of(visit.step);
   if (now < 0) return;
   Node row = box(Flow::Row, space::kXs, tree.find("back") != nullptr ? space::kM : 0.0F, 0);
+  tell(row, Role::Status, "steps", tr("How far you are"));
   row.box.align = Align::Centre;
-  row.id = "steps";
-  row.name = tr("How far you are");
   row.value = share_of(static_cast<std::size_t>(now) + 1, 4);
-  row.role = Role::Status;
   tree.open(row);
   for (int i = 0; i < 4; ++i) {
     Node dot = sized(box(Flow::Column), i == now ? 44.0F : 20.0F, 10);

@@ -56,6 +56,17 @@ inline constexpr ButtonSize kMainButton{kBigTarget, kTarget, 26, 12, 14, kRadius
 inline constexpr ButtonSize kOtherButton{kTarget, kTarget, 26, 12, 14, kRadius, 30, type::kBody};
 }  // namespace size
 
+// What a node is for tests and assistive use, and what touching it does.
+inline void tell(Node& node, Role role, std::string_view id, std::string_view spoken, Action action = {}) {
+  node.role = role, node.id = id, node.name = spoken, node.action = action;
+}
+// Its children in its middle.
+inline void centre(Node& node) { node.box.justify = Justify::Centre, node.box.align = Align::Centre; }
+// Lengths in pixels.
+inline void frame(Node& node, Colour fill, Colour border, float border_px, float radius_px) {
+  node.box.fill = fill, node.box.border = border, node.box.border_px = border_px, node.box.radius = radius_px;
+}
+
 // Pixels of one dp on a screen of this size.
 float unit_of(const Rect& screen);
 

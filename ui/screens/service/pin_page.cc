@@ -13,9 +13,7 @@ namespace {
 // As many dots as digits: nobody behind reads them.
 void dots(StaffFrame& page) {
   Node row = page.box(Flow::Row, 14);
-  row.id = "typed";
-  row.role = Role::Field;
-  row.name = page.tr("Your PIN");
+  tell(row, Role::Field, "typed", page.tr("Your PIN"));
   row.box.justify = page.portrait     ? Justify::Centre
                     : page.mirrored() ? Justify::End
                                       : Justify::Start;  // as the words above it
@@ -61,8 +59,7 @@ PinWords words_of(StaffFrame& page) {
 
 void pin_entry(StaffFrame& page, const char* title, const PinWords& words, Action done) {
   Node room = page.grown(page.box(page.portrait ? Flow::Column : Flow::Row, space::kXl));
-  room.box.align = Align::Centre;
-  room.box.justify = Justify::Centre;
+  centre(room);
   page.tree.open(room);
   Node said = page.box(Flow::Column, space::kM);
   said.box.width = page.px(page.portrait ? 560.0F : 440.0F);

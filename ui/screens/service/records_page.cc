@@ -20,15 +20,10 @@ std::string_view joined(StaffFrame& page, std::string_view first, std::string_vi
 // What one has typed, and the keys.
 void typing(StaffFrame& page) {
   Node field = page.box(Flow::Row, 3, 20, 8);
-  field.id = "search field";
-  field.role = Role::Field;
-  field.name = page.tr("Name or number");
+  tell(field, Role::Field, "search field", page.tr("Name or number"));
+  frame(field, page.palette.card, page.palette.accent, page.px(3), page.px(18));
   field.box.min_height = page.px(56);
   field.box.align = Align::Centre;
-  field.box.fill = page.palette.card;
-  field.box.border = page.palette.accent;
-  field.box.border_px = page.px(3);
-  field.box.radius = page.px(18);
   page.tree.open(field);
   const std::string_view typed = page.service.typed();
   page.tree.leaf(page.text(typed.empty() ? std::string_view(page.tr("Name or number")) : typed, type::kBody,
@@ -123,10 +118,7 @@ void portrait_of(StaffFrame& page) {
   card.box.radius = page.px(size::kCardRadius);
   page.tree.open(card);
   Node face = page.box(Flow::Column);
-  face.id = "face";
-  face.name = page.tr("The model: turn it with a finger");
-  face.role = Role::Picture;
-  face.action = {ActionKind::TurnFace, 0};
+  tell(face, Role::Picture, "face", page.tr("The model: turn it with a finger"), {ActionKind::TurnFace, 0});
   face.mark = page.staff.model == nullptr ? Mark::Shape : Mark::Face;
   face.box.radius = page.px(size::kCardRadius);
   page.tree.leaf(face);

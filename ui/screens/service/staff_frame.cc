@@ -99,9 +99,7 @@ void StaffFrame::leaving() {
 void StaffFrame::progress(std::string_view id, float share) {
   const float done = std::clamp(share, 0.0F, 1.0F);
   Node track = box(Flow::Row);
-  track.id = id;
-  track.role = Role::Status;
-  track.name = tr("How far it is");
+  tell(track, Role::Status, id, tr("How far it is"));
   track.box.height = px(14);
   track.box.radius = px(7);
   track.box.fill = palette.track;
@@ -172,9 +170,7 @@ void StaffFrame::outcome() {
 
 void StaffFrame::status(std::string_view id, std::string_view words, Mood mood) {
   Node row = box(Flow::Row, space::kS, 0, 4);
-  row.id = id;
-  row.role = Role::Status;
-  row.name = words;
+  tell(row, Role::Status, id, words);
   row.box.align = Align::Centre;
   tree.open(row);
   if (const char* letter = sign_of(mood)) sign(letter, 28, ink_of(mood));
@@ -234,20 +230,13 @@ void StaffFrame::grave_question(const char* title, const About& about, const cha
 void StaffFrame::held_button(std::string_view id, std::string_view label, Action action, float grow) {
   constexpr ButtonSize kSize = size::kMainButton;
   Node node = box(Flow::Row, kSize.gap, text_share > 1.3F ? 14 : kSize.pad_x, kSize.pad_y);
-  node.id = id;
-  node.name = label;
-  node.role = Role::Button;
-  node.action = action;
+  tell(node, Role::Button, id, label, action);
   node.hold = node.slow_key = true;
+  centre(node);
+  frame(node, palette.quiet, palette.bad, std::max(2.0F, px(3)), px(kSize.radius));
   node.filling = palette.bad;
-  node.box.justify = Justify::Centre;
-  node.box.align = Align::Centre;
   node.box.grow = grow;
   node.box.min_height = px(kSize.height);
-  node.box.radius = px(kSize.radius);
-  node.box.fill = palette.quiet;
-  node.box.border = palette.bad;
-  node.box.border_px = std::max(2.0F, px(3));
   tree.open(node);
   sign(icon::kBin, kSize.sign, palette.bad);
   tree.leaf(text(label, kSize.text, Weight::Medium, palette.bad, TextAlign::Centre));
@@ -257,15 +246,10 @@ void StaffFrame::held_button(std::string_view id, std::string_view label, Action
 void StaffFrame::digit(const char* letter) {
   Node node = text(letter, type::kHeading, Weight::Medium, palette.link, TextAlign::Centre);
   const std::string_view key = tree.keep("digit "), rest = tree.keep(letter);
-  node.id = {key.data(), key.size() + rest.size()};
-  node.role = Role::Key;
-  node.action = {ActionKind::TypeKey, 0};
+  tell(node, Role::Key, {key.data(), key.size() + rest.size()}, {}, {ActionKind::TypeKey, 0});
+  frame(node, palette.card, palette.card_border, px(1.5F), px(16));
   node.box.grow = 1;
   node.box.min_height = px(size::kKeyLeast * key_share(*this));
-  node.box.fill = palette.card;
-  node.box.border = palette.card_border;
-  node.box.border_px = px(1.5F);
-  node.box.radius = px(16);
   tree.leaf(node);
 }
 
@@ -287,17 +271,11 @@ void StaffFrame::keypad(Action done) {
   const auto key = [&](std::string_view id, const char* spoken, const char* letter, Action action,
                        bool main) {
     Node node = grown(box(Flow::Row));
-    node.id = id;
-    node.name = spoken;
-    node.role = Role::Key;
-    node.action = action;
-    node.box.justify = Justify::Centre;
-    node.box.align = Align::Centre;
+    tell(node, Role::Key, id, spoken, action);
+    centre(node);
+    frame(node, main ? palette.accent : palette.card, main ? kNone : palette.card_border, main ? 0 : px(1.5F),
+          px(16));
     node.box.min_height = px(size::kKeyLeast * key_share(*this));
-    node.box.radius = px(16);
-    node.box.fill = main ? palette.accent : palette.card;
-    node.box.border = main ? kNone : palette.card_border;
-    node.box.border_px = main ? 0 : px(1.5F);
     tree.open(node);
     sign(letter, 30, main ? palette.accent_ink : palette.link);
     tree.close();

@@ -13,14 +13,11 @@ constexpr float kUprightStretch = 1.8F;  // of rows on an upright screen, where 
 
 void StaffFrame::begin_card(std::string_view id, bool fit_content) {
   Node list = grown(box(Flow::Column, 0, space::kM, 8));
+  frame(list, palette.card, palette.card_border, px(1.5F), px(size::kRadius));
   list.id = id;
   list.box.scroll = true;
   list.box.fit_content = fit_content;
   list.box.row_stretch = portrait ? kUprightStretch : 1;
-  list.box.fill = palette.card;
-  list.box.border = palette.card_border;
-  list.box.border_px = px(1.5F);
-  list.box.radius = px(size::kRadius);
   tree.open(list);
   rule_due_ = false;
 }
@@ -83,16 +80,10 @@ void StaffFrame::step_button(std::string_view id, const char* end, const char* s
   };
   const bool dead = action.kind == ActionKind::None;
   Node node = sized(box(Flow::Row), size::kStaffTarget, size::kStaffTarget);
-  node.id = joined(id, " ", end);
-  node.name = joined(label, ": ", spoken);
-  node.role = dead ? Role::Group : Role::Button;
-  node.action = action;
-  node.box.justify = Justify::Centre;
-  node.box.align = Align::Centre;
-  node.box.radius = px(18);
-  node.box.fill = dead ? Colour{} : palette.quiet;
-  node.box.border = dead ? Colour{} : palette.quiet_border;
-  node.box.border_px = dead ? 0 : std::max(1.5F, px(2));
+  tell(node, dead ? Role::Group : Role::Button, joined(id, " ", end), joined(label, ": ", spoken), action);
+  centre(node);
+  frame(node, dead ? Colour{} : palette.quiet, dead ? Colour{} : palette.quiet_border,
+        dead ? 0 : std::max(1.5F, px(2)), px(18));
   tree.open(node);
   if (!dead) sign(letter, 30, palette.link);
   tree.close();
@@ -132,8 +123,7 @@ void StaffFrame::stepper(std::string_view id, std::string_view label, std::strin
 
 void StaffFrame::nothing(std::string_view id, const char* letter, std::string_view words) {
   Node room = grown(box(Flow::Column, space::kS, space::kL, space::kL));
-  room.box.justify = Justify::Centre;
-  room.box.align = Align::Centre;
+  centre(room);
   tree.open(room);
   sign(letter, 64 / text_share, palette.track);
   Node said = text(words, type::kBody, Weight::Regular, palette.ink_soft, TextAlign::Centre);

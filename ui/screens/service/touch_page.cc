@@ -65,14 +65,11 @@ void crosses(StaffFrame& page, const TouchView& seen) {
   page.tree.close();
   const TouchPoint& at = kTouchCrosses[seen.cross];
   Node cross = page.sized(page.box(Flow::Row), 84, 84);
-  cross.id = "cross";
-  cross.name = page.tr("Touch the middle of the cross");
-  cross.role = Role::Status;
+  tell(cross, Role::Status, "cross", page.tr("Touch the middle of the cross"));
+  centre(cross);
   cross.pinned = true;
   cross.pin_x = at.x;
   cross.pin_y = at.y;
-  cross.box.justify = Justify::Centre;
-  cross.box.align = Align::Centre;
   page.tree.open(cross);
   page.sign(kCross, 72 / page.text_share, test ? page.palette.good : page.palette.accent);
   page.tree.close();

@@ -30,10 +30,7 @@ void kinds(TechnicianFrame& f) {
     const TechnicianKind& kind = f.view.choice.kinds[i];
     const bool chosen = i == f.view.choice.kind;
     Node row = f.page.box(Flow::Column, 2, 12, 8);
-    row.id = f.id("kind", i);
-    row.name = label_of(f.tr, kind.key);
-    row.role = Role::Button;
-    row.action = technician_action(ChooseKind{i});
+    tell(row, Role::Button, f.id("kind", i), label_of(f.tr, kind.key), technician_action(ChooseKind{i}));
     row.box.min_height = f.page.px(size::kStaffTarget);
     row.box.justify = Justify::Centre;
     row.box.radius = f.page.px(12);
@@ -104,17 +101,11 @@ void options(TechnicianFrame& f) {
 
 void key(TechnicianFrame& f, std::string_view id, const char* letter, Action action) {
   Node node = f.page.text(letter, type::kHeading, Weight::Medium, f.page.palette.link, TextAlign::Centre);
-  node.id = id;
-  node.name = letter;
-  node.role = Role::Key;
-  node.action = action;
+  tell(node, Role::Key, id, letter, action);
   node.box.grow = 1;
   node.box.min_height =
       f.page.px(f.page.portrait ? 1.4F * size::kStaffTarget : size::kStaffTarget);  // upright there is room
-  node.box.fill = f.page.palette.card;
-  node.box.border = f.page.palette.card_border;
-  node.box.border_px = f.page.px(1.5F);
-  node.box.radius = f.page.px(14);
+  frame(node, f.page.palette.card, f.page.palette.card_border, f.page.px(1.5F), f.page.px(14));
   f.page.tree.leaf(node);
 }
 
@@ -133,16 +124,9 @@ void keys(TechnicianFrame& f) {
     }
     if (*line[0] == '0') {
       Node erase = f.page.grown(f.page.box(Flow::Row), 3);
-      erase.id = "type erase";
-      erase.name = f.tr("Erase");
-      erase.role = Role::Key;
-      erase.action = technician_action(TechnicianAct::EraseDigit);
-      erase.box.justify = Justify::Centre;
-      erase.box.align = Align::Centre;
-      erase.box.fill = f.page.palette.card;
-      erase.box.border = f.page.palette.card_border;
-      erase.box.border_px = f.page.px(1.5F);
-      erase.box.radius = f.page.px(14);
+      tell(erase, Role::Key, "type erase", f.tr("Erase"), technician_action(TechnicianAct::EraseDigit));
+      centre(erase);
+      frame(erase, f.page.palette.card, f.page.palette.card_border, f.page.px(1.5F), f.page.px(14));
       f.page.tree.open(erase);
       f.page.sign(icon::kErase, 26, f.page.palette.link);
       f.page.tree.close();
@@ -173,14 +157,9 @@ void editor(TechnicianFrame& f) {
   Node field =
       f.page.text(f.view.choice.typed.empty() ? std::string_view("_") : as_typed(f, f.view.choice.typed),
                   type::kHeading, Weight::Bold, f.page.palette.ink, TextAlign::Centre);
-  field.id = "option typed";
-  field.role = Role::Field;
-  field.name = f.tr("New value");
+  tell(field, Role::Field, "option typed", f.tr("New value"));
+  frame(field, f.page.palette.card, f.page.palette.accent, f.page.px(2), f.page.px(14));
   field.box.min_height = f.page.px(52);
-  field.box.fill = f.page.palette.card;
-  field.box.border = f.page.palette.accent;
-  field.box.border_px = f.page.px(2);
-  field.box.radius = f.page.px(14);
   f.page.tree.leaf(field);
   keys(f);
   const bool stacked = f.page.portrait && f.page.text_share > 1.3F;

@@ -78,9 +78,8 @@ void coverage(TechnicianFrame& f, std::size_t side, float aspect) {
   frame.aspect = aspect;
   f.page.tree.open(frame);
   Node map = f.page.box(Flow::Column, 3);
-  map.id = side == 0 ? "left coverage" : "right coverage";
-  map.name = side == 0 ? f.tr("Seen by the left camera") : f.tr("Seen by the right camera");
-  map.role = Role::Picture;
+  tell(map, Role::Picture, side == 0 ? "left coverage" : "right coverage",
+       side == 0 ? f.tr("Seen by the left camera") : f.tr("Seen by the right camera"));
   f.page.tree.open(map);
   for (std::size_t row = 0; row < kCoverageCells; ++row) {
     Node line = f.page.grown(f.page.box(Flow::Row, 3));

@@ -83,13 +83,10 @@ class Columns {
       card.box.radius = page.px(12);
       page.tree.open(card);
       Node face = page.box(Flow::Column);
-      face.id = id;
-      face.name = f.tr("The model: turn it with a finger");
-      face.role = Role::Picture;
+      tell(face, Role::Picture, id, f.tr("The model: turn it with a finger"), {ActionKind::TurnFace, 0});
       face.mark = Mark::Face;
       face.face = static_cast<std::uint8_t>(i);
       face.box.radius = page.px(12);
-      face.action = {ActionKind::TurnFace, 0};
       page.tree.leaf(face);
     } else {
       f.open_picture(id, spoken, one.picture, slot);
@@ -103,12 +100,8 @@ class Columns {
     end.box.justify = Justify::End;
     page.tree.open(end);
     Node cross = page.sized(page.box(Flow::Row), size::kStaffTarget, size::kStaffTarget);
-    cross.id = f.id("drop", i);
-    cross.name = f.tr("Drop this result");
-    cross.role = Role::Button;
-    cross.action = technician_action(DropResult{i});
-    cross.box.justify = Justify::Centre;
-    cross.box.align = Align::Centre;
+    tell(cross, Role::Button, f.id("drop", i), f.tr("Drop this result"), technician_action(DropResult{i}));
+    centre(cross);
     cross.box.radius = page.px(12);
     cross.box.fill = page.palette.quiet;
     page.tree.open(cross);

@@ -42,9 +42,7 @@ void body(TechnicianFrame& f) {
   card.box.radius = f.page.px(size::kRadius);
   f.page.tree.open(card);
   Node face = f.page.box(Flow::Column);
-  face.id = "face";
-  face.name = f.tr("The model: turn it with a finger");
-  face.role = Role::Picture;
+  tell(face, Role::Picture, "face", f.tr("The model: turn it with a finger"));
   face.mark = f.view.model != nullptr ? Mark::Face : Mark::Shape;
   face.covered_px = f.page.px(size::kTarget + 2 * space::kXs);  // by the tools
   face.box.radius = f.page.px(size::kRadius);

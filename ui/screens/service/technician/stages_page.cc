@@ -32,17 +32,12 @@ void tabs(TechnicianFrame& f) {
       const auto stage = static_cast<TechnicianStage>(i);
       const bool chosen = stage == f.view.stage;
       Node tab = f.page.grown(f.page.box(Flow::Row, 0, 4, 4));
-      tab.id = f.id("stage", i);
-      tab.name = title_of(f.tr, stage);
-      tab.role = Role::Button;
-      tab.action = technician_action(ShowStage{static_cast<TechnicianStage>(i)});
-      tab.box.justify = Justify::Centre;
-      tab.box.align = Align::Centre;
+      tell(tab, Role::Button, f.id("stage", i), title_of(f.tr, stage),
+           technician_action(ShowStage{static_cast<TechnicianStage>(i)}));
+      centre(tab);
+      frame(tab, chosen ? f.page.palette.accent : f.page.palette.quiet,
+            chosen ? f.page.palette.accent : f.page.palette.quiet_border, f.page.px(2), f.page.px(14));
       tab.box.min_height = f.page.px(size::kStaffTarget);
-      tab.box.radius = f.page.px(14);
-      tab.box.fill = chosen ? f.page.palette.accent : f.page.palette.quiet;
-      tab.box.border = chosen ? f.page.palette.accent : f.page.palette.quiet_border;
-      tab.box.border_px = f.page.px(2);
       f.page.tree.open(tab);
       f.page.tree.leaf(f.page.text(
           title_of(f.tr, stage), f.page.portrait ? 16 : 19, chosen ? Weight::Bold : Weight::Medium,

@@ -92,24 +92,16 @@ void pager(TechnicianFrame& f) {
   const TechnicianRows& rows = f.view.rows;
   if (rows.pages < 2) return;
   Node row = f.page.box(Flow::Row, space::kS);
-  row.box.align = Align::Centre;
-  row.box.justify = Justify::Centre;
+  centre(row);
   row.box.left_to_right = true;
   f.page.tree.open(row);
   const auto turn = [&](std::string_view id, const char* spoken, const char* label, std::int32_t pages) {
     Node node =
         f.page.sized(f.page.box(Flow::Row),
                      std::min(96 * f.page.text_share, f.page.portrait ? 120.0F : 150.0F), size::kStaffTarget);
-    node.id = id;
-    node.name = spoken;
-    node.role = Role::Button;
-    node.action = technician_action(TurnTable{pages});
-    node.box.justify = Justify::Centre;
-    node.box.align = Align::Centre;
-    node.box.radius = f.page.px(18);
-    node.box.fill = f.page.palette.quiet;
-    node.box.border = f.page.palette.quiet_border;
-    node.box.border_px = f.page.px(2);
+    tell(node, Role::Button, id, spoken, technician_action(TurnTable{pages}));
+    centre(node);
+    frame(node, f.page.palette.quiet, f.page.palette.quiet_border, f.page.px(2), f.page.px(18));
     f.page.tree.open(node);
     Node sign = f.page.text(f.left_to_right(label), type::kSmall, Weight::Bold, f.page.palette.link,
                             TextAlign::Centre);

@@ -124,9 +124,7 @@ void TechnicianFrame::open_picture(std::string_view id, std::string_view spoken,
   frame.box.radius = page.px(12);
   page.tree.open(frame);
   Node image = page.box(Flow::Column);
-  image.id = id;
-  image.name = spoken;
-  image.role = Role::Picture;
+  tell(image, Role::Picture, id, spoken);
   if (!picture.pixels.empty()) {
     image.mark = Mark::Image;
     image.picture = slot;
@@ -223,8 +221,7 @@ void TechnicianFrame::alert(std::string_view words, std::string_view detail) {
 
 void TechnicianFrame::uncalibrated() {
   Node room = page.grown(page.box(Flow::Column, space::kM, space::kXl, 0));
-  room.box.justify = Justify::Centre;
-  room.box.align = Align::Centre;
+  centre(room);
   page.tree.open(room);
   page.heading("uncalibrated", tr("This device is not calibrated yet"), type::kHeading, TextAlign::Centre);
   page.body(

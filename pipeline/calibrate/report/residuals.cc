@@ -5,6 +5,7 @@
 #include <cmath>
 #include <vector>
 
+#include "hal/base/statistics.h"
 #include "pipeline/calibrate/board/board_finder.h"
 #include "pipeline/calibrate/report/sections.h"
 #include "pipeline/report/drawing.h"
@@ -12,6 +13,59 @@
 
 namespace relievo::pipeline::report {
 namespace {
+
+constexpr double kKey = 34;
+constexpr double kUsualLength = 0.045;  // of the picture's width: what all but the longest arrows stay below
+
+template <typename Use>
+void for_each_used(const CalibrationReport& r, std::size_t eye, const Use& use) {
+  for (std::size_t v = 0; v < r.output.views.size(); ++v)
+    if (r.output.quality.views[v].used)
+      for (const CornerResidual& corner : corners_of(r.output.views[v], eye))
+        if (seen(corner.at)) use(corner);
+}
+
+// The length below which 95 % of all residuals stay, px.
+double usual_length(const CalibrationReport& r) {
+  std::vector<double> lengths;
+  for (const std::size_t eye : {0U, 1U})
+    for_each_used(r, eye, [&](const CornerResidual& c) { lengths.push_back(std::hypot(c.off.x, c.off.y)); });
+  return lengths.empty() ? 1 : std::max(percentile(lengths, 0.95), 1e-9);
+}
+
+void arrow(Strokes& strokes, Vec2d base, Vec2d by) {
+  const Vec2d tip{base.x + by.x, base.y + by.y};
+  constexpr double kBack = 0.32;
+  constexpr double kAside = 0.16;
+  strokes.from(base).to(tip);
+  strokes.from({tip.x - kBack * by.x - kAside * by.y, tip.y - kBack * by.y + kAside * by.x}).to(tip);
+  strokes.to({tip.x - kBack * by.x + kAside * by.y, tip.y - kBack * by.y - kAside * by.x});
+}
+
+std::string camera_figure(const CalibrationReport& r, std::size_t eye, double magnified, double usual) {
+  const CameraIntrinsics& camera = camera_of(r, eye);
+  const double scale = kFigureWidth / camera.width_px;
+  const double height = scale * camera.height_px;
+  Drawing d({kFigureWidth, height + kKey}, "Residuals as arrows, in the frame of the picture");
+  const std::size_t stride = corner_stride(r);
+  Strokes arrows;
+  std::size_t count = 0;
+  for_each_used(r, eye, [&](const CornerResidual& c) {
+    if (count++ % stride != 0) return;
+    arrow(arrows, {(c.at.x + 0.5) * scale, (c.at.y + 0.5) * scale},
+          {c.off.x * scale * magnified, c.off.y * scale * magnified});
+  });
+  const std::string style = "arrows " + std::string(kCameraStyles[eye]);
+  d.strokes(style, arrows);
+  d.box("frame", {{0.5, 0.5}, {kFigureWidth - 1, height - 1}});
+  const double shown = rounded_down(usual);
+  Strokes key;
+  arrow(key, {1, height + 20}, {shown * scale * magnified, 0});
+  d.strokes(style, key);
+  d.text("tick begin", {10 + shown * scale * magnified, height + 24.5},
+         figure(shown, tick_decimals(shown)) + " px");
+  return figure_of(d.svg(), kCameraNames[eye], counted(static_cast<int>(count), "corner.", "corners."));
+}
 
 constexpr Size kHistogramSize{480, 190};
 constexpr Box kHistogramPlot{{4, 10}, {472, 136}};
@@ -94,6 +148,19 @@ std::string camera_figure(const CalibrationReport& r, std::size_t eye, double re
 }
 
 }  // namespace
+
+std::string residual_arrows(const CalibrationReport& r) {
+  const double usual = usual_length(r);
+  const double magnified = rounded_down(kUsualLength * r.output.calibration.left.width_px / usual);
+  std::string lead =
+      "At every corner of the pairs used, an arrow from where the fit puts it towards where it was seen, " +
+      number(magnified, 3) +
+      " times as long as it is. They must point everywhere at random: a common "
+      "direction in one place is a lens, or a board, that the fit does not describe.";
+  return "<section>\n<h2>What is left over</h2>\n<p class=\"lead\">" + lead + "</p>\n" +
+         side_by_side(camera_figure(r, 0, magnified, usual), camera_figure(r, 1, magnified, usual)) +
+         residual_histogram(r) + "</section>\n";
+}
 
 std::string residual_histogram(const CalibrationReport& r) {
   const double reach = kReach * std::max({deviation(coordinates(r, 0)), deviation(coordinates(r, 1)), 1e-9});
