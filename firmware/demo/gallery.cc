@@ -2,9 +2,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "firmware/demo/gallery.h"
 
-#include "firmware/demo/staff_gallery.h"
-#include "firmware/demo/technician_gallery.h"
-
 namespace relievo::firmware {
 namespace {
 

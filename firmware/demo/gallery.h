@@ -3,6 +3,7 @@
 //
 // Gallery: every screen there is, each as the view and the visit that lead to it; for screenshots and
 // for tests that go over all of them. Built upon one real view (of Review), which lends its pictures.
+// Thread: main. Errors: none.
 #pragma once
 
 #include <string_view>
@@ -21,5 +22,12 @@ struct Exhibit {
 
 std::vector<Exhibit> gallery(const ui::ViewState& review, ui::Language language, std::size_t text_size,
                              bool high_contrast);
+
+// Its parts, each in a file of its own: figures that somebody made up. `idle`: the view behind them; what the
+// staff's pages borrow lives for ever. `review`: the view that lends pictures and model, which must outlive
+// the exhibits; what else the technician's pages borrow lives until the next call.
+void add_staff_exhibits(std::vector<Exhibit>& exhibits, const ui::ViewState& idle, const ui::Visit& visit);
+void add_technician_exhibits(std::vector<Exhibit>& exhibits, const ui::ViewState& review,
+                             const ui::ViewState& idle, const ui::Visit& visit);
 
 }  // namespace relievo::firmware

@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: 2026 The Relievo authors
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include "firmware/demo/staff_gallery.h"
+#include "firmware/demo/gallery.h"
 
 #include <array>
 #include <deque>

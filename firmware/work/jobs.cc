@@ -4,7 +4,7 @@
 
 #include <thread>
 
-#include "firmware/work/stage_picture.h"
+#include "firmware/work/stage_drawing.h"
 #include "hal/base/assert.h"
 
 namespace relievo::firmware {

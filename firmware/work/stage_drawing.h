@@ -2,7 +2,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 //
 // How the products of the stages are drawn as the left camera sees them: on a square canvas that shows the
-// face, for the visitor's small pictures (stage_picture.h) and the technician's large ones.
+// face, for the visitor's small pictures and the technician's large ones.
 // Pixels of the left rectified view go in. Allocates nothing but the depth buffer of a surface and the cells
 // of dots. Thread: worker. Errors: none; what is missing stays dark.
 #pragma once
@@ -10,6 +10,9 @@
 #include <cstddef>
 #include <cstdint>
 
+#include "firmware/machine/transition.h"
+#include "firmware/session/session.h"
+#include "firmware/session/stage_pictures.h"
 #include "pipeline/model/face_mesh.h"
 #include "pipeline/model/match_set.h"
 #include "pipeline/model/point_cloud.h"
@@ -70,5 +73,11 @@ void draw_surface(const pipeline::RectifiedPair& pair, const pipeline::FaceMesh&
 // middle of the canvas, which is `across_mm` wide.
 void draw_head(const pipeline::FaceMesh& mesh, const pipeline::RigidTransform& head_from_camera,
                double turned_deg, double across_mm, StageCanvas& canvas);
+
+// What a stage made, drawn small as the left camera sees it: the matches coloured by their depth over
+// the photograph, the points, the surface under a lamp, the surface with its colours.
+// Allocates nothing but one depth buffer or the cells of dots. Thread: worker. Errors: none; what is missing
+// stays dark.
+void draw_stage_picture(State stage, const Products& products, StagePictures& pictures);
 
 }  // namespace relievo::firmware

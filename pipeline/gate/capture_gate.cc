@@ -7,7 +7,6 @@
 #include <numbers>
 
 #include "pipeline/gate/head/beside_head.h"
-#include "pipeline/gate/head/face_cover.h"
 #include "pipeline/gate/light/edge_blur.h"
 
 namespace relievo::pipeline {

@@ -27,7 +27,7 @@ struct GateMeasures {
   double middle_near_share =
       0;                     // of the same: known by the relief to be nearer than the capture volume begins
   HeadHint face;             // where on the small picture
-  double covered_share = 0;  // of the face, by something that stands before it: face_cover.h
+  double covered_share = 0;  // of the face, by something that stands before it: beside_head.h
   HeadMeasurement head;
   double off_right_mm = 0, off_down_mm = 0;  // the tip of the nose from the middle of the capture volume
   double speed_mm_s = 0, turn_deg_s = 0;

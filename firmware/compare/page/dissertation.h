@@ -10,6 +10,7 @@
 #include <vector>
 
 #include "firmware/measure/comparison.h"
+#include "hal/base/result.h"
 #include "pipeline/model/geometry.h"
 
 namespace relievo::firmware::compare {
@@ -61,5 +62,10 @@ struct Figure {
 };
 // All of them, in their order. Of figures 7 to 12 each has one run: its rule is the last of the run's.
 std::vector<Figure> figures_of(const Dissertation& dissertation);
+
+// The dissertation's tables and figures, its own figures beside ours: one page of HTML that needs nothing
+// beside it (dissertation_page.cc). Errors: those of the picture encoder.
+Result<std::string> dissertation_html(const Dissertation& dissertation, const std::string& product,
+                                      const std::string& made_at);
 
 }  // namespace relievo::firmware::compare

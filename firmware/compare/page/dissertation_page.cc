@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: 2026 The Relievo authors
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include "firmware/compare/page/dissertation_page.h"
+#include "firmware/compare/page/dissertation.h"
 
 #include <cmath>
 #include <cstdlib>

@@ -4,8 +4,12 @@
 #include <cmath>
 #include <functional>
 #include <limits>
+#include <string_view>
 
+#include "firmware/compare/page/maps.h"
 #include "firmware/compare/page/sections.h"
+#include "pipeline/report/drawing.h"
+#include "pipeline/report/page.h"
 #include "pipeline/report/text.h"
 
 namespace relievo::firmware::compare::sections {
@@ -146,6 +150,69 @@ std::string table(const Comparison& c, const std::vector<const Run*>& runs,
   return out + "</tbody>\n</table>\n</div>\n";
 }
 
+using pipeline::report::Drawing;
+using pipeline::report::figure;
+
+constexpr std::array<std::string_view, 9> kSteps{"rectify",     "preprocess", "select",  "match",   "judge",
+                                                 "reconstruct", "mesh",       "texture", "assemble"};
+constexpr double kMiB = 1048576;
+
+double total_of(const Run& run) {
+  double ms = 0;
+  for (const StageCost& stage : run.stages) ms += stage.ms;
+  return ms;
+}
+
+double of_step(const Run& run, std::string_view step) {
+  for (const StageCost& stage : run.stages)
+    if (stage.name == step) return stage.ms;
+  return 0;
+}
+
+Rgb step_colour(std::size_t step) { return rule_colour(step); }
+
+// All steps of a run, one after the other.
+std::string bar(const Run& run, double longest_ms) {
+  Drawing d({360, 16}, "times of the steps");
+  double at = 0;
+  for (std::size_t i = 0; i < kSteps.size(); ++i) {
+    const double width = of_step(run, kSteps[i]) / std::max(longest_ms, 1e-9) * 360;
+    if (width > 0) d.filled({{at, 1}, {std::max(width, 0.3), 14}}, hex(step_colour(i)));
+    at += width;
+  }
+  return d.svg();
+}
+
+std::string swatches(const std::vector<const Run*>& runs) {
+  std::string out;
+  for (std::size_t i = 0; i < kSteps.size(); ++i) {
+    if (std::none_of(runs.begin(), runs.end(), [i](const Run* run) { return of_step(*run, kSteps[i]) > 0; }))
+      continue;
+    Drawing d({14, 14}, kSteps[i]);
+    d.filled({{0, 0}, {14, 14}}, hex(step_colour(i)));
+    out += "<li>" + d.svg() + std::string(kSteps[i]) + "</li>";
+  }
+  return "<ul class=\"swatches\">" + out + "</ul>\n";
+}
+
+using pipeline::report::Drawing;
+using pipeline::report::escaped;
+using pipeline::report::figure;
+
+std::string facts_of(const Run& run) {
+  const SurfaceLook& look = *run.surface;
+  std::string facts = figure(look.mesh_ms, 0) + " ms to mesh, " + std::to_string(look.triangles) +
+                      " triangles, " +
+                      figure(100 * static_cast<double>(look.measured) /
+                                 static_cast<double>(std::max<std::size_t>(1, look.vertices)),
+                             0) +
+                      " % of the vertices measured";
+  if (run.model)
+    facts += "; interior median " + figure(run.model->interior_median_mm, 3) + " mm, " +
+             figure(100 * run.model->complete_half_mm, 1) + " % within 0.5 mm";
+  return facts;
+}
+
 }  // namespace
 
 std::string figures(const Comparison& c, const Runs& runs) {
@@ -165,6 +232,47 @@ std::string figures(const Comparison& c, const Runs& runs) {
   if (columns.empty() && scores) return out;
   return out + (scores ? "<h3 class=\"topic\">What needs no truth</h3>\n" : "") +
          table(c, runs, columns, !scores);
+}
+
+std::string costs(const Comparison& c, std::size_t pair) {
+  const std::vector<const Run*> runs = runs_of(c, pair);
+  double longest = 0;
+  for (const Run* run : runs) longest = std::max(longest, total_of(*run));
+  std::vector<std::string> titles{"Set", "all steps<small>to scale</small>"};
+  std::vector<std::string_view> steps;
+  for (const std::string_view step : kSteps)
+    if (std::any_of(runs.begin(), runs.end(), [step](const Run* run) { return of_step(*run, step) > 0; }))
+      steps.push_back(step);
+  for (const std::string_view step : steps) titles.push_back(std::string(step) + "<small>ms</small>");
+  titles.insert(titles.end(), {"arenas<small>peak, MiB</small>", "heap<small>peak, MiB</small>"});
+  std::string out = "<h3 class=\"topic\">Time and memory</h3>\n" + swatches(runs) +
+                    "<div class=\"scroll\">\n" + table_head(titles, 2);
+  for (const Run* run : runs) {
+    out += "<tr>" + row_head(name_of(c, *run)) + "<td class=\"bars\">" + bar(*run, longest) + "</td>";
+    for (const std::string_view step : steps) out += cell(figure(of_step(*run, step), 0));
+    out +=
+        cell(figure(static_cast<double>(run->arena_peak_bytes) / kMiB, 0)) +
+        cell(run->heap_peak_bytes == 0 ? "–" : figure(static_cast<double>(run->heap_peak_bytes) / kMiB, 0)) +
+        "</tr>\n";
+  }
+  return out +
+         "</tbody>\n</table>\n</div>\n<p class=\"note\">Arenas: what the algorithms took of the memory planned for them. Heap: what the process "
+         "held besides at the worst moment, above what it held before.</p>\n";
+}
+
+std::string surfaces(const Comparison& c, const Runs& runs) {
+  std::string out;
+  for (const Run* run : runs) {
+    if (!run->surface) continue;
+    Drawing d({480, 240}, name_of(c, *run) + ": its surface from in front and from the side");
+    d.picture({{0, 0}, {240, 240}}, run->surface->front);
+    d.picture({{240, 0}, {240, 240}}, run->surface->side);
+    out += pipeline::report::figure_of(d.svg(), escaped(name_of(c, *run)), facts_of(*run));
+  }
+  if (out.empty()) return out;
+  return "<h3 class=\"topic\">Surfaces</h3>\n<p class=\"lead\">Each set’s model in plain shading, from in "
+         "front and turned by 50°, all at one scale.</p>\n<div class=\"pair\">\n" +
+         out + "</div>\n";
 }
 
 }  // namespace relievo::firmware::compare::sections

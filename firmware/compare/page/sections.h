@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: 2026 The Relievo authors
 // SPDX-License-Identifier: GPL-3.0-or-later
 //
-// The parts of the comparison's page, each in a file of its own. Each gives valid HTML, or nothing where
+// The parts of the comparison's page. Each gives valid HTML, or nothing where
 // there is nothing to say. Inside page/ only.
 #pragma once
 

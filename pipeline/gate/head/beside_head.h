@@ -11,6 +11,17 @@
 
 namespace relievo::pipeline {
 
+// Something before a face: a hand, a sheet, hair that hangs down. Asked of the relief before the head itself
+// is measured, since of a covered face neither tip nor pose can be told. In the frame of the small picture,
+// pixels. Memory: none. Thread: any. Errors: none.
+
+// Share of the face about the hint that lies on surfaces which stand before another surface of it: they meet
+// along kLeastMeetingMm or more, and the nearer is nearer by kStepMm or more all along. The face before its
+// own neck, ear or the room is not meant.
+double covered_share(const Relief& relief, const HeadHint& hint);
+
+inline constexpr double kStepMm = 15, kLeastMeetingMm = 25;
+
 // Of two fields beside the head, level with the face, kBesideInnerMm to kBesideOuterMm aside from the tip of
 // the nose, the share of the fuller one that something stands in, from kBesideBeforeMm before the tip to
 // kBesideBehindMm behind it. Surfaces that reach into the head are its own (hair, a hat, its back when it is
