@@ -18,7 +18,8 @@ struct Placed {
   double stretch;  // of the line of sight: its length over its depth
 };
 
-// `place` says where a match lies. The standard deviation along the line of sight follows from its disparity's.
+// `place` says where a match lies. The standard deviation along the line of sight follows from its
+// disparity's.
 template <typename Place>
 Result<PointCloud> place_matches(const RectifiedPair& pair, const MatchSet& matches, StageContext& context,
                                  const Place& place) {
@@ -80,7 +81,8 @@ double squares(const Step& s) {
 
 }  // namespace
 
-Result<PointCloud> InverseDisparityTriangulator::triangulate(const RectifiedPair& pair, const MatchSet& matches,
+Result<PointCloud> InverseDisparityTriangulator::triangulate(const RectifiedPair& pair,
+                                                             const MatchSet& matches,
                                                              StageContext& context) const {
   return place_matches(pair, matches, context, [&](const Match& match) {
     const double z = pair.depth_mm(match.disparity_px);

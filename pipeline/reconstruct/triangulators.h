@@ -40,7 +40,8 @@ struct EpipolarRelation {
 // Moves both places so that their lines of sight meet.
 PlacePair correct_optimally(const EpipolarRelation& e, const PlacePair& seen);
 
-// OptimalTriangulator ("optimal"): the point whose images are nearest to what was seen, by Lindstrom's two steps
+// OptimalTriangulator ("optimal"): the point whose images are nearest to what was seen, by Lindstrom's two
+// steps
 // ("Triangulation Made Easy", CVPR 2010, niter2): both places are moved by the least squared distance that
 // makes their lines of sight meet, in the cameras' own image planes (focal lengths taken as equal, distortion
 // gone), where noise is alike in all directions, not in the rectified planes, which a toed-in rig stretches.
