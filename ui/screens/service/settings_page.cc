@@ -49,7 +49,6 @@ void settings_page(StaffFrame& page) {
   group(page, tr("Waiting"), std::array{Setting::PatienceS, Setting::StaffPatienceS});
   group(page, tr("Pictures"),
         std::array{Setting::Automatic, Setting::CountdownMs, Setting::Sides, Setting::Attempts});
-  group(page, tr("What is heard"), std::array{Setting::Sounds});
   group(page, tr("Records"), std::array{Setting::TellsKnown, Setting::KeepDays, Setting::LeastRoomMib});
   if (page.staff.role == StaffRole::Operator && page.staff.settings->settings.is_on(Setting::KeepDays))
     page.line(tr(
@@ -63,6 +62,7 @@ void settings_page(StaffFrame& page) {
              {ActionKind::StaffOpen, static_cast<int>(StaffPage::Consent)});
   }
   group(page, tr("Export to the stick"), std::array{Setting::Solids});
+  group(page, tr("What is heard"), std::array{Setting::Sounds});
   if (page.staff.settings->clock_jumped)
     page.line(
         tr("The clock has jumped ahead: nothing is erased. Check the clock, then choose the time again."),
