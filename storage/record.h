@@ -4,6 +4,7 @@
 // The records of the store: plain data, no SQL, no files.
 #pragma once
 
+#include <array>
 #include <chrono>
 #include <cstddef>
 #include <cstdint>
@@ -109,6 +110,12 @@ struct AuditRecord {
   std::int64_t number = 0;  // 1, 2, 3 ... without a gap
   WallTime at;
   AuditEvent event;
+};
+
+// Ed25519 (cipher/signature.h).
+struct Signed {
+  std::array<std::byte, 32> by{};  // the public half
+  std::array<std::byte, 64> signature{};
 };
 
 inline constexpr std::size_t kMaxNameBytes = 200;

@@ -16,6 +16,7 @@
 
 #include <cstdint>
 #include <memory_resource>
+#include <span>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -69,6 +70,9 @@ class Store {
 
   virtual Result<std::string> setting(std::string_view key) = 0;  // NotFound
   virtual Result<void> set_setting(std::string_view key, std::string_view value) = 0;
+
+  // By this store's own key, which stays the same when its others are changed.
+  virtual Result<Signed> sign(std::span<const std::byte> bytes) = 0;
 
   virtual Result<void> append_audit(const AuditEvent& event) = 0;
   virtual Result<std::vector<AuditRecord>> audit(std::int64_t after_number, std::int64_t limit) = 0;

@@ -42,6 +42,7 @@ LIBRARIES = {
     r"png\.h$": "png_",
     r"j(peglib|error)\.h$|turbojpeg\.h$": "jpeg_",
     r"zip\.h$": "zip_",
+    r"archive(_entry)?\.h$": "archive_",
     r"ZXing/": "zxing_",
     r"SDL2?/|SDL.*\.h$": "sdl_",
     r"espeak-ng/": "espeak_",
@@ -64,7 +65,7 @@ TESTS_ONLY = r"gtest/|benchmark/"
 SYSTEM = re.compile(
     r"^[a-z0-9_]+$"                                    # C++: <vector>
     r"|^(errno|fcntl|poll|pthread|sched|signal|spawn|stdint|stdio|stdlib|string|strings|termios|time|unistd"
-    r"|dirent|limits|math|glob|fenv|getopt|malloc|ucontext|execinfo)\.h$"
+    r"|dirent|limits|math|glob|fenv|getopt|malloc|pty|ucontext|execinfo)\.h$"
     r"|^sys/[a-z0-9_]+\.h$|^linux/(dma-buf|dma-heap|fs|magic|input|media|uinput|watchdog)\.h$"
     r"|^(imm|x86|arm_neon|xmm|emm|nmm|smm|tmm|pmm|cpuid)[a-z]*\.h$")
 # An implementation may be named only by the one file that chooses it (and by tests).

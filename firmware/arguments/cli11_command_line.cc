@@ -191,6 +191,16 @@ void add_subjects(CLI::App& app, CommandArgs& chosen, SubjectsArgs& args) {
   CLI::App* exported = verb("export", "the newest model of one as files", Verb::Export);
   exported->add_option("-o,--output", args.output)->required()->type_name("DIR");
   add_further(*exported, args.further);
+  CLI::Option* to =
+      exported->add_option("--to", args.recipient, "one file instead, sealed to this recipient of age")
+          ->type_name("age1...");
+  CLI::Option* by = exported
+                        ->add_option("--passphrase-file", args.passphrase,
+                                     "one file instead, sealed by the passphrase that stands in this one")
+                        ->type_name("FILE")
+                        ->excludes(to);
+  for (const char* folder_only : {"--lod", "--watertight"})
+    for (CLI::Option* sealed : {to, by}) sealed->excludes(exported->get_option(folder_only));
   verb("erase", "one and everything known about them", Verb::Erase);
 }
 

@@ -124,6 +124,8 @@ struct SubjectsArgs {
   std::string subject;
   Path output;            // export
   FurtherModels further;  // export
+  std::string recipient;  // export: the output is one file, sealed to them
+  Path passphrase;        // export: or by what stands in this file
   Path store;
 };
 

@@ -1,7 +1,10 @@
 // SPDX-FileCopyrightText: 2026 The Relievo authors
 // SPDX-License-Identifier: GPL-3.0-or-later
+#include <chrono>
 #include <cstdint>
 #include <memory_resource>
+#include <optional>
+#include <span>
 #include <string>
 
 #include "firmware/base/output_folder.h"
@@ -9,8 +12,11 @@
 #include "firmware/base/wall_time.h"
 #include "firmware/command/commands.h"
 #include "firmware/command/subject_lookup.h"
+#include "firmware/records/bundle_manifest.h"
 #include "firmware/service/further_models.h"
+#include "hal/whole_file.h"
 #include "pipeline/recognition/recognition_images.h"
+#include "storage/cipher/age.h"
 #include "storage/export/model_files.h"
 
 namespace relievo::firmware {
@@ -51,18 +57,56 @@ Result<void> show(storage::Store& store, const storage::Subject& subject, Consol
   return {};
 }
 
+// None where no file is named.
+Result<std::optional<std::string>> passphrase_in(const Path& file) {
+  constexpr std::size_t kMostBytes = 4096;
+  if (file.empty()) return std::optional<std::string>();
+  RELIEVO_TRY_ASSIGN(const auto bytes, hal::read_whole_file(file, kMostBytes));
+  std::string text(reinterpret_cast<const char*>(bytes.data()), bytes.size());
+  while (text.ends_with('\n') || text.ends_with('\r')) text.pop_back();
+  if (text.empty()) return Error{Errc::InvalidInput, "holds no passphrase"}.at(file.string());
+  return std::optional(text);
+}
+
+// One file, sealed: nothing of it is written to a disk in the clear.
+Result<void> write_sealed(const SubjectsArgs& args, std::vector<storage::BundleFile>& files) {
+  RELIEVO_TRY_ASSIGN(const auto passphrase, passphrase_in(args.passphrase));
+  storage::AgeTo to = storage::Passphrase{passphrase ? std::string_view(*passphrase) : std::string_view()};
+  if (!passphrase) {
+    const auto recipient = storage::age_recipient(args.recipient);
+    if (!recipient) return recipient.error().at(args.recipient);
+    to = *recipient;
+  }
+  RELIEVO_TRY_ASSIGN(const auto bundle, storage::bundle_bytes(files));
+  RELIEVO_TRY_ASSIGN(const auto sealed, storage::age_seal(to, bundle));
+  return hal::write_whole_file(args.output, sealed);
+}
+
 Result<void> export_newest(storage::Store& store, const storage::Subject& subject, const SubjectsArgs& args,
-                           Console& console) {
+                           Services& services) {
+  Console& console = services.console;
   RELIEVO_TRY_ASSIGN(const auto enrolments, store.enrolments(subject.id));
   if (enrolments.empty()) return Error{Errc::NotFound, "has no enrolment: enrol first"}.at(args.subject);
   const storage::Enrolment& newest = enrolments.back();
+  const std::string done = "enrolment " + std::to_string(static_cast<std::int64_t>(newest.id)) + " of " +
+                           subject.name + ": " + args.output.string();
   std::pmr::monotonic_buffer_resource memory;
   RELIEVO_TRY_ASSIGN(const pipeline::FaceModel model, store.load_model(newest.id, &memory));
   RELIEVO_TRY_ASSIGN(const auto images, pipeline::make_recognition_images(model, memory, memory));
-  RELIEVO_TRY_ASSIGN(OutputFolder folder, OutputFolder::begin(args.output));
   storage::ExportOptions options(storage::ExportFrame::Head);
   options.version = kVersion;
   options.images = &images;
+  if (!args.recipient.empty() || !args.passphrase.empty()) {
+    RELIEVO_TRY_ASSIGN(auto files, storage::make_model_files(model, options));
+    const auto report = std::as_bytes(std::span(newest.report_json));
+    if (!report.empty()) files.push_back({"report.json", {report.begin(), report.end()}});
+    const auto now = std::chrono::time_point_cast<std::chrono::milliseconds>(services.clock.wall_now());
+    RELIEVO_TRY(add_manifest(store, subject, newest, now, files));
+    RELIEVO_TRY(write_sealed(args, files));
+    console.say(done + ", sealed: age -d opens it, tar unpacks it");
+    return {};
+  }
+  RELIEVO_TRY_ASSIGN(OutputFolder folder, OutputFolder::begin(args.output));
   if (const auto files = storage::write_model_files(model, folder.path(), options); !files) {
     return files.error().at(args.output.string());
   }
@@ -72,8 +116,7 @@ Result<void> export_newest(storage::Store& store, const storage::Subject& subjec
   if (!newest.report_json.empty())
     RELIEVO_TRY(write_text(folder.path() / "report.json", newest.report_json, args.output));
   RELIEVO_TRY(folder.commit());
-  console.say("enrolment " + std::to_string(static_cast<std::int64_t>(newest.id)) + " of " + subject.name +
-              ": " + args.output.string());
+  console.say(done);
   return {};
 }
 
@@ -90,7 +133,7 @@ Result<void> run(const SubjectsArgs& args, Services& services) {
     case Verb::Show:
       return show(*store, subject, services.console);
     case Verb::Export:
-      return export_newest(*store, subject, args, services.console);
+      return export_newest(*store, subject, args, services);
     case Verb::Erase:
       RELIEVO_TRY(store->erase_subject(subject.id));
       services.console.say("erased: " + number_of(subject.id));

@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <cerrno>
+#include <functional>
 #include <new>
 #include <string>
 #include <string_view>
@@ -70,32 +71,42 @@ Result<std::vector<std::byte>> origin_png(const pipeline::TextureAtlas& texture)
   return png_of_grey(texture.width_px, texture.height_px, grey);
 }
 
-Result<std::vector<fs::path>> write_all(const pipeline::FaceModel& model, const fs::path& dir,
-                                        const ExportOptions& options) {
+// Each file once it is made, so that one at a time lies in memory.
+using Take = std::function<Result<void>(const std::string& name, std::span<const std::byte> bytes)>;
+
+Result<void> make_all(const pipeline::FaceModel& model, const ExportOptions& options, const Take& take) {
   RELIEVO_TRY_ASSIGN(ExportMesh mesh, make_export_mesh(model, options.frame));
   mesh.version = options.version;
   const auto name = [&options](const char* ending) { return std::string(options.stem) + ending; };
-  RELIEVO_TRY(make_directory(dir));
-  Batch batch(dir);
-  RELIEVO_TRY(batch.add(name(".ply"), ply_bytes(mesh)));
-  RELIEVO_TRY(batch.add(name(".stl"), stl_bytes(mesh)));
+  RELIEVO_TRY(take(name(".ply"), ply_bytes(mesh)));
+  RELIEVO_TRY(take(name(".stl"), stl_bytes(mesh)));
   std::vector<std::byte> png;
   if (mesh.textured()) {
     RELIEVO_TRY_ASSIGN(png, png_bytes(model.texture));
-    RELIEVO_TRY(batch.add(name(".png"), png));
+    RELIEVO_TRY(take(name(".png"), png));
     if (!model.texture.origin.empty()) {
       RELIEVO_TRY_ASSIGN(const auto origin, origin_png(model.texture));
-      RELIEVO_TRY(batch.add(name("_origin.png"), origin));
+      RELIEVO_TRY(take(name("_origin.png"), origin));
     }
   }
-  RELIEVO_TRY(batch.add(name(".mtl"), bytes_of(mtl_text(mesh, name(".png")))));
-  RELIEVO_TRY(batch.add(name(".obj"), bytes_of(obj_text(mesh, name(".mtl")))));
-  RELIEVO_TRY(batch.add(name(".glb"), glb_bytes(mesh, png)));
-  if (options.images != nullptr) {
-    RELIEVO_TRY_ASSIGN(const auto files, recognition_files(*options.images, model.landmarks,
-                                                           model.head_from_camera, options.version));
-    for (const NamedBytes& file : files) RELIEVO_TRY(batch.add(file.name, file.bytes));
-  }
+  RELIEVO_TRY(take(name(".mtl"), bytes_of(mtl_text(mesh, name(".png")))));
+  RELIEVO_TRY(take(name(".obj"), bytes_of(obj_text(mesh, name(".mtl")))));
+  RELIEVO_TRY(take(name(".glb"), glb_bytes(mesh, png)));
+  if (options.images == nullptr) return {};
+  RELIEVO_TRY_ASSIGN(const auto files, recognition_files(*options.images, model.landmarks,
+                                                         model.head_from_camera, options.version));
+  for (const NamedBytes& file : files) RELIEVO_TRY(take(file.name, file.bytes));
+  return {};
+}
+
+Result<std::vector<fs::path>> write_all(const pipeline::FaceModel& model, const fs::path& dir,
+                                        const ExportOptions& options) {
+  Batch batch(dir);
+  const Take write = [&](const std::string& name, std::span<const std::byte> bytes) -> Result<void> {
+    RELIEVO_TRY(make_directory(dir));  // not for a model that cannot be written
+    return batch.add(name, bytes);
+  };
+  RELIEVO_TRY(make_all(model, options, write));
   return batch.publish();
 }
 
@@ -108,6 +119,17 @@ Result<std::vector<fs::path>> write_model_files(const pipeline::FaceModel& model
   } catch (const std::bad_alloc&) {
     return Error{Errc::OutOfMemory, "not enough memory to write the model; nothing was written"};
   }
+}
+
+Result<std::vector<BundleFile>> make_model_files(const pipeline::FaceModel& model,
+                                                 const ExportOptions& options) {
+  std::vector<BundleFile> files;
+  const Take keep = [&](const std::string& name, std::span<const std::byte> bytes) {
+    files.push_back({name, {bytes.begin(), bytes.end()}});
+    return Result<void>();
+  };
+  RELIEVO_TRY(make_all(model, options, keep));
+  return files;
 }
 
 }  // namespace relievo::storage

@@ -19,6 +19,7 @@
 #include "hal/base/result.h"
 #include "pipeline/model/face_model.h"
 #include "pipeline/model/recognition_images.h"
+#include "storage/export/bundle.h"
 #include "storage/export/format/export_mesh.h"
 
 namespace relievo::storage {
@@ -37,5 +38,8 @@ struct ExportOptions {
 Result<std::vector<std::filesystem::path>> write_model_files(const pipeline::FaceModel& model,
                                                              const std::filesystem::path& dir,
                                                              const ExportOptions& options);
+// The same in memory, for who may leave nothing unsealed on a disk. May throw std::bad_alloc.
+Result<std::vector<BundleFile>> make_model_files(const pipeline::FaceModel& model,
+                                                 const ExportOptions& options);
 
 }  // namespace relievo::storage

@@ -15,7 +15,7 @@ namespace {
 
 constexpr std::string_view kAppliance = "appliance", kDevice = "device", kRecovery = "recovery",
                            kRecoveryHalf = "recovery public half";
-enum Purpose : std::uint64_t { kSearch = 1, kChain = 2 };
+enum Purpose : std::uint64_t { kSearch = 1, kChain = 2, kSigning = 3 };
 
 Place place_of(std::string_view kind) { return {"encryption_key", kind, 0}; }
 Place slot_of(SubjectId id) { return {"subject_key", "slots", number(id)}; }
@@ -196,6 +196,12 @@ Result<void> StoreKeys::take_subject_key(KeySlots& slots, SubjectId id) {
 
 KeyedHash StoreKeys::name_hash(std::string_view name) const {
   return keyed_hash(search_, bytes_of("name " + normal_name(name)));
+}
+
+Result<Signed> StoreKeys::sign(std::span<const std::byte> bytes) const {
+  RELIEVO_TRY_ASSIGN(auto seed, SecretKey::make());
+  seed.derive(device_, kSigning);
+  return sign_with(seed, bytes);
 }
 
 KeyedHash StoreKeys::code_hash(std::int64_t code) const {

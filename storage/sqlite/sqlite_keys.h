@@ -6,7 +6,8 @@
 //   appliance's key (KeySource) ──► store key ──► a key for each subject ──► name, code, record, bytes
 //                                          └────► device key ──► settings, notes, details of the audit log;
 //                                                   │            what names and codes are found by (BLAKE2b)
-//                                                   └─► key of the audit chain
+//                                                   ├─► key of the audit chain
+//                                                   └─► key that signs what is exported
 //   recovery words (recovery.h) ──► store key
 //
 // An arrow is "wraps" (seal.h); what is wrapped stands in encryption_key and in subject_key
@@ -23,6 +24,7 @@
 #include "hal/base/result.h"
 #include "storage/cipher/key_source.h"
 #include "storage/cipher/seal.h"
+#include "storage/cipher/signature.h"
 #include "storage/record.h"
 #include "storage/sqlite/sqlite_database.h"
 #include "storage/sqlite/sqlite_key_slots.h"
@@ -57,6 +59,7 @@ class StoreKeys {
   // ASCII letters in either case are one; spaces at the ends do not count.
   KeyedHash name_hash(std::string_view name) const;
   KeyedHash code_hash(std::int64_t code) const;
+  Result<Signed> sign(std::span<const std::byte> bytes) const;
   std::int64_t id() const { return id_; }  // of the row of encryption_key that subjects name
   SealedStream& stream() { return stream_; }
 

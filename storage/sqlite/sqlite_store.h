@@ -93,6 +93,7 @@ class SqliteStore final : public Store {
   Result<void> activate_calibration(std::uint32_t revision) override;
   Result<std::string> setting(std::string_view key) override;
   Result<void> set_setting(std::string_view key, std::string_view value) override;
+  Result<Signed> sign(std::span<const std::byte> bytes) override { return keys_->sign(bytes); }
   Result<void> append_audit(const AuditEvent& event) override;
   Result<std::vector<AuditRecord>> audit(std::int64_t after_number, std::int64_t limit) override;
 

@@ -1,7 +1,11 @@
 // SPDX-FileCopyrightText: 2026 The Relievo authors
 // SPDX-License-Identifier: GPL-3.0-or-later
-// A store that somebody changed who has no key: the file and its log.
+// A store that somebody changed who has no key, its file and its log; files that are sealed to us.
+#include <algorithm>
+
 #include "hal/base/assert.h"
+#include "storage/cipher/age.h"
+#include "storage/cipher/recovery.h"
 #include "storage/sqlite/sqlite_store.h"
 #include "tests/fuzz/fuzz_targets.h"
 #include "tests/storage/sample.h"
@@ -71,8 +75,28 @@ bool store(FuzzBytes input) {
   return sound;
 }
 
+const SecretKey& identity() {
+  static const SecretKey key = [] {
+    auto made = SecretKey::make();
+    RELIEVO_ASSERT(made.has_value());
+    std::fill(made->bytes().begin(), made->bytes().end(), std::byte{9});
+    return std::move(*made);
+  }();
+  return key;
+}
+
+bool age(FuzzBytes input) { return age_open(&identity(), bytes_of(input)).has_value(); }
+
+std::vector<std::string> sealed_files() {
+  std::vector<std::string> all;
+  for (const std::string plain : {"", "some text"})
+    all.push_back(text_of(std::span<const std::byte>(
+        *age_seal(AgeRecipient(recovery_public(identity())), std::as_bytes(std::span(plain))))));
+  return all;
+}
+
 }  // namespace
 
-std::vector<FuzzTarget> store_targets() { return {{"store", store, {""}}}; }
+std::vector<FuzzTarget> store_targets() { return {{"store", store, {""}}, {"age", age, sealed_files()}}; }
 
 }  // namespace relievo::test

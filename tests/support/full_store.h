@@ -7,6 +7,7 @@
 
 #include <atomic>
 #include <memory>
+#include <span>
 #include <utility>
 
 #include "storage/store.h"
@@ -54,6 +55,7 @@ class FullStore final : public storage::Store {
   Result<void> set_setting(std::string_view k, std::string_view v) override {
     return real_->set_setting(k, v);
   }
+  Result<storage::Signed> sign(std::span<const std::byte> b) override { return real_->sign(b); }
   Result<void> append_audit(const storage::AuditEvent& e) override { return real_->append_audit(e); }
   Result<std::vector<storage::AuditRecord>> audit(std::int64_t a, std::int64_t l) override {
     return real_->audit(a, l);

@@ -92,8 +92,38 @@ class WholeWay : public RelievoProcess {
     done({"subjects", "export", "Ada Lovelace", "-o", "exported", "--store", "store"});
     expect_files("exported", {"model.ply", "model.stl", "model.obj", "model.mtl", "model.png", "model.glb",
                               "portrait.png", "range.png", "recognition.json", "report.json"});
+    export_sealed();
     EXPECT_EQ(done({"selftest", "--store", "store"}).exit_code, 0);
     refused({"subjects", "show", "Nobody", "--store", "store"}, "Nobody");
+  }
+
+  // One file, which tells nobody anything but whom it is for.
+  void export_sealed() {
+    if (test::run_program({"/usr/bin/age-keygen", "-o", "key"}, here.path()).exit_code != 0) return;
+    const std::string key = test::read_text(here / "key");
+    const std::vector<std::string> words{"subjects", "export",  "Ada Lovelace", "-o",
+                                         "ada.age",  "--store", "store",        "--to"};
+    auto to = words;
+    to.push_back(key.substr(key.find("age1"), 62));
+    done(to);
+    const std::string sealed = test::read_text(here / "ada.age");
+    for (const char* inside : {"model", "Ada", "manifest"})
+      EXPECT_EQ(sealed.find(inside), std::string::npos) << inside;
+    EXPECT_EQ(test::run_program({"/usr/bin/age", "-d", "-i", "key", "-o", "ada.tar", "ada.age"}, here.path())
+                  .exit_code,
+              0);
+    fs::create_directory(here / "unsealed");
+    EXPECT_EQ(test::run_program({"/usr/bin/tar", "xf", "../ada.tar"}, here / "unsealed").exit_code, 0);
+    expect_files("unsealed", {"model.ply", "model.stl", "model.obj", "model.mtl", "model.png", "model.glb",
+                              "portrait.png", "range.png", "recognition.json", "report.json", "manifest.json",
+                              "signature.json"});
+    EXPECT_TRUE(test::read_text(here / "unsealed/model.ply") == test::read_text(here / "exported/model.ply"));
+    EXPECT_NE(test::read_text(here / "unsealed/manifest.json").find("\"name\": \"Ada Lovelace\""),
+              std::string::npos);
+    to.back() = "age1nobody";
+    refused(to, "age1nobody");
+    to.insert(to.end(), {"--watertight"});
+    EXPECT_EQ(relievo(to).exit_code, 2);
   }
 
   // The right camera nods after the calibration: what makes so many pixels across the rows.
