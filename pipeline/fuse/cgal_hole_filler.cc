@@ -85,7 +85,6 @@ class Filler {
     if (made.empty()) return false;
     for (const Triangle& t : made) take(t);
     triangles_.insert(triangles_.end(), made.begin(), made.end());
-    closed_.insert(closed_.end(), rim.begin(), rim.end());
     return true;
   }
 
@@ -134,8 +133,6 @@ class Filler {
     }
   }
 
-  std::vector<std::uint32_t> closed() && { return std::move(closed_); }
-
  private:
   bool is_free(std::uint32_t a, std::uint32_t b) const { return !taken_.contains(edge_between(a, b)); }
   void take(const Triangle& t) {
@@ -148,14 +145,13 @@ class Filler {
   std::vector<char> on_rim_;
   std::set<BorderEdge> taken_;  // edges between vertices of rims, low then high
   std::pmr::vector<Triangle>& triangles_;
-  std::vector<std::uint32_t> closed_;
 };
 
 }  // namespace
 
-std::vector<std::uint32_t> close_holes(std::span<const Vec3f> vertices, std::span<const Vec3f> normals,
-                                       std::span<const BorderEdge> border, const HoleLimits& limits,
-                                       std::pmr::vector<Triangle>& triangles) {
+void close_holes(std::span<const Vec3f> vertices, std::span<const Vec3f> normals,
+                 std::span<const BorderEdge> border, const HoleLimits& limits,
+                 std::pmr::vector<Triangle>& triangles) {
   const std::vector<Loop> loops = loops_of(vertices, border);
   const auto longest = std::max_element(
       loops.begin(), loops.end(), [](const Loop& a, const Loop& b) { return a.length_mm < b.length_mm; });
@@ -165,7 +161,6 @@ std::vector<std::uint32_t> close_holes(std::span<const Vec3f> vertices, std::spa
         loop->length_mm <= limits.rim_mm)
       filler.close(loop->vertices);
   if (longest != loops.end() && longest->length_mm > 0) filler.close_bays(*longest, normals, limits);
-  return std::move(filler).closed();
 }
 
 }  // namespace relievo::pipeline

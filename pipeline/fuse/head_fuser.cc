@@ -28,10 +28,10 @@ constexpr float kLeastSigmaMm = 0.005F;
 constexpr float kFullTrust = 0.95F;
 constexpr float kLeastTrust = 0.005F;  // of a point that counts at all
 constexpr int kTuftEdges = 16;
-constexpr int kRimEdges = 8, kRimRounds = 20;        // what is opened, how often rims are straightened ...
-constexpr float kSureMm = 0.15F;                     // skin; hair that was half seen through is less certain
-constexpr float kRimMoveMm = 0.7F;                   // ... and by how much at most
-constexpr float kHoleRimMm = 400, kBayMouthMm = 25;  // of holes and bays that are closed
+constexpr int kRimEdges = 8, kRimRounds = 20;  // what is opened, how often rims are straightened ...
+constexpr float kSureMm = 0.15F;               // skin; hair that was half seen through is less certain
+constexpr float kRimMoveMm = 0.7F;             // ... and by how much at most
+constexpr float kHoleRimMm = 400, kBayMouthMm = 25, kClosedSigmaMm = 1;  // of holes and bays that are closed
 constexpr int kBands = 32;
 
 class Fusion {
@@ -312,8 +312,8 @@ Result<FaceMesh> HeadFuser::fuse(std::span<PoseSurface> poses, const Registratio
       vertices[v] = {said->sigma_mm, 0, said->measured ? std::uint8_t{1} : std::uint8_t{0}, 1};
     }
   };
-  const std::pmr::vector<Vec3f> started(surface.vertices_mm, &context.scratch);
-  const std::pmr::vector<Vec3f> normals = area_normals(surface, &context.scratch);
+  std::pmr::vector<Vec3f> started(surface.vertices_mm, &context.scratch);
+  std::pmr::vector<Vec3f> normals = area_normals(surface, &context.scratch);
   context.pool.for_each_band(static_cast<int>(vertices.size()), kBands, [&](int begin, int end, int) {
     for (int v = begin; v < end; ++v)
       settle(static_cast<std::size_t>(v), unit(normals[static_cast<std::size_t>(v)]));
@@ -323,11 +323,25 @@ Result<FaceMesh> HeadFuser::fuse(std::span<PoseSurface> poses, const Registratio
   });
   std::pmr::vector<std::uint8_t> sure(&context.scratch);
   for (const Vertex& v : vertices) sure.push_back(v.measured != 0 && v.sigma_mm <= kSureMm ? 1 : 0);
-  // What closes a hole was not measured: nor is its rim, or its triangles would seem to be.
+  // What closes a hole was not measured: a vertex of its own in each triangle says so.
   const auto close = [&](std::span<const BorderEdge> border, float mouth_mm) {
-    for (const std::uint32_t v :
-         close_holes(surface.vertices_mm, normals, border, {kHoleRimMm, mouth_mm}, surface.triangles))
-      vertices[v].measured = 0;
+    const std::size_t before = surface.triangles.size();
+    close_holes(surface.vertices_mm, normals, border, {kHoleRimMm, mouth_mm}, surface.triangles);
+    for (std::size_t i = before, end = surface.triangles.size(); i < end; ++i) {
+      const Triangle t = surface.triangles[i];
+      const auto middle = static_cast<std::uint32_t>(vertices.size());
+      const auto sum = [&](const std::pmr::vector<Vec3f>& of) {
+        return plus(plus(of[t[0]], of[t[1]]), of[t[2]]);
+      };
+      surface.vertices_mm.push_back(times(sum(surface.vertices_mm), 1.0F / 3));
+      normals.push_back(sum(normals));
+      started.push_back(surface.vertices_mm.back());
+      vertices.push_back({kClosedSigmaMm, vertices[t[0]].pose, 0, 1});
+      sure.push_back(0);
+      surface.triangles[i] = {t[0], t[1], middle};
+      surface.triangles.push_back({t[1], t[2], middle});
+      surface.triangles.push_back({t[2], t[0], middle});
+    }
   };
   open_rims(sure, surface.triangles, kRimEdges, &context.scratch);
   keep_one_surface(surface.vertices_mm, surface.triangles, {}, &context.scratch);

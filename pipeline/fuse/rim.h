@@ -37,10 +37,9 @@ struct HoleLimits {
 
 // Closes every hole but the longest rim, and that one's bays, straight from headland to headland: without new
 // vertices, by the triangulation of least area (Barequet, Sharir 1995; CGAL). One whose closing would use an
-// edge that is there already stays open. `normals`: outwards, any length. Returns the vertices of the rims
-// that were closed.
-std::vector<std::uint32_t> close_holes(std::span<const Vec3f> vertices_mm, std::span<const Vec3f> normals,
-                                       std::span<const BorderEdge> border, const HoleLimits& limits,
-                                       std::pmr::vector<Triangle>& triangles);
+// edge that is there already stays open. `normals`: outwards, any length. The new triangles stand at the end.
+void close_holes(std::span<const Vec3f> vertices_mm, std::span<const Vec3f> normals,
+                 std::span<const BorderEdge> border, const HoleLimits& limits,
+                 std::pmr::vector<Triangle>& triangles);
 
 }  // namespace relievo::pipeline
