@@ -230,7 +230,8 @@ Result<bool> file_key_in(const Stanza& stanza, const AgeBy& by, FileKey& file_ke
 
 Result<void> mac_of(const FileKey& file_key, std::string_view header, std::span<std::byte> mac) {
   RELIEVO_TRY_ASSIGN(auto key, SecretKey::make());
-  derive(file_key, {}, "header", key);
+  constexpr std::array<std::byte, 32> kNoSalt{};
+  derive(file_key, kNoSalt, "header", key);
   hmac(key.bytes(), mac, bytes_of(header));
   return {};
 }
