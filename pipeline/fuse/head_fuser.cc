@@ -27,7 +27,7 @@ constexpr float kReachMm = 1.2F;     // of a pose's surface from a vertex that i
 constexpr float kLeastSigmaMm = 0.005F;
 constexpr float kFullTrust = 0.95F;
 constexpr float kLeastTrust = 0.005F;  // of a point that counts at all
-constexpr int kTuftEdges = 16;
+constexpr int kTuftEdges = 12;
 constexpr int kRimEdges = 8, kRimRounds = 20;  // what is opened, how often rims are straightened ...
 constexpr float kSureMm = 0.15F;               // skin; hair that was half seen through is less certain
 constexpr float kRimMoveMm = 0.7F;             // ... and by how much at most
