@@ -41,11 +41,8 @@ struct Round {
   double samples = 18'000;
 };
 constexpr double kFewSamples = 4'500;
-constexpr std::array<Round, 5> kRounds{{{12, 6, 8, kFewSamples},
-                                        {6, 2, 6, kFewSamples},
-                                        {3, 0.7, 6, kFewSamples},
-                                        {2, 0.25, 8},
-                                        {1.5, 0.12, 8}}};
+constexpr std::array<Round, 5> kRounds{
+    {{12, 6, 8, kFewSamples}, {6, 2, 6, kFewSamples}, {3, 0.7, 6}, {2, 0.25, 8}, {1.5, 0.12, 8}}};
 constexpr Round kLast{1.5, 0.08, 12};
 // Surfaces of calibrations that differ lie off everywhere: no scale is narrower than what is usual.
 constexpr double kScaleOfUsual = 1.5;

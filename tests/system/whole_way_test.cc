@@ -107,7 +107,7 @@ class WholeWay : public RelievoProcess {
     to.push_back(key.substr(key.find("age1"), 62));
     done(to);
     const std::string sealed = test::read_text(here / "ada.age");
-    for (const char* inside : {"model", "Ada", "manifest"})
+    for (const char* inside : {"model.ply", "Ada Lovelace", "manifest"})
       EXPECT_EQ(sealed.find(inside), std::string::npos) << inside;
     EXPECT_EQ(test::run_program({"/usr/bin/age", "-d", "-i", "key", "-o", "ada.tar", "ada.age"}, here.path())
                   .exit_code,

@@ -66,12 +66,12 @@ TEST(SqliteMigration, EveryOlderVersionIsBroughtUpAndSealed) {
     const TemporaryFolder folder;
     const auto dir = folder / "store";
     make_version(dir, version);
-    Raw(dir / "relievo.db").run("INSERT INTO subject (created_at_ms, name) VALUES (1, x'416461')");
+    Raw(dir / "relievo.db").run("INSERT INTO subject (created_at_ms, name) VALUES (1, x'416461204c6f76656c616365')");
     if (version == kLastPlain) Raw(dir / "relievo.db").run("UPDATE subject SET receipt = 77");
     EXPECT_EQ(refusal(dir, OpenMode::ReadOnly), Errc::InvalidState);
     auto store = opened(dir);
     ASSERT_TRUE(store);
-    EXPECT_EQ(store->subjects({})->front().name, "Ada");
+    EXPECT_EQ(store->subjects({})->front().name, "Ada Lovelace");
     const std::int64_t receipt = store->subjects({})->front().receipt;
     EXPECT_GE(receipt, kLeastReceipt) << "who came before receipts were drawn has one now";
     EXPECT_LE(receipt, kMostReceipt);
@@ -81,7 +81,7 @@ TEST(SqliteMigration, EveryOlderVersionIsBroughtUpAndSealed) {
     EXPECT_TRUE(store->check());
     EXPECT_FALSE(std::filesystem::exists(dir / ("relievo.db.before-" + number(version + 1))))
         << "a copy in which people stand in the clear";
-    EXPECT_EQ(test::all_bytes(dir).find("Ada"), std::string::npos);
+    EXPECT_EQ(test::all_bytes(dir).find("Ada Lovelace"), std::string::npos);
     EXPECT_TRUE(store->erase_subject(SubjectId{1}));
   }
 }
