@@ -66,7 +66,8 @@ TEST(SqliteMigration, EveryOlderVersionIsBroughtUpAndSealed) {
     const TemporaryFolder folder;
     const auto dir = folder / "store";
     make_version(dir, version);
-    Raw(dir / "relievo.db").run("INSERT INTO subject (created_at_ms, name) VALUES (1, x'416461204c6f76656c616365')");
+    Raw(dir / "relievo.db")
+        .run("INSERT INTO subject (created_at_ms, name) VALUES (1, x'416461204c6f76656c616365')");
     if (version == kLastPlain) Raw(dir / "relievo.db").run("UPDATE subject SET receipt = 77");
     EXPECT_EQ(refusal(dir, OpenMode::ReadOnly), Errc::InvalidState);
     auto store = opened(dir);
