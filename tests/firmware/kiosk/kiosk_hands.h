@@ -8,6 +8,7 @@
 #include <gtest/gtest.h>
 
 #include <chrono>
+#include <filesystem>
 #include <functional>
 #include <memory>
 #include <sstream>
@@ -16,11 +17,42 @@
 
 #include "firmware/kiosk/kiosk.h"
 #include "firmware/kiosk/script/script_player.h"
+#include "hal/sim/device.h"
+#include "pipeline/calibrate/file/calibration_file.h"
+#include "storage/sqlite/sqlite_store.h"
+#include "tests/support/small_rig.h"
 
 namespace relievo::firmware {
 
 class KioskHands : public testing::Test {
  protected:
+  // A small simulated rig that knows its calibration, and a store in `folder`; all may be replaced.
+  static void lend_small_rig(Services& services, KioskArgs& args, const std::filesystem::path& folder,
+                             const hal::Clock& clock, const hal::SimDeviceOptions& device) {
+    EXPECT_TRUE(ui::prepare_languages().has_value());
+    args.store = folder / "store";
+    services.open_device = [device](std::string_view) { return hal::make_sim_device(device); };
+    services.open_store = [&clock](const std::filesystem::path& at, bool) {
+      return storage::open_sqlite_store(at, clock, {});
+    };
+    services.simulated_calibration = [folder,
+                                      rig = device.simulation.rig]() -> Result<pipeline::StereoCalibration> {
+      const std::filesystem::path file = folder / "rig.yml";
+      RELIEVO_TRY(hal::sim::write_rig(file, hal::sim::make_rig(rig)));
+      return pipeline::read_calibration(file);
+    };
+  }
+  void open(const KioskArgs& args, Services& services) {
+    auto opened = Kiosk::open(args, services);
+    EXPECT_TRUE(opened.has_value()) << opened.error().what.view();
+    kiosk = std::move(*opened);
+    kiosk->ui().resize(1280, 800);
+  }
+  static hal::SimDeviceOptions small_device(double scale) {
+    hal::SimDeviceOptions options;
+    options.simulation.rig = test::small_rig(scale);
+    return options;
+  }
   // Before what the test lends it goes.
   void TearDown() override { kiosk.reset(); }
   const ui::Node* find(std::string_view id) const { return kiosk->ui().tree().find(id); }

@@ -24,34 +24,17 @@
 namespace relievo::firmware {
 namespace {
 
-const hal::sim::RigOptions kRig = test::small_rig(0.5);
-
 class KioskSpeechTest : public KioskHands {
  protected:
   KioskSpeechTest() {
-    EXPECT_TRUE(ui::prepare_languages().has_value());
-    args.store = folder.path() / "store";
-    services.open_device = [](std::string_view) {
-      hal::SimDeviceOptions options;
-      options.simulation.rig = kRig;
-      return hal::make_sim_device(options);
-    };
-    services.open_store = [this](const Path& at, bool) { return storage::open_sqlite_store(at, clock, {}); };
-    services.simulated_calibration = [this]() -> Result<pipeline::StereoCalibration> {
-      const Path file = folder.path() / "rig.yml";
-      RELIEVO_TRY(hal::sim::write_rig(file, hal::sim::make_rig(kRig)));
-      return pipeline::read_calibration(file);
-    };
+    lend_small_rig(services, args, folder.path(), clock, small_device(0.5));
     services.open_speaker = [this] {
       auto made = std::make_unique<hal::RecordingSpeaker>(
           clock, std::vector<std::string>{"en", "de", "fr", "es", "zh-Hans"});
       speaker = made.get();
       return made;
     };
-    auto opened = Kiosk::open(args, services);
-    EXPECT_TRUE(opened.has_value()) << opened.error().what.view();
-    kiosk = std::move(*opened);
-    kiosk->ui().resize(1280, 800);
+    open(args, services);
     EXPECT_TRUE(reach(ui::Step::Attract));
   }
 

@@ -22,33 +22,17 @@
 namespace relievo::firmware {
 namespace {
 
-const hal::sim::RigOptions kRig = test::small_rig(0.3);  // small: turned heads are rendered while it waits
-
 class KioskTurn : public KioskHands {
  protected:
   KioskTurn() {
-    EXPECT_TRUE(ui::prepare_languages().has_value());
-    args.store = folder.path() / "store";
-    services.open_device = [](std::string_view) {
-      hal::SimDeviceOptions options;
-      options.simulation.rig = kRig;
-      options.simulation.seed = 4;
-      return hal::make_sim_device(options);
-    };
-    services.open_store = [this](const Path& at, bool) { return storage::open_sqlite_store(at, clock, {}); };
-    services.simulated_calibration = [this]() -> Result<pipeline::StereoCalibration> {
-      const Path file = folder.path() / "rig.yml";
-      RELIEVO_TRY(hal::sim::write_rig(file, hal::sim::make_rig(kRig)));
-      return pipeline::read_calibration(file);
-    };
+    auto lent = small_device(0.3);  // small: turned heads are rendered while it waits
+    lent.simulation.seed = 4;
+    lend_small_rig(services, args, folder.path(), clock, lent);
     services.turn_head = [this](hal::Device& device, double yaw_deg) {
       if (turns) hal::turn_simulated_head(device, yaw_deg);
       asked.insert(yaw_deg);
     };
-    auto opened = Kiosk::open(args, services);
-    EXPECT_TRUE(opened.has_value()) << opened.error().what.view();
-    kiosk = std::move(*opened);
-    kiosk->ui().resize(1280, 800);
+    open(args, services);
   }
   void to_turn() {
     const auto played =
