@@ -114,6 +114,8 @@ Result<void> hold_picture(const HeldPictureArgs& held, const hal::sim::Simulatio
 Result<void> simulate(const SimulateArgs& args, const Path& folder) {
   hal::sim::SimulationOptions options;
   options.scene = args.board ? hal::sim::SceneKind::Board : hal::sim::SceneKind::Head;
+  if (args.visit) options.scene = hal::sim::SceneKind::Visit;
+  options.drift = args.drift;
   options.seed = args.seed;
   options.truth = args.truth;
   options.pose = {args.yaw_deg, args.pitch_deg, args.roll_deg, args.distance_mm, args.right_mm, args.down_mm};

@@ -272,13 +272,21 @@ void add_simulate(CLI::App& app, CommandArgs& chosen, SimulateArgs& args) {
   CLI::App* command = app.add_subcommand("simulate", "photograph with the simulated rig");
   command->require_subcommand(1);
   CLI::App* face = command->add_subcommand("face", "a face made of a seed");
+  CLI::App* visit = command->add_subcommand(
+      "visit",
+      "a face that turns about its neck: front, 25 and 45 degrees to both sides, 15 down, a folder each");
+  visit
+      ->add_option("--drift", args.drift,
+                   "how much lips, jaw and lids move between the pairs; 1: the jaw by up to 0.8 mm")
+      ->check(within(0, 3))
+      ->capture_default_str();
   CLI::App* held =
       command->add_subcommand("photograph", "a picture held before the cameras, printed or on a screen");
   add_held_picture(*held, args.held);
   for (CLI::App* sub :
        {command->add_subcommand("board", "a printed board in many poses, or in the one that is given"), face,
-        held}) {
-    const bool board = sub != face && sub != held;
+        visit, held}) {
+    const bool board = sub != face && sub != visit && sub != held;
     if (board) add_simulated_board(*sub, args);
     sub->add_option("-o,--output", args.output, "folder for left*.png, right*.png and the true rig.yml")
         ->required()
@@ -303,10 +311,11 @@ void add_simulate(CLI::App& app, CommandArgs& chosen, SimulateArgs& args) {
     pose("--distance", args.distance_mm, 250, 2000, "from the left camera to the middle, mm");
     pose("--right", args.right_mm, -500, 500, "to the side, mm");
     pose("--down", args.down_mm, -500, 500, "downwards, mm");
-    if (sub == face)
+    if (sub == face || sub == visit)
       sub->add_flag("--truth", args.truth, "also write the true surface, for 'relievo compare'");
-    sub->callback([&args, &chosen, board] {
+    sub->callback([&args, &chosen, board, is_visit = sub == visit] {
       args.board = board;
+      args.visit = is_visit;
       chosen = args;
     });
   }

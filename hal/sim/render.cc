@@ -2,6 +2,10 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "hal/sim/render.h"
 
+#include <array>
+#include <memory>
+#include <random>
+#include <string>
 #include <system_error>
 
 #include "hal/sim/base/text.h"
@@ -44,13 +48,51 @@ Result<void> render_boards(const SimulationOptions& o, const SimRig& rig, const 
   return {};
 }
 
+// A head's pair with what is true of it.
+Result<void> write_head(const Scene& scene, const SimulationOptions& o, const SimRig& rig,
+                        std::uint64_t noise_seed, const std::filesystem::path& folder, ThreadPool& pool) {
+  RELIEVO_TRY(write_pair(render_pair(scene, rig, o.sensor, noise_seed, pool), folder, ""));
+  if (!o.truth) return {};
+  RELIEVO_TRY(write_truth(folder / "truth.bin", measure_truth(scene, rig, pool)));
+  return write_mesh(folder / "head.ply", scene.solid_mesh());
+}
+
 Result<void> render_head(const SimulationOptions& o, const SimRig& rig, const std::filesystem::path& folder,
                          ThreadPool& pool) {
   const auto scene = make_head_scene(make_head(traits_of(o.seed), pool), o.pose, pool);
-  RELIEVO_TRY(write_pair(render_pair(*scene, rig, o.sensor, o.seed * 1000ULL, pool), folder, ""));
-  if (!o.truth) return {};
-  RELIEVO_TRY(write_truth(folder / "truth.bin", measure_truth(*scene, rig, pool)));
-  return write_mesh(folder / "head.ply", scene->solid_mesh());
+  return write_head(*scene, o, rig, o.seed * 1000ULL, folder, pool);
+}
+
+// Between two pairs somebody's lips, jaw and lids move a little.
+void let_drift(Expression& face, double drift, std::mt19937& random) {
+  std::uniform_real_distribution<double> upto_one(0, 1);
+  face.smile = 0.08 * drift * upto_one(random);
+  face.jaw_mm = 0.8 * drift * upto_one(random);
+  face.lids_open = 1 - 0.15 * drift * upto_one(random);
+}
+
+Result<void> render_visit(const SimulationOptions& o, const SimRig& rig, const std::filesystem::path& folder,
+                          ThreadPool& pool) {
+  constexpr std::array<std::array<double, 2>, 6> kTurnsDeg{
+      {{0, 0}, {-25, 0}, {25, 0}, {-45, 0}, {45, 0}, {0, 15}}};
+  HeadTraits traits = traits_of(o.seed);
+  std::shared_ptr<const HeadModel> head = make_head(traits, pool);
+  std::mt19937 random(o.seed);
+  for (std::size_t k = 0; k < kTurnsDeg.size(); ++k) {
+    if (k > 0 && o.drift > 0) {
+      let_drift(traits.expression, o.drift, random);
+      head = make_head(traits, pool);
+    }
+    HeadPose pose = turned_about_neck(o.pose, kTurnsDeg[k][0]);
+    pose.pitch_deg += kTurnsDeg[k][1];
+    const std::filesystem::path own = folder / std::to_string(k);
+    std::error_code failed;
+    std::filesystem::create_directories(own, failed);
+    if (failed) return Error{Errc::IoFailed, "cannot make this folder", failed.value()}.at(own.native());
+    RELIEVO_TRY(write_rig(own / "rig.yml", rig));
+    RELIEVO_TRY(write_head(*make_head_scene(head, pose, pool), o, rig, o.seed * 1000ULL + k, own, pool));
+  }
+  return {};
 }
 
 }  // namespace
@@ -87,8 +129,15 @@ Result<void> render_to_folder(const SimulationOptions& options, const std::files
   ThreadPool pool(threads);
   const SimRig rig = make_rig(options.rig);
   RELIEVO_TRY(write_rig(folder / "rig.yml", rig));
-  return options.scene == SceneKind::Board ? render_boards(options, rig, folder, pool)
-                                           : render_head(options, rig, folder, pool);
+  switch (options.scene) {
+    case SceneKind::Board:
+      return render_boards(options, rig, folder, pool);
+    case SceneKind::Visit:
+      return render_visit(options, rig, folder, pool);
+    case SceneKind::Head:
+      break;
+  }
+  return render_head(options, rig, folder, pool);
 }
 
 }  // namespace relievo::hal::sim

@@ -16,7 +16,8 @@
 
 namespace relievo::hal::sim {
 
-enum class SceneKind : std::uint8_t { Head, Board };
+// Visit: a head that turns, pair by pair.
+enum class SceneKind : std::uint8_t { Head, Board, Visit };
 
 struct SimulationOptions {
   SceneKind scene = SceneKind::Head;
@@ -28,7 +29,8 @@ struct SimulationOptions {
   bool board_in_this_pose = false;  // one pair, of the board in `pose`, instead of many poses by seed
   RigOptions rig;
   SensorOptions sensor;
-  bool truth = false;          // head only: also truth.bin, head.ply
+  bool truth = false;  // heads only: also truth.bin, head.ply
+  double drift = 1;    // of a visit: how much the face moves between the pairs; 1: the jaw by up to 0.8 mm
   Result<void> check() const;  // InvalidInput
 };
 
@@ -39,8 +41,9 @@ struct PicturePair {
 PicturePair render_pair(const Scene& scene, const SimRig& rig, const SensorOptions& sensor,
                         std::uint64_t noise_seed, ThreadPool& pool);
 
-// Head: left.png right.png rig.yml; board: left_NN.png right_NN.png rig.yml. Makes the folder.
-// `threads` counts the caller. Errors: InvalidInput, PoorGeometry, IoFailed, MediaFull.
+// Head: left.png right.png rig.yml; board: left_NN.png right_NN.png rig.yml; visit: a folder each for the
+// front, 25 and 45 degrees to both sides, and 15 down, `0` to `5`, as of a head. Makes the folder. `threads`
+// counts the caller. Errors: InvalidInput, PoorGeometry, IoFailed, MediaFull.
 Result<void> render_to_folder(const SimulationOptions& options, const std::filesystem::path& folder,
                               int threads = 2);
 

@@ -323,6 +323,15 @@ Mesh HeadScene::solid_mesh() const {
 }  // namespace
 
 // Head axes (x to the person's left, y up, z out) onto camera axes (x right, y down, z forward).
+HeadPose turned_about_neck(HeadPose pose, double yaw_deg) {
+  constexpr double kNeckMm = 95;  // behind the middle of the face
+  const double before = radians(pose.yaw_deg), now = before + radians(yaw_deg);
+  pose.yaw_deg += yaw_deg;
+  pose.right_mm += kNeckMm * (std::sin(now) - std::sin(before));
+  pose.distance_mm += kNeckMm * (std::cos(before) - std::cos(now));
+  return pose;
+}
+
 Mat3 HeadPose::world_from_head() const {
   const Mat3 facing{{Vec3{1, 0, 0}, Vec3{0, -1, 0}, Vec3{0, 0, -1}}};
   // In camera axes a positive turn about y takes -z towards -x, hence the sign.

@@ -25,6 +25,9 @@ struct HeadPose {
   Vec3 origin_mm() const;  // of the head frame, in world
 };
 
+// The same head, turned about its neck.
+HeadPose turned_about_neck(HeadPose pose, double yaw_deg);
+
 class HeadModel;  // one person's geometry, reusable in any pose
 
 std::shared_ptr<const HeadModel> make_head(const HeadTraits& traits, ThreadPool& pool);

@@ -1,10 +1,8 @@
 // SPDX-FileCopyrightText: 2026 The Relievo authors
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include <cmath>
 #include <condition_variable>
 #include <map>
 #include <mutex>
-#include <numbers>
 #include <thread>
 
 #include "hal/sim/device.h"
@@ -12,18 +10,6 @@
 
 namespace relievo::hal {
 namespace {
-
-constexpr double kNeckMm = 95;  // about which a head turns, behind the middle of its face
-
-// The person turned the head.
-sim::HeadPose turned(sim::HeadPose pose, double yaw_deg) {
-  constexpr double kDegree = std::numbers::pi / 180;
-  const double before = pose.yaw_deg * kDegree, now = before + yaw_deg * kDegree;
-  pose.yaw_deg += yaw_deg;
-  pose.right_mm += kNeckMm * (std::sin(now) - std::sin(before));
-  pose.distance_mm += kNeckMm * (std::cos(before) - std::cos(now));
-  return pose;
-}
 
 // Exposes both views of a scene once; each further frame only rolls new noise over the same light. Of a
 // head a few rolls are made at the start and come by turns: a camera does not take a second for a picture. A
@@ -92,7 +78,7 @@ class RenderedSource final : public PairSource {
     Rolls& rolls = turned_[yaw_deg];
     if (!rolls.empty()) return rolls;
     if (!head_) head_ = sim::make_head(sim::traits_of(o_.seed), pool_);
-    expose_both(*sim::make_head_scene(head_, turned(o_.pose, yaw_deg), pool_));
+    expose_both(*sim::make_head_scene(head_, sim::turned_about_neck(o_.pose, yaw_deg), pool_));
     Rolls made(2 * kRolls);
     pool_.for_each_band(
         static_cast<int>(made.size()), static_cast<int>(made.size()), [&](int begin, int end, int) {
