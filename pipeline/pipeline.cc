@@ -37,7 +37,7 @@ Result<Pipeline> Pipeline::make(const AlgorithmSet& set, const StereoCalibration
   RELIEVO_TRY(volume.check());
   pipeline.volume_ = volume;
   pipeline.region_ = region;
-  if (region != Region::All) {
+  if (region == Region::Face) {
     RELIEVO_TRY_ASSIGN(FaceFinder finder, FaceFinder::open({}));
     pipeline.finder_ = std::make_shared<FaceFinder>(std::move(finder));
   }
@@ -59,13 +59,9 @@ Result<Pipeline> Pipeline::make(const AlgorithmSet& set, const StereoCalibration
 Result<RectifiedPair> Pipeline::rectify(const StereoFrame& frame, StageContext& context) const {
   return run_stage(context, [&](StageContext& c) -> Result<RectifiedPair> {
     RELIEVO_TRY_ASSIGN(RectifiedPair pair, Rectifier(volume_).rectify(frame, calibration_, c));
+    if (region_ == Region::Head) pair.region.assign(pair.left.valid.size(), 1);
     if (finder_ == nullptr) return pair;
     const Result<FaceBox> box = find_face(*finder_, pair, c);
-    if (region_ == Region::TurnedHead) {
-      if (box) RELIEVO_TRY(mark_head_region(pair, *box, c));
-      if (!box && box.error().code != Errc::NoFace) return box.error();
-      return pair;
-    }
     if (!box) return box.error();
     RELIEVO_TRY(mark_face_region(pair, *box, c));
     pair.face_reach_mm = kReachBeyondCrop * crop_.radius_mm;

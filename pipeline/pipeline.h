@@ -28,9 +28,9 @@
 
 namespace relievo::pipeline {
 
-// Face: what lies around the face that was found. TurnedHead: the whole head around it, or all of the view
-// where none was found; nothing is cropped. All: the whole view.
-enum class Region : std::uint8_t { Face, TurnedHead, All };
+// Face: what lies around the face that was found. Head: the whole view, taken for skin: no detector says
+// where a turned head ends. All: the whole view, taken for anything. Only a face is cropped.
+enum class Region : std::uint8_t { Face, Head, All };
 
 class Pipeline {
  public:

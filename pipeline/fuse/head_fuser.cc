@@ -258,6 +258,22 @@ void part_equals(std::span<Vec3f> vertices, std::span<const Vec3f> started,
   for (const std::uint32_t v : second) vertices[v] = started[v];
 }
 
+// Hair is half seen through: beside the face, what is that unsure along the line of sight goes.
+void drop_hair(std::span<PoseSurface> poses, const Registration& registration, const HeadZones& zones) {
+  constexpr float kSkinMm = 0.7F, kHairMm = 1, kLeastCosine = 0.26F;
+  for (std::size_t k = 0; k < poses.size(); ++k) {
+    PoseSurface& pose = poses[k];
+    for (std::size_t i = 0; i < pose.trust.size(); ++i) {
+      if (pose.trust[i] <= 0) continue;
+      const float cosine = std::abs(dot(pose.normal[i], unit(pose.at_mm[i])));
+      const float along_sight_mm = pose.sigma_mm[i] / std::max(cosine, kLeastCosine);
+      if (along_sight_mm <= kSkinMm) continue;
+      if (zones.is_face(narrow(apply(registration.poses[k].first_from_pose, wide(pose.at_mm[i]))))) continue;
+      pose.trust[i] *= std::clamp((kHairMm - along_sight_mm) / (kHairMm - kSkinMm), 0.0F, 1.0F);
+    }
+  }
+}
+
 }  // namespace
 
 Result<FaceMesh> HeadFuser::fuse(std::span<PoseSurface> poses, const Registration& registration,
@@ -265,10 +281,11 @@ Result<FaceMesh> HeadFuser::fuse(std::span<PoseSurface> poses, const Registratio
                                  StageContext& context) const {
   const Error stopped{Errc::Cancelled, "stopped while the poses were fused"};
   RELIEVO_TRY(check_options(options_, "averaged"));
+  const HeadZones zones(landmarks, poses[0].head_from_camera, options_.neck_mm);
+  drop_hair(poses, registration, zones);
   bend_to_master(poses, registration, {options_.most_bend_mm, options_.bend_width_mm, options_.still_mm},
                  context);
   if (context.stop()) return stopped;
-  const HeadZones zones(landmarks, poses[0].head_from_camera, options_.neck_mm);
   const Fusion fusion(poses, registration, zones, context);
   std::pmr::vector<FieldPoint> points = fusion.choose();
   if (points.empty()) return no_surface();

@@ -74,7 +74,7 @@ Result<FaceModel> HeadPipeline::face(const StereoFrame& frame, const StereoCalib
 
 Result<HeadPose> HeadPipeline::measure(const StereoFrame& frame, const StereoCalibration& calibration,
                                        StageContext& context, Arena& kept) const {
-  RELIEVO_TRY_ASSIGN(const Pipeline pipeline, Pipeline::make(head_set_, calibration, {}, Region::TurnedHead));
+  RELIEVO_TRY_ASSIGN(const Pipeline pipeline, Pipeline::make(head_set_, calibration, {}, Region::Head));
   RELIEVO_TRY_ASSIGN(RectifiedPair pair, pipeline.rectify(frame, context));
   RELIEVO_TRY_ASSIGN(const MatchSet matches, pipeline.match(pair, context));
   RELIEVO_TRY_ASSIGN(const PointCloud cloud, pipeline.reconstruct(pair, matches, context));

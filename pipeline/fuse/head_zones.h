@@ -39,6 +39,12 @@ class HeadZones {
              return std::hypot((p.x - e.middle.x) / e.half_width, (p.y - e.middle.y) / e.half_height) < 1;
            });
   }
+  // Where hardly anybody has hair.
+  bool is_face(const Vec3f& place) const {
+    constexpr double kMiddleMm = -20, kHalfWidthMm = 70, kHalfHeightMm = 85, kBehindMm = -90;
+    const Vec3d p = in_head(place);
+    return p.z > kBehindMm && std::hypot(p.x / kHalfWidthMm, (p.y - kMiddleMm) / kHalfHeightMm) < 1;
+  }
   // Nose and mouth.
   bool is_middle(const Vec3f& place) const {
     const Vec3d p = in_head(place);

@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "hal/base/statistics.h"
 #include "pipeline/mesh/lattice/lattice_surface.h"
 #include "pipeline/model/vector3.h"
 
@@ -13,7 +14,9 @@ namespace {
 
 // What joins two nodes to one surface: as the grid mesher has it.
 constexpr LatticeLimits kLimits{4.33F, 4, 3, 0.5F};  // tangent of 77 degrees
-constexpr float kMostSigmaMm = 1;       // along the line of sight: hair seen through, and what lies behind
+// Along the line of sight: more is hair seen through and what lies behind, unless cameras far away or few
+// pixels make it usual.
+constexpr float kMostSigmaMm = 1, kMostOfUsual = 4;
 constexpr float kEdgeNodes = 6;         // over which trust grows from the edge of what was measured
 constexpr float kEdgeOnCosine = 0.26F;  // 75 degrees: no trust ...
 constexpr float kFullCosine = 0.5F;     // ... and 60: all of it
@@ -92,9 +95,12 @@ Result<PoseSurface> make_pose_surface(const PointCloud& cloud, const RectifiedPa
     const Vec3f area = cross(minus(lattice.at_mm[t[1]], a), minus(lattice.at_mm[t[2]], a));
     for (const std::uint32_t v : t) pose.normal[v] = plus(pose.normal[v], area);
   });
+  std::pmr::vector<float> sigmas(&context.scratch);
+  for (const CloudPoint& p : cloud.points) sigmas.push_back(p.sigma_mm);
+  const float most_sigma_mm = std::max(kMostSigmaMm, kMostOfUsual * static_cast<float>(median(sigmas)));
   std::pmr::vector<float> whole = whole_nodes(lattice, surface, &context.scratch);
   for (std::size_t k = 0; k < whole.size(); ++k)
-    if (lattice.sigma_mm[k] > kMostSigmaMm) whole[k] = 0;
+    if (lattice.sigma_mm[k] > most_sigma_mm) whole[k] = 0;
   const std::pmr::vector<float> steps = steps_from_edge(pose.columns, pose.rows, whole, &context.scratch);
   // A triangle's normal is noise over a cell's width: five nodes' mean has a fifth of it.
   std::pmr::vector<Vec3f> raw(pose.normal.begin(), pose.normal.end(), &context.scratch);

@@ -13,7 +13,6 @@ namespace {
 constexpr double kDown = 0.10;
 constexpr double kHalfWidth = 0.92;
 constexpr double kHalfHeight = 0.95;
-constexpr double kHeadHalf = 1.45;  // 215 mm
 
 }  // namespace
 
@@ -24,10 +23,7 @@ Result<FaceBox> find_face(FaceFinder& finder, const RectifiedPair& pair, StageCo
                      &context.cancelled);
 }
 
-namespace {
-
-Result<void> mark_ellipse(RectifiedPair& pair, const FaceBox& face, double half_width, double half_height,
-                          StageContext& context) {
+Result<void> mark_face_region(RectifiedPair& pair, const FaceBox& face, StageContext& context) {
   if (context.stop()) return Error{Errc::Cancelled, "marking the face was stopped"};
   if (pair.width_px <= 0 || pair.height_px <= 0 || !(face.width_px > 0) || !std::isfinite(face.width_px) ||
       !std::isfinite(face.centre_px.x) || !std::isfinite(face.centre_px.y))
@@ -36,29 +32,18 @@ Result<void> mark_ellipse(RectifiedPair& pair, const FaceBox& face, double half_
   pair.region.assign(width * static_cast<std::size_t>(pair.height_px), 0);
   const double centre_y = face.centre_px.y + kDown * face.width_px;
   for (int y = 0; y < pair.height_px; ++y) {
-    const double v = (y - centre_y) / (half_height * face.width_px);
+    const double v = (y - centre_y) / (kHalfHeight * face.width_px);
     if (v * v >= 1) continue;
-    const double half = half_width * face.width_px * std::sqrt(1 - v * v);
+    const double half = kHalfWidth * face.width_px * std::sqrt(1 - v * v);
     const double last = pair.width_px - 1;
     const double from = std::clamp(std::ceil(face.centre_px.x - half), 0.0, last + 1);
     const double to = std::clamp(std::floor(face.centre_px.x + half), -1.0, last);
     auto* row = pair.region.data() + static_cast<std::size_t>(y) * width;
     if (from <= to) std::fill(row + static_cast<int>(from), row + static_cast<int>(to) + 1, std::uint8_t{1});
   }
-  return {};
-}
-
-}  // namespace
-
-Result<void> mark_face_region(RectifiedPair& pair, const FaceBox& face, StageContext& context) {
-  RELIEVO_TRY(mark_ellipse(pair, face, kHalfWidth, kHalfHeight, context));
   pair.face_centre_px = face.centre_px;
   pair.face_width_px = face.width_px;
   return {};
-}
-
-Result<void> mark_head_region(RectifiedPair& pair, const FaceBox& face, StageContext& context) {
-  return mark_ellipse(pair, face, kHeadHalf, kHeadHalf, context);
 }
 
 }  // namespace relievo::pipeline

@@ -62,8 +62,5 @@ Result<FaceBox> find_face(FaceFinder& finder, const RectifiedPair& pair, StageCo
 // at the face's depth. Memory: the region's own, one exact reserve.
 // Errors: InvalidInput (no pixels, or a box of no size); throws std::bad_alloc as every stage does.
 Result<void> mark_face_region(RectifiedPair& pair, const FaceBox& face, StageContext& context);
-// The same with an ellipse that holds the whole head, however it is turned; where in it the face is, is not
-// said, since the box of a turned one lies anywhere on it.
-Result<void> mark_head_region(RectifiedPair& pair, const FaceBox& face, StageContext& context);
 
 }  // namespace relievo::pipeline

@@ -6,6 +6,7 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
 #include <numbers>
 
@@ -39,8 +40,12 @@ double shape(const Vec3d& p, double moved_mm) {
   return (length(q) - 1) * 85 - waves - jaw;
 }
 
-Result<PoseSurface> seen(double yaw_deg, double moved_mm, StageContext& context) {
-  const RigidTransform camera = camera_from_head(yaw_deg), head = inverse(camera);
+// `further_mm`: by how much the camera stands further away than the first one.
+Result<PoseSurface> seen(double yaw_deg, double moved_mm, double further_mm, StageContext& context,
+                         double sigma_mm = kSigmaMm) {
+  RigidTransform camera = camera_from_head(yaw_deg);
+  camera.translation_mm.z += further_mm;
+  const RigidTransform head = inverse(camera);
   RectifiedPair pair(&context.scratch);
   pair.focal_px = kFocalPx;
   pair.left_centre_px = {kColumns * kStepPx / 2.0, kRows * kStepPx / 2.0};
@@ -52,15 +57,16 @@ Result<PoseSurface> seen(double yaw_deg, double moved_mm, StageContext& context)
       const Vec3d ray{(static_cast<double>(px.x) - pair.left_centre_px.x) / kFocalPx,
                       (static_cast<double>(px.y) - pair.left_centre_px.y) / kFocalPx, 1};
       const auto outside = [&](double z) { return shape(apply(head, times(ray, z)), moved_mm) > 0; };
-      double far = 500;
-      while (far < 760 && outside(far)) far += 1;
-      if (far >= 760) continue;
+      const double nearest = 500 + further_mm, furthest = 760 + further_mm;
+      double far = nearest;
+      while (far < furthest && outside(far)) far += 1;
+      if (far >= furthest) continue;
       double near = far - 1;
       for (int k = 0; k < 40; ++k) (outside((near + far) / 2) ? near : far) = (near + far) / 2;
       const Vec3d at = times(ray, near);
       cloud.points.push_back({{static_cast<float>(at.x), static_cast<float>(at.y), static_cast<float>(at.z)},
                               px,
-                              static_cast<float>(kSigmaMm)});
+                              static_cast<float>(sigma_mm)});
     }
   RELIEVO_TRY_ASSIGN(PoseSurface pose, make_pose_surface(cloud, pair, context));
   pose.head_from_camera = head;
@@ -86,9 +92,12 @@ double degrees_off(const RegisteredPose& found, double yaw_deg) {
 
 class Poses : public ::testing::Test {
  protected:
-  void show(std::initializer_list<std::pair<double, double>> yaw_and_moved) {
+  void show(std::initializer_list<std::pair<double, double>> yaw_and_moved, double others_further_mm = 0) {
     for (const auto& [yaw, moved] : yaw_and_moved) {
-      auto pose = room_.run([yaw = yaw, moved = moved](StageContext& c) { return seen(yaw, moved, c); });
+      const double further_mm = poses_.empty() ? 0 : others_further_mm;
+      auto pose = room_.run([yaw = yaw, moved = moved, further_mm](StageContext& c) {
+        return seen(yaw, moved, further_mm, c);
+      });
       ASSERT_TRUE(pose) << pose.error().what.view();
       poses_.push_back(*std::move(pose));
     }
@@ -119,6 +128,16 @@ TEST_F(Poses, ShowTheSurfaceWhereItIs) {
   EXPECT_FALSE(pose.look({0, 0, -100})) << "behind the camera";
 }
 
+// Cameras of few pixels: skin is no hair because all of it is unsure.
+TEST_F(Poses, KeepWhatIsAsUnsureAsAllOfThem) {
+  const auto trusted = [this](double sigma_mm) {
+    const auto pose = room_.run([&](StageContext& c) { return seen(0, 0, 0, c, sigma_mm); });
+    return pose ? std::count_if(pose->trust.begin(), pose->trust.end(), [](float t) { return t > 0; }) : 0;
+  };
+  EXPECT_GT(trusted(kSigmaMm), 5000);
+  EXPECT_EQ(trusted(2), trusted(kSigmaMm));
+}
+
 TEST_F(Poses, AreFoundFromAWrongStart) {
   show({{0, 0}, {-25, 0}, {25, 0}, {45, 0}});
   poses_[1].head_from_camera =
@@ -129,6 +148,22 @@ TEST_F(Poses, AreFoundFromAWrongStart) {
   for (const auto& [k, yaw] : {std::pair<std::size_t, double>{1, -25}, {2, 25}, {3, 45}})
     EXPECT_LT(degrees_off(found->poses[k], yaw), 0.02) << yaw;
   EXPECT_EQ(found->poses[0].first_from_pose.translation_mm.x, 0);
+}
+
+TEST_F(Poses, AreFoundAlsoWhereOtherCamerasSawThem) {
+  show({{0, 0}, {25, 0}}, 250);
+  poses_[1].has_head = false;
+  const auto found = registered();
+  ASSERT_TRUE(found) << found.error().what.view() << " " << found.error().where();
+  EXPECT_LT(degrees_off(found->poses[1], 25), 0.02);
+}
+
+TEST_F(Poses, AreNotMisledByTheFrameOfAnotherSide) {
+  show({{0, 0}, {-25, 0}, {25, 0}, {45, 0}});
+  poses_[3].head_from_camera = inverse(camera_from_head(-30));
+  const auto found = registered();
+  ASSERT_TRUE(found) << found.error().what.view() << " " << found.error().where();
+  EXPECT_LT(degrees_off(found->poses[3], 45), 0.02);
 }
 
 TEST_F(Poses, AreNotTurnedByALowerFaceThatMoved) {

@@ -38,24 +38,6 @@ TEST(Checksum, KnownAnswers) {  // FIPS 180-4, examples of NIST
   EXPECT_FALSE(reads_as(of("abd"), "ba7816bf8f01cfea414140de5dae2223b00361a396177a9cb410ff61f20015ad"));
 }
 
-TEST(HeadRegion, HoldsTheFacesAndDoesNotSayWhereTheFaceIs) {
-  StageRoom room;
-  const FaceBox box{{300, 250}, 160, 0, 20};
-  RectifiedPair face = blank_pair(640, 480), head = blank_pair(640, 480);
-  ASSERT_TRUE(room.run([&](StageContext& c) { return mark_face_region(face, box, c); }));
-  ASSERT_TRUE(room.run([&](StageContext& c) { return mark_head_region(head, box, c); }));
-  ASSERT_EQ(head.region.size(), face.region.size());
-  std::size_t in_face = 0, in_head = 0;
-  for (std::size_t k = 0; k < face.region.size(); ++k) {
-    EXPECT_LE(face.region[k], head.region[k]) << k;
-    in_face += face.region[k];
-    in_head += head.region[k];
-  }
-  EXPECT_GT(in_head, 2 * in_face);
-  EXPECT_EQ(face.face_width_px, 160);
-  EXPECT_EQ(head.face_width_px, 0);
-}
-
 TEST(FaceFinder, AForeignCascadeIsNotParsed) {
   const std::filesystem::path dir = std::filesystem::path(testing::TempDir()) / "foreign_cascades";
   std::filesystem::create_directories(dir);

@@ -1,0 +1,175 @@
+// SPDX-FileCopyrightText: 2026 The Relievo authors
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include <Eigen/Geometry>
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <numbers>
+
+#include "hal/base/statistics.h"
+#include "pipeline/base/solving.h"
+#include "pipeline/fuse/pose_residuals.h"
+
+namespace relievo::pipeline {
+namespace {
+
+constexpr double kFewestMet = 80;
+constexpr std::size_t kEveryNode = 16;
+constexpr double kPlacingRidge = 1e-9;
+constexpr std::array<RegistrationRound, 4> kPlacingRounds{
+    {{25, 12, 8, kFewSamples}, {12, 6, 6, kFewSamples}, {6, 2, 6, kFewSamples}, {3, 0.7, 4, kFewSamples}}};
+// A pose is well laid where so much of what lies near another pose's surface lies on it: from its own head
+// frame, and from the best of all starts. A profile's frame may be a wrong one, and a cheek lies well on the
+// other one: .82 was seen so, .96 and more where it was right.
+constexpr double kMetMm = 1;
+constexpr double kWellMetShare = 0.93, kMetShare = 0.5;
+constexpr std::array<Vec2d, 9> kTurnsDeg{
+    {{0, 0}, {-25, 0}, {25, 0}, {-45, 0}, {45, 0}, {-65, 0}, {65, 0}, {0, -20}, {0, 20}}};  // yaw, pitch
+
+// A head turned about its middle. Head frame.
+RigidTransform turned_by(const Vec2d& turn_deg) {
+  constexpr double kRadian = std::numbers::pi / 180;
+  const Eigen::Matrix3d r = (Eigen::AngleAxisd(turn_deg.x * kRadian, Eigen::Vector3d::UnitY()) *
+                             Eigen::AngleAxisd(turn_deg.y * kRadian, Eigen::Vector3d::UnitX()))
+                                .toRotationMatrix();
+  RigidTransform turned;
+  for (int i = 0; i < 3; ++i)
+    for (int j = 0; j < 3; ++j) turned.rotation.m[3 * i + j] = r(i, j);
+  const Vec3d middle{0, 20, -kHeadCentreMm}, moved = apply(turned.rotation, middle);
+  turned.translation_mm = minus(middle, moved);
+  return turned;
+}
+
+class Placer {
+ public:
+  Placer(std::span<const PoseSurface> poses, std::span<RegisteredPose> placed, PoseResiduals& residuals,
+         StageContext& context)
+      : poses_(poses),
+        placed_(placed),
+        residuals_(residuals),
+        context_(context),
+        known_(poses.size(), 0, &context.scratch) {
+    known_[0] = 1;
+  }
+
+  Result<void> place_all() {
+    std::pmr::vector<std::size_t> left(&context_.scratch);
+    for (std::size_t p = 1; p < poses_.size(); ++p) left.push_back(p);
+    for (const bool anywhere : {false, true})
+      for (bool more = true; more;) {
+        more = false;
+        for (std::size_t i = 0; i < left.size(); ++i) {
+          if (context_.stop()) return registration_stopped();
+          const Laid laid = anywhere ? lay_from_anywhere(left[i]) : lay_from_head(left[i]);
+          if (laid.count < kFewestMet || laid.share < (anywhere ? kMetShare : kWellMetShare)) continue;
+          placed_[left[i]].first_from_pose = laid.placed;
+          known_[left[i]] = 1;
+          left.erase(left.begin() + static_cast<std::ptrdiff_t>(i--));
+          more = true;
+        }
+      }
+    if (left.empty()) return {};
+    return meets_no_other_pose(left[0]);
+  }
+
+ private:
+  struct Laid {
+    RigidTransform placed;
+    double count = 0;  // of samples on another pose's surface, each by its say
+    double share = 0;  // of those near one
+  };
+  struct Sum {
+    Matrix6 normal = Matrix6::Zero();
+    Vector6 right = Vector6::Zero();
+    double near = 0, count = 0;
+  };
+
+  Laid lay_from_head(std::size_t p) {
+    if (!poses_[p].has_head) return {};
+    return lay(p, product(inverse(poses_[0].head_from_camera), poses_[p].head_from_camera));
+  }
+  // As if the head had turned before the same cameras; and where that is not it, as if other cameras had seen
+  // it, the middles of both surfaces on each other.
+  Laid lay_from_anywhere(std::size_t p) {
+    Laid best = lay_from_head(p);
+    const RigidTransform& head = poses_[0].head_from_camera;
+    for (const bool other_cameras : {false, true}) {
+      if (best.share >= kWellMetShare) break;
+      for (const Vec2d& turn : kTurnsDeg) {
+        if (context_.stop()) break;
+        RigidTransform start = product(inverse(head), product(turned_by(turn), head));
+        if (other_cameras) start.translation_mm = minus(middle_of(0), apply(start.rotation, middle_of(p)));
+        const Laid laid = lay(p, start);
+        if (laid.count * laid.share > best.count * best.share) best = laid;
+      }
+    }
+    return best;
+  }
+  // Of what a pose shows, its own frame.
+  Vec3d middle_of(std::size_t p) const {
+    const PoseSurface& pose = poses_[p];
+    Vec3d middle;
+    for (double Vec3d::*axis : {&Vec3d::x, &Vec3d::y, &Vec3d::z}) {
+      std::pmr::vector<double> values(&context_.scratch);
+      for (std::size_t k = 0; k < pose.trust.size(); k += kEveryNode)
+        if (pose.trust[k] > 0) values.push_back(wide(pose.at_mm[k]).*axis);
+      middle.*axis = values.empty() ? 0 : median(values);
+    }
+    return middle;
+  }
+
+  // One pose onto the known ones, which stay.
+  Laid lay(std::size_t p, const RigidTransform& start) {
+    placed_[p].first_from_pose = start;
+    Sum sum;
+    for (const RegistrationRound& round : kPlacingRounds)
+      for (int k = 0; k < round.times; ++k) {
+        sum = against_known(p, round);
+        if (sum.near < kFewestMet) return {};
+        sum.normal += kPlacingRidge * Matrix6::Identity();
+        const Vector6 step = -solved<6>(sum.normal, sum.right);
+        residuals_.move(p, {step[0], step[1], step[2]}, {step[3], step[4], step[5]});
+      }
+    return {placed_[p].first_from_pose, sum.count, sum.count / sum.near};
+  }
+
+  Sum against_known(std::size_t p, const RegistrationRound& round) const {
+    std::array<Sum, PoseResiduals::kParts> parts;
+    residuals_.for_each_part(parts.size(), [&](std::size_t i) {
+      Sum& sum = parts[i];
+      const auto visit = [&](std::size_t node, const Vec3d& n, double say, PoseResidual& res) {
+        for (std::size_t b = 0; b < poses_.size(); ++b) {
+          if (known_[b] == 0 || b == p || !residuals_.meet(p, node, n, b, round, res)) continue;
+          sum.normal += say * res.weight * res.toward * res.toward.transpose();
+          sum.right += say * res.weight * res.value * res.toward;
+          sum.near += say;
+          sum.count += std::abs(res.value) < kMetMm ? say : 0;
+        }
+      };
+      residuals_.for_each_sample(p, round.samples, visit, i, parts.size());
+    });
+    Sum all;
+    for (const Sum& part : parts) {
+      all.normal += part.normal;
+      all.right += part.right;
+      all.near += part.near;
+      all.count += part.count;
+    }
+    return all;
+  }
+
+  std::span<const PoseSurface> poses_;
+  std::span<RegisteredPose> placed_;
+  PoseResiduals& residuals_;
+  StageContext& context_;
+  std::pmr::vector<std::uint8_t> known_;  // poses that others are laid onto
+};
+
+}  // namespace
+
+Result<void> place_poses(std::span<const PoseSurface> poses, std::span<RegisteredPose> placed,
+                         PoseResiduals& residuals, StageContext& context) {
+  return Placer(poses, placed, residuals, context).place_all();
+}
+
+}  // namespace relievo::pipeline

@@ -1,0 +1,130 @@
+// SPDX-FileCopyrightText: 2026 The Relievo authors
+// SPDX-License-Identifier: GPL-3.0-or-later
+//
+// What the samples of one pose say against the surfaces of the others: their distance along the normal, what
+// it counts, and its derivative by a small motion. Samples lie where a pose was measured, and count by how
+// well skin there tells how the skull stands. First pose's frame, millimetres, radians. Memory: `scratch`.
+// Thread: reading by any number, changing by one.
+#pragma once
+
+#include <Eigen/Core>
+#include <cmath>
+#include <span>
+
+#include "pipeline/base/stage.h"
+#include "pipeline/fuse/pose_registration.h"
+#include "pipeline/fuse/skin_patches.h"
+
+namespace relievo::pipeline {
+
+using Vector6 = Eigen::Matrix<double, 6, 1>;
+using Matrix6 = Eigen::Matrix<double, 6, 6>;
+
+// How far apart two surfaces may lie to be taken for the same skin, and the scale beyond which a distance
+// loses its say; how often the round is made, and how many nodes of a lattice are laid onto the other poses,
+// at most.
+struct RegistrationRound {
+  double reach_mm, scale_mm;
+  int times;
+  double samples = 18'000;
+};
+inline constexpr double kFewSamples = 4'500;  // enough to come near
+
+// What one sample of a pose says against another one's surface.
+struct PoseResidual {
+  double value, weight;
+  Vector6 toward;  // derivative by a motion of the sample's pose; of the other one it is the opposite
+  Vec3d at;
+  std::size_t patch;
+};
+
+class PoseResiduals {
+ public:
+  static constexpr std::size_t kParts = 4;  // of a pose's samples, for the threads
+
+  // All three outlive it. `placed` is what is solved for.
+  PoseResiduals(std::span<const PoseSurface> poses, std::span<RegisteredPose> placed, StageContext& context);
+
+  std::size_t poses() const { return poses_.size(); }
+  // Middle of the head, about which small motions turn.
+  const Vec3d& pivot() const { return pivot_; }
+  SkinPatches& skin() { return skin_; }
+  // Surfaces of calibrations that differ lie off everywhere: no scale is narrower than what is usual.
+  void set_usual_mm(double mm) { usual_mm_ = mm; }
+  void move(std::size_t pose, const Vec3d& rotation, const Vec3d& translation_mm);
+
+  // Sums are made by parts, each by one thread, and put together in their order: the same for any number of
+  // threads.
+  template <typename Work>
+  void for_each_part(std::size_t parts, Work&& work) const {
+    context_.pool.for_each_band(static_cast<int>(parts), static_cast<int>(parts),
+                                [&](int, int, int i) { work(static_cast<std::size_t>(i)); });
+  }
+
+  // Places of a pose that say something of how the skull stands, in every `parts`-th row of those looked at:
+  // visit(node, normal, say, residual with its place and patch).
+  template <typename Visit>
+  void for_each_sample(std::size_t a, double most, Visit&& visit, std::size_t part, std::size_t parts) const {
+    const PoseSurface& from = poses_[a];
+    const int every = std::max(1, static_cast<int>(std::sqrt(static_cast<double>(from.trust.size()) / most)));
+    const RigidTransform& placed = placed_[a].first_from_pose;
+    const int step = every * static_cast<int>(parts);
+    for (int r = every / 2 + every * static_cast<int>(part); r < from.rows; r += step)
+      for (int c = every / 2; c < from.columns; c += every) {
+        const std::size_t k = static_cast<std::size_t>(r) * static_cast<std::size_t>(from.columns) +
+                              static_cast<std::size_t>(c);
+        if (from.trust[k] < kLeastTrust) continue;
+        PoseResidual res{};
+        res.at = apply(placed, wide(from.at_mm[k]));
+        const double say = say_of(res);
+        if (say > 0) visit(k, apply(placed.rotation, wide(from.normal[k])), say, res);
+      }
+  }
+
+  // What a pose's samples say against all others: visit(pose, other pose, residual).
+  template <typename Visit>
+  void for_each_residual_of(std::size_t a, std::size_t part, std::size_t parts,
+                            const RegistrationRound& round, Visit&& visit) const {
+    const auto against_others = [&](std::size_t k, const Vec3d& normal, double say, PoseResidual& res) {
+      for (std::size_t b = 0; b < poses_.size(); ++b)
+        if (b != a && meet(a, k, normal, b, round, res)) {
+          res.weight *= say * skin_.still(res.patch, a, b);
+          visit(a, b, res);
+        }
+    };
+    for_each_sample(a, round.samples, against_others, part, parts);
+  }
+  template <typename Visit>
+  void for_each_residual(const RegistrationRound& round, Visit&& visit) const {
+    for (std::size_t a = 0; a < poses_.size(); ++a) for_each_residual_of(a, 0, 1, round, visit);
+  }
+
+  // Node `k` of pose `a`, with its normal, onto pose `b`. False where that shows nothing near, or the other
+  // side of something.
+  bool meet(std::size_t a, std::size_t k, const Vec3d& normal, std::size_t b, const RegistrationRound& round,
+            PoseResidual& res) const;
+
+ private:
+  static constexpr float kLeastTrust = 0.2F;  // of a node that is laid onto another pose's
+
+  // How much the skin at `res.at` has to say of how the skull stands; sets its patch.
+  double say_of(PoseResidual& res) const;
+
+  std::span<const PoseSurface> poses_;
+  std::span<RegisteredPose> placed_;
+  StageContext& context_;
+  double usual_mm_ = 0;  // distance between the surfaces, in the step before
+  SkinPatches skin_;     // watched as soon as the poses lie on each other
+  Vec3d pivot_;
+};
+
+// Lays each pose onto those before it: from its head frame, or, where that leads nowhere, from a head turned
+// by 25, 45 and 65 degrees, the surest first. Errors: PoorGeometry (a pose meets no other: names it),
+// Cancelled.
+Result<void> place_poses(std::span<const PoseSurface> poses, std::span<RegisteredPose> placed,
+                         PoseResiduals& residuals, StageContext& context);
+
+Error meets_no_other_pose(std::size_t pose);
+Error registration_stopped();
+
+}  // namespace relievo::pipeline
