@@ -8,8 +8,10 @@
 #include <numeric>
 
 #include "pipeline/fuse/head_zones.h"
+#include "pipeline/fuse/own_face.h"
 #include "pipeline/fuse/rim.h"
 #include "pipeline/fuse/skin_bender.h"
+#include "pipeline/fuse/step_smoother.h"
 #include "pipeline/mesh/mesher.h"
 #include "pipeline/mesh/meshers/band_volume.h"
 #include "pipeline/mesh/surface_cleaner.h"
@@ -97,6 +99,7 @@ class Fusion {
     Vec3f at_mm;
     float sigma_mm;
     std::uint8_t pose;
+    std::uint8_t poses;  // a bit each
   };
   std::optional<Placed> settle(Vec3f at, const Vec3f& normal) const {
     if (zones_.is_eye(at)) return std::nullopt;
@@ -144,6 +147,7 @@ class Fusion {
     Vec3f pull{};
     float weight = 0, variance = 0;
     std::size_t most = best;
+    unsigned poses = 0;
     for (std::size_t k = 0; k < poses_.size(); ++k) {
       Seen& s = seen[k];
       if (s.weight <= 0) continue;
@@ -155,11 +159,12 @@ class Fusion {
       weight += s.weight;
       variance += s.weight * s.weight * (1 / s.certainty);
       if (s.weight > seen[most].weight) most = k;
+      if (s.weight > 0) poses |= 1U << k;
     }
     const Vec3f there = along(at, -1 / weight, pull);
     const float registered = static_cast<float>(registration_sigma(most, there, normal));
     return {there, std::sqrt(variance / squared(weight) + squared(registered)),
-            static_cast<std::uint8_t>(most)};
+            static_cast<std::uint8_t>(most), static_cast<std::uint8_t>(poses)};
   }
 
   // The master where it sees well; else whoever is surest.
@@ -202,38 +207,6 @@ class Fusion {
   std::pmr::vector<RigidTransform> back_;
 };
 
-// Where the master's own face stands: between its lids.
-class OwnFace {
- public:
-  OwnFace(const BandVolume& volume, std::pmr::memory_resource* memory)
-      : volume_(volume), sigma_(volume.value.size(), 0.0F, memory) {}
-  void mark(const Vec3f& at, float sigma_mm, bool measured) {
-    const float said = measured ? sigma_mm : -1 - sigma_mm;
-    for_each_voxel_near(volume_, at, kReachVoxels * volume_.voxel_mm,
-                        [&](int x, int y, int z) { sigma_[volume_.index(x, y, z)] = said; });
-  }
-  // None beyond it.
-  struct Said {
-    float sigma_mm;
-    bool measured;
-  };
-  std::optional<Said> at(const Vec3f& place) const {
-    const auto cell = [&](float x, float from) {
-      return static_cast<int>(std::lround((x - from) / volume_.voxel_mm));
-    };
-    const float said =
-        sigma_[volume_.index(cell(place.x, volume_.corner_mm.x), cell(place.y, volume_.corner_mm.y),
-                             cell(place.z, volume_.corner_mm.z))];
-    if (said == 0) return std::nullopt;
-    return Said{said > 0 ? said : -1 - said, said > 0};
-  }
-
- private:
-  static constexpr float kReachVoxels = 2;
-  const BandVolume& volume_;
-  std::pmr::vector<float> sigma_;  // 0: nothing; below: completed
-};
-
 std::pmr::vector<Vec3f> area_normals(const Polygonised& surface, std::pmr::memory_resource* memory) {
   std::pmr::vector<Vec3f> normals(surface.vertices_mm.size(), Vec3f{}, memory);
   for (const Triangle& t : surface.triangles) {
@@ -256,6 +229,14 @@ void part_equals(std::span<Vec3f> vertices, std::span<const Vec3f> started,
   for (std::size_t i = 1; i < order.size(); ++i)
     if (key(order[i]) == key(order[i - 1])) second.push_back(order[i]);
   for (const std::uint32_t v : second) vertices[v] = started[v];
+}
+
+// By more than pairs of one good calibration do: then steps are left where one pair's surface ends. Where
+// they do not, what looks like a step is a fold of skin.
+bool disagree(const Registration& registration) {
+  constexpr double kMostRmsMm = 0.15;
+  return std::any_of(registration.poses.begin(), registration.poses.end(),
+                     [](const RegisteredPose& p) { return p.rms_mm > kMostRmsMm; });
 }
 
 // Hair is half seen through: beside the face, what is that unsure along the line of sight goes.
@@ -317,6 +298,7 @@ Result<FaceMesh> HeadFuser::fuse(std::span<PoseSurface> poses, const Registratio
   struct Vertex {
     float sigma_mm = 0;
     std::uint8_t pose = 0, measured = 0, kept = 0;
+    std::uint8_t poses = 0;  // that say where it lies, a bit each
   };
   std::pmr::vector<Vertex> vertices(surface.vertices_mm.size(), Vertex{}, &context.scratch);
   const auto settle = [&](std::size_t v, const Vec3f& normal) {
@@ -324,7 +306,8 @@ Result<FaceMesh> HeadFuser::fuse(std::span<PoseSurface> poses, const Registratio
     if (const auto placed = fusion.settle(at, normal)) {
       at = placed->at_mm;
       const bool sure = placed->sigma_mm <= static_cast<float>(kMeasuredSigmaMm);
-      vertices[v] = {placed->sigma_mm, placed->pose, sure ? std::uint8_t{1} : std::uint8_t{0}, 1};
+      vertices[v] = {placed->sigma_mm, placed->pose, sure ? std::uint8_t{1} : std::uint8_t{0}, 1,
+                     placed->poses};
     } else if (const auto said = own_face.at(at)) {
       vertices[v] = {said->sigma_mm, 0, said->measured ? std::uint8_t{1} : std::uint8_t{0}, 1};
     }
@@ -340,6 +323,7 @@ Result<FaceMesh> HeadFuser::fuse(std::span<PoseSurface> poses, const Registratio
   });
   std::pmr::vector<std::uint8_t> sure(&context.scratch);
   for (const Vertex& v : vertices) sure.push_back(v.measured != 0 && v.sigma_mm <= kSureMm ? 1 : 0);
+  const std::size_t settled = vertices.size();
   // What closes a hole was not measured: a vertex of its own in each triangle says so.
   const auto close = [&](std::span<const BorderEdge> border, float mouth_mm) {
     const std::size_t before = surface.triangles.size();
@@ -374,6 +358,19 @@ Result<FaceMesh> HeadFuser::fuse(std::span<PoseSurface> poses, const Registratio
   for (const BorderEdge& e : border) settle(e[0], unit(normals[e[0]]));
   part_equals(surface.vertices_mm, started, &context.scratch);
   close(border, kBayMouthMm);
+
+  if (disagree(registration)) {
+    // Eyes and ears have steps of their own.
+    std::pmr::vector<std::uint8_t> label(&context.scratch), stays(&context.scratch);
+    for (std::size_t v = 0; v < vertices.size(); ++v) {
+      label.push_back(v < settled ? vertices[v].poses : kBetweenNothing);
+      stays.push_back(zones.is_eye(surface.vertices_mm[v]) || zones.is_ear(surface.vertices_mm[v]) ? 1 : 0);
+    }
+    for (const BorderEdge& e : border) stays[e[0]] = 1;  // also those that were closed since
+    const auto moved = smooth_steps(surface.vertices_mm, surface.triangles, label, stays, &context.scratch);
+    for (std::size_t v = 0; v < moved.size(); ++v)
+      vertices[v].sigma_mm = std::hypot(vertices[v].sigma_mm, moved[v]);
+  }
 
   std::pmr::vector<std::uint8_t> pose(&context.output);
   pose.reserve(vertices.size());

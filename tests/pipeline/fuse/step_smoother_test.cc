@@ -1,0 +1,83 @@
+// SPDX-FileCopyrightText: 2026 The Relievo authors
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "pipeline/fuse/step_smoother.h"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+#include <memory_resource>
+
+namespace relievo::pipeline::test {
+namespace {
+
+constexpr int kSide = 41;
+
+// A sheet of triangles with sides of a millimetre; `height` of what lies to the right of its middle.
+struct Sheet {
+  explicit Sheet(float height) {
+    for (int y = 0; y < kSide; ++y)
+      for (int x = 0; x < kSide; ++x) {
+        vertices.push_back({static_cast<float>(x), static_cast<float>(y), x > kSide / 2 ? height : 0});
+        label.push_back(x > kSide / 2 ? 2 : 1);
+        stays.push_back(x == 0 || y == 0 || x == kSide - 1 || y == kSide - 1 ? 1 : 0);
+      }
+    for (std::uint32_t y = 0; y + 1 < kSide; ++y)
+      for (std::uint32_t x = 0; x + 1 < kSide; ++x) {
+        const std::uint32_t k = y * kSide + x;
+        triangles.push_back({k, k + 1, k + kSide});
+        triangles.push_back({k + 1, k + kSide + 1, k + kSide});
+      }
+  }
+  std::pmr::vector<float> smooth() {
+    return smooth_steps(vertices, triangles, label, stays, std::pmr::get_default_resource());
+  }
+  float steepest() const {
+    float most = 0;
+    for (int x = 0; x + 1 < kSide; ++x) {
+      const std::size_t k = kSide * (kSide / 2) + static_cast<std::size_t>(x);
+      most = std::max(most, std::abs(vertices[k + 1].z - vertices[k].z));
+    }
+    return most;
+  }
+  std::vector<Vec3f> vertices;
+  std::vector<Triangle> triangles;
+  std::vector<std::uint8_t> label, stays;
+};
+
+TEST(Steps, BetweenTwoPosesAreLaidAnew) {
+  Sheet sheet(1.2F);
+  const std::vector<Vec3f> before = sheet.vertices;
+  const auto moved = sheet.smooth();
+  EXPECT_LT(sheet.steepest(), 0.35F);
+  for (std::size_t v = 0; v < before.size(); ++v) {
+    EXPECT_NEAR(moved[v], std::abs(sheet.vertices[v].z - before[v].z), 0.25F) << v;
+    if (std::abs(before[v].x - kSide / 2) > 8) {
+      EXPECT_EQ(sheet.vertices[v].z, before[v].z) << "far away";
+    }
+  }
+}
+
+TEST(Steps, OfOnePoseAreSkin) {
+  Sheet sheet(1.2F);
+  std::fill(sheet.label.begin(), sheet.label.end(), std::uint8_t{1});
+  const auto moved = sheet.smooth();
+  EXPECT_TRUE(std::all_of(moved.begin(), moved.end(), [](float d) { return d == 0; }));
+}
+
+TEST(Steps, ThatAreLowStay) {
+  Sheet sheet(0.3F);
+  const auto moved = sheet.smooth();
+  EXPECT_TRUE(std::all_of(moved.begin(), moved.end(), [](float d) { return d == 0; }));
+}
+
+TEST(Steps, BesideWhichTheSurfaceTurnsAreFolds) {
+  Sheet sheet(1.2F);
+  for (Vec3f& v : sheet.vertices)
+    if (v.x > kSide / 2) v.z += 1.5F * (v.x - kSide / 2 - 1);  // 56 degrees
+  const auto moved = sheet.smooth();
+  EXPECT_TRUE(std::all_of(moved.begin(), moved.end(), [](float d) { return d == 0; }));
+}
+
+}  // namespace
+}  // namespace relievo::pipeline::test
