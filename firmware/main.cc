@@ -20,7 +20,7 @@
 #include "firmware/demo/screenshots.h"
 #include "firmware/jobs/job_thread.h"
 #include "hal/linux/device.h"
-#include "hal/linux/headphone_jack.h"
+#include "hal/linux/input_switch.h"
 #include "hal/monotonic_clock.h"
 #include "hal/picture_file.h"
 #include "hal/sim/device.h"
@@ -280,6 +280,7 @@ int main(int argc, char** argv) {
       .simulated_calibration = fw::simulated_calibration,
       .open_display = relievo::ui::open_sdl_display,
       .open_speaker = fw::open_speaker,
+      .find_presence_sensor = [] { return relievo::hal::find_presence_sensor(); },
       .console = console,
       .clock = clock,
       .set_clock = fw::set_system_clock,

@@ -30,13 +30,6 @@ struct Speech {
   int speed_percent = 100;    // of the voice's usual
 };
 
-// Tells whether what is played is heard by one person alone. Thread: the speaker's.
-class HeadphoneJack {
- public:
-  virtual ~HeadphoneJack() = default;
-  virtual bool is_plugged() = 0;
-};
-
 class Speaker {
  public:
   virtual ~Speaker() = default;

@@ -93,7 +93,34 @@ Appliance::Appliance(Parts parts)
 
 Appliance::~Appliance() { stop_job(); }
 
-float Appliance::progress() const { return running_ != nullptr ? running_->progress() : 0; }
+void Appliance::look_at_progress() {
+  const hal::Instant now = device_.clock().now();
+  switch (machine_.state()) {
+    case State::Match:
+    case State::Reconstruct:
+    case State::Mesh:
+    case State::Texture:
+    case State::Assemble:
+      return making_.works_on(number_of(machine_.state()), now);
+    case State::Turn:
+    case State::Fuse:
+      return making_.works_on(head_.parts_done(), now);
+    case State::Review:
+    case State::Store:
+      return making_.done();
+    case State::SelfTest:
+    case State::Idle:
+    case State::Calibrate:
+    case State::Position:
+    case State::Capture:
+    case State::Export:
+    case State::Staff:
+    case State::Fault:
+    case State::Count:
+      break;
+  }
+  making_.begin();
+}
 
 void Appliance::ask(ui::Intent intent) {
   if (intent == ui::Intent::StillHere) return machine_.renew(device_.clock().now());
@@ -133,6 +160,7 @@ void Appliance::step(std::chrono::milliseconds wait) {
     }
     entered(*change);
   }
+  look_at_progress();
   device_.watchdog().kick();
 }
 
@@ -271,7 +299,7 @@ void Appliance::stop_head() {
   head_job_ = 0;
 }
 
-std::size_t Appliance::stages_done() const { return head_.stages_done(); }
+std::size_t Appliance::parts_done() const { return head_.parts_done(); }
 
 bool Appliance::open_session() {
   attempt_ = 0;
@@ -324,6 +352,7 @@ bool Appliance::enter_capture(const Change& change) {
 
 // Two jobs at once: the worker has the arenas, the cameras' thread memory of its own.
 void Appliance::enter_turn() {
+  making_.begin(true);
   session_.sides().begin();
   turn_.begin_with(*session_.products().frame);
   head_job_ = start_on(worker_, head_);

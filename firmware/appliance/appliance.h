@@ -23,6 +23,7 @@
 #include "firmware/session/session.h"
 #include "firmware/work/head_job.h"
 #include "firmware/work/jobs.h"
+#include "firmware/work/portrait_progress.h"
 #include "firmware/work/turn_job.h"
 #include "hal/device.h"
 #include "ui/view/intent.h"
@@ -63,14 +64,15 @@ class Appliance {
   void step(std::chrono::milliseconds wait);
 
   State state() const { return machine_.state(); }
-  float progress() const;
+  // 0 to 1 of the way from the photograph to the portrait; it falls for a new photograph alone.
+  float progress() const { return making_.share(); }
   int attempt() const { return attempt_; }
   // Refused captures, until a person is asked to come again.
   void set_attempts(int most) { most_attempts_ = most; }
   // Does a person at the screen come to Turn after the frontal picture? Never without a judge and the memory.
   void ask_for_sides(bool asks) { asks_for_sides_ = asks; }
-  // Of the frontal picture, while the head turns: their pictures may be shown.
-  std::size_t stages_done() const;
+  // Of the job that runs while the head turns (work/head_job.h).
+  std::size_t parts_done() const;
   const std::optional<Error>& problem() const { return problem_; }
   // Of the last face that was matched: have the cameras moved?
   const std::optional<pipeline::DriftJudgement>& drift() const { return drift_; }
@@ -128,6 +130,7 @@ class Appliance {
   void close_session();
   void heard_answer();
   void note(const Error& error);
+  void look_at_progress();
   void note(const pipeline::DriftJudgement& drift);
 
   hal::Device& device_;
@@ -146,6 +149,7 @@ class Appliance {
   KeptVisit kept_;
   RecordAnswer answer_;
   bool looks_up_ = false, drops_answer_ = false;
+  PortraitProgress making_;
   int attempt_ = 0, most_attempts_ = budget::kCaptureAttempts;
   bool attended_ = false;  // a person is at the screen: advice instead of another try
   bool asks_for_sides_ = false, has_judge_ = false;

@@ -93,28 +93,29 @@ ui::LiveView live_of(const LivePicture& live) {
   return view;
 }
 
-// Stages whose thread has reported; the one under way draws its own.
-std::size_t stages_done(const Appliance& appliance) {
+// Pictures whose thread has reported: the photograph, then those of the stages that are done.
+std::size_t pictures_done(const Appliance& appliance) {
   switch (appliance.state()) {
     case State::Turn:
     case State::Fuse:
-      return std::min(kStagePictures, appliance.stages_done());
-    case State::Reconstruct:
+      return 1 + std::min(kStagePictures - 1, appliance.parts_done());
+    case State::Match:
       return 1;
-    case State::Mesh:
+    case State::Reconstruct:
       return 2;
-    case State::Texture:
+    case State::Mesh:
       return 3;
+    case State::Texture:
+      return 4;
     case State::Assemble:
     case State::Review:
     case State::Store:
-      return 4;
+      return 5;
     case State::SelfTest:
     case State::Idle:
     case State::Calibrate:
     case State::Position:
     case State::Capture:
-    case State::Match:
     case State::Export:
     case State::Staff:
     case State::Fault:
@@ -140,7 +141,7 @@ ui::ViewState view_of(Appliance& appliance) {
   view.subject = appliance.session().subject();
   view.live = live_of(appliance.live().newest());
   const StagePictures& pictures = appliance.session().stage_pictures();
-  for (std::size_t i = 0; i < stages_done(appliance); ++i) {
+  for (std::size_t i = 0; i < pictures_done(appliance); ++i) {
     if (pictures.number(i) != 0) view.stages[i] = {pictures.view(i), pictures.number(i)};
   }
   // While a job runs, the products are the worker's; before Review nothing of them is shown.
@@ -149,7 +150,8 @@ ui::ViewState view_of(Appliance& appliance) {
   const Products& products = appliance.session().products();
   if (products.frame) view.frame = &*products.frame;
   if (products.model) view.model = &*products.model;
-  if (view.model != nullptr) view.model_number = appliance.session().stage_pictures().number(3) + 1;
+  if (view.model != nullptr)
+    view.model_number = appliance.session().stage_pictures().number(kStagePictures - 1) + 1;
   return view;
 }
 

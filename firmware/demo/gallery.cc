@@ -2,6 +2,9 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "firmware/demo/gallery.h"
 
+#include <array>
+#include <utility>
+
 namespace relievo::firmware {
 namespace {
 
@@ -39,6 +42,12 @@ class Gallery {
     visit.overlay = overlay;
     return visit;
   }
+  // Long after the last person went.
+  ui::Visit resting(const ui::ViewState& view) const {
+    ui::Visit visit = at(Step::Attract);
+    visit.follow(view);
+    return visit;
+  }
   ui::Visit named() const {
     ui::Visit visit = at(Step::Name);
     visit.type(kNames[static_cast<std::size_t>(visit.language)]);
@@ -74,7 +83,7 @@ class Gallery {
     ui::ViewState view = idle();
     view.screen = screen;
     view.progress = 0.4F;
-    for (std::size_t i = 0; i < born; ++i) view.stages[i] = review_.stages[i];
+    for (std::size_t i = 0; i <= born; ++i) view.stages[i] = review_.stages[i];
     add(name, view, at(Step::Working));
   }
   void add_trouble(std::string_view name, Trouble trouble, Screen screen) {
@@ -91,10 +100,33 @@ class Gallery {
   ui::Visit visit_;
 };
 
+// An operator with a name and a sign: a disc on white.
+const ui::ConsentTexts& hosts_text() {
+  static const ui::ConsentTexts texts = [] {
+    ui::ConsentTexts made;
+    made.host = {"Museum of Faces, Nottingham", "faces@example.org", {}, 96, 96, PixelFormat::Rgb8};
+    for (int y = -48; y < 48; ++y)
+      for (int x = -48; x < 48; ++x) {
+        const int r = x * x + y * y;
+        for (const int v :
+             r > 46 * 46 || (r < 30 * 30 && y < 0) ? std::array{255, 255, 255} : std::array{11, 112, 80})
+          made.host.sign.push_back(static_cast<std::byte>(v));
+      }
+    return made;
+  }();
+  return texts;
+}
+
 // From the invitation to the name.
 void add_beginning(Gallery& g, const ui::ViewState& idle) {
   g.add("starting", idle, g.at(Step::Starting));
   g.add("attract", idle, g.at(Step::Attract));
+  ui::ViewState hosted = idle;
+  hosted.consent = &hosts_text();
+  g.add("attract_host", hosted, g.at(Step::Attract));
+  hosted.somebody_near = false;
+  hosted.now += std::chrono::hours(1);
+  g.add("attract_rests", hosted, g.resting(hosted));
   g.add("languages", idle, g.at(Step::Attract, Overlay::Languages));
   g.add("consent", idle, g.at(Step::Consent));
   g.add("name_empty", idle, g.at(Step::Name));
@@ -128,6 +160,11 @@ void add_decision(Gallery& g, const ui::ViewState& review, const ui::ViewState& 
   full.trouble = Trouble::Storage;
   ui::Visit turned = g.at(Step::Review);
   turned.look = {32, 6, 1.1F, 25, false};
+  for (const auto& [name, born] : {std::pair("review_points", 0.42F), {"review_surface", 0.68F}}) {
+    ui::Visit birth = g.at(Step::Review);
+    birth.look.born = born;
+    g.add(name, review, birth);
+  }
   g.add("review_turned", review, turned);
   g.add("review_store_full", full, g.at(Step::Review));
   ui::ViewState done = idle;

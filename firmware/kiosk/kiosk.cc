@@ -96,6 +96,7 @@ Result<void> Kiosk::prepare(const KioskArgs& args, Services& services) {
     turn_head_ = [this, turn = services.turn_head](double yaw_deg) { turn(*device_, yaw_deg); };
   RELIEVO_TRY(set_up_measuring(args, services));
   open_speaker_ = services.open_speaker;
+  if (services.find_presence_sensor) presence_ = services.find_presence_sensor();
   memory_ = std::make_unique<BootMemory>();
   pool_ = std::make_unique<ThreadPool>(pool_size());
   if (auto piece = InvitationHead::read(asset_folder())) invitation_head_ = std::move(*piece);
@@ -192,6 +193,7 @@ void Kiosk::look() {
   if (invitation_head_) view_.invitation_head = &invitation_head_->model();
   view_.service = &staff_->view();
   if (voice_) voice_->look(view_);
+  view_.somebody_near = presence_ == nullptr || presence_->is_on();
 }
 
 void Kiosk::feed(const ui::Input& input) {

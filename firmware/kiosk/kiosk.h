@@ -79,6 +79,7 @@ class Kiosk {
   std::unique_ptr<ui::Ui> ui_;
   std::function<std::unique_ptr<hal::Speaker>()> open_speaker_;  // until the first turn: behind the display
   std::unique_ptr<Voice> voice_;
+  std::unique_ptr<hal::InputSwitch> presence_;  // none: somebody may always be near
   std::uint32_t revision_ = 0;
   std::bitset<ui::kLanguages> languages_;
   WipedText claimed_, quoted_;  // a name that is asked about, a code that is quoted

@@ -9,12 +9,17 @@
 
 #include "firmware/base/output_folder.h"
 #include "firmware/service/page_controller.h"
+#include "hal/picture_file.h"
 #include "storage/export/atomic_file.h"
 
 namespace relievo::firmware {
 namespace {
 
 namespace fs = std::filesystem;
+
+constexpr const char *kHostFile = "operator.txt", *kSignFile = "sign.png";
+constexpr std::size_t kMostHostBytes = 80, kMostSignBytes = 1'000'000;
+constexpr int kMostSignPx = 1024;
 
 Error wrong(const fs::path& file, Literal what) { return Error{Errc::InvalidInput, what}.at(file.string()); }
 
@@ -85,14 +90,48 @@ namespace fs = std::filesystem;
 
 Error not_kept() { return {Errc::IoFailed, "cannot be kept on this device: look at the room on its disk"}; }
 
-// The files of a version, from one folder to another; only the text is taken, not what else a file system
-// knows of a file.
+// The first line of operator.txt is their name, the others say how they are reached.
+Result<void> read_host(const fs::path& file, ui::Host& host) {
+  RELIEVO_TRY_ASSIGN(const std::string text, read_consent_text(file));
+  std::istringstream lines(text);
+  for (std::string line; std::getline(lines, line);) {
+    if (line.empty()) continue;
+    if (host.name.empty()) host.name = line;
+    else host.reached += (host.reached.empty() ? "" : " ") + line;
+  }
+  if (host.name.empty() || host.name.size() > kMostHostBytes)
+    return wrong(file, "has no name in its first line, or one of more than 80 bytes");
+  return {};
+}
+
+Result<void> read_sign(const fs::path& file, ui::Host& host) {
+  std::error_code error;
+  if (!fs::is_regular_file(fs::symlink_status(file, error)) || fs::file_size(file, error) > kMostSignBytes)
+    return wrong(file, "is no picture of at most 1 MB");
+  auto picture = hal::read_picture(file);
+  if (!picture || picture->format == PixelFormat::Grey16 ||
+      std::max(picture->width_px, picture->height_px) > kMostSignPx)
+    return wrong(file, "is no picture of at most 1024 pixels each way, 8 bits a channel");
+  host.sign = std::move(picture->bytes);
+  host.sign_width_px = picture->width_px;
+  host.sign_height_px = picture->height_px;
+  host.sign_format = picture->format;
+  return {};
+}
+
+// The files of a version, from one folder to another; only text and picture are taken, not what else a file
+// system knows of a file.
 Result<void> copy_texts(const fs::path& from, const fs::path& to) {
   std::error_code error;
   for (fs::directory_iterator entry(from, error), end; !error && entry != end; entry.increment(error)) {
     if (is_hidden(entry->path())) continue;
-    RELIEVO_TRY_ASSIGN(const std::string text, read_consent_text(entry->path()));
     const fs::path name = entry->path().filename();
+    if (name == kSignFile) {
+      RELIEVO_TRY_ASSIGN(const hal::Picture sign, hal::read_picture(entry->path()));
+      if (!hal::write_picture(to / name, sign.view())) return not_kept().at(name.string());
+      continue;
+    }
+    RELIEVO_TRY_ASSIGN(const std::string text, read_consent_text(entry->path()));
     if (!write_text(to / name, text, name)) return not_kept().at(name.string());
   }
   if (error) return Error{Errc::IoFailed, "cannot be read", error.value()}.at(from.string());
@@ -153,6 +192,14 @@ Result<ui::ConsentTexts> read_consent_version(const fs::path& folder, const std:
   bool any = false;
   for (fs::directory_iterator entry(folder, error), end; !error && entry != end; entry.increment(error)) {
     if (is_hidden(entry->path())) continue;
+    if (entry->path().filename() == kHostFile) {
+      RELIEVO_TRY(read_host(entry->path(), texts.host));
+      continue;
+    }
+    if (entry->path().filename() == kSignFile) {
+      RELIEVO_TRY(read_sign(entry->path(), texts.host));
+      continue;
+    }
     const auto language = language_of(entry->path());
     if (!language)
       return wrong(

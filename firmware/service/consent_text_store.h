@@ -31,6 +31,9 @@ namespace relievo::firmware {
 //   We take one picture           its first line is its title,
 //   Two cameras photograph ...    the others, joined, its words
 //
+// Beside them may lie operator.txt (the operator's name; from the second line on, how they are reached) and
+// sign.png (their sign, on white): the page that invites shows whose device it is.
+//
 // The version is the folder's name; in use is the last in the order of their names. LANGUAGE is one of
 // en de fr es ar he zh-Hans ja. Names that begin with a dot are somebody else's (a copy that was not
 // finished, what a computer leaves on a stick). Thread: any.

@@ -15,6 +15,7 @@
 #include "firmware/checks/target_calibration.h"
 #include "hal/clock.h"
 #include "hal/device.h"
+#include "hal/input_switch.h"
 #include "hal/speaker.h"
 #include "storage/store.h"
 #include "storage/store_keeping.h"
@@ -44,6 +45,8 @@ struct Services {
   std::function<Result<std::unique_ptr<ui::Display>>(const ui::DisplayOptions&)> open_display{};
   // Where texts and sounds are heard; may be empty, or give none: then nothing is.
   std::function<std::unique_ptr<hal::Speaker>()> open_speaker{};
+  // Tells whether somebody is near; may be empty, or give none: then somebody may always be.
+  std::function<std::unique_ptr<hal::InputSwitch>()> find_presence_sensor{};
   Console& console;
   const hal::Clock& clock;
   // Sets the system's clock; may be empty. Errors: Unsupported (it may not).

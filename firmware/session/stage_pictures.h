@@ -1,9 +1,9 @@
 // SPDX-FileCopyrightText: 2026 The Relievo authors
 // SPDX-License-Identifier: GPL-3.0-or-later
 //
-// StagePictures: one small square picture for each stage that is done, for the screen. Fixed memory,
-// part of the session: wiped with it.
-// Thread: the worker draws the picture of its stage before it reports; main reads those reported.
+// StagePictures: small square pictures of the face for the screen: the photograph, then one for each stage
+// that is done. Fixed memory, part of the session: wiped with it. Thread: who takes or makes it draws its
+// picture before it reports; main reads those reported.
 #pragma once
 
 #include <string.h>
@@ -17,7 +17,8 @@
 
 namespace relievo::firmware {
 
-inline constexpr std::size_t kStagePictures = 4;  // Match, Reconstruct, Mesh, Texture; Assemble has none
+inline constexpr std::size_t kStagePictures =
+    5;  // Capture, Match, Reconstruct, Mesh, Texture; Assemble has none
 
 class StagePictures {
  public:

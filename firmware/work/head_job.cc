@@ -4,27 +4,19 @@
 
 #include <utility>
 
+#include "firmware/work/portrait_progress.h"
+
 namespace relievo::firmware {
-namespace {
-
-constexpr float kSteps = kStages.size() + SidePairs::kPoses + 2;  // fusing takes as long as two
-
-void step(JobControl& control, std::size_t done) {
-  control.progress.done.store(static_cast<float>(done) / kSteps, std::memory_order_relaxed);
-}
-
-}  // namespace
 
 Result<void> HeadJob::run(JobControl& control) {
   records_.clear();
-  stages_done_ = 0;
+  parts_done_ = 0;
   for (const State stage : kStages) {
     JobControl inner{control.cancelled, inner_};
     stage_.choose(stage);
     RELIEVO_TRY(stage_.run(inner));
     records_.push_back(stage_.record());
-    step(control, records_.size());
-    stages_done_.store(records_.size(), std::memory_order_release);
+    parts_done_.fetch_add(1, std::memory_order_release);
   }
   std::vector<pipeline::HeadPose> poses;
   poses.reserve(SidePairs::kPoses);
@@ -32,8 +24,9 @@ Result<void> HeadJob::run(JobControl& control) {
     // What is wrong with a pair here spoils no face.
     if (poses.empty() && !measure(*session_.products().frame, control, poses)) continue;
     (void)measure(*side, control, poses);
-    step(control, records_.size());
+    parts_done_.fetch_add(1, std::memory_order_release);
   }
+  parts_done_.store(PortraitProgress::kFuse, std::memory_order_release);
   if (poses.size() > 1) (void)fuse(control, poses);
   if (control.cancelled.load()) return Error{Errc::Cancelled, "stopped while the head was made"};
   return {};

@@ -3,7 +3,7 @@
 //
 // HeadJob: beside a head that turns, all stages of its frontal pair; then every side as it comes, and when no
 // more come the head of all of them. What goes wrong with a side costs that side: without any that fits, the
-// face of the frontal pair stays as it is. Thread: run() worker; stages_done() any; the others main, once it
+// face of the frontal pair stays as it is. Thread: run() worker; parts_done() any; the others main, once it
 // has ended. Errors: those of the frontal pair's stages, Cancelled.
 #pragma once
 
@@ -20,8 +20,8 @@ class HeadJob final : public Job {
       : runner_(runner), session_(session), pool_(pool), clock_(clock), stage_(runner, session, pool, clock) {
     records_.reserve(kStages.size() + SidePairs::kPoses + 1);
   }
-  // Their pictures may be shown.
-  std::size_t stages_done() const { return stages_done_.load(std::memory_order_acquire); }
+  // Stages, whose pictures may be shown, then sides; PortraitProgress::kFuse from there on.
+  std::size_t parts_done() const { return parts_done_.load(std::memory_order_acquire); }
   const std::vector<StageRecord>& records() const { return records_; }
   Result<void> run(JobControl& control) override;
 
@@ -37,8 +37,8 @@ class HeadJob final : public Job {
   ThreadPool& pool_;
   const hal::Clock& clock_;
   StageJob stage_;
-  pipeline::Progress inner_;  // of one stage; the job's own counts the stages
-  std::atomic<std::size_t> stages_done_{0};
+  pipeline::Progress inner_;  // of one part
+  std::atomic<std::size_t> parts_done_{0};
   std::vector<StageRecord> records_;
 };
 

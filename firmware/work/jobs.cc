@@ -85,7 +85,7 @@ Result<void> GrabJob::run(JobControl& control) {
   options.light = device_.shot_light();
   if (!device_.is_live()) {
     RELIEVO_TRY_ASSIGN(const pipeline::StereoFrame frame, grabber_.grab(session_.slot(), control.cancelled));
-    session_.took(frame);
+    took(frame);
     return {};
   }
   if (pose_.face()) options.face = pose_.face()->left;
@@ -101,8 +101,14 @@ Result<void> GrabJob::run(JobControl& control) {
   }
   exposure.unlock();
   if (!burst) return burst.error();
-  session_.took(burst->frame);
+  took(burst->frame);
   return {};
+}
+
+void GrabJob::took(const pipeline::StereoFrame& frame) {
+  session_.took(frame);
+  const auto& face = pose_.face();
+  draw_capture(frame.left, face ? std::optional(face->left) : std::nullopt, session_.stage_pictures());
 }
 
 Result<void> StageJob::run(JobControl& control) {

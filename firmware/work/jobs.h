@@ -78,6 +78,8 @@ class GrabJob final : public Job {
   Result<void> run(JobControl& control) override;
 
  private:
+  void took(const pipeline::StereoFrame& frame);
+
   StereoGrabber& grabber_;
   EnrolmentSession& session_;
   hal::Device& device_;

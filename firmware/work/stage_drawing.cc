@@ -10,7 +10,8 @@
 namespace relievo::firmware {
 namespace {
 
-constexpr double kFacesAcross = 1.5;  // widths of the face in the picture
+constexpr double kFacesAcross = 1.5;   // widths of the face in the picture
+constexpr double kHeadsAcross = 1.25;  // of the box by which the light is metered
 
 struct Range {
   double low = std::numeric_limits<double>::max(), high = std::numeric_limits<double>::lowest();
@@ -105,25 +106,46 @@ Rgb clay(double lit) { return {60 + 170 * lit, 64 + 174 * lit, 72 + 180 * lit}; 
 
 }  // namespace
 
+void draw_capture(const ImageView& picture, const std::optional<FaceBox>& face, StagePictures& pictures) {
+  StageCanvas canvas(pictures.begin(0), StagePictures::kSide);
+  const double high = picture.height_px;
+  const double side = face ? std::min(high, kHeadsAcross * face->width_px) : high;
+  const double left = (face ? face->x_px + face->width_px / 2.0 : picture.width_px / 2.0) - side / 2,
+               top = (face ? face->y_px + face->height_px / 2.0 : high / 2) - side / 2;
+  const double step = side / canvas.side();
+  const int bytes = bytes_per_pixel(picture.format),
+            high_byte = picture.format == PixelFormat::Grey16 ? 1 : 0;
+  const bool coloured = picture.format == PixelFormat::Rgb8;
+  for (int y = 0; y < canvas.side(); ++y) {
+    for (int x = 0; x < canvas.side(); ++x) {
+      const int u = static_cast<int>(left + (x + 0.5) * step), v = static_cast<int>(top + (y + 0.5) * step);
+      if (u < 0 || v < 0 || u >= picture.width_px || v >= picture.height_px) continue;
+      const std::uint8_t* at = picture.row(v) + static_cast<std::ptrdiff_t>(u) * bytes + high_byte;
+      canvas.put(x, y, {1.0 * at[0], 1.0 * at[coloured ? 1 : 0], 1.0 * at[coloured ? 2 : 0]});
+    }
+  }
+  pictures.done(0);
+}
+
 void draw_stage_picture(State stage, const Products& products, StagePictures& pictures) {
   if (!products.pair) return;
   const auto& pair = *products.pair;
   if (stage == State::Match && products.matches) {
-    StageCanvas canvas(pictures.begin(0), StagePictures::kSide);
-    draw_matches(pair, *products.matches, canvas);
-    pictures.done(0);
-  } else if (stage == State::Reconstruct && products.cloud) {
     StageCanvas canvas(pictures.begin(1), StagePictures::kSide);
-    draw_cloud(pair, *products.cloud, canvas);
+    draw_matches(pair, *products.matches, canvas);
     pictures.done(1);
-  } else if (stage == State::Mesh && products.mesh) {
+  } else if (stage == State::Reconstruct && products.cloud) {
     StageCanvas canvas(pictures.begin(2), StagePictures::kSide);
-    draw_surface(pair, *products.mesh, nullptr, canvas);
+    draw_cloud(pair, *products.cloud, canvas);
     pictures.done(2);
-  } else if (stage == State::Texture && products.mesh && products.texture) {
+  } else if (stage == State::Mesh && products.mesh) {
     StageCanvas canvas(pictures.begin(3), StagePictures::kSide);
-    draw_surface(pair, *products.mesh, &*products.texture, canvas);
+    draw_surface(pair, *products.mesh, nullptr, canvas);
     pictures.done(3);
+  } else if (stage == State::Texture && products.mesh && products.texture) {
+    StageCanvas canvas(pictures.begin(4), StagePictures::kSide);
+    draw_surface(pair, *products.mesh, &*products.texture, canvas);
+    pictures.done(4);
   }
 }
 

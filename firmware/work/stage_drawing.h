@@ -9,7 +9,9 @@
 
 #include <cstddef>
 #include <cstdint>
+#include <optional>
 
+#include "firmware/capture/face_light.h"
 #include "firmware/machine/transition.h"
 #include "firmware/session/session.h"
 #include "firmware/session/stage_pictures.h"
@@ -74,6 +76,9 @@ void draw_surface(const pipeline::RectifiedPair& pair, const pipeline::FaceMesh&
 void draw_head(const pipeline::FaceMesh& mesh, const pipeline::RigidTransform& head_from_camera,
                double turned_deg, double across_mm, StageCanvas& canvas);
 
+// The photograph itself, of the left camera: about the face, or its middle where none was found. Thread:
+// capture.
+void draw_capture(const ImageView& picture, const std::optional<FaceBox>& face, StagePictures& pictures);
 // What a stage made, drawn small as the left camera sees it: the matches coloured by their depth over
 // the photograph, the points, the surface under a lamp, the surface with its colours.
 // Allocates nothing but one depth buffer or the cells of dots. Thread: worker. Errors: none; what is missing

@@ -27,7 +27,7 @@ struct Wanted {
 
 class SdlSpeaker final : public Speaker {
  public:
-  explicit SdlSpeaker(std::unique_ptr<HeadphoneJack> jack) : jack_(std::move(jack)) {}
+  explicit SdlSpeaker(std::unique_ptr<InputSwitch> jack) : jack_(std::move(jack)) {}
   ~SdlSpeaker() override {
     ending_ = true;
     mixer_.cut();
@@ -61,7 +61,7 @@ class SdlSpeaker final : public Speaker {
 
   bool has_voice(std::string_view language) const override { return !mute_ && has_voice_for(language); }
   bool has_headphones() override {
-    const bool plugged = jack_ != nullptr && jack_->is_plugged();
+    const bool plugged = jack_ != nullptr && jack_->is_on();
     if (was_plugged_ && !plugged) mixer_.cut();
     return was_plugged_ = plugged;
   }
@@ -110,7 +110,7 @@ class SdlSpeaker final : public Speaker {
     (void)wait_to(wanted.number, [&] { return mixer_.finish(wanted.number); });
   }
 
-  std::unique_ptr<HeadphoneJack> jack_;
+  std::unique_ptr<InputSwitch> jack_;
   bool was_plugged_ = false, begun_ = false;
   Mixer mixer_;
   Mailbox<Wanted> wanted_;
@@ -121,7 +121,7 @@ class SdlSpeaker final : public Speaker {
 
 }  // namespace
 
-Result<std::unique_ptr<Speaker>> open_sdl_speaker(std::unique_ptr<HeadphoneJack> jack) {
+Result<std::unique_ptr<Speaker>> open_sdl_speaker(std::unique_ptr<InputSwitch> jack) {
   auto speaker = std::make_unique<SdlSpeaker>(std::move(jack));
   RELIEVO_TRY(speaker->open());
   return std::unique_ptr<Speaker>(std::move(speaker));

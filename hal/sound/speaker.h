@@ -8,11 +8,12 @@
 #include <memory>
 
 #include "hal/base/result.h"
+#include "hal/input_switch.h"
 #include "hal/speaker.h"
 
 namespace relievo::hal {
 
 // `jack` may be empty: then nothing is known of headphones, and all is heard by everybody.
-Result<std::unique_ptr<Speaker>> open_sdl_speaker(std::unique_ptr<HeadphoneJack> jack);
+Result<std::unique_ptr<Speaker>> open_sdl_speaker(std::unique_ptr<InputSwitch> jack);
 
 }  // namespace relievo::hal

@@ -6,6 +6,8 @@
 
 #include <gtest/gtest.h>
 
+#include <cmath>
+
 namespace relievo::ui {
 namespace {
 
@@ -101,6 +103,68 @@ TEST_F(VisitTest, AWholeVisitTakesFewTouches) {
   act(ActionKind::Finish);
   EXPECT_EQ(visit.step, Step::Attract);
   EXPECT_EQ(visit.name(), "");
+}
+
+TEST_F(VisitTest, ThePortraitComesToBeThenTurnsUntilSomebodyTouchesIt) {
+  to_review();
+  EXPECT_EQ(visit.shown_look(view.now).born, 0);
+  float before = 0;
+  for (int i = 0; i < 30; ++i) {
+    pass(milliseconds(100));
+    EXPECT_GE(visit.shown_look(view.now).born, before);
+    before = visit.shown_look(view.now).born;
+  }
+  EXPECT_EQ(before, 1);
+  pass(seconds(3));
+  const FaceLook turned = visit.shown_look(view.now);
+  EXPECT_GT(std::abs(turned.yaw_deg), 5);
+  visit.touched(view.now);
+  EXPECT_EQ(visit.shown_look(view.now), turned) << "it stays as it stood";
+  pass(seconds(3));
+  EXPECT_EQ(visit.shown_look(view.now), turned);
+  act(ActionKind::LookAtFirst);
+  EXPECT_EQ(visit.shown_look(view.now), FaceLook{});
+}
+
+TEST_F(VisitTest, NothingMovesByItselfWhereTheStaffWantThat) {
+  view.settings.set(Setting::Motion, 0);
+  to_review();
+  EXPECT_EQ(visit.shown_look(view.now), FaceLook{});
+  pass(seconds(5));
+  EXPECT_EQ(visit.shown_look(view.now), FaceLook{});
+  act(ActionKind::Accept);
+  machine(Screen::Store);
+  machine(Screen::Idle);
+  act(ActionKind::Finish);
+  pass(seconds(40));
+  const FaceLook invites = visit.shown_look(view.now);
+  pass(seconds(3));
+  EXPECT_EQ(visit.shown_look(view.now), invites);
+}
+
+TEST_F(VisitTest, TheInvitationMovesRestsAndWakesWhenSomebodyComesNear) {
+  const auto yaw = [&] { return visit.shown_look(view.now).yaw_deg; };
+  pass(seconds(40));
+  const float before = yaw();
+  pass(seconds(3));
+  EXPECT_GT(std::abs(yaw() - before), 5) << "it moves";
+  visit.touched(view.now);
+  const float read = yaw();
+  pass(seconds(3));
+  EXPECT_EQ(yaw(), read) << "not while somebody reads";
+  view.somebody_near = false;
+  pass(seconds(1));
+  EXPECT_FALSE(visit.rests(view.now)) << "who looks away for a moment is still there";
+  pass(seconds(40));
+  EXPECT_TRUE(visit.rests(view.now));
+  const float resting = yaw();
+  pass(seconds(3));
+  EXPECT_EQ(yaw(), resting);
+  view.somebody_near = true;
+  pass(milliseconds(10));
+  EXPECT_FALSE(visit.rests(view.now)) << "at once";
+  pass(seconds(4));
+  EXPECT_GT(std::abs(yaw() - resting), 5);
 }
 
 TEST_F(VisitTest, WhoTriesManyCodesIsSentAway) {

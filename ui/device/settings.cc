@@ -27,6 +27,7 @@ constexpr std::array<SettingInfo, kSettings> kInfos{{
     {Setting::Language, "language", kEveryLanguage, 0, true, true},
     {Setting::TextPercent, "text_percent", kText, 100, true, true},
     {Setting::Contrast, "high_contrast", kSwitch, 0, true, true},
+    {Setting::Motion, "motion", kSwitch, 1, true, true},
     {Setting::PatienceS, "patience_s", kPatience, 45, true, true},
     {Setting::Automatic, "automatic_shot", kSwitch, 1, true, false},
     {Setting::CountdownMs, "countdown_ms", kCountdowns, 1500, true, false},

@@ -18,6 +18,7 @@ enum class Setting : std::uint8_t {
   Language,  // a Language: in which a visit begins
   TextPercent,
   Contrast,
+  Motion,          // what moves by itself: the head that invites, the portrait that turns
   PatienceS,       // without a touch, until a visitor is asked whether they are there
   Automatic,       // the picture is taken by itself
   CountdownMs,     // before it is

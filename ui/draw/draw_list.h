@@ -50,11 +50,12 @@ enum class Mark : std::uint8_t {
 enum class PictureSlot : std::uint8_t {
   None,
   Live,
+  Photograph,
   Matches,
   Cloud,
   Mesh,
   Texture,
-  Attract,
+  Sign,
   TechnicianLeft,
   TechnicianRight,
   TechnicianThird,
@@ -90,6 +91,8 @@ struct FaceLook {
        points =
            false;  // the triangles' sides, as fine as the screen shows (edge_level.h); the measured points
   bool backdrop = false;  // what the photograph showed around it stands behind, and its rim fades into that
+  float born =
+      1;  // how far it has come to be: 0 the photograph, then points, the bare surface, 1 its colours
   bool operator==(const FaceLook&) const = default;
 };
 

@@ -7,11 +7,10 @@
 #include <cmath>
 #include <cstddef>
 #include <cstdint>
-#include <memory_resource>
 #include <vector>
 
-#include "pipeline/model/mesh_border.h"
 #include "ui/render/edge_level.h"
+#include "ui/render/face_geometry.h"
 #include "ui/render/face_view.h"
 #include "ui/render/gles_program.h"
 
@@ -21,104 +20,28 @@ namespace {
 constexpr float kDistanceMm = 640;  // of the viewer: a face is seen like this across a table
 // A face turns about the tip of its nose, a head, which is deeper, about its middle, and is seen whole.
 constexpr float kHeadDepthMm = 130, kHeadShare = 0.8F;
-constexpr float kSeenHeightMm = 272;   // of the window, at zoom 1: a face that is turned or nods stays inside
-constexpr float kMiddleBehindMm = 45;  // the head turns about a point behind the tip of its nose
-constexpr float kFadeMm = 6;           // of the rim, into what stands behind
+constexpr float kSeenHeightMm = 272;  // of the window, at zoom 1: a face that is turned or nods stays inside
 constexpr float kBackdropFromDeg = 20, kBackdropToDeg = 50;  // it fades as the face turns away
 constexpr int kMostSidePx = 2048;
 constexpr float kEdgePx = 9;  // of the screen: sides shorter than this would run into a grey
 constexpr float kEdgeWidthPx = 1.1F;
 
-struct Corner {
-  float x, y, z, nx, ny, nz, u, v, within;
+// How much is seen of each while a portrait comes to be (FaceLook::born): the photograph goes, points come,
+// on them the bare surface, on that its colours.
+struct Birth {
+  float surface, colours, points;
 };
-
-struct Tinted {
-  float x, y, z;
-  std::array<std::uint8_t, 4> rgba;
-};
+Birth birth_of(float born) {
+  const auto between = [born](float from, float to) {
+    return std::clamp((born - from) / (to - from), 0.0F, 1.0F);
+  };
+  constexpr float kNoSurface = 0.42F;
+  const bool photograph = born < kNoSurface;
+  return {photograph ? 1 - between(0.2F, kNoSurface) : between(kNoSurface, 0.68F),
+          photograph ? 1 : between(0.72F, 1), std::min(between(0.2F, 0.4F), 1 - between(0.72F, 0.95F))};
+}
 
 float radians(float degrees) { return degrees * 0.017453293F; }
-
-struct Dot {  // head frame, with the point the head turns about as its origin
-  float x, y, z;
-};
-
-Dot dot_of(const pipeline::RigidTransform& t, const pipeline::Vec3f& v) {
-  const auto p = apply(t, pipeline::Vec3d{v.x, v.y, v.z});
-  return {static_cast<float>(p.x), static_cast<float>(p.y), static_cast<float>(p.z) + kMiddleBehindMm};
-}
-
-std::vector<Dot> dots_of(const pipeline::FaceModel& model, const pipeline::PointCloud* cloud) {
-  std::vector<Dot> dots;
-  if (cloud == nullptr)
-    for (const auto& v : model.mesh.vertices_mm) dots.push_back(dot_of(model.head_from_camera, v));
-  else
-    for (const auto& p : cloud->points) dots.push_back(dot_of(model.head_from_camera, p.at_mm));
-  return dots;
-}
-
-// How far from its border each vertex lies, in kFadeMm and no more than 1.
-std::vector<float> within(const pipeline::FaceMesh& mesh) {
-  const auto border = pipeline::border_vertices(mesh, std::pmr::get_default_resource());
-  std::vector<float> share(border.size(), 1.0F);
-  for (std::size_t v = 0; v < border.size(); ++v)
-    if (border[v] != 0) share[v] = 0;
-  const auto spread = [&](const std::array<std::uint32_t, 3>& t) {
-    for (std::size_t i = 0; i < 3; ++i)
-      for (std::size_t j = 1; j < 3; ++j) {
-        const auto &a = mesh.vertices_mm[t[i]], &b = mesh.vertices_mm[t[(i + j) % 3]];
-        if (share[t[i]] >= 1) continue;
-        share[t[(i + j) % 3]] = std::min(share[t[(i + j) % 3]],
-                                         share[t[i]] + std::hypot(a.x - b.x, a.y - b.y, a.z - b.z) / kFadeMm);
-      }
-  };
-  for (int pass = 0; pass < 2; ++pass) {
-    std::for_each(mesh.triangles.begin(), mesh.triangles.end(), spread);
-    std::for_each(mesh.triangles.rbegin(), mesh.triangles.rend(), spread);
-  }
-  return share;
-}
-
-// Two triangles a cell that shows anything.
-std::vector<Tinted> tinted_of(const pipeline::FaceModel& model) {
-  const pipeline::Backdrop& b = model.backdrop;
-  std::vector<Tinted> corners;
-  const auto corner = [&](int c, int r) {
-    const std::size_t k =
-        static_cast<std::size_t>(r) * static_cast<std::size_t>(b.columns) + static_cast<std::size_t>(c);
-    const Dot d = dot_of(model.head_from_camera, b.at_mm[k]);
-    return Tinted{d.x, d.y, d.z, b.rgba[k]};
-  };
-  for (int r = 0; r + 1 < b.rows; ++r)
-    for (int c = 0; c + 1 < b.columns; ++c) {
-      const Tinted p = corner(c, r), q = corner(c + 1, r), o = corner(c, r + 1), d = corner(c + 1, r + 1);
-      if ((p.rgba[3] | q.rgba[3] | o.rgba[3] | d.rgba[3]) != 0)
-        corners.insert(corners.end(), {p, o, d, p, d, q});
-    }
-  return corners;
-}
-
-std::vector<Corner> corners_of(const pipeline::FaceModel& model) {
-  const auto& t = model.head_from_camera;
-  const std::vector<float> share = within(model.mesh);
-  std::vector<Corner> corners;
-  corners.reserve(model.mesh.triangles.size() * 3);
-  for (std::size_t i = 0; i < model.mesh.triangles.size(); ++i) {
-    for (std::size_t k = 0; k < 3; ++k) {
-      const std::uint32_t at = model.mesh.triangles[i][k];
-      const auto& v = model.mesh.vertices_mm[at];
-      const auto& n = model.mesh.normals[at];
-      const Dot p = dot_of(t, v);
-      const auto m = apply(t.rotation, pipeline::Vec3d{n.x, n.y, n.z});
-      const bool flat = model.texture.uv.size() <= 3 * i + k;
-      const pipeline::Vec2f uv = flat ? pipeline::Vec2f{} : model.texture.uv[3 * i + k];
-      corners.push_back({p.x, p.y, p.z, static_cast<float>(m.x), static_cast<float>(m.y),
-                         static_cast<float>(m.z), uv.x, uv.y, share[at]});
-    }
-  }
-  return corners;
-}
 
 template <typename Item>
 void fill(GLenum target, GLuint& buffer, const std::vector<Item>& items) {
@@ -164,7 +87,7 @@ class GlesFaceView final : public FaceView {
         version == version_ && look == look_ && covered == covered_ && w == width_ && h == height_;
     if (same && colour_ != 0) return colour_;
     if (version != version_) upload(*subject.model);
-    if (look.points && version != points_version_) upload_points(subject);
+    if ((look.points || look.born < 1) && version != points_version_) upload_points(subject);
     if (look.edges)
       upload_edges(subject, kEdgePx * kSeenHeightMm / (look.zoom * static_cast<float>(height_px)));
     GLint bound = 0;
@@ -172,6 +95,7 @@ class GlesFaceView final : public FaceView {
     if (w != width_ || h != height_ || frame_ == 0) make_frame(w, h);
     version_ = version;
     look_ = look;
+    birth_ = birth_of(look.born);
     covered_ = covered;
     times_ = times;
     render();
@@ -308,7 +232,9 @@ class GlesFaceView final : public FaceView {
     glUniform3f(glGetUniformLocation(program_, "eye"), 0, 0, kDistanceMm);
     glUniform3f(glGetUniformLocation(program_, "light"), std::sin(side) / norm, up / norm,
                 std::cos(side) / norm);
-    glUniform1f(glGetUniformLocation(program_, "textured"), look_.textured && textured_ ? 1.0F : 0.0F);
+    glUniform1f(glGetUniformLocation(program_, "textured"),
+                look_.textured && textured_ ? birth_.colours : 0.0F);
+    glUniform1f(glGetUniformLocation(program_, "opacity"), birth_.surface);
     glUniform1f(glGetUniformLocation(program_, "lit"), look_.lit ? 1.0F : 0.0F);
     glUniform1f(glGetUniformLocation(program_, "filled"), look_.fill ? 1.0F : 0.0F);
     glUniform1f(glGetUniformLocation(program_, "edges"), 0);
@@ -333,11 +259,24 @@ class GlesFaceView final : public FaceView {
     glBindTexture(GL_TEXTURE_2D, texture_);
     glBindVertexArray(array_);
     point_at_corners();
-    if (look_.fill) glDrawArrays(GL_TRIANGLES, 0, count_);
+    if (look_.fill) draw_surface();
     if (look_.edges) draw_edges();
-    if (look_.points) draw_points(t);
+    if (look_.points) draw_points(t, 1);
+    else if (birth_.points > 0) draw_points(t, birth_.points);
     glDisable(GL_BLEND);
     glDisable(GL_DEPTH_TEST);
+  }
+
+  // What is seen through must not be its own far side: the nearest of it is looked for first.
+  void draw_surface() const {
+    if (birth_.surface < 1) {
+      glColorMask(GL_FALSE, GL_FALSE, GL_FALSE, GL_FALSE);
+      glDrawArrays(GL_TRIANGLES, 0, count_);
+      glColorMask(GL_TRUE, GL_TRUE, GL_TRUE, GL_TRUE);
+      glDepthFunc(GL_LEQUAL);
+    }
+    glDrawArrays(GL_TRIANGLES, 0, count_);
+    glDepthFunc(GL_LESS);
   }
 
   bool shows_backdrop() const { return look_.backdrop && look_.textured && look_.fill && textured_; }
@@ -345,7 +284,8 @@ class GlesFaceView final : public FaceView {
   void draw_backdrop(const Turned& t) const {
     const float away = std::max(std::abs(look_.yaw_deg), std::abs(look_.pitch_deg));
     const float opacity =
-        std::clamp((kBackdropToDeg - away) / (kBackdropToDeg - kBackdropFromDeg), 0.0F, 1.0F);
+        std::clamp((kBackdropToDeg - away) / (kBackdropToDeg - kBackdropFromDeg), 0.0F, 1.0F) *
+        std::min(birth_.surface, birth_.colours);
     if (backdrop_count_ == 0 || opacity <= 0) return;
     glUseProgram(backdrop_program_);
     glUniformMatrix4fv(glGetUniformLocation(backdrop_program_, "clip_from_head"), 1, GL_FALSE, t.clip);
@@ -371,8 +311,9 @@ class GlesFaceView final : public FaceView {
     glDrawElements(GL_LINES, edge_count_, GL_UNSIGNED_INT, nullptr);
   }
 
-  void draw_points(const Turned& t) const {
+  void draw_points(const Turned& t, float opacity) const {
     glUseProgram(point_program_);
+    glUniform1f(glGetUniformLocation(point_program_, "opacity"), opacity);
     glUniformMatrix4fv(glGetUniformLocation(point_program_, "clip_from_head"), 1, GL_FALSE, t.clip);
     glUniform1f(glGetUniformLocation(point_program_, "size"),
                 std::max(2.0F, static_cast<float>(height_) / 420 * look_.zoom));
@@ -388,6 +329,7 @@ class GlesFaceView final : public FaceView {
          array_ = 0, buffer_ = 0, point_buffer_ = 0, texture_ = 0, frame_ = 0, colour_ = 0, depth_ = 0;
   std::uint32_t version_ = 0, points_version_ = 0, edges_version_ = 0;
   FaceLook look_;
+  Birth birth_ = birth_of(1);
   float covered_ = 0, middle_mm_ = 0;  // where the middle of the model is, upwards, as it looks ahead
   float axis_mm_ = 0, fit_ = 1;        // behind the nose, about which it turns; smaller than a face is shown
   float edge_level_mm_ = 0;

@@ -176,7 +176,7 @@ precision highp float;
 in vec3 normal; in vec2 texel; in vec3 seen_from; in float within;
 uniform sampler2D picture;
 uniform vec3 light;
-uniform float textured, lit, filled, edges, fading;
+uniform float textured, lit, filled, edges, fading, opacity;
 out vec4 colour;
 void main() {
   vec3 n = normalize(normal);
@@ -197,6 +197,7 @@ void main() {
   if (edges > 0.5) surface = filled > 0.5 ? vec3(0.05, 0.13, 0.22) : mix(clay * vec3(0.56, 0.98, 1.16), skin, textured);
   float there = mix(1.0, smoothstep(0.0, 1.0, within), fading);
   if (edges > 0.5 && filled > 0.5) there *= 0.7;
+  there *= opacity;
   colour = vec4(surface * there, there);
 }
 )";
@@ -240,10 +241,12 @@ void main() {
 const char* const kPoint = R"(#version 300 es
 precision mediump float;
 in float depth;
+uniform float opacity;
 out vec4 colour;
 void main() {
   vec3 far = vec3(0.20, 0.33, 0.75), middle = vec3(0.25, 0.78, 0.67), near = vec3(1.0, 0.69, 0.25);
-  colour = vec4(depth < 0.5 ? mix(far, middle, depth * 2.0) : mix(middle, near, depth * 2.0 - 1.0), 1.0);
+  vec3 tint = depth < 0.5 ? mix(far, middle, depth * 2.0) : mix(middle, near, depth * 2.0 - 1.0);
+  colour = vec4(tint * opacity, opacity);
 }
 )";
 

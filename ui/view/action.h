@@ -46,6 +46,7 @@ enum class ActionKind : std::uint8_t {
   ZoomOut,
   MoveLight,
   ShowShape,
+  LookAtFirst,
   LookPoints,
   LookEdges,
   LookFill,

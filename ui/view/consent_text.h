@@ -5,10 +5,12 @@
 #pragma once
 
 #include <array>
+#include <cstddef>
 #include <optional>
 #include <string>
 #include <vector>
 
+#include "hal/base/image_view.h"
 #include "ui/language/language.h"
 
 namespace relievo::ui {
@@ -24,8 +26,22 @@ struct ConsentText {
   bool operator==(const ConsentText&) const = default;
 };
 
+// Who runs the device.
+struct Host {
+  std::string name, reached;    // how they are reached; both may be empty
+  std::vector<std::byte> sign;  // Rgb8 or Grey8, rows without padding; empty: none
+  int sign_width_px = 0, sign_height_px = 0;
+  PixelFormat sign_format = PixelFormat::Rgb8;
+  ImageView sign_view() const {
+    return {sign.data(), sign_width_px, sign_height_px, sign_width_px * bytes_per_pixel(sign_format),
+            sign_format};
+  }
+  bool operator==(const Host&) const = default;
+};
+
 struct ConsentTexts {
   std::string version;  // stored with every record, as "2026-03"
+  Host host;
   std::array<std::optional<ConsentText>, kLanguages> in;
   const ConsentText* of(Language language) const {
     const auto& text = in[static_cast<std::size_t>(language)];

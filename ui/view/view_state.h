@@ -92,18 +92,18 @@ struct LiveView {
   std::optional<TurnView> turn;
 };
 
-// What a stage made, as a picture; kept while the session is open.
+// The photograph, or what a stage made of it, as a picture; kept while the session is open.
 struct StageView {
   ImageView picture;  // empty: not born yet
   std::uint32_t number = 0;
 };
-inline constexpr std::size_t kStageViews = 4;  // Match, Reconstruct, Mesh, Texture
+inline constexpr std::size_t kStageViews = 5;  // Capture, Match, Reconstruct, Mesh, Texture
 
 struct ViewState {
   Screen screen = Screen::SelfTest;
   hal::Instant now{};
   std::chrono::system_clock::time_point wall_now{};
-  float progress = 0;  // 0 to 1 within the present state; 0 where nothing runs
+  float progress = 0;  // 0 to 1 of the way from the photograph to the portrait; falls for a new one alone
   pipeline::Advice advice = pipeline::Advice::None;
   Trouble trouble = Trouble::None;
   Fault calibration_note;    // for the technician: what speaks against the calibration
@@ -118,6 +118,7 @@ struct ViewState {
   const pipeline::FaceModel* invitation_head = nullptr;  // a simulated head for the page that invites
   std::bitset<kLanguages> languages = std::bitset<kLanguages>().set();  // that a visitor may choose
   std::bitset<kLanguages> voices;                                       // that have a voice here
+  bool somebody_near = true;              // as far as the device can tell, without its cameras
   bool headphones = false;                // are plugged: what is said is heard by one person alone
   Language home = Language::English;      // the one a visit begins in; one of them
   Settings settings;                      // the staff's

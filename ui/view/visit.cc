@@ -34,6 +34,8 @@ int Visit::countdown_number(const LiveView& live) const {
 }
 
 void Visit::touched(hal::Instant now) {
+  if (by_itself_) look = shown_look(now);  // it stays as it stood
+  by_itself_ = false;
   last_touch_ = now;
   if (overlay == Overlay::StillThere) overlay = Overlay::None;
 }
@@ -50,6 +52,7 @@ void Visit::forget_person() {
   look_ups_ = 0;
   agreed_at_ = {};
   look = {};
+  by_itself_ = false;
   touches = 0;
   shot_ = false;
   overlay = Overlay::None;
@@ -71,6 +74,7 @@ void Visit::look_at(ActionKind kind) {
   if (kind == ActionKind::ZoomIn) look.zoom = std::min(3.0F, look.zoom * 1.25F);
   if (kind == ActionKind::ZoomOut) look.zoom = std::max(0.8F, look.zoom / 1.25F);
   if (kind == ActionKind::MoveLight) look.light_deg = look.light_deg >= 55 ? -55 : look.light_deg + 30;
+  if (kind == ActionKind::LookAtFirst) look = {};
   if (kind == ActionKind::ShowShape) look.textured = !look.textured;
   if (kind == ActionKind::LookPoints) look.points = !look.points;
   if (kind == ActionKind::LookEdges) look.edges = !look.edges;
@@ -138,6 +142,7 @@ std::optional<Intent> Visit::act(Action action, const ViewState& view) {
     case ActionKind::LookFill:
     case ActionKind::LookLight:
     case ActionKind::ShowShape:
+    case ActionKind::LookAtFirst:
       look_at(action.kind);
       break;
     case ActionKind::Erase:
@@ -274,6 +279,7 @@ bool Visit::person_expected() const {
 
 std::optional<Intent> Visit::follow(const ViewState& view) {
   follow_headphones(view);
+  follow_presence(view);
   follow_language(view);
   follow_settings(view);
   const bool new_screen = view.screen != last_screen_;
@@ -289,6 +295,7 @@ std::optional<Intent> Visit::follow(const ViewState& view) {
     else if (view.screen == Screen::Review) {
       go(Step::Review, view.now);
       last_touch_ = view.now;
+      by_itself_ = before != Screen::Store && settings_.is_on(Setting::Motion);
     } else if (view.screen == Screen::Fault) go(Step::Trouble, view.now);
     else if (view.screen == Screen::Idle && before == Screen::Store && step == Step::Working &&
              view.trouble == Trouble::None)

@@ -91,6 +91,10 @@ class Visit {
 
   // A finger or key somewhere: the person is there.
   void touched(hal::Instant now);
+  // How the face on the page is looked at now: a new portrait comes to be, then turns by itself until
+  // somebody touches it.
+  FaceLook shown_look(hal::Instant now) const;
+  bool rests(hal::Instant now) const;
   // Something is being said to them: they cannot answer yet.
   void listens(hal::Instant now) {
     if (overlay != Overlay::StillThere) last_touch_ = now;
@@ -118,8 +122,10 @@ class Visit {
   std::optional<Intent> act_on_record(ActionKind kind);
   void follow_language(const ViewState& view);
   void follow_headphones(const ViewState& view);
+  void follow_presence(const ViewState& view);
   void hear(ActionKind kind);
   void follow_settings(const ViewState& view);
+  FaceLook invitation(hal::Instant now) const;
   void look_as_set();
   bool looks_as_set() const;
   std::chrono::seconds patience() const { return std::chrono::seconds(settings_.of(Setting::PatienceS)); }
@@ -130,6 +136,8 @@ class Visit {
   std::chrono::system_clock::time_point agreed_at_{};
   hal::Instant last_touch_{};
   hal::Instant entered_{};
+  bool near_ = true;
+  hal::Instant came_near_{}, near_until_{};
   Screen last_screen_ = Screen::SelfTest;
   Language home_ = Language::English;
   bool headphones_ = false;  // and a voice to be heard in them
@@ -139,7 +147,8 @@ class Visit {
   bool quotes_code_ = false;
   bool looking_up_ = false;
   int look_ups_ = 0;
-  bool shot_ = false;  // asked for, and not yet under way
+  bool by_itself_ = false;  // the portrait comes to be and turns; nobody has touched anything since
+  bool shot_ = false;       // asked for, and not yet under way
 };
 
 }  // namespace relievo::ui

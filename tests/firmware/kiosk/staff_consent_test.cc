@@ -3,6 +3,7 @@
 //
 // The operator's consent text, from a stick to the visitor's page: at the first start and later. What is
 // wrong with it is said, and then nothing has changed.
+#include "hal/picture_file.h"
 #include "tests/firmware/kiosk/staff_hands.h"
 #include "ui/view/staff_views.h"
 
@@ -84,6 +85,11 @@ TEST_F(StaffConsentTest, TheFirstStartGoesOnWithTheSampleMarkedAsOne) {
 TEST_F(StaffConsentTest, TheFirstStartTakesTheOperatorsTextAndItStays) {
   write("2026-03", "de.txt", kGood);
   write("2026-03", ".de.txt.swp", "\xFF what a computer leaves");
+  write("2026-03", "operator.txt", "Museum der Gesichter\nRaum 7, Montag bis Freitag\n");
+  const std::vector<std::byte> sign(std::size_t{3} * 40 * 20, std::byte{77});
+  ASSERT_TRUE(hal::write_picture(stick() / "consent" / "2026-03" / "sign.png",
+                                 {sign.data(), 40, 20, 120, PixelFormat::Rgb8})
+                  .has_value());
   write("2025-11", "en.txt", "An older one\n\nA point\n");
   come_to_it();
   EXPECT_EQ(take(), Outcome::Done);
@@ -96,6 +102,9 @@ TEST_F(StaffConsentTest, TheFirstStartTakesTheOperatorsTextAndItStays) {
   tap("sign out");
   kiosk->turn();
   EXPECT_EQ(kiosk->ui().visit().language, ui::Language::German) << "the only one that can be agreed to";
+  EXPECT_TRUE(says("Museum der Gesichter")) << "on the page that invites";
+  EXPECT_EQ(kiosk->ui().draw_list().pictures[static_cast<std::size_t>(ui::PictureSlot::Sign)].pixels.width_px,
+            40);
   tap("start");
   EXPECT_TRUE(says("und seine Worte."));
   EXPECT_FALSE(says("Mustertext"));
@@ -122,6 +131,8 @@ TEST_F(StaffConsentTest, WhatIsWrongIsSaidAndNothingChanges) {
                {"de.txt", long_text, "longer than"},
                {"de.txt", many, "more than 24"},
                {"german.txt", "T\n\nP\n", "call it en.txt"},
+               {"operator.txt", "\n", "has no name"},
+               {"sign.png", "no picture", "1024 pixels"},
                {"de.txt", std::string("T\n\nP\0\n", 7), "is not UTF-8"}};
   for (const auto& one : wrong) {
     std::filesystem::remove_all(stick() / "consent");

@@ -86,10 +86,10 @@ TEST(Synthesizer, StopsWhenNoMoreIsWanted) {
   EXPECT_GT(spoken(**synthesizer, {"Go on", "en"}).size(), 1000U) << "and it speaks again";
 }
 
-class Plug final : public HeadphoneJack {
+class Plug final : public InputSwitch {
  public:
   explicit Plug(const bool& in) : in_(in) {}
-  bool is_plugged() override { return in_; }
+  bool is_on() override { return in_; }
 
  private:
   const bool& in_;

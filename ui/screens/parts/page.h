@@ -28,7 +28,8 @@ inline constexpr const char *kBack = "\uf04d", *kNext = "\uf054", *kUp = "\uf05d
                             *kTurnLeft = "\uf465", *kTurnRight = "\uf467", *kShape = "\uf563",
                             *kNoCamera = "\uf5df", *kDisk = "\uf2ca", *kDark = "\uf594", *kInfo = "\uf2fc",
                             *kPerson = "\uf64a", *kStill = "\uf51f", *kBin = "\uf1c0", *kLess = "\uf374",
-                            *kMore = "\uf415", *kSpeaker = "\uf57e", *kQuieter = "\uf57f", *kSpeed = "\uf4c5";
+                            *kMore = "\uf415", *kSpeaker = "\uf57e", *kQuieter = "\uf57f", *kSpeed = "\uf4c5",
+                            *kUndo = "\uf54c";
 }  // namespace icon
 
 // What keeps a text apart from the direction of the words around it, letter by letter: a literal with one of

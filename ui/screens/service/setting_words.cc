@@ -26,6 +26,8 @@ const char* name_of(const Words& tr, Setting setting) {
       return tr("Size of the text");
     case Setting::Contrast:
       return tr("High contrast");
+    case Setting::Motion:
+      return tr("Pictures that move by themselves");
     case Setting::PatienceS:
       return tr("Visitors are asked whether they are still there after");
     case Setting::Automatic:
@@ -59,6 +61,7 @@ std::string_view said_value(StaffFrame& page, Setting setting, std::int32_t valu
     case Setting::Language:
       return info_of(static_cast<Language>(value)).own_name;
     case Setting::Contrast:
+    case Setting::Motion:
     case Setting::Automatic:
     case Setting::Sides:
     case Setting::Solids:

@@ -62,7 +62,7 @@ void settings_page(StaffFrame& page) {
              {ActionKind::StaffOpen, static_cast<int>(StaffPage::Consent)});
   }
   group(page, tr("Export to the stick"), std::array{Setting::Solids});
-  group(page, tr("What is heard"), std::array{Setting::Sounds});
+  group(page, tr("What is heard and what moves"), std::array{Setting::Sounds, Setting::Motion});
   if (page.staff.settings->clock_jumped)
     page.line(
         tr("The clock has jumped ahead: nothing is erased. Check the clock, then choose the time again."),

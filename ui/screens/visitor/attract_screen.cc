@@ -1,9 +1,42 @@
 // SPDX-FileCopyrightText: 2026 The Relievo authors
 // SPDX-License-Identifier: GPL-3.0-or-later
+#include <algorithm>
+
 #include "ui/screens/visitor/visitor_screens.h"
 
 namespace relievo::ui {
 namespace {
+
+// Whose device it is.
+void host(Page& page) {
+  if (page.view.consent == nullptr || page.view.consent->host.name.empty()) return;
+  const Host& host = page.view.consent->host;
+  constexpr float kSignHigh = 64, kMostAcross = 4;
+  Node row = page.box(Flow::Row, space::kM);
+  row.box.align = Align::Centre;
+  page.tree.open(row);
+  if (!host.sign.empty()) {
+    const float aspect = std::min(
+        kMostAcross, static_cast<float>(host.sign_width_px) / static_cast<float>(host.sign_height_px));
+    Node card = page.box(Flow::Column, 0, 10, 10);
+    card.box.fill = {255, 255, 255, 255};
+    card.box.radius = page.px(14);
+    page.tree.open(card);
+    Node sign = page.sized(page.box(Flow::Column), kSignHigh * aspect, kSignHigh);
+    sign.mark = Mark::Image;
+    sign.picture = PictureSlot::Sign;
+    sign.aspect = static_cast<float>(host.sign_width_px) / static_cast<float>(host.sign_height_px);
+    page.tree.leaf(sign);
+    page.tree.close();
+  }
+  page.tree.open(page.grown(page.box(Flow::Column)));
+  Node name = page.text(page.filled("{}", host.name), type::kBody, Weight::Bold, page.palette.good);
+  name.id = "host";
+  page.tree.leaf(name);
+  page.tree.close();
+  page.tree.leaf(page.sized(page.box(Flow::Column), size::kTarget, 1));  // the staff's way in stands there
+  page.tree.close();
+}
 
 void face(Page& page) {
   Node node = page.grown(page.box(Flow::Column), 1.0F);
@@ -53,7 +86,7 @@ void words(Page& page) {
   page.body(
       "what",
       page.tr(
-          "Two cameras look at you for a moment. You see your 3D portrait, and you decide whether it is kept."));
+          "Two cameras look at you for a moment; all of it takes about a minute. You see your 3D portrait first. Without your consent nothing is kept."));
   page.tree.leaf(page.sized(page.box(Flow::Column), 1, 4));
   page.button("start", page.tr("Start"), page.onward(), ButtonLook::Main, {ActionKind::Start, 0});
   languages(page);
@@ -70,15 +103,20 @@ void attract_screen(Page& page) {
   root.box.fill = page.palette.ground;
   root.box.fill_end = page.palette.ground_end;
   page.tree.open(root);
-  if (page.portrait) face(page);
+  if (page.portrait) host(page), face(page);
   words(page);
   if (!page.portrait) {
     page.tree.open(page.grown(page.box(Flow::Column, space::kM)));
+    host(page);
     face(page);
     tools(page);
     page.tree.close();
   }
   page.tree.close();
+  if (!page.visit.rests(page.view.now)) return;
+  Node night = page.box(Flow::Column);
+  night.box.fill = {0, 0, 0, 150};
+  page.tree.leaf(night);
 }
 
 }  // namespace relievo::ui

@@ -37,6 +37,7 @@ void tools(Page& page) {
   page.square_button("zoom_in", tr("Larger"), icon::kZoomIn, {ActionKind::ZoomIn, 0});
   page.square_button("light", tr("Move the light"), icon::kSun, {ActionKind::MoveLight, 0});
   page.square_button("shape", tr("With and without colour"), icon::kShape, {ActionKind::ShowShape, 0});
+  page.square_button("at_first", tr("As at first"), icon::kUndo, {ActionKind::LookAtFirst, 0});
   page.tree.close();
 }
 

@@ -71,16 +71,16 @@ const Palette& build_visitor_screen(Tree& tree, const ViewState& view, const Vis
 void fill_pictures(DrawList& list, const ViewState& view, const Visit& visit) {
   list.pictures[static_cast<std::size_t>(PictureSlot::Live)] = {view.live.picture, view.live.number};
   for (std::size_t i = 0; i < kStageViews; ++i)
-    list.pictures[static_cast<std::size_t>(PictureSlot::Matches) + i] = {view.stages[i].picture,
-                                                                         view.stages[i].number};
+    list.pictures[static_cast<std::size_t>(PictureSlot::Photograph) + i] = {view.stages[i].picture,
+                                                                            view.stages[i].number};
+  if (view.consent != nullptr && !view.consent->host.sign.empty())
+    list.pictures[static_cast<std::size_t>(PictureSlot::Sign)] = {view.consent->host.sign_view(), 1};
   list.faces = {};
   list.faces[0].model = face_of(view, visit);
   if (list.faces[0].model != nullptr)
     list.faces[0].version = visit.step == Step::Attract ? ~0U : view.model_number;
-  list.face_look = visit.look;
+  list.face_look = visit.shown_look(view.now);
   list.face_look.backdrop = visit.step == Step::Review;
-  if (visit.step == Step::Attract)
-    list.face_look = {.yaw_deg = -26, .pitch_deg = 9, .zoom = 1.12F, .light_deg = -40};
 }
 
 }  // namespace relievo::ui

@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: 2026 The Relievo authors
 // SPDX-License-Identifier: GPL-3.0-or-later
 //
-// The first four stages, each with its picture as it is born.
+// The first four stages: of each the visitor's own photograph, until its picture is born.
 #include <algorithm>
 #include <string>
 
@@ -10,32 +10,13 @@
 namespace relievo::ui {
 namespace {
 
-int stage_under_way(Screen screen) {
-  switch (screen) {
-    case Screen::Match:
-      return 0;
-    case Screen::Reconstruct:
-      return 1;
-    case Screen::Mesh:
-      return 2;
-    case Screen::Texture:
-      return 3;
-    case Screen::Fuse:
-    case Screen::Review:
-    case Screen::Store:
-      return 4;
-    case Screen::SelfTest:
-    case Screen::Idle:
-    case Screen::Calibrate:
-    case Screen::Position:
-    case Screen::Capture:
-    case Screen::Turn:
-    case Screen::Export:
-    case Screen::Staff:
-    case Screen::Fault:
-      break;
-  }
-  return -1;
+constexpr float kWaits = 0.4F;  // so bright is the photograph where nothing has begun yet
+
+// The first whose picture is not born.
+int stage_under_way(const ViewState& view) {
+  const auto made = view.stages.begin() + 1;
+  return static_cast<int>(
+      std::find_if(made, view.stages.end(), [](const StageView& one) { return one.picture.empty(); }) - made);
 }
 
 // In a corner of the picture, so that the words below keep the whole width and stay where they are.
@@ -51,57 +32,55 @@ void tick(Page& page) {
   page.tree.close();
 }
 
-void card(Page& page, int stage, const char* words) {
-  const int now = stage_under_way(page.view.screen);
-  const StageView& born = page.view.stages[static_cast<std::size_t>(stage)];
+void card(Page& page, std::size_t stage, const char* words) {
+  const int now = stage_under_way(page.view), at = static_cast<int>(stage);
+  const StageView &made = page.view.stages[stage + 1], &photograph = page.view.stages[0];
+  const bool born = !made.picture.empty();
+  const ImageView& shown = born ? made.picture : photograph.picture;
   constexpr std::string_view kIds[] = {"matches", "cloud", "mesh", "texture"};
   Node node = page.grown(page.box(Flow::Column, space::kS, 14, 14));
-  node.id = kIds[stage];
-  node.role = Role::Status;
-  node.name = words;
-  node.value = stage < now ? page.tr("done") : stage == now ? page.tr("under way") : page.tr("waiting");
-  node.box.fill = page.palette.card;
-  node.box.border = stage == now ? page.palette.accent : page.palette.card_border;
-  node.box.border_px = page.px(stage == now ? 3.0F : 1.5F);
-  node.box.radius = page.px(size::kCardRadius);
+  tell(node, Role::Status, kIds[stage], words);
+  node.value = at < now ? page.tr("done") : at == now ? page.tr("under way") : page.tr("waiting");
+  frame(node, page.palette.card, at == now ? page.palette.accent : page.palette.card_border,
+        page.px(at == now ? 3.0F : 1.5F), page.px(size::kCardRadius));
   page.tree.open(node);
-  Node picture = page.grown(page.box(Flow::Column));
-  picture.box.radius = page.px(18);
-  picture.box.fill = page.palette.stage;
-  picture.box.justify = Justify::Centre;
-  picture.box.align = Align::Centre;
-  if (!born.picture.empty()) {
-    picture.role = Role::Picture;
+  Node room = page.grown(page.box(Flow::Stack));
+  room.box.fill = page.palette.stage;
+  room.box.radius = page.px(18);
+  page.tree.open(room);
+  if (!shown.empty()) {
+    Node picture = page.box(Flow::Column);
     picture.name = words;
+    picture.role = Role::Picture;
     picture.mark = Mark::Image;
-    picture.picture = static_cast<PictureSlot>(static_cast<int>(PictureSlot::Matches) + stage);
-    picture.aspect = static_cast<float>(born.picture.width_px) / static_cast<float>(born.picture.height_px);
+    picture.picture =
+        static_cast<PictureSlot>(static_cast<std::size_t>(PictureSlot::Photograph) + (born ? stage + 1 : 0));
+    picture.aspect = static_cast<float>(shown.width_px) / static_cast<float>(shown.height_px);
     picture.covers = true;
+    picture.box.radius = page.px(18);
+    if (at > now && !born) picture.colour = Colour{255, 255, 255, 255}.with_alpha(kWaits);
+    page.tree.leaf(picture);
   }
-  if (stage < now)
-    picture.box.justify = Justify::End, picture.box.align = Align::End,
-    picture.box.pad_x = picture.box.pad_y = page.px(8);
-  page.tree.open(picture);
-  if (stage < now) tick(page);
-  else if (born.picture.empty()) page.sign(icon::kWait, 40, {150, 164, 190, 255});
+  Node sign = page.box(Flow::Column, 0, 8, 8);
+  sign.box.justify = Justify::End;
+  sign.box.align = Align::End;
+  page.tree.open(sign);
+  if (at < now) tick(page);
+  page.tree.close();
   page.tree.close();
   Node row = page.box(Flow::Row, 10);
   row.box.align = Align::Centre;
   row.box.justify = Justify::Centre;
   row.box.min_height = page.px(64 * page.text_share);
   page.tree.open(row);
-  page.tree.leaf(page.text(words, 22, Weight::Medium, stage <= now ? page.palette.ink : page.palette.ink_soft,
+  page.tree.leaf(page.text(words, 22, Weight::Medium, at <= now ? page.palette.ink : page.palette.ink_soft,
                            TextAlign::Centre));
   page.tree.close();
   page.tree.close();
 }
 
 void progress(Page& page) {
-  const int now = stage_under_way(page.view.screen);
-  const float done = now < 0                            ? 0
-                     : page.view.screen == Screen::Fuse ? page.view.progress
-                     : now >= 4                         ? 1
-                                                        : (static_cast<float>(now) + page.view.progress) / 4;
+  const float done = page.view.progress;
   Node track = page.box(Flow::Row);
   track.id = "progress";
   track.role = Role::Status;
@@ -137,7 +116,7 @@ void working_screen(Page& page) {
   Node all = page.grown(page.box(page.portrait ? Flow::Column : Flow::Row, space::kM));
   all.box.even = true;  // a tick moves nothing
   page.tree.open(all);
-  for (int i = 0; i < 4; ++i) {
+  for (std::size_t i = 0; i < 4; ++i) {
     if (page.portrait && i % 2 == 0) page.tree.open(page.grown(page.box(Flow::Row, space::kM)));
     card(page, i, words[i]);
     if (page.portrait && i % 2 == 1) page.tree.close();

@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: 2026 The Relievo authors
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include "hal/linux/headphone_jack.h"
+#include "hal/linux/input_switch.h"
 
 #include <gtest/gtest.h>
 #include <linux/input.h>
@@ -46,9 +46,10 @@ class InputKernel final : public Kernel {
   std::string serial_of(const char*) override { return {}; }
 };
 
-constexpr unsigned long kLid = 1UL << SW_LID, kHeadphones = 1UL << SW_HEADPHONE_INSERT;
+constexpr unsigned long kLid = 1UL << SW_LID, kHeadphones = 1UL << SW_HEADPHONE_INSERT,
+                        kNear = 1UL << SW_FRONT_PROXIMITY;
 
-TEST(HeadphoneJack, FollowsTheSwitchOfTheDeviceThatHasOne) {
+TEST(InputSwitch, FollowsTheSwitchOfTheDeviceThatHasOne) {
   InputKernel kernel;
   kernel.devices[0] = {kLid, kLid};
   kernel.devices[7] = {kHeadphones, 0};
@@ -56,29 +57,41 @@ TEST(HeadphoneJack, FollowsTheSwitchOfTheDeviceThatHasOne) {
     const auto jack = find_headphone_jack(kernel);
     ASSERT_NE(jack, nullptr);
     EXPECT_EQ(kernel.opened, std::set{107}) << "the lid's is closed again";
-    EXPECT_FALSE(jack->is_plugged()) << "the lid is none";
+    EXPECT_FALSE(jack->is_on()) << "the lid is none";
     kernel.devices[7].on = kHeadphones;
-    EXPECT_TRUE(jack->is_plugged());
+    EXPECT_TRUE(jack->is_on());
     kernel.interruptions = 3;
-    EXPECT_TRUE(jack->is_plugged()) << "a signal in the middle";
+    EXPECT_TRUE(jack->is_on()) << "a signal in the middle";
     kernel.devices[7].on = 0;
-    EXPECT_FALSE(jack->is_plugged());
+    EXPECT_FALSE(jack->is_on());
     kernel.devices[7] = {kHeadphones, kHeadphones, ENODEV};
-    EXPECT_FALSE(jack->is_plugged()) << "a device that is gone is not private";
+    EXPECT_FALSE(jack->is_on()) << "a device that is gone is not private";
   }
   EXPECT_TRUE(kernel.opened.empty());
 }
 
-TEST(HeadphoneJack, EitherOfTwoIsEnough) {
+TEST(InputSwitch, EitherOfTwoIsEnough) {
   InputKernel kernel;
   kernel.devices[1] = {kHeadphones | kLid, 0};
   kernel.devices[31] = {kHeadphones, kHeadphones};
   const auto jack = find_headphone_jack(kernel);
   ASSERT_NE(jack, nullptr);
-  EXPECT_TRUE(jack->is_plugged());
+  EXPECT_TRUE(jack->is_on());
 }
 
-TEST(HeadphoneJack, WithoutOneThereIsNone) {
+TEST(InputSwitch, APresenceSensorIsNoHeadphoneJack) {
+  InputKernel kernel;
+  kernel.devices[2] = {kHeadphones, kHeadphones};
+  EXPECT_EQ(find_presence_sensor(kernel), nullptr);
+  kernel.devices[5] = {kNear, 0};
+  const auto sensor = find_presence_sensor(kernel);
+  ASSERT_NE(sensor, nullptr);
+  EXPECT_FALSE(sensor->is_on());
+  kernel.devices[5].on = kNear;
+  EXPECT_TRUE(sensor->is_on());
+}
+
+TEST(InputSwitch, WithoutOneThereIsNone) {
   InputKernel kernel;
   EXPECT_EQ(find_headphone_jack(kernel), nullptr);
   kernel.devices[0] = {kLid, kLid | kHeadphones};

@@ -1,0 +1,38 @@
+// SPDX-FileCopyrightText: 2026 The Relievo authors
+// SPDX-License-Identifier: GPL-3.0-or-later
+//
+// What of a model is handed to the graphics card, in the head frame, mm, with the point the head turns about
+// as its origin. Thread: main. Errors: none.
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <vector>
+
+#include "pipeline/model/face_model.h"
+#include "pipeline/model/point_cloud.h"
+
+namespace relievo::ui {
+
+// Of a triangle; `within` is how far from the rim of the surface it lies, 0 to 1.
+struct Corner {
+  float x, y, z, nx, ny, nz, u, v, within;
+};
+
+struct Tinted {
+  float x, y, z;
+  std::array<std::uint8_t, 4> rgba;
+};
+
+struct Dot {
+  float x, y, z;
+};
+
+// Three for every triangle, in the mesh's order.
+std::vector<Corner> corners_of(const pipeline::FaceModel& model);
+// The cloud, or where there is none the mesh's vertices.
+std::vector<Dot> dots_of(const pipeline::FaceModel& model, const pipeline::PointCloud* cloud);
+// The backdrop: two triangles a cell that shows anything.
+std::vector<Tinted> tinted_of(const pipeline::FaceModel& model);
+
+}  // namespace relievo::ui
