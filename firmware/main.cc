@@ -19,6 +19,7 @@
 #include "firmware/demo/hand_pairs.h"
 #include "firmware/demo/screenshots.h"
 #include "firmware/jobs/job_thread.h"
+#include "hal/linux/cups_printer.h"
 #include "hal/linux/device.h"
 #include "hal/linux/input_switch.h"
 #include "hal/monotonic_clock.h"
@@ -280,6 +281,7 @@ int main(int argc, char** argv) {
       .simulated_calibration = fw::simulated_calibration,
       .open_display = relievo::ui::open_sdl_display,
       .open_speaker = fw::open_speaker,
+      .make_printer = [] { return relievo::hal::make_cups_printer(); },
       .find_presence_sensor = [] { return relievo::hal::find_presence_sensor(); },
       .console = console,
       .clock = clock,

@@ -44,6 +44,7 @@ LIBRARIES = {
     r"zip\.h$": "zip_",
     r"archive(_entry)?\.h$": "archive_",
     r"ZXing/": "zxing_",
+    r"cups/": "cups_",
     r"SDL2?/|SDL.*\.h$": "sdl_",
     r"espeak-ng/": "espeak_",
     r"GLES[23]?/|EGL/|KHR/": "gles_",

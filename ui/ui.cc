@@ -71,6 +71,18 @@ void Ui::feed(const Input& input, const ViewState& view) {
       return focus_on(1);
     case Input::Kind::Previous:
       return focus_on(-1);
+    case Input::Kind::Left:
+      return focus_beside(-1, 0, view);
+    case Input::Kind::Right:
+      return focus_beside(1, 0, view);
+    case Input::Kind::Above:
+      return focus_beside(0, -1, view);
+    case Input::Kind::Below:
+      return focus_beside(0, 1, view);
+    case Input::Kind::Letter:
+    case Input::Kind::Digit:
+    case Input::Kind::Erase:
+      return type(input, view);
     case Input::Kind::Activate:
       return activate_focus(view);
     case Input::Kind::Back:
@@ -185,69 +197,10 @@ void Ui::activate(const Node& node, const ViewState& view) {
     visit_.capitals = false;
     return;
   }
+  if (node.action.kind == ActionKind::ReadOn) return read_on();
   if (node.action.kind == ActionKind::TypeKey)
     return visit_.type(node.action.value == ' ' ? std::string_view(" ") : node.text);
   ask(visit_.act(node.action, view));
-}
-
-// A keypad has no finger that rests. What must not happen by mistake takes the same time here, and nobody has
-// to keep a key down.
-void Ui::activate_focus(const ViewState& view) {
-  const Node* node = hands_.show_focus ? tree_.find(hands_.focus) : nullptr;
-  if (node == nullptr || node->action.kind == ActionKind::None) return;
-  if (!node->slow_key) return activate(*node, view);
-  hands_.pressed = node->id;
-  pressed_at_ = view.now;
-  key_held_ = true;
-}
-
-// A key that has changed its letter keeps the focus: who types a capital goes on from where they are.
-void Ui::keep_focus() {
-  if (!hands_.show_focus) return;
-  if (const Node* node = tree_.find(hands_.focus)) {
-    focus_at_ = static_cast<std::size_t>(node - tree_.nodes().data());
-  } else if (focus_at_ < tree_.nodes().size() && tree_.nodes()[focus_at_].role == Role::Key) {
-    hands_.focus = tree_.nodes()[focus_at_].id;
-  }
-}
-
-// What goes on is read to its end before the focus leaves it.
-void Ui::focus_on(int direction) {
-  constexpr float kScreenful = 0.7F;  // the last lines of one are seen again, and none lies under a fade
-  const Node* at = hands_.show_focus ? tree_.find(hands_.focus) : nullptr;
-  const Node* next =
-      tree_.after(at != nullptr ? std::string_view(hands_.focus) : std::string_view{}, direction);
-  const Node* left = at == nullptr ? nullptr : at->box.scroll ? at : tree_.scroller_around(*at);
-  const bool leaves =
-      left != nullptr && (next == nullptr || next == left || tree_.scroller_around(*next) != left);
-  const bool turns_round = left != nullptr && next != nullptr && (direction > 0) != (next > at);
-  if ((leaves || turns_round) &&
-      scroll(*left, scrolled_px(*left) + static_cast<float>(direction) * kScreenful * left->rect.h))
-    return;
-  hands_.show_focus = next != nullptr;
-  if (next == nullptr) return;
-  hands_.focus = next->id;
-  bring_into_view(*next);
-}
-
-bool Ui::scroll(const Node& scroller, float to_px) {
-  const float to = std::clamp(to_px, 0.0F, std::max(0.0F, scroller.content_height - scroller.rect.h)),
-              before = scrolled_px(scroller);
-  if (std::abs(to - before) < 1) return false;
-  hands_.scrolled = scroller.id;
-  hands_.scroll_px = to;
-  return true;
-}
-
-void Ui::bring_into_view(const Node& node) {
-  const Node* scroller = tree_.scroller_around(node);
-  if (scroller == nullptr) return;
-  const Rect& room = scroller->rect;
-  const float margin = std::max(
-      0.0F, std::min(room.h / 4, (room.h - node.rect.h) / 2));  // as high as a fade, where there is room
-  const float above = room.y + margin - node.rect.y, below = node.rect.bottom() - (room.bottom() - margin);
-  if (above > 0) scroll(*scroller, scrolled_px(*scroller) - above);
-  else if (below > 0) scroll(*scroller, scrolled_px(*scroller) + below);
 }
 
 void Ui::drag_face(float dx, float dy) {
@@ -323,6 +276,7 @@ void Ui::draw(const ViewState& view) {
                                          : build_visitor_screen(tree_, view, visit_, screen);
   keep_focus();
   tree_.layout(screen, *text_, hands_);
+  if (comes_to_the_end()) return draw(view);
   if (service_.open) fill_staff_pictures(list_, view, visit_, service_);
   else fill_pictures(list_, view, visit_);
   // A full atlas starts anew: then what was written before it did is written again.

@@ -76,12 +76,18 @@ class Ui {
   void move(const Input& input, const ViewState& view);
   void up(const Input& input, const ViewState& view);
   void focus_on(int direction);
+  void focus_beside(float right, float down, const ViewState& view);
+  void move_focus(const Node* at, const Node* next, int direction);
+  const Node* focused() const { return hands_.show_focus ? tree_.find(hands_.focus) : nullptr; }
+  void type(const Input& input, const ViewState& view);
   void keep_focus();
   float scrolled_px(const Node& scroller) const {
     return hands_.scrolled == scroller.id ? hands_.scroll_px : 0;
   }
   bool scroll(const Node& scroller, float to_px);  // false: it is there
   void bring_into_view(const Node& node);
+  void read_on();
+  bool comes_to_the_end();
   void activate(const Node& node, const ViewState& view);
   void touch(const Node& node, Action action, const Input& input, const ViewState& view);
   void activate_focus(const ViewState& view);

@@ -54,7 +54,8 @@ Event event_of(ui::Intent intent) {
     case ui::Intent::LookUp:
     case ui::Intent::StillHere:
     case ui::Intent::Enough:
-      break;  // no event: they give time, or end a job
+    case ui::Intent::Print:
+      break;  // no event: they give time, end a job, or are the kiosk's
     case ui::Intent::OpenStaff:
       return Event::StaffIn;
     case ui::Intent::LeaveStaff:
@@ -92,35 +93,6 @@ Appliance::Appliance(Parts parts)
 }
 
 Appliance::~Appliance() { stop_job(); }
-
-void Appliance::look_at_progress() {
-  const hal::Instant now = device_.clock().now();
-  switch (machine_.state()) {
-    case State::Match:
-    case State::Reconstruct:
-    case State::Mesh:
-    case State::Texture:
-    case State::Assemble:
-      return making_.works_on(number_of(machine_.state()), now);
-    case State::Turn:
-    case State::Fuse:
-      return making_.works_on(head_.parts_done(), now);
-    case State::Review:
-    case State::Store:
-      return making_.done();
-    case State::SelfTest:
-    case State::Idle:
-    case State::Calibrate:
-    case State::Position:
-    case State::Capture:
-    case State::Export:
-    case State::Staff:
-    case State::Fault:
-    case State::Count:
-      break;
-  }
-  making_.begin();
-}
 
 void Appliance::ask(ui::Intent intent) {
   if (intent == ui::Intent::StillHere) return machine_.renew(device_.clock().now());

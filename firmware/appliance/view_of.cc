@@ -79,20 +79,6 @@ ui::Trouble trouble_of(const Error& problem, State state) {
   return ui::Trouble::Other;
 }
 
-ui::LiveView live_of(const LivePicture& live) {
-  ui::LiveView view;
-  view.picture = live.picture;
-  view.number = live.number;
-  view.advice = live.guidance.advice;
-  view.face_x = static_cast<float>(live.guidance.face_x);
-  view.face_y = static_cast<float>(live.guidance.face_y);
-  view.ideal_width = static_cast<float>(live.guidance.ideal_width);
-  view.steady_s = static_cast<float>(live.guidance.steady_s);
-  if (const auto& turn = live.guidance.turn)
-    view.turn = ui::TurnView{turn->advice, static_cast<float>(turn->yaw_deg), turn->taken};
-  return view;
-}
-
 // Pictures whose thread has reported: the photograph, then those of the stages that are done.
 std::size_t pictures_done(const Appliance& appliance) {
   switch (appliance.state()) {
@@ -126,6 +112,21 @@ std::size_t pictures_done(const Appliance& appliance) {
 }
 
 }  // namespace
+
+ui::LiveView live_of(const LivePicture& live) {
+  ui::LiveView view;
+  view.picture = live.picture;
+  view.number = live.number;
+  view.advice = live.guidance.advice;
+  view.face_x = static_cast<float>(live.guidance.face_x);
+  view.face_y = static_cast<float>(live.guidance.face_y);
+  view.ideal_width = static_cast<float>(live.guidance.ideal_width);
+  view.nearness = static_cast<float>(live.guidance.nearness);
+  view.steady_s = static_cast<float>(live.guidance.steady_s);
+  if (const auto& turn = live.guidance.turn)
+    view.turn = ui::TurnView{turn->advice, static_cast<float>(turn->yaw_deg), turn->taken};
+  return view;
+}
 
 ui::ViewState view_of(Appliance& appliance) {
   ui::ViewState view;

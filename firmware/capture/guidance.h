@@ -23,6 +23,7 @@ struct Guidance {
   double face_x = 0, face_y = 0;  // of the face from the middle of where it should be, in widths of a face:
                                   // the picture's right, down
   double ideal_width = 0;  // of a face at the best distance, share of the picture's width; 0: not known
+  double nearness = 0;     // 1 at a good distance, 0.5 twice as far, 2 half as far; 0: not known
   double steady_s = 0;     // so long no picture has had a reason
   double focus_share =
       0;  // for a hand at the lens: sharpness against the sharpest of this visit; 0: not measured

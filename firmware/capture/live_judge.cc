@@ -69,6 +69,9 @@ Guidance guidance_of(const pipeline::GateAnswer& answer, const pipeline::StereoC
   guidance.advice = answer.advice;
   guidance.ideal_width =
       calibration.left.focal_px.x * kFaceWidthMm / best_distance_mm(calibration) / calibration.left.width_px;
+  const double z_mm = m.head.known ? m.head.tip_mm.z : m.guessed_mm;
+  constexpr pipeline::GateLimits kVolume;
+  if (z_mm > 0) guidance.nearness = std::clamp(z_mm, kVolume.nearest_mm, kVolume.farthest_mm) / z_mm;
   guidance.steady_s = std::chrono::duration<double>(answer.steady).count();
   if (m.head.known) {
     guidance.face_x = m.off_right_mm / kFaceWidthMm;

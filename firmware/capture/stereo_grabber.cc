@@ -189,6 +189,7 @@ GrabberOptions grabber_options(const hal::Device& device) {
 Result<void> StereoGrabber::start(const hal::CaptureMode& mode) {
   const Result<void> left = left_.start(mode);
   const Result<void> right = right_.start(mode);
+  if (left || right) streams_.store(true, std::memory_order_release);
   if (left && right) recognise();
   return left ? right : left;
 }
@@ -220,6 +221,7 @@ Result<void> StereoGrabber::check_cameras() const {
 void StereoGrabber::stop() {
   left_.stop();
   right_.stop();
+  streams_.store(false, std::memory_order_release);
 }
 
 CameraWatch StereoGrabber::watch() const {

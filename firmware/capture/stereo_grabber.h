@@ -131,6 +131,8 @@ class StereoGrabber {
   Result<pipeline::StereoFrame> grab(StereoSlot& slot, const std::atomic<bool>& cancelled,
                                      hal::Light light = hal::Light::Off);
 
+  // Has a stream been started that was not stopped? Thread: any.
+  bool streams() const { return streams_.load(std::memory_order_acquire); }
   CameraWatch watch() const;
   // Those that were opened last; empty before. Thread: any.
   pipeline::RigCameras cameras() const;
@@ -153,6 +155,7 @@ class StereoGrabber {
     hal::Instant deadline;
     const std::atomic<bool>& cancelled;
   };
+  std::atomic<bool> streams_{false};
   void recognise();
   Result<Half> take(CameraLink& camera, const Shot& shot);
   Result<pipeline::StereoFrame> grab_within(const Shot& shot, hal::Light light);

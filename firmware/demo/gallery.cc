@@ -5,6 +5,8 @@
 #include <array>
 #include <utility>
 
+#include "firmware/kiosk/code/code_picture.h"
+
 namespace relievo::firmware {
 namespace {
 
@@ -45,7 +47,9 @@ class Gallery {
   // Long after the last person went.
   ui::Visit resting(const ui::ViewState& view) const {
     ui::Visit visit = at(Step::Attract);
-    visit.follow(view);
+    ui::ViewState seen = view;
+    seen.home = visit.language;
+    visit.follow(seen);
     return visit;
   }
   ui::Visit named() const {
@@ -69,20 +73,31 @@ class Gallery {
     view.live.advice = advice;
     view.live.face_x = face_x;
     view.live.steady_s = steady_s;
+    view.live.nearness = advice == Advice::TooClose ? 1.3F : advice == Advice::TooFar ? 0.7F : 1.0F;
     view.attempt = attempt;
     if (attempt > 0) view.trouble = Trouble::Refused;
     add(name, view, at(Step::Position));
+  }
+  // The picture is not taken by itself.
+  void add_by_button() {
+    ui::ViewState view = idle();
+    view.screen = Screen::Position;
+    view.live.advice = Advice::None;
+    view.live.steady_s = 0;
+    view.settings.set(ui::Setting::Automatic, 0);
+    add("position_button", view, at(Step::Position));
   }
   void add_turn(std::string_view name, pipeline::TurnAdvice advice, float yaw_deg, unsigned long taken) {
     ui::ViewState view = idle();
     view.screen = Screen::Turn;
     view.live.turn = ui::TurnView{advice, yaw_deg, taken};
+    view.live.nearness = 1;
     add(name, view, at(Step::Turn));
   }
   void add_working(std::string_view name, Screen screen, std::size_t born) {
     ui::ViewState view = idle();
     view.screen = screen;
-    view.progress = 0.4F;
+    view.progress = screen == Screen::Store ? 1 : 0.1F + 0.2F * static_cast<float>(born);
     for (std::size_t i = 0; i <= born; ++i) view.stages[i] = review_.stages[i];
     add(name, view, at(Step::Working));
   }
@@ -129,6 +144,7 @@ void add_beginning(Gallery& g, const ui::ViewState& idle) {
   g.add("attract_rests", hosted, g.resting(hosted));
   g.add("languages", idle, g.at(Step::Attract, Overlay::Languages));
   g.add("consent", idle, g.at(Step::Consent));
+  g.add("declined", idle, g.at(Step::Declined));
   g.add("name_empty", idle, g.at(Step::Name));
   g.add("name", idle, g.named());
   ui::ViewState met = idle;
@@ -136,6 +152,8 @@ void add_beginning(Gallery& g, const ui::ViewState& idle) {
   g.add("known_name", met, g.at(Step::Known));
   met.known = ui::Known::NoSuchCode;
   g.add("wrong_code", met, g.quoting("4821-9037-5512-17"));
+  g.add("code", idle, g.quoting("4821-90"));
+  g.add("lost_code", idle, g.at(Step::Known, Overlay::LostCode));
   met.known = ui::Known::Code;
   g.add("known_code", met, g.at(Step::Known));
 }
@@ -144,8 +162,11 @@ void add_capture(Gallery& g) {
   g.add_position("position_look", Advice::NoFace, 0, 0, 0);
   g.add_position("position_aside", Advice::OffCentre, 0.5F, 0, 0);
   g.add_position("position_close", Advice::TooClose, 0, 0, 0);
+  g.add_position("position_far", Advice::TooFar, 0, 0, 0);
+  g.add_position("position_turned", Advice::TurnedAside, 0, 0, 0);
   g.add_position("position_again", Advice::Moved, 0, 0, 1);
   g.add_position("position_countdown", Advice::None, 0, ui::kSteadyFor + 0.6F, 0);
+  g.add_by_button();
   g.add_turn("turn_begin", pipeline::TurnAdvice::ToLeft, 0, 0);
   g.add_turn("turn", pipeline::TurnAdvice::Slower, 19, 0b0011);
   g.add_working("working_begin", Screen::Match, 0);
@@ -159,8 +180,8 @@ void add_decision(Gallery& g, const ui::ViewState& review, const ui::ViewState& 
   ui::ViewState full = review;
   full.trouble = Trouble::Storage;
   ui::Visit turned = g.at(Step::Review);
-  turned.look = {32, 6, 1.1F, 25, false};
-  for (const auto& [name, born] : {std::pair("review_points", 0.42F), {"review_surface", 0.68F}}) {
+  turned.look = {.yaw_deg = 32, .pitch_deg = 6, .zoom = 1.1F, .light_deg = 25, .textured = false};
+  for (const auto& [name, born] : {std::pair("review_points", 0.42F), {"review_surface", 0.75F}}) {
     ui::Visit birth = g.at(Step::Review);
     birth.look.born = born;
     g.add(name, review, birth);
@@ -169,7 +190,15 @@ void add_decision(Gallery& g, const ui::ViewState& review, const ui::ViewState& 
   g.add("review_store_full", full, g.at(Step::Review));
   ui::ViewState done = idle;
   done.receipt = "4821-9037-5512-71";
+  static const hal::Picture code = code_picture(done.receipt);
+  done.receipt_code = {code.view(), 1};
   g.add("thanks", done, g.at(Step::Thanks));
+  done.printing = ui::Printing::Ready;
+  g.add("thanks_printer", done, g.at(Step::Thanks));
+  done.printing = ui::Printing::Done;
+  g.add("thanks_printed", done, g.at(Step::Thanks));
+  done.now += ui::kReceiptPatience + std::chrono::seconds(4);
+  g.add("thanks_still_there", done, g.at(Step::Thanks, Overlay::StillThere));
 }
 
 // Where pages can be read aloud.
@@ -184,6 +213,11 @@ void add_heard(Gallery& g, const ui::ViewState& idle) {
 
 // What lies over a page.
 void add_overlays(Gallery& g, const ui::ViewState& review, const ui::ViewState& idle) {
+  g.add("privacy", idle, g.at(Step::Consent, Overlay::Privacy));
+  ui::ViewState hosted = idle;
+  hosted.consent = &hosts_text();
+  hosted.settings.set(ui::Setting::KeepDays, 365);
+  g.add("privacy_host", hosted, g.at(Step::Attract, Overlay::Privacy));
   g.add("help", idle, g.at(Step::Consent, Overlay::Help));
   g.add("leave", review, g.at(Step::Review, Overlay::Leave));
   ui::ViewState late = idle;

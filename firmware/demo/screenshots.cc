@@ -24,7 +24,7 @@ struct Size {
   int width_px, height_px;
 };
 constexpr Size kSizes[] = {{1280, 800}, {1920, 1080}, {1080, 1920}};
-constexpr std::size_t kTexts[] = {0, 2};  // 100 and 150 %
+constexpr std::size_t kTexts[] = {0, 2, 3};  // 100, 150 and 200 %
 constexpr int kMostTroubles = 3;
 constexpr int kThumbAcross = 6, kMostRows = 10, kThumbWidthPx = 480;
 

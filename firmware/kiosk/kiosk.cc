@@ -26,6 +26,7 @@ Result<std::unique_ptr<Kiosk>> Kiosk::open(const KioskArgs& args, Services& serv
 
 Kiosk::~Kiosk() {
   code_scanner_.reset();
+  slip_.reset();
   staff_.reset();
   if (appliance_) appliance_->end_side_job(JobLane::Capture);
   appliance_.reset();
@@ -114,6 +115,9 @@ Result<void> Kiosk::prepare(const KioskArgs& args, Services& services) {
                                                     revision_, services.set_clock}));
   staff_->set_test_capture(make_test_capture(args, services));
   code_scanner_ = std::make_unique<CodeScanner>(*appliance_, *device_);
+  slip_ = std::make_unique<ReceiptSlip>(staff_->side_tasks(),
+                                        services.make_printer ? services.make_printer() : nullptr);
+  rest_cameras_ = std::make_unique<RestCamerasJob>(appliance_->grabber());
   look();
   return {};
 }
@@ -174,6 +178,8 @@ void Kiosk::look() {
   if (appliance_->state() != State::Store) view_.receipt = appliance_->kept().receipt.view();
   if (ui_->service().open || ui_->visit().step == ui::Step::Attract) staff_->consent().adopt();
   view_.consent = staff_->consent().now();
+  view_.cameras_on = appliance_->grabber().streams();
+  if (slip_) slip_->follow(view_);
   for (std::size_t i = 0; i < ui::kLanguages; ++i)
     languages_[i] = view_.consent == nullptr || view_.consent->in[i].has_value();
   // The staff read their pages in languages of their own; a visitor what can be consented to.
@@ -186,6 +192,7 @@ void Kiosk::look() {
   while (!view_.languages[static_cast<std::size_t>(view_.home)])
     view_.home = static_cast<ui::Language>((static_cast<std::size_t>(view_.home) + 1) % ui::kLanguages);
   view_.known = appliance_->answer().known;
+  if (code_scanner_ && code_scanner_->is_looking()) view_.live = live_of(appliance_->live().newest());
   const Result<void> cameras = appliance_->grabber().check_cameras();
   exchanged_ = cameras ? ui::Fault{} : ui::fault_of(cameras.error());
   if (!cameras) view_.calibration_note = exchanged_;
@@ -212,7 +219,16 @@ void Kiosk::feed(const ui::Input& input) {
   if (ui_->service().open) staff_->touched();
 }
 
+// Before the consent, and when all is over, the cameras are off.
+void Kiosk::rest_cameras() {
+  const ui::Step step = ui_->visit().step;
+  const bool consented = step == ui::Step::Name || step == ui::Step::Known;
+  if (appliance_->state() == State::Idle && !consented && appliance_->grabber().streams())
+    (void)appliance_->start_side_job(JobLane::Capture, *rest_cameras_);
+}
+
 void Kiosk::ask(ui::Intent intent) {
+  if (intent == ui::Intent::Print) return slip_->print(ui_->text(), ui_->visit().language, view_);
   const bool measures = stages_->calibration() != nullptr && exchanged_.empty() &&
                         appliance_->moved_in_a_row() < budget::kMovedFaces;
   if (!measures && appliance_->state() == State::Idle &&
@@ -260,6 +276,7 @@ void Kiosk::turn() {
   // Nobody uses cameras that are not the calibrated ones: that those are back must be noticed all the same.
   if (!exchanged_.empty() && appliance_->state() == State::Idle && camera_look_->due(view_.now))
     (void)appliance_->start_side_job(JobLane::Capture, *camera_look_);
+  else rest_cameras();
   if (turn_head_) turn_simulated_head();
   staff_->turn();
   if (appliance_->state() == State::Idle || appliance_->state() == State::Staff)

@@ -20,6 +20,7 @@
 #include "firmware/kiosk/code/code_scanner.h"
 #include "firmware/kiosk/invitation_head.h"
 #include "firmware/kiosk/moved_faces.h"
+#include "firmware/kiosk/receipt_slip.h"
 #include "firmware/kiosk/run_mark.h"
 #include "firmware/kiosk/stored_visits.h"
 #include "firmware/kiosk/voice.h"
@@ -63,6 +64,7 @@ class Kiosk {
   ui::Trouble out_of_order() const;
   void turn_simulated_head();
   void speak();
+  void rest_cameras();
   VisitRecord record_of(const ui::VisitRequest& request) const;
   void look();
   void ask(ui::Intent intent);
@@ -96,6 +98,8 @@ class Kiosk {
   std::unique_ptr<Appliance> appliance_;    // its threads use everything above
   std::unique_ptr<StaffController> staff_;  // these two use the appliance
   std::unique_ptr<CodeScanner> code_scanner_;
+  std::unique_ptr<ReceiptSlip> slip_;
+  std::unique_ptr<RestCamerasJob> rest_cameras_;
 };
 
 }  // namespace relievo::firmware

@@ -16,6 +16,7 @@
 #include "hal/clock.h"
 #include "hal/device.h"
 #include "hal/input_switch.h"
+#include "hal/printer.h"
 #include "hal/speaker.h"
 #include "storage/store.h"
 #include "storage/store_keeping.h"
@@ -45,6 +46,8 @@ struct Services {
   std::function<Result<std::unique_ptr<ui::Display>>(const ui::DisplayOptions&)> open_display{};
   // Where texts and sounds are heard; may be empty, or give none: then nothing is.
   std::function<std::unique_ptr<hal::Speaker>()> open_speaker{};
+  // For the visitor's code on paper; may be empty.
+  std::function<std::unique_ptr<hal::Printer>()> make_printer{};
   // Tells whether somebody is near; may be empty, or give none: then somebody may always be.
   std::function<std::unique_ptr<hal::InputSwitch>()> find_presence_sensor{};
   Console& console;

@@ -2,8 +2,9 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 //
 // PortraitProgress: how far the way from the photograph to the portrait is, as one number that never falls.
-// Its parts count as long as they took when they were measured (firmware/FIGURES.md); within a part, time
-// itself counts, slower and slower towards the part's end, which may be late. Thread: one. Errors: none.
+// Its parts count as long as they took when they were measured (ms in report.json of `relievo reconstruct`);
+// within a part, time itself counts, slower and slower towards the part's end, which may be late. Thread:
+// one. Errors: none.
 #pragma once
 
 #include <algorithm>
@@ -46,7 +47,7 @@ class PortraitProgress {
  private:
   static constexpr float kEase = 1.6F, kMost = 0.99F;
   static constexpr float kSideS = 0.9F;  // seconds, as the others
-  static constexpr std::array<float, kFuse + 1> kParts{0.62F,  0.06F,  0.35F,  0.40F,  0.09F,
+  static constexpr std::array<float, kFuse + 1> kParts{0.58F,  0.04F,  0.37F,  0.15F,  0.12F,
                                                        kSideS, kSideS, kSideS, kSideS, 2.2F};
   float share_ = 0;
   bool head_ = false;

@@ -100,6 +100,41 @@ TEST_F(SdlDisplayTest, AKeypadIsEnough) {
   EXPECT_FALSE(display->poll());
 }
 
+// A key of the keypad makes a text, too, as a keyboard's does: it says one thing.
+TEST_F(SdlDisplayTest, LettersArriveAndAKeypadsDigitIsADigit) {
+  const auto text = [](const char* words) {
+    SDL_Event event{};
+    event.type = SDL_TEXTINPUT;
+    SDL_strlcpy(event.text.text, words, sizeof event.text.text);
+    SDL_PushEvent(&event);
+  };
+  const auto is = [this](Input::Kind kind, std::string_view letter) {
+    const auto input = display->poll();
+    ASSERT_TRUE(input.has_value()) << letter;
+    EXPECT_EQ(input->kind, kind);
+    EXPECT_EQ(std::string_view(input->letter.data()), letter);
+  };
+  push_key(SDLK_e);
+  text("é");
+  SDL_Event keypad{};
+  keypad.type = SDL_KEYDOWN;
+  keypad.key.keysym = {SDL_SCANCODE_KP_7, SDLK_KP_7, KMOD_NUM, 0};
+  SDL_PushEvent(&keypad);
+  text("7");
+  push_key(SDLK_7);
+  text("7");
+  push_key(SDLK_BACKSPACE);
+  push_key(SDLK_LEFT);
+  push_key(SDLK_DOWN);
+  is(Input::Kind::Letter, "é");
+  is(Input::Kind::Digit, "7");
+  is(Input::Kind::Letter, "7");
+  is(Input::Kind::Erase, "");
+  is(Input::Kind::Left, "");
+  is(Input::Kind::Below, "");
+  EXPECT_FALSE(display->poll());
+}
+
 TEST_F(SdlDisplayTest, WhatIsHeardHasKeys) {
   for (const SDL_Keycode key : {SDLK_F1, SDLK_F2, SDLK_KP_0, SDLK_VOLUMEDOWN, SDLK_KP_MINUS, SDLK_VOLUMEUP,
                                 SDLK_KP_PLUS, SDLK_F3, SDLK_KP_MULTIPLY})

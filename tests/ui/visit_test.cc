@@ -2,11 +2,9 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 //
 // The way through the screens, without a screen: actions and time go in, intents come out.
-#include "ui/view/visit.h"
-
-#include <gtest/gtest.h>
-
 #include <cmath>
+
+#include "tests/ui/visit_hands.h"
 
 namespace relievo::ui {
 namespace {
@@ -14,47 +12,7 @@ namespace {
 using std::chrono::milliseconds;
 using std::chrono::seconds;
 
-class VisitTest : public testing::Test {
- protected:
-  VisitTest() {
-    view.now = hal::Instant(seconds(1000));
-    view.wall_now = std::chrono::system_clock::time_point(seconds(5000));
-    machine(Screen::Idle);
-  }
-  std::optional<Intent> act(ActionKind kind, int value = 0) {
-    visit.touched(view.now);
-    return visit.act({kind, value}, view);
-  }
-  std::optional<Intent> machine(Screen screen) {
-    view.screen = screen;
-    return visit.follow(view);
-  }
-  std::optional<Intent> pass(milliseconds time) {
-    view.now += time;
-    return visit.follow(view);
-  }
-  void to_position() {
-    act(ActionKind::Start);
-    act(ActionKind::Agree);
-    visit.type("Z");
-    ASSERT_EQ(act(ActionKind::Done), Intent::LookUp);
-    view.known = Known::Nobody;
-    ASSERT_EQ(pass(milliseconds(1)), Intent::Pose);
-    machine(Screen::Position);
-    ASSERT_EQ(visit.step, Step::Position);
-  }
-  void to_review() {
-    to_position();
-    act(ActionKind::TakePicture);
-    for (const Screen s :
-         {Screen::Capture, Screen::Match, Screen::Reconstruct, Screen::Mesh, Screen::Texture, Screen::Review})
-      machine(s);
-    ASSERT_EQ(visit.step, Step::Review);
-  }
-
-  ViewState view;
-  Visit visit;
-};
+class VisitTest : public VisitHands {};
 
 TEST_F(VisitTest, WhoTurnsTheHeadMaySayThatIsEnough) {
   to_position();
@@ -76,6 +34,7 @@ TEST_F(VisitTest, NoCameraRunsBeforeConsentAndName) {
   EXPECT_EQ(act(ActionKind::Start), std::nullopt);
   EXPECT_EQ(visit.step, Step::Consent);
   EXPECT_EQ(act(ActionKind::Done), std::nullopt) << "without a name";
+  visit.reads_to_the_end();
   EXPECT_EQ(act(ActionKind::Agree), std::nullopt);
   EXPECT_EQ(visit.agreed_at(), view.wall_now);
   EXPECT_EQ(act(ActionKind::Done), std::nullopt) << "without a name";
@@ -90,6 +49,57 @@ TEST_F(VisitTest, NoCameraRunsBeforeConsentAndName) {
 TEST_F(VisitTest, WhoSaysNoIsForgotten) {
   act(ActionKind::Start);
   EXPECT_EQ(act(ActionKind::Decline), std::nullopt);
+  EXPECT_EQ(visit.step, Step::Declined) << "and is told so";
+  pass(kToldFor + seconds(1));
+  EXPECT_EQ(visit.step, Step::Attract);
+}
+
+TEST_F(VisitTest, NobodyAgreesToWhatTheyHaveNotSeenToItsEnd) {
+  act(ActionKind::Start);
+  act(ActionKind::Agree);
+  EXPECT_EQ(visit.step, Step::Consent);
+  visit.reads_to_the_end();
+  act(ActionKind::Agree);
+  EXPECT_EQ(visit.step, Step::Name);
+  act(ActionKind::Leave);
+  act(ActionKind::LeaveNow);
+  act(ActionKind::Start);
+  EXPECT_FALSE(visit.has_read()) << "the next person has read nothing";
+}
+
+TEST_F(VisitTest, AFaceInTheOvalIsSomebodyButNotForEver) {
+  to_position();
+  view.live.advice = pipeline::Advice::OffCentre;
+  int held = 0;
+  for (int i = 0; i < 240; ++i) {
+    ++view.live.number;
+    held += pass(seconds(1)) == Intent::StillHere ? 1 : 0;
+    EXPECT_EQ(visit.overlay, Overlay::None);
+  }
+  EXPECT_GT(held, 200) << "the machine waits, too";
+  for (int i = 0; i < 60; ++i) pass(seconds(1));
+  EXPECT_EQ(visit.overlay, Overlay::StillThere) << "a picture that stands is nobody";
+  ++view.live.number;
+  pass(milliseconds(1));
+  EXPECT_EQ(visit.overlay, Overlay::StillThere) << "five minutes without a touch are a portrait on a wall";
+  visit.touched(view.now);
+  EXPECT_EQ(visit.overlay, Overlay::None);
+}
+
+TEST_F(VisitTest, TheCodeStandsUntilItIsTouchedAwayOrLongForgotten) {
+  to_review();
+  act(ActionKind::Accept);
+  machine(Screen::Store);
+  machine(Screen::Idle);
+  ASSERT_EQ(visit.step, Step::Thanks);
+  pass(kReceiptPatience);
+  EXPECT_EQ(visit.overlay, Overlay::None);
+  pass(seconds(1));
+  EXPECT_EQ(visit.overlay, Overlay::StillThere);
+  EXPECT_GE(visit.seconds_left(view.now), 19);
+  visit.touched(view.now);
+  EXPECT_EQ(visit.step, Step::Thanks);
+  pass(kReceiptPatience + kLastCall + seconds(1));
   EXPECT_EQ(visit.step, Step::Attract);
 }
 
@@ -169,6 +179,7 @@ TEST_F(VisitTest, TheInvitationMovesRestsAndWakesWhenSomebodyComesNear) {
 
 TEST_F(VisitTest, WhoTriesManyCodesIsSentAway) {
   act(ActionKind::Start);
+  visit.reads_to_the_end();
   act(ActionKind::Agree);
   visit.type("A");
   act(ActionKind::Done);
@@ -178,7 +189,7 @@ TEST_F(VisitTest, WhoTriesManyCodesIsSentAway) {
   act(ActionKind::HaveCode);
   EXPECT_EQ(visit.name(), "");
   EXPECT_TRUE(visit.quotes_code());
-  visit.type("1");
+  visit.type("48219037551271");
   view.known = Known::NoSuchCode;
   int tried = 0;
   for (; visit.step == Step::Name && tried < 50; ++tried) {
@@ -197,7 +208,7 @@ TEST_F(VisitTest, NobodyThereIsAskedThenWiped) {
     EXPECT_EQ(visit.overlay, Overlay::None);
     pass(seconds(1));
     EXPECT_EQ(visit.overlay, Overlay::StillThere);
-    EXPECT_EQ(visit.seconds_left(view.now), 14);
+    EXPECT_EQ(visit.seconds_left(view.now), 19);
     visit.touched(view.now);
     EXPECT_EQ(visit.overlay, Overlay::None) << "a touch is an answer";
     EXPECT_EQ(pass(kPatience + kLastCall + seconds(1)), Intent::Cancel);
@@ -244,7 +255,7 @@ TEST_F(VisitTest, ARefusalLeadsBackToThePlaceThenOut) {
   machine(Screen::Match);
   machine(Screen::Idle);
   EXPECT_EQ(visit.step, Step::Trouble);
-  pass(kThanks + seconds(1));
+  pass(kToldFor + seconds(1));
   EXPECT_EQ(visit.step, Step::Attract);
 }
 
@@ -276,35 +287,6 @@ TEST_F(VisitTest, LeavingWipesWhatWasTyped) {
   EXPECT_EQ(visit.name(), "");
   machine(Screen::Idle);
   EXPECT_EQ(visit.step, Step::Attract);
-}
-
-TEST_F(VisitTest, ErasingTakesWholeLetters) {
-  act(ActionKind::Start);
-  act(ActionKind::Agree);
-  for (const char* letter : {"J", "ü", "ل", "r"}) visit.type(letter);
-  act(ActionKind::Erase);
-  EXPECT_EQ(visit.name(), "Jüل");
-  act(ActionKind::Erase);
-  EXPECT_EQ(visit.name(), "Jü");
-  act(ActionKind::Erase);
-  EXPECT_EQ(visit.name(), "J");
-  act(ActionKind::Erase);
-  act(ActionKind::Erase);
-  EXPECT_EQ(visit.name(), "");
-}
-
-TEST_F(VisitTest, ANameHasItsLimitAndNoSpacesAround) {
-  act(ActionKind::Start);
-  act(ActionKind::Agree);
-  visit.type(" ");
-  EXPECT_EQ(visit.name(), "");
-  for (int i = 0; i < 300; ++i) visit.type("ä");
-  EXPECT_EQ(visit.name().size(), kMostNameBytes);
-  for (int i = 0; i < 60; ++i) act(ActionKind::Erase);
-  visit.type(" ");
-  visit.type(" ");
-  act(ActionKind::Done);
-  EXPECT_NE(visit.name().back(), ' ');
 }
 
 TEST_F(VisitTest, TextGrowsInThreeStepsAndForgetsWithThePerson) {

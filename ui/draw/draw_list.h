@@ -56,6 +56,7 @@ enum class PictureSlot : std::uint8_t {
   Mesh,
   Texture,
   Sign,
+  Receipt,
   TechnicianLeft,
   TechnicianRight,
   TechnicianThird,
@@ -83,6 +84,7 @@ struct Face {
 // How the models are looked at.
 struct FaceLook {
   float yaw_deg = 0, pitch_deg = 0;
+  float roll_deg = 0;  // of what is seen, clockwise
   float zoom = 1;
   float light_deg = -35;  // where the light stands, from the left
   bool textured = true;

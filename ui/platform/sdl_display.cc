@@ -44,6 +44,7 @@ class SdlDisplay final : public Display {
     context_ = SDL_GL_CreateContext(window_);
     if (context_ == nullptr) return failed();
     SDL_GL_SetSwapInterval(1);
+    SDL_StartTextInput();
     return {};
   }
 
@@ -105,14 +106,32 @@ class SdlDisplay final : public Display {
       case SDLK_TAB:
         return Input{(key.keysym.mod & KMOD_SHIFT) != 0 ? Input::Kind::Previous : Input::Kind::Next};
       case SDLK_RIGHT:
+        return Input{Input::Kind::Right};
       case SDLK_DOWN:
-        return Input{Input::Kind::Next};
+        return Input{Input::Kind::Below};
       case SDLK_LEFT:
+        return Input{Input::Kind::Left};
       case SDLK_UP:
-        return Input{Input::Kind::Previous};
+        return Input{Input::Kind::Above};
+      case SDLK_BACKSPACE:
+      case SDLK_DELETE:
+      case SDLK_KP_PERIOD:
+      case SDLK_KP_COMMA:
+        return Input{Input::Kind::Erase};
+      case SDLK_KP_1:
+      case SDLK_KP_2:
+      case SDLK_KP_3:
+      case SDLK_KP_4:
+      case SDLK_KP_5:
+      case SDLK_KP_6:
+      case SDLK_KP_7:
+      case SDLK_KP_8:
+      case SDLK_KP_9:
+        if (key.repeat != 0) return std::nullopt;
+        return Input{.kind = Input::Kind::Digit,
+                     .letter = {static_cast<char>('1' + (key.keysym.sym - SDLK_KP_1))}};
       case SDLK_RETURN:
       case SDLK_KP_ENTER:
-      case SDLK_SPACE:
         if (key.repeat != 0) return std::nullopt;  // a key that is kept down is one press
         return Input{Input::Kind::Activate};
       case SDLK_F1:
@@ -137,6 +156,15 @@ class SdlDisplay final : public Display {
     }
   }
 
+  // What a key of the keypad is for, its key says; the text it makes beside says nothing.
+  std::optional<Input> letter(const SDL_TextInputEvent& text) const {
+    const std::string_view typed(text.text);
+    Input input{Input::Kind::Letter};
+    if (from_keypad_ || typed.empty() || typed.size() >= input.letter.size()) return std::nullopt;
+    typed.copy(input.letter.data(), typed.size());
+    return input;
+  }
+
   std::optional<Input> input_of(const SDL_Event& event) {
     switch (event.type) {
       case SDL_QUIT:
@@ -148,7 +176,12 @@ class SdlDisplay final : public Display {
       case SDL_FINGERUP:
         return finger(Input::Kind::Up, event.tfinger);
       case SDL_KEYDOWN:
+        from_keypad_ = (event.key.keysym.mod & KMOD_NUM) != 0 &&
+                       event.key.keysym.scancode >= SDL_SCANCODE_KP_DIVIDE &&
+                       event.key.keysym.scancode <= SDL_SCANCODE_KP_PERIOD;
         return key(event.key);
+      case SDL_TEXTINPUT:
+        return letter(event.text);
       case SDL_MOUSEBUTTONDOWN:
         if (event.button.button != SDL_BUTTON_LEFT) return std::nullopt;
         held_ = true;
@@ -172,6 +205,7 @@ class SdlDisplay final : public Display {
   SDL_Window* window_ = nullptr;
   SDL_GLContext context_ = nullptr;
   bool held_ = false;
+  bool from_keypad_ = false;  // the key whose text comes next
 };
 
 }  // namespace

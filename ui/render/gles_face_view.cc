@@ -38,7 +38,7 @@ Birth birth_of(float born) {
   constexpr float kNoSurface = 0.42F;
   const bool photograph = born < kNoSurface;
   return {photograph ? 1 - between(0.2F, kNoSurface) : between(kNoSurface, 0.68F),
-          photograph ? 1 : between(0.72F, 1), std::min(between(0.2F, 0.4F), 1 - between(0.72F, 0.95F))};
+          photograph ? 1 : between(0.72F, 1), std::min(between(0.2F, 0.4F), 1 - between(0.5F, 0.72F))};
 }
 
 float radians(float degrees) { return degrees * 0.017453293F; }
@@ -202,6 +202,12 @@ class GlesFaceView final : public FaceView {
     const float cy = std::cos(radians(look_.yaw_deg)), sy = std::sin(radians(look_.yaw_deg));
     const float cp = std::cos(radians(look_.pitch_deg)), sp = std::sin(radians(look_.pitch_deg));
     Turned t{{}, {cy, sp * sy, -cp * sy, 0, cp, sp, sy, -sp * cy, cp * cy}};
+    const float cr = std::cos(radians(look_.roll_deg)), sr = std::sin(radians(look_.roll_deg));
+    for (std::size_t c = 0; c < 9; c += 3) {
+      const float across = t.turned[c], up = t.turned[c + 1];
+      t.turned[c] = cr * across + sr * up;
+      t.turned[c + 1] = cr * up - sr * across;
+    }
     const float(&turned)[9] = t.turned;
     float(&clip)[16] = t.clip;
     const float f = 2 * kDistanceMm / kSeenHeightMm * look_.zoom * fit_;

@@ -57,7 +57,7 @@ Layout::Need Layout::need(const Node& node, float width) {
 
 Layout::Need Layout::content_need(const Node& node, float width) {
   if (!node.text.empty()) {
-    const TextSize size = text_.measure(node.text, node.style, width);
+    const TextSize size = text_.measure(node.text, node.style, std::floor(width));  // as wide as it is placed
     return {size.width_px, size.height_px};
   }
   Need n;
@@ -247,7 +247,7 @@ void Layout::place_row(Node& node, const Rect& inner, const Rect& clip) {
   if (node.box.justify == Justify::Centre) x = left / 2;
   if (node.box.justify == Justify::End) x = left;
   if (node.box.justify == Justify::SpaceBetween && count > 1) gap += left / static_cast<float>(count - 1);
-  const bool mirrored = right_to_left_ && !node.box.left_to_right;
+  const bool mirrored = (right_to_left_ && !node.box.left_to_right) != node.box.other_side;
   std::size_t i = 0;
   for (std::int32_t at = node.first_child; at >= 0 && i < count; ++i) {
     const auto child = static_cast<std::size_t>(at);

@@ -38,6 +38,7 @@ struct Box {
   float row_stretch = 1;  // a column: up to how many times higher its lowest row gets where there is room
   bool fit_content = false;    // a growing column that ends where its content does
   bool left_to_right = false;  // a row that is not mirrored: digits, keys
+  bool other_side = false;     // a row whose ends are exchanged: its controls come to the other hand
   bool wrap = false;  // a row whose first child grows: the others stand under it where it would be narrow
   Colour fill{}, fill_end{}, border{};  // fill_end not seen: plain fill
   float border_px = 0, radius = 0;
@@ -54,6 +55,7 @@ struct Node {
   TextStyle style;
   Colour colour{};
   Action action{};
+  Action by_key{};      // done by a keypad that presses it where a finger does nothing: it can have the focus
   bool secret = false;  // a person's own, spoken into headphones alone: its value, and words without a name
   bool modal = false;   // nothing under it can be touched
   // Where it is set, `action` is done when a finger comes down, and this wherever it goes from there.

@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <utility>
 
 #include "hal/base/assert.h"
 #include "ui/tree/layout.h"
@@ -12,6 +13,8 @@ namespace relievo::ui {
 namespace {
 
 constexpr std::size_t kNodes = 2048, kDepth = 32, kStringBytes = 128 * 1024;
+
+constexpr float kAcross = 3, kOff = 0.1F;  // against the way itself, where a keypad looks for the next
 
 bool touchable(const Node& node) { return node.action.kind != ActionKind::None; }
 bool goes_on(const Node& node) {
@@ -118,8 +121,39 @@ const Node* Tree::after(std::string_view id, int direction) const {
   return nullptr;
 }
 
+const Node* Tree::question() const {
+  for (std::size_t i = 0; i < nodes_.size(); ++i) {
+    if (nodes_[i].role == Role::Heading && !under_modal(i)) return &nodes_[i];
+  }
+  return nullptr;
+}
+
+const Node* Tree::beside(const Node& from, float right, float down) const {
+  const auto middle = [](const Rect& r) { return std::pair(r.x + r.w / 2, r.y + r.h / 2); };
+  const auto [x, y] = middle(from.rect);
+  const Node* nearest = nullptr;
+  float least = 0;
+  for (std::size_t i = 0; i < nodes_.size(); ++i) {
+    const Node& node = nodes_[i];
+    if (&node == &from || !takes_focus(i) || under_modal(i)) continue;
+    const Rect& r = node.rect;
+    const auto [to_x, to_y] = middle(r);
+    if ((to_x - x) * right + (to_y - y) * down <= 1) continue;
+    // How far apart the two are along the way and across it; what lies straight ahead comes first.
+    const float gap_x = std::max({0.0F, r.x - from.rect.right(), from.rect.x - r.right()}),
+                gap_y = std::max({0.0F, r.y - from.rect.bottom(), from.rect.y - r.bottom()});
+    const float along = right != 0 ? gap_x : gap_y, across = right != 0 ? gap_y : gap_x;
+    if (along <= 0 && across > 0) continue;
+    const float off = right != 0 ? std::abs(to_y - y) : std::abs(to_x - x);
+    const float cost = along + kAcross * across + kOff * off;
+    if (nearest == nullptr || cost < least) nearest = &node, least = cost;
+  }
+  return nearest;
+}
+
 bool Tree::takes_focus(std::size_t index) const {
   const Node& node = nodes_[index];
+  if (node.by_key.kind != ActionKind::None) return true;
   if (touchable(node)) return node.action.kind != ActionKind::TurnFace;
   return goes_on(node) && std::ranges::none_of(nodes_, [&](const Node& other) {
            return touchable(other) && scroller_around(other) == &node;

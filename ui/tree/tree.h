@@ -56,6 +56,10 @@ class Tree {
   // touched, and a scroller that goes on and has nothing to touch in it, so that a keypad reads on there,
   // too.
   const Node* after(std::string_view id, int direction) const;
+  // The next that can have the focus as the eye sees it: one of `right` and `down` is 1 or -1. nullptr: none.
+  const Node* beside(const Node& from, float right, float down) const;
+  // The heading of what lies on top: what is asked comes after it. nullptr: it has none.
+  const Node* question() const;
   // The scroller that goes on and holds the node; nullptr: none.
   const Node* scroller_around(const Node& node) const;
   bool right_to_left() const { return right_to_left_; }

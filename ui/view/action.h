@@ -16,6 +16,7 @@ enum class ActionKind : std::uint8_t {
   Start,
   Agree,
   Decline,
+  ReadOn,
   Done,  // on along the path
   Back,
   Leave,
@@ -27,6 +28,7 @@ enum class ActionKind : std::uint8_t {
   CloseOverlay,
   BiggerText,
   Contrast,
+  Reach,
   Speech,
   Quieter,
   Louder,
@@ -52,10 +54,13 @@ enum class ActionKind : std::uint8_t {
   LookFill,
   LookLight,  // what of the model is drawn
   HaveCode,
+  LostCode,
   SomebodyElse,
   Renew,
   AddAnother,  // already enrolled
   Finish,
+  Print,
+  ShowPrivacy,
   StaffEnter,
   StaffLeave,   // the staff's side (ui/view/service.h)
   StaffOpen,    // value: a StaffPage

@@ -4,6 +4,7 @@
 // Input: what fingers and a keypad do, as plain data. Pixels of the screen. A mouse is one finger.
 #pragma once
 
+#include <array>
 #include <cstdint>
 
 namespace relievo::ui {
@@ -17,6 +18,13 @@ struct Input {
     Up,  // a finger
     Next,
     Previous,  // the keypad: focus goes on, or back
+    Left,
+    Right,
+    Above,
+    Below,   // focus goes where the eye sees it
+    Letter,  // of a keyboard: `letter`
+    Digit,   // of a keypad: `letter`; where letters are asked for it types one of those on its key
+    Erase,
     Activate,
     Back,  // what has the focus is done; one step back
     Speech,
@@ -29,6 +37,7 @@ struct Input {
   Kind kind = Kind::Down;
   std::int64_t finger = 0;
   float x = 0, y = 0;
+  std::array<char, 8> letter{};  // UTF-8, a zero behind it
 };
 
 }  // namespace relievo::ui

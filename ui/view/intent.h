@@ -16,6 +16,7 @@ enum class Intent : std::uint8_t {
   Begin,   // take the picture
   Enough,  // no more sides of the head are taken
   Accept,
+  Print,  // the code for the erasure, on paper
   Retake,
   Cancel,
   StillHere,  // somebody is there: a state that waits for a person waits longer

@@ -88,6 +88,7 @@ struct LiveView {
   pipeline::Advice advice = pipeline::Advice::NoFace;
   float face_x = 0, face_y = 0;  // its middle from the middle of where it should be, in widths of the face
   float ideal_width = 0;         // of a face at the best distance, share of the picture's width; 0: not known
+  float nearness = 0;            // 1 at a good distance, 0.5 twice as far, 2 half as far; 0: not known
   float steady_s = 0;            // so long everything has been right
   std::optional<TurnView> turn;
 };
@@ -99,6 +100,9 @@ struct StageView {
 };
 inline constexpr std::size_t kStageViews = 5;  // Capture, Match, Reconstruct, Mesh, Texture
 
+// Of the code on paper.
+enum class Printing : std::uint8_t { None, Ready, Busy, Done, Failed };
+
 struct ViewState {
   Screen screen = Screen::SelfTest;
   hal::Instant now{};
@@ -109,7 +113,10 @@ struct ViewState {
   Fault calibration_note;    // for the technician: what speaks against the calibration
   std::string_view subject;  // who is being enrolled
   std::string_view receipt;  // what to quote for an erasure; from the moment of storing on
-  int attempt = 0;           // 1 for the first capture of a session
+  StageView receipt_code;    // the same as a QR code
+  Printing printing = Printing::None;
+  bool cameras_on = false;  // they are streaming: as the capture thread has it
+  int attempt = 0;          // 1 for the first capture of a session
   LiveView live;
   std::array<StageView, kStageViews> stages{};
   const pipeline::StereoFrame* frame = nullptr;          // the pictures of this session, once taken

@@ -36,7 +36,7 @@ int Visit::countdown_number(const LiveView& live) const {
 void Visit::touched(hal::Instant now) {
   if (by_itself_) look = shown_look(now);  // it stays as it stood
   by_itself_ = false;
-  last_touch_ = now;
+  last_touch_ = by_hand_ = now;
   if (overlay == Overlay::StillThere) overlay = Overlay::None;
 }
 
@@ -65,7 +65,9 @@ void Visit::go(Step to, hal::Instant now) {
   entered_ = now;
   overlay = Overlay::None;
   if (to == Step::Attract) forget();
-  if (to == Step::Trouble) forget_person();  // who reads it reads it in their language
+  if (to == Step::Trouble || to == Step::Declined)
+    forget_person();  // who reads it reads it in their language
+  if (to == Step::Consent) read_ = false;
 }
 
 void Visit::look_at(ActionKind kind) {
@@ -105,6 +107,7 @@ std::optional<Intent> Visit::back(const ViewState& view) {
     case Step::Thanks:
     case Step::Trouble:
     case Step::Starting:
+    case Step::Declined:
       break;
   }
   return std::nullopt;
@@ -115,11 +118,14 @@ std::optional<Intent> Visit::act(Action action, const ViewState& view) {
     case ActionKind::ShowLanguages:
     case ActionKind::ShowHelp:
     case ActionKind::Leave:
+    case ActionKind::LostCode:
+    case ActionKind::ShowPrivacy:
     case ActionKind::CloseOverlay:
     case ActionKind::Stay:
     case ActionKind::ChooseLanguage:
     case ActionKind::BiggerText:
     case ActionKind::Contrast:
+    case ActionKind::Reach:
       act_on_page(action, view);
       break;
     case ActionKind::Speech:
@@ -128,6 +134,8 @@ std::optional<Intent> Visit::act(Action action, const ViewState& view) {
     case ActionKind::Speed:
       hear(action.kind);
       break;
+    case ActionKind::Print:
+      return step == Step::Thanks ? std::optional(Intent::Print) : std::nullopt;
     case ActionKind::LeaveNow:
       return leave_now(view);
     case ActionKind::Back:
@@ -169,6 +177,7 @@ std::optional<Intent> Visit::act(Action action, const ViewState& view) {
     case ActionKind::Renew:
     case ActionKind::AddAnother:
       return act_on_record(action.kind);
+    case ActionKind::ReadOn:
     case ActionKind::TypeKey:
     case ActionKind::TurnFace:
     case ActionKind::StaffEnter:
@@ -188,9 +197,12 @@ std::optional<Intent> Visit::act(Action action, const ViewState& view) {
 void Visit::act_on_page(Action action, const ViewState& view) {
   if (action.kind == ActionKind::BiggerText) text_size = (text_size + 1) % kTextPercents.size();
   else if (action.kind == ActionKind::Contrast) high_contrast = !high_contrast;
+  else if (action.kind == ActionKind::Reach) reach = static_cast<Reach>((static_cast<int>(reach) + 1) % 3);
   else if (action.kind == ActionKind::ShowLanguages) overlay = Overlay::Languages;
   else if (action.kind == ActionKind::ShowHelp) overlay = Overlay::Help;
   else if (action.kind == ActionKind::Leave) overlay = Overlay::Leave;
+  else if (action.kind == ActionKind::LostCode) overlay = Overlay::LostCode;
+  else if (action.kind == ActionKind::ShowPrivacy) overlay = Overlay::Privacy;
   else overlay = Overlay::None;
   if (action.kind == ActionKind::ChooseLanguage && offered(view)[static_cast<std::size_t>(action.value)])
     language = static_cast<Language>(action.value);
@@ -204,15 +216,16 @@ std::optional<Intent> Visit::leave_now(const ViewState& view) {
 std::optional<Intent> Visit::act_on_path(ActionKind kind, const ViewState& view) {
   ++touches;
   if (kind == ActionKind::Start && step == Step::Attract) go(Step::Consent, view.now);
-  if (kind == ActionKind::Decline || kind == ActionKind::Finish) go(Step::Attract, view.now);
-  if (kind == ActionKind::Agree) {
+  if (kind == ActionKind::Decline) go(Step::Declined, view.now);
+  if (kind == ActionKind::Finish) go(Step::Attract, view.now);
+  if (kind == ActionKind::Agree && has_read()) {
     touches = 1;
     agreed_at_ = view.wall_now;
     step = Step::Name;
   }
   if (kind == ActionKind::Done) {
     while (length_ > 0 && name_[length_ - 1] == ' ') erase_letter();
-    if (length_ == 0) return std::nullopt;
+    if (length_ == 0 || (quotes_code_ && length_ < kCodeDigits)) return std::nullopt;
     // Who tries many codes is not the one they were given to; who tries many names is told nothing more.
     if (++look_ups_ > kMostLookUps && quotes_code_) {
       go(Step::Attract, view.now);
@@ -274,7 +287,44 @@ void Visit::follow_language(const ViewState& view) {
 
 bool Visit::person_expected() const {
   return step == Step::Consent || step == Step::Name || step == Step::Known || step == Step::Position ||
-         step == Step::Review;
+         step == Step::Review || step == Step::Thanks;
+}
+
+// Whose face is before the cameras is there, and has no hand free for the screen.
+std::optional<Intent> Visit::follow_face(const ViewState& view) {
+  const bool fresh = std::exchange(live_number_, view.live.number) != view.live.number;
+  if (step != Step::Position || !fresh || view.live.advice == pipeline::Advice::NoFace ||
+      view.now - by_hand_ > kFaceAlone || view.now - last_touch_ < std::chrono::seconds(1))
+    return std::nullopt;
+  last_touch_ = view.now;
+  if (overlay == Overlay::StillThere) overlay = Overlay::None;
+  return Intent::StillHere;
+}
+
+// Where the machine leads, the visit goes.
+void Visit::follow_machine(const ViewState& view) {
+  const Screen before = std::exchange(last_screen_, view.screen);
+  if (before == view.screen) return;
+  if (view.screen == Screen::Position) {
+    go(Step::Position, view.now);
+    last_touch_ = by_hand_ = view.now;
+    shot_ = false;
+  } else if (view.screen == Screen::Turn) go(Step::Turn, view.now);
+  else if (is_stage(view.screen) || view.screen == Screen::Store) go(Step::Working, view.now);
+  else if (view.screen == Screen::Review) {
+    go(Step::Review, view.now);
+    last_touch_ = view.now;
+    by_itself_ = before != Screen::Store && settings_.is_on(Setting::Motion);
+  } else if (view.screen == Screen::Fault) go(Step::Trouble, view.now);
+  else if (view.screen == Screen::Idle && before == Screen::Store && step == Step::Working &&
+           view.trouble == Trouble::None) {
+    go(Step::Thanks, view.now);
+    last_touch_ = view.now;
+  } else if (view.screen == Screen::Idle && step != Step::Name && step != Step::Known &&
+             step != Step::Attract) {
+    const bool told = view.trouble != Trouble::None && step != Step::Starting && step != Step::Trouble;
+    go(told ? Step::Trouble : Step::Attract, view.now);
+  }
 }
 
 std::optional<Intent> Visit::follow(const ViewState& view) {
@@ -282,39 +332,17 @@ std::optional<Intent> Visit::follow(const ViewState& view) {
   follow_presence(view);
   follow_language(view);
   follow_settings(view);
-  const bool new_screen = view.screen != last_screen_;
-  const Screen before = last_screen_;
-  last_screen_ = view.screen;
-  if (new_screen) {
-    if (view.screen == Screen::Position) {
-      go(Step::Position, view.now);
-      last_touch_ = view.now;
-      shot_ = false;
-    } else if (view.screen == Screen::Turn) go(Step::Turn, view.now);
-    else if (is_stage(view.screen) || view.screen == Screen::Store) go(Step::Working, view.now);
-    else if (view.screen == Screen::Review) {
-      go(Step::Review, view.now);
-      last_touch_ = view.now;
-      by_itself_ = before != Screen::Store && settings_.is_on(Setting::Motion);
-    } else if (view.screen == Screen::Fault) go(Step::Trouble, view.now);
-    else if (view.screen == Screen::Idle && before == Screen::Store && step == Step::Working &&
-             view.trouble == Trouble::None)
-      go(Step::Thanks, view.now);
-    else if (view.screen == Screen::Idle && step != Step::Name && step != Step::Known &&
-             step != Step::Attract) {
-      const bool told = view.trouble != Trouble::None && step != Step::Starting && step != Step::Trouble;
-      go(told ? Step::Trouble : Step::Attract, view.now);
-    }
-  }
+  follow_machine(view);
   // Out of order is said before anybody begins, and to who is in the middle only when they are done.
   const bool idle = view.screen == Screen::Idle;
   if (idle && step == Step::Attract && view.out_of_order != Trouble::None) go(Step::Trouble, view.now);
   if (idle && step == Step::Trouble && view.out_of_order == Trouble::None && view.trouble == Trouble::None)
     go(Step::Attract, view.now);
   const bool barred = idle && step == Step::Trouble && bars_the_way(view.out_of_order);
-  if ((step == Step::Thanks || (step == Step::Trouble && idle && !barred)) &&
-      view.now - std::max(entered_, last_touch_) > kThanks)
+  if ((step == Step::Declined || (step == Step::Trouble && idle && !barred)) &&
+      view.now - std::max(entered_, last_touch_) > kToldFor)
     go(Step::Attract, view.now);
+  const auto face = follow_face(view);
   if (person_expected()) {
     const auto silent = view.now - last_touch_;
     if (silent > patience() + kLastCall) {
@@ -334,7 +362,7 @@ std::optional<Intent> Visit::follow(const ViewState& view) {
       return Intent::Begin;
     }
   }
-  return std::nullopt;
+  return face;
 }
 
 }  // namespace relievo::ui

@@ -11,6 +11,7 @@
 // Thread: main. Errors: none: what does not fit is not typed.
 #pragma once
 
+#include <algorithm>
 #include <array>
 #include <chrono>
 #include <optional>
@@ -35,23 +36,29 @@ enum class Step : std::uint8_t {
   Review,
   Thanks,
   Trouble,
-  Starting
+  Starting,
+  Declined
 };
-inline constexpr std::array<std::string_view, 11> kStepNames{"Attract",  "Consent", "Name",    "Known",
-                                                             "Position", "Turn",    "Working", "Review",
-                                                             "Thanks",   "Trouble", "Starting"};
+inline constexpr std::array<std::string_view, 12> kStepNames{"Attract",  "Consent", "Name",     "Known",
+                                                             "Position", "Turn",    "Working",  "Review",
+                                                             "Thanks",   "Trouble", "Starting", "Declined"};
 constexpr std::string_view name_of(Step step) { return kStepNames[static_cast<std::size_t>(step)]; }
-enum class Overlay : std::uint8_t { None, Help, Languages, Leave, StillThere };
+enum class Overlay : std::uint8_t { None, Help, Languages, Leave, StillThere, LostCode, Privacy };
 
-inline constexpr std::chrono::seconds kPatience{45}, kLastCall{15},
-    kThanks{30};  // the first where nobody has set another
+// The first where nobody has set another. WCAG 2.2.1 wants 20 seconds for an answer; a code that is seen
+// nowhere else stands longer than other pages.
+inline constexpr std::chrono::seconds kPatience{45}, kLastCall{20}, kReceiptPatience{120}, kToldFor{30};
+inline constexpr std::chrono::minutes kFaceAlone{5};  // a face keeps a visit no longer without a touch
 inline constexpr float kSteadyFor = 0.6F,
                        kCountdown =
                            1.5F;  // seconds, before the picture is taken by itself; the second as above
-inline constexpr std::size_t kMostNameBytes = 128;
+inline constexpr std::size_t kMostNameBytes = 128, kCodeDigits = 14;
 inline constexpr const char* kConsentWording = "sample-2";  // where the operator has no text of their own
-inline constexpr int kMostLookUps = 5;                      // a visit; then nobody is told anything any more
-inline constexpr std::array<int, 3> kTextPercents{100, 125, 150};
+inline constexpr std::string_view kToRead = "points";       // the scroller of what one agrees to
+// Where the controls are: as usual, all in the lower part of the page, there and on the other side.
+enum class Reach : std::uint8_t { Usual, Low, LowOther };
+inline constexpr int kMostLookUps = 5;  // a visit; then nobody is told anything any more
+inline constexpr std::array<int, 4> kTextPercents{100, 125, 150, 200};
 inline constexpr std::array<int, 5> kVolumePercents{20, 35, 50, 70, 100};
 inline constexpr std::array<int, 4> kSpeedPercents{75, 100, 135, 180};
 inline constexpr std::size_t kUsualVolume = 2, kUsualSpeed = 1;
@@ -63,6 +70,7 @@ class Visit {
   Language language = Language::English;
   std::size_t text_size = 0;  // index into kTextPercents
   bool high_contrast = false;
+  Reach reach = Reach::Usual;
   bool spoken = false;  // the pages are read aloud: by the plug of headphones, or asked for
   std::size_t volume = kUsualVolume, speed = kUsualSpeed;  // indices into kVolumePercents, kSpeedPercents
   bool capitals = true;
@@ -91,6 +99,9 @@ class Visit {
 
   // A finger or key somewhere: the person is there.
   void touched(hal::Instant now);
+  // The end of what one agrees to has been on the screen, or all of it was read aloud.
+  bool has_read() const { return read_ || spoken; }
+  void reads_to_the_end() { read_ = true; }
   // How the face on the page is looked at now: a new portrait comes to be, then turns by itself until
   // somebody touches it.
   FaceLook shown_look(hal::Instant now) const;
@@ -104,6 +115,9 @@ class Visit {
   // Follows the machine, and the time.
   std::optional<Intent> follow(const ViewState& view);
   void type(std::string_view letter);
+  // '1' to '9': one of the letters on that key (ui/view/keypad_letters.h); again soon after, the next of
+  // them.
+  void type_by_digit(char digit, hal::Instant now);
   // A text that was shown to the cameras, as though it had been typed; not over something typed.
   void enter(std::string_view text, hal::Instant now);
   void forget();
@@ -118,6 +132,8 @@ class Visit {
   void look_at(ActionKind kind);
   void erase_letter();
   bool person_expected() const;
+  void follow_machine(const ViewState& view);
+  std::optional<Intent> follow_face(const ViewState& view);
   std::optional<Intent> follow_look_up(const ViewState& view);
   std::optional<Intent> act_on_record(ActionKind kind);
   void follow_language(const ViewState& view);
@@ -128,13 +144,23 @@ class Visit {
   FaceLook invitation(hal::Instant now) const;
   void look_as_set();
   bool looks_as_set() const;
-  std::chrono::seconds patience() const { return std::chrono::seconds(settings_.of(Setting::PatienceS)); }
+  std::chrono::seconds patience() const {
+    const std::chrono::seconds set(settings_.of(Setting::PatienceS));
+    return step == Step::Thanks ? std::max(set, kReceiptPatience) : set;
+  }
   void wipe_name();
+  void type_code(std::string_view letters);
 
   std::array<char, kMostNameBytes> name_{};
   std::size_t length_ = 0;
+  char digit_ = 0;  // that typed the last letter
+  std::size_t digit_times_ = 0;
+  hal::Instant digit_at_{};
   std::chrono::system_clock::time_point agreed_at_{};
   hal::Instant last_touch_{};
+  hal::Instant by_hand_{};  // the same, but for a face before the cameras
+  bool read_ = false;
+  std::uint32_t live_number_ = 0;
   hal::Instant entered_{};
   bool near_ = true;
   hal::Instant came_near_{}, near_until_{};

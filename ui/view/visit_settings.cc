@@ -63,6 +63,7 @@ void Visit::look_as_set() {
   const auto size = std::find(kTextPercents.begin(), kTextPercents.end(), settings_.of(Setting::TextPercent));
   text_size = static_cast<std::size_t>(size - kTextPercents.begin()) % kTextPercents.size();
   high_contrast = settings_.is_on(Setting::Contrast);
+  reach = Reach::Usual;
   spoken = headphones_;
   volume = kUsualVolume;
   speed = kUsualSpeed;
@@ -70,8 +71,8 @@ void Visit::look_as_set() {
 
 bool Visit::looks_as_set() const {
   return language == home_ && text_percent() == settings_.of(Setting::TextPercent) &&
-         high_contrast == settings_.is_on(Setting::Contrast) && spoken == headphones_ &&
-         volume == kUsualVolume && speed == kUsualSpeed;
+         high_contrast == settings_.is_on(Setting::Contrast) && reach == Reach::Usual &&
+         spoken == headphones_ && volume == kUsualVolume && speed == kUsualSpeed;
 }
 
 // Who plugs headphones in is spoken to; who pulls them out is not, lest others hear it.

@@ -35,6 +35,7 @@ std::optional<std::string> CodeScanner::turn(const ui::Visit& visit, hal::Instan
   if (running_ && look_.ended.load(std::memory_order_acquire)) {
     running_ = false;
     next_try_ = now + kRest;
+    if (!appliance_.session().is_open()) appliance_.session().live().wipe();  // else the session does
   }
   std::optional<std::string> text = look_.take();
   if (running_ && !wants) appliance_.cancel_side_job(JobLane::Capture);
@@ -70,6 +71,8 @@ Result<void> CodeScanner::Look::look(JobControl& control) {
   for (int pair = 0; !control.cancelled.load(std::memory_order_relaxed); ++pair) {
     RELIEVO_TRY_ASSIGN(const pipeline::StereoFrame frame,
                        appliance_.grabber().grab(appliance_.session().slot(), control.cancelled));
+    appliance_.session().live().fill(frame.left);
+    appliance_.session().live().publish({});
     const auto raw = reader_->read(pair % 2 == 0 ? frame.left : frame.right);
     if (auto text = raw ? code_text(*raw) : std::nullopt) {
       const std::lock_guard lock(mutex_);

@@ -27,6 +27,8 @@ class CodeScanner {
   CodeScanner& operator=(const CodeScanner&) = delete;
 
   // Once a frame. Something that was read and could be a name; the caller wipes it.
+  // Its pictures are in the session's live feed.
+  bool is_looking() const { return running_; }
   std::optional<std::string> turn(const ui::Visit& visit, hal::Instant now);
 
  private:

@@ -301,6 +301,35 @@ TEST_P(GalleryTest, RightToLeftMirrorsThePage) {
   }
 }
 
+// On an upright screen, whose upper third hangs high; and for whoever has the other hand.
+TEST_P(GalleryTest, ControlsComeDownAndToTheOtherSide) {
+  constexpr float kWidth = 1080, kHeight = 1920;
+  for (Exhibit& exhibit : gallery(kNothing, GetParam(), 0, false)) {
+    if (exhibit.service.open) continue;
+    SCOPED_TRACE(exhibit.name);
+    screen_->resize(static_cast<int>(kWidth), static_cast<int>(kHeight));
+    exhibit.visit.reach = ui::Reach::Low;
+    screen_->show(exhibit.view, exhibit.visit, exhibit.service);
+    const ui::Tree& tree = screen_->tree();
+    lies_on_the_screen(tree, {0, 0, kWidth, kHeight});
+    for (const ui::Node& node : tree.nodes()) {
+      if (node.action.kind == ui::ActionKind::None || node.action.kind == ui::ActionKind::TurnFace) continue;
+      EXPECT_TRUE(node.id == "staff" || !tree.is_on_top(node) || node.rect.y >= kHeight / 3) << node.id;
+    }
+    screen_->resize(1280, 800);
+    screen_->show(exhibit.view, exhibit.visit, exhibit.service);
+    const ui::Node* before = tree.find(exhibit.visit.step == ui::Step::Review ? "accept" : "leave");
+    if (before == nullptr || !tree.is_on_top(*before)) continue;
+    const float middle = before->rect.x + before->rect.w / 2;
+    const std::string id(before->id);
+    exhibit.visit.reach = ui::Reach::LowOther;
+    screen_->show(exhibit.view, exhibit.visit, exhibit.service);
+    lies_on_the_screen(tree, {0, 0, 1280, 800});
+    const ui::Rect& after = tree.find(id)->rect;
+    EXPECT_NE(middle < 640, after.x + after.w / 2 < 640) << id;
+  }
+}
+
 std::string name(const testing::TestParamInfo<ui::Language>& info) {
   return std::string(ui::info_of(info.param).code).substr(0, 2);
 }

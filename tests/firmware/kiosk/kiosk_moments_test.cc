@@ -182,8 +182,8 @@ TEST_F(KioskMomentsTest, WhoIsInTheRecordsIsToldAndProvesItByTheCode) {
   EXPECT_FALSE(says(code)) << "the code is not given away";
   tap("have_code");
   for (const std::string& tried :
-       {other, std::string("123"),
-        std::string("000001-95")}) {  // the last: the number of the record, as codes once were
+       {other, std::string("12345678901234"),
+        std::string("00000000000195")}) {  // the last: the number of the record, as codes once were
     erase_all();
     kiosk->ui().visit().type(tried);
     kiosk->turn();
@@ -223,7 +223,7 @@ TEST_F(KioskMomentsTest, AfterTenWrongCodesAnHourTheRightOneIsNoneEither) {
   for (int start = 0; start < 2; ++start) {  // a start of the program gives no further try
     open();
     for (int visit = 0; visit < 5; ++visit) {
-      quote("000999-11");
+      quote("00000000099911");
       EXPECT_EQ(kiosk->view().known, ui::Known::NoSuchCode);
       tap("leave");
       tap("answer_quiet");

@@ -14,8 +14,10 @@
 #include <thread>
 #include <vector>
 
+#include "firmware/kiosk/code/code_reader.h"
 #include "firmware/records/receipt.h"
 #include "hal/monotonic_clock.h"
+#include "hal/picture_file.h"
 #include "hal/sim/device.h"
 #include "pipeline/calibrate/file/calibration_file.h"
 #include "storage/sqlite/sqlite_store.h"
@@ -27,6 +29,23 @@
 namespace relievo::firmware {
 namespace {
 
+// A printer that keeps what it was given; without paper until it is told.
+class PlayedPrinter final : public hal::Printer {
+ public:
+  PlayedPrinter(std::vector<std::byte>& printed, const std::atomic<bool>& has_paper)
+      : printed_(printed), has_paper_(has_paper) {}
+  bool is_there() override { return true; }
+  Result<void> print(std::span<const std::byte> png) override {
+    if (!has_paper_) return Error{Errc::IoFailed, "no paper"};
+    printed_.assign(png.begin(), png.end());
+    return {};
+  }
+
+ private:
+  std::vector<std::byte>& printed_;
+  const std::atomic<bool>& has_paper_;
+};
+
 class KioskTest : public KioskHands {
  protected:
   KioskTest() {
@@ -35,12 +54,20 @@ class KioskTest : public KioskHands {
       RELIEVO_TRY_ASSIGN(auto real, storage::open_sqlite_store(at, clock, {}));
       return std::unique_ptr<storage::Store>(std::make_unique<test::FullStore>(std::move(real), full));
     };
+    services.make_printer = [this] { return std::make_unique<PlayedPrinter>(printed, has_paper); };
     open(args, services);
   }
 
+  void cameras_are_off() {
+    EXPECT_TRUE(until([this] { return !kiosk->view().cameras_on; })) << "no camera runs";
+    kiosk->turn();
+    EXPECT_TRUE(says("The cameras are off")) << "and it is said";
+  }
   void to_position() {
     ASSERT_TRUE(reach(ui::Step::Attract));
+    cameras_are_off();
     tap("start");
+    cameras_are_off();
     tap("agree");
     for (const char* key : {"key A", "key d", "key a"}) tap(key);
     EXPECT_EQ(kiosk->ui().visit().name(), "Ada");
@@ -51,6 +78,7 @@ class KioskTest : public KioskHands {
 
   void leave_before_the_picture() {
     to_position();
+    EXPECT_TRUE(until([this] { return kiosk->view().cameras_on; }));
     while (kiosk->view().live.number == 0) {
       kiosk->turn();
       std::this_thread::sleep_for(std::chrono::milliseconds(2));
@@ -102,6 +130,8 @@ class KioskTest : public KioskHands {
     kiosk->turn();
     code = kiosk->view().receipt;
     EXPECT_LE(kiosk->ui().visit().touches, 6);
+    cameras_are_off();
+    the_code_is_taken_home();
     tap("finish");
     EXPECT_EQ(kiosk->ui().visit().step, ui::Step::Attract);
     kiosk->turn();
@@ -109,14 +139,35 @@ class KioskTest : public KioskHands {
     EXPECT_TRUE(kiosk->take_forgotten());
   }
 
+  // Photographed from the screen, or on paper.
+  void the_code_is_taken_home() {
+    const auto reader = CodeReader::make();
+    const auto& shown = kiosk->ui().draw_list().pictures[static_cast<std::size_t>(ui::PictureSlot::Receipt)];
+    EXPECT_EQ(reader->read(shown.pixels), code);
+    ASSERT_TRUE(until([this] { return find("print") != nullptr; }));
+    tap("print");
+    EXPECT_TRUE(until([this] { return says("It could not be printed"); }));
+    EXPECT_TRUE(printed.empty());
+    has_paper = true;
+    tap("print");
+    EXPECT_TRUE(until([this] { return says("It has been printed"); }));
+    const auto paper = hal::decode_picture(printed.data(), printed.size());
+    ASSERT_TRUE(paper.has_value());
+    EXPECT_EQ(reader->read(paper->view()), code);
+  }
+
   void played(const std::string& lines) {
     const Result<void> done = play(lines.c_str());
     ASSERT_TRUE(done.has_value()) << done.error().where();
     kiosk->turn();
   }
+  static std::string digits_of(std::string text) {
+    std::erase(text, '-');
+    return text;
+  }
   std::string with_the_code() const {
-    return "tap start\ntap agree\ntype Ada\ntap done\nwait known\ntap have_code\nwait name\ntype " + code +
-           "\ntap done\nwait known\n";
+    return "tap start\ntap agree\ntype Ada\ntap done\nwait known\ntap have_code\nwait name\ntype " +
+           digits_of(code) + "\ntap done\nwait known\n";
   }
   // What the records have of Ada, the kiosk running.
   std::vector<storage::Enrolment> kept() const {
@@ -188,7 +239,8 @@ class KioskTest : public KioskHands {
     EXPECT_TRUE((*store)->check().has_value());
   }
 
-  std::atomic<bool> full{false};
+  std::atomic<bool> full{false}, has_paper{false};
+  std::vector<std::byte> printed;
   std::string code;
   test::TemporaryFolder folder;
   hal::MonotonicClock clock;

@@ -4,6 +4,7 @@
 // The letters of the language, as its speakers know them from their own.
 #include "ui/screens/parts/keyboard.h"
 
+#include <algorithm>
 #include <array>
 #include <span>
 
@@ -166,6 +167,51 @@ void keyboard(Page& page, Action done) {
     page.tree.close();
   }
   last_row(page, done);
+  page.tree.close();
+}
+
+void number_pad(Page& page, const PadIds& ids, Action done) {
+  // Larger where there is more room.
+  const float share = std::min(page.text_share, 1.5F) * (page.portrait ? 1.25F : 1.0F);
+  Node pad = page.box(Flow::Column, 10);
+  pad.id = "keyboard";
+  pad.box.width = page.px(360 * share);
+  pad.box.justify = Justify::Centre;
+  page.tree.open(pad);
+  const auto shaped = [&](Node node, bool main) {
+    frame(node, main ? page.palette.accent : page.palette.card, main ? Colour{} : page.palette.card_border,
+          main ? 0 : page.px(1.5F), page.px(16));
+    node.box.grow = 1;
+    node.box.min_height = page.px(size::kKeyLeast * share);
+    return node;
+  };
+  const auto digit = [&](const char* letter) {
+    Node node = shaped(
+        page.text(letter, type::kHeading, Weight::Medium, page.palette.link, TextAlign::Centre), false);
+    const std::string_view key = page.tree.keep(ids.digit), rest = page.tree.keep(letter);
+    tell(node, Role::Key, {key.data(), key.size() + rest.size()}, {}, {ActionKind::TypeKey, 0});
+    page.tree.leaf(node);
+  };
+  const auto sign = [&](std::string_view id, const char* spoken, const char* letter, Action action,
+                        bool main) {
+    Node node = shaped(page.box(Flow::Row), main);
+    tell(node, Role::Key, id, spoken, action);
+    centre(node);
+    page.tree.open(node);
+    page.sign(letter, 30, main ? page.palette.accent_ink : page.palette.link);
+    page.tree.close();
+  };
+  constexpr const char* kRows[3][3] = {{"1", "2", "3"}, {"4", "5", "6"}, {"7", "8", "9"}};
+  for (const auto& keys : kRows) {
+    page.tree.open(row_box(page));
+    for (const char* key : keys) digit(key);
+    page.tree.close();
+  }
+  page.tree.open(row_box(page));
+  sign("erase", page.tr("Erase"), icon::kErase, {ActionKind::Erase, 0}, false);
+  digit("0");
+  sign(ids.done, page.tr("Done"), icon::kCheck, done, true);
+  page.tree.close();
   page.tree.close();
 }
 

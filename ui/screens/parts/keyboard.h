@@ -11,4 +11,10 @@ namespace relievo::ui {
 // `done` is what the key that ends typing does; the visitor's does nothing before there is a name.
 void keyboard(Page& page, Action done = {ActionKind::Done, 0});
 
+// Digits, and a tick for `done`.
+struct PadIds {
+  std::string_view digit, done;  // of the keys: the first goes before the digit
+};
+void number_pad(Page& page, const PadIds& ids, Action done);
+
 }  // namespace relievo::ui

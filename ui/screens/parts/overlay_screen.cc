@@ -38,6 +38,7 @@ const char* help_for(const Page& page) {
       return tr("Write the code down, or photograph it. With it everything about you can be erased.");
     case Step::Trouble:
     case Step::Starting:
+    case Step::Declined:
       break;
   }
   return tr("Please tell the staff.");
@@ -46,6 +47,7 @@ const char* help_for(const Page& page) {
 void begin_card(Page& page) {
   Node veil = page.box(Flow::Column, 0, 40, 32);
   centre(veil);
+  if (page.low()) veil.box.justify = Justify::End;
   veil.id = "veil";
   veil.modal = true;
   veil.box.fill = page.palette.veil;
@@ -77,13 +79,10 @@ void answers(Page& page, const char* quiet, Action quiet_action, const char* mai
 void hearing(Page& page) {
   const auto percent = [&](int value) { return page.filled("{} %", std::to_string(value)); };
   const std::string_view volume = percent(kVolumePercents[page.visit.volume]);
-  Node row = page.box(Flow::Row, space::kS);
-  page.tree.open(row);
   page.square_button("quieter", page.tr("Quieter"), icon::kQuieter, {ActionKind::Quieter, 0}, volume);
   page.square_button("louder", page.tr("Louder"), icon::kSpeaker, {ActionKind::Louder, 0}, volume);
   page.square_button("speed", page.tr("Speed of speech"), icon::kSpeed, {ActionKind::Speed, 0},
                      percent(kSpeedPercents[page.visit.speed]));
-  page.tree.close();
 }
 
 // Large letters may need more than the screen: then the words can be scrolled.
@@ -97,11 +96,18 @@ void help(Page& page) {
   if (page.visit.step == Step::Name)
     page.body("overlay_code",
               page.tr("You can also hold a QR code with your name or number up to the cameras."));
+  if (page.visit.step == Step::Name && !page.visit.quotes_code())
+    page.body("overlay_keypad",
+              page.tr("On a keypad the digits type letters: press a key again for its next letter."));
   page.body(
       "overlay_staff",
       page.tr("If you would rather not use this screen, ask the staff: they can do every step for you."));
   page.tree.close();
+  page.tree.open(page.box(Flow::Row, space::kS));
+  page.within_reach();
+  page.privacy();
   if (page.visit.spoken) hearing(page);
+  page.tree.close();
   page.button("close", page.tr("Go on"), icon::kCheck, ButtonLook::Main, {ActionKind::CloseOverlay, 0});
 }
 
@@ -118,11 +124,91 @@ void leave(Page& page) {
           {ActionKind::Stay, 0});
 }
 
+// The code is seen nowhere else: it is in view to the last second.
+void code_goes(Page& page, const char* seconds) {
+  page.body("overlay_text",
+            page.tr("To have it erased, quote this code to the staff. You can take a photo of it."));
+  Node row = page.box(Flow::Row, space::kM);
+  row.box.align = Align::Centre;
+  page.tree.open(row);
+  page.tree.open(page.grown(page.box(Flow::Column)));
+  Node code = page.text(page.filled("{}", page.view.receipt), type::kTitle, Weight::Bold, page.palette.ink);
+  code.style.size_px = page.px(type::kTitle);
+  code.secret = true;
+  page.tree.leaf(code);
+  page.tree.close();
+  Node left = page.text(page.tree.keep(seconds), type::kTitle, Weight::Bold, page.palette.warn);
+  left.id = "seconds";
+  left.role = Role::Status;
+  page.tree.leaf(left);
+  page.tree.close();
+  answers(page, page.tr("Done"), {ActionKind::Finish, 0}, page.tr("Yes, go on"), {ActionKind::Stay, 0});
+}
+
+void told(Page& page, const char* asked, std::string_view words) {
+  Node block = page.box(Flow::Column, 2);
+  page.tree.open(block);
+  page.tree.leaf(page.text(asked, type::kSmall, Weight::Bold, page.palette.ink));
+  page.tree.leaf(page.text(words, type::kSmall, Weight::Regular, page.palette.ink_soft));
+  page.tree.close();
+}
+
+// How long a record is kept, as the staff have set it.
+std::string_view kept_for(Page& page) {
+  const int days = page.view.settings.of(Setting::KeepDays);
+  if (days == 0) return page.tr("Until you have it erased.");
+  char number[16];
+  std::snprintf(number, sizeof number, "%d", days);
+  const std::string_view at_most =
+      page.filled(page.tr.plural("{} day", "{} days", static_cast<unsigned long>(days)), number);
+  return page.filled(page.tr("Until you have it erased, at most: {}"), at_most);
+}
+
+std::string_view host_of(Page& page) {
+  if (page.view.consent == nullptr || page.view.consent->host.name.empty())
+    return page.tr("Whoever runs this device: please ask the staff.");
+  const Host& host = page.view.consent->host;
+  return host.reached.empty() ? page.filled("{}", host.name)
+                              : page.filled("{} · {}", {host.name, host.reached});
+}
+
+// The whole story on one page.
+void privacy(Page& page) {
+  const auto& tr = page.tr;
+  page.heading("overlay_title", tr("Your data"), type::kHeading);
+  Node words = page.box(Flow::Column, space::kS);
+  words.id = "overlay_words";
+  words.box.scroll = words.box.shrink = true;
+  page.tree.open(words);
+  told(page, tr("Who keeps it"), host_of(page));
+  told(page, tr("What for"),
+       tr("A 3D portrait of you, if you want one. It is used to identify nobody here."));
+  told(page, tr("What is kept"),
+       tr("Only if you accept it are the portrait, your name and this consent stored, on this device."));
+  told(page, tr("How long"), kept_for(page));
+  told(page, tr("What leaves this device"),
+       tr("It is connected to nothing. The staff can copy stored portraits to a stick."));
+  told(page, tr("How to withdraw"),
+       tr("You get a code. Quote it to the staff at any time and everything about you is erased."));
+  page.cameras();
+  page.tree.close();
+  page.button("close", tr("Go on"), icon::kCheck, ButtonLook::Main, {ActionKind::CloseOverlay, 0});
+}
+
+void lost_code(Page& page) {
+  page.heading("overlay_title", page.tr("I lost my code"));
+  page.body("overlay_text",
+            page.tr("Please ask the staff: they can find your record by your name, and renew or erase it."));
+  answers(page, page.tr("Stop and leave"), {ActionKind::LeaveNow, 0}, page.tr("Go on"),
+          {ActionKind::CloseOverlay, 0});
+}
+
 void still_there(Page& page) {
   const int left = page.visit.seconds_left(page.view.now);
   char number[8];
   std::snprintf(number, sizeof number, "%d", left);
   page.heading("overlay_title", page.tr("Are you still there?"));
+  if (page.visit.step == Step::Thanks) return code_goes(page, number);
   Node words = page.text(
       page.filled(page.tr.plural("Everything is wiped in {} second.", "Everything is wiped in {} seconds.",
                                  static_cast<unsigned long>(left)),
@@ -150,6 +236,12 @@ void overlay_screen(Page& page) {
       break;
     case Overlay::StillThere:
       still_there(page);
+      break;
+    case Overlay::LostCode:
+      lost_code(page);
+      break;
+    case Overlay::Privacy:
+      privacy(page);
       break;
     case Overlay::None:
       break;

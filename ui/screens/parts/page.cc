@@ -38,6 +38,7 @@ int number_of(Step step) {
     case Step::Thanks:
     case Step::Trouble:
     case Step::Starting:
+    case Step::Declined:
       break;
   }
   return -1;
@@ -149,6 +150,27 @@ void Page::more_contrast() {
                 visit.high_contrast ? tr("yes") : tr("no"));
 }
 
+void Page::within_reach() {
+  square_button("reach", tr("Controls lower or on the other side"), icon::kReach, {ActionKind::Reach, 0},
+                share_of(static_cast<std::size_t>(visit.reach) + 1, 3));
+}
+
+void Page::privacy() {
+  square_button("privacy", tr("Your data"), icon::kShield, {ActionKind::ShowPrivacy, 0});
+}
+
+void Page::cameras() {
+  const bool on = view.cameras_on;
+  const char* words = on ? tr("The cameras are on") : tr("The cameras are off");
+  Node row = box(Flow::Row, 10);
+  tell(row, Role::Status, "cameras", words);
+  row.box.align = Align::Centre;
+  tree.open(row);
+  sign(on ? icon::kCamera : icon::kCameraOff, 24, on ? palette.warn : palette.good);
+  tree.leaf(text(words, type::kSmall, Weight::Medium, on ? palette.warn : palette.good));
+  tree.close();
+}
+
 void Page::square_button(std::string_view id, std::string_view spoken, const char* letter, Action action,
                          std::string_view value) {
   Node node = sized(box(Flow::Row), size::kTarget, size::kTarget);
@@ -190,6 +212,16 @@ std::string_view Page::filled(const char* words, std::span<const std::string_vie
   return {first.data(), length + tree.keep(rest).size()};
 }
 
+std::string_view Page::spelled(std::string_view code) {
+  const std::string_view first = tree.keep({});
+  std::size_t length = 0;
+  for (const char& c : code)
+    for (const std::string_view part :
+         {std::string_view(c == '-' ? "," : std::string_view(&c, 1)), std::string_view(" ")})
+      length += tree.keep(part).size();
+  return {first.data(), length};
+}
+
 std::string_view Page::share_of(std::size_t done, std::size_t all) {
   return filled(tr("{} of {}"), {std::to_string(done), std::to_string(all)});
 }
@@ -200,17 +232,26 @@ void Page::begin(bool with_back) {
   root.box.fill = palette.ground;
   root.box.fill_end = palette.ground_end;
   tree.open(root);
-  bar(with_back);
+  with_back_ = with_back;
+  if (!low()) bar(with_back);
+}
+
+void Page::end() {
+  if (low()) bar(with_back_);
+  tree.close();
 }
 
 void Page::bar(bool with_back) {
-  tree.open(box(Flow::Row, space::kS));
+  tree.open(sided(box(Flow::Row, space::kS)));
   tree.open(grown([&] {
     Node n = box(Flow::Row, space::kS);
     n.box.align = Align::Centre;
     return n;
   }()));
-  if (with_back) button("back", tr("Back"), backward(), ButtonLook::Quiet, {ActionKind::Back, 0});
+  constexpr float kNoRoomForWords = 1.6F;
+  if (with_back && portrait && text_share > kNoRoomForWords)
+    square_button("back", tr("Back"), backward(), {ActionKind::Back, 0});
+  else if (with_back) button("back", tr("Back"), backward(), ButtonLook::Quiet, {ActionKind::Back, 0});
   if (!portrait || !with_back) steps();
   tree.close();
   reading_tools();

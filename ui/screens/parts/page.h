@@ -29,7 +29,8 @@ inline constexpr const char *kBack = "\uf04d", *kNext = "\uf054", *kUp = "\uf05d
                             *kNoCamera = "\uf5df", *kDisk = "\uf2ca", *kDark = "\uf594", *kInfo = "\uf2fc",
                             *kPerson = "\uf64a", *kStill = "\uf51f", *kBin = "\uf1c0", *kLess = "\uf374",
                             *kMore = "\uf415", *kSpeaker = "\uf57e", *kQuieter = "\uf57f", *kSpeed = "\uf4c5",
-                            *kUndo = "\uf54c";
+                            *kUndo = "\uf54c", *kReach = "\uf5a4", *kCameraOff = "\uf5df",
+                            *kShield = "\uf498", *kPrinter = "\uf42a";
 }  // namespace icon
 
 // What keeps a text apart from the direction of the words around it, letter by letter: a literal with one of
@@ -120,6 +121,10 @@ class Page {
   void reading_tools();
   void bigger_text();
   void more_contrast();
+  void within_reach();
+  void privacy();
+  // Whether the cameras are off, before the consent and when all is over.
+  void cameras();
   // Kept for the frame, with a zero at its end, as gettext wants its keys.
   const char* kept(std::string_view words);
   // "… {} …" with the value in it, kept apart from the direction of the words around.
@@ -129,16 +134,26 @@ class Page {
     return filled(words, std::span(values.begin(), values.size()));
   }
   std::string_view filled(const char* words, std::span<const std::string_view> values);
+  // A code as it is spoken: digit by digit, with a pause between groups.
+  std::string_view spelled(std::string_view code);
   // "3 of 4": what a gauge says to who does not see it.
   std::string_view share_of(std::size_t done, std::size_t all);
 
   // The frame of every page on the way: bar at the top, room for the rest. Closed by end().
   void begin(bool with_back);
-  void end() { tree.close(); }
+  void end();
+  bool low() const { return visit.reach != Reach::Usual; }
+  // A row that comes to the other side with the controls in it.
+  Node sided(Node row) const {
+    row.box.other_side = visit.reach == Reach::LowOther;
+    return row;
+  }
 
  protected:
   void button(std::string_view id, std::string_view label, const char* letter, ButtonLook look, Action action,
               float grow, const ButtonSize& lengths);
+
+  bool with_back_ = false;
 
  private:
   void bar(bool with_back);

@@ -6,6 +6,7 @@
 
 #include <string_view>
 
+#include "ui/screens/parts/keyboard.h"
 #include "ui/screens/service/staff_frame.h"
 
 namespace relievo::ui {

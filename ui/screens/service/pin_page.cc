@@ -70,7 +70,7 @@ void pin_entry(StaffFrame& page, const char* title, const PinWords& words, Actio
   if (!words.told.empty()) told(page, "pin state", words.told, words.mood);
   dots(page);
   page.tree.close();
-  page.keypad(done);
+  number_pad(page, {"digit ", "pin done"}, done);
   page.tree.close();
 }
 

@@ -13,8 +13,6 @@ constexpr const char* kLeaveSign = "\uf343";
 constexpr Colour kNone{};
 
 // Of a PIN's keys; upright there is room for larger ones.
-float key_share(const Page& page) { return page.text_share * (page.portrait ? 1.25F : 1.0F); }
-
 }  // namespace
 
 Colour StaffFrame::ink_of(Mood mood) const {
@@ -240,50 +238,6 @@ void StaffFrame::held_button(std::string_view id, std::string_view label, Action
   tree.open(node);
   sign(icon::kBin, kSize.sign, palette.bad);
   tree.leaf(text(label, kSize.text, Weight::Medium, palette.bad, TextAlign::Centre));
-  tree.close();
-}
-
-void StaffFrame::digit(const char* letter) {
-  Node node = text(letter, type::kHeading, Weight::Medium, palette.link, TextAlign::Centre);
-  const std::string_view key = tree.keep("digit "), rest = tree.keep(letter);
-  tell(node, Role::Key, {key.data(), key.size() + rest.size()}, {}, {ActionKind::TypeKey, 0});
-  frame(node, palette.card, palette.card_border, px(1.5F), px(16));
-  node.box.grow = 1;
-  node.box.min_height = px(size::kKeyLeast * key_share(*this));
-  tree.leaf(node);
-}
-
-void StaffFrame::keypad(Action done) {
-  constexpr const char* kRows[3][3] = {{"1", "2", "3"}, {"4", "5", "6"}, {"7", "8", "9"}};
-  Node pad = box(Flow::Column, 10);
-  pad.box.width = px(360 * key_share(*this));
-  tree.open(pad);
-  for (const auto& keys : kRows) {
-    Node row = box(Flow::Row, 10);
-    row.box.left_to_right = true;
-    tree.open(row);
-    for (const char* key : keys) digit(key);
-    tree.close();
-  }
-  Node row = box(Flow::Row, 10);
-  row.box.left_to_right = true;
-  tree.open(row);
-  const auto key = [&](std::string_view id, const char* spoken, const char* letter, Action action,
-                       bool main) {
-    Node node = grown(box(Flow::Row));
-    tell(node, Role::Key, id, spoken, action);
-    centre(node);
-    frame(node, main ? palette.accent : palette.card, main ? kNone : palette.card_border, main ? 0 : px(1.5F),
-          px(16));
-    node.box.min_height = px(size::kKeyLeast * key_share(*this));
-    tree.open(node);
-    sign(letter, 30, main ? palette.accent_ink : palette.link);
-    tree.close();
-  };
-  key("erase", tr("Erase"), icon::kErase, {ActionKind::Erase, 0}, false);
-  digit("0");
-  key("pin done", tr("Done"), icon::kCheck, done, true);
-  tree.close();
   tree.close();
 }
 

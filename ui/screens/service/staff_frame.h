@@ -6,6 +6,7 @@
 // Thread: main. Errors: none.
 #pragma once
 
+#include <algorithm>
 #include <string_view>
 
 #include "ui/screens/parts/page.h"
@@ -20,9 +21,12 @@ inline constexpr ButtonSize kStaffButton{kStaffTarget, kStaffTarget, 20, 8, 10, 
 
 class StaffFrame : public Page {
  public:
+  static constexpr float kMostTextShare = 1.5F;  // rows of figures have no room for more
   StaffFrame(Tree& tree_in, const ViewState& view_in, const Visit& visit_in, const Service& service_in,
              const Palette& palette_in, const Rect& screen)
-      : Page(tree_in, view_in, visit_in, palette_in, screen), service(service_in), staff(*view_in.service) {}
+      : Page(tree_in, view_in, visit_in, palette_in, screen), service(service_in), staff(*view_in.service) {
+    text_share = std::min(text_share, kMostTextShare);
+  }
 
   const Service& service;
   const ServiceView& staff;
@@ -76,8 +80,6 @@ class StaffFrame : public Page {
   // another key calls it back.
   void grave_question(const char* title, const About& about, const char* words, const char* yes,
                       Action yes_action, const char* no, Action no_action);
-  // Digits to be typed; `done` when the tick is touched.
-  void keypad(Action done);
   // "12.5 mm", "90.0°", with the language's decimal mark and digits in threes, kept apart from the direction
   // of the words around.
   std::string_view number(double value, int decimals = 0, const char* unit_name = "");
@@ -98,7 +100,6 @@ class StaffFrame : public Page {
   void leaving();
   void asked(const char* title, const About* about, const char* words, const char* hint);
   void held_button(std::string_view id, std::string_view label, Action action, float grow);
-  void digit(const char* letter);
   void step_button(std::string_view id, const char* end, const char* spoken, std::string_view label,
                    const char* letter, Action action);
 };

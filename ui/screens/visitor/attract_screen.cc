@@ -57,6 +57,8 @@ void tools(Page& page) {
                        page.visit.spoken ? page.tr("yes") : page.tr("no"));
   page.bigger_text();
   page.more_contrast();
+  page.within_reach();
+  page.privacy();
   page.square_button("help", page.tr("Help"), icon::kHelp, {ActionKind::ShowHelp, 0});
   page.tree.close();
 }
@@ -75,10 +77,13 @@ void words(Page& page) {
   Node column = page.box(Flow::Column, space::kM);
   column.box.grow = page.portrait ? 0 : 1.1F;
   column.box.justify = Justify::Centre;
+  column.box.shrink = true;
   page.tree.open(column);
   const bool tight = !page.portrait && page.text_share > 1.3F;
-  if (!tight)
-    page.tree.leaf(page.text(page.tr("3D portrait"), type::kSmall, Weight::Bold, page.palette.good));
+  Node said = page.box(Flow::Column, space::kM);
+  said.id = "said";
+  said.box.scroll = said.box.shrink = true;
+  page.tree.open(said);
   page.heading("title", page.tr("Your face in three dimensions"),
                tight                                     ? 38
                : page.portrait || page.text_share < 1.2F ? type::kDisplay
@@ -87,6 +92,8 @@ void words(Page& page) {
       "what",
       page.tr(
           "Two cameras look at you for a moment; all of it takes about a minute. You see your 3D portrait first. Without your consent nothing is kept."));
+  page.cameras();
+  page.tree.close();
   page.tree.leaf(page.sized(page.box(Flow::Column), 1, 4));
   page.button("start", page.tr("Start"), page.onward(), ButtonLook::Main, {ActionKind::Start, 0});
   languages(page);
@@ -97,8 +104,8 @@ void words(Page& page) {
 }  // namespace
 
 void attract_screen(Page& page) {
-  Node root =
-      page.portrait ? page.box(Flow::Column, space::kL, 56, 56) : page.box(Flow::Row, space::kXl, 72, 32);
+  Node root = page.portrait ? page.box(Flow::Column, space::kL, 56, 56)
+                            : page.sided(page.box(Flow::Row, space::kXl, 72, 32));
   root.id = "page";
   root.box.fill = page.palette.ground;
   root.box.fill_end = page.palette.ground_end;

@@ -15,7 +15,7 @@ constexpr float kCorner = 16;  // as the staff's way in has it (staff_entrance)
 // What every page has at its top, beside the staff's way in where there is one: whoever reads a message reads
 // it in their language, and as large as they need it.
 void tools(Page& page) {
-  Node row = page.box(Flow::Row, space::kS);
+  Node row = page.sided(page.box(Flow::Row, space::kS));
   row.box.justify = Justify::End;
   page.tree.open(row);
   page.reading_tools();
@@ -35,7 +35,7 @@ void begin_message(Page& page, const char* letter, Colour colour, bool with_tool
   root.box.fill = page.palette.ground;
   root.box.fill_end = page.palette.ground_end;
   page.tree.open(root);
-  if (with_tools) tools(page);
+  if (with_tools && !page.low()) tools(page);
   Node middle = page.grown(page.box(Flow::Column, 0, 24, with_tools ? 0 : 24));
   middle.box.align = Align::Centre;
   page.tree.open(middle);
@@ -49,9 +49,11 @@ void begin_message(Page& page, const char* letter, Colour colour, bool with_tool
   if (letter != nullptr) page.sign(letter, 88 / page.text_share, colour);
 }
 
-void end_message(Page& page) {
+// Closes the column, the middle and the page.
+void end_message(Page& page, bool in_column = true) {
+  if (in_column) page.tree.close();
   page.tree.close();
-  page.tree.close();
+  if (page.low() && page.visit.step != Step::Starting) tools(page);
   page.tree.close();
 }
 
@@ -59,18 +61,16 @@ void end_message(Page& page) {
 // of the page.
 bool at_foot(const Page& page) { return !page.portrait && page.text_share > 1.2F; }
 
-void end_message(Page& page, const char* on, const char* letter) {
+void end_message(Page& page, const char* on, const char* letter, ActionKind action = ActionKind::Finish) {
   const bool foot = at_foot(page);
   if (foot) page.tree.close();
   else page.tree.leaf(page.sized(page.box(Flow::Column), 1, 8));
   Node row = page.box(Flow::Column, 0, 0, foot ? space::kS : 0.0F);
   if (foot) row.box.width = page.px(std::min(kColumn, page.width_dp - 80));
   page.tree.open(row);
-  page.button("finish", on, letter, ButtonLook::Main, {ActionKind::Finish, 0});
+  page.button(action == ActionKind::Finish ? "finish" : "enter", on, letter, ButtonLook::Main, {action, 0});
   page.tree.close();
-  if (!foot) page.tree.close();
-  page.tree.close();
-  page.tree.close();
+  end_message(page, !foot);
 }
 
 struct Words4 {
@@ -121,15 +121,71 @@ Words4 words_of(const Page& page) {
           tr("Please tell the staff. This device tries again by itself. Nothing about you was kept.")};
 }
 
-// Digit by digit, with a pause between groups.
-std::string_view spelled(Page& page, std::string_view code) {
-  const std::string_view first = page.tree.keep({});
-  std::size_t length = 0;
-  for (const char& c : code)
-    for (const std::string_view part :
-         {std::string_view(c == '-' ? "," : std::string_view(&c, 1)), std::string_view(" ")})
-      length += page.tree.keep(part).size();
-  return {first.data(), length};
+// The code in digits, and where there is room as a QR code for a photograph.
+void receipt(Page& page) {
+  const auto& tr = page.tr;
+  Node row = page.box(Flow::Row);
+  row.box.justify = Justify::Centre;
+  page.tree.open(row);
+  Node card = page.box(Flow::Row, space::kM, 32, 16);
+  tell(card, Role::Group, "code", tr("Your code"));
+  card.value = page.spelled(page.view.receipt);
+  card.secret = true;
+  card.box.align = Align::Centre;
+  frame(card, page.palette.card, page.palette.accent, page.px(3), page.px(size::kCardRadius));
+  page.tree.open(card);
+  page.tree.open(page.box(Flow::Column, 4));
+  page.tree.leaf(
+      page.text(tr("Your code"), type::kSmall, Weight::Medium, page.palette.ink_soft, TextAlign::Centre));
+  constexpr float kCode = 52;
+  Node code = page.text(page.filled("{}", page.view.receipt), kCode, Weight::Bold, page.palette.ink,
+                        TextAlign::Centre);
+  code.id = "receipt";
+  code.style.size_px = page.px(kCode);
+  page.tree.leaf(code);
+  page.tree.close();
+  if (const ImageView& drawn = page.view.receipt_code.picture; !drawn.empty() && !at_foot(page)) {
+    constexpr float kSide = 190;
+    Node qr = page.sized(page.box(Flow::Column), kSide, kSide);
+    qr.id = "qr";
+    qr.mark = Mark::Image;
+    qr.picture = PictureSlot::Receipt;
+    qr.aspect = 1;
+    page.tree.leaf(qr);
+  }
+  page.tree.close();
+  page.tree.close();
+}
+
+// On paper, where there is a printer.
+void printing(Page& page) {
+  const auto& tr = page.tr;
+  const char* said = nullptr;
+  switch (page.view.printing) {
+    case Printing::None:
+      return;
+    case Printing::Busy:
+      said = tr("One moment, please");
+      break;
+    case Printing::Done:
+      said = tr("It has been printed");
+      break;
+    case Printing::Failed:
+      said = tr("It could not be printed");
+      break;
+    case Printing::Ready:
+      break;
+  }
+  if (said != nullptr) {
+    Node words = page.text(said, type::kBody, Weight::Medium,
+                           page.view.printing == Printing::Failed ? page.palette.bad : page.palette.ink,
+                           TextAlign::Centre);
+    words.id = "printing";
+    words.role = Role::Status;
+    page.tree.leaf(words);
+  }
+  if (page.view.printing == Printing::Ready || page.view.printing == Printing::Failed)
+    page.button("print", tr("Print the code"), icon::kPrinter, ButtonLook::Quiet, {ActionKind::Print, 0});
 }
 
 }  // namespace
@@ -141,29 +197,20 @@ void thanks_screen(Page& page) {
   page.heading("title", tr("Thank you. Your portrait is stored"), type::kTitle, TextAlign::Centre);
   page.body("what", tr("To have it erased, quote this code to the staff. You can take a photo of it."),
             TextAlign::Centre);
-  Node row = page.box(Flow::Row);
-  row.box.justify = Justify::Centre;
-  page.tree.open(row);
-  Node card = page.box(Flow::Column, 4, 48, 20);
-  card.id = "code";
-  card.name = tr("Your code");
-  card.value = spelled(page, page.view.receipt);
-  card.secret = true;
-  card.box.fill = page.palette.card;
-  card.box.border = page.palette.accent;
-  card.box.border_px = page.px(3);
-  card.box.radius = page.px(size::kCardRadius);
-  page.tree.open(card);
-  page.tree.leaf(
-      page.text(tr("Your code"), type::kSmall, Weight::Medium, page.palette.ink_soft, TextAlign::Centre));
-  Node code =
-      page.text(page.filled("{}", page.view.receipt), 56, Weight::Bold, page.palette.ink, TextAlign::Centre);
-  code.id = "receipt";
-  code.style.size_px = page.px(56);
-  page.tree.leaf(code);
-  page.tree.close();
-  page.tree.close();
+  receipt(page);
+  printing(page);
+  page.cameras();
   end_message(page, tr("Done"), icon::kCheck);
+}
+
+void declined_screen(Page& page) {
+  begin_message(page, icon::kGood, page.palette.good, true);
+  page.heading("title", page.tr("All right. Nothing was kept"), type::kTitle, TextAlign::Centre);
+  page.body(
+      "what",
+      page.tr("If you would rather not use this screen, ask the staff: they can do every step for you."),
+      TextAlign::Centre);
+  end_message(page, page.tr("Back to the start"), icon::kAgain);
 }
 
 void trouble_screen(Page& page) {
@@ -173,6 +220,9 @@ void trouble_screen(Page& page) {
   page.body("what", said.words, TextAlign::Centre);
   if (page.view.screen == Screen::Idle && !bars_the_way(page.view.out_of_order))
     end_message(page, page.tr("Back to the start"), icon::kAgain);
+  // Who sets it up need not look for the way in.
+  else if (page.view.out_of_order == Trouble::Uncalibrated && page.view.service != nullptr)
+    end_message(page, page.tr("Staff"), icon::kLock, ActionKind::StaffEnter);
   else end_message(page);
 }
 

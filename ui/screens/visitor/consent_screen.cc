@@ -82,8 +82,9 @@ void consent_screen(Page& page) {
   const ConsentText* own =
       page.view.consent != nullptr ? page.view.consent->of(page.visit.language) : nullptr;
   page.heading("title", own != nullptr ? std::string_view(own->title) : tr("What happens here"));
+  page.cameras();
   Node list = page.grown(page.box(Flow::Column, space::kS));
-  list.id = "points";
+  list.id = kToRead;
   list.box.scroll = list.box.even = true;
   page.tree.open(list);
   if (own != nullptr) own_points(page, *own);
@@ -92,10 +93,13 @@ void consent_screen(Page& page) {
     page.tree.leaf(page.text(tr("Sample text, not reviewed by a lawyer: the operator puts their own here."),
                              type::kSmall, Weight::Regular, page.palette.ink_soft));
   page.tree.close();
-  page.tree.open(page.box(page.portrait ? Flow::Column : Flow::Row, space::kM));
+  page.tree.open(page.sided(page.box(page.portrait ? Flow::Column : Flow::Row, space::kM)));
   const float grow = page.portrait ? 0.0F : 1.0F;
   page.button("decline", tr("No, thank you"), nullptr, ButtonLook::Quiet, {ActionKind::Decline, 0}, grow);
-  page.button("agree", tr("I agree"), icon::kGood, ButtonLook::Main, {ActionKind::Agree, 0}, 1.6F * grow);
+  if (page.visit.has_read())
+    page.button("agree", tr("I agree"), icon::kGood, ButtonLook::Main, {ActionKind::Agree, 0}, 1.6F * grow);
+  else
+    page.button("read_on", tr("Go on"), icon::kDown, ButtonLook::Quiet, {ActionKind::ReadOn, 0}, 1.6F * grow);
   page.tree.close();
   page.end();
 }

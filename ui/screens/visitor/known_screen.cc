@@ -37,6 +37,7 @@ void name_ways(Page& page) {
   page.button("have_code", tr("I have my code"), icon::kLock, ButtonLook::Main, {ActionKind::HaveCode, 0},
               grow);
   page.tree.close();
+  page.button("lost_code", tr("I lost my code"), icon::kHelp, ButtonLook::Plain, {ActionKind::LostCode, 0});
 }
 
 }  // namespace

@@ -1,59 +1,161 @@
 // SPDX-FileCopyrightText: 2026 The Relievo authors
 // SPDX-License-Identifier: GPL-3.0-or-later
+//
+// A name, or the code of an earlier record; typed, or shown to the cameras.
 #include "ui/screens/visitor/visitor_screens.h"
 
 namespace relievo::ui {
 namespace {
 
 constexpr float kAsked = 38;  // the size of the question above the field
+constexpr float kFinderHigh = 136, kFinderHighAbreast = 78, kFinderHighPortrait = 300;
+
+// "4821-9037-____-__": what is there, and how much is still to come. As long as the code itself.
+std::string_view grouped(Page& page, std::string_view digits) {
+  const std::string_view first = page.tree.keep({});
+  std::size_t length = 0;
+  for (std::size_t i = 0; i < kCodeDigits; ++i) {
+    if (i % 4 == 0 && i > 0) length += page.tree.keep("-").size();
+    length += page.tree.keep(i < digits.size() ? digits.substr(i, 1) : std::string_view("_")).size();
+  }
+  return {first.data(), length};
+}
+
+void field(Page& page, const char* asked, float grow) {
+  const std::string_view name = page.visit.name();
+  const bool code = page.visit.quotes_code();
+  Node field = page.box(Flow::Row, 3, 26, 14);
+  tell(field, Role::Field, "name", asked);
+  field.by_key = {ActionKind::Done, 0};
+  field.box.grow = grow;
+  // Letter by letter while it is typed; a code that is whole, digit by digit.
+  field.value = code && name.size() == kCodeDigits ? page.spelled(grouped(page, name)) : name;
+  field.secret = true;
+  field.box.min_height = page.px(72);
+  field.box.align = Align::Centre;
+  field.box.left_to_right = code;
+  frame(field, page.palette.card, page.palette.accent, page.px(3), page.px(size::kRadius));
+  page.tree.open(field);
+  const bool hint = name.empty() && !code;
+  Node typed = page.text(hint   ? std::string_view(page.tr("Type here or show a QR code"))
+                         : code ? grouped(page, name)
+                                : name,
+                         type::kButton, Weight::Medium, hint ? page.palette.ink_soft : page.palette.ink);
+  typed.id = "typed";
+  Node caret = page.sized(page.box(Flow::Column), 3, 36);
+  caret.box.fill = page.palette.accent;
+  if (!hint) page.tree.leaf(typed);
+  if (!code) page.tree.leaf(caret);
+  if (hint) page.tree.leaf(typed);
+  page.tree.close();
+}
+
+// Where a code is held, as in a mirror, with the corners of a frame it fits into.
+void finder(Page& page, float high_dp) {
+  const ImageView& live = page.view.live.picture;
+  if (live.empty()) return;
+  const float aspect = static_cast<float>(live.width_px) / static_cast<float>(live.height_px);
+  Node room = page.sized(page.box(Flow::Stack), high_dp * aspect, high_dp);
+  room.aspect = aspect;
+  page.tree.open(room);
+  Node picture = page.box(Flow::Column);
+  tell(picture, Role::Picture, "finder", page.tr("What the camera sees: hold a QR code here"));
+  picture.mark = Mark::Image;
+  picture.picture = PictureSlot::Live;
+  picture.aspect = aspect;
+  picture.mirrored = true;
+  picture.box.radius = page.px(12);
+  page.tree.leaf(picture);
+  const float side = 0.62F * high_dp, arm = 0.16F * high_dp, line = 4;
+  const auto bar = [&](float x, float y, float w, float h) {
+    Node one = page.sized(page.box(Flow::Column), w, h);
+    one.pinned = true;
+    one.pin_x = 0.5F + x / (high_dp * aspect);
+    one.pin_y = 0.5F + y / high_dp;
+    one.box.fill = {255, 255, 255, 235};
+    one.box.radius = page.px(line / 2);
+    page.tree.leaf(one);
+  };
+  for (const float right : {-1.0F, 1.0F})
+    for (const float down : {-1.0F, 1.0F}) {
+      bar(right * (side - arm) / 2, down * side / 2, arm, line);
+      bar(right * side / 2, down * (side - arm) / 2, line, arm);
+    }
+  page.tree.close();
+}
+
+void wrong_code(Page& page) {
+  if (page.view.known != Known::NoSuchCode || page.visit.name().empty()) return;
+  Node note = page.text(page.tr("No record has this code. Please check it, or ask the staff."), type::kSmall,
+                        Weight::Bold, page.palette.bad);
+  note.id = "wrong_code";
+  note.role = Role::Alert;
+  page.tree.leaf(note);
+}
+
+// Question and answer, with the camera's picture beside them; where large letters leave no room above the
+// keys, all in one row.
+void ask_name(Page& page, const char* asked) {
+  const bool abreast = !page.portrait && page.text_share > 1.1F;
+  Node row = page.box(page.portrait ? Flow::Column : Flow::Row, space::kM);
+  row.box.align = page.portrait ? Align::Stretch : Align::Centre;
+  page.tree.open(row);
+  if (abreast) {
+    page.heading("title", asked, type::kBody);
+    field(page, asked, 1);
+  } else {
+    page.tree.open(page.grown(page.box(Flow::Column, space::kM), page.portrait ? 0.0F : 1.0F));
+    page.heading("title", asked, kAsked);
+    field(page, asked, 0);
+    page.tree.close();
+  }
+  if (page.portrait) {
+    Node centred = page.box(Flow::Row);
+    centred.box.justify = Justify::Centre;
+    page.tree.open(centred);
+  }
+  // The largest letters need all of the row.
+  if (!abreast || page.text_share < 1.6F)
+    finder(page, page.portrait ? kFinderHighPortrait : abreast ? kFinderHighAbreast : kFinderHigh);
+  if (page.portrait) page.tree.close();
+  page.tree.close();
+}
+
+// Digits only: a pad of them, beside the question where there is room.
+void ask_code(Page& page, const char* asked) {
+  Node room = page.grown(page.sided(page.box(page.portrait ? Flow::Column : Flow::Row, space::kXl)));
+  room.box.justify = Justify::Centre;
+  if (page.portrait) room.box.align = Align::Centre;
+  page.tree.open(room);
+  Node said = page.box(Flow::Column, space::kM);
+  said.id = "said";
+  said.box.scroll = said.box.shrink = true;
+  if (page.portrait) said.box.width = page.px(page.width_dp - 2 * kPageMargin);
+  else said.box.grow = 1;
+  said.box.justify = Justify::Centre;
+  page.tree.open(said);
+  page.heading("title", asked, kAsked);
+  field(page, asked, 0);
+  wrong_code(page);
+  if (!page.portrait && page.text_share > 1.2F) finder(page, kFinderHighAbreast);
+  else finder(page, kFinderHigh);
+  page.button("lost_code", page.tr("I lost my code"), icon::kHelp, ButtonLook::Quiet,
+              {ActionKind::LostCode, 0});
+  page.tree.close();
+  number_pad(page, {"key ", "done"},
+             page.visit.name().size() == kCodeDigits ? Action{ActionKind::Done, 0} : Action{});
+  page.tree.close();
+}
 
 }  // namespace
 
 void name_screen(Page& page) {
-  const auto& tr = page.tr;
   page.begin(true);
-  // Large letters leave no room above the keys: then question and answer stand side by side.
-  const bool abreast = !page.portrait && page.text_share > 1.1F;
-  if (abreast) {
-    Node row = page.box(Flow::Row, space::kM);
-    row.box.align = Align::Centre;
-    page.tree.open(row);
+  if (page.visit.quotes_code()) {
+    ask_code(page, page.tr("Type your code"));
+    return page.end();
   }
-  const char* const asked = page.visit.quotes_code() ? tr("Type your code") : tr("Your name or your number");
-  page.heading("title", asked, abreast ? type::kBody : kAsked);
-  Node field = page.box(Flow::Row, 3, 26, 14);
-  field.box.grow = abreast ? 1.0F : 0.0F;
-  field.id = "name";
-  field.role = Role::Field;
-  field.name = asked;
-  field.value = page.visit.name();
-  field.secret = true;
-  field.box.min_height = page.px(72);
-  field.box.align = Align::Centre;
-  field.box.fill = page.palette.card;
-  field.box.border = page.palette.accent;
-  field.box.border_px = page.px(3);
-  field.box.radius = page.px(size::kRadius);
-  page.tree.open(field);
-  const std::string_view name = page.visit.name();
-  Node typed =
-      page.text(name.empty() ? std::string_view(tr("Type here or show a QR code")) : name, type::kButton,
-                Weight::Medium, name.empty() ? page.palette.ink_soft : page.palette.ink);
-  typed.id = "typed";
-  if (!name.empty()) page.tree.leaf(typed);
-  Node caret = page.sized(page.box(Flow::Column), 3, 36);
-  caret.box.fill = page.palette.accent;
-  page.tree.leaf(caret);
-  if (name.empty()) page.tree.leaf(typed);
-  page.tree.close();
-  if (abreast) page.tree.close();
-  if (page.view.known == Known::NoSuchCode && !name.empty()) {  // below the field, which stays where it is
-    Node note = page.text(tr("No record has this code. Please check it, or ask the staff."), type::kSmall,
-                          Weight::Bold, page.palette.bad);
-    note.id = "wrong_code";
-    note.role = Role::Alert;
-    page.tree.leaf(note);
-  }
+  ask_name(page, page.tr("Your name or your number"));
   if (page.portrait) page.space(1);
   keyboard(page);
   page.end();

@@ -117,7 +117,7 @@ void question(Page& page) {
 
 void review_screen(Page& page) {
   page.begin(false);
-  page.tree.open(page.grown(page.box(page.portrait ? Flow::Column : Flow::Row, space::kL)));
+  page.tree.open(page.grown(page.sided(page.box(page.portrait ? Flow::Column : Flow::Row, space::kL))));
   face(page);
   question(page);
   page.tree.close();

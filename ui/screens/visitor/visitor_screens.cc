@@ -3,14 +3,12 @@
 #include "ui/screens/visitor/visitor_screens.h"
 
 #include "ui/screens/staff_screens.h"
+#include "ui/screens/visitor/live_parts.h"
 
 namespace relievo::ui {
 namespace {
 
-bool is_dark(Step step) {
-  return step == Step::Attract || step == Step::Position || step == Step::Turn || step == Step::Trouble ||
-         step == Step::Starting;
-}
+bool is_dark(Step step) { return step == Step::Attract || step == Step::Trouble || step == Step::Starting; }
 
 const Palette& palette_of(const Visit& visit) {
   return visit.high_contrast ? kHighContrast : is_dark(visit.step) ? kDark : kLight;
@@ -40,12 +38,19 @@ void step_screen(Page& page) {
       return trouble_screen(page);
     case Step::Starting:
       return starting_screen(page);
+    case Step::Declined:
+      return declined_screen(page);
   }
+}
+
+// The simulated head: it invites, and shows what to do.
+bool shows_invitation(const Visit& visit) {
+  return visit.step == Step::Attract || visit.step == Step::Position || visit.step == Step::Turn;
 }
 
 // The machine wipes a model the moment it leaves Review; the page may be a frame late.
 const pipeline::FaceModel* face_of(const ViewState& view, const Visit& visit) {
-  return visit.step == Step::Attract ? view.invitation_head : view.model;
+  return shows_invitation(visit) ? view.invitation_head : view.model;
 }
 
 }  // namespace
@@ -75,11 +80,14 @@ void fill_pictures(DrawList& list, const ViewState& view, const Visit& visit) {
                                                                             view.stages[i].number};
   if (view.consent != nullptr && !view.consent->host.sign.empty())
     list.pictures[static_cast<std::size_t>(PictureSlot::Sign)] = {view.consent->host.sign_view(), 1};
+  list.pictures[static_cast<std::size_t>(PictureSlot::Receipt)] = {view.receipt_code.picture,
+                                                                   view.receipt_code.number};
   list.faces = {};
   list.faces[0].model = face_of(view, visit);
   if (list.faces[0].model != nullptr)
-    list.faces[0].version = visit.step == Step::Attract ? ~0U : view.model_number;
+    list.faces[0].version = shows_invitation(visit) ? ~0U : view.model_number;
   list.face_look = visit.shown_look(view.now);
+  if (const auto shown = gesture(view, visit.step)) list.face_look = *shown;
   list.face_look.backdrop = visit.step == Step::Review;
 }
 

@@ -26,6 +26,7 @@ void turn_screen(Page& page);
 void working_screen(Page& page);
 void review_screen(Page& page);
 void thanks_screen(Page& page);
+void declined_screen(Page& page);
 void trouble_screen(Page& page);
 void starting_screen(Page& page);
 

@@ -10,6 +10,7 @@
 namespace relievo::ui {
 namespace {
 
+constexpr float kMostGrowth = 1.5F;
 constexpr float kWaits = 0.4F;  // so bright is the photograph where nothing has begun yet
 
 // The first whose picture is not born.
@@ -73,8 +74,10 @@ void card(Page& page, std::size_t stage, const char* words) {
   row.box.justify = Justify::Centre;
   row.box.min_height = page.px(64 * page.text_share);
   page.tree.open(row);
-  page.tree.leaf(page.text(words, 22, Weight::Medium, at <= now ? page.palette.ink : page.palette.ink_soft,
-                           TextAlign::Centre));
+  Node said = page.text(words, 22, Weight::Medium, at <= now ? page.palette.ink : page.palette.ink_soft,
+                        TextAlign::Centre);
+  said.style.size_px *= std::min(1.0F, kMostGrowth / page.text_share);  // four abreast have no room for more
+  page.tree.leaf(said);
   page.tree.close();
   page.tree.close();
 }

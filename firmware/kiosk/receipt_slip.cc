@@ -1,0 +1,147 @@
+// SPDX-FileCopyrightText: 2026 The Relievo authors
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "firmware/kiosk/receipt_slip.h"
+
+#include <string.h>
+
+#include <algorithm>
+#include <cmath>
+
+#include "firmware/kiosk/code/code_picture.h"
+#include "hal/base/assert.h"
+
+namespace relievo::firmware {
+namespace {
+
+constexpr int kWidthPx = 576, kMarginPx = 24, kGapPx = 20, kHighPx = 1100;
+
+void wipe_picture(hal::Picture& picture) {
+  explicit_bzero(picture.bytes.data(), picture.bytes.size());
+  picture = {};
+}
+
+// A long white slip; cut where the writing ends.
+class Paper {
+ public:
+  Paper(ui::TextEngine& text, ui::Language language) : text_(text), language_(language) {
+    picture_.format = PixelFormat::Grey8;
+    picture_.width_px = kWidthPx;
+    picture_.bytes.assign(static_cast<std::size_t>(kWidthPx) * kHighPx, std::byte{255});
+  }
+  void write(std::string_view words, float size_px, ui::Weight weight) {
+    const ui::LanguageInfo& info = ui::info_of(language_);
+    ui::TextStyle style;
+    style.size_px = size_px;
+    style.weight = weight;
+    style.align = ui::TextAlign::Centre;
+    style.right_to_left = info.right_to_left;
+    style.language = info.code;
+    const ui::TextLabel& label = text_.label(words, style, kWidthPx - 2 * kMarginPx);
+    const int left = static_cast<int>(std::lround((kWidthPx - label.size.width_px) / 2 + label.ink.x)),
+              top = y_ + static_cast<int>(std::lround(label.ink.y));
+    for (int y = 0; y < static_cast<int>(label.atlas.h); ++y)
+      for (int x = 0; x < static_cast<int>(label.atlas.w); ++x)
+        put(left + x, top + y,
+            255 -
+                *text_.atlas().row(static_cast<int>(label.atlas.x) + x, static_cast<int>(label.atlas.y) + y));
+    y_ += static_cast<int>(std::ceil(label.size.height_px)) + kGapPx;
+  }
+  void paste(const hal::Picture& picture) {
+    for (int y = 0; y < picture.height_px; ++y)
+      for (int x = 0; x < picture.width_px; ++x)
+        put((kWidthPx - picture.width_px) / 2 + x, y_ + y, *(picture.view().row(y) + x));
+    y_ += picture.height_px;
+  }
+  hal::Picture take() {
+    picture_.height_px = std::min(y_ + kGapPx, kHighPx);
+    picture_.bytes.resize(static_cast<std::size_t>(kWidthPx) * static_cast<std::size_t>(picture_.height_px));
+    return std::move(picture_);
+  }
+
+ private:
+  void put(int x, int y, int level) {
+    if (x < 0 || y < 0 || x >= kWidthPx || y >= kHighPx) return;
+    std::byte& at = picture_.bytes[static_cast<std::size_t>(y) * kWidthPx + static_cast<std::size_t>(x)];
+    at = std::min(at, static_cast<std::byte>(level));
+  }
+  ui::TextEngine& text_;
+  ui::Language language_;
+  hal::Picture picture_;
+  int y_ = kGapPx;
+};
+
+}  // namespace
+
+hal::Picture draw_slip(ui::TextEngine& text, ui::Language language, std::string_view host,
+                       std::string_view receipt, const hal::Picture& code) {
+  const ui::Words tr(language);
+  Paper paper(text, language);
+  if (!host.empty()) paper.write(host, 34, ui::Weight::Bold);
+  paper.write(tr("Your code"), 30, ui::Weight::Medium);
+  paper.paste(code);
+  paper.write(receipt, 46, ui::Weight::Bold);
+  paper.write(tr("You get a code. Quote it to the staff at any time and everything about you is erased."), 26,
+              ui::Weight::Regular);
+  return paper.take();
+}
+
+void ReceiptSlip::wipe() {
+  explicit_bzero(receipt_.data(), receipt_.size());
+  receipt_.clear();
+  wipe_picture(code_);
+  printing_ = std::make_shared<ui::Printing>(ui::Printing::None);
+}
+
+void ReceiptSlip::follow(ui::ViewState& view) {
+  if (view.receipt != receipt_) {
+    wipe();
+    receipt_ = view.receipt;
+    if (receipt_.empty()) return;
+    code_ = code_picture(receipt_);
+    ++number_;
+    ask_printer();
+  }
+  if (!code_.bytes.empty()) view.receipt_code = {code_.view(), number_};
+  view.printing = *printing_;
+}
+
+// Who left while it was asked is told nothing: what is heard goes to their visit's state alone.
+void ReceiptSlip::ask_printer() {
+  if (printer_ == nullptr) return;
+  const auto there = std::make_shared<bool>(false);
+  side_tasks_.send(
+      JobLane::Keeper,
+      [printer = printer_, there](JobControl&) -> Result<void> {
+        *there = printer->is_there();
+        return {};
+      },
+      [state = printing_, there](const std::optional<Error>&) {
+        if (*there) *state = ui::Printing::Ready;
+      },
+      SideTasks::Whose::Device);
+}
+
+void ReceiptSlip::print(ui::TextEngine& text, ui::Language language, const ui::ViewState& view) {
+  if (receipt_.empty() || *printing_ == ui::Printing::None || *printing_ == ui::Printing::Busy) return;
+  hal::Picture slip =
+      draw_slip(text, language, view.consent != nullptr ? view.consent->host.name : std::string_view(),
+                receipt_, code_);
+  auto png = hal::encode_png(slip.view());
+  wipe_picture(slip);
+  if (!png) return void(*printing_ = ui::Printing::Failed);
+  *printing_ = ui::Printing::Busy;
+  const auto bytes = std::make_shared<std::vector<std::byte>>(std::move(*png));
+  side_tasks_.send(
+      JobLane::Keeper,
+      [printer = printer_, bytes](JobControl&) {
+        const Result<void> printed = printer->print(*bytes);
+        explicit_bzero(bytes->data(), bytes->size());
+        return printed;
+      },
+      [state = printing_](const std::optional<Error>& error) {
+        *state = error ? ui::Printing::Failed : ui::Printing::Done;
+      },
+      SideTasks::Whose::Device);
+}
+
+}  // namespace relievo::firmware

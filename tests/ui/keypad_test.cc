@@ -1,0 +1,214 @@
+// SPDX-FileCopyrightText: 2026 The Relievo authors
+// SPDX-License-Identifier: GPL-3.0-or-later
+//
+// Without a finger: arrows go where the eye sees it, letters arrive, and a name takes few keys.
+#include <gtest/gtest.h>
+
+#include <memory>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "ui/ui.h"
+#include "ui/view/keypad_letters.h"
+
+namespace relievo::ui {
+namespace {
+
+using Kind = Input::Kind;
+
+class KeypadTest : public testing::TestWithParam<Language> {
+ protected:
+  void SetUp() override {
+    ASSERT_TRUE(prepare_languages().has_value());
+    auto text = TextEngine::make();
+    ASSERT_TRUE(text.has_value());
+    ui = std::make_unique<Ui>(std::move(*text));
+    view.screen = Screen::Idle;
+    view.now = hal::Instant(std::chrono::hours(1));
+    view.home = GetParam();
+    frame();
+    press(Kind::Activate);
+    EXPECT_EQ(ui->visit().step, Step::Attract) << "nothing has the focus yet";
+  }
+  void frame() {
+    ui->frame(view);
+    while (const auto intent = ui->take_intent()) looked_up_ = looked_up_ || *intent == Intent::LookUp;
+  }
+  void press(Kind kind, std::string_view letter = {}) {
+    Input input{kind};
+    letter.copy(input.letter.data(), input.letter.size() - 1);
+    ui->feed(input, view);
+    frame();
+    ++pressed;
+  }
+  void tap(std::string_view id) {
+    const Node* node = ui->tree().find(id);
+    ASSERT_NE(node, nullptr) << id;
+    const float x = node->rect.x + node->rect.w / 2, y = node->rect.y + node->rect.h / 2;
+    ui->feed({Kind::Down, 1, x, y}, view);
+    ui->feed({Kind::Up, 1, x, y}, view);
+    frame();
+    ++tapped;
+  }
+  void to_name() {
+    tap("start");
+    tap("agree");
+    ASSERT_EQ(ui->visit().step, Step::Name);
+    tapped = pressed = 0;
+  }
+  const Rect& at(std::string_view id) const { return ui->tree().find(id)->rect; }
+  bool asks_the_records() { return std::exchange(looked_up_, false); }
+  // On the keys of the screen: another set of them, where the letter is on none of these.
+  void touch_in(const std::string& name) {
+    for (const std::string& letter : letters(name)) {
+      const std::string key = letter == " " ? "space" : "key " + letter;
+      if (ui->tree().find(key) == nullptr && ui->tree().find("accents") != nullptr) tap("accents");
+      tap(key);
+    }
+    tap("done");
+  }
+  void key_in(const std::string& name) {
+    char before = 0;
+    for (const std::string& letter : letters(name)) {
+      char digit = 0;
+      std::size_t times = 0;
+      for (char d = '1'; d <= '9' && digit == 0; ++d)
+        for (std::size_t t = 0; t < 9; ++t)
+          if (keypad_letter(GetParam(), d, t, ui->visit().capitals) == letter) {
+            digit = d, times = t + 1;
+            break;
+          }
+      ASSERT_NE(digit, 0) << letter << " is on no key";
+      if (digit == before) view.now += std::chrono::milliseconds(1200);
+      for (std::size_t t = 0; t < times; ++t) press(Kind::Digit, std::string(1, digit));
+      before = digit;
+    }
+    press(Kind::Activate);
+  }
+  static std::vector<std::string> letters(const std::string& text) {
+    std::vector<std::string> all;
+    for (const char c : text) {
+      if ((static_cast<unsigned char>(c) & 0xC0U) != 0x80U) all.emplace_back();
+      all.back() += c;
+    }
+    return all;
+  }
+
+  std::unique_ptr<Ui> ui;
+  ViewState view;
+  int pressed = 0, tapped = 0;
+
+ private:
+  bool looked_up_ = false;
+};
+
+std::vector<std::string> names_of(Language language) {
+  switch (language) {
+    case Language::German:
+      return {"Jürgen Müller", "Anna Schäfer", "Maximilian Groß"};
+    case Language::French:
+      return {"Zoé Lefèvre", "François Dubois", "Marie-Hélène Girard"};
+    case Language::Spanish:
+      return {"Iñaki Muñoz", "María García", "Lucía Fernández"};
+    case Language::Arabic:
+      return {"ليلى حسن", "محمد علي", "فاطمة الزهراء"};
+    case Language::Hebrew:
+      return {"נועה לוי", "דוד כהן", "מרים פרץ"};
+    case Language::Chinese:
+      return {"Wang Wei", "Li Na", "Zhang Min"};
+    case Language::Japanese:
+      return {"Sato Yuki", "Suzuki Hiroshi", "Tanaka Aiko"};
+    case Language::English:
+    case Language::Count:
+      break;
+  }
+  return {"Ada Lovelace", "Grace Hopper", "Alan Mathison Turing"};
+}
+
+TEST_P(KeypadTest, ANameTakesAtMostTwiceAsManyKeysAsTouches) {
+  for (const std::string& name : names_of(GetParam())) {
+    to_name();
+    touch_in(name);
+    EXPECT_EQ(ui->visit().name(), name);
+    EXPECT_TRUE(asks_the_records());
+    const int touches = tapped;
+    ui->visit().act({ActionKind::LeaveNow, 0}, view);
+    frame();
+    to_name();
+    key_in(name);
+    EXPECT_EQ(ui->visit().name(), name);
+    EXPECT_TRUE(asks_the_records()) << "the question has the focus: Enter hands it in";
+    EXPECT_LE(pressed, 2 * touches) << name;
+    ui->visit().act({ActionKind::LeaveNow, 0}, view);
+    frame();
+  }
+}
+
+TEST_P(KeypadTest, ArrowsGoAsTheEyeSeesItAndBackAgain) {
+  to_name();
+  press(Kind::Below);
+  EXPECT_EQ(ui->focus(), "name") << "it begins at the question";
+  press(Kind::Below);
+  const std::string first(ui->focus());
+  EXPECT_EQ(at(first).y, at("key 1").y) << first;
+  press(Kind::Below);
+  const std::string second(ui->focus());
+  EXPECT_GT(at(second).y, at(first).y);
+  press(Kind::Right);
+  const std::string right(ui->focus());
+  EXPECT_GT(at(right).x, at(second).x) << "the right is the right, also where words run to the left";
+  EXPECT_EQ(at(right).y, at(second).y);
+  press(Kind::Left);
+  EXPECT_EQ(ui->focus(), second);
+  press(Kind::Above);
+  EXPECT_EQ(at(ui->focus()).y, at(first).y);
+  for (int i = 0; i < 20; ++i) press(Kind::Right);
+  EXPECT_EQ(at(ui->focus()).y, at(first).y) << "it stays in its row";
+}
+
+// Whatever has the focus, arrows alone lead to everything else.
+TEST_P(KeypadTest, ArrowsReachEveryButton) {
+  to_name();
+  const Tree& tree = ui->tree();
+  for (const Node& goal : tree.nodes()) {
+    if (goal.action.kind == ActionKind::None) continue;
+    bool reached = false;
+    for (const Node& node : tree.nodes())
+      for (const auto& [right, down] : {std::pair(1.0F, 0.0F), {-1.0F, 0.0F}, {0.0F, 1.0F}, {0.0F, -1.0F}})
+        reached = reached || ((node.action.kind != ActionKind::None || node.id == "name") &&
+                              tree.beside(node, right, down) == &goal);
+    EXPECT_TRUE(reached) << goal.id;
+  }
+}
+
+TEST_P(KeypadTest, TypedLettersArriveAndABlankIsALetterWhereOneIsTyped) {
+  to_name();
+  for (const char* letter : {"Z", "o", "é", " ", "李"}) press(Kind::Letter, letter);
+  EXPECT_EQ(ui->visit().name(), "Zoé 李");
+  press(Kind::Erase);
+  press(Kind::Erase);
+  EXPECT_EQ(ui->visit().name(), "Zoé");
+  press(Kind::Activate);
+  EXPECT_TRUE(asks_the_records());
+  ui->visit().act({ActionKind::LeaveNow, 0}, view);
+  frame();
+  press(Kind::Below);
+  EXPECT_EQ(ui->focus(), "start");
+  press(Kind::Letter, "x");
+  EXPECT_EQ(ui->visit().step, Step::Attract) << "nobody asks for letters here";
+  press(Kind::Letter, " ");
+  EXPECT_EQ(ui->visit().step, Step::Consent) << "a blank presses what has the focus";
+}
+
+std::string name(const testing::TestParamInfo<Language>& info) {
+  return std::string(info_of(info.param).code).substr(0, 2);
+}
+INSTANTIATE_TEST_SUITE_P(Languages, KeypadTest,
+                         testing::Values(Language::English, Language::German, Language::French,
+                                         Language::Spanish, Language::Arabic, Language::Hebrew,
+                                         Language::Chinese, Language::Japanese),
+                         name);
+
+}  // namespace
+}  // namespace relievo::ui

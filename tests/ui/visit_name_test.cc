@@ -1,0 +1,73 @@
+// SPDX-FileCopyrightText: 2026 The Relievo authors
+// SPDX-License-Identifier: GPL-3.0-or-later
+//
+// What is typed, and what it is typed with.
+#include "tests/ui/visit_hands.h"
+
+namespace relievo::ui {
+namespace {
+
+using std::chrono::milliseconds;
+
+class VisitNameTest : public VisitHands {};
+
+TEST_F(VisitNameTest, ErasingTakesWholeLetters) {
+  act(ActionKind::Start);
+  visit.reads_to_the_end();
+  act(ActionKind::Agree);
+  for (const char* letter : {"J", "ü", "ل", "r"}) visit.type(letter);
+  act(ActionKind::Erase);
+  EXPECT_EQ(visit.name(), "Jüل");
+  act(ActionKind::Erase);
+  EXPECT_EQ(visit.name(), "Jü");
+  act(ActionKind::Erase);
+  EXPECT_EQ(visit.name(), "J");
+  act(ActionKind::Erase);
+  act(ActionKind::Erase);
+  EXPECT_EQ(visit.name(), "");
+}
+
+TEST_F(VisitNameTest, ANameHasItsLimitAndNoSpacesAround) {
+  act(ActionKind::Start);
+  visit.reads_to_the_end();
+  act(ActionKind::Agree);
+  visit.type(" ");
+  EXPECT_EQ(visit.name(), "");
+  for (int i = 0; i < 300; ++i) visit.type("ä");
+  EXPECT_EQ(visit.name().size(), kMostNameBytes);
+  for (int i = 0; i < 60; ++i) act(ActionKind::Erase);
+  visit.type(" ");
+  visit.type(" ");
+  act(ActionKind::Done);
+  EXPECT_NE(visit.name().back(), ' ');
+}
+
+TEST_F(VisitNameTest, TheDigitsOfAKeypadTypeLettersAndACodeItsDigits) {
+  act(ActionKind::Start);
+  visit.reads_to_the_end();
+  act(ActionKind::Agree);
+  visit.type_by_digit('2', view.now);
+  EXPECT_EQ(visit.name(), "A");
+  pass(milliseconds(300));
+  visit.type_by_digit('3', view.now);
+  visit.type_by_digit('3', view.now);
+  EXPECT_EQ(visit.name(), "Ad");
+  pass(milliseconds(1500));
+  visit.type_by_digit('3', view.now);
+  EXPECT_EQ(visit.name(), "Ade") << "after a rest it is another letter";
+  for (int i = 0; i < 4; ++i) visit.type_by_digit('3', view.now);
+  EXPECT_EQ(visit.name(), "Ade") << "round and round";
+  act(ActionKind::Done);
+  view.known = Known::Name;
+  pass(milliseconds(1));
+  act(ActionKind::HaveCode);
+  for (const char digit : {'4', '4', '2'}) visit.type_by_digit(digit, view.now);
+  EXPECT_EQ(visit.name(), "442");
+  visit.type("1-a9");
+  EXPECT_EQ(visit.name(), "44219");
+  for (int i = 0; i < 20; ++i) visit.type("7");
+  EXPECT_EQ(visit.name().size(), kCodeDigits);
+}
+
+}  // namespace
+}  // namespace relievo::ui
