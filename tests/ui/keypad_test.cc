@@ -53,6 +53,7 @@ class KeypadTest : public testing::TestWithParam<Language> {
   }
   void to_name() {
     tap("start");
+    while (ui->tree().find("read_on") != nullptr) tap("read_on");
     tap("agree");
     ASSERT_EQ(ui->visit().step, Step::Name);
     tapped = pressed = 0;

@@ -81,8 +81,15 @@ void consent_screen(Page& page) {
   page.begin(true);
   const ConsentText* own =
       page.view.consent != nullptr ? page.view.consent->of(page.visit.language) : nullptr;
+  Node top = page.box(Flow::Row, space::kM);
+  top.box.wrap = true;
+  top.box.align = Align::Centre;
+  page.tree.open(top);
+  page.tree.open(page.grown(page.box(Flow::Column)));
   page.heading("title", own != nullptr ? std::string_view(own->title) : tr("What happens here"));
+  page.tree.close();
   page.cameras();
+  page.tree.close();
   Node list = page.grown(page.box(Flow::Column, space::kS));
   list.id = kToRead;
   list.box.scroll = list.box.even = true;
