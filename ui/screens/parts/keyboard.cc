@@ -137,7 +137,9 @@ void last_row(Page& page, Action done) {
   key(page, "space", page.tr("Space"), nullptr, false, {ActionKind::TypeKey, ' '}, 2);
   page.button("done", page.tr("Done"), icon::kGood, ButtonLook::Main,
               done.kind == ActionKind::Done && page.visit.name().empty() ? Action{} : done,
-              page.portrait ? 1.5F : 1.0F);
+              !page.portrait           ? 1.0F
+              : page.text_share > 1.6F ? 2.4F
+                                       : 1.5F);
   page.tree.close();
 }
 

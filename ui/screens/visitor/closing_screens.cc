@@ -127,7 +127,7 @@ void receipt(Page& page) {
   Node row = page.box(Flow::Row);
   row.box.justify = Justify::Centre;
   page.tree.open(row);
-  Node card = page.box(Flow::Row, space::kM, 32, 16);
+  Node card = page.box(page.portrait ? Flow::Column : Flow::Row, space::kM, 32, 16);
   tell(card, Role::Group, "code", tr("Your code"));
   card.value = page.spelled(page.view.receipt);
   card.secret = true;

@@ -69,8 +69,8 @@ void oval(Page& page, bool good, float share, bool notes) {
       covers(page, aspect) ? std::max(page.width_dp, page.height_dp * aspect) : page.height_dp * aspect;
   const float wanted = page.view.live.ideal_width > 0 ? page.view.live.ideal_width * shown * 1.12F / 0.74F
                                                       : page.height_dp * 0.74F;
-  const float h = std::min(
-      {wanted, page.height_dp * 0.76F, page.width_dp * 1.1F, page.height_dp - 2 * room_above(page, notes)});
+  const float h = std::min({wanted, page.height_dp * (page.text_share > 1.6F ? 0.72F : 0.76F),
+                            page.width_dp * 1.1F, page.height_dp - 2 * room_above(page, notes)});
   Node ring = page.sized(page.box(Flow::Column), h * 0.74F, h);
   ring.id = "oval";
   ring.role = Role::Picture;
@@ -154,7 +154,7 @@ Said unseen(const Page& page) {
           page.tr("The cameras do not see your face yet")};
 }
 
-float grown_over(const Page& page) { return 1 + (page.text_share - 1) * 0.6F; }
+float grown_over(const Page& page) { return 1 + (page.text_share - 1) * 0.45F; }
 
 void begin_mirror(Page& page, const Said& what, float share, bool notes) {
   Node root = page.box(Flow::Stack);
@@ -194,7 +194,7 @@ void advice(Page& page, const Said& what, int countdown) {
                             TextAlign::Centre);
     number.id = "countdown";
     number.role = Role::Status;
-    number.style.size_px = page.px(type::kTitle * (1 + (page.text_share - 1) * 0.4F));
+    number.style.size_px = page.px(type::kTitle * (1 + (page.text_share - 1) * 0.15F));
     page.tree.leaf(number);
   }
   page.tree.close();

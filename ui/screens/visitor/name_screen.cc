@@ -2,6 +2,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 //
 // A name, or the code of an earlier record; typed, or shown to the cameras.
+#include <algorithm>
+
 #include "ui/screens/visitor/visitor_screens.h"
 
 namespace relievo::ui {
@@ -9,6 +11,11 @@ namespace {
 
 constexpr float kAsked = 38;  // the size of the question above the field
 constexpr float kFinderHigh = 136, kFinderHighAbreast = 78, kFinderHighPortrait = 300;
+constexpr float kMostOfCode = 1.5F;
+constexpr float kLargest = 1.6F;  // share of the text, from which even a row of its own is too short
+
+// Large letters leave no room above the keys: question and answer stand side by side.
+bool abreast(const Page& page) { return !page.portrait && page.text_share > 1.1F; }
 
 // "4821-9037-____-__": what is there, and how much is still to come. As long as the code itself.
 std::string_view grouped(Page& page, std::string_view digits) {
@@ -40,7 +47,9 @@ void field(Page& page, const char* asked, float grow) {
   Node typed = page.text(hint   ? std::string_view(page.tr("Type here or show a QR code"))
                          : code ? grouped(page, name)
                                 : name,
-                         type::kButton, Weight::Medium, hint ? page.palette.ink_soft : page.palette.ink);
+                         hint && abreast(page) && page.text_share > kLargest ? type::kSmall : type::kButton,
+                         Weight::Medium, hint ? page.palette.ink_soft : page.palette.ink);
+  if (code) typed.style.size_px *= std::min(1.0F, kMostOfCode / page.text_share);  // it stays on one line
   typed.id = "typed";
   Node caret = page.sized(page.box(Flow::Column), 3, 36);
   caret.box.fill = page.palette.accent;
@@ -93,15 +102,13 @@ void wrong_code(Page& page) {
   page.tree.leaf(note);
 }
 
-// Question and answer, with the camera's picture beside them; where large letters leave no room above the
-// keys, all in one row.
+// Question and answer, with the camera's picture beside them.
 void ask_name(Page& page, const char* asked) {
-  const bool abreast = !page.portrait && page.text_share > 1.1F;
   Node row = page.box(page.portrait ? Flow::Column : Flow::Row, space::kM);
   row.box.align = page.portrait ? Align::Stretch : Align::Centre;
   page.tree.open(row);
-  if (abreast) {
-    page.heading("title", asked, type::kBody);
+  if (abreast(page)) {
+    page.heading("title", asked, page.text_share > kLargest ? type::kSmall : type::kBody);
     field(page, asked, 1);
   } else {
     page.tree.open(page.grown(page.box(Flow::Column, space::kM), page.portrait ? 0.0F : 1.0F));
@@ -115,8 +122,8 @@ void ask_name(Page& page, const char* asked) {
     page.tree.open(centred);
   }
   // The largest letters need all of the row.
-  if (!abreast || page.text_share < 1.6F)
-    finder(page, page.portrait ? kFinderHighPortrait : abreast ? kFinderHighAbreast : kFinderHigh);
+  if (!abreast(page) || page.text_share < kLargest)
+    finder(page, page.portrait ? kFinderHighPortrait : abreast(page) ? kFinderHighAbreast : kFinderHigh);
   if (page.portrait) page.tree.close();
   page.tree.close();
 }
@@ -129,7 +136,8 @@ void ask_code(Page& page, const char* asked) {
   page.tree.open(room);
   Node said = page.box(Flow::Column, space::kM);
   said.id = "said";
-  said.box.scroll = said.box.shrink = true;
+  said.box.scroll = true;
+  said.box.shrink = page.portrait;
   if (page.portrait) said.box.width = page.px(page.width_dp - 2 * kPageMargin);
   else said.box.grow = 1;
   said.box.justify = Justify::Centre;
