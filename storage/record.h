@@ -52,6 +52,7 @@ struct Consent {
   std::string wording;   // version of the text that was shown, as "2026-03"
   std::string language;  // as "en"
   WallTime given_at;
+  bool operator==(const Consent&) const = default;
 };
 
 // Borrowed for the call. The strings are stored as they are.

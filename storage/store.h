@@ -22,6 +22,7 @@
 #include <vector>
 
 #include "hal/base/result.h"
+#include "storage/person_record.h"
 #include "storage/record.h"
 
 namespace relievo::storage {
@@ -49,6 +50,12 @@ class Store {
   // The model, bit for bit as it was stored, in `memory`. NotFound.
   virtual Result<pipeline::FaceModel> load_model(EnrolmentId id, std::pmr::memory_resource* memory) = 0;
 
+  // All there is of somebody, for another store. NotFound.
+  virtual Result<PersonRecord> person(SubjectId id) = 0;
+  // Takes in whom another store handed over, with the code and the times they had there. InvalidInput: their
+  // code is in this store, or they were erased from it; something in the record cannot be.
+  virtual Result<SubjectId> add_person(const PersonRecord& person) = 0;
+
   // Stores a calibration under the next revision, which it returns, and makes it the active one.
   // InvalidInput: not finite, or without a focal length or a size.
   virtual Result<std::uint32_t> save_calibration(const pipeline::StereoCalibration& calibration,
@@ -70,6 +77,11 @@ class Store {
 
   virtual Result<std::string> setting(std::string_view key) = 0;  // NotFound
   virtual Result<void> set_setting(std::string_view key, std::string_view value) = 0;
+
+  // Whether words open this store where its key is lost (cipher/recovery.h).
+  virtual Result<bool> has_recovery_words() = 0;
+  // From now on these do, and none before. InvalidInput: no such words.
+  virtual Result<void> keep_recovery_words(std::string_view words) = 0;
 
   // By this store's own key, which stays the same when its others are changed.
   virtual Result<Signed> sign(std::span<const std::byte> bytes) = 0;

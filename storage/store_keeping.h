@@ -28,10 +28,9 @@ class StoreKeeping {
   // `place`: the file the appliance's key moves to; empty: it stays where it is.
   virtual Result<void> rekey(const std::filesystem::path& place) = 0;
 
-  // From now on these words open the store, and none before (cipher/recovery.h). InvalidInput: no such words.
-  virtual Result<void> keep_recovery_words(std::string_view words) = 0;
-  // A new appliance's key for a store whose own is lost, by its words. NotFound: it has none.
-  virtual Result<void> recover(std::string_view words) = 0;
+  // A new appliance's key for a store whose own is lost, by its recovery words. NotFound: it has none.
+  // Returns who was in it and is erased again, because they were after this copy of the store was made.
+  virtual Result<std::vector<SubjectId>> recover(std::string_view words) = 0;
 };
 
 }  // namespace relievo::storage

@@ -179,7 +179,8 @@ void add_subjects(CLI::App& app, CommandArgs& chosen, SubjectsArgs& args) {
   const auto verb = [&](const char* name, const char* help, Verb which) {
     CLI::App* sub = command->add_subcommand(name, help);
     add_store(*sub, args.store);
-    if (which != Verb::List) sub->add_option("subject", args.subject)->required()->type_name("NAME");
+    if (which != Verb::List && which != Verb::Import)
+      sub->add_option("subject", args.subject)->required()->type_name("NAME");
     sub->callback([&args, &chosen, which] {
       args.verb = which;
       chosen = args;
@@ -201,6 +202,21 @@ void add_subjects(CLI::App& app, CommandArgs& chosen, SubjectsArgs& args) {
                         ->excludes(to);
   for (const char* folder_only : {"--lod", "--watertight"})
     for (CLI::Option* sealed : {to, by}) sealed->excludes(exported->get_option(folder_only));
+  CLI::App* imported = verb("import", "takes in somebody whom another store exported", Verb::Import);
+  imported->add_option("copy", args.copy, "what the export made: a folder, a tar of it, or one sealed file")
+      ->required()
+      ->type_name("FILE");
+  CLI::Option* identity =
+      imported->add_option("--identity", args.identity, "the key it was sealed to, as age-keygen makes it")
+          ->type_name("FILE");
+  imported->add_option("--passphrase-file", args.passphrase, "or where the passphrase stands")
+      ->type_name("FILE")
+      ->excludes(identity);
+  imported
+      ->add_option("--signed-by", args.signer,
+                   "believe this key; 'store check' names it where the copy was made")
+      ->type_name("KEY");
+  imported->add_flag("--same-name", args.same_name, "this is somebody else than the one who has the name");
   verb("erase", "one and everything known about them", Verb::Erase);
 }
 

@@ -120,12 +120,16 @@ struct EnrolArgs {
 };
 
 struct SubjectsArgs {
-  enum class Verb { List, Show, Export, Erase } verb = Verb::List;
+  enum class Verb { List, Show, Export, Import, Erase } verb = Verb::List;
   std::string subject;
-  Path output;            // export
-  FurtherModels further;  // export
-  std::string recipient;  // export: the output is one file, sealed to them
-  Path passphrase;        // export: or by what stands in this file
+  Path output;             // export
+  FurtherModels further;   // export
+  std::string recipient;   // export: the output is one file, sealed to them
+  Path passphrase;         // export: or by what stands in this file; import: what it was sealed by
+  Path copy;               // import: a file or folder that an export made
+  Path identity;           // import: the key of age it was sealed to
+  std::string signer;      // import: another device's key that is believed
+  bool same_name = false;  // import: beside somebody of the same name
   Path store;
 };
 

@@ -8,8 +8,8 @@
 
 #include "firmware/base/settings.h"
 #include "firmware/command/commands.h"
+#include "firmware/records/bundle_manifest.h"
 #include "storage/cipher/recovery.h"
-#include "storage/receipt_number.h"
 
 namespace relievo::firmware {
 namespace {
@@ -17,7 +17,9 @@ namespace {
 Result<void> check(const StoreArgs& args, const Path& folder, Services& services) {
   RELIEVO_TRY_ASSIGN(const auto store, services.open_store(folder, false));
   RELIEVO_TRY(store->check());
+  RELIEVO_TRY_ASSIGN(const storage::Signed signs, store->sign({}));
   services.console.say("in order: " + folder.string());
+  services.console.say("what it exports is signed by " + text_of(signs.by));
   if (args.file.empty()) return {};
   RELIEVO_TRY_ASSIGN(const auto erased, services.keep_store(folder)->erased_since(args.file));
   for (const storage::SubjectId id : erased)
@@ -28,7 +30,7 @@ Result<void> check(const StoreArgs& args, const Path& folder, Services& services
 }
 
 // Printed once; they hold when whoever wrote them down has typed two of them.
-Result<void> make_words(storage::StoreKeeping& keeping, Services& services) {
+Result<void> make_words(storage::Store& store, Services& services) {
   const std::string words = storage::draw_recovery_words();
   std::vector<std::string> sheet;
   std::istringstream list(words);
@@ -38,14 +40,13 @@ Result<void> make_words(storage::StoreKeeping& keeping, Services& services) {
   }
   services.console.say(
       "Write them down, in this order. Whoever has them and the store can read everyone in it.");
-  const auto first = static_cast<std::size_t>(storage::draw_receipt()) % (sheet.size() / 2);
-  for (const std::size_t asked : {first, first + sheet.size() / 2}) {
+  for (const std::size_t asked : storage::words_to_ask()) {
     services.console.say("Type word " + std::to_string(asked + 1) + ":");
     std::string typed;
     if (!(std::cin >> typed) || typed != sheet[asked])
       return Error{Errc::InvalidInput, "that was another word: nothing was changed, start again"};
   }
-  RELIEVO_TRY(keeping.keep_recovery_words(words));
+  RELIEVO_TRY(store.keep_recovery_words(words));
   services.console.say("These words open the store from now on; an older sheet does not.");
   return {};
 }
@@ -54,8 +55,11 @@ Result<void> recover(storage::StoreKeeping& keeping, Services& services) {
   std::string words;
   std::size_t count = 0;
   for (std::string word; count < storage::kRecoveryWords && std::cin >> word; ++count) words += word + " ";
-  RELIEVO_TRY(keeping.recover(words));
+  RELIEVO_TRY_ASSIGN(const auto erased, keeping.recover(words));
   services.console.say("the store has a new key and opens again");
+  for (const storage::SubjectId id : erased)
+    services.console.say("subject " + std::to_string(static_cast<std::int64_t>(id)) +
+                         " was erased after this copy was made, and is erased again");
   return {};
 }
 
@@ -76,8 +80,10 @@ Result<void> run(const StoreArgs& args, Services& services) {
       RELIEVO_TRY(keeping->rekey(args.file));
       services.console.say("the keys are new; the old key opens only copies made before");
       return {};
-    case StoreArgs::Verb::RecoveryWords:
-      return make_words(*keeping, services);
+    case StoreArgs::Verb::RecoveryWords: {
+      RELIEVO_TRY_ASSIGN(const auto store, open_kept_store(folder, services));
+      return make_words(*store, services);
+    }
     case StoreArgs::Verb::Recover:
       break;
   }

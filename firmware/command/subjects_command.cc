@@ -1,7 +1,9 @@
 // SPDX-FileCopyrightText: 2026 The Relievo authors
 // SPDX-License-Identifier: GPL-3.0-or-later
+#include <algorithm>
 #include <chrono>
 #include <cstdint>
+#include <iterator>
 #include <memory_resource>
 #include <optional>
 #include <span>
@@ -88,20 +90,24 @@ Result<void> export_newest(storage::Store& store, const storage::Subject& subjec
   RELIEVO_TRY_ASSIGN(const auto enrolments, store.enrolments(subject.id));
   if (enrolments.empty()) return Error{Errc::NotFound, "has no enrolment: enrol first"}.at(args.subject);
   const storage::Enrolment& newest = enrolments.back();
+  const CopyOf copy{subject, newest,
+                    std::chrono::time_point_cast<std::chrono::milliseconds>(services.clock.wall_now())};
   const std::string done = "enrolment " + std::to_string(static_cast<std::int64_t>(newest.id)) + " of " +
                            subject.name + ": " + args.output.string();
   std::pmr::monotonic_buffer_resource memory;
   RELIEVO_TRY_ASSIGN(const pipeline::FaceModel model, store.load_model(newest.id, &memory));
-  RELIEVO_TRY_ASSIGN(const auto images, pipeline::make_recognition_images(model, memory, memory));
+  const auto images = pipeline::make_recognition_images(model, memory, memory);
   storage::ExportOptions options(storage::ExportFrame::Head);
   options.version = kVersion;
-  options.images = &images;
+  if (images) options.images = &*images;  // a head without eyes has none, and is still its person
   if (!args.recipient.empty() || !args.passphrase.empty()) {
     RELIEVO_TRY_ASSIGN(auto files, storage::make_model_files(model, options));
     const auto report = std::as_bytes(std::span(newest.report_json));
     if (!report.empty()) files.push_back({"report.json", {report.begin(), report.end()}});
-    const auto now = std::chrono::time_point_cast<std::chrono::milliseconds>(services.clock.wall_now());
-    RELIEVO_TRY(add_manifest(store, subject, newest, now, files));
+    Sums sums;
+    for (const storage::BundleFile& file : files) sums[file.name] = storage::sha256(file.bytes);
+    RELIEVO_TRY_ASSIGN(auto manifest, manifest_files(store, copy, std::move(sums)));
+    std::ranges::move(manifest, std::back_inserter(files));
     RELIEVO_TRY(write_sealed(args, files));
     console.say(done + ", sealed: age -d opens it, tar unpacks it");
     return {};
@@ -115,8 +121,72 @@ Result<void> export_newest(storage::Store& store, const storage::Subject& subjec
   for (const std::string& line : further) console.say(line);
   if (!newest.report_json.empty())
     RELIEVO_TRY(write_text(folder.path() / "report.json", newest.report_json, args.output));
+  RELIEVO_TRY(write_manifest(store, copy, folder.path(), args.output));
   RELIEVO_TRY(folder.commit());
   console.say(done);
+  return {};
+}
+
+// What the copy holds, opened where it was sealed.
+Result<std::vector<storage::BundleFile>> read_copy(const SubjectsArgs& args) {
+  constexpr std::size_t kMostBytes = std::size_t{1} << 31, kMostKeyBytes = 65'536;
+  constexpr std::string_view kAge = "age-encryption.org/";
+  std::error_code error;
+  if (std::filesystem::is_directory(args.copy, error)) return read_bundle_folder(args.copy);
+  RELIEVO_TRY_ASSIGN(auto bytes, hal::read_whole_file(args.copy, kMostBytes));
+  if (std::string_view(reinterpret_cast<const char*>(bytes.data()), bytes.size()).starts_with(kAge)) {
+    RELIEVO_TRY_ASSIGN(const auto passphrase, passphrase_in(args.passphrase));
+    if (!passphrase && args.identity.empty())
+      return Error{Errc::InvalidInput, "is sealed: name the key (--identity) or --passphrase-file"};
+    if (passphrase) {
+      RELIEVO_TRY_ASSIGN(bytes, storage::age_open(storage::Passphrase{*passphrase}, bytes));
+    } else {
+      RELIEVO_TRY_ASSIGN(const auto text, hal::read_whole_file(args.identity, kMostKeyBytes));
+      RELIEVO_TRY_ASSIGN(const auto key,
+                         storage::age_identity({reinterpret_cast<const char*>(text.data()), text.size()}));
+      RELIEVO_TRY_ASSIGN(bytes, storage::age_open(&key, bytes));
+    }
+  }
+  return storage::bundle_files(bytes);
+}
+
+// A signature says only who made the copy: whether that is a device to be believed, a person must say.
+Result<void> believe(storage::Store& store, const SigningKey& key, const SubjectsArgs& args) {
+  RELIEVO_TRY_ASSIGN(const storage::Signed own, store.sign({}));
+  if (key == own.by || text_of(key) == args.signer) return {};
+  return Error{
+      Errc::InvalidInput,
+      "signed this copy, not this store: compare it with what 'relievo store check' says on the other "
+      "device, then name it (--signed-by)"}
+      .at(text_of(key));
+}
+
+Result<void> import(const SubjectsArgs& args, const Path& folder, Services& services) {
+  const auto named = [&](const Error& error) {
+    return error.where().empty() ? error.at(args.copy.string()) : error;
+  };
+  const auto files = read_copy(args);
+  if (!files) return named(files.error());
+  RELIEVO_TRY_ASSIGN(const SigningKey key, check_bundle(*files));
+  const auto record = std::ranges::find(*files, storage::kPersonFile, &storage::BundleFile::name);
+  if (record == files->end())
+    return Error{Errc::InvalidInput, "is not in this copy: it is of an older version, and only for reading"}
+        .at(storage::kPersonFile);
+  const auto person = storage::decode_person(record->bytes);
+  if (!person) return named(person.error());
+  RELIEVO_TRY_ASSIGN(const auto store, open_kept_store(folder, services));
+  RELIEVO_TRY(believe(*store, key, args));
+  if (!args.same_name) {
+    RELIEVO_TRY_ASSIGN(const auto there, store->subjects({person->name, true, 0, 1}));
+    if (!there.empty())
+      return Error{
+          Errc::InvalidInput,
+          "has this name already: if that is somebody else, say so (--same-name); nothing was changed"}
+          .at(number_of(there.front().id));
+  }
+  const auto taken = store->add_person(*person);
+  if (!taken) return named(taken.error());
+  services.console.say("taken in: " + number_of(*taken) + " " + person->name);
   return {};
 }
 
@@ -125,6 +195,7 @@ Result<void> export_newest(storage::Store& store, const storage::Subject& subjec
 Result<void> run(const SubjectsArgs& args, Services& services) {
   using Verb = SubjectsArgs::Verb;
   const Path folder = store_folder(args.store);
+  if (args.verb == Verb::Import) return import(args, folder, services);
   RELIEVO_TRY_ASSIGN(const auto store, args.verb == Verb::Erase ? open_kept_store(folder, services)
                                                                 : services.open_store(folder, false));
   if (args.verb == Verb::List) return list(*store, services.console);
@@ -139,6 +210,7 @@ Result<void> run(const SubjectsArgs& args, Services& services) {
       services.console.say("erased: " + number_of(subject.id));
       return {};
     case Verb::List:
+    case Verb::Import:
       break;
   }
   return {};

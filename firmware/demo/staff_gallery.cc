@@ -5,6 +5,8 @@
 #include <array>
 #include <deque>
 
+#include "firmware/kiosk/code/code_picture.h"
+#include "storage/cipher/recovery.h"
 #include "ui/device/settings.h"
 #include "ui/device/touch_view.h"
 #include "ui/view/records_view.h"
@@ -127,6 +129,28 @@ void add_sticks(std::deque<Shown>& all, ServiceView records) {
   }
 }
 
+// The recovery sheet, of which nobody's words are shown.
+void add_recovery(std::deque<Shown>& all) {
+  static const std::array<std::string_view, storage::kRecoveryWords> kWords{
+      "legal", "winner", "thank", "year",   "wave",  "sausage",
+      "worth", "useful", "legal", "winner", "thank", "yellow"};
+  static const hal::Picture code =
+      code_picture("legal winner thank year wave sausage worth useful legal winner thank yellow");
+  static ui::RecoveryView sheet{kWords, {code.view(), 1}, 5}, wrong = sheet, done;
+  wrong.state = ui::SheetState::Wrong;
+  done.state = ui::SheetState::Done;
+  ServiceView recovery;
+  recovery.role = ui::StaffRole::Operator;
+  recovery.access.words_due = true;
+  recovery.recovery = &sheet;
+  all.push_back({"staff_recovery", StaffPage::Recovery, 0, recovery});
+  all.push_back({"staff_recovery_word", StaffPage::Recovery, 1, recovery});
+  recovery.recovery = &wrong;
+  all.push_back({"staff_recovery_wrong", StaffPage::Recovery, 1, recovery});
+  recovery.recovery = &done;
+  all.push_back({"staff_recovery_done", StaffPage::Recovery, 1, recovery});
+}
+
 // The way in: PINs, the first start, a PIN that was forgotten.
 void add_sign_in(std::deque<Shown>& all) {
   ServiceView sign_in;
@@ -220,6 +244,7 @@ void add_settings(std::deque<Shown>& all) {
 std::deque<Shown> make_shown() {
   std::deque<Shown> all;
   add_sign_in(all);
+  add_recovery(all);
   add_menus(all);
   add_records(all);
   add_figures(all);

@@ -2,19 +2,26 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include <nlohmann/json.hpp>
 
+#include <algorithm>
+#include <optional>
 #include <string>
 
 #include "firmware/base/version.h"
 #include "firmware/base/wall_time.h"
 #include "firmware/records/bundle_manifest.h"
 #include "firmware/records/receipt.h"
-#include "storage/sodium_sha256.h"
+#include "storage/cipher/signature.h"
 
 namespace relievo::firmware {
 namespace {
 
+using Json = nlohmann::ordered_json;
+using storage::BundleFile;
+
+constexpr const char *kManifest = "manifest.json", *kSignature = "signature.json";
+constexpr std::string_view kDigits = "0123456789abcdef";
+
 std::string hex_of(std::span<const std::byte> bytes) {
-  constexpr std::string_view kDigits = "0123456789abcdef";
   std::string hex;
   for (const std::byte byte : bytes) {
     const auto value = std::to_integer<std::size_t>(byte);
@@ -23,33 +30,93 @@ std::string hex_of(std::span<const std::byte> bytes) {
   return hex;
 }
 
-storage::BundleFile file_of(const char* name, const nlohmann::ordered_json& json) {
+// Exactly so many bytes, as hex_of() has them.
+bool from_hex(const Json& json, const char* key, std::span<std::byte> bytes) {
+  if (!json.is_object() || !json.contains(key) || !json[key].is_string()) return false;
+  const auto& hex = json[key].get_ref<const std::string&>();
+  if (hex.size() != 2 * bytes.size()) return false;
+  for (std::size_t i = 0; i < bytes.size(); ++i) {
+    const std::size_t high = kDigits.find(hex[2 * i]), low = kDigits.find(hex[2 * i + 1]);
+    if (high == std::string_view::npos || low == std::string_view::npos) return false;
+    bytes[i] = std::byte(static_cast<unsigned char>(high << 4U | low));
+  }
+  return true;
+}
+
+BundleFile file_of(const char* name, const Json& json) {
   const std::string text = json.dump(1) + "\n";
   const auto bytes = std::as_bytes(std::span(text));
   return {name, {bytes.begin(), bytes.end()}};
 }
 
+BundleFile signature_of(const storage::Signed& made) {
+  return file_of(kSignature,
+                 {{"of", kManifest}, {"by", hex_of(made.by)}, {"ed25519", hex_of(made.signature)}});
+}
+
+Error wrong(const std::string& file, Literal what) { return Error{Errc::InvalidInput, what}.at(file); }
+
+Result<const BundleFile*> find(std::span<const BundleFile> files, const char* name) {
+  const auto found = std::ranges::find(files, name, &BundleFile::name);
+  if (found == files.end())
+    return wrong(name, "is not there: this is no copy of a person as it was exported");
+  return &*found;
+}
+
+Json json_in(const BundleFile& file) {
+  const auto* text = reinterpret_cast<const char*>(file.bytes.data());
+  return Json::parse(text, text + file.bytes.size(), nullptr, false);
+}
+
 }  // namespace
 
-Result<void> add_manifest(storage::Store& store, const storage::Subject& subject,
-                          const storage::Enrolment& enrolment, storage::WallTime now,
-                          std::vector<storage::BundleFile>& files) {
-  nlohmann::ordered_json json;
+std::string text_of(const SigningKey& key) { return hex_of(key); }
+
+Result<std::vector<BundleFile>> manifest_files(storage::Store& store, const CopyOf& of, Sums sums) {
+  std::vector<BundleFile> files;
+  RELIEVO_TRY_ASSIGN(const auto person, store.person(of.subject.id));
+  files.push_back({storage::kPersonFile, encode_person(person)});
+  sums[storage::kPersonFile] = storage::sha256(files.back().bytes);
+  Json json;
   json["made_by"] = "Relievo " + std::string(kVersion);
-  json["made_at"] = text_of(now);
-  json["person"] = {{"code", receipt_of(subject)}, {"name", subject.name}};
-  json["enrolled_at"] = text_of(enrolment.created_at);
-  json["consent"] = {{"wording", enrolment.consent.wording},
-                     {"language", enrolment.consent.language},
-                     {"given_at", text_of(enrolment.consent.given_at)}};
-  for (const storage::BundleFile& file : files)
-    json["sha256"][file.name] = hex_of(storage::sha256(file.bytes));
-  files.push_back(file_of("manifest.json", json));
+  json["made_at"] = text_of(of.now);
+  json["person"] = {{"code", receipt_of(of.subject)}, {"name", of.subject.name}};
+  json["enrolled_at"] = text_of(of.enrolment.created_at);
+  json["consent"] = {{"wording", of.enrolment.consent.wording},
+                     {"language", of.enrolment.consent.language},
+                     {"given_at", text_of(of.enrolment.consent.given_at)}};
+  for (const auto& [name, sum] : sums) json["sha256"][name] = hex_of(sum);
+  files.push_back(file_of(kManifest, json));
   RELIEVO_TRY_ASSIGN(const storage::Signed made, store.sign(files.back().bytes));
-  files.push_back(
-      file_of("signature.json",
-              {{"of", "manifest.json"}, {"by", hex_of(made.by)}, {"ed25519", hex_of(made.signature)}}));
-  return {};
+  files.push_back(signature_of(made));
+  return files;
+}
+
+Result<SigningKey> check_bundle(std::span<const BundleFile> files) {
+  RELIEVO_TRY_ASSIGN(const BundleFile* manifest, find(files, kManifest));
+  RELIEVO_TRY_ASSIGN(const BundleFile* signature, find(files, kSignature));
+  const Json claimed = json_in(*signature);
+  storage::Signed by;
+  if (!from_hex(claimed, "by", by.by) || !from_hex(claimed, "ed25519", by.signature) ||
+      signature_of(by).bytes != signature->bytes)
+    return wrong(kSignature, "is no signature as it was exported: it was changed or cut");
+  if (!storage::is_signed(by, manifest->bytes))
+    return wrong(kManifest, "is not what was signed: it was changed or cut");
+  const Json json = json_in(*manifest);
+  if (!json.is_object() || !json.contains("sha256") || !json["sha256"].is_object())
+    return wrong(kManifest, "names no files: it is not of this program");
+  const Json& sums = json["sha256"];
+  for (const BundleFile& file : files) {
+    if (&file == manifest || &file == signature) continue;
+    storage::Sha256 sum{};
+    if (!from_hex(sums, file.name.c_str(), sum)) return wrong(file.name, "is not in the manifest");
+    if (sum != storage::sha256(file.bytes))
+      return wrong(file.name, "is not what the manifest says: it was changed, cut or exchanged");
+  }
+  for (const auto& [name, sum] : sums.items())
+    if (std::ranges::count(files, name, &BundleFile::name) != 1)
+      return wrong(name, "is missing, or there twice");
+  return by.by;
 }
 
 }  // namespace relievo::firmware

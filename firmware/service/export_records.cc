@@ -4,7 +4,7 @@
 
 #include <algorithm>
 #include <cerrno>
-#include <map>
+#include <chrono>
 #include <memory_resource>
 #include <string>
 #include <utility>
@@ -12,37 +12,20 @@
 #include "firmware/base/output_folder.h"
 #include "firmware/base/version.h"
 #include "firmware/base/wall_time.h"
+#include "firmware/records/bundle_manifest.h"
 #include "firmware/records/receipt.h"
 #include "firmware/service/further_models.h"
 #include "firmware/service/page_controller.h"
 #include "firmware/service/stick_folder.h"
-#include "hal/whole_file.h"
 #include "pipeline/recognition/recognition_images.h"
 #include "storage/export/model_files.h"
-#include "storage/sodium_sha256.h"
 
 namespace relievo::firmware {
 namespace {
 
 namespace fs = std::filesystem;
-using Sums = std::map<std::string, storage::Sha256>;
-
-constexpr std::size_t kMostFileBytes = std::size_t{1} << 31;
-
 Error stopped() { return {Errc::Cancelled, "the export was stopped"}; }
 Error pulled() { return {Errc::Disconnected, "the stick was pulled out before the export had ended"}; }
-
-// Of every file in the folder.
-Result<Sums> sums_of(const fs::path& folder) {
-  Sums sums;
-  std::error_code error;
-  for (fs::directory_iterator entry(folder, error), end; !error && entry != end; entry.increment(error)) {
-    RELIEVO_TRY_ASSIGN(const auto bytes, hal::read_whole_file(entry->path(), kMostFileBytes));
-    sums[entry->path().filename().string()] = storage::sha256(bytes);
-  }
-  if (error) return Error{Errc::IoFailed, "the folder on the stick cannot be read back", error.value()};
-  return sums;
-}
 
 std::string note_of(const storage::Subject& subject, const storage::Enrolment& newest) {
   return "code: " + receipt_of(subject) + "\nname: " + subject.name +
@@ -55,9 +38,9 @@ std::string note_of(const storage::Subject& subject, const storage::Enrolment& n
 // One export: the errors of its steps, and its progress.
 class Export {
  public:
-  Export(storage::Store& store, hal::RemovableMedia& media, const FurtherModels& further, JobControl& control,
-         ExportTrace& trace)
-      : store_(store), media_(media), further_(further), control_(control), trace_(trace) {}
+  Export(storage::Store& store, const hal::Clock& clock, hal::RemovableMedia& media,
+         const FurtherModels& further, JobControl& control, ExportTrace& trace)
+      : store_(store), clock_(clock), media_(media), further_(further), control_(control), trace_(trace) {}
 
   Result<void> one(storage::SubjectId id, const fs::path& root, float done, float share) {
     RELIEVO_TRY(reach(ExportStep::Load, done));
@@ -68,7 +51,8 @@ class Export {
     RELIEVO_TRY_ASSIGN(const pipeline::FaceModel model, store_.load_model(enrolments.back().id, &memory));
     const auto images = pipeline::make_recognition_images(model, memory, memory);
     RELIEVO_TRY(reach(ExportStep::Write, done + 0.3F * share));
-    const fs::path target = root / "relievo" / receipt_of(subject);
+    RELIEVO_TRY_ASSIGN(const fs::path target,
+                       place_on_stick(root, fs::path("relievo") / receipt_of(subject)));
     RELIEVO_TRY_ASSIGN(OutputFolder folder, OutputFolder::begin(target));
     storage::ExportOptions options(storage::ExportFrame::Head);
     options.version = kVersion;
@@ -78,6 +62,8 @@ class Export {
     RELIEVO_TRY(write_text(folder.path() / "record.txt", note_of(subject, enrolments.back()), "record.txt"));
     if (!enrolments.back().report_json.empty())
       RELIEVO_TRY(write_text(folder.path() / "report.json", enrolments.back().report_json, "report.json"));
+    const auto now = std::chrono::time_point_cast<std::chrono::milliseconds>(clock_.wall_now());
+    RELIEVO_TRY(write_manifest(store_, {subject, enrolments.back(), now}, folder.path(), "manifest.json"));
     RELIEVO_TRY_ASSIGN(const Sums written, sums_of(folder.path()));
     RELIEVO_TRY(reach(ExportStep::ReadBack, done + 0.6F * share));
     RELIEVO_TRY(media_.settle(folder.path()));
@@ -131,6 +117,7 @@ class Export {
   }
 
   storage::Store& store_;
+  const hal::Clock& clock_;
   hal::RemovableMedia& media_;
   FurtherModels further_;
   JobControl& control_;
@@ -140,14 +127,16 @@ class Export {
 
 }  // namespace
 
-Result<void> export_records(storage::Store& store, hal::RemovableMedia& media,
+Result<void> export_records(storage::Store& store, const hal::Clock& clock, hal::RemovableMedia& media,
                             const std::vector<storage::SubjectId>& subjects, const FurtherModels& further,
                             JobControl& control, ExportTrace& trace) {
   trace = {};
   const auto medium = media.current();
   if (!medium) return Error{Errc::MediaMissing, "there is no stick: plug one in"};
-  tidy_folder(medium->root / "relievo", is_receipt);
-  Export work(store, media, further, control, trace);
+  trace.step = ExportStep::Write;
+  RELIEVO_TRY_ASSIGN(const fs::path ours, place_on_stick(medium->root, "relievo"));
+  tidy_folder(ours, is_receipt);
+  Export work(store, clock, media, further, control, trace);
   const float share = 1 / static_cast<float>(std::max<std::size_t>(1, subjects.size()));
   for (const storage::SubjectId id : subjects) {
     const Result<void> written = work.one(id, medium->root, static_cast<float>(trace.whole) * share, share);
@@ -171,7 +160,7 @@ ui::Outcome outcome_of_export(const Error& error, const ExportTrace& trace) {
     if (gone) return ui::Outcome::StickGone;
     if (trace.step == ExportStep::LetGo && (not_allowed || number == EBUSY)) return ui::Outcome::StickHeld;
     if (trace.step == ExportStep::Write && not_allowed) return ui::Outcome::StickLocked;
-    if (trace.step != ExportStep::Write || number == EIO) return ui::Outcome::StickBad;
+    if (trace.step != ExportStep::Write || number == EIO || number == ELOOP) return ui::Outcome::StickBad;
   }
   return outcome_of(error);
 }

@@ -1,18 +1,20 @@
 // SPDX-FileCopyrightText: 2026 The Relievo authors
 // SPDX-License-Identifier: GPL-3.0-or-later
 //
-// Records on a stick: relievo/CODE/ with the newest portrait's files and record.txt, one folder a
-// person, each whole or not there; read back once more after the stick was let go and taken up again. What
-// was written is read back and compared before a folder gets its name; what an earlier export left half
-// written is cleared away by the next. Thread: the keeper; between two people and two steps it looks whether
-// it is to stop. Errors: MediaMissing (no stick), MediaFull, Disconnected (pulled out meanwhile), Cancelled,
-// NotFound, IoFailed (outcome_of_export() says what it means), the store's.
+// Records on a stick: relievo/CODE/ with the newest portrait's files, record.txt and what another store
+// takes in (records/bundle_manifest.h), one folder a person, each whole or not there; read back once more
+// after the stick was let go and taken up again. What was written is read back and compared before a folder
+// gets its name; what an earlier export left half written is cleared away by the next. Thread: the keeper;
+// between two people and two steps it looks whether it is to stop. Errors: MediaMissing (no stick),
+// MediaFull, Disconnected (pulled out meanwhile), Cancelled, NotFound, IoFailed (outcome_of_export() says
+// what it means), the store's.
 #pragma once
 
 #include <vector>
 
 #include "firmware/arguments/command_line.h"
 #include "firmware/jobs/job_thread.h"
+#include "hal/clock.h"
 #include "hal/removable_media.h"
 #include "storage/store.h"
 #include "ui/view/service_view.h"
@@ -28,7 +30,7 @@ struct ExportTrace {
 };
 
 // `further`: what stands beside each portrait's files (service/further_models.h).
-Result<void> export_records(storage::Store& store, hal::RemovableMedia& media,
+Result<void> export_records(storage::Store& store, const hal::Clock& clock, hal::RemovableMedia& media,
                             const std::vector<storage::SubjectId>& subjects, const FurtherModels& further,
                             JobControl& control, ExportTrace& trace);
 

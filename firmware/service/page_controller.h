@@ -42,6 +42,7 @@ struct PageServices {
   std::filesystem::path folder;              // of the store
   const std::uint32_t& calibration;          // the revision that is measured with, 0 for none; main thread
   ui::StaffRole role = ui::StaffRole::None;  // of who is signed in
+  bool words_due = false;                    // no recovery words open the store yet
 };
 
 class PageController {

@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "firmware/service/stick_folder.h"
 
+#include <cerrno>
 #include <string>
 #include <system_error>
 #include <vector>
@@ -26,6 +27,19 @@ std::string name_in(const std::string& entry) {
 }
 
 }  // namespace
+
+Result<fs::path> place_on_stick(const fs::path& root, const fs::path& place) {
+  fs::path way = root;
+  std::error_code error;
+  for (const fs::path& step : place) {
+    way /= step;
+    if (fs::is_symlink(fs::symlink_status(way, error)))
+      return Error{Errc::IoFailed, "is a link on the stick, which may lead anywhere: use another stick",
+                   ELOOP}
+          .at(step.native());
+  }
+  return way;
+}
 
 Result<void> replace_folder(OutputFolder& made, const fs::path& target) {
   std::error_code error;
@@ -56,7 +70,7 @@ Result<void> put_on_stick(hal::RemovableMedia& media, const fs::path& place, Sti
                           const std::function<Result<void>(const fs::path& target)>& write) {
   const auto medium = media.current();
   if (!medium) return Error{Errc::MediaMissing, "there is no stick: plug one in"};
-  const fs::path target = medium->root / place;
+  RELIEVO_TRY_ASSIGN(const fs::path target, place_on_stick(medium->root, place));
   tidy_folder(target.parent_path());
   const Result<void> written = write(target);
   // Whatever failed: a stick that is gone is the reason.

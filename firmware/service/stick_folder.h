@@ -18,6 +18,10 @@
 
 namespace relievo::firmware {
 
+// Where `place` is on the stick. IoFailed (ELOOP): a link is on the way, which would lead to files of the
+// device.
+Result<std::filesystem::path> place_on_stick(const std::filesystem::path& root,
+                                             const std::filesystem::path& place);
 // `made` becomes `target`; a folder that has this name already goes when the new one is there, not before.
 Result<void> replace_folder(OutputFolder& made, const std::filesystem::path& target);
 // How far the work on a stick has come, for who waits and for who may stop it between two steps.

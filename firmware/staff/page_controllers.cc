@@ -4,6 +4,7 @@
 
 #include "firmware/service/page/health_controller.h"
 #include "firmware/service/page/records_controller.h"
+#include "firmware/service/page/recovery_controller.h"
 #include "firmware/service/page/test_controllers.h"
 #include "ui/device/settings.h"
 #include "ui/screens/staff_screens.h"
@@ -108,6 +109,7 @@ void fill_page_controllers(PageServices& services, Pages pages) {
   at(ui::StaffPage::Records) = std::make_unique<RecordsController>(services);
   at(ui::StaffPage::Statistics) = std::make_unique<StatisticsController>(services);
   at(ui::StaffPage::Consent) = std::make_unique<ConsentController>(services);
+  at(ui::StaffPage::Recovery) = std::make_unique<RecoveryController>(services);
   at(ui::StaffPage::SelfTest) = std::make_unique<SelfTestController>(services);
   at(ui::StaffPage::Trigger) = std::make_unique<TriggerController>(services);
   at(ui::StaffPage::Log) = std::make_unique<LogController>(services);

@@ -90,6 +90,8 @@ Result<std::unique_ptr<StaffController>> StaffController::open(Parts parts) {
     staff->statistics_.begin(
         text_of(std::chrono::floor<std::chrono::milliseconds>(staff->parts_.device.clock().wall_now()))
             .substr(0, 10));
+  RELIEVO_TRY_ASSIGN(const bool words, staff->parts_.store.has_recovery_words());
+  staff->services_.words_due = !words;
   staff->log_.say(ui::LogEvent::Started);
   return staff;
 }
@@ -201,6 +203,7 @@ const ui::ServiceView& StaffController::view() {
   if (inside() && parts_.appliance.state() == State::Staff && seconds_left() <= kWarning.count())
     view_.leaves_in_s = seconds_left();
   sign_in_.show(view_.access);
+  view_.access.words_due = services_.words_due;
   consent_.show(consent_view_);
   view_.consent = &consent_view_;
   if (page_ != nullptr) page_->show(view_);

@@ -29,6 +29,8 @@ using RecoveryBits = std::array<std::byte, kRecoveryBytes>;
 using RecoveryPublic = std::array<std::byte, 32>;
 
 std::string draw_recovery_words();  // with one space between them
+// Which two of them show that they were written down: one of either half, from 0.
+std::array<std::size_t, 2> words_to_ask();
 std::string words_of(const RecoveryBits& bits);
 // Capitals and white space are as one likes.
 Result<RecoveryBits> bits_of(std::string_view words);

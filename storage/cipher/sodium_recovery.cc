@@ -48,6 +48,11 @@ std::string words_of(const RecoveryBits& bits) {
   return words;
 }
 
+std::array<std::size_t, 2> words_to_ask() {
+  const std::size_t first = randombytes_uniform(kRecoveryWords / 2);
+  return {first, first + kRecoveryWords / 2};
+}
+
 std::string draw_recovery_words() {
   RecoveryBits bits{};
   randombytes_buf(bits.data(), bits.size());

@@ -3,6 +3,7 @@
 #include <archive.h>
 #include <archive_entry.h>
 
+#include <algorithm>
 #include <memory>
 
 #include "storage/export/bundle.h"
@@ -37,6 +38,48 @@ Result<std::vector<std::byte>> bundle_bytes(std::span<const BundleFile> files) {
   if (archive_write_close(tar.get()) != ARCHIVE_OK) return failed(Errc::OutOfMemory);
   bytes.resize(used);
   return bytes;
+}
+
+bool is_plain_name(std::string_view name) {
+  const auto plain = [](char c) {
+    return (c >= 'a' && c <= 'z') || (c >= 'A' && c <= 'Z') || (c >= '0' && c <= '9') || c == '.' ||
+           c == '_' || c == '-';
+  };
+  return !name.empty() && name.size() <= 100 && name.front() != '.' && std::ranges::all_of(name, plain);
+}
+
+Result<std::vector<BundleFile>> bundle_files(std::span<const std::byte> tar) {
+  const Error strange{
+      Errc::InvalidInput,
+      "this is no bundle as it was exported: it was changed or cut, or packed by another program"};
+  const std::unique_ptr<archive, int (*)(archive*)> reader(archive_read_new(), archive_read_free);
+  if (!reader || archive_read_support_format_tar(reader.get()) != ARCHIVE_OK)
+    return Error{Errc::OutOfMemory, "not enough memory to read the bundle"};
+  if (archive_read_open_memory(reader.get(), tar.data(), tar.size()) != ARCHIVE_OK) return strange;
+  std::vector<BundleFile> files;
+  std::size_t left = tar.size();  // whatever the sizes say, no more than that is read
+  archive_entry* entry = nullptr;
+  int told = ARCHIVE_OK;
+  while ((told = archive_read_next_header(reader.get(), &entry)) == ARCHIVE_OK) {
+    const char* name = archive_entry_pathname(entry);
+    if (name == nullptr || !is_plain_name(name))
+      return Error{Errc::InvalidInput, "a file of the bundle would lie outside of it: nothing was taken"}.at(
+          name == nullptr ? "" : name);
+    if (archive_entry_filetype(entry) != AE_IFREG || archive_entry_hardlink(entry) != nullptr)
+      return Error{Errc::InvalidInput, "is no file but a link, a folder or a device: nothing was taken"}.at(
+          name);
+    const auto size = static_cast<std::size_t>(std::max<la_int64_t>(0, archive_entry_size(entry)));
+    if (size > left) return strange;
+    left -= size;
+    BundleFile& file = files.emplace_back(BundleFile{name, std::vector<std::byte>(size)});
+    if (archive_read_data(reader.get(), file.bytes.data(), size) != static_cast<la_ssize_t>(size))
+      return strange;
+  }
+  if (told != ARCHIVE_EOF) return strange;
+  // Padding, dates, owners: what no checksum covers must be as it was written, too.
+  RELIEVO_TRY_ASSIGN(const auto again, bundle_bytes(files));
+  if (!std::ranges::equal(again, tar)) return strange;
+  return files;
 }
 
 }  // namespace relievo::storage

@@ -8,6 +8,7 @@
 #include <cstddef>
 #include <span>
 #include <string>
+#include <string_view>
 #include <vector>
 
 #include "hal/base/result.h"
@@ -20,5 +21,11 @@ struct BundleFile {
 };
 
 Result<std::vector<std::byte>> bundle_bytes(std::span<const BundleFile> files);
+// Only exactly what bundle_bytes() makes is taken: plain files with plain names, and not a byte more or less.
+// InvalidInput says what else there is.
+Result<std::vector<BundleFile>> bundle_files(std::span<const std::byte> tar);
+
+// A name in one folder: no way elsewhere.
+bool is_plain_name(std::string_view name);
 
 }  // namespace relievo::storage

@@ -43,12 +43,6 @@ std::vector<std::byte> sealed_detail(const StoreKeys& keys, std::int64_t line, s
   return seal(keys.device(), detail_of(line), bytes_of(detail));
 }
 
-Result<std::string> open_detail(const StoreKeys& keys, std::int64_t line, std::span<const std::byte> sealed) {
-  if (sealed.empty()) return std::string();
-  RELIEVO_TRY_ASSIGN(const auto plain, unseal(keys.device(), detail_of(line), sealed));
-  return std::string(reinterpret_cast<const char*>(plain.data()), plain.size());
-}
-
 struct End {
   std::int64_t number = 0;
   KeyedHash hash{};
@@ -69,6 +63,12 @@ Result<End> read_end(Database& database) {
 }
 
 }  // namespace
+
+Result<std::string> open_detail(const StoreKeys& keys, std::int64_t line, std::span<const std::byte> sealed) {
+  if (sealed.empty()) return std::string();
+  RELIEVO_TRY_ASSIGN(const auto plain, unseal(keys.device(), detail_of(line), sealed));
+  return std::string(reinterpret_cast<const char*>(plain.data()), plain.size());
+}
 
 Result<std::int64_t> append_audit_line(Database& database, const StoreKeys& keys, const AuditEvent& event,
                                        WallTime at) {

@@ -20,6 +20,9 @@ inline constexpr std::string_view kSettingChanged = "setting.changed", kSubjectE
 Result<std::int64_t> append_audit_line(Database& database, const StoreKeys& keys, const AuditEvent& event,
                                        WallTime at);
 
+// What is sealed of a line, as plain text. StoreCorrupt: it was changed, or is another line's.
+Result<std::string> open_detail(const StoreKeys& keys, std::int64_t line, std::span<const std::byte> sealed);
+
 // StoreCorrupt: a line was edited, dropped, moved, or the tail was cut.
 Result<void> check_audit_chain(Database& database, const StoreKeys& keys);
 

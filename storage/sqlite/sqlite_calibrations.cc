@@ -81,6 +81,16 @@ Result<std::uint32_t> SqliteStore::know_calibration(const pipeline::StereoCalibr
   });
 }
 
+// Of a portrait that comes from another store. Inside the caller's transaction.
+Result<std::uint32_t> SqliteStore::revision_for(std::span<const std::byte> calibration_record, WallTime at) {
+  if (calibration_record.empty()) return 0;
+  RELIEVO_TRY_ASSIGN(const auto read, decode_calibration(calibration_record));
+  RELIEVO_TRY(check_calibration(read.calibration));
+  RELIEVO_TRY_ASSIGN(const std::uint32_t known, revision_of(read.calibration));
+  if (known != 0) return known;
+  return insert_calibration(read.calibration, "came with somebody's record", read.figures, at);
+}
+
 Result<std::vector<CalibrationInfo>> SqliteStore::calibrations() {
   return without_exceptions(database_->where(), [&]() -> Result<std::vector<CalibrationInfo>> {
     RELIEVO_TRY_ASSIGN(

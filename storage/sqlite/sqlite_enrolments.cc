@@ -19,7 +19,9 @@ constexpr std::string_view kEnrolments =
     "JOIN consent ON consent.enrolment_id = enrolment.id "
     "JOIN model ON model.enrolment_id = enrolment.id ";
 
-Result<void> check_texts(const NewEnrolment& enrolment) {
+}  // namespace
+
+Result<void> SqliteStore::check_texts(const NewEnrolment& enrolment) {
   if (!is_name(enrolment.consent.wording) || !is_name(enrolment.consent.language)) {
     return Error{Errc::InvalidInput, "a consent names its wording and its language"};
   }
@@ -28,8 +30,6 @@ Result<void> check_texts(const NewEnrolment& enrolment) {
   }
   return {};
 }
-
-}  // namespace
 
 Result<Enrolment> SqliteStore::enrolment_in(KeySlots& slots, const Statement& row) {
   Enrolment enrolment;
@@ -49,19 +49,23 @@ Result<Enrolment> SqliteStore::enrolment_in(KeySlots& slots, const Statement& ro
 
 // The subject's key is in keys_ afterwards: what is sealed next is theirs.
 Result<SubjectId> SqliteStore::resolve(const SubjectChoice& subject, WallTime at) {
-  if (const auto* made = std::get_if<NewSubject>(&subject)) return insert_subject(*made, at);
+  if (const auto* made = std::get_if<NewSubject>(&subject)) {
+    RELIEVO_TRY_ASSIGN(const std::int64_t receipt, fresh_receipt());
+    return insert_subject(made->name, receipt, at, at);
+  }
   const SubjectId id = std::get<SubjectId>(subject);
   RELIEVO_TRY(subject_must_exist(id));
   return id;
 }
 
 Result<EnrolmentId> SqliteStore::insert_enrolment(SubjectId subject, const NewEnrolment& enrolment,
-                                                  std::span<const std::byte> blob, WallTime at) {
+                                                  std::span<const std::byte> blob, WallTime created,
+                                                  WallTime at) {
   RELIEVO_TRY_ASSIGN(
       auto row,
       database_->prepare(
           "INSERT INTO enrolment (subject_id, created_at_ms, calibration_revision) VALUES (?, ?, ?)"));
-  row.bind(number(subject)).bind(to_ms(at));
+  row.bind(number(subject)).bind(to_ms(created));
   if (enrolment.calibration_revision == 0) row.bind_null();
   else row.bind(std::int64_t{enrolment.calibration_revision});
   RELIEVO_TRY(row.run());
@@ -90,7 +94,7 @@ Result<EnrolmentId> SqliteStore::add_enrolment(const SubjectChoice& subject, con
       }
       RELIEVO_TRY_ASSIGN(const SubjectId id, resolve(subject, at));
       if (enrolment.renews) RELIEVO_TRY(renew_key(id));
-      RELIEVO_TRY_ASSIGN(const EnrolmentId made, insert_enrolment(id, enrolment, blob, at));
+      RELIEVO_TRY_ASSIGN(const EnrolmentId made, insert_enrolment(id, enrolment, blob, at, at));
       if (enrolment.renews) RELIEVO_TRY(erase_others(id, made, at));
       return made;
     });

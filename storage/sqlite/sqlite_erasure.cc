@@ -12,6 +12,7 @@
 
 #include "storage/byte_order.h"
 #include "storage/export/atomic_file.h"
+#include "storage/sqlite/sqlite_audit.h"
 #include "storage/sqlite/sqlite_change.h"
 #include "storage/sqlite/sqlite_key_slots.h"
 #include "storage/sqlite/store_directory.h"
@@ -48,17 +49,51 @@ bool append(const std::filesystem::path& file, std::span<const std::byte> record
   return done && sync_directory(file.parent_path()).has_value();
 }
 
+// As it stands in the log.
+std::string text_of(const KeyedHash& trace) {
+  constexpr std::string_view kDigits = "0123456789abcdef";
+  std::string text;
+  for (const std::byte byte : trace)
+    text +=
+        {kDigits[std::to_integer<std::size_t>(byte >> 4)], kDigits[std::to_integer<std::size_t>(byte) & 15U]};
+  return text;
+}
+
+struct Erased {
+  std::int64_t line = 0;
+  KeyedHash trace{};
+};
+
+std::vector<Erased> read_list(const Database& database) {
+  std::ifstream file(list_of(database), std::ios::binary);
+  const std::string bytes(std::istreambuf_iterator<char>(file), {});
+  std::vector<Erased> all;
+  ByteReader from(bytes_of(bytes));
+  while (from.left() >= static_cast<std::size_t>(kRecordBytes)) {
+    Erased& one = all.emplace_back();
+    one.line = static_cast<std::int64_t>(from.get<std::uint64_t>());
+    from.get_run<std::byte>(std::span<std::byte>(one.trace));
+  }
+  return all;
+}
+
+// NotFound: they are erased already.
+Result<KeyedHash> trace_of(Database& database, const StoreKeys& keys, SubjectId id) {
+  RELIEVO_TRY_ASSIGN(auto query, database.prepare("SELECT code_hash FROM subject WHERE id = ?"));
+  RELIEVO_TRY_ASSIGN(const bool row, query.bind(number(id)).step());
+  if (!row) return Error{Errc::NotFound, "there is no subject with this number"};
+  return trace_of(keys, query.blob(0));
+}
+
 }  // namespace
 
 Result<void> remember_erased(Database& database, const StoreKeys& keys, SubjectId id) {
   RELIEVO_TRY_ASSIGN(const std::int64_t line, last_line(database));
-  RELIEVO_TRY_ASSIGN(auto query, database.prepare("SELECT code_hash FROM subject WHERE id = ?"));
-  RELIEVO_TRY_ASSIGN(const bool row, query.bind(number(id)).step());
-  if (!row) return {};
+  RELIEVO_TRY_ASSIGN(const KeyedHash trace, trace_of(database, keys, id));
   std::vector<std::byte> record;
   ByteWriter to(record);
   to.put(static_cast<std::uint64_t>(line + 1));
-  to.put(trace_of(keys, query.blob(0)));
+  to.put(trace);
   const auto list = list_of(database);
   // An erasure does not wait for it.
   if (!append(list, record) && give_up_reserve(list.parent_path())) (void)append(list, record);
@@ -66,17 +101,10 @@ Result<void> remember_erased(Database& database, const StoreKeys& keys, SubjectI
 }
 
 Result<std::vector<SubjectId>> erased_and_back(Database& database, const StoreKeys& keys) {
-  std::ifstream file(list_of(database), std::ios::binary);
-  const std::string bytes(std::istreambuf_iterator<char>(file), {});
   RELIEVO_TRY_ASSIGN(const std::int64_t last, last_line(database));
   std::vector<KeyedHash> erased;
-  ByteReader from(bytes_of(bytes));
-  while (from.left() >= static_cast<std::size_t>(kRecordBytes)) {
-    const auto line = static_cast<std::int64_t>(from.get<std::uint64_t>());
-    KeyedHash trace{};
-    from.get_run<std::byte>(std::span<std::byte>(trace));
-    if (line > last) erased.push_back(trace);
-  }
+  for (const Erased& one : read_list(database))
+    if (one.line > last) erased.push_back(one.trace);
   std::vector<SubjectId> back;
   if (erased.empty()) return back;
   std::ranges::sort(erased);
@@ -90,7 +118,23 @@ Result<std::vector<SubjectId>> erased_and_back(Database& database, const StoreKe
   }
 }
 
-Result<void> destroy_subject_key(Database& database, SubjectId id) {
+Result<bool> was_erased(Database& database, const StoreKeys& keys, std::int64_t code) {
+  const KeyedHash trace = trace_of(keys, keys.code_hash(code));
+  for (const Erased& one : read_list(database))
+    if (one.trace == trace) return true;
+  RELIEVO_TRY_ASSIGN(auto query, database.prepare("SELECT number, detail FROM audit WHERE what = ?"));
+  query.bind(kSubjectErased);
+  for (;;) {
+    RELIEVO_TRY_ASSIGN(const bool row, query.step());
+    if (!row) return false;
+    RELIEVO_TRY_ASSIGN(const std::string detail, open_detail(keys, query.integer(0), query.blob(1)));
+    if (detail == text_of(trace)) return true;
+  }
+}
+
+Result<void> destroy_subject_key(Database& database, const StoreKeys& keys, SubjectId id, WallTime at) {
+  RELIEVO_TRY_ASSIGN(const KeyedHash trace, trace_of(database, keys, id));
+  RELIEVO_TRY(append_audit_line(database, keys, {std::string(kSubjectErased), id, text_of(trace)}, at));
   RELIEVO_TRY(KeySlots(database, true).write(id, KeySlots::Slot{}));
   RELIEVO_TRY_ASSIGN(auto update, database.prepare("UPDATE subject SET name = x'00', name_hash = NULL, "
                                                    "code = NULL, code_hash = NULL WHERE id = ?"));

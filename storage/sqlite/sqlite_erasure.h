@@ -26,8 +26,12 @@ Result<void> remember_erased(Database& database, const StoreKeys& keys, SubjectI
 // Whom this database still has although they were erased after it was copied.
 Result<std::vector<SubjectId>> erased_and_back(Database& database, const StoreKeys& keys);
 
-// Inside the caller's transaction, which writes the line of the audit log.
-Result<void> destroy_subject_key(Database& database, SubjectId id);
+// Whether this is the code of somebody the store has erased: it stands as such a hash in that file, and in
+// the log's line of the erasure, which copies of the store have, too.
+Result<bool> was_erased(Database& database, const StoreKeys& keys, std::int64_t code);
+
+// Inside the caller's transaction; with its line of the audit log.
+Result<void> destroy_subject_key(Database& database, const StoreKeys& keys, SubjectId id, WallTime at);
 
 // Of all whose key was destroyed: inside the caller's transaction.
 Result<void> remove_erased_rows(Database& database);

@@ -58,6 +58,12 @@ Result<void> SqliteStore::rekey(KeySource& to) {
   return empty_the_log(*database_);
 }
 
+Result<bool> SqliteStore::has_recovery_words() {
+  RELIEVO_TRY_ASSIGN(const std::int64_t kept,
+                     database_->integer("SELECT count(*) FROM encryption_key WHERE kind = 'recovery'"));
+  return kept != 0;
+}
+
 Result<void> SqliteStore::keep_recovery_words(std::string_view words) {
   return change([&](WallTime at) -> Result<void> {
     RELIEVO_TRY(keys_->keep_recovery_words(*database_, words, at));
@@ -86,17 +92,21 @@ class SqliteKeeping final : public StoreKeeping {
     const auto same = options_.keys ? options_.keys : std::shared_ptr<KeySource>(key_file(dir_ / kKeyFile));
     return store->rekey(place.empty() ? *same : *key_file(place, false));
   }
-  Result<void> keep_recovery_words(std::string_view words) override {
-    RELIEVO_TRY_ASSIGN(const auto store, open(OpenMode::ReadWrite));
-    return store->keep_recovery_words(words);
-  }
-  Result<void> recover(std::string_view words) override {
+  Result<std::vector<SubjectId>> recover(std::string_view words) override {
     if (auto known = bits_of(words); !known) return known.error();
     SqliteStoreOptions options = options_;
     options.recovery_words = words;
     RELIEVO_TRY(must_exist());
-    RELIEVO_TRY(SqliteStore::open(dir_, clock_, options));
-    return {};
+    Database before(dir_ / kStoreFile);
+    RELIEVO_TRY(before.open(false));
+    RELIEVO_TRY_ASSIGN(const std::int64_t line, before.integer("SELECT max(number) FROM audit"));
+    before.close();
+    RELIEVO_TRY_ASSIGN(const auto store, SqliteStore::open(dir_, clock_, options));
+    RELIEVO_TRY_ASSIGN(const auto log, store->audit(line, -1));
+    std::vector<SubjectId> again;
+    for (const AuditRecord& one : log)
+      if (one.event.what == kSubjectErased) again.push_back(one.event.subject);
+    return again;
   }
 
  private:

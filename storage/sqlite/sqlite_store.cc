@@ -49,10 +49,7 @@ Result<void> erase_again(Database& database, StoreKeys& keys, WallTime at) {
   if (back.empty()) return {};
   Transaction transaction(database);
   RELIEVO_TRY(transaction.begin());
-  for (const SubjectId id : back) {
-    RELIEVO_TRY(destroy_subject_key(database, id));
-    RELIEVO_TRY(append_audit_line(database, keys, {std::string(kSubjectErased), id, "again"}, at));
-  }
+  for (const SubjectId id : back) RELIEVO_TRY(destroy_subject_key(database, keys, id, at));
   return transaction.commit();
 }
 

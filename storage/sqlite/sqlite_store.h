@@ -71,7 +71,6 @@ class SqliteStore final : public Store {
   Result<void> backup(const std::filesystem::path& file);
   Result<std::vector<SubjectId>> erased_since(const std::filesystem::path& backup);
   Result<void> rekey(KeySource& to);
-  Result<void> keep_recovery_words(std::string_view words);
 
   Result<void> check() override;
   Result<SubjectId> add_subject(const NewSubject& subject) override;
@@ -82,6 +81,8 @@ class SqliteStore final : public Store {
   Result<std::vector<Enrolment>> enrolments(SubjectId subject) override;
   Result<Enrolment> enrolment(EnrolmentId id) override;
   Result<pipeline::FaceModel> load_model(EnrolmentId id, std::pmr::memory_resource* memory) override;
+  Result<PersonRecord> person(SubjectId id) override;
+  Result<SubjectId> add_person(const PersonRecord& person) override;
   using Store::save_calibration;
   Result<std::uint32_t> save_calibration(const pipeline::StereoCalibration& calibration,
                                          std::string_view note, const CalibrationFigures& figures) override;
@@ -93,6 +94,8 @@ class SqliteStore final : public Store {
   Result<void> activate_calibration(std::uint32_t revision) override;
   Result<std::string> setting(std::string_view key) override;
   Result<void> set_setting(std::string_view key, std::string_view value) override;
+  Result<bool> has_recovery_words() override;
+  Result<void> keep_recovery_words(std::string_view words) override;
   Result<Signed> sign(std::span<const std::byte> bytes) override { return keys_->sign(bytes); }
   Result<void> append_audit(const AuditEvent& event) override;
   Result<std::vector<AuditRecord>> audit(std::int64_t after_number, std::int64_t limit) override;
@@ -107,16 +110,20 @@ class SqliteStore final : public Store {
   Result<Subject> subject_in(KeySlots& slots, const Statement& row);
   Result<Enrolment> enrolment_in(KeySlots& slots, const Statement& row);
   Result<std::int64_t> fresh_receipt();
-  Result<SubjectId> insert_subject(const NewSubject& subject, WallTime at);
+  Result<void> must_be_new(std::int64_t receipt);
+  Result<SubjectId> insert_subject(std::string_view name, std::int64_t receipt, WallTime created,
+                                   WallTime at);
   Result<void> renew_key(SubjectId id);
   Result<void> erase_others(SubjectId subject, EnrolmentId but, WallTime at);
   Result<SubjectId> resolve(const SubjectChoice& subject, WallTime at);
   Result<EnrolmentId> insert_enrolment(SubjectId subject, const NewEnrolment& enrolment,
-                                       std::span<const std::byte> blob, WallTime at);
+                                       std::span<const std::byte> blob, WallTime created, WallTime at);
+  static Result<void> check_texts(const NewEnrolment& enrolment);
   Result<std::uint32_t> insert_calibration(const pipeline::StereoCalibration& calibration,
                                            std::string_view note, const CalibrationFigures& figures,
                                            WallTime at);
   Result<std::uint32_t> revision_of(const pipeline::StereoCalibration& calibration);  // 0: not in the store
+  Result<std::uint32_t> revision_for(std::span<const std::byte> calibration_record, WallTime at);
   Result<void> make_active(std::uint32_t revision);
   Result<std::vector<std::byte>> model_bytes(EnrolmentId id);
   Result<void> check_pages();

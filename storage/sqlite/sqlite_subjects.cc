@@ -48,22 +48,23 @@ Result<std::int64_t> SqliteStore::fresh_receipt() {
                "the system's random numbers repeat themselves: nobody can be given a code"};
 }
 
-Result<SubjectId> SqliteStore::insert_subject(const NewSubject& subject, WallTime at) {
-  if (!is_name(subject.name)) {
+// `created`: where they came from another store, when they were made there.
+Result<SubjectId> SqliteStore::insert_subject(std::string_view name, std::int64_t receipt, WallTime created,
+                                              WallTime at) {
+  if (!is_name(name)) {
     return Error{Errc::InvalidInput, "a name has 1 to 200 bytes of UTF-8 and no control characters"};
   }
   RELIEVO_TRY_ASSIGN(auto insert,
                      database_->prepare("INSERT INTO subject (created_at_ms, name) VALUES (?, x'00')"));
-  RELIEVO_TRY_ASSIGN(const std::int64_t receipt, fresh_receipt());
-  RELIEVO_TRY(insert.bind(to_ms(at)).run());
+  RELIEVO_TRY(insert.bind(to_ms(created)).run());
   const SubjectId id{database_->last_row_id()};
-  RELIEVO_TRY(seal_subject(*database_, *keys_, id, subject.name, receipt));
+  RELIEVO_TRY(seal_subject(*database_, *keys_, id, name, receipt));
   RELIEVO_TRY(append_audit_line(*database_, *keys_, {"subject.added", id, ""}, at));
   return id;
 }
 
 Result<SubjectId> SqliteStore::add_subject(const NewSubject& subject) {
-  return change([&](WallTime at) { return insert_subject(subject, at); });
+  return change([&](WallTime at) { return resolve(subject, at); });
 }
 
 Result<std::vector<Subject>> SqliteStore::subjects(const SubjectFilter& filter) {
@@ -133,11 +134,8 @@ Result<void> SqliteStore::erase_subject(SubjectId id) {
       return done;
     };
     if (mode_ == OpenMode::ReadWrite) RELIEVO_TRY(remember_erased(*database_, *keys_, id));
-    const auto destroyed = in_reserve([&](WallTime at) -> Result<void> {
-      RELIEVO_TRY(destroy_subject_key(*database_, id));
-      RELIEVO_TRY(append_audit_line(*database_, *keys_, {std::string(kSubjectErased), id, ""}, at));
-      return {};
-    });
+    const auto destroyed =
+        in_reserve([&](WallTime at) { return destroy_subject_key(*database_, *keys_, id, at); });
     if (!destroyed) return destroyed;
     (void)empty_the_log(*database_);  // where a reader is in the way, the last one below says so
     const auto removed = in_reserve([&](WallTime) { return remove_erased_rows(*database_); });

@@ -2,10 +2,14 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // A store that somebody changed who has no key, its file and its log; files that are sealed to us.
 #include <algorithm>
+#include <iterator>
 
+#include "firmware/records/bundle_manifest.h"
 #include "hal/base/assert.h"
 #include "storage/cipher/age.h"
 #include "storage/cipher/recovery.h"
+#include "storage/model_blob.h"
+#include "storage/person_record.h"
 #include "storage/sqlite/sqlite_store.h"
 #include "tests/fuzz/fuzz_targets.h"
 #include "tests/storage/sample.h"
@@ -95,8 +99,55 @@ std::vector<std::string> sealed_files() {
   return all;
 }
 
+// Somebody's record, as an exported copy carries it.
+PersonRecord somebody() {
+  PersonRecord person{"Ada", 42, {}, {}};
+  for (const int side : {3, 4}) {
+    const auto blob = encode_model(sample_model(side));
+    RELIEVO_ASSERT(blob.has_value());
+    person.portraits.push_back({{}, {"2026-03", "en", {}}, "[matcher]", "{}", {}, *blob});
+  }
+  return person;
+}
+
+bool person(FuzzBytes input) {
+  const auto read = decode_person(bytes_of(input));
+  RELIEVO_ASSERT(!read || std::ranges::equal(encode_person(*read), bytes_of(input)));
+  return read.has_value();
+}
+
+// The copy itself: a tar of files, its manifest and signature.
+bool bundle(FuzzBytes input) {
+  const auto files = bundle_files(bytes_of(input));
+  if (!files) return false;
+  for (const BundleFile& file : *files) RELIEVO_ASSERT(is_plain_name(file.name));
+  return firmware::check_bundle(*files).has_value();
+}
+
+std::string good_bundle() {
+  const TemporaryFolder folder;
+  const auto store = storage::test::opened(folder.path(), kNoReserve);
+  const auto id = store->add_person(somebody());
+  RELIEVO_ASSERT(id.has_value());
+  const auto ada = store->subject(*id);
+  const auto enrolments = store->enrolments(*id);
+  const std::string text = "a file";
+  const auto bytes = std::as_bytes(std::span(text));
+  std::vector<BundleFile> files{{"report.json", {bytes.begin(), bytes.end()}}};
+  auto more = firmware::manifest_files(*store, {*ada, enrolments->back(), {}},
+                                       {{"report.json", sha256(files.front().bytes)}});
+  RELIEVO_ASSERT(more.has_value());
+  std::ranges::move(*more, std::back_inserter(files));
+  return text_of(std::span<const std::byte>(*bundle_bytes(files)));
+}
+
 }  // namespace
 
-std::vector<FuzzTarget> store_targets() { return {{"store", store, {""}}, {"age", age, sealed_files()}}; }
+std::vector<FuzzTarget> store_targets() {
+  return {{"store", store, {""}},
+          {"age", age, sealed_files()},
+          {"person", person, {text_of(std::span<const std::byte>(encode_person(somebody())))}},
+          {"bundle", bundle, {good_bundle()}}};
+}
 
 }  // namespace relievo::test

@@ -137,7 +137,7 @@ TEST_F(FilesPower, RecordsAndCalibrationsOnAStick) {
     pipeline::Progress progress;
     JobControl control{cancelled, progress};
     ExportTrace trace;
-    return export_records(*store, stick, {storage::SubjectId{who}}, {}, control, trace).has_value();
+    return export_records(*store, clock, stick, {storage::SubjectId{who}}, {}, control, trace).has_value();
   };
   const auto calibration = [&](double rms) {
     hal::FolderMedia stick(disk);

@@ -193,7 +193,7 @@ TEST_F(StorePower, NewKeysWordsAndRecovery) {
   words = draw_recovery_words();
   const auto counts = cut({
       {"rekey", [this] { return keeping()->rekey("").has_value(); }},
-      {"words", [this] { return keeping()->keep_recovery_words(words).has_value(); }},
+      {"words", [this] { return test::opened(dir(), kNoReserve)->keep_recovery_words(words).has_value(); }},
       {"lost", [this] { return fs::remove(dir() / "relievo.key") && sync_directory(dir()).has_value(); }},
       {"recover", [this] { return keeping()->recover(words).has_value(); }},
       {"to a stick", [this] { return keeping()->rekey(disk / "stick/key").has_value(); }},
@@ -213,6 +213,31 @@ TEST_F(StorePower, CalibrationsSettingsAndTheLog) {
       {"log",
        [this] {
          return store->append_audit({"sign-in", {}, "of Canary"}).has_value();
+       }},
+      close(),
+  });
+  EXPECT_GT(counts.as_before, 10);
+  EXPECT_GT(counts.as_after, 3);
+}
+
+TEST_F(StorePower, SomebodyFromAnotherStore) {
+  PersonRecord ada;
+  {
+    const auto other = test::opened(folder / "other", kNoReserve);
+    const auto model = test::sample_model(20);
+    for (int i = 0; i < 2; ++i)
+      ASSERT_TRUE(other->add_enrolment(i == 0 ? SubjectChoice(NewSubject{"Ada Canary"}) : SubjectId{1},
+                                       test::sample_enrolment(model)));
+    ada = *other->person(SubjectId{1});
+  }
+  const auto counts = cut({
+      open(),
+      enrol(NewSubject{"Bob Canary"}),
+      {"take in", [&] { return store->add_person(ada).has_value(); }},
+      {"erase",
+       [this] {
+         remember(SubjectId{2}, 3);
+         return store->erase_subject(SubjectId{2}).has_value();
        }},
       close(),
   });

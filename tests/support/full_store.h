@@ -40,6 +40,10 @@ class FullStore final : public storage::Store {
   Result<pipeline::FaceModel> load_model(storage::EnrolmentId id, std::pmr::memory_resource* m) override {
     return real_->load_model(id, m);
   }
+  Result<storage::PersonRecord> person(storage::SubjectId id) override { return real_->person(id); }
+  Result<storage::SubjectId> add_person(const storage::PersonRecord& p) override {
+    return real_->add_person(p);
+  }
   Result<std::uint32_t> save_calibration(const pipeline::StereoCalibration& c, std::string_view n,
                                          const storage::CalibrationFigures& f) override {
     return real_->save_calibration(c, n, f);
@@ -55,6 +59,8 @@ class FullStore final : public storage::Store {
   Result<void> set_setting(std::string_view k, std::string_view v) override {
     return real_->set_setting(k, v);
   }
+  Result<bool> has_recovery_words() override { return real_->has_recovery_words(); }
+  Result<void> keep_recovery_words(std::string_view w) override { return real_->keep_recovery_words(w); }
   Result<storage::Signed> sign(std::span<const std::byte> b) override { return real_->sign(b); }
   Result<void> append_audit(const storage::AuditEvent& e) override { return real_->append_audit(e); }
   Result<std::vector<storage::AuditRecord>> audit(std::int64_t a, std::int64_t l) override {

@@ -91,10 +91,31 @@ class WholeWay : public RelievoProcess {
               std::string::npos);
     done({"subjects", "export", "Ada Lovelace", "-o", "exported", "--store", "store"});
     expect_files("exported", {"model.ply", "model.stl", "model.obj", "model.mtl", "model.png", "model.glb",
-                              "portrait.png", "range.png", "recognition.json", "report.json"});
+                              "portrait.png", "range.png", "recognition.json", "report.json", "person.record",
+                              "manifest.json", "signature.json"});
     export_sealed();
+    import_it();
     EXPECT_EQ(done({"selftest", "--store", "store"}).exit_code, 0);
     refused({"subjects", "show", "Nobody", "--store", "store"}, "Nobody");
+  }
+
+  // Another device takes her in, when it was told whom to believe.
+  void import_it() {
+    done({"calibration", "import", "rig.yml", "--store", "store2"});
+    refused({"subjects", "import", "exported", "--store", "store2"}, "signed this copy, not this store");
+    const std::string told = done({"store", "check", "--store", "store"}).out;
+    const std::size_t at = told.find("signed by ");
+    ASSERT_NE(at, std::string::npos) << told;
+    EXPECT_NE(
+        done({"subjects", "import", "exported", "--store", "store2", "--signed-by", told.substr(at + 10, 64)})
+            .out.find("taken in: #1 Ada Lovelace"),
+        std::string::npos);
+    EXPECT_NE(done({"subjects", "show", "Ada Lovelace", "--store", "store2"}).out.find("1 enrolment"),
+              std::string::npos);
+    done({"store", "check", "--store", "store2"});
+    done({"subjects", "erase", "Ada Lovelace", "--store", "store2"});
+    refused({"subjects", "import", "exported", "--store", "store2", "--signed-by", told.substr(at + 10, 64)},
+            "exported", "was erased from this store");
   }
 
   // One file, which tells nobody anything but whom it is for.
@@ -115,8 +136,8 @@ class WholeWay : public RelievoProcess {
     fs::create_directory(here / "unsealed");
     EXPECT_EQ(test::run_program({"/usr/bin/tar", "xf", "../ada.tar"}, here / "unsealed").exit_code, 0);
     expect_files("unsealed", {"model.ply", "model.stl", "model.obj", "model.mtl", "model.png", "model.glb",
-                              "portrait.png", "range.png", "recognition.json", "report.json", "manifest.json",
-                              "signature.json"});
+                              "portrait.png", "range.png", "recognition.json", "report.json", "person.record",
+                              "manifest.json", "signature.json"});
     EXPECT_TRUE(test::read_text(here / "unsealed/model.ply") == test::read_text(here / "exported/model.ply"));
     EXPECT_NE(test::read_text(here / "unsealed/manifest.json").find("\"name\": \"Ada Lovelace\""),
               std::string::npos);

@@ -42,6 +42,7 @@ void menu_page(StaffFrame& page) {
   int column = 0;
   for (const StaffPageInfo& info : staff_pages()) {
     if (!may_open(page.staff.role, info)) continue;
+    if (info.page == StaffPage::Recovery && !page.staff.access.words_due) continue;  // shown once
     if (column == 0) page.tree.open(page.box(Flow::Row, space::kM));
     tile(page, info);
     column = (column + 1) % across;

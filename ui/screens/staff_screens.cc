@@ -6,6 +6,7 @@
 
 #include "ui/screens/parts/overlay.h"
 #include "ui/screens/service/technician/technician_frame.h"
+#include "ui/view/staff_views.h"
 
 namespace relievo::ui {
 namespace {
@@ -26,6 +27,8 @@ constexpr std::array kPages{
                   statistics_page},
     StaffPageInfo{StaffPage::Consent, "open consent", mark_tr("Consent text"), kDocument, false, true,
                   consent_text_page},
+    StaffPageInfo{StaffPage::Recovery, "open recovery", mark_tr("Recovery words"), kKey, false, true,
+                  recovery_page},
     StaffPageInfo{StaffPage::SelfTest, "open self test", mark_tr("Self-test"), kPulse, true, false,
                   self_test_page},
     StaffPageInfo{StaffPage::Trigger, "open trigger", mark_tr("Trigger test"), kFlash, true, false,
@@ -91,6 +94,8 @@ void fill_staff_pictures(DrawList& list, const ViewState& view, const Visit& vis
   if (view.service->technician != nullptr &&
       fill_technician_pictures(list, *view.service->technician, visit, service.page))
     return;
+  if (const RecoveryView* sheet = view.service->recovery)
+    list.pictures[static_cast<std::size_t>(PictureSlot::TechnicianLeft)] = sheet->code;
   list.faces[0].model = view.service->model;
   list.faces[0].version = view.service->model == nullptr ? 0 : view.service->model_number;
   list.face_look = visit.look;

@@ -131,7 +131,10 @@ void Service::follow(const ViewState& view) {
   if (view.service == nullptr) return close();
   const StaffRole role = view.service->role;
   if (needs_role(page) && role == StaffRole::None) return close();
-  if (!needs_role(page) && role != StaffRole::None) return go(StaffPage::Menu);
+  // Before real people nobody forgets the sheet: its page comes first until it is confirmed.
+  const AccessView& access = view.service->access;
+  const bool sheet = access.demanded && access.words_due && role == StaffRole::Operator;
+  if (!needs_role(page) && role != StaffRole::None) return go(sheet ? StaffPage::Recovery : StaffPage::Menu);
   if (page == StaffPage::FirstStart && view.service->access.set_up) return go(StaffPage::Pin);
   if (page == StaffPage::Pin && view.now - last_touch_ > kPinPatience) leave();
 }

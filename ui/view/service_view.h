@@ -22,7 +22,8 @@ enum class StaffPage : std::uint8_t {
   Menu,
   Records,
   Statistics,
-  Consent,  // operator's
+  Consent,
+  Recovery,  // operator's
   Stages,
   Model,
   Tables,
@@ -90,6 +91,7 @@ struct AccessView {
   int wait_s = 0;              // until the next try
   bool consent_right = false;  // somebody has seen which consent text is in force, and goes on with it
   bool forgotten = false;      // not set up, because one of the two is to be chosen anew
+  bool words_due = false;      // no recovery words open the store yet
 };
 
 enum class Mood : std::uint8_t { Plain, Good, Warn, Bad };
@@ -111,6 +113,7 @@ struct ServiceView {
   const struct HealthView* health = nullptr;
   const struct LogView* log = nullptr;
   const struct ConsentTextsView* consent = nullptr;
+  const struct RecoveryView* recovery = nullptr;
   const struct SettingsView* settings = nullptr;
   const struct TouchView* touch = nullptr;
   const struct TechnicianView* technician = nullptr;  // of all the technician's picture pages

@@ -49,6 +49,8 @@ struct ExportRecord {
 struct ExportFound {};
 struct StopExport {};
 
+struct OfferWord {};  // the text: the word of the sheet that is asked for
+
 // --- device ------------------------------------------------------------------------------------------------
 struct ChangeSetting {
   Setting setting{};
@@ -165,8 +167,8 @@ using TechnicianRequest =
 using StaffAsk =
     std::variant<std::monostate, PageOpened, PageLeft, CheckPin, OfferPin, MoveClock, SetClock,
                  TakeConsentText, ConfirmConsentText, FindRecords, TurnRecords, ShowRecord, EraseRecord,
-                 ExportRecord, ExportFound, StopExport, ChangeSetting, BeginSelfTest, BeginTriggerTest,
-                 BeginTouchTrial, TakePlainTouch, TechnicianRequest>;
+                 ExportRecord, ExportFound, StopExport, OfferWord, ChangeSetting, BeginSelfTest,
+                 BeginTriggerTest, BeginTouchTrial, TakePlainTouch, TechnicianRequest>;
 
 inline constexpr std::size_t kStaffTextBytes = 128;
 

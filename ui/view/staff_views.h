@@ -11,6 +11,7 @@
 #include <span>
 #include <string_view>
 
+#include "ui/draw/draw_list.h"
 #include "ui/view/fault.h"
 #include "ui/view/log_event.h"
 #include "ui/view/service_view.h"
@@ -63,6 +64,16 @@ struct ConsentTextsView {
   bool taking = false;
   Outcome outcome = Outcome::None;  // of the last try; Done: it is in force
   const Fault* fault = nullptr;     // why not
+};
+
+// --- recovery words: a sheet, then two of its words, typed ------------------------------------------
+enum class SheetState : std::uint8_t { Asked, Wrong, Saving, Failed, Done };
+
+struct RecoveryView {
+  std::span<const std::string_view> words;  // English; empty when they are confirmed
+  Picture code;                             // the same as a QR code
+  int asked = 0;                            // the word that is to be typed; from 1
+  SheetState state = SheetState::Asked;
 };
 
 // --- self-test --------------------------------------------------------------------------------------

@@ -197,8 +197,8 @@ void RecordsController::take_out(std::int64_t number) {
   services().side_tasks.send(
       JobLane::Keeper,
       [this, subjects = std::move(subjects), further, trace](JobControl& control) {
-        return export_records(services().store, services().device.media(), subjects, further, control,
-                              *trace);
+        return export_records(services().store, services().device.clock(), services().device.media(),
+                              subjects, further, control, *trace);
       },
       [this, trace, visit = visit_](const std::optional<Error>& error) {
         if (trace->whole > 0)

@@ -92,7 +92,7 @@ TEST_F(KioskTurn, WhoTurnsTheHeadSeesAllOfIt) {
   JobControl control{cancelled, progress};
   ExportTrace trace;
   const auto exported =
-      export_records(**store, stick, {subjects->front().id}, {.watertight = true}, control, trace);
+      export_records(**store, clock, stick, {subjects->front().id}, {.watertight = true}, control, trace);
   ASSERT_TRUE(exported) << exported.error().what.view();
   const Path record = std::filesystem::directory_iterator(folder.path() / "stick/relievo")->path();
   const auto bytes = hal::read_whole_file(record / "model.ply", std::size_t{1} << 28);

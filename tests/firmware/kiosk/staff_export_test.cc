@@ -3,6 +3,8 @@
 //
 // An export that goes wrong, through the operator's page: each way has words of its own and a way on, nothing
 // half-written passes for an export, and the records stay.
+#include <unistd.h>
+
 #include "tests/firmware/kiosk/staff_hands.h"
 #include "tests/support/faulty_stick.h"
 #include "ui/view/records_view.h"
@@ -83,6 +85,25 @@ TEST_F(StaffExportTest, AStickThatIsPulledOutCountsForNothingUntilItIsExportedTo
   EXPECT_EQ(exported_on(stick().string() + " in a hand"), "2")
       << "the second was not finished: it has no name";
   ends_well_the_next_time(stick());
+}
+
+// Somebody prepared it: what is written would lie on the device, for whoever set the trap.
+TEST_F(StaffExportTest, NothingIsWrittenThroughALinkOnTheStick) {
+  open_records({"Ada Lovelace", "Grace Hopper"});
+  const Path elsewhere = folder.path() / "elsewhere", ours = stick() / "relievo";
+  std::filesystem::create_directory(elsewhere);
+  std::filesystem::create_directory_symlink(elsewhere, ours);
+  EXPECT_EQ(export_all(), Outcome::StickBad);
+  std::filesystem::remove(ours);
+  std::filesystem::create_directory(ours);
+  std::filesystem::create_directory_symlink(elsewhere, ours / code_of(2));
+  std::filesystem::create_directory_symlink(elsewhere,
+                                            ours / ("." + code_of(1) + ".part" + std::to_string(::getpid())));
+  EXPECT_EQ(export_all(), Outcome::StickBad);
+  EXPECT_EQ(entries_of(elsewhere), 0U);
+  std::filesystem::remove(ours / code_of(2));
+  ends_well_the_next_time(stick());
+  EXPECT_EQ(entries_of(elsewhere), 0U);
 }
 
 TEST_F(StaffExportTest, TheStickIsReadOnceMoreAfterItWasLetGo) {

@@ -88,8 +88,8 @@ TEST(StoreKeeping, WordsOpenTheStoreOfADeadBoard) {
   fill(dir);
   const auto older = draw_recovery_words(), words = draw_recovery_words();
   EXPECT_EQ(code_of(keeping(dir)->recover(words)), Errc::NotFound) << "none were made";
-  ASSERT_TRUE(keeping(dir)->keep_recovery_words(older));
-  ASSERT_TRUE(keeping(dir)->keep_recovery_words(words));
+  ASSERT_TRUE(opened(dir, kNoReserve)->keep_recovery_words(older));
+  ASSERT_TRUE(opened(dir, kNoReserve)->keep_recovery_words(words));
   ASSERT_TRUE(keeping(dir)->rekey("")) << "the words stay good without being asked for";
   EXPECT_EQ(test::all_bytes(dir).find(words.substr(0, 12)), std::string::npos);
   std::filesystem::create_directory(folder / "board");
@@ -158,7 +158,11 @@ TEST(StoreKeeping, OnAFullDiskNothingIsHalf) {
     for (const std::string block(4096, 'x'); junk.flush(); junk.write(block.data(), 4096)) continue;
   }
   EXPECT_EQ(code_of(keeping(dir)->rekey("")), Errc::MediaFull);
-  EXPECT_EQ(code_of(keeping(dir)->keep_recovery_words(draw_recovery_words())), Errc::MediaFull);
+  {
+    const auto full = open_sqlite_store(dir, kClock, kNoReserve);
+    EXPECT_EQ(full ? code_of((*full)->keep_recovery_words(draw_recovery_words())) : full.error().code,
+              Errc::MediaFull);
+  }
   EXPECT_EQ(code_of(keeping(dir)->backup(disk.path() / "copy")), Errc::MediaFull);
   EXPECT_FALSE(std::filesystem::exists(disk.path() / "copy"));
   std::filesystem::remove(disk.path() / "junk");
@@ -229,7 +233,7 @@ TEST(StoreKeeping, AnOlderCopyInItsPlaceErasesAgainWhoWasErasedSince) {
     ASSERT_TRUE(store);
     EXPECT_EQ(code_of(store->subject(SubjectId{3})), Errc::NotFound);
     EXPECT_EQ(store->subjects({})->size(), 3U);
-    EXPECT_EQ(store->audit(0, 100)->back().event.detail, "again");
+    EXPECT_EQ(store->audit(0, 100)->back().event.what, "subject.erased");
     EXPECT_TRUE(store->check());
     // Has the number of one who was erased in the time that was lost.
     EXPECT_EQ(*store->add_subject({"Another fifth"}), SubjectId{5});
@@ -240,6 +244,24 @@ TEST(StoreKeeping, AnOlderCopyInItsPlaceErasesAgainWhoWasErasedSince) {
   ASSERT_TRUE(opened(dir, kNoReserve)->erase_subject(SubjectId{1}));
   put_back();
   EXPECT_EQ(opened(dir, kNoReserve)->subjects({})->size(), 2U) << "neither the first nor the third";
+}
+
+// On another board, too, where the list of who was erased came along.
+TEST(StoreKeeping, ACopyThatIsRecoveredTellsWhomItErasesAgain) {
+  const TemporaryFolder folder;
+  const auto dir = folder / "store", board = folder / "board2";
+  const auto words = draw_recovery_words();
+  fill(dir, 4);
+  ASSERT_TRUE(opened(dir, kNoReserve)->keep_recovery_words(words));
+  std::filesystem::create_directory(board);
+  ASSERT_TRUE(keeping(dir)->backup(board / "relievo.db"));
+  ASSERT_TRUE(opened(dir, kNoReserve)->erase_subject(SubjectId{3}));
+  std::filesystem::copy(dir / "relievo.erased", board / "relievo.erased");
+  const auto told = keeping(board)->recover(words);
+  ASSERT_TRUE(told) << told.error().what.view();
+  EXPECT_EQ(*told, std::vector<SubjectId>{SubjectId{3}});
+  EXPECT_EQ(opened(board, kNoReserve)->subjects({})->size(), 3U);
+  EXPECT_TRUE(keeping(dir)->recover(words)->empty());
 }
 
 }  // namespace

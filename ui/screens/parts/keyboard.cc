@@ -128,9 +128,9 @@ Node row_box(Page& page) {
   return row;
 }
 
-void last_row(Page& page, Action done) {
+void last_row(Page& page, Action done, Language language) {
   page.tree.open(page.box(Flow::Row, 10));
-  if (has_capitals(page.visit.language)) {
+  if (has_capitals(language)) {
     const char* sign = page.visit.accents ? "abc" : page.visit.capitals ? "ÁÑß" : "áñß";
     key(page, "accents", sign, page.tr("Letters with accents"), false, {ActionKind::Accents, 0}, 0.6F);
   }
@@ -145,7 +145,9 @@ void last_row(Page& page, Action done) {
 
 }  // namespace
 
-void keyboard(Page& page, Action done) {
+void keyboard(Page& page, Action done) { keyboard(page, done, page.visit.language); }
+
+void keyboard(Page& page, Action done, Language language) {
   Node board = page.grown(page.box(Flow::Column, 8), page.portrait ? 0.0F : 1.0F);
   board.id = "keyboard";
   board.box.justify = Justify::End;
@@ -153,9 +155,9 @@ void keyboard(Page& page, Action done) {
   page.tree.open(row_box(page));
   letters(page, kDigits);
   page.tree.close();
-  const bool cased = has_capitals(page.visit.language);
+  const bool cased = has_capitals(language);
   const KeyRows rows = page.visit.accents && cased ? accent_rows(page.visit.capitals)
-                                                   : key_rows(page.visit.language, page.visit.capitals);
+                                                   : key_rows(language, page.visit.capitals);
   for (std::size_t i = 0; i < rows.size(); ++i) {
     page.tree.open(row_box(page));
     const bool last = i == rows.size() - 1;
@@ -168,7 +170,7 @@ void keyboard(Page& page, Action done) {
       key(page, "erase", icon::kErase, page.tr("Erase"), true, {ActionKind::Erase, 0}, 1, page.mirrored());
     page.tree.close();
   }
-  last_row(page, done);
+  last_row(page, done, language);
   page.tree.close();
 }
 

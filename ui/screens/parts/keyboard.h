@@ -8,8 +8,10 @@
 
 namespace relievo::ui {
 
-// `done` is what the key that ends typing does; the visitor's does nothing before there is a name.
+// `done` is what the key that ends typing does; the visitor's does nothing before there is a name. `letters`:
+// whose; most pages have those of the reader.
 void keyboard(Page& page, Action done = {ActionKind::Done, 0});
+void keyboard(Page& page, Action done, Language letters);
 
 // Digits, and a tick for `done`.
 struct PadIds {

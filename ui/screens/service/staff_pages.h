@@ -19,6 +19,7 @@ void log_page(StaffFrame& page);
 void health_page(StaffFrame& page);
 void settings_page(StaffFrame& page);
 void consent_text_page(StaffFrame& page);
+void recovery_page(StaffFrame& page);
 // What it shows: what is in force, how another comes from a stick, how the last try ended; then the button
 // that asks for it.
 void consent_in_force(StaffFrame& page);
