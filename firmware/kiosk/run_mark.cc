@@ -2,7 +2,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "firmware/kiosk/run_mark.h"
 
-#include <fstream>
+#include "storage/export/atomic_file.h"
 
 namespace relievo::firmware {
 
@@ -10,15 +10,15 @@ Result<std::unique_ptr<RunMark>> RunMark::set(const std::filesystem::path& folde
   const std::filesystem::path file = folder / "relievo.running";
   std::error_code error;
   const bool there = std::filesystem::exists(file, error);
-  if (!there && !std::ofstream(file))
-    return Error{Errc::IoFailed, "cannot be written: check the folder's rights and the disk"}.at(
-        file.string());
+  // On the disk before anybody comes, and gone from it before the program says that it has ended.
+  if (!there) RELIEVO_TRY(storage::write_file(file, {}));
   return std::unique_ptr<RunMark>(new RunMark(file, there));
 }
 
 RunMark::~RunMark() {
   std::error_code error;
   std::filesystem::remove(file_, error);
+  (void)storage::sync_directory(file_.parent_path());
 }
 
 }  // namespace relievo::firmware

@@ -2,7 +2,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 //
 // RunMark: a file that is there while the kiosk runs, and gone when it ended as it should. One that is
-// found at the start means the power went, or the program did. Thread: main. Errors of set(): IoFailed.
+// found at the start means the power went, or the program did. Thread: main. Errors of set(): IoFailed,
+// MediaFull.
 #pragma once
 
 #include <filesystem>

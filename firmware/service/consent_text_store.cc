@@ -9,6 +9,7 @@
 
 #include "firmware/base/output_folder.h"
 #include "firmware/service/page_controller.h"
+#include "firmware/service/stick_folder.h"
 #include "hal/picture_file.h"
 #include "storage/export/atomic_file.h"
 
@@ -86,8 +87,6 @@ std::optional<std::size_t> language_of(const fs::path& file) {
   return std::nullopt;
 }
 
-namespace fs = std::filesystem;
-
 Error not_kept() { return {Errc::IoFailed, "cannot be kept on this device: look at the room on its disk"}; }
 
 // The first line of operator.txt is their name, the others say how they are reached.
@@ -138,9 +137,10 @@ Result<void> copy_texts(const fs::path& from, const fs::path& to) {
   return storage::sync_directory(to);
 }
 
-// None: the stick has what is in force.
-Result<std::optional<ui::ConsentTexts>> take_from(const fs::path& stick, const fs::path& own,
-                                                  const std::optional<ui::ConsentTexts>& now) {
+}  // namespace
+
+Result<std::optional<ui::ConsentTexts>> take_consent(const fs::path& stick, const fs::path& own,
+                                                     const std::optional<ui::ConsentTexts>& now) {
   RELIEVO_TRY_ASSIGN(const auto found, read_consent(stick / "consent"));
   if (!found) return Error{Errc::NotFound, "the stick has no folder named consent"};
   if (now && found->version < now->version)
@@ -162,8 +162,6 @@ Result<std::optional<ui::ConsentTexts>> take_from(const fs::path& stick, const f
   if (!folder->commit()) return not_kept().at(found->version);
   return std::optional(*found);
 }
-
-}  // namespace
 
 bool is_hidden(const fs::path& path) { return path.filename().string().starts_with('.'); }
 
@@ -216,10 +214,13 @@ Result<ui::ConsentTexts> read_consent_version(const fs::path& folder, const std:
 Result<std::optional<ui::ConsentTexts>> read_consent(const fs::path& folder) {
   std::error_code error;
   if (!fs::exists(folder, error)) return std::optional<ui::ConsentTexts>{};
+  if (fs::is_symlink(fs::symlink_status(folder, error)))
+    return wrong(folder, "is no file: a text in a language is a file of its own");
   fs::path newest;
   for (fs::directory_iterator entry(folder, error), end; !error && entry != end; entry.increment(error)) {
     if (is_hidden(entry->path())) continue;
-    if (!is_version(entry->path().filename().string()) || !entry->is_directory(error))
+    if (!is_version(entry->path().filename().string()) ||
+        !fs::is_directory(fs::symlink_status(entry->path(), error)))
       return wrong(
           entry->path(),
           "is no version of a consent text: a folder, named with letters, digits, dot, dash and underscore");
@@ -232,8 +233,16 @@ Result<std::optional<ui::ConsentTexts>> read_consent(const fs::path& folder) {
   return std::optional(std::move(texts));
 }
 
+Result<std::optional<ui::ConsentTexts>> own_consent(const fs::path& folder) {
+  std::error_code ignored;
+  tidy_folder(folder);
+  if (fs::is_directory(fs::symlink_status(folder, ignored)) && fs::is_empty(folder, ignored))
+    fs::remove(folder, ignored);
+  return read_consent(folder);
+}
+
 Result<void> ConsentTextStore::look() {
-  RELIEVO_TRY_ASSIGN(now_, read_consent(folder_));
+  RELIEVO_TRY_ASSIGN(now_, own_consent(folder_));
   return {};
 }
 
@@ -252,7 +261,7 @@ void ConsentTextStore::take() {
       [this, taken, now = now_](JobControl&) -> Result<void> {
         const auto medium = media_.current();
         if (!medium) return Error{Errc::MediaMissing, "there is no stick: plug one in"};
-        auto result = take_from(medium->root, folder_, now);
+        auto result = take_consent(medium->root, folder_, now);
         // Whatever failed: a stick that is gone is the reason.
         if (!result && !media_.current())
           return Error{Errc::Disconnected, "the stick was pulled out too early: plug it in and try again"};

@@ -45,12 +45,21 @@ inline constexpr std::size_t kMostConsentPoints = 24;
 // Nothing where there is no such folder: then the sample is shown, and says that it is one.
 Result<std::optional<ui::ConsentTexts>> read_consent(const std::filesystem::path& folder);
 
+// Of the store's own folder: what a power cut left of a text that was being taken is no text, and goes.
+Result<std::optional<ui::ConsentTexts>> own_consent(const std::filesystem::path& folder);
+
 // One folder of LANGUAGE.txt, under that name.
 Result<ui::ConsentTexts> read_consent_version(const std::filesystem::path& folder,
                                               const std::string& version);
 // A file as it is taken for text: UTF-8 without its mark, ends of lines as here, at most kMostConsentBytes.
 Result<std::string> read_consent_text(const std::filesystem::path& file);
 bool is_hidden(const std::filesystem::path& path);
+
+// From the folder consent of a stick into that of the store, whole or not at all. None: the stick has what is
+// in force. InvalidInput, NotFound, IoFailed. Thread: the keeper.
+Result<std::optional<ui::ConsentTexts>> take_consent(const std::filesystem::path& stick,
+                                                     const std::filesystem::path& own,
+                                                     const std::optional<ui::ConsentTexts>& now);
 
 class ConsentTextStore {
  public:

@@ -7,8 +7,10 @@
 #include <atomic>
 
 #include "firmware/base/output_folder.h"
+#include "firmware/kiosk/run_mark.h"
 #include "firmware/records/event_log.h"
 #include "firmware/records/receipt.h"
+#include "firmware/service/consent_text_store.h"
 #include "firmware/service/export_records.h"
 #include "firmware/service/stick_folder.h"
 #include "firmware/technician/calibration_stick.h"
@@ -122,6 +124,56 @@ TEST_F(FilesPower, ModelFiles) {
         return std::string();
       }});
   EXPECT_GT(counts.different, 20);
+}
+
+// Visitors read a whole text, the one before or the new one.
+TEST_F(FilesPower, TheConsentTextOfAStick) {
+  const auto on_stick = [&](const char* version, const char* words) {
+    fs::create_directories(folder / "stick/consent" / version);
+    for (const char* name : {"en.txt", "de.txt"})
+      test::write_text(folder / "stick/consent" / version / name,
+                       std::string(words) + "\n\nA point\nIts words\n");
+  };
+  const auto take = [&]() {
+    const auto now = own_consent(disk / "consent");
+    return now && take_consent(folder / "stick", disk / "consent", *now);
+  };
+  const auto counts = cut_power(disk,
+                                {
+                                    {"first", [&] { return on_stick("2026-03", "The first"), take(); }},
+                                    {"second", [&] { return on_stick("2026-09", "The second"), take(); }},
+                                },
+                                {[](const fs::path& at) {
+                                  const auto seen = own_consent(at / "consent");
+                                  if (!seen) return "!" + std::string(seen.error().what.view());
+                                  std::string all;
+                                  if (*seen)
+                                    for (const auto& text : (*seen)->in)
+                                      all += (text ? text->title : "-") + "|";
+                                  return *seen ? (*seen)->version + all : all;
+                                }});
+  EXPECT_GT(counts.as_before, 3);
+  EXPECT_GT(counts.as_after, 1);
+}
+
+// A kiosk that ran when the power went is known by it, one that had ended is not.
+TEST_F(FilesPower, TheMarkOfARun) {
+  std::unique_ptr<RunMark> mark;
+  const auto set = [&] {
+    auto made = RunMark::set(disk);
+    if (made) mark = std::move(*made);
+    return made.has_value();
+  };
+  const auto counts = cut_power(disk,
+                                {
+                                    {"begins", set},
+                                    {"ends", [&] { return mark.reset(), true; }},
+                                    {"begins", set},
+                                },
+                                {files_in});
+  EXPECT_FALSE(mark->ended_early());
+  EXPECT_GT(counts.as_before, 1);
+  EXPECT_GT(counts.as_after, 1);
 }
 
 // Whoever plugs the stick in again tidies it first.
