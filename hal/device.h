@@ -30,6 +30,8 @@ class Device {
   virtual bool is_live() const { return true; }
   // Flash where a lamp of its own hangs on the trigger.
   virtual Light shot_light() const { return Light::Off; }
+  // Is a part of it about to switch the machine off for its heat? Thread: any; waits for the sensors.
+  virtual bool too_hot() const { return false; }
   virtual RemovableMedia& media() = 0;
   virtual Clock& clock() = 0;
   virtual Watchdog& watchdog() = 0;

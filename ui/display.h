@@ -20,6 +20,8 @@ class Display {
   virtual std::optional<Input> poll() = 0;
   // A synthetic finger: it comes back through poll(), as a person's does.
   virtual void push(const Input& finger) = 0;
+  // A GL context in place of one the driver has lost; what was in that is gone. Errors: LibraryFailed.
+  virtual Result<void> renew() = 0;
   virtual void show() = 0;  // what was drawn; waits for the screen where it can
 };
 

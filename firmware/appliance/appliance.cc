@@ -83,9 +83,9 @@ Appliance::Appliance(Parts parts)
       head_(parts.stages, session_, parts.pool, parts.device.clock()),
       keep_(parts.records, session_),
       look_up_(parts.records),
-      capture_(reports_),
-      worker_(reports_),
-      keeper_(reports_) {
+      capture_(reports_, "capture"),
+      worker_(reports_, "worker"),
+      keeper_(reports_, "keeper") {
   records_.reserve(static_cast<std::size_t>(budget::kCaptureAttempts) *
                    (kStages.size() + SidePairs::kPoses + 1));
   has_judge_ = parts.judge != nullptr;
@@ -99,6 +99,11 @@ void Appliance::ask(ui::Intent intent) {
   if (intent == ui::Intent::Enough) return turn_.finish();
   handle(event_of(intent));
   if (!session_.is_open()) record_ = {};
+}
+
+void Appliance::give_up(const Error& error) {
+  note(error);
+  handle(Event::Failed);
 }
 
 void Appliance::ask_records(RecordQuestion question) {
@@ -229,7 +234,8 @@ void Appliance::heard(const JobReport& report) {
   const State state = machine_.state();
   if (stage_.record().name == name_of(state)) records_.push_back(stage_.record());
   if (state == State::Match && session_.products().drift) note(*session_.products().drift);
-  const bool sides_end = state == State::Turn && report.error && !is_fault(report.error->code);
+  // What goes wrong while the sides are taken costs them, never the face.
+  const bool sides_end = state == State::Turn && report.error;
   if (report.error && !sides_end) return failed(*report.error);
   if (state == State::Store) kept_ = keep_.take();
   if (state == State::SelfTest) problem_.reset();  // whatever led to it is over

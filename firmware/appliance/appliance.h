@@ -60,6 +60,8 @@ class Appliance {
   const RecordAnswer& answer() const { return answer_; }
   void forget_answer();
   void ask(ui::Intent intent);
+  // Ends a visit that the main thread cannot go on with.
+  void give_up(const Error& error);
   // Waits at most `wait` for something to happen, and deals with it.
   void step(std::chrono::milliseconds wait);
 

@@ -49,6 +49,7 @@ ui::Screen screen_of(State state) {
 
 ui::Trouble trouble_of(const Error& problem, State state) {
   if (state == State::Review || state == State::Store) return ui::Trouble::Storage;
+  if (state == State::Fault && problem.code == Errc::OutOfMemory) return ui::Trouble::Other;
   switch (problem.code) {
     case Errc::Disconnected:
       return ui::Trouble::Camera;

@@ -66,6 +66,8 @@ using std::chrono::microseconds;
 using std::chrono::milliseconds;
 inline constexpr milliseconds kTick{50};           // the main loop turns at least this often
 inline constexpr milliseconds kCancelWithin{100};  // a job has stopped this long after it was asked to
+inline constexpr milliseconds kHangLimit{
+    8'000};  // the main loop has not turned: the program is ended (base/sentinel.h)
 inline constexpr milliseconds kLivePause{30};  // between two live pictures: others need the processor, too
 inline constexpr microseconds kTriggerPulse{100};
 inline constexpr milliseconds kFrameWait{2000};         // from the trigger to both pictures
@@ -94,6 +96,9 @@ inline constexpr milliseconds kExportLimit{600'000};
 inline constexpr milliseconds kCalibrateLimit{600'000};
 inline constexpr milliseconds kStaffLimit{300'000};
 inline constexpr milliseconds kFaultRetry{5'000};  // a fault tests itself again after this
+inline constexpr milliseconds kShortOfMemory{
+    2'000};                                       // no page could be made for so long: the program is ended
+inline constexpr milliseconds kHeatLook{10'000};  // between two looks at how hot the machine is
 inline constexpr int kMovedFaces = 2;  // on end that say the cameras have moved: one may have nodded
 
 }  // namespace relievo::firmware::budget

@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: 2026 The Relievo authors
 // SPDX-License-Identifier: GPL-3.0-or-later
 //
-// Interrupt: Ctrl-C and SIGTERM set a flag that every job asks; the command then ends cleanly, with
+// Interrupt: Ctrl-C, SIGTERM and SIGHUP set a flag that every job asks; the command then ends cleanly, with
 // nothing half-written. A second Ctrl-C ends the process at once. One per process.
 #pragma once
 

@@ -6,12 +6,14 @@
 #include <thread>
 
 #include "firmware/base/interrupt.h"
+#include "firmware/base/sentinel.h"
+#include "firmware/base/steady_heap.h"
 #include "firmware/command/commands.h"
+#include "firmware/kiosk/glass.h"
 #include "firmware/kiosk/kiosk.h"
 #include "firmware/kiosk/script/script_player.h"
 #include "firmware/kiosk/script/visit_figures.h"
 #include "hal/picture_file.h"
-#include "ui/render/renderer.h"
 
 namespace relievo::firmware {
 namespace {
@@ -36,49 +38,18 @@ Result<void> keep_picture(ui::Renderer& renderer, const ui::Display& display, co
   return hal::write_picture(file, picture.view());
 }
 
-// Draws what is not on the screen yet: a page that stands still leaves the processor to the pipeline.
-class Glass {
- public:
-  Glass(ui::Display& display, ui::Renderer& renderer) : display_(display), renderer_(renderer) {}
-
-  // True: there is a new frame, to be shown.
-  bool draw(Kiosk& kiosk, std::chrono::steady_clock::time_point now, bool wanted) {
-    const bool forgets = kiosk.take_forgotten();
-    const int width = display_.width_px(), height = display_.height_px();
-    const ui::DrawList& list = kiosk.ui().draw_list();
-    if (!wanted && !forgets && width == width_ && height == height_ && now - drawn_at_ < kAtLeastEvery &&
-        list == drawn_)
-      return false;
-    if (forgets) renderer_.forget();
-    renderer_.draw(list, kiosk.ui().text().atlas(), width, height);
-    drawn_ = list;
-    width_ = width;
-    height_ = height;
-    drawn_at_ = now;
-    return true;
-  }
-
- private:
-  static constexpr std::chrono::milliseconds kAtLeastEvery{500};  // a window may have been covered
-  ui::Display& display_;
-  ui::Renderer& renderer_;
-  ui::DrawList drawn_;
-  int width_ = 0, height_ = 0;
-  std::chrono::steady_clock::time_point drawn_at_{};
-};
-
 // What may change the page: the next finger is for the page it leads to, however long a frame takes.
 bool is_a_deed(const ui::Input& input) {
   using Kind = ui::Input::Kind;
   return input.kind == Kind::Up || input.kind == Kind::Activate || input.kind == Kind::Back;
 }
 
-Result<void> run_on(ui::Display& display, Kiosk& kiosk, Scripted* scripted) {
-  RELIEVO_TRY_ASSIGN(const auto renderer, ui::Renderer::make());
-  Glass glass(display, *renderer);
+Result<void> run_on(ui::Display& display, Kiosk& kiosk, Sentinel& sentinel, Scripted* scripted) {
+  RELIEVO_TRY_ASSIGN(auto glass, Glass::on(display));
   const std::atomic<bool>& stop = interrupted();
   while (!stop.load()) {
     const auto begin = std::chrono::steady_clock::now();
+    sentinel.kick();
     std::optional<std::string> picture;
     if (scripted != nullptr) {
       RELIEVO_TRY_ASSIGN(const bool goes_on, scripted->player.turn(kiosk, begin));
@@ -94,8 +65,9 @@ Result<void> run_on(ui::Display& display, Kiosk& kiosk, Scripted* scripted) {
     kiosk.ui().resize(display.width_px(), display.height_px());
     kiosk.turn();
     if (scripted != nullptr) scripted->figures.made();
-    const bool drawn = glass.draw(kiosk, begin, picture.has_value());
-    if (picture) RELIEVO_TRY(keep_picture(*renderer, display, scripted->pictures / (*picture + ".png")));
+    RELIEVO_TRY_ASSIGN(const bool drawn, glass.draw(kiosk, begin, picture.has_value()));
+    if (picture)
+      RELIEVO_TRY(keep_picture(glass.renderer(), display, scripted->pictures / (*picture + ".png")));
     if (drawn) display.show();
     if (scripted != nullptr) scripted->figures.shown(kiosk, drawn);
     std::this_thread::sleep_until(begin + kFrame);
@@ -103,8 +75,8 @@ Result<void> run_on(ui::Display& display, Kiosk& kiosk, Scripted* scripted) {
   return {};
 }
 
-Result<void> run_script(ui::Display& display, Kiosk& kiosk, std::vector<ScriptAction> script,
-                        const Path& pictures, Services& services) {
+Result<void> run_script(ui::Display& display, Kiosk& kiosk, Sentinel& sentinel,
+                        std::vector<ScriptAction> script, const Path& pictures, Services& services) {
   ScriptPlayer::Hands hands{[&display](const ui::Input& finger) { display.push(finger); }, {}};
   if (services.plug_stick)
     hands.plug = [&kiosk, &services](const std::string& folder) {
@@ -112,7 +84,7 @@ Result<void> run_script(ui::Display& display, Kiosk& kiosk, std::vector<ScriptAc
     };
   Scripted scripted{ScriptPlayer(std::move(script), std::move(hands)), VisitFigures(services.allocations),
                     pictures};
-  RELIEVO_TRY(run_on(display, kiosk, &scripted));
+  RELIEVO_TRY(run_on(display, kiosk, sentinel, &scripted));
   for (const std::string& line : scripted.figures.lines()) services.console.say(line);
   return {};
 }
@@ -129,12 +101,14 @@ Result<void> run(const KioskArgs& args, Services& services) {
   std::error_code error;
   if (!args.screenshots.empty() && (std::filesystem::create_directories(args.screenshots, error), error))
     return Error{Errc::IoFailed, "no folder can be made there: choose another"}.at(args.screenshots.string());
+  Sentinel sentinel(services.clock);  // also while the kiosk closes
   RELIEVO_TRY_ASSIGN(const auto kiosk, Kiosk::open(args, services));
+  keep_heap_steady();
   RELIEVO_TRY_ASSIGN(const auto display, services.open_display({pictures ? 1280 : args.width_px,
                                                                 pictures ? 800 : args.height_px}));
-  if (scripted) return run_script(*display, *kiosk, std::move(script), args.screenshots, services);
+  if (scripted) return run_script(*display, *kiosk, sentinel, std::move(script), args.screenshots, services);
   return pictures ? services.take_screenshots(args, *kiosk, services.console)
-                  : run_on(*display, *kiosk, nullptr);
+                  : run_on(*display, *kiosk, sentinel, nullptr);
 }
 
 }  // namespace relievo::firmware

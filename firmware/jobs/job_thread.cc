@@ -2,6 +2,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "firmware/jobs/job_thread.h"
 
+#include <pthread.h>
+
 #include <algorithm>
 #include <atomic>
 #include <exception>
@@ -32,7 +34,11 @@ int pool_size() {
   return std::clamp(static_cast<int>(std::thread::hardware_concurrency()), 1, budget::kMaxPoolThreads);
 }
 
-JobThread::JobThread(JobReports& reports) : reports_(reports), thread_([this] { serve(); }) {}
+JobThread::JobThread(JobReports& reports, const char* name)
+    : reports_(reports), thread_([this, name] {
+        pthread_setname_np(pthread_self(), name);
+        serve();
+      }) {}
 
 JobThread::~JobThread() {
   cancel();

@@ -86,7 +86,8 @@ class Job {
 
 class JobThread {
  public:
-  explicit JobThread(JobReports& reports);
+  // The name is the system's for this thread (top -H): 15 letters at most.
+  explicit JobThread(JobReports& reports, const char* name = "job");
   ~JobThread();
   JobThread(const JobThread&) = delete;
   JobThread& operator=(const JobThread&) = delete;

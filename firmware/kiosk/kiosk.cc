@@ -168,6 +168,7 @@ ui::Trouble Kiosk::out_of_order() const {
   if (stages_->calibration() == nullptr) return ui::Trouble::Uncalibrated;
   if (!exchanged_.empty() || appliance_->moved_in_a_row() >= budget::kMovedFaces)
     return ui::Trouble::Calibration;
+  if (hot_.load()) return ui::Trouble::Other;  // it switches itself off in the middle of somebody's visit
   return restarted_ ? ui::Trouble::Restarted : ui::Trouble::None;
 }
 
@@ -203,7 +204,31 @@ void Kiosk::look() {
   view_.somebody_near = presence_ == nullptr || presence_->is_on();
 }
 
+// A page that cannot be made for want of memory is left out; the visit that wanted it ends with an apology.
+// Where even that cannot be shown, the program ends, to be started anew.
+template <typename Work>
+void Kiosk::guarded(const Work& work) {
+  try {
+    work();
+    short_since_.reset();
+  } catch (const std::bad_alloc&) {
+    const hal::Instant now = device_->clock().now();
+    if (!short_since_) short_since_ = now;
+    if (now - *short_since_ > budget::kShortOfMemory) throw;
+    if (appliance_->session().is_open())
+      appliance_->give_up({Errc::OutOfMemory, "the appliance's memory is used up: begin again"});
+  }
+}
+
 void Kiosk::feed(const ui::Input& input) {
+  guarded([&] { hear(input); });
+}
+
+void Kiosk::turn() {
+  guarded([this] { turn_once(); });
+}
+
+void Kiosk::hear(const ui::Input& input) {
   const float w = static_cast<float>(ui_->width_px()), h = static_cast<float>(ui_->height_px());
   const bool finger = (input.kind == ui::Input::Kind::Down || input.kind == ui::Input::Kind::Move ||
                        input.kind == ui::Input::Kind::Up) &&
@@ -270,13 +295,23 @@ void Kiosk::speak() {
   appliance_->ask(ui::Intent::StillHere);
 }
 
-void Kiosk::turn() {
+void Kiosk::turn_once() {
   if (!voice_) voice_ = std::make_unique<Voice>(open_speaker_ ? open_speaker_() : nullptr);
   appliance_->step(std::chrono::milliseconds(0));
   // Nobody uses cameras that are not the calibrated ones: that those are back must be noticed all the same.
   if (!exchanged_.empty() && appliance_->state() == State::Idle && camera_look_->due(view_.now))
     (void)appliance_->start_side_job(JobLane::Capture, *camera_look_);
   else rest_cameras();
+  if (appliance_->state() == State::Idle && view_.now >= next_heat_look_) {
+    next_heat_look_ = view_.now + budget::kHeatLook;
+    staff_->side_tasks().send(
+        JobLane::Keeper,
+        [this](JobControl&) -> Result<void> {
+          hot_.store(device_->too_hot());
+          return {};
+        },
+        [](const std::optional<Error>&) {}, SideTasks::Whose::Device);
+  }
   if (turn_head_) turn_simulated_head();
   staff_->turn();
   if (appliance_->state() == State::Idle || appliance_->state() == State::Staff)

@@ -11,6 +11,7 @@
 // Errors of open(): those of device, store, fonts, words and algorithms.
 #pragma once
 
+#include <atomic>
 #include <functional>
 #include <memory>
 #include <optional>
@@ -66,6 +67,10 @@ class Kiosk {
   void speak();
   void rest_cameras();
   VisitRecord record_of(const ui::VisitRequest& request) const;
+  template <typename Work>
+  void guarded(const Work& work);
+  void hear(const ui::Input& input);
+  void turn_once();
   void look();
   void ask(ui::Intent intent);
 
@@ -91,6 +96,9 @@ class Kiosk {
   std::unique_ptr<RunMark> run_mark_;
   std::unique_ptr<MovedFaces> moved_faces_;
   bool restarted_ = false, told_ = false;
+  std::atomic<bool> hot_{false};  // the keeper writes it
+  hal::Instant next_heat_look_{};
+  std::optional<hal::Instant> short_since_;  // of memory, turn after turn
   storage::WallTime newest_record_{};
   ui::ViewState view_;
   bool forgotten_ = false;

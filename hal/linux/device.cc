@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "hal/linux/device.h"
 
+#include "hal/linux/heat.h"
 #include "hal/linux/mounted_stick.h"
 #include "hal/linux/side_by_side.h"
 #include "hal/monotonic_clock.h"
@@ -58,6 +59,7 @@ class LinuxDevice final : public Device {
   TriggerLine& trigger() override { return *trigger_; }
   bool exposes_together() const override { return together_; }
   Light shot_light() const override { return light_; }
+  bool too_hot() const override { return near_switching_off("/sys/class/thermal"); }
   RemovableMedia& media() override { return stick_ ? *stick_ : static_cast<RemovableMedia&>(no_stick_); }
   Clock& clock() override { return clock_; }
   Watchdog& watchdog() override { return armed_ ? *armed_ : static_cast<Watchdog&>(no_watchdog_); }

@@ -35,6 +35,8 @@ class FaultyStick final : public hal::RemovableMedia {
     fault_ = fault;
     records_left_ = at_record;
   }
+  // At once, by a hand.
+  void pull() { strike(Fault::Pulled, {}); }
   void plug_in_again() {
     if (std::filesystem::exists(pulled_folder())) {
       std::filesystem::remove_all(folder_);  // what was written into the empty place
@@ -53,7 +55,7 @@ class FaultyStick final : public hal::RemovableMedia {
     const std::string hidden =
         folder.filename().string();  // ".CODE.part123": CODE is its name when it is whole
     newest_ = folder.parent_path() / hidden.substr(1, hidden.find('.', 1) - 1);
-    if (--records_left_ == 0) strike(folder);
+    if (--records_left_ == 0) strike(fault_, folder);
     return real_.settle(folder);
   }
   Result<void> flush_and_eject() override {
@@ -73,8 +75,8 @@ class FaultyStick final : public hal::RemovableMedia {
 
  private:
   std::filesystem::path pulled_folder() const { return folder_.string() + " in a hand"; }
-  void strike(const std::filesystem::path& folder) {
-    switch (fault_) {
+  void strike(Fault fault, const std::filesystem::path& folder) {
+    switch (fault) {
       case Fault::None:
       case Fault::ForgetsLater:
       case Fault::PulledLater:

@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "tests/support/gles_driver.h"
 
+#include <EGL/egl.h>
 #include <GLES3/gl3.h>
 
 namespace relievo::test {
@@ -9,6 +10,10 @@ namespace relievo::test {
 std::string gles_driver() {
   const GLubyte* name = glGetString(GL_RENDERER);
   return name == nullptr ? std::string() : reinterpret_cast<const char*>(name);
+}
+
+void lose_gles_context() {
+  eglMakeCurrent(eglGetCurrentDisplay(), EGL_NO_SURFACE, EGL_NO_SURFACE, EGL_NO_CONTEXT);
 }
 
 }  // namespace relievo::test

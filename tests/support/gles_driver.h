@@ -10,4 +10,7 @@ namespace relievo::test {
 
 std::string gles_driver();
 
+// As a driver that resets: the context this thread draws with is there no more, and nobody was told.
+void lose_gles_context();
+
 }  // namespace relievo::test

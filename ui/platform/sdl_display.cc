@@ -41,7 +41,18 @@ class SdlDisplay final : public Display {
     window_ = SDL_CreateWindow("Relievo", SDL_WINDOWPOS_CENTERED, SDL_WINDOWPOS_CENTERED,
                                whole ? 1280 : options.width_px, whole ? 800 : options.height_px, flags);
     if (window_ == nullptr) return failed();
-    context_ = SDL_GL_CreateContext(window_);
+    return renew();
+  }
+
+  // A driver that is asked to says that its context is lost, and not only that all fails; not every driver
+  // can be asked.
+  Result<void> renew() override {
+    if (context_ != nullptr) SDL_GL_DeleteContext(context_);
+    for (const int lets_know : {SDL_GL_CONTEXT_RESET_LOSE_CONTEXT, SDL_GL_CONTEXT_RESET_NO_NOTIFICATION}) {
+      SDL_GL_SetAttribute(SDL_GL_CONTEXT_RESET_NOTIFICATION, lets_know);
+      context_ = SDL_GL_CreateContext(window_);
+      if (context_ != nullptr) break;
+    }
     if (context_ == nullptr) return failed();
     SDL_GL_SetSwapInterval(1);
     SDL_StartTextInput();

@@ -96,6 +96,10 @@ class GlesRenderer final : public Renderer {
     }
   }
 
+  // No drawing of ours is an error, so each is the driver's: a context that was reset, memory that is used
+  // up.
+  bool lost() const override { return glGetError() != GL_NO_ERROR || glGetString(GL_RENDERER) == nullptr; }
+
   void read_back(std::span<std::uint8_t> rgb, int width_px, int height_px) override {
     const std::size_t row = static_cast<std::size_t>(width_px) * 4;
     std::vector<std::uint8_t> pixels(row * static_cast<std::size_t>(height_px));

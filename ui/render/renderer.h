@@ -22,6 +22,9 @@ class Renderer {
   virtual ~Renderer() = default;
 
   virtual void draw(const DrawList& list, TextAtlas& atlas, int width_px, int height_px) = 0;
+  // Has the driver lost the context, or given up? Then nothing was drawn: only a new one, with a new
+  // Renderer, draws again. Waits for the GL.
+  virtual bool lost() const = 0;
   // The frame as it was drawn: 3 bytes a pixel, from the top row down. Waits for the GL.
   virtual void read_back(std::span<std::uint8_t> rgb, int width_px, int height_px) = 0;
   // Nothing of a person stays: pictures and model go.

@@ -22,7 +22,7 @@
 #include "pipeline/calibrate/file/calibration_file.h"
 #include "storage/sqlite/sqlite_store.h"
 #include "tests/firmware/kiosk/kiosk_hands.h"
-#include "tests/support/full_store.h"
+#include "tests/support/faulty_store.h"
 #include "tests/support/small_rig.h"
 #include "tests/support/temporary_folder.h"
 
@@ -52,7 +52,8 @@ class KioskTest : public KioskHands {
     lend_small_rig(services, args, folder.path(), clock, small_device(0.5));
     services.open_store = [this](const Path& at, bool) -> Result<std::unique_ptr<storage::Store>> {
       RELIEVO_TRY_ASSIGN(auto real, storage::open_sqlite_store(at, clock, {}));
-      return std::unique_ptr<storage::Store>(std::make_unique<test::FullStore>(std::move(real), full));
+      return std::unique_ptr<storage::Store>(
+          std::make_unique<test::FaultyStore>(std::move(real), store_error));
     };
     services.make_printer = [this] { return std::make_unique<PlayedPrinter>(printed, has_paper); };
     open(args, services);
@@ -117,14 +118,14 @@ class KioskTest : public KioskHands {
     kiosk->feed({ui::Input::Kind::Move, 1, face.x + 300, face.y + 200});
     kiosk->feed({ui::Input::Kind::Up, 1, face.x + 300, face.y + 200});
     EXPECT_GT(kiosk->ui().visit().look.yaw_deg, 10);
-    full = true;
+    store_error = Errc::MediaFull;
     tap("accept");
     ASSERT_TRUE(until([this] {
       return kiosk->view().trouble == ui::Trouble::Storage && kiosk->view().screen == ui::Screen::Review;
     }));
     EXPECT_EQ(kiosk->view().receipt, "") << "no code for what was not stored";
     EXPECT_NE(find("trouble"), nullptr) << "its own words";
-    full = false;
+    store_error = std::nullopt;
     tap("accept");  // the way on
     ASSERT_TRUE(reach(ui::Step::Thanks));
     kiosk->turn();
@@ -239,8 +240,9 @@ class KioskTest : public KioskHands {
     EXPECT_TRUE((*store)->check().has_value());
   }
 
-  std::atomic<bool> full{false}, has_paper{false};
+  std::atomic<bool> has_paper{false};
   std::vector<std::byte> printed;
+  std::atomic<std::optional<Errc>> store_error{};
   std::string code;
   test::TemporaryFolder folder;
   hal::MonotonicClock clock;

@@ -1,12 +1,14 @@
 // SPDX-FileCopyrightText: 2026 The Relievo authors
 // SPDX-License-Identifier: GPL-3.0-or-later
 //
-// FullStore: a store whose disk is full while the test says so: an enrolment is MediaFull. All else is the
-// real store's. Thread: as Store; the switch any.
+// FaultyStore: a store that takes no enrolment while the test names an error: MediaFull of a disk that is
+// full, Timeout of a store that another program locks, StoreCorrupt. All else is the real store's. Thread: as
+// Store; the error any.
 #pragma once
 
 #include <atomic>
 #include <memory>
+#include <optional>
 #include <span>
 #include <utility>
 
@@ -14,10 +16,10 @@
 
 namespace relievo::test {
 
-class FullStore final : public storage::Store {
+class FaultyStore final : public storage::Store {
  public:
-  FullStore(std::unique_ptr<storage::Store> real, const std::atomic<bool>& full)
-      : real_(std::move(real)), full_(full) {}
+  FaultyStore(std::unique_ptr<storage::Store> real, const std::atomic<std::optional<Errc>>& error)
+      : real_(std::move(real)), error_(error) {}
 
   Result<void> check() override { return real_->check(); }
   Result<storage::SubjectId> add_subject(const storage::NewSubject& s) override {
@@ -30,7 +32,7 @@ class FullStore final : public storage::Store {
   Result<void> erase_subject(storage::SubjectId id) override { return real_->erase_subject(id); }
   Result<storage::EnrolmentId> add_enrolment(const storage::SubjectChoice& s,
                                              const storage::NewEnrolment& e) override {
-    if (full_.load()) return Error{Errc::MediaFull, "as the test says"};
+    if (const auto error = error_.load()) return Error{*error, "as the test says"};
     return real_->add_enrolment(s, e);
   }
   Result<std::vector<storage::Enrolment>> enrolments(storage::SubjectId s) override {
@@ -69,7 +71,7 @@ class FullStore final : public storage::Store {
 
  private:
   std::unique_ptr<storage::Store> real_;
-  const std::atomic<bool>& full_;
+  const std::atomic<std::optional<Errc>>& error_;
 };
 
 }  // namespace relievo::test
