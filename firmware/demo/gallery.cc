@@ -34,6 +34,7 @@ class Gallery {
     ui::ViewState view = review_;
     view.screen = Screen::Idle;
     view.model = nullptr;
+    view.cameras_on = false;
     view.trouble = Trouble::None;
     view.stages = {};
     return view;

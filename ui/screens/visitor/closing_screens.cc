@@ -199,7 +199,11 @@ void thanks_screen(Page& page) {
             TextAlign::Centre);
   receipt(page);
   printing(page);
+  Node row = page.box(Flow::Row);
+  row.box.justify = Justify::Centre;
+  page.tree.open(row);
   page.cameras();
+  page.tree.close();
   end_message(page, tr("Done"), icon::kCheck);
 }
 
