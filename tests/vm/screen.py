@@ -160,20 +160,28 @@ def refused(kiosk, user, line):
     print(said, flush=True)
 
 
+def sticks(machine, _):
+    """Real file systems under an export: full, read-only, corrupt, pulled, hostile; what guest/sticks says is the result."""
+    said = machine.run(f"sh {ROOT}/tests/vm/guest/sticks {RELIEVO} {BUILT}/tests/vm/stick_export 50 2>&1 | tee {machine.results}/sticks.log", 7200, check=False)
+    print(said, flush=True)
+    check("WRONG" not in said and "pulled 50 times" in said and "#1" in said, "a stick did what it should not, see above")
+
+
 CASES = {
     "faults": ("1280x800", faults),
     "visit-1280x800": ("1280x800", visit),
+    "sticks": (None, sticks),
     "visit-1080x1920": ("1080x1920", visit),
 }
 
 
 def play(name, accel):
     size, case = CASES[name]
-    pages = drawn_headless(size)
+    pages = drawn_headless(size) if size else None
     results = GUEST / "seen" / name
     shutil.rmtree(results, ignore_errors=True)
     results.mkdir(parents=True)
-    with Machine(GUEST, ROOT, results, accel, *map(int, size.split("x"))) as machine:
+    with Machine(GUEST, ROOT, results, accel, *map(int, (size or "640x480").split("x"))) as machine:
         case(machine, pages)
 
 
