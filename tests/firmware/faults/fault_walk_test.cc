@@ -244,7 +244,7 @@ class FaultWalk : public FaultHands {
     const Fate fate = settle(from, fault);
     EXPECT_EQ(name_of(fate), name_of(wanted))
         << (kiosk->appliance().problem() ? kiosk->appliance().problem()->what.view() : "");
-    stored += from == State::Store && fate.state == State::Idle ? 1 : 0;
+    stored += from == State::Store && fate == Fate{.state = State::Idle} ? 1 : 0;
     expect_nothing_is_left(fate);
     if (from == State::Idle && fault == Fault::TooHot) nobody_is_invited();
     mend();
