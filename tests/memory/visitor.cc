@@ -68,6 +68,7 @@ void Visitor::answer(ui::Step step) {
     case ui::Step::Trouble:
       return tap("finish");
     case ui::Step::Starting:
+    case ui::Step::Declined:
     case ui::Step::Attract:
     case ui::Step::Position:
     case ui::Step::Turn:
