@@ -192,8 +192,10 @@ def main(presets):
         print(f"set-up: {preset}: " + ", ".join(f"{len(files)} {part}" for part, files in parts.items()))
     for script in (ROOT / ".ci/run", ROOT / "tests/vm/make_guest", *sorted((ROOT / "toolchain").iterdir())):
         if script.is_file() and script.read_text().startswith("#!/usr/bin/env bash"):
-            what = next((what for what in SETS if what in (script.name, script.parent.name)), "")
-            used[what].update(called(script.relative_to(ROOT), script.read_text()))
+            text = script.read_text()
+            own = re.search(r"^toolchain/setup (\w+)", text, re.MULTILINE)  # what it installs itself
+            what = own[1] if own else next((what for what in SETS if what in (script.name, script.parent.name)), "")
+            used[what].update(called(script.relative_to(ROOT), text))
     would = functools.cache(lambda what: would_install(output(ROOT / "toolchain/setup", "list", what).split()))
     for what in SETS:
         if any(problems(used[what], would(""), "")):   # seldom: apt takes its seconds
