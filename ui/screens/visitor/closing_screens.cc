@@ -61,8 +61,8 @@ void end_message(Page& page, bool in_column = true) {
 // of the page.
 bool at_foot(const Page& page) { return !page.portrait && page.text_share > 1.2F; }
 
-void end_message(Page& page, const char* on, const char* letter, ActionKind action = ActionKind::Finish) {
-  const bool foot = at_foot(page);
+void end_message(Page& page, const char* on, const char* letter, bool foot,
+                 ActionKind action = ActionKind::Finish) {
   if (foot) page.tree.close();
   else page.tree.leaf(page.sized(page.box(Flow::Column), 1, 8));
   Node row = page.box(Flow::Column, 0, 0, foot ? space::kS : 0.0F);
@@ -192,8 +192,8 @@ void printing(Page& page) {
 
 void thanks_screen(Page& page) {
   const auto& tr = page.tr;
-  // Large words leave no room for a sign: the code must be seen whole.
-  begin_message(page, at_foot(page) ? nullptr : icon::kGood, page.palette.good, true);
+  // A low page has no room for a sign: the code must be seen whole, and the way on.
+  begin_message(page, page.portrait ? icon::kGood : nullptr, page.palette.good, true);
   page.heading("title", tr("Thank you. Your portrait is stored"), type::kTitle, TextAlign::Centre);
   page.body("what", tr("To have it erased, quote this code to the staff. You can take a photo of it."),
             TextAlign::Centre);
@@ -204,7 +204,7 @@ void thanks_screen(Page& page) {
   page.tree.open(row);
   page.cameras();
   page.tree.close();
-  end_message(page, tr("Done"), icon::kCheck);
+  end_message(page, tr("Done"), icon::kCheck, !page.portrait);
 }
 
 void declined_screen(Page& page) {
@@ -214,7 +214,7 @@ void declined_screen(Page& page) {
       "what",
       page.tr("If you would rather not use this screen, ask the staff: they can do every step for you."),
       TextAlign::Centre);
-  end_message(page, page.tr("Back to the start"), icon::kAgain);
+  end_message(page, page.tr("Back to the start"), icon::kAgain, at_foot(page));
 }
 
 void trouble_screen(Page& page) {
@@ -223,10 +223,10 @@ void trouble_screen(Page& page) {
   page.heading("title", said.title, type::kTitle, TextAlign::Centre);
   page.body("what", said.words, TextAlign::Centre);
   if (page.view.screen == Screen::Idle && !bars_the_way(page.view.out_of_order))
-    end_message(page, page.tr("Back to the start"), icon::kAgain);
+    end_message(page, page.tr("Back to the start"), icon::kAgain, at_foot(page));
   // Who sets it up need not look for the way in.
   else if (page.view.out_of_order == Trouble::Uncalibrated && page.view.service != nullptr)
-    end_message(page, page.tr("Staff"), icon::kLock, ActionKind::StaffEnter);
+    end_message(page, page.tr("Staff"), icon::kLock, at_foot(page), ActionKind::StaffEnter);
   else end_message(page);
 }
 
