@@ -55,7 +55,12 @@ Result<void> CameraLink::run(const hal::CaptureMode& mode) {
 }
 
 Result<void> CameraLink::start(const hal::CaptureMode& mode) {
-  if (!gone()) return run(mode);
+  if (!gone()) {
+    const Result<void> runs = run(mode);
+    // Pulled out while nothing streamed.
+    if (!runs && opened_ > 0) lose();
+    return runs;
+  }
   if (clock_.now() < due_) return kAway;
   if (const Result<void> back = run(mode); !back) {
     camera_.close();

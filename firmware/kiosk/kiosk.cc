@@ -248,7 +248,9 @@ void Kiosk::hear(const ui::Input& input) {
 void Kiosk::rest_cameras() {
   const ui::Step step = ui_->visit().step;
   const bool consented = step == ui::Step::Name || step == ui::Step::Known;
-  if (appliance_->state() == State::Idle && !consented && appliance_->grabber().streams())
+  // One that is out of order is watched until it is back.
+  const bool well = view_.out_of_order == ui::Trouble::None && appliance_->cameras() == CameraWatch::Well;
+  if (appliance_->state() == State::Idle && well && !consented && appliance_->grabber().streams())
     (void)appliance_->start_side_job(JobLane::Capture, *rest_cameras_);
 }
 
@@ -299,9 +301,9 @@ void Kiosk::turn_once() {
   if (!voice_) voice_ = std::make_unique<Voice>(open_speaker_ ? open_speaker_() : nullptr);
   appliance_->step(std::chrono::milliseconds(0));
   // Nobody uses cameras that are not the calibrated ones: that those are back must be noticed all the same.
-  if (!exchanged_.empty() && appliance_->state() == State::Idle && camera_look_->due(view_.now))
+  if (exchanged_.empty()) rest_cameras();
+  else if (appliance_->state() == State::Idle && camera_look_->due(view_.now))
     (void)appliance_->start_side_job(JobLane::Capture, *camera_look_);
-  else rest_cameras();
   if (appliance_->state() == State::Idle && view_.now >= next_heat_look_) {
     next_heat_look_ = view_.now + budget::kHeatLook;
     staff_->side_tasks().send(

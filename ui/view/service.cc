@@ -136,6 +136,8 @@ void Service::follow(const ViewState& view) {
   const bool sheet = access.demanded && access.words_due && role == StaffRole::Operator;
   if (!needs_role(page) && role != StaffRole::None) return go(sheet ? StaffPage::Recovery : StaffPage::Menu);
   if (page == StaffPage::FirstStart && view.service->access.set_up) return go(StaffPage::Pin);
+  constexpr std::chrono::minutes kSetUpPatience{5};
+  if (page == StaffPage::FirstStart && view.now - last_touch_ > kSetUpPatience) return leave();
   if (page == StaffPage::Pin && view.now - last_touch_ > kPinPatience) leave();
 }
 

@@ -193,8 +193,8 @@ TEST_F(KioskCalibrationTest, NothingBeginsACaptureBefore) {
     kiosk->turn();
     EXPECT_EQ(kiosk->ui().visit().step, ui::Step::Trouble);
   }
-  // A hand that is everywhere also finds the staff's page, which closes by itself.
-  for (int minute = 0; minute < 10; ++minute) {
+  // A hand that is everywhere also opens the first start, which closes by itself.
+  for (int minute = 0; minute < 7; ++minute) {
     time.advance(std::chrono::minutes(1));
     kiosk->turn();
   }
