@@ -142,16 +142,19 @@ Result<FaceMesh> make_solid(const FaceModel& model, const Completion& completion
       height.push_back(in_head(model, head.vertices_mm[v]).y);
       if (head.measured[v] == 0) lowest = std::min(lowest, height.back());
     }
-    const double cut = lowest + kStumpMm;
-    FaceMesh solid = above(head, height, cut, c.output);
-    keep_one_surface(solid.vertices_mm, solid.triangles, {0}, &c.scratch);
-    fan_holes(solid, c.scratch);
-    part_touching(solid);
-    compute_normals(solid, 1, &c.scratch);
-    if (!is_closed(solid) || foot_mm2(model, solid, cut) < kLeastFootMm2)
-      return Error{Errc::PoorGeometry,
-                   "the head does not close to a solid: take the picture again from in front"};
-    return solid;
+    // Where a cut meets a fold of the surface, one a little higher may not.
+    for (const double higher_mm : {0.0, 4.0, 8.0, 12.0}) {
+      const double cut = lowest + kStumpMm + higher_mm;
+      FaceMesh solid = above(head, height, cut, c.output);
+      keep_one_surface(solid.vertices_mm, solid.triangles, {0}, &c.scratch);
+      fan_holes(solid, c.scratch);
+      part_touching(solid);
+      if (!is_closed(solid) || foot_mm2(model, solid, cut) < kLeastFootMm2) continue;
+      compute_normals(solid, 1, &c.scratch);
+      return solid;
+    }
+    return Error{Errc::PoorGeometry,
+                 "the head does not close to a solid: take the picture again from in front"};
   });
 }
 
