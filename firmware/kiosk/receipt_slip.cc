@@ -16,7 +16,7 @@ namespace {
 constexpr int kWidthPx = 576, kMarginPx = 24, kGapPx = 20, kHighPx = 1100;
 
 void wipe_picture(hal::Picture& picture) {
-  explicit_bzero(picture.bytes.data(), picture.bytes.size());
+  if (!picture.bytes.empty()) explicit_bzero(picture.bytes.data(), picture.bytes.size());
   picture = {};
 }
 
