@@ -263,10 +263,6 @@ class FaultWalk : public FaultHands {
 };
 
 TEST_P(FaultWalk, LeadsWhereTheTableSays) {
-#ifdef __SANITIZE_ADDRESS__
-  if (std::getenv("RELIEVO_ALL_FAULTS") == nullptr)
-    GTEST_SKIP() << "the GL driver leaks and is unloaded at the end, so that nobody can name it";
-#endif
   auto on_display = Glass::on(*display);
   ASSERT_TRUE(on_display);
   glass = std::make_unique<Glass>(std::move(*on_display));
@@ -291,8 +287,13 @@ constexpr auto kAllStates = [] {
   for (std::size_t s = 0; s < kStates; ++s) all[s] = static_cast<State>(s);
   return all;
 }();
+#ifdef __SANITIZE_ADDRESS__
+// The GL driver leaks and is unloaded at the end, so that no suppression can name it.
+GTEST_ALLOW_UNINSTANTIATED_PARAMETERIZED_TEST(FaultWalk);
+#else
 INSTANTIATE_TEST_SUITE_P(States, FaultWalk, testing::ValuesIn(kAllStates),
                          [](const auto& of) { return std::string(name_of(of.param)); });
+#endif
 
 }  // namespace
 }  // namespace relievo::firmware
