@@ -101,11 +101,6 @@ void Appliance::ask(ui::Intent intent) {
   if (!session_.is_open()) record_ = {};
 }
 
-void Appliance::give_up(const Error& error) {
-  note(error);
-  handle(Event::Failed);
-}
-
 void Appliance::ask_records(RecordQuestion question) {
   if (looks_up_) stop_job();  // of a visitor who has gone
   answer_ = {question.code.empty() ? ui::Known::Nobody : ui::Known::NoSuchCode};

@@ -82,34 +82,11 @@ ui::Trouble trouble_of(const Error& problem, State state) {
 
 // Pictures whose thread has reported: the photograph, then those of the stages that are done.
 std::size_t pictures_done(const Appliance& appliance) {
-  switch (appliance.state()) {
-    case State::Turn:
-    case State::Fuse:
-      return 1 + std::min(kStagePictures - 1, appliance.parts_done());
-    case State::Match:
-      return 1;
-    case State::Reconstruct:
-      return 2;
-    case State::Mesh:
-      return 3;
-    case State::Texture:
-      return 4;
-    case State::Assemble:
-    case State::Review:
-    case State::Store:
-      return 5;
-    case State::SelfTest:
-    case State::Idle:
-    case State::Calibrate:
-    case State::Position:
-    case State::Capture:
-    case State::Export:
-    case State::Staff:
-    case State::Fault:
-    case State::Count:
-      break;
-  }
-  return 0;
+  const State state = appliance.state();
+  if (state == State::Turn || state == State::Fuse)
+    return 1 + std::min(kStagePictures - 1, appliance.parts_done());
+  if (is_stage(state)) return 1 + number_of(state);
+  return state == State::Review || state == State::Store ? kStagePictures : 0;
 }
 
 }  // namespace

@@ -51,6 +51,7 @@ enum class State : std::uint8_t {
 // The stages of the pipeline (pipeline/pipeline.h), in their order.
 inline constexpr std::array kStages{State::Match, State::Reconstruct, State::Mesh, State::Texture,
                                     State::Assemble};
+constexpr bool is_stage(State state) { return state >= kStages.front() && state <= kStages.back(); }
 constexpr std::size_t number_of(State stage) {
   return static_cast<std::size_t>(stage) - static_cast<std::size_t>(kStages.front());
 }

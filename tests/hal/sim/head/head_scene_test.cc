@@ -6,6 +6,10 @@
 #include <gtest/gtest.h>
 
 #include <cstring>
+#include <fstream>
+#include <iterator>
+#include <set>
+#include <string>
 
 #include "hal/sim/head/shape/head_field.h"
 #include "hal/sim/render.h"
@@ -159,6 +163,29 @@ TEST(Truth, FilesHaveTheirSizes) {
   for (const char* name : {"left.png", "right.png", "rig.yml", "truth.bin", "head.ply"})
     EXPECT_TRUE(std::filesystem::exists(folder / name)) << name;
   EXPECT_EQ(std::filesystem::file_size(folder / "truth.bin"), std::strlen("480 300 z\n") + 480U * 300U * 5U);
+}
+
+TEST(Visit, IsAFolderForEachTurnAndBeginsWithTheFaceFromInFront) {
+  const TemporaryFolder folder;
+  SimulationOptions visit = small(1), face = small(1);
+  visit.scene = SceneKind::Visit;
+  visit.drift = 0;  // a head is made once
+  ASSERT_TRUE(render_to_folder(visit, folder / "visit"));
+  ASSERT_TRUE(render_to_folder(face, folder / "face"));
+  const auto bytes = [&](const std::filesystem::path& file) {
+    std::ifstream in(folder.path() / file, std::ios::binary);
+    return std::string(std::istreambuf_iterator<char>(in), {});
+  };
+  EXPECT_EQ(bytes("visit/0/left.png"), bytes("face/left.png"));
+  std::set<std::string> different;
+  for (int k = 0; k < 6; ++k) {
+    const std::filesystem::path own = "visit/" + std::to_string(k);
+    EXPECT_EQ(bytes(own / "rig.yml"), bytes("face/rig.yml")) << k;
+    different.insert(bytes(own / "left.png"));
+    different.insert(bytes(own / "right.png"));
+  }
+  EXPECT_EQ(different.size(), 12U);
+  EXPECT_EQ(different.count(""), 0U);
 }
 
 }  // namespace
