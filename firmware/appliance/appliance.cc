@@ -272,8 +272,6 @@ void Appliance::stop_head() {
   head_job_ = 0;
 }
 
-std::size_t Appliance::parts_done() const { return head_.parts_done(); }
-
 bool Appliance::open_session() {
   attempt_ = 0;
   problem_.reset();

@@ -15,6 +15,8 @@ void Appliance::look_at_progress() {
   else making_.begin();
 }
 
+std::size_t Appliance::parts_done() const { return head_.parts_done(); }
+
 void Appliance::give_up(const Error& error) {
   note(error);
   handle(Event::Failed);
