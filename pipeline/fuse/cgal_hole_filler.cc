@@ -6,7 +6,9 @@
 #include <tuple>
 
 #include <CGAL/Exact_predicates_inexact_constructions_kernel.h>
+#include <CGAL/Polygon_mesh_processing/refine.h>
 #include <CGAL/Polygon_mesh_processing/triangulate_hole.h>
+#include <CGAL/Surface_mesh.h>
 
 #include "pipeline/fuse/rim.h"
 #include "pipeline/model/vector3.h"
@@ -14,7 +16,9 @@
 namespace relievo::pipeline {
 namespace {
 
+namespace PMP = CGAL::Polygon_mesh_processing;
 using Kernel = CGAL::Exact_predicates_inexact_constructions_kernel;
+using Patch = CGAL::Surface_mesh<Kernel::Point_3>;
 
 struct Loop {
   std::vector<std::uint32_t> vertices;
@@ -51,11 +55,31 @@ std::vector<Loop> loops_of(std::span<const Vec3f> vertices, std::span<const Bord
   return loops;
 }
 
+// A cubic curve's places between two ends that leaves them as the surface does (PN triangles: Vlachos and
+// others 2001).
+class Mouth {
+ public:
+  Mouth(const Vec3f& from, const Vec3f& from_normal, const Vec3f& to, const Vec3f& to_normal)
+      : from_(from), to_(to) {
+    const Vec3f way = minus(to, from), n = unit(from_normal), m = unit(to_normal);
+    near_from_ = along(along(from, 1.0F / 3, way), -dot(way, n) / 3, n);
+    near_to_ = along(along(to, -1.0F / 3, way), dot(way, m) / 3, m);
+  }
+  Vec3f at(float u) const {
+    const float v = 1 - u;
+    return along(along(along(times(from_, v * v * v), 3 * v * v * u, near_from_), 3 * v * u * u, near_to_),
+                 u * u * u, to_);
+  }
+
+ private:
+  Vec3f from_, to_, near_from_{}, near_to_{};
+};
+
 class Filler {
  public:
-  Filler(std::span<const Vec3f> vertices, std::span<const BorderEdge> border,
-         std::pmr::vector<Triangle>& triangles)
-      : vertices_(vertices), on_rim_(vertices.size(), 0), triangles_(triangles) {
+  Filler(std::pmr::vector<Vec3f>& vertices, std::span<const Vec3f> normals,
+         std::span<const BorderEdge> border, std::pmr::vector<Triangle>& triangles)
+      : vertices_(vertices), normals_(normals), on_rim_(vertices.size(), 0), triangles_(triangles) {
     for (const BorderEdge& e : border) on_rim_[e[0]] = 1;
     for (const Triangle& t : triangles) take(t);
   }
@@ -71,8 +95,10 @@ class Filler {
     std::vector<Kernel::Point_3> places;
     for (const std::uint32_t v : rim) places.emplace_back(vertices_[v].x, vertices_[v].y, vertices_[v].z);
     std::vector<CGAL::Triple<int, int, int>> closing;
-    CGAL::Polygon_mesh_processing::triangulate_hole_polyline(places, std::back_inserter(closing));
-    std::vector<Triangle> made;
+    PMP::triangulate_hole_polyline(places, std::back_inserter(closing));
+    if (closing.empty()) return false;
+    Patch patch;
+    for (const Kernel::Point_3& at : places) patch.add_vertex(at);
     for (const auto& t : closing) {
       const std::array<std::size_t, 3> at{static_cast<std::size_t>(t.first),
                                           static_cast<std::size_t>(t.second),
@@ -80,17 +106,23 @@ class Filler {
       for (std::size_t k = 0; k < 3; ++k)
         if (const std::size_t a = at[k], b = at[(k + 1) % 3]; !is_own(a, b) && !is_free(rim[a], rim[b]))
           return false;
-      made.push_back({rim[at[0]], rim[at[1]], rim[at[2]]});
+      if (patch.add_face(vertex(t.first), vertex(t.second), vertex(t.third)) == Patch::null_face())
+        return false;
     }
-    if (made.empty()) return false;
-    for (const Triangle& t : made) take(t);
-    triangles_.insert(triangles_.end(), made.begin(), made.end());
+    refine(patch, places.size());
+    for (const Patch::Edge_index e : patch.edges()) {
+      const std::size_t a = patch.vertex(e, 0).idx(), b = patch.vertex(e, 1).idx();
+      if (a < rim.size() && b < rim.size() && !is_own(a, b) && !is_free(rim[a], rim[b])) return false;
+    }
+    take_in(patch, rim);
     return true;
   }
 
+  std::vector<std::uint32_t> beside() && { return std::move(beside_); }
+
   // Stretches that run into the surface and come back to within a mouth's width: the largest first, none
   // within another. The rim has its surface on the left.
-  void close_bays(const Loop& rim, std::span<const Vec3f> normals, const HoleLimits& limits) {
+  void close_bays(const Loop& rim, const HoleLimits& limits) {
     struct Bay {
       std::size_t from, steps;
       float area_mm2;
@@ -99,7 +131,7 @@ class Filler {
     const auto vertex = [&](std::size_t i) { return rim.vertices[i % n]; };
     const auto at = [&](std::size_t i) { return vertices_[vertex(i)]; };
     const auto out_of = [&](std::size_t i, std::size_t j) {
-      return unit(plus(unit(normals[vertex(i)]), unit(normals[vertex(j)])));
+      return unit(plus(unit(normals_[vertex(i)]), unit(normals_[vertex(j)])));
     };
     std::vector<Bay> bays;
     for (std::size_t i = 0; i < n; ++i) {
@@ -128,12 +160,75 @@ class Filler {
       if (!possible) continue;
       std::vector<std::uint32_t> stretch;
       for (std::size_t k = bay.from; k <= to; ++k) stretch.push_back(vertex(k));
-      const std::size_t left = close(std::move(stretch)) ? 0 : bay.steps - bay.steps / 4;
+      const std::size_t left = close_bay(std::move(stretch)) ? 0 : bay.steps - bay.steps / 4;
       for (std::size_t k = bay.from + 1; k < to; ++k) longest[k % n] = left;
     }
   }
 
  private:
+  static Patch::Vertex_index vertex(int i) { return Patch::Vertex_index(static_cast<Patch::size_type>(i)); }
+
+  // Its mouth gets vertices as dense as those of its shore.
+  bool close_bay(std::vector<std::uint32_t> stretch) {
+    float shore = 0;
+    for (std::size_t k = 1; k < stretch.size(); ++k)
+      shore += distance(vertices_[stretch[k - 1]], vertices_[stretch[k]]);
+    const std::uint32_t from = stretch.back(), to = stretch.front();
+    const float step = shore / static_cast<float>(stretch.size() - 1);
+    const int steps = std::max(1, static_cast<int>(distance(vertices_[from], vertices_[to]) / step));
+    const Mouth mouth(vertices_[from], normals_[from], vertices_[to], normals_[to]);
+    const std::size_t before = vertices_.size();
+    for (int k = 1; k < steps; ++k) {
+      stretch.push_back(static_cast<std::uint32_t>(vertices_.size()));
+      vertices_.push_back(mouth.at(static_cast<float>(k) / static_cast<float>(steps)));
+      beside_.push_back(from);
+      on_rim_.push_back(1);
+    }
+    if (close(std::move(stretch))) return true;
+    vertices_.resize(before);
+    beside_.resize(beside_.size() - static_cast<std::size_t>(steps - 1));
+    on_rim_.resize(before);
+    return false;
+  }
+
+  // A triangle whose corners all lie on the rim gets one in its middle.
+  static void refine(Patch& patch, std::size_t rim) {
+    std::vector<Patch::Face_index> faces;
+    std::vector<Patch::Vertex_index> added;
+    PMP::refine(patch, std::vector<Patch::Face_index>(patch.faces().begin(), patch.faces().end()),
+                std::back_inserter(faces), std::back_inserter(added));
+    faces.assign(patch.faces().begin(), patch.faces().end());
+    for (const Patch::Face_index f : faces) {
+      const auto corners = patch.vertices_around_face(patch.halfedge(f));
+      if (std::any_of(corners.begin(), corners.end(), [&](Patch::Vertex_index v) { return v.idx() >= rim; }))
+        continue;
+      std::vector<Kernel::Point_3> at;
+      for (const Patch::Vertex_index v : corners) at.push_back(patch.point(v));
+      const auto middle = CGAL::Euler::add_center_vertex(patch.halfedge(f), patch);
+      patch.point(patch.target(middle)) = CGAL::centroid(at[0], at[1], at[2]);
+    }
+  }
+
+  void take_in(const Patch& patch, std::span<const std::uint32_t> rim) {
+    std::vector<std::uint32_t> place(rim.begin(), rim.end());
+    for (std::size_t i = rim.size(); i < patch.number_of_vertices(); ++i) {
+      const Kernel::Point_3& at = patch.point(vertex(static_cast<int>(i)));
+      place.push_back(static_cast<std::uint32_t>(vertices_.size()));
+      vertices_.push_back(
+          {static_cast<float>(at.x()), static_cast<float>(at.y()), static_cast<float>(at.z())});
+      beside_.push_back(rim.back());
+      on_rim_.push_back(0);
+    }
+    for (const Patch::Face_index f : patch.faces()) {
+      Triangle t{};
+      std::size_t k = 0;
+      for (const Patch::Vertex_index v : patch.vertices_around_face(patch.halfedge(f)))
+        t[k++] = place[v.idx()];
+      take(t);
+      triangles_.push_back(t);
+    }
+  }
+
   bool is_free(std::uint32_t a, std::uint32_t b) const { return !taken_.contains(edge_between(a, b)); }
   void take(const Triangle& t) {
     for (std::size_t i = 0; i < 3; ++i)
@@ -141,26 +236,29 @@ class Filler {
         taken_.insert(edge_between(a, b));
   }
 
-  std::span<const Vec3f> vertices_;
+  std::pmr::vector<Vec3f>& vertices_;
+  std::span<const Vec3f> normals_;  // of those that were there
   std::vector<char> on_rim_;
   std::set<BorderEdge> taken_;  // edges between vertices of rims, low then high
   std::pmr::vector<Triangle>& triangles_;
+  std::vector<std::uint32_t> beside_;
 };
 
 }  // namespace
 
-void close_holes(std::span<const Vec3f> vertices, std::span<const Vec3f> normals,
-                 std::span<const BorderEdge> border, const HoleLimits& limits,
-                 std::pmr::vector<Triangle>& triangles) {
-  const std::vector<Loop> loops = loops_of(vertices, border);
+std::vector<std::uint32_t> close_holes(std::pmr::vector<Vec3f>& vertices_mm, std::span<const Vec3f> normals,
+                                       std::span<const BorderEdge> border, const HoleLimits& limits,
+                                       std::pmr::vector<Triangle>& triangles) {
+  const std::vector<Loop> loops = loops_of(vertices_mm, border);
   const auto longest = std::max_element(
       loops.begin(), loops.end(), [](const Loop& a, const Loop& b) { return a.length_mm < b.length_mm; });
-  Filler filler(vertices, border, triangles);
+  Filler filler(vertices_mm, normals, border, triangles);
   for (auto loop = loops.begin(); loop != loops.end(); ++loop)
     if (loop != longest && loop->vertices.size() >= 3 && loop->length_mm > 0 &&
         loop->length_mm <= limits.rim_mm)
       filler.close(loop->vertices);
-  if (longest != loops.end() && longest->length_mm > 0) filler.close_bays(*longest, normals, limits);
+  if (longest != loops.end() && longest->length_mm > 0) filler.close_bays(*longest, limits);
+  return std::move(filler).beside();
 }
 
 }  // namespace relievo::pipeline

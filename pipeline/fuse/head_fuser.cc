@@ -7,11 +7,11 @@
 #include <limits>
 #include <numeric>
 
+#include "pipeline/fuse/fairing.h"
 #include "pipeline/fuse/head_zones.h"
 #include "pipeline/fuse/own_face.h"
 #include "pipeline/fuse/rim.h"
 #include "pipeline/fuse/skin_bender.h"
-#include "pipeline/fuse/step_smoother.h"
 #include "pipeline/mesh/mesher.h"
 #include "pipeline/mesh/meshers/band_volume.h"
 #include "pipeline/mesh/surface_cleaner.h"
@@ -33,6 +33,7 @@ constexpr int kTuftEdges = 12;
 constexpr int kRimEdges = 8, kRimRounds = 20;  // what is opened, how often rims are straightened ...
 constexpr float kSureMm = 0.15F;               // skin; hair that was half seen through is less certain
 constexpr float kRimMoveMm = 0.7F;             // ... and by how much at most
+constexpr std::uint8_t kClosedRings = 3, kUnsureRings = 9;
 constexpr float kHoleRimMm = 400, kBayMouthMm = 25, kClosedSigmaMm = 1;  // of holes and bays that are closed
 constexpr int kBands = 32;
 
@@ -129,9 +130,10 @@ class Fusion {
       const auto hit = look(k, at);
       if (!hit || dot(hit->normal, normal) < kSameWay) continue;
       const float d = dot(hit->normal, minus(at, hit->at_mm));
-      if (std::abs(d) > kReachMm) continue;
+      if (std::abs(d) > 2 * kReachMm) continue;
       const float certainty = 1 / squared(std::max(hit->sigma_mm, kLeastSigmaMm));
       seen[k] = {d, hit->trust * certainty, certainty, hit->trust, hit->normal};
+      if (std::abs(d) > kReachMm) continue;
       if (best == poses_.size() ||
           rank(k, seen[k].trust, seen[k].weight) > rank(best, seen[best].trust, seen[best].weight))
         best = k;
@@ -151,8 +153,8 @@ class Fusion {
     for (std::size_t k = 0; k < poses_.size(); ++k) {
       Seen& s = seen[k];
       if (s.weight <= 0) continue;
-      const float allowed =
-          std::max(kDisagreeMm, kDisagreeSigmas * std::sqrt(1 / s.certainty + 1 / seen[best].certainty));
+      const float allowed = std::clamp(
+          kDisagreeSigmas * std::sqrt(1 / s.certainty + 1 / seen[best].certainty), kDisagreeMm, kReachMm);
       const float off = std::abs(s.distance - seen[best].distance) / allowed;
       s.weight *= k == best ? 1 : std::clamp(2 - 2 * off, 0.0F, 1.0F);
       pull = along(pull, s.weight * s.distance, s.normal);
@@ -266,6 +268,7 @@ Result<FaceMesh> HeadFuser::fuse(std::span<PoseSurface> poses, const Registratio
   drop_hair(poses, registration, zones);
   bend_to_master(poses, registration, {options_.most_bend_mm, options_.bend_width_mm, options_.still_mm},
                  context);
+  for (PoseSurface& pose : poses) fade_to_edges(pose, &context.scratch);
   if (context.stop()) return stopped;
   const Fusion fusion(poses, registration, zones, context);
   std::pmr::vector<FieldPoint> points = fusion.choose();
@@ -324,24 +327,14 @@ Result<FaceMesh> HeadFuser::fuse(std::span<PoseSurface> poses, const Registratio
   std::pmr::vector<std::uint8_t> sure(&context.scratch);
   for (const Vertex& v : vertices) sure.push_back(v.measured != 0 && v.sigma_mm <= kSureMm ? 1 : 0);
   const std::size_t settled = vertices.size();
-  // What closes a hole was not measured: a vertex of its own in each triangle says so.
+  // What closes a hole was not measured.
   const auto close = [&](std::span<const BorderEdge> border, float mouth_mm) {
-    const std::size_t before = surface.triangles.size();
-    close_holes(surface.vertices_mm, normals, border, {kHoleRimMm, mouth_mm}, surface.triangles);
-    for (std::size_t i = before, end = surface.triangles.size(); i < end; ++i) {
-      const Triangle t = surface.triangles[i];
-      const auto middle = static_cast<std::uint32_t>(vertices.size());
-      const auto sum = [&](const std::pmr::vector<Vec3f>& of) {
-        return plus(plus(of[t[0]], of[t[1]]), of[t[2]]);
-      };
-      surface.vertices_mm.push_back(times(sum(surface.vertices_mm), 1.0F / 3));
-      normals.push_back(sum(normals));
-      started.push_back(surface.vertices_mm.back());
-      vertices.push_back({kClosedSigmaMm, vertices[t[0]].pose, 0, 1});
+    for (const std::uint32_t v :
+         close_holes(surface.vertices_mm, normals, border, {kHoleRimMm, mouth_mm}, surface.triangles)) {
+      normals.push_back(normals[v]);
+      vertices.push_back({kClosedSigmaMm, vertices[v].pose, 0, 1});
+      started.push_back(surface.vertices_mm[started.size()]);
       sure.push_back(0);
-      surface.triangles[i] = {t[0], t[1], middle};
-      surface.triangles.push_back({t[1], t[2], middle});
-      surface.triangles.push_back({t[2], t[0], middle});
     }
   };
   open_rims(sure, surface.triangles, kRimEdges, &context.scratch);
@@ -359,18 +352,34 @@ Result<FaceMesh> HeadFuser::fuse(std::span<PoseSurface> poses, const Registratio
   part_equals(surface.vertices_mm, started, &context.scratch);
   close(border, kBayMouthMm);
 
-  if (disagree(registration)) {
-    // Eyes and ears have steps of their own.
-    std::pmr::vector<std::uint8_t> label(&context.scratch), stays(&context.scratch);
-    for (std::size_t v = 0; v < vertices.size(); ++v) {
-      label.push_back(v < settled ? vertices[v].poses : kBetweenNothing);
-      stays.push_back(zones.is_eye(surface.vertices_mm[v]) || zones.is_ear(surface.vertices_mm[v]) ? 1 : 0);
-    }
-    for (const BorderEdge& e : border) stays[e[0]] = 1;  // also those that were closed since
-    const auto moved = smooth_steps(surface.vertices_mm, surface.triangles, label, stays, &context.scratch);
+  // Laid anew: what closes a hole, with the last of what was measured beside it; steps, but for those that
+  // eyes and ears have; then what was completed or is unsure, where other poses begin to count.
+  std::pmr::vector<std::uint8_t> part(vertices.size(), 0, &context.scratch);
+  std::pmr::vector<std::uint8_t> stays(part, &context.scratch), label(part, &context.scratch);
+  std::fill(part.begin() + static_cast<std::ptrdiff_t>(settled), part.end(), kClosedRings);
+  for (std::size_t v = 0; v < vertices.size(); ++v) {
+    label[v] = v < settled ? vertices[v].poses : kBetweenNothing;
+    stays[v] = v < settled && (zones.is_eye(surface.vertices_mm[v]) || zones.is_ear(surface.vertices_mm[v]));
+  }
+  for (const BorderEdge& e : border_edges(surface.triangles, &context.scratch)) stays[e[0]] = 1;
+  if (disagree(registration))
+    add_steps(surface.vertices_mm, surface.triangles, label, part, &context.scratch);
+  const auto lay_anew = [&] {
+    const auto moved = fair_part(surface.vertices_mm, surface.triangles, part, stays, &context.scratch);
     for (std::size_t v = 0; v < moved.size(); ++v)
       vertices[v].sigma_mm = std::hypot(vertices[v].sigma_mm, moved[v]);
+  };
+  lay_anew();
+  std::fill(part.begin(), part.end(), std::uint8_t{0});
+  for (const Triangle& t : surface.triangles) {
+    const bool unsure =
+        std::any_of(t.begin(), t.end(), [&](std::uint32_t v) { return vertices[v].measured == 0; });
+    if (unsure && (label[t[0]] != label[t[1]] || label[t[0]] != label[t[2]]))
+      for (const std::uint32_t v : t) part[v] = kUnsureRings;
   }
+  for (std::size_t v = 0; v < settled; ++v)
+    if (vertices[v].poses != 0 && vertices[v].measured != 0) stays[v] = 1;
+  lay_anew();
 
   std::pmr::vector<std::uint8_t> pose(&context.output);
   pose.reserve(vertices.size());

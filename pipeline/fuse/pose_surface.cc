@@ -17,7 +17,7 @@ constexpr LatticeLimits kLimits{4.33F, 4, 3, 0.5F};  // tangent of 77 degrees
 // Along the line of sight: more is hair seen through and what lies behind, unless cameras far away or few
 // pixels make it usual.
 constexpr float kMostSigmaMm = 1, kMostOfUsual = 4;
-constexpr float kEdgeNodes = 6;         // over which trust grows from the edge of what was measured
+constexpr float kEdgeNodes = 16;        // over which trust grows from the edge of what was measured
 constexpr float kEdgeOnCosine = 0.26F;  // 75 degrees: no trust ...
 constexpr float kFullCosine = 0.5F;     // ... and 60: all of it
 
@@ -101,7 +101,6 @@ Result<PoseSurface> make_pose_surface(const PointCloud& cloud, const RectifiedPa
   std::pmr::vector<float> whole = whole_nodes(lattice, surface, &context.scratch);
   for (std::size_t k = 0; k < whole.size(); ++k)
     if (lattice.sigma_mm[k] > most_sigma_mm) whole[k] = 0;
-  const std::pmr::vector<float> steps = steps_from_edge(pose.columns, pose.rows, whole, &context.scratch);
   // A triangle's normal is noise over a cell's width: five nodes' mean has a fifth of it.
   std::pmr::vector<Vec3f> raw(pose.normal.begin(), pose.normal.end(), &context.scratch);
   for (int r = 1; r + 1 < pose.rows; ++r)
@@ -121,10 +120,16 @@ Result<PoseSurface> make_pose_surface(const PointCloud& cloud, const RectifiedPa
       const float cosine = -dot(n, sight);
       pose.normal[k] = n;
       pose.sigma_mm[k] = lattice.sigma_mm[k] * std::max(cosine, kEdgeOnCosine);
-      pose.trust[k] = std::min(1.0F, steps[k] / kEdgeNodes) *
-                      std::clamp((cosine - kEdgeOnCosine) / (kFullCosine - kEdgeOnCosine), 0.0F, 1.0F);
+      pose.trust[k] = std::clamp((cosine - kEdgeOnCosine) / (kFullCosine - kEdgeOnCosine), 0.0F, 1.0F);
     }
+  fade_to_edges(pose, &context.scratch);
   return pose;
+}
+
+void fade_to_edges(PoseSurface& pose, std::pmr::memory_resource* scratch) {
+  const auto steps = steps_from_edge(pose.columns, pose.rows, pose.trust, scratch);
+  for (std::size_t k = 0; k < pose.trust.size(); ++k)
+    pose.trust[k] = std::min(pose.trust[k], steps[k] / kEdgeNodes);
 }
 
 std::optional<SurfaceHit> PoseSurface::look(const Vec3f& place) const {

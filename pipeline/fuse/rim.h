@@ -35,11 +35,13 @@ struct HoleLimits {
   float mouth_mm;  // of a bay of the longest rim, at most
 };
 
-// Closes every hole but the longest rim, and that one's bays, straight from headland to headland: without new
-// vertices, by the triangulation of least area (Barequet, Sharir 1995; CGAL). One whose closing would use an
-// edge that is there already stays open. `normals`: outwards, any length. The new triangles stand at the end.
-void close_holes(std::span<const Vec3f> vertices_mm, std::span<const Vec3f> normals,
-                 std::span<const BorderEdge> border, const HoleLimits& limits,
-                 std::pmr::vector<Triangle>& triangles);
+// Closes every hole but the longest rim, and that one's bays from headland to headland, along a curve that
+// leaves both as the surface does: by the triangulation of least area (Barequet, Sharir 1995), refined to the
+// rim's own density (Liepa 2003; both CGAL). One whose closing would use an edge that is there already stays
+// open. `normals`: outwards, any length, one a vertex. New vertices and triangles stand at the end; every new
+// triangle has a new vertex. Returns for each new vertex one of the rim that it closes.
+std::vector<std::uint32_t> close_holes(std::pmr::vector<Vec3f>& vertices_mm, std::span<const Vec3f> normals,
+                                       std::span<const BorderEdge> border, const HoleLimits& limits,
+                                       std::pmr::vector<Triangle>& triangles);
 
 }  // namespace relievo::pipeline

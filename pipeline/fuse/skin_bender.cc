@@ -13,9 +13,10 @@ namespace {
 constexpr float kReachMm = 3;          // a surface further off is another one
 constexpr float kSameWay = 0.6F;       // cosine between the normals of what is taken for the same skin
 constexpr float kCellMm = 2;           // of the grid on which the displacement is smoothed
-constexpr float kNothingSaid = 0.02F;  // weight that pulls to no displacement, beyond the overlap
+constexpr float kNothingSaid = 0.002F;  // weight that pulls to no displacement, beyond the overlap
 constexpr float kLeastSigmaMm = 0.01F;
 constexpr float kSureWeight = 400;   // of a surface with a sigma of 0.05 mm: more of it is no surer
+constexpr float kOwnErrorSigmas = 3;
 constexpr float kMovedSigma = 0.9F;  // what is not known of a displacement, share of its usual size around
 
 struct Field {
@@ -151,7 +152,8 @@ class Bender {
         const float d = read(field, (static_cast<float>(c) + 0.5F) / static_cast<float>(every) - 0.5F,
                              (static_cast<float>(r) + 0.5F) / static_cast<float>(every) - 0.5F);
         const float moved = d * d * d / (d * d + still * still);
-        if (std::abs(moved) > most) {
+        // What is measured badly may lie further off without having moved.
+        if (std::abs(moved) > most + kOwnErrorSigmas * pose.sigma_mm[i]) {
           pose.trust[i] = 0;
           continue;
         }

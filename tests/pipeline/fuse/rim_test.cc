@@ -4,6 +4,8 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
+
 #include "pipeline/model/vector3.h"
 #include "tests/pipeline/mesh/mesh_checks.h"
 
@@ -51,9 +53,15 @@ TEST(Rims, AreTheEdgesOfOneTriangle) {
 TEST(Rims, OfHolesAreClosedAndTheOutlineIsNot) {
   FaceMesh mesh = sheet([](int x, int y) { return x >= 4 && x < 7 && y >= 4 && y < 6; });
   const auto border = border_edges(mesh.triangles, std::pmr::get_default_resource());
-  const std::size_t before = mesh.triangles.size();
-  close_holes(mesh.vertices_mm, outwards(mesh), border, {15, 0}, mesh.triangles);
-  EXPECT_EQ(mesh.triangles.size(), before + 8U) << "ten places around it";
+  const std::size_t before = mesh.triangles.size(), vertices = mesh.vertices_mm.size();
+  const auto beside = close_holes(mesh.vertices_mm, outwards(mesh), border, {15, 0}, mesh.triangles);
+  EXPECT_EQ(mesh.vertices_mm.size(), vertices + beside.size());
+  EXPECT_GE(mesh.triangles.size(), before + 12U) << "about as dense as the sheet";
+  EXPECT_LE(mesh.triangles.size(), before + 24U);
+  for (std::size_t t = before; t < mesh.triangles.size(); ++t)
+    EXPECT_GE(*std::ranges::max_element(mesh.triangles[t]), vertices) << "none of measured vertices alone";
+  for (const std::uint32_t v : beside)
+    EXPECT_TRUE(std::ranges::any_of(border, [&](const BorderEdge& e) { return e[0] == v; }));
   EXPECT_NEAR(area(mesh), (kSide - 1) * (kSide - 1), 1e-3) << "closed, and facing the same way";
   EXPECT_EQ(border_edges(mesh.triangles, std::pmr::get_default_resource()).size(), 4U * (kSide - 1));
 }

@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: 2026 The Relievo authors
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include "pipeline/fuse/step_smoother.h"
+#include "pipeline/fuse/fairing.h"
 
 #include <gtest/gtest.h>
 
@@ -30,7 +30,9 @@ struct Sheet {
       }
   }
   std::pmr::vector<float> smooth() {
-    return smooth_steps(vertices, triangles, label, stays, std::pmr::get_default_resource());
+    std::vector<std::uint8_t> part(vertices.size(), 0);
+    add_steps(vertices, triangles, label, part, std::pmr::get_default_resource());
+    return fair_part(vertices, triangles, part, stays, std::pmr::get_default_resource());
   }
   float steepest() const {
     float most = 0;
