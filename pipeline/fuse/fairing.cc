@@ -12,7 +12,7 @@ namespace relievo::pipeline {
 namespace {
 
 constexpr float kStepCosine = 0.77F;  // 40 degrees
-constexpr float kSameWayCosine = 0.9F;
+constexpr float kSameWayCosine = 0.8F;
 constexpr std::uint8_t kStepRings = 6;  // of vertices that are laid anew at a step
 constexpr std::uint8_t kHeldRings = 2;  // around those, what says how the surface goes on
 

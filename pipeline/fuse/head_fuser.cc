@@ -28,11 +28,12 @@ constexpr float kSameWay = 0.3F;     // cosine: a surface that faces elsewhere i
 constexpr float kReachMm = 1.2F;     // of a pose's surface from a vertex that is placed on it
 constexpr float kLeastSigmaMm = 0.005F;
 constexpr float kFullTrust = 0.95F;
-constexpr float kLeastTrust = 0.005F;  // of a point that counts at all
-constexpr int kTuftEdges = 12;
-constexpr int kRimEdges = 8, kRimRounds = 20;  // what is opened, how often rims are straightened ...
-constexpr float kSureMm = 0.15F;               // skin; hair that was half seen through is less certain
-constexpr float kRimMoveMm = 0.7F;             // ... and by how much at most
+constexpr float kLeastTrust = 0.005F;           // of a point that counts at all
+constexpr float kEdgeNodes = 16;                // over which a pose's weight fades
+constexpr int kTuftEdges = 12, kEarHolds = 25;  // an ear that hangs on by less is a rag between hair
+constexpr int kRimEdges = 8, kRimRounds = 20;   // what is opened, how often rims are straightened ...
+constexpr float kSureMm = 0.15F;                // skin; hair that was half seen through is less certain
+constexpr float kRimMoveMm = 0.7F;              // ... and by how much at most
 constexpr std::uint8_t kClosedRings = 3, kUnsureRings = 9;
 constexpr float kHoleRimMm = 400, kBayMouthMm = 25, kClosedSigmaMm = 1;  // of holes and bays that are closed
 constexpr int kBands = 32;
@@ -268,7 +269,8 @@ Result<FaceMesh> HeadFuser::fuse(std::span<PoseSurface> poses, const Registratio
   drop_hair(poses, registration, zones);
   bend_to_master(poses, registration, {options_.most_bend_mm, options_.bend_width_mm, options_.still_mm},
                  context);
-  for (PoseSurface& pose : poses) fade_to_edges(pose, &context.scratch);
+  // Wider than for registration, and after hair and what moved too far went: no step where a surface ends.
+  for (PoseSurface& pose : poses) fade_to_edges(pose, kEdgeNodes, &context.scratch);
   if (context.stop()) return stopped;
   const Fusion fusion(poses, registration, zones, context);
   std::pmr::vector<FieldPoint> points = fusion.choose();
@@ -337,12 +339,12 @@ Result<FaceMesh> HeadFuser::fuse(std::span<PoseSurface> poses, const Registratio
       sure.push_back(0);
     }
   };
-  open_rims(sure, surface.triangles, kRimEdges, &context.scratch);
+  open_rims(sure, surface.triangles, kRimEdges, 0, &context.scratch);
   keep_one_surface(surface.vertices_mm, surface.triangles, {}, &context.scratch);
   close(border_edges(surface.triangles, &context.scratch), 0);
   // Once only the outline is left: tufts of hair, however sure, but no ears.
   for (std::size_t v = 0; v < sure.size(); ++v) sure[v] = sure[v] && zones.is_ear(surface.vertices_mm[v]);
-  open_rims(sure, surface.triangles, kTuftEdges, &context.scratch);
+  open_rims(sure, surface.triangles, kTuftEdges, kEarHolds, &context.scratch);
   keep_one_surface(surface.vertices_mm, surface.triangles, {}, &context.scratch);
   if (surface.triangles.empty()) return no_surface();
 

@@ -17,7 +17,7 @@ constexpr LatticeLimits kLimits{4.33F, 4, 3, 0.5F};  // tangent of 77 degrees
 // Along the line of sight: more is hair seen through and what lies behind, unless cameras far away or few
 // pixels make it usual.
 constexpr float kMostSigmaMm = 1, kMostOfUsual = 4;
-constexpr float kEdgeNodes = 16;        // over which trust grows from the edge of what was measured
+constexpr float kEdgeNodes = 6;         // over which trust grows from the edge of what was measured
 constexpr float kEdgeOnCosine = 0.26F;  // 75 degrees: no trust ...
 constexpr float kFullCosine = 0.5F;     // ... and 60: all of it
 
@@ -122,14 +122,14 @@ Result<PoseSurface> make_pose_surface(const PointCloud& cloud, const RectifiedPa
       pose.sigma_mm[k] = lattice.sigma_mm[k] * std::max(cosine, kEdgeOnCosine);
       pose.trust[k] = std::clamp((cosine - kEdgeOnCosine) / (kFullCosine - kEdgeOnCosine), 0.0F, 1.0F);
     }
-  fade_to_edges(pose, &context.scratch);
+  fade_to_edges(pose, kEdgeNodes, &context.scratch);
   return pose;
 }
 
-void fade_to_edges(PoseSurface& pose, std::pmr::memory_resource* scratch) {
+void fade_to_edges(PoseSurface& pose, float nodes, std::pmr::memory_resource* scratch) {
   const auto steps = steps_from_edge(pose.columns, pose.rows, pose.trust, scratch);
   for (std::size_t k = 0; k < pose.trust.size(); ++k)
-    pose.trust[k] = std::min(pose.trust[k], steps[k] / kEdgeNodes);
+    pose.trust[k] = std::min(pose.trust[k], steps[k] / nodes);
 }
 
 std::optional<SurfaceHit> PoseSurface::look(const Vec3f& place) const {

@@ -55,8 +55,7 @@ struct PoseSurface {
 Result<PoseSurface> make_pose_surface(const PointCloud& cloud, const RectifiedPair& pair,
                                       StageContext& context);
 
-// Where trust ends it fades over some millimetres, so that no step is left where a pose's surface ends. To be
-// called again after trust was taken away. Throws std::bad_alloc.
-void fade_to_edges(PoseSurface& pose, std::pmr::memory_resource* scratch);
+// Lets trust fade over so many nodes to where it ends. Throws std::bad_alloc.
+void fade_to_edges(PoseSurface& pose, float nodes, std::pmr::memory_resource* scratch);
 
 }  // namespace relievo::pipeline

@@ -3,6 +3,7 @@
 #include "pipeline/fuse/rim.h"
 
 #include <algorithm>
+#include <numeric>
 
 #include "pipeline/model/vector3.h"
 
@@ -49,7 +50,7 @@ std::pmr::vector<BorderEdge> border_edges(std::span<const Triangle> triangles,
 }
 
 void open_rims(std::span<const std::uint8_t> sure, std::pmr::vector<Triangle>& triangles, int edges,
-               std::pmr::memory_resource* memory) {
+               int holds, std::pmr::memory_resource* memory) {
   const std::size_t vertices = sure.size();
   const auto far = static_cast<std::uint8_t>(edges);
   std::pmr::vector<std::uint8_t> from_rim(vertices, far, memory);
@@ -57,10 +58,36 @@ void open_rims(std::span<const std::uint8_t> sure, std::pmr::vector<Triangle>& t
   count_edges(triangles, edges, from_rim);
   std::pmr::vector<std::uint8_t> from_core(vertices, static_cast<std::uint8_t>(far + 1), memory);
   for (std::size_t v = 0; v < vertices; ++v)
-    if (from_rim[v] >= far || sure[v] != 0) from_core[v] = 0;
+    if (from_rim[v] >= far) from_core[v] = 0;
+  std::pmr::vector<std::uint8_t> from_sure(from_core, memory);
   count_edges(triangles, edges, from_core);
+  for (std::size_t v = 0; v < vertices; ++v)
+    if (sure[v] != 0) from_sure[v] = 0;
+  count_edges(triangles, edges, from_sure);
+  // Parts beside the core, by one of their vertices each, and how many that are sure join each to it.
+  std::pmr::vector<std::uint32_t> part(vertices, 0, memory);
+  std::iota(part.begin(), part.end(), 0U);
+  const auto root = [&](std::uint32_t v) {
+    while (part[v] != v) v = part[v] = part[part[v]];
+    return v;
+  };
+  const auto is_in_core = [&](std::uint32_t v) { return from_core[v] <= far; };
+  for (const Triangle& t : triangles)
+    for (std::size_t k = 0; k < 3; ++k)
+      if (!is_in_core(t[k]) && !is_in_core(t[(k + 1) % 3])) part[root(t[k])] = root(t[(k + 1) % 3]);
+  std::pmr::vector<BorderEdge> joined(memory);  // part, vertex
+  for (const Triangle& t : triangles)
+    for (const std::uint32_t a : t)
+      for (const std::uint32_t b : t)
+        if (!is_in_core(a) && is_in_core(b) && sure[b] != 0) joined.push_back({root(a), b});
+  std::sort(joined.begin(), joined.end());
+  joined.erase(std::unique(joined.begin(), joined.end()), joined.end());
+  std::pmr::vector<int> held(vertices, 0, memory);
+  for (const BorderEdge& j : joined) ++held[j[0]];
   std::erase_if(triangles, [&](const Triangle& t) {
-    return std::any_of(t.begin(), t.end(), [&](std::uint32_t v) { return from_core[v] > far; });
+    return std::any_of(t.begin(), t.end(), [&](std::uint32_t v) {
+      return from_sure[v] > far || (!is_in_core(v) && held[root(v)] < holds);
+    });
   });
 }
 

@@ -10,12 +10,12 @@
 namespace relievo::pipeline {
 namespace {
 
-constexpr float kReachMm = 3;          // a surface further off is another one
-constexpr float kSameWay = 0.6F;       // cosine between the normals of what is taken for the same skin
-constexpr float kCellMm = 2;           // of the grid on which the displacement is smoothed
+constexpr float kReachMm = 3;           // a surface further off is another one
+constexpr float kSameWay = 0.6F;        // cosine between the normals of what is taken for the same skin
+constexpr float kCellMm = 2;            // of the grid on which the displacement is smoothed
 constexpr float kNothingSaid = 0.002F;  // weight that pulls to no displacement, beyond the overlap
 constexpr float kLeastSigmaMm = 0.01F;
-constexpr float kSureWeight = 400;   // of a surface with a sigma of 0.05 mm: more of it is no surer
+constexpr float kSureWeight = 400;  // of a surface with a sigma of 0.05 mm: more of it is no surer
 constexpr float kOwnErrorSigmas = 3;
 constexpr float kMovedSigma = 0.9F;  // what is not known of a displacement, share of its usual size around
 

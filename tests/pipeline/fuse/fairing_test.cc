@@ -8,6 +8,9 @@
 #include <cmath>
 #include <memory_resource>
 
+#include "pipeline/fuse/rim.h"
+#include "pipeline/model/vector3.h"
+
 namespace relievo::pipeline::test {
 namespace {
 
@@ -79,6 +82,46 @@ TEST(Steps, BesideWhichTheSurfaceTurnsAreFolds) {
     if (v.x > kSide / 2) v.z += 1.5F * (v.x - kSide / 2 - 1);  // 56 degrees
   const auto moved = sheet.smooth();
   EXPECT_TRUE(std::all_of(moved.begin(), moved.end(), [](float d) { return d == 0; }));
+}
+
+// A dome with a hole of two centimetres: closed flat it would lie 1.3 mm too low.
+TEST(Fairing, LetsWhatClosesAHoleGoOnAsTheSurfaceDoes) {
+  constexpr float kRadius = 40, kHole = 10, kStep = 1;
+  constexpr int kHalf = 20;
+  std::pmr::vector<Vec3f> vertices;
+  std::pmr::vector<Triangle> triangles;
+  std::vector<Vec3f> normals;
+  for (int y = -kHalf; y <= kHalf; ++y)
+    for (int x = -kHalf; x <= kHalf; ++x) {
+      const float u = kStep * static_cast<float>(x), v = kStep * static_cast<float>(y);
+      vertices.push_back({u, v, std::sqrt(kRadius * kRadius - u * u - v * v)});
+      normals.push_back(vertices.back());
+    }
+  const auto index = [](int x, int y) {
+    return static_cast<std::uint32_t>((y + kHalf) * (2 * kHalf + 1) + x + kHalf);
+  };
+  for (int y = -kHalf; y < kHalf; ++y)
+    for (int x = -kHalf; x < kHalf; ++x) {
+      if (std::hypot(static_cast<float>(x) + 0.5F, static_cast<float>(y) + 0.5F) < kHole) continue;
+      triangles.push_back({index(x, y), index(x + 1, y), index(x + 1, y + 1)});
+      triangles.push_back({index(x, y), index(x + 1, y + 1), index(x, y + 1)});
+    }
+  const std::size_t before = vertices.size();
+  const auto border = border_edges(triangles, std::pmr::get_default_resource());
+  ASSERT_FALSE(close_holes(vertices, normals, border, {100, 0}, triangles).empty());
+  const auto furthest = [&] {
+    float most = 0;
+    for (std::size_t v = before; v < vertices.size(); ++v)
+      most = std::max(most, std::abs(length(vertices[v]) - kRadius));
+    return most;
+  };
+  EXPECT_GT(furthest(), 0.8F);
+  std::vector<std::uint8_t> part(vertices.size(), 0), stays(vertices.size(), 0);
+  std::fill(part.begin() + static_cast<std::ptrdiff_t>(before), part.end(), std::uint8_t{1});
+  for (const BorderEdge& e : border_edges(triangles, std::pmr::get_default_resource())) stays[e[0]] = 1;
+  const auto moved = fair_part(vertices, triangles, part, stays, std::pmr::get_default_resource());
+  EXPECT_LT(furthest(), 0.1F);
+  for (std::size_t v = 0; v < before; ++v) EXPECT_EQ(moved[v], 0) << "what was there stays";
 }
 
 }  // namespace

@@ -91,10 +91,15 @@ TEST(Rims, LoseTheirThreadsAndKeepTheRest) {
   FaceMesh mesh = sheet([](int x, int y) { return x >= 4 && x < 7 && y != 5; });
   const float before = area(mesh);
   std::vector<std::uint8_t> sure(mesh.vertices_mm.size(), 1);
-  open_rims(sure, mesh.triangles, 1, std::pmr::get_default_resource());
+  open_rims(sure, mesh.triangles, 1, 0, std::pmr::get_default_resource());
   EXPECT_EQ(area(mesh), before) << "all of it is sure";
+  FaceMesh held = mesh;
+  open_rims(sure, held.triangles, 1, 2, std::pmr::get_default_resource());
+  EXPECT_EQ(area(held), before) << "joined by two vertices on either side";
+  open_rims(sure, held.triangles, 1, 5, std::pmr::get_default_resource());
+  EXPECT_GE(before - area(held), 3) << "it hangs on by less than asked";
   std::fill(sure.begin(), sure.end(), std::uint8_t{0});
-  open_rims(sure, mesh.triangles, 1, std::pmr::get_default_resource());
+  open_rims(sure, mesh.triangles, 1, 0, std::pmr::get_default_resource());
   EXPECT_GE(before - area(mesh), 3) << "the thread";
   EXPECT_LE(before - area(mesh), 6) << "and little else";
   for (const auto& t : mesh.triangles) {
