@@ -35,6 +35,7 @@ PoseReport report_of(const pipeline::RegisteredPose& pose) {
   report.first_from_pose = pose.first_from_pose;
   report.turned_deg = degrees_of(pose.first_from_pose.rotation);
   report.rms_mm = pose.rms_mm;
+  report.joined = pose.joined;
   const auto worst = [&](std::size_t from) {
     return std::sqrt(std::max(
         {pose.covariance[7 * from], pose.covariance[7 * (from + 1)], pose.covariance[7 * (from + 2)]}));

@@ -47,7 +47,8 @@ nlohmann::ordered_json poses_json(const std::vector<PoseReport>& poses) {
   auto all = nlohmann::ordered_json::array();
   for (const PoseReport& pose : poses) {
     const auto& [rotation, moved] = pose.first_from_pose;
-    all.push_back({{"turned_deg", pose.turned_deg},
+    all.push_back({{"joined", pose.joined},
+                   {"turned_deg", pose.turned_deg},
                    {"rotation", rotation.m},
                    {"translation_mm", {moved.x, moved.y, moved.z}},
                    {"rms_mm", pose.rms_mm},

@@ -26,6 +26,12 @@ std::string line_of(const StageRecord& stage) {
 
 std::string line_of(std::size_t pair, const PoseReport& pose) {
   char line[160];
+  if (!pose.joined) {
+    std::snprintf(line, sizeof line,
+                  "Pair %-7zu left out: it meets none of the others, or the skin moved by more than 1.5 mm",
+                  pair);
+    return line;
+  }
   std::snprintf(
       line, sizeof line,
       "Pair %-7zu turned by %.1f degrees, %.3f mm rms from the others; placed to %.3f degrees, %.3f mm", pair,

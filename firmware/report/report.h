@@ -23,6 +23,7 @@ struct PoseReport {
   double turned_deg = 0;  // against the first pair
   pipeline::RigidTransform first_from_pose;
   double rms_mm = 0;                   // from the other poses' surfaces
+  bool joined = true;                  // else it fits none of the others, and is no part of the head
   double sigma_deg = 0, sigma_mm = 0;  // of the registration: the worst axis, about the middle of the head
 };
 

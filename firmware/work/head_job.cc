@@ -18,16 +18,18 @@ Result<void> HeadJob::run(JobControl& control) {
     records_.push_back(stage_.record());
     parts_done_.fetch_add(1, std::memory_order_release);
   }
+  int lost = 0;
   std::vector<pipeline::HeadPose> poses;
   poses.reserve(SidePairs::kPoses);
   while (const auto side = session_.sides().next(control.cancelled)) {
     // What is wrong with a pair here spoils no face.
     if (poses.empty() && !measure(*session_.products().frame, control, poses)) continue;
-    (void)measure(*side, control, poses);
+    if (!measure(*side, control, poses)) ++lost;
     parts_done_.fetch_add(1, std::memory_order_release);
   }
   parts_done_.store(PortraitProgress::kFuse, std::memory_order_release);
-  if (poses.size() > 1) (void)fuse(control, poses);
+  if (poses.size() > 1 && !fuse(control, poses)) lost += static_cast<int>(poses.size()) - 1;
+  if (session_.products().model) session_.products().model->poses_left_out += lost;
   if (control.cancelled.load()) return Error{Errc::Cancelled, "stopped while the head was made"};
   return {};
 }

@@ -239,7 +239,7 @@ void part_equals(std::span<Vec3f> vertices, std::span<const Vec3f> started,
 bool disagree(const Registration& registration) {
   constexpr double kMostRmsMm = 0.15;
   return std::any_of(registration.poses.begin(), registration.poses.end(),
-                     [](const RegisteredPose& p) { return p.rms_mm > kMostRmsMm; });
+                     [](const RegisteredPose& p) { return p.joined && p.rms_mm > kMostRmsMm; });
 }
 
 // Hair is half seen through: beside the face, what is that unsure along the line of sight goes.

@@ -35,6 +35,7 @@ std::pmr::vector<HeadView> views_of(std::span<const HeadPose> poses, const Regis
   std::pmr::vector<HeadView> views(memory);
   for (std::size_t k = 0; k < poses.size(); ++k)
     for (const bool right : {false, true}) {
+      if (!registration.poses[k].joined) continue;
       const HeadPose& pose = poses[k];
       const RigidTransform back = inverse(registration.poses[k].first_from_pose);
       HeadView view;
@@ -121,6 +122,7 @@ Result<FusedHead> HeadPipeline::fuse(const FaceModel& face, std::span<HeadPose> 
   head.landmarks = face.landmarks;
   head.backdrop = face.backdrop;
   head.unjudged = face.unjudged;
+  for (const RegisteredPose& pose : registration.poses) head.poses_left_out += pose.joined ? 0 : 1;
   // Area, coverage and sigma are the whole head's; size and relief of the face stay those of the master.
   head.quality = face.quality;
   RELIEVO_TRY(run_stage(context, [&](StageContext& c) -> Result<void> {

@@ -68,8 +68,11 @@ class Placer {
           more = true;
         }
       }
-    if (left.empty()) return {};
-    return meets_no_other_pose(left[0]);
+    for (const std::size_t p : left) {
+      placed_[p] = {};
+      placed_[p].joined = false;
+    }
+    return {};
   }
 
  private:

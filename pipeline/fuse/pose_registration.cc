@@ -3,8 +3,10 @@
 #include "pipeline/fuse/pose_registration.h"
 
 #include <Eigen/Cholesky>
+#include <algorithm>
 #include <array>
 #include <cmath>
+#include <utility>
 
 #include "hal/base/statistics.h"
 #include "pipeline/fuse/pose_residuals.h"
@@ -18,6 +20,7 @@ using Column = Eigen::Matrix<double, Eigen::Dynamic, 1, 0, 6 * (kMostPoses - 1),
 
 constexpr std::size_t kParts = PoseResiduals::kParts;
 constexpr double kFewestSamples = 300;
+constexpr double kMostMovedMm = 1.5;
 constexpr double kRidge = 1e-9;
 constexpr double kStillMm = 1e-5;
 constexpr std::array<RegistrationRound, 5> kRounds{
@@ -152,9 +155,10 @@ class JointSolver {
     covariance *= residuals_.skin().variance_mm2();
     for (std::size_t p = 0; p < placed_.size(); ++p) {
       RegisteredPose& pose = placed_[p];
-      if (sums[p].count < kFewestSamples) return meets_no_other_pose(p);
-      pose.rms_mm = std::sqrt(sums[p].squares / sums[p].weight);
+      if (p > 0 && sums[p].count < kFewestSamples) pose.joined = false;
+      if (sums[p].weight > 0) pose.rms_mm = std::sqrt(sums[p].squares / sums[p].weight);
       if (p == 0) continue;
+      if (pose.rms_mm > kMostMovedMm) pose.joined = false;
       for (Eigen::Index i = 0; i < 6; ++i)
         for (Eigen::Index j = 0; j < 6; ++j)
           pose.covariance[static_cast<std::size_t>(6 * i + j)] = covariance(place(p) + i, place(p) + j);
@@ -170,7 +174,7 @@ class JointSolver {
 
 }  // namespace
 
-Result<Registration> register_poses(std::span<const PoseSurface> poses, StageContext& context) {
+Result<Registration> register_poses(std::span<PoseSurface> poses, StageContext& context) {
   if (poses.empty() || !poses[0].has_head)
     return Error{Errc::InvalidInput, "no head was found in the first pair: it must be the one from in front"}
         .at("pair 1");
@@ -178,9 +182,25 @@ Result<Registration> register_poses(std::span<const PoseSurface> poses, StageCon
   made.poses.resize(poses.size());
   PoseResiduals residuals(poses, made.poses, context);
   made.pivot_mm = residuals.pivot();
+  std::array<bool, kMostPoses> left_out{};
   if (poses.size() > 1) {
     RELIEVO_TRY(place_poses(poses, made.poses, residuals, context));
-    RELIEVO_TRY(JointSolver(made.poses, residuals, context).run());
+    // What is left out pulls at none of the others.
+    const auto leave_out = [&] {
+      bool any = false;
+      for (std::size_t p = 1; p < poses.size(); ++p)
+        if (!made.poses[p].joined && !poses[p].trust.empty()) {
+          poses[p].trust.assign(poses[p].trust.size(), 0);
+          any = !std::exchange(left_out[p], true) || any;
+        }
+      return any;
+    };
+    leave_out();
+    do {
+      RELIEVO_TRY(JointSolver(made.poses, residuals, context).run());
+    } while (leave_out());
+    if (std::none_of(made.poses.begin() + 1, made.poses.end(), [](const auto& p) { return p.joined; }))
+      return meets_no_other_pose(1);
   }
   return made;
 }

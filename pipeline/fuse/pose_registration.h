@@ -28,6 +28,7 @@ struct RegisteredPose {
   // vector, then translation; row by row.
   std::array<double, 36> covariance{};
   double rms_mm = 0;  // of the skin that counts, from the other poses' surfaces
+  bool joined = true;
 };
 
 struct Registration {
@@ -37,8 +38,10 @@ struct Registration {
 };
 
 // The first pose must have a head frame; others start from theirs, or, where that leads nowhere, from a head
-// turned by 25, 45 and 65 degrees. Memory: the result in `output`. Errors: InvalidInput (the first has no
-// head frame), PoorGeometry (a pose meets no other: names it), Cancelled. Throws std::bad_alloc. Thread: any.
-Result<Registration> register_poses(std::span<const PoseSurface> poses, StageContext& context);
+// turned by 25, 45 and 65 degrees. One that meets no other, or whose skin moved by more than 1.5 mm, is left
+// out: `joined` is false, and its surface is trusted nowhere. Memory: the result in `output`. Errors:
+// InvalidInput (the first has no head frame), PoorGeometry (all others are left out: names the first of
+// them), Cancelled. Throws std::bad_alloc. Thread: any.
+Result<Registration> register_poses(std::span<PoseSurface> poses, StageContext& context);
 
 }  // namespace relievo::pipeline

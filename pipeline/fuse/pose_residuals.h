@@ -119,8 +119,7 @@ class PoseResiduals {
 };
 
 // Lays each pose onto those before it: from its head frame, or, where that leads nowhere, from a head turned
-// by 25, 45 and 65 degrees, the surest first. Errors: PoorGeometry (a pose meets no other: names it),
-// Cancelled.
+// by 25, 45 and 65 degrees, the surest first. One that meets no other is not `joined`. Errors: Cancelled.
 Result<void> place_poses(std::span<const PoseSurface> poses, std::span<RegisteredPose> placed,
                          PoseResiduals& residuals, StageContext& context);
 

@@ -66,10 +66,11 @@ class Bender {
         context_(context),
         fixed_(poses.size(), 0, &context.scratch) {
     fixed_[0] = 1;
+    for (std::size_t k = 1; k < poses.size(); ++k) fixed_[k] = registration.poses[k].joined ? 0 : 1;
   }
 
   void run() {
-    for (std::size_t n = 1; n < poses_.size() && !context_.stop(); ++n) {
+    while (std::count(fixed_.begin(), fixed_.end(), 0) > 0 && !context_.stop()) {
       std::size_t best = 0;
       double most = -1;
       for (std::size_t k = 1; k < poses_.size(); ++k)

@@ -42,6 +42,7 @@ struct FaceModel {
   Landmarks landmarks{};
   ModelQuality quality;
   Backdrop backdrop;              // shown behind the face, nothing else
+  int poses_left_out = 0;         // of a head from several: they did not fit the others
   std::optional<Error> unjudged;  // why it is not known to be a face; then it may be looked at, not enrolled
 };
 

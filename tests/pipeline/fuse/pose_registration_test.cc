@@ -213,6 +213,23 @@ TEST_F(Poses, ThatMeetNothingAreNamed) {
   EXPECT_EQ(found.error().where(), "pair 2");
 }
 
+TEST_F(Poses, ThatFitNoneOfTheOthersAreLeftOut) {
+  show({{0, 0}, {25, 0}, {-25, 0}});
+  const auto both = registered();
+  ASSERT_TRUE(both);
+  show({{0, 0}, {25, 0}, {-25, 0}});
+  for (Vec3f& at : poses_[1].at_mm) at.z += 25 * std::sin(at.x / 6);  // something else
+  const auto found = registered();
+  ASSERT_TRUE(found);
+  EXPECT_TRUE(found->poses[0].joined);
+  EXPECT_FALSE(found->poses[1].joined);
+  EXPECT_TRUE(found->poses[2].joined);
+  EXPECT_TRUE(std::ranges::all_of(poses_[1].trust, [](float t) { return t == 0; }));
+  for (std::size_t i = 0; i < 9; ++i)
+    EXPECT_NEAR(found->poses[2].first_from_pose.rotation.m[i], both->poses[2].first_from_pose.rotation.m[i],
+                0.002);
+}
+
 TEST_F(Poses, NeedAHeadInTheFirst) {
   show({{0, 0}, {25, 0}});
   poses_[0].has_head = false;

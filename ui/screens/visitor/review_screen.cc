@@ -17,6 +17,10 @@ constexpr double kSharp = 0.25;  // of the photographed texels
 const char* quality(const Page& page, bool& good) {
   good = true;
   if (page.view.model == nullptr) return "";
+  if (page.view.model->poses_left_out > 0) {
+    good = false;
+    return page.tr("One side did not fit and was left out. Another picture, held stiller, can have it.");
+  }
   const pipeline::ModelQuality& q = page.view.model->quality;
   if (q.coverage >= kWholeFace && q.texture_sharpness >= kSharp)
     return page.tr("Very good: your whole face was seen clearly.");
