@@ -2,10 +2,13 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "firmware/demo/gallery.h"
 
+#include <algorithm>
 #include <array>
 #include <deque>
+#include <limits>
 
 #include "firmware/kiosk/code/code_picture.h"
+#include "firmware/service/statistics.h"
 #include "storage/cipher/recovery.h"
 #include "ui/device/settings.h"
 #include "ui/device/touch_view.h"
@@ -20,13 +23,44 @@ using ui::ServiceView;
 using ui::StaffPage;
 using ui::StaffRole;
 
-constexpr ui::StatisticsView kStatistics{"2026-03-02", 412, 455, 398, 371, 27, {21, 14, 9, 0, 2, 6, 5},
-                                         2.75,         4.25};
+const ui::StatisticsView& statistics_seen() {
+  static const ui::StatisticsView kSeen = [] {
+    Statistics days;
+    ui::StatisticsView seen = days.view(std::chrono::year{2026} / 3 / 14);
+    seen.since = "2026-03-02";
+    seen.visits = 412, seen.captures = 455, seen.models = 398, seen.stored = 371, seen.left = 27;
+    seen.refused = {21, 14, 9, 0, 2, 6, 5};
+    seen.median_s = 2.75, seen.slow_s = 4.25;
+    constexpr std::array<float, 13> kVisits{22, 31, 35, 28, 41, 52, 0, 30, 33, 37, 29, 44, 30},
+        kStored{19, 29, 32, 24, 38, 47, 0, 27, 30, 33, 27, 39, 26},
+        kRefused{4, 3, 6, 5, 2, 9, 0, 4, 3, 5, 4, 7, 5};
+    const auto last = [](const auto& from, auto& to) {
+      std::ranges::copy(from, to.end() - static_cast<std::ptrdiff_t>(from.size()));
+    };
+    last(kVisits, seen.days.visits), last(kStored, seen.days.stored), last(kRefused, seen.days.refused);
+    return seen;
+  }();
+  return kSeen;
+}
+// A warm afternoon; the disk fills, and is made room on.
+constexpr auto kDays = [] {
+  std::array<std::array<float, 144>, 2> days{};
+  for (int i = 0; i < 144; ++i) {
+    const int warm = i < 40 ? 0 : i < 90 ? i - 40 : 140 - i;
+    days[0][static_cast<std::size_t>(i)] =
+        i < 12 ? std::numeric_limits<float>::quiet_NaN()
+               : 42 + 0.5F * static_cast<float>(warm) + static_cast<float>(i * 7 % 5);
+    days[1][static_cast<std::size_t>(i)] =
+        i < 12 ? std::numeric_limits<float>::quiet_NaN() : 100000 + 63.0F * static_cast<float>(i - 12);
+  }
+  return days;
+}();
 constexpr std::array kGauges{
     ui::GaugeRow{ui::Gauge::Stages, {}, 311, 960, Mood::Good},
     ui::GaugeRow{ui::Gauge::Process, {}, 894, 1536, Mood::Good},
-    ui::GaugeRow{ui::Gauge::Disk, {}, 108320, 119000, Mood::Warn},
-    ui::GaugeRow{ui::Gauge::Temperature, "x86_pkg_temp", 61, 0, Mood::Good},
+    ui::GaugeRow{ui::Gauge::Disk, {}, 108320, 119000, Mood::Warn, kDays[1]},
+    ui::GaugeRow{ui::Gauge::Temperature, "x86_pkg_temp", 44, 90, Mood::Good, kDays[0]},
+    ui::GaugeRow{ui::Gauge::Temperature, "acpitz", 41, 90, Mood::Good},
 };
 constexpr std::string_view kAway = "the camera is away: check its plug; it is tried again by itself",
                            kSlow = "took longer than its limit: try again";
@@ -208,7 +242,7 @@ void add_records(std::deque<Shown>& all) {
 
 void add_figures(std::deque<Shown>& all) {
   ServiceView statistics = at(StaffRole::Operator);
-  statistics.statistics = &kStatistics;
+  statistics.statistics = &statistics_seen();
   all.push_back({"staff_statistics", StaffPage::Statistics, 0, statistics});
   ServiceView health = at(StaffRole::Technician);
   health.health = &kHealth;

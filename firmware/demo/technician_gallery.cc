@@ -60,6 +60,8 @@ ui::TechnicianResult made_up_result() {
   r.rule_count = 3;
   for (std::size_t i = 0; i < 3; ++i) r.rules[i] = {kRules[i], kColours[i], kRejected[i]};
   r.median_sigma_mm = 0.061F;
+  r.sigma_percent = {0,    1,    14,   29,   22,   13,   8, 4, 3, 2, 1, 1,   0.5F,
+                     0.5F, 0.4F, 0.2F, 0.1F, 0.1F, 0.1F, 0, 0, 0, 0, 0, 0.1F};
   r.coverage = 0.957F;
   r.epipolar_px = 0.082F;
   r.photo_correlation = 0.972F;
@@ -178,7 +180,9 @@ ui::TechnicianCalibration calibrated(const ui::ViewState& review, bool running) 
   static const std::vector<std::string> kGood{
       "all figures are good: reprojection error 0.021 px; epipolar error 0.018 px on views not used; at 560 mm depth is uncertain by 0.094 mm and was found within 0.061 mm of "
       "where the known squares put it; lengths are uncertain by 0.0113 %"};
-  if (!running) c.reasons = kGood;
+  static constexpr std::array kViews{0.018F, 0.022F, 0.019F, 0.031F, 0.017F, 0.02F,
+                                     0.016F, 0.021F, 0.024F, 0.018F, 0.019F};
+  if (!running) c.reasons = kGood, c.views_px = kViews;
   c.history[0] = {4, true, "2026-03-12 09:14", "", 0.022F, 0.097F};
   c.history[1] = {3, false, "2026-01-30 16:40", "", 0.025F, 0.11F};
   c.history_count = 2;
@@ -198,6 +202,8 @@ ui::TechnicianCalibration refused(const ui::ViewState& review) {
   c.rms_px = 0.41F;
   c.baseline_mm = 102.11F;
   c.reasons = kReasons;
+  static constexpr std::array kDoubted{0.31F, 0.44F, 0.29F, 0.62F, 0.35F};
+  c.views_px = kDoubted;
   return c;
 }
 

@@ -56,6 +56,8 @@ class PageController {
   virtual void ask(const ui::StaffRequest&) {}
   virtual void show(ui::ServiceView& view) = 0;
   virtual void closed() {}
+  // While nobody is visiting, whether the page is open or not.
+  virtual void turn() {}
 
  protected:
   PageServices& services() { return services_; }

@@ -3,6 +3,7 @@
 #include "firmware/service/statistics.h"
 
 #include <algorithm>
+#include <cstdio>
 #include <sstream>
 
 namespace relievo::firmware {
@@ -48,30 +49,46 @@ ui::Refusal refusal_of(const Error& error) {
 
 }  // namespace
 
-void Statistics::noted(const Change& change, const Error* problem, std::chrono::nanoseconds total) {
+// The days between the newest and this one had nobody.
+void Statistics::turn_to(std::chrono::sys_days today) {
+  const auto on = std::clamp<std::int64_t>((today - newest_).count(), 0, ui::kStatisticsDays);
+  std::shift_left(days_.begin(), days_.end(), static_cast<std::ptrdiff_t>(on));
+  std::fill(days_.end() - static_cast<std::ptrdiff_t>(on), days_.end(), Day{});
+  newest_ = std::max(newest_, today);
+}
+
+void Statistics::noted(const Change& change, const Error* problem, std::chrono::nanoseconds total,
+                       std::chrono::sys_days today) {
+  turn_to(today);
+  Day& day = days_.back();
   const auto count = [this](std::uint64_t& number) { ++number, ++changes_; };
+  const auto count_today = [&](std::uint64_t& number, std::uint64_t& of_day) { count(number), ++of_day; };
   const bool refused = is_visit(change.from) && change.from != State::Review &&
                        (change.event == Event::AdviceGiven || change.event == Event::StageFailed ||
                         change.event == Event::Failed || change.event == Event::Timeout);
-  if (change.from == State::Idle && is_visit(change.to)) count(visits_);
+  if (change.from == State::Idle && is_visit(change.to)) count_today(visits_, day.visits);
   if (change.from == State::Capture && (change.event == Event::Triggered || change.event == Event::TurnAsked))
     count(captures_);
   if (change.to == State::Review && (change.from == State::Assemble || change.from == State::Fuse)) {
     count(models_);
     ++times_[std::min(kSteps - 1, static_cast<std::size_t>(total / kStep))];
   }
-  if (change.from == State::Store && change.event == Event::StageDone) count(stored_);
+  if (change.from == State::Store && change.event == Event::StageDone) count_today(stored_, day.stored);
   if (is_visit(change.from) && change.to == State::Idle) count(left_);
   if (refused && change.from != State::Position)
-    count(refused_[static_cast<std::size_t>(problem != nullptr ? refusal_of(*problem) : ui::Refusal::Other)]);
+    count_today(
+        refused_[static_cast<std::size_t>(problem != nullptr ? refusal_of(*problem) : ui::Refusal::Other)],
+        day.refused);
 }
 
 std::string Statistics::text() const {
   std::ostringstream out;
-  out << "1 " << since_ << ' ' << visits_ << ' ' << captures_ << ' ' << models_ << ' ' << stored_ << ' '
+  out << "2 " << since_ << ' ' << visits_ << ' ' << captures_ << ' ' << models_ << ' ' << stored_ << ' '
       << left_;
   for (const std::uint64_t n : refused_) out << ' ' << n;
   for (const std::uint64_t n : times_) out << ' ' << n;
+  out << ' ' << newest_.time_since_epoch().count();
+  for (const Day& day : days_) out << ' ' << day.visits << ' ' << day.stored << ' ' << day.refused;
   return out.str();
 }
 
@@ -83,7 +100,13 @@ bool Statistics::read(std::string_view text) {
       seen.left_;
   for (std::uint64_t& n : seen.refused_) in >> n;
   for (std::uint64_t& n : seen.times_) in >> n;
-  if (!in || version != "1") return false;
+  if (version == "2") {  // the first version knew no days
+    std::int64_t newest = 0;
+    in >> newest;
+    seen.newest_ = std::chrono::sys_days(std::chrono::days(newest));
+    for (Day& day : seen.days_) in >> day.visits >> day.stored >> day.refused;
+  }
+  if (!in || (version != "1" && version != "2")) return false;
   *this = seen;
   return true;
 }
@@ -101,16 +124,23 @@ double Statistics::seconds_within(double share) const {
   return std::chrono::duration<double>(kStep * (static_cast<int>(step) + 1)).count();
 }
 
-ui::StatisticsView Statistics::view() const {
-  return {since_,
-          visits_,
-          captures_,
-          models_,
-          stored_,
-          left_,
-          refused_,
-          seconds_within(0.5),
-          seconds_within(0.9)};
+ui::StatisticsView Statistics::view(std::chrono::sys_days today) const {
+  Statistics now = *this;
+  now.turn_to(today);
+  ui::StatisticsView view{
+      since_, visits_, captures_, models_, stored_, left_, refused_, seconds_within(0.5), seconds_within(0.9),
+      {}};
+  for (std::size_t i = 0; i < ui::kStatisticsDays; ++i) {
+    const std::chrono::year_month_day date(
+        now.newest_ - std::chrono::days(static_cast<std::int64_t>(ui::kStatisticsDays - 1 - i)));
+    std::snprintf(view.days.date[i].data(), view.days.date[i].size(), "%04u-%02u-%02u",
+                  static_cast<unsigned>(static_cast<int>(date.year())) % 10000U,
+                  static_cast<unsigned>(date.month()) % 100U, static_cast<unsigned>(date.day()) % 100U);
+    view.days.visits[i] = static_cast<float>(now.days_[i].visits);
+    view.days.stored[i] = static_cast<float>(now.days_[i].stored);
+    view.days.refused[i] = static_cast<float>(now.days_[i].refused);
+  }
+  return view;
 }
 
 }  // namespace relievo::firmware

@@ -56,7 +56,8 @@ class StatisticsController final : public PageController {
  public:
   using PageController::PageController;
   void show(ui::ServiceView& view) override {
-    view_ = services().statistics.view();
+    view_ = services().statistics.view(
+        std::chrono::floor<std::chrono::days>(services().device.clock().wall_now()));
     view.statistics = &view_;
   }
 

@@ -107,7 +107,8 @@ void StaffController::noted(const Change& change) {
   const auto& problem = parts_.appliance.problem();
   const bool wrong = change.event == Event::Failed || change.event == Event::StageFailed ||
                      change.event == Event::AdviceGiven || change.event == Event::Timeout;
-  statistics_.noted(change, problem ? &*problem : nullptr, total);
+  statistics_.noted(change, problem ? &*problem : nullptr, total,
+                    std::chrono::floor<std::chrono::days>(parts_.device.clock().wall_now()));
   if (wrong && problem) log_.fault(*problem);
 }
 
@@ -178,7 +179,11 @@ void StaffController::turn() {
     log_.say(ui::LogEvent::SignedOut);
   }
   if (test_capture_ != nullptr) test_capture_->turn();
-  if (state == State::Idle || state == State::Staff) save_what_changed();
+  if (state == State::Idle || state == State::Staff) {
+    save_what_changed();
+    for (const auto& page : pages_)
+      if (page != nullptr) page->turn();
+  }
   if (state == State::Idle) retention_.turn(settings());
 }
 

@@ -220,6 +220,7 @@ void CalibrationController::begun() {
   running_ = true;
   ended_ = stored_ = false;
   reasons_.clear();
+  views_px_.clear();
   problem_ = {};
 }
 
@@ -232,7 +233,12 @@ void CalibrationController::ended() {
   }
   ended_ = parts_.job.result().has_value();
   if (!ended_) return;
-  reasons_ = parts_.job.result()->quality.reasons;
+  const pipeline::CalibrationQuality& quality = parts_.job.result()->quality;
+  reasons_ = quality.reasons;
+  for (const pipeline::ViewQuality& view : quality.views)
+    if (view.used)
+      views_px_.push_back(
+          static_cast<float>(std::hypot(view.left_rms_px, view.right_rms_px) / std::sqrt(2.0)));
 }
 
 void CalibrationController::load_history() {
@@ -339,6 +345,7 @@ ui::TechnicianCalibration CalibrationController::view() {
   view.ended = ended_;
   view.stored = stored_;
   view.reasons = reasons_;
+  view.views_px = views_px_;
   view.problem = problem_;
   view.exported = exported_;
   if (ended_) {

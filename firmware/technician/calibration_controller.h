@@ -123,6 +123,7 @@ class CalibrationController {
   ui::Fault problem_;
   std::string exported_;  // the folder on the stick
   std::vector<std::string> reasons_;
+  std::vector<float> views_px_;
   std::vector<Row> history_;
   bool busy_ = false;  // the keeper is at it
 };

@@ -82,6 +82,7 @@ struct TechnicianCalibration {
   float error_mm = 0, goal_mm = 0;  // predicted, of distances, one standard deviation
   TechnicianVerdict verdict = TechnicianVerdict::None;
   float depth_error_mm = 0, rms_px = 0, baseline_mm = 0;
+  std::span<const float> views_px;  // disagreement with the board, each view of the fit; rms of both cameras
   std::span<const std::string> reasons;  // why it is good, doubted or refused, most important first; English
   std::string_view exported;             // the folder on the stick; empty: none was
   Fault problem;                         // what went wrong

@@ -34,6 +34,9 @@ struct TechnicianRule {
   std::uint64_t rejected = 0;
 };
 
+inline constexpr std::size_t kSigmaBins = 25;
+inline constexpr float kSigmaBinMm = 0.02F;
+
 // What a set of algorithms made of the capture.
 struct TechnicianResult {
   bool there = false;
@@ -48,9 +51,12 @@ struct TechnicianResult {
   std::array<TechnicianRule, kTechnicianRules> rules{};
   std::size_t rule_count = 0;
   float median_sigma_mm = 0, coverage = 0;  // 0: no model
-  float epipolar_px = -1;                   // rms disagreement of the rows; below 0: not measured
-  float photo_correlation = 0;              // median, of the right view predicted through the model
-  std::uint64_t photo_windows = 0;          // that it is the median of; 0: not measured
+  // Percent of the measured vertices whose uncertainty lies in each bin of kSigmaBinMm; the last takes the
+  // rest.
+  std::array<float, kSigmaBins> sigma_percent{};
+  float epipolar_px = -1;           // rms disagreement of the rows; below 0: not measured
+  float photo_correlation = 0;      // median, of the right view predicted through the model
+  std::uint64_t photo_windows = 0;  // that it is the median of; 0: not measured
 };
 
 // A place that was touched, and its partner.

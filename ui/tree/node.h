@@ -45,6 +45,15 @@ struct Box {
   bool shadow = false;
 };
 
+// A rectangle that is drawn on a node: shares of the node's. A line has no width or no height, but
+// `thick_px`.
+struct Spot {
+  Rect place;
+  Colour colour;
+  float thick_px = 0;
+  bool round = false;
+};
+
 struct Node {
   std::string_view id;
   std::string_view name;   // spoken; empty: the text
@@ -73,6 +82,7 @@ struct Node {
   bool covers = false;    // the picture fills its box and is cut; else it is seen whole
   float share = 1, line_px = 0;
   float covered_px = 0;  // of a Face, at its lower end: the model stands in the middle of the rest
+  std::uint32_t first_spot = 0, spots = 0;  // of the tree's
   std::int32_t parent = -1, first_child = -1, last_child = -1, next = -1;
   Rect rect;  // set by layout()
   Rect clip;

@@ -253,9 +253,28 @@ void Tree::paint_node(DrawList& list, const Node& node, TextEngine& text, const 
   const bool pressed = !node.id.empty() && touches(hands, node);
   if (node.mark == Mark::Shape) paint_box(list, node, pressed, unit);
   else paint_picture(list, node);
+  paint_spots(list, node);
   if (pressed && node.hold && hands.held > 0) paint_held(list, node, hands.held, right_to_left_, unit);
   if (!node.text.empty()) paint_text(list, node, text, right_to_left_);
   paint_scroll_bar(list, node, hands, right_to_left_, unit);
+}
+
+void Tree::paint_spots(DrawList& list, const Node& node) const {
+  for (std::uint32_t i = 0; i < node.spots; ++i) {
+    const Spot& spot = spots_[node.first_spot + i];
+    const float across = spot.place.w > 0 ? 0 : spot.thick_px, down = spot.place.h > 0 ? 0 : spot.thick_px;
+    Command c;
+    c.mark = spot.round ? Mark::Shape : Mark::Flat;
+    c.rect = {node.rect.x + spot.place.x * node.rect.w - across / 2,
+              node.rect.y + spot.place.y * node.rect.h - down / 2, spot.place.w * node.rect.w + across,
+              spot.place.h * node.rect.h + down};
+    if (across > 0) c.rect.x = std::round(c.rect.x);  // a thin line between two pixels would be seen as none
+    if (down > 0) c.rect.y = std::round(c.rect.y);
+    c.clip = node.clip;
+    c.fill = c.fill_end = spot.colour;
+    if (spot.round) c.radius = std::min(c.rect.w, c.rect.h) / 2;
+    list.commands.push_back(c);
+  }
 }
 
 bool Tree::touches(const Interaction& hands, const Node& node) { return hands.pressed == node.id; }

@@ -30,6 +30,7 @@ Tree::Tree() : strings_(kStringBytes) {
 
 void Tree::begin(bool right_to_left) {
   nodes_.clear();
+  spots_.clear();
   open_.clear();
   strings_used_ = 0;
   right_to_left_ = right_to_left;
@@ -42,6 +43,12 @@ std::string_view Tree::keep(std::string_view text) {
   text.copy(to, text.size());
   strings_used_ += text.size();
   return {to, text.size()};
+}
+
+void Tree::mark(const Spot& spot) {
+  Node& node = nodes_.back();
+  if (node.spots++ == 0) node.first_spot = static_cast<std::uint32_t>(spots_.size());
+  spots_.push_back(spot);
 }
 
 Node& Tree::leaf(const Node& node) {

@@ -38,6 +38,8 @@ class Tree {
   void close();
   Node& leaf(const Node& node);
   std::string_view keep(std::string_view text);
+  // On the newest node, over what was drawn on it before.
+  void mark(const Spot& spot);
 
   void layout(const Rect& screen, TextEngine& text, const Interaction& hands);
   void paint(DrawList& list, TextEngine& text, const Interaction& hands, Colour focus, float unit) const;
@@ -71,9 +73,11 @@ class Tree {
   bool takes_focus(std::size_t index) const;
   void paint_node(DrawList& list, const Node& node, TextEngine& text, const Interaction& hands,
                   float unit) const;
+  void paint_spots(DrawList& list, const Node& node) const;
   static bool touches(const Interaction& hands, const Node& node);
 
   std::vector<Node> nodes_;
+  std::vector<Spot> spots_;
   std::vector<std::int32_t> open_;
   std::vector<char> strings_;
   std::size_t strings_used_ = 0;

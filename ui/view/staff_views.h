@@ -22,11 +22,20 @@ namespace relievo::ui {
 enum class Refusal : std::uint8_t { NoFace, TooFewMatches, PoorGeometry, Memory, Camera, Slow, Other, Count };
 inline constexpr std::size_t kRefusals = static_cast<std::size_t>(Refusal::Count);
 
+inline constexpr std::size_t kStatisticsDays = 29;  // four weeks and today
+
+// Of each day, the last is today. Whole numbers; dates are "2026-03-02".
+struct DayCounts {
+  std::array<std::array<char, 11>, kStatisticsDays> date{};
+  std::array<float, kStatisticsDays> visits{}, stored{}, refused{};
+};
+
 struct StatisticsView {
   std::string_view since;  // a date
   std::uint64_t visits = 0, captures = 0, models = 0, stored = 0, left = 0;
   std::array<std::uint64_t, kRefusals> refused{};
   double median_s = 0, slow_s = 0;  // from the pictures to the model: half, nine of ten are faster
+  DayCounts days{};
 };
 
 // What has been noted. Of an event or a fault that this version does not know only the text is shown.
@@ -45,8 +54,9 @@ enum class Gauge : std::uint8_t { Stages, Process, Disk, Temperature };
 struct GaugeRow {
   Gauge gauge = Gauge::Process;
   std::string_view name;    // of a sensor; empty: the gauge's own
-  double used = 0, of = 0;  // MiB, or degrees Celsius
+  double used = 0, of = 0;  // MiB, or degrees Celsius; of: what it should stay below, 0 for not known
   Mood mood = Mood::Plain;
+  std::span<const float> day{};  // the last 24 hours, as `used`, evenly; NaN: not known. Empty: not kept
 };
 
 struct HealthView {

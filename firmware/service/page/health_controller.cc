@@ -4,6 +4,8 @@
 
 #include <algorithm>
 #include <fstream>
+#include <functional>
+#include <limits>
 #include <memory>
 
 #include "firmware/report/report.h"
@@ -44,7 +46,8 @@ void HealthController::opened() {
   look();
 }
 
-void HealthController::closed() { open_ = false; }
+// What is under way is forgotten with the page.
+void HealthController::closed() { open_ = looking_ = false; }
 
 void HealthController::look() {
   looking_ = true;
@@ -67,7 +70,24 @@ void HealthController::look() {
         if (error) return services().log.fault(*error);
         seen_ = std::move(*seen);
         ready_ = true;
-      });
+        keep();
+      },
+      open_ ? SideTasks::Whose::Page : SideTasks::Whose::Device);
+}
+
+void HealthController::turn() {
+  if (!looking_ && services().device.clock().now() >= next_kept_ &&
+      !services().side_tasks.busy(JobLane::Keeper))
+    look();
+}
+
+void HealthController::keep() {
+  const hal::Instant now = services().device.clock().now();
+  if (now < next_kept_) return;
+  next_kept_ = now + DayRing::kEvery;
+  const auto hottest = std::ranges::max_element(seen_.sensors, {}, &Sensor::celsius);
+  hottest_.add(hottest != seen_.sensors.end() ? hottest->celsius : std::numeric_limits<double>::quiet_NaN());
+  disk_.add(seen_.disk_used_mib);
 }
 
 // Of the last capture: the arenas are swept between two people, their high-water marks are not names.
@@ -86,12 +106,16 @@ void HealthController::add_seen() {
                    {},
                    seen_.disk_used_mib,
                    seen_.disk_mib,
-                   mood_of(seen_.disk_used_mib, seen_.disk_mib)});
+                   mood_of(seen_.disk_used_mib, seen_.disk_mib),
+                   disk_.values()});
+  // The hottest with its day, then the others.
+  std::ranges::stable_sort(seen_.sensors, std::greater{}, &Sensor::celsius);
   for (const Sensor& sensor : seen_.sensors) {
     const ui::Mood mood = sensor.celsius >= kHot    ? ui::Mood::Bad
                           : sensor.celsius >= kWarm ? ui::Mood::Warn
                                                     : ui::Mood::Good;
-    rows_.push_back({ui::Gauge::Temperature, sensor.name, sensor.celsius, 0, mood});
+    rows_.push_back({ui::Gauge::Temperature, sensor.name, sensor.celsius, kHot, mood,
+                     &sensor == seen_.sensors.data() ? hottest_.values() : std::span<const float>()});
   }
 }
 

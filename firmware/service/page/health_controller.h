@@ -3,9 +3,13 @@
 //
 // Behind the page of health: the memory plan (budget.h) against what was used at most, the disk's room,
 // temperatures where the kernel tells them (/sys/class/thermal), the last faults. Looked at anew every
-// two seconds, on the keeper: a disk or a sensor may be slow. Thread: main.
+// two seconds, on the keeper: a disk or a sensor may be slow; while the page is closed every ten minutes, so
+// that it can show the last day. Thread: main.
 #pragma once
 
+#include <algorithm>
+#include <array>
+#include <limits>
 #include <string>
 #include <vector>
 
@@ -21,12 +25,29 @@ struct Sensor {
 // All of `thermal` (/sys/class/thermal); none where there are none.
 std::vector<Sensor> read_temperatures(const std::filesystem::path& thermal);
 
+// The last 24 hours of a figure, from the start on. The newest stands at the end.
+class DayRing {
+ public:
+  static constexpr std::chrono::minutes kEvery{10};
+  static constexpr std::size_t kKept = std::chrono::hours(24) / kEvery;
+  DayRing() { all_.fill(std::numeric_limits<float>::quiet_NaN()); }
+  void add(double value) {
+    std::shift_left(all_.begin(), all_.end(), 1);
+    all_.back() = static_cast<float>(value);
+  }
+  std::span<const float> values() const { return all_; }
+
+ private:
+  std::array<float, kKept> all_;
+};
+
 class HealthController final : public PageController {
  public:
   using PageController::PageController;
   void opened() override;
   void show(ui::ServiceView& view) override;
   void closed() override;
+  void turn() override;
 
  private:
   struct Seen {
@@ -38,8 +59,11 @@ class HealthController final : public PageController {
   void add_seen();
 
   bool open_ = false, looking_ = false;
-  hal::Instant next_look_{};
+  hal::Instant next_look_{}, next_kept_{};
+  void keep();
+
   Seen seen_;
+  DayRing hottest_, disk_;
   bool ready_ = false;
   std::vector<ui::GaugeRow> rows_;
   std::vector<LogEntry> faults_;

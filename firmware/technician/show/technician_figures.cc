@@ -21,6 +21,18 @@ std::string difference_of(const pipeline::AlgorithmSet& set) {
   return text;
 }
 
+std::array<float, ui::kSigmaBins> sigma_percent(const pipeline::FaceMesh& mesh) {
+  std::array<float, ui::kSigmaBins> share{};
+  float measured = 0;
+  for (std::size_t i = 0; i < std::min(mesh.sigma_mm.size(), mesh.measured.size()); ++i) {
+    if (mesh.measured[i] == 0) continue;
+    const float bin = std::clamp(mesh.sigma_mm[i] / ui::kSigmaBinMm, 0.0F, ui::kSigmaBins - 1.0F);
+    ++share[static_cast<std::size_t>(bin)], ++measured;
+  }
+  for (float& one : share) one *= measured > 0 ? 100 / measured : 0;
+  return share;
+}
+
 void TechnicianFigures::begin(const pipeline::AlgorithmSet& set, const std::string& name) {
   forget();
   name_ = name;
@@ -60,6 +72,7 @@ Result<void> TechnicianFigures::measure(const Products& products, pipeline::Stag
     result_.epipolar_px = static_cast<float>(products.matches->epipolar_shift.residual_px);
   if (!products.model) return {};
   result_.median_sigma_mm = static_cast<float>(products.model->quality.median_sigma_mm);
+  result_.sigma_percent = sigma_percent(products.model->mesh);
   result_.coverage = static_cast<float>(products.model->quality.coverage);
   return pipeline::run_stage(context, [&](pipeline::StageContext& c) -> Result<void> {
     Arena::Mark mark(c.output);

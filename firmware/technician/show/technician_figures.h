@@ -22,6 +22,9 @@ namespace relievo::firmware {
 // What differs from the default, one "key = value" a line.
 std::string difference_of(const pipeline::AlgorithmSet& set);
 
+// How uncertain the measured vertices are, as TechnicianResult has it.
+std::array<float, ui::kSigmaBins> sigma_percent(const pipeline::FaceMesh& mesh);
+
 class TechnicianFigures {
  public:
   // `name`: of the capture.

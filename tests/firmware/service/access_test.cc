@@ -8,6 +8,7 @@
 #include <gtest/gtest.h>
 
 #include <memory>
+#include <numeric>
 #include <optional>
 #include <string>
 
@@ -111,23 +112,24 @@ TEST_F(AccessTest, WeakSharedAndOddPinsAreRefused) {
 }
 
 TEST(Statistics, CountsWhatBecameOfEveryVisitAndComesBackFromItsText) {
+  const std::chrono::sys_days first = std::chrono::year{2026} / 3 / 2, later = first + std::chrono::days(3);
   Statistics counts;
   counts.begin("2026-03-02");
   const Error refused{Errc::TooFewMatches, "as the test says"};
   const auto seconds_of = [](double s) {
     return std::chrono::nanoseconds(static_cast<std::int64_t>(s * 1e9));
   };
-  counts.noted({State::Idle, Event::PoseAsked, State::Position}, nullptr, {});
-  counts.noted({State::Capture, Event::Triggered, State::Match}, nullptr, {});
-  counts.noted({State::Match, Event::AdviceGiven, State::Position}, &refused, {});
-  counts.noted({State::Capture, Event::Triggered, State::Match}, nullptr, {});
-  counts.noted({State::Assemble, Event::StageDone, State::Review}, nullptr, seconds_of(2.6));
-  counts.noted({State::Store, Event::StageDone, State::Idle}, nullptr, {});
-  counts.noted({State::Idle, Event::PoseAsked, State::Position}, nullptr, {});
-  counts.noted({State::Position, Event::Cancel, State::Idle}, nullptr, {});
+  counts.noted({State::Idle, Event::PoseAsked, State::Position}, nullptr, {}, first);
+  counts.noted({State::Capture, Event::Triggered, State::Match}, nullptr, {}, first);
+  counts.noted({State::Match, Event::AdviceGiven, State::Position}, &refused, {}, first);
+  counts.noted({State::Capture, Event::Triggered, State::Match}, nullptr, {}, first);
+  counts.noted({State::Assemble, Event::StageDone, State::Review}, nullptr, seconds_of(2.6), first);
+  counts.noted({State::Store, Event::StageDone, State::Idle}, nullptr, {}, first);
+  counts.noted({State::Idle, Event::PoseAsked, State::Position}, nullptr, {}, later);
+  counts.noted({State::Position, Event::Cancel, State::Idle}, nullptr, {}, later);
   Statistics read;
   ASSERT_TRUE(read.read(counts.text()));
-  const ui::StatisticsView seen = read.view();
+  const ui::StatisticsView seen = read.view(later);
   EXPECT_EQ(seen.since, "2026-03-02");
   EXPECT_EQ(seen.visits, 2U);
   EXPECT_EQ(seen.captures, 2U);
@@ -136,7 +138,31 @@ TEST(Statistics, CountsWhatBecameOfEveryVisitAndComesBackFromItsText) {
   EXPECT_EQ(seen.left, 1U);
   EXPECT_EQ(seen.refused[static_cast<std::size_t>(ui::Refusal::TooFewMatches)], 1U);
   EXPECT_DOUBLE_EQ(seen.median_s, 2.75);
+  // Each day by itself, those without anybody between them; the last is today.
+  const auto day = [](const auto& values, std::size_t ago) { return values[ui::kStatisticsDays - 1 - ago]; };
+  EXPECT_EQ(day(seen.days.visits, 3), 1);
+  EXPECT_EQ(day(seen.days.stored, 3), 1);
+  EXPECT_EQ(day(seen.days.refused, 3), 1);
+  EXPECT_EQ(day(seen.days.visits, 2), 0);
+  EXPECT_EQ(day(seen.days.visits, 0), 1);
+  EXPECT_EQ(day(seen.days.stored, 0), 0);
+  EXPECT_STREQ(day(seen.days.date, 3).data(), "2026-03-02");
+  EXPECT_STREQ(day(seen.days.date, 0).data(), "2026-03-05");
+  const ui::StatisticsView a_month_on = read.view(later + std::chrono::days(26));
+  EXPECT_EQ(day(a_month_on.days.visits, 26), 1);
+  EXPECT_EQ(std::accumulate(a_month_on.days.visits.begin(), a_month_on.days.visits.end(), 0.0F), 1)
+      << "what is older is in the sum alone";
+  EXPECT_EQ(a_month_on.visits, 2U);
+  EXPECT_EQ(day(read.view(first).days.visits, 0), 1) << "a clock that was set back changes no day";
   EXPECT_FALSE(Statistics().read("1 2026-03-02 7"));
+  EXPECT_FALSE(Statistics().read(counts.text().substr(0, counts.text().size() - 6)));
+  // As the first version wrote it: without days.
+  std::string old = "1 2026-03-02 2 2 1 1 1";
+  for (std::size_t i = 0; i < ui::kRefusals + 128; ++i) old += " 0";
+  ASSERT_TRUE(read.read(old));
+  EXPECT_EQ(read.view(later).visits, 2U);
+  EXPECT_EQ(day(read.view(later).days.visits, 0), 0);
+  EXPECT_STREQ(day(read.view(later).days.date, 0).data(), "2026-03-05");
 }
 
 }  // namespace

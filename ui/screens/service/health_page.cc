@@ -2,6 +2,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 //
 // The memory plan against what was really used, disk, temperatures, the last faults.
+#include <algorithm>
+#include <array>
 #include <cstdio>
 
 #include "ui/screens/service/staff_pages.h"
@@ -26,10 +28,31 @@ const char* words_of(const Words& tr, Gauge gauge) {
   return "";
 }
 
+constexpr std::size_t kMostSamples = 256;
+
+// What was kept over a day, in the unit of its row.
+void over_a_day(StaffFrame& page, const GaugeRow& row, Plot plot, bool gib) {
+  std::array<float, kMostSamples> values;
+  const std::size_t count = std::min(values.size(), row.day.size());
+  for (std::size_t i = 0; i < count; ++i) values[i] = gib ? row.day[i] / 1024 : row.day[i];
+  plot.values = {values.data(), count};
+  plot.look = PlotLook::Line;
+  plot.unit = row.gauge == Gauge::Temperature ? "°C" : gib ? "GiB" : "MiB";
+  plot.limit = static_cast<float>(gib ? row.of / 1024 : row.of);
+  std::array<std::string_view, kMostSamples> hours;
+  for (std::size_t i = 0; i < count; ++i)
+    hours[i] = page.number(-24 * static_cast<double>(count - 1 - i) / static_cast<double>(count), 1, "h");
+  plot.names = {hours.data(), count};
+  plot.under = {page.number(-24, 0, "h"), page.number(-12, 0, "h"), page.tr("Now")};
+  plot.figure_ink = page.ink_of(row.mood);
+  plot.figure_sign = page.sign_of(row.mood);
+  page.plot(plot);
+}
+
 void gauge_row(StaffFrame& page, const GaugeRow& row, std::size_t index) {
   char text[64]{};
-  if (row.of < kManyMib)
-    std::snprintf(text, sizeof text, "\u2066%.0f\u00a0/\u00a0%.0f\u00a0MiB\u2069", row.used, row.of);
+  const bool gib = row.of >= kManyMib;
+  if (!gib) std::snprintf(text, sizeof text, "\u2066%.0f\u00a0/\u00a0%.0f\u00a0MiB\u2069", row.used, row.of);
   else
     std::snprintf(text, sizeof text, "\u2066%.0f\u00a0/\u00a0%.0f\u00a0GiB\u2069", row.used / 1024,
                   row.of / 1024);
@@ -40,8 +63,12 @@ void gauge_row(StaffFrame& page, const GaugeRow& row, std::size_t index) {
   char
       named[160];  // the words outside of any isolate: they tell the direction, also in front of a Latin name
   std::snprintf(named, sizeof named, "%s ({})", words);
-  page.row({id.data(), id.size() + which.size()},
-           row.name.empty() ? std::string_view(words) : page.filled(named, {row.name}), value, row.mood);
+  Plot plot;
+  plot.id = {id.data(), id.size() + which.size()};
+  plot.title = row.name.empty() ? std::string_view(words) : page.filled(named, {row.name});
+  plot.figure = value;
+  if (!row.day.empty()) return over_a_day(page, row, plot, gib);
+  page.row(plot.id, plot.title, value, row.mood);
 }
 
 }  // namespace

@@ -10,6 +10,7 @@
 #include <string_view>
 
 #include "ui/screens/parts/page.h"
+#include "ui/screens/parts/plot.h"
 #include "ui/view/service.h"
 
 namespace relievo::ui {
@@ -45,6 +46,8 @@ class StaffFrame : public Page {
   // Label, then less, the value, more; an end has no action. Ids: "ID less", "ID more".
   void stepper(std::string_view id, std::string_view label, std::string_view value, const char* less_letter,
                Action less, const char* more_letter, Action more);
+  // A series of values, as a row of a card.
+  void plot(const Plot& what);
   // A heading between rows.
   void section(std::string_view words);
   // In the middle of a card that has no rows.

@@ -121,6 +121,14 @@ void StaffFrame::stepper(std::string_view id, std::string_view label, std::strin
   rule_due_ = true;
 }
 
+void StaffFrame::plot(const Plot& what) {
+  due_rule();
+  ui::plot(*this, what, [](Page& page, double value, int decimals, const char* unit_name) {
+    return static_cast<StaffFrame&>(page).number(value, decimals, unit_name);
+  });
+  rule_due_ = true;
+}
+
 void StaffFrame::nothing(std::string_view id, const char* letter, std::string_view words) {
   Node room = grown(box(Flow::Column, space::kS, space::kL, space::kL));
   centre(room);

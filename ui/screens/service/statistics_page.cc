@@ -2,6 +2,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 //
 // How many came, what became of it, and how long it took: numbers, nobody's name.
+#include <array>
+
 #include "ui/screens/service/staff_pages.h"
 #include "ui/view/staff_views.h"
 
@@ -29,6 +31,22 @@ const char* words_of(const Words& tr, Refusal refusal) {
   return tr("Another reason");
 }
 
+void days(StaffFrame& page, const StatisticsView& seen) {
+  std::array<std::string_view, kStatisticsDays> dates;
+  for (std::size_t i = 0; i < dates.size(); ++i) dates[i] = page.date(seen.days.date[i].data());
+  std::uint64_t refused = 0;
+  for (const std::uint64_t count : seen.refused) refused += count;
+  const auto count = [&](std::string_view id, const char* title, std::uint64_t all, const auto& values) {
+    Plot plot;
+    plot.id = id, plot.title = title, plot.figure = page.number(static_cast<double>(all));
+    plot.values = values, plot.names = dates;
+    page.plot(plot);
+  };
+  count("visits", page.tr("Visits begun"), seen.visits, seen.days.visits);
+  count("stored", page.tr("Portraits kept"), seen.stored, seen.days.stored);
+  count("refused", page.tr("Refused captures"), refused, seen.days.refused);
+}
+
 }  // namespace
 
 void statistics_page(StaffFrame& page) {
@@ -41,13 +59,12 @@ void statistics_page(StaffFrame& page) {
   }
   const auto count = [&](std::uint64_t value) { return page.number(static_cast<double>(value)); };
   page.row("since", tr("Counted since"), page.date(seen->since));
-  page.row("visits", tr("Visits begun"), count(seen->visits));
   page.row("captures", tr("Captures"), count(seen->captures));
   page.row("models", tr("Portraits made"), count(seen->models));
-  page.row("stored", tr("Portraits kept"), count(seen->stored));
   page.row("left", tr("Visits left early"), count(seen->left));
-  page.section(tr("Refused captures"));
+  days(page, *seen);
   for (std::size_t i = 0; i < kRefusals; ++i) {
+    if (seen->refused[i] == 0) continue;
     const auto refusal = static_cast<Refusal>(i);
     const std::string_view id = page.tree.keep("refused "), which = page.number(static_cast<double>(i));
     page.row({id.data(), id.size() + which.size()}, words_of(tr, refusal), count(seen->refused[i]));

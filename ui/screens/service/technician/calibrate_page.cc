@@ -4,11 +4,14 @@
 // Calibration at the screen: the board and what is stored; then what the cameras see of it, what to show next
 // and how much has been seen; then the verdict in millimetres.
 #include <algorithm>
+#include <array>
 
 #include "ui/screens/service/technician/technician_frame.h"
 
 namespace relievo::ui {
 namespace {
+
+constexpr std::size_t kMostViews = 64;
 
 const char* words_of(const Words& tr, BoardAdvice advice) {
   switch (advice) {
@@ -163,6 +166,19 @@ void running(TechnicianFrame& f) {
   f.page.tree.close();
 }
 
+// A view that stands out was held badly, or seen badly.
+void views(TechnicianFrame& f) {
+  const TechnicianCalibration& c = f.view.calibration;
+  std::array<std::string_view, kMostViews> names;
+  const std::size_t count = std::min(names.size(), c.views_px.size());
+  for (std::size_t i = 0; i < count; ++i) names[i] = f.page.number(static_cast<double>(i + 1));
+  Plot plot;
+  plot.id = "rms", plot.title = f.tr("Disagreement with the board");
+  plot.figure = f.page.number(static_cast<double>(c.rms_px), 3, "px");
+  plot.values = c.views_px.first(count), plot.names = {names.data(), count}, plot.unit = "px";
+  f.page.plot(plot);
+}
+
 void verdict(TechnicianFrame& f) {
   const TechnicianCalibration& c = f.view.calibration;
   if (!c.ended) return;
@@ -178,11 +194,9 @@ void verdict(TechnicianFrame& f) {
   f.page.row("ended", words_of(f.tr, c.end), {});
   f.page.row("depth error", f.tr("Error of a face's distance"),
              f.page.number(static_cast<double>(c.depth_error_mm), 3, "mm"), mood);
-  f.page.row("rms", f.tr("Disagreement with the board"),
-             f.page.number(static_cast<double>(c.rms_px), 3, "px"));
+  views(f);
   f.page.row("baseline", f.tr("Distance of the cameras"),
              f.page.number(static_cast<double>(c.baseline_mm), 2, "mm"));
-  f.page.row("views used", f.tr("Views taken"), f.page.number(c.views));
   if (c.stored) f.page.row("stored", f.tr("Stored, and in use from now on"), {}, Mood::Good);
 }
 

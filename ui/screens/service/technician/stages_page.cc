@@ -5,6 +5,7 @@
 // point's partner and pairs are made by hand; the matches in the colours of the rules; depth, points, surface
 // with what the pairs by hand moved of it, texture.
 #include <algorithm>
+#include <array>
 #include <cmath>
 
 #include "ui/screens/service/technician/technician_frame.h"
@@ -193,6 +194,23 @@ void rule_rows(TechnicianFrame& f) {
   }
 }
 
+// How uncertain the surface is, of every hundred of its points.
+void sigma_plot(TechnicianFrame& f) {
+  const TechnicianResult& r = f.view.result;
+  if (r.coverage <= 0) return;
+  const auto mm = [&](std::size_t bin) {
+    return f.page.number(static_cast<double>(kSigmaBinMm) * static_cast<double>(bin), 2, "mm");
+  };
+  std::array<std::string_view, kSigmaBins> names;
+  for (std::size_t i = 0; i < names.size(); ++i) names[i] = mm(i);
+  Plot plot;
+  plot.id = "sigma", plot.title = f.tr("Median uncertainty");
+  plot.figure = f.page.number(static_cast<double>(r.median_sigma_mm), 3, "mm");
+  plot.values = r.sigma_percent, plot.names = names, plot.unit = "%";
+  plot.under = {mm(0), {}, mm(kSigmaBins)};
+  f.page.plot(plot);
+}
+
 void time_rows(TechnicianFrame& f) {
   const TechnicianResult& r = f.view.result;
   const char* const made[] = {f.tr("Accepted matches"), f.tr("Points"), f.tr("Triangles"), f.tr("Texels"),
@@ -212,6 +230,7 @@ void side_rows(TechnicianFrame& f) {
   }
   if (f.view.stage == TechnicianStage::Mesh) change_rows(f);
   if (f.view.stage == TechnicianStage::Matches) return rule_rows(f);
+  if (f.view.stage >= TechnicianStage::Cloud) sigma_plot(f);
   time_rows(f);
 }
 

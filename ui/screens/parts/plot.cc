@@ -1,0 +1,223 @@
+// SPDX-FileCopyrightText: 2026 The Relievo authors
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "ui/screens/parts/plot.h"
+
+#include <algorithm>
+#include <cmath>
+
+namespace relievo::ui {
+namespace {
+
+constexpr int kMostSteps = 4;
+constexpr float kHeight = 96, kLetters = 16, kBarShare = 0.8F, kLineDp = 2.5F, kLimitDp = 2;
+
+// What is known of the values: how many, the highest, the newest.
+struct Known {
+  std::size_t count = 0, highest = 0, last = 0;
+};
+Known known_of(std::span<const float> values) {
+  Known known;
+  for (std::size_t i = 0; i < values.size(); ++i) {
+    if (std::isnan(values[i])) continue;
+    if (known.count++ == 0 || values[i] > values[known.highest]) known.highest = i;
+    known.last = i;
+  }
+  return known;
+}
+
+class Drawing {
+ public:
+  Drawing(Page& on, const Plot& of, SayNumber say)
+      : page(on), what(of), number(say), scale(plot_scale(of.values, of.limit)), known(known_of(of.values)) {}
+
+  void all() {
+    Node whole = page.box(Flow::Column, 4, 0, 8);  // told as one: nobody wants to hear the axes
+    tell(whole, Role::Picture, what.id, what.title);
+    whole.value = words();
+    page.tree.open(whole);
+    head();
+    Node row = page.box(Flow::Row, 6);
+    row.box.left_to_right = true;
+    row.box.align = Align::Start;
+    page.tree.open(row);
+    upright_axis();
+    page.tree.open(page.grown(page.box(Flow::Column, 2)));
+    field();
+    level_axis();
+    page.tree.close();
+    page.tree.close();
+    page.tree.close();
+  }
+
+ private:
+  Page& page;
+  const Plot& what;
+  const SayNumber number;
+  const PlotScale scale;
+  const Known known;
+
+  float letters() const { return kLetters * page.text_share; }
+  float line_px() const { return std::round(page.px(letters()) * type::kLines.apart); }
+  float height_px() const { return page.px(kHeight) + line_px(); }
+  std::string_view said(double value) const {
+    const int more = value == std::floor(value) ? 0 : 1;
+    return number(page, value, std::max(scale.decimals(), more) + (scale.decimals() > 0 ? 1 : 0), what.unit);
+  }
+  // Numbers are as large in every language, and their lines as high.
+  Node label(std::string_view words, TextAlign align) const {
+    Node node = page.text(words, kLetters, Weight::Regular, page.palette.ink_soft, align);
+    node.style.size_px = page.px(letters());
+    node.style.language = info_of(Language::English).code;
+    node.style.tabular = true;
+    return node;
+  }
+
+  void head() {
+    Node row = page.box(Flow::Row, space::kM);
+    row.box.wrap = true;
+    page.tree.open(row);
+    page.tree.open(page.grown(page.box(Flow::Column)));
+    page.tree.leaf(page.text(what.title, type::kSmall, Weight::Medium, page.palette.ink));
+    page.tree.close();
+    const Colour ink = what.figure_ink.seen() ? what.figure_ink : page.palette.ink_soft;
+    Node end = page.box(Flow::Row, space::kXs);
+    end.box.justify = Justify::End;
+    end.box.align = Align::Centre;
+    page.tree.open(end);
+    if (what.figure_sign != nullptr) page.sign(what.figure_sign, 24, ink);
+    if (!what.figure.empty())
+      page.tree.leaf(
+          page.text(page.filled("{}", what.figure), type::kSmall, Weight::Regular, ink, TextAlign::End));
+    page.tree.close();
+    page.tree.close();
+    if (!std::isnan(what.limit))
+      page.tree.leaf(page.text(limit_words(), 18, Weight::Regular, page.palette.bad));
+  }
+  std::string_view limit_words() {
+    return page.filled(page.tr("Limit: {}"),
+                       number(page, static_cast<double>(what.limit), scale.decimals(), what.unit));
+  }
+
+  // Evenly spaced, the middle of each at its height.
+  void upright_axis() {
+    Node axis = page.box(Flow::Column);
+    axis.box.height = height_px();
+    axis.box.justify = Justify::SpaceBetween;
+    axis.box.align = Align::End;
+    page.tree.open(axis);
+    for (int i = scale.steps; i >= 0; --i)
+      page.tree.leaf(label(
+          number(page, scale.from + i * scale.step, scale.decimals(), i == scale.steps ? what.unit : ""),
+          TextAlign::End));
+    page.tree.close();
+  }
+
+  void level_axis() {
+    std::array<std::string_view, 3> under = what.under;
+    const std::size_t count = std::min(what.names.size(), what.values.size());
+    if (under[0].empty() && count > 0) {
+      under[0] = what.names.front();
+      if (count > 2 && count % 2 == 1) under[1] = what.names[count / 2];
+      if (count > 1) under[2] = what.names[count - 1];
+    }
+    Node row = page.box(Flow::Row);
+    row.box.left_to_right = true;
+    page.tree.open(row);
+    const TextAlign aligned[] = {TextAlign::Start, TextAlign::Centre, TextAlign::End};
+    for (std::size_t i = 0; i < under.size(); ++i) {
+      page.tree.open(page.grown(page.box(Flow::Column)));
+      if (!under[i].empty())
+        page.tree.leaf(label(under[i], page.mirrored() && i != 1 ? aligned[2 - i] : aligned[i]));
+      page.tree.close();
+    }
+    page.tree.close();
+  }
+
+  void field() {
+    Node room = page.box(Flow::Stack, 0, 0, 0);
+    room.box.height = height_px();
+    room.box.pad_y = std::round(line_px() / 2);
+    page.tree.open(room);
+    page.tree.leaf(page.box(Flow::Column));
+    for (int i = 0; i <= scale.steps; ++i)
+      level(scale.from + i * scale.step, i == 0 ? page.palette.ink_soft : page.palette.card_border, 1);
+    if (what.look == PlotLook::Bars) bars();
+    else line();
+    if (!std::isnan(what.limit)) level(static_cast<double>(what.limit), page.palette.bad, kLimitDp);
+    page.tree.close();
+  }
+  void level(double value, Colour colour, float dp) {
+    page.tree.mark({{0, height_of(value), 1, 0}, colour, std::max(1.0F, page.px(dp))});
+  }
+  // From the top, as a share.
+  float height_of(double value) const { return 1 - static_cast<float>(scale.share(value)); }
+  Colour colour_of(float value) const { return value > what.limit ? page.palette.bad : page.palette.accent; }
+
+  void bars() {
+    const float slot = 1 / static_cast<float>(std::max<std::size_t>(1, what.values.size())),
+                zero = height_of(0);
+    for (std::size_t i = 0; i < what.values.size(); ++i) {
+      const float value = what.values[i];
+      if (std::isnan(value) || value == 0) continue;
+      const float y = height_of(static_cast<double>(value));
+      page.tree.mark({{(static_cast<float>(i) + (1 - kBarShare) / 2) * slot, std::min(y, zero),
+                       kBarShare * slot, std::abs(zero - y)},
+                      colour_of(value),
+                      0});
+    }
+  }
+  // As steps: a value holds until the next.
+  void line() {
+    const float slot = 1 / static_cast<float>(std::max<std::size_t>(1, what.values.size())),
+                thick = std::max(1.0F, page.px(kLineDp));
+    for (std::size_t i = 0; i < what.values.size(); ++i) {
+      if (std::isnan(what.values[i])) continue;
+      const float x = static_cast<float>(i) * slot, y = height_of(static_cast<double>(what.values[i]));
+      page.tree.mark({{x, y, slot, 0}, colour_of(what.values[i]), thick});
+      if (i == 0 || std::isnan(what.values[i - 1])) continue;
+      const float before = height_of(static_cast<double>(what.values[i - 1]));
+      if (before != y)
+        page.tree.mark({{x, std::min(before, y), 0, std::abs(before - y)}, colour_of(what.values[i]), thick});
+    }
+  }
+
+  std::string_view words() {
+    if (known.count == 0) return page.tr("There is none yet");
+    const auto at = [&](std::size_t i) {
+      return i < what.names.size() ? what.names[i] : std::string_view("–");
+    };
+    std::string_view all =
+        page.filled(page.tr("Highest: {} ({})"), {said(what.values[known.highest]), at(known.highest)});
+    if (what.look == PlotLook::Line && known.count > 1)
+      all = page.filled("{}. {}: {}", {all, page.tr("Now"), said(what.values[known.last])});
+    if (!std::isnan(what.limit)) all = page.filled("{}. {}", {all, limit_words()});
+    return what.figure.empty() ? all : page.filled("{}. {}", {what.figure, all});
+  }
+};
+
+}  // namespace
+
+int PlotScale::decimals() const { return std::max(0, static_cast<int>(std::ceil(-std::log10(step) - 1e-9))); }
+
+PlotScale plot_scale(std::span<const float> values, float limit) {
+  double least = 0, most = std::isnan(limit) ? 0 : static_cast<double>(limit);
+  for (const float value : values) {
+    if (std::isnan(value)) continue;
+    least = std::min(least, static_cast<double>(value));
+    most = std::max(most, static_cast<double>(value));
+  }
+  if (most <= least) most = least + 1;
+  const double rough = (most - least) / kMostSteps, power = std::pow(10, std::floor(std::log10(rough)));
+  PlotScale scale;
+  for (const double times : {1.0, 2.0, 5.0, 10.0}) {
+    scale.step = times * power;
+    if (scale.step >= rough * (1 - 1e-6)) break;
+  }
+  scale.from = std::floor(least / scale.step + 1e-6) * scale.step;
+  scale.steps = std::max(1, static_cast<int>(std::ceil((most - scale.from) / scale.step - 1e-6)));
+  return scale;
+}
+
+void plot(Page& page, const Plot& what, SayNumber number) { Drawing(page, what, number).all(); }
+
+}  // namespace relievo::ui
