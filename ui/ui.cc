@@ -178,9 +178,50 @@ void Ui::up(const Input& input, const ViewState& view) {
     const Node* node = tree_.at(input.x, input.y);
     if (node != nullptr && !hands_.pressed.empty() && node->id == hands_.pressed && !node->hold &&
         node->dragged.kind == ActionKind::None)
-      touch(*node, node->action, input, view);
+      tap(*node, finger, input, view);
     hands_.pressed.clear();
   }
+}
+
+// A model is turned by a finger that moves; one that does not sets a point, or opens what a key opens.
+void Ui::tap(const Node& node, const Finger& finger, const Input& input, const ViewState& view) {
+  if (node.mark != Mark::Face) return touch(node, node.action, input, view);
+  if (finger.dragging) return;
+  if (node.ruled && service_.ruler.on && list_.faces[node.face].model != nullptr) {
+    const auto point = projection_on(node).touched(
+        *list_.faces[node.face].model,
+        {(input.x - node.rect.x) / node.rect.w, (input.y - node.rect.y) / node.rect.h});
+    if (point) service_.ruler.set(*point);
+    return;
+  }
+  touch(node, node.by_key.kind != ActionKind::None ? node.by_key : node.action, input, view);
+}
+
+const Node* Ui::ruled() const {
+  const auto& nodes = tree_.nodes();
+  const auto found = std::ranges::find_if(nodes, &Node::ruled);
+  return found == nodes.end() || list_.faces[found->face].model == nullptr ? nullptr : &*found;
+}
+
+FaceProjection Ui::projection_on(const Node& face) {
+  const Face& subject = list_.faces[face.face];
+  if (std::exchange(stands_, subject.version) != subject.version) stand_ = stand_of(*subject.model);
+  return {stand_, list_.face_look, face.rect.w / std::max(1.0F, face.rect.h),
+          std::min(1.0F, face.covered_px / std::max(1.0F, face.rect.h))};
+}
+
+// Where the ruler is seen is known when the page is laid out; true: elsewhere than it was drawn.
+bool Ui::follow_ruler() {
+  const Node* face = ruled();
+  if (face == nullptr) return false;
+  const FaceProjection projection = projection_on(*face);
+  FaceRuler now = service_.ruler;
+  now.width_px = face->rect.w, now.height_px = face->rect.h;
+  now.px_per_mm = projection.heights_per_mm() * face->rect.h;
+  for (std::size_t i = 0; i < now.count; ++i) now.seen[i] = projection.seen(now.points_mm[i]);
+  const bool moved = !now.stands_as(service_.ruler);
+  service_.ruler = now;
+  return moved;
 }
 
 void Ui::touch(const Node& node, Action action, const Input& input, const ViewState& view) {
@@ -279,6 +320,7 @@ void Ui::draw(const ViewState& view) {
   if (comes_to_the_end()) return draw(view);
   if (service_.open) fill_staff_pictures(list_, view, visit_, service_);
   else fill_pictures(list_, view, visit_);
+  if (follow_ruler()) return draw(view);
   // A full atlas starts anew: then what was written before it did is written again.
   for (int round = 0; round < 2; ++round) {
     const std::uint32_t generation = text_->atlas().generation();

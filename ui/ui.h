@@ -14,6 +14,7 @@
 #include <memory>
 #include <optional>
 
+#include "ui/render/face_projection.h"
 #include "ui/speech/narrator.h"
 #include "ui/text/text_engine.h"
 #include "ui/tree/tree.h"
@@ -89,8 +90,12 @@ class Ui {
   void read_on();
   bool comes_to_the_end();
   void activate(const Node& node, const ViewState& view);
+  void tap(const Node& node, const Finger& finger, const Input& input, const ViewState& view);
   void touch(const Node& node, Action action, const Input& input, const ViewState& view);
   void activate_focus(const ViewState& view);
+  const Node* ruled() const;
+  FaceProjection projection_on(const Node& face);
+  bool follow_ruler();
   void drag_face(float dx, float dy);
   void pinch(const Finger& moved, float old_x, float old_y, const Finger& other);
 
@@ -101,6 +106,8 @@ class Ui {
   bool heard_ = false;        // the last time it was asked what to say
   std::size_t focus_at_ = 0;  // of the node with the focus, in the tree
   Tree tree_;
+  FaceStand stand_;  // of the model that is measured on, and which
+  std::uint32_t stands_ = 0;
   Interaction hands_;
   DrawList list_;
   std::array<Finger, 2> fingers_{};

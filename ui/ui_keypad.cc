@@ -20,12 +20,17 @@ void Ui::activate_focus(const ViewState& view) {
   const Node* node = focused();
   if (node == nullptr && !hands_.show_focus) {  // who types has the focus where they type
     const auto& nodes = tree_.nodes();
-    const auto field = std::ranges::find_if(
-        nodes, [&](const Node& one) { return one.by_key.kind != ActionKind::None && tree_.is_on_top(one); });
+    const auto field = std::ranges::find_if(nodes, [&](const Node& one) {
+      return one.role == Role::Field && one.by_key.kind != ActionKind::None && tree_.is_on_top(one);
+    });
     if (field != nodes.end()) node = &*field;
   }
   if (node == nullptr) return;
-  if (node->by_key.kind != ActionKind::None) return ask(visit_.act(node->by_key, view));
+  if (node->by_key.kind != ActionKind::None) {
+    Node pressed = *node;
+    pressed.action = node->by_key;
+    return activate(pressed, view);
+  }
   if (node->action.kind == ActionKind::None) return;
   if (!node->slow_key) return activate(*node, view);
   hands_.pressed = node->id;

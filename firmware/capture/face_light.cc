@@ -14,19 +14,6 @@ constexpr int kWhiteFrom = 252;
 constexpr double kBrightShare = 0.95;
 constexpr double kHighlightShare = 0.99;
 
-// Brightness of a pixel, 0 to 255.
-int level(const std::uint8_t* row, int x, PixelFormat format) {
-  switch (format) {
-    case PixelFormat::Grey8:
-      return row[x];
-    case PixelFormat::Grey16:
-      return row[2 * x + 1];  // little-endian: the high byte
-    case PixelFormat::Rgb8:
-      break;
-  }
-  return row[3 * x + 1];
-}
-
 }  // namespace
 
 FaceBox middle_box(const ImageView& view) {
@@ -46,10 +33,10 @@ Result<FaceLight> face_light(const ImageView& view, const FaceBox& box) {
     const std::uint8_t* row = view.row(y);
     const std::uint8_t* below = view.row(std::min(y + 1, bottom - 1));
     for (int x = left; x < right; ++x) {
-      const int here = level(row, x, view.format);
+      const int here = level_of(row, x, view.format);
       ++histogram[static_cast<std::size_t>(here)];
-      const int dx = level(row, std::min(x + 1, right - 1), view.format) - here;
-      const int dy = level(below, x, view.format) - here;
+      const int dx = level_of(row, std::min(x + 1, right - 1), view.format) - here;
+      const int dy = level_of(below, x, view.format) - here;
       gradient += dx * dx + dy * dy;
     }
   }

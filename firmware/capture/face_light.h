@@ -6,10 +6,18 @@
 // Errors: InvalidInput (no picture, or a box of which fewer than 16 x 16 pixels lie in it). Thread: any.
 #pragma once
 
+#include <cstdint>
+
 #include "hal/base/image_view.h"
 #include "hal/base/result.h"
 
 namespace relievo::firmware {
+
+// Brightness of a pixel, 0 to 255.
+inline int level_of(const std::uint8_t* row, int x, PixelFormat format) {
+  if (format == PixelFormat::Grey8) return row[x];
+  return format == PixelFormat::Grey16 ? row[2 * x + 1] : row[3 * x + 1];  // the high byte; green
+}
 
 // Pixels; the part of it outside the picture is not looked at.
 struct FaceBox {

@@ -9,6 +9,7 @@
 #include <vector>
 
 #include "firmware/technician/algorithm_controller.h"
+#include "firmware/technician/show/surface_difference.h"
 #include "ui/technician/technician_view.h"
 
 namespace relievo::firmware {
@@ -214,13 +215,15 @@ struct Lent {
   ui::ServiceView staff;
   ui::Fault note;  // said against the calibration
   bool edges = false;
+  int mode = 0;
+  bool measures = false;
 };
 
 // What is lent to the pages, for as long as they are looked at.
 struct Lender {
   std::deque<Lent> lent;
   void add(std::string_view name, StaffPage page, const TechnicianView& view) {
-    lent.push_back({name, page, view, {}, {}, false});
+    lent.push_back({name, page, view, {}, {}, false, 0, false});
   }
 };
 
@@ -270,13 +273,26 @@ void add_stages(Lender& all, const ui::ViewState& review) {
   }
 }
 
+// How the one put aside differs, and the present one by itself.
+void add_differences(Lender& all, const ui::ViewState& review, TechnicianView view) {
+  view.differences = true;
+  view.full_colour_mm = 0.5F;
+  view.scale = difference_scale();
+  view.compared[0].difference = {true, -0.04F, 0.31F, {review.stages[1].picture, 900041}, nullptr, 900041};
+  view.compared[view.put_aside] = {view.result, view.shown[0], view.model, view.model_number, {}};
+  all.add("technician_difference", StaffPage::Compare, view);
+  all.add("technician_compare_alone", StaffPage::Compare, view);
+  all.lent.back().mode = 1;
+  all.lent.back().measures = true;
+}
+
 // The same capture by other algorithms, another document, and one whose matcher gave up.
 void add_comparisons(Lender& all, const ui::ViewState& review, TechnicianView view) {
   const auto put_aside = [&view] {
-    view.compared[view.put_aside++] = {view.result, view.shown[0], view.model, view.model_number};
+    view.compared[view.put_aside++] = {view.result, view.shown[0], view.model, view.model_number, {}};
   };
   const auto add_with_present = [&](std::string_view name) {
-    view.compared[view.put_aside] = {view.result, view.shown[0], view.model, view.model_number};
+    view.compared[view.put_aside] = {view.result, view.shown[0], view.model, view.model_number, {}};
     all.add(name, StaffPage::Compare, view);
   };
   lend(review, TechnicianStage::Mesh, view);
@@ -285,6 +301,7 @@ void add_comparisons(Lender& all, const ui::ViewState& review, TechnicianView vi
   view.result.seconds[0] = 3.87F;
   view.result.accepted = view.result.made[0] = 96114;
   add_with_present("technician_compare");
+  add_differences(all, review, view);
   put_aside();
   view.result.name = "2026-03-11_16-40-52";
   view.result.algorithms = {};
@@ -324,6 +341,12 @@ void add_cameras(Lender& all, const ui::ViewState& review) {
   TechnicianView view = ready(review);
   view.cameras = watched(review);
   all.add("technician_cameras", StaffPage::Cameras, view);
+  view.cameras.edges_shown = true;
+  view.cameras.camera[0].sharp_edges = 0.031F;
+  view.cameras.camera[1].sharp_edges = 0.012F;
+  all.add("technician_camera", StaffPage::Cameras, view);
+  all.lent.back().mode = 1;
+  view.cameras.edges_shown = false;
   view.cameras.relief_shown = true;
   view.cameras.relief = {review.stages[0].picture, 900022};
   all.add("technician_relief", StaffPage::Cameras, view);
@@ -381,7 +404,12 @@ void add_technician_exhibits(std::vector<Exhibit>& exhibits, const ui::ViewState
     exhibit.view.calibration_note = one.note;
     exhibit.view.service = &one.staff;
     exhibit.visit.look.edges = one.edges;
-    exhibit.service.show(one.page);
+    exhibit.service.show(one.page, one.mode);
+    if (one.measures) {
+      exhibit.service.ruler.on = true;
+      exhibit.service.ruler.set({-31, 34, 18});
+      exhibit.service.ruler.set({32, 33, 19});
+    }
     exhibits.push_back(exhibit);
   }
 }

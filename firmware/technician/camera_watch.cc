@@ -132,13 +132,17 @@ bool CameraWatchJob::draw_relief(const pipeline::StereoFrame& frame, JobControl&
 Result<void> CameraWatchJob::look(const pipeline::StereoFrame& frame, JobControl& control) {
   ui::TechnicianCameras now;
   now.watched = true;
+  now.edges_shown = shows_edges();
   for (std::size_t i = 0; i < 2; ++i) {
     const ImageView& view = i == 0 ? frame.left : frame.right;
     RELIEVO_TRY_ASSIGN(const FaceLight light, face_light(view, middle_box(view)));
     now.camera[i].mean = static_cast<float>(light.mean);
     now.camera[i].clipped = static_cast<float>(light.clipped);
     now.camera[i].focus = static_cast<float>(focus_[i].share_of_best(light));
-    (void)feeds_[i].fill(view);
+    const ImageView shown = feeds_[i].fill(view);
+    if (now.edges_shown)
+      now.camera[i].sharp_edges =
+          static_cast<float>(peaking_.mark(view, feeds_[i].filled(), shown.width_px, shown.height_px));
   }
   const bool relief = draw_relief(frame, control, now);
   const GrabCounts& counts = grabber_.counts();
@@ -178,6 +182,7 @@ ui::TechnicianCameras CameraWatchJob::newest() {
 void CameraWatchJob::wipe() {
   for (LiveFeed& feed : feeds_) feed.wipe();
   relief_.forget();
+  peaking_.wipe();
   const std::lock_guard lock(mutex_);
   figures_ = {};
 }

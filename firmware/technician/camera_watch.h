@@ -16,6 +16,7 @@
 #include <vector>
 
 #include "firmware/capture/face_light.h"
+#include "firmware/capture/focus_peaking.h"
 #include "firmware/capture/live_feed.h"
 #include "firmware/jobs/job_thread.h"
 #include "firmware/work/jobs.h"
@@ -62,6 +63,9 @@ class CameraWatchJob final : public Job {
   // With every pair its relief, from the next one on.
   void show_relief(bool on) { relief_shown_.store(on, std::memory_order_relaxed); }
   bool shows_relief() const { return relief_shown_.load(std::memory_order_relaxed); }
+  // What is in focus is coloured, from the next pair on.
+  void show_edges(bool on) { edges_shown_.store(on, std::memory_order_relaxed); }
+  bool shows_edges() const { return edges_shown_.load(std::memory_order_relaxed); }
   // A third stop brighter (1) or darker (-1) from the next pair on.
   void change_light(int steps) { steps_.fetch_add(steps, std::memory_order_relaxed); }
   Result<void> run(JobControl& control) override;
@@ -83,9 +87,10 @@ class CameraWatchJob final : public Job {
   hal::Device& device_;
   std::array<LiveFeed, 3> feeds_;  // left, right, relief
   std::array<FocusHelp, 2> focus_;
+  FocusPeaking peaking_;
   ReliefWatch relief_;
   std::atomic<int> steps_{0};
-  std::atomic<bool> relief_shown_{false};
+  std::atomic<bool> relief_shown_{false}, edges_shown_{false};
   hal::Exposure light_;
   std::optional<hal::Instant> last_pair_;
   std::mutex mutex_;

@@ -71,7 +71,8 @@ void TestCapture::act(const ui::TechnicianRequest& request) {
   if (const auto* shown = std::get_if<ui::ShowTable>(&request)) tables_.show(shown->table, source());
   if (const auto* turned = std::get_if<ui::TurnTable>(&request)) tables_.turn(turned->pages, source());
   if (const auto* finger = std::get_if<ui::TouchPicture>(&request)) touch(*finger);
-  if (const auto* dropped = std::get_if<ui::DropResult>(&request)) kept_.drop(dropped->index);
+  if (const auto* dropped = std::get_if<ui::DropResult>(&request); dropped != nullptr && !comparing_)
+    kept_.drop(dropped->index);
   if (const auto* saved = std::get_if<ui::LoadSaved>(&request)) load(saved->row, saved->beside);
   calibrations_.act(request);
   if (AlgorithmController::takes(request)) choose(request);
@@ -97,6 +98,11 @@ void TestCapture::act_alone(TechnicianAct act) {
       return watch_cameras(!watching_);
     case TechnicianAct::ShowRelief:
       return watch_.show_relief(!watch_.shows_relief());
+    case TechnicianAct::ShowDifference:
+      differences_ = !differences_;
+      return;
+    case TechnicianAct::ShowEdges:
+      return watch_.show_edges(!watch_.shows_edges());
     case TechnicianAct::BrighterShot:
       return watch_.change_light(1);
     case TechnicianAct::DarkerShot:
@@ -144,10 +150,27 @@ void TestCapture::choose(const ui::TechnicianRequest& request) {
 }
 
 void TestCapture::keep_result() {
-  if (!at_rest() || !run_.figures().view().there || kept_.has(model_number_)) return;
+  if (!at_rest() || comparing_ || !run_.figures().view().there || kept_.has(model_number_)) return;
   const Products* made = products();
   kept_.keep(run_.figures(), run_.pictures(), made != nullptr && made->model ? &*made->model : nullptr,
              model_number_);
+}
+
+// The worker sees them against each other; until then the page shows them as they are.
+void TestCapture::compare_kept() {
+  const Products* made = products();
+  if (!differences_ || comparing_ || made == nullptr || !made->pair || !made->model ||
+      kept_.is_compared_with(model_number_))
+    return;
+  comparing_ = true;
+  parts_.side_tasks.send(
+      JobLane::Worker,
+      [this, number = model_number_](JobControl& control) -> Result<void> {
+        const Products& present = session_.products();
+        kept_.compare(*present.pair, present.model->mesh, number, control.cancelled);
+        return {};
+      },
+      [this](const std::optional<Error>&) { comparing_ = false; });
 }
 
 void TestCapture::record() {
@@ -342,7 +365,8 @@ void TestCapture::watch_cameras(bool on) {
 // The appliance has stopped the work and closed the session on its way to another state.
 void TestCapture::leave() {
   watch_.show_relief(false);
-  watching_ = by_hand_ = changed_ = applied_ = applying_ = false;
+  watch_.show_edges(false);
+  watching_ = by_hand_ = changed_ = applied_ = applying_ = differences_ = comparing_ = false;
   next_ = Next::None;
   saved_.reset();
   saved_making_.reset();
@@ -373,6 +397,7 @@ void TestCapture::turn() {
   // It took longer than the state may: what has been seen is not worked out.
   if (calibrations_.running() && state == State::Staff) parts_.side_tasks.stop(JobLane::Capture);
   begin_next();
+  compare_kept();
 }
 
 }  // namespace relievo::firmware

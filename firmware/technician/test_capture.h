@@ -88,6 +88,7 @@ class TestCapture {
   void choose(const ui::TechnicianRequest& request);
   void act_alone(ui::TechnicianAct act);
   void keep_result();
+  void compare_kept();
   void record();
   bool is_calibrated();
   void say(const Error& error);
@@ -114,7 +115,7 @@ class TestCapture {
   std::optional<Making> saved_making_;
   bool loaded_ = false;  // what is in the session was, with a calibration of its own
   bool by_hand_ = false, watching_ = false, changed_ = false, applied_ = false, applying_ = false,
-       left_ = true;
+       differences_ = false, comparing_ = false, left_ = true;
   ui::Fault problem_;
   std::uint32_t model_number_ = 0;
   ui::TechnicianView view_;

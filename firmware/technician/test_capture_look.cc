@@ -27,6 +27,7 @@ void TestCapture::look() {
   if (watching_) view_.cameras = watch_.newest();
   view_.put_aside = kept_.count();
   for (std::size_t i = 0; i < view_.put_aside; ++i) view_.compared[i] = kept_.view(i, stage_);
+  view_.differences = differences_;
   if (phase_ == ui::TechnicianPhase::Running) {
     view_.working_on = static_cast<std::uint8_t>(number_of(run_.stage()));
     view_.progress = parts_.side_tasks.progress(JobLane::Worker);
@@ -43,8 +44,12 @@ void TestCapture::look() {
   view_.pairs = pairs_.points();
   view_.pairs_changed = pairs_.changed();
   view_.change = run_.change().figures();
-  view_.compared[view_.put_aside] = {view_.result, run_.pictures().picture(stage_, 0), view_.model,
-                                     model_number_};
+  view_.compared[view_.put_aside] = {
+      view_.result, run_.pictures().picture(stage_, 0), view_.model, model_number_, {}};
+  if (!differences_ || comparing_ || !kept_.is_compared_with(model_number_)) return;
+  for (std::size_t i = 0; i < view_.put_aside; ++i) view_.compared[i].difference = kept_.difference(i);
+  view_.full_colour_mm = kept_.full_colour_mm();
+  view_.scale = difference_scale();
 }
 
 const ui::TechnicianView& TestCapture::view() {

@@ -76,8 +76,9 @@ struct Picture {
 inline constexpr std::size_t kFaces = 4;
 struct Face {
   const pipeline::FaceModel* model = nullptr;
-  const pipeline::PointCloud* cloud = nullptr;  // the points it was made of, where they are known
-  std::uint32_t version = 0;                    // 0: there is none
+  const pipeline::PointCloud* cloud = nullptr;      // the points it was made of, where they are known
+  std::uint32_t version = 0;                        // 0: there is none
+  const pipeline::TextureAtlas* colours = nullptr;  // in place of the model's texture
   bool operator==(const Face&) const = default;
 };
 

@@ -15,11 +15,6 @@ namespace {
 constexpr float kMiddleBehindMm = 45;  // the head turns about a point behind the tip of its nose
 constexpr float kFadeMm = 6;           // of the rim, into what stands behind
 
-Dot dot_of(const pipeline::RigidTransform& t, const pipeline::Vec3f& v) {
-  const auto p = apply(t, pipeline::Vec3d{v.x, v.y, v.z});
-  return {static_cast<float>(p.x), static_cast<float>(p.y), static_cast<float>(p.z) + kMiddleBehindMm};
-}
-
 // How far from its border each vertex lies, in kFadeMm and no more than 1.
 std::vector<float> within(const pipeline::FaceMesh& mesh) {
   const auto border = pipeline::border_vertices(mesh, std::pmr::get_default_resource());
@@ -43,6 +38,11 @@ std::vector<float> within(const pipeline::FaceMesh& mesh) {
 }
 
 }  // namespace
+
+Dot dot_of(const pipeline::RigidTransform& t, const pipeline::Vec3f& v) {
+  const auto p = apply(t, pipeline::Vec3d{v.x, v.y, v.z});
+  return {static_cast<float>(p.x), static_cast<float>(p.y), static_cast<float>(p.z) + kMiddleBehindMm};
+}
 
 std::vector<Dot> dots_of(const pipeline::FaceModel& model, const pipeline::PointCloud* cloud) {
   std::vector<Dot> dots;
@@ -71,7 +71,7 @@ std::vector<Tinted> tinted_of(const pipeline::FaceModel& model) {
   return corners;
 }
 
-std::vector<Corner> corners_of(const pipeline::FaceModel& model) {
+std::vector<Corner> corners_of(const pipeline::FaceModel& model, const pipeline::TextureAtlas& texture) {
   const auto& t = model.head_from_camera;
   const std::vector<float> share = within(model.mesh);
   std::vector<Corner> corners;
@@ -83,8 +83,8 @@ std::vector<Corner> corners_of(const pipeline::FaceModel& model) {
       const auto& n = model.mesh.normals[at];
       const Dot p = dot_of(t, v);
       const auto m = apply(t.rotation, pipeline::Vec3d{n.x, n.y, n.z});
-      const bool flat = model.texture.uv.size() <= 3 * i + k;
-      const pipeline::Vec2f uv = flat ? pipeline::Vec2f{} : model.texture.uv[3 * i + k];
+      const bool flat = texture.uv.size() <= 3 * i + k;
+      const pipeline::Vec2f uv = flat ? pipeline::Vec2f{} : texture.uv[3 * i + k];
       corners.push_back({p.x, p.y, p.z, static_cast<float>(m.x), static_cast<float>(m.y),
                          static_cast<float>(m.z), uv.x, uv.y, share[at]});
     }

@@ -28,8 +28,10 @@ struct Dot {
   float x, y, z;
 };
 
-// Three for every triangle, in the mesh's order.
-std::vector<Corner> corners_of(const pipeline::FaceModel& model);
+// From the left camera's frame.
+Dot dot_of(const pipeline::RigidTransform& head_from_camera, const pipeline::Vec3f& at_mm);
+// Three for every triangle, in the mesh's order, with their places in the texture.
+std::vector<Corner> corners_of(const pipeline::FaceModel& model, const pipeline::TextureAtlas& texture);
 // The cloud, or where there is none the mesh's vertices.
 std::vector<Dot> dots_of(const pipeline::FaceModel& model, const pipeline::PointCloud* cloud);
 // The backdrop: two triangles a cell that shows anything.

@@ -11,16 +11,13 @@
 
 #include "ui/render/edge_level.h"
 #include "ui/render/face_geometry.h"
+#include "ui/render/face_projection.h"
 #include "ui/render/face_view.h"
 #include "ui/render/gles_program.h"
 
 namespace relievo::ui {
 namespace {
 
-constexpr float kDistanceMm = 640;  // of the viewer: a face is seen like this across a table
-// A face turns about the tip of its nose, a head, which is deeper, about its middle, and is seen whole.
-constexpr float kHeadDepthMm = 130, kHeadShare = 0.8F;
-constexpr float kSeenHeightMm = 272;  // of the window, at zoom 1: a face that is turned or nods stays inside
 constexpr float kBackdropFromDeg = 20, kBackdropToDeg = 50;  // it fades as the face turns away
 constexpr int kMostSidePx = 2048;
 constexpr float kEdgePx = 9;  // of the screen: sides shorter than this would run into a grey
@@ -40,8 +37,6 @@ Birth birth_of(float born) {
   return {photograph ? 1 - between(0.2F, kNoSurface) : between(kNoSurface, 0.68F),
           photograph ? 1 : between(0.72F, 1), std::min(between(0.2F, 0.4F), 1 - between(0.5F, 0.72F))};
 }
-
-float radians(float degrees) { return degrees * 0.017453293F; }
 
 template <typename Item>
 void fill(GLenum target, GLuint& buffer, const std::vector<Item>& items) {
@@ -86,7 +81,7 @@ class GlesFaceView final : public FaceView {
     const bool same =
         version == version_ && look == look_ && covered == covered_ && w == width_ && h == height_;
     if (same && colour_ != 0) return colour_;
-    if (version != version_) upload(*subject.model);
+    if (version != version_) upload(subject);
     if ((look.points || look.born < 1) && version != points_version_) upload_points(subject);
     if (look.edges)
       upload_edges(subject, kEdgePx * kSeenHeightMm / (look.zoom * static_cast<float>(height_px)));
@@ -118,23 +113,19 @@ class GlesFaceView final : public FaceView {
   }
 
  private:
-  void upload(const pipeline::FaceModel& model) {
+  void upload(const Face& subject) {
+    const pipeline::FaceModel& model = *subject.model;
+    const pipeline::TextureAtlas& atlas = subject.colours != nullptr ? *subject.colours : model.texture;
     if (texture_ == 0) glGenTextures(1, &texture_);
-    const std::vector<Corner> corners = corners_of(model);
+    const std::vector<Corner> corners = corners_of(model, atlas);
     count_ = static_cast<int>(corners.size());
-    const auto [low, high] = std::ranges::minmax_element(corners, {}, &Corner::y);
-    middle_mm_ = corners.empty() ? 0 : (low->y + high->y) / 2;
-    const auto [back, front] = std::ranges::minmax_element(corners, {}, &Corner::z);
-    const bool is_head = !corners.empty() && front->z - back->z > kHeadDepthMm;
-    axis_mm_ = is_head ? (back->z + front->z) / 2 : 0;
-    fit_ = is_head ? std::min(1.0F, kHeadShare * kSeenHeightMm / (high->y - low->y)) : 1;
+    stand_ = stand_of(model);
     fill(GL_ARRAY_BUFFER, buffer_, corners);
     const std::vector<Tinted> behind = tinted_of(model);
     backdrop_count_ = static_cast<int>(behind.size());
     fill(GL_ARRAY_BUFFER, backdrop_buffer_, behind);
     glBindTexture(GL_TEXTURE_2D, texture_);
     glPixelStorei(GL_UNPACK_ALIGNMENT, 1);
-    const auto& atlas = model.texture;
     textured_ = atlas.width_px > 0 && atlas.height_px > 0 && !atlas.rgb.empty();
     if (textured_)
       glTexImage2D(GL_TEXTURE_2D, 0, GL_RGB8, atlas.width_px, atlas.height_px, 0, GL_RGB, GL_UNSIGNED_BYTE,
@@ -194,48 +185,16 @@ class GlesFaceView final : public FaceView {
     glFramebufferRenderbuffer(GL_FRAMEBUFFER, GL_DEPTH_ATTACHMENT, GL_RENDERBUFFER, depth_);
   }
 
-  // Column-major: first about the upright axis, then about the level one.
-  struct Turned {
-    float clip[16], turned[9];
-  };
-  Turned turned() const {
-    const float cy = std::cos(radians(look_.yaw_deg)), sy = std::sin(radians(look_.yaw_deg));
-    const float cp = std::cos(radians(look_.pitch_deg)), sp = std::sin(radians(look_.pitch_deg));
-    Turned t{{}, {cy, sp * sy, -cp * sy, 0, cp, sp, sy, -sp * cy, cp * cy}};
-    const float cr = std::cos(radians(look_.roll_deg)), sr = std::sin(radians(look_.roll_deg));
-    for (std::size_t c = 0; c < 9; c += 3) {
-      const float across = t.turned[c], up = t.turned[c + 1];
-      t.turned[c] = cr * across + sr * up;
-      t.turned[c + 1] = cr * up - sr * across;
-    }
-    const float(&turned)[9] = t.turned;
-    float(&clip)[16] = t.clip;
-    const float f = 2 * kDistanceMm / kSeenHeightMm * look_.zoom * fit_;
-    const float aspect = static_cast<float>(width_) / static_cast<float>(height_);
-    const float near = 200, far = 1200, a = (far + near) / (near - far), b = 2 * far * near / (near - far);
-    for (std::size_t c = 0; c < 3; ++c) {
-      clip[4 * c] = f / aspect * turned[3 * c];
-      clip[4 * c + 1] = f * turned[3 * c + 1];
-      clip[4 * c + 2] = a * turned[3 * c + 2];
-      clip[4 * c + 3] = -turned[3 * c + 2];
-    }
-    // What turning about the axis moves the origin by.
-    const float x = -axis_mm_ * turned[6], y = -axis_mm_ * turned[7], z = axis_mm_ * (1 - turned[8]);
-    clip[12] = f / aspect * x;
-    clip[13] = f * (y - middle_mm_);
-    clip[14] = a * (z - kDistanceMm) + b;
-    clip[15] = kDistanceMm - z;
-    for (std::size_t c = 0; c < 4; ++c)
-      clip[4 * c + 1] += covered_ * clip[4 * c + 3];  // half the window is 1
-    return t;
+  FaceProjection projection() const {
+    return {stand_, look_, static_cast<float>(width_) / static_cast<float>(height_), covered_};
   }
 
-  void set_uniforms(const Turned& t) const {
+  void set_uniforms(const FaceProjection& t) const {
     const float side = radians(look_.light_deg), up = 0.45F, norm = std::sqrt(1 + up * up);
     glUseProgram(program_);
-    glUniformMatrix4fv(glGetUniformLocation(program_, "clip_from_head"), 1, GL_FALSE, t.clip);
-    glUniformMatrix3fv(glGetUniformLocation(program_, "turned"), 1, GL_FALSE, t.turned);
-    glUniform3f(glGetUniformLocation(program_, "eye"), 0, 0, kDistanceMm);
+    glUniformMatrix4fv(glGetUniformLocation(program_, "clip_from_head"), 1, GL_FALSE, t.clip_from_model());
+    glUniformMatrix3fv(glGetUniformLocation(program_, "turned"), 1, GL_FALSE, t.turned());
+    glUniform3f(glGetUniformLocation(program_, "eye"), 0, 0, kFaceDistanceMm);
     glUniform3f(glGetUniformLocation(program_, "light"), std::sin(side) / norm, up / norm,
                 std::cos(side) / norm);
     glUniform1f(glGetUniformLocation(program_, "textured"),
@@ -256,7 +215,7 @@ class GlesFaceView final : public FaceView {
     glEnable(GL_DEPTH_TEST);
     glClearColor(0, 0, 0, 0);
     glClear(GL_COLOR_BUFFER_BIT | GL_DEPTH_BUFFER_BIT);
-    const Turned t = turned();
+    const FaceProjection t = projection();
     glEnable(GL_BLEND);
     glBlendFunc(GL_ONE, GL_ONE_MINUS_SRC_ALPHA);
     if (shows_backdrop()) draw_backdrop(t);
@@ -287,14 +246,15 @@ class GlesFaceView final : public FaceView {
 
   bool shows_backdrop() const { return look_.backdrop && look_.textured && look_.fill && textured_; }
 
-  void draw_backdrop(const Turned& t) const {
+  void draw_backdrop(const FaceProjection& t) const {
     const float away = std::max(std::abs(look_.yaw_deg), std::abs(look_.pitch_deg));
     const float opacity =
         std::clamp((kBackdropToDeg - away) / (kBackdropToDeg - kBackdropFromDeg), 0.0F, 1.0F) *
         std::min(birth_.surface, birth_.colours);
     if (backdrop_count_ == 0 || opacity <= 0) return;
     glUseProgram(backdrop_program_);
-    glUniformMatrix4fv(glGetUniformLocation(backdrop_program_, "clip_from_head"), 1, GL_FALSE, t.clip);
+    glUniformMatrix4fv(glGetUniformLocation(backdrop_program_, "clip_from_head"), 1, GL_FALSE,
+                       t.clip_from_model());
     glUniform1f(glGetUniformLocation(backdrop_program_, "opacity"), opacity);
     glBindVertexArray(array_);
     glBindBuffer(GL_ARRAY_BUFFER, backdrop_buffer_);
@@ -317,10 +277,11 @@ class GlesFaceView final : public FaceView {
     glDrawElements(GL_LINES, edge_count_, GL_UNSIGNED_INT, nullptr);
   }
 
-  void draw_points(const Turned& t, float opacity) const {
+  void draw_points(const FaceProjection& t, float opacity) const {
     glUseProgram(point_program_);
     glUniform1f(glGetUniformLocation(point_program_, "opacity"), opacity);
-    glUniformMatrix4fv(glGetUniformLocation(point_program_, "clip_from_head"), 1, GL_FALSE, t.clip);
+    glUniformMatrix4fv(glGetUniformLocation(point_program_, "clip_from_head"), 1, GL_FALSE,
+                       t.clip_from_model());
     glUniform1f(glGetUniformLocation(point_program_, "size"),
                 std::max(2.0F, static_cast<float>(height_) / 420 * look_.zoom));
     glBindBuffer(GL_ARRAY_BUFFER, point_buffer_);
@@ -336,8 +297,8 @@ class GlesFaceView final : public FaceView {
   std::uint32_t version_ = 0, points_version_ = 0, edges_version_ = 0;
   FaceLook look_;
   Birth birth_ = birth_of(1);
-  float covered_ = 0, middle_mm_ = 0;  // where the middle of the model is, upwards, as it looks ahead
-  float axis_mm_ = 0, fit_ = 1;        // behind the nose, about which it turns; smaller than a face is shown
+  float covered_ = 0;
+  FaceStand stand_;
   float edge_level_mm_ = 0;
   int count_ = 0, point_count_ = 0, backdrop_count_ = 0, edge_count_ = 0, width_ = 0, height_ = 0;
   int times_ = 1;  // pixels of the frame for one of the screen

@@ -92,7 +92,7 @@ void fill_staff_pictures(DrawList& list, const ViewState& view, const Visit& vis
   list.pictures = {};
   list.faces = {};
   if (view.service->technician != nullptr &&
-      fill_technician_pictures(list, *view.service->technician, visit, service.page))
+      fill_technician_pictures(list, *view.service->technician, visit, service))
     return;
   if (const RecoveryView* sheet = view.service->recovery)
     list.pictures[static_cast<std::size_t>(PictureSlot::TechnicianLeft)] = sheet->code;

@@ -20,6 +20,7 @@ struct TechnicianCamera {
   TechnicianPicture picture;
   float mean = 0, clipped = 0;  // of the middle: 1 is white; the share that is burnt out
   float focus = 0;              // how sharp the middle is against the sharpest seen since the watch began
+  float sharp_edges = 0;        // the share of the picture that is coloured, because it is in focus
   std::uint64_t frames = 0, lost = 0, damaged = 0;
 };
 struct TechnicianCameras {
@@ -29,7 +30,7 @@ struct TechnicianCameras {
   std::uint64_t pairs = 0, apart = 0;
   float exposure_us = 0, gain = 0;  // as asked for last
   bool can_be_set = false;
-  bool relief_shown = false;
+  bool relief_shown = false, edges_shown = false;
   TechnicianPicture relief;  // near is bright, black is unknown
   Fault problem;             // why there is no relief
 };

@@ -38,6 +38,17 @@ struct TechnicianSaved {
   std::span<const std::string> names;  // the newest first, kSavedRows at most
 };
 
+// A surface against the present one, both as the left view sees them: positive where this one is nearer.
+// Along the view's axis.
+struct TechnicianDifference {
+  bool known = false;
+  float median_mm = 0;
+  float most_mm = 0;  // 95 of 100 places differ by less, either way
+  TechnicianPicture map;
+  const pipeline::TextureAtlas* colours = nullptr;  // the same on its surface
+  std::uint32_t number = 0;                         // of the surface in these colours
+};
+
 // A result beside others: what it made of the stage that is shown.
 inline constexpr std::size_t kCompared = 4;
 struct TechnicianCompared {
@@ -45,6 +56,7 @@ struct TechnicianCompared {
   TechnicianPicture picture;                   // empty: the stage made none
   const pipeline::FaceModel* model = nullptr;  // of a surface: to be turned; missing: none, or too large
   std::uint32_t model_number = 0;
+  TechnicianDifference difference{};  // not of the present one
 };
 
 struct TechnicianView {
@@ -67,6 +79,9 @@ struct TechnicianView {
   TechnicianResult result;                               // the present one
   std::array<TechnicianCompared, kCompared> compared{};  // those put aside, and behind them the present one
   std::size_t put_aside = 0;                             // so many of them
+  bool differences = false;                              // they are shown
+  float full_colour_mm = 0;                              // of all differences: the ends of their scale
+  std::span<const std::array<std::uint8_t, 3>> scale;    // from farther to nearer
   bool applied = false;  // visitors are measured with the chosen algorithms now
   const pipeline::FaceModel* model = nullptr;
   const pipeline::PointCloud* cloud = nullptr;

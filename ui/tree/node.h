@@ -64,7 +64,8 @@ struct Node {
   TextStyle style;
   Colour colour{};
   Action action{};
-  Action by_key{};      // done by a keypad that presses it where a finger does nothing: it can have the focus
+  Action by_key{};  // done by a keypad that presses it where a finger does nothing or something else: it can
+                    // have the focus
   bool secret = false;  // a person's own, spoken into headphones alone: its value, and words without a name
   bool modal = false;   // nothing under it can be touched
   // Where it is set, `action` is done when a finger comes down, and this wherever it goes from there.
@@ -75,6 +76,7 @@ struct Node {
   Mark mark = Mark::Shape;  // Image, Face, Ring: what is drawn in the rect
   PictureSlot picture = PictureSlot::None;
   std::uint8_t face = 0;  // of a Face: which of the models
+  bool ruled = false;     // of a Face: Service::ruler lies on it
   float aspect = 0;       // of the picture: width over height; a stack with one is as large as fits
   bool pinned = false;    // in a stack: its middle lies at these shares of it; without a width it is as wide
   float pin_x = 0, pin_y = 0;

@@ -67,7 +67,8 @@ enum class ActionKind : std::uint8_t {
   StaffDo,      // what: Action::ask
   StaffAnswer,  // the same, and the page's mode is its first again
   StaffMode,
-  StaffChoose  // value: the page's mode; a row, detail: the mode
+  StaffChoose,  // value: the page's mode; a row, detail: the mode
+  StaffMeasure  // touches on the model set points; again: no longer
 };
 
 struct Action {

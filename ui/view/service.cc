@@ -34,7 +34,8 @@ void Service::act(const Action& action, const ViewState& view) {
   if (kind == ActionKind::StaffOpen) go(static_cast<StaffPage>(action.value));
   if (kind == ActionKind::StaffDo || kind == ActionKind::StaffAnswer) request(action.ask);
   if (kind == ActionKind::StaffAnswer) mode = 0;
-  if (kind == ActionKind::StaffMode) mode = action.value;
+  if (kind == ActionKind::StaffMode) mode = action.value, ruler = {};
+  if (kind == ActionKind::StaffMeasure) ruler = {.on = !ruler.on};
   if (kind == ActionKind::StaffChoose) {
     chosen = action.value;
     mode = action.detail;
@@ -52,6 +53,7 @@ void Service::leave() {
 void Service::back(bool inner) {
   if (mode != 0) {
     mode = 0;
+    ruler = {};
     return;
   }
   if (inner) return go(page);
@@ -91,6 +93,7 @@ void Service::go(StaffPage to) {
   page = to;
   mode = 0;
   chosen = 0;
+  ruler = {};
   request(PageOpened{});
 }
 
@@ -100,6 +103,7 @@ void Service::close() {
   page = StaffPage::Pin;
   mode = 0;
   chosen = 0;
+  ruler = {};
 }
 
 void Service::request(const StaffAsk& ask) {

@@ -20,6 +20,7 @@
 
 #include "hal/clock.h"
 #include "ui/view/action.h"
+#include "ui/view/face_ruler.h"
 #include "ui/view/service_view.h"
 
 namespace relievo::ui {
@@ -36,6 +37,7 @@ class Service {
   StaffPage page = StaffPage::Pin;
   int mode = 0;             // the page's own: a question, a step; 0 when the page is opened
   std::int64_t chosen = 0;  // the page's own: a row
+  FaceRuler ruler;          // of the page's model
 
   std::string_view typed() const { return {typed_.data(), length_}; }
   bool takes(ActionKind kind) const;

@@ -91,7 +91,9 @@ enum class TechnicianAct : std::uint8_t {
   ApplySet,    // visitors are measured with these from now on
   KeepResult,  // the present result is put aside, to be compared with others: kCompared - 1 at most
   WatchCameras,
-  ShowRelief,  // beside the left picture, in place of the right one; again: no longer
+  ShowRelief,      // beside the left picture, in place of the right one; again: no longer
+  ShowEdges,       // what is in focus is coloured in both pictures; again: no longer
+  ShowDifference,  // of each result that was put aside to the present one; again: no longer
   BrighterShot,
   DarkerShot,
   BeginCalibration,

@@ -187,6 +187,7 @@ std::optional<Intent> Visit::act(Action action, const ViewState& view) {
     case ActionKind::StaffAnswer:
     case ActionKind::StaffMode:
     case ActionKind::StaffChoose:
+    case ActionKind::StaffMeasure:
     case ActionKind::None:
       break;
   }

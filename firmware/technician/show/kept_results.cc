@@ -3,9 +3,25 @@
 #include "firmware/technician/show/kept_results.h"
 
 #include <algorithm>
+#include <cmath>
 #include <new>
 
 namespace relievo::firmware {
+namespace {
+
+constexpr float kLeastScaleMm = 0.1F;
+constexpr std::uint32_t kColouredFrom = 0x40000000;  // no model has such a number
+
+// To 1, 2 or 5 times a power of ten.
+float round_up(float mm) {
+  if (!(mm > 0)) return 0;
+  const float power = std::pow(10.0F, std::floor(std::log10(mm)));
+  for (const float times : {1.0F, 2.0F, 5.0F})
+    if (times * power >= mm) return times * power;
+  return 10 * power;
+}
+
+}  // namespace
 
 KeptResults::One::One()
     : block(new std::byte[budget::kKeptModelBytes]), memory({block.get(), budget::kKeptModelBytes}) {}
@@ -15,7 +31,8 @@ void KeptResults::One::wipe() {
   pictures.wipe();
   model.reset();
   memory.wipe();
-  number = 0;
+  number = compared_with = 0;
+  difference.forget();
 }
 
 KeptResults::KeptResults() {
@@ -59,9 +76,33 @@ bool KeptResults::has(std::uint32_t number) const {
                      [number](const auto& one) { return one->number == number; });
 }
 
+bool KeptResults::is_compared_with(std::uint32_t number) const {
+  return std::all_of(all_.begin(), all_.begin() + static_cast<std::ptrdiff_t>(count_),
+                     [number](const auto& one) { return one->compared_with == number; });
+}
+
+void KeptResults::compare(const pipeline::RectifiedPair& pair, const pipeline::FaceMesh& present,
+                          std::uint32_t number, const std::atomic<bool>& cancelled) {
+  const auto kept = std::span(all_).first(count_);
+  compare::DisparityMap depths = depths_of(pair, present);
+  full_colour_mm_ = kLeastScaleMm;
+  for (const auto& one : kept) {
+    if (cancelled.load(std::memory_order_relaxed)) break;
+    one->compared_with = number;
+    if (!one->model) continue;
+    one->difference.measure(pair, one->model->mesh, depths, kColouredFrom + ++coloured_);
+    full_colour_mm_ = std::max(full_colour_mm_, round_up(one->difference.view().most_mm));
+  }
+  for (const auto& one : kept)
+    if (one->model && one->difference.view().known)
+      one->difference.draw(pair, one->model->mesh, full_colour_mm_);
+  firmware::wipe(depths);
+}
+
 ui::TechnicianCompared KeptResults::view(std::size_t which, ui::TechnicianStage stage) const {
   const One& one = *all_[which];
-  return {one.figures.view(), one.pictures.picture(stage, 0), one.model ? &*one.model : nullptr, one.number};
+  return {
+      one.figures.view(), one.pictures.picture(stage, 0), one.model ? &*one.model : nullptr, one.number, {}};
 }
 
 }  // namespace relievo::firmware

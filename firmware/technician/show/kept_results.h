@@ -4,14 +4,17 @@
 // KeptResults: results that were put aside, to be looked at beside the present one: figures, the left picture
 // of every stage, and the model, to be turned. Each has its own memory of fixed size (budget::kKeptModelBytes
 // and its pictures'); pages nobody touched cost nothing. A model that is larger is left out: its pictures are
-// not. Thread: main, while no job runs. Errors: none.
+// not. compare() sees them against the present surface. Thread: main, while no job runs; compare() worker,
+// and nothing else meanwhile. Errors: none.
 #pragma once
 
 #include <array>
+#include <atomic>
 #include <cstdint>
 #include <memory>
 #include <optional>
 
+#include "firmware/technician/show/surface_difference.h"
 #include "firmware/technician/show/technician_figures.h"
 #include "firmware/technician/show/technician_pictures.h"
 #include "hal/base/arena.h"
@@ -34,6 +37,12 @@ class KeptResults {
   std::size_t count() const { return count_; }
   bool full() const { return count_ == all_.size(); }
   bool has(std::uint32_t number) const;
+  // Each surface against the present one of that number, as the present capture's left view sees both.
+  void compare(const pipeline::RectifiedPair& pair, const pipeline::FaceMesh& present, std::uint32_t number,
+               const std::atomic<bool>& cancelled);
+  bool is_compared_with(std::uint32_t number) const;
+  ui::TechnicianDifference difference(std::size_t which) const { return all_[which]->difference.view(); }
+  float full_colour_mm() const { return full_colour_mm_; }  // of all differences
   // Until the next change.
   ui::TechnicianCompared view(std::size_t which, ui::TechnicianStage stage) const;
 
@@ -47,9 +56,13 @@ class KeptResults {
     Arena memory;
     std::optional<pipeline::FaceModel> model;
     std::uint32_t number = 0;
+    SurfaceDifference difference;
+    std::uint32_t compared_with = 0;
   };
   std::array<std::unique_ptr<One>, budget::kKeptResults> all_;
   std::size_t count_ = 0;
+  float full_colour_mm_ = 0;
+  std::uint32_t coloured_ = 0;  // so many surfaces have been
 };
 
 }  // namespace relievo::firmware

@@ -10,29 +10,16 @@
 
 #include <string.h>
 
-#include "firmware/checks/deviation_picture.h"
 #include "firmware/compare/page/maps.h"
 #include "firmware/measure/disparity_map.h"
 #include "firmware/measure/rule_figures.h"
-#include "firmware/measure/self_agreement.h"
+#include "firmware/technician/show/surface_difference.h"
 #include "firmware/work/stage_drawing.h"
 
 namespace relievo::firmware {
 namespace {
 
 constexpr float kLeastFullColourMm = 0.5F;
-
-void wipe(compare::DisparityMap& map) {
-  if (!map.values.empty()) explicit_bzero(map.values.data(), map.values.size() * sizeof(float));
-  map = {};
-}
-
-compare::DisparityMap depths(const pipeline::RectifiedPair& pair, const pipeline::FaceMesh& mesh) {
-  compare::DisparityMap map = compare::model_view(pair, mesh);
-  for (float& d : map.values)
-    if (!std::isnan(d)) d = static_cast<float>(pair.depth_mm(static_cast<double>(d)));
-  return map;
-}
 
 using ui::TechnicianStage;
 constexpr std::size_t kBytes = budget::kTechnicianPictureBytes;
@@ -84,7 +71,7 @@ void HandChange::forget() {
 void HandChange::before(const pipeline::AlgorithmSet& set, const pipeline::RectifiedPair& pair,
                         const pipeline::FaceMesh& mesh) {
   wipe(before_);
-  before_ = depths(pair, mesh);
+  before_ = depths_of(pair, mesh);
   set_ = set.to_text();
 }
 
@@ -95,7 +82,7 @@ void HandChange::measure(const Making& making, const Products& products) {
   const pipeline::RectifiedPair& pair = *products.pair;
   if (making.by_hand.empty()) return before(making.set, pair, products.model->mesh);
   if (!has_before(making.set)) return;
-  now_ = depths(pair, products.model->mesh);
+  now_ = depths_of(pair, products.model->mesh);
   if (before_.values.size() != now_.values.size()) return;
   figures_.known = true;
   const auto focal = static_cast<float>(pair.focal_px);
@@ -224,19 +211,11 @@ void TechnicianPictures::draw_shapes(const Products& products) {
   }
 }
 
-// Where nothing is known of one of the two surfaces, the photograph stays.
 void TechnicianPictures::draw_change(const pipeline::RectifiedPair& pair, const HandChange& change) {
   StageCanvas canvas(begin(TechnicianStage::Mesh, 1).rgb.get(), kSide);
-  draw_photograph(pair, 0.5, canvas);
-  const FaceWindow window(pair, kSide);
-  for (int y = 0; y < kSide; ++y)
-    for (int x = 0; x < kSide; ++x) {
-      const float nearer =
-          change.nearer_mm(static_cast<int>(window.back_x(x)), static_cast<int>(window.back_y(y)));
-      if (std::isnan(nearer)) continue;
-      const auto c = deviation_colour(static_cast<double>(nearer / change.figures().full_colour_mm));
-      canvas.put(x, y, {1.0 * c[0], 1.0 * c[1], 1.0 * c[2]});
-    }
+  draw_nearer(
+      pair, [&change](int x, int y) { return change.nearer_mm(x, y); }, change.figures().full_colour_mm,
+      canvas);
 }
 
 void TechnicianPictures::draw(const Products& products, const HandChange& change) {

@@ -233,6 +233,41 @@ TEST_F(TechnicianTest, FourResultsStandSideBySideAndTurnTogether) {
   rig().turn();
   EXPECT_NE(rig().screen->draw_list().face_look.yaw_deg, before);
 
+  // How far each lies from the present one; a touched one fills the page in these colours.
+  rig().tap("show difference");
+  ASSERT_TRUE(rig().until([] { return rig().now().compared[2].difference.known; }));
+  rig().turn();
+  for (std::size_t i = 0; i < 3; ++i) {
+    const ui::TechnicianDifference& d = rig().now().compared[i].difference;
+    ASSERT_TRUE(d.known && d.colours != nullptr);
+    EXPECT_LT(std::abs(d.median_mm), 0.1F) << "of one capture";
+    EXPECT_LE(d.most_mm, rig().now().full_colour_mm);
+    EXPECT_EQ(rig()
+                  .screen->draw_list()
+                  .pictures[static_cast<std::size_t>(ui::PictureSlot::TechnicianLeft) + i]
+                  .version,
+              d.map.version);
+  }
+  EXPECT_EQ(rig().now().compared[0].difference.most_mm, rig().now().compared[1].difference.most_mm)
+      << "the document is what was saved";
+  EXPECT_GT(rig().now().compared[0].difference.most_mm, 0) << "of another mesher";
+  EXPECT_FALSE(rig().now().compared[3].difference.known) << "the present one";
+  rig().tap("kept picture 1");
+  EXPECT_EQ(rig().screen->service().mode, 2);
+  const auto alone = [] { return rig().screen->draw_list().faces[0]; };
+  EXPECT_EQ(alone().model, kept.model);
+  EXPECT_EQ(alone().version, rig().now().compared[1].difference.number);
+  EXPECT_NE(alone().colours, nullptr);
+  rig().tap("show difference");
+  EXPECT_EQ(alone().version, kept.model_number);
+  EXPECT_EQ(alone().colours, nullptr);
+  rig().screen->feed({ui::Input::Kind::Back}, rig().view);
+  rig().turn();
+  rig().tap("kept picture 1");
+  EXPECT_EQ(rig().screen->service().mode, 2) << "the surface, too, by a finger that does not move";
+  rig().tap("back");
+  EXPECT_EQ(rig().screen->service().mode, 0);
+
   const std::uint32_t second = kept.model_number;
   rig().tap("drop 0");
   EXPECT_EQ(rig().now().put_aside, 2U);

@@ -152,6 +152,25 @@ TEST_F(TechnicianTest, CamerasAreWatchedOnlyWhileTheirPageIsOpen) {
     EXPECT_GT(camera.mean, 0.05F);
     EXPECT_GT(camera.focus, 0.5F);
   }
+  ASSERT_TRUE(rig().until([] { return rig().shows("show edges"); }));
+  rig().tap("show edges");
+  ASSERT_TRUE(rig().until([] { return rig().now().cameras.camera[1].sharp_edges > 0; }))
+      << "a face in focus has some";
+  for (const auto& [picture, mode] : {std::pair{"left live", 1}, std::pair{"right live", 2}}) {
+    rig().tap(picture);
+    EXPECT_EQ(rig().screen->service().mode, mode);
+    ASSERT_TRUE(rig().shows("whole"));
+    EXPECT_FALSE(rig().shows("left live"));
+    const ui::Rect whole = rig().screen->tree().find("whole")->rect;
+    EXPECT_GT(whole.h, 0.75F * static_cast<float>(rig().screen->height_px()));
+    EXPECT_TRUE(rig().shows("whole focus") && rig().shows("whole edges"));
+    if (mode == 1) rig().tap("whole");
+    else rig().screen->feed({ui::Input::Kind::Back}, rig().view);
+    rig().turn();
+    EXPECT_TRUE(rig().shows(picture)) << "back by a tap and by a key";
+  }
+  rig().tap("show edges");
+  ASSERT_TRUE(rig().until([] { return !rig().now().cameras.edges_shown; }));
   rig().open(StaffPage::Stages);
   ASSERT_TRUE(rig().until([] { return !rig().side_tasks->busy(JobLane::Capture); }));
   EXPECT_FALSE(rig().now().cameras.watched);

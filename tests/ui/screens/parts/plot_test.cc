@@ -131,9 +131,10 @@ TEST_F(PlotTest, ALineHoldsEachValueAndTheLimitLiesAtItsOwn) {
   what.look = PlotLook::Line, what.unit = "°C", what.limit = 90;
   draw(what);
   const PlotScale scale = plot_scale(values, 90);
+  const double half_a_pixel = 0.51 * scale.to() / static_cast<double>(field.h);
   const auto steps = marks(kLight.accent);  // 40, 60 and the rise between them
   ASSERT_EQ(steps.size(), 3U);
-  EXPECT_NEAR(value_at(steps[0].y + steps[0].h / 2, scale), 40, 0.5) << "to half a pixel";
+  EXPECT_NEAR(value_at(steps[0].y + steps[0].h / 2, scale), 40, half_a_pixel);
   EXPECT_NEAR(steps[0].x, field.x + field.w / 4, 0.01);
   EXPECT_NEAR(steps[0].w, field.w / 4, 0.01);
   const Rect& rise = steps[2].h > steps[1].h ? steps[2] : steps[1];
@@ -141,7 +142,7 @@ TEST_F(PlotTest, ALineHoldsEachValueAndTheLimitLiesAtItsOwn) {
   EXPECT_NEAR(value_at(rise.bottom(), scale), 40, 0.01);
   const auto bad = marks(kLight.bad);  // 95, the rise to it, the limit
   ASSERT_EQ(bad.size(), 3U);
-  EXPECT_NEAR(value_at(bad.back().y + bad.back().h / 2, scale), 90, 0.5);
+  EXPECT_NEAR(value_at(bad.back().y + bad.back().h / 2, scale), 90, half_a_pixel);
   EXPECT_NEAR(bad.back().w, field.w, 0.01);
   EXPECT_EQ(
       value_of("p"),

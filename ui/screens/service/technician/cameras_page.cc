@@ -11,15 +11,64 @@ namespace {
 
 constexpr float kBurntOut = 0.02F, kTooDark = 0.12F, kSharpEnough = 0.9F;
 
+// Touched, a camera's picture fills the page: mode 1 the left one's, 2 the right one's.
 void live(TechnicianFrame& f, std::string_view id, const char* title, const TechnicianPicture& picture,
-          PictureSlot slot) {
+          PictureSlot slot, int mode) {
   Node column = f.page.grown(f.page.box(Flow::Column, 6));
   column.box.justify = Justify::Centre;
   f.page.tree.open(column);
   f.page.tree.leaf(f.page.text(title, type::kSmall, Weight::Bold, f.page.palette.ink, TextAlign::Centre));
-  f.open_picture(id, title, picture, slot);
+  const bool opens = mode > 0 && !picture.pixels.empty();
+  f.open_picture(id, opens ? f.page.filled("{}: {}", {title, f.tr("Whole page")}) : title, picture, slot,
+                 opens ? Action(ActionKind::StaffMode, mode) : Action());
   f.close_picture();
   f.page.tree.close();
+}
+
+void edges_button(TechnicianFrame& f, float grow) {
+  f.choice("show edges", f.tr("Sharp edges"), f.view.cameras.edges_shown,
+           technician_action(TechnicianAct::ShowEdges), grow);
+}
+
+// What a hand at the lens looks at.
+void focus_card(TechnicianFrame& f, const TechnicianCamera& camera) {
+  Node row = f.page.box(Flow::Row, space::kM, space::kM, space::kXs);
+  row.box.align = Align::Centre;
+  frame(row, f.page.palette.card, f.page.palette.card_border, f.page.px(1.5F), f.page.px(18));
+  f.page.tree.open(row);
+  f.page.tree.open(f.page.grown(f.page.box(Flow::Column)));
+  const auto figure = [&](std::string_view id, const char* label, float share, int decimals) {
+    Node said = f.page.text(
+        f.page.filled("{}: {}", {label, f.page.number(100 * static_cast<double>(share), decimals, "%")}), 18,
+        Weight::Medium, f.page.palette.ink);
+    said.id = id;
+    said.style.tabular = true;
+    f.page.tree.leaf(said);
+  };
+  figure("whole focus", f.tr("Focus, of the best so far"), camera.focus, 0);
+  if (f.view.cameras.edges_shown) figure("whole edges", f.tr("Sharp edges"), camera.sharp_edges, 1);
+  f.page.tree.close();
+  edges_button(f, 0);
+  f.page.tree.close();
+}
+
+// One picture; the figures on it, or upright below it.
+void whole_page(TechnicianFrame& f, std::size_t side) {
+  const TechnicianCamera& camera = f.view.cameras.camera[side];
+  f.open_picture(
+      "whole",
+      f.page.filled("{}: {}", {side == 0 ? f.tr("Left camera") : f.tr("Right camera"), f.tr("Back")}),
+      camera.picture, side == 0 ? PictureSlot::TechnicianLeft : PictureSlot::TechnicianRight,
+      {ActionKind::StaffMode, 0});
+  if (f.page.portrait) {
+    f.close_picture();
+    return focus_card(f, camera);
+  }
+  f.page.tree.open(f.page.box(Flow::Column, 0, space::kS, space::kS));
+  f.page.space(1);
+  focus_card(f, camera);
+  f.page.tree.close();
+  f.close_picture();
 }
 
 // A label, and the figure of the left and of the right camera, on their sides in every language.
@@ -68,6 +117,10 @@ void figures(TechnicianFrame& f) {
   both(
       "focus", f.tr("Focus, of the best so far"), [](const TechnicianCamera& x) { return 100 * x.focus; }, 0,
       "%", [](const TechnicianCamera& x) { return x.focus < kSharpEnough ? Mood::Warn : Mood::Good; });
+  if (c.edges_shown)
+    both(
+        "edges", f.tr("Sharp edges"), [](const TechnicianCamera& x) { return 100 * x.sharp_edges; }, 1, "%",
+        plain);
   both(
       "frames", f.tr("Pictures"), [](const TechnicianCamera& x) { return x.frames; }, 0, "", plain);
   both(
@@ -92,15 +145,18 @@ void technician_cameras_page(StaffFrame& page) {
   if (page.staff.technician == nullptr) return;
   TechnicianFrame f(page);
   f.problem(f.view.problem.empty() ? f.view.cameras.problem : f.view.problem);
+  if (page.service.mode > 0 && f.view.cameras.watched)
+    return whole_page(f, static_cast<std::size_t>(page.service.mode == 1 ? 0 : 1));
   page.tree.open(page.grown(page.box(page.portrait ? Flow::Column : Flow::Row, space::kM)));
   Node pair = page.grown(page.box(Flow::Row, space::kS), f.picture_share(1.5F));
   pair.box.left_to_right = true;
   page.tree.open(pair);
   const TechnicianCameras& cameras = f.view.cameras;
-  live(f, "left live", f.tr("Left camera"), cameras.camera[0].picture, PictureSlot::TechnicianLeft);
+  live(f, "left live", f.tr("Left camera"), cameras.camera[0].picture, PictureSlot::TechnicianLeft, 1);
   if (cameras.relief_shown)
-    live(f, "relief", f.tr("Relief: near is bright"), cameras.relief, PictureSlot::TechnicianRight);
-  else live(f, "right live", f.tr("Right camera"), cameras.camera[1].picture, PictureSlot::TechnicianRight);
+    live(f, "relief", f.tr("Relief: near is bright"), cameras.relief, PictureSlot::TechnicianRight, 0);
+  else
+    live(f, "right live", f.tr("Right camera"), cameras.camera[1].picture, PictureSlot::TechnicianRight, 2);
   page.tree.close();
   page.tree.open(page.grown(page.box(Flow::Column)));
   page.begin_panel("camera figures");
@@ -117,6 +173,7 @@ void technician_cameras_page(StaffFrame& page) {
                       technician_action(TechnicianAct::BrighterShot), grow);
     if (page.portrait) page.tree.close(), f.open_buttons();  // two and two
   }
+  if (f.view.cameras.watched) edges_button(f, grow);
   if (f.view.cameras.watched)
     f.choice("show relief", f.tr("Relief"), f.view.cameras.relief_shown,
              technician_action(TechnicianAct::ShowRelief), grow);

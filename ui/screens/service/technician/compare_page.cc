@@ -2,7 +2,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 //
 // Results beside each other, a column each: those put aside, and the present one behind them. A picture of
-// the stage, or its surface, which one finger turns in all columns; the algorithms that were changed in any;
+// the stage, its surface, which one finger turns in all columns, or how far that lies from the present one;
+// touched, it fills the page; the algorithms that were changed in any;
 // times, counts, and what each result says of itself.
 #include <algorithm>
 #include <string>
@@ -12,6 +13,48 @@
 
 namespace relievo::ui {
 namespace {
+
+// The colours of a difference, from farther to nearer.
+void difference_scale(TechnicianFrame& f) {
+  if (f.view.scale.empty()) return;
+  const auto end = static_cast<double>(f.view.full_colour_mm);
+  const std::string_view farther = f.page.number(-end, 2, "mm"), nearer = f.page.number(end, 2, "mm");
+  Node row = f.page.box(Flow::Row, space::kXs, 0, 5);
+  row.id = "difference scale";
+  row.box.left_to_right = true;
+  row.box.align = Align::Centre;
+  f.page.tree.open(row);
+  f.page.tree.leaf(f.page.text(farther, 18, Weight::Regular, f.page.palette.ink));
+  Node strip = f.page.grown(f.page.box(Flow::Column));
+  strip.box.height = f.page.px(20);
+  f.page.tree.leaf(strip);
+  const float share = 1 / static_cast<float>(f.view.scale.size());
+  for (std::size_t i = 0; i < f.view.scale.size(); ++i) {
+    const auto& c = f.view.scale[i];
+    f.page.tree.mark({{static_cast<float>(i) * share, 0, share, 1}, {c[0], c[1], c[2], 255}, 0, false});
+  }
+  f.page.tree.leaf(f.page.text(nearer, 18, Weight::Regular, f.page.palette.ink));
+  f.page.tree.close();
+  f.page.tree.leaf(f.page.text(
+      f.page.filled(f.tr("Red came nearer, blue went away; white stayed. Full colour: {}."), nearer), 18,
+      Weight::Regular, f.page.palette.ink_soft));
+}
+
+void difference_button(TechnicianFrame& f, float grow) {
+  f.choice("show difference", f.tr("Difference"), f.view.differences,
+           technician_action(TechnicianAct::ShowDifference), grow);
+}
+
+// One result by itself, to be turned and measured on.
+void alone(TechnicianFrame& f, std::size_t i) {
+  f.face(1, nullptr, 0);
+  const bool coloured = f.view.differences && f.view.compared[i].difference.known;
+  if (coloured) difference_scale(f);
+  const float grow = f.open_buttons();
+  if (i < f.view.put_aside) difference_button(f, grow);
+  f.measure_button(grow);
+  f.page.tree.close();
+}
 
 class Columns {
  public:
@@ -39,6 +82,7 @@ class Columns {
       std::ranges::replace(name, '_', ' ');  // between date and time a line may end
       return f.left_to_right(name);
     });
+    differences();
     algorithms();
     failures();
     page.rule();
@@ -70,6 +114,9 @@ class Columns {
     return f.tr(
         "Put this result aside, then calculate again or load another one: up to four stand side by side.");
   }
+  bool shows_difference(std::size_t i) const {
+    return f.view.differences && f.view.compared[i].difference.known;
+  }
   float label_share() const { return count > 2 ? 0.9F : 0.7F; }
 
   void picture(std::size_t i) {
@@ -77,19 +124,25 @@ class Columns {
     const std::string_view spoken = is_now(i) ? std::string_view(f.tr("Now")) : name_of(i);
     const auto slot = static_cast<PictureSlot>(static_cast<std::size_t>(PictureSlot::TechnicianLeft) + i);
     const std::string_view id = is_now(i) ? "present picture" : f.id("kept picture", i);
-    if (one.model != nullptr && is_turned(f.view.stage)) {
+    const Action alone =
+        one.model != nullptr ? Action(ActionKind::StaffMode, static_cast<std::int32_t>(i + 1)) : Action();
+    if (shows_difference(i)) {
+      f.open_picture(id, page.filled("{}: {}", {f.tr("Difference"), spoken}), one.difference.map, slot,
+                     alone);
+    } else if (one.model != nullptr && is_turned(f.view.stage)) {
       Node card = page.grown(page.box(Flow::Stack));
       card.box.fill = page.palette.stage;
       card.box.radius = page.px(12);
       page.tree.open(card);
       Node face = page.box(Flow::Column);
       tell(face, Role::Picture, id, f.tr("The model: turn it with a finger"), {ActionKind::TurnFace, 0});
+      face.by_key = alone;
       face.mark = Mark::Face;
       face.face = static_cast<std::uint8_t>(i);
       face.box.radius = page.px(12);
       page.tree.leaf(face);
     } else {
-      f.open_picture(id, spoken, one.picture, slot);
+      f.open_picture(id, spoken, one.picture, slot, alone);
     }
     if (!is_now(i)) drop_button(i);
     page.tree.close();
@@ -147,6 +200,27 @@ class Columns {
       return r.there && known(r) ? page.number(static_cast<double>(value(r)), decimals, unit)
                                  : std::string_view("–");
     });
+  }
+
+  // Against the present one, and what the colours say.
+  void differences() {
+    if (!f.view.differences) return;
+    const auto each = [&](std::string_view id, const char* label, auto value) {
+      row(id, label, [&](const TechnicianResult& r) {
+        const TechnicianDifference& d = f.view.compared[static_cast<std::size_t>(number_of(r))].difference;
+        return d.known ? page.number(static_cast<double>(value(d)), 2, "mm") : std::string_view("–");
+      });
+    };
+    each("difference median", f.tr("Median difference"),
+         [](const TechnicianDifference& d) { return d.median_mm; });
+    each("difference most", f.tr("95 % differ by less than"),
+         [](const TechnicianDifference& d) { return d.most_mm; });
+    difference_scale(f);
+  }
+  std::ptrdiff_t number_of(const TechnicianResult& r) const {
+    const auto found = std::ranges::find_if(f.view.compared,
+                                            [&](const TechnicianCompared& one) { return &one.result == &r; });
+    return found - f.view.compared.begin();
   }
 
   // The value of a changed option; empty: as delivered.
@@ -251,6 +325,7 @@ void buttons(TechnicianFrame& f, bool there) {
         static_cast<TechnicianStage>((static_cast<std::size_t>(f.view.stage) + 1) % kTechnicianStages);
     f.page.small_button("next stage", title_of(f.tr, f.view.stage), icon::kAgain, ButtonLook::Quiet,
                         technician_action(ShowStage{next}), grow);
+    if (f.view.put_aside > 0) difference_button(f, grow);
     if (room)
       f.page.small_button("keep", f.tr("Put this result aside"), nullptr, ButtonLook::Quiet,
                           technician_action(TechnicianAct::KeepResult), grow);
@@ -268,6 +343,9 @@ void technician_compare_page(StaffFrame& page) {
   TechnicianFrame f(page);
   if (f.view.saved.listed) return f.saved_list(true);
   const bool there = f.capture_state();
+  const auto one = static_cast<std::size_t>(std::max(0, page.service.mode));
+  if (there && one > 0 && one <= f.view.put_aside + 1 && f.view.compared[one - 1].model != nullptr)
+    return alone(f, one - 1);
   if (there) {
     Columns columns(f);
     columns.pictures();

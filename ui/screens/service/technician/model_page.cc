@@ -1,7 +1,8 @@
 // SPDX-FileCopyrightText: 2026 The Relievo authors
 // SPDX-License-Identifier: GPL-3.0-or-later
 //
-// The test capture in three dimensions: points, edges, surface, texture and light, each switched on and off.
+// The test capture in three dimensions: points, edges, surface, texture and light, each switched on and off;
+// the distance of two points on it.
 #include "ui/screens/service/technician/technician_frame.h"
 
 namespace relievo::ui {
@@ -36,25 +37,6 @@ void hands(TechnicianFrame& f) {
   f.page.tree.close();
 }
 
-void body(TechnicianFrame& f) {
-  Node card = f.page.grown(f.page.box(Flow::Stack), 3);
-  card.box.fill = f.page.palette.stage;
-  card.box.radius = f.page.px(size::kRadius);
-  f.page.tree.open(card);
-  Node face = f.page.box(Flow::Column);
-  tell(face, Role::Picture, "face", f.tr("The model: turn it with a finger"));
-  face.mark = f.view.model != nullptr ? Mark::Face : Mark::Shape;
-  face.covered_px = f.page.px(size::kTarget + 2 * space::kXs);  // by the tools
-  face.box.radius = f.page.px(size::kRadius);
-  face.action = {ActionKind::TurnFace, 0};
-  f.page.tree.leaf(face);
-  f.page.tree.open(f.page.box(Flow::Column));
-  f.page.space(1);
-  hands(f);
-  f.page.tree.close();
-  f.page.tree.close();
-}
-
 }  // namespace
 
 void technician_model_page(StaffFrame& page) {
@@ -65,12 +47,13 @@ void technician_model_page(StaffFrame& page) {
     page.nothing("no model", icon::kShape, f.tr("There is nothing: a stage before it gave up."));
   } else if (f.view.model != nullptr) {
     page.tree.open(page.grown(page.box(page.portrait ? Flow::Column : Flow::Row, space::kM)));
-    body(f);
+    f.face(3, hands, size::kTarget + 2 * space::kXs);
     Node side = page.box(Flow::Column, space::kS);
     if (!page.portrait) side.box.width = page.px(page.text_share > 1.2F ? 330 : 260);
     side.box.justify = Justify::Centre;
     page.tree.open(side);
     switches(f);
+    f.measure_button(0);
     page.tree.close();
     page.tree.close();
   }

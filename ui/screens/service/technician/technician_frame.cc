@@ -159,8 +159,34 @@ void TechnicianFrame::pin_dot(float x, float y, Colour colour, std::string_view 
   page.tree.leaf(dot);
 }
 
+namespace {
+
+// Beside each other the surfaces of the stage; alone, in mode 1 and on, whatever there is of that result.
+void fill_compared(DrawList& list, const TechnicianView& view, int mode) {
+  static_assert(kCompared == kFaces);
+  const auto face_of = [&](const TechnicianCompared& one) {
+    const TechnicianDifference& d = one.difference;
+    if (!view.differences || !d.known || d.colours == nullptr)
+      return Face{one.model, nullptr, one.model_number, nullptr};
+    return Face{one.model, nullptr, d.number, d.colours};
+  };
+  const std::size_t alone = static_cast<std::size_t>(std::max(0, mode));
+  for (std::size_t i = 0; i < kCompared; ++i) {
+    const TechnicianCompared& one = view.compared[i];
+    if (alone == 0 && one.model != nullptr && is_turned(view.stage))
+      list.faces[i] = {one.model, nullptr, one.model_number, nullptr};
+    if (alone == i + 1 && one.model != nullptr) list.faces[0] = face_of(one);
+  }
+  list.face_look.textured = view.stage == TechnicianStage::Texture || list.faces[0].colours != nullptr;
+  list.face_look.fill = true;
+  list.face_look.edges = list.face_look.points = false;
+}
+
+}  // namespace
+
 bool fill_technician_pictures(DrawList& list, const TechnicianView& view, const Visit& visit,
-                              StaffPage page) {
+                              const Service& service) {
+  const StaffPage page = service.page;
   const auto put = [&list](std::size_t place, const TechnicianPicture& picture) {
     list.pictures[static_cast<std::size_t>(PictureSlot::TechnicianLeft) + place] = {picture.pixels,
                                                                                     picture.version};
@@ -171,24 +197,20 @@ bool fill_technician_pictures(DrawList& list, const TechnicianView& view, const 
   };
   if (page == StaffPage::Stages) show(view.shown[0], view.shown[1]);
   if (page == StaffPage::Compare) {
-    static_assert(kCompared == kFaces);
     for (std::size_t i = 0; i < kCompared; ++i) {
       const TechnicianCompared& one = view.compared[i];
-      put(i, one.picture);
-      if (one.model != nullptr && is_turned(view.stage))
-        list.faces[i] = {one.model, nullptr, one.model_number};
+      put(i, view.differences && one.difference.known ? one.difference.map : one.picture);
     }
     list.face_look = visit.look;
-    list.face_look.textured = view.stage == TechnicianStage::Texture;
-    list.face_look.fill = true;
-    list.face_look.edges = list.face_look.points = false;
+    fill_compared(list, view, service.mode);
   }
   if (page == StaffPage::Cameras)
-    show(view.cameras.camera[0].picture,
-         view.cameras.relief_shown ? view.cameras.relief : view.cameras.camera[1].picture);
+    show(view.cameras.camera[0].picture, view.cameras.relief_shown && service.mode == 0
+                                             ? view.cameras.relief
+                                             : view.cameras.camera[1].picture);
   if (page == StaffPage::Calibrate) show(view.calibration.pictures[0], view.calibration.pictures[1]);
   if (page == StaffPage::Model && view.model != nullptr) {
-    list.faces[0] = {view.model, view.cloud, view.model_number};
+    list.faces[0] = {view.model, view.cloud, view.model_number, nullptr};
     list.face_look = visit.look;
   }
   return page >= StaffPage::Stages && page <= StaffPage::Calibrate;

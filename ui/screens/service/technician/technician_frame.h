@@ -57,6 +57,11 @@ class TechnicianFrame {
   void open_picture(std::string_view id, std::string_view spoken, const TechnicianPicture& picture,
                     PictureSlot slot, Action action = {}, Action dragged = {});
   void close_picture();
+  // The page's model on a dark card, with its scale and the distance of two touched points; `tools` lie on
+  // its lower end.
+  void face(float share, void (*tools)(TechnicianFrame&), float tools_dp);
+  // Touches set points from now on, or no longer.
+  void measure_button(float grow);
   // On the open picture: a line over its whole width, a ring; shares of the picture.
   void pin_line(float y, Colour colour, float thick_dp);
   void pin_dot(float x, float y, Colour colour, std::string_view id);
@@ -77,6 +82,7 @@ class TechnicianFrame {
   void stick_state();
 
  private:
+  void ruler();
   void alert(std::string_view words, std::string_view detail);
   void stick_buttons();
 };
@@ -89,7 +95,8 @@ inline bool is_turned(TechnicianStage stage) {
 const char* work_of(const Words& tr, std::size_t stage);  // of kStages
 
 // The pictures and the model of these pages; false where `page` is none of them.
-bool fill_technician_pictures(DrawList& list, const TechnicianView& view, const Visit& visit, StaffPage page);
+bool fill_technician_pictures(DrawList& list, const TechnicianView& view, const Visit& visit,
+                              const Service& service);
 
 // The pages; each draws nothing but "not here" without a TechnicianView.
 void technician_stages_page(StaffFrame& page);

@@ -1,0 +1,92 @@
+// SPDX-FileCopyrightText: 2026 The Relievo authors
+// SPDX-License-Identifier: GPL-3.0-or-later
+//
+// A model that fills the page, and what is measured on it.
+#include <algorithm>
+#include <array>
+
+#include "ui/screens/service/technician/technician_frame.h"
+
+namespace relievo::ui {
+namespace {
+
+constexpr Colour kLine{255, 170, 40, 255}, kScale{255, 255, 255, 255};
+constexpr float kMargin = 20, kScaleDp = 5, kDotDp = 14, kLineDp = 5;
+constexpr int kLineDots = 40;
+constexpr float kMostOfWidth = 0.25F;  // of the window, that the scale is long
+
+// The longest round length that has room.
+float scale_mm(const FaceRuler& ruler) {
+  constexpr std::array kLengths{100.0F, 50.0F, 20.0F, 10.0F, 5.0F, 2.0F, 1.0F};
+  for (const float mm : kLengths)
+    if (mm * ruler.px_per_mm <= kMostOfWidth * ruler.width_px) return mm;
+  return 0;
+}
+
+}  // namespace
+
+void TechnicianFrame::face(float share, void (*tools)(TechnicianFrame&), float tools_dp) {
+  Node card = page.grown(page.box(Flow::Stack), share);
+  card.box.fill = page.palette.stage;
+  card.box.radius = page.px(size::kRadius);
+  page.tree.open(card);
+  Node face = page.box(Flow::Column);
+  tell(face, Role::Picture, "face", tr("The model: turn it with a finger"));
+  face.mark = Mark::Face;
+  face.ruled = true;
+  face.covered_px = page.px(tools_dp);
+  face.box.radius = page.px(size::kRadius);
+  face.action = {ActionKind::TurnFace, 0};
+  page.tree.leaf(face);
+  ruler();
+  if (tools != nullptr) {
+    page.tree.open(page.box(Flow::Column));
+    page.space(1);
+    tools(*this);
+    page.tree.close();
+  }
+  page.tree.close();
+}
+
+void TechnicianFrame::measure_button(float grow) {
+  choice("measure", tr("Distance"), page.service.ruler.on, {ActionKind::StaffMeasure, 0}, grow);
+}
+
+void TechnicianFrame::ruler() {
+  const FaceRuler& ruler = page.service.ruler;
+  if (ruler.px_per_mm <= 0) return;
+  page.tree.leaf(page.box(Flow::Column));
+  const auto dot = [&](const pipeline::Vec2f& at, float dp) {
+    page.tree.mark({{at.x, at.y, 0, 0}, kLine, page.px(dp), true});
+  };
+  if (ruler.count == 2)
+    for (int i = 1; i < kLineDots; ++i) {
+      const float t = static_cast<float>(i) / kLineDots;
+      dot({std::lerp(ruler.seen[0].x, ruler.seen[1].x, t), std::lerp(ruler.seen[0].y, ruler.seen[1].y, t)},
+          kLineDp);
+    }
+  for (std::size_t i = 0; i < ruler.count; ++i) dot(ruler.seen[i], kDotDp);
+  const float mm = scale_mm(ruler), from = page.px(kMargin) / ruler.width_px,
+              long_share = mm * ruler.px_per_mm / ruler.width_px, y = page.px(kMargin) / ruler.height_px;
+  page.tree.mark(
+      {{page.mirrored() ? 1 - from - long_share : from, y, long_share, 0}, kScale, page.px(kScaleDp), false});
+  Node words = page.box(Flow::Column, 4, kMargin, kMargin + kScaleDp + 2);
+  page.tree.open(words);
+  Node length = page.text(page.number(static_cast<double>(mm), 0, "mm"), 18, Weight::Medium, kScale);
+  length.id = "scale";
+  page.tree.leaf(length);
+  if (ruler.on) {
+    const bool both = ruler.count == 2;
+    Node said = page.text(
+        both ? page.filled("{}: {}",
+                           {tr("Distance"), page.number(static_cast<double>(ruler.distance_mm()), 1, "mm")})
+             : std::string_view(tr("Touch two points of the surface.")),
+        type::kSmall, Weight::Medium, kScale);
+    said.id = "distance";
+    said.role = Role::Status;
+    page.tree.leaf(said);
+  }
+  page.tree.close();
+}
+
+}  // namespace relievo::ui
