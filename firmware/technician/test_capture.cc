@@ -11,10 +11,8 @@
 
 namespace relievo::firmware {
 namespace {
-
 using ui::TechnicianAct;
 using ui::TechnicianPhase;
-
 }  // namespace
 
 TestCapture::TestCapture(Parts parts)
@@ -87,9 +85,8 @@ void TestCapture::act_alone(TechnicianAct act) {
     case TechnicianAct::RemovePair:
       return pairs_.remove();
     case TechnicianAct::ByHand:
-      by_hand_ = !by_hand_;
       point_ = {};
-      return;
+      return void(by_hand_ = !by_hand_);
     case TechnicianAct::ApplySet:
       return apply_set();
     case TechnicianAct::KeepResult:
@@ -99,8 +96,7 @@ void TestCapture::act_alone(TechnicianAct act) {
     case TechnicianAct::ShowRelief:
       return watch_.show_relief(!watch_.shows_relief());
     case TechnicianAct::ShowDifference:
-      differences_ = !differences_;
-      return;
+      return void(differences_ = !differences_);
     case TechnicianAct::ShowEdges:
       return watch_.show_edges(!watch_.shows_edges());
     case TechnicianAct::BrighterShot:
@@ -156,7 +152,7 @@ void TestCapture::keep_result() {
              model_number_);
 }
 
-// The worker sees them against each other; until then the page shows them as they are.
+// On the worker; until then the page shows them as they are.
 void TestCapture::compare_kept() {
   const Products* made = products();
   if (!differences_ || comparing_ || made == nullptr || !made->pair || !made->model ||

@@ -162,7 +162,7 @@ TEST_F(TechnicianTest, CamerasAreWatchedOnlyWhileTheirPageIsOpen) {
     ASSERT_TRUE(rig().shows("whole"));
     EXPECT_FALSE(rig().shows("left live"));
     const ui::Rect whole = rig().screen->tree().find("whole")->rect;
-    EXPECT_GT(whole.h, 0.75F * static_cast<float>(rig().screen->height_px()));
+    EXPECT_GT(whole.h, 0.7F * static_cast<float>(rig().screen->height_px()));
     EXPECT_TRUE(rig().shows("whole focus") && rig().shows("whole edges"));
     if (mode == 1) rig().tap("whole");
     else rig().screen->feed({ui::Input::Kind::Back}, rig().view);

@@ -11,6 +11,7 @@
 #include <cmath>
 #include <cstdio>
 #include <cstdlib>
+#include <memory>
 #include <string>
 #include <vector>
 
@@ -133,51 +134,96 @@ TEST(FaceProjection, AMillimetreIsAsLongAsTheScaleSays) {
   }
 }
 
-// The middle of what is bright is where the projection puts the middle of a small square.
-TEST(FaceProjection, IsTheOneThatIsDrawn) {
-  constexpr int kW = 280, kH = 200;
-  setenv("SDL_VIDEODRIVER", "offscreen", 1);
-  const QuietDriver quiet;
-  auto display = open_sdl_display({kW, kH});
-  ASSERT_TRUE(display.has_value());
-  auto renderer = Renderer::make();
-  auto target = Offscreen::make(kW, kH);
-  ASSERT_TRUE(renderer.has_value() && target.has_value());
-  const Vec3f middle{30, 20, 15};
-  const pipeline::FaceModel square = lattice(1, [&](float u, float v) {
-    return Vec3f{middle.x - 6 + 12 * u, middle.y + 6 - 12 * v, middle.z};
-  });
-  TextAtlas atlas{256};
-  std::vector<std::uint8_t> rgb(std::size_t{3} * kW * kH);
-  std::uint32_t version = 0;
-  for (const FaceLook& turn : kLooks) {
+class Drawn : public testing::Test {
+ protected:
+  static constexpr int kW = 280, kH = 200;
+  void SetUp() override {
+    setenv("SDL_VIDEODRIVER", "offscreen", 1);
+    auto opened = open_sdl_display({kW, kH});
+    ASSERT_TRUE(opened.has_value());
+    display = std::move(*opened);
+    auto made = Renderer::make();
+    auto offscreen = Offscreen::make(kW, kH);
+    ASSERT_TRUE(made.has_value() && offscreen.has_value());
+    renderer = std::move(*made);
+    target = std::move(*offscreen);
+  }
+  void TearDown() override {
+    target.reset();
+    renderer.reset();
+    display.reset();
+  }
+  void draw(const Face& face, const FaceLook& look) {
     DrawList list;
-    list.faces[0].model = &square;
-    list.faces[0].version = ++version;
-    list.face_look = turn;
-    list.face_look.textured = list.face_look.lit = false;
+    list.faces[0] = face;
+    list.face_look = look;
     Command c;
     c.mark = Mark::Face;
     c.rect = c.clip = {0, 0, kW, kH};
     c.fill = {255, 255, 255, 255};
     c.share = 1 - kCovered;
     list.commands.push_back(c);
-    (*target)->begin();
-    (*renderer)->draw(list, atlas, kW, kH);
-    (*renderer)->read_back(rgb, kW, kH);
-    (*target)->end();
+    target->begin();
+    renderer->draw(list, atlas, kW, kH);
+    renderer->read_back(rgb, kW, kH);
+    target->end();
+  }
+  int at(int x, int y, std::size_t channel) const {
+    return rgb[3 * static_cast<std::size_t>(y * kW + x) + channel];
+  }
+
+  const QuietDriver quiet;
+  std::unique_ptr<Display> display;
+  std::unique_ptr<Renderer> renderer;
+  std::unique_ptr<Offscreen> target;
+  TextAtlas atlas{256};
+  std::vector<std::uint8_t> rgb = std::vector<std::uint8_t>(std::size_t{3} * kW * kH);
+};
+
+// The middle of what is bright is where the projection puts the middle of a small square.
+TEST_F(Drawn, StandsWhereTheProjectionSays) {
+  const Vec3f middle{30, 20, 15};
+  const pipeline::FaceModel square = lattice(1, [&](float u, float v) {
+    return Vec3f{middle.x - 6 + 12 * u, middle.y + 6 - 12 * v, middle.z};
+  });
+  std::uint32_t version = 0;
+  for (FaceLook look : kLooks) {
+    look.textured = look.lit = false;
+    draw({&square, nullptr, ++version, nullptr}, look);
     double x = 0, y = 0, all = 0;
     for (int v = 0; v < kH; ++v)
       for (int u = 0; u < kW; ++u) {
-        const double light = rgb[3 * static_cast<std::size_t>(v * kW + u)];
+        const double light = at(u, v, 0);
         x += light * (u + 0.5), y += light * (v + 0.5), all += light;
       }
     ASSERT_GT(all, 0);
     const Vec2f seen =
-        FaceProjection(stand_of(square), turn, static_cast<float>(kW) / kH, kCovered).seen(middle);
-    EXPECT_NEAR(x / all, static_cast<double>(seen.x) * kW, 0.5) << turn.yaw_deg;
-    EXPECT_NEAR(y / all, static_cast<double>(seen.y) * kH, 0.5) << turn.yaw_deg;
+        FaceProjection(stand_of(square), look, static_cast<float>(kW) / kH, kCovered).seen(middle);
+    EXPECT_NEAR(x / all, static_cast<double>(seen.x) * kW, 0.5) << look.yaw_deg;
+    EXPECT_NEAR(y / all, static_cast<double>(seen.y) * kH, 0.5) << look.yaw_deg;
   }
+}
+
+// The left half of a plane in red, the right half in blue, as a difference is.
+TEST_F(Drawn, HasOtherColoursInPlaceOfItsTextureWhereTheyAreGiven) {
+  const pipeline::FaceModel model = plane();
+  pipeline::TextureAtlas colours(std::pmr::get_default_resource());
+  colours.width_px = 2, colours.height_px = 1;
+  colours.rgb = {255, 0, 0, 0, 0, 255};
+  for (std::size_t i = 0; i < model.mesh.triangles.size(); ++i)
+    colours.uv.insert(colours.uv.end(), 3, Vec2f{(i / 2) % 10 < 5 ? 0.25F : 0.75F, 0.5F});
+  draw({&model, nullptr, 1, &colours}, {});
+  const Vec2f
+      left = FaceProjection(stand_of(model), {}, static_cast<float>(kW) / kH, kCovered).seen({-30, 0, 12}),
+      right = FaceProjection(stand_of(model), {}, static_cast<float>(kW) / kH, kCovered).seen({30, 0, 12});
+  const auto reds = [&](const Vec2f& p) {
+    const int x = static_cast<int>(p.x * kW), y = static_cast<int>(p.y * kH);
+    return at(x, y, 0) - at(x, y, 2);
+  };
+  EXPECT_GT(reds(left), 60);
+  EXPECT_LT(reds(right), -60);
+  draw({&model, nullptr, 2, nullptr}, {});
+  EXPECT_LT(std::abs(reds(left) - reds(right)), 10) << "without them it is of one colour";
 }
 
 // Through the page: two taps, and what it says; a finger that moves turns and sets nothing.

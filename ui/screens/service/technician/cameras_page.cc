@@ -52,7 +52,7 @@ void focus_card(TechnicianFrame& f, const TechnicianCamera& camera) {
   f.page.tree.close();
 }
 
-// One picture; the figures on it, or upright below it.
+// One picture, and the figures below it.
 void whole_page(TechnicianFrame& f, std::size_t side) {
   const TechnicianCamera& camera = f.view.cameras.camera[side];
   f.open_picture(
@@ -60,15 +60,8 @@ void whole_page(TechnicianFrame& f, std::size_t side) {
       f.page.filled("{}: {}", {side == 0 ? f.tr("Left camera") : f.tr("Right camera"), f.tr("Back")}),
       camera.picture, side == 0 ? PictureSlot::TechnicianLeft : PictureSlot::TechnicianRight,
       {ActionKind::StaffMode, 0});
-  if (f.page.portrait) {
-    f.close_picture();
-    return focus_card(f, camera);
-  }
-  f.page.tree.open(f.page.box(Flow::Column, 0, space::kS, space::kS));
-  f.page.space(1);
-  focus_card(f, camera);
-  f.page.tree.close();
   f.close_picture();
+  focus_card(f, camera);
 }
 
 // A label, and the figure of the left and of the right camera, on their sides in every language.

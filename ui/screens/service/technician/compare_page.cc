@@ -325,7 +325,10 @@ void buttons(TechnicianFrame& f, bool there) {
         static_cast<TechnicianStage>((static_cast<std::size_t>(f.view.stage) + 1) % kTechnicianStages);
     f.page.small_button("next stage", title_of(f.tr, f.view.stage), icon::kAgain, ButtonLook::Quiet,
                         technician_action(ShowStage{next}), grow);
-    if (f.view.put_aside > 0) difference_button(f, grow);
+    if (f.view.put_aside > 0) {
+      difference_button(f, grow);
+      if (f.page.portrait) f.page.tree.close(), f.open_buttons();  // two and two
+    }
     if (room)
       f.page.small_button("keep", f.tr("Put this result aside"), nullptr, ButtonLook::Quiet,
                           technician_action(TechnicianAct::KeepResult), grow);
