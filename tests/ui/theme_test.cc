@@ -32,7 +32,11 @@ void every_text_can_be_read(const Palette& p, const char* name) {
                         {"good below", p.good, p.ground_end},
                         {"warn", p.warn, p.ground},
                         {"bad", p.bad, p.card},
-                        {"good on a card", p.good, p.card}};
+                        {"good on a card", p.good, p.card},
+                        {"chosen row", p.accent_ink, p.accent},
+                        {"chosen row under a finger", p.accent_ink, pressed(p.accent)},
+                        {"row under a finger", p.ink, pressed(p.card)},
+                        {"quiet button under a finger", p.link, pressed(p.quiet)}};
   for (const Pair& pair : pairs)
     EXPECT_GE(contrast(pair.text, pair.ground), 4.5) << name << ": " << pair.what;
 }

@@ -20,4 +20,9 @@ double contrast(Colour text, Colour ground) {
   return (std::max(a, b) + 0.05) / (std::min(a, b) + 0.05);
 }
 
+Colour pressed(Colour fill) {
+  const auto darker = [](std::uint8_t v) { return static_cast<std::uint8_t>(v * 21 / 25); };
+  return {darker(fill.r), darker(fill.g), darker(fill.b), fill.a};
+}
+
 }  // namespace relievo::ui

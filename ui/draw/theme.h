@@ -72,5 +72,7 @@ inline constexpr Palette kHighContrast{
 // Relative luminance and contrast as WCAG 2.2 define them.
 double luminance(Colour colour);
 double contrast(Colour text, Colour ground);
+// A box while a finger is on it.
+Colour pressed(Colour fill);
 
 }  // namespace relievo::ui

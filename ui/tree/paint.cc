@@ -15,12 +15,7 @@ namespace {
 constexpr float kHeldBar = 10;  // dp
 constexpr float kFade = 56;     // dp
 
-Colour darker(Colour c) {
-  const auto less = [](std::uint8_t v) { return static_cast<std::uint8_t>(v * 21 / 25); };
-  return {less(c.r), less(c.g), less(c.b), c.a};
-}
-
-void paint_box(DrawList& list, const Node& node, bool pressed, float unit) {
+void paint_box(DrawList& list, const Node& node, bool touched, float unit) {
   const Box& box = node.box;
   if (box.shadow) {
     Command shadow;
@@ -37,8 +32,8 @@ void paint_box(DrawList& list, const Node& node, bool pressed, float unit) {
   c.mark = box.radius > 0 || box.border_px > 0 ? Mark::Shape : Mark::Flat;
   c.rect = node.rect;
   c.clip = node.clip;
-  c.fill = pressed ? darker(box.fill) : box.fill;
-  c.fill_end = pressed || !box.fill_end.seen() ? c.fill : box.fill_end;
+  c.fill = touched ? pressed(box.fill) : box.fill;
+  c.fill_end = touched || !box.fill_end.seen() ? c.fill : box.fill_end;
   c.border = box.border;
   c.border_px = box.border_px;
   c.radius = std::min(box.radius, std::min(node.rect.w, node.rect.h) / 2);
