@@ -66,7 +66,13 @@ constexpr std::string_view kAway = "the camera is away: check its plug; it is tr
                            kSlow = "took longer than its limit: try again";
 constexpr std::array kFaults{ui::LogLine{"2026-03-14 10:21:09", true, kAway, Errc::Disconnected, {}, {}},
                              ui::LogLine{"2026-03-14 09:02:44", true, kSlow, Errc::Timeout, {}, {}}};
-constexpr ui::HealthView kHealth{kGauges, kFaults};
+constexpr ui::VisitCostsView kCosts{
+    16,
+    {{{1.2F, 206}, {0.3F, 311}, {0.6F, 288}, {0.4F, 241}, {0.1F, 187}, {1.9F, 296}, {2.4F, 302}}},
+    894,
+    60,
+    960};
+constexpr ui::HealthView kHealth{kGauges, kCosts, kFaults};
 
 constexpr std::array kPeople{
     ui::RecordRow{431, "Ada Lovelace", "2026-03-14 09:12", "4821-9037-5512-71", 1},
@@ -117,6 +123,16 @@ const ui::ConsentTexts& own_text() {
     return own;
   }();
   return kOwn;
+}
+
+// The same in every language.
+const ui::ConsentTexts& whole_text() {
+  static const ui::ConsentTexts kWhole = [] {
+    ui::ConsentTexts whole = own_text();
+    for (auto& text : whole.in) text = whole.in[0];
+    return whole;
+  }();
+  return kWhole;
 }
 
 ServiceView at(StaffRole role) {
@@ -215,8 +231,27 @@ void add_sign_in(std::deque<Shown>& all) {
 }
 
 void add_menus(std::deque<Shown>& all) {
-  all.push_back({"staff_technician", StaffPage::Menu, 0, at(StaffRole::Technician)});
+  static const ui::StatusView kWell{.looked = true, .free_mib = 40960}, kIll{.looked = true,
+                                                                             .camera_away = true,
+                                                                             .pairs = 400,
+                                                                             .missed = 31,
+                                                                             .free_mib = 2560,
+                                                                             .hottest_c = 78,
+                                                                             .calibration_days = 512,
+                                                                             .clock_jumped = true,
+                                                                             .device_faults = 3};
+  ServiceView technician = at(StaffRole::Technician);
+  technician.status = &kWell;
+  all.push_back({"staff_technician", StaffPage::Menu, 0, technician});
+  technician.status = &kIll;
+  technician.access.words_due = technician.access.demanded = true;
+  all.push_back({"staff_technician_needed", StaffPage::Menu, 0, technician});
   ServiceView leaving = at(StaffRole::Operator);
+  leaving.status = &kIll;
+  leaving.access.words_due = true;
+  all.push_back({"staff_operator_needed", StaffPage::Menu, 0, leaving});
+  leaving.status = &kWell;
+  leaving.access.words_due = false;
   leaving.leaves_in_s = 9;
   all.push_back({"staff_operator", StaffPage::Menu, 0, leaving});
 }
@@ -302,7 +337,9 @@ void add_staff_exhibits(std::vector<Exhibit>& exhibits, const ui::ViewState& idl
     Exhibit exhibit{shown.name, idle, visit, {}};
     exhibit.view.screen = ui::Screen::Staff;
     exhibit.view.service = &shown.view;
+    const bool well = shown.view.status != nullptr && !shown.view.status->camera_away;
     if (shown.page == StaffPage::Consent) exhibit.view.consent = &own_text();
+    if (well) exhibit.view.consent = &whole_text();
     exhibit.service.show(shown.page, shown.mode);
     exhibits.push_back(exhibit);
   }

@@ -20,6 +20,7 @@
 #include "firmware/service/side_tasks.h"
 #include "firmware/service/statistics.h"
 #include "firmware/service/touch_trial.h"
+#include "firmware/service/visit_costs.h"
 #include "hal/device.h"
 #include "storage/store.h"
 #include "ui/view/service.h"
@@ -35,6 +36,7 @@ struct PageServices {
   SideTasks& side_tasks;
   EventLog& log;
   Statistics& statistics;
+  const VisitCosts& costs;
   DeviceSettings& settings;
   RetentionWatch& retention;
   TouchTrial& touch;

@@ -5,6 +5,7 @@
 #include "firmware/service/page/health_controller.h"
 #include "firmware/service/page/records_controller.h"
 #include "firmware/service/page/recovery_controller.h"
+#include "firmware/service/page/status_controller.h"
 #include "firmware/service/page/test_controllers.h"
 #include "ui/device/settings.h"
 #include "ui/screens/staff_screens.h"
@@ -107,6 +108,7 @@ void fill_page_controllers(PageServices& services, Pages pages) {
   const auto at = [&](ui::StaffPage page) -> std::unique_ptr<PageController>& {
     return pages[static_cast<std::size_t>(page)];
   };
+  at(ui::StaffPage::Menu) = std::make_unique<StatusController>(services);
   at(ui::StaffPage::Records) = std::make_unique<RecordsController>(services);
   at(ui::StaffPage::Statistics) = std::make_unique<StatisticsController>(services);
   at(ui::StaffPage::Consent) = std::make_unique<ConsentController>(services);

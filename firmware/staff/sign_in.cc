@@ -61,12 +61,14 @@ void SignIn::ask(const ui::StaffRequest& request, StaffRole role) {
   if (checking_) return;
   if (request.page == StaffPage::Pin && request.as<ui::CheckPin>() != nullptr) return check(request.text());
   const bool first = request.page == StaffPage::FirstStart && !set_up_;
+  const bool clock = first || (request.page == StaffPage::Clock && role != StaffRole::None);
   if (request.as<ui::OfferPin>() != nullptr &&
       (first || (request.page == StaffPage::Pins && role != StaffRole::None)))
     return offer(request.text(), role);
+  const auto* move = request.as<ui::MoveClock>();
+  if (clock && move != nullptr) clock_moved_ += std::chrono::minutes(move->minutes);
+  if (clock && request.as<ui::SetClock>() != nullptr) set_clock();
   if (!first) return;
-  if (const auto* move = request.as<ui::MoveClock>()) clock_moved_ += std::chrono::minutes(move->minutes);
-  if (request.as<ui::SetClock>() != nullptr) set_clock();
   if (request.as<ui::TakeConsentText>() != nullptr) consent_.take();
   if (request.as<ui::ConfirmConsentText>() != nullptr) consent_right_ = true;
 }

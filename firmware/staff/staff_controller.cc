@@ -6,6 +6,7 @@
 #include <utility>
 
 #include "firmware/base/wall_time.h"
+#include "firmware/report/report.h"
 #include "firmware/staff/page_controllers.h"
 #include "hal/base/assert.h"
 
@@ -19,6 +20,11 @@ constexpr std::chrono::seconds kWarning{15};  // before somebody is signed out
 
 bool is_service(State state) {
   return state == State::Staff || state == State::Calibrate || state == State::Export;
+}
+
+// Behind it something was photographed, or nearly.
+bool is_of_a_visit(State state) {
+  return !is_service(state) && state != State::Idle && state != State::Fault && state != State::SelfTest;
 }
 
 }  // namespace
@@ -62,9 +68,9 @@ StaffController::StaffController(Parts parts)
       retention_(parts_.store, side_tasks_, log_, parts_.device.clock()),
       touch_(parts_.store, side_tasks_, log_, parts_.device.clock()),
       consent_(parts_.folder, parts_.device.media(), side_tasks_, log_),
-      services_{parts_.appliance, parts_.device,     parts_.store, side_tasks_, log_,
-                statistics_,      settings_,         retention_,   touch_,      consent_,
-                parts_.folder,    parts_.calibration},
+      services_{parts_.appliance, parts_.device, parts_.store,      side_tasks_, log_,
+                statistics_,      costs_,        settings_,         retention_,  touch_,
+                consent_,         parts_.folder, parts_.calibration},
       sign_in_({parts_.store, parts_.device.clock(), side_tasks_, log_, parts_.set_clock, consent_,
                 parts_.device.is_live()}) {
   fill_page_controllers(services_, pages_);
@@ -90,6 +96,9 @@ Result<std::unique_ptr<StaffController>> StaffController::open(Parts parts) {
     staff->statistics_.begin(
         text_of(std::chrono::floor<std::chrono::milliseconds>(staff->parts_.device.clock().wall_now()))
             .substr(0, 10));
+  const Result<std::string> costs = staff->parts_.store.setting(kVisitCostsSetting);
+  if (!costs && costs.error().code != Errc::NotFound) return costs.error();
+  if (costs) (void)staff->costs_.read(*costs);
   RELIEVO_TRY_ASSIGN(const bool words, staff->parts_.store.has_recovery_words());
   staff->services_.words_due = !words;
   staff->log_.say(ui::LogEvent::Started);
@@ -110,6 +119,8 @@ void StaffController::noted(const Change& change) {
   statistics_.noted(change, problem ? &*problem : nullptr, total,
                     std::chrono::floor<std::chrono::days>(parts_.device.clock().wall_now()));
   if (wrong && problem) log_.fault(*problem);
+  const bool ends = change.to == State::Idle || change.to == State::Fault;
+  if (ends && is_of_a_visit(change.from)) costs_.noted(parts_.appliance.records(), peak_rss_bytes());
 }
 
 bool StaffController::inside() const { return role_ != StaffRole::None; }
@@ -120,12 +131,13 @@ void StaffController::ask(const ui::StaffRequest& request) {
   touched();
   if (request.as<ui::PageLeft>() != nullptr) return leave();
   const bool signs_in = request.page == StaffPage::Pin || request.page == StaffPage::FirstStart ||
-                        request.page == StaffPage::Pins;
+                        request.page == StaffPage::Pins || request.page == StaffPage::Clock;
   if (!inside() && request.page != StaffPage::Pin && request.page != StaffPage::FirstStart) return;
   if (request.as<ui::PageOpened>() != nullptr) {
     close_page();
     if (signs_in) sign_in_.opened(request.page);
-    page_ = may_open(role_, request.page) ? pages_[static_cast<std::size_t>(request.page)].get() : nullptr;
+    const bool may = request.page == StaffPage::Menu ? inside() : may_open(role_, request.page);
+    page_ = may ? pages_[static_cast<std::size_t>(request.page)].get() : nullptr;
     if (page_ != nullptr) page_->opened();
     return;
   }
@@ -190,13 +202,17 @@ void StaffController::turn() {
 void StaffController::save_what_changed() {
   if (side_tasks_.busy(JobLane::Keeper)) return;
   const bool counted = statistics_.changes() != saved_statistics_;
-  if (!counted && !log_.unsaved()) return;
+  const bool cost = costs_.changes() != saved_costs_;
+  if (!counted && !cost && !log_.unsaved()) return;
   saved_statistics_ = statistics_.changes();
+  saved_costs_ = costs_.changes();
   side_tasks_.send(
       JobLane::Keeper,
-      [this, text = counted ? statistics_.text() : std::string()](JobControl&) -> Result<void> {
+      [this, counts = counted ? statistics_.text() : std::string(),
+       costs = cost ? costs_.text() : std::string()](JobControl&) -> Result<void> {
         RELIEVO_TRY(log_.save());
-        return text.empty() ? Result<void>() : parts_.store.set_setting(kStatisticsSetting, text);
+        if (!costs.empty()) RELIEVO_TRY(parts_.store.set_setting(kVisitCostsSetting, costs));
+        return counts.empty() ? Result<void>() : parts_.store.set_setting(kStatisticsSetting, counts);
       },
       [](const std::optional<Error>&) {},
       SideTasks::Whose::Device);  // a full disk must not fill the log with its own complaint

@@ -21,6 +21,7 @@
 #include "firmware/service/retention.h"
 #include "firmware/service/statistics.h"
 #include "firmware/service/touch_trial.h"
+#include "firmware/service/visit_costs.h"
 #include "firmware/staff/sign_in.h"
 #include "firmware/technician/test_capture.h"
 
@@ -75,6 +76,7 @@ class StaffController {
   EventLog log_;
   SideTasks side_tasks_;
   Statistics statistics_;
+  VisitCosts costs_;
   DeviceSettings settings_;
   RetentionWatch retention_;
   TouchTrial touch_;
@@ -82,7 +84,7 @@ class StaffController {
   ui::ConsentTextsView consent_view_;
   PageServices services_;
   SignIn sign_in_;
-  std::uint64_t saved_statistics_ = 0;
+  std::uint64_t saved_statistics_ = 0, saved_costs_ = 0;
   std::array<std::unique_ptr<PageController>, static_cast<std::size_t>(ui::StaffPage::Count)> pages_;
   std::unique_ptr<TestCapture> test_capture_;
   PageController* page_ = nullptr;

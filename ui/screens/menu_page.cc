@@ -1,57 +1,134 @@
 // SPDX-FileCopyrightText: 2026 The Relievo authors
 // SPDX-License-Identifier: GPL-3.0-or-later
 //
-// The pages a role may open, as tiles. It is made from kStaffPages: a new page appears by its row.
+// The staff's first page: what needs a hand, then the pages a role may open, in groups. Both are made from
+// tables (status_table.h, staff_pages()): what is new appears by its row.
+#include "ui/screens/service/status_table.h"
 #include "ui/screens/staff_screens.h"
 
 namespace relievo::ui {
 namespace {
 
-void tile(StaffFrame& page, const StaffPageInfo& info) {
-  Node node = page.grown(page.box(Flow::Column, space::kS, page.portrait ? 6 : 12, 16));
-  const char* title = page.tr(info.title);
-  node.id = info.id;
-  node.name = title;
-  node.role = Role::Button;
-  node.action = {ActionKind::StaffOpen, static_cast<int>(info.page)};
-  node.box.justify = Justify::Centre;
-  node.box.align = Align::Centre;
-  node.box.min_height = page.px(148);
-  node.box.fill = page.palette.card;
-  node.box.border = page.palette.card_border;
-  node.box.border_px = page.px(2);
-  node.box.radius = page.px(size::kCardRadius);
-  page.tree.open(node);
-  page.sign(info.letter, 44 / page.text_share, page.palette.accent);
-  page.tree.leaf(page.text(title, 22, Weight::Medium, page.palette.ink, TextAlign::Centre));
+// Sign, words, what is said beside them; a button where this role can mend it, else whose work it is.
+void finding(StaffFrame& page, const Finding& found) {
+  const auto& tr = page.tr;
+  const StaffPage where = found.rule->page_of(page.staff.role);
+  const bool mine = where != StaffPage::Menu;
+  const std::string_view first = page.tree.keep("status "), second = page.tree.keep(found.rule->id);
+  Node row = page.box(Flow::Row, space::kS, 0, 6);
+  tell(row, mine ? Role::Button : Role::Status, {first.data(), first.size() + second.size()},
+       tr(found.rule->words));
+  row.value = tr("Not in order");
+  if (mine) row.action = {ActionKind::StaffOpen, static_cast<int>(where)};
+  row.box.align = Align::Centre;
+  row.box.min_height = page.px(size::kStaffTarget);
+  page.tree.open(row);
+  const Colour ink = page.ink_of(found.mood);
+  page.sign(page.sign_of(found.mood), 28, ink);
+  Node both = page.grown(page.box(Flow::Row, space::kM));
+  both.box.align = Align::Centre;
+  both.box.wrap = true;
+  page.tree.open(both);
+  page.tree.open(page.grown(page.box(Flow::Column)));
+  page.tree.leaf(page.text(tr(found.rule->words), type::kSmall, Weight::Medium, ink));
+  page.tree.close();
+  const char* whose = page.staff.role == StaffRole::Operator ? tr("Technician") : tr("Operator");
+  const std::string_view value = !mine                          ? std::string_view(whose)
+                                 : found.rule->value != nullptr ? found.rule->value(page, *page.staff.status)
+                                                                : std::string_view();
+  if (!value.empty())
+    page.tree.leaf(page.text(value, type::kSmall, Weight::Regular, page.palette.ink_soft, TextAlign::End));
+  page.tree.close();
+  if (mine) page.sign(page.onward(), 24, page.palette.link);
   page.tree.close();
 }
+
+void status(StaffFrame& page) {
+  const StatusView* seen = page.staff.status;
+  Node card = page.box(Flow::Column, 0, space::kM, 4);
+  frame(card, page.palette.card, page.palette.card_border, page.px(1.5F), page.px(size::kRadius));
+  card.id = "status";
+  page.tree.open(card);
+  if (seen == nullptr || !seen->looked) {
+    page.status("status looking", page.tr("One moment, please"), Mood::Plain);
+  } else {
+    std::array<Finding, kMostFindings> room;
+    const std::span<const Finding> found = find_status(page.view, *seen, room);
+    if (found.empty()) page.status("status good", page.tr("In order"), Mood::Good);
+    for (const Finding& one : found) {
+      if (&one != found.data()) page.rule();
+      finding(page, one);
+    }
+  }
+  page.tree.close();
+}
+
+void tile(StaffFrame& page, const StaffPageInfo& info) {
+  Node node = page.grown(page.box(Flow::Row, space::kS, page.portrait ? 10 : 16, 8));
+  const char* title = page.tr(info.title);
+  tell(node, Role::Button, info.id, title, {ActionKind::StaffOpen, static_cast<int>(info.page)});
+  node.box.align = Align::Centre;
+  node.box.min_height = page.px(72);
+  frame(node, page.palette.card, page.palette.card_border, page.px(2), page.px(20));
+  page.tree.open(node);
+  page.sign(info.letter, 32 / page.text_share, page.palette.accent);
+  page.tree.open(page.grown(page.box(Flow::Column)));
+  page.tree.leaf(page.text(title, type::kSmall, Weight::Medium, page.palette.ink));
+  page.tree.close();
+  page.tree.close();
+}
+
+// Tiles abreast, in order; the last row is filled up, so that all are as wide.
+class Tiles {
+ public:
+  // Where letters are large, a long word must not be torn: fewer and wider tiles.
+  explicit Tiles(StaffFrame& page) : page_(page) {
+    across_ = page.portrait || page.text_share > 1.2F ? 2 : 4;
+  }
+  void begin(const char* title) {
+    end();
+    Node name = page_.text(title, type::kSmall, Weight::Bold, page_.palette.link);
+    name.role = Role::Heading;
+    page_.tree.leaf(name);
+  }
+  void add(const StaffPageInfo& info) {
+    if (column_ == 0) page_.tree.open(page_.box(Flow::Row, space::kS));
+    tile(page_, info);
+    column_ = (column_ + 1) % across_;
+    if (column_ == 0) page_.tree.close();
+  }
+  void end() {
+    if (column_ == 0) return;
+    for (; column_ < across_; ++column_) page_.space(1);
+    page_.tree.close();
+    column_ = 0;
+  }
+
+ private:
+  StaffFrame& page_;
+  int across_ = 1, column_ = 0;
+};
 
 }  // namespace
 
 void menu_page(StaffFrame& page) {
   page.begin(page.staff.role == StaffRole::Operator ? page.tr("Operator") : page.tr("Technician"), nullptr);
-  Node list = page.grown(page.box(Flow::Column, space::kM));
+  Node list = page.grown(page.box(Flow::Column, space::kXs));
   list.id = "menu";
   list.box.scroll = true;
-  list.box.row_stretch = page.portrait ? 1.35F : 1;
   page.tree.open(list);
-  // Where letters are large, a long word must not be torn: fewer and wider tiles.
-  const bool large = page.text_share > 1.2F;
-  const int across = page.portrait ? large ? 2 : 3 : page.text_share > 1.3F ? 3 : 4;
-  int column = 0;
+  status(page);
+  Tiles tiles(page);
+  const char* group = nullptr;
   for (const StaffPageInfo& info : staff_pages()) {
+    if (info.group != nullptr) group = info.group;
     if (!may_open(page.staff.role, info)) continue;
     if (info.page == StaffPage::Recovery && !page.staff.access.words_due) continue;  // shown once
-    if (column == 0) page.tree.open(page.box(Flow::Row, space::kM));
-    tile(page, info);
-    column = (column + 1) % across;
-    if (column == 0) page.tree.close();
+    if (group != nullptr) tiles.begin(page.tr(group));
+    group = nullptr;
+    tiles.add(info);
   }
-  if (column != 0) {
-    for (; column < across; ++column) page.space(1);
-    page.tree.close();
-  }
+  tiles.end();
   page.tree.close();
   page.end();
 }

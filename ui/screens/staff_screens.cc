@@ -18,32 +18,29 @@ constexpr const char *kPulse = "\uf430", *kFlash = "\uf241", *kPaper = "\uf219",
                      *kChart = "\uf128", *kHeart = "\uf5f6", *kKey = "\uf30b", *kDocument = "\uf219";
 
 constexpr const char *kRuler = "\uf46d", *kSteps = "\uf328", *kTable = "\uf4eb", *kTune = "\uf62e",
-                     *kCompare = "\uf18a", *kCog = "\uf493", *kTarget = "\uf4fe";
+                     *kCompare = "\uf18a", *kCog = "\uf493", *kTarget = "\uf4fe", *kClock = "\uf0f0";
 
 // In the order of the menu.
 constexpr std::array kPages{
-    StaffPageInfo{StaffPage::Records, "open records", mark_tr("Records"), kPeople, false, true, records_page},
+    StaffPageInfo{StaffPage::Records, "open records", mark_tr("Records"), kPeople, false, true, records_page,
+                  mark_tr("Records")},
     StaffPageInfo{StaffPage::Statistics, "open statistics", mark_tr("Statistics"), kChart, false, true,
                   statistics_page},
     StaffPageInfo{StaffPage::Consent, "open consent", mark_tr("Consent text"), kDocument, false, true,
                   consent_text_page},
-    StaffPageInfo{StaffPage::Recovery, "open recovery", mark_tr("Recovery words"), kKey, false, true,
-                  recovery_page},
-    StaffPageInfo{StaffPage::SelfTest, "open self test", mark_tr("Self-test"), kPulse, true, false,
-                  self_test_page},
-    StaffPageInfo{StaffPage::Trigger, "open trigger", mark_tr("Trigger test"), kFlash, true, false,
-                  trigger_page},
-    StaffPageInfo{StaffPage::Touch, "open touch", mark_tr("Touch screen"), kTarget, true, false, touch_page},
-    StaffPageInfo{StaffPage::Log, "open log", mark_tr("Log"), kPaper, true, false, log_page},
-    StaffPageInfo{StaffPage::Health, "open health", mark_tr("Health"), kHeart, true, false, health_page},
-    StaffPageInfo{StaffPage::Settings, "open settings", mark_tr("Settings"), kCog, true, true, settings_page},
-    StaffPageInfo{StaffPage::Pins, "open pins", mark_tr("Change my PIN"), kKey, true, true, pins_page},
     StaffPageInfo{StaffPage::Cameras, "open cameras", mark_tr("Cameras"), icon::kCamera, true, false,
-                  technician_cameras_page},
+                  technician_cameras_page, mark_tr("Cameras")},
     StaffPageInfo{StaffPage::Calibrate, "open calibrate", mark_tr("Calibration"), kRuler, true, false,
                   technician_calibrate_page},
+    StaffPageInfo{StaffPage::Trigger, "open trigger", mark_tr("Trigger test"), kFlash, true, false,
+                  trigger_page},
+    StaffPageInfo{StaffPage::Health, "open health", mark_tr("Health"), kHeart, true, false, health_page,
+                  mark_tr("Health")},
+    StaffPageInfo{StaffPage::SelfTest, "open self test", mark_tr("Self-test"), kPulse, true, false,
+                  self_test_page},
+    StaffPageInfo{StaffPage::Log, "open log", mark_tr("Log"), kPaper, true, false, log_page},
     StaffPageInfo{StaffPage::Stages, "open stages", mark_tr("Test capture"), kSteps, true, false,
-                  technician_stages_page},
+                  technician_stages_page, mark_tr("Test capture")},
     StaffPageInfo{StaffPage::Model, "open model", mark_tr("Model"), icon::kShape, true, false,
                   technician_model_page},
     StaffPageInfo{StaffPage::Tables, "open tables", mark_tr("Figures"), kTable, true, false,
@@ -52,6 +49,13 @@ constexpr std::array kPages{
                   technician_algorithms_page},
     StaffPageInfo{StaffPage::Compare, "open compare", mark_tr("Comparison"), kCompare, true, false,
                   technician_compare_page},
+    StaffPageInfo{StaffPage::Settings, "open settings", mark_tr("Settings"), kCog, true, true, settings_page,
+                  mark_tr("Settings")},
+    StaffPageInfo{StaffPage::Clock, "open clock", mark_tr("Time"), kClock, true, true, clock_page},
+    StaffPageInfo{StaffPage::Touch, "open touch", mark_tr("Touch screen"), kTarget, true, false, touch_page},
+    StaffPageInfo{StaffPage::Recovery, "open recovery", mark_tr("Recovery words"), kKey, false, true,
+                  recovery_page},
+    StaffPageInfo{StaffPage::Pins, "open pins", mark_tr("Change my PIN"), kKey, true, true, pins_page},
 };
 
 void draw_page(StaffFrame& page) {

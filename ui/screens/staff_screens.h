@@ -19,6 +19,7 @@ struct StaffPageInfo {
   const char* letter;      // of the icon font
   bool technician, clerk;  // who may open it: technician, operator
   void (*draw)(StaffFrame&);
+  const char* group = nullptr;  // where one begins in the menu: its heading, as the title
 };
 std::span<const StaffPageInfo> staff_pages();
 bool may_open(StaffRole role, const StaffPageInfo& info);

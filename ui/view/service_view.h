@@ -37,6 +37,7 @@ enum class StaffPage : std::uint8_t {
   Health,
   Log,  // technician's
   Settings,
+  Clock,
   Pins,  // everybody's
   Count
 };
@@ -106,6 +107,7 @@ struct ServiceView {
   const pipeline::FaceModel* model = nullptr;
   std::uint32_t model_number = 0;
   // The pages' own, in files of their own.
+  const struct StatusView* status = nullptr;  // of the menu
   const struct RecordsView* records = nullptr;
   const struct StatisticsView* statistics = nullptr;
   const struct SelfTestView* self_test = nullptr;

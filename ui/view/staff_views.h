@@ -18,6 +18,20 @@
 
 namespace relievo::ui {
 
+// --- status: what needs a hand, as the appliance knows it; the rest stands in ViewState -------------
+struct StatusView {
+  bool looked = false;  // at what follows
+  bool camera_away = false;
+  std::uint64_t pairs = 0, missed = 0;  // since the start: handed over; late, lost, damaged or not there
+  double free_mib = 0;                  // of the store's disk
+  double hottest_c = 0;                 // of all sensors; 0: there are none
+  int calibration_days = 0;             // age of the calibration in use
+  bool clock_jumped = false;            // ahead: nothing is erased for its age
+  bool store_damaged = false;           // something read from it was, since the start
+  int device_faults = 0;                // noted since the start, none of them a visitor's
+};
+inline constexpr double kWarmCelsius = 75, kHotCelsius = 90;
+
 // --- statistics: numbers, nobody's name -----------------------------------------------------------
 enum class Refusal : std::uint8_t { NoFace, TooFewMatches, PoorGeometry, Memory, Camera, Slow, Other, Count };
 inline constexpr std::size_t kRefusals = static_cast<std::size_t>(Refusal::Count);
@@ -59,8 +73,23 @@ struct GaugeRow {
   std::span<const float> day{};  // the last 24 hours, as `used`, evenly; NaN: not known. Empty: not kept
 };
 
+// Of the last visits that were photographed: where the time goes and what memory it takes.
+enum class CostlyStage : std::uint8_t { Match, Reconstruct, Mesh, Texture, Assemble, Side, Fuse, Count };
+inline constexpr std::size_t kCostlyStages = static_cast<std::size_t>(CostlyStage::Count);
+
+struct StageCost {
+  float seconds = 0, mib = 0;  // at most, in one visit; 0: it was not run
+};
+struct VisitCostsView {
+  int visits = 0;  // so many are looked at
+  std::array<StageCost, kCostlyStages> stages{};
+  float resident_mib = 0;                            // of the whole program, at most
+  float planned_seconds = 0, planned_stage_mib = 0;  // of one stage
+};
+
 struct HealthView {
   std::span<const GaugeRow> gauges;
+  VisitCostsView costs;
   std::span<const LogLine> faults;  // newest first
 };
 

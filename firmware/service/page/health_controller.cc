@@ -15,7 +15,7 @@ namespace relievo::firmware {
 namespace {
 
 constexpr std::chrono::seconds kEvery{2};
-constexpr double kMiB = 1048576.0, kWarm = 75, kHot = 90;
+constexpr double kMiB = 1048576.0;
 
 double mib(std::size_t bytes) { return static_cast<double>(bytes) / kMiB; }
 
@@ -90,15 +90,17 @@ void HealthController::keep() {
   disk_.add(seen_.disk_used_mib);
 }
 
-// Of the last capture: the arenas are swept between two people, their high-water marks are not names.
+// Of the last visits, over restarts, and of this run.
 void HealthController::add_memory() {
-  std::size_t peak = 0;
-  for (const StageRecord& record : services().appliance.records())
-    peak = std::max(peak, record.arena_peak_bytes);
-  const double plan = mib(budget::kOutputArenaBytes + budget::kScratchArenaBytes),
-               all = mib(budget::kApplianceBytes);
-  rows_.push_back({ui::Gauge::Stages, {}, mib(peak), plan, mood_of(mib(peak), plan)});
-  rows_.push_back({ui::Gauge::Process, {}, seen_.process_mib, all, mood_of(seen_.process_mib, all)});
+  view_.costs = services().costs.view();
+  double stages = 0;
+  for (const ui::StageCost& cost : view_.costs.stages)
+    stages = std::max(stages, static_cast<double>(cost.mib));
+  const auto plan = static_cast<double>(view_.costs.planned_stage_mib);
+  const double all = mib(budget::kApplianceBytes),
+               resident = std::max(seen_.process_mib, static_cast<double>(view_.costs.resident_mib));
+  rows_.push_back({ui::Gauge::Stages, {}, stages, plan, mood_of(stages, plan)});
+  rows_.push_back({ui::Gauge::Process, {}, resident, all, mood_of(resident, all)});
 }
 
 void HealthController::add_seen() {
@@ -111,10 +113,10 @@ void HealthController::add_seen() {
   // The hottest with its day, then the others.
   std::ranges::stable_sort(seen_.sensors, std::greater{}, &Sensor::celsius);
   for (const Sensor& sensor : seen_.sensors) {
-    const ui::Mood mood = sensor.celsius >= kHot    ? ui::Mood::Bad
-                          : sensor.celsius >= kWarm ? ui::Mood::Warn
-                                                    : ui::Mood::Good;
-    rows_.push_back({ui::Gauge::Temperature, sensor.name, sensor.celsius, kHot, mood,
+    const ui::Mood mood = sensor.celsius >= ui::kHotCelsius    ? ui::Mood::Bad
+                          : sensor.celsius >= ui::kWarmCelsius ? ui::Mood::Warn
+                                                               : ui::Mood::Good;
+    rows_.push_back({ui::Gauge::Temperature, sensor.name, sensor.celsius, ui::kHotCelsius, mood,
                      &sensor == seen_.sensors.data() ? hottest_.values() : std::span<const float>()});
   }
 }
@@ -127,7 +129,8 @@ void HealthController::show(ui::ServiceView& view) {
   add_seen();
   faults_ = services().log.faults();
   show_lines(faults_, fault_lines_);
-  view_ = {rows_, fault_lines_};
+  view_.gauges = rows_;
+  view_.faults = fault_lines_;
   view.health = &view_;
 }
 

@@ -1,8 +1,8 @@
 // SPDX-FileCopyrightText: 2026 The Relievo authors
 // SPDX-License-Identifier: GPL-3.0-or-later
 //
-// Behind the page of health: the memory plan (budget.h) against what was used at most, the disk's room,
-// temperatures where the kernel tells them (/sys/class/thermal), the last faults. Looked at anew every
+// Behind the page of health: the memory plan (budget.h) against what the last visits used at most, the disk's
+// room, temperatures where the kernel tells them (/sys/class/thermal), the last faults. Looked at anew every
 // two seconds, on the keeper: a disk or a sensor may be slow; while the page is closed every ten minutes, so
 // that it can show the last day. Thread: main.
 #pragma once

@@ -162,6 +162,11 @@ void first_start_page(StaffFrame& page) {
   page.end();
 }
 
+void clock_page(StaffFrame& page) {
+  if (page.staff.access.clock_right) page.status("clock set", page.tr("The clock was set"), Mood::Good);
+  clock(page);
+}
+
 void pins_page(StaffFrame& page) { new_pin(page); }
 
 }  // namespace relievo::ui

@@ -71,6 +71,45 @@ void gauge_row(StaffFrame& page, const GaugeRow& row, std::size_t index) {
   page.row(plot.id, plot.title, value, row.mood);
 }
 
+const char* words_of(const Words& tr, CostlyStage stage) {
+  switch (stage) {
+    case CostlyStage::Match:
+      return tr("Matching");
+    case CostlyStage::Reconstruct:
+      return tr("Reconstruction");
+    case CostlyStage::Mesh:
+      return tr("Surface");
+    case CostlyStage::Texture:
+      return tr("Texture");
+    case CostlyStage::Assemble:
+      return tr("Landmarks");
+    case CostlyStage::Side:
+      return tr("Pictures of the sides of the head");
+    case CostlyStage::Fuse:
+    case CostlyStage::Count:
+      break;
+  }
+  return tr("Model");
+}
+
+// Time and memory of every stage, at most in one of the last visits, and what it may take.
+void stage_rows(StaffFrame& page, const VisitCostsView& costs) {
+  page.section(page.tr("From the pictures to the portrait"));
+  page.row("costly visits", page.tr("Visits begun"), page.number(costs.visits));
+  for (std::size_t i = 0; i < kCostlyStages; ++i) {
+    const StageCost& cost = costs.stages[i];
+    if (cost.seconds <= 0) continue;
+    char text[96];
+    std::snprintf(text, sizeof text, "%.1f / %.0f s  ·  %.0f / %.0f MiB", static_cast<double>(cost.seconds),
+                  static_cast<double>(costs.planned_seconds), static_cast<double>(cost.mib),
+                  static_cast<double>(costs.planned_stage_mib));
+    const bool over = cost.seconds > costs.planned_seconds || cost.mib > costs.planned_stage_mib;
+    const std::string_view id = page.tree.keep("cost "), which = page.number(static_cast<double>(i));
+    page.row({id.data(), id.size() + which.size()}, words_of(page.tr, static_cast<CostlyStage>(i)),
+             page.with_numbers(text), over ? Mood::Bad : Mood::Good);
+  }
+}
+
 }  // namespace
 
 void health_page(StaffFrame& page) {
@@ -83,6 +122,7 @@ void health_page(StaffFrame& page) {
   page.section(tr("Used at most, and what was planned"));
   std::size_t index = 0;
   for (const GaugeRow& row : page.staff.health->gauges) gauge_row(page, row, index++);
+  if (page.staff.health->costs.visits > 0) stage_rows(page, page.staff.health->costs);
   page.section(tr("Last faults"));
   for (const LogLine& fault : page.staff.health->faults) page.logged(fault);
   if (page.staff.health->faults.empty()) page.line(tr("None since the start."), Mood::Good);

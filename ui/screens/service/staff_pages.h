@@ -23,6 +23,7 @@ void recovery_page(StaffFrame& page);
 // What it shows: what is in force, how another comes from a stick, how the last try ended; then the button
 // that asks for it.
 void consent_in_force(StaffFrame& page);
+void clock_page(StaffFrame& page);
 void touch_page(StaffFrame& page);
 void pins_page(StaffFrame& page);
 

@@ -1,0 +1,158 @@
+// SPDX-FileCopyrightText: 2026 The Relievo authors
+// SPDX-License-Identifier: GPL-3.0-or-later
+//
+// The staff's first page in the real kiosk: a fault reddens it, its row opens the page where it is mended,
+// and when it is mended the row is gone. What the last visits cost stands on the page of health.
+#include "tests/firmware/kiosk/staff_hands.h"
+#include "tests/support/played_device.h"
+#include "ui/draw/theme.h"
+#include "ui/view/staff_views.h"
+
+namespace relievo::firmware {
+namespace {
+
+class StaffStatusTest : public StaffHands {
+ protected:
+  void play_device() {
+    services.open_device = [this](std::string_view) -> Result<std::unique_ptr<hal::Device>> {
+      auto device = std::make_unique<test::PlayedDevice>(world, tiny_rig().width_px, tiny_rig().height_px);
+      return std::unique_ptr<hal::Device>(std::make_unique<ChangedDevice>(std::move(device), changes));
+    };
+  }
+  void enter(StaffRole role) {
+    start();
+    first_start();
+    sign_in(role == StaffRole::Operator ? "80526" : "4711", role);
+    ASSERT_TRUE(until([this] { return looked(); })) << "the device is looked at beside the screen";
+    kiosk->turn();
+  }
+  bool looked() const {
+    return kiosk->view().service->status != nullptr && kiosk->view().service->status->looked;
+  }
+  bool red(std::string_view id) const {
+    const ui::Node* row = find(id);
+    if (row == nullptr) return false;
+    const ui::Node& sign = kiosk->ui().tree().nodes()[static_cast<std::size_t>(row->first_child)];
+    return sign.colour == ui::kLight.bad && sign.role == ui::Role::Icon;
+  }
+
+  test::PlayedWorld world;
+};
+
+TEST_F(StaffStatusTest, ARowForWhatIsMissingLeadsToItsPageAndGoesWhenItIsMended) {
+  enter(StaffRole::Operator);
+  EXPECT_EQ(find("status good"), nullptr);
+  ASSERT_NE(find("status sample"), nullptr);
+  tap("status recovery");
+  EXPECT_EQ(kiosk->ui().service().page, StaffPage::Recovery);
+  tap("back");
+  tap("status sample");
+  EXPECT_EQ(kiosk->ui().service().page, StaffPage::Consent);
+  const Path texts = stick() / "consent" / "2026-09";
+  std::filesystem::create_directories(texts);
+  for (const char* code : {"en", "de", "fr", "es", "ar", "he", "zh-Hans"})
+    std::ofstream(texts / (std::string(code) + ".txt")) << "Title\n\nPoint\nWords.\n";
+  tap("take consent");
+  ASSERT_TRUE(until([this] { return kiosk->view().consent != nullptr; }));
+  tap("back");
+  ASSERT_TRUE(until([this] { return find("status languages") != nullptr; })) << "one is missing yet";
+  EXPECT_EQ(find("status sample"), nullptr);
+}
+
+TEST_F(StaffStatusTest, AWrongClockReddensItUntilItIsSetOnThePageItLeadsTo) {
+  play_device();
+  services.set_clock = [this](std::chrono::system_clock::time_point to) -> Result<void> {
+    world.wall_shift_s +=
+        std::chrono::duration_cast<std::chrono::seconds>(to - kiosk->view().wall_now).count();
+    return {};
+  };
+  enrol("Ada Lovelace");  // a consent cannot bear a date before hers
+  enter(StaffRole::Technician);
+  EXPECT_EQ(find("status clock"), nullptr);
+  world.wall_shift_s -= 3 * 24 * 3600;
+  kiosk->turn();
+  ASSERT_TRUE(red("status clock"));
+  tap("status clock");
+  ASSERT_EQ(kiosk->ui().service().page, StaffPage::Clock);
+  for (int day = 0; day < 3; ++day) tap("day more");
+  tap("clock right");
+  kiosk->turn();
+  EXPECT_NE(find("clock set"), nullptr);
+  tap("back");
+  EXPECT_EQ(find("status clock"), nullptr);
+}
+
+TEST_F(StaffStatusTest, APulledCameraReddensItForBothRolesAndOnlyTheTechnicianIsLedToIt) {
+  play_device();
+  start();
+  first_start();
+  tap("sign out");
+  ASSERT_TRUE(until([this] { return !kiosk->ui().service().open; }));
+  tap("start");
+  tap("agree");
+  kiosk->ui().visit().type("Grace");
+  kiosk->turn();
+  tap("done");
+  ASSERT_TRUE(reach(ui::Step::Position));
+  ASSERT_TRUE(until([this] { return kiosk->view().live.number > 0; }));
+  world.pulled = true;
+  ASSERT_TRUE(reach(ui::Step::Trouble));
+  sign_in("4711", StaffRole::Technician);
+  ASSERT_TRUE(until([this] { return looked() && find("status camera") != nullptr; }));
+  EXPECT_TRUE(red("status camera"));
+  EXPECT_NE(find("status faults"), nullptr) << "it was noted, too";
+  tap("status camera");
+  EXPECT_EQ(kiosk->ui().service().page, StaffPage::Cameras);
+  tap("back");
+  tap("sign out");
+  ASSERT_TRUE(until([this] { return !kiosk->ui().service().open; }));
+  sign_in("80526", StaffRole::Operator);
+  ASSERT_TRUE(until([this] { return looked() && find("status camera") != nullptr; }));
+  EXPECT_TRUE(red("status camera"));
+  EXPECT_EQ(find("status camera")->action.kind, ui::ActionKind::None) << "it is the technician's work";
+  EXPECT_TRUE(says("Technician"));
+}
+
+// A visit on the simulated rig, with all its stages; the session is wiped when it ends, and so is what the
+// appliance keeps of the next one as soon as that begins.
+TEST_F(StaffStatusTest, HealthShowsWhatTheLastVisitsCostAlsoAfterARestart) {
+  lend_small_rig(services, args, folder.path(), clock, small_device(0.5));
+  start();
+  const Result<void> played =
+      play("tap start\ntap agree\ntype Ada\ntap done\nwait position\nwait working 600\nwait review 600\n");
+  ASSERT_TRUE(played.has_value()) << played.error().where();
+  tap("leave");
+  tap("answer_quiet");
+  ASSERT_TRUE(reach(ui::Step::Attract));
+  for (const bool restarted : {false, true}) {
+    if (restarted) {
+      ASSERT_TRUE(until([this] { return kiosk->appliance().state() == State::Idle; }));
+      kiosk.reset();
+      start();
+    } else {
+      first_start();
+    }
+    sign_in("4711", StaffRole::Technician);
+    tap("open health");
+    ASSERT_TRUE(until([this] { return kiosk->view().service->health != nullptr; }));
+    kiosk->turn();
+    const ui::HealthView& health = *kiosk->view().service->health;
+    EXPECT_EQ(health.costs.visits, 1);
+    for (const ui::CostlyStage stage : {ui::CostlyStage::Match, ui::CostlyStage::Reconstruct,
+                                        ui::CostlyStage::Mesh, ui::CostlyStage::Texture}) {
+      EXPECT_GT(health.costs.stages[static_cast<std::size_t>(stage)].seconds, 0);
+      EXPECT_GT(health.costs.stages[static_cast<std::size_t>(stage)].mib, 1);
+    }
+    EXPECT_GT(health.costs.resident_mib, health.costs.stages[0].mib);
+    ASSERT_FALSE(health.gauges.empty());
+    EXPECT_EQ(health.gauges[0].gauge, ui::Gauge::Stages);
+    EXPECT_GT(health.gauges[0].used, 1) << "of the arenas";
+    EXPECT_LT(health.gauges[0].used, health.gauges[0].of) << "and what was planned stands beside it";
+    EXPECT_TRUE(says("Matching"));
+    EXPECT_NE(find("cost \u20660\u2069"), nullptr);
+    sign_out();
+  }
+}
+
+}  // namespace
+}  // namespace relievo::firmware
