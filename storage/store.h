@@ -38,6 +38,8 @@ class Store {
   // InvalidInput: the name is empty, too long or not UTF-8.
   virtual Result<SubjectId> add_subject(const NewSubject& subject) = 0;
   virtual Result<std::vector<Subject>> subjects(const SubjectFilter& filter) = 0;
+  // How many that finds, without its limit and skip. Of a part of a name all names are opened.
+  virtual Result<std::int64_t> count_subjects(const SubjectFilter& filter) = 0;
   virtual Result<Subject> subject(SubjectId id) = 0;  // NotFound
   // Name, consents, models, and their traces in free pages, write-ahead log and old copies. NotFound.
   virtual Result<void> erase_subject(SubjectId id) = 0;

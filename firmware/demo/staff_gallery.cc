@@ -81,12 +81,18 @@ constexpr std::array kPeople{
     ui::RecordRow{428, "148 220", "2026-03-13 16:31", "000428-93", 1},
     ui::RecordRow{427, "Maximiliane von und zu Hohenwaldeck-Eulenstein", "2026-03-13 15:55", "000427-95", 3},
 };
-constexpr ui::RecordsView kList{kPeople, false, true, {}, nullptr, {}, {}, false, false, 0, 0};
-constexpr ui::RecordsView kNobody{{}, false, false, "Zuse", nullptr, {}, {}, false, false, 0, 0};
-constexpr ui::RecordsView kOne{kPeople, false, true, {}, &kPeople[4], "sample-1 (de)", "2026-03-13 15:54",
-                               false,   false, 0,    0};
-constexpr ui::RecordsView kTaken{kPeople, false, true, {}, &kPeople[4], "sample-1 (de)", "2026-03-13 15:54",
-                                 false,   true,  0,    0};
+constexpr ui::ListPlace kPlace{.page = 1239,
+                               .pages = 2000,
+                               .stretches = {{{1200, 1219, "2026-03-14 09:12"},
+                                              {1220, 1239, "2026-03-02 16:40"},
+                                              {1240, 1240, "2026-02-27 11:05"}}},
+                               .stretch_count = 3};
+constexpr ui::RecordsView kList{kPeople, kPlace, {}, nullptr, {}, {}, false, false, 0, 0};
+constexpr ui::RecordsView kNobody{{}, {}, "Zuse", nullptr, {}, {}, false, false, 0, 0};
+constexpr ui::RecordsView kOne{kPeople, kPlace, {}, &kPeople[4], "sample-1 (de)", "2026-03-13 15:54", false,
+                               false,   0,      0};
+constexpr ui::RecordsView kTaken{kPeople, kPlace, {}, &kPeople[4], "sample-1 (de)", "2026-03-13 15:54", false,
+                                 true,    0,      0};
 
 const ui::SelfTestView kTested{
     {ui::CheckState::Good, ui::CheckState::Good, ui::CheckState::Bad, ui::CheckState::Running,
@@ -101,7 +107,7 @@ constexpr std::array kLines{
     ui::LogLine{"2026-03-14 10:20:20", false, "", {}, ui::LogEvent::WrongPin, {}},
     ui::LogLine{"2026-03-13 18:02:11", false, "noted by an earlier version", {}, {}, {}},
     ui::LogLine{"2026-03-13 07:58:02", false, "", {}, ui::LogEvent::Started, {}}};
-constexpr ui::LogView kLog{kLines};
+constexpr ui::LogView kLog{kLines, {.page = 0, .pages = 4}};
 
 ui::Settings kept_for_a_year() {
   ui::Settings settings;
@@ -165,7 +171,7 @@ void add_touch(std::deque<Shown>& all) {
 
 // How an export of everyone ended.
 void add_sticks(std::deque<Shown>& all, ServiceView records) {
-  static const ui::RecordsView kTwoOfFive{kPeople, false, true, {}, nullptr, {}, {}, false, false, 5, 2};
+  static const ui::RecordsView kTwoOfFive{kPeople, kPlace, {}, nullptr, {}, {}, false, false, 5, 2};
   using ui::Outcome;
   records.records = &kTwoOfFive;
   for (const auto& [name, outcome] :
@@ -261,6 +267,7 @@ void add_records(std::deque<Shown>& all) {
   records.records = &kList;
   all.push_back({"staff_records", StaffPage::Records, 0, records});
   all.push_back({"staff_search", StaffPage::Records, 1, records});
+  all.push_back({"staff_records_jump", StaffPage::Records, 100, records});
   add_sticks(all, records);
   records.work = {true, 0.6F, ui::Outcome::None};
   all.push_back({"staff_export", StaffPage::Records, 0, records});
@@ -294,6 +301,7 @@ void add_tests(std::deque<Shown>& all) {
   tests.trigger = &kMissed;
   all.push_back({"staff_trigger_missed", StaffPage::Trigger, 0, tests});
   all.push_back({"staff_log", StaffPage::Log, 0, tests});
+  all.push_back({"staff_log_filter", StaffPage::Log, 101, tests});
 }
 
 void add_settings(std::deque<Shown>& all) {

@@ -326,9 +326,9 @@ void add_results(Lender& all, const ui::ViewState& review) {
   all.add("technician_model", StaffPage::Model, view);
   all.add("technician_model_edges", StaffPage::Model, view);
   all.lent.back().edges = true;
-  view.rows = {ui::TechnicianTable::Matches, kHeads, kCells, 1, 17101, 171004};
+  view.rows = {ui::TechnicianTable::Matches, kHeads, kCells, {.page = 1, .pages = 17101, .filter = 3}};
   all.add("technician_table", StaffPage::Tables, view);
-  view.rows = {ui::TechnicianTable::Calibration, kCalibrationHeads, kCalibrationCells, 0, 1, 10};
+  view.rows = {ui::TechnicianTable::Calibration, kCalibrationHeads, kCalibrationCells, {}};
   all.add("technician_calibration_table", StaffPage::Tables, view);
   view.choice = chosen.view();
   all.add("technician_algorithms", StaffPage::Algorithms, view);

@@ -63,6 +63,7 @@ class PageController {
 
  protected:
   PageServices& services() { return services_; }
+  const PageServices& services() const { return services_; }
 
  private:
   PageServices& services_;

@@ -87,6 +87,7 @@ class TechnicianController final : public PageController {
   void opened() override { test_capture_.opened(page_); }
   void ask(const ui::StaffRequest& request) override {
     if (const auto* asked = request.as<ui::TechnicianRequest>()) test_capture_.act(*asked);
+    if (const auto* list = request.as<ui::ListRequest>()) test_capture_.act(ui::TechnicianRequest(*list));
   }
   void show(ui::ServiceView& view) override {
     view.technician = &test_capture_.view();

@@ -257,7 +257,16 @@ void CalibrationController::load_history() {
       [this, rows](const std::optional<Error>& error) {
         if (error) problem_ = ui::fault_of(*error);
         else history_.swap(*rows);
+        walk_.set_rows(static_cast<std::int64_t>(history_.size()));
       });
+}
+
+void CalibrationController::walk(const ui::ListRequest& request) {
+  if (walk_.ask(request) != ListWalk::Ask::Labels) return;
+  for (std::size_t i = 0; i < walk_.stretches(); ++i) {
+    const auto top = static_cast<std::size_t>(walk_.top_row(i));
+    walk_.set_label(i, top < history_.size() ? history_[top].made_at : std::string());
+  }
 }
 
 void CalibrationController::adopt(std::function<Result<std::uint32_t>()> first) {
@@ -299,6 +308,7 @@ void CalibrationController::store() {
 }
 
 void CalibrationController::activate(std::size_t row) {
+  row += static_cast<std::size_t>(walk_.first_row());
   if (row >= history_.size() || history_[row].info.active) return;
   const std::uint32_t revision = history_[row].info.revision;
   adopt([this, revision]() -> Result<std::uint32_t> {
@@ -355,12 +365,14 @@ ui::TechnicianCalibration CalibrationController::view() {
     view.rms_px = static_cast<float>(q.pair_rms_px);
     view.baseline_mm = static_cast<float>(q.baseline_mm);
   }
-  view.history_count = std::min(history_.size(), view.history.size());
+  view.place = walk_.view();
+  view.history_count = static_cast<std::size_t>(walk_.end_row() - walk_.first_row());
   for (std::size_t i = 0; i < view.history_count; ++i) {
-    const storage::CalibrationInfo& info = history_[i].info;
+    const Row& row = history_[static_cast<std::size_t>(walk_.first_row()) + i];
+    const storage::CalibrationInfo& info = row.info;
     view.history[i] = {info.revision,
                        info.active,
-                       history_[i].made_at,
+                       row.made_at,
                        info.note,
                        static_cast<float>(info.rms_px),
                        static_cast<float>(info.figures.depth_sigma_mm)};
@@ -372,6 +384,8 @@ void CalibrationController::forget() {
   parts_.job.wipe();
   running_ = ended_ = stored_ = busy_ = false;
   history_.clear();
+  walk_.begin_anew();
+  walk_.set_rows(0);
   exported_.clear();
 }
 

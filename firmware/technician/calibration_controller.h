@@ -20,6 +20,7 @@
 #include <string>
 #include <vector>
 
+#include "firmware/base/list_walk.h"
 #include "firmware/calibrate/calibrate_live_pairs.h"
 #include "firmware/capture/live_feed.h"
 #include "firmware/service/side_tasks.h"
@@ -99,6 +100,7 @@ class CalibrationController {
   // The job has.
   void ended();
   void load_history();
+  void walk(const ui::ListRequest& request);
   ui::TechnicianCalibration view();
   void forget();
   bool running() const { return running_; }
@@ -125,6 +127,7 @@ class CalibrationController {
   std::vector<std::string> reasons_;
   std::vector<float> views_px_;
   std::vector<Row> history_;
+  ListWalk walk_{ui::kCalibrationRows};
   bool busy_ = false;  // the keeper is at it
 };
 

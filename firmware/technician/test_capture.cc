@@ -50,7 +50,8 @@ void TestCapture::opened(ui::TechnicianPage page) {
   if (page == ui::TechnicianPage::Cameras) watch_cameras(true);
   if (page == ui::TechnicianPage::Calibrate) calibrations_.load_history();
   if (page == ui::TechnicianPage::Algorithms) algorithms_.act(ui::DoTechnician{TechnicianAct::LeaveOption});
-  if (page == ui::TechnicianPage::Tables && at_rest()) tables_.turn(0, source());
+  page_ = page;
+  if (page == ui::TechnicianPage::Tables && at_rest()) tables_.refresh(source());
 }
 
 void TestCapture::closed(ui::TechnicianPage page) {
@@ -67,7 +68,10 @@ void TestCapture::act(const ui::TechnicianRequest& request) {
   if (const auto* again = std::get_if<ui::RunStages>(&request)) run(again->latest);
   if (const auto* shown = std::get_if<ui::ShowStage>(&request)) stage_ = shown->stage;
   if (const auto* shown = std::get_if<ui::ShowTable>(&request)) tables_.show(shown->table, source());
-  if (const auto* turned = std::get_if<ui::TurnTable>(&request)) tables_.turn(turned->pages, source());
+  if (const auto* list = std::get_if<ui::ListRequest>(&request)) {
+    if (page_ == ui::TechnicianPage::Tables && at_rest()) tables_.ask(*list, source());
+    if (page_ == ui::TechnicianPage::Calibrate) calibrations_.walk(*list);
+  }
   if (const auto* finger = std::get_if<ui::TouchPicture>(&request)) touch(*finger);
   if (const auto* dropped = std::get_if<ui::DropResult>(&request); dropped != nullptr && !comparing_)
     kept_.drop(dropped->index);

@@ -104,6 +104,7 @@ class TestCapture {
   RecordingController recording_;
   AlgorithmController algorithms_;
   TechnicianTables tables_;
+  ui::TechnicianPage page_ = ui::TechnicianPage::Stages;  // opened last
   KeptResults kept_;
   ui::TechnicianPhase phase_ = ui::TechnicianPhase::Empty;
   ui::TechnicianStage stage_ = ui::TechnicianStage::Rectified;

@@ -75,6 +75,7 @@ class SqliteStore final : public Store {
   Result<void> check() override;
   Result<SubjectId> add_subject(const NewSubject& subject) override;
   Result<std::vector<Subject>> subjects(const SubjectFilter& filter) override;
+  Result<std::int64_t> count_subjects(const SubjectFilter& filter) override;
   Result<Subject> subject(SubjectId id) override;
   Result<void> erase_subject(SubjectId id) override;
   Result<EnrolmentId> add_enrolment(const SubjectChoice& subject, const NewEnrolment& enrolment) override;

@@ -104,6 +104,32 @@ Result<std::vector<Subject>> SqliteStore::subjects(const SubjectFilter& filter) 
   });
 }
 
+Result<std::int64_t> SqliteStore::count_subjects(const SubjectFilter& filter) {
+  return without_exceptions(database_->where(), [&]() -> Result<std::int64_t> {
+    if (!filter.name.empty() && !filter.whole_name) {
+      RELIEVO_TRY_ASSIGN(auto query, database_->prepare(kSubjects));
+      KeySlots slots(*database_);
+      for (std::int64_t count = 0;;) {
+        RELIEVO_TRY_ASSIGN(const bool row, query.step());
+        if (!row) return count;
+        RELIEVO_TRY_ASSIGN(const auto subject, subject_in(slots, query));
+        if (contains_name(subject.name, filter.name)) ++count;
+      }
+    }
+    const bool by_name = !filter.name.empty(), by_code = filter.receipt != 0;
+    // The index of the codes alone is read.
+    RELIEVO_TRY_ASSIGN(
+        auto query,
+        database_->prepare(std::string("SELECT count(*) FROM subject WHERE code_hash ") +
+                           (by_code ? "= ?" : "IS NOT NULL") + (by_name ? " AND name_hash = ?" : "")));
+    const auto code_hash = keys_->code_hash(filter.receipt), name_hash = keys_->name_hash(filter.name);
+    if (by_code) query.bind(code_hash);
+    if (by_name) query.bind(name_hash);
+    RELIEVO_TRY_ASSIGN(const bool row, query.step());
+    return row ? query.integer(0) : 0;
+  });
+}
+
 Result<Subject> SqliteStore::subject(SubjectId id) {
   return without_exceptions(database_->where(), [&]() -> Result<Subject> {
     RELIEVO_TRY_ASSIGN(auto query,

@@ -186,6 +186,14 @@ int main(int argc, char** argv) {
   search("the first page of the list", {.limit = 50}, count + "ORDER BY id DESC LIMIT 50", "aim 50 ms");
   search("its last page", {.skip = subjects - 50, .limit = 50},
          count + "ORDER BY id DESC LIMIT 50 OFFSET " + std::to_string(subjects - 50), "aim 50 ms");
+  std::int64_t counted = 0;
+  const double count_sealed = median_ms(9, [&] { counted = must(store->count_subjects({})); });
+  const double count_plain = median_ms(9, [&] { rows(again, "SELECT count(*) FROM subject"); });
+  print(("how many there are: " + std::to_string(counted)).c_str(), count_sealed, count_plain, "aim 50 ms");
+  const double tenths = median_ms(9, [&] {
+    for (int i = 0; i < 10; ++i) must(store->subjects({.skip = subjects / 10 * i, .limit = 1}));
+  });
+  print("the tops of ten stretches, to jump to one", tenths, 0, "aim 100 ms");
   search("a whole name", {.name = name_of(middle), .whole_name = true},
          count + "WHERE name = '" + name_of(middle) + "'", "aim 50 ms");
   search("a code", {.receipt = code_of(middle)}, count + "WHERE receipt = " + std::to_string(code_of(middle)),

@@ -28,6 +28,9 @@ class FaultyStore final : public storage::Store {
   Result<std::vector<storage::Subject>> subjects(const storage::SubjectFilter& f) override {
     return real_->subjects(f);
   }
+  Result<std::int64_t> count_subjects(const storage::SubjectFilter& f) override {
+    return real_->count_subjects(f);
+  }
   Result<storage::Subject> subject(storage::SubjectId id) override { return real_->subject(id); }
   Result<void> erase_subject(storage::SubjectId id) override { return real_->erase_subject(id); }
   Result<storage::EnrolmentId> add_enrolment(const storage::SubjectChoice& s,

@@ -13,6 +13,7 @@
 #include <string_view>
 
 #include "ui/technician/technician_result.h"
+#include "ui/view/list_place.h"
 
 namespace relievo::ui {
 
@@ -88,7 +89,8 @@ struct TechnicianCalibration {
   std::string_view exported;             // the folder on the stick; empty: none was
   Fault problem;                         // what went wrong
   std::array<TechnicianCalibrationRow, kCalibrationRows> history{};
-  std::size_t history_count = 0;
+  std::size_t history_count = 0;  // of a page
+  ListPlace place;
 };
 
 }  // namespace relievo::ui

@@ -11,6 +11,7 @@
 #include <string_view>
 
 #include "ui/technician/technician_result.h"
+#include "ui/view/list_place.h"
 
 namespace relievo::ui {
 
@@ -42,8 +43,7 @@ struct TechnicianRows {
   TechnicianTable table = TechnicianTable::Matches;
   std::span<const std::string_view> heads;  // symbols and units
   std::span<const std::string_view> cells;  // row by row
-  std::size_t page = 0, pages = 0;
-  std::uint64_t rows = 0;  // of the whole table
+  ListPlace place;  // of matches also filtered; 1: accepted, from 2 on rejected by that rule of the result
 };
 
 }  // namespace relievo::ui

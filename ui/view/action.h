@@ -65,7 +65,7 @@ enum class ActionKind : std::uint8_t {
   StaffLeave,   // the staff's side (ui/view/service.h)
   StaffOpen,    // value: a StaffPage
   StaffDo,      // what: Action::ask
-  StaffAnswer,  // the same, and the page's mode is its first again
+  StaffAnswer,  // the same, and the page's mode is `value`, mostly 0, its first
   StaffMode,
   StaffChoose,  // value: the page's mode; a row, detail: the mode
   StaffMeasure  // touches on the model set points; again: no longer

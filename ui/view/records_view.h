@@ -8,6 +8,8 @@
 #include <span>
 #include <string_view>
 
+#include "ui/view/list_place.h"
+
 namespace relievo::ui {
 
 struct RecordRow {
@@ -17,8 +19,8 @@ struct RecordRow {
 };
 
 struct RecordsView {
-  std::span<const RecordRow> rows;    // newest first
-  bool newer = false, older = false;  // there are more that way
+  std::span<const RecordRow> rows;  // newest first
+  ListPlace place;
   std::string_view searched;
   const RecordRow* shown = nullptr;        // the one that is looked at
   std::string_view consent, consented_at;  // the text's version and language; when

@@ -33,8 +33,8 @@ void Service::act(const Action& action, const ViewState& view) {
   if (kind == ActionKind::StaffEnter) enter(view);
   if (kind == ActionKind::StaffOpen) go(static_cast<StaffPage>(action.value));
   if (kind == ActionKind::StaffDo || kind == ActionKind::StaffAnswer) request(action.ask);
-  if (kind == ActionKind::StaffAnswer) mode = 0;
-  if (kind == ActionKind::StaffMode) mode = action.value, ruler = {};
+  if (kind == ActionKind::StaffAnswer || kind == ActionKind::StaffMode) mode = action.value;
+  if (kind == ActionKind::StaffMode) ruler = {};
   if (kind == ActionKind::StaffMeasure) ruler = {.on = !ruler.on};
   if (kind == ActionKind::StaffChoose) {
     chosen = action.value;

@@ -31,12 +31,21 @@ struct SetClock {};            // the shown time is right
 struct TakeConsentText {};     // from the stick
 struct ConfirmConsentText {};  // the one in force is meant to be
 
+// --- lists of many pages: in the page's own; pages count from 0 (ui/view/list_place.h) ---------------------
+struct GoToPage {
+  std::int64_t page = 0;
+};
+struct DivideList {  // into stretches, from the first to the last page
+  std::int64_t first = 0, last = 0;
+};
+struct FilterList {
+  std::size_t filter = 0;
+};
+using ListRequest = std::variant<GoToPage, DivideList, FilterList>;
+
 // --- records ---------------------------------------------------------------------------------------------
 // The text: a part of the name, a number or a code; empty: everyone.
 struct FindRecords {};
-struct TurnRecords {
-  bool older = false;
-};
 struct ShowRecord {
   std::int64_t record = 0;
 };
@@ -123,9 +132,6 @@ struct ShowStage {
 struct ShowTable {
   TechnicianTable table{};
 };
-struct TurnTable {
-  std::int32_t pages = 0;
-};
 // A finger on the left or right picture: it came down, or it came down earlier and is there now. Shares of
 // the picture.
 struct TouchPicture {
@@ -164,11 +170,11 @@ struct LoadSaved {
 };
 
 using TechnicianRequest =
-    std::variant<DoTechnician, RunStages, ShowStage, ShowTable, TurnTable, TouchPicture, ChooseKind,
+    std::variant<DoTechnician, RunStages, ShowStage, ShowTable, ListRequest, TouchPicture, ChooseKind,
                  ChooseName, EditOption, TypeDigit, DropResult, ChangeBoard, UseCalibration, LoadSaved>;
 using StaffAsk =
     std::variant<std::monostate, PageOpened, PageLeft, CheckPin, OfferPin, MoveClock, SetClock,
-                 TakeConsentText, ConfirmConsentText, FindRecords, TurnRecords, ShowRecord, EraseRecord,
+                 TakeConsentText, ConfirmConsentText, ListRequest, FindRecords, ShowRecord, EraseRecord,
                  ExportRecord, ExportFound, StopExport, OfferWord, ChangeSetting, BeginSelfTest,
                  BeginTriggerTest, BeginTouchTrial, TakePlainTouch, TechnicianRequest>;
 

@@ -13,6 +13,7 @@
 
 #include "ui/draw/draw_list.h"
 #include "ui/view/fault.h"
+#include "ui/view/list_place.h"
 #include "ui/view/log_event.h"
 #include "ui/view/service_view.h"
 
@@ -93,9 +94,10 @@ struct HealthView {
   std::span<const LogLine> faults;  // newest first
 };
 
-// --- log: the newest lines -------------------------------------------------------------------------
+// --- log -------------------------------------------------------------------------------------------
 struct LogView {
-  std::span<const LogLine> lines;  // newest first
+  std::span<const LogLine> lines;  // of a page, newest first
+  ListPlace place;                 // filter 1: faults alone
 };
 
 // --- consent text: which is in force, ViewState::consent says --------------------------------------

@@ -61,7 +61,7 @@ void RecordsController::forget() {
   rows_.clear();
   shown_ = {};
   view_ = {};
-  skip_ = 0;
+  walk_.begin_anew();
   ready_ = erased_ = exported_ = false;
   outcome_ = ui::Outcome::None;
   trace_ = {};
@@ -80,10 +80,9 @@ void RecordsController::ask(const ui::StaffRequest& request) {
   outcome_ = ui::Outcome::None;
   asked_ = 0;
   if (request.as<ui::FindRecords>() != nullptr) search(request.text());
-  if (const auto* turn = request.as<ui::TurnRecords>()) {
-    if (turn->older) skip_ += more_ ? kPage : 0;
-    else skip_ = std::max<std::int64_t>(0, skip_ - kPage);
-    list();
+  if (const auto* asked = request.as<ui::ListRequest>()) {
+    if (walk_.ask(*asked) == ListWalk::Ask::Labels) label_stretches();
+    else list();
   }
   if (const auto* show = request.as<ui::ShowRecord>()) load(show->record);
   if (const auto* gone = request.as<ui::EraseRecord>()) erase(gone->record);
@@ -95,7 +94,7 @@ void RecordsController::search(std::string_view text) {
   wipe_text(searched_);
   searched_ = text;
   while (searched_.ends_with(' ')) searched_.pop_back();
-  skip_ = 0;
+  walk_.begin_anew();
   list();
 }
 
@@ -103,6 +102,7 @@ void RecordsController::list() {
   struct Listed {
     std::string searched;
     std::vector<Found> found;
+    std::int64_t rows = 0;  // of all pages
     ~Listed() {
       wipe_text(searched);
       wipe(found);
@@ -112,14 +112,16 @@ void RecordsController::list() {
   listed->searched = searched_;
   services().side_tasks.send(
       JobLane::Keeper,
-      [this, listed, skip = skip_](JobControl&) -> Result<void> {
+      [this, listed, skip = walk_.first_row()](JobControl&) -> Result<void> {
         std::vector<storage::Subject> subjects;
         // The code that a person quotes for their erasure leads to them, too.
         if (is_receipt(listed->searched)) {
           if (auto subject = find_by_receipt(services().store, listed->searched))
             subjects.push_back(std::move(*subject));
+          listed->rows = static_cast<std::int64_t>(subjects.size());
         } else {
-          RELIEVO_TRY_ASSIGN(subjects, services().store.subjects({listed->searched, false, skip, kPage + 1}));
+          RELIEVO_TRY_ASSIGN(listed->rows, services().store.count_subjects({listed->searched}));
+          RELIEVO_TRY_ASSIGN(subjects, services().store.subjects({listed->searched, false, skip, kPage}));
         }
         for (storage::Subject& subject : subjects) {
           listed->found.push_back({static_cast<std::int64_t>(subject.id), subject.name,
@@ -134,12 +136,39 @@ void RecordsController::list() {
         if (error) return told(error);
         wipe(found_);
         found_ = std::move(listed->found);
-        more_ = static_cast<std::int64_t>(found_.size()) > kPage;
-        if (more_) {
-          wipe(found_.back());
-          found_.pop_back();
-        }
+        walk_.set_rows(listed->rows);
         ready_ = true;
+        if (found_.empty() && listed->rows > 0) list();  // the last one of the last page was erased
+      });
+}
+
+// When the first one of each stretch came. They are read one by one: of those between nothing has to be.
+void RecordsController::label_stretches() {
+  struct Labels {
+    std::string searched;
+    std::vector<std::int64_t> rows;
+    std::vector<std::string> found;
+    ~Labels() { wipe_text(searched); }
+  };
+  const auto labels = std::make_shared<Labels>();
+  labels->searched = searched_;
+  for (std::size_t i = 0; i < walk_.stretches(); ++i) labels->rows.push_back(walk_.top_row(i));
+  services().side_tasks.send(
+      JobLane::Keeper,
+      [this, labels](JobControl&) -> Result<void> {
+        for (const std::int64_t row : labels->rows) {
+          RELIEVO_TRY_ASSIGN(auto one, services().store.subjects({labels->searched, false, row, 1}));
+          labels->found.push_back(one.empty() ? std::string()
+                                              : text_of(one.front().created_at).substr(0, 16));
+          for (storage::Subject& subject : one) wipe_text(subject.name);
+        }
+        return {};
+      },
+      [this, labels, visit = visit_, division = ++division_](const std::optional<Error>& error) {
+        if (visit != visit_ || division != division_) return;
+        if (error) return told(error);
+        for (std::size_t i = 0; i < labels->found.size(); ++i)
+          walk_.set_label(i, std::move(labels->found[i]));
       });
 }
 
@@ -223,7 +252,7 @@ void RecordsController::show(ui::ServiceView& view) {
   if (!ready_) return;
   rows_.clear();
   for (const Found& one : found_) rows_.push_back({one.number, one.name, one.since, one.code, one.portraits});
-  view_ = {rows_, skip_ > 0, more_, searched_, nullptr, {}, {}, erased_, exported_, asked_, trace_.whole};
+  view_ = {rows_, walk_.view(), searched_, nullptr, {}, {}, erased_, exported_, asked_, trace_.whole};
   if (person_) {
     const Found& one = person_->found;
     shown_ = {one.number, one.name, one.since, one.code, one.portraits};

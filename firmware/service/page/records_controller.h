@@ -11,6 +11,7 @@
 #include <string>
 #include <vector>
 
+#include "firmware/base/list_walk.h"
 #include "firmware/service/export_records.h"
 #include "firmware/service/page_controller.h"
 #include "ui/view/records_view.h"
@@ -43,6 +44,7 @@ class RecordsController final : public PageController {
   using Work = std::function<Result<void>(JobControl&)>;
   void search(std::string_view text);
   void list();
+  void label_stretches();
   void load(std::int64_t number);
   void erase(std::int64_t number);
   void take_out(std::int64_t number);
@@ -54,8 +56,9 @@ class RecordsController final : public PageController {
 
   std::uint32_t visit_ = 0;  // of the page: what was asked before it was left is not shown after
   std::string searched_;
-  std::int64_t skip_ = 0;
-  bool more_ = false, ready_ = false, erased_ = false, exporting_ = false, exported_ = false;
+  ListWalk walk_{kPage};
+  std::uint32_t division_ = 0;  // of the stretches: what was found for those before is not shown
+  bool ready_ = false, erased_ = false, exporting_ = false, exported_ = false;
   std::vector<Found> found_;
   std::shared_ptr<Person> person_;
   std::uint32_t model_number_ = 0;

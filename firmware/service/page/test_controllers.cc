@@ -138,12 +138,30 @@ void TriggerController::show(ui::ServiceView& view) {
   view.trigger = &view_;
 }
 
+std::vector<LogEntry> LogController::wanted() const {
+  std::vector<LogEntry> lines = services().log.entries();
+  std::reverse(lines.begin(), lines.end());
+  if (walk_.filter() != 0) std::erase_if(lines, [](const LogEntry& line) { return !line.fault; });
+  return lines;
+}
+
+void LogController::ask(const ui::StaffRequest& request) {
+  const auto* asked = request.as<ui::ListRequest>();
+  if (asked == nullptr || walk_.ask(*asked) != ListWalk::Ask::Labels) return;
+  const std::vector<LogEntry> lines = wanted();
+  for (std::size_t i = 0; i < walk_.stretches(); ++i) {
+    const auto top = static_cast<std::size_t>(walk_.top_row(i));
+    walk_.set_label(i, top < lines.size() ? lines[top].at : std::string());
+  }
+}
+
 void LogController::show(ui::ServiceView& view) {
-  lines_ = services().log.entries();
-  std::reverse(lines_.begin(), lines_.end());
-  if (lines_.size() > kShown) lines_.resize(kShown);
+  lines_ = wanted();
+  walk_.set_rows(static_cast<std::int64_t>(lines_.size()));
+  lines_.erase(lines_.begin() + walk_.end_row(), lines_.end());
+  lines_.erase(lines_.begin(), lines_.begin() + walk_.first_row());
   show_lines(lines_, shown_);
-  view_.lines = shown_;
+  view_ = {shown_, walk_.view()};
   view.log = &view_;
 }
 

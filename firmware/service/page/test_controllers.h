@@ -2,13 +2,14 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 //
 // Behind the technician's tests: SelfTestController asks memory, store, calibration, disk and cameras;
-// TriggerController pulses the line and counts what both cameras saw; LogController shows the newest lines.
-// The store is read on the keeper, cameras are asked on the capture thread; the pictures of a test are
-// wiped before it is reported. Thread: main.
+// TriggerController pulses the line and counts what both cameras saw; LogController shows the lines of the
+// log, the newest first. The store is read on the keeper, cameras are asked on the capture thread; the
+// pictures of a test are wiped before it is reported. Thread: main.
 #pragma once
 
 #include <vector>
 
+#include "firmware/base/list_walk.h"
 #include "firmware/service/page_controller.h"
 #include "ui/view/staff_views.h"
 
@@ -47,10 +48,14 @@ class TriggerController final : public PageController {
 class LogController final : public PageController {
  public:
   using PageController::PageController;
+  void opened() override { walk_.begin_anew(); }
+  void ask(const ui::StaffRequest& request) override;
   void show(ui::ServiceView& view) override;
 
  private:
-  static constexpr std::size_t kShown = 60;
+  static constexpr std::int64_t kShown = 40;  // of a page
+  std::vector<LogEntry> wanted() const;       // newest first
+  ListWalk walk_{kShown};
   std::vector<LogEntry> lines_;
   std::vector<ui::LogLine> shown_;
   ui::LogView view_;

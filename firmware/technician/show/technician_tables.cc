@@ -48,22 +48,44 @@ std::size_t rows_of(TechnicianTable table, const TechnicianTables::Source& from)
 
 void TechnicianTables::show(TechnicianTable table, const Source& from) {
   table_ = table;
-  page_ = 0;
+  walk_.begin_anew();
+  refresh(from);
+}
+
+void TechnicianTables::ask(const ui::ListRequest& request, const Source& from) {
+  if (walk_.ask(request) == ListWalk::Ask::Rows) return refresh(from);
+  for (std::size_t i = 0; i < walk_.stretches(); ++i)
+    walk_.set_label(i, label_of(from, static_cast<std::size_t>(walk_.top_row(i))));
+}
+
+void TechnicianTables::refresh(const Source& from) {
+  select(from);
   fill(from);
 }
 
-void TechnicianTables::turn(std::int64_t pages, const Source& from) {
-  const std::size_t rows = rows_of(table_, from);
-  const std::int64_t last = rows == 0 ? 0 : static_cast<std::int64_t>((rows - 1) / kTableRows);
-  page_ =
-      static_cast<std::size_t>(std::clamp(static_cast<std::int64_t>(page_) + pages, std::int64_t{0}, last));
-  fill(from);
+// Of matches: those that were accepted (filter 1), or rejected by the rule that took them first.
+void TechnicianTables::select(const Source& from) {
+  selected_.clear();
+  std::size_t rows = rows_of(table_, from);
+  const std::size_t filter = walk_.filter();
+  if (table_ == TechnicianTable::Matches && filter > 0) {
+    for (std::size_t row = 0; row < rows; ++row) {
+      const auto rejected = from.products->matches->matches[row].rejected_by;
+      const std::size_t passes = rejected == 0 ? 1 : 2 + static_cast<std::size_t>(std::countr_zero(rejected));
+      if (passes == filter) selected_.push_back(static_cast<std::uint32_t>(row));
+    }
+    rows = selected_.size();
+  }
+  walk_.set_rows(
+      static_cast<std::int64_t>(table_ == TechnicianTable::Calibration ? std::min(rows, kTableRows) : rows));
 }
 
 void TechnicianTables::forget() {
   texts_.clear();
   cells_.clear();
-  rows_ = page_ = 0;
+  selected_.clear();
+  walk_.begin_anew();
+  walk_.set_rows(0);
   box_ = {};
 }
 
@@ -77,21 +99,33 @@ void TechnicianTables::word(std::string_view text) { texts_.emplace_back(text); 
 
 void TechnicianTables::fill(const Source& from) {
   texts_.clear();
-  rows_ = rows_of(table_, from);
-  if (page_ * kTableRows >= rows_) page_ = 0;
-  first_ = page_ * kTableRows;
-  last_ = std::min(rows_, first_ + kTableRows);
   if (table_ == TechnicianTable::Calibration) {
     if (from.calibration != nullptr) fill_calibration(*from.calibration);
   } else {
-    for (std::size_t row = first_; row < last_; ++row) {
-      cell("%.0f", static_cast<double>(row + 1));
-      if (table_ == TechnicianTable::Matches) fill_matches(from, row);
-      if (table_ == TechnicianTable::Points) fill_points(*from.products->cloud, row);
-      if (table_ == TechnicianTable::Model) fill_model(*from.products->model, row);
-    }
+    for (std::int64_t row = walk_.first_row(); row < walk_.end_row(); ++row)
+      fill_row(from, static_cast<std::size_t>(row));
   }
   cells_.assign(texts_.begin(), texts_.end());
+}
+
+void TechnicianTables::fill_row(const Source& from, std::size_t row) {
+  if (!selected_.empty()) row = selected_[row];
+  cell("%.0f", static_cast<double>(row + 1));
+  if (table_ == TechnicianTable::Matches) fill_matches(from, row);
+  if (table_ == TechnicianTable::Points) fill_points(*from.products->cloud, row);
+  if (table_ == TechnicianTable::Model) fill_model(*from.products->model, row);
+}
+
+// Its number and its place.
+std::string TechnicianTables::label_of(const Source& from, std::size_t row) {
+  constexpr std::size_t kTold = 3;
+  std::vector<std::string> shown = std::move(texts_);
+  texts_.clear();
+  fill_row(from, row);
+  std::string label;
+  for (std::size_t i = 0; i < std::min(kTold, texts_.size()); ++i) label += (i == 0 ? "" : " ") + texts_[i];
+  texts_ = std::move(shown);
+  return label;
 }
 
 void TechnicianTables::fill_matches(const Source& from, std::size_t row) {
@@ -177,9 +211,7 @@ ui::TechnicianRows TechnicianTables::view() const {
   view.table = table_;
   view.heads = heads_of(table_);
   view.cells = cells_;
-  view.page = page_;
-  view.pages = table_ == TechnicianTable::Calibration ? 1 : (rows_ + kTableRows - 1) / kTableRows;
-  view.rows = rows_;
+  view.place = walk_.view();
   return view;
 }
 

@@ -4,13 +4,14 @@
 // TechnicianTables: the numbers behind the pictures, a page at a time: pixel coordinates of the matches,
 // points in millimetres, the model's vertices in the head frame and normalised, the calibration. Normalised:
 // from the middle of the model's box, in halves of its longest side, so within -1 .. 1. Thread: main, while
-// no job runs. Memory: one page of texts. Errors: none.
+// no job runs. Memory: one page of texts; with a filter four bytes a row. Errors: none.
 #pragma once
 
 #include <string>
 #include <string_view>
 #include <vector>
 
+#include "firmware/base/list_walk.h"
 #include "firmware/session/session.h"
 #include "firmware/technician/show/technician_figures.h"
 #include "pipeline/model/calibration.h"
@@ -28,13 +29,17 @@ class TechnicianTables {
     const pipeline::StereoCalibration* calibration = nullptr;  // may be missing
   };
   void show(ui::TechnicianTable table, const Source& from);
-  void turn(std::int64_t pages, const Source& from);
+  void ask(const ui::ListRequest& request, const Source& from);
+  void refresh(const Source& from);
   void forget();
   // Until the next change.
   ui::TechnicianRows view() const;
 
  private:
+  void select(const Source& from);
   void fill(const Source& from);
+  void fill_row(const Source& from, std::size_t row);
+  std::string label_of(const Source& from, std::size_t row);
   void fill_matches(const Source& from, std::size_t row);
   void fill_points(const pipeline::PointCloud& cloud, std::size_t row);
   void fill_model(const pipeline::FaceModel& model, std::size_t row);
@@ -43,7 +48,8 @@ class TechnicianTables {
   void word(std::string_view text);
 
   ui::TechnicianTable table_ = ui::TechnicianTable::Matches;
-  std::size_t page_ = 0, rows_ = 0, first_ = 0, last_ = 0;
+  ListWalk walk_{kTableRows};
+  std::vector<std::uint32_t> selected_;  // rows that pass the filter; where there is one
   std::vector<std::string> texts_;
   std::vector<std::string_view> cells_;
   struct Box {

@@ -225,7 +225,7 @@ TEST_P(GalleryTest, AFullLogHasRoom) {
   const std::string sentence(EventLog::kTextBytes, 'x');
   const ui::LogLine line{"2026-03-14 10:21:09", true, sentence, Errc::IoFailed, {}, {}};
   const std::vector<ui::LogLine> lines(EventLog::kLines, line);
-  const ui::LogView log{lines};
+  const ui::LogView log{lines, {}};
   ui::ServiceView staff;
   staff.role = ui::StaffRole::Technician;
   staff.log = &log;

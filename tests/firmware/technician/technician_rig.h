@@ -79,6 +79,7 @@ class TechnicianRig {
     frame();
     while (const auto request = screen->take_staff_request()) {
       if (const auto* asked = request->as<ui::TechnicianRequest>()) test_capture->act(*asked);
+      if (const auto* list = request->as<ui::ListRequest>()) test_capture->act(ui::TechnicianRequest(*list));
       test_capture->turn();
       frame();
     }

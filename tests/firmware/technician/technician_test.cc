@@ -46,6 +46,23 @@ TEST_F(TechnicianTest, ATestCaptureIsSeenStageByStageAndInNumbers) {
   char text[32];
   std::snprintf(text, sizeof text, "%.3f", static_cast<double>(match.disparity_px));
   EXPECT_EQ(rows.cells[4], text);
+  const std::uint64_t pages = (result.matches + kTableRows - 1) / kTableRows;
+  EXPECT_EQ(rig().now().rows.place.pages, static_cast<std::int64_t>(pages));
+  rig().tap("filter");
+  rig().tap("filter 1");
+  EXPECT_EQ(rig().now().rows.place.pages,
+            static_cast<std::int64_t>((result.accepted + kTableRows - 1) / kTableRows));
+  for (std::size_t i = 7; i < rig().now().rows.cells.size(); i += 8)
+    EXPECT_EQ(rig().now().rows.cells[i], "") << "accepted";
+  rig().tap("page number");
+  const ui::ListPlace place = rig().now().rows.place;
+  ASSERT_EQ(place.stretch_count, ui::kListStretches);
+  EXPECT_EQ(place.stretches[9].last, place.pages - 1);
+  rig().tap("stretch 9");
+  EXPECT_GT(rig().now().rows.place.stretches[0].first, 0);
+  const std::int64_t page = rig().now().rows.place.stretches[0].first;
+  while (rig().screen->tree().find("stretch 0") != nullptr) rig().tap("stretch 0");
+  EXPECT_EQ(rig().now().rows.place.page, page) << "its first page, at last";
   rig().tap("table 2");
   for (std::size_t i = 0; i < rig().now().rows.cells.size(); i += 8) {
     for (std::size_t k = 4; k < 7; ++k)

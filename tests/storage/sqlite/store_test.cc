@@ -134,6 +134,14 @@ TEST_F(SqliteStoreVerbs, FindsPeople) {
   EXPECT_EQ(store->subjects({.name = "ada", .whole_name = true})->size(), 1u);
   EXPECT_EQ(store->subjects({.name = "Žof"})->size(), 1u);
   EXPECT_EQ(store->subjects({.skip = 1, .limit = 2})->front().name, "ada");
+  EXPECT_EQ(*store->count_subjects({.name = "ADA", .skip = 1, .limit = 1}), 2) << "all that are found";
+  EXPECT_EQ(*store->count_subjects({.name = "ada", .whole_name = true}), 1);
+  EXPECT_EQ(*store->count_subjects({.name = "nobody"}), 0);
+  const auto everyone = store->subjects({});
+  EXPECT_EQ(*store->count_subjects({}), static_cast<std::int64_t>(everyone->size()));
+  EXPECT_EQ(*store->count_subjects({.receipt = everyone->front().receipt}), 1);
+  ASSERT_TRUE(store->erase_subject(everyone->back().id));
+  EXPECT_EQ(*store->count_subjects({}), static_cast<std::int64_t>(everyone->size()) - 1);
   EXPECT_EQ(store->subjects({.skip = 1, .limit = 2})->size(), 2u);
   EXPECT_EQ(code_of(store->subject(SubjectId{77})), Errc::NotFound);
 }

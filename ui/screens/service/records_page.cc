@@ -5,6 +5,7 @@
 #include "ui/view/records_view.h"
 
 #include "ui/screens/parts/keyboard.h"
+#include "ui/screens/service/list_part.h"
 #include "ui/screens/service/staff_pages.h"
 
 namespace relievo::ui {
@@ -89,6 +90,7 @@ void list(StaffFrame& page, const RecordsView& seen) {
     page.nothing("nobody", icon::kPerson,
                  seen.searched.empty() ? tr("There are no records.") : tr("There is nobody of that name."));
   page.tree.close();
+  list_pager(page, seen.place);
   const bool narrow = page.portrait || page.text_share > 1.2F;
   const float share = narrow ? 1.0F : 0.0F;
   page.tree.open(page.box(Flow::Row, space::kS));
@@ -96,10 +98,6 @@ void list(StaffFrame& page, const RecordsView& seen) {
                     share);
   if (!seen.searched.empty())
     page.small_button("all", tr("All"), nullptr, ButtonLook::Quiet, Action(FindRecords{}), share);
-  if (seen.newer)
-    page.small_button("newer", tr("Newer"), nullptr, ButtonLook::Quiet, Action(TurnRecords{false}), share);
-  if (seen.older)
-    page.small_button("older", tr("Older"), nullptr, ButtonLook::Quiet, Action(TurnRecords{true}), share);
   if (narrow) {
     page.tree.close();
     page.tree.open(page.box(Flow::Row, space::kS));
@@ -155,6 +153,7 @@ void records_page(StaffFrame& page) {
   if (seen == nullptr) return page.body("wait", tr("One moment, please"));
   if (page.staff.work.running) return working(page);
   if (page.service.mode == kTyping) return typing(page);
+  if (seen->shown == nullptr && list_choice(page, seen->place)) return;
   if (seen->shown == nullptr) return list(page, *seen);
   if (page.service.mode != kErasing) return record(page, *seen);
   page.grave_question(

@@ -3,6 +3,7 @@
 //
 // What a technician lets the device say of itself: self-test, trigger test, log.
 #include "ui/screens/service/fault_words.h"
+#include "ui/screens/service/list_part.h"
 #include "ui/screens/service/staff_pages.h"
 #include "ui/view/staff_views.h"
 
@@ -98,12 +99,15 @@ void trigger_page(StaffFrame& page) {
 }
 
 void log_page(StaffFrame& page) {
-  page.begin_list("log");
   const LogView* seen = page.staff.log;
+  const std::string_view filters[] = {page.tr("All"), page.tr("Fault")};
+  if (seen != nullptr && list_choice(page, seen->place, filters)) return;
+  page.begin_list("log");
   if (seen == nullptr || seen->lines.empty()) page.line(page.tr("Nothing has been noted yet."));
   else
     for (const LogLine& line : seen->lines) page.logged(line);
   page.tree.close();
+  if (seen != nullptr) list_pager(page, seen->place, filters);
 }
 
 }  // namespace relievo::ui

@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <array>
 
+#include "ui/screens/service/list_part.h"
 #include "ui/screens/service/technician/technician_frame.h"
 
 namespace relievo::ui {
@@ -215,6 +216,7 @@ void history(TechnicianFrame& f) {
     f.page.row(f.id("calibration", i), label, value, row.active ? Mood::Good : Mood::Plain,
                row.active ? Action{} : technician_action(UseCalibration{i}));
   }
+  list_pager(f.page, c.place);
   if (f.view.calibrated)
     f.page.row("calibration export", f.tr("Export to the stick"), {}, Mood::Plain,
                technician_action(TechnicianAct::ExportCalibration));
@@ -262,6 +264,7 @@ void at_rest(TechnicianFrame& f) {
 void technician_calibrate_page(StaffFrame& page) {
   if (page.staff.technician == nullptr) return;
   TechnicianFrame f(page);
+  if (!f.view.calibration.running && list_choice(page, f.view.calibration.place)) return;
   if (!f.view.calibration.exported.empty())
     page.status("calibration exported",
                 page.filled(f.tr("Recorded on the stick as {}. It can be pulled out."),

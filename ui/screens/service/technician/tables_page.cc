@@ -3,14 +3,15 @@
 //
 // The numbers behind the pictures, a page at a time.
 #include <algorithm>
+#include <array>
 
+#include "ui/screens/service/list_part.h"
 #include "ui/screens/service/technician/technician_frame.h"
 
 namespace relievo::ui {
 namespace {
 
 constexpr float kGap = 6;  // between columns
-constexpr std::int32_t kFarPages = 100;
 
 const char* name_of_table(const Words& tr, TechnicianTable table) {
   switch (table) {
@@ -88,36 +89,14 @@ void record(TechnicianFrame& f, std::span<const std::string_view> texts, bool he
   if (divided) f.page.rule();
 }
 
-void pager(TechnicianFrame& f) {
-  const TechnicianRows& rows = f.view.rows;
-  if (rows.pages < 2) return;
-  Node row = f.page.box(Flow::Row, space::kS);
-  centre(row);
-  row.box.left_to_right = true;
-  f.page.tree.open(row);
-  const auto turn = [&](std::string_view id, const char* spoken, const char* label, std::int32_t pages) {
-    Node node =
-        f.page.sized(f.page.box(Flow::Row),
-                     std::min(96 * f.page.text_share, f.page.portrait ? 120.0F : 150.0F), size::kStaffTarget);
-    tell(node, Role::Button, id, spoken, technician_action(TurnTable{pages}));
-    centre(node);
-    frame(node, f.page.palette.quiet, f.page.palette.quiet_border, f.page.px(2), f.page.px(18));
-    f.page.tree.open(node);
-    Node sign = f.page.text(f.left_to_right(label), type::kSmall, Weight::Bold, f.page.palette.link,
-                            TextAlign::Centre);
-    f.page.tree.leaf(sign);
-    f.page.tree.close();
-  };
-  turn("far back", f.tr("A hundred pages back"), "− 100", -kFarPages);
-  turn("page back", f.tr("One page back"), "−", -1);
-  const auto number = [&](std::size_t value) { return f.page.number(static_cast<double>(value)); };
-  Node where = f.page.text(f.joined(number(rows.page + 1), "\u00a0/\u00a0", number(rows.pages)), type::kSmall,
-                           Weight::Medium, f.page.palette.ink, TextAlign::Centre);
-  where.id = "page number";
-  f.page.tree.leaf(where);
-  turn("page on", f.tr("One page on"), "+", 1);
-  turn("far on", f.tr("A hundred pages on"), "+ 100", kFarPages);
-  f.page.tree.close();
+// Of matches: all, the accepted ones, and those that each rule took first.
+using FilterNames = std::array<std::string_view, 2 + kTechnicianRules>;
+ListFilters filters_of(TechnicianFrame& f, FilterNames& names) {
+  if (f.view.rows.table != TechnicianTable::Matches) return {};
+  names = {f.tr("All"), f.tr("Accepted matches")};
+  const TechnicianResult& result = f.view.result;
+  for (std::size_t i = 0; i < result.rule_count; ++i) names[2 + i] = f.rule_name(result.rules[i].name);
+  return {names.data(), 2 + result.rule_count};
 }
 
 }  // namespace
@@ -126,6 +105,9 @@ void technician_tables_page(StaffFrame& page) {
   if (page.staff.technician == nullptr) return;
   TechnicianFrame f(page);
   const TechnicianRows& rows = f.view.rows;
+  FilterNames names;
+  const ListFilters filters = filters_of(f, names);
+  if (list_choice(page, rows.place, filters)) return;
   const std::size_t across = page.portrait || page.text_share > 1.3F ? 2 : kTechnicianTables;
   for (std::size_t first = 0; first < kTechnicianTables; first += across) {
     page.tree.open(page.box(Flow::Row, space::kXs));
@@ -138,6 +120,7 @@ void technician_tables_page(StaffFrame& page) {
   }
   if (rows.cells.empty() && (rows.table != TechnicianTable::Calibration || !f.view.calibrated)) {
     if (f.capture_state()) {
+      if (rows.place.filter > 0) list_pager(page, rows.place, filters);
       page.nothing("no rows", icon::kShape, f.tr("There is nothing: a stage before it gave up."));
     }
     return f.capture_buttons(false);
@@ -155,7 +138,7 @@ void technician_tables_page(StaffFrame& page) {
   for (std::size_t at = 0; at + columns <= places; at += columns)
     record(f, rows.cells.subspan(at, columns), false, shape);
   page.tree.close();
-  pager(f);
+  list_pager(page, rows.place, filters);
 }
 
 }  // namespace relievo::ui

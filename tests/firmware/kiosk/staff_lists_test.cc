@@ -1,0 +1,101 @@
+// SPDX-FileCopyrightText: 2026 The Relievo authors
+// SPDX-License-Identifier: GPL-3.0-or-later
+//
+// Long lists through their pages: turned, jumped in and filtered, on a real store and a real log, by fingers
+// and by a keypad.
+#include "tests/firmware/kiosk/staff_hands.h"
+#include "ui/view/records_view.h"
+#include "ui/view/staff_views.h"
+
+namespace relievo::firmware {
+namespace {
+
+class StaffListsTest : public StaffHands {
+ protected:
+  static constexpr int kPeople = 120;  // three pages
+  void fill_the_store() {
+    auto store = storage::open_sqlite_store(args.store, wall(), {});
+    ASSERT_TRUE(store.has_value());
+    for (int i = 1; i <= kPeople; ++i)
+      ASSERT_TRUE((*store)->add_subject({(i % 2 == 0 ? "Anna " : "Otto ") + std::to_string(i)}).has_value());
+  }
+  const ui::RecordsView& records() const { return *kiosk->view().service->records; }
+  bool shows_first(const std::string& name) {
+    return until([&] { return !records().rows.empty() && records().rows[0].name == name; });
+  }
+};
+
+TEST_F(StaffListsTest, RecordsAreTurnedAndJumpedInAlsoWhereSomebodyWasSearchedFor) {
+  fill_the_store();
+  start();
+  first_start();
+  sign_in("80526", StaffRole::Operator);
+  tap("open records");
+  ASSERT_TRUE(until([this] { return kiosk->view().service->records != nullptr; }));
+  ASSERT_TRUE(shows_first("Anna 120"));
+  EXPECT_EQ(records().place.pages, 3);
+  EXPECT_EQ(find("page back"), nullptr) << "there is none before the first";
+  tap("last page");
+  ASSERT_TRUE(shows_first("Anna 20"));
+  EXPECT_EQ(records().rows.size(), 20U);
+  EXPECT_EQ(find("page on"), nullptr);
+  tap("page back");
+  ASSERT_TRUE(shows_first("Anna 70"));
+  // By a keypad, to the third page.
+  tap("page number");
+  ASSERT_TRUE(until([this] { return find("stretch 2") != nullptr; }));
+  EXPECT_EQ(records().place.stretches[2].label.substr(0, 2), "20") << "the date at its top";
+  focus_on("stretch 2");
+  kiosk->feed({ui::Input::Kind::Activate});
+  kiosk->turn();
+  ASSERT_TRUE(shows_first("Anna 20"));
+  EXPECT_EQ(kiosk->ui().service().mode, 0) << "the list again";
+  // Back out of the jump: nothing has moved.
+  tap("page number");
+  ASSERT_NE(find("stretches"), nullptr);
+  tap("back");
+  EXPECT_EQ(find("stretches"), nullptr);
+  EXPECT_EQ(records().rows[0].name, "Anna 20");
+  // Half of them are found: two pages, from the first on.
+  tap("search");
+  for (const char* key : {"key o", "key t", "key t"}) tap(key);
+  tap("done");
+  ASSERT_TRUE(shows_first("Otto 119"));
+  EXPECT_EQ(records().place.page, 0);
+  EXPECT_EQ(records().place.pages, 2);
+  tap("last page");
+  ASSERT_TRUE(until([this] { return records().rows.size() == 10; }));
+  EXPECT_EQ(records().rows.back().name, "Otto 1");
+  tap("all");
+  ASSERT_TRUE(shows_first("Anna 120"));
+  EXPECT_EQ(records().place.pages, 3);
+}
+
+TEST_F(StaffListsTest, TheLogGoesBackToItsFirstLineAndShowsFaultsAlone) {
+  start();
+  first_start();
+  EventLog& log = const_cast<EventLog&>(kiosk->staff().log());
+  for (int i = 0; i < 90; ++i) log.say(ui::LogEvent::RecordErased, {std::to_string(i)});
+  log.fault({Errc::Disconnected, "as the test says"});
+  for (int i = 90; i < 100; ++i) log.say(ui::LogEvent::RecordErased, {std::to_string(i)});
+  sign_in("4711", StaffRole::Technician);
+  tap("open log");
+  const auto& seen = [this]() -> const ui::LogView& { return *kiosk->view().service->log; };
+  EXPECT_GE(seen().place.pages, 3);
+  tap("last page");
+  EXPECT_EQ(seen().lines.back().event, ui::LogEvent::Started) << "its first line";
+  tap("page number");
+  tap("stretch 0");
+  EXPECT_EQ(seen().place.page, 0);
+  tap("filter");
+  tap("filter 1");
+  ASSERT_EQ(seen().lines.size(), 1U);
+  EXPECT_EQ(seen().lines[0].code, Errc::Disconnected);
+  EXPECT_EQ(find("page number"), nullptr) << "one page has no others";
+  tap("filter");
+  tap("filter 0");
+  EXPECT_GE(seen().place.pages, 3);
+}
+
+}  // namespace
+}  // namespace relievo::firmware
