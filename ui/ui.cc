@@ -177,8 +177,10 @@ void Ui::up(const Input& input, const ViewState& view) {
     finger.down = false;
     const Node* node = tree_.at(input.x, input.y);
     if (node != nullptr && !hands_.pressed.empty() && node->id == hands_.pressed && !node->hold &&
-        node->dragged.kind == ActionKind::None)
+        node->dragged.kind == ActionKind::None) {
+      bring_into_view(*node);  // out from under a list's fade: it may be the chosen row now
       tap(*node, finger, input, view);
+    }
     hands_.pressed.clear();
   }
 }

@@ -81,6 +81,37 @@ TEST_P(GalleryContrast, EveryTextCanBeReadAlsoOnAChosenRowAndUnderAFinger) {
     EXPECT_EQ(chosen.count(page), 1U) << page << " has a chosen row, which was not looked at";
 }
 
+// Where a list goes on its last rows fade. One that is touched there, and is the chosen one then, does not.
+TEST_P(GalleryContrast, ARowThatIsTouchedUnderAFadeComesOutFromUnderIt) {
+  ASSERT_TRUE(ui::prepare_languages().has_value());
+  auto text = ui::TextEngine::make();
+  ASSERT_TRUE(text.has_value());
+  ui::Ui screen(std::move(*text));
+  screen.resize(1280, 800);
+  const ui::ViewState nothing;
+  bool touched = false;
+  for (const Exhibit& exhibit : gallery(nothing, ui::Language::English, 0, GetParam())) {
+    if (exhibit.name != "technician_algorithms") continue;
+    screen.show(exhibit.view, exhibit.visit, exhibit.service);
+    const auto clear_of_the_fade = [&](const Node& row) {
+      const Node& list = *screen.tree().find("kinds");
+      return row.rect.bottom() <= list.rect.bottom() - std::min(56.0F, list.rect.h / 4) + 1;
+    };
+    for (int kind = 0; kind < 20 && !touched; ++kind) {
+      const std::string id = "kind " + std::to_string(kind);
+      const Node* row = screen.tree().find(id);
+      if (row == nullptr || row->clip.h <= 0 || clear_of_the_fade(*row)) continue;
+      touched = true;
+      const float x = row->rect.x + row->rect.w / 2, y = row->rect.y + 8;
+      screen.feed({ui::Input::Kind::Down, 3, x, y}, exhibit.view);
+      screen.feed({ui::Input::Kind::Up, 3, x, y}, exhibit.view);
+      screen.show(exhibit.view, exhibit.visit, exhibit.service);
+      EXPECT_TRUE(clear_of_the_fade(*screen.tree().find(id))) << id;
+    }
+  }
+  EXPECT_TRUE(touched) << "no row lies under a fade";
+}
+
 INSTANTIATE_TEST_SUITE_P(Palettes, GalleryContrast, testing::Bool(),
                          [](const auto& of) { return of.param ? "HighContrast" : "Usual"; });
 
