@@ -2,8 +2,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "firmware/base/list_walk.h"
 
-#include <algorithm>
-
 namespace relievo::firmware {
 
 ListWalk::Ask ListWalk::ask(const ui::ListRequest& request) {

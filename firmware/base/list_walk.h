@@ -5,6 +5,7 @@
 // the list were asked for, which filter holds. It knows numbers of rows, not the rows. Thread: main.
 #pragma once
 
+#include <algorithm>
 #include <array>
 #include <cstdint>
 #include <string>

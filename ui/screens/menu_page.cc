@@ -14,9 +14,8 @@ void finding(StaffFrame& page, const Finding& found) {
   const auto& tr = page.tr;
   const StaffPage where = found.rule->page_of(page.staff.role);
   const bool mine = where != StaffPage::Menu;
-  const std::string_view first = page.tree.keep("status "), second = page.tree.keep(found.rule->id);
   Node row = page.box(Flow::Row, space::kS, 0, 6);
-  tell(row, mine ? Role::Button : Role::Status, {first.data(), first.size() + second.size()},
+  tell(row, mine ? Role::Button : Role::Status, page.joined({"status ", found.rule->id}),
        tr(found.rule->words));
   row.value = tr("Not in order");
   if (mine) row.action = {ActionKind::StaffOpen, static_cast<int>(where)};

@@ -104,9 +104,9 @@ void stage_rows(StaffFrame& page, const VisitCostsView& costs) {
                   static_cast<double>(costs.planned_seconds), static_cast<double>(cost.mib),
                   static_cast<double>(costs.planned_stage_mib));
     const bool over = cost.seconds > costs.planned_seconds || cost.mib > costs.planned_stage_mib;
-    const std::string_view id = page.tree.keep("cost "), which = page.number(static_cast<double>(i));
-    page.row({id.data(), id.size() + which.size()}, words_of(page.tr, static_cast<CostlyStage>(i)),
-             page.with_numbers(text), over ? Mood::Bad : Mood::Good);
+    page.row(page.joined({"cost ", page.number(static_cast<double>(i))}),
+             words_of(page.tr, static_cast<CostlyStage>(i)), page.with_numbers(text),
+             over ? Mood::Bad : Mood::Good);
   }
 }
 

@@ -2,6 +2,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "ui/screens/service/list_part.h"
 
+#include <algorithm>
+
 namespace relievo::ui {
 namespace {
 
@@ -19,14 +21,6 @@ std::string_view page_number(StaffFrame& page, std::int64_t number) {
   return page.number(static_cast<double>(number + 1));
 }
 
-std::string_view joined(StaffFrame& page, std::string_view a, std::string_view between, std::string_view b) {
-  const std::string_view first = page.tree.keep(isolate::kLeft);
-  std::size_t length = first.size();
-  for (const std::string_view part : {a, between, b, std::string_view(isolate::kEnd)})
-    length += page.tree.keep(part).size();
-  return {first.data(), length};
-}
-
 void stretches(StaffFrame& page, const ListPlace& place) {
   page.begin_list("stretches");
   if (place.stretch_count == 0) page.line(page.tr("One moment, please"));
@@ -35,13 +29,13 @@ void stretches(StaffFrame& page, const ListPlace& place) {
     const bool single = one.first == one.last;
     const std::string_view pages =
         single ? page_number(page, one.first)
-               : joined(page, page_number(page, one.first), "\u00a0–\u00a0", page_number(page, one.last));
+               : page.joined({isolate::kLeft, page_number(page, one.first), "\u00a0–\u00a0",
+                              page_number(page, one.last), isolate::kEnd});
     const std::string_view dated = page.date(one.label);
     const char which = static_cast<char>('0' + i);
-    const std::string_view id = page.tree.keep("stretch "), number = page.tree.keep({&which, 1});
     const bool here = one.first <= place.page && place.page <= one.last;
     page.row(
-        {id.data(), id.size() + number.size()}, dated == one.label ? page.with_numbers(one.label) : dated,
+        page.joined({"stretch ", {&which, 1}}), dated == one.label ? page.with_numbers(one.label) : dated,
         pages, here ? Mood::Good : Mood::Plain,
         single ? list_action(GoToPage{one.first}) : list_action(DivideList{one.first, one.last}, kJumping));
   }
@@ -52,9 +46,8 @@ void filter_rows(StaffFrame& page, const ListPlace& place, ListFilters filters) 
   page.begin_list("filters");
   for (std::size_t i = 0; i < filters.size(); ++i) {
     const char which = static_cast<char>('0' + i);
-    const std::string_view id = page.tree.keep("filter "), number = page.tree.keep({&which, 1});
     const bool chosen = i == place.filter;
-    page.row({id.data(), id.size() + number.size()}, filters[i],
+    page.row(page.joined({"filter ", {&which, 1}}), filters[i],
              chosen ? std::string_view(page.tr("chosen")) : std::string_view(),
              chosen ? Mood::Good : Mood::Plain, list_action(FilterList{i}));
   }
@@ -94,8 +87,8 @@ void list_pager(StaffFrame& page, const ListPlace& place, ListFilters filters) {
     step(page, "first page", tr("First page"), turned ? kLastSign : kFirstSign, 0, at_first);
     step(page, "page back", tr("One page back"), page.backward(), place.page - 1, at_first);
     page.small_button("page number",
-                      joined(page, page_number(page, place.page), "\u00a0/\u00a0",
-                             page.number(static_cast<double>(last + 1))),
+                      page.joined({isolate::kLeft, page_number(page, place.page), "\u00a0/\u00a0",
+                                   page_number(page, last), isolate::kEnd}),
                       nullptr, ButtonLook::Quiet, list_action(DivideList{0, last}, kJumping), 1);
     step(page, "page on", tr("One page on"), page.onward(), place.page + 1, at_last);
     step(page, "last page", tr("Last page"), turned ? kFirstSign : kLastSign, last, at_last);

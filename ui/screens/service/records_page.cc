@@ -13,11 +13,6 @@ namespace {
 
 enum RecordsMode : int { kList, kTyping, kErasing };
 
-std::string_view joined(StaffFrame& page, std::string_view first, std::string_view second) {
-  const std::string_view a = page.tree.keep(first), b = page.tree.keep(second);
-  return {a.data(), a.size() + b.size()};
-}
-
 // What one has typed, and the keys.
 void typing(StaffFrame& page) {
   Node field = page.box(Flow::Row, 3, 20, 8);
@@ -84,7 +79,7 @@ void list(StaffFrame& page, const RecordsView& seen) {
   said(page, seen);
   page.begin_list("records");
   for (const RecordRow& row : seen.rows)
-    page.row(joined(page, "record ", row.code), row.name, page.date(row.since), Mood::Plain,
+    page.row(page.joined({"record ", row.code}), row.name, page.date(row.since), Mood::Plain,
              Action(ShowRecord{row.number}));
   if (seen.rows.empty())
     page.nothing("nobody", icon::kPerson,

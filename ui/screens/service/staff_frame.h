@@ -83,6 +83,8 @@ class StaffFrame : public Page {
   // another key calls it back.
   void grave_question(const char* title, const About& about, const char* words, const char* yes,
                       Action yes_action, const char* no, Action no_action);
+  // The parts one after the other, kept for the frame: an id, words of a line.
+  std::string_view joined(std::initializer_list<std::string_view> parts) const;
   // "12.5 mm", "90.0°", with the language's decimal mark and digits in threes, kept apart from the direction
   // of the words around.
   std::string_view number(double value, int decimals = 0, const char* unit_name = "");

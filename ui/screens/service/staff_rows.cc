@@ -22,6 +22,13 @@ void StaffFrame::begin_card(std::string_view id, bool fit_content) {
   rule_due_ = false;
 }
 
+std::string_view StaffFrame::joined(std::initializer_list<std::string_view> parts) const {
+  const std::string_view first = tree.keep({});
+  std::size_t length = 0;
+  for (const std::string_view part : parts) length += tree.keep(part).size();
+  return {first.data(), length};
+}
+
 // Beside each other where both have room; else the value under its label, at the same end.
 void StaffFrame::row(std::string_view id, std::string_view label, std::string_view value, Mood mood,
                      Action action) {
@@ -74,13 +81,10 @@ void StaffFrame::rule() {
 
 void StaffFrame::step_button(std::string_view id, const char* end, const char* spoken, std::string_view label,
                              const char* letter, Action action) {
-  const auto joined = [&](std::string_view a, std::string_view between, std::string_view b) {
-    const std::string_view first = tree.keep(a);
-    return std::string_view{first.data(), first.size() + tree.keep(between).size() + tree.keep(b).size()};
-  };
   const bool dead = action.kind == ActionKind::None;
   Node node = sized(box(Flow::Row), size::kStaffTarget, size::kStaffTarget);
-  tell(node, dead ? Role::Group : Role::Button, joined(id, " ", end), joined(label, ": ", spoken), action);
+  tell(node, dead ? Role::Group : Role::Button, joined({id, " ", end}), joined({label, ": ", spoken}),
+       action);
   centre(node);
   frame(node, dead ? Colour{} : palette.quiet, dead ? Colour{} : palette.quiet_border,
         dead ? 0 : std::max(1.5F, px(2)), px(18));
