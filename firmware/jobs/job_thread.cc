@@ -11,6 +11,7 @@
 #include <thread>
 
 #include "firmware/base/budget.h"
+#include "hal/base/wiped_stack.h"
 
 namespace relievo::firmware {
 namespace {
@@ -71,6 +72,7 @@ void JobThread::serve() {
     const Result<void> result = run_guarded(*order->job, control);
     JobReport report{order->id, std::nullopt};
     if (!result) report.error = result.error();
+    wipe_stack();  // its visitor may be gone when the next job comes
     {
       const std::lock_guard lock(idle_mutex_);
       busy_.store(false, std::memory_order_release);  // before the report: who hears it may start the next

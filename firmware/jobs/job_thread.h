@@ -55,7 +55,8 @@ class JobReports {
   // Waits until something arrives or the time is over.
   std::optional<JobReport> take_for(std::chrono::milliseconds wait) {
     std::unique_lock lock(mutex_);
-    arrived_.wait_for(lock, wait, [this] { return count_ > 0; });
+    if (wait.count() > 0)
+      arrived_.wait_for(lock, wait, [this] { return count_ > 0; });  // 0 would wait a moment
     if (count_ == 0) return std::nullopt;
     const JobReport report = ring_[first_];
     first_ = (first_ + 1) % ring_.size();

@@ -2,6 +2,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "ui/tree/tree.h"
 
+#include <string.h>
+
 #include <algorithm>
 #include <cmath>
 #include <utility>
@@ -32,6 +34,7 @@ void Tree::begin(bool right_to_left) {
   nodes_.clear();
   spots_.clear();
   open_.clear();
+  explicit_bzero(strings_.data(), strings_used_);  // the page before may have shown a name or a code
   strings_used_ = 0;
   right_to_left_ = right_to_left;
   modal_ = -1;

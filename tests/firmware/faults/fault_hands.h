@@ -1,14 +1,18 @@
 // SPDX-FileCopyrightText: 2026 The Relievo authors
 // SPDX-License-Identifier: GPL-3.0-or-later
 //
-// FaultHands: the real kiosk before the simulated rig, brought by fingers into the state that is the test's
-// parameter.
+// FaultHands: the real kiosk before the simulated rig, brought by fingers into a state, and each fault let in
+// and mended.
 #pragma once
 
 #include <chrono>
+#include <csignal>
 #include <thread>
 
+#include "firmware/base/interrupt.h"
+#include "tests/firmware/faults/fault_table.h"
 #include "tests/firmware/faults/faulty_rig.h"
+#include "tests/firmware/faults/frozen_thread.h"
 #include "tests/firmware/kiosk/staff_hands.h"
 #include "tests/support/faulty_stick.h"
 #include "tests/support/faulty_store.h"
@@ -19,7 +23,9 @@ namespace relievo::firmware {
 
 using std::chrono::milliseconds;
 
-class FaultHands : public StaffHands, public testing::WithParamInterface<State> {
+using test::FrozenThread;
+
+class FaultHands : public StaffHands {
  protected:
   static void SetUpTestSuite() {
     auto looks = small_device(kScale);
@@ -27,18 +33,19 @@ class FaultHands : public StaffHands, public testing::WithParamInterface<State> 
     auto made = hal::make_sim_device(looks);
     ASSERT_TRUE(made);
     rig = made->release();
+#ifndef __SANITIZE_ADDRESS__
+    // The GL driver leaks and is unloaded at the end, so that no suppression can name it.
     setenv("SDL_VIDEODRIVER", "offscreen", 1);
     auto opened = ui::open_sdl_display({1280, 800});
     ASSERT_TRUE(opened);
     display = opened->release();
+#endif
   }
   static void TearDownTestSuite() {
     delete display;
     delete rig;
   }
   FaultHands() {
-    const bool turns = GetParam() == State::Turn || GetParam() == State::Fuse;
-    if (turns) services.turn_head = [](hal::Device&, double) {};  // asked to, and does not
     services.open_device = [this](std::string_view) {
       return std::unique_ptr<hal::Device>(std::make_unique<test::FaultyRig>(*rig, faults, stick_faults));
     };
@@ -155,9 +162,94 @@ class FaultHands : public StaffHands, public testing::WithParamInterface<State> 
     kiosk->ui().resize(1280, 800);
   }
 
+  void let_in(Fault fault) {
+    switch (fault) {
+      case Fault::None:
+      case Fault::MainFrozen:
+      case Fault::ContextLost:  // whoever draws lets it in
+      case Fault::Count:
+        break;
+      case Fault::CameraLost:
+        faults.lost = true;
+        break;
+      case Fault::CameraLate:
+        faults.late = true;
+        break;
+      case Fault::CameraDark:
+        faults.dark = true;
+        break;
+      case Fault::CamerasSwapped:
+        faults.lost = faults.swapped = true;  // plugged in again in settle()
+        break;
+      case Fault::TriggerSilent:
+        faults.silent = true;
+        break;
+      case Fault::TriggerStuck:
+        faults.stuck = true;
+        break;
+      case Fault::StoreFull:
+        store_error = Errc::MediaFull;
+        break;
+      case Fault::StoreCorrupt:
+        store_error = Errc::StoreCorrupt;
+        break;
+      case Fault::StoreLocked:
+        store_error = Errc::Timeout;
+        break;
+      case Fault::MediumPulled:
+        stick_faults.pull();
+        break;
+      case Fault::ClockAhead:
+        faults.wall_shift_s = 40 * 86'400;
+        break;
+      case Fault::ClockBack:
+        faults.wall_shift_s = -40 * 86'400;
+        break;
+      case Fault::TooHot:
+        faults.hot = true;
+        break;
+      case Fault::Terminate:
+        ask_to_end(SIGTERM);
+        break;
+      case Fault::HangUp:
+        ask_to_end(SIGHUP);
+        break;
+      case Fault::CaptureFrozen:
+        ASSERT_TRUE(FrozenThread::freeze("capture"));
+        break;
+      case Fault::WorkerStuck:
+      case Fault::WorkerFrozen:
+        ASSERT_TRUE(FrozenThread::freeze("worker"));
+        break;
+      case Fault::KeeperFrozen:
+        ASSERT_TRUE(FrozenThread::freeze("keeper"));
+        break;
+    }
+  }
+  // What the main loop looks at when it decides to go on.
+  static void ask_to_end(int signal) {
+    const std::atomic<bool>& asked = interrupted();
+    ASSERT_FALSE(asked.load());
+    struct sigaction ours {};
+    ASSERT_EQ(sigaction(signal, nullptr, &ours), 0);
+    ASSERT_EQ(std::raise(signal), 0);
+    ASSERT_TRUE(asked.load());
+    const_cast<std::atomic<bool>&>(asked).store(false);  // for the next cell
+    sigaction(signal, &ours, nullptr);
+  }
+
+  void mend() {
+    FrozenThread::thaw();
+    faults.mend();
+    store_error = std::nullopt;
+    stick_faults.let_go_on();
+    stick_faults.fail(test::FaultyStick::Fault::None);
+    stick_faults.plug_in_again();
+  }
+
   static constexpr double kScale = 0.3;
   static inline hal::Device* rig = nullptr;
-  static inline ui::Display* display = nullptr;
+  static inline ui::Display* display = nullptr;  // none where sanitizers look at leaks
   test::RigFaults faults;
   test::FaultyStick stick_faults{stick()};
   std::atomic<std::optional<Errc>> store_error{};

@@ -5,22 +5,16 @@
 // the fault is let in, and where the kiosk ends must be what the table says. Whatever happens: a visit that
 // ended has left nothing, nothing is half stored, and the next cell's visitor is served by the same kiosk.
 #include <chrono>
-#include <csignal>
 #include <cstdlib>
 #include <thread>
 
-#include "firmware/base/interrupt.h"
 #include "firmware/base/sentinel.h"
 #include "firmware/kiosk/glass.h"
 #include "tests/firmware/faults/fault_hands.h"
-#include "tests/firmware/faults/fault_table.h"
-#include "tests/firmware/faults/frozen_thread.h"
 #include "tests/support/gles_driver.h"
 
 namespace relievo::firmware {
 namespace {
-
-using test::FrozenThread;
 
 std::string name_of(Fate fate) {
   return fate == kEnds ? "the end" : fate == kRestarts ? "a restart" : std::string(name_of(fate.state));
@@ -39,8 +33,12 @@ class FastClock final : public hal::Clock {
   int speed_;
 };
 
-class FaultWalk : public FaultHands {
+class FaultWalk : public FaultHands, public testing::WithParamInterface<State> {
  protected:
+  FaultWalk() {
+    const bool turns = GetParam() == State::Turn || GetParam() == State::Fuse;
+    if (turns) services.turn_head = [](hal::Device&, double) {};  // asked to, and does not
+  }
   void TearDown() override {
     mend();
     kick = {};
@@ -49,70 +47,8 @@ class FaultWalk : public FaultHands {
   }
 
   void let_in(Fault fault) {
-    switch (fault) {
-      case Fault::None:
-      case Fault::MainFrozen:
-      case Fault::Count:
-        break;
-      case Fault::CameraLost:
-        faults.lost = true;
-        break;
-      case Fault::CameraLate:
-        faults.late = true;
-        break;
-      case Fault::CameraDark:
-        faults.dark = true;
-        break;
-      case Fault::CamerasSwapped:
-        faults.lost = faults.swapped = true;  // plugged in again in settle()
-        break;
-      case Fault::TriggerSilent:
-        faults.silent = true;
-        break;
-      case Fault::TriggerStuck:
-        faults.stuck = true;
-        break;
-      case Fault::StoreFull:
-        store_error = Errc::MediaFull;
-        break;
-      case Fault::StoreCorrupt:
-        store_error = Errc::StoreCorrupt;
-        break;
-      case Fault::StoreLocked:
-        store_error = Errc::Timeout;
-        break;
-      case Fault::MediumPulled:
-        stick_faults.pull();
-        break;
-      case Fault::ClockAhead:
-        faults.wall_shift_s = 40 * 86'400;
-        break;
-      case Fault::ClockBack:
-        faults.wall_shift_s = -40 * 86'400;
-        break;
-      case Fault::TooHot:
-        faults.hot = true;
-        break;
-      case Fault::ContextLost:
-        lose_context();
-        break;
-      case Fault::Terminate:
-        ask_to_end(SIGTERM);
-        break;
-      case Fault::HangUp:
-        ask_to_end(SIGHUP);
-        break;
-      case Fault::CaptureFrozen:
-        ASSERT_TRUE(FrozenThread::freeze("capture"));
-        break;
-      case Fault::WorkerStuck:
-      case Fault::WorkerFrozen:
-        ASSERT_TRUE(FrozenThread::freeze("worker"));
-        break;
-      case Fault::KeeperFrozen:
-        ASSERT_TRUE(FrozenThread::freeze("keeper"));
-        break;
-    }
+    if (fault == Fault::ContextLost) lose_context();
+    else FaultHands::let_in(fault);
   }
   // The page is drawn before and after: the same picture.
   void lose_context() {
@@ -128,18 +64,6 @@ class FaultWalk : public FaultHands {
     test::lose_gles_context();
     EXPECT_EQ(picture(), before);
   }
-  // What the main loop looks at when it decides to go on.
-  static void ask_to_end(int signal) {
-    const std::atomic<bool>& asked = interrupted();
-    ASSERT_FALSE(asked.load());
-    struct sigaction ours {};
-    ASSERT_EQ(sigaction(signal, nullptr, &ours), 0);
-    ASSERT_EQ(std::raise(signal), 0);
-    ASSERT_TRUE(asked.load());
-    const_cast<std::atomic<bool>&>(asked).store(false);  // for the next cell
-    sigaction(signal, &ours, nullptr);
-  }
-
   // Until nothing runs any more that ends by itself.
   Fate settle(State from, Fault fault) {
     faults.slow = false;
@@ -214,14 +138,6 @@ class FaultWalk : public FaultHands {
     EXPECT_EQ(find("start"), nullptr);
     faults.hot = false;
     EXPECT_TRUE(later(ui::Trouble::None)) << "by itself, once it has cooled";
-  }
-  void mend() {
-    FrozenThread::thaw();
-    faults.mend();
-    store_error = std::nullopt;
-    stick_faults.let_go_on();
-    stick_faults.fail(test::FaultyStick::Fault::None);
-    stick_faults.plug_in_again();
   }
   void walk(State from, Fault fault) {
     SCOPED_TRACE(std::string(name_of(from)) + " x fault " + std::to_string(static_cast<int>(fault)));

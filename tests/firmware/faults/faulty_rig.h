@@ -6,6 +6,8 @@
 // Device.
 #pragma once
 
+#include <string.h>
+
 #include <algorithm>
 #include <atomic>
 #include <chrono>
@@ -15,6 +17,7 @@
 
 #include "hal/device.h"
 #include "hal/monotonic_clock.h"
+#include "hal/picture_file.h"
 
 namespace relievo::test {
 
@@ -28,6 +31,18 @@ struct RigFaults {
   std::atomic<bool> slow{false};              // opening and pictures take their time, until they may go on
   std::atomic<std::int64_t> ahead_s{0};       // of the clock that counts time
   std::atomic<std::int64_t> wall_shift_s{0};  // of the date
+  // Every left picture bears this mark at its upper edge, to be found again where it should not be: the
+  // pixels that put_mark() makes of this number, and nowhere else. 0: none.
+  std::atomic<std::uint64_t> mark{0};
+  static constexpr std::size_t kMarkBytes = 48;
+  // Both cameras see this instead, as large as their pictures; none: what is there.
+  std::atomic<const hal::Picture*> sheet{nullptr};
+  static void put_mark(std::uint64_t number, std::byte* to) {
+    for (std::size_t i = 0; i < kMarkBytes; ++i) {
+      number = number * 6364136223846793005U + 1442695040888963407U;
+      to[i] = static_cast<std::byte>(number >> 56);
+    }
+  }
   void mend() {
     for (auto* fault : {&lost, &late, &dark, &swapped, &silent, &stuck, &hot, &slow}) fault->store(false);
     wall_shift_s.store(0);
@@ -101,25 +116,35 @@ class FaultyCamera final : public hal::Camera {
     }
     RELIEVO_TRY_ASSIGN(hal::Frame frame, real_.next_frame(deadline - clock_.ahead()));
     RELIEVO_TRY(plugged());
-    hal::RawImage raw = frame.raw();
-    if (faults_.dark.load()) {
-      black_.assign(raw.size_bytes, std::byte{2});
-      raw.bytes = black_.data();
-    }
     const hal::Frame::Stamp stamp{frame.exposed_at() + clock_.ahead(), frame.sequence(), frame.damaged()};
+    auto* lent = new Lent{std::move(frame), {}};
+    hal::RawImage raw = lent->real.raw();
+    lent->bytes.assign(raw.bytes, raw.bytes + raw.size_bytes);
+    raw.bytes = lent->bytes.data();
+    if (const hal::Picture* sheet = faults_.sheet.load()) lent->show(sheet->bytes);
+    if (faults_.dark.load()) std::fill(lent->bytes.begin(), lent->bytes.end(), std::byte{2});
+    if (const auto mark = faults_.mark.load(); mark != 0 && !right_)
+      RigFaults::put_mark(mark, lent->bytes.data() + 3 * raw.stride_bytes + 30);
     return hal::Frame(
-        raw, stamp, [](void* real, int) { delete static_cast<hal::Frame*>(real); },
-        new hal::Frame(std::move(frame)), 0);
+        raw, stamp, [](void* of, int) { delete static_cast<Lent*>(of); }, lent, 0);
   }
+  // A driver's buffer, which whoever looks for what the product left does not look at.
+  struct Lent {
+    hal::Frame real;
+    std::vector<std::byte> bytes;
+    ~Lent() { explicit_bzero(bytes.data(), bytes.size()); }
+    void show(const std::vector<std::byte>& picture) {
+      if (picture.size() == bytes.size()) std::copy(picture.begin(), picture.end(), bytes.begin());
+    }
+  };
 
   hal::Camera& real_;
   const RigFaults& faults_;
   const ShiftedClock& clock_;
   bool right_, second_ = right_;
-  std::vector<std::byte> black_;
 };
 
-class FaultyRig final : public hal::Device {
+class FaultyRig : public hal::Device {
  public:
   FaultyRig(hal::Device& real, const RigFaults& faults, hal::RemovableMedia& media)
       : real_(real), faults_(faults), media_(media) {}

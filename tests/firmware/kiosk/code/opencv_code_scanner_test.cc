@@ -6,7 +6,6 @@
 #include <gtest/gtest.h>
 
 #include <opencv2/core.hpp>
-#include <opencv2/objdetect.hpp>
 
 #include "firmware/kiosk/code/code_reader.h"
 #include "hal/monotonic_clock.h"
@@ -15,30 +14,13 @@
 #include "pipeline/calibrate/file/calibration_file.h"
 #include "storage/sqlite/sqlite_store.h"
 #include "tests/firmware/kiosk/kiosk_hands.h"
+#include "tests/support/printed_code.h"
 #include "tests/support/temporary_folder.h"
 
 namespace relievo::firmware {
 namespace {
 
 constexpr double kScale = 0.5;  // of the rig's pictures
-
-// White paper with the code in its middle, ten pixels a module.
-hal::Picture printed(const std::string& text) {
-  cv::Mat code;
-  cv::QRCodeEncoder::create()->encode(text, code);
-  constexpr int kModule = 10, kMargin = 4;
-  hal::Picture sheet;
-  sheet.width_px = sheet.height_px = (code.cols + 2 * kMargin) * kModule;
-  sheet.format = PixelFormat::Grey8;
-  sheet.bytes.assign(static_cast<std::size_t>(sheet.width_px) * static_cast<std::size_t>(sheet.height_px),
-                     std::byte{255});
-  for (int y = 0; y < code.rows * kModule; ++y)
-    for (int x = 0; x < code.cols * kModule; ++x)
-      sheet.bytes[static_cast<std::size_t>(y + kMargin * kModule) * static_cast<std::size_t>(sheet.width_px) +
-                  static_cast<std::size_t>(x + kMargin * kModule)] =
-          std::byte{code.at<std::uint8_t>(y / kModule, x / kModule)};
-  return sheet;
-}
 
 hal::sim::SheetPhotoOptions held(double width_mm, hal::sim::HeadPose pose) {
   hal::sim::SheetPhotoOptions options;
@@ -54,7 +36,7 @@ TEST(CodeReader, ReadsWhatIsPrintedHoweverItIsHeld) {
   ThreadPool pool(2);
   const auto see = [&](const std::string& text, double width_mm, hal::sim::HeadPose pose) {
     const auto options = held(width_mm, pose);
-    const auto scene = hal::sim::make_sheet_scene(printed(text), options.sheet);
+    const auto scene = hal::sim::make_sheet_scene(test::printed_code(text), options.sheet);
     EXPECT_TRUE(scene.has_value());
     const auto pair =
         hal::sim::render_pair(**scene, hal::sim::make_rig(options.rig), options.sensor, 7, pool);
@@ -108,7 +90,7 @@ class CodeScannerTest : public KioskHands {
 };
 
 TEST_F(CodeScannerTest, ACodeStandsInTheFieldAfterTheConsentAndIsConfirmedByTouch) {
-  show(printed("A-2041"));
+  show(test::printed_code("A-2041"));
   ASSERT_TRUE(reach(ui::Step::Attract));
   turns(20);
   EXPECT_EQ(name(), "") << "before anybody is there";
@@ -131,7 +113,7 @@ TEST_F(CodeScannerTest, ACodeStandsInTheFieldAfterTheConsentAndIsConfirmedByTouc
 }
 
 TEST_F(CodeScannerTest, AnAddressIsNoNameAndWhoLeavesIsForgotten) {
-  show(printed("https://example.org"));
+  show(test::printed_code("https://example.org"));
   ASSERT_TRUE(reach(ui::Step::Attract));
   tap("start");
   tap("agree");
