@@ -7,16 +7,12 @@
 //   service_visits VISITS
 //
 // toolchain/service_proof runs it under strace, which counts the calls: the lines are its marks.
-#include <malloc.h>
-#include <sys/resource.h>
-#include <unistd.h>
-
 #include <cstdio>
 #include <cstdlib>
-#include <fstream>
 #include <vector>
 
 #include "firmware/base/steady_heap.h"
+#include "tests/memory/usage.h"
 #include "tests/memory/visitor.h"
 #include "tests/support/temporary_folder.h"
 
@@ -25,21 +21,6 @@ namespace {
 
 constexpr int kWarm = 3;           // visits until everything has been used once
 constexpr double kMayGrow = 1.01;  // of what is resident, from then to the end
-constexpr std::size_t kMiB = 1 << 20;
-
-struct Usage {
-  long minor = 0, major = 0;
-  double resident_mib = 0, in_use_mib = 0;
-  static Usage now() {
-    rusage used{};
-    getrusage(RUSAGE_SELF, &used);
-    std::size_t all = 0, resident = 0;
-    std::ifstream("/proc/self/statm") >> all >> resident;
-    const auto mib = [](std::size_t bytes) { return static_cast<double>(bytes) / static_cast<double>(kMiB); };
-    return {used.ru_minflt, used.ru_majflt, mib(resident * static_cast<std::size_t>(getpagesize())),
-            mib(mallinfo2().uordblks)};
-  }
-};
 
 int serve(int visits) {
   const TemporaryFolder folder;
