@@ -8,11 +8,13 @@
 #include <array>
 #include <cmath>
 #include <numeric>
+#include <thread>
 
 #include "firmware/appliance/view_of.h"
 #include "firmware/arguments/algorithm_choice.h"
 #include "firmware/base/budget.h"
 #include "firmware/base/settings.h"
+#include "firmware/jobs/behind_the_page.h"
 #include "firmware/jobs/job_thread.h"
 #include "pipeline/calibrate/file/calibration_file.h"
 
@@ -99,7 +101,10 @@ Result<void> Kiosk::prepare(const KioskArgs& args, Services& services) {
   open_speaker_ = services.open_speaker;
   if (services.find_presence_sensor) presence_ = services.find_presence_sensor();
   memory_ = std::make_unique<BootMemory>();
-  pool_ = std::make_unique<ThreadPool>(pool_size());
+  std::thread([this] {
+    stand_behind_the_page();
+    pool_ = std::make_unique<ThreadPool>(pool_size());
+  }).join();
   if (auto piece = InvitationHead::read(asset_folder())) invitation_head_ = std::move(*piece);
   else services.console.fail(piece.error());  // a page without its head is still a page
   visits_ = std::make_unique<StoredVisits>(*store_, device_->clock(), store_folder(args.store));

@@ -4,6 +4,7 @@
 
 #include <thread>
 
+#include "firmware/jobs/behind_the_page.h"
 #include "firmware/work/stage_drawing.h"
 #include "hal/base/assert.h"
 
@@ -112,6 +113,7 @@ void GrabJob::took(const pipeline::StereoFrame& frame) {
 }
 
 Result<void> StageJob::run(JobControl& control) {
+  stand_behind_the_page();
   record_ = {};
   record_.name = name_of(stage_);
   Arena& output = session_.output();
