@@ -162,7 +162,7 @@ Result<TextureAtlas> Pipeline::texture(const FaceMesh& mesh, const RectifiedPair
   return run_stage(context, [&](StageContext& c) { return texturer_(mesh, pair, c); });
 }
 
-Result<FaceModel> Pipeline::assemble(FaceMesh mesh, TextureAtlas texture, const RectifiedPair& pair,
+Result<FaceModel> Pipeline::assemble(FaceMesh&& mesh, TextureAtlas&& texture, const RectifiedPair& pair,
                                      StageContext& context) const {
   return run_stage(context, [&](StageContext& c) -> Result<FaceModel> {
     FaceModel model(&c.output);

@@ -51,10 +51,11 @@ class Pipeline {
   Result<FaceMesh> mesh(const PointCloud& cloud, const RectifiedPair& pair, StageContext& context) const;
   // Errors: Cancelled, OutOfMemory.
   Result<TextureAtlas> texture(const FaceMesh& mesh, const RectifiedPair& pair, StageContext& context) const;
-  // Takes mesh and texture over into the model; finds its head frame, landmarks, quality and backdrop. It
-  // says where it could not be told whether that is a face (FaceModel::unjudged; never with Region::All or
-  // relief=off). Errors: NoFace (a picture was held up; never so either), Cancelled, OutOfMemory.
-  Result<FaceModel> assemble(FaceMesh mesh, TextureAtlas texture, const RectifiedPair& pair,
+  // Takes mesh and texture over into the model, where it succeeds; finds its head frame, landmarks, quality
+  // and backdrop. It says where it could not be told whether that is a face (FaceModel::unjudged; never with
+  // Region::All or relief=off). Errors: NoFace (a picture was held up; never so either), Cancelled,
+  // OutOfMemory.
+  Result<FaceModel> assemble(FaceMesh&& mesh, TextureAtlas&& texture, const RectifiedPair& pair,
                              StageContext& context) const;
 
   // After a failure: what is wrong with the pictures, if anything is. May take as long as a match.
