@@ -44,10 +44,12 @@ class Layer {
     fill_front_maps(mesh_, chart_, bands_, maps_, context_);
     if (context_.stop()) return stopped;
     const VertexViews views =
-        look_at_vertices(mesh_, pair_, chart_, maps_[1], maps_[2], options_.shot, &context_.scratch);
+        look_at_vertices(mesh_, pair_, chart_, maps_[1], maps_[2], options_.shot, context_);
+    if (context_.stop()) return stopped;
     choose(views);
     sides_ = lay_out_sides(mesh_, chart_, kept_, photographed_, photograph_px_per_mm(), options_.chart.max_px,
                            &context_.scratch);
+    if (context_.stop()) return stopped;
     make_atlas();
     if (context_.stop()) return stopped;
     const ShotPlanes planes =

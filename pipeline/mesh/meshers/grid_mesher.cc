@@ -21,6 +21,8 @@
 namespace relievo::pipeline {
 namespace {
 
+Error stopped() { return {Errc::Cancelled, "meshing was stopped"}; }
+
 constexpr double kCutAway = 0.018;      // of the triangles, by the outline's cut
 constexpr float kThinnerStep = 1.003F;  // where the triangles at hand are exceeded by a few
 
@@ -61,12 +63,14 @@ Result<CutSurface> make_surface(const PointCloud& cloud, double triangles, const
                              static_cast<float>(o.step_slope_ratio), static_cast<float>(o.min_step_mm)};
   PointLattice lattice = make_lattice(cloud, &scratch);
   LatticeSurface surface = join_neighbours(lattice, limits, &scratch);
+  if (context.stop()) return stopped();
   if (!(lattice.cell_width_mm > 0 && lattice.cell_height_mm > 0)) return CutSurface(&scratch);
   MaskShaper shaper(lattice.columns, lattice.rows, lattice.cell_width_mm, lattice.cell_height_mm, &scratch);
   close_gaps(
       lattice, surface,
       {static_cast<float>(o.max_hole_mm), limits.max_slope, tangent(o.gap_bend_deg), limits.min_step_mm},
       shaper, &scratch);
+  if (context.stop()) return stopped();
   // After the gaps: a crack must not make a narrow place of a wide one.
   const Vec3d& right = cloud.right_camera_mm;
   const Vec3f between_cameras{static_cast<float>(right.x / 2), static_cast<float>(right.y / 2),
@@ -74,6 +78,7 @@ Result<CutSurface> make_surface(const PointCloud& cloud, double triangles, const
   const OutlineLimits trimming{limits.max_slope, tangent(o.max_rim_deg), between_cameras,
                                static_cast<float>(o.min_width_mm), static_cast<float>(o.outline_wave_mm)};
   CellMask inside = trim_outline(lattice, surface, trimming, shaper, &scratch);
+  if (context.stop()) return stopped();
   std::optional<ClosedFace> closed;
   if (right.x != 0 || right.y != 0 || right.z != 0) {
     RELIEVO_TRY_ASSIGN(closed, close_face(lattice, surface, right, limits, context));
@@ -86,11 +91,15 @@ Result<CutSurface> make_surface(const PointCloud& cloud, double triangles, const
       fill_budget(closed ? std::move(closed->shaped)
                          : ShapedLattice{std::move(lattice), std::move(surface), std::move(inside), false},
                   triangles, max_slope, o, context);
+  if (context.stop()) return stopped();
   CutSurface cut =
       cut_outline(shaped.lattice, shaped.surface, shaped.inside, smoothing, outline, max_slope, &scratch);
+  if (context.stop()) return stopped();
   keep_one_surface(cut.at_mm, cut.triangles, {}, &scratch);
+  if (context.stop()) return stopped();
   if (mend_slivers(cut.at_mm, cut.triangles, {kSmallestAngleDeg, max_slope}, &scratch) > 0)
     keep_one_surface(cut.at_mm, cut.triangles, {.ear_passes = 0}, &scratch);
+  if (context.stop()) return stopped();
   if (outline) turn_outwards(cut, outline->chart.centre_mm);
   return cut;
 }
@@ -98,8 +107,7 @@ Result<CutSurface> make_surface(const PointCloud& cloud, double triangles, const
 }  // namespace
 
 Result<FaceMesh> GridMesher::mesh(const PointCloud& cloud, StageContext& context) const {
-  const Error stopped{Errc::Cancelled, "meshing was stopped"};
-  if (context.stop()) return stopped;
+  if (context.stop()) return stopped();
   if (cloud.points.empty()) return no_surface();
   if (cloud.lattice_step_px <= 0)
     return Error{
@@ -111,10 +119,10 @@ Result<FaceMesh> GridMesher::mesh(const PointCloud& cloud, StageContext& context
   double triangles = (1 + kCutAway) * max_triangles;
   for (;;) {
     const Arena::Mark attempt(context.scratch);
-    if (context.stop()) return stopped;
+    if (context.stop()) return stopped();
     RELIEVO_TRY_ASSIGN(const CutSurface surface, make_surface(cloud, triangles, *this, context));
     context.progress.done.store(0.8F, std::memory_order_relaxed);
-    if (context.stop()) return stopped;
+    if (context.stop()) return stopped();
     if (surface.triangles.empty() || area_mm2(surface.at_mm, surface.triangles) < min_area_mm2)
       return no_surface();
     if (surface.triangles.size() > static_cast<std::size_t>(max_triangles)) {

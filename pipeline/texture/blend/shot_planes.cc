@@ -251,7 +251,8 @@ struct Shooting {
 
 VertexViews look_at_vertices(const FaceMesh& mesh, const RectifiedPair& pair, const Chart& chart,
                              const FrontMap& left, const FrontMap& right, const ShotOptions& options,
-                             std::pmr::memory_resource* memory) {
+                             StageContext& context) {
+  std::pmr::memory_resource* const memory = &context.scratch;
   const std::size_t n = mesh.vertices_mm.size();
   const Vec3d c = inverse(pair.right_from_left).translation_mm;
   const Vec3f right_camera{static_cast<float>(c.x), static_cast<float>(c.y), static_cast<float>(c.z)};
@@ -274,6 +275,7 @@ VertexViews look_at_vertices(const FaceMesh& mesh, const RectifiedPair& pair, co
     const float r = std::pow(towards_right, options.angle_power);
     views.share[v] = l + r > 1e-6F ? r / (l + r) : 0.5F;
   }
+  if (context.stop()) return views;
   const auto parts = completed_triangles(mesh, memory);
   const auto beyond = completed_to_border(mesh, parts, memory);
   const auto look = [&](const RectifiedView& view, float side, std::uint8_t bit, std::span<float> light) {
@@ -284,7 +286,9 @@ VertexViews look_at_vertices(const FaceMesh& mesh, const RectifiedPair& pair, co
                  rgb);
       return std::array<float, 3>{rgb[0], rgb[1], rgb[2]};
     };
+    if (context.stop()) return;
     forget_what_lies_behind(parts, beyond, bit, colour, views.seen, memory);
+    if (context.stop()) return;
     for (std::uint32_t v = 0; v < n; ++v) {
       const auto rgb = colour(v);
       light[v] = rgb[0] + rgb[1] + rgb[2] + 1;
@@ -292,9 +296,9 @@ VertexViews look_at_vertices(const FaceMesh& mesh, const RectifiedPair& pair, co
   };
   std::pmr::vector<float> left_light(n, memory), right_light(n, memory);
   look(pair.left, kLeftSide, kSeenLeft, left_light);
-  if (options.left_only) return views;
+  if (options.left_only || context.stop()) return views;
   look(pair.right, kRightSide, kSeenRight, right_light);
-  choose_at_limb(beyond, left_light, right_light, views, memory);
+  if (!context.stop()) choose_at_limb(beyond, left_light, right_light, views, memory);
   return views;
 }
 

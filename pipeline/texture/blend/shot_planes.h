@@ -26,7 +26,7 @@ struct ShotOptions {
 
 inline constexpr std::uint8_t kSeenLeft = 1, kSeenRight = 2, kSurface = 4;
 
-// What is known of the vertices before any texel is looked at.
+// What is known of the vertices before any texel is looked at; half of it where it was stopped.
 struct VertexViews {
   explicit VertexViews(std::pmr::memory_resource* memory) : share(memory), seen(memory) {}
   std::pmr::vector<float> share;        // of the right view by the angles alone, 0 to 1
@@ -34,7 +34,7 @@ struct VertexViews {
 };
 VertexViews look_at_vertices(const FaceMesh& mesh, const RectifiedPair& pair, const Chart& chart,
                              const FrontMap& left, const FrontMap& right, const ShotOptions& options,
-                             std::pmr::memory_resource* memory);
+                             StageContext& context);
 
 struct ShotPlanes {
   ShotPlanes(std::size_t texels, std::pmr::memory_resource* memory)
