@@ -3,7 +3,7 @@
 # What every room is built with.
 
 set(RELIEVO_SANITIZE "" CACHE STRING "address,undefined or thread; empty for none")
-option(RELIEVO_COVERAGE "instrument for gcov" OFF)
+set(RELIEVO_COVERAGE "" CACHE STRING "the rooms' folders whose lines gcov counts, hal;storage; empty for none")
 
 add_library(relievo_options INTERFACE)
 target_include_directories(relievo_options INTERFACE ${CMAKE_SOURCE_DIR})
@@ -28,7 +28,8 @@ if(RELIEVO_SANITIZE)
   target_compile_definitions(relievo_options INTERFACE RELIEVO_SANITIZED=1)
 endif()
 if(RELIEVO_COVERAGE)
-  target_compile_options(relievo_options INTERFACE --coverage)
+  # -O1: lines stay apart, and the rooms that are not counted are what ships.
+  target_compile_options(relievo_options INTERFACE $<$<BOOL:$<TARGET_PROPERTY:RELIEVO_COUNTED>>:--coverage;-O1>)
   target_link_options(relievo_options INTERFACE --coverage)
 endif()
 
@@ -102,6 +103,10 @@ function(relievo_room name)
   endforeach()
   relievo_together(relievo_${name} ${together})
   set_target_properties(relievo_${name} PROPERTIES LINKER_LANGUAGE CXX RELIEVO_READS_BYTES "${arg_READS_BYTES}")
+  cmake_path(GET CMAKE_CURRENT_SOURCE_DIR FILENAME folder)
+  if(folder IN_LIST RELIEVO_COVERAGE)
+    set_target_properties(relievo_${name} PROPERTIES RELIEVO_COUNTED ON)
+  endif()
   # Who uses an installed room gets its headers, not our warnings.
   target_link_libraries(relievo_${name} PUBLIC $<BUILD_INTERFACE:relievo_options> ${arg_ROOMS} PRIVATE ${arg_LIBS})
   relievo_precompile(relievo_${name} ${arg_PRECOMPILE})
@@ -117,6 +122,9 @@ function(relievo_tests name)
   endif()
   add_executable(test_${name} ${sources})
   target_link_libraries(test_${name} PRIVATE relievo_options ${ARGN} GTest::gtest_main)
+  if(name IN_LIST RELIEVO_COVERAGE)  # what a header has in it is compiled here
+    set_target_properties(test_${name} PROPERTIES RELIEVO_COUNTED ON)
+  endif()
   relievo_precompile(test_${name} <gtest/gtest.h>)
   if(RELIEVO_SANITIZE)
     # g++ 12 warns of sanitized std::string what it does not of the build that ships, where these hold.

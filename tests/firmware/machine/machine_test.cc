@@ -6,6 +6,8 @@
 
 #include <gtest/gtest.h>
 
+#include <set>
+#include <string_view>
 #include <vector>
 
 #include "firmware/base/budget.h"
@@ -36,6 +38,27 @@ void play(const std::vector<Row>& rows) {
 }
 
 milliseconds ms(int n) { return milliseconds(n); }
+
+TEST(Machine, EveryStateAndEventHasANameOfItsOwn) {
+  std::set<std::string_view> names;
+  for (int s = 0; s < static_cast<int>(S::Count); ++s) names.insert(name_of(static_cast<S>(s)));
+  EXPECT_EQ(names.size(), static_cast<std::size_t>(S::Count));
+  names.clear();
+  for (int e = 0; e < static_cast<int>(E::Count); ++e) names.insert(name_of(static_cast<E>(e)));
+  EXPECT_EQ(names.size(), static_cast<std::size_t>(E::Count));
+  EXPECT_EQ(name_of(S::Count), "?");
+  EXPECT_EQ(name_of(E::Count), "?");
+}
+
+TEST(Machine, OnlyWaitingForSomebodyToComeLastsForEver) {
+  for (int s = 0; s <= static_cast<int>(S::Count); ++s) {
+    const auto state = static_cast<S>(s);
+    EXPECT_EQ(limit_of(state).has_value(), state != S::Idle && state != S::Count) << name_of(state);
+  }
+  Machine machine(hal::Instant{});
+  EXPECT_FALSE(machine.handle(E::Accept, hal::Instant{})) << "what nobody listens to changes nothing";
+  EXPECT_EQ(machine.state(), S::SelfTest);
+}
 
 TEST(Machine, OneEnrolment) {
   play({{ms(0), E::Passed, S::Idle},

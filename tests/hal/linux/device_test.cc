@@ -112,8 +112,13 @@ TEST(LinuxDevice, OneDeviceGivesBothViewsTogetherWithoutAWire) {
   EXPECT_EQ(device.name(), "linux");
   EXPECT_TRUE(device.exposes_together());
   EXPECT_TRUE(device.trigger().pulse(std::chrono::microseconds(100)));
-  for (Camera* camera : {&device.left(), &device.right()})
-    ASSERT_TRUE(camera->open(device.preferred_mode()) && camera->start());
+  for (Camera* camera : {&device.left(), &device.right()}) {
+    ASSERT_TRUE(camera->open(device.preferred_mode()));
+    const auto limits = camera->exposure_limits();
+    EXPECT_TRUE(!limits || camera->set_exposure(limits->least));
+    ASSERT_TRUE(camera->start());
+  }
+  EXPECT_EQ(device.left().serial(), device.right().serial()) << "it is one device";
   EXPECT_EQ(kernel.open_files, 1);
   kernel.expose({3});
   const Instant soon = device.clock().now() + std::chrono::seconds(5);
@@ -130,6 +135,9 @@ TEST(LinuxDevice, TwoCamerasWithoutAWireDoNotExposeTogether) {
   EXPECT_FALSE((*made)->exposes_together());
   EXPECT_NE(&(*made)->left(), &(*made)->right());
   EXPECT_FALSE((*made)->media().current());
+  EXPECT_EQ((*made)->media().flush_and_eject().error().code, Errc::MediaMissing);
+  EXPECT_EQ((*made)->shot_light(), Light::Off);
+  EXPECT_FALSE((*made)->trigger().pulse(std::chrono::microseconds(100), Light::Flash)) << "no wire, no lamp";
   (*made)->watchdog().kick();
 }
 

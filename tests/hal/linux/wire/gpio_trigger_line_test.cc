@@ -136,5 +136,11 @@ TEST(GpiodOutputLines, AChipThatIsNoneIsRefusedByName) {
   }
 }
 
+TEST(BusyWaiter, DoesNotWakeBeforeItsTime) {
+  const Instant until = std::chrono::steady_clock::now() + std::chrono::milliseconds(3);
+  busy_waiter().until(until);
+  EXPECT_GE(std::chrono::steady_clock::now(), until);
+}
+
 }  // namespace
 }  // namespace relievo::hal
