@@ -12,8 +12,8 @@
 namespace relievo::storage {
 namespace {
 
-// One without a code is erased, even while its row is there. They are few, and an index has them: so rows that
-// are skipped are not read.
+// One without a code is erased, even while its row is there. They are few, and an index has them: so rows
+// that are skipped are not read.
 constexpr std::string_view kSubjects =
     "SELECT id, created_at_ms, name, code FROM subject "
     "WHERE id NOT IN (SELECT id FROM subject WHERE code_hash IS NULL) ";
