@@ -18,11 +18,15 @@ constexpr std::size_t kEveryNode = 16;
 constexpr double kPlacingRidge = 1e-9;
 constexpr std::array<RegistrationRound, 4> kPlacingRounds{
     {{25, 12, 8, kFewSamples}, {12, 6, 6, kFewSamples}, {6, 2, 6, kFewSamples}, {3, 0.7, 4, kFewSamples}}};
-// A pose is well laid where so much of what lies near another pose's surface lies on it: from its own head
-// frame, and from the best of all starts. A profile's frame may be a wrong one, and a cheek lies well on the
-// other one: .82 was seen so, .96 and more where it was right.
+// A cheek lies well on the other one too, but then stands before other skin, where cameras would have seen
+// it. Of what both see, so much stands before the other at most: .06 was seen where it was right, .13 and
+// more where it was wrong.
+constexpr double kBeforeMm = 5;
+constexpr double kMostBeforeShare = 0.1;
+// So much of what lies near another pose's surface lies on it: at once from its own head frame, and from the
+// best of all starts.
 constexpr double kMetMm = 1;
-constexpr double kWellMetShare = 0.93, kMetShare = 0.5;
+constexpr double kWellMetShare = 0.8, kMetShare = 0.5;
 constexpr std::array<Vec2d, 9> kTurnsDeg{
     {{0, 0}, {-25, 0}, {25, 0}, {-45, 0}, {45, 0}, {-65, 0}, {65, 0}, {0, -20}, {0, 20}}};  // yaw, pitch
 
@@ -133,7 +137,25 @@ class Placer {
         const Vector6 step = -solved<6>(sum.normal, sum.right);
         residuals_.move(p, {step[0], step[1], step[2]}, {step[3], step[4], step[5]});
       }
+    if (stands_before_others(p)) return {};
     return {placed_[p].first_from_pose, sum.count, sum.count / sum.near};
+  }
+
+  // A pose before the known ones, or they before it.
+  bool stands_before_others(std::size_t p) const {
+    std::array<int, 2> seen{}, before{};
+    for (std::size_t b = 0; b < poses_.size(); ++b)
+      if (known_[b] != 0 && b != p)
+        for (const bool back : {false, true})
+          residuals_.for_each_sample(
+              back ? b : p, kFewSamples,
+              [&](std::size_t, const Vec3d&, double, const PoseResidual& res) {
+                const auto mm = residuals_.before_mm(res.at, back ? p : b);
+                seen[back] += mm ? 1 : 0;
+                before[back] += mm && *mm > kBeforeMm ? 1 : 0;
+              },
+              0, 1);
+    return before[0] > kMostBeforeShare * seen[0] || before[1] > kMostBeforeShare * seen[1];
   }
 
   Sum against_known(std::size_t p, const RegistrationRound& round) const {

@@ -69,6 +69,13 @@ bool PoseResiduals::meet(std::size_t a, std::size_t k, const Vec3d& normal, std:
   return true;
 }
 
+std::optional<double> PoseResiduals::before_mm(const Vec3d& at, std::size_t b) const {
+  const Vec3f place = narrow(apply(inverse(placed_[b].first_from_pose), at));
+  const auto hit = poses_[b].look(place);
+  if (!hit || hit->trust < kLeastTrust) return std::nullopt;
+  return length(hit->at_mm) - length(place);
+}
+
 Error meets_no_other_pose(std::size_t pose) {
   return Error{Errc::PoorGeometry,
                "what this pair shows meets none of the others: turn the head by less between two of them"}

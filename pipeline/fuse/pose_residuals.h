@@ -9,6 +9,7 @@
 
 #include <Eigen/Core>
 #include <cmath>
+#include <optional>
 #include <span>
 
 #include "pipeline/base/stage.h"
@@ -104,6 +105,9 @@ class PoseResiduals {
   bool meet(std::size_t a, std::size_t k, const Vec3d& normal, std::size_t b, const RegistrationRound& round,
             PoseResidual& res) const;
 
+  // How far a place stands before what pose `b` measured on its line of sight, if it measured anything there.
+  std::optional<double> before_mm(const Vec3d& at, std::size_t b) const;
+
  private:
   static constexpr float kLeastTrust = 0.2F;  // of a node that is laid onto another pose's
 
@@ -118,8 +122,9 @@ class PoseResiduals {
   Vec3d pivot_;
 };
 
-// Lays each pose onto those before it: from its head frame, or, where that leads nowhere, from a head turned
-// by 25, 45 and 65 degrees, the surest first. One that meets no other is not `joined`. Errors: Cancelled.
+// Lays each pose onto those before it: from its own head frame, or, where that leads nowhere, from a head
+// turned by up to 65 degrees, the best of all. Where one would stand before skin that another measured, it
+// does not lie. One that meets no other is not `joined`. Errors: Cancelled.
 Result<void> place_poses(std::span<const PoseSurface> poses, std::span<RegisteredPose> placed,
                          PoseResiduals& residuals, StageContext& context);
 

@@ -74,7 +74,7 @@ TEST_F(KioskTurn, WhoTurnsTheHeadSeesAllOfIt) {
   EXPECT_EQ(made, "Match Reconstruct Mesh Texture Assemble Pose Pose Pose Pose Pose Fuse ") << told;
   EXPECT_EQ(poses(), (std::set<int>{0, 1, 2, 3, 4}));
   EXPECT_EQ(asked, (std::set<double>{-45, -25, 0, 25, 45}));
-  EXPECT_GT(kiosk->view().model->quality.measured_area_mm2, 45'000) << "more than any face";
+  EXPECT_GT(kiosk->view().model->quality.measured_area_mm2, 50'000) << "more than with a side laid wrongly";
   tap("accept");
   ASSERT_TRUE(reach(ui::Step::Thanks));
   kiosk.reset();
