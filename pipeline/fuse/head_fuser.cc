@@ -20,6 +20,7 @@
 namespace relievo::pipeline {
 namespace {
 
+constexpr double kDenseVoxels = 0.6;      // apart, or less
 constexpr float kBandVoxels = 2.5F;       // how far from a point the field reaches
 constexpr float kCompletedShare = 0.02F;  // of a measured point's weight
 constexpr float kDisagreeSigmas = 4;
@@ -68,8 +69,8 @@ class Fusion {
     return false;
   }
 
-  // The points that count, of all poses.
-  std::pmr::vector<FieldPoint> choose() const {
+  // The points that count, of all poses; where they lie closer than the field tells apart, every other one.
+  std::pmr::vector<FieldPoint> choose(float voxel_mm) const {
     std::pmr::vector<FieldPoint> all(&context_.scratch);
     std::size_t room = 0;
     for (const PoseSurface& p : poses_) room += p.at_mm.size();
@@ -77,11 +78,13 @@ class Fusion {
     for (std::size_t k = 0; k < poses_.size(); ++k) {
       const PoseSurface& pose = poses_[k];
       const RigidTransform& placed = registration_.poses[k].first_from_pose;
-      const std::size_t first = all.size();
+      const std::size_t first = all.size(), columns = static_cast<std::size_t>(pose.columns);
+      const auto dense_mm = static_cast<float>(kDenseVoxels * pose.focal_px / pose.step_px) * voxel_mm;
       all.resize(first + pose.at_mm.size());  // weight 0: does not count
       context_.pool.for_each_band(static_cast<int>(pose.at_mm.size()), kBands, [&](int from, int to, int) {
         for (auto i = static_cast<std::size_t>(from); i < static_cast<std::size_t>(to); ++i) {
           if (pose.trust[i] < kLeastTrust) continue;
+          if (pose.at_mm[i].z < dense_mm && (i % columns + i / columns) % 2 != 0) continue;
           const Vec3f at = narrow(apply(placed, wide(pose.at_mm[i])));
           if (!zones_.is_head(at) || zones_.is_eye(at)) continue;
           const Vec3f normal = narrow(apply(placed.rotation, wide(pose.normal[i])));
@@ -273,7 +276,7 @@ Result<FaceMesh> HeadFuser::fuse(std::span<PoseSurface> poses, const Registratio
   for (PoseSurface& pose : poses) fade_to_edges(pose, kEdgeNodes, &context.scratch);
   if (context.stop()) return stopped;
   const Fusion fusion(poses, registration, zones, context);
-  std::pmr::vector<FieldPoint> points = fusion.choose();
+  std::pmr::vector<FieldPoint> points = fusion.choose(static_cast<float>(options_.voxel_mm));
   if (points.empty()) return no_surface();
   // The master's eyes, and what its mesher completed: about nose and mouth for where no pose measured,
   // further out where none shows anything near, for there the sides know better.

@@ -6,6 +6,8 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <deque>
+#include <map>
 #include <utility>
 
 #include "hal/base/statistics.h"
@@ -22,10 +24,15 @@ constexpr std::size_t kParts = PoseResiduals::kParts;
 constexpr double kFewestSamples = 300;
 constexpr double kMostMovedMm = 1.5;
 constexpr double kRidge = 1e-9;
-constexpr double kStillMm = 1e-5;
-constexpr std::array<RegistrationRound, 5> kRounds{
-    {{12, 6, 8, kFewSamples}, {6, 2, 6, kFewSamples}, {3, 0.7, 6}, {2, 0.25, 8}, {1.5, 0.12, 8}}};
-constexpr RegistrationRound kLast{1.5, 0.08, 12};
+constexpr double kStillMm = 2e-4, kSkinStillMm = 1e-6;
+constexpr std::array<RegistrationRound, 5> kRounds{{{12, 6, 8, kFewSamples},
+                                                    {6, 2, 6, kFewSamples},
+                                                    {3, 0.7, 6, kFewSamples},
+                                                    {2, 0.25, 8, kFewSamples},
+                                                    {1.5, 0.12, 8, kFewSamples}}};
+constexpr RegistrationRound kLast{1.5, 0.08, 20};
+constexpr double kSlow = 0.5, kSlowest = 0.9;  // of a step, to the one before
+constexpr int kSkinTimes = 100;                // at most; each costs a thousandth of a look at the surfaces
 
 Vec3d vector(const Eigen::Vector3d& v) { return {v[0], v[1], v[2]}; }
 Eigen::Index place(std::size_t pose) { return 6 * (static_cast<Eigen::Index>(pose) - 1); }
@@ -42,9 +49,8 @@ class JointSolver {
         if (context_.stop()) return registration_stopped();
     residuals_.skin().watch();
     for (int k = 0; k < kLast.times; ++k) {
-      weigh_skin();
       if (context_.stop()) return registration_stopped();
-      if (move(kLast) <= kStillMm) break;
+      if (settle() <= kStillMm) break;
     }
     return measure();
   }
@@ -84,8 +90,10 @@ class JointSolver {
   }
 
   static void add(Square& normal, Column& right, std::size_t a, std::size_t b, const PoseResidual& r) {
-    const Matrix6 square = r.weight * r.toward * r.toward.transpose();
-    const Vector6 pull = r.weight * r.value * r.toward;
+    add(normal, right, a, b, r.weight * r.toward * r.toward.transpose(), r.weight * r.value * r.toward);
+  }
+  static void add(Square& normal, Column& right, std::size_t a, std::size_t b, const Matrix6& square,
+                  const Vector6& pull) {
     if (a > 0) {
       normal.block<6, 6>(place(a), place(a)) += square;
       right.segment<6>(place(a)) += pull;
@@ -100,24 +108,94 @@ class JointSolver {
     }
   }
 
-  // How far each patch of skin has moved between every two poses.
-  void weigh_skin() {
-    struct Said {
-      std::size_t patch, a, b;
-      double value, weight;
-    };
-    std::vector<std::vector<Said>> parts(placed_.size() * kParts);
+  // What the samples in one patch say between two poses about small motions of `a` against `b`, a < b.
+  struct PatchTerms {
+    std::size_t patch = 0, a = 0, b = 0;
+    Matrix6 normal = Matrix6::Zero();
+    Vector6 right = Vector6::Zero(), toward = Vector6::Zero();
+    double sum = 0, weight = 0;
+
+    void add(const PoseResidual& r, double way) {
+      normal += r.weight * r.toward * r.toward.transpose();
+      right += way * r.weight * r.value * r.toward;
+      toward += r.weight * r.toward;
+      sum += way * r.weight * r.value;
+      weight += r.weight;
+    }
+    void add(const PatchTerms& other) {
+      normal += other.normal;
+      right += other.right;
+      toward += other.toward;
+      sum += other.sum;
+      weight += other.weight;
+    }
+  };
+
+  std::vector<PatchTerms> patch_terms() const {
+    const std::size_t poses = placed_.size();
+    std::vector<std::vector<PatchTerms>> parts(poses * kParts);
     residuals_.for_each_part(parts.size(), [&](std::size_t i) {
-      residuals_.for_each_residual_of(i / kParts, i % kParts, kParts, kLast,
-                                      [&](std::size_t a, std::size_t b, const PoseResidual& r) {
-                                        parts[i].push_back({r.patch, a, b, r.value, r.weight});
-                                      });
+      std::vector<PatchTerms*> known(SkinPatches::kPatches * poses);
+      std::deque<PatchTerms> terms;
+      residuals_.for_each_residual_of(
+          i / kParts, i % kParts, kParts, kLast, [&](std::size_t a, std::size_t b, const PoseResidual& r) {
+            PatchTerms*& its = known[r.patch * poses + b];
+            if (its == nullptr)
+              its =
+                  &terms.emplace_back(PatchTerms{.patch = r.patch, .a = std::min(a, b), .b = std::max(a, b)});
+            its->add(r, a < b ? 1 : -1);
+          });
+      parts[i].assign(terms.begin(), terms.end());
     });
-    SkinPatches& skin = residuals_.skin();
-    SkinPatches::Sums sums = skin.no_sums();
+    std::map<std::array<std::size_t, 3>, PatchTerms> all;
     for (const auto& part : parts)
-      for (const Said& s : part) skin.add(sums, s.patch, s.a, s.b, s.value, s.weight);
-    skin.take(sums);
+      for (const PatchTerms& t : part) {
+        const auto [its, added] = all.try_emplace({t.patch, t.a, t.b}, t);
+        if (!added) its->second.add(t);
+      }
+    std::vector<PatchTerms> list;
+    for (const auto& [key, terms] : all) list.push_back(terms);
+    return list;
+  }
+
+  // How the poses lie and which patches of skin have moved hang on each other: both are found together, the
+  // surfaces looked at once. Returns how far the poses went, millimetres and radians together.
+  double settle() {
+    const std::vector<PatchTerms> terms = patch_terms();
+    std::vector<PatchMean> means;
+    for (const PatchTerms& t : terms) means.push_back({t.patch, t.a, t.b, 0});
+    Column moved = Column::Zero(unknowns_);
+    for (int k = 0; k < kSkinTimes; ++k) {
+      const auto motion = [&](const PatchTerms& t) -> Vector6 {
+        const Vector6 back = moved.segment<6>(place(t.b));
+        return t.a == 0 ? Vector6(-back) : Vector6(moved.segment<6>(place(t.a)) - back);
+      };
+      for (std::size_t i = 0; i < terms.size(); ++i)
+        means[i].mm = (terms[i].sum + terms[i].toward.dot(motion(terms[i]))) / terms[i].weight;
+      const double usual_mm = SkinPatches::usual_mm(means);
+      Square normal = kRidge * Square::Identity(unknowns_, unknowns_);
+      Column right = Column::Zero(unknowns_);
+      for (std::size_t i = 0; i < terms.size(); ++i) {
+        const PatchTerms& t = terms[i];
+        const double still = SkinPatches::still(means[i].mm, usual_mm);
+        add(normal, right, t.a, t.b, still * t.normal, still * (t.right + t.normal * motion(t)));
+      }
+      const Column step = normal.ldlt().solve(right);
+      moved -= step;
+      if (step.norm() <= kSkinStillMm) break;
+    }
+    residuals_.skin().take(means);
+    // Surfaces slide along each other by steps that shrink slowly and evenly: after two such steps go at once
+    // where they lead (Aitken 1926).
+    const double ratio = last_.size() == 0 ? 0 : moved.dot(last_) / last_.squaredNorm();
+    last_ = moved;
+    if (ratio > kSlow) {
+      moved /= 1 - std::min(ratio, kSlowest);
+      last_.resize(0);
+    }
+    for (std::size_t p = 1; p < placed_.size(); ++p)
+      residuals_.move(p, vector(moved.segment<3>(place(p))), vector(moved.segment<3>(place(p) + 3)));
+    return moved.norm();
   }
 
   // The covariance, and how well the poses lie on each other.
@@ -131,7 +209,8 @@ class JointSolver {
       double squares = 0, weight = 0, count = 0;
     };
     std::pmr::vector<Sum> sums(placed_.size(), Sum{}, &context_.scratch);
-    residuals_.for_each_residual(kLast, [&](std::size_t a, std::size_t b, const PoseResidual& r) {
+    residuals_.for_each_residual(kLast, [&](std::size_t a, std::size_t b, PoseResidual r) {
+      r.weight *= residuals_.skin().still(r.patch, a, b);
       add(normal, none, a, b, r);
       const Vector6 one = r.weight * r.toward;
       for (const std::size_t p : {a, b}) {
@@ -170,6 +249,7 @@ class JointSolver {
   PoseResiduals& residuals_;
   StageContext& context_;
   Eigen::Index unknowns_;
+  Column last_;  // step of settle()
 };
 
 }  // namespace

@@ -89,7 +89,7 @@ class PoseResiduals {
     const auto against_others = [&](std::size_t k, const Vec3d& normal, double say, PoseResidual& res) {
       for (std::size_t b = 0; b < poses_.size(); ++b)
         if (b != a && meet(a, k, normal, b, round, res)) {
-          res.weight *= say * skin_.still(res.patch, a, b);
+          res.weight *= say;
           visit(a, b, res);
         }
     };

@@ -28,36 +28,23 @@ std::size_t SkinPatches::region_of(std::size_t patch) {
   return ((z / 2) * (kAcross / 2) + y / 2) * (kAcross / 2) + x / 2;
 }
 
-double SkinPatches::still(std::size_t patch, std::size_t a, std::size_t b) const {
-  if (!watched()) return 1;
-  const Sum& p = patches_[between(patch, a, b)];
-  const double mean = p.weight > 0 ? static_cast<double>(p.sum / p.weight) : 0;
-  const double kept = scale_mm_ * scale_mm_ / (scale_mm_ * scale_mm_ + mean * mean);
+double SkinPatches::usual_mm(std::span<const PatchMean> means) {
+  std::vector<double> off;
+  for (const PatchMean& m : means) off.push_back(std::abs(m.mm));
+  return off.empty() ? 0 : median(off) / 0.6745;
+}
+
+// One that lies off by the scale keeps a quarter of its say.
+double SkinPatches::still(double mean_mm, double usual_mm) {
+  const double scale = std::max(kLeastScaleMm, usual_mm);
+  const double kept = scale * scale / (scale * scale + mean_mm * mean_mm);
   return kept * kept;
 }
 
-void SkinPatches::add(Sums& sums, std::size_t patch, std::size_t a, std::size_t b, double value,
-                      double weight) const {
-  Sum& sum = sums[between(patch, a, b)];
-  const double own = weight / std::max(still(patch, a, b), 1e-6);
-  sum.sum += static_cast<float>(a < b ? own * value : -own * value);
-  sum.weight += static_cast<float>(own);
-}
-
-void SkinPatches::take(const Sums& sums) {
-  patches_ = sums;
-  scale_mm_ = std::max(kLeastScaleMm, usual_mm());
-}
-
-std::size_t SkinPatches::between(std::size_t patch, std::size_t a, std::size_t b) const {
-  return (patch * poses_ + std::min(a, b)) * poses_ + std::max(a, b);
-}
-
-double SkinPatches::usual_mm() const {
-  std::pmr::vector<double> off(patches_.get_allocator());
-  for (const Sum& p : patches_)
-    if (p.weight > 0) off.push_back(std::abs(static_cast<double>(p.sum / p.weight)));
-  return off.empty() ? 0 : median(off) / 0.6745;
+void SkinPatches::take(std::span<const PatchMean> means) {
+  mean_mm_.assign(kPatches * poses_ * poses_, 0.0F);
+  for (const PatchMean& m : means) mean_mm_[between(m.patch, m.a, m.b)] = static_cast<float>(m.mm);
+  usual_mm_ = usual_mm(means);
 }
 
 }  // namespace relievo::pipeline

@@ -6,8 +6,10 @@
 // one caller.
 #pragma once
 
+#include <algorithm>
 #include <cstddef>
 #include <memory_resource>
+#include <span>
 #include <vector>
 
 #include "pipeline/model/vector3.h"
@@ -16,42 +18,45 @@ namespace relievo::pipeline {
 
 inline constexpr double kHeadCentreMm = 95;  // behind the tip of the nose
 
+// How far the skin of one patch lies before that of another pose, in the mean: `a` before `b`, a < b.
+struct PatchMean {
+  std::size_t patch, a, b;
+  double mm;
+};
+
 class SkinPatches {
  public:
   static constexpr int kAcross = 24;
   static constexpr std::size_t kPatches = std::size_t{kAcross} * kAcross * kAcross, kRegions = kPatches / 8;
-  struct Sum {
-    float sum = 0, weight = 0;
-  };
-  using Sums = std::pmr::vector<Sum>;
 
-  SkinPatches(std::size_t poses, std::pmr::memory_resource* scratch) : poses_(poses), patches_(scratch) {}
+  SkinPatches(std::size_t poses, std::pmr::memory_resource* scratch) : poses_(poses), mean_mm_(scratch) {}
 
   static std::size_t at(const Vec3d& in_head);
   // Skin moves in regions of two patches each way.
   static std::size_t region_of(std::size_t patch);
+  // How far patches lie off, one standard deviation, robustly.
+  static double usual_mm(std::span<const PatchMean> means);
+  // How much a patch that lies so far off has to say, 0 to 1.
+  static double still(double mean_mm, double usual_mm);
 
-  void watch() { patches_.assign(kPatches * poses_ * poses_, Sum{}); }
-  bool watched() const { return !patches_.empty(); }
-  // How much a patch has to say between two poses, 0 to 1; 1 before it is watched.
-  double still(std::size_t patch, std::size_t a, std::size_t b) const;
+  void watch() { take({}); }
+  bool watched() const { return !mean_mm_.empty(); }
+  void take(std::span<const PatchMean> means);
+  // 1 where nothing was said of a patch.
+  double still(std::size_t patch, std::size_t a, std::size_t b) const {
+    return still(static_cast<double>(mean_mm_[between(patch, a, b)]), usual_mm_);
+  }
   // Of a patch of one pose's skin, about where it should be: half of that between two poses, robustly.
-  double variance_mm2() const { return usual_mm() * usual_mm() / 2; }
-
-  // The patches are looked at anew: every residual is added to no_sums(), then they take these.
-  Sums no_sums() const { return Sums(patches_.size(), Sum{}, patches_.get_allocator()); }
-  // `value` is by how much `a` lies before `b`, `weight` what it counts by still() and all else.
-  void add(Sums& sums, std::size_t patch, std::size_t a, std::size_t b, double value, double weight) const;
-  void take(const Sums& sums);
+  double variance_mm2() const { return usual_mm_ * usual_mm_ / 2; }
 
  private:
-  std::size_t between(std::size_t patch, std::size_t a, std::size_t b) const;
-  // How far patches lie off between two poses, one standard deviation, robustly.
-  double usual_mm() const;
+  std::size_t between(std::size_t patch, std::size_t a, std::size_t b) const {
+    return (patch * poses_ + std::min(a, b)) * poses_ + std::max(a, b);
+  }
 
   std::size_t poses_;
-  Sums patches_;
-  double scale_mm_ = 0.05;  // one that lies off by this keeps a quarter of its say
+  std::pmr::vector<float> mean_mm_;
+  double usual_mm_ = 0;
 };
 
 }  // namespace relievo::pipeline
