@@ -279,11 +279,12 @@ Result<FaceMesh> HeadFuser::fuse(std::span<PoseSurface> poses, const Registratio
   std::pmr::vector<FieldPoint> points = fusion.choose(static_cast<float>(options_.voxel_mm));
   if (points.empty()) return no_surface();
   // The master's eyes, and what its mesher completed: about nose and mouth for where no pose measured,
-  // further out where none shows anything near, for there the sides know better.
+  // further out where none shows anything near, for there the sides know better. Of ears it knows nothing.
   std::pmr::vector<std::uint32_t> own(&context.scratch);
   for (std::uint32_t v = 0; v < face.vertices_mm.size(); ++v) {
     const Vec3f& at = face.vertices_mm[v];
-    const bool completed = face.measured[v] == 0 && (zones.is_middle(at) || !fusion.is_seen_near(at));
+    const bool completed =
+        face.measured[v] == 0 && (zones.is_middle(at) || (!zones.is_ear(at) && !fusion.is_seen_near(at)));
     if (!completed && !zones.is_eye(at)) continue;
     points.push_back({at, face.normals[v], kCompletedShare});
     own.push_back(v);
