@@ -51,20 +51,23 @@ void add_steps(std::span<const Vec3f> vertices_mm, std::span<const Triangle> tri
       for (const std::uint32_t v : t) part[v] = std::max(part[v], kStepRings);
 }
 
+void spread_rings(std::span<const Triangle> triangles, std::span<std::uint8_t> rings) {
+  const std::uint8_t most = rings.empty() ? std::uint8_t{0} : *std::max_element(rings.begin(), rings.end());
+  for (std::uint8_t ring = most; ring > 1; --ring)
+    for (const Triangle& t : triangles)
+      if (rings[t[0]] == ring || rings[t[1]] == ring || rings[t[2]] == ring)
+        for (const std::uint32_t v : t) rings[v] = std::max(rings[v], static_cast<std::uint8_t>(ring - 1));
+}
+
 std::pmr::vector<float> fair_part(std::span<Vec3f> vertices_mm, std::span<const Triangle> triangles,
                                   std::span<const std::uint8_t> part, std::span<const std::uint8_t> stays,
                                   std::pmr::memory_resource* memory) {
   std::pmr::vector<float> moved(vertices_mm.size(), 0.0F, memory);
   // How many rings more follow; those from kHeldRings down are held, 0 is far away.
   std::pmr::vector<std::uint8_t> rings(vertices_mm.size(), 0, memory);
-  std::uint8_t most = 0;
   for (std::size_t v = 0; v < rings.size(); ++v)
-    if (part[v] > 0) most = std::max(most, rings[v] = static_cast<std::uint8_t>(part[v] + kHeldRings));
-  if (most == 0) return moved;
-  for (std::uint8_t ring = most; ring > 1; --ring)
-    for (const Triangle& t : triangles)
-      if (rings[t[0]] == ring || rings[t[1]] == ring || rings[t[2]] == ring)
-        for (const std::uint32_t v : t) rings[v] = std::max(rings[v], static_cast<std::uint8_t>(ring - 1));
+    if (part[v] > 0) rings[v] = static_cast<std::uint8_t>(part[v] + kHeldRings);
+  spread_rings(triangles, rings);
 
   std::pmr::vector<std::uint32_t> place(vertices_mm.size(), 0, memory), all(memory);
   std::vector<Eigen::Vector3d> at;

@@ -24,6 +24,9 @@ void add_steps(std::span<const Vec3f> vertices_mm, std::span<const Triangle> tri
                std::span<const std::uint8_t> label, std::span<std::uint8_t> part,
                std::pmr::memory_resource* memory);
 
+// A vertex with n gives each of its neighbours at least n - 1, and so on.
+void spread_rings(std::span<const Triangle> triangles, std::span<std::uint8_t> rings);
+
 // Lays anew the vertices with `part` above 0, and around one with n those up to n - 1 edges away; vertices
 // with `stays` 1 are left. Returns by how much each vertex moved along the normal, millimetres. Memory:
 // `memory`, and the heap for what is laid anew.

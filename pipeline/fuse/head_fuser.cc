@@ -35,7 +35,7 @@ constexpr int kTuftEdges = 12, kEarHolds = 25;  // an ear that hangs on by less 
 constexpr int kRimEdges = 8, kRimRounds = 20;   // what is opened, how often rims are straightened ...
 constexpr float kSureMm = 0.15F;                // skin; hair that was half seen through is less certain
 constexpr float kRimMoveMm = 0.7F;              // ... and by how much at most
-constexpr std::uint8_t kClosedRings = 3, kUnsureRings = 9;
+constexpr std::uint8_t kClosedRings = 3, kUnsureRings = 9, kLastRings = 3;
 constexpr float kHoleRimMm = 400, kBayMouthMm = 25, kClosedSigmaMm = 1;  // of holes and bays that are closed
 constexpr int kBands = 32;
 
@@ -383,8 +383,13 @@ Result<FaceMesh> HeadFuser::fuse(std::span<PoseSurface> poses, const Registratio
     if (unsure && (label[t[0]] != label[t[1]] || label[t[0]] != label[t[2]]))
       for (const std::uint32_t v : t) part[v] = kUnsureRings;
   }
+  // What was measured stays, but for the last of it.
+  std::pmr::vector<std::uint8_t> last(vertices.size(), 0, &context.scratch);
+  for (std::size_t v = 0; v < vertices.size(); ++v)
+    if (v >= settled || vertices[v].poses == 0 || vertices[v].measured == 0) last[v] = kLastRings + 1;
+  spread_rings(surface.triangles, last);
   for (std::size_t v = 0; v < settled; ++v)
-    if (vertices[v].poses != 0 && vertices[v].measured != 0) stays[v] = 1;
+    if (last[v] == 0) stays[v] = 1;
   lay_anew();
 
   std::pmr::vector<std::uint8_t> pose(&context.output);
