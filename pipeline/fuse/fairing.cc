@@ -14,6 +14,7 @@ namespace {
 constexpr float kStepCosine = 0.77F;  // 40 degrees
 constexpr float kSameWayCosine = 0.8F;
 constexpr std::uint8_t kStepRings = 6;  // of vertices that are laid anew at a step
+constexpr double kTensionMm = 15;
 constexpr std::uint8_t kHeldRings = 2;  // around those, what says how the surface goes on
 
 Vec3f area_normal(std::span<const Vec3f> at, const Triangle& t) {
@@ -88,7 +89,7 @@ std::pmr::vector<float> fair_part(std::span<Vec3f> vertices_mm, std::span<const 
     const Vec3f n = area_normal(vertices_mm, t);
     for (const std::uint32_t v : around.back()) normals[v] = plus(normals[v], n);
   }
-  fair(at, around, free);
+  fair(at, around, free, kTensionMm);
   for (std::size_t i = 0; i < all.size(); ++i) {
     if (free[i] == 0) continue;
     const Vec3f now = narrow(Vec3d{at[i].x(), at[i].y(), at[i].z()});

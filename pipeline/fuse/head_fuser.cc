@@ -20,6 +20,7 @@
 namespace relievo::pipeline {
 namespace {
 
+constexpr double kDownward = -0.6;        // cosine to upwards
 constexpr double kDenseVoxels = 0.6;      // apart, or less
 constexpr float kBandVoxels = 2.5F;       // how far from a point the field reaches
 constexpr float kCompletedShare = 0.02F;  // of a measured point's weight
@@ -279,12 +280,14 @@ Result<FaceMesh> HeadFuser::fuse(std::span<PoseSurface> poses, const Registratio
   std::pmr::vector<FieldPoint> points = fusion.choose(static_cast<float>(options_.voxel_mm));
   if (points.empty()) return no_surface();
   // The master's eyes, and what its mesher completed: about nose and mouth for where no pose measured,
-  // further out where none shows anything near, for there the sides know better. Of ears it knows nothing.
+  // further out where none shows anything near, for there the sides know better. Of ears
+  // and of what lies below a chin it knows nothing.
   std::pmr::vector<std::uint32_t> own(&context.scratch);
   for (std::uint32_t v = 0; v < face.vertices_mm.size(); ++v) {
     const Vec3f& at = face.vertices_mm[v];
-    const bool completed =
-        face.measured[v] == 0 && (zones.is_middle(at) || (!zones.is_ear(at) && !fusion.is_seen_near(at)));
+    const bool below = apply(poses[0].head_from_camera.rotation, wide(face.normals[v])).y < kDownward;
+    const bool beside = !below && !zones.is_ear(at) && !fusion.is_seen_near(at);
+    const bool completed = face.measured[v] == 0 && (zones.is_middle(at) || beside);
     if (!completed && !zones.is_eye(at)) continue;
     points.push_back({at, face.normals[v], kCompletedShare});
     own.push_back(v);

@@ -12,6 +12,7 @@ namespace relievo::pipeline {
 namespace {
 
 constexpr double kMostCotangent = 20;
+constexpr double kLeastPull = 0.1;  // of the tension along an edge
 
 using Sparse = Eigen::SparseMatrix<double>;
 
@@ -42,7 +43,7 @@ MeshLaplacian laplacian_of(std::span<const Eigen::Vector3d> at,
 }
 
 void fair(std::span<Eigen::Vector3d> at, std::span<const std::array<std::uint32_t, 3>> triangles,
-          std::span<const char> free) {
+          std::span<const char> free, double tension_mm) {
   const MeshLaplacian laplacian = laplacian_of(at, triangles);
   std::vector<int> place(at.size(), -1);
   int count = 0;
@@ -64,6 +65,13 @@ void fair(std::span<Eigen::Vector3d> at, std::span<const std::array<std::uint32_
     };
     for (const auto& n : its) add(n.vertex, weight * n.weight), add(v, -weight * n.weight);
     stays.push_back(known);
+    for (const auto& n : its) {
+      if (tension_mm <= 0 || (free[v] == 0 && free[n.vertex] == 0)) continue;
+      const double pull = std::sqrt(std::max(laplacian.area[v] * n.weight, kLeastPull) / 2) / tension_mm;
+      known.setZero();
+      add(n.vertex, pull), add(v, -pull);
+      stays.push_back(known);
+    }
   }
   Sparse bend(static_cast<Eigen::Index>(stays.size()), count);
   bend.setFromTriplets(bends.begin(), bends.end());

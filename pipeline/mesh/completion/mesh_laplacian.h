@@ -29,8 +29,10 @@ MeshLaplacian laplacian_of(std::span<const Eigen::Vector3d> at,
                            std::span<const std::array<std::uint32_t, 3>> triangles);
 
 // Lays the vertices with `free` 1 anew so that the surface bends as little as it can (a thin plate) and goes
-// on from the others, which stay, without a crease.
+// on from the others, which stay, without a crease. With a tension it also stretches as little as it can:
+// what is wider than `tension_mm` does not bulge, and no vertex of a fold, whose cotangents cancel, flies off
+// as a needle; 0 for none.
 void fair(std::span<Eigen::Vector3d> at, std::span<const std::array<std::uint32_t, 3>> triangles,
-          std::span<const char> free);
+          std::span<const char> free, double tension_mm = 0);
 
 }  // namespace relievo::pipeline

@@ -9,6 +9,7 @@
 #include <memory_resource>
 
 #include "pipeline/fuse/rim.h"
+#include "pipeline/mesh/completion/mesh_laplacian.h"
 #include "pipeline/model/vector3.h"
 
 namespace relievo::pipeline::test {
@@ -122,6 +123,26 @@ TEST(Fairing, LetsWhatClosesAHoleGoOnAsTheSurfaceDoes) {
   const auto moved = fair_part(vertices, triangles, part, stays, std::pmr::get_default_resource());
   EXPECT_LT(furthest(), 0.1F);
   for (std::size_t v = 0; v < before; ++v) EXPECT_EQ(moved[v], 0) << "what was there stays";
+}
+
+// Between two slopes that rise at 45 degrees a thin plate rises further.
+TEST(Fairing, DoesNotBulgeOutOfAWideGap) {
+  const auto top = [](double tension_mm) {
+    const Sheet sheet(0);
+    std::vector<Eigen::Vector3d> at;
+    std::vector<char> free;
+    for (const Vec3f& v : sheet.vertices) {
+      const double x = 1.5 * static_cast<double>(v.x), y = 1.5 * static_cast<double>(v.y);
+      at.emplace_back(x, y, std::min({x - 10, 50 - x, 0.0}));
+      free.push_back(x >= 10 && x <= 50 ? 1 : 0);
+    }
+    fair(at, sheet.triangles, free, tension_mm);
+    return at[kSide * (kSide / 2) + kSide / 2].z();
+  };
+  EXPECT_GT(top(0), 5);
+  EXPECT_LT(top(15), 0.85 * top(0));
+  EXPECT_LT(top(5), 0.85 * top(15));
+  EXPECT_GT(top(15), 0.25 * top(0)) << "it still goes on as the slopes do";
 }
 
 }  // namespace
