@@ -1,16 +1,12 @@
 // SPDX-FileCopyrightText: 2026 The Relievo authors
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include "firmware/demo/gallery.h"
-
 #include <array>
-#include <deque>
 #include <string>
 #include <utility>
 #include <vector>
 
+#include "firmware/demo/technician_exhibits.h"
 #include "firmware/technician/algorithm_controller.h"
-#include "firmware/technician/show/surface_difference.h"
-#include "ui/technician/technician_view.h"
 
 namespace relievo::firmware {
 namespace {
@@ -68,23 +64,6 @@ ui::TechnicianResult made_up_result() {
   r.photo_correlation = 0.972F;
   r.photo_windows = 2318;
   return r;
-}
-
-// The rectified pair looks nearly as the pictures do; stages after it are the visitor's own pictures.
-void lend(const ui::ViewState& review, TechnicianStage stage, TechnicianView& view) {
-  view.stage = stage;
-  view.shown = {};
-  if (stage <= TechnicianStage::Rectified) {
-    if (review.frame != nullptr)
-      view.shown = {ui::TechnicianPicture{review.frame->left, 900001},
-                    ui::TechnicianPicture{review.frame->right, 900002}};
-    return;
-  }
-  const std::size_t last =
-      stage == TechnicianStage::Matches || stage == TechnicianStage::Disparity
-          ? 0
-          : static_cast<std::size_t>(stage) - static_cast<std::size_t>(TechnicianStage::Cloud) + 1;
-  view.shown[0] = {review.stages[last].picture, 900010 + static_cast<std::uint32_t>(last)};
 }
 
 TechnicianView ready(const ui::ViewState& review) {
@@ -208,25 +187,6 @@ ui::TechnicianCalibration refused(const ui::ViewState& review) {
   return c;
 }
 
-struct Lent {
-  std::string_view name;
-  StaffPage page;
-  TechnicianView view;
-  ui::ServiceView staff;
-  ui::Fault note;  // said against the calibration
-  bool edges = false;
-  int mode = 0;
-  bool measures = false;
-};
-
-// What is lent to the pages, for as long as they are looked at.
-struct Lender {
-  std::deque<Lent> lent;
-  void add(std::string_view name, StaffPage page, const TechnicianView& view) {
-    lent.push_back({name, page, view, {}, {}, false, 0, false});
-  }
-};
-
 void add_stages(Lender& all, const ui::ViewState& review) {
   TechnicianView view;
   all.add("technician_empty", StaffPage::Stages, view);
@@ -271,52 +231,6 @@ void add_stages(Lender& all, const ui::ViewState& review) {
     lend(review, stage, view);
     all.add(name, StaffPage::Stages, view);
   }
-}
-
-// How the one put aside differs, and the present one by itself.
-void add_differences(Lender& all, const ui::ViewState& review, TechnicianView view) {
-  view.differences = true;
-  view.full_colour_mm = 0.5F;
-  view.scale = difference_scale();
-  view.compared[0].difference = {true, -0.04F, 0.31F, {review.stages[1].picture, 900041}, nullptr, 900041};
-  view.compared[view.put_aside] = {view.result, view.shown[0], view.model, view.model_number, {}};
-  all.add("technician_difference", StaffPage::Compare, view);
-  all.add("technician_compare_alone", StaffPage::Compare, view);
-  all.lent.back().mode = 1;
-  all.lent.back().measures = true;
-}
-
-// The same capture by other algorithms, another document, and one whose matcher gave up.
-void add_comparisons(Lender& all, const ui::ViewState& review, TechnicianView view) {
-  const auto put_aside = [&view] {
-    view.compared[view.put_aside++] = {view.result, view.shown[0], view.model, view.model_number, {}};
-  };
-  const auto add_with_present = [&](std::string_view name) {
-    view.compared[view.put_aside] = {view.result, view.shown[0], view.model, view.model_number, {}};
-    all.add(name, StaffPage::Compare, view);
-  };
-  lend(review, TechnicianStage::Mesh, view);
-  put_aside();
-  view.result.algorithms = "matcher = zmncc\nzmncc.window_px = 9";
-  view.result.seconds[0] = 3.87F;
-  view.result.accepted = view.result.made[0] = 96114;
-  add_with_present("technician_compare");
-  add_differences(all, review, view);
-  put_aside();
-  view.result.name = "2026-03-11_16-40-52";
-  view.result.algorithms = {};
-  add_with_present("technician_compare_three");
-  lend(review, TechnicianStage::Disparity, view);
-  for (std::size_t i = 0; i < view.put_aside; ++i) view.compared[i].picture = view.shown[0];
-  put_aside();
-  view.result.algorithms = "matcher = sgm";
-  view.result.failure = {
-      Errc::NoFace,
-      "the points form no surface of a face's size: look straight into the cameras and try again"};
-  view.result.failed_at = 2;
-  view.result.coverage = 0;
-  view.model = nullptr;
-  add_with_present("technician_compare_four");
 }
 
 // The model, the tables, the choice of algorithms, and results beside each other.
@@ -386,6 +300,23 @@ void add_failures(Lender& all, const ui::ViewState& review) {
 }
 
 }  // namespace
+
+// The rectified pair looks nearly as the pictures do; stages after it are the visitor's own pictures.
+void lend(const ui::ViewState& review, TechnicianStage stage, TechnicianView& view) {
+  view.stage = stage;
+  view.shown = {};
+  if (stage <= TechnicianStage::Rectified) {
+    if (review.frame != nullptr)
+      view.shown = {ui::TechnicianPicture{review.frame->left, 900001},
+                    ui::TechnicianPicture{review.frame->right, 900002}};
+    return;
+  }
+  const std::size_t last =
+      stage == TechnicianStage::Matches || stage == TechnicianStage::Disparity
+          ? 0
+          : static_cast<std::size_t>(stage) - static_cast<std::size_t>(TechnicianStage::Cloud) + 1;
+  view.shown[0] = {review.stages[last].picture, 900010 + static_cast<std::uint32_t>(last)};
+}
 
 void add_technician_exhibits(std::vector<Exhibit>& exhibits, const ui::ViewState& review,
                              const ui::ViewState& idle, const ui::Visit& visit) {

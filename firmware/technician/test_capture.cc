@@ -73,7 +73,7 @@ void TestCapture::act(const ui::TechnicianRequest& request) {
     if (page_ == ui::TechnicianPage::Calibrate) calibrations_.walk(*list);
   }
   if (const auto* finger = std::get_if<ui::TouchPicture>(&request)) touch(*finger);
-  if (const auto* dropped = std::get_if<ui::DropResult>(&request); dropped != nullptr && !comparing_)
+  if (const auto* dropped = std::get_if<ui::DropResult>(&request); dropped != nullptr)
     kept_.drop(dropped->index);
   if (const auto* saved = std::get_if<ui::LoadSaved>(&request)) load(saved->row, saved->beside);
   calibrations_.act(request);
@@ -150,27 +150,10 @@ void TestCapture::choose(const ui::TechnicianRequest& request) {
 }
 
 void TestCapture::keep_result() {
-  if (!at_rest() || comparing_ || !run_.figures().view().there || kept_.has(model_number_)) return;
+  if (!at_rest() || !run_.figures().view().there || kept_.has(model_number_)) return;
   const Products* made = products();
   kept_.keep(run_.figures(), run_.pictures(), made != nullptr && made->model ? &*made->model : nullptr,
              model_number_);
-}
-
-// On the worker; until then the page shows them as they are.
-void TestCapture::compare_kept() {
-  const Products* made = products();
-  if (!differences_ || comparing_ || made == nullptr || !made->pair || !made->model ||
-      kept_.is_compared_with(model_number_))
-    return;
-  comparing_ = true;
-  parts_.side_tasks.send(
-      JobLane::Worker,
-      [this, number = model_number_](JobControl& control) -> Result<void> {
-        const Products& present = session_.products();
-        kept_.compare(*present.pair, present.model->mesh, number, control.cancelled);
-        return {};
-      },
-      [this](const std::optional<Error>&) { comparing_ = false; });
 }
 
 void TestCapture::record() {
@@ -366,7 +349,7 @@ void TestCapture::watch_cameras(bool on) {
 void TestCapture::leave() {
   watch_.show_relief(false);
   watch_.show_edges(false);
-  watching_ = by_hand_ = changed_ = applied_ = applying_ = differences_ = comparing_ = false;
+  watching_ = by_hand_ = changed_ = applied_ = applying_ = differences_ = false;
   next_ = Next::None;
   saved_.reset();
   saved_making_.reset();
@@ -397,7 +380,9 @@ void TestCapture::turn() {
   // It took longer than the state may: what has been seen is not worked out.
   if (calibrations_.running() && state == State::Staff) parts_.side_tasks.stop(JobLane::Capture);
   begin_next();
-  compare_kept();
+  // Until they are compared the page shows them as they are.
+  const Products* made = products();
+  if (differences_ && made != nullptr) kept_.compare_on_worker(parts_.side_tasks, *made, model_number_);
 }
 
 }  // namespace relievo::firmware

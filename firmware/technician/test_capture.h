@@ -25,10 +25,10 @@
 #include "firmware/technician/algorithm_controller.h"
 #include "firmware/technician/calibration_controller.h"
 #include "firmware/technician/camera_watch.h"
+#include "firmware/technician/kept_results.h"
 #include "firmware/technician/recording_controller.h"
 #include "firmware/technician/run_job.h"
 #include "firmware/technician/show/hand_pairs.h"
-#include "firmware/technician/show/kept_results.h"
 #include "firmware/technician/show/technician_tables.h"
 #include "ui/technician/technician_view.h"
 
@@ -88,7 +88,6 @@ class TestCapture {
   void choose(const ui::TechnicianRequest& request);
   void act_alone(ui::TechnicianAct act);
   void keep_result();
-  void compare_kept();
   void record();
   bool is_calibrated();
   void say(const Error& error);
@@ -114,9 +113,14 @@ class TestCapture {
   std::shared_ptr<const SavedBytes> saved_;  // read from the stick, to be loaded
   std::string saved_name_;
   std::optional<Making> saved_making_;
-  bool loaded_ = false;  // what is in the session was, with a calibration of its own
-  bool by_hand_ = false, watching_ = false, changed_ = false, applied_ = false, applying_ = false,
-       differences_ = false, comparing_ = false, left_ = true;
+  bool loaded_ = false;       // what is in the session was, with a calibration of its own
+  bool by_hand_ = false;      // pairs are set by hand
+  bool watching_ = false;     // the cameras
+  bool changed_ = false;      // the algorithms, since the last run
+  bool applied_ = false;      // the algorithms: visitors are measured with them ...
+  bool applying_ = false;     // ... or soon will be
+  bool differences_ = false;  // are shown beside the kept results
+  bool left_ = true;          // for another state
   ui::Fault problem_;
   std::uint32_t model_number_ = 0;
   ui::TechnicianView view_;

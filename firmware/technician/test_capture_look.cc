@@ -46,7 +46,7 @@ void TestCapture::look() {
   view_.change = run_.change().figures();
   view_.compared[view_.put_aside] = {
       view_.result, run_.pictures().picture(stage_, 0), view_.model, model_number_, {}};
-  if (!differences_ || comparing_ || !kept_.is_compared_with(model_number_)) return;
+  if (!differences_ || !kept_.is_compared_with(model_number_)) return;
   for (std::size_t i = 0; i < view_.put_aside; ++i) view_.compared[i].difference = kept_.difference(i);
   view_.full_colour_mm = kept_.full_colour_mm();
   view_.scale = difference_scale();

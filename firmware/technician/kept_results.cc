@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: 2026 The Relievo authors
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include "firmware/technician/show/kept_results.h"
+#include "firmware/technician/kept_results.h"
 
 #include <algorithm>
 #include <cmath>
@@ -41,7 +41,7 @@ KeptResults::KeptResults() {
 
 void KeptResults::keep(const TechnicianFigures& figures, const TechnicianPictures& pictures,
                        const pipeline::FaceModel* model, std::uint32_t number) {
-  if (full()) return;
+  if (full() || comparing_) return;
   One& one = *all_[count_++];
   one.figures = figures;
   one.pictures.copy_from(pictures);
@@ -59,7 +59,7 @@ void KeptResults::keep(const TechnicianFigures& figures, const TechnicianPicture
 }
 
 void KeptResults::drop(std::size_t which) {
-  if (which >= count_) return;
+  if (which >= count_ || comparing_) return;
   all_[which]->wipe();
   std::rotate(all_.begin() + static_cast<std::ptrdiff_t>(which),
               all_.begin() + static_cast<std::ptrdiff_t>(which) + 1, all_.end());
@@ -69,6 +69,7 @@ void KeptResults::drop(std::size_t which) {
 void KeptResults::wipe() {
   for (const auto& one : all_) one->wipe();
   count_ = 0;
+  comparing_ = false;
 }
 
 bool KeptResults::has(std::uint32_t number) const {
@@ -77,8 +78,20 @@ bool KeptResults::has(std::uint32_t number) const {
 }
 
 bool KeptResults::is_compared_with(std::uint32_t number) const {
-  return std::all_of(all_.begin(), all_.begin() + static_cast<std::ptrdiff_t>(count_),
-                     [number](const auto& one) { return one->compared_with == number; });
+  return !comparing_ && std::all_of(all_.begin(), all_.begin() + static_cast<std::ptrdiff_t>(count_),
+                                    [number](const auto& one) { return one->compared_with == number; });
+}
+
+void KeptResults::compare_on_worker(SideTasks& tasks, const Products& present, std::uint32_t number) {
+  if (comparing_ || !present.pair || !present.model || is_compared_with(number)) return;
+  comparing_ = true;
+  tasks.send(
+      JobLane::Worker,
+      [this, &present, number](JobControl& control) -> Result<void> {
+        compare(*present.pair, present.model->mesh, number, control.cancelled);
+        return {};
+      },
+      [this](const std::optional<Error>&) { comparing_ = false; });
 }
 
 void KeptResults::compare(const pipeline::RectifiedPair& pair, const pipeline::FaceMesh& present,

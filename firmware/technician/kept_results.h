@@ -4,8 +4,8 @@
 // KeptResults: results that were put aside, to be looked at beside the present one: figures, the left picture
 // of every stage, and the model, to be turned. Each has its own memory of fixed size (budget::kKeptModelBytes
 // and its pictures'); pages nobody touched cost nothing. A model that is larger is left out: its pictures are
-// not. compare() sees them against the present surface. Thread: main, while no job runs; compare() worker,
-// and nothing else meanwhile. Errors: none.
+// not. A comparison with the present surface runs on the worker; until it has ended they stay as they are.
+// Thread: main, while no other job runs. Errors: none.
 #pragma once
 
 #include <array>
@@ -14,6 +14,7 @@
 #include <memory>
 #include <optional>
 
+#include "firmware/service/side_tasks.h"
 #include "firmware/technician/show/surface_difference.h"
 #include "firmware/technician/show/technician_figures.h"
 #include "firmware/technician/show/technician_pictures.h"
@@ -37,9 +38,9 @@ class KeptResults {
   std::size_t count() const { return count_; }
   bool full() const { return count_ == all_.size(); }
   bool has(std::uint32_t number) const;
-  // Each surface against the present one of that number, as the present capture's left view sees both.
-  void compare(const pipeline::RectifiedPair& pair, const pipeline::FaceMesh& present, std::uint32_t number,
-               const std::atomic<bool>& cancelled);
+  // Each surface against the present one of that number, as the present capture's left view sees both; once
+  // a number. `present` stays as it is until then.
+  void compare_on_worker(SideTasks& tasks, const Products& present, std::uint32_t number);
   bool is_compared_with(std::uint32_t number) const;
   ui::TechnicianDifference difference(std::size_t which) const { return all_[which]->difference.view(); }
   float full_colour_mm() const { return full_colour_mm_; }  // of all differences
@@ -47,6 +48,9 @@ class KeptResults {
   ui::TechnicianCompared view(std::size_t which, ui::TechnicianStage stage) const;
 
  private:
+  void compare(const pipeline::RectifiedPair& pair, const pipeline::FaceMesh& present, std::uint32_t number,
+               const std::atomic<bool>& cancelled);
+
   struct One {
     One();
     void wipe();
@@ -61,6 +65,7 @@ class KeptResults {
   };
   std::array<std::unique_ptr<One>, budget::kKeptResults> all_;
   std::size_t count_ = 0;
+  bool comparing_ = false;
   float full_colour_mm_ = 0;
   std::uint32_t coloured_ = 0;  // so many surfaces have been
 };
