@@ -31,12 +31,12 @@ FaceBox box_at(const pipeline::CameraIntrinsics& camera, const pipeline::Vec3d& 
           static_cast<int>(width), static_cast<int>(height)};
 }
 
+}  // namespace
+
 Error uncalibrated() {
   return {Errc::NotCalibrated,
           "this device has no calibration yet: a technician has to calibrate its cameras"};
 }
-
-}  // namespace
 
 FaceBoxes face_boxes(const pipeline::StereoCalibration& calibration,
                      const pipeline::Rotation& rectified_from_left, const pipeline::Vec3d& tip_mm) {

@@ -69,6 +69,9 @@ class LiveJudge {
   pipeline::GateHistory history_;
 };
 
+// Of a device that nobody has calibrated yet: NotCalibrated, and who can help.
+Error uncalibrated();
+
 // How often its pictures are made smaller before they are judged.
 int judged_reduction(int width_px);
 

@@ -6,6 +6,7 @@
 #include <optional>
 #include <utility>
 
+#include "firmware/capture/live_judge.h"
 #include "hal/base/assert.h"
 
 namespace relievo::firmware {
@@ -24,11 +25,6 @@ std::uint64_t accepted(const pipeline::MatchSet& matches) {
 bool may_be_the_pictures(Errc code) {
   return code == Errc::NoFace || code == Errc::TooFewMatches || code == Errc::PoorGeometry ||
          code == Errc::NotCalibrated;
-}
-
-Error uncalibrated() {
-  return {Errc::NotCalibrated,
-          "this device has no calibration yet: a technician has to calibrate its cameras"};
 }
 
 }  // namespace
