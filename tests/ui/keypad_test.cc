@@ -9,7 +9,7 @@
 #include <utility>
 #include <vector>
 
-#include "ui/ui.h"
+#include "tests/support/made_screen.h"
 #include "ui/view/keypad_letters.h"
 
 namespace relievo::ui {
@@ -20,10 +20,7 @@ using Kind = Input::Kind;
 class KeypadTest : public testing::TestWithParam<Language> {
  protected:
   void SetUp() override {
-    ASSERT_TRUE(prepare_languages().has_value());
-    auto text = TextEngine::make();
-    ASSERT_TRUE(text.has_value());
-    ui = std::make_unique<Ui>(std::move(*text));
+    ui = test::make_screen();
     view.screen = Screen::Idle;
     view.now = hal::Instant(std::chrono::hours(1));
     view.home = GetParam();

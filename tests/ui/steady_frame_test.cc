@@ -10,7 +10,7 @@
 #include <cstdlib>
 #include <new>
 
-#include "ui/ui.h"
+#include "tests/support/made_screen.h"
 
 namespace {
 std::atomic<long> allocations{0};
@@ -29,10 +29,8 @@ namespace relievo::ui {
 namespace {
 
 TEST(SteadyFrame, TakesNothingFromTheHeap) {
-  ASSERT_TRUE(prepare_languages().has_value());
-  auto text = TextEngine::make();
-  ASSERT_TRUE(text.has_value());
-  Ui ui(std::move(*text));
+  const auto made = test::make_screen();
+  Ui& ui = *made;
   ViewState view;
   for (const Language language : {Language::English, Language::Arabic}) {
     for (const Step step : {Step::Attract, Step::Consent, Step::Name, Step::Position, Step::Working,

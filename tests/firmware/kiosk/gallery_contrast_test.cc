@@ -10,8 +10,8 @@
 #include <string>
 
 #include "firmware/demo/gallery.h"
+#include "tests/support/made_screen.h"
 #include "ui/draw/theme.h"
-#include "ui/ui.h"
 
 namespace relievo::firmware {
 namespace {
@@ -48,10 +48,8 @@ std::optional<Colour> ground_of(const ui::Tree& tree, const Node& node, bool end
 class GalleryContrast : public testing::TestWithParam<bool> {};
 
 TEST_P(GalleryContrast, EveryTextCanBeReadAlsoOnAChosenRowAndUnderAFinger) {
-  ASSERT_TRUE(ui::prepare_languages().has_value());
-  auto text = ui::TextEngine::make();
-  ASSERT_TRUE(text.has_value());
-  ui::Ui screen(std::move(*text));
+  const auto made = test::make_screen();
+  ui::Ui& screen = *made;
   screen.resize(1280, 800);
   const ui::ViewState nothing;
   std::size_t texts = 0;
@@ -83,10 +81,8 @@ TEST_P(GalleryContrast, EveryTextCanBeReadAlsoOnAChosenRowAndUnderAFinger) {
 
 // Where a list goes on its last rows fade. One that is touched there, and is the chosen one then, does not.
 TEST_P(GalleryContrast, ARowThatIsTouchedUnderAFadeComesOutFromUnderIt) {
-  ASSERT_TRUE(ui::prepare_languages().has_value());
-  auto text = ui::TextEngine::make();
-  ASSERT_TRUE(text.has_value());
-  ui::Ui screen(std::move(*text));
+  const auto made = test::make_screen();
+  ui::Ui& screen = *made;
   screen.resize(1280, 800);
   const ui::ViewState nothing;
   bool touched = false;

@@ -13,6 +13,7 @@
 #include <utility>
 
 #include "firmware/records/event_log.h"
+#include "tests/support/made_screen.h"
 #include "ui/screens/visitor/visitor_screens.h"
 #include "ui/view/staff_views.h"
 
@@ -61,12 +62,7 @@ bool overlap(const ui::Rect& a, const ui::Rect& b) {
 
 class GalleryTest : public testing::TestWithParam<ui::Language> {
  protected:
-  static void SetUpTestSuite() {
-    ASSERT_TRUE(ui::prepare_languages().has_value());
-    auto text = ui::TextEngine::make();
-    ASSERT_TRUE(text.has_value());
-    screen_ = new ui::Ui(std::move(*text));
-  }
+  static void SetUpTestSuite() { screen_ = test::make_screen().release(); }
   static void TearDownTestSuite() { delete screen_; }
 
   // One pass over all screens: to lay them out costs more than to look at them.
@@ -207,9 +203,8 @@ void read_by_keypad(ui::Ui& screen, const Exhibit& exhibit, std::set<std::string
 TEST_P(GalleryTest, AKeypadSeesItsFocusAndReadsEveryScrollerToItsEnd) {
   for (const Exhibit& exhibit : gallery(kNothing, GetParam(), ui::kTextPercents.size() - 1, false)) {
     SCOPED_TRACE(exhibit.name);
-    auto text = ui::TextEngine::make();
-    ASSERT_TRUE(text.has_value());
-    ui::Ui screen(std::move(*text));
+    const auto made = test::make_screen();
+    ui::Ui& screen = *made;
     screen.show(exhibit.view, exhibit.visit, exhibit.service);
     const bool modal = screen.tree().find("veil") != nullptr;
     std::set<std::string> unread;

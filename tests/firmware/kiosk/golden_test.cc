@@ -18,6 +18,7 @@
 #include "firmware/demo/gallery.h"
 #include "hal/picture_file.h"
 #include "tests/support/gles_driver.h"
+#include "tests/support/made_screen.h"
 #include "tests/support/tight_png.h"
 #include "tests/ui/quiet_driver.h"
 #include "ui/platform/sdl_display.h"
@@ -65,7 +66,6 @@ std::filesystem::path kept_in() {
 class GoldenTest : public testing::TestWithParam<Golden> {
  protected:
   void SetUp() override {
-    ASSERT_TRUE(ui::prepare_languages().has_value());
     setenv("SDL_VIDEODRIVER", "offscreen", 1);
     auto opened = ui::open_sdl_display({64, 64});
     ASSERT_TRUE(opened.has_value()) << opened.error().where();
@@ -73,9 +73,7 @@ class GoldenTest : public testing::TestWithParam<Golden> {
     const std::string driver = test::gles_driver();
     if (driver.find("llvmpipe") == std::string::npos)
       GTEST_SKIP() << "goldens are llvmpipe's, and this is " << driver;
-    auto text = ui::TextEngine::make();
-    ASSERT_TRUE(text.has_value());
-    screen = std::make_unique<ui::Ui>(std::move(*text));
+    screen = test::make_screen();
   }
   void TearDown() override {
     screen.reset();

@@ -7,6 +7,7 @@
 #include <algorithm>
 
 #include "hal/sim/recording_speaker.h"
+#include "tests/support/made_screen.h"
 #include "tests/support/manual_clock.h"
 
 namespace relievo::firmware {
@@ -17,10 +18,7 @@ using namespace std::chrono_literals;
 class VoiceTest : public testing::Test {
  protected:
   void SetUp() override {
-    ASSERT_TRUE(ui::prepare_languages().has_value());
-    auto text = ui::TextEngine::make();
-    ASSERT_TRUE(text.has_value());
-    screen = std::make_unique<ui::Ui>(std::move(*text));
+    screen = test::make_screen();
     auto made = std::make_unique<hal::RecordingSpeaker>(clock, std::vector<std::string>{"en"});
     speaker = made.get();
     voice = std::make_unique<Voice>(std::move(made));

@@ -22,9 +22,9 @@
 #include "storage/sqlite/sqlite_store.h"
 #include "tests/firmware/held_hand.h"
 #include "tests/firmware/test_records.h"
+#include "tests/support/made_screen.h"
 #include "tests/support/small_rig.h"
 #include "tests/support/temporary_folder.h"
-#include "ui/ui.h"
 
 namespace relievo::firmware::test_technician {
 
@@ -37,7 +37,6 @@ inline Result<std::unique_ptr<LivePairs>> show_boards(const BoardArgs& args) {
 class TechnicianRig {
  public:
   TechnicianRig() {
-    EXPECT_TRUE(ui::prepare_languages().has_value());
     hal::SimDeviceOptions options;
     options.simulation.rig = test::small_rig(kScale);
     std::filesystem::create_directory(stick());
@@ -49,7 +48,7 @@ class TechnicianRig {
     store = *storage::open_sqlite_store(folder.path() / "store", clock, {});
     EXPECT_TRUE(store->save_calibration(*calibration, "of the simulated rig").has_value());
     stages = std::make_unique<PipelineStages>(*pipeline::Pipeline::make({}, *store->active_calibration()));
-    screen = std::make_unique<ui::Ui>(*ui::TextEngine::make());
+    screen = test::make_screen();
     appliance = std::make_unique<Appliance>(Appliance::Parts{*device, *stages, memory, pool, records});
     side_tasks = std::make_unique<SideTasks>(*appliance);
     test_capture = std::make_unique<TestCapture>(TestCapture::Parts{

@@ -15,13 +15,13 @@
 #include <string>
 #include <vector>
 
+#include "tests/support/made_screen.h"
 #include "tests/ui/quiet_driver.h"
 #include "ui/platform/sdl_display.h"
 #include "ui/render/face_geometry.h"
 #include "ui/render/offscreen.h"
 #include "ui/render/renderer.h"
 #include "ui/technician/technician_view.h"
-#include "ui/ui.h"
 
 namespace relievo::ui {
 namespace {
@@ -228,8 +228,8 @@ TEST_F(Drawn, HasOtherColoursInPlaceOfItsTextureWhereTheyAreGiven) {
 
 // Through the page: two taps, and what it says; a finger that moves turns and sets nothing.
 TEST(FaceRuler, TwoTapsOnThePageSayTheirDistance) {
-  ASSERT_TRUE(prepare_languages().has_value());
-  Ui ui(*TextEngine::make());
+  const auto made = test::make_screen();
+  Ui& ui = *made;
   const pipeline::FaceModel model = sphere();
   TechnicianView technician;
   technician.phase = TechnicianPhase::Ready;

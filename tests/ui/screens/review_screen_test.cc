@@ -8,16 +8,13 @@
 #include <memory_resource>
 
 #include "pipeline/model/face_model.h"
-#include "ui/ui.h"
+#include "tests/support/made_screen.h"
 
 namespace relievo::ui {
 namespace {
 
 TEST(ReviewScreen, SaysThatASideWasLeftOut) {
-  ASSERT_TRUE(prepare_languages().has_value());
-  auto text = TextEngine::make();
-  ASSERT_TRUE(text.has_value());
-  Ui ui(std::move(*text));
+  const auto ui = test::make_screen();
   pipeline::FaceModel model(std::pmr::get_default_resource());
   model.quality.coverage = 1;
   model.quality.texture_sharpness = 1;
@@ -26,8 +23,8 @@ TEST(ReviewScreen, SaysThatASideWasLeftOut) {
   Visit visit;
   visit.step = Step::Review;
   const auto says = [&](std::string_view words) {
-    ui.show(view, visit);
-    return std::ranges::any_of(ui.tree().nodes(),
+    ui->show(view, visit);
+    return std::ranges::any_of(ui->tree().nodes(),
                                [&](const Node& node) { return node.text.starts_with(words); });
   };
   EXPECT_TRUE(says("Very good"));
