@@ -8,12 +8,24 @@
 
 #include <cstddef>
 #include <filesystem>
+#include <span>
 #include <vector>
 
 #include "hal/base/image_view.h"
 #include "hal/base/result.h"
 
 namespace relievo::hal {
+
+// What a PNG or JPEG says about itself before anything is decoded, and whether all of it is there:
+// decoders fill the missing rest of a truncated picture with grey, which a matcher would believe.
+// Errors: InvalidInput (neither PNG nor JPEG, truncated, no size).
+// Thread: any.
+struct PictureHeader {
+  long width_px = 0;
+  long height_px = 0;
+};
+
+Result<PictureHeader> read_picture_header(std::span<const std::byte> bytes);
 
 // Longest side and area that are read: twice today's largest industrial sensor class we support.
 inline constexpr int kMaxPictureSidePx = 8192;

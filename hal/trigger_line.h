@@ -4,21 +4,46 @@
 // TriggerLine: the wire that makes both sensors expose together, and the lamp's that may flash with it.
 //
 // The base class, not the caller, keeps the light harmless: of pulses with light, the fourth within a
-// second is refused and drives nothing (hal/flash_guard.h); a lamp that hangs on the trigger's own wire
+// second is refused and drives nothing (FlashGuard); a lamp that hangs on the trigger's own wire
 // counts with every pulse. A pulse that failed counts too: light may have come.
 // Thread: any; pulses wait for one another.
 #pragma once
 
 #include <algorithm>
+#include <array>
 #include <chrono>
+#include <cstddef>
 #include <cstdint>
 #include <mutex>
 
 #include "hal/base/result.h"
 #include "hal/clock.h"
-#include "hal/flash_guard.h"
 
 namespace relievo::hal {
+
+// FlashGuard: when the next flash of light may begin, so that in any one second there are at most three
+// flashes (WCAG 2.3.1: more can bring on a seizure), whatever anybody asks. A flash counts from its
+// first to its last instant. The second after the guard is made is dark: who restarts the program in a
+// loop cannot flash more either. Thread: one at a time.
+class FlashGuard {
+ public:
+  static constexpr std::size_t kMostInAWindow = 3;
+  // A second, and a little more for clocks and lamps that are not exact.
+  static constexpr std::chrono::milliseconds kWindow{1050};
+
+  explicit FlashGuard(Instant now) { ended_.fill(now); }
+
+  Instant allowed_at() const { return ended_[oldest_] + kWindow; }
+  bool allows(Instant now) const { return now >= allowed_at(); }
+  void flashed(Instant ended) {
+    ended_[oldest_] = ended;
+    oldest_ = (oldest_ + 1) % kMostInAWindow;
+  }
+
+ private:
+  std::array<Instant, kMostInAWindow> ended_{};
+  std::size_t oldest_ = 0;
+};
 
 enum class Light : std::uint8_t { Off, Flash };
 
@@ -59,4 +84,5 @@ class TriggerLine {
   mutable std::mutex mutex_;
   FlashGuard guard_;
 };
+
 }  // namespace relievo::hal

@@ -58,7 +58,7 @@ class BootMemory {
   std::span<std::byte> frames_;
   std::span<std::byte> output_;
   std::span<std::byte> scratch_;
-  std::span<std::byte> sides_;   // session/side_pairs.h
+  std::span<std::byte> sides_;   // session/session.h
   std::span<std::byte> follow_;  // of the capture thread, while the worker has the others
 };
 

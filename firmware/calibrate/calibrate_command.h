@@ -6,7 +6,7 @@
 //           [--baseline-mm N]
 //
 // Reads left*.png|jpg and right*.png|jpg in name order, finds the board in each, calibrates, writes
-// rig.yml and, where asked for, a folder with the report (calibrate_report.h). One line a pair
+// rig.yml and, where asked for, a folder with the report. One line a pair
 // and the reasons of the verdict go to `out`. Nothing half-written stays; a calibration that is
 // refused is not written, its report is.
 // Errors: NotFound (folder, pictures), InvalidInput (a name without its partner, pictures of
@@ -24,6 +24,17 @@
 #include "pipeline/calibrate/calibrator.h"
 
 namespace relievo::firmware {
+
+// The folder that `relievo calibrate --report DIR` writes: index.html for people, report.json for
+// programs, and of each pair a picture with its corners and one with both views rectified.
+// Thread: main.
+
+// Whole or not at all. One line a pair goes to `out`.
+// Errors: the pictures' (they are read once more), the disk's; each names its place.
+Result<void> write_calibration_report(const Path& folder, const std::vector<PicturePairFiles>& pairs,
+                                      const pipeline::CalibratorInput& input,
+                                      const pipeline::CalibratorOutput& result, const std::string& made_at,
+                                      std::ostream& out);
 
 struct PicturePairFiles {
   std::string name;  // what follows left and right, without _ or - before it

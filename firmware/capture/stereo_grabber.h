@@ -24,7 +24,6 @@
 #include <optional>
 
 #include "firmware/base/budget.h"
-#include "firmware/capture/grab_counts.h"
 #include "firmware/capture/stereo_slot.h"
 #include "hal/base/result.h"
 #include "hal/camera.h"
@@ -35,6 +34,31 @@
 #include "pipeline/model/stereo_frame.h"
 
 namespace relievo::firmware {
+
+// GrabCounts: what has gone well and wrong between the trigger and the slot since the cameras were
+// first opened; for a technician, who reads a bad cable or a slow hub out of it.
+
+// Of one camera.
+struct CameraCounts {
+  std::uint64_t frames = 0;     // taken
+  std::uint64_t late = 0;       // exposed before the pulse they were waited for, or out of order: dropped
+  std::uint64_t lost = 0;       // numbers missing in the sequence
+  std::uint64_t duplicate = 0;  // a number twice: dropped
+  std::uint64_t damaged = 0;    // the driver says that bytes are wrong: refused
+  std::uint64_t too_short = 0;  // fewer bytes than the picture has: refused
+  std::uint64_t missing = 0;    // a wait that ended without a picture
+  std::uint64_t vanished = 0;   // the camera went away
+  std::uint64_t returned = 0;   // and came back
+  std::uint64_t refused = 0;    // attempts to open it again that failed
+};
+
+struct GrabCounts {
+  CameraCounts left;
+  CameraCounts right;
+  std::uint64_t pairs = 0;    // handed over
+  std::uint64_t apart = 0;    // refused: exposed further apart than the limit
+  std::uint64_t slipped = 0;  // pairs by time whose numbers moved against each other: a pulse was missed
+};
 
 // CameraLink: one camera of the pair, kept alive. It drops frames that are late or came twice, refuses
 // damaged and short ones, and opens a camera that has vanished again, each time after a longer wait.

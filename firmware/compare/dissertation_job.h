@@ -12,8 +12,8 @@
 #include <string_view>
 
 #include "firmware/arguments/command_line.h"
-#include "firmware/compare/compare_job.h"
 #include "firmware/compare/page/dissertation.h"
+#include "firmware/compare/set_run.h"
 #include "hal/base/result.h"
 #include "pipeline/base/stage.h"
 #include "pipeline/model/calibration.h"

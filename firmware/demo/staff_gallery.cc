@@ -11,7 +11,7 @@
 #include "firmware/service/statistics.h"
 #include "storage/cipher/recovery.h"
 #include "ui/device/settings.h"
-#include "ui/device/touch_view.h"
+#include "ui/device/touch_map.h"
 #include "ui/view/records_view.h"
 #include "ui/view/staff_views.h"
 

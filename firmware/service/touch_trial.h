@@ -17,7 +17,7 @@
 #include "firmware/records/event_log.h"
 #include "firmware/service/side_tasks.h"
 #include "storage/store.h"
-#include "ui/device/touch_view.h"
+#include "ui/device/touch_map.h"
 #include "ui/view/input.h"
 
 namespace relievo::firmware {

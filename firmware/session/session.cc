@@ -2,14 +2,118 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "firmware/session/session.h"
 
+#include <string.h>
+
+#include <algorithm>
+#include <cstring>
 #include <memory>
 #include <utility>
-
-#include <string.h>
 
 #include "hal/base/assert.h"
 
 namespace relievo::firmware {
+namespace {
+
+constexpr std::size_t kCopyShare = 10;
+static_assert(budget::kSidesBytes / kCopyShare >= 2 * budget::kFrameBytes,
+              "no room for a pair of the largest sensor");
+
+template <std::size_t... I>
+std::array<std::span<std::byte>, sizeof...(I)> cut(std::span<std::byte> block, std::index_sequence<I...>) {
+  const std::size_t each = block.size() / sizeof...(I);
+  return {block.subspan(I * each, each)...};
+}
+
+template <std::size_t... I>
+std::array<Arena, sizeof...(I)> arenas(const std::array<std::span<std::byte>, sizeof...(I)>& rooms,
+                                       std::index_sequence<I...>) {
+  return {Arena(rooms[I])...};
+}
+
+std::size_t row_bytes(const ImageView& view) {
+  return static_cast<std::size_t>(view.width_px * bytes_per_pixel(view.format));
+}
+std::size_t bytes_of(const ImageView& view) {
+  return row_bytes(view) * static_cast<std::size_t>(view.height_px);
+}
+
+// Row by row without padding.
+ImageView copied(const ImageView& view, std::byte* to) {
+  const std::size_t row = row_bytes(view);
+  for (int y = 0; y < view.height_px; ++y)
+    std::memcpy(to + static_cast<std::size_t>(y) * row, view.row(y), row);
+  return {to, view.width_px, view.height_px, static_cast<int>(row), view.format};
+}
+
+}  // namespace
+
+SidePairs::SidePairs(std::span<std::byte> block)
+    : copy_(block.first(block.size() / kCopyShare)),
+      rooms_(cut(block.subspan(copy_.size()), std::make_index_sequence<kPoses>())),
+      kept_(arenas(rooms_, std::make_index_sequence<kPoses>())) {}
+
+void SidePairs::begin() {
+  const std::lock_guard lock(mutex_);
+  added_ = handed_out_ = 0;
+  ended_ = false;
+}
+
+Result<void> SidePairs::add(const pipeline::StereoFrame& pair) {
+  const std::size_t left = bytes_of(pair.left), both = left + bytes_of(pair.right);
+  std::unique_lock lock(mutex_);
+  const std::size_t at = added_;
+  lock.unlock();  // nobody else touches the room of a pair that was not added yet
+  if (at == pipeline::kSides) return Error{Errc::InvalidState, "every side has its pair already"};
+  std::span<std::byte> room = rooms_[at + 1];
+  if (both > std::min(room.size(), copy_.size()))
+    return Error{Errc::OutOfMemory,
+                 "pictures larger than the plan in budget.h allows for the sides of a head"};
+  bytes_[at] = both;
+  pairs_[at] = pair;
+  pairs_[at].left = copied(pair.left, room.data());
+  pairs_[at].right = copied(pair.right, room.data() + left);
+  lock.lock();
+  ++added_;
+  changed_.notify_one();
+  return {};
+}
+
+void SidePairs::end() {
+  const std::lock_guard lock(mutex_);
+  ended_ = true;
+  changed_.notify_one();
+}
+
+std::size_t SidePairs::count() const {
+  const std::lock_guard lock(mutex_);
+  return added_;
+}
+
+std::optional<pipeline::StereoFrame> SidePairs::next(const std::atomic<bool>& cancelled) {
+  std::unique_lock lock(mutex_);
+  while (handed_out_ == added_ && !ended_ && !cancelled.load(std::memory_order_relaxed))
+    changed_.wait_for(lock, budget::kTick);
+  if (cancelled.load(std::memory_order_relaxed) || handed_out_ == added_) return std::nullopt;
+  const std::size_t at = handed_out_++;
+  lock.unlock();
+  pipeline::StereoFrame pair = pairs_[at];
+  pair.left = copied(pair.left, copy_.data());
+  pair.right = copied(pair.right, copy_.data() + bytes_of(pair.left));
+  return pair;
+}
+
+void SidePairs::wipe() {
+  std::size_t most = 0;
+  for (std::size_t i = 0; i < pipeline::kSides; ++i) {
+    explicit_bzero(rooms_[i + 1].data(), bytes_[i]);
+    most = std::max(most, bytes_[i]);
+    bytes_[i] = 0;
+    pairs_[i] = {};
+  }
+  explicit_bzero(copy_.data(), most);
+  for (Arena& kept : kept_) kept.wipe();
+  begin();
+}
 
 Result<void> EnrolmentSession::open(std::string_view subject) {
   if (is_open()) return Error{Errc::InvalidState, "a session is open already: close it first"};

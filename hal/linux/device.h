@@ -32,6 +32,16 @@
 
 namespace relievo::hal {
 
+// Heat: how near the machine is to switching itself off, as the kernel tells it: each thermal zone with its
+// temperature and its critical trip point (Documentation/driver-api/thermal/sysfs-api). Thread: any.
+
+// Degrees below its critical point at which a zone counts.
+inline constexpr double kHeatMargin = 5;
+
+// Is any zone of `thermal` (/sys/class/thermal) so near? A zone that tells no temperature or no critical
+// point is none.
+bool near_switching_off(const std::filesystem::path& thermal);
+
 struct LinuxDeviceOptions {
   CaptureMode mode;
   V4l2CameraOptions left;                  // or both views

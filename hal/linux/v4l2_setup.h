@@ -9,6 +9,8 @@
 
 #include <cstddef>
 #include <cstdint>
+#include <optional>
+#include <span>
 
 #include "hal/base/result.h"
 #include "hal/camera.h"
@@ -16,6 +18,16 @@
 #include "hal/raw/raw_image.h"
 
 namespace relievo::hal {
+
+// V4L2's four-letter names of pixel formats, and ours. Thread: any.
+struct V4l2Format {
+  std::uint32_t fourcc = 0;
+  RawFormat raw;
+};
+// Every format that can be developed, the best first: a face is to have its colour; samples before YUV;
+// of a mosaic 8 bit, which is what it is developed to; of a grey sensor all its bits; JPEG last.
+std::span<const V4l2Format> v4l2_formats();
+std::optional<RawFormat> raw_format_of(std::uint32_t fourcc);
 
 struct V4l2Stream {
   RawFormat format;

@@ -2,9 +2,311 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "pipeline/texture/texturers.h"
 
-#include "pipeline/texture/photograph_layer.h"
+#include <algorithm>
+#include <cmath>
+
+#include "pipeline/base/stage.h"
+#include "pipeline/model/photo_sampler.h"
+#include "pipeline/model/texture_atlas.h"
+#include "pipeline/texture/blend/shot_planes.h"
+#include "pipeline/texture/blend/view_blend.h"
+#include "pipeline/texture/chart/chart.h"
+#include "pipeline/texture/chart/side_charts.h"
+#include "pipeline/texture/colour_fill.h"
 
 namespace relievo::pipeline {
+namespace {
+
+// PhotographLayer: the whole way from a surface and its photographs to an atlas; both texturers use it.
+// Surface that a camera saw shows its photograph, measured or not; what none saw is filled smoothly from its
+// surroundings and flagged in `origin`.
+// Memory: the atlas in `output`, the rest in `scratch`. Thread: any; works on the pool, and the result
+// does not depend on its size. Errors: InvalidInput, Cancelled; throws std::bad_alloc.
+struct LayerOptions {
+  ChartOptions chart;
+  ShotOptions shot;
+  float highlight_level = 12;
+};
+
+constexpr int kBands = 48;       // of rows, for the pool and for looking at the stop flag
+constexpr float kOwnPx = 0.75F;  // disparity by which rounding lets a triangle seem to lie behind itself
+
+std::uint8_t origin_of(float right_share) {
+  return static_cast<std::uint8_t>(kLeftPhotographTexel +
+                                   std::lround(253 * std::clamp(right_share, 0.0F, 1.0F)));
+}
+
+class Layer {
+ public:
+  Layer(const FaceMesh& mesh, const RectifiedPair& pair, const LayerOptions& options, StageContext& context)
+      : mesh_(mesh),
+        pair_(pair),
+        options_(options),
+        context_(context),
+        chart_(lay_out(mesh, pair, options.chart, &context.scratch)),
+        bands_(mesh, chart_, kBands, &context.scratch),
+        maps_{FrontMap(chart_, 0, &context.scratch), FrontMap(chart_, kLeftSide, &context.scratch),
+              FrontMap(chart_, kRightSide, &context.scratch)},
+        kept_(mesh.triangles.size(), 0, &context.scratch),
+        photographed_(mesh.vertices_mm.size(), 0, &context.scratch),
+        known_(mesh.vertices_mm.size(), 0, &context.scratch),
+        colours_(mesh.vertices_mm.size(), VertexColour{}, &context.scratch),
+        sides_(&context.scratch),
+        atlas_(&context.output) {}
+
+  Result<TextureAtlas> run() {
+    const Error stopped{Errc::Cancelled, "texturing was stopped"};
+    fill_front_maps(mesh_, chart_, bands_, maps_, context_);
+    if (context_.stop()) return stopped;
+    const VertexViews views =
+        look_at_vertices(mesh_, pair_, chart_, maps_[1], maps_[2], options_.shot, context_);
+    if (context_.stop()) return stopped;
+    choose(views);
+    sides_ = lay_out_sides(mesh_, chart_, kept_, photographed_, photograph_px_per_mm(), options_.chart.max_px,
+                           &context_.scratch);
+    if (context_.stop()) return stopped;
+    make_atlas();
+    if (context_.stop()) return stopped;
+    const ShotPlanes planes =
+        shoot(mesh_, pair_, chart_, bands_, maps_, views, kept_, options_.shot, context_);
+    if (context_.stop()) return stopped;
+    const float margin_px = options_.shot.feather_px * static_cast<float>(chart_.texels_per_px);
+    const bool both = !options_.shot.left_only;
+    const ViewBlend blend(chart_, planes, bands_, both ? options_.highlight_level : 0, both ? margin_px : 0,
+                          context_);
+    if (context_.stop()) return stopped;
+    shade(planes, blend);
+    if (context_.stop()) return stopped;
+    photograph_sides(views, blend);
+    colour_vertices();
+    fill_colours(mesh_, known_, colours_, context_);
+    if (context_.stop()) return stopped;
+    paint_filled();
+    continue_outwards(atlas_, options_.chart.margin_px, &context_.scratch);
+    write_vertex_colours();
+    return std::move(atlas_);
+  }
+
+ private:
+  const Vec2f& side_corner(std::size_t side, std::size_t corner) const {
+    return sides_.corner[3 * side + corner];
+  }
+  bool seen_whole(const std::array<std::uint32_t, 3>& t) const {
+    return photographed_[t[0]] != 0 && photographed_[t[1]] != 0 && photographed_[t[2]] != 0;
+  }
+  std::size_t atlas_index(int x, int y) const {
+    return static_cast<std::size_t>(y) * static_cast<std::size_t>(atlas_.width_px) +
+           static_cast<std::size_t>(x);
+  }
+
+  // Which triangles the main chart shows, and which vertices a camera saw.
+  void choose(const VertexViews& views) {
+    for (std::size_t v = 0; v < photographed_.size(); ++v) photographed_[v] = views.seen[v] != 0 ? 1 : 0;
+    for (std::size_t k = 0; k < kept_.size(); ++k) {
+      const auto& t = mesh_.triangles[k];
+      const auto in_front = [&](std::uint32_t v) {
+        return maps_[0].sees(chart_.texel[v], chart_.disparity_px[v], kOwnPx);
+      };
+      kept_[k] = chart_.placed_all(t) && signed_area(chart_, t) <= 0 && in_front(t[0]) && in_front(t[1]) &&
+                         in_front(t[2])
+                     ? 1
+                     : 0;
+    }
+  }
+
+  double photograph_px_per_mm() const {
+    double sum = 0;
+    double count = 0;
+    for (std::size_t v = 0; v < photographed_.size(); ++v) {
+      if (photographed_[v] == 0) continue;
+      sum += pair_.focal_px / pair_.depth_mm(static_cast<double>(chart_.disparity_px[v]));
+      count += 1;
+    }
+    return count > 0 ? sum / count : 1;
+  }
+
+  void make_atlas() {
+    atlas_.width_px = chart_.width_px + sides_.width_px;
+    atlas_.height_px = chart_.height_px;
+    const std::size_t texels =
+        static_cast<std::size_t>(atlas_.width_px) * static_cast<std::size_t>(atlas_.height_px);
+    atlas_.rgb.assign(3 * texels, 0);
+    atlas_.origin.assign(texels, kNoSurfaceTexel);
+    const Vec2f to_uv{1 / static_cast<float>(atlas_.width_px), 1 / static_cast<float>(atlas_.height_px)};
+    const auto uv = [&](const Vec2f& texel) {
+      return Vec2f{(texel.x + 0.5F) * to_uv.x, (texel.y + 0.5F) * to_uv.y};
+    };
+    atlas_.uv.resize(3 * mesh_.triangles.size());
+    for (std::size_t k = 0; k < kept_.size(); ++k)
+      for (std::size_t i = 0; i < 3 && kept_[k] != 0; ++i)
+        atlas_.uv[3 * k + i] = uv(chart_.texel[mesh_.triangles[k][i]]);
+    for (std::size_t s = 0; s < sides_.triangles.size(); ++s)
+      for (std::size_t i = 0; i < 3; ++i)
+        atlas_.uv[3 * std::size_t{sides_.triangles[s]} + i] = uv(side_corner(s, i));
+  }
+
+  void set(std::size_t at, const float (&rgb)[3], std::uint8_t origin) {
+    for (std::size_t c = 0; c < 3; ++c) atlas_.rgb[3 * at + c] = to_byte(rgb[c]);
+    atlas_.origin[at] = origin;
+  }
+
+  void shade(const ShotPlanes& planes, const ViewBlend& blend) {
+    struct Work {
+      Layer& self;
+      const ShotPlanes& planes;
+      const ViewBlend& blend;
+    } work{*this, planes, blend};
+    context_.pool.for_each_band(chart_.height_px, kBands, [&work](int begin, int end, int) {
+      Layer& self = work.self;
+      for (int y = begin; y < end && !self.context_.stop(); ++y)
+        for (int x = 0; x < self.chart_.width_px; ++x) {
+          const std::size_t k = self.chart_.index(x, y);
+          if ((work.planes.seen[k] & kSurface) == 0 ||
+              !self.seen_whole(self.mesh_.triangles[self.maps_[0].owner[k]]))
+            continue;
+          const ViewBlend::Colour colour = work.blend.mix(k, x, y);
+          self.set(self.atlas_index(x, y), colour.rgb, origin_of(colour.share));
+        }
+    });
+  }
+
+  // What was photographed and yet does not fit into the main chart: folds, read from the photographs
+  // directly.
+  void photograph_sides(const VertexViews& views, const ViewBlend& blend) {
+    const PhotoSampler left(pair_.left, pair_.width_px, pair_.height_px);
+    const PhotoSampler right(pair_.right, pair_.width_px, pair_.height_px);
+    for (std::size_t s = 0; s < sides_.triangles.size(); ++s) {
+      const auto& t = mesh_.triangles[sides_.triangles[s]];
+      if (!seen_whole(t)) continue;
+      const auto mean = [&](auto&& of, float a, float b, float c) {
+        return a * of(t[0]) + b * of(t[1]) + c * of(t[2]);
+      };
+      const std::uint8_t seen = views.seen[t[0]] & views.seen[t[1]] & views.seen[t[2]];
+      for_each_texel(side_corner(s, 0), side_corner(s, 1), side_corner(s, 2), atlas_.width_px,
+                     {0, atlas_.height_px}, [&](int x, int y, float a, float b, float c) {
+                       const float tx = mean([&](std::uint32_t v) { return chart_.texel[v].x; }, a, b, c);
+                       const float ty = mean([&](std::uint32_t v) { return chart_.texel[v].y; }, a, b, c);
+                       const float d = mean([&](std::uint32_t v) { return chart_.disparity_px[v]; }, a, b, c);
+                       float l[3], r[3];
+                       left.read(chart_.view_x(tx, d, kLeftSide), chart_.view_y(ty), l);
+                       right.read(chart_.view_x(tx, d, kRightSide), chart_.view_y(ty), r);
+                       const std::uint8_t lb[3]{to_byte(l[0]), to_byte(l[1]), to_byte(l[2])};
+                       const std::uint8_t rb[3]{to_byte(r[0]), to_byte(r[1]), to_byte(r[2])};
+                       const auto say = [&](std::uint8_t bit) {
+                         return (seen & bit) != 0 ? std::uint8_t{255} : std::uint8_t{0};
+                       };
+                       const float share = mean([&](std::uint32_t v) { return views.share[v]; }, a, b, c);
+                       const ViewBlend::Colour colour = blend.mix(
+                           {lb, rb, share, say(kSeenLeft), say(kSeenRight), seen, blend.excess_of(lb, rb)},
+                           tx, ty);
+                       set(atlas_index(x, y), colour.rgb, origin_of(colour.share));
+                     });
+    }
+  }
+
+  // The colour of every vertex that a photograph shows, from its chart; one between completed parts stands
+  // alone and takes its neighbours' colour as they do.
+  void colour_vertices() {
+    const auto read = [&](std::uint32_t v, const Vec2f& texel) {
+      if (photographed_[v] != 0 && known_[v] == 0) known_[v] = read_clean(texel, colours_[v]) ? 1 : 0;
+    };
+    for (std::size_t s = 0; s < sides_.triangles.size(); ++s)
+      for (std::size_t i = 0; i < 3; ++i) read(mesh_.triangles[sides_.triangles[s]][i], side_corner(s, i));
+    for (std::size_t k = 0; k < kept_.size(); ++k)
+      for (std::size_t i = 0; i < 3 && kept_[k] != 0; ++i)
+        read(mesh_.triangles[k][i], chart_.texel[mesh_.triangles[k][i]]);
+  }
+
+  // As a renderer reads it, but from photographed texels alone: the others are still empty. False where there
+  // is none.
+  bool read_clean(const Vec2f& at, VertexColour& colour) const {
+    const int x = static_cast<int>(at.x);
+    const int y = static_cast<int>(at.y);
+    VertexColour sum{0, 0, 0};
+    float weight = 0;
+    for (int v = y; v <= std::min(y + 1, atlas_.height_px - 1); ++v)
+      for (int u = x; u <= std::min(x + 1, atlas_.width_px - 1); ++u) {
+        const std::size_t k = atlas_index(u, v);
+        const float w =
+            (1 - std::abs(at.x - static_cast<float>(u))) * (1 - std::abs(at.y - static_cast<float>(v)));
+        if (atlas_.origin[k] < kLeftPhotographTexel) continue;
+        for (std::size_t c = 0; c < 3; ++c) sum[c] += w * static_cast<float>(atlas_.rgb[3 * k + c]);
+        weight += w;
+      }
+    if (weight < 1e-3F) return false;
+    colour = {sum[0] / weight, sum[1] / weight, sum[2] / weight};
+    return true;
+  }
+
+  void paint(const Vec2f& a, const Vec2f& b, const Vec2f& c, const std::array<std::uint32_t, 3>& t,
+             bool main) {
+    for_each_texel(a, b, c, main ? chart_.width_px : atlas_.width_px, {0, atlas_.height_px},
+                   [&](int x, int y, float wa, float wb, float wc) {
+                     const std::size_t at = atlas_index(x, y);
+                     if (atlas_.origin[at] >= kLeftPhotographTexel)
+                       return;  // shared with a photographed neighbour at their edge
+                     float rgb[3];
+                     for (std::size_t i = 0; i < 3; ++i)
+                       rgb[i] = wa * colours_[t[0]][i] + wb * colours_[t[1]][i] + wc * colours_[t[2]][i];
+                     set(at, rgb, kFilledTexel);
+                   });
+  }
+
+  void paint_filled() {
+    for (std::size_t k = 0; k < kept_.size(); ++k) {
+      const auto& t = mesh_.triangles[k];
+      if (kept_[k] != 0 && !seen_whole(t))
+        paint(chart_.texel[t[0]], chart_.texel[t[1]], chart_.texel[t[2]], t, true);
+    }
+    for (std::size_t s = 0; s < sides_.triangles.size(); ++s) {
+      const auto& t = mesh_.triangles[sides_.triangles[s]];
+      if (!seen_whole(t)) paint(side_corner(s, 0), side_corner(s, 1), side_corner(s, 2), t, false);
+    }
+    // A triangle between texel centres covers none: what a filter reads around its corners is its corners'
+    // colour.
+    for (std::size_t s = 0; s < sides_.triangles.size(); ++s)
+      for (std::size_t i = 0; i < 3; ++i)
+        surround(side_corner(s, i), colours_[mesh_.triangles[sides_.triangles[s]][i]]);
+  }
+
+  void surround(const Vec2f& corner, const VertexColour& colour) {
+    const float rgb[3]{colour[0], colour[1], colour[2]};
+    const int x = static_cast<int>(std::lround(corner.x));
+    const int y = static_cast<int>(std::lround(corner.y));
+    for (int v = std::max(y - 1, 0); v <= std::min(y + 1, atlas_.height_px - 1); ++v)
+      for (int u = std::max(x - 1, chart_.width_px); u <= std::min(x + 1, atlas_.width_px - 1); ++u)
+        if (atlas_.origin[atlas_index(u, v)] == kNoSurfaceTexel) set(atlas_index(u, v), rgb, kFilledTexel);
+  }
+
+  void write_vertex_colours() {
+    atlas_.vertex_rgb.reserve(3 * colours_.size());
+    for (const VertexColour& colour : colours_)
+      for (const float c : colour) atlas_.vertex_rgb.push_back(to_byte(c));
+  }
+
+  const FaceMesh& mesh_;
+  const RectifiedPair& pair_;
+  const LayerOptions& options_;
+  StageContext& context_;
+  Chart chart_;
+  RowBands bands_;
+  std::array<FrontMap, 3> maps_;                 // middle, left, right
+  std::pmr::vector<std::uint8_t> kept_;          // a triangle: 1 in the main chart
+  std::pmr::vector<std::uint8_t> photographed_;  // a vertex: 1 seen by a camera
+  std::pmr::vector<std::uint8_t> known_;         // a vertex: 1 where a photograph gave it its colour
+  std::pmr::vector<VertexColour> colours_;
+  SideCharts sides_;
+  TextureAtlas atlas_;
+};
+
+Result<TextureAtlas> lay_photographs(const FaceMesh& mesh, const RectifiedPair& pair,
+                                     const LayerOptions& options, StageContext& context) {
+  RELIEVO_TRY(check_texture_input(mesh, pair));
+  if (context.stop()) return Error{Errc::Cancelled, "texturing was stopped"};
+  return Layer(mesh, pair, options, context).run();
+}
+
+}  // namespace
 
 Result<void> TwoViewTexturer::check() const {
   if (4 * margin_px > max_atlas_px)

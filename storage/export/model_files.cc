@@ -4,6 +4,8 @@
 
 #include <algorithm>
 #include <cerrno>
+#include <cmath>
+#include <cstdint>
 #include <functional>
 #include <new>
 #include <string>
@@ -13,13 +15,149 @@
 #include "storage/byte_order.h"
 #include "storage/export/atomic_file.h"
 #include "storage/export/format/glb_writer.h"
-#include "storage/export/format/obj_writer.h"
-#include "storage/export/format/ply_writer.h"
+#include "storage/export/format/mesh_writers.h"
+#include "storage/export/format/number_text.h"
 #include "storage/export/format/png_writer.h"
-#include "storage/export/format/stl_writer.h"
-#include "storage/export/recognition_files.h"
 
 namespace relievo::storage {
+namespace {
+
+using pipeline::Portrait;
+using pipeline::RangeImage;
+
+constexpr double kHeightsPerMm = 100;
+constexpr long kZeroHeight = 32768;
+constexpr double kSigmasPerMm = 1000;
+
+std::vector<std::uint8_t> visible(const std::pmr::vector<std::uint8_t>& shows) {
+  std::vector<std::uint8_t> grey(shows.size());
+  std::ranges::transform(shows, grey.begin(), [](std::uint8_t s) {
+    return s == pipeline::kMeasuredShown    ? std::uint8_t{255}
+           : s == pipeline::kCompletedShown ? std::uint8_t{128}
+                                            : std::uint8_t{0};
+  });
+  return grey;
+}
+
+std::uint16_t clamped(double value) {
+  return static_cast<std::uint16_t>(std::clamp(std::lround(value), 1L, 65535L));
+}
+
+std::vector<std::uint16_t> heights(const RangeImage& range) {
+  std::vector<std::uint16_t> grey(range.z_mm.size(), 0);
+  for (std::size_t k = 0; k < grey.size(); ++k)
+    if (range.shows[k] != pipeline::kNothingShown)
+      grey[k] = clamped(static_cast<double>(range.z_mm[k]) * kHeightsPerMm + kZeroHeight);
+  return grey;
+}
+
+std::vector<std::uint16_t> sigmas(const RangeImage& range) {
+  std::vector<std::uint16_t> grey(range.sigma_mm.size(), 0);
+  for (std::size_t k = 0; k < grey.size(); ++k)
+    if (range.shows[k] != pipeline::kNothingShown)
+      grey[k] = clamped(std::min(static_cast<double>(range.sigma_mm[k]), 65.0) * kSigmasPerMm);
+  return grey;
+}
+
+std::string list(std::initializer_list<double> numbers) {
+  std::string text = "[";
+  for (const double n : numbers) {
+    if (text.size() > 1) text += ", ";
+    append_rounded(text, n, 3);
+  }
+  return text + "]";
+}
+
+std::string field(const char* name, double number) {
+  std::string text = std::string("\"") + name + "\": ";
+  append_rounded(text, number, 4);
+  return text;
+}
+
+std::string eyes_text(const Portrait& p) {
+  if (!(p.between_eyes_mm > 0)) return "    \"eyes_found\": false\n";
+  return "    \"eyes_found\": true, \"right_eye_px\": " + list({p.right_eye_px.x, p.right_eye_px.y}) +
+         ", \"left_eye_px\": " + list({p.left_eye_px.x, p.left_eye_px.y}) + ",\n    " +
+         field("between_eyes_mm", p.between_eyes_mm) + ", " +
+         field("between_eyes_px",
+               std::hypot(p.left_eye_px.x - p.right_eye_px.x, p.left_eye_px.y - p.right_eye_px.y)) +
+         "\n";
+}
+
+std::string portrait_text(const Portrait& p) {
+  return "  \"portrait\": {\n    \"file\": \"portrait.png\", \"shows\": \"portrait_shows.png\", " +
+         field("width_px", p.width_px) + ", " + field("height_px", p.height_px) + ",\n    " +
+         field("mm_per_px_at_the_eyes", p.mm_per_px) + ", " + field("camera_mm_from_the_eyes", p.camera_mm) +
+         ",\n    \"eyes_middle_px\": " + list({p.eyes_px.x, p.eyes_px.y}) +
+         ", \"eyes_middle_mm\": " + list({p.eyes_mm.x, p.eyes_mm.y, p.eyes_mm.z}) + ",\n" + eyes_text(p) +
+         "  },\n";
+}
+
+std::string range_text(const RangeImage& r) {
+  return "  \"range\": {\n    \"file\": \"range.png\", \"sigma\": \"range_sigma.png\", \"shows\": \"range_shows.png\", " +
+         field("width_px", r.width_px) + ", " + field("height_px", r.height_px) + ",\n    " +
+         field("pitch_mm", r.pitch_mm) + ", \"first_pixel_xy_mm\": " + list({r.first_mm.x, r.first_mm.y}) +
+         ",\n    \"x_mm\": \"first x + pitch * column\", \"y_mm\": \"first y - pitch * row\",\n"
+         "    \"z_mm\": \"(value - 32768) / 100; value 0: nothing there\", \"sigma_mm\": \"value / 1000: one standard deviation along z\"\n  }\n";
+}
+
+// Those that were found, in the head frame.
+std::string landmarks_text(const Portrait& p, const pipeline::Landmarks& landmarks,
+                           const pipeline::RigidTransform& head_from_camera) {
+  std::string text;
+  for (std::size_t k = 0; k < pipeline::kLandmarkCount; ++k) {
+    const pipeline::Landmark& l = landmarks[k];
+    const pipeline::Vec3d at = apply(
+        head_from_camera,
+        {static_cast<double>(l.at_mm.x), static_cast<double>(l.at_mm.y), static_cast<double>(l.at_mm.z)});
+    if (!l.found || !(std::hypot(at.x, at.y, at.z) < 1e4) || !(l.sigma_mm >= 0 && l.sigma_mm < 1e4F))
+      continue;
+    const pipeline::Vec2d px = p.place_of(at);
+    text += text.empty() ? "" : ",\n";
+    text += "    \"" + std::string(word(static_cast<pipeline::LandmarkName>(k))) +
+            "\": {\"mm\": " + list({at.x, at.y, at.z}) + ", " +
+            field("sigma_mm", static_cast<double>(l.sigma_mm)) + ", \"portrait_px\": " + list({px.x, px.y}) +
+            "}";
+  }
+  return "  \"landmarks\": {" + (text.empty() ? std::string() : "\n" + text + "\n  ") + "},\n";
+}
+
+std::string page(const pipeline::RecognitionImages& images, const pipeline::Landmarks& landmarks,
+                 const pipeline::RigidTransform& head_from_camera, std::string_view version) {
+  return "{\n  \"generator\": \"Relievo" + (version.empty() ? std::string() : " " + std::string(version)) +
+         "\",\n  \"units\": \"millimetres, pixels\",\n"
+         "  \"frame\": \"head: origin at the tip of the nose, x to the person's left, y up, z out of the face\",\n"
+         "  \"pixels\": \"(0, 0) is the centre of the upper left one; seen from the front, x grows to the right\",\n"
+         "  \"shows\": \"0 nothing, 128 surface that was completed, 255 surface that was measured\",\n" +
+         portrait_text(images.portrait) + landmarks_text(images.portrait, landmarks, head_from_camera) +
+         range_text(images.range) + "}\n";
+}
+
+}  // namespace
+
+Result<std::vector<NamedBytes>> recognition_files(const pipeline::RecognitionImages& images,
+                                                  const pipeline::Landmarks& landmarks,
+                                                  const pipeline::RigidTransform& head_from_camera,
+                                                  std::string_view version) {
+  const Portrait& p = images.portrait;
+  const RangeImage& r = images.range;
+  std::vector<NamedBytes> files;
+  const auto add = [&](const char* name, Result<std::vector<std::byte>> bytes) -> Result<void> {
+    if (!bytes) return bytes.error();
+    files.push_back({name, *std::move(bytes)});
+    return {};
+  };
+  RELIEVO_TRY(add("portrait.png", png_of_rgb(p.width_px, p.height_px, p.rgb)));
+  RELIEVO_TRY(add("portrait_shows.png", png_of_grey(p.width_px, p.height_px, visible(p.shows))));
+  RELIEVO_TRY(add("range.png", png_of_grey16(r.width_px, r.height_px, heights(r))));
+  RELIEVO_TRY(add("range_sigma.png", png_of_grey16(r.width_px, r.height_px, sigmas(r))));
+  RELIEVO_TRY(add("range_shows.png", png_of_grey(r.width_px, r.height_px, visible(r.shows))));
+  const std::string text = page(images, landmarks, head_from_camera, version);
+  const auto bytes = bytes_of(text);
+  files.push_back({"recognition.json", {bytes.begin(), bytes.end()}});
+  return files;
+}
+
 namespace {
 
 namespace fs = std::filesystem;

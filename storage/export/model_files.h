@@ -3,7 +3,7 @@
 //
 // The files a face model is handed out in: model.ply, model.obj + .mtl + .png, model.stl, model.glb, and
 // model_origin.png: what the texture's texels are (0 no surface, 128 filled, 255 photographed). With
-// images, those of recognition_files.h too.
+// images, those for recognition programs too.
 //
 // One file's bytes are in memory at a time, beside the texture's, which two files carry: at most
 // 100 bytes a triangle. All are written under temporary names and made durable first, then renamed: a failure
@@ -12,17 +12,39 @@
 // the screen).
 #pragma once
 
+#include <cstddef>
 #include <filesystem>
+#include <string>
 #include <string_view>
 #include <vector>
 
 #include "hal/base/result.h"
 #include "pipeline/model/face_model.h"
+#include "pipeline/model/landmarks.h"
 #include "pipeline/model/recognition_images.h"
 #include "storage/export/bundle.h"
 #include "storage/export/format/export_mesh.h"
 
 namespace relievo::storage {
+
+// The portrait and the range image as files, with a page of numbers that explains them:
+//   portrait.png        8 bit RGB, sRGB              range.png        16 bit grey: z_mm = (value - 32768) /
+//   100, 0 nothing portrait_shows.png  what a pixel shows           range_sigma.png  16 bit grey: sigma along
+//   z in mm = value / 1000
+//                                                    range_shows.png  what a pixel shows
+//   recognition.json    units, axes, where the pixels lie; the landmarks in millimetres and in the portrait
+// shows: 0 nothing, 128 surface that was completed, 255 surface that was measured.
+// Errors: those of PNG. May throw std::bad_alloc. Thread: any.
+struct NamedBytes {
+  const char* name;
+  std::vector<std::byte> bytes;
+};
+
+// The JSON last: it names the others.
+Result<std::vector<NamedBytes>> recognition_files(const pipeline::RecognitionImages& images,
+                                                  const pipeline::Landmarks& landmarks,
+                                                  const pipeline::RigidTransform& head_from_camera,
+                                                  std::string_view version);
 
 struct ExportOptions {
   ExportOptions(ExportFrame in_frame)

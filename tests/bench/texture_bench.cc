@@ -23,11 +23,9 @@
 #include "pipeline/texture/texturers.h"
 #include "storage/export/format/export_mesh.h"
 #include "storage/export/format/glb_writer.h"
-#include "storage/export/format/obj_writer.h"
-#include "storage/export/format/ply_writer.h"
+#include "storage/export/format/mesh_writers.h"
 #include "storage/export/format/png_writer.h"
-#include "storage/export/format/stl_writer.h"
-#include "storage/export/recognition_files.h"
+#include "storage/export/model_files.h"
 #include "tests/support/stage_fixture.h"
 #include "tests/support/texture_seams.h"
 

@@ -3,8 +3,8 @@
 // Texts: settings, the device's file, consent, scripts, recordings, matches by hand, the log, words and
 // codes.
 #include "firmware/arguments/settings_file.h"
-#include "firmware/kiosk/code/code_text.h"
-#include "firmware/kiosk/script/script.h"
+#include "firmware/kiosk/code/code_scanner.h"
+#include "firmware/kiosk/script/script_player.h"
 #include "firmware/records/event_log.h"
 #include "firmware/service/consent_text_store.h"
 #include "hal/base/assert.h"

@@ -8,7 +8,6 @@
 #include <cstring>
 #include <fstream>
 
-#include "hal/picture_header.h"
 #include "hal/whole_file.h"
 #include "tests/hal/temporary_folder.h"
 

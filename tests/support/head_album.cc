@@ -11,8 +11,8 @@
 
 #include "hal/sim/base/noise.h"
 #include "hal/sim/head/shape/head_traits.h"
-#include "hal/sim/target/artefact_scene.h"
-#include "pipeline/gate/head/mirror_plane.h"
+#include "hal/sim/target/target_photo.h"
+#include "pipeline/gate/head/head_measurement.h"
 #include "tests/support/head_landmarks.h"
 #include "tests/support/rig_calibration.h"
 

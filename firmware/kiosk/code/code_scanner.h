@@ -12,12 +12,18 @@
 #include <mutex>
 #include <optional>
 #include <string>
+#include <string_view>
 
 #include "firmware/appliance/appliance.h"
 #include "firmware/kiosk/code/code_reader.h"
 #include "ui/view/visit.h"
 
 namespace relievo::firmware {
+
+// code_text(): what a QR code says, if it could be a name or a number: strict UTF-8 of 1 to
+// ui::kMostNameBytes bytes, spaces put in order, no control, direction or invisible characters, no web
+// address. Else nothing. Thread: any.
+std::optional<std::string> code_text(std::string_view raw);
 
 class CodeScanner {
  public:

@@ -8,15 +8,31 @@
 // screen, or lies under something else), InvalidInput (no key for a letter), those of plug.
 #pragma once
 
+#include <filesystem>
 #include <functional>
 #include <optional>
 #include <string>
 #include <vector>
 
 #include "firmware/kiosk/kiosk.h"
-#include "firmware/kiosk/script/script.h"
+#include "hal/base/result.h"
 
 namespace relievo::firmware {
+
+// Script: what synthetic fingers are to do, read from a file (README.md has its words).
+// Thread: main. Errors: NotFound, IoFailed, InvalidInput (with file and line).
+struct ScriptAction {
+  enum class Kind : std::uint8_t { Wait, Tap, Hold, Drag, Type, Pause, Screenshot, Plug, Unplug };
+  Kind kind = Kind::Wait;
+  std::string word;    // a state, an id, a text, a name, a folder
+  double seconds = 0;  // Wait: at most; Hold, Pause: so long
+  float dx_px = 0, dy_px = 0;
+  std::string where;  // file and line, for errors
+};
+
+Result<std::vector<ScriptAction>> read_script(const std::filesystem::path& file);
+// One line; nothing in it is no action.
+Result<std::vector<ScriptAction>> read_script_line(const std::string& line, const std::string& where);
 
 class ScriptPlayer {
  public:

@@ -5,13 +5,155 @@
 #include <algorithm>
 #include <chrono>
 #include <cmath>
+#include <memory>
 #include <thread>
 
+#include "firmware/kiosk/code/code_picture.h"
 #include "firmware/records/disk_room.h"
 #include "firmware/report/report.h"
+#include "firmware/service/page/health_controller.h"
 #include "firmware/service/page/log_lines.h"
+#include "firmware/service/pin_hash.h"
+#include "storage/cipher/recovery.h"
 
 namespace relievo::firmware {
+
+void RecoveryController::opened() {
+  closed();
+  state_ = ui::SheetState::Asked;
+  outcome_ = ui::Outcome::None;
+  if (!services().words_due) return;
+  words_ = storage::draw_recovery_words();
+  for (std::size_t at = 0; at < words_.size();) {
+    const std::size_t end = std::min(words_.find(' ', at), words_.size());
+    each_.emplace_back(std::string_view(words_).substr(at, end - at));
+    at = end + 1;
+  }
+  to_type_ = storage::words_to_ask();
+  typed_ = 0;
+  code_ = code_picture(words_);
+  ++version_;
+}
+
+void RecoveryController::closed() {
+  each_.clear();
+  wipe_text(words_);
+  std::ranges::fill(code_.bytes, std::byte{255});
+  ++version_;
+}
+
+void RecoveryController::ask(const ui::StaffRequest& request) {
+  if (request.as<ui::OfferWord>() == nullptr || each_.empty() || state_ == ui::SheetState::Saving) return;
+  std::string word(request.text());
+  std::ranges::transform(word, word.begin(), [](char c) { return c >= 'A' && c <= 'Z' ? char(c + 32) : c; });
+  std::erase(word, ' ');
+  const bool right = word == each_[to_type_[typed_]];
+  wipe_text(word);
+  state_ = right ? ui::SheetState::Asked : ui::SheetState::Wrong;
+  if (right && ++typed_ == to_type_.size()) keep();
+}
+
+void RecoveryController::keep() {
+  state_ = ui::SheetState::Saving;
+  typed_ = 0;
+  const auto kept = std::make_shared<std::string>(words_);
+  services().side_tasks.send(
+      JobLane::Keeper,
+      [this, kept](JobControl&) {
+        const auto done = services().store.keep_recovery_words(*kept);
+        wipe_text(*kept);
+        return done;
+      },
+      [this](const std::optional<Error>& error) {
+        state_ = error ? ui::SheetState::Failed : ui::SheetState::Done;
+        if (error) {
+          services().log.fault(*error);
+          outcome_ = outcome_of(*error);
+          return;
+        }
+        services().words_due = false;
+        closed();
+      },
+      SideTasks::Whose::Device);
+}
+
+void RecoveryController::show(ui::ServiceView& view) {
+  view_ = {each_, {}, 0, state_};
+  if (!each_.empty()) {
+    view_.code = {code_.view(), version_};
+    view_.asked = static_cast<int>(to_type_[typed_]) + 1;
+  }
+  view.work.outcome = outcome_;
+  view.recovery = services().words_due || state_ == ui::SheetState::Done ? &view_ : nullptr;
+}
+
+namespace {
+
+constexpr std::chrono::seconds kBetweenLooks{2};
+
+// A visitor without a face, or one who left, is no fault of the device.
+bool is_of_the_device(Errc code) {
+  return code == Errc::Disconnected || code == Errc::Timeout || code == Errc::OutOfMemory ||
+         code == Errc::LibraryFailed || code == Errc::IoFailed || code == Errc::MediaFull ||
+         code == Errc::StoreCorrupt || code == Errc::StoreNewer;
+}
+
+std::uint64_t missed(const CameraCounts& counts) {
+  return counts.late + counts.lost + counts.damaged + counts.too_short + counts.missing;
+}
+
+}  // namespace
+
+// What was seen before stays until it is seen anew: nothing moves away from a finger.
+void StatusController::opened() { next_look_ = {}; }
+
+void StatusController::look() {
+  looking_ = true;
+  const auto seen = std::make_shared<ui::StatusView>();
+  services().side_tasks.send(
+      JobLane::Keeper,
+      [seen, &store = services().store, folder = services().folder, revision = services().calibration,
+       now = services().device.clock().wall_now()](JobControl&) -> Result<void> {
+        for (const Sensor& sensor : read_temperatures("/sys/class/thermal"))
+          seen->hottest_c = std::max(seen->hottest_c, sensor.celsius);
+        std::error_code none;
+        seen->free_mib = static_cast<double>(std::filesystem::space(folder, none).available) / (1 << 20);
+        if (none) return Error{Errc::IoFailed, "the disk does not tell how much room it has"};
+        RELIEVO_TRY_ASSIGN(const auto calibrations, store.calibrations());
+        for (const storage::CalibrationInfo& one : calibrations) {
+          if (one.revision == revision)
+            seen->calibration_days =
+                static_cast<int>(std::chrono::floor<std::chrono::days>(now - one.created_at).count());
+        }
+        return {};
+      },
+      [this, seen](const std::optional<Error>& error) {
+        looking_ = false;
+        next_look_ = services().device.clock().now() + kBetweenLooks;
+        if (error) return services().log.fault(*error);
+        view_ = *seen;
+        view_.looked = true;
+      });
+}
+
+void StatusController::show(ui::ServiceView& view) {
+  PageServices& all = services();
+  if (!looking_ && all.device.clock().now() >= next_look_) look();
+  view_.camera_away = all.appliance.cameras() != CameraWatch::Well;
+  const GrabCounts& counts = all.appliance.grabber().counts();
+  view_.pairs = counts.pairs;
+  view_.missed = counts.slipped + missed(counts.left) + missed(counts.right);
+  view_.clock_jumped = all.retention.clock_jumped();
+  view_.store_damaged = false;
+  view_.device_faults = 0;
+  for (const LogEntry& fault : all.log.faults()) {
+    if (!fault.code || !is_of_the_device(*fault.code)) continue;
+    ++view_.device_faults;
+    view_.store_damaged = view_.store_damaged || *fault.code == Errc::StoreCorrupt;
+  }
+  view.status = &view_;
+}
+
 namespace {
 
 using ui::Check;

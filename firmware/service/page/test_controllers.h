@@ -7,13 +7,56 @@
 // pictures of a test are wiped before it is reported. Thread: main.
 #pragma once
 
+#include <array>
+#include <string>
 #include <vector>
 
 #include "firmware/base/list_walk.h"
 #include "firmware/service/page_controller.h"
+#include "hal/picture_file.h"
 #include "ui/view/staff_views.h"
 
 namespace relievo::firmware {
+
+// Behind the page of the recovery sheet: words are drawn when it is opened, and hold when two of them were
+// typed; then it shows none again. A sheet that is left before is worth nothing. Thread: main; the store is
+// written on the keeper.
+class RecoveryController final : public PageController {
+ public:
+  using PageController::PageController;
+  void opened() override;
+  void ask(const ui::StaffRequest& request) override;
+  void show(ui::ServiceView& view) override;
+  void closed() override;
+
+ private:
+  void keep();
+
+  std::string words_;                     // wiped when the page is left, or they are kept
+  std::vector<std::string_view> each_;    // of words_
+  std::array<std::size_t, 2> to_type_{};  // which, from 0
+  std::size_t typed_ = 0;                 // how many of the two were right
+  hal::Picture code_;
+  std::uint32_t version_ = 0;
+  ui::SheetState state_ = ui::SheetState::Asked;
+  ui::Outcome outcome_ = ui::Outcome::None;
+  ui::RecoveryView view_;
+};
+
+// Behind the staff's first page: the facts its rules judge (ui/screens/service/status_table.h). Disk, sensors
+// and calibration are looked at on the keeper, anew every two seconds. Thread: main.
+class StatusController final : public PageController {
+ public:
+  using PageController::PageController;
+  void opened() override;
+  void show(ui::ServiceView& view) override;
+
+ private:
+  void look();
+  bool looking_ = false;
+  hal::Instant next_look_{};
+  ui::StatusView view_;
+};
 
 class SelfTestController final : public PageController {
  public:

@@ -2,7 +2,214 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "hal/sim/target/target_photo.h"
 
+#include <array>
+
+#include "hal/sim/base/noise.h"
+
 namespace relievo::hal::sim {
+namespace {
+
+constexpr double kPaper = 0.72, kInk = 0.07;
+
+// 1 inside a dot. Each cell holds a ball of ink whose size its own hash says.
+double dots(Vec3 p_mm, double cell_mm, std::uint32_t seed) {
+  const NearestDot near = nearest_dot(p_mm * (1 / cell_mm), seed);
+  const double radius = 0.24 + 0.22 * unit_from_hash(near.hash * 747796405U + 1);
+  const double soft = 0.12 / cell_mm;  // sprayed ink has soft edges
+  return 1 - smoothstep(radius - soft, radius + soft, near.distance);
+}
+
+struct Lamp {
+  Vec3 centre_mm;
+  double power = 0;
+};
+constexpr std::array<Lamp, 2> kLamps{Lamp{{-330, -190, 40}, 0.62}, Lamp{{470, -200, 60}, 0.46}};
+constexpr double kReferenceMm = 640;  // where a lamp's power is what it says
+
+}  // namespace
+
+double speckle(Vec3 p, std::uint32_t seed) {
+  const double ink = std::max({dots(p, 0.9, seed), dots(p, 1.4, seed + 57), dots(p, 4.1, seed + 101)});
+  return mix(kPaper, kInk, ink) * (1 + 0.06 * value_noise(p * 0.09, seed + 7));
+}
+
+double matt_light(Vec3 p, Vec3 normal) {
+  double light = 0.16 + 0.05 * -normal.y;  // the room, a little more of it from above
+  for (const Lamp& lamp : kLamps) {
+    const Vec3 to = lamp.centre_mm - p;
+    const double d = length(to);
+    // A lamp a quarter of a metre wide sets gently: the terminator is soft.
+    const double lit = std::max(0.0, (dot(normal, to) / d + 0.15) / 1.15);
+    light += lamp.power * lit * (kReferenceMm / d) * (kReferenceMm / d);
+  }
+  return light;
+}
+
+Vec3 dark_room(Vec3 direction) {
+  const double grey = 0.03 + 0.006 * value_noise(direction * 6, 99) - 0.015 * direction.y;
+  return {grey, grey * 1.02, grey * 1.05};
+}
+
+namespace {
+
+enum Body : std::int32_t { kBackground = -1, kSphere = 0, kRod = 1, kPlate = 2 };
+constexpr double kNone = RayCaster::kFar;
+
+// The nearer meeting of a ray with a sphere; d has unit length.
+double meet_sphere(Vec3 o, Vec3 d, Vec3 centre, double radius) {
+  const Vec3 to = o - centre;
+  const double b = dot(to, d), c = dot(to, to) - radius * radius, root = b * b - c;
+  if (root < 0) return kNone;
+  const double t = -b - std::sqrt(root);
+  return t > 1e-6 ? t : kNone;
+}
+
+// With the mantle of a cylinder along x from -half to half.
+double meet_rod(Vec3 o, Vec3 d, double half, double radius) {
+  const double a = d.y * d.y + d.z * d.z, b = o.y * d.y + o.z * d.z,
+               c = o.y * o.y + o.z * o.z - radius * radius;
+  const double root = b * b - a * c;
+  if (a < 1e-12 || root < 0) return kNone;
+  const double t = (-b - std::sqrt(root)) / a;
+  return t > 1e-6 && std::abs(o.x + t * d.x) < half ? t : kNone;
+}
+
+Vec3 grey(double v) { return {v, v, v * 0.98}; }
+
+}  // namespace
+
+Result<void> Dumbbell::check() const {
+  if (!(diameter_mm >= 10) || !(diameter_mm <= 200) || !(spacing_mm > diameter_mm) || !(spacing_mm <= 500) ||
+      !(rod_radius_mm > 0) || !(rod_radius_mm < diameter_mm / 4))
+    return Error{Errc::InvalidInput,
+                 "a dumbbell has spheres of 10 to 200 mm, further apart than that, up to 500 mm, on a rod "
+                 "thinner than half of one"};
+  return {};
+}
+
+Result<void> FlatPlate::check() const {
+  if (!(width_mm >= 20) || !(height_mm >= 20) || !(width_mm <= 1000) || !(height_mm <= 1000))
+    return Error{Errc::InvalidInput, "a plate measures between 20 and 1000 mm a side"};
+  return {};
+}
+
+Vec3 DumbbellScene::centre_mm(int sphere) const {
+  return pose_.to_world({(sphere == 0 ? -0.5 : 0.5) * dumbbell_.spacing_mm, 0, 0});
+}
+
+DumbbellScene::Part DumbbellScene::meet(Vec3 o, Vec3 d, double& distance, Vec3& normal) const {
+  const double half = dumbbell_.spacing_mm / 2, radius = dumbbell_.diameter_mm / 2;
+  Part part = Part::None;
+  distance = kNone;
+  for (const double x : {-half, half})
+    if (const double t = meet_sphere(o, d, {x, 0, 0}, radius); t < distance) {
+      distance = t;
+      normal = (o + d * t - Vec3{x, 0, 0}) * (1 / radius);
+      part = Part::Sphere;
+    }
+  if (const double t = meet_rod(o, d, half, dumbbell_.rod_radius_mm); t < distance) {
+    distance = t;
+    const Vec3 p = o + d * t;
+    normal = Vec3{0, p.y, p.z} * (1 / dumbbell_.rod_radius_mm);
+    part = Part::Rod;
+  }
+  return part;
+}
+
+RayHit DumbbellScene::look(Vec3 origin, Vec3 direction) const {
+  const Vec3 o = pose_.to_artefact(origin), d = pose_.world_from_artefact.transposed() * direction;
+  double distance = 0;
+  Vec3 normal;
+  const Part part = meet(o, d, distance, normal);
+  if (part == Part::None) return {dark_room(direction), RayCaster::kFar, kBackground, false};
+  const Vec3 p = o + d * distance;
+  const double reflectance = part == Part::Sphere ? speckle(p, dumbbell_.seed) : 0.10;
+  const double light = matt_light(origin + direction * distance, pose_.world_from_artefact * normal);
+  // Dots are finer than a sample a pixel could show without aliasing.
+  return {grey(reflectance * light), distance, part == Part::Sphere ? kSphere : kRod, part == Part::Sphere};
+}
+
+bool DumbbellScene::solid(Vec3 origin, Vec3 direction, SolidPoint& out) const {
+  double distance = 0;
+  Vec3 normal;
+  const Part part =
+      meet(pose_.to_artefact(origin), pose_.world_from_artefact.transposed() * direction, distance, normal);
+  if (part == Part::None) return false;
+  out.point = origin + direction * distance;
+  out.normal = pose_.world_from_artefact * normal;
+  out.skin = part == Part::Sphere;
+  return true;
+}
+
+bool DumbbellScene::blocked(Vec3 from, Vec3 direction, double far_mm) const {
+  double distance = 0;
+  Vec3 normal;
+  return meet(pose_.to_artefact(from), pose_.world_from_artefact.transposed() * direction, distance,
+              normal) != Part::None &&
+         distance < far_mm;
+}
+
+Mesh DumbbellScene::solid_mesh() const {
+  constexpr int kAround = 96, kAlong = 48;
+  constexpr double kPi = 3.14159265358979323846;
+  Mesh mesh;
+  for (int sphere = 0; sphere < 2; ++sphere) {
+    const auto first = static_cast<std::uint32_t>(mesh.points.size());
+    for (int j = 0; j <= kAlong; ++j)
+      for (int i = 0; i < kAround; ++i) {
+        const double polar = kPi * j / kAlong, turn = 2 * kPi * i / kAround;
+        const Vec3 p = centre_mm(sphere) + Vec3{std::sin(polar) * std::cos(turn),
+                                                std::sin(polar) * std::sin(turn), std::cos(polar)} *
+                                               (dumbbell_.diameter_mm / 2);
+        mesh.points.push_back({static_cast<float>(p.x), static_cast<float>(p.y), static_cast<float>(p.z)});
+      }
+    for (std::uint32_t j = 0; j < kAlong; ++j)
+      for (std::uint32_t i = 0; i < kAround; ++i) {
+        const std::uint32_t a = first + j * kAround + i, b = first + j * kAround + (i + 1) % kAround;
+        mesh.triangles.push_back({a, a + kAround, b + kAround});
+        mesh.triangles.push_back({a, b + kAround, b});
+      }
+  }
+  return mesh;
+}
+
+bool PlateScene::meet(Vec3 o, Vec3 d, double& distance) const {
+  if (std::abs(d.z) < 1e-9) return false;
+  distance = -o.z / d.z;
+  const Vec3 p = o + d * distance;
+  return distance > 0 && std::abs(p.x) < plate_.width_mm / 2 && std::abs(p.y) < plate_.height_mm / 2;
+}
+
+RayHit PlateScene::look(Vec3 origin, Vec3 direction) const {
+  const Vec3 o = pose_.to_artefact(origin), d = pose_.world_from_artefact.transposed() * direction;
+  double distance = 0;
+  if (!meet(o, d, distance)) return {dark_room(direction), RayCaster::kFar, kBackground, false};
+  const Vec3 normal = pose_.world_from_artefact * Vec3{0, 0, d.z > 0 ? -1.0 : 1.0};
+  const double light = matt_light(origin + direction * distance, normal);
+  return {grey(speckle(o + d * distance, plate_.seed) * light), distance, kPlate, true};
+}
+
+bool PlateScene::solid(Vec3 origin, Vec3 direction, SolidPoint& out) const {
+  double distance = 0;
+  if (!meet(pose_.to_artefact(origin), pose_.world_from_artefact.transposed() * direction, distance))
+    return false;
+  out.point = origin + direction * distance;
+  out.normal = pose_.world_from_artefact * Vec3{0, 0, -1};
+  out.skin = true;
+  return true;
+}
+
+Mesh PlateScene::solid_mesh() const {
+  Mesh mesh;
+  const double x = plate_.width_mm / 2, y = plate_.height_mm / 2;
+  for (const Vec3 p : {Vec3{-x, -y, 0}, {x, -y, 0}, {x, y, 0}, {-x, y, 0}}) {
+    const Vec3 q = pose_.to_world(p);
+    mesh.points.push_back({static_cast<float>(q.x), static_cast<float>(q.y), static_cast<float>(q.z)});
+  }
+  mesh.triangles = {{0, 1, 2}, {0, 2, 3}};
+  return mesh;
+}
+
 namespace {
 
 const Error kCut{

@@ -12,6 +12,7 @@
 // (options, empty picture, size other than calibrated), OutOfMemory, Cancelled.
 #pragma once
 
+#include "hal/base/image_view.h"
 #include "pipeline/base/stage.h"
 #include "pipeline/match/coarse/semi_global.h"
 #include "pipeline/model/calibration.h"
@@ -19,6 +20,17 @@
 #include "pipeline/model/stereo_frame.h"
 
 namespace relievo::pipeline {
+
+// A picture at a fraction of its size, each pixel the mean of a square of the larger's, and the calibration
+// that belongs to it. Memory: context.scratch. Thread: worker. Errors: none; throws std::bad_alloc as every
+// stage does.
+
+// The same format; what is left of a row or column that no whole square covers is dropped. factor 1 hands
+// `image` back.
+ImageView reduced(const ImageView& image, int factor, StageContext& context);
+
+// Of pictures made smaller by reduced().
+StereoCalibration reduced(const StereoCalibration& calibration, int factor);
 
 struct LiveReliefOptions {
   int reduction = 4;     // the pictures are made smaller so often; 1: they are small already

@@ -3,15 +3,119 @@
 #include "pipeline/match/refine/surface_refiner.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 
 #include "pipeline/match/bending/bending_system.h"
 #include "pipeline/match/image/box_filter.h"
-#include "pipeline/match/refine/hanging_noise.h"
-#include "pipeline/match/refine/score_excess.h"
 #include "pipeline/match/refine/warp_terms.h"
 
 namespace relievo::pipeline {
+namespace {
+
+constexpr int kBlockRadius = 3;  // nodes: about the reach of the fit on skin
+constexpr int kBlock = 2 * kBlockRadius + 1;
+constexpr int kMeanRadius = 6;  // over which the blocks' variance is taken
+
+// What independent residuals leave of their own variance in the sum of a block, after the fit: it answers
+// to waves longer than 1 / reach, reach = (data / bending)^(1/4) a node. The ratio of the integrals of
+// B^2 H^2 and B^2, B the block's and H = L / (reach^4 + L) the remainder's transfer function, L that of
+// the squared second differences; within 3 % from 0.1 to 0.8.
+float left_by_the_fit(float reach) { return 1 / (1 + std::pow(3.05F * reach, 1.95F)); }
+
+constexpr float kLeastExcess = 0.5F;  // calmer by more is chance. Cut off at 1, the mean would be too large.
+
+// Tents overlap by half: a block of them counts the pixels along its edges in part.
+float tent_share(int step) {
+  const float along = step == 1 ? 1.0F : (2.0F * kBlock - 0.5F) / (2.0F * kBlock);
+  return along * along;
+}
+
+}  // namespace
+
+void measure_score_excess(const BendingSystem& system, const Plane<float>& pull, const Plane<float>& real,
+                          int step, ThreadPool& pool, std::pmr::memory_resource& scratch,
+                          Plane<float>& excess) {
+  const int w = system.width();
+  const int h = system.height();
+  Plane<float> across(&scratch, w, h), told(&scratch, w, h), answers(&scratch, w, h), bend(&scratch, w, h);
+  box_sum(pull, kBlockRadius, pool, across, excess);
+  for (float& v : excess.values) v *= v;
+  box_sum(excess, kMeanRadius, pool, across, excess);
+  box_sum(system.data, kBlockRadius, pool, across, told);
+  box_sum(told, kMeanRadius, pool, across, told);
+  box_sum(real, kBlockRadius, pool, across, answers);
+  box_sum(answers, kMeanRadius, pool, across, answers);
+  box_sum(system.bend_xx, kMeanRadius, pool, across, bend);
+  constexpr float kCells = kBlock * kBlock;
+  const float share = tent_share(step);
+  for (std::size_t k = 0; k < excess.values.size(); ++k) {
+    if (!(told.values[k] > 0 && bend.values[k] > 0)) {
+      excess.values[k] = 1;
+      continue;
+    }
+    const float reach = std::sqrt(
+        std::sqrt(std::max(answers.values[k], kLeastReal * told.values[k]) / kCells / bend.values[k]));
+    const float expected = told.values[k] * share * left_by_the_fit(reach);
+    excess.values[k] = std::max(kLeastExcess, excess.values[k] / expected);
+  }
+}
+
+namespace {
+
+constexpr float kLoud =
+    12;  // grey levels: what disagrees by more is no noise, and a few such pixels would drown it
+constexpr int kFurthest = 2;  // shift in pixels over which hanging noise is looked for
+
+// Mean products of the residuals, and of the gradients, with themselves some pixels further; 0 where none
+// meet.
+struct Alike {
+  double residual = 0, gradient = 0;
+};
+
+Alike likeness(const WarpTerms& terms, int dx, int dy) {
+  constexpr int kEvery = 3;  // rows looked at
+  const int w = terms.residual.width;
+  Alike sum;
+  double count = 0;
+  const auto calm = [](float v) { return static_cast<double>(std::clamp(v, -kLoud, kLoud)); };
+  for (int y = 0; y + dy < terms.residual.height; y += kEvery) {
+    const float* in = terms.mask.row(y);
+    const float* in_too = terms.mask.row(y + dy) + dx;
+    const float *r = terms.residual.row(y), *r_too = terms.residual.row(y + dy) + dx;
+    const float *g = terms.gradient.row(y), *g_too = terms.gradient.row(y + dy) + dx;
+    for (int x = kFurthest; x < w - kFurthest; ++x) {
+      if (in[x] == 0 || in_too[x] == 0) continue;
+      sum.residual += calm(r[x]) * calm(r_too[x]);
+      sum.gradient += calm(g[x]) * calm(g_too[x]);
+      count += 1;
+    }
+  }
+  return count > 0 ? Alike{sum.residual / count, sum.gradient / count} : Alike{};
+}
+
+}  // namespace
+
+float hanging_noise(const WarpTerms& terms, ThreadPool& pool) {
+  constexpr float kWhite =
+      1.6F;  // the sum for pictures with white noise: warping and the skin's own detail make so much of it
+  constexpr float kMost = 6;
+  // A shift and its opposite say the same: half of them, after none at all.
+  constexpr int kShifts = kFurthest * (2 * kFurthest + 2) + 1;
+  std::array<Alike, kShifts> alike;
+  pool.for_each_band(kShifts, kShifts, [&](int, int, int k) {
+    const int side = 2 * kFurthest + 1;
+    const int dy = (k + kFurthest) / side;
+    alike[static_cast<std::size_t>(k)] = likeness(terms, (k + kFurthest) % side - kFurthest, dy);
+  });
+  const Alike& same = alike[0];
+  if (!(same.residual > 0 && same.gradient > 0)) return 1;
+  double sum = 1;
+  for (std::size_t k = 1; k < alike.size(); ++k)
+    sum += 2 * (alike[k].residual / same.residual) * (alike[k].gradient / same.gradient);
+  return std::clamp(static_cast<float>(sum) / kWhite, 1.0F, kMost);
+}
+
 namespace {
 
 constexpr int kRefinedBands = 16;

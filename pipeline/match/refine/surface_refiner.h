@@ -13,8 +13,7 @@
 // surface is not pulled flat (second order: planes cost nothing). omega falls where the surface bends
 // sharply (iteratively reweighted, bending_weights.h), so that eyelids and nostrils keep their creases, lips
 // their wrinkles. sigma is the posterior of that system: sigma^2 = 1 / (8 sqrt(A lambda omega)), the closed
-// form of the integral of 1 / (A + lambda k^4) over the plane, times what the residuals' correlation adds
-// (score_excess.h).
+// form of the integral of 1 / (A + lambda k^4) over the plane, times what the residuals' correlation adds.
 // Memory: scratch only. Results do not depend on the number of threads.
 #pragma once
 
@@ -22,11 +21,39 @@
 
 #include "hal/base/thread_pool.h"
 #include "pipeline/base/stage.h"
+#include "pipeline/match/bending/bending_system.h"
 #include "pipeline/match/image/image_pyramid.h"
 #include "pipeline/match/image/plane.h"
 #include "pipeline/match/image/surface_field.h"
+#include "pipeline/match/refine/warp_terms.h"
 
 namespace relievo::pipeline {
+
+// How much more than white noise the pictures' disagreement shakes SurfaceRefiner's fit. Residuals hang
+// together from pixel to pixel: resampling spreads them, highlights and shading that the gain does not
+// explain are patches. A covariance that takes them for independent is too small there; the variance of
+// what they really pull, summed over blocks as wide as the fit's reach, tells by how much (the "sandwich"
+// of White 1980, in space Conley 1999).
+// Memory: scratch only. Results do not depend on the number of threads. Thread: any.
+
+// Share of what seems to be information that at least is: a smaller estimate is lost in its own noise.
+inline constexpr float kLeastReal = 0.06F;
+
+// `pull` is the weighted gradient times residual gathered at every node, from tents of `step` pixels (1 or 2)
+// on each side. Writes the factor of the variance, 1 where the residuals look independent and where nothing
+// was measured; never below a half. `real` is the part of system.data that holds no noise. `excess` has the
+// system's shape.
+void measure_score_excess(const BendingSystem& system, const Plane<float>& pull, const Plane<float>& real,
+                          int step, ThreadPool& pool, std::pmr::memory_resource& scratch,
+                          Plane<float>& excess);
+
+// Noise that hangs together from pixel to pixel. Thread: one caller.
+
+// How much less the pixels say than as many independent ones would: noise that hangs together from pixel to
+// pixel (interpolated colours, compression) shakes the fit by the sum over all shifts of the residual's and
+// the gradient's autocorrelation. 1 for a sensor's own pixels, about 3 for photographs stored as JPEG. What
+// the fit has not followed yet is no part of it: it is small beside the noise, pixel by pixel.
+float hanging_noise(const WarpTerms& terms, ThreadPool& pool);
 
 struct SurfaceRefinerOptions {
   float bending =

@@ -5,7 +5,7 @@
 // scaled to one standard deviation (principal components; Blanz and Vetter, A morphable model for the
 // synthesis of 3D faces, 1999, without their correspondences: a radius is where it is). Two sets of radii:
 // of the face about the head's upright axis (unrolled_head.h), and of the whole head, its neck cut off, at
-// the nodes of a globe (globe.h) about a point within it; its modes are what goes with those of the face.
+// the nodes of a globe (Globe) about a point within it; its modes are what goes with those of the face.
 // Learned from kHeadPeople heads of hal/sim, whose measures follow Farkas, each laid into the frame that
 // find_head_frame() found on it. generic_head.bin holds them and is part of the program;
 // generic_head.bin.license says how it is made. Millimetres, head frame. Thread: any.

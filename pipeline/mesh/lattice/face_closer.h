@@ -3,7 +3,7 @@
 //
 // Closes a face on its head's chart (head_chart.h): everything within its outline (face_outline.h) that was
 // not measured gets a surface that continues what was, as curved as the mirrored other side where that was
-// measured (thin_plate.h). Beside a nose, under it, in corners of eyes and mouth, beyond what both cameras
+// measured (cell_filler.h). Beside a nose, under it, in corners of eyes and mouth, beyond what both cameras
 // saw of a cheek. Measured surface stays where it is, but for the steep last two millimetres before a hole
 // and what is most unsure below the tip of the nose, which are laid anew.
 #pragma once

@@ -8,7 +8,7 @@
 #include <CGAL/Advancing_front_surface_reconstruction.h>
 #include <CGAL/Exact_predicates_inexact_constructions_kernel.h>
 
-#include "pipeline/mesh/meshers/advancing_front_mesher.h"
+#include "pipeline/mesh/meshers/scattered_meshers.h"
 
 namespace relievo::pipeline {
 namespace {

@@ -12,7 +12,7 @@
 
 #include "hal/base/statistics.h"
 #include "pipeline/mesh/meshers/base_sheet.h"
-#include "pipeline/mesh/meshers/delaunay_mesher.h"
+#include "pipeline/mesh/meshers/scattered_meshers.h"
 #include "pipeline/mesh/surface_cleaner.h"
 #include "pipeline/model/vector3.h"
 

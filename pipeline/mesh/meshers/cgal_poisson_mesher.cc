@@ -10,7 +10,7 @@
 #include <CGAL/property_map.h>
 
 #include "pipeline/mesh/meshers/band_volume.h"
-#include "pipeline/mesh/meshers/poisson_mesher.h"
+#include "pipeline/mesh/meshers/scattered_meshers.h"
 
 namespace relievo::pipeline {
 namespace {

@@ -20,7 +20,6 @@
 #include "pipeline/gate/capture_gate.h"
 #include "pipeline/gate/relief/live_relief.h"
 #include "pipeline/gate/relief/relief_picture.h"
-#include "pipeline/gate/relief/small_pair.h"
 #include "pipeline/match/rectify/rectifier.h"
 #include "tests/bench/peer.h"
 

@@ -18,7 +18,7 @@
 #include <memory_resource>
 
 #include "pipeline/mesh/completion/generic_head.h"
-#include "pipeline/mesh/completion/globe.h"
+#include "pipeline/mesh/completion/generic_head_completion.h"
 #include "pipeline/mesh/completion/unrolled_head.h"
 #include "pipeline/mesh/landmarks/head_frame.h"
 #include "pipeline/mesh/meshers/grid_mesher.h"

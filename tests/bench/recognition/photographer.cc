@@ -7,7 +7,6 @@
 #include <system_error>
 
 #include "hal/sim/render.h"
-#include "hal/sim/truth.h"
 #include "tests/support/process.h"
 
 namespace relievo::bench {

@@ -14,7 +14,7 @@
 #include "hal/sim/head/head_scene.h"
 #include "hal/sim/optics/exposure.h"
 #include "hal/sim/optics/rig.h"
-#include "hal/sim/sheet/sheet_scene.h"
+#include "hal/sim/sheet/sheet_photo.h"
 
 namespace relievo::bench {
 

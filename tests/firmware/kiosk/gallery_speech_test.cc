@@ -10,7 +10,7 @@
 #include "firmware/demo/gallery.h"
 #include "ui/screens/staff_screens.h"
 #include "ui/screens/visitor/visitor_screens.h"
-#include "ui/speech/utterance.h"
+#include "ui/speech/narrator.h"
 
 namespace relievo::firmware {
 namespace {

@@ -2,7 +2,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 //
 // The words of a script, and what is said of wrong ones. That a script moves a kiosk is kiosk_test's.
-#include "firmware/kiosk/script/script.h"
+#include "firmware/kiosk/script/script_player.h"
 
 #include <gtest/gtest.h>
 

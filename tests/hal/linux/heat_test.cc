@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: 2026 The Relievo authors
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include "hal/linux/heat.h"
+#include "hal/linux/device.h"
 
 #include <gtest/gtest.h>
 

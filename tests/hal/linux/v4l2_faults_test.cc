@@ -10,7 +10,7 @@
 #include <linux/videodev2.h>
 
 #include "hal/linux/v4l2_camera.h"
-#include "hal/linux/v4l2_formats.h"
+#include "hal/linux/v4l2_setup.h"
 #include "tests/support/kernel/v4l2_fake_kernel.h"
 
 namespace relievo::hal {

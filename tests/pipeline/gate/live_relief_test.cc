@@ -10,9 +10,8 @@
 #include <vector>
 
 #include "hal/sim/render.h"
-#include "hal/sim/target/artefact_scene.h"
+#include "hal/sim/target/target_photo.h"
 #include "pipeline/base/workspace.h"
-#include "pipeline/gate/relief/small_pair.h"
 #include "tests/support/rig_calibration.h"
 #include "tests/support/small_rig.h"
 

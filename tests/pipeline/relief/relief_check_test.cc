@@ -11,8 +11,8 @@
 #include <random>
 #include <string>
 
-#include "hal/sim/sheet/sheet_shape.h"
-#include "pipeline/mesh/meshers/delaunay_mesher.h"
+#include "hal/sim/sheet/sheet_photo.h"
+#include "pipeline/mesh/meshers/scattered_meshers.h"
 #include "pipeline/relief/sheet_fit.h"
 #include "tests/pipeline/mesh/landmarks/field_head.h"
 #include "tests/support/stage_fixture.h"

@@ -10,7 +10,7 @@
 #include <vector>
 
 #include "storage/export/format/png_writer.h"
-#include "storage/export/recognition_files.h"
+#include "storage/export/model_files.h"
 #include "tests/storage/sample.h"
 
 namespace relievo::storage {

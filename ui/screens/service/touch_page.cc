@@ -4,7 +4,7 @@
 // The touch screen's correction: crosses to be touched, what came of it.
 #include <cstdio>
 
-#include "ui/device/touch_view.h"
+#include "ui/device/touch_map.h"
 #include "ui/screens/service/staff_pages.h"
 
 namespace relievo::ui {

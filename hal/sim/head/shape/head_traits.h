@@ -13,9 +13,16 @@
 #include <cstdint>
 
 #include "hal/sim/base/vec3.h"
-#include "hal/sim/head/shape/expression.h"
 
 namespace relievo::hal::sim {
+
+// What a simulated person does with the face: the default is at rest, eyes open, lips together. Millimetres.
+struct Expression {
+  double lids_open = 1;  // of the person's own opening; 0: closed, the upper lid come down to the lower
+  double jaw_mm = 0;     // how far the lower lip has dropped in the middle; the chin goes with it
+  double smile = 0;      // 0 .. 1: the corners of the mouth drawn outwards and up
+  double tongue_mm = 0;  // how far it is put out before the lips; needs a jaw dropped by some 10 mm
+};
 
 struct HeadTraits {
   std::uint32_t seed = 0;

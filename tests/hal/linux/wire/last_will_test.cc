@@ -2,7 +2,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 //
 // A process that is killed in the middle of a pulse: its last will is done nonetheless.
-#include "hal/linux/wire/last_will.h"
+#include "hal/linux/wire/output_lines.h"
 
 #include <gtest/gtest.h>
 

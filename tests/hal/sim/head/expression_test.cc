@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: 2026 The Relievo authors
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include "hal/sim/head/shape/expression.h"
+#include "hal/sim/head/shape/head_traits.h"
 
 #include <gtest/gtest.h>
 

@@ -13,7 +13,6 @@
 
 #include "hal/sim/head/shape/head_field.h"
 #include "hal/sim/render.h"
-#include "hal/sim/truth.h"
 #include "tests/hal/temporary_folder.h"
 
 namespace relievo::hal::sim {

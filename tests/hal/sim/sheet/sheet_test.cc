@@ -8,7 +8,7 @@
 
 #include "hal/base/thread_pool.h"
 #include "hal/sim/render.h"
-#include "hal/sim/sheet/sheet_scene.h"
+#include "hal/sim/sheet/sheet_photo.h"
 
 namespace relievo::hal::sim {
 namespace {

@@ -1,7 +1,6 @@
 // SPDX-FileCopyrightText: 2026 The Relievo authors
 // SPDX-License-Identifier: GPL-3.0-or-later
 // The acceptance artefacts: rays meet what the certificate says, and pictures of them can be matched.
-#include "hal/sim/target/artefact_scene.h"
 
 #include <gtest/gtest.h>
 
@@ -9,9 +8,8 @@
 #include <array>
 
 #include "hal/sim/base/noise.h"
-#include "hal/sim/target/speckle.h"
+#include "hal/sim/render.h"
 #include "hal/sim/target/target_photo.h"
-#include "hal/sim/truth.h"
 
 namespace relievo::hal::sim {
 namespace {

@@ -3,7 +3,6 @@
 //
 // Enlarged pictures against polynomials, which a cubic must repeat; and what enlarging is for: bars six
 // pixels wide, which at half the size are taken for the wall.
-#include "pipeline/match/refine/enlarged_scene.h"
 
 #include <gtest/gtest.h>
 

@@ -7,7 +7,7 @@
 #include <random>
 
 #include "pipeline/match/image/box_filter.h"
-#include "pipeline/match/refine/hanging_noise.h"
+#include "pipeline/match/refine/surface_refiner.h"
 #include "tests/support/stage_fixture.h"
 
 namespace relievo::pipeline {

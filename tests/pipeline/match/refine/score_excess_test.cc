@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: 2026 The Relievo authors
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include "pipeline/match/refine/score_excess.h"
+#include "pipeline/match/refine/surface_refiner.h"
 
 #include <gtest/gtest.h>
 

@@ -7,7 +7,6 @@
 #include <memory_resource>
 #include <random>
 
-#include "pipeline/mesh/detail/surface_distance.h"
 #include "pipeline/mesh/meshers/grid_mesher.h"
 #include "pipeline/mesh/surface_cleaner.h"
 #include "tests/pipeline/mesh/mesh_checks.h"

@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: 2026 The Relievo authors
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include "hal/sim/replay/replay_camera.h"
+#include "hal/sim/replay/replay_device.h"
 
 namespace relievo::hal {
 

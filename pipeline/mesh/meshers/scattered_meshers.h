@@ -1,0 +1,141 @@
+// SPDX-FileCopyrightText: 2026 The Relievo authors
+// SPDX-License-Identifier: GPL-3.0-or-later
+//
+// Meshers that take any cloud. Frame: the left camera's, millimetres. Memory: arenas only.
+#pragma once
+
+#include "pipeline/base/options.h"
+#include "pipeline/mesh/mesher.h"
+#include "pipeline/mesh/meshers/base_sheet.h"
+#include "pipeline/mesh/meshers/depth_sheet.h"
+
+namespace relievo::pipeline {
+
+// AdvancingFrontMesher (`advancing-front`): a surface grown over the 3-D Delaunay triangulation of the
+// points, always by the most plausible triangle (Cohen-Steiner, Da 2004; CGAL). Takes any cloud; its vertices
+// are the measured points. Frame: the left camera's, millimetres. Memory: the mesh in `output`, the rest in
+// `scratch`, but for CGAL's own structure, which comes from the heap (about 700 bytes a point). Errors:
+// PoorGeometry (no surface of a face's size), OutOfMemory, Cancelled. Thread: any; keeps no state.
+struct AdvancingFrontMesher {
+  int max_points = 160'000;   // more are thinned evenly
+  double max_edge_mm = 5;     // longest edge
+  double max_edge_ratio = 6;  // longest edge, in usual distances between neighbours
+  FinishOptions finish;
+
+  void describe(auto&& field) {
+    field("max_points", max_points, OptionRange{1000, 1'000'000}, "more points are thinned evenly");
+    field("max_edge_mm", max_edge_mm, OptionRange{0.1, 100}, "longest edge, mm");
+    field("max_edge_ratio", max_edge_ratio, OptionRange{1.5, 100},
+          "longest edge, in usual distances between neighbours");
+    finish.describe(field);
+  }
+  Result<FaceMesh> mesh(const PointCloud& cloud, StageContext& context) const;
+};
+
+// RbfMesher (`rbf`): the depth of the face as one polyharmonic function (thin plate, r^2 log r, with an
+// affine part), fitted to the measured points with centres chosen greedily: it begins with few, and adds
+// them where the function is furthest from the points, a few cells apart, until `accuracy_mm` or
+// `max_centres` is reached (Carr et al. 2001, section 4). Each centre may leave its point by what its
+// sigma allows (their approximating spline, section 5; weights 1 / sigma^2). Takes any cloud.
+// Frame: the left camera's, millimetres. Memory: arenas only, max_centres^2 doubles at most.
+// Errors: PoorGeometry, OutOfMemory, Cancelled. Thread: any; the pool evaluates.
+struct RbfMesher {
+  int max_points = 160'000;  // more are thinned evenly
+  int max_centres = 1400;
+  double accuracy_mm = 0.05;  // no centre is added where the function is as close as this
+  double smoothing =
+      0.02;  // how much a point's sigma lets the function leave it; 0 goes through every centre
+  SheetOptions sheet;
+
+  void describe(auto&& field) {
+    field("max_points", max_points, OptionRange{1000, 1'000'000}, "more points are thinned evenly");
+    field("max_centres", max_centres, OptionRange{20, 4000}, "how many centres the function may have");
+    field("accuracy_mm", accuracy_mm, OptionRange{0.001, 10},
+          "no centre is added where the function is as close to the points as this, mm");
+    field("smoothing", smoothing, OptionRange{0, 1000},
+          "how much a point's sigma lets the function leave it");
+    sheet.describe(field);
+  }
+  Result<FaceMesh> mesh(const PointCloud& cloud, StageContext& context) const;
+};
+
+// PoissonMesher (`poisson`): the surface whose inside's gradient follows the points' normals (Kazhdan et al.
+// 2006), solved by CGAL on a refined Delaunay triangulation, its zero surface taken by marching cubes in a
+// band around the points (band_volume.h). Takes any cloud; smooths over what the points leave open, within
+// max_gap_mm. Frame: the left camera's, millimetres. Memory: the mesh in `output`, the rest in `scratch`, but
+// for CGAL's own structures, which come from the heap (about 3 kB a point). Errors: PoorGeometry (no surface
+// of a face's size), OutOfMemory, Cancelled. Thread: any; keeps no state.
+struct PoissonMesher {
+  int max_points = 30'000;  // more are thinned evenly: time and memory go with them
+  double voxel_mm = 1;
+  double band_voxels = 2.5;  // how far from a point its surface is looked for
+  FinishOptions finish;
+
+  void describe(auto&& field) {
+    field("max_points", max_points, OptionRange{1000, 1'000'000},
+          "more points are thinned evenly: time and memory go with them");
+    field("voxel_mm", voxel_mm, OptionRange{0.3, 10}, "side of a voxel, mm");
+    field("band_voxels", band_voxels, OptionRange{1.8, 5},
+          "how far from a point its surface is looked for, in voxels");
+    finish.describe(field);
+  }
+  Result<FaceMesh> mesh(const PointCloud& cloud, StageContext& context) const;
+};
+
+// MarchingCubesMesher (`marching-cubes`): a truncated signed distance field around the points, and its zero
+// surface by marching cubes with decided ambiguities (band_volume.h). The field is that of Kolluri (2008,
+// implicit moving least squares): at each voxel of the band the mean of the distances to the planes of the
+// points around, weighted by a Gaussian of a voxel and by 1 / sigma^2; truncated at `band_voxels`. Takes
+// any cloud. Frame: the left camera's, millimetres. Memory: arenas only, 8 bytes a voxel of the box.
+// Errors: PoorGeometry (no surface of a face's size), OutOfMemory, Cancelled. Thread: any; keeps no state.
+struct MarchingCubesMesher {
+  int max_points = 160'000;  // more are thinned evenly
+  double voxel_mm = 0.8;
+  double band_voxels = 2.5;  // how far from a point the field reaches
+  FinishOptions finish;
+
+  void describe(auto&& field) {
+    field("max_points", max_points, OptionRange{1000, 1'000'000}, "more points are thinned evenly");
+    field("voxel_mm", voxel_mm, OptionRange{0.3, 10}, "side of a voxel, mm");
+    field("band_voxels", band_voxels, OptionRange{1.8, 5},
+          "how far from a point the field reaches, in voxels");
+    finish.describe(field);
+  }
+  Result<FaceMesh> mesh(const PointCloud& cloud, StageContext& context) const;
+};
+
+// DelaunayMesher (`delaunay`): the dissertation's surface, a 2.5-D Delaunay triangulation over where
+// the left rectified view saw the points (CGAL; the dissertation used Bourke's). Takes any cloud,
+// scattered or on a lattice. Long, steep and stray triangles are cut; the same promises as the grid
+// mesher hold: one component, manifold, counter-clockwise seen from the cameras, no fringe. Holes
+// narrower than the longest edge are bridged by the triangulation itself, between measured points.
+// Frame: the left camera's, millimetres. Memory: the mesh in `output`, the rest in `scratch`, but
+// for CGAL's own structure, which comes from the heap (about 150 bytes a point).
+// Errors: PoorGeometry (no surface of a face's size), OutOfMemory, Cancelled. Thread: any.
+struct DelaunayMesher {
+  int max_triangles = 320'000;  // more points are thinned evenly
+  double max_edge_mm = 25;      // longest edge
+  double max_edge_ratio =
+      12;  // longest edge, in distances of points that are spread evenly over as much surface
+  double max_incidence_deg = 80;  // steepest triangle, between its normal and the line of sight
+  int ear_passes = 3;             // how often triangles that hang on by one edge are trimmed; 0 to 16
+  int normal_passes = 1;          // how often normals are averaged over the neighbours; 0 to 16
+  double min_area_mm2 = 2500;     // less surface than this is no face
+
+  void describe(auto&& field) {
+    field("max_triangles", max_triangles, OptionRange{1000, 10'000'000}, "more points are thinned evenly");
+    field("max_edge_mm", max_edge_mm, OptionRange{0.1, 100}, "longest edge, mm");
+    field("max_edge_ratio", max_edge_ratio, OptionRange{1.5, 100},
+          "longest edge, in usual distances between neighbours");
+    field("max_incidence_deg", max_incidence_deg, OptionRange{30, 89},
+          "steepest triangle, between its normal and the line of sight, degrees");
+    field("ear_passes", ear_passes, OptionRange{0, 16},
+          "how often triangles that hang on by one edge are trimmed");
+    field("normal_passes", normal_passes, OptionRange{0, 16},
+          "how often normals are averaged over the neighbours");
+    field("min_area_mm2", min_area_mm2, OptionRange{0, 1e6}, "less surface than this is no face, square mm");
+  }
+  Result<FaceMesh> mesh(const PointCloud& cloud, StageContext& context) const;
+};
+
+}  // namespace relievo::pipeline
