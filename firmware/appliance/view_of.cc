@@ -3,48 +3,21 @@
 #include "firmware/appliance/view_of.h"
 
 #include <algorithm>
+#include <array>
 
 namespace relievo::firmware {
 namespace {
 
+// In the order of State; who waits need not tell an assembly from the texture before it.
+constexpr std::array kScreens = [] {
+  using enum ui::Screen;
+  return std::array{SelfTest, Idle,    Calibrate, Position, Capture, Turn,   Match, Reconstruct, Mesh,
+                    Texture,  Texture, Fuse,      Review,   Store,   Export, Staff, Fault};
+}();
+static_assert(kScreens.size() == static_cast<std::size_t>(State::Count));
+
 ui::Screen screen_of(State state) {
-  switch (state) {
-    case State::SelfTest:
-      return ui::Screen::SelfTest;
-    case State::Idle:
-      return ui::Screen::Idle;
-    case State::Calibrate:
-      return ui::Screen::Calibrate;
-    case State::Position:
-      return ui::Screen::Position;
-    case State::Capture:
-      return ui::Screen::Capture;
-    case State::Turn:
-      return ui::Screen::Turn;
-    case State::Fuse:
-      return ui::Screen::Fuse;
-    case State::Match:
-      return ui::Screen::Match;
-    case State::Reconstruct:
-      return ui::Screen::Reconstruct;
-    case State::Mesh:
-      return ui::Screen::Mesh;
-    case State::Texture:
-    case State::Assemble:
-      return ui::Screen::Texture;
-    case State::Review:
-      return ui::Screen::Review;
-    case State::Store:
-      return ui::Screen::Store;
-    case State::Export:
-      return ui::Screen::Export;
-    case State::Staff:
-      return ui::Screen::Staff;
-    case State::Fault:
-    case State::Count:
-      break;
-  }
-  return ui::Screen::Fault;
+  return state < State::Count ? kScreens[static_cast<std::size_t>(state)] : ui::Screen::Fault;
 }
 
 ui::Trouble trouble_of(const Error& problem, State state) {

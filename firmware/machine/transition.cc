@@ -3,89 +3,30 @@
 #include "firmware/machine/transition.h"
 
 namespace relievo::firmware {
+namespace {
 
-std::string_view name_of(State state) {
-  switch (state) {
-    case State::SelfTest:
-      return "SelfTest";
-    case State::Idle:
-      return "Idle";
-    case State::Calibrate:
-      return "Calibrate";
-    case State::Position:
-      return "Position";
-    case State::Capture:
-      return "Capture";
-    case State::Turn:
-      return "Turn";
-    case State::Match:
-      return "Match";
-    case State::Reconstruct:
-      return "Reconstruct";
-    case State::Mesh:
-      return "Mesh";
-    case State::Texture:
-      return "Texture";
-    case State::Assemble:
-      return "Assemble";
-    case State::Fuse:
-      return "Fuse";
-    case State::Review:
-      return "Review";
-    case State::Store:
-      return "Store";
-    case State::Export:
-      return "Export";
-    case State::Staff:
-      return "Staff";
-    case State::Fault:
-      return "Fault";
-    case State::Count:
-      break;
-  }
-  return "?";
+// In the order of State.
+constexpr std::array<std::string_view, static_cast<std::size_t>(State::Count)> kStateNames{
+    "SelfTest", "Idle",     "Calibrate", "Position", "Capture", "Turn",   "Match", "Reconstruct", "Mesh",
+    "Texture",  "Assemble", "Fuse",      "Review",   "Store",   "Export", "Staff", "Fault"};
+static_assert(!kStateNames.back().empty());
+
+// In the order of Event.
+constexpr std::array<std::string_view, static_cast<std::size_t>(Event::Count)> kEventNames{
+    "Passed",    "Failed",      "PoseAsked",   "Begin",          "Triggered",  "TurnAsked",
+    "StageDone", "StageFailed", "AdviceGiven", "Accept",         "Retake",     "Cancel",
+    "Timeout",   "StaffIn",     "StaffOut",    "CalibrateAsked", "ExportAsked"};
+static_assert(!kEventNames.back().empty());
+
+template <typename Enum>
+std::string_view name_in(const auto& names, Enum which) {
+  return which < Enum::Count ? names[static_cast<std::size_t>(which)] : "?";
 }
 
-std::string_view name_of(Event event) {
-  switch (event) {
-    case Event::Passed:
-      return "Passed";
-    case Event::Failed:
-      return "Failed";
-    case Event::PoseAsked:
-      return "PoseAsked";
-    case Event::Begin:
-      return "Begin";
-    case Event::Triggered:
-      return "Triggered";
-    case Event::TurnAsked:
-      return "TurnAsked";
-    case Event::StageDone:
-      return "StageDone";
-    case Event::StageFailed:
-      return "StageFailed";
-    case Event::AdviceGiven:
-      return "AdviceGiven";
-    case Event::Accept:
-      return "Accept";
-    case Event::Retake:
-      return "Retake";
-    case Event::Cancel:
-      return "Cancel";
-    case Event::Timeout:
-      return "Timeout";
-    case Event::StaffIn:
-      return "StaffIn";
-    case Event::StaffOut:
-      return "StaffOut";
-    case Event::CalibrateAsked:
-      return "CalibrateAsked";
-    case Event::ExportAsked:
-      return "ExportAsked";
-    case Event::Count:
-      break;
-  }
-  return "?";
-}
+}  // namespace
+
+std::string_view name_of(State state) { return name_in(kStateNames, state); }
+
+std::string_view name_of(Event event) { return name_in(kEventNames, event); }
 
 }  // namespace relievo::firmware

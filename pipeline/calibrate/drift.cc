@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "pipeline/calibrate/drift.h"
 
+#include <array>
 #include <cmath>
 #include <cstdio>
 
@@ -52,17 +53,8 @@ DriftJudgement judge_drift(const EpipolarShift& shift, const StereoCalibration& 
 }
 
 std::string_view word(DriftVerdict verdict) {
-  switch (verdict) {
-    case DriftVerdict::Unknown:
-      return "unknown";
-    case DriftVerdict::Ok:
-      return "ok";
-    case DriftVerdict::Warn:
-      return "warn";
-    case DriftVerdict::Refuse:
-      return "refuse";
-  }
-  return "unknown";
+  constexpr std::array kWords{"unknown", "ok", "warn", "refuse"};
+  return kWords[static_cast<std::size_t>(verdict)];
 }
 
 std::string sentence(const DriftJudgement& j) {

@@ -38,34 +38,15 @@ struct Landmark {
 
 using Landmarks = std::array<Landmark, kLandmarkCount>;
 
-// As files name them.
-constexpr std::string_view word(LandmarkName name) {
-  switch (name) {
-    case LandmarkName::Pronasale:
-      return "pronasale";
-    case LandmarkName::Nasion:
-      return "nasion";
-    case LandmarkName::Subnasale:
-      return "subnasale";
-    case LandmarkName::Pogonion:
-      return "pogonion";
-    case LandmarkName::EndocanthionRight:
-      return "endocanthion_right";
-    case LandmarkName::EndocanthionLeft:
-      return "endocanthion_left";
-    case LandmarkName::ExocanthionRight:
-      return "exocanthion_right";
-    case LandmarkName::ExocanthionLeft:
-      return "exocanthion_left";
-    case LandmarkName::CheilionRight:
-      return "cheilion_right";
-    case LandmarkName::CheilionLeft:
-      return "cheilion_left";
-    case LandmarkName::Count:
-      break;
-  }
-  return "";
-}
+// As files name them, in the order of LandmarkName.
+inline constexpr std::array<std::string_view, kLandmarkCount> kLandmarkWords{
+    "pronasale",          "nasion",
+    "subnasale",          "pogonion",
+    "endocanthion_right", "endocanthion_left",
+    "exocanthion_right",  "exocanthion_left",
+    "cheilion_right",     "cheilion_left"};
+static_assert(!kLandmarkWords.back().empty());
+constexpr std::string_view word(LandmarkName name) { return kLandmarkWords[static_cast<std::size_t>(name)]; }
 
 constexpr const Landmark& of(const Landmarks& landmarks, LandmarkName name) {
   return landmarks[static_cast<std::size_t>(name)];

@@ -11,9 +11,6 @@
 namespace relievo::ui {
 namespace {
 
-// Marks words for the catalogues; the frame translates them when it draws.
-constexpr const char* mark_tr(const char* english) { return english; }
-
 constexpr const char *kPulse = "\uf430", *kFlash = "\uf241", *kPaper = "\uf219", *kPeople = "\uf016",
                      *kChart = "\uf128", *kHeart = "\uf5f6", *kKey = "\uf30b", *kDocument = "\uf219";
 

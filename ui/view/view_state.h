@@ -43,7 +43,6 @@ enum class Screen : std::uint8_t {
   Staff,
   Fault
 };
-std::string_view name_of(Screen screen);
 
 // What went wrong, as far as it makes a difference to the person who reads it.
 enum class Trouble : std::uint8_t {

@@ -3,54 +3,48 @@
 #include "pipeline/calibrate/live/live_advice.h"
 
 #include <algorithm>
+#include <array>
 
 namespace relievo::pipeline {
+namespace {
 
-const char* name_of(LiveAdvice advice) {
-  switch (advice) {
-    case LiveAdvice::ShowBoard:
-      return "show the board";
-    case LiveAdvice::LeftCameraMissesIt:
-      return "the left camera does not see it whole";
-    case LiveAdvice::RightCameraMissesIt:
-      return "the right camera does not see it whole";
-    case LiveAdvice::HoldStill:
-      return "hold still";
-    case LiveAdvice::TooBlurred:
-      return "too blurred";
-    case LiveAdvice::Closer:
-      return "closer";
-    case LiveAdvice::Farther:
-      return "farther";
-    case LiveAdvice::Left:
-      return "left";
-    case LiveAdvice::Right:
-      return "right";
-    case LiveAdvice::Up:
-      return "up";
-    case LiveAdvice::Down:
-      return "down";
-    case LiveAdvice::TiltLeft:
-      return "tilt left";
-    case LiveAdvice::TiltRight:
-      return "tilt right";
-    case LiveAdvice::TiltForward:
-      return "tilt forward";
-    case LiveAdvice::TiltBack:
-      return "tilt back";
-    case LiveAdvice::TurnClockwise:
-      return "turn clockwise";
-    case LiveAdvice::TurnCounterclockwise:
-      return "turn counterclockwise";
-    case LiveAdvice::AlreadyHave:
-      return "already have this view";
-    case LiveAdvice::SwappedCameras:
-      return "exchange the cameras";
-    case LiveAdvice::Done:
-      return "done";
-  }
-  return "";
-}
+// In the order of LiveAdvice.
+constexpr std::array kAdviceNames{"show the board",
+                                  "the left camera does not see it whole",
+                                  "the right camera does not see it whole",
+                                  "hold still",
+                                  "too blurred",
+                                  "closer",
+                                  "farther",
+                                  "left",
+                                  "right",
+                                  "up",
+                                  "down",
+                                  "tilt left",
+                                  "tilt right",
+                                  "tilt forward",
+                                  "tilt back",
+                                  "turn clockwise",
+                                  "turn counterclockwise",
+                                  "already have this view",
+                                  "exchange the cameras",
+                                  "done"};
+static_assert(kAdviceNames.size() == static_cast<std::size_t>(LiveAdvice::Done) + 1);
+
+// In the order of PairVerdict.
+constexpr std::array kVerdictNames{"taken",   "no board", "not whole in left", "not whole in right",
+                                   "moving",  "blurred",  "already have",      "cameras swapped",
+                                   "finished"};
+static_assert(kVerdictNames.size() == static_cast<std::size_t>(PairVerdict::Finished) + 1);
+
+// In the order of LiveEnd.
+constexpr std::array kEndNames{"not yet", "goal reached", "more views would not help",
+                               "as many views as allowed"};
+static_assert(kEndNames.size() == static_cast<std::size_t>(LiveEnd::Full) + 1);
+
+}  // namespace
+
+const char* name_of(LiveAdvice advice) { return kAdviceNames[static_cast<std::size_t>(advice)]; }
 
 std::string words_of(std::span<const LiveAdvice> way) {
   const auto holds = [&](LiveAdvice one) { return std::find(way.begin(), way.end(), one) != way.end(); };
@@ -71,42 +65,8 @@ std::string words_of(std::span<const LiveAdvice> way) {
   return words;
 }
 
-const char* name_of(PairVerdict verdict) {
-  switch (verdict) {
-    case PairVerdict::Taken:
-      return "taken";
-    case PairVerdict::NoBoard:
-      return "no board";
-    case PairVerdict::LeftMissesIt:
-      return "not whole in left";
-    case PairVerdict::RightMissesIt:
-      return "not whole in right";
-    case PairVerdict::Moving:
-      return "moving";
-    case PairVerdict::Blurred:
-      return "blurred";
-    case PairVerdict::AlreadyHave:
-      return "already have";
-    case PairVerdict::Swapped:
-      return "cameras swapped";
-    case PairVerdict::Finished:
-      return "finished";
-  }
-  return "";
-}
+const char* name_of(PairVerdict verdict) { return kVerdictNames[static_cast<std::size_t>(verdict)]; }
 
-const char* name_of(LiveEnd end) {
-  switch (end) {
-    case LiveEnd::NotYet:
-      return "not yet";
-    case LiveEnd::GoalReached:
-      return "goal reached";
-    case LiveEnd::Plateau:
-      return "more views would not help";
-    case LiveEnd::Full:
-      return "as many views as allowed";
-  }
-  return "";
-}
+const char* name_of(LiveEnd end) { return kEndNames[static_cast<std::size_t>(end)]; }
 
 }  // namespace relievo::pipeline

@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include <nlohmann/json.hpp>
 
+#include <array>
 #include <cmath>
 #include <span>
 
@@ -11,27 +12,13 @@ namespace relievo::pipeline {
 namespace {
 
 const char* word(CalibrationVerdict verdict) {
-  switch (verdict) {
-    case CalibrationVerdict::Pass:
-      return "pass";
-    case CalibrationVerdict::Usable:
-      return "usable";
-    case CalibrationVerdict::Refuse:
-      return "refuse";
-  }
-  return "refuse";
+  constexpr std::array kWords{"pass", "usable", "refuse"};
+  return kWords[static_cast<std::size_t>(verdict)];
 }
 
 const char* word(SlipCause cause) {
-  switch (cause) {
-    case SlipCause::None:
-      return "none";
-    case SlipCause::CameraTurns:
-      return "camera turns";
-    case SlipCause::BoardCarried:
-      return "board carried on between the exposures";
-  }
-  return "none";
+  constexpr std::array kWords{"none", "camera turns", "board carried on between the exposures"};
+  return kWords[static_cast<std::size_t>(cause)];
 }
 
 nlohmann::ordered_json uncertainty_json(const CalibrationUncertainty& u) {

@@ -2,94 +2,63 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "ui/screens/service/fault_words.h"
 
-namespace relievo::ui {
+#include <array>
 
-const char* words_of(const Words& tr, Errc code) {
-  switch (code) {
-    case Errc::InvalidInput:
-      return tr("This cannot be used");
-    case Errc::NotFound:
-      return tr("Something is missing");
-    case Errc::Timeout:
-      return tr("It took too long");
-    case Errc::Disconnected:
-      return tr("A device was pulled out or does not answer");
-    case Errc::NotCalibrated:
-      return tr("The cameras must be calibrated");
-    case Errc::NoFace:
-      return tr("No face found");
-    case Errc::TooFewMatches:
-      return tr("Too little could be matched");
-    case Errc::PoorGeometry:
-      return tr("The measurement is not good enough");
-    case Errc::LibraryFailed:
-      return tr("The program could not finish this");
-    case Errc::OutOfMemory:
-      return tr("Not enough memory");
-    case Errc::MediaMissing:
-      return tr("There is no stick. Plug one in, then try again.");
-    case Errc::MediaFull:
-      return tr("There is no room left");
-    case Errc::StoreCorrupt:
-      return tr("The store is damaged");
-    case Errc::StoreNewer:
-      return tr("The store is from a newer version");
-    case Errc::IoFailed:
-      return tr("Reading or writing failed");
-    case Errc::Cancelled:
-      return tr("It was stopped");
-    case Errc::InvalidState:
-      return tr("This is not possible now");
-    case Errc::Unsupported:
-      return tr("This device cannot do that");
-  }
-  return "";
-}
+namespace relievo::ui {
+namespace {
+
+// In the order of Errc.
+constexpr std::array kFaultWords{mark_tr("This cannot be used"),
+                                 mark_tr("Something is missing"),
+                                 mark_tr("It took too long"),
+                                 mark_tr("A device was pulled out or does not answer"),
+                                 mark_tr("The cameras must be calibrated"),
+                                 mark_tr("No face found"),
+                                 mark_tr("Too little could be matched"),
+                                 mark_tr("The measurement is not good enough"),
+                                 mark_tr("The program could not finish this"),
+                                 mark_tr("Not enough memory"),
+                                 mark_tr("There is no stick. Plug one in, then try again."),
+                                 mark_tr("There is no room left"),
+                                 mark_tr("The store is damaged"),
+                                 mark_tr("The store is from a newer version"),
+                                 mark_tr("Reading or writing failed"),
+                                 mark_tr("It was stopped"),
+                                 mark_tr("This is not possible now"),
+                                 mark_tr("This device cannot do that")};
+static_assert(kFaultWords.size() == static_cast<std::size_t>(Errc::Unsupported) + 1);
+
+// In the order of LogEvent: what is said, and of whom.
+constexpr std::array<std::array<const char*, 2>, static_cast<std::size_t>(LogEvent::Count)> kLogWords{
+    {{mark_tr("Started")},
+     {mark_tr("Signed out")},
+     {mark_tr("Signed in: {}"), mark_tr("Technician")},
+     {mark_tr("Signed in: {}"), mark_tr("Operator")},
+     {mark_tr("A wrong PIN was typed")},
+     {mark_tr("The clock was set")},
+     {mark_tr("A new PIN was chosen: {}"), mark_tr("Technician")},
+     {mark_tr("A new PIN was chosen: {}"), mark_tr("Operator")},
+     {mark_tr("The PIN was forgotten: {}"), mark_tr("Technician")},
+     {mark_tr("The PIN was forgotten: {}"), mark_tr("Operator")},
+     {mark_tr("The touch screen is taken as it is.")},
+     {mark_tr("The touch screen was corrected")},
+     {mark_tr("Setting “{}”: {}")},
+     {mark_tr("Records exported: {}")},
+     {mark_tr("Records erased for their age: {}")},
+     {mark_tr("Record #{} was erased")},
+     {mark_tr("Self-test begun")},
+     {mark_tr("Consent text {} was taken over")},
+     {mark_tr("The setting “{}” is not one: what is usual holds")}}};
+static_assert(kLogWords.back()[0] != nullptr);
+
+}  // namespace
+
+const char* words_of(const Words& tr, Errc code) { return tr(kFaultWords[static_cast<std::size_t>(code)]); }
 
 LogWords words_of(const Words& tr, LogEvent event) {
-  switch (event) {
-    case LogEvent::Started:
-      return {tr("Started")};
-    case LogEvent::SignedOut:
-      return {tr("Signed out")};
-    case LogEvent::TechnicianSignedIn:
-      return {tr("Signed in: {}"), tr("Technician")};
-    case LogEvent::OperatorSignedIn:
-      return {tr("Signed in: {}"), tr("Operator")};
-    case LogEvent::WrongPin:
-      return {tr("A wrong PIN was typed")};
-    case LogEvent::ClockSet:
-      return {tr("The clock was set")};
-    case LogEvent::TechnicianPinChosen:
-      return {tr("A new PIN was chosen: {}"), tr("Technician")};
-    case LogEvent::OperatorPinChosen:
-      return {tr("A new PIN was chosen: {}"), tr("Operator")};
-    case LogEvent::TechnicianPinForgotten:
-      return {tr("The PIN was forgotten: {}"), tr("Technician")};
-    case LogEvent::OperatorPinForgotten:
-      return {tr("The PIN was forgotten: {}"), tr("Operator")};
-    case LogEvent::TouchPlain:
-      return {tr("The touch screen is taken as it is.")};
-    case LogEvent::TouchCorrected:
-      return {tr("The touch screen was corrected")};
-    case LogEvent::SettingChanged:
-      return {tr("Setting “{}”: {}")};
-    case LogEvent::RecordsExported:
-      return {tr("Records exported: {}")};
-    case LogEvent::RecordsExpired:
-      return {tr("Records erased for their age: {}")};
-    case LogEvent::RecordErased:
-      return {tr("Record #{} was erased")};
-    case LogEvent::SelfTestBegun:
-      return {tr("Self-test begun")};
-    case LogEvent::ConsentTaken:
-      return {tr("Consent text {} was taken over")};
-    case LogEvent::SettingUnknown:
-      return {tr("The setting “{}” is not one: what is usual holds")};
-    case LogEvent::Count:
-      break;
-  }
-  return {""};
+  if (event >= LogEvent::Count) return {""};
+  const auto& [words, whom] = kLogWords[static_cast<std::size_t>(event)];
+  return {tr(words), whom != nullptr ? tr(whom) : nullptr};
 }
 
 }  // namespace relievo::ui

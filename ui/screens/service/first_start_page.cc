@@ -4,6 +4,9 @@
 // The first start: language, clock, consent text, both PINs; and the page on which somebody changes their
 // own.
 #include "ui/screens/service/pin_entry.h"
+
+#include <array>
+
 #include "ui/screens/service/staff_pages.h"
 #include "ui/view/staff_views.h"
 
@@ -96,24 +99,16 @@ void consent(StaffFrame& page) {
               ButtonLook::Main, busy ? Action{} : Action(ConfirmConsentText{}));
 }
 
+// In the order of PinStep.
+constexpr std::array kStepTitles{
+    mark_tr("Choose the technician's PIN"), mark_tr("The technician's PIN once more"),
+    mark_tr("Choose the operator's PIN"),   mark_tr("The operator's PIN once more"),
+    mark_tr("Choose your new PIN"),         mark_tr("Your new PIN once more"),
+    mark_tr("Your PIN has been changed")};
+static_assert(kStepTitles.size() == static_cast<std::size_t>(PinStep::Done) + 1);
+
 const char* title_of(const Words& tr, PinStep step) {
-  switch (step) {
-    case PinStep::Technician:
-      return tr("Choose the technician's PIN");
-    case PinStep::TechnicianAgain:
-      return tr("The technician's PIN once more");
-    case PinStep::Operator:
-      return tr("Choose the operator's PIN");
-    case PinStep::OperatorAgain:
-      return tr("The operator's PIN once more");
-    case PinStep::Own:
-      return tr("Choose your new PIN");
-    case PinStep::OwnAgain:
-      return tr("Your new PIN once more");
-    case PinStep::Done:
-      break;
-  }
-  return tr("Your PIN has been changed");
+  return tr(kStepTitles[static_cast<std::size_t>(step)]);
 }
 
 const char* words_of(const Words& tr, PinFault fault) {

@@ -14,18 +14,13 @@ namespace {
 
 constexpr double kManyMib = 10 * 1024;  // from here on a figure is easier read, and fits its line, in GiB
 
+// In the order of Gauge.
+constexpr std::array kGaugeNames{mark_tr("Memory of the stages"), mark_tr("Memory of the whole program"),
+                                 mark_tr("Disk used"), mark_tr("Temperature")};
+static_assert(kGaugeNames.size() == static_cast<std::size_t>(Gauge::Temperature) + 1);
+
 const char* words_of(const Words& tr, Gauge gauge) {
-  switch (gauge) {
-    case Gauge::Stages:
-      return tr("Memory of the stages");
-    case Gauge::Process:
-      return tr("Memory of the whole program");
-    case Gauge::Disk:
-      return tr("Disk used");
-    case Gauge::Temperature:
-      return tr("Temperature");
-  }
-  return "";
+  return tr(kGaugeNames[static_cast<std::size_t>(gauge)]);
 }
 
 constexpr std::size_t kMostSamples = 256;
@@ -71,25 +66,15 @@ void gauge_row(StaffFrame& page, const GaugeRow& row, std::size_t index) {
   page.row(plot.id, plot.title, value, row.mood);
 }
 
+// In the order of CostlyStage.
+constexpr std::array kStageNames{mark_tr("Matching"),  mark_tr("Reconstruction"),
+                                 mark_tr("Surface"),   mark_tr("Texture"),
+                                 mark_tr("Landmarks"), mark_tr("Pictures of the sides of the head"),
+                                 mark_tr("Model")};
+static_assert(kStageNames.size() == static_cast<std::size_t>(CostlyStage::Count));
+
 const char* words_of(const Words& tr, CostlyStage stage) {
-  switch (stage) {
-    case CostlyStage::Match:
-      return tr("Matching");
-    case CostlyStage::Reconstruct:
-      return tr("Reconstruction");
-    case CostlyStage::Mesh:
-      return tr("Surface");
-    case CostlyStage::Texture:
-      return tr("Texture");
-    case CostlyStage::Assemble:
-      return tr("Landmarks");
-    case CostlyStage::Side:
-      return tr("Pictures of the sides of the head");
-    case CostlyStage::Fuse:
-    case CostlyStage::Count:
-      break;
-  }
-  return tr("Model");
+  return tr(kStageNames[static_cast<std::size_t>(stage)]);
 }
 
 // Time and memory of every stage, at most in one of the last visits, and what it may take.

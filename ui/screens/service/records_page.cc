@@ -37,8 +37,7 @@ void working(StaffFrame& page) {
   page.body("do not pull", page.tr("Please do not pull it out."), TextAlign::Centre);
   page.progress("export progress", page.staff.work.progress);
   page.tree.close();
-  page.button("stop export", page.tr("Stop the export"), icon::kClose, ButtonLook::Quiet,
-              Action(StopExport{}));
+  page.button("stop export", page.tr("Stop"), icon::kClose, ButtonLook::Quiet, Action(StopExport{}));
 }
 
 void whole_of(StaffFrame& page, const RecordsView& seen) {

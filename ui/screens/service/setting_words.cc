@@ -3,6 +3,7 @@
 #include "ui/screens/service/setting_words.h"
 
 #include <algorithm>
+#include <array>
 #include <charconv>
 #include <cstdio>
 
@@ -16,44 +17,28 @@ std::string_view days(StaffFrame& page, std::int32_t value) {
   return page.filled(page.tr.plural("{} day", "{} days", static_cast<unsigned long>(value)), text);
 }
 
+// In the order of Setting.
+constexpr std::array kSettingNames{mark_tr("Language in which a visit begins"),
+                                   mark_tr("Size of the text"),
+                                   mark_tr("More contrast"),
+                                   mark_tr("Pictures that move by themselves"),
+                                   mark_tr("Visitors are asked whether they are still there after"),
+                                   mark_tr("The picture is taken by itself"),
+                                   mark_tr("Countdown before the picture"),
+                                   mark_tr("Pictures of the sides of the head"),
+                                   mark_tr("Tries, if a picture is refused"),
+                                   mark_tr("Staff are signed out after"),
+                                   mark_tr("Visitors are told that their name is already in the records"),
+                                   mark_tr("Records are erased by themselves after"),
+                                   mark_tr("A solid for printing with each exported portrait"),
+                                   mark_tr("Quiet sounds for the countdown, the shutter and success"),
+                                   mark_tr("Room kept free on the disk")};
+static_assert(kSettingNames.size() == static_cast<std::size_t>(Setting::Count));
+
 }  // namespace
 
 const char* name_of(const Words& tr, Setting setting) {
-  switch (setting) {
-    case Setting::Language:
-      return tr("Language in which a visit begins");
-    case Setting::TextPercent:
-      return tr("Size of the text");
-    case Setting::Contrast:
-      return tr("High contrast");
-    case Setting::Motion:
-      return tr("Pictures that move by themselves");
-    case Setting::PatienceS:
-      return tr("Visitors are asked whether they are still there after");
-    case Setting::Automatic:
-      return tr("The picture is taken by itself");
-    case Setting::CountdownMs:
-      return tr("Countdown before the picture");
-    case Setting::Sides:
-      return tr("Pictures of the sides of the head");
-    case Setting::Attempts:
-      return tr("Tries, if a picture is refused");
-    case Setting::StaffPatienceS:
-      return tr("Staff are signed out after");
-    case Setting::TellsKnown:
-      return tr("Visitors are told that their name is already in the records");
-    case Setting::KeepDays:
-      return tr("Records are erased by themselves after");
-    case Setting::Solids:
-      return tr("A solid for printing with each exported portrait");
-    case Setting::Sounds:
-      return tr("Quiet sounds for the countdown, the shutter and success");
-    case Setting::LeastRoomMib:
-      return tr("Room kept free on the disk");
-    case Setting::Count:
-      break;
-  }
-  return "";
+  return tr(kSettingNames[static_cast<std::size_t>(setting)]);
 }
 
 std::string_view said_value(StaffFrame& page, Setting setting, std::int32_t value) {

@@ -10,25 +10,18 @@
 namespace relievo::ui {
 namespace {
 
+// In the order of Refusal.
+constexpr std::array kRefusalWords{mark_tr("No face found"),
+                                   mark_tr("Too little could be matched"),
+                                   mark_tr("The measurement is not good enough"),
+                                   mark_tr("Not enough memory"),
+                                   mark_tr("A camera does not answer"),
+                                   mark_tr("It took too long"),
+                                   mark_tr("Another reason")};
+static_assert(kRefusalWords.size() == static_cast<std::size_t>(Refusal::Count));
+
 const char* words_of(const Words& tr, Refusal refusal) {
-  switch (refusal) {
-    case Refusal::NoFace:
-      return tr("No face found");
-    case Refusal::TooFewMatches:
-      return tr("Too little could be matched");
-    case Refusal::PoorGeometry:
-      return tr("The surface was not good enough");
-    case Refusal::Memory:
-      return tr("Not enough memory");
-    case Refusal::Camera:
-      return tr("A camera was silent");
-    case Refusal::Slow:
-      return tr("It took too long");
-    case Refusal::Other:
-    case Refusal::Count:
-      break;
-  }
-  return tr("Another reason");
+  return tr(kRefusalWords[static_cast<std::size_t>(refusal)]);
 }
 
 void days(StaffFrame& page, const StatisticsView& seen) {

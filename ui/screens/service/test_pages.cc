@@ -3,6 +3,9 @@
 //
 // What a technician lets the device say of itself: self-test, trigger test, log.
 #include "ui/screens/service/fault_words.h"
+
+#include <array>
+
 #include "ui/screens/service/list_part.h"
 #include "ui/screens/service/staff_pages.h"
 #include "ui/view/staff_views.h"
@@ -10,36 +13,22 @@
 namespace relievo::ui {
 namespace {
 
+// In the order of Check.
+constexpr std::array kCheckNames{mark_tr("Memory"), mark_tr("Store"), mark_tr("Calibration"),
+                                 mark_tr("Room on the disk"), mark_tr("Cameras")};
+static_assert(kCheckNames.size() == static_cast<std::size_t>(Check::Count));
+
 const char* words_of(const Words& tr, Check check) {
-  switch (check) {
-    case Check::Memory:
-      return tr("Memory");
-    case Check::Store:
-      return tr("Store");
-    case Check::Calibration:
-      return tr("Calibration");
-    case Check::Disk:
-      return tr("Room on the disk");
-    case Check::Cameras:
-      return tr("Cameras");
-    case Check::Count:
-      break;
-  }
-  return "";
+  return tr(kCheckNames[static_cast<std::size_t>(check)]);
 }
 
+// In the order of CheckState.
+constexpr std::array kCheckWords{mark_tr("Not tested"), mark_tr("Being tested"), mark_tr("In order"),
+                                 mark_tr("Not in order")};
+static_assert(kCheckWords.size() == static_cast<std::size_t>(CheckState::Bad) + 1);
+
 const char* words_of(const Words& tr, CheckState state) {
-  switch (state) {
-    case CheckState::NotTested:
-      return tr("Not tested");
-    case CheckState::Running:
-      return tr("Being tested");
-    case CheckState::Good:
-      return tr("In order");
-    case CheckState::Bad:
-      break;
-  }
-  return tr("Not in order");
+  return tr(kCheckWords[static_cast<std::size_t>(state)]);
 }
 
 Mood mood_of(CheckState state) {
@@ -67,7 +56,7 @@ void self_test_page(StaffFrame& page) {
     }
   }
   page.tree.close();
-  page.small_button("begin", tr("Begin the test"), icon::kAgain, ButtonLook::Main,
+  page.small_button("begin", tr("Start"), icon::kAgain, ButtonLook::Main,
                     page.staff.work.running ? Action{} : Action(BeginSelfTest{}));
 }
 
@@ -94,7 +83,7 @@ void trigger_page(StaffFrame& page) {
                 all ? Mood::Good : Mood::Bad);
   }
   page.tree.close();
-  page.small_button("begin", tr("Begin the test"), icon::kAgain, ButtonLook::Main,
+  page.small_button("begin", tr("Start"), icon::kAgain, ButtonLook::Main,
                     page.staff.work.running ? Action{} : Action(BeginTriggerTest{}));
 }
 

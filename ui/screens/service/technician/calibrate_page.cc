@@ -14,65 +14,40 @@ namespace {
 
 constexpr std::size_t kMostViews = 64;
 
+// In the order of BoardAdvice.
+constexpr std::array kAdviceWords{mark_tr("Show the whole board to both cameras"),
+                                  mark_tr("The left camera does not see all of it"),
+                                  mark_tr("The right camera does not see all of it"),
+                                  mark_tr("Hold it still"),
+                                  mark_tr("It is not sharp: more light, or another distance"),
+                                  mark_tr("Closer"),
+                                  mark_tr("Farther away"),
+                                  mark_tr("To the left of the picture"),
+                                  mark_tr("To the right of the picture"),
+                                  mark_tr("Higher"),
+                                  mark_tr("Lower"),
+                                  mark_tr("Its left edge nearer to the cameras"),
+                                  mark_tr("Its right edge nearer to the cameras"),
+                                  mark_tr("Its upper edge nearer to the cameras"),
+                                  mark_tr("Its lower edge nearer to the cameras"),
+                                  mark_tr("Turn it clockwise"),
+                                  mark_tr("Turn it counterclockwise"),
+                                  mark_tr("This view is known: another one, please"),
+                                  mark_tr("The cameras have changed places: swap them and begin again"),
+                                  mark_tr("Enough has been seen")};
+static_assert(kAdviceWords.size() == static_cast<std::size_t>(BoardAdvice::Done) + 1);
+
 const char* words_of(const Words& tr, BoardAdvice advice) {
-  switch (advice) {
-    case BoardAdvice::ShowBoard:
-      return tr("Show the whole board to both cameras");
-    case BoardAdvice::LeftCameraMissesIt:
-      return tr("The left camera does not see all of it");
-    case BoardAdvice::RightCameraMissesIt:
-      return tr("The right camera does not see all of it");
-    case BoardAdvice::HoldStill:
-      return tr("Hold it still");
-    case BoardAdvice::TooBlurred:
-      return tr("It is not sharp: more light, or another distance");
-    case BoardAdvice::Closer:
-      return tr("Closer");
-    case BoardAdvice::Farther:
-      return tr("Farther away");
-    case BoardAdvice::Left:
-      return tr("To the left of the picture");
-    case BoardAdvice::Right:
-      return tr("To the right of the picture");
-    case BoardAdvice::Up:
-      return tr("Higher");
-    case BoardAdvice::Down:
-      return tr("Lower");
-    case BoardAdvice::TiltLeft:
-      return tr("Its left edge nearer to the cameras");
-    case BoardAdvice::TiltRight:
-      return tr("Its right edge nearer to the cameras");
-    case BoardAdvice::TiltForward:
-      return tr("Its upper edge nearer to the cameras");
-    case BoardAdvice::TiltBack:
-      return tr("Its lower edge nearer to the cameras");
-    case BoardAdvice::TurnClockwise:
-      return tr("Turn it clockwise");
-    case BoardAdvice::TurnCounterclockwise:
-      return tr("Turn it counterclockwise");
-    case BoardAdvice::AlreadyHave:
-      return tr("This view is known: another one, please");
-    case BoardAdvice::SwappedCameras:
-      return tr("The cameras have changed places: swap them and begin again");
-    case BoardAdvice::Done:
-      break;
-  }
-  return tr("Enough has been seen");
+  return tr(kAdviceWords[static_cast<std::size_t>(advice)]);
 }
 
-const char* words_of(const Words& tr, BoardEnd end) {
-  switch (end) {
-    case BoardEnd::GoalReached:
-      return tr("The goal is reached.");
-    case BoardEnd::Plateau:
-      return tr("More views would hardly improve it.");
-    case BoardEnd::Full:
-      return tr("As many views as are wanted.");
-    case BoardEnd::NotYet:
-      break;
-  }
-  return tr("It was ended early.");
-}
+// In the order of BoardEnd.
+constexpr std::array kEndWords{mark_tr("It was ended early."), mark_tr("The goal is reached."),
+                               mark_tr("More views would hardly improve it."),
+                               mark_tr("As many views as are wanted.")};
+static_assert(kEndWords.size() == static_cast<std::size_t>(BoardEnd::Full) + 1);
+
+const char* words_of(const Words& tr, BoardEnd end) { return tr(kEndWords[static_cast<std::size_t>(end)]); }
 
 // How much of the picture has been seen: the more corners in a part, the fuller its square. As large as the
 // picture above it.
@@ -209,7 +184,7 @@ void history(TechnicianFrame& f) {
     const TechnicianCalibrationRow& row = c.history[i];
     const std::string_view label =
         f.joined(f.page.number(row.revision), "\u00a0· ", f.page.date(row.made_at));
-    const std::string_view value = row.active ? std::string_view(f.tr("in use"))
+    const std::string_view value = row.active ? std::string_view(f.tr("in force"))
                                    : row.depth_error_mm > 0
                                        ? f.page.number(static_cast<double>(row.depth_error_mm), 3, "mm")
                                        : std::string_view("–");

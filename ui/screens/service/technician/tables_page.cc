@@ -13,19 +13,13 @@ namespace {
 
 constexpr float kGap = 6;  // between columns
 
+// In the order of TechnicianTable.
+constexpr std::array kTableNames{mark_tr("Matches"), mark_tr("Points"), mark_tr("Model"),
+                                 mark_tr("Calibration")};
+static_assert(kTableNames.size() == static_cast<std::size_t>(TechnicianTable::Count));
+
 const char* name_of_table(const Words& tr, TechnicianTable table) {
-  switch (table) {
-    case TechnicianTable::Matches:
-      return tr("Matches");
-    case TechnicianTable::Points:
-      return tr("Points");
-    case TechnicianTable::Model:
-      return tr("Model");
-    case TechnicianTable::Calibration:
-    case TechnicianTable::Count:
-      break;
-  }
-  return tr("Calibration");
+  return tr(kTableNames[static_cast<std::size_t>(table)]);
 }
 
 struct Wide {  // a column of words, and how much wider than one of numbers

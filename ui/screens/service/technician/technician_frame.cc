@@ -3,33 +3,24 @@
 #include "ui/screens/service/technician/technician_frame.h"
 
 #include <algorithm>
+#include <array>
 #include <cstdio>
 
 #include "ui/screens/service/fault_words.h"
 
 namespace relievo::ui {
+namespace {
+
+// In the order of TechnicianStage.
+constexpr std::array kStageTitles{mark_tr("Pictures"), mark_tr("Processed"), mark_tr("Rectified"),
+                                  mark_tr("Matches"),  mark_tr("Disparity"), mark_tr("Points"),
+                                  mark_tr("Surface"),  mark_tr("Texture")};
+static_assert(kStageTitles.size() == static_cast<std::size_t>(TechnicianStage::Count));
+
+}  // namespace
 
 const char* title_of(const Words& tr, TechnicianStage stage) {
-  switch (stage) {
-    case TechnicianStage::Input:
-      return tr("Pictures");
-    case TechnicianStage::Processed:
-      return tr("Processed");
-    case TechnicianStage::Rectified:
-      return tr("Rectified");
-    case TechnicianStage::Matches:
-      return tr("Matches");
-    case TechnicianStage::Disparity:
-      return tr("Disparity");
-    case TechnicianStage::Cloud:
-      return tr("Points");
-    case TechnicianStage::Mesh:
-      return tr("Surface");
-    case TechnicianStage::Texture:
-    case TechnicianStage::Count:
-      break;
-  }
-  return tr("Texture");
+  return tr(kStageTitles[static_cast<std::size_t>(stage)]);
 }
 
 const char* work_of(const Words& tr, std::size_t stage) {
