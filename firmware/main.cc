@@ -97,6 +97,16 @@ std::unique_ptr<storage::StoreKeeping> keep_store(const Path& folder, const Path
   return storage::keep_sqlite_store(folder, clock, options);
 }
 
+hal::sim::BoardPattern simulated(const BoardArgs& b) {
+  return {b.corners_across,
+          b.corners_down,
+          b.square_mm,
+          0.75 * b.square_mm,
+          b.charuco ? hal::sim::BoardKind::Charuco : hal::sim::BoardKind::Chessboard,
+          b.marker_mm,
+          b.marker_bits};
+}
+
 Result<void> hold_picture(const HeldPictureArgs& held, const hal::sim::SimulationOptions& simulation,
                           const Path& folder) {
   RELIEVO_TRY_ASSIGN(const hal::Picture picture, hal::read_picture(held.picture));
@@ -123,14 +133,7 @@ Result<void> simulate(const SimulateArgs& args, const Path& folder) {
   options.board_in_this_pose = args.board && args.one_pose;
   options.board_poses = args.pairs;
   if (args.board) {
-    const BoardArgs& b = args.printed;
-    options.board = {b.corners_across,
-                     b.corners_down,
-                     b.square_mm,
-                     0.75 * b.square_mm,
-                     b.charuco ? hal::sim::BoardKind::Charuco : hal::sim::BoardKind::Chessboard,
-                     b.marker_mm,
-                     b.marker_bits};
+    options.board = simulated(args.printed);
     options.board_look = {args.lamp, args.shadow, args.highlight, args.cover};
     options.sensor.defocus_px = args.blur_px;
     options.sensor.noise = args.noise;
@@ -186,15 +189,7 @@ hal::sim::BoardPose pose_of(const HeldPose& held, const hal::sim::BoardPattern& 
 }
 
 Result<std::unique_ptr<LivePairs>> hold_board(const CalibrateLiveArgs& args) {
-  const BoardArgs& b = args.board;
-  const hal::sim::BoardPattern pattern{
-      b.corners_across,
-      b.corners_down,
-      b.square_mm,
-      0.75 * b.square_mm,
-      b.charuco ? hal::sim::BoardKind::Charuco : hal::sim::BoardKind::Chessboard,
-      b.marker_mm,
-      b.marker_bits};
+  const hal::sim::BoardPattern pattern = simulated(args.board);
   RELIEVO_TRY(pattern.check());
   hal::sim::RigOptions rig;
   rig.seed = args.seed;

@@ -172,19 +172,27 @@ void add_enrol(CLI::App& app, CommandArgs& chosen, EnrolArgs& args) {
   command->callback([&] { chosen = args; });
 }
 
+// A command of its own below `command`, on a store.
+template <typename Args>
+CLI::App* add_verb(CLI::App& command, const char* name, const char* help, Args& args,
+                   typename Args::Verb which, CommandArgs& chosen) {
+  CLI::App* verb = command.add_subcommand(name, help);
+  add_store(*verb, args.store);
+  verb->callback([&args, &chosen, which] {
+    args.verb = which;
+    chosen = args;
+  });
+  return verb;
+}
+
 void add_subjects(CLI::App& app, CommandArgs& chosen, SubjectsArgs& args) {
   CLI::App* command = app.add_subcommand("subjects", "the people in the store");
   command->require_subcommand(1);
   using Verb = SubjectsArgs::Verb;
   const auto verb = [&](const char* name, const char* help, Verb which) {
-    CLI::App* sub = command->add_subcommand(name, help);
-    add_store(*sub, args.store);
+    CLI::App* sub = add_verb(*command, name, help, args, which, chosen);
     if (which != Verb::List && which != Verb::Import)
       sub->add_option("subject", args.subject)->required()->type_name("NAME");
-    sub->callback([&args, &chosen, which] {
-      args.verb = which;
-      chosen = args;
-    });
     return sub;
   };
   verb("list", "everyone, one a line", Verb::List);
@@ -226,13 +234,7 @@ void add_staff(CLI::App& app, CommandArgs& chosen, StaffArgs& args) {
       "a PIN that was forgotten, a touch screen that nobody can use any more; while the kiosk is stopped");
   command->require_subcommand(1);
   const auto verb = [&](const char* name, const char* help, StaffArgs::Verb which) {
-    CLI::App* sub = command->add_subcommand(name, help);
-    add_store(*sub, args.store);
-    sub->callback([&args, &chosen, which] {
-      args.verb = which;
-      chosen = args;
-    });
-    return sub;
+    return add_verb(*command, name, help, args, which, chosen);
   };
   CLI::App* forget = verb("forget-pin", "one role chooses its PIN anew at the next start; the other's stays",
                           StaffArgs::Verb::ForgetPin);
@@ -244,6 +246,29 @@ void add_staff(CLI::App& app, CommandArgs& chosen, StaffArgs& args) {
       ->check(CLI::IsMember({"technician", "operator"}));
   verb("plain-touch", "the touch screen is taken as it is, without a correction",
        StaffArgs::Verb::PlainTouch);
+}
+
+void add_store_keeping(CLI::App& app, CommandArgs& chosen, StoreArgs& args) {
+  CLI::App* command =
+      app.add_subcommand("store", "the store as a whole: check, copy, keys; while the kiosk is stopped");
+  command->require_subcommand(1);
+  const auto verb = [&](const char* name, const char* help, StoreArgs::Verb which) {
+    return add_verb(*command, name, help, args, which, chosen);
+  };
+  verb("check", "every page, model and line of the log", StoreArgs::Verb::Check)
+      ->add_option("--backup", args.file, "a copy of this store: who in it has been erased since?")
+      ->type_name("FILE");
+  verb("backup", "a copy, sealed as the store is; the key is not in it", StoreArgs::Verb::Backup)
+      ->add_option("file", args.file, "where to")
+      ->required()
+      ->type_name("FILE");
+  verb("rekey", "new keys; copies made before keep the old ones", StoreArgs::Verb::Rekey)
+      ->add_option("--new-key", args.file, "the key moves to this file")
+      ->type_name("FILE");
+  verb("recovery-words",
+       "draws the twelve words that open the store when its key is lost, and prints them once",
+       StoreArgs::Verb::RecoveryWords);
+  verb("recover", "reads the twelve words from standard input and makes a new key", StoreArgs::Verb::Recover);
 }
 
 void add_algorithm_list(CLI::App& app, CommandArgs& chosen, AlgorithmsArgs& args) {

@@ -21,7 +21,6 @@ inline constexpr const char* kDevices =
 
 inline constexpr const char* kKeyOption = "--key";
 void add_store(CLI::App& command, Path& store);  // and kKeyOption, which CommandLine::key takes up
-void add_store_keeping(CLI::App& app, CommandArgs& chosen, StoreArgs& args);
 void add_calibrate(CLI::App& app, CommandArgs& chosen, CalibrateArgs& args, CalibrateLiveArgs& live_args);
 void add_calibration(CLI::App& app, CommandArgs& chosen, CalibrationArgs& args);
 void add_simulate(CLI::App& app, CommandArgs& chosen, SimulateArgs& args);
