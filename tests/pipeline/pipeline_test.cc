@@ -24,7 +24,7 @@ TEST(Pipeline, AnAssemblyThatWasStoppedCanBeDoneAgain) {
   const auto pipeline = Pipeline::make({}, test::true_calibration(rig));
   ASSERT_TRUE(pipeline);
   StageContext& c = fixture.context;
-  const auto pair = pipeline->rectify({l.view(), r.view(), 0, 0}, c);
+  auto pair = pipeline->rectify({l.view(), r.view(), 0, 0}, c);
   ASSERT_TRUE(pair);
   const auto matches = pipeline->match(*pair, c);
   ASSERT_TRUE(matches);
