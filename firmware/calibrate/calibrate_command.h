@@ -25,17 +25,6 @@
 
 namespace relievo::firmware {
 
-// The folder that `relievo calibrate --report DIR` writes: index.html for people, report.json for
-// programs, and of each pair a picture with its corners and one with both views rectified.
-// Thread: main.
-
-// Whole or not at all. One line a pair goes to `out`.
-// Errors: the pictures' (they are read once more), the disk's; each names its place.
-Result<void> write_calibration_report(const Path& folder, const std::vector<PicturePairFiles>& pairs,
-                                      const pipeline::CalibratorInput& input,
-                                      const pipeline::CalibratorOutput& result, const std::string& made_at,
-                                      std::ostream& out);
-
 struct PicturePairFiles {
   std::string name;  // what follows left and right, without _ or - before it
   Path left;
@@ -61,5 +50,16 @@ struct RigToday {
 
 Result<pipeline::CalibratorOutput> run_calibrate(const CalibrateArgs& args, std::ostream& out,
                                                  const RigToday& today = {});
+
+// The folder that `relievo calibrate --report DIR` writes: index.html for people, report.json for
+// programs, and of each pair a picture with its corners and one with both views rectified.
+// Thread: main.
+
+// Whole or not at all. One line a pair goes to `out`.
+// Errors: the pictures' (they are read once more), the disk's; each names its place.
+Result<void> write_calibration_report(const Path& folder, const std::vector<PicturePairFiles>& pairs,
+                                      const pipeline::CalibratorInput& input,
+                                      const pipeline::CalibratorOutput& result, const std::string& made_at,
+                                      std::ostream& out);
 
 }  // namespace relievo::firmware

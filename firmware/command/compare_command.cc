@@ -13,7 +13,7 @@
 #include "firmware/compare/dissertation_job.h"
 #include "firmware/compare/page/compare_page.h"
 #include "firmware/compare/page/dissertation.h"
-#include "firmware/compare/set_choice.h"
+#include "firmware/compare/suites.h"
 #include "firmware/compare/set_run.h"
 #include "firmware/jobs/watched_job.h"
 #include "firmware/measure/disparity_map.h"

@@ -26,32 +26,13 @@
 
 namespace relievo::firmware::compare {
 
-CompareJob::CompareJob(std::vector<ComparedPair> pairs, std::vector<NamedSet> sets, RunOptions options)
-    : pairs_(std::move(pairs)), options_(std::move(options)) {
-  comparison_.sets = std::move(sets);
-  comparison_.limit_px = options_.limit_px;
-  for (const ComparedPair& pair : pairs_)
-    for (const NamedSet& set : comparison_.sets) labels_.push_back(pair.name + ", " + set.name);
-}
-
-Result<void> CompareJob::run(JobControl& control) {
-  ThreadPool pool(pool_size());
-  for (std::size_t p = 0; p < pairs_.size(); ++p) {
-    PairFacts& facts = comparison_.pairs.emplace_back();
-    facts.name = pairs_[p].name;
-    for (std::size_t s = 0; s < comparison_.sets.size(); ++s) {
-      at_.store(comparison_.runs.size(), std::memory_order_relaxed);
-      Run& run = comparison_.runs.emplace_back();
-      run.set = s;
-      run.pair = p;
-      RELIEVO_TRY(run_set({pairs_[p], comparison_.sets[s], options_}, pool, control, facts, run));
-    }
-    pairs_[p] = {};  // what is looked at again lies in the facts
-  }
-  return {};
-}
-
 namespace {
+
+struct RunOrder {
+  const ComparedPair& pair;
+  const NamedSet& set;
+  const RunOptions& options;
+};
 
 // "aloeL" of aloeL.jpg, but "d1" of d1/left.png; none twice.
 std::string name_of(const Path& left, const std::vector<ComparedPair>& others) {
@@ -343,6 +324,27 @@ std::string words_of(const Run& run, const Error& error) {
          std::string(error.what.view());
 }
 
+// What the algorithms say against it becomes `run.failure`; `facts` is filled in by the first set that
+// rectifies. Errors: Cancelled; those of `keep_model`.
+Result<void> run_set(const RunOrder& order, ThreadPool& pool, JobControl& control, PairFacts& facts,
+                     Run& run) {
+  const PeakMemory peak;
+  StepRunner runner(pool, control, run);
+  Made made;
+  Result<void> done = all_steps(order, runner, facts, made, run);
+  run.arena_peak_bytes = runner.touched_bytes();
+  const std::size_t above = peak.above_bytes();
+  run.heap_peak_bytes = above > run.arena_peak_bytes ? above - run.arena_peak_bytes : 0;
+  if (!done) run.failure = words_of(run, done.error());
+  if (done || done.error().code != Errc::Cancelled)
+    if (const auto looked = look_at_matches(order, runner, facts, made, run);
+        !looked && looked.error().code == Errc::Cancelled)
+      done = looked;
+  if (!done && done.error().code == Errc::Cancelled)
+    return Error{Errc::Cancelled, "cancelled: nothing was written"};
+  return {};
+}
+
 }  // namespace
 
 Result<std::vector<ComparedPair>> read_pairs(const CompareArgs& args) {
@@ -368,22 +370,28 @@ Result<std::vector<ComparedPair>> read_pairs(const CompareArgs& args) {
   return pairs;
 }
 
-Result<void> run_set(const RunOrder& order, ThreadPool& pool, JobControl& control, PairFacts& facts,
-                     Run& run) {
-  const PeakMemory peak;
-  StepRunner runner(pool, control, run);
-  Made made;
-  Result<void> done = all_steps(order, runner, facts, made, run);
-  run.arena_peak_bytes = runner.touched_bytes();
-  const std::size_t above = peak.above_bytes();
-  run.heap_peak_bytes = above > run.arena_peak_bytes ? above - run.arena_peak_bytes : 0;
-  if (!done) run.failure = words_of(run, done.error());
-  if (done || done.error().code != Errc::Cancelled)
-    if (const auto looked = look_at_matches(order, runner, facts, made, run);
-        !looked && looked.error().code == Errc::Cancelled)
-      done = looked;
-  if (!done && done.error().code == Errc::Cancelled)
-    return Error{Errc::Cancelled, "cancelled: nothing was written"};
+CompareJob::CompareJob(std::vector<ComparedPair> pairs, std::vector<NamedSet> sets, RunOptions options)
+    : pairs_(std::move(pairs)), options_(std::move(options)) {
+  comparison_.sets = std::move(sets);
+  comparison_.limit_px = options_.limit_px;
+  for (const ComparedPair& pair : pairs_)
+    for (const NamedSet& set : comparison_.sets) labels_.push_back(pair.name + ", " + set.name);
+}
+
+Result<void> CompareJob::run(JobControl& control) {
+  ThreadPool pool(pool_size());
+  for (std::size_t p = 0; p < pairs_.size(); ++p) {
+    PairFacts& facts = comparison_.pairs.emplace_back();
+    facts.name = pairs_[p].name;
+    for (std::size_t s = 0; s < comparison_.sets.size(); ++s) {
+      at_.store(comparison_.runs.size(), std::memory_order_relaxed);
+      Run& run = comparison_.runs.emplace_back();
+      run.set = s;
+      run.pair = p;
+      RELIEVO_TRY(run_set({pairs_[p], comparison_.sets[s], options_}, pool, control, facts, run));
+    }
+    pairs_[p] = {};  // what is looked at again lies in the facts
+  }
   return {};
 }
 

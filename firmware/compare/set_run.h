@@ -22,24 +22,6 @@
 
 namespace relievo::firmware::compare {
 
-// CompareJob: every set on every pair. A set that fails on a pair is a run that says why. Thread: worker;
-// now() any; comparison() once done. Errors: Cancelled; those of `keep_model`.
-class CompareJob final : public Job {
- public:
-  CompareJob(std::vector<ComparedPair> pairs, std::vector<NamedSet> sets, RunOptions options);
-
-  Result<void> run(JobControl& control) override;
-  std::string_view now() const { return labels_[at_.load(std::memory_order_relaxed)]; }  // "pair, set"
-  Comparison& comparison() { return comparison_; }
-
- private:
-  std::vector<ComparedPair> pairs_;
-  Comparison comparison_;
-  std::vector<std::string> labels_;
-  std::atomic<std::size_t> at_{0};
-  RunOptions options_;
-};
-
 // ComparedPair: two pictures, how to rectify them, and what is known to be true of them.
 // Errors: those of the files, each with its name; InvalidInput where sizes do not fit. Thread: any.
 struct ComparedPair {
@@ -62,15 +44,22 @@ struct RunOptions {
   std::function<Result<void>(const pipeline::FaceModel&)> keep_model{};
 };
 
-struct RunOrder {
-  const ComparedPair& pair;
-  const NamedSet& set;
-  const RunOptions& options;
-};
+// CompareJob: every set on every pair. A set that fails on a pair is a run that says why. Thread: worker;
+// now() any; comparison() once done. Errors: Cancelled; those of `keep_model`.
+class CompareJob final : public Job {
+ public:
+  CompareJob(std::vector<ComparedPair> pairs, std::vector<NamedSet> sets, RunOptions options);
 
-// What the algorithms say against it becomes `run.failure`; `facts` is filled in by the first set that
-// rectifies. Errors: Cancelled; those of `keep_model`.
-Result<void> run_set(const RunOrder& order, ThreadPool& pool, JobControl& control, PairFacts& facts,
-                     Run& run);
+  Result<void> run(JobControl& control) override;
+  std::string_view now() const { return labels_[at_.load(std::memory_order_relaxed)]; }  // "pair, set"
+  Comparison& comparison() { return comparison_; }
+
+ private:
+  std::vector<ComparedPair> pairs_;
+  Comparison comparison_;
+  std::vector<std::string> labels_;
+  std::atomic<std::size_t> at_{0};
+  RunOptions options_;
+};
 
 }  // namespace relievo::firmware::compare

@@ -10,6 +10,8 @@
 #include <string_view>
 #include <vector>
 
+#include "firmware/arguments/command_line.h"
+#include "firmware/measure/comparison.h"
 #include "hal/base/result.h"
 
 namespace relievo::firmware::compare {
@@ -29,5 +31,15 @@ std::vector<SetWords> dissertation_face_sets();
 
 std::vector<std::string_view> suite_names();
 Result<std::vector<SetWords>> suite_sets(std::string_view suite);
+
+// From words to sets of algorithms: all start from --algorithms, relief=off (nobody is refused as a picture
+// of a face unless --set says so) and --set; then come, in this order, the suites, the sets of files and
+// those of the command line. None named: one set, called by its matcher. Errors: NotFound and InvalidInput,
+// each with the set's name and the word: a set that cannot be made, two sets of one name, more than
+// kMostSets. Thread: main.
+inline constexpr std::size_t kMostSets = 64;
+
+Result<std::vector<NamedSet>> choose_sets(const CompareArgs& args);
+Result<std::vector<NamedSet>> make_sets(const AlgorithmArgs& base, const std::vector<SetWords>& words);
 
 }  // namespace relievo::firmware::compare

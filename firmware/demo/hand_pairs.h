@@ -12,7 +12,7 @@
 #include <memory>
 #include <random>
 
-#include "firmware/calibrate/calibrate_live_pairs.h"
+#include "firmware/calibrate/calibrate_live.h"
 #include "hal/picture_file.h"
 #include "pipeline/calibrate/live/live_advice.h"
 

@@ -11,7 +11,7 @@
 
 #include "firmware/arguments/command_line.h"
 #include "firmware/base/console.h"
-#include "firmware/calibrate/calibrate_live_pairs.h"
+#include "firmware/calibrate/calibrate_live.h"
 #include "firmware/checks/target_calibration.h"
 #include "hal/clock.h"
 #include "hal/device.h"

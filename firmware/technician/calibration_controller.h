@@ -21,7 +21,7 @@
 #include <vector>
 
 #include "firmware/base/list_walk.h"
-#include "firmware/calibrate/calibrate_live_pairs.h"
+#include "firmware/calibrate/calibrate_live.h"
 #include "firmware/capture/live_feed.h"
 #include "firmware/service/side_tasks.h"
 #include "firmware/work/jobs.h"

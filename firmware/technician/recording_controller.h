@@ -17,7 +17,7 @@
 #include "firmware/service/export_records.h"
 #include "firmware/service/side_tasks.h"
 #include "firmware/technician/saved_reconstruction.h"
-#include "hal/recording/recording.h"
+#include "hal/recording/capture_file.h"
 #include "hal/removable_media.h"
 #include "pipeline/model/stereo_frame.h"
 #include "ui/technician/technician_view.h"

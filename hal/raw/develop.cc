@@ -8,7 +8,6 @@
 #include <cstring>
 
 #include "hal/base/assert.h"
-#include "hal/raw/raw_colour.h"
 #include "hal/raw/raw_image.h"
 
 namespace relievo::hal {

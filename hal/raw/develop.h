@@ -23,6 +23,16 @@
 
 namespace relievo::hal {
 
+// Colour out of a mosaic, of YUV and of JPEG, into width_px * 3 bytes a row without padding.
+// Shapes and room are checked before, but for what only the JPEG stream knows.
+// Errors: OutOfMemory, LibraryFailed; decode_jpeg(): InvalidInput too. Thread: any.
+// raw: Bits8 behind a colour filter, rows without padding.
+Result<void> demosaic(const RawImage& raw, std::byte* rgb);
+// raw: Yuyv or Nv12.
+Result<void> yuv_to_rgb(const RawImage& raw, std::byte* rgb);
+// raw: Mjpeg. Gives Rgb8, or Grey8 (a byte a pixel) for a stream without colour.
+Result<PixelFormat> decode_jpeg(const RawImage& raw, std::byte* pixels);
+
 // What develop() needs beside the picture's own room: a byte a pixel behind a colour filter.
 std::size_t develop_scratch_bytes(const RawFormat& format, int width_px, int height_px);
 

@@ -5,7 +5,7 @@
 #include <memory>
 #include <string_view>
 
-#include "hal/raw/raw_colour.h"
+#include "hal/raw/develop.h"
 
 namespace relievo::hal {
 namespace {

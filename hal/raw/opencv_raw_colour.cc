@@ -6,7 +6,7 @@
 #include <new>
 
 #include "hal/base/assert.h"
-#include "hal/raw/raw_colour.h"
+#include "hal/raw/develop.h"
 
 namespace relievo::hal {
 namespace {

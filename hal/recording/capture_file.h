@@ -15,9 +15,29 @@
 #include <string>
 #include <vector>
 
+#include "hal/base/image_view.h"
 #include "hal/base/result.h"
 
 namespace relievo::hal {
+
+// record_pair(): puts one captured pair behind those that a folder holds already; make_folder_device()
+// replays it bit for bit, with its skew, exposure and serial numbers. The pictures are written before
+// capture.json names them: a pair whose writing was cut short is written over by the next. Thread: keeper,
+// one writer a folder. Errors: InvalidInput (a picture without pixels, views of different sizes or formats, a
+// folder whose capture.json cannot be read), IoFailed.
+struct RecordedPair {
+  ImageView left, right;
+  std::int64_t left_ns = 0, right_ns = 0;  // of the exposures, from any common origin
+  std::int64_t exposure_us = 0;
+  double gain = 1;
+  std::string left_serial, right_serial;
+};
+
+// "left_NNNNNN.png"; `side` is left or right.
+std::string recorded_name(const char* side, std::int64_t number);
+
+// The folder is made when it is not there. The number under which the pair stands: left_NNNNNN.png.
+Result<std::int64_t> record_pair(const std::filesystem::path& folder, const RecordedPair& pair);
 
 struct CaptureRecord {
   std::int64_t number = 0;

@@ -4,6 +4,31 @@
 
 namespace relievo::hal {
 
+Result<void> SilentTrigger::do_pulse(std::chrono::microseconds, Light) {
+  {
+    const std::lock_guard lock(mutex_);
+    last_ = {last_.number + 1, clock_.now()};
+  }
+  pulsed_.notify_all();
+  return {};
+}
+
+// Polls the given clock rather than waiting on the machine's: with a ManualClock the deadline comes
+// when the test says so.
+Result<SilentTrigger::Pulse> SilentTrigger::wait_after(std::uint32_t after, Instant deadline) {
+  std::unique_lock lock(mutex_);
+  while (last_.number == after) {
+    if (clock_.now() >= deadline) return Error{Errc::Timeout, "no trigger pulse came before the deadline"};
+    pulsed_.wait_for(lock, std::chrono::milliseconds(2));
+  }
+  return last_;
+}
+
+std::uint32_t SilentTrigger::count() const {
+  const std::lock_guard lock(mutex_);
+  return last_.number;
+}
+
 Result<void> ReplayCamera::do_open(const CaptureMode& mode) {
   if (mode.width_px != only_mode_.width_px || mode.height_px != only_mode_.height_px)
     return Error{Errc::Unsupported, "this board's pictures have one size only; ask for its preferred mode"};

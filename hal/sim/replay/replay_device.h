@@ -6,19 +6,46 @@
 
 #include <array>
 #include <atomic>
+#include <condition_variable>
 #include <functional>
 #include <memory>
+#include <mutex>
 #include <optional>
 
 #include "hal/camera.h"
+#include "hal/clock.h"
 #include "hal/device.h"
 #include "hal/monotonic_clock.h"
 #include "hal/picture_file.h"
 #include "hal/sim/replay/folder_media.h"
-#include "hal/sim/replay/silent_trigger.h"
+#include "hal/trigger_line.h"
 #include "hal/watchdog.h"
 
 namespace relievo::hal {
+
+// SilentTrigger: a trigger line without a wire. It counts pulses; cameras that hang on it expose
+// once for every pulse since they last did.
+// Thread: any.
+class SilentTrigger final : public TriggerLine {
+ public:
+  explicit SilentTrigger(const Clock& clock) : TriggerLine(clock), clock_(clock) {}
+
+  struct Pulse {
+    std::uint32_t number = 0;  // counts from 1
+    Instant at;
+  };
+  // The newest pulse after number `after`; waits for one until the deadline. Nothing: Timeout.
+  Result<Pulse> wait_after(std::uint32_t after, Instant deadline);
+  std::uint32_t count() const;
+
+ private:
+  Result<void> do_pulse(std::chrono::microseconds width, Light light) override;
+
+  const Clock& clock_;
+  mutable std::mutex mutex_;
+  std::condition_variable pulsed_;
+  Pulse last_;
+};
 
 // ReplayCamera: a camera whose exposures come from a PairSource: files, or the simulated rig. One
 // frame per trigger pulse, the same pulse for both cameras; three buffers, as a sensor driver has.

@@ -103,7 +103,6 @@ SheetMesh make_sheet(const SheetSize& size, const SheetBend& bend) {
 
 namespace {
 
-constexpr double kPi = 3.14159265358979323846;
 constexpr double kScreenBlack = 0.004;  // light that a screen lets through where it shows black
 
 double linear(std::byte level) {

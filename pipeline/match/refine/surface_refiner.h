@@ -25,7 +25,6 @@
 #include "pipeline/match/image/image_pyramid.h"
 #include "pipeline/match/image/plane.h"
 #include "pipeline/match/image/surface_field.h"
-#include "pipeline/match/refine/warp_terms.h"
 
 namespace relievo::pipeline {
 
@@ -47,12 +46,13 @@ void measure_score_excess(const BendingSystem& system, const Plane<float>& pull,
                           int step, ThreadPool& pool, std::pmr::memory_resource& scratch,
                           Plane<float>& excess);
 
-// Noise that hangs together from pixel to pixel. Thread: one caller.
+struct WarpTerms;  // warp_terms.h
 
 // How much less the pixels say than as many independent ones would: noise that hangs together from pixel to
 // pixel (interpolated colours, compression) shakes the fit by the sum over all shifts of the residual's and
 // the gradient's autocorrelation. 1 for a sensor's own pixels, about 3 for photographs stored as JPEG. What
 // the fit has not followed yet is no part of it: it is small beside the noise, pixel by pixel.
+// Thread: one caller.
 float hanging_noise(const WarpTerms& terms, ThreadPool& pool);
 
 struct SurfaceRefinerOptions {

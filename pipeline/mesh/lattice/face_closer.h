@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: 2026 The Relievo authors
 // SPDX-License-Identifier: GPL-3.0-or-later
 //
-// Closes a face on its head's chart (head_chart.h): everything within its outline (face_outline.h) that was
+// Closes a face on its head's chart (head_chart.h): everything within its outline (outline_cut.h) that was
 // not measured gets a surface that continues what was, as curved as the mirrored other side where that was
 // measured (cell_filler.h). Beside a nose, under it, in corners of eyes and mouth, beyond what both cameras
 // saw of a cheek. Measured surface stays where it is, but for the steep last two millimetres before a hole
@@ -11,7 +11,7 @@
 #include <optional>
 
 #include "pipeline/base/stage.h"
-#include "pipeline/mesh/lattice/face_outline.h"
+#include "pipeline/mesh/lattice/outline_cut.h"
 #include "pipeline/mesh/lattice/lattice_resampler.h"
 
 namespace relievo::pipeline {

@@ -5,6 +5,7 @@
 #pragma once
 
 #include <array>
+#include <cmath>
 #include <cstddef>
 #include <cstdint>
 #include <string_view>
@@ -12,6 +13,7 @@
 
 #include "hal/base/result.h"
 #include "pipeline/model/face_model.h"
+#include "pipeline/model/geometry.h"
 
 namespace relievo::storage {
 
@@ -33,5 +35,42 @@ struct ExportMesh {
 // InvalidInput: lengths that do not fit together, indices out of range, numbers that are not finite.
 // May throw std::bad_alloc. `model` must outlive the result.
 Result<ExportMesh> make_export_mesh(const pipeline::FaceModel& model, ExportFrame frame);
+
+// Corners that share vertex and texture coordinate share one entry: vertices are split at the seams
+// of the texture and nowhere else.
+struct SeamSplit {
+  struct Entry {
+    std::uint32_t vertex = 0;
+    pipeline::Vec2f uv;
+  };
+  std::vector<Entry> entries;                           // in order of first use
+  std::vector<std::array<std::uint32_t, 3>> triangles;  // of entries, in the mesh's order
+};
+
+// For an untextured mesh uv are zero, so that entries are the vertices in use.
+SeamSplit split_at_seams(const ExportMesh& mesh);
+
+// A model's landmarks as its files carry them: those that were found, in the frame of the export,
+// millimetres.
+struct PlacedLandmark {
+  std::string_view name;
+  pipeline::Vec3d at_mm;
+  double sigma_mm = 0;
+};
+
+inline std::vector<PlacedLandmark> placed_landmarks(const ExportMesh& mesh) {
+  std::vector<PlacedLandmark> placed;
+  for (std::size_t k = 0; k < pipeline::kLandmarkCount; ++k) {
+    const pipeline::Landmark& l = mesh.model.landmarks[k];
+    const pipeline::Vec3d at{l.at_mm.x, l.at_mm.y, l.at_mm.z};
+    if (!l.found || !std::isfinite(at.x + at.y + at.z) ||
+        std::abs(at.x) + std::abs(at.y) + std::abs(at.z) > 1e6 || !(l.sigma_mm >= 0 && l.sigma_mm < 1e6F))
+      continue;
+    placed.push_back({word(static_cast<pipeline::LandmarkName>(k)),
+                      mesh.frame == ExportFrame::Head ? apply(mesh.model.head_from_camera, at) : at,
+                      static_cast<double>(l.sigma_mm)});
+  }
+  return placed;
+}
 
 }  // namespace relievo::storage

@@ -7,14 +7,13 @@
 
 #include "storage/byte_order.h"
 #include "storage/export/format/number_text.h"
-#include "storage/export/format/placed_landmarks.h"
-#include "storage/export/format/seam_split.h"
+#include "storage/export/format/export_mesh.h"
 
 namespace relievo::storage {
 namespace {
 
 constexpr std::size_t kHeaderBytes = 80;
-constexpr std::size_t kFaceBytes = 12 * 4 + 2;
+constexpr std::size_t kStlFaceBytes = 12 * 4 + 2;
 
 pipeline::Vec3f normal_of(const pipeline::Vec3f& a, const pipeline::Vec3f& b, const pipeline::Vec3f& c) {
   const pipeline::Vec3f u{b.x - a.x, b.y - a.y, b.z - a.z}, v{c.x - a.x, c.y - a.y, c.z - a.z};
@@ -29,7 +28,7 @@ pipeline::Vec3f normal_of(const pipeline::Vec3f& a, const pipeline::Vec3f& b, co
 std::vector<std::byte> stl_bytes(const ExportMesh& mesh) {
   const auto& triangles = mesh.model.mesh.triangles;
   std::vector<std::byte> out;
-  out.reserve(kHeaderBytes + 4 + triangles.size() * kFaceBytes);
+  out.reserve(kHeaderBytes + 4 + triangles.size() * kStlFaceBytes);
   ByteWriter to(out);
   std::string header =
       "Relievo face model, binary, millimetres";  // must not begin with "solid": that is the text form
@@ -48,7 +47,7 @@ std::vector<std::byte> stl_bytes(const ExportMesh& mesh) {
 namespace {
 
 constexpr std::size_t kVertexBytes = 7 * 4 + 4;
-constexpr std::size_t kFaceBytes = 1 + 3 * 4;
+constexpr std::size_t kPlyFaceBytes = 1 + 3 * 4;
 
 std::string header(const ExportMesh& mesh) {
   const bool head = mesh.frame == ExportFrame::Head;
@@ -80,7 +79,7 @@ std::vector<std::byte> ply_bytes(const ExportMesh& mesh) {
   const auto& source = mesh.model.mesh;
   const std::string text = header(mesh);
   std::vector<std::byte> out;
-  out.reserve(text.size() + mesh.vertices_mm.size() * kVertexBytes + source.triangles.size() * kFaceBytes);
+  out.reserve(text.size() + mesh.vertices_mm.size() * kVertexBytes + source.triangles.size() * kPlyFaceBytes);
   ByteWriter to(out);
   to.put(bytes_of(text));
   for (std::size_t i = 0; i < mesh.vertices_mm.size(); ++i) {

@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: 2026 The Relievo authors
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include "hal/recording/recording.h"
+#include "hal/recording/capture_file.h"
 
 #include <gtest/gtest.h>
 #include <cstring>

@@ -8,6 +8,7 @@
 
 #include "pipeline/match/image/box_filter.h"
 #include "pipeline/match/refine/surface_refiner.h"
+#include "pipeline/match/refine/warp_terms.h"
 #include "tests/support/stage_fixture.h"
 
 namespace relievo::pipeline {
