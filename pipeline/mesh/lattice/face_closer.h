@@ -11,8 +11,8 @@
 #include <optional>
 
 #include "pipeline/base/stage.h"
-#include "pipeline/mesh/lattice/outline_cut.h"
 #include "pipeline/mesh/lattice/lattice_resampler.h"
+#include "pipeline/mesh/lattice/outline_cut.h"
 
 namespace relievo::pipeline {
 

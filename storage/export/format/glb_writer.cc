@@ -9,8 +9,8 @@
 #include <string_view>
 
 #include "storage/byte_order.h"
-#include "storage/export/format/number_text.h"
 #include "storage/export/format/export_mesh.h"
+#include "storage/export/format/number_text.h"
 
 // Written by hand, not by Debian's tinygltf: its JSON library aborts the process when memory runs out.
 // The numbers of the format: glTF 2.0 specification, sections 3.6 (accessors) and 4 (GLB).

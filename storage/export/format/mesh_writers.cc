@@ -6,8 +6,8 @@
 #include <string>
 
 #include "storage/byte_order.h"
-#include "storage/export/format/number_text.h"
 #include "storage/export/format/export_mesh.h"
+#include "storage/export/format/number_text.h"
 
 namespace relievo::storage {
 namespace {
