@@ -76,19 +76,20 @@ void unpack(const RawImage& raw, std::byte* out) {
   }
 }
 
-// Grey16, white 65535; width_px * 2 bytes a row, no padding. Of 10 to 16 bit.
-void unpack_to_16_bit(const RawImage& raw, std::byte* out) {
+// To16: Grey16, white 65535. To8: white 255, rounded to the nearest. Rows without padding. Of 10 to 16 bit.
+template <template <int> typename Scale>
+void unpack_all(const RawImage& raw, std::byte* out) {
   switch (raw.format.coding) {
     case RawCoding::Bits10:
-      return unpack<Loose<10>, To16>(raw, out);
+      return unpack<Loose<10>, Scale>(raw, out);
     case RawCoding::Bits12:
-      return unpack<Loose<12>, To16>(raw, out);
+      return unpack<Loose<12>, Scale>(raw, out);
     case RawCoding::Bits16:
-      return unpack<Loose<16>, To16>(raw, out);
+      return unpack<Loose<16>, Scale>(raw, out);
     case RawCoding::Packed10:
-      return unpack<Mipi10, To16>(raw, out);
+      return unpack<Mipi10, Scale>(raw, out);
     case RawCoding::Packed12:
-      return unpack<Mipi12, To16>(raw, out);
+      return unpack<Mipi12, Scale>(raw, out);
     case RawCoding::Bits8:
     case RawCoding::Rgb8:
     case RawCoding::Yuyv:
@@ -97,28 +98,6 @@ void unpack_to_16_bit(const RawImage& raw, std::byte* out) {
       break;
   }
   RELIEVO_ASSERT(false && "these are no samples of more than 8 bit");
-}
-
-// White 255, rounded to the nearest; width_px bytes a row, no padding. Of 10 and 12 bit.
-void unpack_to_8_bit(const RawImage& raw, std::byte* out) {
-  switch (raw.format.coding) {
-    case RawCoding::Bits10:
-      return unpack<Loose<10>, To8>(raw, out);
-    case RawCoding::Bits12:
-      return unpack<Loose<12>, To8>(raw, out);
-    case RawCoding::Packed10:
-      return unpack<Mipi10, To8>(raw, out);
-    case RawCoding::Packed12:
-      return unpack<Mipi12, To8>(raw, out);
-    case RawCoding::Bits8:
-    case RawCoding::Bits16:
-    case RawCoding::Rgb8:
-    case RawCoding::Yuyv:
-    case RawCoding::Nv12:
-    case RawCoding::Mjpeg:
-      break;
-  }
-  RELIEVO_ASSERT(false && "these are no samples of 10 or 12 bit");
 }
 
 // Of a JPEG only the stream knows: then the most it can be.
@@ -141,7 +120,7 @@ void copy_rows(const RawImage& raw, std::byte* out) {
 // In the scratch, because OpenCV's edge-aware demosaic is wrong for rows with padding (seen in 4.6).
 Result<void> develop_mosaic(const RawImage& raw, std::byte* rgb, std::byte* scratch) {
   if (raw.format.coding == RawCoding::Bits8) copy_rows(raw, scratch);
-  else unpack_to_8_bit(raw, scratch);
+  else unpack_all<To8>(raw, scratch);
   const RawImage mosaic{
       scratch,      static_cast<std::size_t>(raw.width_px) * static_cast<std::size_t>(raw.height_px),
       raw.width_px, raw.height_px,
@@ -161,7 +140,7 @@ Result<void> fill(const RawImage& raw, ImageView& view, std::byte* out, std::byt
     case RawCoding::Bits12:
     case RawCoding::Packed10:
     case RawCoding::Packed12:
-      unpack_to_16_bit(raw, out);
+      unpack_all<To16>(raw, out);
       break;
     case RawCoding::Yuyv:
     case RawCoding::Nv12:

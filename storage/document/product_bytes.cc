@@ -193,6 +193,17 @@ Error broken() { return {Errc::StoreCorrupt, "what was saved does not hang toget
 
 constexpr std::size_t kPictureHeadBytes = 4 + 4 + 1;
 
+// `walk` names the parts in their order; `beside` is what they must fit to.
+template <typename Product>
+Result<Product> read(std::span<const std::byte> bytes, std::pmr::memory_resource* memory, auto walk,
+                     const auto&... beside) {
+  Unpacker io(bytes);
+  Product product(memory);
+  walk(io, product);
+  if (!io.whole() || !fits(product, beside...)) return broken();
+  return product;
+}
+
 }  // namespace
 
 std::vector<std::byte> picture_bytes(const ImageView& picture) {
@@ -259,45 +270,27 @@ std::vector<std::byte> backdrop_bytes(const Backdrop& backdrop) {
 }
 
 Result<RectifiedPair> pair_from(std::span<const std::byte> bytes, std::pmr::memory_resource* memory) {
-  Unpacker io(bytes);
-  RectifiedPair pair(memory);
-  walk_pair(io, pair);
-  if (!io.whole() || !fits(pair)) return broken();
-  return pair;
+  return read<RectifiedPair>(bytes, memory, [](auto& io, auto& pair) { walk_pair(io, pair); });
 }
 
 Result<MatchSet> matches_from(std::span<const std::byte> bytes, const RectifiedPair& pair,
                               std::pmr::memory_resource* memory) {
-  Unpacker io(bytes);
-  MatchSet matches(memory);
-  walk_matches(io, matches);
-  if (!io.whole() || !fits(matches, pair)) return broken();
-  return matches;
+  return read<MatchSet>(
+      bytes, memory, [](auto& io, auto& matches) { walk_matches(io, matches); }, pair);
 }
 
 Result<PointCloud> cloud_from(std::span<const std::byte> bytes, const RectifiedPair& pair,
                               std::pmr::memory_resource* memory) {
-  Unpacker io(bytes);
-  PointCloud cloud(memory);
-  walk_cloud(io, cloud);
-  if (!io.whole() || !fits(cloud, pair)) return broken();
-  return cloud;
+  return read<PointCloud>(
+      bytes, memory, [](auto& io, auto& cloud) { walk_cloud(io, cloud); }, pair);
 }
 
 Result<FaceMesh> mesh_from(std::span<const std::byte> bytes, std::pmr::memory_resource* memory) {
-  Unpacker io(bytes);
-  FaceMesh mesh(memory);
-  walk_mesh(io, mesh);
-  if (!io.whole() || !fits(mesh)) return broken();
-  return mesh;
+  return read<FaceMesh>(bytes, memory, [](auto& io, auto& mesh) { walk_mesh(io, mesh); });
 }
 
 Result<Backdrop> backdrop_from(std::span<const std::byte> bytes, std::pmr::memory_resource* memory) {
-  Unpacker io(bytes);
-  Backdrop backdrop(memory);
-  walk_backdrop(io, backdrop);
-  if (!io.whole() || !fits(backdrop)) return broken();
-  return backdrop;
+  return read<Backdrop>(bytes, memory, [](auto& io, auto& backdrop) { walk_backdrop(io, backdrop); });
 }
 
 }  // namespace relievo::storage

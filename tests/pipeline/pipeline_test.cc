@@ -45,7 +45,7 @@ TEST(Pipeline, AnAssemblyThatWasStoppedCanBeDoneAgain) {
   const auto model = pipeline->assemble(*std::move(mesh), *std::move(texture), *pair, c);
   ASSERT_TRUE(model) << model.error().what.view();
   EXPECT_EQ(model->mesh.vertices_mm.size(), vertices);
-  EXPECT_FALSE(model->texture.pixels.empty());
+  EXPECT_FALSE(model->texture.rgb.empty());
 }
 
 }  // namespace

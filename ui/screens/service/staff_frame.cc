@@ -3,6 +3,7 @@
 #include "ui/screens/service/staff_frame.h"
 
 #include <algorithm>
+#include <array>
 #include <cstdio>
 
 namespace relievo::ui {
@@ -12,7 +13,37 @@ constexpr float kMargin = 32, kTop = 20;
 constexpr const char* kLeaveSign = "\uf343";
 constexpr Colour kNone{};
 
-// Of a PIN's keys; upright there is room for larger ones.
+struct SaidOutcome {
+  const char* words;
+  Mood mood = Mood::Bad;
+};
+
+// In the order of Outcome, behind None.
+constexpr std::array kOutcomes{
+    SaidOutcome{mark_tr("Done."), Mood::Good},
+    SaidOutcome{mark_tr("Cancelled. Nothing was left half done."), Mood::Warn},
+    SaidOutcome{mark_tr("There is no stick. Plug one in, then try again.")},
+    SaidOutcome{mark_tr("There is no room left. Nothing was left half written.")},
+    SaidOutcome{mark_tr(
+        "The stick was pulled out too early. Plug it in and export again: what is half written on it does not count.")},
+    SaidOutcome{mark_tr(
+        "The stick is write-protected. Slide its switch back or plug in another one, then export again.")},
+    SaidOutcome{
+        mark_tr("The stick does not keep what is written on it. Plug in another one and export again.")},
+    SaidOutcome{
+        mark_tr(
+            "It is all there and read back, but the device cannot let go of the stick. Wait ten seconds, then pull it out."),
+        Mood::Warn},
+    SaidOutcome{
+        mark_tr(
+            "It is written and was read back, but the device cannot open the stick once more to be sure. You can pull it out; export again to another one."),
+        Mood::Warn},
+    SaidOutcome{mark_tr("It is no longer there.")},
+    SaidOutcome{mark_tr("This cannot be accepted.")},
+    SaidOutcome{mark_tr("It could not be done. The log says why.")},
+};
+static_assert(kOutcomes.size() == static_cast<std::size_t>(Outcome::Failed));
+
 }  // namespace
 
 Colour StaffFrame::ink_of(Mood mood) const {
@@ -113,57 +144,9 @@ void StaffFrame::progress(std::string_view id, float share) {
 }
 
 void StaffFrame::outcome() {
-  const char* words = nullptr;
-  Mood mood = Mood::Bad;
-  switch (staff.work.outcome) {
-    case Outcome::None:
-      return;
-    case Outcome::Done:
-      words = tr("Done.");
-      mood = Mood::Good;
-      break;
-    case Outcome::Cancelled:
-      words = tr("Cancelled. Nothing was left half done.");
-      mood = Mood::Warn;
-      break;
-    case Outcome::NoStick:
-      words = tr("There is no stick. Plug one in, then try again.");
-      break;
-    case Outcome::StickFull:
-      words = tr("There is no room left. Nothing was left half written.");
-      break;
-    case Outcome::StickGone:
-      words = tr(
-          "The stick was pulled out too early. Plug it in and export again: what is half written on it does not count.");
-      break;
-    case Outcome::StickLocked:
-      words = tr(
-          "The stick is write-protected. Slide its switch back or plug in another one, then export again.");
-      break;
-    case Outcome::StickBad:
-      words = tr("The stick does not keep what is written on it. Plug in another one and export again.");
-      break;
-    case Outcome::StickHeld:
-      words = tr(
-          "It is all there and read back, but the device cannot let go of the stick. Wait ten seconds, then pull it out.");
-      mood = Mood::Warn;
-      break;
-    case Outcome::StickUnchecked:
-      words = tr(
-          "It is written and was read back, but the device cannot open the stick once more to be sure. You can pull it out; export again to another one.");
-      mood = Mood::Warn;
-      break;
-    case Outcome::NotFound:
-      words = tr("It is no longer there.");
-      break;
-    case Outcome::Refused:
-      words = tr("This cannot be accepted.");
-      break;
-    case Outcome::Failed:
-      words = tr("It could not be done. The log says why.");
-      break;
-  }
-  status("outcome", words, mood);
+  if (staff.work.outcome == Outcome::None) return;
+  const SaidOutcome& said = kOutcomes[static_cast<std::size_t>(staff.work.outcome) - 1];
+  status("outcome", tr(said.words), said.mood);
 }
 
 void StaffFrame::status(std::string_view id, std::string_view words, Mood mood) {

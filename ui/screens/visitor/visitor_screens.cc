@@ -2,6 +2,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "ui/screens/visitor/visitor_screens.h"
 
+#include <array>
+
 #include "ui/screens/staff_screens.h"
 #include "ui/screens/visitor/live_parts.h"
 
@@ -14,34 +16,11 @@ const Palette& palette_of(const Visit& visit) {
   return visit.high_contrast ? kHighContrast : is_dark(visit.step) ? kDark : kLight;
 }
 
-void step_screen(Page& page) {
-  switch (page.visit.step) {
-    case Step::Attract:
-      return attract_screen(page);
-    case Step::Consent:
-      return consent_screen(page);
-    case Step::Name:
-      return name_screen(page);
-    case Step::Known:
-      return known_screen(page);
-    case Step::Position:
-      return position_screen(page);
-    case Step::Turn:
-      return turn_screen(page);
-    case Step::Working:
-      return working_screen(page);
-    case Step::Review:
-      return review_screen(page);
-    case Step::Thanks:
-      return thanks_screen(page);
-    case Step::Trouble:
-      return trouble_screen(page);
-    case Step::Starting:
-      return starting_screen(page);
-    case Step::Declined:
-      return declined_screen(page);
-  }
-}
+// In the order of Step.
+constexpr std::array kStepScreens{attract_screen,  consent_screen, name_screen,     known_screen,
+                                  position_screen, turn_screen,    working_screen,  review_screen,
+                                  thanks_screen,   trouble_screen, starting_screen, declined_screen};
+static_assert(kStepScreens.size() == static_cast<std::size_t>(Step::Declined) + 1);
 
 // The simulated head: it invites, and shows what to do.
 bool shows_invitation(const Visit& visit) {
@@ -63,7 +42,7 @@ const Palette& build_visitor_screen(Tree& tree, const ViewState& view, const Vis
   Node root = page.box(Flow::Stack);
   root.id = "screen";
   tree.open(root);
-  step_screen(page);
+  kStepScreens[static_cast<std::size_t>(visit.step)](page);
   staff_entrance(page);
   if (visit.overlay != Overlay::None) {
     Page over(tree, view, visit, visit.high_contrast ? kHighContrast : kLight, screen);
