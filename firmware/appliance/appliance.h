@@ -21,10 +21,8 @@
 
 #include "firmware/machine/machine.h"
 #include "firmware/session/session.h"
-#include "firmware/work/head_job.h"
 #include "firmware/work/jobs.h"
 #include "firmware/work/portrait_progress.h"
-#include "firmware/work/turn_job.h"
 #include "hal/device.h"
 #include "ui/view/intent.h"
 
@@ -73,7 +71,7 @@ class Appliance {
   void set_attempts(int most) { most_attempts_ = most; }
   // Does a person at the screen come to Turn after the frontal picture? Never without a judge and the memory.
   void ask_for_sides(bool asks) { asks_for_sides_ = asks; }
-  // Of the job that runs while the head turns (work/head_job.h).
+  // Of the job that runs while the head turns (HeadJob).
   std::size_t parts_done() const;
   const std::optional<Error>& problem() const { return problem_; }
   // Of the last face that was matched: have the cameras moved?

@@ -8,7 +8,7 @@
 #include <utility>
 
 #include "firmware/base/budget.h"
-#include "pipeline/gate/relief/relief_picture.h"
+#include "pipeline/gate/relief/live_relief.h"
 
 namespace relievo::firmware {
 namespace {

@@ -14,7 +14,6 @@
 #include "firmware/capture/live_judge.h"
 #include "hal/base/thread_pool.h"
 #include "pipeline/gate/relief/live_relief.h"
-#include "pipeline/gate/relief/relief_picture.h"
 
 namespace relievo::firmware {
 namespace {

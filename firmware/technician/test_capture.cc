@@ -6,7 +6,7 @@
 #include <memory>
 #include <utility>
 
-#include "firmware/technician/show/touched_point.h"
+#include "firmware/technician/show/hand_pairs.h"
 #include "firmware/work/first_change.h"
 
 namespace relievo::firmware {

@@ -3,12 +3,135 @@
 #include "firmware/work/jobs.h"
 
 #include <thread>
+#include <utility>
 
 #include "firmware/jobs/behind_the_page.h"
+#include "firmware/work/portrait_progress.h"
 #include "firmware/work/stage_drawing.h"
 #include "hal/base/assert.h"
 
 namespace relievo::firmware {
+
+Result<void> HeadJob::run(JobControl& control) {
+  records_.clear();
+  parts_done_ = 0;
+  for (const State stage : kStages) {
+    JobControl inner{control.cancelled, inner_};
+    stage_.choose(stage);
+    RELIEVO_TRY(stage_.run(inner));
+    records_.push_back(stage_.record());
+    parts_done_.fetch_add(1, std::memory_order_release);
+  }
+  int lost = 0;
+  std::vector<pipeline::HeadPose> poses;
+  poses.reserve(SidePairs::kPoses);
+  while (const auto side = session_.sides().next(control.cancelled)) {
+    // What is wrong with a pair here spoils no face.
+    if (poses.empty() && !measure(*session_.products().frame, control, poses)) continue;
+    if (!measure(*side, control, poses)) ++lost;
+    parts_done_.fetch_add(1, std::memory_order_release);
+  }
+  parts_done_.store(PortraitProgress::kFuse, std::memory_order_release);
+  if (poses.size() > 1 && !fuse(control, poses)) lost += static_cast<int>(poses.size()) - 1;
+  if (session_.products().model) session_.products().model->poses_left_out += lost;
+  if (control.cancelled.load()) return Error{Errc::Cancelled, "stopped while the head was made"};
+  return {};
+}
+
+template <typename Work>
+auto HeadJob::timed(std::string_view name, JobControl& control, Work&& work) {
+  EnrolmentSession::Scratch scratch(session_);
+  pipeline::StageContext context{session_.output(), scratch.arena(), pool_, inner_, control.cancelled};
+  StageRecord record;
+  record.name = name;
+  const hal::Instant begin = clock_.now();
+  auto done = pipeline::run_stage(context, [&](pipeline::StageContext& c) { return work(c, record); });
+  record.took = clock_.now() - begin;
+  record.arena_peak_bytes = session_.output().used() + scratch.arena().high_water();
+  if (done) records_.push_back(record);
+  return done;
+}
+
+Result<void> HeadJob::measure(const pipeline::StereoFrame& pair, JobControl& control,
+                              std::vector<pipeline::HeadPose>& poses) {
+  Arena& kept = session_.sides().kept(poses.size());
+  kept.reset();  // of a pose that came to nothing
+  return timed("Pose", control, [&](pipeline::StageContext& context, StageRecord& record) -> Result<void> {
+    const Arena::Mark mark(session_.output());
+    RELIEVO_TRY_ASSIGN(pipeline::HeadPose pose, runner_.measure_pose(pair, context, kept));
+    if (pose.drift.verdict == pipeline::DriftVerdict::Refuse) return error_of(pose.drift);
+    poses.push_back(std::move(pose));
+    record.in = poses.size();
+    return {};
+  });
+}
+
+Result<void> HeadJob::fuse(JobControl& control, std::vector<pipeline::HeadPose>& poses) {
+  return timed("Fuse", control, [&](pipeline::StageContext& context, StageRecord& record) -> Result<void> {
+    record.in = poses.size();
+    RELIEVO_TRY_ASSIGN(pipeline::FusedHead head, runner_.fuse(*session_.products().model, poses, context));
+    record.out = head.model.mesh.triangles.size();
+    session_.products().model = std::move(head.model);
+    return {};
+  });
+}
+
+namespace {
+
+constexpr std::size_t kReliefShare = 8;  // of the memory: an eighth for the reliefs, the rest to make them
+
+}  // namespace
+
+Result<void> TurnJob::run(JobControl& control) {
+  const std::span<std::byte> block = session_.follow_block();
+  Arena output(block.first(block.size() / kReliefShare)), scratch(block.subspan(block.size() / kReliefShare));
+  const Result<void> done = judge_ == nullptr ? Result<void>() : follow(control, output, scratch);
+  output.wipe();
+  scratch.wipe();
+  session_.sides().end();
+  return done;
+}
+
+Result<void> TurnJob::follow(JobControl& control, Arena& output, Arena& scratch) {
+  pipeline::StageContext context{output, scratch, alone_, control.progress, control.cancelled};
+  RELIEVO_TRY(grabber_.start(device_.preferred_mode()));
+  RELIEVO_TRY_ASSIGN(const bool can_follow, judge_->begin_turn(front_, context));
+  if (!can_follow) return {};
+  const auto set = pose_.exposure().exposure().time;
+  const auto shutter = set.count() > 0 ? set : kFirstExposure.time;
+  hal::Instant last_side = device_.clock().now();
+  while (!enough_.load() && session_.sides().count() < pipeline::kSides &&
+         device_.clock().now() - last_side < budget::kTurnPatience) {
+    if (control.cancelled.load()) return Error{Errc::Cancelled, "the sides are no longer waited for"};
+    output.reset();
+    RELIEVO_TRY_ASSIGN(const pipeline::StereoFrame frame,
+                       grabber_.grab(session_.free_slot(), control.cancelled));
+    session_.live().fill(frame.left);
+    RELIEVO_TRY_ASSIGN(const TurnMeasurement seen,
+                       judge_->look_turned(frame, device_.clock().now(), shutter, context));
+    session_.live().fill_relief(seen.relief);
+    session_.live().publish(seen.guidance);
+    if (seen.take) {
+      RELIEVO_TRY(take(frame, control));
+      judge_->took(*seen.take);
+      last_side = device_.clock().now();
+    }
+    std::this_thread::sleep_for(budget::kLivePause);
+  }
+  return {};
+}
+
+// The pair that was looked at, or with a lamp one more in its light.
+Result<void> TurnJob::take(const pipeline::StereoFrame& seen, JobControl& control) {
+  if (device_.shot_light() == hal::Light::Off) return session_.sides().add(seen);
+  BurstOptions options;
+  options.pairs = 1;
+  options.light = device_.shot_light();
+  StereoSlot& slot = session_.free_slot();
+  RELIEVO_TRY_ASSIGN(const BurstResult lit, burst_.shoot(slot, slot, options, control.cancelled));
+  return session_.sides().add(lit.frame);
+}
+
 namespace {
 
 constexpr int kMeterEvery = 3;  // live pairs: a camera that runs on its own obeys one or two later

@@ -2,10 +2,13 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 //
 // The jobs of the three threads. Each is made once, with the appliance, and started many times.
-//   capture: OpenCamerasJob, PoseJob, GrabJob    worker: StageJob    keeper: KeepJob, LookUpJob
+//   capture: OpenCamerasJob, PoseJob, GrabJob, TurnJob    worker: StageJob, HeadJob    keeper: KeepJob,
+//   LookUpJob
 #pragma once
 
+#include <atomic>
 #include <utility>
+#include <vector>
 
 #include "firmware/capture/burst.h"
 #include "firmware/capture/exposure_control.h"
@@ -132,6 +135,77 @@ class LookUpJob final : public Job {
   VisitRecords& records_;
   RecordQuestion question_;
   RecordAnswer answer_;
+};
+
+// TurnJob: follows the head that turns after the frontal picture, on the screen as in a mirror, and takes
+// each side by itself when it is there and slow. It ends when every side is taken, when finish() says that is
+// enough, when no new side has come for kTurnPatience, or where the head cannot be followed; the sides that
+// are there are in the session. The light stays as it was set for the front. Works on one thread and in the
+// session's follow_block(): the worker has the rest. Thread: run() capture, the others main. Errors: those of
+// the grabber and of LiveJudge.
+class TurnJob final : public Job {
+ public:
+  TurnJob(StereoGrabber& grabber, EnrolmentSession& session, hal::Device& device, PoseJob& pose,
+          LiveJudge* judge)
+      : grabber_(grabber),
+        session_(session),
+        device_(device),
+        pose_(pose),
+        judge_(judge),
+        burst_(grabber, device.trigger(), device.clock()) {}
+  // Before it starts: the frontal pair, which lies in the session.
+  void begin_with(const pipeline::StereoFrame& front) {
+    front_ = front;
+    enough_ = false;
+  }
+  void finish() { enough_ = true; }
+  Result<void> run(JobControl& control) override;
+
+ private:
+  Result<void> follow(JobControl& control, Arena& output, Arena& scratch);
+  Result<void> take(const pipeline::StereoFrame& seen, JobControl& control);
+
+  StereoGrabber& grabber_;
+  EnrolmentSession& session_;
+  hal::Device& device_;
+  PoseJob& pose_;
+  LiveJudge* judge_;
+  Burst burst_;
+  ThreadPool alone_{1};
+  pipeline::StereoFrame front_;
+  std::atomic<bool> enough_{false};
+};
+
+// HeadJob: beside a head that turns, all stages of its frontal pair; then every side as it comes, and when no
+// more come the head of all of them. What goes wrong with a side costs that side: without any that fits, the
+// face of the frontal pair stays as it is. Thread: run() worker; parts_done() any; the others main, once it
+// has ended. Errors: those of the frontal pair's stages, Cancelled.
+class HeadJob final : public Job {
+ public:
+  HeadJob(StageRunner& runner, EnrolmentSession& session, ThreadPool& pool, const hal::Clock& clock)
+      : runner_(runner), session_(session), pool_(pool), clock_(clock), stage_(runner, session, pool, clock) {
+    records_.reserve(kStages.size() + SidePairs::kPoses + 1);
+  }
+  // Stages, whose pictures may be shown, then sides; PortraitProgress::kFuse from there on.
+  std::size_t parts_done() const { return parts_done_.load(std::memory_order_acquire); }
+  const std::vector<StageRecord>& records() const { return records_; }
+  Result<void> run(JobControl& control) override;
+
+ private:
+  Result<void> measure(const pipeline::StereoFrame& pair, JobControl& control,
+                       std::vector<pipeline::HeadPose>& poses);
+  Result<void> fuse(JobControl& control, std::vector<pipeline::HeadPose>& poses);
+  template <typename Work>
+  auto timed(std::string_view name, JobControl& control, Work&& work);
+
+  StageRunner& runner_;
+  EnrolmentSession& session_;
+  ThreadPool& pool_;
+  const hal::Clock& clock_;
+  StageJob stage_;
+  pipeline::Progress inner_;  // of one part
+  std::atomic<std::size_t> parts_done_{0};
+  std::vector<StageRecord> records_;
 };
 
 }  // namespace relievo::firmware

@@ -12,6 +12,8 @@
 // (options, empty picture, size other than calibrated), OutOfMemory, Cancelled.
 #pragma once
 
+#include <cstdint>
+
 #include "hal/base/image_view.h"
 #include "pipeline/base/stage.h"
 #include "pipeline/match/coarse/semi_global.h"
@@ -20,6 +22,12 @@
 #include "pipeline/model/stereo_frame.h"
 
 namespace relievo::pipeline {
+
+// The relief as grey values to look at: near is bright (255 at near_mm, 40 at far_mm, even steps of
+// disparity), 0 is unknown. Thread: any. Errors: none.
+
+// `grey`: width_px * height_px values, row by row without padding.
+void draw_relief(const Relief& relief, double near_mm, double far_mm, std::uint8_t* grey);
 
 // A picture at a fraction of its size, each pixel the mean of a square of the larger's, and the calibration
 // that belongs to it. Memory: context.scratch. Thread: worker. Errors: none; throws std::bad_alloc as every

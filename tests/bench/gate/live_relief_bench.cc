@@ -19,7 +19,6 @@
 #include "pipeline/calibrate/file/calibration_file.h"
 #include "pipeline/gate/capture_gate.h"
 #include "pipeline/gate/relief/live_relief.h"
-#include "pipeline/gate/relief/relief_picture.h"
 #include "pipeline/match/rectify/rectifier.h"
 #include "tests/bench/peer.h"
 

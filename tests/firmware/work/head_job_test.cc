@@ -3,7 +3,7 @@
 //
 // The pairs of a head that turns, from the capture thread to the head of all of them: with stages that do as
 // the test says.
-#include "firmware/work/head_job.h"
+#include "firmware/work/jobs.h"
 
 #include "firmware/work/portrait_progress.h"
 

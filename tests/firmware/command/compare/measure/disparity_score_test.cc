@@ -2,7 +2,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 //
 // Maps with errors that are known because they were put in.
-#include "firmware/measure/disparity_score.h"
+#include "firmware/measure/comparison.h"
 
 #include <gtest/gtest.h>
 
