@@ -94,6 +94,7 @@ class GlesRenderer final : public Renderer {
       draw_batch(list, first, last);
       first = last;
     }
+    glFinish();  // a finger is answered by the next frame: it must not queue behind frames nobody has seen
   }
 
   // No drawing of ours is an error, so each is the driver's: a context that was reset, memory that is used

@@ -21,6 +21,7 @@ class Renderer {
   static Result<std::unique_ptr<Renderer>> make();
   virtual ~Renderer() = default;
 
+  // Waits until all is drawn: what a program asks for, a driver may do several frames later.
   virtual void draw(const DrawList& list, TextAtlas& atlas, int width_px, int height_px) = 0;
   // Has the driver lost the context, or given up? Then nothing was drawn: only a new one, with a new
   // Renderer, draws again. Waits for the GL.
