@@ -189,6 +189,14 @@ void add_decision(Gallery& g, const ui::ViewState& review, const ui::ViewState& 
   }
   g.add("review_turned", review, turned);
   g.add("review_store_full", full, g.at(Step::Review));
+  static const pipeline::FaceModel without_a_side = [] {
+    pipeline::FaceModel model(std::pmr::get_default_resource());
+    model.poses_left_out = 1;
+    return model;
+  }();
+  ui::ViewState lacking = review;
+  lacking.model = &without_a_side;
+  g.add("review_side_left_out", lacking, g.at(Step::Review));
   ui::ViewState done = idle;
   done.receipt = "4821-9037-5512-71";
   static const hal::Picture code = code_picture(done.receipt);

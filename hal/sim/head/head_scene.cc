@@ -24,7 +24,7 @@ class HeadLight {
   struct Point {
     Vec3 at, normal, to_eye;  // unit vectors
     double openness = 1;
-    std::array<double, kPanels> seen{1, 1, 1};
+    std::array<double, kPanels> seen{1, 1, 1, 1};
   };
   Vec3 on(const Point& point, const Surface& surface) const;
   // A hair: light scattered by a thin cylinder (Kajiya and Kay, 1989).
@@ -60,12 +60,12 @@ HeadLight::HeadLight(const HeadModel& model, const HeadPose& pose, ThreadPool& p
 
 void HeadLight::measure(const HeadModel& model, std::size_t shell_index, std::size_t panel_index,
                         ThreadPool& pool) {
-  const int rays_a_side = panel_index < 2 ? 3 : 2;
+  const int rays_a_side = panel_index == 2 ? 2 : 3;
   const Shell& shell = model.shells[shell_index];
   const Panel& panel = panels_[panel_index];
   std::vector<float>& seen = seen_[shell_index][panel_index];
   seen.assign(shell.mesh.points.size(), 0.0F);
-  if (seen.empty()) return;
+  if (seen.empty() || panel.power == 0) return;
   pool.for_each_band(static_cast<int>(seen.size()), 64, [&](int begin, int end, int) {
     for (int i = begin; i < end; ++i) {
       const auto k = static_cast<std::size_t>(i);
@@ -140,6 +140,7 @@ Vec3 HeadLight::on(const Point& p, const Surface& s) const {
   // Light enters skin and leaves it further on, red furthest: edges of shade are soft and warm.
   const Vec3 wrap = Vec3{0.22, 0.09, 0.06} * s.translucent;
   for (std::size_t k = 0; k < kPanels; ++k) {
+    if (panels_[k].power == 0) continue;
     const Vec3 to = panels_[k].centre - p.at;
     const double d = length(to), ndl = dot(p.normal, to) / d;
     const double power = panels_[k].power * (kPanelReferenceMm / d) * (kPanelReferenceMm / d);

@@ -1,7 +1,8 @@
 // SPDX-FileCopyrightText: 2026 The Relievo authors
 // SPDX-License-Identifier: GPL-3.0-or-later
 //
-// The kiosk's light: two soft panels beside the cameras, a weak one below, and a dim room. World frame, mm.
+// The kiosk's light: two soft panels beside the cameras, a weak one below, the screen, and a dim room. World
+// frame, mm.
 // Thread: any.
 #pragma once
 
@@ -18,11 +19,12 @@ struct Panel {
   double power = 0;             // on white that faces it from kPanelReferenceMm away
 };
 
-constexpr std::size_t kPanels = 3;
+constexpr std::size_t kPanels = 4;
 constexpr double kPanelReferenceMm = 640;
 
 struct HeadLighting {                     // shares of the kiosk's own powers
   double left = 1, right = 1, below = 1;  // as the cameras see it
+  double screen = 0;                      // of the light of a white page: the mean of its linear pixels
   Result<void> check() const;             // InvalidInput
 };
 

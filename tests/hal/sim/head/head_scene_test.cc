@@ -83,6 +83,36 @@ TEST(HeadField, TheSurfaceHasTheMeasuresItWasAskedFor) {
   }
 }
 
+// Mean linear light in the middle of the left picture, which is face.
+double light_on_face(const std::shared_ptr<const HeadModel>& head, const HeadPose& pose,
+                     const HeadLighting& lighting, ThreadPool& pool) {
+  const SimulationOptions o = small(1);
+  const LightPicture picture =
+      expose(*make_head_scene(head, pose, pool, lighting), make_rig(o.rig).left, o.sensor, pool);
+  double sum = 0;
+  const int x0 = picture.width_px / 2 - 20, y0 = picture.height_px / 2 - 20;
+  for (int y = y0; y < y0 + 40; ++y)
+    for (int x = x0; x < x0 + 40; ++x)
+      sum += static_cast<double>(picture.rgb[3 * static_cast<std::size_t>(y * picture.width_px + x) + 1]);
+  return sum / 1600;
+}
+
+TEST(HeadLighting, TheScreenIsALampAsBrightAsItsPage) {
+  ThreadPool pool(2);
+  const auto head = make_head(traits_of(1), pool);
+  const HeadPose pose, near{.distance_mm = 450}, far{.distance_mm = 680};
+  const double lamps = light_on_face(head, pose, {}, pool);
+  const double half = light_on_face(head, pose, {.screen = 0.5}, pool) - lamps;
+  const double whole = light_on_face(head, pose, {.screen = 1}, pool) - lamps;
+  EXPECT_GT(whole, 0.03 * lamps);
+  EXPECT_LT(whole, 0.3 * lamps) << "a screen is no studio lamp";
+  EXPECT_NEAR(whole, 2 * half, 1e-4 * lamps);
+  const auto gain = [&](const HeadPose& at) {
+    return light_on_face(head, at, {.screen = 1}, pool) - light_on_face(head, at, {}, pool);
+  };
+  EXPECT_GT(gain(near), 1.4 * gain(far));
+}
+
 TEST(HeadPose, AxesTurnAsTheySay) {
   HeadPose pose;
   const Vec3 out = pose.world_from_head() * Vec3{0, 0, 1};
