@@ -70,9 +70,12 @@ void face(Page& page) {
 
 void assurance(Page& page) {
   const auto& tr = page.tr;
-  page.body("what", tr("Turn the portrait with your finger. Nothing is stored until you say so."));
   bool good = true;
   const char* said = quality(page, good);
+  const auto what = [&] {
+    page.body("what", tr("Turn the portrait with your finger. Nothing is stored until you say so."));
+  };
+  if (good) what();  // what speaks against keeping it comes first: large text may need scrolling
   Node row = page.box(Flow::Row, 14, 18, 14);
   row.id = "quality";
   row.role = Role::Status;
@@ -87,6 +90,7 @@ void assurance(Page& page) {
   page.tree.leaf(page.text(said, 22, Weight::Medium, page.palette.ink));
   page.tree.close();
   page.tree.close();
+  if (!good) what();
 }
 
 void question(Page& page) {
