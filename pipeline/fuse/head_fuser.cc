@@ -5,7 +5,6 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
-#include <numeric>
 
 #include "pipeline/fuse/fairing.h"
 #include "pipeline/fuse/head_zones.h"
@@ -222,20 +221,6 @@ std::pmr::vector<Vec3f> area_normals(const Polygonised& surface, std::pmr::memor
     for (const std::uint32_t v : t) normals[v] = plus(normals[v], area);
   }
   return normals;
-}
-
-// Two vertices that came to lie on one place would join sheets there: the second goes back to where it began.
-void part_equals(std::span<Vec3f> vertices, std::span<const Vec3f> started,
-                 std::pmr::memory_resource* memory) {
-  std::pmr::vector<std::uint32_t> order(vertices.size(), 0, memory);
-  std::iota(order.begin(), order.end(), 0U);
-  const auto key = [&](std::uint32_t v) { return std::array{vertices[v].x, vertices[v].y, vertices[v].z}; };
-  std::sort(order.begin(), order.end(),
-            [&](std::uint32_t a, std::uint32_t b) { return key(a) != key(b) ? key(a) < key(b) : a < b; });
-  std::pmr::vector<std::uint32_t> second(memory);
-  for (std::size_t i = 1; i < order.size(); ++i)
-    if (key(order[i]) == key(order[i - 1])) second.push_back(order[i]);
-  for (const std::uint32_t v : second) vertices[v] = started[v];
 }
 
 // By more than pairs of one good calibration do: then steps are left where one pair's surface ends. Where

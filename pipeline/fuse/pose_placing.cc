@@ -19,7 +19,7 @@ constexpr double kPlacingRidge = 1e-9;
 constexpr std::array<RegistrationRound, 4> kPlacingRounds{
     {{25, 12, 8, kFewSamples}, {12, 6, 6, kFewSamples}, {6, 2, 6, kFewSamples}, {3, 0.7, 4, kFewSamples}}};
 // A cheek lies well on the other one too, but then stands before other skin, where cameras would have seen
-// it. Of what both see, so much stands before the other at most: .06 was seen where it was right, .13 and
+// it. Of what both see, so much stands before the other at most: .06 was seen where it was right, .12 and
 // more where it was wrong.
 constexpr double kBeforeMm = 5;
 constexpr double kMostBeforeShare = 0.1;

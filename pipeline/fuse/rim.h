@@ -31,6 +31,11 @@ void open_rims(std::span<const std::uint8_t> sure, std::pmr::vector<Triangle>& t
 void smooth_rims(std::span<Vec3f> vertices_mm, std::span<const BorderEdge> border, int rounds, float most_mm,
                  std::pmr::memory_resource* memory);
 
+// Two vertices that came to lie on one place would join sheets there: the second goes back to where it began,
+// `started`. Memory: `memory`.
+void part_equals(std::span<Vec3f> vertices_mm, std::span<const Vec3f> started,
+                 std::pmr::memory_resource* memory);
+
 struct HoleLimits {
   float rim_mm;    // a hole's length around, at most
   float mouth_mm;  // of a bay of the longest rim, at most
