@@ -127,6 +127,8 @@ Result<void> simulate(const SimulateArgs& args, const Path& folder) {
   options.scene = args.board ? hal::sim::SceneKind::Board : hal::sim::SceneKind::Head;
   if (args.visit) options.scene = hal::sim::SceneKind::Visit;
   options.drift = args.drift;
+  if (!args.cast.empty())
+    options.alive = args.cast == "open" ? hal::sim::Alive::CastEyesOpen : hal::sim::Alive::CastEyesClosed;
   options.seed = args.seed;
   options.truth = args.truth;
   options.pose = {args.yaw_deg, args.pitch_deg, args.roll_deg, args.distance_mm, args.right_mm, args.down_mm};

@@ -280,6 +280,10 @@ void add_simulate(CLI::App& app, CommandArgs& chosen, SimulateArgs& args) {
                    "how much lips, jaw and lids move between the pairs; 1: the jaw by up to 0.8 mm")
       ->check(within(0, 3))
       ->capture_default_str();
+  visit
+      ->add_option("--cast", args.cast,
+                   "a rigid cast of the person instead, its eyes painted open, or closed")
+      ->check(CLI::IsMember({"open", "closed"}));
   CLI::App* held =
       command->add_subcommand("photograph", "a picture held before the cameras, printed or on a screen");
   add_held_picture(*held, args.held);

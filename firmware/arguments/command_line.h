@@ -167,6 +167,7 @@ struct SimulateArgs {
   bool board = false;  // the chessboard; else a face, or what is held
   bool visit = false;  // the face in all the poses of a visit
   double drift = 1;    // of a visit: how much the person's face moves between the pairs
+  std::string cast;    // of a visit: a rigid cast, its eyes `open` or `closed`; empty: a person
   std::optional<IdealRigArgs> rig;
   HeldPictureArgs held;
   Path output;

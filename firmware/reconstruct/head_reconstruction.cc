@@ -148,6 +148,8 @@ Result<void> HeadReconstruction::run(const std::vector<Path>& pictures, const st
   report_.quality = model().quality;
   report_.landmarks = model().landmarks;
   report_.head_from_camera = model().head_from_camera;
+  report_.aliveness = head_->aliveness;
+  report_.skin_moved_mm = head_->registration.skin_moved_mm;
   for (const auto& pose : head_->registration.poses) report_.poses.push_back(report_of(pose));
   return {};
 }

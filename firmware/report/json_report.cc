@@ -1,5 +1,6 @@
 // SPDX-FileCopyrightText: 2026 The Relievo authors
 // SPDX-License-Identifier: GPL-3.0-or-later
+#include <array>
 #include <nlohmann/json.hpp>
 
 #include <sstream>
@@ -58,6 +59,18 @@ nlohmann::ordered_json poses_json(const std::vector<PoseReport>& poses) {
   return all;
 }
 
+nlohmann::ordered_json aliveness_json(const Report& report) {
+  if (!report.aliveness) return nullptr;
+  const auto value = [](const std::optional<double>& v) {
+    return v ? nlohmann::ordered_json(*v) : nlohmann::ordered_json();
+  };
+  constexpr std::array kVerdicts{"alive", "not alive", "unjudged"};
+  return {{"verdict", kVerdicts.at(static_cast<std::size_t>(report.aliveness->verdict()))},
+          {"eyes_follow", value(report.aliveness->eyes_follow)},
+          {"iris_contrast", value(report.aliveness->iris_contrast)},
+          {"skin_moved_mm", report.skin_moved_mm}};
+}
+
 }  // namespace
 
 std::string report_json(const Report& report) {
@@ -98,6 +111,7 @@ std::string report_json(const Report& report) {
         {"relief", relief_json(q.relief)}}},
       {"landmarks", landmarks_json(report)},
       {"poses", poses_json(report.poses)},
+      {"aliveness", aliveness_json(report)},
       {"motion_px", report.motion_px ? Json(*report.motion_px) : Json()},
       {"overexposed",
        report.white ? Json{{"left", report.white->left}, {"right", report.white->right}} : Json()},

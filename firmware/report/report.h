@@ -13,6 +13,7 @@
 
 #include "firmware/work/stage_runner.h"
 #include "pipeline/calibrate/drift.h"
+#include "pipeline/fuse/aliveness.h"
 #include "pipeline/match/diagnose/overexposure.h"
 #include "pipeline/model/face_model.h"
 
@@ -38,9 +39,11 @@ struct Report {
   std::optional<double> motion_px;                // MatchSet::motion_px, where it is known
   pipeline::Landmarks landmarks{};                // the left camera's frame
   pipeline::RigidTransform head_from_camera{};
-  std::optional<pipeline::Overexposure> white{};  // of the face, where the pictures are at hand
-  std::size_t by_hand = 0;                        // matches, of those that Reconstruct took
-  std::vector<PoseReport> poses{};                // empty: there was one pair
+  std::optional<pipeline::Overexposure> white{};   // of the face, where the pictures are at hand
+  std::size_t by_hand = 0;                         // matches, of those that Reconstruct took
+  std::vector<PoseReport> poses{};                 // empty: there was one pair
+  std::optional<pipeline::Aliveness> aliveness{};  // of a head from several pairs
+  double skin_moved_mm = 0;                        // between them: Registration
 };
 
 std::string line_of(const StageRecord& stage);  // for a terminal

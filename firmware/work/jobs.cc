@@ -32,7 +32,12 @@ Result<void> HeadJob::run(JobControl& control) {
     parts_done_.fetch_add(1, std::memory_order_release);
   }
   parts_done_.store(PortraitProgress::kFuse, std::memory_order_release);
-  if (poses.size() > 1 && !fuse(control, poses)) lost += static_cast<int>(poses.size()) - 1;
+  if (poses.size() > 1)
+    if (const Result<void> fused = fuse(control, poses); !fused) {
+      // Turned eyes that are not alive are a reason not to take the face from in front either.
+      if (fused.error().code == Errc::NoFace) return fused.error();
+      lost += static_cast<int>(poses.size()) - 1;
+    }
   if (session_.products().model) session_.products().model->poses_left_out += lost;
   if (control.cancelled.load()) return Error{Errc::Cancelled, "stopped while the head was made"};
   return {};

@@ -40,7 +40,9 @@ Result<pipeline::FusedHead> PipelineStages::fuse(const pipeline::FaceModel& face
                                                  std::span<pipeline::HeadPose> poses,
                                                  pipeline::StageContext& context) {
   RELIEVO_TRY_ASSIGN(const auto head, pipeline::HeadPipeline::make(set_));
-  return head.fuse(face, poses, context);
+  RELIEVO_TRY_ASSIGN(pipeline::FusedHead fused, head.fuse(face, poses, context));
+  if (fused.model.unjudged && when_unjudged_ == WhenUnjudged::Refuse) return *fused.model.unjudged;
+  return fused;
 }
 
 // A face that is not found, not matched or no face's shape may be the pictures' fault: then the cause is

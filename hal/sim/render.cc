@@ -156,15 +156,17 @@ Result<void> render_visit(const SimulationOptions& o, const SimRig& rig, const s
   constexpr std::array<std::array<double, 2>, 6> kTurnsDeg{
       {{0, 0}, {-25, 0}, {25, 0}, {-45, 0}, {45, 0}, {0, 15}}};
   HeadTraits traits = traits_of(o.seed);
+  if (o.alive == Alive::CastEyesClosed) traits.expression.lids_open = 0;
   std::shared_ptr<const HeadModel> head = make_head(traits, pool);
   std::mt19937 random(o.seed);
   for (std::size_t k = 0; k < kTurnsDeg.size(); ++k) {
-    if (k > 0 && o.drift > 0) {
+    if (k > 0 && o.drift > 0 && o.alive == Alive::Person) {
       let_drift(traits.expression, o.drift, random);
       head = make_head(traits, pool);
     }
     HeadPose pose = turned_about_neck(o.pose, kTurnsDeg[k][0]);
     pose.pitch_deg += kTurnsDeg[k][1];
+    pose.eyes_follow = o.alive == Alive::Person;
     const std::filesystem::path own = folder / std::to_string(k);
     std::error_code failed;
     std::filesystem::create_directories(own, failed);

@@ -44,6 +44,9 @@ Result<void> write_mesh(const std::filesystem::path& file, const Mesh& mesh);
 // Visit: a head that turns, pair by pair.
 enum class SceneKind : std::uint8_t { Head, Board, Visit };
 
+// A cast does not move; its eyes are closed, or painted.
+enum class Alive : std::uint8_t { Person, CastEyesOpen, CastEyesClosed };
+
 struct SimulationOptions {
   SceneKind scene = SceneKind::Head;
   std::uint32_t seed = 1;  // the person, or the set of board poses
@@ -54,8 +57,9 @@ struct SimulationOptions {
   bool board_in_this_pose = false;  // one pair, of the board in `pose`, instead of many poses by seed
   RigOptions rig;
   SensorOptions sensor;
-  bool truth = false;  // heads only: also truth.bin, head.ply
-  double drift = 1;    // of a visit: how much the face moves between the pairs; 1: the jaw by up to 0.8 mm
+  bool truth = false;           // heads only: also truth.bin, head.ply
+  Alive alive = Alive::Person;  // of a visit
+  double drift = 1;  // of a visit: how much the face moves between the pairs; 1: the jaw by up to 0.8 mm
   Result<void> check() const;  // InvalidInput
 };
 

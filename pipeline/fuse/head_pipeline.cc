@@ -60,6 +60,8 @@ Result<HeadPipeline> HeadPipeline::make(const AlgorithmSet& set) {
   if (set.get("face.radius_mm") == AlgorithmSet{}.get("face.radius_mm"))
     RELIEVO_TRY(made.head_set_.set("face.radius_mm", kHeadRadiusMm));
   RELIEVO_TRY_ASSIGN(made.fuser_, make_head_fuser(set));
+  RELIEVO_TRY_ASSIGN(const auto relief, make_relief_check(set));
+  made.asks_for_life_ = relief.has_value();
   return made;
 }
 
@@ -113,8 +115,10 @@ Result<FusedHead> HeadPipeline::fuse(const FaceModel& face, std::span<HeadPose> 
                        return HeadFuser(fuser_).fuse(surfaces, registration, face.mesh, face.landmarks, c);
                      }));
   for (std::size_t k = 0; k < poses.size(); ++k) poses[k].surface = std::move(surfaces[k]);
+  Aliveness aliveness;
   RELIEVO_TRY_ASSIGN(TextureAtlas atlas, run_stage(context, [&](StageContext& c) {
                        const auto views = views_of(poses, registration, &c.scratch);
+                       aliveness = measure_aliveness(views, face.landmarks, face.head_from_camera);
                        return texture_head(mesh, views, kMostAtlasPx, c);
                      }));
   FaceModel head(&context.output);
@@ -122,6 +126,8 @@ Result<FusedHead> HeadPipeline::fuse(const FaceModel& face, std::span<HeadPose> 
   head.landmarks = face.landmarks;
   head.backdrop = face.backdrop;
   head.unjudged = face.unjudged;
+  if (asks_for_life_ && aliveness.verdict() == Aliveness::Verdict::NotAlive)
+    head.unjudged = error_of(aliveness);
   for (const RegisteredPose& pose : registration.poses) head.poses_left_out += pose.joined ? 0 : 1;
   // Area, coverage and sigma are the whole head's; size and relief of the face stay those of the master.
   head.quality = face.quality;
@@ -137,7 +143,7 @@ Result<FusedHead> HeadPipeline::fuse(const FaceModel& face, std::span<HeadPose> 
   }));
   head.mesh = std::move(mesh);
   head.texture = std::move(atlas);
-  return FusedHead{std::move(head), std::move(registration)};
+  return FusedHead{std::move(head), std::move(registration), aliveness};
 }
 
 }  // namespace relievo::pipeline

@@ -18,6 +18,7 @@
 #include <vector>
 
 #include "pipeline/calibrate/drift.h"
+#include "pipeline/fuse/aliveness.h"
 #include "pipeline/fuse/head_fuser.h"
 #include "pipeline/fuse/pose_registration.h"
 #include "pipeline/pipeline.h"
@@ -38,6 +39,7 @@ struct HeadPose {
 struct FusedHead {
   FaceModel model;  // in the first pair's left camera's frame
   Registration registration;
+  Aliveness aliveness{};
 };
 
 class HeadPipeline {
@@ -51,7 +53,8 @@ class HeadPipeline {
   // Of the master pair alone, without texture. The stages' errors.
   Result<FaceModel> face(const StereoFrame& frame, const StereoCalibration& calibration,
                          StageContext& context) const;
-  // `poses`: the master's first, whose face it is; they are bent. Errors: InvalidInput (a face without its
+  // `poses`: the master's first, whose face it is; they are bent. Where its eyes were not alive the model is
+  // `unjudged`, unless nobody asked (relief=off). Errors: InvalidInput (a face without its
   // tip of the nose), PoorGeometry (a pair that meets none of the others, named by its number), Cancelled,
   // OutOfMemory.
   Result<FusedHead> fuse(const FaceModel& face, std::span<HeadPose> poses, StageContext& context) const;
@@ -60,6 +63,7 @@ class HeadPipeline {
   explicit HeadPipeline(const AlgorithmSet& set) : face_set_(set), head_set_(set) {}
   AlgorithmSet face_set_, head_set_;  // they differ in how far from the nose is measured
   HeadFuserOptions fuser_;
+  bool asks_for_life_ = false;  // as the relief check is asked for
 };
 
 }  // namespace relievo::pipeline

@@ -278,6 +278,7 @@ Result<Registration> register_poses(std::span<PoseSurface> poses, StageContext& 
     leave_out();
     do {
       RELIEVO_TRY(JointSolver(made.poses, residuals, context).run());
+      made.skin_moved_mm = std::sqrt(residuals.skin().variance_mm2());
     } while (leave_out());
     if (std::none_of(made.poses.begin() + 1, made.poses.end(), [](const auto& p) { return p.joined; }))
       return meets_no_other_pose(1);

@@ -35,6 +35,8 @@ struct Registration {
   explicit Registration(std::pmr::memory_resource* memory) : poses(memory) {}
   std::pmr::vector<RegisteredPose> poses;  // the first is the identity, its covariance 0
   Vec3d pivot_mm;
+  double skin_moved_mm =
+      0;  // of a region of skin, about where it should be, one standard deviation, robustly
 };
 
 // The first pose must have a head frame; others start from theirs, or, where that leads nowhere, from a head

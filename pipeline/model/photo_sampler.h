@@ -17,8 +17,8 @@ namespace relievo::pipeline {
 
 class PhotoSampler {
  public:
-  PhotoSampler(const RectifiedView& view, int width_px, int height_px)
-      : rgb_(view.rgb.data()),
+  PhotoSampler(std::span<const std::uint8_t> rgb, int width_px, int height_px)
+      : rgb_(rgb.data()),
         width_(width_px),
         last_x_(static_cast<float>(width_px - 1)),
         last_y_(static_cast<float>(height_px - 1)) {}

@@ -173,8 +173,8 @@ class Layer {
   // What was photographed and yet does not fit into the main chart: folds, read from the photographs
   // directly.
   void photograph_sides(const VertexViews& views, const ViewBlend& blend) {
-    const PhotoSampler left(pair_.left, pair_.width_px, pair_.height_px);
-    const PhotoSampler right(pair_.right, pair_.width_px, pair_.height_px);
+    const PhotoSampler left(pair_.left.rgb, pair_.width_px, pair_.height_px);
+    const PhotoSampler right(pair_.right.rgb, pair_.width_px, pair_.height_px);
     for (std::size_t s = 0; s < sides_.triangles.size(); ++s) {
       const auto& t = mesh_.triangles[sides_.triangles[s]];
       if (!seen_whole(t)) continue;

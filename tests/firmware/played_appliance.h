@@ -5,6 +5,7 @@
 #pragma once
 
 #include <gtest/gtest.h>
+#include <optional>
 
 #include <deque>
 #include <string>
@@ -44,7 +45,7 @@ class TestStages final : public StageRunner {
   }
   std::deque<Errc> pose_errors;  // of the front and the sides, in their order
   std::atomic<int> measured{0};
-  bool fuses = true;
+  std::optional<Errc> fuse_error;
   Result<pipeline::HeadPose> measure_pose(const pipeline::StereoFrame&, pipeline::StageContext&,
                                           Arena& kept) override {
     ++measured;
@@ -57,7 +58,7 @@ class TestStages final : public StageRunner {
   }
   Result<pipeline::FusedHead> fuse(const pipeline::FaceModel&, std::span<pipeline::HeadPose> poses,
                                    pipeline::StageContext& context) override {
-    if (!fuses) return Error{Errc::PoorGeometry, "as the test says"};
+    if (fuse_error) return Error{*fuse_error, "as the test says"};
     pipeline::FusedHead head{pipeline::FaceModel(&context.output), pipeline::Registration(&context.output)};
     head.model.quality.width_mm = static_cast<double>(poses.size());
     return head;

@@ -98,7 +98,8 @@ std::string name_of(const Shot& s) {
   const int used = std::snprintf(text, sizeof text, "s%u_d%.0f_x%.0f_y%.0f_yaw%.1f_pitch%.1f_roll%.1f_%d",
                                  s.seed, s.pose.distance_mm, s.pose.right_mm, s.pose.down_mm, s.pose.yaw_deg,
                                  s.pose.pitch_deg, s.pose.roll_deg, static_cast<int>(s.extra));
-  return std::string(text, static_cast<std::size_t>(used)) + name_of(s.guise);
+  return std::string(text, static_cast<std::size_t>(used)) + (s.pose.eyes_follow ? "" : "_painted") +
+         name_of(s.guise);
 }
 
 void smear(sim::LightPicture& light, double length_px) {

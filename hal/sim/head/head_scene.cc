@@ -185,7 +185,7 @@ class HeadScene final : public Scene {
         skin_(head_->field) {
     // Looks between the cameras, as far as eyes turn without the head.
     for (std::size_t k = 0; k < 2; ++k) {
-      const Vec3 to = to_head({70, 0, 0}) - head_->eye_centres[k];
+      const Vec3 to = pose.eyes_follow ? to_head({70, 0, 0}) - head_->eye_centres[k] : Vec3{0, 0, 1};
       gaze_[k] = normalised({std::clamp(to.x / to.z, -0.35, 0.35), std::clamp(to.y / to.z, -0.25, 0.25), 1});
     }
   }

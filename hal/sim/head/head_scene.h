@@ -21,6 +21,7 @@ struct HeadPose {
   double roll_deg = 0;
   double distance_mm = 560;  // left camera to the middle of the face, along its axis
   double right_mm = 0, down_mm = 0;
+  bool eyes_follow = true;  // the cameras, as far as eyes turn; painted ones look straight ahead
   Mat3 world_from_head() const;
   Vec3 origin_mm() const;  // of the head frame, in world
 };

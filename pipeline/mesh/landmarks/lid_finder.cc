@@ -82,7 +82,7 @@ void sample(Window& w, const FaceRelief& relief, const RigidTransform& camera_fr
             const RectifiedPair& pair, double side) {
   w.red.assign(static_cast<std::size_t>(w.columns * w.rows), std::nanf(""));
   w.light.assign(w.red.size(), 0);
-  const PhotoSampler photo(pair.left, pair.width_px, pair.height_px);
+  const PhotoSampler photo(pair.left.rgb, pair.width_px, pair.height_px);
   for (int r = 0; r < w.rows; ++r)
     for (int c = 0; c < w.columns; ++c) {
       const double x = side * w.x_mm(c), y = w.y_mm(r), z = relief.at(x, y);

@@ -279,7 +279,7 @@ VertexViews look_at_vertices(const FaceMesh& mesh, const RectifiedPair& pair, co
   const auto parts = completed_triangles(mesh, memory);
   const auto beyond = completed_to_border(mesh, parts, memory);
   const auto look = [&](const RectifiedView& view, float side, std::uint8_t bit, std::span<float> light) {
-    const PhotoSampler photo(view, pair.width_px, pair.height_px);
+    const PhotoSampler photo(view.rgb, pair.width_px, pair.height_px);
     const auto colour = [&](std::uint32_t v) {
       float rgb[3];
       photo.read(chart.view_x(chart.texel[v].x, chart.disparity_px[v], side), chart.view_y(chart.texel[v].y),

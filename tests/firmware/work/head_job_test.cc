@@ -124,10 +124,19 @@ TEST_F(HeadJobTest, WhatIsWrongWithASideSpoilsNoFace) {
 TEST_F(HeadJobTest, PosesThatDoNotMeetLeaveTheFaceAsItWas) {
   ASSERT_TRUE(sides().add(Pair(1).frame));
   sides().end();
-  stages.fuses = false;
+  stages.fuse_error = Errc::PoorGeometry;
   ASSERT_TRUE(job.run(control));
   ASSERT_NE(model(), nullptr);
   EXPECT_EQ(model()->quality.width_mm, 0);
+}
+
+TEST_F(HeadJobTest, EyesThatWereNotAliveWhileTheHeadTurnedSpoilTheFaceToo) {
+  ASSERT_TRUE(sides().add(Pair(1).frame));
+  sides().end();
+  stages.fuse_error = Errc::NoFace;
+  const Result<void> done = job.run(control);
+  ASSERT_FALSE(done);
+  EXPECT_EQ(done.error().code, Errc::NoFace);
 }
 
 TEST_F(HeadJobTest, AFrontThatIsNoFaceIsAnErrorAtOnce) {
