@@ -76,12 +76,13 @@ Result<void> OutputFolder::commit() {
     fs::rename(work_, target_, error);
     if (error) return failed(target_, error.value());
     work_.clear();
+    RELIEVO_TRY(storage::sync_renamed(target_));
     // The folders that were made on the way have names, too.
     const fs::path made = std::exchange(made_parent_, {});
-    for (fs::path parent = target_.parent_path();; parent = parent.parent_path()) {
-      RELIEVO_TRY(storage::sync_directory(parent));
-      if (made.empty() || parent == made.parent_path()) return {};
-    }
+    if (made.empty()) return {};
+    for (fs::path one = target_.parent_path(); one != made.parent_path(); one = one.parent_path())
+      RELIEVO_TRY(storage::sync_directory(one.parent_path()));
+    return {};
   }
   for (const fs::directory_entry& entry : fs::directory_iterator(work_, error)) {
     fs::rename(entry.path(), target_ / entry.path().filename(), error);

@@ -78,7 +78,7 @@ Result<void> write(std::span<const std::byte> bytes, const fs::path& target, hal
                  }));
   RELIEVO_TRY(work.reach(ExportStep::Write, 0.95F));
   RELIEVO_TRY(file.publish());
-  return storage::sync_directory(target.parent_path());
+  return storage::sync_renamed(target);
 }
 
 }  // namespace

@@ -39,6 +39,17 @@ Error failed(const fs::path& file, int cause) {
   }
 }
 
+Result<void> sync_one(const fs::path& named, int flags) {
+  const int fd = ::open(named.c_str(), O_RDONLY | O_CLOEXEC | flags);
+  if (fd < 0) return failed(named, errno);
+  const int code = ::fsync(fd);
+  const int cause = errno;
+  ::close(fd);
+  // Not every file system can sync a directory (EINVAL): then there is nothing more to be had.
+  if (code != 0 && cause != EINVAL && cause != ENOTSUP) return failed(named, cause);
+  return {};
+}
+
 }  // namespace
 
 Result<PendingFile> PendingFile::create(const fs::path& target, unsigned mode) {
@@ -80,15 +91,12 @@ Result<void> PendingFile::publish() {
 }
 
 Result<void> sync_directory(const fs::path& dir) {
-  const fs::path named = dir.empty() ? fs::path(".") : dir;
-  const int fd = ::open(named.c_str(), O_RDONLY | O_DIRECTORY | O_CLOEXEC);
-  if (fd < 0) return failed(named, errno);
-  const int code = ::fsync(fd);
-  const int cause = errno;
-  ::close(fd);
-  // Not every file system can sync a directory (EINVAL): then there is nothing more to be had.
-  if (code != 0 && cause != EINVAL && cause != ENOTSUP) return failed(named, cause);
-  return {};
+  return sync_one(dir.empty() ? fs::path(".") : dir, O_DIRECTORY);
+}
+
+Result<void> sync_renamed(const fs::path& target) {
+  RELIEVO_TRY(sync_one(target, 0));
+  return sync_directory(target.parent_path());
 }
 
 Result<void> write_file(const fs::path& target, std::span<const std::byte> bytes) {
@@ -96,7 +104,7 @@ Result<void> write_file(const fs::path& target, std::span<const std::byte> bytes
   RELIEVO_TRY(file.write(bytes));
   RELIEVO_TRY(file.finish());
   RELIEVO_TRY(file.publish());
-  return sync_directory(target.parent_path());
+  return sync_renamed(target);
 }
 
 }  // namespace relievo::storage

@@ -44,8 +44,12 @@ class PendingFile {
   int fd_ = -1;
 };
 
-// A rename is durable only when its directory is.
+// Names are durable only when their directory is.
 Result<void> sync_directory(const std::filesystem::path& dir);
+// A file or folder that was renamed to `target`. FAT writes a new name without the place where the file
+// begins; that follows with the file itself, so this is synced first: else a cut leaves a name that leads
+// nowhere.
+Result<void> sync_renamed(const std::filesystem::path& target);
 
 // All of the above at once.
 Result<void> write_file(const std::filesystem::path& target, std::span<const std::byte> bytes);
