@@ -162,7 +162,7 @@ def refused(kiosk, user, line):
 
 def sticks(machine, _):
     """Real file systems under an export: full, read-only, corrupt, pulled, hostile; what guest/sticks says is the result."""
-    said = machine.run(f"sh {ROOT}/tests/vm/guest/sticks {RELIEVO} {BUILT}/tests/vm/stick_export 50 2>&1 | tee {machine.results}/sticks.log", 7200, check=False)
+    said = machine.run(f"bash {ROOT}/tests/vm/guest/sticks {RELIEVO} {BUILT}/tests/vm/stick_export 50 2>&1 | tee {machine.results}/sticks.log", 7200, check=False)
     print(said, flush=True)
     check("WRONG" not in said and "pulled 50 times" in said and "#1" in said, "a stick did what it should not, see above")
 
