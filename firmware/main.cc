@@ -64,15 +64,19 @@ Result<std::unique_ptr<hal::Device>> open_device(std::string_view device) {
       .at(device);
 }
 
-// The file of --key; or the credential that systemd hands this service; or the file beside the store.
+// The file of --key; or the one beside the store that the TPM sealed; or the credential that systemd hands
+// this service; or the file beside the store.
 std::shared_ptr<storage::KeySource> key_source(const Path& folder, const Path& named) {
-  if (!named.empty()) return storage::key_file(named, false);
+  constexpr auto kAsBefore = storage::NextKey::AsBefore;
+  if (!named.empty()) return storage::key_file(named, false, kAsBefore);
+  auto beside = storage::key_file(folder / storage::kKeyFile, true, kAsBefore);
+  if (storage::is_key_sealed_by_tpm(folder / storage::kKeyFile)) return beside;
   const char* credentials = getenv("CREDENTIALS_DIRECTORY");
   std::error_code ignored;
   if (const Path file = Path(credentials == nullptr ? "" : credentials) / storage::kKeyFile;
       credentials != nullptr && std::filesystem::exists(file, ignored))
     return storage::key_credential(file);
-  return storage::key_file(folder / storage::kKeyFile);
+  return beside;
 }
 
 Result<std::unique_ptr<storage::Store>> open_store(const Path& folder, bool to_write, const Path& key,

@@ -15,6 +15,13 @@
 
 namespace relievo::storage {
 
+// Where the appliance's key moves to: a file as text, or beside the store, sealed by the board's TPM.
+// Neither: it stays where and as it is.
+struct KeyPlace {
+  std::filesystem::path file{};
+  bool sealed_by_tpm = false;
+};
+
 class StoreKeeping {
  public:
   virtual ~StoreKeeping() = default;
@@ -25,8 +32,7 @@ class StoreKeeping {
   virtual Result<std::vector<SubjectId>> erased_since(const std::filesystem::path& backup) = 0;
 
   // New keys for the appliance and the store; every wrapped key is wrapped anew. Older copies keep theirs.
-  // `place`: the file the appliance's key moves to; empty: it stays where it is.
-  virtual Result<void> rekey(const std::filesystem::path& place) = 0;
+  virtual Result<void> rekey(const KeyPlace& to) = 0;
 
   // A new appliance's key for a store whose own is lost, by its recovery words. NotFound: it has none.
   // Returns who was in it and is erased again, because they were after this copy of the store was made.

@@ -262,9 +262,11 @@ void add_store_keeping(CLI::App& app, CommandArgs& chosen, StoreArgs& args) {
       ->add_option("file", args.file, "where to")
       ->required()
       ->type_name("FILE");
-  verb("rekey", "new keys; copies made before keep the old ones", StoreArgs::Verb::Rekey)
-      ->add_option("--new-key", args.file, "the key moves to this file")
-      ->type_name("FILE");
+  CLI::App* rekey = verb("rekey", "new keys; copies made before keep the old ones", StoreArgs::Verb::Rekey);
+  CLI::Option* to_file = rekey->add_option("--new-key", args.file, "the key moves to this file");
+  to_file->type_name("FILE");
+  rekey->add_flag("--tpm", args.tpm, "the key moves beside the store, sealed by this board's TPM")
+      ->excludes(to_file);
   verb("recovery-words",
        "draws the twelve words that open the store when its key is lost, and prints them once",
        StoreArgs::Verb::RecoveryWords);

@@ -145,6 +145,7 @@ struct StoreArgs {
   enum class Verb { Check, Backup, Rekey, RecoveryWords, Recover } verb = Verb::Check;
   Path file;  // check: a copy to compare, may be empty; backup: where to; rekey: the key's new place, may be
               // empty
+  bool tpm = false;  // rekey: sealed by the board's
   Path store;
 };
 

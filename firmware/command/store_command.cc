@@ -77,7 +77,7 @@ Result<void> run(const StoreArgs& args, Services& services) {
                            "; keep its key, or the recovery words, elsewhere");
       return {};
     case StoreArgs::Verb::Rekey:
-      RELIEVO_TRY(keeping->rekey(args.file));
+      RELIEVO_TRY(keeping->rekey({args.file, args.tpm}));
       services.console.say("the keys are new; the old key opens only copies made before");
       return {};
     case StoreArgs::Verb::RecoveryWords: {

@@ -6,10 +6,12 @@
 
 #include <cerrno>
 #include <cstdio>
+#include <span>
 #include <string_view>
 #include <utility>
 
 #include "storage/cipher/key_source.h"
+#include "storage/cipher/tpm.h"
 #include "storage/export/atomic_file.h"
 
 namespace relievo::storage {
@@ -17,11 +19,11 @@ namespace {
 
 namespace fs = std::filesystem;
 
-Result<void> read_file(const fs::path& file, SecretKey& key, bool must_be_private) {
+Result<LockedBytes> read_file(const fs::path& file, bool must_be_private, std::size_t& size) {
   const auto failed = [&](Errc code, Literal what, int cause) {
     return Error{code, what, cause}.at(file.native());
   };
-  RELIEVO_TRY_ASSIGN(auto room, LockedBytes::make(128));
+  RELIEVO_TRY_ASSIGN(auto room, LockedBytes::make(kMostSealedByTpm));
   const int fd = ::open(file.c_str(), O_RDONLY | O_CLOEXEC);
   if (fd < 0 && errno == ENOENT)
     return failed(Errc::NotFound, "the store's key is not there: put it back, or name its place (--key)", 0);
@@ -35,32 +37,46 @@ Result<void> read_file(const fs::path& file, SecretKey& key, bool must_be_privat
     return failed(Errc::IoFailed, "the store's key cannot be read: check the disk", cause);
   if (must_be_private && (status.st_mode & 077) != 0)
     return failed(Errc::InvalidInput, "others may read the store's key: give it the mode 0600", 0);
-  const auto read =
-      read_key({reinterpret_cast<const char*>(room.bytes().data()), static_cast<std::size_t>(got)}, key);
-  return read ? Result<void>() : read.error().at(file.native());
+  size = static_cast<std::size_t>(got);
+  return room;
+}
+
+Result<void> read_key_of(const fs::path& file, SecretKey& key, bool must_be_private) {
+  std::size_t size = 0;
+  RELIEVO_TRY_ASSIGN(auto room, read_file(file, must_be_private, size));
+  const auto bytes = std::as_const(room).bytes().first(size);
+  const auto read = is_sealed_by_tpm(bytes)
+                        ? open_by_tpm(bytes, key)
+                        : read_key({reinterpret_cast<const char*>(bytes.data()), bytes.size()}, key);
+  if (read || !read.error().where().empty()) return read;
+  return read.error().at(file.native());
 }
 
 class KeyFile final : public KeySource {
  public:
-  KeyFile(fs::path file, bool beside_the_store) : file_(std::move(file)), beside_(beside_the_store) {}
-  Result<void> read(SecretKey& key) override { return read_file(file_, key, true); }
-  Result<void> read_next(SecretKey& key) override { return read_file(next(), key, true); }
+  KeyFile(fs::path file, bool beside_the_store, NextKey next)
+      : file_(std::move(file)), beside_(beside_the_store), next_is_(next) {}
+  Result<void> read(SecretKey& key) override { return read_key_of(file_, key, true); }
+  Result<void> read_next(SecretKey& key) override { return read_key_of(next(), key, true); }
   Result<void> make_next(SecretKey& key) override {
     key.draw();
-    RELIEVO_TRY_ASSIGN(const auto text, key_text(key));
-    RELIEVO_TRY_ASSIGN(auto file, PendingFile::create(next(), 0600));
-    RELIEVO_TRY(file.write(text.bytes()));
-    RELIEVO_TRY(file.finish());
-    RELIEVO_TRY(file.publish());
-    return sync_directory(file_.parent_path());
+    if (!is_to_be_sealed()) {
+      RELIEVO_TRY_ASSIGN(const auto text, key_text(key));
+      return put_next(text.bytes());
+    }
+    RELIEVO_TRY_ASSIGN(const auto sealed, seal_by_tpm(key));
+    return put_next(sealed);
   }
   Result<void> take_next() override {
     if (::rename(next().c_str(), file_.c_str()) != 0)
       return Error{Errc::IoFailed, "the store's new key could not take its place: rename it by hand", errno}
           .at(next().native());
-    return sync_directory(file_.parent_path());
+    return sync_renamed(file_);
   }
   std::string_view protects() const override {
+    if (is_key_sealed_by_tpm(file_))
+      return "is sealed by this board's TPM: whoever takes the disk, or copies all of it, can read nobody; whoever rules "
+             "the running device, or starts another system on this board, can read everyone";
     if (beside_)
       return "lies beside the store: copies of the store without it tell nothing, but whoever takes the whole directory, "
              "the disk or the device can read everyone (--key FILE keeps it elsewhere)";
@@ -69,16 +85,29 @@ class KeyFile final : public KeySource {
   }
 
  private:
+  bool is_to_be_sealed() const {
+    if (next_is_ != NextKey::AsBefore) return next_is_ == NextKey::SealedByTpm;
+    std::error_code ignored;
+    return tpm_is_there() && (is_key_sealed_by_tpm(file_) || (beside_ && !fs::exists(file_, ignored)));
+  }
+  Result<void> put_next(std::span<const std::byte> bytes) const {
+    RELIEVO_TRY_ASSIGN(auto file, PendingFile::create(next(), 0600));
+    RELIEVO_TRY(file.write(bytes));
+    RELIEVO_TRY(file.finish());
+    RELIEVO_TRY(file.publish());
+    return sync_renamed(next());
+  }
   fs::path next() const { return file_.native() + ".next"; }
   fs::path file_;
   bool beside_;
+  NextKey next_is_;
 };
 
 class KeyCredential final : public KeySource {
  public:
   explicit KeyCredential(fs::path file) : file_(std::move(file)) {}
   // systemd guards the directory; the file's mode is systemd's business.
-  Result<void> read(SecretKey& key) override { return read_file(file_, key, false); }
+  Result<void> read(SecretKey& key) override { return read_key_of(file_, key, false); }
   Result<void> make_next(SecretKey&) override { return operators_business(); }
   Result<void> read_next(SecretKey&) override { return operators_business(); }
   Result<void> take_next() override { return operators_business(); }
@@ -97,11 +126,16 @@ class KeyCredential final : public KeySource {
 
 }  // namespace
 
-std::unique_ptr<KeySource> key_file(fs::path file, bool beside_the_store) {
-  return std::make_unique<KeyFile>(std::move(file), beside_the_store);
+std::unique_ptr<KeySource> key_file(fs::path file, bool beside_the_store, NextKey next) {
+  return std::make_unique<KeyFile>(std::move(file), beside_the_store, next);
 }
 std::unique_ptr<KeySource> key_credential(fs::path file) {
   return std::make_unique<KeyCredential>(std::move(file));
+}
+bool is_key_sealed_by_tpm(const fs::path& file) {
+  std::size_t size = 0;
+  const auto room = read_file(file, false, size);
+  return room && is_sealed_by_tpm(room->bytes().first(size));
 }
 
 }  // namespace relievo::storage

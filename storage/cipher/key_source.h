@@ -6,6 +6,7 @@
 // IoFailed, OutOfMemory; each names the file. Thread: one at a time.
 #pragma once
 
+#include <cstdint>
 #include <filesystem>
 #include <memory>
 #include <string_view>
@@ -29,9 +30,15 @@ class KeySource {
   virtual std::string_view protects() const = 0;
 };
 
-// A file of key_text(), 0600; the next one is FILE.next. One that others may read is refused.
-// `beside_the_store`: whoever takes the store takes it along.
-std::unique_ptr<KeySource> key_file(std::filesystem::path file, bool beside_the_store = true);
+// What a key that is made anew is: as text, sealed by the board's TPM (tpm.h), or as the one it follows; the
+// first one of a store, beside it, is sealed where the board has a TPM.
+enum class NextKey : std::uint8_t { Plain, SealedByTpm, AsBefore };
+
+// A file of key_text() or of what the TPM sealed, 0600; the next one is FILE.next. One that others may read
+// is refused. `beside_the_store`: whoever takes the store takes it along. Errors further: those of tpm.h.
+std::unique_ptr<KeySource> key_file(std::filesystem::path file, bool beside_the_store = true,
+                                    NextKey next = NextKey::Plain);
+bool is_key_sealed_by_tpm(const std::filesystem::path& file);
 
 // A systemd credential: a file in $CREDENTIALS_DIRECTORY, which systemd decrypted (systemd.exec(5)). Its
 // maker is the operator.

@@ -87,10 +87,12 @@ class SqliteKeeping final : public StoreKeeping {
     RELIEVO_TRY_ASSIGN(const auto store, open(OpenMode::ReadOnly));
     return store->erased_since(backup);
   }
-  Result<void> rekey(const std::filesystem::path& place) override {
+  Result<void> rekey(const KeyPlace& to) override {
     RELIEVO_TRY_ASSIGN(const auto store, open(OpenMode::ReadWrite));
+    if (to.sealed_by_tpm) return store->rekey(*key_file(dir_ / kKeyFile, true, NextKey::SealedByTpm));
+    if (!to.file.empty()) return store->rekey(*key_file(to.file, false));
     const auto same = options_.keys ? options_.keys : std::shared_ptr<KeySource>(key_file(dir_ / kKeyFile));
-    return store->rekey(place.empty() ? *same : *key_file(place, false));
+    return store->rekey(*same);
   }
   Result<std::vector<SubjectId>> recover(std::string_view words) override {
     if (auto known = bits_of(words); !known) return known.error();

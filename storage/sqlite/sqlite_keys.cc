@@ -101,7 +101,6 @@ Result<void> StoreKeys::load(Database& database, bool to_read) {
   RELIEVO_TRY_ASSIGN(id_, find_key(database, kAppliance, wrapped));
   if (id_ == 0) return lost_keys(database);
   const auto read = source_->read(appliance_);
-  if (!read && read.error().code != Errc::NotFound) return read;
   if (!read || !unwrap(appliance_, place_of(kAppliance), wrapped, store_)) {
     // Power may have gone between the store's going by a new key and the key's taking its place.
     if (!source_->read_next(appliance_) || !unwrap(appliance_, place_of(kAppliance), wrapped, store_)) {

@@ -192,11 +192,11 @@ TEST_F(StorePower, NewKeysWordsAndRecovery) {
               enrol(NewSubject{"Bob Canary"}, 20).work() && close().work());
   words = draw_recovery_words();
   const auto counts = cut({
-      {"rekey", [this] { return keeping()->rekey("").has_value(); }},
+      {"rekey", [this] { return keeping()->rekey({}).has_value(); }},
       {"words", [this] { return test::opened(dir(), kNoReserve)->keep_recovery_words(words).has_value(); }},
       {"lost", [this] { return fs::remove(dir() / "relievo.key") && sync_directory(dir()).has_value(); }},
       {"recover", [this] { return keeping()->recover(words).has_value(); }},
-      {"to a stick", [this] { return keeping()->rekey(disk / "stick/key").has_value(); }},
+      {"to a stick", [this] { return keeping()->rekey({disk / "stick/key"}).has_value(); }},
   });
   EXPECT_GT(counts.as_before, 10);
   EXPECT_GT(counts.as_after, 10);

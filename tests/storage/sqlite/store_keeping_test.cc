@@ -90,7 +90,7 @@ TEST(StoreKeeping, WordsOpenTheStoreOfADeadBoard) {
   EXPECT_EQ(code_of(keeping(dir)->recover(words)), Errc::NotFound) << "none were made";
   ASSERT_TRUE(opened(dir, kNoReserve)->keep_recovery_words(older));
   ASSERT_TRUE(opened(dir, kNoReserve)->keep_recovery_words(words));
-  ASSERT_TRUE(keeping(dir)->rekey("")) << "the words stay good without being asked for";
+  ASSERT_TRUE(keeping(dir)->rekey({})) << "the words stay good without being asked for";
   EXPECT_EQ(test::all_bytes(dir).find(words.substr(0, 12)), std::string::npos);
   std::filesystem::create_directory(folder / "board");
   std::filesystem::copy(dir / "relievo.db", folder / "board/relievo.db");
@@ -109,14 +109,14 @@ TEST(StoreKeeping, AnOldKeyOpensNothingAfterANewOne) {
   const auto dir = folder / "store";
   fill(dir);
   std::filesystem::copy(dir / "relievo.key", folder / "old");
-  ASSERT_TRUE(keeping(dir)->rekey(""));
+  ASSERT_TRUE(keeping(dir)->rekey({}));
   judge(dir);
   auto options = kNoReserve;
   options.keys = key_file(folder / "old");
   EXPECT_EQ(code_of(open_sqlite_store(dir, kClock, options)), Errc::InvalidInput);
   // To another place, and away from here.
   std::filesystem::create_directory(folder / "stick");
-  ASSERT_TRUE(keeping(dir)->rekey(folder / "stick/key"));
+  ASSERT_TRUE(keeping(dir)->rekey({folder / "stick/key"}));
   EXPECT_EQ(code_of(open_sqlite_store(dir, kClock, kNoReserve)), Errc::InvalidInput);
   options.keys = key_file(folder / "stick/key", false);
   judge(dir, options);
@@ -124,7 +124,7 @@ TEST(StoreKeeping, AnOldKeyOpensNothingAfterANewOne) {
   auto credential = kNoReserve;
   credential.keys = key_credential(folder / "stick/key");
   const auto before = Raw(dir / "relievo.db").rows("SELECT hex(parameters) FROM encryption_key ORDER BY id");
-  ASSERT_TRUE(keeping(dir, credential)->rekey(""));
+  ASSERT_TRUE(keeping(dir, credential)->rekey({}));
   EXPECT_NE(before, Raw(dir / "relievo.db").rows("SELECT hex(parameters) FROM encryption_key ORDER BY id"));
   judge(dir, credential);
 }
@@ -134,7 +134,7 @@ TEST(StoreKeeping, ANewKeyThatHasNotTakenItsPlaceIsFound) {
   const TemporaryFolder folder;
   fill(folder / "store");
   std::filesystem::copy(folder / "store/relievo.key", folder / "old");
-  ASSERT_TRUE(keeping(folder / "store")->rekey(""));
+  ASSERT_TRUE(keeping(folder / "store")->rekey({}));
   for (const bool old_is_there : {true, false}) {
     std::filesystem::rename(folder / "store/relievo.key", folder / "store/relievo.key.next");
     if (old_is_there) std::filesystem::copy(folder / "old", folder / "store/relievo.key");
@@ -157,7 +157,7 @@ TEST(StoreKeeping, OnAFullDiskNothingIsHalf) {
     std::ofstream junk(disk.path() / "junk", std::ios::binary);
     for (const std::string block(4096, 'x'); junk.flush(); junk.write(block.data(), 4096)) continue;
   }
-  EXPECT_EQ(code_of(keeping(dir)->rekey("")), Errc::MediaFull);
+  EXPECT_EQ(code_of(keeping(dir)->rekey({})), Errc::MediaFull);
   {
     const auto full = open_sqlite_store(dir, kClock, kNoReserve);
     EXPECT_EQ(full ? code_of((*full)->keep_recovery_words(draw_recovery_words())) : full.error().code,
@@ -168,7 +168,7 @@ TEST(StoreKeeping, OnAFullDiskNothingIsHalf) {
   std::filesystem::remove(disk.path() / "junk");
   EXPECT_EQ(before, Raw(dir / "relievo.db").rows("SELECT hex(parameters) FROM encryption_key"));
   judge(dir, kNoReserve, 20);
-  ASSERT_TRUE(keeping(dir)->rekey(""));
+  ASSERT_TRUE(keeping(dir)->rekey({}));
   judge(dir, kNoReserve, 20);
 }
 
@@ -191,7 +191,7 @@ TEST(StoreKeeping, ACopyIsSealedAndTellsWhoWasErasedSince) {
     ASSERT_TRUE(store->erase_subject(SubjectId{3}));
     ASSERT_TRUE(store->erase_subject(*store->add_subject({"Somebody who came later"})));
   }
-  ASSERT_TRUE(keeping(dir)->rekey(""));
+  ASSERT_TRUE(keeping(dir)->rekey({}));
   EXPECT_EQ(*keeping(dir)->erased_since(copy), std::vector<SubjectId>{SubjectId{3}});
   fill(folder / "other");
   EXPECT_EQ(code_of(keeping(folder / "other")->erased_since(copy)), Errc::InvalidInput);
