@@ -81,6 +81,7 @@ std::shared_ptr<storage::KeySource> key_source(const Path& folder, const Path& n
 
 Result<std::unique_ptr<storage::Store>> open_store(const Path& folder, bool to_write, const Path& key,
                                                    const hal::Clock& clock, Console& console) {
+  if (const auto kept = keep_out_of_swap(); !kept) console.say(std::string(kept.error().what.view()));
   storage::SqliteStoreOptions options;
   options.mode = to_write ? storage::OpenMode::ReadWrite : storage::OpenMode::ReadOnly;
   options.keys = key_source(folder, key);

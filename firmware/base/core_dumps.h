@@ -15,4 +15,9 @@ namespace relievo::firmware {
 // it.
 Result<void> forbid_core_dumps(bool measures_itself = false);
 
+// Every page this process touches from now on stays in memory (mlockall(2)); what it has only reserved costs
+// nothing. Where there is no swap nothing has to be done. IoFailed: there is swap, and this user may not lock
+// as much as is needed. Called again it does nothing.
+Result<void> keep_out_of_swap();
+
 }  // namespace relievo::firmware
