@@ -73,6 +73,9 @@ ui::LiveView live_of(const LivePicture& live) {
   view.face_y = static_cast<float>(live.guidance.face_y);
   view.ideal_width = static_cast<float>(live.guidance.ideal_width);
   view.nearness = static_cast<float>(live.guidance.nearness);
+  view.yaw_deg = static_cast<float>(live.guidance.yaw_deg);
+  view.pitch_deg = static_cast<float>(live.guidance.pitch_deg);
+  view.roll_deg = static_cast<float>(live.guidance.roll_deg);
   view.steady_s = static_cast<float>(live.guidance.steady_s);
   if (const auto& turn = live.guidance.turn)
     view.turn = ui::TurnView{turn->advice, static_cast<float>(turn->yaw_deg), turn->taken};

@@ -79,7 +79,13 @@ Guidance guidance_of(const pipeline::GateAnswer& answer, const pipeline::StereoC
   } else if (m.face.width_px > 0) {
     guidance.face_x = (m.face.centre_px.x - relief.width_px / 2.0) / m.face.width_px;
     guidance.face_y = (m.face.centre_px.y - relief.height_px / 2.0) / m.face.width_px;
+  } else {
+    // About as many faces as the picture has room for.
+    guidance.face_x = 2 * m.somebody_right;
+    guidance.face_y = m.somebody_down;
   }
+  guidance.yaw_deg = m.head.yaw_deg, guidance.pitch_deg = m.head.pitch_deg,
+  guidance.roll_deg = m.head.roll_deg;
   return guidance;
 }
 

@@ -55,6 +55,36 @@ void measure_picture(const Relief& relief, double nearest_mm, GateMeasures& m) {
   m.middle_near_share = static_cast<double>(near) / middle;
 }
 
+// The middle of all that is near says on which side somebody stands of whom no face is seen; its upper end
+// whether they are too low, the neck whether they are too high. That it reaches the upper edge says nothing:
+// most heads do.
+void measure_somebody(const Relief& relief, double farthest_mm, GateMeasures& m) {
+  constexpr double kReach = 1.2, kLeastShare = 0.03, kClearly = 0.12, kNeckOfHead = 0.72, kHighNeck = 0.6,
+                   kUsualNeck = 0.85;
+  const int w = relief.width_px, h = relief.height_px;
+  double count = 0, right = 0;
+  int top = h, neck = h, widest = 0;
+  for (int y = 0; y < h; ++y) {
+    int in_row = 0;
+    for (int x = 0; x < w; ++x) {
+      if (!relief.known(x, y) ||
+          static_cast<double>(relief.depth_mm[relief.index(x, y)]) > kReach * farthest_mm)
+        continue;
+      ++in_row;
+      right += x;
+    }
+    count += in_row;
+    if (top == h && in_row > w / 12) top = y;
+    widest = std::max(widest, in_row);
+    if (neck == h && widest > w / 6 && in_row < kNeckOfHead * widest) neck = y;
+  }
+  if (count < kLeastShare * w * h) return;
+  const double off = right / count / w - 0.5, low = static_cast<double>(top) / h - 0.5;
+  if (std::abs(off) > kClearly) m.somebody_right = off;
+  if (low > 0) m.somebody_down = low + kClearly;
+  else if (neck < kHighNeck * h) m.somebody_down = static_cast<double>(neck) / h - kUsualNeck;
+}
+
 void measure_expression(const FacePhoto& photo, StageContext& context, GateMeasures& m) {
   m.eyes = measure_eyes(photo, context);
   m.mouth = measure_mouth(photo, context);
@@ -152,6 +182,7 @@ Result<GateLook> CaptureGate::look(const StereoFrame& frame, const StereoCalibra
     m.tracked = m.head.known;
     m.faces = std::max(m.faces, m.tracked ? 1 : 0);
   }
+  if (m.faces == 0) measure_somebody(relief, options_.limits.farthest_mm, m);
   if (m.face.width_px > 0) m.covered_share = covered_share(relief, m.face);
   const SeenHead seen{now, m.head.known && !m.tracked, m.head.tip_mm, m.head.yaw_deg, m.face};
   if (m.head.known) {

@@ -29,7 +29,8 @@ struct Judge {
     if (m.picture_dark_share > 0.97) return Advice::TooDark;
     if (m.middle_near_share > kFillsMiddle) return Advice::TooClose;
     if (m.middle_bright_share > kFillsMiddle) return Advice::TooBright;
-    if (m.faces == 0) return Advice::NoFace;
+    if (m.faces == 0)
+      return m.somebody_right != 0 || m.somebody_down != 0 ? Advice::OffCentre : Advice::NoFace;
     if (m.guessed_mm < l.nearest_mm) return Advice::TooClose;
     if (m.guessed_mm > l.farthest_mm) return Advice::TooFar;
     return Advice::NoFace;

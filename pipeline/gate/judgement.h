@@ -25,7 +25,10 @@ struct GateMeasures {
   double picture_dark_share = 0;   // of the whole picture, luminance 0 .. 25
   double middle_bright_share = 0;  // of the middle of the picture, where a face should be: 247 .. 255
   double middle_near_share =
-      0;                     // of the same: known by the relief to be nearer than the capture volume begins
+      0;  // of the same: known by the relief to be nearer than the capture volume begins
+  // Somebody near whose face is not found: how far from the picture's middle, in shares of its width and
+  // height; 0: not clearly, or nobody.
+  double somebody_right = 0, somebody_down = 0;
   HeadHint face;             // where on the small picture
   double covered_share = 0;  // of the face, by something that stands before it: beside_head.h
   HeadMeasurement head;

@@ -252,6 +252,22 @@ const Shot& Album::shoot(std::uint32_t seed, const sim::HeadPose& pose, Extra ex
   return shots_.emplace(name, std::move(shot)).first->second;
 }
 
+Shot Album::photograph(std::uint32_t seed, const sim::HeadPose& pose) {
+  if (left_room_.rgb.empty()) {
+    left_room_ = sim::expose(Room(), rig_.left, {}, pool_);
+    right_room_ = sim::expose(Room(), rig_.right, {}, pool_);
+  }
+  const PastedHead& head = pasted_.try_emplace(seed, person(seed, {}, 1), pool_).first->second;
+  Shot shot{seed, pose, Extra::None, {}, {}, {}};
+  const auto photograph = [&](const sim::SimView& view, sim::LightPicture picture) {
+    head.draw(pose, view, picture);
+    return kept(picture);
+  };
+  shot.left = photograph(rig_.left, left_room_);
+  shot.right = photograph(rig_.right, right_room_);
+  return shot;
+}
+
 sim::PicturePair Album::develop(const Shot& shot, const Developing& how) const {
   sim::SensorOptions sensor;
   sensor.exposure = how.exposure;

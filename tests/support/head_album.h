@@ -19,6 +19,7 @@
 #include "pipeline/model/calibration.h"
 #include "pipeline/model/relief.h"
 #include "tests/support/glasses_scene.h"
+#include "tests/support/pasted_head.h"
 
 namespace relievo::test {
 
@@ -60,6 +61,8 @@ class Album {
   explicit Album(std::filesystem::path cache = {});  // a folder where shots survive the program; empty: none
   const Shot& shoot(std::uint32_t seed, const hal::sim::HeadPose& pose, Extra extra = Extra::None,
                     const Guise& guise = {});
+  // Of a head that moves: quickly (pasted_head.h), and not kept.
+  Shot photograph(std::uint32_t seed, const hal::sim::HeadPose& pose);
   hal::sim::PicturePair develop(const Shot& shot, const Developing& how) const;
   const pipeline::StereoCalibration& calibration() const { return calibration_; }
 
@@ -73,6 +76,8 @@ class Album {
                                                     const hal::sim::Expression& expression, double shine);
   std::map<std::string, std::shared_ptr<const hal::sim::HeadModel>> heads_;
   std::map<std::string, Shot> shots_;
+  std::map<std::uint32_t, PastedHead> pasted_;
+  hal::sim::LightPicture left_room_, right_room_;
 };
 
 // One for all tests of a program. The environment's RELIEVO_ALBUM names a folder where its photographs

@@ -33,12 +33,27 @@ Cue cue(const Cues& before, const Cues& now) {
   return now.number != 0 && now.number != before.number ? Cue::Tick : Cue::None;
 }
 
+namespace {
+
+// How far from its place, where 1 is far, by what is to be mended first.
+std::optional<float> away_of(const LiveView& live) {
+  using pipeline::Advice;
+  constexpr float kFarDeg = 45;
+  if (live.advice == Advice::TooClose || live.advice == Advice::TooFar)
+    return live.nearness > 0 ? std::optional(2 * std::abs(live.nearness - 1)) : std::nullopt;
+  if (live.advice == Advice::OffCentre) return std::hypot(live.face_x, live.face_y);
+  if (live.advice == Advice::TurnedAside) return std::abs(live.yaw_deg) / kFarDeg;
+  if (live.advice == Advice::LooksUpOrDown) return std::abs(live.pitch_deg) / kFarDeg;
+  if (live.advice == Advice::Tilted) return std::abs(live.roll_deg) / kFarDeg;
+  return std::nullopt;
+}
+
+}  // namespace
+
 std::optional<float> guide_pitch(const ViewState& view, const Visit& visit) {
-  if (visit.step != Step::Position || visit.overlay != Overlay::None ||
-      view.live.advice != pipeline::Advice::OffCentre)
-    return std::nullopt;
-  const float away = std::min(1.0F, std::hypot(view.live.face_x, view.live.face_y));  // in faces
-  return std::exp2(1 - 2 * away);
+  if (visit.step != Step::Position || visit.overlay != Overlay::None) return std::nullopt;
+  const auto away = away_of(view.live);
+  return away ? std::optional(std::exp2(1 - 2 * std::min(1.0F, *away))) : std::nullopt;
 }
 
 }  // namespace relievo::ui

@@ -34,8 +34,8 @@ struct Cues {
 Cues cues_of(const ViewState& view, const Visit& visit);
 Cue cue(const Cues& before, const Cues& now);
 
-// While the face is not in its place: 0.5 far from it, 2 there, an octave each half of the way. Nothing where
-// the cameras see none, or something else is amiss.
+// While place, distance or the head's pose is to be mended: 0.5 far from where it should be, 2 there, an
+// octave each half of the way. Nothing where the cameras see no face, or something else is amiss.
 std::optional<float> guide_pitch(const ViewState& view, const Visit& visit);
 
 }  // namespace relievo::ui

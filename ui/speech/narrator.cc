@@ -197,8 +197,10 @@ void Narrator::follow_statuses(const Tree& tree, const Moment& moment, const Lis
     if (std::exchange(told->seen, words) != words) told->since = moment.now;
     const bool alert = node.role == Role::Alert;
     const bool due = alert ? moment.now - told->since >= kSettled : !moment.busy;
-    if (words == told->said || (!due && !said_all)) continue;
+    const bool again = node.insists && !moment.busy && moment.now - told->last >= kAgain;
+    if ((words == told->said && !again) || (!due && !said_all)) continue;
     told->said = words;
+    told->last = moment.now;
     if (!said_all) said_.say(scratch_.text());
   }
   scratch_.clear();

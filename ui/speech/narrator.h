@@ -9,6 +9,7 @@
 //   another focus, or what has it changed    ->  what has the focus
 //   a status changed                         ->  the status: an alert as soon as it has stood for kSettled,
 //                                                any other when nothing is being said
+//   an alert that insists still stands       ->  the same again, every kAgain
 //
 // Nothing is said twice without one of these. It keeps prints of texts, no texts. Thread: main. Errors: none.
 #pragma once
@@ -71,6 +72,7 @@ void say_focus(const Tree& tree, const Node& node, const Listener& to, Utterance
 std::size_t print_of(std::string_view text);
 
 inline constexpr std::chrono::milliseconds kSettled{350};  // an advice that is gone by then helps nobody
+inline constexpr std::chrono::seconds kAgain{5};           // what insists is said again
 
 class Narrator {
  public:
@@ -93,7 +95,7 @@ class Narrator {
  private:
   struct Told {
     std::size_t id = 0, said = 0, seen = 0;  // prints
-    hal::Instant since{};                    // seen
+    hal::Instant since{}, last{};            // seen; said
   };
   static constexpr std::size_t kStatuses = 32;
   void read_page(const Tree& tree, const Moment& moment, const Listener& to);

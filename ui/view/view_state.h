@@ -88,7 +88,10 @@ struct LiveView {
   float face_x = 0, face_y = 0;  // its middle from the middle of where it should be, in widths of the face
   float ideal_width = 0;         // of a face at the best distance, share of the picture's width; 0: not known
   float nearness = 0;            // 1 at a good distance, 0.5 twice as far, 2 half as far; 0: not known
-  float steady_s = 0;            // so long everything has been right
+  // Of the head, from one that looks at the cameras: + turned to the picture's right, looking down, leaning
+  // to the picture's left.
+  float yaw_deg = 0, pitch_deg = 0, roll_deg = 0;
+  float steady_s = 0;  // so long everything has been right
   std::optional<TurnView> turn;
 };
 

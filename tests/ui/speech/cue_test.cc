@@ -112,6 +112,17 @@ TEST_F(CueTest, TheGuideRisesAsTheFaceComesRight) {
     view.live.advice = advice;
     EXPECT_FALSE(guide_pitch(view, visit).has_value());
   }
+  // Distance and pose, either way.
+  view.live.advice = pipeline::Advice::TooFar;
+  EXPECT_FALSE(guide_pitch(view, visit).has_value()) << "not known how far";
+  view.live.nearness = 0.75F;
+  EXPECT_FLOAT_EQ(*guide_pitch(view, visit), 1);
+  view.live.yaw_deg = view.live.pitch_deg = view.live.roll_deg = -22.5F;
+  for (const auto advice :
+       {pipeline::Advice::TurnedAside, pipeline::Advice::LooksUpOrDown, pipeline::Advice::Tilted}) {
+    view.live.advice = advice;
+    EXPECT_FLOAT_EQ(*guide_pitch(view, visit), 1);
+  }
   view.live.advice = pipeline::Advice::OffCentre;
   visit.step = Step::Review;
   EXPECT_FALSE(guide_pitch(view, visit).has_value());

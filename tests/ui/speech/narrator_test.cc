@@ -18,6 +18,7 @@ struct Shown {
   std::string typed;
   std::string button_value;
   bool help = false;
+  bool insists = false;
 };
 
 class NarratorTest : public testing::Test {
@@ -36,7 +37,9 @@ class NarratorTest : public testing::Test {
     tree.begin(false);
     tree.open(node(Role::Group, "screen", {}));
     tree.leaf(node(Role::Heading, "title", {}, shown.heading));
-    tree.open(node(Role::Alert, "advice", shown.advice));
+    Node advice = node(Role::Alert, "advice", shown.advice);
+    advice.insists = shown.insists;
+    tree.open(advice);
     tree.leaf(node(Role::Text, {}, {}, "what is drawn of it"));
     tree.close();
     if (!shown.progress.empty()) {
@@ -105,6 +108,22 @@ TEST_F(NarratorTest, ReadsAPageOnceAndNotItsButtons) {
   EXPECT_EQ(hear(), "Hello! Stored. Too far. How far it is. 1 of 4. Your name");
   narrator.forget();
   EXPECT_EQ(hear(), "Stored. Too far. How far it is. 1 of 4. Your name");
+}
+
+TEST_F(NarratorTest, WhatInsistsIsSaidAgainWhileItStandsAndNothingElseIs) {
+  shown.insists = true;
+  hear();
+  moment.now += kAgain - 1ms;
+  EXPECT_EQ(hear(), "");
+  moment.now += 1ms;
+  moment.busy = true;
+  EXPECT_EQ(hear(), "") << "nothing is cut short for it";
+  moment.busy = false;
+  EXPECT_EQ(hear(), "Too far");
+  EXPECT_EQ(hear(), "");
+  moment.now += kAgain;
+  shown.insists = false;
+  EXPECT_EQ(hear(), "");
 }
 
 TEST_F(NarratorTest, ReadsWhatLiesOverThePageAlone) {

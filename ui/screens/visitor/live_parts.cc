@@ -105,22 +105,23 @@ void head(Page& page) {
   page.tree.close();
 }
 
-// From one to the other, again and again.
+// From one to the other, again and again. In the mirror the picture's left is on the right.
 struct Gesture {
   FaceLook from, to;
 };
 
-std::optional<Gesture> gesture_of(pipeline::Advice advice) {
+std::optional<Gesture> gesture_of(const LiveView& live) {
   using pipeline::Advice;
+  const Advice advice = live.advice;
   if (advice == Advice::TooClose) return Gesture{{.zoom = 1.4F}, {}};
   if (advice == Advice::TooFar) return Gesture{{.zoom = 0.7F}, {}};
-  if (advice == Advice::TurnedAside) return Gesture{{.yaw_deg = 35}, {}};
-  if (advice == Advice::LooksUpOrDown) return Gesture{{.pitch_deg = 26}, {}};
-  if (advice == Advice::Tilted) return Gesture{{.roll_deg = 24}, {}};
+  if (advice == Advice::TurnedAside) return Gesture{{.yaw_deg = std::copysign(35.0F, -live.yaw_deg)}, {}};
+  if (advice == Advice::LooksUpOrDown)
+    return Gesture{{.pitch_deg = std::copysign(26.0F, live.pitch_deg)}, {}};
+  if (advice == Advice::Tilted) return Gesture{{.roll_deg = std::copysign(24.0F, live.roll_deg)}, {}};
   return std::nullopt;
 }
 
-// In the mirror the picture's left is on the right.
 std::optional<Gesture> gesture_of(pipeline::TurnAdvice advice) {
   using pipeline::TurnAdvice;
   if (advice == TurnAdvice::ToLeft) return Gesture{{}, {.yaw_deg = 45}};
@@ -134,7 +135,7 @@ std::optional<Gesture> gesture_of(pipeline::TurnAdvice advice) {
 std::optional<FaceLook> gesture(const ViewState& view, Step step) {
   const LiveView& live = view.live;
   const auto shown = step == Step::Turn ? live.turn ? gesture_of(live.turn->advice) : std::nullopt
-                     : live.number > 0  ? gesture_of(live.advice)
+                     : live.number > 0  ? gesture_of(live)
                                         : std::nullopt;
   if (!shown) return std::nullopt;
   constexpr float kMovesS = 1.4F, kRestsS = 0.9F;
@@ -173,6 +174,7 @@ void advice(Page& page, const Said& what, int countdown) {
   Node pill = page.box(Flow::Row, 18, 32, 10);
   pill.id = "advice";
   pill.role = Role::Alert;
+  pill.insists = !what.good;
   pill.name = what.spoken != nullptr ? what.spoken : what.words;
   pill.box.align = Align::Centre;
   pill.box.justify = Justify::Centre;

@@ -50,11 +50,16 @@ Said said(const Page& page) {
     case Advice::MoreThanOneFace:
       return {tr("One person at a time, please"), icon::kPerson};
     case Advice::TurnedAside:
-      return {tr("Please look straight ahead"), icon::kPerson};
+      return {tr("Please look straight ahead"), icon::kPerson, false,
+              page.view.live.yaw_deg > 0 ? tr("Turn your head slowly to your right")
+                                         : tr("Turn your head slowly to your left")};
     case Advice::LooksUpOrDown:
-      return {tr("Please hold your head level"), icon::kPerson};
+      return {page.view.live.pitch_deg > 0 ? tr("Raise your chin a little") : tr("Lower your chin a little"),
+              icon::kPerson};
     case Advice::Tilted:
-      return {tr("Please hold your head upright"), icon::kPerson};
+      return {tr("Please hold your head upright"), icon::kPerson, false,
+              page.view.live.roll_deg > 0 ? tr("Lean your head a little to your left")
+                                          : tr("Lean your head a little to your right")};
     case Advice::UnevenLight:
       return {tr("The light comes from one side: turn towards it"), icon::kSun};
     case Advice::Highlights:
