@@ -70,6 +70,7 @@ TEST_F(VisitTest, NobodyAgreesToWhatTheyHaveNotSeenToItsEnd) {
 TEST_F(VisitTest, AFaceInTheOvalIsSomebodyButNotForEver) {
   to_position();
   view.live.advice = pipeline::Advice::OffCentre;
+  view.live.nearness = 1;
   int held = 0;
   for (int i = 0; i < 240; ++i) {
     ++view.live.number;
@@ -84,6 +85,17 @@ TEST_F(VisitTest, AFaceInTheOvalIsSomebodyButNotForEver) {
   EXPECT_EQ(visit.overlay, Overlay::StillThere) << "five minutes without a touch are a portrait on a wall";
   visit.touched(view.now);
   EXPECT_EQ(visit.overlay, Overlay::None);
+}
+
+TEST_F(VisitTest, WhatStandsAsideAndHasNoFaceIsNobody) {
+  to_position();
+  view.live.advice = pipeline::Advice::OffCentre;
+  view.live.nearness = 0;
+  for (int i = 0; i < 60; ++i) {
+    ++view.live.number;
+    EXPECT_NE(pass(seconds(1)), Intent::StillHere);
+  }
+  EXPECT_EQ(visit.overlay, Overlay::StillThere);
 }
 
 TEST_F(VisitTest, TheCodeStandsUntilItIsTouchedAwayOrLongForgotten) {

@@ -35,25 +35,26 @@ Cue cue(const Cues& before, const Cues& now) {
 
 namespace {
 
-// How far from its place, where 1 is far, by what is to be mended first.
-std::optional<float> away_of(const LiveView& live) {
+// How far from its place, where 1 is far, by what is to be mended first; negative where no tone can tell.
+float away_of(const LiveView& live) {
   using pipeline::Advice;
   constexpr float kFarDeg = 45;
   if (live.advice == Advice::TooClose || live.advice == Advice::TooFar)
-    return live.nearness > 0 ? std::optional(2 * std::abs(live.nearness - 1)) : std::nullopt;
+    return live.nearness > 0 ? 2 * std::abs(live.nearness - 1) : -1;
   if (live.advice == Advice::OffCentre) return std::hypot(live.face_x, live.face_y);
   if (live.advice == Advice::TurnedAside) return std::abs(live.yaw_deg) / kFarDeg;
   if (live.advice == Advice::LooksUpOrDown) return std::abs(live.pitch_deg) / kFarDeg;
   if (live.advice == Advice::Tilted) return std::abs(live.roll_deg) / kFarDeg;
-  return std::nullopt;
+  return -1;
 }
 
 }  // namespace
 
 std::optional<float> guide_pitch(const ViewState& view, const Visit& visit) {
   if (visit.step != Step::Position || visit.overlay != Overlay::None) return std::nullopt;
-  const auto away = away_of(view.live);
-  return away ? std::optional(std::exp2(1 - 2 * std::min(1.0F, *away))) : std::nullopt;
+  const float away = away_of(view.live);
+  if (away < 0) return std::nullopt;
+  return std::exp2(1 - 2 * std::min(1.0F, away));
 }
 
 }  // namespace relievo::ui

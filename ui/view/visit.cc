@@ -294,8 +294,11 @@ bool Visit::person_expected() const {
 // Whose face is before the cameras is there, and has no hand free for the screen.
 std::optional<Intent> Visit::follow_face(const ViewState& view) {
   const bool fresh = std::exchange(live_number_, view.live.number) != view.live.number;
-  if (step != Step::Position || !fresh || view.live.advice == pipeline::Advice::NoFace ||
-      view.now - by_hand_ > kFaceAlone || view.now - last_touch_ < std::chrono::seconds(1))
+  // Off the centre and at no known distance there may be a chair.
+  const bool face = view.live.advice != pipeline::Advice::NoFace &&
+                    !(view.live.advice == pipeline::Advice::OffCentre && view.live.nearness == 0);
+  if (step != Step::Position || !fresh || !face || view.now - by_hand_ > kFaceAlone ||
+      view.now - last_touch_ < std::chrono::seconds(1))
     return std::nullopt;
   last_touch_ = view.now;
   if (overlay == Overlay::StillThere) overlay = Overlay::None;
