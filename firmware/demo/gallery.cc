@@ -165,6 +165,7 @@ void add_capture(Gallery& g) {
   g.add_position("position_close", Advice::TooClose, 0, 0, 0);
   g.add_position("position_far", Advice::TooFar, 0, 0, 0);
   g.add_position("position_turned", Advice::TurnedAside, 0, 0, 0);
+  g.add_position("position_chin", Advice::LooksUpOrDown, 0, 0, 0);
   g.add_position("position_again", Advice::Moved, 0, 0, 1);
   g.add_position("position_countdown", Advice::None, 0, ui::kSteadyFor + 0.6F, 0);
   g.add_by_button();
