@@ -1,8 +1,8 @@
 // SPDX-FileCopyrightText: 2026 The Relievo authors
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include <array>
 #include <nlohmann/json.hpp>
 
+#include <array>
 #include <sstream>
 
 #include "firmware/base/version.h"

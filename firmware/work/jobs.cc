@@ -34,7 +34,7 @@ Result<void> HeadJob::run(JobControl& control) {
   parts_done_.store(PortraitProgress::kFuse, std::memory_order_release);
   if (poses.size() > 1)
     if (const Result<void> fused = fuse(control, poses); !fused) {
-      // Turned eyes that are not alive are a reason not to take the face from in front either.
+      // Whose eyes were not alive while the head turned is refused, with the face from in front.
       if (fused.error().code == Errc::NoFace) return fused.error();
       lost += static_cast<int>(poses.size()) - 1;
     }

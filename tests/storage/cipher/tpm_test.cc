@@ -21,7 +21,6 @@
 #include "storage/sqlite/sqlite_store.h"
 #include "tests/storage/sample.h"
 #include "tests/support/process.h"
-
 #include "tests/support/temporary_folder.h"
 
 namespace relievo::storage {
