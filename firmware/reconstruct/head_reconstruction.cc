@@ -133,8 +133,8 @@ Result<void> HeadReconstruction::run(const std::vector<Path>& pictures, const st
     RELIEVO_TRY_ASSIGN(shots[k].calibration, read_calibration_for(shots[k].pictures, file, shots[k].left));
   }
   const std::size_t kept = shots.size() * budget::kPoseBytes;
-  kept_block_.reset(new std::byte[kept]);  // not value-initialised: pages stay untouched
-  kept_.emplace(std::span(kept_block_.get(), kept));
+  kept_block_ = PageBlock(kept);
+  kept_.emplace(kept_block_.bytes());
   ThreadPool pool(pool_size());
   PairsJob job(pipeline, shots, *this, pool, when_moved);
   const Result<void> done =

@@ -5,13 +5,13 @@
 // lies: budget.h's arenas, and kPoseBytes for each pair. Thread: main.
 #pragma once
 
-#include <memory>
 #include <optional>
 #include <vector>
 
 #include "firmware/arguments/command_line.h"
 #include "firmware/base/boot_memory.h"
 #include "firmware/base/console.h"
+#include "firmware/base/page_block.h"
 #include "firmware/report/report.h"
 #include "firmware/work/pipeline_stages.h"
 #include "pipeline/fuse/head_pipeline.h"
@@ -37,7 +37,7 @@ class HeadReconstruction {
   class PairsJob;
   BootMemory memory_;
   Arena output_;
-  std::unique_ptr<std::byte[]> kept_block_;
+  PageBlock kept_block_;
   std::optional<Arena> kept_;
   std::optional<pipeline::FusedHead> head_;
   Report report_;

@@ -23,8 +23,7 @@ float round_up(float mm) {
 
 }  // namespace
 
-KeptResults::One::One()
-    : block(new std::byte[budget::kKeptModelBytes]), memory({block.get(), budget::kKeptModelBytes}) {}
+KeptResults::One::One() : block(budget::kKeptModelBytes), memory(block.bytes()) {}
 
 void KeptResults::One::wipe() {
   figures.forget();

@@ -14,6 +14,7 @@
 #include <memory>
 #include <optional>
 
+#include "firmware/base/page_block.h"
 #include "firmware/service/side_tasks.h"
 #include "firmware/technician/show/surface_difference.h"
 #include "firmware/technician/show/technician_figures.h"
@@ -56,7 +57,7 @@ class KeptResults {
     void wipe();
     TechnicianFigures figures;
     TechnicianPictures pictures;
-    std::unique_ptr<std::byte[]> block;  // not initialised: untouched
+    PageBlock block;
     Arena memory;
     std::optional<pipeline::FaceModel> model;
     std::uint32_t number = 0;
