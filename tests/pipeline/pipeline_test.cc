@@ -6,6 +6,7 @@
 
 #include "hal/sim/head/shape/head_traits.h"
 #include "hal/sim/render.h"
+#include "tests/support/meshed_pair.h"
 #include "tests/support/rig_calibration.h"
 #include "tests/support/small_rig.h"
 #include "tests/support/stage_fixture.h"
@@ -24,25 +25,21 @@ TEST(Pipeline, AnAssemblyThatWasStoppedCanBeDoneAgain) {
   const auto pipeline = Pipeline::make({}, test::true_calibration(rig));
   ASSERT_TRUE(pipeline);
   StageContext& c = fixture.context;
-  auto pair = pipeline->rectify({l.view(), r.view(), 0, 0}, c);
-  ASSERT_TRUE(pair);
-  const auto matches = pipeline->match(*pair, c);
-  ASSERT_TRUE(matches);
-  const auto cloud = pipeline->reconstruct(*pair, *matches, c);
-  ASSERT_TRUE(cloud);
-  auto mesh = pipeline->mesh(*cloud, *pair, c);
-  ASSERT_TRUE(mesh);
-  auto texture = pipeline->texture(*mesh, *pair, c);
+  auto meshed = test::mesh_of(*pipeline, {l.view(), r.view(), 0, 0}, c);
+  ASSERT_TRUE(meshed);
+  RectifiedPair& pair = meshed->pair;
+  FaceMesh& mesh = meshed->mesh;
+  auto texture = pipeline->texture(mesh, pair, c);
   ASSERT_TRUE(texture);
-  const std::size_t vertices = mesh->vertices_mm.size();
+  const std::size_t vertices = mesh.vertices_mm.size();
 
   fixture.cancelled = true;
-  const auto stopped = pipeline->assemble(*std::move(mesh), *std::move(texture), *pair, c);
+  const auto stopped = pipeline->assemble(std::move(mesh), *std::move(texture), pair, c);
   ASSERT_FALSE(stopped);
   EXPECT_EQ(stopped.error().code, Errc::Cancelled);
-  ASSERT_EQ(mesh->vertices_mm.size(), vertices);
+  ASSERT_EQ(mesh.vertices_mm.size(), vertices);
   fixture.cancelled = false;
-  const auto model = pipeline->assemble(*std::move(mesh), *std::move(texture), *pair, c);
+  const auto model = pipeline->assemble(std::move(mesh), *std::move(texture), pair, c);
   ASSERT_TRUE(model) << model.error().what.view();
   EXPECT_EQ(model->mesh.vertices_mm.size(), vertices);
   EXPECT_FALSE(model->texture.rgb.empty());

@@ -12,6 +12,7 @@
 #include "hal/sim/head/shape/head_traits.h"
 #include "hal/sim/render.h"
 #include "pipeline/pipeline.h"
+#include "tests/support/meshed_pair.h"
 #include "tests/support/rig_calibration.h"
 #include "tests/support/small_rig.h"
 #include "tests/support/stage_fixture.h"
@@ -111,17 +112,13 @@ TEST(RangeImage, OfASimulatedFaceIsTheTrueSurface) {
   const auto pictures = hal::sim::render_pair(*scene, rig, {}, 1, fixture.pool);
   const auto pipeline = Pipeline::make({}, relievo::test::true_calibration(rig));
   ASSERT_TRUE(pipeline);
-  auto pair = pipeline->rectify({pictures.left.view(), pictures.right.view(), 0, 0}, c);
-  ASSERT_TRUE(pair);
-  const auto matches = pipeline->match(*pair, c);
-  ASSERT_TRUE(matches);
-  const auto cloud = pipeline->reconstruct(*pair, *matches, c);
-  ASSERT_TRUE(cloud);
-  auto mesh = pipeline->mesh(*cloud, *pair, c);
-  ASSERT_TRUE(mesh);
-  auto texture = pipeline->texture(*mesh, *pair, c);
+  auto meshed = relievo::test::mesh_of(*pipeline, {pictures.left.view(), pictures.right.view(), 0, 0}, c);
+  ASSERT_TRUE(meshed);
+  RectifiedPair& pair = meshed->pair;
+  FaceMesh& mesh = meshed->mesh;
+  auto texture = pipeline->texture(mesh, pair, c);
   ASSERT_TRUE(texture);
-  const auto model = pipeline->assemble(*std::move(mesh), *std::move(texture), *pair, c);
+  const auto model = pipeline->assemble(std::move(mesh), *std::move(texture), pair, c);
   ASSERT_TRUE(model);
   const auto images = make_recognition_images(*model, *heap(), *heap());
   ASSERT_TRUE(images);

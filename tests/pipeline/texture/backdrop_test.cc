@@ -10,6 +10,7 @@
 #include "hal/sim/head/shape/head_traits.h"
 #include "hal/sim/render.h"
 #include "pipeline/pipeline.h"
+#include "tests/support/meshed_pair.h"
 #include "tests/support/rig_calibration.h"
 #include "tests/support/small_rig.h"
 #include "tests/support/stage_fixture.h"
@@ -27,17 +28,13 @@ TEST(Backdrop, ShowsWhatThePhotographShowedAroundTheFaceAndFadesToNothing) {
   const auto pipeline = Pipeline::make({}, test::true_calibration(rig));
   ASSERT_TRUE(pipeline);
   StageContext& c = fixture.context;
-  auto pair = pipeline->rectify({l.view(), r.view(), 0, 0}, c);
-  ASSERT_TRUE(pair);
-  const auto matches = pipeline->match(*pair, c);
-  ASSERT_TRUE(matches);
-  const auto cloud = pipeline->reconstruct(*pair, *matches, c);
-  ASSERT_TRUE(cloud);
-  auto mesh = pipeline->mesh(*cloud, *pair, c);
-  ASSERT_TRUE(mesh);
-  auto texture = pipeline->texture(*mesh, *pair, c);
+  auto meshed = test::mesh_of(*pipeline, {l.view(), r.view(), 0, 0}, c);
+  ASSERT_TRUE(meshed);
+  RectifiedPair& pair = meshed->pair;
+  FaceMesh& mesh = meshed->mesh;
+  auto texture = pipeline->texture(mesh, pair, c);
   ASSERT_TRUE(texture);
-  const auto model = pipeline->assemble(*std::move(mesh), *std::move(texture), *pair, c);
+  const auto model = pipeline->assemble(std::move(mesh), *std::move(texture), pair, c);
   ASSERT_TRUE(model);
 
   const Backdrop& b = model->backdrop;
@@ -57,24 +54,24 @@ TEST(Backdrop, ShowsWhatThePhotographShowedAroundTheFaceAndFadesToNothing) {
           apply(model->head_from_camera,
                 {static_cast<double>(p.x), static_cast<double>(p.y), static_cast<double>(p.z)});
       if (in_head.y > 105) ++above;
-      const Vec3d q = apply(pair->rectified_from_left,
+      const Vec3d q = apply(pair.rectified_from_left,
                             {static_cast<double>(p.x), static_cast<double>(p.y), static_cast<double>(p.z)});
       const auto at = [&](double centre, double aside) {
-        return static_cast<std::size_t>(std::lround(centre + pair->focal_px * aside / q.z));
+        return static_cast<std::size_t>(std::lround(centre + pair.focal_px * aside / q.z));
       };
-      const std::size_t x = at(pair->left_centre_px.x, q.x), y = at(pair->left_centre_px.y, q.y);
-      ASSERT_LT(x, static_cast<std::size_t>(pair->width_px));
-      ASSERT_LT(y, static_cast<std::size_t>(pair->height_px));
+      const std::size_t x = at(pair.left_centre_px.x, q.x), y = at(pair.left_centre_px.y, q.y);
+      ASSERT_LT(x, static_cast<std::size_t>(pair.width_px));
+      ASSERT_LT(y, static_cast<std::size_t>(pair.height_px));
       int brightest = 0;  // of what it may be the mean of
       for (int dy = -14; dy <= 14; ++dy)
         for (int dx = -14; dx <= 14; ++dx) {
           const std::size_t u = std::clamp<std::size_t>(x + static_cast<std::size_t>(dx), 0,
-                                                        static_cast<std::size_t>(pair->width_px) - 1);
+                                                        static_cast<std::size_t>(pair.width_px) - 1);
           const std::size_t v = std::clamp<std::size_t>(y + static_cast<std::size_t>(dy), 0,
-                                                        static_cast<std::size_t>(pair->height_px) - 1);
+                                                        static_cast<std::size_t>(pair.height_px) - 1);
           brightest = std::max(
               brightest,
-              static_cast<int>(pair->left.rgb[3 * (v * static_cast<std::size_t>(pair->width_px) + u)]));
+              static_cast<int>(pair.left.rgb[3 * (v * static_cast<std::size_t>(pair.width_px) + u)]));
         }
       EXPECT_LE(b.rgba[k][0], brightest) << "nothing is brighter than the photograph";
     }

@@ -13,6 +13,7 @@
 #include "pipeline/pipeline.h"
 #include "pipeline/texture/texturers.h"
 #include "tests/support/colour_difference.h"
+#include "tests/support/meshed_pair.h"
 #include "tests/support/proof.h"
 #include "tests/support/rig_calibration.h"
 #include "tests/support/small_rig.h"
@@ -96,19 +97,15 @@ class SeamsOfAFace : public testing::Test {
     const auto pipeline = Pipeline::make({}, test::true_calibration(*rig));
     EXPECT_TRUE(pipeline);
     StageContext& c = fixture.context;
-    auto pair = pipeline->rectify({l.view(), r.view(), 0, 0}, c);
-    EXPECT_TRUE(pair);
-    const auto matches = pipeline->match(*pair, c);
-    EXPECT_TRUE(matches);
-    const auto cloud = pipeline->reconstruct(*pair, *matches, c);
-    EXPECT_TRUE(cloud);
-    auto mesh = pipeline->mesh(*cloud, *pair, c);
-    EXPECT_TRUE(mesh);
-    const auto left_alone = SingleViewTexturer({}).texture(*mesh, *pair, c);
+    auto meshed = test::mesh_of(*pipeline, {l.view(), r.view(), 0, 0}, c);
+    EXPECT_TRUE(meshed);
+    RectifiedPair& pair = meshed->pair;
+    FaceMesh& mesh = meshed->mesh;
+    const auto left_alone = SingleViewTexturer({}).texture(mesh, pair, c);
     EXPECT_TRUE(left_alone);
-    auto texture = pipeline->texture(*mesh, *pair, c);
+    auto texture = pipeline->texture(mesh, pair, c);
     EXPECT_TRUE(texture);
-    const auto model = pipeline->assemble(*std::move(mesh), *std::move(texture), *pair, c);
+    const auto model = pipeline->assemble(std::move(mesh), *std::move(texture), pair, c);
     EXPECT_TRUE(model);
     EXPECT_GT(model->quality.texture_sharpness, 0.3);
     return test::measure_seams(model->mesh, model->texture, &*left_alone);
@@ -166,25 +163,20 @@ TEST_F(SeamsOfAFace, ALampMirroredByTheSkinIsNotPaintedOnIt) {
   auto pictures = hal::sim::render_pair(*scene, *rig, {}, 1, fixture.pool);
   const auto pipeline = Pipeline::make({}, test::true_calibration(*rig));
   ASSERT_TRUE(pipeline);
-  auto dull = pipeline->rectify({pictures.left.view(), pictures.right.view(), 0, 0}, c);
-  ASSERT_TRUE(dull);
-  const auto matches = pipeline->match(*dull, c);
-  ASSERT_TRUE(matches);
-  const auto cloud = pipeline->reconstruct(*dull, *matches, c);
-  ASSERT_TRUE(cloud);
-  const auto mesh = pipeline->mesh(*cloud, *dull, c);
-  ASSERT_TRUE(mesh);
+  const auto meshed = test::mesh_of(*pipeline, {pictures.left.view(), pictures.right.view(), 0, 0}, c);
+  ASSERT_TRUE(meshed);
+  const auto& [dull, mesh] = *meshed;
   mirror_a_lamp(pictures.left, *scene, rig->left);
   mirror_a_lamp(pictures.right, *scene, rig->right);
   const auto shining = pipeline->rectify({pictures.left.view(), pictures.right.view(), 0, 0}, c);
   ASSERT_TRUE(shining);
-  const auto truth = TwoViewTexturer({}).texture(*mesh, *dull, c);
-  const auto one_view = SingleViewTexturer({}).texture(*mesh, *shining, c);
-  const auto both_views = TwoViewTexturer({}).texture(*mesh, *shining, c);
+  const auto truth = TwoViewTexturer({}).texture(mesh, dull, c);
+  const auto one_view = SingleViewTexturer({}).texture(mesh, *shining, c);
+  const auto both_views = TwoViewTexturer({}).texture(mesh, *shining, c);
   ASSERT_TRUE(truth && one_view && both_views);
   // How much of the lamp is left on the skin, on the vertices where one photograph alone shows much of it.
   double one = 0, both = 0, count = 0;
-  for (std::size_t v = 0; v < mesh->vertices_mm.size(); ++v) {
+  for (std::size_t v = 0; v < mesh.vertices_mm.size(); ++v) {
     const double alone = double(one_view->vertex_rgb[3 * v + 1]) - truth->vertex_rgb[3 * v + 1];
     if (alone < 25) continue;
     one += alone;
