@@ -4,6 +4,8 @@
 
 #include <utility>
 
+#include "hal/base/wiped_stack.h"
+
 #if defined(__x86_64__)
 #include <immintrin.h>
 #endif
@@ -110,6 +112,7 @@ void ThreadPool::serve() {
   while (!stopping_) {
     work_off();
     if (soon(called)) continue;
+    wipe_stack();  // whoever it worked for may be gone when it wakes
     std::unique_lock lock(mutex_);
     ++asleep_;
     wake_.wait(lock, called);

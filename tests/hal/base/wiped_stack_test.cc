@@ -4,7 +4,12 @@
 
 #include <gtest/gtest.h>
 
+#include <atomic>
+#include <chrono>
 #include <cstdint>
+#include <thread>
+
+#include "hal/base/thread_pool.h"
 
 namespace relievo {
 namespace {
@@ -36,6 +41,32 @@ TEST(WipedStack, NothingIsLeftOfAFunctionThatReturned) {
   const std::uintptr_t again = leave_a_secret();
   wipe_stack();
   EXPECT_EQ(secrets_at(again), 0U);
+}
+
+TEST(WipedStack, NothingIsLeftOnAThreadOfAPoolThatSleeps) {
+#ifdef RELIEVO_SANITIZED
+  GTEST_SKIP() << "a sanitizer forbids looking at what is below the stack";
+#endif
+  ThreadPool pool(2);
+  std::array<std::uintptr_t, 2> addresses{};
+  std::atomic<int> begun{0}, looked{0};
+  std::size_t seen = 0;
+  const auto caller = std::this_thread::get_id();
+  pool.for_each_band(2, 2, [&](int, int, int) {
+    ++begun;
+    while (begun < 2) std::this_thread::yield();  // each by a thread of its own
+    const bool own = std::this_thread::get_id() == caller;
+    const std::uintptr_t address = leave_a_secret();
+    if (!own) seen = secrets_at(address);
+    addresses[own ? 0 : 1] = address;
+    ++looked;
+    while (looked < 2) std::this_thread::yield();
+  });
+  EXPECT_GT(seen, kBytes - 1024) << "there is nothing to wipe: this test shows nothing";
+  const auto end = std::chrono::steady_clock::now() + std::chrono::minutes(1);
+  while (secrets_at(addresses[1]) > 0 && std::chrono::steady_clock::now() < end)
+    std::this_thread::sleep_for(std::chrono::milliseconds(1));
+  EXPECT_EQ(secrets_at(addresses[1]), 0U);
 }
 
 }  // namespace
