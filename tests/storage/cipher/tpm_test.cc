@@ -20,6 +20,7 @@
 #include "storage/sodium_sha256.h"
 #include "storage/sqlite/sqlite_store.h"
 #include "tests/storage/sample.h"
+#include "tests/support/memory_search.h"
 #include "tests/support/process.h"
 #include "tests/support/temporary_folder.h"
 
@@ -115,6 +116,39 @@ class TpmKey : public testing::Test {
   TemporaryFolder folder;
   fs::path dir = folder / "store";
 };
+
+// Neither in what tss2 and the libraries below it gave back to the heap, nor on the stack.
+TEST_F(TpmKey, NothingOfItIsLeftInMemory) {
+#ifdef RELIEVO_SANITIZED
+  GTEST_SKIP() << "a sanitizer keeps what was given back";
+#endif
+  const Board board;
+  relievo::test::MemorySearch search;
+  std::vector<relievo::test::Canary> halves;
+  std::vector<std::byte> sealed;
+  const auto expect_gone = [&](const char* after) {
+    for (const std::string& line : search.find(halves)) ADD_FAILURE() << after << ": " << line;
+  };
+  {
+    auto key = SecretKey::make();
+    ASSERT_TRUE(key);
+    key->draw();
+    halves.emplace_back("the first half", key->bytes().first<16>());
+    halves.emplace_back("the second half", key->bytes().last<16>());
+    EXPECT_EQ(search.find(halves).size(), 2U) << "the search finds nothing";
+    auto made = seal_by_tpm(*key);
+    ASSERT_TRUE(made) << made.error().what.view();
+    sealed = *std::move(made);
+  }
+  expect_gone("sealed");
+  {
+    auto key = SecretKey::make();
+    ASSERT_TRUE(key);
+    ASSERT_TRUE(open_by_tpm(sealed, *key));
+    EXPECT_EQ(search.find(halves).size(), 2U) << "once each, in locked memory alone";
+  }
+  expect_gone("opened");
+}
 
 TEST_F(TpmKey, TheFirstKeyIsSealedAndOpensOnThisBoardAlone) {
   Board board;
