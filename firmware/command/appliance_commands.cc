@@ -33,6 +33,7 @@ Result<void> run(const MemoryArgs&, Services& services) {
   console.say("pictures        " + mib(budget::kFramePoolBytes));
   console.say("stage products  " + mib(budget::kOutputArenaBytes));
   console.say("stage scratch   " + mib(budget::kScratchArenaBytes));
+  console.say("sides of a head " + mib(budget::kSidesBytes + budget::kFollowBytes));
   console.say("technician      " + mib(budget::kTechnicianBytes));
   console.say("libraries       " + mib(budget::kLibraryBytes));
   console.say("queues          " + mib(budget::kQueueBytes));

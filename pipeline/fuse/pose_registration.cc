@@ -8,6 +8,7 @@
 #include <cmath>
 #include <deque>
 #include <map>
+#include <mutex>
 #include <utility>
 
 #include "hal/base/statistics.h"
@@ -37,6 +38,24 @@ constexpr int kSkinTimes = 100;                // at most; each costs a thousand
 Vec3d vector(const Eigen::Vector3d& v) { return {v[0], v[1], v[2]}; }
 Eigen::Index place(std::size_t pose) { return 6 * (static_cast<Eigen::Index>(pose) - 1); }
 
+// An arena from which several threads take.
+class SharedArena final : public std::pmr::memory_resource {
+ public:
+  explicit SharedArena(Arena& arena) : arena_(arena), mark_(arena) {}
+
+ private:
+  void* do_allocate(std::size_t bytes, std::size_t alignment) override {
+    const std::lock_guard lock(mutex_);
+    return arena_.allocate(bytes, alignment);
+  }
+  void do_deallocate(void*, std::size_t, std::size_t) override {}
+  bool do_is_equal(const memory_resource& other) const noexcept override { return this == &other; }
+
+  Arena& arena_;
+  Arena::Mark mark_;
+  std::mutex mutex_;
+};
+
 // All poses at once, each against each.
 class JointSolver {
  public:
@@ -58,12 +77,16 @@ class JointSolver {
  private:
   // One Gauss-Newton step; returns how far it went, millimetres and radians together.
   double move(const RegistrationRound& round) {
+    SharedArena memory(context_.scratch);
     struct Part {
       Square normal;
       Column right;
-      std::vector<float> off;
+      std::pmr::vector<float> off;
     };
-    std::vector<Part> parts(placed_.size() * kParts);
+    std::pmr::vector<Part> parts(&memory);
+    parts.reserve(placed_.size() * kParts);
+    while (parts.size() < placed_.size() * kParts)
+      parts.push_back({{}, {}, std::pmr::vector<float>(&memory)});  // a copy would leave the arena
     residuals_.for_each_part(parts.size(), [&](std::size_t i) {
       Part& part = parts[i];
       part.normal = Square::Zero(unknowns_, unknowns_);
@@ -76,7 +99,7 @@ class JointSolver {
     });
     Square normal = kRidge * Square::Identity(unknowns_, unknowns_);
     Column right = Column::Zero(unknowns_);
-    std::vector<float> off;
+    std::pmr::vector<float> off(&memory);
     for (const Part& part : parts) {
       normal += part.normal;
       right += part.right;
@@ -131,12 +154,12 @@ class JointSolver {
     }
   };
 
-  std::vector<PatchTerms> patch_terms() const {
+  std::pmr::vector<PatchTerms> patch_terms(SharedArena& memory) const {
     const std::size_t poses = placed_.size();
-    std::vector<std::vector<PatchTerms>> parts(poses * kParts);
+    std::pmr::vector<std::pmr::deque<PatchTerms>> parts(poses * kParts, &memory);
     residuals_.for_each_part(parts.size(), [&](std::size_t i) {
-      std::vector<PatchTerms*> known(SkinPatches::kPatches * poses);
-      std::deque<PatchTerms> terms;
+      std::pmr::vector<PatchTerms*> known(SkinPatches::kPatches * poses, &memory);
+      std::pmr::deque<PatchTerms>& terms = parts[i];
       residuals_.for_each_residual_of(
           i / kParts, i % kParts, kParts, kLast, [&](std::size_t a, std::size_t b, const PoseResidual& r) {
             PatchTerms*& its = known[r.patch * poses + b];
@@ -145,15 +168,14 @@ class JointSolver {
                   &terms.emplace_back(PatchTerms{.patch = r.patch, .a = std::min(a, b), .b = std::max(a, b)});
             its->add(r, a < b ? 1 : -1);
           });
-      parts[i].assign(terms.begin(), terms.end());
     });
-    std::map<std::array<std::size_t, 3>, PatchTerms> all;
+    std::pmr::map<std::array<std::size_t, 3>, PatchTerms> all(&memory);
     for (const auto& part : parts)
       for (const PatchTerms& t : part) {
         const auto [its, added] = all.try_emplace({t.patch, t.a, t.b}, t);
         if (!added) its->second.add(t);
       }
-    std::vector<PatchTerms> list;
+    std::pmr::vector<PatchTerms> list(&memory);
     for (const auto& [key, terms] : all) list.push_back(terms);
     return list;
   }
@@ -161,8 +183,9 @@ class JointSolver {
   // How the poses lie and which patches of skin have moved hang on each other: both are found together, the
   // surfaces looked at once. Returns how far the poses went, millimetres and radians together.
   double settle() {
-    const std::vector<PatchTerms> terms = patch_terms();
-    std::vector<PatchMean> means;
+    SharedArena memory(context_.scratch);
+    const auto terms = patch_terms(memory);
+    std::pmr::vector<PatchMean> means(&memory);
     for (const PatchTerms& t : terms) means.push_back({t.patch, t.a, t.b, 0});
     Column moved = Column::Zero(unknowns_);
     for (int k = 0; k < kSkinTimes; ++k) {
@@ -172,7 +195,7 @@ class JointSolver {
       };
       for (std::size_t i = 0; i < terms.size(); ++i)
         means[i].mm = (terms[i].sum + terms[i].toward.dot(motion(terms[i]))) / terms[i].weight;
-      const double usual_mm = SkinPatches::usual_mm(means);
+      const double usual_mm = SkinPatches::usual_mm(means, memory);
       Square normal = kRidge * Square::Identity(unknowns_, unknowns_);
       Column right = Column::Zero(unknowns_);
       for (std::size_t i = 0; i < terms.size(); ++i) {

@@ -28,8 +28,8 @@ std::size_t SkinPatches::region_of(std::size_t patch) {
   return ((z / 2) * (kAcross / 2) + y / 2) * (kAcross / 2) + x / 2;
 }
 
-double SkinPatches::usual_mm(std::span<const PatchMean> means) {
-  std::vector<double> off;
+double SkinPatches::usual_mm(std::span<const PatchMean> means, std::pmr::memory_resource& memory) {
+  std::pmr::vector<double> off(&memory);
   for (const PatchMean& m : means) off.push_back(std::abs(m.mm));
   return off.empty() ? 0 : median(off) / 0.6745;
 }
@@ -44,7 +44,7 @@ double SkinPatches::still(double mean_mm, double usual_mm) {
 void SkinPatches::take(std::span<const PatchMean> means) {
   mean_mm_.assign(kPatches * poses_ * poses_, 0.0F);
   for (const PatchMean& m : means) mean_mm_[between(m.patch, m.a, m.b)] = static_cast<float>(m.mm);
-  usual_mm_ = usual_mm(means);
+  usual_mm_ = usual_mm(means, *mean_mm_.get_allocator().resource());
 }
 
 }  // namespace relievo::pipeline

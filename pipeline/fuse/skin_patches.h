@@ -35,7 +35,7 @@ class SkinPatches {
   // Skin moves in regions of two patches each way.
   static std::size_t region_of(std::size_t patch);
   // How far patches lie off, one standard deviation, robustly.
-  static double usual_mm(std::span<const PatchMean> means);
+  static double usual_mm(std::span<const PatchMean> means, std::pmr::memory_resource& memory);
   // How much a patch that lies so far off has to say, 0 to 1.
   static double still(double mean_mm, double usual_mm);
 

@@ -13,6 +13,7 @@
 #include "pipeline/fuse/skin_bender.h"
 #include "pipeline/model/vector3.h"
 #include "tests/pipeline/mesh/stage_room.h"
+#include "tests/support/allocation_counter.h"
 
 namespace relievo::pipeline::test {
 namespace {
@@ -148,6 +149,16 @@ TEST_F(Poses, AreFoundFromAWrongStart) {
   for (const auto& [k, yaw] : {std::pair<std::size_t, double>{1, -25}, {2, 25}, {3, 45}})
     EXPECT_LT(degrees_off(found->poses[k], yaw), 0.02) << yaw;
   EXPECT_EQ(found->poses[0].first_from_pose.translation_mm.x, 0);
+}
+
+// All it works with is in the plan: 1 MB a pose came from the heap once.
+TEST_F(Poses, TakeNothingFromTheHeap) {
+  if (!AllocationCounter::counts()) GTEST_SKIP() << "a sanitizer has its own malloc";
+  show({{0, 0}, {25, 0}});
+  const AllocationCounter counter;
+  const auto found = registered();
+  EXPECT_EQ(counter.made(), 0);
+  ASSERT_TRUE(found) << found.error().what.view();
 }
 
 TEST_F(Poses, AreFoundAlsoWhereOtherCamerasSawThem) {
