@@ -9,6 +9,7 @@
 #include <unordered_set>
 
 #include "tests/power/disk_log.h"
+#include "tests/power/logged_device.h"
 #include "tests/support/temporary_folder.h"
 
 namespace relievo::test {
@@ -47,20 +48,27 @@ std::string difference(const std::string& seen, const std::string& wanted) {
 
 class Cutter {
  public:
-  Cutter(const DiskLog& log, const std::vector<PowerStep>& steps, const PowerLook& look)
-      : log_(log), steps_(steps), look_(look) {}
+  Cutter(const std::vector<PowerStep>& steps, const PowerLook& look) : steps_(steps), look_(look) {}
 
-  PowerCounts run() {
-    learn();
-    CutDisk disk(log_);
+  // What it looks like between the steps.
+  void expect(const DiskTree& disk) {
+    const TemporaryFolder place;
+    disk.write(place / "disk");
+    expected_.push_back(look_.see(place / "disk"));
+    EXPECT_FALSE(expected_.back().starts_with("!")) << expected_.back();
+  }
+
+  PowerCounts run(const DiskLog& log) {
+    learn(log);
+    CutDisk disk(log);
     std::size_t done = 0;
     const std::size_t stride = seeds() < 100 ? 9 : 1;
-    for (std::size_t at = 0; at <= log_.changes.size() && failures_ < kMostFailures; ++at) {
+    for (std::size_t at = 0; at <= log.changes.size() && failures_ < kMostFailures; ++at) {
       disk.go_to(at);
-      const bool end = at == log_.changes.size(),
-                 acknowledged = !end && log_.changes[at].kind == Kind::Acknowledged;
+      const bool end = at == log.changes.size(),
+                 acknowledged = !end && log.changes[at].kind == Kind::Acknowledged;
       if (acknowledged) ++done;
-      if (end || is_point(log_.changes[at])) {
+      if (end || is_point(log.changes[at])) {
         ++counts_.points;
         for (std::uint32_t seed = 0; seed < seeds(); ++seed, ++counts_.cuts)
           judge(disk.cut(seed), at, done, acknowledged, "seed " + std::to_string(seed));
@@ -72,17 +80,24 @@ class Cutter {
     return counts_;
   }
 
+  PowerCounts run(LoggedDevice& device) {
+    counts_.cuts = device.play(seeds(), [&](const fs::path& mounted, const LoggedDevice::Cut& cut) {
+      ++counts_.different;
+      if (look_.raw) fail(look_.raw(mounted, cut.done), cut.entry, cut.done, cut.acknowledged, cut.how);
+      fail(wrong_in(mounted, cut.done, cut.acknowledged), cut.entry, cut.done, cut.acknowledged, cut.how);
+      return failures_ < kMostFailures;
+    });
+    EXPECT_FALSE(!look_.never.empty() && device.wrote(look_.never)) << "it was written in the clear";
+    return counts_;
+  }
+
  private:
-  // What it looks like between the steps.
-  void learn() {
-    CutDisk disk(log_);
-    for (std::size_t at = 0; at <= log_.changes.size(); ++at) {
+  void learn(const DiskLog& log) {
+    CutDisk disk(log);
+    for (std::size_t at = 0; at <= log.changes.size(); ++at) {
       disk.go_to(at);
-      if (at != 0 && (at == log_.changes.size() || log_.changes[at].kind != Kind::Acknowledged)) continue;
-      const TemporaryFolder place;
-      disk.killed().write(place / "disk");
-      expected_.push_back(look_.see(place / "disk"));
-      EXPECT_FALSE(expected_.back().starts_with("!")) << expected_.back();
+      if (at == 0 || (at < log.changes.size() && log.changes[at].kind == Kind::Acknowledged))
+        expect(disk.killed());
     }
   }
 
@@ -95,6 +110,14 @@ class Cutter {
     return seen == before || seen == after ? "" : difference(seen, after);
   }
 
+  void fail(const std::string& wrong, std::size_t at, std::size_t done, bool acknowledged,
+            const std::string& how) {
+    if (wrong.empty() || ++failures_ > kMostFailures) return;
+    const std::size_t step = acknowledged ? done - 1 : done;
+    ADD_FAILURE() << (step < steps_.size() ? steps_[step].name : "the end") << (acknowledged ? " (done)" : "")
+                  << ", change " << at << ", " << how << ": " << wrong;
+  }
+
   void judge(const DiskTree& left, std::size_t at, std::size_t done, bool acknowledged,
              const std::string& how) {
     if (!seen_.insert(hash_of(left) * 31 + done * 2 + (acknowledged ? 1U : 0U)).second) return;
@@ -102,17 +125,12 @@ class Cutter {
     const TemporaryFolder place;
     const fs::path folder = place / "disk";
     left.write(folder);
-    const auto fail = [&](const std::string& wrong) {
-      if (wrong.empty() || ++failures_ > kMostFailures) return;
-      const std::size_t step = acknowledged ? done - 1 : done;
-      ADD_FAILURE() << (step < steps_.size() ? steps_[step].name : "the end")
-                    << (acknowledged ? " (done)" : "") << ", change " << at << ", " << how << ": " << wrong;
-    };
-    if (look_.raw) fail(look_.raw(folder, done));
+    const auto wrong_is = [&](const std::string& wrong) { fail(wrong, at, done, acknowledged, how); };
+    if (look_.raw) wrong_is(look_.raw(folder, done));
     DiskLog again;
     {
       WatchedDisk watched(folder);
-      fail(wrong_in(folder, done, acknowledged));
+      wrong_is(wrong_in(folder, done, acknowledged));
       again = watched.log();
     }
     if (counts_.different % 4 != 0) return;
@@ -126,10 +144,9 @@ class Cutter {
     disk.go_to(points[number / 4 % points.size()]);
     disk.cut(static_cast<std::uint32_t>(number)).write(folder);
     const auto wrong = wrong_in(folder, done, acknowledged);
-    fail(wrong.empty() ? "" : "cut again: " + wrong);
+    wrong_is(wrong.empty() ? "" : "cut again: " + wrong);
   }
 
-  const DiskLog& log_;
   const std::vector<PowerStep>& steps_;
   const PowerLook& look_;
   std::vector<std::string> expected_;
@@ -141,22 +158,37 @@ class Cutter {
 }  // namespace
 
 PowerCounts cut_power(const fs::path& folder, const std::vector<PowerStep>& steps, const PowerLook& look) {
-  DiskLog log;
-  {
-    WatchedDisk watched(folder);
-    for (std::size_t i = 0; i < steps.size(); ++i) {
-      EXPECT_TRUE(steps[i].work()) << steps[i].name;
-      watched.acknowledge(i);
+  Cutter cutter(steps, look);
+  PowerCounts counts;
+  if (on_device()) {
+    std::vector<DiskTree> between;
+    LoggedDevice device(folder);
+    between.push_back(DiskTree::of(folder));
+    for (const PowerStep& step : steps) {
+      EXPECT_TRUE(step.work()) << step.name;
+      device.acknowledge();
+      between.push_back(DiskTree::of(folder));
     }
-    EXPECT_EQ(watched.unseen(), "") << "changed by a call that is not watched";
-    log = watched.log();
+    for (const DiskTree& disk : between) cutter.expect(disk);
+    counts = cutter.run(device);
+  } else {
+    DiskLog log;
+    {
+      WatchedDisk watched(folder);
+      for (std::size_t i = 0; i < steps.size(); ++i) {
+        EXPECT_TRUE(steps[i].work()) << steps[i].name;
+        watched.acknowledge(i);
+      }
+      EXPECT_EQ(watched.unseen(), "") << "changed by a call that is not watched";
+      log = watched.log();
+    }
+    counts = cutter.run(log);
   }
-  const PowerCounts counts = Cutter(log, steps, look).run();
   std::cout << ::testing::UnitTest::GetInstance()->current_test_info()->name() << ": " << counts.points
             << " points, " << counts.cuts << " cuts and " << counts.kills << " kills left "
             << counts.different << " different disks, " << counts.cut_again
             << " of them cut again: " << counts.as_before << " as before the step, " << counts.as_after
-            << " as after it\n";
+            << " as after it" << std::endl;
   return counts;
 }
 

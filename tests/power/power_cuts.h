@@ -5,6 +5,9 @@
 // process is killed in the middle of their writes. Whatever is left must look as before the step or as after
 // it; as after it, once the step has said that it is done. Power may go once more while what is left is
 // looked at.
+//
+// With RELIEVO_POWER_CUT_DEVICE set the steps are done on a real ext4, and power is cut below it
+// (logged_device.h).
 #pragma once
 
 #include <cstddef>
@@ -27,6 +30,8 @@ struct PowerLook {
   // Of the disk as it was left, when `done` steps were acknowledged: what is wrong, or nothing. May be
   // missing.
   std::function<std::string(const std::filesystem::path& folder, std::size_t done)> raw{};
+  // Is at no time written anywhere, where there is a device to look at. Empty: may be.
+  std::string never{};
 };
 
 struct PowerCounts {

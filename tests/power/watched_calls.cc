@@ -3,7 +3,8 @@
 //
 // The C library's calls that change a disk, as this program has them: each does its work and tells the log.
 // What a library calls (SQLite, libstdc++'s filesystem) comes here too, because a program's own names go
-// before a library's. A sync tells the log only: there is no power to be cut here.
+// before a library's. A sync tells the log only: there is no power to be cut here (on a
+// logged device, where there is, it does its work).
 #include <fcntl.h>
 #include <stdio.h>
 #include <sys/stat.h>
@@ -18,6 +19,7 @@
 #include <optional>
 
 #include "tests/power/disk_log.h"
+#include "tests/power/logged_device.h"
 #include "tests/support/temporary_folder.h"
 
 namespace relievo::test {
@@ -259,9 +261,10 @@ int posix_fallocate(int fd, off_t at, off_t count) {
   return done == 0 ? 0 : errno;
 }
 
-int fsync(int fd) { return synced(fd); }
-int fdatasync(int fd) { return synced(fd); }
-int syncfs(int) noexcept {
+int fsync(int fd) { return on_device() ? static_cast<int>(::syscall(SYS_fsync, fd)) : synced(fd); }
+int fdatasync(int fd) { return on_device() ? static_cast<int>(::syscall(SYS_fdatasync, fd)) : synced(fd); }
+int syncfs(int fd) noexcept {
+  if (on_device()) return static_cast<int>(::syscall(SYS_syncfs, fd));
   return static_cast<int>(told(0, [](Watch& watch) { watch.log.changes.push_back({Kind::SyncAll}); }));
 }
 

@@ -167,10 +167,19 @@ def sticks(machine, _):
     check("WRONG" not in said and "pulled 50 times" in said and "#1" in said, "a stick did what it should not, see above")
 
 
+def power_cuts(machine, _):
+    """What a store and files go through, on an ext4 whose device is replayed to every flush; tests/power judges."""
+    said = machine.run("modprobe -a loop dm-log-writes ext4; mkdir /run/cut; TMPDIR=/run/cut RELIEVO_POWER_CUT_DEVICE=1 RELIEVO_POWER_CUT_SEEDS=1 "
+                       f"{BUILT}/tests/power/test_power --gtest_brief=1 2>&1 | tee {machine.results}/power_cuts.log", 7200, check=False)
+    print(said, flush=True)
+    check("[  PASSED  ]" in said and "FAILED" not in said, "something was lost, or half, or could be read, see above")
+
+
 CASES = {
     "faults": ("1280x800", faults),
     "visit-1280x800": ("1280x800", visit),
     "sticks": (None, sticks),
+    "power_cuts": (None, power_cuts),
     "visit-1080x1920": ("1080x1920", visit),
 }
 
