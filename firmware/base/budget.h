@@ -97,8 +97,9 @@ inline constexpr milliseconds kCalibrateLimit{600'000};
 inline constexpr milliseconds kStaffLimit{300'000};
 inline constexpr milliseconds kFaultRetry{5'000};  // a fault tests itself again after this
 inline constexpr milliseconds kShortOfMemory{
-    2'000};                                       // no page could be made for so long: the program is ended
-inline constexpr milliseconds kHeatLook{10'000};  // between two looks at how hot the machine is
+    2'000};  // what was asked could not be done for so long: the program is ended
+inline constexpr milliseconds kMemoryIsBack{10'000};  // when so long nothing failed for want of it
+inline constexpr milliseconds kHeatLook{10'000};      // between two looks at how hot the machine is
 inline constexpr int kMovedFaces = 2;  // on end that say the cameras have moved: one may have nodded
 
 }  // namespace relievo::firmware::budget

@@ -215,10 +215,12 @@ template <typename Work>
 void Kiosk::guarded(const Work& work) {
   try {
     work();
-    short_since_.reset();
   } catch (const std::bad_alloc&) {
     const hal::Instant now = device_->clock().now();
-    if (!short_since_) short_since_ = now;
+    // A page that is already made is drawn without memory, though no finger is answered: not every turn
+    // fails.
+    if (!short_since_ || now - short_last_ > budget::kMemoryIsBack) short_since_ = now;
+    short_last_ = now;
     if (now - *short_since_ > budget::kShortOfMemory) throw;
     if (appliance_->session().is_open())
       appliance_->give_up({Errc::OutOfMemory, "the appliance's memory is used up: begin again"});

@@ -98,7 +98,8 @@ class Kiosk {
   bool restarted_ = false, told_ = false;
   std::atomic<bool> hot_{false};  // the keeper writes it
   hal::Instant next_heat_look_{};
-  std::optional<hal::Instant> short_since_;  // of memory, turn after turn
+  std::optional<hal::Instant> short_since_;  // of memory, again and again
+  hal::Instant short_last_{};
   storage::WallTime newest_record_{};
   ui::ViewState view_;
   bool forgotten_ = false;
