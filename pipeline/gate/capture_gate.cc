@@ -7,6 +7,7 @@
 #include <numbers>
 
 #include "pipeline/gate/head/beside_head.h"
+#include "pipeline/gate/head/head_outline.h"
 #include "pipeline/gate/light/edge_blur.h"
 
 namespace relievo::pipeline {
@@ -55,39 +56,18 @@ void measure_picture(const Relief& relief, double nearest_mm, GateMeasures& m) {
   m.middle_near_share = static_cast<double>(near) / middle;
 }
 
-// The middle of all that is near says on which side somebody stands of whom no face is seen; its upper end
-// whether they are too low, the neck whether they are too high. That it reaches the upper edge says nothing:
-// most heads do.
-void measure_somebody(const Relief& relief, double farthest_mm, GateMeasures& m) {
-  constexpr double kReach = 1.2, kLeastShare = 0.03, kClearly = 0.12, kNeckOfHead = 0.72, kHighNeck = 0.6,
-                   kUsualNeck = 0.85;
-  const int w = relief.width_px, h = relief.height_px;
-  double count = 0, right = 0;
-  int top = h, neck = h, widest = 0;
-  for (int y = 0; y < h; ++y) {
-    int in_row = 0;
-    for (int x = 0; x < w; ++x) {
-      if (!relief.known(x, y) ||
-          static_cast<double>(relief.depth_mm[relief.index(x, y)]) > kReach * farthest_mm)
-        continue;
-      ++in_row;
-      right += x;
-    }
-    count += in_row;
-    if (top == h && in_row > w / 12) top = y;
-    widest = std::max(widest, in_row);
-    if (neck == h && widest > w / 6 && in_row < kNeckOfHead * widest) neck = y;
-  }
-  if (count < kLeastShare * w * h) return;
-  const double off = right / count / w - 0.5, low = static_cast<double>(top) / h - 0.5;
-  if (std::abs(off) > kClearly) m.somebody_right = off;
-  if (low > 0) m.somebody_down = low + kClearly;
-  else if (neck < kHighNeck * h) m.somebody_down = static_cast<double>(neck) / h - kUsualNeck;
-}
-
 void measure_expression(const FacePhoto& photo, StageContext& context, GateMeasures& m) {
   m.eyes = measure_eyes(photo, context);
   m.mouth = measure_mouth(photo, context);
+}
+
+// Of a head that is turned so far that it does not mirror itself, the outline alone tells the yaw. Something
+// before a face takes the mirror image away, too, but leaves the nose before the middle.
+void trust_outline(const Relief& relief, const GateLimits& limits, GateMeasures& m) {
+  if (!m.head.known || m.head.asymmetry_mm < limits.doubtful_mm) return;
+  const double yaw = outline_yaw_deg(relief, m.head.tip_mm);
+  m.turned_far = std::abs(yaw) > limits.yaw_deg;
+  if (m.turned_far) m.head.yaw_deg = yaw;
 }
 
 // Where the head was a moment ago, as a face to look for.
@@ -176,13 +156,19 @@ Result<GateLook> CaptureGate::look(const StereoFrame& frame, const StereoCalibra
     m.guessed_mm = kFaceWidthMm * relief.focal_px / m.face.width_px;
     m.head = measure_head(relief, m.face, context);
   }
-  if (!m.head.known && history.seen && now - history.last_by_cascade < options_.keeps_track) {
-    m.face = expected(relief, history);
-    m.head = measure_head(relief, m.face, context);
-    m.tracked = m.head.known;
-    m.faces = std::max(m.faces, m.tracked ? 1 : 0);
+  const auto look_at = [&](const HeadHint& place) {
+    const HeadMeasurement head = measure_head(relief, place, context);
+    m.tracked = head.known && head.relief_mm > options_.limits.relief_mm;
+    if (m.tracked) m.face = place, m.head = head, m.faces = std::max(m.faces, 1);
+  };
+  if (!m.head.known && history.seen && now - history.last_by_cascade < options_.keeps_track)
+    look_at(expected(relief, history));
+  if (!m.head.known && m.faces == 0) {
+    const Somebody somebody = find_somebody(relief, options_.limits.farthest_mm);
+    look_at(somebody.head);
+    if (!m.tracked) m.somebody_right = somebody.right, m.somebody_down = somebody.down;
   }
-  if (m.faces == 0) measure_somebody(relief, options_.limits.farthest_mm, m);
+  trust_outline(relief, options_.limits, m);
   if (m.face.width_px > 0) m.covered_share = covered_share(relief, m.face);
   const SeenHead seen{now, m.head.known && !m.tracked, m.head.tip_mm, m.head.yaw_deg, m.face};
   if (m.head.known) {

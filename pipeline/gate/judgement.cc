@@ -20,6 +20,9 @@ struct Judge {
   bool above(double value, double limit, Advice advice) const {
     return value > (said == advice ? limit * l.leave : limit);
   }
+  bool strays(double value, double limit, Advice advice) const {
+    return std::abs(value) > (said == advice ? limit * l.leave_pose : limit);
+  }
   bool below(double value, double limit, Advice advice) const {
     return value < (said == advice ? limit / l.leave : limit);
   }
@@ -36,7 +39,7 @@ struct Judge {
     return Advice::NoFace;
   }
   Advice distance() const {
-    const double z = m.head.tip_mm.z, slack = 12;
+    const double z = m.head.tip_mm.z, slack = 20;
     if (z < l.nearest_mm + (said == Advice::TooClose ? slack : 0)) return Advice::TooClose;
     if (z > l.farthest_mm - (said == Advice::TooFar ? slack : 0)) return Advice::TooFar;
     return Advice::None;
@@ -52,17 +55,19 @@ struct Judge {
   Advice covered() const {
     return above(m.covered_share, l.covered_share, Advice::FaceHidden) ? Advice::FaceHidden : Advice::None;
   }
+  // Neither its place nor its roll can be told of such a head.
+  Advice turned_far() const { return m.turned_far ? Advice::TurnedAside : Advice::None; }
   Advice middle() const {
-    if (above(std::abs(m.off_right_mm), l.off_right_mm, Advice::OffCentre) ||
-        above(std::abs(m.off_down_mm), l.off_down_mm, Advice::OffCentre))
+    if (strays(m.off_right_mm, l.off_right_mm, Advice::OffCentre) ||
+        strays(m.off_down_mm, l.off_down_mm, Advice::OffCentre))
       return Advice::OffCentre;
     return Advice::None;
   }
   Advice pose() const {
     if (m.head.relief_mm < l.relief_mm) return Advice::FaceHidden;  // something flat is before it
-    if (above(std::abs(m.head.yaw_deg), l.yaw_deg, Advice::TurnedAside)) return Advice::TurnedAside;
-    if (above(std::abs(m.head.pitch_deg), l.pitch_deg, Advice::LooksUpOrDown)) return Advice::LooksUpOrDown;
-    if (above(std::abs(m.head.roll_deg), l.roll_deg, Advice::Tilted)) return Advice::Tilted;
+    if (strays(m.head.yaw_deg, l.yaw_deg, Advice::TurnedAside)) return Advice::TurnedAside;
+    if (strays(m.head.pitch_deg, l.pitch_deg, Advice::LooksUpOrDown)) return Advice::LooksUpOrDown;
+    if (strays(m.head.roll_deg, l.roll_deg, Advice::Tilted)) return Advice::Tilted;
     if (above(m.speed_mm_s, l.speed_mm_s, Advice::Moved) || above(m.turn_deg_s, l.turn_deg_s, Advice::Moved))
       return Advice::Moved;
     return Advice::None;
@@ -129,17 +134,19 @@ Result<void> GateLimits::check() const {
   if (!(sane(nearest_mm) && farthest_mm > nearest_mm && std::isfinite(farthest_mm)))
     return Error{Errc::InvalidInput, "the capture volume must begin before it ends: nearest_mm < farthest_mm"}
         .at("gate");
-  for (const double v : {off_right_mm,      off_down_mm,   yaw_deg,         pitch_deg,      roll_deg,
-                         speed_mm_s,        turn_deg_s,    darkest_mean,    brightest_mean, dark_share,
-                         bright_share,      side_ratio,    glossy_share,    blur_mm,        covered_share,
-                         in_front_share,    unknown_share, asymmetry_mm,    relief_mm,      lost_dark_mean,
-                         lost_bright_share, lost_blur_mm,  lost_below_mm_s, eye_brightness, iris_contrast,
-                         one_eye_share,     glare_mm2,     dark_mm2,        steps_mm,       before_mm,
-                         rise_mm,           beside_share,  leave,           leave_sides})
+  for (const double v : {off_right_mm,   off_down_mm,       yaw_deg,      pitch_deg,       roll_deg,
+                         speed_mm_s,     turn_deg_s,        darkest_mean, brightest_mean,  dark_share,
+                         bright_share,   side_ratio,        glossy_share, blur_mm,         covered_share,
+                         in_front_share, unknown_share,     asymmetry_mm, doubtful_mm,     relief_mm,
+                         lost_dark_mean, lost_bright_share, lost_blur_mm, lost_below_mm_s, eye_brightness,
+                         iris_contrast,  one_eye_share,     glare_mm2,    dark_mm2,        steps_mm,
+                         before_mm,      rise_mm,           beside_share, leave,           leave_pose,
+                         leave_sides})
     if (!sane(v))
       return Error{Errc::InvalidInput, "every limit of the gate must be a positive number"}.at("gate");
-  if (leave > 1 || leave_sides > 1)
-    return Error{Errc::InvalidInput, "leave and leave_sides are shares of a limit: 1 at most"}.at("gate");
+  if (leave > 1 || leave_pose > 1 || leave_sides > 1)
+    return Error{Errc::InvalidInput, "leave, leave_pose and leave_sides are shares of a limit: 1 at most"}.at(
+        "gate");
   return {};
 }
 
@@ -153,8 +160,9 @@ Advice judge(const GateMeasures& measures, const GateLimits& limits, Advice said
   const Judge judge{measures, limits, said};
   if (!measures.head.known) return judge.without_head();
   if (measures.faces > 1) return Advice::MoreThanOneFace;
-  for (const Advice advice : {judge.distance(), judge.lost(), judge.covered(), judge.middle(), judge.pose(),
-                              judge.light(), judge.cover(), judge.eyes(), judge.mouth(), judge.beside()})
+  for (const Advice advice :
+       {judge.distance(), judge.lost(), judge.covered(), judge.turned_far(), judge.middle(), judge.pose(),
+        judge.light(), judge.cover(), judge.eyes(), judge.mouth(), judge.beside()})
     if (advice != Advice::None) return advice;
   return measures.tracked ? Advice::NoFace : Advice::None;
 }

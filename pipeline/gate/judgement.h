@@ -19,7 +19,9 @@ namespace relievo::pipeline {
 
 struct GateMeasures {
   int faces = 0;         // SingleFacePresent asks for one
-  bool tracked = false;  // no cascade sees the face; the relief still does, where it was a moment ago
+  bool tracked = false;  // no cascade sees the face; the relief shows one, where it was a moment ago or where
+                         // the outline of somebody has its head
+  bool turned_far = false;  // so far that the yaw is that of the outline: head_outline.h
   double guessed_mm =
       0;  // distance by the width of the face, for one too near or too far for the relief; 0: none seen
   double picture_dark_share = 0;   // of the whole picture, luminance 0 .. 25
@@ -55,6 +57,7 @@ struct GateLimits {
   double blur_mm = 1.3;  // sharp faces of real cameras measure 0.7 to 1.1
   double covered_share = 0.06, in_front_share = 0.05, unknown_share = 0.45;
   double asymmetry_mm = 5.5;
+  double doubtful_mm = 4.7;      // a head turned by less than 20 degrees mirrors itself better
   double relief_mm = 8;          // a nose stands out further: else something flat is before it
   double eye_brightness = 0.62;  // least: darker is behind dark glass
   double iris_contrast = 0.09,
@@ -67,6 +70,7 @@ struct GateLimits {
   // sharpness are asked first.
   double lost_dark_mean = 0.10, lost_bright_share = 0.30, lost_blur_mm = 1.4, lost_below_mm_s = 190;
   double leave = 0.85;        // share of a limit
+  double leave_pose = 0.7;    // of place and pose: who stops as soon as they may sways out again
   double leave_sides = 0.96;  // of side_ratio: faces are lit unlike each other in good light, but steadily
   Result<void> check() const;
 };

@@ -7,7 +7,8 @@
 //   another page, or asked to read it again  ->  the page
 //   something was typed                      ->  the letter
 //   another focus, or what has it changed    ->  what has the focus
-//   a status changed                         ->  the status: an alert as soon as it has stood for kSettled,
+//   a status changed                         ->  the status: an alert as soon as it has stood for kSettled
+//                                                (one that insists leaves time to do what was heard before),
 //                                                any other when nothing is being said
 //   an alert that insists still stands       ->  the same again, every kAgain
 //
@@ -73,6 +74,8 @@ std::size_t print_of(std::string_view text);
 
 inline constexpr std::chrono::milliseconds kSettled{350};  // an advice that is gone by then helps nobody
 inline constexpr std::chrono::seconds kAgain{5};           // what insists is said again
+// From the end of what was said until it is done; what stands so long cuts it short.
+inline constexpr std::chrono::milliseconds kReacts{700}, kCutsShort{1200};
 
 class Narrator {
  public:
@@ -108,6 +111,7 @@ class Narrator {
   std::size_t page_ = 0, focus_ = 0, focused_ = 0, typed_ = 0, typed_bytes_ = 0;
   std::array<Told, kStatuses> told_{};
   std::size_t told_count_ = 0;
+  hal::Instant heard_{};
   bool again_ = true;
   std::string_view introduction_;
 };

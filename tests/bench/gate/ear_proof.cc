@@ -2,7 +2,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 //
 // How many of simulated visitors who see nothing come from a wrong pose to their picture by what they hear
-// (tests/firmware/kiosk/ear_visit.h). Failures are printed with their pose and all that was said.
+// (tests/firmware/kiosk/ear_visit.h). Failures, and a visit alone, are printed with
+// their pose and all that was said.
 //   ear_proof VISITS [FIRST_SEED]
 #include <algorithm>
 #include <cstdio>
@@ -22,9 +23,9 @@ int main(int argc, char** argv) {
     const std::uint32_t seed = first + static_cast<std::uint32_t>(i);
     const EarVisit visit = visit_by_ear(seed, album, gate);
     if (visit.captured) seconds.push_back(visit.seconds);
-    else
-      std::printf("visit %u failed: from %s to %s\n%s", seed, print(visit.first).c_str(),
-                  print(visit.last).c_str(), visit.heard.c_str());
+    if (!visit.captured || visits == 1)
+      std::printf("visit %u %s: from %s to %s\n%s", seed, visit.captured ? "captured" : "failed",
+                  print(visit.first).c_str(), print(visit.last).c_str(), visit.heard.c_str());
     std::printf("%zu of %d\n", seconds.size(), i + 1);
     std::fflush(stdout);
   }

@@ -117,8 +117,19 @@ TEST(Judgement, WhatWasSaidIsNotTakenBackByNoise) {
   m.head.yaw_deg = l.yaw_deg - 0.5;
   EXPECT_EQ(judge(m, l, Advice::None), Advice::None);
   EXPECT_EQ(judge(m, l, Advice::TurnedAside), Advice::TurnedAside);
-  m.head.yaw_deg = l.leave * l.yaw_deg - 0.1;
+  m.head.yaw_deg = l.leave_pose * l.yaw_deg - 0.1;
   EXPECT_EQ(judge(m, l, Advice::TurnedAside), Advice::None);
+}
+
+// Place, roll and cover are those of a cheek.
+TEST(Judgement, WhoIsTurnedFarIsToldSoBeforeAllElseThatIsMeasuredOfTheFace) {
+  const GateLimits l;
+  GateMeasures m = good();
+  m.turned_far = true;
+  m.off_right_mm = 2 * l.off_right_mm, m.head.roll_deg = 2 * l.roll_deg, m.head.in_front_share = 1;
+  EXPECT_EQ(judge(m, l, Advice::None), Advice::TurnedAside);
+  m.head.tip_mm.z = l.nearest_mm - 1;
+  EXPECT_EQ(judge(m, l, Advice::None), Advice::TooClose);
 }
 
 TEST(Judgement, AnEyeInTheShadeIsNoWink) {

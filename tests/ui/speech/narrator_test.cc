@@ -126,6 +126,26 @@ TEST_F(NarratorTest, WhatInsistsIsSaidAgainWhileItStandsAndNothingElseIs) {
   EXPECT_EQ(hear(), "");
 }
 
+TEST_F(NarratorTest, WhatInsistsLeavesTimeToDoWhatWasHeard) {
+  shown.insists = true;
+  hear();
+  moment.busy = true;
+  hear();
+  moment.busy = false;
+  shown.advice = "Too near";
+  EXPECT_EQ(hear_later(), "") << "they are about to move";
+  moment.now += kReacts - kSettled;
+  EXPECT_EQ(hear(), "Too near");
+  moment.busy = true;
+  shown.advice = "Too far";
+  EXPECT_EQ(hear_later(), "") << "it may be gone when the other is said";
+  moment.now += kCutsShort - kSettled;
+  EXPECT_EQ(hear(), "Too far");
+  shown.insists = false;
+  shown.advice = "Very good";
+  EXPECT_EQ(hear_later(), "Very good") << "who stands right must not move on";
+}
+
 TEST_F(NarratorTest, ReadsWhatLiesOverThePageAlone) {
   hear();
   shown.help = true;
