@@ -7,6 +7,7 @@
 #include <cstdio>
 #include <filesystem>
 #include <fstream>
+#include <set>
 #include <span>
 #include <string>
 #include <thread>
@@ -248,7 +249,11 @@ class Photographer {
       return file_of(++number, exhibit.name).find(only_.page) != std::string::npos;
     };
     const std::ptrdiff_t count = std::ranges::count_if(exhibits, is_wanted);
-    if (count == 0) return {};
+    if (count == 0) {
+      for (const Exhibit& exhibit : exhibits) others_.emplace(exhibit.name);
+      return {};
+    }
+    took_any_ = true;
     Sheet sheet(static_cast<std::size_t>(count), size);
     hal::Picture picture;
     picture.width_px = size.width_px;
@@ -276,11 +281,24 @@ class Photographer {
     return hal::write_picture(folder_ / name, sheet.picture().view());
   }
 
+  // InvalidInput, and says what there is, where nothing is called as was asked.
+  Result<void> done(Console& console) const {
+    if (took_any_) return {};
+    std::string names;
+    for (const std::string& name : others_) names += (names.empty() ? "pages: " : " ") + name;
+    if (!names.empty()) console.say(names);
+    return Error{
+        Errc::InvalidInput,
+        "nothing is called as --only asks: SIZE_TEXT_LANGUAGE or SIZE_TEXT_LANGUAGE/PAGE, a part of each"};
+  }
+
  private:
   std::unique_ptr<ui::Renderer> renderer_;
   ui::Ui ui_;
   Path folder_;
   Only only_;
+  bool took_any_ = false;
+  std::set<std::string> others_;  // of pages that were not asked for
 };
 
 }  // namespace
@@ -306,7 +324,7 @@ Result<void> take_screenshots(const KioskArgs& args, Kiosk& kiosk, Console& cons
   for (std::size_t i = 0; i < (asked ? ui::kLanguages : 1); ++i) {
     RELIEVO_TRY(photographer.take(review, kSizes[0], 0, static_cast<ui::Language>(i), true, console));
   }
-  return {};
+  return photographer.done(console);
 }
 
 }  // namespace relievo::firmware
