@@ -70,6 +70,9 @@ void trust_outline(const Relief& relief, const GateLimits& limits, GateMeasures&
   if (m.turned_far) m.head.yaw_deg = yaw;
 }
 
+// What may be said of a head that no cascade has seen; what it looks like may be a collar's doing.
+bool is_of_place_or_pose(Advice advice) { return advice >= Advice::TooClose && advice <= Advice::Tilted; }
+
 // Where the head was a moment ago, as a face to look for.
 HeadHint expected(const Relief& relief, const GateHistory& history) {
   const Vec3d& tip = history.last.tip_mm;
@@ -163,10 +166,11 @@ Result<GateLook> CaptureGate::look(const StereoFrame& frame, const StereoCalibra
   };
   if (!m.head.known && history.seen && now - history.last_by_cascade < options_.keeps_track)
     look_at(expected(relief, history));
-  if (!m.head.known && m.faces == 0) {
+  const bool unseen = !m.head.known && m.faces == 0;
+  if (unseen) {
     const Somebody somebody = find_somebody(relief, options_.limits.farthest_mm);
+    m.somebody_right = somebody.right, m.somebody_down = somebody.down;
     look_at(somebody.head);
-    if (!m.tracked) m.somebody_right = somebody.right, m.somebody_down = somebody.down;
   }
   trust_outline(relief, options_.limits, m);
   if (m.face.width_px > 0) m.covered_share = covered_share(relief, m.face);
@@ -184,6 +188,10 @@ Result<GateLook> CaptureGate::look(const StereoFrame& frame, const StereoCalibra
     measure_expression({frame, calibration, relief, m.head}, context, m);
   }
   answer.reason = judge(m, options_.limits, history.said);
+  if (unseen && m.tracked && !is_of_place_or_pose(answer.reason)) {
+    m.head = {}, m.face = {}, m.tracked = false, m.faces = 0;
+    answer.reason = judge(m, options_.limits, history.said);
+  }
   remember(seen, options_.shortest_motion, m, history);
   settle(now, answer, history);
   return GateLook{answer, std::move(relief)};
