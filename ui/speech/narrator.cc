@@ -123,7 +123,7 @@ void Narrator::forget() {
 
 const Utterance& Narrator::follow(const Tree& tree, const Moment& moment, const Listener& to) {
   said_.clear();
-  if (moment.busy) heard_ = moment.now;
+  if (moment.busy && told_to_wait_) heard_ = moment.now;
   said_.language = info_of(to.tr.language()).code;
   const std::size_t page = print_of_page(tree, moment, to);
   if (std::exchange(page_, page) != page || again_) {
@@ -197,13 +197,14 @@ void Narrator::follow_statuses(const Tree& tree, const Moment& moment, const Lis
     const std::size_t words = print_of(scratch_.text());
     if (std::exchange(told->seen, words) != words) told->since = moment.now;
     const auto stands = moment.now - told->since;
-    const bool obeyed = !node.insists || moment.now - heard_ >= kReacts || stands >= kCutsShort;
+    const bool obeyed = !node.waits || moment.now - heard_ >= kReacts || stands >= kCutsShort;
     const bool due = node.role == Role::Alert ? stands >= kSettled && obeyed : !moment.busy;
     const bool again = node.insists && !moment.busy && moment.now - told->last >= kAgain;
     if ((words == told->said && !again) || (!due && !said_all)) continue;
     told->said = words;
     told->last = moment.now;
     if (!said_all) said_.say(scratch_.text());
+    told_to_wait_ = node.waits && !said_all;
   }
   scratch_.clear();
 }

@@ -8,7 +8,7 @@
 //   something was typed                      ->  the letter
 //   another focus, or what has it changed    ->  what has the focus
 //   a status changed                         ->  the status: an alert as soon as it has stood for kSettled
-//                                                (one that insists leaves time to do what was heard before),
+//                                                (one that waits leaves time to do what was heard before),
 //                                                any other when nothing is being said
 //   an alert that insists still stands       ->  the same again, every kAgain
 //
@@ -112,6 +112,7 @@ class Narrator {
   std::array<Told, kStatuses> told_{};
   std::size_t told_count_ = 0;
   hal::Instant heard_{};
+  bool told_to_wait_ = false;  // what was said last was such an alert
   bool again_ = true;
   std::string_view introduction_;
 };

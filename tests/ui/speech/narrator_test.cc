@@ -18,7 +18,7 @@ struct Shown {
   std::string typed;
   std::string button_value;
   bool help = false;
-  bool insists = false;
+  bool insists = false, waits = false;
 };
 
 class NarratorTest : public testing::Test {
@@ -38,7 +38,7 @@ class NarratorTest : public testing::Test {
     tree.open(node(Role::Group, "screen", {}));
     tree.leaf(node(Role::Heading, "title", {}, shown.heading));
     Node advice = node(Role::Alert, "advice", shown.advice);
-    advice.insists = shown.insists;
+    advice.insists = shown.insists, advice.waits = shown.waits;
     tree.open(advice);
     tree.leaf(node(Role::Text, {}, {}, "what is drawn of it"));
     tree.close();
@@ -126,22 +126,24 @@ TEST_F(NarratorTest, WhatInsistsIsSaidAgainWhileItStandsAndNothingElseIs) {
   EXPECT_EQ(hear(), "");
 }
 
-TEST_F(NarratorTest, WhatInsistsLeavesTimeToDoWhatWasHeard) {
-  shown.insists = true;
+TEST_F(NarratorTest, WhatWaitsLeavesTimeToDoWhatWasHeard) {
+  shown.waits = true;
   hear();
   moment.busy = true;
+  shown.advice = "Too near";
+  EXPECT_EQ(hear_later(), "Too near") << "the page may be cut short";
   hear();
   moment.busy = false;
-  shown.advice = "Too near";
+  shown.advice = "Too far";
   EXPECT_EQ(hear_later(), "") << "they are about to move";
   moment.now += kReacts - kSettled;
-  EXPECT_EQ(hear(), "Too near");
+  EXPECT_EQ(hear(), "Too far");
   moment.busy = true;
-  shown.advice = "Too far";
+  shown.advice = "Too near";
   EXPECT_EQ(hear_later(), "") << "it may be gone when the other is said";
   moment.now += kCutsShort - kSettled;
-  EXPECT_EQ(hear(), "Too far");
-  shown.insists = false;
+  EXPECT_EQ(hear(), "Too near");
+  shown.waits = false;
   shown.advice = "Very good";
   EXPECT_EQ(hear_later(), "Very good") << "who stands right must not move on";
 }

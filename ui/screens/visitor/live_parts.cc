@@ -175,6 +175,8 @@ void advice(Page& page, const Said& what, int countdown) {
   pill.id = "advice";
   pill.role = Role::Alert;
   pill.insists = !what.good;
+  // Who turns the head is past the side before they have heard.
+  pill.waits = pill.insists && page.visit.step == Step::Position;
   pill.name = what.spoken != nullptr ? what.spoken : what.words;
   pill.box.align = Align::Centre;
   pill.box.justify = Justify::Centre;
