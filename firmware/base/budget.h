@@ -19,8 +19,9 @@ inline constexpr int kMaxFrameHeightPx = 2048;
 inline constexpr std::size_t kFrameBytes = std::size_t{kMaxFrameWidthPx} * kMaxFrameHeightPx * 3;
 // Two pictures, and a byte a pixel to develop one behind a colour filter.
 inline constexpr std::size_t kStereoSlotBytes = 2 * kFrameBytes + kFrameBytes / 3;
-inline constexpr int kLiveSidePx = 640;               // longer side of the live picture on the screen
-inline constexpr int kStagePictureSidePx = 400;       // of a stage's picture, a square
+inline constexpr int kLiveSidePx = 640;          // longer side of the live picture on the screen
+inline constexpr int kWatchedSidePx = 1920;      // of a camera's on the technician's: a page's own pixels
+inline constexpr int kStagePictureSidePx = 400;  // of a stage's picture, a square
 inline constexpr int kTechnicianPictureSidePx = 720;  // longer side of a picture on the technician's pages
 inline constexpr std::size_t kStereoSlots =
     2;  // a burst's best pair, kept until the session closes, and its newest

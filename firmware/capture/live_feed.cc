@@ -7,7 +7,6 @@
 #include <algorithm>
 #include <utility>
 
-#include "firmware/base/budget.h"
 #include "pipeline/gate/relief/live_relief.h"
 
 namespace relievo::firmware {
@@ -15,6 +14,7 @@ namespace {
 
 constexpr double kNearestDrawnMm = 350, kFarthestDrawnMm = 1000;
 constexpr auto kSide = static_cast<std::size_t>(budget::kLiveSidePx);
+constexpr std::size_t kRoom = kSide * kSide * 3;
 
 // Means over step x step pixels.
 void shrink(const ImageView& from, int step, int width, int height, std::uint8_t* to) {
@@ -39,9 +39,9 @@ void shrink(const ImageView& from, int step, int width, int height, std::uint8_t
 
 }  // namespace
 
-LiveFeed::LiveFeed() {
+LiveFeed::LiveFeed(int side_px) : side_px_(side_px) {
   for (Slot& slot : slots_) {
-    slot.rgb.resize(kSide * kSide * 3);
+    slot.rgb.resize(kRoom);
     slot.relief.resize(kSide * kSide);
   }
 }
@@ -49,8 +49,10 @@ LiveFeed::LiveFeed() {
 ImageView LiveFeed::fill(const ImageView& picture) {
   Slot& slot = slots_[filling_];
   const int longer = std::max(picture.width_px, picture.height_px);
-  const int step = (longer + budget::kLiveSidePx - 1) / budget::kLiveSidePx;
+  const int step = (longer + side_px_ - 1) / side_px_;
   const int width = picture.width_px / step, height = picture.height_px / step;
+  const auto bytes = static_cast<std::size_t>(width) * static_cast<std::size_t>(height) * 3;
+  if (slot.rgb.size() < bytes) slot.rgb.resize(bytes);
   shrink(picture, step, width, height, slot.rgb.data());
   slot.live.relief = {};
   slot.live.picture = {reinterpret_cast<const std::byte*>(slot.rgb.data()), width, height, 3 * width,
@@ -87,6 +89,7 @@ void LiveFeed::wipe() {
     explicit_bzero(slot.rgb.data(), slot.rgb.size());
     explicit_bzero(slot.relief.data(), slot.relief.size());
     slot.live = {};
+    if (slot.rgb.size() > kRoom) slot.rgb = std::vector<std::uint8_t>(kRoom);
   }
   fresh_ = false;
 }

@@ -3,7 +3,7 @@
 //
 // LiveFeed: the newest small picture of the person, with the relief it is
 // judged by, from the capture thread to the screen. Three
-// buffers of fixed size: one is being filled, one is the newest, one is on the screen; nobody waits.
+// buffers: one is being filled, one is the newest, one is on the screen; nobody waits.
 // Thread: fill() and publish() capture, newest() main; wipe() main, and only while no job runs.
 #pragma once
 
@@ -12,6 +12,7 @@
 #include <mutex>
 #include <vector>
 
+#include "firmware/base/budget.h"
 #include "firmware/capture/guidance.h"
 #include "hal/base/image_view.h"
 #include "pipeline/model/relief.h"
@@ -28,8 +29,10 @@ struct LivePicture {
 
 class LiveFeed {
  public:
-  LiveFeed();
-  // A copy of the picture, its longer side kLiveSidePx or less.
+  // `side_px`: the longer side of its pictures at most. Room for budget::kLiveSidePx is taken at once; for
+  // more with the first larger picture (bad_alloc), until wipe().
+  explicit LiveFeed(int side_px = budget::kLiveSidePx);
+  // A copy of the picture, shrunk by a whole number.
   ImageView fill(const ImageView& picture);
   // With the picture that is being filled; a relief larger than the room for it is left out.
   void fill_relief(const pipeline::Relief& relief);
@@ -44,6 +47,7 @@ class LiveFeed {
     std::vector<std::uint8_t> rgb, relief;
     LivePicture live;
   };
+  int side_px_;
   std::array<Slot, 3> slots_;
   std::mutex mutex_;
   std::size_t filling_ = 0, newest_ = 1, shown_ = 2;

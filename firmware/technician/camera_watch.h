@@ -85,7 +85,8 @@ class CameraWatchJob final : public Job {
   StereoGrabber& grabber_;
   EnrolmentSession& session_;
   hal::Device& device_;
-  std::array<LiveFeed, 3> feeds_;  // left, right, relief
+  std::array<LiveFeed, 3> feeds_{LiveFeed(budget::kWatchedSidePx), LiveFeed(budget::kWatchedSidePx),
+                                 LiveFeed()};  // left, right, relief
   std::array<FocusHelp, 2> focus_;
   FocusPeaking peaking_;
   ReliefWatch relief_;

@@ -107,6 +107,22 @@ TEST(LiveJudge, GoesByAnotherCalibrationFromThenOn) {
   EXPECT_NEAR(ideal_width(), before * 2 / 3, 1e-9);
 }
 
+TEST(LiveFeed, ShowsACameraPixelByPixelWhereAskedAndGivesTheRoomBack) {
+  std::vector<std::byte> grey(std::size_t{1920} * 1200);
+  for (std::size_t i = 0; i < grey.size(); ++i) grey[i] = static_cast<std::byte>(i % 251);
+  const ImageView camera{grey.data(), 1920, 1200, 1920, PixelFormat::Grey8};
+  LiveFeed visitor, technician(budget::kWatchedSidePx);
+  EXPECT_EQ(visitor.fill(camera).width_px, budget::kLiveSidePx);
+  ASSERT_EQ(technician.fill(camera).width_px, 1920);
+  technician.publish({});
+  const LivePicture live = technician.newest();
+  for (int x = 0; x < 1920; x += 7)
+    ASSERT_EQ(live.picture.row(1199)[3 * x], camera.row(1199)[x]) << "column " << x;
+  technician.wipe();
+  EXPECT_TRUE(technician.newest().picture.empty());
+  EXPECT_EQ(technician.fill(camera).width_px, 1920) << "and takes it again";
+}
+
 TEST(LiveFeed, ShowsTheReliefBesideThePictureAndForgetsIt) {
   pipeline::Relief relief(std::pmr::get_default_resource());
   relief.width_px = 3, relief.height_px = 1;
