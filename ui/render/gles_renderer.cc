@@ -15,6 +15,7 @@ namespace relievo::ui {
 namespace {
 
 constexpr std::size_t kPrograms = 5;  // Flat, Shape, Glyph, Image (and Face), Ring
+constexpr int kFinePx = 1024;  // a wider picture may be shown so small that single pixels would sparkle
 
 struct Instance {
   Rect rect, uv;
@@ -158,6 +159,10 @@ class GlesRenderer final : public Renderer {
     glTexParameteri(GL_TEXTURE_2D, GL_TEXTURE_SWIZZLE_G, grey ? GL_RED : GL_GREEN);
     glTexParameteri(GL_TEXTURE_2D, GL_TEXTURE_SWIZZLE_B, grey ? GL_RED : GL_BLUE);
     smooth_texture();
+    if (view.width_px > kFinePx) {
+      glGenerateMipmap(GL_TEXTURE_2D);
+      glTexParameteri(GL_TEXTURE_2D, GL_TEXTURE_MIN_FILTER, GL_LINEAR_MIPMAP_LINEAR);
+    }
     versions_[slot] = picture.version;
   }
 
