@@ -89,7 +89,6 @@ void LiveFeed::wipe() {
     explicit_bzero(slot.rgb.data(), slot.rgb.size());
     explicit_bzero(slot.relief.data(), slot.relief.size());
     slot.live = {};
-    if (slot.rgb.size() > kRoom) slot.rgb = std::vector<std::uint8_t>(kRoom);
   }
   fresh_ = false;
 }

@@ -30,7 +30,8 @@ struct LivePicture {
 class LiveFeed {
  public:
   // `side_px`: the longer side of its pictures at most. Room for budget::kLiveSidePx is taken at once; for
-  // more with the first larger picture (bad_alloc), until wipe().
+  // more with the first larger picture (bad_alloc); it
+  // stays, for the screen may still hold a view of it.
   explicit LiveFeed(int side_px = budget::kLiveSidePx);
   // A copy of the picture, shrunk by a whole number.
   ImageView fill(const ImageView& picture);
