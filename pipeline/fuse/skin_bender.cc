@@ -10,7 +10,9 @@
 namespace relievo::pipeline {
 namespace {
 
-constexpr float kReachMm = 3;           // a surface further off is another one
+constexpr float kReachMm = 3;  // a surface further off is another one ...
+constexpr float kReachSigmas = 3,
+                kFarthestMm = 6;        // ... unless both are that unsure: what moved between exposures
 constexpr float kSameWay = 0.6F;        // cosine between the normals of what is taken for the same skin
 constexpr float kCellMm = 2;            // of the grid on which the displacement is smoothed
 constexpr float kNothingSaid = 0.002F;  // weight that pulls to no displacement, beyond the overlap
@@ -102,7 +104,8 @@ class Bender {
       const Vec3d n = apply(other.rotation, wide(hit->normal));
       if (dot(n, normal) < static_cast<double>(kSameWay)) continue;
       const float d = static_cast<float>(dot(n, minus(at, apply(other, wide(hit->at_mm)))));
-      if (std::abs(d) > kReachMm) continue;
+      const float unsure_mm = kReachSigmas * std::hypot(hit->sigma_mm, poses_[k].sigma_mm[i]);
+      if (std::abs(d) > std::clamp(unsure_mm, kReachMm, kFarthestMm)) continue;
       const float w = hit->trust / (hit->sigma_mm * hit->sigma_mm + kLeastSigmaMm * kLeastSigmaMm);
       sum.distance += w * d;
       sum.weight += w;
