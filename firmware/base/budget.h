@@ -39,7 +39,7 @@ inline constexpr std::size_t kFollowBytes = 48 * kMiB;
 inline constexpr std::size_t kBlockBytes =
     kFramePoolBytes + kOutputArenaBytes + kScratchArenaBytes + kSidesBytes + kFollowBytes;
 
-// The technician's pages: both pictures of three stages and one of five; beside them, of every result that
+// The technician's pages: both pictures of four stages and one of five; beside them, of every result that
 // was put aside, one picture of each stage and the model (a simulated face at 1920 x 1200: 463,000 triangles
 // and 775,000 texels, 26 MiB; what is larger than the room is not kept).
 inline constexpr std::size_t kTechnicianPictureBytes =
@@ -47,7 +47,7 @@ inline constexpr std::size_t kTechnicianPictureBytes =
 inline constexpr std::size_t kKeptResults = 3;
 inline constexpr std::size_t kKeptModelBytes = 40 * kMiB;
 inline constexpr std::size_t kTechnicianBytes =
-    (11 + 8 * kKeptResults) * kTechnicianPictureBytes + kKeptResults * kKeptModelBytes;
+    (13 + 9 * kKeptResults) * kTechnicianPictureBytes + kKeptResults * kKeptModelBytes;
 
 inline constexpr std::size_t kLibraryBytes = 256 * kMiB;  // OpenCV, CGAL, SQLite: measured, not enforced
 inline constexpr std::size_t kQueueBytes = 64 * 1024;

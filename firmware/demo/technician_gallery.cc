@@ -209,6 +209,22 @@ void add_stages(Lender& all, const ui::ViewState& review) {
   lend(review, TechnicianStage::Mesh, view);
   view.shown[1] = view.shown[0];
   all.add("technician_change", StaffPage::Stages, view);
+  lend(review, TechnicianStage::Poses, view);
+  view.by_hand = view.pairs_changed = false;
+  view.pairs = {};
+  view.can_add_side = true;
+  view.sides = 2;
+  view.shown = {};
+  all.add("technician_no_poses", StaffPage::Stages, view);
+  lend(review, TechnicianStage::Poses, view);
+  view.shown[1] = view.shown[0];
+  view.poses = {{{true, 0, {0, 0.048F, 0.052F, 0.21F}},
+                 {true, 24.6F, {0.047F, 0, 0.061F, 0}},
+                 {true, 26.1F, {0.052F, 0.064F, 0, 0.23F}},
+                 {false, 41.3F, {}}}};
+  view.pose_count = 4;
+  view.full_residual_mm = 0.27F;
+  all.add("technician_poses", StaffPage::Stages, view);
   view = ready(review);
   view.point = touched();
   view.can_record = true;
@@ -314,7 +330,8 @@ void lend(const ui::ViewState& review, TechnicianStage stage, TechnicianView& vi
   const std::size_t last =
       stage == TechnicianStage::Matches || stage == TechnicianStage::Disparity
           ? 0
-          : static_cast<std::size_t>(stage) - static_cast<std::size_t>(TechnicianStage::Cloud) + 1;
+          : std::min(static_cast<std::size_t>(stage) - static_cast<std::size_t>(TechnicianStage::Cloud) + 1,
+                     review.stages.size() - 1);
   view.shown[0] = {review.stages[last].picture, 900010 + static_cast<std::uint32_t>(last)};
 }
 

@@ -182,8 +182,7 @@ RigidFit fit_rigidly(const std::vector<Vec3d>& points, const TriangleGrid& surfa
     if (length(Vec3d{x[0], x[1], x[2]}) + length(Vec3d{x[3], x[4], x[5]}) < 1e-7) break;
   }
   fit.moved_mm = distance(apply(t, middle), middle);
-  const double trace = t.rotation.m[0] + t.rotation.m[4] + t.rotation.m[8];
-  fit.turned_deg = std::acos(std::clamp((trace - 1) / 2, -1.0, 1.0)) * 180 / std::numbers::pi;
+  fit.turned_deg = pipeline::turned_deg(t.rotation);
   return fit;
 }
 

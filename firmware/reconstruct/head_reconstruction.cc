@@ -26,14 +26,10 @@ struct Shot {
   Path left;
 };
 
-double degrees_of(const pipeline::Rotation& r) {
-  return std::acos(std::clamp((r.m[0] + r.m[4] + r.m[8] - 1) / 2, -1.0, 1.0)) * 180 / std::numbers::pi;
-}
-
 PoseReport report_of(const pipeline::RegisteredPose& pose) {
   PoseReport report;
   report.first_from_pose = pose.first_from_pose;
-  report.turned_deg = degrees_of(pose.first_from_pose.rotation);
+  report.turned_deg = pipeline::turned_deg(pose.first_from_pose.rotation);
   report.rms_mm = pose.rms_mm;
   report.joined = pose.joined;
   const auto worst = [&](std::size_t from) {
@@ -150,7 +146,12 @@ Result<void> HeadReconstruction::run(const std::vector<Path>& pictures, const st
   report_.head_from_camera = model().head_from_camera;
   report_.aliveness = head_->aliveness;
   report_.skin_moved_mm = head_->registration.skin_moved_mm;
-  for (const auto& pose : head_->registration.poses) report_.poses.push_back(report_of(pose));
+  const auto& poses = head_->registration.poses;
+  for (const auto& pose : poses) {
+    report_.poses.push_back(report_of(pose));
+    report_.poses.back().meets.assign(pose.meets.begin(),
+                                      pose.meets.begin() + static_cast<std::ptrdiff_t>(poses.size()));
+  }
   return {};
 }
 

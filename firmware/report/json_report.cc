@@ -48,13 +48,17 @@ nlohmann::ordered_json poses_json(const std::vector<PoseReport>& poses) {
   auto all = nlohmann::ordered_json::array();
   for (const PoseReport& pose : poses) {
     const auto& [rotation, moved] = pose.first_from_pose;
+    auto meets = nlohmann::ordered_json::array();
+    for (const pipeline::PoseMeeting& m : pose.meets)
+      meets.push_back({{"overlap_mm2", m.overlap_mm2}, {"rms_mm", m.rms_mm}, {"p95_mm", m.p95_mm}});
     all.push_back({{"joined", pose.joined},
                    {"turned_deg", pose.turned_deg},
                    {"rotation", rotation.m},
                    {"translation_mm", {moved.x, moved.y, moved.z}},
                    {"rms_mm", pose.rms_mm},
                    {"sigma_deg", pose.sigma_deg},
-                   {"sigma_mm", pose.sigma_mm}});
+                   {"sigma_mm", pose.sigma_mm},
+                   {"meets", meets}});
   }
   return all;
 }

@@ -14,6 +14,7 @@
 #include "firmware/work/stage_runner.h"
 #include "pipeline/calibrate/drift.h"
 #include "pipeline/fuse/aliveness.h"
+#include "pipeline/fuse/pose_registration.h"
 #include "pipeline/match/diagnose/overexposure.h"
 #include "pipeline/model/face_model.h"
 
@@ -26,6 +27,7 @@ struct PoseReport {
   double rms_mm = 0;                   // from the other poses' surfaces
   bool joined = true;                  // else it fits none of the others, and is no part of the head
   double sigma_deg = 0, sigma_mm = 0;  // of the registration: the worst axis, about the middle of the head
+  std::vector<pipeline::PoseMeeting> meets{};  // every pose, itself too
 };
 
 struct Report {

@@ -165,6 +165,7 @@ void EnrolmentSession::rework(State from) {
     made.texture = std::move(made.model->texture);
   }
   made.model.reset();
+  made.registration.reset();
   if (from <= State::Texture) made.texture.reset();
   if (from <= State::Mesh) made.mesh.reset();
   if (from <= State::Reconstruct) made.cloud.reset();

@@ -30,6 +30,7 @@
 #include "hal/base/arena.h"
 #include "hal/base/result.h"
 #include "pipeline/calibrate/drift.h"
+#include "pipeline/fuse/pose_registration.h"
 #include "pipeline/model/advice.h"
 #include "pipeline/model/face_model.h"
 #include "pipeline/model/match_set.h"
@@ -88,6 +89,7 @@ struct Products {
   std::optional<pipeline::FaceMesh> mesh;         // until it is in the model
   std::optional<pipeline::TextureAtlas> texture;  // so is this
   std::optional<pipeline::FaceModel> model;
+  std::optional<pipeline::Registration> registration;  // where the model is a head from several pairs
 };
 
 class EnrolmentSession {

@@ -39,7 +39,7 @@ Result<void> RunJob::work(JobControl& control) {
   pictures_.wipe();
   figures_.begin(making_.set, name_);
   if (document_ != nullptr) return load(control);
-  session_.rework(first_);
+  if (first_ <= kStages.back()) session_.rework(first_);
   for (const StageRecord& record : making_.records) figures_.add(record);
   RELIEVO_TRY_ASSIGN(auto pipeline, pipeline::Pipeline::make(
                                         making_.set, making_.calibration, {},
@@ -64,7 +64,30 @@ Result<void> RunJob::work(JobControl& control) {
     figures_.fail(stage, done.error());
     break;
   }
-  return finish(control);
+  std::vector<pipeline::HeadPose> poses;
+  if (session_.products().model && session_.sides().count() > 0) {
+    RELIEVO_TRY(add_sides(stages, control, poses));
+  }
+  return finish(control, poses);
+}
+
+Result<void> RunJob::add_sides(PipelineStages& stages, JobControl& control,
+                               std::vector<pipeline::HeadPose>& poses) {
+  now_.store(State::Assemble, std::memory_order_relaxed);
+  session_.sides().end();
+  HeadJob head(stages, session_, pool_, clock_);
+  const Result<void> done = head.add_sides(control, poses);
+  session_.sides().begin();  // each pair's room has become its pose's
+  if (head.lost()) figures_.fail(State::Assemble, *head.lost());
+  return done;
+}
+
+Result<void> TestShotJob::take_side(JobControl& control) {
+  RELIEVO_TRY(grabber_.start(device_.preferred_mode()));
+  RELIEVO_TRY(grabber_.check_cameras());
+  RELIEVO_TRY_ASSIGN(const pipeline::StereoFrame frame,
+                     grabber_.grab(session_.free_slot(), control.cancelled));
+  return turn_.take(frame, control);
 }
 
 Result<void> RunJob::before_pairs(PipelineStages& stages, StageJob& job, JobControl& control) {
@@ -105,18 +128,19 @@ Result<void> RunJob::load(JobControl& control) {
   if (left_to_do != State::Review)
     figures_.fail(left_to_do,
                   {Errc::NotFound, "this stage had not been done when it was saved: calculate again"});
-  return finish(control);
+  return finish(control, {});
 }
 
-Result<void> RunJob::finish(JobControl& control) {
+Result<void> RunJob::finish(JobControl& control, std::span<const pipeline::HeadPose> poses) {
   if (session_.products().model && session_.products().model->unjudged)
     figures_.fail(State::Assemble, *session_.products().model->unjudged);
   EnrolmentSession::Scratch scratch(session_);
   pipeline::StageContext context{session_.output(), scratch.arena(), pool_, control.progress,
                                  control.cancelled};
   RELIEVO_TRY(figures_.measure(session_.products(), context));
-  change_.measure(making_, session_.products());
+  if (!session_.products().registration) change_.measure(making_, session_.products());
   pictures_.draw(session_.products(), change_);
+  pictures_.draw_poses(session_.products(), poses);
   return {};
 }
 

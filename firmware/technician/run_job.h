@@ -52,7 +52,9 @@ class RunJob final : public Job {
   Result<void> load(JobControl& control);
   // The surface without pairs by hand, which those change; of what is done, only the matches stay.
   Result<void> before_pairs(PipelineStages& stages, StageJob& job, JobControl& control);
-  Result<void> finish(JobControl& control);
+  // The pairs that were taken of its sides: the model becomes the head of all.
+  Result<void> add_sides(PipelineStages& stages, JobControl& control, std::vector<pipeline::HeadPose>& poses);
+  Result<void> finish(JobControl& control, std::span<const pipeline::HeadPose> poses);
   bool wants_before() const { return !making_.by_hand.empty() && !change_.has_before(making_.set); }
 
   EnrolmentSession& session_;
@@ -72,12 +74,18 @@ class RunJob final : public Job {
 class TestShotJob final : public Job {
  public:
   TestShotJob(StereoGrabber& grabber, EnrolmentSession& session, hal::Device& device, ThreadPool& pool)
-      : device_(device),
+      : grabber_(grabber),
+        device_(device),
+        session_(session),
         nobody_(grabber, session, device, pool, nullptr),
-        grab_(grabber, session, device, nobody_) {}
+        grab_(grabber, session, device, nobody_),
+        turn_(grabber, session, device, nobody_, nullptr) {}
+  // Of the next run: one more pair of the same head, turned, beside the capture.
+  void order(bool side) { side_ = side; }
+  bool is_side() const { return side_; }
   Result<void> run(JobControl& control) override {
     outcome_ = Error{Errc::LibraryFailed, "the capture ended early"};
-    outcome_ = grab_.run(control);
+    outcome_ = side_ ? take_side(control) : grab_.run(control);
     serials_ = {std::string(device_.left().serial()), std::string(device_.right().serial())};
     return outcome_;
   }
@@ -88,11 +96,17 @@ class TestShotJob final : public Job {
   const Serials& serials() const { return serials_; }
 
  private:
+  Result<void> take_side(JobControl& control);
+
+  StereoGrabber& grabber_;
   hal::Device& device_;
+  EnrolmentSession& session_;
   PoseJob nobody_;  // never runs: no face was found, and no light metered, before the shot
   GrabJob grab_;
+  TurnJob turn_;  // takes a side, follows nobody
   Result<void> outcome_;
   Serials serials_;
+  bool side_ = false;
 };
 
 }  // namespace relievo::firmware

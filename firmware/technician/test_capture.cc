@@ -84,6 +84,8 @@ void TestCapture::act_alone(TechnicianAct act) {
   switch (act) {
     case TechnicianAct::Capture:
       return is_calibrated() ? wait_for_cameras(Next::Shot) : void();
+    case TechnicianAct::AddSide:
+      return may_add_side() ? wait_for_cameras(Next::Side) : void();
     case TechnicianAct::Stop:
       return stop();
     case TechnicianAct::RemovePair:
@@ -177,6 +179,7 @@ void TestCapture::begin_next() {
     return;
   const Next what = std::exchange(next_, Next::None);
   problem_ = {};
+  if (what == Next::Side) return may_add_side() ? shoot(true) : void();
   point_ = {};
   pairs_.forget();
   run_.change().forget();
@@ -188,14 +191,15 @@ void TestCapture::begin_next() {
   loaded_ = false;
   if (session_.is_open()) session_.retake();
   else if (const Result<void> opened = session_.open(""); !opened) return say(opened.error());
-  if (what == Next::Shot) shoot();
+  if (what == Next::Shot) shoot(false);
   else if (what == Next::Calibration) calibrate();
   else take_over();
 }
 
-void TestCapture::shoot() {
+void TestCapture::shoot(bool side) {
   phase_ = TechnicianPhase::Capturing;
-  run_.name(recording_.name_now());
+  shot_.order(side);
+  if (!side) run_.name(recording_.name_now());
   parts_.side_tasks.send(
       JobLane::Capture, [this](JobControl& control) { return shot_.run(control); },
       [this](const std::optional<Error>& error) { shot_done(error); });
@@ -225,7 +229,10 @@ void TestCapture::run(std::int64_t latest) {
     return;
   State changed = first_change(run_.making().set, algorithms_.set());
   if (pairs_.changed()) changed = std::min(changed, State::Reconstruct);
-  State first = changed == State::Review ? State::Match : changed;
+  // Of a head nothing is left to go on with; sides come to what is done.
+  if (session_.products().registration) changed = State::Match;
+  const bool only_sides = changed == State::Review && session_.sides().count() > 0;
+  State first = changed == State::Review && !only_sides ? State::Match : changed;
   if (latest >= 1 && latest <= 4)
     first = std::min(changed, static_cast<State>(static_cast<std::int64_t>(State::Match) + latest - 1));
   run_.order(algorithms_.set(), *calibration(), first, pairs_.matches(), loaded_ && run_.making().whole_view);
@@ -281,9 +288,15 @@ void TestCapture::stop() {
 }
 
 void TestCapture::shot_done(const std::optional<Error>& error) {
-  phase_ = TechnicianPhase::Failed;
+  phase_ = shot_.is_side() ? TechnicianPhase::Ready : TechnicianPhase::Failed;
   if (error) return say(*error);
-  run(1);
+  if (!shot_.is_side()) run(1);
+}
+
+// A loaded reconstruction was made by other cameras, at another time.
+bool TestCapture::may_add_side() const {
+  return phase_ == TechnicianPhase::Ready && !loaded_ && session_.is_open() && session_.has_sides() &&
+         session_.products().model && session_.sides().count() < pipeline::kSides;
 }
 
 void TestCapture::run_done(const std::optional<Error>& error) {

@@ -62,7 +62,7 @@ class TestCapture {
   const ui::TechnicianView& view();
 
  private:
-  enum class Next : std::uint8_t { None, Shot, Calibration, Loaded };  // waits for the capture thread
+  enum class Next : std::uint8_t { None, Shot, Side, Calibration, Loaded };  // waits for the capture thread
   bool at_rest() const {
     return phase_ == ui::TechnicianPhase::Ready || phase_ == ui::TechnicianPhase::Failed;
   }
@@ -71,7 +71,7 @@ class TestCapture {
   void leave();
   void wait_for_cameras(Next what);
   void begin_next();
-  void shoot();
+  void shoot(bool side);
   void calibrate();
   void run(std::int64_t latest);
   void send_run();
@@ -90,8 +90,10 @@ class TestCapture {
   void keep_result();
   void record();
   bool is_calibrated();
+  bool may_add_side() const;
   void say(const Error& error);
   void look();
+  void look_at_poses(const pipeline::Registration& registration);
 
   Parts parts_;
   EnrolmentSession& session_;

@@ -6,6 +6,8 @@
 
 namespace relievo::firmware {
 
+static_assert(ui::kTechnicianPoses == pipeline::kMostPoses);
+
 Products* TestCapture::products() { return at_rest() && session_.is_open() ? &session_.products() : nullptr; }
 
 TechnicianTables::Source TestCapture::source() { return {products(), run_.figures(), calibration()}; }
@@ -44,12 +46,27 @@ void TestCapture::look() {
   view_.pairs = pairs_.points();
   view_.pairs_changed = pairs_.changed();
   view_.change = run_.change().figures();
+  view_.can_add_side = may_add_side();
+  view_.sides = session_.sides().count();
+  if (made->registration) look_at_poses(*made->registration);
   view_.compared[view_.put_aside] = {
       view_.result, run_.pictures().picture(stage_, 0), view_.model, model_number_, {}};
   if (!differences_ || !kept_.is_compared_with(model_number_)) return;
   for (std::size_t i = 0; i < view_.put_aside; ++i) view_.compared[i].difference = kept_.difference(i);
   view_.full_colour_mm = kept_.full_colour_mm();
   view_.scale = difference_scale();
+}
+
+void TestCapture::look_at_poses(const pipeline::Registration& registration) {
+  view_.pose_count = registration.poses.size();
+  view_.full_residual_mm = full_residual_mm(registration);
+  for (std::size_t a = 0; a < view_.pose_count; ++a) {
+    const pipeline::RegisteredPose& pose = registration.poses[a];
+    view_.poses[a].joined = pose.joined;
+    view_.poses[a].turned_deg = static_cast<float>(pipeline::turned_deg(pose.first_from_pose.rotation));
+    for (std::size_t b = 0; b < view_.pose_count; ++b)
+      view_.poses[a].rms_mm[b] = static_cast<float>(pose.meets[b].rms_mm);
+  }
 }
 
 const ui::TechnicianView& TestCapture::view() {

@@ -22,13 +22,26 @@ Result<void> HeadJob::run(JobControl& control) {
     records_.push_back(stage_.record());
     parts_done_.fetch_add(1, std::memory_order_release);
   }
-  int lost = 0;
   std::vector<pipeline::HeadPose> poses;
+  return add_sides(control, poses);
+}
+
+Result<void> HeadJob::add_sides(JobControl& control, std::vector<pipeline::HeadPose>& poses) {
+  int lost = 0;
+  lost_.reset();
+  const auto lose = [&](const Error& why, int sides) {
+    lost += sides;
+    lost_ = why;
+  };
   poses.reserve(SidePairs::kPoses);
   while (const auto side = session_.sides().next(control.cancelled)) {
     // What is wrong with a pair here spoils no face.
-    if (poses.empty() && !measure(*session_.products().frame, control, poses)) continue;
-    if (!measure(*side, control, poses)) ++lost;
+    if (poses.empty())
+      if (const auto front = measure(*session_.products().frame, control, poses); !front) {
+        lose(front.error(), 0);
+        continue;
+      }
+    if (const auto done = measure(*side, control, poses); !done) lose(done.error(), 1);
     parts_done_.fetch_add(1, std::memory_order_release);
   }
   parts_done_.store(PortraitProgress::kFuse, std::memory_order_release);
@@ -36,7 +49,7 @@ Result<void> HeadJob::run(JobControl& control) {
     if (const Result<void> fused = fuse(control, poses); !fused) {
       // Whose eyes were not alive while the head turned is refused, with the face from in front.
       if (fused.error().code == Errc::NoFace) return fused.error();
-      lost += static_cast<int>(poses.size()) - 1;
+      lose(fused.error(), static_cast<int>(poses.size()) - 1);
     }
   if (session_.products().model) session_.products().model->poses_left_out += lost;
   if (control.cancelled.load()) return Error{Errc::Cancelled, "stopped while the head was made"};
@@ -77,6 +90,7 @@ Result<void> HeadJob::fuse(JobControl& control, std::vector<pipeline::HeadPose>&
     RELIEVO_TRY_ASSIGN(pipeline::FusedHead head, runner_.fuse(*session_.products().model, poses, context));
     record.out = head.model.mesh.triangles.size();
     session_.products().model = std::move(head.model);
+    session_.products().registration = std::move(head.registration);
     return {};
   });
 }
@@ -126,7 +140,6 @@ Result<void> TurnJob::follow(JobControl& control, Arena& output, Arena& scratch)
   return {};
 }
 
-// The pair that was looked at, or with a lamp one more in its light.
 Result<void> TurnJob::take(const pipeline::StereoFrame& seen, JobControl& control) {
   if (device_.shot_light() == hal::Light::Off) return session_.sides().add(seen);
   BurstOptions options;

@@ -160,10 +160,11 @@ class TurnJob final : public Job {
   }
   void finish() { enough_ = true; }
   Result<void> run(JobControl& control) override;
+  // Of a side: the pair that was looked at, or with a lamp one more in its light.
+  Result<void> take(const pipeline::StereoFrame& seen, JobControl& control);
 
  private:
   Result<void> follow(JobControl& control, Arena& output, Arena& scratch);
-  Result<void> take(const pipeline::StereoFrame& seen, JobControl& control);
 
   StereoGrabber& grabber_;
   EnrolmentSession& session_;
@@ -190,6 +191,11 @@ class HeadJob final : public Job {
   std::size_t parts_done() const { return parts_done_.load(std::memory_order_acquire); }
   const std::vector<StageRecord>& records() const { return records_; }
   Result<void> run(JobControl& control) override;
+  // What run() does once the frontal pair has its model. `poses`, the front's first, lie in the session's
+  // room for them.
+  Result<void> add_sides(JobControl& control, std::vector<pipeline::HeadPose>& poses);
+  // Why a side was lost; the last one.
+  const std::optional<Error>& lost() const { return lost_; }
 
  private:
   Result<void> measure(const pipeline::StereoFrame& pair, JobControl& control,
@@ -206,6 +212,7 @@ class HeadJob final : public Job {
   pipeline::Progress inner_;  // of one part
   std::atomic<std::size_t> parts_done_{0};
   std::vector<StageRecord> records_;
+  std::optional<Error> lost_;
 };
 
 }  // namespace relievo::firmware

@@ -12,8 +12,13 @@
 namespace relievo::firmware {
 namespace {
 
+// A head's sides are not kept: its front is, as far as that was not made part of the head.
+const pipeline::FaceModel* face_of(const Products& made) {
+  return made.model && !made.registration ? &*made.model : nullptr;
+}
+
 std::size_t done(const Products& made) {
-  return made.model ? kStages.size() : made.mesh ? 3 : made.cloud ? 2 : made.matches ? 1 : 0;
+  return face_of(made) != nullptr ? kStages.size() : made.mesh ? 3 : made.cloud ? 2 : made.matches ? 1 : 0;
 }
 
 template <typename Product>
@@ -55,7 +60,7 @@ Result<std::vector<std::byte>> make_document(const Products& products, const Mak
     head.stages.push_back({record.took, record.in, record.out, record.arena_peak_bytes});
   }
   return storage::make_document({head, *products.frame, pointer(products.pair), pointer(products.matches),
-                                 pointer(products.cloud), pointer(products.mesh), pointer(products.model)});
+                                 pointer(products.cloud), pointer(products.mesh), face_of(products)});
 }
 
 Result<Making> making_of(const storage::Document& document) {

@@ -305,6 +305,7 @@ Result<Registration> register_poses(std::span<PoseSurface> poses, StageContext& 
     } while (leave_out());
     if (std::none_of(made.poses.begin() + 1, made.poses.end(), [](const auto& p) { return p.joined; }))
       return meets_no_other_pose(1);
+    measure_agreement(poses, made, context);
   }
   return made;
 }

@@ -22,6 +22,13 @@ namespace relievo::pipeline {
 
 inline constexpr int kMostPoses = 7;
 
+// What one pose shows of the skin that another one shows, too, all of it and as it was measured: before the
+// fuser bends anything.
+struct PoseMeeting {
+  double overlap_mm2 = 0;
+  double rms_mm = 0, p95_mm = 0;  // along the normals; 0 where they do not meet
+};
+
 struct RegisteredPose {
   RigidTransform first_from_pose;
   // Of a small motion after it, in the first pose's frame about the middle of the head (`pivot_mm`): rotation
@@ -29,11 +36,22 @@ struct RegisteredPose {
   std::array<double, 36> covariance{};
   double rms_mm = 0;  // of the skin that counts, from the other poses' surfaces
   bool joined = true;
+  std::array<PoseMeeting, kMostPoses> meets{};  // each of the others
+};
+
+// By how much a pose's surface lies before the mean of the others', at every fourth node of its lattice; NaN
+// where none of them shows anything within 3 mm.
+inline constexpr int kResidualEvery = 4;
+struct ResidualMap {
+  explicit ResidualMap(std::pmr::memory_resource* memory) : mm(memory) {}
+  int columns = 0, rows = 0;
+  std::pmr::vector<float> mm;  // row by row
 };
 
 struct Registration {
-  explicit Registration(std::pmr::memory_resource* memory) : poses(memory) {}
-  std::pmr::vector<RegisteredPose> poses;  // the first is the identity, its covariance 0
+  explicit Registration(std::pmr::memory_resource* memory) : poses(memory), residuals(memory) {}
+  std::pmr::vector<RegisteredPose> poses;   // the first is the identity, its covariance 0
+  std::pmr::vector<ResidualMap> residuals;  // of each
   Vec3d pivot_mm;
   double skin_moved_mm =
       0;  // of a region of skin, about where it should be, one standard deviation, robustly

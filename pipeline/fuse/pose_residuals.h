@@ -128,6 +128,9 @@ class PoseResiduals {
 Result<void> place_poses(std::span<const PoseSurface> poses, std::span<RegisteredPose> placed,
                          PoseResiduals& residuals, StageContext& context);
 
+// Fills `meets` of the poses, and `residuals`, of what is registered.
+void measure_agreement(std::span<const PoseSurface> poses, Registration& registration, StageContext& context);
+
 Error meets_no_other_pose(std::size_t pose);
 Error registration_stopped();
 

@@ -5,6 +5,10 @@
 // Pixel (0, 0) is the centre of the top left pixel.
 #pragma once
 
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+
 namespace relievo::pipeline {
 
 struct Vec2f {
@@ -43,6 +47,11 @@ inline Rotation product(const Rotation& a, const Rotation& b) {
       c.m[3 * i + j] = a.m[3 * i] * b.m[j] + a.m[3 * i + 1] * b.m[3 + j] + a.m[3 * i + 2] * b.m[6 + j];
   return c;
 }
+// By how much it turns, 0 to 180.
+inline double turned_deg(const Rotation& r) {
+  return std::acos(std::clamp((r.m[0] + r.m[4] + r.m[8] - 1) / 2, -1.0, 1.0)) * 180 / std::numbers::pi;
+}
+
 inline Rotation transposed(const Rotation& r) {
   return {{r.m[0], r.m[3], r.m[6], r.m[1], r.m[4], r.m[7], r.m[2], r.m[5], r.m[8]}};
 }

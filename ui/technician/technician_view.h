@@ -59,6 +59,14 @@ struct TechnicianCompared {
   TechnicianDifference difference{};  // not of the present one
 };
 
+// How a pose lies in the first one's frame, and how well it agrees with each of the others.
+inline constexpr std::size_t kTechnicianPoses = 7;
+struct TechnicianPose {
+  bool joined = true;
+  float turned_deg = 0;
+  std::array<float, kTechnicianPoses> rms_mm{};  // 0: they show nothing in common
+};
+
 struct TechnicianView {
   TechnicianPhase phase = TechnicianPhase::Empty;
   bool calibrated =
@@ -73,7 +81,12 @@ struct TechnicianView {
   std::span<const TechnicianPoint> pairs;
   bool pairs_changed = false;  // since they were calculated with
   TechnicianChange change;
-  bool can_record = false;  // there is a capture, and nobody is at work on it
+  bool can_add_side = false;
+  std::size_t sides = 0;  // that wait for the next calculation
+  std::array<TechnicianPose, kTechnicianPoses> poses{};
+  std::size_t pose_count = 0;
+  float full_residual_mm = 0;  // of the picture of the poses: the ends of its scale
+  bool can_record = false;     // there is a capture, and nobody is at work on it
   TechnicianRecording recording;
   TechnicianSaved saved;
   TechnicianResult result;                               // the present one

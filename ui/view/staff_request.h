@@ -80,15 +80,17 @@ enum class TechnicianStage : std::uint8_t {
   Cloud,
   Mesh,
   Texture,
+  Poses,  // of a head from several pairs
   Count
 };
 inline constexpr std::size_t kTechnicianStages = static_cast<std::size_t>(TechnicianStage::Count);
-enum class TechnicianTable : std::uint8_t { Matches, Points, Model, Calibration, Count };
+enum class TechnicianTable : std::uint8_t { Matches, Points, Model, Poses, Calibration, Count };
 inline constexpr std::size_t kTechnicianTables = static_cast<std::size_t>(TechnicianTable::Count);
 
 // What needs nothing more to be said.
 enum class TechnicianAct : std::uint8_t {
   Capture,  // a new test capture, and all stages of it
+  AddSide,  // one more pair of it, of the head turned, for the next calculation
   Stop,
   ByHand,      // touches make pairs by hand; again: no longer
   RemovePair,  // the chosen one

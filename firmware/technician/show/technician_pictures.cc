@@ -19,7 +19,7 @@
 namespace relievo::firmware {
 namespace {
 
-constexpr float kLeastFullColourMm = 0.5F;
+constexpr float kLeastFullColourMm = 0.5F, kLeastFullResidualMm = 0.1F;
 
 using ui::TechnicianStage;
 constexpr std::size_t kBytes = budget::kTechnicianPictureBytes;
@@ -233,6 +233,51 @@ void TechnicianPictures::draw(const Products& products, const HandChange& change
   }
   draw_shapes(products);
   if (change.figures().known) draw_change(*products.pair, change);
+}
+
+float full_residual_mm(const pipeline::Registration& registration) {
+  float most = kLeastFullResidualMm;
+  for (const pipeline::RegisteredPose& pose : registration.poses)
+    for (const pipeline::PoseMeeting& with : pose.meets)
+      most = std::max(most, static_cast<float>(with.p95_mm));
+  return most;
+}
+
+void TechnicianPictures::draw_poses(const Products& products, std::span<const pipeline::HeadPose> poses) {
+  if (!products.registration || poses.empty()) return;
+  const float full_mm = full_residual_mm(*products.registration);
+  StageCanvas photographs(begin(TechnicianStage::Poses, 0).rgb.get(), kSide);
+  StageCanvas residuals(begin(TechnicianStage::Poses, 1).rgb.get(), kSide);
+  const int across = static_cast<int>(std::ceil(std::sqrt(static_cast<double>(poses.size()))));
+  const int cell = kSide / across;
+  for (std::size_t k = 0; k < poses.size(); ++k) {
+    const pipeline::HeadPose& pose = poses[k];
+    const pipeline::PoseSurface& surface = pose.surface;
+    const pipeline::ResidualMap& map = products.registration->residuals[k];
+    const int left = static_cast<int>(k) % across * cell, top = static_cast<int>(k) / across * cell;
+    // What was measured of it, in the middle of its cell.
+    const double nodes = static_cast<double>(std::max(surface.columns, surface.rows)) / cell;
+    for (int y = 0; y < cell; ++y)
+      for (int x = 0; x < cell; ++x) {
+        const double column = surface.columns / 2.0 + (x - cell / 2.0) * nodes,
+                     row = surface.rows / 2.0 + (y - cell / 2.0) * nodes;
+        const int u = static_cast<int>(surface.first_px.x + column * surface.step_px),
+                  v = static_cast<int>(surface.first_px.y + row * surface.step_px);
+        if (u < 0 || v < 0 || u >= pose.width_px || v >= pose.height_px) continue;
+        const std::uint8_t* rgb =
+            &pose.left_rgb[3 * (static_cast<std::size_t>(v) * static_cast<std::size_t>(pose.width_px) +
+                                static_cast<std::size_t>(u))];
+        photographs.put(left + x, top + y, {1.0 * rgb[0], 1.0 * rgb[1], 1.0 * rgb[2]});
+        residuals.put(left + x, top + y, {0.5 * rgb[0], 0.5 * rgb[1], 0.5 * rgb[2]});
+        if (column < 0 || row < 0 || column >= surface.columns || row >= surface.rows) continue;
+        const float mm = map.mm[static_cast<std::size_t>(row / pipeline::kResidualEvery) *
+                                    static_cast<std::size_t>(map.columns) +
+                                static_cast<std::size_t>(column / pipeline::kResidualEvery)];
+        if (std::isnan(mm)) continue;
+        const auto c = deviation_colour(static_cast<double>(mm / full_mm));
+        residuals.put(left + x, top + y, {1.0 * c[0], 1.0 * c[1], 1.0 * c[2]});
+      }
+  }
 }
 
 ui::TechnicianPicture TechnicianPictures::picture(TechnicianStage stage, std::size_t side) const {

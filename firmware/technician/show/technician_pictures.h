@@ -7,6 +7,7 @@
 //   Matches                       the face: rejected ones in the colour of the rule that took them first
 //   Disparity, Cloud, Mesh, Texture   the face; beside the mesh what pairs by hand changed, where there are
 //   any
+//   Poses   of a head from several pairs: a photograph each, and how far its surface lies before the others'
 // Thread: the worker draws while its job runs; main reads and wipes while none runs. No errors.
 #pragma once
 
@@ -21,6 +22,7 @@
 #include "firmware/work/session_document.h"
 #include "pipeline/algorithms.h"
 #include "pipeline/base/stage.h"
+#include "pipeline/fuse/head_pipeline.h"
 #include "ui/technician/technician_result.h"
 
 namespace relievo::firmware {
@@ -50,6 +52,9 @@ class HandChange {
   ui::TechnicianChange figures_;
 };
 
+// The ends of the scale in which residuals are drawn.
+float full_residual_mm(const pipeline::Registration& registration);
+
 class TechnicianPictures {
  public:
   static constexpr int kSide = budget::kTechnicianPictureSidePx;
@@ -57,6 +62,8 @@ class TechnicianPictures {
   TechnicianPictures();
   // Draws what the products have.
   void draw(const Products& products, const HandChange& change);
+  // Of a head: what its poses were measured as.
+  void draw_poses(const Products& products, std::span<const pipeline::HeadPose> poses);
   // The left picture (0) or the right one; empty where the stage has none.
   ui::TechnicianPicture picture(ui::TechnicianStage stage, std::size_t side) const;
   // The left ones.

@@ -18,6 +18,7 @@ constexpr std::array<std::string_view, 8> kMatches{"n",    "x₁ px", "y₁ px",
                                                    "d px", "σ px",  "1 − ρ", "×"};
 constexpr std::array<std::string_view, 7> kPoints{"n", "X mm", "Y mm", "Z mm", "σ mm", "x₁ px", "y₁ px"};
 constexpr std::array<std::string_view, 8> kModel{"n", "X mm", "Y mm", "Z mm", "x", "y", "z", "σ mm"};
+constexpr std::array<std::string_view, 6> kPoses{"n", "1 – 2", "°", "cm²", "rms mm", "95 % mm"};
 constexpr std::array<std::string_view, 4> kCalibration{"", "1", "2", "1 → 2"};
 
 Heads heads_of(TechnicianTable table) {
@@ -28,6 +29,8 @@ Heads heads_of(TechnicianTable table) {
       return kPoints;
     case TechnicianTable::Model:
       return kModel;
+    case TechnicianTable::Poses:
+      return kPoses;
     case TechnicianTable::Calibration:
     case TechnicianTable::Count:
       break;
@@ -40,6 +43,10 @@ std::size_t rows_of(TechnicianTable table, const TechnicianTables::Source& from)
   const Products* products = from.products;
   if (products == nullptr) return 0;
   if (table == TechnicianTable::Matches) return products->matches ? products->matches->matches.size() : 0;
+  if (table == TechnicianTable::Poses) {
+    const std::size_t poses = products->registration ? products->registration->poses.size() : 0;
+    return poses == 0 ? 0 : poses * (poses - 1) / 2;  // each with each
+  }
   if (table == TechnicianTable::Points) return products->cloud ? products->cloud->points.size() : 0;
   return products->model ? products->model->mesh.vertices_mm.size() : 0;
 }
@@ -114,6 +121,7 @@ void TechnicianTables::fill_row(const Source& from, std::size_t row) {
   if (table_ == TechnicianTable::Matches) fill_matches(from, row);
   if (table_ == TechnicianTable::Points) fill_points(*from.products->cloud, row);
   if (table_ == TechnicianTable::Model) fill_model(*from.products->model, row);
+  if (table_ == TechnicianTable::Poses) fill_poses(*from.products->registration, row);
 }
 
 // Its number and its place.
@@ -173,6 +181,24 @@ void TechnicianTables::fill_model(const pipeline::FaceModel& model, std::size_t 
     cell("%.4f", v / box_.half);
   if (model.mesh.measured[row] != 0) cell("%.3f", model.mesh.sigma_mm[row]);
   else word("–");
+}
+
+// Who agrees with whom.
+void TechnicianTables::fill_poses(const pipeline::Registration& registration, std::size_t row) {
+  std::size_t b = 1;
+  for (; row >= b; ++b) row -= b;
+  const pipeline::RegisteredPose &one = registration.poses[row], &other = registration.poses[b];
+  const pipeline::PoseMeeting& meeting = one.meets[b];
+  word(std::to_string(row + 1) + " – " + std::to_string(b + 1));
+  cell("%.1f", pipeline::turned_deg(
+                   product(transposed(one.first_from_pose.rotation), other.first_from_pose.rotation)));
+  if (meeting.overlap_mm2 <= 0) {
+    for (int i = 0; i < 3; ++i) word("–");
+    return;
+  }
+  cell("%.1f", meeting.overlap_mm2 / 100);
+  cell("%.3f", meeting.rms_mm);
+  cell("%.3f", meeting.p95_mm);
 }
 
 void TechnicianTables::fill_calibration(const pipeline::StereoCalibration& c) {

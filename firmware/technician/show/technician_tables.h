@@ -43,6 +43,7 @@ class TechnicianTables {
   void fill_matches(const Source& from, std::size_t row);
   void fill_points(const pipeline::PointCloud& cloud, std::size_t row);
   void fill_model(const pipeline::FaceModel& model, std::size_t row);
+  void fill_poses(const pipeline::Registration& registration, std::size_t row);
   void fill_calibration(const pipeline::StereoCalibration& calibration);
   void cell(const char* format, double value);
   void word(std::string_view text);

@@ -8,18 +8,22 @@
 #include <cmath>
 #include <filesystem>
 #include <string>
+#include <vector>
 
 #include "firmware/measure/self_agreement.h"
+#include "hal/sim/device.h"
 
 namespace relievo::firmware {
 namespace {
+
+constexpr double kTurnedLevels = 4;  // of 255: noise is less
 
 TEST_F(TechnicianTest, ATestCaptureIsSeenStageByStageAndInNumbers) {
   capture();
   for (std::size_t i = 0; i < ui::kTechnicianStages; ++i) {
     rig().tap("stage " + std::to_string(i));
     EXPECT_EQ(rig().now().stage, static_cast<TechnicianStage>(i));
-    EXPECT_FALSE(rig().now().shown[0].pixels.empty()) << i;
+    EXPECT_EQ(rig().now().shown[0].pixels.empty(), i == 8) << "of one pair there are no poses";
     EXPECT_EQ(rig().now().shown[1].pixels.empty(), i > 2) << i;
     const auto& drawn =
         rig().screen->draw_list().pictures[static_cast<std::size_t>(ui::PictureSlot::TechnicianLeft)];
@@ -68,9 +72,72 @@ TEST_F(TechnicianTest, ATestCaptureIsSeenStageByStageAndInNumbers) {
     for (std::size_t k = 4; k < 7; ++k)
       EXPECT_LE(std::abs(std::stod(std::string(rig().now().rows.cells[i + k]))), 1.0) << "normalised";
   }
-  rig().tap("table 3");
+  rig().tap("table 4");
   std::snprintf(text, sizeof text, "%.3f", rig().stages->calibration()->left.focal_px.x);
   EXPECT_EQ(rig().now().rows.cells[1], text);
+}
+
+// The cameras are watched until they see it turned: it is rendered first.
+void turn_head(TechnicianRig& rig, double yaw_deg) {
+  rig.open(StaffPage::Cameras);
+  const auto seen = [&] { return rig.now().cameras.camera[0].picture.pixels; };
+  ASSERT_TRUE(rig.until([&] { return !seen().empty(); }));
+  const auto levels = [&] {
+    std::vector<double> all;
+    for (int y = 0; y < seen().height_px; y += 8)
+      for (int x = 0; x < 3 * seen().width_px; x += 24) all.push_back(static_cast<double>(seen().row(y)[x]));
+    return all;
+  };
+  const std::vector<double> before = levels();
+  hal::turn_simulated_head(*rig.device, yaw_deg);
+  ASSERT_TRUE(rig.until([&] {
+    const std::vector<double> now = levels();
+    double apart = 0;
+    for (std::size_t i = 0; i < now.size(); ++i) apart += std::abs(now[i] - before[i]);
+    return apart > kTurnedLevels * static_cast<double>(now.size());
+  }));
+  rig.open(StaffPage::Stages);
+}
+
+TEST_F(TechnicianTest, SidesBecomeAHeadWhosePosesAreSeen) {
+  capture();
+  ASSERT_TRUE(rig().shows("add side"));
+  constexpr double kYaws[] = {24, -22};
+  for (std::size_t k = 0; k < 2; ++k) {
+    turn_head(rig(), kYaws[k]);
+    rig().tap("add side");
+    ASSERT_TRUE(rig().until([&] { return finished() && rig().now().sides == k + 1; }))
+        << rig().now().problem.detail;
+  }
+  turn_head(rig(), 0);
+  EXPECT_EQ(rig().now().sides, 2U);
+  EXPECT_FALSE(products().registration.has_value());
+  const std::size_t before = products().model->mesh.triangles.size();
+  again();
+  EXPECT_EQ(rig().now().result.failure.detail, "");
+  ASSERT_TRUE(products().registration.has_value());
+  EXPECT_GT(products().model->mesh.triangles.size(), before / 4);
+  EXPECT_EQ(rig().now().sides, 0U) << "the next head has sides of its own";
+  rig().tap("stage 8");
+  ASSERT_EQ(rig().now().pose_count, 3U);
+  for (std::size_t k = 0; k < 2; ++k) {
+    EXPECT_TRUE(rig().now().poses[k + 1].joined);
+    EXPECT_NEAR(rig().now().poses[k + 1].turned_deg, std::abs(kYaws[k]), 1);
+    EXPECT_GT(rig().now().poses[k + 1].rms_mm[0], 0);
+    EXPECT_LT(rig().now().poses[k + 1].rms_mm[0], 1);
+  }
+  for (const auto& picture : rig().now().shown) EXPECT_FALSE(picture.pixels.empty());
+  rig().open(StaffPage::Tables);
+  rig().tap("table 3");
+  ASSERT_EQ(rig().now().rows.cells.size(), 3 * rig().now().rows.heads.size());
+  EXPECT_EQ(rig().now().rows.cells[1], "1 – 2");
+  EXPECT_NEAR(std::stod(std::string(rig().now().rows.cells[14])), 46, 2) << "between both sides";
+  // Without sides it is one pair again.
+  rig().open(StaffPage::Stages);
+  rig().tap("run from");
+  ASSERT_TRUE(rig().until(finished));
+  EXPECT_FALSE(products().registration.has_value());
+  EXPECT_EQ(products().model->mesh.triangles.size(), before);
 }
 
 TEST_F(TechnicianTest, ATouchedPointHasItsPartnerAndAHandFindsTheSame) {

@@ -185,6 +185,39 @@ TEST_F(Poses, AreNotTurnedByALowerFaceThatMoved) {
   EXPECT_LT(degrees_off(found->poses[2], 25), 0.1);
 }
 
+TEST_F(Poses, TellWhereTheyDisagree) {
+  show({{0, 0}, {20, 0.8}, {-20, 0}});
+  const auto found = registered();
+  ASSERT_TRUE(found);
+  const ResidualMap& map = found->residuals[1];
+  ASSERT_EQ(map.mm.size(), static_cast<std::size_t>(map.columns) * static_cast<std::size_t>(map.rows));
+  double jaw = 0, truth = 0, count = 0;
+  for (std::size_t i = 0; i < map.mm.size(); ++i) {
+    if (std::isnan(map.mm[i])) continue;
+    const std::size_t column = i % static_cast<std::size_t>(map.columns),
+                      row = i / static_cast<std::size_t>(map.columns);
+    const Vec3d at =
+        apply(poses_[1].head_from_camera, wide(poses_[1].at_mm[kResidualEvery * (row * kColumns + column)]));
+    if (at.y > 50 && std::abs(at.x) < 40) {
+      EXPECT_LT(std::abs(map.mm[i]), 0.05) << "the brow did not move";
+    }
+    if (at.y > -50 && at.y < -20 && at.z > -40 && std::abs(at.x) < 25) {
+      jaw += static_cast<double>(map.mm[i]);
+      truth += shape(at, 0);
+      count += 1;
+    }
+  }
+  ASSERT_GT(count, 20);
+  EXPECT_GT(truth / count, 0.2);
+  EXPECT_NEAR(jaw / truth, 1, 0.3) << "a moved jaw stands before where the others show it";
+  const auto& meets = found->poses[0].meets;
+  EXPECT_EQ(meets[0].overlap_mm2, 0) << "a pose is not compared with itself";
+  EXPECT_GT(meets[1].overlap_mm2, 5000);
+  EXPECT_NEAR(meets[1].overlap_mm2, found->poses[1].meets[0].overlap_mm2, 0.1 * meets[1].overlap_mm2);
+  EXPECT_GT(meets[1].rms_mm, 3 * meets[2].rms_mm);
+  EXPECT_GT(meets[1].p95_mm, meets[1].rms_mm);
+}
+
 TEST_F(Poses, AreBentToTheFirstWhereSkinMovedAndStayElsewhere) {
   show({{0, 0}, {20, 0.8}});
   auto found = registered();

@@ -29,7 +29,7 @@ void tabs(TechnicianFrame& f) {
   const std::size_t across = f.across(kTechnicianStages);
   for (std::size_t first = 0; first < kTechnicianStages; first += across) {
     f.page.tree.open(f.page.box(Flow::Row, 6));
-    for (std::size_t i = first; i < first + across; ++i) {
+    for (std::size_t i = first; i < std::min(first + across, kTechnicianStages); ++i) {
       const auto stage = static_cast<TechnicianStage>(i);
       const bool chosen = stage == f.view.stage;
       Node tab = f.page.grown(f.page.box(Flow::Row, 0, 4, 4));
@@ -41,7 +41,7 @@ void tabs(TechnicianFrame& f) {
       tab.box.min_height = f.page.px(size::kStaffTarget);
       f.page.tree.open(tab);
       f.page.tree.leaf(f.page.text(
-          title_of(f.tr, stage), f.page.portrait ? 16 : 19, chosen ? Weight::Bold : Weight::Medium,
+          title_of(f.tr, stage), f.page.portrait ? 16 : 17, chosen ? Weight::Bold : Weight::Medium,
           chosen ? f.page.palette.accent_ink : f.page.palette.link, TextAlign::Centre));
       f.page.tree.close();
     }
@@ -85,8 +85,9 @@ void one_picture(TechnicianFrame& f) {
   f.open_picture("picture", title_of(f.tr, f.view.stage), f.view.shown[0], PictureSlot::TechnicianLeft);
   f.close_picture();
   if (!f.view.shown[1].pixels.empty()) {
-    f.open_picture("change", f.tr("What the pairs by hand moved"), f.view.shown[1],
-                   PictureSlot::TechnicianRight);
+    const bool poses = f.view.stage == TechnicianStage::Poses;
+    f.open_picture("change", poses ? f.tr("Difference") : f.tr("What the pairs by hand moved"),
+                   f.view.shown[1], PictureSlot::TechnicianRight);
     f.close_picture();
   }
   f.page.tree.close();
@@ -142,6 +143,13 @@ void point_rows(TechnicianFrame& f) {
              f.page.number(static_cast<double>(point.sigma_mm), 3, "mm"));
 }
 
+void scale_words(TechnicianFrame& f, float full_colour_mm) {
+  f.page.tree.leaf(
+      f.page.text(f.page.filled(f.tr("Red came nearer, blue went away; white stayed. Full colour: {}."),
+                                f.page.number(static_cast<double>(full_colour_mm), 2, "mm")),
+                  type::kSmall, Weight::Regular, f.page.palette.ink_soft));
+}
+
 void change_rows(TechnicianFrame& f) {
   if (f.view.pairs.empty()) return;
   f.page.rule();
@@ -152,11 +160,30 @@ void change_rows(TechnicianFrame& f) {
   f.page.row("new", f.tr("New surface"), f.page.number(static_cast<double>(change.new_mm2), 0, "mm²"));
   f.page.row("farthest", f.tr("Largest move"),
              f.page.number(static_cast<double>(change.farthest_mm), 2, "mm"));
-  if (f.view.stage == TechnicianStage::Mesh)
-    f.page.tree.leaf(
-        f.page.text(f.page.filled(f.tr("Red came nearer, blue went away; white stayed. Full colour: {}."),
-                                  f.page.number(static_cast<double>(change.full_colour_mm), 2, "mm")),
-                    type::kSmall, Weight::Regular, f.page.palette.ink_soft));
+  if (f.view.stage == TechnicianStage::Mesh) scale_words(f, change.full_colour_mm);
+}
+
+// How each pose was turned, and by how much it differs from each of the others.
+void pose_rows(TechnicianFrame& f) {
+  if (f.view.pose_count == 0) {
+    f.page.tree.leaf(f.page.text(
+        f.tr(
+            "Turn the head a little and add a side, up to six times; then calculate again: all become one head."),
+        type::kSmall, Weight::Regular, f.page.palette.ink_soft));
+    return;
+  }
+  for (std::size_t b = 0; b < f.view.pose_count; ++b) {
+    const TechnicianPose& pose = f.view.poses[b];
+    const auto number = [&](std::size_t of) { return f.page.number(static_cast<double>(of + 1)); };
+    f.page.section(
+        f.page.filled("{}: {}", {number(b), f.page.number(static_cast<double>(pose.turned_deg), 1, "°")}));
+    if (!pose.joined) f.page.row(f.id("left out", b), f.tr("No match here"), {}, Mood::Bad);
+    for (std::size_t a = 0; a < f.view.pose_count; ++a)
+      if (pose.rms_mm[a] > 0)
+        f.page.row(f.id(f.id("agrees", b), a), f.joined(number(b), "\u00a0–\u00a0", number(a)),
+                   f.page.number(static_cast<double>(pose.rms_mm[a]), 3, "mm"));
+  }
+  scale_words(f, f.view.full_residual_mm);
 }
 
 void pair_buttons(TechnicianFrame& f) {
@@ -230,6 +257,7 @@ void side_rows(TechnicianFrame& f) {
   }
   if (f.view.stage == TechnicianStage::Mesh) change_rows(f);
   if (f.view.stage == TechnicianStage::Matches) return rule_rows(f);
+  if (f.view.stage == TechnicianStage::Poses) return pose_rows(f);
   if (f.view.stage >= TechnicianStage::Cloud) sigma_plot(f);
   time_rows(f);
 }

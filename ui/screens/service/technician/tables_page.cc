@@ -14,7 +14,7 @@ namespace {
 constexpr float kGap = 6;  // between columns
 
 // In the order of TechnicianTable.
-constexpr std::array kTableNames{mark_tr("Matches"), mark_tr("Points"), mark_tr("Model"),
+constexpr std::array kTableNames{mark_tr("Matches"), mark_tr("Points"), mark_tr("Model"), mark_tr("Poses"),
                                  mark_tr("Calibration")};
 static_assert(kTableNames.size() == static_cast<std::size_t>(TechnicianTable::Count));
 

@@ -14,7 +14,7 @@ namespace {
 // In the order of TechnicianStage.
 constexpr std::array kStageTitles{mark_tr("Pictures"), mark_tr("Processed"), mark_tr("Rectified"),
                                   mark_tr("Matches"),  mark_tr("Disparity"), mark_tr("Points"),
-                                  mark_tr("Surface"),  mark_tr("Texture")};
+                                  mark_tr("Surface"),  mark_tr("Texture"),   mark_tr("Poses")};
 static_assert(kStageTitles.size() == static_cast<std::size_t>(TechnicianStage::Count));
 
 }  // namespace
@@ -36,7 +36,7 @@ namespace {
 std::int32_t work_before(TechnicianStage stage) {
   if (stage == TechnicianStage::Cloud) return 2;
   if (stage == TechnicianStage::Mesh) return 3;
-  return stage == TechnicianStage::Texture ? 4 : 1;
+  return stage >= TechnicianStage::Texture ? 4 : 1;
 }
 
 }  // namespace
@@ -337,10 +337,17 @@ void TechnicianFrame::capture_buttons(bool with_run, bool with_stick) {
     page.small_button("capture", tr("Test capture"), icon::kCamera,
                       there ? ButtonLook::Quiet : ButtonLook::Main, technician_action(TechnicianAct::Capture),
                       grow);
-    if (with_run && there)
+    if (view.can_add_side)
+      page.small_button(
+          "add side",
+          view.sides == 0
+              ? tr("Add a side")
+              : page.filled("{} ({})", {tr("Add a side"), page.number(static_cast<double>(view.sides))}),
+          icon::kCamera, ButtonLook::Quiet, technician_action(TechnicianAct::AddSide), grow);
+    if ((with_run || view.sides > 0) && there)
       page.small_button("run", tr("Calculate again"), icon::kAgain, ButtonLook::Main,
                         technician_action(RunStages{}), grow);
-    if (with_stick && there)
+    else if (with_stick && there)
       page.small_button("run from", tr("Calculate again from here"), icon::kAgain, ButtonLook::Quiet,
                         technician_action(RunStages{work_before(view.stage)}), grow);
   }
