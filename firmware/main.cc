@@ -145,8 +145,8 @@ Result<void> simulate(const SimulateArgs& args, const Path& folder) {
     options.sensor.defocus_px = args.blur_px;
     options.sensor.noise = args.noise;
   }
-  options.rig.width_px = static_cast<int>(options.rig.width_px * args.scale);
-  options.rig.height_px = static_cast<int>(options.rig.height_px * args.scale);
+  options.rig.width_px = int(options.rig.width_px * args.scale);
+  options.rig.height_px = int(options.rig.height_px * args.scale);
   if (args.rig) {
     const IdealRigArgs& r = *args.rig;
     options.rig = {.width_px = r.width_px,
@@ -164,8 +164,8 @@ Result<void> simulate(const SimulateArgs& args, const Path& folder) {
 Result<TargetPictures> photograph(const TargetShot& shot) {
   namespace sim = hal::sim;
   sim::TargetPhotoOptions options;
-  options.rig.width_px = static_cast<int>(options.rig.width_px * shot.scale);
-  options.rig.height_px = static_cast<int>(options.rig.height_px * shot.scale);
+  options.rig.width_px = int(options.rig.width_px * shot.scale);
+  options.rig.height_px = int(options.rig.height_px * shot.scale);
   options.rig.seed = options.seed = shot.seed;
   options.threads = pool_size();
   const OpticalTargets& t = shot.targets;
@@ -179,8 +179,7 @@ Result<TargetPictures> photograph(const TargetShot& shot) {
       case TargetKind::Dumbbell:
         return photograph_dumbbell(
             options, {t.sphere_diameter_mm, t.sphere_spacing_mm, t.rod_diameter_mm / 2, shot.seed}, place);
-      case TargetKind::Plate:
-        break;
+      case TargetKind::Plate: break;
     }
     return photograph_plate(options, {t.plate_width_mm, t.plate_height_mm, shot.seed}, place);
   };

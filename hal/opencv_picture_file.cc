@@ -14,7 +14,7 @@
 #include <new>
 #include <string>
 
-#include "hal/whole_file.h"
+#include "hal/base/whole_file.h"
 
 namespace relievo::hal {
 namespace {
@@ -103,7 +103,7 @@ Result<PictureHeader> read_picture_header(std::span<const std::byte> bytes) {
 namespace {
 
 // No picture within the limits is larger than this, even stored without any compression.
-constexpr std::size_t kMaxEncodedBytes = static_cast<std::size_t>(kMaxPictureAreaPx) * 8 + (1U << 20);
+constexpr std::size_t kMaxEncodedBytes = std::size_t(kMaxPictureAreaPx) * 8 + (1U << 20);
 
 Result<void> check_limits(const PictureHeader& header) {
   if (header.width_px <= 0 || header.height_px <= 0)
@@ -127,10 +127,10 @@ Result<Picture> to_picture(cv::Mat image) {
   else return Error{Errc::InvalidInput, "this picture has a pixel format that is not supported"};
   picture.width_px = image.cols;
   picture.height_px = image.rows;
-  const std::size_t row_bytes = static_cast<std::size_t>(image.cols) * image.elemSize();
-  picture.bytes.resize(row_bytes * static_cast<std::size_t>(image.rows));
+  const std::size_t row_bytes = std::size_t(image.cols) * image.elemSize();
+  picture.bytes.resize(row_bytes * std::size_t(image.rows));
   for (int y = 0; y < image.rows; ++y)
-    std::memcpy(picture.bytes.data() + row_bytes * static_cast<std::size_t>(y), image.ptr(y), row_bytes);
+    std::memcpy(picture.bytes.data() + row_bytes * std::size_t(y), image.ptr(y), row_bytes);
   return picture;
 }
 
@@ -143,7 +143,7 @@ Result<cv::Mat> to_mat(const ImageView& image) {
   // OpenCV has no const Mat over foreign bytes; this one is only read.
   const cv::Mat borrowed(image.height_px, image.width_px, type,
                          const_cast<std::byte*>(image.bytes),  // NOLINT
-                         static_cast<std::size_t>(image.stride_bytes));
+                         std::size_t(image.stride_bytes));
   if (image.format != PixelFormat::Rgb8) return borrowed;
   cv::Mat turned;  // memory of its own: the lender's must not change
   cv::cvtColor(borrowed, turned, cv::COLOR_RGB2BGR);
@@ -167,7 +167,7 @@ Result<std::vector<std::byte>> encode(const ImageView& image, const char* extens
 
 std::string lower_extension(const std::filesystem::path& file) {
   std::string extension = file.extension().native();
-  for (char& c : extension) c = static_cast<char>(std::tolower(static_cast<unsigned char>(c)));
+  for (char& c : extension) c = char(std::tolower(static_cast<unsigned char>(c)));
   return extension;
 }
 
@@ -176,7 +176,7 @@ std::string lower_extension(const std::filesystem::path& file) {
 Result<Picture> decode_picture(const std::byte* bytes, std::size_t size) try {
   RELIEVO_TRY_ASSIGN(const PictureHeader header, read_picture_header({bytes, size}));
   RELIEVO_TRY(check_limits(header));
-  const cv::Mat encoded(1, static_cast<int>(size), CV_8UC1,
+  const cv::Mat encoded(1, int(size), CV_8UC1,
                         const_cast<std::byte*>(bytes));  // NOLINT: read only
   // The orientation tag is ignored: a calibration knows the sensor's pixels, not how a viewer turns them.
   constexpr int kFlags = cv::IMREAD_ANYDEPTH | cv::IMREAD_ANYCOLOR | cv::IMREAD_IGNORE_ORIENTATION;

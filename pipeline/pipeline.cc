@@ -114,7 +114,7 @@ Result<MatchSet> Pipeline::match(RectifiedPair& pair, StageContext& context) con
       return {};
     });
     if (!judged) return judged.error();
-    bit = static_cast<std::uint16_t>(bit << 1);
+    bit = std::uint16_t(bit << 1);
   }
   return set;
 }

@@ -121,7 +121,7 @@ inline std::span<const std::byte> bytes_of(std::string_view text) {
 
 // A text behind its length.
 inline void put_text(ByteWriter& to, std::string_view text) {
-  to.put(static_cast<std::uint32_t>(text.size()));
+  to.put(std::uint32_t(text.size()));
   to.put(bytes_of(text));
 }
 

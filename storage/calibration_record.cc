@@ -29,8 +29,8 @@ void put_camera(ByteWriter& to, const CameraIntrinsics& camera) {
   for (const double v : {camera.focal_px.x, camera.focal_px.y, camera.centre_px.x, camera.centre_px.y})
     to.put(v);
   for (const double v : camera.distortion) to.put(v);
-  to.put(static_cast<std::int32_t>(camera.width_px));
-  to.put(static_cast<std::int32_t>(camera.height_px));
+  to.put(std::int32_t(camera.width_px));
+  to.put(std::int32_t(camera.height_px));
 }
 
 CameraIntrinsics get_camera(ByteReader& from) {
@@ -48,14 +48,14 @@ CameraIntrinsics get_camera(ByteReader& from) {
 void put_name(ByteWriter& to, const std::string& name) {
   std::array<std::byte, pipeline::kMaxCameraWords> bytes{};
   std::ranges::copy(bytes_of(name), bytes.begin());
-  to.put(static_cast<std::uint8_t>(name.size()));
+  to.put(std::uint8_t(name.size()));
   to.put(bytes);
 }
 
 std::string get_name(ByteReader& from) {
   const auto size = from.get<std::uint8_t>();
   std::array<char, pipeline::kMaxCameraWords> bytes{};
-  for (char& c : bytes) c = static_cast<char>(from.get<std::uint8_t>());
+  for (char& c : bytes) c = char(from.get<std::uint8_t>());
   return {bytes.data(), size};
 }
 
@@ -120,7 +120,7 @@ std::vector<std::byte> encode_calibration(const StereoCalibration& calibration,
   for (const double v : calibration.right_from_left.rotation.m) to.put(v);
   const auto& t = calibration.right_from_left.translation_mm;
   for (const double v : {t.x, t.y, t.z, calibration.rms_px, calibration.epipolar_shift_px}) to.put(v);
-  to.put(static_cast<std::uint8_t>(figures.grade));
+  to.put(std::uint8_t(figures.grade));
   for (const double v : {figures.held_out_epipolar_px, figures.depth_sigma_mm, figures.shape_sigma_mm})
     to.put(v);
   put_name(to, calibration.cameras.left);
@@ -154,8 +154,7 @@ Result<StoredCalibration> decode_calibration(std::span<const std::byte> bytes) {
     *v = from.get<double>();
   CalibrationFigures& figures = stored.figures;
   const auto grade = from.get<std::uint8_t>();
-  if (grade <= static_cast<std::uint8_t>(CalibrationGrade::Refuse))
-    figures.grade = static_cast<CalibrationGrade>(grade);
+  if (grade <= std::uint8_t(CalibrationGrade::Refuse)) figures.grade = static_cast<CalibrationGrade>(grade);
   for (double* v : {&figures.held_out_epipolar_px, &figures.depth_sigma_mm, &figures.shape_sigma_mm}) {
     *v = from.get<double>();
   }

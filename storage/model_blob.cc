@@ -101,8 +101,8 @@ Result<Shape> shape_of(const FaceModel& model) {
       texture.height_px < 0) {
     return Error{Errc::InvalidInput, "the model is larger than the store takes"};
   }
-  Shape shape{static_cast<std::uint32_t>(v), static_cast<std::uint32_t>(mesh.triangles.size()),
-              static_cast<std::uint32_t>(texture.width_px), static_cast<std::uint32_t>(texture.height_px)};
+  Shape shape{std::uint32_t(v), std::uint32_t(mesh.triangles.size()), std::uint32_t(texture.width_px),
+              std::uint32_t(texture.height_px)};
   const bool lengths_fit =
       absent_or(mesh.normals, v, Shape::Normals, shape) && absent_or(mesh.sigma_mm, v, Shape::Sigma, shape) &&
       absent_or(mesh.measured, v, Shape::Measured, shape) && absent_or(mesh.pose, v, Shape::Pose, shape) &&
@@ -126,7 +126,7 @@ void put_numbers(ByteWriter& to, const FaceModel& model) {
   for (const auto member : kQuality) to.put(model.quality.*member);
   for (const pipeline::Landmark& l : model.landmarks) {
     for (const float value : {l.at_mm.x, l.at_mm.y, l.at_mm.z, l.sigma_mm}) to.put(value);
-    to.put(static_cast<std::uint8_t>(l.found ? 1 : 0));
+    to.put(std::uint8_t(l.found ? 1 : 0));
   }
   for (const auto member : kRelief) to.put(model.quality.relief.*member);
 }
@@ -226,8 +226,8 @@ Result<FaceModel> decode_model(std::span<const std::byte> bytes, std::pmr::memor
   get_all<std::uint8_t>(from, model.texture.origin,
                         shape.count(Shape::Origin, std::size_t{shape.width_px} * shape.height_px));
   get_all<std::uint8_t>(from, model.mesh.pose, shape.count(Shape::Pose, v));
-  model.texture.width_px = static_cast<int>(shape.width_px);
-  model.texture.height_px = static_cast<int>(shape.height_px);
+  model.texture.width_px = int(shape.width_px);
+  model.texture.height_px = int(shape.height_px);
   if (!from.ok() || from.left() != 0 || !indices_fit(model.mesh)) {
     return Error{Errc::StoreCorrupt, "a stored face model does not hang together"};
   }

@@ -17,7 +17,7 @@ void put_time(ByteWriter& to, WallTime at) { to.put(std::int64_t{at.time_since_e
 WallTime get_time(ByteReader& from) { return WallTime(std::chrono::milliseconds(from.get<std::int64_t>())); }
 
 void put_piece(ByteWriter& to, std::span<const std::byte> piece) {
-  to.put(static_cast<std::uint64_t>(piece.size()));
+  to.put(std::uint64_t(piece.size()));
   to.put(piece);
 }
 std::vector<std::byte> get_piece(ByteReader& from) {
@@ -37,7 +37,7 @@ std::vector<std::byte> encode_person(const PersonRecord& person) {
   put_text(to, person.name);
   to.put(person.receipt);
   put_time(to, person.created_at);
-  to.put(static_cast<std::uint32_t>(person.portraits.size()));
+  to.put(std::uint32_t(person.portraits.size()));
   for (const PersonRecord::Portrait& one : person.portraits) {
     put_time(to, one.created_at);
     put_time(to, one.consent.given_at);

@@ -28,8 +28,7 @@ constexpr float kSlopPx = 14;  // a finger that rests moves so far
 std::optional<Intent> Ui::take_intent() {
   if (intent_count_ == 0) return std::nullopt;
   const Intent first = intents_[0];
-  std::move(intents_.begin() + 1, intents_.begin() + static_cast<std::ptrdiff_t>(intent_count_),
-            intents_.begin());
+  std::move(intents_.begin() + 1, intents_.begin() + std::ptrdiff_t(intent_count_), intents_.begin());
   --intent_count_;
   return first;
 }
@@ -61,30 +60,19 @@ void Ui::feed(const Input& input, const ViewState& view) {
     if (input.kind == Input::Kind::Activate) return;
   }
   switch (input.kind) {
-    case Input::Kind::Down:
-      return down(input, view);
-    case Input::Kind::Move:
-      return move(input, view);
-    case Input::Kind::Up:
-      return up(input, view);
-    case Input::Kind::Next:
-      return focus_on(1);
-    case Input::Kind::Previous:
-      return focus_on(-1);
-    case Input::Kind::Left:
-      return focus_beside(-1, 0, view);
-    case Input::Kind::Right:
-      return focus_beside(1, 0, view);
-    case Input::Kind::Above:
-      return focus_beside(0, -1, view);
-    case Input::Kind::Below:
-      return focus_beside(0, 1, view);
+    case Input::Kind::Down: return down(input, view);
+    case Input::Kind::Move: return move(input, view);
+    case Input::Kind::Up: return up(input, view);
+    case Input::Kind::Next: return focus_on(1);
+    case Input::Kind::Previous: return focus_on(-1);
+    case Input::Kind::Left: return focus_beside(-1, 0, view);
+    case Input::Kind::Right: return focus_beside(1, 0, view);
+    case Input::Kind::Above: return focus_beside(0, -1, view);
+    case Input::Kind::Below: return focus_beside(0, 1, view);
     case Input::Kind::Letter:
     case Input::Kind::Digit:
-    case Input::Kind::Erase:
-      return type(input, view);
-    case Input::Kind::Activate:
-      return activate_focus(view);
+    case Input::Kind::Erase: return type(input, view);
+    case Input::Kind::Activate: return activate_focus(view);
     case Input::Kind::Back:
       if (visit_.overlay == Overlay::None && service_.open) return service_.act({ActionKind::Back, 0}, view);
       return ask(visit_.act({ActionKind::Back, 0}, view));
@@ -92,10 +80,8 @@ void Ui::feed(const Input& input, const ViewState& view) {
     case Input::Kind::Speech:
     case Input::Kind::Quieter:
     case Input::Kind::Louder:
-    case Input::Kind::Speed:
-      return hear(input.kind, view);
-    case Input::Kind::Quit:
-      return;
+    case Input::Kind::Speed: return hear(input.kind, view);
+    case Input::Kind::Quit: return;
   }
 }
 
@@ -119,10 +105,8 @@ const Utterance& Ui::speak(const ViewState& view, bool busy) {
   }
   if (!heard) return narrator_.nothing();
   // Numbers of pages that no two have in common: the visitor's, the staff's.
-  const auto number = [](auto page, auto part) {
-    return static_cast<std::size_t>(page) * 256 + static_cast<std::size_t>(part);
-  };
-  const std::size_t over = static_cast<std::size_t>(visit_.overlay) << 32U;
+  const auto number = [](auto page, auto part) { return std::size_t(page) * 256 + std::size_t(part); };
+  const std::size_t over = std::size_t(visit_.overlay) << 32U;
   const std::size_t page =
       service_.open ? 65536 + number(service_.page, service_.mode) : number(visit_.step, 0);
   return narrator_.follow(tree_, {over + page, focus(), view.now, busy}, to);
@@ -247,7 +231,7 @@ void Ui::activate(const Node& node, const ViewState& view) {
 }
 
 void Ui::drag_face(float dx, float dy) {
-  const float turn = 160.0F / static_cast<float>(std::min(width_px_, height_px_));
+  const float turn = 160.0F / float(std::min(width_px_, height_px_));
   visit_.look.yaw_deg = std::clamp(visit_.look.yaw_deg + dx * turn, -80.0F, 80.0F);
   visit_.look.pitch_deg = std::clamp(visit_.look.pitch_deg + dy * turn, -50.0F, 50.0F);
 }
@@ -314,7 +298,7 @@ void Ui::show(const ViewState& view, const Visit& visit, const Service& service)
 }
 
 void Ui::draw(const ViewState& view) {
-  const Rect screen{0, 0, static_cast<float>(width_px_), static_cast<float>(height_px_)};
+  const Rect screen{0, 0, float(width_px_), float(height_px_)};
   const Palette& palette = service_.open ? build_staff_screen(tree_, view, visit_, service_, screen)
                                          : build_visitor_screen(tree_, view, visit_, screen);
   keep_focus();

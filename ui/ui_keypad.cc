@@ -42,7 +42,7 @@ void Ui::activate_focus(const ViewState& view) {
 void Ui::keep_focus() {
   if (!hands_.show_focus) return;
   if (const Node* node = tree_.find(hands_.focus)) {
-    focus_at_ = static_cast<std::size_t>(node - tree_.nodes().data());
+    focus_at_ = std::size_t(node - tree_.nodes().data());
   } else if (focus_at_ < tree_.nodes().size() && tree_.nodes()[focus_at_].role == Role::Key) {
     hands_.focus = tree_.nodes()[focus_at_].id;
   }
@@ -71,7 +71,7 @@ void Ui::move_focus(const Node* at, const Node* next, int direction) {
       left != nullptr && (next == nullptr || next == left || tree_.scroller_around(*next) != left);
   const bool turns_round = left != nullptr && next != nullptr && (direction > 0) != (next > at);
   if ((leaves || turns_round) &&
-      scroll(*left, scrolled_px(*left) + static_cast<float>(direction) * kScreenful * left->rect.h))
+      scroll(*left, scrolled_px(*left) + float(direction) * kScreenful * left->rect.h))
     return;
   if (next == nullptr) return;
   hands_.show_focus = true;

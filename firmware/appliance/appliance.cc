@@ -19,8 +19,7 @@ bool is_fault(Errc code) {
     case Errc::NotCalibrated:
     case Errc::InvalidState:
     case Errc::StoreCorrupt:
-    case Errc::StoreNewer:
-      return true;
+    case Errc::StoreNewer: return true;
     case Errc::InvalidInput:
     case Errc::NotFound:
     case Errc::Timeout:
@@ -33,37 +32,26 @@ bool is_fault(Errc code) {
     case Errc::MediaFull:
     case Errc::IoFailed:
     case Errc::Cancelled:
-    case Errc::Unsupported:
-      break;
+    case Errc::Unsupported: break;
   }
   return false;
 }
 
 Event event_of(ui::Intent intent) {
   switch (intent) {
-    case ui::Intent::Pose:
-      return Event::PoseAsked;
-    case ui::Intent::Begin:
-      return Event::Begin;
-    case ui::Intent::Accept:
-      return Event::Accept;
-    case ui::Intent::Retake:
-      return Event::Retake;
-    case ui::Intent::Cancel:
-      return Event::Cancel;
+    case ui::Intent::Pose: return Event::PoseAsked;
+    case ui::Intent::Begin: return Event::Begin;
+    case ui::Intent::Accept: return Event::Accept;
+    case ui::Intent::Retake: return Event::Retake;
+    case ui::Intent::Cancel: return Event::Cancel;
     case ui::Intent::LookUp:
     case ui::Intent::StillHere:
     case ui::Intent::Enough:
-    case ui::Intent::Print:
-      break;  // no event: they give time, end a job, or are the kiosk's
-    case ui::Intent::OpenStaff:
-      return Event::StaffIn;
-    case ui::Intent::LeaveStaff:
-      return Event::StaffOut;
-    case ui::Intent::Calibrate:
-      return Event::CalibrateAsked;
-    case ui::Intent::Export:
-      return Event::ExportAsked;
+    case ui::Intent::Print: break;  // no event: they give time, end a job, or are the kiosk's
+    case ui::Intent::OpenStaff: return Event::StaffIn;
+    case ui::Intent::LeaveStaff: return Event::StaffOut;
+    case ui::Intent::Calibrate: return Event::CalibrateAsked;
+    case ui::Intent::Export: return Event::ExportAsked;
   }
   return Event::Count;
 }
@@ -86,8 +74,7 @@ Appliance::Appliance(Parts parts)
       capture_(reports_, "capture"),
       worker_(reports_, "worker"),
       keeper_(reports_, "keeper") {
-  records_.reserve(static_cast<std::size_t>(budget::kCaptureAttempts) *
-                   (kStages.size() + SidePairs::kPoses + 1));
+  records_.reserve(std::size_t(budget::kCaptureAttempts) * (kStages.size() + SidePairs::kPoses + 1));
   has_judge_ = parts.judge != nullptr;
   start(capture_, open_cameras_);
 }
@@ -163,24 +150,24 @@ JobThread& Appliance::thread_at(JobLane lane) {
 }
 
 Result<void> Appliance::start_side_job(JobLane lane, Job& job) {
-  RELIEVO_TRY_ASSIGN(side_jobs_[static_cast<std::size_t>(lane)], thread_at(lane).start(job));
+  RELIEVO_TRY_ASSIGN(side_jobs_[std::size_t(lane)], thread_at(lane).start(job));
   return {};
 }
 
 void Appliance::cancel_side_job(JobLane lane) {
-  if (side_jobs_[static_cast<std::size_t>(lane)] != 0) thread_at(lane).cancel();
+  if (side_jobs_[std::size_t(lane)] != 0) thread_at(lane).cancel();
 }
 
 void Appliance::end_side_job(JobLane lane) {
-  if (side_jobs_[static_cast<std::size_t>(lane)] == 0) return;
+  if (side_jobs_[std::size_t(lane)] == 0) return;
   thread_at(lane).cancel();
   thread_at(lane).wait_until_idle();
-  side_jobs_[static_cast<std::size_t>(lane)] = 0;
+  side_jobs_[std::size_t(lane)] = 0;
 }
 
 float Appliance::side_progress(JobLane lane) const {
   const JobThread& thread = lane == JobLane::Capture ? capture_ : lane == JobLane::Worker ? worker_ : keeper_;
-  return side_jobs_[static_cast<std::size_t>(lane)] == 0 ? 0 : thread.progress();
+  return side_jobs_[std::size_t(lane)] == 0 ? 0 : thread.progress();
 }
 
 void Appliance::heard_side(std::size_t lane, const JobReport& report) {
@@ -347,18 +334,14 @@ void Appliance::entered(const Change& change) {
   stop_job();
   if (change.to != State::Fuse) stop_head();
   switch (change.to) {
-    case State::SelfTest:
-      start(capture_, open_cameras_);
-      break;
+    case State::SelfTest: start(capture_, open_cameras_); break;
     case State::Position:
       if (!enter_position(change)) return;
       break;
     case State::Capture:
       if (!enter_capture(change)) return;
       break;
-    case State::Turn:
-      enter_turn();
-      break;
+    case State::Turn: enter_turn(); break;
     case State::Fuse:  // the head's job runs since Turn
       if (head_job_ == 0) return handle(Event::StageDone);
       running_ = &worker_;
@@ -380,9 +363,7 @@ void Appliance::entered(const Change& change) {
       start(keeper_, keep_);
       break;
     case State::Idle:
-    case State::Fault:
-      close_session();
-      break;
+    case State::Fault: close_session(); break;
     case State::Review:
       if (change.from == State::Assemble || change.from == State::Fuse)
         problem_.reset();  // an attempt before it failed; this one did not
@@ -390,8 +371,7 @@ void Appliance::entered(const Change& change) {
     case State::Calibrate:  // what they were entered for runs beside, as a side task of the staff's page
     case State::Export:
     case State::Staff:
-    case State::Count:
-      break;
+    case State::Count: break;
   }
   if (listener_) listener_(change);
 }

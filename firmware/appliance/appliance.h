@@ -24,7 +24,7 @@
 #include "firmware/work/jobs.h"
 #include "firmware/work/portrait_progress.h"
 #include "hal/device.h"
-#include "ui/view/intent.h"
+#include "ui/view/action.h"
 
 namespace relievo::firmware {
 

@@ -14,41 +14,34 @@ constexpr std::array kScreens = [] {
   return std::array{SelfTest, Idle,    Calibrate, Position, Capture, Turn,   Match, Reconstruct, Mesh,
                     Texture,  Texture, Fuse,      Review,   Store,   Export, Staff, Fault};
 }();
-static_assert(kScreens.size() == static_cast<std::size_t>(State::Count));
+static_assert(kScreens.size() == std::size_t(State::Count));
 
 ui::Screen screen_of(State state) {
-  return state < State::Count ? kScreens[static_cast<std::size_t>(state)] : ui::Screen::Fault;
+  return state < State::Count ? kScreens[std::size_t(state)] : ui::Screen::Fault;
 }
 
 ui::Trouble trouble_of(const Error& problem, State state) {
   if (state == State::Review || state == State::Store) return ui::Trouble::Storage;
   if (state == State::Fault && problem.code == Errc::OutOfMemory) return ui::Trouble::Other;
   switch (problem.code) {
-    case Errc::Disconnected:
-      return ui::Trouble::Camera;
-    case Errc::NotCalibrated:
-      return ui::Trouble::Calibration;
+    case Errc::Disconnected: return ui::Trouble::Camera;
+    case Errc::NotCalibrated: return ui::Trouble::Calibration;
     case Errc::NoFace:
     case Errc::TooFewMatches:
     case Errc::PoorGeometry:
     case Errc::LibraryFailed:
     case Errc::OutOfMemory:
-    case Errc::InvalidInput:
-      return ui::Trouble::Refused;
+    case Errc::InvalidInput: return ui::Trouble::Refused;
     case Errc::MediaFull:
     case Errc::MediaMissing:
     case Errc::StoreCorrupt:
-    case Errc::StoreNewer:
-      return ui::Trouble::Storage;
-    case Errc::Timeout:
-      return ui::Trouble::TookTooLong;
-    case Errc::Cancelled:
-      return ui::Trouble::None;
+    case Errc::StoreNewer: return ui::Trouble::Storage;
+    case Errc::Timeout: return ui::Trouble::TookTooLong;
+    case Errc::Cancelled: return ui::Trouble::None;
     case Errc::NotFound:
     case Errc::IoFailed:
     case Errc::InvalidState:
-    case Errc::Unsupported:
-      break;
+    case Errc::Unsupported: break;
   }
   return ui::Trouble::Other;
 }
@@ -69,16 +62,16 @@ ui::LiveView live_of(const LivePicture& live) {
   view.picture = live.picture;
   view.number = live.number;
   view.advice = live.guidance.advice;
-  view.face_x = static_cast<float>(live.guidance.face_x);
-  view.face_y = static_cast<float>(live.guidance.face_y);
-  view.ideal_width = static_cast<float>(live.guidance.ideal_width);
-  view.nearness = static_cast<float>(live.guidance.nearness);
-  view.yaw_deg = static_cast<float>(live.guidance.yaw_deg);
-  view.pitch_deg = static_cast<float>(live.guidance.pitch_deg);
-  view.roll_deg = static_cast<float>(live.guidance.roll_deg);
-  view.steady_s = static_cast<float>(live.guidance.steady_s);
+  view.face_x = float(live.guidance.face_x);
+  view.face_y = float(live.guidance.face_y);
+  view.ideal_width = float(live.guidance.ideal_width);
+  view.nearness = float(live.guidance.nearness);
+  view.yaw_deg = float(live.guidance.yaw_deg);
+  view.pitch_deg = float(live.guidance.pitch_deg);
+  view.roll_deg = float(live.guidance.roll_deg);
+  view.steady_s = float(live.guidance.steady_s);
   if (const auto& turn = live.guidance.turn)
-    view.turn = ui::TurnView{turn->advice, static_cast<float>(turn->yaw_deg), turn->taken};
+    view.turn = ui::TurnView{turn->advice, float(turn->yaw_deg), turn->taken};
   return view;
 }
 

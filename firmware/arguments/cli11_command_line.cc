@@ -7,14 +7,14 @@
 #include <cstdio>
 #include <string>
 
+#include "firmware/arguments/algorithm_choice.h"
 #include "firmware/arguments/command_line.h"
 #include "firmware/arguments/command_words.h"
-#include "firmware/arguments/two_numbers.h"
 
 namespace relievo::firmware {
 
 void add_store(CLI::App& command, Path& store) {
-  command.add_option("--store", store, "folder of the store")->type_name("DIR");
+  word(command, "--store", store, "DIR", "folder of the store");
   command.add_option(kKeyOption, "file with the store's key, if it does not lie beside the store")
       ->type_name("FILE");
 }
@@ -34,9 +34,8 @@ void add_kiosk(CLI::App& app, KioskArgs& args) {
   app.add_option("--board", args.device, "the kiosk's cameras: " + std::string(kDevices))
       ->type_name("BOARD")
       ->capture_default_str();
-  app.add_option("--calibration", args.calibration,
-                 "default: the one in the store; of the simulated rig, its own")
-      ->type_name("rig.yml");
+  word(app, "--calibration", args.calibration, "rig.yml",
+       "default: the one in the store; of the simulated rig, its own");
   add_store(app, args.store);
   app.add_option_function<std::string>(
          "--windowed",
@@ -46,15 +45,12 @@ void add_kiosk(CLI::App& app, KioskArgs& args) {
          },
          "a window instead of the whole screen")
       ->type_name("WxH");
-  app.add_option("--screenshots", args.screenshots, "pictures of all screens in all languages, as files")
-      ->type_name("DIR");
-  app.add_option("--script", args.script,
-                 "a visit by synthetic fingers, and what it cost; its pictures go to --screenshots")
-      ->type_name("FILE");
-  app.add_option(
-         "--only", args.only,
-         "of those, the sheets with this in their name, as 1280x800_100_de; behind a slash, the pages with this in theirs: 1280x800_100_de/thanks")
-      ->type_name("TEXT");
+  word(app, "--screenshots", args.screenshots, "DIR", "pictures of all screens in all languages, as files");
+  word(app, "--script", args.script, "FILE",
+       "a visit by synthetic fingers, and what it cost; its pictures go to --screenshots");
+  word(
+      app, "--only", args.only, "TEXT",
+      "of those, the sheets with this in their name, as 1280x800_100_de; behind a slash, the pages with this in theirs: 1280x800_100_de/thanks");
   app.add_flag_function(
       "--tell-nobody", [&args](std::int64_t) { args.tells_known = false; },
       "who types a name is not told that it is in the records already");
@@ -64,13 +60,9 @@ void add_kiosk(CLI::App& app, KioskArgs& args) {
 }
 
 void add_algorithms(CLI::App& command, AlgorithmArgs& args) {
-  command.add_option("--algorithms", args.file, "choice and settings of the algorithms")
-      ->type_name("FILE.toml");
-  command
-      .add_option(
-          "--set", args.settings,
-          "one choice or setting, as in the file: matcher=zmncc, zmncc.window_px=15 (relievo algorithms)")
-      ->type_name("KEY=VALUE")
+  word(command, "--algorithms", args.file, "FILE.toml", "choice and settings of the algorithms");
+  word(command, "--set", args.settings, "KEY=VALUE",
+       "one choice or setting, as in the file: matcher=zmncc, zmncc.window_px=15 (relievo algorithms)")
       ->take_all()
       ->allow_extra_args(false);
   command
@@ -82,8 +74,7 @@ void add_algorithms(CLI::App& command, AlgorithmArgs& args) {
 }
 
 void add_further(CLI::App& command, FurtherModels& further) {
-  command.add_option("--lod", further.lod, "a lighter model beside it, light.*, of so many triangles")
-      ->type_name("TRIANGLES")
+  word(command, "--lod", further.lod, "TRIANGLES", "a lighter model beside it, light.*, of so many triangles")
       ->check(CLI::Range(100, 10'000'000));
   command.add_flag(
       "--watertight", further.watertight,
@@ -93,37 +84,24 @@ void add_further(CLI::App& command, FurtherModels& further) {
 void add_reconstruct(CLI::App& app, CommandArgs& chosen, ReconstructArgs& args) {
   CLI::App* command = app.add_subcommand(
       "reconstruct", "a pair of pictures to a textured model, or several of a head that turned");
-  command
-      ->add_option(
-          "pictures", args.pictures,
-          "LEFT RIGHT, and further pairs of the same head turned to other sides, up to seven; the first is the "
-          "one from in front")
-      ->type_name("LEFT RIGHT");
-  command->add_option("--calibration", args.calibrations, "one for all pairs, or one each")
-      ->type_name("rig.yml");
-  CLI::Option* load =
-      command
-          ->add_option("--load", args.load,
-                       "no pictures: a saved reconstruction, with its calibration and settings")
-          ->type_name("FILE");
+  word(*command, "pictures", args.pictures, "LEFT RIGHT",
+       "LEFT RIGHT, and further pairs of the same head turned to other sides, up to seven; the first is the "
+       "one from in front");
+  word(*command, "--calibration", args.calibrations, "rig.yml", "one for all pairs, or one each");
+  CLI::Option* load = word(*command, "--load", args.load, "FILE",
+                           "no pictures: a saved reconstruction, with its calibration and settings");
   command
       ->add_option("--from", args.from,
                    "of a saved one: the first stage to be done again; default: the first that --set changes")
       ->check(CLI::IsMember({"match", "reconstruct", "mesh", "texture", "assemble"}))
       ->needs(load);
-  command
-      ->add_option(
-          "--save", args.save,
-          "save all of it in one file: pictures, calibration, settings, every stage. It holds the person's face: keep it as you keep that")
-      ->type_name("FILE");
-  command
-      ->add_option(
-          "--by-hand", args.by_hand,
-          "matches made by hand, beside the matcher's: a line each, x y disparity [sigma], pixels of the rectified views; with --load in place of those that were saved")
-      ->type_name("FILE");
-  command->add_option("-o,--output", args.output, "folder for the model and the report")
-      ->required()
-      ->type_name("DIR");
+  word(
+      *command, "--save", args.save, "FILE",
+      "save all of it in one file: pictures, calibration, settings, every stage. It holds the person's face: keep it as you keep that");
+  word(
+      *command, "--by-hand", args.by_hand, "FILE",
+      "matches made by hand, beside the matcher's: a line each, x y disparity [sigma], pixels of the rectified views; with --load in place of those that were saved");
+  word(*command, "-o,--output", args.output, "DIR", "folder for the model and the report")->required();
   command
       ->add_option_function<std::string>(
           "--frame", [&args](const std::string& word) { args.camera_frame = word == "camera"; },
@@ -161,12 +139,10 @@ void add_reconstruct(CLI::App& app, CommandArgs& chosen, ReconstructArgs& args) 
 
 void add_enrol(CLI::App& app, CommandArgs& chosen, EnrolArgs& args) {
   CLI::App* command = app.add_subcommand("enrol", "one whole enrolment without a screen");
-  command->add_option("--board", args.device, kDevices)->required()->type_name("BOARD");
-  command->add_option("--subject", args.subject, "who it is")->required()->type_name("NAME");
-  command
-      ->add_option("--calibration", args.calibration,
-                   "default: the one in the store; of the simulated rig, its own")
-      ->type_name("rig.yml");
+  word(*command, "--board", args.device, "BOARD", kDevices)->required();
+  word(*command, "--subject", args.subject, "NAME", "who it is")->required();
+  word(*command, "--calibration", args.calibration, "rig.yml",
+       "default: the one in the store; of the simulated rig, its own");
   add_store(*command, args.store);
   add_algorithms(*command, args.algorithms);
   command->callback([&] { chosen = args; });
@@ -201,29 +177,22 @@ void add_subjects(CLI::App& app, CommandArgs& chosen, SubjectsArgs& args) {
   exported->add_option("-o,--output", args.output)->required()->type_name("DIR");
   add_further(*exported, args.further);
   CLI::Option* to =
-      exported->add_option("--to", args.recipient, "one file instead, sealed to this recipient of age")
-          ->type_name("age1...");
-  CLI::Option* by = exported
-                        ->add_option("--passphrase-file", args.passphrase,
-                                     "one file instead, sealed by the passphrase that stands in this one")
-                        ->type_name("FILE")
+      word(*exported, "--to", args.recipient, "age1...", "one file instead, sealed to this recipient of age");
+  CLI::Option* by = word(*exported, "--passphrase-file", args.passphrase, "FILE",
+                         "one file instead, sealed by the passphrase that stands in this one")
                         ->excludes(to);
   for (const char* folder_only : {"--lod", "--watertight"})
     for (CLI::Option* sealed : {to, by}) sealed->excludes(exported->get_option(folder_only));
   CLI::App* imported = verb("import", "takes in somebody whom another store exported", Verb::Import);
-  imported->add_option("copy", args.copy, "what the export made: a folder, a tar of it, or one sealed file")
-      ->required()
-      ->type_name("FILE");
-  CLI::Option* identity =
-      imported->add_option("--identity", args.identity, "the key it was sealed to, as age-keygen makes it")
-          ->type_name("FILE");
-  imported->add_option("--passphrase-file", args.passphrase, "or where the passphrase stands")
-      ->type_name("FILE")
+  word(*imported, "copy", args.copy, "FILE",
+       "what the export made: a folder, a tar of it, or one sealed file")
+      ->required();
+  CLI::Option* identity = word(*imported, "--identity", args.identity, "FILE",
+                               "the key it was sealed to, as age-keygen makes it");
+  word(*imported, "--passphrase-file", args.passphrase, "FILE", "or where the passphrase stands")
       ->excludes(identity);
-  imported
-      ->add_option("--signed-by", args.signer,
-                   "believe this key; 'store check' names it where the copy was made")
-      ->type_name("KEY");
+  word(*imported, "--signed-by", args.signer, "KEY",
+       "believe this key; 'store check' names it where the copy was made");
   imported->add_flag("--same-name", args.same_name, "this is somebody else than the one who has the name");
   verb("erase", "one and everything known about them", Verb::Erase);
 }
@@ -276,10 +245,8 @@ void add_store_keeping(CLI::App& app, CommandArgs& chosen, StoreArgs& args) {
 void add_algorithm_list(CLI::App& app, CommandArgs& chosen, AlgorithmsArgs& args) {
   CLI::App* command = app.add_subcommand(
       "algorithms", "what --set and --algorithms may choose: kinds, names, options, sources");
-  command
-      ->add_option("name", args.name,
-                   "of a kind or an algorithm: only that, with its options, defaults and ranges")
-      ->type_name("NAME");
+  word(*command, "name", args.name, "NAME",
+       "of a kind or an algorithm: only that, with its options, defaults and ranges");
   command->callback([&] { chosen = args; });
 }
 
@@ -332,7 +299,7 @@ CommandLine parse_command_line(int argc, const char* const* argv) {
     line.command = NothingArgs{};
   } catch (const CLI::ParseError& error) {
     std::string what = error.what();
-    std::replace(what.begin(), what.end(), '\n', ' ');
+    std::ranges::replace(what, '\n', ' ');
     std::string command = app.get_name();
     for (const CLI::App* at = &app; !at->get_subcommands().empty();) {
       at = at->get_subcommands().front();

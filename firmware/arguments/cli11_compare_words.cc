@@ -4,8 +4,8 @@
 
 #include <algorithm>
 
+#include "firmware/arguments/algorithm_choice.h"
 #include "firmware/arguments/command_words.h"
-#include "firmware/arguments/two_numbers.h"
 
 namespace relievo::firmware {
 namespace {
@@ -30,8 +30,7 @@ void check_dissertation(const CompareArgs& args) {
 }
 
 void check_counts(const CompareArgs& args) {
-  const bool dissertation =
-      std::find(args.suites.begin(), args.suites.end(), "dissertation") != args.suites.end();
+  const bool dissertation = std::ranges::find(args.suites, "dissertation") != args.suites.end();
   if (dissertation) check_dissertation(args);
   if (args.pictures.empty()) {
     if (dissertation && args.calibrations.empty() && !args.rectified && args.truths.empty()) return;
@@ -57,10 +56,8 @@ void check_counts(const CompareArgs& args) {
 CLI::App* add_compare(CLI::App& app, CommandArgs& chosen, CompareArgs& args) {
   CLI::App* command = app.add_subcommand(
       "compare", "sets of algorithms beside each other, on one pair or many: a page and its figures");
-  command
-      ->add_option("pictures", args.pictures,
-                   "left, right, left, right, ...; none is needed for --suite dissertation")
-      ->type_name("LEFT RIGHT");
+  word(*command, "pictures", args.pictures, "LEFT RIGHT",
+       "left, right, left, right, ...; none is needed for --suite dissertation");
   const auto each = [command](const char* name, std::vector<Path>& to, const char* help, const char* type) {
     return command->add_option(name, to, help)->type_name(type)->take_all()->allow_extra_args(false);
   };
@@ -85,28 +82,20 @@ CLI::App* add_compare(CLI::App& app, CommandArgs& chosen, CompareArgs& args) {
       "--truth", args.truths,
       "folder that 'relievo simulate face --truth' wrote, or a disparity map: PFM, or PNG whose 0 is unknown",
       "DIR|FILE");
-  command->add_option("--truth-scale", args.truth_scale, "of a PNG: grey values per pixel of disparity")
-      ->check(CLI::Range(0.001, 65535.0))
-      ->capture_default_str();
-  command->add_option("--bad-px", args.limit_px, "a disparity off by more is bad")
-      ->check(CLI::Range(0.01, 1000.0))
-      ->capture_default_str();
+  number(*command, "--truth-scale", args.truth_scale, CLI::Range(0.001, 65535.0),
+         "of a PNG: grey values per pixel of disparity");
+  number(*command, "--bad-px", args.limit_px, CLI::Range(0.01, 1000.0), "a disparity off by more is bad");
   each("--sets", args.set_files, "sets of algorithms, a table each", "FILE.toml");
-  command->add_option("--set-of", args.set_words, "one set: \"NAME: KEY=VALUE KEY=VALUE\"")
-      ->type_name("SET")
+  word(*command, "--set-of", args.set_words, "SET", "one set: \"NAME: KEY=VALUE KEY=VALUE\"")
       ->take_all()
       ->allow_extra_args(false);
-  command
-      ->add_option(
-          "--suite", args.suites,
-          "sets that belong together: peers, matchers, constraints, selectors, preprocessors, meshers; or dissertation: its tables 1 and 2, figures 6 to 12 and 17 done again, as one report")
-      ->type_name("NAME")
+  word(
+      *command, "--suite", args.suites, "NAME",
+      "sets that belong together: peers, matchers, constraints, selectors, preprocessors, meshers; or dissertation: its tables 1 and 2, figures 6 to 12 and 17 done again, as one report")
       ->take_all()
       ->allow_extra_args(false);
   command->add_flag("--keep-maps", args.keep_maps, "every set's disparities as PFM beside the page");
-  command->add_option("-o,--output", args.output, "folder for the page and the figures")
-      ->required()
-      ->type_name("DIR");
+  word(*command, "-o,--output", args.output, "DIR", "folder for the page and the figures")->required();
   command->callback([&args, &chosen] {
     check_counts(args);
     chosen = args;

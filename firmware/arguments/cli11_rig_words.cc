@@ -10,7 +10,7 @@
 #include <sstream>
 #include <string>
 
-#include "firmware/arguments/two_numbers.h"
+#include "firmware/arguments/algorithm_choice.h"
 
 namespace relievo::firmware {
 namespace {
@@ -53,11 +53,9 @@ std::string check_revision(const std::string& word) {
 }
 
 void add_import(CLI::App& command, CalibrationArgs& args) {
-  command.add_option("file", args.file, "rig.yml; or one of intrinsics.yml, left.yaml")
-      ->required()
-      ->type_name("FILE");
-  command.add_option("other", args.other, "the other half of a pair; default: beside the first, by its name")
-      ->type_name("FILE");
+  word(command, "file", args.file, "FILE", "rig.yml; or one of intrinsics.yml, left.yaml")->required();
+  word(command, "other", args.other, "FILE",
+       "the other half of a pair; default: beside the first, by its name");
   command
       .add_option_function<std::string>(
           "--image-size",
@@ -68,18 +66,16 @@ void add_import(CLI::App& command, CalibrationArgs& args) {
           },
           "of the pictures, where the files do not say")
       ->type_name("WIDTHxHEIGHT");
-  command.add_option("--unit-mm", args.unit_mm, "millimetres of one unit of T; default 1, of ROS files 1000")
-      ->check(check_unit)
-      ->type_name("MM");
-  command.add_option("--note", args.note, "what the list shall say of it")->type_name("TEXT");
+  word(command, "--unit-mm", args.unit_mm, "MM", "millimetres of one unit of T; default 1, of ROS files 1000")
+      ->check(check_unit);
+  word(command, "--note", args.note, "TEXT", "what the list shall say of it");
 }
 
 void add_export(CLI::App& command, CalibrationArgs& args) {
-  command.add_option("-o,--output", args.file, "the file; for ros the folder")->required()->type_name("PATH");
+  word(command, "-o,--output", args.file, "PATH", "the file; for ros the folder")->required();
   CLI::Option* revision =
       command.add_option("revision", args.revision, "which; default the one in use")->check(check_revision);
-  command.add_option("--calibration", args.source, "one of a file instead of the store's")
-      ->type_name("FILE")
+  word(command, "--calibration", args.source, "FILE", "one of a file instead of the store's")
       ->excludes(revision);
   command
       .add_option_function<std::string>(
@@ -120,9 +116,7 @@ void add_board_words(CLI::App& command, BoardArgs& board, bool required) {
       .add_option("--marker-mm", board.marker_mm,
                   "side of a ChArUco marker; default seven tenths of a square")
       ->check(within(0.03, 900));
-  command.add_option("--marker-bits", board.marker_bits, "of a ChArUco marker, a side")
-      ->check(CLI::Range(4, 7))
-      ->capture_default_str();
+  number(command, "--marker-bits", board.marker_bits, CLI::Range(4, 7), "of a ChArUco marker, a side");
 }
 
 CLI::Option* add_kind(CLI::App& command, const char* name, BoardArgs& board, const char* help) {
@@ -135,16 +129,11 @@ CLI::Option* add_kind(CLI::App& command, const char* name, BoardArgs& board, con
 CLI::Option* add_live(CLI::App& command, CalibrateLiveArgs& args) {
   CLI::Option* live =
       command.add_flag("--live")->description("no folder: pairs as they come, with advice what to show next");
-  command
-      .add_option("--board", args.cameras,
-                  "of --live; before sim a hand follows the advice; " + std::string(kDevices))
-      ->type_name("BOARD")
+  word(command, "--board", args.cameras, "BOARD",
+       "of --live; before sim a hand follows the advice; " + std::string(kDevices))
       ->needs(live);
-  command
-      .add_option("--goal-mm", args.goal_mm,
-                  "of --live: the depth error at 560 mm to reach, one standard deviation")
-      ->check(within(0.001, 100))
-      ->capture_default_str()
+  number(command, "--goal-mm", args.goal_mm, within(0.001, 100),
+         "of --live: the depth error at 560 mm to reach, one standard deviation")
       ->needs(live);
   command.add_option("--seed", args.seed, "of --live: another number, another simulated rig and hand")
       ->capture_default_str()
@@ -157,28 +146,22 @@ void add_simulated_board(CLI::App& command, SimulateArgs& args) {
   args.printed = {10, 7, 20};
   add_kind(command, "--pattern", args.printed, "what is printed on it")->default_str("chessboard");
   add_board_words(command, args.printed, false);
-  command.add_option("--blur-px", args.blur_px, "of the lens, standard deviation")
-      ->check(within(0, 5))
-      ->capture_default_str();
-  command.add_option("--noise", args.noise, "of the sensor, times the usual")
-      ->check(within(0, 20))
-      ->capture_default_str();
+  number(command, "--blur-px", args.blur_px, within(0, 5), "of the lens, standard deviation");
+  number(command, "--noise", args.noise, within(0, 20), "of the sensor, times the usual");
   const auto share = [&command](const char* name, double& value, const char* what) {
-    command.add_option(name, value, what)->check(within(0, 0.98))->capture_default_str();
+    number(command, name, value, within(0, 0.98), what);
   };
   share("--lamp", args.lamp, "share of the light lost from the board's left to its right");
   share("--shadow", args.shadow, "share of the light lost in a shadow over a third of it");
   share("--cover", args.cover, "share of its width that a hand covers");
-  command.add_option("--highlight", args.highlight, "a lamp's mirror image, in units of white paper")
-      ->check(within(0, 20))
-      ->capture_default_str();
+  number(command, "--highlight", args.highlight, within(0, 20),
+         "a lamp's mirror image, in units of white paper");
 }
 
 // Of `relievo simulate photograph`, what no other scene has.
 void add_held_picture(CLI::App& command, HeldPictureArgs& args) {
-  command.add_option("picture", args.picture, "what is held: a photograph of a face, PNG or JPEG")
-      ->required()
-      ->type_name("PICTURE");
+  word(command, "picture", args.picture, "PICTURE", "what is held: a photograph of a face, PNG or JPEG")
+      ->required();
   command.add_option("--width-mm", args.width_mm, "of the picture as it is held; its height follows")
       ->capture_default_str();
   command
@@ -203,15 +186,11 @@ void add_calibrate(CLI::App& app, CommandArgs& chosen, CalibrateArgs& args, Cali
   CLI::App* command = app.add_subcommand(
       "calibrate", "calibrate the rig from pictures of a printed board, or make that board");
   CLI::Option* pictures =
-      command->add_option("pictures", args.pictures, "folder with left* and right* pictures")
-          ->type_name("DIR");
+      word(*command, "pictures", args.pictures, "DIR", "folder with left* and right* pictures");
   add_board_words(*command, args.board, true);
   add_kind(*command, "--pattern", args.board, "what is printed on it")->default_str("chessboard");
-  command->add_option("-o,--output", args.output, "the calibration, or the page")
-      ->required()
-      ->type_name("rig.yml");
-  command->add_option("--report", args.report, "a page about it, index.html, with pictures")
-      ->type_name("DIR");
+  word(*command, "-o,--output", args.output, "rig.yml", "the calibration, or the page")->required();
+  word(*command, "--report", args.report, "DIR", "a page about it, index.html, with pictures");
   command
       ->add_option(
           "--baseline-mm", args.baseline_mm,
@@ -275,11 +254,8 @@ void add_simulate(CLI::App& app, CommandArgs& chosen, SimulateArgs& args) {
   CLI::App* visit = command->add_subcommand(
       "visit",
       "a face that turns about its neck: front, 25 and 45 degrees to both sides, 15 down, a folder each");
-  visit
-      ->add_option("--drift", args.drift,
-                   "how much lips, jaw and lids move between the pairs; 1: the jaw by up to 0.8 mm")
-      ->check(within(0, 3))
-      ->capture_default_str();
+  number(*visit, "--drift", args.drift, within(0, 3),
+         "how much lips, jaw and lids move between the pairs; 1: the jaw by up to 0.8 mm");
   visit
       ->add_option("--cast", args.cast,
                    "a rigid cast of the person instead, its eyes painted open, or closed")
@@ -292,15 +268,11 @@ void add_simulate(CLI::App& app, CommandArgs& chosen, SimulateArgs& args) {
         visit, held}) {
     const bool board = sub != face && sub != visit && sub != held;
     if (board) add_simulated_board(*sub, args);
-    sub->add_option("-o,--output", args.output, "folder for left*.png, right*.png and the true rig.yml")
-        ->required()
-        ->type_name("DIR");
+    word(*sub, "-o,--output", args.output, "DIR", "folder for left*.png, right*.png and the true rig.yml")
+        ->required();
     sub->add_option("--seed", args.seed, "another number, another face, other poses")->capture_default_str();
-    if (board)
-      sub->add_option("--pairs", args.pairs, "how many")->check(CLI::Range(1, 1000))->capture_default_str();
-    sub->add_option("--scale", args.scale, "size of the pictures")
-        ->check(within(0.1, 1))
-        ->capture_default_str();
+    if (board) number(*sub, "--pairs", args.pairs, CLI::Range(1, 1000), "how many");
+    number(*sub, "--scale", args.scale, within(0.1, 1), "size of the pictures");
     sub->add_flag("--portrait", args.portrait, "cameras turned upright: pictures higher than wide");
     const auto pose = [&args, sub](const char* name, double& value, double least, double most,
                                    const char* what) {
@@ -331,13 +303,11 @@ void add_selftest(CLI::App& app, CommandArgs& chosen, SelfTestArgs& args) {
   CLI::Option* optical =
       command->add_flag("--optical", args.optical,
                         "measure known spheres and plates through the whole chain instead (a minute)");
-  command->add_option("-o,--output", args.output, "folder for the report and a picture of every target")
-      ->type_name("DIR")
+  word(*command, "-o,--output", args.output, "DIR", "folder for the report and a picture of every target")
       ->needs(optical);
   command->add_option("--seed", args.seed, "another rig, other noise")->capture_default_str()->needs(optical);
-  command->add_option("--scale", args.scale, "size of the pictures; the limits grow as their pixels do")
-      ->check(within(0.5, 1))
-      ->capture_default_str()
+  number(*command, "--scale", args.scale, within(0.5, 1),
+         "size of the pictures; the limits grow as their pixels do")
       ->needs(optical);
   command->callback([&] { chosen = args; });
 }

@@ -6,6 +6,8 @@
 // when that command is met. Thread: main.
 #pragma once
 
+#include <string>
+
 #include "firmware/arguments/command_line.h"
 
 namespace CLI {
@@ -18,6 +20,17 @@ namespace relievo::firmware {
 // they are kept because people type them and services name them.
 inline constexpr const char* kDevices =
     "sim; folder:DIR with recorded pairs; linux, or linux:FILE that says what is wired where (default /etc/relievo/board.toml)";
+
+// An option of a word or several, `type` as its help calls them; and one of a number within `range`, with its
+// default. The templates know App no better than this header does.
+template <typename App, typename Value>
+auto* word(App& command, const char* name, Value& value, const char* type, const std::string& help) {
+  return command.add_option(name, value, help)->type_name(type);
+}
+template <typename App, typename Value, typename Range>
+auto* number(App& command, const char* name, Value& value, const Range& range, const std::string& help) {
+  return command.add_option(name, value, help)->check(range)->capture_default_str();
+}
 
 inline constexpr const char* kKeyOption = "--key";
 void add_store(CLI::App& command, Path& store);  // and kKeyOption, which CommandLine::key takes up

@@ -8,7 +8,7 @@
 #include <string>
 
 #include "firmware/arguments/settings_file.h"
-#include "hal/whole_file.h"
+#include "hal/base/whole_file.h"
 
 namespace relievo::firmware {
 namespace {
@@ -72,7 +72,7 @@ Result<std::vector<std::string>> parse_settings(std::string_view text, std::stri
 }
 
 Result<std::vector<std::string>> read_settings_file(const std::filesystem::path& file) {
-  RELIEVO_TRY_ASSIGN(const auto bytes, hal::read_whole_file(file, kMaxSettingsBytes));
+  RELIEVO_TRY_ASSIGN(const auto bytes, read_whole_file(file, kMaxSettingsBytes));
   return parse_settings({reinterpret_cast<const char*>(bytes.data()), bytes.size()}, file.string());
 }
 
@@ -85,8 +85,7 @@ Result<std::vector<NamedSettings>> parse_sets(std::string_view text, std::string
       RELIEVO_TRY_ASSIGN(auto settings, settings_of(*node.as_table(), file_name, true));
       sets.push_back({node.source().begin.line, {std::string(name.str()), std::move(settings)}});
     }
-    std::stable_sort(sets.begin(), sets.end(),
-                     [](const auto& a, const auto& b) { return a.first < b.first; });
+    std::ranges::stable_sort(sets, [](const auto& a, const auto& b) { return a.first < b.first; });
     std::vector<NamedSettings> in_order;
     in_order.reserve(sets.size());
     for (auto& set : sets) in_order.push_back(std::move(set.second));
@@ -97,7 +96,7 @@ Result<std::vector<NamedSettings>> parse_sets(std::string_view text, std::string
 }
 
 Result<std::vector<NamedSettings>> read_sets_file(const std::filesystem::path& file) {
-  RELIEVO_TRY_ASSIGN(const auto bytes, hal::read_whole_file(file, kMaxSettingsBytes));
+  RELIEVO_TRY_ASSIGN(const auto bytes, read_whole_file(file, kMaxSettingsBytes));
   return parse_sets({reinterpret_cast<const char*>(bytes.data()), bytes.size()}, file.string());
 }
 

@@ -26,7 +26,7 @@ void* counted(void* block) {
 // The C++ library's other forms lead to these.
 void* operator new(std::size_t bytes) { return counted(std::malloc(bytes == 0 ? 1 : bytes)); }
 void* operator new(std::size_t bytes, std::align_val_t alignment) {
-  const auto step = static_cast<std::size_t>(alignment);
+  const auto step = std::size_t(alignment);
   return counted(std::aligned_alloc(step, (bytes + step - 1) / step * step));
 }
 void operator delete(void* block) noexcept { std::free(block); }

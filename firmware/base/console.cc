@@ -16,17 +16,17 @@ Console::Console() : terminal_(isatty(STDERR_FILENO) == 1) {}
 
 void Console::say(std::string_view line) {
   clear_progress();
-  std::printf("%.*s\n", static_cast<int>(line.size()), line.data());
+  std::printf("%.*s\n", int(line.size()), line.data());
   std::fflush(stdout);
 }
 
 void Console::progress(std::string_view what, float done) {
   if (!terminal_) return;
   constexpr int kWidth = 30;
-  const int filled = static_cast<int>(std::clamp(done, 0.0F, 1.0F) * kWidth);
-  std::string bar(static_cast<std::size_t>(filled), '#');
+  const int filled = int(std::clamp(done, 0.0F, 1.0F) * kWidth);
+  std::string bar(std::size_t(filled), '#');
   bar.resize(kWidth, '.');
-  std::fprintf(stderr, "\r\033[K%-12.*s [%s]", static_cast<int>(what.size()), what.data(), bar.c_str());
+  std::fprintf(stderr, "\r\033[K%-12.*s [%s]", int(what.size()), what.data(), bar.c_str());
   std::fflush(stderr);
   shown_ = true;
 }

@@ -18,12 +18,10 @@ ListWalk::Ask ListWalk::ask(const ui::ListRequest& request) {
   const auto& divide = std::get<ui::DivideList>(request);
   const std::int64_t from = std::clamp<std::int64_t>(divide.first, 0, last),
                      to = std::clamp<std::int64_t>(divide.last, from, last), all = to - from + 1;
-  count_ = static_cast<std::size_t>(std::min<std::int64_t>(all, ui::kListStretches));
+  count_ = std::size_t(std::min<std::int64_t>(all, ui::kListStretches));
   labelled_ = 0;
   for (std::size_t i = 0; i < count_; ++i) {
-    const auto begin = [&](std::size_t k) {
-      return from + all * static_cast<std::int64_t>(k) / static_cast<std::int64_t>(count_);
-    };
+    const auto begin = [&](std::size_t k) { return from + all * std::int64_t(k) / std::int64_t(count_); };
     stretches_[i] = {begin(i), begin(i + 1) - 1, {}};
   }
   return Ask::Labels;

@@ -10,8 +10,7 @@
 
 #include <unistd.h>
 
-#include "hal/whole_file.h"
-#include "storage/export/atomic_file.h"
+#include "hal/base/whole_file.h"
 
 namespace relievo::firmware {
 namespace {
@@ -76,23 +75,23 @@ Result<void> OutputFolder::commit() {
     fs::rename(work_, target_, error);
     if (error) return failed(target_, error.value());
     work_.clear();
-    RELIEVO_TRY(storage::sync_renamed(target_));
+    RELIEVO_TRY(sync_renamed(target_));
     // The folders that were made on the way have names, too.
     const fs::path made = std::exchange(made_parent_, {});
     if (made.empty()) return {};
     for (fs::path one = target_.parent_path(); one != made.parent_path(); one = one.parent_path())
-      RELIEVO_TRY(storage::sync_directory(one.parent_path()));
+      RELIEVO_TRY(sync_directory(one.parent_path()));
     return {};
   }
   for (const fs::directory_entry& entry : fs::directory_iterator(work_, error)) {
     fs::rename(entry.path(), target_ / entry.path().filename(), error);
     if (error) return failed(target_ / entry.path().filename(), error.value());
   }
-  return storage::sync_directory(target_);
+  return sync_directory(target_);
 }
 
 Result<void> write_text(const fs::path& file, std::string_view text, const fs::path& place) {
-  if (const auto written = hal::write_whole_file(file, std::as_bytes(std::span(text))); !written) {
+  if (const auto written = write_whole_file(file, std::as_bytes(std::span(text))); !written) {
     return written.error().at(place.native());
   }
   return {};

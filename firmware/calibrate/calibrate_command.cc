@@ -26,7 +26,7 @@ constexpr int kThumbnailQuality = 82;
 
 // A view's name as part of a file's; two views may have one name ("left1" and "left_1"), never two files.
 std::string file_name(std::string name, std::set<std::string>& taken) {
-  std::replace(name.begin(), name.end(), '/', '-');
+  std::ranges::replace(name, '/', '-');
   std::string free = name;
   for (int i = 2; !taken.insert(free).second; ++i) free = name + "_" + std::to_string(i);
   return free;
@@ -113,8 +113,7 @@ using Files = std::map<std::string, Path>;
 
 std::optional<std::string> key_of(const Path& file, std::string_view side) {
   std::string extension = file.extension().string();
-  std::transform(extension.begin(), extension.end(), extension.begin(),
-                 [](unsigned char c) { return static_cast<char>(std::tolower(c)); });
+  std::ranges::transform(extension, extension.begin(), [](unsigned char c) { return char(std::tolower(c)); });
   const std::string stem = file.stem().string();
   if ((extension != ".png" && extension != ".jpg" && extension != ".jpeg") || !stem.starts_with(side))
     return std::nullopt;
@@ -214,7 +213,7 @@ void tell_quality(const pipeline::CalibrationQuality& q, std::ostream& out) {
   std::snprintf(line, sizeof line,
                 "%d of %d pairs used, pair rms %.3f px, each camera alone %.3f and %.3f px, held out %.3f "
                 "px, baseline %.2f mm",
-                q.used, static_cast<int>(q.views.size()), q.pair_rms_px, q.left_rms_px, q.right_rms_px,
+                q.used, int(q.views.size()), q.pair_rms_px, q.left_rms_px, q.right_rms_px,
                 q.held_out_epipolar_px, q.baseline_mm);
   out << line << '\n';
   std::snprintf(
@@ -227,7 +226,7 @@ void tell_quality(const pipeline::CalibrationQuality& q, std::ostream& out) {
   if (q.expected_as_in_use)
     out << "the lenses are those of the calibration in use: its baseline is expected (--baseline-mm N: another, 0: none)\n";
   const char* const words[] = {"pass", "usable", "refuse"};
-  out << "verdict: " << words[static_cast<int>(q.verdict)] << '\n';
+  out << "verdict: " << words[int(q.verdict)] << '\n';
   for (const std::string& reason : q.reasons) out << "  " << reason << '\n';
   out.flush();
 }

@@ -73,7 +73,7 @@ Result<std::unique_ptr<LivePairs>> make_device_pairs(std::unique_ptr<hal::Device
   if (folder) {
     const Path pictures = name.substr(kFolder.size());
     RELIEVO_TRY_ASSIGN(const auto pairs, find_picture_pairs(pictures));
-    most = static_cast<int>(pairs.size());
+    most = int(pairs.size());
     std::error_code error;
     if (!std::filesystem::exists(pictures / "capture.json", error)) shown = 2;
   }

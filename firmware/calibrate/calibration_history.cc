@@ -11,26 +11,19 @@ namespace {
 
 storage::CalibrationGrade grade_of(pipeline::CalibrationVerdict verdict) {
   switch (verdict) {
-    case pipeline::CalibrationVerdict::Pass:
-      return storage::CalibrationGrade::Pass;
-    case pipeline::CalibrationVerdict::Usable:
-      return storage::CalibrationGrade::Usable;
-    case pipeline::CalibrationVerdict::Refuse:
-      return storage::CalibrationGrade::Refuse;
+    case pipeline::CalibrationVerdict::Pass: return storage::CalibrationGrade::Pass;
+    case pipeline::CalibrationVerdict::Usable: return storage::CalibrationGrade::Usable;
+    case pipeline::CalibrationVerdict::Refuse: return storage::CalibrationGrade::Refuse;
   }
   return storage::CalibrationGrade::Unknown;
 }
 
 const char* word(storage::CalibrationGrade grade) {
   switch (grade) {
-    case storage::CalibrationGrade::Pass:
-      return "pass";
-    case storage::CalibrationGrade::Usable:
-      return "usable";
-    case storage::CalibrationGrade::Refuse:
-      return "refuse";
-    case storage::CalibrationGrade::Unknown:
-      break;
+    case storage::CalibrationGrade::Pass: return "pass";
+    case storage::CalibrationGrade::Usable: return "usable";
+    case storage::CalibrationGrade::Refuse: return "refuse";
+    case storage::CalibrationGrade::Unknown: break;
   }
   return "-";
 }

@@ -15,12 +15,9 @@ constexpr double kAlike = 0.1;
 int level(const ImageView& view, int x, int y) {
   const std::uint8_t* row = view.row(y);
   switch (view.format) {
-    case PixelFormat::Grey8:
-      return row[x];
-    case PixelFormat::Grey16:
-      return row[2 * x + 1];
-    case PixelFormat::Rgb8:
-      break;
+    case PixelFormat::Grey8: return row[x];
+    case PixelFormat::Grey16: return row[2 * x + 1];
+    case PixelFormat::Rgb8: break;
   }
   return row[3 * x + 1];
 }
@@ -49,17 +46,16 @@ Result<Thumbnail> thumbnail(const ImageView& view, const FaceBox& box) {
       long sum = 0;
       for (int y = y0; y < y1; ++y)
         for (int x = x0; x < x1; ++x) sum += level(view, x, y);
-      const auto cell = static_cast<std::size_t>(v * Thumbnail::kWidth + u);
-      small.level[cell] = static_cast<float>(sum) / (255.0F * static_cast<float>((x1 - x0) * (y1 - y0)));
+      const auto cell = std::size_t(v * Thumbnail::kWidth + u);
+      small.level[cell] = float(sum) / (255.0F * float((x1 - x0) * (y1 - y0)));
     }
   return small;
 }
 
 double movement(const Thumbnail& a, const Thumbnail& b) {
   double sum = 0;
-  for (std::size_t i = 0; i < a.level.size(); ++i)
-    sum += std::abs(static_cast<double>(a.level[i]) - static_cast<double>(b.level[i]));
-  return sum / static_cast<double>(a.level.size());
+  for (std::size_t i = 0; i < a.level.size(); ++i) sum += std::abs(double(a.level[i]) - double(b.level[i]));
+  return sum / double(a.level.size());
 }
 
 Burst::Burst(StereoGrabber& grabber, hal::TriggerLine& trigger, const hal::Clock& clock)
@@ -98,12 +94,12 @@ Result<BurstResult> Burst::shoot(StereoSlot& first, StereoSlot& second, const Bu
     RELIEVO_TRY_ASSIGN(const FaceLight left, face_light(frame->left, box));
     RELIEVO_TRY_ASSIGN(const FaceLight right, face_light(frame->right, box));
     RELIEVO_TRY_ASSIGN(const Thumbnail now, thumbnail(frame->left, box));
-    BurstPair& pair = result.pairs[static_cast<std::size_t>(i)];
+    BurstPair& pair = result.pairs[std::size_t(i)];
     pair.taken = true;
     pair.sharpness = std::min(left.sharpness, right.sharpness);
     if (before) pair.movement = movement(*before, now);
     sharpest = std::max(sharpest, pair.sharpness);
-    BurstPair& leader = result.pairs[static_cast<std::size_t>(result.best)];
+    BurstPair& leader = result.pairs[std::size_t(result.best)];
     if (taken == 1) leader.movement = pair.movement;  // the first had none before it
     before = now;
     if (++taken > 1 && !is_better(pair, leader, sharpest)) continue;

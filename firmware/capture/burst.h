@@ -20,7 +20,6 @@
 
 #include "firmware/capture/face_light.h"
 #include "firmware/capture/stereo_grabber.h"
-#include "firmware/capture/stereo_slot.h"
 #include "hal/clock.h"
 #include "hal/trigger_line.h"
 #include "pipeline/model/stereo_frame.h"

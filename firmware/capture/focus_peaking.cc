@@ -26,10 +26,10 @@ constexpr double kPlainShare = 0.2;  // of the blocks as bright, so many are tak
 // 1 2 1 both ways; the rim stays 0 and is looked at by nobody.
 void FocusPeaking::smooth(const ImageView& picture) {
   width_ = picture.width_px, height_ = picture.height_px;
-  smoothed_.assign(static_cast<std::size_t>(width_) * static_cast<std::size_t>(height_), 0);
+  smoothed_.assign(std::size_t(width_) * std::size_t(height_), 0);
   for (int y = 1; y + 1 < height_; ++y) {
     const std::uint8_t *above = picture.row(y - 1), *here = picture.row(y), *below = picture.row(y + 1);
-    std::uint16_t* to = &smoothed_[static_cast<std::size_t>(y) * static_cast<std::size_t>(width_)];
+    std::uint16_t* to = &smoothed_[std::size_t(y) * std::size_t(width_)];
     const auto column = [&](int x) {
       return level_of(above, x, picture.format) + 2 * level_of(here, x, picture.format) +
              level_of(below, x, picture.format);
@@ -37,7 +37,7 @@ void FocusPeaking::smooth(const ImageView& picture) {
     int before = column(0), now = column(1);
     for (int x = 1; x + 1 < width_; ++x) {
       const int after = column(x + 1);
-      to[x] = static_cast<std::uint16_t>(before + 2 * now + after);
+      to[x] = std::uint16_t(before + 2 * now + after);
       before = now, now = after;
     }
   }
@@ -45,8 +45,7 @@ void FocusPeaking::smooth(const ImageView& picture) {
 
 int FocusPeaking::response(int x, int y) const {
   const auto at = [&](int u, int v) {
-    return static_cast<int>(smoothed_[static_cast<std::size_t>(v) * static_cast<std::size_t>(width_) +
-                                      static_cast<std::size_t>(u)]);
+    return int(smoothed_[std::size_t(v) * std::size_t(width_) + std::size_t(u)]);
   };
   const int twice = 2 * at(x, y);
   return std::max(std::abs(twice - at(x - kReach, y) - at(x + kReach, y)),
@@ -55,18 +54,14 @@ int FocusPeaking::response(int x, int y) const {
 
 void FocusPeaking::look_at_blocks() {
   across_ = width_ / kBlock, down_ = height_ / kBlock;
-  blocks_.assign(static_cast<std::size_t>(across_) * static_cast<std::size_t>(down_),
-                 Block{kUnit * 255.0F, 0, 0});
+  blocks_.assign(std::size_t(across_) * std::size_t(down_), Block{kUnit * 255.0F, 0, 0});
   for (int y = kReach + 1; y < std::min(height_ - kReach - 1, down_ * kBlock); ++y)
     for (int x = kReach + 1; x < std::min(width_ - kReach - 1, across_ * kBlock); ++x) {
-      Block& block = blocks_[static_cast<std::size_t>(y / kBlock) * static_cast<std::size_t>(across_) +
-                             static_cast<std::size_t>(x / kBlock)];
-      const auto here =
-          static_cast<float>(smoothed_[static_cast<std::size_t>(y) * static_cast<std::size_t>(width_) +
-                                       static_cast<std::size_t>(x)]);
+      Block& block = blocks_[std::size_t(y / kBlock) * std::size_t(across_) + std::size_t(x / kBlock)];
+      const auto here = float(smoothed_[std::size_t(y) * std::size_t(width_) + std::size_t(x)]);
       block.least = std::min(block.least, here);
       block.most = std::max(block.most, here);
-      block.response += static_cast<float>(response(x, y)) / (kBlock * kBlock);
+      block.response += float(response(x, y)) / (kBlock * kBlock);
     }
 }
 
@@ -77,15 +72,13 @@ void FocusPeaking::tell_noise() {
     sorted_.clear();
     for (int y = 1; y + 1 < down_; ++y)
       for (int x = 1; x + 1 < across_; ++x) {
-        const Block& block = blocks_[static_cast<std::size_t>(y) * static_cast<std::size_t>(across_) +
-                                     static_cast<std::size_t>(x)];
+        const Block& block = blocks_[std::size_t(y) * std::size_t(across_) + std::size_t(x)];
         const float middle = (block.least + block.most) / 2 / (kUnit * 256);
-        if (static_cast<std::size_t>(middle * kLevels) == i) sorted_.push_back(block.response);
+        if (std::size_t(middle * kLevels) == i) sorted_.push_back(block.response);
       }
     noise_[i] = brighter;
     if (sorted_.size() < kFewBlocks) continue;
-    const auto plain =
-        sorted_.begin() + static_cast<std::ptrdiff_t>(kPlainShare * static_cast<double>(sorted_.size()));
+    const auto plain = sorted_.begin() + std::ptrdiff_t(kPlainShare * double(sorted_.size()));
     std::ranges::nth_element(sorted_, plain);
     noise_[i] = brighter = std::min(brighter, *plain);
   }
@@ -94,18 +87,17 @@ void FocusPeaking::tell_noise() {
 }
 
 bool FocusPeaking::in_focus(int x, int y) const {
-  const auto here = static_cast<float>(response(x, y));
+  const auto here = float(response(x, y));
   if (here < kLeast) return false;
   const int column = std::min(x / kBlock, across_ - 1), row = std::min(y / kBlock, down_ - 1);
   float least = kUnit * 255.0F, most = 0;
   for (int v = std::max(0, row - 1); v <= std::min(down_ - 1, row + 1); ++v)
     for (int u = std::max(0, column - 1); u <= std::min(across_ - 1, column + 1); ++u) {
-      const Block& block = blocks_[static_cast<std::size_t>(v) * static_cast<std::size_t>(across_) +
-                                   static_cast<std::size_t>(u)];
+      const Block& block = blocks_[std::size_t(v) * std::size_t(across_) + std::size_t(u)];
       least = std::min(least, block.least);
       most = std::max(most, block.most);
     }
-  const auto bright = static_cast<std::size_t>(std::max(0.0F, most) / (kUnit * 256) * kLevels);
+  const auto bright = std::size_t(std::max(0.0F, most) / (kUnit * 256) * kLevels);
   return here > kInFocus * (most - least) && here > kAboveNoise * noise_[std::min(bright, kLevels - 1)];
 }
 
@@ -127,9 +119,9 @@ double FocusPeaking::mark(const ImageView& picture, std::uint8_t* shown_rgb, int
           sharp = in_focus(u, v);
       if (!sharp) continue;
       ++marked;
-      std::ranges::copy(kColour, shown_rgb + 3 * (static_cast<std::ptrdiff_t>(y) * shown_width_px + x));
+      std::ranges::copy(kColour, shown_rgb + 3 * (std::ptrdiff_t(y) * shown_width_px + x));
     }
-  return static_cast<double>(marked) / (static_cast<double>(shown_width_px) * shown_height_px);
+  return double(marked) / (double(shown_width_px) * shown_height_px);
 }
 
 void FocusPeaking::wipe() {

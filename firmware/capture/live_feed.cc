@@ -13,18 +13,18 @@ namespace relievo::firmware {
 namespace {
 
 constexpr double kNearestDrawnMm = 350, kFarthestDrawnMm = 1000;
-constexpr auto kSide = static_cast<std::size_t>(budget::kLiveSidePx);
+constexpr auto kSide = std::size_t(budget::kLiveSidePx);
 constexpr std::size_t kRoom = kSide * kSide * 3;
 
 // Means over step x step pixels.
 void shrink(const ImageView& from, int step, int width, int height, std::uint8_t* to) {
   const int bytes = bytes_per_pixel(from.format);
-  const unsigned count = static_cast<unsigned>(step) * static_cast<unsigned>(step);
+  const unsigned count = unsigned(step) * unsigned(step);
   for (int y = 0; y < height; ++y) {
     for (int x = 0; x < width; ++x, to += 3) {
       unsigned sum[3] = {0, 0, 0};
       for (int v = 0; v < step; ++v) {
-        const std::uint8_t* at = from.row(y * step + v) + static_cast<std::ptrdiff_t>(x) * step * bytes;
+        const std::uint8_t* at = from.row(y * step + v) + std::ptrdiff_t(x) * step * bytes;
         for (int u = 0; u < step; ++u, at += bytes) {
           // Of 16 bits the upper ones: the second byte.
           for (int c = 0; c < 3; ++c)
@@ -32,7 +32,7 @@ void shrink(const ImageView& from, int step, int width, int height, std::uint8_t
                 from.format == PixelFormat::Rgb8 ? at[c] : at[from.format == PixelFormat::Grey16 ? 1 : 0];
         }
       }
-      for (int c = 0; c < 3; ++c) to[c] = static_cast<std::uint8_t>(sum[c] / count);
+      for (int c = 0; c < 3; ++c) to[c] = std::uint8_t(sum[c] / count);
     }
   }
 }
@@ -51,7 +51,7 @@ ImageView LiveFeed::fill(const ImageView& picture) {
   const int longer = std::max(picture.width_px, picture.height_px);
   const int step = (longer + side_px_ - 1) / side_px_;
   const int width = picture.width_px / step, height = picture.height_px / step;
-  const auto bytes = static_cast<std::size_t>(width) * static_cast<std::size_t>(height) * 3;
+  const auto bytes = std::size_t(width) * std::size_t(height) * 3;
   if (slot.rgb.size() < bytes) slot.rgb.resize(bytes);
   shrink(picture, step, width, height, slot.rgb.data());
   slot.live.relief = {};

@@ -13,7 +13,7 @@
 #include <vector>
 
 #include "firmware/base/budget.h"
-#include "firmware/capture/guidance.h"
+#include "firmware/capture/live_judge.h"
 #include "hal/base/image_view.h"
 #include "pipeline/model/relief.h"
 

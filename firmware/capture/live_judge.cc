@@ -27,8 +27,7 @@ FaceBox box_at(const pipeline::CameraIntrinsics& camera, const pipeline::Vec3d& 
       pipeline::source_pixel(camera, {}, 1, {0, 0}, {tip_mm.x / tip_mm.z, (tip_mm.y - kUpMm) / tip_mm.z});
   const double a_mm = camera.focal_px.x / tip_mm.z, width = kFaceWidthMm * a_mm,
                height = kFaceHeightMm * a_mm;
-  return {static_cast<int>(std::lround(at.x - width / 2)), static_cast<int>(std::lround(at.y - height / 2)),
-          static_cast<int>(width), static_cast<int>(height)};
+  return {int(std::lround(at.x - width / 2)), int(std::lround(at.y - height / 2)), int(width), int(height)};
 }
 
 }  // namespace
@@ -46,7 +45,7 @@ FaceBoxes face_boxes(const pipeline::StereoCalibration& calibration,
 }
 
 int judged_reduction(int width_px) {
-  return std::max(1, static_cast<int>(std::lround(static_cast<double>(width_px) / kJudgedWidthPx)));
+  return std::max(1, int(std::lround(double(width_px) / kJudgedWidthPx)));
 }
 
 Result<LiveJudge> LiveJudge::open(const pipeline::StereoCalibration& calibration) {

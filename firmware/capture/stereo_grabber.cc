@@ -2,14 +2,39 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "firmware/capture/stereo_grabber.h"
 
+#include <string.h>
+
 #include <algorithm>
 #include <chrono>
 #include <string>
 #include <utility>
 
+#include "hal/raw/develop.h"
 #include "hal/raw/raw_image.h"
 
 namespace relievo::firmware {
+
+Result<ImageView> StereoSlot::keep(Plane& plane, const hal::RawImage& raw) {
+  // Before it is known whether all goes well: half a developed picture is to be wiped too.
+  if (hal::check_shape(raw)) {
+    const std::size_t pixels = std::size_t(raw.width_px) * std::size_t(raw.height_px);
+    plane.used = std::max(plane.used, std::min(3 * pixels, plane.room.size()));
+    scratch_used_ = std::max(
+        scratch_used_,
+        std::min(hal::develop_scratch_bytes(raw.format, raw.width_px, raw.height_px), scratch_.size()));
+  }
+  return hal::develop(raw, plane.room, scratch_);
+}
+
+void StereoSlot::wipe() {
+  for (Plane* plane : {&left_, &right_}) {
+    explicit_bzero(plane->room.data(), plane->used);
+    plane->used = 0;
+  }
+  explicit_bzero(scratch_.data(), scratch_used_);
+  scratch_used_ = 0;
+}
+
 namespace {
 
 using pipeline::RigCameras;
@@ -18,8 +43,8 @@ std::string words(std::string_view kind, std::string_view name) {
   const std::size_t room = pipeline::kMaxCameraWords - kind.size();
   if (name.size() > room) name.remove_prefix(name.size() - room);  // names of sockets differ in their ends
   std::string text(kind);
-  std::transform(name.begin(), name.end(), std::back_inserter(text),
-                 [](char c) { return c >= ' ' && c <= '~' ? c : '?'; });
+  std::ranges::transform(name, std::back_inserter(text),
+                         [](char c) { return c >= ' ' && c <= '~' ? c : '?'; });
   return text;
 }
 
@@ -138,9 +163,7 @@ Result<Frame> CameraLink::next(hal::Instant asked, hal::Instant deadline,
       return frame;
     }
     switch (judge(*frame, asked)) {
-      case Verdict::Take:
-        ++counts_.frames;
-        return frame;
+      case Verdict::Take: ++counts_.frames; return frame;
       case Verdict::Refuse:
         return Error{Errc::IoFailed, "the camera's picture came damaged: check its cable"};
       case Verdict::Skip:

@@ -11,7 +11,7 @@ namespace {
 constexpr int kGap = 8, kScaleHeight = 14, kDot = 2;
 
 std::size_t offset(int width, int x, int y) {
-  return 3 * (static_cast<std::size_t>(y) * static_cast<std::size_t>(width) + static_cast<std::size_t>(x));
+  return 3 * (std::size_t(y) * std::size_t(width) + std::size_t(x));
 }
 
 PixelBox cut(PixelBox box, int width, int height) {
@@ -27,7 +27,7 @@ PixelBox cut(PixelBox box, int width, int height) {
 std::array<std::uint8_t, 3> deviation_colour(double share) {
   const double s = std::clamp(share, -1.0, 1.0);
   const double fade = 1 - std::abs(s);
-  const auto level = [](double v) { return static_cast<std::uint8_t>(std::lround(255 * v)); };
+  const auto level = [](double v) { return std::uint8_t(std::lround(255 * v)); };
   // Half-way the colour itself still grows darker, so that the ends are told from three quarters.
   const double end = 1 - 0.25 * std::abs(s);
   return s < 0 ? std::array{level(fade * end), level(fade * end), level(end)}
@@ -44,8 +44,7 @@ DeviationPicture::DeviationPicture(std::span<const std::uint8_t> rgb, int width_
   for (int y = 0; y < h; ++y)
     for (int x = 0; x < w; ++x) {
       const std::uint8_t* from = &rgb[offset(width_px, box_.left + x, box_.top + y)];
-      const auto grey =
-          static_cast<std::uint8_t>((from[0] + from[1] + from[2]) / 6 + 30);  // paler: the colours lie on it
+      const auto grey = std::uint8_t((from[0] + from[1] + from[2]) / 6 + 30);  // paler: the colours lie on it
       for (std::size_t c = 0; c < 3; ++c) {
         picture_.bytes[offset(picture_.width_px, x, y) + c] = std::byte{from[c]};
         picture_.bytes[offset(picture_.width_px, w + kGap + x, y) + c] = std::byte{grey};
@@ -60,11 +59,10 @@ std::uint8_t* DeviationPicture::pixel(int x, int y) {
 
 void DeviationPicture::mark(double x_px, double y_px, double share) {
   const auto colour = deviation_colour(share);
-  const int x0 = static_cast<int>(std::lround(x_px)) - box_.left,
-            y0 = static_cast<int>(std::lround(y_px)) - box_.top;
+  const int x0 = int(std::lround(x_px)) - box_.left, y0 = int(std::lround(y_px)) - box_.top;
   for (int y = std::max(0, y0); y < std::min(y0 + kDot, box_.bottom - box_.top); ++y)
     for (int x = std::max(0, x0); x < std::min(x0 + kDot, box_.right - box_.left); ++x)
-      std::copy(colour.begin(), colour.end(), pixel(x, y));
+      std::ranges::copy(colour, pixel(x, y));
 }
 
 hal::Picture DeviationPicture::finish() {
@@ -72,7 +70,7 @@ hal::Picture DeviationPicture::finish() {
   for (int y = h + kGap; y < h + kGap + kScaleHeight; ++y)
     for (int x = 0; x < w; ++x) {
       const auto colour = deviation_colour(w > 1 ? 2.0 * x / (w - 1) - 1 : 0);
-      std::copy(colour.begin(), colour.end(), pixel(x, y));
+      std::ranges::copy(colour, pixel(x, y));
     }
   return std::move(picture_);
 }

@@ -3,7 +3,7 @@
 #include <nlohmann/json.hpp>
 
 #include "firmware/base/version.h"
-#include "firmware/checks/acceptance_report.h"
+#include "firmware/checks/optical_check.h"
 
 namespace relievo::firmware {
 namespace {

@@ -3,6 +3,7 @@
 #include "firmware/checks/optical_check.h"
 
 #include <cmath>
+#include <cstdio>
 
 #include "firmware/checks/deviation_picture.h"
 #include "firmware/checks/target_calibration.h"
@@ -147,11 +148,11 @@ Result<std::vector<Vec3d>> TargetMeter::surface_around(const Vec3d& centre_mm, d
   Room& room = *room_;
   pipeline::RectifiedPair& pair = *room.pair;
   const Circle circle = circle_around(centre_mm, reach_mm);
-  const auto width = static_cast<std::size_t>(pair.width_px);
-  pair.region.resize(width * static_cast<std::size_t>(pair.height_px));
+  const auto width = std::size_t(pair.width_px);
+  pair.region.resize(width * std::size_t(pair.height_px));
   for (int y = 0; y < pair.height_px; ++y)
     for (int x = 0; x < pair.width_px; ++x)
-      pair.region[static_cast<std::size_t>(y) * width + static_cast<std::size_t>(x)] =
+      pair.region[std::size_t(y) * width + std::size_t(x)] =
           std::hypot(x - circle.x_px, y - circle.y_px) < circle.radius_px ? 1 : 0;
   const Arena::Mark mark(room.output);  // the pair stays for the target's other parts
   RELIEVO_TRY_ASSIGN(const auto matches, room.pipeline.match(pair, room.context));
@@ -168,10 +169,9 @@ hal::Picture TargetMeter::picture_of(const Vec3d& centre_mm, double reach_mm,
                                      const std::vector<double>& deviations_mm, double range_mm) const {
   const pipeline::RectifiedPair& pair = *room_->pair;
   const Circle circle = circle_around(centre_mm, reach_mm);
-  DeviationPicture picture(
-      pair.left.rgb, pair.width_px, pair.height_px,
-      {static_cast<int>(circle.x_px - circle.radius_px), static_cast<int>(circle.y_px - circle.radius_px),
-       static_cast<int>(circle.x_px + circle.radius_px), static_cast<int>(circle.y_px + circle.radius_px)});
+  DeviationPicture picture(pair.left.rgb, pair.width_px, pair.height_px,
+                           {int(circle.x_px - circle.radius_px), int(circle.y_px - circle.radius_px),
+                            int(circle.x_px + circle.radius_px), int(circle.y_px + circle.radius_px)});
   for (std::size_t i = 0; i < points_mm.size(); ++i) {
     const Vec3d p = apply(pair.rectified_from_left, points_mm[i]);
     picture.mark(pair.focal_px * p.x / p.z + pair.left_centre_px.x,
@@ -299,8 +299,7 @@ Result<AcceptanceReport> measure_targets(const pipeline::StereoCalibration& cali
 }
 
 Result<void> OpticalCheckJob::run(JobControl& control) {
-  const auto shots = static_cast<float>(static_cast<std::size_t>(options_.boards) +
-                                        options_.dumbbells.size() + options_.plates.size());
+  const auto shots = float(std::size_t(options_.boards) + options_.dumbbells.size() + options_.plates.size());
   float done = 0;
   const auto each = [&] { control.progress.done.store(++done / shots); };
   RELIEVO_TRY_ASSIGN(calibration_, calibrate_on_boards(photograph_, series_of(options_), options_.boards,
@@ -310,6 +309,33 @@ Result<void> OpticalCheckJob::run(JobControl& control) {
       report_, measure_targets(calibration_.calibration, photograph_, options_, control.cancelled, each));
   if (control.cancelled.load()) return Error{Errc::Cancelled, "cancelled: nothing was written"};
   return {};
+}
+
+std::vector<std::string> acceptance_table(const AcceptanceReport& report, const OpticalCheckOptions& options,
+                                          const pipeline::CalibrationQuality& calibration) {
+  char text[200];
+  std::vector<std::string> lines;
+  std::snprintf(text, sizeof text, "calibrated on %d of %zu boards, pair rms %.3f px, baseline %.2f mm",
+                calibration.used, calibration.views.size(), calibration.pair_rms_px, calibration.baseline_mm);
+  lines.emplace_back(text);
+  lines.emplace_back("target         points    used    out  form/flat   size    rms (mm; out: discarded)");
+  for (const TargetReading& t : report.targets) {
+    char size[16] = "";
+    if (t.kind == TargetKind::Dumbbell) std::snprintf(size, sizeof size, "%+.3f", t.size_mm);
+    std::snprintf(text, sizeof text, "%-13s %7zu %7zu %6zu %8.3f %8s %8.3f", t.name.c_str(), t.measured,
+                  t.used, t.discarded, t.range_mm, size, t.rms_mm);
+    lines.emplace_back(text);
+  }
+  for (const SpacingReading& s : report.spacings) {
+    std::snprintf(text, sizeof text, "%-13s spacing %+.3f mm", s.name.c_str(), s.error_mm);
+    lines.emplace_back(text);
+  }
+  for (const AcceptanceLine& line : report.lines(limits_at(options.scale))) {
+    std::snprintf(text, sizeof text, "%-20s %+.3f mm, limit %.3f mm: %s (%s)", line.measure.c_str(),
+                  line.value_mm, line.limit_mm, line.held() ? "pass" : "FAIL", line.where.c_str());
+    lines.emplace_back(text);
+  }
+  return lines;
 }
 
 }  // namespace relievo::firmware

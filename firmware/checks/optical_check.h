@@ -161,4 +161,11 @@ class OpticalCheckJob final : public Job {
   AcceptanceReport report_;
 };
 
+// The optical self-test as report.json, and as lines for a terminal. The keys are part of the product.
+
+std::string acceptance_json(const AcceptanceReport& report, const OpticalCheckOptions& options,
+                            const pipeline::CalibrationQuality& calibration);
+std::vector<std::string> acceptance_table(const AcceptanceReport& report, const OpticalCheckOptions& options,
+                                          const pipeline::CalibrationQuality& calibration);
+
 }  // namespace relievo::firmware

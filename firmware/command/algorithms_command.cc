@@ -7,7 +7,9 @@
 #include <string_view>
 #include <vector>
 
+#include "firmware/base/output_folder.h"
 #include "firmware/command/commands.h"
+#include "firmware/jobs/job_thread.h"
 #include "pipeline/algorithms.h"
 
 namespace relievo::firmware {
@@ -49,8 +51,8 @@ bool say_algorithms(const Options& all, std::string_view name, Console& console)
 }
 
 bool say_kind(const Options& all, std::string_view key, Console& console) {
-  const auto kind = std::find_if(
-      all.begin(), all.end(), [key](const auto& option) { return !option.is_option() && option.key == key; });
+  const auto kind = std::ranges::find_if(
+      all, [key](const auto& option) { return !option.is_option() && option.key == key; });
   if (kind == all.end()) return false;
   console.say(kind->key + ": " + kind->sentence + "; default " + kind->value);
   for (const auto& algorithm : kind->algorithms)
@@ -81,6 +83,38 @@ Result<void> run(const AlgorithmsArgs& args, Services& services) {
   const bool options = say_options(all, args.name, services.console);
   if (kind || algorithm || options) return {};
   return Error{Errc::NotFound, "no such kind or algorithm: 'relievo algorithms' lists them"}.at(args.name);
+}
+
+namespace {
+
+class SimulateJob final : public Job {
+ public:
+  SimulateJob(const SimulateArgs& args, const Path& folder, const Services& services)
+      : args_(args), folder_(folder), services_(services) {}
+  Result<void> run(JobControl& control) override {
+    RELIEVO_TRY(services_.simulate(args_, folder_));
+    if (control.cancelled.load()) return Error{Errc::Cancelled, "cancelled: nothing was written"};
+    return {};
+  }
+
+ private:
+  const SimulateArgs& args_;
+  const Path& folder_;
+  const Services& services_;
+};
+
+}  // namespace
+
+Result<void> run(const SimulateArgs& args, Services& services) {
+  RELIEVO_TRY_ASSIGN(OutputFolder folder, OutputFolder::begin(args.output));
+  SimulateJob job(args, folder.path(), services);
+  if (const auto done = run_watched(job, services.console, [] { return "Simulate"; }); !done) {
+    if (!args.held.picture.empty() && done.error().where() == args.held.picture.native()) return done.error();
+    return done.error().at(args.output.string());  // not where the files lie for the moment
+  }
+  RELIEVO_TRY(folder.commit());
+  services.console.say("pictures: " + args.output.string());
+  return {};
 }
 
 }  // namespace relievo::firmware

@@ -2,22 +2,32 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 //
 // selftest, memory, version: what the appliance says about itself.
+#include <algorithm>
 #include <cstdio>
+#include <optional>
 #include <string>
+#include <type_traits>
 
 #include "firmware/arguments/algorithm_choice.h"
 #include "firmware/base/boot_memory.h"
+#include "firmware/base/interrupt.h"
+#include "firmware/base/output_folder.h"
+#include "firmware/base/settings.h"
 #include "firmware/base/version.h"
+#include "firmware/checks/optical_check.h"
 #include "firmware/command/commands.h"
+#include "firmware/jobs/job_thread.h"
+#include "firmware/records/event_log.h"
 #include "firmware/report/report.h"
+#include "firmware/service/access.h"
+#include "firmware/service/touch_trial.h"
 
 namespace relievo::firmware {
 namespace {
 
 std::string mib(std::size_t bytes) {
   char text[32];
-  std::snprintf(text, sizeof text, "%8.1f MiB",
-                static_cast<double>(bytes) / static_cast<double>(budget::kMiB));
+  std::snprintf(text, sizeof text, "%8.1f MiB", double(bytes) / double(budget::kMiB));
   return text;
 }
 
@@ -56,6 +66,106 @@ Result<void> run(const SelfTestArgs& args, Services& services) {
   (void)pipeline;
   services.console.say("algorithms   in order");
   return {};
+}
+
+// `relievo staff`: the way in of whoever administers the device, when the screen offers none. The store lets
+// nobody else in while a kiosk has it.
+namespace {
+
+// Both logs: the store's, which shows every edit, and the one the technician reads.
+Result<void> note(storage::Store& store, const Path& folder, const hal::Clock& clock, const char* event,
+                  const char* whose, ui::LogEvent line) {
+  RELIEVO_TRY(store.append_audit({event, {}, whose}));
+  EventLog log(clock, folder / kLogFile);
+  log.say(line);
+  return log.save();
+}
+
+}  // namespace
+
+Result<void> run(const StaffArgs& args, Services& services) {
+  const Path folder = store_folder(args.store);
+  RELIEVO_TRY_ASSIGN(const auto store, open_kept_store(folder, services));
+  if (args.verb == StaffArgs::Verb::PlainTouch) {
+    RELIEVO_TRY(store->set_setting(kTouchSetting, ui::text_of(ui::TouchMap{})));
+    RELIEVO_TRY(note(*store, folder, services.clock, "staff.plain_touch", "", ui::LogEvent::TouchPlain));
+    services.console.say("the touch screen is taken as it is");
+    return {};
+  }
+  const char* role = args.technician ? "technician" : "operator";
+  if (const auto forgot = Access(*store, services.clock)
+                              .forget(args.technician ? ui::StaffRole::Technician : ui::StaffRole::Operator);
+      !forgot)
+    return forgot.error().at(role);
+  RELIEVO_TRY(
+      note(*store, folder, services.clock, "staff.pin_forgotten", role,
+           args.technician ? ui::LogEvent::TechnicianPinForgotten : ui::LogEvent::OperatorPinForgotten));
+  services.console.say(
+      "the " + std::string(role) +
+      "'s PIN is forgotten: start the kiosk and choose a new one at its screen, before anybody else does");
+  return {};
+}
+
+namespace {
+
+std::string file_name(std::string name) {
+  std::ranges::replace(name, ' ', '_');
+  return name + ".png";
+}
+
+}  // namespace
+
+// The report and the pictures are written whatever the verdict: a failure wants to be looked at.
+Result<void> run_optical_selftest(const SelfTestArgs& args, Services& services) {
+  (void)interrupted();  // from here on Ctrl-C is ours: nothing half-written stays behind
+  std::optional<OutputFolder> folder;
+  OpticalCheckOptions options;
+  options.seed = args.seed;
+  options.scale = args.scale;
+  if (!args.output.empty()) {
+    RELIEVO_TRY_ASSIGN(OutputFolder made, OutputFolder::begin(args.output));
+    folder.emplace(std::move(made));
+    options.show = [&](const std::string& name, const hal::Picture& picture) -> Result<void> {
+      const auto written = hal::write_picture(folder->path() / file_name(name), picture.view());
+      if (!written) return written.error().at((args.output / file_name(name)).string());
+      return {};
+    };
+  }
+  services.console.say("photographing " + std::to_string(options.boards) + " boards, " +
+                       std::to_string(options.dumbbells.size()) + " dumbbells and " +
+                       std::to_string(options.plates.size()) + " plates: a minute or two");
+  OpticalCheckJob job(services.photograph, options);
+  RELIEVO_TRY(run_watched(job, services.console, [&job] { return job.stage(); }));
+  for (const std::string& line : acceptance_table(job.report(), options, job.calibration().quality))
+    services.console.say(line);
+  if (folder) {
+    RELIEVO_TRY(write_text(folder->path() / "report.json",
+                           acceptance_json(job.report(), options, job.calibration().quality), args.output));
+    RELIEVO_TRY(folder->commit());
+    services.console.say("report and pictures: " + args.output.string());
+  }
+  return job.report().verdict(limits_at(options.scale));
+}
+
+Result<std::unique_ptr<storage::Store>> open_kept_store(const Path& folder, Services& services) {
+  // To read needs the store: one that is named wrongly is not made. An older one can only be opened to write.
+  if (const auto there = services.open_store(folder, false); !there && there.error().code == Errc::NotFound)
+    return there.error();
+  return services.open_store(folder, true);
+}
+
+int run_command(const CommandLine& line, Services& services) {
+  return std::visit(
+      [&](const auto& args) {
+        if constexpr (std::is_same_v<std::decay_t<decltype(args)>, NothingArgs>) {
+          return line.exit_code;
+        } else {
+          const Result<void> done = run(args, services);
+          if (!done) services.console.fail(done.error());
+          return done ? 0 : 1;
+        }
+      },
+      line.command);
 }
 
 }  // namespace relievo::firmware

@@ -37,7 +37,7 @@ class ConsoleLines final : public std::streambuf {
     if (interrupted().load()) throw Stopped();
     if (c == traits_type::eof()) return 0;
     if (c != '\n') {
-      line_.push_back(static_cast<char>(c));
+      line_.push_back(char(c));
       return c;
     }
     console_.say(line_);

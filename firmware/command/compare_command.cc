@@ -15,9 +15,9 @@
 #include "firmware/compare/page/dissertation.h"
 #include "firmware/compare/set_run.h"
 #include "firmware/compare/suites.h"
-#include "firmware/jobs/watched_job.h"
+#include "firmware/jobs/job_thread.h"
 #include "firmware/measure/disparity_map.h"
-#include "hal/whole_file.h"
+#include "hal/base/whole_file.h"
 #include "storage/export/model_files.h"
 
 namespace relievo::firmware {
@@ -79,7 +79,7 @@ std::string map_name(const Comparison& c, const Run& run) {
 Result<void> write_maps(const Comparison& c, const OutputFolder& folder, const Path& place) {
   for (const Run& run : c.runs) {
     if (run.map.values.empty()) continue;
-    const auto written = hal::write_whole_file(folder.path() / map_name(c, run), compare::pfm_of(run.map));
+    const auto written = write_whole_file(folder.path() / map_name(c, run), compare::pfm_of(run.map));
     if (!written) return written.error().at(place.string());
   }
   return {};

@@ -84,8 +84,7 @@ Result<void> drive(Appliance& appliance, Console& console) {
         if (appliance.problem()) return *appliance.problem();  // it could not be stored
         appliance.ask(ui::Intent::Accept);
         break;
-      case State::Fault:
-        return *appliance.problem();
+      case State::Fault: return *appliance.problem();
       case State::SelfTest:
       case State::Capture:
       case State::Match:
@@ -93,17 +92,14 @@ Result<void> drive(Appliance& appliance, Console& console) {
       case State::Mesh:
       case State::Texture:
       case State::Assemble:
-      case State::Store:
-        console.progress(name_of(appliance.state()), appliance.progress());
-        break;
+      case State::Store: console.progress(name_of(appliance.state()), appliance.progress()); break;
       case State::Position:  // and the two after it are for a person at a screen
       case State::Turn:
       case State::Fuse:
       case State::Calibrate:
       case State::Export:
       case State::Staff:
-      case State::Count:
-        break;
+      case State::Count: break;
     }
   }
 }
@@ -178,7 +174,7 @@ Result<void> run(const EnrolArgs& args, Services& services) {
   const Result<void> logged = log_drift(appliance, calibrated, *store);
   if (!done) return done.error().where().empty() ? done.error().at(args.device) : done.error();
   services.console.say("stored: " + args.subject + ", enrolment " +
-                       std::to_string(static_cast<std::int64_t>(appliance.kept().enrolment)));
+                       std::to_string(std::int64_t(appliance.kept().enrolment)));
   return logged;
 }
 

@@ -31,8 +31,7 @@ Result<void> keep_picture(ui::Renderer& renderer, const ui::Display& display, co
   hal::Picture picture;
   picture.width_px = display.width_px();
   picture.height_px = display.height_px();
-  picture.bytes.resize(std::size_t{3} * static_cast<std::size_t>(picture.width_px) *
-                       static_cast<std::size_t>(picture.height_px));
+  picture.bytes.resize(std::size_t{3} * std::size_t(picture.width_px) * std::size_t(picture.height_px));
   renderer.read_back({reinterpret_cast<std::uint8_t*>(picture.bytes.data()), picture.bytes.size()},
                      picture.width_px, picture.height_px);
   return hal::write_picture(file, picture.view());

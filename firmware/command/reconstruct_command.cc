@@ -7,7 +7,6 @@
 #include "firmware/base/output_folder.h"
 #include "firmware/base/version.h"
 #include "firmware/command/commands.h"
-#include "firmware/reconstruct/head_reconstruction.h"
 #include "firmware/reconstruct/reconstruction.h"
 #include "firmware/service/further_models.h"
 #include "hal/base/words.h"
@@ -79,10 +78,10 @@ Result<void> run(const ReconstructArgs& args, Services& services) {
   const auto save = [&] { return args.save.empty() ? Result<void>() : reconstruction.save(args.save); };
   RELIEVO_TRY_ASSIGN(const std::vector<std::string> further, write_results(args, reconstruction, save));
 
-  int number = static_cast<int>(State::Match);
+  int number = int(State::Match);
   for (const StageRecord& stage : reconstruction.report().stages)
     services.console.say(line_of(stage) +
-                         (number++ < static_cast<int>(reconstruction.begun_with()) ? "  (as saved)" : ""));
+                         (number++ < int(reconstruction.begun_with()) ? "  (as saved)" : ""));
   if (const std::size_t count = reconstruction.report().by_hand; count > 0)
     services.console.say(std::to_string(count) + " of the matches made by hand");
   services.console.say(line_of(*reconstruction.report().drift));

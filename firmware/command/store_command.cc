@@ -23,7 +23,7 @@ Result<void> check(const StoreArgs& args, const Path& folder, Services& services
   if (args.file.empty()) return {};
   RELIEVO_TRY_ASSIGN(const auto erased, services.keep_store(folder)->erased_since(args.file));
   for (const storage::SubjectId id : erased)
-    services.console.say("subject " + std::to_string(static_cast<std::int64_t>(id)) +
+    services.console.say("subject " + std::to_string(std::int64_t(id)) +
                          " has been erased since this copy was made: make a new copy and destroy it");
   if (erased.empty()) services.console.say("nobody in this copy has been erased since");
   return {};
@@ -58,7 +58,7 @@ Result<void> recover(storage::StoreKeeping& keeping, Services& services) {
   RELIEVO_TRY_ASSIGN(const auto erased, keeping.recover(words));
   services.console.say("the store has a new key and opens again");
   for (const storage::SubjectId id : erased)
-    services.console.say("subject " + std::to_string(static_cast<std::int64_t>(id)) +
+    services.console.say("subject " + std::to_string(std::int64_t(id)) +
                          " was erased after this copy was made, and is erased again");
   return {};
 }
@@ -69,8 +69,7 @@ Result<void> run(const StoreArgs& args, Services& services) {
   const Path folder = store_folder(args.store);
   const auto keeping = services.keep_store(folder);
   switch (args.verb) {
-    case StoreArgs::Verb::Check:
-      return check(args, folder, services);
+    case StoreArgs::Verb::Check: return check(args, folder, services);
     case StoreArgs::Verb::Backup:
       RELIEVO_TRY(keeping->backup(args.file));
       services.console.say("copied to " + args.file.string() +
@@ -84,8 +83,7 @@ Result<void> run(const StoreArgs& args, Services& services) {
       RELIEVO_TRY_ASSIGN(const auto store, open_kept_store(folder, services));
       return make_words(*store, services);
     }
-    case StoreArgs::Verb::Recover:
-      break;
+    case StoreArgs::Verb::Recover: break;
   }
   return recover(*keeping, services);
 }

@@ -16,7 +16,7 @@
 #include "firmware/command/subject_lookup.h"
 #include "firmware/records/bundle_manifest.h"
 #include "firmware/service/further_models.h"
-#include "hal/whole_file.h"
+#include "hal/base/whole_file.h"
 #include "pipeline/recognition/recognition_images.h"
 #include "storage/cipher/age.h"
 #include "storage/export/model_files.h"
@@ -24,7 +24,7 @@
 namespace relievo::firmware {
 namespace {
 
-std::string number_of(storage::SubjectId id) { return "#" + std::to_string(static_cast<std::int64_t>(id)); }
+std::string number_of(storage::SubjectId id) { return "#" + std::to_string(std::int64_t(id)); }
 
 void say_subject(const storage::Subject& subject, Console& console) {
   console.say(number_of(subject.id) + "  " + text_of(subject.created_at) + "  " +
@@ -37,7 +37,7 @@ Result<void> list(storage::Store& store, Console& console) {
   for (std::int64_t skip = 0;; skip += kPage) {
     RELIEVO_TRY_ASSIGN(const auto page, store.subjects({"", false, skip, kPage}));
     for (const storage::Subject& subject : page) say_subject(subject, console);
-    if (static_cast<std::int64_t>(page.size()) < kPage) {
+    if (std::int64_t(page.size()) < kPage) {
       if (skip == 0 && page.empty()) console.say("nobody is in the store");
       return {};
     }
@@ -48,9 +48,8 @@ Result<void> show(storage::Store& store, const storage::Subject& subject, Consol
   say_subject(subject, console);
   RELIEVO_TRY_ASSIGN(const auto enrolments, store.enrolments(subject.id));
   for (const storage::Enrolment& one : enrolments) {
-    console.say("  enrolment " + std::to_string(static_cast<std::int64_t>(one.id)) + "  " +
-                text_of(one.created_at) + "  model " + std::to_string(one.model_bytes / 1024) +
-                " KiB  calibration " +
+    console.say("  enrolment " + std::to_string(std::int64_t(one.id)) + "  " + text_of(one.created_at) +
+                "  model " + std::to_string(one.model_bytes / 1024) + " KiB  calibration " +
                 (one.calibration_revision == 0 ? std::string("from a file")
                                                : std::to_string(one.calibration_revision)) +
                 "  consent " + one.consent.wording + " (" + one.consent.language + ", " +
@@ -63,7 +62,7 @@ Result<void> show(storage::Store& store, const storage::Subject& subject, Consol
 Result<std::optional<std::string>> passphrase_in(const Path& file) {
   constexpr std::size_t kMostBytes = 4096;
   if (file.empty()) return std::optional<std::string>();
-  RELIEVO_TRY_ASSIGN(const auto bytes, hal::read_whole_file(file, kMostBytes));
+  RELIEVO_TRY_ASSIGN(const auto bytes, read_whole_file(file, kMostBytes));
   std::string text(reinterpret_cast<const char*>(bytes.data()), bytes.size());
   while (text.ends_with('\n') || text.ends_with('\r')) text.pop_back();
   if (text.empty()) return Error{Errc::InvalidInput, "holds no passphrase"}.at(file.string());
@@ -81,7 +80,7 @@ Result<void> write_sealed(const SubjectsArgs& args, std::vector<storage::BundleF
   }
   RELIEVO_TRY_ASSIGN(const auto bundle, storage::bundle_bytes(files));
   RELIEVO_TRY_ASSIGN(const auto sealed, storage::age_seal(to, bundle));
-  return hal::write_whole_file(args.output, sealed);
+  return write_whole_file(args.output, sealed);
 }
 
 Result<void> export_newest(storage::Store& store, const storage::Subject& subject, const SubjectsArgs& args,
@@ -92,8 +91,8 @@ Result<void> export_newest(storage::Store& store, const storage::Subject& subjec
   const storage::Enrolment& newest = enrolments.back();
   const CopyOf copy{subject, newest,
                     std::chrono::time_point_cast<std::chrono::milliseconds>(services.clock.wall_now())};
-  const std::string done = "enrolment " + std::to_string(static_cast<std::int64_t>(newest.id)) + " of " +
-                           subject.name + ": " + args.output.string();
+  const std::string done = "enrolment " + std::to_string(std::int64_t(newest.id)) + " of " + subject.name +
+                           ": " + args.output.string();
   std::pmr::monotonic_buffer_resource memory;
   RELIEVO_TRY_ASSIGN(const pipeline::FaceModel model, store.load_model(newest.id, &memory));
   const auto images = pipeline::make_recognition_images(model, memory, memory);
@@ -133,7 +132,7 @@ Result<std::vector<storage::BundleFile>> read_copy(const SubjectsArgs& args) {
   constexpr std::string_view kAge = "age-encryption.org/";
   std::error_code error;
   if (std::filesystem::is_directory(args.copy, error)) return read_bundle_folder(args.copy);
-  RELIEVO_TRY_ASSIGN(auto bytes, hal::read_whole_file(args.copy, kMostBytes));
+  RELIEVO_TRY_ASSIGN(auto bytes, read_whole_file(args.copy, kMostBytes));
   if (std::string_view(reinterpret_cast<const char*>(bytes.data()), bytes.size()).starts_with(kAge)) {
     RELIEVO_TRY_ASSIGN(const auto passphrase, passphrase_in(args.passphrase));
     if (!passphrase && args.identity.empty())
@@ -141,7 +140,7 @@ Result<std::vector<storage::BundleFile>> read_copy(const SubjectsArgs& args) {
     if (passphrase) {
       RELIEVO_TRY_ASSIGN(bytes, storage::age_open(storage::Passphrase{*passphrase}, bytes));
     } else {
-      RELIEVO_TRY_ASSIGN(const auto text, hal::read_whole_file(args.identity, kMostKeyBytes));
+      RELIEVO_TRY_ASSIGN(const auto text, read_whole_file(args.identity, kMostKeyBytes));
       RELIEVO_TRY_ASSIGN(const auto key,
                          storage::age_identity({reinterpret_cast<const char*>(text.data()), text.size()}));
       RELIEVO_TRY_ASSIGN(bytes, storage::age_open(&key, bytes));
@@ -201,17 +200,14 @@ Result<void> run(const SubjectsArgs& args, Services& services) {
   if (args.verb == Verb::List) return list(*store, services.console);
   RELIEVO_TRY_ASSIGN(const storage::Subject subject, find_subject(*store, args.subject));
   switch (args.verb) {
-    case Verb::Show:
-      return show(*store, subject, services.console);
-    case Verb::Export:
-      return export_newest(*store, subject, args, services);
+    case Verb::Show: return show(*store, subject, services.console);
+    case Verb::Export: return export_newest(*store, subject, args, services);
     case Verb::Erase:
       RELIEVO_TRY(store->erase_subject(subject.id));
       services.console.say("erased: " + number_of(subject.id));
       return {};
     case Verb::List:
-    case Verb::Import:
-      break;
+    case Verb::Import: break;
   }
   return {};
 }

@@ -91,9 +91,7 @@ pipeline::Match match_of(const pipeline::RectifiedPair& pair, const pipeline::St
   };
   const Vec2d l = rectified(pair.rectified_from_left, ray(c.left, left), pair.left_centre_px);
   const Vec2d r = rectified(pair.rectified_from_right, ray(c.right, right), pair.right_centre_px);
-  return {.left_px = {static_cast<float>(l.x), static_cast<float>(l.y)},
-          .disparity_px = static_cast<float>(l.x - r.x),
-          .sigma_px = 0.5F};
+  return {.left_px = {float(l.x), float(l.y)}, .disparity_px = float(l.x - r.x), .sigma_px = 0.5F};
 }
 
 // The cloud holds every hand's corners, one hand after the other; the table is the first hand's.
@@ -110,7 +108,7 @@ CubeTable table_of(const std::vector<Vec3d>& truth, const pipeline::PointCloud& 
     table.worst_units = std::max(table.worst_units, corner.off_units);
     table.corners.push_back(corner);
   }
-  table.rms_units = std::sqrt(squares / static_cast<double>(cloud.points.size()));
+  table.rms_units = std::sqrt(squares / double(cloud.points.size()));
   for (std::size_t i = 0; i < truth.size(); ++i)
     for (const std::size_t bit : {1U, 2U, 4U})
       if ((i & bit) == 0)
@@ -166,8 +164,8 @@ RigTable rig_table(const VirtualRig& rig) {
 }
 
 Result<CubeTable> cube_table(const VirtualRig& rig, pipeline::StageContext& context) {
-  const std::vector<std::byte> blank(static_cast<std::size_t>(rig.found.left.width_px) *
-                                     static_cast<std::size_t>(rig.found.left.height_px));
+  const std::vector<std::byte> blank(std::size_t(rig.found.left.width_px) *
+                                     std::size_t(rig.found.left.height_px));
   const ImageView view{blank.data(), rig.found.left.width_px, rig.found.left.height_px,
                        rig.found.left.width_px, PixelFormat::Grey8};
   RELIEVO_TRY_ASSIGN(
@@ -196,14 +194,10 @@ Result<CubeTable> cube_table(const VirtualRig& rig, pipeline::StageContext& cont
 
 std::string_view DissertationJob::now() const {
   switch (at_.load(std::memory_order_relaxed)) {
-    case At::Tables:
-      return "tables 1 and 2";
-    case At::Person:
-      return "simulated person";
-    case At::Rules:
-      return "figures 6 to 12";
-    case At::Face:
-      break;
+    case At::Tables: return "tables 1 and 2";
+    case At::Person: return "simulated person";
+    case At::Rules: return "figures 6 to 12";
+    case At::Face: break;
   }
   return "figure 17";
 }

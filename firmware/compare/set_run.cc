@@ -14,10 +14,9 @@
 #include "firmware/base/boot_memory.h"
 #include "firmware/jobs/job_thread.h"
 #include "firmware/measure/comparison.h"
-#include "firmware/measure/rule_figures.h"
 #include "firmware/measure/selector_figures.h"
 #include "firmware/measure/self_agreement.h"
-#include "firmware/measure/true_surface.h"
+#include "firmware/measure/truth_view.h"
 #include "firmware/work/stage_drawing.h"
 #include "hal/base/result.h"
 #include "hal/picture_file.h"
@@ -40,8 +39,7 @@ std::string name_of(const Path& left, const std::vector<ComparedPair>& others) {
   const std::string name = (left.stem() == "left" && !folder.empty() ? folder : left.stem()).string();
   std::string free = name;
   const auto taken = [&](const ComparedPair& pair) { return pair.name == free; };
-  for (int i = 2; std::any_of(others.begin(), others.end(), taken); ++i)
-    free = name + " " + std::to_string(i);
+  for (int i = 2; std::ranges::any_of(others, taken); ++i) free = name + " " + std::to_string(i);
   return free;
 }
 
@@ -120,8 +118,7 @@ Result<std::vector<std::byte>> head_picture(const pipeline::FaceModel& model, do
 Result<SurfaceLook> surface_look(const pipeline::FaceModel& model) {
   SurfaceLook look;
   look.vertices = model.mesh.vertices_mm.size();
-  look.measured =
-      static_cast<std::size_t>(std::count(model.mesh.measured.begin(), model.mesh.measured.end(), 1));
+  look.measured = std::size_t(std::ranges::count(model.mesh.measured, 1));
   look.triangles = model.mesh.triangles.size();
   RELIEVO_TRY_ASSIGN(look.front, head_picture(model, 0));
   RELIEVO_TRY_ASSIGN(look.side, head_picture(model, kTurnedDeg));
@@ -213,7 +210,7 @@ Result<void> match(const NamedSet& set, StepRunner& runner, Made& made) {
     std::uint16_t bit = 1;
     for (const auto& constraint : constraints) {
       constraint(pair, made.matches->matches, made.matches->lattice_step_px, bit, c);
-      bit = static_cast<std::uint16_t>(bit << 1U);
+      bit = std::uint16_t(bit << 1U);
     }
     return {};
   });
@@ -248,8 +245,8 @@ void note_facts(const RunOrder& order, const pipeline::RectifiedPair& pair, Pair
   facts.most_px = pair.disparity_px(pair.near_mm);
   facts.rectified = !order.pair.calibration;
   facts.grey.resize(pair.left.grey.size());
-  std::transform(pair.left.grey.begin(), pair.left.grey.end(), facts.grey.begin(),
-                 [](float g) { return static_cast<std::uint8_t>(std::clamp(std::lround(g), 0L, 255L)); });
+  std::ranges::transform(pair.left.grey, facts.grey.begin(),
+                         [](float g) { return std::uint8_t(std::clamp(std::lround(g), 0L, 255L)); });
   if (order.pair.disparities) facts.truth = order.pair.disparities;
   else if (order.pair.view) facts.truth = truth_of_view(*order.pair.view, pair);
 }

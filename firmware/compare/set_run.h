@@ -13,7 +13,7 @@
 #include "firmware/arguments/command_line.h"
 #include "firmware/jobs/job_thread.h"
 #include "firmware/measure/comparison.h"
-#include "firmware/measure/disparity_truth.h"
+#include "firmware/measure/disparity_map.h"
 #include "firmware/measure/triangle_grid.h"
 #include "firmware/reconstruct/picture_pair.h"
 #include "hal/base/thread_pool.h"

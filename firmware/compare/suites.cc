@@ -96,7 +96,7 @@ Result<std::vector<NamedSet>> make_sets(const AlgorithmArgs& algorithms, const s
   std::vector<NamedSet> sets;
   for (const SetWords& words : all) {
     const auto same = [&words](const NamedSet& set) { return set.name == words.name; };
-    if (std::any_of(sets.begin(), sets.end(), same))
+    if (std::ranges::any_of(sets, same))
       return Error{Errc::InvalidInput, "is the name of two sets: give each its own"}.at(words.name);
     RELIEVO_TRY_ASSIGN(NamedSet set, named_set(base, words));
     sets.push_back(std::move(set));

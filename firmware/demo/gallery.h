@@ -6,9 +6,11 @@
 // Thread: main. Errors: none.
 #pragma once
 
+#include <deque>
 #include <string_view>
 #include <vector>
 
+#include "ui/technician/technician_view.h"
 #include "ui/ui.h"
 
 namespace relievo::firmware {
@@ -29,5 +31,31 @@ std::vector<Exhibit> gallery(const ui::ViewState& review, ui::Language language,
 void add_staff_exhibits(std::vector<Exhibit>& exhibits, const ui::ViewState& idle, const ui::Visit& visit);
 void add_technician_exhibits(std::vector<Exhibit>& exhibits, const ui::ViewState& review,
                              const ui::ViewState& idle, const ui::Visit& visit);
+
+// What the technician's pages are shown in the gallery, for its files. Thread: main. Errors: none.
+struct Lent {
+  std::string_view name;
+  ui::StaffPage page;
+  ui::TechnicianView view;
+  ui::ServiceView staff;
+  ui::Fault note;  // said against the calibration
+  bool edges = false;
+  int mode = 0;
+  bool measures = false;
+};
+
+// All that is lent to the pages, for as long as they are looked at.
+struct Lender {
+  std::deque<Lent> lent;
+  void add(std::string_view name, ui::StaffPage page, const ui::TechnicianView& view) {
+    lent.push_back({name, page, view, {}, {}, false, 0, false});
+  }
+};
+
+// The pictures of that stage, as far as the visitor's review has them.
+void lend(const ui::ViewState& review, ui::TechnicianStage stage, ui::TechnicianView& view);
+
+// Results beside each other, beginning with that of `view`.
+void add_comparisons(Lender& all, const ui::ViewState& review, ui::TechnicianView view);
 
 }  // namespace relievo::firmware

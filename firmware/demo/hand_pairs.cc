@@ -28,7 +28,7 @@ class HandBeforeRig final : public LivePairs {
     if (count_ == kMostHandPairs) return std::optional<LivePair>();
     const HeldPose before = hand_.pose();
     const HeldPose now = hand_.follow(state.advice, state.how_far);
-    held_ = board_(now, onward(before, now), static_cast<std::uint64_t>(++count_));
+    held_ = board_(now, onward(before, now), std::uint64_t(++count_));
     return std::optional<LivePair>({held_.left.view(), held_.right.view(), count_ * kPeriod});
   }
 
@@ -52,8 +52,8 @@ class HandBeforeRig final : public LivePairs {
 
 // Box and Muller's, since the library's differs between machines.
 double AdvisedHand::normal(double sigma) {
-  const double u = (static_cast<double>(random_()) + 1) / 4294967297.0;
-  const double v = static_cast<double>(random_()) / 4294967296.0;
+  const double u = (double(random_()) + 1) / 4294967297.0;
+  const double v = double(random_()) / 4294967296.0;
   return sigma * std::sqrt(-2 * std::log(u)) * std::cos(6.283185307179586 * v);
 }
 
@@ -110,7 +110,7 @@ void AdvisedHand::obey(pipeline::LiveAdvice told, double mm, double deg) {
 }
 
 HeldPose AdvisedHand::follow(pipeline::LiveAdvice advice, double how_far) {
-  const bool dreams = static_cast<double>(random_()) / 4294967296.0 < options_.dreams;
+  const bool dreams = double(random_()) / 4294967296.0 < options_.dreams;
   const auto told = std::exchange(heard_, advice);
   const double share = std::min(1.0, kCaution * std::exchange(heard_far_, how_far));
   if (!dreams) obey(told, share * options_.step_mm, share * options_.step_deg);

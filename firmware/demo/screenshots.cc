@@ -17,8 +17,8 @@
 #include "firmware/demo/gallery.h"
 #include "firmware/kiosk/invitation_head.h"
 #include "hal/base/result.h"
+#include "hal/base/whole_file.h"
 #include "hal/picture_file.h"
-#include "hal/whole_file.h"
 #include "pipeline/mesh/detail/level_of_detail.h"
 #include "pipeline/model/face_model.h"
 #include "storage/model_blob.h"
@@ -46,10 +46,9 @@ hal::Picture smaller(const pipeline::TextureAtlas& atlas) {
       for (int c = 0; c < 3; ++c) {
         int sum = 0;
         for (int k = 0; k < step * step; ++k)
-          sum += atlas.rgb[3 * (static_cast<std::size_t>(y * step + k / step) *
-                                    static_cast<std::size_t>(atlas.width_px) +
-                                static_cast<std::size_t>(x * step + k % step)) +
-                           static_cast<std::size_t>(c)];
+          sum += atlas.rgb[3 * (std::size_t(y * step + k / step) * std::size_t(atlas.width_px) +
+                                std::size_t(x * step + k % step)) +
+                           std::size_t(c)];
         picture.bytes.push_back(static_cast<std::byte>(sum / (step * step)));
       }
     }
@@ -133,8 +132,7 @@ Result<void> reach_review(Kiosk& kiosk, hal::Picture& live, ui::ViewState& view,
     if (step == ui::Step::Consent) tap(kiosk, "agree");
     const ImageView& picture = kiosk.view().live.picture;
     if (step == ui::Step::Position && !picture.empty()) {
-      const auto bytes =
-          static_cast<std::size_t>(picture.stride_bytes) * static_cast<std::size_t>(picture.height_px);
+      const auto bytes = std::size_t(picture.stride_bytes) * std::size_t(picture.height_px);
       live.bytes.assign(picture.bytes, picture.bytes + bytes);
       live.width_px = picture.width_px;
       live.height_px = picture.height_px;
@@ -161,8 +159,8 @@ class Sheet {
  public:
   // More pages, more of them beside each other, and smaller where the sheet would be too large a picture.
   Sheet(std::size_t count, Size size)
-      : across_(std::max(kThumbAcross, (static_cast<int>(count) + kMostRows - 1) / kMostRows)) {
-    const int rows = (static_cast<int>(count) + across_ - 1) / across_;
+      : across_(std::max(kThumbAcross, (int(count) + kMostRows - 1) / kMostRows)) {
+    const int rows = (int(count) + across_ - 1) / across_;
     for (thumb_w_ = kThumbWidthPx;; thumb_w_ -= 8) {
       thumb_h_ = thumb_w_ * size.height_px / size.width_px;
       sheet_.width_px = across_ * (thumb_w_ + 8);
@@ -171,8 +169,7 @@ class Sheet {
           static_cast<long>(sheet_.width_px) * sheet_.height_px <= hal::kMaxPictureAreaPx)
         break;
     }
-    sheet_.bytes.assign(std::size_t{3} * static_cast<std::size_t>(sheet_.width_px) *
-                            static_cast<std::size_t>(sheet_.height_px),
+    sheet_.bytes.assign(std::size_t{3} * std::size_t(sheet_.width_px) * std::size_t(sheet_.height_px),
                         std::byte{90});
   }
   void add(const hal::Picture& picture) {
@@ -195,8 +192,7 @@ class Sheet {
         for (int c = 0; c < 3; ++c) sum[c] += from.view().row(v)[3 * u + c];
       }
     }
-    const std::size_t at = 3 * (static_cast<std::size_t>(to_y) * static_cast<std::size_t>(sheet_.width_px) +
-                                static_cast<std::size_t>(to_x));
+    const std::size_t at = 3 * (std::size_t(to_y) * std::size_t(sheet_.width_px) + std::size_t(to_x));
     for (std::size_t c = 0; c < 3; ++c)
       sheet_.bytes[at + c] = static_cast<std::byte>(sum[c] / ((u1 - u0) * (v1 - v0)));
   }
@@ -217,7 +213,7 @@ Only only_of(const std::string& text) {
 
 std::string file_of(int number, std::string_view name) {
   char page[96];
-  std::snprintf(page, sizeof page, "%02d_%.*s", number, static_cast<int>(name.size()), name.data());
+  std::snprintf(page, sizeof page, "%02d_%.*s", number, int(name.size()), name.data());
   return page;
 }
 
@@ -254,12 +250,11 @@ class Photographer {
       return {};
     }
     took_any_ = true;
-    Sheet sheet(static_cast<std::size_t>(count), size);
+    Sheet sheet(std::size_t(count), size);
     hal::Picture picture;
     picture.width_px = size.width_px;
     picture.height_px = size.height_px;
-    picture.bytes.resize(std::size_t{3} * static_cast<std::size_t>(size.width_px) *
-                         static_cast<std::size_t>(size.height_px));
+    picture.bytes.resize(std::size_t{3} * std::size_t(size.width_px) * std::size_t(size.height_px));
     number = 0;
     for (const Exhibit& exhibit : exhibits) {
       const std::string page = file_of(++number, exhibit.name);
@@ -273,7 +268,7 @@ class Photographer {
       const Path file = folder_ / words / page;
       RELIEVO_TRY(hal::write_picture(Path(file) += ".png", picture.view()));
       const std::string nodes = ui_.tree().to_json();
-      RELIEVO_TRY(hal::write_whole_file(Path(file) += ".json", std::as_bytes(std::span(nodes))));
+      RELIEVO_TRY(write_whole_file(Path(file) += ".json", std::as_bytes(std::span(nodes))));
       sheet.add(picture);
     }
     const std::string name = std::string("sheet_") + words + ".png";

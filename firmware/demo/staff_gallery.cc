@@ -12,7 +12,6 @@
 #include "storage/cipher/recovery.h"
 #include "ui/device/settings.h"
 #include "ui/device/touch_map.h"
-#include "ui/view/records_view.h"
 #include "ui/view/staff_views.h"
 
 namespace relievo::firmware {
@@ -35,7 +34,7 @@ const ui::StatisticsView& statistics_seen() {
         kStored{19, 29, 32, 24, 38, 47, 0, 27, 30, 33, 27, 39, 26},
         kRefused{4, 3, 6, 5, 2, 9, 0, 4, 3, 5, 4, 7, 5};
     const auto last = [](const auto& from, auto& to) {
-      std::ranges::copy(from, to.end() - static_cast<std::ptrdiff_t>(from.size()));
+      std::ranges::copy(from, to.end() - std::ptrdiff_t(from.size()));
     };
     last(kVisits, seen.days.visits), last(kStored, seen.days.stored), last(kRefused, seen.days.refused);
     return seen;
@@ -47,11 +46,10 @@ constexpr auto kDays = [] {
   std::array<std::array<float, 144>, 2> days{};
   for (int i = 0; i < 144; ++i) {
     const int warm = i < 40 ? 0 : i < 90 ? i - 40 : 140 - i;
-    days[0][static_cast<std::size_t>(i)] =
-        i < 12 ? std::numeric_limits<float>::quiet_NaN()
-               : 42 + 0.5F * static_cast<float>(warm) + static_cast<float>(i * 7 % 5);
-    days[1][static_cast<std::size_t>(i)] =
-        i < 12 ? std::numeric_limits<float>::quiet_NaN() : 100000 + 63.0F * static_cast<float>(i - 12);
+    days[0][std::size_t(i)] =
+        i < 12 ? std::numeric_limits<float>::quiet_NaN() : 42 + 0.5F * float(warm) + float(i * 7 % 5);
+    days[1][std::size_t(i)] =
+        i < 12 ? std::numeric_limits<float>::quiet_NaN() : 100000 + 63.0F * float(i - 12);
   }
   return days;
 }();
@@ -120,7 +118,7 @@ const ui::ConsentTexts& own_text() {
     ui::ConsentTexts own;
     own.version = "2026-03";
     const auto say = [&](ui::Language language, const char* title) {
-      own.in[static_cast<std::size_t>(language)] = ui::ConsentText{title, {{"1", "2"}}};
+      own.in[std::size_t(language)] = ui::ConsentText{title, {{"1", "2"}}};
     };
     say(ui::Language::English, "What we do with your portrait");
     say(ui::Language::German,

@@ -5,7 +5,7 @@
 #include <utility>
 #include <vector>
 
-#include "firmware/demo/technician_exhibits.h"
+#include "firmware/demo/gallery.h"
 #include "firmware/technician/algorithm_controller.h"
 
 namespace relievo::firmware {
@@ -99,9 +99,9 @@ std::vector<ui::TechnicianPoint> by_hand() {
     ui::TechnicianPoint& p = pairs[i];
     p.by_hand = true;
     p.moved_mm = -1.84F;
-    p.left_x += 0.05F * static_cast<float>(i);
-    p.right_x += 0.05F * static_cast<float>(i);
-    p.y -= 0.12F * static_cast<float>(i);
+    p.left_x += 0.05F * float(i);
+    p.right_x += 0.05F * float(i);
+    p.y -= 0.12F * float(i);
   }
   return pairs;
 }
@@ -122,8 +122,7 @@ ui::TechnicianCameras watched(const ui::ViewState& review) {
   c.watched = c.can_be_set = true;
   for (std::size_t i = 0; i < 2; ++i) {
     if (review.frame != nullptr)
-      c.camera[i].picture = {i == 0 ? review.frame->left : review.frame->right,
-                             900020 + static_cast<std::uint32_t>(i)};
+      c.camera[i].picture = {i == 0 ? review.frame->left : review.frame->right, 900020 + std::uint32_t(i)};
     c.camera[i].mean = i == 0 ? 0.46F : 0.44F;
     c.camera[i].clipped = i == 0 ? 0.004F : 0.031F;
     c.camera[i].focus = i == 0 ? 0.98F : 0.84F;
@@ -144,13 +143,12 @@ ui::TechnicianCalibration calibrated(const ui::ViewState& review, bool running) 
   c.advice = ui::BoardAdvice::TiltRight;
   c.end = ui::BoardEnd::GoalReached;
   for (std::size_t i = 0; i < 2 && review.frame != nullptr; ++i)
-    c.pictures[i] = {i == 0 ? review.frame->left : review.frame->right,
-                     900030 + static_cast<std::uint32_t>(i)};
+    c.pictures[i] = {i == 0 ? review.frame->left : review.frame->right, 900030 + std::uint32_t(i)};
   c.pairs = 88;
   c.views = 11;
   c.bars = {0.82F, 0.64F, 1, 0.37F};
   for (std::size_t i = 0; i < 64; ++i)
-    c.seen[0][i] = c.seen[1][63 - i] = i < 20 ? 0 : static_cast<std::uint32_t>(i % 24) * 3;
+    c.seen[0][i] = c.seen[1][63 - i] = i < 20 ? 0 : std::uint32_t(i % 24) * 3;
   c.error_mm = 0.118F;
   c.goal_mm = 0.1F;
   c.verdict = ui::TechnicianVerdict::Good;
@@ -330,9 +328,8 @@ void lend(const ui::ViewState& review, TechnicianStage stage, TechnicianView& vi
   const std::size_t last =
       stage == TechnicianStage::Matches || stage == TechnicianStage::Disparity
           ? 0
-          : std::min(static_cast<std::size_t>(stage) - static_cast<std::size_t>(TechnicianStage::Cloud) + 1,
-                     review.stages.size() - 1);
-  view.shown[0] = {review.stages[last].picture, 900010 + static_cast<std::uint32_t>(last)};
+          : std::min(std::size_t(stage) - std::size_t(TechnicianStage::Cloud) + 1, review.stages.size() - 1);
+  view.shown[0] = {review.stages[last].picture, 900010 + std::uint32_t(last)};
 }
 
 void add_technician_exhibits(std::vector<Exhibit>& exhibits, const ui::ViewState& review,

@@ -11,7 +11,8 @@
 #include <thread>
 
 #include "firmware/base/budget.h"
-#include "hal/base/wiped_stack.h"
+#include "firmware/base/interrupt.h"
+#include "hal/base/wiped_text.h"
 
 namespace relievo::firmware {
 namespace {
@@ -31,9 +32,7 @@ Result<void> run_guarded(Job& job, JobControl& control) {
 
 }  // namespace
 
-int pool_size() {
-  return std::clamp(static_cast<int>(std::thread::hardware_concurrency()), 1, budget::kMaxPoolThreads);
-}
+int pool_size() { return std::clamp(int(std::thread::hardware_concurrency()), 1, budget::kMaxPoolThreads); }
 
 JobThread::JobThread(JobReports& reports, const char* name)
     : reports_(reports), thread_([this, name] {
@@ -79,6 +78,24 @@ void JobThread::serve() {
     }
     idle_.notify_all();
     reports_.put(report);
+  }
+}
+
+Result<void> run_watched(Job& job, Console& console, const std::function<std::string_view()>& stage_name) {
+  const std::atomic<bool>& stop = interrupted();
+  JobReports reports;
+  JobThread worker(reports);
+  RELIEVO_TRY(worker.start(job));
+  for (;;) {
+    const auto report = reports.take_for(budget::kTick);
+    if (stop.load()) worker.cancel();
+    if (!report) {
+      console.progress(stage_name(), worker.progress());
+      continue;
+    }
+    console.clear_progress();
+    if (report->error) return *report->error;
+    return {};
   }
 }
 

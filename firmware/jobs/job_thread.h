@@ -17,11 +17,14 @@
 #include <condition_variable>
 #include <cstddef>
 #include <cstdint>
+#include <functional>
 #include <mutex>
 #include <optional>
+#include <string_view>
 #include <thread>
 
 #include "firmware/base/budget.h"
+#include "firmware/base/console.h"
 #include "hal/base/assert.h"
 #include "hal/base/mailbox.h"
 #include "hal/base/result.h"
@@ -117,5 +120,11 @@ class JobThread {
   JobId last_id_ = 0;
   std::thread thread_;  // last: everything it uses stands before it starts
 };
+
+// Runs a job on a worker while this thread shows how far it is and listens for Ctrl-C.
+// Thread: main.
+
+// `stage_name` tells what the job is at. Returns the job's own result; Cancelled after Ctrl-C.
+Result<void> run_watched(Job& job, Console& console, const std::function<std::string_view()>& stage_name);
 
 }  // namespace relievo::firmware

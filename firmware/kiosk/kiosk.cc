@@ -195,8 +195,8 @@ void Kiosk::look() {
   // Recorded pictures turn nowhere.
   appliance_->ask_for_sides(view_.settings.is_on(ui::Setting::Sides) && (device_->is_live() || turn_head_));
   view_.home = static_cast<ui::Language>(view_.settings.of(ui::Setting::Language));
-  while (!view_.languages[static_cast<std::size_t>(view_.home)])
-    view_.home = static_cast<ui::Language>((static_cast<std::size_t>(view_.home) + 1) % ui::kLanguages);
+  while (!view_.languages[std::size_t(view_.home)])
+    view_.home = static_cast<ui::Language>((std::size_t(view_.home) + 1) % ui::kLanguages);
   view_.known = appliance_->answer().known;
   if (code_scanner_ && code_scanner_->is_looking()) view_.live = live_of(appliance_->live().newest());
   const Result<void> cameras = appliance_->grabber().check_cameras();
@@ -236,7 +236,7 @@ void Kiosk::turn() {
 }
 
 void Kiosk::hear(const ui::Input& input) {
-  const float w = static_cast<float>(ui_->width_px()), h = static_cast<float>(ui_->height_px());
+  const float w = float(ui_->width_px()), h = float(ui_->height_px());
   const bool finger = (input.kind == ui::Input::Kind::Down || input.kind == ui::Input::Kind::Move ||
                        input.kind == ui::Input::Kind::Up) &&
                       input.finger != ui::kMouse;
@@ -292,7 +292,7 @@ void Kiosk::turn_simulated_head() {
     };
     std::array<std::size_t, pipeline::kSides> sides{};
     std::iota(sides.begin(), sides.end(), 0);
-    to_deg = pipeline::kSidesDeg[*std::min_element(sides.begin(), sides.end(), nearer)];
+    to_deg = pipeline::kSidesDeg[*std::ranges::min_element(sides, nearer)];
   }
   if (to_deg != turned_to_deg_) turn_head_(turned_to_deg_ = to_deg);
 }

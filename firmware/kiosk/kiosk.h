@@ -20,7 +20,6 @@
 #include "firmware/appliance/appliance.h"
 #include "firmware/kiosk/code/code_scanner.h"
 #include "firmware/kiosk/invitation_head.h"
-#include "firmware/kiosk/moved_faces.h"
 #include "firmware/kiosk/receipt_slip.h"
 #include "firmware/kiosk/run_mark.h"
 #include "firmware/kiosk/stored_visits.h"

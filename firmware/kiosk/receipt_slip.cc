@@ -26,7 +26,7 @@ class Paper {
   Paper(ui::TextEngine& text, ui::Language language) : text_(text), language_(language) {
     picture_.format = PixelFormat::Grey8;
     picture_.width_px = kWidthPx;
-    picture_.bytes.assign(static_cast<std::size_t>(kWidthPx) * kHighPx, std::byte{255});
+    picture_.bytes.assign(std::size_t(kWidthPx) * kHighPx, std::byte{255});
   }
   void write(std::string_view words, float size_px, ui::Weight weight) {
     const ui::LanguageInfo& info = ui::info_of(language_);
@@ -37,14 +37,12 @@ class Paper {
     style.right_to_left = info.right_to_left;
     style.language = info.code;
     const ui::TextLabel& label = text_.label(words, style, kWidthPx - 2 * kMarginPx);
-    const int left = static_cast<int>(std::lround((kWidthPx - label.size.width_px) / 2 + label.ink.x)),
-              top = y_ + static_cast<int>(std::lround(label.ink.y));
-    for (int y = 0; y < static_cast<int>(label.atlas.h); ++y)
-      for (int x = 0; x < static_cast<int>(label.atlas.w); ++x)
-        put(left + x, top + y,
-            255 -
-                *text_.atlas().row(static_cast<int>(label.atlas.x) + x, static_cast<int>(label.atlas.y) + y));
-    y_ += static_cast<int>(std::ceil(label.size.height_px)) + kGapPx;
+    const int left = int(std::lround((kWidthPx - label.size.width_px) / 2 + label.ink.x)),
+              top = y_ + int(std::lround(label.ink.y));
+    for (int y = 0; y < int(label.atlas.h); ++y)
+      for (int x = 0; x < int(label.atlas.w); ++x)
+        put(left + x, top + y, 255 - *text_.atlas().row(int(label.atlas.x) + x, int(label.atlas.y) + y));
+    y_ += int(std::ceil(label.size.height_px)) + kGapPx;
   }
   void paste(const hal::Picture& picture) {
     for (int y = 0; y < picture.height_px; ++y)
@@ -54,14 +52,14 @@ class Paper {
   }
   hal::Picture take() {
     picture_.height_px = std::min(y_ + kGapPx, kHighPx);
-    picture_.bytes.resize(static_cast<std::size_t>(kWidthPx) * static_cast<std::size_t>(picture_.height_px));
+    picture_.bytes.resize(std::size_t(kWidthPx) * std::size_t(picture_.height_px));
     return std::move(picture_);
   }
 
  private:
   void put(int x, int y, int level) {
     if (x < 0 || y < 0 || x >= kWidthPx || y >= kHighPx) return;
-    std::byte& at = picture_.bytes[static_cast<std::size_t>(y) * kWidthPx + static_cast<std::size_t>(x)];
+    std::byte& at = picture_.bytes[std::size_t(y) * kWidthPx + std::size_t(x)];
     at = std::min(at, static_cast<std::byte>(level));
   }
   ui::TextEngine& text_;

@@ -2,7 +2,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "firmware/kiosk/run_mark.h"
 
-#include "storage/export/atomic_file.h"
+#include "hal/base/whole_file.h"
 
 namespace relievo::firmware {
 
@@ -11,14 +11,14 @@ Result<std::unique_ptr<RunMark>> RunMark::set(const std::filesystem::path& folde
   std::error_code error;
   const bool there = std::filesystem::exists(file, error);
   // On the disk before anybody comes, and gone from it before the program says that it has ended.
-  if (!there) RELIEVO_TRY(storage::write_file(file, {}));
+  if (!there) RELIEVO_TRY(write_whole_file(file, {}));
   return std::unique_ptr<RunMark>(new RunMark(file, there));
 }
 
 RunMark::~RunMark() {
   std::error_code error;
   std::filesystem::remove(file_, error);
-  (void)storage::sync_directory(file_.parent_path());
+  (void)sync_directory(file_.parent_path());
 }
 
 }  // namespace relievo::firmware

@@ -4,6 +4,9 @@
 
 #include <string.h>
 
+#include <sstream>
+#include <string>
+
 #include "firmware/kiosk/code/code_guard.h"
 #include "firmware/records/disk_room.h"
 #include "firmware/records/receipt.h"
@@ -50,6 +53,44 @@ Result<RecordAnswer> StoredVisits::look_up(const RecordQuestion& question) {
       const auto same,
       store_.subjects({.name = std::string(question.name.view()), .whole_name = true, .limit = 1}));
   return RecordAnswer{same.empty() ? ui::Known::Nobody : ui::Known::Name};
+}
+
+namespace {
+
+constexpr const char* kMovedFacesSetting = "moved_faces";
+
+}  // namespace
+
+Result<MovedFaces::Said> MovedFaces::read(std::uint32_t revision) {
+  revision_ = revision;
+  kept_ = {};
+  const Result<std::string> kept = store_.setting(kMovedFacesSetting);
+  if (!kept && kept.error().code != Errc::NotFound) return kept.error();
+  if (!kept) return kept_;
+  std::istringstream in(*kept);
+  int faces = 0;
+  std::uint32_t of = 0;
+  // Whatever else stands there was not written by this program: then the next faces say it again.
+  if (!(in >> faces >> of) || of != revision || faces < 0) return kept_;
+  kept_.faces = faces;
+  if (in.get() == ' ') std::getline(in, kept_.note);
+  return kept_;
+}
+
+void MovedFaces::keep(std::uint32_t revision, const Said& said, SideTasks& side_tasks, EventLog& log) {
+  if (revision == revision_ && said == kept_) return;
+  const bool news = said != kept_;  // another calibration of which nothing is said needs no line
+  revision_ = revision;
+  kept_ = said;
+  if (!news && said == Said{}) return;
+  side_tasks.send(
+      JobLane::Keeper,
+      [this, text = std::to_string(said.faces) + " " + std::to_string(revision) + " " +
+                    said.note](JobControl&) { return store_.set_setting(kMovedFacesSetting, text); },
+      [&log](const std::optional<Error>& error) {
+        if (error) log.fault(*error);
+      },
+      SideTasks::Whose::Device);
 }
 
 }  // namespace relievo::firmware

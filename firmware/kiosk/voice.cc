@@ -11,17 +11,12 @@ constexpr std::chrono::milliseconds kGuide{500};  // between two tones of it
 
 hal::Sound sound_of(ui::Cue cue) {
   switch (cue) {
-    case ui::Cue::Shutter:
-      return hal::Sound::Shutter;
-    case ui::Cue::Taken:
-      return hal::Sound::Taken;
-    case ui::Cue::Done:
-      return hal::Sound::Done;
-    case ui::Cue::Refused:
-      return hal::Sound::Refused;
+    case ui::Cue::Shutter: return hal::Sound::Shutter;
+    case ui::Cue::Taken: return hal::Sound::Taken;
+    case ui::Cue::Done: return hal::Sound::Done;
+    case ui::Cue::Refused: return hal::Sound::Refused;
     case ui::Cue::Tick:
-    case ui::Cue::None:
-      break;
+    case ui::Cue::None: break;
   }
   return hal::Sound::Tick;
 }

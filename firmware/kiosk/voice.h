@@ -9,7 +9,7 @@
 #include <memory>
 
 #include "hal/speaker.h"
-#include "ui/speech/cue.h"
+#include "ui/speech/narrator.h"
 #include "ui/ui.h"
 
 namespace relievo::firmware {

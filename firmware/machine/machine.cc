@@ -5,40 +5,52 @@
 #include "firmware/base/budget.h"
 
 namespace relievo::firmware {
+namespace {
+
+// In the order of State.
+constexpr std::array<std::string_view, std::size_t(State::Count)> kStateNames{
+    "SelfTest", "Idle",     "Calibrate", "Position", "Capture", "Turn",   "Match", "Reconstruct", "Mesh",
+    "Texture",  "Assemble", "Fuse",      "Review",   "Store",   "Export", "Staff", "Fault"};
+static_assert(!kStateNames.back().empty());
+
+// In the order of Event.
+constexpr std::array<std::string_view, std::size_t(Event::Count)> kEventNames{
+    "Passed",    "Failed",      "PoseAsked",   "Begin",          "Triggered",  "TurnAsked",
+    "StageDone", "StageFailed", "AdviceGiven", "Accept",         "Retake",     "Cancel",
+    "Timeout",   "StaffIn",     "StaffOut",    "CalibrateAsked", "ExportAsked"};
+static_assert(!kEventNames.back().empty());
+
+template <typename Enum>
+std::string_view name_in(const auto& names, Enum which) {
+  return which < Enum::Count ? names[std::size_t(which)] : "?";
+}
+
+}  // namespace
+
+std::string_view name_of(State state) { return name_in(kStateNames, state); }
+
+std::string_view name_of(Event event) { return name_in(kEventNames, event); }
 
 std::optional<std::chrono::milliseconds> limit_of(State state) {
   switch (state) {
-    case State::SelfTest:
-      return budget::kSelfTestLimit;
-    case State::Position:
-      return budget::kPositionLimit;
-    case State::Capture:
-      return budget::kCaptureLimit;
-    case State::Turn:
-      return budget::kTurnLimit;
-    case State::Fuse:
-      return budget::kFuseLimit;
+    case State::SelfTest: return budget::kSelfTestLimit;
+    case State::Position: return budget::kPositionLimit;
+    case State::Capture: return budget::kCaptureLimit;
+    case State::Turn: return budget::kTurnLimit;
+    case State::Fuse: return budget::kFuseLimit;
     case State::Match:
     case State::Reconstruct:
     case State::Mesh:
     case State::Texture:
-    case State::Assemble:
-      return budget::kStageLimit;
-    case State::Review:
-      return budget::kReviewLimit;
-    case State::Store:
-      return budget::kStoreLimit;
-    case State::Export:
-      return budget::kExportLimit;
-    case State::Calibrate:
-      return budget::kCalibrateLimit;
-    case State::Staff:
-      return budget::kStaffLimit;
-    case State::Fault:
-      return budget::kFaultRetry;
+    case State::Assemble: return budget::kStageLimit;
+    case State::Review: return budget::kReviewLimit;
+    case State::Store: return budget::kStoreLimit;
+    case State::Export: return budget::kExportLimit;
+    case State::Calibrate: return budget::kCalibrateLimit;
+    case State::Staff: return budget::kStaffLimit;
+    case State::Fault: return budget::kFaultRetry;
     case State::Idle:
-    case State::Count:
-      break;
+    case State::Count: break;
   }
   return std::nullopt;
 }

@@ -6,13 +6,271 @@
 // Thread: main. Errors: none; an event a state does not listen to changes nothing.
 #pragma once
 
+#include <array>
 #include <chrono>
+#include <cstddef>
+#include <cstdint>
 #include <optional>
+#include <string_view>
 
-#include "firmware/machine/transition.h"
 #include "hal/clock.h"
 
 namespace relievo::firmware {
+
+// The whole life of the appliance, as one table.
+//
+//   SelfTest -> Idle -> Position -> Capture -> Match -> Reconstruct -> Mesh -> Texture -> Assemble
+//                                   Capture -> Turn -> Fuse
+//   Assemble | Fuse -> Review -> Store -> Idle
+//   Review -> Capture | Position
+//   Idle -> Staff -> Calibrate | Export
+//
+// A command has no Position: it goes from Idle to Capture at once, and from a failure to Capture again.
+// A person at the screen finds their place first, with a live picture, and goes back there for advice. Who
+// may turn the head after the frontal picture comes to Turn: there the stages of that picture, and of each
+// side as it is taken, run beside the cameras; Fuse is what is left of them, and the head of all.
+//   Fault is entered when the machine cannot; it tests itself again.
+//
+// The compiler proves the table: one event leads one way, every state can be reached, every state
+// leads back to Idle, and every state answers Cancel, Timeout and Failed or says why it is deaf.
+
+enum class State : std::uint8_t {
+  SelfTest,
+  Idle,
+  Calibrate,
+  Position,
+  Capture,
+  Turn,
+  Match,
+  Reconstruct,
+  Mesh,
+  Texture,
+  Assemble,
+  Fuse,
+  Review,
+  Store,
+  Export,
+  Staff,  // operators and technicians
+  Fault,
+  Count
+};
+
+// The stages of the pipeline (pipeline/pipeline.h), in their order.
+inline constexpr std::array kStages{State::Match, State::Reconstruct, State::Mesh, State::Texture,
+                                    State::Assemble};
+constexpr bool is_stage(State state) { return state >= kStages.front() && state <= kStages.back(); }
+constexpr std::size_t number_of(State stage) { return std::size_t(stage) - std::size_t(kStages.front()); }
+
+enum class Event : std::uint8_t {
+  Passed,       // the self test found everything in place
+  Failed,       // the machine cannot: a camera gone, a library at its end
+  PoseAsked,    // a person wants to see where to stand
+  Begin,        // take the picture
+  Triggered,    // both pictures are here
+  TurnAsked,    // they are, and now the sides
+  StageDone,    // the job of the present state is done
+  StageFailed,  // it could not, and another try may help
+  AdviceGiven,  // it could not, and the person in front of the screen is told why
+  Accept,
+  Retake,  // the person's answer to the model
+  Cancel,
+  Timeout,  // the state lasted longer than budget.h allows
+  StaffIn,
+  StaffOut,
+  CalibrateAsked,
+  ExportAsked,
+  Count
+};
+
+struct Transition {
+  State from;
+  Event event;
+  State to;
+};
+
+inline constexpr std::array kTransitions{
+    Transition{State::SelfTest, Event::Passed, State::Idle},
+    Transition{State::SelfTest, Event::Failed, State::Fault},
+    Transition{State::SelfTest, Event::Timeout, State::Fault},
+
+    Transition{State::Idle, Event::PoseAsked, State::Position},
+    Transition{State::Idle, Event::Begin, State::Capture},
+    Transition{State::Idle, Event::StaffIn, State::Staff},
+    Transition{State::Idle, Event::Failed, State::Fault},
+
+    Transition{State::Position, Event::Begin, State::Capture},
+    Transition{State::Position, Event::StageFailed, State::Idle},  // the cameras are silent
+    Transition{State::Position, Event::Cancel, State::Idle},
+    Transition{State::Position, Event::Timeout, State::Idle},
+    Transition{State::Position, Event::Failed, State::Fault},
+
+    Transition{State::Capture, Event::Triggered, State::Match},
+    Transition{State::Capture, Event::TurnAsked, State::Turn},
+    Transition{State::Capture, Event::StageFailed, State::Capture},  // advice is shown, another try
+    Transition{State::Capture, Event::AdviceGiven, State::Position},
+    Transition{State::Capture, Event::Cancel, State::Idle},
+    Transition{State::Capture, Event::Timeout, State::Idle},
+    Transition{State::Capture, Event::Failed, State::Fault},
+
+    Transition{State::Turn, Event::StageDone, State::Fuse},
+    Transition{State::Turn, Event::StageFailed, State::Capture},  // of the frontal picture
+    Transition{State::Turn, Event::AdviceGiven, State::Position},
+    Transition{State::Turn, Event::Cancel, State::Idle},
+    Transition{State::Turn, Event::Timeout, State::Fuse},  // with the sides that are there
+    Transition{State::Turn, Event::Failed, State::Fault},
+
+    Transition{State::Fuse, Event::StageDone, State::Review},
+    Transition{State::Fuse, Event::StageFailed, State::Capture},
+    Transition{State::Fuse, Event::AdviceGiven, State::Position},
+    Transition{State::Fuse, Event::Cancel, State::Idle},
+    Transition{State::Fuse, Event::Timeout, State::Idle},
+    Transition{State::Fuse, Event::Failed, State::Fault},
+
+    Transition{State::Match, Event::StageDone, State::Reconstruct},
+    Transition{State::Match, Event::StageFailed, State::Capture},
+    Transition{State::Match, Event::AdviceGiven, State::Position},
+    Transition{State::Match, Event::Cancel, State::Idle},
+    Transition{State::Match, Event::Timeout, State::Idle},
+    Transition{State::Match, Event::Failed, State::Fault},
+
+    Transition{State::Reconstruct, Event::StageDone, State::Mesh},
+    Transition{State::Reconstruct, Event::StageFailed, State::Capture},
+    Transition{State::Reconstruct, Event::AdviceGiven, State::Position},
+    Transition{State::Reconstruct, Event::Cancel, State::Idle},
+    Transition{State::Reconstruct, Event::Timeout, State::Idle},
+    Transition{State::Reconstruct, Event::Failed, State::Fault},
+
+    Transition{State::Mesh, Event::StageDone, State::Texture},
+    Transition{State::Mesh, Event::StageFailed, State::Capture},
+    Transition{State::Mesh, Event::AdviceGiven, State::Position},
+    Transition{State::Mesh, Event::Cancel, State::Idle},
+    Transition{State::Mesh, Event::Timeout, State::Idle},
+    Transition{State::Mesh, Event::Failed, State::Fault},
+
+    Transition{State::Texture, Event::StageDone, State::Assemble},
+    Transition{State::Texture, Event::StageFailed, State::Capture},
+    Transition{State::Texture, Event::AdviceGiven, State::Position},
+    Transition{State::Texture, Event::Cancel, State::Idle},
+    Transition{State::Texture, Event::Timeout, State::Idle},
+    Transition{State::Texture, Event::Failed, State::Fault},
+
+    Transition{State::Assemble, Event::StageDone, State::Review},
+    Transition{State::Assemble, Event::StageFailed, State::Capture},
+    Transition{State::Assemble, Event::AdviceGiven, State::Position},
+    Transition{State::Assemble, Event::Cancel, State::Idle},
+    Transition{State::Assemble, Event::Timeout, State::Idle},
+    Transition{State::Assemble, Event::Failed, State::Fault},
+
+    Transition{State::Review, Event::Accept, State::Store},
+    Transition{State::Review, Event::Retake, State::Capture},
+    Transition{State::Review, Event::PoseAsked, State::Position},
+    Transition{State::Review, Event::Cancel, State::Idle},
+    Transition{State::Review, Event::Timeout, State::Idle},  // no answer is no consent
+    Transition{State::Review, Event::Failed, State::Fault},
+
+    Transition{State::Store, Event::StageDone, State::Idle},
+    Transition{State::Store, Event::StageFailed, State::Review},  // a full disk: accept again, or leave
+    Transition{State::Store, Event::Timeout, State::Fault},
+    Transition{State::Store, Event::Failed, State::Fault},
+
+    Transition{State::Staff, Event::CalibrateAsked, State::Calibrate},
+    Transition{State::Staff, Event::ExportAsked, State::Export},
+    Transition{State::Staff, Event::StaffOut, State::Idle},
+    Transition{State::Staff, Event::Cancel, State::Idle},
+    Transition{State::Staff, Event::Timeout, State::Idle},
+    Transition{State::Staff, Event::Failed, State::Fault},
+
+    Transition{State::Calibrate, Event::StageDone, State::Staff},
+    Transition{State::Calibrate, Event::StageFailed, State::Staff},
+    Transition{State::Calibrate, Event::Cancel, State::Staff},
+    Transition{State::Calibrate, Event::Timeout, State::Staff},
+    Transition{State::Calibrate, Event::Failed, State::Fault},
+
+    Transition{State::Export, Event::StageDone, State::Staff},
+    Transition{State::Export, Event::StageFailed, State::Staff},
+    Transition{State::Export, Event::Cancel, State::Staff},
+    Transition{State::Export, Event::Timeout, State::Staff},
+    Transition{State::Export, Event::Failed, State::Fault},
+
+    Transition{State::Fault, Event::Timeout, State::SelfTest},
+    Transition{State::Fault, Event::StaffIn, State::Staff},
+};
+
+struct Deaf {
+  State state;
+  Event event;
+  std::string_view why;
+};
+inline constexpr std::array kDeaf{
+    Deaf{State::SelfTest, Event::Cancel, "nobody has asked for anything yet"},
+    Deaf{State::Idle, Event::Cancel, "nothing is under way"},
+    Deaf{State::Idle, Event::Timeout, "waiting is its work"},
+    Deaf{State::Store, Event::Cancel, "one transaction: it ends in a moment, whole or not at all"},
+    Deaf{State::Fault, Event::Cancel, "nothing is under way"},
+    Deaf{State::Fault, Event::Failed, "it already is"},
+};
+
+// Where an event leads, or nothing when the state does not listen to it.
+constexpr std::optional<State> next(State from, Event event) {
+  for (const Transition& t : kTransitions) {
+    if (t.from == from && t.event == event) return t.to;
+  }
+  return std::nullopt;
+}
+
+std::string_view name_of(State state);
+std::string_view name_of(Event event);
+
+// --- proofs -------------------------------------------------------------------------------------
+namespace proof {
+
+inline constexpr std::size_t kStates = std::size_t(State::Count);
+
+consteval bool deterministic() {
+  for (std::size_t i = 0; i < kTransitions.size(); ++i) {
+    for (std::size_t j = i + 1; j < kTransitions.size(); ++j) {
+      if (kTransitions[i].from == kTransitions[j].from && kTransitions[i].event == kTransitions[j].event)
+        return false;
+    }
+  }
+  return true;
+}
+
+// Forward: the states reached from `start`. Backward: those from which `start` is reached.
+consteval bool all_connected(State start, bool backward) {
+  std::array<bool, kStates> seen{};
+  seen[std::size_t(start)] = true;
+  for (std::size_t round = 0; round < kStates; ++round) {
+    for (const Transition& t : kTransitions) {
+      const auto from = std::size_t(backward ? t.to : t.from);
+      const auto to = std::size_t(backward ? t.from : t.to);
+      if (seen[from]) seen[to] = true;
+    }
+  }
+  for (const bool reached : seen) {
+    if (!reached) return false;
+  }
+  return true;
+}
+
+consteval bool answers_or_is_deaf(Event event) {
+  for (std::size_t s = 0; s < kStates; ++s) {
+    const auto state = static_cast<State>(s);
+    int deaf = 0;
+    for (const Deaf& d : kDeaf) deaf += d.state == state && d.event == event ? 1 : 0;
+    if (deaf + (next(state, event) ? 1 : 0) != 1) return false;  // exactly one of the two
+  }
+  return true;
+}
+
+static_assert(deterministic(), "one event, one way out");
+static_assert(all_connected(State::SelfTest, false), "a state nobody can reach");
+static_assert(all_connected(State::Idle, true), "a state with no way back to Idle");
+static_assert(answers_or_is_deaf(Event::Cancel), "a state that neither answers Cancel nor says why");
+static_assert(answers_or_is_deaf(Event::Timeout), "a state that neither answers Timeout nor says why");
+static_assert(answers_or_is_deaf(Event::Failed), "a state that neither answers Failed nor says why");
+
+}  // namespace proof
 
 struct Change {
   State from;

@@ -55,7 +55,7 @@ class Normal4 {
 Vec3d middle_of(const std::vector<Vec3d>& points) {
   Vec3d middle;
   for (const Vec3d& p : points) middle = plus(middle, p);
-  return times(middle, 1 / static_cast<double>(points.size()));
+  return times(middle, 1 / double(points.size()));
 }
 
 // |p|^2 = 2 c.p + k: linear in the centre. Biased by noise, but a start.
@@ -101,7 +101,7 @@ FormReading<Form> judge(const Form& form, const std::vector<Vec3d>& points) {
     squares += d * d;
   }
   reading.range_mm = high - low;
-  reading.rms_mm = std::sqrt(squares / static_cast<double>(points.size()));
+  reading.rms_mm = std::sqrt(squares / double(points.size()));
   reading.used = points.size();
   return reading;
 }
@@ -110,9 +110,9 @@ FormReading<Form> judge(const Form& form, const std::vector<Vec3d>& points) {
 template <typename Form, typename Fit>
 Result<FormReading<Form>> read_form(const std::vector<Vec3d>& points, double discard_share, Fit fit) {
   RELIEVO_TRY_ASSIGN(const Form first, fit(points));
-  const auto discarded = static_cast<std::size_t>(discard_share * static_cast<double>(points.size()));
+  const auto discarded = std::size_t(discard_share * double(points.size()));
   std::vector<Vec3d> kept = points;
-  const auto end = kept.end() - static_cast<std::ptrdiff_t>(discarded);
+  const auto end = kept.end() - std::ptrdiff_t(discarded);
   if (discarded > 0)
     std::nth_element(kept.begin(), end, kept.end(), [&](const Vec3d& a, const Vec3d& b) {
       return std::abs(deviation(first, a)) < std::abs(deviation(first, b));

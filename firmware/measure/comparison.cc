@@ -9,14 +9,12 @@
 namespace relievo::firmware::compare {
 namespace {
 
-double share(std::size_t part, std::size_t whole) {
-  return whole == 0 ? 0 : static_cast<double>(part) / static_cast<double>(whole);
-}
+double share(std::size_t part, std::size_t whole) { return whole == 0 ? 0 : double(part) / double(whole); }
 
 void count_error(ErrorHistogram& histogram, double error) {
   constexpr double kWidth = 2 * ErrorHistogram::kReachPx / ErrorHistogram::kBins;
   const double bin = std::floor((error + ErrorHistogram::kReachPx) / kWidth);
-  ++histogram.counts[static_cast<std::size_t>(std::clamp(bin, 0.0, ErrorHistogram::kBins - 1.0))];
+  ++histogram.counts[std::size_t(std::clamp(bin, 0.0, ErrorHistogram::kBins - 1.0))];
 }
 
 // The figures of the errors themselves.
@@ -28,11 +26,11 @@ void describe_errors(std::vector<double>& errors, double within_sum, std::size_t
     squares += e * e;
   }
   const double nothing = std::numeric_limits<double>::quiet_NaN();
-  s.mean_px = errors.empty() ? nothing : sum / static_cast<double>(errors.size());
-  s.rms_px = errors.empty() ? nothing : std::sqrt(squares / static_cast<double>(errors.size()));
+  s.mean_px = errors.empty() ? nothing : sum / double(errors.size());
+  s.rms_px = errors.empty() ? nothing : std::sqrt(squares / double(errors.size()));
   s.median_px = median(errors);
   s.p95_px = percentile(errors, 0.95);
-  s.bias_px = within == 0 ? nothing : within_sum / static_cast<double>(within);
+  s.bias_px = within == 0 ? nothing : within_sum / double(within);
 }
 
 }  // namespace
@@ -49,7 +47,7 @@ DisparityScore score(const DisparityMap& map, const DisparityTruth& truth, doubl
     ++s.judged;
     s.seen += truth.seen[k];
     if (std::isnan(map.values[k])) continue;
-    const double error = static_cast<double>(map.values[k]) - static_cast<double>(truth.map.values[k]);
+    const double error = double(map.values[k]) - double(truth.map.values[k]);
     errors.push_back(std::abs(error));
     count_error(s.histogram, error);
     for (std::size_t i = 0; i < kLimits.size(); ++i) good[i] += errors.back() <= kLimits[i] ? 1 : 0;
@@ -78,13 +76,12 @@ SharedScore score_shared(const DisparityMap& one, const DisparityMap& other, con
   std::vector<double> other_errors;
   for (std::size_t k = 0; k < truth.map.values.size(); ++k) {
     if (std::isnan(truth.map.values[k]) || std::isnan(one.values[k]) || std::isnan(other.values[k])) continue;
-    const auto truly = static_cast<double>(truth.map.values[k]);
-    errors.push_back(std::abs(static_cast<double>(one.values[k]) - truly));
-    other_errors.push_back(std::abs(static_cast<double>(other.values[k]) - truly));
+    const auto truly = double(truth.map.values[k]);
+    errors.push_back(std::abs(double(one.values[k]) - truly));
+    other_errors.push_back(std::abs(double(other.values[k]) - truly));
   }
   const auto bad = [limit_px](const std::vector<double>& all) {
-    return share(static_cast<std::size_t>(
-                     std::count_if(all.begin(), all.end(), [limit_px](double e) { return e > limit_px; })),
+    return share(std::size_t(std::ranges::count_if(all, [limit_px](double e) { return e > limit_px; })),
                  all.size());
   };
   s.shared = errors.size();

@@ -12,7 +12,7 @@
 #include <string>
 #include <vector>
 
-#include "firmware/measure/disparity_truth.h"
+#include "firmware/measure/disparity_map.h"
 #include "firmware/measure/measurement.h"
 #include "pipeline/algorithms.h"
 

@@ -12,7 +12,8 @@
 #include <string>
 #include <string_view>
 
-#include "hal/whole_file.h"
+#include "hal/base/whole_file.h"
+#include "hal/picture_file.h"
 
 namespace relievo::firmware::compare {
 namespace {
@@ -35,10 +36,9 @@ std::string word(std::string_view& text) {
 float float_of(const char* bytes, bool little) {
   std::array<unsigned char, 4> b{};
   std::memcpy(b.data(), bytes, 4);
-  if (!little) std::reverse(b.begin(), b.end());
-  const std::uint32_t bits = static_cast<std::uint32_t>(b[0]) | static_cast<std::uint32_t>(b[1]) << 8U |
-                             static_cast<std::uint32_t>(b[2]) << 16U |
-                             static_cast<std::uint32_t>(b[3]) << 24U;
+  if (!little) std::ranges::reverse(b);
+  const std::uint32_t bits = std::uint32_t(b[0]) | std::uint32_t(b[1]) << 8U | std::uint32_t(b[2]) << 16U |
+                             std::uint32_t(b[3]) << 24U;
   return std::bit_cast<float>(bits);
 }
 
@@ -46,7 +46,7 @@ float float_of(const char* bytes, bool little) {
 float between(const std::array<float, 4>& node, float tx, float ty, float step_px) {
   const auto [least, most] =
       std::minmax_element(node.begin(), node.end(), [](float a, float b) { return a < b; });
-  const bool all = std::none_of(node.begin(), node.end(), [](float d) { return std::isnan(d); });
+  const bool all = std::ranges::none_of(node, [](float d) { return std::isnan(d); });
   if (!all || *most - *least > step_px) return node[(tx < 0.5F ? 0U : 1U) + (ty < 0.5F ? 0U : 2U)];
   const float top = node[0] + tx * (node[1] - node[0]);
   return top + ty * (node[2] + tx * (node[3] - node[2]) - top);
@@ -65,16 +65,16 @@ void fill_lattice(DisparityMap& map, int step, int first_x, int first_y) {
       const std::array around{node(left, top), last_column ? node(left, top) : node(left + step, top),
                               last_row ? node(left, top) : node(left, top + step),
                               last_column || last_row ? node(left, top) : node(left + step, top + step)};
-      const float by_step = 1.0F / static_cast<float>(step);
-      map.values[map.index(x, y)] = between(around, static_cast<float>(x - left) * by_step,
-                                            static_cast<float>(y - top) * by_step, static_cast<float>(step));
+      const float by_step = 1.0F / float(step);
+      map.values[map.index(x, y)] =
+          between(around, float(x - left) * by_step, float(y - top) * by_step, float(step));
     }
 }
 
 }  // namespace
 
 Result<DisparityMap> read_pfm(const std::filesystem::path& file) {
-  RELIEVO_TRY_ASSIGN(const auto bytes, hal::read_whole_file(file, kMostBytes));
+  RELIEVO_TRY_ASSIGN(const auto bytes, read_whole_file(file, kMostBytes));
   std::string_view rest(reinterpret_cast<const char*>(bytes.data()), bytes.size());
   const std::string magic = word(rest);
   // What is no number reads as 0, which is no width.
@@ -83,9 +83,9 @@ Result<DisparityMap> read_pfm(const std::filesystem::path& file) {
   const double scale = std::strtod(word(rest).c_str(), nullptr);
   const bool sane =
       magic == "Pf" && width > 0 && height > 0 && width <= kMostSidePx && height <= kMostSidePx && scale != 0;
-  if (!sane || rest.size() != 4 * static_cast<std::size_t>(width) * static_cast<std::size_t>(height))
+  if (!sane || rest.size() != 4 * std::size_t(width) * std::size_t(height))
     return Error{Errc::InvalidInput, "is no whole PFM of one channel"}.at(file.string());
-  DisparityMap map(static_cast<int>(width), static_cast<int>(height));
+  auto map = DisparityMap(int(width), int(height));
   for (int y = 0; y < map.height_px; ++y)
     for (int x = 0; x < map.width_px; ++x) {
       const float d = float_of(rest.data() + 4 * map.index(x, map.height_px - 1 - y), scale < 0);
@@ -112,14 +112,13 @@ std::vector<std::byte> pfm_of(const DisparityMap& map) {
 DisparityMap disparity_map(const pipeline::MatchSet& set, int width_px, int height_px) {
   DisparityMap map(width_px, height_px);
   for (const pipeline::Match& match : set.matches) {
-    const int x = static_cast<int>(std::lround(match.left_px.x));
-    const int y = static_cast<int>(std::lround(match.left_px.y));
+    const int x = int(std::lround(match.left_px.x));
+    const int y = int(std::lround(match.left_px.y));
     if (match.rejected_by == 0 && map.holds(x, y)) map.values[map.index(x, y)] = match.disparity_px;
   }
   if (const int step = set.lattice_step_px; step > 1 && !set.matches.empty()) {
     const pipeline::Vec2f node = set.matches.front().left_px;
-    fill_lattice(map, step, static_cast<int>(std::lround(node.x)) % step,
-                 static_cast<int>(std::lround(node.y)) % step);
+    fill_lattice(map, step, int(std::lround(node.x)) % step, int(std::lround(node.y)) % step);
   }
   return map;
 }
@@ -134,6 +133,83 @@ DisparityMap thickened(const DisparityMap& map, int side_px) {
           if (thick.holds(i, j) && !map.known(i, j)) thick.values[thick.index(i, j)] = map.at(x, y);
     }
   return thick;
+}
+
+namespace {
+
+constexpr float kHidesPx = 1;  // a surface nearer by more than this, on the same pixel of the right view
+
+Result<DisparityMap> read_map(const std::filesystem::path& file, double scale) {
+  std::string extension = file.extension().string();
+  std::ranges::transform(extension, extension.begin(), [](unsigned char c) { return char(std::tolower(c)); });
+  if (extension == ".pfm") return read_pfm(file);
+  RELIEVO_TRY_ASSIGN(const hal::Picture picture, hal::read_picture(file));
+  if (picture.format == PixelFormat::Rgb8)
+    return Error{Errc::InvalidInput, "is a colour picture: a disparity map is grey, or a PFM"}.at(
+        file.string());
+  DisparityMap map(picture.width_px, picture.height_px);
+  const ImageView view = picture.view();
+  for (int y = 0; y < map.height_px; ++y) {
+    const std::uint8_t* row = view.row(y);
+    const auto* wide = reinterpret_cast<const std::uint16_t*>(row);
+    for (int x = 0; x < map.width_px; ++x) {
+      const int grey = picture.format == PixelFormat::Grey16 ? wide[x] : row[x];
+      if (grey != 0) map.values[map.index(x, y)] = float(grey / scale);
+    }
+  }
+  return map;
+}
+
+}  // namespace
+
+std::vector<std::uint8_t> seen_by_both(const DisparityMap& map) {
+  std::vector<std::uint8_t> seen(map.values.size(), 0);
+  std::vector<float> nearest(std::size_t(map.width_px));
+  for (int y = 0; y < map.height_px; ++y) {
+    std::ranges::fill(nearest, -std::numeric_limits<float>::infinity());
+    const auto partner = [&](int x) { return std::lround(float(x) - map.at(x, y)); };
+    for (int x = 0; x < map.width_px; ++x) {
+      if (!map.known(x, y)) continue;
+      const long at = partner(x);
+      if (at >= 0 && at < map.width_px)
+        nearest[std::size_t(at)] = std::max(nearest[std::size_t(at)], map.at(x, y));
+    }
+    for (int x = 0; x < map.width_px; ++x) {
+      if (!map.known(x, y)) continue;
+      const long at = partner(x);
+      if (at < 0 || at >= map.width_px) continue;
+      seen[map.index(x, y)] = nearest[std::size_t(at)] <= map.at(x, y) + kHidesPx ? 1 : 0;
+    }
+  }
+  return seen;
+}
+
+Result<DisparityTruth> read_disparity_truth(const std::filesystem::path& file, double scale) {
+  DisparityTruth truth;
+  RELIEVO_TRY_ASSIGN(truth.map, read_map(file, scale));
+  if (std::ranges::all_of(truth.map.values, [](float d) { return std::isnan(d); }))
+    return Error{Errc::InvalidInput, "holds no disparity at all: is it the truth's file?"}.at(file.string());
+  truth.seen = seen_by_both(truth.map);
+  return truth;
+}
+
+DisparityTruth truth_of_view(const measure::TruthView& view, const pipeline::RectifiedPair& pair) {
+  DisparityTruth truth;
+  truth.map = DisparityMap(pair.width_px, pair.height_px);
+  const pipeline::Rotation left_from_rectified = pipeline::transposed(pair.rectified_from_left);
+  for (int y = 0; y < pair.height_px; ++y)
+    for (int x = 0; x < pair.width_px; ++x) {
+      const pipeline::Vec3d ray{(x - pair.left_centre_px.x) / pair.focal_px,
+                                (y - pair.left_centre_px.y) / pair.focal_px, 1};
+      const auto point = view.judged_point_along(pipeline::apply(left_from_rectified, ray));
+      if (!point) continue;
+      const double z = pipeline::apply(pair.rectified_from_left, *point).z;
+      truth.map.values[truth.map.index(x, y)] = float(pair.disparity_px(z));
+    }
+  truth.seen.resize(truth.map.values.size());
+  std::ranges::transform(truth.map.values, truth.seen.begin(),
+                         [](float d) { return std::uint8_t(std::isnan(d) ? 0 : 1); });
+  return truth;
 }
 
 }  // namespace relievo::firmware::compare

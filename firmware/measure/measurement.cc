@@ -57,8 +57,8 @@ constexpr double kModelReachMm = 10;
 constexpr std::size_t kSamples = 100'000;
 
 double share_within(const std::vector<double>& values, double limit) {
-  const auto n = std::count_if(values.begin(), values.end(), [&](double v) { return v <= limit; });
-  return values.empty() ? 0 : static_cast<double>(n) / static_cast<double>(values.size());
+  const auto n = std::ranges::count_if(values, [&](double v) { return v <= limit; });
+  return values.empty() ? 0 : double(n) / double(values.size());
 }
 
 Surface measured_part(const pipeline::FaceMesh& mesh) {
@@ -81,7 +81,7 @@ std::vector<Vec3d> spread(const Surface& surface, std::size_t count) {
   for (const auto& t : surface.triangles) total += area(t);
   std::vector<Vec3d> points;
   if (!(total > 0)) return points;
-  const double step = total / static_cast<double>(count);
+  const double step = total / double(count);
   double due = step / 2;
   double a = 0.5;
   double b = 0.5;
@@ -123,7 +123,7 @@ void measure_surface(const Surface& model, const TruthView& truth, const Triangl
   m.accuracy_p95_mm = percentile(accuracy, 0.95);
   m.interior_median_mm = median(interior);
   m.interior_p95_mm = percentile(interior, 0.95);
-  m.outliers_3mm = samples.empty() ? 0 : static_cast<double>(far) / static_cast<double>(samples.size());
+  m.outliers_3mm = samples.empty() ? 0 : double(far) / double(samples.size());
 }
 
 void measure_sigma(const pipeline::FaceMesh& mesh, const Surface& moved, const TruthView& truth,
@@ -141,12 +141,12 @@ void measure_sigma(const pipeline::FaceMesh& mesh, const Surface& moved, const T
     const auto near = true_surface.nearest(p, kTruthReachMm);
     if (!near) continue;
     ++asked;
-    one += near->distance_mm <= static_cast<double>(mesh.sigma_mm[i]) ? 1U : 0U;
-    two += near->distance_mm <= 1.96 * static_cast<double>(mesh.sigma_mm[i]) ? 1U : 0U;
+    one += near->distance_mm <= double(mesh.sigma_mm[i]) ? 1U : 0U;
+    two += near->distance_mm <= 1.96 * double(mesh.sigma_mm[i]) ? 1U : 0U;
   }
   if (asked == 0) return;
-  m.within_sigma = static_cast<double>(one) / static_cast<double>(asked);
-  m.within_196_sigma = static_cast<double>(two) / static_cast<double>(asked);
+  m.within_sigma = double(one) / double(asked);
+  m.within_196_sigma = double(two) / double(asked);
 }
 
 }  // namespace
@@ -199,7 +199,7 @@ Measurement measure(const pipeline::FaceMesh& mesh, const TruthView& truth, cons
     const pipeline::RigidTransform back = inverse(fit.surface_from_points);
     for (Vec3f& v : model.vertices_mm) {
       const Vec3d p = apply(back, wide(v));
-      v = {static_cast<float>(p.x), static_cast<float>(p.y), static_cast<float>(p.z)};
+      v = {float(p.x), float(p.y), float(p.z)};
     }
     m.moved_mm = fit.moved_mm;
     m.turned_deg = fit.turned_deg;

@@ -3,9 +3,83 @@
 #include "firmware/measure/selector_figures.h"
 
 #include <algorithm>
+#include <bit>
 #include <cmath>
 
 namespace relievo::firmware::compare {
+namespace {
+
+// The names as AlgorithmSet has them: joined by '+', or none.
+std::vector<RuleFigures> rules_of(const pipeline::AlgorithmSet& set) {
+  std::vector<RuleFigures> rules;
+  const std::string names = set.get("constraints");
+  for (std::size_t begin = 0; begin <= names.size();) {
+    const std::size_t end = std::min(names.find('+', begin), names.size());
+    const std::string name = names.substr(begin, end - begin);
+    if (name != "none") rules.push_back({name});
+    begin = end + 1;
+  }
+  return rules;
+}
+
+enum class Judgement : std::uint8_t { Unknown, Good, Bad };
+
+Judgement judge(const pipeline::Match& match, const std::optional<DisparityTruth>& truth, double limit_px) {
+  if (!truth) return Judgement::Unknown;
+  const int x = int(std::lround(match.left_px.x));
+  const int y = int(std::lround(match.left_px.y));
+  if (!truth->map.holds(x, y) || !truth->map.known(x, y)) return Judgement::Unknown;
+  const auto error = double(match.disparity_px - truth->map.at(x, y));
+  return std::abs(error) > limit_px ? Judgement::Bad : Judgement::Good;
+}
+
+}  // namespace
+
+MatchFigures figures_of(const NamedSet& set, const pipeline::Keypoints& keypoints,
+                        const pipeline::MatchSet& matches, const std::optional<DisparityTruth>& truth,
+                        double limit_px) {
+  MatchFigures f;
+  f.keypoints = keypoints.points.size();
+  f.matches = matches.matches.size();
+  f.rules = rules_of(set.set);
+  for (const pipeline::Match& match : matches.matches) {
+    const Judgement judgement = judge(match, truth, limit_px);
+    const std::size_t judged = judgement == Judgement::Unknown ? 0 : 1;
+    const std::size_t bad = judgement == Judgement::Bad ? 1 : 0;
+    f.judged += judged;
+    f.bad += bad;
+    if (match.rejected_by == 0) {
+      ++f.accepted;
+      f.accepted_judged += judged;
+      f.accepted_bad += bad;
+      continue;
+    }
+    const auto rule = std::size_t(std::countr_zero(match.rejected_by));
+    if (rule >= f.rules.size()) continue;
+    ++f.rules[rule].rejected;
+    f.rules[rule].judged += judged;
+    f.rules[rule].bad += bad;
+  }
+  return f;
+}
+
+std::vector<std::uint8_t> rejected_map(const pipeline::MatchSet& matches, int width_px, int height_px) {
+  std::vector<std::uint8_t> map(std::size_t(width_px) * std::size_t(height_px), 0);
+  constexpr int kScatteredPx = 9;
+  const int cell = matches.lattice_step_px > 0 ? matches.lattice_step_px : kScatteredPx;
+  const int before = matches.lattice_step_px > 0 ? 0 : kScatteredPx / 2;
+  for (const pipeline::Match& match : matches.matches) {
+    if (match.rejected_by == 0) continue;
+    const auto rule = std::uint8_t(1 + std::countr_zero(match.rejected_by));
+    const int left = int(std::lround(match.left_px.x)) - before;
+    const int top = int(std::lround(match.left_px.y)) - before;
+    for (int y = std::max(0, top); y < std::min(height_px, top + cell); ++y)
+      for (int x = std::max(0, left); x < std::min(width_px, left + cell); ++x)
+        map[std::size_t(y) * std::size_t(width_px) + std::size_t(x)] = rule;
+  }
+  return map;
+}
+
 namespace {
 
 // Where on the right view each of the left's places should be found again.
@@ -16,16 +90,14 @@ std::vector<pipeline::Vec2d> expected_in_right(const pipeline::Keypoints& left,
   if (!truth) {
     for (const pipeline::Match& match : matches.matches)
       if (match.rejected_by == 0)
-        expected.push_back({static_cast<double>(match.left_px.x - match.disparity_px),
-                            static_cast<double>(match.left_px.y)});
+        expected.push_back({double(match.left_px.x - match.disparity_px), double(match.left_px.y)});
     return expected;
   }
   for (const pipeline::Keypoint& place : left.points) {
-    const int x = static_cast<int>(std::lround(place.at_px.x));
-    const int y = static_cast<int>(std::lround(place.at_px.y));
+    const int x = int(std::lround(place.at_px.x));
+    const int y = int(std::lround(place.at_px.y));
     if (!truth->map.holds(x, y) || truth->seen[truth->map.index(x, y)] == 0) continue;
-    expected.push_back(
-        {static_cast<double>(place.at_px.x - truth->map.at(x, y)), static_cast<double>(place.at_px.y)});
+    expected.push_back({double(place.at_px.x - truth->map.at(x, y)), double(place.at_px.y)});
   }
   return expected;
 }
@@ -44,24 +116,23 @@ double spread_of(const pipeline::RectifiedPair& pair, const pipeline::Keypoints&
   std::vector<std::uint8_t> usable(kCells * kCells, 0);
   std::vector<std::uint8_t> held(kCells * kCells, 0);
   const auto cell = [&pair](int x, int y) {
-    return static_cast<std::size_t>(y * kCells / pair.height_px * kCells + x * kCells / pair.width_px);
+    return std::size_t(y * kCells / pair.height_px * kCells + x * kCells / pair.width_px);
   };
   for (int y = 0; y < pair.height_px; ++y)
     for (int x = 0; x < pair.width_px; ++x) {
-      const std::size_t k =
-          static_cast<std::size_t>(y) * static_cast<std::size_t>(pair.width_px) + static_cast<std::size_t>(x);
+      const std::size_t k = std::size_t(y) * std::size_t(pair.width_px) + std::size_t(x);
       if (pair.left.valid[k] != 0 && (pair.region.empty() || pair.region[k] != 0)) usable[cell(x, y)] = 1;
     }
   for (const pipeline::Keypoint& place : places.points)
-    held[cell(std::clamp(static_cast<int>(place.at_px.x), 0, pair.width_px - 1),
-              std::clamp(static_cast<int>(place.at_px.y), 0, pair.height_px - 1))] = 1;
+    held[cell(std::clamp(int(place.at_px.x), 0, pair.width_px - 1),
+              std::clamp(int(place.at_px.y), 0, pair.height_px - 1))] = 1;
   int all = 0;
   int with = 0;
   for (std::size_t i = 0; i < usable.size(); ++i) {
     all += usable[i];
     with += usable[i] & held[i];
   }
-  return all == 0 ? 0 : static_cast<double>(with) / all;
+  return all == 0 ? 0 : double(with) / all;
 }
 
 }  // namespace
@@ -74,11 +145,11 @@ Result<pipeline::Keypoints> select_in_right(const pipeline::KeypointSelector& se
   swapped.left_centre_px = pair.right_centre_px;
   swapped.right_centre_px = pair.left_centre_px;
   if (!pair.region.empty()) {
-    std::fill(swapped.region.begin(), swapped.region.end(), std::uint8_t{0});
+    std::ranges::fill(swapped.region, std::uint8_t{0});
     for (int y = 0; y < pair.height_px; ++y)
       for (int x = 0; x < pair.width_px; ++x) {
         if (!map.known(x, y)) continue;
-        const int to = static_cast<int>(std::lround(static_cast<float>(x) - map.at(x, y)));
+        const int to = int(std::lround(float(x) - map.at(x, y)));
         for (int near = std::max(0, to - 1); near <= std::min(pair.width_px - 1, to + 1); ++near)
           swapped.region[map.index(near, y)] = 1;
       }
@@ -95,18 +166,18 @@ SelectorFigures selector_figures(const pipeline::RectifiedPair& pair, const pipe
   for (const pipeline::Keypoint& place : left.points) f.places_px.push_back(place.at_px);
   std::vector<pipeline::Vec2d> places;
   for (const pipeline::Keypoint& place : right.points)
-    places.push_back({static_cast<double>(place.at_px.x), static_cast<double>(place.at_px.y)});
-  std::sort(places.begin(), places.end(), [](const pipeline::Vec2d& a, const pipeline::Vec2d& b) {
+    places.push_back({double(place.at_px.x), double(place.at_px.y)});
+  std::ranges::sort(places, [](const pipeline::Vec2d& a, const pipeline::Vec2d& b) {
     return a.y < b.y || (a.y == b.y && a.x < b.x);
   });
   const std::vector<pipeline::Vec2d> expected = expected_in_right(left, matches, truth);
   f.asked = expected.size();
-  const auto again = std::count_if(expected.begin(), expected.end(),
-                                   [&places](const pipeline::Vec2d& at) { return repeated(at, places); });
-  if (f.asked > 0) f.repeatability = static_cast<double>(again) / static_cast<double>(f.asked);
-  const auto accepted = std::count_if(matches.matches.begin(), matches.matches.end(),
-                                      [](const pipeline::Match& m) { return m.rejected_by == 0; });
-  if (f.left > 0) f.match_rate = static_cast<double>(accepted) / static_cast<double>(f.left);
+  const auto again =
+      std::ranges::count_if(expected, [&places](const pipeline::Vec2d& at) { return repeated(at, places); });
+  if (f.asked > 0) f.repeatability = double(again) / double(f.asked);
+  const auto accepted =
+      std::ranges::count_if(matches.matches, [](const pipeline::Match& m) { return m.rejected_by == 0; });
+  if (f.left > 0) f.match_rate = double(accepted) / double(f.left);
   f.spread = spread_of(pair, left);
   return f;
 }

@@ -17,8 +17,8 @@ using pipeline::Plane;
 
 template <typename T>
 void mirror_rows(std::pmr::vector<T>& values, int width, int channels) {
-  const auto w = static_cast<std::size_t>(width);
-  const auto n = static_cast<std::size_t>(channels);
+  const auto w = std::size_t(width);
+  const auto n = std::size_t(channels);
   for (std::size_t row = 0; row + w * n <= values.size(); row += w * n)
     for (std::size_t x = 0; x < w / 2; ++x)
       for (std::size_t c = 0; c < n; ++c)
@@ -53,9 +53,7 @@ class ModelView {
   };
 
   Seen seen(const pipeline::Vec3f& at) const {
-    const pipeline::Vec3d p =
-        apply(pair_.rectified_from_left,
-              {static_cast<double>(at.x), static_cast<double>(at.y), static_cast<double>(at.z)});
+    const pipeline::Vec3d p = apply(pair_.rectified_from_left, {double(at.x), double(at.y), double(at.z)});
     if (!(p.z > 0)) return {0, 0, 0, false};
     const double s = pair_.focal_px / p.z;
     return {pair_.left_centre_px.x + s * p.x, pair_.left_centre_px.y + s * p.y, pair_.disparity_px(p.z),
@@ -66,16 +64,16 @@ class ModelView {
   void fill(const Seen& a, const Seen& b, const Seen& c) {
     const double area = (b.x - a.x) * (c.y - a.y) - (c.x - a.x) * (b.y - a.y);
     if (area == 0) return;
-    const int x0 = std::max(0, static_cast<int>(std::ceil(std::min({a.x, b.x, c.x}))));
-    const int x1 = std::min(pair_.width_px - 1, static_cast<int>(std::floor(std::max({a.x, b.x, c.x}))));
-    const int y0 = std::max(0, static_cast<int>(std::ceil(std::min({a.y, b.y, c.y}))));
-    const int y1 = std::min(pair_.height_px - 1, static_cast<int>(std::floor(std::max({a.y, b.y, c.y}))));
+    const int x0 = std::max(0, int(std::ceil(std::min({a.x, b.x, c.x}))));
+    const int x1 = std::min(pair_.width_px - 1, int(std::floor(std::max({a.x, b.x, c.x}))));
+    const int y0 = std::max(0, int(std::ceil(std::min({a.y, b.y, c.y}))));
+    const int y1 = std::min(pair_.height_px - 1, int(std::floor(std::max({a.y, b.y, c.y}))));
     for (int y = y0; y <= y1; ++y)
       for (int x = x0; x <= x1; ++x) {
         const double u = ((b.x - x) * (c.y - y) - (c.x - x) * (b.y - y)) / area;
         const double v = ((c.x - x) * (a.y - y) - (a.x - x) * (c.y - y)) / area;
         if (u < 0 || v < 0 || u + v > 1) continue;
-        const auto d = static_cast<float>(u * a.d + v * b.d + (1 - u - v) * c.d);
+        const auto d = float(u * a.d + v * b.d + (1 - u - v) * c.d);
         float& here = map_.values[map_.index(x, y)];
         if (std::isnan(here) || d > here) here = d;  // the nearer one hides the other
       }
@@ -98,18 +96,18 @@ struct Products {
 };
 
 void take_products(const pipeline::RectifiedPair& pair, const DisparityMap& map, Products& p) {
-  const auto w = static_cast<std::size_t>(pair.width_px);
+  const auto w = std::size_t(pair.width_px);
   for (int y = 0; y < pair.height_px; ++y)
     for (int x = 0; x < pair.width_px; ++x) {
       if (!map.known(x, y)) continue;
-      const float at = static_cast<float>(x) - map.at(x, y);
-      const int k = static_cast<int>(std::floor(at));
+      const float at = float(x) - map.at(x, y);
+      const int k = int(std::floor(at));
       if (k < 0 || k + 1 >= pair.width_px) continue;
-      const std::size_t right = static_cast<std::size_t>(y) * w + static_cast<std::size_t>(k);
+      const std::size_t right = std::size_t(y) * w + std::size_t(k);
       if ((pair.right.valid[right] & pair.right.valid[right + 1] & pair.left.valid[map.index(x, y)]) == 0)
         continue;
-      const float r = pair.right.grey[right] +
-                      (at - static_cast<float>(k)) * (pair.right.grey[right + 1] - pair.right.grey[right]);
+      const float r =
+          pair.right.grey[right] + (at - float(k)) * (pair.right.grey[right + 1] - pair.right.grey[right]);
       const float l = pair.left.grey[map.index(x, y)];
       p.count.row(y)[x] = 1;
       p.left.row(y)[x] = l;
@@ -121,8 +119,8 @@ void take_products(const pipeline::RectifiedPair& pair, const DisparityMap& map,
 }
 
 double correlation(const Products& p, std::size_t k) {
-  const double n = static_cast<double>(p.count.values[k]);
-  const auto mean = [&](const Plane<float>& plane) { return static_cast<double>(plane.values[k]) / n; };
+  const double n = double(p.count.values[k]);
+  const auto mean = [&](const Plane<float>& plane) { return double(plane.values[k]) / n; };
   const double l = mean(p.left);
   const double r = mean(p.right);
   const double ll = std::max(mean(p.left_left) - l * l, 0.0);
@@ -140,16 +138,16 @@ pipeline::RectifiedPair mirrored(const pipeline::RectifiedPair& pair, const Disp
   const double last = pair.width_px - 1;
   other.left_centre_px = {last - pair.right_centre_px.x, pair.right_centre_px.y};
   other.right_centre_px = {last - pair.left_centre_px.x, pair.left_centre_px.y};
-  const int face_x = std::clamp(static_cast<int>(pair.face_centre_px.x), 0, pair.width_px - 1);
-  const int face_y = std::clamp(static_cast<int>(pair.face_centre_px.y), 0, pair.height_px - 1);
-  const double between = map.known(face_x, face_y) ? static_cast<double>(map.at(face_x, face_y))
+  const int face_x = std::clamp(int(pair.face_centre_px.x), 0, pair.width_px - 1);
+  const int face_y = std::clamp(int(pair.face_centre_px.y), 0, pair.height_px - 1);
+  const double between = map.known(face_x, face_y) ? double(map.at(face_x, face_y))
                                                    : pair.disparity_px(0.5 * (pair.near_mm + pair.far_mm));
   other.face_centre_px = {last - (pair.face_centre_px.x - between), pair.face_centre_px.y};
-  std::fill(other.region.begin(), other.region.end(), std::uint8_t{0});
+  std::ranges::fill(other.region, std::uint8_t{0});
   for (int y = 0; y < pair.height_px && !pair.region.empty(); ++y)
     for (int x = 0; x < pair.width_px; ++x) {
       if (!map.known(x, y)) continue;
-      const int to = pair.width_px - 1 - static_cast<int>(std::lround(static_cast<float>(x) - map.at(x, y)));
+      const int to = pair.width_px - 1 - int(std::lround(float(x) - map.at(x, y)));
       for (int near = std::max(0, to - 1); near <= std::min(pair.width_px - 1, to + 1); ++near)
         other.region[map.index(near, y)] = 1;
     }
@@ -173,10 +171,10 @@ Result<LeftRightFigures> left_right_figures(const pipeline::RectifiedPair& pair,
     for (int x = 0; x < pair.width_px; ++x) {
       if (!map.known(x, y) || (model && !model->known(x, y))) continue;
       ++figures.asked;
-      const float at = static_cast<float>(pair.width_px - 1) - (static_cast<float>(x) - map.at(x, y));
-      const int k = static_cast<int>(std::floor(at));
+      const float at = float(pair.width_px - 1) - (float(x) - map.at(x, y));
+      const int k = int(std::floor(at));
       if (!back.holds(k, y) || !back.holds(k + 1, y) || !back.known(k, y) || !back.known(k + 1, y)) continue;
-      const float there = back.at(k, y) + (at - static_cast<float>(k)) * (back.at(k + 1, y) - back.at(k, y));
+      const float there = back.at(k, y) + (at - float(k)) * (back.at(k + 1, y) - back.at(k, y));
       apart.push_back(std::abs(there - map.at(x, y)));
       close += apart.back() <= 1 ? 1 : 0;
     }
@@ -184,7 +182,7 @@ Result<LeftRightFigures> left_right_figures(const pipeline::RectifiedPair& pair,
   if (apart.empty()) return figures;
   figures.median_px = median(apart);
   figures.p95_px = percentile(apart, 0.95);
-  figures.within_1px = static_cast<double>(close) / static_cast<double>(apart.size());
+  figures.within_1px = double(close) / double(apart.size());
   return figures;
 }
 
@@ -204,7 +202,7 @@ PhotoFigures photo_figures(const pipeline::RectifiedPair& pair, const DisparityM
   std::vector<float> all;
   constexpr float kFull = kPhotoWindowPx * kPhotoWindowPx;
   for (std::size_t k = 0; k < p.count.values.size(); ++k)
-    if (p.count.values[k] >= kFull - 0.5F) all.push_back(static_cast<float>(correlation(p, k)));
+    if (p.count.values[k] >= kFull - 0.5F) all.push_back(float(correlation(p, k)));
   PhotoFigures figures;
   figures.asked = all.size();
   if (all.empty()) return figures;

@@ -52,18 +52,17 @@ TriangleGrid::TriangleGrid(const Surface& surface) : surface_(surface) {
     }
   }
   if (surface.triangles.empty()) return;
-  const auto cells = [&](double extent) { return static_cast<int>(extent / cell_mm_) + 1; };
+  const auto cells = [&](double extent) { return int(extent / cell_mm_) + 1; };
   for (;;) {
     nx_ = cells(high.x - low.x);
     ny_ = cells(high.y - low.y);
     nz_ = cells(high.z - low.z);
-    if (static_cast<double>(nx_) * ny_ * nz_ < static_cast<double>(kMostCells)) break;
+    if (double(nx_) * ny_ * nz_ < double(kMostCells)) break;
     cell_mm_ *= 1.5;
   }
   origin_mm_ = low;
   // Twice over the triangles: count a cell's, then place them.
-  const std::size_t count =
-      static_cast<std::size_t>(nx_) * static_cast<std::size_t>(ny_) * static_cast<std::size_t>(nz_);
+  const std::size_t count = std::size_t(nx_) * std::size_t(ny_) * std::size_t(nz_);
   begin_.assign(count + 1, 0);
   const auto for_each_cell = [&](const std::array<std::uint32_t, 3>& t, const auto& visit) {
     Cell from{nx_, ny_, nz_};
@@ -90,15 +89,13 @@ TriangleGrid::TriangleGrid(const Surface& surface) : surface_(surface) {
 
 TriangleGrid::Cell TriangleGrid::cell_of(const Vec3d& p) const {
   const auto axis = [this](double at, double origin) {
-    return static_cast<int>(std::floor(std::clamp((at - origin) / cell_mm_, -1e6, 1e6)));
+    return int(std::floor(std::clamp((at - origin) / cell_mm_, -1e6, 1e6)));
   };
   return {axis(p.x, origin_mm_.x), axis(p.y, origin_mm_.y), axis(p.z, origin_mm_.z)};
 }
 
 std::size_t TriangleGrid::index_of(const Cell& c) const {
-  return (static_cast<std::size_t>(c.z) * static_cast<std::size_t>(ny_) + static_cast<std::size_t>(c.y)) *
-             static_cast<std::size_t>(nx_) +
-         static_cast<std::size_t>(c.x);
+  return (std::size_t(c.z) * std::size_t(ny_) + std::size_t(c.y)) * std::size_t(nx_) + std::size_t(c.x);
 }
 
 void TriangleGrid::look(const Cell& cell, const Vec3d& p, double& best, std::uint32_t& which,

@@ -7,10 +7,81 @@
 #include <cstring>
 #include <string_view>
 
-#include "hal/whole_file.h"
+#include "hal/base/whole_file.h"
 #include "pipeline/calibrate/file/calibration_file.h"
 
 namespace relievo::firmware::measure {
+namespace {
+
+constexpr std::size_t kMaxFileBytes = std::size_t{1} << 30;
+constexpr std::size_t kVertexBytes = 12;
+constexpr std::size_t kTriangleBytes = 13;  // a count of 3, three numbers
+
+Error bad() {
+  return Error{Errc::InvalidInput,
+               "is no head of the simulated rig: 'relievo simulate face --truth' writes one"};
+}
+
+// Takes `text` off the front.
+bool skip(std::string_view& rest, std::string_view text) {
+  if (rest.substr(0, text.size()) != text) return false;
+  rest.remove_prefix(text.size());
+  return true;
+}
+
+bool number(std::string_view& rest, std::size_t& value) {
+  const auto [end, error] = std::from_chars(rest.data(), rest.data() + rest.size(), value);
+  if (error != std::errc()) return false;
+  rest.remove_prefix(std::size_t(end - rest.data()));
+  return true;
+}
+
+template <typename T>
+T take(const char*& from) {
+  T value;
+  std::memcpy(&value, from, sizeof value);
+  from += sizeof value;
+  return value;
+}
+
+}  // namespace
+
+Result<Surface> parse_true_surface(std::string_view rest) {
+  std::size_t vertices = 0;
+  std::size_t triangles = 0;
+  const bool known =
+      skip(rest, "ply\nformat binary_little_endian 1.0\nelement vertex ") && number(rest, vertices) &&
+      skip(rest, "\nproperty float x\nproperty float y\nproperty float z\nelement face ") &&
+      number(rest, triangles) && skip(rest, "\nproperty list uchar int vertex_indices\nend_header\n");
+  if (!known || vertices > kMaxFileBytes || triangles > kMaxFileBytes) return bad();
+  if (rest.size() != vertices * kVertexBytes + triangles * kTriangleBytes) return bad();
+  Surface surface;
+  surface.vertices_mm.resize(vertices);
+  surface.triangles.resize(triangles);
+  const char* at = rest.data();
+  for (Vec3f& v : surface.vertices_mm) {
+    v.x = take<float>(at);
+    v.y = take<float>(at);
+    v.z = take<float>(at);
+    if (!std::isfinite(v.x) || !std::isfinite(v.y) || !std::isfinite(v.z)) return bad();
+  }
+  for (auto& t : surface.triangles) {
+    if (take<std::uint8_t>(at) != 3) return bad();
+    for (std::uint32_t& v : t) {
+      v = take<std::uint32_t>(at);
+      if (v >= vertices) return bad();
+    }
+  }
+  return surface;
+}
+
+Result<Surface> read_true_surface(const std::filesystem::path& file) {
+  RELIEVO_TRY_ASSIGN(const auto bytes, read_whole_file(file, kMaxFileBytes));
+  auto surface = parse_true_surface({reinterpret_cast<const char*>(bytes.data()), bytes.size()});
+  if (!surface) return surface.error().at(file.string());
+  return surface;
+}
+
 namespace {
 
 constexpr double kNoseRadiusMm = 95;  // the crop of 3D face recognition
@@ -52,9 +123,7 @@ std::size_t header(std::string_view text, int& width_px, int& height_px) {
   auto [after_width, e1] = std::from_chars(text.data(), last, width_px);
   if (e1 != std::errc() || after_width == last || *after_width != ' ') return 0;
   auto [after_height, e2] = std::from_chars(after_width + 1, last, height_px);
-  if (e2 != std::errc() ||
-      std::string_view(after_height, static_cast<std::size_t>(last - after_height)) != " z")
-    return 0;
+  if (e2 != std::errc() || std::string_view(after_height, std::size_t(last - after_height)) != " z") return 0;
   const bool sane = width_px > 0 && height_px > 0 && width_px <= 16384 && height_px <= 16384;
   return sane ? end + 1 : 0;
 }
@@ -66,11 +135,10 @@ Result<TruthView> TruthView::read(const std::filesystem::path& folder) {
   RELIEVO_TRY_ASSIGN(const auto rig, pipeline::read_calibration(folder / "rig.yml"));
   truth.left_ = rig.left;
   const auto file = folder / "truth.bin";
-  RELIEVO_TRY_ASSIGN(const auto bytes, hal::read_whole_file(file, std::size_t{1} << 30));
+  RELIEVO_TRY_ASSIGN(const auto bytes, read_whole_file(file, std::size_t{1} << 30));
   const std::size_t start =
       header({reinterpret_cast<const char*>(bytes.data()), bytes.size()}, truth.width_px_, truth.height_px_);
-  const std::size_t count =
-      static_cast<std::size_t>(truth.width_px_) * static_cast<std::size_t>(truth.height_px_);
+  const std::size_t count = std::size_t(truth.width_px_) * std::size_t(truth.height_px_);
   if (start == 0 || bytes.size() != start + count * 5 || rig.left.width_px != truth.width_px_)
     return bad(file);
   truth.points_mm_.resize(count);
@@ -82,9 +150,8 @@ Result<TruthView> TruthView::read(const std::filesystem::path& folder) {
       float z = 0;
       std::memcpy(&z, bytes.data() + start + i * 4, 4);
       const Vec3d p = std::isnan(z) ? Vec3d{0, 0, z} : times(straight(truth.left_, x, y), z);
-      truth.points_mm_[i] = {static_cast<float>(p.x), static_cast<float>(p.y), static_cast<float>(p.z)};
-      truth.flags_[i] =
-          std::isnan(z) ? std::uint8_t{0} : static_cast<std::uint8_t>(truth.flags_[i] & kJudged);
+      truth.points_mm_[i] = {float(p.x), float(p.y), float(p.z)};
+      truth.flags_[i] = std::isnan(z) ? std::uint8_t{0} : std::uint8_t(truth.flags_[i] & kJudged);
     }
   }
   truth.keep_near_nose();
@@ -103,7 +170,7 @@ void TruthView::keep_near_nose() {
     if ((flags_[i] & kJudged) == kJudged &&
         distance(wide(points_mm_[i]), wide(points_mm_[tip])) <= kNoseRadiusMm)
       continue;
-    flags_[i] = static_cast<std::uint8_t>(flags_[i] & ~kSteep);
+    flags_[i] = std::uint8_t(flags_[i] & ~kSteep);
   }
 }
 
@@ -130,7 +197,7 @@ std::uint8_t TruthView::flags_at(const Vec3d& p) const {
   const double u = std::round(left_.focal_px.x * b.x + left_.centre_px.x);
   const double v = std::round(left_.focal_px.y * b.y + left_.centre_px.y);
   if (!(u >= 0 && v >= 0 && u < width_px_ && v < height_px_)) return 0;
-  return flags_[at(static_cast<int>(u), static_cast<int>(v))];
+  return flags_[at(int(u), int(v))];
 }
 
 std::optional<Vec3d> TruthView::judged_point_along(const Vec3d& ray) const {
@@ -139,25 +206,24 @@ std::optional<Vec3d> TruthView::judged_point_along(const Vec3d& ray) const {
   const double u = left_.focal_px.x * b.x + left_.centre_px.x;
   const double v = left_.focal_px.y * b.y + left_.centre_px.y;
   if (!(u >= 0 && v >= 0 && u < width_px_ - 1 && v < height_px_ - 1)) return std::nullopt;
-  const int x = static_cast<int>(u);
-  const int y = static_cast<int>(v);
+  const int x = int(u);
+  const int y = int(v);
   double z = 0;
   for (int j = 0; j < 2; ++j)
     for (int i = 0; i < 2; ++i) {
       const std::size_t k = at(x + i, y + j);
       if ((flags_[k] & kJudged) != kJudged) return std::nullopt;
       const double weight = (i == 0 ? 1 - (u - x) : u - x) * (j == 0 ? 1 - (v - y) : v - y);
-      z += weight * static_cast<double>(points_mm_[k].z);
+      z += weight * double(points_mm_[k].z);
     }
   return times(ray, z / ray.z);
 }
 
 std::vector<Vec3d> TruthView::judged_points(std::size_t count) const {
   std::vector<Vec3d> points;
-  const auto judged = static_cast<std::size_t>(
-      std::count_if(flags_.begin(), flags_.end(), [](std::uint8_t f) { return (f & kJudged) == kJudged; }));
-  const int step =
-      std::max(1, static_cast<int>(std::sqrt(static_cast<double>(judged) / static_cast<double>(count))));
+  const auto judged =
+      std::size_t(std::ranges::count_if(flags_, [](std::uint8_t f) { return (f & kJudged) == kJudged; }));
+  const int step = std::max(1, int(std::sqrt(double(judged) / double(count))));
   for (int y = 0; y < height_px_; y += step) {
     for (int x = 0; x < width_px_; x += step) {
       if ((flags_[at(x, y)] & kJudged) == kJudged) points.push_back(wide(points_mm_[at(x, y)]));

@@ -11,6 +11,7 @@
 #include <cstdint>
 #include <filesystem>
 #include <optional>
+#include <string_view>
 #include <vector>
 
 #include "firmware/measure/triangle_grid.h"
@@ -18,6 +19,14 @@
 #include "pipeline/model/calibration.h"
 
 namespace relievo::firmware::measure {
+
+// The true surface of a simulated head, also where no camera sees it: head.ply (binary, float x y z,
+// triangles) in the left camera's frame, millimetres.
+// Errors: NotFound, IoFailed, InvalidInput. Thread: any.
+
+Result<Surface> read_true_surface(const std::filesystem::path& file);
+// Nothing but this one form of PLY. An error has no place.
+Result<Surface> parse_true_surface(std::string_view bytes);
 
 class TruthView {
  public:
@@ -39,9 +48,7 @@ class TruthView {
   std::vector<Vec3d> judged_points(std::size_t count) const;
 
  private:
-  std::size_t at(int x, int y) const {
-    return static_cast<std::size_t>(y) * static_cast<std::size_t>(width_px_) + static_cast<std::size_t>(x);
-  }
+  std::size_t at(int x, int y) const { return std::size_t(y) * std::size_t(width_px_) + std::size_t(x); }
   void keep_near_nose();
   void mark_interior();
 

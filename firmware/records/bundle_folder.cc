@@ -4,7 +4,7 @@
 
 #include "firmware/base/output_folder.h"
 #include "firmware/records/bundle_manifest.h"
-#include "hal/whole_file.h"
+#include "hal/base/whole_file.h"
 
 namespace relievo::firmware {
 namespace {
@@ -19,7 +19,7 @@ Result<Sums> sums_of(const fs::path& folder) {
   Sums sums;
   std::error_code error;
   for (fs::directory_iterator entry(folder, error), end; !error && entry != end; entry.increment(error)) {
-    RELIEVO_TRY_ASSIGN(const auto bytes, hal::read_whole_file(entry->path(), kMostFileBytes));
+    RELIEVO_TRY_ASSIGN(const auto bytes, read_whole_file(entry->path(), kMostFileBytes));
     sums[entry->path().filename().string()] = storage::sha256(bytes);
   }
   if (error) return Error{Errc::IoFailed, "the folder cannot be read back", error.value()};
@@ -31,7 +31,7 @@ Result<void> write_manifest(storage::Store& store, const CopyOf& of, const fs::p
   RELIEVO_TRY_ASSIGN(Sums sums, sums_of(folder));
   RELIEVO_TRY_ASSIGN(const auto files, manifest_files(store, of, std::move(sums)));
   for (const storage::BundleFile& file : files)
-    if (const auto written = hal::write_whole_file(folder / file.name, file.bytes); !written)
+    if (const auto written = write_whole_file(folder / file.name, file.bytes); !written)
       return written.error().at(place.native());
   return {};
 }
@@ -46,7 +46,7 @@ Result<std::vector<storage::BundleFile>> read_bundle_folder(const fs::path& fold
     if (!storage::is_plain_name(name) || files.size() == kMostFiles ||
         !fs::is_regular_file(fs::symlink_status(entry->path(), error)))
       return Error{Errc::InvalidInput, "is no file as it was exported: nothing was taken"}.at(name);
-    RELIEVO_TRY_ASSIGN(auto bytes, hal::read_whole_file(entry->path(), left));
+    RELIEVO_TRY_ASSIGN(auto bytes, read_whole_file(entry->path(), left));
     left -= bytes.size();
     files.push_back({name, std::move(bytes)});
   }

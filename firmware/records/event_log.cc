@@ -8,14 +8,14 @@
 #include <span>
 
 #include "firmware/base/wall_time.h"
+#include "hal/base/whole_file.h"
 #include "hal/base/words.h"
-#include "hal/whole_file.h"
 #include "ui/screens/service/fault_words.h"
 
 namespace relievo::firmware {
 namespace {
 
-constexpr int kLastCode = static_cast<int>(Errc::Unsupported);
+constexpr int kLastCode = int(Errc::Unsupported);
 constexpr std::string_view kGap = "  ", kFault = "  fault: ";
 
 // Up to the next tab, and what is behind it.
@@ -49,7 +49,7 @@ LogEntry entry_of(std::string_view line) {
   entry.text = text;
   const std::string_view what = cut(rest);
   if (const auto number = number_behind(what, 'f', kLastCode)) entry.code = static_cast<Errc>(*number);
-  if (const auto number = number_behind(what, 'e', static_cast<int>(ui::LogEvent::Count) - 1))
+  if (const auto number = number_behind(what, 'e', int(ui::LogEvent::Count) - 1))
     entry.event = static_cast<ui::LogEvent>(*number);
   while (!rest.empty()) entry.values.emplace_back(cut(rest));
   return entry;
@@ -69,14 +69,14 @@ EventLog::EventLog(const hal::Clock& clock, std::filesystem::path file)
 
 void EventLog::say(ui::LogEvent event, std::initializer_list<std::string_view> values) {
   const ui::LogWords words = ui::words_of(ui::Words(ui::Language::English), event);
-  std::string behind = "\te" + std::to_string(static_cast<int>(event));
+  std::string behind = "\te" + std::to_string(int(event));
   for (const std::string_view value : values) behind.append(1, '\t').append(value);
   put(words.role != nullptr ? filled(words.pattern, {words.role}) : filled(words.pattern, values), behind,
       false);
 }
 
 void EventLog::fault(const Error& error) {
-  put(std::string(error.what.view()), "\tf" + std::to_string(static_cast<int>(error.code)), true);
+  put(std::string(error.what.view()), "\tf" + std::to_string(int(error.code)), true);
 }
 
 void EventLog::put(std::string text, const std::string& behind, bool fault) {
@@ -132,7 +132,7 @@ Result<void> EventLog::save() {
     saved_ = said;  // one that cannot be written is not tried for ever
   }
   if (file_.empty()) return {};
-  return hal::write_whole_file(file_, std::as_bytes(std::span(text)));
+  return write_whole_file(file_, std::as_bytes(std::span(text)));
 }
 
 }  // namespace relievo::firmware

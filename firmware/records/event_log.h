@@ -22,7 +22,7 @@
 
 #include "hal/base/result.h"
 #include "hal/clock.h"
-#include "ui/view/log_event.h"
+#include "ui/view/staff_views.h"
 
 namespace relievo::firmware {
 

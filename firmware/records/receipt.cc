@@ -10,7 +10,7 @@ namespace {
 
 constexpr std::size_t kDrawnDigits = 12, kCheckDigits = 2;
 
-int check_digits(std::int64_t number) { return static_cast<int>(98 - (number % 97 * 100) % 97); }
+int check_digits(std::int64_t number) { return int(98 - (number % 97 * 100) % 97); }
 
 std::optional<std::int64_t> number_in(std::string_view digits) {
   std::int64_t number = 0;
@@ -39,7 +39,7 @@ std::optional<std::int64_t> read(std::string_view code) {
 
 std::string receipt_of(const storage::Subject& subject) {
   char text[40];
-  const auto part = [&](std::int64_t unit) { return static_cast<int>(subject.receipt / unit % 10'000); };
+  const auto part = [&](std::int64_t unit) { return int(subject.receipt / unit % 10'000); };
   std::snprintf(text, sizeof text, "%04d-%04d-%04d-%02d", part(100'000'000), part(10'000), part(1),
                 check_digits(subject.receipt));
   return text;

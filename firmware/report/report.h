@@ -15,7 +15,7 @@
 #include "pipeline/calibrate/drift.h"
 #include "pipeline/fuse/aliveness.h"
 #include "pipeline/fuse/pose_registration.h"
-#include "pipeline/match/diagnose/overexposure.h"
+#include "pipeline/match/diagnose/pair_diagnosis.h"
 #include "pipeline/model/face_model.h"
 
 namespace relievo::firmware {

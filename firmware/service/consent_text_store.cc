@@ -10,8 +10,8 @@
 #include "firmware/base/output_folder.h"
 #include "firmware/service/page_controller.h"
 #include "firmware/service/stick_folder.h"
+#include "hal/base/whole_file.h"
 #include "hal/picture_file.h"
-#include "storage/export/atomic_file.h"
 
 namespace relievo::firmware {
 namespace {
@@ -134,7 +134,7 @@ Result<void> copy_texts(const fs::path& from, const fs::path& to) {
     if (!write_text(to / name, text, name)) return not_kept().at(name.string());
   }
   if (error) return Error{Errc::IoFailed, "cannot be read", error.value()}.at(from.string());
-  return storage::sync_directory(to);
+  return sync_directory(to);
 }
 
 }  // namespace

@@ -18,18 +18,12 @@ bool is_visit(State state) {
 
 ui::Refusal refusal_of(const Error& error) {
   switch (error.code) {
-    case Errc::NoFace:
-      return ui::Refusal::NoFace;
-    case Errc::TooFewMatches:
-      return ui::Refusal::TooFewMatches;
-    case Errc::PoorGeometry:
-      return ui::Refusal::PoorGeometry;
-    case Errc::OutOfMemory:
-      return ui::Refusal::Memory;
-    case Errc::Disconnected:
-      return ui::Refusal::Camera;
-    case Errc::Timeout:
-      return ui::Refusal::Slow;
+    case Errc::NoFace: return ui::Refusal::NoFace;
+    case Errc::TooFewMatches: return ui::Refusal::TooFewMatches;
+    case Errc::PoorGeometry: return ui::Refusal::PoorGeometry;
+    case Errc::OutOfMemory: return ui::Refusal::Memory;
+    case Errc::Disconnected: return ui::Refusal::Camera;
+    case Errc::Timeout: return ui::Refusal::Slow;
     case Errc::InvalidInput:
     case Errc::NotFound:
     case Errc::NotCalibrated:
@@ -41,8 +35,7 @@ ui::Refusal refusal_of(const Error& error) {
     case Errc::IoFailed:
     case Errc::Cancelled:
     case Errc::InvalidState:
-    case Errc::Unsupported:
-      break;
+    case Errc::Unsupported: break;
   }
   return ui::Refusal::Other;
 }

@@ -31,18 +31,15 @@ std::array<Arena, sizeof...(I)> arenas(const std::array<std::span<std::byte>, si
 }
 
 std::size_t row_bytes(const ImageView& view) {
-  return static_cast<std::size_t>(view.width_px * bytes_per_pixel(view.format));
+  return std::size_t(view.width_px * bytes_per_pixel(view.format));
 }
-std::size_t bytes_of(const ImageView& view) {
-  return row_bytes(view) * static_cast<std::size_t>(view.height_px);
-}
+std::size_t bytes_of(const ImageView& view) { return row_bytes(view) * std::size_t(view.height_px); }
 
 // Row by row without padding.
 ImageView copied(const ImageView& view, std::byte* to) {
   const std::size_t row = row_bytes(view);
-  for (int y = 0; y < view.height_px; ++y)
-    std::memcpy(to + static_cast<std::size_t>(y) * row, view.row(y), row);
-  return {to, view.width_px, view.height_px, static_cast<int>(row), view.format};
+  for (int y = 0; y < view.height_px; ++y) std::memcpy(to + std::size_t(y) * row, view.row(y), row);
+  return {to, view.width_px, view.height_px, int(row), view.format};
 }
 
 }  // namespace

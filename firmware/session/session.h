@@ -12,22 +12,26 @@
 // Thread: main opens and closes, and only while no job runs; a running job has the products.
 #pragma once
 
+#include <string.h>
+
 #include <algorithm>
 #include <array>
 #include <atomic>
 #include <condition_variable>
+#include <cstdint>
 #include <mutex>
 #include <optional>
 #include <span>
 #include <string_view>
+#include <vector>
 
 #include "firmware/base/boot_memory.h"
 #include "firmware/base/budget.h"
 #include "firmware/capture/live_feed.h"
-#include "firmware/capture/stereo_slot.h"
-#include "firmware/machine/transition.h"
-#include "firmware/session/stage_pictures.h"
+#include "firmware/capture/stereo_grabber.h"
+#include "firmware/machine/machine.h"
 #include "hal/base/arena.h"
+#include "hal/base/image_view.h"
 #include "hal/base/result.h"
 #include "pipeline/calibrate/drift.h"
 #include "pipeline/fuse/pose_registration.h"
@@ -39,6 +43,42 @@
 #include "pipeline/model/stereo_frame.h"
 
 namespace relievo::firmware {
+
+// StagePictures: small square pictures of the face for the screen: the photograph, then one for each stage
+// that is done. Fixed memory, part of the session: wiped with it. Thread: who takes or makes it draws its
+// picture before it reports; main reads those reported.
+inline constexpr std::size_t kStagePictures =
+    5;  // Capture, Match, Reconstruct, Mesh, Texture; Assemble has none
+
+class StagePictures {
+ public:
+  static constexpr int kSide = budget::kStagePictureSidePx;
+
+  StagePictures() {
+    for (One& one : pictures_) one.rgb.resize(std::size_t{3} * kSide * kSide);
+  }
+  std::uint8_t* begin(std::size_t stage) { return pictures_[stage].rgb.data(); }
+  void done(std::size_t stage) { pictures_[stage].number = ++count_; }
+  std::uint32_t number(std::size_t stage) const { return pictures_[stage].number; }  // 0: not drawn
+  ImageView view(std::size_t stage) const {
+    return {reinterpret_cast<const std::byte*>(pictures_[stage].rgb.data()), kSide, kSide, 3 * kSide,
+            PixelFormat::Rgb8};
+  }
+  void wipe() {
+    for (One& one : pictures_) {
+      if (one.number != 0) explicit_bzero(one.rgb.data(), one.rgb.size());
+      one.number = 0;
+    }
+  }
+
+ private:
+  struct One {
+    std::vector<std::uint8_t> rgb;
+    std::uint32_t number = 0;
+  };
+  std::array<One, kStagePictures> pictures_;
+  std::uint32_t count_ = 0;
+};
 
 // SidePairs: the pairs that show a head from its sides, on their way from the capture thread to the worker,
 // and the room where the worker keeps what each pose comes to. A pair waits in the room of its own pose;

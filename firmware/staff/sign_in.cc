@@ -119,22 +119,18 @@ void SignIn::check(std::string_view pin) {
 void SignIn::offer(std::string_view pin, StaffRole role) {
   fault_ = PinFault::None;
   switch (step_) {
-    case PinStep::Technician:
-      return judge(std::string(pin), StaffRole::Technician, PinStep::TechnicianAgain);
+    case PinStep::Technician: return judge(std::string(pin), StaffRole::Technician, PinStep::TechnicianAgain);
     case PinStep::Operator:
       if (pin == technician_) {
         fault_ = PinFault::Taken;
         return;
       }
       return judge(std::string(pin), StaffRole::Operator, PinStep::OperatorAgain);
-    case PinStep::Own:
-      return judge(std::string(pin), role, PinStep::OwnAgain);
+    case PinStep::Own: return judge(std::string(pin), role, PinStep::OwnAgain);
     case PinStep::TechnicianAgain:
     case PinStep::OperatorAgain:
-    case PinStep::OwnAgain:
-      return offered_again(pin, role);
-    case PinStep::Done:
-      return;
+    case PinStep::OwnAgain: return offered_again(pin, role);
+    case PinStep::Done: return;
   }
 }
 
@@ -222,7 +218,7 @@ void SignIn::show(ui::AccessView& view) const {
           step_,          fault_,
           clock_text_,    clock_right_,
           clock_refused_, checking_,
-          wrong_,         static_cast<int>(std::max<std::int64_t>(0, wait.count())),
+          wrong_,         int(std::max<std::int64_t>(0, wait.count())),
           consent_right_, forgotten_ != StaffRole::None};
 }
 

@@ -118,7 +118,7 @@ class TechnicianController final : public PageController {
 // pages[page]: none where SignIn answers, or nobody.
 void fill_page_controllers(PageServices& services, Pages pages) {
   const auto at = [&](ui::StaffPage page) -> std::unique_ptr<PageController>& {
-    return pages[static_cast<std::size_t>(page)];
+    return pages[std::size_t(page)];
   };
   at(ui::StaffPage::Menu) = std::make_unique<StatusController>(services);
   at(ui::StaffPage::Records) = std::make_unique<RecordsController>(services);
@@ -135,8 +135,8 @@ void fill_page_controllers(PageServices& services, Pages pages) {
 
 // One for every picture page: StaffPage::Stages and those after it, in TechnicianPage's order.
 void fill_technician_pages(PageServices& services, TestCapture& test_capture, Pages pages) {
-  for (int i = 0; i <= static_cast<int>(ui::TechnicianPage::Calibrate); ++i)
-    pages[static_cast<std::size_t>(ui::StaffPage::Stages) + static_cast<std::size_t>(i)] =
+  for (int i = 0; i <= int(ui::TechnicianPage::Calibrate); ++i)
+    pages[std::size_t(ui::StaffPage::Stages) + std::size_t(i)] =
         std::make_unique<TechnicianController>(services, test_capture, static_cast<ui::TechnicianPage>(i));
 }
 
@@ -166,20 +166,14 @@ bool is_of_a_visit(State state) {
 
 ui::Outcome outcome_of(const Error& error) {
   switch (error.code) {
-    case Errc::Cancelled:
-      return ui::Outcome::Cancelled;
-    case Errc::MediaMissing:
-      return ui::Outcome::NoStick;
-    case Errc::MediaFull:
-      return ui::Outcome::StickFull;
-    case Errc::Disconnected:
-      return ui::Outcome::StickGone;
-    case Errc::NotFound:
-      return ui::Outcome::NotFound;
+    case Errc::Cancelled: return ui::Outcome::Cancelled;
+    case Errc::MediaMissing: return ui::Outcome::NoStick;
+    case Errc::MediaFull: return ui::Outcome::StickFull;
+    case Errc::Disconnected: return ui::Outcome::StickGone;
+    case Errc::NotFound: return ui::Outcome::NotFound;
     case Errc::InvalidInput:
     case Errc::InvalidState:
-    case Errc::Unsupported:
-      return ui::Outcome::Refused;
+    case Errc::Unsupported: return ui::Outcome::Refused;
     case Errc::Timeout:
     case Errc::NotCalibrated:
     case Errc::NoFace:
@@ -189,8 +183,7 @@ ui::Outcome outcome_of(const Error& error) {
     case Errc::OutOfMemory:
     case Errc::StoreCorrupt:
     case Errc::StoreNewer:
-    case Errc::IoFailed:
-      break;
+    case Errc::IoFailed: break;
   }
   return ui::Outcome::Failed;
 }
@@ -272,12 +265,12 @@ void StaffController::ask(const ui::StaffRequest& request) {
     close_page();
     if (signs_in) sign_in_.opened(request.page);
     const bool may = request.page == StaffPage::Menu ? inside() : may_open(role_, request.page);
-    page_ = may ? pages_[static_cast<std::size_t>(request.page)].get() : nullptr;
+    page_ = may ? pages_[std::size_t(request.page)].get() : nullptr;
     if (page_ != nullptr) page_->opened();
     return;
   }
   if (signs_in) return sign_in_.ask(request, role_);
-  if (page_ != nullptr && page_ == pages_[static_cast<std::size_t>(request.page)].get()) page_->ask(request);
+  if (page_ != nullptr && page_ == pages_[std::size_t(request.page)].get()) page_->ask(request);
 }
 
 void StaffController::close_page() {
@@ -307,7 +300,7 @@ int StaffController::seconds_left() const {
   const auto left = std::chrono::ceil<std::chrono::seconds>(
       last_touch_ + std::chrono::seconds(settings().of(ui::Setting::StaffPatienceS)) -
       parts_.device.clock().now());
-  return static_cast<int>(std::max<std::int64_t>(0, left.count()));
+  return int(std::max<std::int64_t>(0, left.count()));
 }
 
 void StaffController::turn() {

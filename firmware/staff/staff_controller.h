@@ -85,7 +85,7 @@ class StaffController {
   PageServices services_;
   SignIn sign_in_;
   std::uint64_t saved_statistics_ = 0, saved_costs_ = 0;
-  std::array<std::unique_ptr<PageController>, static_cast<std::size_t>(ui::StaffPage::Count)> pages_;
+  std::array<std::unique_ptr<PageController>, std::size_t(ui::StaffPage::Count)> pages_;
   std::unique_ptr<TestCapture> test_capture_;
   PageController* page_ = nullptr;
   ui::StaffRole role_ = ui::StaffRole::None, waiting_ = ui::StaffRole::None;

@@ -13,7 +13,7 @@ namespace {
 constexpr std::size_t kMostTyped = 24;
 
 bool contains(const std::vector<std::string>& names, std::string_view name) {
-  return std::find(names.begin(), names.end(), name) != names.end();
+  return std::ranges::find(names, name) != names.end();
 }
 
 bool belongs(std::string_view option, std::string_view kind, std::string_view name) {
@@ -63,7 +63,7 @@ void AlgorithmController::rebuild() {
   for (const std::string& name : chosen) {
     for (const auto& option : all_) {
       const bool mine = option.is_option() && belongs(option.key, kind.key, name);
-      if (mine && std::find(shown_.begin(), shown_.end(), &option) == shown_.end()) shown_.push_back(&option);
+      if (mine && std::ranges::find(shown_, &option) == shown_.end()) shown_.push_back(&option);
     }
   }
   option_values_.clear();
@@ -81,7 +81,7 @@ void AlgorithmController::choose_name(std::size_t index) {
   std::string value = kind.names[index];
   if (kind.several && value != "none") {
     std::vector<std::string> chosen = pipeline::split_names(kind_values_[kind_]);
-    const auto at = std::find(chosen.begin(), chosen.end(), value);
+    const auto at = std::ranges::find(chosen, value);
     if (at == chosen.end()) chosen.push_back(value);
     else chosen.erase(at);
     value = joined(kind.names, chosen);
@@ -106,7 +106,7 @@ void AlgorithmController::edit(std::size_t index) {
   // Of a few names a tap takes the next.
   const std::vector<std::string>& names = shown_[index]->names;
   if (names.empty()) return;
-  const auto now = std::find(names.begin(), names.end(), option_values_[index]);
+  const auto now = std::ranges::find(names, option_values_[index]);
   use(now + 1 < names.end() ? *(now + 1) : names.front());
 }
 

@@ -13,7 +13,7 @@
 #include <vector>
 
 #include "pipeline/algorithms.h"
-#include "ui/technician/technician_choice.h"
+#include "ui/technician/technician_view.h"
 #include "ui/view/staff_request.h"
 
 namespace relievo::firmware {

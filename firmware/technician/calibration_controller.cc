@@ -9,7 +9,7 @@
 #include "firmware/base/wall_time.h"
 #include "firmware/calibrate/calibrate_command.h"
 #include "firmware/calibrate/calibration_history.h"
-#include "firmware/technician/calibration_stick.h"
+#include "firmware/technician/saved_reconstruction.h"
 
 namespace relievo::firmware {
 namespace {
@@ -38,20 +38,18 @@ class Drawing {
   Drawing(std::uint8_t* rgb, const ImageView& view, double scale)
       : rgb_(rgb), width_(view.width_px), height_(view.height_px), scale_(scale) {}
   void dot(const pipeline::Vec2d& at, std::array<std::uint8_t, 3> colour) {
-    const int x = static_cast<int>(std::lround(at.x * scale_)),
-              y = static_cast<int>(std::lround(at.y * scale_));
+    const int x = int(std::lround(at.x * scale_)), y = int(std::lround(at.y * scale_));
     for (int v = y - 2; v <= y + 2; ++v) {
       for (int u = x - 2; u <= x + 2; ++u) put(u, v, colour);
     }
   }
   void line(const pipeline::Vec2d& from, const pipeline::Vec2d& to, std::array<std::uint8_t, 3> colour) {
     const double dx = (to.x - from.x) * scale_, dy = (to.y - from.y) * scale_;
-    const int steps =
-        std::clamp(static_cast<int>(std::max(std::abs(dx), std::abs(dy))), 1, 4 * budget::kLiveSidePx);
+    const int steps = std::clamp(int(std::max(std::abs(dx), std::abs(dy))), 1, 4 * budget::kLiveSidePx);
     for (int i = 0; i <= steps; ++i) {
-      const double t = static_cast<double>(i) / steps;
-      const int x = static_cast<int>(std::lround(from.x * scale_ + t * dx)),
-                y = static_cast<int>(std::lround(from.y * scale_ + t * dy));
+      const double t = double(i) / steps;
+      const int x = int(std::lround(from.x * scale_ + t * dx)),
+                y = int(std::lround(from.y * scale_ + t * dy));
       put(x, y, colour);
       put(x + 1, y, colour);
       put(x, y + 1, colour);
@@ -61,20 +59,17 @@ class Drawing {
  private:
   void put(int x, int y, std::array<std::uint8_t, 3> colour) {
     if (x < 0 || y < 0 || x >= width_ || y >= height_) return;
-    std::copy(colour.begin(), colour.end(),
-              rgb_ + std::ptrdiff_t{3} * (static_cast<std::ptrdiff_t>(y) * width_ + x));
+    std::ranges::copy(colour, rgb_ + std::ptrdiff_t{3} * (std::ptrdiff_t(y) * width_ + x));
   }
   std::uint8_t* rgb_;
   int width_, height_;
   double scale_;
 };
 
-static_assert(static_cast<int>(ui::BoardAdvice::Done) == static_cast<int>(pipeline::LiveAdvice::Done) &&
-              static_cast<int>(ui::BoardAdvice::HoldStill) ==
-                  static_cast<int>(pipeline::LiveAdvice::HoldStill) &&
-              static_cast<int>(ui::BoardAdvice::TiltBack) ==
-                  static_cast<int>(pipeline::LiveAdvice::TiltBack) &&
-              static_cast<int>(ui::BoardEnd::Full) == static_cast<int>(pipeline::LiveEnd::Full));
+static_assert(int(ui::BoardAdvice::Done) == int(pipeline::LiveAdvice::Done) &&
+              int(ui::BoardAdvice::HoldStill) == int(pipeline::LiveAdvice::HoldStill) &&
+              int(ui::BoardAdvice::TiltBack) == int(pipeline::LiveAdvice::TiltBack) &&
+              int(ui::BoardEnd::Full) == int(pipeline::LiveEnd::Full));
 static_assert(ui::kCoverageCells == pipeline::kCoverageColumns &&
               ui::kCoverageCells == pipeline::kCoverageRows);
 
@@ -85,12 +80,9 @@ constexpr double kLeastSquareMm = 4, kMostSquareMm = 100;
 
 ui::TechnicianVerdict verdict_of(pipeline::CalibrationVerdict verdict) {
   switch (verdict) {
-    case pipeline::CalibrationVerdict::Pass:
-      return ui::TechnicianVerdict::Good;
-    case pipeline::CalibrationVerdict::Usable:
-      return ui::TechnicianVerdict::Warn;
-    case pipeline::CalibrationVerdict::Refuse:
-      break;
+    case pipeline::CalibrationVerdict::Pass: return ui::TechnicianVerdict::Good;
+    case pipeline::CalibrationVerdict::Usable: return ui::TechnicianVerdict::Warn;
+    case pipeline::CalibrationVerdict::Refuse: break;
   }
   return ui::TechnicianVerdict::Refuse;
 }
@@ -140,7 +132,7 @@ void CalibrateJob::publish(const LivePair& pair, const pipeline::LiveState& stat
   for (std::size_t i = 0; i < 2; ++i) {
     const ImageView& view = i == 0 ? pair.left : pair.right;
     const ImageView small = feeds_[i].fill(view);
-    Drawing drawing(feeds_[i].filled(), small, static_cast<double>(small.width_px) / view.width_px);
+    Drawing drawing(feeds_[i].filled(), small, double(small.width_px) / view.width_px);
     for (const pipeline::Vec2d& corner : state.corners[i]) {
       if (pipeline::seen(corner)) drawing.dot(corner, kSeen);
     }
@@ -157,12 +149,10 @@ void CalibrateJob::publish(const LivePair& pair, const pipeline::LiveState& stat
   now.pairs = state.pairs;
   now.views = state.views;
   now.disagreeing = state.disagreeing;
-  now.bars = {static_cast<float>(state.bars.x), static_cast<float>(state.bars.y),
-              static_cast<float>(state.bars.size), static_cast<float>(state.bars.skew)};
-  for (std::size_t k = 0; k < 2; ++k)
-    std::copy(state.maps[k].count.begin(), state.maps[k].count.end(), now.seen[k].begin());
-  now.error_mm = static_cast<float>(state.error_mm);
-  now.goal_mm = static_cast<float>(state.goal_mm);
+  now.bars = {float(state.bars.x), float(state.bars.y), float(state.bars.size), float(state.bars.skew)};
+  for (std::size_t k = 0; k < 2; ++k) std::ranges::copy(state.maps[k].count, now.seen[k].begin());
+  now.error_mm = float(state.error_mm);
+  now.goal_mm = float(state.goal_mm);
   const std::lock_guard lock(mutex_);
   for (LiveFeed& feed : feeds_) feed.publish({});
   figures_ = now;
@@ -237,8 +227,7 @@ void CalibrationController::ended() {
   reasons_ = quality.reasons;
   for (const pipeline::ViewQuality& view : quality.views)
     if (view.used)
-      views_px_.push_back(
-          static_cast<float>(std::hypot(view.left_rms_px, view.right_rms_px) / std::sqrt(2.0)));
+      views_px_.push_back(float(std::hypot(view.left_rms_px, view.right_rms_px) / std::sqrt(2.0)));
 }
 
 void CalibrationController::load_history() {
@@ -257,14 +246,14 @@ void CalibrationController::load_history() {
       [this, rows](const std::optional<Error>& error) {
         if (error) problem_ = ui::fault_of(*error);
         else history_.swap(*rows);
-        walk_.set_rows(static_cast<std::int64_t>(history_.size()));
+        walk_.set_rows(std::int64_t(history_.size()));
       });
 }
 
 void CalibrationController::walk(const ui::ListRequest& request) {
   if (walk_.ask(request) != ListWalk::Ask::Labels) return;
   for (std::size_t i = 0; i < walk_.stretches(); ++i) {
-    const auto top = static_cast<std::size_t>(walk_.top_row(i));
+    const auto top = std::size_t(walk_.top_row(i));
     walk_.set_label(i, top < history_.size() ? history_[top].made_at : std::string());
   }
 }
@@ -308,7 +297,7 @@ void CalibrationController::store() {
 }
 
 void CalibrationController::activate(std::size_t row) {
-  row += static_cast<std::size_t>(walk_.first_row());
+  row += std::size_t(walk_.first_row());
   if (row >= history_.size() || history_[row].info.active) return;
   const std::uint32_t revision = history_[row].info.revision;
   adopt([this, revision]() -> Result<std::uint32_t> {
@@ -324,7 +313,7 @@ void CalibrationController::export_in_use() {
   exported_.clear();
   char name[24];
   std::snprintf(name, sizeof name, "%04u",
-                static_cast<unsigned>(in_use->revision));  // so that their names have their order
+                unsigned(in_use->revision));  // so that their names have their order
   const std::string folder = name;
   parts_.side_tasks.send(
       JobLane::Keeper,
@@ -349,7 +338,7 @@ ui::TechnicianCalibration CalibrationController::view() {
   ui::TechnicianCalibration view = parts_.job.newest();
   view.columns = board_.corners_across;
   view.rows = board_.corners_down;
-  view.square_mm = static_cast<float>(board_.square_mm);
+  view.square_mm = float(board_.square_mm);
   view.charuco = board_.charuco;
   view.running = running_;
   view.ended = ended_;
@@ -361,21 +350,17 @@ ui::TechnicianCalibration CalibrationController::view() {
   if (ended_) {
     const pipeline::CalibrationQuality& q = parts_.job.result()->quality;
     view.verdict = verdict_of(q.verdict);
-    view.depth_error_mm = static_cast<float>(q.face_depth_sigma_mm);
-    view.rms_px = static_cast<float>(q.pair_rms_px);
-    view.baseline_mm = static_cast<float>(q.baseline_mm);
+    view.depth_error_mm = float(q.face_depth_sigma_mm);
+    view.rms_px = float(q.pair_rms_px);
+    view.baseline_mm = float(q.baseline_mm);
   }
   view.place = walk_.view();
-  view.history_count = static_cast<std::size_t>(walk_.end_row() - walk_.first_row());
+  view.history_count = std::size_t(walk_.end_row() - walk_.first_row());
   for (std::size_t i = 0; i < view.history_count; ++i) {
-    const Row& row = history_[static_cast<std::size_t>(walk_.first_row()) + i];
+    const Row& row = history_[std::size_t(walk_.first_row()) + i];
     const storage::CalibrationInfo& info = row.info;
-    view.history[i] = {info.revision,
-                       info.active,
-                       row.made_at,
-                       info.note,
-                       static_cast<float>(info.rms_px),
-                       static_cast<float>(info.figures.depth_sigma_mm)};
+    view.history[i] = {info.revision, info.active,        row.made_at,
+                       info.note,     float(info.rms_px), float(info.figures.depth_sigma_mm)};
   }
   return view;
 }

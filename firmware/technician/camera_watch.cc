@@ -10,7 +10,7 @@
 #include <string.h>
 
 #include "firmware/base/boot_memory.h"
-#include "firmware/capture/exposure_control.h"
+#include "firmware/capture/face_light.h"
 #include "firmware/capture/live_judge.h"
 #include "hal/base/thread_pool.h"
 #include "pipeline/gate/relief/live_relief.h"
@@ -111,8 +111,8 @@ void CameraWatchJob::set_light() {
   const auto left = device_.left().exposure_limits(), right = device_.right().exposure_limits();
   if (!left || !right) return;
   const hal::ExposureLimits limits = common_limits(*left, *right);
-  const auto wanted = std::chrono::microseconds(
-      std::lround(static_cast<double>(light_.time.count()) * std::pow(kThirdOfAStop, steps)));
+  const auto wanted =
+      std::chrono::microseconds(std::lround(double(light_.time.count()) * std::pow(kThirdOfAStop, steps)));
   const hal::Exposure next{std::clamp(wanted, limits.least.time, limits.most.time), light_.gain};
   if (device_.left().set_exposure(next) && device_.right().set_exposure(next)) light_ = next;
 }
@@ -135,13 +135,13 @@ Result<void> CameraWatchJob::look(const pipeline::StereoFrame& frame, JobControl
   for (std::size_t i = 0; i < 2; ++i) {
     const ImageView& view = i == 0 ? frame.left : frame.right;
     RELIEVO_TRY_ASSIGN(const FaceLight light, face_light(view, middle_box(view)));
-    now.camera[i].mean = static_cast<float>(light.mean);
-    now.camera[i].clipped = static_cast<float>(light.clipped);
-    now.camera[i].focus = static_cast<float>(focus_[i].share_of_best(light));
+    now.camera[i].mean = float(light.mean);
+    now.camera[i].clipped = float(light.clipped);
+    now.camera[i].focus = float(focus_[i].share_of_best(light));
     const ImageView shown = feeds_[i].fill(view);
     if (now.edges_shown)
       now.camera[i].sharp_edges =
-          static_cast<float>(peaking_.mark(view, feeds_[i].filled(), shown.width_px, shown.height_px));
+          float(peaking_.mark(view, feeds_[i].filled(), shown.width_px, shown.height_px));
   }
   const bool relief = draw_relief(frame, control, now);
   const GrabCounts& counts = grabber_.counts();
@@ -149,9 +149,9 @@ Result<void> CameraWatchJob::look(const pipeline::StereoFrame& frame, JobControl
   count(counts.right, now.camera[1]);
   now.pairs = counts.pairs;
   now.apart = counts.apart;
-  now.skew_us = static_cast<float>(frame.skew_ns) / 1000;
-  now.exposure_us = static_cast<float>(light_.time.count());
-  now.gain = static_cast<float>(light_.gain);
+  now.skew_us = float(frame.skew_ns) / 1000;
+  now.exposure_us = float(light_.time.count());
+  now.gain = float(light_.gain);
   now.can_be_set =
       device_.left().exposure_limits().has_value() && device_.right().exposure_limits().has_value();
   const hal::Instant at = device_.clock().now();

@@ -60,8 +60,7 @@ void KeptResults::keep(const TechnicianFigures& figures, const TechnicianPicture
 void KeptResults::drop(std::size_t which) {
   if (which >= count_ || comparing_) return;
   all_[which]->wipe();
-  std::rotate(all_.begin() + static_cast<std::ptrdiff_t>(which),
-              all_.begin() + static_cast<std::ptrdiff_t>(which) + 1, all_.end());
+  std::rotate(all_.begin() + std::ptrdiff_t(which), all_.begin() + std::ptrdiff_t(which) + 1, all_.end());
   --count_;
 }
 
@@ -72,12 +71,12 @@ void KeptResults::wipe() {
 }
 
 bool KeptResults::has(std::uint32_t number) const {
-  return std::any_of(all_.begin(), all_.begin() + static_cast<std::ptrdiff_t>(count_),
+  return std::any_of(all_.begin(), all_.begin() + std::ptrdiff_t(count_),
                      [number](const auto& one) { return one->number == number; });
 }
 
 bool KeptResults::is_compared_with(std::uint32_t number) const {
-  return !comparing_ && std::all_of(all_.begin(), all_.begin() + static_cast<std::ptrdiff_t>(count_),
+  return !comparing_ && std::all_of(all_.begin(), all_.begin() + std::ptrdiff_t(count_),
                                     [number](const auto& one) { return one->compared_with == number; });
 }
 

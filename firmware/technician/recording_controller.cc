@@ -19,18 +19,16 @@ namespace fs = std::filesystem;
 
 // Rows without padding: what is compared and written is pixels alone.
 ImageView copied(const ImageView& view, std::vector<std::byte>& room) {
-  const auto row_bytes =
-      static_cast<std::size_t>(view.width_px) * static_cast<std::size_t>(bytes_per_pixel(view.format));
-  room.resize(row_bytes * static_cast<std::size_t>(view.height_px));
+  const auto row_bytes = std::size_t(view.width_px) * std::size_t(bytes_per_pixel(view.format));
+  room.resize(row_bytes * std::size_t(view.height_px));
   for (int y = 0; y < view.height_px; ++y)
-    std::memcpy(room.data() + row_bytes * static_cast<std::size_t>(y), view.row(y), row_bytes);
-  return {room.data(), view.width_px, view.height_px, static_cast<int>(row_bytes), view.format};
+    std::memcpy(room.data() + row_bytes * std::size_t(y), view.row(y), row_bytes);
+  return {room.data(), view.width_px, view.height_px, int(row_bytes), view.format};
 }
 
 bool same(const ImageView& a, const ImageView& b) {
   if (a.width_px != b.width_px || a.height_px != b.height_px || a.format != b.format) return false;
-  const auto row_bytes =
-      static_cast<std::size_t>(a.width_px) * static_cast<std::size_t>(bytes_per_pixel(a.format));
+  const auto row_bytes = std::size_t(a.width_px) * std::size_t(bytes_per_pixel(a.format));
   for (int y = 0; y < a.height_px; ++y) {
     if (std::memcmp(a.row(y), b.row(y), row_bytes) != 0) return false;
   }

@@ -19,7 +19,7 @@ void RunJob::order(const pipeline::AlgorithmSet& set, const pipeline::StereoCali
   making_.by_hand = std::move(by_hand);
   if (wants_before()) first = std::min(first, State::Reconstruct);
   making_.records.resize(std::min(making_.records.size(), number_of(first)));
-  first_ = static_cast<State>(static_cast<std::size_t>(State::Match) + making_.records.size());
+  first_ = static_cast<State>(std::size_t(State::Match) + making_.records.size());
   document_.reset();
   now_.store(first_, std::memory_order_relaxed);
 }

@@ -11,10 +11,14 @@
 #include <functional>
 #include <system_error>
 #include <utility>
+#include <vector>
 
+#include "firmware/base/output_folder.h"
 #include "firmware/service/stick_folder.h"
+#include "hal/base/whole_file.h"
+#include "pipeline/calibrate/file/calibration_file.h"
+#include "pipeline/calibrate/file/camera_info.h"
 #include "storage/document/document.h"
-#include "storage/export/atomic_file.h"
 
 namespace relievo::firmware {
 namespace {
@@ -34,7 +38,7 @@ Result<void> each_piece(const fs::path& file, JobControl& control, float from_sh
                         const Take& take) {
   std::ifstream in(file, std::ios::binary | std::ios::ate);
   if (!in) return unread(file);
-  const auto size = static_cast<std::size_t>(in.tellg());
+  const auto size = std::size_t(in.tellg());
   if (size > storage::kMaxDocumentBytes)
     return Error{Errc::InvalidInput, "this file is too large for a saved reconstruction"}.at(
         file.filename().string());
@@ -49,8 +53,7 @@ Result<void> each_piece(const fs::path& file, JobControl& control, float from_sh
     if (!in.read(reinterpret_cast<char*>(piece.bytes.data()), static_cast<std::streamsize>(bytes)))
       return unread(file);
     RELIEVO_TRY(take(std::span<const std::byte>(piece.bytes).first(bytes), at, size));
-    control.progress.done.store(from_share + (to_share - from_share) * static_cast<float>(at + bytes) /
-                                                 static_cast<float>(size));
+    control.progress.done.store(from_share + (to_share - from_share) * float(at + bytes) / float(size));
   }
   return {};
 }
@@ -60,10 +63,9 @@ Result<void> write(std::span<const std::byte> bytes, const fs::path& target, hal
   RELIEVO_TRY(work.reach(ExportStep::Write, 0));
   std::error_code error;
   fs::create_directories(target.parent_path(), error);
-  RELIEVO_TRY_ASSIGN(storage::PendingFile file, storage::PendingFile::create(target));
+  RELIEVO_TRY_ASSIGN(PendingFile file, PendingFile::create(target));
   for (std::size_t at = 0; at < bytes.size(); at += kPieceBytes) {
-    RELIEVO_TRY(
-        work.reach(ExportStep::Write, 0.5F * static_cast<float>(at) / static_cast<float>(bytes.size())));
+    RELIEVO_TRY(work.reach(ExportStep::Write, 0.5F * float(at) / float(bytes.size())));
     RELIEVO_TRY(file.write(bytes.subspan(at, std::min(kPieceBytes, bytes.size() - at))));
   }
   RELIEVO_TRY(file.finish());
@@ -78,7 +80,7 @@ Result<void> write(std::span<const std::byte> bytes, const fs::path& target, hal
                  }));
   RELIEVO_TRY(work.reach(ExportStep::Write, 0.95F));
   RELIEVO_TRY(file.publish());
-  return storage::sync_renamed(target);
+  return sync_renamed(target);
 }
 
 }  // namespace
@@ -124,6 +126,68 @@ Result<std::shared_ptr<const SavedBytes>> read_saved(const std::string& name, ha
   const auto document = storage::Document::open(saved->bytes());
   if (!document) return document.error().at(name);
   return saved;
+}
+
+namespace {
+
+namespace fs = std::filesystem;
+
+constexpr const char *kRig = "rig.yml", *kLeft = "left.yaml", *kRight = "right.yaml";
+
+Result<void> read_back(const fs::path& file, const std::string& written) {
+  const auto read = read_whole_file(file, pipeline::kMaxCalibrationFileBytes);
+  if (!read) return read.error();
+  const bool same = read->size() == written.size() && std::equal(read->begin(), read->end(), written.begin(),
+                                                                 [](auto a, char b) { return char(a) == b; });
+  return same ? Result<void>() : not_as_written(file);
+}
+
+Result<void> write(const pipeline::StereoCalibration& calibration, const fs::path& target,
+                   hal::RemovableMedia& media) {
+  RELIEVO_TRY_ASSIGN(const auto ros, pipeline::camera_info_texts(calibration));
+  const std::pair<const char*, std::string> files[] = {
+      {kRig, pipeline::calibration_text(calibration)}, {kLeft, ros.left}, {kRight, ros.right}};
+  RELIEVO_TRY_ASSIGN(OutputFolder folder, OutputFolder::begin(target));
+  for (const auto& [name, text] : files) RELIEVO_TRY(write_text(folder.path() / name, text, target));
+  RELIEVO_TRY(media.settle(folder.path()));
+  for (const auto& [name, text] : files) RELIEVO_TRY(read_back(folder.path() / name, text));
+  return replace_folder(folder, target);
+}
+
+// The top first, then the folders of calibrations, the last name first.
+std::vector<fs::path> places(const fs::path& root) {
+  std::vector<fs::path> folders;
+  std::error_code error;
+  for (fs::directory_iterator entry(root / kCalibrationsFolder, error), end; !error && entry != end;
+       entry.increment(error))
+    if (!entry->path().filename().string().starts_with('.')) folders.push_back(entry->path());
+  std::sort(folders.rbegin(), folders.rend());
+  folders.insert(folders.begin(), root);
+  return folders;
+}
+
+}  // namespace
+
+Result<void> export_calibration(const pipeline::StereoCalibration& calibration, const std::string& name,
+                                hal::RemovableMedia& media) {
+  return put_on_stick(media, fs::path(kCalibrationsFolder) / name, nullptr,
+                      [&](const fs::path& target) { return write(calibration, target, media); });
+}
+
+Result<StickCalibration> import_calibration(hal::RemovableMedia& media) {
+  const auto medium = media.current();
+  if (!medium) return Error{Errc::MediaMissing, "there is no stick: plug one in"};
+  for (const fs::path& place : places(medium->root))
+    for (const char* name : {kRig, kLeft}) {
+      std::error_code error;
+      if (!fs::exists(place / name, error)) continue;
+      const std::string file = (place / name).lexically_relative(medium->root).string();
+      const auto read = pipeline::read_calibration(place / name);
+      if (!read) return read.error();
+      return StickCalibration{*read, file};
+    }
+  return Error{Errc::NotFound,
+               "no calibration is on the stick: put rig.yml, or left.yaml and right.yaml, at its top"};
 }
 
 }  // namespace relievo::firmware

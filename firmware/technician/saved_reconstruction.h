@@ -17,6 +17,7 @@
 #include "firmware/jobs/job_thread.h"
 #include "firmware/service/export_records.h"
 #include "hal/removable_media.h"
+#include "pipeline/model/calibration.h"
 
 namespace relievo::firmware {
 
@@ -42,5 +43,21 @@ Result<void> save_reconstruction(const SavedBytes& document, const std::string& 
 Result<std::vector<std::string>> saved_reconstructions(hal::RemovableMedia& media, std::size_t most);
 Result<std::shared_ptr<const SavedBytes>> read_saved(const std::string& name, hal::RemovableMedia& media,
                                                      JobControl& control);
+
+// Calibrations on a stick, in both forms: calibrations/NAME/ with rig.yml (OpenCV's) and left.yaml,
+// right.yaml (ROS), read back before the folder gets its name; then the stick is let go. Taken from a stick
+// is what lies at its top, else in the folder of calibrations whose name comes last; of the two forms
+// rig.yml, which says more. Thread: keeper. Errors: MediaMissing (no stick), NotFound (no calibration on it),
+// Disconnected (pulled out meanwhile), MediaFull, IoFailed; those of pipeline/calibrate/file.
+inline constexpr const char* kCalibrationsFolder = "calibrations";  // on the stick
+
+Result<void> export_calibration(const pipeline::StereoCalibration& calibration, const std::string& name,
+                                hal::RemovableMedia& media);
+
+struct StickCalibration {
+  pipeline::StereoCalibration calibration;
+  std::string file;  // from the stick's top
+};
+Result<StickCalibration> import_calibration(hal::RemovableMedia& media);
 
 }  // namespace relievo::firmware

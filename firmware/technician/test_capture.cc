@@ -7,7 +7,7 @@
 #include <utility>
 
 #include "firmware/technician/show/hand_pairs.h"
-#include "firmware/work/first_change.h"
+#include "firmware/work/session_document.h"
 
 namespace relievo::firmware {
 namespace {
@@ -82,50 +82,27 @@ void TestCapture::act(const ui::TechnicianRequest& request) {
 
 void TestCapture::act_alone(TechnicianAct act) {
   switch (act) {
-    case TechnicianAct::Capture:
-      return is_calibrated() ? wait_for_cameras(Next::Shot) : void();
-    case TechnicianAct::AddSide:
-      return may_add_side() ? wait_for_cameras(Next::Side) : void();
-    case TechnicianAct::Stop:
-      return stop();
-    case TechnicianAct::RemovePair:
-      return pairs_.remove();
-    case TechnicianAct::ByHand:
-      point_ = {};
-      return void(by_hand_ = !by_hand_);
-    case TechnicianAct::ApplySet:
-      return apply_set();
-    case TechnicianAct::KeepResult:
-      return keep_result();
-    case TechnicianAct::WatchCameras:
-      return watch_cameras(!watching_);
-    case TechnicianAct::ShowRelief:
-      return watch_.show_relief(!watch_.shows_relief());
-    case TechnicianAct::ShowDifference:
-      return void(differences_ = !differences_);
-    case TechnicianAct::ShowEdges:
-      return watch_.show_edges(!watch_.shows_edges());
-    case TechnicianAct::BrighterShot:
-      return watch_.change_light(1);
-    case TechnicianAct::DarkerShot:
-      return watch_.change_light(-1);
-    case TechnicianAct::BeginCalibration:
-      return wait_for_cameras(Next::Calibration);
-    case TechnicianAct::StopCalibration:
-      return calibrate_.finish();
-    case TechnicianAct::CancelCalibration:
-      return parts_.side_tasks.stop(JobLane::Capture);
-    case TechnicianAct::Record:
-      return record();
-    case TechnicianAct::StopRecording:
-      return recording_.stop();
-    case TechnicianAct::Save:
-      return save();
-    case TechnicianAct::ListSaved:
-      problem_ = {};
-      return recording_.list();
-    case TechnicianAct::LeaveSaved:
-      return recording_.hide();
+    case TechnicianAct::Capture: return is_calibrated() ? wait_for_cameras(Next::Shot) : void();
+    case TechnicianAct::AddSide: return may_add_side() ? wait_for_cameras(Next::Side) : void();
+    case TechnicianAct::Stop: return stop();
+    case TechnicianAct::RemovePair: return pairs_.remove();
+    case TechnicianAct::ByHand: point_ = {}; return void(by_hand_ = !by_hand_);
+    case TechnicianAct::ApplySet: return apply_set();
+    case TechnicianAct::KeepResult: return keep_result();
+    case TechnicianAct::WatchCameras: return watch_cameras(!watching_);
+    case TechnicianAct::ShowRelief: return watch_.show_relief(!watch_.shows_relief());
+    case TechnicianAct::ShowDifference: return void(differences_ = !differences_);
+    case TechnicianAct::ShowEdges: return watch_.show_edges(!watch_.shows_edges());
+    case TechnicianAct::BrighterShot: return watch_.change_light(1);
+    case TechnicianAct::DarkerShot: return watch_.change_light(-1);
+    case TechnicianAct::BeginCalibration: return wait_for_cameras(Next::Calibration);
+    case TechnicianAct::StopCalibration: return calibrate_.finish();
+    case TechnicianAct::CancelCalibration: return parts_.side_tasks.stop(JobLane::Capture);
+    case TechnicianAct::Record: return record();
+    case TechnicianAct::StopRecording: return recording_.stop();
+    case TechnicianAct::Save: return save();
+    case TechnicianAct::ListSaved: problem_ = {}; return recording_.list();
+    case TechnicianAct::LeaveSaved: return recording_.hide();
     case TechnicianAct::StoreCalibration:  // the calibrations' own
     case TechnicianAct::SwitchCharuco:
     case TechnicianAct::ExportCalibration:
@@ -134,8 +111,7 @@ void TestCapture::act_alone(TechnicianAct act) {
     case TechnicianAct::UseTyped:
     case TechnicianAct::UseDefault:
     case TechnicianAct::LeaveOption:
-    case TechnicianAct::ResetSet:
-      return;
+    case TechnicianAct::ResetSet: return;
   }
 }
 
@@ -234,7 +210,7 @@ void TestCapture::run(std::int64_t latest) {
   const bool only_sides = changed == State::Review && session_.sides().count() > 0;
   State first = changed == State::Review && !only_sides ? State::Match : changed;
   if (latest >= 1 && latest <= 4)
-    first = std::min(changed, static_cast<State>(static_cast<std::int64_t>(State::Match) + latest - 1));
+    first = std::min(changed, static_cast<State>(std::int64_t(State::Match) + latest - 1));
   run_.order(algorithms_.set(), *calibration(), first, pairs_.matches(), loaded_ && run_.making().whole_view);
   send_run();
 }

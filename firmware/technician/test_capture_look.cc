@@ -31,7 +31,7 @@ void TestCapture::look() {
   for (std::size_t i = 0; i < view_.put_aside; ++i) view_.compared[i] = kept_.view(i, stage_);
   view_.differences = differences_;
   if (phase_ == ui::TechnicianPhase::Running) {
-    view_.working_on = static_cast<std::uint8_t>(number_of(run_.stage()));
+    view_.working_on = std::uint8_t(number_of(run_.stage()));
     view_.progress = parts_.side_tasks.progress(JobLane::Worker);
   }
   const Products* made = products();
@@ -63,9 +63,8 @@ void TestCapture::look_at_poses(const pipeline::Registration& registration) {
   for (std::size_t a = 0; a < view_.pose_count; ++a) {
     const pipeline::RegisteredPose& pose = registration.poses[a];
     view_.poses[a].joined = pose.joined;
-    view_.poses[a].turned_deg = static_cast<float>(pipeline::turned_deg(pose.first_from_pose.rotation));
-    for (std::size_t b = 0; b < view_.pose_count; ++b)
-      view_.poses[a].rms_mm[b] = static_cast<float>(pose.meets[b].rms_mm);
+    view_.poses[a].turned_deg = float(pipeline::turned_deg(pose.first_from_pose.rotation));
+    for (std::size_t b = 0; b < view_.pose_count; ++b) view_.poses[a].rms_mm[b] = float(pose.meets[b].rms_mm);
   }
 }
 

@@ -49,7 +49,7 @@ Result<void> HeadJob::add_sides(JobControl& control, std::vector<pipeline::HeadP
     if (const Result<void> fused = fuse(control, poses); !fused) {
       // Whose eyes were not alive while the head turned is refused, with the face from in front.
       if (fused.error().code == Errc::NoFace) return fused.error();
-      lose(fused.error(), static_cast<int>(poses.size()) - 1);
+      lose(fused.error(), int(poses.size()) - 1);
     }
   if (session_.products().model) session_.products().model->poses_left_out += lost;
   if (control.cancelled.load()) return Error{Errc::Cancelled, "stopped while the head was made"};
@@ -158,8 +158,7 @@ constexpr double kSkinShare = 0.5;  // of the face's box, about its middle: a wi
                                     // lit for, also where the box is not quite right
 
 FaceBox skin_in(const FaceBox& face) {
-  const int width = static_cast<int>(kSkinShare * face.width_px),
-            height = static_cast<int>(kSkinShare * face.height_px);
+  const int width = int(kSkinShare * face.width_px), height = int(kSkinShare * face.height_px);
   return {face.x_px + (face.width_px - width) / 2, face.y_px + (face.height_px - height) / 2, width, height};
 }
 

@@ -11,7 +11,7 @@
 #include <vector>
 
 #include "firmware/capture/burst.h"
-#include "firmware/capture/exposure_control.h"
+#include "firmware/capture/face_light.h"
 #include "firmware/capture/live_judge.h"
 #include "firmware/capture/stereo_grabber.h"
 #include "firmware/jobs/job_thread.h"

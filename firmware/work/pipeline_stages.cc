@@ -13,13 +13,12 @@ namespace relievo::firmware {
 namespace {
 
 std::uint64_t pixels(const ImageView& view) {
-  return static_cast<std::uint64_t>(view.width_px) * static_cast<std::uint64_t>(view.height_px);
+  return std::uint64_t(view.width_px) * std::uint64_t(view.height_px);
 }
 
 std::uint64_t accepted(const pipeline::MatchSet& matches) {
-  return static_cast<std::uint64_t>(
-      std::count_if(matches.matches.begin(), matches.matches.end(),
-                    [](const pipeline::Match& m) { return m.rejected_by == 0; }));
+  return std::uint64_t(
+      std::ranges::count_if(matches.matches, [](const pipeline::Match& m) { return m.rejected_by == 0; }));
 }
 
 bool may_be_the_pictures(Errc code) {
@@ -61,16 +60,11 @@ Result<void> PipelineStages::run(State stage, Products& products, pipeline::Stag
 Result<void> PipelineStages::run_stage_of(State stage, Products& products, pipeline::StageContext& context,
                                           StageRecord& record) const {
   switch (stage) {
-    case State::Match:
-      return match(products, context, record);
-    case State::Reconstruct:
-      return reconstruct(products, context, record);
-    case State::Mesh:
-      return mesh(products, context, record);
-    case State::Texture:
-      return texture(products, context, record);
-    case State::Assemble:
-      return assemble(products, context, record);
+    case State::Match: return match(products, context, record);
+    case State::Reconstruct: return reconstruct(products, context, record);
+    case State::Mesh: return mesh(products, context, record);
+    case State::Texture: return texture(products, context, record);
+    case State::Assemble: return assemble(products, context, record);
     case State::SelfTest:
     case State::Idle:
     case State::Calibrate:
@@ -83,8 +77,7 @@ Result<void> PipelineStages::run_stage_of(State stage, Products& products, pipel
     case State::Export:
     case State::Staff:
     case State::Fault:
-    case State::Count:
-      break;
+    case State::Count: break;
   }
   return Error{Errc::InvalidState, "is no stage of the pipeline"}.at(name_of(stage));
 }
@@ -145,9 +138,8 @@ Result<void> PipelineStages::assemble(Products& products, pipeline::StageContext
     return why;
   }
   products.model->quality.epipolar_residual_px = products.matches->epipolar_shift.residual_px;
-  record.out = static_cast<std::uint64_t>(std::count_if(products.model->landmarks.begin(),
-                                                        products.model->landmarks.end(),
-                                                        [](const pipeline::Landmark& l) { return l.found; }));
+  record.out = std::uint64_t(
+      std::ranges::count_if(products.model->landmarks, [](const pipeline::Landmark& l) { return l.found; }));
   return {};
 }
 

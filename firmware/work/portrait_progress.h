@@ -14,7 +14,7 @@
 #include <numeric>
 #include <span>
 
-#include "firmware/machine/transition.h"
+#include "firmware/machine/machine.h"
 #include "hal/clock.h"
 #include "pipeline/model/advice.h"
 
@@ -37,7 +37,7 @@ class PortraitProgress {
     const auto all = std::span(kParts).first(head_ ? kParts.size() : kStages.size());
     part = std::min(part, all.size() - 1);
     const float passed = std::chrono::duration<float>(now - begun_).count();
-    const float so_far = std::accumulate(all.begin(), all.begin() + static_cast<std::ptrdiff_t>(part), 0.0F) +
+    const float so_far = std::accumulate(all.begin(), all.begin() + std::ptrdiff_t(part), 0.0F) +
                          all[part] * (1 - std::exp(-kEase * passed / all[part]));
     share_ = std::max(share_, std::min(kMost, so_far / std::accumulate(all.begin(), all.end(), 0.0F)));
   }

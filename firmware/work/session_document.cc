@@ -5,11 +5,40 @@
 #include <algorithm>
 #include <new>
 #include <string>
+#include <string_view>
 
 #include "firmware/base/version.h"
 #include "hal/base/assert.h"
 
 namespace relievo::firmware {
+namespace {
+
+State stage_of(const pipeline::OptionDescription& option) {
+  const std::string& kind = option.kind.empty() ? option.key : option.kind;
+  if (option.key.starts_with("face.")) return State::Match;  // what is matched is cut to it, too
+  if (kind == "triangulator" || kind == "outliers") return State::Reconstruct;
+  if (kind == "mesher" || kind == "completion") return State::Mesh;
+  if (kind == "texturer") return State::Texture;
+  if (kind == "fuser") return State::Review;  // of several pairs
+  return kind == "relief" ? State::Assemble : State::Match;
+}
+
+std::string_view text_of(const pipeline::AlgorithmSet& set, const pipeline::OptionDescription& option) {
+  const auto text = set.texts().find(option.key);
+  return text == set.texts().end() ? std::string_view() : std::string_view(*text->second);
+}
+
+}  // namespace
+
+State first_change(const pipeline::AlgorithmSet& before, const pipeline::AlgorithmSet& after) {
+  State first = State::Review;
+  for (const pipeline::OptionDescription& option : pipeline::describe_algorithms())
+    if (before.get(option.key) != after.get(option.key) ||
+        (option.file && text_of(before, option) != text_of(after, option)))
+      first = std::min(first, stage_of(option));
+  return first;
+}
+
 namespace {
 
 // A head's sides are not kept: its front is, as far as that was not made part of the head.
@@ -83,7 +112,7 @@ Result<State> load_products(const storage::Document& document, State first, Enro
     for (std::size_t i = 0; i < stages; ++i) {
       if (control.cancelled.load()) return Error{Errc::Cancelled, "the reading was stopped"};
       RELIEVO_TRY(load_stage(document, kStages.at(i), session));
-      control.progress.done.store(static_cast<float>(i + 1) / kStages.size());
+      control.progress.done.store(float(i + 1) / kStages.size());
     }
   } catch (const std::bad_alloc&) {
     return Error{Errc::OutOfMemory, "not enough memory for this saved reconstruction"};

@@ -8,12 +8,18 @@
 #include <vector>
 
 #include "firmware/jobs/job_thread.h"
+#include "firmware/machine/machine.h"
 #include "firmware/session/session.h"
 #include "firmware/work/stage_runner.h"
 #include "pipeline/algorithms.h"
 #include "storage/document/document.h"
 
 namespace relievo::firmware {
+
+// Where a reconstruction has to begin again when its algorithms change. Thread: any. Errors: none.
+
+// The first stage that one of the differing choices has a part in; Review: none differs.
+State first_change(const pipeline::AlgorithmSet& before, const pipeline::AlgorithmSet& after);
 
 // How a reconstruction was made.
 struct Making {

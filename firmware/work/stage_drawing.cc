@@ -32,19 +32,18 @@ void triangle(const Corner& a, const Corner& b, const Corner& c, std::vector<flo
               StageCanvas& canvas) {
   const double area = edge(a, b, c.x, c.y);
   if (std::abs(area) < 1e-9) return;
-  const int x0 = std::max(0, static_cast<int>(std::floor(std::min({a.x, b.x, c.x})))),
-            x1 = std::min(canvas.side() - 1, static_cast<int>(std::ceil(std::max({a.x, b.x, c.x}))));
-  const int y0 = std::max(0, static_cast<int>(std::floor(std::min({a.y, b.y, c.y})))),
-            y1 = std::min(canvas.side() - 1, static_cast<int>(std::ceil(std::max({a.y, b.y, c.y}))));
+  const int x0 = std::max(0, int(std::floor(std::min({a.x, b.x, c.x})))),
+            x1 = std::min(canvas.side() - 1, int(std::ceil(std::max({a.x, b.x, c.x}))));
+  const int y0 = std::max(0, int(std::floor(std::min({a.y, b.y, c.y})))),
+            y1 = std::min(canvas.side() - 1, int(std::ceil(std::max({a.y, b.y, c.y}))));
   for (int y = y0; y <= y1; ++y) {
     for (int x = x0; x <= x1; ++x) {
       const double u = edge(b, c, x, y) / area, v = edge(c, a, x, y) / area, w = 1 - u - v;
       if (u < 0 || v < 0 || w < 0) continue;
       const double z = u * a.z + v * b.z + w * c.z;
-      float& nearest = depth[static_cast<std::size_t>(y) * static_cast<std::size_t>(canvas.side()) +
-                             static_cast<std::size_t>(x)];
+      float& nearest = depth[std::size_t(y) * std::size_t(canvas.side()) + std::size_t(x)];
       if (z >= nearest) continue;
-      nearest = static_cast<float>(z);
+      nearest = float(z);
       canvas.put(
           x, y,
           {u * a.colour.r + v * b.colour.r + w * c.colour.r, u * a.colour.g + v * b.colour.g + w * c.colour.g,
@@ -64,14 +63,13 @@ class Dots {
   explicit Dots(StageCanvas& canvas)
       : canvas_(canvas),
         across_((canvas.side() + kCellPx - 1) / kCellPx),
-        cells_(static_cast<std::size_t>(across_) * static_cast<std::size_t>(across_)) {}
+        cells_(std::size_t(across_) * std::size_t(across_)) {}
 
   void add(double x, double y, double far_share) {
     if (x < 0 || y < 0 || x >= canvas_.side() || y >= canvas_.side()) return;
-    const int column = static_cast<int>(x) / kCellPx, row = static_cast<int>(y) / kCellPx;
+    const int column = int(x) / kCellPx, row = int(y) / kCellPx;
     const double off = std::hypot(x - (column + 0.5) * kCellPx, y - (row + 0.5) * kCellPx);
-    Dot& held = cells_[static_cast<std::size_t>(row) * static_cast<std::size_t>(across_) +
-                       static_cast<std::size_t>(column)];
+    Dot& held = cells_[std::size_t(row) * std::size_t(across_) + std::size_t(column)];
     if (off < held.off) held = {x, y, off, far_share};
   }
   void draw() const {
@@ -88,8 +86,8 @@ class Dots {
   void disc(const Dot& dot) const {
     const double reach = kDotRadiusPx + kDotRimPx;
     const Rgb colour = near_far_colour(dot.far_share);
-    for (int y = static_cast<int>(dot.y - reach); y <= static_cast<int>(dot.y + reach); ++y) {
-      for (int x = static_cast<int>(dot.x - reach); x <= static_cast<int>(dot.x + reach); ++x) {
+    for (int y = int(dot.y - reach); y <= int(dot.y + reach); ++y) {
+      for (int x = int(dot.x - reach); x <= int(dot.x + reach); ++x) {
         const double inside =
             (kDotRadiusPx + kDotRimPx / 2 - std::hypot(x + 0.5 - dot.x, y + 0.5 - dot.y)) / kDotRimPx;
         if (inside > 0) canvas_.blend(x, y, colour, std::min(1.0, inside));
@@ -118,9 +116,9 @@ void draw_capture(const ImageView& picture, const std::optional<FaceBox>& face, 
   const bool coloured = picture.format == PixelFormat::Rgb8;
   for (int y = 0; y < canvas.side(); ++y) {
     for (int x = 0; x < canvas.side(); ++x) {
-      const int u = static_cast<int>(left + (x + 0.5) * step), v = static_cast<int>(top + (y + 0.5) * step);
+      const int u = int(left + (x + 0.5) * step), v = int(top + (y + 0.5) * step);
       if (u < 0 || v < 0 || u >= picture.width_px || v >= picture.height_px) continue;
-      const std::uint8_t* at = picture.row(v) + static_cast<std::ptrdiff_t>(u) * bytes + high_byte;
+      const std::uint8_t* at = picture.row(v) + std::ptrdiff_t(u) * bytes + high_byte;
       canvas.put(x, y, {1.0 * at[0], 1.0 * at[coloured ? 1 : 0], 1.0 * at[coloured ? 2 : 0]});
     }
   }
@@ -168,12 +166,12 @@ FaceWindow::FaceWindow(const pipeline::RectifiedPair& pair, int side_px) : canva
 }
 
 StageCanvas::StageCanvas(std::uint8_t* rgb, int side_px) : rgb_(rgb), side_(side_px) {
-  for (std::ptrdiff_t i = 0; i < static_cast<std::ptrdiff_t>(side_) * side_; ++i) put_at(i, {27, 37, 52});
+  for (std::ptrdiff_t i = 0; i < std::ptrdiff_t(side_) * side_; ++i) put_at(i, {27, 37, 52});
 }
 
 void StageCanvas::blend(int x, int y, const Rgb& c, double share) {
   if (x < 0 || y < 0 || x >= side_ || y >= side_) return;
-  const std::ptrdiff_t i = static_cast<std::ptrdiff_t>(y) * side_ + x;
+  const std::ptrdiff_t i = std::ptrdiff_t(y) * side_ + x;
   const std::uint8_t* old = rgb_ + std::ptrdiff_t{3} * i;
   const auto mix = [share](double was, double is) { return was + (is - was) * share; };
   put_at(i, {mix(old[0], c.r), mix(old[1], c.g), mix(old[2], c.b)});
@@ -181,9 +179,9 @@ void StageCanvas::blend(int x, int y, const Rgb& c, double share) {
 
 void StageCanvas::put_at(std::ptrdiff_t i, const Rgb& c) {
   std::uint8_t* to = rgb_ + std::ptrdiff_t{3} * i;
-  to[0] = static_cast<std::uint8_t>(std::clamp(c.r, 0.0, 255.0));
-  to[1] = static_cast<std::uint8_t>(std::clamp(c.g, 0.0, 255.0));
-  to[2] = static_cast<std::uint8_t>(std::clamp(c.b, 0.0, 255.0));
+  to[0] = std::uint8_t(std::clamp(c.r, 0.0, 255.0));
+  to[1] = std::uint8_t(std::clamp(c.g, 0.0, 255.0));
+  to[2] = std::uint8_t(std::clamp(c.b, 0.0, 255.0));
 }
 
 void draw_photograph(const pipeline::RectifiedPair& pair, double share, StageCanvas& canvas) {
@@ -191,12 +189,10 @@ void draw_photograph(const pipeline::RectifiedPair& pair, double share, StageCan
   const FaceWindow window(pair, canvas.side());
   for (int y = 0; y < canvas.side(); ++y) {
     for (int x = 0; x < canvas.side(); ++x) {
-      const int u = static_cast<int>(window.back_x(x)), v = static_cast<int>(window.back_y(y));
+      const int u = int(window.back_x(x)), v = int(window.back_y(y));
       if (u < 0 || v < 0 || u >= pair.width_px || v >= pair.height_px) continue;
       const double grey =
-          pair.left.grey[static_cast<std::size_t>(v) * static_cast<std::size_t>(pair.width_px) +
-                         static_cast<std::size_t>(u)] *
-          share;
+          pair.left.grey[std::size_t(v) * std::size_t(pair.width_px) + std::size_t(u)] * share;
       canvas.put(x, y, {grey, grey, grey * 1.08});
     }
   }
@@ -231,7 +227,7 @@ void draw_cloud(const pipeline::RectifiedPair& pair, const pipeline::PointCloud&
 void draw_surface(const pipeline::RectifiedPair& pair, const pipeline::FaceMesh& mesh,
                   const pipeline::TextureAtlas* skin, StageCanvas& canvas) {
   const FaceWindow window(pair, canvas.side());
-  std::vector<float> depth(static_cast<std::size_t>(canvas.side()) * static_cast<std::size_t>(canvas.side()),
+  std::vector<float> depth(std::size_t(canvas.side()) * std::size_t(canvas.side()),
                            std::numeric_limits<float>::max());
   const bool coloured = skin != nullptr && skin->vertex_rgb.size() >= 3 * mesh.vertices_mm.size();
   const auto corner = [&](std::uint32_t i) {
@@ -252,7 +248,7 @@ void draw_surface(const pipeline::RectifiedPair& pair, const pipeline::FaceMesh&
 void draw_head(const pipeline::FaceMesh& mesh, const pipeline::RigidTransform& head_from_camera,
                double turned_deg, double across_mm, StageCanvas& canvas) {
   constexpr double kPi = 3.14159265358979323846;
-  std::vector<float> depth(static_cast<std::size_t>(canvas.side()) * static_cast<std::size_t>(canvas.side()),
+  std::vector<float> depth(std::size_t(canvas.side()) * std::size_t(canvas.side()),
                            std::numeric_limits<float>::max());
   const double side = canvas.side(), c = std::cos(turned_deg * kPi / 180),
                s = std::sin(turned_deg * kPi / 180);

@@ -12,9 +12,8 @@
 #include <optional>
 
 #include "firmware/capture/face_light.h"
-#include "firmware/machine/transition.h"
+#include "firmware/machine/machine.h"
 #include "firmware/session/session.h"
-#include "firmware/session/stage_pictures.h"
 #include "pipeline/model/face_mesh.h"
 #include "pipeline/model/match_set.h"
 #include "pipeline/model/point_cloud.h"
@@ -36,7 +35,7 @@ class StageCanvas {
   StageCanvas(std::uint8_t* rgb, int side_px);
   int side() const { return side_; }
   void put(int x, int y, const Rgb& c) {
-    if (x >= 0 && y >= 0 && x < side_ && y < side_) put_at(static_cast<std::ptrdiff_t>(y) * side_ + x, c);
+    if (x >= 0 && y >= 0 && x < side_ && y < side_) put_at(std::ptrdiff_t(y) * side_ + x, c);
   }
   void blend(int x, int y, const Rgb& c, double share);  // over what is there
 

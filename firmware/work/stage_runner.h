@@ -11,7 +11,7 @@
 #include <cstdint>
 #include <string_view>
 
-#include "firmware/machine/transition.h"
+#include "firmware/machine/machine.h"
 #include "firmware/session/session.h"
 #include "pipeline/base/stage.h"
 #include "pipeline/fuse/head_pipeline.h"

@@ -24,7 +24,7 @@ struct ImageView {
 
   bool empty() const { return bytes == nullptr || width_px <= 0 || height_px <= 0; }
   const std::uint8_t* row(int y) const {
-    return reinterpret_cast<const std::uint8_t*>(bytes) + static_cast<std::ptrdiff_t>(y) * stride_bytes;
+    return reinterpret_cast<const std::uint8_t*>(bytes) + std::ptrdiff_t(y) * stride_bytes;
   }
 };
 

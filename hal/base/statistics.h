@@ -15,15 +15,15 @@ namespace relievo {
 template <typename Values>
 double of_rank(Values& values, std::size_t rank) {
   if (std::empty(values)) return std::numeric_limits<double>::quiet_NaN();
-  const auto at = std::begin(values) + static_cast<std::ptrdiff_t>(rank);
+  const auto at = std::begin(values) + std::ptrdiff_t(rank);
   std::nth_element(std::begin(values), at, std::end(values));
-  return static_cast<double>(*at);
+  return double(*at);
 }
 
 // `share`, 0 to 1, of the others lie below: rank share * (n - 1), rounded down.
 template <typename Values>
 double percentile(Values& values, double share) {
-  return of_rank(values, static_cast<std::size_t>(share * (static_cast<double>(std::size(values)) - 1)));
+  return of_rank(values, std::size_t(share * (double(std::size(values)) - 1)));
 }
 
 // Of an even number the upper of the two in the middle.

@@ -4,7 +4,7 @@
 
 #include <utility>
 
-#include "hal/base/wiped_stack.h"
+#include "hal/base/wiped_text.h"
 
 #if defined(__x86_64__)
 #include <immintrin.h>
@@ -58,7 +58,7 @@ void ThreadPool::for_each_band(int count, int bands, const Band& work) {
   count_ = count;
   bands_ = bands;
   open_ = bands;
-  cursor_ = (cursor_ & ~kLeft) + kRound + static_cast<std::uint64_t>(bands);
+  cursor_ = (cursor_ & ~kLeft) + kRound + std::uint64_t(bands);
   if (asleep_ > 0) {
     // A sleeper looks at the cursor under the lock before it sleeps: it has either seen this round or hears
     // this.
@@ -80,7 +80,7 @@ bool ThreadPool::take_band(int& band) {
   std::uint64_t cursor = cursor_;
   while ((cursor & kLeft) > 0) {
     if (!cursor_.compare_exchange_weak(cursor, cursor - 1)) continue;
-    band = bands_ - static_cast<int>(cursor & kLeft);
+    band = bands_ - int(cursor & kLeft);
     return true;
   }
   return false;
@@ -90,7 +90,7 @@ void ThreadPool::run_band(int band) {
   // Neither changes before this band is done, since the caller waits for it.
   const long long count = count_;
   const int bands = bands_;
-  const auto edge = [&](int k) { return static_cast<int>(count * k / bands); };
+  const auto edge = [&](int k) { return int(count * k / bands); };
   try {
     (*work_.load())(edge(band), edge(band + 1), band);
   } catch (...) {

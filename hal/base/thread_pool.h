@@ -29,7 +29,7 @@ class ThreadPool {
   ThreadPool(const ThreadPool&) = delete;
   ThreadPool& operator=(const ThreadPool&) = delete;
 
-  int size() const { return static_cast<int>(threads_.size()) + 1; }
+  int size() const { return int(threads_.size()) + 1; }
 
   using Band = std::function<void(int begin, int end, int band)>;
   void for_each_band(int count, int bands, const Band& work);

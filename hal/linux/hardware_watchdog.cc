@@ -28,7 +28,7 @@ Error cannot_open(int negative_errno, const std::string& device) {
 
 // The driver rounds, or has a time of its own. Zero where it tells none.
 Result<std::chrono::seconds> set_timeout(Kernel& kernel, int file, std::chrono::seconds wanted) {
-  int seconds = static_cast<int>(wanted.count());
+  int seconds = int(wanted.count());
   const int set = call(kernel, file, WDIOC_SETTIMEOUT, &seconds);
   if (set == -EINVAL)
     return Error{Errc::InvalidInput, "the watchdog cannot wait so long or so short: choose another timeout_s",

@@ -32,7 +32,7 @@ class RealMounts final : public Mounts {
       return std::nullopt;
     struct statvfs info {};
     if (::statvfs(folder.c_str(), &info) != 0) return std::nullopt;
-    return static_cast<std::uint64_t>(info.f_bavail) * info.f_frsize;
+    return std::uint64_t(info.f_bavail) * info.f_frsize;
   }
   int flush(const std::filesystem::path& folder) override {
     const int file = ::open(folder.c_str(), O_RDONLY | O_DIRECTORY | O_CLOEXEC);
@@ -79,7 +79,7 @@ std::string unescaped(std::string_view text) {
   for (std::size_t i = 0; i < text.size(); ++i) {
     if (text[i] == '\\' && i + 3 < text.size() && octal(text[i + 1]) && octal(text[i + 2]) &&
         octal(text[i + 3])) {
-      plain += static_cast<char>((text[i + 1] - '0') * 64 + (text[i + 2] - '0') * 8 + (text[i + 3] - '0'));
+      plain += char((text[i + 1] - '0') * 64 + (text[i + 2] - '0') * 8 + (text[i + 3] - '0'));
       i += 3;
     } else {
       plain += text[i];
@@ -117,7 +117,7 @@ std::optional<Medium> MountedStick::find() const {
   for (std::filesystem::directory_iterator entry(folder_, failed), end;
        !failed && entry != end && below.size() < kMostFolders; entry.increment(failed))
     below.push_back(entry->path());
-  std::sort(below.begin(), below.end());
+  std::ranges::sort(below);
   for (const std::filesystem::path& path : below)
     if (const auto free = mounts_.free_at(path)) return Medium{path, *free};
   return std::nullopt;

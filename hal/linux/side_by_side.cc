@@ -11,12 +11,12 @@ namespace relievo::hal {
 Result<void> SideBySide::open(int side, const CaptureMode& mode) {
   if (device_.state() == Camera::State::Closed)
     RELIEVO_TRY(device_.open({2 * mode.width_px, mode.height_px, mode.exposure}));
-  opened_[static_cast<std::size_t>(side)] = true;
+  opened_[std::size_t(side)] = true;
   return {};
 }
 
 void SideBySide::close(int side) {
-  opened_[static_cast<std::size_t>(side)] = false;
+  opened_[std::size_t(side)] = false;
   if (!dead_ && (opened_[0] || opened_[1])) return;
   for (Shared& shared : pictures_) {
     shared.frame.reset();
@@ -30,12 +30,12 @@ Result<void> SideBySide::start(int side) {
   if (device_.state() == Camera::State::Closed)
     return Error{Errc::Disconnected, "the camera's other half has vanished: both are opened again"};
   if (device_.state() == Camera::State::Idle) RELIEVO_TRY(device_.start());
-  running_[static_cast<std::size_t>(side)] = true;
+  running_[std::size_t(side)] = true;
   return {};
 }
 
 void SideBySide::stop(int side) {
-  const auto mine = static_cast<std::size_t>(side);
+  const auto mine = std::size_t(side);
   running_[mine] = false;
   for (Shared& shared : pictures_) shared.waits[mine] = false;
   tidy();
@@ -48,13 +48,11 @@ void SideBySide::tidy() {
 }
 
 Result<Frame> SideBySide::next(int side, Instant deadline) {
-  const auto mine = static_cast<std::size_t>(side);
+  const auto mine = std::size_t(side);
   const std::size_t other = 1 - mine;
-  const auto waiting =
-      std::find_if(pictures_.begin(), pictures_.end(), [&](const Shared& s) { return s.waits[mine]; });
+  const auto waiting = std::ranges::find_if(pictures_, [&](const Shared& s) { return s.waits[mine]; });
   if (waiting != pictures_.end()) return lend(*waiting, side);
-  const auto room =
-      std::find_if(pictures_.begin(), pictures_.end(), [](const Shared& s) { return !s.frame; });
+  const auto room = std::ranges::find_if(pictures_, [](const Shared& s) { return !s.frame; });
   if (room == pictures_.end())
     return Error{Errc::Timeout, "every picture of this camera is lent out; give a frame back"};
   if (device_.state() != Camera::State::Running)
@@ -74,7 +72,7 @@ Result<Frame> SideBySide::next(int side, Instant deadline) {
 }
 
 Result<Frame> SideBySide::lend(Shared& shared, int side) {
-  const auto mine = static_cast<std::size_t>(side);
+  const auto mine = std::size_t(side);
   const RawImage& whole = shared.frame->raw();
   shared.waits[mine] = false;
   shared.lent[mine] = true;
@@ -83,7 +81,7 @@ Result<Frame> SideBySide::lend(Shared& shared, int side) {
   const std::size_t row = raw_row_bytes(whole.format.coding, half.width_px);
   half.bytes += mine * row;
   half.size_bytes -= std::min(half.size_bytes, mine * row);
-  const int slot = kSides * static_cast<int>(&shared - pictures_.data()) + side;
+  const int slot = kSides * int(&shared - pictures_.data()) + side;
   Frame frame(half, {shared.frame->exposed_at(), shared.frame->sequence(), shared.frame->damaged()},
               &SideBySide::give_back, this, slot);
   if (whole.format.coding == RawCoding::Mjpeg)
@@ -98,8 +96,7 @@ Result<Frame> SideBySide::lend(Shared& shared, int side) {
 
 void SideBySide::give_back(void* owner, int slot) {
   auto* both = static_cast<SideBySide*>(owner);
-  both->pictures_[static_cast<std::size_t>(slot / kSides)].lent[static_cast<std::size_t>(slot % kSides)] =
-      false;
+  both->pictures_[std::size_t(slot / kSides)].lent[std::size_t(slot % kSides)] = false;
   both->tidy();
 }
 

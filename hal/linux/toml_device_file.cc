@@ -8,9 +8,9 @@
 #include <string>
 #include <string_view>
 
+#include "hal/base/whole_file.h"
 #include "hal/linux/device.h"
 #include "hal/raw/raw_image.h"
-#include "hal/whole_file.h"
 
 namespace relievo::hal {
 namespace {
@@ -31,12 +31,12 @@ class Words {
       return nullptr;
     }
     for (const auto& [key, value] : *found)
-      if (std::find(words.begin(), words.end(), key.str()) == words.end()) wrong(&value, key.str());
+      if (std::ranges::find(words, key.str()) == words.end()) wrong(&value, key.str());
     return found;
   }
   void only_tables(std::initializer_list<std::string_view> names) {
     for (const auto& [key, value] : root_)
-      if (std::find(names.begin(), names.end(), key.str()) == names.end()) wrong(&value, key.str());
+      if (std::ranges::find(names, key.str()) == names.end()) wrong(&value, key.str());
   }
   template <typename T>
   T get(const toml::table& table, std::string_view word, T otherwise, bool must = false) {
@@ -79,15 +79,15 @@ V4l2CameraOptions camera_of(Words& words, const toml::table& table, bool trigger
   const auto format = words.get<std::string>(table, "format", {});
   if (!format.empty() && format.size() != 4) words.wrong(table.get("format"), "format");
   for (std::size_t i = 0; i < format.size() && i < 4; ++i)
-    camera.fourcc |= static_cast<std::uint32_t>(static_cast<unsigned char>(format[i])) << (8 * i);
+    camera.fourcc |= std::uint32_t(static_cast<unsigned char>(format[i])) << (8 * i);
   return camera;
 }
 
 void read_mode(Words& words, CaptureMode& mode) {
   const toml::table* table = words.table("mode", {"width_px", "height_px", "exposure_us"});
   if (table == nullptr) return words.wrong(nullptr, "[mode]");
-  mode.width_px = static_cast<int>(words.number(*table, "width_px", 16, kMaxRawSidePx, 0, true));
-  mode.height_px = static_cast<int>(words.number(*table, "height_px", 16, kMaxRawSidePx, 0, true));
+  mode.width_px = int(words.number(*table, "width_px", 16, kMaxRawSidePx, 0, true));
+  mode.height_px = int(words.number(*table, "height_px", 16, kMaxRawSidePx, 0, true));
   mode.exposure = std::chrono::microseconds(words.number(*table, "exposure_us", 1, 100'000, 0));
 }
 
@@ -99,7 +99,7 @@ void read_wires(Words& words, LinuxDeviceOptions& options) {
   if (trigger == nullptr) return;
   GpioOptions gpio;
   gpio.chip = words.get<std::string>(*trigger, "chip", {}, true);
-  gpio.trigger = static_cast<unsigned>(words.number(*trigger, "line", 0, 4095, 0, true));
+  gpio.trigger = unsigned(words.number(*trigger, "line", 0, 4095, 0, true));
   gpio.active_low = words.get<bool>(*trigger, "active_low", false);
   options.timing.delay = std::chrono::microseconds(words.number(*trigger, "delay_us", 0, longest, 0));
   if (lamp != nullptr) {
@@ -107,7 +107,7 @@ void read_wires(Words& words, LinuxDeviceOptions& options) {
     options.timing.lamp_lead = std::chrono::microseconds(words.number(*lamp, "lead_us", 0, longest, 0));
     options.timing.lamp_time = std::chrono::microseconds(words.number(*lamp, "time_us", 0, longest, 0));
     if (!options.timing.lamp_on_trigger_wire)
-      gpio.lamp = static_cast<unsigned>(words.number(*lamp, "line", 0, 4095, 0, true));
+      gpio.lamp = unsigned(words.number(*lamp, "line", 0, 4095, 0, true));
   }
   options.trigger = gpio;
 }

@@ -24,10 +24,8 @@ Error open_error(int negative_errno) {
     case EPERM:
       return Error{Errc::IoFailed, "this camera may not be opened: add the user to the group video",
                    -negative_errno};
-    case EBUSY:
-      return Error{Errc::IoFailed, "another program uses this camera: close it", -negative_errno};
-    default:
-      return Error{Errc::IoFailed, "this camera cannot be opened", -negative_errno};
+    case EBUSY: return Error{Errc::IoFailed, "another program uses this camera: close it", -negative_errno};
+    default: return Error{Errc::IoFailed, "this camera cannot be opened", -negative_errno};
   }
 }
 
@@ -35,7 +33,7 @@ v4l2_buffer empty_buffer(std::size_t index) {
   v4l2_buffer buffer{};
   buffer.type = kCapture;
   buffer.memory = V4L2_MEMORY_MMAP;
-  buffer.index = static_cast<std::uint32_t>(index);
+  buffer.index = std::uint32_t(index);
   return buffer;
 }
 
@@ -142,14 +140,14 @@ void V4l2Camera::do_stop() {
 }
 
 bool V4l2Camera::all_lent() const {
-  return std::all_of(buffers_.begin(), buffers_.begin() + static_cast<std::ptrdiff_t>(count_),
+  return std::all_of(buffers_.begin(), buffers_.begin() + std::ptrdiff_t(count_),
                      [](const Buffer& b) { return b.lent; });
 }
 
 Result<void> V4l2Camera::wait(Instant deadline) {
   using std::chrono::milliseconds;
   const auto left = std::chrono::ceil<milliseconds>(deadline - clock_.now());
-  const int events = kernel_.poll(file_, static_cast<int>(std::clamp<std::int64_t>(left.count(), 0, 60'000)));
+  const int events = kernel_.poll(file_, int(std::clamp<std::int64_t>(left.count(), 0, 60'000)));
   if (events < 0 && events != -EINTR)
     return device_error(events, {Errc::IoFailed, "the camera cannot be waited for"});
   if (events > 0 && (events & POLLHUP) != 0)
@@ -181,7 +179,7 @@ Result<Frame> V4l2Camera::do_next_frame(Instant deadline) {
       std::chrono::seconds(buffer.timestamp.tv_sec) + std::chrono::microseconds(buffer.timestamp.tv_usec);
   // From here on the frame's end gives the buffer back, also when it is refused.
   Frame frame(raw, {Instant(at), buffer.sequence, (buffer.flags & V4L2_BUF_FLAG_ERROR) != 0},
-              &V4l2Camera::give_back, this, static_cast<int>(buffer.index));
+              &V4l2Camera::give_back, this, int(buffer.index));
   if ((buffer.flags & V4L2_BUF_FLAG_TIMESTAMP_MASK) == V4L2_BUF_FLAG_TIMESTAMP_UNKNOWN)
     return Error{Errc::Unsupported,
                  "the camera's driver gives no time stamps of the machine's clock: pairs cannot be judged"};
@@ -193,9 +191,9 @@ Result<Frame> V4l2Camera::do_next_frame(Instant deadline) {
 
 void V4l2Camera::give_back(void* owner, int slot) {
   auto* camera = static_cast<V4l2Camera*>(owner);
-  camera->buffers_[static_cast<std::size_t>(slot)].lent = false;
+  camera->buffers_[std::size_t(slot)].lent = false;
   // A buffer the driver does not take is queued anew with the next start.
-  if (camera->streaming_) (void)camera->queue(static_cast<std::size_t>(slot)).has_value();
+  if (camera->streaming_) (void)camera->queue(std::size_t(slot)).has_value();
 }
 
 }  // namespace relievo::hal

@@ -21,7 +21,7 @@ template <int kBits>
 struct Loose {
   static constexpr int bits = kBits;
   static unsigned sample(const std::uint8_t* row, int x) {
-    const unsigned value = row[2 * x] | static_cast<unsigned>(row[2 * x + 1]) << 8U;
+    const unsigned value = row[2 * x] | unsigned(row[2 * x + 1]) << 8U;
     return std::min(value, (1U << kBits) - 1U);
   }
 };
@@ -31,7 +31,7 @@ struct Mipi10 {
   static unsigned sample(const std::uint8_t* row, int x) {
     const std::uint8_t* four = row + x / 4 * 5;
     const int i = x % 4;
-    return static_cast<unsigned>(four[i]) << 2U | (static_cast<unsigned>(four[4]) >> (2 * i) & 3U);
+    return unsigned(four[i]) << 2U | (unsigned(four[4]) >> (2 * i) & 3U);
   }
 };
 
@@ -40,7 +40,7 @@ struct Mipi12 {
   static unsigned sample(const std::uint8_t* row, int x) {
     const std::uint8_t* two = row + x / 2 * 3;
     const int i = x % 2;
-    return static_cast<unsigned>(two[i]) << 4U | (static_cast<unsigned>(two[2]) >> (4 * i) & 15U);
+    return unsigned(two[i]) << 4U | (unsigned(two[2]) >> (4 * i) & 15U);
   }
 };
 
@@ -66,8 +66,7 @@ template <typename Reader, template <int> typename Scale>
 void unpack(const RawImage& raw, std::byte* out) {
   using Out = typename Scale<Reader::bits>::Out;
   for (int y = 0; y < raw.height_px; ++y) {
-    const auto* row =
-        reinterpret_cast<const std::uint8_t*>(raw.bytes) + static_cast<std::ptrdiff_t>(y) * raw.stride_bytes;
+    const auto* row = reinterpret_cast<const std::uint8_t*>(raw.bytes) + std::ptrdiff_t(y) * raw.stride_bytes;
     for (int x = 0; x < raw.width_px; ++x) {
       const Out value = Scale<Reader::bits>::of(Reader::sample(row, x));
       std::memcpy(out, &value, sizeof value);
@@ -80,22 +79,16 @@ void unpack(const RawImage& raw, std::byte* out) {
 template <template <int> typename Scale>
 void unpack_all(const RawImage& raw, std::byte* out) {
   switch (raw.format.coding) {
-    case RawCoding::Bits10:
-      return unpack<Loose<10>, Scale>(raw, out);
-    case RawCoding::Bits12:
-      return unpack<Loose<12>, Scale>(raw, out);
-    case RawCoding::Bits16:
-      return unpack<Loose<16>, Scale>(raw, out);
-    case RawCoding::Packed10:
-      return unpack<Mipi10, Scale>(raw, out);
-    case RawCoding::Packed12:
-      return unpack<Mipi12, Scale>(raw, out);
+    case RawCoding::Bits10: return unpack<Loose<10>, Scale>(raw, out);
+    case RawCoding::Bits12: return unpack<Loose<12>, Scale>(raw, out);
+    case RawCoding::Bits16: return unpack<Loose<16>, Scale>(raw, out);
+    case RawCoding::Packed10: return unpack<Mipi10, Scale>(raw, out);
+    case RawCoding::Packed12: return unpack<Mipi12, Scale>(raw, out);
     case RawCoding::Bits8:
     case RawCoding::Rgb8:
     case RawCoding::Yuyv:
     case RawCoding::Nv12:
-    case RawCoding::Mjpeg:
-      break;
+    case RawCoding::Mjpeg: break;
   }
   RELIEVO_ASSERT(false && "these are no samples of more than 8 bit");
 }
@@ -108,23 +101,22 @@ PixelFormat developed_format(const RawFormat& format) {
 
 void copy_rows(const RawImage& raw, std::byte* out) {
   const std::size_t row_bytes = raw_row_bytes(raw.format.coding, raw.width_px);
-  if (static_cast<std::size_t>(raw.stride_bytes) == row_bytes) {
-    std::memcpy(out, raw.bytes, row_bytes * static_cast<std::size_t>(raw.height_px));
+  if (std::size_t(raw.stride_bytes) == row_bytes) {
+    std::memcpy(out, raw.bytes, row_bytes * std::size_t(raw.height_px));
     return;
   }
   for (int y = 0; y < raw.height_px; ++y)
-    std::memcpy(out + static_cast<std::size_t>(y) * row_bytes,
-                raw.bytes + static_cast<std::ptrdiff_t>(y) * raw.stride_bytes, row_bytes);
+    std::memcpy(out + std::size_t(y) * row_bytes, raw.bytes + std::ptrdiff_t(y) * raw.stride_bytes,
+                row_bytes);
 }
 
 // In the scratch, because OpenCV's edge-aware demosaic is wrong for rows with padding (seen in 4.6).
 Result<void> develop_mosaic(const RawImage& raw, std::byte* rgb, std::byte* scratch) {
   if (raw.format.coding == RawCoding::Bits8) copy_rows(raw, scratch);
   else unpack_all<To8>(raw, scratch);
-  const RawImage mosaic{
-      scratch,      static_cast<std::size_t>(raw.width_px) * static_cast<std::size_t>(raw.height_px),
-      raw.width_px, raw.height_px,
-      raw.width_px, {RawCoding::Bits8, raw.format.filter}};
+  const RawImage mosaic{scratch,      std::size_t(raw.width_px) * std::size_t(raw.height_px),
+                        raw.width_px, raw.height_px,
+                        raw.width_px, {RawCoding::Bits8, raw.format.filter}};
   return demosaic(mosaic, rgb);
 }
 
@@ -133,18 +125,13 @@ Result<void> fill(const RawImage& raw, ImageView& view, std::byte* out, std::byt
   switch (raw.format.coding) {
     case RawCoding::Bits8:
     case RawCoding::Bits16:
-    case RawCoding::Rgb8:
-      copy_rows(raw, out);
-      break;
+    case RawCoding::Rgb8: copy_rows(raw, out); break;
     case RawCoding::Bits10:
     case RawCoding::Bits12:
     case RawCoding::Packed10:
-    case RawCoding::Packed12:
-      unpack_all<To16>(raw, out);
-      break;
+    case RawCoding::Packed12: unpack_all<To16>(raw, out); break;
     case RawCoding::Yuyv:
-    case RawCoding::Nv12:
-      return yuv_to_rgb(raw, out);
+    case RawCoding::Nv12: return yuv_to_rgb(raw, out);
     case RawCoding::Mjpeg: {
       RELIEVO_TRY_ASSIGN(view.format, decode_jpeg(raw, out));
       view.stride_bytes = view.width_px * bytes_per_pixel(view.format);
@@ -158,7 +145,7 @@ Result<void> fill(const RawImage& raw, ImageView& view, std::byte* out, std::byt
 
 std::size_t develop_scratch_bytes(const RawFormat& format, int width_px, int height_px) {
   if (format.filter == ColourFilter::None) return 0;
-  return static_cast<std::size_t>(width_px) * static_cast<std::size_t>(height_px);
+  return std::size_t(width_px) * std::size_t(height_px);
 }
 
 Result<ImageView> develop(const RawImage& raw, std::span<std::byte> room, std::span<std::byte> scratch) {
@@ -167,7 +154,7 @@ Result<ImageView> develop(const RawImage& raw, std::span<std::byte> room, std::s
     return Error{Errc::InvalidInput, "the camera's picture has too few bytes: check its cable"};
   ImageView view{room.data(), raw.width_px, raw.height_px, 0, developed_format(raw.format)};
   view.stride_bytes = raw.width_px * bytes_per_pixel(view.format);
-  if (static_cast<std::size_t>(view.stride_bytes) * static_cast<std::size_t>(raw.height_px) > room.size() ||
+  if (std::size_t(view.stride_bytes) * std::size_t(raw.height_px) > room.size() ||
       develop_scratch_bytes(raw.format, raw.width_px, raw.height_px) > scratch.size())
     return Error{Errc::InvalidInput, "the picture is larger than budget.h allows: choose a smaller mode"};
   RELIEVO_TRY(fill(raw, view, room.data(), scratch.data()));

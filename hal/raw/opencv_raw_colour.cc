@@ -14,16 +14,11 @@ namespace {
 // OpenCV names a filter by the second and third pixel of the second row.
 int edge_aware(ColourFilter filter) {
   switch (filter) {
-    case ColourFilter::Rggb:
-      return cv::COLOR_BayerBG2RGB_EA;
-    case ColourFilter::Grbg:
-      return cv::COLOR_BayerGB2RGB_EA;
-    case ColourFilter::Gbrg:
-      return cv::COLOR_BayerGR2RGB_EA;
-    case ColourFilter::Bggr:
-      return cv::COLOR_BayerRG2RGB_EA;
-    case ColourFilter::None:
-      break;
+    case ColourFilter::Rggb: return cv::COLOR_BayerBG2RGB_EA;
+    case ColourFilter::Grbg: return cv::COLOR_BayerGB2RGB_EA;
+    case ColourFilter::Gbrg: return cv::COLOR_BayerGR2RGB_EA;
+    case ColourFilter::Bggr: return cv::COLOR_BayerRG2RGB_EA;
+    case ColourFilter::None: break;
   }
   RELIEVO_ASSERT(false && "without a filter there is no mosaic");
   return 0;
@@ -33,7 +28,7 @@ Result<void> convert(const RawImage& raw, int type, int rows, int code, std::byt
   // OpenCV has no const Mat over foreign bytes; this one is only read.
   const cv::Mat from(rows, raw.width_px, type,
                      const_cast<std::byte*>(raw.bytes),  // NOLINT(cppcoreguidelines-pro-type-const-cast)
-                     static_cast<std::size_t>(raw.stride_bytes));
+                     std::size_t(raw.stride_bytes));
   cv::Mat to(raw.height_px, raw.width_px, CV_8UC3, rgb);
   const auto* const place = to.data;
   cv::cvtColor(from, to, code);

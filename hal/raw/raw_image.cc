@@ -6,39 +6,32 @@ namespace relievo::hal {
 namespace {
 
 std::size_t rows_of(const RawImage& raw) {
-  const auto height = static_cast<std::size_t>(raw.height_px);
+  const auto height = std::size_t(raw.height_px);
   return raw.format.coding == RawCoding::Nv12 ? height + height / 2 : height;
 }
 
 }  // namespace
 
 std::size_t raw_row_bytes(RawCoding coding, int width_px) {
-  const auto width = static_cast<std::size_t>(width_px);
+  const auto width = std::size_t(width_px);
   switch (coding) {
     case RawCoding::Bits8:
-    case RawCoding::Nv12:
-      return width;
+    case RawCoding::Nv12: return width;
     case RawCoding::Bits10:
     case RawCoding::Bits12:
     case RawCoding::Bits16:
-    case RawCoding::Yuyv:
-      return 2 * width;
-    case RawCoding::Packed10:
-      return (width + 3) / 4 * 5;
-    case RawCoding::Packed12:
-      return (width + 1) / 2 * 3;
-    case RawCoding::Rgb8:
-      return 3 * width;
-    case RawCoding::Mjpeg:
-      break;
+    case RawCoding::Yuyv: return 2 * width;
+    case RawCoding::Packed10: return (width + 3) / 4 * 5;
+    case RawCoding::Packed12: return (width + 1) / 2 * 3;
+    case RawCoding::Rgb8: return 3 * width;
+    case RawCoding::Mjpeg: break;
   }
   return 0;
 }
 
 std::size_t raw_whole_bytes(const RawImage& raw) {
   if (raw.format.coding == RawCoding::Mjpeg) return 0;
-  return static_cast<std::size_t>(raw.stride_bytes) * (rows_of(raw) - 1) +
-         raw_row_bytes(raw.format.coding, raw.width_px);
+  return std::size_t(raw.stride_bytes) * (rows_of(raw) - 1) + raw_row_bytes(raw.format.coding, raw.width_px);
 }
 
 Result<void> check_shape(const RawImage& raw) {
@@ -48,8 +41,8 @@ Result<void> check_shape(const RawImage& raw) {
   if (raw.width_px > kMaxRawSidePx || raw.height_px > kMaxRawSidePx)
     return Error{Errc::InvalidInput,
                  "the camera's picture is larger than 8192 px a side: choose a smaller mode"};
-  if (coding != RawCoding::Mjpeg && (raw.stride_bytes < 0 || static_cast<std::size_t>(raw.stride_bytes) <
-                                                                 raw_row_bytes(coding, raw.width_px)))
+  if (coding != RawCoding::Mjpeg &&
+      (raw.stride_bytes < 0 || std::size_t(raw.stride_bytes) < raw_row_bytes(coding, raw.width_px)))
     return Error{Errc::InvalidInput, "the camera's rows are shorter than its picture is wide"};
   const bool odd_width = raw.width_px % 2 != 0;
   const bool odd_height = raw.height_px % 2 != 0;
@@ -68,15 +61,9 @@ bool is_short(const RawImage& raw) { return raw.size_bytes == 0 || raw.size_byte
 RawImage raw_of(const ImageView& view) {
   RawImage raw;
   switch (view.format) {
-    case PixelFormat::Grey8:
-      raw.format.coding = RawCoding::Bits8;
-      break;
-    case PixelFormat::Grey16:
-      raw.format.coding = RawCoding::Bits16;
-      break;
-    case PixelFormat::Rgb8:
-      raw.format.coding = RawCoding::Rgb8;
-      break;
+    case PixelFormat::Grey8: raw.format.coding = RawCoding::Bits8; break;
+    case PixelFormat::Grey16: raw.format.coding = RawCoding::Bits16; break;
+    case PixelFormat::Rgb8: raw.format.coding = RawCoding::Rgb8; break;
   }
   raw.bytes = view.bytes;
   raw.width_px = view.width_px;

@@ -10,8 +10,8 @@
 #include <span>
 #include <system_error>
 
+#include "hal/base/whole_file.h"
 #include "hal/picture_file.h"
-#include "hal/whole_file.h"
 
 namespace relievo::hal {
 

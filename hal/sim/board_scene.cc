@@ -2,10 +2,106 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "hal/sim/board_scene.h"
 
+#include <algorithm>
+#include <cmath>
+
 #include "hal/sim/base/noise.h"
 #include "hal/sim/optics/ray_caster.h"
 
 namespace relievo::hal::sim {
+namespace {
+
+constexpr int kMostMarkers = 1000;  // of a dictionary
+constexpr std::int64_t kCellsASquare = 128;
+
+int marker_count(const BoardPattern& b) { return (b.corners_x + 1) * (b.corners_y + 1) / 2; }
+
+}  // namespace
+
+Result<void> BoardPattern::check() const {
+  if (corners_x < 3 || corners_y < 3 || corners_x > 60 || corners_y > 60)
+    return Error{Errc::InvalidInput, "a board has between 3 and 60 inner corners a side"};
+  if (!(square_mm >= 1) || !(square_mm <= 500))
+    return Error{Errc::InvalidInput, "the squares of a board measure between 1 and 500 mm"};
+  if (kind == BoardKind::Chessboard) return {};
+  if (!(marker_side_mm() >= 0.3 * square_mm) || !(marker_side_mm() <= 0.9 * square_mm))
+    return Error{Errc::InvalidInput, "a marker measures between 0.3 and 0.9 of its square"};
+  if (marker_bits < 4 || marker_bits > 7)
+    return Error{Errc::InvalidInput, "a marker has between 4 and 7 bits a side"};
+  if (marker_count(*this) > kMostMarkers)
+    return Error{Errc::InvalidInput, "a ChArUco board has at most 1000 markers; choose fewer corners"};
+  return {};
+}
+
+BoardPrint::BoardPrint(const BoardPattern& pattern) : pattern_(pattern) {
+  if (pattern.kind == BoardKind::Chessboard) return;
+  modules_ = pattern.marker_bits + 2;
+  markers_ = marker_modules(pattern.marker_bits, marker_count(pattern));
+}
+
+BoardPrint::Spot BoardPrint::at(double x_mm, double y_mm) const {
+  const double sx = x_mm / pattern_.square_mm + 1,
+               sy = y_mm / pattern_.square_mm + 1;  // from the top left of the print
+  const int across = pattern_.corners_x + 1, down = pattern_.corners_y + 1;
+  if (!(sx >= 0 && sy >= 0 && sx < across && sy < down)) return {false, -1};
+  const int column = int(sx), row = int(sy);
+  const std::int64_t cell = (std::int64_t(row) * across + column) * kCellsASquare;
+  if ((column + row) % 2 == 0) return {true, cell};
+  if (pattern_.kind == BoardKind::Chessboard) return {false, cell};
+  const double side = pattern_.marker_side_mm() / pattern_.square_mm / modules_;
+  const double low = 0.5 - 0.5 * modules_ * side;
+  const int u = std::clamp(int(std::floor((sx - column - low) / side)), -1, modules_);
+  const int v = std::clamp(int(std::floor((sy - row - low) / side)), -1, modules_);
+  const auto spot = [&](bool dark) { return Spot{dark, cell + (v + 1) * (modules_ + 2) + u + 1}; };
+  if (u < 0 || v < 0 || u == modules_ || v == modules_) return spot(false);
+  if (u == 0 || v == 0 || u == modules_ - 1 || v == modules_ - 1) return spot(true);
+  // Numbers run over the white squares, row by row.
+  const int id = (row * across + column) / 2, bit = (v - 1) * (modules_ - 2) + u - 1;
+  return spot((markers_[std::size_t(id)] >> bit & 1) == 0);
+}
+
+namespace {
+
+bool seen_whole(const SimView& view, const BoardPattern& b, const BoardPose& pose) {
+  for (const double x : {-1.0, double(b.corners_x)})
+    for (const double y : {-1.0, double(b.corners_y)}) {
+      const Vec3 p = pose.to_world({x * b.square_mm, y * b.square_mm, 0});
+      if (view.depth_mm(p) < 50) return false;
+      const Pixel q = view.project(p);
+      if (q.x < 6 || q.y < 6 || q.x > view.width_px - 7 || q.y > view.height_px - 7) return false;
+    }
+  return true;
+}
+
+}  // namespace
+
+Result<std::vector<BoardPose>> good_board_poses(const SimRig& rig, const BoardPattern& b, int count,
+                                                std::uint32_t seed, double distance_mm) {
+  RELIEVO_TRY(b.check());
+  Random random(seed + 0xb0a4dULL);
+  std::vector<BoardPose> poses;
+  const Vec3 middle{(b.corners_x - 1) * b.square_mm / 2, (b.corners_y - 1) * b.square_mm / 2, 0};
+  const Vec3 aim = rig.left.ray((rig.left.width_px - 1) / 2.0, (rig.left.height_px - 1) / 2.0);
+  for (int tries = 0; int(poses.size()) < count && tries < 20000; ++tries) {
+    const auto k = int(poses.size());
+    // Tilts go round the compass, so that no direction is left out by chance.
+    const double compass = 6.283185307 * k / std::max(count, 1) * 3 + random.uniform(-0.3, 0.3),
+                 tilt = k == 0 ? 0.03 : random.uniform(0.25, 0.6);
+    const double spread = 1.0 - 0.9 * std::min(1.0, tries / 15000.0);
+    BoardPose pose;
+    pose.world_from_board =
+        rotation(tilt * std::sin(compass), tilt * std::cos(compass), random.uniform(-0.35, 0.35));
+    const Vec3 centre = aim * (distance_mm + random.uniform(-60, 110) + 4e-3 * tries) +
+                        Vec3{random.uniform(-70, 70), random.uniform(-42, 42), 0} * spread;
+    pose.origin_mm = centre - pose.world_from_board * middle;
+    if (seen_whole(rig.left, b, pose) && seen_whole(rig.right, b, pose)) poses.push_back(pose);
+  }
+  if (int(poses.size()) < count)
+    return Error{Errc::PoorGeometry,
+                 "this rig does not see the whole board; choose fewer or smaller squares"};
+  return poses;
+}
+
 namespace {
 
 constexpr double kWhite = 0.62, kBlack = 0.035, kRoom = 0.10, kHand = 0.33;
@@ -84,7 +180,7 @@ double BoardScene::dark_share(Vec3 origin, Vec3 direction, const Hit& hit) const
     const double u = (k + 0.5) / kSamples, v = k * kGolden - std::floor(k * kGolden) - 0.5;
     dark += (spot(u, v).dark ? 1 : 0) + (spot(-u, -v).dark ? 1 : 0);
   }
-  return static_cast<double>(dark) / kSamples;
+  return double(dark) / kSamples;
 }
 
 RayHit BoardScene::look(Vec3 origin, Vec3 direction) const {
@@ -117,7 +213,7 @@ Mesh BoardScene::solid_mesh() const {
   Mesh mesh;
   for (const Vec3 p : {Vec3{low, low, 0}, {right, low, 0}, {right, bottom, 0}, {low, bottom, 0}}) {
     const Vec3 q = pose_.to_world(p);
-    mesh.points.push_back({static_cast<float>(q.x), static_cast<float>(q.y), static_cast<float>(q.z)});
+    mesh.points.push_back({float(q.x), float(q.y), float(q.z)});
   }
   mesh.triangles = {{0, 1, 2}, {0, 2, 3}};
   return mesh;

@@ -19,9 +19,7 @@ constexpr int kTones = 4096;
 constexpr std::size_t kNormals = 1U << 14U;
 constexpr std::int64_t kNothing = -2;  // beside the paper
 
-std::size_t index_of(int width, int x, int y) {
-  return static_cast<std::size_t>(y) * static_cast<std::size_t>(width) + static_cast<std::size_t>(x);
-}
+std::size_t index_of(int width, int x, int y) { return std::size_t(y) * std::size_t(width) + std::size_t(x); }
 
 // From a camera's plane z = 1 to the board: the inverse of [first axis, second axis, origin].
 struct ToBoard {
@@ -53,27 +51,26 @@ BoardPose between(const BoardPose& a, const BoardPose& b, double t) {
 double srgb(double v) { return v <= 0.0031308 ? 12.92 * v : 1.055 * std::pow(v, 1 / 2.4) - 0.055; }
 
 void blur_row(const float* from, float* to, int count, std::size_t stride, std::span<const float> weight) {
-  const int reach = static_cast<int>(weight.size()) - 1;
+  const int reach = int(weight.size()) - 1;
   for (int i = 0; i < count; ++i) {
-    float sum = weight[0] * from[static_cast<std::size_t>(i) * stride];
+    float sum = weight[0] * from[std::size_t(i) * stride];
     for (int k = 1; k <= reach; ++k)
-      sum += weight[static_cast<std::size_t>(k)] *
-             (from[static_cast<std::size_t>(std::max(i - k, 0)) * stride] +
-              from[static_cast<std::size_t>(std::min(i + k, count - 1)) * stride]);
-    to[static_cast<std::size_t>(i) * stride] = sum;
+      sum += weight[std::size_t(k)] * (from[std::size_t(std::max(i - k, 0)) * stride] +
+                                       from[std::size_t(std::min(i + k, count - 1)) * stride]);
+    to[std::size_t(i) * stride] = sum;
   }
 }
 
 std::vector<float> bell(double deviation_px) {
-  const int reach = std::max(1, static_cast<int>(std::ceil(3 * deviation_px)));
+  const int reach = std::max(1, int(std::ceil(3 * deviation_px)));
   std::vector<float> weight;
   double total = 0;
   for (int k = 0; k <= reach; ++k) {
-    weight.push_back(static_cast<float>(
-        deviation_px < 0.05 ? (k == 0 ? 1 : 0) : std::exp(-0.5 * k * k / (deviation_px * deviation_px))));
-    total += (k == 0 ? 1 : 2) * static_cast<double>(weight.back());
+    weight.push_back(float(deviation_px < 0.05 ? (k == 0 ? 1 : 0)
+                                               : std::exp(-0.5 * k * k / (deviation_px * deviation_px))));
+    total += (k == 0 ? 1 : 2) * double(weight.back());
   }
-  for (float& w : weight) w = static_cast<float>(static_cast<double>(w) / total);
+  for (float& w : weight) w = float(double(w) / total);
   return weight;
 }
 
@@ -101,7 +98,7 @@ class HeldBoard::Shot {
 
   float light(int x, int y) const {
     const std::size_t i = index_of(eye_.view.width_px, x, y);
-    const double u = static_cast<double>(eye_.plane_x[i]), v = static_cast<double>(eye_.plane_y[i]);
+    const double u = double(eye_.plane_x[i]), v = double(eye_.plane_y[i]);
     const double du = 0.5 / eye_.view.fx_px, dv = 0.5 / eye_.view.fy_px;
     const Spot middle = spot(at_[kSamples / 2], u, v);
     bool even = true;
@@ -114,7 +111,7 @@ class HeldBoard::Shot {
     for (int k = 0; k < kSamples / 2; ++k) {
       const auto share = [k](double step) { return 2 * (k * step - std::floor(k * step)) - 1; };
       const double a = du * share(kGolden), b = dv * share(kPlastic);
-      const auto when = static_cast<std::size_t>(k);
+      const auto when = std::size_t(k);
       sum += spot(at_[when], u + a, v + b).light + spot(at_[kSamples - 1 - when], u - a, v - b).light;
     }
     return sum / kSamples;
@@ -131,16 +128,16 @@ class HeldBoard::Shot {
     const double low = -b.square_mm - b.margin_mm;
     if (!(p.x > low && p.y > low && p.x < b.corners_x * b.square_mm + b.margin_mm &&
           p.y < b.corners_y * b.square_mm + b.margin_mm))
-      return {kNothing, static_cast<float>(kRoom)};
+      return {kNothing, float(kRoom)};
     const BoardPrint::Spot printed = board_.print_.at(p.x, p.y);
-    return {printed.cell, static_cast<float>((printed.dark ? kBlack : kWhite) * lit_)};
+    return {printed.cell, float((printed.dark ? kBlack : kWhite) * lit_)};
   }
   void frame(const BoardPose& pose) {
     const BoardPattern& b = board_.pattern_;
     for (const double x : {-b.square_mm - b.margin_mm, b.corners_x * b.square_mm + b.margin_mm})
       for (const double y : {-b.square_mm - b.margin_mm, b.corners_y * b.square_mm + b.margin_mm}) {
         const Pixel p = eye_.view.project(pose.to_world({x, y, 0}));
-        const auto whole = [](double value) { return static_cast<int>(std::clamp(value, -1e6, 1e6)); };
+        const auto whole = [](double value) { return int(std::clamp(value, -1e6, 1e6)); };
         left_ = std::min(left_, whole(p.x)), right_ = std::max(right_, whole(p.x));
         top_ = std::min(top_, whole(p.y)), bottom_ = std::max(bottom_, whole(p.y));
       }
@@ -171,10 +168,10 @@ HeldBoard::HeldBoard(const RigOptions& rig, const BoardPattern& pattern, const S
   prepare(rig_.right, right_);
   for (int i = 0; i < kTones; ++i) {
     const double v = (i + 0.5) / kTones;
-    tone_.push_back(static_cast<std::uint8_t>(std::lround(255 * (sensor.gamma ? srgb(v) : v))));
+    tone_.push_back(std::uint8_t(std::lround(255 * (sensor.gamma ? srgb(v) : v))));
   }
   Random random(7);
-  for (std::size_t i = 0; i < kNormals; ++i) normal_.push_back(static_cast<float>(random.normal()));
+  for (std::size_t i = 0; i < kNormals; ++i) normal_.push_back(float(random.normal()));
 }
 
 void HeldBoard::prepare(const SimView& view, Eye& eye) {
@@ -186,8 +183,8 @@ void HeldBoard::prepare(const SimView& view, Eye& eye) {
     for (int y = begin; y < end; ++y)
       for (int x = 0; x < view.width_px; ++x) {
         const Vec3 ray = view.view_from_world * view.ray(x, y);
-        eye.plane_x[index_of(view.width_px, x, y)] = static_cast<float>(ray.x / ray.z);
-        eye.plane_y[index_of(view.width_px, x, y)] = static_cast<float>(ray.y / ray.z);
+        eye.plane_x[index_of(view.width_px, x, y)] = float(ray.x / ray.z);
+        eye.plane_y[index_of(view.width_px, x, y)] = float(ray.y / ray.z);
       }
   });
 }
@@ -195,7 +192,7 @@ void HeldBoard::prepare(const SimView& view, Eye& eye) {
 Picture HeldBoard::photograph(const Eye& eye, const BoardPose& opened, const BoardPose& closed,
                               std::uint64_t noise_seed) {
   const int width = eye.view.width_px, height = eye.view.height_px;
-  std::vector<float> light(eye.plane_x.size(), static_cast<float>(kRoom));
+  std::vector<float> light(eye.plane_x.size(), float(kRoom));
   const Shot shot(*this, eye, opened, closed);
   pool_.for_each_band(shot.bottom() - shot.top(), kBands, [&](int begin, int end, int) {
     for (int y = shot.top() + begin; y < shot.top() + end; ++y)
@@ -209,8 +206,7 @@ Picture HeldBoard::photograph(const Eye& eye, const BoardPose& opened, const Boa
   });
   pool_.for_each_band(width, kBands, [&](int begin, int end, int) {
     for (int x = begin; x < end; ++x)
-      blur_row(&across[static_cast<std::size_t>(x)], &light[static_cast<std::size_t>(x)], height,
-               static_cast<std::size_t>(width), weight);
+      blur_row(&across[std::size_t(x)], &light[std::size_t(x)], height, std::size_t(width), weight);
   });
   return develop(light, eye, noise_seed);
 }
@@ -221,19 +217,18 @@ Picture HeldBoard::develop(const std::vector<float>& light, const Eye& eye, std:
   out.height_px = eye.view.height_px;
   out.format = PixelFormat::Grey8;
   out.bytes.resize(light.size());
-  const auto well = static_cast<float>(sensor_.full_well_electrons);
-  const auto read = static_cast<float>(sensor_.read_noise_electrons * sensor_.read_noise_electrons);
-  const auto exposure = static_cast<float>(sensor_.exposure), noise = static_cast<float>(sensor_.noise);
+  const auto well = float(sensor_.full_well_electrons);
+  const auto read = float(sensor_.read_noise_electrons * sensor_.read_noise_electrons);
+  const auto exposure = float(sensor_.exposure), noise = float(sensor_.noise);
   pool_.for_each_band(out.height_px, kBands, [&](int begin, int end, int) {
     for (int y = begin; y < end; ++y) {
       // Stirred: neighbouring seeds give one sequence, shifted by one.
-      Random random(Random(noise_seed * 65536 + static_cast<std::uint64_t>(y)).next());
+      Random random(Random(noise_seed * 65536 + std::uint64_t(y)).next());
       for (std::size_t i = index_of(out.width_px, 0, y); i < index_of(out.width_px, 0, y + 1); ++i) {
         const float electrons = light[i] * exposure * well;
         const float level =
             (electrons + noise * std::sqrt(electrons + read) * normal_[random.next() % kNormals]) / well;
-        out.bytes[i] = std::byte{
-            tone_[static_cast<std::size_t>(std::clamp(static_cast<int>(level * kTones), 0, kTones - 1))]};
+        out.bytes[i] = std::byte{tone_[std::size_t(std::clamp(int(level * kTones), 0, kTones - 1))]};
       }
     }
   });

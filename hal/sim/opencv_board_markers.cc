@@ -2,7 +2,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include <opencv2/aruco.hpp>
 
-#include "hal/sim/board_print.h"
+#include "hal/sim/board_scene.h"
 
 namespace relievo::hal::sim {
 

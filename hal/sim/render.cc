@@ -12,8 +12,8 @@
 #include <string>
 #include <system_error>
 
+#include "hal/base/whole_file.h"
 #include "hal/sim/base/text.h"
-#include "hal/whole_file.h"
 
 namespace relievo::hal::sim {
 namespace {
@@ -48,8 +48,7 @@ Truth measure_truth(const Scene& scene, const SimRig& rig, ThreadPool& pool) {
   Truth truth;
   truth.width_px = rig.left.width_px;
   truth.height_px = rig.left.height_px;
-  const std::size_t count =
-      static_cast<std::size_t>(truth.width_px) * static_cast<std::size_t>(truth.height_px);
+  const std::size_t count = std::size_t(truth.width_px) * std::size_t(truth.height_px);
   truth.depth_mm.assign(count, std::numeric_limits<float>::quiet_NaN());
   truth.flags.assign(count, 0);
   const Vec3 eye = rig.left.centre();
@@ -59,7 +58,7 @@ Truth measure_truth(const Scene& scene, const SimRig& rig, ThreadPool& pool) {
         const Vec3 ray = rig.left.ray(x, y);
         SolidPoint s;
         if (!scene.solid(eye, ray, s)) continue;
-        truth.depth_mm[truth.at(x, y)] = static_cast<float>(rig.left.depth_mm(s.point));
+        truth.depth_mm[truth.at(x, y)] = float(rig.left.depth_mm(s.point));
         truth.flags[truth.at(x, y)] = flags_of(scene, rig, s, ray);
       }
   });
@@ -123,7 +122,7 @@ Result<void> render_boards(const SimulationOptions& o, const SimRig& rig, const 
   for (std::size_t k = 0; k < poses.size(); ++k) {
     const BoardScene scene(o.board, poses[k], o.board_look, 1 / rig.left.fx_px);
     RELIEVO_TRY(write_pair(render_pair(scene, rig, sensor, o.seed * 1000ULL + k, pool), folder,
-                           text("_%02d", static_cast<int>(k))));
+                           text("_%02d", int(k))));
   }
   return {};
 }
@@ -212,12 +211,9 @@ Result<void> render_to_folder(const SimulationOptions& options, const std::files
   const SimRig rig = make_rig(options.rig);
   RELIEVO_TRY(write_rig(folder / "rig.yml", rig));
   switch (options.scene) {
-    case SceneKind::Board:
-      return render_boards(options, rig, folder, pool);
-    case SceneKind::Visit:
-      return render_visit(options, rig, folder, pool);
-    case SceneKind::Head:
-      break;
+    case SceneKind::Board: return render_boards(options, rig, folder, pool);
+    case SceneKind::Visit: return render_visit(options, rig, folder, pool);
+    case SceneKind::Head: break;
   }
   return render_head(options, rig, folder, pool);
 }

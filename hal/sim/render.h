@@ -29,9 +29,7 @@ struct Truth {
   int width_px = 0, height_px = 0;
   std::vector<float> depth_mm;  // z in the left camera's frame; NaN: nothing there
   std::vector<std::uint8_t> flags;
-  std::size_t at(int x, int y) const {
-    return static_cast<std::size_t>(y) * static_cast<std::size_t>(width_px) + static_cast<std::size_t>(x);
-  }
+  std::size_t at(int x, int y) const { return std::size_t(y) * std::size_t(width_px) + std::size_t(x); }
 };
 
 Truth measure_truth(const Scene& scene, const SimRig& rig, ThreadPool& pool);

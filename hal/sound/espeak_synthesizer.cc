@@ -38,7 +38,7 @@ int receive(short* samples, int count, espeak_EVENT* events) {
   if (samples == nullptr || count <= 0 || events == nullptr) return 0;
   const auto* receiver = static_cast<const Receiver*>(events->user_data);
   if (receiver == nullptr) return 0;
-  const std::span<short> made(samples, static_cast<std::size_t>(count));
+  const std::span<short> made(samples, std::size_t(count));
   for (short& sample : made) sample = static_cast<short>(sample * receiver->volume_percent / 100);
   return (*receiver->sink)(made) ? 0 : 1;
 }

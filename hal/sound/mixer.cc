@@ -24,7 +24,7 @@ constexpr std::array<Tones, kSounds> kTones{{
 constexpr float kLoudness = 0.12F * 32767;  // quiet: a sign, no alarm
 constexpr float kRampMs = 6;                // a tone that begins or ends at once cracks
 
-std::size_t samples_of(float ms) { return static_cast<std::size_t>(ms * kSamplesPerSecond / 1000); }
+std::size_t samples_of(float ms) { return std::size_t(ms * kSamplesPerSecond / 1000); }
 
 }  // namespace
 
@@ -36,9 +36,9 @@ Mixer::Number Mixer::begin() {
 void Mixer::cut() { wanted_.store(wanted_.load() | 1U); }
 
 void Mixer::play(Sound sound, float pitch) {
-  const auto number = static_cast<std::uint32_t>(asked_.load() >> 40U) + 1;
-  const auto hundredths = static_cast<std::uint64_t>(std::clamp(pitch, 0.1F, 10.0F) * 100);
-  asked_.store(std::uint64_t{number} << 40U | hundredths << 8U | static_cast<std::uint64_t>(sound));
+  const auto number = std::uint32_t(asked_.load() >> 40U) + 1;
+  const auto hundredths = std::uint64_t(std::clamp(pitch, 0.1F, 10.0F) * 100);
+  asked_.store(std::uint64_t{number} << 40U | hundredths << 8U | std::uint64_t(sound));
 }
 
 bool Mixer::add(Number text, std::span<const std::int16_t> samples, bool last) {
@@ -77,7 +77,7 @@ void Mixer::begin_sound() {
   const std::uint64_t asked = asked_.load();
   if (asked == sounding_) return;
   sounding_ = asked;
-  pitch_ = static_cast<float>(asked >> 8U & 0xFFFFU) / 100;
+  pitch_ = float(asked >> 8U & 0xFFFFU) / 100;
   tone_ = sound_at_ = 0;
   phase_ = 0;
 }
@@ -88,7 +88,7 @@ float Mixer::next_of_sound() {
   if (tone_ == tones.size() || tones[tone_].ms == 0) return 0;
   const std::size_t length = samples_of(tones[tone_].ms), ramp = samples_of(kRampMs);
   const std::size_t from_end = std::min(sound_at_, length - sound_at_);
-  const float loud = std::min(1.0F, static_cast<float>(from_end) / static_cast<float>(ramp));
+  const float loud = std::min(1.0F, float(from_end) / float(ramp));
   const float value = kLoudness * loud * std::sin(phase_);
   constexpr float kRound = 2 * std::numbers::pi_v<float>;
   phase_ = std::fmod(phase_ + kRound * tones[tone_].hz * pitch_ / kSamplesPerSecond, kRound);
@@ -99,8 +99,8 @@ float Mixer::next_of_sound() {
 void Mixer::fill(std::span<std::int16_t> samples) {
   begin_sound();
   for (std::int16_t& sample : samples) {
-    const float value = static_cast<float>(next_of_speech()) + next_of_sound();
-    sample = static_cast<std::int16_t>(std::clamp(value, -32767.0F, 32767.0F));
+    const float value = float(next_of_speech()) + next_of_sound();
+    sample = std::int16_t(std::clamp(value, -32767.0F, 32767.0F));
   }
 }
 

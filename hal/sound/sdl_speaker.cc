@@ -48,7 +48,7 @@ class SdlSpeaker final : public Speaker {
     wanted.samples = 512;  // 23 ms: what is cut is not heard for longer
     wanted.callback = [](void* mixer, Uint8* bytes, int size) {
       static_cast<Mixer*>(mixer)->fill(
-          {reinterpret_cast<std::int16_t*>(bytes), static_cast<std::size_t>(size) / sizeof(std::int16_t)});
+          {reinterpret_cast<std::int16_t*>(bytes), std::size_t(size) / sizeof(std::int16_t)});
     };
     wanted.userdata = &mixer_;
     card_ = SDL_OpenAudioDevice(nullptr, 0, &wanted, nullptr, 0);

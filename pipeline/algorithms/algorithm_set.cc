@@ -31,7 +31,7 @@ Result<void> check_value(const OptionDescription& option, const std::string& val
   if (option.text) return {};
   if (!option.names.empty()) {
     for (const std::string& part : option.several ? split_names(value) : std::vector<std::string>{value})
-      if (std::find(option.names.begin(), option.names.end(), part) == option.names.end()) {
+      if (std::ranges::find(option.names, part) == option.names.end()) {
         if (option.is_option()) return out_of_range(option.key, value, option.range);
         return Error{Errc::NotFound, "no such algorithm: choose one of those in brackets"}.at(
             option.key + " = " + value + " (" + joined(option.names) + ")");

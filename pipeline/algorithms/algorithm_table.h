@@ -70,8 +70,7 @@ class OptionReader {
         const auto read = set.texts_.find(key);
         value = {chosen->second, read == set.texts_.end() ? nullptr : read->second};
       } else if constexpr (std::is_enum_v<Value>)
-        value = static_cast<Value>(std::find(range.names.begin(), range.names.end(), chosen->second) -
-                                   range.names.begin());
+        value = static_cast<Value>(std::ranges::find(range.names, chosen->second) - range.names.begin());
       else value = static_cast<Value>(number(chosen->second));
     });
     RELIEVO_TRY(check_options(options, section));

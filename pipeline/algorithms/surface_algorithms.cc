@@ -3,7 +3,6 @@
 #include "pipeline/algorithms/algorithm_table.h"
 #include "pipeline/fuse/head_fuser.h"
 #include "pipeline/mesh/completion/generic_head_completion.h"
-#include "pipeline/mesh/completion/measured_only.h"
 #include "pipeline/mesh/completion/symmetric_completion.h"
 #include "pipeline/mesh/meshers/bezier_mesher.h"
 #include "pipeline/mesh/meshers/grid_mesher.h"

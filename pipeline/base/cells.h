@@ -20,7 +20,7 @@ class Cells {
   void fill(int columns, int rows, Each&& each) {
     columns_ = columns;
     rows_ = rows;
-    in_.sort(static_cast<std::size_t>(columns) * static_cast<std::size_t>(rows), [&](auto&& add) {
+    in_.sort(std::size_t(columns) * std::size_t(rows), [&](auto&& add) {
       each([&](int column, int row, std::uint32_t member) { add(cell(column, row), member); });
     });
   }
@@ -46,8 +46,7 @@ class Cells {
 
  private:
   std::size_t cell(int column, int row) const {
-    return static_cast<std::size_t>(row) * static_cast<std::size_t>(columns_) +
-           static_cast<std::size_t>(column);
+    return std::size_t(row) * std::size_t(columns_) + std::size_t(column);
   }
 
   int columns_ = 0, rows_ = 0;

@@ -51,8 +51,8 @@ template <typename Value>
 std::string option_text(const Value& value, const OptionRange& range) {
   if constexpr (std::is_same_v<Value, std::string>) return value;
   else if constexpr (std::is_same_v<Value, TextFile>) return value.path;
-  else if constexpr (std::is_enum_v<Value>) return range.names[static_cast<std::size_t>(value)];
-  else return number_text(static_cast<double>(value), std::is_same_v<Value, float> ? 6 : 10);
+  else if constexpr (std::is_enum_v<Value>) return range.names[std::size_t(value)];
+  else return number_text(double(value), std::is_same_v<Value, float> ? 6 : 10);
 }
 
 template <typename Options>

@@ -21,7 +21,7 @@ class Workspace {
   std::unique_ptr<std::byte[]> output_block_, scratch_block_;  // not value-initialised: pages stay untouched
 
  public:
-  explicit Workspace(int threads = static_cast<int>(std::thread::hardware_concurrency()),
+  explicit Workspace(int threads = int(std::thread::hardware_concurrency()),
                      std::size_t output_bytes = std::size_t{320} << 20,
                      std::size_t scratch_bytes = std::size_t{640} << 20)
       : output_block_(new std::byte[output_bytes]),

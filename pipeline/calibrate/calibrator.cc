@@ -30,7 +30,7 @@ Result<void> check_input(const CalibratorInput& input) {
     return Error{Errc::InvalidInput, "pictures must have 16 to 8192 pixels a side"};
   if (input.views.size() > kMaxBoardPairs)
     return Error{Errc::InvalidInput, "more than 500 pairs; a few dozen are enough"};
-  const auto corners = static_cast<std::size_t>(input.pattern.corners());
+  const auto corners = std::size_t(input.pattern.corners());
   for (const BoardView& view : input.views)
     for (const BoardCorners* board : {&view.left, &view.right}) {
       if (!board->empty() && board->size() != corners)
@@ -47,7 +47,7 @@ Result<void> check_input(const CalibratorInput& input) {
 std::vector<int> boards(const CalibratorInput& input, bool right) {
   std::vector<int> views;
   for (std::size_t i = 0; i < input.views.size(); ++i)
-    if (!(right ? input.views[i].right : input.views[i].left).empty()) views.push_back(static_cast<int>(i));
+    if (!(right ? input.views[i].right : input.views[i].left).empty()) views.push_back(int(i));
   return views;
 }
 
@@ -68,10 +68,10 @@ Strays find_strays(const CalibratorInput& input, bool right, std::span<const int
   std::vector<std::vector<double>> off(views.size());
   std::vector<double> all;
   for (std::size_t v = 0; v < views.size(); ++v) {
-    const BoardView& view = input.views[static_cast<std::size_t>(views[v])];
+    const BoardView& view = input.views[std::size_t(views[v])];
     const BoardCorners& corners = right ? view.right : view.left;
     for (int i = 0; i < input.pattern.corners(); ++i) {
-      const Vec2d& at = corners[static_cast<std::size_t>(i)];
+      const Vec2d& at = corners[std::size_t(i)];
       off[v].push_back(seen(at) ? distance(input, fit, views[v], i, at) : 0);
       if (seen(at)) all.push_back(off[v].back());
     }
@@ -81,7 +81,7 @@ Strays find_strays(const CalibratorInput& input, bool right, std::span<const int
   for (const auto& view : off) {
     auto& of_view = strays.of_view.emplace_back();
     for (std::size_t i = 0; i < view.size(); ++i)
-      if (view[i] > strays.limit_px) of_view.push_back(static_cast<int>(i));
+      if (view[i] > strays.limit_px) of_view.push_back(int(i));
   }
   return strays;
 }
@@ -89,7 +89,7 @@ Strays find_strays(const CalibratorInput& input, bool right, std::span<const int
 void name_loose(bool right, std::size_t strays, double limit_px, ViewQuality& view) {
   char text[160];
   std::snprintf(text, sizeof text, "%s: %d corners are more than %.2f px off any flat board",
-                right ? "right" : "left", static_cast<int>(strays), limit_px);
+                right ? "right" : "left", int(strays), limit_px);
   view.reason = text;
 }
 
@@ -100,22 +100,20 @@ bool fit_without_strays(CalibratorInput& input, bool right, std::vector<int>& vi
   for (std::size_t round = 0; round < kMaxBoardPairs; ++round) {
     if (views.size() < kMinBoardPairs || !fit_camera(input, right, views, fit)) return false;
     const Strays strays = find_strays(input, right, views, fit);
-    const auto worst = std::max_element(strays.of_view.begin(), strays.of_view.end(),
-                                        [](const auto& a, const auto& b) { return a.size() < b.size(); });
+    const auto worst = std::ranges::max_element(
+        strays.of_view, [](const auto& a, const auto& b) { return a.size() < b.size(); });
     if (worst->empty()) return true;
-    if (static_cast<double>(worst->size()) > kLooseShare * input.pattern.corners()) {
+    if (double(worst->size()) > kLooseShare * input.pattern.corners()) {
       const auto at = worst - strays.of_view.begin();
-      name_loose(right, worst->size(), strays.limit_px,
-                 quality.views[static_cast<std::size_t>(views[static_cast<std::size_t>(at)])]);
+      name_loose(right, worst->size(), strays.limit_px, quality.views[std::size_t(views[std::size_t(at)])]);
       views.erase(views.begin() + at);
       continue;
     }
     for (std::size_t v = 0; v < views.size(); ++v) {
-      BoardView& view = input.views[static_cast<std::size_t>(views[v])];
+      BoardView& view = input.views[std::size_t(views[v])];
       for (const int corner : strays.of_view[v])
-        (right ? view.right : view.left)[static_cast<std::size_t>(corner)] = {std::nan(""), std::nan("")};
-      quality.views[static_cast<std::size_t>(views[v])].corners_dropped +=
-          static_cast<int>(strays.of_view[v].size());
+        (right ? view.right : view.left)[std::size_t(corner)] = {std::nan(""), std::nan("")};
+      quality.views[std::size_t(views[v])].corners_dropped += int(strays.of_view[v].size());
     }
   }
   return true;
@@ -134,12 +132,12 @@ void name_views(const CalibratorInput& input, CalibrationQuality& quality) {
 void name_left_out(const Selection& selection, std::span<const int> pairs, CalibrationQuality& quality) {
   const double usual = std::sqrt(6 * selection.spread_px2 / (2.0 * selection.fit.problem.pattern.corners()));
   for (const int pair : pairs) {
-    ViewQuality& view = quality.views[static_cast<std::size_t>(pair)];
+    ViewQuality& view = quality.views[std::size_t(pair)];
     if (view.used) continue;
     char text[200];
     if (quality.moved_after >= 0 && view.excess_px < 2 * usual)
       std::snprintf(text, sizeof text, "taken on the other side of a camera's move (%s)",
-                    quality.views[static_cast<std::size_t>(quality.moved_after)].name.c_str());
+                    quality.views[std::size_t(quality.moved_after)].name.c_str());
     else
       std::snprintf(
           text, sizeof text,

@@ -54,13 +54,12 @@ DriftJudgement judge_drift(const EpipolarShift& shift, const StereoCalibration& 
 
 std::string_view word(DriftVerdict verdict) {
   constexpr std::array kWords{"unknown", "ok", "warn", "refuse"};
-  return kWords[static_cast<std::size_t>(verdict)];
+  return kWords[std::size_t(verdict)];
 }
 
 std::string sentence(const DriftJudgement& j) {
   switch (j.verdict) {
-    case DriftVerdict::Unknown:
-      break;
+    case DriftVerdict::Unknown: break;
     case DriftVerdict::Ok:
       return filled("the rows of both views agree to {} px ({} px promised)",
                     {decimal(j.residual_px, 3), decimal(j.expected_px, 3)});

@@ -59,7 +59,7 @@ class BallPicture {
         const double y = view.centre_px.y + view.focal_px * seen.y / seen.z;
         if (!(x >= 0 && y >= 0 && x < view.width_px - 1 && y < view.height_px - 1)) continue;
         float rgb[3];
-        photo.read(static_cast<float>(x), static_cast<float>(y), rgb);
+        photo.read(float(x), float(y), rgb);
         light = (rgb[0] + rgb[1] + rgb[2]) / 3;
       }
   }
@@ -67,8 +67,7 @@ class BallPicture {
   // How alike what lies about `pupil_deg` in the picture before is to what lies `shift_deg` beside it here:
   // correlation; 0 where too little is seen in both.
   double alike(const BallPicture& before, double pupil_deg, int shift_deg) const {
-    return correlation(before, static_cast<int>(std::lround((pupil_deg + kAcross) / kStep)),
-                       shift_deg / kStep);
+    return correlation(before, int(std::lround((pupil_deg + kAcross) / kStep)), shift_deg / kStep);
   }
   // How much darker the iris is than what lies beside it, share.
   double contrast(double pupil_deg) const {
@@ -78,7 +77,7 @@ class BallPicture {
     for (int r = 0; r < kRows; ++r)
       for (int c = 0; c < kColumns; ++c) {
         const double off = std::abs(across_deg(c) - pupil_deg);
-        const auto light = static_cast<double>(light_[index(c, r)]);
+        const auto light = double(light_[index(c, r)]);
         if (light < 0 || (off > kIrisDeg && off < kWhiteDeg) || off > kWhiteDeg + kIrisDeg) continue;
         Mean& its = off <= kIrisDeg ? iris : white;
         its.sum += light;
@@ -91,9 +90,7 @@ class BallPicture {
  private:
   static double across_deg(int column) { return kStep * column - kAcross; }
   static double up_deg(int row) { return kStep * row - kUp; }
-  static std::size_t index(int column, int row) {
-    return static_cast<std::size_t>(row) * kColumns + static_cast<std::size_t>(column);
-  }
+  static std::size_t index(int column, int row) { return std::size_t(row) * kColumns + std::size_t(column); }
 
   // 0 where too little is seen in both.
   double correlation(const BallPicture& before, int pupil, int shift) const {
@@ -103,8 +100,8 @@ class BallPicture {
       for (int c = pupil - kPatternDeg / kStep; c <= pupil + kPatternDeg / kStep; ++c) {
         ++all;
         if (c < 0 || c >= kColumns || c + shift < 0 || c + shift >= kColumns) continue;
-        const double x = static_cast<double>(before.light_[index(c, r)]);
-        const double y = static_cast<double>(light_[index(c + shift, r)]);
+        const double x = double(before.light_[index(c, r)]);
+        const double y = double(light_[index(c + shift, r)]);
         if (x < 0 || y < 0) continue;
         n += 1;
         a += x;
@@ -118,7 +115,7 @@ class BallPicture {
     return spread > 0 ? (ab - a * b / n) / std::sqrt(spread) : 0;
   }
 
-  std::array<float, static_cast<std::size_t>(kColumns) * kRows> light_;
+  std::array<float, std::size_t(kColumns) * kRows> light_;
 };
 
 // An eye of the master's face, in the head frame, and how it looks from the cameras.
@@ -163,8 +160,8 @@ class PoseVotes {
   }
 
  private:
-  static constexpr int kMostShiftDeg = static_cast<int>(kMostTurnDeg) + kStaysDeg;
-  static int shift_deg(std::size_t s) { return kStep * static_cast<int>(s) - kMostShiftDeg; }
+  static constexpr int kMostShiftDeg = int(kMostTurnDeg) + kStaysDeg;
+  static int shift_deg(std::size_t s) { return kStep * int(s) - kMostShiftDeg; }
 
   double turned_deg_ = 0;
   int count_ = 0;

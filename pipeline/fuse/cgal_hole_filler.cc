@@ -100,9 +100,7 @@ class Filler {
     Patch patch;
     for (const Kernel::Point_3& at : places) patch.add_vertex(at);
     for (const auto& t : closing) {
-      const std::array<std::size_t, 3> at{static_cast<std::size_t>(t.first),
-                                          static_cast<std::size_t>(t.second),
-                                          static_cast<std::size_t>(t.third)};
+      const std::array<std::size_t, 3> at{std::size_t(t.first), std::size_t(t.second), std::size_t(t.third)};
       for (std::size_t k = 0; k < 3; ++k)
         if (const std::size_t a = at[k], b = at[(k + 1) % 3]; !is_own(a, b) && !is_free(rim[a], rim[b]))
           return false;
@@ -174,19 +172,19 @@ class Filler {
     for (std::size_t k = 1; k < stretch.size(); ++k)
       shore += distance(vertices_[stretch[k - 1]], vertices_[stretch[k]]);
     const std::uint32_t from = stretch.back(), to = stretch.front();
-    const float step = shore / static_cast<float>(stretch.size() - 1);
-    const int steps = std::max(1, static_cast<int>(distance(vertices_[from], vertices_[to]) / step));
+    const float step = shore / float(stretch.size() - 1);
+    const int steps = std::max(1, int(distance(vertices_[from], vertices_[to]) / step));
     const Mouth mouth(vertices_[from], normals_[from], vertices_[to], normals_[to]);
     const std::size_t before = vertices_.size();
     for (int k = 1; k < steps; ++k) {
-      stretch.push_back(static_cast<std::uint32_t>(vertices_.size()));
-      vertices_.push_back(mouth.at(static_cast<float>(k) / static_cast<float>(steps)));
+      stretch.push_back(std::uint32_t(vertices_.size()));
+      vertices_.push_back(mouth.at(float(k) / float(steps)));
       beside_.push_back(from);
       on_rim_.push_back(1);
     }
     if (close(std::move(stretch))) return true;
     vertices_.resize(before);
-    beside_.resize(beside_.size() - static_cast<std::size_t>(steps - 1));
+    beside_.resize(beside_.size() - std::size_t(steps - 1));
     on_rim_.resize(before);
     return false;
   }
@@ -212,10 +210,9 @@ class Filler {
   void take_in(const Patch& patch, std::span<const std::uint32_t> rim) {
     std::vector<std::uint32_t> place(rim.begin(), rim.end());
     for (std::size_t i = rim.size(); i < patch.number_of_vertices(); ++i) {
-      const Kernel::Point_3& at = patch.point(vertex(static_cast<int>(i)));
-      place.push_back(static_cast<std::uint32_t>(vertices_.size()));
-      vertices_.push_back(
-          {static_cast<float>(at.x()), static_cast<float>(at.y()), static_cast<float>(at.z())});
+      const Kernel::Point_3& at = patch.point(vertex(int(i)));
+      place.push_back(std::uint32_t(vertices_.size()));
+      vertices_.push_back({float(at.x()), float(at.y()), float(at.z())});
       beside_.push_back(rim.back());
       on_rim_.push_back(0);
     }

@@ -57,7 +57,7 @@ void spread_rings(std::span<const Triangle> triangles, std::span<std::uint8_t> r
   for (std::uint8_t ring = most; ring > 1; --ring)
     for (const Triangle& t : triangles)
       if (rings[t[0]] == ring || rings[t[1]] == ring || rings[t[2]] == ring)
-        for (const std::uint32_t v : t) rings[v] = std::max(rings[v], static_cast<std::uint8_t>(ring - 1));
+        for (const std::uint32_t v : t) rings[v] = std::max(rings[v], std::uint8_t(ring - 1));
 }
 
 std::pmr::vector<float> fair_part(std::span<Vec3f> vertices_mm, std::span<const Triangle> triangles,
@@ -67,7 +67,7 @@ std::pmr::vector<float> fair_part(std::span<Vec3f> vertices_mm, std::span<const 
   // How many rings more follow; those from kHeldRings down are held, 0 is far away.
   std::pmr::vector<std::uint8_t> rings(vertices_mm.size(), 0, memory);
   for (std::size_t v = 0; v < rings.size(); ++v)
-    if (part[v] > 0) rings[v] = static_cast<std::uint8_t>(part[v] + kHeldRings);
+    if (part[v] > 0) rings[v] = std::uint8_t(part[v] + kHeldRings);
   spread_rings(triangles, rings);
 
   std::pmr::vector<std::uint32_t> place(vertices_mm.size(), 0, memory), all(memory);
@@ -75,7 +75,7 @@ std::pmr::vector<float> fair_part(std::span<Vec3f> vertices_mm, std::span<const 
   std::vector<char> free;
   for (std::uint32_t v = 0; v < rings.size(); ++v) {
     if (rings[v] == 0) continue;
-    place[v] = static_cast<std::uint32_t>(all.size());
+    place[v] = std::uint32_t(all.size());
     all.push_back(v);
     const Vec3d p = wide(vertices_mm[v]);
     at.emplace_back(p.x, p.y, p.z);

@@ -78,11 +78,11 @@ class Fusion {
     for (std::size_t k = 0; k < poses_.size(); ++k) {
       const PoseSurface& pose = poses_[k];
       const RigidTransform& placed = registration_.poses[k].first_from_pose;
-      const std::size_t first = all.size(), columns = static_cast<std::size_t>(pose.columns);
-      const auto dense_mm = static_cast<float>(kDenseVoxels * pose.focal_px / pose.step_px) * voxel_mm;
+      const std::size_t first = all.size(), columns = std::size_t(pose.columns);
+      const auto dense_mm = float(kDenseVoxels * pose.focal_px / pose.step_px) * voxel_mm;
       all.resize(first + pose.at_mm.size());  // weight 0: does not count
-      context_.pool.for_each_band(static_cast<int>(pose.at_mm.size()), kBands, [&](int from, int to, int) {
-        for (auto i = static_cast<std::size_t>(from); i < static_cast<std::size_t>(to); ++i) {
+      context_.pool.for_each_band(int(pose.at_mm.size()), kBands, [&](int from, int to, int) {
+        for (auto i = std::size_t(from); i < std::size_t(to); ++i) {
           if (pose.trust[i] < kLeastTrust) continue;
           if (pose.at_mm[i].z < dense_mm && (i % columns + i / columns) % 2 != 0) continue;
           const Vec3f at = narrow(apply(placed, wide(pose.at_mm[i])));
@@ -92,7 +92,7 @@ class Fusion {
             all[first + i] = {at, normal, pose.trust[i] / squared(std::max(pose.sigma_mm[i], kLeastSigmaMm))};
         }
       });
-      all.erase(std::remove_if(all.begin() + static_cast<std::ptrdiff_t>(first), all.end(),
+      all.erase(std::remove_if(all.begin() + std::ptrdiff_t(first), all.end(),
                                [](const FieldPoint& p) { return p.weight <= 0; }),
                 all.end());
     }
@@ -168,9 +168,9 @@ class Fusion {
       if (s.weight > 0) poses |= 1U << k;
     }
     const Vec3f there = along(at, -1 / weight, pull);
-    const float registered = static_cast<float>(registration_sigma(most, there, normal));
-    return {there, std::sqrt(variance / squared(weight) + squared(registered)),
-            static_cast<std::uint8_t>(most), static_cast<std::uint8_t>(poses)};
+    const float registered = float(registration_sigma(most, there, normal));
+    return {there, std::sqrt(variance / squared(weight) + squared(registered)), std::uint8_t(most),
+            std::uint8_t(poses)};
   }
 
   // The master where it sees well; else whoever is surest.
@@ -262,7 +262,7 @@ Result<FaceMesh> HeadFuser::fuse(std::span<PoseSurface> poses, const Registratio
   for (PoseSurface& pose : poses) fade_to_edges(pose, kEdgeNodes, &context.scratch);
   if (context.stop()) return stopped;
   const Fusion fusion(poses, registration, zones, context);
-  std::pmr::vector<FieldPoint> points = fusion.choose(static_cast<float>(options_.voxel_mm));
+  std::pmr::vector<FieldPoint> points = fusion.choose(float(options_.voxel_mm));
   if (points.empty()) return no_surface();
   // The master's eyes, and what its mesher completed: about nose and mouth for where no pose measured,
   // further out where none shows anything near, for there the sides know better. Of ears
@@ -282,7 +282,7 @@ Result<FaceMesh> HeadFuser::fuse(std::span<PoseSurface> poses, const Registratio
   std::pmr::vector<Vec3f> places(&context.scratch);
   places.reserve(points.size());
   for (const FieldPoint& s : points) places.push_back(s.at_mm);
-  BandVolume volume = volume_around(places, static_cast<float>(options_.voxel_mm), 4, &context.scratch);
+  BandVolume volume = volume_around(places, float(options_.voxel_mm), 4, &context.scratch);
   fill_field(points, kBandVoxels * volume.voxel_mm, volume, context);
   if (context.stop()) return stopped;
   Polygonised surface = polygonise(volume, &context.scratch);
@@ -302,7 +302,7 @@ Result<FaceMesh> HeadFuser::fuse(std::span<PoseSurface> poses, const Registratio
     Vec3f& at = surface.vertices_mm[v];
     if (const auto placed = fusion.settle(at, normal)) {
       at = placed->at_mm;
-      const bool sure = placed->sigma_mm <= static_cast<float>(kMeasuredSigmaMm);
+      const bool sure = placed->sigma_mm <= float(kMeasuredSigmaMm);
       vertices[v] = {placed->sigma_mm, placed->pose, sure ? std::uint8_t{1} : std::uint8_t{0}, 1,
                      placed->poses};
     } else if (const auto said = own_face.at(at)) {
@@ -311,9 +311,8 @@ Result<FaceMesh> HeadFuser::fuse(std::span<PoseSurface> poses, const Registratio
   };
   std::pmr::vector<Vec3f> started(surface.vertices_mm, &context.scratch);
   std::pmr::vector<Vec3f> normals = area_normals(surface, &context.scratch);
-  context.pool.for_each_band(static_cast<int>(vertices.size()), kBands, [&](int begin, int end, int) {
-    for (int v = begin; v < end; ++v)
-      settle(static_cast<std::size_t>(v), unit(normals[static_cast<std::size_t>(v)]));
+  context.pool.for_each_band(int(vertices.size()), kBands, [&](int begin, int end, int) {
+    for (int v = begin; v < end; ++v) settle(std::size_t(v), unit(normals[std::size_t(v)]));
   });
   std::erase_if(surface.triangles, [&](const Triangle& t) {
     return vertices[t[0]].kept == 0 || vertices[t[1]].kept == 0 || vertices[t[2]].kept == 0;
@@ -350,7 +349,7 @@ Result<FaceMesh> HeadFuser::fuse(std::span<PoseSurface> poses, const Registratio
   // eyes and ears have; then what was completed or is unsure, where other poses begin to count.
   std::pmr::vector<std::uint8_t> part(vertices.size(), 0, &context.scratch);
   std::pmr::vector<std::uint8_t> stays(part, &context.scratch), label(part, &context.scratch);
-  std::fill(part.begin() + static_cast<std::ptrdiff_t>(settled), part.end(), kClosedRings);
+  std::fill(part.begin() + std::ptrdiff_t(settled), part.end(), kClosedRings);
   for (std::size_t v = 0; v < vertices.size(); ++v) {
     label[v] = v < settled ? vertices[v].poses : kBetweenNothing;
     stays[v] = v < settled && (zones.is_eye(surface.vertices_mm[v]) || zones.is_ear(surface.vertices_mm[v]));

@@ -103,7 +103,7 @@ Result<HeadPose> HeadPipeline::measure(const StereoFrame& frame, const StereoCal
 
 Result<FusedHead> HeadPipeline::fuse(const FaceModel& face, std::span<HeadPose> poses,
                                      StageContext& context) const {
-  if (poses.size() > static_cast<std::size_t>(kMostPoses))
+  if (poses.size() > std::size_t(kMostPoses))
     return Error{Errc::InvalidInput, "at most seven pairs make a head"};
   std::pmr::vector<PoseSurface> surfaces(&context.output);
   for (HeadPose& pose : poses) surfaces.push_back(std::move(pose.surface));

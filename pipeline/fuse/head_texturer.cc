@@ -45,11 +45,10 @@ class Texturing {
 
   Result<TextureAtlas> run(int max_atlas_px) {
     const Error stopped{Errc::Cancelled, "texturing was stopped"};
-    context_.pool.for_each_band(static_cast<int>(views_.size()), static_cast<int>(views_.size()),
-                                [&](int begin, int end, int) {
-                                  for (int i = begin; i < end; ++i)
-                                    if (!context_.stop()) look(static_cast<std::size_t>(i));
-                                });
+    context_.pool.for_each_band(int(views_.size()), int(views_.size()), [&](int begin, int end, int) {
+      for (int i = begin; i < end; ++i)
+        if (!context_.stop()) look(std::size_t(i));
+    });
     if (context_.stop()) return stopped;
     for (std::size_t v = 0; v < vertices_; ++v)
       for (std::size_t i = 0; i < views_.size(); ++i) known_[v] = known_[v] != 0 || say(v, i) > 0 ? 1 : 0;
@@ -82,15 +81,15 @@ class Texturing {
   };
   static Pixel project(const HeadView& view, const Vec3f& place) {
     const Vec3d p = apply(view.view_from_head, wide(place));
-    return {static_cast<float>(view.focal_px * p.x / p.z + view.centre_px.x),
-            static_cast<float>(view.focal_px * p.y / p.z + view.centre_px.y), static_cast<float>(p.z)};
+    return {float(view.focal_px * p.x / p.z + view.centre_px.x),
+            float(view.focal_px * p.y / p.z + view.centre_px.y), float(p.z)};
   }
 
   // How well a photograph looks at every vertex.
   void look(std::size_t i) {
     const HeadView& view = views_[i];
     const int w = view.width_px / kDepthShare, h = view.height_px / kDepthShare;
-    std::vector<float> depth(static_cast<std::size_t>(w) * static_cast<std::size_t>(h), 1e9F);
+    std::vector<float> depth(std::size_t(w) * std::size_t(h), 1e9F);
     std::vector<Pixel> pixel(vertices_);
     for (std::size_t v = 0; v < vertices_; ++v) pixel[v] = project(view, mesh_.vertices_mm[v]);
     for (const auto& t : mesh_.triangles) {
@@ -99,24 +98,22 @@ class Texturing {
       };
       for_each_texel(corner(0), corner(1), corner(2), w, {0, h},
                      [&](int x, int y, float a, float b, float c) {
-                       float& d = depth[static_cast<std::size_t>(y) * static_cast<std::size_t>(w) +
-                                        static_cast<std::size_t>(x)];
+                       float& d = depth[std::size_t(y) * std::size_t(w) + std::size_t(x)];
                        d = std::min(d, a * pixel[t[0]].z + b * pixel[t[1]].z + c * pixel[t[2]].z);
                      });
     }
     const Vec3d eye = apply(inverse(view.view_from_head), Vec3d{0, 0, 0});
     for (std::size_t v = 0; v < vertices_; ++v) {
       const Pixel& p = pixel[v];
-      if (!(p.z > 0) || p.x < kBorderPx || p.y < kBorderPx ||
-          p.x > static_cast<float>(view.width_px) - kBorderPx - 1 ||
-          p.y > static_cast<float>(view.height_px) - kBorderPx - 1)
+      if (!(p.z > 0) || p.x < kBorderPx || p.y < kBorderPx || p.x > float(view.width_px) - kBorderPx - 1 ||
+          p.y > float(view.height_px) - kBorderPx - 1)
         continue;
       const Vec3d to_eye = unit(minus(eye, wide(mesh_.vertices_mm[v])));
-      const float cosine = static_cast<float>(dot(to_eye, wide(mesh_.normals[v])));
+      const float cosine = float(dot(to_eye, wide(mesh_.normals[v])));
       if (cosine <= kLeastCosine) continue;
-      const std::size_t x = static_cast<std::size_t>(std::min(static_cast<int>(p.x) / kDepthShare, w - 1)),
-                        y = static_cast<std::size_t>(std::min(static_cast<int>(p.y) / kDepthShare, h - 1));
-      if (p.z > depth[y * static_cast<std::size_t>(w) + x] + kHiddenMm / cosine) continue;
+      const std::size_t x = std::size_t(std::min(int(p.x) / kDepthShare, w - 1)),
+                        y = std::size_t(std::min(int(p.y) / kDepthShare, h - 1));
+      if (p.z > depth[y * std::size_t(w) + x] + kHiddenMm / cosine) continue;
       float here = cosine - kLeastCosine;
       if (view.master) here *= kMasterFirst;
       if (!view.master && mesh_.measured[v] == 0) here *= kOthersOnCompleted;
@@ -141,22 +138,21 @@ class Texturing {
     const HeadView& v = views_[view];
     const Pixel p = project(v, place);
     VertexColour rgb{};
-    const float x = std::clamp(p.x, 0.0F, static_cast<float>(v.width_px - 1) - 1e-3F),
-                y = std::clamp(p.y, 0.0F, static_cast<float>(v.height_px - 1) - 1e-3F);
-    const std::size_t w = static_cast<std::size_t>(v.width_px);
-    const std::size_t k = static_cast<std::size_t>(y) * w + static_cast<std::size_t>(x);
+    const float x = std::clamp(p.x, 0.0F, float(v.width_px - 1) - 1e-3F),
+                y = std::clamp(p.y, 0.0F, float(v.height_px - 1) - 1e-3F);
+    const std::size_t w = std::size_t(v.width_px);
+    const std::size_t k = std::size_t(y) * w + std::size_t(x);
     float wx[4], wy[4];
     cubic_weights(x - std::floor(x), wx);
     cubic_weights(y - std::floor(y), wy);
-    if (x < 1 || y < 1 || x >= static_cast<float>(v.width_px - 3) ||
-        y >= static_cast<float>(v.height_px - 3)) {
-      for (std::size_t c = 0; c < 3; ++c) rgb[c] = static_cast<float>(v.rgb[3 * k + c]);
+    if (x < 1 || y < 1 || x >= float(v.width_px - 3) || y >= float(v.height_px - 3)) {
+      for (std::size_t c = 0; c < 3; ++c) rgb[c] = float(v.rgb[3 * k + c]);
       return rgb;
     }
     for (std::size_t r = 0; r < 4; ++r) {
       const std::uint8_t* row = &v.rgb[3 * (k + r * w - w - 1)];
       for (std::size_t q = 0; q < 4; ++q)
-        for (std::size_t c = 0; c < 3; ++c) rgb[c] += wy[r] * wx[q] * static_cast<float>(row[3 * q + c]);
+        for (std::size_t c = 0; c < 3; ++c) rgb[c] += wy[r] * wx[q] * float(row[3 * q + c]);
     }
     return rgb;
   }
@@ -195,21 +191,19 @@ class Texturing {
     const HeadView& master = views_.front();
     double depth = 0;
     for (const Vec3f& v : mesh_.vertices_mm) depth += apply(master.view_from_head, wide(v)).z;
-    const double px_per_mm = master.focal_px * static_cast<double>(vertices_) / depth;
+    const double px_per_mm = master.focal_px * double(vertices_) / depth;
     sides_ = lay_out_sides(mesh_, empty, none, known_, px_per_mm, max_px, &context_.scratch);
     atlas_.width_px = std::max(sides_.width_px, 1);
     atlas_.height_px = empty.height_px;
-    const std::size_t texels =
-        static_cast<std::size_t>(atlas_.width_px) * static_cast<std::size_t>(atlas_.height_px);
+    const std::size_t texels = std::size_t(atlas_.width_px) * std::size_t(atlas_.height_px);
     atlas_.rgb.assign(3 * texels, 0);
     atlas_.origin.assign(texels, kNoSurfaceTexel);
     atlas_.uv.resize(3 * mesh_.triangles.size());
     for (std::size_t s = 0; s < sides_.triangles.size(); ++s)
       for (std::size_t k = 0; k < 3; ++k) {
         const Vec2f& at = sides_.corner[3 * s + k];
-        atlas_.uv[3 * std::size_t{sides_.triangles[s]} + k] = {
-            (at.x + 0.5F) / static_cast<float>(atlas_.width_px),
-            (at.y + 0.5F) / static_cast<float>(atlas_.height_px)};
+        atlas_.uv[3 * std::size_t{sides_.triangles[s]} + k] = {(at.x + 0.5F) / float(atlas_.width_px),
+                                                               (at.y + 0.5F) / float(atlas_.height_px)};
       }
   }
 
@@ -229,7 +223,7 @@ class Texturing {
   void shade_triangle(std::size_t s, RowRange rows) {
     const auto [low, high] =
         std::minmax({sides_.corner[3 * s].y, sides_.corner[3 * s + 1].y, sides_.corner[3 * s + 2].y});
-    if (high < static_cast<float>(rows.begin) - 1 || low > static_cast<float>(rows.end)) return;
+    if (high < float(rows.begin) - 1 || low > float(rows.end)) return;
     const auto& t = mesh_.triangles[sides_.triangles[s]];
     if (!seen_whole(t)) return;
     // Views that see all of it; where none does, those that see a corner.
@@ -242,24 +236,22 @@ class Texturing {
       }
       if (count > 0) break;
     }
-    for_each_texel(
-        sides_.corner[3 * s], sides_.corner[3 * s + 1], sides_.corner[3 * s + 2], atlas_.width_px, rows,
-        [&](int x, int y, float a, float b, float c) {
-          const Vec3f place = plus(plus(times(mesh_.vertices_mm[t[0]], a), times(mesh_.vertices_mm[t[1]], b)),
-                                   times(mesh_.vertices_mm[t[2]], c));
-          const auto mean = [&](std::size_t i) {
-            return a * say(t[0], i) + b * say(t[1], i) + c * say(t[2], i);
-          };
-          const Blend blend =
-              mix(std::span(list.data(), count), mean, place, [&](std::size_t i, std::size_t k) {
-                return a * level(t[0], i)[k] + b * level(t[1], i)[k] + c * level(t[2], i)[k];
-              });
-          const std::size_t at = static_cast<std::size_t>(y) * static_cast<std::size_t>(atlas_.width_px) +
-                                 static_cast<std::size_t>(x);
-          for (std::size_t k = 0; k < 3; ++k) atlas_.rgb[3 * at + k] = to_byte(blend.rgb[k]);
-          atlas_.origin[at] =
-              static_cast<std::uint8_t>(kLeftPhotographTexel + std::lround(253 * blend.right));
-        });
+    for_each_texel(sides_.corner[3 * s], sides_.corner[3 * s + 1], sides_.corner[3 * s + 2], atlas_.width_px,
+                   rows, [&](int x, int y, float a, float b, float c) {
+                     const Vec3f place =
+                         plus(plus(times(mesh_.vertices_mm[t[0]], a), times(mesh_.vertices_mm[t[1]], b)),
+                              times(mesh_.vertices_mm[t[2]], c));
+                     const auto mean = [&](std::size_t i) {
+                       return a * say(t[0], i) + b * say(t[1], i) + c * say(t[2], i);
+                     };
+                     const Blend blend =
+                         mix(std::span(list.data(), count), mean, place, [&](std::size_t i, std::size_t k) {
+                           return a * level(t[0], i)[k] + b * level(t[1], i)[k] + c * level(t[2], i)[k];
+                         });
+                     const std::size_t at = std::size_t(y) * std::size_t(atlas_.width_px) + std::size_t(x);
+                     for (std::size_t k = 0; k < 3; ++k) atlas_.rgb[3 * at + k] = to_byte(blend.rgb[k]);
+                     atlas_.origin[at] = std::uint8_t(kLeftPhotographTexel + std::lround(253 * blend.right));
+                   });
   }
 
   struct Blend {
@@ -303,9 +295,7 @@ class Texturing {
       if (seen_whole(t)) continue;
       for_each_texel(sides_.corner[3 * s], sides_.corner[3 * s + 1], sides_.corner[3 * s + 2],
                      atlas_.width_px, {0, atlas_.height_px}, [&](int x, int y, float a, float b, float c) {
-                       const std::size_t at =
-                           static_cast<std::size_t>(y) * static_cast<std::size_t>(atlas_.width_px) +
-                           static_cast<std::size_t>(x);
+                       const std::size_t at = std::size_t(y) * std::size_t(atlas_.width_px) + std::size_t(x);
                        if (atlas_.origin[at] >= kLeftPhotographTexel) return;
                        for (std::size_t k = 0; k < 3; ++k)
                          atlas_.rgb[3 * at + k] =

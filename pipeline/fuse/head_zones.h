@@ -66,7 +66,7 @@ class HeadZones {
     constexpr double kWider = 1.2, kHigher = 0.75;  // than half the distance of the corners
     const Vec3d a = in_head(inner.at_mm), b = in_head(outer.at_mm);
     const double half = distance(a, b) / 2;
-    eyes_[static_cast<std::size_t>(count_++)] = {times(plus(a, b), 0.5), kWider * half, kHigher * half};
+    eyes_[std::size_t(count_++)] = {times(plus(a, b), 0.5), kWider * half, kHigher * half};
   }
 
   RigidTransform head_from_camera_;

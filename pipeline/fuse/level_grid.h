@@ -26,12 +26,9 @@ class LevelGrid {
       low_ = {std::min(low_.x, v.x), std::min(low_.y, v.y), std::min(low_.z, v.z)};
       high = {std::max(high.x, v.x), std::max(high.y, v.y), std::max(high.z, v.z)};
     }
-    const auto count = [](float from, float to) {
-      return static_cast<int>(static_cast<double>(to - from) / kCellMm) + 3;
-    };
+    const auto count = [](float from, float to) { return int(double(to - from) / kCellMm) + 3; };
     size_ = {count(low_.x, high.x), count(low_.y, high.y), count(low_.z, high.z)};
-    cells_.resize(static_cast<std::size_t>(size_[0]) * static_cast<std::size_t>(size_[1]) *
-                  static_cast<std::size_t>(size_[2]));
+    cells_.resize(std::size_t(size_[0]) * std::size_t(size_[1]) * std::size_t(size_[2]));
     spare_.resize(cells_.size());
   }
   void clear() { std::fill(cells_.begin(), cells_.end(), Cell{}); }
@@ -70,25 +67,22 @@ class LevelGrid {
     std::array<std::size_t, 3> first{};
     std::array<float, 3> f{};
     for (std::size_t a = 0; a < 3; ++a) {
-      const float x = std::max(p[a] / static_cast<float>(kCellMm), 0.0F);
-      first[a] = std::min(static_cast<std::size_t>(x), static_cast<std::size_t>(size_[a] - 2));
-      f[a] = std::min(x - static_cast<float>(first[a]), 1.0F);
+      const float x = std::max(p[a] / float(kCellMm), 0.0F);
+      first[a] = std::min(std::size_t(x), std::size_t(size_[a] - 2));
+      f[a] = std::min(x - float(first[a]), 1.0F);
     }
     for (std::size_t i = 0; i < 8; ++i) {
       const std::size_t dx = i & 1, dy = i >> 1 & 1, dz = i >> 2;
       const float share =
           (dx != 0 ? f[0] : 1 - f[0]) * (dy != 0 ? f[1] : 1 - f[1]) * (dz != 0 ? f[2] : 1 - f[2]);
-      visit(((first[2] + dz) * static_cast<std::size_t>(size_[1]) + first[1] + dy) *
-                    static_cast<std::size_t>(size_[0]) +
-                first[0] + dx,
+      visit(((first[2] + dz) * std::size_t(size_[1]) + first[1] + dy) * std::size_t(size_[0]) + first[0] + dx,
             share);
     }
   }
   void blur(std::size_t axis) {
-    const std::array<std::size_t, 3> stride{
-        1, static_cast<std::size_t>(size_[0]),
-        static_cast<std::size_t>(size_[0]) * static_cast<std::size_t>(size_[1])};
-    const std::size_t n = static_cast<std::size_t>(size_[axis]), step = stride[axis];
+    const std::array<std::size_t, 3> stride{1, std::size_t(size_[0]),
+                                            std::size_t(size_[0]) * std::size_t(size_[1])};
+    const std::size_t n = std::size_t(size_[axis]), step = stride[axis];
     for (std::size_t k = 0; k < cells_.size(); ++k) {
       const std::size_t at = k / step % n;
       Cell sum;

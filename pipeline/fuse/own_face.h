@@ -29,9 +29,7 @@ class OwnFace {
     bool measured;
   };
   std::optional<Said> at(const Vec3f& place) const {
-    const auto cell = [&](float x, float from) {
-      return static_cast<int>(std::lround((x - from) / volume_.voxel_mm));
-    };
+    const auto cell = [&](float x, float from) { return int(std::lround((x - from) / volume_.voxel_mm)); };
     const float said =
         sigma_[volume_.index(cell(place.x, volume_.corner_mm.x), cell(place.y, volume_.corner_mm.y),
                              cell(place.z, volume_.corner_mm.z))];

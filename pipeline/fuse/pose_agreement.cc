@@ -22,17 +22,17 @@ float distance_mm(const Vec3d& at, const Vec3d& normal, const PoseSurface& b, co
   if (!hit || hit->trust < kLeastTrust) return kNowhere;
   const Vec3d n = apply(placed.rotation, wide(hit->normal));
   const double d = dot(n, minus(at, apply(placed, wide(hit->at_mm))));
-  return dot(n, normal) < kSameWay || std::abs(d) > kReachMm ? kNowhere : static_cast<float>(d);
+  return dot(n, normal) < kSameWay || std::abs(d) > kReachMm ? kNowhere : float(d);
 }
 
 PoseMeeting meeting_of(std::pmr::vector<float>& distances, double area_mm2) {
   if (distances.empty()) return {};
   double squares = 0;
   for (float& d : distances) {
-    squares += static_cast<double>(d) * static_cast<double>(d);
+    squares += double(d) * double(d);
     d = std::abs(d);
   }
-  return {area_mm2, std::sqrt(squares / static_cast<double>(distances.size())), percentile(distances, 0.95)};
+  return {area_mm2, std::sqrt(squares / double(distances.size())), percentile(distances, 0.95)};
 }
 
 }  // namespace
@@ -45,21 +45,19 @@ void measure_agreement(std::span<const PoseSurface> poses, Registration& registr
     ResidualMap& map = registration.residuals.emplace_back(&context.output);
     map.columns = (pose.columns + kResidualEvery - 1) / kResidualEvery;
     map.rows = (pose.rows + kResidualEvery - 1) / kResidualEvery;
-    map.mm.assign(static_cast<std::size_t>(map.columns) * static_cast<std::size_t>(map.rows), kNowhere);
+    map.mm.assign(std::size_t(map.columns) * std::size_t(map.rows), kNowhere);
     const Arena::Mark mark(context.scratch);
     std::array<double, kMostPoses> area_mm2{};
     std::pmr::vector<std::pmr::vector<float>> distances(poses.size(), &context.scratch);
     for (auto& of_one : distances) of_one.reserve(map.mm.size());
     for (std::size_t i = 0; i < map.mm.size(); ++i) {
-      const std::size_t k = i / static_cast<std::size_t>(map.columns) * kResidualEvery *
-                                static_cast<std::size_t>(pose.columns) +
-                            i % static_cast<std::size_t>(map.columns) * kResidualEvery;
+      const std::size_t k = i / std::size_t(map.columns) * kResidualEvery * std::size_t(pose.columns) +
+                            i % std::size_t(map.columns) * kResidualEvery;
       if (pose.trust[k] < kLeastTrust) continue;
       const Vec3d at = apply(placed, wide(pose.at_mm[k])),
                   normal = apply(placed.rotation, wide(pose.normal[k]));
-      const double side_mm =
-          kResidualEvery * pose.step_px * static_cast<double>(pose.at_mm[k].z) / pose.focal_px;
-      const double cosine = std::abs(static_cast<double>(dot(pose.normal[k], unit(pose.at_mm[k]))));
+      const double side_mm = kResidualEvery * pose.step_px * double(pose.at_mm[k].z) / pose.focal_px;
+      const double cosine = std::abs(double(dot(pose.normal[k], unit(pose.at_mm[k]))));
       float sum = 0, count = 0;
       for (std::size_t b = 0; b < poses.size(); ++b) {
         if (b == a) continue;

@@ -68,7 +68,7 @@ class Placer {
           if (laid.count < kFewestMet || laid.share < (anywhere ? kMetShare : kWellMetShare)) continue;
           placed_[left[i]].first_from_pose = laid.placed;
           known_[left[i]] = 1;
-          left.erase(left.begin() + static_cast<std::ptrdiff_t>(i--));
+          left.erase(left.begin() + std::ptrdiff_t(i--));
           more = true;
         }
       }

@@ -94,7 +94,7 @@ class JointSolver {
       residuals_.for_each_residual_of(i / kParts, i % kParts, kParts, round,
                                       [&](std::size_t a, std::size_t b, const PoseResidual& r) {
                                         add(part.normal, part.right, a, b, r);
-                                        part.off.push_back(static_cast<float>(std::abs(r.value)));
+                                        part.off.push_back(float(std::abs(r.value)));
                                       });
     });
     Square normal = kRidge * Square::Identity(unknowns_, unknowns_);
@@ -263,7 +263,7 @@ class JointSolver {
       if (pose.rms_mm > kMostMovedMm) pose.joined = false;
       for (Eigen::Index i = 0; i < 6; ++i)
         for (Eigen::Index j = 0; j < 6; ++j)
-          pose.covariance[static_cast<std::size_t>(6 * i + j)] = covariance(place(p) + i, place(p) + j);
+          pose.covariance[std::size_t(6 * i + j)] = covariance(place(p) + i, place(p) + j);
     }
     return {};
   }

@@ -58,8 +58,7 @@ class PoseResiduals {
   // threads.
   template <typename Work>
   void for_each_part(std::size_t parts, Work&& work) const {
-    context_.pool.for_each_band(static_cast<int>(parts), static_cast<int>(parts),
-                                [&](int, int, int i) { work(static_cast<std::size_t>(i)); });
+    context_.pool.for_each_band(int(parts), int(parts), [&](int, int, int i) { work(std::size_t(i)); });
   }
 
   // Places of a pose that say something of how the skull stands, in every `parts`-th row of those looked at:
@@ -67,13 +66,12 @@ class PoseResiduals {
   template <typename Visit>
   void for_each_sample(std::size_t a, double most, Visit&& visit, std::size_t part, std::size_t parts) const {
     const PoseSurface& from = poses_[a];
-    const int every = std::max(1, static_cast<int>(std::sqrt(static_cast<double>(from.trust.size()) / most)));
+    const int every = std::max(1, int(std::sqrt(double(from.trust.size()) / most)));
     const RigidTransform& placed = placed_[a].first_from_pose;
-    const int step = every * static_cast<int>(parts);
-    for (int r = every / 2 + every * static_cast<int>(part); r < from.rows; r += step)
+    const int step = every * int(parts);
+    for (int r = every / 2 + every * int(part); r < from.rows; r += step)
       for (int c = every / 2; c < from.columns; c += every) {
-        const std::size_t k = static_cast<std::size_t>(r) * static_cast<std::size_t>(from.columns) +
-                              static_cast<std::size_t>(c);
+        const std::size_t k = std::size_t(r) * std::size_t(from.columns) + std::size_t(c);
         if (from.trust[k] < kLeastTrust) continue;
         PoseResidual res{};
         res.at = apply(placed, wide(from.at_mm[k]));

@@ -29,13 +29,11 @@ std::pmr::vector<float> steps_from_edge(int columns, int rows, const std::pmr::v
   const auto at = [&](int c, int r) {
     return c < 0 || r < 0 || c >= columns || r >= rows
                ? 0.0F
-               : steps[static_cast<std::size_t>(r) * static_cast<std::size_t>(columns) +
-                       static_cast<std::size_t>(c)];
+               : steps[std::size_t(r) * std::size_t(columns) + std::size_t(c)];
   };
   for (std::size_t k = 0; k < inside.size(); ++k) steps[k] = inside[k] > 0 ? 1e6F : 0;
   const auto relax = [&](int c, int r, int way) {
-    float& here =
-        steps[static_cast<std::size_t>(r) * static_cast<std::size_t>(columns) + static_cast<std::size_t>(c)];
+    float& here = steps[std::size_t(r) * std::size_t(columns) + std::size_t(c)];
     here = std::min({here, at(c - way, r) + 1, at(c, r - way) + 1, at(c - way, r - way) + kDiagonal,
                      at(c + way, r - way) + kDiagonal});
   };
@@ -82,8 +80,8 @@ Result<PoseSurface> make_pose_surface(const PointCloud& cloud, const RectifiedPa
   pose.step_px = cloud.lattice_step_px;
   pose.first_px = {1e9, 1e9};
   for (const CloudPoint& p : cloud.points) {
-    pose.first_px.x = std::min(pose.first_px.x, static_cast<double>(p.left_px.x));
-    pose.first_px.y = std::min(pose.first_px.y, static_cast<double>(p.left_px.y));
+    pose.first_px.x = std::min(pose.first_px.x, double(p.left_px.x));
+    pose.first_px.y = std::min(pose.first_px.y, double(p.left_px.y));
   }
   pose.at_mm.assign(lattice.at_mm.begin(), lattice.at_mm.end());
   pose.normal.assign(lattice.size(), Vec3f{});
@@ -97,7 +95,7 @@ Result<PoseSurface> make_pose_surface(const PointCloud& cloud, const RectifiedPa
   });
   std::pmr::vector<float> sigmas(&context.scratch);
   for (const CloudPoint& p : cloud.points) sigmas.push_back(p.sigma_mm);
-  const float most_sigma_mm = std::max(kMostSigmaMm, kMostOfUsual * static_cast<float>(median(sigmas)));
+  const float most_sigma_mm = std::max(kMostSigmaMm, kMostOfUsual * float(median(sigmas)));
   std::pmr::vector<float> whole = whole_nodes(lattice, surface, &context.scratch);
   for (std::size_t k = 0; k < whole.size(); ++k)
     if (lattice.sigma_mm[k] > most_sigma_mm) whole[k] = 0;
@@ -138,9 +136,9 @@ std::optional<SurfaceHit> PoseSurface::look(const Vec3f& place) const {
   const double x = (focal_px * p.x / p.z + centre_px.x - first_px.x) / step_px;
   const double y = (focal_px * p.y / p.z + centre_px.y - first_px.y) / step_px;
   if (!(x >= 0 && y >= 0 && x < columns - 1 && y < rows - 1)) return std::nullopt;
-  const std::size_t w = static_cast<std::size_t>(columns);
-  const std::size_t k = static_cast<std::size_t>(y) * w + static_cast<std::size_t>(x);
-  const float fx = static_cast<float>(x - std::floor(x)), fy = static_cast<float>(y - std::floor(y));
+  const std::size_t w = std::size_t(columns);
+  const std::size_t k = std::size_t(y) * w + std::size_t(x);
+  const float fx = float(x - std::floor(x)), fy = float(y - std::floor(y));
   SurfaceHit hit{};
   float least = 1;
   for (std::size_t i = 0; i < 4; ++i) {

@@ -17,7 +17,7 @@ constexpr std::uint32_t kNobody = 0xFFFFFFFFU;
 void count_edges(std::span<const Triangle> triangles, int most, std::pmr::vector<std::uint8_t>& at) {
   for (int round = 0; round < most; ++round)
     for (const Triangle& t : triangles) {
-      const auto next = static_cast<std::uint8_t>(std::min({at[t[0]], at[t[1]], at[t[2]]}) + 1);
+      const auto next = std::uint8_t(std::min({at[t[0]], at[t[1]], at[t[2]]}) + 1);
       for (const std::uint32_t v : t) at[v] = std::min(at[v], next);
     }
 }
@@ -42,8 +42,7 @@ std::pmr::vector<BorderEdge> border_edges(std::span<const Triangle> triangles,
   for (std::size_t i = 0; i < edges.size();) {
     std::size_t end = i + 1;
     while (end < edges.size() && edges[end].key == edges[i].key) ++end;
-    const auto low = static_cast<std::uint32_t>(edges[i].key >> 32),
-               high = static_cast<std::uint32_t>(edges[i].key);
+    const auto low = std::uint32_t(edges[i].key >> 32), high = std::uint32_t(edges[i].key);
     if (end - i == 1) border.push_back(edges[i].forward ? BorderEdge{low, high} : BorderEdge{high, low});
     i = end;
   }
@@ -53,11 +52,11 @@ std::pmr::vector<BorderEdge> border_edges(std::span<const Triangle> triangles,
 void open_rims(std::span<const std::uint8_t> sure, std::pmr::vector<Triangle>& triangles, int edges,
                int holds, std::pmr::memory_resource* memory) {
   const std::size_t vertices = sure.size();
-  const auto far = static_cast<std::uint8_t>(edges);
+  const auto far = std::uint8_t(edges);
   std::pmr::vector<std::uint8_t> from_rim(vertices, far, memory);
   for (const BorderEdge& e : border_edges(triangles, memory)) from_rim[e[0]] = from_rim[e[1]] = 0;
   count_edges(triangles, edges, from_rim);
-  std::pmr::vector<std::uint8_t> from_core(vertices, static_cast<std::uint8_t>(far + 1), memory);
+  std::pmr::vector<std::uint8_t> from_core(vertices, std::uint8_t(far + 1), memory);
   for (std::size_t v = 0; v < vertices; ++v)
     if (from_rim[v] >= far) from_core[v] = 0;
   std::pmr::vector<std::uint8_t> from_sure(from_core, memory);

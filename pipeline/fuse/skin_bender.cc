@@ -25,7 +25,7 @@ struct Field {
   Field(int w, int h, std::pmr::memory_resource* memory)
       : columns(w),
         rows(h),
-        sum(static_cast<std::size_t>(w) * static_cast<std::size_t>(h), 0.0F, memory),
+        sum(std::size_t(w) * std::size_t(h), 0.0F, memory),
         weight(sum.size(), 0.0F, memory),
         square(sum.size(), 0.0F, memory) {}
   int columns, rows;
@@ -36,25 +36,22 @@ struct Field {
 // A Gaussian by three boxes (Wells 1986), along rows and columns.
 void blur(std::pmr::vector<float>& plane, int columns, int rows, double sigma_cells,
           std::pmr::memory_resource* memory) {
-  const int reach =
-      std::max(1, static_cast<int>(std::lround((std::sqrt(4 * sigma_cells * sigma_cells + 1) - 1) / 2)));
-  std::pmr::vector<float> line(static_cast<std::size_t>(std::max(columns, rows)), 0.0F, memory);
+  const int reach = std::max(1, int(std::lround((std::sqrt(4 * sigma_cells * sigma_cells + 1) - 1) / 2)));
+  std::pmr::vector<float> line(std::size_t(std::max(columns, rows)), 0.0F, memory);
   const auto pass = [&](int count, std::size_t first, std::size_t stride) {
     double sum = 0;
-    const auto at = [&](int i) -> float& { return plane[first + static_cast<std::size_t>(i) * stride]; };
-    for (int i = 0; i < std::min(reach, count); ++i) sum += static_cast<double>(at(i));
+    const auto at = [&](int i) -> float& { return plane[first + std::size_t(i) * stride]; };
+    for (int i = 0; i < std::min(reach, count); ++i) sum += double(at(i));
     for (int i = 0; i < count; ++i) {
-      if (i + reach < count) sum += static_cast<double>(at(i + reach));
-      if (i - reach - 1 >= 0) sum -= static_cast<double>(at(i - reach - 1));
-      line[static_cast<std::size_t>(i)] = static_cast<float>(sum / (2 * reach + 1));
+      if (i + reach < count) sum += double(at(i + reach));
+      if (i - reach - 1 >= 0) sum -= double(at(i - reach - 1));
+      line[std::size_t(i)] = float(sum / (2 * reach + 1));
     }
-    for (int i = 0; i < count; ++i) at(i) = line[static_cast<std::size_t>(i)];
+    for (int i = 0; i < count; ++i) at(i) = line[std::size_t(i)];
   };
   for (int round = 0; round < 3; ++round) {
-    for (int r = 0; r < rows; ++r)
-      pass(columns, static_cast<std::size_t>(r) * static_cast<std::size_t>(columns), 1);
-    for (int c = 0; c < columns; ++c)
-      pass(rows, static_cast<std::size_t>(c), static_cast<std::size_t>(columns));
+    for (int r = 0; r < rows; ++r) pass(columns, std::size_t(r) * std::size_t(columns), 1);
+    for (int c = 0; c < columns; ++c) pass(rows, std::size_t(c), std::size_t(columns));
   }
 }
 
@@ -102,8 +99,8 @@ class Bender {
       const auto hit = poses_[j].look(narrow(apply(inverse(other), at)));
       if (!hit) continue;
       const Vec3d n = apply(other.rotation, wide(hit->normal));
-      if (dot(n, normal) < static_cast<double>(kSameWay)) continue;
-      const float d = static_cast<float>(dot(n, minus(at, apply(other, wide(hit->at_mm)))));
+      if (dot(n, normal) < double(kSameWay)) continue;
+      const float d = float(dot(n, minus(at, apply(other, wide(hit->at_mm)))));
       const float unsure_mm = kReachSigmas * std::hypot(hit->sigma_mm, poses_[k].sigma_mm[i]);
       if (std::abs(d) > std::clamp(unsure_mm, kReachMm, kFarthestMm)) continue;
       const float w = hit->trust / (hit->sigma_mm * hit->sigma_mm + kLeastSigmaMm * kLeastSigmaMm);
@@ -125,36 +122,32 @@ class Bender {
   void bend(std::size_t k) {
     PoseSurface& pose = poses_[k];
     const Arena::Mark mark(context_.scratch);
-    const float node_mm = static_cast<float>(pose.step_px / pose.focal_px * distance_of(pose));
-    const int every = std::max(1, static_cast<int>(std::lround(kCellMm / node_mm)));
+    const float node_mm = float(pose.step_px / pose.focal_px * distance_of(pose));
+    const int every = std::max(1, int(std::lround(kCellMm / node_mm)));
     Field field((pose.columns + every - 1) / every + 1, (pose.rows + every - 1) / every + 1,
                 &context_.scratch);
     for (int r = 0; r < pose.rows; ++r)
       for (int c = 0; c < pose.columns; ++c) {
-        const std::size_t i = static_cast<std::size_t>(r) * static_cast<std::size_t>(pose.columns) +
-                              static_cast<std::size_t>(c);
+        const std::size_t i = std::size_t(r) * std::size_t(pose.columns) + std::size_t(c);
         if (pose.trust[i] <= 0 || (r + c) % 2 != 0) continue;
         const Gap g = gap(k, i);
         if (g.weight <= 0) continue;
-        const std::size_t cell =
-            static_cast<std::size_t>(r / every) * static_cast<std::size_t>(field.columns) +
-            static_cast<std::size_t>(c / every);
+        const std::size_t cell = std::size_t(r / every) * std::size_t(field.columns) + std::size_t(c / every);
         const float w = pose.trust[i] * std::min(1.0F, g.weight / kSureWeight);
         field.sum[cell] += w * g.distance;
         field.weight[cell] += w;
       }
-    const double sigma_cells = limits_.width_mm / (static_cast<double>(every) * static_cast<double>(node_mm));
+    const double sigma_cells = limits_.width_mm / (double(every) * double(node_mm));
     blur(field.sum, field.columns, field.rows, sigma_cells, &context_.scratch);
     blur(field.weight, field.columns, field.rows, sigma_cells, &context_.scratch);
     usual_square(field, sigma_cells);
-    const float still = static_cast<float>(limits_.still_mm), most = static_cast<float>(limits_.most_mm);
+    const float still = float(limits_.still_mm), most = float(limits_.most_mm);
     for (int r = 0; r < pose.rows; ++r)
       for (int c = 0; c < pose.columns; ++c) {
-        const std::size_t i = static_cast<std::size_t>(r) * static_cast<std::size_t>(pose.columns) +
-                              static_cast<std::size_t>(c);
+        const std::size_t i = std::size_t(r) * std::size_t(pose.columns) + std::size_t(c);
         if (pose.trust[i] <= 0) continue;
-        const float d = read(field, (static_cast<float>(c) + 0.5F) / static_cast<float>(every) - 0.5F,
-                             (static_cast<float>(r) + 0.5F) / static_cast<float>(every) - 0.5F);
+        const float d =
+            read(field, (float(c) + 0.5F) / float(every) - 0.5F, (float(r) + 0.5F) / float(every) - 0.5F);
         const float moved = d * d * d / (d * d + still * still);
         // What is measured badly may lie further off without having moved.
         if (std::abs(moved) > most + kOwnErrorSigmas * pose.sigma_mm[i]) {
@@ -162,11 +155,10 @@ class Bender {
           continue;
         }
         pose.at_mm[i] = along(pose.at_mm[i], -moved, pose.normal[i]);
-        pose.sigma_mm[i] =
-            std::hypot(pose.sigma_mm[i],
-                       kMovedSigma * std::sqrt(field.square[static_cast<std::size_t>(r / every) *
-                                                                static_cast<std::size_t>(field.columns) +
-                                                            static_cast<std::size_t>(c / every)]));
+        pose.sigma_mm[i] = std::hypot(
+            pose.sigma_mm[i],
+            kMovedSigma * std::sqrt(field.square[std::size_t(r / every) * std::size_t(field.columns) +
+                                                 std::size_t(c / every)]));
       }
   }
 
@@ -176,13 +168,13 @@ class Bender {
     for (std::size_t k = 0; k < field.sum.size(); ++k) {
       const float w = field.weight[k], d = field.sum[k] / (w + kNothingSaid);
       field.square[k] = w * d * d;
-      sum += static_cast<double>(field.square[k]);
-      weight += static_cast<double>(w);
+      sum += double(field.square[k]);
+      weight += double(w);
     }
     std::pmr::vector<float> around(field.weight, &context_.scratch);
     blur(field.square, field.columns, field.rows, sigma_cells, &context_.scratch);
     blur(around, field.columns, field.rows, sigma_cells, &context_.scratch);
-    const float all = static_cast<float>(sum / weight);
+    const float all = float(sum / weight);
     for (std::size_t k = 0; k < field.square.size(); ++k)
       field.square[k] = (field.square[k] + kNothingSaid * all) / (around[k] + kNothingSaid);
   }
@@ -191,22 +183,21 @@ class Bender {
     double sum = 0, count = 1e-9;
     for (std::size_t i = 0; i < pose.at_mm.size(); i += 101)
       if (pose.trust[i] > 0) {
-        sum += static_cast<double>(pose.at_mm[i].z);
+        sum += double(pose.at_mm[i].z);
         count += 1;
       }
     return sum / count;
   }
 
   static float read(const Field& f, float x, float y) {
-    x = std::clamp(x, 0.0F, static_cast<float>(f.columns - 1) - 1e-3F);
-    y = std::clamp(y, 0.0F, static_cast<float>(f.rows - 1) - 1e-3F);
-    const std::size_t k =
-        static_cast<std::size_t>(y) * static_cast<std::size_t>(f.columns) + static_cast<std::size_t>(x);
+    x = std::clamp(x, 0.0F, float(f.columns - 1) - 1e-3F);
+    y = std::clamp(y, 0.0F, float(f.rows - 1) - 1e-3F);
+    const std::size_t k = std::size_t(y) * std::size_t(f.columns) + std::size_t(x);
     const float fx = x - std::floor(x), fy = y - std::floor(y);
     float sum = 0, weight = kNothingSaid;
     for (std::size_t i = 0; i < 4; ++i) {
       const float share = (i % 2 == 0 ? 1 - fx : fx) * (i < 2 ? 1 - fy : fy);
-      const std::size_t cell = k + i % 2 + (i / 2) * static_cast<std::size_t>(f.columns);
+      const std::size_t cell = k + i % 2 + (i / 2) * std::size_t(f.columns);
       sum += share * f.sum[cell];
       weight += share * f.weight[cell];
     }

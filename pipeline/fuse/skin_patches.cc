@@ -17,8 +17,7 @@ constexpr double kPatchMm = 20;
 
 std::size_t SkinPatches::at(const Vec3d& in_head) {
   const auto cell = [](double x) {
-    return static_cast<std::size_t>(
-        std::clamp(static_cast<int>(std::floor(x / kPatchMm)) + kAcross / 2, 0, kAcross - 1));
+    return std::size_t(std::clamp(int(std::floor(x / kPatchMm)) + kAcross / 2, 0, kAcross - 1));
   };
   return (cell(in_head.z + kHeadCentreMm) * kAcross + cell(in_head.y)) * kAcross + cell(in_head.x);
 }
@@ -43,7 +42,7 @@ double SkinPatches::still(double mean_mm, double usual_mm) {
 
 void SkinPatches::take(std::span<const PatchMean> means) {
   mean_mm_.assign(kPatches * poses_ * poses_, 0.0F);
-  for (const PatchMean& m : means) mean_mm_[between(m.patch, m.a, m.b)] = static_cast<float>(m.mm);
+  for (const PatchMean& m : means) mean_mm_[between(m.patch, m.a, m.b)] = float(m.mm);
   usual_mm_ = usual_mm(means, *mean_mm_.get_allocator().resource());
 }
 

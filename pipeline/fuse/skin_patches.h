@@ -44,7 +44,7 @@ class SkinPatches {
   void take(std::span<const PatchMean> means);
   // 1 where nothing was said of a patch.
   double still(std::size_t patch, std::size_t a, std::size_t b) const {
-    return still(static_cast<double>(mean_mm_[between(patch, a, b)]), usual_mm_);
+    return still(double(mean_mm_[between(patch, a, b)]), usual_mm_);
   }
   // Of a patch of one pose's skin, about where it should be: half of that between two poses, robustly.
   double variance_mm2() const { return usual_mm_ * usual_mm_ / 2; }

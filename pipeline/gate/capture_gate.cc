@@ -6,9 +6,8 @@
 #include <cmath>
 #include <numbers>
 
-#include "pipeline/gate/head/beside_head.h"
 #include "pipeline/gate/head/head_outline.h"
-#include "pipeline/gate/light/edge_blur.h"
+#include "pipeline/gate/light/face_light.h"
 
 namespace relievo::pipeline {
 namespace {
@@ -21,18 +20,16 @@ constexpr double kNeckMm = 60;  // a head turns about an axis so far behind the 
 
 // A second face must be as wide as one at its own distance, where that is known.
 bool is_face(const Relief& relief, const FaceHit& hit) {
-  const int x = static_cast<int>(std::lround(hit.centre_px.x)),
-            y = static_cast<int>(std::lround(hit.centre_px.y));
+  const int x = int(std::lround(hit.centre_px.x)), y = int(std::lround(hit.centre_px.y));
   if (!relief.inside(x, y) || !relief.known(x, y)) return hit.votes >= 2 * kSecondFaceVotes;
-  const double width_mm =
-      hit.width_px * static_cast<double>(relief.depth_mm[relief.index(x, y)]) / relief.focal_px;
+  const double width_mm = hit.width_px * double(relief.depth_mm[relief.index(x, y)]) / relief.focal_px;
   return hit.votes >= kSecondFaceVotes && width_mm > 90 && width_mm < 240;
 }
 
 int count_faces(const Relief& relief, const FaceHits& hits) {
   int faces = std::min(hits.count, 1);
   for (int i = 1; i < hits.count; ++i) {
-    const FaceHit& hit = hits.hit[static_cast<std::size_t>(i)];
+    const FaceHit& hit = hits.hit[std::size_t(i)];
     if (hit.width_px > kSecondFaceShare * hits.hit[0].width_px && is_face(relief, hit)) ++faces;
   }
   return faces;
@@ -47,13 +44,12 @@ void measure_picture(const Relief& relief, double nearest_mm, GateMeasures& m) {
     for (int x = x0; x < x1; ++x) {
       const std::size_t i = relief.index(x, y);
       bright += relief.grey[i] >= 247 ? 1U : 0U;
-      near += relief.known(x, y) && static_cast<double>(relief.depth_mm[i]) < nearest_mm ? 1U : 0U;
+      near += relief.known(x, y) && double(relief.depth_mm[i]) < nearest_mm ? 1U : 0U;
     }
-  const auto middle = static_cast<double>(std::max(1, (x1 - x0) * (y1 - y0)));
-  m.picture_dark_share =
-      static_cast<double>(dark) / static_cast<double>(std::max<std::size_t>(1, relief.grey.size()));
-  m.middle_bright_share = static_cast<double>(bright) / middle;
-  m.middle_near_share = static_cast<double>(near) / middle;
+  const auto middle = double(std::max(1, (x1 - x0) * (y1 - y0)));
+  m.picture_dark_share = double(dark) / double(std::max<std::size_t>(1, relief.grey.size()));
+  m.middle_bright_share = double(bright) / middle;
+  m.middle_near_share = double(near) / middle;
 }
 
 void measure_expression(const FacePhoto& photo, StageContext& context, GateMeasures& m) {

@@ -107,7 +107,7 @@ struct Judge {
   Advice eyes() const {
     for (const EyeMeasurement& eye : m.eyes)
       if (eye.known && below(eye.brightness, l.eye_brightness, Advice::EyesHidden)) return Advice::EyesHidden;
-    const bool glare = std::any_of(m.eyes.begin(), m.eyes.end(), [&](const EyeMeasurement& eye) {
+    const bool glare = std::ranges::any_of(m.eyes, [&](const EyeMeasurement& eye) {
       return eye.known && above(eye.glare_mm2, l.glare_mm2, Advice::GlassesGlare);
     });
     if (!glare && closed()) return Advice::EyesClosed;

@@ -32,16 +32,16 @@ struct GateMeasures {
   // height; 0: not clearly, or nobody.
   double somebody_right = 0, somebody_down = 0;
   HeadHint face;             // where on the small picture
-  double covered_share = 0;  // of the face, by something that stands before it: beside_head.h
+  double covered_share = 0;  // of the face, by something that stands before it: head_outline.h
   HeadMeasurement head;
   double off_right_mm = 0, off_down_mm = 0;  // the tip of the nose from the middle of the capture volume
   double speed_mm_s = 0, turn_deg_s = 0;
   FaceLight light;
-  double blur_mm = 0;                  // on the face: edge_blur.h
+  double blur_mm = 0;                  // on the face: face_light.h
   std::array<EyeMeasurement, 2> eyes;  // on the picture's left, on its right
   MouthMeasurement mouth;
   double beside_share =
-      0;  // of a field beside the head, by something else at the depth of the face: beside_head.h
+      0;  // of a field beside the head, by something else at the depth of the face: head_outline.h
 };
 
 // A limit is left again only below (or above) a share of it: what was said is not taken back by noise.

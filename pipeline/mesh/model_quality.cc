@@ -56,8 +56,7 @@ ModelQuality measure_quality(const FaceMesh& mesh, const HeadFrame& frame, Stage
       share.measured += measured;
     };
     add(face);
-    const Vec3d p = apply(frame.head_from_camera,
-                          {static_cast<double>(a.x), static_cast<double>(a.y), static_cast<double>(a.z)});
+    const Vec3d p = apply(frame.head_from_camera, {double(a.x), double(a.y), double(a.z)});
     for (std::size_t i = 0; i < features.size(); ++i)
       if (std::abs(p.x - kFeatures[i].x) < kFeatures[i].half_width &&
           std::abs(p.y - kFeatures[i].y) < kFeatures[i].half_height)

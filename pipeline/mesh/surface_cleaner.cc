@@ -14,7 +14,7 @@ namespace {
 constexpr std::uint32_t kNone = 0xFFFFFFFFU;
 
 double triangle_area(std::span<const Vec3f> v, const Triangle& t) {
-  return 0.5 * static_cast<double>(length(cross(minus(v[t[1]], v[t[0]]), minus(v[t[2]], v[t[0]]))));
+  return 0.5 * double(length(cross(minus(v[t[1]], v[t[0]]), minus(v[t[2]], v[t[0]]))));
 }
 
 // Triangles with their neighbours; triangles die, they are never moved.
@@ -48,7 +48,7 @@ class Soup {
   }
 
   void keep_largest_component() {
-    std::fill(mark_.begin(), mark_.end(), kNone);
+    std::ranges::fill(mark_, kNone);
     std::uint32_t best = kNone;
     double best_area = -1;
     for (std::uint32_t t = 0; t < triangles_.size(); ++t) {
@@ -64,8 +64,8 @@ class Soup {
 
   // At a vertex of one open fan, triangles exceed shared edges by one; at a closed fan they are equal.
   std::size_t split_bow_ties() {
-    std::fill(corners_.begin(), corners_.end(), std::uint16_t{0});
-    std::fill(inner_.begin(), inner_.end(), std::uint16_t{0});
+    std::ranges::fill(corners_, std::uint16_t{0});
+    std::ranges::fill(inner_, std::uint16_t{0});
     for (std::uint32_t t = 0; t < triangles_.size(); ++t) {
       if (!alive_[t]) continue;
       for (std::size_t k = 0; k < 3; ++k) {
@@ -139,7 +139,7 @@ class Soup {
         if (triangles_[t][k] != v && triangles_[t][(k + 1) % 3] != v) continue;
         const std::uint32_t other = across_[3 * std::size_t{t} + k];
         if (other == kNone || !alive_[other]) continue;
-        if (std::find(stack_.begin(), stack_.end(), other) == stack_.end()) stack_.push_back(other);
+        if (std::ranges::find(stack_, other) == stack_.end()) stack_.push_back(other);
       }
     }
   }
@@ -159,7 +159,7 @@ class Soup {
     collect_fan(v, keep);
     std::size_t dropped = 0;
     for (const std::uint32_t t : around_[v]) {
-      if (!alive_[t] || std::find(stack_.begin(), stack_.end(), t) != stack_.end()) continue;
+      if (!alive_[t] || std::ranges::find(stack_, t) != stack_.end()) continue;
       alive_[t] = 0;
       ++dropped;
     }
@@ -217,7 +217,7 @@ void compute_normals(FaceMesh& face, int passes, std::pmr::memory_resource* scra
   if (passes <= 0) return;
   std::pmr::vector<Vec3f> next(face.normals.size(), Vec3f{}, scratch);
   for (int pass = 0; pass < passes; ++pass) {
-    std::fill(next.begin(), next.end(), Vec3f{});
+    std::ranges::fill(next, Vec3f{});
     for (const Triangle& t : face.triangles) {
       const Vec3f sum = plus(plus(face.normals[t[0]], face.normals[t[1]]), face.normals[t[2]]);
       for (const std::uint32_t v : t) next[v] = plus(next[v], sum);

@@ -26,14 +26,14 @@ void for_each_texel(const Vec2f& a, const Vec2f& b, const Vec2f& c, int width_px
   // from a vertex that lies on its centre.
   constexpr float kHair = 0.01F;
   constexpr float kEdge = -1e-3F;
-  const int top = std::max(rows.begin, static_cast<int>(std::ceil(std::min({a.y, b.y, c.y}) - kHair)));
-  const int bottom = std::min(rows.end - 1, static_cast<int>(std::floor(std::max({a.y, b.y, c.y}) + kHair)));
-  const int left = std::max(0, static_cast<int>(std::ceil(std::min({a.x, b.x, c.x}) - kHair)));
-  const int right = std::min(width_px - 1, static_cast<int>(std::floor(std::max({a.x, b.x, c.x}) + kHair)));
+  const int top = std::max(rows.begin, int(std::ceil(std::min({a.y, b.y, c.y}) - kHair)));
+  const int bottom = std::min(rows.end - 1, int(std::floor(std::max({a.y, b.y, c.y}) + kHair)));
+  const int left = std::max(0, int(std::ceil(std::min({a.x, b.x, c.x}) - kHair)));
+  const int right = std::min(width_px - 1, int(std::floor(std::max({a.x, b.x, c.x}) + kHair)));
   for (int y = top; y <= bottom; ++y) {
-    const float dy = static_cast<float>(y) - a.y;
+    const float dy = float(y) - a.y;
     for (int x = left; x <= right; ++x) {
-      const float dx = static_cast<float>(x) - a.x;
+      const float dx = float(x) - a.x;
       const float wb = (dx * (c.y - a.y) - dy * (c.x - a.x)) * to_unit;
       const float wc = ((b.x - a.x) * dy - (b.y - a.y) * dx) * to_unit;
       if (wb < kEdge || wc < kEdge || wb + wc > 1 - kEdge) continue;

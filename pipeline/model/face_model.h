@@ -8,10 +8,9 @@
 #include <optional>
 
 #include "hal/base/result.h"
-#include "pipeline/model/backdrop.h"
 #include "pipeline/model/face_mesh.h"
 #include "pipeline/model/landmarks.h"
-#include "pipeline/model/relief_figures.h"
+#include "pipeline/model/relief.h"
 #include "pipeline/model/texture_atlas.h"
 
 namespace relievo::pipeline {

@@ -28,7 +28,7 @@ enum class LandmarkName : std::uint8_t {
   CheilionLeft,
   Count
 };
-inline constexpr std::size_t kLandmarkCount = static_cast<std::size_t>(LandmarkName::Count);
+inline constexpr std::size_t kLandmarkCount = std::size_t(LandmarkName::Count);
 
 struct Landmark {
   Vec3f at_mm;
@@ -46,10 +46,10 @@ inline constexpr std::array<std::string_view, kLandmarkCount> kLandmarkWords{
     "exocanthion_right",  "exocanthion_left",
     "cheilion_right",     "cheilion_left"};
 static_assert(!kLandmarkWords.back().empty());
-constexpr std::string_view word(LandmarkName name) { return kLandmarkWords[static_cast<std::size_t>(name)]; }
+constexpr std::string_view word(LandmarkName name) { return kLandmarkWords[std::size_t(name)]; }
 
 constexpr const Landmark& of(const Landmarks& landmarks, LandmarkName name) {
-  return landmarks[static_cast<std::size_t>(name)];
+  return landmarks[std::size_t(name)];
 }
 
 }  // namespace relievo::pipeline

@@ -18,27 +18,23 @@ namespace relievo::pipeline {
 class PhotoSampler {
  public:
   PhotoSampler(std::span<const std::uint8_t> rgb, int width_px, int height_px)
-      : rgb_(rgb.data()),
-        width_(width_px),
-        last_x_(static_cast<float>(width_px - 1)),
-        last_y_(static_cast<float>(height_px - 1)) {}
+      : rgb_(rgb.data()), width_(width_px), last_x_(float(width_px - 1)), last_y_(float(height_px - 1)) {}
 
   void read(float x, float y, float (&rgb)[3]) const {
     x = std::clamp(x, 0.0F, last_x_);
     y = std::clamp(y, 0.0F, last_y_);
-    const int column = static_cast<int>(x);
-    const int row = static_cast<int>(y);
-    const float fx = x - static_cast<float>(column);
-    const float fy = y - static_cast<float>(row);
+    const int column = int(x);
+    const int row = int(y);
+    const float fx = x - float(column);
+    const float fy = y - float(row);
     // On a whole row or column the second neighbour has no weight and may not exist.
     const std::size_t right = fx > 0 ? 3 : 0;
-    const std::size_t below = fy > 0 ? 3 * static_cast<std::size_t>(width_) : 0;
-    const std::uint8_t* p = rgb_ + 3 * (static_cast<std::size_t>(row) * static_cast<std::size_t>(width_) +
-                                        static_cast<std::size_t>(column));
+    const std::size_t below = fy > 0 ? 3 * std::size_t(width_) : 0;
+    const std::uint8_t* p = rgb_ + 3 * (std::size_t(row) * std::size_t(width_) + std::size_t(column));
     const std::uint8_t* q = p + below;
     for (std::size_t i = 0; i < 3; ++i) {
-      const float upper = static_cast<float>(p[i]) + fx * static_cast<float>(p[right + i] - p[i]);
-      const float lower = static_cast<float>(q[i]) + fx * static_cast<float>(q[right + i] - q[i]);
+      const float upper = float(p[i]) + fx * float(p[right + i] - p[i]);
+      const float lower = float(q[i]) + fx * float(q[right + i] - q[i]);
       rgb[i] = upper + fy * (lower - upper);
     }
   }
@@ -69,28 +65,27 @@ class PhotoRow {
         buffer_(buffer) {}
 
   void move_to(float y) {
-    y = std::clamp(y, 0.0F, static_cast<float>(height_ - 1));
-    const int row = static_cast<int>(y);
+    y = std::clamp(y, 0.0F, float(height_ - 1));
+    const int row = int(y);
     float w[4];
-    cubic_weights(y - static_cast<float>(row), w);
+    cubic_weights(y - float(row), w);
     const std::uint8_t* rows[4];
     for (int i = 0; i < 4; ++i)
-      rows[i] = rgb_ + 3 * static_cast<std::size_t>(std::clamp(row - 1 + i, 0, height_ - 1)) *
-                           static_cast<std::size_t>(width_);
-    const std::size_t end = 3 * (static_cast<std::size_t>(to_) + 1);
-    for (std::size_t k = 3 * static_cast<std::size_t>(from_); k < end; ++k)
-      buffer_[k] = w[0] * static_cast<float>(rows[0][k]) + w[1] * static_cast<float>(rows[1][k]) +
-                   w[2] * static_cast<float>(rows[2][k]) + w[3] * static_cast<float>(rows[3][k]);
+      rows[i] = rgb_ + 3 * std::size_t(std::clamp(row - 1 + i, 0, height_ - 1)) * std::size_t(width_);
+    const std::size_t end = 3 * (std::size_t(to_) + 1);
+    for (std::size_t k = 3 * std::size_t(from_); k < end; ++k)
+      buffer_[k] = w[0] * float(rows[0][k]) + w[1] * float(rows[1][k]) + w[2] * float(rows[2][k]) +
+                   w[3] * float(rows[3][k]);
   }
 
   void read(float x, float (&rgb)[3]) const {
-    x = std::clamp(x, static_cast<float>(from_), static_cast<float>(to_));
-    const int column = static_cast<int>(x);
+    x = std::clamp(x, float(from_), float(to_));
+    const int column = int(x);
     float w[4];
-    cubic_weights(x - static_cast<float>(column), w);
+    cubic_weights(x - float(column), w);
     rgb[0] = rgb[1] = rgb[2] = 0;
     for (int i = 0; i < 4; ++i) {
-      const float* p = &buffer_[3 * static_cast<std::size_t>(std::clamp(column - 1 + i, from_, to_))];
+      const float* p = &buffer_[3 * std::size_t(std::clamp(column - 1 + i, from_, to_))];
       for (std::size_t c = 0; c < 3; ++c) rgb[c] += w[i] * p[c];
     }
   }
@@ -101,8 +96,6 @@ class PhotoRow {
   std::span<float> buffer_;
 };
 
-inline std::uint8_t to_byte(float value) {
-  return static_cast<std::uint8_t>(std::clamp(value + 0.5F, 0.0F, 255.0F));
-}
+inline std::uint8_t to_byte(float value) { return std::uint8_t(std::clamp(value + 0.5F, 0.0F, 255.0F)); }
 
 }  // namespace relievo::pipeline

@@ -16,6 +16,16 @@
 
 namespace relievo::pipeline {
 
+// ReliefFigures: how the middle of a face differs from a sheet of paper, flat or bent.
+struct ReliefFigures {
+  double covered = 0;         // share of the disc around the middle of the face that was measured
+  double sigma_mm = 0;        // stated for it, median
+  double off_plane_mm = 0;    // rms of the nearest three quarters off the best plane
+  double off_sheet_mm = 0;    // off the best sheet, bent along any one direction
+  double sheet_range_mm = 0;  // of the same, averaged over discs of 8 mm radius: 2nd to 98th percentile
+  double curvature_sr = 0;    // integral of |Gaussian curvature|, steradians
+};
+
 struct Relief {
   explicit Relief(std::pmr::memory_resource* memory) : depth_mm(memory), surface(memory), grey(memory) {}
   int width_px = 0, height_px = 0;
@@ -28,17 +38,15 @@ struct Relief {
   std::pmr::vector<std::uint8_t> grey;  // luminance of the left view
   int surfaces = 0;
 
-  std::size_t index(int x, int y) const {
-    return static_cast<std::size_t>(y) * static_cast<std::size_t>(width_px) + static_cast<std::size_t>(x);
-  }
+  std::size_t index(int x, int y) const { return std::size_t(y) * std::size_t(width_px) + std::size_t(x); }
   // Of a place between pixels; std::lround() is a call, and asked a million times a picture.
-  static int nearest(double v) { return static_cast<int>(v + 4096.5) - 4096; }
+  static int nearest(double v) { return int(v + 4096.5) - 4096; }
   bool inside(int x, int y) const { return x >= 0 && y >= 0 && x < width_px && y < height_px; }
   bool known(int x, int y) const { return depth_mm[index(x, y)] > 0; }
   Vec3d point(double x, double y, double z_mm) const {
     return {(x - centre_px.x) * z_mm / focal_px, (y - centre_px.y) * z_mm / focal_px, z_mm};
   }
-  Vec3d point(int x, int y) const { return point(x, y, static_cast<double>(depth_mm[index(x, y)])); }
+  Vec3d point(int x, int y) const { return point(x, y, double(depth_mm[index(x, y)])); }
   Vec2d pixel(const Vec3d& p) const {
     return {centre_px.x + focal_px * p.x / p.z, centre_px.y + focal_px * p.y / p.z};
   }

@@ -6,6 +6,7 @@
 // `origin` says what a texel's colour is: a photograph's, or ours where no camera saw the surface.
 #pragma once
 
+#include <array>
 #include <cstdint>
 #include <memory_resource>
 #include <vector>
@@ -27,6 +28,20 @@ struct TextureAtlas {
   int height_px = 0;
   std::pmr::vector<Vec2f> uv;                 // one a corner: 3 a triangle, in the mesh's order
   std::pmr::vector<std::uint8_t> vertex_rgb;  // 3 a vertex: for formats that colour vertices
+};
+
+// Backdrop: what a photograph showed around the face, hair, ears and neck, out of focus on a head's rough
+// shape. It stands behind the face where it is shown; it is no measurement, and is neither stored nor
+// exported.
+
+// A grid of columns * rows vertices, row by row; none where nothing is known. Left camera's frame,
+// millimetres.
+struct Backdrop {
+  explicit Backdrop(std::pmr::memory_resource* memory) : at_mm(memory), rgba(memory) {}
+  int columns = 0, rows = 0;
+  std::pmr::vector<Vec3f> at_mm;
+  std::pmr::vector<std::array<std::uint8_t, 4>>
+      rgba;  // sRGB as photographed, dimmed; opacity, not premultiplied
 };
 
 }  // namespace relievo::pipeline

@@ -19,9 +19,7 @@ template <Vector3 V>
 using ScalarOf = decltype(V::x);
 
 inline Vec3d wide(const Vec3f& a) { return {a.x, a.y, a.z}; }
-inline Vec3f narrow(const Vec3d& a) {
-  return {static_cast<float>(a.x), static_cast<float>(a.y), static_cast<float>(a.z)};
-}
+inline Vec3f narrow(const Vec3d& a) { return {float(a.x), float(a.y), float(a.z)}; }
 template <Vector3 V>
 V plus(const V& a, const V& b) {
   return {a.x + b.x, a.y + b.y, a.z + b.z};

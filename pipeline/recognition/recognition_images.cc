@@ -25,11 +25,10 @@ std::pmr::vector<HeadPoint> on_the_grid(const FaceMesh& mesh, const RigidTransfo
   std::pmr::vector<HeadPoint> points(memory);
   points.reserve(mesh.vertices_mm.size());
   for (const Vec3f& v : mesh.vertices_mm) {
-    const Vec3d p = apply(head_from_camera, Vec3d{static_cast<double>(v.x), static_cast<double>(v.y),
-                                                  static_cast<double>(v.z)});
-    points.push_back({{static_cast<float>((p.x - grid.first_mm.x) / grid.pitch_mm),
-                       static_cast<float>((grid.first_mm.y - p.y) / grid.pitch_mm)},
-                      static_cast<float>(p.z)});
+    const Vec3d p = apply(head_from_camera, Vec3d{double(v.x), double(v.y), double(v.z)});
+    points.push_back(
+        {{float((p.x - grid.first_mm.x) / grid.pitch_mm), float((grid.first_mm.y - p.y) / grid.pitch_mm)},
+         float(p.z)});
   }
   return points;
 }
@@ -65,9 +64,7 @@ Eyes eyes_of(const FaceModel& model) {
     const bool own = of(model.landmarks, name).found;
     const Landmark& l = of(model.landmarks, own ? name : mirrored);
     eyes.found = eyes.found && l.found;
-    Vec3d at =
-        apply(model.head_from_camera, Vec3d{static_cast<double>(l.at_mm.x), static_cast<double>(l.at_mm.y),
-                                            static_cast<double>(l.at_mm.z)});
+    Vec3d at = apply(model.head_from_camera, Vec3d{double(l.at_mm.x), double(l.at_mm.y), double(l.at_mm.z)});
     if (!own) at.x = -at.x;
     return at;
   };
@@ -94,8 +91,7 @@ std::pmr::vector<Seen> project(const FaceMesh& mesh, const ViewCamera& camera,
   std::pmr::vector<Seen> seen(memory);
   seen.reserve(mesh.vertices_mm.size());
   for (const Vec3f& v : mesh.vertices_mm) {
-    const Vec3d p = apply(camera.view_from_camera, Vec3d{static_cast<double>(v.x), static_cast<double>(v.y),
-                                                         static_cast<double>(v.z)});
+    const Vec3d p = apply(camera.view_from_camera, Vec3d{double(v.x), double(v.y), double(v.z)});
     if (p.z < 1) {
       seen.push_back({{0, 0}, 0});
       continue;
@@ -103,9 +99,7 @@ std::pmr::vector<Seen> project(const FaceMesh& mesh, const ViewCamera& camera,
     // The centre of a pixel lies between its samples.
     const double x = camera.centre_px.x + camera.focal_px * p.x / p.z,
                  y = camera.centre_px.y + camera.focal_px * p.y / p.z;
-    seen.push_back(
-        {{static_cast<float>((x + 0.5) * kFiner - 0.5), static_cast<float>((y + 0.5) * kFiner - 0.5)},
-         static_cast<float>(p.z)});
+    seen.push_back({{float((x + 0.5) * kFiner - 0.5), float((y + 0.5) * kFiner - 0.5)}, float(p.z)});
   }
   return seen;
 }
@@ -117,10 +111,8 @@ struct Samples {
         depth(size(), 1e30F, memory),
         rgb(3 * size(), 0, memory),
         shows(size(), kNothingShown, memory) {}
-  std::size_t size() const { return static_cast<std::size_t>(width) * static_cast<std::size_t>(height); }
-  std::size_t index(int x, int y) const {
-    return static_cast<std::size_t>(y) * static_cast<std::size_t>(width) + static_cast<std::size_t>(x);
-  }
+  std::size_t size() const { return std::size_t(width) * std::size_t(height); }
+  std::size_t index(int x, int y) const { return std::size_t(y) * std::size_t(width) + std::size_t(x); }
   int width, height;
   std::pmr::vector<float> depth;
   std::pmr::vector<std::uint8_t> rgb;
@@ -128,21 +120,18 @@ struct Samples {
 };
 
 void read_texel(const TextureAtlas& atlas, float u, float v, std::uint8_t* rgb, std::uint8_t& shows) {
-  const float x =
-      std::clamp(u * static_cast<float>(atlas.width_px) - 0.5F, 0.0F, static_cast<float>(atlas.width_px - 1));
-  const float y = std::clamp(v * static_cast<float>(atlas.height_px) - 0.5F, 0.0F,
-                             static_cast<float>(atlas.height_px - 1));
-  const std::size_t w = static_cast<std::size_t>(atlas.width_px);
-  const std::size_t k = static_cast<std::size_t>(y) * w + static_cast<std::size_t>(x);
+  const float x = std::clamp(u * float(atlas.width_px) - 0.5F, 0.0F, float(atlas.width_px - 1));
+  const float y = std::clamp(v * float(atlas.height_px) - 0.5F, 0.0F, float(atlas.height_px - 1));
+  const std::size_t w = std::size_t(atlas.width_px);
+  const std::size_t k = std::size_t(y) * w + std::size_t(x);
   const float fx = x - std::floor(x);
   const float fy = y - std::floor(y);
   const std::size_t right = fx > 0 ? 3 : 0;
   const std::size_t below = fy > 0 ? 3 * w : 0;
   const std::uint8_t* p = &atlas.rgb[3 * k];
   for (std::size_t c = 0; c < 3; ++c) {
-    const float upper = static_cast<float>(p[c]) + fx * static_cast<float>(p[right + c] - p[c]);
-    const float lower =
-        static_cast<float>(p[below + c]) + fx * static_cast<float>(p[below + right + c] - p[below + c]);
+    const float upper = float(p[c]) + fx * float(p[right + c] - p[c]);
+    const float lower = float(p[below + c]) + fx * float(p[below + right + c] - p[below + c]);
     rgb[c] = to_byte(upper + fy * (lower - upper));
   }
   if (!atlas.origin.empty() && atlas.origin[k] == kFilledTexel) shows = kCompletedShown;
@@ -182,7 +171,7 @@ RangeImage measure_range(const FaceMesh& mesh, const RigidTransform& head_from_c
   image.height_px = grid.height_px;
   image.pitch_mm = grid.pitch_mm;
   image.first_mm = grid.first_mm;
-  const std::size_t size = static_cast<std::size_t>(grid.width_px) * static_cast<std::size_t>(grid.height_px);
+  const std::size_t size = std::size_t(grid.width_px) * std::size_t(grid.height_px);
   image.z_mm.assign(size, 0);
   image.sigma_mm.assign(size, 0);
   image.shows.assign(size, kNothingShown);
@@ -193,15 +182,13 @@ RangeImage measure_range(const FaceMesh& mesh, const RigidTransform& head_from_c
     const HeadPoint& a = points[t[0]];
     const HeadPoint& b = points[t[1]];
     const HeadPoint& c = points[t[2]];
-    const float cosine = facing(a, b, c, static_cast<float>(grid.pitch_mm));
+    const float cosine = facing(a, b, c, float(grid.pitch_mm));
     if (cosine < kLeastFacing) continue;
     const std::uint8_t shows =
         measured(t[0]) && measured(t[1]) && measured(t[2]) ? kMeasuredShown : kCompletedShown;
     for_each_texel(a.pixel, b.pixel, c.pixel, grid.width_px, {0, grid.height_px},
                    [&](int x, int y, float wa, float wb, float wc) {
-                     const std::size_t k =
-                         static_cast<std::size_t>(y) * static_cast<std::size_t>(grid.width_px) +
-                         static_cast<std::size_t>(x);
+                     const std::size_t k = std::size_t(y) * std::size_t(grid.width_px) + std::size_t(x);
                      const float z = wa * a.z_mm + wb * b.z_mm + wc * c.z_mm;
                      if (image.shows[k] != kNothingShown && z <= image.z_mm[k]) return;
                      image.z_mm[k] = z;
@@ -252,8 +239,7 @@ TexturedView draw_textured(const FaceMesh& mesh, const TextureAtlas& atlas, cons
   Samples samples(camera.width_px, camera.height_px, scratch);
   if (!atlas.uv.empty()) draw(mesh, atlas, project(mesh, camera, scratch), samples);
   TexturedView view(output);
-  const std::size_t size =
-      static_cast<std::size_t>(camera.width_px) * static_cast<std::size_t>(camera.height_px);
+  const std::size_t size = std::size_t(camera.width_px) * std::size_t(camera.height_px);
   view.rgb.resize(3 * size);
   view.shows.resize(size);
   std::size_t k = 0;
@@ -268,7 +254,7 @@ TexturedView draw_textured(const FaceMesh& mesh, const TextureAtlas& atlas, cons
           sum[c] += samples.shows[at] == kNothingShown ? camera.background[c] : samples.rgb[3 * at + c];
       }
       for (std::size_t c = 0; c < 3; ++c)
-        view.rgb[3 * k + c] = static_cast<std::uint8_t>((sum[c] + kFiner * kFiner / 2) / (kFiner * kFiner));
+        view.rgb[3 * k + c] = std::uint8_t((sum[c] + kFiner * kFiner / 2) / (kFiner * kFiner));
       // Completed wins a tie against measured: nothing invented passes as measured.
       view.shows[k] = 2 * of[0] > kFiner * kFiner   ? kNothingShown
                       : of[1] >= of[2] && of[1] > 0 ? kCompletedShown

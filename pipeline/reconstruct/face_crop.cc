@@ -14,9 +14,8 @@ Result<void> crop_to_face(PointCloud& cloud, const RectifiedPair& pair, const Fa
   std::pmr::vector<Vec3d> middle(&context.scratch);
   middle.reserve(cloud.points.size());
   for (const CloudPoint& p : cloud.points)
-    if (may_be_nose(pair, static_cast<double>(p.left_px.x), static_cast<double>(p.left_px.y)))
-      middle.push_back(
-          {static_cast<double>(p.at_mm.x), static_cast<double>(p.at_mm.y), static_cast<double>(p.at_mm.z)});
+    if (may_be_nose(pair, double(p.left_px.x), double(p.left_px.y)))
+      middle.push_back({double(p.at_mm.x), double(p.at_mm.y), double(p.at_mm.z)});
   if (middle.size() < 50)
     return Error{Errc::NoFace,
                  "nothing was measured in the middle of the face: more light, or nothing before the face"};
@@ -27,7 +26,7 @@ Result<void> crop_to_face(PointCloud& cloud, const RectifiedPair& pair, const Fa
     const double dz = p.at_mm.z - tip.z;
     return dx * dx + dy * dy + dz * dz > options.radius_mm * options.radius_mm;
   };
-  cloud.points.erase(std::remove_if(cloud.points.begin(), cloud.points.end(), outside), cloud.points.end());
+  std::erase_if(cloud.points, outside);
   return {};
 }
 

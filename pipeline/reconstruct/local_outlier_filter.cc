@@ -41,7 +41,7 @@ class Filter {
       : points_(cloud.points),
         options_(options),
         near_(cloud, &scratch),
-        max_slope_(static_cast<float>(std::tan(options.max_incidence_deg * std::numbers::pi / 180))),
+        max_slope_(float(std::tan(options.max_incidence_deg * std::numbers::pi / 180))),
         verdict_(cloud.points.size(), Verdict::Unsupported, &scratch),
         island_(&scratch),
         stack_(&scratch) {}
@@ -62,10 +62,8 @@ class Filter {
     std::pmr::vector<std::uint64_t> at(points_.size(), 0U, &scratch);  // row << 32 | column
     for (int r = 0; r < near_.rows(); ++r)
       for (int c = 0; c < near_.columns(); ++c)
-        for (const std::uint32_t i : near_.cell(c, r))
-          at[i] = static_cast<std::uint64_t>(r) << 32 | static_cast<std::uint64_t>(c);
-    const std::size_t least =
-        static_cast<std::size_t>(options_.min_island * static_cast<double>(points_.size()));
+        for (const std::uint32_t i : near_.cell(c, r)) at[i] = std::uint64_t(r) << 32 | std::uint64_t(c);
+    const std::size_t least = std::size_t(options_.min_island * double(points_.size()));
     std::uint32_t label = 0;
     for (std::uint32_t i = 0; i < points_.size(); ++i) {
       if (verdict_[i] != Verdict::Kept || island_[i] != 0) continue;
@@ -102,9 +100,8 @@ class Filter {
     // On a lattice an empty place is evidence against a point; in a scattered cloud it means nothing.
     const double wanted = options_.min_support * (near_.on_lattice() ? 24 : std::max(places, 6));
     if (support < wanted) return Verdict::Unsupported;
-    return options_.spike_sigmas > 0 && off_plane({near, static_cast<std::size_t>(support)}, p.sigma_mm)
-               ? Verdict::Spike
-               : Verdict::Kept;
+    return options_.spike_sigmas > 0 && off_plane({near, std::size_t(support)}, p.sigma_mm) ? Verdict::Spike
+                                                                                            : Verdict::Kept;
   }
 
   struct Plane {
@@ -153,7 +150,7 @@ class Filter {
     if (!plane.known) return false;
     if (plane.scatter > 1.5F * sigma)
       if (const Plane again = fit(near, plane, 1.5F * plane.scatter); again.known) plane = again;
-    return std::abs(plane.base) > static_cast<float>(options_.spike_sigmas) * std::max(plane.scatter, sigma);
+    return std::abs(plane.base) > float(options_.spike_sigmas) * std::max(plane.scatter, sigma);
   }
 
   void flood(std::uint32_t seed, std::uint32_t label, const std::pmr::vector<std::uint64_t>& at) {
@@ -162,8 +159,8 @@ class Filter {
     for (std::size_t next = 0; next < stack_.size(); ++next) {
       const std::uint32_t i = stack_[next];
       const RayFrame ray(points_[i].at_mm);
-      const int column = static_cast<int>(at[i] & 0xFFFFFFFFU);
-      const int row = static_cast<int>(at[i] >> 32);
+      const int column = int(at[i] & 0xFFFFFFFFU);
+      const int row = int(at[i] >> 32);
       for (int r = row - 1; r <= row + 1; ++r)
         for (int c = column - 1; c <= column + 1; ++c)
           for (const std::uint32_t k : near_.cell(c, r)) {

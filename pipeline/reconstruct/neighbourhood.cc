@@ -35,13 +35,10 @@ Neighbourhood::Neighbourhood(const PointCloud& cloud, std::pmr::memory_resource*
     bottom = std::max(bottom, p.left_px.y);
   }
   if (count == 0) return;
-  const double area = static_cast<double>(right - left + 1) * static_cast<double>(bottom - top + 1);
-  const double step = on_lattice_
-                          ? cloud.lattice_step_px
-                          : std::max(1e-3, std::sqrt(area * kPointsPerBucket / static_cast<double>(count)));
-  const auto cell_of = [step](float from, float at) {
-    return static_cast<int>(std::lround(static_cast<double>(at - from) / step));
-  };
+  const double area = double(right - left + 1) * double(bottom - top + 1);
+  const double step = on_lattice_ ? cloud.lattice_step_px
+                                  : std::max(1e-3, std::sqrt(area * kPointsPerBucket / double(count)));
+  const auto cell_of = [step](float from, float at) { return int(std::lround(double(at - from) / step)); };
   cells_.fill(cell_of(left, right) + 1, cell_of(top, bottom) + 1, [&](auto&& add) {
     for (std::uint32_t i = 0; i < cloud.points.size(); ++i)
       if (const CloudPoint& p = cloud.points[i]; usable(p))

@@ -19,18 +19,18 @@ constexpr int kBands = 32;
 struct Nearest {
   explicit Nearest(int most) : most_(most) {}
   void offer(float squared) {
-    if (count_ == most_ && !(squared < least_[static_cast<std::size_t>(count_ - 1)])) return;
+    if (count_ == most_ && !(squared < least_[std::size_t(count_ - 1)])) return;
     int at = count_ < most_ ? count_++ : count_ - 1;
-    for (; at > 0 && least_[static_cast<std::size_t>(at - 1)] > squared; --at)
-      least_[static_cast<std::size_t>(at)] = least_[static_cast<std::size_t>(at - 1)];
-    least_[static_cast<std::size_t>(at)] = squared;
+    for (; at > 0 && least_[std::size_t(at - 1)] > squared; --at)
+      least_[std::size_t(at)] = least_[std::size_t(at - 1)];
+    least_[std::size_t(at)] = squared;
   }
   bool full() const { return count_ == most_; }
   float mean_distance() const {
     if (count_ == 0) return kAlone;
     float sum = 0;
-    for (int k = 0; k < count_; ++k) sum += std::sqrt(least_[static_cast<std::size_t>(k)]);
-    return sum / static_cast<float>(count_);
+    for (int k = 0; k < count_; ++k) sum += std::sqrt(least_[std::size_t(k)]);
+    return sum / float(count_);
   }
 
  private:
@@ -80,15 +80,14 @@ Result<void> StatisticalOutlierFilter::reject(PointCloud& cloud, StageContext& c
   for (const float d : distance) {
     if (d == kAlone) continue;
     n += 1;
-    sum += static_cast<double>(d);
-    squares += static_cast<double>(d) * static_cast<double>(d);
+    sum += double(d);
+    squares += double(d) * double(d);
   }
   const double mean = sum / std::max(1.0, n);
   const double limit = mean + deviations * std::sqrt(std::max(0.0, squares / std::max(1.0, n) - mean * mean));
   std::size_t kept = 0;
   for (std::size_t i = 0; i < cloud.points.size(); ++i)
-    if (distance[i] != kAlone && static_cast<double>(distance[i]) <= limit)
-      cloud.points[kept++] = cloud.points[i];
+    if (distance[i] != kAlone && double(distance[i]) <= limit) cloud.points[kept++] = cloud.points[i];
   cloud.points.resize(kept);
   return {};
 }

@@ -23,9 +23,8 @@ struct Placed {
 template <typename Place>
 Result<PointCloud> place_matches(const RectifiedPair& pair, const MatchSet& matches, StageContext& context,
                                  const Place& place) {
-  const auto accepted =
-      static_cast<std::size_t>(std::count_if(matches.matches.begin(), matches.matches.end(),
-                                             [](const Match& match) { return match.rejected_by == 0; }));
+  const auto accepted = std::size_t(
+      std::ranges::count_if(matches.matches, [](const Match& match) { return match.rejected_by == 0; }));
   if (accepted < 3)
     return Error{Errc::TooFewMatches, "every match was rejected: loosen the constraints or capture again"};
   PointCloud cloud(&context.output);
@@ -42,9 +41,8 @@ Result<PointCloud> place_matches(const RectifiedPair& pair, const MatchSet& matc
     if (!(z >= pair.near_mm && z <= pair.far_mm)) continue;  // outside the volume: not this person
     const Vec3d p = apply(left_from_rectified, placed.at_mm);
     const double along = placed.stretch * z * z / (pair.focal_px * pair.baseline_mm);
-    cloud.points.push_back({{static_cast<float>(p.x), static_cast<float>(p.y), static_cast<float>(p.z)},
-                            match.left_px,
-                            static_cast<float>(along * static_cast<double>(match.sigma_px))});
+    cloud.points.push_back(
+        {{float(p.x), float(p.y), float(p.z)}, match.left_px, float(along * double(match.sigma_px))});
   }
   if (cloud.points.size() < 3)
     return Error{Errc::TooFewMatches,
@@ -149,11 +147,10 @@ Result<PointCloud> OptimalTriangulator::triangulate(const RectifiedPair& pair, c
   return place_matches(pair, matches, context, [&](const Match& match) {
     const Vec3d left{(match.left_px.x - pair.left_centre_px.x) / f,
                      (match.left_px.y - pair.left_centre_px.y) / f, 1};
-    const double row =
-        static_cast<double>(match.left_px.y) +
-        (matches.epipolar_shift.measured() ? matches.epipolar_shift.at(static_cast<double>(match.left_px.x),
-                                                                       static_cast<double>(match.left_px.y))
-                                           : 0);
+    const double row = double(match.left_px.y) +
+                       (matches.epipolar_shift.measured()
+                            ? matches.epipolar_shift.at(double(match.left_px.x), double(match.left_px.y))
+                            : 0);
     const Vec3d right{(match.left_px.x - match.disparity_px - pair.right_centre_px.x) / f,
                       (row - pair.right_centre_px.y) / f, 1};
     const PlacePair moved =

@@ -30,11 +30,11 @@ double rms_of_trusted(const SheetFit& fit, Arena& scratch) {
   std::pmr::vector<double> squares(&scratch);
   squares.reserve(fit.residual_mm.size());
   for (const double r : fit.residual_mm) squares.push_back(r * r);
-  std::sort(squares.begin(), squares.end());
-  const auto count = static_cast<std::size_t>(kTrusted * static_cast<double>(squares.size()));
+  std::ranges::sort(squares);
+  const auto count = std::size_t(kTrusted * double(squares.size()));
   double sum = 0;
   for (std::size_t i = 0; i < count; ++i) sum += squares[i];
-  return std::sqrt(sum / static_cast<double>(count));
+  return std::sqrt(sum / double(count));
 }
 
 double median_sigma(const HeightCells& cells, Arena& scratch) {
@@ -49,13 +49,13 @@ double median_sigma(const HeightCells& cells, Arena& scratch) {
 template <typename Visit>
 bool around(const HeightCells& cells, const HeightCell& middle, double reach_mm, Visit&& visit) {
   int found = 0;
-  const int rows = static_cast<int>(reach_mm / cells.cell_mm) + 1;
+  const int rows = int(reach_mm / cells.cell_mm) + 1;
   const auto above = std::lower_bound(cells.cells.begin(), cells.cells.end(), middle.row - rows,
                                       [](const HeightCell& c, int row) { return c.row < row; });
   for (auto cell = above; cell != cells.cells.end() && cell->row <= middle.row + rows; ++cell) {
     const double dx = cell->x_mm - middle.x_mm, dy = cell->y_mm - middle.y_mm;
     if (dx * dx + dy * dy > reach_mm * reach_mm) continue;
-    visit(static_cast<std::size_t>(cell - cells.cells.begin()), dx, dy);
+    visit(std::size_t(cell - cells.cells.begin()), dx, dy);
     ++found;
   }
   return found >= kFull * std::numbers::pi * (reach_mm / cells.cell_mm) * (reach_mm / cells.cell_mm);
@@ -149,8 +149,7 @@ std::optional<Error> why_unjudged(const FaceModel& model, const std::optional<Re
   const ReliefFigures& relief = model.quality.relief;
   const ReliefVerdict verdict = judge(relief, *asked);
   if (verdict == ReliefVerdict::Unjudged) return error_of(verdict, relief, *asked);
-  if (std::any_of(model.landmarks.begin(), model.landmarks.end(), [](const Landmark& l) { return l.found; }))
-    return std::nullopt;
+  if (std::ranges::any_of(model.landmarks, [](const Landmark& l) { return l.found; })) return std::nullopt;
   return Error{Errc::PoorGeometry,
                "nothing on the surface stands out like a nose: look straight into the cameras"};
 }

@@ -22,7 +22,7 @@
 #include "pipeline/model/face_mesh.h"
 #include "pipeline/model/face_model.h"
 #include "pipeline/model/rectified_pair.h"
-#include "pipeline/model/relief_figures.h"
+#include "pipeline/model/relief.h"
 
 namespace relievo::pipeline {
 

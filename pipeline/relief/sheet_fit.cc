@@ -37,7 +37,7 @@ Samples measured_of(const FaceMesh& mesh, const RectifiedPair& pair, std::pmr::m
     if (mesh.measured[k] == 0) continue;
     const Vec3f& v = mesh.vertices_mm[k];
     const Vec3d p = apply(pair.rectified_from_left, Vec3d{v.x, v.y, v.z});
-    if (p.z > 0) all.push_back({{p.x, p.y, p.z}, static_cast<double>(mesh.sigma_mm[k])});
+    if (p.z > 0) all.push_back({{p.x, p.y, p.z}, double(mesh.sigma_mm[k])});
   }
   return all;
 }
@@ -55,13 +55,12 @@ void add_between(Samples& all, const FaceMesh& mesh, const RectifiedPair& pair, 
     }
     const double longest = std::max(
         {(corner[0] - corner[1]).norm(), (corner[1] - corner[2]).norm(), (corner[2] - corner[0]).norm()});
-    const int parts = static_cast<int>(std::min(kMostParts, 2 * longest / cell_mm));
-    const double sigma =
-        static_cast<double>(std::max({mesh.sigma_mm[t[0]], mesh.sigma_mm[t[1]], mesh.sigma_mm[t[2]]}));
+    const int parts = int(std::min(kMostParts, 2 * longest / cell_mm));
+    const double sigma = double(std::max({mesh.sigma_mm[t[0]], mesh.sigma_mm[t[1]], mesh.sigma_mm[t[2]]}));
     for (int i = 0; i <= parts; ++i)
       for (int j = 0; i + j <= parts; ++j) {
         if (i == parts || j == parts || i + j == 0) continue;  // a corner: it is there
-        const double a = static_cast<double>(i) / parts, b = static_cast<double>(j) / parts;
+        const double a = double(i) / parts, b = double(j) / parts;
         all.push_back({a * corner[0] + b * corner[1] + (1 - a - b) * corner[2], sigma});
       }
   }
@@ -179,7 +178,7 @@ class Sheet {
     for (int round = 0; round < kRounds; ++round) improve(round == 0);
     double cost = 0;
     for (const Row& row : rows_) cost += soft(deviation(row));
-    return cost / static_cast<double>(cells_.size());
+    return cost / double(cells_.size());
   }
 
   void residuals(std::pmr::vector<double>& out) const {
@@ -196,7 +195,7 @@ class Sheet {
     row.nearer = std::max(0.1, 1 - lines_.convergence * row.t);
     row.s = (cos_ * cell.x_mm + sin_ * cell.y_mm) / row.nearer;
     const double at = std::clamp((row.s - begin_) / step_, 0.0, kSpline - 3 - 1e-9);
-    row.first = static_cast<int>(at);
+    row.first = int(at);
     const double u = at - row.first, v = 1 - u;
     row.spline = {v * v * v / 6, (3 * u * u * u - 6 * u * u + 4) / 6, (3 * v * v * v - 6 * v * v + 4) / 6,
                   u * u * u / 6};
@@ -210,8 +209,8 @@ class Sheet {
   double deviation(const Row& row) const {
     double g = 0, slope = 0;
     for (int k = 0; k < 4; ++k) {
-      g += row.spline[static_cast<std::size_t>(k)] * x_[row.first + k];
-      slope += row.slope[static_cast<std::size_t>(k)] * x_[row.first + k];
+      g += row.spline[std::size_t(k)] * x_[row.first + k];
+      slope += row.slope[std::size_t(k)] * x_[row.first + k];
     }
     const double along = x_[kSpline] + lines_.convergence * (slope * row.s - g);
     const double height = x_[kSpline] * row.t + row.nearer * g;
@@ -229,10 +228,9 @@ class Sheet {
       value[4] = row.t;
       const auto unknown = [&](int k) { return k < 4 ? row.first + k : kSpline; };
       for (int i = 0; i < 5; ++i) {
-        b[unknown(i)] += w * value[static_cast<std::size_t>(i)] * row.height_mm;
+        b[unknown(i)] += w * value[std::size_t(i)] * row.height_mm;
         for (int j = 0; j < 5; ++j)
-          a(unknown(i), unknown(j)) +=
-              w * value[static_cast<std::size_t>(i)] * value[static_cast<std::size_t>(j)];
+          a(unknown(i), unknown(j)) += w * value[std::size_t(i)] * value[std::size_t(j)];
       }
     }
     const double stiff = kStraighten * a.topLeftCorner<kSpline, kSpline>().trace() / kSpline;
@@ -268,7 +266,7 @@ HeightCells make_height_cells(const FaceMesh& mesh, const RectifiedPair& pair, d
                               double cell_mm, StageContext& context) {
   HeightCells out(&context.scratch);
   out.cell_mm = cell_mm;
-  out.side = 2 * static_cast<int>(std::ceil(radius_mm / cell_mm)) + 1;
+  out.side = 2 * int(std::ceil(radius_mm / cell_mm)) + 1;
   Samples all = measured_of(mesh, pair, &context.scratch);
   add_between(all, mesh, pair, cell_mm);
   if (all.size() < kEnough) return out;
@@ -276,27 +274,27 @@ HeightCells make_height_cells(const FaceMesh& mesh, const RectifiedPair& pair, d
   const PlaneFrame frame = plane_of(all, middle, radius_mm);
 
   const int half = out.side / 2;
-  std::pmr::vector<Sum> sums(static_cast<std::size_t>(out.side * out.side), Sum{}, &context.scratch);
+  std::pmr::vector<Sum> sums(std::size_t(out.side * out.side), Sum{}, &context.scratch);
   for (const Sample& s : all) {
     if ((s.at - middle).norm() > radius_mm) continue;
     const Vector3d p = frame.axes * (s.at - frame.origin);
-    const auto column = static_cast<int>(std::lround(p.x() / cell_mm)) + half,
-               row = static_cast<int>(std::lround(p.y() / cell_mm)) + half;
+    const auto column = int(std::lround(p.x() / cell_mm)) + half,
+               row = int(std::lround(p.y() / cell_mm)) + half;
     if (column < 0 || row < 0 || column >= out.side || row >= out.side) continue;
-    Sum& sum = sums[static_cast<std::size_t>(row * out.side + column)];
+    Sum& sum = sums[std::size_t(row * out.side + column)];
     sum.x += p.x(), sum.y += p.y(), sum.height += p.z(), sum.sigma += s.sigma_mm;
     ++sum.count;
   }
   out.cells.reserve(sums.size());
   for (int row = 0; row < out.side; ++row)
     for (int column = 0; column < out.side; ++column) {
-      const Sum& sum = sums[static_cast<std::size_t>(row * out.side + column)];
+      const Sum& sum = sums[std::size_t(row * out.side + column)];
       if (sum.count > 0)
         out.cells.push_back({column, row, sum.x / sum.count, sum.y / sum.count, sum.height / sum.count,
                              sum.sigma / sum.count});
     }
   const double disc = 3.14159265358979323846 * (radius_mm / cell_mm) * (radius_mm / cell_mm);
-  out.covered = static_cast<double>(out.cells.size()) / disc;
+  out.covered = double(out.cells.size()) / disc;
   return out;
 }
 
@@ -317,8 +315,6 @@ Result<SheetFit> fit_sheet(const HeightCells& cells, StageContext& context) {
     turn /= 2, meet /= 2;
   }
   SheetFit fit(&context.scratch);
-  fit.axis_deg = best.lines.direction * 180 / std::numbers::pi;
-  fit.convergence_per_mm = best.lines.convergence;
   Sheet sheet(cells, best.lines, rows);
   fit.cost = sheet.solve();
   fit.residual_mm.reserve(cells.cells.size());
@@ -348,7 +344,7 @@ SheetFit fit_plane(const HeightCells& cells, StageContext& context) {
     fit.residual_mm.push_back(off(c));
     fit.cost += std::sqrt(off(c) * off(c) + kSoftMm * kSoftMm) - kSoftMm;
   }
-  fit.cost /= static_cast<double>(std::max<std::size_t>(1, cells.cells.size()));
+  fit.cost /= double(std::max<std::size_t>(1, cells.cells.size()));
   return fit;
 }
 

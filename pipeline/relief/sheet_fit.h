@@ -45,9 +45,7 @@ HeightCells make_height_cells(const FaceMesh& mesh, const RectifiedPair& pair, d
                               double cell_mm, StageContext& context);
 
 struct SheetFit {
-  double axis_deg = 0;            // of the straight lines: 0 upright in the cells' frame, turning from y to x
-  double convergence_per_mm = 0;  // k
-  double cost = 0;                // what was made least: mean softened deviation, mm
+  double cost = 0;                       // what was made least: mean softened deviation, mm
   std::pmr::vector<double> residual_mm;  // one a cell, perpendicular to the sheet, + before it
   explicit SheetFit(std::pmr::memory_resource* memory) : residual_mm(memory) {}
 };

@@ -107,11 +107,11 @@ double rounded_down(double value) { return kind_of_step(value, false); }
 
 double tick_step(double range, int parts) { return rounded_up(range / parts); }
 
-int tick_decimals(double step) { return std::max(0, -static_cast<int>(std::floor(std::log10(step) + 1e-9))); }
+int tick_decimals(double step) { return std::max(0, -int(std::floor(std::log10(step) + 1e-9))); }
 
 std::vector<Vec2d> hull(std::vector<Vec2d> points) {
-  std::sort(points.begin(), points.end(),
-            [](const Vec2d& a, const Vec2d& b) { return a.x < b.x || (a.x == b.x && a.y < b.y); });
+  std::ranges::sort(points,
+                    [](const Vec2d& a, const Vec2d& b) { return a.x < b.x || (a.x == b.x && a.y < b.y); });
   const auto turn = [](const Vec2d& o, const Vec2d& a, const Vec2d& b) {
     return (a.x - o.x) * (b.y - o.y) - (a.y - o.y) * (b.x - o.x);
   };
@@ -124,7 +124,7 @@ std::vector<Vec2d> hull(std::vector<Vec2d> points) {
       around.push_back(p);
     }
     if (!around.empty()) around.pop_back();  // begins the other half
-    std::reverse(points.begin(), points.end());
+    std::ranges::reverse(points);
   }
   return around;
 }

@@ -85,7 +85,7 @@ std::string base64(std::span<const std::byte> bytes) {
   for (std::size_t i = 0; i < bytes.size(); i += 3) {
     std::uint32_t three = 0;
     for (std::size_t k = 0; k < 3; ++k)
-      three = (three << 8U) | (i + k < bytes.size() ? static_cast<std::uint32_t>(bytes[i + k]) : 0U);
+      three = (three << 8U) | (i + k < bytes.size() ? std::uint32_t(bytes[i + k]) : 0U);
     for (std::size_t k = 0; k < 4; ++k)
       out += k > bytes.size() - i ? '=' : kDigits[(three >> (18 - 6 * k)) & 63U];
   }
@@ -110,7 +110,7 @@ std::string number(double value, int decimals) {
 
 int decimals_for(double sigma) {
   if (!(sigma > 0) || !std::isfinite(sigma)) return 3;
-  return std::clamp(1 - static_cast<int>(std::floor(std::log10(sigma))), 0, 7);
+  return std::clamp(1 - int(std::floor(std::log10(sigma))), 0, 7);
 }
 
 int decimals_of(double value) {
@@ -125,7 +125,7 @@ std::string counted(int count, std::string_view one, std::string_view many) {
 std::string sentence(std::string_view reason) {
   std::string out(reason);
   if (out.empty()) return out;
-  if (out.front() >= 'a' && out.front() <= 'z') out.front() = static_cast<char>(out.front() - 'a' + 'A');
+  if (out.front() >= 'a' && out.front() <= 'z') out.front() = char(out.front() - 'a' + 'A');
   if (out.back() != '.') out += '.';
   if (const auto at = out.find("+-"); at != std::string::npos) out.replace(at, 2, "±");
   return out;

@@ -30,7 +30,7 @@ float smooth_step(float from, float to, float at) {
 }
 
 Vec3f sum_with(const Vec3f& v, const Vec3d& c) {
-  return {v.x + static_cast<float>(c.x), v.y + static_cast<float>(c.y), v.z + static_cast<float>(c.z)};
+  return {v.x + float(c.x), v.y + float(c.y), v.z + float(c.z)};
 }
 
 class Maker {
@@ -39,8 +39,8 @@ class Maker {
         StageContext& context)
       : pair_(pair),
         chart_(head_from_camera),
-        columns_(static_cast<int>(2 * kAsideMm / kStepMm) + 1),
-        rows_(static_cast<int>((kAboveMm + kBelowMm) / kStepMm) + 1),
+        columns_(int(2 * kAsideMm / kStepMm) + 1),
+        rows_(int((kAboveMm + kBelowMm) / kStepMm) + 1),
         radius_(size(), 0.0F, &context.scratch),
         away_mm_(size(), 1e6F, &context.scratch),
         made_(&context.output) {
@@ -49,7 +49,7 @@ class Maker {
       const Vec2d at = chart_.place(from_centre);
       const long c = std::lround((at.x + kAsideMm) / kStepMm), r = std::lround((at.y + kAboveMm) / kStepMm);
       if (c < 0 || r < 0 || c >= columns_ || r >= rows_) continue;
-      const std::size_t k = index(static_cast<int>(c), static_cast<int>(r));
+      const std::size_t k = index(int(c), int(r));
       radius_[k] = std::max(radius_[k], length(from_centre) - kUnderFaceMm);
       away_mm_[k] = 0;
     }
@@ -64,7 +64,7 @@ class Maker {
     for (int r = 0; r < rows_; ++r)
       for (int c = 0; c < columns_; ++c)
         made_.at_mm[index(c, r)] =
-            sum_with(chart_.at(place(c, r), static_cast<double>(radius_[index(c, r)])), chart_.centre_mm);
+            sum_with(chart_.at(place(c, r), double(radius_[index(c, r)])), chart_.centre_mm);
     made_.rgba.resize(size());
     for (int r = 0; r < rows_; ++r)
       for (int c = 0; c < columns_; ++c) made_.rgba[index(c, r)] = colour(c, r);
@@ -72,16 +72,14 @@ class Maker {
   }
 
  private:
-  std::size_t size() const { return static_cast<std::size_t>(columns_) * static_cast<std::size_t>(rows_); }
-  std::size_t index(int c, int r) const {
-    return static_cast<std::size_t>(r) * static_cast<std::size_t>(columns_) + static_cast<std::size_t>(c);
-  }
+  std::size_t size() const { return std::size_t(columns_) * std::size_t(rows_); }
+  std::size_t index(int c, int r) const { return std::size_t(r) * std::size_t(columns_) + std::size_t(c); }
   Vec2d place(int c, int r) const { return {c * kStepMm - kAsideMm, r * kStepMm - kAboveMm}; }
   bool face(std::size_t k) const { return away_mm_[k] <= 0; }
 
   // Two sweeps over eight neighbours.
   void measure_distance() {
-    const float step = static_cast<float>(kStepMm), askew = step * 1.4142F;
+    const float step = float(kStepMm), askew = step * 1.4142F;
     const auto take = [&](int c, int r, int dc, int dr) {
       if (c + dc < 0 || r + dr < 0 || c + dc >= columns_ || r + dr >= rows_) return;
       away_mm_[index(c, r)] = std::min(away_mm_[index(c, r)],
@@ -105,11 +103,9 @@ class Maker {
     const double a = e.x * e.x + e.y * e.y + e.z * e.z, b = o.x * e.x + o.y * e.y + o.z * e.z,
                  rest = b * b - a * (o.x * o.x + o.y * o.y + o.z * o.z - 1);
     const double plane = (kBehindMm - HeadChart::kCentreMm.z) / std::max(d.z, 0.2);
-    return static_cast<float>(rest > 0 ? std::max(plane, (-b + std::sqrt(rest)) / a) : plane);
+    return float(rest > 0 ? std::max(plane, (-b + std::sqrt(rest)) / a) : plane);
   }
-  static Vec3d as_double(const Vec3f& v) {
-    return {static_cast<double>(v.x), static_cast<double>(v.y), static_cast<double>(v.z)};
-  }
+  static Vec3d as_double(const Vec3f& v) { return {double(v.x), double(v.y), double(v.z)}; }
 
   void shape(Arena& scratch) {
     std::pmr::vector<float> rough(size(), 0.0F, &scratch);
@@ -148,14 +144,13 @@ class Maker {
     int taps = 0;
     for (int j = 0; j < kTaps; ++j)
       for (int i = 0; i < kTaps; ++i) {
-        const auto aside = [&](int n) { return (2.0 * n / (kTaps - 1) - 1) * static_cast<double>(kBlurMm); };
+        const auto aside = [&](int n) { return (2.0 * n / (kTaps - 1) - 1) * double(kBlurMm); };
         const long x = std::lround(pair_.left_centre_px.x + scale * (p.x + aside(i))),
                    y = std::lround(pair_.left_centre_px.y + scale * (p.y + aside(j)));
         if (x < 0 || y < 0 || x >= pair_.width_px || y >= pair_.height_px) continue;
-        const std::size_t at = static_cast<std::size_t>(y) * static_cast<std::size_t>(pair_.width_px) +
-                               static_cast<std::size_t>(x);
+        const std::size_t at = std::size_t(y) * std::size_t(pair_.width_px) + std::size_t(x);
         if (!pair_.left.valid.empty() && pair_.left.valid[at] == 0) continue;
-        for (std::size_t n = 0; n < 3; ++n) sum[n] += static_cast<float>(pair_.left.rgb[3 * at + n]);
+        for (std::size_t n = 0; n < 3; ++n) sum[n] += float(pair_.left.rgb[3 * at + n]);
         ++taps;
       }
     if (taps == 0) return {};
@@ -165,12 +160,11 @@ class Maker {
     const float seen = 1 - beside * (1 - smooth_step(kTurned, kFacing, facing(c, r)));
     const int to_edge = std::min({c, r, columns_ - 1 - c, rows_ - 1 - r});
     const float opacity = (1 - smooth_step(kClearMm, kGoneMm, away)) *
-                          smooth_step(0, kDimMm, static_cast<float>(to_edge * kStepMm)) * seen *
-                          static_cast<float>(taps) / (kTaps * kTaps);
+                          smooth_step(0, kDimMm, float(to_edge * kStepMm)) * seen * float(taps) /
+                          (kTaps * kTaps);
     std::array<std::uint8_t, 4> rgba{};
-    for (std::size_t n = 0; n < 3; ++n)
-      rgba[n] = static_cast<std::uint8_t>(std::lround(light * sum[n] / static_cast<float>(taps)));
-    rgba[3] = static_cast<std::uint8_t>(std::lround(255 * opacity));
+    for (std::size_t n = 0; n < 3; ++n) rgba[n] = std::uint8_t(std::lround(light * sum[n] / float(taps)));
+    rgba[3] = std::uint8_t(std::lround(255 * opacity));
     return rgba;
   }
 

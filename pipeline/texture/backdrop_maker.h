@@ -8,9 +8,9 @@
 #pragma once
 
 #include "pipeline/base/stage.h"
-#include "pipeline/model/backdrop.h"
 #include "pipeline/model/face_mesh.h"
 #include "pipeline/model/rectified_pair.h"
+#include "pipeline/model/texture_atlas.h"
 
 namespace relievo::pipeline {
 

@@ -35,7 +35,7 @@ std::pmr::vector<std::uint32_t> reach(const FaceMesh& mesh, std::span<const std:
                                       std::pmr::memory_resource* memory) {
   std::pmr::vector<std::uint8_t> done(known.begin(), known.end(), memory);
   std::pmr::vector<std::uint32_t> order(memory);
-  order.reserve(static_cast<std::size_t>(std::count(known.begin(), known.end(), std::uint8_t{0})));
+  order.reserve(std::size_t(std::ranges::count(known, std::uint8_t{0})));
   for (std::size_t ring_begin = 0;;) {
     const std::size_t ring_end = order.size();
     const auto take = [&](std::uint32_t v) {
@@ -70,12 +70,11 @@ VertexColour mean_of_known(std::span<const std::uint8_t> known, std::span<const 
   double count = 0;
   for (std::size_t v = 0; v < known.size(); ++v) {
     if (known[v] == 0) continue;
-    for (std::size_t c = 0; c < 3; ++c) sum[c] += static_cast<double>(colours[v][c]);
+    for (std::size_t c = 0; c < 3; ++c) sum[c] += double(colours[v][c]);
     count += 1;
   }
   if (count == 0) return {128, 128, 128};
-  return {static_cast<float>(sum[0] / count), static_cast<float>(sum[1] / count),
-          static_cast<float>(sum[2] / count)};
+  return {float(sum[0] / count), float(sum[1] / count), float(sum[2] / count)};
 }
 
 std::array<std::uint8_t, 3> mean_of_surface(const TextureAtlas& atlas) {
@@ -87,7 +86,7 @@ std::array<std::uint8_t, 3> mean_of_surface(const TextureAtlas& atlas) {
     count += 1;
   }
   std::array<std::uint8_t, 3> mean{128, 128, 128};
-  for (std::size_t c = 0; c < 3 && count > 0; ++c) mean[c] = static_cast<std::uint8_t>(sum[c] / count);
+  for (std::size_t c = 0; c < 3 && count > 0; ++c) mean[c] = std::uint8_t(sum[c] / count);
   return mean;
 }
 
@@ -98,13 +97,13 @@ void fill_colours(const FaceMesh& mesh, std::span<const std::uint8_t> known, std
   const VertexColour mean = mean_of_known(known, colours);
   for (std::size_t v = 0; v < known.size(); ++v)
     if (known[v] == 0) colours[v] = mean;
-  if (std::find(known.begin(), known.end(), std::uint8_t{1}) == known.end()) return;
+  if (std::ranges::find(known, std::uint8_t{1}) == known.end()) return;
   const Groups neighbours = neighbours_of(mesh, known, &context.scratch);
   const std::pmr::vector<std::uint32_t> order = reach(mesh, known, neighbours, colours, &context.scratch);
   float moved = 0;
   const auto relax = [&](std::uint32_t v) {
     const auto around = neighbours[v];
-    const float share = 1 / static_cast<float>(around.size());
+    const float share = 1 / float(around.size());
     for (std::size_t c = 0; c < 3; ++c) {
       float sum = 0;
       for (const std::uint32_t n : around) sum += colours[n][c];
@@ -114,8 +113,7 @@ void fill_colours(const FaceMesh& mesh, std::span<const std::uint8_t> known, std
     }
   };
   // What is known travels all the way in from either side.
-  const int sweeps =
-      std::clamp(static_cast<int>(kSweptVertices / (order.size() + 1)), kFewestSweeps, kMostSweeps);
+  const int sweeps = std::clamp(int(kSweptVertices / (order.size() + 1)), kFewestSweeps, kMostSweeps);
   for (int sweep = 0; sweep < sweeps && !context.stop(); ++sweep) {
     moved = 0;
     for (const std::uint32_t v : order) relax(v);
@@ -126,7 +124,7 @@ void fill_colours(const FaceMesh& mesh, std::span<const std::uint8_t> known, std
 
 void continue_outwards(TextureAtlas& atlas, int margin_px, std::pmr::memory_resource* memory) {
   constexpr int kInside = 2;  // texels
-  const std::size_t w = static_cast<std::size_t>(atlas.width_px);
+  const std::size_t w = std::size_t(atlas.width_px);
   const std::size_t size = atlas.origin.size();
   const auto for_each_beside = [&](std::size_t k, auto&& visit) {
     const std::size_t x = k % w;
@@ -145,7 +143,7 @@ void continue_outwards(TextureAtlas& atlas, int margin_px, std::pmr::memory_reso
   steps.reserve(
       2 * size);  // a texel is visited inwards once and outwards once; what is never visited costs nothing
   const auto put = [&](std::size_t at, std::size_t from) {
-    steps.push_back({static_cast<std::uint32_t>(at), static_cast<std::uint32_t>(from)});
+    steps.push_back({std::uint32_t(at), std::uint32_t(from)});
   };
   for (std::size_t k = 0; k < size; ++k) {
     bool open = false;
@@ -173,7 +171,7 @@ void continue_outwards(TextureAtlas& atlas, int margin_px, std::pmr::memory_reso
     });
   const auto mean = mean_of_surface(atlas);
   for (std::size_t k = 0; k < size; ++k)
-    if (atlas.origin[k] == kNoSurfaceTexel) std::copy(mean.begin(), mean.end(), &atlas.rgb[3 * k]);
+    if (atlas.origin[k] == kNoSurfaceTexel) std::ranges::copy(mean, &atlas.rgb[3 * k]);
   for (const Step& s : steps)
     if (atlas.origin[s.at] == kNoSurfaceTexel)
       std::copy_n(&atlas.rgb[3 * std::size_t{s.from}], 3, &atlas.rgb[3 * std::size_t{s.at}]);

@@ -23,11 +23,9 @@ void add_line(const std::uint8_t* luminance, const std::uint8_t* origin, std::si
               Variation& sum) {
   int run = 0;
   for (int i = 0; i < count; ++i) {
-    run = origin[static_cast<std::size_t>(i) * step] >= kLeftPhotographTexel ? run + 1 : 0;
+    run = origin[std::size_t(i) * step] >= kLeftPhotographTexel ? run + 1 : 0;
     if (run < kAhead + kBehind + 1) continue;
-    const auto at = [&](int back) {
-      return static_cast<int>(luminance[static_cast<std::size_t>(i - back) * step]);
-    };
+    const auto at = [&](int back) { return int(luminance[std::size_t(i - back) * step]); };
     const int own = kMean * std::abs(at(kAhead) - at(kAhead + 1));
     const int blurred = std::abs(at(0) - at(kMean));
     sum.all += own;
@@ -39,15 +37,15 @@ void add_line(const std::uint8_t* luminance, const std::uint8_t* origin, std::si
 
 double texture_sharpness(const TextureAtlas& atlas, StageContext& context) {
   Arena::Mark mark(context.scratch);
-  const std::size_t w = static_cast<std::size_t>(atlas.width_px);
+  const std::size_t w = std::size_t(atlas.width_px);
   std::pmr::vector<std::uint8_t> luminance(atlas.origin.size(), 0, &context.scratch);
   for (std::size_t k = 0; k < luminance.size(); ++k)
-    luminance[k] = static_cast<std::uint8_t>(
-        (77 * atlas.rgb[3 * k] + 150 * atlas.rgb[3 * k + 1] + 29 * atlas.rgb[3 * k + 2]) >> 8);
+    luminance[k] =
+        std::uint8_t((77 * atlas.rgb[3 * k] + 150 * atlas.rgb[3 * k + 1] + 29 * atlas.rgb[3 * k + 2]) >> 8);
   Variation across;
   Variation down;
   for (int y = 0; y < atlas.height_px; ++y) {
-    const std::size_t row = static_cast<std::size_t>(y) * w;
+    const std::size_t row = std::size_t(y) * w;
     add_line(&luminance[row], &atlas.origin[row], 1, atlas.width_px, across);
   }
   for (std::size_t x = 0; x < w; ++x) add_line(&luminance[x], &atlas.origin[x], w, atlas.height_px, down);

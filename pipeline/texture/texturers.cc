@@ -32,8 +32,7 @@ constexpr int kBands = 48;       // of rows, for the pool and for looking at the
 constexpr float kOwnPx = 0.75F;  // disparity by which rounding lets a triangle seem to lie behind itself
 
 std::uint8_t origin_of(float right_share) {
-  return static_cast<std::uint8_t>(kLeftPhotographTexel +
-                                   std::lround(253 * std::clamp(right_share, 0.0F, 1.0F)));
+  return std::uint8_t(kLeftPhotographTexel + std::lround(253 * std::clamp(right_share, 0.0F, 1.0F)));
 }
 
 class Layer {
@@ -70,7 +69,7 @@ class Layer {
     const ShotPlanes planes =
         shoot(mesh_, pair_, chart_, bands_, maps_, views, kept_, options_.shot, context_);
     if (context_.stop()) return stopped;
-    const float margin_px = options_.shot.feather_px * static_cast<float>(chart_.texels_per_px);
+    const float margin_px = options_.shot.feather_px * float(chart_.texels_per_px);
     const bool both = !options_.shot.left_only;
     const ViewBlend blend(chart_, planes, bands_, both ? options_.highlight_level : 0, both ? margin_px : 0,
                           context_);
@@ -95,8 +94,7 @@ class Layer {
     return photographed_[t[0]] != 0 && photographed_[t[1]] != 0 && photographed_[t[2]] != 0;
   }
   std::size_t atlas_index(int x, int y) const {
-    return static_cast<std::size_t>(y) * static_cast<std::size_t>(atlas_.width_px) +
-           static_cast<std::size_t>(x);
+    return std::size_t(y) * std::size_t(atlas_.width_px) + std::size_t(x);
   }
 
   // Which triangles the main chart shows, and which vertices a camera saw.
@@ -119,7 +117,7 @@ class Layer {
     double count = 0;
     for (std::size_t v = 0; v < photographed_.size(); ++v) {
       if (photographed_[v] == 0) continue;
-      sum += pair_.focal_px / pair_.depth_mm(static_cast<double>(chart_.disparity_px[v]));
+      sum += pair_.focal_px / pair_.depth_mm(double(chart_.disparity_px[v]));
       count += 1;
     }
     return count > 0 ? sum / count : 1;
@@ -128,11 +126,10 @@ class Layer {
   void make_atlas() {
     atlas_.width_px = chart_.width_px + sides_.width_px;
     atlas_.height_px = chart_.height_px;
-    const std::size_t texels =
-        static_cast<std::size_t>(atlas_.width_px) * static_cast<std::size_t>(atlas_.height_px);
+    const std::size_t texels = std::size_t(atlas_.width_px) * std::size_t(atlas_.height_px);
     atlas_.rgb.assign(3 * texels, 0);
     atlas_.origin.assign(texels, kNoSurfaceTexel);
-    const Vec2f to_uv{1 / static_cast<float>(atlas_.width_px), 1 / static_cast<float>(atlas_.height_px)};
+    const Vec2f to_uv{1 / float(atlas_.width_px), 1 / float(atlas_.height_px)};
     const auto uv = [&](const Vec2f& texel) {
       return Vec2f{(texel.x + 0.5F) * to_uv.x, (texel.y + 0.5F) * to_uv.y};
     };
@@ -220,17 +217,16 @@ class Layer {
   // As a renderer reads it, but from photographed texels alone: the others are still empty. False where there
   // is none.
   bool read_clean(const Vec2f& at, VertexColour& colour) const {
-    const int x = static_cast<int>(at.x);
-    const int y = static_cast<int>(at.y);
+    const int x = int(at.x);
+    const int y = int(at.y);
     VertexColour sum{0, 0, 0};
     float weight = 0;
     for (int v = y; v <= std::min(y + 1, atlas_.height_px - 1); ++v)
       for (int u = x; u <= std::min(x + 1, atlas_.width_px - 1); ++u) {
         const std::size_t k = atlas_index(u, v);
-        const float w =
-            (1 - std::abs(at.x - static_cast<float>(u))) * (1 - std::abs(at.y - static_cast<float>(v)));
+        const float w = (1 - std::abs(at.x - float(u))) * (1 - std::abs(at.y - float(v)));
         if (atlas_.origin[k] < kLeftPhotographTexel) continue;
-        for (std::size_t c = 0; c < 3; ++c) sum[c] += w * static_cast<float>(atlas_.rgb[3 * k + c]);
+        for (std::size_t c = 0; c < 3; ++c) sum[c] += w * float(atlas_.rgb[3 * k + c]);
         weight += w;
       }
     if (weight < 1e-3F) return false;
@@ -271,8 +267,8 @@ class Layer {
 
   void surround(const Vec2f& corner, const VertexColour& colour) {
     const float rgb[3]{colour[0], colour[1], colour[2]};
-    const int x = static_cast<int>(std::lround(corner.x));
-    const int y = static_cast<int>(std::lround(corner.y));
+    const int x = int(std::lround(corner.x));
+    const int y = int(std::lround(corner.y));
     for (int v = std::max(y - 1, 0); v <= std::min(y + 1, atlas_.height_px - 1); ++v)
       for (int u = std::max(x - 1, chart_.width_px); u <= std::min(x + 1, atlas_.width_px - 1); ++u)
         if (atlas_.origin[atlas_index(u, v)] == kNoSurfaceTexel) set(atlas_index(u, v), rgb, kFilledTexel);
@@ -318,9 +314,8 @@ Result<TextureAtlas> TwoViewTexturer::texture(const FaceMesh& mesh, const Rectif
                                               StageContext& context) const {
   LayerOptions layer;
   layer.chart = {max_atlas_px, margin_px, finer};
-  layer.shot = {static_cast<float>(angle_power), static_cast<float>(occlusion_px),
-                static_cast<float>(feather_px), false};
-  layer.highlight_level = static_cast<float>(highlight_level);
+  layer.shot = {float(angle_power), float(occlusion_px), float(feather_px), false};
+  layer.highlight_level = float(highlight_level);
   return lay_photographs(mesh, pair, layer, context);
 }
 

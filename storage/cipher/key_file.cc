@@ -10,9 +10,9 @@
 #include <string_view>
 #include <utility>
 
+#include "hal/base/whole_file.h"
 #include "storage/cipher/key_source.h"
 #include "storage/cipher/tpm.h"
-#include "storage/export/atomic_file.h"
 
 namespace relievo::storage {
 namespace {
@@ -37,7 +37,7 @@ Result<LockedBytes> read_file(const fs::path& file, bool must_be_private, std::s
     return failed(Errc::IoFailed, "the store's key cannot be read: check the disk", cause);
   if (must_be_private && (status.st_mode & 077) != 0)
     return failed(Errc::InvalidInput, "others may read the store's key: give it the mode 0600", 0);
-  size = static_cast<std::size_t>(got);
+  size = std::size_t(got);
   return room;
 }
 

@@ -116,7 +116,7 @@ std::optional<std::array<std::byte, 32>> bech32(std::string_view prefix, std::st
   const bool capitals = std::ranges::none_of(text, [](char c) { return c >= 'a' && c <= 'z'; });
   if (capitals)
     std::ranges::transform(text, text.begin(),
-                           [](char c) { return c >= 'A' && c <= 'Z' ? static_cast<char>(c + 32) : c; });
+                           [](char c) { return c >= 'A' && c <= 'Z' ? char(c + 32) : c; });
   if (!text.starts_with(prefix) || text.size() != prefix.size() + 1 + kData + kSum ||
       text[prefix.size()] != '1')
     return std::nullopt;
@@ -135,7 +135,7 @@ std::optional<std::array<std::byte, 32>> bech32(std::string_view prefix, std::st
   for (std::size_t i = 0; i < kData + kSum; ++i) {
     const std::size_t five = kBech32.find(text[prefix.size() + 1 + i]);
     if (five == std::string_view::npos) return std::nullopt;
-    add(static_cast<std::uint32_t>(five));
+    add(std::uint32_t(five));
     for (std::size_t bit = 0; i < kData && bit < 5; ++bit) {
       const std::size_t at = 5 * i + bit;
       const bool set = (five >> (4 - bit) & 1U) != 0;

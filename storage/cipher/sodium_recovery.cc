@@ -70,14 +70,13 @@ Result<RecoveryBits> bits_of(std::string_view words) {
   for (std::size_t at = 0; (at = words.find_first_not_of(kSpace, at)) != std::string_view::npos; ++count) {
     std::string word(words.substr(at, std::min(words.find_first_of(kSpace, at), words.size()) - at));
     at += word.size();
-    std::ranges::transform(word, word.begin(), [](char c) {
-      return c >= 'A' && c <= 'Z' ? static_cast<char>(c + ('a' - 'A')) : c;
-    });
+    std::ranges::transform(word, word.begin(),
+                           [](char c) { return c >= 'A' && c <= 'Z' ? char(c + ('a' - 'A')) : c; });
     const auto found = std::ranges::lower_bound(list, std::string_view(word));
     if (found == list.end() || *found != word)
       return Error{Errc::InvalidInput, "this is none of the words: look at the sheet again"}.at(
           "word " + std::to_string(count + 1));
-    const auto index = static_cast<std::size_t>(found - list.begin());
+    const auto index = std::size_t(found - list.begin());
     for (std::size_t i = 0; count < kRecoveryWords && i < kWordBits; ++i)
       given[count * kWordBits + i] = ((index >> (kWordBits - 1 - i)) & 1) != 0;
   }

@@ -30,7 +30,7 @@ struct Bound {
       for (std::size_t i = 0; i < room; ++i) bytes[size++] = static_cast<unsigned char>(name[i]);
     }
     for (int shift = 0; shift < 64; shift += 8)
-      bytes[size++] = static_cast<unsigned char>(static_cast<std::uint64_t>(place.row) >> shift);
+      bytes[size++] = static_cast<unsigned char>(std::uint64_t(place.row) >> shift);
   }
   std::array<unsigned char, 96> bytes{};
   std::size_t size = 0;

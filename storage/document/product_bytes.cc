@@ -27,12 +27,12 @@ class Packer {
   }
   template <typename Element, typename Items>
   void run(const Items& items) {
-    to_.put(static_cast<std::uint64_t>(items.size()));
+    to_.put(std::uint64_t(items.size()));
     to_.put_run<Element>(std::span(items));
   }
   template <typename Items, typename Field>
   void each(const Items& items, const Field& field) {
-    to_.put(static_cast<std::uint64_t>(items.size()));
+    to_.put(std::uint64_t(items.size()));
     for (const auto& item : items) field(*this, item);
   }
   std::vector<std::byte> take() { return std::move(bytes_); }
@@ -71,7 +71,7 @@ class Unpacker {
       (void)from_.get<std::uint8_t>();  // not whole from here on
       return false;
     }
-    items.resize(static_cast<std::size_t>(size));
+    items.resize(std::size_t(size));
     return true;
   }
   ByteReader from_;
@@ -146,15 +146,13 @@ void walk_backdrop(Io& io, Drop& backdrop) {
 
 bool finite(const Vec3f& p) { return std::isfinite(p.x) && std::isfinite(p.y) && std::isfinite(p.z); }
 bool within(const Vec2f& p, const RectifiedPair& pair) {
-  return p.x >= 0 && p.y >= 0 && p.x <= static_cast<float>(pair.width_px - 1) &&
-         p.y <= static_cast<float>(pair.height_px - 1);
+  return p.x >= 0 && p.y >= 0 && p.x <= float(pair.width_px - 1) && p.y <= float(pair.height_px - 1);
 }
 bool is_side(int px) { return px > 0 && px <= kMaxSidePx; }
 
 bool fits(const RectifiedPair& pair) {
   if (!is_side(pair.width_px) || !is_side(pair.height_px)) return false;
-  const std::size_t pixels =
-      static_cast<std::size_t>(pair.width_px) * static_cast<std::size_t>(pair.height_px);
+  const std::size_t pixels = std::size_t(pair.width_px) * std::size_t(pair.height_px);
   const auto whole = [pixels](const RectifiedView& view) {
     return view.grey.size() == pixels && view.rgb.size() == 3 * pixels && view.valid.size() == pixels;
   };
@@ -184,8 +182,7 @@ bool fits(const Backdrop& backdrop) {
   if (backdrop.columns < 0 || backdrop.rows < 0 || backdrop.columns > kMaxSidePx ||
       backdrop.rows > kMaxSidePx)
     return false;
-  const std::size_t size =
-      static_cast<std::size_t>(backdrop.columns) * static_cast<std::size_t>(backdrop.rows);
+  const std::size_t size = std::size_t(backdrop.columns) * std::size_t(backdrop.rows);
   return backdrop.at_mm.size() == size && backdrop.rgba.size() == size;
 }
 
@@ -207,14 +204,13 @@ Result<Product> read(std::span<const std::byte> bytes, std::pmr::memory_resource
 }  // namespace
 
 std::vector<std::byte> picture_bytes(const ImageView& picture) {
-  const auto row_bytes =
-      static_cast<std::size_t>(picture.width_px) * static_cast<std::size_t>(bytes_per_pixel(picture.format));
+  const auto row_bytes = std::size_t(picture.width_px) * std::size_t(bytes_per_pixel(picture.format));
   std::vector<std::byte> bytes;
-  bytes.reserve(kPictureHeadBytes + row_bytes * static_cast<std::size_t>(picture.height_px));
+  bytes.reserve(kPictureHeadBytes + row_bytes * std::size_t(picture.height_px));
   ByteWriter to(bytes);
   to.put(picture.width_px);
   to.put(picture.height_px);
-  to.put(static_cast<std::uint8_t>(picture.format));
+  to.put(std::uint8_t(picture.format));
   for (int y = 0; y < picture.height_px; ++y) to.put(std::as_bytes(std::span(picture.row(y), row_bytes)));
   return bytes;
 }
@@ -226,13 +222,12 @@ Result<ImageView> picture_from(std::span<const std::byte> bytes) {
   view.height_px = from.get<int>();
   const auto format = from.get<std::uint8_t>();
   if (!from.ok() || !is_side(view.width_px) || !is_side(view.height_px) ||
-      format > static_cast<std::uint8_t>(PixelFormat::Grey16))
+      format > std::uint8_t(PixelFormat::Grey16))
     return broken();
   view.format = static_cast<PixelFormat>(format);
   view.stride_bytes = view.width_px * bytes_per_pixel(view.format);
   view.bytes = bytes.data() + kPictureHeadBytes;
-  if (from.left() != static_cast<std::size_t>(view.stride_bytes) * static_cast<std::size_t>(view.height_px))
-    return broken();
+  if (from.left() != std::size_t(view.stride_bytes) * std::size_t(view.height_px)) return broken();
   return view;
 }
 

@@ -13,11 +13,11 @@
 
 #include "hal/base/image_view.h"
 #include "hal/base/result.h"
-#include "pipeline/model/backdrop.h"
 #include "pipeline/model/face_mesh.h"
 #include "pipeline/model/match_set.h"
 #include "pipeline/model/point_cloud.h"
 #include "pipeline/model/rectified_pair.h"
+#include "pipeline/model/texture_atlas.h"
 
 namespace relievo::storage {
 

@@ -68,7 +68,7 @@ Result<std::vector<BundleFile>> bundle_files(std::span<const std::byte> tar) {
     if (archive_entry_filetype(entry) != AE_IFREG || archive_entry_hardlink(entry) != nullptr)
       return Error{Errc::InvalidInput, "is no file but a link, a folder or a device: nothing was taken"}.at(
           name);
-    const auto size = static_cast<std::size_t>(std::max<la_int64_t>(0, archive_entry_size(entry)));
+    const auto size = std::size_t(std::max<la_int64_t>(0, archive_entry_size(entry)));
     if (size > left) return strange;
     left -= size;
     BundleFile& file = files.emplace_back(BundleFile{name, std::vector<std::byte>(size)});

@@ -12,8 +12,8 @@
 #include <string_view>
 #include <system_error>
 
+#include "hal/base/whole_file.h"
 #include "storage/byte_order.h"
-#include "storage/export/atomic_file.h"
 #include "storage/export/format/glb_writer.h"
 #include "storage/export/format/mesh_writers.h"
 #include "storage/export/format/number_text.h"
@@ -39,15 +39,13 @@ std::vector<std::uint8_t> visible(const std::pmr::vector<std::uint8_t>& shows) {
   return grey;
 }
 
-std::uint16_t clamped(double value) {
-  return static_cast<std::uint16_t>(std::clamp(std::lround(value), 1L, 65535L));
-}
+std::uint16_t clamped(double value) { return std::uint16_t(std::clamp(std::lround(value), 1L, 65535L)); }
 
 std::vector<std::uint16_t> heights(const RangeImage& range) {
   std::vector<std::uint16_t> grey(range.z_mm.size(), 0);
   for (std::size_t k = 0; k < grey.size(); ++k)
     if (range.shows[k] != pipeline::kNothingShown)
-      grey[k] = clamped(static_cast<double>(range.z_mm[k]) * kHeightsPerMm + kZeroHeight);
+      grey[k] = clamped(double(range.z_mm[k]) * kHeightsPerMm + kZeroHeight);
   return grey;
 }
 
@@ -55,7 +53,7 @@ std::vector<std::uint16_t> sigmas(const RangeImage& range) {
   std::vector<std::uint16_t> grey(range.sigma_mm.size(), 0);
   for (std::size_t k = 0; k < grey.size(); ++k)
     if (range.shows[k] != pipeline::kNothingShown)
-      grey[k] = clamped(std::min(static_cast<double>(range.sigma_mm[k]), 65.0) * kSigmasPerMm);
+      grey[k] = clamped(std::min(double(range.sigma_mm[k]), 65.0) * kSigmasPerMm);
   return grey;
 }
 
@@ -107,17 +105,15 @@ std::string landmarks_text(const Portrait& p, const pipeline::Landmarks& landmar
   std::string text;
   for (std::size_t k = 0; k < pipeline::kLandmarkCount; ++k) {
     const pipeline::Landmark& l = landmarks[k];
-    const pipeline::Vec3d at = apply(
-        head_from_camera,
-        {static_cast<double>(l.at_mm.x), static_cast<double>(l.at_mm.y), static_cast<double>(l.at_mm.z)});
+    const pipeline::Vec3d at =
+        apply(head_from_camera, {double(l.at_mm.x), double(l.at_mm.y), double(l.at_mm.z)});
     if (!l.found || !(std::hypot(at.x, at.y, at.z) < 1e4) || !(l.sigma_mm >= 0 && l.sigma_mm < 1e4F))
       continue;
     const pipeline::Vec2d px = p.place_of(at);
     text += text.empty() ? "" : ",\n";
     text += "    \"" + std::string(word(static_cast<pipeline::LandmarkName>(k))) +
-            "\": {\"mm\": " + list({at.x, at.y, at.z}) + ", " +
-            field("sigma_mm", static_cast<double>(l.sigma_mm)) + ", \"portrait_px\": " + list({px.x, px.y}) +
-            "}";
+            "\": {\"mm\": " + list({at.x, at.y, at.z}) + ", " + field("sigma_mm", double(l.sigma_mm)) +
+            ", \"portrait_px\": " + list({px.x, px.y}) + "}";
   }
   return "  \"landmarks\": {" + (text.empty() ? std::string() : "\n" + text + "\n  ") + "},\n";
 }

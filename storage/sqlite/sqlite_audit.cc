@@ -29,7 +29,7 @@ std::vector<std::byte> chained(std::span<const std::byte> before, const Line& li
   to.put(line.subject);
   // Lengths first: moving a letter from one field to the next is a change too.
   for (const auto field : {bytes_of(line.what), line.detail}) {
-    to.put(static_cast<std::uint64_t>(field.size()));
+    to.put(std::uint64_t(field.size()));
     to.put(field);
   }
   return bytes;

@@ -37,7 +37,7 @@ Result<std::uint32_t> SqliteStore::insert_calibration(const pipeline::StereoCali
                                         "VALUES (?, zeroblob(0), 0)"));
   RELIEVO_TRY(insert.bind(to_ms(at)).run());
   pipeline::StereoCalibration numbered = calibration;
-  numbered.revision = static_cast<std::uint32_t>(database_->last_row_id());
+  numbered.revision = std::uint32_t(database_->last_row_id());
   const auto record = encode_calibration(numbered, figures);
   const auto sealed = seal(keys_->device(), calibration_note(numbered.revision), bytes_of(note));
   RELIEVO_TRY_ASSIGN(auto fill,
@@ -107,7 +107,7 @@ Result<std::vector<CalibrationInfo>> SqliteStore::calibrations() {
                          unseal(keys_->device(), calibration_note(query.integer(0)), query.blob(2)));
       const pipeline::StereoCalibration& calibration = stored.calibration;
       const pipeline::Vec3d& t = calibration.right_from_left.translation_mm;
-      found.push_back({.revision = static_cast<std::uint32_t>(query.integer(0)),
+      found.push_back({.revision = std::uint32_t(query.integer(0)),
                        .created_at = from_ms(query.integer(1)),
                        .note = std::string(reinterpret_cast<const char*>(note.data()), note.size()),
                        .rms_px = calibration.rms_px,
@@ -116,7 +116,7 @@ Result<std::vector<CalibrationInfo>> SqliteStore::calibrations() {
                        .figures = stored.figures,
                        .width_px = calibration.left.width_px,
                        .height_px = calibration.left.height_px,
-                       .enrolments = static_cast<int>(query.integer(5)),
+                       .enrolments = int(query.integer(5)),
                        .active = query.integer(3) != 0});
     }
   });

@@ -23,8 +23,8 @@ auto SqliteStore::change(const Work& work) -> decltype(work(WallTime{})) {
   });
 }
 
-constexpr std::int64_t number(SubjectId id) { return static_cast<std::int64_t>(id); }
-constexpr std::int64_t number(EnrolmentId id) { return static_cast<std::int64_t>(id); }
+constexpr std::int64_t number(SubjectId id) { return std::int64_t(id); }
+constexpr std::int64_t number(EnrolmentId id) { return std::int64_t(id); }
 inline std::int64_t to_ms(WallTime at) { return at.time_since_epoch().count(); }
 inline WallTime from_ms(std::int64_t ms) { return WallTime(std::chrono::milliseconds(ms)); }
 

@@ -38,8 +38,7 @@ Error sqlite_error(int code, int system_errno, std::string_view where) {
     case SQLITE_FULL:
       return made(Errc::MediaFull,
                   "the disk is full, nothing was changed: erase subjects or make room, then try again");
-    case SQLITE_NOMEM:
-      return made(Errc::OutOfMemory, "not enough memory for this; nothing was changed");
+    case SQLITE_NOMEM: return made(Errc::OutOfMemory, "not enough memory for this; nothing was changed");
     case SQLITE_BUSY:
     case SQLITE_LOCKED:
       return made(Errc::Timeout, "another program is using the store: close it, then try again");
@@ -60,10 +59,8 @@ Error sqlite_error(int code, int system_errno, std::string_view where) {
     case SQLITE_PERM:
     case SQLITE_AUTH:
       return made(Errc::IoFailed, "the store may not be written here: check owner and permissions");
-    case SQLITE_TOOBIG:
-      return made(Errc::InvalidInput, "this is larger than the store takes");
-    default:
-      return made(Errc::LibraryFailed, "SQLite refused a request; please report this");
+    case SQLITE_TOOBIG: return made(Errc::InvalidInput, "this is larger than the store takes");
+    default: return made(Errc::LibraryFailed, "SQLite refused a request; please report this");
   }
 }
 
@@ -114,13 +111,12 @@ std::int64_t Statement::integer(int column) const { return sqlite3_column_int64(
 std::string_view Statement::text(int column) const {
   // Out of memory while converting yields null: what follows fails at the next step().
   const auto* text = reinterpret_cast<const char*>(sqlite3_column_text(handle_, column));
-  return text == nullptr
-             ? std::string_view{}
-             : std::string_view(text, static_cast<std::size_t>(sqlite3_column_bytes(handle_, column)));
+  return text == nullptr ? std::string_view{}
+                         : std::string_view(text, std::size_t(sqlite3_column_bytes(handle_, column)));
 }
 std::span<const std::byte> Statement::blob(int column) const {
   const auto* bytes = static_cast<const std::byte*>(sqlite3_column_blob(handle_, column));
-  return {bytes, bytes == nullptr ? 0 : static_cast<std::size_t>(sqlite3_column_bytes(handle_, column))};
+  return {bytes, bytes == nullptr ? 0 : std::size_t(sqlite3_column_bytes(handle_, column))};
 }
 bool Statement::is_null(int column) const { return sqlite3_column_type(handle_, column) == SQLITE_NULL; }
 
@@ -175,7 +171,7 @@ Result<void> Database::run(const char* sql) {
 
 Result<Statement> Database::prepare(std::string_view sql) {
   sqlite3_stmt* handle = nullptr;
-  const int code = sqlite3_prepare_v2(handle_, sql.data(), static_cast<int>(sql.size()), &handle, nullptr);
+  const int code = sqlite3_prepare_v2(handle_, sql.data(), int(sql.size()), &handle, nullptr);
   if (code != SQLITE_OK) return error(code);
   return Statement(handle, where_);
 }
@@ -213,12 +209,12 @@ Result<Blob> Blob::open(Database& database, const char* table, const char* colum
 
 Blob::~Blob() { sqlite3_blob_close(handle_); }
 
-std::size_t Blob::size() const { return static_cast<std::size_t>(sqlite3_blob_bytes(handle_)); }
+std::size_t Blob::size() const { return std::size_t(sqlite3_blob_bytes(handle_)); }
 
 Result<void> Blob::write(std::size_t at, std::span<const std::byte> bytes) {
   for (int code = SQLITE_OK; !bytes.empty();) {
     const auto piece = bytes.first(std::min<std::size_t>(kBlobPieceBytes, bytes.size()));
-    code = sqlite3_blob_write(handle_, piece.data(), static_cast<int>(piece.size()), static_cast<int>(at));
+    code = sqlite3_blob_write(handle_, piece.data(), int(piece.size()), int(at));
     if (code != SQLITE_OK) return database_.error(code);
     at += piece.size();
     bytes = bytes.subspan(piece.size());
@@ -229,8 +225,7 @@ Result<void> Blob::write(std::size_t at, std::span<const std::byte> bytes) {
 Result<void> Blob::read(std::size_t at, std::span<std::byte> bytes) {
   for (int code = size() < at + bytes.size() ? SQLITE_CORRUPT : SQLITE_OK; !bytes.empty();) {
     const auto piece = bytes.first(std::min<std::size_t>(kBlobPieceBytes, bytes.size()));
-    if (code == SQLITE_OK)
-      code = sqlite3_blob_read(handle_, piece.data(), static_cast<int>(piece.size()), static_cast<int>(at));
+    if (code == SQLITE_OK) code = sqlite3_blob_read(handle_, piece.data(), int(piece.size()), int(at));
     if (code != SQLITE_OK) return database_.error(code);
     at += piece.size();
     bytes = bytes.subspan(piece.size());

@@ -67,11 +67,11 @@ std::vector<std::byte> head_bytes(const DocumentHead& head) {
   ByteWriter to(bytes);
   put_text(to, head.version);
   put_text(to, head.algorithms);
-  to.put(static_cast<std::uint8_t>(head.whole_view));
+  to.put(std::uint8_t(head.whole_view));
   to.put(head.skew_ns);
-  to.put(static_cast<std::uint8_t>(head.stages.size()));
+  to.put(std::uint8_t(head.stages.size()));
   for (const DocumentStage& stage : head.stages) {
-    to.put(static_cast<std::int64_t>(stage.took.count()));
+    to.put(std::int64_t(stage.took.count()));
     for (const std::uint64_t value : {stage.in, stage.out, stage.arena_peak_bytes}) to.put(value);
   }
   for (const pipeline::Match& m : head.by_hand)
@@ -119,7 +119,7 @@ Result<std::vector<std::byte>> bytes_of_part(const DocumentParts& parts, std::st
 // At least what all the parts will take, SQLite's own pages with them.
 std::size_t room_for(const DocumentParts& parts) {
   const auto picture = [](const ImageView& v) {
-    return static_cast<std::size_t>(v.width_px) * static_cast<std::size_t>(v.height_px) * 3;
+    return std::size_t(v.width_px) * std::size_t(v.height_px) * 3;
   };
   std::size_t bytes = picture(parts.frame.left) + picture(parts.frame.right) + parts.head.algorithms.size() +
                       parts.head.by_hand.size() * 16;
@@ -140,10 +140,8 @@ std::size_t room_for(const DocumentParts& parts) {
 Result<void> put(Database& database, std::string_view name, std::span<const std::byte> data) {
   const Sha256 digest = digest_of(name, data);
   RELIEVO_TRY_ASSIGN(auto insert, database.prepare("INSERT INTO part (name, sha256, data) VALUES (?, ?, ?)"));
-  RELIEVO_TRY(insert.bind(name)
-                  .bind(std::span<const std::byte>(digest))
-                  .bind_zeros(static_cast<std::int64_t>(data.size()))
-                  .run());
+  RELIEVO_TRY(
+      insert.bind(name).bind(std::span<const std::byte>(digest)).bind_zeros(std::int64_t(data.size())).run());
   return database.write_blob("part", "data", database.last_row_id(), data);
 }
 
@@ -196,7 +194,7 @@ Result<std::vector<std::byte>> make_document(const DocumentParts& parts) {
     RELIEVO_TRY_ASSIGN(const std::int64_t pages, database.integer("PRAGMA page_count"));
     RELIEVO_TRY_ASSIGN(const std::int64_t page_bytes, database.integer("PRAGMA page_size"));
     database.close();
-    room.resize(static_cast<std::size_t>(pages * page_bytes));
+    room.resize(std::size_t(pages * page_bytes));
     return room;
   });
 }
@@ -209,7 +207,7 @@ struct Document::Inside {
       RELIEVO_TRY_ASSIGN(auto find,
                          database.prepare("SELECT id, sha256, length(data) FROM part WHERE name = ?"));
       RELIEVO_TRY_ASSIGN(const bool there, find.bind(name).step());
-      const auto size = there ? static_cast<std::size_t>(find.integer(2)) : 0;
+      const auto size = there ? std::size_t(find.integer(2)) : 0;
       if (size == 0 || size > kMaxDocumentBytes) return damaged();
       std::vector<std::byte> data(size);
       RELIEVO_TRY(database.read_blob("part", "data", find.integer(0), data));

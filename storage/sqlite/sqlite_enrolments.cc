@@ -36,14 +36,14 @@ Result<Enrolment> SqliteStore::enrolment_in(KeySlots& slots, const Statement& ro
   enrolment.id = EnrolmentId{row.integer(0)};
   enrolment.subject = SubjectId{row.integer(1)};
   enrolment.created_at = from_ms(row.integer(2));
-  enrolment.calibration_revision = static_cast<std::uint32_t>(row.integer(3));
+  enrolment.calibration_revision = std::uint32_t(row.integer(3));
   RELIEVO_TRY(keys_->take_subject_key(slots, enrolment.subject));
   RELIEVO_TRY_ASSIGN(auto texts, open_enrolment(*keys_, enrolment.id, row.blob(4)));
   enrolment.algorithms = std::move(texts.algorithms);
   enrolment.report_json = std::move(texts.report_json);
   RELIEVO_TRY_ASSIGN(enrolment.consent, open_consent(*keys_, enrolment.id, row.blob(5)));
-  const auto sealed = static_cast<std::size_t>(row.integer(6));
-  enrolment.model_bytes = static_cast<std::int64_t>(SealedStream::plain_bytes(sealed));
+  const auto sealed = std::size_t(row.integer(6));
+  enrolment.model_bytes = std::int64_t(SealedStream::plain_bytes(sealed));
   return enrolment;
 }
 

@@ -10,8 +10,8 @@
 #include <fstream>
 #include <string>
 
+#include "hal/base/whole_file.h"
 #include "storage/byte_order.h"
-#include "storage/export/atomic_file.h"
 #include "storage/sqlite/sqlite_audit.h"
 #include "storage/sqlite/sqlite_change.h"
 #include "storage/sqlite/sqlite_key_slots.h"
@@ -69,9 +69,9 @@ std::vector<Erased> read_list(const Database& database) {
   const std::string bytes(std::istreambuf_iterator<char>(file), {});
   std::vector<Erased> all;
   ByteReader from(bytes_of(bytes));
-  while (from.left() >= static_cast<std::size_t>(kRecordBytes)) {
+  while (from.left() >= std::size_t(kRecordBytes)) {
     Erased& one = all.emplace_back();
-    one.line = static_cast<std::int64_t>(from.get<std::uint64_t>());
+    one.line = std::int64_t(from.get<std::uint64_t>());
     from.get_run<std::byte>(std::span<std::byte>(one.trace));
   }
   return all;
@@ -92,7 +92,7 @@ Result<void> remember_erased(Database& database, const StoreKeys& keys, SubjectI
   RELIEVO_TRY_ASSIGN(const KeyedHash trace, trace_of(database, keys, id));
   std::vector<std::byte> record;
   ByteWriter to(record);
-  to.put(static_cast<std::uint64_t>(line + 1));
+  to.put(std::uint64_t(line + 1));
   to.put(trace);
   const auto list = list_of(database);
   // An erasure does not wait for it.

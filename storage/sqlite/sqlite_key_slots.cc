@@ -8,8 +8,8 @@ namespace relievo::storage {
 namespace {
 
 std::size_t offset_of(SubjectId id) {
-  return static_cast<std::size_t>(KeySlots::kHead + number(id) % KeySlots::kPerBlock *
-                                                        static_cast<std::int64_t>(sizeof(KeySlots::Slot)));
+  return std::size_t(KeySlots::kHead +
+                     number(id) % KeySlots::kPerBlock * std::int64_t(sizeof(KeySlots::Slot)));
 }
 
 }  // namespace
@@ -26,7 +26,7 @@ Result<void> KeySlots::open(SubjectId id) {
   if (!there) {
     RELIEVO_TRY_ASSIGN(auto insert,
                        database_.prepare("INSERT INTO subject_key (block, slots) VALUES (?, ?)"));
-    insert.bind(block).bind_zeros(kHead + kPerBlock * static_cast<std::int64_t>(sizeof(Slot)));
+    insert.bind(block).bind_zeros(kHead + kPerBlock * std::int64_t(sizeof(Slot)));
     RELIEVO_TRY(insert.run());
   }
   RELIEVO_TRY_ASSIGN(auto blob, Blob::open(database_, "subject_key", "slots", block, to_write_));

@@ -10,9 +10,9 @@
 #include <string>
 #include <system_error>
 
-#include "storage/export/atomic_file.h"
+#include "hal/base/whole_file.h"
 #include "storage/schema/embedded_sql.h"
-#include "storage/sqlite/sqlite_sealing.h"
+#include "storage/sqlite/sqlite_sealed_rows.h"
 
 namespace relievo::storage {
 namespace {
@@ -33,7 +33,7 @@ Result<void> step(Database& database, std::int64_t from, std::int64_t to, const 
   RELIEVO_TRY(before());
   if (from == 0) RELIEVO_TRY(database.run(std::string(schema_sql()).c_str()));
   for (std::int64_t n = from; from > 0 && n < to; ++n)
-    RELIEVO_TRY(database.run(std::string(migrations()[static_cast<std::size_t>(n)]).c_str()));
+    RELIEVO_TRY(database.run(std::string(migrations()[std::size_t(n)]).c_str()));
   RELIEVO_TRY(after());
   const std::string stamp = "PRAGMA application_id = " + std::to_string(kApplicationId) +
                             "; PRAGMA user_version = " + std::to_string(to);
@@ -91,7 +91,7 @@ Result<void> copy_whole(Database& database, const std::filesystem::path& target)
   return sync_directory(target.parent_path());
 }
 
-std::int64_t store_version() { return static_cast<std::int64_t>(migrations().size()); }
+std::int64_t store_version() { return std::int64_t(migrations().size()); }
 
 Result<std::int64_t> version_of(Database& database) {
   RELIEVO_TRY_ASSIGN(const std::int64_t application, database.integer("PRAGMA application_id"));

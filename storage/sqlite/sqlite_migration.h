@@ -5,8 +5,8 @@
 //
 //   empty file ──► schema.sql ─────────────────────────► kStoreVersion
 //   version n  ──► copied aside ──► migrations n+1 ... ──► kStoreVersion
-//   version n < 7 ──► copied aside ──► migrations n+1 ... 7 ──► sealed (sqlite_sealing.h), 8 ... ──► the copy
-//   removed newer, but compatible with ours ──► used as it is;   newer ──► StoreNewer, untouched
+//   version n < 7 ──► copied aside ──► migrations n+1 ... 7 ──► sealed (sqlite_sealed_rows.h), 8 ... ──► the
+//   copy removed newer, but compatible with ours ──► used as it is;   newer ──► StoreNewer, untouched
 #pragma once
 
 #include <cstdint>

@@ -8,7 +8,7 @@
 #include "storage/sqlite/sqlite_change.h"
 #include "storage/sqlite/sqlite_erasure.h"
 #include "storage/sqlite/sqlite_migration.h"
-#include "storage/sqlite/sqlite_sealing.h"
+#include "storage/sqlite/sqlite_sealed_rows.h"
 #include "storage/sqlite/store_directory.h"
 
 namespace relievo::storage {

@@ -11,7 +11,7 @@
 #include <system_error>
 #include <thread>
 
-#include "storage/export/atomic_file.h"
+#include "hal/base/whole_file.h"
 
 namespace relievo::storage {
 namespace {

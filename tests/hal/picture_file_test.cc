@@ -8,7 +8,7 @@
 #include <cstring>
 #include <fstream>
 
-#include "hal/whole_file.h"
+#include "hal/base/whole_file.h"
 #include "tests/hal/temporary_folder.h"
 
 namespace relievo::hal {

@@ -135,17 +135,12 @@ TEST(TriggerLine, NoScheduleFlashesMoreThanThreeTimesInAnySecond) {
       line.sluggish = microseconds(random() % 2 == 0 ? 0 : random() % 30'000);
       const microseconds width(1 + random() % 100'000);
       switch (random() % 4) {
-        case 0:
-          clock.advance(microseconds(random() % 2000));
-          break;
-        case 1:
-          clock.advance(milliseconds(random() % 400));
-          break;
+        case 0: clock.advance(microseconds(random() % 2000)); break;
+        case 1: clock.advance(milliseconds(random() % 400)); break;
         case 2:
           clock.advance(std::max(std::chrono::nanoseconds(0), line.flash_allowed_at() - clock.now()));
           break;
-        default:
-          break;
+        default: break;
       }
       const auto done = line.pulse(width, random() % 8 == 0 ? Light::Off : Light::Flash);
       if (!done && done.error().code == Errc::Timeout) ++refused;

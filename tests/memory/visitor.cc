@@ -55,25 +55,20 @@ void Visitor::tap(std::string_view id) {
 
 void Visitor::answer(ui::Step step) {
   switch (step) {
-    case ui::Step::Consent:
-      return tap("agree");
+    case ui::Step::Consent: return tap("agree");
     case ui::Step::Name:
       if (kiosk_->ui().visit().name().empty()) kiosk_->ui().visit().type(std::to_string(visits_));
       return tap("done");
-    case ui::Step::Known:
-      return tap("somebody_else");
-    case ui::Step::Review:
-      return tap("accept");
+    case ui::Step::Known: return tap("somebody_else");
+    case ui::Step::Review: return tap("accept");
     case ui::Step::Thanks:
-    case ui::Step::Trouble:
-      return tap("finish");
+    case ui::Step::Trouble: return tap("finish");
     case ui::Step::Starting:
     case ui::Step::Declined:
     case ui::Step::Attract:
     case ui::Step::Position:
     case ui::Step::Turn:
-    case ui::Step::Working:
-      return;  // the page goes on by itself, or is visit()'s
+    case ui::Step::Working: return;  // the page goes on by itself, or is visit()'s
   }
 }
 

@@ -13,11 +13,10 @@
 #include "firmware/service/consent_text_store.h"
 #include "firmware/service/export_records.h"
 #include "firmware/service/stick_folder.h"
-#include "firmware/technician/calibration_stick.h"
+#include "firmware/technician/saved_reconstruction.h"
+#include "hal/base/whole_file.h"
 #include "hal/sim/replay/folder_media.h"
-#include "hal/whole_file.h"
 #include "pipeline/calibrate/file/calibration_file.h"
-#include "storage/export/atomic_file.h"
 #include "storage/export/model_files.h"
 #include "tests/power/power_cuts.h"
 #include "tests/storage/sample.h"
@@ -64,13 +63,13 @@ TEST_F(FilesPower, OneFile) {
       disk,
       {
           {"file",
-           [&] { return storage::write_file(disk / "a", bytes_of(std::string(3000, 'a'))).has_value(); }},
+           [&] { return write_whole_file(disk / "a", bytes_of(std::string(3000, 'a'))).has_value(); }},
           {"file",
-           [&] { return storage::write_file(disk / "a", bytes_of(std::string(2000, 'b'))).has_value(); }},
+           [&] { return write_whole_file(disk / "a", bytes_of(std::string(2000, 'b'))).has_value(); }},
           {"whole file",
-           [&] { return hal::write_whole_file(disk / "b", bytes_of(std::string(3000, 'a'))).has_value(); }},
+           [&] { return write_whole_file(disk / "b", bytes_of(std::string(3000, 'a'))).has_value(); }},
           {"whole file",
-           [&] { return hal::write_whole_file(disk / "b", bytes_of(std::string(9, 'b'))).has_value(); }},
+           [&] { return write_whole_file(disk / "b", bytes_of(std::string(9, 'b'))).has_value(); }},
           {"calibration",
            [&] { return pipeline::write_calibration(disk / "rig.yml", sample_calibration()).has_value(); }},
           {"log",

@@ -6,8 +6,8 @@
 
 #include <algorithm>
 
+#include "hal/base/whole_file.h"
 #include "storage/cipher/recovery.h"
-#include "storage/export/atomic_file.h"
 #include "storage/model_blob.h"
 #include "storage/sodium_sha256.h"
 #include "storage/store_keeping.h"

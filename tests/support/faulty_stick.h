@@ -81,14 +81,12 @@ class FaultyStick final : public hal::RemovableMedia {
       case Fault::ForgetsLater:
       case Fault::PulledLater:
       case Fault::NotAgain:
-      case Fault::Held:
-        return;
+      case Fault::Held: return;
       case Fault::Pulled:
         real_.unplug();
         std::filesystem::rename(folder_, pulled_folder());
         return;
-      case Fault::Forgets:
-        return damage(folder);
+      case Fault::Forgets: return damage(folder);
       case Fault::Waits:
         waits_.store(true);
         waits_.notify_all();

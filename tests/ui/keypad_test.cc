@@ -103,23 +103,15 @@ class KeypadTest : public testing::TestWithParam<Language> {
 
 std::vector<std::string> names_of(Language language) {
   switch (language) {
-    case Language::German:
-      return {"Jürgen Müller", "Anna Schäfer", "Maximilian Groß"};
-    case Language::French:
-      return {"Zoé Lefèvre", "François Dubois", "Marie-Hélène Girard"};
-    case Language::Spanish:
-      return {"Iñaki Muñoz", "María García", "Lucía Fernández"};
-    case Language::Arabic:
-      return {"ليلى حسن", "محمد علي", "فاطمة الزهراء"};
-    case Language::Hebrew:
-      return {"נועה לוי", "דוד כהן", "מרים פרץ"};
-    case Language::Chinese:
-      return {"Wang Wei", "Li Na", "Zhang Min"};
-    case Language::Japanese:
-      return {"Sato Yuki", "Suzuki Hiroshi", "Tanaka Aiko"};
+    case Language::German: return {"Jürgen Müller", "Anna Schäfer", "Maximilian Groß"};
+    case Language::French: return {"Zoé Lefèvre", "François Dubois", "Marie-Hélène Girard"};
+    case Language::Spanish: return {"Iñaki Muñoz", "María García", "Lucía Fernández"};
+    case Language::Arabic: return {"ليلى حسن", "محمد علي", "فاطمة الزهراء"};
+    case Language::Hebrew: return {"נועה לוי", "דוד כהן", "מרים פרץ"};
+    case Language::Chinese: return {"Wang Wei", "Li Na", "Zhang Min"};
+    case Language::Japanese: return {"Sato Yuki", "Suzuki Hiroshi", "Tanaka Aiko"};
     case Language::English:
-    case Language::Count:
-      break;
+    case Language::Count: break;
   }
   return {"Ada Lovelace", "Grace Hopper", "Alan Mathison Turing"};
 }

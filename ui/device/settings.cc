@@ -43,24 +43,24 @@ constexpr std::array<SettingInfo, kSettings> kInfos{{
 
 }  // namespace
 
-const SettingInfo& info_of(Setting setting) { return kInfos[static_cast<std::size_t>(setting)]; }
+const SettingInfo& info_of(Setting setting) { return kInfos[std::size_t(setting)]; }
 
 Settings::Settings() {
-  for (const SettingInfo& info : kInfos) values_[static_cast<std::size_t>(info.setting)] = info.usual;
+  for (const SettingInfo& info : kInfos) values_[std::size_t(info.setting)] = info.usual;
 }
 
 bool Settings::set(Setting setting, std::int32_t value) {
   if (setting >= Setting::Count) return false;
   const auto& values = info_of(setting).values;
-  if (std::find(values.begin(), values.end(), value) == values.end()) return false;
-  values_[static_cast<std::size_t>(setting)] = value;
+  if (std::ranges::find(values, value) == values.end()) return false;
+  values_[std::size_t(setting)] = value;
   return true;
 }
 
 std::int32_t Settings::beside(Setting setting, int step) const {
   const auto& values = info_of(setting).values;
-  const auto at = std::find(values.begin(), values.end(), of(setting)) - values.begin() + step;
-  return values[static_cast<std::size_t>(std::clamp<std::ptrdiff_t>(at, 0, std::ssize(values) - 1))];
+  const auto at = std::ranges::find(values, of(setting)) - values.begin() + step;
+  return values[std::size_t(std::clamp<std::ptrdiff_t>(at, 0, std::ssize(values) - 1))];
 }
 
 }  // namespace relievo::ui

@@ -32,7 +32,7 @@ enum class Setting : std::uint8_t {
   LeastRoomMib,    // so much of the disk stays free: a portrait that would need it is not stored
   Count
 };
-inline constexpr std::size_t kSettings = static_cast<std::size_t>(Setting::Count);
+inline constexpr std::size_t kSettings = std::size_t(Setting::Count);
 
 struct SettingInfo {
   Setting setting;
@@ -46,7 +46,7 @@ const SettingInfo& info_of(Setting setting);
 class Settings {
  public:
   Settings();
-  std::int32_t of(Setting setting) const { return values_[static_cast<std::size_t>(setting)]; }
+  std::int32_t of(Setting setting) const { return values_[std::size_t(setting)]; }
   bool is_on(Setting setting) const { return of(setting) != 0; }
   bool set(Setting setting, std::int32_t value);
   // The value before (-1) or after (+1); the present one where there is none.

@@ -51,7 +51,7 @@ bool is_plausible(const std::array<double, 6>& m) {
 
 TouchPoint TouchMap::operator()(TouchPoint at) const {
   const double x = at.x, y = at.y;
-  return {static_cast<float>(m[0] * x + m[1] * y + m[2]), static_cast<float>(m[3] * x + m[4] * y + m[5])};
+  return {float(m[0] * x + m[1] * y + m[2]), float(m[3] * x + m[4] * y + m[5])};
 }
 
 Result<TouchFit> fit_touch_map(std::span<const TouchedCross> crosses) {
@@ -62,8 +62,8 @@ Result<TouchFit> fit_touch_map(std::span<const TouchedCross> crosses) {
     const Row row{one.touched.x, one.touched.y, 1};
     normal.add(row);
     for (std::size_t i = 0; i < 3; ++i) {
-      right_x[i] += row[i] * static_cast<double>(one.cross.x);
-      right_y[i] += row[i] * static_cast<double>(one.cross.y);
+      right_x[i] += row[i] * double(one.cross.x);
+      right_y[i] += row[i] * double(one.cross.y);
     }
   }
   const double determinant = det(normal.a);
@@ -76,10 +76,9 @@ Result<TouchFit> fit_touch_map(std::span<const TouchedCross> crosses) {
   double squares = 0;
   for (const TouchedCross& one : crosses) {
     const TouchPoint at = fit.map(one.touched);
-    squares += std::pow(static_cast<double>(at.x - one.cross.x), 2) +
-               std::pow(static_cast<double>(at.y - one.cross.y), 2);
+    squares += std::pow(double(at.x - one.cross.x), 2) + std::pow(double(at.y - one.cross.y), 2);
   }
-  fit.off = std::sqrt(squares / static_cast<double>(crosses.size()));
+  fit.off = std::sqrt(squares / double(crosses.size()));
   fit.mirrored = x[0] * y[1] - x[1] * y[0] < 0;
   const double sign = fit.mirrored ? -1 : 1;
   fit.turned_deg = std::atan2(y[0] - sign * x[1], x[0] + sign * y[1]) * 180 / std::numbers::pi;

@@ -20,9 +20,7 @@ namespace relievo::ui {
 struct Colour {
   std::uint8_t r = 0, g = 0, b = 0, a = 0;
   constexpr bool seen() const { return a != 0; }
-  constexpr Colour with_alpha(float share) const {
-    return {r, g, b, static_cast<std::uint8_t>(static_cast<float>(a) * share)};
-  }
+  constexpr Colour with_alpha(float share) const { return {r, g, b, std::uint8_t(float(a) * share)}; }
   bool operator==(const Colour&) const = default;
 };
 
@@ -63,7 +61,7 @@ enum class PictureSlot : std::uint8_t {
   TechnicianFourth,
   Count
 };
-inline constexpr std::size_t kPictureSlots = static_cast<std::size_t>(PictureSlot::Count);
+inline constexpr std::size_t kPictureSlots = std::size_t(PictureSlot::Count);
 struct Picture {
   ImageView pixels;           // Rgb8 or Grey8, rows without padding
   std::uint32_t version = 0;  // 0: there is none
@@ -92,7 +90,7 @@ struct FaceLook {
   bool fill = true, lit = true;  // the surface itself; shaded by the light
   bool edges = false,
        points =
-           false;  // the triangles' sides, as fine as the screen shows (edge_level.h); the measured points
+           false;  // the triangles' sides, as fine as the screen shows (face_geometry.h); the measured points
   bool backdrop = false;  // what the photograph showed around it stands behind, and its rim fades into that
   float born =
       1;  // how far it has come to be: 0 the photograph, then points, the bare surface, 1 its colours

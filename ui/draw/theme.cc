@@ -21,7 +21,7 @@ double contrast(Colour text, Colour ground) {
 }
 
 Colour pressed(Colour fill) {
-  const auto darker = [](std::uint8_t v) { return static_cast<std::uint8_t>(v * 21 / 25); };
+  const auto darker = [](std::uint8_t v) { return std::uint8_t(v * 21 / 25); };
   return {darker(fill.r), darker(fill.g), darker(fill.b), fill.a};
 }
 

@@ -26,11 +26,11 @@ constexpr std::array<const char*, kLanguages> kDomains{"relievo-en", "relievo-de
                                                        "relievo-es", "relievo-ar", "relievo-he",
                                                        "relievo-zh", "relievo-ja"};
 
-const char* domain_of(Language language) { return kDomains[static_cast<std::size_t>(language)]; }
+const char* domain_of(Language language) { return kDomains[std::size_t(language)]; }
 
 }  // namespace
 
-const LanguageInfo& info_of(Language language) { return kInfo[static_cast<std::size_t>(language)]; }
+const LanguageInfo& info_of(Language language) { return kInfo[std::size_t(language)]; }
 
 Result<void> prepare_languages() {
   unsetenv("LANGUAGE");  // the person chooses, not the shell

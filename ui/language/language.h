@@ -24,7 +24,7 @@ enum class Language : std::uint8_t {
   Japanese,
   Count
 };
-inline constexpr std::size_t kLanguages = static_cast<std::size_t>(Language::Count);
+inline constexpr std::size_t kLanguages = std::size_t(Language::Count);
 
 struct LanguageInfo {
   const char* code;      // BCP 47

@@ -22,7 +22,7 @@ std::vector<fs::path> cards_in(const fs::path& folder) {
   for (fs::directory_iterator entry(folder, error), end; !error && entry != end; entry.increment(error)) {
     if (entry->path().filename().native().starts_with("card")) cards.push_back(entry->path());
   }
-  std::sort(cards.begin(), cards.end());
+  std::ranges::sort(cards);
   return cards;
 }
 
@@ -42,14 +42,14 @@ std::optional<Error> why_no_screen(const ScreenPlaces& places) {
         "there is no graphics device: is its driver in the kernel (dmesg | grep drm)? Where nobody looks, SDL_VIDEODRIVER=offscreen"}
         .at(places.devices.native());
   const auto usable = [](const fs::path& card) { return access(card.c_str(), R_OK | W_OK) == 0; };
-  if (std::none_of(cards.begin(), cards.end(), usable))
+  if (std::ranges::none_of(cards, usable))
     return Error{
         Errc::IoFailed,
         "this user may not use the screen: put the user into the groups video, render and input, and log in again"}
         .at(cards.front().native());
   std::vector<fs::path> sockets = cards_in(places.monitors);
   std::erase_if(sockets, [](const fs::path& socket) { return status_of(socket).empty(); });
-  if (!sockets.empty() && std::none_of(sockets.begin(), sockets.end(), [](const fs::path& socket) {
+  if (!sockets.empty() && std::ranges::none_of(sockets, [](const fs::path& socket) {
         return status_of(socket) != "disconnected";
       }))
     return Error{

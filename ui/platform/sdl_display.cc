@@ -70,8 +70,8 @@ class SdlDisplay final : public Display {
                  : finger.kind == Input::Kind::Up ? SDL_FINGERUP
                                                   : SDL_FINGERMOTION;
     event.tfinger.fingerId = finger.finger;
-    event.tfinger.x = finger.x / static_cast<float>(w);
-    event.tfinger.y = finger.y / static_cast<float>(h);
+    event.tfinger.x = finger.x / float(w);
+    event.tfinger.y = finger.y / float(h);
     SDL_PushEvent(&event);
   }
 
@@ -109,26 +109,21 @@ class SdlDisplay final : public Display {
   std::optional<Input> finger(Input::Kind kind, const SDL_TouchFingerEvent& touch) const {
     SDL_ShowCursor(SDL_DISABLE);
     const auto [w, h] = size();
-    return Input{kind, touch.fingerId, touch.x * static_cast<float>(w), touch.y * static_cast<float>(h)};
+    return Input{kind, touch.fingerId, touch.x * float(w), touch.y * float(h)};
   }
 
   static std::optional<Input> key(const SDL_KeyboardEvent& key) {
     switch (key.keysym.sym) {
       case SDLK_TAB:
         return Input{(key.keysym.mod & KMOD_SHIFT) != 0 ? Input::Kind::Previous : Input::Kind::Next};
-      case SDLK_RIGHT:
-        return Input{Input::Kind::Right};
-      case SDLK_DOWN:
-        return Input{Input::Kind::Below};
-      case SDLK_LEFT:
-        return Input{Input::Kind::Left};
-      case SDLK_UP:
-        return Input{Input::Kind::Above};
+      case SDLK_RIGHT: return Input{Input::Kind::Right};
+      case SDLK_DOWN: return Input{Input::Kind::Below};
+      case SDLK_LEFT: return Input{Input::Kind::Left};
+      case SDLK_UP: return Input{Input::Kind::Above};
       case SDLK_BACKSPACE:
       case SDLK_DELETE:
       case SDLK_KP_PERIOD:
-      case SDLK_KP_COMMA:
-        return Input{Input::Kind::Erase};
+      case SDLK_KP_COMMA: return Input{Input::Kind::Erase};
       case SDLK_KP_1:
       case SDLK_KP_2:
       case SDLK_KP_3:
@@ -139,31 +134,23 @@ class SdlDisplay final : public Display {
       case SDLK_KP_8:
       case SDLK_KP_9:
         if (key.repeat != 0) return std::nullopt;
-        return Input{.kind = Input::Kind::Digit,
-                     .letter = {static_cast<char>('1' + (key.keysym.sym - SDLK_KP_1))}};
+        return Input{.kind = Input::Kind::Digit, .letter = {char('1' + (key.keysym.sym - SDLK_KP_1))}};
       case SDLK_RETURN:
       case SDLK_KP_ENTER:
         if (key.repeat != 0) return std::nullopt;  // a key that is kept down is one press
         return Input{Input::Kind::Activate};
-      case SDLK_F1:
-        return Input{Input::Kind::Speech};
+      case SDLK_F1: return Input{Input::Kind::Speech};
       case SDLK_F2:
-      case SDLK_KP_0:
-        return Input{Input::Kind::Repeat};
+      case SDLK_KP_0: return Input{Input::Kind::Repeat};
       case SDLK_VOLUMEDOWN:
-      case SDLK_KP_MINUS:
-        return Input{Input::Kind::Quieter};
+      case SDLK_KP_MINUS: return Input{Input::Kind::Quieter};
       case SDLK_VOLUMEUP:
-      case SDLK_KP_PLUS:
-        return Input{Input::Kind::Louder};
+      case SDLK_KP_PLUS: return Input{Input::Kind::Louder};
       case SDLK_F3:
-      case SDLK_KP_MULTIPLY:
-        return Input{Input::Kind::Speed};
+      case SDLK_KP_MULTIPLY: return Input{Input::Kind::Speed};
       case SDLK_ESCAPE:
-      case SDLK_AC_BACK:
-        return Input{Input::Kind::Back};
-      default:
-        return std::nullopt;
+      case SDLK_AC_BACK: return Input{Input::Kind::Back};
+      default: return std::nullopt;
     }
   }
 
@@ -178,38 +165,29 @@ class SdlDisplay final : public Display {
 
   std::optional<Input> input_of(const SDL_Event& event) {
     switch (event.type) {
-      case SDL_QUIT:
-        return Input{Input::Kind::Quit};
-      case SDL_FINGERDOWN:
-        return finger(Input::Kind::Down, event.tfinger);
-      case SDL_FINGERMOTION:
-        return finger(Input::Kind::Move, event.tfinger);
-      case SDL_FINGERUP:
-        return finger(Input::Kind::Up, event.tfinger);
+      case SDL_QUIT: return Input{Input::Kind::Quit};
+      case SDL_FINGERDOWN: return finger(Input::Kind::Down, event.tfinger);
+      case SDL_FINGERMOTION: return finger(Input::Kind::Move, event.tfinger);
+      case SDL_FINGERUP: return finger(Input::Kind::Up, event.tfinger);
       case SDL_KEYDOWN:
         from_keypad_ = (event.key.keysym.mod & KMOD_NUM) != 0 &&
                        event.key.keysym.scancode >= SDL_SCANCODE_KP_DIVIDE &&
                        event.key.keysym.scancode <= SDL_SCANCODE_KP_PERIOD;
         return key(event.key);
-      case SDL_TEXTINPUT:
-        return letter(event.text);
+      case SDL_TEXTINPUT: return letter(event.text);
       case SDL_MOUSEBUTTONDOWN:
         if (event.button.button != SDL_BUTTON_LEFT) return std::nullopt;
         held_ = true;
-        return Input{Input::Kind::Down, kMouse, static_cast<float>(event.button.x),
-                     static_cast<float>(event.button.y)};
+        return Input{Input::Kind::Down, kMouse, float(event.button.x), float(event.button.y)};
       case SDL_MOUSEBUTTONUP:
         if (event.button.button != SDL_BUTTON_LEFT) return std::nullopt;
         held_ = false;
-        return Input{Input::Kind::Up, kMouse, static_cast<float>(event.button.x),
-                     static_cast<float>(event.button.y)};
+        return Input{Input::Kind::Up, kMouse, float(event.button.x), float(event.button.y)};
       case SDL_MOUSEMOTION:
         SDL_ShowCursor(SDL_ENABLE);
         if (!held_) return std::nullopt;
-        return Input{Input::Kind::Move, kMouse, static_cast<float>(event.motion.x),
-                     static_cast<float>(event.motion.y)};
-      default:
-        return std::nullopt;
+        return Input{Input::Kind::Move, kMouse, float(event.motion.x), float(event.motion.y)};
+      default: return std::nullopt;
     }
   }
 

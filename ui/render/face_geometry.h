@@ -9,6 +9,7 @@
 #include <cstdint>
 #include <vector>
 
+#include "pipeline/model/face_mesh.h"
 #include "pipeline/model/face_model.h"
 #include "pipeline/model/point_cloud.h"
 
@@ -36,5 +37,14 @@ std::vector<Corner> corners_of(const pipeline::FaceModel& model, const pipeline:
 std::vector<Dot> dots_of(const pipeline::FaceModel& model, const pipeline::PointCloud* cloud);
 // The backdrop: two triangles a cell that shows anything.
 std::vector<Tinted> tinted_of(const pipeline::FaceModel& model);
+
+// The sides of a mesh's triangles, no finer than can be told apart: vertices about `least_mm` apart stand for
+// those around them, and two are joined where their surroundings meet three by three (the dual of the Voronoi
+// cells on the mesh). A mesh that is as coarse already keeps its own sides. Thread: any. Memory: the heap, in
+// proportion to the mesh. Errors: none.
+
+// Each once, two of the mesh's vertices.
+using Edges = std::vector<std::array<std::uint32_t, 2>>;
+Edges edges_of(const pipeline::FaceMesh& mesh, float least_mm);
 
 }  // namespace relievo::ui

@@ -99,27 +99,26 @@ std::optional<pipeline::Vec3f> FaceProjection::touched(const pipeline::FaceModel
                                                        pipeline::Vec2f window) const {
   const auto turned_back = [this](const Vec3d& v) {
     const auto of = [&](std::size_t i) {
-      return static_cast<double>(turned_[3 * i]) * v.x + static_cast<double>(turned_[3 * i + 1]) * v.y +
-             static_cast<double>(turned_[3 * i + 2]) * v.z;
+      return double(turned_[3 * i]) * v.x + double(turned_[3 * i + 1]) * v.y +
+             double(turned_[3 * i + 2]) * v.z;
     };
     return Vec3d{of(0), of(1), of(2)};
   };
-  const double across = static_cast<double>((2 * window.x - 1) * aspect_ / scale_),
-               up = static_cast<double>((1 - 2 * window.y - covered_) / scale_);
-  const Vec3d from = turned_back({-static_cast<double>(shift_[0]), -static_cast<double>(shift_[1]),
-                                  static_cast<double>(kFaceDistanceMm - shift_[2])}),
+  const double across = double((2 * window.x - 1) * aspect_ / scale_),
+               up = double((1 - 2 * window.y - covered_) / scale_);
+  const Vec3d from =
+                  turned_back({-double(shift_[0]), -double(shift_[1]), double(kFaceDistanceMm - shift_[2])}),
               along = turned_back({across, up, -1});
   const auto corner = [&](std::uint32_t at) {
     const Dot d = dot_of(model.head_from_camera, model.mesh.vertices_mm[at]);
-    return Vec3d{static_cast<double>(d.x), static_cast<double>(d.y), static_cast<double>(d.z)};
+    return Vec3d{double(d.x), double(d.y), double(d.z)};
   };
   double nearest = std::numeric_limits<double>::infinity();
   for (const auto& t : model.mesh.triangles)
     nearest = std::min(nearest, met(from, along, corner(t[0]), corner(t[1]), corner(t[2])));
   if (std::isinf(nearest)) return std::nullopt;
-  return pipeline::Vec3f{static_cast<float>(from.x + nearest * along.x),
-                         static_cast<float>(from.y + nearest * along.y),
-                         static_cast<float>(from.z + nearest * along.z)};
+  return pipeline::Vec3f{float(from.x + nearest * along.x), float(from.y + nearest * along.y),
+                         float(from.z + nearest * along.z)};
 }
 
 }  // namespace relievo::ui

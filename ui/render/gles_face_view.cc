@@ -9,7 +9,6 @@
 #include <cstdint>
 #include <vector>
 
-#include "ui/render/edge_level.h"
 #include "ui/render/face_geometry.h"
 #include "ui/render/face_projection.h"
 #include "ui/render/face_view.h"
@@ -83,8 +82,7 @@ class GlesFaceView final : public FaceView {
     if (same && colour_ != 0) return colour_;
     if (version != version_) upload(subject);
     if ((look.points || look.born < 1) && version != points_version_) upload_points(subject);
-    if (look.edges)
-      upload_edges(subject, kEdgePx * kSeenHeightMm / (look.zoom * static_cast<float>(height_px)));
+    if (look.edges) upload_edges(subject, kEdgePx * kSeenHeightMm / (look.zoom * float(height_px)));
     GLint bound = 0;
     glGetIntegerv(GL_FRAMEBUFFER_BINDING, &bound);
     if (w != width_ || h != height_ || frame_ == 0) make_frame(w, h);
@@ -118,11 +116,11 @@ class GlesFaceView final : public FaceView {
     const pipeline::TextureAtlas& atlas = subject.colours != nullptr ? *subject.colours : model.texture;
     if (texture_ == 0) glGenTextures(1, &texture_);
     const std::vector<Corner> corners = corners_of(model, atlas);
-    count_ = static_cast<int>(corners.size());
+    count_ = int(corners.size());
     stand_ = stand_of(model);
     fill(GL_ARRAY_BUFFER, buffer_, corners);
     const std::vector<Tinted> behind = tinted_of(model);
-    backdrop_count_ = static_cast<int>(behind.size());
+    backdrop_count_ = int(behind.size());
     fill(GL_ARRAY_BUFFER, backdrop_buffer_, behind);
     glBindTexture(GL_TEXTURE_2D, texture_);
     glPixelStorei(GL_UNPACK_ALIGNMENT, 1);
@@ -141,13 +139,13 @@ class GlesFaceView final : public FaceView {
       glEnableVertexAttribArray(i);
       glVertexAttribPointer(i, sizes[i], GL_FLOAT, GL_FALSE, sizeof(Corner),
                             reinterpret_cast<const void*>(offset));  // NOLINT
-      offset += static_cast<std::size_t>(sizes[i]) * sizeof(float);
+      offset += std::size_t(sizes[i]) * sizeof(float);
     }
   }
 
   void upload_points(const Face& subject) {
     const std::vector<Dot> dots = dots_of(*subject.model, subject.cloud);
-    point_count_ = static_cast<int>(dots.size());
+    point_count_ = int(dots.size());
     points_version_ = subject.version;
     fill(GL_ARRAY_BUFFER, point_buffer_, dots);
   }
@@ -161,10 +159,9 @@ class GlesFaceView final : public FaceView {
     const pipeline::FaceMesh& mesh = subject.model->mesh;
     std::vector<std::uint32_t> corner(mesh.vertices_mm.size(), 0), indices;
     for (std::size_t i = 0; i < mesh.triangles.size(); ++i)
-      for (std::size_t k = 0; k < 3; ++k)
-        corner[mesh.triangles[i][k]] = static_cast<std::uint32_t>(3 * i + k);
+      for (std::size_t k = 0; k < 3; ++k) corner[mesh.triangles[i][k]] = std::uint32_t(3 * i + k);
     for (const auto& [a, b] : edges_of(mesh, level_mm)) indices.insert(indices.end(), {corner[a], corner[b]});
-    edge_count_ = static_cast<int>(indices.size());
+    edge_count_ = int(indices.size());
     glBindVertexArray(array_);  // which keeps the buffer of indices
     fill(GL_ELEMENT_ARRAY_BUFFER, edge_buffer_, indices);
   }
@@ -185,9 +182,7 @@ class GlesFaceView final : public FaceView {
     glFramebufferRenderbuffer(GL_FRAMEBUFFER, GL_DEPTH_ATTACHMENT, GL_RENDERBUFFER, depth_);
   }
 
-  FaceProjection projection() const {
-    return {stand_, look_, static_cast<float>(width_) / static_cast<float>(height_), covered_};
-  }
+  FaceProjection projection() const { return {stand_, look_, float(width_) / float(height_), covered_}; }
 
   void set_uniforms(const FaceProjection& t) const {
     const float side = radians(look_.light_deg), up = 0.45F, norm = std::sqrt(1 + up * up);
@@ -273,7 +268,7 @@ class GlesFaceView final : public FaceView {
   void draw_edges() const {
     glUniform1f(glGetUniformLocation(program_, "edges"), 1);
     glBindBuffer(GL_ELEMENT_ARRAY_BUFFER, edge_buffer_);
-    glLineWidth(kEdgeWidthPx * static_cast<float>(times_));
+    glLineWidth(kEdgeWidthPx * float(times_));
     glDrawElements(GL_LINES, edge_count_, GL_UNSIGNED_INT, nullptr);
   }
 
@@ -283,7 +278,7 @@ class GlesFaceView final : public FaceView {
     glUniformMatrix4fv(glGetUniformLocation(point_program_, "clip_from_head"), 1, GL_FALSE,
                        t.clip_from_model());
     glUniform1f(glGetUniformLocation(point_program_, "size"),
-                std::max(2.0F, static_cast<float>(height_) / 420 * look_.zoom));
+                std::max(2.0F, float(height_) / 420 * look_.zoom));
     glBindBuffer(GL_ARRAY_BUFFER, point_buffer_);
     glDisableVertexAttribArray(1);
     glDisableVertexAttribArray(2);

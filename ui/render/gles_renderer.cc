@@ -25,17 +25,12 @@ struct Instance {
 
 std::size_t program_of(Mark mark) {
   switch (mark) {
-    case Mark::Flat:
-      return 0;
-    case Mark::Shape:
-      return 1;
-    case Mark::Glyph:
-      return 2;
+    case Mark::Flat: return 0;
+    case Mark::Shape: return 1;
+    case Mark::Glyph: return 2;
     case Mark::Image:
-    case Mark::Face:
-      return 3;
-    case Mark::Ring:
-      return 4;
+    case Mark::Face: return 3;
+    case Mark::Ring: return 4;
   }
   return 0;
 }
@@ -103,12 +98,12 @@ class GlesRenderer final : public Renderer {
   bool lost() const override { return glGetError() != GL_NO_ERROR || glGetString(GL_RENDERER) == nullptr; }
 
   void read_back(std::span<std::uint8_t> rgb, int width_px, int height_px) override {
-    const std::size_t row = static_cast<std::size_t>(width_px) * 4;
-    std::vector<std::uint8_t> pixels(row * static_cast<std::size_t>(height_px));
+    const std::size_t row = std::size_t(width_px) * 4;
+    std::vector<std::uint8_t> pixels(row * std::size_t(height_px));
     glReadPixels(0, 0, width_px, height_px, GL_RGBA, GL_UNSIGNED_BYTE, pixels.data());
     std::uint8_t* to = rgb.data();
     for (int y = height_px - 1; y >= 0; --y) {
-      const std::uint8_t* from = pixels.data() + row * static_cast<std::size_t>(y);
+      const std::uint8_t* from = pixels.data() + row * std::size_t(y);
       for (int x = 0; x < width_px; ++x, from += 4, to += 3) std::memcpy(to, from, 3);
     }
   }
@@ -146,7 +141,7 @@ class GlesRenderer final : public Renderer {
                       atlas.row(0, rows.first));
     }
     atlas_generation_ = atlas.generation();
-    atlas_side_ = static_cast<float>(side);
+    atlas_side_ = float(side);
   }
 
   void upload_picture(std::size_t slot, const Picture& picture) {
@@ -208,24 +203,23 @@ class GlesRenderer final : public Renderer {
 
   void draw_batch(const DrawList& list, std::size_t first, std::size_t last) {
     const Command& c = list.commands[first];
-    GLuint texture = c.mark == Mark::Glyph ? atlas_ : pictures_[static_cast<std::size_t>(c.picture)];
+    GLuint texture = c.mark == Mark::Glyph ? atlas_ : pictures_[std::size_t(c.picture)];
     if (c.mark == Mark::Face) {
-      texture =
-          faces_[c.face]->draw(list.faces[c.face], list.face_look, static_cast<int>(std::lround(c.rect.w)),
-                               static_cast<int>(std::lround(c.rect.h)), 1 - c.share);
+      texture = faces_[c.face]->draw(list.faces[c.face], list.face_look, int(std::lround(c.rect.w)),
+                                     int(std::lround(c.rect.h)), 1 - c.share);
       if (texture == 0) return;
       glViewport(0, 0, width_, height_);
       glEnable(GL_BLEND);
       glEnable(GL_SCISSOR_TEST);
     }
-    if (c.mark == Mark::Image && versions_[static_cast<std::size_t>(c.picture)] == 0) return;
+    if (c.mark == Mark::Image && versions_[std::size_t(c.picture)] == 0) return;
     const float x0 = std::max(0.0F, std::floor(c.clip.x)), y1 = std::ceil(c.clip.bottom());
-    glScissor(static_cast<GLint>(x0), static_cast<GLint>(static_cast<float>(height_) - y1),
+    glScissor(static_cast<GLint>(x0), static_cast<GLint>(float(height_) - y1),
               static_cast<GLsizei>(std::max(0.0F, std::ceil(c.clip.right()) - x0)),
               static_cast<GLsizei>(std::max(0.0F, y1 - std::floor(c.clip.y))));
     const Program& program = programs_[program_of(c.mark)];
     glUseProgram(program.name);
-    glUniform2f(program.screen, static_cast<float>(width_), static_cast<float>(height_));
+    glUniform2f(program.screen, float(width_), float(height_));
     const float side = c.mark == Mark::Glyph ? atlas_side_ : 1.0F;
     if (program.texels >= 0) glUniform2f(program.texels, side, side);
     glActiveTexture(GL_TEXTURE0);

@@ -12,7 +12,7 @@
 
 #include "hal/base/result.h"
 #include "ui/draw/draw_list.h"
-#include "ui/text/text_atlas.h"
+#include "ui/text/text_engine.h"
 
 namespace relievo::ui {
 

@@ -18,10 +18,10 @@ void finding(StaffFrame& page, const Finding& found) {
   tell(row, mine ? Role::Button : Role::Status, page.joined({"status ", found.rule->id}),
        tr(found.rule->words));
   row.value = tr("Not in order");
-  if (mine) row.action = {ActionKind::StaffOpen, static_cast<int>(where)};
+  if (mine) row.action = {ActionKind::StaffOpen, int(where)};
   row.box.align = Align::Centre;
   row.box.min_height = page.px(size::kStaffTarget);
-  page.tree.open(row);
+  const auto in_row = page.tree.inside(row);
   const Colour ink = page.ink_of(found.mood);
   page.sign(page.sign_of(found.mood), 28, ink);
   Node both = page.grown(page.box(Flow::Row, space::kM));
@@ -39,7 +39,6 @@ void finding(StaffFrame& page, const Finding& found) {
     page.tree.leaf(page.text(value, type::kSmall, Weight::Regular, page.palette.ink_soft, TextAlign::End));
   page.tree.close();
   if (mine) page.sign(page.onward(), 24, page.palette.link);
-  page.tree.close();
 }
 
 void status(StaffFrame& page) {
@@ -47,7 +46,7 @@ void status(StaffFrame& page) {
   Node card = page.box(Flow::Column, 0, space::kM, 4);
   frame(card, page.palette.card, page.palette.card_border, page.px(1.5F), page.px(size::kRadius));
   card.id = "status";
-  page.tree.open(card);
+  const auto in_card = page.tree.inside(card);
   if (seen == nullptr || !seen->looked) {
     page.status("status looking", page.tr("One moment, please"), Mood::Plain);
   } else {
@@ -59,22 +58,19 @@ void status(StaffFrame& page) {
       finding(page, one);
     }
   }
-  page.tree.close();
 }
 
 void tile(StaffFrame& page, const StaffPageInfo& info) {
   Node node = page.grown(page.box(Flow::Row, space::kS, page.portrait ? 10 : 16, 8));
   const char* title = page.tr(info.title);
-  tell(node, Role::Button, info.id, title, {ActionKind::StaffOpen, static_cast<int>(info.page)});
+  tell(node, Role::Button, info.id, title, {ActionKind::StaffOpen, int(info.page)});
   node.box.align = Align::Centre;
   node.box.min_height = page.px(72);
   frame(node, page.palette.card, page.palette.card_border, page.px(2), page.px(20));
-  page.tree.open(node);
+  const auto in_node = page.tree.inside(node);
   page.sign(info.letter, 32 / page.text_share, page.palette.accent);
-  page.tree.open(page.grown(page.box(Flow::Column)));
+  const auto in_box = page.tree.inside(page.grown(page.box(Flow::Column)));
   page.tree.leaf(page.text(title, type::kSmall, Weight::Medium, page.palette.ink));
-  page.tree.close();
-  page.tree.close();
 }
 
 // Tiles abreast, in order; the last row is filled up, so that all are as wide.

@@ -96,7 +96,7 @@ void fill_staff_pictures(DrawList& list, const ViewState& view, const Visit& vis
       fill_technician_pictures(list, *view.service->technician, visit, service))
     return;
   if (const RecoveryView* sheet = view.service->recovery)
-    list.pictures[static_cast<std::size_t>(PictureSlot::TechnicianLeft)] = sheet->code;
+    list.pictures[std::size_t(PictureSlot::TechnicianLeft)] = sheet->code;
   list.faces[0].model = view.service->model;
   list.faces[0].version = view.service->model == nullptr ? 0 : view.service->model_number;
   list.face_look = visit.look;
@@ -109,7 +109,7 @@ void staff_entrance(Page& page) {
   Node corner = page.box(Flow::Row, 0, 16, 16);
   corner.box.justify = Justify::End;
   corner.box.align = Align::Start;
-  page.tree.open(corner);
+  const auto in_corner = page.tree.inside(corner);
   Node lock = page.sized(page.box(Flow::Column), size::kTarget, size::kTarget);
   lock.id = "staff";
   lock.name = page.tr("Staff: hold for three seconds");
@@ -120,10 +120,8 @@ void staff_entrance(Page& page) {
   lock.box.justify = Justify::Centre;
   lock.box.align = Align::Centre;
   lock.box.radius = page.px(size::kRadius);
-  page.tree.open(lock);
+  const auto in_lock = page.tree.inside(lock);
   page.sign(icon::kLock, 30 / page.text_share, page.palette.ink_soft);
-  page.tree.close();
-  page.tree.close();
 }
 
 }  // namespace relievo::ui

@@ -3,9 +3,12 @@
 #include "ui/speech/narrator.h"
 
 #include <algorithm>
+#include <cmath>
 #include <functional>
 #include <initializer_list>
 #include <utility>
+
+#include "ui/technician/technician_view.h"
 
 namespace relievo::ui {
 namespace {
@@ -38,8 +41,8 @@ bool ends_a_sentence(std::string_view text) {
 bool is_touched(const Node& node) { return node.role == Role::Button || node.role == Role::Key; }
 
 void say_children(const Tree& tree, const Node& node, const Listener& to, Utterance& said) {
-  for (std::int32_t i = node.first_child; i >= 0; i = tree.nodes()[static_cast<std::size_t>(i)].next) {
-    const Node& child = tree.nodes()[static_cast<std::size_t>(i)];
+  for (std::int32_t i = node.first_child; i >= 0; i = tree.nodes()[std::size_t(i)].next) {
+    const Node& child = tree.nodes()[std::size_t(i)];
     if (!is_touched(child)) say_node(tree, child, to, said);
   }
 }
@@ -88,7 +91,7 @@ namespace {
 
 // A page is another one, too, when its heading is: while a portrait is made, then stored.
 std::size_t print_of_page(const Tree& tree, const Narrator::Moment& moment, const Listener& to) {
-  std::size_t print = moment.page * 31 + static_cast<std::size_t>(to.tr.language());
+  std::size_t print = moment.page * 31 + std::size_t(to.tr.language());
   for (const Node& node : tree.nodes()) {
     if (node.role == Role::Heading) print = print * 31 + print_of(node.text);
   }
@@ -207,6 +210,54 @@ void Narrator::follow_statuses(const Tree& tree, const Moment& moment, const Lis
     told_to_wait_ = node.waits && !said_all;
   }
   scratch_.clear();
+}
+
+Cues cues_of(const ViewState& view, const Visit& visit) {
+  Cues now{.screen = view.screen, .step = visit.step, .trouble = view.trouble};
+  if (visit.step == Step::Position) now.number = visit.countdown_number(view.live);
+  if (view.live.turn) now.sides = view.live.turn->taken.count();
+  if (view.service != nullptr && view.service->technician != nullptr)
+    now.views = view.service->technician->calibration.views;
+  return now;
+}
+
+Cue cue(const Cues& before, const Cues& now) {
+  const bool other_screen = before.screen != now.screen, other_step = before.step != now.step;
+  if (other_step && now.step == Step::Thanks) return Cue::Done;
+  const bool begun = before.step != Step::Starting && before.step != Step::Attract;
+  if (other_step && now.step == Step::Trouble && begun) return Cue::Refused;
+  if (before.trouble != now.trouble && now.trouble == Trouble::Storage) return Cue::Refused;
+  if (other_screen && now.screen == Screen::Position && now.trouble == Trouble::Refused) return Cue::Refused;
+  // Only what is over was taken.
+  if (before.screen == Screen::Capture && (now.screen == Screen::Turn || now.screen == Screen::Match))
+    return Cue::Shutter;
+  if (now.screen == Screen::Turn && now.sides > before.sides) return Cue::Shutter;
+  if (now.views > before.views) return Cue::Taken;
+  return now.number != 0 && now.number != before.number ? Cue::Tick : Cue::None;
+}
+
+namespace {
+
+// How far from its place, where 1 is far, by what is to be mended first; negative where no tone can tell.
+float away_of(const LiveView& live) {
+  using pipeline::Advice;
+  constexpr float kFarDeg = 45;
+  if (live.advice == Advice::TooClose || live.advice == Advice::TooFar)
+    return live.nearness > 0 ? 2 * std::abs(live.nearness - 1) : -1;
+  if (live.advice == Advice::OffCentre) return std::hypot(live.face_x, live.face_y);
+  if (live.advice == Advice::TurnedAside) return std::abs(live.yaw_deg) / kFarDeg;
+  if (live.advice == Advice::LooksUpOrDown) return std::abs(live.pitch_deg) / kFarDeg;
+  if (live.advice == Advice::Tilted) return std::abs(live.roll_deg) / kFarDeg;
+  return -1;
+}
+
+}  // namespace
+
+std::optional<float> guide_pitch(const ViewState& view, const Visit& visit) {
+  if (visit.step != Step::Position || visit.overlay != Overlay::None) return std::nullopt;
+  const float away = away_of(view.live);
+  if (away < 0) return std::nullopt;
+  return std::exp2(1 - 2 * std::min(1.0F, away));
 }
 
 }  // namespace relievo::ui

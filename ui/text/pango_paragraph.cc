@@ -32,12 +32,9 @@ struct UnrefAttributes {
 
 PangoWeight pango_weight(Weight weight) {
   switch (weight) {
-    case Weight::Regular:
-      return PANGO_WEIGHT_NORMAL;
-    case Weight::Medium:
-      return PANGO_WEIGHT_SEMIBOLD;
-    case Weight::Bold:
-      return PANGO_WEIGHT_BOLD;
+    case Weight::Regular: return PANGO_WEIGHT_NORMAL;
+    case Weight::Medium: return PANGO_WEIGHT_SEMIBOLD;
+    case Weight::Bold: return PANGO_WEIGHT_BOLD;
   }
   return PANGO_WEIGHT_NORMAL;
 }
@@ -99,13 +96,13 @@ class PangoParagraph::Impl {
 
   GlyphCoverage draw(int left, int top, int w, int h) {
     const int stride = cairo_format_stride_for_width(CAIRO_FORMAT_A8, w);
-    ink_.assign(static_cast<std::size_t>(stride) * static_cast<std::size_t>(h), 0);
+    ink_.assign(std::size_t(stride) * std::size_t(h), 0);
     cairo_surface_t* surface =
         cairo_image_surface_create_for_data(ink_.data(), CAIRO_FORMAT_A8, w, h, stride);
     cairo_t* cairo = cairo_create(surface);
     GSList* line = pango_layout_get_lines_readonly(layout_.get());
     for (const SetLine& one : lines_) {
-      cairo_move_to(cairo, static_cast<double>(one.x) - left, static_cast<double>(one.baseline) - top);
+      cairo_move_to(cairo, double(one.x) - left, double(one.baseline) - top);
       pango_cairo_show_layout_line(cairo, static_cast<PangoLayoutLine*>(line->data));
       line = line->next;
     }
@@ -148,7 +145,7 @@ class PangoParagraph::Impl {
   }
 
   void put(std::string_view text, int width) {
-    pango_layout_set_text(layout_.get(), text.data(), static_cast<int>(text.size()));
+    pango_layout_set_text(layout_.get(), text.data(), int(text.size()));
     pango_layout_set_width(layout_.get(), width < 0 ? -1 : width * PANGO_SCALE);
   }
 
@@ -191,11 +188,11 @@ class PangoParagraph::Impl {
           -1);
       PangoRectangle logical;
       pango_layout_get_extents(layout_.get(), nullptr, &logical);
-      widths_.push_back(static_cast<float>(logical.width) / kScale);
+      widths_.push_back(float(logical.width) / kScale);
     }
     joined_.clear();
     std::size_t from = 0;
-    for (const std::size_t phrase : fill_lines(widths_, static_cast<float>(width), evened)) {
+    for (const std::size_t phrase : fill_lines(widths_, float(width), evened)) {
       std::string_view line = text.substr(from, starts[phrase] - from);
       if (line.ends_with(' ')) line.remove_suffix(1);
       joined_.append(line).append(kLineSeparator);
@@ -213,7 +210,7 @@ class PangoParagraph::Impl {
   void set_lines(const TextStyle& style) {
     PangoRectangle whole;
     pango_layout_get_extents(layout_.get(), nullptr, &whole);
-    set_ = {static_cast<float>(whole.width) / kScale, 0, 1e6F, 1e6F, -1e6F, -1e6F, 0, 0, 0};
+    set_ = {float(whole.width) / kScale, 0, 1e6F, 1e6F, -1e6F, -1e6F, 0, 0, 0};
     lines_.clear();
     const type::Lines& lines = lines_of(style);
     const float apart =
@@ -222,19 +219,17 @@ class PangoParagraph::Impl {
     do {
       PangoRectangle ink, logical;
       pango_layout_iter_get_line_extents(at, &ink, &logical);
-      const float own = static_cast<float>(pango_layout_iter_get_baseline(at)) / kScale,
-                  top = static_cast<float>(ink.y) / kScale;
-      const float bottom = static_cast<float>(ink.y + ink.height) / kScale,
-                  left = static_cast<float>(ink.x - whole.x) / kScale;
+      const float own = float(pango_layout_iter_get_baseline(at)) / kScale, top = float(ink.y) / kScale;
+      const float bottom = float(ink.y + ink.height) / kScale, left = float(ink.x - whole.x) / kScale;
       // Whole pixels, so that letters stay sharp; a sign stands as its font has it.
       const float first = style.icon ? own : std::round(std::max(style.size_px * lines.above, own - top));
       const float baseline = lines_.empty() ? first : lines_.back().baseline + apart;
-      lines_.push_back({static_cast<float>(logical.x - whole.x) / kScale, baseline});
-      set_.height_px = style.icon ? static_cast<float>(whole.height) / kScale
+      lines_.push_back({float(logical.x - whole.x) / kScale, baseline});
+      set_.height_px = style.icon ? float(whole.height) / kScale
                                   : baseline + std::max(style.size_px * lines.below, bottom - own);
       if (ink.width <= 0 || ink.height <= 0) continue;
       set_.left = std::min(set_.left, left),
-      set_.right = std::max(set_.right, left + static_cast<float>(ink.width) / kScale);
+      set_.right = std::max(set_.right, left + float(ink.width) / kScale);
       set_.top = std::min(set_.top, baseline + top - own),
       set_.bottom = std::max(set_.bottom, baseline + bottom - own);
     } while (pango_layout_iter_next_line(at) != 0);

@@ -28,9 +28,7 @@ struct SetText {
 struct GlyphCoverage {  // one byte a pixel, 255 where a letter covers it
   const unsigned char* pixels = nullptr;
   int stride = 0;
-  const unsigned char* row(int y) const {
-    return pixels + static_cast<std::size_t>(stride) * static_cast<std::size_t>(y);
-  }
+  const unsigned char* row(int y) const { return pixels + std::size_t(stride) * std::size_t(y); }
 };
 
 class PangoParagraph {

@@ -10,6 +10,43 @@
 #include "ui/text/pango_paragraph.h"
 
 namespace relievo::ui {
+
+std::optional<AtlasPlace> TextAtlas::place(int width_px, int height_px) {
+  const int width = width_px + 1, height = height_px + 1;  // a texel apart: filtering must not mix labels
+  if (width > side_ || height > side_) return std::nullopt;
+  Shelf* best = nullptr;
+  for (Shelf& shelf : shelves_) {
+    const bool fits =
+        shelf.height >= height && shelf.height <= height + height / 2 + 4 && shelf.used + width <= side_;
+    if (fits && (best == nullptr || shelf.height < best->height)) best = &shelf;
+  }
+  if (best == nullptr) {
+    if (shelf_end_ + height > side_) return std::nullopt;
+    shelves_.push_back({shelf_end_, height, 0});
+    shelf_end_ += height;
+    best = &shelves_.back();
+  }
+  const AtlasPlace at{best->used, best->y};
+  best->used += width;
+  changed_.first = changed_.first >= changed_.last ? at.y : std::min(changed_.first, at.y);
+  changed_.last = std::max(changed_.last, at.y + height);
+  return at;
+}
+
+void TextAtlas::reset() {
+  shelves_.clear();
+  shelf_end_ = 0;
+  std::memset(texels_.data(), 0, texels_.size());
+  changed_ = {0, side_};
+  ++generation_;
+}
+
+TextAtlas::Rows TextAtlas::take_changed() {
+  const Rows rows{changed_.first, std::min(changed_.last, side_)};
+  changed_ = {0, 0};
+  return rows;
+}
+
 namespace {
 
 std::uint64_t mix(std::uint64_t hash, const void* bytes, std::size_t size) {  // FNV-1a
@@ -20,13 +57,13 @@ std::uint64_t mix(std::uint64_t hash, const void* bytes, std::size_t size) {  //
 
 std::uint64_t key_of(std::string_view text, const TextStyle& style, int width) {
   std::uint64_t hash = mix(14695981039346656037ULL, text.data(), text.size());
-  const std::uint32_t numbers[] = {static_cast<std::uint32_t>(std::lround(style.size_px * 8)),
-                                   static_cast<std::uint32_t>(width),
-                                   static_cast<std::uint32_t>(style.weight),
-                                   static_cast<std::uint32_t>(style.align),
-                                   static_cast<std::uint32_t>(style.icon),
-                                   static_cast<std::uint32_t>(style.right_to_left),
-                                   static_cast<std::uint32_t>(style.tabular)};
+  const std::uint32_t numbers[] = {std::uint32_t(std::lround(style.size_px * 8)),
+                                   std::uint32_t(width),
+                                   std::uint32_t(style.weight),
+                                   std::uint32_t(style.align),
+                                   std::uint32_t(style.icon),
+                                   std::uint32_t(style.right_to_left),
+                                   std::uint32_t(style.tabular)};
   hash = mix(hash, numbers, sizeof numbers);
   return mix(hash, style.language, std::strlen(style.language));
 }
@@ -60,7 +97,7 @@ class CachedTextEngine final : public TextEngine {
   };
 
   Entry& find(std::string_view text, const TextStyle& style, float max_width_px) {
-    const int width = std::max(1, static_cast<int>(std::ceil(max_width_px)));
+    const int width = std::max(1, int(std::ceil(max_width_px)));
     const std::uint64_t key = key_of(text, style, width);
     const auto known = labels_.find(key);
     if (known != labels_.end()) return known->second;
@@ -75,12 +112,10 @@ class CachedTextEngine final : public TextEngine {
   }
 
   void rasterise(std::string_view text, const TextStyle& style, float max_width_px, Entry& entry) {
-    const SetText& set = paragraph_.set(text, style, std::max(1, static_cast<int>(std::ceil(max_width_px))));
+    const SetText& set = paragraph_.set(text, style, std::max(1, int(std::ceil(max_width_px))));
     // All in whole pixels, so that letters stay sharp.
-    const int left = static_cast<int>(std::floor(set.left)) - 1,
-              top = static_cast<int>(std::floor(set.top)) - 1;
-    const int right = static_cast<int>(std::ceil(set.right)) + 1,
-              bottom = static_cast<int>(std::ceil(set.bottom)) + 1;
+    const int left = int(std::floor(set.left)) - 1, top = int(std::floor(set.top)) - 1;
+    const int right = int(std::ceil(set.right)) + 1, bottom = int(std::ceil(set.bottom)) + 1;
     const int w = std::clamp(right - left, 1, atlas_.side_px() - 2),
               h = std::clamp(bottom - top, 1, atlas_.side_px() - 2);
     auto at = atlas_.place(w, h);
@@ -89,13 +124,10 @@ class CachedTextEngine final : public TextEngine {
       at = atlas_.place(w, h);
     }
     entry.generation = atlas_.generation();
-    entry.label.ink = {static_cast<float>(left), static_cast<float>(top), static_cast<float>(w),
-                       static_cast<float>(h)};
-    entry.label.atlas = {static_cast<float>(at->x), static_cast<float>(at->y), static_cast<float>(w),
-                         static_cast<float>(h)};
+    entry.label.ink = {float(left), float(top), float(w), float(h)};
+    entry.label.atlas = {float(at->x), float(at->y), float(w), float(h)};
     const GlyphCoverage drawn = paragraph_.draw(left, top, w, h);
-    for (int y = 0; y < h; ++y)
-      std::memcpy(atlas_.row(at->x, at->y + y), drawn.row(y), static_cast<std::size_t>(w));
+    for (int y = 0; y < h; ++y) std::memcpy(atlas_.row(at->x, at->y + y), drawn.row(y), std::size_t(w));
   }
 
   PangoParagraph paragraph_;

@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: 2026 The Relievo authors
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include "ui/tree/layout.h"
+#include "ui/tree/tree.h"
 
 #include <algorithm>
 #include <cmath>
@@ -65,32 +65,31 @@ Layout::Need Layout::content_need(const Node& node, float width) {
   const bool is_wrapped = wrapped(node, width);
   if (node.box.flow == Flow::Row && !is_wrapped) {
     const Shares given = shares(node, width);
-    for (std::int32_t at = node.first_child; at >= 0;
-         at = nodes_[static_cast<std::size_t>(at)].next, ++count) {
-      const Need child = need(nodes_[static_cast<std::size_t>(at)], given.w[static_cast<std::size_t>(count)]);
+    for (std::int32_t at = node.first_child; at >= 0; at = nodes_[std::size_t(at)].next, ++count) {
+      const Need child = need(nodes_[std::size_t(at)], given.w[std::size_t(count)]);
       n.w += child.w;
       n.h = std::max(n.h, child.h);
     }
-    if (count > 1) n.w += node.box.gap * static_cast<float>(count - 1);
+    if (count > 1) n.w += node.box.gap * float(count - 1);
     return n;
   }
-  for (std::int32_t at = node.first_child; at >= 0; at = nodes_[static_cast<std::size_t>(at)].next, ++count) {
-    const Need child = need(nodes_[static_cast<std::size_t>(at)], width);
+  for (std::int32_t at = node.first_child; at >= 0; at = nodes_[std::size_t(at)].next, ++count) {
+    const Need child = need(nodes_[std::size_t(at)], width);
     n.w = std::max(n.w, child.w);
     n.h = node.box.flow == Flow::Stack ? std::max(n.h, child.h) : n.h + child.h;
   }
   if (node.box.flow != Flow::Stack && count > 1)
-    n.h += node.box.gap * (is_wrapped ? kWrappedGaps : 1) * static_cast<float>(count - 1);
+    n.h += node.box.gap * (is_wrapped ? kWrappedGaps : 1) * float(count - 1);
   return n;
 }
 
 // Would the words of its first child be broken into more lines beside what stands behind them?
 bool Layout::wrapped(const Node& row, float width) {
   if (!row.box.wrap || row.box.flow != Flow::Row || row.first_child < 0) return false;
-  const Node& words = nodes_[static_cast<std::size_t>(row.first_child)];
+  const Node& words = nodes_[std::size_t(row.first_child)];
   float left = width;
-  for (std::int32_t at = words.next; at >= 0; at = nodes_[static_cast<std::size_t>(at)].next)
-    left -= need(nodes_[static_cast<std::size_t>(at)], kEndless).w + row.box.gap;
+  for (std::int32_t at = words.next; at >= 0; at = nodes_[std::size_t(at)].next)
+    left -= need(nodes_[std::size_t(at)], kEndless).w + row.box.gap;
   return left < kLeastShare * width && need(words, kEndless).w > left;
 }
 
@@ -98,8 +97,8 @@ bool Layout::wrapped(const Node& row, float width) {
 float Layout::row_stretch(const Node& column, const Rect& inner) {
   if (column.box.row_stretch <= 1) return 0;
   float rows = 0, lowest = inner.h, all = -column.box.gap;
-  for (std::int32_t at = column.first_child; at >= 0; at = nodes_[static_cast<std::size_t>(at)].next) {
-    const Node& child = nodes_[static_cast<std::size_t>(at)];
+  for (std::int32_t at = column.first_child; at >= 0; at = nodes_[std::size_t(at)].next) {
+    const Node& child = nodes_[std::size_t(at)];
     const float h = need(child, inner.w).h;
     all += h + column.box.gap;
     if (is_row(child)) ++rows, lowest = std::min(lowest, h);
@@ -116,8 +115,8 @@ Layout::Shares Layout::shares(const Node& row, float width) {
   std::size_t count = 0;
   float fixed = 0, grow = 0, soft = 0;
   for (std::int32_t at = row.first_child; at >= 0 && count < kMostInARow;
-       at = nodes_[static_cast<std::size_t>(at)].next, ++count) {
-    const Node& child = nodes_[static_cast<std::size_t>(at)];
+       at = nodes_[std::size_t(at)].next, ++count) {
+    const Node& child = nodes_[std::size_t(at)];
     if (child.box.grow > 0) {
       grow += child.box.grow;
       continue;
@@ -126,17 +125,16 @@ Layout::Shares Layout::shares(const Node& row, float width) {
     fixed += given.w[count];
     if (may_shrink(child)) soft += given.w[count];
   }
-  const float gaps = count > 1 ? row.box.gap * static_cast<float>(count - 1) : 0;
+  const float gaps = count > 1 ? row.box.gap * float(count - 1) : 0;
   const float left = width - fixed - gaps;
   std::size_t i = 0;
   float before =
       0;  // of the shares: what is left is given out to the last pixel, so that rows end under each other
-  for (std::int32_t at = row.first_child; at >= 0 && i < count;
-       at = nodes_[static_cast<std::size_t>(at)].next, ++i) {
-    const Node& child = nodes_[static_cast<std::size_t>(at)];
+  for (std::int32_t at = row.first_child; at >= 0 && i < count; at = nodes_[std::size_t(at)].next, ++i) {
+    const Node& child = nodes_[std::size_t(at)];
     if (child.box.grow > 0) {
       const float own = row.box.grid ? row.box.gap : 0,
-                  all = std::max(0.0F, row.box.grid ? left + own * static_cast<float>(count) : left);
+                  all = std::max(0.0F, row.box.grid ? left + own * float(count) : left);
       const float from = std::floor(all * before / grow);
       before += child.box.grow;
       given.w[i] = std::max(0.0F, std::floor(all * before / grow + kRounding) - from - own);
@@ -149,12 +147,9 @@ Layout::Shares Layout::shares(const Node& row, float width) {
 float Layout::align_start(const Node& node, float room, float size) const {
   switch (node.box.align) {
     case Align::Stretch:
-    case Align::Start:
-      return 0;
-    case Align::Centre:
-      return (room - size) / 2;
-    case Align::End:
-      return room - size;
+    case Align::Start: return 0;
+    case Align::Centre: return (room - size) / 2;
+    case Align::End: return room - size;
   }
   return 0;
 }
@@ -168,12 +163,10 @@ void Layout::place(std::size_t index, const Rect& rect, const Rect& clip) {
                    std::max(0.0F, node.rect.h - 2 * node.box.pad_y)};
   const Rect inside = node.box.scroll ? meet(clip, node.rect) : clip;
   switch (node.box.flow) {
-    case Flow::Column:
-      return place_column(node, inner, inside);
+    case Flow::Column: return place_column(node, inner, inside);
     case Flow::Row:
       return wrapped(node, inner.w) ? place_column(node, inner, inside) : place_row(node, inner, inside);
-    case Flow::Stack:
-      return place_stack(node, inner, inside);
+    case Flow::Stack: return place_stack(node, inner, inside);
   }
 }
 
@@ -183,8 +176,8 @@ void Layout::place_column(Node& node, const Rect& inner, const Rect& clip) {
                     // shown: the height of a picture, when it alone grows
   int count = 0;
   const float taller = row_stretch(node, inner);
-  for (std::int32_t at = node.first_child; at >= 0; at = nodes_[static_cast<std::size_t>(at)].next, ++count) {
-    const Node& child = nodes_[static_cast<std::size_t>(at)];
+  for (std::int32_t at = node.first_child; at >= 0; at = nodes_[std::size_t(at)].next, ++count) {
+    const Node& child = nodes_[std::size_t(at)];
     const float h = stretched_height(child, need(child, inner.w).h, taller);
     fixed += h;
     if (child.box.grow <= 0) continue;
@@ -195,7 +188,7 @@ void Layout::place_column(Node& node, const Rect& inner, const Rect& clip) {
     highest = std::max(highest, h / child.box.grow);
   }
   float gap = node.box.gap * (node.box.flow == Flow::Row ? kWrappedGaps : 1);
-  if (count > 1) fixed += gap * static_cast<float>(count - 1);
+  if (count > 1) fixed += gap * float(count - 1);
   node.content_height = fixed + 2 * node.box.pad_y;
   if (node.box.fit_content && grow <= 0) node.rect.h = std::min(node.rect.h, std::round(node.content_height));
   float y = inner.y, over = node.box.scroll ? 0 : std::max(0.0F, fixed - inner.h);
@@ -210,10 +203,9 @@ void Layout::place_column(Node& node, const Rect& inner, const Rect& clip) {
     left = std::max(0.0F, shown - growing);
   }
   if (grow <= 0 && node.box.justify == Justify::End) y += left;
-  if (grow <= 0 && node.box.justify == Justify::SpaceBetween && count > 1)
-    gap += left / static_cast<float>(count - 1);
-  for (std::int32_t at = node.first_child; at >= 0; at = nodes_[static_cast<std::size_t>(at)].next) {
-    const Node& child = nodes_[static_cast<std::size_t>(at)];
+  if (grow <= 0 && node.box.justify == Justify::SpaceBetween && count > 1) gap += left / float(count - 1);
+  for (std::int32_t at = node.first_child; at >= 0; at = nodes_[std::size_t(at)].next) {
+    const Node& child = nodes_[std::size_t(at)];
     Need n = need(child, inner.w);
     n.h = stretched_height(child, n.h, taller);
     if (child.box.shrink) n.h -= std::exchange(over, 0.0F);
@@ -228,7 +220,7 @@ void Layout::place_column(Node& node, const Rect& inner, const Rect& clip) {
                                        inner.w);
     float x = align_start(node, inner.w, w);
     if (right_to_left_) x = inner.w - w - x;
-    place(static_cast<std::size_t>(at), {inner.x + x, y, w, h}, clip);
+    place(std::size_t(at), {inner.x + x, y, w, h}, clip);
     y += h + gap;
   }
 }
@@ -237,20 +229,19 @@ void Layout::place_row(Node& node, const Rect& inner, const Rect& clip) {
   const Shares given = shares(node, inner.w);
   float used = 0;
   std::size_t count = 0;
-  for (std::int32_t at = node.first_child; at >= 0 && count < kMostInARow;
-       at = nodes_[static_cast<std::size_t>(at)].next)
+  for (std::int32_t at = node.first_child; at >= 0 && count < kMostInARow; at = nodes_[std::size_t(at)].next)
     used += given.w[count++];
   float gap = node.box.gap;
-  if (count > 1) used += gap * static_cast<float>(count - 1);
+  if (count > 1) used += gap * float(count - 1);
   const float left = std::max(0.0F, inner.w - used);
   float x = 0;
   if (node.box.justify == Justify::Centre) x = left / 2;
   if (node.box.justify == Justify::End) x = left;
-  if (node.box.justify == Justify::SpaceBetween && count > 1) gap += left / static_cast<float>(count - 1);
+  if (node.box.justify == Justify::SpaceBetween && count > 1) gap += left / float(count - 1);
   const bool mirrored = (right_to_left_ && !node.box.left_to_right) != node.box.other_side;
   std::size_t i = 0;
   for (std::int32_t at = node.first_child; at >= 0 && i < count; ++i) {
-    const auto child = static_cast<std::size_t>(at);
+    const auto child = std::size_t(at);
     at = nodes_[child].next;
     const float w = given.w[i];
     const float h = node.box.align == Align::Stretch ? inner.h : std::min(inner.h, need(nodes_[child], w).h);
@@ -262,7 +253,7 @@ void Layout::place_row(Node& node, const Rect& inner, const Rect& clip) {
 
 void Layout::place_stack(Node& node, const Rect& inner, const Rect& clip) {
   for (std::int32_t at = node.first_child; at >= 0;) {
-    const auto child = static_cast<std::size_t>(at);
+    const auto child = std::size_t(at);
     at = nodes_[child].next;
     const Node& one = nodes_[child];
     if (!one.pinned) {

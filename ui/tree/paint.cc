@@ -136,14 +136,13 @@ void paint_scroll_bar(DrawList& list, const Node& node, const Interaction& hands
 
 // What is seen behind a node at a height: the nearest box around it that is filled.
 Colour ground_of(const std::vector<Node>& nodes, std::size_t index, float y) {
-  for (auto at = static_cast<std::int32_t>(index); at >= 0; at = nodes[static_cast<std::size_t>(at)].parent) {
-    const Node& node = nodes[static_cast<std::size_t>(at)];
+  for (auto at = std::int32_t(index); at >= 0; at = nodes[std::size_t(at)].parent) {
+    const Node& node = nodes[std::size_t(at)];
     if (!node.box.fill.seen()) continue;
     const Colour a = node.box.fill, b = node.box.fill_end.seen() ? node.box.fill_end : a;
     const float share = std::clamp((y - node.rect.y) / std::max(1.0F, node.rect.h), 0.0F, 1.0F);
     const auto between = [share](std::uint8_t from, std::uint8_t to) {
-      return static_cast<std::uint8_t>(
-          std::lround(std::lerp(static_cast<float>(from), static_cast<float>(to), share)));
+      return std::uint8_t(std::lround(std::lerp(float(from), float(to), share)));
     };
     return {between(a.r, b.r), between(a.g, b.g), between(a.b, b.b), between(a.a, b.a)};
   }
@@ -190,26 +189,16 @@ void paint_held(DrawList& list, const Node& node, float share, bool right_to_lef
 
 std::string_view word(Role role) {
   switch (role) {
-    case Role::Group:
-      return "group";
-    case Role::Heading:
-      return "heading";
-    case Role::Text:
-      return "text";
-    case Role::Icon:
-      return "icon";
-    case Role::Button:
-      return "button";
-    case Role::Key:
-      return "key";
-    case Role::Field:
-      return "field";
-    case Role::Picture:
-      return "picture";
-    case Role::Status:
-      return "status";
-    case Role::Alert:
-      return "alert";
+    case Role::Group: return "group";
+    case Role::Heading: return "heading";
+    case Role::Text: return "text";
+    case Role::Icon: return "icon";
+    case Role::Button: return "button";
+    case Role::Key: return "key";
+    case Role::Field: return "field";
+    case Role::Picture: return "picture";
+    case Role::Status: return "status";
+    case Role::Alert: return "alert";
   }
   return "";
 }
@@ -234,10 +223,9 @@ void Tree::paint(DrawList& list, TextEngine& text, const Interaction& hands, Col
     if (seen) paint_node(list, node, text, hands, unit);
     if (seen && hands.show_focus && !node.id.empty() && node.id == hands.focus) focused = &node;
     // Behind the last one in a scroller comes what lies over all of them.
-    for (auto at = static_cast<std::int32_t>(i); node.first_child < 0 && at >= 0;
-         at = nodes_[static_cast<std::size_t>(at)].parent) {
-      paint_fades(list, nodes_, static_cast<std::size_t>(at), hands, unit);
-      if (nodes_[static_cast<std::size_t>(at)].next >= 0) break;
+    for (auto at = std::int32_t(i); node.first_child < 0 && at >= 0; at = nodes_[std::size_t(at)].parent) {
+      paint_fades(list, nodes_, std::size_t(at), hands, unit);
+      if (nodes_[std::size_t(at)].next >= 0) break;
     }
   }
   if (focused != nullptr) paint_focus(list, *focused, focus, unit);

@@ -9,7 +9,6 @@
 #include <utility>
 
 #include "hal/base/assert.h"
-#include "ui/tree/layout.h"
 
 namespace relievo::ui {
 namespace {
@@ -50,13 +49,13 @@ std::string_view Tree::keep(std::string_view text) {
 
 void Tree::mark(const Spot& spot) {
   Node& node = nodes_.back();
-  if (node.spots++ == 0) node.first_spot = static_cast<std::uint32_t>(spots_.size());
+  if (node.spots++ == 0) node.first_spot = std::uint32_t(spots_.size());
   spots_.push_back(spot);
 }
 
 Node& Tree::leaf(const Node& node) {
   RELIEVO_ASSERT(nodes_.size() < kNodes);
-  const auto index = static_cast<std::int32_t>(nodes_.size());
+  const auto index = std::int32_t(nodes_.size());
   nodes_.push_back(node);
   Node& added = nodes_.back();
   added.first_child = added.last_child = added.next = -1;
@@ -64,8 +63,8 @@ Node& Tree::leaf(const Node& node) {
   added.style.right_to_left = right_to_left_;
   if (added.modal) modal_ = index;
   if (!open_.empty()) {
-    Node& parent = nodes_[static_cast<std::size_t>(open_.back())];
-    if (parent.last_child >= 0) nodes_[static_cast<std::size_t>(parent.last_child)].next = index;
+    Node& parent = nodes_[std::size_t(open_.back())];
+    if (parent.last_child >= 0) nodes_[std::size_t(parent.last_child)].next = index;
     else parent.first_child = index;
     parent.last_child = index;
   }
@@ -74,7 +73,7 @@ Node& Tree::leaf(const Node& node) {
 
 Node& Tree::open(const Node& node) {
   Node& added = leaf(node);
-  open_.push_back(static_cast<std::int32_t>(nodes_.size()) - 1);
+  open_.push_back(std::int32_t(nodes_.size()) - 1);
   return added;
 }
 
@@ -87,8 +86,7 @@ void Tree::layout(const Rect& screen, TextEngine& text, const Interaction& hands
 
 bool Tree::under_modal(std::size_t index) const {
   if (modal_ < 0) return false;
-  for (auto at = static_cast<std::int32_t>(index); at >= 0;
-       at = nodes_[static_cast<std::size_t>(at)].parent) {
+  for (auto at = std::int32_t(index); at >= 0; at = nodes_[std::size_t(at)].parent) {
     if (at == modal_) return false;
   }
   return true;
@@ -119,13 +117,13 @@ const Node* Tree::scroller_at(float x, float y) const {
 }
 
 const Node* Tree::after(std::string_view id, int direction) const {
-  const auto count = static_cast<int>(nodes_.size());
+  const auto count = int(nodes_.size());
   int from = direction > 0 ? -1 : count;
   for (int i = 0; i < count; ++i) {
-    if (nodes_[static_cast<std::size_t>(i)].id == id) from = i;
+    if (nodes_[std::size_t(i)].id == id) from = i;
   }
   for (int step = 1; step <= count; ++step) {
-    const auto i = static_cast<std::size_t>(((from + direction * step) % count + count) % count);
+    const auto i = std::size_t(((from + direction * step) % count + count) % count);
     if (takes_focus(i) && !under_modal(i)) return &nodes_[i];
   }
   return nullptr;
@@ -171,8 +169,8 @@ bool Tree::takes_focus(std::size_t index) const {
 }
 
 const Node* Tree::scroller_around(const Node& node) const {
-  for (std::int32_t at = node.parent; at >= 0; at = nodes_[static_cast<std::size_t>(at)].parent) {
-    if (goes_on(nodes_[static_cast<std::size_t>(at)])) return &nodes_[static_cast<std::size_t>(at)];
+  for (std::int32_t at = node.parent; at >= 0; at = nodes_[std::size_t(at)].parent) {
+    if (goes_on(nodes_[std::size_t(at)])) return &nodes_[std::size_t(at)];
   }
   return nullptr;
 }

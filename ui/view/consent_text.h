@@ -44,7 +44,7 @@ struct ConsentTexts {
   Host host;
   std::array<std::optional<ConsentText>, kLanguages> in;
   const ConsentText* of(Language language) const {
-    const auto& text = in[static_cast<std::size_t>(language)];
+    const auto& text = in[std::size_t(language)];
     return text ? &*text : nullptr;
   }
   bool operator==(const ConsentTexts&) const = default;

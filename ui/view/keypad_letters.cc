@@ -22,21 +22,15 @@ constexpr Keys kPlain{" -'.1", "acb2", "edf3", "ihg4", "lkj5", "nom6", "rspq7", 
 
 const Keys& keys_of(Language language, bool capital) {
   switch (language) {
-    case Language::German:
-      return capital ? kGermanBig : kGerman;
-    case Language::French:
-      return capital ? kFrenchBig : kFrench;
-    case Language::Spanish:
-      return capital ? kSpanishBig : kSpanish;
-    case Language::Arabic:
-      return kArabic;
-    case Language::Hebrew:
-      return kHebrew;
+    case Language::German: return capital ? kGermanBig : kGerman;
+    case Language::French: return capital ? kFrenchBig : kFrench;
+    case Language::Spanish: return capital ? kSpanishBig : kSpanish;
+    case Language::Arabic: return kArabic;
+    case Language::Hebrew: return kHebrew;
     case Language::English:
     case Language::Chinese:
     case Language::Japanese:
-    case Language::Count:
-      break;
+    case Language::Count: break;
   }
   return capital ? kPlainBig : kPlain;
 }
@@ -49,7 +43,7 @@ std::size_t bytes_of(char first) {
 }  // namespace
 
 std::string_view keypad_letter(Language language, char digit, std::size_t times, bool capital) {
-  const std::string_view key = keys_of(language, capital)[static_cast<std::size_t>(digit - '1')];
+  const std::string_view key = keys_of(language, capital)[std::size_t(digit - '1')];
   std::size_t at = 0;
   for (std::size_t i = 0; i < times; ++i) {
     at += bytes_of(key[at]);

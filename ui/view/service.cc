@@ -120,8 +120,7 @@ void Service::request(const StaffAsk& ask) {
 std::optional<StaffRequest> Service::take_request() {
   if (request_count_ == 0) return std::nullopt;
   const StaffRequest first = requests_[0];
-  std::move(requests_.begin() + 1, requests_.begin() + static_cast<std::ptrdiff_t>(request_count_),
-            requests_.begin());
+  std::move(requests_.begin() + 1, requests_.begin() + std::ptrdiff_t(request_count_), requests_.begin());
   explicit_bzero(requests_[--request_count_].bytes.data(), kStaffTextBytes);
   return first;
 }

@@ -83,9 +83,9 @@ enum class TechnicianStage : std::uint8_t {
   Poses,  // of a head from several pairs
   Count
 };
-inline constexpr std::size_t kTechnicianStages = static_cast<std::size_t>(TechnicianStage::Count);
+inline constexpr std::size_t kTechnicianStages = std::size_t(TechnicianStage::Count);
 enum class TechnicianTable : std::uint8_t { Matches, Points, Model, Poses, Calibration, Count };
-inline constexpr std::size_t kTechnicianTables = static_cast<std::size_t>(TechnicianTable::Count);
+inline constexpr std::size_t kTechnicianTables = std::size_t(TechnicianTable::Count);
 
 // What needs nothing more to be said.
 enum class TechnicianAct : std::uint8_t {

@@ -14,10 +14,52 @@
 #include "ui/draw/draw_list.h"
 #include "ui/view/fault.h"
 #include "ui/view/list_place.h"
-#include "ui/view/log_event.h"
 #include "ui/view/service_view.h"
 
 namespace relievo::ui {
+
+// What the event log notes beside faults. Its file keeps the numbers: new ones stand at the end.
+enum class LogEvent : std::uint8_t {
+  Started,
+  SignedOut,
+  TechnicianSignedIn,
+  OperatorSignedIn,
+  WrongPin,
+  ClockSet,
+  TechnicianPinChosen,
+  OperatorPinChosen,
+  TechnicianPinForgotten,  // by the command line
+  OperatorPinForgotten,
+  TouchPlain,
+  TouchCorrected,
+  SettingChanged,   // its key and its value in figures
+  RecordsExported,  // how many
+  RecordsExpired,   // how many
+  RecordErased,     // its number
+  SelfTestBegun,
+  ConsentTaken,    // its version
+  SettingUnknown,  // what is stored in place of one
+  Count
+};
+
+// What the page of records draws. Borrowed for one frame. Thread: main.
+struct RecordRow {
+  std::int64_t number = 0;
+  std::string_view name, since, code;
+  int portraits = 0;
+};
+
+struct RecordsView {
+  std::span<const RecordRow> rows;  // newest first
+  ListPlace place;
+  std::string_view searched;
+  const RecordRow* shown = nullptr;        // the one that is looked at
+  std::string_view consent, consented_at;  // the text's version and language; when
+  bool erased = false;                     // the last thing that was done
+  bool exported = false;
+  int asked = 0;  // records of the last export; 0: the last thing that was done is another
+  int whole = 0;  // of these, on the stick and read back
+};
 
 // --- status: what needs a hand, as the appliance knows it; the rest stands in ViewState -------------
 struct StatusView {
@@ -35,7 +77,7 @@ inline constexpr double kWarmCelsius = 75, kHotCelsius = 90;
 
 // --- statistics: numbers, nobody's name -----------------------------------------------------------
 enum class Refusal : std::uint8_t { NoFace, TooFewMatches, PoorGeometry, Memory, Camera, Slow, Other, Count };
-inline constexpr std::size_t kRefusals = static_cast<std::size_t>(Refusal::Count);
+inline constexpr std::size_t kRefusals = std::size_t(Refusal::Count);
 
 inline constexpr std::size_t kStatisticsDays = 29;  // four weeks and today
 
@@ -76,7 +118,7 @@ struct GaugeRow {
 
 // Of the last visits that were photographed: where the time goes and what memory it takes.
 enum class CostlyStage : std::uint8_t { Match, Reconstruct, Mesh, Texture, Assemble, Side, Fuse, Count };
-inline constexpr std::size_t kCostlyStages = static_cast<std::size_t>(CostlyStage::Count);
+inline constexpr std::size_t kCostlyStages = std::size_t(CostlyStage::Count);
 
 struct StageCost {
   float seconds = 0, mib = 0;  // at most, in one visit; 0: it was not run
@@ -120,7 +162,7 @@ struct RecoveryView {
 // --- self-test --------------------------------------------------------------------------------------
 enum class Check : std::uint8_t { Memory, Store, Calibration, Disk, Cameras, Count };
 enum class CheckState : std::uint8_t { NotTested, Running, Good, Bad };
-inline constexpr std::size_t kChecks = static_cast<std::size_t>(Check::Count);
+inline constexpr std::size_t kChecks = std::size_t(Check::Count);
 
 struct SelfTestView {
   std::array<CheckState, kChecks> states{};

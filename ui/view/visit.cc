@@ -18,7 +18,7 @@ bool is_stage(Screen screen) {
 int Visit::seconds_left(hal::Instant now) const {
   const auto left =
       std::chrono::ceil<std::chrono::seconds>(last_touch_ + patience() + kLastCall - now).count();
-  return static_cast<int>(std::clamp<long>(left, 0, kLastCall.count()));
+  return int(std::clamp<long>(left, 0, kLastCall.count()));
 }
 
 std::optional<float> Visit::countdown(const LiveView& live) const {
@@ -30,7 +30,7 @@ std::optional<float> Visit::countdown(const LiveView& live) const {
 
 int Visit::countdown_number(const LiveView& live) const {
   const auto left = countdown(live);
-  return left ? 1 + std::clamp(static_cast<int>(*left / countdown_s() * 3), 0, 2) : 0;
+  return left ? 1 + std::clamp(int(*left / countdown_s() * 3), 0, 2) : 0;
 }
 
 void Visit::touched(hal::Instant now) {
@@ -87,28 +87,18 @@ void Visit::look_at(ActionKind kind) {
 std::optional<Intent> Visit::back(const ViewState& view) {
   if (std::exchange(overlay, Overlay::None) != Overlay::None) return std::nullopt;
   switch (step) {
-    case Step::Consent:
-      go(Step::Attract, view.now);
-      break;
-    case Step::Name:
-      step = Step::Consent;
-      break;
-    case Step::Known:
-      step = Step::Name;
-      break;
-    case Step::Position:
-      step = Step::Name;
-      return Intent::Cancel;
-    case Step::Review:
-      return Intent::Pose;
+    case Step::Consent: go(Step::Attract, view.now); break;
+    case Step::Name: step = Step::Consent; break;
+    case Step::Known: step = Step::Name; break;
+    case Step::Position: step = Step::Name; return Intent::Cancel;
+    case Step::Review: return Intent::Pose;
     case Step::Attract:
     case Step::Turn:
     case Step::Working:
     case Step::Thanks:
     case Step::Trouble:
     case Step::Starting:
-    case Step::Declined:
-      break;
+    case Step::Declined: break;
   }
   return std::nullopt;
 }
@@ -125,21 +115,14 @@ std::optional<Intent> Visit::act(Action action, const ViewState& view) {
     case ActionKind::ChooseLanguage:
     case ActionKind::BiggerText:
     case ActionKind::Contrast:
-    case ActionKind::Reach:
-      act_on_page(action, view);
-      break;
+    case ActionKind::Reach: act_on_page(action, view); break;
     case ActionKind::Speech:
     case ActionKind::Quieter:
     case ActionKind::Louder:
-    case ActionKind::Speed:
-      hear(action.kind);
-      break;
-    case ActionKind::Print:
-      return step == Step::Thanks ? std::optional(Intent::Print) : std::nullopt;
-    case ActionKind::LeaveNow:
-      return leave_now(view);
-    case ActionKind::Back:
-      return back(view);
+    case ActionKind::Speed: hear(action.kind); break;
+    case ActionKind::Print: return step == Step::Thanks ? std::optional(Intent::Print) : std::nullopt;
+    case ActionKind::LeaveNow: return leave_now(view);
+    case ActionKind::Back: return back(view);
     case ActionKind::TurnLeft:
     case ActionKind::TurnRight:
     case ActionKind::ZoomIn:
@@ -150,18 +133,10 @@ std::optional<Intent> Visit::act(Action action, const ViewState& view) {
     case ActionKind::LookFill:
     case ActionKind::LookLight:
     case ActionKind::ShowShape:
-    case ActionKind::LookAtFirst:
-      look_at(action.kind);
-      break;
-    case ActionKind::Erase:
-      erase_letter();
-      break;
-    case ActionKind::Shift:
-      capitals = !capitals;
-      break;
-    case ActionKind::Accents:
-      accents = !accents;
-      break;
+    case ActionKind::LookAtFirst: look_at(action.kind); break;
+    case ActionKind::Erase: erase_letter(); break;
+    case ActionKind::Shift: capitals = !capitals; break;
+    case ActionKind::Accents: accents = !accents; break;
     case ActionKind::Start:
     case ActionKind::Agree:
     case ActionKind::Decline:
@@ -170,13 +145,11 @@ std::optional<Intent> Visit::act(Action action, const ViewState& view) {
     case ActionKind::EnoughSides:
     case ActionKind::Accept:
     case ActionKind::Retake:
-    case ActionKind::Finish:
-      return act_on_path(action.kind, view);
+    case ActionKind::Finish: return act_on_path(action.kind, view);
     case ActionKind::HaveCode:
     case ActionKind::SomebodyElse:
     case ActionKind::Renew:
-    case ActionKind::AddAnother:
-      return act_on_record(action.kind);
+    case ActionKind::AddAnother: return act_on_record(action.kind);
     case ActionKind::ReadOn:
     case ActionKind::TypeKey:
     case ActionKind::TurnFace:
@@ -188,8 +161,7 @@ std::optional<Intent> Visit::act(Action action, const ViewState& view) {
     case ActionKind::StaffMode:
     case ActionKind::StaffChoose:
     case ActionKind::StaffMeasure:
-    case ActionKind::None:
-      break;
+    case ActionKind::None: break;
   }
   return std::nullopt;
 }
@@ -198,14 +170,14 @@ std::optional<Intent> Visit::act(Action action, const ViewState& view) {
 void Visit::act_on_page(Action action, const ViewState& view) {
   if (action.kind == ActionKind::BiggerText) text_size = (text_size + 1) % kTextPercents.size();
   else if (action.kind == ActionKind::Contrast) high_contrast = !high_contrast;
-  else if (action.kind == ActionKind::Reach) reach = static_cast<Reach>((static_cast<int>(reach) + 1) % 3);
+  else if (action.kind == ActionKind::Reach) reach = static_cast<Reach>((int(reach) + 1) % 3);
   else if (action.kind == ActionKind::ShowLanguages) overlay = Overlay::Languages;
   else if (action.kind == ActionKind::ShowHelp) overlay = Overlay::Help;
   else if (action.kind == ActionKind::Leave) overlay = Overlay::Leave;
   else if (action.kind == ActionKind::LostCode) overlay = Overlay::LostCode;
   else if (action.kind == ActionKind::ShowPrivacy) overlay = Overlay::Privacy;
   else overlay = Overlay::None;
-  if (action.kind == ActionKind::ChooseLanguage && offered(view)[static_cast<std::size_t>(action.value)])
+  if (action.kind == ActionKind::ChooseLanguage && offered(view)[std::size_t(action.value)])
     language = static_cast<Language>(action.value);
 }
 
@@ -280,9 +252,9 @@ void Visit::follow_language(const ViewState& view) {
   if (home_ != view.home && (step == Step::Attract || step == Step::Starting)) language = view.home;
   home_ = view.home;
   const auto languages = offered(view);
-  if (languages[static_cast<std::size_t>(language)]) return;
+  if (languages[std::size_t(language)]) return;
   language = home_;
-  for (std::size_t i = 0; i < kLanguages && !languages[static_cast<std::size_t>(language)]; ++i)
+  for (std::size_t i = 0; i < kLanguages && !languages[std::size_t(language)]; ++i)
     language = static_cast<Language>(i);
 }
 

@@ -20,7 +20,6 @@
 #include "ui/draw/draw_list.h"
 #include "ui/language/language.h"
 #include "ui/view/action.h"
-#include "ui/view/intent.h"
 #include "ui/view/view_state.h"
 
 namespace relievo::ui {
@@ -42,7 +41,7 @@ enum class Step : std::uint8_t {
 inline constexpr std::array<std::string_view, 12> kStepNames{"Attract",  "Consent", "Name",     "Known",
                                                              "Position", "Turn",    "Working",  "Review",
                                                              "Thanks",   "Trouble", "Starting", "Declined"};
-constexpr std::string_view name_of(Step step) { return kStepNames[static_cast<std::size_t>(step)]; }
+constexpr std::string_view name_of(Step step) { return kStepNames[std::size_t(step)]; }
 enum class Overlay : std::uint8_t { None, Help, Languages, Leave, StillThere, LostCode, Privacy };
 
 // The first where nobody has set another. WCAG 2.2.1 wants 20 seconds for an answer; a code that is seen
@@ -90,7 +89,7 @@ class Visit {
   std::optional<float> countdown(const LiveView& live) const;
   // The same as a number of three that are counted down; 0: there is none.
   int countdown_number(const LiveView& live) const;
-  float countdown_s() const { return static_cast<float>(settings_.of(Setting::CountdownMs)) / 1000; }
+  float countdown_s() const { return float(settings_.of(Setting::CountdownMs)) / 1000; }
 
   // The languages to choose from: to who listens, those that can be heard.
   std::bitset<kLanguages> offered(const ViewState& view) const {

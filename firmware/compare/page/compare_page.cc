@@ -101,15 +101,14 @@ Result<std::string> pair_section(const Comparison& c, std::size_t pair) {
 
 // Only what this page has; what it cannot say comes first.
 std::string reading(const Comparison& c) {
-  const auto any = [&c](auto&& test) { return std::any_of(c.runs.begin(), c.runs.end(), test); };
-  const auto unknown = static_cast<std::size_t>(
-      std::count_if(c.pairs.begin(), c.pairs.end(), [](const PairFacts& pair) { return !pair.truth; }));
+  const auto any = [&c](auto&& test) { return std::ranges::any_of(c.runs, test); };
+  const auto unknown =
+      std::size_t(std::ranges::count_if(c.pairs, [](const PairFacts& pair) { return !pair.truth; }));
   std::string out;
   if (unknown > 0)
     out +=
         "<p><strong>No truth is known" +
-        (unknown == c.pairs.size() ? std::string()
-                                   : " of " + counted(static_cast<int>(unknown), "pair", "pairs")) +
+        (unknown == c.pairs.size() ? std::string() : " of " + counted(int(unknown), "pair", "pairs")) +
         ".</strong> Nothing here says how wrong a set is, only how well it agrees with its own two pictures. An error that both pictures share (a wrong "
         "calibration, movement along the rows) shows in no figure.</p>\n";
   if (any([](const Run& run) { return run.score.has_value(); }))
@@ -137,10 +136,9 @@ std::string reading(const Comparison& c) {
 
 Result<std::string> comparison_html(const Comparison& c, const std::string& product,
                                     const std::string& made_at) {
-  std::string body =
-      pipeline::report::heading(product, "Comparison of algorithms",
-                                {escaped(made_at), counted(static_cast<int>(c.sets.size()), "set", "sets"),
-                                 counted(static_cast<int>(c.pairs.size()), "pair", "pairs")});
+  std::string body = pipeline::report::heading(product, "Comparison of algorithms",
+                                               {escaped(made_at), counted(int(c.sets.size()), "set", "sets"),
+                                                counted(int(c.pairs.size()), "pair", "pairs")});
   body += reading(c);
   for (std::size_t pair = 0; pair < c.pairs.size(); ++pair) {
     RELIEVO_TRY_ASSIGN(const std::string section, pair_section(c, pair));

@@ -1,15 +1,29 @@
 // SPDX-FileCopyrightText: 2026 The Relievo authors
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include "firmware/compare/page/dissertation.h"
-
 #include <cmath>
 #include <cstdlib>
 
+#include "firmware/compare/page/dissertation.h"
 #include "firmware/compare/page/sections.h"
 #include "pipeline/report/page.h"
 #include "pipeline/report/text.h"
 
 namespace relievo::firmware::compare {
+
+std::vector<Figure> figures_of(const Dissertation& d) {
+  const auto runs = [](const Comparison& c, std::initializer_list<std::size_t> which) {
+    std::vector<const Run*> some;
+    for (const std::size_t i : which) some.push_back(&c.runs[i]);
+    return some;
+  };
+  std::vector<Figure> all{{6, "SSD and ZMNCC", d.rules, runs(d.rules, {0, 1, d.rules.runs.size() - 1})}};
+  for (std::size_t i = 0; i < kDissertationRules.size(); ++i)
+    all.push_back({int(7 + i), "the " + std::string(kDissertationRules[i]) + " constraint", d.rules,
+                   runs(d.rules, {2 + i})});
+  all.push_back({17, "the fully automatic face", d.face, runs(d.face, {0, 1, 2, 3})});
+  return all;
+}
+
 namespace {
 
 using pipeline::report::escaped;
@@ -31,7 +45,7 @@ constexpr const char* kUnknown = "not recorded";
 
 std::string percent_of(double share) { return figure(100 * share, 1) + " %"; }
 std::string percent_of(std::size_t part, std::size_t whole) {
-  return whole == 0 ? "–" : percent_of(static_cast<double>(part) / static_cast<double>(whole));
+  return whole == 0 ? "–" : percent_of(double(part) / double(whole));
 }
 std::string off_by(double found, double truth, int decimals) {
   return (found > truth ? "+" : "") + figure(found - truth, decimals);

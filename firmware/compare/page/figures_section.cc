@@ -69,14 +69,13 @@ std::vector<Column> model_columns() {
 
 std::vector<Column> common_columns() {
   using B = Column::Better;
-  return {
-      {"matched<small>accepted</small>",
-       [](const Run& r) { return r.matches.matches == 0 ? kNone : static_cast<double>(r.matches.accepted); },
-       0, B::Neither},
-      {"time<small>to match, ms</small>",
-       [](const Run& r) { return r.matches.matches == 0 ? kNone : r.match_ms; }, 0, B::Less},
-      {"time<small>to mesh, ms</small>", [](const Run& r) { return r.surface ? r.surface->mesh_ms : kNone; },
-       0, B::Less}};
+  return {{"matched<small>accepted</small>",
+           [](const Run& r) { return r.matches.matches == 0 ? kNone : double(r.matches.accepted); }, 0,
+           B::Neither},
+          {"time<small>to match, ms</small>",
+           [](const Run& r) { return r.matches.matches == 0 ? kNone : r.match_ms; }, 0, B::Less},
+          {"time<small>to mesh, ms</small>",
+           [](const Run& r) { return r.surface ? r.surface->mesh_ms : kNone; }, 0, B::Less}};
 }
 
 // What needs no truth.
@@ -89,7 +88,7 @@ std::vector<Column> own_columns() {
           {"photo<small>right view predicted, correlation</small>",
            [](const Run& r) { return r.photo ? r.photo->median : kNone; }, 3, B::More,
            [](const Run& r) {
-             return r.photo ? pipeline::report::counted(static_cast<int>(r.photo->asked), "window", "windows")
+             return r.photo ? pipeline::report::counted(int(r.photo->asked), "window", "windows")
                             : std::string();
            }},
           {"rows<small>disagree by, px</small>", [](const Run& r) { return r.epipolar_px.value_or(kNone); },
@@ -98,8 +97,7 @@ std::vector<Column> own_columns() {
 
 void leave_out_empty(const std::vector<const Run*>& runs, std::vector<Column>& columns) {
   std::erase_if(columns, [&runs](const Column& column) {
-    return std::all_of(runs.begin(), runs.end(),
-                       [&column](const Run* run) { return std::isnan(column.value(*run)); });
+    return std::ranges::all_of(runs, [&column](const Run* run) { return std::isnan(column.value(*run)); });
   });
 }
 
@@ -186,8 +184,7 @@ std::string bar(const Run& run, double longest_ms) {
 std::string swatches(const std::vector<const Run*>& runs) {
   std::string out;
   for (std::size_t i = 0; i < kSteps.size(); ++i) {
-    if (std::none_of(runs.begin(), runs.end(), [i](const Run* run) { return of_step(*run, kSteps[i]) > 0; }))
-      continue;
+    if (std::ranges::none_of(runs, [i](const Run* run) { return of_step(*run, kSteps[i]) > 0; })) continue;
     Drawing d({14, 14}, kSteps[i]);
     d.filled({{0, 0}, {14, 14}}, hex(step_colour(i)));
     out += "<li>" + d.svg() + std::string(kSteps[i]) + "</li>";
@@ -201,12 +198,10 @@ using pipeline::report::figure;
 
 std::string facts_of(const Run& run) {
   const SurfaceLook& look = *run.surface;
-  std::string facts = figure(look.mesh_ms, 0) + " ms to mesh, " + std::to_string(look.triangles) +
-                      " triangles, " +
-                      figure(100 * static_cast<double>(look.measured) /
-                                 static_cast<double>(std::max<std::size_t>(1, look.vertices)),
-                             0) +
-                      " % of the vertices measured";
+  std::string facts =
+      figure(look.mesh_ms, 0) + " ms to mesh, " + std::to_string(look.triangles) + " triangles, " +
+      figure(100 * double(look.measured) / double(std::max<std::size_t>(1, look.vertices)), 0) +
+      " % of the vertices measured";
   if (run.model)
     facts += "; interior median " + figure(run.model->interior_median_mm, 3) + " mm, " +
              figure(100 * run.model->complete_half_mm, 1) + " % within 0.5 mm";
@@ -216,7 +211,7 @@ std::string facts_of(const Run& run) {
 }  // namespace
 
 std::string figures(const Comparison& c, const Runs& runs) {
-  const auto any = [&runs](auto&& test) { return std::any_of(runs.begin(), runs.end(), test); };
+  const auto any = [&runs](auto&& test) { return std::ranges::any_of(runs, test); };
   std::string out;
   const bool models = any([](const Run* r) { return r->model.has_value(); });
   const bool scores = any([](const Run* r) { return r->score.has_value(); });
@@ -241,7 +236,7 @@ std::string costs(const Comparison& c, std::size_t pair) {
   std::vector<std::string> titles{"Set", "all steps<small>to scale</small>"};
   std::vector<std::string_view> steps;
   for (const std::string_view step : kSteps)
-    if (std::any_of(runs.begin(), runs.end(), [step](const Run* run) { return of_step(*run, step) > 0; }))
+    if (std::ranges::any_of(runs, [step](const Run* run) { return of_step(*run, step) > 0; }))
       steps.push_back(step);
   for (const std::string_view step : steps) titles.push_back(std::string(step) + "<small>ms</small>");
   titles.insert(titles.end(), {"arenas<small>peak, MiB</small>", "heap<small>peak, MiB</small>"});
@@ -250,10 +245,8 @@ std::string costs(const Comparison& c, std::size_t pair) {
   for (const Run* run : runs) {
     out += "<tr>" + row_head(name_of(c, *run)) + "<td class=\"bars\">" + bar(*run, longest) + "</td>";
     for (const std::string_view step : steps) out += cell(figure(of_step(*run, step), 0));
-    out +=
-        cell(figure(static_cast<double>(run->arena_peak_bytes) / kMiB, 0)) +
-        cell(run->heap_peak_bytes == 0 ? "–" : figure(static_cast<double>(run->heap_peak_bytes) / kMiB, 0)) +
-        "</tr>\n";
+    out += cell(figure(double(run->arena_peak_bytes) / kMiB, 0)) +
+           cell(run->heap_peak_bytes == 0 ? "–" : figure(double(run->heap_peak_bytes) / kMiB, 0)) + "</tr>\n";
   }
   return out +
          "</tbody>\n</table>\n</div>\n<p class=\"note\">Arenas: what the algorithms took of the memory planned for them. Heap: what the process "
@@ -272,6 +265,75 @@ std::string surfaces(const Comparison& c, const Runs& runs) {
   if (out.empty()) return out;
   return "<h3 class=\"topic\">Surfaces</h3>\n<p class=\"lead\">Each set’s model in plain shading, from in "
          "front and turned by 50°, all at one scale.</p>\n<div class=\"pair\">\n" +
+         out + "</div>\n";
+}
+
+namespace {
+
+using pipeline::report::Axis;
+using pipeline::report::Box;
+using pipeline::report::Drawing;
+using pipeline::report::escaped;
+using pipeline::report::figure;
+using pipeline::report::figure_of;
+using pipeline::report::Size;
+
+constexpr Size kSize{480, 170};
+constexpr Box kPlot{{4, 8}, {472, 118}};
+constexpr double kBinPx = 2 * ErrorHistogram::kReachPx / ErrorHistogram::kBins;
+
+double share(const DisparityScore& s, std::size_t bin) {
+  return s.judged == 0 ? 0 : double(s.histogram.counts[bin]) / double(s.judged);
+}
+
+// The bins at the ends hold all that lies beyond: they are told in words, and no bars.
+double tallest(const std::vector<const Run*>& runs) {
+  double top = 0;
+  for (const Run* run : runs)
+    for (std::size_t i = 1; run->score && i + 1 < ErrorHistogram::kBins; ++i)
+      top = std::max(top, share(*run->score, i));
+  return std::max(top, 1e-6) * 1.04;
+}
+
+std::string of_run(const Comparison& c, const Run& run, double top) {
+  const DisparityScore& s = *run.score;
+  const Axis x{-ErrorHistogram::kReachPx, ErrorHistogram::kReachPx, kPlot.corner.x, kPlot.right()};
+  const Axis y{0, top, kPlot.bottom(), kPlot.corner.y};
+  Drawing d(kSize, name_of(c, run) + ": histogram of the errors");
+  for (std::size_t i = 1; i + 1 < ErrorHistogram::kBins; ++i) {
+    const double middle = -ErrorHistogram::kReachPx + (double(i) + 0.5) * kBinPx;
+    const double left = x(middle - kBinPx / 2);
+    const double high = y(share(s, i));
+    const bool bad = std::abs(middle) > c.limit_px;
+    if (share(s, i) > 0)
+      d.filled({{left + 0.3, high}, {x(middle + kBinPx / 2) - left - 0.6, kPlot.bottom() - high}},
+               bad ? hex(middle < 0 ? kTooFarColour : kTooNearColour) : "#8ba3b8");
+  }
+  d.line("axis", {kPlot.corner.x, kPlot.bottom()}, {kPlot.right(), kPlot.bottom()});
+  for (int tick = -4; tick <= 4; tick += 2) {
+    d.line("axis", {x(tick), kPlot.bottom()}, {x(tick), kPlot.bottom() + 5});
+    d.text(tick == -4  ? "tick"
+           : tick == 4 ? "tick end"
+                       : "tick middle",
+           {x(tick), kPlot.bottom() + 20}, figure(tick, 0) + (tick == 0 ? " px" : ""));
+  }
+  const double beyond = share(s, 0) + share(s, ErrorHistogram::kBins - 1);
+  return figure_of(d.svg(), escaped(name_of(c, run)),
+                   figure(100 * (1 - s.density), 1) + " % have no disparity, " + figure(100 * beyond, 1) +
+                       " % lie beyond ±4 px; bias of the good ones " + figure(s.bias_px, 3) + " px.");
+}
+
+}  // namespace
+
+std::string histograms(const Comparison& c, std::size_t pair) {
+  const std::vector<const Run*> runs = runs_of(c, pair);
+  const double top = tallest(runs);
+  std::string out;
+  for (const Run* run : runs)
+    if (run->score) out += of_run(c, *run, top);
+  if (out.empty()) return out;
+  return "<h3 class=\"topic\">Errors</h3>\n<p class=\"lead\">Share of the pixels with known truth, a tenth of a pixel a bar; all at one scale. "
+         "Left of nought too far, right too near; dark is bad.</p>\n<div class=\"pair\">\n" +
          out + "</div>\n";
 }
 

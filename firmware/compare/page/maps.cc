@@ -19,8 +19,7 @@ constexpr std::array<Rgb, 8> kRules{Rgb{31, 99, 173}, Rgb{214, 96, 6},  Rgb{134,
 
 Rgb mixed(Rgb a, Rgb b, double t) {
   Rgb out{};
-  for (std::size_t i = 0; i < 3; ++i)
-    out[i] = static_cast<std::uint8_t>(std::lround(a[i] + t * (b[i] - a[i])));
+  for (std::size_t i = 0; i < 3; ++i) out[i] = std::uint8_t(std::lround(a[i] + t * (b[i] - a[i])));
   return out;
 }
 
@@ -28,10 +27,9 @@ Rgb mixed(Rgb a, Rgb b, double t) {
 template <typename Colour>
 Result<Png> small(const Window& window, int most_px, Colour&& colour) {
   const int w = std::min(window.width_px, most_px);
-  const int h = std::max(1, static_cast<int>(std::lround(static_cast<double>(window.height_px) * w /
-                                                         std::max(1, window.width_px))));
+  const int h = std::max(1, int(std::lround(double(window.height_px) * w / std::max(1, window.width_px))));
   std::vector<std::byte> rgb;
-  rgb.reserve(3 * static_cast<std::size_t>(w) * static_cast<std::size_t>(h));
+  rgb.reserve(3 * std::size_t(w) * std::size_t(h));
   for (int y = 0; y < h; ++y)
     for (int x = 0; x < w; ++x) {
       const Rgb c =
@@ -58,12 +56,12 @@ void include(const DisparityMap& map, Window& box) {
 }
 
 std::size_t index(const PairFacts& pair, int x, int y) {
-  return static_cast<std::size_t>(y) * static_cast<std::size_t>(pair.width_px) + static_cast<std::size_t>(x);
+  return std::size_t(y) * std::size_t(pair.width_px) + std::size_t(x);
 }
 
 // The picture, pale, as ground for what is drawn on it.
 Rgb pale(std::uint8_t grey) {
-  const auto value = static_cast<std::uint8_t>(130 + grey * 120 / 255);
+  const auto value = std::uint8_t(130 + grey * 120 / 255);
   return {value, value, value};
 }
 
@@ -71,8 +69,8 @@ Rgb pale(std::uint8_t grey) {
 
 Rgb depth_colour(double share) {
   const double at = std::clamp(share, 0.0, 1.0) * (kDepth.size() - 1);
-  const auto first = std::min(static_cast<std::size_t>(at), kDepth.size() - 2);
-  return mixed(kDepth[first], kDepth[first + 1], at - static_cast<double>(first));
+  const auto first = std::min(std::size_t(at), kDepth.size() - 2);
+  return mixed(kDepth[first], kDepth[first + 1], at - double(first));
 }
 
 Rgb error_colour(double error_px, double limit_px) {
@@ -128,8 +126,7 @@ Result<Png> disparity_picture(const DisparityMap& map, const Reach& reach, const
                               int width_px) {
   return small(window, width_px, [&](int x, int y) {
     if (!map.known(x, y)) return kHoleColour;
-    return depth_colour((static_cast<double>(map.at(x, y)) - reach.least_px) /
-                        (reach.most_px - reach.least_px));
+    return depth_colour((double(map.at(x, y)) - reach.least_px) / (reach.most_px - reach.least_px));
   });
 }
 
@@ -138,7 +135,7 @@ Result<Png> error_picture(const DisparityMap& map, const DisparityTruth& truth, 
   return small(window, width_px, [&](int x, int y) {
     if (!truth.map.known(x, y)) return kUnknownColour;
     if (!map.known(x, y)) return kMissedColour;
-    return error_colour(static_cast<double>(map.at(x, y) - truth.map.at(x, y)), limit_px);
+    return error_colour(double(map.at(x, y) - truth.map.at(x, y)), limit_px);
   });
 }
 
@@ -155,8 +152,8 @@ Result<Png> places_picture(const PairFacts& pair, const SelectorFigures& selecto
   const int reach = std::max(1, window.width_px / std::max(1, std::min(width_px, window.width_px)) / 2 + 1);
   std::vector<std::uint8_t> held(pair.grey.size(), 0);
   for (const pipeline::Vec2f& place : selector.places_px)
-    for (int y = static_cast<int>(place.y) - reach; y <= static_cast<int>(place.y) + reach; ++y)
-      for (int x = static_cast<int>(place.x) - reach; x <= static_cast<int>(place.x) + reach; ++x)
+    for (int y = int(place.y) - reach; y <= int(place.y) + reach; ++y)
+      for (int x = int(place.x) - reach; x <= int(place.x) + reach; ++x)
         if (x >= 0 && y >= 0 && x < pair.width_px && y < pair.height_px) held[index(pair, x, y)] = 1;
   return small(window, width_px, [&](int x, int y) {
     return held[index(pair, x, y)] != 0 ? kRules[1] : pale(pair.grey[index(pair, x, y)]);

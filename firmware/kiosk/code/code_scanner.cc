@@ -17,9 +17,7 @@ namespace {
 
 // The letter at the front and its bytes; nothing where it is no UTF-8 (RFC 3629).
 std::optional<std::uint32_t> letter_of(std::string_view text, std::size_t& bytes) {
-  const auto byte = [text](std::size_t i) {
-    return static_cast<std::uint32_t>(static_cast<unsigned char>(text[i]));
-  };
+  const auto byte = [text](std::size_t i) { return std::uint32_t(static_cast<unsigned char>(text[i])); };
   const std::uint32_t first = byte(0);
   bytes = first < 0x80 ? 1 : first < 0xE0 ? 2 : first < 0xF0 ? 3 : 4;
   if (bytes == 1) return first;

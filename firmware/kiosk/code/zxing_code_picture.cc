@@ -17,8 +17,7 @@ hal::Picture code_picture(std::string_view text) try {
   picture.format = PixelFormat::Grey8;
   picture.width_px = modules.width() * kCodeModulePx;
   picture.height_px = modules.height() * kCodeModulePx;
-  picture.bytes.reserve(static_cast<std::size_t>(picture.width_px) *
-                        static_cast<std::size_t>(picture.height_px));
+  picture.bytes.reserve(std::size_t(picture.width_px) * std::size_t(picture.height_px));
   for (int y = 0; y < picture.height_px; ++y)
     for (int x = 0; x < picture.width_px; ++x)
       picture.bytes.push_back(modules.get(x / kCodeModulePx, y / kCodeModulePx) ? std::byte{0}

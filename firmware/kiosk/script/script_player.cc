@@ -74,8 +74,7 @@ Result<ScriptAction> numbers_of(ScriptAction action, std::istringstream& words) 
     case Kind::Tap:
     case Kind::Type:
     case Kind::Plug:
-    case Kind::Unplug:
-      break;
+    case Kind::Unplug: break;
   }
   if (!(words >> std::ws).eof()) return wrong(action.where, "has words too many");
   return action;
@@ -173,15 +172,10 @@ Result<bool> ScriptPlayer::act(const ScriptAction& action, const Kiosk& kiosk, h
       return false;
     case Kind::Tap:
     case Kind::Hold:
-    case Kind::Drag:
-      return touch(action, kiosk, now);
-    case Kind::Type:
-      return type(action, kiosk, now);
-    case Kind::Pause:
-      return passed >= action.seconds;
-    case Kind::Screenshot:
-      screenshot_ = action.word;
-      return true;
+    case Kind::Drag: return touch(action, kiosk, now);
+    case Kind::Type: return type(action, kiosk, now);
+    case Kind::Pause: return passed >= action.seconds;
+    case Kind::Screenshot: screenshot_ = action.word; return true;
     case Kind::Plug:
     case Kind::Unplug:
       if (!hands_.plug)

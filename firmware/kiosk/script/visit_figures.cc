@@ -18,7 +18,7 @@ constexpr long kSettling = 10;  // frames of a page before it is as it stays
 double thread_seconds() {
   timespec at{};
   clock_gettime(CLOCK_THREAD_CPUTIME_ID, &at);
-  return static_cast<double>(at.tv_sec) + 1e-9 * static_cast<double>(at.tv_nsec);
+  return double(at.tv_sec) + 1e-9 * double(at.tv_nsec);
 }
 
 template <typename... Numbers>
@@ -44,7 +44,7 @@ void VisitFigures::shown(const Kiosk& kiosk, bool drawn) {
   const auto now = steady_clock::now();
   const double drawn_s = thread_seconds();
   const ui::Step step = kiosk.ui().visit().step;
-  PageCost& cost = pages_[static_cast<std::size_t>(step)];
+  PageCost& cost = pages_[std::size_t(step)];
   if (step != last_) cost.waited = 0;
   last_ = step;
   follow(kiosk, now);
@@ -85,8 +85,7 @@ void VisitFigures::follow(const Kiosk& kiosk, steady_clock::time_point now) {
 
 std::optional<double> VisitFigures::rate(const PageCost& page) {
   const double passed = duration<double>(page.until - page.from).count();
-  return page.frames > 1 && passed > 0 ? std::optional<double>(static_cast<double>(page.frames) / passed)
-                                       : std::nullopt;
+  return page.frames > 1 && passed > 0 ? std::optional<double>(double(page.frames) / passed) : std::nullopt;
 }
 
 std::vector<std::string> VisitFigures::lines() const {
@@ -105,10 +104,10 @@ std::vector<std::string> VisitFigures::lines() const {
   for (std::size_t i = 0; i < kPages; ++i) {
     const PageCost& p = pages_[i];
     if (p.frames == 0) continue;
-    const double n = static_cast<double>(p.frames);
+    const double n = double(p.frames);
     std::string row = line("%-10s %6ld  %8.1f  %7ld  %29.3f %5.2f  %26.2f  ", ui::kStepNames[i].data(),
                            p.frames, rate(p).value_or(0), p.drawn, 1e3 * p.turn_s / n, 1e3 * p.most_turn_s,
-                           1e3 * p.draw_s / static_cast<double>(std::max(1L, p.drawn)));
+                           1e3 * p.draw_s / double(std::max(1L, p.drawn)));
     row += allocations_ ? line("%ld in %ld frames", p.allocations, p.allocating_frames)
                         : std::string("not counted");
     said.push_back(std::move(row));

@@ -45,7 +45,7 @@ class VisitFigures {
     std::chrono::steady_clock::time_point from{}, until{};
   };
   static constexpr std::size_t kPages = ui::kStepNames.size();
-  const PageCost& page(ui::Step step) const { return pages_[static_cast<std::size_t>(step)]; }
+  const PageCost& page(ui::Step step) const { return pages_[std::size_t(step)]; }
   static std::optional<double> rate(const PageCost& page);
   void follow(const Kiosk& kiosk, std::chrono::steady_clock::time_point now);
 

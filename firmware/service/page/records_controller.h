@@ -14,7 +14,7 @@
 #include "firmware/base/list_walk.h"
 #include "firmware/service/export_records.h"
 #include "firmware/service/page_controller.h"
-#include "ui/view/records_view.h"
+#include "ui/view/staff_views.h"
 
 namespace relievo::firmware {
 

@@ -15,9 +15,9 @@ namespace {
 
 void place(const pipeline::RectifiedPair& pair, ui::TechnicianPoint& point) {
   point.right_px = {point.left_px.x - point.disparity_px, point.left_px.y};
-  point.left_x = point.left_px.x / static_cast<float>(pair.width_px);
-  point.right_x = point.right_px.x / static_cast<float>(pair.width_px);
-  point.y = point.left_px.y / static_cast<float>(pair.height_px);
+  point.left_x = point.left_px.x / float(pair.width_px);
+  point.right_x = point.right_px.x / float(pair.width_px);
+  point.y = point.left_px.y / float(pair.height_px);
 }
 
 // As RectifiedPair says it.
@@ -28,9 +28,9 @@ void reconstruct(const pipeline::RectifiedPair& pair, ui::TechnicianPoint& point
                down = (point.left_px.y - pair.left_centre_px.y) / pair.focal_px;
   const pipeline::Vec3d p =
       apply(transposed(pair.rectified_from_left), pipeline::Vec3d{across * z, down * z, z});
-  point.at_mm = {static_cast<float>(p.x), static_cast<float>(p.y), static_cast<float>(p.z)};
+  point.at_mm = {float(p.x), float(p.y), float(p.z)};
   const double slant = std::sqrt(1 + across * across + down * down);
-  point.sigma_mm = static_cast<float>(z * z / (pair.focal_px * pair.baseline_mm) * point.sigma_px * slant);
+  point.sigma_mm = float(z * z / (pair.focal_px * pair.baseline_mm) * point.sigma_px * slant);
 }
 
 }  // namespace
@@ -38,7 +38,7 @@ void reconstruct(const pipeline::RectifiedPair& pair, ui::TechnicianPoint& point
 ui::TechnicianPoint nearest_match(const pipeline::RectifiedPair& pair, const pipeline::MatchSet& matches,
                                   const TechnicianFigures& figures, float x, float y) {
   ui::TechnicianPoint point = point_at(pair, x, y);
-  const float reach = kFingerShare * static_cast<float>(pair.width_px);
+  const float reach = kFingerShare * float(pair.width_px);
   float best = reach * reach;
   const pipeline::Match* nearest = nullptr;
   for (const pipeline::Match& m : matches.matches) {
@@ -49,7 +49,7 @@ ui::TechnicianPoint nearest_match(const pipeline::RectifiedPair& pair, const pip
   }
   if (nearest == nullptr) return point;
   set_match(pair, *nearest, point);
-  const auto rule = static_cast<std::size_t>(std::countr_zero(nearest->rejected_by));
+  const auto rule = std::size_t(std::countr_zero(nearest->rejected_by));
   if (nearest->rejected_by != 0)
     point.rejected_by = rule < figures.rule_count() ? std::string_view(figures.rule(rule)) : "?";
   return point;
@@ -84,7 +84,7 @@ std::optional<pipeline::Match> alike(const pipeline::RectifiedPair& pair, pipeli
                                      double least, double most) {
   auto found = pipeline::match_on_row(pair, left_px, least, most, kRadiusPx);
   const bool taken = found && found->cost <= kMostUnlike && found->disparity_px <= left_px.x &&
-                     left_px.x - found->disparity_px <= static_cast<float>(pair.width_px - 1);
+                     left_px.x - found->disparity_px <= float(pair.width_px - 1);
   return taken ? found : std::nullopt;
 }
 
@@ -97,7 +97,7 @@ ui::TechnicianPoint begun(const pipeline::RectifiedPair& pair, float x, float y)
 }  // namespace
 
 void HandPairs::touch(const pipeline::RectifiedPair& pair, bool left, float x, float y) {
-  const float high = static_cast<float>(pair.height_px) / static_cast<float>(pair.width_px);
+  const float high = float(pair.height_px) / float(pair.width_px);
   float nearest = kFingerShare;
   std::size_t held = points_.size();
   for (std::size_t i = 0; i < points_.size(); ++i) {
@@ -125,7 +125,7 @@ void HandPairs::drag(const pipeline::RectifiedPair& pair, bool left, float x, fl
 
 void HandPairs::remove() {
   if (chosen_ >= points_.size()) return;
-  points_.erase(points_.begin() + static_cast<std::ptrdiff_t>(chosen_));
+  points_.erase(points_.begin() + std::ptrdiff_t(chosen_));
   chosen_ -= chosen_ > 0 ? 1 : 0;
   changed_ = true;
 }
@@ -137,8 +137,7 @@ void HandPairs::move_left(const pipeline::RectifiedPair& pair, float x, float y)
   changed_ = true;
   std::optional<pipeline::Match> found;
   if (before.matched) {
-    const double reach = static_cast<double>(kFingerShare) * pair.width_px,
-                 was = static_cast<double>(before.disparity_px);
+    const double reach = double(kFingerShare) * pair.width_px, was = double(before.disparity_px);
     found = alike(pair, point.left_px, was - reach, was + reach);
   }
   const pipeline::DisparityRange range = pipeline::disparity_range(pair);
@@ -151,10 +150,10 @@ void HandPairs::move_left(const pipeline::RectifiedPair& pair, float x, float y)
 void HandPairs::move_right(const pipeline::RectifiedPair& pair, float x) {
   if (chosen_ >= points_.size()) return;
   const pipeline::Vec2f left_px = points_[chosen_].left_px;
-  const double reach = static_cast<double>(kFingerShare) * pair.width_px,
-               said = static_cast<double>(left_px.x - pixel_at(x, pair.width_px));
+  const double reach = double(kFingerShare) * pair.width_px,
+               said = double(left_px.x - pixel_at(x, pair.width_px));
   const auto found = alike(pair, left_px, said - reach, said + reach);
-  const auto disparity = static_cast<float>(said);
+  const auto disparity = float(said);
   ui::TechnicianPoint point;
   point.touched = point.by_hand = true;
   set_match(

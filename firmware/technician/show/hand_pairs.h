@@ -26,7 +26,7 @@ namespace relievo::firmware {
 inline constexpr float kFingerShare = 0.02F;  // of the picture's width: what a finger may miss a place by
 
 inline float pixel_at(float share, int pixels) {
-  return std::clamp(share * static_cast<float>(pixels), 0.0F, static_cast<float>(pixels - 1));
+  return std::clamp(share * float(pixels), 0.0F, float(pixels - 1));
 }
 // x and y are shares of the picture.
 ui::TechnicianPoint nearest_match(const pipeline::RectifiedPair& pair, const pipeline::MatchSet& matches,

@@ -29,7 +29,7 @@ float texel_of(float share) {
 compare::DisparityMap depths_of(const pipeline::RectifiedPair& pair, const pipeline::FaceMesh& mesh) {
   compare::DisparityMap map = compare::model_view(pair, mesh);
   for (float& d : map.values)
-    if (!std::isnan(d)) d = static_cast<float>(pair.depth_mm(static_cast<double>(d)));
+    if (!std::isnan(d)) d = float(pair.depth_mm(double(d)));
   return map;
 }
 
@@ -44,9 +44,9 @@ void draw_nearer(const pipeline::RectifiedPair& pair, const std::function<float(
   const FaceWindow window(pair, canvas.side());
   for (int y = 0; y < canvas.side(); ++y)
     for (int x = 0; x < canvas.side(); ++x) {
-      const float nearer = nearer_mm(static_cast<int>(window.back_x(x)), static_cast<int>(window.back_y(y)));
+      const float nearer = nearer_mm(int(window.back_x(x)), int(window.back_y(y)));
       if (std::isnan(nearer)) continue;
-      const auto c = deviation_colour(static_cast<double>(nearer / full_colour_mm));
+      const auto c = deviation_colour(double(nearer / full_colour_mm));
       canvas.put(x, y, {1.0 * c[0], 1.0 * c[1], 1.0 * c[2]});
     }
 }
@@ -55,7 +55,7 @@ std::span<const std::array<std::uint8_t, 3>> difference_scale() {
   static const auto kScale = [] {
     std::array<std::array<std::uint8_t, 3>, 21> scale;
     for (std::size_t i = 0; i < scale.size(); ++i)
-      scale[i] = deviation_colour(2 * static_cast<double>(i) / (scale.size() - 1) - 1);
+      scale[i] = deviation_colour(2 * double(i) / (scale.size() - 1) - 1);
     return scale;
   }();
   return kScale;
@@ -73,7 +73,7 @@ void SurfaceDifference::measure(const pipeline::RectifiedPair& pair, const pipel
   }
   if (known.empty()) return;
   const auto at = [&known](std::size_t percent) {
-    const auto place = known.begin() + static_cast<std::ptrdiff_t>((known.size() - 1) * percent / 100);
+    const auto place = known.begin() + std::ptrdiff_t((known.size() - 1) * percent / 100);
     std::nth_element(known.begin(), place, known.end());
     return *place;
   };
@@ -102,8 +102,8 @@ void SurfaceDifference::draw(const pipeline::RectifiedPair& pair, const pipeline
   for (std::size_t i = 0; i < share.size(); ++i) {
     const auto& v = surface.vertices_mm[i];
     const auto p = apply(pair.rectified_from_left, pipeline::Vec3d{v.x, v.y, v.z});
-    share[i] = nearer_mm(static_cast<int>(std::lround(pair.left_centre_px.x + pair.focal_px * p.x / p.z)),
-                         static_cast<int>(std::lround(pair.left_centre_px.y + pair.focal_px * p.y / p.z))) /
+    share[i] = nearer_mm(int(std::lround(pair.left_centre_px.x + pair.focal_px * p.x / p.z)),
+                         int(std::lround(pair.left_centre_px.y + pair.focal_px * p.y / p.z))) /
                full_colour_mm;
   }
   // Between a known and an unknown corner lies no colour of the scale.

@@ -5,7 +5,7 @@
 #include <algorithm>
 
 #include "firmware/compare/page/maps.h"
-#include "firmware/measure/rule_figures.h"
+#include "firmware/measure/selector_figures.h"
 #include "firmware/measure/self_agreement.h"
 
 namespace relievo::firmware {
@@ -27,7 +27,7 @@ std::array<float, ui::kSigmaBins> sigma_percent(const pipeline::FaceMesh& mesh) 
   for (std::size_t i = 0; i < std::min(mesh.sigma_mm.size(), mesh.measured.size()); ++i) {
     if (mesh.measured[i] == 0) continue;
     const float bin = std::clamp(mesh.sigma_mm[i] / ui::kSigmaBinMm, 0.0F, ui::kSigmaBins - 1.0F);
-    ++share[static_cast<std::size_t>(bin)], ++measured;
+    ++share[std::size_t(bin)], ++measured;
   }
   for (float& one : share) one *= measured > 0 ? 100 / measured : 0;
   return share;
@@ -45,8 +45,8 @@ void TechnicianFigures::add(const StageRecord& record) {
   if (stages_ == result_.seconds.size()) return;
   result_.seconds[stages_] = std::chrono::duration<float>(record.took).count();
   result_.made[stages_++] = record.out;
-  result_.arena_peak_mib = std::max(
-      result_.arena_peak_mib, static_cast<float>(record.arena_peak_bytes) / static_cast<float>(budget::kMiB));
+  result_.arena_peak_mib =
+      std::max(result_.arena_peak_mib, float(record.arena_peak_bytes) / float(budget::kMiB));
 }
 
 void TechnicianFigures::fail(State stage, const Error& error) {
@@ -69,16 +69,16 @@ Result<void> TechnicianFigures::measure(const Products& products, pipeline::Stag
     result_.rules[i].rgb = compare::rule_colour(i);
   }
   if (products.matches->epipolar_shift.measured())
-    result_.epipolar_px = static_cast<float>(products.matches->epipolar_shift.residual_px);
+    result_.epipolar_px = float(products.matches->epipolar_shift.residual_px);
   if (!products.model) return {};
-  result_.median_sigma_mm = static_cast<float>(products.model->quality.median_sigma_mm);
+  result_.median_sigma_mm = float(products.model->quality.median_sigma_mm);
   result_.sigma_percent = sigma_percent(products.model->mesh);
-  result_.coverage = static_cast<float>(products.model->quality.coverage);
+  result_.coverage = float(products.model->quality.coverage);
   return pipeline::run_stage(context, [&](pipeline::StageContext& c) -> Result<void> {
     Arena::Mark mark(c.output);
     const auto photo =
         compare::photo_figures(*products.pair, compare::model_view(*products.pair, products.model->mesh), c);
-    result_.photo_correlation = static_cast<float>(photo.median);
+    result_.photo_correlation = float(photo.median);
     result_.photo_windows = photo.asked;
     return {};
   });

@@ -10,7 +10,7 @@
 #include <string>
 #include <vector>
 
-#include "firmware/machine/transition.h"
+#include "firmware/machine/machine.h"
 #include "firmware/session/session.h"
 #include "firmware/work/stage_runner.h"
 #include "pipeline/algorithms.h"

@@ -12,7 +12,7 @@
 
 #include "firmware/compare/page/maps.h"
 #include "firmware/measure/disparity_map.h"
-#include "firmware/measure/rule_figures.h"
+#include "firmware/measure/selector_figures.h"
 #include "firmware/technician/show/surface_difference.h"
 #include "firmware/work/stage_drawing.h"
 
@@ -34,9 +34,8 @@ struct Size {
   int width_px = 0, height_px = 0;
 };
 Size fitted(int width_px, int height_px) {
-  const double scale =
-      std::min(1.0, static_cast<double>(TechnicianPictures::kSide) / std::max(width_px, height_px));
-  return {std::max(1, static_cast<int>(width_px * scale)), std::max(1, static_cast<int>(height_px * scale))};
+  const double scale = std::min(1.0, double(TechnicianPictures::kSide) / std::max(width_px, height_px));
+  return {std::max(1, int(width_px * scale)), std::max(1, int(height_px * scale))};
 }
 
 // Means over the pixels that fall into one; at(x, y, channel).
@@ -52,9 +51,8 @@ void shrink(int width_px, int height_px, Size to, std::uint8_t* rgb, At&& at) {
           for (int c = 0; c < 3; ++c) sum[c] += at(u, v, c);
         }
       }
-      const float share = 1.0F / static_cast<float>((u1 - u0) * (v1 - v0));
-      for (int c = 0; c < 3; ++c)
-        rgb[c] = static_cast<std::uint8_t>(std::clamp(sum[c] * share, 0.0F, 255.0F));
+      const float share = 1.0F / float((u1 - u0) * (v1 - v0));
+      for (int c = 0; c < 3; ++c) rgb[c] = std::uint8_t(std::clamp(sum[c] * share, 0.0F, 255.0F));
     }
   }
 }
@@ -85,7 +83,7 @@ void HandChange::measure(const Making& making, const Products& products) {
   now_ = depths_of(pair, products.model->mesh);
   if (before_.values.size() != now_.values.size()) return;
   figures_.known = true;
-  const auto focal = static_cast<float>(pair.focal_px);
+  const auto focal = float(pair.focal_px);
   for (int y = 0; y < now_.height_px; ++y)
     for (int x = 0; x < now_.width_px; ++x) {
       if (!now_.known(x, y)) continue;
@@ -106,8 +104,7 @@ float HandChange::nearer_mm(int x, int y) const {
 void HandChange::tell(std::span<ui::TechnicianPoint> points) const {
   if (!figures_.known) return;
   for (ui::TechnicianPoint& point : points) {
-    const int x = static_cast<int>(std::lround(point.left_px.x)),
-              y = static_cast<int>(std::lround(point.left_px.y));
+    const int x = int(std::lround(point.left_px.x)), y = int(std::lround(point.left_px.y));
     point.moved_mm = nearer_mm(x, y);
     point.new_surface = now_.holds(x, y) && now_.known(x, y) && !before_.known(x, y);
   }
@@ -120,7 +117,7 @@ TechnicianPictures::TechnicianPictures() {
 }
 
 TechnicianPictures::One& TechnicianPictures::begin(TechnicianStage stage, std::size_t side) {
-  One& one = all_[static_cast<std::size_t>(stage)][side];
+  One& one = all_[std::size_t(stage)][side];
   one.width_px = one.height_px = kSide;
   one.version = next_version();
   return one;
@@ -133,8 +130,8 @@ void TechnicianPictures::draw_input(const ImageView& view, std::size_t side) {
   one.height_px = size.height_px;
   const int bytes = bytes_per_pixel(view.format), high = view.format == PixelFormat::Grey16 ? 1 : 0;
   shrink(view.width_px, view.height_px, size, one.rgb.get(), [&](int x, int y, int c) {
-    const std::uint8_t* pixel = view.row(y) + static_cast<std::ptrdiff_t>(x) * bytes;
-    return static_cast<float>(view.format == PixelFormat::Rgb8 ? pixel[c] : pixel[high]);
+    const std::uint8_t* pixel = view.row(y) + std::ptrdiff_t(x) * bytes;
+    return float(view.format == PixelFormat::Rgb8 ? pixel[c] : pixel[high]);
   });
 }
 
@@ -147,9 +144,8 @@ void TechnicianPictures::draw_pair(TechnicianStage stage, const pipeline::Rectif
     one.height_px = size.height_px;
     const bool rgb = colour && view.rgb.size() == 3 * view.grey.size();
     shrink(pair.width_px, pair.height_px, size, one.rgb.get(), [&](int x, int y, int c) {
-      const std::size_t i =
-          static_cast<std::size_t>(y) * static_cast<std::size_t>(pair.width_px) + static_cast<std::size_t>(x);
-      return rgb ? static_cast<float>(view.rgb[3 * i + static_cast<std::size_t>(c)]) : view.grey[i];
+      const std::size_t i = std::size_t(y) * std::size_t(pair.width_px) + std::size_t(x);
+      return rgb ? float(view.rgb[3 * i + std::size_t(c)]) : view.grey[i];
     });
   }
 }
@@ -161,11 +157,9 @@ void TechnicianPictures::draw_rules(const pipeline::RectifiedPair& pair, const p
   const std::vector<std::uint8_t> rejected = compare::rejected_map(matches, pair.width_px, pair.height_px);
   for (int y = 0; y < kSide; ++y) {
     for (int x = 0; x < kSide; ++x) {
-      const int u = static_cast<int>(window.back_x(x)), v = static_cast<int>(window.back_y(y));
+      const int u = int(window.back_x(x)), v = int(window.back_y(y));
       if (u < 0 || v < 0 || u >= pair.width_px || v >= pair.height_px) continue;
-      const std::uint8_t rule =
-          rejected[static_cast<std::size_t>(v) * static_cast<std::size_t>(pair.width_px) +
-                   static_cast<std::size_t>(u)];
+      const std::uint8_t rule = rejected[std::size_t(v) * std::size_t(pair.width_px) + std::size_t(u)];
       if (rule == 0) continue;
       const compare::Rgb c = compare::rule_colour(rule - 1U);
       canvas.put(x, y, {1.0 * c[0], 1.0 * c[1], 1.0 * c[2]});
@@ -183,10 +177,10 @@ void TechnicianPictures::draw_disparity(const pipeline::RectifiedPair& pair,
   const compare::Reach reach = compare::reach_of(map);
   for (int y = 0; y < kSide; ++y) {
     for (int x = 0; x < kSide; ++x) {
-      const int u = static_cast<int>(window.back_x(x)), v = static_cast<int>(window.back_y(y));
+      const int u = int(window.back_x(x)), v = int(window.back_y(y));
       if (!map.holds(u, v) || !map.known(u, v)) continue;
-      const compare::Rgb c = compare::depth_colour((static_cast<double>(map.at(u, v)) - reach.least_px) /
-                                                   (reach.most_px - reach.least_px));
+      const compare::Rgb c =
+          compare::depth_colour((double(map.at(u, v)) - reach.least_px) / (reach.most_px - reach.least_px));
       canvas.put(x, y, {1.0 * c[0], 1.0 * c[1], 1.0 * c[2]});
     }
   }
@@ -238,8 +232,7 @@ void TechnicianPictures::draw(const Products& products, const HandChange& change
 float full_residual_mm(const pipeline::Registration& registration) {
   float most = kLeastFullResidualMm;
   for (const pipeline::RegisteredPose& pose : registration.poses)
-    for (const pipeline::PoseMeeting& with : pose.meets)
-      most = std::max(most, static_cast<float>(with.p95_mm));
+    for (const pipeline::PoseMeeting& with : pose.meets) most = std::max(most, float(with.p95_mm));
   return most;
 }
 
@@ -248,40 +241,38 @@ void TechnicianPictures::draw_poses(const Products& products, std::span<const pi
   const float full_mm = full_residual_mm(*products.registration);
   StageCanvas photographs(begin(TechnicianStage::Poses, 0).rgb.get(), kSide);
   StageCanvas residuals(begin(TechnicianStage::Poses, 1).rgb.get(), kSide);
-  const int across = static_cast<int>(std::ceil(std::sqrt(static_cast<double>(poses.size()))));
+  const int across = int(std::ceil(std::sqrt(double(poses.size()))));
   const int cell = kSide / across;
   for (std::size_t k = 0; k < poses.size(); ++k) {
     const pipeline::HeadPose& pose = poses[k];
     const pipeline::PoseSurface& surface = pose.surface;
     const pipeline::ResidualMap& map = products.registration->residuals[k];
-    const int left = static_cast<int>(k) % across * cell, top = static_cast<int>(k) / across * cell;
+    const int left = int(k) % across * cell, top = int(k) / across * cell;
     // What was measured of it, in the middle of its cell.
-    const double nodes = static_cast<double>(std::max(surface.columns, surface.rows)) / cell;
+    const double nodes = double(std::max(surface.columns, surface.rows)) / cell;
     for (int y = 0; y < cell; ++y)
       for (int x = 0; x < cell; ++x) {
         const double column = surface.columns / 2.0 + (x - cell / 2.0) * nodes,
                      row = surface.rows / 2.0 + (y - cell / 2.0) * nodes;
-        const int u = static_cast<int>(surface.first_px.x + column * surface.step_px),
-                  v = static_cast<int>(surface.first_px.y + row * surface.step_px);
+        const int u = int(surface.first_px.x + column * surface.step_px),
+                  v = int(surface.first_px.y + row * surface.step_px);
         if (u < 0 || v < 0 || u >= pose.width_px || v >= pose.height_px) continue;
         const std::uint8_t* rgb =
-            &pose.left_rgb[3 * (static_cast<std::size_t>(v) * static_cast<std::size_t>(pose.width_px) +
-                                static_cast<std::size_t>(u))];
+            &pose.left_rgb[3 * (std::size_t(v) * std::size_t(pose.width_px) + std::size_t(u))];
         photographs.put(left + x, top + y, {1.0 * rgb[0], 1.0 * rgb[1], 1.0 * rgb[2]});
         residuals.put(left + x, top + y, {0.5 * rgb[0], 0.5 * rgb[1], 0.5 * rgb[2]});
         if (column < 0 || row < 0 || column >= surface.columns || row >= surface.rows) continue;
-        const float mm = map.mm[static_cast<std::size_t>(row / pipeline::kResidualEvery) *
-                                    static_cast<std::size_t>(map.columns) +
-                                static_cast<std::size_t>(column / pipeline::kResidualEvery)];
+        const float mm = map.mm[std::size_t(row / pipeline::kResidualEvery) * std::size_t(map.columns) +
+                                std::size_t(column / pipeline::kResidualEvery)];
         if (std::isnan(mm)) continue;
-        const auto c = deviation_colour(static_cast<double>(mm / full_mm));
+        const auto c = deviation_colour(double(mm / full_mm));
         residuals.put(left + x, top + y, {1.0 * c[0], 1.0 * c[1], 1.0 * c[2]});
       }
   }
 }
 
 ui::TechnicianPicture TechnicianPictures::picture(TechnicianStage stage, std::size_t side) const {
-  const One& one = all_[static_cast<std::size_t>(stage)][side];
+  const One& one = all_[std::size_t(stage)][side];
   if (one.version == 0) return {};
   return {{reinterpret_cast<const std::byte*>(one.rgb.get()), one.width_px, one.height_px, 3 * one.width_px,
            PixelFormat::Rgb8},
@@ -297,9 +288,8 @@ void TechnicianPictures::copy_from(const TechnicianPictures& other) {
     to.width_px = from.width_px;
     to.height_px = from.height_px;
     to.version = next_version();
-    std::memcpy(
-        to.rgb.get(), from.rgb.get(),
-        std::size_t{3} * static_cast<std::size_t>(from.width_px) * static_cast<std::size_t>(from.height_px));
+    std::memcpy(to.rgb.get(), from.rgb.get(),
+                std::size_t{3} * std::size_t(from.width_px) * std::size_t(from.height_px));
   }
 }
 

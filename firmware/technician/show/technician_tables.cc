@@ -23,17 +23,12 @@ constexpr std::array<std::string_view, 4> kCalibration{"", "1", "2", "1 → 2"};
 
 Heads heads_of(TechnicianTable table) {
   switch (table) {
-    case TechnicianTable::Matches:
-      return kMatches;
-    case TechnicianTable::Points:
-      return kPoints;
-    case TechnicianTable::Model:
-      return kModel;
-    case TechnicianTable::Poses:
-      return kPoses;
+    case TechnicianTable::Matches: return kMatches;
+    case TechnicianTable::Points: return kPoints;
+    case TechnicianTable::Model: return kModel;
+    case TechnicianTable::Poses: return kPoses;
     case TechnicianTable::Calibration:
-    case TechnicianTable::Count:
-      break;
+    case TechnicianTable::Count: break;
   }
   return kCalibration;
 }
@@ -62,7 +57,7 @@ void TechnicianTables::show(TechnicianTable table, const Source& from) {
 void TechnicianTables::ask(const ui::ListRequest& request, const Source& from) {
   if (walk_.ask(request) == ListWalk::Ask::Rows) return refresh(from);
   for (std::size_t i = 0; i < walk_.stretches(); ++i)
-    walk_.set_label(i, label_of(from, static_cast<std::size_t>(walk_.top_row(i))));
+    walk_.set_label(i, label_of(from, std::size_t(walk_.top_row(i))));
 }
 
 void TechnicianTables::refresh(const Source& from) {
@@ -78,13 +73,12 @@ void TechnicianTables::select(const Source& from) {
   if (table_ == TechnicianTable::Matches && filter > 0) {
     for (std::size_t row = 0; row < rows; ++row) {
       const auto rejected = from.products->matches->matches[row].rejected_by;
-      const std::size_t passes = rejected == 0 ? 1 : 2 + static_cast<std::size_t>(std::countr_zero(rejected));
-      if (passes == filter) selected_.push_back(static_cast<std::uint32_t>(row));
+      const std::size_t passes = rejected == 0 ? 1 : 2 + std::size_t(std::countr_zero(rejected));
+      if (passes == filter) selected_.push_back(std::uint32_t(row));
     }
     rows = selected_.size();
   }
-  walk_.set_rows(
-      static_cast<std::int64_t>(table_ == TechnicianTable::Calibration ? std::min(rows, kTableRows) : rows));
+  walk_.set_rows(std::int64_t(table_ == TechnicianTable::Calibration ? std::min(rows, kTableRows) : rows));
 }
 
 void TechnicianTables::forget() {
@@ -109,15 +103,14 @@ void TechnicianTables::fill(const Source& from) {
   if (table_ == TechnicianTable::Calibration) {
     if (from.calibration != nullptr) fill_calibration(*from.calibration);
   } else {
-    for (std::int64_t row = walk_.first_row(); row < walk_.end_row(); ++row)
-      fill_row(from, static_cast<std::size_t>(row));
+    for (std::int64_t row = walk_.first_row(); row < walk_.end_row(); ++row) fill_row(from, std::size_t(row));
   }
   cells_.assign(texts_.begin(), texts_.end());
 }
 
 void TechnicianTables::fill_row(const Source& from, std::size_t row) {
   if (!selected_.empty()) row = selected_[row];
-  cell("%.0f", static_cast<double>(row + 1));
+  cell("%.0f", double(row + 1));
   if (table_ == TechnicianTable::Matches) fill_matches(from, row);
   if (table_ == TechnicianTable::Points) fill_points(*from.products->cloud, row);
   if (table_ == TechnicianTable::Model) fill_model(*from.products->model, row);
@@ -144,7 +137,7 @@ void TechnicianTables::fill_matches(const Source& from, std::size_t row) {
   cell("%.3f", m.disparity_px);
   cell("%.3f", m.sigma_px);
   cell("%.3f", m.cost);
-  const auto rule = static_cast<std::size_t>(std::countr_zero(m.rejected_by));
+  const auto rule = std::size_t(std::countr_zero(m.rejected_by));
   word(m.rejected_by == 0                 ? ""
        : rule < from.figures.rule_count() ? std::string_view(from.figures.rule(rule))
                                           : "?");

@@ -15,7 +15,7 @@
 #include "firmware/session/session.h"
 #include "firmware/technician/show/technician_figures.h"
 #include "pipeline/model/calibration.h"
-#include "ui/technician/technician_choice.h"
+#include "ui/technician/technician_view.h"
 
 namespace relievo::firmware {
 

@@ -54,7 +54,7 @@ Result<void> GpioTriggerLine::drive(std::chrono::microseconds width, bool lit) {
                              {on, Wire::Trigger, true},
                              {on + width, Wire::Trigger, false},
                              {on - lead + lamp, Wire::Lamp, false}}};
-  std::stable_sort(edges.begin(), edges.end(), [](const Edge& a, const Edge& b) { return a.at < b.at; });
+  std::ranges::stable_sort(edges, [](const Edge& a, const Edge& b) { return a.at < b.at; });
   const Instant begin = clock_.now();
   for (const Edge& edge : edges) {
     if (edge.wire == Wire::Lamp && !lit) continue;

@@ -56,14 +56,12 @@ Error chip_error(int number) {
     case ENOENT:
     case ENXIO:
     case ENODEV:
-    case ENOTTY:
-      return Error{Errc::NotFound, "there is no such GPIO chip: see gpiodetect", number};
+    case ENOTTY: return Error{Errc::NotFound, "there is no such GPIO chip: see gpiodetect", number};
     case EACCES:
     case EPERM:
       return Error{Errc::IoFailed, "this GPIO chip may not be opened: add the user to the group gpio",
                    number};
-    default:
-      return Error{Errc::IoFailed, "this GPIO chip cannot be opened", number};
+    default: return Error{Errc::IoFailed, "this GPIO chip cannot be opened", number};
   }
 }
 
@@ -73,10 +71,8 @@ Error line_error(int number) {
     case ENOENT:
       return Error{Errc::NotFound, "this GPIO chip has no such line, or it is no output: see gpioinfo",
                    number};
-    case EBUSY:
-      return Error{Errc::IoFailed, "another program drives this GPIO line: close it", number};
-    default:
-      return Error{Errc::IoFailed, "this GPIO line cannot be driven", number};
+    case EBUSY: return Error{Errc::IoFailed, "another program drives this GPIO line: close it", number};
+    default: return Error{Errc::IoFailed, "this GPIO line cannot be driven", number};
   }
 }
 

@@ -11,7 +11,7 @@ std::uint64_t Random::next() {
   return z ^ (z >> 31);
 }
 
-double Random::uniform() { return static_cast<double>(next() >> 11) * 0x1.0p-53; }
+double Random::uniform() { return double(next() >> 11) * 0x1.0p-53; }
 
 double Random::normal() {
   const double u = 1.0 - uniform();
@@ -24,8 +24,8 @@ double Random::normal_within(double limit) {
 }
 
 std::uint32_t hash_cell(int x, int y, int z, std::uint32_t seed) {
-  std::uint32_t h = seed * 0x9e3779b1U ^ static_cast<std::uint32_t>(x) * 0x85ebca77U ^
-                    static_cast<std::uint32_t>(y) * 0xc2b2ae3dU ^ static_cast<std::uint32_t>(z) * 0x27d4eb2fU;
+  std::uint32_t h = seed * 0x9e3779b1U ^ std::uint32_t(x) * 0x85ebca77U ^ std::uint32_t(y) * 0xc2b2ae3dU ^
+                    std::uint32_t(z) * 0x27d4eb2fU;
   h = (h ^ (h >> 15)) * 0x2c1b3c6dU;
   h = (h ^ (h >> 12)) * 0x297a2d39U;
   return h ^ (h >> 15);
@@ -35,7 +35,7 @@ double unit_from_hash(std::uint32_t hash) { return (hash >> 8) * 0x1.0p-24; }
 
 double value_noise(Vec3 p, std::uint32_t seed) {
   const double fx = std::floor(p.x), fy = std::floor(p.y), fz = std::floor(p.z);
-  const int x = static_cast<int>(fx), y = static_cast<int>(fy), z = static_cast<int>(fz);
+  const int x = int(fx), y = int(fy), z = int(fz);
   const auto fade = [](double t) { return t * t * t * (t * (t * 6 - 15) + 10); };
   const double u = fade(p.x - fx), v = fade(p.y - fy), w = fade(p.z - fz);
   const auto at = [&](int i, int j, int k) { return unit_from_hash(hash_cell(x + i, y + j, z + k, seed)); };
@@ -47,13 +47,13 @@ double value_noise(Vec3 p, std::uint32_t seed) {
 double fractal_noise(Vec3 p, std::uint32_t seed, int octaves) {
   double sum = 0, weight = 1;
   for (int i = 0; i < octaves; ++i, weight *= 0.5, p = p * 2.03)
-    sum += weight * value_noise(p, seed + static_cast<std::uint32_t>(i));
+    sum += weight * value_noise(p, seed + std::uint32_t(i));
   return sum;
 }
 
 NearestDot nearest_dot(Vec3 p, std::uint32_t seed) {
-  const int x = static_cast<int>(std::floor(p.x - 0.5)), y = static_cast<int>(std::floor(p.y - 0.5));
-  const int z = static_cast<int>(std::floor(p.z - 0.5));
+  const int x = int(std::floor(p.x - 0.5)), y = int(std::floor(p.y - 0.5));
+  const int z = int(std::floor(p.z - 0.5));
   NearestDot best{9, 0};
   for (int c = 0; c < 8; ++c) {
     const int i = x + (c & 1), j = y + ((c >> 1) & 1), k = z + (c >> 2);

@@ -40,17 +40,15 @@ class Grower {
     bool hug = false;  // keep at `height` over the skin
   };
   void grow(Vec3 root, const Shape& s) {
-    const auto tint = static_cast<float>(0.8 + 0.4 * random_.uniform());
+    const auto tint = float(0.8 + 0.4 * random_.uniform());
     Vec3 p = root, direction = normalised(s.direction);
     for (int i = 0; i < s.nodes; ++i) {
-      const double t = static_cast<double>(i) / (s.nodes - 1);
-      if (i + 1 < s.nodes)
-        out_.strands.pieces.push_back(static_cast<std::uint32_t>(out_.strands.nodes.size()));
+      const double t = double(i) / (s.nodes - 1);
+      if (i + 1 < s.nodes) out_.strands.pieces.push_back(std::uint32_t(out_.strands.nodes.size()));
       const auto q = to_floats(p);
-      out_.strands.nodes.push_back(
-          {q[0], q[1], q[2], static_cast<float>(s.root_radius * (1 - 0.75 * t * t))});
+      out_.strands.nodes.push_back({q[0], q[1], q[2], float(s.root_radius * (1 - 0.75 * t * t))});
       out_.tint.push_back(tint);
-      out_.along.push_back(static_cast<float>(t));
+      out_.along.push_back(float(t));
       direction = normalised(direction + s.bend * (1.0 / s.nodes));
       p += direction * (s.length / (s.nodes - 1));
       if (s.hug) p += field_.gradient(p) * (s.height * (1 - std::abs(2 * t - 1)) + 0.1 - field_.distance(p));
@@ -82,7 +80,7 @@ void grow_scalp(Grower& grower, const HeadField& field, const Mesh& skin, const 
     const Vec3 a = point_of(skin, corner[0]), b = point_of(skin, corner[1]), c = point_of(skin, corner[2]);
     if (a.z < -40 || a.y < -60 || scalp_hair(t, a) <= 0) continue;
     const double wanted = kPerMm2 * length(cross(b - a, c - a)) / 2;
-    const int whole = static_cast<int>(wanted);
+    const int whole = int(wanted);
     const double rest = wanted - whole;  // how often there is one more
     for (int k = 0; k <= whole; ++k) {
       if (k == whole && (rest <= 0 || random.uniform() > rest)) break;
@@ -114,7 +112,7 @@ void grow_brows(Grower& grower, const HeadField& field) {
   const HeadTraits& t = field.traits;
   Random& random = grower.random();
   const Brow brow = brow_of(t);
-  const int count = static_cast<int>(620 * t.brow_density);
+  const int count = int(620 * t.brow_density);
   for (int k = 0; k < 2 * count; ++k) {
     const double side = k % 2 == 0 ? 1 : -1, s = std::pow(random.uniform(), 0.9) * 1.04 - 0.02;
     const double across = random.normal_within(1.7) * 0.52;

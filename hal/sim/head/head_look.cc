@@ -167,7 +167,7 @@ Surface shirt_look(const HeadTraits& t, Vec3 p) {
                                                 {0.10, 0.17, 0.12},     {0.55, 0.53, 0.50}};
   const double weave = 0.12 * std::sin(p.x * 5.2 + 0.3 * std::sin(p.z)) * std::sin((p.y + p.z) * 5.2) +
                        0.10 * value_noise(p * 1.1, t.seed + 71);
-  return {kColours[static_cast<std::size_t>(t.shirt) % kColours.size()] * (1 + weave), 0.15, 0.7, 0};
+  return {kColours[std::size_t(t.shirt) % kColours.size()] * (1 + weave), 0.15, 0.7, 0};
 }
 
 }  // namespace relievo::hal::sim

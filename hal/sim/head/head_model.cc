@@ -9,7 +9,7 @@ namespace {
 
 void append_ball(Mesh& mesh, Vec3 centre, Vec3 radii) {
   constexpr std::uint32_t kRings = 60, kSpokes = 120;
-  const auto base = static_cast<std::uint32_t>(mesh.points.size());
+  const auto base = std::uint32_t(mesh.points.size());
   for (std::uint32_t i = 0; i <= kRings; ++i)
     for (std::uint32_t j = 0; j < kSpokes; ++j) {
       // Poles left and right: the pupil lies where the net is even.
@@ -163,9 +163,9 @@ void HeadModel::measure_openness(ThreadPool& pool) {
   for (Shell& shell : shells) {
     if (shell.mesh.points.empty()) continue;
     shell.openness.assign(shell.mesh.points.size(), 0.8F);
-    pool.for_each_band(static_cast<int>(shell.mesh.points.size()), 64, [&](int begin, int end, int) {
+    pool.for_each_band(int(shell.mesh.points.size()), 64, [&](int begin, int end, int) {
       for (int i = begin; i < end; ++i) {
-        const auto k = static_cast<std::size_t>(i);
+        const auto k = std::size_t(i);
         const Vec3 p = point_of(shell.mesh, k), n = shell.normals[k];
         if (p.z < -35) continue;  // no camera comes to see it
         int open = 0;
@@ -174,7 +174,7 @@ void HeadModel::measure_openness(ThreadPool& pool) {
                                  kReachMm)
                       ? 0
                       : 1;
-        shell.openness[k] = static_cast<float>(open) / kRays;
+        shell.openness[k] = float(open) / kRays;
       }
     });
     smooth_over(shell.mesh, shell.openness, 4);

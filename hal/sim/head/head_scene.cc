@@ -66,13 +66,13 @@ void HeadLight::measure(const HeadModel& model, std::size_t shell_index, std::si
   std::vector<float>& seen = seen_[shell_index][panel_index];
   seen.assign(shell.mesh.points.size(), 0.0F);
   if (seen.empty() || panel.power == 0) return;
-  pool.for_each_band(static_cast<int>(seen.size()), 64, [&](int begin, int end, int) {
+  pool.for_each_band(int(seen.size()), 64, [&](int begin, int end, int) {
     for (int i = begin; i < end; ++i) {
-      const auto k = static_cast<std::size_t>(i);
+      const auto k = std::size_t(i);
       const Vec3 p = point_of(shell.mesh, k), n = shell.normals[k];
       if (p.z < -35 || dot(n, panel.centre - p) < -0.3 * length(panel.centre - p)) continue;
       if (dot(n, normalised(eye_ - p)) < -0.45) continue;  // turned away from both cameras
-      const std::uint32_t h = hash_cell(i, static_cast<int>(panel_index), 1, 9);
+      const std::uint32_t h = hash_cell(i, int(panel_index), 1, 9);
       int open = 0;
       for (int r = 0; r < rays_a_side * rays_a_side; ++r) {
         const double u = (r % rays_a_side + unit_from_hash(h)) / rays_a_side * 2 - 1,
@@ -81,7 +81,7 @@ void HeadLight::measure(const HeadModel& model, std::size_t shell_index, std::si
         const double far = length(to);
         open += model.caster.blocked(p + n * 0.15, to * (1 / far), far) ? 0 : 1;
       }
-      seen[k] = static_cast<float>(open) / static_cast<float>(rays_a_side * rays_a_side);
+      seen[k] = float(open) / float(rays_a_side * rays_a_side);
     }
   });
   smooth_over(shell.mesh, seen, 4);
@@ -91,8 +91,7 @@ std::array<double, HeadLight::kPanels> HeadLight::seen(std::size_t shell,
                                                        const std::array<std::uint32_t, 3>& corner, double u,
                                                        double v) const {
   std::array<double, kPanels> out{};
-  for (std::size_t k = 0; k < kPanels; ++k)
-    out[k] = static_cast<double>(blend_corners(seen_[shell][k], corner, u, v));
+  for (std::size_t k = 0; k < kPanels; ++k) out[k] = double(blend_corners(seen_[shell][k], corner, u, v));
   return out;
 }
 
@@ -204,7 +203,7 @@ class HeadScene final : public Scene {
     Hit hit;
     if (!head_->caster.cast(o, d, hit, RayCaster::Against::SolidOnly)) return false;
     const Vec3 at = o + d * hit.distance_mm;
-    const Mesh& mesh = head_->shells[static_cast<std::size_t>(hit.body)].mesh;
+    const Mesh& mesh = head_->shells[std::size_t(hit.body)].mesh;
     const auto& c = mesh.triangles[hit.primitive];
     const Vec3 a = point_of(mesh, c[0]);
     out.point = origin + direction * hit.distance_mm;
@@ -234,14 +233,14 @@ class HeadScene final : public Scene {
 };
 
 Vec3 HeadScene::body(const Hit& hit, Vec3 at, Vec3 d) const {
-  const auto index = static_cast<std::size_t>(hit.body);
+  const auto index = std::size_t(hit.body);
   const Shell& shell = head_->shells[index];
   const auto& corner = shell.mesh.triangles[hit.primitive];
   HeadLight::Point p;
   p.at = at;
   p.to_eye = -d;
   p.normal = normalised(blend_corners(shell.normals, corner, hit.u, hit.v));
-  p.openness = static_cast<double>(blend_corners(shell.openness, corner, hit.u, hit.v));
+  p.openness = double(blend_corners(shell.openness, corner, hit.u, hit.v));
   p.seen = light_.seen(index, corner, hit.u, hit.v);
   Surface s;
   switch (static_cast<HeadModel::Body>(hit.body)) {
@@ -262,16 +261,10 @@ Vec3 HeadScene::body(const Hit& hit, Vec3 at, Vec3 d) const {
     case HeadModel::Inner:
       s = {Vec3{0.56, 0.34, 0.30} * (0.45 + head_->traits.skin.x), 1.4, 0.25, 0.6};
       break;
-    case HeadModel::Teeth:
-      s = teeth_look(at);
-      break;
-    case HeadModel::Tongue:
-      s = tongue_look(head_->traits, at);
-      break;
+    case HeadModel::Teeth: s = teeth_look(at); break;
+    case HeadModel::Tongue: s = tongue_look(head_->traits, at); break;
     case HeadModel::Shirt:
-    case HeadModel::BodyCount:
-      s = shirt_look(head_->traits, at);
-      break;
+    case HeadModel::BodyCount: s = shirt_look(head_->traits, at); break;
   }
   return light_.on(p, s);
 }
@@ -281,7 +274,7 @@ Vec3 HeadScene::hair(const Hit& hit, Vec3 at, Vec3 d) const {
   const std::uint32_t first = hair.strands.pieces[hit.primitive];
   const auto node = [&](std::size_t i) {
     const auto& n = hair.strands.nodes[i];
-    return Vec3{static_cast<double>(n.x), static_cast<double>(n.y), static_cast<double>(n.z)};
+    return Vec3{double(n.x), double(n.y), double(n.z)};
   };
   const Vec3 a = node(first), b = node(first + 1);
   HeadLight::Point p;
@@ -289,13 +282,12 @@ Vec3 HeadScene::hair(const Hit& hit, Vec3 at, Vec3 d) const {
   p.to_eye = -d;
   const bool scalp = at.y > 32 || std::abs(at.x) > 56;
   p.normal = scalp ? normalised(at - Vec3{0, 30, 5}) : Vec3{0, 0.1, 1};
-  const double along =
-      mix(static_cast<double>(hair.along[first]), static_cast<double>(hair.along[first + 1]), hit.u);
+  const double along = mix(double(hair.along[first]), double(hair.along[first + 1]), hit.u);
   p.openness = scalp ? mix(0.25, 1, along) : 0.8;
   // Only the two main panels cast shadows on hair: rays are dear where every pixel takes many.
   for (std::size_t k = 0; k < HeadLight::kPanels; ++k)
     p.seen[k] = (k < 2 ? light_.seen_from(*head_, at, k) : 0.5) * (scalp ? mix(0.45, 1, along) : 0.9);
-  const Vec3 colour = head_->traits.hair * static_cast<double>(hair.tint[first]) * (scalp ? 1.0 : 0.8);
+  const Vec3 colour = head_->traits.hair * double(hair.tint[first]) * (scalp ? 1.0 : 0.8);
   return light_.on_hair(p, normalised(b - a), colour);
 }
 
@@ -303,14 +295,14 @@ Vec3 HeadScene::hair(const Hit& hit, Vec3 at, Vec3 d) const {
 Mesh HeadScene::solid_mesh() const {
   Mesh out;
   for (const auto body : {HeadModel::Skin, HeadModel::Eyes}) {
-    const Mesh& mesh = head_->shells[static_cast<std::size_t>(body)].mesh;
+    const Mesh& mesh = head_->shells[std::size_t(body)].mesh;
     std::vector<std::uint32_t> moved(mesh.points.size(), ~0U);
     for (const auto& t : mesh.triangles) {
       if (point_of(mesh, t[0]).z < (body == HeadModel::Skin ? -30 : 70)) continue;
       std::array<std::uint32_t, 3> corner{};
       for (std::size_t k = 0; k < 3; ++k) {
         if (moved[t[k]] == ~0U) {
-          moved[t[k]] = static_cast<std::uint32_t>(out.points.size());
+          moved[t[k]] = std::uint32_t(out.points.size());
           out.points.push_back(to_floats(world_from_head_ * point_of(mesh, t[k]) + origin_));
         }
         corner[k] = moved[t[k]];

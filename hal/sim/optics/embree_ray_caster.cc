@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include <embree3/rtcore.h>
 
+#include <algorithm>
 #include <new>
 
 #include "hal/sim/optics/ray_caster.h"
@@ -23,7 +24,7 @@ int attach(RTCScene scene, RTCGeometry geometry, unsigned mask) {
   rtcCommitGeometry(geometry);
   const unsigned id = rtcAttachGeometry(scene, geometry);
   rtcReleaseGeometry(geometry);
-  return static_cast<int>(id);
+  return int(id);
 }
 
 }  // namespace
@@ -53,19 +54,19 @@ int RayCaster::add(const Mesh& mesh) {
   RTCGeometry g = rtcNewGeometry(scene_->device, RTC_GEOMETRY_TYPE_TRIANGLE);
   auto* points =
       new_buffer<std::array<float, 3>>(g, RTC_BUFFER_TYPE_VERTEX, RTC_FORMAT_FLOAT3, mesh.points.size());
-  std::copy(mesh.points.begin(), mesh.points.end(), points);
+  std::ranges::copy(mesh.points, points);
   auto* corners = new_buffer<std::array<std::uint32_t, 3>>(g, RTC_BUFFER_TYPE_INDEX, RTC_FORMAT_UINT3,
                                                            mesh.triangles.size());
-  std::copy(mesh.triangles.begin(), mesh.triangles.end(), corners);
+  std::ranges::copy(mesh.triangles, corners);
   return attach(scene_->solid, g, kSolidMask);
 }
 
 int RayCaster::add(const Strands& strands) {
   RTCGeometry g = rtcNewGeometry(scene_->device, RTC_GEOMETRY_TYPE_FLAT_LINEAR_CURVE);
   auto* nodes = new_buffer<Strands::Node>(g, RTC_BUFFER_TYPE_VERTEX, RTC_FORMAT_FLOAT4, strands.nodes.size());
-  std::copy(strands.nodes.begin(), strands.nodes.end(), nodes);
+  std::ranges::copy(strands.nodes, nodes);
   auto* pieces = new_buffer<std::uint32_t>(g, RTC_BUFFER_TYPE_INDEX, RTC_FORMAT_UINT, strands.pieces.size());
-  std::copy(strands.pieces.begin(), strands.pieces.end(), pieces);
+  std::ranges::copy(strands.pieces, pieces);
   scene_->has_hair = true;
   return 1000 + attach(scene_->hair, g, kStrandMask);
 }
@@ -81,26 +82,23 @@ bool cast_in(RTCScene scene, Vec3 o, Vec3 d, float far, int first_id, Hit& hit) 
   RTCIntersectContext context{};
   rtcInitIntersectContext(&context);
   RTCRayHit r{};
-  r.ray.org_x = static_cast<float>(o.x), r.ray.org_y = static_cast<float>(o.y),
-  r.ray.org_z = static_cast<float>(o.z);
-  r.ray.dir_x = static_cast<float>(d.x), r.ray.dir_y = static_cast<float>(d.y),
-  r.ray.dir_z = static_cast<float>(d.z);
+  r.ray.org_x = float(o.x), r.ray.org_y = float(o.y), r.ray.org_z = float(o.z);
+  r.ray.dir_x = float(d.x), r.ray.dir_y = float(d.y), r.ray.dir_z = float(d.z);
   r.ray.tnear = 0.01F, r.ray.tfar = far, r.ray.mask = ~0U;
   r.hit.geomID = RTC_INVALID_GEOMETRY_ID;
   rtcIntersect1(scene, &context, &r);
   if (r.hit.geomID == RTC_INVALID_GEOMETRY_ID) return false;
-  hit = {static_cast<double>(r.ray.tfar), first_id + static_cast<int>(r.hit.geomID), r.hit.primID,
-         static_cast<double>(r.hit.u), static_cast<double>(r.hit.v)};
+  hit = {double(r.ray.tfar), first_id + int(r.hit.geomID), r.hit.primID, double(r.hit.u), double(r.hit.v)};
   return true;
 }
 
 }  // namespace
 
 bool RayCaster::cast(Vec3 origin, Vec3 direction, Hit& hit, Against against) const {
-  bool found = cast_in(scene_->solid, origin, direction, static_cast<float>(kFar), 0, hit);
+  bool found = cast_in(scene_->solid, origin, direction, float(kFar), 0, hit);
   if (against == Against::Everything && scene_->has_hair) {
     const double far = found ? hit.distance_mm : kFar;
-    found |= cast_in(scene_->hair, origin, direction, static_cast<float>(far), 1000, hit);
+    found |= cast_in(scene_->hair, origin, direction, float(far), 1000, hit);
   }
   return found;
 }
@@ -109,11 +107,9 @@ bool RayCaster::blocked(Vec3 origin, Vec3 direction, double far_mm) const {
   RTCIntersectContext context{};
   rtcInitIntersectContext(&context);
   RTCRay r{};
-  r.org_x = static_cast<float>(origin.x), r.org_y = static_cast<float>(origin.y),
-  r.org_z = static_cast<float>(origin.z);
-  r.dir_x = static_cast<float>(direction.x), r.dir_y = static_cast<float>(direction.y),
-  r.dir_z = static_cast<float>(direction.z);
-  r.tnear = 0.05F, r.tfar = static_cast<float>(far_mm), r.mask = ~0U;
+  r.org_x = float(origin.x), r.org_y = float(origin.y), r.org_z = float(origin.z);
+  r.dir_x = float(direction.x), r.dir_y = float(direction.y), r.dir_z = float(direction.z);
+  r.tnear = 0.05F, r.tfar = float(far_mm), r.mask = ~0U;
   rtcOccluded1(scene_->solid, &context, &r);
   return r.tfar < 0;
 }

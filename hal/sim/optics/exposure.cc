@@ -16,13 +16,10 @@ struct Cell {
   bool fine = false;
 };
 
-std::size_t index_of(int width, int x, int y) {
-  return static_cast<std::size_t>(y) * static_cast<std::size_t>(width) + static_cast<std::size_t>(x);
-}
+std::size_t index_of(int width, int x, int y) { return std::size_t(y) * std::size_t(width) + std::size_t(x); }
 
 void store(LightPicture& out, std::size_t i, Vec3 light) {
-  out.rgb[3 * i] = static_cast<float>(light.x), out.rgb[3 * i + 1] = static_cast<float>(light.y),
-              out.rgb[3 * i + 2] = static_cast<float>(light.z);
+  out.rgb[3 * i] = float(light.x), out.rgb[3 * i + 1] = float(light.y), out.rgb[3 * i + 2] = float(light.z);
 }
 
 bool differs(const Cell& a, const Cell& b) {
@@ -43,12 +40,11 @@ Vec3 many_samples(const Scene& scene, const SimView& view, Vec3 eye, int x, int 
 // Separable; the edges repeat.
 void blur(LightPicture& picture, double deviation_px, ThreadPool& pool) {
   if (deviation_px < 0.05) return;
-  const int reach = std::max(1, static_cast<int>(std::ceil(3 * deviation_px)));
-  std::vector<float> weight(static_cast<std::size_t>(2 * reach + 1));
+  const int reach = std::max(1, int(std::ceil(3 * deviation_px)));
+  std::vector<float> weight(std::size_t(2 * reach + 1));
   float total = 0;
   for (int i = -reach; i <= reach; ++i)
-    total += weight[static_cast<std::size_t>(i + reach)] =
-        static_cast<float>(std::exp(-0.5 * i * i / (deviation_px * deviation_px)));
+    total += weight[std::size_t(i + reach)] = float(std::exp(-0.5 * i * i / (deviation_px * deviation_px)));
   for (float& w : weight) w /= total;
   const int w = picture.width_px, h = picture.height_px;
   for (const bool across : {true, false}) {
@@ -61,7 +57,7 @@ void blur(LightPicture& picture, double deviation_px, ThreadPool& pool) {
             for (int k = -reach; k <= reach; ++k) {
               const std::size_t from = across ? index_of(w, std::clamp(x + k, 0, w - 1), y)
                                               : index_of(w, x, std::clamp(y + k, 0, h - 1));
-              sum += weight[static_cast<std::size_t>(k + reach)] * picture.rgb[3 * from + c];
+              sum += weight[std::size_t(k + reach)] * picture.rgb[3 * from + c];
             }
             out[3 * index_of(w, x, y) + c] = sum;
           }
@@ -72,9 +68,7 @@ void blur(LightPicture& picture, double deviation_px, ThreadPool& pool) {
 
 double srgb(double v) { return v <= 0.0031308 ? 12.92 * v : 1.055 * std::pow(v, 1 / 2.4) - 0.055; }
 
-std::uint8_t to_byte_by_power(double v) {
-  return static_cast<std::uint8_t>(std::lround(255 * srgb(clamp01(v))));
-}
+std::uint8_t to_byte_by_power(double v) { return std::uint8_t(std::lround(255 * srgb(clamp01(v)))); }
 
 // to_byte_by_power() without a power a value: the least light of every byte, found once by bisection.
 class GammaTable {
@@ -89,12 +83,11 @@ class GammaTable {
       }
       least_[byte] = reached;
     }
-    for (std::size_t i = 0; i < near_.size(); ++i)
-      near_[i] = to_byte_by_power(static_cast<double>(i) / kCells);
+    for (std::size_t i = 0; i < near_.size(); ++i) near_[i] = to_byte_by_power(double(i) / kCells);
   }
   std::uint8_t operator()(double v) const {
     if (v >= 1) return 255;
-    std::uint8_t byte = near_[static_cast<std::size_t>(std::max(v, 0.0) * kCells)];
+    std::uint8_t byte = near_[std::size_t(std::max(v, 0.0) * kCells)];
     while (byte < 255 && v >= least_[byte + 1U]) ++byte;
     return byte;
   }
@@ -107,15 +100,14 @@ class GammaTable {
 
 std::uint8_t to_byte(double v, bool gamma) {
   static const GammaTable table;
-  return gamma ? table(v) : static_cast<std::uint8_t>(std::lround(255 * clamp01(v)));
+  return gamma ? table(v) : std::uint8_t(std::lround(255 * clamp01(v)));
 }
 
 }  // namespace
 
 LightPicture expose(const Scene& scene, const SimView& view, const SensorOptions& sensor, ThreadPool& pool) {
   LightPicture out{view.width_px, view.height_px, {}};
-  const std::size_t count =
-      static_cast<std::size_t>(view.width_px) * static_cast<std::size_t>(view.height_px);
+  const std::size_t count = std::size_t(view.width_px) * std::size_t(view.height_px);
   out.rgb.resize(3 * count);
   std::vector<Cell> cells(count);
   const Vec3 eye = view.centre();
@@ -125,7 +117,7 @@ LightPicture expose(const Scene& scene, const SimView& view, const SensorOptions
         const std::size_t i = index_of(view.width_px, x, y);
         const RayHit hit = scene.look(eye, view.ray(x, y));
         store(out, i, hit.light);
-        cells[i] = {hit.body, static_cast<float>(hit.distance_mm), hit.fine};
+        cells[i] = {hit.body, float(hit.distance_mm), hit.fine};
       }
   });
   pool.for_each_band(view.height_px, kBands, [&](int begin, int end, int) {
@@ -164,12 +156,11 @@ Picture read_sensor(const LightPicture& light, const SensorOptions& s, std::uint
   };
   for (std::size_t i = 0; i < count; ++i) {
     if (s.grey) {
-      out.bytes[i] = std::byte{read(0.3 * static_cast<double>(light.rgb[3 * i]) +
-                                    0.59 * static_cast<double>(light.rgb[3 * i + 1]) +
-                                    0.11 * static_cast<double>(light.rgb[3 * i + 2]))};
+      out.bytes[i] = std::byte{read(0.3 * double(light.rgb[3 * i]) + 0.59 * double(light.rgb[3 * i + 1]) +
+                                    0.11 * double(light.rgb[3 * i + 2]))};
     } else {
       for (std::size_t c = 0; c < 3; ++c)
-        out.bytes[3 * i + c] = std::byte{read(static_cast<double>(light.rgb[3 * i + c]))};
+        out.bytes[3 * i + c] = std::byte{read(double(light.rgb[3 * i + c]))};
     }
   }
   return out;

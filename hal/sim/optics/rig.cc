@@ -5,9 +5,9 @@
 #include <span>
 #include <string>
 
+#include "hal/base/whole_file.h"
 #include "hal/sim/base/noise.h"
 #include "hal/sim/base/text.h"
-#include "hal/whole_file.h"
 
 namespace relievo::hal::sim {
 namespace {
@@ -42,7 +42,7 @@ SimView make_view(const RigOptions& o, Random& random) {
 
 void append_matrix(std::string& out, const char* name, int rows, std::span<const double> numbers) {
   out += text("%s: !!opencv-matrix\n   rows: %d\n   cols: %d\n   dt: d\n   data: [ ", name, rows,
-              static_cast<int>(numbers.size()) / rows);
+              int(numbers.size()) / rows);
   for (std::size_t i = 0; i < numbers.size(); ++i) out += text(i == 0 ? "%.17g" : ", %.17g", numbers[i]);
   out += " ]\n";
 }

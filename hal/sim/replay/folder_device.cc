@@ -5,7 +5,6 @@
 
 #include "hal/recording/capture_file.h"
 #include "hal/sim/device.h"
-#include "hal/sim/replay/picture_pairs.h"
 #include "hal/sim/replay/replay_device.h"
 
 namespace relievo::hal {

@@ -28,7 +28,7 @@ std::optional<Medium> FolderMedia::current() {
   if (!root_) return std::nullopt;
   struct statvfs info {};
   if (::statvfs(root_->c_str(), &info) != 0) return std::nullopt;
-  return Medium{*root_, static_cast<std::uint64_t>(info.f_bavail) * info.f_frsize};
+  return Medium{*root_, std::uint64_t(info.f_bavail) * info.f_frsize};
 }
 
 Result<void> FolderMedia::flush_and_eject() {

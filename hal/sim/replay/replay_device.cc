@@ -2,7 +2,56 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "hal/sim/replay/replay_device.h"
 
+#include <cctype>
+#include <map>
+#include <system_error>
+
 namespace relievo::hal {
+namespace {
+
+bool is_picture(const std::filesystem::path& file) {
+  std::string e = file.extension().native();
+  for (char& c : e) c = char(std::tolower(static_cast<unsigned char>(c)));
+  return e == ".png" || e == ".jpg" || e == ".jpeg";
+}
+
+}  // namespace
+
+Result<std::vector<PicturePairFiles>> find_picture_pairs(const std::filesystem::path& folder) {
+  std::error_code failed;
+  std::filesystem::directory_iterator entries(folder, failed);
+  if (failed)
+    return Error{Errc::NotFound, "there is no such folder of pictures", failed.value()}.at(folder.native());
+  std::map<std::string, PicturePairFiles> by_rest;  // sorted by name
+  for (const auto& entry : entries) {
+    const std::string stem = entry.path().stem().native();
+    if (!is_picture(entry.path()) || !entry.is_regular_file(failed)) continue;
+    const bool left = stem.starts_with("left"), right = stem.starts_with("right");
+    if (!left && !right) continue;
+    const std::string rest = stem.substr(left ? 4 : 5);
+    PicturePairFiles& pair = by_rest[rest];
+    std::filesystem::path& mine = left ? pair.left : pair.right;
+    if (!mine.empty())
+      return Error{Errc::InvalidInput, "two pictures share this name; keep one of them"}.at(
+          entry.path().native());
+    mine = entry.path();
+    pair.rest = rest;
+  }
+  if (by_rest.empty())
+    return Error{Errc::NotFound, "this folder holds no left* and right* pictures (png or jpg)"}.at(
+        folder.native());
+  std::vector<PicturePairFiles> pairs;
+  for (auto& [rest, pair] : by_rest) {
+    if (pair.right.empty())
+      return Error{Errc::InvalidInput, "this left picture has no right partner of the same name"}.at(
+          pair.left.native());
+    if (pair.left.empty())
+      return Error{Errc::InvalidInput, "this right picture has no left partner of the same name"}.at(
+          pair.right.native());
+    pairs.push_back(std::move(pair));
+  }
+  return pairs;
+}
 
 Result<void> SilentTrigger::do_pulse(std::chrono::microseconds, Light) {
   {
@@ -42,7 +91,7 @@ Result<void> ReplayCamera::do_start() {
 
 Result<Frame> ReplayCamera::do_next_frame(Instant deadline) {
   int slot = 0;
-  while (slot < kBuffers && buffers_[static_cast<std::size_t>(slot)].lent) ++slot;
+  while (slot < kBuffers && buffers_[std::size_t(slot)].lent) ++slot;
   if (slot == kBuffers)
     return Error{Errc::Timeout, "every buffer of this camera is lent out; give a frame back"};
   RELIEVO_TRY_ASSIGN(const SilentTrigger::Pulse pulse, trigger_.wait_after(seen_, deadline));
@@ -50,7 +99,7 @@ Result<Frame> ReplayCamera::do_next_frame(Instant deadline) {
   RELIEVO_TRY_ASSIGN(PairSource::Exposure exposure, source_.expose(side_, pulse.number));
   if (exposure.picture.width_px != only_mode_.width_px || exposure.picture.height_px != only_mode_.height_px)
     return Error{Errc::InvalidInput, "this picture's size differs from the first one's"};
-  Buffer& buffer = buffers_[static_cast<std::size_t>(slot)];
+  Buffer& buffer = buffers_[std::size_t(slot)];
   buffer.picture = std::move(exposure.picture);
   buffer.lent = true;
   return Frame(raw_of(buffer.picture.view()), {pulse.at + exposure.late, pulse.number},
@@ -58,7 +107,7 @@ Result<Frame> ReplayCamera::do_next_frame(Instant deadline) {
 }
 
 void ReplayCamera::give_back(void* owner, int slot) {
-  static_cast<ReplayCamera*>(owner)->buffers_[static_cast<std::size_t>(slot)].lent = false;
+  static_cast<ReplayCamera*>(owner)->buffers_[std::size_t(slot)].lent = false;
 }
 
 }  // namespace relievo::hal

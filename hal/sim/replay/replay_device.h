@@ -7,11 +7,15 @@
 #include <array>
 #include <atomic>
 #include <condition_variable>
+#include <filesystem>
 #include <functional>
 #include <memory>
 #include <mutex>
 #include <optional>
+#include <string>
+#include <vector>
 
+#include "hal/base/result.h"
 #include "hal/camera.h"
 #include "hal/clock.h"
 #include "hal/device.h"
@@ -22,6 +26,17 @@
 #include "hal/watchdog.h"
 
 namespace relievo::hal {
+
+// The left and right pictures of a folder, paired by what follows "left" and "right" in their
+// names, in name order. Errors: NotFound (no folder, no picture), InvalidInput (no partner).
+// Thread: any.
+
+struct PicturePairFiles {
+  std::filesystem::path left, right;
+  std::string rest;  // between "left" and the extension: "_000001"
+};
+
+Result<std::vector<PicturePairFiles>> find_picture_pairs(const std::filesystem::path& folder);
 
 // SilentTrigger: a trigger line without a wire. It counts pulses; cameras that hang on it expose
 // once for every pulse since they last did.

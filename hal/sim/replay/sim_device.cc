@@ -80,12 +80,10 @@ class RenderedSource final : public PairSource {
     if (!head_) head_ = sim::make_head(sim::traits_of(o_.seed), pool_);
     expose_both(*sim::make_head_scene(head_, sim::turned_about_neck(o_.pose, yaw_deg), pool_));
     Rolls made(2 * kRolls);
-    pool_.for_each_band(
-        static_cast<int>(made.size()), static_cast<int>(made.size()), [&](int begin, int end, int) {
-          for (int i = begin; i < end; ++i)
-            made[static_cast<std::size_t>(i)] =
-                roll(i % 2 == 0 ? Side::Left : Side::Right, static_cast<std::uint32_t>(i / 2));
-        });
+    pool_.for_each_band(int(made.size()), int(made.size()), [&](int begin, int end, int) {
+      for (int i = begin; i < end; ++i)
+        made[std::size_t(i)] = roll(i % 2 == 0 ? Side::Left : Side::Right, std::uint32_t(i / 2));
+    });
     rolls = std::move(made);
     return rolls;
   }

@@ -25,7 +25,7 @@ Arc arc(double s, double radius) {
 // Curvature cos(2 pi s / wave) / radius: its direction is known, its place is summed up (Simpson's rule).
 Arc wave(double s, double radius, double length) {
   const auto slope = [&](double at) { return length / (2 * kPi * radius) * std::sin(2 * kPi * at / length); };
-  const int steps = 2 * (1 + static_cast<int>(std::abs(s) / 2));
+  const int steps = 2 * (1 + int(std::abs(s) / 2));
   const double h = s / steps;
   Arc sum;
   for (int k = 0; k <= steps; ++k) {
@@ -80,21 +80,20 @@ Vec3 bent(const SheetBend& bend, double u, double v) {
 }
 
 SheetMesh make_sheet(const SheetSize& size, const SheetBend& bend) {
-  const int columns = 1 + static_cast<int>(std::ceil(size.width_mm / kStepMm)),
-            rows = 1 + static_cast<int>(std::ceil(size.height_mm / kStepMm));
+  const int columns = 1 + int(std::ceil(size.width_mm / kStepMm)),
+            rows = 1 + int(std::ceil(size.height_mm / kStepMm));
   SheetMesh out;
   for (int j = 0; j < rows; ++j)
     for (int i = 0; i < columns; ++i) {
-      const double u = size.width_mm * (static_cast<double>(i) / (columns - 1) - 0.5),
-                   v = size.height_mm * (static_cast<double>(j) / (rows - 1) - 0.5);
+      const double u = size.width_mm * (double(i) / (columns - 1) - 0.5),
+                   v = size.height_mm * (double(j) / (rows - 1) - 0.5);
       const Vec3 p = bent(bend, u, v);
-      out.mesh.points.push_back({static_cast<float>(p.x), static_cast<float>(p.y), static_cast<float>(p.z)});
-      out.paper_mm.push_back({static_cast<float>(u), static_cast<float>(v)});
+      out.mesh.points.push_back({float(p.x), float(p.y), float(p.z)});
+      out.paper_mm.push_back({float(u), float(v)});
     }
   for (int j = 0; j + 1 < rows; ++j)
     for (int i = 0; i + 1 < columns; ++i) {
-      const auto a = static_cast<std::uint32_t>(j * columns + i),
-                 below = a + static_cast<std::uint32_t>(columns);
+      const auto a = std::uint32_t(j * columns + i), below = a + std::uint32_t(columns);
       out.mesh.triangles.push_back({a, a + 1, below});
       out.mesh.triangles.push_back({a + 1, below + 1, below});
     }
@@ -115,26 +114,24 @@ class Print {
  public:
   explicit Print(const Picture& picture) : width_(picture.width_px), height_(picture.height_px) {
     const std::size_t channels = picture.format == PixelFormat::Grey8 ? 1 : 3;
-    const std::size_t count = static_cast<std::size_t>(width_) * static_cast<std::size_t>(height_);
+    const std::size_t count = std::size_t(width_) * std::size_t(height_);
     for (std::size_t i = 0; i < count; ++i)
       for (std::size_t c = 0; c < 3; ++c)
-        light_.push_back(static_cast<float>(linear(picture.bytes[channels * i + (channels == 1 ? 0 : c)])));
+        light_.push_back(float(linear(picture.bytes[channels * i + (channels == 1 ? 0 : c)])));
   }
-  double aspect() const { return static_cast<double>(height_) / width_; }
+  double aspect() const { return double(height_) / width_; }
   Vec3 at(double across, double down) const {  // 0 .. 1 over the picture
     const double x = std::clamp(across * width_ - 0.5, 0.0, width_ - 1.0),
                  y = std::clamp(down * height_ - 0.5, 0.0, height_ - 1.0);
-    const int i = std::min(static_cast<int>(x), width_ - 2), j = std::min(static_cast<int>(y), height_ - 2);
+    const int i = std::min(int(x), width_ - 2), j = std::min(int(y), height_ - 2);
     return mix(mix(pixel(i, j), pixel(i + 1, j), x - i), mix(pixel(i, j + 1), pixel(i + 1, j + 1), x - i),
                y - j);
   }
 
  private:
   Vec3 pixel(int x, int y) const {
-    const std::size_t i =
-        3 * (static_cast<std::size_t>(y) * static_cast<std::size_t>(width_) + static_cast<std::size_t>(x));
-    return {static_cast<double>(light_[i]), static_cast<double>(light_[i + 1]),
-            static_cast<double>(light_[i + 2])};
+    const std::size_t i = 3 * (std::size_t(y) * std::size_t(width_) + std::size_t(x));
+    return {double(light_[i]), double(light_[i + 1]), double(light_[i + 2])};
   }
   int width_, height_;
   std::vector<float> light_;
@@ -151,10 +148,8 @@ class SheetScene final : public Scene {
     const Mat3 turn = rotation(radians(o.pose.pitch_deg), radians(-o.pose.yaw_deg), radians(o.pose.roll_deg));
     const Vec3 middle{o.pose.right_mm, o.pose.down_mm, o.pose.distance_mm};
     for (auto& p : sheet_.mesh.points) {
-      const Vec3 q =
-          turn * Vec3{static_cast<double>(p[0]), static_cast<double>(p[1]), static_cast<double>(p[2])} +
-          middle;
-      p = {static_cast<float>(q.x), static_cast<float>(q.y), static_cast<float>(q.z)};
+      const Vec3 q = turn * Vec3{double(p[0]), double(p[1]), double(p[2])} + middle;
+      p = {float(q.x), float(q.y), float(q.z)};
     }
     smooth_normals();
     caster_.add(sheet_.mesh);
@@ -187,7 +182,7 @@ class SheetScene final : public Scene {
  private:
   Vec3 point(std::uint32_t i) const {
     const auto& p = sheet_.mesh.points[i];
-    return {static_cast<double>(p[0]), static_cast<double>(p[1]), static_cast<double>(p[2])};
+    return {double(p[0]), double(p[1]), double(p[2])};
   }
   // Facets would each mirror a lamp of their own.
   void smooth_normals() {
@@ -204,7 +199,7 @@ class SheetScene final : public Scene {
   Vec3 colour(const Hit& hit) const {
     const auto& t = sheet_.mesh.triangles[hit.primitive];
     const auto along = [&](std::size_t k) {
-      const auto of = [&](std::size_t corner) { return static_cast<double>(sheet_.paper_mm[t[corner]][k]); };
+      const auto of = [&](std::size_t corner) { return double(sheet_.paper_mm[t[corner]][k]); };
       return of(0) * (1 - hit.u - hit.v) + of(1) * hit.u + of(2) * hit.v;
     };
     return print_.at(along(0) / size_.width_mm + 0.5, along(1) / size_.height_mm + 0.5);

@@ -154,14 +154,14 @@ Mesh DumbbellScene::solid_mesh() const {
   constexpr double kPi = 3.14159265358979323846;
   Mesh mesh;
   for (int sphere = 0; sphere < 2; ++sphere) {
-    const auto first = static_cast<std::uint32_t>(mesh.points.size());
+    const auto first = std::uint32_t(mesh.points.size());
     for (int j = 0; j <= kAlong; ++j)
       for (int i = 0; i < kAround; ++i) {
         const double polar = kPi * j / kAlong, turn = 2 * kPi * i / kAround;
         const Vec3 p = centre_mm(sphere) + Vec3{std::sin(polar) * std::cos(turn),
                                                 std::sin(polar) * std::sin(turn), std::cos(polar)} *
                                                (dumbbell_.diameter_mm / 2);
-        mesh.points.push_back({static_cast<float>(p.x), static_cast<float>(p.y), static_cast<float>(p.z)});
+        mesh.points.push_back({float(p.x), float(p.y), float(p.z)});
       }
     for (std::uint32_t j = 0; j < kAlong; ++j)
       for (std::uint32_t i = 0; i < kAround; ++i) {
@@ -204,7 +204,7 @@ Mesh PlateScene::solid_mesh() const {
   const double x = plate_.width_mm / 2, y = plate_.height_mm / 2;
   for (const Vec3 p : {Vec3{-x, -y, 0}, {x, -y, 0}, {x, y, 0}, {-x, y, 0}}) {
     const Vec3 q = pose_.to_world(p);
-    mesh.points.push_back({static_cast<float>(q.x), static_cast<float>(q.y), static_cast<float>(q.z)});
+    mesh.points.push_back({float(q.x), float(q.y), float(q.z)});
   }
   mesh.triangles = {{0, 1, 2}, {0, 2, 3}};
   return mesh;
@@ -238,7 +238,7 @@ PicturePair take(const Scene& scene, const SimRig& rig, const TargetPhotoOptions
 std::uint64_t noise_of(const ArtefactPlace& p) {
   std::uint64_t h = 1;
   for (const double v : {p.right_mm, p.down_mm, p.distance_mm, p.pitch_deg, p.yaw_deg, p.roll_deg})
-    h = h * 1000003 + static_cast<std::uint64_t>(std::llround(v * 100) + 100'000'000);
+    h = h * 1000003 + std::uint64_t(std::llround(v * 100) + 100'000'000);
   return 1000 + h % 90000;
 }
 
@@ -258,8 +258,7 @@ Result<PicturePair> photograph_board(const TargetPhotoOptions& options, const Bo
     return Error{Errc::InvalidInput, "there is no board of this number in the series"};
   TargetPhotoOptions grey = options;
   grey.sensor.grey = true;
-  return take(BoardScene(board, poses[static_cast<std::size_t>(number)]), rig, grey,
-              static_cast<std::uint64_t>(number));
+  return take(BoardScene(board, poses[std::size_t(number)]), rig, grey, std::uint64_t(number));
 }
 
 Result<PicturePair> photograph_dumbbell(const TargetPhotoOptions& options, const Dumbbell& dumbbell,

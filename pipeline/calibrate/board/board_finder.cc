@@ -57,15 +57,13 @@ void refine_nodes(CornerRefiner& refiner, Lattice& lattice) {
 void fill_gaps(CornerRefiner& refiner, Lattice& lattice) {
   // How many neighbours were seen when a node was last looked for in vain: with more it is worth another
   // look.
-  std::vector<int> tried(static_cast<std::size_t>(lattice.columns()) *
-                         static_cast<std::size_t>(lattice.rows()));
+  std::vector<int> tried(std::size_t(lattice.columns()) * std::size_t(lattice.rows()));
   for (bool grown = true; grown;) {
     grown = false;
     for (int row = 0; row < lattice.rows(); ++row)
       for (int column = 0; column < lattice.columns(); ++column) {
         if (lattice.seen(column, row)) continue;
-        int& before = tried[static_cast<std::size_t>(row) * static_cast<std::size_t>(lattice.columns()) +
-                            static_cast<std::size_t>(column)];
+        int& before = tried[std::size_t(row) * std::size_t(lattice.columns()) + std::size_t(column)];
         const int around = neighbours(lattice, column, row);
         if (around <= before) continue;
         before = around;
@@ -92,8 +90,7 @@ void drop_strays(Lattice& lattice, double least_px) {
   const double limit = std::max(least_px, kStrayFactor * median(usual));
   for (int row = 0; row < lattice.rows(); ++row)
     for (int column = 0; column < lattice.columns(); ++column)
-      if (off[static_cast<std::size_t>(row) * static_cast<std::size_t>(lattice.columns()) +
-              static_cast<std::size_t>(column)] > limit)
+      if (off[std::size_t(row) * std::size_t(lattice.columns()) + std::size_t(column)] > limit)
         lattice.node(column, row).swing = 0;
 }
 

@@ -11,8 +11,7 @@ namespace {
 constexpr int kMostMarkers = 1000;  // of a dictionary
 
 std::size_t index(const BoardPattern& pattern, int column, int row) {
-  return static_cast<std::size_t>(row) * static_cast<std::size_t>(pattern.columns) +
-         static_cast<std::size_t>(column);
+  return std::size_t(row) * std::size_t(pattern.columns) + std::size_t(column);
 }
 
 BoardCorners half_turned(const BoardCorners& corners) { return {corners.rbegin(), corners.rend()}; }

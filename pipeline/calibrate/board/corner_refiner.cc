@@ -121,7 +121,7 @@ void CornerWindow::pad() {
 
 void sum_up(const CornerWindow& window, const CornerModel& model, bool information, CornerScratch& scratch,
             CornerSums& sums) {
-  constexpr auto kAll = static_cast<std::size_t>(CornerModel::Count) + 1;
+  constexpr auto kAll = std::size_t(CornerModel::Count) + 1;
   const std::size_t length = window.x.size();
   std::array<float*, kAll> out{};
   for (std::size_t k = 0; k < kAll; ++k) {
@@ -140,18 +140,18 @@ void sum_up(const CornerWindow& window, const CornerModel& model, bool informati
   f.per_reach = 1 / window.reach_px;
   fill_columns(window.x.data(), window.y.data(), window.value.data(), window.weight.data(), length, p.data(),
                f, out.data());
-  constexpr auto kResidual = static_cast<std::size_t>(CornerModel::Count);
+  constexpr auto kResidual = std::size_t(CornerModel::Count);
   for (std::size_t a = 0; a < kResidual; ++a) {
-    sums.slope(static_cast<int>(a)) = static_cast<double>(product(out[a], out[kResidual], length));
+    sums.slope(int(a)) = double(product(out[a], out[kResidual], length));
     for (std::size_t b = a; information && b < kResidual; ++b)
-      sums.information(static_cast<int>(a), static_cast<int>(b)) = sums.information(
-          static_cast<int>(b), static_cast<int>(a)) = static_cast<double>(product(out[a], out[b], length));
+      sums.information(int(a), int(b)) = sums.information(int(b), int(a)) =
+          double(product(out[a], out[b], length));
   }
-  sums.squared = static_cast<double>(product(out[kResidual], out[kResidual], length));
+  sums.squared = double(product(out[kResidual], out[kResidual], length));
   sums.strip_mean.fill(0);
   sums.strip_count.fill(0);
   for (std::size_t i = 0; i < window.count; ++i) {
-    sums.strip_mean[window.strip[i]] += static_cast<double>(out[kResidual][i]);
+    sums.strip_mean[window.strip[i]] += double(out[kResidual][i]);
     sums.strip_count[window.strip[i]] += 1;
   }
   for (std::size_t k = 0; k < sums.strip_mean.size(); ++k)
@@ -204,19 +204,18 @@ std::optional<CornerFit> CornerRefiner::refine(const CornerGuess& guess) {
   const double row = length(guess.along_row);
   const double column = length(guess.along_column);
   if (!(area > 0.2 * row * column)) return std::nullopt;
-  first_angle_ = {static_cast<float>(std::atan2(guess.along_row.y, guess.along_row.x)),
-                  static_cast<float>(std::atan2(guess.along_column.y, guess.along_column.x))};
+  first_angle_ = {float(std::atan2(guess.along_row.y, guess.along_row.x)),
+                  float(std::atan2(guess.along_column.y, guess.along_column.x))};
   model_.p[CornerModel::Angle1] = first_angle_[0];
   model_.p[CornerModel::Angle2] = first_angle_[1];
   // A coarse fit may move the window; the second has it in the middle of the corner.
   Vec2d at = guess.at;
   const double plain_px = clear_share_ * area / std::max(row, column);
   const double width = std::clamp(kFirstWidthShare * plain_px, kMinWidthPx, kFirstWidthPx);
-  model_.p[CornerModel::Width1] = model_.p[CornerModel::Width2] = static_cast<float>(width);
+  model_.p[CornerModel::Width1] = model_.p[CornerModel::Width2] = float(width);
   for (const bool coarse : {true, false}) {
     if (!gather(guess, at) || !solve(coarse)) return std::nullopt;
-    at = {at.x + static_cast<double>(model_.p[CornerModel::X]),
-          at.y + static_cast<double>(model_.p[CornerModel::Y])};
+    at = {at.x + double(model_.p[CornerModel::X]), at.y + double(model_.p[CornerModel::Y])};
     if (length({at.x - guess.at.x, at.y - guess.at.y}) > kMaxDriftShare * std::min(row, column))
       return std::nullopt;
     if (coarse && !plausible(guess)) return std::nullopt;
@@ -226,8 +225,7 @@ std::optional<CornerFit> CornerRefiner::refine(const CornerGuess& guess) {
 
 // The pixels beside the two edges, within reach of both squares' plain parts.
 bool CornerRefiner::gather(const CornerGuess& guess, const Vec2d& at) {
-  const double width =
-      static_cast<double>(std::max(model_.p[CornerModel::Width1], model_.p[CornerModel::Width2]));
+  const double width = double(std::max(model_.p[CornerModel::Width1], model_.p[CornerModel::Width2]));
   const Vec2d& u = guess.along_row;
   const Vec2d& v = guess.along_column;
   const double area = cross(u, v);
@@ -244,13 +242,13 @@ bool CornerRefiner::gather(const CornerGuess& guess, const Vec2d& at) {
   const double beside_u = strip(area / length(u)) * length(u) / area;  // in steps
   const double beside_v = strip(area / length(v)) * length(v) / area;
   window_.clear();
-  window_.reach_px = static_cast<float>(reach * longest);
+  window_.reach_px = float(reach * longest);
   const double wide = reach_u * std::abs(u.x) + reach_v * std::abs(v.x);
   const double high = reach_u * std::abs(u.y) + reach_v * std::abs(v.y);
-  const int left = std::max(0, static_cast<int>(std::ceil(at.x - wide)));
-  const int right = std::min(picture_.width_px - 1, static_cast<int>(std::floor(at.x + wide)));
-  const int top = std::max(0, static_cast<int>(std::ceil(at.y - high)));
-  const int bottom = std::min(picture_.height_px - 1, static_cast<int>(std::floor(at.y + high)));
+  const int left = std::max(0, int(std::ceil(at.x - wide)));
+  const int right = std::min(picture_.width_px - 1, int(std::floor(at.x + wide)));
+  const int top = std::max(0, int(std::ceil(at.y - high)));
+  const int bottom = std::min(picture_.height_px - 1, int(std::floor(at.y + high)));
   for (int y = top; y <= bottom; ++y)
     for (int x = left; x <= right; ++x) {
       const Vec2d d{x - at.x, y - at.y};
@@ -260,8 +258,7 @@ bool CornerRefiner::gather(const CornerGuess& guess, const Vec2d& at) {
       if (std::abs(b) > beside_u && std::abs(a) > beside_v) continue;
       const bool along_u = std::abs(b) * beside_v < std::abs(a) * beside_u;
       const int part = (along_u ? 0 : 4) + ((along_u ? a : b) > 0 ? 2 : 0) + ((along_u ? b : a) > 0 ? 1 : 0);
-      window_.add(static_cast<float>(d.x), static_cast<float>(d.y), static_cast<float>(picture_.row(y)[x]),
-                  static_cast<unsigned char>(part));
+      window_.add(float(d.x), float(d.y), float(picture_.row(y)[x]), static_cast<unsigned char>(part));
     }
   window_.pad();
   return window_.count >= 3 * CornerModel::Count;
@@ -290,8 +287,7 @@ void CornerRefiner::step_linear() {
   Eigen::Matrix<double, kLinear, kLinear> n = sums_.information.bottomRightCorner<kLinear, kLinear>();
   n.diagonal().array() += 1e-3;
   const Eigen::Matrix<double, kLinear, 1> step = n.ldlt().solve(sums_.slope.tail<kLinear>());
-  for (int i = 0; i < kLinear; ++i)
-    model_.p[static_cast<std::size_t>(CornerModel::kShapes + i)] += static_cast<float>(step(i));
+  for (int i = 0; i < kLinear; ++i) model_.p[std::size_t(CornerModel::kShapes + i)] += float(step(i));
 }
 
 // One Gauss-Newton step with weak beliefs about directions and blur; returns how far the corner moved.
@@ -299,48 +295,43 @@ double CornerRefiner::step_all() {
   auto& p = model_.p;
   CornerMatrix n = sums_.information;
   CornerVector g = sums_.slope;
-  const double variance = std::max(sums_.squared / static_cast<double>(window_.count), 0.1);
+  const double variance = std::max(sums_.squared / double(window_.count), 0.1);
   const auto believe = [&](int i, double difference, double deviation) {
     n(i, i) += variance / (deviation * deviation);
     g(i) -= variance / (deviation * deviation) * difference;
   };
-  believe(CornerModel::Angle1, static_cast<double>(p[CornerModel::Angle1] - first_angle_[0]),
-          kAngleDeviation);
-  believe(CornerModel::Angle2, static_cast<double>(p[CornerModel::Angle2] - first_angle_[1]),
-          kAngleDeviation);
+  believe(CornerModel::Angle1, double(p[CornerModel::Angle1] - first_angle_[0]), kAngleDeviation);
+  believe(CornerModel::Angle2, double(p[CornerModel::Angle2] - first_angle_[1]), kAngleDeviation);
   // Of the blur's two widths only the difference is doubted: a lens is round.
-  const double apart = static_cast<double>(p[CornerModel::Width1] - p[CornerModel::Width2]);
+  const double apart = double(p[CornerModel::Width1] - p[CornerModel::Width2]);
   believe(CornerModel::Width1, apart, kWidthDeviation);
   believe(CornerModel::Width2, -apart, kWidthDeviation);
   n.diagonal().array() += 1e-3;
   const CornerVector step = n.ldlt().solve(g);
   if (!step.allFinite()) return 1e9;
   const double moved = std::hypot(step(CornerModel::X), step(CornerModel::Y));
-  const double widest = static_cast<double>(std::max(p[CornerModel::Width1], p[CornerModel::Width2]));
+  const double widest = double(std::max(p[CornerModel::Width1], p[CornerModel::Width2]));
   const double scale = std::min(1.0, 0.4 * widest / std::max(moved, 1e-9));
-  for (int i = 0; i < CornerModel::Count; ++i)
-    p[static_cast<std::size_t>(i)] += static_cast<float>(scale * step(i));
-  const auto most = std::max(static_cast<float>(kMinWidthPx), 0.9F * window_.reach_px);
+  for (int i = 0; i < CornerModel::Count; ++i) p[std::size_t(i)] += float(scale * step(i));
+  const auto most = std::max(float(kMinWidthPx), 0.9F * window_.reach_px);
   for (const int i : {CornerModel::Width1, CornerModel::Width2})
-    p[static_cast<std::size_t>(i)] =
-        std::clamp(p[static_cast<std::size_t>(i)], static_cast<float>(kMinWidthPx), most);
+    p[std::size_t(i)] = std::clamp(p[std::size_t(i)], float(kMinWidthPx), most);
   return moved;
 }
 
 // What needs no second look.
 bool CornerRefiner::plausible(const CornerGuess& guess) const {
-  const double swing = static_cast<double>(model_.p[CornerModel::Swing]) * (guess.dark ? -1 : 1);
+  const double swing = double(model_.p[CornerModel::Swing]) * (guess.dark ? -1 : 1);
   if (!(swing >= kMinSwing)) return false;
   for (const int i : {CornerModel::LightX, CornerModel::LightY, CornerModel::SwingX, CornerModel::SwingY})
-    if (!(std::abs(static_cast<double>(model_.p[static_cast<std::size_t>(i)])) <= kMaxSlope * swing))
-      return false;
+    if (!(std::abs(double(model_.p[std::size_t(i)])) <= kMaxSlope * swing)) return false;
   return true;
 }
 
 std::optional<CornerFit> CornerRefiner::judged(const CornerGuess& guess, const Vec2d& at) const {
   if (!plausible(guess)) return std::nullopt;
-  const double swing = std::abs(static_cast<double>(model_.p[CornerModel::Swing]));
-  const double variance = sums_.squared / static_cast<double>(window_.count - CornerModel::Count);
+  const double swing = std::abs(double(model_.p[CornerModel::Swing]));
+  const double variance = sums_.squared / double(window_.count - CornerModel::Count);
   if (!(variance <= kMaxNoise * kMaxNoise * swing * swing)) return std::nullopt;
   for (std::size_t k = 0; k < sums_.strip_mean.size(); ++k) {
     const double noise = kMisfitDeviations * std::sqrt(variance / std::max(sums_.strip_count[k], 1.0));
@@ -353,7 +344,7 @@ std::optional<CornerFit> CornerRefiner::judged(const CornerGuess& guess, const V
       std::max(covariance(CornerModel::X, CornerModel::X), covariance(CornerModel::Y, CornerModel::Y));
   const double sigma = std::sqrt(variance * worst);
   if (!(sigma <= kMaxSigmaPx)) return std::nullopt;
-  return CornerFit{at, sigma, static_cast<double>(model_.p[CornerModel::Light]), swing};
+  return CornerFit{at, sigma, double(model_.p[CornerModel::Light]), swing};
 }
 
 }  // namespace relievo::pipeline

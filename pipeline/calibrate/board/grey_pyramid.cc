@@ -18,8 +18,7 @@ constexpr double kClippedShare = 1e-3;
 
 RELIEVO_SIMD void grey_of_rgb(const std::uint8_t* rgb, int count, std::uint8_t* grey) {
   for (int x = 0; x < count; ++x)
-    grey[x] =
-        static_cast<std::uint8_t>((77 * rgb[3 * x] + 150 * rgb[3 * x + 1] + 29 * rgb[3 * x + 2] + 128) >> 8);
+    grey[x] = std::uint8_t((77 * rgb[3 * x] + 150 * rgb[3 * x + 1] + 29 * rgb[3 * x + 2] + 128) >> 8);
 }
 
 int value_of(const std::uint8_t* row, int x) { return row[2 * x] | row[2 * x + 1] << 8; }
@@ -28,60 +27,57 @@ int value_of(const std::uint8_t* row, int x) { return row[2 * x] | row[2 * x + 1
 std::array<int, 2> range_of(const ImageView& picture) {
   std::vector<std::size_t> count(65536);
   for (int y = 0; y < picture.height_px; ++y)
-    for (int x = 0; x < picture.width_px; ++x) ++count[static_cast<std::size_t>(value_of(picture.row(y), x))];
-  const double pixels = static_cast<double>(picture.width_px) * picture.height_px;
+    for (int x = 0; x < picture.width_px; ++x) ++count[std::size_t(value_of(picture.row(y), x))];
+  const double pixels = double(picture.width_px) * picture.height_px;
   std::array<int, 2> range{0, 65535};
   for (double sum = 0; range[0] < 65535; ++range[0])
-    if ((sum += static_cast<double>(count[static_cast<std::size_t>(range[0])])) > kClippedShare * pixels)
-      break;
+    if ((sum += double(count[std::size_t(range[0])])) > kClippedShare * pixels) break;
   for (double sum = 0; range[1] > range[0]; --range[1])
-    if ((sum += static_cast<double>(count[static_cast<std::size_t>(range[1])])) > kClippedShare * pixels)
-      break;
+    if ((sum += double(count[std::size_t(range[1])])) > kClippedShare * pixels) break;
   return range;
 }
 
 std::vector<std::uint8_t> grey_of(const ImageView& picture) {
-  const auto width = static_cast<std::size_t>(picture.width_px);
-  std::vector<std::uint8_t> grey(width * static_cast<std::size_t>(picture.height_px));
+  const auto width = std::size_t(picture.width_px);
+  std::vector<std::uint8_t> grey(width * std::size_t(picture.height_px));
   if (picture.format == PixelFormat::Rgb8) {
     for (int y = 0; y < picture.height_px; ++y)
-      grey_of_rgb(picture.row(y), picture.width_px, &grey[static_cast<std::size_t>(y) * width]);
+      grey_of_rgb(picture.row(y), picture.width_px, &grey[std::size_t(y) * width]);
     return grey;
   }
   const auto [low, high] = range_of(picture);
   const double scale = high > low ? 255.0 / (high - low) : 0;
   for (int y = 0; y < picture.height_px; ++y)
     for (int x = 0; x < picture.width_px; ++x)
-      grey[static_cast<std::size_t>(y) * width + static_cast<std::size_t>(x)] = static_cast<std::uint8_t>(
-          std::lround(std::clamp((value_of(picture.row(y), x) - low) * scale, 0.0, 255.0)));
+      grey[std::size_t(y) * width + std::size_t(x)] =
+          std::uint8_t(std::lround(std::clamp((value_of(picture.row(y), x) - low) * scale, 0.0, 255.0)));
   return grey;
 }
 
 RELIEVO_SIMD void weigh_rows(const std::uint8_t* const* rows, int width, std::uint16_t* sum) {
   for (int x = 0; x < width; ++x)
-    sum[x] = static_cast<std::uint16_t>(rows[0][x] + 4 * rows[1][x] + 6 * rows[2][x] + 4 * rows[3][x] +
-                                        rows[4][x]);
+    sum[x] = std::uint16_t(rows[0][x] + 4 * rows[1][x] + 6 * rows[2][x] + 4 * rows[3][x] + rows[4][x]);
 }
 
 RELIEVO_SIMD void weigh_columns(const std::uint16_t* sum, int half_width, std::uint8_t* out) {
   for (int x = 0; x < half_width; ++x) {
     const std::uint16_t* s = sum + 2 * x;
-    out[x] = static_cast<std::uint8_t>((s[0] + 4 * s[1] + 6 * s[2] + 4 * s[3] + s[4] + 128) >> 8);
+    out[x] = std::uint8_t((s[0] + 4 * s[1] + 6 * s[2] + 4 * s[3] + s[4] + 128) >> 8);
   }
 }
 
 // Every second pixel of every second row after the binomial filter 1 4 6 4 1; the edges repeat.
 std::vector<std::uint8_t> half_of(const GreyView& from, int width, int height) {
-  std::vector<std::uint8_t> out(static_cast<std::size_t>(width) * static_cast<std::size_t>(height));
-  std::vector<std::uint16_t> sum(static_cast<std::size_t>(from.width_px) + 5);
+  std::vector<std::uint8_t> out(std::size_t(width) * std::size_t(height));
+  std::vector<std::uint16_t> sum(std::size_t(from.width_px) + 5);
   for (int y = 0; y < height; ++y) {
     std::array<const std::uint8_t*, 5> rows{};
     for (int k = 0; k < 5; ++k)
-      rows[static_cast<std::size_t>(k)] = from.row(std::clamp(2 * y + k - 2, 0, from.height_px - 1));
+      rows[std::size_t(k)] = from.row(std::clamp(2 * y + k - 2, 0, from.height_px - 1));
     weigh_rows(rows.data(), from.width_px, sum.data() + 2);
     sum[0] = sum[1] = sum[2];
-    std::fill(sum.end() - 3, sum.end(), sum[static_cast<std::size_t>(from.width_px) + 1]);
-    weigh_columns(sum.data(), width, &out[static_cast<std::size_t>(y) * static_cast<std::size_t>(width)]);
+    std::fill(sum.end() - 3, sum.end(), sum[std::size_t(from.width_px) + 1]);
+    weigh_columns(sum.data(), width, &out[std::size_t(y) * std::size_t(width)]);
   }
   return out;
 }

@@ -27,8 +27,8 @@ class GreyPyramid {
  public:
   explicit GreyPyramid(const ImageView& picture);  // not empty; must outlive this
 
-  int levels() const { return static_cast<int>(views_.size()); }
-  const GreyView& level(int k) const { return views_[static_cast<std::size_t>(k)]; }
+  int levels() const { return int(views_.size()); }
+  const GreyView& level(int k) const { return views_[std::size_t(k)]; }
 
  private:
   std::vector<std::vector<std::uint8_t>> own_;

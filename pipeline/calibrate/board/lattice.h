@@ -29,7 +29,7 @@ class Lattice {
       : columns_(columns),
         rows_(rows),
         first_dark_(first_dark),
-        nodes_(static_cast<std::size_t>(columns) * static_cast<std::size_t>(rows)) {}
+        nodes_(std::size_t(columns) * std::size_t(rows)) {}
 
   int columns() const { return columns_; }
   int rows() const { return rows_; }
@@ -52,8 +52,7 @@ class Lattice {
 
  private:
   std::size_t index(int column, int row) const {
-    return static_cast<std::size_t>(row) * static_cast<std::size_t>(columns_) +
-           static_cast<std::size_t>(column);
+    return std::size_t(row) * std::size_t(columns_) + std::size_t(column);
   }
   int columns_;
   int rows_;

@@ -34,21 +34,20 @@ using Links = std::vector<std::array<Link, 4>>;
 class Neighbourhood {
  public:
   Neighbourhood(std::span<const Saddle> saddles, int width_px, int height_px) : saddles_(saddles) {
-    const double area = static_cast<double>(width_px) * height_px;
-    cell_px_ = std::clamp(static_cast<float>(std::sqrt(2 * area / (static_cast<double>(saddles.size()) + 1))),
-                          8.F, 256.F);
-    across_ = static_cast<int>(static_cast<float>(width_px) / cell_px_) + 1;
-    down_ = static_cast<int>(static_cast<float>(height_px) / cell_px_) + 1;
-    cells_.resize(static_cast<std::size_t>(across_) * static_cast<std::size_t>(down_));
+    const double area = double(width_px) * height_px;
+    cell_px_ = std::clamp(float(std::sqrt(2 * area / (double(saddles.size()) + 1))), 8.F, 256.F);
+    across_ = int(float(width_px) / cell_px_) + 1;
+    down_ = int(float(height_px) / cell_px_) + 1;
+    cells_.resize(std::size_t(across_) * std::size_t(down_));
     for (std::size_t i = 0; i < saddles.size(); ++i)
-      cell(column(saddles[i].x), column(saddles[i].y)).push_back(static_cast<int>(i));
+      cell(column(saddles[i].x), column(saddles[i].y)).push_back(int(i));
   }
 
   // At least kNeighbours, where there are so many, the nearest among them.
   void near(int i, std::vector<int>& out) {
     out.clear();
-    const int x = column(saddles_[static_cast<std::size_t>(i)].x);
-    const int y = column(saddles_[static_cast<std::size_t>(i)].y);
+    const int x = column(saddles_[std::size_t(i)].x);
+    const int y = column(saddles_[std::size_t(i)].y);
     for (int ring = 0; ring <= std::max(across_, down_); ++ring) {
       const bool enough = out.size() > kNeighbours;
       for (int v = std::max(0, y - ring); v <= std::min(down_ - 1, y + ring); ++v)
@@ -60,10 +59,9 @@ class Neighbourhood {
   }
 
  private:
-  int column(float place) const { return static_cast<int>(place / cell_px_); }
+  int column(float place) const { return int(place / cell_px_); }
   std::vector<int>& cell(int u, int v) {
-    return cells_[static_cast<std::size_t>(v) * static_cast<std::size_t>(across_) +
-                  static_cast<std::size_t>(u)];
+    return cells_[std::size_t(v) * std::size_t(across_) + std::size_t(u)];
   }
   std::span<const Saddle> saddles_;
   float cell_px_ = 0;
@@ -106,9 +104,9 @@ float dot(const Vec2f& a, const Vec2f& b) { return a.x * b.x + a.y * b.y; }
 
 std::vector<Neighbour> neighbours_of(std::span<const Saddle> saddles, int i, std::span<const int> near) {
   std::vector<Neighbour> out;
-  const Saddle& from = saddles[static_cast<std::size_t>(i)];
+  const Saddle& from = saddles[std::size_t(i)];
   for (const int k : near) {
-    const Saddle& to = saddles[static_cast<std::size_t>(k)];
+    const Saddle& to = saddles[std::size_t(k)];
     const float dx = to.x - from.x;
     const float dy = to.y - from.y;
     const float distance = std::sqrt(dx * dx + dy * dy);
@@ -120,14 +118,14 @@ std::vector<Neighbour> neighbours_of(std::span<const Saddle> saddles, int i, std
 // The nearest crossing ahead on which a half edge of the other kind points back.
 Link next_along(const SmoothPicture& picture, std::span<const Saddle> saddles,
                 std::span<const Neighbour> near, int i, int ray) {
-  const Saddle& from = saddles[static_cast<std::size_t>(i)];
+  const Saddle& from = saddles[std::size_t(i)];
   const Vec2f along = from.ray(ray);
   std::array<Try, kTries> tries;
   std::size_t count = 0;
   for (const Neighbour& one : near) {
     const float ahead = dot(one.way, along);
     if (ahead < kMinAhead) continue;
-    const Saddle& to = saddles[static_cast<std::size_t>(one.who)];
+    const Saddle& to = saddles[std::size_t(one.who)];
     for (int m = 1 - ray % 2; m < 4; m += 2) {
       const float back = -dot(one.way, to.ray(m));
       if (back < kMinBack) continue;
@@ -139,8 +137,7 @@ Link next_along(const SmoothPicture& picture, std::span<const Saddle> saddles,
     }
   }
   for (std::size_t k = 0; k < count; ++k)
-    if (edge_between(picture, from, saddles[static_cast<std::size_t>(tries[k].link.to)], ray))
-      return tries[k].link;
+    if (edge_between(picture, from, saddles[std::size_t(tries[k].link.to)], ray)) return tries[k].link;
   return {};
 }
 
@@ -150,19 +147,18 @@ Links link_up(const SmoothPicture& picture, std::span<const Saddle> saddles) {
   Links links(saddles.size());
   std::vector<int> near;
   for (std::size_t i = 0; i < saddles.size(); ++i) {
-    neighbourhood.near(static_cast<int>(i), near);
-    const std::vector<Neighbour> around = neighbours_of(saddles, static_cast<int>(i), near);
+    neighbourhood.near(int(i), near);
+    const std::vector<Neighbour> around = neighbours_of(saddles, int(i), near);
     for (int ray = 0; ray < 4; ++ray)
-      links[i][static_cast<std::size_t>(ray)] =
-          next_along(picture, saddles, around, static_cast<int>(i), ray);
+      links[i][std::size_t(ray)] = next_along(picture, saddles, around, int(i), ray);
   }
   Links mutual = links;
   for (std::size_t i = 0; i < saddles.size(); ++i)
     for (int ray = 0; ray < 4; ++ray) {
-      const Link& link = links[i][static_cast<std::size_t>(ray)];
+      const Link& link = links[i][std::size_t(ray)];
       if (link.to < 0) continue;
-      const Link& back = links[static_cast<std::size_t>(link.to)][static_cast<std::size_t>(link.ray)];
-      if (back.to != static_cast<int>(i) || back.ray != ray) mutual[i][static_cast<std::size_t>(ray)] = {};
+      const Link& back = links[std::size_t(link.to)][std::size_t(link.ray)];
+      if (back.to != int(i) || back.ray != ray) mutual[i][std::size_t(ray)] = {};
     }
   return mutual;
 }
@@ -177,24 +173,23 @@ std::map<std::pair<int, int>, int> walk(const Links& links, int start, std::vect
                                         std::vector<LinkPlace>& place) {
   std::map<std::pair<int, int>, int> at;
   std::vector<int> open{start};
-  visited[static_cast<std::size_t>(start)] = true;
-  place[static_cast<std::size_t>(start)] = {0, 0, 0};
+  visited[std::size_t(start)] = true;
+  place[std::size_t(start)] = {0, 0, 0};
   at[{0, 0}] = start;
   for (std::size_t k = 0; k < open.size(); ++k) {
-    const LinkPlace here = place[static_cast<std::size_t>(open[k])];
+    const LinkPlace here = place[std::size_t(open[k])];
     for (int ray = 0; ray < 4; ++ray) {
-      const Link& link = links[static_cast<std::size_t>(open[k])][static_cast<std::size_t>(ray)];
-      if (link.to < 0 || visited[static_cast<std::size_t>(link.to)]) continue;
+      const Link& link = links[std::size_t(open[k])][std::size_t(ray)];
+      if (link.to < 0 || visited[std::size_t(link.to)]) continue;
       const int direction = (ray + here.turn) % 4;
       constexpr std::array<int, 4> kRight{1, 0, -1, 0};
       constexpr std::array<int, 4> kDown{0, 1, 0, -1};
-      const LinkPlace there{here.column + kRight[static_cast<std::size_t>(direction)],
-                            here.row + kDown[static_cast<std::size_t>(direction)],
-                            (direction + 2 - link.ray + 4) % 4};
+      const LinkPlace there{here.column + kRight[std::size_t(direction)],
+                            here.row + kDown[std::size_t(direction)], (direction + 2 - link.ray + 4) % 4};
       if (std::max(std::abs(there.column), std::abs(there.row)) > kMostSteps) continue;
       if (!at.emplace(std::pair{there.column, there.row}, link.to).second) continue;
-      visited[static_cast<std::size_t>(link.to)] = true;
-      place[static_cast<std::size_t>(link.to)] = there;
+      visited[std::size_t(link.to)] = true;
+      place[std::size_t(link.to)] = there;
       open.push_back(link.to);
     }
   }
@@ -210,13 +205,13 @@ Lattice lattice_of(const std::map<std::pair<int, int>, int>& at, std::span<const
   }
   // The square between directions right and down of node (0, 0) is dark where half edge 0 or 2 points right.
   const auto& [where, who] = *at.begin();
-  const bool dark_there = place[static_cast<std::size_t>(who)].turn % 2 == 0;
+  const bool dark_there = place[std::size_t(who)].turn % 2 == 0;
   const bool even = (where.first - left + where.second - top) % 2 == 0;
   Lattice lattice(right - left + 1, bottom - top + 1, even == dark_there);
   for (const auto& [node, saddle] : at) {
-    const Saddle& one = saddles[static_cast<std::size_t>(saddle)];
+    const Saddle& one = saddles[std::size_t(saddle)];
     lattice.node(node.first - left, node.second - top) = {
-        {static_cast<double>(one.x), static_cast<double>(one.y)}, 0, static_cast<double>(one.contrast) / 2};
+        {double(one.x), double(one.y)}, 0, double(one.contrast) / 2};
   }
   return lattice;
 }
@@ -230,11 +225,11 @@ std::vector<Lattice> find_lattices(const SmoothPicture& picture, std::span<const
   std::vector<Lattice> lattices;
   for (std::size_t i = 0; i < saddles.size(); ++i) {
     if (visited[i]) continue;
-    const auto at = walk(links, static_cast<int>(i), visited, place);
-    if (static_cast<int>(at.size()) >= least) lattices.push_back(lattice_of(at, saddles, place));
+    const auto at = walk(links, int(i), visited, place);
+    if (int(at.size()) >= least) lattices.push_back(lattice_of(at, saddles, place));
   }
-  std::stable_sort(lattices.begin(), lattices.end(),
-                   [](const Lattice& a, const Lattice& b) { return a.count() > b.count(); });
+  std::ranges::stable_sort(lattices,
+                           [](const Lattice& a, const Lattice& b) { return a.count() > b.count(); });
   return lattices;
 }
 

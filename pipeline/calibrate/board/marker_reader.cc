@@ -48,8 +48,8 @@ class SquareMap {
 
 double grey_at(const GreyView& picture, const Vec2d& at) {
   if (!(at.x >= 0 && at.y >= 0 && at.x < picture.width_px - 1 && at.y < picture.height_px - 1)) return 0;
-  const int x = static_cast<int>(at.x);
-  const int y = static_cast<int>(at.y);
+  const int x = int(at.x);
+  const int y = int(at.y);
   const double u = at.x - x;
   const double v = at.y - y;
   const std::uint8_t* a = picture.row(y) + x;
@@ -84,7 +84,7 @@ bool read_square(const GreyView& picture, const Lattice& lattice, const BoardPat
           sum += std::clamp((grey_at(picture, map.at(u, v)) - middle) / swing, -1.0, 1.0);
         }
       if (x == 0 || y == 0 || x == modules - 1 || y == modules - 1) border += sum;
-      else reading.module.push_back(static_cast<float>(sum / 9));
+      else reading.module.push_back(float(sum / 9));
     }
   return border < 0;
 }
@@ -107,8 +107,7 @@ void quarter_turn(std::vector<Reading>& readings, int rows, int bits) {
   for (Reading& one : readings) {
     std::vector<float> turned;
     for (int v = 0; v < bits; ++v)
-      for (int u = 0; u < bits; ++u)
-        turned.push_back(one.module[static_cast<std::size_t>((bits - 1 - u) * bits + v)]);
+      for (int u = 0; u < bits; ++u) turned.push_back(one.module[std::size_t((bits - 1 - u) * bits + v)]);
     one = {rows - 2 - one.row, one.column, std::move(turned)};
   }
 }
@@ -143,14 +142,14 @@ class Judge {
       const int marker = marker_at(one.column - place.left, one.row - place.top, pattern_);
       if (marker < 0) return;
       // Without the mean of either: an evenly bright square agrees with nothing.
-      const std::uint64_t white = markers_[static_cast<std::size_t>(marker)];
+      const std::uint64_t white = markers_[std::size_t(marker)];
       float mean = 0;
       float printed_mean = 0;
       for (std::size_t k = 0; k < one.module.size(); ++k) {
         mean += one.module[k];
         printed_mean += (white >> k & 1) != 0 ? 1.F : -1.F;
       }
-      const auto count = static_cast<float>(one.module.size());
+      const auto count = float(one.module.size());
       mean /= count;
       printed_mean /= count;
       float product = 0, power = 0, printed_power = 0;
@@ -161,13 +160,13 @@ class Judge {
         power += read * read;
         printed_power += printed * printed;
       }
-      sum += static_cast<double>(product);
-      squares += static_cast<double>(std::sqrt(power * printed_power));
+      sum += double(product);
+      squares += double(std::sqrt(power * printed_power));
       modules += one.module.size();
     }
     if (!(squares > 0)) return;
     place.agreement = sum / squares;
-    place.deviations = place.agreement * std::sqrt(static_cast<double>(modules));
+    place.deviations = place.agreement * std::sqrt(double(modules));
     if (place.deviations > best_.deviations) std::swap(place, best_);
     next_deviations_ = std::max(next_deviations_, place.deviations);
   }

@@ -11,7 +11,7 @@ namespace relievo::pipeline {
 std::vector<std::uint64_t> marker_modules(int bits, int count) {
   constexpr std::array<int, 4> kNames{cv::aruco::DICT_4X4_1000, cv::aruco::DICT_5X5_1000,
                                       cv::aruco::DICT_6X6_1000, cv::aruco::DICT_7X7_1000};
-  const auto dictionary = cv::aruco::getPredefinedDictionary(kNames[static_cast<std::size_t>(bits - 4)]);
+  const auto dictionary = cv::aruco::getPredefinedDictionary(kNames[std::size_t(bits - 4)]);
   std::vector<std::uint64_t> markers;
   for (int id = 0; id < count; ++id) {
     const cv::Mat white =

@@ -23,14 +23,12 @@ constexpr int kSamples = 32;          // on the circle
 
 RELIEVO_SIMD void smooth_columns(const std::uint8_t* const* rows, int width, std::uint16_t* sum) {
   for (int x = 0; x < width; ++x)
-    sum[x] = static_cast<std::uint16_t>(rows[0][x] + 4 * rows[1][x] + 6 * rows[2][x] + 4 * rows[3][x] +
-                                        rows[4][x]);
+    sum[x] = std::uint16_t(rows[0][x] + 4 * rows[1][x] + 6 * rows[2][x] + 4 * rows[3][x] + rows[4][x]);
 }
 
 RELIEVO_SIMD void smooth_row(const std::uint16_t* sum, int width, std::int16_t* out) {
   for (int x = 0; x < width; ++x)
-    out[x] = static_cast<std::int16_t>(
-        (sum[x] + 4 * sum[x + 1] + 6 * sum[x + 2] + 4 * sum[x + 3] + sum[x + 4]) >> 4);
+    out[x] = std::int16_t((sum[x] + 4 * sum[x + 1] + 6 * sum[x + 2] + 4 * sum[x + 3] + sum[x + 4]) >> 4);
 }
 
 // Minus the determinant of the Hessian, from pixel 2 to width - 3. Rows: y-2 … y+2.
@@ -41,9 +39,9 @@ RELIEVO_SIMD void hessian_row(const std::int16_t* const* rows, int width, float*
   const std::int16_t* d = rows[3];
   const std::int16_t* e = rows[4];
   for (int x = 2; x < width - 2; ++x) {
-    const auto xx = static_cast<float>(c[x - 2] - 2 * c[x] + c[x + 2]);
-    const auto yy = static_cast<float>(a[x] - 2 * c[x] + e[x]);
-    const auto xy = static_cast<float>(b[x - 1] - b[x + 1] - d[x - 1] + d[x + 1]);
+    const auto xx = float(c[x - 2] - 2 * c[x] + c[x + 2]);
+    const auto yy = float(a[x] - 2 * c[x] + e[x]);
+    const auto xy = float(b[x - 1] - b[x + 1] - d[x - 1] + d[x + 1]);
     out[x] = xy * xy - xx * yy;
   }
 }
@@ -71,16 +69,15 @@ std::vector<Peak> find_peaks(const SmoothPicture& picture) {
   const float least = corner * corner;
   std::vector<Peak> peaks;
   std::array<std::vector<float>, 5> ring;
-  for (auto& row : ring) row.assign(static_cast<std::size_t>(width), 0.F);
+  for (auto& row : ring) row.assign(std::size_t(width), 0.F);
   for (int y = kMargin - 2; y < picture.height_px() - kMargin + 2; ++y) {
     std::array<const std::int16_t*, 5> from{};
-    for (int k = 0; k < 5; ++k) from[static_cast<std::size_t>(k)] = picture.row(y + k - 2);
-    hessian_row(from.data(), width, ring[static_cast<std::size_t>(y % 5)].data());
+    for (int k = 0; k < 5; ++k) from[std::size_t(k)] = picture.row(y + k - 2);
+    hessian_row(from.data(), width, ring[std::size_t(y % 5)].data());
     if (y < kMargin + 2) continue;
     const int middle = y - 2;
     std::array<const float*, 5> rows{};
-    for (int k = 0; k < 5; ++k)
-      rows[static_cast<std::size_t>(k)] = ring[static_cast<std::size_t>((middle + k + 3) % 5)].data();
+    for (int k = 0; k < 5; ++k) rows[std::size_t(k)] = ring[std::size_t((middle + k + 3) % 5)].data();
     for (int x = kMargin; x < width - kMargin; ++x)
       if (rows[2][x] > least && highest(rows, x)) peaks.push_back({rows[2][x], x, middle});
   }
@@ -92,22 +89,20 @@ bool settle(const SmoothPicture& picture, const Peak& peak, Saddle& out) {
   const std::int16_t* a = picture.row(peak.y - 1) + peak.x;
   const std::int16_t* b = picture.row(peak.y) + peak.x;
   const std::int16_t* c = picture.row(peak.y + 1) + peak.x;
-  const float gx = static_cast<float>(a[1] - a[-1] + 2 * (b[1] - b[-1]) + c[1] - c[-1]) / 8;
-  const float gy = static_cast<float>(c[-1] - a[-1] + 2 * (c[0] - a[0]) + c[1] - a[1]) / 8;
+  const float gx = float(a[1] - a[-1] + 2 * (b[1] - b[-1]) + c[1] - c[-1]) / 8;
+  const float gy = float(c[-1] - a[-1] + 2 * (c[0] - a[0]) + c[1] - a[1]) / 8;
   const float xx =
-      static_cast<float>(a[1] - 2 * a[0] + a[-1] + 2 * (b[1] - 2 * b[0] + b[-1]) + c[1] - 2 * c[0] + c[-1]) /
-      4;
+      float(a[1] - 2 * a[0] + a[-1] + 2 * (b[1] - 2 * b[0] + b[-1]) + c[1] - 2 * c[0] + c[-1]) / 4;
   const float yy =
-      static_cast<float>(a[-1] - 2 * b[-1] + c[-1] + 2 * (a[0] - 2 * b[0] + c[0]) + a[1] - 2 * b[1] + c[1]) /
-      4;
-  const float xy = static_cast<float>(a[-1] - a[1] - c[-1] + c[1]) / 4;
+      float(a[-1] - 2 * b[-1] + c[-1] + 2 * (a[0] - 2 * b[0] + c[0]) + a[1] - 2 * b[1] + c[1]) / 4;
+  const float xy = float(a[-1] - a[1] - c[-1] + c[1]) / 4;
   const float determinant = xx * yy - xy * xy;
   if (!(determinant < 0)) return false;
   const float dx = -(yy * gx - xy * gy) / determinant;
   const float dy = -(xx * gy - xy * gx) / determinant;
   if (!(std::abs(dx) < kMaxShiftPx && std::abs(dy) < kMaxShiftPx)) return false;
-  out.x = static_cast<float>(peak.x) + dx;
-  out.y = static_cast<float>(peak.y) + dy;
+  out.x = float(peak.x) + dx;
+  out.y = float(peak.y) + dy;
   return true;
 }
 
@@ -115,9 +110,9 @@ struct Compass {
   std::array<float, kSamples> x{}, y{};
   Compass() {
     for (std::size_t k = 0; k < kSamples; ++k) {
-      const double angle = 2 * std::numbers::pi * static_cast<double>(k) / kSamples;
-      x[k] = static_cast<float>(std::cos(angle));
-      y[k] = static_cast<float>(std::sin(angle));
+      const double angle = 2 * std::numbers::pi * double(k) / kSamples;
+      x[k] = float(std::cos(angle));
+      y[k] = float(std::sin(angle));
     }
   }
 };
@@ -131,10 +126,10 @@ bool cross(const std::array<float, kSamples / 2>& even, float middle, Saddle& ou
   float fall = 0;
   float rise = 0;
   for (int k = 0; k < kHalf; ++k) {
-    const float here = even[static_cast<std::size_t>(k)] - middle;
-    const float next = even[static_cast<std::size_t>((k + 1) % kHalf)] - middle;
+    const float here = even[std::size_t(k)] - middle;
+    const float next = even[std::size_t((k + 1) % kHalf)] - middle;
     if ((here > 0) == (next > 0)) continue;
-    const float at = (static_cast<float>(k) + here / (here - next)) * kStep;
+    const float at = (float(k) + here / (here - next)) * kStep;
     if (here > 0) ++falls, fall = at;
     else ++rises, rise = at;
   }
@@ -170,29 +165,28 @@ bool look_around(const SmoothPicture& picture, float radius, Saddle& saddle) {
 }  // namespace
 
 SmoothPicture::SmoothPicture(const GreyView& grey) : width_px_(grey.width_px), height_px_(grey.height_px) {
-  const auto width = static_cast<std::size_t>(width_px_);
-  values_.resize(width * static_cast<std::size_t>(height_px_));
+  const auto width = std::size_t(width_px_);
+  values_.resize(width * std::size_t(height_px_));
   std::vector<std::uint16_t> sum(width + 4);
   for (int y = 0; y < height_px_; ++y) {
     std::array<const std::uint8_t*, 5> rows{};
-    for (int k = 0; k < 5; ++k)
-      rows[static_cast<std::size_t>(k)] = grey.row(std::clamp(y + k - 2, 0, height_px_ - 1));
+    for (int k = 0; k < 5; ++k) rows[std::size_t(k)] = grey.row(std::clamp(y + k - 2, 0, height_px_ - 1));
     smooth_columns(rows.data(), width_px_, sum.data() + 2);
     sum[0] = sum[1] = sum[2];
     sum[width + 2] = sum[width + 3] = sum[width + 1];
-    smooth_row(sum.data(), width_px_, &values_[static_cast<std::size_t>(y) * width]);
+    smooth_row(sum.data(), width_px_, &values_[std::size_t(y) * width]);
   }
 }
 
 float SmoothPicture::at(float x, float y) const {
-  const int column = static_cast<int>(x);
-  const int line = static_cast<int>(y);
-  const float u = x - static_cast<float>(column);
-  const float v = y - static_cast<float>(line);
+  const int column = int(x);
+  const int line = int(y);
+  const float u = x - float(column);
+  const float v = y - float(line);
   const std::int16_t* a = row(line) + column;
   const std::int16_t* b = a + width_px_;
-  const float top = static_cast<float>(a[0]) + u * static_cast<float>(a[1] - a[0]);
-  const float bottom = static_cast<float>(b[0]) + u * static_cast<float>(b[1] - b[0]);
+  const float top = float(a[0]) + u * float(a[1] - a[0]);
+  const float bottom = float(b[0]) + u * float(b[1] - b[0]);
   return top + v * (bottom - top);
 }
 
@@ -207,7 +201,7 @@ std::vector<Saddle> find_saddles(const SmoothPicture& picture, std::size_t most)
       saddles.push_back(saddle);
   }
   if (saddles.size() <= most) return saddles;
-  std::nth_element(saddles.begin(), saddles.begin() + static_cast<std::ptrdiff_t>(most), saddles.end(),
+  std::nth_element(saddles.begin(), saddles.begin() + std::ptrdiff_t(most), saddles.end(),
                    [](const Saddle& a, const Saddle& b) { return a.contrast > b.contrast; });
   saddles.resize(most);
   return saddles;

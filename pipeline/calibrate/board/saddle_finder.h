@@ -26,11 +26,10 @@ class SmoothPicture {
   int width_px() const { return width_px_; }
   int height_px() const { return height_px_; }
   const std::int16_t* row(int y) const {
-    return values_.data() + static_cast<std::ptrdiff_t>(y) * static_cast<std::ptrdiff_t>(width_px_);
+    return values_.data() + std::ptrdiff_t(y) * std::ptrdiff_t(width_px_);
   }
   bool holds(float x, float y) const {
-    return x >= 1 && y >= 1 && x < static_cast<float>(width_px_ - 2) &&
-           y < static_cast<float>(height_px_ - 2);
+    return x >= 1 && y >= 1 && x < float(width_px_ - 2) && y < float(height_px_ - 2);
   }
   float at(float x, float y) const;  // bilinear; the place must be held
 
@@ -49,7 +48,7 @@ struct Saddle {
 
   // Half edge k of four in turn: dark lies between 0 and 1 and between 2 and 3.
   Vec2f ray(int k) const {
-    const Vec2f& e = edge[static_cast<std::size_t>(k % 2)];
+    const Vec2f& e = edge[std::size_t(k % 2)];
     return k < 2 ? e : Vec2f{-e.x, -e.y};
   }
 };

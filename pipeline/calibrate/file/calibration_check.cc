@@ -65,7 +65,7 @@ Result<void> check_camera(const CameraIntrinsics& c, const char* matrix, const c
 
 bool are_words(const std::string& text) {
   return text.size() <= kMaxCameraWords &&
-         std::all_of(text.begin(), text.end(), [](char c) { return c >= ' ' && c <= '~'; });
+         std::ranges::all_of(text, [](char c) { return c >= ' ' && c <= '~'; });
 }
 
 }  // namespace

@@ -14,7 +14,7 @@ Result<int> whole_number(const YamlFields& fields, std::string_view name) {
   const double number = found->second;
   if (!(number >= 1 && number <= 1e6) || number != std::floor(number))
     return wrong("must be a whole number of pixels", name);
-  return static_cast<int>(number);
+  return int(number);
 }
 
 Result<const YamlMatrix*> find_any(const YamlFields& fields, const FieldNames& names) {

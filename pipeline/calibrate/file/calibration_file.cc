@@ -3,17 +3,13 @@
 #include "pipeline/calibrate/file/calibration_file.h"
 
 #include <algorithm>
-#include <cerrno>
 #include <cstdio>
 #include <span>
 #include <string>
 #include <system_error>
 #include <utility>
 
-#include <fcntl.h>
-#include <sys/stat.h>
-#include <unistd.h>
-
+#include "hal/base/whole_file.h"
 #include "pipeline/calibrate/file/calibration_fields.h"
 #include "pipeline/calibrate/file/camera_info.h"
 #include "pipeline/calibrate/file/yaml_fields.h"
@@ -38,7 +34,7 @@ Result<void> read_camera(const YamlFields& fields, const CalibrationHints& hints
 
 Result<void> read_relation(const YamlFields& fields, double unit_mm, RigidTransform& right_from_left) {
   RELIEVO_TRY_ASSIGN(const YamlMatrix* r, find_matrix(fields, {"R"}, 3, 3));
-  std::copy(r->values.begin(), r->values.end(), right_from_left.rotation.m);
+  std::ranges::copy(r->values, right_from_left.rotation.m);
   const auto lying = fields.matrices.find("T");
   const bool one_row = lying != fields.matrices.end() && lying->second.rows == 1;
   RELIEVO_TRY_ASSIGN(const YamlMatrix* t, find_matrix(fields, {"T"}, one_row ? 1 : 3, one_row ? 3 : 1));
@@ -107,61 +103,9 @@ Result<StereoCalibration> read_stereo_yaml(const YamlFields& cameras, const Yaml
   return calibration;
 }
 
-class File {
- public:
-  explicit File(int descriptor) : descriptor_(descriptor) {}
-  ~File() { close(); }
-  File(const File&) = delete;
-  File& operator=(const File&) = delete;
-  int get() const { return descriptor_; }
-  bool close() {
-    const int descriptor = std::exchange(descriptor_, -1);
-    return descriptor < 0 || ::close(descriptor) == 0;
-  }
-
- private:
-  int descriptor_;
-};
-
-Error failed(Literal what, const std::filesystem::path& file) {
-  const Errc code = errno == ENOENT                      ? Errc::NotFound
-                    : errno == ENOSPC || errno == EDQUOT ? Errc::MediaFull
-                                                         : Errc::IoFailed;
-  Error error{code, what};
-  error.sys_errno = errno;
-  return error.at(file.native());
-}
-
-Result<void> write_all(int descriptor, std::string_view text, const std::filesystem::path& file) {
-  while (!text.empty()) {
-    const ssize_t written = ::write(descriptor, text.data(), text.size());
-    if (written < 0 && errno == EINTR) continue;
-    if (written <= 0) return failed("could not be written; is there room?", file);
-    text.remove_prefix(static_cast<std::size_t>(written));
-  }
-  return {};
-}
-
 Result<std::string> read_text(const std::filesystem::path& file) {
-  File in(::open(file.c_str(), O_RDONLY | O_CLOEXEC | O_NONBLOCK));
-  if (in.get() < 0)
-    return failed("the calibration cannot be opened; check the name, or calibrate first", file);
-  struct stat status {};
-  if (::fstat(in.get(), &status) != 0) return failed("the calibration cannot be read", file);
-  if (!S_ISREG(status.st_mode)) return wrong("is no file; give a calibration such as rig.yml", file.native());
-  if (static_cast<std::size_t>(status.st_size) > kMaxCalibrationFileBytes)
-    return wrong("too large for a calibration; give a file such as rig.yml", file.native());
-  std::string text(kMaxCalibrationFileBytes + 1, '\0');
-  std::size_t size = 0;
-  while (size < text.size()) {
-    const ssize_t got = ::read(in.get(), text.data() + size, text.size() - size);
-    if (got < 0 && errno == EINTR) continue;
-    if (got < 0) return failed("the calibration cannot be read", file);
-    if (got == 0) break;
-    size += static_cast<std::size_t>(got);
-  }
-  text.resize(size);
-  return text;
+  RELIEVO_TRY_ASSIGN(const auto bytes, read_whole_file(file, kMaxCalibrationFileBytes));
+  return std::string(reinterpret_cast<const char*>(bytes.data()), bytes.size());
 }
 
 Result<YamlFields> fields_of(std::string_view text) {
@@ -275,28 +219,8 @@ Result<StereoCalibration> read_calibration(const std::filesystem::path& file, co
 
 Result<void> write_calibration(const std::filesystem::path& file, const StereoCalibration& calibration) {
   RELIEVO_TRY(check_calibration(calibration));
-  // Hidden: what a power cut leaves of it is nobody's calibration.
-  std::string temporary = file.parent_path() / ("." + file.filename().native() + ".XXXXXX");
-  File out(::mkostemp(temporary.data(), O_CLOEXEC));
-  if (out.get() < 0)
-    return failed("cannot be written here; does the folder exist, may you write to it?", file);
-  const auto finish = [&]() -> Result<void> {
-    RELIEVO_TRY(write_all(out.get(), calibration_text(calibration), file));
-    if (::fchmod(out.get(), 0644) != 0 || ::fsync(out.get()) != 0 || !out.close())
-      return failed("could not be written; is there room?", file);
-    if (::rename(temporary.c_str(), file.c_str()) != 0) return failed("could not be put in place", file);
-    return {};
-  };
-  auto finished = finish();
-  if (!finished) {
-    ::unlink(temporary.c_str());
-    return finished;
-  }
-  // The name, too, must survive a power cut.
-  const auto folder = file.has_parent_path() ? file.parent_path() : std::filesystem::path(".");
-  const File directory(::open(folder.c_str(), O_RDONLY | O_DIRECTORY | O_CLOEXEC));
-  if (directory.get() >= 0) ::fsync(directory.get());
-  return {};
+  const std::string text = calibration_text(calibration);
+  return write_whole_file(file, std::as_bytes(std::span(text)));
 }
 
 }  // namespace relievo::pipeline

@@ -57,7 +57,7 @@ Result<CameraInfo> read_info(const YamlFields& fields, const CalibrationHints& h
   RELIEVO_TRY(read_model(fields));
   RELIEVO_TRY(read_distortion(fields, {"distortion_coefficients"}, info.camera));
   RELIEVO_TRY_ASSIGN(const YamlMatrix* r, find_matrix(fields, {"rectification_matrix"}, 3, 3));
-  std::copy(r->values.begin(), r->values.end(), info.rectified_from_camera.m);
+  std::ranges::copy(r->values, info.rectified_from_camera.m);
   RELIEVO_TRY(read_projection(fields, info));
   return info;
 }

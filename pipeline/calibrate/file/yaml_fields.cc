@@ -37,22 +37,17 @@ class Event {
   bool plain() const { return event_.data.scalar.style == YAML_PLAIN_SCALAR_STYLE; }
   bool named() const {
     switch (event_.type) {
-      case YAML_ALIAS_EVENT:
-        return true;
-      case YAML_SCALAR_EVENT:
-        return event_.data.scalar.anchor != nullptr;
-      case YAML_SEQUENCE_START_EVENT:
-        return event_.data.sequence_start.anchor != nullptr;
-      case YAML_MAPPING_START_EVENT:
-        return event_.data.mapping_start.anchor != nullptr;
+      case YAML_ALIAS_EVENT: return true;
+      case YAML_SCALAR_EVENT: return event_.data.scalar.anchor != nullptr;
+      case YAML_SEQUENCE_START_EVENT: return event_.data.sequence_start.anchor != nullptr;
+      case YAML_MAPPING_START_EVENT: return event_.data.mapping_start.anchor != nullptr;
       case YAML_NO_EVENT:
       case YAML_STREAM_START_EVENT:
       case YAML_STREAM_END_EVENT:
       case YAML_DOCUMENT_START_EVENT:
       case YAML_DOCUMENT_END_EVENT:
       case YAML_SEQUENCE_END_EVENT:
-      case YAML_MAPPING_END_EVENT:
-        break;
+      case YAML_MAPPING_END_EVENT: break;
     }
     return false;
   }
@@ -188,7 +183,7 @@ class Reader {
     }
     if (!has_data || matrix.rows == 0 || matrix.cols == 0)
       return wrong(head, "this matrix has no rows, no cols or no data; the file was cut short or damaged");
-    if (matrix.values.size() != static_cast<std::size_t>(matrix.rows) * static_cast<std::size_t>(matrix.cols))
+    if (matrix.values.size() != std::size_t(matrix.rows) * std::size_t(matrix.cols))
       return wrong(head, "the data of this matrix are not rows times cols numbers");
     fields_.matrices.emplace(name, std::move(matrix));
     return {};

@@ -2,14 +2,92 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "pipeline/calibrate/fit/bundle.h"
 
+#include <algorithm>
 #include <cmath>
+#include <vector>
 
+#include <Eigen/Cholesky>
+#include <Eigen/Eigenvalues>
 #include <Eigen/Geometry>
+#include <Eigen/SVD>
 
 #include "pipeline/base/solving.h"
-#include "pipeline/calibrate/fit/corner_terms.h"
 
 namespace relievo::pipeline::bundle {
+namespace {
+
+// Picture from board, both scaled to about one (Hartley 1997).
+Eigen::Matrix3d homography(const BoardPattern& pattern, const BoardCorners& corners,
+                           const CameraIntrinsics& camera) {
+  const double scale_px = std::max(camera.width_px, camera.height_px);
+  Eigen::Matrix<double, 9, 9> sum = Eigen::Matrix<double, 9, 9>::Zero();
+  for (int i = 0; i < pattern.corners(); ++i) {
+    const double x = i % pattern.columns / double(pattern.columns);
+    const double y = i / pattern.columns / double(pattern.columns);
+    const Vec2d& at = corners[std::size_t(i)];
+    if (!seen(at)) continue;
+    const double u = (at.x - 0.5 * camera.width_px) / scale_px;
+    const double v = (at.y - 0.5 * camera.height_px) / scale_px;
+    Eigen::Matrix<double, 2, 9> rows;
+    rows << x, y, 1, 0, 0, 0, -u * x, -u * y, -u, 0, 0, 0, x, y, 1, -v * x, -v * y, -v;
+    sum += rows.transpose() * rows;
+  }
+  const Eigen::SelfAdjointEigenSolver<Eigen::Matrix<double, 9, 9>> eigen(sum);
+  const Eigen::Matrix<double, 9, 1> h = eigen.eigenvectors().col(0);
+  Eigen::Matrix3d m;
+  m << h[0], h[1], h[2], h[3], h[4], h[5], h[6], h[7], h[8];
+  return m;
+}
+
+// Focal length (square pixels) in units of the longer side: each view gives two equations in 1/f².
+double focal_of(const std::vector<Eigen::Matrix3d>& views) {
+  double up = 0;
+  double down = 0;
+  for (Eigen::Matrix3d h : views) {
+    h /= std::sqrt(h.col(0).norm() * h.col(1).norm());
+    const auto a = h.col(0);
+    const auto b = h.col(1);
+    const double rows[2][2] = {
+        {a.x() * b.x() + a.y() * b.y(), a.z() * b.z()},
+        {a.x() * a.x() + a.y() * a.y() - b.x() * b.x() - b.y() * b.y(), a.z() * a.z() - b.z() * b.z()}};
+    for (const auto& row : rows) {
+      up -= row[0] * row[1];
+      down += row[0] * row[0];
+    }
+  }
+  return up > 0 && down > 0 ? std::sqrt(down / up) : 0;
+}
+
+Pose pose_of(const Eigen::Matrix3d& h, double focal, double board_mm) {
+  Eigen::Matrix3d m = h;
+  m.topRows<2>() /= focal;
+  m /= std::sqrt(m.col(0).norm() * m.col(1).norm());
+  if (m(2, 2) < 0) m = -m;
+  Eigen::Matrix3d r;
+  r << m.col(0), m.col(1), m.col(0).cross(m.col(1));
+  const Eigen::JacobiSVD<Eigen::Matrix3d> svd(r, Eigen::ComputeFullU | Eigen::ComputeFullV);
+  return {svd.matrixU() * svd.matrixV().transpose(), m.col(2) * board_mm};
+}
+
+}  // namespace
+
+bool first_guess(Problem& problem) {
+  CameraIntrinsics& camera = problem.camera[0];
+  std::vector<Eigen::Matrix3d> views;
+  for (const View& view : problem.views) views.push_back(homography(problem.pattern, *view.seen[0], camera));
+  double focal = focal_of(views);
+  // Boards that all face the camera leave the focal length open; a usual lens then is the start.
+  if (!(focal > 0.3 && focal < 30)) focal = 1.5;
+  const double side = std::max(camera.width_px, camera.height_px);
+  camera.focal_px = {focal * side, focal * side};
+  camera.centre_px = {0.5 * (camera.width_px - 1), 0.5 * (camera.height_px - 1)};
+  for (double& k : camera.distortion) k = 0;
+  const double board_mm = problem.pattern.columns * problem.pattern.square_mm;
+  for (std::size_t v = 0; v < views.size(); ++v)
+    problem.views[v].left_from_board = pose_of(views[v], focal, board_mm);
+  return !views.empty();
+}
+
 namespace {
 
 constexpr double kBehind = 1e12;  // the price of a board behind the camera, px²
@@ -39,7 +117,7 @@ void add_camera(const Problem& p, View& view, Block block) {
   auto own_g = block.g.template segment<Terms::kOwn>(Terms::kBase);
   auto own_b = block.b.template middleRows<Terms::kOwn>(Terms::kBase);
   for (int i = 0; i < p.pattern.corners(); ++i) {
-    if (!seen((*view.seen[kEye])[static_cast<std::size_t>(i)])) continue;
+    if (!seen((*view.seen[kEye])[std::size_t(i)])) continue;
     ++view.corners[kEye];
     const Terms t(p, view, i);
     view.squared_px[kEye] += t.depth_mm > 0 ? t.residual.squaredNorm() : kBehind;
@@ -52,24 +130,19 @@ void add_camera(const Problem& p, View& view, Block block) {
 }
 
 double& parameter(Problem& p, int i) {
-  CameraIntrinsics& c = p.camera[static_cast<std::size_t>(i / kCameraGlobals)];
+  CameraIntrinsics& c = p.camera[std::size_t(i / kCameraGlobals)];
   switch (i % kCameraGlobals) {
-    case 0:
-      return c.focal_px.x;
-    case 1:
-      return c.focal_px.y;
-    case 2:
-      return c.centre_px.x;
-    case 3:
-      return c.centre_px.y;
-    default:
-      return c.distortion[i % kCameraGlobals - 4];
+    case 0: return c.focal_px.x;
+    case 1: return c.focal_px.y;
+    case 2: return c.centre_px.x;
+    case 3: return c.centre_px.y;
+    default: return c.distortion[i % kCameraGlobals - 4];
   }
 }
 
 void add_priors(Problem& p, Normal& n) {
   for (int i = 0; i < 2 * kCameraGlobals; ++i) {
-    const Prior& prior = p.prior[static_cast<std::size_t>(i)];
+    const Prior& prior = p.prior[std::size_t(i)];
     const double weight = p.noise_px2 * prior.weight;
     const double off = prior.mean - parameter(p, i);
     n.a(i, i) += weight;
@@ -78,14 +151,14 @@ void add_priors(Problem& p, Normal& n) {
   }
   for (int eye = 0; eye < 2; ++eye) {
     const int at = eye * kCameraGlobals;
-    const CameraBelief& belief = p.belief[static_cast<std::size_t>(eye)];
-    const CameraVector away = belief.mean - parameters_of(p.camera[static_cast<std::size_t>(eye)]);
+    const CameraBelief& belief = p.belief[std::size_t(eye)];
+    const CameraVector away = belief.mean - parameters_of(p.camera[std::size_t(eye)]);
     n.a.block<kCameraGlobals, kCameraGlobals>(at, at) += belief.information;
     n.g.segment<kCameraGlobals>(at) += belief.information * away;
     n.cost += away.dot(belief.information * away);
     const double fy = parameter(p, at + 1);
-    if (!(p.aspect_weight[static_cast<std::size_t>(eye)] > 0) || !(std::abs(fy) > 1)) continue;
-    const double weight = p.noise_px2 * p.aspect_weight[static_cast<std::size_t>(eye)] / (fy * fy);
+    if (!(p.aspect_weight[std::size_t(eye)] > 0) || !(std::abs(fy) > 1)) continue;
+    const double weight = p.noise_px2 * p.aspect_weight[std::size_t(eye)] / (fy * fy);
     const double off = parameter(p, at) - fy;
     n.a.block<2, 2>(at, at) += weight * (Eigen::Matrix2d() << 1, -1, -1, 1).finished();
     n.g.segment<2>(at) += weight * off * Eigen::Vector2d(-1, 1);
@@ -114,7 +187,7 @@ Normal linearise(Problem& p) {
   add_priors(p, n);
   // What is not free neither pulls nor moves.
   for (int i = 0; i < kGlobals; ++i) {
-    if (p.free[static_cast<std::size_t>(i)]) continue;
+    if (p.free[std::size_t(i)]) continue;
     n.a.row(i).setZero();
     n.a.col(i).setZero();
     n.a(i, i) = 1;
@@ -150,7 +223,7 @@ void keep_covariance(Problem& p, const Normal& n) {
   for (std::size_t v = 0; v < n.c.size(); ++v) p.information -= eliminated<6, kGlobals>(n.c[v], n.b[v]);
   p.covariance = inverted<kGlobals>(p.information);
   for (int i = 0; i < kGlobals; ++i)
-    if (!p.free[static_cast<std::size_t>(i)]) p.covariance(i, i) = 0;
+    if (!p.free[std::size_t(i)]) p.covariance(i, i) = 0;
 }
 
 }  // namespace
@@ -228,7 +301,7 @@ std::vector<Problem> without_each_view(const Problem& whole) {
     Globals information = whole.information - (n.a - eliminated<6, kGlobals>(n.c[0], n.b[0]));
     GlobalVector pull = n.b[0] * solved<6>(n.c[0], n.h[0]) - n.g;
     for (int i = 0; i < kGlobals; ++i)
-      if (!whole.free[static_cast<std::size_t>(i)]) information(i, i) = 1;
+      if (!whole.free[std::size_t(i)]) information(i, i) = 1;
     without.push_back(whole);
     step_globals(without.back(), solved<kGlobals>(information, pull));
   }
@@ -251,6 +324,42 @@ bool solve_poses(Problem& problem) {
   const bool solved = solve(problem);
   problem.free = free;
   return solved;
+}
+
+Eigen::Matrix3d cross(const Eigen::Vector3d& v) {
+  Eigen::Matrix3d m;
+  m << 0, -v.z(), v.y(), v.z(), 0, -v.x(), -v.y(), v.x(), 0;
+  return m;
+}
+
+Eigen::Vector2d pixel_of(const CameraIntrinsics& c, const Eigen::Vector3d& p, CameraJacobian* by_camera,
+                         PointJacobian* by_point) {
+  const double x = p.x() / p.z();
+  const double y = p.y() / p.z();
+  const double* k = c.distortion;
+  const double r2 = x * x + y * y;
+  const double radial = 1 + r2 * (k[0] + r2 * (k[1] + r2 * k[4]));
+  const double xd = x * radial + 2 * k[2] * x * y + k[3] * (r2 + 2 * x * x);
+  const double yd = y * radial + k[2] * (r2 + 2 * y * y) + 2 * k[3] * x * y;
+  const double fx = c.focal_px.x;
+  const double fy = c.focal_px.y;
+  if (by_camera != nullptr) {
+    const double r4 = r2 * r2;
+    *by_camera << xd, 0, 1, 0, fx * x * r2, fx * x * r4, fx * 2 * x * y, fx * (r2 + 2 * x * x),
+        fx * x * r4 * r2, 0, yd, 0, 1, fy * y * r2, fy * y * r4, fy * (r2 + 2 * y * y), fy * 2 * x * y,
+        fy * y * r4 * r2;
+  }
+  if (by_point != nullptr) {
+    const double slope = 2 * (k[0] + r2 * (2 * k[1] + r2 * 3 * k[4]));  // of radial, by x over x
+    Eigen::Matrix2d by_plane;
+    by_plane << radial + slope * x * x + 2 * k[2] * y + 6 * k[3] * x,
+        slope * x * y + 2 * k[2] * x + 2 * k[3] * y, slope * x * y + 2 * k[2] * x + 2 * k[3] * y,
+        radial + slope * y * y + 6 * k[2] * y + 2 * k[3] * x;
+    PointJacobian plane_by_point;
+    plane_by_point << 1 / p.z(), 0, -x / p.z(), 0, 1 / p.z(), -y / p.z();
+    *by_point = Eigen::Vector2d(fx, fy).asDiagonal() * by_plane * plane_by_point;
+  }
+  return {fx * xd + c.centre_px.x, fy * yd + c.centre_px.y};
 }
 
 }  // namespace relievo::pipeline::bundle

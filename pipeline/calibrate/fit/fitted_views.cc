@@ -18,7 +18,7 @@ std::vector<CornerResidual> residuals(const BoardPattern& pattern, const CameraI
   std::vector<CornerResidual> all;
   all.reserve(corners.size());
   for (int i = 0; i < pattern.corners(); ++i) {
-    const Vec2d& at = corners[static_cast<std::size_t>(i)];
+    const Vec2d& at = corners[std::size_t(i)];
     const Vec2d put = bundle::project(camera, camera_from_board, i % pattern.columns * pattern.square_mm,
                                       i / pattern.columns * pattern.square_mm);
     // A corner that was not seen is not-a-number, and so is its residual.
@@ -41,7 +41,7 @@ std::vector<FittedView> fitted_views(std::size_t count, const StereoFit& fit) {
   const bundle::Problem& p = fit.problem;
   for (std::size_t k = 0; k < fit.views.size(); ++k) {
     const bundle::View& from = p.views[k];
-    FittedView& view = views[static_cast<std::size_t>(fit.views[k])];
+    FittedView& view = views[std::size_t(fit.views[k])];
     const bundle::Pose& pose = from.left_from_board;
     if (from.seen[0] != nullptr) view.left = residuals(p.pattern, p.camera[0], pose, *from.seen[0]);
     if (from.seen[1] != nullptr)

@@ -6,7 +6,7 @@
 #include <Eigen/Geometry>
 
 #include "pipeline/base/solving.h"
-#include "pipeline/calibrate/fit/corner_terms.h"
+#include "pipeline/calibrate/fit/bundle.h"
 
 namespace relievo::pipeline {
 namespace {

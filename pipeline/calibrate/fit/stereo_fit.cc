@@ -19,11 +19,11 @@ constexpr double kTangentialSigma = 0.005;
 constexpr double kAspectSigma = 0.02;
 
 void set_free(bundle::Problem& problem, int eye, int count) {
-  for (int i = 0; i < count; ++i) problem.free[static_cast<std::size_t>(eye * kCameraGlobals + i)] = true;
+  for (int i = 0; i < count; ++i) problem.free[std::size_t(eye * kCameraGlobals + i)] = true;
 }
 
 const BoardCorners& corners_of(const CalibratorInput& input, bool right, int view) {
-  const BoardView& v = input.views[static_cast<std::size_t>(view)];
+  const BoardView& v = input.views[std::size_t(view)];
   return right ? v.right : v.left;
 }
 
@@ -43,9 +43,9 @@ void begin_at(const StereoFit& start, StereoFit& fit) {
   fit.problem.camera = start.problem.camera;
   fit.problem.right_from_left = start.problem.right_from_left;
   for (std::size_t k = 0; k < fit.views.size(); ++k) {
-    const auto at = std::find(start.views.begin(), start.views.end(), fit.views[k]);
+    const auto at = std::ranges::find(start.views, fit.views[k]);
     if (at == start.views.end()) continue;
-    const bundle::View& from = start.problem.views[static_cast<std::size_t>(at - start.views.begin())];
+    const bundle::View& from = start.problem.views[std::size_t(at - start.views.begin())];
     // A board seen by the right camera alone stands where that camera is: it moves with the relation.
     fit.problem.views[k].left_from_board = from.left_from_board;
   }
@@ -62,7 +62,7 @@ const bundle::Pose& CameraFit::pose(int view) const { return problem.views[place
 std::size_t CameraFit::place(int view) const {
   const auto found = std::lower_bound(views.begin(), views.end(), view);
   RELIEVO_ASSERT(found != views.end() && *found == view);
-  return static_cast<std::size_t>(found - views.begin());
+  return std::size_t(found - views.begin());
 }
 
 double CameraFits::noise_px2() const {
@@ -72,16 +72,16 @@ double CameraFits::noise_px2() const {
 double StereoFit::rms_px() const { return std::sqrt(paired_squared_px / std::max(paired_corners, 1)); }
 
 void set_priors(bundle::Problem& p, int eye) {
-  const CameraIntrinsics& c = p.camera[static_cast<std::size_t>(eye)];
+  const CameraIntrinsics& c = p.camera[std::size_t(eye)];
   const double side = std::max(c.width_px, c.height_px);
   const auto prior = [&](int i, double mean, double sigma) {
-    p.prior[static_cast<std::size_t>(eye * kCameraGlobals + i)] = {mean, 1 / (sigma * sigma)};
+    p.prior[std::size_t(eye * kCameraGlobals + i)] = {mean, 1 / (sigma * sigma)};
   };
   prior(2, 0.5 * (c.width_px - 1), kCentreSigma * side);
   prior(3, 0.5 * (c.height_px - 1), kCentreSigma * side);
   for (const int radial : {4, 5, 8}) prior(radial, 0, kRadialSigma);
   for (const int tangential : {6, 7}) prior(tangential, 0, kTangentialSigma);
-  p.aspect_weight[static_cast<std::size_t>(eye)] = 1 / (kAspectSigma * kAspectSigma);
+  p.aspect_weight[std::size_t(eye)] = 1 / (kAspectSigma * kAspectSigma);
 }
 
 bool fit_camera(const CalibratorInput& input, bool right, std::span<const int> views, CameraFit& fit) {
@@ -100,7 +100,7 @@ bool fit_camera(const CalibratorInput& input, bool right, std::span<const int> v
   set_free(p, 0, kCameraGlobals);
   for (int round = 0; round < 2; ++round) {  // the noise weighs the priors, and comes out of the fit
     if (!bundle::solve(p)) return false;
-    const int free = p.residuals - kCameraGlobals - 6 * static_cast<int>(views.size());
+    const int free = p.residuals - kCameraGlobals - 6 * int(views.size());
     if (free <= 0) return false;
     fit.variance_px2 = p.squared_px / free;
     p.noise_px2 = std::max(1e-6, fit.variance_px2);
@@ -130,9 +130,7 @@ bool fit_stereo(const CalibratorInput& input, const CameraFits& cameras, std::sp
         left ? &corners_of(input, false, view) : nullptr, right ? &corners_of(input, true, view) : nullptr,
         left ? cameras.left.pose(view) : left_from_right_board(relation, cameras.right.pose(view)));
   };
-  const auto is_paired = [&](int view) {
-    return std::find(paired.begin(), paired.end(), view) != paired.end();
-  };
+  const auto is_paired = [&](int view) { return std::ranges::find(paired, view) != paired.end(); };
   for (const int view : paired) add(view, true, true);
   for (const int view : cameras.left.views)
     if (!is_paired(view)) add(view, true, false);

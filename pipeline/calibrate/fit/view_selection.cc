@@ -48,11 +48,10 @@ double surprise(double f, double degrees_up, double degrees_down) {
 std::vector<int> least(std::span<const int> pairs, const std::vector<double>& cost, std::size_t count) {
   std::vector<std::size_t> order(pairs.size());
   std::iota(order.begin(), order.end(), std::size_t{0});
-  std::stable_sort(order.begin(), order.end(),
-                   [&](std::size_t a, std::size_t b) { return cost[a] < cost[b]; });
+  std::ranges::stable_sort(order, [&](std::size_t a, std::size_t b) { return cost[a] < cost[b]; });
   std::vector<int> chosen;
   for (std::size_t k = 0; k < std::min(count, order.size()); ++k) chosen.push_back(pairs[order[k]]);
-  std::sort(chosen.begin(), chosen.end());
+  std::ranges::sort(chosen);
   return chosen;
 }
 
@@ -64,18 +63,17 @@ double excess_of(const CameraFits& cameras, const StereoFit& fit) {
 
 // Variance of one degree of freedom of the disagreement.
 double spread_of(const CameraFits& cameras, const StereoFit& fit, std::size_t pairs) {
-  const double used = static_cast<double>(fit.paired.size());
-  const double mended = trimming_factor(used / static_cast<double>(pairs));
+  const double used = double(fit.paired.size());
+  const double mended = trimming_factor(used / double(pairs));
   return std::max(cameras.noise_px2(), mended * excess_of(cameras, fit) / (kDegrees * (used - 1)));
 }
 
 std::vector<std::size_t> calmest(const std::vector<double>& cost, std::size_t count) {
   std::vector<std::size_t> order(cost.size());
   std::iota(order.begin(), order.end(), std::size_t{0});
-  std::stable_sort(order.begin(), order.end(),
-                   [&](std::size_t a, std::size_t b) { return cost[a] < cost[b]; });
+  std::ranges::stable_sort(order, [&](std::size_t a, std::size_t b) { return cost[a] < cost[b]; });
   order.resize(std::min(count, order.size()));
-  std::sort(order.begin(), order.end());
+  std::ranges::sort(order);
   return order;
 }
 
@@ -109,12 +107,10 @@ std::vector<Half> halves_of(const CameraFits& cameras, std::span<const int> pair
   std::vector<Half> halves;
   for (std::size_t s = 0; s < pairs.size(); s += stride) {
     Half one = concentrate(views, relation_of(cameras, pairs[s]), half);
-    const bool known =
-        std::any_of(halves.begin(), halves.end(), [&](const Half& h) { return h.places == one.places; });
+    const bool known = std::ranges::any_of(halves, [&](const Half& h) { return h.places == one.places; });
     if (!known) halves.push_back(std::move(one));
   }
-  std::stable_sort(halves.begin(), halves.end(),
-                   [](const Half& a, const Half& b) { return a.misfit_px2 < b.misfit_px2; });
+  std::ranges::stable_sort(halves, [](const Half& a, const Half& b) { return a.misfit_px2 < b.misfit_px2; });
   return halves;
 }
 
@@ -160,14 +156,14 @@ bool admit(const CalibratorInput& input, const CameraFits& cameras, std::span<co
   constexpr std::size_t kCandidates = 3;
   std::vector<int> outside;
   for (const int view : pairs)
-    if (!std::binary_search(fit.paired.begin(), fit.paired.end(), view)) outside.push_back(view);
+    if (!std::ranges::binary_search(fit.paired, view)) outside.push_back(view);
   if (outside.empty()) return false;
   std::vector<double> cost = judge_pairs(input, cameras, fit, outside);
   for (std::size_t i = 0; i < outside.size(); ++i) cost[i] -= alone(cameras, outside[i]);
   const double spread = spread_of(cameras, fit, pairs.size());
-  const double used = static_cast<double>(fit.paired.size());
+  const double used = double(fit.paired.size());
   // A scale from a part of the views is known only as well as that part is large.
-  const double degrees = kDegrees * (used - 1) * used / static_cast<double>(pairs.size());
+  const double degrees = kDegrees * (used - 1) * used / double(pairs.size());
   const auto deviate = [&](double added) { return surprise(added / kDegrees / spread, kDegrees, degrees); };
   const auto let_in = [&](std::span<const int> views, StereoFit& wider) {
     std::vector<int> with = fit.paired;
@@ -198,7 +194,7 @@ bool admit(const CalibratorInput& input, const CameraFits& cameras, std::span<co
 
 // Views on the other side of a camera's move belong to another rig, even if some seem to agree.
 void keep_one_side(std::span<const int> pairs, int last_before, std::vector<int>& used) {
-  const int border = pairs[static_cast<std::size_t>(last_before)];
+  const int border = pairs[std::size_t(last_before)];
   const auto split = std::upper_bound(used.begin(), used.end(), border);
   if (split - used.begin() >= used.end() - split) used.erase(split, used.end());
   else used.erase(used.begin(), split);
@@ -216,8 +212,7 @@ bool select_views(const CalibratorInput& input, const CameraFits& cameras, std::
   out.excess = judge_pairs(input, cameras, chosen, pairs);
   for (std::size_t i = 0; i < pairs.size(); ++i)
     out.excess[i] = std::max(0.0, out.excess[i] - alone(cameras, pairs[i]));
-  out.spread_px2 =
-      std::max(0.0, excess_of(cameras, chosen)) / (kDegrees * static_cast<double>(out.used.size() - 1));
+  out.spread_px2 = std::max(0.0, excess_of(cameras, chosen)) / (kDegrees * double(out.used.size() - 1));
   const double spread = std::max(out.spread_px2, cameras.noise_px2());
   out.moved = change_point(out.excess, spread);
   if (out.moved.likeliest >= 0) keep_one_side(pairs, out.moved.likeliest, out.used);
@@ -237,8 +232,8 @@ ChangePoint change_point(std::span<const double> excess, double spread_px2) {
   const auto cost = [&](std::size_t begin, std::size_t end) {
     double mean = 0;
     for (std::size_t i = begin; i < end; ++i) mean += excess[i] / kDegrees;
-    mean = std::max(mean / static_cast<double>(end - begin), 0.25 * spread_px2 + 1e-12);
-    return kDegrees * static_cast<double>(end - begin) * std::log(mean);
+    mean = std::max(mean / double(end - begin), 0.25 * spread_px2 + 1e-12);
+    return kDegrees * double(end - begin) * std::log(mean);
   };
   const auto gain = [&](std::size_t split) { return cost(0, n) - cost(0, split) - cost(split, n); };
   std::size_t at = kMinRun;
@@ -255,7 +250,7 @@ ChangePoint change_point(std::span<const double> excess, double spread_px2) {
   std::size_t last = at;
   while (first > kMinRun && gain(first - 1) > gain(at) - kOpen) --first;
   while (last + kMinRun < n && gain(last + 1) > gain(at) - kOpen) ++last;
-  return {static_cast<int>(at) - 1, static_cast<int>(first) - 1, static_cast<int>(last) - 1};
+  return {int(at) - 1, int(first) - 1, int(last) - 1};
 }
 
 }  // namespace relievo::pipeline

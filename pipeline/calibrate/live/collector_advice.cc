@@ -26,28 +26,21 @@ LiveAdvice ViewCollector::advice_for_verdict() {
   if (phase_ == Phase::Done) return LiveAdvice::Done;
   if (phase_ == Phase::Swapped) return LiveAdvice::SwappedCameras;
   switch (state_.verdict) {
-    case PairVerdict::Finished:
-      return LiveAdvice::Done;
-    case PairVerdict::Swapped:
-      return LiveAdvice::SwappedCameras;
-    case PairVerdict::NoBoard:
-      return LiveAdvice::ShowBoard;
-    case PairVerdict::LeftMissesIt:
-      return LiveAdvice::LeftCameraMissesIt;
-    case PairVerdict::RightMissesIt:
-      return LiveAdvice::RightCameraMissesIt;
-    case PairVerdict::Blurred:
-      return LiveAdvice::TooBlurred;
+    case PairVerdict::Finished: return LiveAdvice::Done;
+    case PairVerdict::Swapped: return LiveAdvice::SwappedCameras;
+    case PairVerdict::NoBoard: return LiveAdvice::ShowBoard;
+    case PairVerdict::LeftMissesIt: return LiveAdvice::LeftCameraMissesIt;
+    case PairVerdict::RightMissesIt: return LiveAdvice::RightCameraMissesIt;
+    case PairVerdict::Blurred: return LiveAdvice::TooBlurred;
     case PairVerdict::Taken:
     case PairVerdict::Moving:
-    case PairVerdict::AlreadyHave:
-      return towards_target();
+    case PairVerdict::AlreadyHave: return towards_target();
   }
   return LiveAdvice::ShowBoard;
 }
 
 LiveAdvice ViewCollector::towards_target() {
-  Room room{static_cast<double>(input_.width_px), static_cast<double>(input_.height_px), {}};
+  Room room{double(input_.width_px), double(input_.height_px), {}};
   for (std::size_t eye = 0; eye < 2; ++eye)
     room.board[eye] = with_border(outline_of(state_.corners[eye], input_.pattern), input_.pattern);
   auto way = guide_.towards(target_.target, now_[0], room);
@@ -59,14 +52,13 @@ LiveAdvice ViewCollector::towards_target() {
   if (!way) return LiveAdvice::HoldStill;
   state_.how_far = way->how_far;
   state_.way = words_towards(target_.target, now_[0]);
-  const auto now = std::find(state_.way.begin(), state_.way.end(), way->word);
+  const auto now = std::ranges::find(state_.way, way->word);
   if (now != state_.way.end()) std::rotate(state_.way.begin(), now, now + 1);
   return way->word;
 }
 
 void ViewCollector::give_up_target() {
-  if (std::find(given_up_.begin(), given_up_.end(), target_.number) == given_up_.end())
-    given_up_.push_back(target_.number);
+  if (std::ranges::find(given_up_, target_.number) == given_up_.end()) given_up_.push_back(target_.number);
   aim();
 }
 

@@ -29,25 +29,25 @@ constexpr std::array kAdviceNames{"show the board",
                                   "already have this view",
                                   "exchange the cameras",
                                   "done"};
-static_assert(kAdviceNames.size() == static_cast<std::size_t>(LiveAdvice::Done) + 1);
+static_assert(kAdviceNames.size() == std::size_t(LiveAdvice::Done) + 1);
 
 // In the order of PairVerdict.
 constexpr std::array kVerdictNames{"taken",   "no board", "not whole in left", "not whole in right",
                                    "moving",  "blurred",  "already have",      "cameras swapped",
                                    "finished"};
-static_assert(kVerdictNames.size() == static_cast<std::size_t>(PairVerdict::Finished) + 1);
+static_assert(kVerdictNames.size() == std::size_t(PairVerdict::Finished) + 1);
 
 // In the order of LiveEnd.
 constexpr std::array kEndNames{"not yet", "goal reached", "more views would not help",
                                "as many views as allowed"};
-static_assert(kEndNames.size() == static_cast<std::size_t>(LiveEnd::Full) + 1);
+static_assert(kEndNames.size() == std::size_t(LiveEnd::Full) + 1);
 
 }  // namespace
 
-const char* name_of(LiveAdvice advice) { return kAdviceNames[static_cast<std::size_t>(advice)]; }
+const char* name_of(LiveAdvice advice) { return kAdviceNames[std::size_t(advice)]; }
 
 std::string words_of(std::span<const LiveAdvice> way) {
-  const auto holds = [&](LiveAdvice one) { return std::find(way.begin(), way.end(), one) != way.end(); };
+  const auto holds = [&](LiveAdvice one) { return std::ranges::find(way, one) != way.end(); };
   const bool upper = holds(LiveAdvice::Up);
   const bool left = holds(LiveAdvice::Left);
   const bool corner = (upper || holds(LiveAdvice::Down)) && (left || holds(LiveAdvice::Right));
@@ -65,8 +65,8 @@ std::string words_of(std::span<const LiveAdvice> way) {
   return words;
 }
 
-const char* name_of(PairVerdict verdict) { return kVerdictNames[static_cast<std::size_t>(verdict)]; }
+const char* name_of(PairVerdict verdict) { return kVerdictNames[std::size_t(verdict)]; }
 
-const char* name_of(LiveEnd end) { return kEndNames[static_cast<std::size_t>(end)]; }
+const char* name_of(LiveEnd end) { return kEndNames[std::size_t(end)]; }
 
 }  // namespace relievo::pipeline

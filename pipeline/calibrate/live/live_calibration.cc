@@ -12,8 +12,7 @@ template <typename T, typename Work>
 std::array<Result<T>, 2> for_both(ThreadPool& pool, const Work& work) {
   std::array<Result<T>, 2> done{T{}, T{}};
   pool.for_each_band(2, 2, [&](int begin, int end, int) {
-    for (int eye = begin; eye < end; ++eye)
-      done[static_cast<std::size_t>(eye)] = work(static_cast<std::size_t>(eye));
+    for (int eye = begin; eye < end; ++eye) done[std::size_t(eye)] = work(std::size_t(eye));
   });
   return done;
 }

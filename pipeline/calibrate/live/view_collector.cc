@@ -62,8 +62,8 @@ int seen_in_both(const BoardCorners& left, const BoardCorners& right) {
 // Between the distances for which it was computed, along a straight line.
 double error_at(const CalibrationUncertainty& uncertainty, double distance_mm) {
   const double place = std::clamp((distance_mm - kFirstDepthMm) / kDepthStepMm, 0.0, kDepthSteps - 1.0);
-  const auto below = static_cast<std::size_t>(std::min(static_cast<int>(place), kDepthSteps - 2));
-  const double share = place - static_cast<double>(below);
+  const auto below = std::size_t(std::min(int(place), kDepthSteps - 2));
+  const double share = place - double(below);
   return (1 - share) * uncertainty.depth[below].sigma_mm + share * uncertainty.depth[below + 1].sigma_mm;
 }
 
@@ -86,7 +86,7 @@ ViewCollector::ViewCollector(const BoardPattern& pattern, int width_px, int heig
   input_.height_px = height_px;
   input_.expected_baseline_mm = options.expected_baseline_mm;
   input_.in_use = options.in_use;
-  const auto most = static_cast<std::size_t>(options.max_views);
+  const auto most = std::size_t(options.max_views);
   input_.views.reserve(most);
   taken_.reserve(most);
   state_.goal_mm = options.goal_mm;
@@ -98,7 +98,7 @@ ViewCollector& ViewCollector::operator=(ViewCollector&& other) noexcept = defaul
 ViewCollector::~ViewCollector() = default;
 
 Result<void> ViewCollector::check(const PairDetection& pair) const {
-  const auto corners = static_cast<std::size_t>(input_.pattern.corners());
+  const auto corners = std::size_t(input_.pattern.corners());
   for (const BoardDetection& one : pair.seen)
     if (!one.corners.empty() && one.corners.size() != corners)
       return Error{Errc::InvalidInput, "a board with another number of corners than the pattern"}.at(
@@ -118,7 +118,7 @@ void ViewCollector::measure_motion(const PairDetection& pair) {
 }
 
 bool ViewCollector::is_new() const {
-  const bool differs = std::all_of(taken_.begin(), taken_.end(), [&](const auto& other) {
+  const bool differs = std::ranges::all_of(taken_, [&](const auto& other) {
     return std::max(distance_between(now_[0], other[0]), distance_between(now_[1], other[1])) >
            options_.new_distance;
   });
@@ -171,7 +171,7 @@ Result<bool> ViewCollector::consider(PairDetection pair) {
 
 Result<void> ViewCollector::take(BoardCorners left, BoardCorners right) {
   RELIEVO_ASSERT(state_.verdict == PairVerdict::Taken);
-  const auto corners = static_cast<std::size_t>(input_.pattern.corners());
+  const auto corners = std::size_t(input_.pattern.corners());
   if (left.size() != corners || right.size() != corners)
     return Error{Errc::InvalidInput, "a board with another number of corners than the pattern"};
   pair_order(left, right, input_.pattern);
@@ -184,7 +184,7 @@ Result<void> ViewCollector::take(BoardCorners left, BoardCorners right) {
     state_.maps[eye] = coverage_[eye].map();
   }
   state_.bars = lesser(state_.camera_bars[0], state_.camera_bars[1]);
-  state_.views = static_cast<int>(taken_.size());
+  state_.views = int(taken_.size());
   input_.views.push_back({std::to_string(state_.views), std::move(left), std::move(right)});
   recalculate();
   given_up_.clear();

@@ -34,13 +34,13 @@ class Rig {
   }
   Vec2d project(int eye, const bundle::Pose& left_from_board, double column, double row) const {
     const double square = rig_.pattern.square_mm;
-    return bundle::project(rig_.camera[static_cast<std::size_t>(eye)], in(eye, left_from_board),
-                           column * square, row * square);
+    return bundle::project(rig_.camera[std::size_t(eye)], in(eye, left_from_board), column * square,
+                           row * square);
   }
   // With the squares around the outer corners.
   bool seen_whole(const bundle::Pose& left_from_board) const {
     for (const int eye : {0, 1}) {
-      const CameraIntrinsics& camera = rig_.camera[static_cast<std::size_t>(eye)];
+      const CameraIntrinsics& camera = rig_.camera[std::size_t(eye)];
       const double edge_px = kEdgeShare * camera.width_px;
       for (const double column : {-1, rig_.pattern.columns})
         for (const double row : {-1, rig_.pattern.rows}) {
@@ -95,7 +95,7 @@ CandidatePose seen_in(const Rig& rig, std::size_t number, const bundle::Pose& po
   for (int eye = 0; eye < 2; ++eye)
     for (int row = 0; row < pattern.rows; ++row)
       for (int column = 0; column < pattern.columns; ++column)
-        candidate.corners[static_cast<std::size_t>(eye)].push_back(rig.project(eye, pose, column, row));
+        candidate.corners[std::size_t(eye)].push_back(rig.project(eye, pose, column, row));
   return candidate;
 }
 
@@ -152,7 +152,7 @@ ViewTarget target_of(const CandidatePose& pose, const BoardParameters& left, con
 int quarter_turns_of(const CalibratorInput& input) {
   const BoardOutline outline = outline_of(input.views.back().left, input.pattern);
   const double angle = std::atan2(outline[1].y - outline[0].y, outline[1].x - outline[0].x);
-  return static_cast<int>(std::lround(angle / (0.5 * std::numbers::pi)));
+  return int(std::lround(angle / (0.5 * std::numbers::pi)));
 }
 
 }  // namespace
@@ -205,7 +205,7 @@ ViewPlanner::Pair ViewPlanner::parameters(const BoardCorners& left, const BoardC
 }
 
 bool ViewPlanner::safely_new(const Pair& view) const {
-  return std::all_of(taken_.begin(), taken_.end(), [&](const Pair& other) {
+  return std::ranges::all_of(taken_, [&](const Pair& other) {
     return std::max(distance_between(view[0], other[0]), distance_between(view[1], other[1])) >
            kSafelyNew * options_.new_distance;
   });
@@ -240,7 +240,7 @@ double ViewPlanner::worth(const BoardCorners& left, const BoardCorners& right) c
 ViewPlan ViewPlanner::plan(std::span<const std::size_t> excluded) const {
   ViewPlan plan;
   for (const CandidatePose& pose : candidate_poses(rig_, options_.distance_mm, quarter_turns_)) {
-    if (std::find(excluded.begin(), excluded.end(), pose.number) != excluded.end()) continue;
+    if (std::ranges::find(excluded, pose.number) != excluded.end()) continue;
     const Pair view = parameters(pose.corners[0], pose.corners[1]);
     if (!safely_new(view)) continue;
     const double error = error_gain({&pose.corners[0], &pose.corners[1], pose.left_from_board});

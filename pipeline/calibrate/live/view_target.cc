@@ -50,23 +50,12 @@ bool stays_whole(const Room& room, std::size_t axis, double from, double to) {
   double shift[2] = {0, 0};
   double scale[2] = {1, 1};
   switch (static_cast<BoardAxis>(axis)) {
-    case BoardAxis::Across:
-      shift[0] = (to - from) * room.width_px;
-      break;
-    case BoardAxis::Down:
-      shift[1] = (to - from) * room.height_px;
-      break;
-    case BoardAxis::Size:
-      scale[0] = scale[1] = std::exp(to - from);
-      break;
-    case BoardAxis::TiltAcross:
-      scale[0] = narrowed(from, to);
-      break;
-    case BoardAxis::TiltDown:
-      scale[1] = narrowed(from, to);
-      break;
-    case BoardAxis::Turn:
-      return true;
+    case BoardAxis::Across: shift[0] = (to - from) * room.width_px; break;
+    case BoardAxis::Down: shift[1] = (to - from) * room.height_px; break;
+    case BoardAxis::Size: scale[0] = scale[1] = std::exp(to - from); break;
+    case BoardAxis::TiltAcross: scale[0] = narrowed(from, to); break;
+    case BoardAxis::TiltDown: scale[1] = narrowed(from, to); break;
+    case BoardAxis::Turn: return true;
   }
   for (const BoardOutline& board : room.board) {
     Vec2d middle;
@@ -93,10 +82,10 @@ PlannedView opening_view(const std::vector<BoardParameters>& taken, std::span<co
       tilted(-kTilt, -kTilt, 0), tilted(kTilt, -kTilt, 0), tilted(-kTilt, kTilt, 0)};
   PlannedView last;
   for (const ViewTarget& target : opening) {
-    last = {target, kOpeningNumber + static_cast<std::size_t>(&target - opening)};
-    const bool known = std::any_of(taken.begin(), taken.end(),
-                                   [&](const BoardParameters& view) { return fulfils(view, target); });
-    if (!known && std::find(excluded.begin(), excluded.end(), last.number) == excluded.end()) break;
+    last = {target, kOpeningNumber + std::size_t(&target - opening)};
+    const bool known =
+        std::ranges::any_of(taken, [&](const BoardParameters& view) { return fulfils(view, target); });
+    if (!known && std::ranges::find(excluded, last.number) == excluded.end()) break;
   }
   return last;
 }
@@ -108,7 +97,7 @@ std::vector<LiveAdvice> words_towards(const ViewTarget& target, const BoardParam
     const double steps = (target.at[i] - at[i]) / target.tolerance[i];
     if (std::abs(steps) > 1) off.emplace_back(std::abs(steps), kWords[i][steps > 0 ? 0 : 1]);
   }
-  std::stable_sort(off.begin(), off.end(), [](const auto& a, const auto& b) { return a.first > b.first; });
+  std::ranges::stable_sort(off, [](const auto& a, const auto& b) { return a.first > b.first; });
   std::vector<LiveAdvice> words;
   words.reserve(off.size());
   for (const auto& [steps, word] : off) words.push_back(word);

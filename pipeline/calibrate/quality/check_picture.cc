@@ -31,17 +31,15 @@ Colour pixel(const ImageView& image, int x, int y) {
 void put(CheckPicture& picture, int x, int y, const Colour& colour) {
   if (x < 0 || y < 0 || x >= picture.width_px || y >= picture.height_px) return;
   for (std::size_t c = 0; c < 3; ++c)
-    picture.rgb[3 * (static_cast<std::size_t>(y) * static_cast<std::size_t>(picture.width_px) +
-                     static_cast<std::size_t>(x)) +
-                c] = static_cast<std::byte>(colour[c]);
+    picture.rgb[3 * (std::size_t(y) * std::size_t(picture.width_px) + std::size_t(x)) + c] =
+        static_cast<std::byte>(colour[c]);
 }
 
 CheckPicture blank(const ImageView& one) {
   CheckPicture picture;
   picture.width_px = 2 * one.width_px;
   picture.height_px = one.height_px;
-  picture.rgb.resize(3 * static_cast<std::size_t>(picture.width_px) *
-                     static_cast<std::size_t>(picture.height_px));
+  picture.rgb.resize(3 * std::size_t(picture.width_px) * std::size_t(picture.height_px));
   return picture;
 }
 
@@ -49,8 +47,8 @@ void draw_corners(CheckPicture& picture, const BoardCorners& corners, int offset
   const int arm = std::max(4, picture.width_px / 500);
   for (std::size_t i = 0; i < corners.size(); ++i) {
     if (!seen(corners[i])) continue;
-    const int x = static_cast<int>(std::lround(corners[i].x));
-    const int y = static_cast<int>(std::lround(corners[i].y));
+    const int x = int(std::lround(corners[i].x));
+    const int y = int(std::lround(corners[i].y));
     for (int d = -arm; d <= arm; ++d) {
       put(picture, offset + x + d, y, i == 0 ? kFirst : kCorner);
       put(picture, offset + x, y + d, i == 0 ? kFirst : kCorner);
@@ -69,8 +67,7 @@ void draw_rectified(CheckPicture& picture, const ImageView& from, const CameraIn
       if (ray.translation_mm.z() <= 0.1) continue;
       const Vec2d at = bundle::project(camera, ray, 0, 0);
       if (!(at.x >= 0 && at.y >= 0 && at.x <= from.width_px - 1 && at.y <= from.height_px - 1)) continue;
-      put(picture, offset + x, y,
-          pixel(from, static_cast<int>(std::lround(at.x)), static_cast<int>(std::lround(at.y))));
+      put(picture, offset + x, y, pixel(from, int(std::lround(at.x)), int(std::lround(at.y))));
     }
 }
 
@@ -92,13 +89,10 @@ CheckPicture corner_picture(const ImageView& left, const BoardCorners& left_corn
 CheckPicture thumbnail_picture(const ImageView& image, int width_px) {
   CheckPicture picture;
   picture.width_px = std::clamp(width_px, 1, image.width_px);
-  picture.height_px = std::max(1, static_cast<int>(std::lround(static_cast<double>(picture.width_px) *
-                                                               image.height_px / image.width_px)));
-  picture.rgb.resize(3 * static_cast<std::size_t>(picture.width_px) *
-                     static_cast<std::size_t>(picture.height_px));
-  const auto begin = [](int at, int small, int large) {
-    return static_cast<int>(static_cast<long>(at) * large / small);
-  };
+  picture.height_px =
+      std::max(1, int(std::lround(double(picture.width_px) * image.height_px / image.width_px)));
+  picture.rgb.resize(3 * std::size_t(picture.width_px) * std::size_t(picture.height_px));
+  const auto begin = [](int at, int small, int large) { return int(static_cast<long>(at) * large / small); };
   for (int y = 0; y < picture.height_px; ++y)
     for (int x = 0; x < picture.width_px; ++x) {
       const int top = begin(y, picture.height_px, image.height_px);
@@ -113,7 +107,7 @@ CheckPicture thumbnail_picture(const ImageView& image, int width_px) {
         }
       const long count = static_cast<long>(bottom - top) * (right - left);
       Colour mean{};
-      for (std::size_t c = 0; c < 3; ++c) mean[c] = static_cast<std::uint8_t>((sum[c] + count / 2) / count);
+      for (std::size_t c = 0; c < 3; ++c) mean[c] = std::uint8_t((sum[c] + count / 2) / count);
       put(picture, x, y, mean);
     }
   return picture;

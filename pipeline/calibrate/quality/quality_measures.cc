@@ -12,11 +12,9 @@
 #include "hal/base/statistics.h"
 #include "pipeline/base/solving.h"
 #include "pipeline/calibrate/fit/bundle.h"
-#include "pipeline/calibrate/fit/corner_terms.h"
 #include "pipeline/calibrate/fit/relation_evidence.h"
-#include "pipeline/calibrate/quality/limits.h"
+#include "pipeline/calibrate/quality/quality.h"
 #include "pipeline/calibrate/quality/rig_geometry.h"
-#include "pipeline/calibrate/quality/rig_spread.h"
 
 namespace relievo::pipeline {
 namespace {
@@ -61,7 +59,7 @@ void add(const bundle::Problem& p, const bundle::View& view, Sums& sums, ViewSum
   using Terms = bundle::CornerTerms<kEye>;
   if (view.seen[kEye] == nullptr) return;
   for (int i = 0; i < p.pattern.corners(); ++i) {
-    if (!seen((*view.seen[kEye])[static_cast<std::size_t>(i)])) continue;
+    if (!seen((*view.seen[kEye])[std::size_t(i)])) continue;
     const Terms t(p, view, i);
     const Eigen::Matrix<double, 2, kShapes> by_shape =
         t.by_left * view.left_from_board.rotation.col(2) * shapes_at(p.pattern, i).transpose();
@@ -102,7 +100,7 @@ BoardBend measure_bend(const bundle::Problem& solved) {
     sums.g -= of_view.by_pose * pose.solve(of_view.h);
   }
   for (int i = 0; i < kGlobals; ++i)
-    if (!solved.free[static_cast<std::size_t>(i)]) sums.by_globals.col(i).setZero();
+    if (!solved.free[std::size_t(i)]) sums.by_globals.col(i).setZero();
   const Eigen::Matrix3d information =
       sums.a - sums.by_globals * solved.covariance * sums.by_globals.transpose();
   const auto factor = information.ldlt();
@@ -150,7 +148,7 @@ Points points_of(const bundle::Problem& rig, const BoardView& view, const bundle
   Eigen::Index count = 0;
   for (std::size_t i = 0; i < view.left.size(); ++i) {
     if (!seen(view.left[i]) || !seen(view.right[i])) continue;
-    const int n = static_cast<int>(i);
+    const int n = int(i);
     const Eigen::Vector3d on_board(n % rig.pattern.columns * rig.pattern.square_mm,
                                    n / rig.pattern.columns * rig.pattern.square_mm, 0);
     points.board.col(count) = on_board;
@@ -172,16 +170,15 @@ KnownSquares measure_known_squares(const Fitted& f, const RigSpread& spread, dou
   double views = 0;
   double all = 0;
   for (std::size_t i = 0; i < f.selection.used.size(); ++i) {
-    const Points p =
-        points_of(spread.without()[i], f.input.views[static_cast<std::size_t>(f.selection.used[i])],
-                  f.selection.fit.problem.views[i].left_from_board);
+    const Points p = points_of(spread.without()[i], f.input.views[std::size_t(f.selection.used[i])],
+                               f.selection.fit.problem.views[i].left_from_board);
     if (p.found.cols() < 4) continue;
     const Eigen::ArrayXd off = (p.found.row(2) - p.expected.row(2)).transpose().array() *
                                (distance_mm / p.expected.row(2).transpose().array()).square();
     boards += squared(off.mean());
     corners += off.square().sum();
     lengths += squared(scale_between(p.board, p.found) - 1);
-    all += static_cast<double>(off.size());
+    all += double(off.size());
     views += 1;
   }
   views = std::max(views, 1.0);
@@ -216,7 +213,7 @@ std::vector<Missed> missed_lines(const bundle::Problem& rig, const BoardView& vi
 double field_squared(const std::vector<Missed>& missed) {
   Vec2d middle;
   for (const Missed& m : missed) middle = {middle.x + m.at.x, middle.y + m.at.y};
-  const auto count = static_cast<double>(missed.size());
+  const auto count = double(missed.size());
   Eigen::Matrix3d a = Eigen::Matrix3d::Zero();
   Eigen::Vector3d b = Eigen::Vector3d::Zero();
   for (const Missed& m : missed) {
@@ -232,11 +229,10 @@ double held_out_shift(const Fitted& f, const RigSpread& spread) {
   double sum = 0;
   double count = 0;
   for (std::size_t i = 0; i < f.selection.used.size(); ++i) {
-    const auto missed =
-        missed_lines(spread.without()[i], f.input.views[static_cast<std::size_t>(f.selection.used[i])]);
+    const auto missed = missed_lines(spread.without()[i], f.input.views[std::size_t(f.selection.used[i])]);
     if (missed.size() < 4) continue;
     sum += field_squared(missed);
-    count += static_cast<double>(missed.size());
+    count += double(missed.size());
   }
   return std::sqrt(sum / std::max(count, 1.0));
 }
@@ -250,8 +246,8 @@ double epipolar_rms(const Fitted& f, const bundle::Problem& rig, std::span<const
   double sum = 0;
   int count = 0;
   for (const int view : views)
-    sum += epipolar_squared(rig, f.input.views[static_cast<std::size_t>(view)].left,
-                            f.input.views[static_cast<std::size_t>(view)].right, count);
+    sum += epipolar_squared(rig, f.input.views[std::size_t(view)].left,
+                            f.input.views[std::size_t(view)].right, count);
   return std::sqrt(sum / std::max(count, 1));
 }
 
@@ -260,11 +256,11 @@ double coverage(const CalibratorInput& input, bool right) {
   for (const BoardView& view : input.views)
     for (const Vec2d& at : right ? view.right : view.left) {
       if (!seen(at)) continue;
-      const int x = std::clamp(static_cast<int>(at.x / input.width_px * kGrid), 0, kGrid - 1);
-      const int y = std::clamp(static_cast<int>(at.y / input.height_px * kGrid), 0, kGrid - 1);
-      covered[static_cast<std::size_t>(y * kGrid + x)] = true;
+      const int x = std::clamp(int(at.x / input.width_px * kGrid), 0, kGrid - 1);
+      const int y = std::clamp(int(at.y / input.height_px * kGrid), 0, kGrid - 1);
+      covered[std::size_t(y * kGrid + x)] = true;
     }
-  return static_cast<double>(std::count(covered.begin(), covered.end(), true)) / (kGrid * kGrid);
+  return double(std::ranges::count(covered, true)) / (kGrid * kGrid);
 }
 
 // Did a camera turn, or did the board go on between the two exposures? The pairs tell together.
@@ -289,7 +285,7 @@ double held_out_epipolar(const Fitted& f, const RigSpread& spread) {
   double sum = 0;
   int count = 0;
   for (std::size_t i = 0; i < f.selection.used.size(); ++i) {
-    const BoardView& view = f.input.views[static_cast<std::size_t>(f.selection.used[i])];
+    const BoardView& view = f.input.views[std::size_t(f.selection.used[i])];
     sum += epipolar_squared(spread.without()[i], view.left, view.right, count);
   }
   return std::sqrt(sum / std::max(count, 1));
@@ -311,10 +307,10 @@ void measure_flatness(const Fitted& f, CalibrationQuality& q) {
 
 void measure_views(const Fitted& f, CalibrationQuality& q) {
   for (const int view : f.cameras.left.views)
-    q.views[static_cast<std::size_t>(view)].left_rms_px =
+    q.views[std::size_t(view)].left_rms_px =
         std::sqrt(f.cameras.left.squared_px(view) / f.cameras.left.corners(view));
   for (const int view : f.cameras.right.views)
-    q.views[static_cast<std::size_t>(view)].right_rms_px =
+    q.views[std::size_t(view)].right_rms_px =
         std::sqrt(f.cameras.right.squared_px(view) / f.cameras.right.corners(view));
   std::vector<bundle::View> judged;
   judge_pairs(f.input, f.cameras, f.selection.fit, f.pairs, &judged);
@@ -323,8 +319,8 @@ void measure_views(const Fitted& f, CalibrationQuality& q) {
   const double middle[2] = {0.5 * (f.input.pattern.columns - 1) * f.input.pattern.square_mm,
                             0.5 * (f.input.pattern.rows - 1) * f.input.pattern.square_mm};
   for (std::size_t i = 0; i < f.pairs.size(); ++i) {
-    ViewQuality& view = q.views[static_cast<std::size_t>(f.pairs[i])];
-    view.used = std::binary_search(f.selection.used.begin(), f.selection.used.end(), f.pairs[i]);
+    ViewQuality& view = q.views[std::size_t(f.pairs[i])];
+    view.used = std::ranges::binary_search(f.selection.used, f.pairs[i]);
     view.left_rms_px = std::sqrt(judged[i].squared_px[0] / judged[i].corners[0]);
     view.right_rms_px = std::sqrt(judged[i].squared_px[1] / judged[i].corners[1]);
     const int one[] = {f.pairs[i]};
@@ -347,7 +343,7 @@ void measure_views(const Fitted& f, CalibrationQuality& q) {
 void measure_quality(const Fitted& f, CalibrationQuality& q) {
   measure_views(f, q);
   const StereoFit& fit = f.selection.fit;
-  q.used = static_cast<int>(f.selection.used.size());
+  q.used = int(f.selection.used.size());
   q.left_rms_px = f.cameras.left.rms_px();
   q.right_rms_px = f.cameras.right.rms_px();
   q.pair_rms_px = fit.rms_px();
@@ -370,12 +366,12 @@ void measure_quality(const Fitted& f, CalibrationQuality& q) {
   q.measured_point_depth_mm = known.point_depth_mm;
   q.measured_length_percent = known.length_percent;
   const ChangePoint& moved = f.selection.moved;
-  const auto view_at = [&f](int pair) { return pair < 0 ? -1 : f.pairs[static_cast<std::size_t>(pair)]; };
+  const auto view_at = [&f](int pair) { return pair < 0 ? -1 : f.pairs[std::size_t(pair)]; };
   q.moved_after = view_at(moved.likeliest);
   q.moved_after_first = view_at(moved.first);
   q.moved_after_last = view_at(moved.last);
   q.baseline_mm = fit.problem.right_from_left.translation_mm.norm();
-  if (!q.holds_still || q.used < static_cast<int>(f.pairs.size())) q.slip_cause = cause_of(f);
+  if (!q.holds_still || q.used < int(f.pairs.size())) q.slip_cause = cause_of(f);
   measure_flatness(f, q);
 }
 

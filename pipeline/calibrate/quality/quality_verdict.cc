@@ -7,7 +7,7 @@
 #include <string_view>
 
 #include "hal/base/words.h"
-#include "pipeline/calibrate/quality/limits.h"
+#include "pipeline/calibrate/quality/quality.h"
 #include "pipeline/calibrate/quality/quality_measures.h"
 
 namespace relievo::pipeline {
@@ -29,9 +29,7 @@ class Verdict {
   CalibrationQuality& quality_;
 };
 
-std::string_view name(const CalibrationQuality& q, int view) {
-  return q.views[static_cast<std::size_t>(view)].name;
-}
+std::string_view name(const CalibrationQuality& q, int view) { return q.views[std::size_t(view)].name; }
 
 void judge_slip(const CalibrationQuality& q, Verdict& v) {
   if (q.holds_still) return;
@@ -132,8 +130,8 @@ void judge_quality(CalibrationQuality& q) {
   judge_slip(q, v);
   judge_move(q, v);
   judge_board(q, v);
-  const auto pairs = std::count_if(q.views.begin(), q.views.end(),
-                                   [](const ViewQuality& view) { return view.distance_mm > 0; });
+  const auto pairs =
+      std::ranges::count_if(q.views, [](const ViewQuality& view) { return view.distance_mm > 0; });
   const bool half_at_most = 2 * q.used <= pairs;
   if (half_at_most || 4 * q.used < 3 * pairs)
     v.say(half_at_most ? Refuse : Usable, "only {} of {} pairs agree with each other",

@@ -7,7 +7,6 @@
 #include <Eigen/Cholesky>
 
 #include "pipeline/calibrate/quality/rig_geometry.h"
-#include "pipeline/calibrate/quality/rig_spread.h"
 
 namespace relievo::pipeline {
 namespace {
@@ -31,11 +30,10 @@ Eigen::VectorXd flat(const Cloud& cloud) {
 
 // Pictures of fixed rays, less what the best small turn of the camera explains of their move.
 ProjectionMap projection_map(const RigSpread& spread, int eye) {
-  const CameraIntrinsics& camera = spread.likeliest().camera[static_cast<std::size_t>(eye)];
+  const CameraIntrinsics& camera = spread.likeliest().camera[std::size_t(eye)];
   ProjectionMap map;
   map.columns = kMapColumns;
-  map.rows = std::max(2, static_cast<int>(std::lround(kMapColumns * static_cast<double>(camera.height_px) /
-                                                      camera.width_px)));
+  map.rows = std::max(2, int(std::lround(kMapColumns * double(camera.height_px) / camera.width_px)));
   std::vector<bundle::Pose> rays;
   const auto pixels = [](const CameraIntrinsics& c, const std::vector<bundle::Pose>& of) {
     Eigen::VectorXd at(2 * static_cast<Eigen::Index>(of.size()));
@@ -63,7 +61,7 @@ ProjectionMap projection_map(const RigSpread& spread, int eye) {
   }
   const Eigen::LDLT<Eigen::Matrix3d> normal((by_turn.transpose() * by_turn).eval());
   const Eigen::VectorXd variance = spread.variance([&](const bundle::Problem& rig) -> Eigen::VectorXd {
-    const Eigen::VectorXd moved = pixels(rig.camera[static_cast<std::size_t>(eye)], rays) - middle;
+    const Eigen::VectorXd moved = pixels(rig.camera[std::size_t(eye)], rays) - middle;
     return moved - by_turn * normal.solve(by_turn.transpose() * moved);
   });
   for (Eigen::Index i = 0; i < variance.size(); i += 2)
@@ -105,9 +103,9 @@ DepthUncertainty depth_uncertainty(const RigSpread& spread, double distance_mm) 
 CalibrationUncertainty measure_uncertainty(const RigSpread& spread, double working_distance_mm) {
   CalibrationUncertainty u;
   u.slips = spread.slips();
-  for (const int eye : {0, 1}) u.projection[static_cast<std::size_t>(eye)] = projection_map(spread, eye);
+  for (const int eye : {0, 1}) u.projection[std::size_t(eye)] = projection_map(spread, eye);
   for (int i = 0; i < kDepthSteps; ++i)
-    u.depth[static_cast<std::size_t>(i)] = depth_uncertainty(spread, kFirstDepthMm + i * kDepthStepMm);
+    u.depth[std::size_t(i)] = depth_uncertainty(spread, kFirstDepthMm + i * kDepthStepMm);
   const Probes probes = probes_of(spread.likeliest(), box(working_distance_mm, kFieldStepMm, 3));
   const Cloud reference = cloud_of(spread.likeliest(), probes);
   const Eigen::VectorXd scale = spread.variance([&](const bundle::Problem& rig) -> Eigen::VectorXd {

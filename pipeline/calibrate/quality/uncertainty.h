@@ -23,8 +23,7 @@ struct ProjectionMap {
   std::vector<double> sigma_px;
 
   double at(int column, int row) const {
-    return sigma_px[static_cast<std::size_t>(row) * static_cast<std::size_t>(columns) +
-                    static_cast<std::size_t>(column)];
+    return sigma_px[std::size_t(row) * std::size_t(columns) + std::size_t(column)];
   }
 };
 

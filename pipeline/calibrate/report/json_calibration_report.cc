@@ -13,12 +13,12 @@ namespace {
 
 const char* word(CalibrationVerdict verdict) {
   constexpr std::array kWords{"pass", "usable", "refuse"};
-  return kWords[static_cast<std::size_t>(verdict)];
+  return kWords[std::size_t(verdict)];
 }
 
 const char* word(SlipCause cause) {
   constexpr std::array kWords{"none", "camera turns", "board carried on between the exposures"};
-  return kWords[static_cast<std::size_t>(cause)];
+  return kWords[std::size_t(cause)];
 }
 
 nlohmann::ordered_json uncertainty_json(const CalibrationUncertainty& u) {
@@ -56,8 +56,8 @@ nlohmann::ordered_json transform_json(const RigidTransform& t) {
 
 nlohmann::ordered_json lens_json(const CameraIntrinsics& c, std::span<const double> sigma) {
   const auto some = [&sigma](std::size_t from, std::size_t count) {
-    return std::vector<double>(sigma.begin() + static_cast<std::ptrdiff_t>(from),
-                               sigma.begin() + static_cast<std::ptrdiff_t>(from + count));
+    return std::vector<double>(sigma.begin() + std::ptrdiff_t(from),
+                               sigma.begin() + std::ptrdiff_t(from + count));
   };
   return {{"focal_px", {c.focal_px.x, c.focal_px.y}},
           {"focal_sigma_px", some(0, 2)},
@@ -123,7 +123,7 @@ std::string calibration_report_json(const CalibrationReport& r) {
   const CalibrationQuality& q = r.output.quality;
   const auto name_of = [&q](int view) -> nlohmann::ordered_json {
     if (view < 0) return nullptr;
-    return q.views[static_cast<std::size_t>(view)].name;
+    return q.views[std::size_t(view)].name;
   };
   const nlohmann::ordered_json report = {{"product", r.product},
                                          {"made_at", r.made_at},

@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "pipeline/calibrate/quality/limits.h"
+#include "pipeline/calibrate/quality/quality.h"
 #include "pipeline/calibrate/report/sections.h"
 #include "pipeline/report/text.h"
 
@@ -25,8 +25,7 @@ Words words_of(CalibrationVerdict verdict) {
     case CalibrationVerdict::Usable:
       return {"usable", "Usable", "It measures, less well than it could.",
               "<path class=\"body\" d=\"M24 4L46 43H2Z\"/><path d=\"M24 17v13M24 36.5v.5\"/>"};
-    case CalibrationVerdict::Refuse:
-      break;
+    case CalibrationVerdict::Refuse: break;
   }
   return {"refuse", "Refuse", "Not to be measured with.",
           "<path class=\"body\" d=\"M15 3h18l12 12v18L33 45H15L3 33V15Z\"/><path d=\"M16 16l16 16M32 16L16 "
@@ -70,14 +69,10 @@ Grade high_is_good(double value, double good, double worst) {
 
 std::string mark_of(Grade grade) {
   switch (grade) {
-    case Grade::Good:
-      return "<span class=\"mark good\"><b aria-hidden=\"true\">✓</b> good</span>";
-    case Grade::Fair:
-      return "<span class=\"mark fair\"><b aria-hidden=\"true\">!</b> fair</span>";
-    case Grade::Bad:
-      return "<span class=\"mark bad\"><b aria-hidden=\"true\">×</b> bad</span>";
-    case Grade::Open:
-      break;
+    case Grade::Good: return "<span class=\"mark good\"><b aria-hidden=\"true\">✓</b> good</span>";
+    case Grade::Fair: return "<span class=\"mark fair\"><b aria-hidden=\"true\">!</b> fair</span>";
+    case Grade::Bad: return "<span class=\"mark bad\"><b aria-hidden=\"true\">×</b> bad</span>";
+    case Grade::Open: break;
   }
   return "<span class=\"mark open\">not judged</span>";
 }

@@ -13,7 +13,7 @@ namespace {
 std::string heading_of(const CalibrationReport& r) {
   return heading(r.product, "Calibration report",
                  {escaped(r.made_at), "<bdi>" + escaped(r.source) + "</bdi>",
-                  counted(static_cast<int>(r.output.quality.views.size()), "pair", "pairs") + " of " +
+                  counted(int(r.output.quality.views.size()), "pair", "pairs") + " of " +
                       std::to_string(r.output.calibration.left.width_px) + " × " +
                       std::to_string(r.output.calibration.left.height_px) + " px",
                   board_words(r.input.pattern)});

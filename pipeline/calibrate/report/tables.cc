@@ -180,7 +180,7 @@ std::string set_table(const CalibrationReport& r) {
 
 std::string view_table(const CalibrationReport& r) {
   const CalibrationQuality& q = r.output.quality;
-  const int out = static_cast<int>(q.views.size()) - q.used;
+  const int out = int(q.views.size()) - q.used;
   std::string html =
       "<section class=\"long\" id=\"views\">\n<h2>The views</h2>\n<p class=\"lead\">" +
       counted(q.used, "pair was", "pairs were") + " used, " +

@@ -25,8 +25,7 @@ int main(int argc, char** argv) {
   const cv::Mat left = cv::imread(argv[1], cv::IMREAD_GRAYSCALE),
                 right = cv::imread(argv[2], cv::IMREAD_GRAYSCALE);
   const auto view = [](const cv::Mat& m) {
-    return relievo::ImageView{reinterpret_cast<const std::byte*>(m.data), m.cols, m.rows,
-                              static_cast<int>(m.step)};
+    return relievo::ImageView{reinterpret_cast<const std::byte*>(m.data), m.cols, m.rows, int(m.step)};
   };
   Workspace workspace;
   const auto mesh = measure({view(left), view(right)}, argv[3], workspace.context);

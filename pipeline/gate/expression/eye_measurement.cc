@@ -70,18 +70,6 @@ Circle find_iris(const FaceWindow& w, double side) {
   return best;
 }
 
-// The rows about the middle in which both sides are edges.
-double aperture(const FaceWindow& w, const Circle& c) {
-  const auto seen = [&](double row) {
-    const auto [a, b] = sides(w, c, row);
-    return (a + b) / 2 > 0.4 * c.contrast && std::min(a, b) > 0.15 * c.contrast;
-  };
-  double up = 0, down = 0;
-  while (up < 0.92 * c.radius && seen(-up)) up += 0.25;
-  while (down < 0.92 * c.radius && seen(down)) down += 0.25;
-  return up + down;
-}
-
 double disc(const FaceWindow& w, const Circle& c) {
   constexpr double kReachMm = 4;
   double sum = 0;
@@ -98,10 +86,10 @@ class Shine {
   Shine(const FaceWindow& window, Vec2d eye, float bright, StageContext& context)
       : w_(window),
         eye_(eye),
-        x0_(std::max(0, static_cast<int>(w_.column(eye.x - kShineRightMm)))),
-        x1_(std::min(w_.columns - 1, static_cast<int>(w_.column(eye.x + kShineRightMm)))),
-        y0_(std::max(0, static_cast<int>(w_.row(eye.y - kShineDownMm)))),
-        y1_(std::min(w_.rows - 1, static_cast<int>(w_.row(eye.y + kShineDownMm)))),
+        x0_(std::max(0, int(w_.column(eye.x - kShineRightMm)))),
+        x1_(std::min(w_.columns - 1, int(w_.column(eye.x + kShineRightMm)))),
+        y0_(std::max(0, int(w_.row(eye.y - kShineDownMm)))),
+        y1_(std::min(w_.rows - 1, int(w_.row(eye.y + kShineDownMm)))),
         open_(&context.scratch),
         todo_(&context.scratch) {
     open_.assign(w_.grey.size(), 0);
@@ -123,7 +111,7 @@ class Shine {
   }
 
  private:
-  std::size_t index(int x, int y) const { return static_cast<std::size_t>(y * w_.columns + x); }
+  std::size_t index(int x, int y) const { return std::size_t(y * w_.columns + x); }
   void take(int x, int y) {
     if (x < x0_ || x > x1_ || y < y0_ || y > y1_ || open_[index(x, y)] == 0) return;
     open_[index(x, y)] = 0;
@@ -160,7 +148,7 @@ double glare(const FaceWindow& w, double side, Vec2d eye, StageContext& context)
                sclera = quantile(w, {eye.x - 12, eye.x + 12, eye.y - 5, eye.y + 5}, 0.75,
                                  context);  // or the glare itself
   const double bright = std::min(kBurntOut, kGlareShare * std::clamp(sclera, skin, kScleraShare * skin));
-  return Shine(w, eye, static_cast<float>(bright), context).before_eye_mm2();
+  return Shine(w, eye, float(bright), context).before_eye_mm2();
 }
 
 EyeMeasurement measure_eye(const FaceWindow& w, double side, StageContext& context) {
@@ -171,7 +159,6 @@ EyeMeasurement measure_eye(const FaceWindow& w, double side, StageContext& conte
   const Circle iris = find_iris(w, side);
   eye.right_mm = iris.right, eye.down_mm = iris.down;
   eye.contrast = iris.contrast;
-  eye.aperture_mm = iris.contrast > 0 ? aperture(w, iris) : 0;
   eye.iris = disc(w, iris) / skin;
   eye.brightness =
       quantile(w, {iris.right - 13, iris.right + 13, iris.down - 8, iris.down + 12}, 0.75, context) / skin;

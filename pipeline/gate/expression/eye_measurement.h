@@ -22,7 +22,6 @@ struct EyeMeasurement {
   double right_mm = 0, down_mm = 0;  // the middle of the iris, from the tip of the nose
   double contrast = 0;               // (sclera - iris) / (sclera + iris), the weaker side
   double iris = 1;                   // mean luminance within the iris, share of the skin below the eye
-  double aperture_mm = 0;            // between the lids, where the iris is: EyesOpen
   double brightness = 1;  // the brighter parts of the eye and its lids, share of the skin below it: dark
                           // glasses are dark all over (EyesVisible)
   double glare_mm2 = 0;   // of the eye, behind what shines before it and before the lids as well: neither

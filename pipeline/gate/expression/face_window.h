@@ -34,7 +34,7 @@ struct FaceWindow {
   double down_mm(int y) const { return box.down0_mm + y * kStepMm; }
   double column(double right_mm) const { return (right_mm - box.right0_mm) / kStepMm; }
   double row(double down_mm) const { return (down_mm - box.down0_mm) / kStepMm; }
-  float at(int x, int y) const { return grey[static_cast<std::size_t>(y * columns + x)]; }
+  float at(int x, int y) const { return grey[std::size_t(y * columns + x)]; }
   // Between the samples; held at the border.
   double between(double right_mm, double down_mm) const;
 };

@@ -46,19 +46,19 @@ struct Profile {
 
 Profile profile_of(const FaceWindow& w, double right_mm, double half_mm, double skin) {
   Profile p;
-  p.rows = std::min(w.rows, static_cast<int>(kRows));
-  const int x0 = std::max(0, static_cast<int>(std::lround(w.column(right_mm - half_mm)))),
-            x1 = std::min(w.columns - 1, static_cast<int>(std::lround(w.column(right_mm + half_mm))));
+  p.rows = std::min(w.rows, int(kRows));
+  const int x0 = std::max(0, int(std::lround(w.column(right_mm - half_mm)))),
+            x1 = std::min(w.columns - 1, int(std::lround(w.column(right_mm + half_mm))));
   for (int y = 0; y < p.rows; ++y) {
     double sum = 0;
-    for (int x = x0; x <= x1; ++x) sum += static_cast<double>(w.at(x, y));
-    p.value[static_cast<std::size_t>(y)] = sum / (skin * std::max(1, x1 - x0 + 1));
+    for (int x = x0; x <= x1; ++x) sum += double(w.at(x, y));
+    p.value[std::size_t(y)] = sum / (skin * std::max(1, x1 - x0 + 1));
   }
   return p;
 }
 
 double value(const Profile& p, const FaceWindow& w, double down_mm) {
-  return p.value[static_cast<std::size_t>(std::clamp(Relief::nearest(w.row(down_mm)), 0, p.rows - 1))];
+  return p.value[std::size_t(std::clamp(Relief::nearest(w.row(down_mm)), 0, p.rows - 1))];
 }
 
 double line_strength(const Profile& p, const FaceWindow& w, double down) {
@@ -126,13 +126,12 @@ double teeth_between(const Profile& p, const FaceWindow& w, double line) {
 
 // Darker than skin in the shade, and thicker than a line, column by column.
 double dark_area(const FaceWindow& w, double line, double skin) {
-  const auto level = static_cast<float>(kDarkShare * skin);
-  const int y0 = std::max(0, static_cast<int>(w.row(line - kAboveMm / 2))),
-            y1 = std::min(w.rows - 1, static_cast<int>(w.row(line + kBelowMm)));
-  const int thick = static_cast<int>(kThickMm / FaceWindow::kStepMm);
+  const auto level = float(kDarkShare * skin);
+  const int y0 = std::max(0, int(w.row(line - kAboveMm / 2))),
+            y1 = std::min(w.rows - 1, int(w.row(line + kBelowMm)));
+  const int thick = int(kThickMm / FaceWindow::kStepMm);
   int all = 0;
-  for (int x = static_cast<int>(w.column(-kHalfMouthMm)); x <= static_cast<int>(w.column(kHalfMouthMm));
-       ++x) {
+  for (int x = int(w.column(-kHalfMouthMm)); x <= int(w.column(kHalfMouthMm)); ++x) {
     int run = 0;
     for (int y = y0; y <= y1; ++y) {
       const bool dark = w.at(x, y) < level;
@@ -183,7 +182,7 @@ double stands_before(const FacePhoto& photo, double line_mm) {
     if (double here = 0; behind(photo, line_mm + below, here))
       before[known++] = lip - here + slope * (below + 6);
   if (known < 4) return 0;
-  std::sort(before.begin(), before.end(), std::greater<>());  // what is not known stays behind
+  std::ranges::sort(before, std::greater<>());  // what is not known stays behind
   return before[known / 2];
 }
 
@@ -200,7 +199,6 @@ MouthMeasurement measure_mouth(const FacePhoto& photo, StageContext& context) {
   mouth.known = true;
   const double skin = std::max(1.0, quantile(w, w.box, 0.6, context));
   const Line line = find_line(w, skin);
-  mouth.line_down_mm = line.down;
   std::array<double, kStripsMm.size()> steps{};
   for (std::size_t i = 0; i < kStripsMm.size(); ++i)
     steps[i] = teeth_between(profile_of(w, kStripsMm[i], kStripHalfMm, skin), w, line.down);

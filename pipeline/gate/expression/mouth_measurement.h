@@ -16,8 +16,7 @@
 namespace relievo::pipeline {
 
 struct MouthMeasurement {
-  bool known = false;       // the window was seen whole
-  double line_down_mm = 0;  // where the lips meet, from the tip of the nose
+  bool known = false;   // the window was seen whole
   double steps_mm = 0;  // between two thin dark lines with teeth between them, in the middle of the mouth; 0:
                         // there are none. MouthClosed
   double dark_mm2 = 0;  // thicker than a line and much darker than the skin: what shows between parted lips

@@ -50,7 +50,7 @@ struct FaceWatch::Cascades {
 
   void look(cv::CascadeClassifier& cascade, const cv::Mat& grey, double scale, bool mirrored,
             FaceHits& hits) {
-    const int least = std::max(20, static_cast<int>(options.smallest_face * grey.rows));
+    const int least = std::max(20, int(options.smallest_face * grey.rows));
     std::vector<cv::Rect> boxes;
     std::vector<int> votes;
     cascade.detectMultiScale(grey, boxes, votes, 1.12, options.least_votes - 1, 0, {least, least});
@@ -68,30 +68,29 @@ struct FaceWatch::Cascades {
 
   // In the picture turned about its middle.
   void look_leaning(const cv::Mat& grey, double scale, double lean_deg, FaceHits& hits) {
-    const cv::Point2f middle(static_cast<float>(grey.cols - 1) / 2, static_cast<float>(grey.rows - 1) / 2);
+    const cv::Point2f middle(float(grey.cols - 1) / 2, float(grey.rows - 1) / 2);
     cv::Mat upright;
     cv::warpAffine(grey, upright, cv::getRotationMatrix2D(middle, lean_deg, 1), grey.size());
     const int before = hits.count;
     look(frontal, upright, scale, false, hits);
     const double sine = std::sin(lean_deg * kDegree), cosine = std::cos(lean_deg * kDegree);
     for (int i = before; i < hits.count; ++i) {
-      Vec2d& at = hits.hit[static_cast<std::size_t>(i)].centre_px;
-      const double x = (at.x + 0.5) / scale - 0.5 - static_cast<double>(middle.x),
-                   y = (at.y + 0.5) / scale - 0.5 - static_cast<double>(middle.y);
-      at = {(cosine * x - sine * y + static_cast<double>(middle.x) + 0.5) * scale - 0.5,
-            (sine * x + cosine * y + static_cast<double>(middle.y) + 0.5) * scale - 0.5};
+      Vec2d& at = hits.hit[std::size_t(i)].centre_px;
+      const double x = (at.x + 0.5) / scale - 0.5 - double(middle.x),
+                   y = (at.y + 0.5) / scale - 0.5 - double(middle.y);
+      at = {(cosine * x - sine * y + double(middle.x) + 0.5) * scale - 0.5,
+            (sine * x + cosine * y + double(middle.y) + 0.5) * scale - 0.5};
     }
   }
 
   // Keeps the more certain of two that are one face.
   static void add(const FaceHit& hit, FaceHits& hits) {
     for (int i = 0; i < hits.count; ++i)
-      if (FaceHit& known = hits.hit[static_cast<std::size_t>(i)]; same_face(known, hit)) {
+      if (FaceHit& known = hits.hit[std::size_t(i)]; same_face(known, hit)) {
         if (hit.votes > known.votes) known = hit;
         return;
       }
-    if (hits.count < static_cast<int>(hits.hit.size()))
-      hits.hit[static_cast<std::size_t>(hits.count++)] = hit;
+    if (hits.count < int(hits.hit.size())) hits.hit[std::size_t(hits.count++)] = hit;
   }
 };
 
@@ -132,13 +131,11 @@ Result<FaceHits> FaceWatch::look(const Relief& relief) {
   try {
     const cv::Mat picture(relief.height_px, relief.width_px, CV_8UC1,
                           const_cast<std::uint8_t*>(relief.grey.data()));
-    const double scale =
-        std::max(1.0, static_cast<double>(relief.height_px) / cascades_->options.search_height_px);
+    const double scale = std::max(1.0, double(relief.height_px) / cascades_->options.search_height_px);
     cv::Mat grey;
     cv::resize(picture, grey,
-               {static_cast<int>(std::lround(relief.width_px / scale)),
-                static_cast<int>(std::lround(relief.height_px / scale))},
-               0, 0, cv::INTER_AREA);
+               {int(std::lround(relief.width_px / scale)), int(std::lround(relief.height_px / scale))}, 0, 0,
+               cv::INTER_AREA);
     FaceHits hits{};
     cascades_->look(cascades_->frontal, grey, scale, false, hits);
     if (hits.count == 0) {  // poor or one-sided light
@@ -155,7 +152,7 @@ Result<FaceHits> FaceWatch::look(const Relief& relief) {
       cascades_->look_leaning(grey, scale, i == 0 ? kLeanDeg : -kLeanDeg, hits);
     // The most certain to the front; among equals the wider, which is nearer.
     const auto worth = [](const FaceHit& hit) { return hit.votes * hit.width_px; };
-    for (std::size_t i = 1; i < static_cast<std::size_t>(hits.count); ++i)
+    for (std::size_t i = 1; i < std::size_t(hits.count); ++i)
       if (worth(hits.hit[i]) > worth(hits.hit[0])) std::swap(hits.hit[i], hits.hit[0]);
     return hits;
   } catch (const cv::Exception&) {

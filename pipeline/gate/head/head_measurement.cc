@@ -10,7 +10,7 @@
 #include <vector>
 
 #include "pipeline/gate/head/nose_tip.h"
-#include "pipeline/match/region/three_terms.h"
+#include "pipeline/match/region/face_reach.h"
 #include "pipeline/model/vector3.h"
 
 namespace relievo::pipeline {
@@ -39,7 +39,7 @@ struct Search {
   double cost(const MirrorPlane& plane, std::size_t every, double least = 1e300) const {
     const Vec3d n = normal_of(plane, axes);
     const double lean = upright ? plane.roll_deg / kUprightDeg : 0;
-    const double most = (least - lean * lean) * static_cast<double>((points.size() + every - 1) / every);
+    const double most = (least - lean * lean) * double((points.size() + every - 1) / every);
     double total = 0;
     int count = 0, unknown = 0;
     for (std::size_t i = 0; i < points.size(); i += every, ++count) {
@@ -49,13 +49,11 @@ struct Search {
       const int x = Relief::nearest(at.x), y = Relief::nearest(at.y);
       double off = limit_mm / 3;
       if (!relief.inside(x, y) || !relief.known(x, y)) ++unknown;
-      else
-        off =
-            std::min(limit_mm, std::abs(image.z - static_cast<double>(relief.depth_mm[relief.index(x, y)])));
+      else off = std::min(limit_mm, std::abs(image.z - double(relief.depth_mm[relief.index(x, y)])));
       total += off * off;
       if (total > most) return least;
     }
-    const double away = std::max(0.0, static_cast<double>(unknown) / std::max(1, count) - kMostUnknown);
+    const double away = std::max(0.0, double(unknown) / std::max(1, count) - kMostUnknown);
     return total / std::max(1, count) + lean * lean + kPriceOfUnknown * away;
   }
 };
@@ -67,7 +65,7 @@ MirrorPlane refine(const Search& search, MirrorPlane best, std::array<double, 3>
     bool better = false;
     for (int k = 0; k < 6; ++k) {
       MirrorPlane tried = best;
-      const double by = (k % 2 == 0 ? 1 : -1) * step[static_cast<std::size_t>(k / 2)];
+      const double by = (k % 2 == 0 ? 1 : -1) * step[std::size_t(k / 2)];
       (k / 2 == 0 ? tried.yaw_deg : k / 2 == 1 ? tried.roll_deg : tried.offset_mm) += by;
       if (std::abs(tried.offset_mm) > kMostOffsetMm) continue;
       const double cost = search.cost(tried, 1, least);
@@ -140,11 +138,11 @@ constexpr double kHalfWidthMm = 52, kShapeUpMm = 75, kShapeDownMm = 55;  // the 
 std::pmr::vector<Vec3d> points_about(const Relief& relief, const Vec3d& tip, StageContext& context) {
   std::pmr::vector<Vec3d> points(&context.scratch);
   const Vec2d at = relief.pixel(tip);
-  const int reach = static_cast<int>(kReachMm * relief.focal_px / tip.z) + 1;
+  const int reach = int(kReachMm * relief.focal_px / tip.z) + 1;
   const int stride = std::max(1, reach / 14);
-  points.reserve(static_cast<std::size_t>((2 * reach / stride + 1) * (2 * reach / stride + 1)));
-  for (int y = static_cast<int>(at.y) - reach; y <= static_cast<int>(at.y) + reach; y += stride)
-    for (int x = static_cast<int>(at.x) - reach; x <= static_cast<int>(at.x) + reach; x += stride) {
+  points.reserve(std::size_t((2 * reach / stride + 1) * (2 * reach / stride + 1)));
+  for (int y = int(at.y) - reach; y <= int(at.y) + reach; y += stride)
+    for (int x = int(at.x) - reach; x <= int(at.x) + reach; x += stride) {
       if (!relief.inside(x, y) || !relief.known(x, y)) continue;
       const Vec3d p = relief.point(x, y), d = minus(p, tip);
       if (dot(d, d) < kReachMm * kReachMm && d.z > -12 && points.size() < points.capacity())
@@ -216,8 +214,8 @@ void measure_cover(const Relief& relief, const FaceForm& form, HeadMeasurement& 
       const bool nose = std::abs(right) < 25 && down > -50 && down < 15;
       if (behind < (nose ? -12 : form.behind(right, down) - 16)) ++before;
     }
-  head.in_front_share = static_cast<double>(before) / std::max(1, all);
-  head.unknown_share = static_cast<double>(unknown) / std::max(1, all);
+  head.in_front_share = double(before) / std::max(1, all);
+  head.unknown_share = double(unknown) / std::max(1, all);
 }
 
 // Axes of a head whose mirror plane this is, upright but for its roll.

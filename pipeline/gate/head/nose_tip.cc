@@ -12,7 +12,6 @@
 
 #include "hal/base/statistics.h"
 #include "pipeline/match/region/face_reach.h"
-#include "pipeline/match/region/three_terms.h"
 #include "pipeline/model/vector3.h"
 
 namespace relievo::pipeline {
@@ -38,14 +37,12 @@ constexpr double kCornerMm = 18;           // which lies so far below it at most
 struct PixelBox {
   int x0, x1, y0, y1;
   bool empty() const { return x1 <= x0 || y1 <= y0; }
-  std::size_t room() const { return static_cast<std::size_t>((x1 - x0 + 1) * (y1 - y0 + 1)); }
+  std::size_t room() const { return std::size_t((x1 - x0 + 1) * (y1 - y0 + 1)); }
 };
 
 PixelBox box_about(const Relief& relief, const Vec2d& at, double left, double right, double up, double down) {
-  return {std::max(0, static_cast<int>(at.x - left)),
-          std::min(relief.width_px - 1, static_cast<int>(at.x + right)),
-          std::max(0, static_cast<int>(at.y - up)),
-          std::min(relief.height_px - 1, static_cast<int>(at.y + down))};
+  return {std::max(0, int(at.x - left)), std::min(relief.width_px - 1, int(at.x + right)),
+          std::max(0, int(at.y - up)), std::min(relief.height_px - 1, int(at.y + down))};
 }
 
 // The nose along the mirror plane: how far it stands out (towards where the head faces) every kBinMm
@@ -75,10 +72,10 @@ Profile profile_of(std::span<const NosePoint> points, double midline_mm) {
   std::array<double, kBins> total{}, count{};
   for (const NosePoint& p : points) {
     if (std::abs(p.right - midline_mm) > kRidgeHalfMm) continue;
-    const int bin = static_cast<int>(std::lround(p.down / kBinMm)) + kBins / 2;
+    const int bin = int(std::lround(p.down / kBinMm)) + kBins / 2;
     if (bin < 0 || bin >= kBins) continue;
-    total[static_cast<std::size_t>(bin)] += p.out;
-    count[static_cast<std::size_t>(bin)] += 1;
+    total[std::size_t(bin)] += p.out;
+    count[std::size_t(bin)] += 1;
   }
   Profile profile;
   for (std::size_t i = 0; i < kBins; ++i) {  // smoothed over three bins
@@ -96,10 +93,9 @@ Profile profile_of(std::span<const NosePoint> points, double midline_mm) {
 // How far the profile falls back below a peak.
 double corner_below(const Profile& profile, int bin) {
   double most = 0;
-  for (int k = bin + 1; k < kBins && k <= bin + static_cast<int>(kCornerMm / kBinMm); ++k)
-    if (profile.known[static_cast<std::size_t>(k)])
-      most = std::max(most,
-                      profile.out[static_cast<std::size_t>(bin)] - profile.out[static_cast<std::size_t>(k)]);
+  for (int k = bin + 1; k < kBins && k <= bin + int(kCornerMm / kBinMm); ++k)
+    if (profile.known[std::size_t(k)])
+      most = std::max(most, profile.out[std::size_t(bin)] - profile.out[std::size_t(k)]);
   return most;
 }
 
@@ -107,15 +103,15 @@ double corner_below(const Profile& profile, int bin) {
 // put out below the nose is a tongue.
 int peak_of(const Profile& profile, double from_mm, double to_mm) {
   int best = -1, upper = -1;
-  const auto at = [&](int k) { return profile.out[static_cast<std::size_t>(k)]; };
+  const auto at = [&](int k) { return profile.out[std::size_t(k)]; };
   for (int k = 0; k < kBins; ++k)
-    if (profile.known[static_cast<std::size_t>(k)] && Profile::down(k) >= from_mm &&
-        Profile::down(k) <= to_mm && (best < 0 || at(k) > at(best)))
+    if (profile.known[std::size_t(k)] && Profile::down(k) >= from_mm && Profile::down(k) <= to_mm &&
+        (best < 0 || at(k) > at(best)))
       best = k;
   if (best < 0) return best;
   for (int k = 0; k < best; ++k)
-    if (profile.known[static_cast<std::size_t>(k)] && Profile::down(k) >= from_mm &&
-        (upper < 0 || at(k) > at(upper)) && corner_below(profile, k) > kNoseMm)
+    if (profile.known[std::size_t(k)] && Profile::down(k) >= from_mm && (upper < 0 || at(k) > at(upper)) &&
+        corner_below(profile, k) > kNoseMm)
       upper = k;
   return upper >= 0 ? upper : best;
 }
@@ -149,8 +145,8 @@ std::optional<NoseEnd> foremost(std::span<NosePoint> points, double midline_mm, 
   std::nth_element(points.begin(), points.begin() + count - 1, end,
                    [](const NosePoint& a, const NosePoint& b) { return a.out > b.out; });
   NoseEnd mean;
-  for (const NosePoint& p : points.first(static_cast<std::size_t>(count))) {
-    mean.down += p.down / static_cast<double>(count), mean.out += p.out / static_cast<double>(count);
+  for (const NosePoint& p : points.first(std::size_t(count))) {
+    mean.down += p.down / double(count), mean.out += p.out / double(count);
   }
   return mean;
 }
@@ -203,7 +199,7 @@ bool rough_tip(const Relief& relief, const HeadHint& hint, StageContext& context
     return std::abs(u) < kTipAside && v > kTipUp && v < kTipDown;
   };
   const auto candidates =
-      static_cast<std::size_t>(std::partition(points.begin(), points.end(), may_be_tip) - points.begin());
+      std::size_t(std::partition(points.begin(), points.end(), may_be_tip) - points.begin());
   if (candidates < kLeastPoints) return false;
   tip = outstanding_tip(points, candidates);
   return true;

@@ -6,6 +6,10 @@
 #include <array>
 #include <cmath>
 #include <numbers>
+#include <vector>
+
+#include "hal/base/statistics.h"
+#include "pipeline/match/rectify/rectifier.h"
 
 namespace relievo::pipeline {
 namespace {
@@ -31,17 +35,9 @@ Histogram zone(const Relief& relief, const HeadMeasurement& head, double side) {
   return counts;
 }
 
-double shared(const Histogram& a, const Histogram& b) {
-  double sum_a = 0, sum_b = 0, both = 0;
-  for (std::size_t i = 0; i < a.size(); ++i) sum_a += a[i], sum_b += b[i];
-  if (sum_a == 0 || sum_b == 0) return 0;
-  for (std::size_t i = 0; i < a.size(); ++i) both += std::min(a[i] / sum_a, b[i] / sum_b);
-  return both;
-}
-
 double mean_of(const Histogram& counts) {
   double sum = 0, all = 0;
-  for (std::size_t i = 0; i < counts.size(); ++i) sum += static_cast<double>(i) * counts[i], all += counts[i];
+  for (std::size_t i = 0; i < counts.size(); ++i) sum += double(i) * counts[i], all += counts[i];
   return all > 0 ? sum / all : 0;
 }
 
@@ -55,7 +51,7 @@ double turned_share(double away_deg) {
 int median_of(const Histogram& counts, int all) {
   int seen = 0;
   for (int i = 0; i < 256; ++i)
-    if ((seen += counts[static_cast<std::size_t>(i)]) * 2 >= all) return i;
+    if ((seen += counts[std::size_t(i)]) * 2 >= all) return i;
   return 255;
 }
 
@@ -79,25 +75,190 @@ FaceLight measure_light(const Relief& relief, const HeadMeasurement& head) {
   if (all < 200) return light;
   light.known = true;
   const int gloss = median_of(counts, all) + kGlossStep;
-  double mean = 0, square = 0;
   for (int i = 0; i < 256; ++i) {
-    const double share = static_cast<double>(counts[static_cast<std::size_t>(i)]) / all;
-    mean += share * i / 255.0;
-    square += share * i * i / 65025.0;
+    const double share = double(counts[std::size_t(i)]) / all;
+    light.luminance_mean += share * i / 255.0;
     if (i <= 25) light.dark_share += share;
     if (i >= 247) light.bright_share += share;
     if (i >= gloss) light.glossy_share += share;
-    if (share > 0) light.entropy_bits -= share * std::log2(share);
   }
-  light.luminance_mean = mean;
-  light.luminance_variance = std::max(0.0, square - mean * mean);
-  const Histogram left = zone(relief, head, -1), right = zone(relief, head, 1);
-  light.uniformity = shared(left, right);
-  const double a = mean_of(left), b = mean_of(right);
+  const double a = mean_of(zone(relief, head, -1)), b = mean_of(zone(relief, head, 1));
   const double lit = b * turned_share(head.yaw_deg),
                other = a * turned_share(-head.yaw_deg);  // as on a head that is not turned
   light.side_ratio = std::max(lit, other) > 0 ? std::min(lit, other) / std::max(lit, other) : 0;
   return light;
+}
+
+namespace {
+
+constexpr double kHalfMm = 36;    // half the side of the window
+constexpr double kGridMm = 0.38;  // finer pictures are made coarser: smaller blurs are of no account
+constexpr double kLittleMm = 0.7, kMuchMm = 1.4;  // the two blurs that are compared
+constexpr int kTiles = 6;
+constexpr double kLeastOfStrongest = 0.3;  // an edge, against the strongest
+constexpr double kLeastOfNoise = 5;
+constexpr std::size_t kLeastEdges = 12;
+constexpr double kSharpest = 0.75;  // which part of the edges speaks: others are soft by themselves
+// What central differences and the square cell blur by themselves, pixels squared.
+constexpr double kOwnBlur = 1.0 / 3 + 1.0 / 12;
+
+struct Grid {
+  int width = 0, height = 0;
+  double pixel_mm = 0;
+  std::pmr::vector<float> values;
+  float at(int x, int y) const { return values[std::size_t(y) * std::size_t(width) + std::size_t(x)]; }
+};
+
+int luminance(const ImageView& image, int x, int y) {
+  const std::uint8_t* row = image.row(y);
+  switch (image.format) {
+    case PixelFormat::Rgb8: return (row[3 * x] + row[3 * x + 1] + row[3 * x + 2]) / 3;
+    case PixelFormat::Grey16: return row[2 * x + 1];
+    case PixelFormat::Grey8: break;
+  }
+  return row[x];
+}
+
+// The face about `at`, a camera's point, as its picture shows it.
+Grid window(const ImageView& image, const CameraIntrinsics& camera, const Vec3d& at, StageContext& context) {
+  const Vec2d middle = source_pixel(camera, {}, 1, {0, 0}, {at.x / at.z, at.y / at.z});
+  const double pixels_a_mm = camera.focal_px.x / at.z;
+  const int k = std::max(1, int(kGridMm * pixels_a_mm));
+  const int half = int(kHalfMm * pixels_a_mm);
+  const int x0 = std::max(0, int(middle.x) - half), x1 = std::min(image.width_px, int(middle.x) + half);
+  const int y0 = std::max(0, int(middle.y) - half), y1 = std::min(image.height_px, int(middle.y) + half);
+  Grid grid{std::max(0, (x1 - x0) / k), std::max(0, (y1 - y0) / k), k / pixels_a_mm,
+            std::pmr::vector<float>(&context.scratch)};
+  grid.values.resize(std::size_t(grid.width) * std::size_t(grid.height));
+  for (int y = 0; y < grid.height; ++y)
+    for (int x = 0; x < grid.width; ++x) {
+      int sum = 0;
+      for (int j = 0; j < k; ++j)
+        for (int i = 0; i < k; ++i) sum += luminance(image, x0 + x * k + i, y0 + y * k + j);
+      grid.values[std::size_t(y) * std::size_t(grid.width) + std::size_t(x)] = float(sum) / float(k * k);
+    }
+  return grid;
+}
+
+void add_weighted(float weight, const float* from, std::size_t count, float* to) {
+  for (std::size_t i = 0; i < count; ++i) to[i] += weight * from[i];
+}
+
+Grid blurred(const Grid& from, double deviation_px, StageContext& context) {
+  const int reach = std::max(1, int(std::ceil(3 * deviation_px)));
+  std::pmr::vector<float> weight(std::size_t(2 * reach + 1), &context.scratch);
+  float total = 0;
+  for (int i = -reach; i <= reach; ++i)
+    total += weight[std::size_t(i + reach)] = float(std::exp(-0.5 * i * i / (deviation_px * deviation_px)));
+  for (float& w : weight) w /= total;
+  Grid across{from.width, from.height, from.pixel_mm,
+              std::pmr::vector<float>(from.values.size(), 0.0F, &context.scratch)};
+  Grid to{from.width, from.height, from.pixel_mm,
+          std::pmr::vector<float>(from.values.size(), 0.0F, &context.scratch)};
+  const auto width = std::size_t(from.width), beside = std::size_t(reach);
+  std::pmr::vector<float> wide(width + 2 * beside, 0.0F, &context.scratch);  // a row, its ends repeated
+  for (std::size_t row = 0; row < from.values.size(); row += width) {
+    const float* values = from.values.data() + row;
+    std::fill_n(wide.begin(), beside, values[0]);
+    std::copy_n(values, width, wide.data() + beside);
+    std::fill_n(wide.data() + beside + width, beside, values[width - 1]);
+    for (std::size_t k = 0; k < weight.size(); ++k)
+      add_weighted(weight[k], wide.data() + k, width, across.values.data() + row);
+  }
+  for (int y = 0; y < from.height; ++y)
+    for (int k = -reach; k <= reach; ++k) {
+      const auto other = std::size_t(std::clamp(y + k, 0, from.height - 1));
+      add_weighted(weight[std::size_t(k + reach)], across.values.data() + other * width, width,
+                   to.values.data() + std::size_t(y) * width);
+    }
+  return to;
+}
+
+// Deviation of a cell's noise, after Immerkaer (Fast noise variance estimation, 1996), on the flattest
+// quarter of the tiles.
+double noise_of(const Grid& g) {
+  std::array<double, kTiles * kTiles> sum{}, count{};
+  for (int y = 1; y + 1 < g.height; ++y)
+    for (int x = 1; x + 1 < g.width; ++x) {
+      const auto tile = std::size_t(y * kTiles / g.height * kTiles + x * kTiles / g.width);
+      const float second = g.at(x - 1, y - 1) + g.at(x + 1, y - 1) + g.at(x - 1, y + 1) + g.at(x + 1, y + 1) -
+                           2 * (g.at(x, y - 1) + g.at(x, y + 1) + g.at(x - 1, y) + g.at(x + 1, y)) +
+                           4 * g.at(x, y);
+      sum[tile] += double(std::abs(second));
+      count[tile] += 1;
+    }
+  for (std::size_t i = 0; i < sum.size(); ++i) sum[i] /= std::max(1.0, count[i]);
+  std::ranges::sort(sum);
+  return std::sqrt(1.5707963) / 6 * sum[sum.size() / 4];
+}
+
+struct Slope {
+  float little = 0, much = 0;  // across the edge, at either blur
+};
+
+// What a bell of this deviation leaves of the deviation of white noise in a central difference.
+double of_noise(double deviation_px) { return 1 / (std::sqrt(8 * 3.14159265) * deviation_px * deviation_px); }
+
+// Deviation of the edges' own blur, grid cells squared; of edges whose slope is greatest in this direction.
+double edge_blur(std::pmr::vector<Slope>& edges, double noise, double little_px, double much_px,
+                 StageContext& context) {
+  float strongest = 0;
+  for (const Slope& e : edges) strongest = std::max(strongest, std::abs(e.much));
+  const double n1 = noise * of_noise(little_px), n2 = noise * of_noise(much_px);
+  const double least = std::max(kLeastOfStrongest * double(strongest), kLeastOfNoise * n2);
+  std::pmr::vector<double> ratio(&context.scratch);
+  ratio.reserve(edges.size());
+  for (const Slope& e : edges) {
+    const auto a = double(e.little), b = double(e.much);
+    if (std::abs(b) >= least) ratio.push_back((a * a - n1 * n1) / (b * b - n2 * n2));
+  }
+  if (ratio.size() < kLeastEdges) return 1e9;
+  const double r = std::max(percentile(ratio, kSharpest), 1 + 1e-6);
+  return std::max(0.0, (much_px * much_px - r * little_px * little_px) / (r - 1) - kOwnBlur);
+}
+
+double blur_of(const Grid& grid, StageContext& context) {
+  if (grid.width < 24 || grid.height < 24) return kMostBlurMm;
+  const double little_px = kLittleMm / grid.pixel_mm, much_px = kMuchMm / grid.pixel_mm;
+  const Grid little = blurred(grid, little_px, context), much = blurred(grid, much_px, context);
+  std::array<std::pmr::vector<Slope>, 2> edges{std::pmr::vector<Slope>(&context.scratch),
+                                               std::pmr::vector<Slope>(&context.scratch)};
+  for (auto& e : edges) e.reserve(grid.values.size());
+  const auto slope = [](const Grid& g, int x, int y, int dx, int dy) {
+    return (g.at(x + dx, y + dy) - g.at(x - dx, y - dy)) / 2;
+  };
+  for (int y = 2; y + 2 < grid.height; ++y)
+    for (int x = 2; x + 2 < grid.width; ++x) {
+      const bool across = std::abs(slope(much, x, y, 1, 0)) > std::abs(slope(much, x, y, 0, 1));
+      const int dx = across ? 1 : 0, dy = across ? 0 : 1;
+      const float here = slope(much, x, y, dx, dy);
+      // The steepest place of an edge only.
+      if (std::abs(here) < std::abs(slope(much, x + dx, y + dy, dx, dy)) ||
+          std::abs(here) <= std::abs(slope(much, x - dx, y - dy, dx, dy)))
+        continue;
+      edges[across ? 0 : 1].push_back({slope(little, x, y, dx, dy), here});
+    }
+  const double noise = noise_of(grid);
+  const double a = edge_blur(edges[0], noise, little_px, much_px, context),
+               b = edge_blur(edges[1], noise, little_px, much_px, context);
+  // Where one direction has no edges, the other speaks.
+  const double squared = a >= 1e9 || b >= 1e9 ? std::min(a, b) : std::max(a, b);
+  return std::min(kMostBlurMm, std::sqrt(squared) * grid.pixel_mm);
+}
+
+}  // namespace
+
+double measure_blur_mm(const StereoFrame& frame, const StereoCalibration& calibration, const Relief& relief,
+                       const HeadMeasurement& head, StageContext& context) {
+  if (!head.known || frame.left.empty() || frame.right.empty()) return 0;
+  Arena::Mark mark(context.scratch);
+  // The middle between nose and eyes.
+  const Vec3d p{head.tip_mm.x - 18 * head.down.x, head.tip_mm.y - 18 * head.down.y,
+                head.tip_mm.z - 18 * head.down.z};
+  const Vec3d in_left = apply(transposed(relief.rectified_from_left), p),
+              in_right = apply(calibration.right_from_left, in_left);
+  const double left = blur_of(window(frame.left, calibration.left, in_left, context), context);
+  return std::max(left, blur_of(window(frame.right, calibration.right, in_right, context), context));
 }
 
 }  // namespace relievo::pipeline

@@ -16,9 +16,8 @@ namespace relievo::pipeline {
 void draw_relief(const Relief& relief, double near_mm, double far_mm, std::uint8_t* grey) {
   const double scale = 215 / (1 / near_mm - 1 / far_mm);
   for (std::size_t i = 0; i < relief.depth_mm.size(); ++i) {
-    const double z = static_cast<double>(relief.depth_mm[i]);
-    grey[i] = z > 0 ? static_cast<std::uint8_t>(
-                          std::lround(std::clamp(40 + scale * (1 / z - 1 / far_mm), 20.0, 255.0)))
+    const double z = double(relief.depth_mm[i]);
+    grey[i] = z > 0 ? std::uint8_t(std::lround(std::clamp(40 + scale * (1 / z - 1 / far_mm), 20.0, 255.0)))
                     : std::uint8_t{0};
   }
 }
@@ -40,7 +39,7 @@ void reduce_row(const ImageView& image, int y, int factor, int channels, std::ui
   std::fill(sums, sums + samples, 0U);
   for (int j = 0; j < factor; ++j)
     add_row(reinterpret_cast<const Sample*>(image.row(y * factor + j)), samples, sums);
-  const auto area = static_cast<std::uint32_t>(factor * factor);
+  const auto area = std::uint32_t(factor * factor);
   for (int x = 0; x < width; ++x)
     for (int c = 0; c < channels; ++c) {
       std::uint32_t sum = area / 2;
@@ -65,15 +64,15 @@ ImageView reduced(const ImageView& image, int factor, StageContext& context) {
   const int channels = image.format == PixelFormat::Rgb8 ? 3 : 1;
   ImageView small{nullptr, image.width_px / factor, image.height_px / factor, 0, image.format};
   small.stride_bytes = small.width_px * bytes_per_pixel(image.format);
-  const auto bytes = static_cast<std::size_t>(small.stride_bytes) * static_cast<std::size_t>(small.height_px);
+  const auto bytes = std::size_t(small.stride_bytes) * std::size_t(small.height_px);
   auto* to = static_cast<std::byte*>(
       context.scratch.allocate(std::max<std::size_t>(bytes, 1), alignof(std::uint32_t)));
-  const auto row_sums = static_cast<std::size_t>(image.width_px * channels);
+  const auto row_sums = std::size_t(image.width_px * channels);
   std::pmr::vector<std::uint32_t> sums(kBands * row_sums, 0, &context.scratch);
   context.pool.for_each_band(small.height_px, kBands, [&](int begin, int end, int band) {
-    std::uint32_t* own = sums.data() + static_cast<std::size_t>(band) * row_sums;
+    std::uint32_t* own = sums.data() + std::size_t(band) * row_sums;
     for (int y = begin; y < end; ++y) {
-      std::byte* row = to + static_cast<std::ptrdiff_t>(y) * small.stride_bytes;
+      std::byte* row = to + std::ptrdiff_t(y) * small.stride_bytes;
       if (image.format == PixelFormat::Grey16)
         reduce_row(image, y, factor, channels, own, reinterpret_cast<std::uint16_t*>(row));
       else reduce_row(image, y, factor, channels, own, reinterpret_cast<std::uint8_t*>(row));
@@ -108,11 +107,11 @@ void fill_depth(const RectifiedPair& pair, const Plane<float>& disparity, Relief
   relief.surface.resize(count);
   relief.grey.resize(count);
   for (std::size_t i = 0; i < count; ++i) {
-    relief.grey[i] = static_cast<std::uint8_t>(std::clamp(pair.left.grey[i] + 0.5F, 0.0F, 255.0F));
+    relief.grey[i] = std::uint8_t(std::clamp(pair.left.grey[i] + 0.5F, 0.0F, 255.0F));
     const float d = disparity.values[i];
     if (d == kNoDisparity) continue;
-    const double z = pair.depth_mm(static_cast<double>(d));
-    if (z >= pair.near_mm && z <= pair.far_mm) relief.depth_mm[i] = static_cast<float>(z);
+    const double z = pair.depth_mm(double(d));
+    if (z >= pair.near_mm && z <= pair.far_mm) relief.depth_mm[i] = float(z);
   }
 }
 
@@ -128,12 +127,12 @@ int name_by_size(std::pmr::vector<Found>& found, double speck_mm2, StageContext&
   order.reserve(found.size());
   for (std::uint32_t i = 1; i < found.size(); ++i)
     if (found[i].area_mm2 >= speck_mm2) order.push_back(i);
-  std::sort(order.begin(), order.end(), [&](std::uint32_t a, std::uint32_t b) {
+  std::ranges::sort(order, [&](std::uint32_t a, std::uint32_t b) {
     return found[a].pixels != found[b].pixels ? found[a].pixels > found[b].pixels : a < b;
   });
   const std::size_t kept = std::min<std::size_t>(order.size(), 65535);
-  for (std::size_t i = 0; i < kept; ++i) found[order[i]].name = static_cast<std::uint16_t>(i + 1);
-  return static_cast<int>(kept);
+  for (std::size_t i = 0; i < kept; ++i) found[order[i]].name = std::uint16_t(i + 1);
+  return int(kept);
 }
 
 }  // namespace
@@ -153,9 +152,9 @@ Result<void> LiveReliefOptions::check() const {
 
 void label_surfaces(Relief& relief, float step_px, double speck_mm2, StageContext& context) {
   const std::size_t count = relief.depth_mm.size();
-  const auto width = static_cast<std::size_t>(relief.width_px);
+  const auto width = std::size_t(relief.width_px);
   // Of inverse depth, one pixel of disparity is the same everywhere.
-  const auto step = static_cast<float>(static_cast<double>(step_px) / (relief.focal_px * relief.baseline_mm));
+  const auto step = float(double(step_px) / (relief.focal_px * relief.baseline_mm));
   std::pmr::vector<std::uint32_t> label(count, 0, &context.scratch), queue(count, 0, &context.scratch);
   std::pmr::vector<Found> found(1, Found{}, &context.scratch);
   found.reserve(count + 1);
@@ -163,24 +162,24 @@ void label_surfaces(Relief& relief, float step_px, double speck_mm2, StageContex
     if (label[to] != 0 || !(relief.depth_mm[to] > 0)) return;
     if (std::abs(1 / relief.depth_mm[from] - 1 / relief.depth_mm[to]) > step) return;
     label[to] = label[from];
-    queue[tail++] = static_cast<std::uint32_t>(to);
+    queue[tail++] = std::uint32_t(to);
   };
   for (std::size_t start = 0; start < count; ++start) {
     if (label[start] != 0 || !(relief.depth_mm[start] > 0)) continue;
-    label[start] = static_cast<std::uint32_t>(found.size());
+    label[start] = std::uint32_t(found.size());
     double area = 0;
     std::size_t tail = 0;
-    queue[tail++] = static_cast<std::uint32_t>(start);
+    queue[tail++] = std::uint32_t(start);
     for (std::size_t head = 0; head < tail; ++head) {
       const std::size_t at = queue[head], x = at % width;
       if (x > 0) join(at, at - 1, tail);
       if (x + 1 < width) join(at, at + 1, tail);
       if (at >= width) join(at, at - width, tail);
       if (at + width < count) join(at, at + width, tail);
-      const double pixel_mm = static_cast<double>(relief.depth_mm[at]) / relief.focal_px;
+      const double pixel_mm = double(relief.depth_mm[at]) / relief.focal_px;
       area += pixel_mm * pixel_mm;
     }
-    found.push_back({static_cast<std::uint32_t>(tail), area, 0});
+    found.push_back({std::uint32_t(tail), area, 0});
   }
   relief.surfaces = name_by_size(found, speck_mm2, context);
   for (std::size_t i = 0; i < count; ++i) {

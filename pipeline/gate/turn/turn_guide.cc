@@ -96,8 +96,8 @@ HeadTurn settle(const FrontFace& front, const Relief& relief, RigidTransform mot
   const Laid last = lay(front, relief, motion, kRounds.back());
   HeadTurn turn;
   turn.now_from_front = motion;
-  turn.met_share = static_cast<double>(last.met) / static_cast<double>(std::max<std::size_t>(1, last.seen));
-  turn.rms_mm = std::sqrt(last.squares / static_cast<double>(std::max<std::size_t>(1, last.met)));
+  turn.met_share = double(last.met) / double(std::max<std::size_t>(1, last.seen));
+  turn.rms_mm = std::sqrt(last.squares / double(std::max<std::size_t>(1, last.met)));
   turn.known = last.met >= kFewest && turn.met_share >= kMetShare;
   const auto in_head = [&](const Vec3d& axis) {
     const Vec3d now = apply(motion.rotation, axis);
@@ -138,11 +138,11 @@ FrontFace front_face(const Relief& relief, const HeadMeasurement& head) {
   face.right = head.right, face.down = head.down, face.away = head.away;
   face.pivot_mm = along(head.tip_mm, kPivotMm, head.away);
   const Vec2d at = relief.pixel(head.tip_mm);
-  const int reach = static_cast<int>(kReachMm * relief.focal_px / head.tip_mm.z) + 1;
+  const int reach = int(kReachMm * relief.focal_px / head.tip_mm.z) + 1;
   constexpr int kAcross = 48;  // of a disc that is cut below and behind at most kMost remain
   const int stride = std::max(1, (2 * reach + kAcross - 1) / kAcross);
-  for (int y = static_cast<int>(at.y) - reach; y <= static_cast<int>(at.y) + reach; y += stride)
-    for (int x = static_cast<int>(at.x) - reach; x <= static_cast<int>(at.x) + reach; x += stride) {
+  for (int y = int(at.y) - reach; y <= int(at.y) + reach; y += stride)
+    for (int x = int(at.x) - reach; x <= int(at.x) + reach; x += stride) {
       if (face.count == FrontFace::kMost) return face;
       if (!relief.inside(x, y) || !relief.known(x, y)) continue;
       const Vec3d p = relief.point(x, y), d = minus(p, head.tip_mm);

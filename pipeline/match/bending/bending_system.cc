@@ -43,7 +43,7 @@ Bends bends_at(const Plane<float>& d, const Plane<std::uint8_t>& domain, int x, 
 void measure_wrinkles(const Plane<float>& d, const Plane<std::uint8_t>& domain, double wrinkle,
                       ThreadPool& pool, Plane<float>& across, Plane<float>& wrinkled) {
   if (!(wrinkle > 0)) return std::fill(wrinkled.values.begin(), wrinkled.values.end(), 0.0F);
-  const auto wrinkle2 = static_cast<float>(1 / (wrinkle * wrinkle));
+  const auto wrinkle2 = float(1 / (wrinkle * wrinkle));
   pool.for_each_band(d.height, kWeightBands, [&](int begin, int end, int) {
     for (int y = begin; y < end; ++y)
       for (int x = 0; x < d.width; ++x)
@@ -63,17 +63,16 @@ ColumnSpan join(const ColumnSpan& a, const ColumnSpan& b) {
 // `out`: where a row's result may; `bent`: where its second differences are asked for by the rows around it.
 struct Spans {
   Spans(const BendingSystem& s, std::pmr::memory_resource* memory)
-      : out(static_cast<std::size_t>(s.height()), memory),
-        bent(static_cast<std::size_t>(s.height()), memory) {
+      : out(std::size_t(s.height()), memory), bent(std::size_t(s.height()), memory) {
     const int w = s.width();
     const int h = s.height();
-    std::pmr::vector<ColumnSpan> weights(static_cast<std::size_t>(h), ColumnSpan{w, 0}, memory);
+    std::pmr::vector<ColumnSpan> weights(std::size_t(h), ColumnSpan{w, 0}, memory);
     for (int y = 0; y < h; ++y)
       for (int x = 0; x < w; ++x) {
         if (s.data.row(y)[x] == 0 && s.bend_xx.row(y)[x] == 0 && s.bend_yy.row(y)[x] == 0 &&
             s.bend_xy.row(y)[x] == 0)
           continue;
-        weights[static_cast<std::size_t>(y)] = join(weights[static_cast<std::size_t>(y)], {x, x + 1});
+        weights[std::size_t(y)] = join(weights[std::size_t(y)], {x, x + 1});
       }
     widen(weights, 2, w, out);
     widen(out, 1, w, bent);
@@ -83,14 +82,14 @@ struct Spans {
  private:
   static void widen(const std::pmr::vector<ColumnSpan>& from, int by, int w,
                     std::pmr::vector<ColumnSpan>& to) {
-    const int h = static_cast<int>(from.size());
+    const int h = int(from.size());
     for (int y = 0; y < h; ++y) {
       ColumnSpan all{w, 0};
       for (int k = std::max(0, y - by); k <= std::min(h - 1, y + by); ++k)
-        all = join(all, from[static_cast<std::size_t>(k)]);
-      to[static_cast<std::size_t>(y)] =
-          all.begin < all.end ? ColumnSpan{std::max(0, all.begin - by), std::min(w, all.end + by)}
-                              : ColumnSpan{0, 0};
+        all = join(all, from[std::size_t(k)]);
+      to[std::size_t(y)] = all.begin < all.end
+                               ? ColumnSpan{std::max(0, all.begin - by), std::min(w, all.end + by)}
+                               : ColumnSpan{0, 0};
     }
   }
 };
@@ -125,7 +124,7 @@ RELIEVO_SIMD double dot_row(const float* a, const float* b, ColumnSpan span) {
   for (; x + 8 <= span.end; x += 8)
     for (int k = 0; k < 8; ++k) sums[k] += a[x + k] * b[x + k];
   double sum = 0;
-  for (; x < span.end; ++x) sum += static_cast<double>(a[x]) * b[x];
+  for (; x < span.end; ++x) sum += double(a[x]) * b[x];
   for (const float s : sums) sum += s;
   return sum;
 }
@@ -146,9 +145,8 @@ RELIEVO_SIMD void step_row(const float* p, const float* ap, float alpha, ColumnS
 template <typename Rows>
 double sum_over_bands(ThreadPool& pool, int height, Rows&& rows) {
   std::array<double, kSumBands> parts{};
-  pool.for_each_band(height, kSumBands, [&](int begin, int end, int band) {
-    parts[static_cast<std::size_t>(band)] = rows(begin, end);
-  });
+  pool.for_each_band(height, kSumBands,
+                     [&](int begin, int end, int band) { parts[std::size_t(band)] = rows(begin, end); });
   double sum = 0;
   for (const double part : parts) sum += part;
   return sum;
@@ -158,12 +156,12 @@ void apply_rows(const BendingSystem& s, const Plane<float>& x, bool with_data, P
                 int end, float* rolling, const Spans* spans) {
   const int w = s.width();
   const int h = s.height();
-  const auto count = static_cast<std::size_t>(w);
+  const auto count = std::size_t(w);
   // Three rows of weighted second differences roll along with the row being written.
   float* zero = rolling + 9 * count;
   std::fill(zero, zero + count, 0.0F);
   const auto slot = [&](int y, int kind) {
-    return rolling + (static_cast<std::size_t>((y + 3) % 3) * 3 + static_cast<std::size_t>(kind)) * count;
+    return rolling + (std::size_t((y + 3) % 3) * 3 + std::size_t(kind)) * count;
   };
   const auto bend = [&](int y) {
     float* q[3] = {slot(y, 0), slot(y, 1), slot(y, 2)};
@@ -175,8 +173,7 @@ void apply_rows(const BendingSystem& s, const Plane<float>& x, bool with_data, P
       return;
     }
     bend_rows(x.row(y - 1), x.row(y), x.row(y + 1), s.bend_xx.row(y), s.bend_yy.row(y), s.bend_xy.row(y), w,
-              spans != nullptr ? spans->bent[static_cast<std::size_t>(y)] : ColumnSpan{0, w}, q[0], q[1],
-              q[2]);
+              spans != nullptr ? spans->bent[std::size_t(y)] : ColumnSpan{0, w}, q[0], q[1], q[2]);
   };
   const int first = begin < 1 ? 1 : begin;
   const int last = end > h - 1 ? h - 1 : end;
@@ -186,7 +183,7 @@ void apply_rows(const BendingSystem& s, const Plane<float>& x, bool with_data, P
     bend(y + 1);
     gather_rows(with_data ? s.data.row(y) : zero, x.row(y), slot(y, 0), slot(y - 1, 1), slot(y, 1),
                 slot(y + 1, 1), slot(y - 1, 2), slot(y, 2), w,
-                spans != nullptr ? spans->out[static_cast<std::size_t>(y)] : ColumnSpan{0, w}, out.row(y));
+                spans != nullptr ? spans->out[std::size_t(y)] : ColumnSpan{0, w}, out.row(y));
   }
 }
 
@@ -196,8 +193,8 @@ void weigh_bending(const Plane<float>& d, const Plane<std::uint8_t>& domain,
                    const BendingExpectation& expected, ThreadPool& pool, Plane<float>& across,
                    Plane<float>& wrinkled, BendingSystem& system) {
   measure_wrinkles(d, domain, expected.wrinkle, pool, across, wrinkled);
-  const auto lambda = static_cast<float>(expected.lambda);
-  const auto crease2 = static_cast<float>(1 / (expected.crease * expected.crease));
+  const auto lambda = float(expected.lambda);
+  const auto crease2 = float(1 / (expected.crease * expected.crease));
   pool.for_each_band(d.height, kWeightBands, [&](int begin, int end, int) {
     for (int y = begin; y < end; ++y)
       for (int x = 0; x < d.width; ++x) {
@@ -225,13 +222,11 @@ void solve(const BendingSystem& s, int steps, double tolerance, ThreadPool& pool
   Plane<float> ap(&scratch, w, h);
   Plane<float> rolling(&scratch, rolling_floats(w), kSumBands);
   const Spans spans(s, &scratch);
-  const auto span = [&spans](int y) { return spans.out[static_cast<std::size_t>(y)]; };
+  const auto span = [&spans](int y) { return spans.out[std::size_t(y)]; };
   MultilevelPreconditioner preconditioner(s, pool, &scratch);
-  std::fill(x.values.begin(), x.values.end(), 0.0F);
+  std::ranges::fill(x.values, 0.0F);
   r.values = s.rhs.values;
-  const auto band_of = [h](int begin) {
-    return static_cast<int>((static_cast<long>(begin) * kSumBands + h - 1) / h);
-  };
+  const auto band_of = [h](int begin) { return int((static_cast<long>(begin) * kSumBands + h - 1) / h); };
   const auto each = [&](auto&& rows) { return sum_over_bands(pool, h, rows); };
   const auto precondition = [&] {
     preconditioner.apply(r, spans.out, z);
@@ -246,7 +241,7 @@ void solve(const BendingSystem& s, int steps, double tolerance, ThreadPool& pool
   double beta = 0;
   for (int k = 0; k < steps && rz > tolerance * start; ++k) {
     each([&](int begin, int end) {
-      for (int y = begin; y < end; ++y) follow_row(z.row(y), static_cast<float>(beta), p.row(y), span(y));
+      for (int y = begin; y < end; ++y) follow_row(z.row(y), float(beta), p.row(y), span(y));
       return 0.0;
     });
     const double pap = each([&](int begin, int end) {
@@ -256,7 +251,7 @@ void solve(const BendingSystem& s, int steps, double tolerance, ThreadPool& pool
       return sum;
     });
     if (!(pap > 0)) break;
-    const auto alpha = static_cast<float>(rz / pap);
+    const auto alpha = float(rz / pap);
     each([&](int begin, int end) {
       for (int y = begin; y < end; ++y) step_row(p.row(y), ap.row(y), alpha, span(y), x.row(y), r.row(y));
       return 0.0;

@@ -91,7 +91,7 @@ void MultilevelPreconditioner::add_levels(const BendingSystem& s, std::pmr::memo
   // What a coarse node stands for: all the data under it, and second differences over twice the distance: a
   // quarter of the finer ones', squared, over as many nodes as it covers.
   constexpr float kCoarserBend = 1.0F / 16;
-  while (static_cast<int>(levels_.size()) < kMostLevels &&
+  while (int(levels_.size()) < kMostLevels &&
          std::min(coarse_size(bend.width), coarse_size(bend.height)) >= kSmallest) {
     const int w = coarse_size(bend.width);
     const int h = coarse_size(bend.height);
@@ -144,7 +144,7 @@ void MultilevelPreconditioner::apply(const Plane<float>& r, const std::pmr::vect
   for (std::size_t l = levels_.size(); l-- > 0;) finish_level(l);
   pool_.for_each_band(z.height, kBands, [&](int begin, int end, int band) {
     for (int y = begin; y < end; ++y) {
-      const ColumnSpan span = spans[static_cast<std::size_t>(y)];
+      const ColumnSpan span = spans[std::size_t(y)];
       scale_row(r.row(y), inverse_diagonal_.row(y), span, z.row(y));
       if (!levels_.empty())
         prolong_row(levels_[0].value, y, span, inverse_diagonal_.row(y), lines_.row(band), z.row(y));

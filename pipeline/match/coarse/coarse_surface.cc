@@ -24,7 +24,7 @@ struct Surfaces {
   explicit Surfaces(std::pmr::memory_resource* memory) : sizes(memory) {}
   std::pmr::vector<int> sizes;  // [label - 1]
   int largest = 0;              // its label; 0: there is none
-  int size_of(int label) const { return label > 0 ? sizes[static_cast<std::size_t>(label - 1)] : 0; }
+  int size_of(int label) const { return label > 0 ? sizes[std::size_t(label - 1)] : 0; }
 };
 
 // Fills `label` (0: none) where `allowed` and something is known; neighbours further apart than `step` part
@@ -40,7 +40,7 @@ Surfaces label_surfaces(const Plane<float>& d, const Plane<std::uint8_t>& allowe
     ++next;
     int size = 0;
     open.clear();
-    open.push_back(static_cast<int>(seed));
+    open.push_back(int(seed));
     label.values[seed] = next;
     while (!open.empty()) {
       const int k = open.back();
@@ -52,9 +52,9 @@ Surfaces label_surfaces(const Plane<float>& d, const Plane<std::uint8_t>& allowe
                                  y + 1 < d.height ? k + d.width : -1};
       for (const int n : neighbours) {
         if (n < 0) continue;
-        const auto at = static_cast<std::size_t>(n);
+        const auto at = std::size_t(n);
         if (label.values[at] != 0 || allowed.values[at] == 0 || d.values[at] == kNoDisparity) continue;
-        if (std::abs(d.values[at] - d.values[static_cast<std::size_t>(k)]) > step) continue;
+        if (std::abs(d.values[at] - d.values[std::size_t(k)]) > step) continue;
         label.values[at] = next;
         open.push_back(n);
       }
@@ -78,12 +78,10 @@ void bridge_holes(const Plane<std::uint8_t>& usable, int largest, Plane<std::uin
   std::pmr::vector<int> hole(&scratch);
   hole.reserve(seen.values.size());
   for (int seed = 0; seed < w * h; ++seed) {
-    if (seen.values[static_cast<std::size_t>(seed)] != 0 ||
-        domain.values[static_cast<std::size_t>(seed)] != 0)
-      continue;
+    if (seen.values[std::size_t(seed)] != 0 || domain.values[std::size_t(seed)] != 0) continue;
     hole.clear();
     hole.push_back(seed);
-    seen.values[static_cast<std::size_t>(seed)] = 1;
+    seen.values[std::size_t(seed)] = 1;
     bool enclosed = true;
     double sum = 0;
     double rim = 0;
@@ -91,14 +89,14 @@ void bridge_holes(const Plane<std::uint8_t>& usable, int largest, Plane<std::uin
       const int k = hole[next];
       const int x = k % w;
       const int y = k / w;
-      if (x == 0 || y == 0 || x == w - 1 || y == h - 1 || usable.values[static_cast<std::size_t>(k)] == 0) {
+      if (x == 0 || y == 0 || x == w - 1 || y == h - 1 || usable.values[std::size_t(k)] == 0) {
         enclosed = false;
         continue;
       }
       for (const int n : {k - 1, k + 1, k - w, k + w}) {
-        const auto at = static_cast<std::size_t>(n);
+        const auto at = std::size_t(n);
         if (domain.values[at] == 1) {
-          sum += static_cast<double>(disparity.values[at]);
+          sum += double(disparity.values[at]);
           ++rim;
         } else if (seen.values[at] == 0) {
           seen.values[at] = 1;
@@ -106,15 +104,15 @@ void bridge_holes(const Plane<std::uint8_t>& usable, int largest, Plane<std::uin
         }
       }
     }
-    if (!enclosed || static_cast<int>(hole.size()) > largest || rim == 0) continue;
-    for (const int k : hole) disparity.values[static_cast<std::size_t>(k)] = static_cast<float>(sum / rim);
+    if (!enclosed || int(hole.size()) > largest || rim == 0) continue;
+    for (const int k : hole) disparity.values[std::size_t(k)] = float(sum / rim);
     // A soap film over the rim; a few dozen sweeps do for holes this small.
     for (int sweep = 0; sweep < 60; ++sweep)
       for (const int k : hole) {
         const float* d = disparity.values.data() + k;
-        disparity.values[static_cast<std::size_t>(k)] = 0.25F * (d[-1] + d[1] + d[-w] + d[w]);
+        disparity.values[std::size_t(k)] = 0.25F * (d[-1] + d[1] + d[-w] + d[w]);
       }
-    for (const int k : hole) domain.values[static_cast<std::size_t>(k)] = 2;  // not a rim for the next hole
+    for (const int k : hole) domain.values[std::size_t(k)] = 2;  // not a rim for the next hole
   }
   for (std::uint8_t& inside : domain.values) inside = inside != 0 ? 1 : 0;
 }
@@ -148,10 +146,9 @@ std::optional<Box> box_of(const SurfaceField& field) {
     }
   if (right < 0) return std::nullopt;
   Box box;
-  box.shift = even(static_cast<int>(std::lround(least + most) / 4));
-  const auto shift_px = static_cast<double>(2 * box.shift);
-  box.range = {static_cast<double>(least - kBeyond) - shift_px,
-               static_cast<double>(most + kBeyond) - shift_px};
+  box.shift = even(int(std::lround(least + most) / 4));
+  const auto shift_px = double(2 * box.shift);
+  box.range = {double(least - kBeyond) - shift_px, double(most + kBeyond) - shift_px};
   box.x = even(std::max(0, left - kBeside)), box.y = even(std::max(0, top - kBeside));
   box.w = even(std::min(w, right + kBeside + 1) - box.x),
   box.h = even(std::min(h, bottom + kBeside + 1) - box.y);
@@ -180,8 +177,8 @@ Pyramids cut(const Pyramids& whole, const Box& box, std::pmr::memory_resource& m
     for (int level = kLevel; level <= kCoarsest; ++level) {
       const int scale = 1 << (level - kLevel);
       const int x = (side == 0 ? box.x : box.x - box.shift) / scale;
-      levels.push_back(cut((side == 0 ? whole.left : whole.right)[static_cast<std::size_t>(level)], x,
-                           box.y / scale, box.w / scale, box.h / scale, memory));
+      levels.push_back(cut((side == 0 ? whole.left : whole.right)[std::size_t(level)], x, box.y / scale,
+                           box.w / scale, box.h / scale, memory));
     }
   }
   return part;
@@ -207,10 +204,9 @@ Result<void> find(const RectifiedPair& pair, const Pyramids& pyramids, const Coa
                          found.disparity));
   for (int y = 0; y < box.h; ++y)
     for (int x = 0; x < box.w; ++x)
-      found.face.row(y)[x] =
-          pair.region[static_cast<std::size_t>(std::min(2 * (box.y + y), pair.height_px - 1)) *
-                          static_cast<std::size_t>(pair.width_px) +
-                      static_cast<std::size_t>(std::min(2 * (box.x + x), pair.width_px - 1))];
+      found.face.row(y)[x] = pair.region[std::size_t(std::min(2 * (box.y + y), pair.height_px - 1)) *
+                                             std::size_t(pair.width_px) +
+                                         std::size_t(std::min(2 * (box.x + x), pair.width_px - 1))];
   Plane<std::uint8_t> usable(&context.scratch, box.w, box.h);
   for (int y = 0; y < box.h; ++y)
     for (int x = 0; x < box.w; ++x)
@@ -220,7 +216,7 @@ Result<void> find(const RectifiedPair& pair, const Pyramids& pyramids, const Coa
       label_surfaces(found.disparity, found.face, options.step_limit_px, label, context.scratch);
   for (std::size_t k = 0; k < label.values.size(); ++k) {
     found.face.values[k] = label.values[k] != 0 && label.values[k] == surfaces.largest ? 1 : 0;
-    found.disparity.values[k] = 2 * (found.disparity.values[k] + static_cast<float>(box.shift));
+    found.disparity.values[k] = 2 * (found.disparity.values[k] + float(box.shift));
   }
   bridge_holes(usable, options.largest_hole, found.face, found.disparity, context.scratch);
   return {};
@@ -291,11 +287,11 @@ Result<void> find_coarse_surface(const RectifiedPair& pair, const Pyramids& pyra
   Plane<std::uint8_t> allowed(&context.scratch, w, h);
   for (int y = kBorder; y < h - kBorder; ++y)
     for (int x = kBorder; x < w - kBorder; ++x)
-      allowed.row(y)[x] = scene
-                              ? std::uint8_t{1}
-                              : pair.region[static_cast<std::size_t>(std::min(step * y, pair.height_px - 1)) *
-                                                static_cast<std::size_t>(pair.width_px) +
-                                            static_cast<std::size_t>(std::min(step * x, pair.width_px - 1))];
+      allowed.row(y)[x] =
+          scene
+              ? std::uint8_t{1}
+              : pair.region[std::size_t(std::min(step * y, pair.height_px - 1)) * std::size_t(pair.width_px) +
+                            std::size_t(std::min(step * x, pair.width_px - 1))];
   Plane<int> label(&context.scratch, w, h);
   const Surfaces surfaces = label_surfaces(disparity, allowed, options.step_limit_px, label, context.scratch);
   if (surfaces.size_of(surfaces.largest) < kLeastFace)
@@ -306,9 +302,9 @@ Result<void> find_coarse_surface(const RectifiedPair& pair, const Pyramids& pyra
     const bool kept =
         scene ? surfaces.size_of(label.values[k]) >= kLeastPatch : label.values[k] == surfaces.largest;
     field.domain.values[k] = kept ? 1 : 0;
-    field.disparity_px.values[k] = kept ? static_cast<float>(step) * disparity.values[k] : 0.0F;
+    field.disparity_px.values[k] = kept ? float(step) * disparity.values[k] : 0.0F;
   }
-  const PyramidLevel& left = pyramids.left[static_cast<std::size_t>(finest)];
+  const PyramidLevel& left = pyramids.left[std::size_t(finest)];
   for (std::size_t k = 0; k < allowed.values.size(); ++k) allowed.values[k] &= left.valid.values[k];
   if (!scene) bridge_holes(allowed, options.largest_hole, field.domain, field.disparity_px, context.scratch);
   return {};

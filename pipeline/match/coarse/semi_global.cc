@@ -26,9 +26,9 @@ int lanes_for(int candidates) { return (candidates + kLanes - 1) / kLanes * kLan
 struct PathRow {
   PathRow(std::pmr::memory_resource& memory, int width, int lanes)
       : stride(2 * lanes),
-        cost(static_cast<std::size_t>((width + 1) * stride), kFar, &memory),
-        least(static_cast<std::size_t>(width), 0, &memory) {}
-  std::uint16_t* at(int x) { return cost.data() + static_cast<std::ptrdiff_t>(x) * stride + stride / 2; }
+        cost(std::size_t((width + 1) * stride), kFar, &memory),
+        least(std::size_t(width), 0, &memory) {}
+  std::uint16_t* at(int x) { return cost.data() + std::ptrdiff_t(x) * stride + stride / 2; }
   int stride;
   std::pmr::vector<std::uint16_t> cost;
   std::pmr::vector<std::uint16_t> least;
@@ -86,11 +86,11 @@ RELIEVO_INLINE void sixteen(const PathStep& step, int at, std::uint16_t step_pen
   load(p - 1, before);
   load(p + 1, after);
   least_of(before, after);
-  before |= (best == static_cast<std::int16_t>(kFar)) &
-            static_cast<std::int16_t>(kFar);  // a candidate the neighbour has not: only a jump leads there
-  least_of(best, before + static_cast<std::int16_t>(step_penalty));
-  least_of(best, Lanes{} + static_cast<std::int16_t>(step.jump));
-  best = (cost + best - static_cast<std::int16_t>(step.previous_least)) | beyond;
+  before |= (best == std::int16_t(kFar)) &
+            std::int16_t(kFar);  // a candidate the neighbour has not: only a jump leads there
+  least_of(best, before + std::int16_t(step_penalty));
+  least_of(best, Lanes{} + std::int16_t(step.jump));
+  best = (cost + best - std::int16_t(step.previous_least)) | beyond;
   std::memcpy(step.path + at, &best, sizeof best);
   total += reinterpret_cast<const Sums&>(best);
   least_of(least, best);
@@ -115,8 +115,7 @@ struct Volume {
   std::uint8_t* cost;  // both with room for the lanes behind the last pixel
   std::uint16_t* sum;
   std::size_t cell(int x, int y) const {
-    return (static_cast<std::size_t>(y) * static_cast<std::size_t>(width) + static_cast<std::size_t>(x)) *
-           static_cast<std::size_t>(candidates);
+    return (std::size_t(y) * std::size_t(width) + std::size_t(x)) * std::size_t(candidates);
   }
 };
 
@@ -130,11 +129,11 @@ struct Sweep {
         first(band),
         dir(direction),
         lanes(lanes_for(cells.candidates)),
-        step_penalty(static_cast<std::uint16_t>(costs.step_penalty)),
-        jump_penalty(static_cast<std::uint16_t>(costs.jump_penalty)),
-        far(static_cast<std::size_t>(lanes + 2), kFar, &scratch),
-        beyond(static_cast<std::size_t>(lanes), 0, &scratch),
-        line(static_cast<std::size_t>(lanes), 0, &scratch),
+        step_penalty(std::uint16_t(costs.step_penalty)),
+        jump_penalty(std::uint16_t(costs.jump_penalty)),
+        far(std::size_t(lanes + 2), kFar, &scratch),
+        beyond(std::size_t(lanes), 0, &scratch),
+        line(std::size_t(lanes), 0, &scratch),
         along(scratch, 2, lanes),
         rows{{{PathRow(scratch, cells.width, lanes), PathRow(scratch, cells.width, lanes)},
               {PathRow(scratch, cells.width, lanes), PathRow(scratch, cells.width, lanes)},
@@ -144,9 +143,9 @@ struct Sweep {
   // A path that begins: as if from nowhere, at no cost.
   PathStep beginning(PathRow& to, int x) { return {far.data() + 1, 0, 0, to.at(x)}; }
   PathStep from(PathRow& row, int from_x, int shift, PathRow& to, int x) {
-    const std::uint16_t least = row.least[static_cast<std::size_t>(from_x)];
+    const std::uint16_t least = row.least[std::size_t(from_x)];
     const std::uint16_t* previous = shift > -lanes && shift < lanes ? row.at(from_x) + shift : far.data() + 1;
-    return {previous, least, static_cast<std::uint16_t>(least + jump_penalty), to.at(x)};
+    return {previous, least, std::uint16_t(least + jump_penalty), to.at(x)};
   }
 
   // The paths into pixel x, the i-th of its row: from the three of the row before, then along the row.
@@ -155,12 +154,12 @@ struct Sweep {
                                               const std::int16_t* above) {
     std::array<PathStep, 4> steps{};
     for (int d = 0; d < 3; ++d) {
-      auto& row = rows[static_cast<std::size_t>(d)];
-      PathRow &target = row[static_cast<std::size_t>(now)], &source = row[static_cast<std::size_t>(now ^ 1)];
+      auto& row = rows[std::size_t(d)];
+      PathRow &target = row[std::size_t(now)], &source = row[std::size_t(now ^ 1)];
       const int at = x + d - 1;
-      steps[static_cast<std::size_t>(d)] = above == nullptr || at < 0 || at >= volume.width
-                                               ? beginning(target, x)
-                                               : from(source, at, base[x] - above[at], target, x);
+      steps[std::size_t(d)] = above == nullptr || at < 0 || at >= volume.width
+                                  ? beginning(target, x)
+                                  : from(source, at, base[x] - above[at], target, x);
     }
     const int flip = i & 1;
     steps[3] = i == 0 ? beginning(along, flip) : from(along, flip ^ 1, base[x] - base[x - dir], along, flip);
@@ -183,7 +182,7 @@ struct Least {
   RELIEVO_INLINE void hear(const Sums& total, const Lanes& beyond, int from) {
     constexpr Lanes kOrder{0, 1, 2, 3, 4, 5, 6, 7, 8, 9, 10, 11, 12, 13, 14, 15};
     const Lanes own = beyond == 0 ? reinterpret_cast<const Lanes&>(total) : Lanes{} + std::int16_t{0x7FFF};
-    at = own < sum ? kOrder + static_cast<std::int16_t>(from) : at;
+    at = own < sum ? kOrder + std::int16_t(from) : at;
     least_of(sum, own);
   }
   RELIEVO_INLINE int candidate() const {
@@ -197,13 +196,13 @@ struct Least {
 
 // Candidate k between its neighbours.
 RELIEVO_INLINE float between(const std::uint16_t* sum, int k, int candidates) {
-  if (k == 0 || k == candidates - 1) return static_cast<float>(k);
+  if (k == 0 || k == candidates - 1) return float(k);
   const float before = sum[k - 1];
   const float here = sum[k];
   const float after = sum[k + 1];
   // Equiangular fit: the census cost falls off linearly, a parabola would lock to whole pixels.
   const float slope = std::max(before, after) - here;
-  return static_cast<float>(k) + (slope > 0 ? 0.5F * (before - after) / slope : 0.0F);
+  return float(k) + (slope > 0 ? 0.5F * (before - after) / slope : 0.0F);
 }
 
 // One row of a sweep. Downwards the sums are kept; a pixel's lanes reach into the next one's, which is
@@ -219,7 +218,7 @@ RELIEVO_INLINE void sweep_row(Sweep& s, int y, int lanes, int now, bool begins, 
     const std::array<PathStep, 4> steps = s.into(x, i, now, base, above);
     const std::uint8_t* cost = s.volume.cost + s.volume.cell(x, y);
     std::uint16_t* sum = s.volume.sum + s.volume.cell(x, y);
-    const Lanes far = Lanes{} + static_cast<std::int16_t>(kFar);
+    const Lanes far = Lanes{} + std::int16_t(kFar);
     std::array<Lanes, 4> least{far, far, far, far};
     Least best;
     for (int b = 0; b < lanes; b += kLanes) {
@@ -239,16 +238,15 @@ RELIEVO_INLINE void sweep_row(Sweep& s, int y, int lanes, int now, bool begins, 
     }
     Lanes each;
     least_of_each(least, each);
-    s.along.least[static_cast<std::size_t>(flip)] = static_cast<std::uint16_t>(each[kLeastAt[3]]);
+    s.along.least[std::size_t(flip)] = std::uint16_t(each[kLeastAt[3]]);
     for (std::size_t d = 0; d < 3; ++d)
-      s.rows[d][static_cast<std::size_t>(now)].least[static_cast<std::size_t>(x)] =
-          static_cast<std::uint16_t>(each[kLeastAt[d]]);
+      s.rows[d][std::size_t(now)].least[std::size_t(x)] = std::uint16_t(each[kLeastAt[d]]);
     if (to == nullptr) continue;
     to[x] = kNoDisparity;
     if (valid[x] == 0) continue;
-    const float d = static_cast<float>(base[x]) + between(s.line.data(), best.candidate(), n);
-    const float other = static_cast<float>(x) - static_cast<float>(s.pair.sign) * d;
-    if (other >= 0 && other <= static_cast<float>(w - 1)) to[x] = d;
+    const float d = float(base[x]) + between(s.line.data(), best.candidate(), n);
+    const float other = float(x) - float(s.pair.sign) * d;
+    if (other >= 0 && other <= float(w - 1)) to[x] = d;
   }
 }
 
@@ -286,7 +284,7 @@ RELIEVO_SIMD void census_rows(const Plane<float>& grey, Plane<std::uint64_t>& ce
         if (i == 0 && j == 0) continue;
         const float* other = grey.row(y + j) + i;
         for (int x = kHalfWidth; x < w - kHalfWidth; ++x)
-          to[x] = (to[x] << 1) | static_cast<std::uint64_t>(other[x] < centre[x]);
+          to[x] = (to[x] << 1) | std::uint64_t(other[x] < centre[x]);
       }
   }
 }
@@ -300,14 +298,14 @@ RELIEVO_SIMD void census_costs(const CensusPair& pair, const std::int16_t* first
   const int width = pair.from.width;
   for (int x = 0; x < width; ++x, cost += candidates) {
     if (from_valid[x] == 0) {
-      std::memset(cost, kUnknownCost, static_cast<std::size_t>(candidates));
+      std::memset(cost, kUnknownCost, std::size_t(candidates));
       continue;
     }
     const int nearest = x - pair.sign * first[x], last = nearest - pair.sign * (candidates - 1);
     if (std::min(nearest, last) >= 0 && std::max(nearest, last) < width) {
       for (int k = 0; k < candidates; ++k) {
         const int other = nearest - pair.sign * k;
-        const auto bits = static_cast<std::uint8_t>(__builtin_popcountll(from[x] ^ to[other]));
+        const auto bits = std::uint8_t(__builtin_popcountll(from[x] ^ to[other]));
         cost[k] = to_valid[other] != 0 ? bits : kUnknownCost;
       }
       continue;
@@ -315,7 +313,7 @@ RELIEVO_SIMD void census_costs(const CensusPair& pair, const std::int16_t* first
     for (int k = 0; k < candidates; ++k) {
       const int other = nearest - pair.sign * k;
       const bool inside = other >= 0 && other < width && to_valid[other] != 0;
-      cost[k] = inside ? static_cast<std::uint8_t>(__builtin_popcountll(from[x] ^ to[other])) : kUnknownCost;
+      cost[k] = inside ? std::uint8_t(__builtin_popcountll(from[x] ^ to[other])) : kUnknownCost;
     }
   }
 }
@@ -338,7 +336,7 @@ void cross_check(Plane<float>& left, const Plane<float>& right, float limit_px) 
     const float* r = right.row(y);
     for (int x = 0; x < left.width; ++x) {
       if (l[x] == kNoDisparity) continue;
-      const int other = static_cast<int>(std::lround(static_cast<float>(x) - l[x]));
+      const int other = int(std::lround(float(x) - l[x]));
       const bool seen = other >= 0 && other < right.width && std::abs(r[other] - l[x]) <= limit_px;
       if (!seen) l[x] = kNoDisparity;
     }

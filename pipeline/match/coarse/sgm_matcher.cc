@@ -40,15 +40,15 @@ Result<MatchSet> SgmMatcher::match(const RectifiedPair& pair, const Keypoints& k
     RELIEVO_TRY(match_down(whole_range(pair), pyramids, ladder, costs, context, 0.8F, field));
   }
   std::pmr::vector<Match> found(keypoints.points.size(), Match{}, &context.scratch);
-  const auto size = static_cast<float>(scale);
-  context.pool.for_each_band(static_cast<int>(found.size()), kBands, [&](int begin, int end, int) {
+  const auto size = float(scale);
+  context.pool.for_each_band(int(found.size()), kBands, [&](int begin, int end, int) {
     for (int k = begin; k < end && !context.stop(); ++k) {
-      const Vec2f at = keypoints.points[static_cast<std::size_t>(k)].at_px;
+      const Vec2f at = keypoints.points[std::size_t(k)].at_px;
       const FieldReading reading = read_disparity(field, {at.x / size, at.y / size}, kNoDisparity);
       if (!reading.known) continue;
       const float d = size * reading.disparity;
-      found[static_cast<std::size_t>(k)] = {at, d, window_cost(pair, at, d, kCorrelationRadius),
-                                            size * std::hypot(kFitPx, reading.scatter), 0};
+      found[std::size_t(k)] = {at, d, window_cost(pair, at, d, kCorrelationRadius),
+                               size * std::hypot(kFitPx, reading.scatter), 0};
     }
   });
   if (context.stop()) return Error{Errc::Cancelled, "stopped while matching"};

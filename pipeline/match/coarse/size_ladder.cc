@@ -43,15 +43,13 @@ Result<void> match_both(const PyramidLevel& left, const PyramidLevel& right, int
     census_rows(right.grey, census_right, begin, end);
   });
   // One arena for two threads: each gets a block of its own, taken here.
-  const auto cells =
-      static_cast<std::size_t>(w) * static_cast<std::size_t>(h) * static_cast<std::size_t>(candidates);
-  const std::size_t share =
-      3 * cells + 64 * static_cast<std::size_t>(w) * (static_cast<std::size_t>(candidates) + 16) + 65536;
+  const auto cells = std::size_t(w) * std::size_t(h) * std::size_t(candidates);
+  const std::size_t share = 3 * cells + 64 * std::size_t(w) * (std::size_t(candidates) + 16) + 65536;
   const std::span<std::byte> blocks(
       static_cast<std::byte*>(context.scratch.allocate(2 * share, alignof(std::max_align_t))), 2 * share);
   context.pool.for_each_band(2, 2, [&](int begin, int end, int) {
     for (int side = begin; side < end; ++side) {
-      Arena own{blocks.subspan(static_cast<std::size_t>(side) * share, share)};
+      Arena own{blocks.subspan(std::size_t(side) * share, share)};
       if (side == 0)
         semi_global({census_left, census_right, left.valid, right.valid, +1}, both.first_left, candidates,
                     costs, own, both.left, &context.cancelled);
@@ -72,13 +70,13 @@ void predict(const Plane<float>& coarse, int band, int whole_first, int whole_la
     const float* from = coarse.row(std::min(y / 2, coarse.height - 1));
     float last = kNoDisparity;
     for (int x = 0; x < coarse.width && last == kNoDisparity; ++x) last = from[x];
-    if (last == kNoDisparity) last = 0.25F * static_cast<float>(whole_first + whole_last);
+    if (last == kNoDisparity) last = 0.25F * float(whole_first + whole_last);
     for (int x = 0; x < first.width; ++x) {
       const float d = from[std::min(x / 2, coarse.width - 1)];
       if (d != kNoDisparity) last = d;
-      const int start = static_cast<int>(std::lround(2 * last)) - band / 2;
+      const int start = int(std::lround(2 * last)) - band / 2;
       first.row(y)[x] =
-          static_cast<std::int16_t>(std::clamp(start, whole_first, std::max(whole_first, whole_last - band)));
+          std::int16_t(std::clamp(start, whole_first, std::max(whole_first, whole_last - band)));
     }
   }
 }
@@ -172,23 +170,21 @@ Result<void> match_down(const DisparityRange& range, const Pyramids& pyramids, c
                         Plane<float>& finest) {
   Arena::Mark all(context.scratch);
   const double scale = 1 << ladder.coarsest;
-  int first = static_cast<int>(std::floor(range.least_px / scale)) - 1;
-  int last = static_cast<int>(std::ceil(range.most_px / scale)) + 1;
+  int first = int(std::floor(range.least_px / scale)) - 1;
+  int last = int(std::ceil(range.most_px / scale)) + 1;
   Plane<float> left(&context.scratch, 0, 0);
   Plane<float> right(&context.scratch, 0, 0);
   for (int level = ladder.coarsest; level >= ladder.finest; --level) {
-    const PyramidLevel& from = pyramids.left[static_cast<std::size_t>(level)];
-    const PyramidLevel& to = pyramids.right[static_cast<std::size_t>(level)];
+    const PyramidLevel& from = pyramids.left[std::size_t(level)];
+    const PyramidLevel& to = pyramids.right[std::size_t(level)];
     Plane<float> next_left(&context.scratch, from.grey.width, from.grey.height);
     Plane<float> next_right(&context.scratch, from.grey.width, from.grey.height);
     Arena::Mark mark(context.scratch);
     TwoWay both(&context.scratch, from.grey.width, from.grey.height);
     int candidates = last - first + 1;
     if (level == ladder.coarsest) {
-      std::fill(both.first_left.values.begin(), both.first_left.values.end(),
-                static_cast<std::int16_t>(first));
-      std::fill(both.first_right.values.begin(), both.first_right.values.end(),
-                static_cast<std::int16_t>(first));
+      std::ranges::fill(both.first_left.values, std::int16_t(first));
+      std::ranges::fill(both.first_right.values, std::int16_t(first));
     } else {
       candidates = ladder.band;
       predict(left, ladder.band, first, last, both.first_left);
@@ -197,20 +193,20 @@ Result<void> match_down(const DisparityRange& range, const Pyramids& pyramids, c
     RELIEVO_TRY(match_both(from, to, candidates, costs, context, both));
     cross_check(both.left, both.right, ladder.cross_check_px);
     median3(both.left, context);
-    std::copy(both.left.values.begin(), both.left.values.end(), next_left.values.begin());
+    std::ranges::copy(both.left.values, next_left.values.begin());
     if (level > ladder.finest) {  // of the finest size only the left view's is asked for
       median3(both.right, context);
-      std::copy(both.right.values.begin(), both.right.values.end(), next_right.values.begin());
+      std::ranges::copy(both.right.values, next_right.values.begin());
     }
     left = std::move(next_left);
     right = std::move(next_right);
     first *= 2;
     last *= 2;
-    context.progress.done.store(progress_share * static_cast<float>(ladder.coarsest + 1 - level) /
-                                    static_cast<float>(ladder.coarsest + 1 - ladder.finest),
-                                std::memory_order_relaxed);
+    context.progress.done.store(
+        progress_share * float(ladder.coarsest + 1 - level) / float(ladder.coarsest + 1 - ladder.finest),
+        std::memory_order_relaxed);
   }
-  std::copy(left.values.begin(), left.values.end(), finest.values.begin());
+  std::ranges::copy(left.values, finest.values.begin());
   return {};
 }
 

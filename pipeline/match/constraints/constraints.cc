@@ -67,9 +67,9 @@ void UniquenessConstraint::judge(const RectifiedPair& pair, std::span<Match> mat
   constexpr float kNothing = -1.0e9F;
   Plane<float> nearest(&context.scratch, pair.width_px / cell + 1, pair.height_px / cell + 1, kNothing);
   const auto place = [&](const Match& match) -> float* {
-    const float x = (match.left_px.x - match.disparity_px) / static_cast<float>(cell);
-    const int column = static_cast<int>(std::lround(x));
-    const int row = static_cast<int>(std::lround(match.left_px.y / static_cast<float>(cell)));
+    const float x = (match.left_px.x - match.disparity_px) / float(cell);
+    const int column = int(std::lround(x));
+    const int row = int(std::lround(match.left_px.y / float(cell)));
     if (x < 0 || column >= nearest.width || row < 0 || row >= nearest.height) return nullptr;
     return nearest.row(row) + column;
   };
@@ -91,12 +91,11 @@ void ContinuityConstraint::judge(const RectifiedPair& pair, std::span<Match> mat
   const int step = lattice_step_px;
   Plane<float> disparity(&context.scratch, pair.width_px / step + 3, pair.height_px / step + 3, kNothing);
   const auto cell = [&](const Match& match) {
-    return disparity.row(static_cast<int>(match.left_px.y) / step + 1) +
-           static_cast<int>(match.left_px.x) / step + 1;
+    return disparity.row(int(match.left_px.y) / step + 1) + int(match.left_px.x) / step + 1;
   };
   for (const Match& match : matches)
     if (match.rejected_by == 0) *cell(match) = match.disparity_px;
-  const float limit = max_step * static_cast<float>(step);
+  const float limit = max_step * float(step);
   for (Match& match : matches) {
     if (match.rejected_by != 0) continue;
     const float* here = cell(match);
@@ -117,10 +116,10 @@ void OrderingConstraint::judge(const RectifiedPair&, std::span<Match> matches, i
   for (std::uint32_t k = 0; k < matches.size(); ++k) {
     const Match& m = matches[k];
     if (m.rejected_by != 0 || !std::isfinite(m.disparity_px)) continue;
-    entries.push_back({static_cast<int>(std::lround(m.left_px.y)), m.left_px.x,
-                       m.left_px.x - m.disparity_px + slack * m.left_px.x, k});
+    entries.push_back(
+        {int(std::lround(m.left_px.y)), m.left_px.x, m.left_px.x - m.disparity_px + slack * m.left_px.x, k});
   }
-  std::sort(entries.begin(), entries.end(), [](const Entry& a, const Entry& b) {
+  std::ranges::sort(entries, [](const Entry& a, const Entry& b) {
     if (a.row != b.row) return a.row < b.row;
     return a.left != b.left ? a.left < b.left : a.match < b.match;
   });

@@ -17,7 +17,7 @@ enum class Answer : std::uint8_t { Confirmed, Elsewhere, Unasked };
 // `scores` has the views exchanged: its left view is the pair's right one, and disparities change sign.
 Answer ask_back(const Match& match, const LeftRightConstraint& options, PatchScores& scores) {
   const float right = match.left_px.x - match.disparity_px;
-  const int middle = static_cast<int>(std::lround(match.disparity_px));
+  const int middle = int(std::lround(match.disparity_px));
   const int count = 2 * options.search_px + 1;
   // Candidate k lies at right + middle + search_px - k on the left row.
   if (!scores.load({right, match.left_px.y}, -(middle + options.search_px), count)) return Answer::Unasked;
@@ -34,10 +34,9 @@ Answer ask_back(const Match& match, const LeftRightConstraint& options, PatchSco
   const double after = scores.score(best + 1).unlike;
   const double bend = before - 2 * least + after;
   const double offset = std::isfinite(bend) && bend > 0 ? (before - after) / (2 * bend) : 0;
-  const double found = static_cast<double>(right) + middle + options.search_px - best - offset;
-  return std::abs(found - static_cast<double>(match.left_px.x)) <= static_cast<double>(options.limit_px)
-             ? Answer::Confirmed
-             : Answer::Elsewhere;
+  const double found = double(right) + middle + options.search_px - best - offset;
+  return std::abs(found - double(match.left_px.x)) <= double(options.limit_px) ? Answer::Confirmed
+                                                                               : Answer::Elsewhere;
 }
 
 }  // namespace
@@ -53,15 +52,13 @@ void LeftRightConstraint::judge(const RectifiedPair& pair, std::span<Match> matc
   scores.reserve(kAskedBands);
   for (int band = 0; band < kAskedBands; ++band)
     scores.emplace_back(planes, WindowScore::ZeroMeanCorrelation, 2 * search_px + 1, &context.scratch);
-  context.pool.for_each_band(
-      static_cast<int>(matches.size()), kAskedBands, [&](int begin, int end, int band) {
-        for (int k = begin; k < end && !context.stop(); ++k) {
-          Match& match = matches[static_cast<std::size_t>(k)];
-          if (match.rejected_by != 0 || !(std::abs(match.disparity_px) < 1e6F)) continue;
-          if (ask_back(match, *this, scores[static_cast<std::size_t>(band)]) == Answer::Elsewhere)
-            match.rejected_by = bit;
-        }
-      });
+  context.pool.for_each_band(int(matches.size()), kAskedBands, [&](int begin, int end, int band) {
+    for (int k = begin; k < end && !context.stop(); ++k) {
+      Match& match = matches[std::size_t(k)];
+      if (match.rejected_by != 0 || !(std::abs(match.disparity_px) < 1e6F)) continue;
+      if (ask_back(match, *this, scores[std::size_t(band)]) == Answer::Elsewhere) match.rejected_by = bit;
+    }
+  });
 }
 
 }  // namespace relievo::pipeline

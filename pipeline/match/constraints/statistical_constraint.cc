@@ -23,12 +23,12 @@ struct Spread {
 
 // Changes the order of the values.
 Spread spread_of(std::span<float> values) {
-  const auto middle = static_cast<float>(median(values));
+  const auto middle = float(median(values));
   for (float& v : values) v = std::abs(v - middle);
-  return {middle, kMadToSigma * static_cast<float>(median(values))};
+  return {middle, kMadToSigma * float(median(values))};
 }
 
-int cell_of(float at_px, float radius) { return std::max(0, static_cast<int>(at_px / radius)); }
+int cell_of(float at_px, float radius) { return std::max(0, int(at_px / radius)); }
 
 // Accepted matches in square cells of one radius.
 Cells cells_of(std::span<const Match> matches, float radius, std::pmr::memory_resource* memory) {
@@ -88,9 +88,8 @@ void StatisticalConstraint::judge(const RectifiedPair&, std::span<Match> matches
   const Spread whole = spread_of(all);
   std::pmr::vector<std::uint8_t> out(matches.size(), std::uint8_t{0}, &context.scratch);
   const Cells cells = cells_of(matches, radius_px, &context.scratch);
-  context.pool.for_each_band(static_cast<int>(matches.size()), kBands, [&](int begin, int end, int) {
-    for (auto k = static_cast<std::uint32_t>(begin); k < static_cast<std::uint32_t>(end) && !context.stop();
-         ++k) {
+  context.pool.for_each_band(int(matches.size()), kBands, [&](int begin, int end, int) {
+    for (auto k = std::uint32_t(begin); k < std::uint32_t(end) && !context.stop(); ++k) {
       if (matches[k].rejected_by != 0) continue;
       const float limit = global_sigmas * std::max(whole.sigma, floor_px);
       const bool far = global_sigmas > 0 && std::abs(matches[k].disparity_px - whole.median) > limit;

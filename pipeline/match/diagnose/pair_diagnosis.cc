@@ -5,14 +5,67 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <cstddef>
 #include <cstdlib>
 #include <vector>
 
-#include "pipeline/match/diagnose/overexposure.h"
 #include "pipeline/match/image/plane.h"
-#include "pipeline/match/rectify/grey_rows.h"
+#include "pipeline/match/rectify/rectifier.h"
 
 namespace relievo::pipeline {
+namespace {
+
+constexpr double kFaceWidthMm = 150;                   // a grown-up's, as in RectifiedPair::face_width_px
+constexpr double kHalfWidth = 0.4, kHalfHeight = 0.5;  // of that width: an ellipse of skin, no background
+constexpr int kEveryTexel = 2;                         // pixels looked at
+
+struct Oval {
+  double x, y, half_width, half_height;
+  bool holds(double px, double py) const {
+    const double u = (px - x) / half_width, v = (py - y) / half_height;
+    return u * u + v * v < 1;
+  }
+};
+
+Oval oval(double x, double y, double face_width) {
+  return {x, y, kHalfWidth * face_width, kHalfHeight * face_width};
+}
+
+double white_share(const RectifiedView& view, const RectifiedPair& pair, const Oval& face) {
+  long seen = 0, white = 0;
+  for (int y = 0; y < pair.height_px; y += kEveryTexel)
+    for (int x = 0; x < pair.width_px; x += kEveryTexel) {
+      const std::size_t k = std::size_t(y) * std::size_t(pair.width_px) + std::size_t(x);
+      if (!view.valid[k] || !face.holds(x, y)) continue;
+      ++seen;
+      if (view.grey[k] >= kWhiteGrey) ++white;
+    }
+  return seen > 0 ? double(white) / double(seen) : 0;
+}
+
+}  // namespace
+
+Overexposure measure_overexposure(const RectifiedPair& pair, const MatchSet& matches) {
+  if (pair.face_width_px <= 0) return {};
+  const Oval left = oval(pair.face_centre_px.x, pair.face_centre_px.y, pair.face_width_px);
+  double sum = 0;
+  long count = 0;
+  for (const Match& m : matches.matches) {
+    if (m.rejected_by != 0 || !left.holds(double(m.left_px.x), double(m.left_px.y))) continue;
+    sum += double(m.disparity_px);
+    ++count;
+  }
+  Oval right = left;
+  right.x -= count > 0 ? sum / double(count) : 0;
+  return {white_share(pair.left, pair, left), white_share(pair.right, pair, right)};
+}
+
+Overexposure guess_overexposure(const RectifiedPair& pair) {
+  const double width = pair.focal_px * kFaceWidthMm / ((pair.near_mm + pair.far_mm) / 2);
+  const Oval middle = oval(pair.width_px / 2.0, pair.height_px / 2.0, width);
+  return {white_share(pair.left, pair, middle), white_share(pair.right, pair, middle)};
+}
+
 namespace {
 
 constexpr int kEvery = 4;               // pixels looked at for light
@@ -29,51 +82,50 @@ enum class Light : std::uint8_t { Good, Dark, Overexposed, Blank };
 // Row y alone.
 void read_row(const ImageView& picture, int y, std::pmr::vector<float>& to) {
   ImageView row = picture;
-  row.bytes += static_cast<std::ptrdiff_t>(y) * picture.stride_bytes;
+  row.bytes += std::ptrdiff_t(y) * picture.stride_bytes;
   row.height_px = 1;
   grey_rows(row, to.data(), picture.width_px, 0, 1);
 }
 
 Light judge_light(const ImageView& picture, std::pmr::memory_resource* memory) {
   std::array<long, 256> histogram{};
-  std::pmr::vector<float> row(static_cast<std::size_t>(picture.width_px), memory);
+  std::pmr::vector<float> row(std::size_t(picture.width_px), memory);
   long all = 0;
   for (int y = 0; y < picture.height_px; y += kEvery) {
     read_row(picture, y, row);
     for (int x = 0; x < picture.width_px; x += kEvery, ++all)
-      ++histogram[static_cast<std::size_t>(std::clamp(row[static_cast<std::size_t>(x)], 0.0F, 255.0F))];
+      ++histogram[std::size_t(std::clamp(row[std::size_t(x)], 0.0F, 255.0F))];
   }
   const auto level = [&](double share) {
     long seen = 0;
     int grey = 0;
-    while (grey < 255 && static_cast<double>(seen + histogram[static_cast<std::size_t>(grey)]) <
-                             share * static_cast<double>(all))
-      seen += histogram[static_cast<std::size_t>(grey++)];
-    return static_cast<float>(grey);
+    while (grey < 255 && double(seen + histogram[std::size_t(grey)]) < share * double(all))
+      seen += histogram[std::size_t(grey++)];
+    return float(grey);
   };
   if (level(0.999) < kDark) return Light::Dark;
   long lit = 0, white = 0;
-  for (int grey = static_cast<int>(kDark); grey < 256; ++grey) {
-    lit += histogram[static_cast<std::size_t>(grey)];
-    white += static_cast<float>(grey) >= kWhiteGrey ? histogram[static_cast<std::size_t>(grey)] : 0;
+  for (int grey = int(kDark); grey < 256; ++grey) {
+    lit += histogram[std::size_t(grey)];
+    white += float(grey) >= kWhiteGrey ? histogram[std::size_t(grey)] : 0;
   }
-  if (static_cast<double>(white) > kTooMuchWhite * static_cast<double>(lit)) return Light::Overexposed;
+  if (double(white) > kTooMuchWhite * double(lit)) return Light::Overexposed;
   return level(0.99) - level(0.01) < kLeastContrast ? Light::Blank : Light::Good;
 }
 
 bool same_picture(const StereoFrame& frame, std::pmr::memory_resource* memory) {
   if (frame.left.width_px != frame.right.width_px || frame.left.height_px != frame.right.height_px)
     return false;
-  const auto width = static_cast<std::size_t>(frame.left.width_px);
+  const auto width = std::size_t(frame.left.width_px);
   std::pmr::vector<float> left(width, memory), right(width, memory);
   double sum = 0;
   std::size_t count = 0;
   for (int y = 0; y < frame.left.height_px; y += kEvery) {
     read_row(frame.left, y, left);
     read_row(frame.right, y, right);
-    for (std::size_t x = 0; x < width; ++x, ++count) sum += static_cast<double>(std::abs(left[x] - right[x]));
+    for (std::size_t x = 0; x < width; ++x, ++count) sum += double(std::abs(left[x] - right[x]));
   }
-  return count > 0 && sum / static_cast<double>(count) < kSame;
+  return count > 0 && sum / double(count) < kSame;
 }
 
 int reduction(const RectifiedPair& pair) { return std::max(1, pair.width_px / kReducedWidth); }
@@ -84,9 +136,7 @@ Plane<float> reduce(const std::pmr::vector<float>& grey, const RectifiedPair& pa
   Plane<float> small(memory, pair.width_px / by, pair.height_px / by);
   for (int y = 0; y < small.height * by; ++y)
     for (int x = 0; x < small.width * by; ++x)
-      small.row(y / by)[x / by] +=
-          grey[static_cast<std::size_t>(y) * static_cast<std::size_t>(pair.width_px) +
-               static_cast<std::size_t>(x)];
+      small.row(y / by)[x / by] += grey[std::size_t(y) * std::size_t(pair.width_px) + std::size_t(x)];
   return small;
 }
 
@@ -100,11 +150,11 @@ double correlation(const Plane<float>& left, const Box& box, const Plane<float>&
     const float* a = left.row(y);
     const float* b = right.row(y + dy) + dx;
     for (int x = box.x; x < box.x + box.width; ++x) {
-      const double p = static_cast<double>(a[x]), q = static_cast<double>(b[x]);
+      const double p = double(a[x]), q = double(b[x]);
       l += p, r += q, ll += p * p, rr += q * q, lr += p * q;
     }
   }
-  const double n = static_cast<double>(box.width) * box.height;
+  const double n = double(box.width) * box.height;
   const double spread = (ll - l * l / n) * (rr - r * r / n);
   return spread > 0 ? (lr - l * r / n) / std::sqrt(spread) : 0;
 }

@@ -135,8 +135,8 @@ bool FaceEllipse::holds(double x_px, double y_px) const {
 
 LocalShifts::LocalShifts(const Pyramids& pyramids, int level, const SurfaceField& field,
                          const FaceEllipse& face, StageContext& context)
-    : left_(pyramids.left[static_cast<std::size_t>(level)]),
-      right_(pyramids.right[static_cast<std::size_t>(level)]),
+    : left_(pyramids.left[std::size_t(level)]),
+      right_(pyramids.right[std::size_t(level)]),
       field_(field),
       face_(face),
       context_(context),
@@ -155,8 +155,8 @@ void LocalShifts::add_node(const RowShift& from, int x, int y, double disparity_
   const double scale = 1 << level_;
   const double xr = x - disparity_px / scale;
   const double yr = y + from.at(xr * scale, y * scale) / scale;
-  const int ix = static_cast<int>(std::floor(xr));
-  const int iy = static_cast<int>(std::floor(yr));
+  const int ix = int(std::floor(xr));
+  const int iy = int(std::floor(yr));
   constexpr int kMargin = kRadius + kColumnReach;
   const Plane<float>& l = left_detail_;
   const Plane<float>& r = right_detail_;
@@ -164,12 +164,11 @@ void LocalShifts::add_node(const RowShift& from, int x, int y, double disparity_
       y < kMargin || x + kMargin >= l.width || y + kMargin >= l.height)
     return;
   if (left_.grey.row(y)[x] > kSaturated || right_.grey.row(iy)[ix] > kSaturated) return;
-  const auto tx = static_cast<float>(xr - ix);
-  const ColumnWeights column(static_cast<float>(yr - iy));
+  const auto tx = float(xr - ix);
+  const ColumnWeights column(float(yr - iy));
   const float* at = r.row(iy) + ix;
-  const double seen =
-      static_cast<double>((1 - tx) * column.sample(at, r.width) + tx * column.sample(at + 1, r.width));
-  const auto here = static_cast<double>(l.row(y)[x]);
+  const double seen = double((1 - tx) * column.sample(at, r.width) + tx * column.sample(at + 1, r.width));
+  const auto here = double(l.row(y)[x]);
   const double values[5] = {0.5 * (l.row(y)[x + 1] - l.row(y)[x - 1]), here, 1,
                             0.5 * (l.row(y + 1)[x] - l.row(y - 1)[x]), seen / gain_ - here};
   int k = 0;
@@ -192,8 +191,7 @@ void LocalShifts::gather(const RowShift& from) {
         for (int j = q * reach; j < j_end; j += stride_)
           for (int i = p * reach; i < i_end; i += stride_)
             if (field_.domain.row(j)[i] != 0 && face_.holds(i * field_.step_px, j * field_.step_px))
-              add_node(from, i / stride_, j / stride_, static_cast<double>(field_.disparity_px.row(j)[i]),
-                       patch);
+              add_node(from, i / stride_, j / stride_, double(field_.disparity_px.row(j)[i]), patch);
       }
   });
 }
@@ -278,10 +276,10 @@ void shift_rows(const RowShift& shift, std::span<const float> from, Plane<float>
     for (int y = begin; y < end; ++y)
       for (int x = 0; x < to.width; ++x) {
         const double at = y + shift.at(x, y);
-        const int k = static_cast<int>(std::floor(at));
+        const int k = int(std::floor(at));
         const bool inside = k >= kColumnReach && k + kColumnReach < to.height;
-        const float* above = from.data() + static_cast<std::ptrdiff_t>(inside ? k : y) * to.width + x;
-        to.row(y)[x] = inside ? ColumnWeights(static_cast<float>(at - k)).sample(above, to.width) : *above;
+        const float* above = from.data() + std::ptrdiff_t(inside ? k : y) * to.width + x;
+        to.row(y)[x] = inside ? ColumnWeights(float(at - k)).sample(above, to.width) : *above;
       }
   });
 }

@@ -102,16 +102,16 @@ bool sandwich(std::span<const LocalShift> locals, bool slopes, const EpipolarShi
   std::array<bool, kShiftBlocks> spoke{};
   for (std::size_t k = 0; k < locals.size(); ++k) {
     const Eigen::Vector3d b = basis(face, locals[k], slopes);
-    const auto block = static_cast<std::size_t>(locals[k].block);
+    const auto block = std::size_t(locals[k].block);
     scores[block] += weight[k] * (locals[k].shift_px - fit.field.dot(b)) * b;
     spoke[block] = spoke[block] || weight[k] > 0;
   }
-  const auto blocks = std::count(spoke.begin(), spoke.end(), true);
+  const auto blocks = std::ranges::count(spoke, true);
   if (blocks < kLeastBlocks) return false;
   Eigen::Matrix3d scatter = Eigen::Matrix3d::Zero();
   for (const Eigen::Vector3d& score : scores) scatter += score * score.transpose();
   const Eigen::Matrix3d inverse = fit.slope.inverse();
-  covariance = static_cast<double>(blocks) / static_cast<double>(blocks - 3) * inverse * scatter * inverse;
+  covariance = double(blocks) / double(blocks - 3) * inverse * scatter * inverse;
   return covariance.allFinite() && fit.field.allFinite();
 }
 
@@ -131,8 +131,7 @@ struct Node {
 };
 
 Node node_of(const LocalShift& local) {
-  return {static_cast<int>(std::lround(local.x_px / kMotionStepPx)),
-          static_cast<int>(std::lround(local.y_px / kMotionStepPx))};
+  return {int(std::lround(local.x_px / kMotionStepPx)), int(std::lround(local.y_px / kMotionStepPx))};
 }
 
 // The locals beyond the linear shift, which of them stand at which node, and how sure they are.
@@ -154,7 +153,7 @@ struct Beyond {
       const Node node = node_of(all[k]);
       if (node.x < 1 || node.y < 1 || node.x >= at.width - 1 || node.y >= at.height - 1) continue;
       next[k] = at.row(node.y)[node.x];
-      at.row(node.y)[node.x] = static_cast<int>(k);
+      at.row(node.y)[node.x] = int(k);
     }
     around.reserve(64);
   }
@@ -163,8 +162,7 @@ struct Beyond {
   void neighbours(const Node& node, Visit&& visit) const {
     for (int y = std::max(0, node.y - kNeighbours); y <= std::min(at.height - 1, node.y + kNeighbours); ++y)
       for (int x = std::max(0, node.x - kNeighbours); x <= std::min(at.width - 1, node.x + kNeighbours); ++x)
-        for (int k = at.row(y)[x]; k >= 0; k = next[static_cast<std::size_t>(k)])
-          visit(static_cast<std::size_t>(k));
+        for (int k = at.row(y)[x]; k >= 0; k = next[std::size_t(k)]) visit(std::size_t(k));
   }
 
   Numbers shift, prior, around;
@@ -207,7 +205,7 @@ Surroundings look_around(Beyond& beyond, Arena& scratch) {
     seen += s.middle[k] * s.middle[k];
     explained += shares[k] * s.scatter * s.scatter;
   }
-  s.amplitude2 = std::max(0.0, (seen - explained) / static_cast<double>(off.size()));
+  s.amplitude2 = std::max(0.0, (seen - explained) / double(off.size()));
   return s;
 }
 
@@ -252,11 +250,11 @@ double RowMotion::at(double x_px, double y_px) const {
   if (!seen) return 0;
   const double x = std::clamp(x_px / kMotionStepPx, 0.0, shift_px.width - 1.001);
   const double y = std::clamp(y_px / kMotionStepPx, 0.0, shift_px.height - 1.001);
-  const int i = static_cast<int>(x);
-  const int j = static_cast<int>(y);
+  const int i = int(x);
+  const int j = int(y);
   const double tx = x - i;
   const double ty = y - j;
-  const auto value = [&](int dx, int dy) { return static_cast<double>(shift_px.row(j + dy)[i + dx]); };
+  const auto value = [&](int dx, int dy) { return double(shift_px.row(j + dy)[i + dx]); };
   const double top = value(0, 0) + tx * (value(1, 0) - value(0, 0));
   return top + ty * (value(0, 1) + tx * (value(1, 1) - value(0, 1)) - top);
 }
@@ -274,7 +272,7 @@ void fit_row_motion(std::span<const LocalShift> locals, const EpipolarShift& lin
   const double reach =
       kReach * (face_width_px > 0 ? face_width_px : field.width * kMotionStepPx / 2.0) / kMotionStepPx;
   const double ridge = 1 / (8 * reach * reach * around.amplitude2);
-  const auto bend = static_cast<float>(ridge * reach * reach * reach * reach);
+  const auto bend = float(ridge * reach * reach * reach * reach);
   BendingSystem system(&context.scratch, field.width, field.height);
   for (int y = 1; y < field.height - 1; ++y)
     for (int x = 1; x < field.width - 1; ++x) {
@@ -283,17 +281,17 @@ void fit_row_motion(std::span<const LocalShift> locals, const EpipolarShift& lin
       system.bend_xy.row(y)[x] = x < field.width - 2 && y < field.height - 2 ? 2 * bend : 0;
     }
   for (int round = 0; round < kMotionReweightings; ++round) {
-    for (float& a : system.data.values) a = static_cast<float>(ridge);
-    std::fill(system.rhs.values.begin(), system.rhs.values.end(), 0.0F);
+    for (float& a : system.data.values) a = float(ridge);
+    std::ranges::fill(system.rhs.values, 0.0F);
     for (std::size_t k = 0; k < locals.size(); ++k) {
       const Node node = node_of(locals[k]);
       if (node.x < 1 || node.y < 1 || node.x >= field.width - 1 || node.y >= field.height - 1) continue;
-      const double here = round == 0 ? around.middle[k] : static_cast<double>(field.row(node.y)[node.x]);
+      const double here = round == 0 ? around.middle[k] : double(field.row(node.y)[node.x]);
       const double u = (beyond.shift[k] - here) * std::sqrt(beyond.prior[k]) / (kTukey * around.scatter);
       const double inside = std::max(0.0, 1 - u * u);
       const double weight = beyond.prior[k] * inside * inside / (around.scatter * around.scatter);
-      system.data.row(node.y)[node.x] += static_cast<float>(weight);
-      system.rhs.row(node.y)[node.x] += static_cast<float>(weight * beyond.shift[k]);
+      system.data.row(node.y)[node.x] += float(weight);
+      system.rhs.row(node.y)[node.x] += float(weight * beyond.shift[k]);
     }
     solve(system, kSolverSteps, kToTheEnd, context.pool, context.scratch, field);
   }
@@ -303,7 +301,7 @@ void fit_row_motion(std::span<const LocalShift> locals, const EpipolarShift& lin
     const double v = motion.at(local.x_px, local.y_px);
     sum += v * v;
   }
-  motion.rms_px = std::sqrt(sum / static_cast<double>(locals.size()));
+  motion.rms_px = std::sqrt(sum / double(locals.size()));
 }
 
 }  // namespace relievo::pipeline

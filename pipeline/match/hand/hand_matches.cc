@@ -23,9 +23,9 @@ constexpr float kLeastFadeNodes = 4;  // nor bends over fewer nodes
 constexpr std::uint32_t kNone = 0xFFFFFFFFU;
 
 bool outside(const RectifiedPair& pair, const Match& m) {
-  const float x = m.left_px.x - m.disparity_px, right = static_cast<float>(pair.width_px - 1);
+  const float x = m.left_px.x - m.disparity_px, right = float(pair.width_px - 1);
   return !(m.left_px.x >= 0 && m.left_px.x <= right && m.left_px.y >= 0 &&
-           m.left_px.y <= static_cast<float>(pair.height_px - 1) && x >= 0 && x <= right);
+           m.left_px.y <= float(pair.height_px - 1) && x >= 0 && x <= right);
 }
 
 float apart(Vec2f a, Vec2f b) { return std::hypot(a.x - b.x, a.y - b.y); }
@@ -75,8 +75,8 @@ class Lattice {
     std::pmr::vector<float> before(&context.scratch);
     for (const Match& hand : by_hand_) before.push_back(disparity_near(hand.left_px));
     for (std::uint32_t k = 0; k < by_hand_.size(); ++k)
-      around(by_hand_[k].left_px, static_cast<float>(step_), [&](std::size_t node, float distance) {
-        if (distance >= static_cast<float>(step_)) return;
+      around(by_hand_[k].left_px, float(step_), [&](std::size_t node, float distance) {
+        if (distance >= float(step_)) return;
         fix(node, k, by_hand_[k].disparity_px, by_hand_[k].sigma_px, 0);
         offer_neighbours(node, k, by_hand_[k].disparity_px);
       });
@@ -95,28 +95,25 @@ class Lattice {
   }
 
  private:
-  int phase(float at) const { return static_cast<int>(std::lround(at)) % step_; }
+  int phase(float at) const { return int(std::lround(at)) % step_; }
   std::size_t node_at(Vec2f px) const {
-    const int c = static_cast<int>(
-                  std::lround((px.x - static_cast<float>(first_x_)) / static_cast<float>(step_))),
-              r = static_cast<int>(
-                  std::lround((px.y - static_cast<float>(first_y_)) / static_cast<float>(step_)));
-    return static_cast<std::size_t>(std::clamp(r, 0, at_.height - 1)) * static_cast<std::size_t>(at_.width) +
-           static_cast<std::size_t>(std::clamp(c, 0, at_.width - 1));
+    const int c = int(std::lround((px.x - float(first_x_)) / float(step_))),
+              r = int(std::lround((px.y - float(first_y_)) / float(step_)));
+    return std::size_t(std::clamp(r, 0, at_.height - 1)) * std::size_t(at_.width) +
+           std::size_t(std::clamp(c, 0, at_.width - 1));
   }
   Vec2f place_of(std::size_t node) const {
-    const auto wide = static_cast<std::size_t>(at_.width);
-    return {static_cast<float>(first_x_ + static_cast<int>(node % wide) * step_),
-            static_cast<float>(first_y_ + static_cast<int>(node / wide) * step_)};
+    const auto wide = std::size_t(at_.width);
+    return {float(first_x_ + int(node % wide) * step_), float(first_y_ + int(node / wide) * step_)};
   }
   float reach_px(const Match& hand) const {
     const double depth = pair_.depth_mm(hand.disparity_px);
-    return static_cast<float>(depth > 0 ? kHandReachMm * pair_.focal_px / depth : 0);
+    return float(depth > 0 ? kHandReachMm * pair_.focal_px / depth : 0);
   }
   // The nodes of the square about a place, row by row.
   template <typename See>
   void around(Vec2f place, float reach, See&& see) {
-    const std::size_t wide = static_cast<std::size_t>(at_.width);
+    const std::size_t wide = std::size_t(at_.width);
     const std::size_t low = node_at({place.x - reach, place.y - reach}),
                       high = node_at({place.x + reach, place.y + reach});
     for (std::size_t r = low / wide; r <= high / wide; ++r)
@@ -129,7 +126,7 @@ class Lattice {
   }
   // Of the nearest accepted match within a window; NaN: there is none.
   float disparity_near(Vec2f place) {
-    float best = static_cast<float>(kRadiusPx), found = std::nanf("");
+    float best = float(kRadiusPx), found = std::nanf("");
     around(place, best, [&](std::size_t node, float distance) {
       if (there(node) != nullptr && distance < best) best = distance, found = there(node)->disparity_px;
     });
@@ -142,7 +139,7 @@ class Lattice {
       set_.matches[at_.values[node]] = match;
       return;
     }
-    at_.values[node] = static_cast<std::uint32_t>(set_.matches.size());
+    at_.values[node] = std::uint32_t(set_.matches.size());
     set_.matches.push_back(match);
   }
   void fix(std::size_t node, std::uint32_t origin, float disparity, float sigma, float cost) {
@@ -152,7 +149,7 @@ class Lattice {
   }
 
   void offer_neighbours(std::size_t node, std::uint32_t origin, float disparity) {
-    const auto wide = static_cast<std::size_t>(at_.width), all = at_.values.size();
+    const auto wide = std::size_t(at_.width), all = at_.values.size();
     if (node % wide > 0) offer(node - 1, origin, disparity);
     if (node % wide + 1 < wide) offer(node + 1, origin, disparity);
     if (node >= wide) offer(node - wide, origin, disparity);
@@ -160,42 +157,38 @@ class Lattice {
   }
   void offer(std::size_t node, std::uint32_t origin, float disparity) {
     const Vec2f place = place_of(node);
-    const auto pixel = static_cast<std::size_t>(place.y) * static_cast<std::size_t>(pair_.width_px) +
-                       static_cast<std::size_t>(place.x);
+    const auto pixel = std::size_t(place.y) * std::size_t(pair_.width_px) + std::size_t(place.x);
     if (fixed_.values[node] != 0 || (!pair_.region.empty() && pair_.region[pixel] == 0) ||
         apart(place, by_hand_[origin].left_px) > reach_px(by_hand_[origin]))
       return;
     const Match* old = there(node);
     if (old != nullptr && std::abs(old->disparity_px - disparity) <= kAgreePx) return;
-    const auto nearby = static_cast<double>(disparity);
+    const auto nearby = double(disparity);
     const auto found = match_on_row(pair_, place, nearby - step_ - 1, nearby + step_ + 1, kRadiusPx);
-    if (!found || 1 - found->cost < kLeastAlike ||
-        std::abs(found->disparity_px - disparity) > static_cast<float>(step_))
+    if (!found || 1 - found->cost < kLeastAlike || std::abs(found->disparity_px - disparity) > float(step_))
       return;
     if (old != nullptr &&
         (std::abs(old->disparity_px - found->disparity_px) <= kAgreePx ||
          found->cost + kMoreAlike > window_cost(pair_, place, old->disparity_px, kRadiusPx)))
       return;
-    offers_.push(
-        {1 - found->cost, static_cast<std::uint32_t>(node), origin, found->disparity_px, found->sigma_px});
+    offers_.push({1 - found->cost, std::uint32_t(node), origin, found->disparity_px, found->sigma_px});
   }
 
   // Matches around bend to the hand's; a hole has it within a window.
   void bend(const Match& hand, float before) {
     const float off = std::isnan(before) ? 0 : hand.disparity_px - before;
-    const float fade = std::min(
-        reach_px(hand), std::max(kFadeLengths * std::abs(off), kLeastFadeNodes * static_cast<float>(step_)));
-    around(hand.left_px, std::max(fade, static_cast<float>(kRadiusPx)),
-           [&](std::size_t node, float distance) {
-             if (fixed_.values[node] != 0) return;
-             if (const Match* old = there(node); old != nullptr && distance < fade) {
-               const float t = distance / fade, share = (1 - t) * (1 - t) * (1 + 2 * t);
-               put(node, old->disparity_px + off * share,
-                   std::hypot(old->sigma_px, share * hand.sigma_px, off * share * (1 - share)), old->cost);
-             } else if (old == nullptr && distance <= kRadiusPx) {
-               put(node, hand.disparity_px, std::hypot(hand.sigma_px, distance / kRadiusPx), 0);
-             }
-           });
+    const float fade =
+        std::min(reach_px(hand), std::max(kFadeLengths * std::abs(off), kLeastFadeNodes * float(step_)));
+    around(hand.left_px, std::max(fade, float(kRadiusPx)), [&](std::size_t node, float distance) {
+      if (fixed_.values[node] != 0) return;
+      if (const Match* old = there(node); old != nullptr && distance < fade) {
+        const float t = distance / fade, share = (1 - t) * (1 - t) * (1 + 2 * t);
+        put(node, old->disparity_px + off * share,
+            std::hypot(old->sigma_px, share * hand.sigma_px, off * share * (1 - share)), old->cost);
+      } else if (old == nullptr && distance <= kRadiusPx) {
+        put(node, hand.disparity_px, std::hypot(hand.sigma_px, distance / kRadiusPx), 0);
+      }
+    });
   }
 
   const RectifiedPair& pair_;
@@ -233,7 +226,7 @@ Result<MatchSet> join_by_hand(const RectifiedPair& pair, const MatchSet& matches
 PointsByHand::PointsByHand(const PointCloud& cloud, std::span<const Match> by_hand,
                            std::pmr::memory_resource* memory)
     : points_(memory) {
-  const auto near = static_cast<float>(std::max(1, cloud.lattice_step_px));
+  const auto near = float(std::max(1, cloud.lattice_step_px));
   for (const CloudPoint& p : cloud.points)
     if (std::ranges::any_of(by_hand,
                             [&](const Match& hand) { return apart(p.left_px, hand.left_px) < near; }))

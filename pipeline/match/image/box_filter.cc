@@ -29,7 +29,7 @@ void sum_rows(const Plane<float>& from, int y, int rows, int radius, Plane<float
       for (int k = 0; k < kTogether; ++k) {
         if (enters) sum[k] += in[k][x + radius];
         if (leaves) sum[k] -= in[k][x - radius - 1];
-        out[k][x] = static_cast<float>(sum[k]);
+        out[k][x] = float(sum[k]);
       }
   };
   for (int x = 0; x < std::min(radius, w); ++x)

@@ -18,7 +18,7 @@ float scatter_about_plane(const Plane<float>& field, int x, int y, float nothing
       if (x + i < 0 || y + j < 0 || x + i >= field.width || y + j >= field.height) continue;
       const float value = field.row(y + j)[x + i];
       if (value <= nothing || std::abs(value - middle) > kSameSurface) continue;
-      const auto e = static_cast<double>(value - middle);
+      const auto e = double(value - middle);
       n += 1;
       u += i;
       v += j;
@@ -41,30 +41,30 @@ float scatter_about_plane(const Plane<float>& field, int x, int y, float nothing
   if (!(det > 1e-9)) return kSameSurface;
   const double a = (ud * vv - vd * uv) / det;
   const double b = (vd * uu - ud * uv) / det;
-  return static_cast<float>(std::sqrt(std::max(0.0, dd - a * ud - b * vd) / (n - 3)));
+  return float(std::sqrt(std::max(0.0, dd - a * ud - b * vd) / (n - 3)));
 }
 
 }  // namespace
 
 FieldReading read_disparity(const Plane<float>& field, Vec2f at, float nothing) {
   FieldReading reading;
-  const int nearest_x = static_cast<int>(std::lround(at.x));
-  const int nearest_y = static_cast<int>(std::lround(at.y));
+  const int nearest_x = int(std::lround(at.x));
+  const int nearest_y = int(std::lround(at.y));
   if (nearest_x < 0 || nearest_y < 0 || nearest_x >= field.width || nearest_y >= field.height) return reading;
   const float nearest = field.row(nearest_y)[nearest_x];
   if (nearest <= nothing) return reading;
   reading.known = true;
   reading.disparity = nearest;
   reading.scatter = scatter_about_plane(field, nearest_x, nearest_y, nothing);
-  const int x = static_cast<int>(std::floor(at.x));
-  const int y = static_cast<int>(std::floor(at.y));
+  const int x = int(std::floor(at.x));
+  const int y = int(std::floor(at.y));
   if (x < 0 || y < 0 || x + 1 >= field.width || y + 1 >= field.height) return reading;
   const float* upper = field.row(y) + x;
   const float* lower = field.row(y + 1) + x;
   const auto [least, most] = std::minmax({upper[0], upper[1], lower[0], lower[1]});
   if (least <= nothing || most - least > 1) return reading;
-  const float tx = at.x - static_cast<float>(x);
-  const float ty = at.y - static_cast<float>(y);
+  const float tx = at.x - float(x);
+  const float ty = at.y - float(y);
   const float top = upper[0] + tx * (upper[1] - upper[0]);
   const float low = lower[0] + tx * (lower[1] - lower[0]);
   reading.disparity = top + ty * (low - top);

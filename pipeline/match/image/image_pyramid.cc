@@ -20,10 +20,10 @@ Pyramids build_pyramids(const RectifiedPair& pair, int count, StageContext& cont
   for (int side = 0; side < 2; ++side) {
     auto& levels = side == 0 ? pyramids.left : pyramids.right;
     const RectifiedView& view = side == 0 ? pair.left : pair.right;
-    levels.reserve(static_cast<std::size_t>(count));
+    levels.reserve(std::size_t(count));
     levels.emplace_back(&context.scratch, pair.width_px, pair.height_px);
-    std::copy(view.grey.begin(), view.grey.end(), levels[0].grey.values.begin());
-    std::copy(view.valid.begin(), view.valid.end(), levels[0].valid.values.begin());
+    std::ranges::copy(view.grey, levels[0].grey.values.begin());
+    std::ranges::copy(view.valid, levels[0].valid.values.begin());
     for (int level = 1; level < count; ++level)
       levels.emplace_back(&context.scratch, (levels.back().grey.width + 1) / 2,
                           (levels.back().grey.height + 1) / 2);
@@ -40,7 +40,7 @@ void halve_rows(const float* grey, const std::uint8_t* valid, int width, int hei
     std::fill(to, to + half.grey.width, 0.0F);
     for (int k = -2; k <= 2; ++k) {
       const int y = std::clamp(2 * j + k, 0, height - 1);
-      const float* from = grey + static_cast<std::ptrdiff_t>(y) * width;
+      const float* from = grey + std::ptrdiff_t(y) * width;
       const float w = kWeight[k + 2] * (1.0F / 256);
       const int inner_end = std::min(half.grey.width, (width - 2) / 2);
       for (int i = 0; i < std::min(1, half.grey.width); ++i) to[i] += w * across(from, 2 * i, width);
@@ -50,7 +50,7 @@ void halve_rows(const float* grey, const std::uint8_t* valid, int width, int hei
       }
       for (int i = std::max(1, inner_end); i < half.grey.width; ++i) to[i] += w * across(from, 2 * i, width);
     }
-    const std::uint8_t* from = valid + static_cast<std::ptrdiff_t>(std::min(2 * j, height - 1)) * width;
+    const std::uint8_t* from = valid + std::ptrdiff_t(std::min(2 * j, height - 1)) * width;
     std::uint8_t* flag = half.valid.row(j);
     for (int i = 0; i < half.grey.width; ++i) flag[i] = from[std::min(2 * i, width - 1)];
   }

@@ -15,14 +15,14 @@ struct Plane {
   Plane(std::pmr::memory_resource* memory, int width_px, int height_px, T value = T{})
       : width(width_px),
         height(height_px),
-        values(static_cast<std::size_t>(width_px) * static_cast<std::size_t>(height_px), value, memory) {}
+        values(std::size_t(width_px) * std::size_t(height_px), value, memory) {}
 
   int width;
   int height;
   std::pmr::vector<T> values;
 
-  T* row(int y) { return values.data() + static_cast<std::ptrdiff_t>(y) * width; }
-  const T* row(int y) const { return values.data() + static_cast<std::ptrdiff_t>(y) * width; }
+  T* row(int y) { return values.data() + std::ptrdiff_t(y) * width; }
+  const T* row(int y) const { return values.data() + std::ptrdiff_t(y) * width; }
 };
 
 }  // namespace relievo::pipeline

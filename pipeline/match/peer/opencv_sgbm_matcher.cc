@@ -24,9 +24,9 @@ struct Crop {
 };
 
 Crop crop_for(const RectifiedPair& pair, const Keypoints& keypoints, int first, int count) {
-  float left = static_cast<float>(pair.width_px);
+  float left = float(pair.width_px);
   float right = 0;
-  float top = static_cast<float>(pair.height_px);
+  float top = float(pair.height_px);
   float bottom = 0;
   for (const Keypoint& k : keypoints.points) {
     left = std::min(left, k.at_px.x);
@@ -35,23 +35,21 @@ Crop crop_for(const RectifiedPair& pair, const Keypoints& keypoints, int first, 
     bottom = std::max(bottom, k.at_px.y);
   }
   constexpr int kMargin = 32;
-  const int x0 = std::max(0, static_cast<int>(left) - kMargin - std::max(0, first + count));
-  const int x1 = std::min(pair.width_px, static_cast<int>(right) + kMargin - std::min(0, first));
-  const int y0 = std::max(0, static_cast<int>(top) - kMargin);
-  const int y1 = std::min(pair.height_px, static_cast<int>(bottom) + kMargin);
+  const int x0 = std::max(0, int(left) - kMargin - std::max(0, first + count));
+  const int x1 = std::min(pair.width_px, int(right) + kMargin - std::min(0, first));
+  const int y0 = std::max(0, int(top) - kMargin);
+  const int y1 = std::min(pair.height_px, int(bottom) + kMargin);
   return {x0, y0, x1 - x0, y1 - y0};
 }
 
 cv::Mat grey_of(const RectifiedPair& pair, const RectifiedView& view, const Crop& crop,
                 std::pmr::vector<std::uint8_t>& bytes) {
-  bytes.resize(static_cast<std::size_t>(crop.width) * static_cast<std::size_t>(crop.height));
+  bytes.resize(std::size_t(crop.width) * std::size_t(crop.height));
   for (int y = 0; y < crop.height; ++y)
     for (int x = 0; x < crop.width; ++x) {
-      const auto from = static_cast<std::size_t>(crop.y0 + y) * static_cast<std::size_t>(pair.width_px) +
-                        static_cast<std::size_t>(crop.x0 + x);
-      bytes[static_cast<std::size_t>(y) * static_cast<std::size_t>(crop.width) +
-            static_cast<std::size_t>(x)] =
-          static_cast<std::uint8_t>(std::clamp(view.grey[from] + 0.5F, 0.0F, 255.0F));
+      const auto from = std::size_t(crop.y0 + y) * std::size_t(pair.width_px) + std::size_t(crop.x0 + x);
+      bytes[std::size_t(y) * std::size_t(crop.width) + std::size_t(x)] =
+          std::uint8_t(std::clamp(view.grey[from] + 0.5F, 0.0F, 255.0F));
     }
   return {crop.height, crop.width, CV_8UC1, bytes.data()};
 }
@@ -74,14 +72,14 @@ cv::Mat compute(const RectifiedPair& pair, const SgbmMatcher& options, const Cro
 
 Result<MatchSet> SgbmMatcher::match(const RectifiedPair& pair, const Keypoints& keypoints,
                                     StageContext& context) const {
-  const auto pixels = static_cast<std::size_t>(pair.width_px) * static_cast<std::size_t>(pair.height_px);
+  const auto pixels = std::size_t(pair.width_px) * std::size_t(pair.height_px);
   if (pixels == 0 || pair.left.grey.size() != pixels || pair.right.grey.size() != pixels)
     return Error{Errc::InvalidInput, "the rectified pair has no pixels"};
   const Error nothing{Errc::TooFewMatches,
                       "hardly anything matches between the views: is the face in both, in focus and lit?"};
   if (keypoints.points.empty()) return nothing;
-  const int first = static_cast<int>(std::floor(pair.disparity_px(pair.far_mm)));
-  const int needed = static_cast<int>(std::ceil(pair.disparity_px(pair.near_mm))) + 1 - first;
+  const int first = int(std::floor(pair.disparity_px(pair.far_mm)));
+  const int needed = int(std::ceil(pair.disparity_px(pair.near_mm))) + 1 - first;
   const int count = (needed + 15) / 16 * 16;
   const Crop crop = crop_for(pair, keypoints, first, count);
   if (crop.width <= count + window_px || crop.height <= window_px)
@@ -103,17 +101,17 @@ Result<MatchSet> SgbmMatcher::match(const RectifiedPair& pair, const Keypoints& 
   for (int y = 0; y < crop.height; ++y)
     for (int x = 0; x < crop.width; ++x)
       if (const int value = disparity.at<std::int16_t>(y, x); value >= 16 * first)
-        field.row(y)[x] = static_cast<float>(value) / 16;
+        field.row(y)[x] = float(value) / 16;
   std::pmr::vector<Match> found(keypoints.points.size(), Match{}, &context.scratch);
-  context.pool.for_each_band(static_cast<int>(found.size()), kBands, [&](int begin, int end, int) {
+  context.pool.for_each_band(int(found.size()), kBands, [&](int begin, int end, int) {
     for (int k = begin; k < end && !context.stop(); ++k) {
-      const Vec2f at = keypoints.points[static_cast<std::size_t>(k)].at_px;
-      const FieldReading reading = read_disparity(
-          field, {at.x - static_cast<float>(crop.x0), at.y - static_cast<float>(crop.y0)}, kNothing);
+      const Vec2f at = keypoints.points[std::size_t(k)].at_px;
+      const FieldReading reading =
+          read_disparity(field, {at.x - float(crop.x0), at.y - float(crop.y0)}, kNothing);
       if (!reading.known) continue;
-      found[static_cast<std::size_t>(k)] = {at, reading.disparity,
-                                            window_cost(pair, at, reading.disparity, kCorrelationRadius),
-                                            std::hypot(kFitPx, reading.scatter), 0};
+      found[std::size_t(k)] = {at, reading.disparity,
+                               window_cost(pair, at, reading.disparity, kCorrelationRadius),
+                               std::hypot(kFitPx, reading.scatter), 0};
     }
   });
   if (context.stop()) return Error{Errc::Cancelled, "stopped while matching"};

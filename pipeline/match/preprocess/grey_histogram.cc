@@ -17,12 +17,11 @@ GreyHistogram GreyHistogram::of(const std::pmr::vector<float>& grey, int width_p
                                 const Wanted& wanted, ThreadPool& pool) {
   std::array<std::array<std::uint64_t, kLevels>, kBands> counts{};
   pool.for_each_band(height_px, kBands, [&](int begin, int end, int band) {
-    auto& count = counts[static_cast<std::size_t>(band)];
+    auto& count = counts[std::size_t(band)];
     for (int y = begin; y < end; ++y) {
-      const float* row = grey.data() + static_cast<std::ptrdiff_t>(y) * width_px;
+      const float* row = grey.data() + std::ptrdiff_t(y) * width_px;
       for (int x = 0; x < width_px; ++x)
-        if (wanted(x, y))
-          ++count[static_cast<std::size_t>(std::clamp(std::lround(row[x]), 0L, kLevels - 1L))];
+        if (wanted(x, y)) ++count[std::size_t(std::clamp(std::lround(row[x]), 0L, kLevels - 1L))];
     }
   });
   GreyHistogram histogram;
@@ -34,52 +33,49 @@ GreyHistogram GreyHistogram::of(const std::pmr::vector<float>& grey, int width_p
 }
 
 double GreyHistogram::share_below(double grey) const {
-  const double at = std::clamp(grey + 0.5, 0.0, static_cast<double>(kLevels));
-  const auto k = std::min(static_cast<std::size_t>(at), static_cast<std::size_t>(kLevels - 1));
-  const double from = static_cast<double>(below_[k]);
-  const double to = static_cast<double>(below_[k + 1]);
-  return (from + (at - static_cast<double>(k)) * (to - from)) / static_cast<double>(count());
+  const double at = std::clamp(grey + 0.5, 0.0, double(kLevels));
+  const auto k = std::min(std::size_t(at), std::size_t(kLevels - 1));
+  const double from = double(below_[k]);
+  const double to = double(below_[k + 1]);
+  return (from + (at - double(k)) * (to - from)) / double(count());
 }
 
 double GreyHistogram::grey_at(double share) const {
-  const double wanted = std::clamp(share, 0.0, 1.0) * static_cast<double>(count());
+  const double wanted = std::clamp(share, 0.0, 1.0) * double(count());
   // The first and the last place where the curve has this height; they differ in a gap.
   const auto crossing = [&](std::size_t k) {
-    const double from = static_cast<double>(below_[k]);
-    const double to = static_cast<double>(below_[k + 1]);
-    return static_cast<double>(k) - 0.5 +
-           (to > from ? std::clamp((wanted - from) / (to - from), 0.0, 1.0) : 0.0);
+    const double from = double(below_[k]);
+    const double to = double(below_[k + 1]);
+    return double(k) - 0.5 + (to > from ? std::clamp((wanted - from) / (to - from), 0.0, 1.0) : 0.0);
   };
   std::size_t first = 0;
-  while (first + 1 < kLevels && static_cast<double>(below_[first + 1]) < wanted) ++first;
+  while (first + 1 < kLevels && double(below_[first + 1]) < wanted) ++first;
   std::size_t last = kLevels - 1;
-  while (last > 0 && static_cast<double>(below_[last]) > wanted) --last;
-  if (wanted <= 0) return crossing(last);                              // the darkest pixel
-  if (wanted >= static_cast<double>(count())) return crossing(first);  // the brightest
+  while (last > 0 && double(below_[last]) > wanted) --last;
+  if (wanted <= 0) return crossing(last);                 // the darkest pixel
+  if (wanted >= double(count())) return crossing(first);  // the brightest
   return 0.5 * (crossing(first) + crossing(last));
 }
 
 GreyMap::GreyMap(const std::function<double(double)>& map) {
-  for (std::size_t k = 0; k < table_.size(); ++k)
-    table_[k] = static_cast<float>(map(static_cast<double>(k) / kPerLevel));
+  for (std::size_t k = 0; k < table_.size(); ++k) table_[k] = float(map(double(k) / kPerLevel));
 }
 
 float GreyMap::operator()(float grey) const {
   const float at = std::clamp(grey, 0.0F, 255.0F) * kPerLevel;
-  const auto k = std::min(static_cast<std::size_t>(at), table_.size() - 2);
-  return table_[k] + (at - static_cast<float>(k)) * (table_[k + 1] - table_[k]);
+  const auto k = std::min(std::size_t(at), table_.size() - 2);
+  return table_[k] + (at - float(k)) * (table_[k + 1] - table_[k]);
 }
 
 void GreyMap::apply(std::pmr::vector<float>& grey, ThreadPool& pool) const {
-  pool.for_each_band(static_cast<int>(grey.size()), kBands, [&](int begin, int end, int) {
-    for (int k = begin; k < end; ++k)
-      grey[static_cast<std::size_t>(k)] = (*this)(grey[static_cast<std::size_t>(k)]);
+  pool.for_each_band(int(grey.size()), kBands, [&](int begin, int end, int) {
+    for (int k = begin; k < end; ++k) grey[std::size_t(k)] = (*this)(grey[std::size_t(k)]);
   });
 }
 
 Result<void> check_pixels(const RectifiedPair& pair) {
-  const std::size_t pixels = static_cast<std::size_t>(std::max(0, pair.width_px)) *
-                             static_cast<std::size_t>(std::max(0, pair.height_px));
+  const std::size_t pixels =
+      std::size_t(std::max(0, pair.width_px)) * std::size_t(std::max(0, pair.height_px));
   for (const RectifiedView* view : {&pair.left, &pair.right})
     if (pixels == 0 || view->grey.size() != pixels || view->valid.size() != pixels)
       return Error{Errc::InvalidInput, "the rectified pair has no pixels"};

@@ -73,11 +73,11 @@ void over_square(Plane<float>& plane, int reach, Towards towards, ThreadPool& po
 }
 
 Gaussian::Gaussian(double sigma_cells) {
-  reach_ = std::min(static_cast<int>(std::ceil(3 * sigma_cells)), static_cast<int>(weight_.size()) - 1);
+  reach_ = std::min(int(std::ceil(3 * sigma_cells)), int(weight_.size()) - 1);
   float sum = 0;
   for (int i = 0; i <= reach_; ++i) {
-    float& weight = weight_[static_cast<std::size_t>(i)];
-    weight = static_cast<float>((i == 0 ? 0.5 : 1.0) * std::exp(-0.5 * i * i / (sigma_cells * sigma_cells)));
+    float& weight = weight_[std::size_t(i)];
+    weight = float((i == 0 ? 0.5 : 1.0) * std::exp(-0.5 * i * i / (sigma_cells * sigma_cells)));
     sum += 2 * weight;
   }
   for (float& weight : weight_) weight /= sum;
@@ -92,7 +92,7 @@ void Gaussian::smooth(Plane<float>& plane, ThreadPool& pool, Plane<float>& room)
       std::fill_n(to, plane.width, 0.0F);
       for (int i = 0; i <= reach; ++i)
         add_weighted(plane.row(std::max(y - i, 0)), plane.row(std::min(y + i, plane.height - 1)),
-                     weight_[static_cast<std::size_t>(i)], plane.width, to);
+                     weight_[std::size_t(i)], plane.width, to);
       std::fill_n(wide, reach, to[0]);
       std::fill_n(to + plane.width, reach, to[plane.width - 1]);
     }
@@ -103,7 +103,7 @@ void Gaussian::smooth(Plane<float>& plane, ThreadPool& pool, Plane<float>& room)
       float* to = plane.row(y);
       std::fill_n(to, plane.width, 0.0F);
       for (int i = 0; i <= reach; ++i)
-        add_weighted(from - i, from + i, weight_[static_cast<std::size_t>(i)], plane.width, to);
+        add_weighted(from - i, from + i, weight_[std::size_t(i)], plane.width, to);
     }
   });
 }
@@ -150,15 +150,12 @@ struct Curves {
   std::array<float, 256> linear{};
   std::array<float, kSteps + 1> grey{};
   Curves() {
-    for (std::size_t i = 0; i < linear.size(); ++i)
-      linear[i] = static_cast<float>(linear_of(static_cast<double>(i)));
+    for (std::size_t i = 0; i < linear.size(); ++i) linear[i] = float(linear_of(double(i)));
     // By the root of the light, which spreads the dark end.
-    for (std::size_t i = 0; i < grey.size(); ++i)
-      grey[i] = static_cast<float>(grey_of(std::pow(static_cast<double>(i) / kSteps, 2)));
+    for (std::size_t i = 0; i < grey.size(); ++i) grey[i] = float(grey_of(std::pow(double(i) / kSteps, 2)));
   }
   float to_grey(float light) const {
-    return grey[static_cast<std::size_t>(
-        std::lround(std::sqrt(std::clamp(light, 0.0F, 1.0F)) * static_cast<float>(kSteps)))];
+    return grey[std::size_t(std::lround(std::sqrt(std::clamp(light, 0.0F, 1.0F)) * float(kSteps)))];
   }
 };
 
@@ -176,17 +173,17 @@ struct Part {
 Part part_of(const RectifiedPair& pair, bool right, int reach_px) {
   int x0 = pair.width_px, y0 = pair.height_px, x1 = 0, y1 = 0;
   for (int y = 0; y < pair.height_px; ++y) {
-    const auto row = pair.region.begin() + static_cast<std::ptrdiff_t>(y) * pair.width_px;
+    const auto row = pair.region.begin() + std::ptrdiff_t(y) * pair.width_px;
     const auto first = std::find_if(row, row + pair.width_px, [](std::uint8_t r) { return r != 0; });
     if (first == row + pair.width_px) continue;
     int last = pair.width_px - 1;
     while (row[last] == 0) --last;
-    x0 = std::min(x0, static_cast<int>(first - row)), x1 = std::max(x1, last + 1);
+    x0 = std::min(x0, int(first - row)), x1 = std::max(x1, last + 1);
     y0 = std::min(y0, y), y1 = y + 1;
   }
   if (right && pair.near_mm > 0 && pair.far_mm > 0) {
-    x0 -= static_cast<int>(std::ceil(pair.disparity_px(pair.near_mm)));
-    x1 -= static_cast<int>(std::floor(pair.disparity_px(pair.far_mm)));
+    x0 -= int(std::ceil(pair.disparity_px(pair.near_mm)));
+    x1 -= int(std::floor(pair.disparity_px(pair.far_mm)));
   }
   x0 -= reach_px, y0 -= reach_px, x1 += reach_px, y1 += reach_px;
   Part part;
@@ -212,9 +209,8 @@ void gather(const RectifiedView& view, int width_px, const Part& part, Light& li
       float red = 0, rest = 0;
       bool valid = true;
       for (int i = 0; i < kCell * kCell; ++i) {
-        const std::size_t k = static_cast<std::size_t>((part.top + cy) * kCell + i / kCell) *
-                                  static_cast<std::size_t>(width_px) +
-                              static_cast<std::size_t>((part.left + cx) * kCell + i % kCell);
+        const std::size_t k = std::size_t((part.top + cy) * kCell + i / kCell) * std::size_t(width_px) +
+                              std::size_t((part.left + cx) * kCell + i % kCell);
         const std::uint8_t* rgb = &view.rgb[3 * k];
         red += linear[rgb[0]];
         rest += linear[rgb[1]] + linear[rgb[2]];
@@ -235,7 +231,7 @@ Part skin_of(const RectifiedPair& pair, bool right, const Part& part) {
                            : 0;
   const double half = kSkinShare * pair.face_width_px;
   const auto cell = [](double at, int first, int most) {
-    return std::clamp(static_cast<int>(at / kCell) - first, 0, most);
+    return std::clamp(int(at / kCell) - first, 0, most);
   };
   Part skin;
   skin.left = cell(pair.face_centre_px.x - shift - half, part.left, part.width);
@@ -248,14 +244,14 @@ Part skin_of(const RectifiedPair& pair, bool right, const Part& part) {
 // Brightness over colour where the skin is dull, of the whole face; 0 where there is no colour to go by.
 float dull_ratio(const Part& skin, const Light& light, double dull, std::pmr::memory_resource* memory) {
   std::pmr::vector<float> ratios(memory);
-  ratios.reserve(static_cast<std::size_t>(skin.width) * static_cast<std::size_t>(skin.height));
+  ratios.reserve(std::size_t(skin.width) * std::size_t(skin.height));
   for (int y = skin.top; y < skin.top + skin.height; ++y)
     for (int x = skin.left; x < skin.left + skin.width; ++x) {
       const float all = light.all.row(y)[x], colour = light.colour.row(y)[x];
       if (all >= kLit && colour >= kColoured) ratios.push_back(all / colour);
     }
   if (ratios.empty()) return 0;
-  const auto ratio = static_cast<float>(percentile(ratios, dull));
+  const auto ratio = float(percentile(ratios, dull));
   return ratio * kLeastColour < 1 ? ratio : 0;
 }
 
@@ -307,19 +303,17 @@ void subtract(const Plane<float>& excess, const Part& part, int width_px, std::p
               int begin, int end) {
   for (int y = begin; y < end; ++y) {
     // A cell's value stands in its middle.
-    const float cy =
-        std::clamp((static_cast<float>(y) + 0.5F) / kCell - 0.5F, 0.0F, static_cast<float>(part.height - 1));
-    const int y0 = static_cast<int>(cy);
-    const float ty = cy - static_cast<float>(y0);
+    const float cy = std::clamp((float(y) + 0.5F) / kCell - 0.5F, 0.0F, float(part.height - 1));
+    const int y0 = int(cy);
+    const float ty = cy - float(y0);
     const float* upper = excess.row(y0);
     const float* lower = excess.row(std::min(y0 + 1, part.height - 1));
-    float* to = grey.data() + static_cast<std::ptrdiff_t>(part.top * kCell + y) * width_px +
-                static_cast<std::ptrdiff_t>(part.left) * kCell;
+    float* to =
+        grey.data() + std::ptrdiff_t(part.top * kCell + y) * width_px + std::ptrdiff_t(part.left) * kCell;
     for (int x = 0; x < part.width * kCell; ++x) {
-      const float cx =
-          std::clamp((static_cast<float>(x) + 0.5F) / kCell - 0.5F, 0.0F, static_cast<float>(part.width - 1));
-      const int x0 = static_cast<int>(cx), x1 = std::min(x0 + 1, part.width - 1);
-      const float tx = cx - static_cast<float>(x0);
+      const float cx = std::clamp((float(x) + 0.5F) / kCell - 0.5F, 0.0F, float(part.width - 1));
+      const int x0 = int(cx), x1 = std::min(x0 + 1, part.width - 1);
+      const float tx = cx - float(x0);
       const float a = upper[x0] + tx * (upper[x1] - upper[x0]), b = lower[x0] + tx * (lower[x1] - lower[x0]);
       to[x] = std::max(0.0F, to[x] - (a + ty * (b - a)));
     }
@@ -342,10 +336,10 @@ void clean(RectifiedPair& pair, bool right, const HighlightRemover& options, con
   if (!(ratio > 0)) return;
   Plane<float> local(&context.scratch, part.width, part.height);
   const double face = pair.face_width_px > 0 ? pair.face_width_px : kFaceOfPicture * pair.width_px;
-  find_local_ratio(light, ratio, std::max(1, static_cast<int>(std::lround(kLampReach * face / kCell))),
-                   gaussian, context.pool, local, room);
+  find_local_ratio(light, ratio, std::max(1, int(std::lround(kLampReach * face / kCell))), gaussian,
+                   context.pool, local, room);
   context.pool.for_each_band(part.height, kRowsOfABand, [&](int begin, int end, int) {
-    find_excess(local, static_cast<float>(options.least), light, begin, end);
+    find_excess(local, float(options.least), light, begin, end);
   });
   weigh(light, 2 * gaussian.reach() / 3, context.pool, room);
   context.pool.for_each_band(part.height * kCell, kRowsOfABand, [&](int begin, int end, int) {

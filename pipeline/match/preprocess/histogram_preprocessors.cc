@@ -19,14 +19,14 @@ struct Overlap {
     // Harmonic middle of the volume: half of its disparities on either side.
     const double middle = 0.5 * (of.disparity_px(of.near_mm) + of.disparity_px(of.far_mm));
     if (of.near_mm > 0 && of.far_mm > 0 && std::abs(middle) < of.width_px)
-      shift_px = static_cast<int>(std::lround(middle));
+      shift_px = int(std::lround(middle));
   }
   bool holds(int left_x, int y) const {
     const int right_x = left_x - shift_px;
     if (left_x < 0 || right_x < 0 || left_x >= pair.width_px || right_x >= pair.width_px) return false;
-    const std::size_t row = static_cast<std::size_t>(y) * static_cast<std::size_t>(pair.width_px);
-    const std::size_t left = row + static_cast<std::size_t>(left_x);
-    return pair.left.valid[left] != 0 && pair.right.valid[row + static_cast<std::size_t>(right_x)] != 0 &&
+    const std::size_t row = std::size_t(y) * std::size_t(pair.width_px);
+    const std::size_t left = row + std::size_t(left_x);
+    return pair.left.valid[left] != 0 && pair.right.valid[row + std::size_t(right_x)] != 0 &&
            (pair.region.empty() || pair.region[left] != 0);
   }
 };
@@ -38,8 +38,7 @@ Result<void> HistogramNormaliser::process(RectifiedPair& pair, StageContext& con
   for (RectifiedView* view : {&pair.left, &pair.right}) {
     if (context.stop()) return Error{Errc::Cancelled, "the preprocessing was stopped"};
     const auto valid = [&](int x, int y) {
-      return view->valid[static_cast<std::size_t>(y) * static_cast<std::size_t>(pair.width_px) +
-                         static_cast<std::size_t>(x)] != 0;
+      return view->valid[std::size_t(y) * std::size_t(pair.width_px) + std::size_t(x)] != 0;
     };
     const GreyHistogram histogram =
         GreyHistogram::of(view->grey, pair.width_px, pair.height_px, valid, context.pool);

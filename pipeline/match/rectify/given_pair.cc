@@ -4,7 +4,7 @@
 
 #include <algorithm>
 
-#include "pipeline/match/rectify/grey_rows.h"
+#include "pipeline/match/rectify/rectifier.h"
 
 namespace relievo::pipeline {
 namespace {
@@ -12,20 +12,18 @@ namespace {
 constexpr double kBaselineMm = 110;  // of the recommended rig; the focal length is the picture's width
 
 void take_view(const ImageView& image, RectifiedView& view, StageContext& context) {
-  const std::size_t pixels =
-      static_cast<std::size_t>(image.width_px) * static_cast<std::size_t>(image.height_px);
+  const std::size_t pixels = std::size_t(image.width_px) * std::size_t(image.height_px);
   view.grey.resize(pixels);
   view.rgb.resize(3 * pixels);
   view.valid.assign(pixels, 1);
   context.pool.for_each_band(image.height_px, 16, [&](int begin, int end, int) {
     grey_rows(image, view.grey.data(), image.width_px, begin, end);
     for (int y = begin; y < end; ++y) {
-      std::uint8_t* to = view.rgb.data() + 3 * static_cast<std::ptrdiff_t>(y) * image.width_px;
-      const float* grey = view.grey.data() + static_cast<std::ptrdiff_t>(y) * image.width_px;
+      std::uint8_t* to = view.rgb.data() + 3 * std::ptrdiff_t(y) * image.width_px;
+      const float* grey = view.grey.data() + std::ptrdiff_t(y) * image.width_px;
       if (image.format == PixelFormat::Rgb8) std::copy_n(image.row(y), 3 * image.width_px, to);
       else
-        for (int x = 0; x < image.width_px; ++x)
-          std::fill_n(to + 3 * x, 3, static_cast<std::uint8_t>(grey[x]));
+        for (int x = 0; x < image.width_px; ++x) std::fill_n(to + 3 * x, 3, std::uint8_t(grey[x]));
     }
   });
 }

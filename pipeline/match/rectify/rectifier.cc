@@ -8,10 +8,26 @@
 
 #include "hal/base/simd.h"
 #include "pipeline/match/image/plane.h"
-#include "pipeline/match/rectify/grey_rows.h"
 #include "pipeline/model/vector3.h"
 
 namespace relievo::pipeline {
+
+void grey_rows(const ImageView& image, float* to, int stride, int begin, int end) {
+  to += std::ptrdiff_t(begin) * stride;
+  for (int y = begin; y < end; ++y, to += stride) {
+    const std::uint8_t* from = image.row(y);
+    if (image.format == PixelFormat::Rgb8) {
+      for (int x = 0; x < image.width_px; ++x)
+        to[x] = float(from[3 * x] + from[3 * x + 1] + from[3 * x + 2]) * (1.0F / 3);
+    } else if (image.format == PixelFormat::Grey16) {
+      const auto* wide = reinterpret_cast<const std::uint16_t*>(from);
+      for (int x = 0; x < image.width_px; ++x) to[x] = float(wide[x]) * (1.0F / 257);
+    } else {
+      for (int x = 0; x < image.width_px; ++x) to[x] = float(from[x]);
+    }
+  }
+}
+
 namespace {
 
 Vec2d undistorted(const CameraIntrinsics& camera, Vec2d pixel) {
@@ -45,7 +61,7 @@ Box border_box(const CameraIntrinsics& camera, const Rotation& rectified_from_ca
   constexpr int kSteps = 32;
   for (int i = 0; i <= kSteps; ++i)
     for (int side = 0; side < 4; ++side) {
-      const double t = static_cast<double>(i) / kSteps;
+      const double t = double(i) / kSteps;
       const double w = camera.width_px - 1.0;
       const double h = camera.height_px - 1.0;
       const Vec2d pixel = side == 0   ? Vec2d{t * w, 0}
@@ -86,12 +102,12 @@ inline void cubic_weights(float t, float* w) {
 
 RELIEVO_SIMD void sample_grey(const float* grey, int stride, int count, Span& span) {
   for (int i = 0; i < count; ++i) {
-    const auto at = static_cast<std::size_t>(i);
+    const auto at = std::size_t(i);
     float wx[4];
     float wy[4];
     cubic_weights(span.tx[at], wx);
     cubic_weights(span.ty[at], wy);
-    const float* p = grey + static_cast<std::ptrdiff_t>(span.y[at] - 1) * stride + span.x[at] - 1;
+    const float* p = grey + std::ptrdiff_t(span.y[at] - 1) * stride + span.x[at] - 1;
     span.grey[at] = wy[0] * cubic(p, wx) + wy[1] * cubic(p + stride, wx) + wy[2] * cubic(p + 2 * stride, wx) +
                     wy[3] * cubic(p + 3 * stride, wx);
   }
@@ -107,13 +123,13 @@ void sample_rgb(const ImageView& image, int ix, int iy, float tx, float ty, std:
     return;
   }
   for (int c = 0; c < 3; ++c) {
-    const auto a = static_cast<float>(upper[3 * ix + c]);
-    const auto b = static_cast<float>(upper[3 * ix + 3 + c]);
-    const auto d = static_cast<float>(lower[3 * ix + c]);
-    const auto e = static_cast<float>(lower[3 * ix + 3 + c]);
+    const auto a = float(upper[3 * ix + c]);
+    const auto b = float(upper[3 * ix + 3 + c]);
+    const auto d = float(lower[3 * ix + c]);
+    const auto e = float(lower[3 * ix + 3 + c]);
     const float top = a + tx * (b - a);
-    to[c] = static_cast<std::uint8_t>(top + ty * (d + tx * (e - d) - top) +
-                                      0.5F);  // NOLINT(bugprone-incorrect-roundings): never negative
+    to[c] = std::uint8_t(top + ty * (d + tx * (e - d) - top) +
+                         0.5F);  // NOLINT(bugprone-incorrect-roundings): never negative
   }
 }
 
@@ -129,19 +145,19 @@ void resample(const RectifiedPair& pair, const ViewGeometry& geometry, const Ima
   const int width = pair.width_px;
   const auto knot = [&](int x, int y) {
     return source_pixel(geometry.camera, geometry.rectified_from_camera, pair.focal_px, geometry.centre_px,
-                        {static_cast<double>(x), static_cast<double>(y)});
+                        {double(x), double(y)});
   };
   Span span{};
   for (int y = begin; y < end; ++y) {
     const int y0 = y / kKnotPx * kKnotPx;
-    const double ty = static_cast<double>(y - y0) / kKnotPx;
+    const double ty = double(y - y0) / kKnotPx;
     const auto edge = [&](int x) {
       const Vec2d a = knot(x, y0);
       const Vec2d b = knot(x, y0 + kKnotPx);
       return Vec2d{a.x + ty * (b.x - a.x), a.y + ty * (b.y - a.y)};
     };
     Vec2d from = edge(0);
-    const std::size_t row = static_cast<std::size_t>(y) * static_cast<std::size_t>(width);
+    const std::size_t row = std::size_t(y) * std::size_t(width);
     for (int x0 = 0; x0 < width; x0 += kKnotPx) {
       const Vec2d to = edge(x0 + kKnotPx);
       const double dx = (to.x - from.x) / kKnotPx;
@@ -154,15 +170,15 @@ void resample(const RectifiedPair& pair, const ViewGeometry& geometry, const Ima
         const double sy = from.y + dy * i;
         if (!(sx >= 1 && sy >= 1 && sx < image.width_px - 2 && sy < image.height_px - 2)) continue;
         if (count == 0) first = i;
-        const auto at = static_cast<std::size_t>(count++);
-        span.x[at] = static_cast<int>(sx);
-        span.y[at] = static_cast<int>(sy);
-        span.tx[at] = static_cast<float>(sx - span.x[at]);
-        span.ty[at] = static_cast<float>(sy - span.y[at]);
+        const auto at = std::size_t(count++);
+        span.x[at] = int(sx);
+        span.y[at] = int(sy);
+        span.tx[at] = float(sx - span.x[at]);
+        span.ty[at] = float(sy - span.y[at]);
       }
       sample_grey(grey.row(0), grey.width, count, span);
-      const std::size_t k = row + static_cast<std::size_t>(x0 + first);
-      for (std::size_t i = 0; i < static_cast<std::size_t>(count); ++i) {
+      const std::size_t k = row + std::size_t(x0 + first);
+      for (std::size_t i = 0; i < std::size_t(count); ++i) {
         view.grey[k + i] = span.grey[i];
         sample_rgb(image, span.x[i], span.y[i], span.tx[i], span.ty[i], &view.rgb[3 * (k + i)]);
         view.valid[k + i] = 1;
@@ -240,8 +256,8 @@ Result<void> lay_windows(const StereoCalibration& calibration, const RectifierOp
   const double top = std::max(left.top, right.top);
   const double bottom = std::min(left.bottom, right.bottom);
   const double width = std::max(left.right - left.left, right.right - right.left);
-  pair.width_px = static_cast<int>(std::ceil(width)) + 1;
-  pair.height_px = static_cast<int>(std::floor(bottom - top)) + 1;
+  pair.width_px = int(std::ceil(width)) + 1;
+  pair.height_px = int(std::floor(bottom - top)) + 1;
   if (pair.width_px > options.longest_side_px || pair.height_px < 64)
     return Error{Errc::InvalidInput, "the two cameras do not look at a common volume: calibrate again"};
   const auto centred = [width](const Box& box) { return width / 2 - (box.left + box.right) / 2; };
@@ -262,8 +278,7 @@ Result<RectifiedPair> Rectifier::rectify(const StereoFrame& frame, const StereoC
   RELIEVO_TRY(check_picture(frame.right, calibration.right, "right picture"));
   RectifiedPair pair(&context.output);
   RELIEVO_TRY(lay_windows(calibration, options_, pair));
-  const std::size_t pixels =
-      static_cast<std::size_t>(pair.width_px) * static_cast<std::size_t>(pair.height_px);
+  const std::size_t pixels = std::size_t(pair.width_px) * std::size_t(pair.height_px);
   Plane<float> grey(&context.scratch, std::max(frame.left.width_px, frame.right.width_px),
                     std::max(frame.left.height_px, frame.right.height_px));
   const std::array views{&pair.left, &pair.right};

@@ -58,7 +58,7 @@ struct Views {
 
 // Adds row y to its tiles, the right view `shift` pixels beyond where the field says.
 void add_row(const Views& v, int y, float shift, Tiles& tiles) {
-  const float to_level = 1.0F / static_cast<float>(1 << v.scene.level);
+  const float to_level = 1.0F / float(1 << v.scene.level);
   const float* l = v.left.row(y);
   const float* r = v.right.row(y);
   const float* d = v.field.disparity_px.row(y);
@@ -66,11 +66,11 @@ void add_row(const Views& v, int y, float shift, Tiles& tiles) {
   const std::uint8_t* valid = v.scene.right_valid.row(y);
   for (int x = 0; x < v.left.width; ++x) {
     if (in[x] == 0) continue;
-    const float at = static_cast<float>(x) - d[x] * to_level - shift;
-    if (!(at >= 0 && at < static_cast<float>(v.right.width - 1))) continue;
-    const int k = static_cast<int>(at);
+    const float at = float(x) - d[x] * to_level - shift;
+    if (!(at >= 0 && at < float(v.right.width - 1))) continue;
+    const int k = int(at);
     if ((valid[k] & valid[k + 1]) == 0) continue;
-    const float seen = r[k] + (at - static_cast<float>(k)) * (r[k + 1] - r[k]);
+    const float seen = r[k] + (at - float(k)) * (r[k + 1] - r[k]);
     tiles.pixels.row(y / kTile)[x / kTile] += 1;
     tiles.left.row(y / kTile)[x / kTile] += l[x] * l[x];
     tiles.right.row(y / kTile)[x / kTile] += seen * seen;
@@ -84,7 +84,7 @@ void try_shift(const Views& views, int shift, ThreadPool& pool, Tiles& tiles) {
       for (Plane<float>* plane : {&tiles.pixels, &tiles.left, &tiles.right, &tiles.both})
         std::fill_n(plane->row(t), plane->width, 0.0F);
       for (int y = t * kTile; y < std::min((t + 1) * kTile, views.left.height); ++y)
-        add_row(views, y, static_cast<float>(shift), tiles);
+        add_row(views, y, float(shift), tiles);
     }
   });
   for (Plane<float>* plane : {&tiles.pixels, &tiles.left, &tiles.right, &tiles.both})
@@ -97,20 +97,18 @@ void try_shift(const Views& views, int shift, ThreadPool& pool, Tiles& tiles) {
     if (shift == 0) tiles.here.values[k] = score;
     if (score <= tiles.score.values[k] || tiles.pixels.values[k] < kFilled * kWindowPixels) continue;
     tiles.score.values[k] = score;
-    tiles.shift.values[k] = static_cast<float>(shift);
+    tiles.shift.values[k] = float(shift);
   }
 }
 
 // Bilinear between the tiles' middles: no steps, which refinement would take for creases.
 float between_tiles(const Plane<float>& tiles, int x, int y) {
-  const float fx =
-      std::clamp((static_cast<float>(x) + 0.5F) / kTile - 0.5F, 0.0F, static_cast<float>(tiles.width - 1));
-  const float fy =
-      std::clamp((static_cast<float>(y) + 0.5F) / kTile - 0.5F, 0.0F, static_cast<float>(tiles.height - 1));
-  const int i = std::min(static_cast<int>(fx), tiles.width - 2);
-  const int j = std::min(static_cast<int>(fy), tiles.height - 2);
-  const float tx = fx - static_cast<float>(i);
-  const float ty = fy - static_cast<float>(j);
+  const float fx = std::clamp((float(x) + 0.5F) / kTile - 0.5F, 0.0F, float(tiles.width - 1));
+  const float fy = std::clamp((float(y) + 0.5F) / kTile - 0.5F, 0.0F, float(tiles.height - 1));
+  const int i = std::min(int(fx), tiles.width - 2);
+  const int j = std::min(int(fy), tiles.height - 2);
+  const float tx = fx - float(i);
+  const float ty = fy - float(j);
   const float* upper = tiles.row(j) + i;
   const float* lower = tiles.row(j + 1) + i;
   return (1 - ty) * (upper[0] + tx * (upper[1] - upper[0])) + ty * (lower[0] + tx * (lower[1] - lower[0]));
@@ -151,8 +149,7 @@ bool search_by_detail(const RefinerScene& scene, StageContext& context, SurfaceF
   for (int y = 0; y < h; ++y)
     for (int x = 0; x < w; ++x)
       if (field.domain.row(y)[x] != 0)
-        field.disparity_px.row(y)[x] +=
-            between_tiles(tiles.shift, x, y) * static_cast<float>(1 << scene.level);
+        field.disparity_px.row(y)[x] += between_tiles(tiles.shift, x, y) * float(1 << scene.level);
   return true;
 }
 

@@ -27,7 +27,7 @@ constexpr float kLoudContour = 20;  // grey levels: what disagrees by more is as
 // A row or a column of nodes: node i of it is values[first + i * stride].
 struct Line {
   int first = 0, stride = 1, count = 0;
-  std::size_t at(int i) const { return static_cast<std::size_t>(first + i * stride); }
+  std::size_t at(int i) const { return std::size_t(first + i * stride); }
 };
 
 // Nodes [from, to] of a line for which both surfaces were continued.
@@ -55,11 +55,11 @@ struct Disagreement {
 
 // How steep the field is along the row, a pixel.
 float steepness_across(const SurfaceField& field, std::size_t k) {
-  const auto x = static_cast<int>(k) % field.domain.width;
+  const auto x = int(k) % field.domain.width;
   float most = 0;
   for (const int side : {-1, 1}) {
     if (x + side < 0 || x + side >= field.domain.width) continue;
-    const auto beside = static_cast<std::size_t>(static_cast<std::ptrdiff_t>(k) + side);
+    const auto beside = std::size_t(std::ptrdiff_t(k) + side);
     if (field.domain.values[beside] != 0)
       most = std::max(most, std::abs(field.disparity_px.values[beside] - field.disparity_px.values[k]));
   }
@@ -73,7 +73,7 @@ struct Steep {
 };
 
 Steep next_steep(const SurfaceField& field, const Line& line, int i) {
-  const float limit = kSteep * static_cast<float>(field.step_px);
+  const float limit = kSteep * float(field.step_px);
   const auto is_steep = [&](int k) {
     const std::size_t here = line.at(k), before = line.at(k - 1);
     if ((field.domain.values[here] & field.domain.values[before]) == 0) return false;
@@ -97,13 +97,13 @@ std::optional<Curtain> hang(const SurfaceField& field, const Line& line, const S
   if (before - kSlope < 0 || behind + kSlope >= line.count) return std::nullopt;
   for (int i = before - kSlope; i <= behind + kSlope; ++i)
     if (field.domain.values[line.at(i)] == 0) return std::nullopt;
-  const float limit = kSteep * static_cast<float>(field.step_px);
+  const float limit = kSteep * float(field.step_px);
   const float slope_before = std::clamp((d(before) - d(before - kSlope)) / kSlope, -limit, limit);
   const float slope_behind = std::clamp((d(behind + kSlope) - d(behind)) / kSlope, -limit, limit);
   const Curtain curtain{line, before - kCutMargin, behind + kCutMargin};
   for (int i = curtain.from; i <= curtain.to; ++i) {
-    surfaces.before.values[line.at(i)] = d(before) + slope_before * static_cast<float>(i - before);
-    surfaces.behind.values[line.at(i)] = d(behind) + slope_behind * static_cast<float>(i - behind);
+    surfaces.before.values[line.at(i)] = d(before) + slope_before * float(i - before);
+    surfaces.behind.values[line.at(i)] = d(behind) + slope_behind * float(i - behind);
     surfaces.asked.values[line.at(i)] = 1;
   }
   return curtain;
@@ -127,13 +127,13 @@ std::pmr::vector<Curtain> find_curtains(const SurfaceField& field, bool rows, Su
 
 // The right view where it shows node x at disparity d, between two pixels; none beyond its edge.
 std::optional<float> seen_at(const RefinerScene& scene, int x, int y, float d) {
-  const float at = static_cast<float>(x) - d / static_cast<float>(1 << scene.level);
-  if (!(at >= 0 && at < static_cast<float>(scene.right.width - 1))) return std::nullopt;
-  const int k = static_cast<int>(at);
+  const float at = float(x) - d / float(1 << scene.level);
+  if (!(at >= 0 && at < float(scene.right.width - 1))) return std::nullopt;
+  const int k = int(at);
   const std::uint8_t* valid = scene.right_valid.row(y);
   if ((valid[k] & valid[k + 1]) == 0) return std::nullopt;
   const float* right = scene.right.row(y);
-  return right[k] + (at - static_cast<float>(k)) * (right[k + 1] - right[k]);
+  return right[k] + (at - float(k)) * (right[k + 1] - right[k]);
 }
 
 // By how much the left view is brighter around each node, off the curtains.
@@ -164,11 +164,11 @@ struct ContourViews {
 // The mean disagreement over a window of the curtain, the surface being d + shift.
 void disagree(const ContourViews& views, const Plane<float>& d, float shift, ThreadPool& pool,
               Plane<float>& across, Plane<float>& mean) {
-  std::fill(mean.values.begin(), mean.values.end(), 0.0F);
+  std::ranges::fill(mean.values, 0.0F);
   for (const auto& [line, from, to] : views.curtains)
     for (int i = from; i <= to; ++i) {
       const std::size_t k = line.at(i);
-      const int x = static_cast<int>(k) % d.width, y = static_cast<int>(k) / d.width;
+      const int x = int(k) % d.width, y = int(k) / d.width;
       const auto seen = seen_at(views.scene, x, y, d.values[k] + shift);
       mean.values[k] =
           seen ? std::min(kLoudContour, std::abs(views.scene.left.row(y)[x] - *seen - views.offset.values[k]))
@@ -184,7 +184,7 @@ void disagree_least(const ContourViews& views, const Plane<float>& d, StageConte
                     Plane<float>& least) {
   Plane<float> across(&context.scratch, d.width, d.height), mean(&context.scratch, d.width, d.height);
   for (int shift = -kContinuedReach; shift <= kContinuedReach; shift += kStride) {
-    disagree(views, d, static_cast<float>(shift), context.pool, across, mean);
+    disagree(views, d, float(shift), context.pool, across, mean);
     for (std::size_t k = 0; k < mean.values.size(); ++k)
       least.values[k] = std::min(least.values[k], mean.values[k]);
   }

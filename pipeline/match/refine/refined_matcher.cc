@@ -34,24 +34,24 @@ int tap(int at, int step, int size) {
 }
 
 void enlarge_view(const RectifiedView& from, int width, int height, RectifiedView& to) {
-  const auto w = static_cast<std::size_t>(width);
-  const auto h = static_cast<std::size_t>(height);
+  const auto w = std::size_t(width);
+  const auto h = std::size_t(height);
   to.grey.assign(4 * w * h, 0.0F);
   to.valid.assign(4 * w * h, 0);
   std::pmr::vector<float> row(w, to.grey.get_allocator());
   for (int y = 0; y < 2 * height; ++y) {
-    std::fill(row.begin(), row.end(), 0.0F);
+    std::ranges::fill(row, 0.0F);
     for (std::size_t k = 0; k < kCubic.size(); ++k) {
-      const float* old = &from.grey[static_cast<std::size_t>(tap(y, static_cast<int>(k) - 1, height)) * w];
+      const float* old = &from.grey[std::size_t(tap(y, int(k) - 1, height)) * w];
       for (std::size_t x = 0; x < w; ++x) row[x] += kCubic[k] * old[x];
     }
-    float* grey = &to.grey[static_cast<std::size_t>(y) * 2 * w];
-    std::uint8_t* valid = &to.valid[static_cast<std::size_t>(y) * 2 * w];
-    const std::uint8_t* was_valid = &from.valid[static_cast<std::size_t>(y / 2) * w];
+    float* grey = &to.grey[std::size_t(y) * 2 * w];
+    std::uint8_t* valid = &to.valid[std::size_t(y) * 2 * w];
+    const std::uint8_t* was_valid = &from.valid[std::size_t(y / 2) * w];
     for (int x = 0; x < 2 * width; ++x) {
       float sum = 0;
       for (std::size_t k = 0; k < kCubic.size(); ++k)
-        sum += kCubic[k] * row[static_cast<std::size_t>(tap(x, static_cast<int>(k) - 1, width))];
+        sum += kCubic[k] * row[std::size_t(tap(x, int(k) - 1, width))];
       grey[x] = std::clamp(sum, 0.0F, 255.0F);
       valid[x] = was_valid[x / 2];
     }
@@ -151,19 +151,19 @@ double bending_weight(const RectifiedPair& pair, float bending) {
 
 // Bilinear between four nodes of the domain, or at its rim the nearest.
 bool read_field(const SurfaceField& field, Vec2f at, Match& match) {
-  const float fx = at.x / static_cast<float>(field.step_px);
-  const float fy = at.y / static_cast<float>(field.step_px);
-  const int x = static_cast<int>(fx);
-  const int y = static_cast<int>(fy);
+  const float fx = at.x / float(field.step_px);
+  const float fy = at.y / float(field.step_px);
+  const int x = int(fx);
+  const int y = int(fy);
   if (fx < 0 || fy < 0 || x >= field.domain.width || y >= field.domain.height) return false;
-  const int near_x = std::min(static_cast<int>(std::lround(fx)), field.domain.width - 1);
-  const int near_y = std::min(static_cast<int>(std::lround(fy)), field.domain.height - 1);
+  const int near_x = std::min(int(std::lround(fx)), field.domain.width - 1);
+  const int near_y = std::min(int(std::lround(fy)), field.domain.height - 1);
   if (field.domain.row(near_y)[near_x] == 0) return false;
   match.disparity_px = field.disparity_px.row(near_y)[near_x];
   match.sigma_px = field.sigma_px.row(near_y)[near_x];
   match.cost = field.cost.row(near_y)[near_x];
-  const float tx = fx - static_cast<float>(x);
-  const float ty = fy - static_cast<float>(y);
+  const float tx = fx - float(x);
+  const float ty = fy - float(y);
   if (tx == 0 && ty == 0) return true;
   if (x + 1 >= field.domain.width || y + 1 >= field.domain.height) return true;
   const float* upper = field.disparity_px.row(y) + x;
@@ -184,18 +184,16 @@ void read_matches(const SurfaceField& field, const Keypoints& keypoints, const R
     return read_field(field, keypoint.at_px, match) && match.sigma_px > 0 && match.sigma_px <= sigma_limit_px;
   };
   // Counted first: hardly half the keypoints of a region lie on the face.
-  set.matches.reserve(static_cast<std::size_t>(
-      std::count_if(keypoints.points.begin(), keypoints.points.end(), [&](const Keypoint& keypoint) {
-        Match match;
-        return read(keypoint, match);
-      })));
+  set.matches.reserve(std::size_t(std::ranges::count_if(keypoints.points, [&](const Keypoint& keypoint) {
+    Match match;
+    return read(keypoint, match);
+  })));
   for (const Keypoint& keypoint : keypoints.points) {
     Match match;
     if (!read(keypoint, match)) continue;
     // What moved across the rows moved along them as well, for all we know.
-    const double moved = motion.at(static_cast<double>(match.left_px.x - match.disparity_px),
-                                   static_cast<double>(match.left_px.y));
-    match.sigma_px = std::hypot(match.sigma_px, static_cast<float>(moved));
+    const double moved = motion.at(double(match.left_px.x - match.disparity_px), double(match.left_px.y));
+    match.sigma_px = std::hypot(match.sigma_px, float(moved));
     set.matches.push_back(match);
   }
 }
@@ -207,9 +205,8 @@ Result<MatchSet> match_at_size(const RefinedMatcher& o, const RectifiedPair& pai
   Pyramids pyramids = build_pyramids(pair, kLevels, context);
   const double lambda = bending_weight(pair, o.refiner.bending);
   const auto scene_at = [&](int level) {
-    return RefinerScene{pyramids.left[static_cast<std::size_t>(level)].grey,
-                        pyramids.right[static_cast<std::size_t>(level)].grey,
-                        pyramids.right[static_cast<std::size_t>(level)].valid, level, lambda};
+    return RefinerScene{pyramids.left[std::size_t(level)].grey, pyramids.right[std::size_t(level)].grey,
+                        pyramids.right[std::size_t(level)].valid, level, lambda};
   };
   const auto refine = [&](int level, SurfaceField& field) {
     return refine_surface(scene_at(level), o.refiner, context, field);
@@ -217,7 +214,7 @@ Result<MatchSet> match_at_size(const RefinedMatcher& o, const RectifiedPair& pai
   const auto& half = pyramids.left[1].grey;
   const auto& fine = pyramids.left[kFineLevel].grey;
   SurfaceField field2(&context.scratch, half.width, half.height, kNodeStepPx);
-  RowAligner rows(pair, pyramids, {static_cast<double>(o.align_beyond_px), o.follow_motion != 0}, context);
+  RowAligner rows(pair, pyramids, {double(o.align_beyond_px), o.follow_motion != 0}, context);
   for (int pass = 0; pass < kPasses; ++pass) {
     if (is_scene(pair)) {
       Arena::Mark mark(context.scratch);

@@ -78,7 +78,7 @@ Alike likeness(const WarpTerms& terms, int dx, int dy) {
   const int w = terms.residual.width;
   Alike sum;
   double count = 0;
-  const auto calm = [](float v) { return static_cast<double>(std::clamp(v, -kLoud, kLoud)); };
+  const auto calm = [](float v) { return double(std::clamp(v, -kLoud, kLoud)); };
   for (int y = 0; y + dy < terms.residual.height; y += kEvery) {
     const float* in = terms.mask.row(y);
     const float* in_too = terms.mask.row(y + dy) + dx;
@@ -106,14 +106,14 @@ float hanging_noise(const WarpTerms& terms, ThreadPool& pool) {
   pool.for_each_band(kShifts, kShifts, [&](int, int, int k) {
     const int side = 2 * kFurthest + 1;
     const int dy = (k + kFurthest) / side;
-    alike[static_cast<std::size_t>(k)] = likeness(terms, (k + kFurthest) % side - kFurthest, dy);
+    alike[std::size_t(k)] = likeness(terms, (k + kFurthest) % side - kFurthest, dy);
   });
   const Alike& same = alike[0];
   if (!(same.residual > 0 && same.gradient > 0)) return 1;
   double sum = 1;
   for (std::size_t k = 1; k < alike.size(); ++k)
     sum += 2 * (alike[k].residual / same.residual) * (alike[k].gradient / same.gradient);
-  return std::clamp(static_cast<float>(sum) / kWhite, 1.0F, kMost);
+  return std::clamp(float(sum) / kWhite, 1.0F, kMost);
 }
 
 namespace {
@@ -222,11 +222,10 @@ constexpr float kLeastReach = 0.15F;
 // gradients agree on, which holds no noise: the fit answers to a, yet is shaken by A. reach = (a /
 // lambda)^(1/4) a node.
 float posterior_sigma(double seeming, double agreed, double bend) {
-  const double real = std::clamp(agreed, static_cast<double>(kLeastReal) * seeming, seeming);
+  const double real = std::clamp(agreed, double(kLeastReal) * seeming, seeming);
   const double variance = 1 / (8 * std::sqrt(real * bend)) * (1 + (seeming - real) / (2 * real));
-  const float reach = std::sqrt(std::sqrt(static_cast<float>(real / bend)));
-  return kShareAtANode * std::pow(std::max(reach, kLeastReach), kShareOfReach) *
-         static_cast<float>(std::sqrt(variance));
+  const float reach = std::sqrt(std::sqrt(float(real / bend)));
+  return kShareAtANode * std::pow(std::max(reach, kLeastReach), kShareOfReach) * float(std::sqrt(variance));
 }
 
 // sigma and cost of every node.
@@ -253,12 +252,11 @@ void judge(const WarpTerms& terms, int step, double lambda, const Window& nodes,
   for (int y = 1; y < nodes.height - 1; ++y)
     for (int x = 1; x < nodes.width - 1; ++x) {
       if (work.domain.row(y)[x] == 0) continue;
-      const double seeming = std::max(static_cast<double>(mean.row(y)[x]) / kCells, 1e-6);
-      const double real = seeming - static_cast<double>(noise.row(y)[x] / std::max(area.row(y)[x], 1.0F));
+      const double seeming = std::max(double(mean.row(y)[x]) / kCells, 1e-6);
+      const double real = seeming - double(noise.row(y)[x] / std::max(area.row(y)[x], 1.0F));
       const float xx = work.system.bend_xx.row(y)[x];
       field.sigma_px.row(nodes.y0 + y)[nodes.x0 + x] =
-          posterior_sigma(seeming, real, xx > 0 ? static_cast<double>(xx) : lambda * 0.1) *
-          std::sqrt(excess.row(y)[x]);
+          posterior_sigma(seeming, real, xx > 0 ? double(xx) : lambda * 0.1) * std::sqrt(excess.row(y)[x]);
       const int px = std::min(x * step, terms.cost.width - 1);
       const int py = std::min(y * step, terms.cost.height - 1);
       field.cost.row(nodes.y0 + y)[nodes.x0 + x] = terms.cost.row(py)[px];
@@ -311,8 +309,7 @@ Result<void> refine_surface(const RefinerScene& scene, const SurfaceRefinerOptio
       work.system.rhs.values[n] =
           work.domain.values[n] != 0 ? -work.pull.values[n] - work.system.rhs.values[n] : 0.0F;
     solve(work.system, options.solver_steps, kSolved, context.pool, context.scratch, work.delta);
-    const float limit =
-        1.0F * static_cast<float>(1 << scene.level);  // the linear model holds for about a pixel
+    const float limit = 1.0F * float(1 << scene.level);  // the linear model holds for about a pixel
     for (int y = 1; y < nodes.height - 1; ++y)
       for (int x = 1; x < nodes.width - 1; ++x)
         if (work.domain.row(y)[x] != 0)

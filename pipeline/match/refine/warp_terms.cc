@@ -56,13 +56,13 @@ void warp_row(const RefinerScene& scene, const SurfaceField& field, const Window
               Warped& out) {
   const int nodes_per_pixel_shift =
       field.step_px >> scene.level;  // 1: nodes are pixels, 2: every other pixel
-  const float to_level = 1.0F / static_cast<float>(1 << scene.level);
+  const float to_level = 1.0F / float(1 << scene.level);
   const int py = window.y0 + y;
   const int j = py / nodes_per_pixel_shift;
   const int below = std::min(j + 1, field.domain.height - 1);
-  const FieldRow rows{
-      field.disparity_px.row(j), field.disparity_px.row(below), field.domain.row(j), field.domain.row(below),
-      static_cast<float>(py % nodes_per_pixel_shift) / static_cast<float>(nodes_per_pixel_shift)};
+  const FieldRow rows{field.disparity_px.row(j), field.disparity_px.row(below), field.domain.row(j),
+                      field.domain.row(below),
+                      float(py % nodes_per_pixel_shift) / float(nodes_per_pixel_shift)};
   const float* left = scene.left.row(py);
   const float* right = scene.right.row(py);
   const std::uint8_t* right_valid = scene.right_valid.row(py);
@@ -72,14 +72,13 @@ void warp_row(const RefinerScene& scene, const SurfaceField& field, const Window
     out.mask.row(y)[x] = 0;
     out.left.row(y)[x] = out.right.row(y)[x] = out.right_slope.row(y)[x] = 0;
     if (rows.upper_in[i] == 0 || px < 1 || px + 2 > scene.left.width) continue;
-    const float tx =
-        static_cast<float>(px % nodes_per_pixel_shift) / static_cast<float>(nodes_per_pixel_shift);
+    const float tx = float(px % nodes_per_pixel_shift) / float(nodes_per_pixel_shift);
     const float d = node_disparity(rows, std::min(i, field.domain.width - 2), tx) * to_level;
-    const float at = static_cast<float>(px) - d;
-    if (!(at >= 1 && at < static_cast<float>(scene.right.width - 2))) continue;
-    const int k = static_cast<int>(at);
+    const float at = float(px) - d;
+    if (!(at >= 1 && at < float(scene.right.width - 2))) continue;
+    const int k = int(at);
     if ((right_valid[k - 1] & right_valid[k + 2]) == 0) continue;
-    const Sampled sample = cubic(right + k - 1, at - static_cast<float>(k));
+    const Sampled sample = cubic(right + k - 1, at - float(k));
     if (left[px] > kSaturated || sample.value > kSaturated) continue;
     out.mask.row(y)[x] = 1;
     out.left.row(y)[x] = left[px];
@@ -141,14 +140,14 @@ float noise_variance(const WarpTerms& terms) {
   long all = 0;
   for (std::size_t k = 0; k < terms.residual.values.size(); ++k) {
     if (terms.mask.values[k] == 0) continue;
-    const int bin = std::min(kBins - 1, static_cast<int>(std::abs(terms.residual.values[k]) * kPerGrey));
+    const int bin = std::min(kBins - 1, int(std::abs(terms.residual.values[k]) * kPerGrey));
     ++histogram[bin];
     ++all;
   }
   long seen = 0;
   int bin = 0;
   while (bin < kBins - 1 && 2 * (seen + histogram[bin]) < all) seen += histogram[bin++];
-  const float median = (static_cast<float>(bin) + 0.5F) / kPerGrey;
+  const float median = (float(bin) + 0.5F) / kPerGrey;
   const float sigma = 1.4826F * median;
   return std::max(sigma * sigma, 0.05F);
 }
@@ -208,14 +207,14 @@ float gain_of(const WindowSums& sums, const Plane<float>& mask) {
   // Of pictures without any contrast, a covered lens say, rounding leaves variances below zero.
   all_left = std::max(all_left, 0.0);
   all_right = std::max(all_right, 0.0);
-  return static_cast<float>(std::clamp(std::sqrt((all_right + 1e-6) / (all_left + 1e-6)), 0.3, 3.0));
+  return float(std::clamp(std::sqrt((all_right + 1e-6) / (all_left + 1e-6)), 0.3, 3.0));
 }
 
 void form_residuals(const RefinerScene& scene, const Window& window, WindowSums& sums, ThreadPool& pool,
                     WarpTerms& terms, Plane<float>* agreed) {
   const int w = window.width;
   const float gain = gain_of(sums, terms.mask);
-  const float level_scale = 1.0F / static_cast<float>(1 << scene.level);
+  const float level_scale = 1.0F / float(1 << scene.level);
   pool.for_each_band(window.height, kBands, [&](int begin, int end, int) {
     for (int y = begin; y < end; ++y) {
       const Moments m{sums.count.row(y),     sums.left.row(y),        sums.right.row(y),

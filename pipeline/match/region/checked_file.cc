@@ -25,9 +25,8 @@ using State = std::array<std::uint32_t, 8>;
 void digest_block(State& state, const std::array<std::uint8_t, 64>& block) {
   std::array<std::uint32_t, 64> w{};
   for (std::size_t i = 0; i < 16; ++i)
-    w[i] = static_cast<std::uint32_t>(block[4 * i]) << 24 |
-           static_cast<std::uint32_t>(block[4 * i + 1]) << 16 |
-           static_cast<std::uint32_t>(block[4 * i + 2]) << 8 | static_cast<std::uint32_t>(block[4 * i + 3]);
+    w[i] = std::uint32_t(block[4 * i]) << 24 | std::uint32_t(block[4 * i + 1]) << 16 |
+           std::uint32_t(block[4 * i + 2]) << 8 | std::uint32_t(block[4 * i + 3]);
   for (std::size_t i = 16; i < 64; ++i) {
     const std::uint32_t s0 = std::rotr(w[i - 15], 7) ^ std::rotr(w[i - 15], 18) ^ (w[i - 15] >> 3);
     const std::uint32_t s1 = std::rotr(w[i - 2], 17) ^ std::rotr(w[i - 2], 19) ^ (w[i - 2] >> 10);
@@ -67,14 +66,13 @@ std::array<std::uint8_t, 32> sha256(std::span<const std::byte> bytes) {
     digest_block(state, block);
     fill = 0;
   };
-  for (const std::byte byte : bytes) put(static_cast<std::uint8_t>(byte));
+  for (const std::byte byte : bytes) put(std::uint8_t(byte));
   const std::uint64_t bits = std::uint64_t{bytes.size()} * 8;
   put(0x80);
   while (fill != 56) put(0);
-  for (int shift = 56; shift >= 0; shift -= 8) put(static_cast<std::uint8_t>(bits >> shift));
+  for (int shift = 56; shift >= 0; shift -= 8) put(std::uint8_t(bits >> shift));
   std::array<std::uint8_t, 32> digest{};
-  for (std::size_t i = 0; i < 32; ++i)
-    digest[i] = static_cast<std::uint8_t>(state[i / 4] >> (24 - 8 * (i % 4)));
+  for (std::size_t i = 0; i < 32; ++i) digest[i] = std::uint8_t(state[i / 4] >> (24 - 8 * (i % 4)));
   return digest;
 }
 
@@ -93,7 +91,7 @@ Result<std::string> read_checked(const std::filesystem::path& path, std::string_
     return Error{Errc::NotFound, "no such face cascade: install the package opencv-data"}.at(path.string());
   const Error strange{Errc::StoreCorrupt, "not the face cascade of opencv-data 4.6.0: reinstall the package"};
   if (size > kLargestFile) return strange.at(path.string());
-  std::string text(static_cast<std::size_t>(size), '\0');
+  std::string text(std::size_t(size), '\0');
   std::ifstream in(path, std::ios::binary);
   if (!in.read(text.data(), static_cast<std::streamsize>(size))) return strange.at(path.string());
   if (!reads_as(sha256(std::as_bytes(std::span(text.data(), text.size()))), sha256_hex))

@@ -6,9 +6,28 @@
 #include <cmath>
 #include <vector>
 
-#include "pipeline/match/region/three_terms.h"
+#include <Eigen/QR>
 
 namespace relievo::pipeline {
+
+void ThreeTerms::add(const std::array<double, 3>& terms, double value, double weight) {
+  std::size_t at = 0;
+  for (std::size_t i = 0; i < 3; ++i) {
+    for (std::size_t j = i; j < 3; ++j) products_[at++] += weight * terms[i] * terms[j];
+    values_[i] += weight * terms[i] * value;
+  }
+}
+
+std::optional<std::array<double, 3>> ThreeTerms::solve() const {
+  const auto& p = products_;
+  Eigen::Matrix3d a;
+  a << p[0], p[1], p[2], p[1], p[3], p[4], p[2], p[4], p[5];
+  const Eigen::ColPivHouseholderQR<Eigen::Matrix3d> qr(a);
+  if (!qr.isInvertible()) return std::nullopt;
+  const Eigen::Vector3d k = qr.solve(Eigen::Vector3d(values_[0], values_[1], values_[2]));
+  return std::array<double, 3>{k[0], k[1], k[2]};
+}
+
 namespace {
 
 constexpr double kNearest = 0.01;
@@ -31,7 +50,7 @@ Plane3 plane_of(std::span<const Vec3d> points) {
   constexpr double kSteepest = 1.2;  // 50 degrees: the few points of a poor picture may say anything
   Plane3 plane;
   for (const Vec3d& p : points) plane.mean.x += p.x, plane.mean.y += p.y, plane.mean.z += p.z;
-  const auto count = static_cast<double>(points.size());
+  const auto count = double(points.size());
   plane.mean.x /= count, plane.mean.y /= count, plane.mean.z /= count;
   for (int round = 0; round < 6; ++round) {
     ThreeTerms terms;
@@ -52,16 +71,14 @@ Plane3 plane_of(std::span<const Vec3d> points) {
 // The mean of the hundredth of points that comes first.
 template <typename Before>
 Vec3d mean_of_first(std::span<Vec3d> middle, Before&& before) {
-  const auto count =
-      std::max<std::size_t>(10, static_cast<std::size_t>(kNearest * static_cast<double>(middle.size())));
+  const auto count = std::max<std::size_t>(10, std::size_t(kNearest * double(middle.size())));
   const std::span<Vec3d> nearest = middle.first(std::min(count, middle.size()));
-  std::nth_element(middle.begin(), middle.begin() + static_cast<std::ptrdiff_t>(nearest.size() - 1),
-                   middle.end(), before);
+  std::nth_element(middle.begin(), middle.begin() + std::ptrdiff_t(nearest.size() - 1), middle.end(), before);
   Vec3d tip;
   for (const Vec3d& p : nearest) {
-    tip.x += p.x / static_cast<double>(nearest.size());
-    tip.y += p.y / static_cast<double>(nearest.size());
-    tip.z += p.z / static_cast<double>(nearest.size());
+    tip.x += p.x / double(nearest.size());
+    tip.y += p.y / double(nearest.size());
+    tip.z += p.z / double(nearest.size());
   }
   return tip;
 }
@@ -86,7 +103,7 @@ void keep_within_reach(const RectifiedPair& pair, StageContext& context, Surface
   if (!(pair.face_reach_mm > 0 && pair.face_width_px > 0)) return;
   Arena::Mark mark(context.scratch);
   const auto point = [&](int i, int j) {
-    const double z = pair.depth_mm(static_cast<double>(field.disparity_px.row(j)[i]));
+    const double z = pair.depth_mm(double(field.disparity_px.row(j)[i]));
     return Vec3d{(i * field.step_px - pair.left_centre_px.x) * z / pair.focal_px,
                  (j * field.step_px - pair.left_centre_px.y) * z / pair.focal_px, z};
   };

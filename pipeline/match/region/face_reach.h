@@ -6,6 +6,8 @@
 // scratch only. Thread: any; deterministic.
 #pragma once
 
+#include <array>
+#include <optional>
 #include <span>
 
 #include "pipeline/base/stage.h"
@@ -13,6 +15,19 @@
 #include "pipeline/model/rectified_pair.h"
 
 namespace relievo::pipeline {
+
+// Weighted least squares of three terms: value = k0 * t0 + k1 * t1 + k2 * t2, from the sums alone. No memory.
+// Thread: one caller.
+class ThreeTerms {
+ public:
+  void add(const std::array<double, 3>& terms, double value, double weight = 1);
+  // k; nothing where what was added does not fix all three.
+  std::optional<std::array<double, 3>> solve() const;
+
+ private:
+  std::array<double, 6> products_{};  // 00 01 02 11 12 22
+  std::array<double, 3> values_{};
+};
 
 // Where, in shares of the face's width around its middle, every nose is: 38 mm on a grown-up.
 inline constexpr double kNoseReach = 0.25;

@@ -28,8 +28,8 @@ Result<void> mark_face_region(RectifiedPair& pair, const FaceBox& face, StageCon
   if (pair.width_px <= 0 || pair.height_px <= 0 || !(face.width_px > 0) || !std::isfinite(face.width_px) ||
       !std::isfinite(face.centre_px.x) || !std::isfinite(face.centre_px.y))
     return Error{Errc::InvalidInput, "a face region needs a picture and a face of some size"};
-  const std::size_t width = static_cast<std::size_t>(pair.width_px);
-  pair.region.assign(width * static_cast<std::size_t>(pair.height_px), 0);
+  const std::size_t width = std::size_t(pair.width_px);
+  pair.region.assign(width * std::size_t(pair.height_px), 0);
   const double centre_y = face.centre_px.y + kDown * face.width_px;
   for (int y = 0; y < pair.height_px; ++y) {
     const double v = (y - centre_y) / (kHalfHeight * face.width_px);
@@ -38,8 +38,8 @@ Result<void> mark_face_region(RectifiedPair& pair, const FaceBox& face, StageCon
     const double last = pair.width_px - 1;
     const double from = std::clamp(std::ceil(face.centre_px.x - half), 0.0, last + 1);
     const double to = std::clamp(std::floor(face.centre_px.x + half), -1.0, last);
-    auto* row = pair.region.data() + static_cast<std::size_t>(y) * width;
-    if (from <= to) std::fill(row + static_cast<int>(from), row + static_cast<int>(to) + 1, std::uint8_t{1});
+    auto* row = pair.region.data() + std::size_t(y) * width;
+    if (from <= to) std::fill(row + int(from), row + int(to) + 1, std::uint8_t{1});
   }
   pair.face_centre_px = face.centre_px;
   pair.face_width_px = face.width_px;

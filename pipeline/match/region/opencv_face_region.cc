@@ -63,11 +63,11 @@ cv::Mat reduced_grey(const ImageView& view, int height_px) {
                                                         : CV_8UC1;
   // OpenCV wants a pointer it could write through; nothing here writes.
   const cv::Mat picture(view.height_px, view.width_px, type, const_cast<std::byte*>(view.bytes),
-                        static_cast<std::size_t>(view.stride_bytes));
-  const double scale = std::min(1.0, static_cast<double>(height_px) / view.height_px);
+                        std::size_t(view.stride_bytes));
+  const double scale = std::min(1.0, double(height_px) / view.height_px);
   cv::Mat small;
-  const cv::Size size(std::max(1, static_cast<int>(std::lround(view.width_px * scale))),
-                      std::max(1, static_cast<int>(std::lround(view.height_px * scale))));
+  const cv::Size size(std::max(1, int(std::lround(view.width_px * scale))),
+                      std::max(1, int(std::lround(view.height_px * scale))));
   cv::resize(picture, small, size, 0, 0, cv::INTER_AREA);
   if (type == CV_8UC3) cv::cvtColor(small, small, cv::COLOR_RGB2GRAY);
   if (type == CV_16UC1) small.convertTo(small, CV_8U, 1.0 / 257);
@@ -94,10 +94,10 @@ struct Hit {
 Hit best_of(const std::vector<cv::Rect>& boxes, const std::vector<int>& votes) {
   Hit best{{0, 0}, 0, 0};
   for (std::size_t i = 0; i < boxes.size(); ++i) {
-    const double worth = static_cast<double>(votes[i]) * boxes[i].width;
+    const double worth = double(votes[i]) * boxes[i].width;
     if (worth <= best.votes * best.width) continue;
     best = {{boxes[i].x + (boxes[i].width - 1) / 2.0, boxes[i].y + (boxes[i].height - 1) / 2.0},
-            static_cast<double>(boxes[i].width),
+            double(boxes[i].width),
             votes[i]};
   }
   return best;
@@ -122,7 +122,7 @@ struct FaceFinder::Cascades {
       cv::flip(picture, other, 1);
       picture = other;
     }
-    const int least = std::max(20, static_cast<int>(options.smallest_face * grey.rows));
+    const int least = std::max(20, int(options.smallest_face * grey.rows));
     std::vector<cv::Rect> boxes;
     std::vector<int> votes;
     files[look_at.cascade].detectMultiScale(picture, boxes, votes, 1.08, options.least_votes - 1, 0,
@@ -182,7 +182,7 @@ Result<FaceBox> FaceFinder::find(const ImageView& picture, const std::atomic<boo
     const cv::Mat grey = reduced_grey(picture, cascades_->options.search_height_px);
     cv::Mat even;
     cv::createCLAHE(3, {8, 8})->apply(grey, even);
-    const double scale = static_cast<double>(picture.height_px) / grey.rows;
+    const double scale = double(picture.height_px) / grey.rows;
     FaceBox best;
     for (const Try& look_at : kTries) {
       if (cancelled != nullptr && cancelled->load(std::memory_order_relaxed))

@@ -67,7 +67,7 @@ Result<std::vector<float>> read_thresholds(const std::string& text) {
       thresholds.clear();
       break;
     }
-    thresholds.push_back(static_cast<float>(*grey));
+    thresholds.push_back(float(*grey));
   }
   if (thresholds.empty())
     return Error{

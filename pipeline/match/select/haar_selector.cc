@@ -1,13 +1,12 @@
 // SPDX-FileCopyrightText: 2026 The Relievo authors
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include "pipeline/match/select/selectors.h"
-
 #include <algorithm>
 #include <array>
 #include <cmath>
 
 #include "pipeline/match/select/response/corner_response.h"
 #include "pipeline/match/select/response/keypoint_choice.h"
+#include "pipeline/match/select/selectors.h"
 
 namespace relievo::pipeline {
 namespace {
@@ -22,7 +21,7 @@ struct Octave {
         size_px{},
         response{layer(memory, width_px, height_px), layer(memory, width_px, height_px),
                  layer(memory, width_px, height_px), layer(memory, width_px, height_px)} {
-    for (int k = 0; k < kSizes; ++k) size_px[static_cast<std::size_t>(k)] = 3 * ((2 << number) * (k + 1) + 1);
+    for (int k = 0; k < kSizes; ++k) size_px[std::size_t(k)] = 3 * ((2 << number) * (k + 1) + 1);
   }
   Plane<float> layer(std::pmr::memory_resource* memory, int width_px, int height_px) const {
     return Plane<float>(memory, (width_px + step_px - 1) / step_px, (height_px + step_px - 1) / step_px);
@@ -61,8 +60,7 @@ bool is_peak(const Octave& octave, std::size_t k, int i, int j) {
 // where it would lie further away than the neighbours the samples say no more than the peak itself.
 std::array<double, 2> top_of(const Octave& octave, std::size_t k, int i, int j) {
   const auto at = [&](int di, int dj, int dk) {
-    return static_cast<double>(
-        octave.response[static_cast<std::size_t>(static_cast<int>(k) + dk)].row(j + dj)[i + di]);
+    return double(octave.response[std::size_t(int(k) + dk)].row(j + dj)[i + di]);
   };
   const double here = at(0, 0, 0);
   const double gx = 0.5 * (at(1, 0, 0) - at(-1, 0, 0)), gy = 0.5 * (at(0, 1, 0) - at(0, -1, 0)),
@@ -88,8 +86,8 @@ void mark_peaks(const Octave& octave, const Selectable& selectable, Plane<float>
         const float here = octave.response[k].row(j)[i];
         if (!(here > 0) || !is_peak(octave, k, i, j)) continue;
         const auto [dx, dy] = top_of(octave, k, i, j);
-        const int x = static_cast<int>(std::lround((i + dx) * octave.step_px));
-        const int y = static_cast<int>(std::lround((j + dy) * octave.step_px));
+        const int x = int(std::lround((i + dx) * octave.step_px));
+        const int y = int(std::lround((j + dy) * octave.step_px));
         if (selectable(x, y, 0)) found.row(y)[x] = std::max(found.row(y)[x], here);
       }
 }
@@ -107,8 +105,45 @@ Result<Keypoints> HaarSelector::select(const RectifiedPair& pair, StageContext& 
     if (context.stop()) return selection_stopped();
     mark_peaks(octave, selectable, found);
   }
-  return peak_keypoints(found, {quality * quality, 0, static_cast<double>(min_distance_px), max_points},
-                        context);
+  return peak_keypoints(found, {quality * quality, 0, double(min_distance_px), max_points}, context);
+}
+
+namespace {
+
+constexpr int kBands = 16;
+
+// Bands of whole blocks of the coarsest scale: no track leaves its band.
+void mark_ends(const SalientTracks& tracks, const Selectable& selectable, ThreadPool& pool,
+               Plane<float>& saliency) {
+  const int block = 1 << tracks.scales();
+  pool.for_each_band((saliency.height + block - 1) / block, kBands, [&](int begin, int end, int) {
+    for (int scale = 1; scale <= tracks.scales(); ++scale) {
+      const int side = 1 << scale;
+      const int last = std::min(tracks.rows(scale), end * (block / side));
+      for (int row = begin * (block / side); row < last; ++row)
+        for (int column = 0; column < tracks.columns(scale); ++column) {
+          if (!selectable.valid_block(column * side, row * side, side)) continue;
+          for (int orientation = 0; orientation < SalientTracks::kOrientations; ++orientation) {
+            if (!(tracks.magnitude(scale, orientation, column, row) > 0)) continue;
+            const Candidate found = tracks.follow(scale, orientation, column, row);
+            if (!selectable(found.x, found.y, 1)) continue;
+            float& there = saliency.row(found.y)[found.x];
+            there = std::max(there, found.strength);
+          }
+        }
+    }
+  });
+}
+
+}  // namespace
+
+Result<Keypoints> WaveletSalientSelector::select(const RectifiedPair& pair, StageContext& context) const {
+  RELIEVO_TRY_ASSIGN(const Selectable selectable, selectable_of(pair, context));
+  const SalientTracks tracks(pair.left.grey, pair.width_px, pair.height_px, scales, &context.scratch);
+  Plane<float> saliency(&context.scratch, pair.width_px, pair.height_px);
+  mark_ends(tracks, selectable, context.pool, saliency);
+  if (context.stop()) return selection_stopped();
+  return peak_keypoints(saliency, {quality, 0, double(min_distance_px), max_points}, context);
 }
 
 }  // namespace relievo::pipeline

@@ -7,7 +7,7 @@
 #include <random>
 #include <string>
 
-#include "pipeline/match/file/number_lines.h"
+#include "pipeline/match/file/match_text.h"
 #include "pipeline/match/select/response/corner_response.h"
 
 namespace relievo::pipeline {
@@ -44,27 +44,26 @@ Result<Keypoints> GridSelector::select(const RectifiedPair& pair, StageContext& 
 Result<Keypoints> HarrisSelector::select(const RectifiedPair& pair, StageContext& context) const {
   RELIEVO_TRY_ASSIGN(const Selectable selectable, selectable_of(pair, context));
   Plane<float> response(&context.scratch, pair.width_px, pair.height_px);
-  if (!corner_response(pair.left.grey, selectable, {window_px / 2, 3}, harris_measure,
-                       static_cast<float>(sensitivity), context, response))
+  if (!corner_response(pair.left.grey, selectable, {window_px / 2, 3}, harris_measure, float(sensitivity),
+                       context, response))
     return selection_stopped();
-  return peak_keypoints(response, {std::pow(quality, 4), 1, static_cast<double>(min_distance_px), max_points},
-                        context);
+  return peak_keypoints(response, {std::pow(quality, 4), 1, double(min_distance_px), max_points}, context);
 }
 
 Result<Keypoints> RandomSelector::select(const RectifiedPair& pair, StageContext& context) const {
   RELIEVO_TRY_ASSIGN(const Selectable selectable, selectable_of(pair, context));
   std::size_t left = selectable.count();
-  std::size_t wanted = std::min(left, static_cast<std::size_t>(max_points));
+  std::size_t wanted = std::min(left, std::size_t(max_points));
   Keypoints keypoints(&context.output);
   keypoints.points.reserve(wanted);
   // The engine's numbers are fixed by the standard; its distributions are not.
-  std::mt19937_64 engine(static_cast<std::uint64_t>(seed));
-  const auto unit = [&] { return static_cast<double>(engine() >> 11) * 0x1p-53; };
+  std::mt19937_64 engine{std::uint64_t(seed)};
+  const auto unit = [&] { return double(engine() >> 11) * 0x1p-53; };
   for (int y = 0; y < pair.height_px && wanted > 0; ++y)
     for (int x = 0; x < pair.width_px && wanted > 0; ++x) {
       if (!selectable(x, y, 0)) continue;
-      if (unit() * static_cast<double>(left--) >= static_cast<double>(wanted)) continue;
-      keypoints.points.push_back({{static_cast<float>(x), static_cast<float>(y)}, 1});
+      if (unit() * double(left--) >= double(wanted)) continue;
+      keypoints.points.push_back({{float(x), float(y)}, 1});
       --wanted;
     }
   return keypoints;
@@ -91,11 +90,11 @@ Result<Keypoints> FileSelector::select(const RectifiedPair& pair, StageContext& 
     const double x = line.value[0], y = line.value[1];
     if (!(x >= 0 && y >= 0 && x <= pair.width_px - 1 && y <= pair.height_px - 1))
       return refused("lies outside of the left rectified view; x and y are its pixels, from 0");
-    if (selectable(static_cast<int>(std::lround(x)), static_cast<int>(std::lround(y)), 0))
-      keypoints.points.push_back({{static_cast<float>(x), static_cast<float>(y)}, 1});
+    if (selectable(int(std::lround(x)), int(std::lround(y)), 0))
+      keypoints.points.push_back({{float(x), float(y)}, 1});
   }
   if (!any) return Error{Errc::InvalidInput, "holds no line of numbers"}.at(file.path);
-  std::sort(keypoints.points.begin(), keypoints.points.end(), [](const Keypoint& a, const Keypoint& b) {
+  std::ranges::sort(keypoints.points, [](const Keypoint& a, const Keypoint& b) {
     return a.at_px.y != b.at_px.y ? a.at_px.y < b.at_px.y : a.at_px.x < b.at_px.x;
   });
   const auto same = [](const Keypoint& a, const Keypoint& b) {

@@ -162,7 +162,7 @@ struct RandomSelector {
   Result<Keypoints> select(const RectifiedPair& pair, StageContext& context) const;
 };
 
-// FileSelector ("file-points"): the keypoints of a text file, one a line (number_lines.h): x and y in pixels
+// FileSelector ("file-points"): the keypoints of a text file, one a line (match_text.h): x and y in pixels
 // of the left rectified view; further columns are not looked at. What lies outside of the face region is left
 // out; the same place is taken once; keypoints are in rows from the top. Errors: NotFound (none is named, or
 // it was not read); InvalidInput with the line's number: not two numbers, or outside of the view; NoFace

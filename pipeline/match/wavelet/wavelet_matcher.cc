@@ -80,10 +80,10 @@ class Place {
   Place(const Scales& left, const Scales& right, int radius) : left_(left), right_(right), radius_(radius) {}
 
   void look_at(Vec2f at) {
-    x_ = static_cast<int>(std::floor(at.x));
-    y_ = static_cast<int>(std::floor(at.y));
-    tx_ = at.x - static_cast<float>(x_);
-    ty_ = at.y - static_cast<float>(y_);
+    x_ = int(std::floor(at.x));
+    y_ = int(std::floor(at.y));
+    tx_ = at.x - float(x_);
+    ty_ = at.y - float(y_);
     for (std::size_t s = 0; s < left_.size(); ++s) {
       std::size_t k = 0;
       energy_[s] = 0;
@@ -91,7 +91,7 @@ class Place {
         for (int i = -radius_; i <= radius_; ++i, ++k) {
           const Vec2f c = sample(left_[s], x_ + (i << s), y_ + (j << s));
           patch_[s][k] = c;
-          energy_[s] += static_cast<double>(c.x * c.x + c.y * c.y);
+          energy_[s] += double(c.x * c.x + c.y * c.y);
         }
     }
   }
@@ -115,8 +115,8 @@ class Place {
         together += c.x * patch_[s][k].x + c.y * patch_[s][k].y;
         right += c.x * c.x + c.y * c.y;
       }
-      all.together += static_cast<double>(together);
-      all.right += static_cast<double>(right);
+      all.together += double(together);
+      all.right += double(right);
     }
     return all;
   }
@@ -168,11 +168,11 @@ struct Candidates {
   // In falling order; the worst falls out.
   void offer(const Candidate& one, int most) {
     int at = count < most ? count++ : most;
-    if (at == most && !(one.latest > best[static_cast<std::size_t>(most - 1)].latest)) return;
+    if (at == most && !(one.latest > best[std::size_t(most - 1)].latest)) return;
     at = std::min(at, most - 1);
-    for (; at > 0 && best[static_cast<std::size_t>(at - 1)].latest < one.latest; --at)
-      best[static_cast<std::size_t>(at)] = best[static_cast<std::size_t>(at - 1)];
-    best[static_cast<std::size_t>(at)] = one;
+    for (; at > 0 && best[std::size_t(at - 1)].latest < one.latest; --at)
+      best[std::size_t(at)] = best[std::size_t(at - 1)];
+    best[std::size_t(at)] = one;
   }
 };
 
@@ -228,23 +228,23 @@ Fitted fit(const Place& place, const DisparityRange& range, int d, double sample
   if (!(bend > 0) || before > here || after > here || d <= range.first || d >= range.last) return fitted;
   const double tilt = after - before;
   const double least = std::max(1 - here - tilt * tilt / (8 * bend), 1e-6 * bend);
-  fitted.disparity_px = static_cast<float>(d + tilt / (2 * bend));
-  fitted.cost = static_cast<float>(std::clamp(1 - here, 0.0, 1.0));
-  fitted.sigma_px = static_cast<float>(std::sqrt(2 * least / (samples * bend) + bias * bias));
+  fitted.disparity_px = float(d + tilt / (2 * bend));
+  fitted.cost = float(std::clamp(1 - here, 0.0, 1.0));
+  fitted.sigma_px = float(std::sqrt(2 * least / (samples * bend) + bias * bias));
   return fitted;
 }
 
 Fitted match_place(const Place& place, const DisparityRange& range, const WaveletMatcher& options,
                    double bias) {
-  const auto coarsest = static_cast<std::size_t>(options.scales - 1);
+  const auto coarsest = std::size_t(options.scales - 1);
   Candidates candidates = search_coarsest(place, range, coarsest, options.candidates);
   const Candidate* winner = nullptr;
   for (int c = 0; c < candidates.count; ++c) {
-    Candidate& candidate = candidates.best[static_cast<std::size_t>(c)];
+    Candidate& candidate = candidates.best[std::size_t(c)];
     for (std::size_t s = coarsest; s-- > 0;) refine(place, range, s, candidate);
     if (winner == nullptr || candidate.sum > winner->sum) winner = &candidate;
   }
-  if (winner == nullptr || winner->sum < static_cast<double>(options.min_score) * options.scales) return {};
+  if (winner == nullptr || winner->sum < double(options.min_score) * options.scales) return {};
   const double side = 2 * options.radius + 1;
   return fit(place, range, winner->disparity, side * side, bias);
 }
@@ -254,16 +254,16 @@ Fitted match_place(const Place& place, const DisparityRange& range, const Wavele
 std::pmr::vector<Plane<Vec2f>> transform_dyadic(const std::pmr::vector<float>& grey, int width, int height,
                                                 int scales, StageContext& context) {
   std::pmr::vector<Plane<Vec2f>> all(&context.scratch);
-  all.reserve(static_cast<std::size_t>(scales));
+  all.reserve(std::size_t(scales));
   for (int j = 0; j < scales; ++j) all.emplace_back(&context.scratch, width, height);
   Arena::Mark mark(context.scratch);
   Plane<float> now(&context.scratch, width, height);
-  std::copy(grey.begin(), grey.end(), now.values.begin());
+  std::ranges::copy(grey, now.values.begin());
   Plane<float> across(&context.scratch, width, height);
   Plane<float> next(&context.scratch, width, height);
   for (int j = 0; j < scales && !context.stop(); ++j) {
     const int hole = 1 << j;
-    differ(now, hole, context.pool, all[static_cast<std::size_t>(j)]);
+    differ(now, hole, context.pool, all[std::size_t(j)]);
     if (j + 1 == scales) break;
     smooth(now, hole, context.pool, across, next);
     std::swap(now.values, next.values);
@@ -273,7 +273,7 @@ std::pmr::vector<Plane<Vec2f>> transform_dyadic(const std::pmr::vector<float>& g
 
 Result<MatchSet> WaveletMatcher::match(const RectifiedPair& pair, const Keypoints& keypoints,
                                        StageContext& context) const {
-  const auto pixels = static_cast<std::size_t>(pair.width_px) * static_cast<std::size_t>(pair.height_px);
+  const auto pixels = std::size_t(pair.width_px) * std::size_t(pair.height_px);
   if (pixels == 0 || pair.left.grey.size() != pixels || pair.right.grey.size() != pixels)
     return Error{Errc::InvalidInput, "the rectified pair has no pixels"};
   MatchSet set(&context.output);
@@ -290,20 +290,20 @@ Result<MatchSet> WaveletMatcher::match(const RectifiedPair& pair, const Keypoint
   std::pmr::vector<Match> found(keypoints.points.size(), Match{}, &context.scratch);
   context.progress.done.store(0.1F, std::memory_order_relaxed);
   const auto inside = [](const Plane<std::uint8_t>& whole, float x, float y) {
-    const auto i = static_cast<int>(std::lround(x));
-    const auto j = static_cast<int>(std::lround(y));
+    const auto i = int(std::lround(x));
+    const auto j = int(std::lround(y));
     return i >= 0 && j >= 0 && i < whole.width && j < whole.height && whole.row(j)[i] != 0;
   };
-  context.pool.for_each_band(static_cast<int>(found.size()), kPlaceBands, [&](int begin, int end, int) {
+  context.pool.for_each_band(int(found.size()), kPlaceBands, [&](int begin, int end, int) {
     Place place(left, right, radius);
     for (int k = begin; k < end && !context.stop(); ++k) {
-      const Vec2f at = keypoints.points[static_cast<std::size_t>(k)].at_px;
+      const Vec2f at = keypoints.points[std::size_t(k)].at_px;
       if (!inside(whole_left, at.x, at.y)) continue;
       place.look_at(at);
       const Fitted fitted = match_place(place, range, *this, bias);
       if (fitted.sigma_px > 0 && fitted.sigma_px <= sigma_limit_px &&
           inside(whole_right, at.x - fitted.disparity_px, at.y))
-        found[static_cast<std::size_t>(k)] = {at, fitted.disparity_px, fitted.cost, fitted.sigma_px, 0};
+        found[std::size_t(k)] = {at, fitted.disparity_px, fitted.cost, fitted.sigma_px, 0};
     }
   });
   if (context.stop()) return Error{Errc::Cancelled, "stopped while matching wavelets"};

@@ -16,13 +16,11 @@ constexpr float kMiddleGrey = 128;
 
 void fill_plane(const RectifiedView& view, int channel, int channels, ThreadPool& pool, Plane<float>& to) {
   pool.for_each_band(to.height, kPlaneBands, [&](int begin, int end, int) {
-    const std::size_t first = static_cast<std::size_t>(begin) * static_cast<std::size_t>(to.width);
-    const std::size_t last = static_cast<std::size_t>(end) * static_cast<std::size_t>(to.width);
+    const std::size_t first = std::size_t(begin) * std::size_t(to.width);
+    const std::size_t last = std::size_t(end) * std::size_t(to.width);
     for (std::size_t k = first; k < last; ++k)
       to.values[k] =
-          (channels == 1 ? view.grey[k]
-                         : static_cast<float>(view.rgb[3 * k + static_cast<std::size_t>(channel)])) -
-          kMiddleGrey;
+          (channels == 1 ? view.grey[k] : float(view.rgb[3 * k + std::size_t(channel)])) - kMiddleGrey;
   });
 }
 
@@ -33,10 +31,10 @@ RELIEVO_SIMD void sum_moments(const float* left, const float* right, int side, i
   double cross[64] = {};
   for (int j = 0; j < side; ++j, left += side, right += stride)
     for (int i = 0; i < side; ++i) {
-      const auto r = static_cast<double>(right[i]);
+      const auto r = double(right[i]);
       sum[i] += r;
       squares[i] += r * r;
-      cross[i] += r * static_cast<double>(left[i]);
+      cross[i] += r * double(left[i]);
     }
   all[0] = all[1] = all[2] = 0;
   for (int i = 0; i < side; ++i) {
@@ -50,7 +48,7 @@ RELIEVO_SIMD double sum_differences(const float* left, const float* right, int s
   double sum[64] = {};
   for (int j = 0; j < side; ++j, left += side, right += stride)
     for (int i = 0; i < side; ++i) {
-      const double difference = static_cast<double>(left[i]) - static_cast<double>(right[i]);
+      const double difference = double(left[i]) - double(right[i]);
       sum[i] += difference * difference;
     }
   double all = 0;
@@ -61,8 +59,8 @@ RELIEVO_SIMD double sum_differences(const float* left, const float* right, int s
 }  // namespace
 
 DisparityRange disparity_range(const RectifiedPair& pair) {
-  return {static_cast<int>(std::floor(pair.disparity_px(pair.far_mm))) - 1,
-          static_cast<int>(std::ceil(pair.disparity_px(pair.near_mm))) + 1};
+  return {int(std::floor(pair.disparity_px(pair.far_mm))) - 1,
+          int(std::ceil(pair.disparity_px(pair.near_mm))) + 1};
 }
 
 Plane<std::uint8_t> whole_windows(const RectifiedPair& pair, const RectifiedView& view, int radius,
@@ -74,16 +72,14 @@ Plane<std::uint8_t> whole_windows(const RectifiedPair& pair, const RectifiedView
   Plane<int> run(&context.scratch, w, 1);  // valid pixels above and on this row, without a gap
   for (int y = 0; y < h; ++y) {
     for (int x = 0; x < w; ++x)
-      run.values[static_cast<std::size_t>(x)] =
-          view.valid[static_cast<std::size_t>(y) * static_cast<std::size_t>(w) +
-                     static_cast<std::size_t>(x)] != 0
-              ? run.values[static_cast<std::size_t>(x)] + 1
-              : 0;
+      run.values[std::size_t(x)] = view.valid[std::size_t(y) * std::size_t(w) + std::size_t(x)] != 0
+                                       ? run.values[std::size_t(x)] + 1
+                                       : 0;
     const int centre = y - radius;
     if (centre < radius) continue;
     int across = 0;
     for (int x = 0; x < w; ++x) {
-      across = run.values[static_cast<std::size_t>(x)] >= 2 * radius + 1 ? across + 1 : 0;
+      across = run.values[std::size_t(x)] >= 2 * radius + 1 ? across + 1 : 0;
       if (across >= 2 * radius + 1) whole.row(centre)[x - radius] = 1;
     }
   }
@@ -94,8 +90,8 @@ ChannelPlanes make_channel_planes(const RectifiedPair& pair, int channels, int r
                                   StageContext& context) {
   ChannelPlanes planes(&context.scratch, pair.width_px, pair.height_px);
   planes.radius = radius;
-  planes.left.reserve(static_cast<std::size_t>(channels));
-  planes.right.reserve(static_cast<std::size_t>(channels));
+  planes.left.reserve(std::size_t(channels));
+  planes.right.reserve(std::size_t(channels));
   for (int c = 0; c < channels; ++c) {
     planes.left.emplace_back(&context.scratch, pair.width_px, pair.height_px);
     fill_plane(pair.left, c, channels, context.pool, planes.left.back());
@@ -112,9 +108,8 @@ PatchScores::PatchScores(const ChannelPlanes& planes, WindowScore score, int mos
     : planes_(planes),
       score_(score),
       side_(2 * planes.radius + 1),
-      left_(planes.left.size() * static_cast<std::size_t>(side_ * side_), 0.0F, memory),
-      strip_(planes.left.size() * static_cast<std::size_t>(side_ * (side_ + most_candidates - 1)), 0.0F,
-             memory) {}
+      left_(planes.left.size() * std::size_t(side_ * side_), 0.0F, memory),
+      strip_(planes.left.size() * std::size_t(side_ * (side_ + most_candidates - 1)), 0.0F, memory) {}
 
 bool PatchScores::whole(const Plane<std::uint8_t>& mask, int x) const {
   const int right = x + (tx_ > 0 ? 1 : 0);
@@ -148,40 +143,40 @@ void PatchScores::sample(const Plane<float>& from, int x0, int width, float* to)
 }
 
 bool PatchScores::load(Vec2f at, int first, int count) {
-  x_ = static_cast<int>(std::floor(at.x));
-  y_ = static_cast<int>(std::floor(at.y));
-  tx_ = at.x - static_cast<float>(x_);
-  ty_ = at.y - static_cast<float>(y_);
+  x_ = int(std::floor(at.x));
+  y_ = int(std::floor(at.y));
+  tx_ = at.x - float(x_);
+  ty_ = at.y - float(y_);
   first_ = first;
   if (!whole(planes_.whole_left, x_)) return false;
   strip_width_ = count - 1 + side_;
   left_variation_ = 0;
-  const std::size_t cells = static_cast<std::size_t>(side_ * side_);
+  const std::size_t cells = std::size_t(side_ * side_);
   for (std::size_t c = 0; c < planes_.left.size(); ++c) {
     float* patch = left_.data() + c * cells;
     sample(planes_.left[c], x_ - planes_.radius, side_, patch);
     double mean = 0;
-    for (std::size_t k = 0; k < cells; ++k) mean += static_cast<double>(patch[k]);
-    mean /= static_cast<double>(cells);
+    for (std::size_t k = 0; k < cells; ++k) mean += double(patch[k]);
+    mean /= double(cells);
     for (std::size_t k = 0; k < cells; ++k)
-      left_variation_ += (static_cast<double>(patch[k]) - mean) * (static_cast<double>(patch[k]) - mean);
+      left_variation_ += (double(patch[k]) - mean) * (double(patch[k]) - mean);
     if (score_ == WindowScore::ZeroMeanCorrelation)
-      for (std::size_t k = 0; k < cells; ++k) patch[k] -= static_cast<float>(mean);
+      for (std::size_t k = 0; k < cells; ++k) patch[k] -= float(mean);
     sample(planes_.right[c], x_ - (first + count - 1) - planes_.radius, strip_width_,
-           strip_.data() + c * static_cast<std::size_t>(side_ * strip_width_));
+           strip_.data() + c * std::size_t(side_ * strip_width_));
   }
   return true;
 }
 
 PatchScores::RightMoments PatchScores::moments(std::size_t channel, int candidate) const {
   double all[3];
-  sum_moments(left_.data() + channel * static_cast<std::size_t>(side_ * side_),
-              right_window(channel, candidate), side_, strip_width_, all);
+  sum_moments(left_.data() + channel * std::size_t(side_ * side_), right_window(channel, candidate), side_,
+              strip_width_, all);
   return {all[0], all[1], all[2]};
 }
 
 double PatchScores::squared_differences(std::size_t channel, int candidate) const {
-  return sum_differences(left_.data() + channel * static_cast<std::size_t>(side_ * side_),
+  return sum_differences(left_.data() + channel * std::size_t(side_ * side_),
                          right_window(channel, candidate), side_, strip_width_);
 }
 

@@ -72,8 +72,7 @@ class PatchScores {
   };
   RightMoments moments(std::size_t channel, int candidate) const;
   const float* right_window(std::size_t channel, int candidate) const {
-    return strip_.data() + channel * static_cast<std::size_t>(side_ * strip_width_) +
-           (strip_width_ - side_ - candidate);
+    return strip_.data() + channel * std::size_t(side_ * strip_width_) + (strip_width_ - side_ - candidate);
   }
   double squared_differences(std::size_t channel, int candidate) const;
   bool whole(const Plane<std::uint8_t>& mask, int x) const;

@@ -14,26 +14,23 @@ struct Sampler {
   Sampler(const RectifiedPair& pair, const RectifiedView& view, Vec2f at, int radius)
       : view_(view),
         width_(pair.width_px),
-        x_(static_cast<int>(std::floor(at.x))),
-        y_(static_cast<int>(std::floor(at.y))),
-        tx_(static_cast<double>(at.x) - x_),
-        ty_(static_cast<double>(at.y) - y_),
+        x_(int(std::floor(at.x))),
+        y_(int(std::floor(at.y))),
+        tx_(double(at.x) - x_),
+        ty_(double(at.y) - y_),
         inside_(x_ >= radius && y_ >= radius && x_ + radius + (tx_ > 0 ? 1 : 0) < pair.width_px &&
                 y_ + radius + (ty_ > 0 ? 1 : 0) < pair.height_px) {}
 
   bool inside() const { return inside_; }
   // False where a pixel is not valid.
   bool at(int i, int j, double& value) const {
-    const std::size_t k = static_cast<std::size_t>(y_ + j) * static_cast<std::size_t>(width_) +
-                          static_cast<std::size_t>(x_ + i);
+    const std::size_t k = std::size_t(y_ + j) * std::size_t(width_) + std::size_t(x_ + i);
     const std::size_t right = k + (tx_ > 0 ? 1 : 0);
-    const std::size_t down = ty_ > 0 ? static_cast<std::size_t>(width_) : 0;
+    const std::size_t down = ty_ > 0 ? std::size_t(width_) : 0;
     if ((view_.valid[k] & view_.valid[right] & view_.valid[k + down] & view_.valid[right + down]) == 0)
       return false;
-    const double top =
-        (1 - tx_) * static_cast<double>(view_.grey[k]) + tx_ * static_cast<double>(view_.grey[right]);
-    const double low = (1 - tx_) * static_cast<double>(view_.grey[k + down]) +
-                       tx_ * static_cast<double>(view_.grey[right + down]);
+    const double top = (1 - tx_) * double(view_.grey[k]) + tx_ * double(view_.grey[right]);
+    const double low = (1 - tx_) * double(view_.grey[k + down]) + tx_ * double(view_.grey[right + down]);
     value = (1 - ty_) * top + ty_ * low;
     return true;
   }
@@ -50,10 +47,10 @@ struct Sampler {
 std::optional<Match> match_on_row(const RectifiedPair& pair, Vec2f left_px, double least_px, double most_px,
                                   int radius) {
   const double wide = pair.width_px;
-  const int first = static_cast<int>(std::ceil(std::clamp(least_px, -wide, wide))),
-            last = static_cast<int>(std::floor(std::clamp(most_px, -wide, wide)));
+  const int first = int(std::ceil(std::clamp(least_px, -wide, wide))),
+            last = int(std::floor(std::clamp(most_px, -wide, wide)));
   const auto alike = [&](int disparity) {
-    return window_correlation(pair, left_px, {left_px.x - static_cast<float>(disparity), left_px.y}, radius);
+    return window_correlation(pair, left_px, {left_px.x - float(disparity), left_px.y}, radius);
   };
   double best = 0;
   int at = first;
@@ -64,10 +61,9 @@ std::optional<Match> match_on_row(const RectifiedPair& pair, Vec2f left_px, doub
   if (!(bend > 0)) return std::nullopt;
   const double samples = (2 * radius + 1) * (2 * radius + 1);
   const double unlike = std::max(1 - best, 1e-6 * bend);
-  return Match{left_px, static_cast<float>(at + (after - before) / (2 * bend)), static_cast<float>(1 - best),
-               static_cast<float>(std::hypot(std::sqrt(2 * unlike / (samples * bend)),
-                                             method_bias_px(pair, 2 * radius + 1))),
-               0};
+  return Match{
+      left_px, float(at + (after - before) / (2 * bend)), float(1 - best),
+      float(std::hypot(std::sqrt(2 * unlike / (samples * bend)), method_bias_px(pair, 2 * radius + 1))), 0};
 }
 
 double window_correlation(const RectifiedPair& pair, Vec2f left_px, Vec2f right_px, int radius) {
@@ -95,7 +91,7 @@ double window_correlation(const RectifiedPair& pair, Vec2f left_px, Vec2f right_
 }
 
 float window_cost(const RectifiedPair& pair, Vec2f left_px, float disparity_px, int radius) {
-  return static_cast<float>(std::clamp(
+  return float(std::clamp(
       1 - window_correlation(pair, left_px, {left_px.x - disparity_px, left_px.y}, radius), 0.0, 1.0));
 }
 

@@ -12,7 +12,7 @@ Result<MatchSet> SsdMatcher::match(const RectifiedPair& pair, const Keypoints& k
   rule.score = WindowScore::SquaredDifferences;
   rule.window_px = window_px;
   rule.channels = channels;
-  rule.most_unlike = static_cast<double>(max_difference) * static_cast<double>(max_difference);
+  rule.most_unlike = double(max_difference) * double(max_difference);
   rule.sigma_limit_px = sigma_limit_px;
   return match_windows(pair, keypoints, rule, context);
 }
@@ -24,7 +24,7 @@ Result<MatchSet> ZmnccMatcher::match(const RectifiedPair& pair, const Keypoints&
   rule.window_px = window_px;
   rule.channels = channels;
   rule.equiangular = equiangular != 0;
-  rule.most_unlike = 1 - static_cast<double>(min_score);
+  rule.most_unlike = 1 - double(min_score);
   rule.sigma_limit_px = sigma_limit_px;
   return match_windows(pair, keypoints, rule, context);
 }

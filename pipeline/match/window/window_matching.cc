@@ -151,14 +151,13 @@ class Search {
         squares += in[2] - (full ? out[2] : 0);
         if (x < side_ - 1) continue;
         const int centre = x - planes_.radius;
-        facts_.left_mean[c].row(row)[centre] = static_cast<float>(left);
-        facts_.right_mean[c].row(row)[centre] = static_cast<float>(right / pixels);
-        scale[centre] += static_cast<float>(squares - right * right / pixels);
+        facts_.left_mean[c].row(row)[centre] = float(left);
+        facts_.right_mean[c].row(row)[centre] = float(right / pixels);
+        scale[centre] += float(squares - right * right / pixels);
       }
     }
     for (int x = 0; x < width_; ++x)
-      scale[x] =
-          whole[x] != 0 && scale[x] > 1e-3F * static_cast<float>(pixels) ? 1 / std::sqrt(scale[x]) : 0.0F;
+      scale[x] = whole[x] != 0 && scale[x] > 1e-3F * float(pixels) ? 1 / std::sqrt(scale[x]) : 0.0F;
   }
 
   // Of the window's rows about y: left, right and squared right, a column each.
@@ -168,8 +167,8 @@ class Search {
       const float* l = planes_.left[c].row(y + j);
       const float* r = planes_.right[c].row(y + j);
       for (int x = 0; x < width_; ++x) {
-        const auto value = static_cast<double>(r[x]);
-        columns[3 * x] += static_cast<double>(l[x]);
+        const auto value = double(r[x]);
+        columns[3 * x] += double(l[x]);
         columns[3 * x + 1] += value;
         columns[3 * x + 2] += value * value;
       }
@@ -235,7 +234,7 @@ class Search {
 // window fits (or no correlation is positive). Stopped early where the context says so.
 void search_lattice(const ChannelPlanes& planes, WindowScore score, const DisparityRange& range,
                     const LatticeRows& rows, StageContext& context, Plane<int>& best) {
-  std::fill(best.values.begin(), best.values.end(), kNoCandidate);
+  std::ranges::fill(best.values, kNoCandidate);
   Arena::Mark mark(context.scratch);
   Search(planes, score, rows, context, best).run(range, context);
 }
@@ -255,11 +254,11 @@ std::optional<LatticeRows> rows_of(const Keypoints& keypoints, int height) {
     least = std::min(least, k.at_px.y);
     most = std::max(most, k.at_px.y);
   }
-  if (least < 0 || most >= static_cast<float>(height)) return std::nullopt;
-  const LatticeRows rows{static_cast<int>(least), keypoints.lattice_step_px,
-                         (static_cast<int>(most) - static_cast<int>(least)) / keypoints.lattice_step_px + 1};
+  if (least < 0 || most >= float(height)) return std::nullopt;
+  const LatticeRows rows{int(least), keypoints.lattice_step_px,
+                         (int(most) - int(least)) / keypoints.lattice_step_px + 1};
   for (const Keypoint& k : keypoints.points)
-    if ((static_cast<int>(k.at_px.y) - rows.first_px) % rows.step_px != 0) return std::nullopt;
+    if ((int(k.at_px.y) - rows.first_px) % rows.step_px != 0) return std::nullopt;
   return rows;
 }
 
@@ -282,10 +281,10 @@ Fit fit_minimum(const PatchScores::Score& before, const PatchScores::Score& here
   const double samples = rule.window_px * rule.window_px;
   // The parabola's minimum, but never less than rounding to eight bits leaves.
   const double least = std::max(here.unlike - tilt * tilt / (8 * bend), 1e-6 * bend);
-  fit.disparity_px = static_cast<float>(disparity + offset);
-  fit.cost = static_cast<float>(here.cost);
+  fit.disparity_px = float(disparity + offset);
+  fit.cost = float(here.cost);
   fit.unlike = here.unlike;
-  fit.sigma_px = static_cast<float>(std::sqrt(2 * least / (samples * bend) + bias * bias));
+  fit.sigma_px = float(std::sqrt(2 * least / (samples * bend) + bias * bias));
   return fit;
 }
 
@@ -310,14 +309,13 @@ class WindowMatching {
   void run(StageContext& context) {
     if (rows_) search_lattice(planes_, rule_.score, range_, *rows_, context, best_);
     context.progress.done.store(0.8F, std::memory_order_relaxed);
-    const int count = static_cast<int>(keypoints_.points.size());
+    const int count = int(keypoints_.points.size());
     context.pool.for_each_band(count, kBands, [&](int begin, int end, int band) {
       for (int k = begin; k < end; ++k) {
         if (k % 64 == 0 && context.stop()) return;
-        PatchScores& scores = scores_[static_cast<std::size_t>(band)];
-        fits_[static_cast<std::size_t>(k)] =
-            rows_ ? fit_at_node(keypoints_.points[static_cast<std::size_t>(k)].at_px, scores)
-                  : fit_anywhere(keypoints_.points[static_cast<std::size_t>(k)].at_px, scores);
+        PatchScores& scores = scores_[std::size_t(band)];
+        fits_[std::size_t(k)] = rows_ ? fit_at_node(keypoints_.points[std::size_t(k)].at_px, scores)
+                                      : fit_anywhere(keypoints_.points[std::size_t(k)].at_px, scores);
       }
     });
   }
@@ -335,9 +333,9 @@ class WindowMatching {
 
  private:
   Fit fit_at_node(Vec2f at, PatchScores& scores) {
-    const int x = static_cast<int>(at.x);
+    const int x = int(at.x);
     if (x < 0 || x >= best_.width) return {};
-    const int d = best_.row((static_cast<int>(at.y) - rows_->first_px) / rows_->step_px)[x];
+    const int d = best_.row((int(at.y) - rows_->first_px) / rows_->step_px)[x];
     if (d <= range_.first || d >= range_.last || !scores.load(at, d - 1, 3)) return {};
     return fit_minimum(scores.score(0), scores.score(1), scores.score(2), d, bias_px_, rule_);
   }
@@ -379,7 +377,7 @@ double method_bias_px(const RectifiedPair& pair, int window_px) {
 
 Result<MatchSet> match_windows(const RectifiedPair& pair, const Keypoints& keypoints, const WindowRule& rule,
                                StageContext& context) {
-  const auto pixels = static_cast<std::size_t>(pair.width_px) * static_cast<std::size_t>(pair.height_px);
+  const auto pixels = std::size_t(pair.width_px) * std::size_t(pair.height_px);
   if (pixels == 0 || pair.left.grey.size() != pixels || pair.right.grey.size() != pixels)
     return Error{Errc::InvalidInput, "the rectified pair has no pixels"};
   MatchSet set(&context.output);

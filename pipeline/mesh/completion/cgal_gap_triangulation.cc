@@ -67,8 +67,7 @@ std::pmr::vector<std::array<std::uint32_t, 3>> triangulate_gap(
   std::vector<char> is_added(plane.size(), 0);
   const auto insert = [&](std::uint32_t v) {
     if (at[v] != nullptr) return;
-    const auto handle =
-        cdt.insert(Kernel::Point_2(static_cast<double>(plane[v].x), static_cast<double>(plane[v].y)));
+    const auto handle = cdt.insert(Kernel::Point_2(double(plane[v].x), double(plane[v].y)));
     handle->info() = v;
     at[v] = handle;
   };
@@ -82,20 +81,20 @@ std::pmr::vector<std::array<std::uint32_t, 3>> triangulate_gap(
     bool known = true, fresh = far_point && (cdt.is_infinite(face) || narrow(face));
     for (int k = 0; k < 3; ++k) {
       if (cdt.is_infinite(face->vertex(k))) {
-        t[static_cast<std::size_t>(k)] = *far_point;
+        t[std::size_t(k)] = *far_point;
         continue;
       }
       const auto v = face->vertex(k)->info();
       // Where the border crosses itself in the plane, CGAL adds vertices of its own.
       known = known && v < plane.size() && at[v] == face->vertex(k);
       fresh = fresh || (known && is_added[v] != 0);
-      t[static_cast<std::size_t>(k)] = v;
+      t[std::size_t(k)] = v;
     }
     if (!known || !fresh) continue;
-    std::rotate(t.begin(), std::min_element(t.begin(), t.end()), t.end());
+    std::rotate(t.begin(), std::ranges::min_element(t), t.end());
     triangles.push_back(t);
   }
-  std::sort(triangles.begin(), triangles.end());  // CGAL's order follows addresses
+  std::ranges::sort(triangles);  // CGAL's order follows addresses
   return triangles;
 }
 

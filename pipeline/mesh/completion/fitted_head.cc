@@ -31,7 +31,7 @@ struct Fit {
 Modes modes_of(const HeadPlace& place) { return Eigen::Map<const Modes>(place.mode_mm.data()); }
 
 Fit fit_modes(const UnrolledHead& head, double cell_mm, double misfit_mm) {
-  const int step = std::max(1, static_cast<int>(std::lround(kApartMm / cell_mm)));
+  const int step = std::max(1, int(std::lround(kApartMm / cell_mm)));
   const double apart = step * cell_mm;
   const double noise = misfit_mm * std::max(1.0, kTogetherMm / apart);
   Fit fit;
@@ -43,7 +43,7 @@ Fit fit_modes(const UnrolledHead& head, double cell_mm, double misfit_mm) {
         if (!head.has_own(c, r)) continue;
         const HeadPlace place = head_place(head.own.x_mm(c), head.own.y_mm(r));
         const Modes modes = modes_of(place);
-        const double seen = static_cast<double>(head.own.z(c, r)) - place.mean_mm;
+        const double seen = double(head.own.z(c, r)) - place.mean_mm;
         const double off = std::abs(seen - modes.dot(fit.weight)) / misfit_mm;
         const double weight = (round == 0 || off < kHuber ? 1 : kHuber / off) / (noise * noise);
         normal += weight * modes * modes.transpose();
@@ -77,9 +77,9 @@ FaceRelief fit_generic_face(const UnrolledHead& head, double cell_mm, double mis
   for (int r = 0; r < radius.rows(); ++r)
     for (int c = 0; c < radius.columns(); ++c) {
       const HeadPlace place = head_place(radius.x_mm(c), radius.y_mm(r));
-      radius.z(c, r) = static_cast<float>(place.mean_mm + modes_of(place).dot(fit.weight));
+      radius.z(c, r) = float(place.mean_mm + modes_of(place).dot(fit.weight));
     }
-  for (int c = 0; c < radius.columns(); ++c) end_at_jaw(radius, c, static_cast<float>(cell_mm));
+  for (int c = 0; c < radius.columns(); ++c) end_at_jaw(radius, c, float(cell_mm));
   return radius;
 }
 

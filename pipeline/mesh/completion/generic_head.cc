@@ -32,12 +32,11 @@ struct Taps {
 
 Taps taps_at(double share, int cells) {
   const double at = std::clamp(share, 0.0, 1.0) * (cells - 1);
-  const int first = std::min(static_cast<int>(at), cells - 2);
+  const int first = std::min(int(at), cells - 2);
   const double t = at - first;
   Taps taps;
   for (int k = 0; k < 4; ++k)
-    taps.cell[static_cast<std::size_t>(k)] =
-        static_cast<std::size_t>(std::clamp(first - 1 + k, 0, cells - 1));
+    taps.cell[std::size_t(k)] = std::size_t(std::clamp(first - 1 + k, 0, cells - 1));
   taps.weight = {0.5 * t * (t * (2 - t) - 1), 0.5 * (t * t * (3 * t - 5) + 2),
                  0.5 * t * (t * (4 - 3 * t) + 1), 0.5 * t * t * (t - 1)};
   return taps;

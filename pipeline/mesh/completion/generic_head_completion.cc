@@ -65,11 +65,11 @@ void Globe::quarter(std::span<std::pmr::vector<double>> fields) {
   edges.reserve(3 * triangles.size());
   for (const auto& t : triangles)
     for (std::size_t k = 0; k < 3; ++k) edges.push_back(edge_of(t[k], t[(k + 1) % 3]));
-  std::sort(edges.begin(), edges.end());
+  std::ranges::sort(edges);
   edges.erase(std::unique(edges.begin(), edges.end()), edges.end());
   const auto middle = [&](std::uint32_t a, std::uint32_t b) {
     const auto at = std::lower_bound(edges.begin(), edges.end(), edge_of(a, b));
-    return static_cast<std::uint32_t>(before) + static_cast<std::uint32_t>(at - edges.begin());
+    return std::uint32_t(before) + std::uint32_t(at - edges.begin());
   };
   std::pmr::vector<int> neighbours(before, 0, memory);
   for (const Edge& e : edges) ++neighbours[e[0]], ++neighbours[e[1]];
@@ -129,7 +129,7 @@ MeshLaplacian bends_of(const Globe& globe) {
   std::vector<Eigen::Vector3d> at;
   for (const Vec3d& d : globe.direction) at.emplace_back(d.x, d.y, d.z);
   MeshLaplacian laplacian = laplacian_of(at, globe.triangles);
-  const double share = 4 * std::numbers::pi / static_cast<double>(at.size()) / (2 * std::sqrt(3.0));
+  const double share = 4 * std::numbers::pi / double(at.size()) / (2 * std::sqrt(3.0));
   for (auto& its : laplacian.neighbours)
     for (auto& n : its) n.weight *= share;
   return laplacian;
@@ -140,12 +140,11 @@ std::vector<int> steps_from(bool known, const MeshLaplacian& bends, std::span<co
   std::vector<int> steps(value.size(), most);
   std::vector<int> front;
   for (std::size_t v = 0; v < value.size(); ++v)
-    if (std::isnan(value[v]) != known) steps[v] = 0, front.push_back(static_cast<int>(v));
+    if (std::isnan(value[v]) != known) steps[v] = 0, front.push_back(int(v));
   for (std::size_t next = 0; next < front.size(); ++next) {
-    const auto v = static_cast<std::size_t>(front[next]);
+    const auto v = std::size_t(front[next]);
     for (const auto& n : bends.neighbours[v])
-      if (steps[n.vertex] > steps[v] + 1)
-        steps[n.vertex] = steps[v] + 1, front.push_back(static_cast<int>(n.vertex));
+      if (steps[n.vertex] > steps[v] + 1) steps[n.vertex] = steps[v] + 1, front.push_back(int(n.vertex));
   }
   return steps;
 }
@@ -160,9 +159,9 @@ double weight_of(double step_mm, double length_mm) { return std::pow(step_mm / (
 void continue_over_globe(const Globe& globe, double step_mm, std::span<const double> shape,
                          std::span<double> value) {
   const MeshLaplacian laplacian = bends_of(globe);
-  const int band = std::max(2, static_cast<int>(std::lround(kBandMm / step_mm)));
+  const int band = std::max(2, int(std::lround(kBandMm / step_mm)));
   const std::vector<int> depth = steps_from(false, laplacian, value, band + 1);
-  const int bent = std::max(1, static_cast<int>(kBentMm / step_mm));
+  const int bent = std::max(1, int(kBentMm / step_mm));
   const std::vector<int> away = steps_from(true, laplacian, value, bent);
   std::vector<int> place(value.size(), -1);
   int count = 0;
@@ -182,7 +181,7 @@ void continue_over_globe(const Globe& globe, double step_mm, std::span<const dou
       bends.emplace_back(place[v], place[n], share);
       its_bend += share * (shape[n] - shape[v]);
     }
-    own_bend[place[v]] = (1 - risen(static_cast<double>(away[v]) / bent)) * its_bend;
+    own_bend[place[v]] = (1 - risen(double(away[v]) / bent)) * its_bend;
   }
   using Sparse = Eigen::SparseMatrix<double>;
   Sparse bend(count, count), near(count, count);
@@ -224,10 +223,8 @@ FaceMesh laid_flat(const FaceMesh& mesh, const RigidTransform& head_from_camera,
   FaceMesh flat(&scratch);
   flat.vertices_mm.reserve(mesh.vertices_mm.size());
   for (const Vec3f& v : mesh.vertices_mm) {
-    const Globed g = globed(apply(
-        head_from_camera, {static_cast<double>(v.x), static_cast<double>(v.y), static_cast<double>(v.z)}));
-    flat.vertices_mm.push_back(
-        {static_cast<float>(g.plane.x), static_cast<float>(g.plane.y), static_cast<float>(g.radius)});
+    const Globed g = globed(apply(head_from_camera, {double(v.x), double(v.y), double(v.z)}));
+    flat.vertices_mm.push_back({float(g.plane.x), float(g.plane.y), float(g.radius)});
   }
   flat.measured.assign(mesh.vertices_mm.size(), 1);  // gaps that the mesher closed are surface here
   flat.triangles.assign(mesh.triangles.begin(), mesh.triangles.end());
@@ -285,9 +282,8 @@ Result<FaceMesh> GenericHeadCompletion::complete(FaceMesh mesh, const Vec3d& acr
     const Vec3d at = apply(camera_from_head,
                            {kGlobeCentre.x + r * d.x, kGlobeCentre.y + r * d.y, kGlobeCentre.z + r * d.z});
     const Vec2d plane = plane_of(d);
-    return Addition{{static_cast<float>(at.x), static_cast<float>(at.y), static_cast<float>(at.z)},
-                    {static_cast<float>(plane.x), static_cast<float>(plane.y)},
-                    static_cast<float>(sigma[v])};
+    return Addition{
+        {float(at.x), float(at.y), float(at.z)}, {float(plane.x), float(plane.y)}, float(sigma[v])};
   };
   std::pmr::vector<Addition> added(&scratch);
   for (std::size_t v = 1; v < off.size(); ++v)

@@ -30,7 +30,7 @@ std::pmr::vector<Edge> border_of(const FaceMesh& mesh, Arena& scratch) {
       const Edge e{t[k], t[(k + 1) % 3]};
       all.push_back({{std::min(e[0], e[1]), std::max(e[0], e[1])}, e});
     }
-  std::sort(all.begin(), all.end(), [](const Half& l, const Half& r) { return l.key < r.key; });
+  std::ranges::sort(all, [](const Half& l, const Half& r) { return l.key < r.key; });
   std::pmr::vector<Edge> border(&scratch);
   for (std::size_t i = 0; i < all.size();) {
     std::size_t j = i + 1;
@@ -46,7 +46,7 @@ std::pmr::vector<Edge> directed_edges(const FaceMesh& mesh, Arena& scratch) {
   edges.reserve(3 * mesh.triangles.size());
   for (const auto& t : mesh.triangles)
     for (std::size_t k = 0; k < 3; ++k) edges.push_back({t[k], t[(k + 1) % 3]});
-  std::sort(edges.begin(), edges.end());
+  std::ranges::sort(edges);
   return edges;
 }
 
@@ -56,8 +56,8 @@ bool fits(const FaceMesh& mesh, std::span<const Edge> own, const Triangle& t, do
   for (std::size_t k = 0; k < 3; ++k) {
     const Edge edge{t[k], t[(k + 1) % 3]};
     const float squared = squared_distance(mesh.vertices_mm[edge[0]], mesh.vertices_mm[edge[1]]);
-    if (static_cast<double>(squared) > longest_mm * longest_mm) return false;
-    if (std::binary_search(own.begin(), own.end(), edge)) return false;
+    if (double(squared) > longest_mm * longest_mm) return false;
+    if (std::ranges::binary_search(own, edge)) return false;
   }
   return true;
 }
@@ -131,10 +131,10 @@ void fan_holes(FaceMesh& mesh, Arena& scratch) {
     Vec3f middle{};
     float sigma = 0;
     for (const std::uint32_t v : loop) {
-      middle = plus(middle, times(mesh.vertices_mm[v], 1 / static_cast<float>(loop.size())));
+      middle = plus(middle, times(mesh.vertices_mm[v], 1 / float(loop.size())));
       sigma = std::max(sigma, mesh.sigma_mm[v]);
     }
-    const auto centre = static_cast<std::uint32_t>(mesh.vertices_mm.size());
+    const auto centre = std::uint32_t(mesh.vertices_mm.size());
     mesh.vertices_mm.push_back(middle);
     mesh.sigma_mm.push_back(sigma);
     mesh.measured.push_back(0);
@@ -154,7 +154,7 @@ FaceMesh sew(const FaceMesh& mesh, std::span<const Vec2f> plane, std::span<const
     whole.vertices_mm.push_back(a.at_mm);
     whole.sigma_mm.push_back(a.sigma_mm);
     whole.measured.push_back(0);
-    return static_cast<std::uint32_t>(whole.vertices_mm.size() - 1);
+    return std::uint32_t(whole.vertices_mm.size() - 1);
   };
   std::pmr::vector<Vec2f> places(plane.begin(), plane.end(), &context.scratch);
   std::pmr::vector<std::uint32_t> fresh(&context.scratch);

@@ -24,7 +24,7 @@ MeshLaplacian laplacian_of(std::span<const Eigen::Vector3d> at,
                           std::vector<double>(at.size(), 0.0)};
   const auto add = [&](std::uint32_t from, std::uint32_t to, double weight) {
     auto& its = laplacian.neighbours[from];
-    const auto found = std::find_if(its.begin(), its.end(), [to](const auto& n) { return n.vertex == to; });
+    const auto found = std::ranges::find_if(its, [to](const auto& n) { return n.vertex == to; });
     if (found == its.end()) its.push_back({to, weight});
     else found->weight += weight;
   };
@@ -56,11 +56,11 @@ void fair(std::span<Eigen::Vector3d> at, std::span<const std::array<std::uint32_
   for (std::size_t v = 0; v < at.size(); ++v) {
     const auto& its = laplacian.neighbours[v];
     const auto moves = [&](const auto& n) { return free[n.vertex] != 0; };
-    if (free[v] == 0 && std::none_of(its.begin(), its.end(), moves)) continue;
+    if (free[v] == 0 && std::ranges::none_of(its, moves)) continue;
     const double weight = std::sqrt(laplacian.area[v]);
     Eigen::RowVector3d known = Eigen::RowVector3d::Zero();
     const auto add = [&](std::size_t to, double share) {
-      if (place[to] >= 0) bends.emplace_back(static_cast<int>(stays.size()), place[to], share);
+      if (place[to] >= 0) bends.emplace_back(int(stays.size()), place[to], share);
       else known += share * at[to].transpose();
     };
     for (const auto& n : its) add(n.vertex, weight * n.weight), add(v, -weight * n.weight);
@@ -76,7 +76,7 @@ void fair(std::span<Eigen::Vector3d> at, std::span<const std::array<std::uint32_
   Sparse bend(static_cast<Eigen::Index>(stays.size()), count);
   bend.setFromTriplets(bends.begin(), bends.end());
   Eigen::MatrixX3d right(bend.rows(), 3);
-  for (Eigen::Index r = 0; r < right.rows(); ++r) right.row(r) = -stays[static_cast<std::size_t>(r)];
+  for (Eigen::Index r = 0; r < right.rows(); ++r) right.row(r) = -stays[std::size_t(r)];
   const Eigen::SimplicialLDLT<Sparse> solver(Sparse(bend.transpose() * bend));
   if (solver.info() != Eigen::Success) return;
   const Eigen::MatrixX3d solved = solver.solve(bend.transpose() * right);

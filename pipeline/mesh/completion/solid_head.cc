@@ -20,8 +20,7 @@ constexpr double kStumpMm = 14;
 constexpr double kLeastFootMm2 = 2000;  // of a neck
 
 Vec3d in_head(const FaceModel& model, const Vec3f& v) {
-  return apply(model.head_from_camera,
-               {static_cast<double>(v.x), static_cast<double>(v.y), static_cast<double>(v.z)});
+  return apply(model.head_from_camera, {double(v.x), double(v.y), double(v.z)});
 }
 
 // The part of the mesh above the height, its border on the plane.
@@ -32,7 +31,7 @@ FaceMesh above(const FaceMesh& mesh, std::span<const double> height, double cut,
   std::vector<std::uint32_t> place(mesh.vertices_mm.size(), ~std::uint32_t{0});
   const auto kept = [&](std::uint32_t v) {
     if (place[v] == ~std::uint32_t{0}) {
-      place[v] = static_cast<std::uint32_t>(part.vertices_mm.size());
+      place[v] = std::uint32_t(part.vertices_mm.size());
       part.vertices_mm.push_back(mesh.vertices_mm[v]);
       part.sigma_mm.push_back(mesh.sigma_mm[v]);
       part.measured.push_back(mesh.measured[v]);
@@ -42,9 +41,9 @@ FaceMesh above(const FaceMesh& mesh, std::span<const double> height, double cut,
   std::map<std::array<std::uint32_t, 2>, std::uint32_t> on_edge;
   const auto crossing = [&](std::uint32_t a, std::uint32_t b) {
     if (a > b) std::swap(a, b);  // whichever triangle asks: the same place
-    const auto [at, fresh] = on_edge.try_emplace({a, b}, static_cast<std::uint32_t>(part.vertices_mm.size()));
+    const auto [at, fresh] = on_edge.try_emplace({a, b}, std::uint32_t(part.vertices_mm.size()));
     if (fresh) {
-      const float share = static_cast<float>((cut - height[a]) / (height[b] - height[a]));
+      const float share = float((cut - height[a]) / (height[b] - height[a]));
       const Vec3f& p = mesh.vertices_mm[a];
       part.vertices_mm.push_back(plus(p, times(minus(mesh.vertices_mm[b], p), share)));
       part.sigma_mm.push_back(std::max(mesh.sigma_mm[a], mesh.sigma_mm[b]));
@@ -75,7 +74,7 @@ void part_touching(FaceMesh& mesh) {
   for (std::uint32_t v = 0; v < before; ++v) {
     std::vector<std::uint32_t>& left = around[v];
     for (bool first = true; !left.empty(); first = false) {
-      const std::uint32_t name = first ? v : static_cast<std::uint32_t>(mesh.vertices_mm.size());
+      const std::uint32_t name = first ? v : std::uint32_t(mesh.vertices_mm.size());
       if (!first) {
         mesh.vertices_mm.push_back(Vec3f(mesh.vertices_mm[v]));
         mesh.sigma_mm.push_back(float(mesh.sigma_mm[v]));
@@ -86,12 +85,12 @@ void part_touching(FaceMesh& mesh) {
       while (next != left.end()) {
         Triangle& t = mesh.triangles[*next];
         left.erase(next);
-        const auto k = static_cast<std::size_t>(std::find(t.begin(), t.end(), v) - t.begin());
+        const auto k = std::size_t(std::ranges::find(t, v) - t.begin());
         const std::uint32_t onward = t[(k + 2) % 3];
         t[k] = name;
-        next = std::find_if(left.begin(), left.end(), [&](std::uint32_t other) {
+        next = std::ranges::find_if(left, [&](std::uint32_t other) {
           const Triangle& o = mesh.triangles[other];
-          const auto at = static_cast<std::size_t>(std::find(o.begin(), o.end(), v) - o.begin());
+          const auto at = std::size_t(std::ranges::find(o, v) - o.begin());
           return o[(at + 1) % 3] == onward;
         });
       }
@@ -105,10 +104,10 @@ bool is_closed(const FaceMesh& mesh) {
   edges.reserve(3 * mesh.triangles.size());
   for (const Triangle& t : mesh.triangles)
     for (std::size_t k = 0; k < 3; ++k) edges.push_back({t[k], t[(k + 1) % 3]});
-  std::sort(edges.begin(), edges.end());
+  std::ranges::sort(edges);
   if (std::adjacent_find(edges.begin(), edges.end()) != edges.end()) return false;
-  return std::all_of(edges.begin(), edges.end(), [&](const auto& e) {
-    return std::binary_search(edges.begin(), edges.end(), std::array<std::uint32_t, 2>{e[1], e[0]});
+  return std::ranges::all_of(edges, [&](const auto& e) {
+    return std::ranges::binary_search(edges, std::array<std::uint32_t, 2>{e[1], e[0]});
   });
 }
 

@@ -21,13 +21,11 @@ std::pmr::vector<Addition> additions(const UnrolledHead& head, const RigidTransf
     for (int c = 0; c < head.own.columns(); ++c) {
       const float radius = head.added.z(c, r);
       const float away = head.distance_mm[head.index(c, r)];
-      if (std::isnan(radius) || away < 1.5F * static_cast<float>(options.cell_mm)) continue;
+      if (std::isnan(radius) || away < 1.5F * float(options.cell_mm)) continue;
       const double arc = head.own.x_mm(c), y = head.own.y_mm(r);
-      const Vec3d at = apply(camera_from_head, rolled(arc, y, static_cast<double>(radius)));
-      const double sigma = options.sigma_mm + options.sigma_per_mm * static_cast<double>(away);
-      all.push_back({{static_cast<float>(at.x), static_cast<float>(at.y), static_cast<float>(at.z)},
-                     {static_cast<float>(arc), static_cast<float>(y)},
-                     static_cast<float>(sigma)});
+      const Vec3d at = apply(camera_from_head, rolled(arc, y, double(radius)));
+      const double sigma = options.sigma_mm + options.sigma_per_mm * double(away);
+      all.push_back({{float(at.x), float(at.y), float(at.z)}, {float(arc), float(y)}, float(sigma)});
     }
   return all;
 }

@@ -12,6 +12,14 @@
 
 namespace relievo::pipeline {
 
+// Nothing is added. Thread: any.
+struct MeasuredOnly {
+  Result<FaceMesh> complete(FaceMesh mesh, const Vec3d&, StageContext& context) const {
+    if (context.stop()) return Error{Errc::Cancelled, "completion was stopped"};
+    return mesh;
+  }
+};
+
 struct SymmetricCompletion {
   double cell_mm = 1.5;         // between completed vertices
   double longest_edge_mm = 12;  // wider gaps between both sides' surfaces stay open

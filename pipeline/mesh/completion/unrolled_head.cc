@@ -15,8 +15,7 @@ constexpr int kRelaxRounds = 150;
 
 Vec3f unrolled(const Vec3d& in_head) {
   const double z = in_head.z + kAxisBehind;
-  return {static_cast<float>(kArcRadius * std::atan2(in_head.x, z)), static_cast<float>(in_head.y),
-          static_cast<float>(std::hypot(in_head.x, z))};
+  return {float(kArcRadius * std::atan2(in_head.x, z)), float(in_head.y), float(std::hypot(in_head.x, z))};
 }
 
 Vec3d rolled(double arc, double y, double radius) {
@@ -51,14 +50,14 @@ void UnrolledHead::relax(std::pmr::vector<float>& shift, const std::pmr::vector<
           sum += shift[index(c + dc, r + dr)];
           ++count;
         }
-        if (count > 0) shift[index(c, r)] = sum / static_cast<float>(count);
+        if (count > 0) shift[index(c, r)] = sum / float(count);
       }
 }
 
 // Two sweeps.
 void UnrolledHead::measure_distance(float cell_mm) {
   const int columns = own.columns(), rows = own.rows();
-  distance_mm.assign(static_cast<std::size_t>(columns * rows), 1e6F);
+  distance_mm.assign(std::size_t(columns * rows), 1e6F);
   const auto step = [&](int c, int r, int dc, int dr) {
     if (has_own(c, r)) distance_mm[index(c, r)] = 0;
     else if (own.inside(c + dc, r + dr))

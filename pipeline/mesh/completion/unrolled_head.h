@@ -46,12 +46,12 @@ class UnrolledHead {
     relax(shift, fixed);
     for (int r = 0; r < own.rows(); ++r)
       for (int c = 0; c < own.columns(); ++c) added.z(c, r) += shift[index(c, r)];
-    measure_distance(static_cast<float>(cell_mm));
+    measure_distance(float(cell_mm));
   }
 
   bool has_own(int c, int r) const { return own.inside(c, r) && !std::isnan(own.z(c, r)); }
-  std::size_t index(int c, int r) const { return static_cast<std::size_t>(r * own.columns() + c); }
-  std::size_t cells() const { return static_cast<std::size_t>(own.columns() * own.rows()); }
+  std::size_t index(int c, int r) const { return std::size_t(r * own.columns() + c); }
+  std::size_t cells() const { return std::size_t(own.columns() * own.rows()); }
 
   FaceMesh flat;  // the measured surface, unrolled
   FaceRelief own, added;

@@ -12,8 +12,8 @@ CornerIndex::CornerIndex(std::size_t vertices, std::pmr::vector<Corners>& triang
 
 void CornerIndex::build(std::span<const std::uint8_t> fixed) {
   std::erase_if(triangles_, [](const Corners& t) { return t[0] == kGoneVertex; });
-  if (fixed.empty()) std::fill(touched_.begin(), touched_.end(), std::uint8_t{0});
-  else std::copy(fixed.begin(), fixed.end(), touched_.begin());
+  if (fixed.empty()) std::ranges::fill(touched_, std::uint8_t{0});
+  else std::ranges::copy(fixed, touched_.begin());
   around_.sort(touched_.size(), [this](auto&& add) {
     for (std::uint32_t t = 0; t < triangles_.size(); ++t)
       for (const std::uint32_t v : triangles_[t]) add(v, t);
@@ -56,7 +56,7 @@ void CornerIndex::collapse(const Ring& of_gone, std::uint32_t gone, std::uint32_
     Corners& moved = triangles_[of_gone.at[i]];
     for (const std::uint32_t v : moved) touch(v);
     if (holds(moved, kept)) moved.fill(kGoneVertex);
-    else std::replace(moved.begin(), moved.end(), gone, kept);
+    else std::ranges::replace(moved, gone, kept);
   }
 }
 

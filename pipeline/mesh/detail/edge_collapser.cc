@@ -78,9 +78,9 @@ class Collapser {
         candidates_(memory) {
     candidates_.reserve(3 * triangles.size());
     for (const Vec3f& v : vertices) {
-      middle_.x += static_cast<double>(v.x) / static_cast<double>(vertices.size());
-      middle_.y += static_cast<double>(v.y) / static_cast<double>(vertices.size());
-      middle_.z += static_cast<double>(v.z) / static_cast<double>(vertices.size());
+      middle_.x += double(v.x) / double(vertices.size());
+      middle_.y += double(v.y) / double(vertices.size());
+      middle_.z += double(v.z) / double(vertices.size());
     }
   }
 
@@ -98,8 +98,8 @@ class Collapser {
  private:
   // Near the origin, so that squares keep their digits.
   Vec3d at(std::uint32_t v) const {
-    return {static_cast<double>(vertices_[v].x) - middle_.x, static_cast<double>(vertices_[v].y) - middle_.y,
-            static_cast<double>(vertices_[v].z) - middle_.z};
+    return {double(vertices_[v].x) - middle_.x, double(vertices_[v].y) - middle_.y,
+            double(vertices_[v].z) - middle_.z};
   }
 
   void add_quadrics() {
@@ -127,7 +127,7 @@ class Collapser {
   }
 
   void mark_border() {
-    std::fill(border_.begin(), border_.end(), std::uint8_t{0});
+    std::ranges::fill(border_, std::uint8_t{0});
     for (const Triangle& t : triangles_)
       for (std::size_t k = 0; k < 3; ++k)
         if (index_.across(t[k], t[(k + 1) % 3]) == kGoneVertex) border_[t[k]] = border_[t[(k + 1) % 3]] = 1;
@@ -137,7 +137,7 @@ class Collapser {
     Quadric sum = quadrics_[gone];
     sum.add(quadrics_[kept]);
     const double square = std::max(sum.at(at(kept)), 0.0) / std::max(sum.weight, 1e-12);
-    return static_cast<float>(square) + kLengthWeight * squared_distance(vertices_[gone], vertices_[kept]);
+    return float(square) + kLengthWeight * squared_distance(vertices_[gone], vertices_[kept]);
   }
 
   // Each edge once, in its cheaper direction.
@@ -160,14 +160,13 @@ class Collapser {
   std::size_t run_pass(std::size_t wanted) {
     const std::size_t tried =
         std::min(candidates_.size(), std::max(candidates_.size() / kTriedShare, std::size_t{100}));
-    std::nth_element(
-        candidates_.begin(),
-        candidates_.begin() + static_cast<std::ptrdiff_t>(tried == candidates_.size() ? 0 : tried),
-        candidates_.end());
-    std::sort(candidates_.begin(), candidates_.begin() + static_cast<std::ptrdiff_t>(tried));
+    std::nth_element(candidates_.begin(),
+                     candidates_.begin() + std::ptrdiff_t(tried == candidates_.size() ? 0 : tried),
+                     candidates_.end());
+    std::sort(candidates_.begin(), candidates_.begin() + std::ptrdiff_t(tried));
     const std::size_t cheap = run(0, tried, wanted);
     if (cheap > 0) return cheap;
-    std::sort(candidates_.begin() + static_cast<std::ptrdiff_t>(tried), candidates_.end());
+    std::sort(candidates_.begin() + std::ptrdiff_t(tried), candidates_.end());
     return run(tried, candidates_.size(), wanted);
   }
 
@@ -190,7 +189,7 @@ class Collapser {
       const Triangle& before = triangles_[ring.at[i]];
       if (holds(before, kept)) continue;
       Triangle after = before;
-      std::replace(after.begin(), after.end(), gone, kept);
+      std::ranges::replace(after, gone, kept);
       const Vec3f n = normal(before), m = normal(after);
       if (!(dot(n, m) > kMostTurn * length(n) * length(m))) return false;
       const float angle = smallest(after);

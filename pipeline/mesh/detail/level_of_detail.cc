@@ -42,20 +42,19 @@ class CellIndex {
       nearest_mm_ = std::min(nearest_mm_, v.z);
     }
     const float area = std::max((right - left_) * (bottom - top_), 1e-9F);
-    side_ = std::sqrt(area * kTrianglesPerCell / static_cast<float>(triangles.size()));
-    fill(static_cast<int>((right - left_) / side_) + 1, static_cast<int>((bottom - top_) / side_) + 1);
+    side_ = std::sqrt(area * kTrianglesPerCell / float(triangles.size()));
+    fill(int((right - left_) / side_) + 1, int((bottom - top_) / side_) + 1);
   }
 
   double squared_distance(const Vec3f& p) const {
-    const int c = static_cast<int>(std::floor((p.x / p.z - left_) / side_));
-    const int r = static_cast<int>(std::floor((p.y / p.z - top_) / side_));
+    const int c = int(std::floor((p.x / p.z - left_) / side_));
+    const int r = int(std::floor((p.y / p.z - top_) / side_));
     double best = std::numeric_limits<double>::max();
     const int most =
         std::max({std::abs(c), std::abs(c - cells_.columns()), std::abs(r), std::abs(r - cells_.rows())}) + 1;
     const auto done = [&](int ring) {
       // What lies beyond this ring is further away across the line of sight alone.
-      const double beyond = static_cast<double>(ring - 1) *
-                            static_cast<double>(side_ * kObliquity * std::min(nearest_mm_, p.z));
+      const double beyond = double(ring - 1) * double(side_ * kObliquity * std::min(nearest_mm_, p.z));
       return ring > most || (ring > 0 && beyond > 0 && best <= beyond * beyond);
     };
     cells_.by_rings(c, r, done, [&](std::uint32_t k) {
@@ -81,7 +80,7 @@ class CellIndex {
           d = std::max(d, vertices_[v].y / vertices_[v].z);
         }
         const auto cell = [this](float at, float from, int count) {
-          return std::clamp(static_cast<int>((at - from) / side_), 0, count - 1);
+          return std::clamp(int((at - from) / side_), 0, count - 1);
         };
         for (int y = cell(u, top_, rows); y <= cell(d, top_, rows); ++y)
           for (int x = cell(l, left_, columns); x <= cell(r, left_, columns); ++x) add(x, y, k);
@@ -107,10 +106,10 @@ double squared_distance_to_triangle(const Vec3f& p, const Vec3f& a, const Vec3f&
                       dot(cross(minus(c, b), minus(p, b)), n) >= 0 &&
                       dot(cross(minus(a, c), minus(p, c)), n) >= 0;
   if (inside) {
-    const double height = static_cast<double>(dot(minus(p, a), n));
-    return height * height / static_cast<double>(square);
+    const double height = double(dot(minus(p, a), n));
+    return height * height / double(square);
   }
-  return static_cast<double>(
+  return double(
       std::min({squared_to_segment(p, a, b), squared_to_segment(p, b, c), squared_to_segment(p, c, a)}));
 }
 
@@ -126,7 +125,7 @@ SurfaceDistance distance_to_surface(std::span<const Vec3f> points, std::span<con
     sum += square;
     most = std::max(most, square);
   }
-  result.rms_mm = std::sqrt(sum / static_cast<double>(points.size()));
+  result.rms_mm = std::sqrt(sum / double(points.size()));
   result.max_mm = std::sqrt(most);
   return result;
 }
@@ -164,7 +163,7 @@ Entries split_at_seams(const FaceModel& model, std::pmr::memory_resource* memory
       while (entry != kUnused && !(entries.uv[entry].x == uv.x && entries.uv[entry].y == uv.y))
         entry = next[entry];
       if (entry == kUnused) {
-        entry = static_cast<std::uint32_t>(entries.vertex.size());
+        entry = std::uint32_t(entries.vertex.size());
         entries.vertex.push_back(v);
         entries.uv.push_back(uv);
         entries.at_mm.push_back(model.mesh.vertices_mm[v]);
@@ -218,8 +217,7 @@ bool hangs_together(const FaceModel& model) {
     return false;
   if (!model.texture.uv.empty() && model.texture.uv.size() != 3 * mesh.triangles.size()) return false;
   if (!model.texture.vertex_rgb.empty() && model.texture.vertex_rgb.size() != 3 * n) return false;
-  return std::all_of(mesh.triangles.begin(), mesh.triangles.end(),
-                     [n](const auto& t) { return t[0] < n && t[1] < n && t[2] < n; });
+  return std::ranges::all_of(mesh.triangles, [n](const auto& t) { return t[0] < n && t[1] < n && t[2] < n; });
 }
 
 }  // namespace
@@ -236,7 +234,7 @@ Result<LighterModel> lighten(const FaceModel& model, const DetailOptions& option
   RELIEVO_TRY(options.check());
   if (!hangs_together(model)) return Error{Errc::InvalidInput, "the model does not hang together"}.at("lod");
   LighterModel lighter(memory);
-  std::size_t wanted = static_cast<std::size_t>(options.triangles);
+  std::size_t wanted = std::size_t(options.triangles);
   const Entries entries = split_at_seams(model, memory);
   for (int turn = 0; turn < kMostTries && wanted < model.mesh.triangles.size(); ++turn) {
     std::pmr::vector<Triangle> triangles(entries.triangles, memory);
@@ -248,7 +246,7 @@ Result<LighterModel> lighten(const FaceModel& model, const DetailOptions& option
     lighter.rms_error_mm = distance.rms_mm;
     lighter.max_error_mm = distance.max_mm;
     if (distance.max_mm <= options.max_error_mm) return lighter;
-    wanted = static_cast<std::size_t>(kMoreEachTry * static_cast<double>(wanted));
+    wanted = std::size_t(kMoreEachTry * double(wanted));
   }
   lighter.model = model;
   lighter.rms_error_mm = lighter.max_error_mm = 0;

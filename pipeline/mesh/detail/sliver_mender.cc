@@ -77,8 +77,7 @@ class Mender {
     const auto squared = [&](std::size_t k) {
       return squared_distance(vertices_[corners[k]], vertices_[corners[(k + 1) % 3]]);
     };
-    std::sort(by_length.begin(), by_length.end(),
-              [&](std::size_t i, std::size_t j) { return squared(i) < squared(j); });
+    std::ranges::sort(by_length, [&](std::size_t i, std::size_t j) { return squared(i) < squared(j); });
     return flip(t, by_length[2]) || collapse(t, by_length[0]) || drop(t, by_length[2]) ||
            collapse(t, by_length[1]) || drop(t, by_length[1]) || drop(t, by_length[0]) || take_corner_out(t);
   }
@@ -88,8 +87,7 @@ class Mender {
     index_.build();
     const auto hopeless = [this](std::uint32_t t) {
       const Triangle& corners = triangles_[t];
-      return std::any_of(corners.begin(), corners.end(),
-                         [this](std::uint32_t v) { return index_.on_border(v); });
+      return std::ranges::any_of(corners, [this](std::uint32_t v) { return index_.on_border(v); });
     };
     const auto first_kept = std::partition(slivers_.begin(), slivers_.end(), hopeless);
     for (auto t = slivers_.begin(); t != first_kept; ++t) triangles_[*t].fill(kGoneVertex);
@@ -138,7 +136,7 @@ class Mender {
     for (std::size_t i = 0; i < of_gone.count; ++i) {
       Triangle moved = triangles_[of_gone.at[i]];
       if (holds(moved, kept)) continue;
-      std::replace(moved.begin(), moved.end(), gone, kept);
+      std::ranges::replace(moved, gone, kept);
       if (!stands(moved) || angle(moved) <= worst) return false;
     }
     index_.collapse(of_gone, gone, kept);

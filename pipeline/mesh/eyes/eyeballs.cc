@@ -42,7 +42,7 @@ struct Eye {
   std::pmr::vector<std::uint32_t> within;  // vertices between the lids
   Points seen;                             // some that were measured, in the head's frame
   Eigen::Vector3d middle{0, 0, 0};         // of those
-  double weight() const { return static_cast<double>(seen.size()) / kLikeOthers; }
+  double weight() const { return double(seen.size()) / kLikeOthers; }
 };
 
 // Both balls' middles, the right eye's before the left one's; an eye that is not found follows the other.
@@ -52,10 +52,10 @@ class Fit {
     constexpr int kStarts = 18;
     std::array<Settled, kStarts> ends;
     pool.for_each_band(kStarts, kStarts, [&](int, int, int k) {
-      ends[static_cast<std::size_t>(k)] =
+      ends[std::size_t(k)] =
           settle({3.0 * (k / 3 % 3) - 3, 2.0 * (k % 3) - 2, -kRadiusMm - (k < kStarts / 2 ? -1.0 : 1.0)});
     });
-    middles_ = std::min_element(ends.begin(), ends.end(), [](const Settled& l, const Settled& r) {
+    middles_ = std::ranges::min_element(ends, [](const Settled& l, const Settled& r) {
                  return l.cost < r.cost;
                })->middles;
   }
@@ -83,7 +83,7 @@ class Fit {
         cost += weight * error * error;
       };
       for (std::size_t i = 0; i < 2; ++i) {
-        const std::ptrdiff_t first = static_cast<std::ptrdiff_t>(3 * i);
+        const std::ptrdiff_t first = std::ptrdiff_t(3 * i);
         for (const Eigen::Vector3d& p : eyes_[i].seen) {
           const Eigen::Vector3d from = p - at[i];
           const double distance = from.norm(), error = (distance - kRadiusMm) / kErrorMm,
@@ -133,7 +133,7 @@ void collect(Eye& eye, const FaceMesh& mesh, const std::pmr::vector<Vec3d>& in_h
     eye.middle += eye.seen.back();
     depths.push_back(p.z);
   }
-  eye.middle /= static_cast<double>(eye.seen.size());
+  eye.middle /= double(eye.seen.size());
   eye.middle.z() = median(depths);
 }
 
@@ -154,8 +154,8 @@ std::pmr::vector<Edge> edges_of(std::uint8_t eye, const FaceMesh& mesh,
   for (const auto& t : mesh.triangles)
     for (std::size_t k = 0; k < 3; ++k)
       if (eye_of[t[k]] == eye) add(t[k], t[(k + 1) % 3]), add(t[k], t[(k + 2) % 3]);
-  std::sort(edges.begin(), edges.end(),
-            [](const Edge& a, const Edge& b) { return a.from != b.from ? a.from < b.from : a.to < b.to; });
+  std::ranges::sort(
+      edges, [](const Edge& a, const Edge& b) { return a.from != b.from ? a.from < b.from : a.to < b.to; });
   return edges;
 }
 
@@ -199,8 +199,7 @@ void lay_eyeballs(FaceMesh& mesh, const RigidTransform& head_from_camera, const 
   std::pmr::vector<Vec3d> in_head(&scratch);
   in_head.reserve(mesh.vertices_mm.size());
   for (const Vec3f& p : mesh.vertices_mm)
-    in_head.push_back(apply(head_from_camera, Vec3d{static_cast<double>(p.x), static_cast<double>(p.y),
-                                                    static_cast<double>(p.z)}));
+    in_head.push_back(apply(head_from_camera, Vec3d{double(p.x), double(p.y), double(p.z)}));
   std::array<Eye, 2> eyes{Eye(&scratch), Eye(&scratch)};
   for (std::size_t i = 0; i < 2; ++i) {
     eyes[i].lids = lids[i];
@@ -213,8 +212,7 @@ void lay_eyeballs(FaceMesh& mesh, const RigidTransform& head_from_camera, const 
       for (const std::uint32_t v : eyes[i].within) moved[v] = i + 1;
   const std::array edges{edges_of(1, mesh, moved, in_head, scratch),
                          edges_of(2, mesh, moved, in_head, scratch)};
-  context.pool.for_each_band(2, 2,
-                             [&](int, int, int i) { span(edges[static_cast<std::size_t>(i)], in_head); });
+  context.pool.for_each_band(2, 2, [&](int, int, int i) { span(edges[std::size_t(i)], in_head); });
   for (std::size_t i = 0; i < 2; ++i)
     for (const std::uint32_t v : eyes[i].within) {
       if (moved[v] == 0) continue;
@@ -229,7 +227,7 @@ void lay_eyeballs(FaceMesh& mesh, const RigidTransform& head_from_camera, const 
   for (std::uint32_t v = 0; v < moved.size(); ++v) {
     if (moved[v] == 0) continue;
     const Vec3d p = apply(camera_from_head, in_head[v]);
-    mesh.vertices_mm[v] = {static_cast<float>(p.x), static_cast<float>(p.y), static_cast<float>(p.z)};
+    mesh.vertices_mm[v] = {float(p.x), float(p.y), float(p.z)};
     mesh.measured[v] = 0;
     mesh.sigma_mm[v] = std::max(mesh.sigma_mm[v], kSigmaMm);
   }

@@ -21,9 +21,9 @@ bool is_measured(const FaceMesh& mesh, const std::array<std::uint32_t, 3>& t) {
 }  // namespace
 
 FaceRelief::FaceRelief(const ReliefBox& box, std::pmr::memory_resource* memory) : box_(box), z_(memory) {
-  columns_ = static_cast<int>(std::lround((box.right_mm - box.left_mm) / box.cell_mm)) + 1;
-  rows_ = static_cast<int>(std::lround((box.top_mm - box.bottom_mm) / box.cell_mm)) + 1;
-  z_.assign(static_cast<std::size_t>(columns_) * static_cast<std::size_t>(rows_), kNothing);
+  columns_ = int(std::lround((box.right_mm - box.left_mm) / box.cell_mm)) + 1;
+  rows_ = int(std::lround((box.top_mm - box.bottom_mm) / box.cell_mm)) + 1;
+  z_.assign(std::size_t(columns_) * std::size_t(rows_), kNothing);
 }
 
 double FaceRelief::at(double x_mm, double y_mm) const {
@@ -31,35 +31,32 @@ double FaceRelief::at(double x_mm, double y_mm) const {
   const double r = (y_mm - box_.bottom_mm) / box_.cell_mm;
   if (!(c >= 0 && r >= 0 && c <= columns_ - 1 && r <= rows_ - 1))
     return std::numeric_limits<double>::quiet_NaN();
-  const int c0 = std::min(static_cast<int>(c), columns_ - 2);
-  const int r0 = std::min(static_cast<int>(r), rows_ - 2);
+  const int c0 = std::min(int(c), columns_ - 2);
+  const int r0 = std::min(int(r), rows_ - 2);
   const double u = c - c0;
   const double v = r - r0;
-  const auto value = [&](int dc, int dr) { return static_cast<double>(z(c0 + dc, r0 + dr)); };
+  const auto value = [&](int dc, int dr) { return double(z(c0 + dc, r0 + dr)); };
   return (1 - v) * ((1 - u) * value(0, 0) + u * value(1, 0)) + v * ((1 - u) * value(0, 1) + u * value(1, 1));
 }
 
 Vec3f FaceRelief::in_cells(const Vec3f& vertex, const RigidTransform& frame_from_mesh) const {
-  const Vec3d p = apply(frame_from_mesh, {static_cast<double>(vertex.x), static_cast<double>(vertex.y),
-                                          static_cast<double>(vertex.z)});
-  return {static_cast<float>((p.x - box_.left_mm) / box_.cell_mm),
-          static_cast<float>((p.y - box_.bottom_mm) / box_.cell_mm), static_cast<float>(p.z)};
+  const Vec3d p = apply(frame_from_mesh, {double(vertex.x), double(vertex.y), double(vertex.z)});
+  return {float((p.x - box_.left_mm) / box_.cell_mm), float((p.y - box_.bottom_mm) / box_.cell_mm),
+          float(p.z)};
 }
 
 void FaceRelief::add_triangle(const Vec3f& a, const Vec3f& b, const Vec3f& c) {
-  if (a.x < -20 || a.y < -20 || a.x > static_cast<float>(columns_ + 20) ||
-      a.y > static_cast<float>(rows_ + 20))
-    return;
+  if (a.x < -20 || a.y < -20 || a.x > float(columns_ + 20) || a.y > float(rows_ + 20)) return;
   const float area = (b.x - a.x) * (c.y - a.y) - (c.x - a.x) * (b.y - a.y);
   if (!(std::abs(area) > 1e-9F)) return;
-  const int from_row = std::max(0, static_cast<int>(std::ceil(std::min({a.y, b.y, c.y}))));
-  const int to_row = std::min(rows_ - 1, static_cast<int>(std::floor(std::max({a.y, b.y, c.y}))));
-  const int from_column = std::max(0, static_cast<int>(std::ceil(std::min({a.x, b.x, c.x}))));
-  const int to_column = std::min(columns_ - 1, static_cast<int>(std::floor(std::max({a.x, b.x, c.x}))));
+  const int from_row = std::max(0, int(std::ceil(std::min({a.y, b.y, c.y}))));
+  const int to_row = std::min(rows_ - 1, int(std::floor(std::max({a.y, b.y, c.y}))));
+  const int from_column = std::max(0, int(std::ceil(std::min({a.x, b.x, c.x}))));
+  const int to_column = std::min(columns_ - 1, int(std::floor(std::max({a.x, b.x, c.x}))));
   for (int row = from_row; row <= to_row; ++row)
     for (int column = from_column; column <= to_column; ++column) {
-      const float dx = static_cast<float>(column) - a.x;
-      const float dy = static_cast<float>(row) - a.y;
+      const float dx = float(column) - a.x;
+      const float dy = float(row) - a.y;
       const float v = (dx * (c.y - a.y) - dy * (c.x - a.x)) / area;
       const float w = (dy * (b.x - a.x) - dx * (b.y - a.y)) / area;
       if (v < 0 || w < 0 || v + w > 1) continue;
@@ -79,8 +76,8 @@ void FaceRelief::add_both(const FaceMesh& mesh, const RigidTransform& frame_from
                           FaceRelief& shown, StageContext& context) {
   const Arena::Mark mark(context.scratch);
   std::pmr::vector<Vec3f> corners(mesh.vertices_mm.size(), Vec3f{}, &context.scratch);
-  context.pool.for_each_band(static_cast<int>(corners.size()), kParts, [&](int from, int to, int) {
-    for (auto v = static_cast<std::size_t>(from); v < static_cast<std::size_t>(to); ++v)
+  context.pool.for_each_band(int(corners.size()), kParts, [&](int from, int to, int) {
+    for (auto v = std::size_t(from); v < std::size_t(to); ++v)
       corners[v] = measured.in_cells(mesh.vertices_mm[v], frame_from_mesh);
   });
   struct Part {
@@ -90,9 +87,9 @@ void FaceRelief::add_both(const FaceMesh& mesh, const RigidTransform& frame_from
   parts.reserve(kParts);
   for (int k = 0; k < kParts; ++k)
     parts.push_back({FaceRelief(shown.box_, &context.scratch), FaceRelief(shown.box_, &context.scratch)});
-  context.pool.for_each_band(static_cast<int>(mesh.triangles.size()), kParts, [&](int from, int to, int k) {
-    Part& part = parts[static_cast<std::size_t>(k)];
-    for (auto i = static_cast<std::size_t>(from); i < static_cast<std::size_t>(to); ++i) {
+  context.pool.for_each_band(int(mesh.triangles.size()), kParts, [&](int from, int to, int k) {
+    Part& part = parts[std::size_t(k)];
+    for (auto i = std::size_t(from); i < std::size_t(to); ++i) {
       const auto& t = mesh.triangles[i];
       FaceRelief& relief = is_measured(mesh, t) ? part.measured : part.completed;
       relief.add_triangle(corners[t[0]], corners[t[1]], corners[t[2]]);
@@ -124,18 +121,18 @@ void FaceRelief::smooth_along(bool rows, const std::pmr::vector<float>& kernel,
                               std::pmr::vector<float>& line) {
   const int lines = rows ? rows_ : columns_;
   const int length = rows ? columns_ : rows_;
-  const int reach = static_cast<int>(kernel.size()) - 1;
+  const int reach = int(kernel.size()) - 1;
   for (int l = 0; l < lines; ++l) {
-    for (int i = 0; i < length; ++i) line[static_cast<std::size_t>(i)] = rows ? z(i, l) : z(l, i);
+    for (int i = 0; i < length; ++i) line[std::size_t(i)] = rows ? z(i, l) : z(l, i);
     for (int i = 0; i < length; ++i) {
-      const float middle = line[static_cast<std::size_t>(i)];
+      const float middle = line[std::size_t(i)];
       if (std::isnan(middle)) continue;
       float sum = 0;
       float weight = 0;
       for (int k = std::max(0, i - reach); k <= std::min(length - 1, i + reach); ++k) {
-        const float value = line[static_cast<std::size_t>(k)];
+        const float value = line[std::size_t(k)];
         if (std::isnan(value)) continue;
-        const float w = kernel[static_cast<std::size_t>(std::abs(k - i))];
+        const float w = kernel[std::size_t(std::abs(k - i))];
         sum += w * value;
         weight += w;
       }
@@ -146,11 +143,11 @@ void FaceRelief::smooth_along(bool rows, const std::pmr::vector<float>& kernel,
 
 void FaceRelief::smooth(double sigma_mm, std::pmr::memory_resource* scratch) {
   const double sigma = sigma_mm / box_.cell_mm;
-  const auto reach = static_cast<std::size_t>(std::ceil(3 * sigma));
+  const auto reach = std::size_t(std::ceil(3 * sigma));
   std::pmr::vector<float> kernel(reach + 1, 0.0F, scratch);
   for (std::size_t i = 0; i <= reach; ++i)
-    kernel[i] = static_cast<float>(std::exp(-0.5 * static_cast<double>(i * i) / (sigma * sigma)));
-  std::pmr::vector<float> line(static_cast<std::size_t>(std::max(columns_, rows_)), 0.0F, scratch);
+    kernel[i] = float(std::exp(-0.5 * double(i * i) / (sigma * sigma)));
+  std::pmr::vector<float> line(std::size_t(std::max(columns_, rows_)), 0.0F, scratch);
   smooth_along(true, kernel, line);
   smooth_along(false, kernel, line);
 }

@@ -49,8 +49,7 @@ class FaceRelief {
 
  private:
   std::size_t index(int column, int row) const {
-    return static_cast<std::size_t>(row) * static_cast<std::size_t>(columns_) +
-           static_cast<std::size_t>(column);
+    return std::size_t(row) * std::size_t(columns_) + std::size_t(column);
   }
   // In cells; z in mm.
   Vec3f in_cells(const Vec3f& vertex, const RigidTransform& frame_from_mesh) const;

@@ -12,7 +12,7 @@
 #include <Eigen/Geometry>
 
 #include "hal/base/statistics.h"
-#include "pipeline/mesh/landmarks/face_core.h"
+#include "pipeline/mesh/landmarks/face_profile.h"
 #include "pipeline/mesh/landmarks/symmetry_plane.h"
 
 namespace relievo::pipeline {
@@ -57,7 +57,7 @@ double protrusion(std::span<const SurfacePoint> points, const Vector3d& at) {
     const double behind = -d.dot(out);
     if (ring < kRingFrom * kRingFrom || ring > kRingTo * kRingTo || std::abs(behind) > 50) continue;
     const double turn = (std::atan2(v, u) / std::numbers::pi + 1) / 2;
-    const auto k = static_cast<std::size_t>(std::clamp(static_cast<int>(turn * kSectors), 0, kSectors - 1));
+    const auto k = std::size_t(std::clamp(int(turn * kSectors), 0, kSectors - 1));
     sum[k] += behind;
     ++count[k];
   }
@@ -75,9 +75,8 @@ void keep(NoseCandidates& found, const NoseCandidate& candidate) {
   for (std::size_t i = 0; i < found.count; ++i) {
     if ((found.best[i].at_mm - candidate.at_mm).norm() > 25) continue;
     if (found.best[i].protrusion_mm >= candidate.protrusion_mm) return;
-    std::copy(found.best.begin() + static_cast<std::ptrdiff_t>(i) + 1,
-              found.best.begin() + static_cast<std::ptrdiff_t>(found.count),
-              found.best.begin() + static_cast<std::ptrdiff_t>(i));
+    std::copy(found.best.begin() + std::ptrdiff_t(i) + 1, found.best.begin() + std::ptrdiff_t(found.count),
+              found.best.begin() + std::ptrdiff_t(i));
     --found.count;
     --i;
   }
@@ -95,8 +94,8 @@ void keep(NoseCandidates& found, const NoseCandidate& candidate) {
 NoseCandidates find_nose_candidates(std::span<const SurfacePoint> points, StageContext& context) {
   const std::size_t every = std::max<std::size_t>(1, points.size() / 1000);
   std::pmr::vector<double> protrusions((points.size() + every - 1) / every, -1.0, &context.scratch);
-  context.pool.for_each_band(static_cast<int>(protrusions.size()), 16, [&](int from, int to, int) {
-    for (auto i = static_cast<std::size_t>(from); i < static_cast<std::size_t>(to); ++i)
+  context.pool.for_each_band(int(protrusions.size()), 16, [&](int from, int to, int) {
+    for (auto i = std::size_t(from); i < std::size_t(to); ++i)
       protrusions[i] = protrusion(points, points[i * every].at_mm);
   });
   NoseCandidates found;
@@ -114,9 +113,7 @@ struct Frame {  // head = rows * (camera - origin)
   Vector3d origin = Vector3d::Zero();
 };
 
-Vector3d to_eigen(const Vec3f& v) {
-  return {static_cast<double>(v.x), static_cast<double>(v.y), static_cast<double>(v.z)};
-}
+Vector3d to_eigen(const Vec3f& v) { return {double(v.x), double(v.y), double(v.z)}; }
 
 // Evenly by area: where the lattice is seen at a slant its points lie far apart and count for more.
 Points sample(const FaceMesh& mesh, int wanted, Arena& scratch) {
@@ -132,12 +129,12 @@ Points sample(const FaceMesh& mesh, int wanted, Arena& scratch) {
     if (counts(t)) total += area(t);
   Points points(&scratch);
   if (!(total > 0)) return points;
-  points.reserve(static_cast<std::size_t>(wanted) + 1);
+  points.reserve(std::size_t(wanted) + 1);
   double due = 0;
   for (const auto& t : mesh.triangles) {
     if (!counts(t)) continue;
     due += area(t) * wanted / total;
-    if (due < 1 || points.size() >= static_cast<std::size_t>(wanted)) continue;
+    if (due < 1 || points.size() >= std::size_t(wanted)) continue;
     due -= std::floor(due);
     SurfacePoint p;
     for (const std::uint32_t v : t) {
@@ -367,7 +364,7 @@ HeadFrame frame_as_seen(const FaceMesh& mesh, StageContext& context) {
   frame.rows = Vector3d(1, -1, -1).asDiagonal();
   Points points = sample(mesh, kSamplePoints, context.scratch);
   if (points.empty()) return {to_transform(frame)};
-  for (const SurfacePoint& p : points) frame.origin += p.at_mm / static_cast<double>(points.size());
+  for (const SurfacePoint& p : points) frame.origin += p.at_mm / double(points.size());
   move_into(points, frame);
   return measured(points, frame, context);
 }

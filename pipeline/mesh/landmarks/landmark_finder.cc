@@ -35,9 +35,7 @@ constexpr float kCompleted = 2;  // times as uncertain where the surface was not
 
 // The lesser of the two bends of a hollow: positive only where the surface is a pit. 1 / mm.
 double pit(const FaceRelief& relief, int column, int row) {
-  const auto z = [&](int dc, int dr) {
-    return static_cast<double>(relief.z(column + dc * kSpan, row + dr * kSpan));
-  };
+  const auto z = [&](int dc, int dr) { return double(relief.z(column + dc * kSpan, row + dr * kSpan)); };
   const double step = kSpan * kCellMm;
   const double xx = (z(1, 0) - 2 * z(0, 0) + z(-1, 0)) / (step * step);
   const double yy = (z(0, 1) - 2 * z(0, 0) + z(0, -1)) / (step * step);
@@ -94,14 +92,12 @@ class Finder {
  private:
   void set(LandmarkName name, const Vec3d& in_head, float sigma_mm) {
     const Vec3d p = apply(camera_from_head_, in_head);
-    found_[static_cast<std::size_t>(name)] = {
-        {static_cast<float>(p.x), static_cast<float>(p.y), static_cast<float>(p.z)}, sigma_mm, true};
+    found_[std::size_t(name)] = {{float(p.x), float(p.y), float(p.z)}, sigma_mm, true};
   }
   void mark(LandmarkName name, const std::optional<ProfilePoint>& at, float sigma_mm) {
     if (!at) return;
-    const bool measured = std::any_of(measured_.begin(), measured_.end(), [&](const ProfilePoint& p) {
-      return std::abs(p.y_mm - at->y_mm) < kCellMm;
-    });
+    const bool measured = std::ranges::any_of(
+        measured_, [&](const ProfilePoint& p) { return std::abs(p.y_mm - at->y_mm) < kCellMm; });
     set(name, {0, at->y_mm, at->z_mm}, measured ? sigma_mm : kCompleted * sigma_mm);
   }
   void on_surface(LandmarkName name, const Place& at, float sigma_mm) {

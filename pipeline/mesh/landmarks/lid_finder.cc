@@ -42,8 +42,8 @@ constexpr double kRimMm = 1;
 struct Window {
   explicit Window(std::pmr::memory_resource* memory)
       : red(memory), light(memory), unlike_skin(memory), below(memory) {}
-  static constexpr int columns = static_cast<int>(2 * kHalfWidthMm / kStepMm) + 1,
-                       rows = static_cast<int>(2 * kHalfHeightMm / kStepMm) + 1;
+  static constexpr int columns = int(2 * kHalfWidthMm / kStepMm) + 1,
+                       rows = int(2 * kHalfHeightMm / kStepMm) + 1;
   std::pmr::vector<float> red;    // (R - B) / (R + G + B): 0 for grey; the lamp's colour is in all of it. NaN
                                   // where nothing is known
   std::pmr::vector<float> light;  // R + G + B
@@ -53,10 +53,10 @@ struct Window {
 
   double x_mm(int c) const { return kPupilMm - kHalfWidthMm + c * kStepMm; }
   double y_mm(int r) const { return kUpMm - kHalfHeightMm + r * kStepMm; }
-  std::size_t index(int c, int r) const { return static_cast<std::size_t>(c * (rows + 1) + r); }
+  std::size_t index(int c, int r) const { return std::size_t(c * (rows + 1) + r); }
   double sum_below(int c, double y) const {
     const double r = std::clamp((y - y_mm(0)) / kStepMm + 0.5, 0.0, rows - 1e-6);
-    const int whole = static_cast<int>(r);
+    const int whole = int(r);
     const double share = r - whole;
     return (1 - share) * below[index(c, whole)] + share * below[index(c, whole + 1)];
   }
@@ -65,7 +65,7 @@ struct Window {
 void blur(std::pmr::vector<float>& v, int columns, int rows) {
   const auto along = [&](int lines, int length, int line_step, int step) {
     for (int l = 0; l < lines; ++l) {
-      float* p = &v[static_cast<std::size_t>(l * line_step)];
+      float* p = &v[std::size_t(l * line_step)];
       float before = p[0];
       for (int i = 0; i < length; ++i) {
         const float here = p[i * step], after = p[std::min(i + 1, length - 1) * step];
@@ -80,7 +80,7 @@ void blur(std::pmr::vector<float>& v, int columns, int rows) {
 
 void sample(Window& w, const FaceRelief& relief, const RigidTransform& camera_from_head,
             const RectifiedPair& pair, double side) {
-  w.red.assign(static_cast<std::size_t>(w.columns * w.rows), std::nanf(""));
+  w.red.assign(std::size_t(w.columns * w.rows), std::nanf(""));
   w.light.assign(w.red.size(), 0);
   const PhotoSampler photo(pair.left.rgb, pair.width_px, pair.height_px);
   for (int r = 0; r < w.rows; ++r)
@@ -96,10 +96,10 @@ void sample(Window& w, const FaceRelief& relief, const RigidTransform& camera_fr
       for (const double dv : {-apart, 0.0, apart})
         for (const double du : {-apart, 0.0, apart}) {
           float rgb[3];
-          photo.read(static_cast<float>(u + du), static_cast<float>(v + dv), rgb);
+          photo.read(float(u + du), float(v + dv), rgb);
           for (std::size_t i = 0; i < 3; ++i) sum[i] += rgb[i] / 9;
         }
-      const std::size_t k = static_cast<std::size_t>(r * w.columns + c);
+      const std::size_t k = std::size_t(r * w.columns + c);
       w.light[k] = sum[0] + sum[1] + sum[2];
       w.red[k] = (sum[0] - sum[2]) / (w.light[k] + kGreyest);
     }
@@ -113,27 +113,25 @@ bool tell_skin(Window& w, Arena& scratch) {
   if (known.size() * 2 < w.red.size()) return false;
   w.skin = median(known);
   for (float& v : w.red)
-    if (std::isnan(v)) v = static_cast<float>(w.skin);
+    if (std::isnan(v)) v = float(w.skin);
   blur(w.red, w.columns, w.rows);
   std::pmr::vector<float> reds(w.red, &scratch);
   const double least_red = percentile(reds, 0.02);
   if (!(w.skin - least_red > kLeastChroma)) return false;
-  for (float& v : known) v = static_cast<float>(std::abs(static_cast<double>(v) - w.skin));
+  for (float& v : known) v = float(std::abs(double(v) - w.skin));
   const double scale = std::max(kNoise * median(known), kShare * (w.skin - least_red));
   w.unlike_skin.reserve(w.red.size());
   for (const float red : w.red) {
-    const double unlike = (w.skin - static_cast<double>(red)) / scale;
-    w.unlike_skin.push_back(
-        unlike < -0.5 ? 0
-                      : static_cast<float>(std::clamp(unlike, 0.0, 1.0) -
-                                           0.5));  // redder than skin: a lid's margin, or a brown iris
+    const double unlike = (w.skin - double(red)) / scale;
+    w.unlike_skin.push_back(unlike < -0.5 ? 0
+                                          : float(std::clamp(unlike, 0.0, 1.0) -
+                                                  0.5));  // redder than skin: a lid's margin, or a brown iris
   }
-  w.below.assign(static_cast<std::size_t>(w.columns * (w.rows + 1)), 0);
+  w.below.assign(std::size_t(w.columns * (w.rows + 1)), 0);
   for (int c = 0; c < w.columns; ++c)
     for (int r = 0; r < w.rows; ++r)
       w.below[w.index(c, r + 1)] =
-          w.below[w.index(c, r)] +
-          kStepMm * kStepMm * static_cast<double>(w.unlike_skin[static_cast<std::size_t>(r * w.columns + c)]);
+          w.below[w.index(c, r)] + kStepMm * kStepMm * double(w.unlike_skin[std::size_t(r * w.columns + c)]);
   return true;
 }
 
@@ -151,7 +149,7 @@ double cost(const Lids& l) {
 // What lies below a parabola over the line between two corners, mm2.
 double sum_below(const Window& w, const Vec2d& inner, const Vec2d& outer, double height) {
   double sum = 0;
-  const int first = std::max(0, static_cast<int>(std::ceil((inner.x - w.x_mm(0)) / kStepMm)));
+  const int first = std::max(0, int(std::ceil((inner.x - w.x_mm(0)) / kStepMm)));
   for (int c = first; c < w.columns && w.x_mm(c) < outer.x; ++c) {
     const double along = (w.x_mm(c) - inner.x) / (outer.x - inner.x);
     sum += w.sum_below(c, inner.y + along * (outer.y - inner.y) + height * 4 * along * (1 - along));
@@ -161,7 +159,7 @@ double sum_below(const Window& w, const Vec2d& inner, const Vec2d& outer, double
 
 double worth(const Window& w, const Lids& l) {
   if (l.outer.x - l.inner.x < 20 || std::min(l.upper, l.lower) < kLeastHeightMm ||
-      l.upper + l.lower < kLeastOpenMm || std::max(l.upper, l.lower) > static_cast<double>(kHighest))
+      l.upper + l.lower < kLeastOpenMm || std::max(l.upper, l.lower) > double(kHighest))
     return -1e9;
   return sum_below(w, l.inner, l.outer, l.upper) - sum_below(w, l.inner, l.outer, -l.lower) - cost(l);
 }
@@ -173,12 +171,12 @@ bool is_eye(const Window& w, const Lids& lids, Arena& scratch) {
   int inside = 0, outside = 0;
   for (int r = 0; r < w.rows; ++r)
     for (int c = 0; c < w.columns; ++c) {
-      const std::size_t k = static_cast<std::size_t>(r * w.columns + c);
+      const std::size_t k = std::size_t(r * w.columns + c);
       const double x = w.x_mm(c), depth = lids.depth({x, w.y_mm(r)});
       if (depth > kRimMm) red.push_back(w.red[k]), light.push_back(w.light[k]);
-      if (depth > 0) within += static_cast<double>(w.unlike_skin[k]), ++inside;
+      if (depth > 0) within += double(w.unlike_skin[k]), ++inside;
       else if (depth > -kAroundMm && x > lids.inner.x && x < lids.outer.x)
-        around += static_cast<double>(w.unlike_skin[k]), ++outside;
+        around += double(w.unlike_skin[k]), ++outside;
     }
   if (red.empty() || inside == 0 || outside == 0 || within / inside - around / outside < kLeastShare)
     return false;
@@ -195,12 +193,12 @@ Lids search(const Window& w, ThreadPool& pool) {
   const auto consider = [&](const Vec2d& inner, const Vec2d& outer, Best& best) {
     std::array<double, kHighest + 1> upper{}, lower{};
     for (std::size_t h = 1; h <= kHighest; ++h) {
-      upper[h] = sum_below(w, inner, outer, static_cast<double>(h));
-      lower[h] = sum_below(w, inner, outer, -static_cast<double>(h));
+      upper[h] = sum_below(w, inner, outer, double(h));
+      lower[h] = sum_below(w, inner, outer, -double(h));
     }
     for (std::size_t u = 1; u <= kHighest; ++u)
       for (std::size_t l = 1; l <= kHighest; ++l) {
-        const Lids lids{inner, outer, static_cast<double>(u), static_cast<double>(l)};
+        const Lids lids{inner, outer, double(u), double(l)};
         const double value = upper[u] - lower[l] - cost(lids);
         if (lids.upper + lids.lower >= kLeastOpenMm && value > best.value) best = {lids, value};
       }
@@ -212,10 +210,9 @@ Lids search(const Window& w, ThreadPool& pool) {
       for (int up = -12; up <= 12; ++up)
         for (const double tilt : {-4.0, -2.0, 0.0, 2.0, 4.0})
           consider({kPupilMm + from, kUpMm + up - tilt / 2}, {kPupilMm + from + width, kUpMm + up + tilt / 2},
-                   found[static_cast<std::size_t>(k)]);
+                   found[std::size_t(k)]);
   });
-  return std::max_element(found.begin(), found.end(),
-                          [](const Best& l, const Best& r) { return l.value < r.value; })
+  return std::ranges::max_element(found, [](const Best& l, const Best& r) { return l.value < r.value; })
       ->lids;
 }
 

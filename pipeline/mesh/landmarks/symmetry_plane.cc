@@ -61,7 +61,7 @@ Pose descend(const HeightMap& map, std::span<const SurfacePoint> points, Pose po
     for (int k = 0; k < 3; ++k) {
       Pose moved = pose;
       moved[k] += step[k];
-      ahead[static_cast<std::size_t>(k)] = normal_of(moved);
+      ahead[std::size_t(k)] = normal_of(moved);
     }
     const Vector3d normal = normal_of(pose);
     Eigen::Matrix3d a = Eigen::Matrix3d::Identity() * 1e-9;
@@ -101,11 +101,11 @@ std::array<Start, 3> raster(const HeightMap& map, std::span<const SurfacePoint> 
   constexpr double kDeg = std::numbers::pi / 180;
   std::array<Start, kYaws * kRolls * kOffsets> starts;
   const std::size_t every = std::max<std::size_t>(1, points.size() / 500);
-  pool.for_each_band(static_cast<int>(starts.size()), kYaws, [&](int from, int to, int) {
+  pool.for_each_band(int(starts.size()), kYaws, [&](int from, int to, int) {
     for (int k = from; k < to; ++k) {
       const int yaw = k / (kRolls * kOffsets), roll = k / kOffsets % kRolls, offset = k % kOffsets;
       const Pose pose{(10 * yaw - 40) * kDeg, (8 * roll - 16) * kDeg, 4.0 * offset - 8};
-      starts[static_cast<std::size_t>(k)] = {cost(map, points, every, pose), pose};
+      starts[std::size_t(k)] = {cost(map, points, every, pose), pose};
     }
   });
   std::array<Start, 3> best;
@@ -128,22 +128,22 @@ HeightMap::HeightMap(std::span<const SurfacePoint> points, double cell_mm, std::
     top = std::max(top, p.at_mm.y());
   }
   if (points.empty() || right - left_mm_ > 5000 || top - bottom_mm_ > 5000) return;
-  columns_ = static_cast<int>((right - left_mm_) / cell_mm) + 1;
-  rows_ = static_cast<int>((top - bottom_mm_) / cell_mm) + 1;
-  const std::size_t n = static_cast<std::size_t>(columns_) * static_cast<std::size_t>(rows_);
+  columns_ = int((right - left_mm_) / cell_mm) + 1;
+  rows_ = int((top - bottom_mm_) / cell_mm) + 1;
+  const std::size_t n = std::size_t(columns_) * std::size_t(rows_);
   cells_.assign(n, SurfacePoint{});
   count_.assign(n, 0U);
   for (const SurfacePoint& p : points) {
-    const auto c = static_cast<std::size_t>((p.at_mm.x() - left_mm_) / cell_mm);
-    const auto r = static_cast<std::size_t>((p.at_mm.y() - bottom_mm_) / cell_mm);
-    const std::size_t k = r * static_cast<std::size_t>(columns_) + c;
+    const auto c = std::size_t((p.at_mm.x() - left_mm_) / cell_mm);
+    const auto r = std::size_t((p.at_mm.y() - bottom_mm_) / cell_mm);
+    const std::size_t k = r * std::size_t(columns_) + c;
     cells_[k].at_mm += p.at_mm;
     cells_[k].normal += p.normal;
     ++count_[k];
   }
   for (std::size_t k = 0; k < n; ++k) {
     if (count_[k] == 0) continue;
-    cells_[k].at_mm /= static_cast<double>(count_[k]);
+    cells_[k].at_mm /= double(count_[k]);
     cells_[k].normal.normalize();
   }
 }
@@ -152,8 +152,7 @@ const SurfacePoint* HeightMap::at(double x_mm, double y_mm) const {
   const double c = std::floor((x_mm - left_mm_) / cell_mm_);
   const double r = std::floor((y_mm - bottom_mm_) / cell_mm_);
   if (!(c >= 0 && r >= 0 && c < columns_ && r < rows_)) return nullptr;
-  const std::size_t k =
-      static_cast<std::size_t>(r) * static_cast<std::size_t>(columns_) + static_cast<std::size_t>(c);
+  const std::size_t k = std::size_t(r) * std::size_t(columns_) + std::size_t(c);
   return count_[k] == 0 ? nullptr : &cells_[k];
 }
 
@@ -163,28 +162,26 @@ Result<SymmetryPlane> find_symmetry_plane(std::span<const SurfacePoint> points, 
   const HeightMap map(points, kCellMm, &context.scratch);
   std::array<Start, 3> ends = raster(map, points, context.pool);
   if (context.stop()) return Error{Errc::Cancelled, "the search for the head's frame was stopped"};
-  context.pool.for_each_band(static_cast<int>(ends.size()), static_cast<int>(ends.size()),
-                             [&](int, int, int k) {
-                               Start& end = ends[static_cast<std::size_t>(k)];
-                               const Pose pose = descend(map, points, end.pose);
-                               // On a rough surface the descent may leave for where hardly anything meets: a
-                               // start that was better stays.
-                               end.cost = cost(map, points, 1, end.pose);
-                               if (const double c = cost(map, points, 1, pose); c < end.cost) end = {c, pose};
-                             });
-  const Start& best = *std::min_element(ends.begin(), ends.end(),
-                                        [](const Start& l, const Start& r) { return l.cost < r.cost; });
+  context.pool.for_each_band(int(ends.size()), int(ends.size()), [&](int, int, int k) {
+    Start& end = ends[std::size_t(k)];
+    const Pose pose = descend(map, points, end.pose);
+    // On a rough surface the descent may leave for where hardly anything meets: a
+    // start that was better stays.
+    end.cost = cost(map, points, 1, end.pose);
+    if (const double c = cost(map, points, 1, pose); c < end.cost) end = {c, pose};
+  });
+  const Start& best =
+      *std::ranges::min_element(ends, [](const Start& l, const Start& r) { return l.cost < r.cost; });
   SymmetryPlane plane;
   plane.normal = normal_of(best.pose);
   plane.offset_mm = best.pose[2];
-  plane.cost_mm = best.cost / static_cast<double>(std::max<std::size_t>(1, points.size()));
+  plane.cost_mm = best.cost / double(std::max<std::size_t>(1, points.size()));
   std::pmr::vector<double> distances(&context.scratch);
   distances.reserve(points.size());
   for (const SurfacePoint& p : points)
     if (const Residual r = residual(map, p, plane.normal, plane.offset_mm); r.met)
       distances.push_back(std::abs(r.distance));
-  plane.overlap =
-      static_cast<double>(distances.size()) / static_cast<double>(std::max<std::size_t>(1, points.size()));
+  plane.overlap = double(distances.size()) / double(std::max<std::size_t>(1, points.size()));
   if (distances.size() < 100 || plane.overlap < 0.2 || plane.normal.x() < 0.3 ||
       std::abs(plane.offset_mm) > 20)
     return none;

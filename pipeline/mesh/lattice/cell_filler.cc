@@ -76,7 +76,7 @@ class Plate {
         residual_(memory),
         change_(memory),
         memory_(memory) {
-    const double across = static_cast<double>(grid.height_to_width);  // cells may be oblong
+    const double across = double(grid.height_to_width);  // cells may be oblong
     constexpr double kTwice = 1.41421356;
     const double pull = grid.tension;
     weights_[kBendAcross] = {across, -across, across, -across};
@@ -85,7 +85,7 @@ class Plate {
     weights_[kPullAcross] = {pull * std::sqrt(across), -pull * std::sqrt(across), 0, 0};
     weights_[kPullDown] = {pull / std::sqrt(across), -pull / std::sqrt(across), 0, 0};
     wanted_[kBendAcross] = wanted_[kBendDown] = across * grid.bow;
-    for (std::size_t i = 0; i < free.size(); ++i) place_[free[i]] = static_cast<std::int32_t>(i);
+    for (std::size_t i = 0; i < free.size(); ++i) place_[free[i]] = std::int32_t(i);
   }
 
   void relax() {
@@ -100,30 +100,28 @@ class Plate {
 
  private:
   std::size_t index(int c, int r) const {
-    return static_cast<std::size_t>(r) * static_cast<std::size_t>(grid_.columns) +
-           static_cast<std::size_t>(c);
+    return std::size_t(r) * std::size_t(grid_.columns) + std::size_t(c);
   }
   bool inside(int c, int r) const { return c >= 0 && r >= 0 && c < grid_.columns && r < grid_.rows; }
-  int column(std::size_t k) const { return static_cast<int>(k) % grid_.columns; }
-  int row(std::size_t k) const { return static_cast<int>(k) / grid_.columns; }
+  int column(std::size_t k) const { return int(k) % grid_.columns; }
+  int row(std::size_t k) const { return int(k) / grid_.columns; }
   bool guided(std::size_t k) const { return !like_.empty() && like_[k] != 0; }
 
   // Every second place of every second row is a plate of its own; between them lies the mean of those around.
   void start_from_coarser() {
     const PlateGrid coarse{(grid_.columns + 1) / 2, (grid_.rows + 1) / 2, grid_.height_to_width,
                            2 * grid_.tension, 4 * grid_.bow};
-    const std::size_t size = static_cast<std::size_t>(coarse.columns) * static_cast<std::size_t>(coarse.rows);
+    const std::size_t size = std::size_t(coarse.columns) * std::size_t(coarse.rows);
     std::pmr::vector<double> value(size, 0.0, memory_), like(like_.empty() ? 0 : size, 0.0, memory_);
     std::pmr::vector<std::uint8_t> known(size, 0, memory_);
     std::pmr::vector<std::uint32_t> free(memory_);
     free.reserve(free_.size() / 2);
     for (std::size_t k = 0; k < size; ++k) {
-      const std::size_t here =
-          index(2 * (static_cast<int>(k) % coarse.columns), 2 * (static_cast<int>(k) / coarse.columns));
+      const std::size_t here = index(2 * (int(k) % coarse.columns), 2 * (int(k) / coarse.columns));
       value[k] = value_[here];
       known[k] = known_[here];
       if (!like_.empty()) like[k] = like_[here];
-      if (place_[here] != kNone) free.push_back(static_cast<std::uint32_t>(k));
+      if (place_[here] != kNone) free.push_back(std::uint32_t(k));
     }
     if (free.empty()) return;
     Plate(value, coarse, free, known, like, memory_).relax();
@@ -135,9 +133,7 @@ class Plate {
           const int c = 2 * (column(k) / 2 + dc);
           const int r = 2 * (row(k) / 2 + dr);
           if (!inside(c, r) || (known_[index(c, r)] == 0 && place_[index(c, r)] == kNone)) continue;
-          const std::size_t from =
-              static_cast<std::size_t>(r / 2) * static_cast<std::size_t>(coarse.columns) +
-              static_cast<std::size_t>(c / 2);
+          const std::size_t from = std::size_t(r / 2) * std::size_t(coarse.columns) + std::size_t(c / 2);
           sum += value[from] + (guided(k) && guided(index(c, r)) ? like_[k] - like_[index(c, r)] : 0);
           count += 1;
         }
@@ -193,15 +189,14 @@ class Plate {
     for (std::size_t i = 0; i < differences_.size(); ++i) {
       const auto& at = differences_[i].at;
       const auto& weight = weights_[differences_[i].kind];
-      const bool bent = std::all_of(at.begin(), at.end(), [this](std::uint32_t k) { return guided(k); });
+      const bool bent = std::ranges::all_of(at, [this](std::uint32_t k) { return guided(k); });
       residual_[i] = bent ? 0 : wanted_[differences_[i].kind];
       for (std::size_t j = 0; j < 4; ++j)
         residual_[i] -= weight[j] * (value_[at[j]] - (bent ? like_[at[j]] : 0));
     }
     for (Difference& difference : differences_)
       for (std::uint32_t& k : difference.at)
-        k = place_[k] != kNone ? static_cast<std::uint32_t>(place_[k])
-                               : static_cast<std::uint32_t>(free_.size());
+        k = place_[k] != kNone ? std::uint32_t(place_[k]) : std::uint32_t(free_.size());
     descend();
     step_ = slope_;
     double now = squared(slope_);
@@ -231,7 +226,7 @@ class Plate {
     difference.kind = kind;
     for (std::size_t j = 0; j < 4; ++j) {
       if (!inside(places[j].c, places[j].r)) return;
-      const std::uint32_t k = static_cast<std::uint32_t>(index(places[j].c, places[j].r));
+      const std::uint32_t k = std::uint32_t(index(places[j].c, places[j].r));
       if (known_[k] == 0 && (place_[k] == kNone || place_[k] < place_[owner])) return;
       difference.at[j] = k;
     }
@@ -256,7 +251,7 @@ class Plate {
   }
 
   void descend() {  // slope_ = where the residual pulls each free place
-    std::fill(slope_.begin(), slope_.end(), 0.0);
+    std::ranges::fill(slope_, 0.0);
     for (std::size_t i = 0; i < differences_.size(); ++i) {
       const Difference& difference = differences_[i];
       for (std::size_t j = 0; j < 4; ++j)
@@ -299,8 +294,8 @@ void spread_sigma(PointLattice& lattice, const CellMask& carrying, std::span<con
                   std::pmr::memory_resource* memory) {
   CellMask known(carrying, memory);
   const auto place = [&](std::uint32_t k) {
-    const int c = static_cast<int>(k) % lattice.columns;
-    const int r = static_cast<int>(k) / lattice.columns;
+    const int c = int(k) % lattice.columns;
+    const int r = int(k) / lattice.columns;
     float sum = 0;
     float count = 0;
     for (int y = r - 1; y <= r + 1; ++y)
@@ -323,7 +318,7 @@ void place(PointLattice& l, std::span<const std::uint32_t> free, const CellMask&
   PlateGrid grid{l.columns, l.rows, l.cell_height_mm / l.cell_width_mm};
   std::pmr::vector<double> value(l.size(), 0.0, memory);
   if (l.chart) {
-    const double cell = static_cast<double>(l.cell_width_mm);
+    const double cell = double(l.cell_width_mm);
     grid.tension = cell / kBesideMm;
     grid.bow = -cell * cell / kBowMm;
     for (std::size_t k = 0; k < l.size(); ++k)
@@ -333,9 +328,9 @@ void place(PointLattice& l, std::span<const std::uint32_t> free, const CellMask&
     return;
   }
   for (float Vec3f::*const axis : {&Vec3f::x, &Vec3f::y, &Vec3f::z}) {
-    for (std::size_t k = 0; k < l.size(); ++k) value[k] = static_cast<double>(l.at_mm[k].*axis);
+    for (std::size_t k = 0; k < l.size(); ++k) value[k] = double(l.at_mm[k].*axis);
     relax_thin_plate(value, grid, free, carrying, {}, memory);
-    for (const std::uint32_t k : free) l.at_mm[k].*axis = static_cast<float>(value[k]);
+    for (const std::uint32_t k : free) l.at_mm[k].*axis = float(value[k]);
   }
 }
 
@@ -348,12 +343,12 @@ void fill_cells(PointLattice& lattice, LatticeSurface& surface, const CellMask& 
   for (int r = 0; r < lattice.rows; ++r)
     for (int c = 0; c < lattice.columns; ++c)
       carrying[lattice.index(c, r)] = carries_surface(lattice, surface, c, r);
-  const std::size_t w = static_cast<std::size_t>(lattice.columns);
+  const std::size_t w = std::size_t(lattice.columns);
   for (std::size_t k = 0; k < cells.size(); ++k)
     if (cells[k])
       for (const std::size_t corner : {k, k + 1, k + w, k + w + 1}) listed[corner] = !carrying[corner];
   std::pmr::vector<std::uint32_t> free(memory);
-  free.reserve(static_cast<std::size_t>(std::count(listed.begin(), listed.end(), 1)));
+  free.reserve(std::size_t(std::ranges::count(listed, 1)));
   for (std::uint32_t k = 0; k < listed.size(); ++k)
     if (listed[k]) free.push_back(k);
   for (const std::uint32_t k : free) lattice.node[k] = Node::Filled;

@@ -13,7 +13,7 @@ constexpr std::uint32_t kWhole = 1U << 20;  // the share 1, in whole numbers: su
 
 // Three boxes of 2 reach + 1 cells have the variance of this Gaussian.
 std::size_t box_reach(float sigma_cells) {
-  return static_cast<std::size_t>(std::lround((std::sqrt(4 * sigma_cells * sigma_cells + 1) - 1) / 2));
+  return std::size_t(std::lround((std::sqrt(4 * sigma_cells * sigma_cells + 1) - 1) / 2));
 }
 
 // Means over windows of 2 reach + 1 along a line of `count` values, `stride` apart; `line` is room for it.
@@ -24,7 +24,7 @@ void average_line(std::uint32_t* values, std::size_t count, std::size_t stride, 
   for (std::size_t i = 0; i < std::min(reach, count); ++i) sum += line[i];
   for (std::size_t i = 0; i < count; ++i) {
     if (i + reach < count) sum += line[i + reach];
-    values[i * stride] = sum / static_cast<std::uint32_t>(2 * reach + 1);
+    values[i * stride] = sum / std::uint32_t(2 * reach + 1);
     if (i >= reach) sum -= line[i - reach];
   }
 }
@@ -37,8 +37,8 @@ MaskShaper::MaskShaper(int columns, int rows, float cell_width_mm, float cell_he
       rows_(rows),
       cell_width_mm_(cell_width_mm),
       cell_height_mm_(cell_height_mm),
-      along_row_(static_cast<std::size_t>(columns) * static_cast<std::size_t>(rows), 0.0F, memory),
-      nearest_(static_cast<std::size_t>(columns), 0.0F, memory),
+      along_row_(std::size_t(columns) * std::size_t(rows), 0.0F, memory),
+      nearest_(std::size_t(columns), 0.0F, memory),
       piece_(memory),
       before_(along_row_.size(), 0, memory) {
   piece_.reserve(along_row_.size());
@@ -52,7 +52,7 @@ void MaskShaper::erode(CellMask& mask, float radius_mm) {
 }
 
 void MaskShaper::close(CellMask& mask, float radius_mm, float back_mm) {
-  std::copy(mask.begin(), mask.end(), before_.begin());
+  std::ranges::copy(mask, before_.begin());
   dilate(mask, radius_mm);
   erode(mask, back_mm);
   for (std::size_t k = 0; k < mask.size(); ++k) mask[k] |= before_[k];
@@ -64,14 +64,14 @@ void MaskShaper::open(CellMask& mask, float radius_mm) {
 }
 
 void MaskShaper::straighten(CellMask& mask, float sigma_mm, float least) {
-  const std::size_t w = static_cast<std::size_t>(columns_);
-  const std::size_t h = static_cast<std::size_t>(rows_);
+  const std::size_t w = std::size_t(columns_);
+  const std::size_t h = std::size_t(rows_);
   const std::size_t along = box_reach(sigma_mm / cell_width_mm_);
   const std::size_t down = box_reach(sigma_mm / cell_height_mm_);
   std::pmr::vector<std::uint32_t> share(mask.size(), 0U, piece_.get_allocator());
   piece_.assign(std::max(w, h), 0U);
   for (std::size_t k = 0; k < mask.size(); ++k) share[k] = mask[k] * kWhole;
-  const std::uint32_t level = static_cast<std::uint32_t>(least * static_cast<float>(kWhole));
+  const std::uint32_t level = std::uint32_t(least * float(kWhole));
   for (int pass = 0; pass < 3; ++pass) {
     for (std::size_t r = 0; r < h; ++r) average_line(&share[r * w], w, 1, along, piece_.data());
     for (std::size_t c = 0; c < w; ++c) average_line(&share[c], h, w, down, piece_.data());
@@ -81,14 +81,14 @@ void MaskShaper::straighten(CellMask& mask, float sigma_mm, float least) {
 
 void MaskShaper::measure_rows(const CellMask& mask, std::uint8_t wanted, bool beyond_border) {
   for (int r = 0; r < rows_; ++r) {
-    const std::size_t row = static_cast<std::size_t>(r) * static_cast<std::size_t>(columns_);
+    const std::size_t row = std::size_t(r) * std::size_t(columns_);
     float steps = beyond_border ? 0 : kFar;
-    for (std::size_t c = 0; c < static_cast<std::size_t>(columns_); ++c) {
+    for (std::size_t c = 0; c < std::size_t(columns_); ++c) {
       steps = mask[row + c] == wanted ? 0 : steps + 1;
       along_row_[row + c] = steps;
     }
     steps = beyond_border ? 0 : kFar;
-    for (std::size_t c = static_cast<std::size_t>(columns_); c-- > 0;) {
+    for (std::size_t c = std::size_t(columns_); c-- > 0;) {
       steps = mask[row + c] == wanted ? 0 : steps + 1;
       const float mm = std::min(along_row_[row + c], steps) * cell_width_mm_;
       along_row_[row + c] = mm * mm;
@@ -101,23 +101,22 @@ void MaskShaper::measure_rows(const CellMask& mask, std::uint8_t wanted, bool be
 void MaskShaper::mark_within(const CellMask& mask, std::uint8_t wanted, bool beyond_border, float radius_mm,
                              CellMask& out) {
   measure_rows(mask, wanted, beyond_border);
-  const int reach = std::min(static_cast<int>(radius_mm / cell_height_mm_), rows_);
+  const int reach = std::min(int(radius_mm / cell_height_mm_), rows_);
   const float limit = radius_mm * radius_mm;
-  const std::size_t w = static_cast<std::size_t>(columns_);
+  const std::size_t w = std::size_t(columns_);
   for (int r = 0; r < rows_; ++r) {
-    std::copy_n(&along_row_[static_cast<std::size_t>(r) * w], w, nearest_.begin());
+    std::copy_n(&along_row_[std::size_t(r) * w], w, nearest_.begin());
     for (int dr = -reach; dr <= reach; ++dr) {
-      const float mm = static_cast<float>(dr) * cell_height_mm_;
+      const float mm = float(dr) * cell_height_mm_;
       if (r + dr < 0 || r + dr >= rows_) {
-        if (beyond_border)
-          std::fill(nearest_.begin(), nearest_.end(), 0.0F);  // within reach by the loop's bounds
+        if (beyond_border) std::ranges::fill(nearest_, 0.0F);  // within reach by the loop's bounds
         continue;
       }
-      const float* other = &along_row_[static_cast<std::size_t>(r + dr) * w];
+      const float* other = &along_row_[std::size_t(r + dr) * w];
       float* nearest = nearest_.data();
       for (std::size_t c = 0; c < w; ++c) nearest[c] = std::min(nearest[c], other[c] + mm * mm);
     }
-    std::uint8_t* mark = &out[static_cast<std::size_t>(r) * w];
+    std::uint8_t* mark = &out[std::size_t(r) * w];
     for (std::size_t c = 0; c < w; ++c) mark[c] = nearest_[c] <= limit;
   }
 }
@@ -128,13 +127,13 @@ void MaskShaper::flood(CellMask& mask, std::uint32_t seed, std::uint8_t from, st
   piece_.assign(1, seed);
   mask[seed] = to;
   for (std::size_t next = 0; next < piece_.size(); ++next) {
-    const int c = static_cast<int>(piece_[next]) % columns_;
-    const int r = static_cast<int>(piece_[next]) / columns_;
+    const int c = int(piece_[next]) % columns_;
+    const int r = int(piece_[next]) / columns_;
     for (int dr = -1; dr <= 1; ++dr)
       for (int dc = -1; dc <= 1; ++dc) {
         if (!Corners && dr != 0 && dc != 0) continue;
         if (c + dc < 0 || c + dc >= columns_ || r + dr < 0 || r + dr >= rows_) continue;
-        const std::uint32_t k = static_cast<std::uint32_t>((r + dr) * columns_ + c + dc);
+        const std::uint32_t k = std::uint32_t((r + dr) * columns_ + c + dc);
         if (mask[k] != from) continue;
         mask[k] = to;
         piece_.push_back(k);
@@ -145,7 +144,7 @@ void MaskShaper::flood(CellMask& mask, std::uint32_t seed, std::uint8_t from, st
 void MaskShaper::fill_holes(CellMask& mask) {
   constexpr std::uint8_t kOutside = 2;
   const auto flood_from = [&](int c, int r) {
-    const std::uint32_t k = static_cast<std::uint32_t>(r * columns_ + c);
+    const std::uint32_t k = std::uint32_t(r * columns_ + c);
     if (mask[k] == 0) flood<true>(mask, k, 0, kOutside);
   };
   for (int c = 0; c < columns_; ++c) {

@@ -24,10 +24,10 @@ template <typename Place>
 void spread_inwards(int columns, int rows, std::span<const std::uint32_t> free, CellMask& known,
                     Place&& place, std::pmr::memory_resource* memory) {
   const auto for_each_beside = [&](std::uint32_t k, auto&& visit) {
-    const int column = static_cast<int>(k) % columns, row = static_cast<int>(k) / columns;
+    const int column = int(k) % columns, row = int(k) / columns;
     for (int r = std::max(row - 1, 0); r <= std::min(row + 1, rows - 1); ++r)
       for (int c = std::max(column - 1, 0); c <= std::min(column + 1, columns - 1); ++c)
-        visit(static_cast<std::uint32_t>(r * columns + c));
+        visit(std::uint32_t(r * columns + c));
   };
   CellMask open(known.size(), 0, memory);  // free, and in no ring yet
   std::pmr::vector<std::uint32_t> ring(memory), next(memory);

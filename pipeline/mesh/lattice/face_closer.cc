@@ -53,7 +53,7 @@ FaceMesh rough_surface(const PointLattice& l, const LatticeSurface& surface, Are
       mesh.vertices_mm.push_back(l.at_mm[k]);
       mesh.sigma_mm.push_back(l.sigma_mm[k]);
       mesh.measured.push_back(1);
-      number[k] = static_cast<std::uint32_t>(mesh.vertices_mm.size());
+      number[k] = std::uint32_t(mesh.vertices_mm.size());
     }
   const auto whole = [&](int c, int r) {
     for (int y = r; y < r + kEvery; ++y)
@@ -90,7 +90,7 @@ std::pmr::vector<double> mirrored(const PointLattice& l, const LatticeSurface& s
       if (l.node[l.index(c, r)] == Node::Measured && carries_surface(l, surface, c, r))
         radius[l.index(l.columns - 1 - c, r)] = l.radius_mm(l.index(c, r));
   const std::pmr::vector<double> before(radius, &scratch);
-  const double most = kStepCells * static_cast<double>(l.cell_width_mm);
+  const double most = kStepCells * double(l.cell_width_mm);
   const auto parts = [&](std::size_t a, std::size_t b) {
     return before[a] != 0 && before[b] != 0 && std::abs(before[a] - before[b]) > most;
   };
@@ -115,13 +115,13 @@ void add_generic_head(const FaceMesh& rough, const RigidTransform& head_from_cam
     float radius_mm = 0;
   };
   const auto place = [&](int c, int r) {
-    const Vec3d p = rolled(fitted.x_mm(c), fitted.y_mm(r), static_cast<double>(fitted.z(c, r)));
+    const Vec3d p = rolled(fitted.x_mm(c), fitted.y_mm(r), double(fitted.z(c, r)));
     const Vec3d from{p.x - HeadChart::kCentreMm.x, p.y - HeadChart::kCentreMm.y,
                      p.z - HeadChart::kCentreMm.z};
     const Vec2d on_chart = HeadChart::place_in_head(from);
-    return Place{{static_cast<float>((on_chart.x - l.first_mm.x) / l.step_mm),
-                  static_cast<float>((on_chart.y - l.first_mm.y) / l.step_mm)},
-                 static_cast<float>(std::sqrt(from.x * from.x + from.y * from.y + from.z * from.z))};
+    return Place{
+        {float((on_chart.x - l.first_mm.x) / l.step_mm), float((on_chart.y - l.first_mm.y) / l.step_mm)},
+        float(std::sqrt(from.x * from.x + from.y * from.y + from.z * from.z))};
   };
   std::pmr::vector<float> radius(l.size(), 0.0F, &scratch);
   const auto draw = [&](const Place& a, const Place& b, const Place& c) {
@@ -144,7 +144,7 @@ void add_generic_head(const FaceMesh& rough, const RigidTransform& head_from_cam
   shaper.dilate(shown, kSeamMm);
   shaper.dilate(under_nose, kNoseSeamMm);
   for (std::size_t k = 0; k < l.size(); ++k) {
-    const auto at = static_cast<double>(radius[k]);
+    const auto at = double(radius[k]);
     if (!(below_nose(l, l.on_ray(k, at)) ? under_nose : shown)[k]) like[k] = at;
   }
 }
@@ -166,10 +166,9 @@ void drop_poor_rims(const PointLattice& l, LatticeSurface& surface, const Vec3f&
   for (std::size_t k = 0; k < l.size(); ++k)
     if (kept[k]) sigma.push_back(l.sigma_mm[k]);
   const double most = sigma.empty() ? 0 : kUnsure * median(sigma);
-  const auto w = static_cast<std::size_t>(l.columns);
+  const auto w = std::size_t(l.columns);
   const auto sigma_at = [&](std::size_t k) {
-    return static_cast<double>(
-        std::max({l.sigma_mm[k], l.sigma_mm[k + 1], l.sigma_mm[k + w], l.sigma_mm[k + w + 1]}));
+    return double(std::max({l.sigma_mm[k], l.sigma_mm[k + 1], l.sigma_mm[k + w], l.sigma_mm[k + w + 1]}));
   };
   const auto unsure = [&](std::size_t k) {
     if (sigma_at(k) <= most) return false;
@@ -201,17 +200,17 @@ CellMask open_cells(const PointLattice& l, const LatticeSurface& surface, const 
   const auto within = [&](std::uint32_t k) { return outline.depth_mm(l.on_ray(k, radius[k])) > -kUnsureMm; };
   for (int r = 1; r + 1 < l.rows; ++r)
     for (int c = 1; c + 1 < l.columns; ++c) {
-      const std::uint32_t k = static_cast<std::uint32_t>(l.index(c, r));
+      const std::uint32_t k = std::uint32_t(l.index(c, r));
       if (carries_surface(l, surface, c, r)) radius[k] = l.radius_mm(k);
       if (radius[k] > 0 && within(k)) ring.push_back(k);
     }
   CellMask open(l.size(), 0, &scratch);
   for (const std::uint32_t k : ring) open[k] = 1;
-  const std::uint32_t w = static_cast<std::uint32_t>(l.columns);
+  const std::uint32_t w = std::uint32_t(l.columns);
   const auto border = [&](std::uint32_t k) {
-    return k % w < 2 || k % w + 3 > w || k / w < 2 || k / w + 3 > static_cast<std::uint32_t>(l.rows);
+    return k % w < 2 || k % w + 3 > w || k / w < 2 || k / w + 3 > std::uint32_t(l.rows);
   };
-  for (int turns = static_cast<int>(kReachMm / l.cell_width_mm); turns > 0 && !ring.empty(); --turns) {
+  for (int turns = int(kReachMm / l.cell_width_mm); turns > 0 && !ring.empty(); --turns) {
     next.clear();
     for (const std::uint32_t k : ring)
       for (const std::uint32_t n : {k - 1, k + 1, k - w, k + w}) {
@@ -244,9 +243,7 @@ Result<std::optional<ClosedFace>> close_face(const PointLattice& seen, const Lat
   if (!(l.cell_width_mm > 0 && l.cell_height_mm > 0)) return std::optional<ClosedFace>{};
   LatticeSurface surface = join_neighbours(l, limits, &scratch);
   MaskShaper shaper(l.columns, l.rows, l.cell_width_mm, l.cell_height_mm, &scratch);
-  const auto between_cameras = [&](double right, double centre) {
-    return static_cast<float>(right / 2 - centre);
-  };
+  const auto between_cameras = [&](double right, double centre) { return float(right / 2 - centre); };
   const Vec3d& centre = outline.chart.centre_mm;
   const Vec3f from{between_cameras(right_camera_mm.x, centre.x), between_cameras(right_camera_mm.y, centre.y),
                    between_cameras(right_camera_mm.z, centre.z)};

@@ -58,8 +58,7 @@ class GapCloser {
     for (std::size_t k = 0; k < whole_.size(); ++k) whole_[k] = triangle_count(surface_.cells[k]) == 2;
     const float radius = limits_.max_width_mm / 2;
     const float area = lattice_.cell_width_mm * lattice_.cell_height_mm;
-    shaper_.drop_pieces_below(whole_,
-                              static_cast<std::size_t>(std::numbers::pi_v<float> * radius * radius / area));
+    shaper_.drop_pieces_below(whole_, std::size_t(std::numbers::pi_v<float> * radius * radius / area));
     gap_ = whole_;
     shaper_.dilate(gap_, 1.5F * std::max(lattice_.cell_width_mm, lattice_.cell_height_mm));
     for (std::size_t k = 0; k < gap_.size(); ++k)
@@ -72,8 +71,8 @@ class GapCloser {
     gap_ = whole_;
     shaper_.fill_holes(gap_);
     for (std::size_t k = 0; k < whole_.size(); ++k) gap_[k] = large_[k] = gap_[k] && !whole_[k];
-    shaper_.drop_pieces_below(
-        large_, static_cast<std::size_t>(kSpeckMm2 / (lattice_.cell_width_mm * lattice_.cell_height_mm)));
+    shaper_.drop_pieces_below(large_,
+                              std::size_t(kSpeckMm2 / (lattice_.cell_width_mm * lattice_.cell_height_mm)));
     for (std::size_t k = 0; k < whole_.size(); ++k) gap_[k] = gap_[k] && !large_[k];
     shaper_.dilate(gap_, kPinholeRimMm);
     for (std::size_t k = 0; k < whole_.size(); ++k) {
@@ -105,7 +104,7 @@ class GapCloser {
       const std::optional<Cell> to = rim(at, way);
       if (!to) continue;
       const ViewEdge edge = edge_between(middle(*from), middle(*to));
-      const float cells = static_cast<float>(std::max(std::abs(to->c - from->c), std::abs(to->r - from->r)));
+      const float cells = float(std::max(std::abs(to->c - from->c), std::abs(to->r - from->r)));
       const float width = std::hypot(edge.depth_mm, edge.across_mm) * (cells - 1) / cells;
       if (width > narrowest) continue;
       narrowest = width;
@@ -123,14 +122,14 @@ class GapCloser {
     for (std::uint32_t k = 0; k < gap_.size(); ++k)
       if (gap_[k] == kOpen && !whole_[k]) opened.push_back(k);
     for (std::size_t next = 0; next < opened.size(); ++next) {
-      const int c = static_cast<int>(opened[next]) % lattice_.columns;
-      const int r = static_cast<int>(opened[next]) / lattice_.columns;
+      const int c = int(opened[next]) % lattice_.columns;
+      const int r = int(opened[next]) / lattice_.columns;
       for (int y = std::max(r - 1, 0); y <= std::min(r + 1, lattice_.rows - 1); ++y)
         for (int x = std::max(c - 1, 0); x <= std::min(c + 1, lattice_.columns - 1); ++x) {
           const std::size_t k = lattice_.index(x, y);
           if (gap_[k] != kUndecided) continue;
           gap_[k] = kOpen;
-          opened.push_back(static_cast<std::uint32_t>(k));
+          opened.push_back(std::uint32_t(k));
         }
     }
     bridge_specks(opened);
@@ -141,16 +140,15 @@ class GapCloser {
   void bridge_specks(std::span<const std::uint32_t> opened) {
     std::fill(large_.begin(), large_.end(), std::uint8_t{0});
     for (const std::uint32_t k : opened) large_[k] = was_gap_[k];
-    shaper_.drop_pieces_below(
-        large_, static_cast<std::size_t>(kSpeckMm2 / (lattice_.cell_width_mm * lattice_.cell_height_mm)));
+    shaper_.drop_pieces_below(large_,
+                              std::size_t(kSpeckMm2 / (lattice_.cell_width_mm * lattice_.cell_height_mm)));
     for (const std::uint32_t k : opened)
       if (was_gap_[k] && !large_[k]) gap_[k] = kBridged;
   }
 
   // Not of the last column or row, which are no cells.
   bool inner(std::size_t k) const {
-    return lattice_.inside(static_cast<int>(k) % lattice_.columns + 1,
-                           static_cast<int>(k) / lattice_.columns + 1);
+    return lattice_.inside(int(k) % lattice_.columns + 1, int(k) / lattice_.columns + 1);
   }
 
   bool continues_both(const ViewEdge& edge, float width, float before, float after) const {
@@ -162,9 +160,9 @@ class GapCloser {
 
   // The first cell of the surface that way, or none within reach.
   std::optional<Cell> rim(Cell at, Cell way) const {
-    const float mm = std::hypot(static_cast<float>(way.c) * lattice_.cell_width_mm,
-                                static_cast<float>(way.r) * lattice_.cell_height_mm);
-    for (int n = static_cast<int>(limits_.max_width_mm / mm) + 1; n > 0; --n) {
+    const float mm =
+        std::hypot(float(way.c) * lattice_.cell_width_mm, float(way.r) * lattice_.cell_height_mm);
+    for (int n = int(limits_.max_width_mm / mm) + 1; n > 0; --n) {
       at = {at.c + way.c, at.r + way.r};
       if (!lattice_.inside(at.c, at.r)) return std::nullopt;
       if (whole_[lattice_.index(at.c, at.r)]) return at;
@@ -194,8 +192,8 @@ class GapCloser {
   ViewEdge across_cell(Cell at, Cell way) const {
     const Vec3f* p = &lattice_.at_mm[lattice_.index(at.c, at.r)];
     const Vec3f* q = p + lattice_.columns;
-    const Vec3f right = times(minus(plus(p[1], q[1]), plus(p[0], q[0])), static_cast<float>(way.c) / 2);
-    const Vec3f down = times(minus(plus(q[0], q[1]), plus(p[0], p[1])), static_cast<float>(way.r) / 2);
+    const Vec3f right = times(minus(plus(p[1], q[1]), plus(p[0], q[0])), float(way.c) / 2);
+    const Vec3f down = times(minus(plus(q[0], q[1]), plus(p[0], p[1])), float(way.r) / 2);
     return edge_between(middle(at), plus(middle(at), plus(right, down)));
   }
 

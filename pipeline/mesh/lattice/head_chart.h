@@ -27,15 +27,13 @@ struct HeadChart {
   // Points run from the centre, along the left camera's axes.
   Vec3d in_head(const Vec3f& from_centre) const {
     const Vec3d p =
-        apply(head_from_axes, Vec3d{static_cast<double>(from_centre.x), static_cast<double>(from_centre.y),
-                                    static_cast<double>(from_centre.z)});
+        apply(head_from_axes, Vec3d{double(from_centre.x), double(from_centre.y), double(from_centre.z)});
     return {p.x + kCentreMm.x, p.y + kCentreMm.y, p.z + kCentreMm.z};
   }
   // Millimetres on the map. The direction straight backwards has no place.
   Vec2d place(const Vec3f& from_centre) const {
     return place_in_head(
-        apply(head_from_axes, Vec3d{static_cast<double>(from_centre.x), static_cast<double>(from_centre.y),
-                                    static_cast<double>(from_centre.z)}));
+        apply(head_from_axes, Vec3d{double(from_centre.x), double(from_centre.y), double(from_centre.z)}));
   }
   // The same from the centre along the head's own axes.
   static Vec2d place_in_head(const Vec3d& from_centre) {
@@ -49,7 +47,7 @@ struct HeadChart {
         angle > 1e-9 ? radius_mm * std::sin(angle) / (angle * kRadiusMm) : radius_mm / kRadiusMm;
     const Vec3d p = apply(transposed(head_from_axes),
                           Vec3d{-place.x * scale, -place.y * scale, radius_mm * std::cos(angle)});
-    return {static_cast<float>(p.x), static_cast<float>(p.y), static_cast<float>(p.z)};
+    return {float(p.x), float(p.y), float(p.z)};
   }
 
   Rotation head_from_axes;  // of the left camera

@@ -25,16 +25,15 @@ struct Place {
 
 // The last node counts as the far end of the last cell.
 void split(float at, int nodes, int& cell, float& t) {
-  cell = std::clamp(static_cast<int>(at), 0, nodes - 2);
-  t = at - static_cast<float>(cell);
+  cell = std::clamp(int(at), 0, nodes - 2);
+  t = at - float(cell);
 }
 
 // The weights of the four corners a, b, c, d of lattice_surface.h on the surface of the cell; all 0 off it.
 std::array<float, 4> corner_weights(std::uint8_t cell, float tx, float ty) {
   switch (cell) {
     case kFalling:
-    case kRising:
-      return {(1 - tx) * (1 - ty), tx * (1 - ty), (1 - tx) * ty, tx * ty};
+    case kRising: return {(1 - tx) * (1 - ty), tx * (1 - ty), (1 - tx) * ty, tx * ty};
     case kUnder:
       if (ty >= tx) return {1 - ty, 0, ty - tx, tx};
       break;
@@ -47,8 +46,7 @@ std::array<float, 4> corner_weights(std::uint8_t cell, float tx, float ty) {
     case kRight:
       if (tx + ty >= 1) return {0, 1 - ty, 1 - tx, tx + ty - 1};
       break;
-    default:
-      break;
+    default: break;
   }
   return {};
 }
@@ -92,7 +90,7 @@ class Reader {
 
   Node read(const Place& at, Vec3f& point, float& sigma) const {
     const std::size_t a = from_.index(at.column, at.row);
-    const std::size_t below = a + static_cast<std::size_t>(from_.columns);
+    const std::size_t below = a + std::size_t(from_.columns);
     const std::array<float, 4> w = corner_weights(cells_[a], at.tx, at.ty);
     const std::array<std::size_t, 4> corner{a, a + 1, below, below + 1};
     if (w[0] + w[1] + w[2] + w[3] <= 0) return Node::Empty;
@@ -128,9 +126,9 @@ class Reader {
     for (int r = 0; r < 4; ++r) {
       Vec3f row{};
       for (int c = 0; c < 4; ++c)
-        row = plus(row, times(from_.at_mm[from_.index(at.column + c - 1, at.row + r - 1)],
-                              wx[static_cast<std::size_t>(c)]));
-      sum = plus(sum, times(row, wy[static_cast<std::size_t>(r)]));
+        row =
+            plus(row, times(from_.at_mm[from_.index(at.column + c - 1, at.row + r - 1)], wx[std::size_t(c)]));
+      sum = plus(sum, times(row, wy[std::size_t(r)]));
     }
     return sum;
   }
@@ -150,20 +148,17 @@ double stretch(double at, double edge) {
 std::pmr::vector<float> lay_nodes(int old_nodes, const LatticeSpacing& spacing,
                                   std::pmr::memory_resource* memory) {
   const int old_cells = old_nodes - 1;
-  std::pmr::vector<double> cells(static_cast<std::size_t>(old_nodes), 0.0,
+  std::pmr::vector<double> cells(std::size_t(old_nodes), 0.0,
                                  memory);  // new ones up to an old node
   for (std::size_t k = 1; k < cells.size(); ++k)
-    cells[k] = cells[k - 1] +
-               1 / stretch((static_cast<double>(k) - 0.5) / old_cells, static_cast<double>(spacing.edge));
-  const int wanted =
-      std::max(1, static_cast<int>(std::lround(cells.back() / static_cast<double>(spacing.cells))));
-  std::pmr::vector<float> at(static_cast<std::size_t>(wanted) + 1, static_cast<float>(old_cells), memory);
+    cells[k] = cells[k - 1] + 1 / stretch((double(k) - 0.5) / old_cells, double(spacing.edge));
+  const int wanted = std::max(1, int(std::lround(cells.back() / double(spacing.cells))));
+  std::pmr::vector<float> at(std::size_t(wanted) + 1, float(old_cells), memory);
   std::size_t k = 1;
   for (std::size_t n = 0; n + 1 < at.size(); ++n) {
-    const double reached = cells.back() * static_cast<double>(n) / wanted;
+    const double reached = cells.back() * double(n) / wanted;
     while (k + 1 < cells.size() && cells[k] <= reached) ++k;
-    at[n] =
-        static_cast<float>(static_cast<double>(k - 1) + (reached - cells[k - 1]) / (cells[k] - cells[k - 1]));
+    at[n] = float(double(k - 1) + (reached - cells[k - 1]) / (cells[k] - cells[k - 1]));
   }
   return at;
 }
@@ -176,10 +171,10 @@ struct Nodes {
 Nodes lay_nodes(const PointLattice& from, const LatticeSpacing& spacing, PointLattice& to,
                 std::pmr::memory_resource* memory) {
   Nodes at{lay_nodes(from.columns, spacing, memory), lay_nodes(from.rows, spacing, memory)};
-  to.columns = static_cast<int>(at.x.size());
-  to.rows = static_cast<int>(at.y.size());
-  to.cell_width_mm = from.cell_width_mm * at.x.back() / static_cast<float>(to.columns - 1);
-  to.cell_height_mm = from.cell_height_mm * at.y.back() / static_cast<float>(to.rows - 1);
+  to.columns = int(at.x.size());
+  to.rows = int(at.y.size());
+  to.cell_width_mm = from.cell_width_mm * at.x.back() / float(to.columns - 1);
+  to.cell_height_mm = from.cell_height_mm * at.y.back() / float(to.rows - 1);
   return at;
 }
 
@@ -192,9 +187,8 @@ void read_nodes(const Reader& reader, const Nodes& at, PointLattice& to, ThreadP
     for (int r = from; r < until; ++r)
       for (int c = 0; c < to.columns; ++c) {
         const std::size_t k = to.index(c, r);
-        to.node[k] =
-            reader.read(reader.place(at.x[static_cast<std::size_t>(c)], at.y[static_cast<std::size_t>(r)]),
-                        to.at_mm[k], to.sigma_mm[k]);
+        to.node[k] = reader.read(reader.place(at.x[std::size_t(c)], at.y[std::size_t(r)]), to.at_mm[k],
+                                 to.sigma_mm[k]);
       }
   });
 }
@@ -209,17 +203,17 @@ struct Window {
 std::uint8_t carried_parts(const Reader& reader, const Window& cell) {
   if (reader.whole_around(cell.x, cell.y, cell.x + cell.width, cell.y + cell.height))
     return kFalling | kRising;
-  const int samples = 1 + static_cast<int>(std::ceil(2 * std::max(cell.width, cell.height)));
+  const int samples = 1 + int(std::ceil(2 * std::max(cell.width, cell.height)));
   std::uint8_t parts = kFalling | kRising;
   for (int j = 0; j < samples && parts != 0; ++j)
     for (int i = 0; i < samples; ++i) {
-      const float x = static_cast<float>(i) / static_cast<float>(samples - 1);
-      const float y = static_cast<float>(j) / static_cast<float>(samples - 1);
+      const float x = float(i) / float(samples - 1);
+      const float y = float(j) / float(samples - 1);
       if (reader.carried(cell.x + x * cell.width, cell.y + y * cell.height)) continue;
-      if (j >= i) parts &= static_cast<std::uint8_t>(~kUnder);
-      if (i >= j) parts &= static_cast<std::uint8_t>(~kOver);
-      if (i + j <= samples - 1) parts &= static_cast<std::uint8_t>(~kLeft);
-      if (i + j >= samples - 1) parts &= static_cast<std::uint8_t>(~kRight);
+      if (j >= i) parts &= std::uint8_t(~kUnder);
+      if (i >= j) parts &= std::uint8_t(~kOver);
+      if (i + j <= samples - 1) parts &= std::uint8_t(~kLeft);
+      if (i + j >= samples - 1) parts &= std::uint8_t(~kRight);
     }
   return parts;
 }
@@ -227,7 +221,7 @@ std::uint8_t carried_parts(const Reader& reader, const Window& cell) {
 std::uint8_t cut_cell(const PointLattice& l, int c, int r, std::uint8_t parts, float max_slope, bool closed) {
   if (parts == 0) return 0;
   const std::size_t a = l.index(c, r);
-  const std::size_t below = a + static_cast<std::size_t>(l.columns);
+  const std::size_t below = a + std::size_t(l.columns);
   const Vec3f &p = l.at_mm[a], &q = l.at_mm[a + 1], &o = l.at_mm[below], &d = l.at_mm[below + 1];
   if (parts == (kFalling | kRising)) {
     const std::uint8_t cut = best_cut(l, a, max_slope);
@@ -253,8 +247,8 @@ double expected_triangles(const ShapedLattice& old, float edge) {
     double row = 0;
     for (int c = 0; c + 1 < l.columns; ++c)
       row += triangle_count(old.surface.cells[l.index(c, r)]) /
-             stretch((c + 0.5) / (l.columns - 1), static_cast<double>(edge));
-    sum += row / stretch((r + 0.5) / (l.rows - 1), static_cast<double>(edge));
+             stretch((c + 0.5) / (l.columns - 1), double(edge));
+    sum += row / stretch((r + 0.5) / (l.rows - 1), double(edge));
   }
   return sum;
 }
@@ -271,8 +265,8 @@ ShapedLattice resample_lattice(const ShapedLattice& old, const LatticeSpacing& s
   made.inside.assign(l.size(), 0);
   const auto cut = [&](int c, int r) {
     const std::size_t k = l.index(c, r);
-    const auto x = static_cast<std::size_t>(c);
-    const auto y = static_cast<std::size_t>(r);
+    const auto x = std::size_t(c);
+    const auto y = std::size_t(r);
     const Window cell{at.x[x], at.y[y], at.x[x + 1] - at.x[x], at.y[y + 1] - at.y[y]};
     const Place middle = reader.place(cell.x + 0.5F * cell.width, cell.y + 0.5F * cell.height);
     made.inside[k] = old.inside[old.lattice.index(middle.column, middle.row)];
@@ -288,16 +282,14 @@ ShapedLattice resample_lattice(const ShapedLattice& old, const LatticeSpacing& s
 PointLattice lay_on_head(const PointLattice& old, const LatticeSurface& surface, const HeadChart& chart,
                          float margin_mm, ThreadPool& pool, std::pmr::memory_resource* memory) {
   PointLattice made(memory);
-  const Vec3f centre{static_cast<float>(chart.centre_mm.x), static_cast<float>(chart.centre_mm.y),
-                     static_cast<float>(chart.centre_mm.z)};
-  const double step =
-      std::sqrt(static_cast<double>(old.cell_width_mm) * static_cast<double>(old.cell_height_mm));
+  const Vec3f centre{float(chart.centre_mm.x), float(chart.centre_mm.y), float(chart.centre_mm.z)};
+  const double step = std::sqrt(double(old.cell_width_mm) * double(old.cell_height_mm));
   std::pmr::vector<Vec2f> place(old.size(), Vec2f{}, memory);  // in steps
-  pool.for_each_band(static_cast<int>(old.size()), kBands, [&](int from, int to, int) {
-    for (auto k = static_cast<std::size_t>(from); k < static_cast<std::size_t>(to); ++k) {
+  pool.for_each_band(int(old.size()), kBands, [&](int from, int to, int) {
+    for (auto k = std::size_t(from); k < std::size_t(to); ++k) {
       if (old.node[k] == Node::Empty) continue;
       const Vec2d p = chart.place(minus(old.at_mm[k], centre));
-      place[k] = {static_cast<float>(p.x / step), static_cast<float>(p.y / step)};
+      place[k] = {float(p.x / step), float(p.y / step)};
     }
   });
   float aside = 0;
@@ -310,8 +302,7 @@ PointLattice lay_on_head(const PointLattice& old, const LatticeSurface& surface,
     below = std::max(below, place[k].y);
   }
   const auto room = [&](float reach) {
-    return static_cast<int>(std::ceil(
-        std::min(reach + margin_mm / static_cast<float>(step), static_cast<float>(kFarthest / step))));
+    return int(std::ceil(std::min(reach + margin_mm / float(step), float(kFarthest / step))));
   };
   const int left = room(aside);
   const int top = room(above);
@@ -320,11 +311,11 @@ PointLattice lay_on_head(const PointLattice& old, const LatticeSurface& surface,
   made.chart = chart;
   made.step_mm = step;
   made.first_mm = {-left * step, -top * step};
-  const std::size_t nodes = static_cast<std::size_t>(made.columns) * static_cast<std::size_t>(made.rows);
+  const std::size_t nodes = std::size_t(made.columns) * std::size_t(made.rows);
   made.node.assign(nodes, Node::Empty);
   made.at_mm.assign(nodes, Vec3f{});
   made.sigma_mm.assign(nodes, 0.0F);
-  for (Vec2f& p : place) p = {p.x + static_cast<float>(left), p.y + static_cast<float>(top)};
+  for (Vec2f& p : place) p = {p.x + float(left), p.y + float(top)};
   const Reader reader(old, surface);
   std::pmr::vector<float> radius(nodes, 0.0F, memory);
   for_each_triangle(old, surface, [&](const std::array<std::uint32_t, 3>& t) {
@@ -332,8 +323,7 @@ PointLattice lay_on_head(const PointLattice& old, const LatticeSurface& surface,
     if ((b.x - a.x) * (c.y - a.y) - (b.y - a.y) * (c.x - a.x) <= 0)
       return;  // seen from outside it turns away
     const auto corner = [&](std::uint32_t k) {
-      return Vec2f{static_cast<float>(k % static_cast<std::uint32_t>(old.columns)),
-                   static_cast<float>(k / static_cast<std::uint32_t>(old.columns))};
+      return Vec2f{float(k % std::uint32_t(old.columns)), float(k / std::uint32_t(old.columns))};
     };
     const Vec2f oa = corner(t[0]), ob = corner(t[1]), oc = corner(t[2]);
     for_each_texel(a, b, c, made.columns, {0, made.rows}, [&](int x, int y, float wa, float wb, float wc) {

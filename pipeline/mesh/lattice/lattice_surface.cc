@@ -44,10 +44,10 @@ float usual_distance(const PointLattice& l, int dx, int dy) {
       const std::size_t a = l.index(c, r);
       const std::size_t b = l.index(c + dx, r + dy);
       if (l.node[a] == Node::Empty || l.node[b] == Node::Empty) continue;
-      sum += static_cast<double>(mesh::edge_between(l.at_mm[a], l.at_mm[b]).across_mm);
+      sum += double(mesh::edge_between(l.at_mm[a], l.at_mm[b]).across_mm);
       count += 1;
     }
-  return count > 0 ? static_cast<float>(sum / count) : 0;
+  return count > 0 ? float(sum / count) : 0;
 }
 
 }  // namespace
@@ -63,14 +63,11 @@ PointLattice make_lattice(const PointCloud& cloud, std::pmr::memory_resource* me
   const Box box = bounds(cloud);
   if (box.right < box.left) return lattice;
 
-  const float step = static_cast<float>(cloud.lattice_step_px);
-  const auto steps = [step](float from, float to) {
-    return static_cast<int>(std::lround((to - from) / step));
-  };
+  const float step = float(cloud.lattice_step_px);
+  const auto steps = [step](float from, float to) { return int(std::lround((to - from) / step)); };
   lattice.columns = steps(box.left, box.right) + 1;
   lattice.rows = steps(box.top, box.bottom) + 1;
-  const std::size_t nodes =
-      static_cast<std::size_t>(lattice.columns) * static_cast<std::size_t>(lattice.rows);
+  const std::size_t nodes = std::size_t(lattice.columns) * std::size_t(lattice.rows);
   lattice.node.assign(nodes, Node::Empty);
   lattice.at_mm.assign(nodes, Vec3f{});
   lattice.sigma_mm.assign(nodes, 0.0F);

@@ -60,16 +60,13 @@ struct PointLattice {
 
   std::size_t size() const { return node.size(); }
   std::size_t index(int column, int row) const {
-    return static_cast<std::size_t>(row) * static_cast<std::size_t>(columns) +
-           static_cast<std::size_t>(column);
+    return std::size_t(row) * std::size_t(columns) + std::size_t(column);
   }
-  double radius_mm(std::size_t k) const { return static_cast<double>(length(at_mm[k])); }
+  double radius_mm(std::size_t k) const { return double(length(at_mm[k])); }
   // Where a chart's node stands at that distance from its centre.
   Vec3f on_ray(std::size_t k, double radius_mm) const {
-    const auto w = static_cast<std::size_t>(columns);
-    return chart->at({first_mm.x + step_mm * static_cast<double>(k % w),
-                      first_mm.y + step_mm * static_cast<double>(k / w)},
-                     radius_mm);
+    const auto w = std::size_t(columns);
+    return chart->at({first_mm.x + step_mm * double(k % w), first_mm.y + step_mm * double(k / w)}, radius_mm);
   }
   bool inside(int column, int row) const { return column >= 0 && row >= 0 && column < columns && row < rows; }
 };
@@ -99,7 +96,7 @@ struct LatticeSurface {
 // Nodes of every triangle, counter-clockwise as the camera at the origin sees them.
 template <typename Visit>
 void for_each_triangle(const PointLattice& lattice, const LatticeSurface& surface, Visit&& visit) {
-  const std::uint32_t w = static_cast<std::uint32_t>(lattice.columns);
+  const std::uint32_t w = std::uint32_t(lattice.columns);
   for (std::uint32_t a = 0; a < surface.cells.size(); ++a) {
     const std::uint8_t cell = surface.cells[a];
     if (cell & kUnder) visit(std::array<std::uint32_t, 3>{a, a + w, a + w + 1});

@@ -21,13 +21,13 @@ constexpr float kChannelShare =
 
 // Sums along rows over windows of 2 reach + 1, in place.
 void sum_along_rows(std::pmr::vector<Vec3f>& v, int columns, int reach, std::pmr::memory_resource* memory) {
-  std::pmr::vector<Vec3f> row(static_cast<std::size_t>(columns + 2 * reach), Vec3f{}, memory);
-  const std::size_t w = static_cast<std::size_t>(columns);
+  std::pmr::vector<Vec3f> row(std::size_t(columns + 2 * reach), Vec3f{}, memory);
+  const std::size_t w = std::size_t(columns);
   for (std::size_t first = 0; first < v.size(); first += w) {
-    std::copy_n(v.begin() + static_cast<std::ptrdiff_t>(first), columns, row.begin() + reach);
+    std::copy_n(v.begin() + std::ptrdiff_t(first), columns, row.begin() + reach);
     for (std::size_t c = 0; c < w; ++c) {
       Vec3f sum = row[c];
-      for (std::size_t j = 1; j <= 2 * static_cast<std::size_t>(reach); ++j) sum = plus(sum, row[c + j]);
+      for (std::size_t j = 1; j <= 2 * std::size_t(reach); ++j) sum = plus(sum, row[c + j]);
       v[first + c] = sum;
     }
   }
@@ -43,8 +43,8 @@ void grow(PointLattice& l, LatticeSurface& surface, const CellMask& before, cons
   for (std::size_t k = 0; k < l.size(); ++k) {
     if (!before[k]) surface.cells[k] = 0;
     gained[k] = wanted[k] && !gained[k] && triangle_count(surface.cells[k]) < 2 &&
-                l.inside(static_cast<int>(k) % l.columns + 1,
-                         static_cast<int>(k) / l.columns + 1);  // the last column and row are no cells
+                l.inside(int(k) % l.columns + 1,
+                         int(k) / l.columns + 1);  // the last column and row are no cells
   }
   const PointLattice measured(l, memory);
   fill_cells(l, surface, gained, max_slope, {}, memory);
@@ -81,8 +81,8 @@ CellMask steep_cells(const PointLattice& l, const LatticeSurface& surface, float
     const Vec3f* q = p + l.columns;
     normal[k] = cross(minus(q[0], p[1]), minus(q[1], p[0]));
   }
-  sum_along_rows(normal, l.columns, static_cast<int>(kSlopeRadiusMm / l.cell_width_mm), memory);
-  const int reach = static_cast<int>(kSlopeRadiusMm / l.cell_height_mm);
+  sum_along_rows(normal, l.columns, int(kSlopeRadiusMm / l.cell_width_mm), memory);
+  const int reach = int(kSlopeRadiusMm / l.cell_height_mm);
   const float cosine = cosine_of_slope(max_slope);
   CellMask steep(l.size(), 0, memory);
   for (int r = 0; r + 1 < l.rows; ++r)

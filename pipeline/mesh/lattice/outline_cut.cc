@@ -26,7 +26,7 @@ float FaceOutline::depth_mm(const Vec3f& from_chart_centre_mm) const {
   const double to_chin = p.y + below_mm - p.x * p.x / kJaw;
   const double between =
       std::clamp(0.5 + 0.5 * (to_chin - to_reach) / kBend, 0.0, 1.0);  // the lesser of both, rounded off
-  return static_cast<float>(to_chin + between * (to_reach - to_chin) - kBend * between * (1 - between) / 2);
+  return float(to_chin + between * (to_reach - to_chin) - kBend * between * (1 - between) / 2);
 }
 
 namespace {
@@ -40,11 +40,11 @@ constexpr float kSnap = 0.25F;        // of an edge
 
 // A Gaussian sampled half-way between whole steps, one side, all of both sides summing to 1.
 std::pmr::vector<float> half_step_kernel(float sigma_cells, std::pmr::memory_resource* memory) {
-  const std::size_t reach = static_cast<std::size_t>(std::ceil(3 * sigma_cells));
+  const std::size_t reach = std::size_t(std::ceil(3 * sigma_cells));
   std::pmr::vector<float> weights(reach, 0.0F, memory);
   float sum = 0;
   for (std::size_t j = 0; j < reach; ++j) {
-    const float x = (static_cast<float>(j) + 0.5F) / sigma_cells;
+    const float x = (float(j) + 0.5F) / sigma_cells;
     weights[j] = std::exp(-x * x / 2);
     sum += 2 * weights[j];
   }
@@ -59,18 +59,18 @@ std::pmr::vector<float> depth_inside(const PointLattice& l, Halves&& halves, flo
                                      std::pmr::memory_resource* memory) {
   const auto along = half_step_kernel(sigma_mm / l.cell_width_mm, memory);
   const auto down = half_step_kernel(sigma_mm / l.cell_height_mm, memory);
-  const std::size_t w = static_cast<std::size_t>(l.columns);
+  const std::size_t w = std::size_t(l.columns);
   std::pmr::vector<float> rows(l.size(), 0.0F, memory);
   std::pmr::vector<float> padded(w + 2 * along.size(), 0.0F, memory);
   for (std::size_t first = 0; first < l.size(); first += w) {
     float* row = padded.data() + along.size();
-    for (std::size_t c = 0; c < w; ++c) row[c] = static_cast<float>(halves(first + c)) / 2;
+    for (std::size_t c = 0; c < w; ++c) row[c] = float(halves(first + c)) / 2;
     float* sum = &rows[first];
     for (std::size_t j = 0; j < along.size(); ++j)
       for (std::size_t c = 0; c < w; ++c) sum[c] += along[j] * (row[c + j] + *(row + c - j - 1));
   }
   std::pmr::vector<float> share(l.size(), 0.0F, memory);
-  const std::size_t height = static_cast<std::size_t>(l.rows);
+  const std::size_t height = std::size_t(l.rows);
   for (std::size_t r = 0; r < height; ++r)
     for (std::size_t j = 0; j < 2 * down.size(); ++j) {
       const std::size_t from = r + j - down.size();  // wraps above the first row, and is then too large
@@ -239,7 +239,7 @@ class Cutter {
     for (std::uint32_t& n : number_)
       if (n != kNone) n = count++;
     first_cut_ = count;
-    count += static_cast<std::uint32_t>(cuts_.size());
+    count += std::uint32_t(cuts_.size());
     result.at_mm.reserve(count);
     result.sigma_mm.reserve(count);
     result.measured.reserve(count);
@@ -256,8 +256,7 @@ class Cutter {
 
   std::uint32_t number(const Place& p) const {
     if (p.from == p.to) return number_[p.from];
-    return first_cut_ +
-           static_cast<std::uint32_t>(std::lower_bound(cuts_.begin(), cuts_.end(), p) - cuts_.begin());
+    return first_cut_ + std::uint32_t(std::lower_bound(cuts_.begin(), cuts_.end(), p) - cuts_.begin());
   }
 
   const PointLattice& lattice_;

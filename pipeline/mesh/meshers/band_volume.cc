@@ -29,8 +29,7 @@ class Walker {
  public:
   Walker(const BandVolume& volume, std::pmr::memory_resource* memory)
       : volume_(volume), crossings_(memory), corners_(memory), centres_(memory), result_(memory) {
-    strides_ = {1, static_cast<std::size_t>(volume.nx),
-                static_cast<std::size_t>(volume.nx) * static_cast<std::size_t>(volume.ny)};
+    strides_ = {1, std::size_t(volume.nx), std::size_t(volume.nx) * std::size_t(volume.ny)};
   }
 
   Polygonised walk() {
@@ -49,7 +48,7 @@ class Walker {
       });
     });
     crossings_ = corners_;
-    std::sort(crossings_.begin(), crossings_.end());
+    std::ranges::sort(crossings_);
     crossings_.erase(std::unique(crossings_.begin(), crossings_.end()), crossings_.end());
     result_.vertices_mm.reserve(crossings_.size());
     for (const Crossing c : crossings_) result_.vertices_mm.push_back(place(c));
@@ -80,7 +79,7 @@ class Walker {
         }
   }
 
-  static bool out(const Cell& cell, int corner) { return cell.value[static_cast<std::size_t>(corner)] >= 0; }
+  static bool out(const Cell& cell, int corner) { return cell.value[std::size_t(corner)] >= 0; }
 
   // An edge of the cell by the two corners it joins, 0 to 11: direction times four and the other two bits.
   static std::size_t edge(int a, int b) {
@@ -88,7 +87,7 @@ class Walker {
     const int low = a & b;
     const std::size_t way = bit == 1 ? 0 : bit == 2 ? 1 : 2;
     const int others = way == 0 ? low >> 1 : way == 1 ? (low & 1) | (low >> 1 & 2) : low & 3;
-    return 4 * way + static_cast<std::size_t>(others);
+    return 4 * way + std::size_t(others);
   }
   Crossing crossing(const Cell& cell, std::size_t edge) const {
     const std::size_t way = edge / 4, others = edge % 4;
@@ -134,9 +133,7 @@ class Walker {
     const auto edge_of = [&](std::size_t i) { return edge(face[i], face[(i + 1) % 4]); };
     if (crossings == 2) next[edge_of(entering[0])] = edge_of(leaving[0]);
     if (crossings != 4) return false;
-    const auto v = [&](std::size_t i) {
-      return static_cast<double>(cell.value[static_cast<std::size_t>(face[i])]);
-    };
+    const auto v = [&](std::size_t i) { return double(cell.value[std::size_t(face[i])]); };
     const bool outside_joined =
         (v(0) * v(2) - v(1) * v(3)) * (v(0) + v(2) - v(1) - v(3)) >= 0;  // the saddle's sign
     for (std::size_t k = 0; k < 2; ++k) {
@@ -153,7 +150,7 @@ class Walker {
     Vec3f sum{};
     for (const Crossing c : loop) sum = plus(sum, place(c));
     const Crossing centre = kCentre + centres_.size();
-    centres_.push_back(times(sum, 1 / static_cast<float>(loop.size())));
+    centres_.push_back(times(sum, 1 / float(loop.size())));
     for (std::size_t k = 0; k < loop.size(); ++k)
       for (const Crossing c : {centre, loop[(k + 1) % loop.size()], loop[k]}) corners_.push_back(c);
   }
@@ -179,21 +176,18 @@ class Walker {
   Vec3f place(Crossing c) const {
     if (c >= kCentre) return centres_[c - kCentre];
     const std::size_t voxel = c / 4, way = c % 4;
-    const double a = static_cast<double>(volume_.value[voxel]),
-                 b = static_cast<double>(volume_.value[voxel + strides_[way]]);
+    const double a = double(volume_.value[voxel]), b = double(volume_.value[voxel + strides_[way]]);
     // Never on a voxel itself: there other edges' crossings lie, and triangles without area arise.
-    const float share = static_cast<float>(std::clamp(a / (a - b), 0.02, 0.98));
-    const int x = static_cast<int>(voxel % strides_[1]),
-              y = static_cast<int>(voxel % strides_[2] / strides_[1]),
-              z = static_cast<int>(voxel / strides_[2]);
+    const float share = float(std::clamp(a / (a - b), 0.02, 0.98));
+    const int x = int(voxel % strides_[1]), y = int(voxel % strides_[2] / strides_[1]),
+              z = int(voxel / strides_[2]);
     Vec3f p = volume_.at(x, y, z);
     (way == 0 ? p.x : way == 1 ? p.y : p.z) += share * volume_.voxel_mm;
     return p;
   }
 
   std::uint32_t number(Crossing c) const {
-    return static_cast<std::uint32_t>(std::lower_bound(crossings_.begin(), crossings_.end(), c) -
-                                      crossings_.begin());
+    return std::uint32_t(std::lower_bound(crossings_.begin(), crossings_.end(), c) - crossings_.begin());
   }
 
   const BandVolume& volume_;
@@ -213,17 +207,14 @@ BandVolume volume_around(std::span<const Vec3f> points, float voxel_mm, int marg
     low = {std::min(low.x, p.x), std::min(low.y, p.y), std::min(low.z, p.z)};
     high = {std::max(high.x, p.x), std::max(high.y, p.y), std::max(high.z, p.z)};
   }
-  const float more = voxel_mm * static_cast<float>(margin);
+  const float more = voxel_mm * float(margin);
   volume.voxel_mm = voxel_mm;
   volume.corner_mm = {low.x - more, low.y - more, low.z - more};
-  const auto count = [&](float from, float to) {
-    return static_cast<int>((to - from + 2 * more) / voxel_mm) + 2;
-  };
+  const auto count = [&](float from, float to) { return int((to - from + 2 * more) / voxel_mm) + 2; };
   volume.nx = count(low.x, high.x);
   volume.ny = count(low.y, high.y);
   volume.nz = count(low.z, high.z);
-  volume.value.assign(static_cast<std::size_t>(volume.nx) * static_cast<std::size_t>(volume.ny) *
-                          static_cast<std::size_t>(volume.nz),
+  volume.value.assign(std::size_t(volume.nx) * std::size_t(volume.ny) * std::size_t(volume.nz),
                       std::numeric_limits<float>::quiet_NaN());
   return volume;
 }
@@ -234,7 +225,7 @@ void fill_field(std::span<const FieldPoint> points, float radius_mm, BandVolume&
   constexpr int kBands = 32;
   const Arena::Mark mark(context.scratch);
   std::pmr::vector<float> weight(volume.value.size(), 0.0F, &context.scratch);
-  std::fill(volume.value.begin(), volume.value.end(), 0.0F);
+  std::ranges::fill(volume.value, 0.0F);
   const float narrowness = 1 / (2 * volume.voxel_mm * volume.voxel_mm);
   context.pool.for_each_band(volume.nz, kBands, [&](int begin, int end, int) {
     const float low = volume.at(0, 0, begin).z - radius_mm, high = volume.at(0, 0, end - 1).z + radius_mm;

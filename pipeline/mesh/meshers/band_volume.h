@@ -29,13 +29,11 @@ struct BandVolume {
   std::pmr::vector<float> value;  // x fastest; NaN outside the band
 
   std::size_t index(int x, int y, int z) const {
-    return (static_cast<std::size_t>(z) * static_cast<std::size_t>(ny) + static_cast<std::size_t>(y)) *
-               static_cast<std::size_t>(nx) +
-           static_cast<std::size_t>(x);
+    return (std::size_t(z) * std::size_t(ny) + std::size_t(y)) * std::size_t(nx) + std::size_t(x);
   }
   Vec3f at(int x, int y, int z) const {
-    return {corner_mm.x + voxel_mm * static_cast<float>(x), corner_mm.y + voxel_mm * static_cast<float>(y),
-            corner_mm.z + voxel_mm * static_cast<float>(z)};
+    return {corner_mm.x + voxel_mm * float(x), corner_mm.y + voxel_mm * float(y),
+            corner_mm.z + voxel_mm * float(z)};
   }
 };
 
@@ -50,11 +48,10 @@ void for_each_voxel_near(const BandVolume& volume, const Vec3f& p, float radius_
   const float x = cell(p.x, volume.corner_mm.x), y = cell(p.y, volume.corner_mm.y),
               z = cell(p.z, volume.corner_mm.z);
   const float r = radius_mm / volume.voxel_mm;
-  for (int k = static_cast<int>(z - r) + 1; static_cast<float>(k) <= z + r; ++k)
-    for (int j = static_cast<int>(y - r) + 1; static_cast<float>(j) <= y + r; ++j)
-      for (int i = static_cast<int>(x - r) + 1; static_cast<float>(i) <= x + r; ++i) {
-        const float dx = static_cast<float>(i) - x, dy = static_cast<float>(j) - y,
-                    dz = static_cast<float>(k) - z;
+  for (int k = int(z - r) + 1; float(k) <= z + r; ++k)
+    for (int j = int(y - r) + 1; float(j) <= y + r; ++j)
+      for (int i = int(x - r) + 1; float(i) <= x + r; ++i) {
+        const float dx = float(i) - x, dy = float(j) - y, dz = float(k) - z;
         if (dx * dx + dy * dy + dz * dz <= r * r) visit(i, j, k);
       }
 }

@@ -52,7 +52,7 @@ Carried carry_over(const FaceMesh& base, std::span<const Vec3f> vertices, const 
   carried.near.assign(vertices.size(), 0);
   for (std::size_t v = 0; v < vertices.size(); ++v) {
     if (!(vertices[v].z > 0)) continue;
-    const auto hit = nearest.find(vertices[v], static_cast<float>(options.max_gap_mm));
+    const auto hit = nearest.find(vertices[v], float(options.max_gap_mm));
     if (hit.vertex == NearestVertex::kNone) continue;
     const float distance = std::sqrt(hit.squared_mm);
     if (border[hit.vertex] && distance > kBeyondEdges * usual)
@@ -76,7 +76,7 @@ float usual_edge_mm(const FaceMesh& base, std::pmr::memory_resource* memory) {
   lengths.reserve(base.triangles.size());
   for (const Triangle& t : base.triangles)
     lengths.push_back(length(minus(base.vertices_mm[t[1]], base.vertices_mm[t[0]])));
-  return lengths.empty() ? 0 : static_cast<float>(median(lengths));
+  return lengths.empty() ? 0 : float(median(lengths));
 }
 
 FaceMesh densify(const FaceMesh& base, float spacing_mm, std::pmr::memory_resource* memory) {
@@ -86,11 +86,10 @@ FaceMesh densify(const FaceMesh& base, float spacing_mm, std::pmr::memory_resour
       const Vec3f &a = base.vertices_mm[t[0]], &b = base.vertices_mm[t[1]], &c = base.vertices_mm[t[2]];
       const float longest =
           std::sqrt(std::max({squared_distance(a, b), squared_distance(b, c), squared_distance(c, a)}));
-      const int parts = static_cast<int>(std::ceil(longest / spacing_mm));
+      const int parts = int(std::ceil(longest / spacing_mm));
       for (int i = 0; parts > 1 && i < parts; ++i)
         for (int j = 0; i + j < parts; ++j)
-          add(t, (static_cast<float>(i) + 1 / 3.0F) / static_cast<float>(parts),
-              (static_cast<float>(j) + 1 / 3.0F) / static_cast<float>(parts));
+          add(t, (float(i) + 1 / 3.0F) / float(parts), (float(j) + 1 / 3.0F) / float(parts));
     }
   };
   std::size_t count = 0;
@@ -114,7 +113,7 @@ Result<FaceMesh> finish_surface(const FaceMesh& base, std::span<const Vec3f> ver
                                 StageContext& context) {
   const Carried carried = carry_over(base, vertices, options, context);
   if (context.stop()) return Error{Errc::Cancelled, "meshing was stopped"};
-  const float max_slope = static_cast<float>(std::tan(options.max_incidence_deg * std::numbers::pi / 180));
+  const float max_slope = float(std::tan(options.max_incidence_deg * std::numbers::pi / 180));
   const float min_cosine = cosine_of_slope(max_slope);
   std::erase_if(triangles, [&](const Triangle& t) {
     return !carried.near[t[0]] || !carried.near[t[1]] || !carried.near[t[2]];
@@ -130,7 +129,7 @@ Result<FaceMesh> finish_surface(const FaceMesh& base, std::span<const Vec3f> ver
     return !facing(vertices[t[0]], vertices[t[1]], vertices[t[2]], min_cosine);
   });
   keep_one_surface(vertices, triangles, {}, &context.scratch);
-  const std::size_t most = static_cast<std::size_t>(options.max_triangles);
+  const std::size_t most = std::size_t(options.max_triangles);
   if (triangles.size() > most) collapse_edges(vertices, triangles, most, {}, &context.scratch);
   mend(max_slope);
   if (context.stop()) return Error{Errc::Cancelled, "meshing was stopped"};
@@ -143,6 +142,91 @@ Result<FaceMesh> finish_surface(const FaceMesh& base, std::span<const Vec3f> ver
   compute_normals(mesh, 1, &context.scratch);
   context.progress.done.store(1, std::memory_order_relaxed);
   return mesh;
+}
+
+namespace {
+
+constexpr float kReachEdges = 1.2F;  // how many usual edges a node may lie from a measured point ...
+constexpr float kDisagreeMm = 0.5F;  // ... and how far from the surface around it
+constexpr float kDisagreeSigmas = 4;
+constexpr int kBands = 64;
+
+struct Lattice {
+  double left, top, step;
+  int columns, rows;
+};
+
+// The nodes of one row: those near a measured point, on its tangent plane but for the tolerance.
+void add_row(const FaceMesh& base, const DepthSamples& samples, const NearestVertex& nearest,
+             const Lattice& lattice, int row, std::span<const double> us, std::span<const double> depths,
+             float reach, PointCloud& cloud) {
+  const double v = lattice.top + lattice.step * row;
+  for (int c = 0; c < lattice.columns; ++c) {
+    const std::size_t i = std::size_t(c);
+    if (!std::isfinite(depths[i]) || depths[i] <= 0) continue;
+    const Vec3f at{float(us[i] / samples.usual_depth_mm * depths[i]),
+                   float(v / samples.usual_depth_mm * depths[i]), float(depths[i])};
+    const auto hit = nearest.find(at, 3 * reach + 2 * kDisagreeMm);
+    if (hit.vertex == NearestVertex::kNone) continue;
+    const Vec3f from = minus(at, base.vertices_mm[hit.vertex]);
+    const float off = std::abs(dot(from, base.normals[hit.vertex]));
+    if (off > kDisagreeMm + kDisagreeSigmas * base.sigma_mm[hit.vertex] ||
+        hit.squared_mm - off * off > reach * reach)
+      continue;
+    cloud.points.push_back({at, {float(c), float(row)}, float(samples.sigma[hit.vertex])});
+  }
+}
+
+}  // namespace
+
+DepthSamples sample_depths(const FaceMesh& base, std::pmr::memory_resource* memory) {
+  DepthSamples samples(memory);
+  const std::size_t n = base.vertices_mm.size();
+  for (auto* values : {&samples.u, &samples.v, &samples.depth, &samples.sigma}) values->reserve(n);
+  for (const Vec3f& p : base.vertices_mm) samples.usual_depth_mm += double(p.z) / double(n);
+  samples.left = samples.top = 1e9;
+  samples.right = samples.bottom = -1e9;
+  for (std::size_t i = 0; i < n; ++i) {
+    const Vec3f& p = base.vertices_mm[i];
+    const double z = double(p.z);
+    samples.u.push_back(samples.usual_depth_mm * double(p.x) / z);
+    samples.v.push_back(samples.usual_depth_mm * double(p.y) / z);
+    samples.depth.push_back(z);
+    // The base's sigma is perpendicular; along the line of sight it is larger where the surface is steep.
+    const double cosine = std::abs(double(dot(base.normals[i], unit(p))));
+    samples.sigma.push_back(double(base.sigma_mm[i]) / std::max(cosine, 0.1));
+    samples.left = std::min(samples.left, samples.u.back());
+    samples.right = std::max(samples.right, samples.u.back());
+    samples.top = std::min(samples.top, samples.v.back());
+    samples.bottom = std::max(samples.bottom, samples.v.back());
+  }
+  return samples;
+}
+
+Result<FaceMesh> mesh_sheet(const FaceMesh& base, const DepthSamples& samples, const DepthFunction& function,
+                            const SheetOptions& options, StageContext& context) {
+  const NearestVertex nearest(base.vertices_mm, &context.scratch);
+  const Lattice lattice{samples.left, samples.top, options.step_mm,
+                        int((samples.right - samples.left) / options.step_mm) + 1,
+                        int((samples.bottom - samples.top) / options.step_mm) + 1};
+  const std::size_t columns = std::size_t(lattice.columns);
+  std::pmr::vector<double> us(columns, 0.0, &context.scratch);
+  for (std::size_t c = 0; c < columns; ++c) us[c] = lattice.left + lattice.step * double(c);
+  std::pmr::vector<double> depths(columns * std::size_t(lattice.rows), 0.0, &context.scratch);
+  context.pool.for_each_band(lattice.rows, kBands, [&](int from, int to, int) {
+    for (int r = from; r < to && !context.stop(); ++r)
+      function(us, lattice.top + lattice.step * r,
+               std::span(depths).subspan(std::size_t(r) * columns, columns));
+  });
+  if (context.stop()) return Error{Errc::Cancelled, "meshing was stopped"};
+  const float reach = kReachEdges * std::max(usual_edge_mm(base, &context.scratch), float(options.step_mm));
+  PointCloud cloud(&context.scratch);
+  cloud.points.reserve(columns * std::size_t(lattice.rows));
+  cloud.lattice_step_px = 1;
+  for (int r = 0; r < lattice.rows; ++r)
+    add_row(base, samples, nearest, lattice, r, us,
+            std::span(depths).subspan(std::size_t(r) * columns, columns), reach, cloud);
+  return lattice_sheet(cloud, options.max_triangles, options.min_area_mm2, context);
 }
 
 }  // namespace relievo::pipeline

@@ -26,7 +26,7 @@ Four bezier(const Four& c) {
 
 double de_casteljau(Four b, double t) {
   for (int level = 3; level > 0; --level)
-    for (std::size_t i = 0; i < static_cast<std::size_t>(level); ++i) b[i] += t * (b[i + 1] - b[i]);
+    for (std::size_t i = 0; i < std::size_t(level); ++i) b[i] += t * (b[i + 1] - b[i]);
   return b[0];
 }
 
@@ -45,10 +45,8 @@ class Normal {
         step_(memory),
         product_(memory) {}
 
-  std::size_t size() const { return static_cast<std::size_t>(columns_) * static_cast<std::size_t>(rows_); }
-  std::size_t index(int c, int r) const {
-    return static_cast<std::size_t>(r) * static_cast<std::size_t>(columns_) + static_cast<std::size_t>(c);
-  }
+  std::size_t size() const { return std::size_t(columns_) * std::size_t(rows_); }
+  std::size_t index(int c, int r) const { return std::size_t(r) * std::size_t(columns_) + std::size_t(c); }
   const std::pmr::vector<double>& solution() const { return value_; }
 
   struct Term {
@@ -131,7 +129,7 @@ struct Share {
 };
 Share share_of(double at, double from, double side, int count) {
   const double units = (at - from) / side;
-  const int whole = std::clamp(static_cast<int>(std::floor(units)), 0, count - 1);
+  const int whole = std::clamp(int(std::floor(units)), 0, count - 1);
   return {whole, units - whole};
 }
 
@@ -143,9 +141,9 @@ BezierNet::BezierNet(const DepthSamples& samples, double patch_mm, double bendin
       top_(samples.top),
       side_(patch_mm),
       middle_(samples.usual_depth_mm),
-      columns_(static_cast<int>((samples.right - samples.left) / patch_mm) + 1),
-      rows_(static_cast<int>((samples.bottom - samples.top) / patch_mm) + 1),
-      patches_(static_cast<std::size_t>(columns_) * static_cast<std::size_t>(rows_), Patch{}, memory) {
+      columns_(int((samples.right - samples.left) / patch_mm) + 1),
+      rows_(int((samples.bottom - samples.top) / patch_mm) + 1),
+      patches_(std::size_t(columns_) * std::size_t(rows_), Patch{}, memory) {
   Normal normal(columns_ + 3, rows_ + 3, memory);
   double weights = 0;
   for (std::size_t i = 0; i < samples.u.size(); ++i) {
@@ -155,22 +153,21 @@ BezierNet::BezierNet(const DepthSamples& samples, double patch_mm, double bendin
     std::array<Normal::Term, 16> terms;
     for (int r = 0; r < 4; ++r)
       for (int c = 0; c < 4; ++c)
-        terms[static_cast<std::size_t>(4 * r + c)] = {
-            u.whole + c, v.whole + r,
-            down[static_cast<std::size_t>(r)] * across[static_cast<std::size_t>(c)]};
+        terms[std::size_t(4 * r + c)] = {u.whole + c, v.whole + r,
+                                         down[std::size_t(r)] * across[std::size_t(c)]};
     const double weight = 1 / std::max(samples.sigma[i] * samples.sigma[i], 1e-6);
     normal.add(terms, samples.depth[i] - middle_, weight);
     weights += weight;
   }
-  add_bending(normal, columns_ + 3, rows_ + 3, bending * weights / static_cast<double>(normal.size()));
+  add_bending(normal, columns_ + 3, rows_ + 3, bending * weights / double(normal.size()));
   normal.solve(2000, 1e-14);
   const std::pmr::vector<double>& coefficient = normal.solution();
   for (int r = 0; r < rows_; ++r)
     for (int c = 0; c < columns_; ++c) {
-      Patch& patch = patches_[static_cast<std::size_t>(r * columns_ + c)];
+      Patch& patch = patches_[std::size_t(r * columns_ + c)];
       for (int j = 0; j < 4; ++j) {
         const double* line = &coefficient[normal.index(c, r + j)];
-        patch[static_cast<std::size_t>(j)] = bezier({line[0], line[1], line[2], line[3]});
+        patch[std::size_t(j)] = bezier({line[0], line[1], line[2], line[3]});
       }
       for (std::size_t i = 0; i < 4; ++i) {
         const Four down = bezier({patch[0][i], patch[1][i], patch[2][i], patch[3][i]});

@@ -13,7 +13,7 @@
 #include <memory_resource>
 #include <vector>
 
-#include "pipeline/mesh/meshers/depth_sheet.h"
+#include "pipeline/mesh/meshers/base_sheet.h"
 
 namespace relievo::pipeline {
 
@@ -28,9 +28,7 @@ class BezierNet {
 
   int columns() const { return columns_; }
   int rows() const { return rows_; }
-  const Patch& patch(int column, int row) const {
-    return patches_[static_cast<std::size_t>(row * columns_ + column)];
-  }
+  const Patch& patch(int column, int row) const { return patches_[std::size_t(row * columns_ + column)]; }
   void depths(std::span<const double> us, double v, std::span<double> depths) const;  // a DepthFunction
 
  private:

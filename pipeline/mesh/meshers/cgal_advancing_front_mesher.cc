@@ -34,16 +34,14 @@ struct LongestEdge {
 std::pmr::vector<Triangle> grow(const FaceMesh& base, double longest_mm, StageContext& context) {
   std::vector<Kernel::Point_3> points;
   points.reserve(base.vertices_mm.size());
-  for (const Vec3f& v : base.vertices_mm)
-    points.emplace_back(static_cast<double>(v.x), static_cast<double>(v.y), static_cast<double>(v.z));
+  for (const Vec3f& v : base.vertices_mm) points.emplace_back(double(v.x), double(v.y), double(v.z));
   std::vector<Facet> facets;
   CGAL::advancing_front_surface_reconstruction(points.begin(), points.end(), std::back_inserter(facets),
                                                LongestEdge{longest_mm * longest_mm});
   std::pmr::vector<Triangle> triangles(&context.scratch);
   triangles.reserve(facets.size());
   for (const Facet& f : facets)
-    triangles.push_back({static_cast<std::uint32_t>(f[0]), static_cast<std::uint32_t>(f[1]),
-                         static_cast<std::uint32_t>(f[2])});
+    triangles.push_back({std::uint32_t(f[0]), std::uint32_t(f[1]), std::uint32_t(f[2])});
   // CGAL orients the surface as one, either way round: towards the camera it shall be.
   std::size_t away = 0;
   for (const Triangle& t : triangles) {
@@ -53,8 +51,8 @@ std::pmr::vector<Triangle> grow(const FaceMesh& base, double longest_mm, StageCo
   }
   if (2 * away > triangles.size())
     for (Triangle& t : triangles) std::swap(t[1], t[2]);
-  for (Triangle& t : triangles) std::rotate(t.begin(), std::min_element(t.begin(), t.end()), t.end());
-  std::sort(triangles.begin(), triangles.end());
+  for (Triangle& t : triangles) std::rotate(t.begin(), std::ranges::min_element(t), t.end());
+  std::ranges::sort(triangles);
   return triangles;
 }
 
@@ -64,7 +62,7 @@ Result<FaceMesh> AdvancingFrontMesher::mesh(const PointCloud& cloud, StageContex
   if (context.stop()) return Error{Errc::Cancelled, "meshing was stopped"};
   RELIEVO_TRY_ASSIGN(const FaceMesh base, base_sheet(cloud, max_points, context));
   const double longest =
-      std::min(max_edge_mm, max_edge_ratio * static_cast<double>(usual_edge_mm(base, &context.scratch)));
+      std::min(max_edge_mm, max_edge_ratio * double(usual_edge_mm(base, &context.scratch)));
   std::pmr::vector<Triangle> triangles = grow(base, longest, context);
   if (context.stop()) return Error{Errc::Cancelled, "meshing was stopped"};
   return finish_surface(base, base.vertices_mm, triangles, finish, context);

@@ -35,7 +35,7 @@ bool usable(const CloudPoint& p) {
 // Every k-th point, spread evenly over the cloud's order.
 std::pmr::vector<std::pair<Kernel::Point_2, std::uint32_t>> plane_points(const PointCloud& cloud,
                                                                          int max_triangles, Arena& scratch) {
-  const std::size_t most = static_cast<std::size_t>(max_triangles) / 2;
+  const std::size_t most = std::size_t(max_triangles) / 2;
   const std::size_t wanted = std::min(most, cloud.points.size());
   std::pmr::vector<std::pair<Kernel::Point_2, std::uint32_t>> points(&scratch);
   points.reserve(wanted);
@@ -43,8 +43,7 @@ std::pmr::vector<std::pair<Kernel::Point_2, std::uint32_t>> plane_points(const P
     const std::size_t k = i * cloud.points.size() / wanted;
     const CloudPoint& p = cloud.points[k];
     if (usable(p))
-      points.emplace_back(Kernel::Point_2(static_cast<double>(p.left_px.x), static_cast<double>(p.left_px.y)),
-                          static_cast<std::uint32_t>(k));
+      points.emplace_back(Kernel::Point_2(double(p.left_px.x), double(p.left_px.y)), std::uint32_t(k));
   }
   return points;
 }
@@ -55,7 +54,7 @@ float usual_edge_mm(const std::pmr::vector<Vec3f>& at, const std::pmr::vector<Tr
   std::pmr::vector<float> lengths(&scratch);
   lengths.reserve(triangles.size());
   for (const Triangle& t : triangles) lengths.push_back(length(minus(at[t[1]], at[t[0]])));
-  return lengths.empty() ? 0 : static_cast<float>(median(lengths));
+  return lengths.empty() ? 0 : float(median(lengths));
 }
 
 bool shorter(const Vec3f& a, const Vec3f& b, const Vec3f& c, float longest_mm) {
@@ -74,11 +73,10 @@ double even_distance_mm(const std::pmr::vector<Vec3f>& at, const std::pmr::vecto
   for (const Triangle& t : triangles) {
     const Vec3f &a = at[t[0]], &b = at[t[1]], &c = at[t[2]];
     if (!shorter(a, b, c, longest_mm)) continue;
-    area +=
-        static_cast<double>(std::abs(dot(cross(minus(b, a), minus(c, a)), unit(plus(plus(a, b), c))))) / 2;
+    area += double(std::abs(dot(cross(minus(b, a), minus(c, a)), unit(plus(plus(a, b), c))))) / 2;
     ++count;
   }
-  return count > 0 ? std::sqrt(2 * area / static_cast<double>(count)) : 0;  // there are two triangles a point
+  return count > 0 ? std::sqrt(2 * area / double(count)) : 0;  // there are two triangles a point
 }
 
 bool belongs(const Vec3f& a, const Vec3f& b, const Vec3f& c, float longest_mm, float min_cosine) {
@@ -100,8 +98,8 @@ std::pmr::vector<Triangle> triangulate(const PointCloud& cloud, int max_triangle
   for (const auto& face : delaunay.finite_face_handles())
     triangles.push_back({face->vertex(0)->info(), face->vertex(2)->info(), face->vertex(1)->info()});
   // CGAL's order follows addresses in memory; ours is the same on every run.
-  for (Triangle& t : triangles) std::rotate(t.begin(), std::min_element(t.begin(), t.end()), t.end());
-  std::sort(triangles.begin(), triangles.end());
+  for (Triangle& t : triangles) std::rotate(t.begin(), std::ranges::min_element(t), t.end());
+  std::ranges::sort(triangles);
   return triangles;
 }
 
@@ -120,7 +118,7 @@ Result<FaceMesh> join(const PointCloud& cloud, const DelaunayMesher& options, St
   at.reserve(cloud.points.size());
   for (const CloudPoint& p : cloud.points) at.push_back(p.at_mm);
   const float longest = longest_mm(at, triangles);
-  const float min_cosine = static_cast<float>(std::cos(options.max_incidence_deg * std::numbers::pi / 180));
+  const float min_cosine = float(std::cos(options.max_incidence_deg * std::numbers::pi / 180));
   std::erase_if(triangles, [&](const Triangle& t) {
     return !belongs(at[t[0]], at[t[1]], at[t[2]], longest, min_cosine);
   });
@@ -130,8 +128,7 @@ Result<FaceMesh> join(const PointCloud& cloud, const DelaunayMesher& options, St
 
   FaceMesh mesh = pack_mesh(at.size(), triangles, context, [&](std::size_t v) {
     const float sigma = cloud.points[v].sigma_mm;
-    return PackedVertex{at[v], sigma,
-                        static_cast<double>(sigma) <= kMeasuredSigmaMm ? std::uint8_t{1} : std::uint8_t{0}};
+    return PackedVertex{at[v], sigma, double(sigma) <= kMeasuredSigmaMm ? std::uint8_t{1} : std::uint8_t{0}};
   });
   compute_normals(mesh, options.normal_passes, &context.scratch);
   turn_sigma_perpendicular(mesh);
@@ -143,8 +140,8 @@ Result<FaceMesh> join(const PointCloud& cloud, const DelaunayMesher& options, St
 
 Result<FaceMesh> DelaunayMesher::mesh(const PointCloud& cloud, StageContext& context) const {
   return join(cloud, *this, context, [&](const auto& at, const auto& triangles) {
-    const float most = static_cast<float>(max_edge_mm);
-    return std::min(most, static_cast<float>(max_edge_ratio * even_distance_mm(at, triangles, most)));
+    const float most = float(max_edge_mm);
+    return std::min(most, float(max_edge_ratio * even_distance_mm(at, triangles, most)));
   });
 }
 

@@ -27,7 +27,7 @@ constexpr float kSparse = 1.5F;  // voxels: the band joins points further apart
 bool fill_field(const FaceMesh& base, BandVolume& volume, float radius, StageContext& context) {
   std::vector<Oriented> points;
   points.reserve(base.vertices_mm.size() + base.vertices_mm.size() / kBackStride + 1);
-  const auto d = [](float v) { return static_cast<double>(v); };
+  const auto d = [](float v) { return double(v); };
   for (std::size_t i = 0; i < base.vertices_mm.size(); ++i) {
     const Vec3f &p = base.vertices_mm[i], &n = base.normals[i];
     points.emplace_back(Kernel::Point_3(d(p.x), d(p.y), d(p.z)), Kernel::Vector_3(d(n.x), d(n.y), d(n.z)));
@@ -53,7 +53,7 @@ bool fill_field(const FaceMesh& base, BandVolume& volume, float radius, StageCon
         float& value = volume.value[volume.index(x, y, z)];
         if (std::isnan(value)) continue;
         const Vec3f at = volume.at(x, y, z);
-        value = static_cast<float>(inside(Kernel::Point_3(d(at.x), d(at.y), d(at.z))));
+        value = float(inside(Kernel::Point_3(d(at.x), d(at.y), d(at.z))));
         if (!std::isfinite(value)) value = std::numeric_limits<float>::quiet_NaN();
       }
   return !context.stop();
@@ -76,14 +76,13 @@ Result<FaceMesh> PoissonMesher::mesh(const PointCloud& cloud, StageContext& cont
   const Error stopped{Errc::Cancelled, "meshing was stopped"};
   if (context.stop()) return stopped;
   RELIEVO_TRY_ASSIGN(const FaceMesh base, base_sheet(cloud, max_points, context));
-  const float voxel = std::max(static_cast<float>(voxel_mm), 0.6F * usual_edge_mm(base, &context.scratch));
-  BandVolume volume =
-      volume_around(base.vertices_mm, voxel, static_cast<int>(band_voxels) + 2, &context.scratch);
-  if (!fill_field(base, volume, static_cast<float>(band_voxels) * voxel, context))
+  const float voxel = std::max(float(voxel_mm), 0.6F * usual_edge_mm(base, &context.scratch));
+  BandVolume volume = volume_around(base.vertices_mm, voxel, int(band_voxels) + 2, &context.scratch);
+  if (!fill_field(base, volume, float(band_voxels) * voxel, context))
     return context.stop() ? stopped : no_surface();
-  const std::size_t row = static_cast<std::size_t>(volume.nx);
+  const std::size_t row = std::size_t(volume.nx);
   for (int pass = 0; pass < kSmoothings; ++pass)
-    for (const std::size_t stride : {std::size_t{1}, row, row * static_cast<std::size_t>(volume.ny)}) {
+    for (const std::size_t stride : {std::size_t{1}, row, row * std::size_t(volume.ny)}) {
       const Arena::Mark line(context.scratch);
       smooth(volume, stride, &context.scratch);
     }

@@ -26,7 +26,7 @@ Error stopped() { return {Errc::Cancelled, "meshing was stopped"}; }
 constexpr double kCutAway = 0.018;      // of the triangles, by the outline's cut
 constexpr float kThinnerStep = 1.003F;  // where the triangles at hand are exceeded by a few
 
-float tangent(double degrees) { return static_cast<float>(std::tan(degrees * std::numbers::pi / 180)); }
+float tangent(double degrees) { return float(std::tan(degrees * std::numbers::pi / 180)); }
 
 // On a lattice that makes good use of the triangles there may be: of a face far away finer than the points',
 // but not so fine that it would only repeat them; of a face near by coarser, above all towards the edges.
@@ -34,12 +34,12 @@ ShapedLattice fill_budget(ShapedLattice shaped, double triangles, float max_slop
                           StageContext& context) {
   const double present = expected_triangles(shaped, 1);
   if (present <= 0) return shaped;
-  LatticeSpacing spacing{static_cast<float>(std::sqrt(present / triangles)), 1};
-  if (static_cast<double>(spacing.cells) > o.finest_cells) {
-    spacing.edge = static_cast<float>(o.edge_cells);
-    spacing.cells = static_cast<float>(std::sqrt(expected_triangles(shaped, spacing.edge) / triangles));
+  LatticeSpacing spacing{float(std::sqrt(present / triangles)), 1};
+  if (double(spacing.cells) > o.finest_cells) {
+    spacing.edge = float(o.edge_cells);
+    spacing.cells = float(std::sqrt(expected_triangles(shaped, spacing.edge) / triangles));
   }
-  spacing.cells = std::max(spacing.cells, static_cast<float>(o.finest_cells));
+  spacing.cells = std::max(spacing.cells, float(o.finest_cells));
   while (spacing.cells != 1 || spacing.edge != 1) {
     ShapedLattice other = resample_lattice(shaped, spacing, max_slope, context.pool, &context.scratch);
     if (expected_triangles(other, 1) <= triangles) return other;
@@ -50,8 +50,7 @@ ShapedLattice fill_budget(ShapedLattice shaped, double triangles, float max_slop
 
 // What was seen from within a head, as the cameras see it.
 void turn_outwards(CutSurface& cut, const Vec3d& centre_mm) {
-  const Vec3f centre{static_cast<float>(centre_mm.x), static_cast<float>(centre_mm.y),
-                     static_cast<float>(centre_mm.z)};
+  const Vec3f centre{float(centre_mm.x), float(centre_mm.y), float(centre_mm.z)};
   for (Vec3f& v : cut.at_mm) v = plus(v, centre);
   for (auto& t : cut.triangles) std::swap(t[1], t[2]);
 }
@@ -59,24 +58,22 @@ void turn_outwards(CutSurface& cut, const Vec3d& centre_mm) {
 Result<CutSurface> make_surface(const PointCloud& cloud, double triangles, const GridMesher& o,
                                 StageContext& context) {
   Arena& scratch = context.scratch;
-  const LatticeLimits limits{tangent(o.max_incidence_deg), static_cast<float>(o.step_sigmas),
-                             static_cast<float>(o.step_slope_ratio), static_cast<float>(o.min_step_mm)};
+  const LatticeLimits limits{tangent(o.max_incidence_deg), float(o.step_sigmas), float(o.step_slope_ratio),
+                             float(o.min_step_mm)};
   PointLattice lattice = make_lattice(cloud, &scratch);
   LatticeSurface surface = join_neighbours(lattice, limits, &scratch);
   if (context.stop()) return stopped();
   if (!(lattice.cell_width_mm > 0 && lattice.cell_height_mm > 0)) return CutSurface(&scratch);
   MaskShaper shaper(lattice.columns, lattice.rows, lattice.cell_width_mm, lattice.cell_height_mm, &scratch);
-  close_gaps(
-      lattice, surface,
-      {static_cast<float>(o.max_hole_mm), limits.max_slope, tangent(o.gap_bend_deg), limits.min_step_mm},
-      shaper, &scratch);
+  close_gaps(lattice, surface,
+             {float(o.max_hole_mm), limits.max_slope, tangent(o.gap_bend_deg), limits.min_step_mm}, shaper,
+             &scratch);
   if (context.stop()) return stopped();
   // After the gaps: a crack must not make a narrow place of a wide one.
   const Vec3d& right = cloud.right_camera_mm;
-  const Vec3f between_cameras{static_cast<float>(right.x / 2), static_cast<float>(right.y / 2),
-                              static_cast<float>(right.z / 2)};
+  const Vec3f between_cameras{float(right.x / 2), float(right.y / 2), float(right.z / 2)};
   const OutlineLimits trimming{limits.max_slope, tangent(o.max_rim_deg), between_cameras,
-                               static_cast<float>(o.min_width_mm), static_cast<float>(o.outline_wave_mm)};
+                               float(o.min_width_mm), float(o.outline_wave_mm)};
   CellMask inside = trim_outline(lattice, surface, trimming, shaper, &scratch);
   if (context.stop()) return stopped();
   std::optional<ClosedFace> closed;
@@ -85,8 +82,7 @@ Result<CutSurface> make_surface(const PointCloud& cloud, double triangles, const
   }
   const float max_slope = closed ? kSteepest : limits.max_slope;
   const std::optional<FaceOutline> outline = closed ? std::optional(closed->outline) : std::nullopt;
-  const OutlineSmoothing smoothing{static_cast<float>(o.outline_smoothing_mm),
-                                   static_cast<float>(o.rim_smoothing_mm)};
+  const OutlineSmoothing smoothing{float(o.outline_smoothing_mm), float(o.rim_smoothing_mm)};
   const ShapedLattice shaped =
       fill_budget(closed ? std::move(closed->shaped)
                          : ShapedLattice{std::move(lattice), std::move(surface), std::move(inside), false},
@@ -125,12 +121,12 @@ Result<FaceMesh> GridMesher::mesh(const PointCloud& cloud, StageContext& context
     if (context.stop()) return stopped();
     if (surface.triangles.empty() || area_mm2(surface.at_mm, surface.triangles) < min_area_mm2)
       return no_surface();
-    if (surface.triangles.size() > static_cast<std::size_t>(max_triangles)) {
+    if (surface.triangles.size() > std::size_t(max_triangles)) {
       triangles *= 1 - kCutAway / 2;
       continue;
     }
     FaceMesh made = pack_mesh(surface.at_mm.size(), surface.triangles, context, [&](std::size_t v) {
-      const bool certain = surface.sigma_mm[v] <= static_cast<float>(measured_sigma_mm);
+      const bool certain = surface.sigma_mm[v] <= float(measured_sigma_mm);
       return PackedVertex{surface.at_mm[v], surface.sigma_mm[v],
                           certain ? surface.measured[v] : std::uint8_t{0}};
     });

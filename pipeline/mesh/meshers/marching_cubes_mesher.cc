@@ -29,10 +29,9 @@ Result<FaceMesh> MarchingCubesMesher::mesh(const PointCloud& cloud, StageContext
   if (context.stop()) return Error{Errc::Cancelled, "meshing was stopped"};
   RELIEVO_TRY_ASSIGN(const FaceMesh base, base_sheet(cloud, max_points, context));
   // Points wide apart would leave holes between their balls: the voxels follow.
-  const float voxel = std::max(static_cast<float>(voxel_mm), 0.6F * usual_edge_mm(base, &context.scratch));
-  const float radius = static_cast<float>(band_voxels) * voxel;
-  BandVolume volume =
-      volume_around(base.vertices_mm, voxel, static_cast<int>(band_voxels) + 2, &context.scratch);
+  const float voxel = std::max(float(voxel_mm), 0.6F * usual_edge_mm(base, &context.scratch));
+  const float radius = float(band_voxels) * voxel;
+  BandVolume volume = volume_around(base.vertices_mm, voxel, int(band_voxels) + 2, &context.scratch);
   const FaceMesh between = densify(base, kSparse * voxel, &context.scratch);
   std::pmr::vector<FieldPoint> points(&context.scratch);
   points.reserve(base.vertices_mm.size() + between.vertices_mm.size());

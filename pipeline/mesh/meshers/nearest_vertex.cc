@@ -27,15 +27,15 @@ NearestVertex::NearestVertex(std::span<const Vec3f> points, std::pmr::memory_res
     top_ = std::min(top_, p.y / p.z);
     bottom = std::max(bottom, p.y / p.z);
   }
-  side_ = std::sqrt(std::max((right - left_) * (bottom - top_), 1e-9F) * kPointsPerCell /
-                    static_cast<float>(points.size()));
-  const int columns = static_cast<int>((right - left_) / side_) + 1;
-  const int rows = static_cast<int>((bottom - top_) / side_) + 1;
+  side_ =
+      std::sqrt(std::max((right - left_) * (bottom - top_), 1e-9F) * kPointsPerCell / float(points.size()));
+  const int columns = int((right - left_) / side_) + 1;
+  const int rows = int((bottom - top_) / side_) + 1;
   cells_.fill(columns, rows, [&](auto&& add) {
     for (std::uint32_t i = 0; i < points.size(); ++i) {
       const Vec3f& p = points[i];
-      add(std::clamp(static_cast<int>((p.x / p.z - left_) / side_), 0, columns - 1),
-          std::clamp(static_cast<int>((p.y / p.z - top_) / side_), 0, rows - 1), i);
+      add(std::clamp(int((p.x / p.z - left_) / side_), 0, columns - 1),
+          std::clamp(int((p.y / p.z - top_) / side_), 0, rows - 1), i);
     }
   });
 }
@@ -43,11 +43,11 @@ NearestVertex::NearestVertex(std::span<const Vec3f> points, std::pmr::memory_res
 NearestVertex::Hit NearestVertex::find(const Vec3f& at, float within_mm) const {
   Hit best{kNone, within_mm * within_mm};
   if (points_.empty()) return best;
-  const int c = static_cast<int>(std::floor((at.x / at.z - left_) / side_));
-  const int r = static_cast<int>(std::floor((at.y / at.z - top_) / side_));
+  const int c = int(std::floor((at.x / at.z - left_) / side_));
+  const int r = int(std::floor((at.y / at.z - top_) / side_));
   const auto done = [&](int ring) {
     // What lies beyond the rings seen so far is further away across the line of sight alone.
-    const float beyond = static_cast<float>(ring - 1) * side_ * kObliquity * at.z;
+    const float beyond = float(ring - 1) * side_ * kObliquity * at.z;
     return ring > 0 && beyond > 0 && beyond * beyond >= best.squared_mm;
   };
   cells_.by_rings(c, r, done, [&](std::uint32_t i) {

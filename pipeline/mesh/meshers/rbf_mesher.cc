@@ -28,7 +28,7 @@ class Rbf {
         chosen_(samples.u.size(), 0, &context.scratch),
         weights_(&context.scratch),
         matrix_(&context.scratch) {
-    const std::size_t most = std::min(static_cast<std::size_t>(options.max_centres), samples.u.size());
+    const std::size_t most = std::min(std::size_t(options.max_centres), samples.u.size());
     const std::size_t side = most + 3;
     centres_.reserve(most);
     weights_.reserve(side);
@@ -40,14 +40,13 @@ class Rbf {
   // False where it was stopped.
   bool fit() {
     const std::size_t most = centres_.capacity();
-    const std::size_t first = std::min(most, static_cast<std::size_t>(kFirstCentres));
+    const std::size_t first = std::min(most, std::size_t(kFirstCentres));
     for (std::size_t i = 0; i < first; ++i) choose(i * samples_.u.size() / first);
     solve();
     while (centres_.size() < most) {
       if (context_.stop()) return false;
       const std::size_t wanted =
-          std::min(most - centres_.size(),
-                   static_cast<std::size_t>((kGrowth - 1) * static_cast<double>(centres_.size())));
+          std::min(most - centres_.size(), std::size_t((kGrowth - 1) * double(centres_.size())));
       if (add_worst(wanted) == 0) break;
       solve();
     }
@@ -74,7 +73,7 @@ class Rbf {
   void choose(std::size_t i) {
     if (chosen_[i]) return;
     chosen_[i] = 1;
-    centres_.push_back(static_cast<std::uint32_t>(i));
+    centres_.push_back(std::uint32_t(i));
   }
 
   // (A + smoothing sigma^2 I) w + P c = d, P' w = 0, in place.
@@ -85,10 +84,10 @@ class Rbf {
     Eigen::Map<Eigen::VectorXd> d(weights_.data(), n + 3);
     a.setZero();
     for (Eigen::Index i = 0; i < n; ++i) {
-      const std::size_t p = centres_[static_cast<std::size_t>(i)];
+      const std::size_t p = centres_[std::size_t(i)];
       const double x = samples_.u[p] / scale_, y = samples_.v[p] / scale_;
       for (Eigen::Index j = 0; j < i; ++j) {
-        const std::size_t q = centres_[static_cast<std::size_t>(j)];
+        const std::size_t q = centres_[std::size_t(j)];
         const double dx = x - samples_.u[q] / scale_, dy = y - samples_.v[q] / scale_;
         a(i, j) = a(j, i) = plate(dx * dx + dy * dy);
       }
@@ -118,26 +117,25 @@ class Rbf {
     const Arena::Mark turn(context_.scratch);
     const std::size_t n = std::min(kJudged, samples_.u.size());
     std::pmr::vector<Judged> judged(n, Judged{}, &context_.scratch);
-    context_.pool.for_each_band(static_cast<int>(n), kBands, [&](int from, int to, int) {
+    context_.pool.for_each_band(int(n), kBands, [&](int from, int to, int) {
       for (int k = from; k < to; ++k) {
-        const std::size_t i = static_cast<std::size_t>(k) * samples_.u.size() / n;
+        const std::size_t i = std::size_t(k) * samples_.u.size() / n;
         const double off = std::abs(at(samples_.u[i], samples_.v[i]) - samples_.depth[i]);
-        judged[static_cast<std::size_t>(k)] = {std::max(off - options_.smoothing * samples_.sigma[i], 0.0),
-                                               static_cast<std::uint32_t>(i)};
+        judged[std::size_t(k)] = {std::max(off - options_.smoothing * samples_.sigma[i], 0.0),
+                                  std::uint32_t(i)};
       }
     });
     std::sort(judged.begin(), judged.end());
     const double area = (samples_.right - samples_.left) * (samples_.bottom - samples_.top);
-    const double side = std::max(std::sqrt(area / static_cast<double>(2 * (centres_.size() + wanted))), 1e-3);
-    const std::size_t columns = static_cast<std::size_t>((samples_.right - samples_.left) / side) + 1;
-    const std::size_t rows = static_cast<std::size_t>((samples_.bottom - samples_.top) / side) + 1;
+    const double side = std::max(std::sqrt(area / double(2 * (centres_.size() + wanted))), 1e-3);
+    const std::size_t columns = std::size_t((samples_.right - samples_.left) / side) + 1;
+    const std::size_t rows = std::size_t((samples_.bottom - samples_.top) / side) + 1;
     std::pmr::vector<std::uint8_t> taken(columns * rows, 0, &context_.scratch);
     std::size_t added = 0;
     for (const Judged& j : judged) {
       if (added == wanted || j.off <= options_.accuracy_mm) break;
-      const std::size_t cell =
-          static_cast<std::size_t>((samples_.v[j.point] - samples_.top) / side) * columns +
-          static_cast<std::size_t>((samples_.u[j.point] - samples_.left) / side);
+      const std::size_t cell = std::size_t((samples_.v[j.point] - samples_.top) / side) * columns +
+                               std::size_t((samples_.u[j.point] - samples_.left) / side);
       if (taken[cell] || chosen_[j.point]) continue;
       taken[cell] = 1;
       choose(j.point);

@@ -7,7 +7,6 @@
 #include "pipeline/base/options.h"
 #include "pipeline/mesh/mesher.h"
 #include "pipeline/mesh/meshers/base_sheet.h"
-#include "pipeline/mesh/meshers/depth_sheet.h"
 
 namespace relievo::pipeline {
 

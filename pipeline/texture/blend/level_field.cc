@@ -21,8 +21,7 @@ void for_each_sample(const Chart& chart, const ShotPlanes& planes, std::size_t c
       if (planes.say_left[k] < 255 || planes.say_right[k] < 255) continue;
       const std::uint8_t l = planes.left[3 * k + channel];
       const std::uint8_t r = planes.right[3 * k + channel];
-      if (std::min(l, r) >= kDark && std::max(l, r) <= kBright)
-        visit(static_cast<double>(l), static_cast<double>(r));
+      if (std::min(l, r) >= kDark && std::max(l, r) <= kBright) visit(double(l), double(r));
     }
 }
 
@@ -32,13 +31,13 @@ double robust_sigma(const Chart& chart, const ShotPlanes& planes, std::size_t ch
   std::array<int, 1024> histogram{};
   int count = 0;
   for_each_sample(chart, planes, channel, [&](double l, double r) {
-    ++histogram[static_cast<std::size_t>(std::min(1023.0, 4 * std::abs(l - gain * r - offset)))];
+    ++histogram[std::size_t(std::min(1023.0, 4 * std::abs(l - gain * r - offset)))];
     ++count;
   });
   int below = 0;
   for (std::size_t bin = 0; bin < histogram.size(); ++bin) {
     below += histogram[bin];
-    if (2 * below >= count) return 1.4826 * (static_cast<double>(bin) + 0.5) / 4;
+    if (2 * below >= count) return 1.4826 * (double(bin) + 0.5) / 4;
   }
   return 0;
 }
@@ -89,9 +88,9 @@ ExposureMatch match_exposure(const Chart& chart, const ShotPlanes& planes) {
       gain = std::clamp(tells ? spread_l / spread_r : l / r, 0.25, 4.0);
       offset = tells ? std::clamp(l - gain * r, -64.0, 64.0) : 0.0;
     }
-    match.gain[c] = static_cast<float>(gain);
-    match.offset[c] = static_cast<float>(offset);
-    match.sigma[c] = static_cast<float>(sigma);
+    match.gain[c] = float(gain);
+    match.offset[c] = float(offset);
+    match.sigma[c] = float(sigma);
   }
   return match;
 }
@@ -100,7 +99,7 @@ LevelField::LevelField(const Chart& chart, const ShotPlanes& planes, const Expos
                        std::span<const std::uint8_t> shines, std::pmr::memory_resource* memory)
     : columns_((chart.width_px + kLevelCell - 1) / kLevelCell),
       rows_((chart.height_px + kLevelCell - 1) / kLevelCell),
-      cells_(static_cast<std::size_t>(columns_) * static_cast<std::size_t>(rows_), Cell{}, memory) {
+      cells_(std::size_t(columns_) * std::size_t(rows_), Cell{}, memory) {
   constexpr float kFarthest = 40;  // grey levels: more is an edge that does not meet, not a level
   for (int y = 0; y < chart.height_px; ++y)
     for (int x = 0; x < chart.width_px; ++x) {
@@ -108,10 +107,9 @@ LevelField::LevelField(const Chart& chart, const ShotPlanes& planes, const Expos
       if (std::min(planes.say_left[k], planes.say_right[k]) < 128 || shines[k] != 0) continue;
       Level d;
       for (std::size_t c = 0; c < 3; ++c)
-        d[c] = exposure.matched(c, planes.right[3 * k + c]) - static_cast<float>(planes.left[3 * k + c]);
+        d[c] = exposure.matched(c, planes.right[3 * k + c]) - float(planes.left[3 * k + c]);
       if (std::abs(d[1]) > kFarthest) continue;
-      Cell& to = cells_[static_cast<std::size_t>(y / kLevelCell) * static_cast<std::size_t>(columns_) +
-                        static_cast<std::size_t>(x / kLevelCell)];
+      Cell& to = cells_[std::size_t(y / kLevelCell) * std::size_t(columns_) + std::size_t(x / kLevelCell)];
       for (std::size_t c = 0; c < 3; ++c) to.sum[c] += d[c];
       to.weight += 1;
     }
@@ -134,8 +132,7 @@ void LevelField::smooth(std::pmr::memory_resource* memory) {
             for (std::size_t c = 0; c < 3; ++c) sum.sum[c] += w * from.sum[c];
             sum.weight += w * from.weight;
           }
-        next[static_cast<std::size_t>(y) * static_cast<std::size_t>(columns_) + static_cast<std::size_t>(x)] =
-            sum;
+        next[std::size_t(y) * std::size_t(columns_) + std::size_t(x)] = sum;
       }
     std::swap(cells_, next);
   }
@@ -152,15 +149,13 @@ void LevelField::extend(std::pmr::memory_resource* memory) {
   const int largest = std::max(columns_, rows_);
   for (int y = 0; y < rows_; ++y)
     for (int x = 0; x < columns_; ++x) {
-      Cell& here = cells_[static_cast<std::size_t>(y) * static_cast<std::size_t>(columns_) +
-                          static_cast<std::size_t>(x)];
+      Cell& here = cells_[std::size_t(y) * std::size_t(columns_) + std::size_t(x)];
       Cell sum = here;
       for (int radius = 1; sum.weight < kEnough && radius <= largest; radius *= 2) {
         sum = {};
         for (int v = std::max(0, y - radius); v <= std::min(rows_ - 1, y + radius); ++v)
           for (int u = std::max(0, x - radius); u <= std::min(columns_ - 1, x + radius); ++u) {
-            const Cell& from = known[static_cast<std::size_t>(v) * static_cast<std::size_t>(columns_) +
-                                     static_cast<std::size_t>(u)];
+            const Cell& from = known[std::size_t(v) * std::size_t(columns_) + std::size_t(u)];
             for (std::size_t c = 0; c < 3; ++c) sum.sum[c] += from.sum[c];
             sum.weight += from.weight;
           }
@@ -170,14 +165,14 @@ void LevelField::extend(std::pmr::memory_resource* memory) {
 }
 
 LevelField::Level LevelField::at(float texel_x, float texel_y) const {
-  const float x = std::clamp((texel_x + 0.5F) / kLevelCell - 0.5F, 0.0F, static_cast<float>(columns_ - 1));
-  const float y = std::clamp((texel_y + 0.5F) / kLevelCell - 0.5F, 0.0F, static_cast<float>(rows_ - 1));
-  const int u = std::min(static_cast<int>(x), std::max(0, columns_ - 2));
-  const int v = std::min(static_cast<int>(y), std::max(0, rows_ - 2));
+  const float x = std::clamp((texel_x + 0.5F) / kLevelCell - 0.5F, 0.0F, float(columns_ - 1));
+  const float y = std::clamp((texel_y + 0.5F) / kLevelCell - 0.5F, 0.0F, float(rows_ - 1));
+  const int u = std::min(int(x), std::max(0, columns_ - 2));
+  const int v = std::min(int(y), std::max(0, rows_ - 2));
   const int u1 = std::min(u + 1, columns_ - 1);
   const int v1 = std::min(v + 1, rows_ - 1);
-  const float fx = x - static_cast<float>(u);
-  const float fy = y - static_cast<float>(v);
+  const float fx = x - float(u);
+  const float fy = y - float(v);
   Level level;
   for (std::size_t c = 0; c < 3; ++c) {
     const float upper = cell(u, v).sum[c] + fx * (cell(u1, v).sum[c] - cell(u, v).sum[c]);

@@ -28,7 +28,7 @@ struct ExposureMatch {
   std::array<float, 3> offset{0, 0, 0};
   std::array<float, 3> sigma{0, 0, 0};  // of left minus matched right, robust
   float matched(std::size_t channel, std::uint8_t right) const {
-    return gain[channel] * static_cast<float>(right) + offset[channel];
+    return gain[channel] * float(right) + offset[channel];
   }
 };
 
@@ -50,8 +50,7 @@ class LevelField {
     float weight = 0;
   };
   const Cell& cell(int x, int y) const {
-    return cells_[static_cast<std::size_t>(y) * static_cast<std::size_t>(columns_) +
-                  static_cast<std::size_t>(x)];
+    return cells_[std::size_t(y) * std::size_t(columns_) + std::size_t(x)];
   }
   void smooth(std::pmr::memory_resource* memory);
   void extend(std::pmr::memory_resource* memory);

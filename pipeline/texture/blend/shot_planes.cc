@@ -44,7 +44,7 @@ void sweep(std::span<const Triangle> triangles, Step&& step) {
   };
   while (changed) {
     changed = false;
-    std::for_each(triangles.begin(), triangles.end(), go);
+    std::ranges::for_each(triangles, go);
     std::for_each(triangles.rbegin(), triangles.rend(), go);
   }
 }
@@ -101,7 +101,7 @@ void forget_what_lies_behind(std::span<const Triangle> completed_parts, std::spa
     return true;
   });
   for (std::uint32_t v = 0; v < seen.size(); ++v)
-    if (!known(v)) seen[v] &= static_cast<std::uint8_t>(~bit);
+    if (!known(v)) seen[v] &= std::uint8_t(~bit);
 }
 
 // Where both views see that surface and one shows it much lighter than the other does, the one that looks at
@@ -115,7 +115,7 @@ void choose_at_limb(std::span<const std::uint8_t> beyond, std::span<const float>
   for (std::size_t v = 0; v < beyond.size(); ++v)
     if (views.seen[v] == (kSeenLeft | kSeenRight) && beyond[v] == 0)
       ratios.push_back(left_light[v] / right_light[v]);
-  const float usual = ratios.empty() ? 1 : static_cast<float>(median(ratios));
+  const float usual = ratios.empty() ? 1 : float(median(ratios));
   for (std::size_t v = 0; v < beyond.size(); ++v) {
     if (views.seen[v] != (kSeenLeft | kSeenRight) || beyond[v] == 0) continue;
     const float ratio = left_light[v] / right_light[v] / usual;
@@ -132,12 +132,11 @@ float cosine_towards(const Vec3f& camera, const Vec3f& at, const Vec3f& normal) 
 }
 
 bool covered(const RectifiedView& view, const RectifiedPair& pair, float x, float y) {
-  const int column = static_cast<int>(std::lround(x));
-  const int row = static_cast<int>(std::lround(y));
+  const int column = int(std::lround(x));
+  const int row = int(std::lround(y));
   if (column < 0 || row < 0 || column >= pair.width_px || row >= pair.height_px) return false;
   return view.valid.empty() ||
-         view.valid[static_cast<std::size_t>(row) * static_cast<std::size_t>(pair.width_px) +
-                    static_cast<std::size_t>(column)] != 0;
+         view.valid[std::size_t(row) * std::size_t(pair.width_px) + std::size_t(column)] != 0;
 }
 
 // Everything a band of rows needs; one reference fits into the pool's callable without an allocation.
@@ -158,16 +157,15 @@ struct Shooting {
   PhotoRow row_of(const RectifiedView& view, int band, int which) const {
     const FrontMap& map = maps[which == 0 ? 1 : 2];
     const float first = chart.view_x(map.shift, 0, 0);  // its columns are shifted by the disparity already
-    const int from = static_cast<int>(first) - 4;
-    const int to = static_cast<int>(first + static_cast<float>(map.width_px) / map.scale) + 4;
-    const std::size_t size = 3 * static_cast<std::size_t>(pair.width_px);
-    return {
-        view,
-        pair.width_px,
-        pair.height_px,
-        from,
-        to,
-        rows.subspan((2 * static_cast<std::size_t>(band) + static_cast<std::size_t>(which)) * size, size)};
+    const int from = int(first) - 4;
+    const int to = int(first + float(map.width_px) / map.scale) + 4;
+    const std::size_t size = 3 * std::size_t(pair.width_px);
+    return {view,
+            pair.width_px,
+            pair.height_px,
+            from,
+            to,
+            rows.subspan((2 * std::size_t(band) + std::size_t(which)) * size, size)};
   }
 
   void shoot_band(int band) const {
@@ -175,8 +173,8 @@ struct Shooting {
     PhotoRow right = row_of(pair.right, band, 1);
     const RowRange range = bands.rows(band);
     for (int y = range.begin; y < range.end && !context.stop(); ++y) {
-      left.move_to(chart.view_y(static_cast<float>(y)));
-      if (!options.left_only) right.move_to(chart.view_y(static_cast<float>(y)));
+      left.move_to(chart.view_y(float(y)));
+      if (!options.left_only) right.move_to(chart.view_y(float(y)));
       for (int x = 0; x < chart.width_px; ++x) {
         const std::size_t k = chart.index(x, y);
         const std::uint32_t owner = maps[0].owner[k];
@@ -188,7 +186,7 @@ struct Shooting {
 
   void shoot_texel(std::size_t k, int x, int y, const std::array<std::uint32_t, 3>& t, const PhotoRow& left,
                    const PhotoRow& right) const {
-    const Vec2f at{static_cast<float>(x), static_cast<float>(y)};
+    const Vec2f at{float(x), float(y)};
     const float disparity = maps[0].nearest[k];
     const std::uint8_t may = views.seen[t[0]] | views.seen[t[1]] | views.seen[t[2]];
     std::uint8_t seen = kSurface;
@@ -225,21 +223,19 @@ struct Shooting {
   // A view has its full say where all of the window around is seen by it, and none where more than a
   // tenth is not: a photograph mixes front and back on the last pixels before an occlusion.
   void feather_band(int band) const {
-    const int radius = std::max(
-        1, static_cast<int>(std::lround(options.feather_px * static_cast<float>(chart.texels_per_px))));
+    const int radius = std::max(1, int(std::lround(options.feather_px * float(chart.texels_per_px))));
     const auto blind = [&](int x, int y) {
       const std::uint8_t seen = planes.seen[chart.index(x, y)];
       if ((seen & kSurface) == 0) return BoxSum{};
       return BoxSum{(seen & kSeenLeft) == 0 ? 1 : 0, (seen & kSeenRight) == 0 ? 1 : 0};
     };
-    const float area = static_cast<float>((2 * radius + 1) * (2 * radius + 1));
+    const float area = float((2 * radius + 1) * (2 * radius + 1));
     const auto say = [area](int blind_texels) {
-      return to_byte(255 * (1 - 2.5F * static_cast<float>(blind_texels) / area));
+      return to_byte(255 * (1 - 2.5F * float(blind_texels) / area));
     };
-    const std::size_t width = static_cast<std::size_t>(chart.width_px);
+    const std::size_t width = std::size_t(chart.width_px);
     slide_box(chart.width_px, chart.height_px, radius, bands.rows(band),
-              columns.subspan(static_cast<std::size_t>(band) * width, width), blind,
-              [&](int x, int y, const BoxSum& sum) {
+              columns.subspan(std::size_t(band) * width, width), blind, [&](int x, int y, const BoxSum& sum) {
                 const std::size_t k = chart.index(x, y);
                 planes.say_left[k] = (planes.seen[k] & kSeenLeft) != 0 ? say(sum.first) : std::uint8_t{0};
                 planes.say_right[k] = (planes.seen[k] & kSeenRight) != 0 ? say(sum.second) : std::uint8_t{0};
@@ -255,7 +251,7 @@ VertexViews look_at_vertices(const FaceMesh& mesh, const RectifiedPair& pair, co
   std::pmr::memory_resource* const memory = &context.scratch;
   const std::size_t n = mesh.vertices_mm.size();
   const Vec3d c = inverse(pair.right_from_left).translation_mm;
-  const Vec3f right_camera{static_cast<float>(c.x), static_cast<float>(c.y), static_cast<float>(c.z)};
+  const Vec3f right_camera{float(c.x), float(c.y), float(c.z)};
   VertexViews views(memory);
   views.share.resize(n);
   views.seen.resize(n);
@@ -306,11 +302,9 @@ ShotPlanes shoot(const FaceMesh& mesh, const RectifiedPair& pair, const Chart& c
                  std::span<const FrontMap> maps, const VertexViews& views, std::span<const std::uint8_t> kept,
                  const ShotOptions& options, StageContext& context) {
   ShotPlanes planes(chart.size(), &context.scratch);
-  const std::size_t band_count = static_cast<std::size_t>(bands.count());
-  std::pmr::vector<float> rows(band_count * 6 * static_cast<std::size_t>(pair.width_px), 0.0F,
-                               &context.scratch);
-  std::pmr::vector<BoxSum> columns(band_count * static_cast<std::size_t>(chart.width_px), BoxSum{},
-                                   &context.scratch);
+  const std::size_t band_count = std::size_t(bands.count());
+  std::pmr::vector<float> rows(band_count * 6 * std::size_t(pair.width_px), 0.0F, &context.scratch);
+  std::pmr::vector<BoxSum> columns(band_count * std::size_t(chart.width_px), BoxSum{}, &context.scratch);
   Shooting shooting{mesh, pair, chart, bands, maps, views, kept, options, planes, rows, columns, context};
   context.pool.for_each_band(bands.count(), bands.count(), [&shooting](int begin, int end, int) {
     for (int band = begin; band < end; ++band) shooting.shoot_band(band);

@@ -23,13 +23,12 @@ ViewChoice::ViewChoice(const Chart& chart, const ShotPlanes& planes, const Expos
                        const LevelField& field, float margin_px, std::pmr::memory_resource* memory)
     : columns_((chart.width_px + kBlock - 1) / kBlock),
       rows_((chart.height_px + kBlock - 1) / kBlock),
-      blocks_(static_cast<std::size_t>(columns_) * static_cast<std::size_t>(rows_), Choice{}, memory) {
+      blocks_(std::size_t(columns_) * std::size_t(rows_), Choice{}, memory) {
   std::pmr::vector<float> excess(blocks_.size(), 0.0F, memory);      // of the left view, mean over the block
   std::pmr::vector<float> difference(blocks_.size(), 0.0F, memory);  // its size, mean over the block
   for (int v = 0; v < rows_; ++v)
     for (int u = 0; u < columns_; ++u) {
-      const LevelField::Level level =
-          field.at(static_cast<float>(kBlock * u) + 1.5F, static_cast<float>(kBlock * v) + 1.5F);
+      const LevelField::Level level = field.at(float(kBlock * u) + 1.5F, float(kBlock * v) + 1.5F);
       float signed_sum = 0;
       float sum = 0;
       float count = 0;
@@ -38,8 +37,8 @@ ViewChoice::ViewChoice(const Chart& chart, const ShotPlanes& planes, const Expos
           const std::size_t k = chart.index(x, y);
           if (planes.say_left[k] == 0 || planes.say_right[k] == 0) continue;
           for (std::size_t c = 0; c < 3; ++c) {
-            const float d = static_cast<float>(planes.left[3 * k + c]) + level[c] -
-                            exposure.matched(c, planes.right[3 * k + c]);
+            const float d =
+                float(planes.left[3 * k + c]) + level[c] - exposure.matched(c, planes.right[3 * k + c]);
             signed_sum += d / 3;
             sum += std::abs(d) / 3;
           }
@@ -51,7 +50,7 @@ ViewChoice::ViewChoice(const Chart& chart, const ShotPlanes& planes, const Expos
     }
   const float sigma = (exposure.sigma[0] + exposure.sigma[1] + exposure.sigma[2]) / 3;
   choose(chart, planes, excess, difference, std::max(kSigmas * sigma, kLeastLevels), memory);
-  const int reach = std::max(1, static_cast<int>(std::lround(margin_px / kBlock)));
+  const int reach = std::max(1, int(std::lround(margin_px / kBlock)));
   widen(reach, memory);
   fade(reach, memory);
 }
@@ -71,18 +70,18 @@ void ViewChoice::choose(const Chart& chart, const ShotPlanes& planes, std::span<
     float left = 0;
     float right = 0;
     for (std::size_t next = 0; next < patch.size(); ++next) {
-      const int u = static_cast<int>(patch[next]) % columns_;
-      const int v = static_cast<int>(patch[next]) / columns_;
+      const int u = int(patch[next]) % columns_;
+      const int v = int(patch[next]) / columns_;
       one_way += excess[patch[next]];
       all += difference[patch[next]];
       const std::size_t k = chart.index(std::min(kBlock * u + 1, chart.width_px - 1),
                                         std::min(kBlock * v + 1, chart.height_px - 1));
-      const float share = static_cast<float>(planes.share[k]) / 255;
-      left += static_cast<float>(planes.say_left[k]) * (1 - share);
-      right += static_cast<float>(planes.say_right[k]) * share;
+      const float share = float(planes.share[k]) / 255;
+      left += float(planes.say_left[k]) * (1 - share);
+      right += float(planes.say_right[k]) * share;
       for (int y = std::max(v - 1, 0); y <= std::min(v + 1, rows_ - 1); ++y)
         for (int x = std::max(u - 1, 0); x <= std::min(u + 1, columns_ - 1); ++x) {
-          const std::uint32_t other = static_cast<std::uint32_t>(index(x, y));
+          const std::uint32_t other = std::uint32_t(index(x, y));
           if (taken[other] != 0 || difference[other] < limit) continue;
           taken[other] = 1;
           patch.push_back(other);
@@ -112,7 +111,7 @@ void ViewChoice::widen(int reach, std::pmr::memory_resource* memory) {
 void ViewChoice::fade(int reach, std::pmr::memory_resource* memory) {
   std::pmr::vector<Choice> before(memory);
   for (int ring = reach; ring > 0; --ring) {
-    const float strength = static_cast<float>(ring) / static_cast<float>(reach + 1);
+    const float strength = float(ring) / float(reach + 1);
     before = blocks_;
     for (int v = 0; v < rows_; ++v)
       for (int u = 0; u < columns_; ++u) {
@@ -129,12 +128,12 @@ void ViewChoice::fade(int reach, std::pmr::memory_resource* memory) {
 }
 
 ViewChoice::Choice ViewChoice::at(float texel_x, float texel_y) const {
-  const float x = std::clamp((texel_x + 0.5F) / kBlock - 0.5F, 0.0F, static_cast<float>(columns_ - 1));
-  const float y = std::clamp((texel_y + 0.5F) / kBlock - 0.5F, 0.0F, static_cast<float>(rows_ - 1));
-  const int u = static_cast<int>(x);
-  const int v = static_cast<int>(y);
-  const float fx = x - static_cast<float>(u);
-  const float fy = y - static_cast<float>(v);
+  const float x = std::clamp((texel_x + 0.5F) / kBlock - 0.5F, 0.0F, float(columns_ - 1));
+  const float y = std::clamp((texel_y + 0.5F) / kBlock - 0.5F, 0.0F, float(rows_ - 1));
+  const int u = int(x);
+  const int v = int(y);
+  const float fx = x - float(u);
+  const float fy = y - float(v);
   Choice mean;
   for (int k = 0; k < 4; ++k) {
     const float w = (k % 2 == 0 ? 1 - fx : fx) * (k < 2 ? 1 - fy : fy);
@@ -167,7 +166,7 @@ float ViewBlend::excess_of(const std::uint8_t* left, const std::uint8_t* right) 
   float least = 1e9F;
   float most = -1e9F;
   for (std::size_t c = 0; c < 3; ++c) {
-    const float d = static_cast<float>(left[c]) - exposure_.matched(c, right[c]);
+    const float d = float(left[c]) - exposure_.matched(c, right[c]);
     least = std::min(least, d);
     most = std::max(most, d);
   }
@@ -183,27 +182,25 @@ void ViewBlend::find_highlights(const RowBands& bands, StageContext& context) {
   };
   constexpr std::int16_t kUnknown = -32768;
   std::pmr::vector<std::int16_t> raw(chart_.size(), kUnknown, &context.scratch);
-  std::pmr::vector<BoxSum> columns(
-      static_cast<std::size_t>(bands.count()) * static_cast<std::size_t>(chart_.width_px), BoxSum{},
-      &context.scratch);
+  std::pmr::vector<BoxSum> columns(std::size_t(bands.count()) * std::size_t(chart_.width_px), BoxSum{},
+                                   &context.scratch);
   Work work{*this, bands, raw, columns};
   context.pool.for_each_band(bands.count(), bands.count(), [&work](int begin, int end, int) {
     const ShotPlanes& planes = work.self.planes_;
-    const auto width = static_cast<std::size_t>(work.self.chart_.width_px);
-    for (std::size_t k = static_cast<std::size_t>(work.bands.rows(begin).begin) * width;
-         k < static_cast<std::size_t>(work.bands.rows(end - 1).end) * width; ++k)
+    const auto width = std::size_t(work.self.chart_.width_px);
+    for (std::size_t k = std::size_t(work.bands.rows(begin).begin) * width;
+         k < std::size_t(work.bands.rows(end - 1).end) * width; ++k)
       if (planes.say_left[k] != 0 && planes.say_right[k] != 0)
-        work.raw[k] =
-            static_cast<std::int16_t>(16 * work.self.excess_of(&planes.left[3 * k], &planes.right[3 * k]));
+        work.raw[k] = std::int16_t(16 * work.self.excess_of(&planes.left[3 * k], &planes.right[3 * k]));
   });
   context.pool.for_each_band(bands.count(), bands.count(), [&work](int begin, int end, int) {
     constexpr int kRadius = 2;  // texels: noise and a tenth of a pixel of misplacement are smoothed away
     ViewBlend& self = work.self;
-    const auto width = static_cast<std::size_t>(self.chart_.width_px);
+    const auto width = std::size_t(self.chart_.width_px);
     for (int band = begin; band < end; ++band)
       slide_box(
           self.chart_.width_px, self.chart_.height_px, kRadius, work.bands.rows(band),
-          work.columns.subspan(static_cast<std::size_t>(band) * width, width),
+          work.columns.subspan(std::size_t(band) * width, width),
           [&](int x, int y) {
             const std::int16_t d = work.raw[self.chart_.index(x, y)];
             return d == kUnknown ? BoxSum{} : BoxSum{d, 1};
@@ -211,8 +208,8 @@ void ViewBlend::find_highlights(const RowBands& bands, StageContext& context) {
           [&](int x, int y, const BoxSum& sum) {
             const std::size_t k = self.chart_.index(x, y);
             if (work.raw[k] == kUnknown || sum.second == 0) return;
-            self.excess_[k] = static_cast<std::int16_t>(sum.first / sum.second);
-            self.shines_[k] = static_cast<float>(std::abs(self.excess_[k])) > 16 * self.level_ ? 1 : 0;
+            self.excess_[k] = std::int16_t(sum.first / sum.second);
+            self.shines_[k] = float(std::abs(self.excess_[k])) > 16 * self.level_ ? 1 : 0;
           });
   });
 }
@@ -222,8 +219,8 @@ ViewBlend::Colour ViewBlend::mix(const Views& v, float texel_x, float texel_y) c
   const ViewChoice::Choice choice = choice_ ? choice_->at(texel_x, texel_y) : ViewChoice::Choice{};
   float share = std::clamp(v.share * (1 - choice.strength) + choice.right, kLeast * choice.strength,
                            1 - kLeast * choice.strength);
-  const float by_left = (1 - share) * static_cast<float>(v.say_left);
-  const float by_right = share * static_cast<float>(v.say_right);
+  const float by_left = (1 - share) * float(v.say_left);
+  const float by_right = share * float(v.say_right);
   if (by_left + by_right > 0) {
     share = by_right / (by_left + by_right);
   } else if ((v.seen & (kSeenLeft | kSeenRight)) != (kSeenLeft | kSeenRight)) {
@@ -238,17 +235,16 @@ ViewBlend::Colour ViewBlend::mix(const Views& v, float texel_x, float texel_y) c
   Colour out{};
   out.share = share;
   for (std::size_t c = 0; c < 3; ++c) {
-    const float left = static_cast<float>(v.left[c]);
+    const float left = float(v.left[c]);
     out.rgb[c] = left + share * (exposure_.matched(c, v.right[c]) - left) + (v.share - share) * level[c];
   }
   return out;
 }
 
 ViewBlend::Colour ViewBlend::mix(std::size_t k, int x, int y) const {
-  return mix(
-      Views{&planes_.left[3 * k], &planes_.right[3 * k], static_cast<float>(planes_.share[k]) / 255,
-            planes_.say_left[k], planes_.say_right[k], planes_.seen[k], static_cast<float>(excess_[k]) / 16},
-      static_cast<float>(x), static_cast<float>(y));
+  return mix(Views{&planes_.left[3 * k], &planes_.right[3 * k], float(planes_.share[k]) / 255,
+                   planes_.say_left[k], planes_.say_right[k], planes_.seen[k], float(excess_[k]) / 16},
+             float(x), float(y));
 }
 
 }  // namespace relievo::pipeline

@@ -38,9 +38,7 @@ class ViewChoice {
   Choice at(float texel_x, float texel_y) const;
 
  private:
-  std::size_t index(int x, int y) const {
-    return static_cast<std::size_t>(y) * static_cast<std::size_t>(columns_) + static_cast<std::size_t>(x);
-  }
+  std::size_t index(int x, int y) const { return std::size_t(y) * std::size_t(columns_) + std::size_t(x); }
   void choose(const Chart& chart, const ShotPlanes& planes, std::span<const float> excess,
               std::span<const float> difference, float limit, std::pmr::memory_resource* memory);
   void widen(int reach, std::pmr::memory_resource* memory);

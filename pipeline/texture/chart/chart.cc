@@ -26,8 +26,7 @@ bool frames(const FaceMesh& mesh, std::size_t v) {
 void project(const FaceMesh& mesh, const RectifiedPair& pair, Chart& chart) {
   constexpr double kNearestMm = 1;  // nothing is measured within a millimetre of the lens
   for (const Vec3f& v : mesh.vertices_mm) {
-    const Vec3d p = apply(pair.rectified_from_left, Vec3d{static_cast<double>(v.x), static_cast<double>(v.y),
-                                                          static_cast<double>(v.z)});
+    const Vec3d p = apply(pair.rectified_from_left, Vec3d{double(v.x), double(v.y), double(v.z)});
     const double z = std::max(p.z, kNearestMm);
     const double left_x = pair.left_centre_px.x + pair.focal_px * p.x / z;
     const double y = pair.left_centre_px.y + pair.focal_px * p.y / z;
@@ -35,8 +34,8 @@ void project(const FaceMesh& mesh, const RectifiedPair& pair, Chart& chart) {
     const double right_x = left_x - disparity;
     const bool inside = p.z > kNearestMm && std::min(left_x, right_x) >= 0 && y >= 0 &&
                         std::max(left_x, right_x) <= pair.width_px - 1 && y <= pair.height_px - 1;
-    chart.texel.push_back({static_cast<float>(0.5 * (left_x + right_x)), static_cast<float>(y)});
-    chart.disparity_px.push_back(static_cast<float>(disparity));
+    chart.texel.push_back({float(0.5 * (left_x + right_x)), float(y)});
+    chart.disparity_px.push_back(float(disparity));
     chart.placed.push_back(inside ? 1 : 0);
   }
 }
@@ -50,21 +49,21 @@ double pixels_a_pixel(const FaceMesh& mesh, const Chart& chart) {
   double all = 0;
   for (const auto& t : mesh.triangles) {
     if (!chart.placed_all(t) || !all_measured(mesh, t)) continue;
-    const double middle = static_cast<double>(-signed_area(chart, t));
+    const double middle = double(-signed_area(chart, t));
     if (!(middle > 1e-6)) continue;
     const Vec2f& a = chart.texel[t[0]];
-    const double db = static_cast<double>(chart.disparity_px[t[1]] - chart.disparity_px[t[0]]);
-    const double dc = static_cast<double>(chart.disparity_px[t[2]] - chart.disparity_px[t[0]]);
-    const double lean = std::abs(0.5 * (db * static_cast<double>(chart.texel[t[2]].y - a.y) -
-                                        dc * static_cast<double>(chart.texel[t[1]].y - a.y)));
+    const double db = double(chart.disparity_px[t[1]] - chart.disparity_px[t[0]]);
+    const double dc = double(chart.disparity_px[t[2]] - chart.disparity_px[t[0]]);
+    const double lean =
+        std::abs(0.5 * (db * double(chart.texel[t[2]].y - a.y) - dc * double(chart.texel[t[1]].y - a.y)));
     const double ratio = std::clamp(1 + lean / middle, 1.0, 2.0);
-    area[std::min(kBins - 1, static_cast<std::size_t>((ratio - 1) * kBins))] += middle;
+    area[std::min(kBins - 1, std::size_t((ratio - 1) * kBins))] += middle;
     all += middle;
   }
   double below = 0;
   for (std::size_t bin = 0; bin < kBins; ++bin) {
     below += area[bin];
-    if (below >= 0.95 * all) return 1 + static_cast<double>(bin + 1) / kBins;
+    if (below >= 0.95 * all) return 1 + double(bin + 1) / kBins;
   }
   return 1;
 }
@@ -76,8 +75,8 @@ Result<void> check_texture_input(const FaceMesh& mesh, const RectifiedPair& pair
   if (mesh.triangles.empty() || n == 0 || mesh.normals.size() != n ||
       (!mesh.measured.empty() && mesh.measured.size() != n))
     return Error{Errc::InvalidInput, "there is no surface to lay a photograph on"};
-  const std::size_t bytes = 3 * static_cast<std::size_t>(std::max(pair.width_px, 0)) *
-                            static_cast<std::size_t>(std::max(pair.height_px, 0));
+  const std::size_t bytes =
+      3 * std::size_t(std::max(pair.width_px, 0)) * std::size_t(std::max(pair.height_px, 0));
   if (bytes == 0 || pair.left.rgb.size() != bytes || pair.right.rgb.size() != bytes || !(pair.focal_px > 0))
     return Error{Errc::InvalidInput, "the rectified pair has no colours to lay on the surface"};
   return {};
@@ -95,7 +94,7 @@ Chart lay_out(const FaceMesh& mesh, const RectifiedPair& pair, const ChartOption
   Vec2d to{-1e9, -1e9};
   for (std::size_t v = 0; v < n; ++v) {
     if (chart.placed[v] == 0 || !frames(mesh, v)) continue;
-    const Vec2d at{static_cast<double>(chart.texel[v].x), static_cast<double>(chart.texel[v].y)};
+    const Vec2d at{double(chart.texel[v].x), double(chart.texel[v].y)};
     from = {std::min(from.x, at.x), std::min(from.y, at.y)};
     to = {std::max(to.x, at.x), std::max(to.y, at.y)};
   }
@@ -107,15 +106,14 @@ Chart lay_out(const FaceMesh& mesh, const RectifiedPair& pair, const ChartOption
                                   wide / std::max(to.x - from.x, 1.0), high / std::max(to.y - from.y, 1.0)});
   const double scale = chart.texels_per_px;
   chart.origin_px = {from.x - options.margin_px / scale, from.y - options.margin_px / scale};
-  chart.width_px = static_cast<int>(std::ceil((to.x - from.x) * scale)) + 2 * options.margin_px + 1;
-  chart.height_px = static_cast<int>(std::ceil((to.y - from.y) * scale)) + 2 * options.margin_px + 1;
+  chart.width_px = int(std::ceil((to.x - from.x) * scale)) + 2 * options.margin_px + 1;
+  chart.height_px = int(std::ceil((to.y - from.y) * scale)) + 2 * options.margin_px + 1;
   for (std::size_t v = 0; v < n; ++v) {
     Vec2f& t = chart.texel[v];
-    t = {static_cast<float>((static_cast<double>(t.x) - chart.origin_px.x) * scale),
-         static_cast<float>((static_cast<double>(t.y) - chart.origin_px.y) * scale)};
+    t = {float((double(t.x) - chart.origin_px.x) * scale), float((double(t.y) - chart.origin_px.y) * scale)};
     // Half a texel of the frame is left to the filter that reads the texture.
-    if (!(t.x >= 0.5F && t.y >= 0.5F && t.x <= static_cast<float>(chart.width_px) - 1.5F &&
-          t.y <= static_cast<float>(chart.height_px) - 1.5F))
+    if (!(t.x >= 0.5F && t.y >= 0.5F && t.x <= float(chart.width_px) - 1.5F &&
+          t.y <= float(chart.height_px) - 1.5F))
       chart.placed[v] = 0;
   }
   return chart;

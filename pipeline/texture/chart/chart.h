@@ -37,22 +37,16 @@ struct Chart {
   std::pmr::vector<float> disparity_px;   // one a vertex
   std::pmr::vector<std::uint8_t> placed;  // one a vertex: 1 where it lies within the chart
 
-  std::size_t size() const {
-    return static_cast<std::size_t>(width_px) * static_cast<std::size_t>(height_px);
-  }
-  std::size_t index(int x, int y) const {
-    return static_cast<std::size_t>(y) * static_cast<std::size_t>(width_px) + static_cast<std::size_t>(x);
-  }
+  std::size_t size() const { return std::size_t(width_px) * std::size_t(height_px); }
+  std::size_t index(int x, int y) const { return std::size_t(y) * std::size_t(width_px) + std::size_t(x); }
   bool placed_all(const std::array<std::uint32_t, 3>& t) const {
     return placed[t[0]] != 0 && placed[t[1]] != 0 && placed[t[2]] != 0;
   }
   // Of a photograph, where the surface has this disparity. side: kLeftSide or kRightSide.
   float view_x(float texel_x, float disparity, float side) const {
-    return static_cast<float>(origin_px.x) + texel_x / static_cast<float>(texels_per_px) + side * disparity;
+    return float(origin_px.x) + texel_x / float(texels_per_px) + side * disparity;
   }
-  float view_y(float texel_y) const {
-    return static_cast<float>(origin_px.y) + texel_y / static_cast<float>(texels_per_px);
-  }
+  float view_y(float texel_y) const { return float(origin_px.y) + texel_y / float(texels_per_px); }
 };
 
 inline constexpr float kLeftSide = 0.5F;  // of a disparity, from the middle view's column

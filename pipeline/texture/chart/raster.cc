@@ -8,7 +8,7 @@ RowBands::RowBands(const FaceMesh& mesh, const Chart& chart, int bands, std::pmr
     : bands_(std::clamp(bands, 1, std::max(chart.height_px, 1))),
       height_(chart.height_px),
       triangles_(memory) {
-  triangles_.sort(static_cast<std::size_t>(bands_), [&](auto&& add) {
+  triangles_.sort(std::size_t(bands_), [&](auto&& add) {
     for (std::uint32_t k = 0; k < mesh.triangles.size(); ++k) {
       const auto& t = mesh.triangles[k];
       if (!chart.placed_all(t)) continue;
@@ -16,15 +16,14 @@ RowBands::RowBands(const FaceMesh& mesh, const Chart& chart, int bands, std::pmr
       const float b = chart.texel[t[1]].y;
       const float c = chart.texel[t[2]].y;
       const int last = band_of(std::max({a, b, c}) + 1);
-      for (int band = band_of(std::min({a, b, c}) - 1); band <= last; ++band)
-        add(static_cast<std::size_t>(band), k);
+      for (int band = band_of(std::min({a, b, c}) - 1); band <= last; ++band) add(std::size_t(band), k);
     }
   });
 }
 
 // The band whose rows hold this one; as rows() cuts them.
 int RowBands::band_of(float y) const {
-  const int row = std::clamp(static_cast<int>(y), 0, height_ - 1);
+  const int row = std::clamp(int(y), 0, height_ - 1);
   int band = std::min(bands_ - 1, row * bands_ / height_);
   while (band + 1 < bands_ && rows(band).end <= row) ++band;
   return band;
@@ -32,7 +31,7 @@ int RowBands::band_of(float y) const {
 
 FrontMap::FrontMap(const Chart& chart, float at_side, std::pmr::memory_resource* memory)
     : side(at_side),
-      scale(static_cast<float>(chart.texels_per_px)),
+      scale(float(chart.texels_per_px)),
       height_px(chart.height_px),
       nearest(memory),
       owner(memory) {
@@ -47,18 +46,17 @@ FrontMap::FrontMap(const Chart& chart, float at_side, std::pmr::memory_resource*
   shift = middle || most < least ? 0.0F : std::floor(least) - 1;
   // A view is a picture's part: what would be wider is no surface of one (disparities are bounded by the
   // windows).
-  width_px = middle ? chart.width_px : static_cast<int>(std::clamp(most - least, 0.0F, 16384.0F)) + 4;
-  const std::size_t size = static_cast<std::size_t>(width_px) * static_cast<std::size_t>(height_px);
+  width_px = middle ? chart.width_px : int(std::clamp(most - least, 0.0F, 16384.0F)) + 4;
+  const std::size_t size = std::size_t(width_px) * std::size_t(height_px);
   nearest.assign(size, kNoDisparity);
   if (middle) owner.assign(size, kNoTriangle);
 }
 
 bool FrontMap::sees(const Vec2f& texel, float disparity, float tolerance_px) const {
-  const int x = static_cast<int>(std::lround(column(texel.x, disparity)));
-  const int y = static_cast<int>(std::lround(texel.y));
+  const int x = int(std::lround(column(texel.x, disparity)));
+  const int y = int(std::lround(texel.y));
   if (x < 0 || y < 0 || x >= width_px || y >= height_px) return true;
-  return nearest[static_cast<std::size_t>(y) * static_cast<std::size_t>(width_px) +
-                 static_cast<std::size_t>(x)] <= disparity + tolerance_px;
+  return nearest[std::size_t(y) * std::size_t(width_px) + std::size_t(x)] <= disparity + tolerance_px;
 }
 
 namespace {
@@ -75,9 +73,7 @@ void draw(const FaceMesh& mesh, const Chart& chart, std::span<const std::uint32_
     };
     for_each_texel(at(t[0], da), at(t[1], db), at(t[2], dc), map.width_px, rows,
                    [&](int x, int y, float wa, float wb, float wc) {
-                     const std::size_t i =
-                         static_cast<std::size_t>(y) * static_cast<std::size_t>(map.width_px) +
-                         static_cast<std::size_t>(x);
+                     const std::size_t i = std::size_t(y) * std::size_t(map.width_px) + std::size_t(x);
                      const float d = wa * da + wb * db + wc * dc;
                      if (d <= map.nearest[i]) return;
                      map.nearest[i] = d;

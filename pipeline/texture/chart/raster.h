@@ -24,9 +24,7 @@ class RowBands {
   RowBands(const FaceMesh& mesh, const Chart& chart, int bands, std::pmr::memory_resource* memory);
   int count() const { return bands_; }
   RowRange rows(int band) const { return {height_ * band / bands_, height_ * (band + 1) / bands_}; }
-  std::span<const std::uint32_t> triangles(int band) const {
-    return triangles_[static_cast<std::size_t>(band)];
-  }
+  std::span<const std::uint32_t> triangles(int band) const { return triangles_[std::size_t(band)]; }
 
  private:
   int band_of(float y) const;
@@ -66,13 +64,13 @@ struct BoxSum {
 template <typename Value, typename Emit>
 void slide_box(int width, int height, int radius, RowRange rows, std::span<BoxSum> columns, Value&& value,
                Emit&& emit) {
-  std::fill(columns.begin(), columns.end(), BoxSum{});
+  std::ranges::fill(columns, BoxSum{});
   const auto add_row = [&](int y, int sign) {
     if (y < 0 || y >= height) return;
     for (int x = 0; x < width; ++x) {
       const BoxSum v = value(x, y);
-      columns[static_cast<std::size_t>(x)].first += sign * v.first;
-      columns[static_cast<std::size_t>(x)].second += sign * v.second;
+      columns[std::size_t(x)].first += sign * v.first;
+      columns[std::size_t(x)].second += sign * v.second;
     }
   };
   for (int y = rows.begin - radius; y < rows.begin + radius; ++y) add_row(y, 1);
@@ -81,8 +79,8 @@ void slide_box(int width, int height, int radius, RowRange rows, std::span<BoxSu
     BoxSum sum;
     const auto add_column = [&](int x, int sign) {
       if (x < 0 || x >= width) return;
-      sum.first += sign * columns[static_cast<std::size_t>(x)].first;
-      sum.second += sign * columns[static_cast<std::size_t>(x)].second;
+      sum.first += sign * columns[std::size_t(x)].first;
+      sum.second += sign * columns[std::size_t(x)].second;
     };
     for (int x = 0; x < radius; ++x) add_column(x, 1);
     for (int x = 0; x < width; ++x) {

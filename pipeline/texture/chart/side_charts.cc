@@ -80,7 +80,7 @@ class Builder {
 
   static bool share_an_edge(const std::array<std::uint32_t, 3>& a, const std::array<std::uint32_t, 3>& b) {
     int shared = 0;
-    for (const std::uint32_t v : a) shared += std::count(b.begin(), b.end(), v) > 0 ? 1 : 0;
+    for (const std::uint32_t v : a) shared += std::ranges::count(b, v) > 0 ? 1 : 0;
     return shared >= 2;
   }
 
@@ -100,8 +100,7 @@ class Builder {
       }
     for (std::size_t k = 3 * from; k < sides.corner.size(); ++k)
       sides.corner[k] = {sides.corner[k].x - low.x, sides.corner[k].y - low.y};
-    pieces_.push_back({static_cast<std::uint32_t>(from),
-                       static_cast<std::uint32_t>(sides.triangles.size() - from), high.x - low.x,
+    pieces_.push_back({std::uint32_t(from), std::uint32_t(sides.triangles.size() - from), high.x - low.x,
                        high.y - low.y, 0, 0});
   }
 
@@ -145,18 +144,18 @@ SideCharts lay_out_sides(const FaceMesh& mesh, const Chart& main, std::span<cons
                          std::span<const std::uint8_t> photographed, double photograph_px_per_mm, int max_px,
                          std::pmr::memory_resource* memory) {
   SideCharts sides(memory);
-  if (std::all_of(kept.begin(), kept.end(), [](std::uint8_t k) { return k != 0; })) return sides;
+  if (std::ranges::all_of(kept, [](std::uint8_t k) { return k != 0; })) return sides;
   Builder builder(mesh, kept, photographed, memory);
   builder.grow_all(sides);
   auto& pieces = builder.pieces();
-  std::sort(pieces.begin(), pieces.end(), [](const Piece& a, const Piece& b) {
+  std::ranges::sort(pieces, [](const Piece& a, const Piece& b) {
     return a.width != b.width ? a.width > b.width : a.first < b.first;
   });
 
   // Halved until all of it finds room; a chart's extent has a limit, however far away a vertex is.
-  const float room = static_cast<float>(max_px - main.width_px);
-  const float high = static_cast<float>(main.height_px);
-  Scale scale{static_cast<float>(photograph_px_per_mm), static_cast<float>(kFilledPxPerMm)};
+  const float room = float(max_px - main.width_px);
+  const float high = float(main.height_px);
+  Scale scale{float(photograph_px_per_mm), float(kFilledPxPerMm)};
   float width = pack(pieces, builder, sides, scale, high);
   for (int round = 0; width > room && round < 24; ++round) {
     scale = {scale.seen / 2, scale.filled / 2};
@@ -168,10 +167,10 @@ SideCharts lay_out_sides(const FaceMesh& mesh, const Chart& main, std::span<cons
     const float tall = std::min(s, (high - 1 - 2 * kPaddingPx) / std::max(p.height, 1e-3F));
     for (std::size_t k = 3 * std::size_t{p.first}; k < 3 * (std::size_t{p.first} + p.count); ++k) {
       Vec2f& at = sides.corner[k];
-      at = {static_cast<float>(main.width_px) + (p.x + at.x * s) * squeeze, p.y + at.y * tall};
+      at = {float(main.width_px) + (p.x + at.x * s) * squeeze, p.y + at.y * tall};
     }
   }
-  sides.width_px = static_cast<int>(std::ceil(std::min(width, room)));
+  sides.width_px = int(std::ceil(std::min(width, room)));
   return sides;
 }
 

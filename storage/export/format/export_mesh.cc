@@ -31,7 +31,7 @@ SeamSplit split_at_seams(const ExportMesh& mesh) {
         entry = next[entry];
       }
       if (entry == kNone) {
-        entry = static_cast<std::uint32_t>(split.entries.size());
+        entry = std::uint32_t(split.entries.size());
         split.entries.push_back({vertex, uv});
         next.push_back(first[vertex]);
         first[vertex] = entry;
@@ -49,9 +49,7 @@ using pipeline::Vec3d;
 using pipeline::Vec3f;
 
 Vec3d wide(const Vec3f& v) { return {v.x, v.y, v.z}; }
-Vec3f narrow(const Vec3d& v) {
-  return {static_cast<float>(v.x), static_cast<float>(v.y), static_cast<float>(v.z)};
-}
+Vec3f narrow(const Vec3d& v) { return {float(v.x), float(v.y), float(v.z)}; }
 bool finite(const Vec3f& v) { return std::isfinite(v.x) && std::isfinite(v.y) && std::isfinite(v.z); }
 
 // Lengths and numbers; what a writer below relies on.
@@ -62,8 +60,7 @@ Result<void> check(const FaceModel& model) {
   const auto fits = [](std::size_t size, std::size_t wanted) { return size == 0 || size == wanted; };
   const bool texture_fits =
       texture.width_px >= 0 && texture.height_px >= 0 &&
-      texture.rgb.size() ==
-          static_cast<std::size_t>(texture.width_px) * static_cast<std::size_t>(texture.height_px) * 3 &&
+      texture.rgb.size() == std::size_t(texture.width_px) * std::size_t(texture.height_px) * 3 &&
       fits(texture.uv.size(), mesh.triangles.size() * 3) && (texture.uv.empty() || !texture.rgb.empty()) &&
       fits(texture.origin.size(), texture.rgb.size() / 3) && fits(texture.vertex_rgb.size(), v * 3);
   if (mesh.triangles.empty()) return Error{Errc::InvalidInput, "the model has no surface to write"};

@@ -68,7 +68,7 @@ inline std::vector<PlacedLandmark> placed_landmarks(const ExportMesh& mesh) {
       continue;
     placed.push_back({word(static_cast<pipeline::LandmarkName>(k)),
                       mesh.frame == ExportFrame::Head ? apply(mesh.model.head_from_camera, at) : at,
-                      static_cast<double>(l.sigma_mm)});
+                      double(l.sigma_mm)});
   }
   return placed;
 }

@@ -28,7 +28,7 @@ class Buffer {
     views_ += views_.empty() ? "" : ",";
     views_ += "{\"buffer\":0,\"byteOffset\":" + number_text(data_.size()) +
               ",\"byteLength\":" + number_text(bytes.size());
-    if (target != kNoTarget) views_ += ",\"target\":" + number_text(static_cast<int>(target));
+    if (target != kNoTarget) views_ += ",\"target\":" + number_text(int(target));
     views_ += "}";
     data_.insert(data_.end(), bytes.begin(), bytes.end());
     return view_count_++;
@@ -43,9 +43,9 @@ class Buffer {
     const int view = add_view(bytes, target);
     constexpr const char* kNames[] = {"", "SCALAR", "VEC2", "VEC3"};
     accessors_ += accessors_.empty() ? "" : ",";
-    accessors_ +=
-        "{\"bufferView\":" + number_text(view) + ",\"componentType\":" + number_text(static_cast<int>(type)) +
-        ",\"count\":" + number_text(values.size() / components) + ",\"type\":\"" + kNames[components] + "\"";
+    accessors_ += "{\"bufferView\":" + number_text(view) + ",\"componentType\":" + number_text(int(type)) +
+                  ",\"count\":" + number_text(values.size() / components) + ",\"type\":\"" +
+                  kNames[components] + "\"";
     return accessor_count_++;
   }
   int add_floats(const std::vector<float>& values, std::size_t components) {
@@ -89,7 +89,7 @@ class Buffer {
 
 // glTF's colours of vertices are linear light, ours are coded as sRGB (IEC 61966-2-1).
 float linear(std::uint8_t coded) {
-  const float value = static_cast<float>(coded) / 255.0f;
+  const float value = float(coded) / 255.0f;
   return value <= 0.04045f ? value / 12.92f : std::pow((value + 0.055f) / 1.055f, 2.4f);
 }
 
@@ -213,7 +213,7 @@ std::string about(const ExportMesh& mesh) {
 // A chunk: its length, its kind, its bytes filled up to four.
 void add_chunk(ByteWriter& to, std::string_view kind, std::span<const std::byte> bytes, char filler) {
   const std::size_t fill = (4 - bytes.size() % 4) % 4;
-  to.put(static_cast<std::uint32_t>(bytes.size() + fill));
+  to.put(std::uint32_t(bytes.size() + fill));
   to.put(bytes_of(kind));
   to.put(bytes);
   for (std::size_t i = 0; i < fill; ++i) to.put(filler);
@@ -233,7 +233,7 @@ std::vector<std::byte> glb_bytes(const ExportMesh& mesh, std::span<const std::by
   to.put(bytes_of("glTF"));
   to.put(std::uint32_t{2});
   const auto padded = [](std::size_t size) { return (size + 3) / 4 * 4; };
-  to.put(static_cast<std::uint32_t>(28 + padded(json.size()) + padded(buffer.data().size())));
+  to.put(std::uint32_t(28 + padded(json.size()) + padded(buffer.data().size())));
   add_chunk(to, "JSON", bytes_of(json), ' ');
   add_chunk(to, std::string_view("BIN\0", 4), buffer.data(), '\0');
   return out;

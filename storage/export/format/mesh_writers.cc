@@ -34,7 +34,7 @@ std::vector<std::byte> stl_bytes(const ExportMesh& mesh) {
       "Relievo face model, binary, millimetres";  // must not begin with "solid": that is the text form
   header.resize(kHeaderBytes, ' ');
   to.put(bytes_of(header));
-  to.put(static_cast<std::uint32_t>(triangles.size()));
+  to.put(std::uint32_t(triangles.size()));
   for (const auto& t : triangles) {
     const auto &a = mesh.vertices_mm[t[0]], &b = mesh.vertices_mm[t[1]], &c = mesh.vertices_mm[t[2]];
     for (const auto& v : {normal_of(a, b, c), a, b, c})
@@ -107,7 +107,7 @@ constexpr int kPlaceDecimals = 3, kTextureDecimals = 5;
 template <typename... Numbers>
 void add_line(std::string& text, const char* word, int decimals, Numbers... values) {
   text += word;
-  ((text += ' ', append_rounded(text, static_cast<double>(values), decimals)), ...);
+  ((text += ' ', append_rounded(text, double(values), decimals)), ...);
   text += '\n';
 }
 

@@ -21,7 +21,7 @@ void append_number(std::string& text, Number value) {
 inline void append_rounded(std::string& text, double value, int decimals) {
   std::int64_t one = 1;
   for (int i = 0; i < decimals; ++i) one *= 10;
-  std::int64_t scaled = std::llround(value * static_cast<double>(one));
+  std::int64_t scaled = std::llround(value * double(one));
   if (scaled < 0) {
     text += '-';
     scaled = -scaled;
@@ -31,7 +31,7 @@ inline void append_rounded(std::string& text, double value, int decimals) {
   if (rest == 0) return;
   text += '.';
   for (one /= 10; rest != 0; one /= 10) {
-    text += static_cast<char>('0' + rest / one);
+    text += char('0' + rest / one);
     rest %= one;
   }
 }

@@ -66,9 +66,8 @@ bool compress(const Job& job) {
 Result<std::vector<std::byte>> written(int width_px, int height_px, std::span<const std::byte> pixels,
                                        int bits, int channels) {
   if (width_px <= 0 || height_px <= 0) return Error{Errc::InvalidInput, "the picture has no pixels"};
-  const std::size_t row_bytes =
-      static_cast<std::size_t>(width_px) * static_cast<std::size_t>(channels * bits / 8);
-  if (pixels.size() != row_bytes * static_cast<std::size_t>(height_px))
+  const std::size_t row_bytes = std::size_t(width_px) * std::size_t(channels * bits / 8);
+  if (pixels.size() != row_bytes * std::size_t(height_px))
     return Error{Errc::InvalidInput, "the picture's size does not fit its pixels"};
   try {
     std::vector<std::byte> out;

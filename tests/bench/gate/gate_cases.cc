@@ -27,8 +27,7 @@ const test::Shot& GateTrial::shot(const Fault& fault, std::uint32_t person, int 
   if (fault.clutter)
     return album_.shoot(person, other ? standing(600, -12, 8, -4, 3, 3) : standing(560), Extra::WallBehind);
   switch (fault.expected) {
-    case Advice::NoFace:
-      return album_.shoot(0, {0, 0, 0, 0, 0, 0});
+    case Advice::NoFace: return album_.shoot(0, {0, 0, 0, 0, 0, 0});
     case Advice::MoreThanOneFace:
       return album_.shoot(person, other ? standing(540, 35, 5, -3) : standing(560, -40), Extra::Friend);
     case Advice::TooClose:
@@ -39,8 +38,7 @@ const test::Shot& GateTrial::shot(const Fault& fault, std::uint32_t person, int 
       return album_.shoot(person, other ? standing(570, -80, 10, 4) : standing(560, 85));
     case Advice::TurnedAside:
       return album_.shoot(person, other ? standing(580, 8, 4, -25, 2, 2) : standing(560, 0, 0, 25));
-    case Advice::LooksUpOrDown:
-      return album_.shoot(person, standing(560, 0, 0, 0, other ? -20 : 20));
+    case Advice::LooksUpOrDown: return album_.shoot(person, standing(560, 0, 0, 0, other ? -20 : 20));
     case Advice::Tilted:
       return album_.shoot(person, other ? standing(545, -10, 0, 3, 0, -21) : standing(560, 0, 0, 0, 0, 20));
     case Advice::FaceHidden:
@@ -61,8 +59,7 @@ const test::Shot& GateTrial::shot(const Fault& fault, std::uint32_t person, int 
     case Advice::EyesClosed:
     case Advice::GlassesGlare:
     case Advice::MouthOpen:
-    case Advice::NotNeutral:
-      break;
+    case Advice::NotNeutral: break;
   }
   return other ? album_.shoot(person, standing(600, -12, 8, -4, 3, 3)) : album_.shoot(person, standing(560));
 }

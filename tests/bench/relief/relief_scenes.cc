@@ -102,14 +102,10 @@ hal::Picture trimmed(const hal::Picture& from, double across, double down) {
 
 const char* name_of(Shown shown) {
   switch (shown) {
-    case Shown::Face:
-      return "face";
-    case Shown::PrintedFlat:
-      return "printed flat";
-    case Shown::PrintedBent:
-      return "printed and bent";
-    case Shown::Screen:
-      break;
+    case Shown::Face: return "face";
+    case Shown::PrintedFlat: return "printed flat";
+    case Shown::PrintedBent: return "printed and bent";
+    case Shown::Screen: break;
   }
   return "on a screen";
 }

@@ -3,7 +3,7 @@
 //
 // A sensor that adds up light as a real one does: the control has to find the exposure, both cameras the
 // same.
-#include "firmware/capture/exposure_control.h"
+#include "firmware/capture/face_light.h"
 
 #include <gtest/gtest.h>
 

@@ -5,7 +5,6 @@
 
 #include <gtest/gtest.h>
 
-#include "firmware/checks/acceptance_report.h"
 #include "firmware/checks/deviation_picture.h"
 
 namespace relievo::firmware {

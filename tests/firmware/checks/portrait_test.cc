@@ -9,7 +9,7 @@
 
 #include "firmware/checks/target_calibration.h"
 #include "firmware/measure/measurement.h"
-#include "firmware/measure/true_surface.h"
+#include "firmware/measure/truth_view.h"
 #include "firmware/reconstruct/reconstruction.h"
 #include "hal/picture_file.h"
 #include "hal/sim/render.h"

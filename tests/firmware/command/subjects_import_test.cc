@@ -9,7 +9,7 @@
 
 #include "firmware/command/commands.h"
 #include "firmware/records/bundle_manifest.h"
-#include "hal/whole_file.h"
+#include "hal/base/whole_file.h"
 #include "storage/cipher/age.h"
 #include "storage/cipher/recovery.h"
 #include "storage/sqlite/sqlite_store.h"
@@ -25,7 +25,7 @@ using test::read_text;
 using test::write_text;
 using Bytes = std::vector<std::byte>;
 
-Bytes bytes_in(const fs::path& file) { return *hal::read_whole_file(file, std::size_t{1} << 30); }
+Bytes bytes_in(const fs::path& file) { return *read_whole_file(file, std::size_t{1} << 30); }
 
 class SubjectsImport : public ::testing::Test {
  protected:
@@ -108,7 +108,7 @@ class SubjectsImport : public ::testing::Test {
 TEST_F(SubjectsImport, EveryFormOfACopyIsTakenInWithoutLoss) {
   ASSERT_TRUE(run(exported("ada"), services));
   expect_taken(imported("ada"));
-  ASSERT_TRUE(hal::write_whole_file(folder / "ada.tar", tar_of(folder / "ada")));
+  ASSERT_TRUE(write_whole_file(folder / "ada.tar", tar_of(folder / "ada")));
   expect_taken(imported("ada.tar"));
 
   auto sealed = exported("ada.age");
@@ -125,7 +125,7 @@ TEST_F(SubjectsImport, EveryFormOfACopyIsTakenInWithoutLoss) {
   ASSERT_TRUE(key);
   const auto to_key =
       storage::age_seal(storage::AgeRecipient(storage::recovery_public(*key)), bytes_in(folder / "ada.tar"));
-  ASSERT_TRUE(hal::write_whole_file(folder / "key.age", *to_key));
+  ASSERT_TRUE(write_whole_file(folder / "key.age", *to_key));
   auto by_key = imported("key.age");
   by_key.identity = folder / "key";
   expect_taken(by_key);
@@ -252,7 +252,7 @@ TEST_F(SubjectsImport, WhatIsExchangedMissingAddedOrLeadsElsewhereIsNamed) {
               auto record = bytes_in(copy / "person.record");
               record[13] ^= std::byte{1};
               fs::remove(copy / "person.record");
-              EXPECT_TRUE(hal::write_whole_file(copy / "person.record", record));
+              EXPECT_TRUE(write_whole_file(copy / "person.record", record));
             }).find("person.record: is not what the manifest says"),
             std::string::npos);
 
@@ -261,7 +261,7 @@ TEST_F(SubjectsImport, WhatIsExchangedMissingAddedOrLeadsElsewhereIsNamed) {
   auto files = *read_bundle_folder(copy);
   for (const char* name : {"../model.ply", "/etc/passwd", "a/b", "..", ".bashrc"}) {
     files.front().name = name;
-    ASSERT_TRUE(hal::write_whole_file(folder / "bad.tar", *storage::bundle_bytes(files)));
+    ASSERT_TRUE(write_whole_file(folder / "bad.tar", *storage::bundle_bytes(files)));
     EXPECT_NE(refused(imported("bad.tar")).find("would lie outside of it"), std::string::npos) << name;
   }
   write_text(folder / "bad.tar", "no tar at all");

@@ -127,13 +127,10 @@ class FaultHands : public StaffHands {
         for (int t = 0; t < 3; ++t) turn();
         break;
       case State::Idle:
-      case State::Count:
-        break;
+      case State::Count: break;
       case State::Staff:
       case State::Calibrate:
-      case State::Export:
-        enter_staff(wanted);
-        break;
+      case State::Export: enter_staff(wanted); break;
       case State::Fault:
         pose();
         faults.lost = true;
@@ -150,9 +147,7 @@ class FaultHands : public StaffHands {
       case State::Assemble:
       case State::Fuse:
       case State::Review:
-      case State::Store:
-        visit(wanted);
-        break;
+      case State::Store: visit(wanted); break;
     }
   }
   void begin() {
@@ -167,63 +162,28 @@ class FaultHands : public StaffHands {
       case Fault::None:
       case Fault::MainFrozen:
       case Fault::ContextLost:  // whoever draws lets it in
-      case Fault::Count:
-        break;
-      case Fault::CameraLost:
-        faults.lost = true;
-        break;
-      case Fault::CameraLate:
-        faults.late = true;
-        break;
-      case Fault::CameraDark:
-        faults.dark = true;
-        break;
+      case Fault::Count: break;
+      case Fault::CameraLost: faults.lost = true; break;
+      case Fault::CameraLate: faults.late = true; break;
+      case Fault::CameraDark: faults.dark = true; break;
       case Fault::CamerasSwapped:
         faults.lost = faults.swapped = true;  // plugged in again in settle()
         break;
-      case Fault::TriggerSilent:
-        faults.silent = true;
-        break;
-      case Fault::TriggerStuck:
-        faults.stuck = true;
-        break;
-      case Fault::StoreFull:
-        store_error = Errc::MediaFull;
-        break;
-      case Fault::StoreCorrupt:
-        store_error = Errc::StoreCorrupt;
-        break;
-      case Fault::StoreLocked:
-        store_error = Errc::Timeout;
-        break;
-      case Fault::MediumPulled:
-        stick_faults.pull();
-        break;
-      case Fault::ClockAhead:
-        faults.wall_shift_s = 40 * 86'400;
-        break;
-      case Fault::ClockBack:
-        faults.wall_shift_s = -40 * 86'400;
-        break;
-      case Fault::TooHot:
-        faults.hot = true;
-        break;
-      case Fault::Terminate:
-        ask_to_end(SIGTERM);
-        break;
-      case Fault::HangUp:
-        ask_to_end(SIGHUP);
-        break;
-      case Fault::CaptureFrozen:
-        ASSERT_TRUE(FrozenThread::freeze("capture"));
-        break;
+      case Fault::TriggerSilent: faults.silent = true; break;
+      case Fault::TriggerStuck: faults.stuck = true; break;
+      case Fault::StoreFull: store_error = Errc::MediaFull; break;
+      case Fault::StoreCorrupt: store_error = Errc::StoreCorrupt; break;
+      case Fault::StoreLocked: store_error = Errc::Timeout; break;
+      case Fault::MediumPulled: stick_faults.pull(); break;
+      case Fault::ClockAhead: faults.wall_shift_s = 40 * 86'400; break;
+      case Fault::ClockBack: faults.wall_shift_s = -40 * 86'400; break;
+      case Fault::TooHot: faults.hot = true; break;
+      case Fault::Terminate: ask_to_end(SIGTERM); break;
+      case Fault::HangUp: ask_to_end(SIGHUP); break;
+      case Fault::CaptureFrozen: ASSERT_TRUE(FrozenThread::freeze("capture")); break;
       case Fault::WorkerStuck:
-      case Fault::WorkerFrozen:
-        ASSERT_TRUE(FrozenThread::freeze("worker"));
-        break;
-      case Fault::KeeperFrozen:
-        ASSERT_TRUE(FrozenThread::freeze("keeper"));
-        break;
+      case Fault::WorkerFrozen: ASSERT_TRUE(FrozenThread::freeze("worker")); break;
+      case Fault::KeeperFrozen: ASSERT_TRUE(FrozenThread::freeze("keeper")); break;
     }
   }
   // What the main loop looks at when it decides to go on.

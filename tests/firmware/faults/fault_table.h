@@ -12,7 +12,7 @@
 #include <cstddef>
 #include <cstdint>
 
-#include "firmware/machine/transition.h"
+#include "firmware/machine/machine.h"
 
 namespace relievo::firmware {
 
@@ -76,8 +76,7 @@ constexpr Fate without_fault(State state) {
     case S::Idle:
     case S::Store:
     case S::Fault:
-    case S::Count:
-      return {.state = S::Idle};
+    case S::Count: return {.state = S::Idle};
     case S::Position:
     case S::Capture:
     case S::Turn:
@@ -87,13 +86,10 @@ constexpr Fate without_fault(State state) {
     case S::Texture:
     case S::Assemble:
     case S::Fuse:
-    case S::Review:
-      return {.state = S::Review};
-    case S::Calibrate:
-      return {.state = S::Calibrate};
+    case S::Review: return {.state = S::Review};
+    case S::Calibrate: return {.state = S::Calibrate};
     case S::Staff:
-    case S::Export:
-      return {.state = S::Staff};
+    case S::Export: return {.state = S::Staff};
   }
   return {};
 }

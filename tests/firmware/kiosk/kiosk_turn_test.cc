@@ -9,10 +9,10 @@
 #include <string>
 
 #include "firmware/service/export_records.h"
+#include "hal/base/whole_file.h"
 #include "hal/monotonic_clock.h"
 #include "hal/sim/device.h"
 #include "hal/sim/replay/folder_media.h"
-#include "hal/whole_file.h"
 #include "pipeline/calibrate/file/calibration_file.h"
 #include "storage/sqlite/sqlite_store.h"
 #include "tests/firmware/kiosk/kiosk_hands.h"
@@ -95,7 +95,7 @@ TEST_F(KioskTurn, WhoTurnsTheHeadSeesAllOfIt) {
       export_records(**store, clock, stick, {subjects->front().id}, {.watertight = true}, control, trace);
   ASSERT_TRUE(exported) << exported.error().what.view();
   const Path record = std::filesystem::directory_iterator(folder.path() / "stick/relievo")->path();
-  const auto bytes = hal::read_whole_file(record / "model.ply", std::size_t{1} << 28);
+  const auto bytes = read_whole_file(record / "model.ply", std::size_t{1} << 28);
   ASSERT_TRUE(bytes);
   const std::string_view ply(reinterpret_cast<const char*>(bytes->data()), 4000);
   EXPECT_NE(ply.find("property uchar pose"), std::string_view::npos);

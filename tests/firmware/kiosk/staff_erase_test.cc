@@ -4,7 +4,7 @@
 // What nobody can undo is held for three seconds: a passing finger, one that slides off or is lifted, and a
 // key that is called back erase nobody.
 #include "tests/firmware/kiosk/staff_hands.h"
-#include "ui/view/records_view.h"
+#include "ui/view/staff_views.h"
 
 namespace relievo::firmware {
 namespace {

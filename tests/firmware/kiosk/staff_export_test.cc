@@ -7,7 +7,7 @@
 
 #include "tests/firmware/kiosk/staff_hands.h"
 #include "tests/support/faulty_stick.h"
-#include "ui/view/records_view.h"
+#include "ui/view/staff_views.h"
 
 namespace relievo::firmware {
 namespace {

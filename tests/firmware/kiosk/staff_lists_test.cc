@@ -4,7 +4,6 @@
 // Long lists through their pages: turned, jumped in and filtered, on a real store and a real log, by fingers
 // and by a keypad.
 #include "tests/firmware/kiosk/staff_hands.h"
-#include "ui/view/records_view.h"
 #include "ui/view/staff_views.h"
 
 namespace relievo::firmware {

@@ -6,7 +6,6 @@
 #include "firmware/records/event_log.h"
 #include "firmware/service/access.h"
 #include "tests/firmware/kiosk/staff_hands.h"
-#include "ui/view/records_view.h"
 #include "ui/view/staff_views.h"
 
 namespace relievo::firmware {

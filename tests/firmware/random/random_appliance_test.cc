@@ -185,22 +185,12 @@ class RandomAppliance : public testing::Test {
       case 0:
         world.pulled = events.one_in(20);  // waited for, so seldom
         break;
-      case 1:
-        device.right_camera.held = events.one_in(20);
-        break;
+      case 1: device.right_camera.held = events.one_in(20); break;
       case 2:
-      case 3:
-        luck.stage = error();
-        break;
-      case 4:
-        luck.works_on = events.one_in(4);
-        break;
-      case 5:
-        luck.keep = error();
-        break;
-      case 6:
-        luck.look_up = error();
-        break;
+      case 3: luck.stage = error(); break;
+      case 4: luck.works_on = events.one_in(4); break;
+      case 5: luck.keep = error(); break;
+      case 6: luck.look_up = error(); break;
       case 7:
         luck.pose = error();
         luck.fuses = events.one_in(2);
@@ -209,11 +199,8 @@ class RandomAppliance : public testing::Test {
         luck.drift = events.any(std::array{pipeline::DriftVerdict::Ok, pipeline::DriftVerdict::Warn,
                                            pipeline::DriftVerdict::Refuse, pipeline::DriftVerdict::Unknown});
         break;
-      case 9:
-        world.wall_shift_s = events.of(200) * 86'400 - 100 * 86'400;
-        break;
-      default:
-        mend();
+      case 9: world.wall_shift_s = events.of(200) * 86'400 - 100 * 86'400; break;
+      default: mend();
     }
     events.note("a fault, or mended");
   }
@@ -227,11 +214,8 @@ class RandomAppliance : public testing::Test {
         job.error = events.one_in(4) ? std::optional(error()) : std::nullopt;
         (void)appliance.start_side_job(lane, job);
         break;
-      case 1:
-        appliance.cancel_side_job(lane);
-        break;
-      default:
-        appliance.end_side_job(lane);
+      case 1: appliance.cancel_side_job(lane); break;
+      default: appliance.end_side_job(lane);
     }
   }
   void event() {

@@ -125,9 +125,7 @@ class RandomKiosk : public FaultHands {
     const ui::Visit& visit = kiosk->ui().visit();
     if (visit.overlay != ui::Overlay::None || kiosk->ui().service().open) return touch_any_button();
     switch (visit.step) {
-      case ui::Step::Attract:
-        touch("start");
-        return;
+      case ui::Step::Attract: touch("start"); return;
       case ui::Step::Consent:
         if (!touch("agree")) touch_any_button();
         return;
@@ -135,9 +133,7 @@ class RandomKiosk : public FaultHands {
         if (visit.name().empty()) type_a_name();
         touch("done");
         return;
-      case ui::Step::Known:
-        touch("somebody_else");
-        return;
+      case ui::Step::Known: touch("somebody_else"); return;
       case ui::Step::Position:
         if (events.one_in(6)) touch("shoot");
         return wait_a_little();
@@ -153,11 +149,9 @@ class RandomKiosk : public FaultHands {
       case ui::Step::Trouble:
         if (events.one_in(3)) touch("finish");
         return;
-      case ui::Step::Working:
-        return wait_a_little();
+      case ui::Step::Working: return wait_a_little();
       case ui::Step::Starting:
-      case ui::Step::Declined:
-        return;
+      case ui::Step::Declined: return;
     }
   }
   void wait_a_little() {
@@ -182,11 +176,8 @@ class RandomKiosk : public FaultHands {
   }
   void world() {
     switch (events.of(5)) {
-      case 0:
-        return let_in_any();
-      case 1:
-        events.note("mended");
-        return mend();
+      case 0: return let_in_any();
+      case 1: events.note("mended"); return mend();
       case 2:
         events.note("a code is held, or no more");
         return faults.sheet.store(faults.sheet.load() == nullptr && events.one_in(2) ? &sheet : nullptr);

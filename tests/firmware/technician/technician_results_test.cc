@@ -22,11 +22,10 @@ TEST_F(TechnicianTest, APairByHandMendsTheSurfaceAndIsMovedRemovedSavedAndLoaded
   ASSERT_TRUE(rig().until(finished));
   const int width = products().pair->width_px, height = products().pair->height_px;
   const pipeline::Vec2d centre = products().pair->face_centre_px;
-  const auto in = [](double part, int whole) { return static_cast<float>(part / whole); };
+  const auto in = [](double part, int whole) { return float(part / whole); };
   const auto depth = [&](float x, float y) {
     const compare::DisparityMap view = compare::model_view(*products().pair, products().model->mesh);
-    return products().pair->depth_mm(
-        static_cast<double>(view.at(static_cast<int>(std::lround(x)), static_cast<int>(std::lround(y)))));
+    return products().pair->depth_mm(double(view.at(int(std::lround(x)), int(std::lround(y)))));
   };
   const auto model = [] { return *storage::encode_model(*products().model); };
   const auto calculate = [](const char* button) {
@@ -34,13 +33,12 @@ TEST_F(TechnicianTest, APairByHandMendsTheSurfaceAndIsMovedRemovedSavedAndLoaded
     ASSERT_TRUE(rig().until(finished));
     ASSERT_EQ(rig().now().result.failure.detail, "");
   };
-  const auto x = static_cast<float>(centre.x) + 0.3F * static_cast<float>(products().pair->face_width_px),
-             y = static_cast<float>(centre.y);
+  const auto x = float(centre.x) + 0.3F * float(products().pair->face_width_px), y = float(centre.y);
   const double right = depth(x, y);
   ASSERT_GT(right, 0);
   for (pipeline::Match& m : products().matches->matches) {
-    const double r = std::hypot(static_cast<double>(m.left_px.x - x), static_cast<double>(m.left_px.y - y));
-    m.disparity_px += static_cast<float>(3 * std::exp(-r * r / 100));
+    const double r = std::hypot(double(m.left_px.x - x), double(m.left_px.y - y));
+    m.disparity_px += float(3 * std::exp(-r * r / 100));
   }
   rig().tap("stage 5");
   calculate("run from");
@@ -50,10 +48,10 @@ TEST_F(TechnicianTest, APairByHandMendsTheSurfaceAndIsMovedRemovedSavedAndLoaded
 
   rig().tap("stage 2");
   rig().tap("by hand");
-  rig().tap("left", in(static_cast<double>(x), width), in(static_cast<double>(y), height));
+  rig().tap("left", in(double(x), width), in(double(y), height));
   ASSERT_EQ(rig().now().pairs.size(), 1U);
   ASSERT_TRUE(rig().now().point.matched);
-  EXPECT_NEAR(products().pair->depth_mm(static_cast<double>(rig().now().point.disparity_px)), right, 2.0)
+  EXPECT_NEAR(products().pair->depth_mm(double(rig().now().point.disparity_px)), right, 2.0)
       << "what the windows say, not the planted patch";
   EXPECT_TRUE(std::isnan(rig().now().point.moved_mm));
   calculate("run pairs");
@@ -242,10 +240,7 @@ TEST_F(TechnicianTest, FourResultsStandSideBySideAndTurnTogether) {
     ASSERT_TRUE(d.known && d.colours != nullptr);
     EXPECT_LT(std::abs(d.median_mm), 0.1F) << "of one capture";
     EXPECT_LE(d.most_mm, rig().now().full_colour_mm);
-    EXPECT_EQ(rig()
-                  .screen->draw_list()
-                  .pictures[static_cast<std::size_t>(ui::PictureSlot::TechnicianLeft) + i]
-                  .version,
+    EXPECT_EQ(rig().screen->draw_list().pictures[std::size_t(ui::PictureSlot::TechnicianLeft) + i].version,
               d.map.version);
   }
   EXPECT_EQ(rig().now().compared[0].difference.most_mm, rig().now().compared[1].difference.most_mm)

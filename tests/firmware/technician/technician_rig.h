@@ -152,8 +152,7 @@ class TechnicianRig {
 
  private:
   static ui::TechnicianPage page_of(ui::StaffPage staff_page) {
-    return static_cast<ui::TechnicianPage>(static_cast<int>(staff_page) -
-                                           static_cast<int>(ui::StaffPage::Stages));
+    return static_cast<ui::TechnicianPage>(int(staff_page) - int(ui::StaffPage::Stages));
   }
   void frame() {
     staff = {};

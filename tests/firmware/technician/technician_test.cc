@@ -25,8 +25,7 @@ TEST_F(TechnicianTest, ATestCaptureIsSeenStageByStageAndInNumbers) {
     EXPECT_EQ(rig().now().stage, static_cast<TechnicianStage>(i));
     EXPECT_EQ(rig().now().shown[0].pixels.empty(), i == 8) << "of one pair there are no poses";
     EXPECT_EQ(rig().now().shown[1].pixels.empty(), i > 2) << i;
-    const auto& drawn =
-        rig().screen->draw_list().pictures[static_cast<std::size_t>(ui::PictureSlot::TechnicianLeft)];
+    const auto& drawn = rig().screen->draw_list().pictures[std::size_t(ui::PictureSlot::TechnicianLeft)];
     EXPECT_EQ(drawn.version, rig().now().shown[0].version) << i;
   }
   const ui::TechnicianResult result = rig().now().result;
@@ -48,14 +47,13 @@ TEST_F(TechnicianTest, ATestCaptureIsSeenStageByStageAndInNumbers) {
   EXPECT_EQ(rows.cells[0], std::to_string(kTableRows + 1));
   const pipeline::Match& match = products().matches->matches[kTableRows];
   char text[32];
-  std::snprintf(text, sizeof text, "%.3f", static_cast<double>(match.disparity_px));
+  std::snprintf(text, sizeof text, "%.3f", double(match.disparity_px));
   EXPECT_EQ(rows.cells[4], text);
   const std::uint64_t pages = (result.matches + kTableRows - 1) / kTableRows;
-  EXPECT_EQ(rig().now().rows.place.pages, static_cast<std::int64_t>(pages));
+  EXPECT_EQ(rig().now().rows.place.pages, std::int64_t(pages));
   rig().tap("filter");
   rig().tap("filter 1");
-  EXPECT_EQ(rig().now().rows.place.pages,
-            static_cast<std::int64_t>((result.accepted + kTableRows - 1) / kTableRows));
+  EXPECT_EQ(rig().now().rows.place.pages, std::int64_t((result.accepted + kTableRows - 1) / kTableRows));
   for (std::size_t i = 7; i < rig().now().rows.cells.size(); i += 8)
     EXPECT_EQ(rig().now().rows.cells[i], "") << "accepted";
   rig().tap("page number");
@@ -85,7 +83,7 @@ void turn_head(TechnicianRig& rig, double yaw_deg) {
   const auto levels = [&] {
     std::vector<double> all;
     for (int y = 0; y < seen().height_px; y += 8)
-      for (int x = 0; x < 3 * seen().width_px; x += 24) all.push_back(static_cast<double>(seen().row(y)[x]));
+      for (int x = 0; x < 3 * seen().width_px; x += 24) all.push_back(double(seen().row(y)[x]));
     return all;
   };
   const std::vector<double> before = levels();
@@ -94,7 +92,7 @@ void turn_head(TechnicianRig& rig, double yaw_deg) {
     const std::vector<double> now = levels();
     double apart = 0;
     for (std::size_t i = 0; i < now.size(); ++i) apart += std::abs(now[i] - before[i]);
-    return apart > kTurnedLevels * static_cast<double>(now.size());
+    return apart > kTurnedLevels * double(now.size());
   }));
   rig.open(StaffPage::Stages);
 }
@@ -144,7 +142,7 @@ TEST_F(TechnicianTest, ATouchedPointHasItsPartnerAndAHandFindsTheSame) {
   capture();
   rig().tap("stage 2");
   const pipeline::RectifiedPair& pair = *products().pair;
-  const auto share = [](double part, double whole) { return static_cast<float>(part / whole); };
+  const auto share = [](double part, double whole) { return float(part / whole); };
   const float x = share(pair.face_centre_px.x, pair.width_px),
               y = share(pair.face_centre_px.y, pair.height_px);
   rig().tap("left", x, y);
@@ -188,11 +186,11 @@ TEST_F(TechnicianTest, AlgorithmsAreChosenEditedComparedAndUsedForVisitors) {
   // An option beyond its bounds is refused and stays; within them it is taken.
   const std::string window = option("zmncc.window_px");
   rig().tap(window);
-  for (const char digit : std::string("9999")) rig().tap("type " + std::to_string(static_cast<int>(digit)));
+  for (const char digit : std::string("9999")) rig().tap("type " + std::to_string(int(digit)));
   rig().tap("option use");
   EXPECT_TRUE(rig().shows("option refused"));
   for (int i = 0; i < 4; ++i) rig().tap("type erase");
-  for (const char digit : std::string("9")) rig().tap("type " + std::to_string(static_cast<int>(digit)));
+  for (const char digit : std::string("9")) rig().tap("type " + std::to_string(int(digit)));
   rig().tap("option use");
   EXPECT_FALSE(rig().shows("option use")) << "taken";
   again();
@@ -246,7 +244,7 @@ TEST_F(TechnicianTest, CamerasAreWatchedOnlyWhileTheirPageIsOpen) {
     ASSERT_TRUE(rig().shows("whole"));
     EXPECT_FALSE(rig().shows("left live"));
     const ui::Rect whole = rig().screen->tree().find("whole")->rect;
-    EXPECT_GT(whole.h, 0.7F * static_cast<float>(rig().screen->height_px()));
+    EXPECT_GT(whole.h, 0.7F * float(rig().screen->height_px()));
     EXPECT_TRUE(rig().shows("whole focus") && rig().shows("whole edges"));
     if (mode == 1) rig().tap("whole");
     else rig().screen->feed({ui::Input::Kind::Back}, rig().view);
@@ -279,8 +277,7 @@ TEST_F(TechnicianTest, TheReliefStandsBesideTheLivePictureWhenAskedFor) {
     for (int x = 9 * relief.width_px / 20; x < 11 * relief.width_px / 20; ++x, ++all)
       bright += relief.row(y)[3 * x] > 100 ? 1 : 0;
   EXPECT_GT(bright, all / 2);
-  const auto& drawn =
-      rig().screen->draw_list().pictures[static_cast<std::size_t>(ui::PictureSlot::TechnicianRight)];
+  const auto& drawn = rig().screen->draw_list().pictures[std::size_t(ui::PictureSlot::TechnicianRight)];
   EXPECT_EQ(drawn.pixels.width_px, relief.width_px);
   EXPECT_EQ(drawn.version & 0x80000000U, 0x80000000U) << "the relief, not the right picture";
   const std::uint32_t first = rig().now().cameras.relief.version;

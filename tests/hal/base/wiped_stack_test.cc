@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: 2026 The Relievo authors
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include "hal/base/wiped_stack.h"
+#include "hal/base/wiped_text.h"
 
 #include <gtest/gtest.h>
 

@@ -62,8 +62,7 @@ inline void put_sample(std::byte* row, RawCoding coding, int x, unsigned value) 
   const auto put = [&](int at, unsigned v) { row[at] = std::byte(static_cast<unsigned char>(v & 255U)); };
   const auto add = [&](int at, unsigned v) { row[at] |= std::byte(static_cast<unsigned char>(v)); };
   switch (coding) {
-    case RawCoding::Bits8:
-      return put(x, value);
+    case RawCoding::Bits8: return put(x, value);
     case RawCoding::Packed10:
       put(x / 4 * 5 + x % 4, value >> 2U);
       if (x % 4 == 0) put(x / 4 * 5 + 4, 0);
@@ -78,8 +77,7 @@ inline void put_sample(std::byte* row, RawCoding coding, int x, unsigned value) 
     case RawCoding::Rgb8:
     case RawCoding::Yuyv:
     case RawCoding::Nv12:
-    case RawCoding::Mjpeg:
-      break;
+    case RawCoding::Mjpeg: break;
   }
   put(2 * x, value);
   put(2 * x + 1, value >> 8U);

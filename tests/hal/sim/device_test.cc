@@ -9,7 +9,6 @@
 
 #include "hal/recording/capture_file.h"
 #include "hal/sim/replay/folder_media.h"
-#include "hal/sim/replay/picture_pairs.h"
 #include "hal/sim/replay/replay_device.h"
 #include "tests/hal/temporary_folder.h"
 #include "tests/support/manual_clock.h"

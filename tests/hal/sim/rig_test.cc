@@ -5,9 +5,9 @@
 
 #include <gtest/gtest.h>
 
+#include "hal/base/whole_file.h"
 #include "hal/sim/board_scene.h"
 #include "hal/sim/render.h"
-#include "hal/whole_file.h"
 #include "tests/hal/temporary_folder.h"
 
 namespace relievo::hal::sim {

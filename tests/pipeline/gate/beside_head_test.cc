@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: 2026 The Relievo authors
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include "pipeline/gate/head/beside_head.h"
+#include "pipeline/gate/head/head_outline.h"
 #include "pipeline/gate/judgement.h"
 
 #include <gtest/gtest.h>

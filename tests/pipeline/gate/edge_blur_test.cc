@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: 2026 The Relievo authors
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include "pipeline/gate/light/edge_blur.h"
+#include "pipeline/gate/light/face_light.h"
 
 #include <gtest/gtest.h>
 

@@ -20,7 +20,7 @@ GateMeasures good() {
   m.light.known = true;
   m.light.luminance_mean = 0.5;
   m.blur_mm = 0.5;
-  for (EyeMeasurement& eye : m.eyes) eye.known = true, eye.contrast = 0.28, eye.aperture_mm = 9;
+  for (EyeMeasurement& eye : m.eyes) eye.known = true, eye.contrast = 0.28;
   m.mouth.known = true, m.mouth.steps_mm = 0, m.mouth.before_mm = -2;
   return m;
 }

@@ -13,8 +13,8 @@
 #include <limits>
 #include <sstream>
 
+#include "hal/base/whole_file.h"
 #include "storage/byte_order.h"
-#include "storage/export/atomic_file.h"
 #include "storage/export/format/glb_writer.h"
 #include "storage/export/format/mesh_writers.h"
 #include "storage/export/format/number_text.h"
@@ -220,9 +220,9 @@ TEST(AtomicFile, AnUnfinishedFileIsNeverSeen) {
   }
   EXPECT_EQ(relievo::test::read_text(folder / "a"), "old");
   EXPECT_EQ(std::distance(std::filesystem::directory_iterator(folder.path()), {}), 1);
-  ASSERT_TRUE(write_file(folder / "a", bytes_of("new")));
+  ASSERT_TRUE(write_whole_file(folder / "a", bytes_of("new")));
   EXPECT_EQ(relievo::test::read_text(folder / "a"), "new");
-  EXPECT_FALSE(write_file(folder / "none/a", bytes_of("new")));
+  EXPECT_FALSE(write_whole_file(folder / "none/a", bytes_of("new")));
 }
 
 // Khronos' own judge, where it is installed: npm install gltf-validator; RELIEVO_GLTF_VALIDATOR=that folder.

@@ -17,42 +17,24 @@ constexpr std::uint32_t kTriggerId = V4L2_CID_USER_BASE + 0x1010;
 
 KernelCall call_of(unsigned long request) {
   switch (request) {
-    case VIDIOC_QUERYCAP:
-      return KernelCall::QueryCap;
-    case VIDIOC_G_INPUT:
-      return KernelCall::GetInput;
-    case VIDIOC_ENUMINPUT:
-      return KernelCall::EnumInput;
-    case VIDIOC_QUERY_DV_TIMINGS:
-      return KernelCall::QueryTimings;
-    case VIDIOC_S_DV_TIMINGS:
-      return KernelCall::SetTimings;
-    case VIDIOC_ENUM_FMT:
-      return KernelCall::EnumFormats;
-    case VIDIOC_S_FMT:
-      return KernelCall::SetFormat;
-    case VIDIOC_G_PARM:
-      return KernelCall::GetInterval;
-    case VIDIOC_S_PARM:
-      return KernelCall::SetInterval;
-    case VIDIOC_QUERYCTRL:
-      return KernelCall::QueryControl;
-    case VIDIOC_S_CTRL:
-      return KernelCall::SetControl;
-    case VIDIOC_REQBUFS:
-      return KernelCall::RequestBuffers;
-    case VIDIOC_QUERYBUF:
-      return KernelCall::QueryBuffer;
-    case VIDIOC_QBUF:
-      return KernelCall::Queue;
-    case VIDIOC_STREAMON:
-      return KernelCall::StreamOn;
-    case VIDIOC_DQBUF:
-      return KernelCall::Dequeue;
-    case VIDIOC_STREAMOFF:
-      return KernelCall::StreamOff;
-    default:
-      return KernelCall::Count;
+    case VIDIOC_QUERYCAP: return KernelCall::QueryCap;
+    case VIDIOC_G_INPUT: return KernelCall::GetInput;
+    case VIDIOC_ENUMINPUT: return KernelCall::EnumInput;
+    case VIDIOC_QUERY_DV_TIMINGS: return KernelCall::QueryTimings;
+    case VIDIOC_S_DV_TIMINGS: return KernelCall::SetTimings;
+    case VIDIOC_ENUM_FMT: return KernelCall::EnumFormats;
+    case VIDIOC_S_FMT: return KernelCall::SetFormat;
+    case VIDIOC_G_PARM: return KernelCall::GetInterval;
+    case VIDIOC_S_PARM: return KernelCall::SetInterval;
+    case VIDIOC_QUERYCTRL: return KernelCall::QueryControl;
+    case VIDIOC_S_CTRL: return KernelCall::SetControl;
+    case VIDIOC_REQBUFS: return KernelCall::RequestBuffers;
+    case VIDIOC_QUERYBUF: return KernelCall::QueryBuffer;
+    case VIDIOC_QBUF: return KernelCall::Queue;
+    case VIDIOC_STREAMON: return KernelCall::StreamOn;
+    case VIDIOC_DQBUF: return KernelCall::Dequeue;
+    case VIDIOC_STREAMOFF: return KernelCall::StreamOff;
+    default: return KernelCall::Count;
   }
 }
 
@@ -160,9 +142,7 @@ int FakeKernel::answer(unsigned long request, void* argument) {
                         (streams ? V4L2_CAP_STREAMING : 0U);
       return 0;
     }
-    case VIDIOC_G_INPUT:
-      as<int>(argument) = 0;
-      return 0;
+    case VIDIOC_G_INPUT: as<int>(argument) = 0; return 0;
     case VIDIOC_ENUMINPUT:
       as<v4l2_input>(argument).status = no_signal ? V4L2_IN_ST_NO_SIGNAL : 0;
       as<v4l2_input>(argument).capabilities = has_timings ? V4L2_IN_CAP_DV_TIMINGS : 0;
@@ -171,28 +151,23 @@ int FakeKernel::answer(unsigned long request, void* argument) {
       as<v4l2_dv_timings>(argument).bt.interlaced =
           interlaced_signal ? V4L2_DV_INTERLACED : V4L2_DV_PROGRESSIVE;
       return 0;
-    case VIDIOC_S_DV_TIMINGS:
-      return 0;
+    case VIDIOC_S_DV_TIMINGS: return 0;
     case VIDIOC_ENUM_FMT: {
       auto& format = as<v4l2_fmtdesc>(argument);
       if (format.index >= formats.size()) return -EINVAL;
       format.pixelformat = formats[format.index];
       return 0;
     }
-    case VIDIOC_S_FMT:
-      return set_format(argument);
+    case VIDIOC_S_FMT: return set_format(argument);
     case VIDIOC_G_PARM:
       if (has_timings) return -ENOTTY;
       as<v4l2_streamparm>(argument).parm.capture.capability = V4L2_CAP_TIMEPERFRAME;
       return 0;
-    case VIDIOC_S_PARM:
-      return has_timings ? -ENOTTY : 0;
+    case VIDIOC_S_PARM: return has_timings ? -ENOTTY : 0;
     case VIDIOC_QUERYCTRL:
     case VIDIOC_QUERYMENU:
-    case VIDIOC_S_CTRL:
-      return answer_control(request, argument);
-    default:
-      return answer_buffer(request, argument);
+    case VIDIOC_S_CTRL: return answer_control(request, argument);
+    default: return answer_buffer(request, argument);
   }
 }
 
@@ -272,8 +247,7 @@ int FakeKernel::answer_buffer(unsigned long request, void* argument) {
       buffer.timestamp.tv_usec = since % 1'000'000;
       return 0;
     }
-    default:
-      return -ENOTTY;
+    default: return -ENOTTY;
   }
 }
 

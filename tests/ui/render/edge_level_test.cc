@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: 2026 The Relievo authors
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include "ui/render/edge_level.h"
+#include "ui/render/face_geometry.h"
 
 #include <gtest/gtest.h>
 

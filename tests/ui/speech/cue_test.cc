@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: 2026 The Relievo authors
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include "ui/speech/cue.h"
+#include "ui/speech/narrator.h"
 
 #include <gtest/gtest.h>
 

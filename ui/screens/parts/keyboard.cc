@@ -59,21 +59,15 @@ constexpr const char* kHe3[] = {"ז", "ס", "ב", "ה", "נ", "מ", "צ", "ת", 
 // Chinese and Japanese have the Latin letters: names are typed as in a passport.
 KeyRows key_rows(Language language, bool capitals) {
   switch (language) {
-    case Language::German:
-      return capitals ? KeyRows{kDe1Big, kDe2Big, kDe3Big} : KeyRows{kDe1, kDe2, kDe3};
-    case Language::French:
-      return capitals ? KeyRows{kFr1Big, kFr2Big, kFr3Big} : KeyRows{kFr1, kFr2, kFr3};
-    case Language::Spanish:
-      return capitals ? KeyRows{kEs1Big, kEs2Big, kEs3Big} : KeyRows{kEs1, kEs2, kEs3};
-    case Language::Arabic:
-      return {kAr1, kAr2, kAr3};
-    case Language::Hebrew:
-      return {kHe1, kHe2, kHe3};
+    case Language::German: return capitals ? KeyRows{kDe1Big, kDe2Big, kDe3Big} : KeyRows{kDe1, kDe2, kDe3};
+    case Language::French: return capitals ? KeyRows{kFr1Big, kFr2Big, kFr3Big} : KeyRows{kFr1, kFr2, kFr3};
+    case Language::Spanish: return capitals ? KeyRows{kEs1Big, kEs2Big, kEs3Big} : KeyRows{kEs1, kEs2, kEs3};
+    case Language::Arabic: return {kAr1, kAr2, kAr3};
+    case Language::Hebrew: return {kHe1, kHe2, kHe3};
     case Language::English:
     case Language::Chinese:
     case Language::Japanese:
-    case Language::Count:
-      break;
+    case Language::Count: break;
   }
   return capitals ? KeyRows{kEn1Big, kEn2Big, kEn3Big} : KeyRows{kEn1, kEn2, kEn3};
 }
@@ -129,7 +123,7 @@ Node row_box(Page& page) {
 }
 
 void last_row(Page& page, Action done, Language language) {
-  page.tree.open(page.box(Flow::Row, 10));
+  const auto in_box = page.tree.inside(page.box(Flow::Row, 10));
   if (has_capitals(language)) {
     const char* sign = page.visit.accents ? "abc" : page.visit.capitals ? "ÁÑß" : "áñß";
     key(page, "accents", sign, page.tr("Letters with accents"), false, {ActionKind::Accents, 0}, 0.6F);
@@ -140,7 +134,6 @@ void last_row(Page& page, Action done, Language language) {
               !page.portrait           ? 1.0F
               : page.text_share > 1.6F ? 2.4F
                                        : 1.5F);
-  page.tree.close();
 }
 
 }  // namespace
@@ -151,7 +144,7 @@ void keyboard(Page& page, Action done, Language language) {
   Node board = page.grown(page.box(Flow::Column, 8), page.portrait ? 0.0F : 1.0F);
   board.id = "keyboard";
   board.box.justify = Justify::End;
-  page.tree.open(board);
+  const auto in_board = page.tree.inside(board);
   page.tree.open(row_box(page));
   letters(page, kDigits);
   page.tree.close();
@@ -159,7 +152,7 @@ void keyboard(Page& page, Action done, Language language) {
   const KeyRows rows = page.visit.accents && cased ? accent_rows(page.visit.capitals)
                                                    : key_rows(language, page.visit.capitals);
   for (std::size_t i = 0; i < rows.size(); ++i) {
-    page.tree.open(row_box(page));
+    const auto in_box = page.tree.inside(row_box(page));
     const bool last = i == rows.size() - 1;
     if (last && cased)
       key(page, "shift", icon::kShift, page.tr("Capital letters"), true, {ActionKind::Shift, 0});
@@ -168,10 +161,8 @@ void keyboard(Page& page, Action done, Language language) {
     // right.
     if (last)
       key(page, "erase", icon::kErase, page.tr("Erase"), true, {ActionKind::Erase, 0}, 1, page.mirrored());
-    page.tree.close();
   }
   last_row(page, done, language);
-  page.tree.close();
 }
 
 void number_pad(Page& page, const PadIds& ids, Action done) {
@@ -201,15 +192,13 @@ void number_pad(Page& page, const PadIds& ids, Action done) {
     Node node = shaped(page.box(Flow::Row), main);
     tell(node, Role::Key, id, spoken, action);
     centre(node);
-    page.tree.open(node);
+    const auto in_node = page.tree.inside(node);
     page.sign(letter, 30, main ? page.palette.accent_ink : page.palette.link);
-    page.tree.close();
   };
   constexpr const char* kRows[3][3] = {{"1", "2", "3"}, {"4", "5", "6"}, {"7", "8", "9"}};
   for (const auto& keys : kRows) {
-    page.tree.open(row_box(page));
+    const auto in_box = page.tree.inside(row_box(page));
     for (const char* key : keys) digit(key);
-    page.tree.close();
   }
   page.tree.open(row_box(page));
   sign("erase", page.tr("Erase"), icon::kErase, {ActionKind::Erase, 0}, false);

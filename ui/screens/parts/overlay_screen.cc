@@ -10,6 +10,45 @@
 namespace relievo::ui {
 namespace {
 
+void language_key(Page& page, Language language) {
+  const LanguageInfo& info = info_of(language);
+  const bool now = language == page.visit.language;
+  // Names of languages are short and many: they grow less than what is read.
+  Node node = page.text(info.own_name, type::kBody, Weight::Medium,
+                        now ? page.palette.accent_ink : page.palette.link, TextAlign::Centre);
+  node.style.size_px = page.px(22 * (1 + (page.text_share - 1) * 0.4F));
+  node.style.language = info.code;
+  tell(node, Role::Button, info.code, {}, {ActionKind::ChooseLanguage, int(language)});
+  if (now) node.value = page.tr("chosen");
+  frame(node, now ? page.palette.accent : page.palette.quiet,
+        now ? page.palette.accent : page.palette.quiet_border, page.px(2), page.px(size::kRadius));
+  node.box.grow = 1;
+  node.box.min_height = page.px(size::kTarget);
+  node.box.pad_x = page.px(6);
+  page.tree.leaf(node);
+}
+
+}  // namespace
+
+// Rows of even length; each language keeps its place whichever is chosen.
+void language_grid(Page& page, std::size_t columns) {
+  const auto languages = page.visit.offered(page.view);
+  const std::size_t count = languages.count();
+  const std::size_t rows = (count + columns - 1) / columns;
+  const std::size_t abreast = (count + rows - 1) / rows;
+  const auto in_box = page.tree.inside(page.box(Flow::Column, space::kS));
+  std::size_t shown = 0;
+  for (std::size_t i = 0; i < kLanguages; ++i) {
+    if (!languages[i]) continue;
+    if (shown % abreast == 0) page.tree.open(page.box(Flow::Row, space::kS));
+    language_key(page, static_cast<Language>(i));
+    if (++shown % abreast == 0) page.tree.close();
+  }
+  if (shown % abreast != 0) page.tree.close();
+}
+
+namespace {
+
 const char* help_for(const Page& page) {
   const auto& tr = page.tr;
   switch (page.visit.step) {
@@ -30,16 +69,14 @@ const char* help_for(const Page& page) {
     case Step::Turn:
       return tr(
           "Pictures from the sides show your whole head. Turn it slowly and hold it level: each side is taken by itself. If you cannot or do not want to, touch the button below.");
-    case Step::Working:
-      return tr("Please wait a few seconds. To stop, touch the cross.");
+    case Step::Working: return tr("Please wait a few seconds. To stop, touch the cross.");
     case Step::Review:
       return tr("Draw a finger across the portrait to turn it. Keep it, or take another one.");
     case Step::Thanks:
       return tr("Write the code down, or photograph it. With it everything about you can be erased.");
     case Step::Trouble:
     case Step::Starting:
-    case Step::Declined:
-      break;
+    case Step::Declined: break;
   }
   return tr("Please tell the staff.");
 }
@@ -69,10 +106,9 @@ void end_card(Page& page) {
 // Two answers: side by side where there is room for their words.
 void answers(Page& page, const char* quiet, Action quiet_action, const char* main, Action main_action) {
   const bool row = page.text_share < 1.4F && !(page.portrait && page.text_share > 1.2F);
-  page.tree.open(page.box(row ? Flow::Row : Flow::Column, space::kS));
+  const auto in_box = page.tree.inside(page.box(row ? Flow::Row : Flow::Column, space::kS));
   page.button("answer_quiet", quiet, nullptr, ButtonLook::Quiet, quiet_action, row ? 1.0F : 0.0F);
   page.button("answer_main", main, nullptr, ButtonLook::Main, main_action, row ? 1.0F : 0.0F);
-  page.tree.close();
 }
 
 // For who listens: volume and speed, which all keypads reach.
@@ -147,10 +183,9 @@ void code_goes(Page& page, const char* seconds) {
 
 void told(Page& page, const char* asked, std::string_view words) {
   Node block = page.box(Flow::Column, 2);
-  page.tree.open(block);
+  const auto in_block = page.tree.inside(block);
   page.tree.leaf(page.text(asked, type::kSmall, Weight::Bold, page.palette.ink));
   page.tree.leaf(page.text(words, type::kSmall, Weight::Regular, page.palette.ink_soft));
-  page.tree.close();
 }
 
 // How long a record is kept, as the staff have set it.
@@ -225,26 +260,13 @@ void still_there(Page& page) {
 void overlay_screen(Page& page) {
   begin_card(page);
   switch (page.visit.overlay) {
-    case Overlay::Help:
-      help(page);
-      break;
-    case Overlay::Languages:
-      languages(page);
-      break;
-    case Overlay::Leave:
-      leave(page);
-      break;
-    case Overlay::StillThere:
-      still_there(page);
-      break;
-    case Overlay::LostCode:
-      lost_code(page);
-      break;
-    case Overlay::Privacy:
-      privacy(page);
-      break;
-    case Overlay::None:
-      break;
+    case Overlay::Help: help(page); break;
+    case Overlay::Languages: languages(page); break;
+    case Overlay::Leave: leave(page); break;
+    case Overlay::StillThere: still_there(page); break;
+    case Overlay::LostCode: lost_code(page); break;
+    case Overlay::Privacy: privacy(page); break;
+    case Overlay::None: break;
   }
   end_card(page);
 }

@@ -23,23 +23,18 @@ bool begins_with_unit(std::string_view text) {
 
 int number_of(Step step) {
   switch (step) {
-    case Step::Consent:
-      return 0;
+    case Step::Consent: return 0;
     case Step::Name:
-    case Step::Known:
-      return 1;
+    case Step::Known: return 1;
     case Step::Position:
-    case Step::Turn:
-      return 2;
+    case Step::Turn: return 2;
     case Step::Working:
-    case Step::Review:
-      return 3;
+    case Step::Review: return 3;
     case Step::Attract:
     case Step::Thanks:
     case Step::Trouble:
     case Step::Starting:
-    case Step::Declined:
-      break;
+    case Step::Declined: break;
   }
   return -1;
 }
@@ -59,7 +54,7 @@ Page::Page(Tree& tree_in, const ViewState& view_in, const Visit& visit_in, const
       palette(palette_in),
       tr(visit_in.language),
       unit(unit_of(screen)),
-      text_share(static_cast<float>(visit_in.text_percent()) / 100),
+      text_share(float(visit_in.text_percent()) / 100),
       width_dp(screen.w / unit),
       height_dp(screen.h / unit),
       portrait(screen.h > screen.w) {}
@@ -128,10 +123,9 @@ void Page::button(std::string_view id, std::string_view label, const char* lette
   node.box.min_width = px(lengths.width);
   node.box.shadow = main && lengths.shadow;
   const Colour ink = main ? palette.accent_ink : palette.link;
-  tree.open(node);
+  const auto in_node = tree.inside(node);
   if (letter != nullptr) sign(letter, lengths.sign, ink);
   if (!label.empty()) tree.leaf(text(label, lengths.text, Weight::Medium, ink, TextAlign::Centre));
-  tree.close();
 }
 
 void Page::reading_tools() {
@@ -152,7 +146,7 @@ void Page::more_contrast() {
 
 void Page::within_reach() {
   square_button("reach", tr("Controls lower or on the other side"), icon::kReach, {ActionKind::Reach, 0},
-                share_of(static_cast<std::size_t>(visit.reach) + 1, 3));
+                share_of(std::size_t(visit.reach) + 1, 3));
 }
 
 void Page::privacy() {
@@ -165,10 +159,9 @@ void Page::cameras() {
   Node row = box(Flow::Row, 10);
   tell(row, Role::Status, "cameras", words);
   row.box.align = Align::Centre;
-  tree.open(row);
+  const auto in_row = tree.inside(row);
   sign(on ? icon::kCamera : icon::kCameraOff, 24, on ? palette.warn : palette.good);
   tree.leaf(text(words, type::kSmall, Weight::Medium, on ? palette.warn : palette.good));
-  tree.close();
 }
 
 void Page::square_button(std::string_view id, std::string_view spoken, const char* letter, Action action,
@@ -178,13 +171,12 @@ void Page::square_button(std::string_view id, std::string_view spoken, const cha
   node.value = value;
   centre(node);
   frame(node, palette.quiet, palette.quiet_border, std::max(1.5F, px(2)), px(size::kRadius));
-  tree.open(node);
+  const auto in_node = tree.inside(node);
   Node sign_node = text(letter, 34 * std::min(1.0F, kMostSignShare / text_share), Weight::Regular,
                         palette.link, TextAlign::Centre);
   sign_node.role = Role::Icon;
   sign_node.style.icon = true;
   tree.leaf(sign_node);
-  tree.close();
 }
 
 const char* Page::kept(std::string_view words) {
@@ -269,15 +261,14 @@ void Page::steps() {
   Node row = box(Flow::Row, space::kXs, tree.find("back") != nullptr ? space::kM : 0.0F, 0);
   tell(row, Role::Status, "steps", tr("How far you are"));
   row.box.align = Align::Centre;
-  row.value = share_of(static_cast<std::size_t>(now) + 1, 4);
-  tree.open(row);
+  row.value = share_of(std::size_t(now) + 1, 4);
+  const auto in_row = tree.inside(row);
   for (int i = 0; i < 4; ++i) {
     Node dot = sized(box(Flow::Column), i == now ? 44.0F : 20.0F, 10);
     dot.box.radius = px(5);
     dot.box.fill = i <= now ? palette.accent : palette.track;
     tree.leaf(dot);
   }
-  tree.close();
 }
 
 }  // namespace relievo::ui

@@ -34,19 +34,16 @@ class Drawing {
     Node whole = page.box(Flow::Column, 4, 0, 8);  // told as one: nobody wants to hear the axes
     tell(whole, Role::Picture, what.id, what.title);
     whole.value = words();
-    page.tree.open(whole);
+    const auto in_whole = page.tree.inside(whole);
     head();
     Node row = page.box(Flow::Row, 6);
     row.box.left_to_right = true;
     row.box.align = Align::Start;
-    page.tree.open(row);
+    const auto in_row = page.tree.inside(row);
     upright_axis();
-    page.tree.open(page.grown(page.box(Flow::Column, 2)));
+    const auto in_box = page.tree.inside(page.grown(page.box(Flow::Column, 2)));
     field();
     level_axis();
-    page.tree.close();
-    page.tree.close();
-    page.tree.close();
   }
 
  private:
@@ -94,8 +91,7 @@ class Drawing {
       page.tree.leaf(page.text(limit_words(), 18, Weight::Regular, page.palette.bad));
   }
   std::string_view limit_words() {
-    return page.filled(page.tr("Limit: {}"),
-                       number(page, static_cast<double>(what.limit), scale.decimals(), what.unit));
+    return page.filled(page.tr("Limit: {}"), number(page, double(what.limit), scale.decimals(), what.unit));
   }
 
   // Evenly spaced, the middle of each at its height.
@@ -104,12 +100,11 @@ class Drawing {
     axis.box.height = height_px();
     axis.box.justify = Justify::SpaceBetween;
     axis.box.align = Align::End;
-    page.tree.open(axis);
+    const auto in_axis = page.tree.inside(axis);
     for (int i = scale.steps; i >= 0; --i)
       page.tree.leaf(label(
           number(page, scale.from + i * scale.step, scale.decimals(), i == scale.steps ? what.unit : ""),
           TextAlign::End));
-    page.tree.close();
   }
 
   void level_axis() {
@@ -122,60 +117,56 @@ class Drawing {
     }
     Node row = page.box(Flow::Row);
     row.box.left_to_right = true;
-    page.tree.open(row);
+    const auto in_row_2 = page.tree.inside(row);
     const TextAlign aligned[] = {TextAlign::Start, TextAlign::Centre, TextAlign::End};
     for (std::size_t i = 0; i < under.size(); ++i) {
-      page.tree.open(page.grown(page.box(Flow::Column)));
+      const auto in_box_2 = page.tree.inside(page.grown(page.box(Flow::Column)));
       if (!under[i].empty())
         page.tree.leaf(label(under[i], page.mirrored() && i != 1 ? aligned[2 - i] : aligned[i]));
-      page.tree.close();
     }
-    page.tree.close();
   }
 
   void field() {
     Node room = page.box(Flow::Stack, 0, 0, 0);
     room.box.height = height_px();
     room.box.pad_y = std::round(line_px() / 2);
-    page.tree.open(room);
+    const auto in_room = page.tree.inside(room);
     page.tree.leaf(page.box(Flow::Column));
     for (int i = 0; i <= scale.steps; ++i)
       level(scale.from + i * scale.step, i == 0 ? page.palette.ink_soft : page.palette.card_border, 1);
     if (what.look == PlotLook::Bars) bars();
     else line();
-    if (!std::isnan(what.limit)) level(static_cast<double>(what.limit), page.palette.bad, kLimitDp);
-    page.tree.close();
+    if (!std::isnan(what.limit)) level(double(what.limit), page.palette.bad, kLimitDp);
   }
   void level(double value, Colour colour, float dp) {
     page.tree.mark({{0, height_of(value), 1, 0}, colour, std::max(1.0F, page.px(dp))});
   }
   // From the top, as a share.
-  float height_of(double value) const { return 1 - static_cast<float>(scale.share(value)); }
+  float height_of(double value) const { return 1 - float(scale.share(value)); }
   Colour colour_of(float value) const { return value > what.limit ? page.palette.bad : page.palette.accent; }
 
   void bars() {
-    const float slot = 1 / static_cast<float>(std::max<std::size_t>(1, what.values.size())),
-                zero = height_of(0);
+    const float slot = 1 / float(std::max<std::size_t>(1, what.values.size())), zero = height_of(0);
     for (std::size_t i = 0; i < what.values.size(); ++i) {
       const float value = what.values[i];
       if (std::isnan(value) || value == 0) continue;
-      const float y = height_of(static_cast<double>(value));
-      page.tree.mark({{(static_cast<float>(i) + (1 - kBarShare) / 2) * slot, std::min(y, zero),
-                       kBarShare * slot, std::abs(zero - y)},
-                      colour_of(value),
-                      0});
+      const float y = height_of(double(value));
+      page.tree.mark(
+          {{(float(i) + (1 - kBarShare) / 2) * slot, std::min(y, zero), kBarShare * slot, std::abs(zero - y)},
+           colour_of(value),
+           0});
     }
   }
   // As steps: a value holds until the next.
   void line() {
-    const float slot = 1 / static_cast<float>(std::max<std::size_t>(1, what.values.size())),
+    const float slot = 1 / float(std::max<std::size_t>(1, what.values.size())),
                 thick = std::max(1.0F, page.px(kLineDp));
     for (std::size_t i = 0; i < what.values.size(); ++i) {
       if (std::isnan(what.values[i])) continue;
-      const float x = static_cast<float>(i) * slot, y = height_of(static_cast<double>(what.values[i]));
+      const float x = float(i) * slot, y = height_of(double(what.values[i]));
       page.tree.mark({{x, y, slot, 0}, colour_of(what.values[i]), thick});
       if (i == 0 || std::isnan(what.values[i - 1])) continue;
-      const float before = height_of(static_cast<double>(what.values[i - 1]));
+      const float before = height_of(double(what.values[i - 1]));
       if (before != y)
         page.tree.mark({{x, std::min(before, y), 0, std::abs(before - y)}, colour_of(what.values[i]), thick});
     }
@@ -197,14 +188,14 @@ class Drawing {
 
 }  // namespace
 
-int PlotScale::decimals() const { return std::max(0, static_cast<int>(std::ceil(-std::log10(step) - 1e-9))); }
+int PlotScale::decimals() const { return std::max(0, int(std::ceil(-std::log10(step) - 1e-9))); }
 
 PlotScale plot_scale(std::span<const float> values, float limit) {
-  double least = 0, most = std::isnan(limit) ? 0 : static_cast<double>(limit);
+  double least = 0, most = std::isnan(limit) ? 0 : double(limit);
   for (const float value : values) {
     if (std::isnan(value)) continue;
-    least = std::min(least, static_cast<double>(value));
-    most = std::max(most, static_cast<double>(value));
+    least = std::min(least, double(value));
+    most = std::max(most, double(value));
   }
   if (most <= least) most = least + 1;
   const double rough = (most - least) / kMostSteps, power = std::pow(10, std::floor(std::log10(rough)));
@@ -214,7 +205,7 @@ PlotScale plot_scale(std::span<const float> values, float limit) {
     if (scale.step >= rough * (1 - 1e-6)) break;
   }
   scale.from = std::floor(least / scale.step + 1e-6) * scale.step;
-  scale.steps = std::max(1, static_cast<int>(std::ceil((most - scale.from) / scale.step - 1e-6)));
+  scale.steps = std::max(1, int(std::ceil((most - scale.from) / scale.step - 1e-6)));
   return scale;
 }
 

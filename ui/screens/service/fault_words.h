@@ -5,9 +5,13 @@
 // Errors: none.
 #pragma once
 
+#include <string_view>
+
 #include "hal/base/result.h"
+#include "ui/device/settings.h"
 #include "ui/language/language.h"
-#include "ui/view/log_event.h"
+#include "ui/screens/service/staff_frame.h"
+#include "ui/view/staff_views.h"
 
 namespace relievo::ui {
 
@@ -19,5 +23,15 @@ struct LogWords {
   const char* role = nullptr;
 };
 LogWords words_of(const Words& tr, LogEvent event);
+
+// What a setting and its values are called: alike on the settings page and in the log. Thread: main. Errors:
+// none.
+const char* name_of(const Words& tr, Setting setting);
+// `value` is one of info_of(setting).values.
+std::string_view said_value(StaffFrame& page, Setting setting, std::int32_t value);
+
+// A change as the log keeps it; empty where that is no setting, or no value of it
+// (an older version's).
+std::string_view said_change(StaffFrame& page, std::string_view key, std::string_view value);
 
 }  // namespace relievo::ui

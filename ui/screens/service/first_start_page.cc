@@ -3,14 +3,89 @@
 //
 // The first start: language, clock, consent text, both PINs; and the page on which somebody changes their
 // own.
-#include "ui/screens/service/pin_entry.h"
-
 #include <array>
+#include <cstdio>
 
+#include "ui/screens/parts/keyboard.h"
+#include "ui/screens/service/pin_entry.h"
 #include "ui/screens/service/staff_pages.h"
 #include "ui/view/staff_views.h"
 
 namespace relievo::ui {
+
+// The pages on which a PIN is typed: the way in, and choosing new ones.
+namespace {
+
+// As many dots as digits: nobody behind reads them.
+void dots(StaffFrame& page) {
+  Node row = page.box(Flow::Row, 14);
+  tell(row, Role::Field, "typed", page.tr("Your PIN"));
+  row.box.justify = page.portrait     ? Justify::Centre
+                    : page.mirrored() ? Justify::End
+                                      : Justify::Start;  // as the words above it
+  row.box.align = Align::Centre;
+  row.box.left_to_right = true;
+  row.box.height = page.px(36);
+  const auto in_row = page.tree.inside(row);
+  for (std::size_t i = 0; i < kMostPinDigits; ++i) {
+    const bool typed = i < page.service.typed().size();
+    Node dot = page.sized(page.box(Flow::Column), typed ? 20.0F : 12.0F, typed ? 20.0F : 12.0F);
+    dot.box.radius = page.px(10);
+    dot.box.fill = typed ? page.palette.accent : page.palette.track;
+    page.tree.leaf(dot);
+  }
+}
+
+void told(StaffFrame& page, std::string_view id, std::string_view words, Mood mood) {
+  Node node = page.text(words, type::kBody, Weight::Regular,
+                        mood == Mood::Plain ? page.palette.ink_soft : page.ink_of(mood),
+                        page.portrait ? TextAlign::Centre : TextAlign::Start);
+  node.id = id;
+  node.role = Role::Status;
+  page.tree.leaf(node);
+}
+
+PinWords words_of(StaffFrame& page) {
+  const AccessView& access = page.staff.access;
+  if (access.checking) return {page.tr("One moment, please"), {}, Mood::Plain};
+  if (access.wait_s > 0) {
+    char text[16];
+    std::snprintf(text, sizeof text, "%d", access.wait_s);
+    const char* words = page.tr.plural("Too many wrong PINs. The next try is possible in {} second.",
+                                       "Too many wrong PINs. The next try is possible in {} seconds.",
+                                       static_cast<unsigned long>(access.wait_s));
+    return {nullptr, page.filled(words, text), Mood::Bad};
+  }
+  return {page.tr("Type your PIN, then touch the tick."),
+          access.wrong ? std::string_view(page.tr("That was not right.")) : std::string_view(), Mood::Bad};
+}
+
+}  // namespace
+
+void pin_entry(StaffFrame& page, const char* title, const PinWords& words, Action done) {
+  Node room = page.grown(page.box(page.portrait ? Flow::Column : Flow::Row, space::kXl));
+  centre(room);
+  const auto in_room = page.tree.inside(room);
+  Node said = page.box(Flow::Column, space::kM);
+  said.box.width = page.px(page.portrait ? 560.0F : 440.0F);
+  page.tree.open(said);
+  const TextAlign align = page.portrait ? TextAlign::Centre : TextAlign::Start;
+  page.heading("pin title", title, type::kHeading, align);
+  if (words.hint != nullptr) told(page, "pin hint", words.hint, Mood::Plain);
+  if (!words.told.empty()) told(page, "pin state", words.told, words.mood);
+  dots(page);
+  page.tree.close();
+  number_pad(page, {"digit ", "pin done"}, done);
+}
+
+void pin_page(StaffFrame& page) {
+  page.begin(page.tr("Staff"), icon::kLock);
+  const AccessView& access = page.staff.access;
+  const bool ready = page.service.typed().size() >= kLeastPinDigits && !access.checking && access.wait_s == 0;
+  pin_entry(page, page.tr("Technician or operator"), words_of(page), ready ? Action(CheckPin{}) : Action{});
+  page.end();
+}
+
 namespace {
 
 enum FirstStartMode : int { kWelcome, kClock, kNewPins };
@@ -33,7 +108,7 @@ void welcome(StaffFrame& page) {
     const bool now = language == page.visit.language;
     if (i % abreast == 0) page.tree.open(page.box(Flow::Row, space::kS));
     page.small_button(info_of(language).code, info_of(language).own_name, now ? icon::kCheck : nullptr,
-                      ButtonLook::Quiet, {ActionKind::ChooseLanguage, static_cast<int>(i)}, 1);
+                      ButtonLook::Quiet, {ActionKind::ChooseLanguage, int(i)}, 1);
     if (i % abreast == abreast - 1 || i + 1 == kLanguages) page.tree.close();
   }
   page.tree.close();
@@ -105,22 +180,17 @@ constexpr std::array kStepTitles{
     mark_tr("Choose the operator's PIN"),   mark_tr("The operator's PIN once more"),
     mark_tr("Choose your new PIN"),         mark_tr("Your new PIN once more"),
     mark_tr("Your PIN has been changed")};
-static_assert(kStepTitles.size() == static_cast<std::size_t>(PinStep::Done) + 1);
+static_assert(kStepTitles.size() == std::size_t(PinStep::Done) + 1);
 
-const char* title_of(const Words& tr, PinStep step) {
-  return tr(kStepTitles[static_cast<std::size_t>(step)]);
-}
+const char* title_of(const Words& tr, PinStep step) { return tr(kStepTitles[std::size_t(step)]); }
 
 const char* words_of(const Words& tr, PinFault fault) {
   switch (fault) {
-    case PinFault::Differ:
-      return tr("The two were not the same. Choose again.");
+    case PinFault::Differ: return tr("The two were not the same. Choose again.");
     case PinFault::Simple:
       return tr("Too easy to guess: not one digit repeated, nothing like 1234. Choose another.");
-    case PinFault::Taken:
-      return tr("The other role already has this PIN. Choose another.");
-    case PinFault::None:
-      break;
+    case PinFault::Taken: return tr("The other role already has this PIN. Choose another.");
+    case PinFault::None: break;
   }
   return nullptr;
 }
@@ -163,5 +233,97 @@ void clock_page(StaffFrame& page) {
 }
 
 void pins_page(StaffFrame& page) { new_pin(page); }
+
+// The recovery sheet: twelve words and the same as a QR code, to be written down; then two of them are typed.
+namespace {
+
+enum RecoveryMode : int { kSheet, kTypeWord };
+
+void word(StaffFrame& page, const RecoveryView& seen, std::size_t i) {
+  Node row = page.grown(page.box(Flow::Row, space::kS));
+  row.box.left_to_right = true;  // English, and in this order
+  row.box.align = Align::Centre;
+  const auto in_row = page.tree.inside(row);
+  Node number = page.text(page.number(double(i + 1)), type::kSmall, Weight::Regular, page.palette.ink_soft,
+                          TextAlign::End);
+  number.box.width = page.px(36 * page.text_share);
+  page.tree.leaf(number);
+  Node said = page.english(seen.words[i], type::kBody);
+  said.colour = page.palette.ink;
+  page.tree.leaf(said);
+}
+
+// Downwards in columns, as the sheet is written.
+void words(StaffFrame& page, const RecoveryView& seen) {
+  const std::size_t columns = page.text_share > 1.2F ? 2 : 3, rows = seen.words.size() / columns;
+  Node card = page.box(Flow::Row, space::kM, space::kM, space::kM);
+  frame(card, page.palette.card, page.palette.card_border, page.px(1.5F), page.px(size::kRadius));
+  card.id = "words";
+  card.box.left_to_right = true;
+  const auto in_card = page.tree.inside(card);
+  for (std::size_t c = 0; c < columns; ++c) {
+    const auto in_box = page.tree.inside(page.grown(page.box(Flow::Column, space::kXs)));
+    for (std::size_t r = 0; r < rows; ++r) word(page, seen, c * rows + r);
+  }
+}
+
+void sheet(StaffFrame& page, const RecoveryView& seen) {
+  Node both = page.grown(page.box(page.portrait ? Flow::Column : Flow::Row, space::kL));
+  both.box.align = Align::Centre;
+  both.box.justify = Justify::Centre;
+  page.tree.open(both);
+  page.tree.open(page.grown(page.box(Flow::Column, space::kM), page.portrait ? 0.0F : 1.0F));
+  page.body(
+      "what",
+      page.tr(
+          "Write these words down in this order. They open the records should this device break; whoever has them and its disk can read every record."));
+  words(page, seen);
+  page.tree.close();
+  Node code = page.sized(page.box(Flow::Column), 260, 260);
+  tell(code, Role::Picture, "code", page.tr("Recovery words"));
+  code.mark = Mark::Image;
+  code.picture = PictureSlot::TechnicianLeft;
+  page.tree.leaf(code);
+  page.tree.close();
+  page.button("written", page.tr("Go on"), page.onward(), ButtonLook::Main,
+              {ActionKind::StaffMode, kTypeWord});
+}
+
+void typing(StaffFrame& page, const RecoveryView& seen) {
+  const bool busy = seen.state == SheetState::Saving;
+  Node field = page.box(Flow::Row, 3, 20, 8);
+  const std::string_view asked =
+      page.filled(page.tr("Word {} of the sheet"), page.number(double(seen.asked)));
+  tell(field, Role::Field, "word field", asked);
+  frame(field, page.palette.card, page.palette.accent, page.px(3), page.px(18));
+  field.box.min_height = page.px(56);
+  field.box.align = Align::Centre;
+  page.tree.open(field);
+  const std::string_view typed = page.service.typed();
+  page.tree.leaf(page.text(typed.empty() ? asked : typed, type::kBody, Weight::Medium,
+                           typed.empty() ? page.palette.ink_soft : page.palette.ink));
+  page.tree.close();
+  if (busy) page.status("state", page.tr("One moment, please"), Mood::Plain);
+  if (seen.state == SheetState::Wrong && typed.empty())
+    page.status("state", page.tr("That was not right."), Mood::Bad);
+  if (seen.state == SheetState::Failed) page.outcome();
+  if (page.portrait) page.space(1);
+  keyboard(page, typed.empty() || busy ? Action{} : Action(OfferWord{}), Language::English);
+}
+
+}  // namespace
+
+void recovery_page(StaffFrame& page) {
+  const RecoveryView* seen = page.staff.recovery;
+  if (seen == nullptr) return page.body("wait", page.tr("One moment, please"));
+  if (seen->state == SheetState::Done) {
+    page.status("state", page.tr("These words open the records from now on."), Mood::Good);
+    page.space(1);
+    return page.button("go on", page.tr("Go on"), page.onward(), ButtonLook::Main,
+                       {ActionKind::StaffOpen, int(StaffPage::Menu)});
+  }
+  if (page.service.mode == kTypeWord) typing(page, *seen);
+  else sheet(page, *seen);
+}
 
 }  // namespace relievo::ui

@@ -17,11 +17,9 @@ constexpr double kManyMib = 10 * 1024;  // from here on a figure is easier read,
 // In the order of Gauge.
 constexpr std::array kGaugeNames{mark_tr("Memory of the stages"), mark_tr("Memory of the whole program"),
                                  mark_tr("Disk used"), mark_tr("Temperature")};
-static_assert(kGaugeNames.size() == static_cast<std::size_t>(Gauge::Temperature) + 1);
+static_assert(kGaugeNames.size() == std::size_t(Gauge::Temperature) + 1);
 
-const char* words_of(const Words& tr, Gauge gauge) {
-  return tr(kGaugeNames[static_cast<std::size_t>(gauge)]);
-}
+const char* words_of(const Words& tr, Gauge gauge) { return tr(kGaugeNames[std::size_t(gauge)]); }
 
 constexpr std::size_t kMostSamples = 256;
 
@@ -33,10 +31,10 @@ void over_a_day(StaffFrame& page, const GaugeRow& row, Plot plot, bool gib) {
   plot.values = {values.data(), count};
   plot.look = PlotLook::Line;
   plot.unit = row.gauge == Gauge::Temperature ? "°C" : gib ? "GiB" : "MiB";
-  plot.limit = static_cast<float>(gib ? row.of / 1024 : row.of);
+  plot.limit = float(gib ? row.of / 1024 : row.of);
   std::array<std::string_view, kMostSamples> hours;
   for (std::size_t i = 0; i < count; ++i)
-    hours[i] = page.number(-24 * static_cast<double>(count - 1 - i) / static_cast<double>(count), 1, "h");
+    hours[i] = page.number(-24 * double(count - 1 - i) / double(count), 1, "h");
   plot.names = {hours.data(), count};
   plot.under = {page.number(-24, 0, "h"), page.number(-12, 0, "h"), page.tr("Now")};
   plot.figure_ink = page.ink_of(row.mood);
@@ -53,7 +51,7 @@ void gauge_row(StaffFrame& page, const GaugeRow& row, std::size_t index) {
                   row.of / 1024);
   const std::string_view value =
       row.gauge == Gauge::Temperature ? page.number(row.used, 0, "°C") : page.tree.keep(text);
-  const std::string_view id = page.tree.keep("gauge "), which = page.number(static_cast<double>(index));
+  const std::string_view id = page.tree.keep("gauge "), which = page.number(double(index));
   const char* words = words_of(page.tr, row.gauge);
   char
       named[160];  // the words outside of any isolate: they tell the direction, also in front of a Latin name
@@ -71,11 +69,9 @@ constexpr std::array kStageNames{mark_tr("Matching"),  mark_tr("Reconstruction")
                                  mark_tr("Surface"),   mark_tr("Texture"),
                                  mark_tr("Landmarks"), mark_tr("Pictures of the sides of the head"),
                                  mark_tr("Model")};
-static_assert(kStageNames.size() == static_cast<std::size_t>(CostlyStage::Count));
+static_assert(kStageNames.size() == std::size_t(CostlyStage::Count));
 
-const char* words_of(const Words& tr, CostlyStage stage) {
-  return tr(kStageNames[static_cast<std::size_t>(stage)]);
-}
+const char* words_of(const Words& tr, CostlyStage stage) { return tr(kStageNames[std::size_t(stage)]); }
 
 // Time and memory of every stage, at most in one of the last visits, and what it may take.
 void stage_rows(StaffFrame& page, const VisitCostsView& costs) {
@@ -85,13 +81,11 @@ void stage_rows(StaffFrame& page, const VisitCostsView& costs) {
     const StageCost& cost = costs.stages[i];
     if (cost.seconds <= 0) continue;
     char text[96];
-    std::snprintf(text, sizeof text, "%.1f / %.0f s  ·  %.0f / %.0f MiB", static_cast<double>(cost.seconds),
-                  static_cast<double>(costs.planned_seconds), static_cast<double>(cost.mib),
-                  static_cast<double>(costs.planned_stage_mib));
+    std::snprintf(text, sizeof text, "%.1f / %.0f s  ·  %.0f / %.0f MiB", double(cost.seconds),
+                  double(costs.planned_seconds), double(cost.mib), double(costs.planned_stage_mib));
     const bool over = cost.seconds > costs.planned_seconds || cost.mib > costs.planned_stage_mib;
-    page.row(page.joined({"cost ", page.number(static_cast<double>(i))}),
-             words_of(page.tr, static_cast<CostlyStage>(i)), page.with_numbers(text),
-             over ? Mood::Bad : Mood::Good);
+    page.row(page.joined({"cost ", page.number(double(i))}), words_of(page.tr, static_cast<CostlyStage>(i)),
+             page.with_numbers(text), over ? Mood::Bad : Mood::Good);
   }
 }
 

@@ -18,7 +18,7 @@ Action list_action(const ListRequest& request, int mode = 0) {
 }
 
 std::string_view page_number(StaffFrame& page, std::int64_t number) {
-  return page.number(static_cast<double>(number + 1));
+  return page.number(double(number + 1));
 }
 
 void stretches(StaffFrame& page, const ListPlace& place) {
@@ -32,7 +32,7 @@ void stretches(StaffFrame& page, const ListPlace& place) {
                : page.joined({isolate::kLeft, page_number(page, one.first), "\u00a0–\u00a0",
                               page_number(page, one.last), isolate::kEnd});
     const std::string_view dated = page.date(one.label);
-    const char which = static_cast<char>('0' + i);
+    const char which = char('0' + i);
     const bool here = one.first <= place.page && place.page <= one.last;
     page.row(
         page.joined({"stretch ", {&which, 1}}), dated == one.label ? page.with_numbers(one.label) : dated,
@@ -45,7 +45,7 @@ void stretches(StaffFrame& page, const ListPlace& place) {
 void filter_rows(StaffFrame& page, const ListPlace& place, ListFilters filters) {
   page.begin_list("filters");
   for (std::size_t i = 0; i < filters.size(); ++i) {
-    const char which = static_cast<char>('0' + i);
+    const char which = char('0' + i);
     const bool chosen = i == place.filter;
     page.row(page.joined({"filter ", {&which, 1}}), filters[i],
              chosen ? std::string_view(page.tr("chosen")) : std::string_view(),
@@ -63,9 +63,8 @@ void step(StaffFrame& page, std::string_view id, const char* spoken, const char*
     tell(node, Role::Button, id, spoken, list_action(GoToPage{to}));
     frame(node, page.palette.quiet, page.palette.quiet_border, page.px(2), page.px(18));
   }
-  page.tree.open(node);
+  const auto in_node = page.tree.inside(node);
   if (!ends) page.sign(letter, 28 / page.text_share, page.palette.link);
-  page.tree.close();
 }
 
 }  // namespace
@@ -82,7 +81,7 @@ void list_pager(StaffFrame& page, const ListPlace& place, ListFilters filters) {
   if (place.pages < 2 && filters.empty()) return;
   const std::int64_t last = place.pages - 1;
   const bool at_first = place.page == 0, at_last = place.page == last, turned = page.mirrored();
-  page.tree.open(page.box(Flow::Row, space::kXs));
+  const auto in_box = page.tree.inside(page.box(Flow::Row, space::kXs));
   if (place.pages > 1) {
     step(page, "first page", tr("First page"), turned ? kLastSign : kFirstSign, 0, at_first);
     step(page, "page back", tr("One page back"), page.backward(), place.page - 1, at_first);
@@ -103,7 +102,6 @@ void list_pager(StaffFrame& page, const ListPlace& place, ListFilters filters) {
     page.small_button("filter", filters[std::min(place.filter, filters.size() - 1)], kFilterSign,
                       place.filter == 0 ? ButtonLook::Quiet : ButtonLook::Main,
                       {ActionKind::StaffMode, kFiltering}, below || place.pages < 2 ? 1 : 0);
-  page.tree.close();
 }
 
 }  // namespace relievo::ui

@@ -2,7 +2,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 //
 // Who is kept here: search, look at one with the portrait to be turned, export to a stick, erase.
-#include "ui/view/records_view.h"
+#include "ui/view/staff_views.h"
 
 #include "ui/screens/parts/keyboard.h"
 #include "ui/screens/service/list_part.h"
@@ -87,7 +87,7 @@ void list(StaffFrame& page, const RecordsView& seen) {
   list_pager(page, seen.place);
   const bool narrow = page.portrait || page.text_share > 1.2F;
   const float share = narrow ? 1.0F : 0.0F;
-  page.tree.open(page.box(Flow::Row, space::kS));
+  const auto in_box = page.tree.inside(page.box(Flow::Row, space::kS));
   page.small_button("search", tr("Search"), "\uf349", ButtonLook::Main, {ActionKind::StaffMode, kTyping},
                     share);
   if (!seen.searched.empty())
@@ -101,27 +101,26 @@ void list(StaffFrame& page, const RecordsView& seen) {
   if (!seen.rows.empty())
     page.small_button("export all", tr("Export all to the stick"), "\uf553", ButtonLook::Quiet,
                       Action(ExportFound{}), share);
-  page.tree.close();
 }
 
 void portrait_of(StaffFrame& page) {
   Node card = page.grown(page.box(Flow::Stack), 1.1F);
   card.box.fill = page.palette.stage;
   card.box.radius = page.px(size::kCardRadius);
-  page.tree.open(card);
+  const auto in_card = page.tree.inside(card);
   Node face = page.box(Flow::Column);
   tell(face, Role::Picture, "face", page.tr("The model: turn it with a finger"), {ActionKind::TurnFace, 0});
   face.mark = page.staff.model == nullptr ? Mark::Shape : Mark::Face;
   face.box.radius = page.px(size::kCardRadius);
   page.tree.leaf(face);
-  page.tree.close();
 }
 
 void record(StaffFrame& page, const RecordsView& seen) {
   const auto& tr = page.tr;
-  page.tree.open(page.grown(page.box(page.portrait ? Flow::Column : Flow::Row, space::kM)));
+  const auto in_box =
+      page.tree.inside(page.grown(page.box(page.portrait ? Flow::Column : Flow::Row, space::kM)));
   portrait_of(page);
-  page.tree.open(page.grown(page.box(Flow::Column, space::kS)));
+  const auto in_box_2 = page.tree.inside(page.grown(page.box(Flow::Column, space::kS)));
   page.begin_panel("record");
   page.row("name", seen.shown->name, {});
   page.row("code", tr("Code for the erasure"), seen.shown->code);
@@ -135,8 +134,6 @@ void record(StaffFrame& page, const RecordsView& seen) {
                     Action(ExportRecord{seen.shown->number}));
   page.small_button("erase", tr("Erase this record"), icon::kBin, ButtonLook::Quiet,
                     {ActionKind::StaffMode, kErasing});
-  page.tree.close();
-  page.tree.close();
 }
 
 }  // namespace

@@ -42,34 +42,26 @@ constexpr std::array kOutcomes{
     SaidOutcome{mark_tr("This cannot be accepted.")},
     SaidOutcome{mark_tr("It could not be done. The log says why.")},
 };
-static_assert(kOutcomes.size() == static_cast<std::size_t>(Outcome::Failed));
+static_assert(kOutcomes.size() == std::size_t(Outcome::Failed));
 
 }  // namespace
 
 Colour StaffFrame::ink_of(Mood mood) const {
   switch (mood) {
-    case Mood::Good:
-      return palette.good;
-    case Mood::Warn:
-      return palette.warn;
-    case Mood::Bad:
-      return palette.bad;
-    case Mood::Plain:
-      break;
+    case Mood::Good: return palette.good;
+    case Mood::Warn: return palette.warn;
+    case Mood::Bad: return palette.bad;
+    case Mood::Plain: break;
   }
   return palette.ink;
 }
 
 const char* StaffFrame::sign_of(Mood mood) const {
   switch (mood) {
-    case Mood::Good:
-      return icon::kGood;
-    case Mood::Warn:
-      return icon::kInfo;
-    case Mood::Bad:
-      return icon::kAlert;
-    case Mood::Plain:
-      break;
+    case Mood::Good: return icon::kGood;
+    case Mood::Warn: return icon::kInfo;
+    case Mood::Bad: return icon::kAlert;
+    case Mood::Plain: break;
   }
   return nullptr;
 }
@@ -87,13 +79,11 @@ void StaffFrame::begin(const char* title, const char* letter) {
   const auto name_page = [&] {
     Node name = grown(box(Flow::Row, space::kS));
     name.box.align = Align::Centre;
-    tree.open(name);
+    const auto in_name = tree.inside(name);
     if (letter != nullptr) sign(letter, 34 / text_share, palette.accent);
-    tree.open(grown(box(Flow::Column)));
+    const auto in_box = tree.inside(grown(box(Flow::Column)));
     if (staff.leaves_in_s > 0) leaving();
     else heading("title", title, portrait || text_share < 1.3F ? type::kHeading : type::kBody);
-    tree.close();
-    tree.close();
   };
   if (portrait) space(1);
   else name_page();
@@ -104,9 +94,8 @@ void StaffFrame::begin(const char* title, const char* letter) {
     Node row = box(Flow::Row);
     row.box.min_height =
         px(2 * type::kSmall * text_share) * type::kLines.apart;  // of what may stand in the title's place
-    tree.open(row);
+    const auto in_row = tree.inside(row);
     name_page();
-    tree.close();
   }
 }
 
@@ -132,7 +121,7 @@ void StaffFrame::progress(std::string_view id, float share) {
   track.box.height = px(14);
   track.box.radius = px(7);
   track.box.fill = palette.track;
-  tree.open(track);
+  const auto in_track = tree.inside(track);
   if (done > 0) {
     Node bar = grown(box(Flow::Column), std::max(0.02F, done));
     bar.box.radius = px(7);
@@ -140,12 +129,11 @@ void StaffFrame::progress(std::string_view id, float share) {
     tree.leaf(bar);
   }
   if (done < 1) space(1 - done);
-  tree.close();
 }
 
 void StaffFrame::outcome() {
   if (staff.work.outcome == Outcome::None) return;
-  const SaidOutcome& said = kOutcomes[static_cast<std::size_t>(staff.work.outcome) - 1];
+  const SaidOutcome& said = kOutcomes[std::size_t(staff.work.outcome) - 1];
   status("outcome", tr(said.words), said.mood);
 }
 
@@ -153,12 +141,10 @@ void StaffFrame::status(std::string_view id, std::string_view words, Mood mood) 
   Node row = box(Flow::Row, space::kS, 0, 4);
   tell(row, Role::Status, id, words);
   row.box.align = Align::Centre;
-  tree.open(row);
+  const auto in_row = tree.inside(row);
   if (const char* letter = sign_of(mood)) sign(letter, 28, ink_of(mood));
-  tree.open(grown(box(Flow::Column)));
+  const auto in_box = tree.inside(grown(box(Flow::Column)));
   tree.leaf(text(words, type::kSmall, Weight::Medium, ink_of(mood)));
-  tree.close();
-  tree.close();
 }
 
 void StaffFrame::asked(const char* title, const About* about, const char* words, const char* hint) {
@@ -218,10 +204,9 @@ void StaffFrame::held_button(std::string_view id, std::string_view label, Action
   node.filling = palette.bad;
   node.box.grow = grow;
   node.box.min_height = px(kSize.height);
-  tree.open(node);
+  const auto in_node = tree.inside(node);
   sign(icon::kBin, kSize.sign, palette.bad);
   tree.leaf(text(label, kSize.text, Weight::Medium, palette.bad, TextAlign::Centre));
-  tree.close();
 }
 
 }  // namespace relievo::ui

@@ -54,11 +54,10 @@ void StaffFrame::row(std::string_view id, std::string_view label, std::string_vi
     Node end = box(Flow::Row, space::kXs);
     end.box.justify = Justify::End;
     end.box.align = Align::Centre;
-    tree.open(end);
+    const auto in_end = tree.inside(end);
     if (const char* letter = sign_of(mood)) sign(letter, 24, ink_of(mood));
     tree.leaf(text(filled("{}", value), type::kSmall, Weight::Regular,
                    mood == Mood::Plain ? palette.ink_soft : ink_of(mood), TextAlign::End));
-    tree.close();
   }
   tree.close();
   if (action.kind != ActionKind::None) sign(onward(), 24, palette.link);
@@ -88,9 +87,8 @@ void StaffFrame::step_button(std::string_view id, const char* end, const char* s
   centre(node);
   frame(node, dead ? Colour{} : palette.quiet, dead ? Colour{} : palette.quiet_border,
         dead ? 0 : std::max(1.5F, px(2)), px(18));
-  tree.open(node);
+  const auto in_node = tree.inside(node);
   if (!dead) sign(letter, 30, palette.link);
-  tree.close();
 }
 
 void StaffFrame::stepper(std::string_view id, std::string_view label, std::string_view value,
@@ -136,12 +134,11 @@ void StaffFrame::plot(const Plot& what) {
 void StaffFrame::nothing(std::string_view id, const char* letter, std::string_view words) {
   Node room = grown(box(Flow::Column, space::kS, space::kL, space::kL));
   centre(room);
-  tree.open(room);
+  const auto in_room = tree.inside(room);
   sign(letter, 64 / text_share, palette.track);
   Node said = text(words, type::kBody, Weight::Regular, palette.ink_soft, TextAlign::Centre);
   said.id = id;
   tree.leaf(said);
-  tree.close();
 }
 
 void StaffFrame::section(std::string_view words) {

@@ -8,7 +8,6 @@
 #include <cstdio>
 
 #include "ui/screens/service/fault_words.h"
-#include "ui/screens/service/setting_words.h"
 #include "ui/screens/service/staff_frame.h"
 #include "ui/view/staff_views.h"
 
@@ -25,7 +24,7 @@ bool is_digit(char c) { return std::isdigit(static_cast<unsigned char>(c)) != 0;
 
 // How many digits stand at the beginning.
 std::size_t digits(std::string_view text) {
-  return static_cast<std::size_t>(std::find_if_not(text.begin(), text.end(), is_digit) - text.begin());
+  return std::size_t(std::ranges::find_if_not(text, is_digit) - text.begin());
 }
 
 // "2026-03-14…"
@@ -154,7 +153,7 @@ void StaffFrame::logged(const LogLine& what) {
   row.box.align = Align::Start;
   row.role = what.fault ? Role::Status : Role::Group;
   if (what.fault) row.name = tr("Fault");
-  tree.open(row);
+  const auto in_row = tree.inside(row);
   // Columns: all times are as wide as each other, and the sign has its room where there is none.
   Node time = text(date(what.at), 18, Weight::Regular, palette.ink_soft);
   time.style.tabular = true;
@@ -164,12 +163,10 @@ void StaffFrame::logged(const LogLine& what) {
   tree.open(mark);
   if (what.fault) sign(icon::kAlert, 18, ink_of(Mood::Warn));
   tree.close();
-  tree.open(grown(box(Flow::Column)));
+  const auto in_box = tree.inside(grown(box(Flow::Column)));
   if (what.code || what.event)
     tree.leaf(text(noted(what), 18, Weight::Regular, ink_of(what.fault ? Mood::Warn : Mood::Plain)));
   if (!what.event) tree.leaf(english(what.text, 17));
-  tree.close();
-  tree.close();
 }
 
 }  // namespace relievo::ui

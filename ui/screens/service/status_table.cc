@@ -25,8 +25,8 @@ Mood grave_before_people(View view, bool wrong) {
 }
 double least_mib(View view) { return view.settings.of(Setting::LeastRoomMib); }
 std::size_t languages_of(View view) {
-  return static_cast<std::size_t>(std::count_if(view.consent->in.begin(), view.consent->in.end(),
-                                                [](const auto& one) { return one.has_value(); }));
+  return std::size_t(
+      std::ranges::count_if(view.consent->in, [](const auto& one) { return one.has_value(); }));
 }
 std::string_view free_room(StaffFrame& page, Status seen) { return page.number(seen.free_mib, 0, "MiB"); }
 

@@ -2,34 +2,153 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 //
 // What a technician lets the device say of itself: self-test, trigger test, log.
-#include "ui/screens/service/fault_words.h"
-
 #include <array>
 
+#include "ui/screens/service/fault_words.h"
 #include "ui/screens/service/list_part.h"
+#include "ui/screens/service/pin_entry.h"
 #include "ui/screens/service/staff_pages.h"
 #include "ui/view/staff_views.h"
 
 namespace relievo::ui {
+
+// How many came, what became of it, and how long it took: numbers, nobody's name.
+namespace {
+
+// In the order of Refusal.
+constexpr std::array kRefusalWords{mark_tr("No face found"),
+                                   mark_tr("Too little could be matched"),
+                                   mark_tr("The measurement is not good enough"),
+                                   mark_tr("Not enough memory"),
+                                   mark_tr("A camera does not answer"),
+                                   mark_tr("It took too long"),
+                                   mark_tr("Another reason")};
+static_assert(kRefusalWords.size() == std::size_t(Refusal::Count));
+
+const char* words_of(const Words& tr, Refusal refusal) { return tr(kRefusalWords[std::size_t(refusal)]); }
+
+void days(StaffFrame& page, const StatisticsView& seen) {
+  std::array<std::string_view, kStatisticsDays> dates;
+  for (std::size_t i = 0; i < dates.size(); ++i) dates[i] = page.date(seen.days.date[i].data());
+  std::uint64_t refused = 0;
+  for (const std::uint64_t count : seen.refused) refused += count;
+  const auto count = [&](std::string_view id, const char* title, std::uint64_t all, const auto& values) {
+    Plot plot;
+    plot.id = id, plot.title = title, plot.figure = page.number(double(all));
+    plot.values = values, plot.names = dates;
+    page.plot(plot);
+  };
+  count("visits", page.tr("Visits begun"), seen.visits, seen.days.visits);
+  count("stored", page.tr("Portraits kept"), seen.stored, seen.days.stored);
+  count("refused", page.tr("Refused captures"), refused, seen.days.refused);
+}
+
+}  // namespace
+
+void statistics_page(StaffFrame& page) {
+  const auto& tr = page.tr;
+  const StatisticsView* seen = page.staff.statistics;
+  page.begin_list("statistics");
+  if (seen == nullptr) {
+    page.line(tr("One moment, please"));
+    return page.tree.close();
+  }
+  const auto count = [&](std::uint64_t value) { return page.number(double(value)); };
+  page.row("since", tr("Counted since"), page.date(seen->since));
+  page.row("captures", tr("Captures"), count(seen->captures));
+  page.row("models", tr("Portraits made"), count(seen->models));
+  page.row("left", tr("Visits left early"), count(seen->left));
+  days(page, *seen);
+  for (std::size_t i = 0; i < kRefusals; ++i) {
+    if (seen->refused[i] == 0) continue;
+    const auto refusal = static_cast<Refusal>(i);
+    const std::string_view id = page.tree.keep("refused "), which = page.number(double(i));
+    page.row({id.data(), id.size() + which.size()}, words_of(tr, refusal), count(seen->refused[i]));
+  }
+  page.section(tr("From the pictures to the portrait"));
+  page.row("median", tr("Half of them are faster than"),
+           seen->median_s > 0 ? page.number(seen->median_s, 1, "s") : std::string_view("–"));
+  page.row("slow", tr("Nine of ten are faster than"),
+           seen->slow_s > 0 ? page.number(seen->slow_s, 1, "s") : std::string_view("–"));
+  page.tree.close();
+}
+
+// Which consent text visitors read, and how the operator's own comes from a stick: the operator's page, and a
+// step of the first start.
+namespace {
+
+constexpr const char* kFetch = "\uf553";
+
+// Every language with the title its visitors read.
+void titles(StaffFrame& page, const ConsentTexts& own) {
+  for (std::size_t i = 0; i < kLanguages; ++i) {
+    const auto language = static_cast<Language>(i);
+    const ConsentText* text = own.of(language);
+    if (text != nullptr) page.row(info_of(language).code, info_of(language).own_name, text->title);
+  }
+}
+
+void ended(StaffFrame& page, const ConsentTextsView& seen) {
+  const auto& tr = page.tr;
+  if (seen.taking) return page.status("outcome", tr("One moment, please"), Mood::Plain);
+  if (seen.outcome == Outcome::None) return;
+  if (seen.outcome == Outcome::Done)
+    return page.status("outcome", tr("Visitors read the text that is on the stick."), Mood::Good);
+  if (seen.outcome == Outcome::NoStick) {
+    page.status("outcome", tr("There is no stick. Plug one in, then try again."), Mood::Bad);
+  } else if (seen.outcome == Outcome::StickGone) {
+    page.status("outcome", tr("The stick was pulled out too early. Plug it in, then try again."), Mood::Bad);
+  } else if (seen.fault != nullptr) {
+    page.status("outcome", words_of(tr, seen.fault->code), Mood::Bad);
+    page.detail(seen.fault->detail);
+  }
+  page.line(tr("Nothing was changed."));
+}
+
+}  // namespace
+
+void consent_in_force(StaffFrame& page) {
+  const auto& tr = page.tr;
+  const ConsentTexts* own = page.view.consent;
+  page.begin_list("consent");
+  if (page.staff.consent != nullptr) ended(page, *page.staff.consent);
+  if (own == nullptr)
+    page.status("in force", tr("Visitors read our sample. No lawyer has reviewed it; it says so."),
+                Mood::Warn);
+  else
+    page.status("in force",
+                page.filled(tr("Visitors read your text, version {}. They are offered these languages:"),
+                            own->version),
+                Mood::Good);
+  if (own != nullptr) titles(page, *own);
+  page.section(tr("A text of your own"));
+  page.line(tr(
+      "On a stick, in the folder consent/VERSION, a file for each language, saved as UTF-8: en.txt, de.txt, fr.txt, es.txt, ar.txt, he.txt, zh-Hans.txt, ja.txt. VERSION is a name of your choice, such as 2026-03; of several the last in order is taken."));
+  page.line(tr(
+      "The first line is the title. Then, after an empty line each, the points: a title, and the words below it."));
+  page.tree.close();
+  const bool busy = page.staff.consent == nullptr || page.staff.consent->taking;
+  page.small_button("take consent", tr("Load from the stick"), kFetch, ButtonLook::Quiet,
+                    busy ? Action{} : Action(TakeConsentText{}));
+}
+
+void consent_text_page(StaffFrame& page) { consent_in_force(page); }
+
 namespace {
 
 // In the order of Check.
 constexpr std::array kCheckNames{mark_tr("Memory"), mark_tr("Store"), mark_tr("Calibration"),
                                  mark_tr("Room on the disk"), mark_tr("Cameras")};
-static_assert(kCheckNames.size() == static_cast<std::size_t>(Check::Count));
+static_assert(kCheckNames.size() == std::size_t(Check::Count));
 
-const char* words_of(const Words& tr, Check check) {
-  return tr(kCheckNames[static_cast<std::size_t>(check)]);
-}
+const char* words_of(const Words& tr, Check check) { return tr(kCheckNames[std::size_t(check)]); }
 
 // In the order of CheckState.
 constexpr std::array kCheckWords{mark_tr("Not tested"), mark_tr("Being tested"), mark_tr("In order"),
                                  mark_tr("Not in order")};
-static_assert(kCheckWords.size() == static_cast<std::size_t>(CheckState::Bad) + 1);
+static_assert(kCheckWords.size() == std::size_t(CheckState::Bad) + 1);
 
-const char* words_of(const Words& tr, CheckState state) {
-  return tr(kCheckWords[static_cast<std::size_t>(state)]);
-}
+const char* words_of(const Words& tr, CheckState state) { return tr(kCheckWords[std::size_t(state)]); }
 
 Mood mood_of(CheckState state) {
   return state == CheckState::Good ? Mood::Good : state == CheckState::Bad ? Mood::Bad : Mood::Plain;
@@ -37,7 +156,7 @@ Mood mood_of(CheckState state) {
 
 std::string_view numbered(StaffFrame& page, const char* what, std::size_t number) {
   const std::string_view first = page.tree.keep(what);
-  const char digit = static_cast<char>('0' + number);
+  const char digit = char('0' + number);
   return {first.data(), first.size() + page.tree.keep({&digit, 1}).size()};
 }
 
@@ -65,10 +184,10 @@ void trigger_page(StaffFrame& page) {
   page.body("what", tr("Ten pulses: does each reach both cameras? The lamp stays off."));
   page.begin_list("trigger");
   if (const TriggerView* seen = page.staff.trigger) {
-    const auto count = [&](std::uint64_t value) { return page.number(static_cast<double>(value)); };
+    const auto count = [&](std::uint64_t value) { return page.number(double(value)); };
     const bool all = seen->pairs == seen->pulses;
-    page.row("pulses", tr("Pulses given"), count(static_cast<std::uint64_t>(seen->pulses)));
-    page.row("pairs", tr("Pairs seen"), count(static_cast<std::uint64_t>(seen->pairs)),
+    page.row("pulses", tr("Pulses given"), count(std::uint64_t(seen->pulses)));
+    page.row("pairs", tr("Pairs seen"), count(std::uint64_t(seen->pairs)),
              seen->pulses == 0 ? Mood::Plain
              : all             ? Mood::Good
                                : Mood::Bad);

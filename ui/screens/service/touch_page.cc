@@ -4,10 +4,75 @@
 // The touch screen's correction: crosses to be touched, what came of it.
 #include <cstdio>
 
+#include "ui/device/settings.h"
 #include "ui/device/touch_map.h"
+#include "ui/screens/service/fault_words.h"
 #include "ui/screens/service/staff_pages.h"
 
 namespace relievo::ui {
+
+// What the staff may choose about the device, a row each: less, the value, more.
+namespace {
+
+void chooser(StaffFrame& page, const Settings& settings, Setting setting) {
+  const SettingInfo& info = info_of(setting);
+  const auto ask = [&](bool more) {
+    const bool end = settings.beside(setting, more ? 1 : -1) == settings.of(setting);
+    return end ? Action{} : Action(ChangeSetting{setting, more});
+  };
+  page.stepper(info.key, name_of(page.tr, setting), said_value(page, setting, settings.of(setting)),
+               icon::kLess, ask(false), icon::kMore, ask(true));
+}
+
+void group(StaffFrame& page, const char* title, std::span<const Setting> settings) {
+  const bool technician = page.staff.role == StaffRole::Technician;
+  bool titled = false;
+  for (const Setting setting : settings) {
+    const SettingInfo& info = info_of(setting);
+    if (!(technician ? info.technician : info.clerk)) continue;
+    if (!titled) page.section(title);
+    titled = true;
+    chooser(page, page.staff.settings->settings, setting);
+  }
+}
+
+void said(StaffFrame& page) {
+  if (page.staff.work.outcome != Outcome::Done) return page.outcome();
+  page.status("outcome", page.tr("It applies from now on."), Mood::Good);
+}
+
+}  // namespace
+
+void settings_page(StaffFrame& page) {
+  const auto& tr = page.tr;
+  if (page.staff.settings == nullptr) return page.body("wait", tr("One moment, please"));
+  said(page);
+  page.begin_list("settings");
+  group(page, tr("How a visit begins"),
+        std::array{Setting::Language, Setting::TextPercent, Setting::Contrast});
+  group(page, tr("Waiting"), std::array{Setting::PatienceS, Setting::StaffPatienceS});
+  group(page, tr("Pictures"),
+        std::array{Setting::Automatic, Setting::CountdownMs, Setting::Sides, Setting::Attempts});
+  group(page, tr("Records"), std::array{Setting::TellsKnown, Setting::KeepDays, Setting::LeastRoomMib});
+  if (page.staff.role == StaffRole::Operator && page.staff.settings->settings.is_on(Setting::KeepDays))
+    page.line(tr(
+        "Counted from the newest consent. What is older is erased once a day, while nobody is at the screen."));
+  if (page.staff.role == StaffRole::Operator) {
+    page.section(tr("Consent"));
+    const ConsentTexts* own = page.view.consent;
+    page.row("consent", tr("Consent text"),
+             own != nullptr ? std::string_view(own->version) : tr("our sample, not reviewed"),
+             own != nullptr ? Mood::Plain : Mood::Warn, {ActionKind::StaffOpen, int(StaffPage::Consent)});
+  }
+  group(page, tr("Export to the stick"), std::array{Setting::Solids});
+  group(page, tr("What is heard and what moves"), std::array{Setting::Sounds, Setting::Motion});
+  if (page.staff.settings->clock_jumped)
+    page.line(
+        tr("The clock has jumped ahead: nothing is erased. Check the clock, then choose the time again."),
+        Mood::Warn);
+  page.tree.close();
+}
+
 namespace {
 
 constexpr const char* kCross = "\uf1a3";
@@ -19,12 +84,9 @@ struct Told {
 
 Told told(const Words& tr, TouchVerdict verdict) {
   switch (verdict) {
-    case TouchVerdict::None:
-      break;
-    case TouchVerdict::Kept:
-      return {tr("The test cross was hit. The correction is kept."), Mood::Good};
-    case TouchVerdict::Plain:
-      return {tr("The touch screen is taken as it is."), Mood::Good};
+    case TouchVerdict::None: break;
+    case TouchVerdict::Kept: return {tr("The test cross was hit. The correction is kept."), Mood::Good};
+    case TouchVerdict::Plain: return {tr("The touch screen is taken as it is."), Mood::Good};
     case TouchVerdict::NobodyTouched:
       return {tr("Nobody touched the cross. Nothing has changed."), Mood::Warn};
     case TouchVerdict::Misfit:
@@ -43,7 +105,7 @@ Told told(const Words& tr, TouchVerdict verdict) {
 void crosses(StaffFrame& page, const TouchView& seen) {
   Node room = page.grown(page.box(Flow::Stack));
   room.id = "crosses";
-  page.tree.open(room);
+  const auto in_room = page.tree.inside(room);
   Node middle = page.box(Flow::Column, space::kS);
   middle.pinned = true;
   middle.pin_x = middle.pin_y = 0.5F;
@@ -70,10 +132,8 @@ void crosses(StaffFrame& page, const TouchView& seen) {
   cross.pinned = true;
   cross.pin_x = at.x;
   cross.pin_y = at.y;
-  page.tree.open(cross);
+  const auto in_cross = page.tree.inside(cross);
   page.sign(kCross, 72 / page.text_share, test ? page.palette.good : page.palette.accent);
-  page.tree.close();
-  page.tree.close();
 }
 
 void figures(StaffFrame& page, const TouchView& seen) {
@@ -102,12 +162,11 @@ void touch_page(StaffFrame& page) {
     page.status("verdict", said.words, said.mood);
   figures(page, *seen);
   const bool upright = page.portrait || page.text_share > 1.2F;
-  page.tree.open(page.box(upright ? Flow::Column : Flow::Row, space::kS));
+  const auto in_box = page.tree.inside(page.box(upright ? Flow::Column : Flow::Row, space::kS));
   page.small_button("begin", tr("Touch the crosses"), kCross, ButtonLook::Main, Action(BeginTouchTrial{}));
   if (seen->corrected)
     page.small_button("plain", tr("Take the panel as it is"), nullptr, ButtonLook::Quiet,
                       Action(TakePlainTouch{}));
-  page.tree.close();
 }
 
 }  // namespace relievo::ui

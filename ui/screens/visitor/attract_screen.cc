@@ -14,20 +14,18 @@ void host(Page& page) {
   constexpr float kSignHigh = 64, kMostAcross = 4;
   Node row = page.box(Flow::Row, space::kM);
   row.box.align = Align::Centre;
-  page.tree.open(row);
+  const auto in_row = page.tree.inside(row);
   if (!host.sign.empty()) {
-    const float aspect = std::min(
-        kMostAcross, static_cast<float>(host.sign_width_px) / static_cast<float>(host.sign_height_px));
+    const float aspect = std::min(kMostAcross, float(host.sign_width_px) / float(host.sign_height_px));
     Node card = page.box(Flow::Column, 0, 10, 10);
     card.box.fill = {255, 255, 255, 255};
     card.box.radius = page.px(14);
-    page.tree.open(card);
+    const auto in_card = page.tree.inside(card);
     Node sign = page.sized(page.box(Flow::Column), kSignHigh * aspect, kSignHigh);
     sign.mark = Mark::Image;
     sign.picture = PictureSlot::Sign;
-    sign.aspect = static_cast<float>(host.sign_width_px) / static_cast<float>(host.sign_height_px);
+    sign.aspect = float(host.sign_width_px) / float(host.sign_height_px);
     page.tree.leaf(sign);
-    page.tree.close();
   }
   page.tree.open(page.grown(page.box(Flow::Column)));
   Node name = page.text(page.filled("{}", host.name), type::kBody, Weight::Bold, page.palette.good);
@@ -35,7 +33,6 @@ void host(Page& page) {
   page.tree.leaf(name);
   page.tree.close();
   page.tree.leaf(page.sized(page.box(Flow::Column), size::kTarget, 1));  // the staff's way in stands there
-  page.tree.close();
 }
 
 void face(Page& page) {
@@ -51,7 +48,7 @@ void face(Page& page) {
 void tools(Page& page) {
   Node row = page.box(Flow::Row, space::kS);
   row.box.justify = Justify::End;
-  page.tree.open(row);
+  const auto in_row = page.tree.inside(row);
   if ((page.view.languages & page.view.voices).any())
     page.square_button("speech", page.tr("Read aloud"), icon::kSpeaker, {ActionKind::Speech, 0},
                        page.visit.spoken ? page.tr("yes") : page.tr("no"));
@@ -60,7 +57,6 @@ void tools(Page& page) {
   page.within_reach();
   page.privacy();
   page.square_button("help", page.tr("Help"), icon::kHelp, {ActionKind::ShowHelp, 0});
-  page.tree.close();
 }
 
 // All languages are to be seen, each in its own letters; where large letters leave no room, behind one
@@ -78,7 +74,7 @@ void words(Page& page) {
   column.box.grow = page.portrait ? 0 : 1.1F;
   column.box.justify = Justify::Centre;
   column.box.shrink = true;
-  page.tree.open(column);
+  const auto in_column = page.tree.inside(column);
   const bool tight = !page.portrait && page.text_share > 1.3F;
   Node said = page.box(Flow::Column, space::kM);
   said.id = "said";
@@ -98,7 +94,6 @@ void words(Page& page) {
   page.button("start", page.tr("Start"), page.onward(), ButtonLook::Main, {ActionKind::Start, 0});
   languages(page);
   if (page.portrait) tools(page);
-  page.tree.close();
 }
 
 }  // namespace
@@ -113,17 +108,118 @@ void attract_screen(Page& page) {
   if (page.portrait) host(page), face(page);
   words(page);
   if (!page.portrait) {
-    page.tree.open(page.grown(page.box(Flow::Column, space::kM)));
+    const auto in_box = page.tree.inside(page.grown(page.box(Flow::Column, space::kM)));
     host(page);
     face(page);
     tools(page);
-    page.tree.close();
   }
   page.tree.close();
   if (!page.visit.rests(page.view.now)) return;
   Node night = page.box(Flow::Column);
   night.box.fill = {0, 0, 0, 150};
   page.tree.leaf(night);
+}
+
+// What happens, what is kept, and the question. No camera has run before the answer.
+namespace {
+
+constexpr float kBadge = 76;
+
+bool side_by_side(const Page& page) { return !page.portrait && page.text_share < 1.3F; }
+
+void badge(Page& page, const char* letter) {
+  Node box = page.sized(page.box(Flow::Column), kBadge, kBadge);
+  box.box.justify = Justify::Centre;
+  box.box.fill = page.palette.accent.with_alpha(0.12F);
+  box.box.radius = page.px(kBadge / 4);
+  const auto in_box = page.tree.inside(box);
+  Node sign =
+      page.text(letter, kBadge / 2 / page.text_share, Weight::Regular, page.palette.link, TextAlign::Centre);
+  sign.role = Role::Icon;
+  sign.style.icon = true;
+  page.tree.leaf(sign);
+}
+
+void point(Page& page, const char* letter, std::string_view title, std::string_view words) {
+  Node row = page.box(Flow::Row, space::kM, 22, side_by_side(page) ? 26 : 18);
+  row.box.align = side_by_side(page) ? Align::Start : Align::Centre;  // titles of neighbours on one line
+  row.box.fill = page.palette.card;
+  row.box.border = page.palette.card_border;
+  row.box.border_px = page.px(1.5F);
+  row.box.radius = page.px(size::kRadius);
+  row.box.grow = 1;
+  const auto in_row = page.tree.inside(row);
+  if (letter != nullptr) badge(page, letter);
+  Node column = page.grown(page.box(Flow::Column, 4));
+  const auto in_column = page.tree.inside(column);
+  page.tree.leaf(page.text(title, type::kBody, Weight::Bold, page.palette.ink));
+  if (!words.empty()) page.tree.leaf(page.text(words, 22, Weight::Regular, page.palette.ink_soft));
+}
+
+void points(Page& page) {
+  const auto& tr = page.tr;
+  const bool two = side_by_side(page);
+  const auto open_row = [&] {
+    if (two) page.tree.open(page.grown(page.box(Flow::Row, space::kS)));
+  };
+  const auto close_row = [&] {
+    if (two) page.tree.close();
+  };
+  open_row();
+  point(
+      page, icon::kCamera, tr("We photograph your head"),
+      tr("Two cameras photograph your face at the same moment, and its sides if you turn your head. Nothing is photographed until you say yes."));
+  point(page, icon::kShape, tr("You look at it first"),
+        tr("This device computes a 3D portrait from it. Nothing leaves the device for this."));
+  close_row();
+  open_row();
+  point(page, icon::kDisk, tr("You decide what is kept"),
+        tr("Only if you accept it are the portrait, your name and this consent stored, on this device."));
+  point(page, icon::kBin, tr("You can have it erased"),
+        tr("You get a code. Quote it to the staff at any time and everything about you is erased."));
+  close_row();
+}
+
+// The operator's own words, one under the other, as they wrote them.
+void own_points(Page& page, const ConsentText& own) {
+  for (const ConsentPoint& said : own.points) point(page, nullptr, said.title, said.words);
+}
+
+}  // namespace
+
+void consent_screen(Page& page) {
+  const auto& tr = page.tr;
+  page.begin(true);
+  const ConsentText* own =
+      page.view.consent != nullptr ? page.view.consent->of(page.visit.language) : nullptr;
+  Node top = page.box(Flow::Row, space::kM);
+  top.box.wrap = true;
+  top.box.align = Align::Centre;
+  page.tree.open(top);
+  page.tree.open(page.grown(page.box(Flow::Column)));
+  page.heading("title", own != nullptr ? std::string_view(own->title) : tr("What happens here"));
+  page.tree.close();
+  page.cameras();
+  page.tree.close();
+  Node list = page.grown(page.box(Flow::Column, space::kS));
+  list.id = kToRead;
+  list.box.scroll = list.box.even = true;
+  page.tree.open(list);
+  if (own != nullptr) own_points(page, *own);
+  else points(page);
+  if (own == nullptr)
+    page.tree.leaf(page.text(tr("Sample text, not reviewed by a lawyer: the operator puts their own here."),
+                             type::kSmall, Weight::Regular, page.palette.ink_soft));
+  page.tree.close();
+  page.tree.open(page.sided(page.box(page.portrait ? Flow::Column : Flow::Row, space::kM)));
+  const float grow = page.portrait ? 0.0F : 1.0F;
+  page.button("decline", tr("No, thank you"), nullptr, ButtonLook::Quiet, {ActionKind::Decline, 0}, grow);
+  if (page.visit.has_read())
+    page.button("agree", tr("I agree"), icon::kGood, ButtonLook::Main, {ActionKind::Agree, 0}, 1.6F * grow);
+  else
+    page.button("read_on", tr("Go on"), icon::kDown, ButtonLook::Quiet, {ActionKind::ReadOn, 0}, 1.6F * grow);
+  page.tree.close();
+  page.end();
 }
 
 }  // namespace relievo::ui

@@ -17,11 +17,10 @@ constexpr float kCorner = 16;  // as the staff's way in has it (staff_entrance)
 void tools(Page& page) {
   Node row = page.sided(page.box(Flow::Row, space::kS));
   row.box.justify = Justify::End;
-  page.tree.open(row);
+  const auto in_row = page.tree.inside(row);
   page.reading_tools();
   if (page.view.service != nullptr && page.visit.step == Step::Trouble)
     page.tree.leaf(page.sized(page.box(Flow::Column), size::kTarget, 1));
-  page.tree.close();
 }
 
 // One column in the middle of the page, with a sign on top.
@@ -114,8 +113,7 @@ Words4 words_of(const Page& page) {
           icon::kAgain, tr("This device has just restarted"),
           tr("If you were in the middle of a portrait, please begin again: nothing of it was kept. Portraits stored earlier are safe.")};
     case Trouble::None:
-    case Trouble::Other:
-      break;
+    case Trouble::Other: break;
   }
   return {icon::kAlert, tr("This device needs help"),
           tr("Please tell the staff. This device tries again by itself. Nothing about you was kept.")};
@@ -126,14 +124,14 @@ void receipt(Page& page) {
   const auto& tr = page.tr;
   Node row = page.box(Flow::Row);
   row.box.justify = Justify::Centre;
-  page.tree.open(row);
+  const auto in_row = page.tree.inside(row);
   Node card = page.box(page.portrait ? Flow::Column : Flow::Row, space::kM, 32, 16);
   tell(card, Role::Group, "code", tr("Your code"));
   card.value = page.spelled(page.view.receipt);
   card.secret = true;
   card.box.align = Align::Centre;
   frame(card, page.palette.card, page.palette.accent, page.px(3), page.px(size::kCardRadius));
-  page.tree.open(card);
+  const auto in_card = page.tree.inside(card);
   page.tree.open(page.box(Flow::Column, 4));
   page.tree.leaf(
       page.text(tr("Your code"), type::kSmall, Weight::Medium, page.palette.ink_soft, TextAlign::Centre));
@@ -153,8 +151,6 @@ void receipt(Page& page) {
     qr.aspect = 1;
     page.tree.leaf(qr);
   }
-  page.tree.close();
-  page.tree.close();
 }
 
 // On paper, where there is a printer.
@@ -162,19 +158,11 @@ void printing(Page& page) {
   const auto& tr = page.tr;
   const char* said = nullptr;
   switch (page.view.printing) {
-    case Printing::None:
-      return;
-    case Printing::Busy:
-      said = tr("One moment, please");
-      break;
-    case Printing::Done:
-      said = tr("It has been printed");
-      break;
-    case Printing::Failed:
-      said = tr("It could not be printed");
-      break;
-    case Printing::Ready:
-      break;
+    case Printing::None: return;
+    case Printing::Busy: said = tr("One moment, please"); break;
+    case Printing::Done: said = tr("It has been printed"); break;
+    case Printing::Failed: said = tr("It could not be printed"); break;
+    case Printing::Ready: break;
   }
   if (said != nullptr) {
     Node words = page.text(said, type::kBody, Weight::Medium,

@@ -19,7 +19,7 @@ void picture(Page& page) {
   node.role = Role::Picture;
   node.mark = live.empty() ? Mark::Shape : Mark::Image;
   node.picture = PictureSlot::Live;
-  node.aspect = live.empty() ? 1.6F : static_cast<float>(live.width_px) / static_cast<float>(live.height_px);
+  node.aspect = live.empty() ? 1.6F : float(live.width_px) / float(live.height_px);
   node.covers = covers(page, node.aspect);
   node.mirrored = true;
   page.tree.leaf(node);
@@ -45,14 +45,13 @@ void distance(Page& page, float oval_high_dp) {
       std::min({oval_high_dp * std::clamp(nearness, 0.35F, 1.6F), page.width_dp / 0.74F, page.height_dp});
   Node room = page.box(Flow::Row);
   centre(room);
-  page.tree.open(room);
+  const auto in_room = page.tree.inside(room);
   Node ring = page.sized(page.box(Flow::Column), h * 0.74F, h);
   ring.id = "distance";
   ring.mark = Mark::Ring;
   ring.line_px = page.px(5);
   ring.box.fill = page.palette.warn;
   page.tree.leaf(ring);
-  page.tree.close();
 }
 
 // `share` of its line is bright.
@@ -63,8 +62,7 @@ void oval(Page& page, bool good, float share, bool notes) {
   page.tree.open(room);
   // As large as a face at the best distance, as far as there is room.
   const ImageView& live = page.view.live.picture;
-  const float aspect =
-      live.empty() ? 1.6F : static_cast<float>(live.width_px) / static_cast<float>(live.height_px);
+  const float aspect = live.empty() ? 1.6F : float(live.width_px) / float(live.height_px);
   const float shown =
       covers(page, aspect) ? std::max(page.width_dp, page.height_dp * aspect) : page.height_dp * aspect;
   const float wanted = page.view.live.ideal_width > 0 ? page.view.live.ideal_width * shown * 1.12F / 0.74F
@@ -96,13 +94,12 @@ void head(Page& page) {
   room.pin_x = page.portrait ? 0.16F : 0.15F;
   room.pin_y = page.portrait ? 0.76F : 0.5F;
   frame(room, page.palette.stage, page.palette.card_border, page.px(2), page.px(side / 2));
-  page.tree.open(room);
+  const auto in_room = page.tree.inside(room);
   Node face = page.grown(page.box(Flow::Column));
   face.id = "gesture";
   face.mark = Mark::Face;
   face.box.radius = page.px(side / 2);
   page.tree.leaf(face);
-  page.tree.close();
 }
 
 // From one to the other, again and again. In the mirror the picture's left is on the right.
@@ -170,7 +167,7 @@ void begin_mirror(Page& page, const Said& what, float share, bool notes) {
 void advice(Page& page, const Said& what, int countdown) {
   Node row = page.box(Flow::Row);
   row.box.justify = Justify::Centre;
-  page.tree.open(row);
+  const auto in_row = page.tree.inside(row);
   Node pill = page.box(Flow::Row, 18, 32, 10);
   pill.id = "advice";
   pill.role = Role::Alert;
@@ -186,14 +183,14 @@ void advice(Page& page, const Said& what, int countdown) {
   pill.box.border_px = page.px(3);
   pill.box.shadow = true;
   pill.box.radius = page.px(size::kPillRadius);
-  page.tree.open(pill);
+  const auto in_pill = page.tree.inside(pill);
   const Colour ink = what.good ? page.palette.good : page.palette.ink;
   page.sign(what.letter, 36, what.good ? page.palette.good : page.palette.warn);
   Node text = page.text(what.words, type::kButton, Weight::Medium, ink, TextAlign::Centre);
   text.style.size_px *= grown_over(page) / page.text_share;
   page.tree.leaf(text);
   if (countdown != 0) {
-    const char digit[] = {static_cast<char>('0' + countdown), 0};
+    const char digit[] = {char('0' + countdown), 0};
     Node number = page.text(page.tree.keep({digit, 1}), type::kTitle, Weight::Bold, page.palette.good,
                             TextAlign::Centre);
     number.id = "countdown";
@@ -201,8 +198,6 @@ void advice(Page& page, const Said& what, int countdown) {
     number.style.size_px = page.px(type::kTitle * (1 + (page.text_share - 1) * 0.15F));
     page.tree.leaf(number);
   }
-  page.tree.close();
-  page.tree.close();
 }
 
 }  // namespace relievo::ui

@@ -7,6 +7,66 @@
 #include "ui/screens/visitor/visitor_screens.h"
 
 namespace relievo::ui {
+
+// Somebody with this name, or the record of this code, is there already. To a name nothing is said but
+// that; renew and add are for who quotes the code.
+namespace {
+
+// One of two ways on: what it is called, what it means.
+void way(Page& page, std::string_view id, const char* label, const char* letter, const char* words,
+         Action action) {
+  const auto in_box = page.tree.inside(page.grown(page.box(Flow::Column, space::kS)));
+  page.button(id, label, letter, ButtonLook::Main, action);
+  page.tree.leaf(page.text(words, 22, Weight::Regular, page.palette.ink_soft, TextAlign::Centre));
+}
+
+void two_ways(Page& page) {
+  const auto& tr = page.tr;
+  const auto in_box =
+      page.tree.inside(page.box(page.portrait || page.text_share > 1.3F ? Flow::Column : Flow::Row,
+                                page.portrait ? space::kL : space::kM));
+  way(page, "renew", tr("Renew it"), icon::kAgain,
+      tr("The old portrait is erased the moment the new one is stored."), {ActionKind::Renew, 0});
+  way(page, "add", tr("Add another one"), icon::kShape, tr("The old portrait is kept beside the new one."),
+      {ActionKind::AddAnother, 0});
+}
+
+void name_ways(Page& page) {
+  const auto& tr = page.tr;
+  page.tree.open(page.box(page.portrait || page.text_share > 1.3F ? Flow::Column : Flow::Row, space::kM));
+  const float grow = page.portrait || page.text_share > 1.3F ? 0.0F : 1.0F;
+  page.button("somebody_else", tr("I am somebody else"), icon::kPerson, ButtonLook::Quiet,
+              {ActionKind::SomebodyElse, 0}, grow);
+  page.button("have_code", tr("I have my code"), icon::kLock, ButtonLook::Main, {ActionKind::HaveCode, 0},
+              grow);
+  page.tree.close();
+  page.button("lost_code", tr("I lost my code"), icon::kHelp, ButtonLook::Plain, {ActionKind::LostCode, 0});
+}
+
+}  // namespace
+
+void known_screen(Page& page) {
+  const auto& tr = page.tr;
+  const bool proven = page.view.known == Known::Code;
+  page.begin(true);
+  Node middle = page.grown(page.box(Flow::Column, space::kM));
+  middle.id = "known";
+  middle.box.justify = Justify::Centre;
+  middle.box.scroll = true;
+  page.tree.open(middle);
+  page.heading("title", proven ? tr("Welcome back") : tr("This name is in our records"));
+  page.body(
+      "what",
+      proven
+          ? tr("You already have a portrait here. What would you like to do?")
+          : tr("Is that you? With the code you were given you can renew your portrait or add another one. Without it nothing from the record is shown."));
+  page.tree.leaf(page.sized(page.box(Flow::Column), 1, 8));
+  if (proven) two_ways(page);
+  else name_ways(page);
+  page.tree.close();
+  page.end();
+}
+
 namespace {
 
 constexpr float kAsked = 38;  // the size of the question above the field
@@ -42,7 +102,7 @@ void field(Page& page, const char* asked, float grow) {
   field.box.align = Align::Centre;
   field.box.left_to_right = code;
   frame(field, page.palette.card, page.palette.accent, page.px(3), page.px(size::kRadius));
-  page.tree.open(field);
+  const auto in_field = page.tree.inside(field);
   const bool hint = name.empty() && !code;
   Node typed = page.text(hint   ? std::string_view(page.tr("Type here or show a QR code"))
                          : code ? grouped(page, name)
@@ -56,17 +116,16 @@ void field(Page& page, const char* asked, float grow) {
   if (!hint) page.tree.leaf(typed);
   if (!code) page.tree.leaf(caret);
   if (hint) page.tree.leaf(typed);
-  page.tree.close();
 }
 
 // Where a code is held, as in a mirror, with the corners of a frame it fits into.
 void finder(Page& page, float high_dp) {
   const ImageView& live = page.view.live.picture;
   if (live.empty()) return;
-  const float aspect = static_cast<float>(live.width_px) / static_cast<float>(live.height_px);
+  const float aspect = float(live.width_px) / float(live.height_px);
   Node room = page.sized(page.box(Flow::Stack), high_dp * aspect, high_dp);
   room.aspect = aspect;
-  page.tree.open(room);
+  const auto in_room = page.tree.inside(room);
   Node picture = page.box(Flow::Column);
   tell(picture, Role::Picture, "finder", page.tr("What the camera sees: hold a QR code here"));
   picture.mark = Mark::Image;
@@ -90,7 +149,6 @@ void finder(Page& page, float high_dp) {
       bar(right * (side - arm) / 2, down * side / 2, arm, line);
       bar(right * side / 2, down * (side - arm) / 2, line, arm);
     }
-  page.tree.close();
 }
 
 void wrong_code(Page& page) {
@@ -106,15 +164,15 @@ void wrong_code(Page& page) {
 void ask_name(Page& page, const char* asked) {
   Node row = page.box(page.portrait ? Flow::Column : Flow::Row, space::kM);
   row.box.align = page.portrait ? Align::Stretch : Align::Centre;
-  page.tree.open(row);
+  const auto in_row = page.tree.inside(row);
   if (abreast(page)) {
     page.heading("title", asked, page.text_share > kLargest ? type::kSmall : type::kBody);
     field(page, asked, 1);
   } else {
-    page.tree.open(page.grown(page.box(Flow::Column, space::kM), page.portrait ? 0.0F : 1.0F));
+    const auto in_box =
+        page.tree.inside(page.grown(page.box(Flow::Column, space::kM), page.portrait ? 0.0F : 1.0F));
     page.heading("title", asked, kAsked);
     field(page, asked, 0);
-    page.tree.close();
   }
   if (page.portrait) {
     Node centred = page.box(Flow::Row);
@@ -125,7 +183,6 @@ void ask_name(Page& page, const char* asked) {
   if (!abreast(page) || page.text_share < kLargest)
     finder(page, page.portrait ? kFinderHighPortrait : abreast(page) ? kFinderHighAbreast : kFinderHigh);
   if (page.portrait) page.tree.close();
-  page.tree.close();
 }
 
 // Digits only: a pad of them, beside the question where there is room.
@@ -133,7 +190,7 @@ void ask_code(Page& page, const char* asked) {
   Node room = page.grown(page.sided(page.box(page.portrait ? Flow::Column : Flow::Row, space::kXl)));
   room.box.justify = Justify::Centre;
   if (page.portrait) room.box.align = Align::Centre;
-  page.tree.open(room);
+  const auto in_room = page.tree.inside(room);
   Node said = page.box(Flow::Column, space::kM);
   said.id = "said";
   said.box.scroll = true;
@@ -152,7 +209,6 @@ void ask_code(Page& page, const char* asked) {
   page.tree.close();
   number_pad(page, {"key ", "done"},
              page.visit.name().size() == kCodeDigits ? Action{ActionKind::Done, 0} : Action{});
-  page.tree.close();
 }
 
 }  // namespace

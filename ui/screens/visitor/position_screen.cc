@@ -32,23 +32,15 @@ Said said(const Page& page) {
       if (!page.view.settings.is_on(Setting::Automatic))
         return {tr("Very good. Touch the button to take the picture"), icon::kCamera, true};
       return {tr("Very good. Look straight ahead and hold still"), icon::kGood, true};
-    case Advice::NoFace:
-      return unseen(page);
-    case Advice::TooClose:
-      return {tr("Please step back a little"), icon::kDown};
-    case Advice::TooFar:
-      return {tr("Please come a little closer"), icon::kUp};
-    case Advice::OffCentre:
-      return side_of(page);
-    case Advice::TooDark:
-      return {tr("It is too dark here for the cameras"), icon::kDark};
-    case Advice::TooBright:
-      return {tr("It is too bright: turn away from the light"), icon::kSun};
+    case Advice::NoFace: return unseen(page);
+    case Advice::TooClose: return {tr("Please step back a little"), icon::kDown};
+    case Advice::TooFar: return {tr("Please come a little closer"), icon::kUp};
+    case Advice::OffCentre: return side_of(page);
+    case Advice::TooDark: return {tr("It is too dark here for the cameras"), icon::kDark};
+    case Advice::TooBright: return {tr("It is too bright: turn away from the light"), icon::kSun};
     case Advice::Moved:
-    case Advice::Blurred:
-      return {tr("Please hold still"), icon::kStill};
-    case Advice::MoreThanOneFace:
-      return {tr("One person at a time, please"), icon::kPerson};
+    case Advice::Blurred: return {tr("Please hold still"), icon::kStill};
+    case Advice::MoreThanOneFace: return {tr("One person at a time, please"), icon::kPerson};
     case Advice::TurnedAside:
       return {tr("Please look straight ahead"), icon::kPerson, false,
               page.view.live.yaw_deg > 0 ? tr("Turn your head slowly to your right")
@@ -60,24 +52,15 @@ Said said(const Page& page) {
       return {tr("Please hold your head upright"), icon::kPerson, false,
               page.view.live.roll_deg > 0 ? tr("Lean your head a little to your left")
                                           : tr("Lean your head a little to your right")};
-    case Advice::UnevenLight:
-      return {tr("The light comes from one side: turn towards it"), icon::kSun};
-    case Advice::Highlights:
-      return {tr("Your skin reflects a lamp: turn a little"), icon::kSun};
-    case Advice::FaceHidden:
-      return {tr("Please uncover your whole face"), icon::kPerson};
-    case Advice::EyesHidden:
-      return {tr("Please uncover your eyes"), icon::kPerson};
-    case Advice::EyesClosed:
-      return {tr("Please open your eyes"), icon::kPerson};
-    case Advice::GlassesGlare:
-      return {tr("Please take off your glasses"), icon::kPerson};
-    case Advice::MouthOpen:
-      return {tr("Please close your mouth"), icon::kPerson};
-    case Advice::NotNeutral:
-      return {tr("Please relax your face"), icon::kPerson};
-    case Advice::Background:
-      return {tr("Please keep the space beside your head clear"), icon::kPerson};
+    case Advice::UnevenLight: return {tr("The light comes from one side: turn towards it"), icon::kSun};
+    case Advice::Highlights: return {tr("Your skin reflects a lamp: turn a little"), icon::kSun};
+    case Advice::FaceHidden: return {tr("Please uncover your whole face"), icon::kPerson};
+    case Advice::EyesHidden: return {tr("Please uncover your eyes"), icon::kPerson};
+    case Advice::EyesClosed: return {tr("Please open your eyes"), icon::kPerson};
+    case Advice::GlassesGlare: return {tr("Please take off your glasses"), icon::kPerson};
+    case Advice::MouthOpen: return {tr("Please close your mouth"), icon::kPerson};
+    case Advice::NotNeutral: return {tr("Please relax your face"), icon::kPerson};
+    case Advice::Background: return {tr("Please keep the space beside your head clear"), icon::kPerson};
   }
   return unseen(page);
 }
@@ -101,7 +84,7 @@ void position_screen(Page& page) {
     Node row = page.box(Flow::Row);
     row.box.justify =
         page.portrait ? Justify::Centre : Justify::Start;  // where there is room beside the oval, there
-    page.tree.open(row);
+    const auto in_row = page.tree.inside(row);
     Node note = page.text(last_time(page), type::kSmall, Weight::Medium, page.palette.ink,
                           page.portrait ? TextAlign::Centre : TextAlign::Start);
     note.style.size_px *= grown_over(page) / page.text_share;
@@ -112,7 +95,6 @@ void position_screen(Page& page) {
     note.box.fill = page.palette.card;
     note.box.radius = page.px(20);
     page.tree.leaf(note);
-    page.tree.close();
   }
   page.space(1);
   const bool stacked = page.portrait;
@@ -134,6 +116,102 @@ void position_screen(Page& page) {
   if (!stacked)
     page.button("shoot", page.tr("Take the picture"), icon::kCamera, ButtonLook::Main,
                 {ActionKind::TakePicture, 0});
+  page.tree.close();
+  page.tree.close();
+  page.tree.close();
+}
+
+// While the head turns: which way, how far, which sides are taken.
+namespace {
+
+Said said_of_turn(const Page& page) {
+  using pipeline::TurnAdvice;
+  const auto& tr = page.tr;
+  // In the mirror the picture's left is on the right.
+  const char* const on = tr("Turn your head slowly this way");
+  switch (page.view.live.turn ? page.view.live.turn->advice : TurnAdvice::Hold) {
+    case TurnAdvice::ToLeft: return {on, icon::kNext, false, tr("Turn your head slowly to your right")};
+    case TurnAdvice::ToRight: return {on, icon::kBack, false, tr("Turn your head slowly to your left")};
+    case TurnAdvice::Level: return {tr("Please hold your head level"), icon::kPerson};
+    case TurnAdvice::Slower: return {tr("A little slower, please"), icon::kStill};
+    case TurnAdvice::Hold:
+    case TurnAdvice::Done: return {tr("Please hold still"), icon::kGood, true};
+    case TurnAdvice::Lost: break;
+  }
+  return unseen(page);
+}
+
+// A stop for each side, as the mirror shows them, with a tick where it is taken; between them where the head
+// is.
+void sides(Page& page) {
+  const auto& turn = page.view.live.turn;
+  constexpr float kFurthestDeg = 62, kStopDp = 46, kMarkerDp = 22;
+  const auto pinned = [&](float deg, float across_dp) {
+    Node disc = page.sized(page.box(Flow::Column), across_dp, across_dp);
+    disc.pinned = true;
+    disc.pin_x = 0.5F - deg / (2 * kFurthestDeg);
+    disc.pin_y = 0.5F;
+    disc.box.radius = page.px(across_dp / 2);
+    disc.box.justify = Justify::Centre;
+    disc.box.align = Align::Centre;
+    return disc;
+  };
+  constexpr float kHighDp = kStopDp + 18;
+  Node rail = page.grown(page.box(Flow::Stack));
+  rail.box.max_width = page.px(620);
+  rail.box.height = page.px(kHighDp);
+  rail.id = "sides";
+  rail.role = Role::Status;
+  rail.name = page.tr("How far you are");
+  rail.value = page.share_of(turn ? turn->taken.count() : 0, pipeline::kSides);
+  rail.box.fill = page.palette.card;
+  rail.box.border = page.palette.quiet_border;
+  rail.box.border_px = page.px(2);
+  rail.box.radius = page.px(kHighDp / 2);
+  rail.box.left_to_right = true;
+  const auto in_rail = page.tree.inside(rail);
+  for (std::size_t i = 0; i < pipeline::kSides; ++i) {
+    const bool taken = turn && turn->taken[i];
+    Node stop = pinned(float(pipeline::kSidesDeg[i]), kStopDp);
+    stop.box.fill = taken ? page.palette.good : page.palette.ground_end;
+    stop.box.border = taken ? page.palette.good : page.palette.quiet_border;
+    stop.box.border_px = page.px(2.5F);
+    const auto in_stop = page.tree.inside(stop);
+    if (taken) page.sign(icon::kGood, 28 / page.text_share, page.palette.card);
+  }
+  if (turn && turn->advice != pipeline::TurnAdvice::Lost) {
+    Node marker = pinned(std::clamp(turn->yaw_deg, 2 - kFurthestDeg, kFurthestDeg - 2), kMarkerDp);
+    marker.id = "turned";
+    marker.box.fill = page.palette.accent;
+    page.tree.leaf(marker);
+  }
+}
+
+}  // namespace
+
+void turn_screen(Page& page) {
+  const Said what = said_of_turn(page);
+  const std::size_t taken = page.view.live.turn ? page.view.live.turn->taken.count() : 0;
+  begin_mirror(page, what, float(taken) / pipeline::kSides);
+  page.tree.open(page.box(Flow::Column, space::kS, 40, kMirrorEdge));
+  advice(page, what);
+  page.space(1);
+  if (page.portrait) {
+    Node row = page.box(Flow::Row);
+    row.box.justify = Justify::Centre;
+    const auto in_row = page.tree.inside(row);
+    sides(page);
+  }
+  Node foot = page.sided(page.box(Flow::Row, space::kS));
+  foot.box.align = Align::Centre;
+  foot.box.justify = Justify::Centre;
+  page.tree.open(foot);
+  page.square_button("help", page.tr("Help"), icon::kHelp, {ActionKind::ShowHelp, 0});
+  page.square_button("leave", page.tr("Stop and leave"), icon::kClose, {ActionKind::Leave, 0});
+  if (page.portrait) page.space(1);
+  else sides(page);
+  page.button("enough", taken == 0 ? page.tr("I cannot turn my head") : page.tr("That is enough"),
+              icon::kGood, ButtonLook::Main, {ActionKind::EnoughSides, 0});
   page.tree.close();
   page.tree.close();
   page.tree.close();

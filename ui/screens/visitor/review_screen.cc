@@ -34,7 +34,7 @@ void tools(Page& page) {
   Node row = page.box(Flow::Row, 10);
   row.box.justify = Justify::Centre;
   row.box.left_to_right = true;  // what turns the face to the left lies on the left
-  page.tree.open(row);
+  const auto in_row = page.tree.inside(row);
   page.square_button("turn_left", tr("Turn left"), icon::kTurnLeft, {ActionKind::TurnLeft, 0});
   page.square_button("turn_right", tr("Turn right"), icon::kTurnRight, {ActionKind::TurnRight, 0});
   page.square_button("zoom_out", tr("Smaller"), icon::kZoomOut, {ActionKind::ZoomOut, 0});
@@ -42,7 +42,6 @@ void tools(Page& page) {
   page.square_button("light", tr("Move the light"), icon::kSun, {ActionKind::MoveLight, 0});
   page.square_button("shape", tr("With and without colour"), icon::kShape, {ActionKind::ShowShape, 0});
   page.square_button("at_first", tr("As at first"), icon::kUndo, {ActionKind::LookAtFirst, 0});
-  page.tree.close();
 }
 
 void face(Page& page) {
@@ -50,7 +49,7 @@ void face(Page& page) {
   card.box.fill = page.palette.stage;
   card.box.radius = page.px(size::kCardRadius);
   card.box.shadow = true;
-  page.tree.open(card);
+  const auto in_card = page.tree.inside(card);
   Node node = page.box(Flow::Column);
   node.id = "face";
   node.name = page.tr("Your face: turn it with a finger");
@@ -61,11 +60,9 @@ void face(Page& page) {
   node.action = {ActionKind::TurnFace, 0};
   page.tree.leaf(node);
   Node column = page.box(Flow::Column, 0, 12, kToolsEdge);
-  page.tree.open(column);
+  const auto in_column = page.tree.inside(column);
   page.space(1);
   tools(page);
-  page.tree.close();
-  page.tree.close();
 }
 
 void assurance(Page& page) {
@@ -97,7 +94,7 @@ void question(Page& page) {
   const auto& tr = page.tr;
   Node column = page.box(Flow::Column, space::kM);
   if (!page.portrait) column.box.grow = 1;
-  page.tree.open(column);
+  const auto in_column = page.tree.inside(column);
   Node words = page.box(Flow::Column, space::kS);
   words.id = "words";
   words.box.grow = page.portrait ? 0.0F : 1.0F;
@@ -118,7 +115,6 @@ void question(Page& page) {
   page.tree.close();
   page.button("accept", tr("Yes, keep it"), icon::kGood, ButtonLook::Main, {ActionKind::Accept, 0});
   page.button("retake", tr("Take it again"), icon::kAgain, ButtonLook::Quiet, {ActionKind::Retake, 0});
-  page.tree.close();
 }
 
 }  // namespace

@@ -20,7 +20,7 @@ const Palette& palette_of(const Visit& visit) {
 constexpr std::array kStepScreens{attract_screen,  consent_screen, name_screen,     known_screen,
                                   position_screen, turn_screen,    working_screen,  review_screen,
                                   thanks_screen,   trouble_screen, starting_screen, declined_screen};
-static_assert(kStepScreens.size() == static_cast<std::size_t>(Step::Declined) + 1);
+static_assert(kStepScreens.size() == std::size_t(Step::Declined) + 1);
 
 // The simulated head: it invites, and shows what to do.
 bool shows_invitation(const Visit& visit) {
@@ -42,7 +42,7 @@ const Palette& build_visitor_screen(Tree& tree, const ViewState& view, const Vis
   Node root = page.box(Flow::Stack);
   root.id = "screen";
   tree.open(root);
-  kStepScreens[static_cast<std::size_t>(visit.step)](page);
+  kStepScreens[std::size_t(visit.step)](page);
   staff_entrance(page);
   if (visit.overlay != Overlay::None) {
     Page over(tree, view, visit, visit.high_contrast ? kHighContrast : kLight, screen);
@@ -53,14 +53,12 @@ const Palette& build_visitor_screen(Tree& tree, const ViewState& view, const Vis
 }
 
 void fill_pictures(DrawList& list, const ViewState& view, const Visit& visit) {
-  list.pictures[static_cast<std::size_t>(PictureSlot::Live)] = {view.live.picture, view.live.number};
+  list.pictures[std::size_t(PictureSlot::Live)] = {view.live.picture, view.live.number};
   for (std::size_t i = 0; i < kStageViews; ++i)
-    list.pictures[static_cast<std::size_t>(PictureSlot::Photograph) + i] = {view.stages[i].picture,
-                                                                            view.stages[i].number};
+    list.pictures[std::size_t(PictureSlot::Photograph) + i] = {view.stages[i].picture, view.stages[i].number};
   if (view.consent != nullptr && !view.consent->host.sign.empty())
-    list.pictures[static_cast<std::size_t>(PictureSlot::Sign)] = {view.consent->host.sign_view(), 1};
-  list.pictures[static_cast<std::size_t>(PictureSlot::Receipt)] = {view.receipt_code.picture,
-                                                                   view.receipt_code.number};
+    list.pictures[std::size_t(PictureSlot::Sign)] = {view.consent->host.sign_view(), 1};
+  list.pictures[std::size_t(PictureSlot::Receipt)] = {view.receipt_code.picture, view.receipt_code.number};
   list.faces = {};
   list.faces[0].model = face_of(view, visit);
   if (list.faces[0].model != nullptr)

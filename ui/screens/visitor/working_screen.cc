@@ -16,8 +16,8 @@ constexpr float kWaits = 0.4F;  // so bright is the photograph where nothing has
 // The first whose picture is not born.
 int stage_under_way(const ViewState& view) {
   const auto made = view.stages.begin() + 1;
-  return static_cast<int>(
-      std::find_if(made, view.stages.end(), [](const StageView& one) { return one.picture.empty(); }) - made);
+  return int(std::find_if(made, view.stages.end(), [](const StageView& one) { return one.picture.empty(); }) -
+             made);
 }
 
 // In a corner of the picture, so that the words below keep the whole width and stay where they are.
@@ -28,13 +28,12 @@ void tick(Page& page) {
   disc.box.align = Align::Centre;
   disc.box.radius = page.px(across_dp / 2);
   disc.box.fill = page.palette.card;
-  page.tree.open(disc);
+  const auto in_disc = page.tree.inside(disc);
   page.sign(icon::kGood, 30, page.palette.good);
-  page.tree.close();
 }
 
 void card(Page& page, std::size_t stage, const char* words) {
-  const int now = stage_under_way(page.view), at = static_cast<int>(stage);
+  const int now = stage_under_way(page.view), at = int(stage);
   const StageView &made = page.view.stages[stage + 1], &photograph = page.view.stages[0];
   const bool born = !made.picture.empty();
   const ImageView& shown = born ? made.picture : photograph.picture;
@@ -44,7 +43,7 @@ void card(Page& page, std::size_t stage, const char* words) {
   node.value = at < now ? page.tr("done") : at == now ? page.tr("under way") : page.tr("waiting");
   frame(node, page.palette.card, at == now ? page.palette.accent : page.palette.card_border,
         page.px(at == now ? 3.0F : 1.5F), page.px(size::kCardRadius));
-  page.tree.open(node);
+  const auto in_node = page.tree.inside(node);
   Node room = page.grown(page.box(Flow::Stack));
   room.box.fill = page.palette.stage;
   room.box.radius = page.px(18);
@@ -54,9 +53,8 @@ void card(Page& page, std::size_t stage, const char* words) {
     picture.name = words;
     picture.role = Role::Picture;
     picture.mark = Mark::Image;
-    picture.picture =
-        static_cast<PictureSlot>(static_cast<std::size_t>(PictureSlot::Photograph) + (born ? stage + 1 : 0));
-    picture.aspect = static_cast<float>(shown.width_px) / static_cast<float>(shown.height_px);
+    picture.picture = static_cast<PictureSlot>(std::size_t(PictureSlot::Photograph) + (born ? stage + 1 : 0));
+    picture.aspect = float(shown.width_px) / float(shown.height_px);
     picture.covers = true;
     picture.box.radius = page.px(18);
     if (at > now && !born) picture.colour = Colour{255, 255, 255, 255}.with_alpha(kWaits);
@@ -73,13 +71,11 @@ void card(Page& page, std::size_t stage, const char* words) {
   row.box.align = Align::Centre;
   row.box.justify = Justify::Centre;
   row.box.min_height = page.px(64 * page.text_share);
-  page.tree.open(row);
+  const auto in_row = page.tree.inside(row);
   Node said = page.text(words, 22, Weight::Medium, at <= now ? page.palette.ink : page.palette.ink_soft,
                         TextAlign::Centre);
   said.style.size_px *= std::min(1.0F, kMostGrowth / page.text_share);  // four abreast have no room for more
   page.tree.leaf(said);
-  page.tree.close();
-  page.tree.close();
 }
 
 void progress(Page& page) {
@@ -89,12 +85,11 @@ void progress(Page& page) {
   track.role = Role::Status;
   track.name = page.tr("How far it is");
   constexpr int kStep = 25;  // who listens is told of a quarter, not of every step
-  track.value =
-      page.filled("{} %", std::to_string(static_cast<int>(std::min(1.0F, done) * 100) / kStep * kStep));
+  track.value = page.filled("{} %", std::to_string(int(std::min(1.0F, done) * 100) / kStep * kStep));
   track.box.height = page.px(14);
   track.box.radius = page.px(7);
   track.box.fill = page.palette.track;
-  page.tree.open(track);
+  const auto in_track = page.tree.inside(track);
   if (done > 0) {
     Node bar = page.grown(page.box(Flow::Column), std::max(0.02F, done));
     bar.box.radius = page.px(7);
@@ -102,7 +97,6 @@ void progress(Page& page) {
     page.tree.leaf(bar);
   }
   if (done < 1) page.space(1 - done);
-  page.tree.close();
 }
 
 }  // namespace

@@ -34,7 +34,7 @@ BeadString::BeadString(std::initializer_list<Bead> beads, int pieces_between) {
   for (std::size_t i = 0; i + 1 < n; ++i) {
     const Bead &p0 = b[i == 0 ? 0 : i - 1], &p1 = b[i], &p2 = b[i + 1], &p3 = b[std::min(i + 2, n - 1)];
     for (int k = 0; k < pieces_between; ++k) {
-      const double t = static_cast<double>(k) / pieces_between, t2 = t * t, t3 = t2 * t;
+      const double t = double(k) / pieces_between, t2 = t * t, t3 = t2 * t;
       const auto through = [&](auto v0, auto v1, auto v2, auto v3) {  // Catmull-Rom
         return (v1 * 2.0 + (v2 - v0) * t + (v0 * 2.0 - v1 * 5.0 + v2 * 4.0 - v3) * t2 +
                 (v1 * 3.0 - v0 - v2 * 3.0 + v3) * t3) *

@@ -56,8 +56,8 @@ void draw_looks(Random& r, HeadTraits& t) {
   // Light skin goes with any eyes and hair, dark skin with dark ones.
   const double tone = std::pow(r.uniform(), 1.3) * 4.6;
   const auto between = [](const auto& table, double at) {
-    const auto i = static_cast<std::size_t>(std::clamp(at, 0.0, static_cast<double>(table.size()) - 1.001));
-    return mix(table[i], table[i + 1], at - static_cast<double>(i));
+    const auto i = std::size_t(std::clamp(at, 0.0, double(table.size()) - 1.001));
+    return mix(table[i], table[i + 1], at - double(i));
   };
   t.skin = between(kSkin, tone);
   t.iris = between(kIris, std::min(3.9, std::max(r.uniform(0, 3.9), tone * 1.5)));
@@ -70,7 +70,7 @@ void draw_looks(Random& r, HeadTraits& t) {
   t.hair_length = r.uniform(8, 34);
   t.brow_density = r.uniform(0.7, 1.25) * mix(0.85, 1.15, t.masculine);
   t.hair_part = r.uniform(-1, 1);
-  t.shirt = static_cast<int>(r.next() % 6);
+  t.shirt = int(r.next() % 6);
 }
 
 }  // namespace

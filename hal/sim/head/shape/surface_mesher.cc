@@ -18,26 +18,17 @@ struct Grid {
   std::vector<std::uint8_t> live;  // per block
 
   Grid(const Box& b, double s) : box(b), step(s) {
-    const auto count = [&](double extent) {
-      return (static_cast<int>(std::ceil(extent / s)) / kBlock + 1) * kBlock + 1;
-    };
+    const auto count = [&](double extent) { return (int(std::ceil(extent / s)) / kBlock + 1) * kBlock + 1; };
     nx = count(b.high.x - b.low.x), ny = count(b.high.y - b.low.y), nz = count(b.high.z - b.low.z);
-    value.assign(static_cast<std::size_t>(nx) * static_cast<std::size_t>(ny) * static_cast<std::size_t>(nz),
-                 kFarOutside);
-    live.assign(static_cast<std::size_t>(nx / kBlock) * static_cast<std::size_t>(ny / kBlock) *
-                    static_cast<std::size_t>(nz / kBlock),
-                0);
+    value.assign(std::size_t(nx) * std::size_t(ny) * std::size_t(nz), kFarOutside);
+    live.assign(std::size_t(nx / kBlock) * std::size_t(ny / kBlock) * std::size_t(nz / kBlock), 0);
   }
   std::size_t at(int x, int y, int z) const {
-    return (static_cast<std::size_t>(z) * static_cast<std::size_t>(ny) + static_cast<std::size_t>(y)) *
-               static_cast<std::size_t>(nx) +
-           static_cast<std::size_t>(x);
+    return (std::size_t(z) * std::size_t(ny) + std::size_t(y)) * std::size_t(nx) + std::size_t(x);
   }
   std::size_t block(int x, int y, int z) const {
-    return (static_cast<std::size_t>(z) * static_cast<std::size_t>(ny / kBlock) +
-            static_cast<std::size_t>(y)) *
-               static_cast<std::size_t>(nx / kBlock) +
-           static_cast<std::size_t>(x);
+    return (std::size_t(z) * std::size_t(ny / kBlock) + std::size_t(y)) * std::size_t(nx / kBlock) +
+           std::size_t(x);
   }
   Vec3 place(int x, int y, int z) const { return box.low + Vec3{x * step, y * step, z * step}; }
 };
@@ -56,7 +47,7 @@ void fill_slab(Grid& g, const Field& field, int bz) {
         for (int y = by * kBlock; y < (by + 1) * kBlock; ++y)
           for (int x = bx * kBlock; x < (bx + 1) * kBlock; ++x)
             g.value[g.at(x, y, z)] =
-                live ? static_cast<float>(field(g.place(x, y, z))) : (centre > 0 ? kFarOutside : kFarInside);
+                live ? float(field(g.place(x, y, z))) : (centre > 0 ? kFarOutside : kFarInside);
     }
 }
 
@@ -65,7 +56,7 @@ bool cell_point(const Grid& g, int x, int y, int z, Vec3& out) {
   double v[8];
   int inside = 0;
   for (int c = 0; c < 8; ++c) {
-    v[c] = static_cast<double>(g.value[g.at(x + (c & 1), y + ((c >> 1) & 1), z + (c >> 2))]);
+    v[c] = double(g.value[g.at(x + (c & 1), y + ((c >> 1) & 1), z + (c >> 2))]);
     inside += v[c] < 0 ? 1 : 0;
   }
   if (inside == 0 || inside == 8) return false;
@@ -76,10 +67,7 @@ bool cell_point(const Grid& g, int x, int y, int z, Vec3& out) {
       const int b = a | axis;
       if (b == a || (v[a] < 0) == (v[b] < 0)) continue;
       const double t = v[a] / (v[a] - v[b]);
-      const auto corner = [](int c) {
-        return Vec3{static_cast<double>(c & 1), static_cast<double>((c >> 1) & 1),
-                    static_cast<double>(c >> 2)};
-      };
+      const auto corner = [](int c) { return Vec3{double(c & 1), double((c >> 1) & 1), double(c >> 2)}; };
       sum += mix(corner(a), corner(b), std::clamp(t, 0.02, 0.98));
       ++crossings;
     }
@@ -97,7 +85,7 @@ void add_points(const Grid& g, Mesh& mesh, std::vector<std::int32_t>& index) {
             g.live[g.block(x / kBlock, y / kBlock, z / kBlock)] == 0)
           continue;
         if (!cell_point(g, x, y, z, p)) continue;
-        index[g.at(x, y, z)] = static_cast<std::int32_t>(mesh.points.size());
+        index[g.at(x, y, z)] = std::int32_t(mesh.points.size());
         mesh.points.push_back(to_floats(p));
       }
 }
@@ -117,7 +105,7 @@ void add_quads(const Grid& g, Mesh& mesh, const std::vector<std::int32_t>& index
           const std::int32_t a = index[here], b = index[here - u], c = index[here - u - v],
                              d = index[here - v];
           if (b < 0 || c < 0 || d < 0) continue;
-          const auto corner = [](std::int32_t i) { return static_cast<std::uint32_t>(i); };
+          const auto corner = [](std::int32_t i) { return std::uint32_t(i); };
           if (in) {
             mesh.triangles.push_back({corner(a), corner(b), corner(c)});
             mesh.triangles.push_back({corner(a), corner(c), corner(d)});
@@ -131,10 +119,10 @@ void add_quads(const Grid& g, Mesh& mesh, const std::vector<std::int32_t>& index
 
 // Newton's steps along the gradient, kept short: at a sharp seam the gradient jumps.
 void settle(Mesh& mesh, std::size_t first, const Field& field, double longest_mm, ThreadPool& pool) {
-  const int count = static_cast<int>(mesh.points.size() - first);
+  const int count = int(mesh.points.size() - first);
   pool.for_each_band(count, 64, [&](int begin, int end, int) {
     for (int i = begin; i < end; ++i) {
-      const std::size_t k = first + static_cast<std::size_t>(i);
+      const std::size_t k = first + std::size_t(i);
       Vec3 p = point_of(mesh, k);
       for (int turn = 0; turn < 2; ++turn) {
         constexpr double e = 0.05;
@@ -176,8 +164,8 @@ void refine(Mesh& mesh, const Field& field, const std::function<bool(Vec3)>& wan
   double longest = 0;
   const auto split = [&](std::uint32_t a, std::uint32_t b) -> std::int64_t {
     if (!in[a] || !in[b]) return -1;
-    const std::uint64_t key = static_cast<std::uint64_t>(std::min(a, b)) << 32 | std::max(a, b);
-    const auto [place, fresh] = middle.try_emplace(key, static_cast<std::uint32_t>(mesh.points.size()));
+    const std::uint64_t key = std::uint64_t(std::min(a, b)) << 32 | std::max(a, b);
+    const auto [place, fresh] = middle.try_emplace(key, std::uint32_t(mesh.points.size()));
     if (fresh) {
       const Vec3 p = point_of(mesh, a), q = point_of(mesh, b);
       longest = std::max(longest, length(p - q));
@@ -189,8 +177,8 @@ void refine(Mesh& mesh, const Field& field, const std::function<bool(Vec3)>& wan
   out.reserve(mesh.triangles.size() * 3);
   for (const auto& t : mesh.triangles) {
     const std::array<std::int64_t, 3> m{split(t[0], t[1]), split(t[1], t[2]), split(t[2], t[0])};
-    const int cuts = static_cast<int>(m[0] >= 0) + static_cast<int>(m[1] >= 0) + static_cast<int>(m[2] >= 0);
-    const auto id = [&](std::size_t k) { return static_cast<std::uint32_t>(m[k]); };
+    const int cuts = int(m[0] >= 0) + int(m[1] >= 0) + int(m[2] >= 0);
+    const auto id = [&](std::size_t k) { return std::uint32_t(m[k]); };
     if (cuts == 3) {
       out.insert(out.end(),
                  {{t[0], id(0), id(2)}, {t[1], id(1), id(0)}, {t[2], id(2), id(1)}, {id(0), id(1), id(2)}});

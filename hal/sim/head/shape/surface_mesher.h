@@ -28,10 +28,8 @@ std::vector<Vec3> smooth_normals(const Mesh& mesh);  // weighted by area
 
 inline Vec3 point_of(const Mesh& mesh, std::size_t i) {
   const auto& p = mesh.points[i];
-  return {static_cast<double>(p[0]), static_cast<double>(p[1]), static_cast<double>(p[2])};
+  return {double(p[0]), double(p[1]), double(p[2])};
 }
-inline std::array<float, 3> to_floats(Vec3 p) {
-  return {static_cast<float>(p.x), static_cast<float>(p.y), static_cast<float>(p.z)};
-}
+inline std::array<float, 3> to_floats(Vec3 p) { return {float(p.x), float(p.y), float(p.z)}; }
 
 }  // namespace relievo::hal::sim

@@ -45,7 +45,7 @@ BoardOutline extrapolated(const BoardCorners& corners, const BoardPattern& patte
   Eigen::Matrix<double, 8, 1> pull = Eigen::Matrix<double, 8, 1>::Zero();
   for (std::size_t i = 0; i < corners.size(); ++i) {
     if (!seen(corners[i])) continue;
-    const int corner = static_cast<int>(i);
+    const int corner = int(i);
     const double x = corner % pattern.columns * step;
     const double y = corner / pattern.columns * step;
     const double u = (corners[i].x - middle.x) / scale;
@@ -132,8 +132,8 @@ CoverageBars lesser(const CoverageBars& a, const CoverageBars& b) {
 }
 
 double CoverageMap::share() const {
-  const auto covered = std::count_if(count.begin(), count.end(), [](std::uint32_t n) { return n > 0; });
-  return static_cast<double>(covered) / static_cast<double>(count.size());
+  const auto covered = std::ranges::count_if(count, [](std::uint32_t n) { return n > 0; });
+  return double(covered) / double(count.size());
 }
 
 void Coverage::Range::widen(const BoardParameters& by) {
@@ -161,19 +161,17 @@ void Coverage::add(const BoardCorners& corners, const BoardParameters& parameter
   range_.widen(parameters);
   for (const Vec2d& at : corners) {
     if (!seen(at)) continue;
-    const int column =
-        std::clamp(static_cast<int>((at.x + 0.5) / width_px * kCoverageColumns), 0, kCoverageColumns - 1);
-    const int row =
-        std::clamp(static_cast<int>((at.y + 0.5) / height_px * kCoverageRows), 0, kCoverageRows - 1);
-    ++map_.count[static_cast<std::size_t>(row * kCoverageColumns + column)];
+    const int column = std::clamp(int((at.x + 0.5) / width_px * kCoverageColumns), 0, kCoverageColumns - 1);
+    const int row = std::clamp(int((at.y + 0.5) / height_px * kCoverageRows), 0, kCoverageRows - 1);
+    ++map_.count[std::size_t(row * kCoverageColumns + column)];
   }
 }
 
 BoardOutline outline_of(const BoardCorners& corners, const BoardPattern& pattern) {
-  const auto columns = static_cast<std::size_t>(pattern.columns);
+  const auto columns = std::size_t(pattern.columns);
   const BoardOutline outline = {corners.front(), corners[columns - 1], corners.back(),
                                 corners[corners.size() - columns]};
-  return std::all_of(outline.begin(), outline.end(), [](const Vec2d& at) { return seen(at); })
+  return std::ranges::all_of(outline, [](const Vec2d& at) { return seen(at); })
              ? outline
              : extrapolated(corners, pattern);
 }

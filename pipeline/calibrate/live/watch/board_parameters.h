@@ -68,7 +68,7 @@ struct CoverageMap {
   std::array<std::uint32_t, kCoverageColumns * kCoverageRows> count{};
 
   std::uint32_t at(int column, int row) const {
-    return count[static_cast<std::size_t>(row) * kCoverageColumns + static_cast<std::size_t>(column)];
+    return count[std::size_t(row) * kCoverageColumns + std::size_t(column)];
   }
   double share() const;  // of the cells with a corner
 };

@@ -19,7 +19,7 @@ constexpr double kMarkerReach = 0.8;  // of the way to a ChArUco square's marker
 constexpr double kMinReachPx = 2.5;
 constexpr double kAlong[] = {-0.15, 0, 0.15};  // profiles that are averaged, from the edge's middle
 constexpr double kMinContrast = 0.02;          // of full scale
-constexpr int kMaxSamples = static_cast<int>(2 * kMaxReachPx / kStepPx) + 1;
+constexpr int kMaxSamples = int(2 * kMaxReachPx / kStepPx) + 1;
 
 class Brightness {
  public:
@@ -29,8 +29,8 @@ class Brightness {
     return x >= 0 && y >= 0 && x < picture_.width_px - 1 && y < picture_.height_px - 1;
   }
   double at(double x, double y) const {
-    const int column = static_cast<int>(x);
-    const int row = static_cast<int>(y);
+    const int column = int(x);
+    const int row = int(y);
     const double u = x - column;
     const double v = y - row;
     return (1 - v) * ((1 - u) * pixel(column, row) + u * pixel(column + 1, row)) +
@@ -39,15 +39,11 @@ class Brightness {
 
  private:
   double pixel(int column, int row) const {
-    const std::uint8_t* bytes =
-        picture_.row(row) + static_cast<std::ptrdiff_t>(column) * bytes_per_pixel(picture_.format);
+    const std::uint8_t* bytes = picture_.row(row) + std::ptrdiff_t(column) * bytes_per_pixel(picture_.format);
     switch (picture_.format) {
-      case PixelFormat::Grey8:
-        return bytes[0];
-      case PixelFormat::Rgb8:
-        return 0.25 * bytes[0] + 0.5 * bytes[1] + 0.25 * bytes[2];
-      case PixelFormat::Grey16:
-        return bytes[0] + 256.0 * bytes[1];  // the machine's order: little-endian
+      case PixelFormat::Grey8: return bytes[0];
+      case PixelFormat::Rgb8: return 0.25 * bytes[0] + 0.5 * bytes[1] + 0.25 * bytes[2];
+      case PixelFormat::Grey16: return bytes[0] + 256.0 * bytes[1];  // the machine's order: little-endian
     }
     return 0;
   }
@@ -69,18 +65,18 @@ bool profile_of(const Brightness& picture, const Vec2d& a, const Vec2d& b, doubl
       const double x = a.x + (0.5 + share) * along.x + out * normal.x;
       const double y = a.y + (0.5 + share) * along.y + out * normal.y;
       if (!picture.holds(x, y)) return false;
-      profile[static_cast<std::size_t>(i)] += picture.at(x, y) / static_cast<double>(std::size(kAlong));
+      profile[std::size_t(i)] += picture.at(x, y) / double(std::size(kAlong));
     }
   return true;
 }
 
 // Distance from the middle crossing outwards (`step` -1 or 1) to where `level` is passed, in samples.
 double passed(const Profile& profile, int count, int from, int step, double level) {
-  const bool rising = profile[static_cast<std::size_t>(from)] < level;
+  const bool rising = profile[std::size_t(from)] < level;
   for (int i = from; i >= 0 && i < count; i += step) {
-    const double now = profile[static_cast<std::size_t>(i)];
+    const double now = profile[std::size_t(i)];
     if ((now < level) == rising) continue;
-    const double before = profile[static_cast<std::size_t>(i - step)];
+    const double before = profile[std::size_t(i - step)];
     return std::abs(i - from) - 1 + (level - before) / (now - before);
   }
   return step < 0 ? from : count - 1 - from;
@@ -91,8 +87,8 @@ double width_of(const Profile& profile, int count, double least_contrast) {
   double first = 0;
   double last = 0;
   for (int i = 0; i < plain; ++i) {
-    first += profile[static_cast<std::size_t>(i)] / plain;
-    last += profile[static_cast<std::size_t>(count - 1 - i)] / plain;
+    first += profile[std::size_t(i)] / plain;
+    last += profile[std::size_t(count - 1 - i)] / plain;
   }
   const double contrast = last - first;
   if (std::abs(contrast) < least_contrast) return 0;
@@ -101,8 +97,8 @@ double width_of(const Profile& profile, int count, double least_contrast) {
   int crossing = -1;
   for (int off = 0; off < count / 3 && crossing < 0; ++off)
     for (const int i : {middle - off, middle + off}) {
-      const double a = (profile[static_cast<std::size_t>(i)] - first) / contrast - 0.5;
-      const double b = (profile[static_cast<std::size_t>(i + 1)] - first) / contrast - 0.5;
+      const double a = (profile[std::size_t(i)] - first) / contrast - 0.5;
+      const double b = (profile[std::size_t(i + 1)] - first) / contrast - 0.5;
       if (a <= 0 && b > 0) crossing = i;
     }
   if (crossing < 1 || crossing + 2 >= count) return 0;
@@ -136,14 +132,12 @@ Part part_around(const ImageView& picture, const BoardCorners& corners, double s
     high[1] = std::max(high[1], scale * at.y);
   }
   const double room = margin * std::max(high[0] - low[0], high[1] - low[1]) + 8;
-  const auto clip = [](double at, int size) {
-    return static_cast<int>(std::clamp(at, 0.0, static_cast<double>(size)));
-  };
+  const auto clip = [](double at, int size) { return int(std::clamp(at, 0.0, double(size))); };
   Part part{picture, clip(low[0] - room, picture.width_px), clip(low[1] - room, picture.height_px)};
   part.view.width_px = clip(high[0] + room, picture.width_px) - part.left_px;
   part.view.height_px = clip(high[1] + room, picture.height_px) - part.top_px;
-  part.view.bytes += static_cast<std::ptrdiff_t>(part.top_px) * picture.stride_bytes +
-                     static_cast<std::ptrdiff_t>(part.left_px) * bytes_per_pixel(picture.format);
+  part.view.bytes += std::ptrdiff_t(part.top_px) * picture.stride_bytes +
+                     std::ptrdiff_t(part.left_px) * bytes_per_pixel(picture.format);
   return part;
 }
 
@@ -159,7 +153,7 @@ Result<BoardCorners> find_in(const Part& part, const BoardPattern& pattern) {
 template <PixelFormat kFormat>
 std::uint32_t brightness(const std::uint8_t* pixel) {
   if constexpr (kFormat == PixelFormat::Rgb8) return (pixel[0] + 2U * pixel[1] + pixel[2]) / 4;
-  if constexpr (kFormat == PixelFormat::Grey16) return static_cast<std::uint32_t>(pixel[0] + 256 * pixel[1]);
+  if constexpr (kFormat == PixelFormat::Grey16) return std::uint32_t(pixel[0] + 256 * pixel[1]);
   return pixel[0];
 }
 
@@ -172,12 +166,9 @@ void add_row(const std::uint8_t* from, int factor, std::vector<std::uint32_t>& s
 
 void add_row(const ImageView& picture, int y, int factor, std::vector<std::uint32_t>& sums) {
   switch (picture.format) {
-    case PixelFormat::Grey8:
-      return add_row<PixelFormat::Grey8>(picture.row(y), factor, sums);
-    case PixelFormat::Rgb8:
-      return add_row<PixelFormat::Rgb8>(picture.row(y), factor, sums);
-    case PixelFormat::Grey16:
-      return add_row<PixelFormat::Grey16>(picture.row(y), factor, sums);
+    case PixelFormat::Grey8: return add_row<PixelFormat::Grey8>(picture.row(y), factor, sums);
+    case PixelFormat::Rgb8: return add_row<PixelFormat::Rgb8>(picture.row(y), factor, sums);
+    case PixelFormat::Grey16: return add_row<PixelFormat::Grey16>(picture.row(y), factor, sums);
   }
 }
 
@@ -195,13 +186,13 @@ double edge_width_px(const ImageView& picture, const BoardCorners& corners, cons
     for (int column = 0; column < pattern.columns; ++column)
       for (const bool down : {false, true}) {
         if ((down ? row + 1 >= pattern.rows : column + 1 >= pattern.columns)) continue;
-        const auto here = static_cast<std::size_t>(row * pattern.columns + column);
+        const auto here = std::size_t(row * pattern.columns + column);
         const Vec2d& a = corners[here];
-        const Vec2d& b = corners[here + static_cast<std::size_t>(down ? pattern.columns : 1)];
+        const Vec2d& b = corners[here + std::size_t(down ? pattern.columns : 1)];
         if (!seen(a) || !seen(b)) continue;
         const double reach_px = std::min(kMaxReachPx, plain * std::hypot(b.x - a.x, b.y - a.y));
         if (reach_px < kMinReachPx) continue;
-        const int count = static_cast<int>(2 * reach_px / kStepPx) + 1;
+        const int count = int(2 * reach_px / kStepPx) + 1;
         if (!profile_of(brightness, a, b, reach_px, profile, count)) continue;
         const double width = width_of(profile, count, kMinContrast * brightness.full_scale());
         if (width > 0) widths[down ? 1 : 0].push_back(width);
@@ -217,17 +208,17 @@ void BoardTracker::reduce(const ImageView& picture) {
   factor_ = std::max(1, std::max(picture.width_px, picture.height_px) / wanted);
   width_px_ = picture.width_px / factor_;
   height_px_ = picture.height_px / factor_;
-  const auto pixels = static_cast<std::size_t>(width_px_) * static_cast<std::size_t>(height_px_);
+  const auto pixels = std::size_t(width_px_) * std::size_t(height_px_);
   means_.resize(pixels);
   grey_.resize(pixels);
-  std::vector<std::uint32_t> sums(static_cast<std::size_t>(width_px_));
+  auto sums = std::vector<std::uint32_t>(std::size_t(width_px_));
   std::uint32_t brightest = 255;
   for (int y = 0; y < height_px_; ++y) {
-    std::fill(sums.begin(), sums.end(), 0U);
+    std::ranges::fill(sums, 0U);
     for (int k = 0; k < factor_; ++k) add_row(picture, factor_ * y + k, factor_, sums);
     for (std::size_t x = 0; x < sums.size(); ++x) {
-      const std::uint32_t mean = sums[x] / static_cast<std::uint32_t>(factor_ * factor_);
-      means_[static_cast<std::size_t>(y) * sums.size() + x] = static_cast<std::uint16_t>(mean);
+      const std::uint32_t mean = sums[x] / std::uint32_t(factor_ * factor_);
+      means_[std::size_t(y) * sums.size() + x] = std::uint16_t(mean);
       brightest = std::max(brightest, mean);
     }
   }

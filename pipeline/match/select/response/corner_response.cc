@@ -29,7 +29,7 @@ template <typename Product>
 void products(const std::pmr::vector<float>& grey, Plane<float>& to, ThreadPool& pool, Product product) {
   pool.for_each_band(to.height - 2, kCornerBands, [&](int begin, int end, int) {
     for (int y = begin + 1; y < end + 1; ++y) {
-      const float* here = grey.data() + static_cast<std::ptrdiff_t>(y) * to.width;
+      const float* here = grey.data() + std::ptrdiff_t(y) * to.width;
       float* out = to.row(y);
       for (int x = 1; x + 1 < to.width; ++x)
         out[x] = product(sobel(here - to.width, here, here + to.width, x));
@@ -42,9 +42,9 @@ void products(const std::pmr::vector<float>& grey, Plane<float>& to, ThreadPool&
 SalientTracks::SalientTracks(const std::pmr::vector<float>& grey, int width_px, int height_px, int scales,
                              std::pmr::memory_resource* memory)
     : means_(memory) {
-  means_.reserve(static_cast<std::size_t>(scales) + 1);
+  means_.reserve(std::size_t(scales) + 1);
   means_.emplace_back(memory, width_px, height_px);
-  std::copy(grey.begin(), grey.end(), means_[0].values.begin());
+  std::ranges::copy(grey, means_[0].values.begin());
   for (int s = 0; s < scales && means_.back().width >= 2 && means_.back().height >= 2; ++s) {
     const Plane<float>& from = means_.back();
     Plane<float> to(memory, from.width / 2, from.height / 2);
@@ -59,7 +59,7 @@ SalientTracks::SalientTracks(const std::pmr::vector<float>& grey, int width_px, 
 }
 
 float SalientTracks::magnitude(int scale, int orientation, int column, int row) const {
-  const Plane<float>& finer = means_[static_cast<std::size_t>(scale) - 1];
+  const Plane<float>& finer = means_[std::size_t(scale) - 1];
   const float* upper = finer.row(2 * row) + 2 * column;
   const float* lower = finer.row(2 * row + 1) + 2 * column;
   const float left = upper[0] + lower[0], right = upper[1] + lower[1];
@@ -112,10 +112,10 @@ FastHessian::FastHessian(const std::pmr::vector<float>& grey, int width_px, int 
                          std::pmr::memory_resource* memory)
     : above_(memory, width_px + 1, height_px + 1, 0.0) {
   for (int y = 0; y < height_px; ++y) {
-    const float* from = grey.data() + static_cast<std::ptrdiff_t>(y) * width_px;
+    const float* from = grey.data() + std::ptrdiff_t(y) * width_px;
     double in_row = 0;
     for (int x = 0; x < width_px; ++x) {
-      in_row += static_cast<double>(from[x]);
+      in_row += double(from[x]);
       above_.row(y + 1)[x + 1] = above_.row(y)[x + 1] + in_row;
     }
   }
@@ -138,8 +138,8 @@ float FastHessian::determinant(int x, int y, int size) const {
       sum(x - lobe + 1, y - half, broad, size) - 3 * sum(x - lobe + 1, y - lobe / 2, broad, lobe);
   const double xy = sum(x + 1, y - lobe, lobe, lobe) + sum(x - lobe, y + 1, lobe, lobe) -
                     sum(x - lobe, y - lobe, lobe, lobe) - sum(x + 1, y + 1, lobe, lobe);
-  const double area = static_cast<double>(size) * static_cast<double>(size);
-  return static_cast<float>((xx * yy - 0.81 * xy * xy) / (area * area));
+  const double area = double(size) * double(size);
+  return float((xx * yy - 0.81 * xy * xy) / (area * area));
 }
 
 float smaller_eigenvalue(float xx, float xy, float yy, float) {
@@ -155,7 +155,7 @@ float harris_measure(float xx, float xy, float yy, float sensitivity) {
 bool corner_response(const std::pmr::vector<float>& grey, const Selectable& selectable,
                      const CornerWindow& window, CornerMeasure measure, float parameter,
                      StageContext& context, Plane<float>& response) {
-  std::fill(response.values.begin(), response.values.end(), 0.0F);
+  std::ranges::fill(response.values, 0.0F);
   if (response.width < 3 || response.height < 3) return true;
   Arena::Mark mark(context.scratch);
   Plane<float> xx(&context.scratch, response.width, response.height);
@@ -170,8 +170,8 @@ bool corner_response(const std::pmr::vector<float>& grey, const Selectable& sele
       if (context.stop()) return false;
       box_sum(*plane, window.radius_px, context.pool, across, *plane);
     }
-  const float side = static_cast<float>(2 * window.radius_px + 1);
-  const float mean = 1 / std::pow(side, static_cast<float>(2 * window.passes));
+  const float side = float(2 * window.radius_px + 1);
+  const float mean = 1 / std::pow(side, float(2 * window.passes));
   const int margin = window.reach_px();
   context.pool.for_each_band(response.height, kCornerBands, [&](int begin, int end, int) {
     for (int y = begin; y < end; ++y)

@@ -24,10 +24,10 @@ class SalientTracks {
   SalientTracks(const std::pmr::vector<float>& grey, int width_px, int height_px, int scales,
                 std::pmr::memory_resource* memory);
 
-  int scales() const { return static_cast<int>(means_.size()) - 1; }
+  int scales() const { return int(means_.size()) - 1; }
   // How many coefficients a scale (1 is the finest) has.
-  int columns(int scale) const { return means_[static_cast<std::size_t>(scale)].width; }
-  int rows(int scale) const { return means_[static_cast<std::size_t>(scale)].height; }
+  int columns(int scale) const { return means_[std::size_t(scale)].width; }
+  int rows(int scale) const { return means_[std::size_t(scale)].height; }
   // Magnitude in the orthonormal transform; its square sums up to the picture's energy over all scales.
   float magnitude(int scale, int orientation, int column, int row) const;
   // Where the track from this coefficient ends, and the sum of the magnitudes along it. Where all four

@@ -12,8 +12,7 @@ namespace {
 constexpr std::size_t kBands = 16;
 
 bool selectable_at(const RectifiedPair& pair, int x, int y) {
-  const std::size_t k =
-      static_cast<std::size_t>(y) * static_cast<std::size_t>(pair.width_px) + static_cast<std::size_t>(x);
+  const std::size_t k = std::size_t(y) * std::size_t(pair.width_px) + std::size_t(x);
   return pair.left.valid[k] != 0 && (pair.region.empty() || pair.region[k] != 0);
 }
 
@@ -38,8 +37,8 @@ bool stronger(const Candidate& a, const Candidate& b) {
 using Candidates = std::pmr::vector<Candidate>;
 
 Result<void> check_start(const RectifiedPair& pair, StageContext& context) {
-  const std::size_t pixels = static_cast<std::size_t>(std::max(0, pair.width_px)) *
-                             static_cast<std::size_t>(std::max(0, pair.height_px));
+  const std::size_t pixels =
+      std::size_t(std::max(0, pair.width_px)) * std::size_t(std::max(0, pair.height_px));
   if (pixels == 0 || pair.left.grey.size() != pixels || pair.left.valid.size() != pixels ||
       !(pair.region.empty() || pair.region.size() == pixels))
     return Error{Errc::InvalidInput, "the rectified pair has no pixels"};
@@ -56,7 +55,7 @@ Candidates peaks_of(const Plane<float>& response, float least, int radius, Stage
         if (response.row(y)[x] > least && is_peak(response, x, y, radius)) take(x, y);
   };
   context.pool.for_each_band(response.height, kBands, [&](int begin, int end, int band) {
-    each_peak(begin, end, [&](int, int) { ++found[static_cast<std::size_t>(band)]; });
+    each_peak(begin, end, [&](int, int) { ++found[std::size_t(band)]; });
   });
   std::size_t count = 0;
   for (std::size_t& n : found) {
@@ -66,7 +65,7 @@ Candidates peaks_of(const Plane<float>& response, float least, int radius, Stage
   }
   Candidates peaks(count, memory);
   context.pool.for_each_band(response.height, kBands, [&](int begin, int end, int band) {
-    std::size_t next = found[static_cast<std::size_t>(band)];
+    std::size_t next = found[std::size_t(band)];
     each_peak(begin, end, [&](int x, int y) { peaks[next++] = {x, y, response.row(y)[x]}; });
   });
   return peaks;
@@ -75,11 +74,11 @@ Candidates peaks_of(const Plane<float>& response, float least, int radius, Stage
 void choose_spread(Candidates& candidates, double min_distance, int max_points, Plane<float>& chosen,
                    Arena& scratch) {
   Arena::Mark mark(scratch);
-  std::sort(candidates.begin(), candidates.end(), stronger);
+  std::ranges::sort(candidates, stronger);
   // Two points of one cell would be nearer than the distance: a cell holds one.
   const double cell = std::max(1.0, min_distance / std::sqrt(2.0));
-  const int reach = static_cast<int>(std::ceil(min_distance / cell));
-  const auto index = [&](int v) { return static_cast<int>(static_cast<double>(v) / cell); };
+  const int reach = int(std::ceil(min_distance / cell));
+  const auto index = [&](int v) { return int(double(v) / cell); };
   Plane<const Candidate*> taken(&scratch, index(chosen.width) + 1, index(chosen.height) + 1, nullptr);
   const auto is_free = [&](const Candidate& c) {
     for (int j = std::max(0, index(c.y) - reach); j <= std::min(taken.height - 1, index(c.y) + reach); ++j)
@@ -108,10 +107,7 @@ Selectable::Selectable(const RectifiedPair& pair, std::pmr::memory_resource* mem
   for (int y = 0; y < pair.height_px; ++y) {
     std::int32_t in_row = 0;
     for (int x = 0; x < pair.width_px; ++x) {
-      in_row += pair.left.valid[static_cast<std::size_t>(y) * static_cast<std::size_t>(pair.width_px) +
-                                static_cast<std::size_t>(x)] != 0
-                    ? 1
-                    : 0;
+      in_row += pair.left.valid[std::size_t(y) * std::size_t(pair.width_px) + std::size_t(x)] != 0 ? 1 : 0;
       valid_above_.row(y + 1)[x + 1] = valid_above_.row(y)[x + 1] + in_row;
       count_ += selectable_at(pair, x, y) ? 1 : 0;
     }
@@ -140,12 +136,11 @@ Result<Selectable> selectable_of(const RectifiedPair& pair, StageContext& contex
 
 bool mark_peaks(Plane<float>& response, const PeakChoice& choice, Plane<float>& chosen,
                 StageContext& context) {
-  const float greatest = *std::max_element(response.values.begin(), response.values.end());
+  const float greatest = *std::ranges::max_element(response.values);
   if (!(greatest > 0)) return true;
   for (float& r : response.values) r /= greatest;
   Arena::Mark mark(context.scratch);
-  Candidates peaks =
-      peaks_of(response, static_cast<float>(choice.least), choice.radius_px, context, &context.scratch);
+  Candidates peaks = peaks_of(response, float(choice.least), choice.radius_px, context, &context.scratch);
   if (context.stop()) return false;
   choose_spread(peaks, choice.distance_px, choice.max_points, chosen, context.scratch);
   return !context.stop();
@@ -153,8 +148,7 @@ bool mark_peaks(Plane<float>& response, const PeakChoice& choice, Plane<float>& 
 
 Result<Keypoints> keypoints_of(const Plane<float>& chosen, int max_points, StageContext& context) {
   Arena::Mark mark(context.scratch);
-  const auto count = static_cast<std::size_t>(
-      std::count_if(chosen.values.begin(), chosen.values.end(), [](float v) { return v > 0; }));
+  const auto count = std::size_t(std::ranges::count_if(chosen.values, [](float v) { return v > 0; }));
   if (count == 0)
     return Error{
         Errc::TooFewMatches,
@@ -164,17 +158,16 @@ Result<Keypoints> keypoints_of(const Plane<float>& chosen, int max_points, Stage
   for (int y = 0; y < chosen.height; ++y)
     for (int x = 0; x < chosen.width; ++x)
       if (chosen.row(y)[x] > 0) all.push_back({x, y, chosen.row(y)[x]});
-  const std::size_t kept = std::min(count, static_cast<std::size_t>(max_points));
+  const std::size_t kept = std::min(count, std::size_t(max_points));
   if (kept < count) {
-    std::nth_element(all.begin(), all.begin() + static_cast<std::ptrdiff_t>(kept), all.end(), stronger);
+    std::nth_element(all.begin(), all.begin() + std::ptrdiff_t(kept), all.end(), stronger);
     all.resize(kept);
-    std::sort(all.begin(), all.end(),
-              [](const Candidate& a, const Candidate& b) { return a.y != b.y ? a.y < b.y : a.x < b.x; });
+    std::ranges::sort(
+        all, [](const Candidate& a, const Candidate& b) { return a.y != b.y ? a.y < b.y : a.x < b.x; });
   }
   Keypoints keypoints(&context.output);
   keypoints.points.reserve(kept);
-  for (const Candidate& c : all)
-    keypoints.points.push_back({{static_cast<float>(c.x), static_cast<float>(c.y)}, c.strength});
+  for (const Candidate& c : all) keypoints.points.push_back({{float(c.x), float(c.y)}, c.strength});
   return keypoints;
 }
 
@@ -198,9 +191,7 @@ Result<Keypoints> lattice_keypoints(const RectifiedPair& pair, int step_px, cons
   Keypoints keypoints(&context.output);
   keypoints.lattice_step_px = step_px;
   keypoints.points.reserve(count);
-  each_node([&](int x, int y) {
-    keypoints.points.push_back({{static_cast<float>(x), static_cast<float>(y)}, 1});
-  });
+  each_node([&](int x, int y) { keypoints.points.push_back({{float(x), float(y)}, 1}); });
   return keypoints;
 }
 

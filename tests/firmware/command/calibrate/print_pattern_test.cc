@@ -10,8 +10,8 @@
 #include <sstream>
 #include <string>
 
+#include "hal/base/whole_file.h"
 #include "hal/picture_file.h"
-#include "hal/whole_file.h"
 #include "tests/support/process.h"
 #include "tests/support/temporary_folder.h"
 
@@ -93,7 +93,7 @@ class RenderedPage : public ::testing::TestWithParam<BoardPattern> {
   bool render(const PatternPage& page) {
     const auto pdf = firmware::draw_page(page, GetParam(), PageFormat::Pdf);
     EXPECT_TRUE(pdf);
-    if (!pdf || !hal::write_whole_file(folder_ / "page.pdf", *pdf)) return false;
+    if (!pdf || !write_whole_file(folder_ / "page.pdf", *pdf)) return false;
     const Said said = run_program({"/usr/bin/pdftoppm", "-r", std::to_string(kDotsAnInch), "-gray", "-png",
                                    "-singlefile", "page.pdf", "page"},
                                   folder_.path());

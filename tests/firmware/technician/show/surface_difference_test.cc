@@ -36,7 +36,7 @@ pipeline::FaceMesh plane(const pipeline::RectifiedPair& pair, double depth_mm, d
     for (int c = 0; c <= kSteps; ++c) {
       const double x = -60 + 2.0 * c, y = -60 + 2.0 * r;
       const auto v = apply(back, pipeline::Vec3d{x, y, depth_mm + (c > kSteps / 2 ? step_mm : 0)});
-      mesh.vertices_mm.push_back({static_cast<float>(v.x), static_cast<float>(v.y), static_cast<float>(v.z)});
+      mesh.vertices_mm.push_back({float(v.x), float(v.y), float(v.z)});
       mesh.normals.push_back({0, 0, -1});
     }
   for (std::uint32_t r = 0; r < kSteps; ++r)
@@ -77,8 +77,7 @@ TEST(SurfaceDifference, ItsColoursAreThoseOfTheScaleOnTheMapAndOnTheSurface) {
   EXPECT_EQ(seen.map.version, 7U);
   const auto pixel = [&](double u, double v) {
     const FaceWindow window(pair, seen.map.pixels.width_px);
-    const std::uint8_t* at =
-        seen.map.pixels.row(static_cast<int>(window.y(v))) + 3 * static_cast<int>(window.x(u));
+    const std::uint8_t* at = seen.map.pixels.row(int(window.y(v))) + 3 * int(window.x(u));
     return std::array<std::uint8_t, 3>{at[0], at[1], at[2]};
   };
   const auto is_near = [](const std::array<std::uint8_t, 3>& a, const std::array<std::uint8_t, 3>& b) {
@@ -89,8 +88,7 @@ TEST(SurfaceDifference, ItsColoursAreThoseOfTheScaleOnTheMapAndOnTheSurface) {
   ASSERT_NE(seen.colours, nullptr);
   ASSERT_EQ(seen.colours->uv.size(), 3 * stepped.triangles.size());
   const auto of_triangle = [&](std::size_t i) {
-    const auto texel =
-        static_cast<std::size_t>(seen.colours->uv[3 * i].x * static_cast<float>(seen.colours->width_px));
+    const auto texel = std::size_t(seen.colours->uv[3 * i].x * float(seen.colours->width_px));
     return std::array<std::uint8_t, 3>{seen.colours->rgb[3 * texel], seen.colours->rgb[3 * texel + 1],
                                        seen.colours->rgb[3 * texel + 2]};
   };

@@ -190,7 +190,7 @@ TEST(CalibrationFile, AnyByteMayBeWrong) {
 TEST(CalibrationFile, NothingIsWrittenWhereItCannotBe) {
   const Folder folder;
   EXPECT_EQ(pipeline::write_calibration(folder.path() / "no/such/rig.yml", sample_rig()).error().code,
-            Errc::NotFound);
+            Errc::IoFailed);
   StereoCalibration wrong = sample_rig();
   wrong.left.focal_px.x = 0;
   EXPECT_FALSE(pipeline::write_calibration(folder.path() / "rig.yml", wrong));

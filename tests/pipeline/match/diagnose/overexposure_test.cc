@@ -2,7 +2,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 //
 // Shares of white on faces whose white is painted where it is known.
-#include "pipeline/match/diagnose/overexposure.h"
+#include "pipeline/match/diagnose/pair_diagnosis.h"
 
 #include <gtest/gtest.h>
 

@@ -2,7 +2,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include <vector>
 
-#include "pipeline/match/file/number_lines.h"
+#include "pipeline/match/file/match_text.h"
 #include "tests/pipeline/match/select/selection_fixture.h"
 
 namespace relievo::pipeline {

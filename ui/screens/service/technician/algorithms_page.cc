@@ -35,12 +35,11 @@ void kinds(TechnicianFrame& f) {
     row.box.justify = Justify::Centre;
     row.box.radius = f.page.px(12);
     row.box.fill = chosen ? f.page.palette.accent : f.page.palette.card;
-    f.page.tree.open(row);
+    const auto in_row = f.page.tree.inside(row);
     f.page.tree.leaf(f.page.text(label_of(f.tr, kind.key), type::kSmall, Weight::Medium,
                                  chosen ? f.page.palette.accent_ink : f.page.palette.ink));
     f.page.tree.leaf(f.page.text(f.left_to_right(f.breakable(kind.value)), 17, Weight::Regular,
                                  chosen ? f.page.palette.accent_ink : f.page.palette.ink_soft));
-    f.page.tree.close();
   }
   f.page.tree.close();
 }
@@ -49,24 +48,23 @@ void names(TechnicianFrame& f) {
   const TechnicianChoice& choice = f.view.choice;
   const std::size_t across = f.page.text_share > 1.2F ? 2 : 3;
   for (std::size_t first = 0; first < choice.names.size(); first += across) {
-    f.page.tree.open(f.page.box(Flow::Row, space::kXs));
+    const auto in_box = f.page.tree.inside(f.page.box(Flow::Row, space::kXs));
     for (std::size_t i = first; i < first + across; ++i) {
       if (i >= choice.names.size()) f.page.space(1);
       else
         f.choice(f.id("name", i), f.left_to_right(choice.names[i].name), choice.names[i].chosen,
                  technician_action(ChooseName{i}));
     }
-    f.page.tree.close();
   }
 }
 
 void rejected(TechnicianFrame& f) {
   const TechnicianResult& r = f.view.result;
   f.page.section(f.tr("In the last calculation"));
-  f.page.row("accepted count", f.tr("Accepted matches"), f.page.number(static_cast<double>(r.accepted)));
+  f.page.row("accepted count", f.tr("Accepted matches"), f.page.number(double(r.accepted)));
   for (std::size_t i = 0; i < r.rule_count; ++i)
     f.page.row(f.id("rejected", i), f.left_to_right(r.rules[i].name),
-               f.page.number(static_cast<double>(r.rules[i].rejected)));
+               f.page.number(double(r.rules[i].rejected)));
 }
 
 // With the language's decimal mark, as it is typed.
@@ -116,10 +114,10 @@ void keys(TechnicianFrame& f) {
   for (const auto& line : kKeys) {
     Node row = f.page.box(Flow::Row, 8);
     row.box.left_to_right = row.box.grid = true;
-    f.page.tree.open(row);
+    const auto in_row = f.page.tree.inside(row);
     for (const char* letter : line) {
       if (letter == nullptr) continue;
-      key(f, f.id("type", static_cast<std::size_t>(*letter)), *letter == '.' ? decimal_mark : letter,
+      key(f, f.id("type", std::size_t(*letter)), *letter == '.' ? decimal_mark : letter,
           technician_action(TypeDigit{*letter}));
     }
     if (*line[0] == '0') {
@@ -127,11 +125,9 @@ void keys(TechnicianFrame& f) {
       tell(erase, Role::Key, "type erase", f.tr("Erase"), technician_action(TechnicianAct::EraseDigit));
       centre(erase);
       frame(erase, f.page.palette.card, f.page.palette.card_border, f.page.px(1.5F), f.page.px(14));
-      f.page.tree.open(erase);
+      const auto in_erase = f.page.tree.inside(erase);
       f.page.sign(icon::kErase, 26, f.page.palette.link);
-      f.page.tree.close();
     }
-    f.page.tree.close();
   }
 }
 
@@ -163,14 +159,13 @@ void editor(TechnicianFrame& f) {
   f.page.tree.leaf(field);
   keys(f);
   const bool stacked = f.page.portrait && f.page.text_share > 1.3F;
-  f.page.tree.open(f.page.box(stacked ? Flow::Column : Flow::Row, space::kXs));
+  const auto in_box = f.page.tree.inside(f.page.box(stacked ? Flow::Column : Flow::Row, space::kXs));
   f.page.small_button("option leave", f.tr("Cancel"), nullptr, ButtonLook::Quiet,
                       technician_action(TechnicianAct::LeaveOption), stacked ? 0.0F : 1.0F);
   f.page.small_button("option default", f.tr("Default"), nullptr, ButtonLook::Quiet,
                       technician_action(TechnicianAct::UseDefault), stacked ? 0.0F : 1.0F);
   f.page.small_button("option use", f.tr("Use it"), icon::kCheck, ButtonLook::Main,
                       technician_action(TechnicianAct::UseTyped), stacked ? 0.0F : 1.0F);
-  f.page.tree.close();
 }
 
 void status(TechnicianFrame& f) {
@@ -179,10 +174,9 @@ void status(TechnicianFrame& f) {
   f.problem(f.view.problem);
   const bool running = f.view.phase == TechnicianPhase::Capturing || f.view.phase == TechnicianPhase::Running;
   if (running)
-    return f.page.progress("run progress",
-                           f.view.phase == TechnicianPhase::Running
-                               ? (static_cast<float>(f.view.working_on) + f.view.progress) / kStages
-                               : 0);
+    return f.page.progress("run progress", f.view.phase == TechnicianPhase::Running
+                                               ? (float(f.view.working_on) + f.view.progress) / kStages
+                                               : 0);
   if (f.view.applied)
     f.page.status("applied", f.tr("Visitors are measured with these algorithms now."), Mood::Good);
 }
@@ -197,9 +191,8 @@ void technician_algorithms_page(StaffFrame& page) {
   page.tree.open(page.grown(page.box(page.portrait ? Flow::Column : Flow::Row, space::kM)));
   // Large letters leave room for one of the two while an option is edited.
   if (!editing || !(page.portrait || page.text_share > 1.2F)) {
-    page.tree.open(page.grown(page.box(Flow::Column)));
+    const auto in_box = page.tree.inside(page.grown(page.box(Flow::Column)));
     kinds(f);
-    page.tree.close();
   }
   page.tree.open(page.grown(page.box(Flow::Column, space::kXs), page.portrait ? 1.2F : 1.7F));
   if (editing) editor(f);

@@ -35,19 +35,17 @@ constexpr std::array kAdviceWords{mark_tr("Show the whole board to both cameras"
                                   mark_tr("This view is known: another one, please"),
                                   mark_tr("The cameras have changed places: swap them and begin again"),
                                   mark_tr("Enough has been seen")};
-static_assert(kAdviceWords.size() == static_cast<std::size_t>(BoardAdvice::Done) + 1);
+static_assert(kAdviceWords.size() == std::size_t(BoardAdvice::Done) + 1);
 
-const char* words_of(const Words& tr, BoardAdvice advice) {
-  return tr(kAdviceWords[static_cast<std::size_t>(advice)]);
-}
+const char* words_of(const Words& tr, BoardAdvice advice) { return tr(kAdviceWords[std::size_t(advice)]); }
 
 // In the order of BoardEnd.
 constexpr std::array kEndWords{mark_tr("It was ended early."), mark_tr("The goal is reached."),
                                mark_tr("More views would hardly improve it."),
                                mark_tr("As many views as are wanted.")};
-static_assert(kEndWords.size() == static_cast<std::size_t>(BoardEnd::Full) + 1);
+static_assert(kEndWords.size() == std::size_t(BoardEnd::Full) + 1);
 
-const char* words_of(const Words& tr, BoardEnd end) { return tr(kEndWords[static_cast<std::size_t>(end)]); }
+const char* words_of(const Words& tr, BoardEnd end) { return tr(kEndWords[std::size_t(end)]); }
 
 // How much of the picture has been seen: the more corners in a part, the fuller its square. As large as the
 // picture above it.
@@ -55,27 +53,24 @@ void coverage(TechnicianFrame& f, std::size_t side, float aspect) {
   const auto& seen = f.view.calibration.seen[side];
   Node frame = f.page.grown(f.page.box(Flow::Stack));
   frame.aspect = aspect;
-  f.page.tree.open(frame);
+  const auto in_frame = f.page.tree.inside(frame);
   Node map = f.page.box(Flow::Column, 3);
   tell(map, Role::Picture, side == 0 ? "left coverage" : "right coverage",
        side == 0 ? f.tr("Seen by the left camera") : f.tr("Seen by the right camera"));
-  f.page.tree.open(map);
+  const auto in_map = f.page.tree.inside(map);
   for (std::size_t row = 0; row < kCoverageCells; ++row) {
     Node line = f.page.grown(f.page.box(Flow::Row, 3));
     line.box.left_to_right = true;
-    f.page.tree.open(line);
+    const auto in_line = f.page.tree.inside(line);
     for (std::size_t column = 0; column < kCoverageCells; ++column) {
       Node cell = f.page.grown(f.page.box(Flow::Column));
-      const float share = std::min(1.0F, static_cast<float>(seen[row * kCoverageCells + column]) / 40);
+      const float share = std::min(1.0F, float(seen[row * kCoverageCells + column]) / 40);
       cell.box.fill =
           share > 0 ? f.page.palette.accent.with_alpha(0.45F + 0.55F * share) : f.page.palette.track;
       cell.box.radius = f.page.px(3);
       f.page.tree.leaf(cell);
     }
-    f.page.tree.close();
   }
-  f.page.tree.close();
-  f.page.tree.close();
 }
 
 // The pictures above, what of each has been seen below.
@@ -83,12 +78,11 @@ void live_pictures(TechnicianFrame& f) {
   const auto pair = [&](const auto& one) {
     Node row = f.page.grown(f.page.box(Flow::Row, space::kS));
     row.box.left_to_right = true;
-    f.page.tree.open(row);
+    const auto in_row = f.page.tree.inside(row);
     for (std::size_t side = 0; side < 2; ++side) one(side);
-    f.page.tree.close();
   };
   Node column = f.page.grown(f.page.box(Flow::Column, space::kS), f.picture_share(1.6F));
-  f.page.tree.open(column);
+  const auto in_column = f.page.tree.inside(column);
   pair([&](std::size_t side) {
     f.open_picture(side == 0 ? "left board" : "right board",
                    side == 0 ? f.tr("Left camera") : f.tr("Right camera"), f.view.calibration.pictures[side],
@@ -97,17 +91,14 @@ void live_pictures(TechnicianFrame& f) {
   });
   pair([&](std::size_t side) {
     const ImageView& seen = f.view.calibration.pictures[side].pixels;
-    coverage(f, side,
-             seen.empty() ? 1.0F : static_cast<float>(seen.width_px) / static_cast<float>(seen.height_px));
+    coverage(f, side, seen.empty() ? 1.0F : float(seen.width_px) / float(seen.height_px));
   });
-  f.page.tree.close();
 }
 
 void bar(TechnicianFrame& f, std::string_view id, const char* label, float share) {
-  f.page.tree.open(f.page.box(Flow::Column, 4, 0, 7));
+  const auto in_box = f.page.tree.inside(f.page.box(Flow::Column, 4, 0, 7));
   f.page.tree.leaf(f.page.text(label, 18, Weight::Medium, f.page.palette.ink));
   f.page.progress(id, share);
-  f.page.tree.close();
 }
 
 void running(TechnicianFrame& f) {
@@ -124,9 +115,9 @@ void running(TechnicianFrame& f) {
   f.page.begin_panel("progress list");
   f.page.row("views", f.tr("Views taken"), f.page.number(c.views));
   f.page.row("error", f.tr("Predicted error"),
-             c.error_mm > 0 ? f.page.number(static_cast<double>(c.error_mm), 3, "mm") : std::string_view("–"),
+             c.error_mm > 0 ? f.page.number(double(c.error_mm), 3, "mm") : std::string_view("–"),
              c.error_mm > 0 && c.error_mm <= c.goal_mm ? Mood::Good : Mood::Plain);
-  f.page.row("goal", f.tr("Goal"), f.page.number(static_cast<double>(c.goal_mm), 3, "mm"));
+  f.page.row("goal", f.tr("Goal"), f.page.number(double(c.goal_mm), 3, "mm"));
   if (c.disagreeing > 0)
     f.page.row("disagreeing", f.tr("Views that disagree"), f.page.number(c.disagreeing), Mood::Warn);
   const char* const names[] = {f.tr("Across"), f.tr("Up and down"), f.tr("Size"), f.tr("Tilt")};
@@ -147,10 +138,10 @@ void views(TechnicianFrame& f) {
   const TechnicianCalibration& c = f.view.calibration;
   std::array<std::string_view, kMostViews> names;
   const std::size_t count = std::min(names.size(), c.views_px.size());
-  for (std::size_t i = 0; i < count; ++i) names[i] = f.page.number(static_cast<double>(i + 1));
+  for (std::size_t i = 0; i < count; ++i) names[i] = f.page.number(double(i + 1));
   Plot plot;
   plot.id = "rms", plot.title = f.tr("Disagreement with the board");
-  plot.figure = f.page.number(static_cast<double>(c.rms_px), 3, "px");
+  plot.figure = f.page.number(double(c.rms_px), 3, "px");
   plot.values = c.views_px.first(count), plot.names = {names.data(), count}, plot.unit = "px";
   f.page.plot(plot);
 }
@@ -169,10 +160,9 @@ void verdict(TechnicianFrame& f) {
   if (!c.reasons.empty()) f.page.rule();
   f.page.row("ended", words_of(f.tr, c.end), {});
   f.page.row("depth error", f.tr("Error of a face's distance"),
-             f.page.number(static_cast<double>(c.depth_error_mm), 3, "mm"), mood);
+             f.page.number(double(c.depth_error_mm), 3, "mm"), mood);
   views(f);
-  f.page.row("baseline", f.tr("Distance of the cameras"),
-             f.page.number(static_cast<double>(c.baseline_mm), 2, "mm"));
+  f.page.row("baseline", f.tr("Distance of the cameras"), f.page.number(double(c.baseline_mm), 2, "mm"));
   if (c.stored) f.page.row("stored", f.tr("Stored, and in use from now on"), {}, Mood::Good);
 }
 
@@ -186,7 +176,7 @@ void history(TechnicianFrame& f) {
         f.joined(f.page.number(row.revision), "\u00a0· ", f.page.date(row.made_at));
     const std::string_view value = row.active ? std::string_view(f.tr("in force"))
                                    : row.depth_error_mm > 0
-                                       ? f.page.number(static_cast<double>(row.depth_error_mm), 3, "mm")
+                                       ? f.page.number(double(row.depth_error_mm), 3, "mm")
                                        : std::string_view("–");
     f.page.row(f.id("calibration", i), label, value, row.active ? Mood::Good : Mood::Plain,
                row.active ? Action{} : technician_action(UseCalibration{i}));
@@ -209,7 +199,7 @@ void board(TechnicianFrame& f) {
   f.page.section(f.tr("The board"));
   stepper("columns", f.tr("Inner corners across"), f.page.number(c.columns), BoardMeasure::Columns, 1);
   stepper("rows", f.tr("Inner corners down"), f.page.number(c.rows), BoardMeasure::Rows, 1);
-  stepper("square", f.tr("Side of a square"), f.page.number(static_cast<double>(c.square_mm), 1, "mm"),
+  stepper("square", f.tr("Side of a square"), f.page.number(double(c.square_mm), 1, "mm"),
           BoardMeasure::Square, 5);
   f.page.row("charuco", f.tr("With markers (ChArUco)"), c.charuco ? f.tr("yes") : f.tr("no"), Mood::Plain,
              technician_action(TechnicianAct::SwitchCharuco));

@@ -16,13 +16,12 @@ void live(TechnicianFrame& f, std::string_view id, const char* title, const Tech
           PictureSlot slot, int mode) {
   Node column = f.page.grown(f.page.box(Flow::Column, 6));
   column.box.justify = Justify::Centre;
-  f.page.tree.open(column);
+  const auto in_column = f.page.tree.inside(column);
   f.page.tree.leaf(f.page.text(title, type::kSmall, Weight::Bold, f.page.palette.ink, TextAlign::Centre));
   const bool opens = mode > 0 && !picture.pixels.empty();
   f.open_picture(id, opens ? f.page.filled("{}: {}", {title, f.tr("Whole page")}) : title, picture, slot,
                  opens ? Action(ActionKind::StaffMode, mode) : Action());
   f.close_picture();
-  f.page.tree.close();
 }
 
 void edges_button(TechnicianFrame& f, float grow) {
@@ -35,12 +34,12 @@ void focus_card(TechnicianFrame& f, const TechnicianCamera& camera) {
   Node row = f.page.box(Flow::Row, space::kM, space::kM, space::kXs);
   row.box.align = Align::Centre;
   frame(row, f.page.palette.card, f.page.palette.card_border, f.page.px(1.5F), f.page.px(18));
-  f.page.tree.open(row);
+  const auto in_row = f.page.tree.inside(row);
   f.page.tree.open(f.page.grown(f.page.box(Flow::Column)));
   const auto figure = [&](std::string_view id, const char* label, float share, int decimals) {
-    Node said = f.page.text(
-        f.page.filled("{}: {}", {label, f.page.number(100 * static_cast<double>(share), decimals, "%")}), 18,
-        Weight::Medium, f.page.palette.ink);
+    Node said =
+        f.page.text(f.page.filled("{}: {}", {label, f.page.number(100 * double(share), decimals, "%")}), 18,
+                    Weight::Medium, f.page.palette.ink);
     said.id = id;
     said.style.tabular = true;
     f.page.tree.leaf(said);
@@ -49,7 +48,6 @@ void focus_card(TechnicianFrame& f, const TechnicianCamera& camera) {
   if (f.view.cameras.edges_shown) figure("whole edges", f.tr("Sharp edges"), camera.sharp_edges, 1);
   f.page.tree.close();
   edges_button(f, 0);
-  f.page.tree.close();
 }
 
 // One picture, and the figures below it.
@@ -71,33 +69,30 @@ void pair_row(TechnicianFrame& f, std::string_view id, const char* label, std::s
   row.id = id;
   row.box.align = Align::Centre;
   row.box.min_height = f.page.px(44);
-  f.page.tree.open(row);
+  const auto in_row = f.page.tree.inside(row);
   f.page.tree.open(f.page.grown(f.page.box(Flow::Column), 1.4F));
   f.page.tree.leaf(f.page.text(label, type::kSmall, Weight::Medium, f.page.palette.ink));
   f.page.tree.close();
   Node both = f.page.grown(f.page.box(Flow::Row, space::kS), 2);
   both.box.left_to_right = true;
-  f.page.tree.open(both);
+  const auto in_both = f.page.tree.inside(both);
   for (std::size_t side = 0; side < 2; ++side) {
     const Mood mood = side == 0 ? left_mood : right_mood;
     Node cell = f.page.grown(f.page.box(Flow::Row, space::kXs));
     cell.box.align = Align::Centre;
-    f.page.tree.open(cell);
+    const auto in_cell = f.page.tree.inside(cell);
     if (const char* letter = f.page.sign_of(mood)) f.page.sign(letter, 22, f.page.ink_of(mood));
     f.page.tree.leaf(f.page.text(side == 0 ? left : right, type::kSmall, Weight::Regular,
                                  mood == Mood::Plain ? f.page.palette.ink_soft : f.page.ink_of(mood)));
-    f.page.tree.close();
   }
-  f.page.tree.close();
-  f.page.tree.close();
 }
 
 void figures(TechnicianFrame& f) {
   const TechnicianCameras& c = f.view.cameras;
   const auto both = [&](std::string_view id, const char* label, auto value, int decimals,
                         const char* unit_name, auto mood) {
-    pair_row(f, id, label, f.page.number(static_cast<double>(value(c.camera[0])), decimals, unit_name),
-             f.page.number(static_cast<double>(value(c.camera[1])), decimals, unit_name), mood(c.camera[0]),
+    pair_row(f, id, label, f.page.number(double(value(c.camera[0])), decimals, unit_name),
+             f.page.number(double(value(c.camera[1])), decimals, unit_name), mood(c.camera[0]),
              mood(c.camera[1]));
   };
   const auto plain = [](const TechnicianCamera&) { return Mood::Plain; };
@@ -123,12 +118,12 @@ void figures(TechnicianFrame& f) {
       "damaged", f.tr("Damaged"), [](const TechnicianCamera& x) { return x.damaged; }, 0, "",
       [](const TechnicianCamera& x) { return x.damaged > 0 ? Mood::Warn : Mood::Good; });
   f.page.section(f.tr("Together"));
-  f.page.row("skew", f.tr("Apart in time"), f.page.number(static_cast<double>(c.skew_us), 0, "µs"));
-  f.page.row("pairs", f.tr("Pairs"), f.page.number(static_cast<double>(c.pairs)));
-  f.page.row("apart", f.tr("Refused: too far apart"), f.page.number(static_cast<double>(c.apart)),
+  f.page.row("skew", f.tr("Apart in time"), f.page.number(double(c.skew_us), 0, "µs"));
+  f.page.row("pairs", f.tr("Pairs"), f.page.number(double(c.pairs)));
+  f.page.row("apart", f.tr("Refused: too far apart"), f.page.number(double(c.apart)),
              c.apart > 0 ? Mood::Warn : Mood::Good);
-  f.page.row("rate", f.tr("Pairs a second"), f.page.number(static_cast<double>(c.pairs_per_second), 1));
-  f.page.row("exposure", f.tr("Exposure"), f.page.number(static_cast<double>(c.exposure_us) / 1000, 2, "ms"));
+  f.page.row("rate", f.tr("Pairs a second"), f.page.number(double(c.pairs_per_second), 1));
+  f.page.row("exposure", f.tr("Exposure"), f.page.number(double(c.exposure_us) / 1000, 2, "ms"));
   if (!c.can_be_set) f.page.row("fixed", f.tr("The exposure of these cameras cannot be set."), {});
 }
 
@@ -139,7 +134,7 @@ void technician_cameras_page(StaffFrame& page) {
   TechnicianFrame f(page);
   f.problem(f.view.problem.empty() ? f.view.cameras.problem : f.view.problem);
   if (page.service.mode > 0 && f.view.cameras.watched)
-    return whole_page(f, static_cast<std::size_t>(page.service.mode == 1 ? 0 : 1));
+    return whole_page(f, std::size_t(page.service.mode == 1 ? 0 : 1));
   page.tree.open(page.grown(page.box(page.portrait ? Flow::Column : Flow::Row, space::kM)));
   Node pair = page.grown(page.box(Flow::Row, space::kS), f.picture_share(1.5F));
   pair.box.left_to_right = true;

@@ -17,7 +17,7 @@ namespace {
 // The colours of a difference, from farther to nearer.
 void difference_scale(TechnicianFrame& f) {
   if (f.view.scale.empty()) return;
-  const auto end = static_cast<double>(f.view.full_colour_mm);
+  const auto end = double(f.view.full_colour_mm);
   const std::string_view farther = f.page.number(-end, 2, "mm"), nearer = f.page.number(end, 2, "mm");
   Node row = f.page.box(Flow::Row, space::kXs, 0, 5);
   row.id = "difference scale";
@@ -28,10 +28,10 @@ void difference_scale(TechnicianFrame& f) {
   Node strip = f.page.grown(f.page.box(Flow::Column));
   strip.box.height = f.page.px(20);
   f.page.tree.leaf(strip);
-  const float share = 1 / static_cast<float>(f.view.scale.size());
+  const float share = 1 / float(f.view.scale.size());
   for (std::size_t i = 0; i < f.view.scale.size(); ++i) {
     const auto& c = f.view.scale[i];
-    f.page.tree.mark({{static_cast<float>(i) * share, 0, share, 1}, {c[0], c[1], c[2], 255}, 0, false});
+    f.page.tree.mark({{float(i) * share, 0, share, 1}, {c[0], c[1], c[2], 255}, 0, false});
   }
   f.page.tree.leaf(f.page.text(nearer, 18, Weight::Regular, f.page.palette.ink));
   f.page.tree.close();
@@ -62,17 +62,16 @@ class Columns {
       : f(frame), page(frame.page), count(std::min(frame.view.put_aside + 1, kCompared)) {}
 
   void pictures() {
-    page.tree.open(page.grown(page.box(Flow::Row, space::kXs), labels_above() ? 0.65F : 1.0F));
+    const auto in_box =
+        page.tree.inside(page.grown(page.box(Flow::Row, space::kXs), labels_above() ? 0.65F : 1.0F));
     if (!labels_above()) beside_pictures();
     for (std::size_t i = 0; i < count; ++i) {
       Node column = page.grown(page.box(Flow::Column, 6));
-      page.tree.open(column);
+      const auto in_column = page.tree.inside(column);
       page.tree.leaf(page.text(is_now(i) ? std::string_view(f.tr("Now")) : name_of(i), type::kSmall,
                                Weight::Bold, page.palette.ink, TextAlign::Centre));
       picture(i);
-      page.tree.close();
     }
-    page.tree.close();
   }
 
   void table() {
@@ -99,15 +98,14 @@ class Columns {
   bool is_now(std::size_t i) const { return i == f.view.put_aside; }
   bool labels_above() const { return page.portrait || page.text_share > 1.2F; }
   const TechnicianResult& result(std::size_t i) const { return f.view.compared[i].result; }
-  std::string_view name_of(std::size_t i) const { return page.number(static_cast<double>(i + 1)); }
+  std::string_view name_of(std::size_t i) const { return page.number(double(i + 1)); }
 
   // What stands over the labels.
   void beside_pictures() {
     Node words = page.grown(page.box(Flow::Column, space::kS), label_share());
-    page.tree.open(words);
+    const auto in_words = page.tree.inside(words);
     page.tree.leaf(page.text(title_of(f.tr, f.view.stage), type::kSmall, Weight::Bold, page.palette.ink));
     page.tree.leaf(page.text(how(), 18, Weight::Regular, page.palette.ink_soft));
-    page.tree.close();
   }
   const char* how() const {
     if (count == kCompared) return f.tr("Four stand side by side: drop one to put another beside them.");
@@ -122,10 +120,9 @@ class Columns {
   void picture(std::size_t i) {
     const TechnicianCompared& one = f.view.compared[i];
     const std::string_view spoken = is_now(i) ? std::string_view(f.tr("Now")) : name_of(i);
-    const auto slot = static_cast<PictureSlot>(static_cast<std::size_t>(PictureSlot::TechnicianLeft) + i);
+    const auto slot = static_cast<PictureSlot>(std::size_t(PictureSlot::TechnicianLeft) + i);
     const std::string_view id = is_now(i) ? "present picture" : f.id("kept picture", i);
-    const Action alone =
-        one.model != nullptr ? Action(ActionKind::StaffMode, static_cast<std::int32_t>(i + 1)) : Action();
+    const Action alone = one.model != nullptr ? Action(ActionKind::StaffMode, std::int32_t(i + 1)) : Action();
     if (shows_difference(i)) {
       f.open_picture(id, page.filled("{}: {}", {f.tr("Difference"), spoken}), one.difference.map, slot,
                      alone);
@@ -138,7 +135,7 @@ class Columns {
       tell(face, Role::Picture, id, f.tr("The model: turn it with a finger"), {ActionKind::TurnFace, 0});
       face.by_key = alone;
       face.mark = Mark::Face;
-      face.face = static_cast<std::uint8_t>(i);
+      face.face = std::uint8_t(i);
       face.box.radius = page.px(12);
       page.tree.leaf(face);
     } else {
@@ -148,20 +145,17 @@ class Columns {
     page.tree.close();
   }
   void drop_button(std::size_t i) {
-    page.tree.open(page.box(Flow::Column));
+    const auto in_box_2 = page.tree.inside(page.box(Flow::Column));
     Node end = page.box(Flow::Row);
     end.box.justify = Justify::End;
-    page.tree.open(end);
+    const auto in_end = page.tree.inside(end);
     Node cross = page.sized(page.box(Flow::Row), size::kStaffTarget, size::kStaffTarget);
     tell(cross, Role::Button, f.id("drop", i), f.tr("Drop this result"), technician_action(DropResult{i}));
     centre(cross);
     cross.box.radius = page.px(12);
     cross.box.fill = page.palette.quiet;
-    page.tree.open(cross);
+    const auto in_cross = page.tree.inside(cross);
     page.sign(icon::kClose, 26 / page.text_share, page.palette.link);
-    page.tree.close();
-    page.tree.close();
-    page.tree.close();
   }
 
   // A line of the table: a cell for each result.
@@ -175,20 +169,19 @@ class Columns {
     if (!above) line.box.align = Align::Centre;
     page.tree.open(line);
     if (!label.empty() || !above) {
-      page.tree.open(above ? page.box(Flow::Column) : page.grown(page.box(Flow::Column), label_share()));
+      const auto in_box_3 = page.tree.inside(above ? page.box(Flow::Column)
+                                                   : page.grown(page.box(Flow::Column), label_share()));
       if (!label.empty()) page.tree.leaf(page.text(label, 18, Weight::Medium, page.palette.ink));
-      page.tree.close();
     }
     if (above) page.tree.open(page.box(Flow::Row, space::kXs));
     for (std::size_t i = 0; i < count; ++i) {
-      page.tree.open(page.grown(page.box(Flow::Column)));
+      const auto in_box_4 = page.tree.inside(page.grown(page.box(Flow::Column)));
       Node said =
           page.text(cell(result(i)), count == kCompared ? 18 * std::min(1.0F, 1.25F / page.text_share) : 18,
                     Weight::Regular, bad ? page.palette.bad : page.palette.ink, TextAlign::Centre);
       said.style.tabular = true;
       if (english) said.style.language = "en";
       if (!said.text.empty()) page.tree.leaf(said);
-      page.tree.close();
     }
     if (above) page.tree.close();
     page.tree.close();
@@ -197,8 +190,7 @@ class Columns {
   void figure(std::string_view id, std::string_view label, int decimals, const char* unit, const Value& value,
               const Known& known) {
     row(id, label, [&](const TechnicianResult& r) {
-      return r.there && known(r) ? page.number(static_cast<double>(value(r)), decimals, unit)
-                                 : std::string_view("–");
+      return r.there && known(r) ? page.number(double(value(r)), decimals, unit) : std::string_view("–");
     });
   }
 
@@ -207,8 +199,8 @@ class Columns {
     if (!f.view.differences) return;
     const auto each = [&](std::string_view id, const char* label, auto value) {
       row(id, label, [&](const TechnicianResult& r) {
-        const TechnicianDifference& d = f.view.compared[static_cast<std::size_t>(number_of(r))].difference;
-        return d.known ? page.number(static_cast<double>(value(d)), 2, "mm") : std::string_view("–");
+        const TechnicianDifference& d = f.view.compared[std::size_t(number_of(r))].difference;
+        return d.known ? page.number(double(value(d)), 2, "mm") : std::string_view("–");
       });
     };
     each("difference median", f.tr("Median difference"),
@@ -247,7 +239,7 @@ class Columns {
       for (std::string_view rest = result(i).algorithms; !rest.empty();) {
         const std::string_view key = rest.substr(0, rest.find(" = "));
         const bool seen = std::any_of(
-            f.view.compared.begin(), f.view.compared.begin() + static_cast<std::ptrdiff_t>(i),
+            f.view.compared.begin(), f.view.compared.begin() + std::ptrdiff_t(i),
             [key](const TechnicianCompared& one) { return !value_of(one.result.algorithms, key).empty(); });
         if (!seen) option(number++, key);
         rest.remove_prefix(std::min(std::min(rest.find('\n'), rest.size() - 1) + 1, rest.size()));
@@ -260,7 +252,7 @@ class Columns {
   }
   void failures() {
     const auto failed = [](const TechnicianCompared& one) { return !one.result.failure.empty(); };
-    if (std::none_of(f.view.compared.begin(), f.view.compared.end(), failed)) return;
+    if (std::ranges::none_of(f.view.compared, failed)) return;
     row(
         "failed", "",
         [this](const TechnicianResult& r) {
@@ -321,8 +313,7 @@ void buttons(TechnicianFrame& f, bool there) {
   const float grow = f.open_buttons();
   const bool room = f.view.put_aside + 1 < kCompared;
   if (there) {
-    const auto next =
-        static_cast<TechnicianStage>((static_cast<std::size_t>(f.view.stage) + 1) % kTechnicianStages);
+    const auto next = static_cast<TechnicianStage>((std::size_t(f.view.stage) + 1) % kTechnicianStages);
     f.page.small_button("next stage", title_of(f.tr, f.view.stage), icon::kAgain, ButtonLook::Quiet,
                         technician_action(ShowStage{next}), grow);
     if (f.view.put_aside > 0) {
@@ -346,7 +337,7 @@ void technician_compare_page(StaffFrame& page) {
   TechnicianFrame f(page);
   if (f.view.saved.listed) return f.saved_list(true);
   const bool there = f.capture_state();
-  const auto one = static_cast<std::size_t>(std::max(0, page.service.mode));
+  const auto one = std::size_t(std::max(0, page.service.mode));
   if (there && one > 0 && one <= f.view.put_aside + 1 && f.view.compared[one - 1].model != nullptr)
     return alone(f, one - 1);
   if (there) {

@@ -29,7 +29,7 @@ void TechnicianFrame::face(float share, void (*tools)(TechnicianFrame&), float t
   Node card = page.grown(page.box(Flow::Stack), share);
   card.box.fill = page.palette.stage;
   card.box.radius = page.px(size::kRadius);
-  page.tree.open(card);
+  const auto in_card = page.tree.inside(card);
   Node face = page.box(Flow::Column);
   tell(face, Role::Picture, "face", tr("The model: turn it with a finger"));
   face.mark = Mark::Face;
@@ -40,12 +40,10 @@ void TechnicianFrame::face(float share, void (*tools)(TechnicianFrame&), float t
   page.tree.leaf(face);
   ruler();
   if (tools != nullptr) {
-    page.tree.open(page.box(Flow::Column));
+    const auto in_box = page.tree.inside(page.box(Flow::Column));
     page.space(1);
     tools(*this);
-    page.tree.close();
   }
-  page.tree.close();
 }
 
 void TechnicianFrame::measure_button(float grow) {
@@ -61,7 +59,7 @@ void TechnicianFrame::ruler() {
   };
   if (ruler.count == 2)
     for (int i = 1; i < kLineDots; ++i) {
-      const float t = static_cast<float>(i) / kLineDots;
+      const float t = float(i) / kLineDots;
       dot({std::lerp(ruler.seen[0].x, ruler.seen[1].x, t), std::lerp(ruler.seen[0].y, ruler.seen[1].y, t)},
           kLineDp);
     }
@@ -71,22 +69,20 @@ void TechnicianFrame::ruler() {
   page.tree.mark(
       {{page.mirrored() ? 1 - from - long_share : from, y, long_share, 0}, kScale, page.px(kScaleDp), false});
   Node words = page.box(Flow::Column, 4, kMargin, kMargin + kScaleDp + 2);
-  page.tree.open(words);
-  Node length = page.text(page.number(static_cast<double>(mm), 0, "mm"), 18, Weight::Medium, kScale);
+  const auto in_words = page.tree.inside(words);
+  Node length = page.text(page.number(double(mm), 0, "mm"), 18, Weight::Medium, kScale);
   length.id = "scale";
   page.tree.leaf(length);
   if (ruler.on) {
     const bool both = ruler.count == 2;
     Node said = page.text(
-        both ? page.filled("{}: {}",
-                           {tr("Distance"), page.number(static_cast<double>(ruler.distance_mm()), 1, "mm")})
+        both ? page.filled("{}: {}", {tr("Distance"), page.number(double(ruler.distance_mm()), 1, "mm")})
              : std::string_view(tr("Touch two points of the surface.")),
         type::kSmall, Weight::Medium, kScale);
     said.id = "distance";
     said.role = Role::Status;
     page.tree.leaf(said);
   }
-  page.tree.close();
 }
 
 }  // namespace relievo::ui

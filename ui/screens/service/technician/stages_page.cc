@@ -28,7 +28,7 @@ bool makes_pairs(const TechnicianFrame& f) {
 void tabs(TechnicianFrame& f) {
   const std::size_t across = f.across(kTechnicianStages);
   for (std::size_t first = 0; first < kTechnicianStages; first += across) {
-    f.page.tree.open(f.page.box(Flow::Row, 6));
+    const auto in_box = f.page.tree.inside(f.page.box(Flow::Row, 6));
     for (std::size_t i = first; i < std::min(first + across, kTechnicianStages); ++i) {
       const auto stage = static_cast<TechnicianStage>(i);
       const bool chosen = stage == f.view.stage;
@@ -39,13 +39,11 @@ void tabs(TechnicianFrame& f) {
       frame(tab, chosen ? f.page.palette.accent : f.page.palette.quiet,
             chosen ? f.page.palette.accent : f.page.palette.quiet_border, f.page.px(2), f.page.px(14));
       tab.box.min_height = f.page.px(size::kStaffTarget);
-      f.page.tree.open(tab);
+      const auto in_tab = f.page.tree.inside(tab);
       f.page.tree.leaf(f.page.text(
           title_of(f.tr, stage), f.page.portrait ? 16 : 17, chosen ? Weight::Bold : Weight::Medium,
           chosen ? f.page.palette.accent_ink : f.page.palette.link, TextAlign::Centre));
-      f.page.tree.close();
     }
-    f.page.tree.close();
   }
 }
 
@@ -58,7 +56,7 @@ void pair_pictures(TechnicianFrame& f) {
   const bool touchable = f.view.stage == TechnicianStage::Rectified;
   Node row = f.page.grown(f.page.box(Flow::Row, space::kS), f.picture_share(2.4F));
   row.box.left_to_right = true;
-  f.page.tree.open(row);
+  const auto in_row = f.page.tree.inside(row);
   for (std::size_t side = 0; side < 2; ++side) {
     Action action{}, dragged{};
     if (touchable) action = technician_action(TouchPicture{side != 0, false});
@@ -67,7 +65,7 @@ void pair_pictures(TechnicianFrame& f) {
                    f.view.shown[side], side == 0 ? PictureSlot::TechnicianLeft : PictureSlot::TechnicianRight,
                    action, dragged);
     if (f.view.stage != TechnicianStage::Input) {
-      for (int i = 1; i < kLines; ++i) f.pin_line(static_cast<float>(i) / kLines, kFaint, 1);
+      for (int i = 1; i < kLines; ++i) f.pin_line(float(i) / kLines, kFaint, 1);
     }
     if (makes_pairs(f)) pin_pairs(f, side);
     const TechnicianPoint& point = f.view.point;
@@ -76,12 +74,11 @@ void pair_pictures(TechnicianFrame& f) {
     if (touchable && point.matched && side == 1) f.pin_dot(point.right_x, point.y, kTouched, "right mark");
     f.close_picture();
   }
-  f.page.tree.close();
 }
 
 void one_picture(TechnicianFrame& f) {
   Node row = f.page.grown(f.page.box(Flow::Row, space::kS), f.picture_share(2.4F));
-  f.page.tree.open(row);
+  const auto in_row = f.page.tree.inside(row);
   f.open_picture("picture", title_of(f.tr, f.view.stage), f.view.shown[0], PictureSlot::TechnicianLeft);
   f.close_picture();
   if (!f.view.shown[1].pixels.empty()) {
@@ -90,11 +87,10 @@ void one_picture(TechnicianFrame& f) {
                    f.view.shown[1], PictureSlot::TechnicianRight);
     f.close_picture();
   }
-  f.page.tree.close();
 }
 
 std::string_view coordinates(TechnicianFrame& f, const pipeline::Vec2f& px) {
-  return f.several({static_cast<double>(px.x), static_cast<double>(px.y)}, 2, "px");
+  return f.several({double(px.x), double(px.y)}, 2, "px");
 }
 
 std::string_view plus_minus(TechnicianFrame& f, double value, double sigma, int decimals,
@@ -125,41 +121,35 @@ void point_rows(TechnicianFrame& f) {
   }
   if (point.new_surface) f.page.row("point moved", f.tr("New surface"), f.tr("yes"), Mood::Good);
   else if (!std::isnan(point.moved_mm))
-    f.page.row("point moved", f.tr("Surface came nearer by"),
-               f.page.number(static_cast<double>(point.moved_mm), 2, "mm"));
+    f.page.row("point moved", f.tr("Surface came nearer by"), f.page.number(double(point.moved_mm), 2, "mm"));
   f.page.row("point right", f.tr("Right"), coordinates(f, point.right_px));
-  f.page.row(
-      "point disparity", f.tr("Disparity"),
-      plus_minus(f, static_cast<double>(point.disparity_px), static_cast<double>(point.sigma_px), 2, "px"));
-  f.page.row("point likeness", f.tr("Likeness"), f.page.number(1 - static_cast<double>(point.cost), 3));
+  f.page.row("point disparity", f.tr("Disparity"),
+             plus_minus(f, double(point.disparity_px), double(point.sigma_px), 2, "px"));
+  f.page.row("point likeness", f.tr("Likeness"), f.page.number(1 - double(point.cost), 3));
   if (!point.rejected_by.empty())
     f.page.row("point rejected", f.tr("Rejected by"), f.rule_name(point.rejected_by), Mood::Bad);
   else if (!point.by_hand) f.page.row("point accepted", f.tr("Accepted"), f.tr("yes"), Mood::Good);
   f.page.row("point space", f.tr("In space"),
-             f.several({static_cast<double>(point.at_mm.x), static_cast<double>(point.at_mm.y),
-                        static_cast<double>(point.at_mm.z)},
-                       1, "mm"));
-  f.page.row("point sigma", f.tr("Depth uncertainty"),
-             f.page.number(static_cast<double>(point.sigma_mm), 3, "mm"));
+             f.several({double(point.at_mm.x), double(point.at_mm.y), double(point.at_mm.z)}, 1, "mm"));
+  f.page.row("point sigma", f.tr("Depth uncertainty"), f.page.number(double(point.sigma_mm), 3, "mm"));
 }
 
 void scale_words(TechnicianFrame& f, float full_colour_mm) {
   f.page.tree.leaf(
       f.page.text(f.page.filled(f.tr("Red came nearer, blue went away; white stayed. Full colour: {}."),
-                                f.page.number(static_cast<double>(full_colour_mm), 2, "mm")),
+                                f.page.number(double(full_colour_mm), 2, "mm")),
                   type::kSmall, Weight::Regular, f.page.palette.ink_soft));
 }
 
 void change_rows(TechnicianFrame& f) {
   if (f.view.pairs.empty()) return;
   f.page.rule();
-  f.page.row("pairs", f.tr("Match by hand"), f.page.number(static_cast<double>(f.view.pairs.size())));
+  f.page.row("pairs", f.tr("Match by hand"), f.page.number(double(f.view.pairs.size())));
   const TechnicianChange& change = f.view.change;
   if (!change.known) return;
-  f.page.row("moved", f.tr("Surface moved"), f.page.number(static_cast<double>(change.moved_mm2), 0, "mm²"));
-  f.page.row("new", f.tr("New surface"), f.page.number(static_cast<double>(change.new_mm2), 0, "mm²"));
-  f.page.row("farthest", f.tr("Largest move"),
-             f.page.number(static_cast<double>(change.farthest_mm), 2, "mm"));
+  f.page.row("moved", f.tr("Surface moved"), f.page.number(double(change.moved_mm2), 0, "mm²"));
+  f.page.row("new", f.tr("New surface"), f.page.number(double(change.new_mm2), 0, "mm²"));
+  f.page.row("farthest", f.tr("Largest move"), f.page.number(double(change.farthest_mm), 2, "mm"));
   if (f.view.stage == TechnicianStage::Mesh) scale_words(f, change.full_colour_mm);
 }
 
@@ -174,14 +164,13 @@ void pose_rows(TechnicianFrame& f) {
   }
   for (std::size_t b = 0; b < f.view.pose_count; ++b) {
     const TechnicianPose& pose = f.view.poses[b];
-    const auto number = [&](std::size_t of) { return f.page.number(static_cast<double>(of + 1)); };
-    f.page.section(
-        f.page.filled("{}: {}", {number(b), f.page.number(static_cast<double>(pose.turned_deg), 1, "°")}));
+    const auto number = [&](std::size_t of) { return f.page.number(double(of + 1)); };
+    f.page.section(f.page.filled("{}: {}", {number(b), f.page.number(double(pose.turned_deg), 1, "°")}));
     if (!pose.joined) f.page.row(f.id("left out", b), f.tr("No match here"), {}, Mood::Bad);
     for (std::size_t a = 0; a < f.view.pose_count; ++a)
       if (pose.rms_mm[a] > 0)
         f.page.row(f.id(f.id("agrees", b), a), f.joined(number(b), "\u00a0–\u00a0", number(a)),
-                   f.page.number(static_cast<double>(pose.rms_mm[a]), 3, "mm"));
+                   f.page.number(double(pose.rms_mm[a]), 3, "mm"));
   }
   scale_words(f, f.view.full_residual_mm);
 }
@@ -199,15 +188,15 @@ void pair_buttons(TechnicianFrame& f) {
 
 void rule_rows(TechnicianFrame& f) {
   const TechnicianResult& r = f.view.result;
-  f.page.row("matches", f.tr("Matches"), f.page.number(static_cast<double>(r.matches)));
-  f.page.row("accepted", f.tr("Accepted matches"), f.page.number(static_cast<double>(r.accepted)));
+  f.page.row("matches", f.tr("Matches"), f.page.number(double(r.matches)));
+  f.page.row("accepted", f.tr("Accepted matches"), f.page.number(double(r.accepted)));
   f.page.section(f.tr("Rejected by"));
   for (std::size_t i = 0; i < r.rule_count; ++i) {
     const TechnicianRule& rule = r.rules[i];
     Node row = f.page.box(Flow::Row, space::kS, 0, 6);
     row.id = f.id("rule", i);
     row.box.align = Align::Centre;
-    f.page.tree.open(row);
+    const auto in_row = f.page.tree.inside(row);
     Node patch = f.page.sized(f.page.box(Flow::Column), 26, 26);
     patch.box.fill = {rule.rgb[0], rule.rgb[1], rule.rgb[2], 255};
     patch.box.radius = f.page.px(6);
@@ -215,9 +204,8 @@ void rule_rows(TechnicianFrame& f) {
     f.page.tree.open(f.page.grown(f.page.box(Flow::Column)));
     f.page.tree.leaf(f.page.text(f.rule_name(rule.name), type::kSmall, Weight::Medium, f.page.palette.ink));
     f.page.tree.close();
-    f.page.tree.leaf(f.page.text(f.page.number(static_cast<double>(rule.rejected)), type::kSmall,
-                                 Weight::Regular, f.page.palette.ink_soft));
-    f.page.tree.close();
+    f.page.tree.leaf(f.page.text(f.page.number(double(rule.rejected)), type::kSmall, Weight::Regular,
+                                 f.page.palette.ink_soft));
   }
 }
 
@@ -225,14 +213,12 @@ void rule_rows(TechnicianFrame& f) {
 void sigma_plot(TechnicianFrame& f) {
   const TechnicianResult& r = f.view.result;
   if (r.coverage <= 0) return;
-  const auto mm = [&](std::size_t bin) {
-    return f.page.number(static_cast<double>(kSigmaBinMm) * static_cast<double>(bin), 2, "mm");
-  };
+  const auto mm = [&](std::size_t bin) { return f.page.number(double(kSigmaBinMm) * double(bin), 2, "mm"); };
   std::array<std::string_view, kSigmaBins> names;
   for (std::size_t i = 0; i < names.size(); ++i) names[i] = mm(i);
   Plot plot;
   plot.id = "sigma", plot.title = f.tr("Median uncertainty");
-  plot.figure = f.page.number(static_cast<double>(r.median_sigma_mm), 3, "mm");
+  plot.figure = f.page.number(double(r.median_sigma_mm), 3, "mm");
   plot.values = r.sigma_percent, plot.names = names, plot.unit = "%";
   plot.under = {mm(0), {}, mm(kSigmaBins)};
   f.page.plot(plot);
@@ -244,8 +230,8 @@ void time_rows(TechnicianFrame& f) {
                               f.tr("Landmarks")};
   for (std::size_t i = 0; i < r.seconds.size(); ++i) {
     f.page.section(work_of(f.tr, i));
-    f.page.row(f.id("time", i), f.tr("Time"), f.page.number(static_cast<double>(r.seconds[i]), 2, "s"));
-    f.page.row(f.id("made", i), made[i], f.page.number(static_cast<double>(r.made[i])));
+    f.page.row(f.id("time", i), f.tr("Time"), f.page.number(double(r.seconds[i]), 2, "s"));
+    f.page.row(f.id("made", i), made[i], f.page.number(double(r.made[i])));
   }
 }
 
@@ -271,17 +257,16 @@ void technician_stages_page(StaffFrame& page) {
   const bool there = f.capture_state();
   if (there) {
     tabs(f);
-    page.tree.open(page.grown(page.box(page.portrait ? Flow::Column : Flow::Row, space::kM)));
+    const auto in_box =
+        page.tree.inside(page.grown(page.box(page.portrait ? Flow::Column : Flow::Row, space::kM)));
     if (is_pair(f.view.stage)) pair_pictures(f);
     else one_picture(f);
     Node side = page.grown(page.box(Flow::Column, space::kXs));
-    page.tree.open(side);
+    const auto in_side = page.tree.inside(side);
     page.begin_panel("facts");
     side_rows(f);
     page.tree.close();
     if (f.view.stage == TechnicianStage::Rectified) pair_buttons(f);
-    page.tree.close();
-    page.tree.close();
   }
   f.stick_state();
   f.capture_buttons(false, true);

@@ -9,6 +9,61 @@
 #include "ui/screens/service/technician/technician_frame.h"
 
 namespace relievo::ui {
+
+// The test capture in three dimensions: points, edges, surface, texture and light, each switched on and off;
+// the distance of two points on it.
+namespace {
+
+void switches(TechnicianFrame& f) {
+  const FaceLook& look = f.page.visit.look;
+  struct Switch {
+    std::string_view id;
+    const char* label;
+    bool on;
+    ActionKind kind;
+  };
+  const Switch all[] = {{"points", f.tr("Points"), look.points, ActionKind::LookPoints},
+                        {"edges", f.tr("Edges"), look.edges, ActionKind::LookEdges},
+                        {"fill", f.tr("Surface"), look.fill, ActionKind::LookFill},
+                        {"texture", f.tr("Texture"), look.textured, ActionKind::ShowShape},
+                        {"lit", f.tr("Light"), look.lit, ActionKind::LookLight}};
+  for (const Switch& one : all) f.choice(one.id, one.label, one.on, {one.kind, 0}, 0);
+}
+
+void hands(TechnicianFrame& f) {
+  Node row = f.page.box(Flow::Row, space::kXs, space::kXs, space::kXs);
+  row.box.justify = Justify::Centre;
+  row.box.left_to_right = true;  // as on the page where a visitor looks at it
+  const auto in_row = f.page.tree.inside(row);
+  f.page.square_button("turn_left", f.tr("Turn left"), icon::kTurnLeft, {ActionKind::TurnLeft, 0});
+  f.page.square_button("turn_right", f.tr("Turn right"), icon::kTurnRight, {ActionKind::TurnRight, 0});
+  f.page.square_button("zoom_out", f.tr("Smaller"), icon::kZoomOut, {ActionKind::ZoomOut, 0});
+  f.page.square_button("zoom_in", f.tr("Larger"), icon::kZoomIn, {ActionKind::ZoomIn, 0});
+  f.page.square_button("light", f.tr("Move the light"), icon::kSun, {ActionKind::MoveLight, 0});
+}
+
+}  // namespace
+
+void technician_model_page(StaffFrame& page) {
+  if (page.staff.technician == nullptr) return;
+  TechnicianFrame f(page);
+  if (f.capture_state() && f.view.model == nullptr) {
+    f.failure();
+    page.nothing("no model", icon::kShape, f.tr("There is nothing: a stage before it gave up."));
+  } else if (f.view.model != nullptr) {
+    const auto in_box =
+        page.tree.inside(page.grown(page.box(page.portrait ? Flow::Column : Flow::Row, space::kM)));
+    f.face(3, hands, size::kTarget + 2 * space::kXs);
+    Node side = page.box(Flow::Column, space::kS);
+    if (!page.portrait) side.box.width = page.px(page.text_share > 1.2F ? 330 : 260);
+    side.box.justify = Justify::Centre;
+    const auto in_side = page.tree.inside(side);
+    switches(f);
+    f.measure_button(0);
+  }
+  f.capture_buttons(false);
+}
+
 namespace {
 
 constexpr float kGap = 6;  // between columns
@@ -16,10 +71,10 @@ constexpr float kGap = 6;  // between columns
 // In the order of TechnicianTable.
 constexpr std::array kTableNames{mark_tr("Matches"), mark_tr("Points"), mark_tr("Model"), mark_tr("Poses"),
                                  mark_tr("Calibration")};
-static_assert(kTableNames.size() == static_cast<std::size_t>(TechnicianTable::Count));
+static_assert(kTableNames.size() == std::size_t(TechnicianTable::Count));
 
 const char* name_of_table(const Words& tr, TechnicianTable table) {
-  return tr(kTableNames[static_cast<std::size_t>(table)]);
+  return tr(kTableNames[std::size_t(table)]);
 }
 
 struct Wide {  // a column of words, and how much wider than one of numbers
@@ -45,8 +100,8 @@ float letters_dp(const StaffFrame& page) { return page.portrait ? 15.0F : 18.0F;
 Shape shape_of(const StaffFrame& page, std::size_t columns, const Wide& wide) {
   constexpr float kMargins = 112;  // of page, card and row
   Shape shape{columns, columns, wide};
-  const float all = static_cast<float>(columns) - 1 + (wide.column < columns ? wide.share : 1);
-  const float gaps = kGap * (static_cast<float>(columns) - 1);
+  const float all = float(columns) - 1 + (wide.column < columns ? wide.share : 1);
+  const float gaps = kGap * (float(columns) - 1);
   if (all * wide.number * letters_dp(page) * page.text_share + gaps > page.width_dp - kMargins)
     shape.abreast = (columns + 1) / 2;
   return shape;
@@ -71,14 +126,12 @@ void record(TechnicianFrame& f, std::span<const std::string_view> texts, bool he
     row.box.left_to_right = true;
     row.box.min_height = f.page.px(36);
     row.box.align = Align::Centre;
-    f.page.tree.open(row);
+    const auto in_row = f.page.tree.inside(row);
     for (std::size_t i = first; i < first + shape.abreast; ++i) {
-      f.page.tree.open(f.page.grown(f.page.box(Flow::Column),
-                                    !divided && i == shape.wide.column ? shape.wide.share : 1.0F));
+      const auto in_box = f.page.tree.inside(f.page.grown(
+          f.page.box(Flow::Column), !divided && i == shape.wide.column ? shape.wide.share : 1.0F));
       if (i < shape.columns) cell(f, texts[i], heading);
-      f.page.tree.close();
     }
-    f.page.tree.close();
   }
   if (divided) f.page.rule();
 }
@@ -104,13 +157,12 @@ void technician_tables_page(StaffFrame& page) {
   if (list_choice(page, rows.place, filters)) return;
   const std::size_t across = page.portrait || page.text_share > 1.3F ? 2 : kTechnicianTables;
   for (std::size_t first = 0; first < kTechnicianTables; first += across) {
-    page.tree.open(page.box(Flow::Row, space::kXs));
+    const auto in_box = page.tree.inside(page.box(Flow::Row, space::kXs));
     for (std::size_t i = first; i < first + across; ++i) {
       const auto table = static_cast<TechnicianTable>(i);
       f.choice(f.id("table", i), name_of_table(f.tr, table), rows.table == table,
                technician_action(ShowTable{static_cast<TechnicianTable>(i)}));
     }
-    page.tree.close();
   }
   if (rows.cells.empty() && (rows.table != TechnicianTable::Calibration || !f.view.calibrated)) {
     if (f.capture_state()) {

@@ -15,13 +15,11 @@ namespace {
 constexpr std::array kStageTitles{mark_tr("Pictures"), mark_tr("Processed"), mark_tr("Rectified"),
                                   mark_tr("Matches"),  mark_tr("Disparity"), mark_tr("Points"),
                                   mark_tr("Surface"),  mark_tr("Texture"),   mark_tr("Poses")};
-static_assert(kStageTitles.size() == static_cast<std::size_t>(TechnicianStage::Count));
+static_assert(kStageTitles.size() == std::size_t(TechnicianStage::Count));
 
 }  // namespace
 
-const char* title_of(const Words& tr, TechnicianStage stage) {
-  return tr(kStageTitles[static_cast<std::size_t>(stage)]);
-}
+const char* title_of(const Words& tr, TechnicianStage stage) { return tr(kStageTitles[std::size_t(stage)]); }
 
 const char* work_of(const Words& tr, std::size_t stage) {
   if (stage == 0) return tr("Matching");
@@ -43,9 +41,8 @@ std::int32_t work_before(TechnicianStage stage) {
 
 std::string_view TechnicianFrame::id(std::string_view what, std::size_t number) const {
   char text[64];
-  const int length =
-      std::snprintf(text, sizeof text, "%.*s %zu", static_cast<int>(what.size()), what.data(), number);
-  return page.tree.keep({text, static_cast<std::size_t>(std::clamp(length, 0, 63))});
+  const int length = std::snprintf(text, sizeof text, "%.*s %zu", int(what.size()), what.data(), number);
+  return page.tree.keep({text, std::size_t(std::clamp(length, 0, 63))});
 }
 
 std::string_view TechnicianFrame::left_to_right(std::string_view text) const {
@@ -108,9 +105,8 @@ void TechnicianFrame::open_picture(std::string_view id, std::string_view spoken,
                                    const TechnicianPicture& picture, PictureSlot slot, Action action,
                                    Action dragged) {
   Node frame = page.grown(page.box(Flow::Stack));
-  frame.aspect = picture.pixels.empty() ? 1.0F
-                                        : static_cast<float>(picture.pixels.width_px) /
-                                              static_cast<float>(picture.pixels.height_px);
+  frame.aspect =
+      picture.pixels.empty() ? 1.0F : float(picture.pixels.width_px) / float(picture.pixels.height_px);
   frame.box.fill = page.palette.stage;
   frame.box.radius = page.px(12);
   page.tree.open(frame);
@@ -161,7 +157,7 @@ void fill_compared(DrawList& list, const TechnicianView& view, int mode) {
       return Face{one.model, nullptr, one.model_number, nullptr};
     return Face{one.model, nullptr, d.number, d.colours};
   };
-  const std::size_t alone = static_cast<std::size_t>(std::max(0, mode));
+  const std::size_t alone = std::size_t(std::max(0, mode));
   for (std::size_t i = 0; i < kCompared; ++i) {
     const TechnicianCompared& one = view.compared[i];
     if (alone == 0 && one.model != nullptr && is_turned(view.stage))
@@ -179,8 +175,7 @@ bool fill_technician_pictures(DrawList& list, const TechnicianView& view, const 
                               const Service& service) {
   const StaffPage page = service.page;
   const auto put = [&list](std::size_t place, const TechnicianPicture& picture) {
-    list.pictures[static_cast<std::size_t>(PictureSlot::TechnicianLeft) + place] = {picture.pixels,
-                                                                                    picture.version};
+    list.pictures[std::size_t(PictureSlot::TechnicianLeft) + place] = {picture.pixels, picture.version};
   };
   const auto show = [&put](const TechnicianPicture& left, const TechnicianPicture& right) {
     put(0, left);
@@ -222,28 +217,25 @@ void TechnicianFrame::alert(std::string_view words, std::string_view detail) {
   row.id = "problem";
   row.role = Role::Status;
   row.box.align = Align::Centre;
-  page.tree.open(row);
+  const auto in_row = page.tree.inside(row);
   page.sign(icon::kAlert, 26, page.palette.bad);
-  page.tree.open(page.grown(page.box(Flow::Column)));
+  const auto in_box = page.tree.inside(page.grown(page.box(Flow::Column)));
   Node said = page.text(words, 18, Weight::Regular, page.palette.bad);
   page.tree.leaf(said);
   page.tree.leaf(page.english(detail, 17));
-  page.tree.close();
-  page.tree.close();
 }
 
 void TechnicianFrame::uncalibrated() {
   Node room = page.grown(page.box(Flow::Column, space::kM, space::kXl, 0));
   centre(room);
-  page.tree.open(room);
+  const auto in_room = page.tree.inside(room);
   page.heading("uncalibrated", tr("This device is not calibrated yet"), type::kHeading, TextAlign::Centre);
   page.body(
       "uncalibrated words",
       tr("Nothing can be captured, compared or measured before. Visitors are told that a technician is needed."),
       TextAlign::Centre);
   page.small_button("to calibration", tr("To the calibration"), icon::kWrench, ButtonLook::Main,
-                    {ActionKind::StaffOpen, static_cast<int>(StaffPage::Calibrate)});
-  page.tree.close();
+                    {ActionKind::StaffOpen, int(StaffPage::Calibrate)});
 }
 
 bool TechnicianFrame::capture_state() {
@@ -267,9 +259,8 @@ bool TechnicianFrame::capture_state() {
                  view.phase == TechnicianPhase::Capturing ? tr("The picture is being taken")
                                                           : work_of(tr, view.working_on),
                  type::kHeading, TextAlign::Centre);
-    const float done = view.phase == TechnicianPhase::Capturing
-                           ? 0
-                           : (static_cast<float>(view.working_on) + view.progress) / kStages;
+    const float done =
+        view.phase == TechnicianPhase::Capturing ? 0 : (float(view.working_on) + view.progress) / kStages;
     page.progress("run progress", done);
   }
   page.tree.close();
@@ -338,12 +329,11 @@ void TechnicianFrame::capture_buttons(bool with_run, bool with_stick) {
                       there ? ButtonLook::Quiet : ButtonLook::Main, technician_action(TechnicianAct::Capture),
                       grow);
     if (view.can_add_side)
-      page.small_button(
-          "add side",
-          view.sides == 0
-              ? tr("Add a side")
-              : page.filled("{} ({})", {tr("Add a side"), page.number(static_cast<double>(view.sides))}),
-          icon::kCamera, ButtonLook::Quiet, technician_action(TechnicianAct::AddSide), grow);
+      page.small_button("add side",
+                        view.sides == 0
+                            ? tr("Add a side")
+                            : page.filled("{} ({})", {tr("Add a side"), page.number(double(view.sides))}),
+                        icon::kCamera, ButtonLook::Quiet, technician_action(TechnicianAct::AddSide), grow);
     if ((with_run || view.sides > 0) && there)
       page.small_button("run", tr("Calculate again"), icon::kAgain, ButtonLook::Main,
                         technician_action(RunStages{}), grow);

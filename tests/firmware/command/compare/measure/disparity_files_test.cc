@@ -6,7 +6,6 @@
 #include <cstring>
 
 #include "firmware/measure/disparity_map.h"
-#include "firmware/measure/disparity_truth.h"
 #include "hal/picture_file.h"
 #include "tests/support/temporary_folder.h"
 

@@ -8,7 +8,7 @@
 
 #include <algorithm>
 
-#include "firmware/measure/rule_figures.h"
+#include "firmware/measure/selector_figures.h"
 
 namespace relievo::firmware::compare {
 namespace {

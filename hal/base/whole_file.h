@@ -1,8 +1,10 @@
 // SPDX-FileCopyrightText: 2026 The Relievo authors
 // SPDX-License-Identifier: GPL-3.0-or-later
 //
-// A file that is whole or not there: written beside its place, made durable, then renamed into it.
-// Errors: MediaFull, IoFailed; each names the file and says what to do.
+// A file that is read as a whole, and one that is written whole or not there: beside its place, made durable,
+// then renamed into it.
+// Errors, each with the path and what to do: NotFound, InvalidInput (not a file, empty, too large), IoFailed,
+// MediaFull (no room or over quota), OutOfMemory.
 // Thread: any, one at a time.
 #pragma once
 
@@ -10,10 +12,16 @@
 #include <filesystem>
 #include <span>
 #include <utility>
+#include <vector>
 
 #include "hal/base/result.h"
 
-namespace relievo::storage {
+namespace relievo {
+
+Result<std::vector<std::byte>> read_whole_file(const std::filesystem::path& file, std::size_t limit_bytes);
+// All that PendingFile does at once. Only a device (/dev/full, /dev/stdout) is written in place, since a
+// rename would replace it.
+Result<void> write_whole_file(const std::filesystem::path& file, std::span<const std::byte> bytes);
 
 class PendingFile {
  public:
@@ -51,7 +59,4 @@ Result<void> sync_directory(const std::filesystem::path& dir);
 // nowhere.
 Result<void> sync_renamed(const std::filesystem::path& target);
 
-// All of the above at once.
-Result<void> write_file(const std::filesystem::path& target, std::span<const std::byte> bytes);
-
-}  // namespace relievo::storage
+}  // namespace relievo

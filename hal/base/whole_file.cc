@@ -1,0 +1,171 @@
+// SPDX-FileCopyrightText: 2026 The Relievo authors
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "hal/base/whole_file.h"
+
+#include <fcntl.h>
+#include <sys/stat.h>
+#include <unistd.h>
+
+#include <algorithm>
+#include <cerrno>
+#include <new>
+#include <string>
+
+namespace relievo {
+namespace {
+
+namespace fs = std::filesystem;
+
+// Close-once for the few lines below; hal/linux has the one for devices.
+struct Descriptor {
+  int fd;
+  ~Descriptor() {
+    if (fd >= 0) ::close(fd);
+  }
+};
+
+Error failed(const fs::path& file, int cause) {
+  const auto made = [&](Errc code, Literal what) { return Error{code, what, cause}.at(file.string()); };
+  switch (cause) {
+    case ENOSPC:
+    case EDQUOT: return made(Errc::MediaFull, "not written, the disk is full: make room there and try again");
+    case EFBIG:
+      return made(Errc::MediaFull, "not written, the file is larger than this disk takes: use another disk");
+    case EACCES:
+    case EPERM:
+    case EROFS:
+      return made(Errc::IoFailed,
+                  "not written, this place may not be written to: choose another, or change its permissions");
+    case ENOENT:
+    case ENOTDIR: return made(Errc::IoFailed, "not written, there is no such directory: check the path");
+    case EISDIR:
+      return made(Errc::IoFailed,
+                  "not written, a directory has this name: remove it or choose another place");
+    default:
+      return made(Errc::IoFailed,
+                  "not written, the disk failed: check it, and write to another if this happens again");
+  }
+}
+
+// 0 or the errno of what failed.
+int write_all(int fd, std::span<const std::byte> bytes) {
+  while (!bytes.empty()) {
+    const ssize_t done = ::write(fd, bytes.data(), std::min<std::size_t>(bytes.size(), 1u << 20));
+    if (done < 0 && errno == EINTR) continue;
+    if (done <= 0) return done < 0 ? errno : EIO;
+    bytes = bytes.subspan(std::size_t(done));
+  }
+  return 0;
+}
+
+bool is_device(const fs::path& file) {
+  struct stat info {};
+  return ::stat(file.c_str(), &info) == 0 && !S_ISREG(info.st_mode) && !S_ISDIR(info.st_mode);
+}
+
+Result<void> sync_one(const fs::path& named, int flags) {
+  const int fd = ::open(named.c_str(), O_RDONLY | O_CLOEXEC | flags);
+  if (fd < 0) return failed(named, errno);
+  const int code = ::fsync(fd);
+  const int cause = errno;
+  ::close(fd);
+  // Not every file system can sync a directory (EINVAL): then there is nothing more to be had.
+  if (code != 0 && cause != EINVAL && cause != ENOTSUP) return failed(named, cause);
+  return {};
+}
+
+Result<std::size_t> regular_size(int fd, const fs::path& file, std::size_t limit_bytes) {
+  struct stat info {};
+  if (::fstat(fd, &info) != 0) return Error{Errc::IoFailed, "cannot read this file", errno}.at(file.native());
+  if (!S_ISREG(info.st_mode)) return Error{Errc::InvalidInput, "this is not a file"}.at(file.native());
+  if (info.st_size == 0) return Error{Errc::InvalidInput, "this file is empty"}.at(file.native());
+  const auto size = std::size_t(info.st_size);
+  if (size > limit_bytes)
+    return Error{Errc::InvalidInput, "this file is larger than its limit"}.at(file.native());
+  return size;
+}
+
+}  // namespace
+
+Result<std::vector<std::byte>> read_whole_file(const fs::path& file, std::size_t limit_bytes) try {
+  // O_NONBLOCK: a FIFO under this name must not hold us up; regular files do not care.
+  const Descriptor in{::open(file.c_str(), O_RDONLY | O_CLOEXEC | O_NONBLOCK)};
+  if (in.fd < 0) {
+    const int number = errno;
+    if (number == ENOENT || number == ENOTDIR)
+      return Error{Errc::NotFound, "there is no such file; check its name", number}.at(file.native());
+    return Error{Errc::IoFailed, "cannot open this file", number}.at(file.native());
+  }
+  RELIEVO_TRY_ASSIGN(const std::size_t size, regular_size(in.fd, file, limit_bytes));
+  std::vector<std::byte> bytes(size);
+  std::size_t got = 0;
+  while (got < size) {
+    const ssize_t n = ::read(in.fd, bytes.data() + got, size - got);
+    if (n < 0 && errno == EINTR) continue;
+    if (n < 0) return Error{Errc::IoFailed, "cannot read this file", errno}.at(file.native());
+    if (n == 0) return Error{Errc::IoFailed, "this file shrank while it was read"}.at(file.native());
+    got += std::size_t(n);
+  }
+  return bytes;
+} catch (const std::bad_alloc&) {
+  return Error{Errc::OutOfMemory, "no memory to read this file"}.at(file.native());
+}
+
+Result<PendingFile> PendingFile::create(const fs::path& target, unsigned mode) {
+  // Short and plain, for the sake of FAT; hidden, in case it is ever left behind by a power cut.
+  // The object first: once the file is there, nothing may throw before somebody removes it.
+  PendingFile file(target, target.parent_path() / ("." + target.filename().string() + ".part"), -1);
+  ::unlink(file.temporary_.c_str());
+  file.fd_ = ::open(file.temporary_.c_str(), O_CREAT | O_EXCL | O_WRONLY | O_CLOEXEC, mode);
+  if (file.fd_ < 0) return failed(target, errno);
+  return file;
+}
+
+PendingFile::~PendingFile() {
+  if (fd_ >= 0) ::close(fd_);
+  if (!temporary_.empty()) ::unlink(temporary_.c_str());
+}
+
+Result<void> PendingFile::write(std::span<const std::byte> bytes) {
+  const int cause = write_all(fd_, bytes);
+  return cause == 0 ? Result<void>() : failed(target_, cause);
+}
+
+Result<void> PendingFile::finish() {
+  if (::fsync(fd_) != 0) return failed(target_, errno);
+  // Some file systems tell of a full disk only here.
+  if (::close(std::exchange(fd_, -1)) != 0) return failed(target_, errno);
+  return {};
+}
+
+Result<void> PendingFile::publish() {
+  if (::rename(temporary_.c_str(), target_.c_str()) != 0) return failed(target_, errno);
+  temporary_.clear();
+  return {};
+}
+
+Result<void> sync_directory(const fs::path& dir) {
+  return sync_one(dir.empty() ? fs::path(".") : dir, O_DIRECTORY);
+}
+
+Result<void> sync_renamed(const fs::path& target) {
+  RELIEVO_TRY(sync_one(target, 0));
+  return sync_directory(target.parent_path());
+}
+
+Result<void> write_whole_file(const fs::path& file, std::span<const std::byte> bytes) {
+  if (file.filename().empty())
+    return Error{Errc::InvalidInput, "this is not the name of a file"}.at(file.native());
+  if (is_device(file)) {
+    const Descriptor out{::open(file.c_str(), O_WRONLY | O_CLOEXEC)};
+    const int cause = out.fd < 0 ? errno : write_all(out.fd, bytes);
+    return cause == 0 ? Result<void>() : failed(file, cause);
+  }
+  RELIEVO_TRY_ASSIGN(auto pending, PendingFile::create(file));
+  RELIEVO_TRY(pending.write(bytes));
+  RELIEVO_TRY(pending.finish());
+  RELIEVO_TRY(pending.publish());
+  return sync_renamed(file);
+}
+
+}  // namespace relievo
