@@ -46,6 +46,13 @@ bool contains_name(std::string_view name, std::string_view part) {
   return part.empty() || std::search(name.begin(), name.end(), part.begin(), part.end(), alike) != name.end();
 }
 
+std::string first_letter(std::string_view name) {
+  name.remove_prefix(std::min(name.size(), name.find_first_not_of(' ')));
+  std::string letter(name.substr(0, character_bytes(name)));
+  if (letter.size() == 1 && letter[0] >= 'a' && letter[0] <= 'z') letter[0] = char(letter[0] - ('a' - 'A'));
+  return letter;
+}
+
 std::string normal_name(std::string_view name) {
   const std::size_t first = name.find_first_not_of(' ');
   if (first == std::string_view::npos) return {};

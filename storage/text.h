@@ -15,6 +15,9 @@ bool is_name(std::string_view text);
 // `part` anywhere in `name`; ASCII letters in either case, all others as they are.
 bool contains_name(std::string_view name, std::string_view part);
 
+// What a name is found under in a list: its first character, an ASCII letter as a capital. Empty: no name.
+std::string first_letter(std::string_view name);
+
 // Two names that are written alike but for ASCII capitals and spaces around them are one.
 std::string normal_name(std::string_view name);
 

@@ -15,6 +15,7 @@ ListWalk::Ask ListWalk::ask(const ui::ListRequest& request) {
     page_ = 0;
     return Ask::Rows;
   }
+  if (std::holds_alternative<ui::FindFilters>(request)) return Ask::Filters;
   const auto& divide = std::get<ui::DivideList>(request);
   const std::int64_t from = std::clamp<std::int64_t>(divide.first, 0, last),
                      to = std::clamp<std::int64_t>(divide.last, from, last), all = to - from + 1;

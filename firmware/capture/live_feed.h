@@ -49,7 +49,7 @@ class LiveFeed {
     LivePicture live;
   };
   int side_px_;
-  std::array<Slot, 3> slots_;
+  std::array<Slot, budget::kLiveSlots> slots_;
   std::mutex mutex_;
   std::size_t filling_ = 0, newest_ = 1, shown_ = 2;
   bool fresh_ = false;

@@ -45,6 +45,7 @@ Result<void> run(const MemoryArgs&, Services& services) {
   console.say("stage scratch   " + mib(budget::kScratchArenaBytes));
   console.say("sides of a head " + mib(budget::kSidesBytes + budget::kFollowBytes));
   console.say("technician      " + mib(budget::kTechnicianBytes));
+  console.say("live pictures   " + mib(budget::kLiveBytes));
   console.say("libraries       " + mib(budget::kLibraryBytes));
   console.say("queues          " + mib(budget::kQueueBytes));
   console.say("of              " + mib(budget::kApplianceBytes));

@@ -85,7 +85,16 @@ constexpr ui::ListPlace kPlace{.page = 1239,
                                               {1220, 1239, "2026-03-02 16:40"},
                                               {1240, 1240, "2026-02-27 11:05"}}},
                                .stretch_count = 3};
-constexpr ui::RecordsView kList{kPeople, kPlace, {}, nullptr, {}, {}, false, false, 0, 0};
+constexpr std::array kFilters = [] {
+  std::array<ui::RecordFilterName, 33> filters{{{false, "2025-11"}, {false, "2026-03"}}};
+  constexpr std::string_view kLetters = "ABCDEFGHIJKLMNOPQRSTUVWXYZ";
+  filters[2] = {true, "1"};
+  for (std::size_t i = 0; i < kLetters.size(); ++i) filters[3 + i] = {true, kLetters.substr(i, 1)};
+  constexpr std::array<std::string_view, 4> kFurther{"Ö", "י", "ل", "佐"};
+  for (std::size_t i = 0; i < kFurther.size(); ++i) filters[29 + i] = {true, kFurther[i]};
+  return filters;
+}();
+constexpr ui::RecordsView kList{kPeople, kPlace, {}, nullptr, {}, {}, false, false, 0, 0, kFilters};
 constexpr ui::RecordsView kNobody{{}, {}, "Zuse", nullptr, {}, {}, false, false, 0, 0};
 constexpr ui::RecordsView kOne{kPeople, kPlace, {}, &kPeople[4], "sample-1 (de)", "2026-03-13 15:54", false,
                                false,   0,      0};
@@ -266,6 +275,7 @@ void add_records(std::deque<Shown>& all) {
   all.push_back({"staff_records", StaffPage::Records, 0, records});
   all.push_back({"staff_search", StaffPage::Records, 1, records});
   all.push_back({"staff_records_jump", StaffPage::Records, 100, records});
+  all.push_back({"staff_records_filter", StaffPage::Records, 101, records});
   add_sticks(all, records);
   records.work = {true, 0.6F, ui::Outcome::None};
   all.push_back({"staff_export", StaffPage::Records, 0, records});

@@ -7,13 +7,14 @@
 #include <string>
 #include <vector>
 
+#include "firmware/service/record_filter.h"
+
 namespace relievo::firmware {
 namespace {
 
 using storage::WallTime;
 
 constexpr std::chrono::hours kEvery{24};
-constexpr std::int64_t kPage = 200;
 
 Result<bool> has_jumped(storage::Store& store, WallTime now) {
   const Result<std::string> kept = store.setting(kClockSeenSetting);
@@ -44,14 +45,11 @@ Result<int> erase_expired(storage::Store& store, WallTime now, int keep_days,
         Errc::InvalidState,
         "the clock is far ahead of when it was last seen: nothing is erased by age until the operator has chosen the time again"};
   std::vector<storage::SubjectId> expired;
-  for (std::int64_t skip = 0;; skip += kPage) {
-    RELIEVO_TRY_ASSIGN(const auto subjects, store.subjects({.skip = skip, .limit = kPage}));
-    for (const storage::Subject& subject : subjects) {
-      RELIEVO_TRY_ASSIGN(const bool old, is_expired(store, subject, now - std::chrono::days(keep_days)));
-      if (old) expired.push_back(subject.id);
-    }
-    if (static_cast<std::int64_t>(subjects.size()) < kPage) break;
-  }
+  RELIEVO_TRY(for_each_record(store, cancelled, [&](const storage::Subject& subject) -> Result<void> {
+    RELIEVO_TRY_ASSIGN(const bool old, is_expired(store, subject, now - std::chrono::days(keep_days)));
+    if (old) expired.push_back(subject.id);
+    return {};
+  }));
   int erased = 0;
   for (const storage::SubjectId id : expired) {
     if (cancelled.load()) return Error{Errc::Cancelled, "the rest is erased later"};

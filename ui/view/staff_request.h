@@ -41,7 +41,8 @@ struct DivideList {  // into stretches, from the first to the last page
 struct FilterList {
   std::size_t filter = 0;
 };
-using ListRequest = std::variant<GoToPage, DivideList, FilterList>;
+struct FindFilters {};  // which there are, where a page cannot know without looking
+using ListRequest = std::variant<GoToPage, DivideList, FilterList, FindFilters>;
 
 // --- records ---------------------------------------------------------------------------------------------
 // The text: a part of the name, a number or a code; empty: everyone.

@@ -49,6 +49,14 @@ struct RecordRow {
   int portraits = 0;
 };
 
+// Lets pass those of one first letter, or those who agreed to one version of the consent text last.
+struct RecordFilterName {
+  bool letter = false;
+  std::string_view text;
+};
+inline constexpr std::size_t kRecordFilters =
+    100;  // at most; whoever falls under none of them is searched for
+
 struct RecordsView {
   std::span<const RecordRow> rows;  // newest first
   ListPlace place;
@@ -59,6 +67,7 @@ struct RecordsView {
   bool exported = false;
   int asked = 0;  // records of the last export; 0: the last thing that was done is another
   int whole = 0;  // of these, on the stick and read back
+  std::span<const RecordFilterName> filters{};  // ListPlace::filter 1 is the first; none: not looked up yet
 };
 
 // --- status: what needs a hand, as the appliance knows it; the rest stands in ViewState -------------

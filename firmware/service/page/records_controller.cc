@@ -58,6 +58,8 @@ void RecordsController::forget() {
   wipe(found_);
   wipe_text(searched_);
   person_.reset();
+  filters_.clear();
+  filter_.reset();
   rows_.clear();
   shown_ = {};
   view_ = {};
@@ -81,7 +83,10 @@ void RecordsController::ask(const ui::StaffRequest& request) {
   asked_ = 0;
   if (request.as<ui::FindRecords>() != nullptr) search(request.text());
   if (const auto* asked = request.as<ui::ListRequest>()) {
-    if (walk_.ask(*asked) == ListWalk::Ask::Labels) label_stretches();
+    if (const auto* chosen = std::get_if<ui::FilterList>(asked)) choose(chosen->filter);
+    const ListWalk::Ask wanted = walk_.ask(*asked);
+    if (wanted == ListWalk::Ask::Labels) label_stretches();
+    else if (wanted == ListWalk::Ask::Filters) find_filters();
     else list();
   }
   if (const auto* show = request.as<ui::ShowRecord>()) load(show->record);
@@ -94,13 +99,38 @@ void RecordsController::search(std::string_view text) {
   wipe_text(searched_);
   searched_ = text;
   while (searched_.ends_with(' ')) searched_.pop_back();
+  filter_.reset();
   walk_.begin_anew();
   list();
+}
+
+// One filters, or searches.
+void RecordsController::choose(std::size_t filter) {
+  wipe_text(searched_);
+  filter_.reset();
+  if (filter > 0 && filter <= filters_.size()) filter_ = filters_[filter - 1];
+}
+
+void RecordsController::find_filters() {
+  const auto found = std::make_shared<std::vector<RecordFilter>>();
+  services().side_tasks.send(
+      JobLane::Keeper,
+      [this, found](JobControl& control) -> Result<void> {
+        RELIEVO_TRY_ASSIGN(*found, record_filters(services().store, control.cancelled));
+        if (found->size() > ui::kRecordFilters) found->resize(ui::kRecordFilters);
+        return {};
+      },
+      [this, found, visit = visit_](const std::optional<Error>& error) {
+        if (visit != visit_) return;
+        if (error) return told(error);
+        filters_ = std::move(*found);
+      });
 }
 
 void RecordsController::list() {
   struct Listed {
     std::string searched;
+    std::optional<RecordFilter> filter;
     std::vector<Found> found;
     std::int64_t rows = 0;  // of all pages
     ~Listed() {
@@ -110,21 +140,30 @@ void RecordsController::list() {
   };
   const auto listed = std::make_shared<Listed>();
   listed->searched = searched_;
+  listed->filter = filter_;
   services().side_tasks.send(
       JobLane::Keeper,
-      [this, listed, skip = walk_.first_row()](JobControl&) -> Result<void> {
+      [this, listed, skip = walk_.first_row()](JobControl& control) -> Result<void> {
         std::vector<storage::Subject> subjects;
         // The code that a person quotes for their erasure leads to them, too.
-        if (is_receipt(listed->searched)) {
+        if (listed->filter) {
+          RELIEVO_TRY_ASSIGN(const auto passed,
+                             filtered_records(services().store, *listed->filter, control.cancelled));
+          listed->rows = std::int64_t(passed.size());
+          for (std::int64_t row = skip; row < std::min(listed->rows, skip + kPage); ++row) {
+            RELIEVO_TRY_ASSIGN(auto subject, services().store.subject(passed[std::size_t(row)]));
+            subjects.push_back(std::move(subject));
+          }
+        } else if (is_receipt(listed->searched)) {
           if (auto subject = find_by_receipt(services().store, listed->searched))
             subjects.push_back(std::move(*subject));
-          listed->rows = static_cast<std::int64_t>(subjects.size());
+          listed->rows = std::int64_t(subjects.size());
         } else {
           RELIEVO_TRY_ASSIGN(listed->rows, services().store.count_subjects({listed->searched}));
           RELIEVO_TRY_ASSIGN(subjects, services().store.subjects({listed->searched, false, skip, kPage}));
         }
         for (storage::Subject& subject : subjects) {
-          listed->found.push_back({static_cast<std::int64_t>(subject.id), subject.name,
+          listed->found.push_back({std::int64_t(subject.id), subject.name,
                                    text_of(subject.created_at).substr(0, 16), receipt_of(subject),
                                    subject.enrolments});
           wipe_text(subject.name);
@@ -146,18 +185,30 @@ void RecordsController::list() {
 void RecordsController::label_stretches() {
   struct Labels {
     std::string searched;
+    std::optional<RecordFilter> filter;
     std::vector<std::int64_t> rows;
     std::vector<std::string> found;
     ~Labels() { wipe_text(searched); }
   };
   const auto labels = std::make_shared<Labels>();
   labels->searched = searched_;
+  labels->filter = filter_;
   for (std::size_t i = 0; i < walk_.stretches(); ++i) labels->rows.push_back(walk_.top_row(i));
   services().side_tasks.send(
       JobLane::Keeper,
-      [this, labels](JobControl&) -> Result<void> {
+      [this, labels](JobControl& control) -> Result<void> {
+        std::vector<storage::SubjectId> passed;
+        if (labels->filter) {
+          RELIEVO_TRY_ASSIGN(passed, filtered_records(services().store, *labels->filter, control.cancelled));
+        }
         for (const std::int64_t row : labels->rows) {
-          RELIEVO_TRY_ASSIGN(auto one, services().store.subjects({labels->searched, false, row, 1}));
+          std::vector<storage::Subject> one;
+          if (!labels->filter) {
+            RELIEVO_TRY_ASSIGN(one, services().store.subjects({labels->searched, false, row, 1}));
+          } else if (row < std::int64_t(passed.size())) {
+            RELIEVO_TRY_ASSIGN(auto subject, services().store.subject(passed[std::size_t(row)]));
+            one.push_back(std::move(subject));
+          }
           labels->found.push_back(one.empty() ? std::string()
                                               : text_of(one.front().created_at).substr(0, 16));
           for (storage::Subject& subject : one) wipe_text(subject.name);
@@ -178,8 +229,8 @@ void RecordsController::load(std::int64_t number) {
       JobLane::Keeper,
       [this, person, id = storage::SubjectId{number}](JobControl&) -> Result<void> {
         RELIEVO_TRY_ASSIGN(storage::Subject subject, services().store.subject(id));
-        person->found = {static_cast<std::int64_t>(id), subject.name,
-                         text_of(subject.created_at).substr(0, 16), receipt_of(subject), subject.enrolments};
+        person->found = {std::int64_t(id), subject.name, text_of(subject.created_at).substr(0, 16),
+                         receipt_of(subject), subject.enrolments};
         wipe_text(subject.name);
         RELIEVO_TRY_ASSIGN(const auto enrolments, services().store.enrolments(id));
         if (enrolments.empty()) return {};
@@ -220,7 +271,7 @@ void RecordsController::take_out(std::int64_t number) {
   else
     for (const Found& found : found_) subjects.push_back(storage::SubjectId{found.number});
   exporting_ = true;
-  asked_ = static_cast<int>(subjects.size());
+  asked_ = int(subjects.size());
   const auto trace = std::make_shared<ExportTrace>();
   const FurtherModels further{.watertight = services().settings.now().is_on(ui::Setting::Solids)};
   services().side_tasks.send(
@@ -252,7 +303,15 @@ void RecordsController::show(ui::ServiceView& view) {
   if (!ready_) return;
   rows_.clear();
   for (const Found& one : found_) rows_.push_back({one.number, one.name, one.since, one.code, one.portraits});
-  view_ = {rows_, walk_.view(), searched_, nullptr, {}, {}, erased_, exported_, asked_, trace_.whole};
+  filter_names_.clear();
+  for (const RecordFilter& one : filters_) filter_names_.push_back({one.letter, one.text});
+  view_ = {rows_,   walk_.view(), searched_, nullptr,      {},           {},
+           erased_, exported_,    asked_,    trace_.whole, filter_names_};
+  // The list may have been read anew since it was chosen.
+  view_.place.filter = 0;
+  if (filter_)
+    for (std::size_t i = 0; i < filters_.size(); ++i)
+      if (filters_[i] == *filter_) view_.place.filter = i + 1;
   if (person_) {
     const Found& one = person_->found;
     shown_ = {one.number, one.name, one.since, one.code, one.portraits};

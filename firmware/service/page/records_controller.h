@@ -14,6 +14,7 @@
 #include "firmware/base/list_walk.h"
 #include "firmware/service/export_records.h"
 #include "firmware/service/page_controller.h"
+#include "firmware/service/record_filter.h"
 #include "ui/view/staff_views.h"
 
 namespace relievo::firmware {
@@ -45,6 +46,8 @@ class RecordsController final : public PageController {
   void search(std::string_view text);
   void list();
   void label_stretches();
+  void choose(std::size_t filter);
+  void find_filters();
   void load(std::int64_t number);
   void erase(std::int64_t number);
   void take_out(std::int64_t number);
@@ -58,6 +61,8 @@ class RecordsController final : public PageController {
   std::string searched_;
   ListWalk walk_{kPage};
   std::uint32_t division_ = 0;  // of the stretches: what was found for those before is not shown
+  std::vector<RecordFilter> filters_;
+  std::optional<RecordFilter> filter_;  // the chosen one
   bool ready_ = false, erased_ = false, exporting_ = false, exported_ = false;
   std::vector<Found> found_;
   std::shared_ptr<Person> person_;
@@ -66,6 +71,7 @@ class RecordsController final : public PageController {
   ExportTrace trace_;  // of the last export
   int asked_ = 0;      // how many records it was of
   std::vector<ui::RecordRow> rows_;
+  std::vector<ui::RecordFilterName> filter_names_;
   ui::RecordRow shown_;
   ui::RecordsView view_;
 };

@@ -55,7 +55,9 @@ void TechnicianTables::show(TechnicianTable table, const Source& from) {
 }
 
 void TechnicianTables::ask(const ui::ListRequest& request, const Source& from) {
-  if (walk_.ask(request) == ListWalk::Ask::Rows) return refresh(from);
+  const ListWalk::Ask asked = walk_.ask(request);
+  if (asked == ListWalk::Ask::Rows) return refresh(from);
+  if (asked != ListWalk::Ask::Labels) return;
   for (std::size_t i = 0; i < walk_.stretches(); ++i)
     walk_.set_label(i, label_of(from, std::size_t(walk_.top_row(i))));
 }

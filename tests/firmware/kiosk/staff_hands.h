@@ -73,9 +73,8 @@ class StaffHands : public KioskHands {
     hal::Picture grey;
     grey.width_px = tiny_rig().width_px;
     grey.height_px = tiny_rig().height_px;
-    grey.bytes.assign(
-        std::size_t{3} * static_cast<std::size_t>(grey.width_px) * static_cast<std::size_t>(grey.height_px),
-        std::byte{90});
+    grey.bytes.assign(std::size_t{3} * std::size_t(grey.width_px) * std::size_t(grey.height_px),
+                      std::byte{90});
     std::filesystem::create_directories(folder.path() / "pairs");
     for (const char* name : {"left_000000.png", "right_000000.png"})
       EXPECT_TRUE(hal::write_picture(folder.path() / "pairs" / name, grey.view()).has_value());
@@ -104,13 +103,12 @@ class StaffHands : public KioskHands {
     ASSERT_TRUE(until([this] { return kiosk->ui().visit().step == ui::Step::Attract; }));
   }
 
-  void enrol(const char* name) {
+  void enrol(const char* name, const char* text = "sample-1") {
     auto store = storage::open_sqlite_store(args.store, wall(), {});
     ASSERT_TRUE(store.has_value());
     const pipeline::FaceModel model = storage::test::sample_model();
-    ASSERT_TRUE((*store)
-                    ->add_enrolment(storage::NewSubject{name}, {model, {"sample-1", "en", {}}, 0, "", ""})
-                    .has_value());
+    ASSERT_TRUE(
+        (*store)->add_enrolment(storage::NewSubject{name}, {model, {text, "en", {}}, 0, "", ""}).has_value());
   }
   const hal::Clock& wall() const {
     if (changes.clock != nullptr) return *changes.clock;
@@ -175,7 +173,7 @@ class StaffHands : public KioskHands {
     first_start();
     sign_in("80526", StaffRole::Operator);
     tap("open records");
-    const auto newest = "record " + code_of(static_cast<std::int64_t>(names.size()));
+    const auto newest = "record " + code_of(std::int64_t(names.size()));
     ASSERT_TRUE(until([&] { return find(newest) != nullptr; }));
   }
   // A finger comes and stays.

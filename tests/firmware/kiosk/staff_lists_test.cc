@@ -3,6 +3,8 @@
 //
 // Long lists through their pages: turned, jumped in and filtered, on a real store and a real log, by fingers
 // and by a keypad.
+#include <array>
+
 #include "tests/firmware/kiosk/staff_hands.h"
 #include "ui/view/staff_views.h"
 
@@ -68,6 +70,49 @@ TEST_F(StaffListsTest, RecordsAreTurnedAndJumpedInAlsoWhereSomebodyWasSearchedFo
   tap("all");
   ASSERT_TRUE(shows_first("Anna 120"));
   EXPECT_EQ(records().place.pages, 3);
+}
+
+TEST_F(StaffListsTest, RecordsAreFilteredByTheFirstLetterAndByTheTextAgreedTo) {
+  fill_the_store();
+  enrol("ole", "2025-11");
+  enrol("Örjan", "2026-03");
+  start();
+  first_start();
+  sign_in("80526", StaffRole::Operator);
+  tap("open records");
+  ASSERT_TRUE(until([this] { return kiosk->view().service->records != nullptr; }));
+  ASSERT_TRUE(shows_first("Örjan"));
+  tap("filter");
+  ASSERT_TRUE(until([this] { return find("filter 5") != nullptr; }));
+  const auto& filters = records().filters;
+  ASSERT_EQ(filters.size(), 5U);
+  const std::array<std::string_view, 5> kThere{"2025-11", "2026-03", "A", "O", "Ö"};
+  for (std::size_t i = 0; i < kThere.size(); ++i) {
+    EXPECT_EQ(filters[i].text, kThere[i]);
+    EXPECT_EQ(filters[i].letter, i > 1) << i;
+  }
+  tap("filter 4");
+  ASSERT_TRUE(shows_first("ole")) << "small letters, too";
+  EXPECT_EQ(records().place.pages, 2);
+  tap("last page");
+  ASSERT_TRUE(until([this] { return records().rows.size() == 11; }));
+  EXPECT_EQ(records().rows.back().name, "Otto 1");
+  tap("page number");
+  ASSERT_TRUE(until([this] { return find("stretch 1") != nullptr; }));
+  tap("stretch 0");
+  ASSERT_TRUE(shows_first("ole"));
+  tap("filter");
+  tap("filter 2");
+  ASSERT_TRUE(shows_first("Örjan")) << "who agreed to the second text";
+  EXPECT_EQ(records().rows.size(), 1U);
+  tap("search");
+  for (const char* key : {"key a", "key n", "key n"}) tap(key);
+  tap("done");
+  ASSERT_TRUE(shows_first("Anna 120"));
+  EXPECT_EQ(records().place.filter, 0U) << "one searches, or filters";
+  EXPECT_EQ(find("filter"), nullptr);
+  tap("all");
+  ASSERT_TRUE(shows_first("Örjan"));
 }
 
 TEST_F(StaffListsTest, TheLogGoesBackToItsFirstLineAndShowsFaultsAlone) {

@@ -3,6 +3,8 @@
 #include "ui/screens/service/list_part.h"
 
 #include <algorithm>
+#include <array>
+#include <charconv>
 
 namespace relievo::ui {
 namespace {
@@ -42,15 +44,46 @@ void stretches(StaffFrame& page, const ListPlace& place) {
   page.tree.close();
 }
 
+// Is it a single character, of UTF-8?
+bool is_letter(std::string_view name) {
+  return std::ranges::count_if(name,
+                               [](char c) { return (static_cast<unsigned char>(c) & 0xC0U) != 0x80U; }) == 1;
+}
+
+std::string_view filter_id(StaffFrame& page, std::size_t i) {
+  std::array<char, 8> digits{};
+  const auto end = std::to_chars(digits.data(), digits.data() + digits.size(), i).ptr;
+  return page.joined({"filter ", {digits.data(), end}});
+}
+
+// Letters abreast, from `first` on; the place after the last one.
+std::size_t letter_row(StaffFrame& page, const ListPlace& place, ListFilters filters, std::size_t first) {
+  const std::size_t across = page.portrait ? 5 : 10;
+  page.tree.open(page.box(Flow::Row, space::kXs, 0, 4));
+  std::size_t i = first;
+  for (; i < first + across && i < filters.size() && is_letter(filters[i]); ++i)
+    page.small_button(filter_id(page, i), filters[i], nullptr,
+                      i == place.filter ? ButtonLook::Main : ButtonLook::Quiet, list_action(FilterList{i}),
+                      1);
+  for (std::size_t empty = i; empty < first + across; ++empty) page.space(1);
+  page.tree.close();
+  return i;
+}
+
 void filter_rows(StaffFrame& page, const ListPlace& place, ListFilters filters) {
   page.begin_list("filters");
-  for (std::size_t i = 0; i < filters.size(); ++i) {
-    const char which = char('0' + i);
+  for (std::size_t i = 0; i < filters.size();) {
+    if (is_letter(filters[i])) {
+      i = letter_row(page, place, filters, i);
+      continue;
+    }
     const bool chosen = i == place.filter;
-    page.row(page.joined({"filter ", {&which, 1}}), filters[i],
+    page.row(filter_id(page, i), filters[i],
              chosen ? std::string_view(page.tr("chosen")) : std::string_view(),
              chosen ? Mood::Good : Mood::Plain, list_action(FilterList{i}));
+    ++i;
   }
+  if (filters.size() == 1) page.line(page.tr("One moment, please"));
   page.tree.close();
 }
 
@@ -101,7 +134,7 @@ void list_pager(StaffFrame& page, const ListPlace& place, ListFilters filters) {
   if (!filters.empty())
     page.small_button("filter", filters[std::min(place.filter, filters.size() - 1)], kFilterSign,
                       place.filter == 0 ? ButtonLook::Quiet : ButtonLook::Main,
-                      {ActionKind::StaffMode, kFiltering}, below || place.pages < 2 ? 1 : 0);
+                      list_action(FindFilters{}, kFiltering), below || place.pages < 2 ? 1 : 0);
 }
 
 }  // namespace relievo::ui

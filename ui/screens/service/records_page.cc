@@ -4,6 +4,8 @@
 // Who is kept here: search, look at one with the portrait to be turned, export to a stick, erase.
 #include "ui/view/staff_views.h"
 
+#include <array>
+
 #include "ui/screens/parts/keyboard.h"
 #include "ui/screens/service/list_part.h"
 #include "ui/screens/service/staff_pages.h"
@@ -73,7 +75,18 @@ void said(StaffFrame& page, const RecordsView& seen) {
   if (seen.asked > 1 && counts) whole_of(page, seen);
 }
 
-void list(StaffFrame& page, const RecordsView& seen) {
+// The text of a consent, as filters and the record itself name it.
+using FilterNames = std::array<std::string_view, 1 + kRecordFilters>;
+ListFilters filters_of(StaffFrame& page, const RecordsView& seen, FilterNames& names) {
+  names[0] = page.tr("All");
+  for (std::size_t i = 0; i < seen.filters.size(); ++i)
+    names[1 + i] = seen.filters[i].letter ? seen.filters[i].text
+                                          : page.joined({page.tr("Consent text"), " ", isolate::kLeft,
+                                                         seen.filters[i].text, isolate::kEnd});
+  return {names.data(), 1 + seen.filters.size()};
+}
+
+void list(StaffFrame& page, const RecordsView& seen, ListFilters filters) {
   const auto& tr = page.tr;
   said(page, seen);
   page.begin_list("records");
@@ -82,9 +95,13 @@ void list(StaffFrame& page, const RecordsView& seen) {
              Action(ShowRecord{row.number}));
   if (seen.rows.empty())
     page.nothing("nobody", icon::kPerson,
-                 seen.searched.empty() ? tr("There are no records.") : tr("There is nobody of that name."));
+                 seen.searched.empty() && seen.place.filter == 0 ? tr("There are no records.")
+                                                                 : tr("There is nobody of that name."));
   page.tree.close();
-  list_pager(page, seen.place);
+  // One filters, or searches; where there is nobody there is nothing to be chosen among.
+  const bool filtered = seen.place.filter > 0;
+  list_pager(page, seen.place,
+             seen.searched.empty() && (filtered || !seen.rows.empty()) ? filters : ListFilters());
   const bool narrow = page.portrait || page.text_share > 1.2F;
   const float share = narrow ? 1.0F : 0.0F;
   const auto in_box = page.tree.inside(page.box(Flow::Row, space::kS));
@@ -144,8 +161,10 @@ void records_page(StaffFrame& page) {
   if (seen == nullptr) return page.body("wait", tr("One moment, please"));
   if (page.staff.work.running) return working(page);
   if (page.service.mode == kTyping) return typing(page);
-  if (seen->shown == nullptr && list_choice(page, seen->place)) return;
-  if (seen->shown == nullptr) return list(page, *seen);
+  FilterNames names;
+  const ListFilters filters = filters_of(page, *seen, names);
+  if (seen->shown == nullptr && list_choice(page, seen->place, filters)) return;
+  if (seen->shown == nullptr) return list(page, *seen, filters);
   if (page.service.mode != kErasing) return record(page, *seen);
   page.grave_question(
       tr("Erase for ever?"), {seen->shown->name, seen->shown->code, portrait_of},

@@ -24,7 +24,7 @@ void tools(Page& page) {
 }
 
 // One column in the middle of the page, with a sign on top.
-void begin_message(Page& page, const char* letter, Colour colour, bool with_tools) {
+void begin_message(Page& page, const char* letter, Colour colour, bool with_tools, float gap = space::kM) {
   // Where the tools stood on the pages before, they stay; on a page that the staff can leave, beside their
   // lock.
   const bool at_lock = page.visit.step == Step::Trouble;
@@ -38,7 +38,7 @@ void begin_message(Page& page, const char* letter, Colour colour, bool with_tool
   Node middle = page.grown(page.box(Flow::Column, 0, 24, with_tools ? 0 : 24));
   middle.box.align = Align::Centre;
   page.tree.open(middle);
-  Node column = page.grown(page.box(Flow::Column, space::kM));
+  Node column = page.grown(page.box(Flow::Column, gap));
   column.box.max_width = page.px(kColumn);
   column.box.width = page.px(std::min(kColumn, page.width_dp - 80));
   column.box.justify = Justify::Centre;
@@ -181,11 +181,14 @@ void printing(Page& page) {
 void thanks_screen(Page& page) {
   const auto& tr = page.tr;
   // A low page has no room for a sign: the code must be seen whole, and the way on.
-  begin_message(page, page.portrait ? icon::kGood : nullptr, page.palette.good, true);
+  begin_message(page, page.portrait ? icon::kGood : nullptr, page.palette.good, true,
+                page.portrait ? space::kM : space::kS);
   page.heading("title", tr("Thank you. Your portrait is stored"), type::kTitle, TextAlign::Centre);
+  // Between letters so large that the words may have to be scrolled, the code comes first.
+  if (at_foot(page)) receipt(page);
   page.body("what", tr("To have it erased, quote this code to the staff. You can take a photo of it."),
             TextAlign::Centre);
-  receipt(page);
+  if (!at_foot(page)) receipt(page);
   printing(page);
   Node row = page.box(Flow::Row);
   row.box.justify = Justify::Centre;

@@ -88,6 +88,13 @@ std::string_view grouped(Page& page, std::string_view digits) {
   return {first.data(), length};
 }
 
+// What is still to come stays to the right of it, also where words run to the left.
+std::string_view typed_code(Page& page, std::string_view digits) {
+  const std::string_view first = page.tree.keep(isolate::kLeft), code = grouped(page, digits),
+                         last = page.tree.keep(isolate::kEnd);
+  return {first.data(), first.size() + code.size() + last.size()};
+}
+
 void field(Page& page, const char* asked, float grow) {
   const std::string_view name = page.visit.name();
   const bool code = page.visit.quotes_code();
@@ -105,7 +112,7 @@ void field(Page& page, const char* asked, float grow) {
   const auto in_field = page.tree.inside(field);
   const bool hint = name.empty() && !code;
   Node typed = page.text(hint   ? std::string_view(page.tr("Type here or show a QR code"))
-                         : code ? grouped(page, name)
+                         : code ? typed_code(page, name)
                                 : name,
                          hint && abreast(page) && page.text_share > kLargest ? type::kSmall : type::kButton,
                          Weight::Medium, hint ? page.palette.ink_soft : page.palette.ink);

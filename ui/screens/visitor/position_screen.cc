@@ -158,6 +158,8 @@ void sides(Page& page) {
   };
   constexpr float kHighDp = kStopDp + 18;
   Node rail = page.grown(page.box(Flow::Stack));
+  // Beside large letters the button breaks its words; on a shorter rail the stops would lie on each other.
+  if (!page.portrait && page.text_share > 1.6F) rail.box.grow = 0, rail.box.width = page.px(310);
   rail.box.max_width = page.px(620);
   rail.box.height = page.px(kHighDp);
   rail.id = "sides";
