@@ -138,7 +138,9 @@ Result<void> RunJob::finish(JobControl& control, std::span<const pipeline::HeadP
   pipeline::StageContext context{session_.output(), scratch.arena(), pool_, control.progress,
                                  control.cancelled};
   RELIEVO_TRY(figures_.measure(session_.products(), context));
-  if (!session_.products().registration) change_.measure(making_, session_.products());
+  // A head is no surface of the capture alone.
+  if (session_.products().registration) change_.forget();
+  else change_.measure(making_, session_.products());
   pictures_.draw(session_.products(), change_);
   pictures_.draw_poses(session_.products(), poses);
   return {};

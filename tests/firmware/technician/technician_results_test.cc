@@ -150,7 +150,7 @@ TEST_F(TechnicianTest, ASavedReconstructionComesBackAndIsTheSameCalculatedAgainF
   EXPECT_EQ(rig().now().result.seconds, figures.seconds);
   EXPECT_EQ(rig().now().result.made, figures.made);
   EXPECT_EQ(rig().now().result.photo_correlation, figures.photo_correlation);
-  for (std::size_t i = 0; i < ui::kTechnicianStages; ++i) {
+  for (std::size_t i = 0; i < std::size_t(TechnicianStage::Poses); ++i) {
     rig().tap("stage " + std::to_string(i));
     EXPECT_FALSE(rig().now().shown[0].pixels.empty()) << i;
   }

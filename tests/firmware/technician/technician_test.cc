@@ -11,7 +11,9 @@
 #include <vector>
 
 #include "firmware/measure/self_agreement.h"
+#include "hal/base/whole_file.h"
 #include "hal/sim/device.h"
+#include "storage/document/document.h"
 
 namespace relievo::firmware {
 namespace {
@@ -130,8 +132,17 @@ TEST_F(TechnicianTest, SidesBecomeAHeadWhosePosesAreSeen) {
   ASSERT_EQ(rig().now().rows.cells.size(), 3 * rig().now().rows.heads.size());
   EXPECT_EQ(rig().now().rows.cells[1], "1 – 2");
   EXPECT_NEAR(std::stod(std::string(rig().now().rows.cells[14])), 46, 2) << "between both sides";
-  // Without sides it is one pair again.
+  // What is saved of it is the front, as far as that is no part of the head.
   rig().open(StaffPage::Stages);
+  rig().tap("save");
+  ASSERT_TRUE(rig().until([] { return rig().now().recording.outcome != ui::Outcome::None; }));
+  const auto saved = read_whole_file(rig().stick() / rig().now().recording.where, 1U << 30);
+  ASSERT_TRUE(saved);
+  const auto document = storage::Document::open(*saved);
+  ASSERT_TRUE(document);
+  EXPECT_EQ(document->head().stages.size(), 2U);
+  rig().plug_in();
+  // Without sides it is one pair again.
   rig().tap("run from");
   ASSERT_TRUE(rig().until(finished));
   EXPECT_FALSE(products().registration.has_value());
