@@ -10,6 +10,7 @@
 
 #include <string.h>
 
+#include "firmware/checks/deviation_picture.h"
 #include "firmware/compare/page/maps.h"
 #include "firmware/measure/disparity_map.h"
 #include "firmware/measure/selector_figures.h"

@@ -26,7 +26,8 @@ bool makes_pairs(const TechnicianFrame& f) {
 }
 
 void tabs(TechnicianFrame& f) {
-  const std::size_t across = f.across(kTechnicianStages);
+  const bool narrow = f.page.portrait && f.page.text_share > 1.2F;  // for long words
+  const std::size_t across = narrow ? 3 : f.across(kTechnicianStages);
   for (std::size_t first = 0; first < kTechnicianStages; first += across) {
     const auto in_box = f.page.tree.inside(f.page.box(Flow::Row, 6));
     for (std::size_t i = first; i < std::min(first + across, kTechnicianStages); ++i) {

@@ -155,10 +155,10 @@ void technician_tables_page(StaffFrame& page) {
   FilterNames names;
   const ListFilters filters = filters_of(f, names);
   if (list_choice(page, rows.place, filters)) return;
-  const std::size_t across = page.portrait || page.text_share > 1.3F ? 2 : kTechnicianTables;
+  const std::size_t across = page.portrait || page.text_share > 1.2F ? 2 : kTechnicianTables;
   for (std::size_t first = 0; first < kTechnicianTables; first += across) {
     const auto in_box = page.tree.inside(page.box(Flow::Row, space::kXs));
-    for (std::size_t i = first; i < first + across; ++i) {
+    for (std::size_t i = first; i < std::min(first + across, kTechnicianTables); ++i) {
       const auto table = static_cast<TechnicianTable>(i);
       f.choice(f.id("table", i), name_of_table(f.tr, table), rows.table == table,
                technician_action(ShowTable{static_cast<TechnicianTable>(i)}));
