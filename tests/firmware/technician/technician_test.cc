@@ -100,7 +100,9 @@ void turn_head(TechnicianRig& rig, double yaw_deg) {
 }
 
 TEST_F(TechnicianTest, SidesBecomeAHeadWhosePosesAreSeen) {
-  capture();
+  rig().open(StaffPage::Stages);
+  rig().tap("capture");  // a loaded one has no head that could be turned
+  ASSERT_TRUE(rig().until(finished));
   ASSERT_TRUE(rig().shows("add side"));
   constexpr double kYaws[] = {24, -22};
   for (std::size_t k = 0; k < 2; ++k) {
