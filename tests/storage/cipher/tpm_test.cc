@@ -12,6 +12,7 @@
 #include <algorithm>
 #include <chrono>
 #include <cstdlib>
+#include <fstream>
 #include <string>
 #include <thread>
 
@@ -36,6 +37,14 @@ using relievo::test::write_text;
 const test::StillClock kClock;
 const SqliteStoreOptions kNoReserve{.reserve_bytes = 0};
 
+// A socket has its name before anybody listens at it: proc(5), net/unix, flag __SO_ACCEPTCON.
+bool listens(const std::string& socket) {
+  std::ifstream all("/proc/net/unix");
+  for (std::string line; std::getline(all, line);)
+    if (line.ends_with(' ' + socket) && line.find(" 00010000 ") != std::string::npos) return true;
+  return false;
+}
+
 // A board's TPM, on a socket in a folder. This process goes to the one that was switched on last.
 class Board {
  public:
@@ -54,9 +63,9 @@ class Board {
                "--ctrl", control.c_str(), "--flags", "startup-clear", "--log", "level=0", nullptr);
       ::_exit(127);
     }
-    for (int tries = 0; tries < 1000 && !fs::exists(socket); ++tries)
+    for (int tries = 0; tries < 1000 && !listens(socket); ++tries)
       std::this_thread::sleep_for(std::chrono::milliseconds(10));
-    ASSERT_TRUE(fs::exists(socket)) << "swtpm does not start";
+    ASSERT_TRUE(listens(socket)) << "swtpm does not start";
     ::setenv("TPM2TOOLS_TCTI", ("swtpm:path=" + socket).c_str(), 1);
   }
   void switch_off() {
