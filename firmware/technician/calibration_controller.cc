@@ -9,7 +9,7 @@
 #include "firmware/base/wall_time.h"
 #include "firmware/calibrate/calibrate_command.h"
 #include "firmware/calibrate/calibration_history.h"
-#include "firmware/technician/saved_reconstruction.h"
+#include "firmware/technician/stick_files.h"
 
 namespace relievo::firmware {
 namespace {

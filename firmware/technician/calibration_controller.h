@@ -113,7 +113,7 @@ class CalibrationController {
   };
   void store();
   void activate(std::size_t row);
-  // By stick (saved_reconstruction.h).
+  // By stick (stick_files.h).
   void export_in_use();
   void import_one();
   // Makes it the one in use, once the keeper has done `first`, which names it.

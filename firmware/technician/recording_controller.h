@@ -2,7 +2,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 //
 // RecordingController: the buttons that put the test capture (record_capture.h) or all of the reconstruction
-// (saved_reconstruction.h) on the stick, and bring a saved one back; how far it is, how it ended, and where
+// (stick_files.h) on the stick, and bring a saved one back; how far it is, how it ended, and where
 // it lies. One at a time; who leaves ends it, and nothing half written stays. Thread: main; the stick is the
 // keeper's. Errors: none are returned, view() has them, but what is wrong with a document goes to `refused`.
 #pragma once
@@ -16,7 +16,7 @@
 #include "firmware/jobs/job_thread.h"
 #include "firmware/service/export_records.h"
 #include "firmware/service/side_tasks.h"
-#include "firmware/technician/saved_reconstruction.h"
+#include "firmware/technician/stick_files.h"
 #include "hal/recording/capture_file.h"
 #include "hal/removable_media.h"
 #include "pipeline/model/stereo_frame.h"

@@ -16,9 +16,9 @@
 #include <utility>
 #include <vector>
 
-#include "firmware/technician/saved_reconstruction.h"
 #include "firmware/technician/show/technician_figures.h"
 #include "firmware/technician/show/technician_pictures.h"
+#include "firmware/technician/stick_files.h"
 #include "firmware/work/jobs.h"
 #include "firmware/work/pipeline_stages.h"
 #include "firmware/work/session_document.h"

@@ -13,7 +13,7 @@
 #include "firmware/service/consent_text_store.h"
 #include "firmware/service/export_records.h"
 #include "firmware/service/stick_folder.h"
-#include "firmware/technician/saved_reconstruction.h"
+#include "firmware/technician/stick_files.h"
 #include "hal/base/whole_file.h"
 #include "hal/sim/replay/folder_media.h"
 #include "pipeline/calibrate/file/calibration_file.h"

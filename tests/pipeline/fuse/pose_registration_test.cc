@@ -247,6 +247,36 @@ TEST_F(Poses, AreBentToTheFirstWhereSkinMovedAndStayElsewhere) {
       << "the first never moves";
 }
 
+// What moved between the exposures of both lies further off than another surface may, and both know that they
+// are unsure.
+TEST_F(Poses, AreBentAsFarAsBothAreUnsure) {
+  for (const auto& [yaw, moved] : {std::pair{0.0, 0.0}, {20.0, 4.5}}) {
+    auto pose =
+        room_.run([yaw = yaw, moved = moved](StageContext& c) { return seen(yaw, moved, 0, c, 1.5); });
+    ASSERT_TRUE(pose);
+    poses_.push_back(*std::move(pose));
+  }
+  Registration placed(std::pmr::get_default_resource());
+  placed.poses.resize(2);
+  placed.poses[1].first_from_pose = product(camera_from_head(0), inverse(camera_from_head(20)));
+  const auto furthest_mm = [this] {  // of the jaw, from the first one's
+    double most = 0;
+    for (std::size_t k = 0; k < poses_[1].at_mm.size(); ++k) {
+      const Vec3d at = apply(poses_[1].head_from_camera, wide(poses_[1].at_mm[k]));
+      if (poses_[1].trust[k] > 0.9F && at.y > -45 && at.y < -25 && at.z > -30 && std::abs(at.x) < 20)
+        most = std::max(most, std::abs(shape(at, 0)));
+    }
+    return most;
+  };
+  const double before = furthest_mm();
+  EXPECT_GT(before, 4);
+  ASSERT_TRUE(room_.run([&](StageContext& c) -> Result<void> {
+    bend_to_master(poses_, placed, {1.5, 8, 0.05}, c);
+    return {};
+  }));
+  EXPECT_LT(furthest_mm(), 0.6 * before);
+}
+
 TEST_F(Poses, ThatMeetNothingAreNamed) {
   show({{0, 0}, {0, 0}});
   for (Vec3f& at : poses_[1].at_mm) at.z += 25 * std::sin(at.x / 6);  // something else

@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: 2026 The Relievo authors
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include "firmware/technician/saved_reconstruction.h"
+#include "firmware/technician/stick_files.h"
 
 #include <string.h>
 
