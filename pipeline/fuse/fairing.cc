@@ -11,9 +11,12 @@
 namespace relievo::pipeline {
 namespace {
 
-constexpr float kStepCosine = 0.77F;  // 40 degrees
+constexpr float kStepCosine = 0.93F;  // 21 degrees
+constexpr float kFoldCosine = 0.77F;  // 40 degrees
 constexpr float kSameWayCosine = 0.8F;
 constexpr std::uint8_t kStepRings = 6;  // of vertices that are laid anew at a step
+constexpr std::uint8_t kFoldRings = 4;  // and at a fold
+constexpr int kNormalRounds = 4;        // how far around a fold the surface is looked at
 constexpr double kTensionMm = 15;
 constexpr std::uint8_t kHeldRings = 2;  // around those, what says how the surface goes on
 
@@ -50,6 +53,29 @@ void add_steps(std::span<const Vec3f> vertices_mm, std::span<const Triangle> tri
   for (const Triangle& t : triangles)
     if (is_between(t) && is_step(vertices_mm, beside, t))
       for (const std::uint32_t v : t) part[v] = std::max(part[v], kStepRings);
+}
+
+void add_folds(std::span<const Vec3f> vertices_mm, std::span<const Triangle> triangles,
+               std::span<const std::uint8_t> unsure, std::span<std::uint8_t> part,
+               std::pmr::memory_resource* memory) {
+  std::pmr::vector<Vec3f> normal(vertices_mm.size(), Vec3f{}, memory), around(memory);
+  for (const Triangle& t : triangles) {
+    const Vec3f n = area_normal(vertices_mm, t);
+    for (const std::uint32_t v : t) normal[v] = plus(normal[v], n);
+  }
+  for (int round = 0; round < kNormalRounds; ++round) {
+    around.assign(normal.size(), Vec3f{});
+    for (const Triangle& t : triangles)
+      for (const std::uint32_t v : t)
+        for (const std::uint32_t w : t) around[v] = plus(around[v], normal[w]);
+    for (std::size_t v = 0; v < normal.size(); ++v) normal[v] = unit(around[v]);
+  }
+  for (const Triangle& t : triangles) {
+    if (std::any_of(t.begin(), t.end(), [&](std::uint32_t v) { return unsure[v] == 0; })) continue;
+    const Vec3f beside = plus(plus(normal[t[0]], normal[t[1]]), normal[t[2]]);
+    if (length(beside) > 0 && dot(unit(area_normal(vertices_mm, t)), unit(beside)) < kFoldCosine)
+      for (const std::uint32_t v : t) part[v] = std::max(part[v], kFoldRings);
+  }
 }
 
 void spread_rings(std::span<const Triangle> triangles, std::span<std::uint8_t> rings) {

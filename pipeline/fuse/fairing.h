@@ -24,6 +24,12 @@ void add_steps(std::span<const Vec3f> vertices_mm, std::span<const Triangle> tri
                std::span<const std::uint8_t> label, std::span<std::uint8_t> part,
                std::pmr::memory_resource* memory);
 
+// Adds the folds to `part`: triangles of `unsure` vertices that stand at more than 40 degrees to the surface
+// a few vertices around them. Skin has none that small.
+void add_folds(std::span<const Vec3f> vertices_mm, std::span<const Triangle> triangles,
+               std::span<const std::uint8_t> unsure, std::span<std::uint8_t> part,
+               std::pmr::memory_resource* memory);
+
 // A vertex with n gives each of its neighbours at least n - 1, and so on.
 void spread_rings(std::span<const Triangle> triangles, std::span<std::uint8_t> rings);
 

@@ -35,7 +35,7 @@ constexpr int kTuftEdges = 12, kEarHolds = 25;  // an ear that hangs on by less 
 constexpr int kRimEdges = 8, kRimRounds = 20;   // what is opened, how often rims are straightened ...
 constexpr float kSureMm = 0.15F;                // skin; hair that was half seen through is less certain
 constexpr float kRimMoveMm = 0.7F;              // ... and by how much at most
-constexpr std::uint8_t kClosedRings = 3, kUnsureRings = 9, kLastRings = 3;
+constexpr std::uint8_t kClosedRings = 3, kUnsureRings = 9, kLastRings = 3, kEyeRimRings = 1;
 constexpr float kHoleRimMm = 400, kBayMouthMm = 25, kClosedSigmaMm = 1;  // of holes and bays that are closed
 constexpr int kBands = 32;
 
@@ -55,7 +55,7 @@ class Fusion {
   std::optional<SurfaceHit> look(std::size_t k, const Vec3f& place) const {
     auto hit = poses_[k].look(narrow(apply(back_[k], wide(place))));
     if (!hit || hit->trust <= kLeastTrust) return std::nullopt;
-    hit->trust = (hit->trust - kLeastTrust) / (1 - kLeastTrust);
+    hit->trust = (hit->trust - kLeastTrust) / (1 - kLeastTrust) * (k == 0 ? 1 : zones_.others_share(place));
     const RigidTransform& placed = registration_.poses[k].first_from_pose;
     hit->at_mm = narrow(apply(placed, wide(hit->at_mm)));
     hit->normal = narrow(apply(placed.rotation, wide(hit->normal)));
@@ -88,8 +88,9 @@ class Fusion {
           const Vec3f at = narrow(apply(placed, wide(pose.at_mm[i])));
           if (!zones_.is_head(at) || zones_.is_eye(at)) continue;
           const Vec3f normal = narrow(apply(placed.rotation, wide(pose.normal[i])));
-          if (!overruled(k, at, normal, pose.sigma_mm[i], pose.trust[i]))
-            all[first + i] = {at, normal, pose.trust[i] / squared(std::max(pose.sigma_mm[i], kLeastSigmaMm))};
+          const float trust = pose.trust[i] * (k == 0 ? 1 : zones_.others_share(at));
+          if (!overruled(k, at, normal, pose.sigma_mm[i], trust))
+            all[first + i] = {at, normal, trust / squared(std::max(pose.sigma_mm[i], kLeastSigmaMm))};
         }
       });
       all.erase(std::remove_if(all.begin() + std::ptrdiff_t(first), all.end(),
@@ -147,9 +148,15 @@ class Fusion {
   }
 
   // What disagrees with the one that counts most is other skin, or skin that moved: its weight fades, so that
-  // no step is left where one begins to disagree.
+  // no step is left where one begins to disagree; less so where that one fades itself, so that none is left
+  // where another takes its place.
   Placed mean_of(std::array<Seen, kMostPoses>& seen, std::size_t best, const Vec3f& at,
                  const Vec3f& normal) const {
+    // A surface that fades out is no surer at its end than the others, else they would take its place at
+    // once.
+    float least = seen[best].certainty;
+    for (const Seen& s : seen)
+      if (s.weight > 0) least = std::min(least, s.certainty);
     Vec3f pull{};
     float weight = 0, variance = 0;
     std::size_t most = best;
@@ -160,7 +167,9 @@ class Fusion {
       const float allowed = std::clamp(
           kDisagreeSigmas * std::sqrt(1 / s.certainty + 1 / seen[best].certainty), kDisagreeMm, kReachMm);
       const float off = std::abs(s.distance - seen[best].distance) / allowed;
-      s.weight *= k == best ? 1 : std::clamp(2 - 2 * off, 0.0F, 1.0F);
+      s.weight = s.trust * least * std::pow(s.certainty / least, s.trust);
+      const float trusted = best == 0 ? (1 - seen[0].trust) / 0.75F : 2 * s.trust / seen[best].trust - 0.5F;
+      s.weight *= k == best ? 1 : std::clamp(std::max(2 - 2 * off, trusted), 0.0F, 1.0F);
       pull = along(pull, s.weight * s.distance, s.normal);
       weight += s.weight;
       variance += s.weight * s.weight * (1 / s.certainty);
@@ -352,11 +361,16 @@ Result<FaceMesh> HeadFuser::fuse(std::span<PoseSurface> poses, const Registratio
   std::fill(part.begin() + std::ptrdiff_t(settled), part.end(), kClosedRings);
   for (std::size_t v = 0; v < vertices.size(); ++v) {
     label[v] = v < settled ? vertices[v].poses : kBetweenNothing;
-    stays[v] = v < settled && (zones.is_eye(surface.vertices_mm[v]) || zones.is_ear(surface.vertices_mm[v]));
+    const Vec3f& at = surface.vertices_mm[v];
+    stays[v] = v < settled && !zones.is_eye_rim(at) && (zones.is_eye(at) || zones.is_ear(at));
+    if (zones.is_eye_rim(at)) part[v] = std::max(part[v], kEyeRimRings);
   }
   for (const BorderEdge& e : border_edges(surface.triangles, &context.scratch)) stays[e[0]] = 1;
+  std::pmr::vector<std::uint8_t> unsure(&context.scratch);
+  for (const Vertex& v : vertices) unsure.push_back(v.measured == 0 || v.sigma_mm > kSureMm ? 1 : 0);
   if (disagree(registration))
     add_steps(surface.vertices_mm, surface.triangles, label, part, &context.scratch);
+  add_folds(surface.vertices_mm, surface.triangles, unsure, part, &context.scratch);
   const auto lay_anew = [&] {
     const auto moved = fair_part(surface.vertices_mm, surface.triangles, part, stays, &context.scratch);
     for (std::size_t v = 0; v < moved.size(); ++v)
@@ -365,9 +379,9 @@ Result<FaceMesh> HeadFuser::fuse(std::span<PoseSurface> poses, const Registratio
   lay_anew();
   std::fill(part.begin(), part.end(), std::uint8_t{0});
   for (const Triangle& t : surface.triangles) {
-    const bool unsure =
+    const bool guessed =
         std::any_of(t.begin(), t.end(), [&](std::uint32_t v) { return vertices[v].measured == 0; });
-    if (unsure && (label[t[0]] != label[t[1]] || label[t[0]] != label[t[2]]))
+    if (guessed && (label[t[0]] != label[t[1]] || label[t[0]] != label[t[2]]))
       for (const std::uint32_t v : t) part[v] = kUnsureRings;
   }
   // What was measured stays, but for the last of it.

@@ -7,6 +7,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <limits>
 
 #include "pipeline/model/landmarks.h"
 #include "pipeline/model/vector3.h"
@@ -32,12 +33,15 @@ class HeadZones {
     return p.y > kChinMm || std::hypot(p.x, p.z - kNeckAxisMm) < kNeckRadiusMm;
   }
   // Eyes move and close, and what lies between the lids is measured badly.
-  bool is_eye(const Vec3f& place) const {
-    constexpr double kBehindMm = -90;
-    const Vec3d p = in_head(place);
-    return p.z > kBehindMm && std::any_of(eyes_.begin(), eyes_.begin() + count_, [&](const Eye& e) {
-             return std::hypot((p.x - e.middle.x) / e.half_width, (p.y - e.middle.y) / e.half_height) < 1;
-           });
+  bool is_eye(const Vec3f& place) const { return from_eye(place) < 1; }
+  // Where the master's own eye gives way to what all poses say.
+  bool is_eye_rim(const Vec3f& place) const { return std::abs(from_eye(place) - 1) < 0.2; }
+  // How much other poses than the master count: little at an eye, so that no step is left around it.
+  float others_share(const Vec3f& place) const {
+    constexpr double kFullAt = 1.5;
+    constexpr float kLeast = 0.01F;  // where the master sees nothing they still say what is there
+    const auto t = float(std::clamp((from_eye(place) - 1) / (kFullAt - 1), 0.0, 1.0));
+    return std::max(t * t * (3 - 2 * t), kLeast);
   }
   // Where hardly anybody has hair.
   bool is_face(const Vec3f& place) const {
@@ -60,6 +64,19 @@ class HeadZones {
     Vec3d middle;
     double half_width, half_height;
   };
+  // 1 on the outline of the nearer eye, less in it.
+  double from_eye(const Vec3f& place) const {
+    constexpr double kBehindMm = -90;
+    const Vec3d p = in_head(place);
+    double nearest = std::numeric_limits<double>::max();
+    if (p.z > kBehindMm)
+      for (int i = 0; i < count_; ++i) {
+        const Eye& e = eyes_[std::size_t(i)];
+        nearest = std::min(nearest,
+                           std::hypot((p.x - e.middle.x) / e.half_width, (p.y - e.middle.y) / e.half_height));
+      }
+    return nearest;
+  }
   Vec3d in_head(const Vec3f& place) const { return apply(head_from_camera_, wide(place)); }
   void add_eye(const Landmark& inner, const Landmark& outer) {
     if (!inner.found || !outer.found) return;

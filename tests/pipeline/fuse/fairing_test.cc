@@ -85,6 +85,20 @@ TEST(Steps, BesideWhichTheSurfaceTurnsAreFolds) {
   EXPECT_TRUE(std::all_of(moved.begin(), moved.end(), [](float d) { return d == 0; }));
 }
 
+TEST(Folds, AreLaidAnewWhereTheSurfaceIsUnsure) {
+  constexpr std::size_t kCrumb = kSide * (kSide / 2) + kSide / 2;
+  const auto height = [](std::uint8_t unsure_there) {
+    Sheet sheet(0);
+    sheet.vertices[kCrumb].z = 1.5F;
+    std::vector<std::uint8_t> part(sheet.vertices.size(), 0), unsure(part.size(), unsure_there);
+    add_folds(sheet.vertices, sheet.triangles, unsure, part, std::pmr::get_default_resource());
+    fair_part(sheet.vertices, sheet.triangles, part, sheet.stays, std::pmr::get_default_resource());
+    return sheet.vertices[kCrumb].z;
+  };
+  EXPECT_LT(std::abs(height(1)), 0.1F);
+  EXPECT_EQ(height(0), 1.5F) << "what is sure is skin";
+}
+
 // A dome with a hole of two centimetres: closed flat it would lie 1.3 mm too low.
 TEST(Fairing, LetsWhatClosesAHoleGoOnAsTheSurfaceDoes) {
   constexpr float kRadius = 40, kHole = 10, kStep = 1;

@@ -10,6 +10,7 @@
 #include <cmath>
 #include <numbers>
 
+#include "pipeline/fuse/head_fuser.h"
 #include "pipeline/fuse/skin_bender.h"
 #include "pipeline/model/vector3.h"
 #include "tests/pipeline/mesh/stage_room.h"
@@ -275,6 +276,73 @@ TEST_F(Poses, AreBentAsFarAsBothAreUnsure) {
     return {};
   }));
   EXPECT_LT(furthest_mm(), 0.6 * before);
+}
+
+// How steeply, in degrees, the fused surface stands to the head's own within so many millimetres of a place.
+double steepest_deg(const FaceMesh& mesh, const RigidTransform& head_from_camera, const Vec3d& middle,
+                    double within_mm) {
+  double least = 1;
+  for (const auto& t : mesh.triangles) {
+    std::array<Vec3d, 3> p;
+    for (std::size_t k = 0; k < 3; ++k) p[k] = apply(head_from_camera, wide(mesh.vertices_mm[t[k]]));
+    const Vec3d centre = times(plus(plus(p[0], p[1]), p[2]), 1.0 / 3);
+    const Vec3d area = cross(minus(p[1], p[0]), minus(p[2], p[0]));
+    if (std::hypot(centre.x - middle.x, centre.y - middle.y) > within_mm || length(area) < 0.2) continue;
+    const auto slope = [&](const Vec3d& by) {
+      return shape(plus(centre, by), 0) - shape(minus(centre, by), 0);
+    };
+    least = std::min(
+        least, dot(unit(area), unit(Vec3d{slope({0.1, 0, 0}), slope({0, 0.1, 0}), slope({0, 0, 0.1})})));
+  }
+  return std::acos(least) * 180 / std::numbers::pi;
+}
+
+// Two poses of one head that lie more than a millimetre apart, and the first one's edge across the face.
+class ApartPoses : public Poses {
+ protected:
+  double fused_steepest_deg(const Vec3d& middle, double within_mm, const Landmarks& landmarks,
+                            double apart_mm, double edge_y, float trust) {
+    for (int k = 0; k < 2; ++k) {
+      auto pose = room_.run([](StageContext& c) { return seen(0, 0, 0, c, 0.12); });
+      EXPECT_TRUE(pose);
+      poses_.push_back(*std::move(pose));
+    }
+    for (std::size_t k = 0; k < poses_[0].trust.size(); ++k)
+      poses_[0].trust[k] *=
+          apply(poses_[0].head_from_camera, wide(poses_[0].at_mm[k])).y < edge_y ? 0 : trust;
+    Registration placed(std::pmr::get_default_resource());
+    placed.poses.resize(2);
+    placed.poses[1].first_from_pose.translation_mm.z = apart_mm;
+    FaceMesh own(std::pmr::get_default_resource());
+    own.vertices_mm = poses_[0].at_mm;
+    own.normals = poses_[0].normal;
+    own.sigma_mm = poses_[0].sigma_mm;
+    own.measured.assign(own.sigma_mm.size(), 1);
+    HeadFuserOptions options;
+    options.most_bend_mm = 0;
+    options.still_mm = 1;
+    const auto head = room_.run(
+        [&](StageContext& c) { return HeadFuser(options).fuse(poses_, placed, own, landmarks, c); });
+    EXPECT_TRUE(head);
+    return head ? steepest_deg(*head, poses_[0].head_from_camera, middle, within_mm) : 90;
+  }
+};
+
+TEST_F(ApartPoses, HaveNoStepWhereTheOtherBeginsToCountMost) {
+  EXPECT_LT(fused_steepest_deg({0, -14, 0}, 12, {}, 0.7, -20, 1), 12);
+}
+
+TEST_F(ApartPoses, HaveNoStepAroundAnEye) {
+  const RigidTransform camera = camera_from_head(0);
+  const auto on_skin = [&](double x, double y) {
+    Vec3d p{x, y, 40};
+    while (shape(p, 0) > 0) p.z -= 0.1;
+    return Landmark{narrow(apply(camera, p)), 0.5F, true};
+  };
+  Landmarks landmarks{};
+  landmarks[std::size_t(LandmarkName::EndocanthionLeft)] = on_skin(17, 30);
+  landmarks[std::size_t(LandmarkName::ExocanthionLeft)] = on_skin(43, 30);
+  EXPECT_LT(fused_steepest_deg({33, 30, 0}, 14, landmarks, 0.55, -200, 0.9F), 10.5);
 }
 
 TEST_F(Poses, ThatMeetNothingAreNamed) {
