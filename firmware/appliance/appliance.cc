@@ -47,6 +47,8 @@ Event event_of(ui::Intent intent) {
     case ui::Intent::LookUp:
     case ui::Intent::StillHere:
     case ui::Intent::Enough:
+    case ui::Intent::TakeHome:
+    case ui::Intent::StopTaking:
     case ui::Intent::Print: break;  // no event: they give time, end a job, or are the kiosk's
     case ui::Intent::OpenStaff: return Event::StaffIn;
     case ui::Intent::LeaveStaff: return Event::StaffOut;

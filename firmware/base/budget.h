@@ -103,6 +103,8 @@ inline constexpr milliseconds kStageLimit{60'000};   // a stage that runs longer
 inline constexpr milliseconds kReviewLimit{60'000};  // nobody answers: nothing is kept
 inline constexpr milliseconds kStoreLimit{30'000};
 inline constexpr milliseconds kExportLimit{600'000};
+inline constexpr milliseconds kTakeHomeLimit{180'000};  // 80 MB on a slow stick, twice
+inline constexpr milliseconds kStickLook{500};          // between two looks for a visitor's stick
 inline constexpr milliseconds kCalibrateLimit{600'000};
 inline constexpr milliseconds kStaffLimit{300'000};
 inline constexpr milliseconds kFaultRetry{5'000};  // a fault tests itself again after this

@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "firmware/demo/gallery.h"
 
+#include <algorithm>
 #include <array>
 #include <utility>
 
@@ -69,8 +70,14 @@ class Gallery {
     exhibits.push_back({name, view, visit, {}});
   }
 
-  void add_position(std::string_view name, Advice advice, float face_x, float steady_s, int attempt) {
+  // Before the first picture the page says that the cameras are starting, and nothing of a face.
+  ui::ViewState looked_at() const {
     ui::ViewState view = idle();
+    view.live.number = std::max(1U, view.live.number);
+    return view;
+  }
+  void add_position(std::string_view name, Advice advice, float face_x, float steady_s, int attempt) {
+    ui::ViewState view = looked_at();
     view.screen = Screen::Position;
     view.live.advice = advice;
     view.live.face_x = face_x;
@@ -82,7 +89,7 @@ class Gallery {
   }
   // The picture is not taken by itself.
   void add_by_button() {
-    ui::ViewState view = idle();
+    ui::ViewState view = looked_at();
     view.screen = Screen::Position;
     view.live.advice = Advice::None;
     view.live.steady_s = 0;
@@ -90,7 +97,7 @@ class Gallery {
     add("position_button", view, at(Step::Position));
   }
   void add_turn(std::string_view name, pipeline::TurnAdvice advice, float yaw_deg, unsigned long taken) {
-    ui::ViewState view = idle();
+    ui::ViewState view = looked_at();
     view.screen = Screen::Turn;
     view.live.turn = ui::TurnView{advice, yaw_deg, taken};
     view.live.nearness = 1;
@@ -121,7 +128,13 @@ class Gallery {
 const ui::ConsentTexts& hosts_text() {
   static const ui::ConsentTexts texts = [] {
     ui::ConsentTexts made;
-    made.host = {"Museum of Faces, Nottingham", "faces@example.org", {}, 96, 96, PixelFormat::Rgb8};
+    made.host = {"Museum of Faces, Nottingham",
+                 "faces@example.org",
+                 "https://faces.example.org/heads/{model}",
+                 {},
+                 96,
+                 96,
+                 PixelFormat::Rgb8};
     for (int y = -48; y < 48; ++y)
       for (int x = -48; x < 48; ++x) {
         const int r = x * x + y * y;
@@ -178,6 +191,37 @@ void add_capture(Gallery& g) {
   g.add_working("storing", Screen::Store, 4);
 }
 
+// A stick of one's own, and a link, beside a printer.
+void add_taking_home(Gallery& g, ui::ViewState done) {
+  using ui::Outcome;
+  using ui::Taking;
+  const auto add = [&](std::string_view name, Taking taking, Outcome outcome = Outcome::None) {
+    done.take_home.taking = taking;
+    done.take_home.outcome = outcome;
+    g.add(name, done, g.at(Step::Thanks));
+  };
+  add("thanks_stick", Taking::NoStick);
+  add("thanks_stick_before", Taking::NotOurs);
+  done.printing = ui::Printing::Ready;
+  add("thanks_stick_ready", Taking::Ready);
+  done.take_home.progress = 0.6F;
+  add("thanks_stick_busy", Taking::Busy);
+  add("thanks_stick_done", Taking::NoStick, Outcome::Done);
+  for (const auto& [name, outcome] : {std::pair{"thanks_stick_held", Outcome::StickHeld},
+                                      std::pair{"thanks_stick_full", Outcome::StickFull},
+                                      std::pair{"thanks_stick_locked", Outcome::StickLocked},
+                                      std::pair{"thanks_stick_bad", Outcome::StickBad}})
+    add(name, Taking::Ready, outcome);
+  add("thanks_stick_gone", Taking::NoStick, Outcome::StickGone);
+  done.take_home.link = "https://faces.example.org/heads/0d4a8f6c2b9e7a5310c8f4d6b2a09e17";
+  static const hal::Picture link = code_picture(done.take_home.link);
+  done.take_home.link_code = {link.view(), 1};
+  add("thanks_link_busy", Taking::Busy);
+  done.printing = ui::Printing::None;
+  add("thanks_link_stick", Taking::Ready);
+  add("thanks_link", Taking::None);
+}
+
 void add_decision(Gallery& g, const ui::ViewState& review, const ui::ViewState& idle) {
   g.add("review", review, g.at(Step::Review));
   ui::ViewState full = review;
@@ -208,6 +252,7 @@ void add_decision(Gallery& g, const ui::ViewState& review, const ui::ViewState& 
   g.add("thanks_printer", done, g.at(Step::Thanks));
   done.printing = ui::Printing::Done;
   g.add("thanks_printed", done, g.at(Step::Thanks));
+  add_taking_home(g, done);
   done.now += ui::kReceiptPatience + std::chrono::seconds(4);
   g.add("thanks_still_there", done, g.at(Step::Thanks, Overlay::StillThere));
 }
@@ -228,6 +273,7 @@ void add_overlays(Gallery& g, const ui::ViewState& review, const ui::ViewState& 
   ui::ViewState hosted = idle;
   hosted.consent = &hosts_text();
   hosted.settings.set(ui::Setting::KeepDays, 365);
+  hosted.settings.set(ui::Setting::TakeHome, 1);
   g.add("privacy_host", hosted, g.at(Step::Attract, Overlay::Privacy));
   g.add("help", idle, g.at(Step::Consent, Overlay::Help));
   g.add("leave", review, g.at(Step::Review, Overlay::Leave));

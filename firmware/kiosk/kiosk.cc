@@ -122,6 +122,8 @@ Result<void> Kiosk::prepare(const KioskArgs& args, Services& services) {
   code_scanner_ = std::make_unique<CodeScanner>(*appliance_, *device_);
   slip_ = std::make_unique<ReceiptSlip>(staff_->side_tasks(),
                                         services.make_printer ? services.make_printer() : nullptr);
+  take_home_ = std::make_unique<TakeHome>(
+      TakeHome::Parts{staff_->side_tasks(), device_->media(), *store_, device_->clock(), staff_->log()});
   rest_cameras_ = std::make_unique<RestCamerasJob>(appliance_->grabber());
   look();
   return {};
@@ -185,12 +187,16 @@ void Kiosk::look() {
   if (ui_->service().open || ui_->visit().step == ui::Step::Attract) staff_->consent().adopt();
   view_.consent = staff_->consent().now();
   view_.cameras_on = appliance_->grabber().streams();
-  if (slip_) slip_->follow(view_);
+  if (slip_) slip_->follow(view_, appliance_->kept().link.view());
   for (std::size_t i = 0; i < ui::kLanguages; ++i)
     languages_[i] = view_.consent == nullptr || view_.consent->in[i].has_value();
   // The staff read their pages in languages of their own; a visitor what can be consented to.
   view_.languages = ui_->service().open ? std::bitset<ui::kLanguages>().set() : languages_;
   view_.settings = staff_->settings();
+  const ui::Step step = ui_->visit().step;
+  if (take_home_)
+    take_home_->follow(view_, step != ui::Step::Starting && step != ui::Step::Attract &&
+                                  step != ui::Step::Trouble && !ui_->service().open);
   appliance_->set_attempts(view_.settings.of(ui::Setting::Attempts));
   // Recorded pictures turn nowhere.
   appliance_->ask_for_sides(view_.settings.is_on(ui::Setting::Sides) && (device_->is_live() || turn_head_));
@@ -263,6 +269,8 @@ void Kiosk::rest_cameras() {
 
 void Kiosk::ask(ui::Intent intent) {
   if (intent == ui::Intent::Print) return slip_->print(ui_->text(), ui_->visit().language, view_);
+  if (intent == ui::Intent::TakeHome) return take_home_->take(appliance_->kept().enrolment, view_.settings);
+  if (intent == ui::Intent::StopTaking) return take_home_->stop();
   const bool measures = stages_->calibration() != nullptr && exchanged_.empty() &&
                         appliance_->moved_in_a_row() < budget::kMovedFaces;
   if (!measures && appliance_->state() == State::Idle &&

@@ -23,6 +23,7 @@
 #include "firmware/kiosk/receipt_slip.h"
 #include "firmware/kiosk/run_mark.h"
 #include "firmware/kiosk/stored_visits.h"
+#include "firmware/kiosk/take_home.h"
 #include "firmware/kiosk/voice.h"
 #include "firmware/services/services.h"
 #include "firmware/staff/staff_controller.h"
@@ -107,6 +108,7 @@ class Kiosk {
   std::unique_ptr<StaffController> staff_;  // these two use the appliance
   std::unique_ptr<CodeScanner> code_scanner_;
   std::unique_ptr<ReceiptSlip> slip_;
+  std::unique_ptr<TakeHome> take_home_;
   std::unique_ptr<RestCamerasJob> rest_cameras_;
 };
 

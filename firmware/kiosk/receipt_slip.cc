@@ -13,7 +13,7 @@
 namespace relievo::firmware {
 namespace {
 
-constexpr int kWidthPx = 576, kMarginPx = 24, kGapPx = 20, kHighPx = 1100;
+constexpr int kWidthPx = 576, kMarginPx = 24, kGapPx = 20, kHighPx = 1600;
 
 void wipe_picture(hal::Picture& picture) {
   if (!picture.bytes.empty()) explicit_bzero(picture.bytes.data(), picture.bytes.size());
@@ -44,10 +44,10 @@ class Paper {
         put(left + x, top + y, 255 - *text_.atlas().row(int(label.atlas.x) + x, int(label.atlas.y) + y));
     y_ += int(std::ceil(label.size.height_px)) + kGapPx;
   }
-  void paste(const hal::Picture& picture) {
+  void paste(const ImageView& picture) {
     for (int y = 0; y < picture.height_px; ++y)
       for (int x = 0; x < picture.width_px; ++x)
-        put((kWidthPx - picture.width_px) / 2 + x, y_ + y, *(picture.view().row(y) + x));
+        put((kWidthPx - picture.width_px) / 2 + x, y_ + y, *(picture.row(y) + x));
     y_ += picture.height_px;
   }
   hal::Picture take() {
@@ -70,36 +70,53 @@ class Paper {
 
 }  // namespace
 
-hal::Picture draw_slip(ui::TextEngine& text, ui::Language language, std::string_view host,
-                       std::string_view receipt, const hal::Picture& code) {
+hal::Picture draw_slip(ui::TextEngine& text, ui::Language language, const ui::ViewState& view) {
   const ui::Words tr(language);
   Paper paper(text, language);
-  if (!host.empty()) paper.write(host, 34, ui::Weight::Bold);
+  if (view.consent != nullptr && !view.consent->host.name.empty())
+    paper.write(view.consent->host.name, 34, ui::Weight::Bold);
   paper.write(tr("Your code"), 30, ui::Weight::Medium);
-  paper.paste(code);
-  paper.write(receipt, 46, ui::Weight::Bold);
+  paper.paste(view.receipt_code.picture);
+  paper.write(view.receipt, 46, ui::Weight::Bold);
   paper.write(tr("You get a code. Quote it to the staff at any time and everything about you is erased."), 26,
               ui::Weight::Regular);
+  const ui::TakeHomeView& home = view.take_home;
+  if (home.link_code.picture.empty()) return paper.take();
+  paper.write(tr("Your portrait"), 30, ui::Weight::Medium);
+  paper.paste(home.link_code.picture);
+  paper.write(ui::site_of(home.link), 30, ui::Weight::Bold);
   return paper.take();
 }
 
 void ReceiptSlip::wipe() {
-  explicit_bzero(receipt_.data(), receipt_.size());
-  receipt_.clear();
+  for (std::string* text : {&receipt_, &link_}) {
+    explicit_bzero(text->data(), text->size());
+    text->clear();
+  }
   wipe_picture(code_);
+  wipe_picture(link_code_);
   printing_ = std::make_shared<ui::Printing>(ui::Printing::None);
 }
 
-void ReceiptSlip::follow(ui::ViewState& view) {
+void ReceiptSlip::follow(ui::ViewState& view, std::string_view number) {
   if (view.receipt != receipt_) {
     wipe();
     receipt_ = view.receipt;
     if (receipt_.empty()) return;
     code_ = code_picture(receipt_);
+    if (view.consent != nullptr && !number.empty()) link_ = view.consent->host.link;
+    if (!link_.empty()) {
+      link_.replace(link_.find(ui::kModelPlace), ui::kModelPlace.size(), number);
+      link_code_ = code_picture(link_);
+    }
     ++number_;
     ask_printer();
   }
   if (!code_.bytes.empty()) view.receipt_code = {code_.view(), number_};
+  if (!link_code_.bytes.empty()) {
+    view.take_home.link = link_;
+    view.take_home.link_code = {link_code_.view(), number_};
+  }
   view.printing = *printing_;
 }
 
@@ -121,9 +138,7 @@ void ReceiptSlip::ask_printer() {
 
 void ReceiptSlip::print(ui::TextEngine& text, ui::Language language, const ui::ViewState& view) {
   if (receipt_.empty() || *printing_ == ui::Printing::None || *printing_ == ui::Printing::Busy) return;
-  hal::Picture slip =
-      draw_slip(text, language, view.consent != nullptr ? view.consent->host.name : std::string_view(),
-                receipt_, code_);
+  hal::Picture slip = draw_slip(text, language, view);
   auto png = hal::encode_png(slip.view());
   wipe_picture(slip);
   if (!png) return void(*printing_ = ui::Printing::Failed);

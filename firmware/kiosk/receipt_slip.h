@@ -2,7 +2,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 //
 // ReceiptSlip: what a visitor takes home of their visit: the code for the erasure as a QR code on the screen,
-// and on paper where there is a printer. It is there as long as the code is, and wiped with it.
+// the link to what the operator offers as another, both on paper where there is a printer. They are there as
+// long as the code is, and wiped with it.
 // Thread: main; the printer is the keeper's. Errors: none: a slip that could not be printed is said so.
 #pragma once
 
@@ -18,9 +19,8 @@
 
 namespace relievo::firmware {
 
-// The slip of 80 mm at 8 dots a mm: whose it is, the code as QR and in digits, what it is for.
-hal::Picture draw_slip(ui::TextEngine& text, ui::Language language, std::string_view host,
-                       std::string_view receipt, const hal::Picture& code);
+// The slip of 80 mm at 8 dots a mm: whose it is, the code as QR and in digits, what it is for; the link.
+hal::Picture draw_slip(ui::TextEngine& text, ui::Language language, const ui::ViewState& view);
 
 class ReceiptSlip {
  public:
@@ -31,8 +31,8 @@ class ReceiptSlip {
   ReceiptSlip(const ReceiptSlip&) = delete;
   ReceiptSlip& operator=(const ReceiptSlip&) = delete;
 
-  // view.receipt, once a frame; fills in what a screen may show of it.
-  void follow(ui::ViewState& view);
+  // view.receipt, once a frame; fills in what a screen may show of it. `number`: of the link.
+  void follow(ui::ViewState& view, std::string_view number);
   void print(ui::TextEngine& text, ui::Language language, const ui::ViewState& view);
 
  private:
@@ -41,8 +41,8 @@ class ReceiptSlip {
 
   SideTasks& side_tasks_;
   std::shared_ptr<hal::Printer> printer_;
-  std::string receipt_;
-  hal::Picture code_;
+  std::string receipt_, link_;
+  hal::Picture code_, link_code_;
   std::uint32_t number_ = 0;  // of the code: what a printer says of another is no news
   std::shared_ptr<ui::Printing> printing_ = std::make_shared<ui::Printing>(ui::Printing::None);
 };

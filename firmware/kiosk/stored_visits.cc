@@ -32,6 +32,7 @@ Result<KeptVisit> StoredVisits::keep(const VisitRecord& record, const pipeline::
   std::string receipt = receipt_of(whom);
   kept.receipt = std::string_view(receipt);
   explicit_bzero(receipt.data(), receipt.size());
+  if (const auto link = link_number_of(store_, whom)) kept.link = std::string_view(*link);
   return kept;
 }
 

@@ -4,7 +4,8 @@
 // What an exported copy of a person says of itself, beside its files:
 //   person.record   all the store has of them, for another store (storage/person_record.h)
 //   manifest.json   whose it is, when it was made and by which version, from which consent; the SHA-256 of
-//   each signature.json  by which key the manifest is signed (Ed25519, over all its bytes), in hexadecimal
+//                   each; the number by which the operator may offer the portrait (link_number_of)
+//   signature.json  by which key the manifest is signed (Ed25519, over all its bytes), in hexadecimal
 // A copy is a folder, a tar of it (storage/export/bundle.h), or that tar sealed (storage/cipher/age.h).
 // Thread: any. Errors: the store's, the disk's.
 #pragma once

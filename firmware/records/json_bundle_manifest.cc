@@ -80,7 +80,8 @@ Result<std::vector<BundleFile>> manifest_files(storage::Store& store, const Copy
   Json json;
   json["made_by"] = "Relievo " + std::string(kVersion);
   json["made_at"] = text_of(of.now);
-  json["person"] = {{"code", receipt_of(of.subject)}, {"name", of.subject.name}};
+  RELIEVO_TRY_ASSIGN(const std::string link, link_number_of(store, of.subject));
+  json["person"] = {{"code", receipt_of(of.subject)}, {"name", of.subject.name}, {"link", link}};
   json["enrolled_at"] = text_of(of.enrolment.created_at);
   json["consent"] = {{"wording", of.enrolment.consent.wording},
                      {"language", of.enrolment.consent.language},

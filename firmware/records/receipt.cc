@@ -2,8 +2,13 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "firmware/records/receipt.h"
 
+#include <string.h>
+
 #include <charconv>
 #include <cstdio>
+#include <span>
+
+#include "firmware/records/bundle_manifest.h"
 
 namespace relievo::firmware {
 namespace {
@@ -43,6 +48,17 @@ std::string receipt_of(const storage::Subject& subject) {
   std::snprintf(text, sizeof text, "%04d-%04d-%04d-%02d", part(100'000'000), part(10'000), part(1),
                 check_digits(subject.receipt));
   return text;
+}
+
+// A signature is a function that needs the store's secret key. A hash alone would be undone by trying all
+// codes.
+Result<std::string> link_number_of(storage::Store& store, const storage::Subject& subject) {
+  constexpr std::size_t kDigits = 32;
+  std::string of = "link " + receipt_of(subject);
+  const auto made = store.sign(std::as_bytes(std::span(of)));
+  explicit_bzero(of.data(), of.size());
+  if (!made) return made.error();
+  return text_of(storage::sha256(made->signature)).substr(0, kDigits);
 }
 
 bool is_receipt(std::string_view code) { return read(code).has_value(); }

@@ -15,6 +15,11 @@ namespace relievo::firmware {
 
 std::string receipt_of(const storage::Subject& subject);
 
+// A number for the same person that whoever offers their portrait may know: nobody but this store can make it
+// of the code, or the code of it. 32 hexadecimal digits, the same at every time. Thread: the keeper. Errors:
+// the store's.
+Result<std::string> link_number_of(storage::Store& store, const storage::Subject& subject);
+
 // Whether it is such a code at all. Dashes and spaces between the digits may be others, or none, in a drawn
 // one.
 bool is_receipt(std::string_view code);

@@ -18,8 +18,8 @@ namespace {
 
 namespace fs = std::filesystem;
 
-constexpr const char *kHostFile = "operator.txt", *kSignFile = "sign.png";
-constexpr std::size_t kMostHostBytes = 80, kMostSignBytes = 1'000'000;
+constexpr const char *kHostFile = "operator.txt", *kSignFile = "sign.png", *kLinkFile = "link.txt";
+constexpr std::size_t kMostHostBytes = 80, kMostSignBytes = 1'000'000, kMostLinkBytes = 200;
 constexpr int kMostSignPx = 1024;
 
 Error wrong(const fs::path& file, Literal what) { return Error{Errc::InvalidInput, what}.at(file.string()); }
@@ -100,6 +100,25 @@ Result<void> read_host(const fs::path& file, ui::Host& host) {
   }
   if (host.name.empty() || host.name.size() > kMostHostBytes)
     return wrong(file, "has no name in its first line, or one of more than 80 bytes");
+  return {};
+}
+
+// A site by its name alone, so that the page can say where it leads; then a path with the number in it.
+Result<void> read_link(const fs::path& file, ui::Host& host) {
+  RELIEVO_TRY_ASSIGN(const std::string text, read_consent_text(file));
+  const std::string link = text.substr(0, text.find('\n'));
+  const auto plain = [](char c) { return c > ' ' && c <= '~' && c != '"' && c != '<' && c != '>'; };
+  const auto of_a_site = [](char c) {
+    return (c >= 'a' && c <= 'z') || (c >= '0' && c <= '9') || c == '.' || c == '-';
+  };
+  const std::string_view site = ui::site_of(link);
+  if (!link.starts_with(ui::kHttps) || link.size() > kMostLinkBytes || !std::ranges::all_of(link, plain) ||
+      site.empty() || !std::ranges::all_of(site, of_a_site))
+    return wrong(file, "is no https address of at most 200 bytes, as https://museum.example/heads/{model}");
+  const std::size_t place = link.find(ui::kModelPlace);
+  if (place == std::string::npos || link.find(ui::kModelPlace, place + 1) != std::string::npos)
+    return wrong(file, "must have one place for the number of the portrait: write {model} there");
+  host.link = link;
   return {};
 }
 
@@ -194,6 +213,10 @@ Result<ui::ConsentTexts> read_consent_version(const fs::path& folder, const std:
       RELIEVO_TRY(read_host(entry->path(), texts.host));
       continue;
     }
+    if (entry->path().filename() == kLinkFile) {
+      RELIEVO_TRY(read_link(entry->path(), texts.host));
+      continue;
+    }
     if (entry->path().filename() == kSignFile) {
       RELIEVO_TRY(read_sign(entry->path(), texts.host));
       continue;
@@ -259,12 +282,10 @@ void ConsentTextStore::take() {
   side_tasks_.send(
       JobLane::Keeper,
       [this, taken, now = now_](JobControl&) -> Result<void> {
-        const auto medium = media_.current();
-        if (!medium) return Error{Errc::MediaMissing, "there is no stick: plug one in"};
-        auto result = take_consent(medium->root, folder_, now);
+        RELIEVO_TRY_ASSIGN(const hal::Medium medium, plugged_in(media_));
+        auto result = take_consent(medium.root, folder_, now);
         // Whatever failed: a stick that is gone is the reason.
-        if (!result && !media_.current())
-          return Error{Errc::Disconnected, "the stick was pulled out too early: plug it in and try again"};
+        if (!result && !media_.current()) return pulled_too_early();
         RELIEVO_TRY_ASSIGN(*taken, std::move(result));
         return {};
       },

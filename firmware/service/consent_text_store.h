@@ -32,7 +32,8 @@ namespace relievo::firmware {
 //   Two cameras photograph ...    the others, joined, its words
 //
 // Beside them may lie operator.txt (the operator's name; from the second line on, how they are reached) and
-// sign.png (their sign, on white): the page that invites shows whose device it is.
+// sign.png (their sign, on white): the page that invites shows whose device it is. The first line of link.txt
+// is where the operator offers portraits: an https address with {model} in its path.
 //
 // The version is the folder's name; in use is the last in the order of their names. LANGUAGE is one of
 // en de fr es ar he zh-Hans ja. Names that begin with a dot are somebody else's (a copy that was not

@@ -24,8 +24,6 @@ namespace relievo::firmware {
 namespace {
 
 namespace fs = std::filesystem;
-Error stopped() { return {Errc::Cancelled, "the export was stopped"}; }
-Error pulled() { return {Errc::Disconnected, "the stick was pulled out before the export had ended"}; }
 
 std::string note_of(const storage::Subject& subject, const storage::Enrolment& newest) {
   return "code: " + receipt_of(subject) + "\nname: " + subject.name +
@@ -40,17 +38,17 @@ class Export {
  public:
   Export(storage::Store& store, const hal::Clock& clock, hal::RemovableMedia& media,
          const FurtherModels& further, JobControl& control, ExportTrace& trace)
-      : store_(store), clock_(clock), media_(media), further_(further), control_(control), trace_(trace) {}
+      : store_(store), clock_(clock), media_(media), further_(further), work_{control, trace} {}
 
   Result<void> one(storage::SubjectId id, const fs::path& root, float done, float share) {
-    RELIEVO_TRY(reach(ExportStep::Load, done));
+    RELIEVO_TRY(work_.reach(ExportStep::Load, done));
     RELIEVO_TRY_ASSIGN(const storage::Subject subject, store_.subject(id));
     RELIEVO_TRY_ASSIGN(const auto enrolments, store_.enrolments(id));
     if (enrolments.empty()) return Error{Errc::NotFound, "has no portrait"};
     std::pmr::monotonic_buffer_resource memory;
     RELIEVO_TRY_ASSIGN(const pipeline::FaceModel model, store_.load_model(enrolments.back().id, &memory));
     const auto images = pipeline::make_recognition_images(model, memory, memory);
-    RELIEVO_TRY(reach(ExportStep::Write, done + 0.3F * share));
+    RELIEVO_TRY(work_.reach(ExportStep::Write, done + 0.3F * share));
     RELIEVO_TRY_ASSIGN(const fs::path target,
                        place_on_stick(root, fs::path("relievo") / receipt_of(subject)));
     RELIEVO_TRY_ASSIGN(OutputFolder folder, OutputFolder::begin(target));
@@ -65,24 +63,22 @@ class Export {
     const auto now = std::chrono::time_point_cast<std::chrono::milliseconds>(clock_.wall_now());
     RELIEVO_TRY(write_manifest(store_, {subject, enrolments.back(), now}, folder.path(), "manifest.json"));
     RELIEVO_TRY_ASSIGN(const Sums written, sums_of(folder.path()));
-    RELIEVO_TRY(reach(ExportStep::ReadBack, done + 0.6F * share));
+    RELIEVO_TRY(work_.reach(ExportStep::ReadBack, done + 0.6F * share));
     RELIEVO_TRY(media_.settle(folder.path()));
     RELIEVO_TRY_ASSIGN(const Sums read, sums_of(folder.path()));
-    if (read != written)
-      return Error{Errc::IoFailed,
-                   "what was read back from the stick is not what was written: use another stick"};
-    RELIEVO_TRY(reach(ExportStep::Write, done + 0.9F * share));
+    if (read != written) return not_as_written(target);
+    RELIEVO_TRY(work_.reach(ExportStep::Write, done + 0.9F * share));
     RELIEVO_TRY(replace_folder(folder, target));
     made_.emplace_back(target, written);
     return {};
   }
 
   Result<void> let_go() {
-    RELIEVO_TRY(reach(ExportStep::LetGo, 1));
+    RELIEVO_TRY(work_.reach(ExportStep::LetGo, 1));
     std::error_code error;
     // Another stick may have come in the place of the first.
     for (const auto& [record, sums] : made_)
-      if (!fs::exists(record / "record.txt", error)) return pulled();
+      if (!fs::exists(record / "record.txt", error)) return pulled_too_early();
     RELIEVO_TRY(media_.flush_and_eject());
     return compare_again();
   }
@@ -90,38 +86,28 @@ class Export {
  private:
   // Now nothing but the stick can answer. It is read only, and is let go whatever comes of it.
   Result<void> compare_again() {
-    trace_.step = ExportStep::Again;
+    ExportTrace& trace = work_.trace;
+    trace.step = ExportStep::Again;
     RELIEVO_TRY(media_.take_up_again());
-    trace_.whole = 0;
+    trace.whole = 0;
     Result<void> same;
     for (const auto& [record, sums] : made_) {
       const Result<Sums> kept = sums_of(record);
-      if (kept && *kept == sums) ++trace_.whole;
-      else if (same)
-        same = kept ? Error{Errc::IoFailed,
-                            "what was read back from the stick is not what was written: use another stick"}
-                    : kept.error();
+      if (kept && *kept == sums) ++trace.whole;
+      else if (same) same = kept ? not_as_written(record) : kept.error();
     }
-    if (!media_.current()) return pulled();
-    if (same) trace_.step = ExportStep::LetGo;
+    if (!media_.current()) return pulled_too_early();
+    if (same) trace.step = ExportStep::LetGo;
     const Result<void> gone = media_.flush_and_eject();
     RELIEVO_TRY(same);
     return gone;
-  }
-
-  Result<void> reach(ExportStep step, float share) {
-    if (control_.cancelled.load()) return stopped();
-    trace_.step = step;
-    control_.progress.done.store(share);
-    return {};
   }
 
   storage::Store& store_;
   const hal::Clock& clock_;
   hal::RemovableMedia& media_;
   FurtherModels further_;
-  JobControl& control_;
-  ExportTrace& trace_;
+  StickWork work_;
   std::vector<std::pair<fs::path, Sums>> made_;
 };
 
@@ -131,17 +117,16 @@ Result<void> export_records(storage::Store& store, const hal::Clock& clock, hal:
                             const std::vector<storage::SubjectId>& subjects, const FurtherModels& further,
                             JobControl& control, ExportTrace& trace) {
   trace = {};
-  const auto medium = media.current();
-  if (!medium) return Error{Errc::MediaMissing, "there is no stick: plug one in"};
+  RELIEVO_TRY_ASSIGN(const hal::Medium medium, plugged_in(media));
   trace.step = ExportStep::Write;
-  RELIEVO_TRY_ASSIGN(const fs::path ours, place_on_stick(medium->root, "relievo"));
+  RELIEVO_TRY_ASSIGN(const fs::path ours, place_on_stick(medium.root, "relievo"));
   tidy_folder(ours, is_receipt);
   Export work(store, clock, media, further, control, trace);
   const float share = 1 / static_cast<float>(std::max<std::size_t>(1, subjects.size()));
   for (const storage::SubjectId id : subjects) {
-    const Result<void> written = work.one(id, medium->root, static_cast<float>(trace.whole) * share, share);
+    const Result<void> written = work.one(id, medium.root, static_cast<float>(trace.whole) * share, share);
     // Whatever failed: a stick that is gone is the reason.
-    if (!media.current()) return pulled();
+    if (!media.current()) return pulled_too_early();
     RELIEVO_TRY(written);
     ++trace.whole;
   }

@@ -68,18 +68,25 @@ Result<void> StickWork::reach(ExportStep step, float share) {
 
 Result<void> put_on_stick(hal::RemovableMedia& media, const fs::path& place, StickWork* work,
                           const std::function<Result<void>(const fs::path& target)>& write) {
-  const auto medium = media.current();
-  if (!medium) return Error{Errc::MediaMissing, "there is no stick: plug one in"};
-  RELIEVO_TRY_ASSIGN(const fs::path target, place_on_stick(medium->root, place));
+  RELIEVO_TRY_ASSIGN(const hal::Medium medium, plugged_in(media));
+  RELIEVO_TRY_ASSIGN(const fs::path target, place_on_stick(medium.root, place));
   tidy_folder(target.parent_path());
   const Result<void> written = write(target);
   // Whatever failed: a stick that is gone is the reason.
   std::error_code error;
-  if (!media.current() || (written && !fs::exists(target, error)))
-    return Error{Errc::Disconnected, "the stick was pulled out too early: plug it in and try again"};
+  if (!media.current() || (written && !fs::exists(target, error))) return pulled_too_early();
   RELIEVO_TRY(written);
   if (work != nullptr) RELIEVO_TRY(work->reach(ExportStep::LetGo, 1));
   return media.flush_and_eject();
+}
+
+Result<hal::Medium> plugged_in(hal::RemovableMedia& media) {
+  if (auto medium = media.current()) return *std::move(medium);
+  return Error{Errc::MediaMissing, "there is no stick: plug one in"};
+}
+
+Error pulled_too_early() {
+  return {Errc::Disconnected, "the stick was pulled out too early: plug it in and try again"};
 }
 
 Error not_as_written(const fs::path& file) {

@@ -34,6 +34,9 @@ struct StickWork {
 // let go. `work` may be missing.
 Result<void> put_on_stick(hal::RemovableMedia& media, const std::filesystem::path& place, StickWork* work,
                           const std::function<Result<void>(const std::filesystem::path& target)>& write);
+// The stick that is there, or MediaMissing.
+Result<hal::Medium> plugged_in(hal::RemovableMedia& media);
+Error pulled_too_early();
 // What `write` says where it read back something else.
 Error not_as_written(const std::filesystem::path& file);
 // Clears away what is half written (".NAME.part…"), and brings back a folder whose successor did not come.

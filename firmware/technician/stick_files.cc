@@ -96,11 +96,10 @@ Result<void> save_reconstruction(const SavedBytes& document, const std::string& 
 }
 
 Result<std::vector<std::string>> saved_reconstructions(hal::RemovableMedia& media, std::size_t most) {
-  const auto medium = media.current();
-  if (!medium) return Error{Errc::MediaMissing, "there is no stick: plug one in"};
+  RELIEVO_TRY_ASSIGN(const hal::Medium medium, plugged_in(media));
   std::vector<std::string> names;
   std::error_code error;
-  for (fs::directory_iterator entry(medium->root / kSavedFolder, error), end; !error && entry != end;
+  for (fs::directory_iterator entry(medium.root / kSavedFolder, error), end; !error && entry != end;
        entry.increment(error)) {
     const std::string name = entry->path().filename().string();
     if (!name.starts_with('.') && name.ends_with(kSavedEnding)) names.push_back(name);
@@ -112,11 +111,10 @@ Result<std::vector<std::string>> saved_reconstructions(hal::RemovableMedia& medi
 
 Result<std::shared_ptr<const SavedBytes>> read_saved(const std::string& name, hal::RemovableMedia& media,
                                                      JobControl& control) {
-  const auto medium = media.current();
-  if (!medium) return Error{Errc::MediaMissing, "there is no stick: plug one in"};
+  RELIEVO_TRY_ASSIGN(const hal::Medium medium, plugged_in(media));
   std::vector<std::byte> bytes;
   RELIEVO_TRY(
-      each_piece(medium->root / kSavedFolder / name, control, 0, 0.9F,
+      each_piece(medium.root / kSavedFolder / name, control, 0, 0.9F,
                  [&bytes](std::span<const std::byte> piece, std::size_t, std::size_t size) -> Result<void> {
                    bytes.reserve(size);
                    bytes.insert(bytes.end(), piece.begin(), piece.end());
@@ -175,13 +173,12 @@ Result<void> export_calibration(const pipeline::StereoCalibration& calibration, 
 }
 
 Result<StickCalibration> import_calibration(hal::RemovableMedia& media) {
-  const auto medium = media.current();
-  if (!medium) return Error{Errc::MediaMissing, "there is no stick: plug one in"};
-  for (const fs::path& place : places(medium->root))
+  RELIEVO_TRY_ASSIGN(const hal::Medium medium, plugged_in(media));
+  for (const fs::path& place : places(medium.root))
     for (const char* name : {kRig, kLeft}) {
       std::error_code error;
       if (!fs::exists(place / name, error)) continue;
-      const std::string file = (place / name).lexically_relative(medium->root).string();
+      const std::string file = (place / name).lexically_relative(medium.root).string();
       const auto read = pipeline::read_calibration(place / name);
       if (!read) return read.error();
       return StickCalibration{*read, file};

@@ -40,6 +40,7 @@ struct VisitRecord {
 struct KeptVisit {
   storage::EnrolmentId enrolment{};
   WipedText receipt;  // for the person's erasure
+  WipedText link;     // for where the operator offers their portrait; erases nothing
 };
 
 // Is there a record of this name, or of this code?

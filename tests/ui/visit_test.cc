@@ -231,6 +231,29 @@ TEST_F(VisitTest, NobodyThereIsAskedThenWiped) {
   }
 }
 
+TEST_F(VisitTest, WhoWaitsForTheirStickIsNotAskedUntilItIsWritten) {
+  to_review();
+  act(ActionKind::Accept);
+  machine(Screen::Store);
+  machine(Screen::Idle);
+  ASSERT_EQ(visit.step, Step::Thanks);
+  EXPECT_EQ(act(ActionKind::TakeHome), Intent::TakeHome);
+  view.take_home.taking = Taking::Busy;
+  for (int i = 0; i < 10; ++i) pass(kReceiptPatience / 2);
+  EXPECT_EQ(visit.overlay, Overlay::None);
+  EXPECT_EQ(act(ActionKind::StopTaking), Intent::StopTaking);
+  view.take_home.taking = Taking::NoStick;
+  pass(milliseconds(300));
+  act(ActionKind::Finish);
+  EXPECT_EQ(visit.step, Step::Thanks) << "it was meant for what stood there before";
+  pass(kReceiptPatience);
+  EXPECT_EQ(visit.overlay, Overlay::None) << "the whole time from here on: the code is seen nowhere else";
+  pass(seconds(1));
+  EXPECT_EQ(visit.overlay, Overlay::StillThere);
+  act(ActionKind::Finish);
+  EXPECT_EQ(visit.step, Step::Attract);
+}
+
 TEST_F(VisitTest, ThePictureIsTakenByItselfWhenAllIsRight) {
   to_position();
   view.live.advice = pipeline::Advice::None;

@@ -39,6 +39,8 @@ constexpr std::array<SettingInfo, kSettings> kInfos{{
     {Setting::Solids, "solids", kSwitch, 0, false, true},
     {Setting::Sounds, "sounds", kSwitch, 1, true, true},
     {Setting::LeastRoomMib, "least_room_mib", kRoom, 512, true, false},
+    // Off: it is the operator who opens a port to strangers, and lets a face go unsealed.
+    {Setting::TakeHome, "take_home", kSwitch, 0, false, true},
 }};
 
 }  // namespace

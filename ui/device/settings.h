@@ -30,6 +30,7 @@ enum class Setting : std::uint8_t {
   Solids,          // a solid for printing stands beside each portrait that is exported
   Sounds,          // ticks of the countdown, shutter, done; who listens to the pages hears them always
   LeastRoomMib,    // so much of the disk stays free: a portrait that would need it is not stored
+  TakeHome,        // may visitors have a copy of their portrait on a stick of their own?
   Count
 };
 inline constexpr std::size_t kSettings = std::size_t(Setting::Count);

@@ -55,6 +55,7 @@ enum class PictureSlot : std::uint8_t {
   Texture,
   Sign,
   Receipt,
+  Link,
   TechnicianLeft,
   TechnicianRight,
   TechnicianThird,

@@ -20,7 +20,9 @@ enum class Intent : std::uint8_t {
   Begin,   // take the picture
   Enough,  // no more sides of the head are taken
   Accept,
-  Print,  // the code for the erasure, on paper
+  Print,     // the code for the erasure, on paper
+  TakeHome,  // the model, on the visitor's stick
+  StopTaking,
   Retake,
   Cancel,
   StillHere,  // somebody is there: a state that waits for a person waits longer
@@ -97,6 +99,8 @@ enum class ActionKind : std::uint8_t {
   AddAnother,  // already enrolled
   Finish,
   Print,
+  TakeHome,
+  StopTaking,
   ShowPrivacy,
   StaffEnter,
   StaffLeave,   // the staff's side (ui/view/service.h)

@@ -4,10 +4,12 @@
 // The operator's own consent text, in the languages they have it in. Plain data, UTF-8.
 #pragma once
 
+#include <algorithm>
 #include <array>
 #include <cstddef>
 #include <optional>
 #include <string>
+#include <string_view>
 #include <vector>
 
 #include "hal/base/image_view.h"
@@ -26,9 +28,18 @@ struct ConsentText {
   bool operator==(const ConsentText&) const = default;
 };
 
+// In a link, where the number stands that names a portrait and erases nothing.
+inline constexpr std::string_view kModelPlace = "{model}", kHttps = "https://";
+// "museum.example" of "https://museum.example/heads/1".
+constexpr std::string_view site_of(std::string_view link) {
+  link.remove_prefix(std::min(link.size(), kHttps.size()));
+  return link.substr(0, link.find('/'));
+}
+
 // Who runs the device.
 struct Host {
   std::string name, reached;    // how they are reached; both may be empty
+  std::string link;             // where they offer a portrait, with kModelPlace in it; empty: nowhere
   std::vector<std::byte> sign;  // Rgb8 or Grey8, rows without padding; empty: none
   int sign_width_px = 0, sign_height_px = 0;
   PixelFormat sign_format = PixelFormat::Rgb8;

@@ -39,6 +39,7 @@ enum class LogEvent : std::uint8_t {
   SelfTestBegun,
   ConsentTaken,    // its version
   SettingUnknown,  // what is stored in place of one
+  TakenHome,       // a visitor has a copy of their own
   Count
 };
 

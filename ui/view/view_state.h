@@ -105,6 +105,22 @@ inline constexpr std::size_t kStageViews = 5;  // Capture, Match, Reconstruct, M
 // Of the code on paper.
 enum class Printing : std::uint8_t { None, Ready, Busy, Done, Failed };
 
+// The visitor's copy of their model, on a stick of their own.
+enum class Taking : std::uint8_t {
+  None,     // the operator does not offer it
+  NoStick,  // one may be plugged in
+  NotOurs,  // one was there before the visit began: it may be another person's
+  Ready,
+  Busy
+};
+struct TakeHomeView {
+  Taking taking = Taking::None;
+  float progress = 0;               // 0 to 1
+  Outcome outcome = Outcome::None;  // of the last try
+  std::string_view link;            // to what the operator offers; empty: nothing
+  StageView link_code;              // the same as a QR code
+};
+
 struct ViewState {
   Screen screen = Screen::SelfTest;
   hal::Instant now{};
@@ -117,6 +133,7 @@ struct ViewState {
   std::string_view receipt;  // what to quote for an erasure; from the moment of storing on
   StageView receipt_code;    // the same as a QR code
   Printing printing = Printing::None;
+  TakeHomeView take_home;
   bool cameras_on = false;  // they are streaming: as the capture thread has it
   int attempt = 0;          // 1 for the first capture of a session
   LiveView live;

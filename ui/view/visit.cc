@@ -121,6 +121,8 @@ std::optional<Intent> Visit::act(Action action, const ViewState& view) {
     case ActionKind::Louder:
     case ActionKind::Speed: hear(action.kind); break;
     case ActionKind::Print: return step == Step::Thanks ? std::optional(Intent::Print) : std::nullopt;
+    case ActionKind::TakeHome: return step == Step::Thanks ? std::optional(Intent::TakeHome) : std::nullopt;
+    case ActionKind::StopTaking: return Intent::StopTaking;
     case ActionKind::LeaveNow: return leave_now(view);
     case ActionKind::Back: return back(view);
     case ActionKind::TurnLeft:
@@ -190,7 +192,8 @@ std::optional<Intent> Visit::act_on_path(ActionKind kind, const ViewState& view)
   ++touches;
   if (kind == ActionKind::Start && step == Step::Attract) go(Step::Consent, view.now);
   if (kind == ActionKind::Decline) go(Step::Declined, view.now);
-  if (kind == ActionKind::Finish) go(Step::Attract, view.now);
+  // A touch that was meant for "Stop" does not take the code away.
+  if (kind == ActionKind::Finish && view.now - waited_until_ >= kTooLate) go(Step::Attract, view.now);
   if (kind == ActionKind::Agree && has_read()) {
     touches = 1;
     agreed_at_ = view.wall_now;
@@ -319,6 +322,10 @@ std::optional<Intent> Visit::follow(const ViewState& view) {
       view.now - std::max(entered_, last_touch_) > kToldFor)
     go(Step::Attract, view.now);
   const auto face = follow_face(view);
+  if (view.take_home.taking == Taking::Busy) {  // who waits for their stick is there
+    listens(view.now);
+    waited_until_ = view.now;
+  }
   if (person_expected()) {
     const auto silent = view.now - last_touch_;
     if (silent > patience() + kLastCall) {

@@ -47,7 +47,8 @@ enum class Overlay : std::uint8_t { None, Help, Languages, Leave, StillThere, Lo
 // The first where nobody has set another. WCAG 2.2.1 wants 20 seconds for an answer; a code that is seen
 // nowhere else stands longer than other pages.
 inline constexpr std::chrono::seconds kPatience{45}, kLastCall{20}, kReceiptPatience{120}, kToldFor{30};
-inline constexpr std::chrono::minutes kFaceAlone{5};  // a face keeps a visit no longer without a touch
+inline constexpr std::chrono::milliseconds kTooLate{1000};  // a touch that came as what it was for had ended
+inline constexpr std::chrono::minutes kFaceAlone{5};        // a face keeps a visit no longer without a touch
 inline constexpr float kSteadyFor = 0.6F,
                        kCountdown =
                            1.5F;  // seconds, before the picture is taken by itself; the second as above
@@ -105,7 +106,7 @@ class Visit {
   // somebody touches it.
   FaceLook shown_look(hal::Instant now) const;
   bool rests(hal::Instant now) const;
-  // Something is being said to them: they cannot answer yet.
+  // Something is being said to them, or written for them: they cannot answer yet.
   void listens(hal::Instant now) {
     if (overlay != Overlay::StillThere) last_touch_ = now;
   }
@@ -161,6 +162,7 @@ class Visit {
   bool read_ = false;
   std::uint32_t live_number_ = 0;
   hal::Instant entered_{};
+  hal::Instant waited_until_{};  // for their stick
   bool near_ = true;
   hal::Instant came_near_{}, near_until_{};
   Screen last_screen_ = Screen::SelfTest;

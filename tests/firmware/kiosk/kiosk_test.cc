@@ -10,6 +10,7 @@
 #include <atomic>
 #include <chrono>
 #include <memory_resource>
+#include <set>
 #include <string>
 #include <thread>
 #include <vector>
@@ -19,6 +20,7 @@
 #include "hal/monotonic_clock.h"
 #include "hal/picture_file.h"
 #include "hal/sim/device.h"
+#include "hal/sim/replay/folder_media.h"
 #include "pipeline/calibrate/file/calibration_file.h"
 #include "storage/sqlite/sqlite_store.h"
 #include "tests/firmware/kiosk/kiosk_hands.h"
@@ -55,10 +57,23 @@ class KioskTest : public KioskHands {
       return std::unique_ptr<storage::Store>(
           std::make_unique<test::FaultyStore>(std::move(real), store_error));
     };
+    offer_to_take_home();
     services.make_printer = [this] { return std::make_unique<PlayedPrinter>(printed, has_paper); };
     open(args, services);
   }
 
+  // The operator's own text says so, and their setting.
+  void offer_to_take_home() {
+    const Path texts = args.store / "consent" / "2026-03";
+    std::filesystem::create_directories(texts);
+    std::filesystem::create_directories(stick());
+    test::write_text(texts / "en.txt", "What happens\n\nA portrait\nYou can take it with you.\n");
+    test::write_text(texts / "link.txt", "https://museum.example/heads/{model}?from=kiosk\n");
+    auto store = storage::open_sqlite_store(args.store, clock, {});
+    ASSERT_TRUE(store.has_value());
+    ASSERT_TRUE((*store)->set_setting("device", "take_home 1\n").has_value());
+  }
+  Path stick() const { return folder.path() / "stick"; }
   void cameras_are_off() {
     EXPECT_TRUE(until([this] { return !kiosk->view().cameras_on; })) << "no camera runs";
     kiosk->turn();
@@ -155,6 +170,35 @@ class KioskTest : public KioskHands {
     const auto paper = hal::decode_picture(printed.data(), printed.size());
     ASSERT_TRUE(paper.has_value());
     EXPECT_EQ(reader->read(paper->view()), code);
+    the_link_erases_nothing(*reader);
+    the_model_is_taken_home();
+  }
+  void the_link_erases_nothing(CodeReader& reader) {
+    const auto& shown = kiosk->ui().draw_list().pictures[static_cast<std::size_t>(ui::PictureSlot::Link)];
+    const std::string link = reader.read(shown.pixels).value_or("no code");
+    const std::string_view before = "https://museum.example/heads/", after = "?from=kiosk";
+    ASSERT_TRUE(link.starts_with(before) && link.ends_with(after)) << link;
+    const std::string number = link.substr(before.size(), link.size() - before.size() - after.size());
+    EXPECT_EQ(number.size(), 32U);
+    EXPECT_EQ(link.find(digits_of(code)), std::string::npos);
+    EXPECT_FALSE(is_receipt(number));
+    links.insert(number);
+  }
+  void the_model_is_taken_home() {
+    auto& socket = dynamic_cast<hal::FolderMedia&>(kiosk->device().media());
+    EXPECT_TRUE(says("plug in a USB stick"));
+    EXPECT_EQ(find("take_home"), nullptr);
+    socket.plug(stick());
+    ASSERT_TRUE(until([this] { return find("take_home") != nullptr; }));
+    tap("take_home");
+    EXPECT_EQ(find("finish"), nullptr) << "nobody leaves by a touch too many";
+    ASSERT_TRUE(until([this] { return says("You can pull it out now"); }));
+    const Path copy = stick() / "relievo" / code;
+    EXPECT_TRUE(std::filesystem::exists(copy / "model.glb"));
+    EXPECT_NE(test::read_text(copy / "manifest.json").find(*links.begin()), std::string::npos)
+        << "whoever offers it knows it by this number";
+    EXPECT_NE(find("finish"), nullptr);
+    played("pause 1.1\n");  // a touch that comes sooner was meant for "Stop"
   }
 
   void played(const std::string& lines) {
@@ -231,7 +275,7 @@ class KioskTest : public KioskHands {
     const auto enrolments = (*store)->enrolments(find_by_receipt(**store, code)->id);
     ASSERT_EQ(enrolments->size(), 2U);
     for (const storage::Enrolment& one : *enrolments) {
-      EXPECT_EQ(one.consent.wording, ui::kConsentWording);
+      EXPECT_EQ(one.consent.wording, "2026-03");
       EXPECT_EQ(one.consent.language, "en");
       EXPECT_LT(one.consent.given_at, one.created_at);
       std::pmr::monotonic_buffer_resource memory;
@@ -244,6 +288,7 @@ class KioskTest : public KioskHands {
   std::vector<std::byte> printed;
   std::atomic<std::optional<Errc>> store_error{};
   std::string code;
+  std::set<std::string> links;
   test::TemporaryFolder folder;
   hal::MonotonicClock clock;
   Console console;

@@ -125,15 +125,24 @@ TEST_F(StaffConsentTest, WhatIsWrongIsSaidAndNothingChanges) {
     const char* file;
     std::string words;
     const char* reason;
-  } wrong[] = {{"de.txt", "T\n\n\xFF\xFE", "is not UTF-8"},
-               {"de.txt", "", "is empty"},
-               {"de.txt", "T\n", "no points"},
-               {"de.txt", long_text, "longer than"},
-               {"de.txt", many, "more than 24"},
-               {"german.txt", "T\n\nP\n", "call it en.txt"},
-               {"operator.txt", "\n", "has no name"},
-               {"sign.png", "no picture", "1024 pixels"},
-               {"de.txt", std::string("T\n\nP\0\n", 7), "is not UTF-8"}};
+  } wrong[] = {
+      {"de.txt", "T\n\n\xFF\xFE", "is not UTF-8"},
+      {"de.txt", "", "is empty"},
+      {"de.txt", "T\n", "no points"},
+      {"de.txt", long_text, "longer than"},
+      {"de.txt", many, "more than 24"},
+      {"german.txt", "T\n\nP\n", "call it en.txt"},
+      {"operator.txt", "\n", "has no name"},
+      {"sign.png", "no picture", "1024 pixels"},
+      {"link.txt", "http://museum.example/heads/{model}", "is no https address"},
+      {"link.txt", "https:///heads/{model}", "is no https address"},
+      {"link.txt", "https://us@museum.example/{model}", "is no https address"},
+      {"link.txt", "https://{model}.example/heads", "is no https address"},
+      {"link.txt", "https://museum.example/our heads/{model}", "is no https address"},
+      {"link.txt", "https://museum.example/" + std::string(200, 'x') + "{model}", "is no https address"},
+      {"link.txt", "https://museum.example/heads/", "write {model} there"},
+      {"link.txt", "https://museum.example/{model}/{model}", "write {model} there"},
+      {"de.txt", std::string("T\n\nP\0\n", 7), "is not UTF-8"}};
   for (const auto& one : wrong) {
     std::filesystem::remove_all(stick() / "consent");
     write("2026-03", one.file, one.words);

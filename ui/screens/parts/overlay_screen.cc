@@ -223,6 +223,14 @@ void privacy(Page& page) {
   told(page, tr("How long"), kept_for(page));
   told(page, tr("What leaves this device"),
        tr("It is connected to nothing. The staff can copy stored portraits to a stick."));
+  const auto also = [&](std::string_view more) {
+    page.tree.leaf(page.text(more, type::kSmall, Weight::Regular, page.palette.ink_soft));
+  };
+  if (page.view.settings.is_on(Setting::TakeHome))
+    also(tr("You can take a copy of yours on a stick of your own."));
+  if (page.view.consent != nullptr && !page.view.consent->host.link.empty())
+    also(page.filled(tr("The staff bring portraits to {}, where you can find yours."),
+                     site_of(page.view.consent->host.link)));
   told(page, tr("How to withdraw"),
        tr("You get a code. Quote it to the staff at any time and everything about you is erased."));
   page.cameras();

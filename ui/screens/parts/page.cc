@@ -128,6 +128,25 @@ void Page::button(std::string_view id, std::string_view label, const char* lette
   if (!label.empty()) tree.leaf(text(label, lengths.text, Weight::Medium, ink, TextAlign::Centre));
 }
 
+void Page::progress(std::string_view id, float share) {
+  const float done = std::clamp(share, 0.0F, 1.0F);
+  Node track = box(Flow::Row);
+  tell(track, Role::Status, id, tr("How far it is"));
+  constexpr int kStep = 25;  // who listens is told of a quarter, not of every step
+  track.value = filled("{} %", std::to_string(int(done * 100) / kStep * kStep));
+  track.box.height = px(14);
+  track.box.radius = px(7);
+  track.box.fill = palette.track;
+  const auto in_track = tree.inside(track);
+  if (done > 0) {
+    Node bar = grown(box(Flow::Column), std::max(0.02F, done));
+    bar.box.radius = px(7);
+    bar.box.fill = palette.accent;
+    tree.leaf(bar);
+  }
+  if (done < 1) space(1 - done);
+}
+
 void Page::reading_tools() {
   bigger_text();
   more_contrast();

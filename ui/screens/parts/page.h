@@ -30,7 +30,7 @@ inline constexpr const char *kBack = "\uf04d", *kNext = "\uf054", *kUp = "\uf05d
                             *kPerson = "\uf64a", *kStill = "\uf51f", *kBin = "\uf1c0", *kLess = "\uf374",
                             *kMore = "\uf415", *kSpeaker = "\uf57e", *kQuieter = "\uf57f", *kSpeed = "\uf4c5",
                             *kUndo = "\uf54c", *kReach = "\uf5a4", *kCameraOff = "\uf5df",
-                            *kShield = "\uf498", *kPrinter = "\uf42a";
+                            *kShield = "\uf498", *kPrinter = "\uf42a", *kStick = "\uf553";
 }  // namespace icon
 
 // What keeps a text apart from the direction of the words around it, letter by letter: a literal with one of
@@ -106,6 +106,8 @@ class Page {
                TextAlign align = TextAlign::Start);
   void body(std::string_view id, std::string_view words, TextAlign align = TextAlign::Start);
   void sign(const char* letter, float size, Colour colour);
+  // A bar, filled from the side at which reading begins.
+  void progress(std::string_view id, float share);
   // An icon that points along the line of reading, turned for right-to-left.
   const char* onward() const { return mirrored() ? icon::kBack : icon::kNext; }
   const char* backward() const { return mirrored() ? icon::kNext : icon::kBack; }

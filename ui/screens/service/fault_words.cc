@@ -51,7 +51,8 @@ constexpr std::array<std::array<const char*, 2>, std::size_t(LogEvent::Count)> k
      {mark_tr("Record #{} was erased")},
      {mark_tr("Self-test begun")},
      {mark_tr("Consent text {} was taken over")},
-     {mark_tr("The setting “{}” is not one: what is usual holds")}}};
+     {mark_tr("The setting “{}” is not one: what is usual holds")},
+     {mark_tr("A visitor took their portrait on a stick")}}};
 static_assert(kLogWords.back()[0] != nullptr);
 
 }  // namespace
@@ -88,7 +89,8 @@ constexpr std::array kSettingNames{mark_tr("Language in which a visit begins"),
                                    mark_tr("Records are erased by themselves after"),
                                    mark_tr("A solid for printing with each exported portrait"),
                                    mark_tr("Quiet sounds for the countdown, the shutter and success"),
-                                   mark_tr("Room kept free on the disk")};
+                                   mark_tr("Room kept free on the disk"),
+                                   mark_tr("Visitors may take their portrait on a stick of their own")};
 static_assert(kSettingNames.size() == std::size_t(Setting::Count));
 
 }  // namespace
@@ -104,6 +106,7 @@ std::string_view said_value(StaffFrame& page, Setting setting, std::int32_t valu
     case Setting::Sides:
     case Setting::Solids:
     case Setting::Sounds:
+    case Setting::TakeHome:
     case Setting::TellsKnown: return value != 0 ? page.tr("yes") : page.tr("no");
     case Setting::TextPercent: return page.number(value, 0, "%");
     case Setting::PatienceS:

@@ -114,23 +114,6 @@ void StaffFrame::leaving() {
   tree.leaf(soon);
 }
 
-void StaffFrame::progress(std::string_view id, float share) {
-  const float done = std::clamp(share, 0.0F, 1.0F);
-  Node track = box(Flow::Row);
-  tell(track, Role::Status, id, tr("How far it is"));
-  track.box.height = px(14);
-  track.box.radius = px(7);
-  track.box.fill = palette.track;
-  const auto in_track = tree.inside(track);
-  if (done > 0) {
-    Node bar = grown(box(Flow::Column), std::max(0.02F, done));
-    bar.box.radius = px(7);
-    bar.box.fill = palette.accent;
-    tree.leaf(bar);
-  }
-  if (done < 1) space(1 - done);
-}
-
 void StaffFrame::outcome() {
   if (staff.work.outcome == Outcome::None) return;
   const SaidOutcome& said = kOutcomes[std::size_t(staff.work.outcome) - 1];

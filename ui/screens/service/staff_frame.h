@@ -66,7 +66,6 @@ class StaffFrame : public Page {
                     Action action, float grow = 0) {
     button(id, label, letter, look, action, grow, size::kStaffButton);
   }
-  void progress(std::string_view id, float share);
   // One sentence with the sign of its mood.
   void status(std::string_view id, std::string_view words, Mood mood);
   // How the page's work ended, with a sign; nothing where nothing has.

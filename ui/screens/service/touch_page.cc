@@ -64,7 +64,7 @@ void settings_page(StaffFrame& page) {
              own != nullptr ? std::string_view(own->version) : tr("our sample, not reviewed"),
              own != nullptr ? Mood::Plain : Mood::Warn, {ActionKind::StaffOpen, int(StaffPage::Consent)});
   }
-  group(page, tr("Export to the stick"), std::array{Setting::Solids});
+  group(page, tr("Export to the stick"), std::array{Setting::Solids, Setting::TakeHome});
   group(page, tr("What is heard and what moves"), std::array{Setting::Sounds, Setting::Motion});
   if (page.staff.settings->clock_jumped)
     page.line(

@@ -9,7 +9,8 @@
 namespace relievo::ui {
 namespace {
 
-constexpr float kColumn = 860;
+constexpr float kColumn = 860, kTwoCards = 1180;
+constexpr float kSide = 24;
 constexpr float kCorner = 16;  // as the staff's way in has it (staff_entrance)
 
 // What every page has at its top, beside the staff's way in where there is one: whoever reads a message reads
@@ -21,6 +22,14 @@ void tools(Page& page) {
   page.reading_tools();
   if (page.view.service != nullptr && page.visit.step == Step::Trouble)
     page.tree.leaf(page.sized(page.box(Flow::Column), size::kTarget, 1));
+}
+
+// The way on stands under the words; where those are so large that they may have to be scrolled, at the foot
+// of the page.
+bool at_foot(const Page& page) { return !page.portrait && page.text_share > 1.2F; }
+// Two codes beside each other.
+bool abreast(const Page& page) {
+  return !page.portrait && !at_foot(page) && !page.view.take_home.link.empty();
 }
 
 // One column in the middle of the page, with a sign on top.
@@ -35,12 +44,13 @@ void begin_message(Page& page, const char* letter, Colour colour, bool with_tool
   root.box.fill_end = page.palette.ground_end;
   page.tree.open(root);
   if (with_tools && !page.low()) tools(page);
-  Node middle = page.grown(page.box(Flow::Column, 0, 24, with_tools ? 0 : 24));
+  Node middle = page.grown(page.box(Flow::Column, 0, kSide, with_tools ? 0 : kSide));
   middle.box.align = Align::Centre;
   page.tree.open(middle);
   Node column = page.grown(page.box(Flow::Column, gap));
-  column.box.max_width = page.px(kColumn);
-  column.box.width = page.px(std::min(kColumn, page.width_dp - 80));
+  const float across = abreast(page) ? kTwoCards : kColumn;
+  column.box.max_width = page.px(across);
+  column.box.width = page.px(std::min(across, page.width_dp - 80));
   column.box.justify = Justify::Centre;
   column.box.scroll = true;
   column.id = "message";
@@ -56,20 +66,23 @@ void end_message(Page& page, bool in_column = true) {
   page.tree.close();
 }
 
-// The way on stands under the words; where those are so large that they may have to be scrolled, at the foot
-// of the page.
-bool at_foot(const Page& page) { return !page.portrait && page.text_share > 1.2F; }
+template <typename Under>
+void end_message(Page& page, bool foot, const Under& draw) {
+  if (foot) page.tree.close();
+  else page.tree.leaf(page.sized(page.box(Flow::Column), 1, 8));
+  Node under = page.box(Flow::Column, space::kS, 0, foot ? space::kS : 0.0F);
+  if (foot) under.box.width = page.px(std::min(kColumn, page.width_dp - 2 * (kPageMargin + kSide)));
+  page.tree.open(under);
+  draw();
+  page.tree.close();
+  end_message(page, !foot);
+}
 
 void end_message(Page& page, const char* on, const char* letter, bool foot,
                  ActionKind action = ActionKind::Finish) {
-  if (foot) page.tree.close();
-  else page.tree.leaf(page.sized(page.box(Flow::Column), 1, 8));
-  Node row = page.box(Flow::Column, 0, 0, foot ? space::kS : 0.0F);
-  if (foot) row.box.width = page.px(std::min(kColumn, page.width_dp - 80));
-  page.tree.open(row);
-  page.button(action == ActionKind::Finish ? "finish" : "enter", on, letter, ButtonLook::Main, {action, 0});
-  page.tree.close();
-  end_message(page, !foot);
+  end_message(page, foot, [&] {
+    page.button(action == ActionKind::Finish ? "finish" : "enter", on, letter, ButtonLook::Main, {action, 0});
+  });
 }
 
 struct Words4 {
@@ -119,61 +132,149 @@ Words4 words_of(const Page& page) {
           tr("Please tell the staff. This device tries again by itself. Nothing about you was kept.")};
 }
 
-// The code in digits, and where there is room as a QR code for a photograph.
-void receipt(Page& page) {
-  const auto& tr = page.tr;
-  Node row = page.box(Flow::Row);
-  row.box.justify = Justify::Centre;
-  const auto in_row = page.tree.inside(row);
+constexpr float kCodeSide = 190;
+
+void qr(Page& page, std::string_view id, PictureSlot slot) {
+  Node code = page.sized(page.box(Flow::Column), kCodeSide, kCodeSide);
+  code.id = id;
+  code.mark = Mark::Image;
+  code.picture = slot;
+  code.aspect = 1;
+  page.tree.leaf(code);
+}
+
+Node code_card(const Page& page, std::string_view id, const char* name, Colour border) {
   Node card = page.box(page.portrait ? Flow::Column : Flow::Row, space::kM, 32, 16);
-  tell(card, Role::Group, "code", tr("Your code"));
+  tell(card, Role::Group, id, name);
+  card.box.align = Align::Centre;
+  frame(card, page.palette.card, border, page.px(3), page.px(size::kCardRadius));
+  return card;
+}
+
+// The code in digits, and where there is room as a QR code for a photograph.
+void erasure_code(Page& page) {
+  const auto& tr = page.tr;
+  Node card = code_card(page, "code", tr("Your code"), page.palette.accent);
   card.value = page.spelled(page.view.receipt);
   card.secret = true;
-  card.box.align = Align::Centre;
-  frame(card, page.palette.card, page.palette.accent, page.px(3), page.px(size::kCardRadius));
   const auto in_card = page.tree.inside(card);
   page.tree.open(page.box(Flow::Column, 4));
   page.tree.leaf(
       page.text(tr("Your code"), type::kSmall, Weight::Medium, page.palette.ink_soft, TextAlign::Centre));
-  constexpr float kCode = 52;
-  Node code = page.text(page.filled("{}", page.view.receipt), kCode, Weight::Bold, page.palette.ink,
+  const float code_dp = abreast(page) ? 36 : 52;
+  Node code = page.text(page.filled("{}", page.view.receipt), code_dp, Weight::Bold, page.palette.ink,
                         TextAlign::Centre);
   code.id = "receipt";
-  code.style.size_px = page.px(kCode);
+  code.style.size_px = page.px(code_dp);
   page.tree.leaf(code);
   page.tree.close();
-  if (const ImageView& drawn = page.view.receipt_code.picture; !drawn.empty() && !at_foot(page)) {
-    constexpr float kSide = 190;
-    Node qr = page.sized(page.box(Flow::Column), kSide, kSide);
-    qr.id = "qr";
-    qr.mark = Mark::Image;
-    qr.picture = PictureSlot::Receipt;
-    qr.aspect = 1;
-    page.tree.leaf(qr);
-  }
+  if (!page.view.receipt_code.picture.empty() && !at_foot(page)) qr(page, "qr", PictureSlot::Receipt);
+}
+
+// The long name of a site may be divided behind its dots.
+std::string_view divided(Page& page, std::string_view site) {
+  const std::string_view first = page.tree.keep({});
+  std::size_t length = 0;
+  for (const char c : site) length += page.tree.keep(c == '.' ? ".\u200b" : std::string_view(&c, 1)).size();
+  return {first.data(), length};
+}
+
+// Where the operator offers the portrait.
+void link(Page& page) {
+  const std::string_view site = site_of(page.view.take_home.link);
+  Node card = code_card(page, "link", page.tr("Your portrait"), page.palette.card_border);
+  card.value = site;
+  const auto in_card = page.tree.inside(card);
+  Node words = page.text(
+      page.filled(page.tr("Photograph this code to find your portrait at {}."), divided(page, site)),
+      type::kSmall, Weight::Medium, page.palette.ink_soft,
+      page.portrait ? TextAlign::Centre : TextAlign::Start);
+  words.id = "link_words";
+  if (!page.portrait && !at_foot(page)) words.box.width = page.px(kCodeSide);
+  page.tree.leaf(at_foot(page) ? page.grown(words) : words);
+  qr(page, "link_qr", PictureSlot::Link);
+}
+
+void codes(Page& page) {
+  Node row = page.box(abreast(page) ? Flow::Row : Flow::Column, space::kM);
+  row.box.justify = Justify::Centre;
+  if (!abreast(page)) row.box.align = Align::Centre;
+  const auto in_row = page.tree.inside(row);
+  erasure_code(page);
+  if (!page.view.take_home.link.empty()) link(page);
+}
+
+void said(Page& page, std::string_view id, const char* words, Colour ink) {
+  Node node =
+      page.text(words, at_foot(page) ? type::kSmall : type::kBody, Weight::Medium, ink, TextAlign::Centre);
+  node.id = id;
+  node.role = Role::Status;
+  page.tree.leaf(node);
 }
 
 // On paper, where there is a printer.
 void printing(Page& page) {
   const auto& tr = page.tr;
-  const char* said = nullptr;
-  switch (page.view.printing) {
-    case Printing::None: return;
-    case Printing::Busy: said = tr("One moment, please"); break;
-    case Printing::Done: said = tr("It has been printed"); break;
-    case Printing::Failed: said = tr("It could not be printed"); break;
-    case Printing::Ready: break;
-  }
-  if (said != nullptr) {
-    Node words = page.text(said, type::kBody, Weight::Medium,
-                           page.view.printing == Printing::Failed ? page.palette.bad : page.palette.ink,
-                           TextAlign::Centre);
-    words.id = "printing";
-    words.role = Role::Status;
-    page.tree.leaf(words);
-  }
-  if (page.view.printing == Printing::Ready || page.view.printing == Printing::Failed)
+  const Printing paper = page.view.printing;
+  if (paper == Printing::Busy) said(page, "printing", tr("One moment, please"), page.palette.ink);
+  if (paper == Printing::Done) said(page, "printing", tr("It has been printed"), page.palette.ink);
+  if (paper == Printing::Failed) said(page, "printing", tr("It could not be printed"), page.palette.bad);
+  // The printer would wait for the stick.
+  const bool free = page.view.take_home.taking != Taking::Busy;
+  if (free && (paper == Printing::Ready || paper == Printing::Failed))
     page.button("print", tr("Print the code"), icon::kPrinter, ButtonLook::Quiet, {ActionKind::Print, 0});
+}
+
+// The copy on the visitor's stick: how the last try ended, or how one begins.
+void said_of_stick(Page& page) {
+  const auto& tr = page.tr;
+  const TakeHomeView& home = page.view.take_home;
+  const auto good = [&](const char* words) { said(page, "stick", words, page.palette.good); };
+  const auto bad = [&](const char* words) { said(page, "stick", words, page.palette.bad); };
+  switch (home.outcome) {
+    case Outcome::None: break;
+    case Outcome::Done:
+    case Outcome::StickUnchecked: return good(tr("Your portrait is on the stick. You can pull it out now."));
+    case Outcome::StickHeld:
+      return good(tr("Your portrait is on the stick. Wait ten seconds, then pull it out."));
+    case Outcome::StickFull: return bad(tr("The stick is full. Please use another one."));
+    case Outcome::StickGone:
+      return bad(tr("The stick was pulled out too early. Plug it in, then try again."));
+    case Outcome::StickLocked: return bad(tr("The stick is write-protected. Please use another one."));
+    case Outcome::Cancelled: return said(page, "stick", tr("It was stopped"), page.palette.ink);
+    case Outcome::StickBad:
+    case Outcome::NoStick:
+    case Outcome::NotFound:
+    case Outcome::Refused:
+    case Outcome::Failed: return bad(tr("It did not work with this stick. Please use another one."));
+  }
+  if (home.taking != Taking::NoStick && home.taking != Taking::NotOurs) return;
+  Node offer =
+      page.text(home.taking == Taking::NotOurs
+                    ? tr("A stick was already plugged in. If it is yours, pull it out and plug it in again.")
+                    : tr("You can take your portrait with you: plug in a USB stick."),
+                type::kSmall, Weight::Regular, page.palette.ink_soft, TextAlign::Centre);
+  offer.id = "stick";
+  offer.role = Role::Status;
+  page.tree.leaf(offer);
+}
+
+// Who waits for their stick does not leave by a touch too many.
+void take_or_leave(Page& page) {
+  const auto& tr = page.tr;
+  if (page.view.take_home.taking == Taking::Busy) {
+    said(page, "stick", tr("Writing to the stick"), page.palette.ink);
+    page.body("do_not_pull", tr("Please do not pull it out."), TextAlign::Centre);
+    page.progress("taking", page.view.take_home.progress);
+    return page.button("stop", tr("Stop"), icon::kClose, ButtonLook::Quiet, {ActionKind::StopTaking, 0});
+  }
+  said_of_stick(page);
+  const auto in_row = page.tree.inside(page.box(page.portrait ? Flow::Column : Flow::Row, space::kS));
+  const float share = page.portrait ? 0.0F : 1.0F;
+  if (page.view.take_home.taking == Taking::Ready)
+    page.button("take_home", tr("Take my portrait with me"), icon::kStick, ButtonLook::Quiet,
+                {ActionKind::TakeHome, 0}, share);
+  page.button("finish", tr("Done"), icon::kCheck, ButtonLook::Main, {ActionKind::Finish, 0}, share);
 }
 
 }  // namespace
@@ -185,17 +286,19 @@ void thanks_screen(Page& page) {
                 page.portrait ? space::kM : space::kS);
   page.heading("title", tr("Thank you. Your portrait is stored"), type::kTitle, TextAlign::Centre);
   // Between letters so large that the words may have to be scrolled, the code comes first.
-  if (at_foot(page)) receipt(page);
+  if (at_foot(page)) codes(page);
   page.body("what", tr("To have it erased, quote this code to the staff. You can take a photo of it."),
             TextAlign::Centre);
-  if (!at_foot(page)) receipt(page);
+  if (!at_foot(page)) codes(page);
   printing(page);
   Node row = page.box(Flow::Row);
   row.box.justify = Justify::Centre;
   page.tree.open(row);
   page.cameras();
   page.tree.close();
-  end_message(page, tr("Done"), icon::kCheck, !page.portrait);
+  // What is said of a stick is seen without scrolling.
+  const bool tall = page.text_share > 1.2F && page.view.take_home.taking != Taking::None;
+  end_message(page, !page.portrait || tall, [&] { take_or_leave(page); });
 }
 
 void declined_screen(Page& page) {

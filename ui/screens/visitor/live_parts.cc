@@ -177,7 +177,7 @@ void advice(Page& page, const Said& what, int countdown) {
   pill.name = what.spoken != nullptr ? what.spoken : what.words;
   pill.box.align = Align::Centre;
   pill.box.justify = Justify::Centre;
-  pill.box.max_width = page.px(page.portrait ? 700.0F : 1160.0F);
+  pill.box.max_width = page.px(page.portrait ? 700.0F : 1200.0F);
   pill.box.fill = page.palette.card;
   pill.box.border = what.good ? page.palette.good : page.palette.quiet_border;
   pill.box.border_px = page.px(3);
@@ -185,9 +185,11 @@ void advice(Page& page, const Said& what, int countdown) {
   pill.box.radius = page.px(size::kPillRadius);
   const auto in_pill = page.tree.inside(pill);
   const Colour ink = what.good ? page.palette.good : page.palette.ink;
-  page.sign(what.letter, 36, what.good ? page.palette.good : page.palette.warn);
+  // Sign and words grow alike: in one line they leave the oval free.
+  const float grown = grown_over(page) / page.text_share;
+  page.sign(what.letter, 36 * grown, what.good ? page.palette.good : page.palette.warn);
   Node text = page.text(what.words, type::kButton, Weight::Medium, ink, TextAlign::Centre);
-  text.style.size_px *= grown_over(page) / page.text_share;
+  text.style.size_px *= grown;
   page.tree.leaf(text);
   if (countdown != 0) {
     const char digit[] = {char('0' + countdown), 0};
@@ -196,6 +198,7 @@ void advice(Page& page, const Said& what, int countdown) {
     number.id = "countdown";
     number.role = Role::Status;
     number.style.size_px = page.px(type::kTitle * (1 + (page.text_share - 1) * 0.15F));
+    number.box.width = 0.7F * number.style.size_px;  // words give way, a digit cannot
     page.tree.leaf(number);
   }
 }

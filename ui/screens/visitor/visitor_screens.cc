@@ -59,6 +59,8 @@ void fill_pictures(DrawList& list, const ViewState& view, const Visit& visit) {
   if (view.consent != nullptr && !view.consent->host.sign.empty())
     list.pictures[std::size_t(PictureSlot::Sign)] = {view.consent->host.sign_view(), 1};
   list.pictures[std::size_t(PictureSlot::Receipt)] = {view.receipt_code.picture, view.receipt_code.number};
+  const StageView& link = view.take_home.link_code;
+  list.pictures[std::size_t(PictureSlot::Link)] = {link.picture, link.number};
   list.faces = {};
   list.faces[0].model = face_of(view, visit);
   if (list.faces[0].model != nullptr)

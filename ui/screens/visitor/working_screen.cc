@@ -78,27 +78,6 @@ void card(Page& page, std::size_t stage, const char* words) {
   page.tree.leaf(said);
 }
 
-void progress(Page& page) {
-  const float done = page.view.progress;
-  Node track = page.box(Flow::Row);
-  track.id = "progress";
-  track.role = Role::Status;
-  track.name = page.tr("How far it is");
-  constexpr int kStep = 25;  // who listens is told of a quarter, not of every step
-  track.value = page.filled("{} %", std::to_string(int(std::min(1.0F, done) * 100) / kStep * kStep));
-  track.box.height = page.px(14);
-  track.box.radius = page.px(7);
-  track.box.fill = page.palette.track;
-  const auto in_track = page.tree.inside(track);
-  if (done > 0) {
-    Node bar = page.grown(page.box(Flow::Column), std::max(0.02F, done));
-    bar.box.radius = page.px(7);
-    bar.box.fill = page.palette.accent;
-    page.tree.leaf(bar);
-  }
-  if (done < 1) page.space(1 - done);
-}
-
 }  // namespace
 
 void working_screen(Page& page) {
@@ -119,7 +98,7 @@ void working_screen(Page& page) {
     if (page.portrait && i % 2 == 1) page.tree.close();
   }
   page.tree.close();
-  progress(page);
+  page.progress("progress", page.view.progress);
   page.end();
 }
 

@@ -1,0 +1,87 @@
+// SPDX-FileCopyrightText: 2026 The Relievo authors
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "firmware/kiosk/take_home.h"
+
+#include <utility>
+
+#include "firmware/base/budget.h"
+
+namespace relievo::firmware {
+
+void TakeHome::look(bool visited) {
+  const bool there = parts_.media.current().has_value();
+  if (there && !there_) {
+    ours_ = visited;
+    writing_.reset();  // how it went with another stick is no news
+    given_up_ = false;
+  }
+  there_ = there;
+  ours_ = ours_ && visited && there;
+}
+
+void TakeHome::follow(ui::ViewState& view, bool visited) {
+  ui::TakeHomeView& home = view.take_home;
+  const bool left = view.receipt.empty();
+  if (writes()) {
+    if (left || view.now - begun_ > budget::kTakeHomeLimit) {
+      given_up_ = true;
+      stop();
+    }
+  } else {
+    if (left) {
+      writing_.reset();
+      given_up_ = false;
+    }
+    if (!view.settings.is_on(ui::Setting::TakeHome)) {
+      ours_ = false;
+      there_ = true;
+      return;
+    }
+    if (wrote_ || view.now - looked_ >= budget::kStickLook) {
+      looked_ = view.now;
+      look(visited);
+    }
+  }
+  wrote_ = writes();
+  if (left) return;
+  using ui::Taking;
+  if (writes() && !given_up_) {
+    home.taking = Taking::Busy;
+    home.progress = parts_.side_tasks.progress(JobLane::Keeper);
+    return;
+  }
+  home.taking = writes() || !there_ ? Taking::NoStick : ours_ ? Taking::Ready : Taking::NotOurs;
+  if (given_up_) home.outcome = ui::Outcome::Failed;
+  else if (writing_ != nullptr) home.outcome = writing_->outcome;
+}
+
+void TakeHome::take(storage::EnrolmentId enrolment, const ui::Settings& settings) {
+  if (writes() || !ours_) return;
+  writing_ = std::make_shared<Writing>();
+  given_up_ = false;
+  begun_ = parts_.clock.now();
+  const FurtherModels further{.watertight = settings.is_on(ui::Setting::Solids)};
+  parts_.side_tasks.send(
+      JobLane::Keeper,
+      [parts = parts_, writing = writing_, enrolment, further](JobControl& control) -> Result<void> {
+        if (writing->stopped.load()) return Error{Errc::Cancelled, "nobody waits for it any more"};
+        RELIEVO_TRY_ASSIGN(const storage::Enrolment stored, parts.store.enrolment(enrolment));
+        return export_records(parts.store, parts.clock, parts.media, {stored.subject}, further, control,
+                              writing->trace);
+      },
+      [&log = parts_.log, writing = writing_](const std::optional<Error>& error) {
+        writing->ended = true;
+        writing->outcome = error ? outcome_of_export(*error, writing->trace) : ui::Outcome::Done;
+        if (writing->trace.whole > 0) log.say(ui::LogEvent::TakenHome);
+        if (error && error->code != Errc::Cancelled) log.fault(*error);
+      },
+      SideTasks::Whose::Device);
+}
+
+// It may still wait for the keeper behind others' work.
+void TakeHome::stop() {
+  if (!writes() || writing_->stopped.exchange(true)) return;
+  parts_.side_tasks.stop(JobLane::Keeper);
+}
+
+}  // namespace relievo::firmware
