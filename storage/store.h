@@ -77,7 +77,7 @@ class Store {
   virtual Result<pipeline::StereoCalibration> active_calibration() = 0;                 // NotCalibrated
   virtual Result<void> activate_calibration(std::uint32_t revision) = 0;                // NotFound
 
-  virtual Result<std::string> setting(std::string_view key) = 0;  // NotFound
+  virtual Result<std::string> setting(std::string_view key) = 0;  // empty: nobody has set it
   virtual Result<void> set_setting(std::string_view key, std::string_view value) = 0;
 
   // Whether words open this store where its key is lost (cipher/recovery.h).

@@ -19,15 +19,24 @@ void add_store(CLI::App& command, Path& store) {
       ->type_name("FILE");
 }
 
-namespace {
-
-// "1280x800", 640x480 or more.
-bool window_size(const std::string& text, int& width, int& height) {
-  const auto size = two_numbers(text, 'x');
-  if (!size || size->first < 640 || size->second < 480) return false;
-  width = size->first, height = size->second;
-  return true;
+CLI::Option* add_two_numbers(CLI::App& command, const char* name, int& first, int& second,
+                             const TwoNumbersRule& rule, const char* help) {
+  return command
+      .add_option_function<std::string>(
+          name,
+          [&first, &second, name, rule](const std::string& text) {
+            const auto given = two_numbers(text, rule.between);
+            if (!given || given->first < rule.least_first || given->second < rule.least_second ||
+                std::max(given->first, given->second) > rule.most ||
+                (rule.rising && given->first >= given->second))
+              throw CLI::ValidationError(name, rule.wants + (", not " + text));
+            first = given->first, second = given->second;
+          },
+          help)
+      ->type_name(rule.type);
 }
+
+namespace {
 
 // The words before any command.
 void add_kiosk(CLI::App& app, KioskArgs& args) {
@@ -37,14 +46,9 @@ void add_kiosk(CLI::App& app, KioskArgs& args) {
   word(app, "--calibration", args.calibration, "rig.yml",
        "default: the one in the store; of the simulated rig, its own");
   add_store(app, args.store);
-  app.add_option_function<std::string>(
-         "--windowed",
-         [&args](const std::string& size) {
-           if (!window_size(size, args.width_px, args.height_px))
-             throw CLI::ValidationError("--windowed", "give a size such as 1280x800, of 640x480 or more");
-         },
-         "a window instead of the whole screen")
-      ->type_name("WxH");
+  add_two_numbers(app, "--windowed", args.width_px, args.height_px,
+                  {'x', 640, 480, 1 << 20, "WxH", "wants a size such as 1280x800, of 640x480 or more"},
+                  "a window instead of the whole screen");
   word(app, "--screenshots", args.screenshots, "DIR", "pictures of all screens in all languages, as files");
   word(app, "--script", args.script, "FILE",
        "a visit by synthetic fingers, and what it cost; its pictures go to --screenshots");
@@ -148,25 +152,12 @@ void add_enrol(CLI::App& app, CommandArgs& chosen, EnrolArgs& args) {
   command->callback([&] { chosen = args; });
 }
 
-// A command of its own below `command`, on a store.
-template <typename Args>
-CLI::App* add_verb(CLI::App& command, const char* name, const char* help, Args& args,
-                   typename Args::Verb which, CommandArgs& chosen) {
-  CLI::App* verb = command.add_subcommand(name, help);
-  add_store(*verb, args.store);
-  verb->callback([&args, &chosen, which] {
-    args.verb = which;
-    chosen = args;
-  });
-  return verb;
-}
-
 void add_subjects(CLI::App& app, CommandArgs& chosen, SubjectsArgs& args) {
   CLI::App* command = app.add_subcommand("subjects", "the people in the store");
   command->require_subcommand(1);
   using Verb = SubjectsArgs::Verb;
   const auto verb = [&](const char* name, const char* help, Verb which) {
-    CLI::App* sub = add_verb(*command, name, help, args, which, chosen);
+    CLI::App* sub = &add_verb(*command, name, help, args, which, chosen);
     if (which != Verb::List && which != Verb::Import)
       sub->add_option("subject", args.subject)->required()->type_name("NAME");
     return sub;
@@ -203,7 +194,7 @@ void add_staff(CLI::App& app, CommandArgs& chosen, StaffArgs& args) {
       "a PIN that was forgotten, a touch screen that nobody can use any more; while the kiosk is stopped");
   command->require_subcommand(1);
   const auto verb = [&](const char* name, const char* help, StaffArgs::Verb which) {
-    return add_verb(*command, name, help, args, which, chosen);
+    return &add_verb(*command, name, help, args, which, chosen);
   };
   CLI::App* forget = verb("forget-pin", "one role chooses its PIN anew at the next start; the other's stays",
                           StaffArgs::Verb::ForgetPin);
@@ -222,7 +213,7 @@ void add_store_keeping(CLI::App& app, CommandArgs& chosen, StoreArgs& args) {
       app.add_subcommand("store", "the store as a whole: check, copy, keys; while the kiosk is stopped");
   command->require_subcommand(1);
   const auto verb = [&](const char* name, const char* help, StoreArgs::Verb which) {
-    return add_verb(*command, name, help, args, which, chosen);
+    return &add_verb(*command, name, help, args, which, chosen);
   };
   verb("check", "every page, model and line of the log", StoreArgs::Verb::Check)
       ->add_option("--backup", args.file, "a copy of this store: who in it has been erased since?")

@@ -4,19 +4,10 @@
 
 #include <algorithm>
 
-#include "firmware/arguments/algorithm_choice.h"
 #include "firmware/arguments/command_words.h"
 
 namespace relievo::firmware {
 namespace {
-
-// "0:256"; either may be negative.
-bool disparity_range(const std::string& text, int& least, int& most) {
-  const auto range = two_numbers(text, ':');
-  if (!range || range->first >= range->second || range->first < -4096 || range->second > 4096) return false;
-  least = range->first, most = range->second;
-  return true;
-}
 
 // The dissertation's report is one of its own, on one pair, or on a simulated person.
 void check_dissertation(const CompareArgs& args) {
@@ -64,18 +55,12 @@ CLI::App* add_compare(CLI::App& app, CommandArgs& chosen, CompareArgs& args) {
   each("--calibration", args.calibrations, "once, or once for every pair", "rig.yml");
   CLI::Option* rectified =
       command->add_flag("--rectified", args.rectified, "the pictures are rectified already");
-  command
-      ->add_option_function<std::string>(
-          "--disparities",
-          [&args](const std::string& text) {
-            if (!disparity_range(text, args.least_disparity_px, args.most_disparity_px))
-              throw CLI::ValidationError(
-                  "--disparities",
-                  text +
-                      " is no range: give the least disparity and, above it, the first that is too large, from -4096 to 4096, such as 0:256");
-          },
-          "of --rectified: where a partner is looked for, pixels")
-      ->type_name("FROM:TO")
+  add_two_numbers(
+      *command, "--disparities", args.least_disparity_px, args.most_disparity_px,
+      {':', -4096, -4096, 4096, "FROM:TO",
+       "wants the least disparity and, above it, the first that is too large, from -4096 to 4096, such as 0:256",
+       true},
+      "of --rectified: where a partner is looked for, pixels")
       ->default_str("0:256")
       ->needs(rectified);
   each(

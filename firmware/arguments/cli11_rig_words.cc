@@ -10,8 +10,6 @@
 #include <sstream>
 #include <string>
 
-#include "firmware/arguments/algorithm_choice.h"
-
 namespace relievo::firmware {
 namespace {
 
@@ -28,15 +26,6 @@ CLI::Validator within(double least, double most) {
                                                  : "wants a number from " + text + ", not " + word;
       },
       words.str());
-}
-
-// "1920x1200", 16 to 8192 each.
-bool picture_size(const std::string& text, int& width, int& height) {
-  const auto size = two_numbers(text, 'x');
-  if (!size || std::min(size->first, size->second) < 16 || std::max(size->first, size->second) > 8192)
-    return false;
-  width = size->first, height = size->second;
-  return true;
 }
 
 std::string check_unit(const std::string& word) {
@@ -56,16 +45,10 @@ void add_import(CLI::App& command, CalibrationArgs& args) {
   word(command, "file", args.file, "FILE", "rig.yml; or one of intrinsics.yml, left.yaml")->required();
   word(command, "other", args.other, "FILE",
        "the other half of a pair; default: beside the first, by its name");
-  command
-      .add_option_function<std::string>(
-          "--image-size",
-          [&args](const std::string& text) {
-            if (!picture_size(text, args.width_px, args.height_px))
-              throw CLI::ValidationError("--image-size",
-                                         "wants the pictures' width and height, such as 1920x1200");
-          },
-          "of the pictures, where the files do not say")
-      ->type_name("WIDTHxHEIGHT");
+  add_two_numbers(
+      command, "--image-size", args.width_px, args.height_px,
+      {'x', 16, 16, 8192, "WIDTHxHEIGHT", "wants the pictures' width and height, such as 1920x1200"},
+      "of the pictures, where the files do not say");
   word(command, "--unit-mm", args.unit_mm, "MM", "millimetres of one unit of T; default 1, of ROS files 1000")
       ->check(check_unit);
   word(command, "--note", args.note, "TEXT", "what the list shall say of it");
@@ -85,27 +68,11 @@ void add_export(CLI::App& command, CalibrationArgs& args) {
       ->default_str("rig");
 }
 
-// "10x7", 3 to 999 each.
-bool corner_counts(const std::string& text, int& across, int& down) {
-  const auto counts = two_numbers(text, 'x');
-  if (!counts || std::min(counts->first, counts->second) < 3 || std::max(counts->first, counts->second) > 999)
-    return false;
-  across = counts->first, down = counts->second;
-  return true;
-}
-
 void add_board_words(CLI::App& command, BoardArgs& board, bool required) {
-  auto* corners = command
-                      .add_option_function<std::string>(
-                          "--corners",
-                          [&board](const std::string& text) {
-                            if (!corner_counts(text, board.corners_across, board.corners_down)) {
-                              throw CLI::ValidationError("--corners",
-                                                         "wants inner corners across and down, such as 10x7");
-                            }
-                          },
-                          "inner corners, across x down")
-                      ->type_name("10x7");
+  auto* corners =
+      add_two_numbers(command, "--corners", board.corners_across, board.corners_down,
+                      {'x', 3, 3, 999, "10x7", "wants inner corners across and down, such as 10x7"},
+                      "inner corners, across x down");
   auto* square =
       command.add_option("--square-mm", board.square_mm, "side of a square")->check(within(0.1, 1000));
   if (required) corners->required(), square->required();
@@ -227,13 +194,7 @@ void add_calibration(CLI::App& app, CommandArgs& chosen, CalibrationArgs& args) 
   CLI::App* command = app.add_subcommand("calibration", "the calibrations in the store");
   command->require_subcommand(1);
   const auto verb = [&](const char* name, const char* help, Verb which) -> CLI::App& {
-    CLI::App* sub = command->add_subcommand(name, help);
-    add_store(*sub, args.store);
-    sub->callback([&args, &chosen, which] {
-      args.verb = which;
-      chosen = args;
-    });
-    return *sub;
+    return add_verb(*command, name, help, args, which, chosen);
   };
   verb("list", "every calibration, the newest last, and how good it was found", Verb::List);
   verb("show", "the numbers of one", Verb::Show)

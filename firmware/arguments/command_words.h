@@ -12,7 +12,8 @@
 
 namespace CLI {
 class App;
-}
+class Option;
+}  // namespace CLI
 
 namespace relievo::firmware {
 
@@ -32,8 +33,32 @@ auto* number(App& command, const char* name, Value& value, const Range& range, c
   return command.add_option(name, value, help)->check(range)->capture_default_str();
 }
 
+// Two whole numbers in one word, such as "1280x800": each from its least on, to `most`. `wants`: the
+// complaint.
+struct TwoNumbersRule {
+  char between;
+  int least_first, least_second, most;
+  const char *type, *wants;
+  bool rising = false;  // the second is the larger
+};
+CLI::Option* add_two_numbers(CLI::App& command, const char* name, int& first, int& second,
+                             const TwoNumbersRule& rule, const char* help);
+
 inline constexpr const char* kKeyOption = "--key";
 void add_store(CLI::App& command, Path& store);  // and kKeyOption, which CommandLine::key takes up
+
+// A command of its own below `command`, on a store.
+template <typename App, typename Args>
+App& add_verb(App& command, const char* name, const char* help, Args& args, typename Args::Verb which,
+              CommandArgs& chosen) {
+  App* verb = command.add_subcommand(name, help);
+  add_store(*verb, args.store);
+  verb->callback([&args, &chosen, which] {
+    args.verb = which;
+    chosen = args;
+  });
+  return *verb;
+}
 void add_calibrate(CLI::App& app, CommandArgs& chosen, CalibrateArgs& args, CalibrateLiveArgs& live_args);
 void add_calibration(CLI::App& app, CommandArgs& chosen, CalibrationArgs& args);
 void add_simulate(CLI::App& app, CommandArgs& chosen, SimulateArgs& args);

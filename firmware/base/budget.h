@@ -74,8 +74,7 @@ inline constexpr int kMaxPoolThreads = 4;  // inside the worker, the worker coun
 // --- time ---------------------------------------------------------------------------------------
 using std::chrono::microseconds;
 using std::chrono::milliseconds;
-inline constexpr milliseconds kTick{50};           // the main loop turns at least this often
-inline constexpr milliseconds kCancelWithin{100};  // a job has stopped this long after it was asked to
+inline constexpr milliseconds kTick{50};  // the main loop turns at least this often
 inline constexpr milliseconds kHangLimit{
     8'000};  // the main loop has not turned: the program is ended (base/sentinel.h)
 inline constexpr milliseconds kLivePause{30};  // between two live pictures: others need the processor, too

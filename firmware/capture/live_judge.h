@@ -38,8 +38,6 @@ struct Guidance {
   double nearness = 0;     // 1 at a good distance, 0.5 twice as far, 2 half as far; 0: not known
   double yaw_deg = 0, pitch_deg = 0, roll_deg = 0;  // of the head: pipeline/gate/head/head_measurement.h
   double steady_s = 0;                              // so long no picture has had a reason
-  double focus_share =
-      0;  // for a hand at the lens: sharpness against the sharpest of this visit; 0: not measured
   std::optional<TurnGuidance> turn;
 };
 

@@ -15,6 +15,7 @@
 #include "pipeline/algorithms.h"
 #include "pipeline/calibrate/file/calibration_file.h"
 #include "pipeline/match/rectify/rectifier.h"
+#include "pipeline/model/lens.h"
 #include "pipeline/model/vector3.h"
 
 namespace relievo::firmware::compare {
@@ -28,30 +29,9 @@ constexpr double kUnitMm = 10;
 constexpr int kBoards = 8;
 constexpr std::size_t kHands = 100;
 
-// On the plane z = 1 (Brown 1971).
-Vec2d bent(const CameraIntrinsics& c, const Vec2d& p) {
-  const double* k = c.distortion;
-  const double r2 = p.x * p.x + p.y * p.y;
-  const double radial = 1 + r2 * (k[0] + r2 * (k[1] + r2 * k[4]));
-  return {p.x * radial + 2 * k[2] * p.x * p.y + k[3] * (r2 + 2 * p.x * p.x),
-          p.y * radial + k[2] * (r2 + 2 * p.y * p.y) + 2 * k[3] * p.x * p.y};
-}
-
 // Where a camera sees a point of its frame.
 Vec2d seen(const CameraIntrinsics& c, const Vec3d& p) {
-  const Vec2d b = bent(c, {p.x / p.z, p.y / p.z});
-  return {c.focal_px.x * b.x + c.centre_px.x, c.focal_px.y * b.y + c.centre_px.y};
-}
-
-// The direction that a pixel sees; the lens is undone by fixed-point steps.
-Vec3d ray(const CameraIntrinsics& c, const Vec2d& pixel) {
-  const Vec2d end{(pixel.x - c.centre_px.x) / c.focal_px.x, (pixel.y - c.centre_px.y) / c.focal_px.y};
-  Vec2d p = end;
-  for (int i = 0; i < 50; ++i) {
-    const Vec2d b = bent(c, p);
-    p = {p.x + end.x - b.x, p.y + end.y - b.y};
-  }
-  return {p.x, p.y, 1};
+  return pipeline::pixel_of_ray(c, {p.x / p.z, p.y / p.z});
 }
 
 // Turned about y by 34 and about x by 26 degrees, so that three faces look at the cameras. Corners whose
@@ -84,13 +64,14 @@ class Hand {
 // Two clicks as a match of the rectified pair.
 pipeline::Match match_of(const pipeline::RectifiedPair& pair, const pipeline::StereoCalibration& c,
                          const Vec2d& left, const Vec2d& right) {
-  const auto rectified = [&pair](const pipeline::Rotation& turn, const Vec3d& direction,
-                                 const Vec2d& centre) {
-    const Vec3d p = pipeline::apply(turn, direction);
+  const auto rectified = [&pair](const pipeline::Rotation& turn, const Vec2d& ray, const Vec2d& centre) {
+    const Vec3d p = pipeline::apply(turn, {ray.x, ray.y, 1});
     return Vec2d{pair.focal_px * p.x / p.z + centre.x, pair.focal_px * p.y / p.z + centre.y};
   };
-  const Vec2d l = rectified(pair.rectified_from_left, ray(c.left, left), pair.left_centre_px);
-  const Vec2d r = rectified(pair.rectified_from_right, ray(c.right, right), pair.right_centre_px);
+  const Vec2d l =
+      rectified(pair.rectified_from_left, pipeline::ray_of_pixel(c.left, left), pair.left_centre_px);
+  const Vec2d r =
+      rectified(pair.rectified_from_right, pipeline::ray_of_pixel(c.right, right), pair.right_centre_px);
   return {.left_px = {float(l.x), float(l.y)}, .disparity_px = float(l.x - r.x), .sigma_px = 0.5F};
 }
 

@@ -232,13 +232,6 @@ std::vector<SetWords> dissertation_face_sets() {
   return words;
 }
 
-std::vector<std::string_view> suite_names() {
-  std::vector<std::string_view> names;
-  names.reserve(std::size(kSuites));
-  for (const Suite& suite : kSuites) names.push_back(suite.name);
-  return names;
-}
-
 Result<std::vector<SetWords>> suite_sets(std::string_view name) {
   for (const Suite& suite : kSuites)
     if (suite.name == name) return suite.make();

@@ -29,7 +29,6 @@ std::vector<SetWords> dissertation_rule_sets();
 // Figure 17, the fully automatic face: the chain as it was then, dense and at chosen places, and ours.
 std::vector<SetWords> dissertation_face_sets();
 
-std::vector<std::string_view> suite_names();
 Result<std::vector<SetWords>> suite_sets(std::string_view suite);
 
 // From words to sets of algorithms: all start from --algorithms, relief=off (nobody is refused as a picture

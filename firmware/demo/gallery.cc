@@ -6,7 +6,7 @@
 #include <array>
 #include <utility>
 
-#include "firmware/kiosk/code/code_picture.h"
+#include "firmware/kiosk/code/qr_code.h"
 #include "firmware/technician/show/surface_difference.h"
 
 namespace relievo::firmware {

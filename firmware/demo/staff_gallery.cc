@@ -7,7 +7,7 @@
 #include <deque>
 #include <limits>
 
-#include "firmware/kiosk/code/code_picture.h"
+#include "firmware/kiosk/code/qr_code.h"
 #include "firmware/service/statistics.h"
 #include "storage/cipher/recovery.h"
 #include "ui/device/settings.h"

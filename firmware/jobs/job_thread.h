@@ -5,7 +5,7 @@
 //
 //   idle --start()--> busy --job returns--> idle, and a report in the queue
 //                      |
-//                   cancel(): the job sees its flag and returns Errc::Cancelled within kCancelWithin
+//                   cancel(): the job sees its flag and returns Errc::Cancelled within 100 ms
 //
 // The destructor cancels, waits for the job and joins. Thread: all methods main; Job::run() inside.
 // Errors: start() says InvalidState while busy.

@@ -59,11 +59,10 @@ Result<std::optional<pipeline::StereoCalibration>> Kiosk::find_calibration(const
 
 // What the technician has chosen holds, unless the command says otherwise.
 Result<pipeline::AlgorithmSet> Kiosk::chosen_algorithms(const KioskArgs& args) {
-  const Result<std::string> kept = store_->setting(kAlgorithmsSetting);
-  if (!kept && kept.error().code != Errc::NotFound) return kept.error();
-  if (!kept || !args.algorithms.settings.empty() || !args.algorithms.file.empty())
+  RELIEVO_TRY_ASSIGN(const std::string kept, store_->setting(kAlgorithmsSetting));
+  if (kept.empty() || !args.algorithms.settings.empty() || !args.algorithms.file.empty())
     return choose_algorithms(args.algorithms);
-  RELIEVO_TRY_ASSIGN(auto set, pipeline::AlgorithmSet::from_text(*kept));
+  RELIEVO_TRY_ASSIGN(auto set, pipeline::AlgorithmSet::from_text(kept));
   (void)read_texts(set);  // a file that went away keeps nobody out: its algorithm says so
   return set;
 }

@@ -7,7 +7,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "firmware/kiosk/code/code_picture.h"
+#include "firmware/kiosk/code/qr_code.h"
 #include "hal/base/assert.h"
 
 namespace relievo::firmware {

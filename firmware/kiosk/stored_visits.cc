@@ -65,10 +65,8 @@ constexpr const char* kMovedFacesSetting = "moved_faces";
 Result<MovedFaces::Said> MovedFaces::read(std::uint32_t revision) {
   revision_ = revision;
   kept_ = {};
-  const Result<std::string> kept = store_.setting(kMovedFacesSetting);
-  if (!kept && kept.error().code != Errc::NotFound) return kept.error();
-  if (!kept) return kept_;
-  std::istringstream in(*kept);
+  RELIEVO_TRY_ASSIGN(const std::string kept, store_.setting(kMovedFacesSetting));
+  std::istringstream in(kept);
   int faces = 0;
   std::uint32_t of = 0;
   // Whatever else stands there was not written by this program: then the next faces say it again.

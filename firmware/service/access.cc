@@ -41,10 +41,9 @@ std::int64_t Access::now_s() const {
 }
 
 Result<Access::Record> Access::read() {
-  const Result<std::string> text = store_.setting(kAccessSetting);
-  if (!text && text.error().code == Errc::NotFound) return Record{};
-  if (!text) return text.error();
-  std::istringstream in(*text);
+  RELIEVO_TRY_ASSIGN(const std::string text, store_.setting(kAccessSetting));
+  if (text.empty()) return Record{};
+  std::istringstream in(text);
   Record record;
   std::string version;
   if (!(in >> version >> record.technician >> record.clerk >> record.wrong >> record.wrong_at_s) ||

@@ -10,8 +10,10 @@
 #include "firmware/base/output_folder.h"
 #include "firmware/service/page_controller.h"
 #include "firmware/service/stick_folder.h"
+#include "hal/base/utf8.h"
 #include "hal/base/whole_file.h"
 #include "hal/picture_file.h"
+#include "storage/export/bundle.h"
 
 namespace relievo::firmware {
 namespace {
@@ -24,31 +26,14 @@ constexpr int kMostSignPx = 1024;
 
 Error wrong(const fs::path& file, Literal what) { return Error{Errc::InvalidInput, what}.at(file.string()); }
 
-// A name that can stand in a record: letters of ASCII, digits, dot, dash, underscore.
-bool is_version(const std::string& name) {
-  const auto good = [](char c) {
-    return (c >= 'a' && c <= 'z') || (c >= 'A' && c <= 'Z') || (c >= '0' && c <= '9') || c == '.' ||
-           c == '-' || c == '_';
-  };
-  return !name.empty() && name.size() <= 40 && name.front() != '.' &&
-         std::all_of(name.begin(), name.end(), good);
-}
+// A name that can stand in a record.
+bool is_version(const std::string& name) { return name.size() <= 40 && storage::is_plain_name(name); }
 
-// Whole UTF-8, as RFC 3629 has it, and no control characters but the ends of lines.
-bool is_text(const std::string& text) {
-  for (std::size_t i = 0; i < text.size();) {
-    const auto first = static_cast<unsigned char>(text[i]);
-    if (first < 0x20 && first != '\n') return false;
-    const std::size_t more = first < 0x80                    ? 0
-                             : first >= 0xC2 && first < 0xE0 ? 1
-                             : first >= 0xE0 && first < 0xF0 ? 2
-                             : first >= 0xF0 && first < 0xF5 ? 3
-                                                             : 9;
-    if (more == 9 || i + more >= text.size()) return false;
-    for (std::size_t k = 1; k <= more; ++k) {
-      if ((static_cast<unsigned char>(text[i + k]) & 0xC0U) != 0x80U) return false;
-    }
-    i += more + 1;
+// Whole UTF-8, and no control characters but the ends of lines.
+bool is_text(std::string_view text) {
+  for (Utf8Letter letter; !text.empty(); text.remove_prefix(letter.bytes)) {
+    letter = first_letter_of(text);
+    if (letter.bytes == 0 || (letter.code < 0x20 && letter.code != '\n')) return false;
   }
   return true;
 }

@@ -9,10 +9,9 @@
 namespace relievo::firmware {
 
 Result<void> DeviceSettings::look() {
-  const Result<std::string> kept = store_.setting(kDeviceSetting);
-  if (!kept && kept.error().code != Errc::NotFound) return kept.error();
+  RELIEVO_TRY_ASSIGN(const std::string kept, store_.setting(kDeviceSetting));
   std::vector<std::string> complaints;
-  now_ = wanted_ = settings_of(kept ? *kept : std::string(), complaints);
+  now_ = wanted_ = settings_of(kept, complaints);
   for (const std::string& complaint : complaints) log_.say(ui::LogEvent::SettingUnknown, {complaint});
   return {};
 }

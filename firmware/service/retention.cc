@@ -17,11 +17,9 @@ using storage::WallTime;
 constexpr std::chrono::hours kEvery{24};
 
 Result<bool> has_jumped(storage::Store& store, WallTime now) {
-  const Result<std::string> kept = store.setting(kClockSeenSetting);
-  if (!kept && kept.error().code == Errc::NotFound) return true;  // nobody has said that it is right
-  if (!kept) return kept.error();
-  std::int64_t seen_ms = 0;
-  std::from_chars(kept->data(), kept->data() + kept->size(), seen_ms);
+  RELIEVO_TRY_ASSIGN(const std::string kept, store.setting(kClockSeenSetting));
+  std::int64_t seen_ms = 0;  // nobody has said that it is right
+  std::from_chars(kept.data(), kept.data() + kept.size(), seen_ms);
   return now > WallTime(std::chrono::milliseconds(seen_ms)) + kMostLeap;
 }
 

@@ -93,13 +93,11 @@ bool Statistics::read(std::string_view text) {
       seen.left_;
   for (std::uint64_t& n : seen.refused_) in >> n;
   for (std::uint64_t& n : seen.times_) in >> n;
-  if (version == "2") {  // the first version knew no days
-    std::int64_t newest = 0;
-    in >> newest;
-    seen.newest_ = std::chrono::sys_days(std::chrono::days(newest));
-    for (Day& day : seen.days_) in >> day.visits >> day.stored >> day.refused;
-  }
-  if (!in || (version != "1" && version != "2")) return false;
+  std::int64_t newest = 0;
+  in >> newest;
+  seen.newest_ = std::chrono::sys_days(std::chrono::days(newest));
+  for (Day& day : seen.days_) in >> day.visits >> day.stored >> day.refused;
+  if (!in || version != "2") return false;
   *this = seen;
   return true;
 }

@@ -15,11 +15,10 @@ constexpr float kMet = 0.04F;  // of the screen, either way: half a button
 }  // namespace
 
 Result<void> TouchTrial::look() {
-  const Result<std::string> kept = store_.setting(kTouchSetting);
-  if (!kept && kept.error().code != Errc::NotFound) return kept.error();
+  RELIEVO_TRY_ASSIGN(const std::string kept, store_.setting(kTouchSetting));
   map_ = {};
-  if (kept) {
-    if (const auto map = ui::parse_touch_map(*kept)) map_ = *map;
+  if (!kept.empty()) {
+    if (const auto map = ui::parse_touch_map(kept)) map_ = *map;
     else log_.fault(map.error());
   }
   view_.corrected = !map_.is_plain();

@@ -218,15 +218,13 @@ Result<std::unique_ptr<StaffController>> StaffController::open(Parts parts) {
   RELIEVO_TRY(staff->settings_.look());
   RELIEVO_TRY(staff->touch_.look());
   RELIEVO_TRY(staff->consent_.look());
-  const Result<std::string> kept = staff->parts_.store.setting(kStatisticsSetting);
-  if (!kept && kept.error().code != Errc::NotFound) return kept.error();
-  if (!kept || !staff->statistics_.read(*kept))
+  RELIEVO_TRY_ASSIGN(const std::string kept, staff->parts_.store.setting(kStatisticsSetting));
+  if (!staff->statistics_.read(kept))
     staff->statistics_.begin(
         text_of(std::chrono::floor<std::chrono::milliseconds>(staff->parts_.device.clock().wall_now()))
             .substr(0, 10));
-  const Result<std::string> costs = staff->parts_.store.setting(kVisitCostsSetting);
-  if (!costs && costs.error().code != Errc::NotFound) return costs.error();
-  if (costs) (void)staff->costs_.read(*costs);
+  RELIEVO_TRY_ASSIGN(const std::string costs, staff->parts_.store.setting(kVisitCostsSetting));
+  (void)staff->costs_.read(costs);
   RELIEVO_TRY_ASSIGN(const bool words, staff->parts_.store.has_recovery_words());
   staff->services_.words_due = !words;
   staff->log_.say(ui::LogEvent::Started);

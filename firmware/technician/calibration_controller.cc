@@ -145,7 +145,6 @@ void CalibrateJob::publish(const LivePair& pair, const pipeline::LiveState& stat
   ui::TechnicianCalibration now;
   now.advice = static_cast<ui::BoardAdvice>(state.advice);
   now.end = static_cast<ui::BoardEnd>(state.end);
-  now.a_little = state.how_far > 0 && state.how_far < 2;
   now.pairs = state.pairs;
   now.views = state.views;
   now.disagreeing = state.disagreeing;

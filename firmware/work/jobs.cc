@@ -180,7 +180,6 @@ Result<void> PoseJob::run(JobControl& control) {
   const hal::Exposure known = exposure_.exposure();
   RELIEVO_TRY(exposure_.begin(known.time.count() > 0 ? known : kFirstExposure));
   if (judge_ != nullptr) judge_->begin();
-  focus_.reset();
   face_.reset();
   pairs_ = 0;
   while (!control.cancelled.load(std::memory_order_relaxed)) {
@@ -205,17 +204,16 @@ Result<Guidance> PoseJob::judge(const pipeline::StereoFrame& frame, JobControl& 
   RELIEVO_TRY_ASSIGN(LiveMeasurement measured, judge_->look(frame, device_.clock().now(), context));
   session_.live().fill_relief(measured.relief);
   face_ = measured.face;
-  RELIEVO_TRY(meter(frame, measured.guidance));
+  RELIEVO_TRY(meter(frame));
   return measured.guidance;
 }
 
 // Where no face is known, the middle of the picture is lit for.
-Result<void> PoseJob::meter(const pipeline::StereoFrame& frame, Guidance& guidance) {
+Result<void> PoseJob::meter(const pipeline::StereoFrame& frame) {
   if (pairs_++ % kMeterEvery != 0) return {};
   const auto left = face_light(frame.left, face_ ? skin_in(face_->left) : middle_box(frame.left));
   const auto right = face_light(frame.right, face_ ? skin_in(face_->right) : middle_box(frame.right));
   if (!left || !right) return {};  // half out of the picture: the person is told to come in
-  guidance.focus_share = focus_.share_of_best(*left);
   return exposure_.step(*left, *right);
 }
 

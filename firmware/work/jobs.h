@@ -56,7 +56,7 @@ class PoseJob final : public Job {
 
  private:
   Result<Guidance> judge(const pipeline::StereoFrame& frame, JobControl& control);
-  Result<void> meter(const pipeline::StereoFrame& frame, Guidance& guidance);
+  Result<void> meter(const pipeline::StereoFrame& frame);
 
   StereoGrabber& grabber_;
   EnrolmentSession& session_;
@@ -64,7 +64,6 @@ class PoseJob final : public Job {
   ThreadPool& pool_;
   LiveJudge* judge_;
   ExposureControl exposure_;
-  FocusHelp focus_;
   std::optional<FaceBoxes> face_;
   int pairs_ = 0;
 };

@@ -29,7 +29,7 @@ const Voice* voice_for(std::string_view language) {
 }
 
 struct Receiver {
-  const Synthesizer::Sink* sink = nullptr;
+  const SpeechSink* sink = nullptr;
   int volume_percent = 100;
 };
 
@@ -63,32 +63,28 @@ Result<void> begin_library() {
   return {};
 }
 
-class EspeakSynthesizer final : public Synthesizer {
- public:
-  Result<void> speak(const Speech& speech, const Sink& sink) override {
-    const Voice* voice = voice_for(speech.language);
-    if (voice == nullptr) return Error{Errc::NotFound, "has no voice"}.at(std::string(speech.language));
-    espeak_VOICE asked{};
-    asked.languages = voice->name;
-    if (const auto status = espeak_ng_SetVoiceByProperties(&asked); status != ENS_OK) return failed(status);
-    espeak_ng_SetParameter(espeakRATE, kWordsPerMinute * speech.speed_percent / 100, 0);
-    const WipedText text(speech.text);
-    Receiver receiver{&sink, std::clamp(speech.volume_percent, 0, 100)};
-    const auto status = espeak_ng_Synthesize(text.view().data(), text.view().size() + 1, 0, POS_CHARACTER, 0,
-                                             espeakCHARS_UTF8, nullptr, &receiver);
-    if (status != ENS_OK && status != ENS_SPEECH_STOPPED) return failed(status);
-    return {};
-  }
-};
-
 }  // namespace
 
 bool has_voice_for(std::string_view language) { return voice_for(language) != nullptr; }
 
-Result<std::unique_ptr<Synthesizer>> open_espeak_synthesizer() {
+Result<void> open_synthesizer() {
   static const Result<void> begun = begin_library();
-  RELIEVO_TRY(begun);
-  return std::unique_ptr<Synthesizer>(std::make_unique<EspeakSynthesizer>());
+  return begun;
+}
+
+Result<void> synthesize(const Speech& speech, const SpeechSink& sink) {
+  const Voice* voice = voice_for(speech.language);
+  if (voice == nullptr) return Error{Errc::NotFound, "has no voice"}.at(std::string(speech.language));
+  espeak_VOICE asked{};
+  asked.languages = voice->name;
+  if (const auto status = espeak_ng_SetVoiceByProperties(&asked); status != ENS_OK) return failed(status);
+  espeak_ng_SetParameter(espeakRATE, kWordsPerMinute * speech.speed_percent / 100, 0);
+  const WipedText text(speech.text);
+  Receiver receiver{&sink, std::clamp(speech.volume_percent, 0, 100)};
+  const auto status = espeak_ng_Synthesize(text.view().data(), text.view().size() + 1, 0, POS_CHARACTER, 0,
+                                           espeakCHARS_UTF8, nullptr, &receiver);
+  if (status != ENS_OK && status != ENS_SPEECH_STOPPED) return failed(status);
+  return {};
 }
 
 }  // namespace relievo::hal

@@ -81,10 +81,9 @@ class SdlSpeaker final : public Speaker {
 
  private:
   void run() {
-    const auto synthesizer = open_espeak_synthesizer();
-    mute_ = !synthesizer;
+    mute_ = !open_synthesizer();
     while (!mute_ && !ending_) {
-      if (auto wanted = wanted_.take_for(50ms)) speak(**synthesizer, *wanted);
+      if (auto wanted = wanted_.take_for(50ms)) speak(*wanted);
     }
   }
   // As far ahead of what is played as there is room, and no further.
@@ -96,7 +95,7 @@ class SdlSpeaker final : public Speaker {
     }
     return false;
   }
-  void speak(Synthesizer& synthesizer, const Wanted& wanted) {
+  void speak(const Wanted& wanted) {
     const auto sink = [&](std::span<const std::int16_t> samples) {
       while (!samples.empty()) {
         const auto piece = samples.first(std::min(samples.size(), Mixer::kPiece));
@@ -105,8 +104,8 @@ class SdlSpeaker final : public Speaker {
       }
       return true;
     };
-    (void)synthesizer.speak(
-        {wanted.text.view(), wanted.language, wanted.volume_percent, wanted.speed_percent}, sink);
+    (void)synthesize({wanted.text.view(), wanted.language, wanted.volume_percent, wanted.speed_percent},
+                     sink);
     (void)wait_to(wanted.number, [&] { return mixer_.finish(wanted.number); });
   }
 

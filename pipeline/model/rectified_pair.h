@@ -15,6 +15,7 @@
 #include <memory_resource>
 #include <vector>
 
+#include "hal/base/result.h"
 #include "pipeline/model/calibration.h"
 #include "pipeline/model/geometry.h"
 
@@ -58,5 +59,15 @@ struct RectifiedPair {
     return apply(transposed(rectified_from_left), Vec3d{baseline_mm, 0, 0});
   }  // in the left camera's frame
 };
+
+// Both views hold width_px * height_px values. Error: InvalidInput.
+inline Result<void> check_pixels(const RectifiedPair& pair) {
+  const bool none = pair.width_px <= 0 || pair.height_px <= 0;
+  const std::size_t pixels = none ? 0 : std::size_t(pair.width_px) * std::size_t(pair.height_px);
+  for (const RectifiedView* view : {&pair.left, &pair.right})
+    if (none || view->grey.size() != pixels || view->valid.size() != pixels)
+      return Error{Errc::InvalidInput, "the rectified pair has no pixels"};
+  return {};
+}
 
 }  // namespace relievo::pipeline

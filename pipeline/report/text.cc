@@ -8,34 +8,14 @@
 #include <cmath>
 #include <cstdint>
 
+#include "hal/base/utf8.h"
+
 namespace relievo::pipeline::report {
 namespace {
 
 constexpr std::string_view kUnknown = "\xEF\xBF\xBD";  // U+FFFD
 constexpr std::string_view kMinus = "\xE2\x88\x92";
 constexpr std::string_view kDash = "\xE2\x80\x93";
-
-// Length of the well-formed character at the beginning (Unicode 15, table 3-7), 0 where there is none.
-std::size_t character(std::string_view text) {
-  const auto byte = [&text](std::size_t i) {
-    return i < text.size() ? static_cast<unsigned char>(text[i]) : 0U;
-  };
-  const unsigned first = byte(0);
-  if (first < 0x80) return 1;
-  const std::size_t length = first >= 0xF0 ? 4 : first >= 0xE0 ? 3 : 2;
-  if (first < 0xC2 || first > 0xF4) return 0;
-  const unsigned least = first == 0xE0 ? 0xA0 : first == 0xF0 ? 0x90 : 0x80;
-  const unsigned most = first == 0xED ? 0x9F : first == 0xF4 ? 0x8F : 0xBF;
-  if (byte(1) < least || byte(1) > most) return 0;
-  for (std::size_t i = 2; i < length; ++i)
-    if (byte(i) < 0x80 || byte(i) > 0xBF) return 0;
-  return length;
-}
-
-bool controls(std::string_view character) {
-  const auto first = static_cast<unsigned char>(character.front());
-  return first < 0x20 || first == 0x7F || (first == 0xC2 && static_cast<unsigned char>(character[1]) < 0xA0);
-}
 
 std::string fixed(double value, int decimals) {
   std::array<char, 400> text{};
@@ -52,10 +32,10 @@ std::string fixed(double value, int decimals) {
 std::string escaped(std::string_view text) {
   std::string out;
   while (!text.empty()) {
-    const std::size_t length = character(text);
-    const std::string_view one = text.substr(0, std::max<std::size_t>(length, 1));
+    const Utf8Letter letter = first_letter_of(text);
+    const std::string_view one = text.substr(0, std::max<std::size_t>(letter.bytes, 1));
     text.remove_prefix(one.size());
-    if (length == 0 || controls(one)) out += kUnknown;
+    if (letter.bytes == 0 || is_control(letter.code)) out += kUnknown;
     else if (one == "&") out += "&amp;";
     else if (one == "<") out += "&lt;";
     else if (one == ">") out += "&gt;";

@@ -118,7 +118,6 @@ std::span<const std::byte> Statement::blob(int column) const {
   const auto* bytes = static_cast<const std::byte*>(sqlite3_column_blob(handle_, column));
   return {bytes, bytes == nullptr ? 0 : std::size_t(sqlite3_column_bytes(handle_, column))};
 }
-bool Statement::is_null(int column) const { return sqlite3_column_type(handle_, column) == SQLITE_NULL; }
 
 Database::~Database() { close(); }
 

@@ -52,7 +52,6 @@ class Statement {
   // Valid until the next step().
   std::string_view text(int column) const;
   std::span<const std::byte> blob(int column) const;
-  bool is_null(int column) const;
 
  private:
   Statement& note(int code);

@@ -54,8 +54,7 @@ Result<std::string> SqliteStore::setting(std::string_view key) {
   return without_exceptions(database_->where(), [&]() -> Result<std::string> {
     RELIEVO_TRY_ASSIGN(auto settings, read_settings(*database_, *keys_));
     const auto found = settings.find(key);
-    if (found == settings.end()) return Error{Errc::NotFound, "this setting is not set"}.at(key);
-    return std::move(found->second);
+    return found == settings.end() ? std::string() : std::move(found->second);
   });
 }
 

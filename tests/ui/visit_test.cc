@@ -261,9 +261,9 @@ TEST_F(VisitTest, ThePictureIsTakenByItselfWhenAllIsRight) {
   EXPECT_FALSE(visit.countdown(view.live));
   view.live.steady_s = kSteadyFor + 0.5F;
   ASSERT_TRUE(visit.countdown(view.live));
-  EXPECT_NEAR(*visit.countdown(view.live), kCountdown - 0.5F, 1e-5);
+  EXPECT_NEAR(*visit.countdown(view.live), visit.countdown_s() - 0.5F, 1e-5);
   EXPECT_EQ(pass(milliseconds(1)), std::nullopt);
-  view.live.steady_s = kSteadyFor + kCountdown;
+  view.live.steady_s = kSteadyFor + visit.countdown_s();
   EXPECT_EQ(pass(milliseconds(1)), Intent::Begin);
   EXPECT_EQ(pass(milliseconds(1)), std::nullopt) << "once";
 }

@@ -24,7 +24,7 @@ inline constexpr Lines kLines{0.969F, 0.242F, 1.33F, 1.14F}, kArabicLines{1.06F,
 }  // namespace type
 
 namespace space {
-inline constexpr float kXs = 8, kS = 12, kM = 20, kL = 32, kXl = 48, kXxl = 72;
+inline constexpr float kXs = 8, kS = 12, kM = 20, kL = 32, kXl = 48;
 }  // namespace space
 
 namespace size {

@@ -44,14 +44,6 @@ void fill(GLenum target, GLuint& buffer, const std::vector<Item>& items) {
   glBufferData(target, static_cast<GLsizeiptr>(items.size() * sizeof(Item)), items.data(), GL_STATIC_DRAW);
 }
 
-// Of the texture that is bound.
-void set_smooth_and_clamped() {
-  glTexParameteri(GL_TEXTURE_2D, GL_TEXTURE_MIN_FILTER, GL_LINEAR);
-  glTexParameteri(GL_TEXTURE_2D, GL_TEXTURE_MAG_FILTER, GL_LINEAR);
-  glTexParameteri(GL_TEXTURE_2D, GL_TEXTURE_WRAP_S, GL_CLAMP_TO_EDGE);
-  glTexParameteri(GL_TEXTURE_2D, GL_TEXTURE_WRAP_T, GL_CLAMP_TO_EDGE);
-}
-
 class GlesFaceView final : public FaceView {
  public:
   ~GlesFaceView() override {
@@ -128,7 +120,7 @@ class GlesFaceView final : public FaceView {
     if (textured_)
       glTexImage2D(GL_TEXTURE_2D, 0, GL_RGB8, atlas.width_px, atlas.height_px, 0, GL_RGB, GL_UNSIGNED_BYTE,
                    atlas.rgb.data());
-    set_smooth_and_clamped();
+    smooth_texture();
   }
 
   void point_at_corners() const {
@@ -174,7 +166,7 @@ class GlesFaceView final : public FaceView {
     height_ = h;
     glBindTexture(GL_TEXTURE_2D, colour_);
     glTexImage2D(GL_TEXTURE_2D, 0, GL_RGBA8, w, h, 0, GL_RGBA, GL_UNSIGNED_BYTE, nullptr);
-    set_smooth_and_clamped();
+    smooth_texture();
     glBindRenderbuffer(GL_RENDERBUFFER, depth_);
     glRenderbufferStorage(GL_RENDERBUFFER, GL_DEPTH_COMPONENT24, w, h);
     glBindFramebuffer(GL_FRAMEBUFFER, frame_);

@@ -14,6 +14,9 @@ namespace relievo::ui {
 // Errors: LibraryFailed with the driver's words.
 Result<std::uint32_t> compile_program(const char* vertex, const char* fragment);
 
+// The texture that is bound: linear, its edge repeated.
+void smooth_texture();
+
 namespace shader {
 extern const char* const kQuadVertex;  // every flat mark: one quad an instance
 extern const char* const kFlat;

@@ -8,6 +8,7 @@
 #include <initializer_list>
 #include <utility>
 
+#include "hal/base/utf8.h"
 #include "ui/technician/technician_view.h"
 
 namespace relievo::ui {
@@ -25,11 +26,6 @@ std::string_view as_spoken(std::string_view letter) {
   if (steers_the_eye(letter)) return {};
   if (is_one_of(letter, {"\u00a0", "\u202f"})) return " ";
   return letter == "\u2011" ? "-" : letter;
-}
-
-std::size_t length_of_letter(char first) {
-  const auto byte = static_cast<unsigned char>(first);
-  return byte < 0x80 ? 1 : byte < 0xE0 ? 2 : byte < 0xF0 ? 3 : 4;
 }
 
 bool ends_a_sentence(std::string_view text) {
@@ -59,7 +55,8 @@ void Utterance::say(std::string_view words) {
   if (!empty()) add(ends_a_sentence(text()) ? " " : ". ");
   last_ = size_;
   for (std::size_t at = 0; at < words.size();) {
-    const std::string_view letter = words.substr(at, length_of_letter(words[at]));
+    const std::size_t bytes = first_letter_of(words.substr(at)).bytes;
+    const std::string_view letter = words.substr(at, std::max<std::size_t>(1, bytes));
     add(as_spoken(letter));
     at += letter.size();
   }
@@ -101,13 +98,6 @@ std::size_t print_of_page(const Tree& tree, const Narrator::Moment& moment, cons
 const Node* field_of(const Tree& tree) {
   const auto found = std::ranges::find(tree.nodes(), Role::Field, &Node::role);
   return found == tree.nodes().end() ? nullptr : &*found;
-}
-
-std::string_view last_letter(std::string_view text) {
-  std::size_t at = text.size();
-  while (at > 0 && (static_cast<unsigned char>(text[--at]) & 0xC0U) == 0x80U) {
-  }
-  return text.substr(at);
 }
 
 }  // namespace
@@ -175,7 +165,7 @@ bool Narrator::follow_typing(const Tree& tree, const Listener& to) {
   if (std::exchange(typed_, print_of(typed)) == print_of(typed)) return false;
   if (typed.size() < before) said_.say(to.tr("Erased"));
   else if (!to.alone) said_.say(to.tr("Typed"));
-  else if (typed.size() - before <= last_letter(typed).size()) said_.say(last_letter(typed));
+  else if (const std::size_t last = last_letter_at(typed); last <= before) said_.say(typed.substr(last));
   else said_.say(typed);
   return true;
 }

@@ -76,7 +76,6 @@ struct TechnicianCalibration {
   std::array<TechnicianPicture, 2> pictures;  // with the corners and the wanted board drawn in
   BoardAdvice advice = BoardAdvice::ShowBoard;
   BoardEnd end = BoardEnd::NotYet;
-  bool a_little = false;
   int pairs = 0, views = 0, disagreeing = 0;
   std::array<float, 4> bars{};  // across, down, size, tilt: 0 to 1
   std::array<std::array<std::uint32_t, kCoverageCells * kCoverageCells>, 2>

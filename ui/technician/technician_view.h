@@ -46,7 +46,6 @@ struct TechnicianChoice {
   bool changed = false;                       // since the last run
 };
 
-inline constexpr std::size_t kTableColumns = 8;
 struct TechnicianRows {
   TechnicianTable table = TechnicianTable::Matches;
   std::span<const std::string_view> heads;  // symbols and units

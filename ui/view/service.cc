@@ -4,6 +4,9 @@
 
 #include <string.h>
 
+#include <algorithm>
+
+#include "hal/base/utf8.h"
 #include "ui/view/view_state.h"
 
 namespace relievo::ui {
@@ -70,11 +73,9 @@ void Service::type(std::string_view letter) {
 }
 
 void Service::erase_letter() {
-  while (length_ > 0) {
-    const char last = typed_[--length_];
-    typed_[length_] = 0;
-    if ((static_cast<unsigned char>(last) & 0xC0U) != 0x80U) break;  // the first byte of a letter
-  }
+  const std::size_t at = last_letter_at({typed_.data(), length_});
+  std::fill(typed_.begin() + at, typed_.begin() + length_, '\0');
+  length_ = at;
 }
 
 void Service::forget_typed() {

@@ -10,6 +10,7 @@
 #include <numbers>
 #include <utility>
 
+#include "hal/base/utf8.h"
 #include "ui/view/keypad_letters.h"
 #include "ui/view/visit.h"
 
@@ -61,11 +62,9 @@ void Visit::enter(std::string_view text, hal::Instant now) {
 
 void Visit::erase_letter() {
   digit_ = 0;
-  while (length_ > 0) {
-    const char last = name_[--length_];
-    name_[length_] = 0;
-    if ((static_cast<unsigned char>(last) & 0xC0U) != 0x80U) break;  // the first byte of a letter
-  }
+  const std::size_t at = last_letter_at({name_.data(), length_});
+  std::fill(name_.begin() + at, name_.begin() + length_, '\0');
+  length_ = at;
   capitals = length_ == 0 || name_[length_ - 1] == ' ' || name_[length_ - 1] == '-';
 }
 

@@ -17,10 +17,9 @@ Result<CodeGuard::Record> CodeGuard::read() {
   const std::int64_t now_s =
       std::chrono::floor<std::chrono::seconds>(clock_.wall_now()).time_since_epoch().count();
   const Record fresh{0, now_s};
-  const Result<std::string> text = store_.setting(kCodesSetting);
-  if (!text && text.error().code == Errc::NotFound) return fresh;
-  if (!text) return text.error();
-  std::istringstream in(*text);
+  RELIEVO_TRY_ASSIGN(const std::string text, store_.setting(kCodesSetting));
+  if (text.empty()) return fresh;
+  std::istringstream in(text);
   Record record;
   if (!(in >> record.wrong >> record.since_s) || record.wrong < 0) return Record{kMostWrongCodes, now_s};
   if (now_s < record.since_s) record.since_s = now_s;

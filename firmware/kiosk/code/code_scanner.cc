@@ -10,34 +10,18 @@
 #include <utility>
 
 #include "firmware/base/budget.h"
+#include "firmware/kiosk/code/qr_code.h"
+#include "hal/base/utf8.h"
 #include "ui/view/visit.h"
 
 namespace relievo::firmware {
 namespace {
 
-// The letter at the front and its bytes; nothing where it is no UTF-8 (RFC 3629).
-std::optional<std::uint32_t> letter_of(std::string_view text, std::size_t& bytes) {
-  const auto byte = [text](std::size_t i) { return std::uint32_t(static_cast<unsigned char>(text[i])); };
-  const std::uint32_t first = byte(0);
-  bytes = first < 0x80 ? 1 : first < 0xE0 ? 2 : first < 0xF0 ? 3 : 4;
-  if (bytes == 1) return first;
-  if (first < 0xC2 || first > 0xF4 || text.size() < bytes) return std::nullopt;
-  std::uint32_t letter = first & (0x7FU >> bytes);
-  for (std::size_t i = 1; i < bytes; ++i) {
-    if ((byte(i) & 0xC0U) != 0x80U) return std::nullopt;
-    letter = letter << 6 | (byte(i) & 0x3FU);
-  }
-  const bool overlong = (bytes == 3 && letter < 0x800) || (bytes == 4 && letter < 0x10000);
-  if (overlong || letter > 0x10FFFF || (letter >= 0xD800 && letter <= 0xDFFF)) return std::nullopt;
-  return letter;
-}
-
 // Control, direction, invisible, private, no letter at all.
-bool is_unseen(std::uint32_t c) {
-  return c < 0x20 || (c >= 0x7F && c < 0xA0) || c == 0xAD || (c >= 0x200B && c <= 0x200F) ||
-         (c >= 0x2028 && c <= 0x202E) || (c >= 0x2060 && c <= 0x206F) || c == 0xFEFF ||
-         (c >= 0xE000 && c <= 0xF8FF) || (c >= 0xFFF0 && c <= 0xFFFF) || (c & 0xFFFEU) == 0xFFFEU ||
-         c >= 0xE0000;
+bool is_unseen(char32_t c) {
+  return is_control(c) || c == 0xAD || (c >= 0x200B && c <= 0x200F) || (c >= 0x2028 && c <= 0x202E) ||
+         (c >= 0x2060 && c <= 0x206F) || c == 0xFEFF || (c >= 0xE000 && c <= 0xF8FF) ||
+         (c >= 0xFFF0 && c <= 0xFFFF) || (c & 0xFFFEU) == 0xFFFEU || c >= 0xE0000;
 }
 
 }  // namespace
@@ -49,11 +33,11 @@ std::optional<std::string> code_text(std::string_view raw) {
   raw = raw.substr(begin, raw.find_last_not_of(kEnds) + 1 - begin);
   if (raw.size() > ui::kMostNameBytes || raw.find("://") != std::string_view::npos) return std::nullopt;
   std::string text;
-  for (std::size_t bytes = 0; !raw.empty(); raw.remove_prefix(bytes)) {
-    const auto letter = letter_of(raw, bytes);
-    if (!letter || is_unseen(*letter)) return std::nullopt;
-    if (*letter == ' ' && text.back() == ' ') continue;
-    text += raw.substr(0, bytes);
+  for (Utf8Letter letter; !raw.empty(); raw.remove_prefix(letter.bytes)) {
+    letter = first_letter_of(raw);
+    if (letter.bytes == 0 || is_unseen(letter.code)) return std::nullopt;
+    if (letter.code == ' ' && text.back() == ' ') continue;
+    text += raw.substr(0, letter.bytes);
   }
   return text;
 }
@@ -119,7 +103,7 @@ Result<void> CodeScanner::Look::look(JobControl& control) {
                        appliance_.grabber().grab(appliance_.session().slot(), control.cancelled));
     appliance_.session().live().fill(frame.left);
     appliance_.session().live().publish({});
-    const auto raw = reader_->read(pair % 2 == 0 ? frame.left : frame.right);
+    const auto raw = read_code(pair % 2 == 0 ? frame.left : frame.right);
     if (auto text = raw ? code_text(*raw) : std::nullopt) {
       const std::lock_guard lock(mutex_);
       text_ = std::move(text);

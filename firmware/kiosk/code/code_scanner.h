@@ -8,14 +8,12 @@
 #pragma once
 
 #include <atomic>
-#include <memory>
 #include <mutex>
 #include <optional>
 #include <string>
 #include <string_view>
 
 #include "firmware/appliance/appliance.h"
-#include "firmware/kiosk/code/code_reader.h"
 #include "ui/view/visit.h"
 
 namespace relievo::firmware {
@@ -40,8 +38,7 @@ class CodeScanner {
  private:
   class Look final : public Job {
    public:
-    Look(Appliance& appliance, hal::Device& device)
-        : appliance_(appliance), device_(device), reader_(CodeReader::make()) {}
+    Look(Appliance& appliance, hal::Device& device) : appliance_(appliance), device_(device) {}
     Result<void> run(JobControl& control) override;
     std::optional<std::string> take();
     std::atomic<bool> ended{true};
@@ -50,7 +47,6 @@ class CodeScanner {
     Result<void> look(JobControl& control);
     Appliance& appliance_;
     hal::Device& device_;
-    std::unique_ptr<CodeReader> reader_;
     std::mutex mutex_;
     std::optional<std::string> text_;
   };

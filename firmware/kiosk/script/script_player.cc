@@ -4,11 +4,14 @@
 
 #include <strings.h>
 
+#include <algorithm>
 #include <array>
 #include <chrono>
 #include <fstream>
 #include <locale>
 #include <sstream>
+
+#include "hal/base/utf8.h"
 
 namespace relievo::firmware {
 namespace {
@@ -144,11 +147,6 @@ const ui::Node* touchable(const Kiosk& kiosk, std::string_view id) {
   return met != nullptr && met->id == node->id ? node : nullptr;
 }
 
-std::size_t letter_bytes(char first) {
-  const auto byte = static_cast<unsigned char>(first);
-  return byte < 0x80 ? 1 : byte < 0xE0 ? 2 : byte < 0xF0 ? 3 : 4;
-}
-
 }  // namespace
 
 Result<bool> ScriptPlayer::turn(const Kiosk& kiosk, hal::Instant now) {
@@ -219,7 +217,8 @@ Result<bool> ScriptPlayer::touch(const ScriptAction& action, const Kiosk& kiosk,
 
 // Letter by letter; for one that is not on the keyboard the other sets of keys are tried.
 Result<bool> ScriptPlayer::type(const ScriptAction& action, const Kiosk& kiosk, hal::Instant now) {
-  const std::string letter = action.word.substr(typed_, letter_bytes(action.word[typed_]));
+  const std::size_t bytes = first_letter_of(std::string_view(action.word).substr(typed_)).bytes;
+  const std::string letter = action.word.substr(typed_, std::max<std::size_t>(1, bytes));
   const std::string own = letter == " " ? "space" : "key " + letter;
   if (!down_at_) {
     const ui::Tree& tree = kiosk.ui().tree();

@@ -8,7 +8,7 @@
 #include <memory>
 #include <thread>
 
-#include "firmware/kiosk/code/code_picture.h"
+#include "firmware/kiosk/code/qr_code.h"
 #include "firmware/records/disk_room.h"
 #include "firmware/report/report.h"
 #include "firmware/service/page/health_controller.h"

@@ -45,12 +45,18 @@ double surprise(double f, double degrees_up, double degrees_down) {
   return ((1 - b) * root - (1 - a)) / std::sqrt(b * root * root + a);
 }
 
-std::vector<int> least(std::span<const int> pairs, const std::vector<double>& cost, std::size_t count) {
-  std::vector<std::size_t> order(pairs.size());
+std::vector<std::size_t> calmest(const std::vector<double>& cost, std::size_t count) {
+  std::vector<std::size_t> order(cost.size());
   std::iota(order.begin(), order.end(), std::size_t{0});
   std::ranges::stable_sort(order, [&](std::size_t a, std::size_t b) { return cost[a] < cost[b]; });
+  order.resize(std::min(count, order.size()));
+  std::ranges::sort(order);
+  return order;
+}
+
+std::vector<int> least(std::span<const int> pairs, const std::vector<double>& cost, std::size_t count) {
   std::vector<int> chosen;
-  for (std::size_t k = 0; k < std::min(count, order.size()); ++k) chosen.push_back(pairs[order[k]]);
+  for (const std::size_t k : calmest(cost, count)) chosen.push_back(pairs[k]);
   std::ranges::sort(chosen);
   return chosen;
 }
@@ -66,15 +72,6 @@ double spread_of(const CameraFits& cameras, const StereoFit& fit, std::size_t pa
   const double used = double(fit.paired.size());
   const double mended = trimming_factor(used / double(pairs));
   return std::max(cameras.noise_px2(), mended * excess_of(cameras, fit) / (kDegrees * (used - 1)));
-}
-
-std::vector<std::size_t> calmest(const std::vector<double>& cost, std::size_t count) {
-  std::vector<std::size_t> order(cost.size());
-  std::iota(order.begin(), order.end(), std::size_t{0});
-  std::ranges::stable_sort(order, [&](std::size_t a, std::size_t b) { return cost[a] < cost[b]; });
-  order.resize(std::min(count, order.size()));
-  std::ranges::sort(order);
-  return order;
 }
 
 struct Half {

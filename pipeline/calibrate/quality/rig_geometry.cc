@@ -8,26 +8,13 @@
 #include <Eigen/Geometry>
 #include <Eigen/LU>
 
+#include "pipeline/model/lens.h"
+
 namespace relievo::pipeline {
 
-// Fixed-point iteration; a lens whose picture does not fold over contracts it.
-Eigen::Vector3d ray_of(const CameraIntrinsics& c, const Vec2d& at) {
-  const double u = (at.x - c.centre_px.x) / c.focal_px.x;
-  const double v = (at.y - c.centre_px.y) / c.focal_px.y;
-  const double* k = c.distortion;
-  double x = u;
-  double y = v;
-  for (int i = 0; i < 50; ++i) {
-    const double r2 = x * x + y * y;
-    const double radial = 1 + r2 * (k[0] + r2 * (k[1] + r2 * k[4]));
-    const double next_x = (u - 2 * k[2] * x * y - k[3] * (r2 + 2 * x * x)) / radial;
-    const double next_y = (v - k[2] * (r2 + 2 * y * y) - 2 * k[3] * x * y) / radial;
-    const double moved = std::abs(next_x - x) + std::abs(next_y - y);
-    x = next_x;
-    y = next_y;
-    if (moved < 1e-14) break;
-  }
-  return {x, y, 1};
+Eigen::Vector3d ray_of(const CameraIntrinsics& camera, const Vec2d& at) {
+  const Vec2d ray = ray_of_pixel(camera, at);
+  return {ray.x, ray.y, 1};
 }
 
 Eigen::Vector3d point_of(const bundle::Problem& p, const Vec2d& left, const Vec2d& right) {

@@ -2,8 +2,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include <algorithm>
 #include <cmath>
-#include <filesystem>
 #include <numbers>
+#include <string>
 #include <utility>
 #include <vector>
 
@@ -16,24 +16,17 @@
 namespace relievo::pipeline {
 namespace {
 
-// opencv-data 4.6.0, as FaceFinder.
-constexpr std::string_view kFrontal = "haarcascade_frontalface_alt2.xml";
-constexpr std::string_view kFrontalSha = "7b0c967d9abbdfbde025eb9c786947d151b6426040d07a8f9562ed8fd90724b4";
-constexpr std::string_view kProfile = "haarcascade_profileface.xml";
-constexpr std::string_view kProfileSha = "b39a4a3be45539db146a7fc1d3e761a292c196eb88421185e6a615b3055e612d";
-
 constexpr double kLeanDeg = 22;  // the cascades stand 15 themselves
 constexpr double kDegree = std::numbers::pi / 180;
 
-Result<void> read_cascade(const std::filesystem::path& path, std::string_view sha,
-                          cv::CascadeClassifier& cascade) {
-  RELIEVO_TRY_ASSIGN(const std::string text, read_checked(path, sha));
+Result<void> read(const std::string& folder, FaceCascade which, cv::CascadeClassifier& cascade) {
+  RELIEVO_TRY_ASSIGN(const std::string text, read_cascade(folder, which));
   const cv::FileStorage file(text,
                              cv::FileStorage::READ | cv::FileStorage::MEMORY | cv::FileStorage::FORMAT_XML);
   if (!cascade.read(file.getFirstTopLevelNode()))
     return Error{Errc::LibraryFailed,
                  "OpenCV cannot read the face cascades: reinstall the package opencv-data"}
-        .at(path.string());
+        .at(folder);
   return {};
 }
 
@@ -114,9 +107,8 @@ Result<FaceWatch> FaceWatch::open(const FaceWatchOptions& options) {
   try {
     auto cascades = std::make_unique<Cascades>();
     cascades->options = options;
-    const std::filesystem::path dir(options.cascade_dir);
-    RELIEVO_TRY(read_cascade(dir / kFrontal, kFrontalSha, cascades->frontal));
-    RELIEVO_TRY(read_cascade(dir / kProfile, kProfileSha, cascades->profile));
+    RELIEVO_TRY(read(options.cascade_dir, FaceCascade::Alt2, cascades->frontal));
+    RELIEVO_TRY(read(options.cascade_dir, FaceCascade::Profile, cascades->profile));
     return FaceWatch(std::move(cascades));
   } catch (const cv::Exception&) {
     return Error{Errc::LibraryFailed,

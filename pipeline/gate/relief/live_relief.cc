@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "hal/base/simd.h"
+#include "pipeline/base/parts.h"
 #include "pipeline/match/coarse/size_ladder.h"
 #include "pipeline/match/rectify/rectifier.h"
 
@@ -152,35 +153,25 @@ Result<void> LiveReliefOptions::check() const {
 
 void label_surfaces(Relief& relief, float step_px, double speck_mm2, StageContext& context) {
   const std::size_t count = relief.depth_mm.size();
-  const auto width = std::size_t(relief.width_px);
   // Of inverse depth, one pixel of disparity is the same everywhere.
   const auto step = float(double(step_px) / (relief.focal_px * relief.baseline_mm));
-  std::pmr::vector<std::uint32_t> label(count, 0, &context.scratch), queue(count, 0, &context.scratch);
+  std::pmr::vector<std::uint32_t> label(count, 0, &context.scratch);
   std::pmr::vector<Found> found(1, Found{}, &context.scratch);
   found.reserve(count + 1);
-  const auto join = [&](std::size_t from, std::size_t to, std::size_t& tail) {
-    if (label[to] != 0 || !(relief.depth_mm[to] > 0)) return;
-    if (std::abs(1 / relief.depth_mm[from] - 1 / relief.depth_mm[to]) > step) return;
-    label[to] = label[from];
-    queue[tail++] = std::uint32_t(to);
-  };
-  for (std::size_t start = 0; start < count; ++start) {
-    if (label[start] != 0 || !(relief.depth_mm[start] > 0)) continue;
-    label[start] = std::uint32_t(found.size());
-    double area = 0;
-    std::size_t tail = 0;
-    queue[tail++] = std::uint32_t(start);
-    for (std::size_t head = 0; head < tail; ++head) {
-      const std::size_t at = queue[head], x = at % width;
-      if (x > 0) join(at, at - 1, tail);
-      if (x + 1 < width) join(at, at + 1, tail);
-      if (at >= width) join(at, at - width, tail);
-      if (at + width < count) join(at, at + width, tail);
-      const double pixel_mm = double(relief.depth_mm[at]) / relief.focal_px;
-      area += pixel_mm * pixel_mm;
-    }
-    found.push_back({std::uint32_t(tail), area, 0});
-  }
+  label_parts(
+      std::span(label), std::size_t(relief.width_px), &context.scratch,
+      [&](std::size_t k) { return relief.depth_mm[k] > 0; },
+      [&](std::size_t a, std::size_t b) {
+        return !(std::abs(1 / relief.depth_mm[a] - 1 / relief.depth_mm[b]) > step);
+      },
+      [&](std::span<const std::uint32_t> cells) {
+        double area = 0;
+        for (const std::uint32_t at : cells) {
+          const double pixel_mm = double(relief.depth_mm[at]) / relief.focal_px;
+          area += pixel_mm * pixel_mm;
+        }
+        found.push_back({std::uint32_t(cells.size()), area, 0});
+      });
   relief.surfaces = name_by_size(found, speck_mm2, context);
   for (std::size_t i = 0; i < count; ++i) {
     relief.surface[i] = found[label[i]].name;

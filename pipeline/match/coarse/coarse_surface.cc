@@ -9,6 +9,7 @@
 #include <optional>
 #include <vector>
 
+#include "pipeline/base/parts.h"
 #include "pipeline/match/coarse/semi_global.h"
 #include "pipeline/match/coarse/size_ladder.h"
 #include "pipeline/match/image/box_filter.h"
@@ -32,36 +33,14 @@ struct Surfaces {
 Surfaces label_surfaces(const Plane<float>& d, const Plane<std::uint8_t>& allowed, float step,
                         Plane<int>& label, std::pmr::memory_resource& scratch) {
   Surfaces found(&scratch);
-  int next = 0;
-  std::pmr::vector<int> open(&scratch);
-  open.reserve(d.values.size());
-  for (std::size_t seed = 0; seed < d.values.size(); ++seed) {
-    if (label.values[seed] != 0 || allowed.values[seed] == 0 || d.values[seed] == kNoDisparity) continue;
-    ++next;
-    int size = 0;
-    open.clear();
-    open.push_back(int(seed));
-    label.values[seed] = next;
-    while (!open.empty()) {
-      const int k = open.back();
-      open.pop_back();
-      ++size;
-      const int x = k % d.width;
-      const int y = k / d.width;
-      const int neighbours[4] = {x > 0 ? k - 1 : -1, x + 1 < d.width ? k + 1 : -1, y > 0 ? k - d.width : -1,
-                                 y + 1 < d.height ? k + d.width : -1};
-      for (const int n : neighbours) {
-        if (n < 0) continue;
-        const auto at = std::size_t(n);
-        if (label.values[at] != 0 || allowed.values[at] == 0 || d.values[at] == kNoDisparity) continue;
-        if (std::abs(d.values[at] - d.values[std::size_t(k)]) > step) continue;
-        label.values[at] = next;
-        open.push_back(n);
-      }
-    }
-    found.sizes.push_back(size);
-    if (size > found.size_of(found.largest)) found.largest = next;
-  }
+  label_parts(
+      std::span(label.values), std::size_t(d.width), &scratch,
+      [&](std::size_t k) { return allowed.values[k] != 0 && d.values[k] != kNoDisparity; },
+      [&](std::size_t a, std::size_t b) { return !(std::abs(d.values[b] - d.values[a]) > step); },
+      [&](std::span<const std::uint32_t> cells) {
+        found.sizes.push_back(int(cells.size()));
+        if (found.sizes.back() > found.size_of(found.largest)) found.largest = int(found.sizes.size());
+      });
   return found;
 }
 

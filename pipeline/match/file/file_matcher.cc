@@ -13,8 +13,7 @@ constexpr int kCorrelationRadius = 4;
 
 Result<MatchSet> FileMatcher::match(const RectifiedPair& pair, const Keypoints&,
                                     StageContext& context) const {
-  if (pair.width_px <= 0 || pair.height_px <= 0 || pair.left.grey.empty() || pair.right.grey.empty())
-    return Error{Errc::InvalidInput, "the rectified pair has no pixels"};
+  RELIEVO_TRY(check_pixels(pair));
   if (file.path.empty())
     return Error{Errc::NotFound, "no file of matches is named: --set file-matches.path=FILE"}.at(
         "file-matches.path");

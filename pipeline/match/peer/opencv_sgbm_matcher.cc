@@ -5,18 +5,14 @@
 
 #include <opencv2/calib3d.hpp>
 
-#include "pipeline/match/image/field_reader.h"
 #include "pipeline/match/peer/sgbm_matcher.h"
-#include "pipeline/match/window/window_correlation.h"
+#include "pipeline/match/window/field_matches.h"
 
 namespace relievo::pipeline {
 namespace {
 
-constexpr int kCorrelationRadius = 4;
-constexpr float kFitPx = 1.0F / 6;
 constexpr float kNothing = -1.0e6F;
 constexpr double kMostBytes = 2.0 * (1 << 30);  // aloe with 256 disparities needs 1.4
-constexpr int kBands = 32;
 
 // The part of both pictures that the keypoints need.
 struct Crop {
@@ -72,12 +68,8 @@ cv::Mat compute(const RectifiedPair& pair, const SgbmMatcher& options, const Cro
 
 Result<MatchSet> SgbmMatcher::match(const RectifiedPair& pair, const Keypoints& keypoints,
                                     StageContext& context) const {
-  const auto pixels = std::size_t(pair.width_px) * std::size_t(pair.height_px);
-  if (pixels == 0 || pair.left.grey.size() != pixels || pair.right.grey.size() != pixels)
-    return Error{Errc::InvalidInput, "the rectified pair has no pixels"};
-  const Error nothing{Errc::TooFewMatches,
-                      "hardly anything matches between the views: is the face in both, in focus and lit?"};
-  if (keypoints.points.empty()) return nothing;
+  RELIEVO_TRY(check_pixels(pair));
+  if (keypoints.points.empty()) return nothing_matches();
   const int first = int(std::floor(pair.disparity_px(pair.far_mm)));
   const int needed = int(std::ceil(pair.disparity_px(pair.near_mm))) + 1 - first;
   const int count = (needed + 15) / 16 * 16;
@@ -93,32 +85,14 @@ Result<MatchSet> SgbmMatcher::match(const RectifiedPair& pair, const Keypoints& 
         Errc::OutOfMemory,
         "opencv-sgbm: hh would need more than 2 GiB here: choose 3way or narrow the volume (--near, --far)"};
   if (context.stop()) return Error{Errc::Cancelled, "stopped before OpenCV began"};
-  MatchSet set(&context.output);
-  set.lattice_step_px = keypoints.lattice_step_px;
-  set.matches.reserve(keypoints.points.size());
-  Plane<float> field(&context.scratch, crop.width, crop.height, kNothing);
+  DisparityField field{
+      {&context.scratch, crop.width, crop.height, kNothing}, kNothing, {float(crop.x0), float(crop.y0)}};
   const cv::Mat disparity = compute(pair, *this, crop, first, count, context);
   for (int y = 0; y < crop.height; ++y)
     for (int x = 0; x < crop.width; ++x)
       if (const int value = disparity.at<std::int16_t>(y, x); value >= 16 * first)
-        field.row(y)[x] = float(value) / 16;
-  std::pmr::vector<Match> found(keypoints.points.size(), Match{}, &context.scratch);
-  context.pool.for_each_band(int(found.size()), kBands, [&](int begin, int end, int) {
-    for (int k = begin; k < end && !context.stop(); ++k) {
-      const Vec2f at = keypoints.points[std::size_t(k)].at_px;
-      const FieldReading reading =
-          read_disparity(field, {at.x - float(crop.x0), at.y - float(crop.y0)}, kNothing);
-      if (!reading.known) continue;
-      found[std::size_t(k)] = {at, reading.disparity,
-                               window_cost(pair, at, reading.disparity, kCorrelationRadius),
-                               std::hypot(kFitPx, reading.scatter), 0};
-    }
-  });
-  if (context.stop()) return Error{Errc::Cancelled, "stopped while matching"};
-  for (const Match& match : found)
-    if (match.sigma_px > 0 && match.cost < 1) set.matches.push_back(match);
-  if (set.matches.empty()) return nothing;
-  return set;
+        field.values.row(y)[x] = float(value) / 16;
+  return matches_in_field(field, pair, keypoints, context);
 }
 
 }  // namespace relievo::pipeline

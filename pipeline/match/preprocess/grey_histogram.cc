@@ -73,13 +73,4 @@ void GreyMap::apply(std::pmr::vector<float>& grey, ThreadPool& pool) const {
   });
 }
 
-Result<void> check_pixels(const RectifiedPair& pair) {
-  const std::size_t pixels =
-      std::size_t(std::max(0, pair.width_px)) * std::size_t(std::max(0, pair.height_px));
-  for (const RectifiedView* view : {&pair.left, &pair.right})
-    if (pixels == 0 || view->grey.size() != pixels || view->valid.size() != pixels)
-      return Error{Errc::InvalidInput, "the rectified pair has no pixels"};
-  return {};
-}
-
 }  // namespace relievo::pipeline

@@ -48,7 +48,4 @@ class GreyMap {
   std::array<float, 255 * kPerLevel + 1> table_{};
 };
 
-// Both views hold width_px * height_px values. Error: InvalidInput.
-Result<void> check_pixels(const RectifiedPair& pair);
-
 }  // namespace relievo::pipeline

@@ -8,6 +8,7 @@
 
 #include "hal/base/simd.h"
 #include "pipeline/match/image/plane.h"
+#include "pipeline/model/lens.h"
 #include "pipeline/model/vector3.h"
 
 namespace relievo::pipeline {
@@ -29,21 +30,6 @@ void grey_rows(const ImageView& image, float* to, int stride, int begin, int end
 }
 
 namespace {
-
-Vec2d undistorted(const CameraIntrinsics& camera, Vec2d pixel) {
-  const double* k = camera.distortion;
-  const double xd = (pixel.x - camera.centre_px.x) / camera.focal_px.x;
-  const double yd = (pixel.y - camera.centre_px.y) / camera.focal_px.y;
-  double x = xd;
-  double y = yd;
-  for (int i = 0; i < 20; ++i) {  // fixed point; far more rounds than mild distortion needs
-    const double r2 = x * x + y * y;
-    const double radial = 1 + r2 * (k[0] + r2 * (k[1] + r2 * k[4]));
-    x = (xd - 2 * k[2] * x * y - k[3] * (r2 + 2 * x * x)) / radial;
-    y = (yd - k[2] * (r2 + 2 * y * y) - 2 * k[3] * x * y) / radial;
-  }
-  return {x, y};
-}
 
 struct Box {
   double left = 1e30, top = 1e30, right = -1e30, bottom = -1e30;
@@ -68,7 +54,7 @@ Box border_box(const CameraIntrinsics& camera, const Rotation& rectified_from_ca
                           : side == 1 ? Vec2d{t * w, h}
                           : side == 2 ? Vec2d{0, t * h}
                                       : Vec2d{w, t * h};
-      const Vec2d ideal = undistorted(camera, pixel);
+      const Vec2d ideal = ray_of_pixel(camera, pixel);
       const Vec3d ray = apply(rectified_from_camera, {ideal.x, ideal.y, 1});
       if (ray.z < 0.2) continue;  // beyond 78 degrees: lay_windows refuses by size
       box.include(focal_px * ray.x / ray.z, focal_px * ray.y / ray.z);
@@ -204,14 +190,7 @@ Vec2d source_pixel(const CameraIntrinsics& camera, const Rotation& rectified_fro
                    Vec2d centre_px, Vec2d at) {
   const Vec3d ray = apply(transposed(rectified_from_camera),
                           {(at.x - centre_px.x) / focal_px, (at.y - centre_px.y) / focal_px, 1});
-  const double x = ray.x / ray.z;
-  const double y = ray.y / ray.z;
-  const double* k = camera.distortion;
-  const double r2 = x * x + y * y;
-  const double radial = 1 + r2 * (k[0] + r2 * (k[1] + r2 * k[4]));
-  const double xd = x * radial + 2 * k[2] * x * y + k[3] * (r2 + 2 * x * x);
-  const double yd = y * radial + k[2] * (r2 + 2 * y * y) + 2 * k[3] * x * y;
-  return {camera.focal_px.x * xd + camera.centre_px.x, camera.focal_px.y * yd + camera.centre_px.y};
+  return pixel_of_ray(camera, {ray.x / ray.z, ray.y / ray.z});
 }
 
 Result<void> lay_windows(const StereoCalibration& calibration, const RectifierOptions& options,

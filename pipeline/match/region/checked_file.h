@@ -5,25 +5,19 @@
 // Thread: any. Errors: NotFound (no such file), StoreCorrupt (not the file we know).
 #pragma once
 
-#include <array>
 #include <cstddef>
 #include <cstdint>
 #include <filesystem>
-#include <span>
 #include <string>
-#include <string_view>
 
 #include "hal/base/result.h"
 
 namespace relievo::pipeline {
 
-// SHA-256 (FIPS 180-4) of bytes in memory: a data file is checked before a library parses it.
-// Thread: any. No errors.
-std::array<std::uint8_t, 32> sha256(std::span<const std::byte> bytes);
+// Of opencv-data 4.6.0. Other files may be good too, but nobody has measured them here.
+enum class FaceCascade : std::uint8_t { Alt2, Default, Alt, Profile };
+inline constexpr std::size_t kFaceCascades = 4;
 
-// Whether `digest` reads as `hex` (64 lower-case digits).
-bool reads_as(const std::array<std::uint8_t, 32>& digest, std::string_view hex);
-
-Result<std::string> read_checked(const std::filesystem::path& path, std::string_view sha256_hex);
+Result<std::string> read_cascade(const std::filesystem::path& folder, FaceCascade which);
 
 }  // namespace relievo::pipeline

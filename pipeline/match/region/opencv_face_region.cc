@@ -3,9 +3,8 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <filesystem>
 #include <numbers>
-#include <string_view>
+#include <string>
 #include <vector>
 
 #include <opencv2/imgproc.hpp>
@@ -17,18 +16,6 @@
 namespace relievo::pipeline {
 namespace {
 
-struct CascadeFile {
-  std::string_view name, sha256;
-};
-
-// opencv-data 4.6.0. Other files may be good too, but nobody has measured them here.
-constexpr std::array<CascadeFile, 4> kFiles = {{
-    {"haarcascade_frontalface_alt2.xml", "7b0c967d9abbdfbde025eb9c786947d151b6426040d07a8f9562ed8fd90724b4"},
-    {"haarcascade_frontalface_default.xml",
-     "0f7d4527844eb514d4a4948e822da90fbb16a34a0bbbbc6adc6498747a5aafb0"},
-    {"haarcascade_frontalface_alt.xml", "6281df13459cc218ff047d02b2ae3859b12ff14a93ffe8952f7b33fad7b9697b"},
-    {"haarcascade_profileface.xml", "b39a4a3be45539db146a7fc1d3e761a292c196eb88421185e6a615b3055e612d"},
-}};
 constexpr std::size_t kProfile = 3;
 
 // One look at the picture. Cheap and likely ones first.
@@ -107,7 +94,7 @@ Hit best_of(const std::vector<cv::Rect>& boxes, const std::vector<int>& votes) {
 
 struct FaceFinder::Cascades {
   FaceFinderOptions options;
-  std::array<cv::CascadeClassifier, kFiles.size()> files;
+  std::array<cv::CascadeClassifier, kFaceCascades> files;
 
   Hit look(const cv::Mat& grey, const cv::Mat& even, const Try& look_at) {
     cv::Mat picture = look_at.local_contrast ? even : grey;
@@ -163,12 +150,12 @@ Result<FaceFinder> FaceFinder::open(const FaceFinderOptions& options) {
   try {
     auto cascades = std::make_unique<Cascades>();
     cascades->options = options;
-    for (std::size_t i = 0; i < kFiles.size(); ++i) {
-      const std::filesystem::path path = std::filesystem::path(options.cascade_dir) / kFiles[i].name;
-      RELIEVO_TRY_ASSIGN(const std::string text, read_checked(path, kFiles[i].sha256));
+    for (std::size_t i = 0; i < kFaceCascades; ++i) {
+      RELIEVO_TRY_ASSIGN(const std::string text,
+                         read_cascade(options.cascade_dir, static_cast<FaceCascade>(i)));
       const cv::FileStorage file(
           text, cv::FileStorage::READ | cv::FileStorage::MEMORY | cv::FileStorage::FORMAT_XML);
-      if (!cascades->files[i].read(file.getFirstTopLevelNode())) return unreadable.at(path.string());
+      if (!cascades->files[i].read(file.getFirstTopLevelNode())) return unreadable.at(options.cascade_dir);
     }
     return FaceFinder(std::move(cascades));
   } catch (const cv::Exception&) {

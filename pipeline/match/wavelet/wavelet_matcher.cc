@@ -273,9 +273,7 @@ std::pmr::vector<Plane<Vec2f>> transform_dyadic(const std::pmr::vector<float>& g
 
 Result<MatchSet> WaveletMatcher::match(const RectifiedPair& pair, const Keypoints& keypoints,
                                        StageContext& context) const {
-  const auto pixels = std::size_t(pair.width_px) * std::size_t(pair.height_px);
-  if (pixels == 0 || pair.left.grey.size() != pixels || pair.right.grey.size() != pixels)
-    return Error{Errc::InvalidInput, "the rectified pair has no pixels"};
+  RELIEVO_TRY(check_pixels(pair));
   MatchSet set(&context.output);
   set.lattice_step_px = keypoints.lattice_step_px;
   set.matches.reserve(keypoints.points.size());

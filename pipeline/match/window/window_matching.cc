@@ -377,9 +377,7 @@ double method_bias_px(const RectifiedPair& pair, int window_px) {
 
 Result<MatchSet> match_windows(const RectifiedPair& pair, const Keypoints& keypoints, const WindowRule& rule,
                                StageContext& context) {
-  const auto pixels = std::size_t(pair.width_px) * std::size_t(pair.height_px);
-  if (pixels == 0 || pair.left.grey.size() != pixels || pair.right.grey.size() != pixels)
-    return Error{Errc::InvalidInput, "the rectified pair has no pixels"};
+  RELIEVO_TRY(check_pixels(pair));
   MatchSet set(&context.output);
   set.lattice_step_px = keypoints.lattice_step_px;
   set.matches.reserve(keypoints.points.size());

@@ -10,6 +10,7 @@
 
 #include "pipeline/base/cells.h"
 #include "pipeline/mesh/detail/edge_collapser.h"
+#include "pipeline/model/seam_split.h"
 #include "pipeline/model/vector3.h"
 
 namespace relievo::pipeline {
@@ -136,52 +137,21 @@ constexpr std::uint32_t kUnused = 0xFFFFFFFFU;
 constexpr int kMostTries = 8;
 constexpr double kMoreEachTry = 2;
 
-// Corners that share vertex and texture coordinate share one entry. What has several entries lies on a
-// seam and stays, with all that it has.
-struct Entries {
-  explicit Entries(std::pmr::memory_resource* memory)
-      : vertex(memory), uv(memory), at_mm(memory), seam(memory), triangles(memory) {}
-  std::pmr::vector<std::uint32_t> vertex;
-  std::pmr::vector<Vec2f> uv;
-  std::pmr::vector<Vec3f> at_mm;
-  std::pmr::vector<std::uint8_t> seam;
-  std::pmr::vector<Triangle> triangles;  // of entries
-};
-
-Entries split_at_seams(const FaceModel& model, std::pmr::memory_resource* memory) {
-  const auto& triangles = model.mesh.triangles;
-  Entries entries(memory);
-  std::pmr::vector<std::uint32_t> first(model.mesh.vertices_mm.size(), kUnused,
-                                        memory);  // of a vertex's entries ...
-  std::pmr::vector<std::uint32_t> next(memory);   // ... and the one after each
-  entries.triangles.resize(triangles.size());
-  for (std::size_t t = 0; t < triangles.size(); ++t)
-    for (std::size_t k = 0; k < 3; ++k) {
-      const std::uint32_t v = triangles[t][k];
-      const Vec2f uv = model.texture.uv.empty() ? Vec2f{} : model.texture.uv[3 * t + k];
-      std::uint32_t entry = first[v];
-      while (entry != kUnused && !(entries.uv[entry].x == uv.x && entries.uv[entry].y == uv.y))
-        entry = next[entry];
-      if (entry == kUnused) {
-        entry = std::uint32_t(entries.vertex.size());
-        entries.vertex.push_back(v);
-        entries.uv.push_back(uv);
-        entries.at_mm.push_back(model.mesh.vertices_mm[v]);
-        next.push_back(first[v]);
-        first[v] = entry;
-      }
-      entries.triangles[t][k] = entry;
-    }
-  for (const std::uint32_t v : entries.vertex) entries.seam.push_back(next[first[v]] != kUnused);
-  return entries;
+// What has several entries lies on a seam and stays, with all that it has.
+std::pmr::vector<std::uint8_t> on_seam(const SeamSplit& split, std::size_t vertices,
+                                       std::pmr::memory_resource* memory) {
+  std::pmr::vector<std::uint8_t> shares(vertices, 0, memory), seam(memory);
+  for (const auto& entry : split.entries) shares[entry.vertex] = shares[entry.vertex] == 0 ? 1 : 2;
+  for (const auto& entry : split.entries) seam.push_back(shares[entry.vertex] > 1 ? 1 : 0);
+  return seam;
 }
 
 // `model` with these triangles alone, and the vertices they use.
-void take_over(const FaceModel& model, const Entries& entries, const std::pmr::vector<Triangle>& triangles,
+void take_over(const FaceModel& model, const SeamSplit& split, const std::pmr::vector<Triangle>& triangles,
                FaceModel& lighter, std::pmr::memory_resource* memory) {
   std::pmr::vector<std::uint32_t> place(model.mesh.vertices_mm.size(), kUnused, memory);
   for (const Triangle& t : triangles)
-    for (const std::uint32_t entry : t) place[entries.vertex[entry]] = 0;
+    for (const std::uint32_t entry : t) place[split.entries[entry].vertex] = 0;
   FaceMesh& mesh = lighter.mesh;
   const bool coloured = !model.texture.vertex_rgb.empty();
   std::uint32_t used = 0;
@@ -204,8 +174,8 @@ void take_over(const FaceModel& model, const Entries& entries, const std::pmr::v
   lighter.texture.uv.resize(model.texture.uv.empty() ? 0 : 3 * triangles.size());
   for (std::size_t t = 0; t < triangles.size(); ++t)
     for (std::size_t k = 0; k < 3; ++k) {
-      mesh.triangles[t][k] = place[entries.vertex[triangles[t][k]]];
-      if (!lighter.texture.uv.empty()) lighter.texture.uv[3 * t + k] = entries.uv[triangles[t][k]];
+      mesh.triangles[t][k] = place[split.entries[triangles[t][k]].vertex];
+      if (!lighter.texture.uv.empty()) lighter.texture.uv[3 * t + k] = split.entries[triangles[t][k]].uv;
     }
 }
 
@@ -235,12 +205,15 @@ Result<LighterModel> lighten(const FaceModel& model, const DetailOptions& option
   if (!hangs_together(model)) return Error{Errc::InvalidInput, "the model does not hang together"}.at("lod");
   LighterModel lighter(memory);
   std::size_t wanted = std::size_t(options.triangles);
-  const Entries entries = split_at_seams(model, memory);
+  const SeamSplit split = split_at_seams(model, memory);
+  const std::pmr::vector<std::uint8_t> seam = on_seam(split, model.mesh.vertices_mm.size(), memory);
+  std::pmr::vector<Vec3f> at_mm(memory);
+  for (const auto& entry : split.entries) at_mm.push_back(model.mesh.vertices_mm[entry.vertex]);
   for (int turn = 0; turn < kMostTries && wanted < model.mesh.triangles.size(); ++turn) {
-    std::pmr::vector<Triangle> triangles(entries.triangles, memory);
-    collapse_edges(entries.at_mm, triangles, wanted, entries.seam, memory);
+    std::pmr::vector<Triangle> triangles(split.triangles, memory);
+    collapse_edges(at_mm, triangles, wanted, seam, memory);
     lighter.model = model;  // all that stays, whatever else a model may carry
-    take_over(model, entries, triangles, lighter.model, memory);
+    take_over(model, split, triangles, lighter.model, memory);
     const SurfaceDistance distance = distance_to_surface(
         model.mesh.vertices_mm, lighter.model.mesh.vertices_mm, lighter.model.mesh.triangles, memory);
     lighter.rms_error_mm = distance.rms_mm;

@@ -11,6 +11,7 @@
 #include <CGAL/Triangulation_vertex_base_with_info_2.h>
 
 #include "hal/base/statistics.h"
+#include "pipeline/mesh/lattice/lattice_surface.h"
 #include "pipeline/mesh/meshers/base_sheet.h"
 #include "pipeline/mesh/meshers/scattered_meshers.h"
 #include "pipeline/mesh/surface_cleaner.h"
@@ -80,11 +81,7 @@ double even_distance_mm(const std::pmr::vector<Vec3f>& at, const std::pmr::vecto
 }
 
 bool belongs(const Vec3f& a, const Vec3f& b, const Vec3f& c, float longest_mm, float min_cosine) {
-  if (!shorter(a, b, c, longest_mm)) return false;
-  const Vec3f n = cross(minus(b, a), minus(c, a));
-  const Vec3f sight = plus(plus(a, b), c);
-  const float towards = -dot(n, sight);
-  return towards > 0 && towards * towards >= min_cosine * min_cosine * dot(n, n) * dot(sight, sight);
+  return shorter(a, b, c, longest_mm) && facing(a, b, c, min_cosine);
 }
 
 // All triangles of the triangulation, wound counter-clockwise seen from the camera. In pixels y runs

@@ -3,53 +3,19 @@
 #include "storage/export/format/export_mesh.h"
 
 #include <algorithm>
-#include <bit>
 #include <cmath>
 
+#include "pipeline/model/vector3.h"
+
 namespace relievo::storage {
-
-SeamSplit split_at_seams(const ExportMesh& mesh) {
-  constexpr std::uint32_t kNone = ~std::uint32_t{0};
-  const auto& triangles = mesh.model.mesh.triangles;
-  const auto& uvs = mesh.model.texture.uv;
-  SeamSplit split;
-  split.triangles.reserve(triangles.size());
-  split.entries.reserve(mesh.vertices_mm.size());
-  // A vertex has few charts around it: a list per vertex, linked through the entries.
-  std::vector<std::uint32_t> first(mesh.vertices_mm.size(), kNone);
-  std::vector<std::uint32_t> next;
-  next.reserve(mesh.vertices_mm.size());
-
-  for (std::size_t t = 0; t < triangles.size(); ++t) {
-    auto& target = split.triangles.emplace_back();
-    for (std::size_t c = 0; c < 3; ++c) {
-      const std::uint32_t vertex = triangles[t][c];
-      const pipeline::Vec2f uv = mesh.textured() ? uvs[3 * t + c] : pipeline::Vec2f{};
-      std::uint32_t entry = first[vertex];
-      while (entry != kNone &&
-             !(std::bit_cast<std::uint64_t>(split.entries[entry].uv) == std::bit_cast<std::uint64_t>(uv))) {
-        entry = next[entry];
-      }
-      if (entry == kNone) {
-        entry = std::uint32_t(split.entries.size());
-        split.entries.push_back({vertex, uv});
-        next.push_back(first[vertex]);
-        first[vertex] = entry;
-      }
-      target[c] = entry;
-    }
-  }
-  return split;
-}
-
 namespace {
 
 using pipeline::FaceModel;
 using pipeline::Vec3d;
 using pipeline::Vec3f;
 
-Vec3d wide(const Vec3f& v) { return {v.x, v.y, v.z}; }
-Vec3f narrow(const Vec3d& v) { return {float(v.x), float(v.y), float(v.z)}; }
+using pipeline::narrow;
+using pipeline::wide;
 bool finite(const Vec3f& v) { return std::isfinite(v.x) && std::isfinite(v.y) && std::isfinite(v.z); }
 
 // Lengths and numbers; what a writer below relies on.

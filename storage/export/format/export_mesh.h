@@ -36,20 +36,6 @@ struct ExportMesh {
 // May throw std::bad_alloc. `model` must outlive the result.
 Result<ExportMesh> make_export_mesh(const pipeline::FaceModel& model, ExportFrame frame);
 
-// Corners that share vertex and texture coordinate share one entry: vertices are split at the seams
-// of the texture and nowhere else.
-struct SeamSplit {
-  struct Entry {
-    std::uint32_t vertex = 0;
-    pipeline::Vec2f uv;
-  };
-  std::vector<Entry> entries;                           // in order of first use
-  std::vector<std::array<std::uint32_t, 3>> triangles;  // of entries, in the mesh's order
-};
-
-// For an untextured mesh uv are zero, so that entries are the vertices in use.
-SeamSplit split_at_seams(const ExportMesh& mesh);
-
 // A model's landmarks as its files carry them: those that were found, in the frame of the export,
 // millimetres.
 struct PlacedLandmark {

@@ -8,6 +8,7 @@
 #include <string>
 #include <string_view>
 
+#include "pipeline/model/seam_split.h"
 #include "storage/byte_order.h"
 #include "storage/export/format/export_mesh.h"
 #include "storage/export/format/number_text.h"
@@ -97,7 +98,7 @@ struct Arrays {
   std::vector<float> positions, normals, uvs, colours, sigmas, measured;
 };
 
-Arrays arrays_of(const ExportMesh& mesh, const SeamSplit& split) {
+Arrays arrays_of(const ExportMesh& mesh, const pipeline::SeamSplit& split) {
   const auto& source = mesh.model.mesh;
   const float turn = mesh.frame == ExportFrame::Head ? 1.0f : -1.0f;
   Arrays out;
@@ -122,7 +123,7 @@ Arrays arrays_of(const ExportMesh& mesh, const SeamSplit& split) {
 
 // The JSON of the one mesh.
 std::string add_mesh(Buffer& to, const ExportMesh& mesh) {
-  const SeamSplit split = split_at_seams(mesh);
+  const pipeline::SeamSplit split = pipeline::split_at_seams(mesh.model);
   const Arrays arrays = arrays_of(mesh, split);
   std::string attributes = "\"POSITION\":" + number_text(to.add_positions(arrays.positions));
   const auto add = [&](const char* name, const std::vector<float>& values, std::size_t components) {

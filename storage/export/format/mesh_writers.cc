@@ -5,6 +5,7 @@
 #include <cmath>
 #include <string>
 
+#include "pipeline/model/seam_split.h"
 #include "storage/byte_order.h"
 #include "storage/export/format/export_mesh.h"
 #include "storage/export/format/number_text.h"
@@ -114,7 +115,7 @@ void add_line(std::string& text, const char* word, int decimals, Numbers... valu
 }  // namespace
 
 std::string obj_text(const ExportMesh& mesh, std::string_view mtl_name) {
-  const SeamSplit split = split_at_seams(mesh);
+  const pipeline::SeamSplit split = pipeline::split_at_seams(mesh.model);
   std::string text;
   text.reserve(256 + mesh.vertices_mm.size() * 29 + split.entries.size() * 20 + split.triangles.size() * 46);
   text += "# Relievo face model, millimetres, ";

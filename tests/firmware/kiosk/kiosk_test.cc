@@ -15,7 +15,7 @@
 #include <thread>
 #include <vector>
 
-#include "firmware/kiosk/code/code_reader.h"
+#include "firmware/kiosk/code/qr_code.h"
 #include "firmware/records/receipt.h"
 #include "hal/monotonic_clock.h"
 #include "hal/picture_file.h"
@@ -157,9 +157,8 @@ class KioskTest : public KioskHands {
 
   // Photographed from the screen, or on paper.
   void the_code_is_taken_home() {
-    const auto reader = CodeReader::make();
     const auto& shown = kiosk->ui().draw_list().pictures[static_cast<std::size_t>(ui::PictureSlot::Receipt)];
-    EXPECT_EQ(reader->read(shown.pixels), code);
+    EXPECT_EQ(read_code(shown.pixels), code);
     ASSERT_TRUE(until([this] { return find("print") != nullptr; }));
     tap("print");
     EXPECT_TRUE(until([this] { return says("It could not be printed"); }));
@@ -169,13 +168,13 @@ class KioskTest : public KioskHands {
     EXPECT_TRUE(until([this] { return says("It has been printed"); }));
     const auto paper = hal::decode_picture(printed.data(), printed.size());
     ASSERT_TRUE(paper.has_value());
-    EXPECT_EQ(reader->read(paper->view()), code);
-    the_link_erases_nothing(*reader);
+    EXPECT_EQ(read_code(paper->view()), code);
+    the_link_erases_nothing();
     the_model_is_taken_home();
   }
-  void the_link_erases_nothing(CodeReader& reader) {
+  void the_link_erases_nothing() {
     const auto& shown = kiosk->ui().draw_list().pictures[static_cast<std::size_t>(ui::PictureSlot::Link)];
-    const std::string link = reader.read(shown.pixels).value_or("no code");
+    const std::string link = read_code(shown.pixels).value_or("no code");
     const std::string_view before = "https://museum.example/heads/", after = "?from=kiosk";
     ASSERT_TRUE(link.starts_with(before) && link.ends_with(after)) << link;
     const std::string number = link.substr(before.size(), link.size() - before.size() - after.size());

@@ -7,7 +7,7 @@
 #include <memory_resource>
 #include <vector>
 
-#include "firmware/kiosk/code/code_reader.h"
+#include "firmware/kiosk/code/qr_code.h"
 #include "storage/store_keeping.h"
 #include "tests/firmware/kiosk/staff_hands.h"
 #include "ui/view/staff_views.h"
@@ -61,7 +61,7 @@ TEST_F(StaffRecovery, ComesFirstBeforeRealPeopleUntilTwoOfItsWordsWereTyped) {
   for (const std::string& word : first) EXPECT_TRUE(says(word)) << word;
   std::string all;
   for (const std::string& word : first) all += (all.empty() ? "" : " ") + word;
-  EXPECT_EQ(CodeReader::make()->read(kiosk->view().service->recovery->code.pixels), all);
+  EXPECT_EQ(read_code(kiosk->view().service->recovery->code.pixels), all);
   tap("back");
   EXPECT_EQ(kiosk->ui().service().page, StaffPage::Menu) << "later";
   EXPECT_EQ(sheet().size(), 0U);

@@ -156,13 +156,6 @@ TEST(Statistics, CountsWhatBecameOfEveryVisitAndComesBackFromItsText) {
   EXPECT_EQ(day(read.view(first).days.visits, 0), 1) << "a clock that was set back changes no day";
   EXPECT_FALSE(Statistics().read("1 2026-03-02 7"));
   EXPECT_FALSE(Statistics().read(counts.text().substr(0, counts.text().size() - 6)));
-  // As the first version wrote it: without days.
-  std::string old = "1 2026-03-02 2 2 1 1 1";
-  for (std::size_t i = 0; i < ui::kRefusals + 128; ++i) old += " 0";
-  ASSERT_TRUE(read.read(old));
-  EXPECT_EQ(read.view(later).visits, 2U);
-  EXPECT_EQ(day(read.view(later).days.visits, 0), 0);
-  EXPECT_STREQ(day(read.view(later).days.date, 0).data(), "2026-03-05");
 }
 
 }  // namespace

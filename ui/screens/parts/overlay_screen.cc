@@ -156,7 +156,7 @@ void leave(Page& page) {
   page.heading("overlay_title", page.tr("Stop and leave"));
   page.body("overlay_text",
             page.tr("Everything you have entered and every picture are wiped at once. Nothing is kept."));
-  answers(page, page.tr("Yes, wipe everything"), {ActionKind::LeaveNow, 0}, page.tr("No, go on"),
+  answers(page, page.tr("Stop and leave"), {ActionKind::LeaveNow, 0}, page.tr("Go on"),
           {ActionKind::Stay, 0});
 }
 
@@ -178,7 +178,7 @@ void code_goes(Page& page, const char* seconds) {
   left.role = Role::Status;
   page.tree.leaf(left);
   page.tree.close();
-  answers(page, page.tr("Done"), {ActionKind::Finish, 0}, page.tr("Yes, go on"), {ActionKind::Stay, 0});
+  answers(page, page.tr("Done"), {ActionKind::Finish, 0}, page.tr("Go on"), {ActionKind::Stay, 0});
 }
 
 void told(Page& page, const char* asked, std::string_view words) {
@@ -260,7 +260,8 @@ void still_there(Page& page) {
   words.id = "overlay_text";
   words.role = Role::Status;
   page.tree.leaf(words);
-  answers(page, page.tr("Stop now"), {ActionKind::LeaveNow, 0}, page.tr("Yes, go on"), {ActionKind::Stay, 0});
+  answers(page, page.tr("Stop and leave"), {ActionKind::LeaveNow, 0}, page.tr("Go on"),
+          {ActionKind::Stay, 0});
 }
 
 }  // namespace

@@ -278,7 +278,7 @@ void Page::steps() {
   const int now = number_of(visit.step);
   if (now < 0) return;
   Node row = box(Flow::Row, space::kXs, tree.find("back") != nullptr ? space::kM : 0.0F, 0);
-  tell(row, Role::Status, "steps", tr("How far you are"));
+  tell(row, Role::Status, "steps", tr("How far it is"));
   row.box.align = Align::Centre;
   row.value = share_of(std::size_t(now) + 1, 4);
   const auto in_row = tree.inside(row);

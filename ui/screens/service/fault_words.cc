@@ -11,11 +11,11 @@ namespace relievo::ui {
 namespace {
 
 // In the order of Errc.
-constexpr std::array kFaultWords{mark_tr("This cannot be used"),
+constexpr std::array kFaultWords{mark_tr("This cannot be accepted."),
                                  mark_tr("Something is missing"),
                                  mark_tr("It took too long"),
                                  mark_tr("A device was pulled out or does not answer"),
-                                 mark_tr("The cameras must be calibrated"),
+                                 mark_tr("This device is not calibrated yet"),
                                  mark_tr("No face found"),
                                  mark_tr("Too little could be matched"),
                                  mark_tr("The measurement is not good enough"),
@@ -49,7 +49,7 @@ constexpr std::array<std::array<const char*, 2>, std::size_t(LogEvent::Count)> k
      {mark_tr("Records exported: {}")},
      {mark_tr("Records erased for their age: {}")},
      {mark_tr("Record #{} was erased")},
-     {mark_tr("Self-test begun")},
+     {mark_tr("Self-test")},
      {mark_tr("Consent text {} was taken over")},
      {mark_tr("The setting “{}” is not one: what is usual holds")},
      {mark_tr("A visitor took their portrait on a stick")}}};
@@ -75,7 +75,7 @@ std::string_view days(StaffFrame& page, std::int32_t value) {
 }
 
 // In the order of Setting.
-constexpr std::array kSettingNames{mark_tr("Language in which a visit begins"),
+constexpr std::array kSettingNames{mark_tr("Language"),
                                    mark_tr("Size of the text"),
                                    mark_tr("More contrast"),
                                    mark_tr("Pictures that move by themselves"),

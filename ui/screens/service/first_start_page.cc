@@ -62,7 +62,7 @@ PinWords words_of(StaffFrame& page) {
 
 }  // namespace
 
-void pin_entry(StaffFrame& page, const char* title, const PinWords& words, Action done) {
+void pin_entry(StaffFrame& page, std::string_view title, const PinWords& words, Action done) {
   Node room = page.grown(page.box(page.portrait ? Flow::Column : Flow::Row, space::kXl));
   centre(room);
   const auto in_room = page.tree.inside(room);
@@ -82,7 +82,7 @@ void pin_page(StaffFrame& page) {
   page.begin(page.tr("Staff"), icon::kLock);
   const AccessView& access = page.staff.access;
   const bool ready = page.service.typed().size() >= kLeastPinDigits && !access.checking && access.wait_s == 0;
-  pin_entry(page, page.tr("Technician or operator"), words_of(page), ready ? Action(CheckPin{}) : Action{});
+  pin_entry(page, page.tr("Your PIN"), words_of(page), ready ? Action(CheckPin{}) : Action{});
   page.end();
 }
 
@@ -93,7 +93,7 @@ constexpr const char* kClockSign = "\uf0f0";
 
 void welcome(StaffFrame& page) {
   const auto& tr = page.tr;
-  page.heading("welcome", tr("This device is new"), type::kHeading);
+  page.heading("welcome", tr("Choose your language"), type::kHeading);
   page.body(
       "what",
       tr("Choose a language, check the clock and the consent text, and choose two PINs: one for the technician, one for the operator."));
@@ -134,7 +134,7 @@ void mover(StaffFrame& page, const char* label, std::string_view id, int minutes
 
 void clock(StaffFrame& page) {
   const auto& tr = page.tr;
-  page.heading("clock title", tr("Are the date and the time right?"), type::kHeading);
+  page.heading("clock title", tr("Time"), type::kHeading);
   Node room = page.grown(page.box(Flow::Column, space::kL));
   room.box.justify = Justify::Centre;
   room.box.scroll = true;
@@ -166,23 +166,27 @@ void clock(StaffFrame& page) {
 
 void consent(StaffFrame& page) {
   const auto& tr = page.tr;
-  const bool own = page.view.consent != nullptr,
-             busy = page.staff.consent == nullptr || page.staff.consent->taking;
-  page.heading("consent title", tr("What do visitors consent to?"), type::kHeading);
+  const bool busy = page.staff.consent == nullptr || page.staff.consent->taking;
+  page.heading("consent title", tr("Consent text"), type::kHeading);
   consent_in_force(page);
-  page.button("consent right", own ? tr("Go on with this text") : tr("Go on with the sample"), page.onward(),
-              ButtonLook::Main, busy ? Action{} : Action(ConfirmConsentText{}));
+  page.button("consent right", tr("Go on"), page.onward(), ButtonLook::Main,
+              busy ? Action{} : Action(ConfirmConsentText{}));
 }
 
-// In the order of PinStep.
-constexpr std::array kStepTitles{
-    mark_tr("Choose the technician's PIN"), mark_tr("The technician's PIN once more"),
-    mark_tr("Choose the operator's PIN"),   mark_tr("The operator's PIN once more"),
-    mark_tr("Choose your new PIN"),         mark_tr("Your new PIN once more"),
-    mark_tr("Your PIN has been changed")};
-static_assert(kStepTitles.size() == std::size_t(PinStep::Done) + 1);
-
-const char* title_of(const Words& tr, PinStep step) { return tr(kStepTitles[std::size_t(step)]); }
+std::string_view title_of(StaffFrame& page, PinStep step) {
+  const auto& tr = page.tr;
+  const char *choose = tr("Choose a PIN"), *again = tr("The PIN once more");
+  switch (step) {
+    case PinStep::Technician: return page.filled("{} – {}", {tr("Technician"), choose});
+    case PinStep::TechnicianAgain: return page.filled("{} – {}", {tr("Technician"), again});
+    case PinStep::Operator: return page.filled("{} – {}", {tr("Operator"), choose});
+    case PinStep::OperatorAgain: return page.filled("{} – {}", {tr("Operator"), again});
+    case PinStep::Own: return choose;
+    case PinStep::OwnAgain: return again;
+    case PinStep::Done: break;
+  }
+  return tr("Change my PIN");
+}
 
 const char* words_of(const Words& tr, PinFault fault) {
   switch (fault) {
@@ -207,7 +211,7 @@ void new_pin(StaffFrame& page) {
   const AccessView& access = page.staff.access;
   const bool ready = page.service.typed().size() >= kLeastPinDigits && !access.checking;
   const bool done = access.step == PinStep::Done;
-  pin_entry(page, title_of(page.tr, access.step), words_of(page.tr, access),
+  pin_entry(page, title_of(page, access.step), words_of(page.tr, access),
             ready && !done ? Action(OfferPin{}) : Action{});
 }
 
@@ -215,7 +219,7 @@ void new_pin(StaffFrame& page) {
 
 void first_start_page(StaffFrame& page) {
   if (page.staff.access.forgotten) {
-    page.begin(page.tr("A PIN was forgotten"), icon::kLock);
+    page.begin(page.tr("Staff"), icon::kLock);
     new_pin(page);
     return page.end();
   }
@@ -291,18 +295,9 @@ void sheet(StaffFrame& page, const RecoveryView& seen) {
 
 void typing(StaffFrame& page, const RecoveryView& seen) {
   const bool busy = seen.state == SheetState::Saving;
-  Node field = page.box(Flow::Row, 3, 20, 8);
-  const std::string_view asked =
-      page.filled(page.tr("Word {} of the sheet"), page.number(double(seen.asked)));
-  tell(field, Role::Field, "word field", asked);
-  frame(field, page.palette.card, page.palette.accent, page.px(3), page.px(18));
-  field.box.min_height = page.px(56);
-  field.box.align = Align::Centre;
-  page.tree.open(field);
+  page.typed_field("word field",
+                   page.filled(page.tr("Word {} of the sheet"), page.number(double(seen.asked))));
   const std::string_view typed = page.service.typed();
-  page.tree.leaf(page.text(typed.empty() ? asked : typed, type::kBody, Weight::Medium,
-                           typed.empty() ? page.palette.ink_soft : page.palette.ink));
-  page.tree.close();
   if (busy) page.status("state", page.tr("One moment, please"), Mood::Plain);
   if (seen.state == SheetState::Wrong && typed.empty())
     page.status("state", page.tr("That was not right."), Mood::Bad);

@@ -6,6 +6,8 @@
 #include <array>
 #include <charconv>
 
+#include "hal/base/utf8.h"
+
 namespace relievo::ui {
 namespace {
 
@@ -44,11 +46,7 @@ void stretches(StaffFrame& page, const ListPlace& place) {
   page.tree.close();
 }
 
-// Is it a single character, of UTF-8?
-bool is_letter(std::string_view name) {
-  return std::ranges::count_if(name,
-                               [](char c) { return (static_cast<unsigned char>(c) & 0xC0U) != 0x80U; }) == 1;
-}
+bool is_letter(std::string_view name) { return !name.empty() && first_letter_of(name).bytes == name.size(); }
 
 std::string_view filter_id(StaffFrame& page, std::size_t i) {
   std::array<char, 8> digits{};

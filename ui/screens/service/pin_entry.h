@@ -17,6 +17,6 @@ struct PinWords {
   std::string_view told;       // empty: nothing
   Mood mood = Mood::Plain;     // of what is told
 };
-void pin_entry(StaffFrame& page, const char* title, const PinWords& words, Action done);
+void pin_entry(StaffFrame& page, std::string_view title, const PinWords& words, Action done);
 
 }  // namespace relievo::ui

@@ -17,16 +17,7 @@ enum RecordsMode : int { kList, kTyping, kErasing };
 
 // What one has typed, and the keys.
 void typing(StaffFrame& page) {
-  Node field = page.box(Flow::Row, 3, 20, 8);
-  tell(field, Role::Field, "search field", page.tr("Name or number"));
-  frame(field, page.palette.card, page.palette.accent, page.px(3), page.px(18));
-  field.box.min_height = page.px(56);
-  field.box.align = Align::Centre;
-  page.tree.open(field);
-  const std::string_view typed = page.service.typed();
-  page.tree.leaf(page.text(typed.empty() ? std::string_view(page.tr("Name or number")) : typed, type::kBody,
-                           Weight::Medium, typed.empty() ? page.palette.ink_soft : page.palette.ink));
-  page.tree.close();
+  page.typed_field("search field", page.tr("Search"));
   if (page.portrait) page.space(1);
   keyboard(page, Action(FindRecords{}, true));
 }
@@ -169,7 +160,7 @@ void records_page(StaffFrame& page) {
   page.grave_question(
       tr("Erase for ever?"), {seen->shown->name, seen->shown->code, portrait_of},
       tr("Name, consent and every portrait of this person are erased. Nobody can bring them back."),
-      tr("Hold to erase"), Action(EraseRecord{seen->shown->number}, true), tr("No, keep it"),
+      tr("Hold to erase"), Action(EraseRecord{seen->shown->number}, true), tr("Cancel"),
       {ActionKind::StaffMode, kList});
 }
 

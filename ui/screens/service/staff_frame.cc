@@ -114,6 +114,18 @@ void StaffFrame::leaving() {
   tree.leaf(soon);
 }
 
+void StaffFrame::typed_field(std::string_view id, std::string_view asked) {
+  Node field = box(Flow::Row, 3, 20, 8);
+  tell(field, Role::Field, id, asked);
+  frame(field, palette.card, palette.accent, px(3), px(18));
+  field.box.min_height = px(56);
+  field.box.align = Align::Centre;
+  const auto in_field = tree.inside(field);
+  const std::string_view typed = service.typed();
+  tree.leaf(text(typed.empty() ? asked : typed, type::kBody, Weight::Medium,
+                 typed.empty() ? palette.ink_soft : palette.ink));
+}
+
 void StaffFrame::outcome() {
   if (staff.work.outcome == Outcome::None) return;
   const SaidOutcome& said = kOutcomes[std::size_t(staff.work.outcome) - 1];

@@ -46,6 +46,8 @@ class StaffFrame : public Page {
   // Label, then less, the value, more; an end has no action. Ids: "ID less", "ID more".
   void stepper(std::string_view id, std::string_view label, std::string_view value, const char* less_letter,
                Action less, const char* more_letter, Action more);
+  // What is being typed; before the first letter, what is asked.
+  void typed_field(std::string_view id, std::string_view asked);
   // A series of values, as a row of a card.
   void plot(const Plot& what);
   // A heading between rows.

@@ -56,7 +56,7 @@ constexpr StatusRule kRules[] = {
     {"recovery", mark_tr("Recovery words"), To::Menu, To::Recovery,
      [](View view, Status) { return grave_before_people(view, view.service->access.words_due); },
      [](StaffFrame& page, Status) { return std::string_view(page.tr("Something is missing")); }},
-    {"sample", mark_tr("Visitors read our sample. No lawyer has reviewed it; it says so."), To::Menu,
+    {"sample", mark_tr("Sample text, not reviewed by a lawyer: the operator puts their own here."), To::Menu,
      To::Consent, [](View view, Status) { return grave_before_people(view, view.consent == nullptr); }},
     {"languages", mark_tr("Consent text"), To::Menu, To::Consent,
      [](View view, Status) { return warn_if(view.consent != nullptr && languages_of(view) < kLanguages); },

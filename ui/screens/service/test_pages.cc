@@ -92,8 +92,7 @@ void ended(StaffFrame& page, const ConsentTextsView& seen) {
   const auto& tr = page.tr;
   if (seen.taking) return page.status("outcome", tr("One moment, please"), Mood::Plain);
   if (seen.outcome == Outcome::None) return;
-  if (seen.outcome == Outcome::Done)
-    return page.status("outcome", tr("Visitors read the text that is on the stick."), Mood::Good);
+  if (seen.outcome == Outcome::Done) return page.status("outcome", tr("It applies from now on."), Mood::Good);
   if (seen.outcome == Outcome::NoStick) {
     page.status("outcome", tr("There is no stick. Plug one in, then try again."), Mood::Bad);
   } else if (seen.outcome == Outcome::StickGone) {
@@ -113,7 +112,7 @@ void consent_in_force(StaffFrame& page) {
   page.begin_list("consent");
   if (page.staff.consent != nullptr) ended(page, *page.staff.consent);
   if (own == nullptr)
-    page.status("in force", tr("Visitors read our sample. No lawyer has reviewed it; it says so."),
+    page.status("in force", tr("Sample text, not reviewed by a lawyer: the operator puts their own here."),
                 Mood::Warn);
   else
     page.status("in force",
@@ -121,7 +120,7 @@ void consent_in_force(StaffFrame& page) {
                             own->version),
                 Mood::Good);
   if (own != nullptr) titles(page, *own);
-  page.section(tr("A text of your own"));
+  page.rule();
   page.line(tr(
       "On a stick, in the folder consent/VERSION, a file for each language, saved as UTF-8: en.txt, de.txt, fr.txt, es.txt, ar.txt, he.txt, zh-Hans.txt, ja.txt. VERSION is a name of your choice, such as 2026-03; of several the last in order is taken."));
   page.line(tr(
@@ -144,7 +143,7 @@ static_assert(kCheckNames.size() == std::size_t(Check::Count));
 const char* words_of(const Words& tr, Check check) { return tr(kCheckNames[std::size_t(check)]); }
 
 // In the order of CheckState.
-constexpr std::array kCheckWords{mark_tr("Not tested"), mark_tr("Being tested"), mark_tr("In order"),
+constexpr std::array kCheckWords{"–", mark_tr("One moment, please"), mark_tr("In order"),
                                  mark_tr("Not in order")};
 static_assert(kCheckWords.size() == std::size_t(CheckState::Bad) + 1);
 
@@ -187,18 +186,17 @@ void trigger_page(StaffFrame& page) {
     const auto count = [&](std::uint64_t value) { return page.number(double(value)); };
     const bool all = seen->pairs == seen->pulses;
     page.row("pulses", tr("Pulses given"), count(std::uint64_t(seen->pulses)));
-    page.row("pairs", tr("Pairs seen"), count(std::uint64_t(seen->pairs)),
+    page.row("pairs", tr("Pairs"), count(std::uint64_t(seen->pairs)),
              seen->pulses == 0 ? Mood::Plain
              : all             ? Mood::Good
                                : Mood::Bad);
-    page.row("apart", tr("Apart at most"), page.number(seen->apart_ms, 3, "ms"));
+    page.row("apart", tr("Apart in time"), page.number(seen->apart_ms, 3, "ms"));
     page.row("delay", tr("From the pulse to the picture"), page.number(seen->delay_ms, 1, "ms"));
     page.row("late", tr("Late"), count(seen->late));
     page.row("lost", tr("Lost"), count(seen->lost));
     page.row("damaged", tr("Damaged"), count(seen->damaged));
     if (seen->ended)
-      page.line(all ? tr("Every pulse was seen by both cameras.")
-                    : tr("Some pulses were not seen by both cameras."),
+      page.line(all ? tr("In order") : tr("Some pulses were not seen by both cameras."),
                 all ? Mood::Good : Mood::Bad);
   }
   page.tree.close();

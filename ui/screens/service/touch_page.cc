@@ -60,8 +60,7 @@ void settings_page(StaffFrame& page) {
   if (page.staff.role == StaffRole::Operator) {
     page.section(tr("Consent"));
     const ConsentTexts* own = page.view.consent;
-    page.row("consent", tr("Consent text"),
-             own != nullptr ? std::string_view(own->version) : tr("our sample, not reviewed"),
+    page.row("consent", tr("Consent text"), own != nullptr ? std::string_view(own->version) : kConsentWording,
              own != nullptr ? Mood::Plain : Mood::Warn, {ActionKind::StaffOpen, int(StaffPage::Consent)});
   }
   group(page, tr("Export to the stick"), std::array{Setting::Solids, Setting::TakeHome});
@@ -85,18 +84,16 @@ struct Told {
 Told told(const Words& tr, TouchVerdict verdict) {
   switch (verdict) {
     case TouchVerdict::None: break;
-    case TouchVerdict::Kept: return {tr("The test cross was hit. The correction is kept."), Mood::Good};
+    case TouchVerdict::Kept: return {tr("It applies from now on."), Mood::Good};
     case TouchVerdict::Plain: return {tr("The touch screen is taken as it is."), Mood::Good};
-    case TouchVerdict::NobodyTouched:
-      return {tr("Nobody touched the cross. Nothing has changed."), Mood::Warn};
+    case TouchVerdict::NobodyTouched: return {tr("Nothing was changed."), Mood::Warn};
     case TouchVerdict::Misfit:
       return {
           tr("The touches do not fit together. Nothing has changed: try again, with one finger, in the middle of each cross."),
           Mood::Bad};
     case TouchVerdict::Missed:
       return {tr("The test cross was missed. Nothing has changed: try again."), Mood::Bad};
-    case TouchVerdict::NotSaved:
-      return {tr("The correction could not be saved. Nothing has changed."), Mood::Bad};
+    case TouchVerdict::NotSaved: return {tr("It could not be done. The log says why."), Mood::Bad};
   }
   return {nullptr, Mood::Plain};
 }
@@ -113,9 +110,7 @@ void crosses(StaffFrame& page, const TouchView& seen) {
   middle.box.height = page.px(220 * page.text_share);
   page.tree.open(middle);
   const bool test = seen.step == TouchStep::Test;
-  page.heading("cross words",
-               test ? page.tr("Now this cross, to test it") : page.tr("Touch the middle of the cross"),
-               type::kHeading, TextAlign::Centre);
+  page.heading("cross words", page.tr("Touch the middle of the cross"), type::kHeading, TextAlign::Centre);
   char text[16];
   std::snprintf(text, sizeof text, "%d", seen.seconds_left);
   page.body("cross wait",
@@ -139,7 +134,7 @@ void crosses(StaffFrame& page, const TouchView& seen) {
 void figures(StaffFrame& page, const TouchView& seen) {
   const auto& tr = page.tr;
   page.begin_list("touch");
-  page.row("corrected", tr("Correction"), seen.corrected ? tr("in force") : tr("none"));
+  page.row("corrected", tr("Correction"), seen.corrected ? tr("yes") : tr("no"));
   if (seen.measured) {
     page.row("turned", tr("The panel is turned by"), page.number(seen.turned_deg, 1, "°"));
     page.row("mirrored", tr("Mirrored"), seen.mirrored ? tr("yes") : tr("no"));
@@ -163,10 +158,9 @@ void touch_page(StaffFrame& page) {
   figures(page, *seen);
   const bool upright = page.portrait || page.text_share > 1.2F;
   const auto in_box = page.tree.inside(page.box(upright ? Flow::Column : Flow::Row, space::kS));
-  page.small_button("begin", tr("Touch the crosses"), kCross, ButtonLook::Main, Action(BeginTouchTrial{}));
+  page.small_button("begin", tr("Start"), kCross, ButtonLook::Main, Action(BeginTouchTrial{}));
   if (seen->corrected)
-    page.small_button("plain", tr("Take the panel as it is"), nullptr, ButtonLook::Quiet,
-                      Action(TakePlainTouch{}));
+    page.small_button("plain", tr("Default"), nullptr, ButtonLook::Quiet, Action(TakePlainTouch{}));
 }
 
 }  // namespace relievo::ui

@@ -164,7 +164,7 @@ void sides(Page& page) {
   rail.box.height = page.px(kHighDp);
   rail.id = "sides";
   rail.role = Role::Status;
-  rail.name = page.tr("How far you are");
+  rail.name = page.tr("How far it is");
   rail.value = page.share_of(turn ? turn->taken.count() : 0, pipeline::kSides);
   rail.box.fill = page.palette.card;
   rail.box.border = page.palette.quiet_border;

@@ -37,11 +37,9 @@ bool stronger(const Candidate& a, const Candidate& b) {
 using Candidates = std::pmr::vector<Candidate>;
 
 Result<void> check_start(const RectifiedPair& pair, StageContext& context) {
-  const std::size_t pixels =
-      std::size_t(std::max(0, pair.width_px)) * std::size_t(std::max(0, pair.height_px));
-  if (pixels == 0 || pair.left.grey.size() != pixels || pair.left.valid.size() != pixels ||
-      !(pair.region.empty() || pair.region.size() == pixels))
-    return Error{Errc::InvalidInput, "the rectified pair has no pixels"};
+  RELIEVO_TRY(check_pixels(pair));
+  if (!pair.region.empty() && pair.region.size() != pair.left.grey.size())
+    return Error{Errc::InvalidInput, "the region is not the pair's"};
   if (context.stop()) return selection_stopped();
   return {};
 }

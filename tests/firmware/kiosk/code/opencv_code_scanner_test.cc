@@ -7,7 +7,7 @@
 
 #include <opencv2/core.hpp>
 
-#include "firmware/kiosk/code/code_reader.h"
+#include "firmware/kiosk/code/qr_code.h"
 #include "hal/monotonic_clock.h"
 #include "hal/sim/device.h"
 #include "hal/sim/sheet/sheet_photo.h"
@@ -32,7 +32,6 @@ hal::sim::SheetPhotoOptions held(double width_mm, hal::sim::HeadPose pose) {
 }
 
 TEST(CodeReader, ReadsWhatIsPrintedHoweverItIsHeld) {
-  const auto reader = CodeReader::make();
   ThreadPool pool(2);
   const auto see = [&](const std::string& text, double width_mm, hal::sim::HeadPose pose) {
     const auto options = held(width_mm, pose);
@@ -40,21 +39,20 @@ TEST(CodeReader, ReadsWhatIsPrintedHoweverItIsHeld) {
     EXPECT_TRUE(scene.has_value());
     const auto pair =
         hal::sim::render_pair(**scene, hal::sim::make_rig(options.rig), options.sensor, 7, pool);
-    EXPECT_EQ(reader->read(pair.left.view()), text);
-    EXPECT_EQ(reader->read(pair.right.view()), text);
+    EXPECT_EQ(read_code(pair.left.view()), text);
+    EXPECT_EQ(read_code(pair.right.view()), text);
   };
   see("A-2041", 160, {12, -8, 20, 500, 30, -20});
   see("Grace Hopper 1906", 200, {-15, 10, -90, 600, 0, 0});
 }
 
 TEST(CodeReader, NothingIsReadWhereNothingIs) {
-  const auto reader = CodeReader::make();
   std::vector<std::byte> noise(640 * 480);
   cv::RNG random(5);
   for (std::byte& b : noise) b = static_cast<std::byte>(random.uniform(0, 256));
-  EXPECT_FALSE(reader->read({noise.data(), 640, 480, 640, PixelFormat::Grey8}));
+  EXPECT_FALSE(read_code({noise.data(), 640, 480, 640, PixelFormat::Grey8}));
   std::fill(noise.begin(), noise.end(), std::byte{90});
-  EXPECT_FALSE(reader->read({noise.data(), 640, 480, 640, PixelFormat::Grey8}));
+  EXPECT_FALSE(read_code({noise.data(), 640, 480, 640, PixelFormat::Grey8}));
 }
 
 class CodeScannerTest : public KioskHands {

@@ -8,7 +8,6 @@
 #include <random>
 
 #include "hal/picture_file.h"
-#include "pipeline/match/region/checked_file.h"
 #include "pipeline/match/region/face_region.h"
 #include "tests/pipeline/mesh/stage_room.h"
 #include "tests/pipeline/mesh/truth_cloud.h"
@@ -25,17 +24,6 @@ RectifiedPair blank_pair(int width, int height) {
   pair.width_px = width;
   pair.height_px = height;
   return pair;
-}
-
-TEST(Checksum, KnownAnswers) {  // FIPS 180-4, examples of NIST
-  const auto of = [](std::string_view text) {
-    return sha256(std::as_bytes(std::span(text.data(), text.size())));
-  };
-  EXPECT_TRUE(reads_as(of(""), "e3b0c44298fc1c149afbf4c8996fb92427ae41e4649b934ca495991b7852b855"));
-  EXPECT_TRUE(reads_as(of("abc"), "ba7816bf8f01cfea414140de5dae2223b00361a396177a9cb410ff61f20015ad"));
-  EXPECT_TRUE(reads_as(of("abcdbcdecdefdefgefghfghighijhijkijkljklmklmnlmnomnopnopq"),
-                       "248d6a61d20638b8e5c026930c3e6039a33ce45964ff2167f6ecedd419db06c1"));
-  EXPECT_FALSE(reads_as(of("abd"), "ba7816bf8f01cfea414140de5dae2223b00361a396177a9cb410ff61f20015ad"));
 }
 
 TEST(FaceFinder, AForeignCascadeIsNotParsed) {

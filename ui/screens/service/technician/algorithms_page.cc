@@ -60,7 +60,7 @@ void names(TechnicianFrame& f) {
 
 void rejected(TechnicianFrame& f) {
   const TechnicianResult& r = f.view.result;
-  f.page.section(f.tr("In the last calculation"));
+  f.page.section(f.tr("Figures"));
   f.page.row("accepted count", f.tr("Accepted matches"), f.page.number(double(r.accepted)));
   for (std::size_t i = 0; i < r.rule_count; ++i)
     f.page.row(f.id("rejected", i), f.left_to_right(r.rules[i].name),
@@ -153,7 +153,7 @@ void editor(TechnicianFrame& f) {
   Node field =
       f.page.text(f.view.choice.typed.empty() ? std::string_view("_") : as_typed(f, f.view.choice.typed),
                   type::kHeading, Weight::Bold, f.page.palette.ink, TextAlign::Centre);
-  tell(field, Role::Field, "option typed", f.tr("New value"));
+  tell(field, Role::Field, "option typed", f.tr("Typed"));
   frame(field, f.page.palette.card, f.page.palette.accent, f.page.px(2), f.page.px(14));
   field.box.min_height = f.page.px(52);
   f.page.tree.leaf(field);
@@ -164,7 +164,7 @@ void editor(TechnicianFrame& f) {
                       technician_action(TechnicianAct::LeaveOption), stacked ? 0.0F : 1.0F);
   f.page.small_button("option default", f.tr("Default"), nullptr, ButtonLook::Quiet,
                       technician_action(TechnicianAct::UseDefault), stacked ? 0.0F : 1.0F);
-  f.page.small_button("option use", f.tr("Use it"), icon::kCheck, ButtonLook::Main,
+  f.page.small_button("option use", f.tr("Done"), icon::kCheck, ButtonLook::Main,
                       technician_action(TechnicianAct::UseTyped), stacked ? 0.0F : 1.0F);
 }
 
@@ -177,8 +177,7 @@ void status(TechnicianFrame& f) {
     return f.page.progress("run progress", f.view.phase == TechnicianPhase::Running
                                                ? (float(f.view.working_on) + f.view.progress) / kStages
                                                : 0);
-  if (f.view.applied)
-    f.page.status("applied", f.tr("Visitors are measured with these algorithms now."), Mood::Good);
+  if (f.view.applied) f.page.status("applied", f.tr("It applies from now on."), Mood::Good);
 }
 
 }  // namespace

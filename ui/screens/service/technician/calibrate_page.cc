@@ -40,9 +40,9 @@ static_assert(kAdviceWords.size() == std::size_t(BoardAdvice::Done) + 1);
 const char* words_of(const Words& tr, BoardAdvice advice) { return tr(kAdviceWords[std::size_t(advice)]); }
 
 // In the order of BoardEnd.
-constexpr std::array kEndWords{mark_tr("It was ended early."), mark_tr("The goal is reached."),
+constexpr std::array kEndWords{mark_tr("It was stopped"), mark_tr("The goal is reached."),
                                mark_tr("More views would hardly improve it."),
-                               mark_tr("As many views as are wanted.")};
+                               mark_tr("Enough has been seen")};
 static_assert(kEndWords.size() == std::size_t(BoardEnd::Full) + 1);
 
 const char* words_of(const Words& tr, BoardEnd end) { return tr(kEndWords[std::size_t(end)]); }
@@ -55,8 +55,9 @@ void coverage(TechnicianFrame& f, std::size_t side, float aspect) {
   frame.aspect = aspect;
   const auto in_frame = f.page.tree.inside(frame);
   Node map = f.page.box(Flow::Column, 3);
-  tell(map, Role::Picture, side == 0 ? "left coverage" : "right coverage",
-       side == 0 ? f.tr("Seen by the left camera") : f.tr("Seen by the right camera"));
+  tell(
+      map, Role::Picture, side == 0 ? "left coverage" : "right coverage",
+      f.page.filled("{}: {}", {side == 0 ? f.tr("Left camera") : f.tr("Right camera"), f.tr("Views taken")}));
   const auto in_map = f.page.tree.inside(map);
   for (std::size_t row = 0; row < kCoverageCells; ++row) {
     Node line = f.page.grown(f.page.box(Flow::Row, 3));
@@ -128,7 +129,7 @@ void running(TechnicianFrame& f) {
   const float grow = f.open_buttons();
   f.page.small_button("calibration cancel", f.tr("Cancel"), icon::kClose, ButtonLook::Quiet,
                       technician_action(TechnicianAct::CancelCalibration), grow);
-  f.page.small_button("calibration finish", f.tr("Enough: work it out"), icon::kCheck, ButtonLook::Main,
+  f.page.small_button("calibration finish", f.tr("Done"), icon::kCheck, ButtonLook::Main,
                       technician_action(TechnicianAct::StopCalibration), grow);
   f.page.tree.close();
 }
@@ -154,16 +155,15 @@ void verdict(TechnicianFrame& f) {
   const char* said = good      ? f.tr("Good")
                      : refused ? f.tr("Refused: it would measure wrongly")
                                : f.tr("Usable, with doubts");
-  f.page.section(f.tr("The new calibration"));
-  f.page.row("verdict", f.tr("Verdict"), said, mood);
+  f.page.section(f.tr("Verdict"));
+  f.page.row("verdict", said, {}, mood);
   for (const std::string& reason : c.reasons) f.page.detail(reason);
   if (!c.reasons.empty()) f.page.rule();
   f.page.row("ended", words_of(f.tr, c.end), {});
-  f.page.row("depth error", f.tr("Error of a face's distance"),
-             f.page.number(double(c.depth_error_mm), 3, "mm"), mood);
+  f.page.row("depth error", f.tr("Predicted error"), f.page.number(double(c.depth_error_mm), 3, "mm"), mood);
   views(f);
   f.page.row("baseline", f.tr("Distance of the cameras"), f.page.number(double(c.baseline_mm), 2, "mm"));
-  if (c.stored) f.page.row("stored", f.tr("Stored, and in use from now on"), {}, Mood::Good);
+  if (c.stored) f.page.row("stored", f.tr("It applies from now on."), {}, Mood::Good);
 }
 
 void history(TechnicianFrame& f) {

@@ -19,7 +19,7 @@ void live(TechnicianFrame& f, std::string_view id, const char* title, const Tech
   const auto in_column = f.page.tree.inside(column);
   f.page.tree.leaf(f.page.text(title, type::kSmall, Weight::Bold, f.page.palette.ink, TextAlign::Centre));
   const bool opens = mode > 0 && !picture.pixels.empty();
-  f.open_picture(id, opens ? f.page.filled("{}: {}", {title, f.tr("Whole page")}) : title, picture, slot,
+  f.open_picture(id, opens ? f.page.filled("{}: {}", {title, f.tr("Larger")}) : title, picture, slot,
                  opens ? Action(ActionKind::StaffMode, mode) : Action());
   f.close_picture();
 }
@@ -142,7 +142,7 @@ void technician_cameras_page(StaffFrame& page) {
   const TechnicianCameras& cameras = f.view.cameras;
   live(f, "left live", f.tr("Left camera"), cameras.camera[0].picture, PictureSlot::TechnicianLeft, 1);
   if (cameras.relief_shown)
-    live(f, "relief", f.tr("Relief: near is bright"), cameras.relief, PictureSlot::TechnicianRight, 0);
+    live(f, "relief", f.tr("Relief"), cameras.relief, PictureSlot::TechnicianRight, 0);
   else
     live(f, "right live", f.tr("Right camera"), cameras.camera[1].picture, PictureSlot::TechnicianRight, 2);
   page.tree.close();

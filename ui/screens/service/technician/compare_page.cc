@@ -227,7 +227,7 @@ class Columns {
     return {};
   }
   void option(std::size_t number, std::string_view key) {
-    const char* delivered = f.tr("as delivered");
+    const char* delivered = f.tr("Default");
     row(f.id("option", number), f.left_to_right(f.breakable(key)), [&](const TechnicianResult& r) {
       const std::string_view value = value_of(r.algorithms, key);
       return value.empty() ? std::string_view(delivered) : f.left_to_right(f.breakable(value));
@@ -247,7 +247,7 @@ class Columns {
     }
     if (number == 0) {
       row("option 0", f.tr("Algorithms"),
-          [this](const TechnicianResult&) { return std::string_view(f.tr("as delivered")); });
+          [this](const TechnicianResult&) { return std::string_view(f.tr("Default")); });
     }
   }
   void failures() {

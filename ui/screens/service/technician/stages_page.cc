@@ -84,8 +84,8 @@ void one_picture(TechnicianFrame& f) {
   f.close_picture();
   if (!f.view.shown[1].pixels.empty()) {
     const bool poses = f.view.stage == TechnicianStage::Poses;
-    f.open_picture("change", poses ? f.tr("Difference") : f.tr("What the pairs by hand moved"),
-                   f.view.shown[1], PictureSlot::TechnicianRight);
+    f.open_picture("change", poses ? f.tr("Difference") : f.tr("Surface moved"), f.view.shown[1],
+                   PictureSlot::TechnicianRight);
     f.close_picture();
   }
 }
@@ -110,7 +110,7 @@ void point_rows(TechnicianFrame& f) {
         type::kSmall, Weight::Regular, f.page.palette.ink_soft));
     return;
   }
-  f.page.row("point left", f.tr("Left"), coordinates(f, point.left_px));
+  f.page.row("point left", f.tr("Left camera"), coordinates(f, point.left_px));
   if (point.waits_for_right) {
     f.page.tree.leaf(f.page.text(f.tr("Now touch its partner on the orange line in the right picture."),
                                  type::kSmall, Weight::Medium, f.page.palette.ink));
@@ -123,13 +123,13 @@ void point_rows(TechnicianFrame& f) {
   if (point.new_surface) f.page.row("point moved", f.tr("New surface"), f.tr("yes"), Mood::Good);
   else if (!std::isnan(point.moved_mm))
     f.page.row("point moved", f.tr("Surface came nearer by"), f.page.number(double(point.moved_mm), 2, "mm"));
-  f.page.row("point right", f.tr("Right"), coordinates(f, point.right_px));
+  f.page.row("point right", f.tr("Right camera"), coordinates(f, point.right_px));
   f.page.row("point disparity", f.tr("Disparity"),
              plus_minus(f, double(point.disparity_px), double(point.sigma_px), 2, "px"));
-  f.page.row("point likeness", f.tr("Likeness"), f.page.number(1 - double(point.cost), 3));
+  f.page.row("point likeness", f.tr("Similarity"), f.page.number(1 - double(point.cost), 3));
   if (!point.rejected_by.empty())
     f.page.row("point rejected", f.tr("Rejected by"), f.rule_name(point.rejected_by), Mood::Bad);
-  else if (!point.by_hand) f.page.row("point accepted", f.tr("Accepted"), f.tr("yes"), Mood::Good);
+  else if (!point.by_hand) f.page.row("point accepted", f.tr("Verdict"), f.tr("Good"), Mood::Good);
   f.page.row("point space", f.tr("In space"),
              f.several({double(point.at_mm.x), double(point.at_mm.y), double(point.at_mm.z)}, 1, "mm"));
   f.page.row("point sigma", f.tr("Depth uncertainty"), f.page.number(double(point.sigma_mm), 3, "mm"));
@@ -183,7 +183,7 @@ void pair_buttons(TechnicianFrame& f) {
     f.page.small_button("remove pair", f.tr("Remove this pair"), icon::kClose, ButtonLook::Quiet,
                         technician_action(TechnicianAct::RemovePair));
   if (f.view.pairs_changed)
-    f.page.small_button("run pairs", f.tr("Calculate with the pairs"), icon::kAgain, ButtonLook::Main,
+    f.page.small_button("run pairs", f.tr("Calculate again"), icon::kAgain, ButtonLook::Main,
                         technician_action(RunStages{}));
 }
 

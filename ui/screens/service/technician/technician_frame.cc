@@ -230,11 +230,7 @@ void TechnicianFrame::uncalibrated() {
   centre(room);
   const auto in_room = page.tree.inside(room);
   page.heading("uncalibrated", tr("This device is not calibrated yet"), type::kHeading, TextAlign::Centre);
-  page.body(
-      "uncalibrated words",
-      tr("Nothing can be captured, compared or measured before. Visitors are told that a technician is needed."),
-      TextAlign::Centre);
-  page.small_button("to calibration", tr("To the calibration"), icon::kWrench, ButtonLook::Main,
+  page.small_button("to calibration", tr("Calibration"), icon::kWrench, ButtonLook::Main,
                     {ActionKind::StaffOpen, int(StaffPage::Calibrate)});
 }
 
@@ -255,10 +251,10 @@ bool TechnicianFrame::capture_state() {
               tr("It is looked at stage by stage and belongs to nobody: when you leave, it is wiped."),
               TextAlign::Centre);
   } else {
-    page.heading("working",
-                 view.phase == TechnicianPhase::Capturing ? tr("The picture is being taken")
-                                                          : work_of(tr, view.working_on),
-                 type::kHeading, TextAlign::Centre);
+    page.heading(
+        "working",
+        view.phase == TechnicianPhase::Capturing ? tr("One moment, please") : work_of(tr, view.working_on),
+        type::kHeading, TextAlign::Centre);
     const float done =
         view.phase == TechnicianPhase::Capturing ? 0 : (float(view.working_on) + view.progress) / kStages;
     page.progress("run progress", done);

@@ -3,8 +3,9 @@
 #define ZX_USE_UTF8 1
 #include <ZXing/BitMatrix.h>
 #include <ZXing/MultiFormatWriter.h>
+#include <ZXing/ReadBarcode.h>
 
-#include "firmware/kiosk/code/code_picture.h"
+#include "firmware/kiosk/code/qr_code.h"
 
 namespace relievo::firmware {
 
@@ -25,6 +26,20 @@ hal::Picture code_picture(std::string_view text) try {
   return picture;
 } catch (const std::exception&) {
   return {};
+}
+
+std::optional<std::string> read_code(const ImageView& picture) try {
+  if (picture.format == PixelFormat::Grey16) return std::nullopt;
+  const auto format = picture.format == PixelFormat::Rgb8 ? ZXing::ImageFormat::RGB : ZXing::ImageFormat::Lum;
+  const ZXing::ImageView view(reinterpret_cast<const std::uint8_t*>(picture.bytes), picture.width_px,
+                              picture.height_px, format, picture.stride_bytes);
+  ZXing::DecodeHints hints;
+  hints.setFormats(ZXing::BarcodeFormat::QRCode).setTryHarder(true).setTryRotate(true);
+  const ZXing::Result found = ZXing::ReadBarcode(view, hints);
+  std::string text = found.isValid() ? found.text() : std::string();
+  return text.empty() ? std::nullopt : std::optional(std::move(text));
+} catch (const std::exception&) {  // a code that promises more than it holds
+  return std::nullopt;
 }
 
 }  // namespace relievo::firmware
