@@ -134,7 +134,7 @@ void mover(StaffFrame& page, const char* label, std::string_view id, int minutes
 
 void clock(StaffFrame& page) {
   const auto& tr = page.tr;
-  page.heading("clock title", tr("Time"), type::kHeading);
+  page.heading("clock title", tr("Are the date and the time right?"), type::kHeading);
   Node room = page.grown(page.box(Flow::Column, space::kL));
   room.box.justify = Justify::Centre;
   room.box.scroll = true;

@@ -35,9 +35,9 @@ void difference_scale(TechnicianFrame& f) {
   }
   f.page.tree.leaf(f.page.text(nearer, 18, Weight::Regular, f.page.palette.ink));
   f.page.tree.close();
-  f.page.tree.leaf(f.page.text(
-      f.page.filled(f.tr("Red came nearer, blue went away; white stayed. Full colour: {}."), nearer), 18,
-      Weight::Regular, f.page.palette.ink_soft));
+  f.page.tree.leaf(
+      f.page.text(f.page.filled(f.tr("Red is nearer, blue farther; white agrees. Full colour: {}."), nearer),
+                  18, Weight::Regular, f.page.palette.ink_soft));
 }
 
 void difference_button(TechnicianFrame& f, float grow) {

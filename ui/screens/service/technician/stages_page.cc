@@ -137,7 +137,7 @@ void point_rows(TechnicianFrame& f) {
 
 void scale_words(TechnicianFrame& f, float full_colour_mm) {
   f.page.tree.leaf(
-      f.page.text(f.page.filled(f.tr("Red came nearer, blue went away; white stayed. Full colour: {}."),
+      f.page.text(f.page.filled(f.tr("Red is nearer, blue farther; white agrees. Full colour: {}."),
                                 f.page.number(double(full_colour_mm), 2, "mm")),
                   type::kSmall, Weight::Regular, f.page.palette.ink_soft));
 }
