@@ -37,6 +37,16 @@ bool is_step(std::span<const Vec3f> at, std::span<const Vec3f> beside, const Tri
 
 }  // namespace
 
+std::pmr::vector<Vec3f> area_normals(std::span<const Vec3f> vertices_mm, std::span<const Triangle> triangles,
+                                     std::pmr::memory_resource* memory) {
+  std::pmr::vector<Vec3f> normals(vertices_mm.size(), Vec3f{}, memory);
+  for (const Triangle& t : triangles) {
+    const Vec3f n = area_normal(vertices_mm, t);
+    for (const std::uint32_t v : t) normals[v] = plus(normals[v], n);
+  }
+  return normals;
+}
+
 void add_steps(std::span<const Vec3f> vertices_mm, std::span<const Triangle> triangles,
                std::span<const std::uint8_t> label, std::span<std::uint8_t> part,
                std::pmr::memory_resource* memory) {
@@ -58,11 +68,7 @@ void add_steps(std::span<const Vec3f> vertices_mm, std::span<const Triangle> tri
 void add_folds(std::span<const Vec3f> vertices_mm, std::span<const Triangle> triangles,
                std::span<const std::uint8_t> unsure, std::span<std::uint8_t> part,
                std::pmr::memory_resource* memory) {
-  std::pmr::vector<Vec3f> normal(vertices_mm.size(), Vec3f{}, memory), around(memory);
-  for (const Triangle& t : triangles) {
-    const Vec3f n = area_normal(vertices_mm, t);
-    for (const std::uint32_t v : t) normal[v] = plus(normal[v], n);
-  }
+  std::pmr::vector<Vec3f> normal = area_normals(vertices_mm, triangles, memory), around(memory);
   for (int round = 0; round < kNormalRounds; ++round) {
     around.assign(normal.size(), Vec3f{});
     for (const Triangle& t : triangles)

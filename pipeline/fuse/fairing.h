@@ -15,10 +15,14 @@
 
 namespace relievo::pipeline {
 
+// One a vertex, as long as twice the area of the triangles around it.
+std::pmr::vector<Vec3f> area_normals(std::span<const Vec3f> vertices_mm, std::span<const Triangle> triangles,
+                                     std::pmr::memory_resource* memory);
+
 inline constexpr std::uint8_t kBetweenNothing = 255;  // label of a vertex beside which no step is looked for
 
 // Adds the steps to `part`, one byte a vertex, for `fair_part`. A step is a triangle between different
-// `label`s (one a vertex: who says where it lies) that stands at more than 40 degrees to the surface beside
+// `label`s (one a vertex: who says where it lies) that stands at more than 21 degrees to the surface beside
 // it.
 void add_steps(std::span<const Vec3f> vertices_mm, std::span<const Triangle> triangles,
                std::span<const std::uint8_t> label, std::span<std::uint8_t> part,

@@ -222,16 +222,6 @@ class Fusion {
   std::pmr::vector<RigidTransform> back_;
 };
 
-std::pmr::vector<Vec3f> area_normals(const Polygonised& surface, std::pmr::memory_resource* memory) {
-  std::pmr::vector<Vec3f> normals(surface.vertices_mm.size(), Vec3f{}, memory);
-  for (const Triangle& t : surface.triangles) {
-    const Vec3f& a = surface.vertices_mm[t[0]];
-    const Vec3f area = cross(minus(surface.vertices_mm[t[1]], a), minus(surface.vertices_mm[t[2]], a));
-    for (const std::uint32_t v : t) normals[v] = plus(normals[v], area);
-  }
-  return normals;
-}
-
 // By more than pairs of one good calibration do: then steps are left where one pair's surface ends. Where
 // they do not, what looks like a step is a fold of skin.
 bool disagree(const Registration& registration) {
@@ -319,7 +309,7 @@ Result<FaceMesh> HeadFuser::fuse(std::span<PoseSurface> poses, const Registratio
     }
   };
   std::pmr::vector<Vec3f> started(surface.vertices_mm, &context.scratch);
-  std::pmr::vector<Vec3f> normals = area_normals(surface, &context.scratch);
+  std::pmr::vector<Vec3f> normals = area_normals(surface.vertices_mm, surface.triangles, &context.scratch);
   context.pool.for_each_band(int(vertices.size()), kBands, [&](int begin, int end, int) {
     for (int v = begin; v < end; ++v) settle(std::size_t(v), unit(normals[std::size_t(v)]));
   });
