@@ -121,6 +121,10 @@ class Fusion {
 
  private:
   static float squared(float x) { return x * x; }
+  // How far two surfaces may lie apart that are taken for the same skin, if that is as unsure.
+  static float allowed_mm(float sigma_mm) {
+    return std::clamp(kDisagreeSigmas * sigma_mm, kDisagreeMm, kReachMm);
+  }
 
   // What a pose shows at a vertex.
   struct Seen {
@@ -164,9 +168,8 @@ class Fusion {
     for (std::size_t k = 0; k < poses_.size(); ++k) {
       Seen& s = seen[k];
       if (s.weight <= 0) continue;
-      const float allowed = std::clamp(
-          kDisagreeSigmas * std::sqrt(1 / s.certainty + 1 / seen[best].certainty), kDisagreeMm, kReachMm);
-      const float off = std::abs(s.distance - seen[best].distance) / allowed;
+      const float sigma = std::sqrt(1 / s.certainty + 1 / seen[best].certainty);
+      const float off = std::abs(s.distance - seen[best].distance) / allowed_mm(sigma);
       s.weight = s.trust * least * std::pow(s.certainty / least, s.trust);
       const float trusted = best == 0 ? (1 - seen[0].trust) / 0.75F : 2 * s.trust / seen[best].trust - 0.5F;
       s.weight *= k == best ? 1 : std::clamp(std::max(2 - 2 * off, trusted), 0.0F, 1.0F);
@@ -197,8 +200,7 @@ class Fusion {
       if (rank(j, hit->trust, hit->trust / squared(std::max(hit->sigma_mm, kLeastSigmaMm))) <= mine) continue;
       const float d = std::abs(dot(hit->normal, minus(at, hit->at_mm)));
       constexpr float kOtherMm = 6;  // further behind or before it lies something else
-      if (d < kOtherMm && d > std::max(kDisagreeMm, kDisagreeSigmas * std::hypot(sigma, hit->sigma_mm)))
-        return true;
+      if (d < kOtherMm && d > allowed_mm(std::hypot(sigma, hit->sigma_mm))) return true;
     }
     return false;
   }
@@ -289,6 +291,8 @@ Result<FaceMesh> HeadFuser::fuse(std::span<PoseSurface> poses, const Registratio
 
   // Vertices on the poses' surfaces; what lies on none is the master's own, or goes.
   OwnFace own_face(volume, &context.scratch);
+  // Lids were measured, eyeballs were not: where both are near, it is a lid.
+  std::stable_partition(own.begin(), own.end(), [&](std::uint32_t v) { return face.measured[v] == 0; });
   for (const std::uint32_t v : own)
     own_face.mark(face.vertices_mm[v], face.sigma_mm[v], face.measured[v] != 0);
   struct Vertex {

@@ -20,7 +20,7 @@ class OwnFace {
       : volume_(volume), sigma_(volume.value.size(), 0.0F, memory) {}
   void mark(const Vec3f& at, float sigma_mm, bool measured) {
     const float said = measured ? sigma_mm : -1 - sigma_mm;
-    for_each_voxel_near(volume_, at, kReachVoxels * volume_.voxel_mm,
+    for_each_voxel_near(volume_, at, (measured ? kMeasuredVoxels : kReachVoxels) * volume_.voxel_mm,
                         [&](int x, int y, int z) { sigma_[volume_.index(x, y, z)] = said; });
   }
   // None beyond it.
@@ -38,7 +38,7 @@ class OwnFace {
   }
 
  private:
-  static constexpr float kReachVoxels = 2;
+  static constexpr float kReachVoxels = 2, kMeasuredVoxels = 1;
   const BandVolume& volume_;
   std::pmr::vector<float> sigma_;  // 0: nothing; below: completed
 };

@@ -186,7 +186,7 @@ class JointSolver {
     SharedArena memory(context_.scratch);
     const auto terms = patch_terms(memory);
     std::pmr::vector<PatchMean> means(&memory);
-    for (const PatchTerms& t : terms) means.push_back({t.patch, t.a, t.b, 0});
+    for (const PatchTerms& t : terms) means.push_back({t.patch, t.a, t.b, 0, t.weight});
     Column moved = Column::Zero(unknowns_);
     for (int k = 0; k < kSkinTimes; ++k) {
       const auto motion = [&](const PatchTerms& t) -> Vector6 {
@@ -200,8 +200,8 @@ class JointSolver {
       Column right = Column::Zero(unknowns_);
       for (std::size_t i = 0; i < terms.size(); ++i) {
         const PatchTerms& t = terms[i];
-        const double still = SkinPatches::still(means[i].mm, usual_mm);
-        add(normal, right, t.a, t.b, still * t.normal, still * (t.right + t.normal * motion(t)));
+        const double say = SkinPatches::say(means[i], usual_mm);
+        add(normal, right, t.a, t.b, say * t.normal, say * (t.right + t.normal * motion(t)));
       }
       const Column step = normal.ldlt().solve(right);
       moved -= step;
@@ -233,7 +233,7 @@ class JointSolver {
     };
     std::pmr::vector<Sum> sums(placed_.size(), Sum{}, &context_.scratch);
     residuals_.for_each_residual(kLast, [&](std::size_t a, std::size_t b, PoseResidual r) {
-      r.weight *= residuals_.skin().still(r.patch, a, b);
+      r.weight *= residuals_.skin().say(r.patch, a, b);
       add(normal, none, a, b, r);
       const Vector6 one = r.weight * r.toward;
       for (const std::size_t p : {a, b}) {

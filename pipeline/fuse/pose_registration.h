@@ -53,8 +53,7 @@ struct Registration {
   std::pmr::vector<RegisteredPose> poses;   // the first is the identity, its covariance 0
   std::pmr::vector<ResidualMap> residuals;  // of each
   Vec3d pivot_mm;
-  double skin_moved_mm =
-      0;  // of a region of skin, about where it should be, one standard deviation, robustly
+  double skin_moved_mm = 0;  // of a region of skin, about where it should be, one standard deviation
 };
 
 // The first pose must have a head frame; others start from theirs, or, where that leads nowhere, from a head

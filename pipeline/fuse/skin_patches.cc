@@ -40,10 +40,28 @@ double SkinPatches::still(double mean_mm, double usual_mm) {
   return kept * kept;
 }
 
+// Where skin moves, a patch that was measured better says hardly more (random effects: DerSimonian, Laird
+// 1986).
+double SkinPatches::weight_of(const PatchMean& mean, double usual_mm) {
+  return mean.weight / (1 + mean.weight * usual_mm * usual_mm);
+}
+
+double SkinPatches::say(const PatchMean& mean, double usual_mm) {
+  return still(mean.mm, usual_mm) * weight_of(mean, usual_mm) / mean.weight;
+}
+
 void SkinPatches::take(std::span<const PatchMean> means) {
-  mean_mm_.assign(kPatches * poses_ * poses_, 0.0F);
-  for (const PatchMean& m : means) mean_mm_[between(m.patch, m.a, m.b)] = float(m.mm);
-  usual_mm_ = usual_mm(means, *mean_mm_.get_allocator().resource());
+  usual_mm_ = usual_mm(means, *say_.get_allocator().resource());
+  // Not robustly, as where the skulls stand is found: what moved is part of how unsure that is.
+  double squares = 0, weights = 0;
+  for (const PatchMean& m : means) {
+    const double weight = weight_of(m, usual_mm_);
+    squares += weight * m.mm * m.mm;
+    weights += weight;
+  }
+  variance_mm2_ = weights > 0 ? squares / weights / 2 : 0;
+  say_.assign(kPatches * poses_ * poses_, 1.0F);
+  for (const PatchMean& m : means) say_[between(m.patch, m.a, m.b)] = float(say(m, usual_mm_));
 }
 
 }  // namespace relievo::pipeline
