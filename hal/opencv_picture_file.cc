@@ -15,6 +15,7 @@
 #include <string>
 
 #include "hal/base/whole_file.h"
+#include "hal/reduced_picture.h"
 
 namespace relievo::hal {
 namespace {
@@ -219,6 +220,16 @@ Result<void> write_picture(const std::filesystem::path& file, const ImageView& i
   Result<std::vector<std::byte>> bytes = jpeg ? encode_jpeg(image, 95) : encode_png(image);
   if (!bytes) return bytes.error().at(file.native());
   return write_whole_file(file, *bytes);
+}
+
+Result<Picture> reduced(const ImageView& image, int width_px, int height_px) try {
+  RELIEVO_TRY_ASSIGN(cv::Mat mat, to_mat(image));
+  if (mat.depth() == CV_16U) mat.convertTo(mat, CV_8U, 1.0 / 257.0);
+  cv::Mat small;
+  cv::resize(mat, small, {width_px, height_px}, 0, 0, cv::INTER_AREA);
+  return to_picture(small);
+} catch (const cv::Exception&) {
+  return Error{Errc::OutOfMemory, "no memory to make a picture smaller"};
 }
 
 }  // namespace relievo::hal

@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <cctype>
+#include <cmath>
 #include <cstdio>
 #include <map>
 #include <optional>
@@ -13,9 +14,9 @@
 
 #include "firmware/base/output_folder.h"
 #include "firmware/base/version.h"
-#include "hal/picture_file.h"
+#include "firmware/calibrate/check_picture.h"
+#include "hal/reduced_picture.h"
 #include "pipeline/calibrate/file/calibration_file.h"
-#include "pipeline/calibrate/quality/check_picture.h"
 #include "pipeline/calibrate/report/calibration_report.h"
 
 namespace relievo::firmware {
@@ -33,8 +34,10 @@ std::string file_name(std::string name, std::set<std::string>& taken) {
 }
 
 Result<std::vector<std::byte>> thumbnail(const hal::Picture& picture) {
-  return hal::encode_jpeg(pipeline::thumbnail_picture(picture.view(), kThumbnailPx).view(),
-                          kThumbnailQuality);
+  const int width = std::min(kThumbnailPx, picture.width_px);
+  const int height = std::max(1, int(std::lround(double(width) * picture.height_px / picture.width_px)));
+  RELIEVO_TRY_ASSIGN(const hal::Picture small, hal::reduced(picture.view(), width, height));
+  return hal::encode_jpeg(small.view(), kThumbnailQuality);
 }
 
 // Files are made in the report's working folder; an error names the one they are meant for.
@@ -42,7 +45,7 @@ class Report {
  public:
   Report(OutputFolder& work, const Path& folder) : work_(work), folder_(folder) {}
 
-  Result<void> picture(const std::string& name, const pipeline::CheckPicture& picture) const {
+  Result<void> picture(const std::string& name, const hal::Picture& picture) const {
     const auto written = hal::write_picture(work_.path() / name, picture.view());
     if (!written) return written.error().at((folder_ / name).native());
     return {};
@@ -60,11 +63,12 @@ Result<void> write_pictures(const Report& report, const std::string& name, const
                             const hal::Picture& right, const pipeline::BoardView& view,
                             const pipeline::StereoCalibration& calibration, pipeline::ViewPictures& files) {
   files.corners_file = "corners_" + name + ".png";
+  RELIEVO_TRY(
+      report.picture(files.corners_file, corner_picture(left.view(), view.left, right.view(), view.right)));
+  const auto rectified = rectified_picture(left.view(), right.view(), calibration);
+  if (!rectified) return {};  // of cameras that do not look at a face's place there is none
   files.rectified_file = "rectified_" + name + ".png";
-  RELIEVO_TRY(report.picture(files.corners_file,
-                             pipeline::corner_picture(left.view(), view.left, right.view(), view.right)));
-  return report.picture(files.rectified_file,
-                        pipeline::rectified_picture(left.view(), right.view(), calibration));
+  return report.picture(files.rectified_file, *rectified);
 }
 
 // "boards" of "/data/boards/" and of "boards/.".

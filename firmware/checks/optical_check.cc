@@ -8,7 +8,7 @@
 #include "firmware/checks/deviation_picture.h"
 #include "firmware/checks/target_calibration.h"
 #include "firmware/jobs/job_thread.h"
-#include "firmware/measure/best_fit.h"
+#include "pipeline/reconstruct/best_fit.h"
 
 namespace relievo::firmware {
 namespace {
@@ -67,7 +67,7 @@ Result<TargetReading> measure_sphere(TargetMeter& meter, const TargetShot& shot,
   auto surface = meter.surface_around(centre_mm, radius + kMarginMm);
   if (!surface) return at_target(surface.error(), name);
   const std::vector<Vec3d> cap = cap_of(*surface, centre_mm, rod);
-  const auto read = measure::read_sphere(cap, kDiscardShare);
+  const auto read = pipeline::best_fit::read_sphere(cap, kDiscardShare);
   if (!read) return at_target(read.error(), name);
   TargetReading reading{name,
                         TargetKind::Dumbbell,
@@ -258,7 +258,7 @@ Result<void> measure_plate(TargetMeter& meter, const TargetShot& shot, double pi
     if (std::abs(dot(from, x)) < half_width - kRimMm && std::abs(dot(from, y)) < half_height - kRimMm)
       inside.push_back(p);
   }
-  const auto read = measure::read_plane(inside, kDiscardShare);
+  const auto read = pipeline::best_fit::read_plane(inside, kDiscardShare);
   if (!read) return at_target(read.error(), name);
   const TargetReading reading{
       name, TargetKind::Plate, surface->size(), read->used, read->discarded, read->range_mm, read->rms_mm, 0,

@@ -9,7 +9,6 @@
 #include "firmware/base/version.h"
 #include "firmware/base/wall_time.h"
 #include "firmware/command/commands.h"
-#include "firmware/compare/compare_json.h"
 #include "firmware/compare/dissertation_job.h"
 #include "firmware/compare/page/compare_page.h"
 #include "firmware/compare/page/dissertation.h"

@@ -120,11 +120,11 @@ std::vector<std::string> names_of(std::string_view kind) {
 // between, 76 % is wrong on aloe.
 constexpr std::string_view kSimilarityLimit = "similarity.max_cost=0.4";
 
-// Every matcher, as it is by default; those of a file match nothing without it.
-Words matchers() {
+// Each of a kind, as it is by default; those of a file do nothing without it.
+Words each_of(const std::string& kind) {
   Words words;
-  for (const std::string& name : names_of("matcher"))
-    if (!name.starts_with("file")) words.push_back({name, {"matcher=" + name}});
+  for (const std::string& name : names_of(kind))
+    if (!name.starts_with("file")) words.push_back({name, {kind + "=" + name}});
   return words;
 }
 
@@ -152,12 +152,6 @@ Words selectors() {
   return words;
 }
 
-Words preprocessors() {
-  Words words;
-  for (const std::string& name : names_of("preprocessor")) words.push_back({name, {"preprocessor=" + name}});
-  return words;
-}
-
 // What an OpenCV user writes today beside what is ours; the peer's own checks instead of our rules.
 Words peers() {
   Words words{{"Relievo", {}}};
@@ -172,24 +166,17 @@ Words peers() {
   return words;
 }
 
-// Every mesher on the same points.
-Words meshers() {
-  Words words;
-  for (const std::string& name : names_of("mesher")) words.push_back({name, {"mesher=" + name}});
-  return words;
-}
-
 struct Suite {
   std::string_view name;
   Words (*make)();
 };
 constexpr std::array kSuites{
     Suite{"peers", peers},
-    Suite{"matchers", matchers},
+    Suite{"matchers", [] { return each_of("matcher"); }},
     Suite{"constraints", constraints},
     Suite{"selectors", selectors},
-    Suite{"preprocessors", preprocessors},
-    Suite{"meshers", meshers},
+    Suite{"preprocessors", [] { return each_of("preprocessor"); }},
+    Suite{"meshers", [] { return each_of("mesher"); }},
     Suite{"dissertation-face", dissertation_face_sets},
 };
 

@@ -6,7 +6,6 @@
 #include <chrono>
 #include <cstdio>
 #include <filesystem>
-#include <fstream>
 #include <set>
 #include <span>
 #include <string>
@@ -18,7 +17,7 @@
 #include "firmware/kiosk/invitation_head.h"
 #include "hal/base/result.h"
 #include "hal/base/whole_file.h"
-#include "hal/picture_file.h"
+#include "hal/reduced_picture.h"
 #include "pipeline/mesh/detail/level_of_detail.h"
 #include "pipeline/model/face_model.h"
 #include "storage/model_blob.h"
@@ -36,50 +35,25 @@ constexpr int kTriangles = 9000;  // seen from across a room
 constexpr int kTexturePx = 768;
 constexpr int kJpegPercent = 88;
 
-hal::Picture smaller(const pipeline::TextureAtlas& atlas) {
-  hal::Picture picture;
-  const int step = std::max(1, std::max(atlas.width_px, atlas.height_px) / kTexturePx);
-  picture.width_px = atlas.width_px / step;
-  picture.height_px = atlas.height_px / step;
-  for (int y = 0; y < picture.height_px; ++y) {
-    for (int x = 0; x < picture.width_px; ++x) {
-      for (int c = 0; c < 3; ++c) {
-        int sum = 0;
-        for (int k = 0; k < step * step; ++k)
-          sum += atlas.rgb[3 * (std::size_t(y * step + k / step) * std::size_t(atlas.width_px) +
-                                std::size_t(x * step + k % step)) +
-                           std::size_t(c)];
-        picture.bytes.push_back(static_cast<std::byte>(sum / (step * step)));
-      }
-    }
-  }
-  return picture;
-}
-
-Result<void> write_bytes(const std::filesystem::path& file, const std::vector<std::byte>& bytes) {
-  std::ofstream out(file, std::ios::binary | std::ios::trunc);
-  out.write(reinterpret_cast<const char*>(bytes.data()), static_cast<std::streamsize>(bytes.size()));
-  if (!out.flush())
-    return Error{Errc::IoFailed, "cannot be written: is the folder there, and is there room?"}.at(
-        file.string());
-  return {};
-}
-
 Result<void> make_invitation_head(const pipeline::FaceModel& model, const std::filesystem::path& folder) {
   std::pmr::monotonic_buffer_resource memory;
   pipeline::DetailOptions options;
   options.triangles = kTriangles;
   RELIEVO_TRY_ASSIGN(pipeline::LighterModel light, pipeline::lighten(model, options, &memory));
-  const hal::Picture skin = smaller(light.model.texture);
-  RELIEVO_TRY_ASSIGN(const auto jpeg, hal::encode_jpeg(skin.view(), kJpegPercent));
   pipeline::TextureAtlas& atlas = light.model.texture;
+  const ImageView skin{reinterpret_cast<const std::byte*>(atlas.rgb.data()), atlas.width_px, atlas.height_px,
+                       3 * atlas.width_px, PixelFormat::Rgb8};
+  const int step = std::max(1, std::max(atlas.width_px, atlas.height_px) / kTexturePx);
+  RELIEVO_TRY_ASSIGN(const hal::Picture small,
+                     hal::reduced(skin, atlas.width_px / step, atlas.height_px / step));
+  RELIEVO_TRY_ASSIGN(const auto jpeg, hal::encode_jpeg(small.view(), kJpegPercent));
   atlas.width_px = atlas.height_px = 1;
   atlas.rgb.assign(3, 0);
   atlas.origin.clear();
   light.model.landmarks = {};
   RELIEVO_TRY_ASSIGN(const auto mesh, storage::encode_model(light.model));
-  RELIEVO_TRY(write_bytes(folder / kInvitationHeadMesh, mesh));
-  return write_bytes(folder / kInvitationHeadTexture, jpeg);
+  RELIEVO_TRY(write_whole_file(folder / kInvitationHeadMesh, mesh));
+  return write_whole_file(folder / kInvitationHeadTexture, jpeg);
 }
 
 struct Size {
@@ -166,37 +140,25 @@ class Sheet {
       sheet_.width_px = across_ * (thumb_w_ + 8);
       sheet_.height_px = rows * (thumb_h_ + 8);
       if (std::max(sheet_.width_px, sheet_.height_px) <= hal::kMaxPictureSidePx &&
-          static_cast<long>(sheet_.width_px) * sheet_.height_px <= hal::kMaxPictureAreaPx)
+          long(sheet_.width_px) * sheet_.height_px <= hal::kMaxPictureAreaPx)
         break;
     }
     sheet_.bytes.assign(std::size_t{3} * std::size_t(sheet_.width_px) * std::size_t(sheet_.height_px),
                         std::byte{90});
   }
-  void add(const hal::Picture& picture) {
+  Result<void> add(const hal::Picture& picture) {
+    RELIEVO_TRY_ASSIGN(const hal::Picture small, hal::reduced(picture.view(), thumb_w_, thumb_h_));
     const int x0 = count_ % across_ * (thumb_w_ + 8) + 4, y0 = count_ / across_ * (thumb_h_ + 8) + 4;
     ++count_;
-    for (int y = 0; y < thumb_h_; ++y) {
-      for (int x = 0; x < thumb_w_; ++x) copy(picture, x, y, x0 + x, y0 + y);
-    }
+    for (int y = 0; y < thumb_h_; ++y)
+      std::copy_n(
+          small.bytes.begin() + std::ptrdiff_t{3} * y * thumb_w_, std::ptrdiff_t{3} * thumb_w_,
+          sheet_.bytes.begin() + std::ptrdiff_t{3} * ((y0 + y) * std::ptrdiff_t(sheet_.width_px) + x0));
+    return {};
   }
   const hal::Picture& picture() const { return sheet_; }
 
  private:
-  // The mean of the pixels that fall into one.
-  void copy(const hal::Picture& from, int x, int y, int to_x, int to_y) {
-    const int u0 = x * from.width_px / thumb_w_, u1 = std::max(u0 + 1, (x + 1) * from.width_px / thumb_w_);
-    const int v0 = y * from.height_px / thumb_h_, v1 = std::max(v0 + 1, (y + 1) * from.height_px / thumb_h_);
-    int sum[3] = {0, 0, 0};
-    for (int v = v0; v < v1; ++v) {
-      for (int u = u0; u < u1; ++u) {
-        for (int c = 0; c < 3; ++c) sum[c] += from.view().row(v)[3 * u + c];
-      }
-    }
-    const std::size_t at = 3 * (std::size_t(to_y) * std::size_t(sheet_.width_px) + std::size_t(to_x));
-    for (std::size_t c = 0; c < 3; ++c)
-      sheet_.bytes[at + c] = static_cast<std::byte>(sum[c] / ((u1 - u0) * (v1 - v0)));
-  }
-
   hal::Picture sheet_;
   int across_, thumb_w_ = 0, thumb_h_ = 0;
   int count_ = 0;
@@ -269,7 +231,7 @@ class Photographer {
       RELIEVO_TRY(hal::write_picture(Path(file) += ".png", picture.view()));
       const std::string nodes = ui_.tree().to_json();
       RELIEVO_TRY(write_whole_file(Path(file) += ".json", std::as_bytes(std::span(nodes))));
-      sheet.add(picture);
+      RELIEVO_TRY(sheet.add(picture));
     }
     const std::string name = std::string("sheet_") + words + ".png";
     console.say(name);

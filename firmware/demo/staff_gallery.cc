@@ -60,19 +60,19 @@ constexpr std::array kGauges{
     ui::GaugeRow{ui::Gauge::Temperature, "x86_pkg_temp", 44, 90, Mood::Good, kDays[0]},
     ui::GaugeRow{ui::Gauge::Temperature, "acpitz", 41, 90, Mood::Good},
 };
-constexpr std::string_view kAway = "the camera is away: check its plug; it is tried again by itself",
-                           kSlow = "took longer than its limit: try again";
-constexpr std::array kFaults{ui::LogLine{"2026-03-14 10:21:09", true, kAway, Errc::Disconnected, {}, {}},
-                             ui::LogLine{"2026-03-14 09:02:44", true, kSlow, Errc::Timeout, {}, {}}};
+constexpr const char *kAway = "the camera is away: check its plug; it is tried again by itself",
+                     *kSlow = "took longer than its limit: try again";
+const std::array kFaults{ui::LogLine{"2026-03-14 10:21:09", true, kAway, Errc::Disconnected, {}, {}},
+                         ui::LogLine{"2026-03-14 09:02:44", true, kSlow, Errc::Timeout, {}, {}}};
 constexpr ui::VisitCostsView kCosts{
     16,
     {{{1.2F, 206}, {0.3F, 311}, {0.6F, 288}, {0.4F, 241}, {0.1F, 187}, {1.9F, 296}, {2.4F, 302}}},
     894,
     60,
     960};
-constexpr ui::HealthView kHealth{kGauges, kCosts, kFaults};
+const ui::HealthView kHealth{kGauges, kCosts, kFaults};
 
-constexpr std::array kPeople{
+const std::array kPeople{
     ui::RecordRow{431, "Ada Lovelace", "2026-03-14 09:12", "4821-9037-5512-71", 1},
     ui::RecordRow{430, "Jürgen Müller", "2026-03-14 09:03", "0094-2650-7731-77", 2},
     ui::RecordRow{429, "ليلى حسن", "2026-03-13 16:48", "7315-0086-2249-30", 1},
@@ -85,21 +85,21 @@ constexpr ui::ListPlace kPlace{.page = 1239,
                                               {1220, 1239, "2026-03-02 16:40"},
                                               {1240, 1240, "2026-02-27 11:05"}}},
                                .stretch_count = 3};
-constexpr std::array kFilters = [] {
-  std::array<ui::RecordFilterName, 33> filters{{{false, "2025-11"}, {false, "2026-03"}}};
+const std::array kFilters = [] {
+  std::array<ui::RecordFilter, 33> filters{{{false, "2025-11"}, {false, "2026-03"}}};
   constexpr std::string_view kLetters = "ABCDEFGHIJKLMNOPQRSTUVWXYZ";
   filters[2] = {true, "1"};
-  for (std::size_t i = 0; i < kLetters.size(); ++i) filters[3 + i] = {true, kLetters.substr(i, 1)};
-  constexpr std::array<std::string_view, 4> kFurther{"Ö", "י", "ل", "佐"};
+  for (std::size_t i = 0; i < kLetters.size(); ++i) filters[3 + i] = {true, std::string(1, kLetters[i])};
+  constexpr std::array<const char*, 4> kFurther{"Ö", "י", "ل", "佐"};
   for (std::size_t i = 0; i < kFurther.size(); ++i) filters[29 + i] = {true, kFurther[i]};
   return filters;
 }();
-constexpr ui::RecordsView kList{kPeople, kPlace, {}, nullptr, {}, {}, false, false, 0, 0, kFilters};
-constexpr ui::RecordsView kNobody{{}, {}, "Zuse", nullptr, {}, {}, false, false, 0, 0};
-constexpr ui::RecordsView kOne{kPeople, kPlace, {}, &kPeople[4], "sample-1 (de)", "2026-03-13 15:54", false,
-                               false,   0,      0};
-constexpr ui::RecordsView kTaken{kPeople, kPlace, {}, &kPeople[4], "sample-1 (de)", "2026-03-13 15:54", false,
-                                 true,    0,      0};
+const ui::RecordsView kList{kPeople, kPlace, {}, nullptr, {}, {}, false, false, 0, 0, kFilters};
+const ui::RecordsView kNobody{{}, {}, "Zuse", nullptr, {}, {}, false, false, 0, 0};
+const ui::RecordsView kOne{kPeople, kPlace, {}, &kPeople[4], "sample-1 (de)", "2026-03-13 15:54", false,
+                           false,   0,      0};
+const ui::RecordsView kTaken{kPeople, kPlace, {}, &kPeople[4], "sample-1 (de)", "2026-03-13 15:54", false,
+                             true,    0,      0};
 
 const ui::SelfTestView kTested{
     {ui::CheckState::Good, ui::CheckState::Good, ui::CheckState::Bad, ui::CheckState::Running,
@@ -107,14 +107,14 @@ const ui::SelfTestView kTested{
     {{{}, {}, {Errc::NotFound, "the store holds no calibration: calibrate first"}, {}, {}}}};
 constexpr ui::TriggerView kPulsed{10, 10, 0.012, 48.3, 0, 0, 0, true};
 constexpr ui::TriggerView kMissed{10, 7, 0.012, 1850.0, 3, 2, 1, true};
-constexpr std::array kLines{
+const std::array kLines{
     ui::LogLine{"2026-03-14 10:21:09", true, kAway, Errc::Disconnected, {}, {}},
     ui::LogLine{"2026-03-14 10:20:44", false, "", {}, ui::LogEvent::SettingChanged, {"patience_s", "30"}},
     ui::LogLine{"2026-03-14 10:20:31", false, "", {}, ui::LogEvent::TechnicianSignedIn, {}},
     ui::LogLine{"2026-03-14 10:20:20", false, "", {}, ui::LogEvent::WrongPin, {}},
     ui::LogLine{"2026-03-13 18:02:11", false, "noted by an earlier version", {}, {}, {}},
     ui::LogLine{"2026-03-13 07:58:02", false, "", {}, ui::LogEvent::Started, {}}};
-constexpr ui::LogView kLog{kLines, {.page = 0, .pages = 4}};
+const ui::LogView kLog{kLines, {.page = 0, .pages = 4}};
 
 ui::Settings kept_for_a_year() {
   ui::Settings settings;

@@ -140,8 +140,8 @@ ui::TechnicianCalibration calibrated(const ui::ViewState& review, bool running) 
   ui::TechnicianCalibration c;
   c.running = running;
   c.ended = !running;
-  c.advice = ui::BoardAdvice::TiltRight;
-  c.end = ui::BoardEnd::GoalReached;
+  c.advice = pipeline::LiveAdvice::TiltRight;
+  c.end = pipeline::LiveEnd::GoalReached;
   for (std::size_t i = 0; i < 2 && review.frame != nullptr; ++i)
     c.pictures[i] = {i == 0 ? review.frame->left : review.frame->right, 900030 + std::uint32_t(i)};
   c.pairs = 88;
@@ -151,7 +151,7 @@ ui::TechnicianCalibration calibrated(const ui::ViewState& review, bool running) 
     c.seen[0][i] = c.seen[1][63 - i] = i < 20 ? 0 : std::uint32_t(i % 24) * 3;
   c.error_mm = 0.118F;
   c.goal_mm = 0.1F;
-  c.verdict = ui::TechnicianVerdict::Good;
+  c.verdict = pipeline::CalibrationVerdict::Pass;
   c.depth_error_mm = 0.094F;
   c.rms_px = 0.021F;
   c.baseline_mm = 108.63F;
@@ -174,8 +174,8 @@ ui::TechnicianCalibration refused(const ui::ViewState& review) {
       "the cameras come out 102.11 mm apart, -6.0 % from the 108.63 mm they are known to be; measure a square of the board again: it would have to be 1.064 of what was said",
       "only 5 of 14 pairs agree with each other"};
   ui::TechnicianCalibration c = calibrated(review, false);
-  c.end = ui::BoardEnd::Plateau;
-  c.verdict = ui::TechnicianVerdict::Refuse;
+  c.end = pipeline::LiveEnd::Plateau;
+  c.verdict = pipeline::CalibrationVerdict::Refuse;
   c.depth_error_mm = 3.412F;
   c.rms_px = 0.41F;
   c.baseline_mm = 102.11F;

@@ -3,54 +3,13 @@
 #include "firmware/measure/measurement.h"
 
 #include <algorithm>
-#include <array>
-#include <numbers>
 #include <vector>
 
 #include "hal/base/statistics.h"
+#include "pipeline/reconstruct/best_fit.h"
 
 namespace relievo::firmware::measure {
 namespace {
-
-using Row6 = std::array<double, 6>;
-struct Normal6 {
-  std::array<Row6, 6> a{};
-  Row6 b{};
-};
-
-// Cholesky; the matrix is positive definite where the points do not all lie on one plane.
-bool solve(Normal6 system, Row6& x) {
-  for (std::size_t i = 0; i < 6; ++i) {
-    for (std::size_t j = 0; j <= i; ++j) {
-      double s = system.a[i][j];
-      for (std::size_t k = 0; k < j; ++k) s -= system.a[i][k] * system.a[j][k];
-      if (i == j && s <= 0) return false;
-      system.a[i][j] = i == j ? std::sqrt(s) : s / system.a[j][j];
-    }
-  }
-  for (std::size_t i = 0; i < 6; ++i) {
-    x[i] = system.b[i];
-    for (std::size_t k = 0; k < i; ++k) x[i] -= system.a[i][k] * x[k];
-    x[i] /= system.a[i][i];
-  }
-  for (std::size_t i = 6; i-- > 0;) {
-    for (std::size_t k = i + 1; k < 6; ++k) x[i] -= system.a[k][i] * x[k];
-    x[i] /= system.a[i][i];
-  }
-  return true;
-}
-
-pipeline::Rotation rotation_of(const Vec3d& w) {  // Rodrigues
-  const double angle = length(w);
-  if (angle < 1e-15) return {};
-  const Vec3d u = times(w, 1 / angle);
-  const double c = std::cos(angle);
-  const double s = std::sin(angle);
-  const double v = 1 - c;
-  return {{c + u.x * u.x * v, u.x * u.y * v - u.z * s, u.x * u.z * v + u.y * s, u.y * u.x * v + u.z * s,
-           c + u.y * u.y * v, u.y * u.z * v - u.x * s, u.z * u.x * v - u.y * s, u.z * u.y * v + u.x * s,
-           c + u.z * u.z * v}};
-}
 
 constexpr double kTruthReachMm = 20;
 constexpr double kModelReachMm = 10;
@@ -159,27 +118,16 @@ RigidFit fit_rigidly(const std::vector<Vec3d>& points, const TriangleGrid& surfa
   const Vec3d middle = points[points.size() / 2];
   for (int round = 0; round < 25; ++round) {
     const double reach_mm = round < 6 ? 12 : round < 12 ? 4 : 1.5;
-    Normal6 system;
-    int used = 0;
+    std::vector<pipeline::best_fit::Contact> contacts;
     for (const Vec3d& point : points) {
       const Vec3d p = apply(t, point);
-      const auto near = surface.nearest(p, reach_mm);
-      if (!near) continue;
-      const Vec3d lever = cross(minus(p, middle), near->normal);
-      const Row6 j{lever.x, lever.y, lever.z, near->normal.x, near->normal.y, near->normal.z};
-      const double error = dot(minus(near->at_mm, p), near->normal);
-      for (std::size_t r = 0; r < 6; ++r) {
-        for (std::size_t c = 0; c < 6; ++c) system.a[r][c] += j[r] * j[c];
-        system.b[r] += j[r] * error;
-      }
-      ++used;
+      if (const auto near = surface.nearest(p, reach_mm)) contacts.push_back({p, near->at_mm, near->normal});
     }
-    Row6 x{};
-    if (used < 100 || !solve(system, x)) break;
-    const pipeline::Rotation turn = rotation_of({x[0], x[1], x[2]});
-    const Vec3d moved = plus(apply(turn, minus(t.translation_mm, middle)), plus(middle, {x[3], x[4], x[5]}));
-    t = {product(turn, t.rotation), moved};
-    if (length(Vec3d{x[0], x[1], x[2]}) + length(Vec3d{x[3], x[4], x[5]}) < 1e-7) break;
+    if (contacts.size() < 100) break;
+    const auto step = pipeline::best_fit::step_onto(contacts, middle);
+    if (!step) break;
+    t = product(*step, t);
+    if (distance(apply(*step, middle), middle) + pipeline::turned_deg(step->rotation) < 5e-6) break;
   }
   fit.moved_mm = distance(apply(t, middle), middle);
   fit.turned_deg = pipeline::turned_deg(t.rotation);
@@ -197,10 +145,7 @@ Measurement measure(const pipeline::FaceMesh& mesh, const TruthView& truth, cons
     for (std::size_t i = 0; i < asked.size(); i += 4) some.push_back(asked[i]);
     const RigidFit fit = fit_rigidly(some, grid);
     const pipeline::RigidTransform back = inverse(fit.surface_from_points);
-    for (Vec3f& v : model.vertices_mm) {
-      const Vec3d p = apply(back, wide(v));
-      v = {float(p.x), float(p.y), float(p.z)};
-    }
+    for (Vec3f& v : model.vertices_mm) v = narrow(apply(back, wide(v)));
     m.moved_mm = fit.moved_mm;
     m.turned_deg = fit.turned_deg;
   }

@@ -6,21 +6,10 @@
 #include <bit>
 #include <cmath>
 
+#include "pipeline/algorithms/algorithm_table.h"
+
 namespace relievo::firmware::compare {
 namespace {
-
-// The names as AlgorithmSet has them: joined by '+', or none.
-std::vector<RuleFigures> rules_of(const pipeline::AlgorithmSet& set) {
-  std::vector<RuleFigures> rules;
-  const std::string names = set.get("constraints");
-  for (std::size_t begin = 0; begin <= names.size();) {
-    const std::size_t end = std::min(names.find('+', begin), names.size());
-    const std::string name = names.substr(begin, end - begin);
-    if (name != "none") rules.push_back({name});
-    begin = end + 1;
-  }
-  return rules;
-}
 
 enum class Judgement : std::uint8_t { Unknown, Good, Bad };
 
@@ -41,7 +30,8 @@ MatchFigures figures_of(const NamedSet& set, const pipeline::Keypoints& keypoint
   MatchFigures f;
   f.keypoints = keypoints.points.size();
   f.matches = matches.matches.size();
-  f.rules = rules_of(set.set);
+  for (const std::string& name : pipeline::split_names(set.set.get("constraints")))
+    if (name != "none") f.rules.push_back({name});
   for (const pipeline::Match& match : matches.matches) {
     const Judgement judgement = judge(match, truth, limit_px);
     const std::size_t judged = judgement == Judgement::Unknown ? 0 : 1;
@@ -102,7 +92,7 @@ std::vector<pipeline::Vec2d> expected_in_right(const pipeline::Keypoints& left,
   return expected;
 }
 
-// A pixel each: 1 where a place lies within kRepeatedPx; asked at whole pixels nearby, then exactly.
+// Does a place lie within kRepeatedPx?
 bool repeated(const pipeline::Vec2d& expected, const std::vector<pipeline::Vec2d>& sorted_by_row) {
   const auto first = std::lower_bound(sorted_by_row.begin(), sorted_by_row.end(), expected.y - kRepeatedPx,
                                       [](const pipeline::Vec2d& p, double row) { return p.y < row; });
@@ -144,16 +134,7 @@ Result<pipeline::Keypoints> select_in_right(const pipeline::KeypointSelector& se
   std::swap(swapped.left, swapped.right);
   swapped.left_centre_px = pair.right_centre_px;
   swapped.right_centre_px = pair.left_centre_px;
-  if (!pair.region.empty()) {
-    std::ranges::fill(swapped.region, std::uint8_t{0});
-    for (int y = 0; y < pair.height_px; ++y)
-      for (int x = 0; x < pair.width_px; ++x) {
-        if (!map.known(x, y)) continue;
-        const int to = int(std::lround(float(x) - map.at(x, y)));
-        for (int near = std::max(0, to - 1); near <= std::min(pair.width_px - 1, to + 1); ++near)
-          swapped.region[map.index(near, y)] = 1;
-      }
-  }
+  take_region(map, swapped);
   return selector(swapped, context);
 }
 

@@ -3,12 +3,15 @@
 #include "firmware/measure/self_agreement.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <vector>
 
 #include "hal/base/statistics.h"
 #include "pipeline/match/image/box_filter.h"
 #include "pipeline/match/image/plane.h"
+#include "pipeline/mesh/triangle_raster.h"
+#include "pipeline/model/vector3.h"
 
 namespace relievo::firmware::compare {
 namespace {
@@ -30,58 +33,6 @@ void mirror(pipeline::RectifiedView& view, int width) {
   mirror_rows(view.rgb, width, 3);
   mirror_rows(view.valid, width, 1);
 }
-
-// Disparity of the nearest surface of a mesh at every pixel of the left view; NaN where it shows none.
-class ModelView {
- public:
-  explicit ModelView(const pipeline::RectifiedPair& pair)
-      : pair_(pair), map_(pair.width_px, pair.height_px) {}
-
-  void draw(const pipeline::FaceMesh& mesh) {
-    for (const auto& t : mesh.triangles) {
-      const Seen a = seen(mesh.vertices_mm[t[0]]), b = seen(mesh.vertices_mm[t[1]]),
-                 c = seen(mesh.vertices_mm[t[2]]);
-      if (a.front && b.front && c.front) fill(a, b, c);
-    }
-  }
-  const DisparityMap& map() const { return map_; }
-
- private:
-  struct Seen {
-    double x, y, d;
-    bool front;
-  };
-
-  Seen seen(const pipeline::Vec3f& at) const {
-    const pipeline::Vec3d p = apply(pair_.rectified_from_left, {double(at.x), double(at.y), double(at.z)});
-    if (!(p.z > 0)) return {0, 0, 0, false};
-    const double s = pair_.focal_px / p.z;
-    return {pair_.left_centre_px.x + s * p.x, pair_.left_centre_px.y + s * p.y, pair_.disparity_px(p.z),
-            true};
-  }
-
-  // A plane's disparity is linear over the picture, so that it may be interpolated there.
-  void fill(const Seen& a, const Seen& b, const Seen& c) {
-    const double area = (b.x - a.x) * (c.y - a.y) - (c.x - a.x) * (b.y - a.y);
-    if (area == 0) return;
-    const int x0 = std::max(0, int(std::ceil(std::min({a.x, b.x, c.x}))));
-    const int x1 = std::min(pair_.width_px - 1, int(std::floor(std::max({a.x, b.x, c.x}))));
-    const int y0 = std::max(0, int(std::ceil(std::min({a.y, b.y, c.y}))));
-    const int y1 = std::min(pair_.height_px - 1, int(std::floor(std::max({a.y, b.y, c.y}))));
-    for (int y = y0; y <= y1; ++y)
-      for (int x = x0; x <= x1; ++x) {
-        const double u = ((b.x - x) * (c.y - y) - (c.x - x) * (b.y - y)) / area;
-        const double v = ((c.x - x) * (a.y - y) - (a.x - x) * (c.y - y)) / area;
-        if (u < 0 || v < 0 || u + v > 1) continue;
-        const auto d = float(u * a.d + v * b.d + (1 - u - v) * c.d);
-        float& here = map_.values[map_.index(x, y)];
-        if (std::isnan(here) || d > here) here = d;  // the nearer one hides the other
-      }
-  }
-
-  const pipeline::RectifiedPair& pair_;
-  DisparityMap map_;
-};
 
 // Planes whose sums over a window give the correlation.
 struct Products {
@@ -143,14 +94,10 @@ pipeline::RectifiedPair mirrored(const pipeline::RectifiedPair& pair, const Disp
   const double between = map.known(face_x, face_y) ? double(map.at(face_x, face_y))
                                                    : pair.disparity_px(0.5 * (pair.near_mm + pair.far_mm));
   other.face_centre_px = {last - (pair.face_centre_px.x - between), pair.face_centre_px.y};
-  std::ranges::fill(other.region, std::uint8_t{0});
-  for (int y = 0; y < pair.height_px && !pair.region.empty(); ++y)
-    for (int x = 0; x < pair.width_px; ++x) {
-      if (!map.known(x, y)) continue;
-      const int to = pair.width_px - 1 - int(std::lround(float(x) - map.at(x, y)));
-      for (int near = std::max(0, to - 1); near <= std::min(pair.width_px - 1, to + 1); ++near)
-        other.region[map.index(near, y)] = 1;
-    }
+  take_region(map, other);
+  for (std::size_t row = 0; row < other.region.size(); row += std::size_t(pair.width_px))
+    std::reverse(other.region.begin() + std::ptrdiff_t(row),
+                 other.region.begin() + std::ptrdiff_t(row) + pair.width_px);
   return other;
 }
 
@@ -187,9 +134,28 @@ Result<LeftRightFigures> left_right_figures(const pipeline::RectifiedPair& pair,
 }
 
 DisparityMap model_view(const pipeline::RectifiedPair& pair, const pipeline::FaceMesh& mesh) {
-  ModelView view(pair);
-  view.draw(mesh);
-  return view.map();
+  DisparityMap map(pair.width_px, pair.height_px);
+  for (const auto& t : mesh.triangles) {
+    std::array<pipeline::Vec2f, 3> px;
+    std::array<float, 3> disparity{};
+    bool front = true;
+    for (std::size_t k = 0; k < 3 && front; ++k) {
+      const pipeline::Vec3d p = apply(pair.rectified_from_left, wide(mesh.vertices_mm[t[k]]));
+      front = p.z > 0;
+      px[k] = {float(pair.left_centre_px.x + pair.focal_px * p.x / p.z),
+               float(pair.left_centre_px.y + pair.focal_px * p.y / p.z)};
+      disparity[k] = float(pair.disparity_px(p.z));
+    }
+    if (!front) continue;
+    // A plane's disparity is linear over the picture, so that it may be interpolated there.
+    pipeline::for_each_texel(px[0], px[1], px[2], pair.width_px, {0, pair.height_px},
+                             [&](int x, int y, float a, float b, float c) {
+                               const float d = a * disparity[0] + b * disparity[1] + c * disparity[2];
+                               float& here = map.values[map.index(x, y)];
+                               if (std::isnan(here) || d > here) here = d;  // the nearer one hides the other
+                             });
+  }
+  return map;
 }
 
 PhotoFigures photo_figures(const pipeline::RectifiedPair& pair, const DisparityMap& model,

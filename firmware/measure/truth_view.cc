@@ -9,6 +9,7 @@
 
 #include "hal/base/whole_file.h"
 #include "pipeline/calibrate/file/calibration_file.h"
+#include "pipeline/model/lens.h"
 
 namespace relievo::firmware::measure {
 namespace {
@@ -87,28 +88,6 @@ namespace {
 constexpr double kNoseRadiusMm = 95;  // the crop of 3D face recognition
 constexpr int kInteriorHalfWindowPx = 11;
 
-// Brown-Conrady, as pipeline/model/calibration.h names it.
-Vec3d bent(const double d[5], double x, double y) {
-  const double r2 = x * x + y * y;
-  const double s = 1 + r2 * (d[0] + r2 * (d[1] + r2 * d[4]));
-  return {x * s + 2 * d[2] * x * y + d[3] * (r2 + 2 * x * x),
-          y * s + d[2] * (r2 + 2 * y * y) + 2 * d[3] * x * y, 1};
-}
-
-// The point at depth 1 that the pixel sees: the lens undone by fixed-point steps.
-Vec3d straight(const pipeline::CameraIntrinsics& c, double u, double v) {
-  const double xd = (u - c.centre_px.x) / c.focal_px.x;
-  const double yd = (v - c.centre_px.y) / c.focal_px.y;
-  double x = xd;
-  double y = yd;
-  for (int i = 0; i < 20; ++i) {
-    const Vec3d b = bent(c.distortion, x, y);
-    x += xd - b.x;
-    y += yd - b.y;
-  }
-  return {x, y, 1};
-}
-
 Error bad(const std::filesystem::path& file) {
   return Error{Errc::InvalidInput,
                "is no truth of the simulated rig: 'relievo simulate face --truth' writes one"}
@@ -149,8 +128,8 @@ Result<TruthView> TruthView::read(const std::filesystem::path& folder) {
       const std::size_t i = truth.at(x, y);
       float z = 0;
       std::memcpy(&z, bytes.data() + start + i * 4, 4);
-      const Vec3d p = std::isnan(z) ? Vec3d{0, 0, z} : times(straight(truth.left_, x, y), z);
-      truth.points_mm_[i] = {float(p.x), float(p.y), float(p.z)};
+      const pipeline::Vec2d ray = pipeline::ray_of_pixel(truth.left_, {double(x), double(y)});
+      truth.points_mm_[i] = std::isnan(z) ? Vec3f{0, 0, z} : narrow(times(Vec3d{ray.x, ray.y, 1}, z));
       truth.flags_[i] = std::isnan(z) ? std::uint8_t{0} : std::uint8_t(truth.flags_[i] & kJudged);
     }
   }
@@ -193,18 +172,15 @@ void TruthView::mark_interior() {
 
 std::uint8_t TruthView::flags_at(const Vec3d& p) const {
   if (!(p.z > 0)) return 0;
-  const Vec3d b = bent(left_.distortion, p.x / p.z, p.y / p.z);
-  const double u = std::round(left_.focal_px.x * b.x + left_.centre_px.x);
-  const double v = std::round(left_.focal_px.y * b.y + left_.centre_px.y);
+  const pipeline::Vec2d at_px = pipeline::pixel_of_ray(left_, {p.x / p.z, p.y / p.z});
+  const double u = std::round(at_px.x), v = std::round(at_px.y);
   if (!(u >= 0 && v >= 0 && u < width_px_ && v < height_px_)) return 0;
   return flags_[at(int(u), int(v))];
 }
 
 std::optional<Vec3d> TruthView::judged_point_along(const Vec3d& ray) const {
   if (!(ray.z > 0)) return std::nullopt;
-  const Vec3d b = bent(left_.distortion, ray.x / ray.z, ray.y / ray.z);
-  const double u = left_.focal_px.x * b.x + left_.centre_px.x;
-  const double v = left_.focal_px.y * b.y + left_.centre_px.y;
+  const auto [u, v] = pipeline::pixel_of_ray(left_, {ray.x / ray.z, ray.y / ray.z});
   if (!(u >= 0 && v >= 0 && u < width_px_ - 1 && v < height_px_ - 1)) return std::nullopt;
   const int x = int(u);
   const int y = int(v);

@@ -37,8 +37,8 @@ std::optional<int> number_behind(std::string_view text, char letter, int last) {
 
 }  // namespace
 
-LogEntry entry_of(std::string_view line) {
-  LogEntry entry;
+ui::LogLine entry_of(std::string_view line) {
+  ui::LogLine entry;
   std::string_view rest = line;
   std::string_view text = cut(rest);
   if (const std::size_t gap = text.find(kGap); gap != std::string_view::npos) {
@@ -51,7 +51,7 @@ LogEntry entry_of(std::string_view line) {
   if (const auto number = number_behind(what, 'f', kLastCode)) entry.code = static_cast<Errc>(*number);
   if (const auto number = number_behind(what, 'e', int(ui::LogEvent::Count) - 1))
     entry.event = static_cast<ui::LogEvent>(*number);
-  while (!rest.empty()) entry.values.emplace_back(cut(rest));
+  for (std::string& value : entry.values) value = cut(rest);
   return entry;
 }
 
@@ -93,9 +93,9 @@ void EventLog::put(std::string text, const std::string& behind, bool fault) {
   ++said_;
 }
 
-std::vector<LogEntry> EventLog::entries() const {
+std::vector<ui::LogLine> EventLog::entries() const {
   const std::lock_guard lock(mutex_);
-  std::vector<LogEntry> all;
+  std::vector<ui::LogLine> all;
   for (std::size_t i = 0; i < count_; ++i) {
     const Line& line = ring_[(first_ + i) % kLines];
     all.push_back(entry_of({line.text.data(), line.length}));
@@ -103,9 +103,9 @@ std::vector<LogEntry> EventLog::entries() const {
   return all;
 }
 
-std::vector<LogEntry> EventLog::faults() const {
+std::vector<ui::LogLine> EventLog::faults() const {
   const std::lock_guard lock(mutex_);
-  std::vector<LogEntry> newest;
+  std::vector<ui::LogLine> newest;
   for (std::size_t i = count_; i-- > 0 && newest.size() < kFaults;) {
     const Line& line = ring_[(first_ + i) % kLines];
     if (line.fault) newest.push_back(entry_of({line.text.data(), line.length}));

@@ -15,7 +15,6 @@
 #include <filesystem>
 #include <initializer_list>
 #include <mutex>
-#include <optional>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -29,15 +28,7 @@ namespace relievo::firmware {
 inline constexpr const char* kLogFile = "relievo.log";  // in the folder of the store
 
 // A line, taken apart. Of one that another version wrote `text` may be all there is.
-struct LogEntry {
-  std::string at;  // date and time
-  bool fault = false;
-  std::string text;  // English
-  std::optional<Errc> code;
-  std::optional<ui::LogEvent> event;
-  std::vector<std::string> values;
-};
-LogEntry entry_of(std::string_view line);
+ui::LogLine entry_of(std::string_view line);
 
 class EventLog {
  public:
@@ -49,8 +40,8 @@ class EventLog {
   void say(ui::LogEvent event, std::initializer_list<std::string_view> values = {});
   void fault(const Error& error);
 
-  std::vector<LogEntry> entries() const;  // oldest first
-  std::vector<LogEntry> faults() const;   // since the start, newest first
+  std::vector<ui::LogLine> entries() const;  // oldest first
+  std::vector<ui::LogLine> faults() const;   // since the start, newest first
   bool unsaved() const;
   Result<void> save();  // on the keeper
 

@@ -122,6 +122,12 @@ Result<void> read_sign(const fs::path& file, ui::Host& host) {
   return {};
 }
 
+struct HostFile {
+  const char* name;
+  Result<void> (*read)(const fs::path& file, ui::Host& host);
+};
+constexpr HostFile kHostFiles[] = {{kHostFile, read_host}, {kLinkFile, read_link}, {kSignFile, read_sign}};
+
 // The files of a version, from one folder to another; only text and picture are taken, not what else a file
 // system knows of a file.
 Result<void> copy_texts(const fs::path& from, const fs::path& to) {
@@ -176,9 +182,9 @@ Result<std::string> read_consent_text(const fs::path& file) {
     return wrong(file, "is no file: a text in a language is a file of its own");
   std::ifstream in(file, std::ios::binary);
   std::string text(kMostConsentBytes + 1, '\0');
-  in.read(text.data(), static_cast<std::streamsize>(text.size()));
+  in.read(text.data(), std::streamsize(text.size()));
   if (in.bad() || (!in.eof() && in.fail())) return Error{Errc::IoFailed, "cannot be read"}.at(file.string());
-  text.resize(static_cast<std::size_t>(in.gcount()));
+  text.resize(std::size_t(in.gcount()));
   if (text.size() > kMostConsentBytes)
     return wrong(file, "is longer than 20000 bytes: a visitor would not read it");
   if (text.starts_with("\xEF\xBB\xBF")) text.erase(0, 3);
@@ -194,16 +200,9 @@ Result<ui::ConsentTexts> read_consent_version(const fs::path& folder, const std:
   bool any = false;
   for (fs::directory_iterator entry(folder, error), end; !error && entry != end; entry.increment(error)) {
     if (is_hidden(entry->path())) continue;
-    if (entry->path().filename() == kHostFile) {
-      RELIEVO_TRY(read_host(entry->path(), texts.host));
-      continue;
-    }
-    if (entry->path().filename() == kLinkFile) {
-      RELIEVO_TRY(read_link(entry->path(), texts.host));
-      continue;
-    }
-    if (entry->path().filename() == kSignFile) {
-      RELIEVO_TRY(read_sign(entry->path(), texts.host));
+    const auto of_host = std::ranges::find(kHostFiles, entry->path().filename(), &HostFile::name);
+    if (of_host != std::end(kHostFiles)) {
+      RELIEVO_TRY(of_host->read(entry->path(), texts.host));
       continue;
     }
     const auto language = language_of(entry->path());

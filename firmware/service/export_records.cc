@@ -62,14 +62,8 @@ class Export {
       RELIEVO_TRY(write_text(folder.path() / "report.json", enrolments.back().report_json, "report.json"));
     const auto now = std::chrono::time_point_cast<std::chrono::milliseconds>(clock_.wall_now());
     RELIEVO_TRY(write_manifest(store_, {subject, enrolments.back(), now}, folder.path(), "manifest.json"));
-    RELIEVO_TRY_ASSIGN(const Sums written, sums_of(folder.path()));
-    RELIEVO_TRY(work_.reach(ExportStep::ReadBack, done + 0.6F * share));
-    RELIEVO_TRY(media_.settle(folder.path()));
-    RELIEVO_TRY_ASSIGN(const Sums read, sums_of(folder.path()));
-    if (read != written) return not_as_written(target);
-    RELIEVO_TRY(work_.reach(ExportStep::Write, done + 0.9F * share));
-    RELIEVO_TRY(replace_folder(folder, target));
-    made_.emplace_back(target, written);
+    RELIEVO_TRY_ASSIGN(Sums written, keep_folder(folder, target, media_, &work_, done, share));
+    made_.emplace_back(target, std::move(written));
     return {};
   }
 
@@ -122,9 +116,9 @@ Result<void> export_records(storage::Store& store, const hal::Clock& clock, hal:
   RELIEVO_TRY_ASSIGN(const fs::path ours, place_on_stick(medium.root, "relievo"));
   tidy_folder(ours, is_receipt);
   Export work(store, clock, media, further, control, trace);
-  const float share = 1 / static_cast<float>(std::max<std::size_t>(1, subjects.size()));
+  const float share = 1 / float(std::max<std::size_t>(1, subjects.size()));
   for (const storage::SubjectId id : subjects) {
-    const Result<void> written = work.one(id, medium.root, static_cast<float>(trace.whole) * share, share);
+    const Result<void> written = work.one(id, medium.root, float(trace.whole) * share, share);
     // Whatever failed: a stick that is gone is the reason.
     if (!media.current()) return pulled_too_early();
     RELIEVO_TRY(written);

@@ -35,8 +35,9 @@ Result<void> for_each_record(storage::Store& store, const std::atomic<bool>& can
   }
 }
 
-Result<std::vector<RecordFilter>> record_filters(storage::Store& store, const std::atomic<bool>& cancelled) {
-  std::set<RecordFilter> found;
+Result<std::vector<ui::RecordFilter>> record_filters(storage::Store& store,
+                                                     const std::atomic<bool>& cancelled) {
+  std::set<ui::RecordFilter> found;
   std::size_t texts = 0;
   RELIEVO_TRY(for_each_record(store, cancelled, [&](const storage::Subject& subject) -> Result<void> {
     RELIEVO_TRY_ASSIGN(std::string text, newest_text(store, subject.id));
@@ -44,12 +45,13 @@ Result<std::vector<RecordFilter>> record_filters(storage::Store& store, const st
     found.insert({true, storage::first_letter(subject.name)});
     return {};
   }));
-  std::vector<RecordFilter> all(found.begin(), found.end());
+  std::vector<ui::RecordFilter> all(found.begin(), found.end());
   if (texts == 1) all.erase(all.begin());
   return all;
 }
 
-Result<std::vector<storage::SubjectId>> filtered_records(storage::Store& store, const RecordFilter& filter,
+Result<std::vector<storage::SubjectId>> filtered_records(storage::Store& store,
+                                                         const ui::RecordFilter& filter,
                                                          const std::atomic<bool>& cancelled) {
   std::vector<storage::SubjectId> passed;
   RELIEVO_TRY(for_each_record(store, cancelled, [&](const storage::Subject& subject) -> Result<void> {

@@ -20,7 +20,7 @@ void SideTasks::send(JobLane lane, Work work, Done done, Whose whose) {
   task->work = std::move(work);
   task->done = std::move(done);
   task->whose = whose;
-  queues_[static_cast<std::size_t>(lane)].waiting.push_back(std::move(task));
+  queues_[std::size_t(lane)].waiting.push_back(std::move(task));
   turn();
 }
 
@@ -45,7 +45,7 @@ void SideTasks::cancel() {
 }
 
 void SideTasks::heard(JobLane lane, const std::optional<Error>& error) {
-  const std::unique_ptr<SideTask> ended = std::move(queues_[static_cast<std::size_t>(lane)].running);
+  const std::unique_ptr<SideTask> ended = std::move(queues_[std::size_t(lane)].running);
   if (ended != nullptr && !ended->forgotten) ended->done(error);
   turn();
 }

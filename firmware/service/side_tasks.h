@@ -40,7 +40,7 @@ class SideTasks {
   // Asks what runs on that thread to end early; its done() hears Cancelled, or that it was done already.
   void stop(JobLane lane) { appliance_.cancel_side_job(lane); }
   void cancel();
-  bool busy(JobLane lane) const { return queues_[static_cast<std::size_t>(lane)].running != nullptr; }
+  bool busy(JobLane lane) const { return queues_[std::size_t(lane)].running != nullptr; }
   float progress(JobLane lane) const { return appliance_.side_progress(lane); }
 
  private:

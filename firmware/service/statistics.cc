@@ -45,8 +45,8 @@ ui::Refusal refusal_of(const Error& error) {
 // The days between the newest and this one had nobody.
 void Statistics::turn_to(std::chrono::sys_days today) {
   const auto on = std::clamp<std::int64_t>((today - newest_).count(), 0, ui::kStatisticsDays);
-  std::shift_left(days_.begin(), days_.end(), static_cast<std::ptrdiff_t>(on));
-  std::fill(days_.end() - static_cast<std::ptrdiff_t>(on), days_.end(), Day{});
+  std::shift_left(days_.begin(), days_.end(), std::ptrdiff_t(on));
+  std::fill(days_.end() - std::ptrdiff_t(on), days_.end(), Day{});
   newest_ = std::max(newest_, today);
 }
 
@@ -64,14 +64,13 @@ void Statistics::noted(const Change& change, const Error* problem, std::chrono::
     count(captures_);
   if (change.to == State::Review && (change.from == State::Assemble || change.from == State::Fuse)) {
     count(models_);
-    ++times_[std::min(kSteps - 1, static_cast<std::size_t>(total / kStep))];
+    ++times_[std::min(kSteps - 1, std::size_t(total / kStep))];
   }
   if (change.from == State::Store && change.event == Event::StageDone) count_today(stored_, day.stored);
   if (is_visit(change.from) && change.to == State::Idle) count(left_);
   if (refused && change.from != State::Position)
-    count_today(
-        refused_[static_cast<std::size_t>(problem != nullptr ? refusal_of(*problem) : ui::Refusal::Other)],
-        day.refused);
+    count_today(refused_[std::size_t(problem != nullptr ? refusal_of(*problem) : ui::Refusal::Other)],
+                day.refused);
 }
 
 std::string Statistics::text() const {
@@ -110,9 +109,9 @@ double Statistics::seconds_within(double share) const {
   std::size_t step = 0;
   for (; step < kSteps; ++step) {
     below += times_[step];
-    if (static_cast<double>(below) >= share * static_cast<double>(all)) break;
+    if (double(below) >= share * double(all)) break;
   }
-  return std::chrono::duration<double>(kStep * (static_cast<int>(step) + 1)).count();
+  return std::chrono::duration<double>(kStep * (int(step) + 1)).count();
 }
 
 ui::StatisticsView Statistics::view(std::chrono::sys_days today) const {
@@ -122,14 +121,14 @@ ui::StatisticsView Statistics::view(std::chrono::sys_days today) const {
       since_, visits_, captures_, models_, stored_, left_, refused_, seconds_within(0.5), seconds_within(0.9),
       {}};
   for (std::size_t i = 0; i < ui::kStatisticsDays; ++i) {
-    const std::chrono::year_month_day date(
-        now.newest_ - std::chrono::days(static_cast<std::int64_t>(ui::kStatisticsDays - 1 - i)));
+    const std::chrono::year_month_day date(now.newest_ -
+                                           std::chrono::days(std::int64_t(ui::kStatisticsDays - 1 - i)));
     std::snprintf(view.days.date[i].data(), view.days.date[i].size(), "%04u-%02u-%02u",
-                  static_cast<unsigned>(static_cast<int>(date.year())) % 10000U,
+                  static_cast<unsigned>(int(date.year())) % 10000U,
                   static_cast<unsigned>(date.month()) % 100U, static_cast<unsigned>(date.day()) % 100U);
-    view.days.visits[i] = static_cast<float>(now.days_[i].visits);
-    view.days.stored[i] = static_cast<float>(now.days_[i].stored);
-    view.days.refused[i] = static_cast<float>(now.days_[i].refused);
+    view.days.visits[i] = float(now.days_[i].visits);
+    view.days.stored[i] = float(now.days_[i].stored);
+    view.days.refused[i] = float(now.days_[i].refused);
   }
   return view;
 }

@@ -26,21 +26,6 @@ std::string name_in(const std::string& entry) {
                                                                        : std::string();
 }
 
-}  // namespace
-
-Result<fs::path> place_on_stick(const fs::path& root, const fs::path& place) {
-  fs::path way = root;
-  std::error_code error;
-  for (const fs::path& step : place) {
-    way /= step;
-    if (fs::is_symlink(fs::symlink_status(way, error)))
-      return Error{Errc::IoFailed, "is a link on the stick, which may lead anywhere: use another stick",
-                   ELOOP}
-          .at(step.native());
-  }
-  return way;
-}
-
 Result<void> replace_folder(OutputFolder& made, const fs::path& target) {
   std::error_code error;
   const bool replaces = fs::exists(target, error);
@@ -59,11 +44,38 @@ Result<void> replace_folder(OutputFolder& made, const fs::path& target) {
   return {};
 }
 
+}  // namespace
+
+Result<fs::path> place_on_stick(const fs::path& root, const fs::path& place) {
+  fs::path way = root;
+  std::error_code error;
+  for (const fs::path& step : place) {
+    way /= step;
+    if (fs::is_symlink(fs::symlink_status(way, error)))
+      return Error{Errc::IoFailed, "is a link on the stick, which may lead anywhere: use another stick",
+                   ELOOP}
+          .at(step.native());
+  }
+  return way;
+}
+
 Result<void> StickWork::reach(ExportStep step, float share) {
   if (control.cancelled.load()) return Error{Errc::Cancelled, "nothing was stored"};
   trace.step = step;
   control.progress.done.store(share);
   return {};
+}
+
+Result<Sums> keep_folder(OutputFolder& made, const fs::path& target, hal::RemovableMedia& media,
+                         StickWork* work, float done, float share) {
+  RELIEVO_TRY_ASSIGN(Sums written, sums_of(made.path()));
+  if (work != nullptr) RELIEVO_TRY(work->reach(ExportStep::ReadBack, done + 0.6F * share));
+  RELIEVO_TRY(media.settle(made.path()));
+  RELIEVO_TRY_ASSIGN(const Sums read, sums_of(made.path()));
+  if (read != written) return not_as_written(target);
+  if (work != nullptr) RELIEVO_TRY(work->reach(ExportStep::Write, done + 0.9F * share));
+  RELIEVO_TRY(replace_folder(made, target));
+  return written;
 }
 
 Result<void> put_on_stick(hal::RemovableMedia& media, const fs::path& place, StickWork* work,

@@ -13,6 +13,7 @@
 
 #include "firmware/base/output_folder.h"
 #include "firmware/jobs/job_thread.h"
+#include "firmware/records/bundle_manifest.h"
 #include "firmware/service/export_records.h"
 #include "hal/removable_media.h"
 
@@ -22,14 +23,17 @@ namespace relievo::firmware {
 // device.
 Result<std::filesystem::path> place_on_stick(const std::filesystem::path& root,
                                              const std::filesystem::path& place);
-// `made` becomes `target`; a folder that has this name already goes when the new one is there, not before.
-Result<void> replace_folder(OutputFolder& made, const std::filesystem::path& target);
 // How far the work on a stick has come, for who waits and for who may stop it between two steps.
 struct StickWork {
   JobControl& control;
   ExportTrace& trace;
   Result<void> reach(ExportStep step, float share);
 };
+// What is in `made` is read back once it lies on the stick; then `made` becomes `target`. A folder that has
+// this name already goes when the new one is there, not before. `work` may be missing; `done` of all of it is
+// done before, and this is `share` of it. Gives the sums of the files.
+Result<Sums> keep_folder(OutputFolder& made, const std::filesystem::path& target, hal::RemovableMedia& media,
+                         StickWork* work, float done = 0, float share = 1);
 // `write` makes the file or folder `place` of the stick, whole or not at all and read back; then the stick is
 // let go. `work` may be missing.
 Result<void> put_on_stick(hal::RemovableMedia& media, const std::filesystem::path& place, StickWork* work,

@@ -27,7 +27,7 @@ Result<void> TouchTrial::look() {
 
 ui::Input TouchTrial::placed(ui::Input input, int width_px, int height_px) const {
   if (map_.is_plain()) return input;
-  const auto w = static_cast<float>(width_px), h = static_cast<float>(height_px);
+  const auto w = float(width_px), h = float(height_px);
   const ui::TouchPoint at = map_({input.x / w, input.y / h});
   input.x = at.x * w;
   input.y = at.y * h;
@@ -102,7 +102,7 @@ void TouchTrial::keep(const ui::TouchMap& map, TouchVerdict verdict) {
 void TouchTrial::turn() {
   if (!takes_fingers()) return;
   const auto left = std::chrono::ceil<std::chrono::seconds>(until_ - clock_.now()).count();
-  view_.seconds_left = static_cast<int>(std::max<std::int64_t>(0, left));
+  view_.seconds_left = int(std::max<std::int64_t>(0, left));
   if (left <= 0) end(TouchVerdict::NobodyTouched);
 }
 

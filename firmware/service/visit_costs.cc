@@ -15,7 +15,7 @@ namespace {
 constexpr std::array<std::string_view, ui::kCostlyStages> kNames{"Match",    "Reconstruct", "Mesh", "Texture",
                                                                  "Assemble", "Pose",        "Fuse"};
 
-float to_mib(std::uint64_t bytes) { return static_cast<float>(bytes) / static_cast<float>(budget::kMiB); }
+float to_mib(std::uint64_t bytes) { return float(bytes) / float(budget::kMiB); }
 
 }  // namespace
 
@@ -25,7 +25,7 @@ void VisitCosts::noted(std::span<const StageRecord> records, std::uint64_t resid
   for (const StageRecord& record : records) {
     const auto name = std::find(kNames.begin(), kNames.end(), record.name);
     if (name == kNames.end()) continue;
-    ui::StageCost& cost = visit.stages[static_cast<std::size_t>(name - kNames.begin())];
+    ui::StageCost& cost = visit.stages[std::size_t(name - kNames.begin())];
     cost.seconds = std::max(cost.seconds, std::chrono::duration<float>(record.took).count());
     cost.mib = std::max(cost.mib, to_mib(record.arena_peak_bytes));
   }
@@ -38,7 +38,7 @@ void VisitCosts::noted(std::span<const StageRecord> records, std::uint64_t resid
 
 ui::VisitCostsView VisitCosts::view() const {
   ui::VisitCostsView most;
-  most.visits = static_cast<int>(count_);
+  most.visits = int(count_);
   for (std::size_t i = 0; i < count_; ++i) {
     for (std::size_t k = 0; k < ui::kCostlyStages; ++k) {
       most.stages[k].seconds = std::max(most.stages[k].seconds, visits_[i].stages[k].seconds);

@@ -6,7 +6,7 @@
 
 #include "firmware/base/wall_time.h"
 #include "firmware/service/pin_hash.h"
-#include "ui/screens/service/pin_entry.h"
+#include "ui/screens/parts/keyboard.h"
 #include "ui/view/staff_views.h"
 
 namespace relievo::firmware {

@@ -66,10 +66,6 @@ class Drawing {
   double scale_;
 };
 
-static_assert(int(ui::BoardAdvice::Done) == int(pipeline::LiveAdvice::Done) &&
-              int(ui::BoardAdvice::HoldStill) == int(pipeline::LiveAdvice::HoldStill) &&
-              int(ui::BoardAdvice::TiltBack) == int(pipeline::LiveAdvice::TiltBack) &&
-              int(ui::BoardEnd::Full) == int(pipeline::LiveEnd::Full));
 static_assert(ui::kCoverageCells == pipeline::kCoverageColumns &&
               ui::kCoverageCells == pipeline::kCoverageRows);
 
@@ -77,15 +73,6 @@ constexpr std::array<std::uint8_t, 3> kSeen{64, 240, 120}, kWanted{255, 170, 40}
 
 constexpr int kLeastCorners = 3, kMostCorners = 30;
 constexpr double kLeastSquareMm = 4, kMostSquareMm = 100;
-
-ui::TechnicianVerdict verdict_of(pipeline::CalibrationVerdict verdict) {
-  switch (verdict) {
-    case pipeline::CalibrationVerdict::Pass: return ui::TechnicianVerdict::Good;
-    case pipeline::CalibrationVerdict::Usable: return ui::TechnicianVerdict::Warn;
-    case pipeline::CalibrationVerdict::Refuse: break;
-  }
-  return ui::TechnicianVerdict::Refuse;
-}
 
 }  // namespace
 
@@ -143,8 +130,8 @@ void CalibrateJob::publish(const LivePair& pair, const pipeline::LiveState& stat
     }
   }
   ui::TechnicianCalibration now;
-  now.advice = static_cast<ui::BoardAdvice>(state.advice);
-  now.end = static_cast<ui::BoardEnd>(state.end);
+  now.advice = state.advice;
+  now.end = state.end;
   now.pairs = state.pairs;
   now.views = state.views;
   now.disagreeing = state.disagreeing;
@@ -348,7 +335,7 @@ ui::TechnicianCalibration CalibrationController::view() {
   view.exported = exported_;
   if (ended_) {
     const pipeline::CalibrationQuality& q = parts_.job.result()->quality;
-    view.verdict = verdict_of(q.verdict);
+    view.verdict = q.verdict;
     view.depth_error_mm = float(q.face_depth_sigma_mm);
     view.rms_px = float(q.pair_rms_px);
     view.baseline_mm = float(q.baseline_mm);

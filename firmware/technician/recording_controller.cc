@@ -10,7 +10,6 @@
 
 #include "firmware/base/output_folder.h"
 #include "firmware/service/stick_folder.h"
-#include "hal/picture_file.h"
 
 namespace relievo::firmware {
 namespace {
@@ -26,33 +25,13 @@ ImageView copied(const ImageView& view, std::vector<std::byte>& room) {
   return {room.data(), view.width_px, view.height_px, int(row_bytes), view.format};
 }
 
-bool same(const ImageView& a, const ImageView& b) {
-  if (a.width_px != b.width_px || a.height_px != b.height_px || a.format != b.format) return false;
-  const auto row_bytes = std::size_t(a.width_px) * std::size_t(bytes_per_pixel(a.format));
-  for (int y = 0; y < a.height_px; ++y) {
-    if (std::memcmp(a.row(y), b.row(y), row_bytes) != 0) return false;
-  }
-  return true;
-}
-
-Result<void> read_back(const fs::path& file, const ImageView& written) {
-  const Result<hal::Picture> read = hal::read_picture(file);
-  const bool unread = !read && (read.error().code == Errc::IoFailed || read.error().code == Errc::NotFound);
-  if (unread) return read.error();
-  return read && same(read->view(), written) ? Result<void>() : not_as_written(file);
-}
-
 Result<void> write(const hal::RecordedPair& pair, const fs::path& target, hal::RemovableMedia& media,
                    StickWork& work) {
   RELIEVO_TRY(work.reach(ExportStep::Write, 0.1F));
   RELIEVO_TRY_ASSIGN(OutputFolder folder, OutputFolder::begin(target));
-  RELIEVO_TRY_ASSIGN(const std::int64_t number, hal::record_pair(folder.path(), pair));
-  RELIEVO_TRY(work.reach(ExportStep::ReadBack, 0.6F));
-  RELIEVO_TRY(media.settle(folder.path()));
-  RELIEVO_TRY(read_back(folder.path() / hal::recorded_name("left", number), pair.left));
-  RELIEVO_TRY(read_back(folder.path() / hal::recorded_name("right", number), pair.right));
-  RELIEVO_TRY(work.reach(ExportStep::Write, 0.9F));
-  return replace_folder(folder, target);
+  RELIEVO_TRY(hal::record_pair(folder.path(), pair));
+  RELIEVO_TRY(keep_folder(folder, target, media, &work));
+  return {};
 }
 
 // A name every file system of a stick takes: 2026-03-12_09-14-07, UTC.

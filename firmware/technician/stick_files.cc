@@ -50,8 +50,7 @@ Result<void> each_piece(const fs::path& file, JobControl& control, float from_sh
   for (std::size_t at = 0; at < size; at += kPieceBytes) {
     if (control.cancelled.load()) return Error{Errc::Cancelled, "it was stopped"};
     const std::size_t bytes = std::min(kPieceBytes, size - at);
-    if (!in.read(reinterpret_cast<char*>(piece.bytes.data()), static_cast<std::streamsize>(bytes)))
-      return unread(file);
+    if (!in.read(reinterpret_cast<char*>(piece.bytes.data()), std::streamsize(bytes))) return unread(file);
     RELIEVO_TRY(take(std::span<const std::byte>(piece.bytes).first(bytes), at, size));
     control.progress.done.store(from_share + (to_share - from_share) * float(at + bytes) / float(size));
   }
@@ -128,17 +127,7 @@ Result<std::shared_ptr<const SavedBytes>> read_saved(const std::string& name, ha
 
 namespace {
 
-namespace fs = std::filesystem;
-
 constexpr const char *kRig = "rig.yml", *kLeft = "left.yaml", *kRight = "right.yaml";
-
-Result<void> read_back(const fs::path& file, const std::string& written) {
-  const auto read = read_whole_file(file, pipeline::kMaxCalibrationFileBytes);
-  if (!read) return read.error();
-  const bool same = read->size() == written.size() && std::equal(read->begin(), read->end(), written.begin(),
-                                                                 [](auto a, char b) { return char(a) == b; });
-  return same ? Result<void>() : not_as_written(file);
-}
 
 Result<void> write(const pipeline::StereoCalibration& calibration, const fs::path& target,
                    hal::RemovableMedia& media) {
@@ -147,9 +136,8 @@ Result<void> write(const pipeline::StereoCalibration& calibration, const fs::pat
       {kRig, pipeline::calibration_text(calibration)}, {kLeft, ros.left}, {kRight, ros.right}};
   RELIEVO_TRY_ASSIGN(OutputFolder folder, OutputFolder::begin(target));
   for (const auto& [name, text] : files) RELIEVO_TRY(write_text(folder.path() / name, text, target));
-  RELIEVO_TRY(media.settle(folder.path()));
-  for (const auto& [name, text] : files) RELIEVO_TRY(read_back(folder.path() / name, text));
-  return replace_folder(folder, target);
+  RELIEVO_TRY(keep_folder(folder, target, media, nullptr));
+  return {};
 }
 
 // The top first, then the folders of calibrations, the last name first.

@@ -174,12 +174,39 @@ StereoCalibration calibration_of(const StereoFit& fit) {
   calibration.right = fit.problem.camera[1];
   calibration.right.width_px = calibration.left.width_px;
   calibration.right.height_px = calibration.left.height_px;
-  const bundle::Pose& relation = fit.problem.right_from_left;
-  for (int i = 0; i < 9; ++i) calibration.right_from_left.rotation.m[i] = relation.rotation(i / 3, i % 3);
-  const Eigen::Vector3d& t = relation.translation_mm;
-  calibration.right_from_left.translation_mm = {t.x(), t.y(), t.z()};
+  calibration.right_from_left = bundle::transform_of(fit.problem.right_from_left);
   calibration.rms_px = fit.rms_px();
   return calibration;
+}
+
+std::vector<CornerResidual> residuals(const BoardPattern& pattern, const CameraIntrinsics& camera,
+                                      const bundle::Pose& camera_from_board, const BoardCorners& corners) {
+  std::vector<CornerResidual> all;
+  all.reserve(corners.size());
+  for (int i = 0; i < pattern.corners(); ++i) {
+    const Vec2d& at = corners[std::size_t(i)];
+    const Vec2d put = bundle::project(camera, camera_from_board, i % pattern.columns * pattern.square_mm,
+                                      i / pattern.columns * pattern.square_mm);
+    // A corner that was not seen is not-a-number, and so is its residual.
+    all.push_back({at, {at.x - put.x, at.y - put.y}});
+  }
+  return all;
+}
+
+std::vector<FittedView> fitted_views(std::size_t count, const StereoFit& fit) {
+  std::vector<FittedView> views(count);
+  const bundle::Problem& p = fit.problem;
+  for (std::size_t k = 0; k < fit.views.size(); ++k) {
+    const bundle::View& from = p.views[k];
+    FittedView& view = views[std::size_t(fit.views[k])];
+    const bundle::Pose& pose = from.left_from_board;
+    if (from.seen[0] != nullptr) view.left = residuals(p.pattern, p.camera[0], pose, *from.seen[0]);
+    if (from.seen[1] != nullptr)
+      view.right = residuals(p.pattern, p.camera[1], p.right_from_left * pose, *from.seen[1]);
+    if (!view.placed || from.seen[0] != nullptr) view.left_from_board = transform_of(pose);
+    view.placed = true;
+  }
+  return views;
 }
 
 // How many pairs there were stands behind the sentence in every language: so without a word.

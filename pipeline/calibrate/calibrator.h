@@ -11,11 +11,25 @@
 #include <vector>
 
 #include "pipeline/calibrate/fit/calibrator_input.h"
-#include "pipeline/calibrate/fit/fitted_views.h"
 #include "pipeline/calibrate/quality/quality.h"
 #include "pipeline/model/calibration.h"
 
 namespace relievo::pipeline {
+
+// Not-a-number where the corner was not seen, or was dropped as a stray.
+struct CornerResidual {
+  Vec2d at;   // where it was seen
+  Vec2d off;  // from where the fit puts it
+};
+
+// A board under the final fit. A pair that was used stands in one place for both cameras; of a pair left out
+// each camera has its own. Frames: left camera, millimetres.
+struct FittedView {
+  bool placed = false;               // false: took no part in the fit
+  RigidTransform left_from_board;    // as the left camera has it, where both disagree
+  std::vector<CornerResidual> left;  // in the pattern's order; empty where the camera's board took no part
+  std::vector<CornerResidual> right;
+};
 
 struct CalibratorOutput {
   StereoCalibration calibration;

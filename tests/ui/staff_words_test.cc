@@ -148,8 +148,9 @@ TEST_F(StaffWordsTest, TheLogSaysEventsAndFaultsInWords) {
   StaffFrame page = in(Language::German);
   page.begin("", nullptr);
   const auto changed = [](std::string_view key, std::string_view value) {
-    return LogLine{"2026-03-14 10:20:44",    false,       "as in the file", {},
-                   LogEvent::SettingChanged, {key, value}};
+    return LogLine{"2026-03-14 10:20:44",    false,
+                   "as in the file",         {},
+                   LogEvent::SettingChanged, {std::string(key), std::string(value)}};
   };
   page.logged(changed("patience_s", "30"));
   page.logged(changed("gone", "7"));

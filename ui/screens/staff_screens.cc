@@ -17,6 +17,14 @@ constexpr const char *kPulse = "\uf430", *kFlash = "\uf241", *kPaper = "\uf219",
 constexpr const char *kRuler = "\uf46d", *kSteps = "\uf328", *kTable = "\uf4eb", *kTune = "\uf62e",
                      *kCompare = "\uf18a", *kCog = "\uf493", *kTarget = "\uf4fe", *kClock = "\uf0f0";
 
+// A page of the technician's, where there is one.
+template <void (*kDraw)(TechnicianFrame&)>
+void technician(StaffFrame& page) {
+  if (page.staff.technician == nullptr) return;
+  TechnicianFrame f(page);
+  kDraw(f);
+}
+
 // In the order of the menu.
 constexpr std::array kPages{
     StaffPageInfo{StaffPage::Records, "open records", mark_tr("Records"), kPeople, false, true, records_page,
@@ -26,9 +34,9 @@ constexpr std::array kPages{
     StaffPageInfo{StaffPage::Consent, "open consent", mark_tr("Consent text"), kDocument, false, true,
                   consent_text_page},
     StaffPageInfo{StaffPage::Cameras, "open cameras", mark_tr("Cameras"), icon::kCamera, true, false,
-                  technician_cameras_page, mark_tr("Cameras")},
+                  technician<technician_cameras_page>, mark_tr("Cameras")},
     StaffPageInfo{StaffPage::Calibrate, "open calibrate", mark_tr("Calibration"), kRuler, true, false,
-                  technician_calibrate_page},
+                  technician<technician_calibrate_page>},
     StaffPageInfo{StaffPage::Trigger, "open trigger", mark_tr("Trigger test"), kFlash, true, false,
                   trigger_page},
     StaffPageInfo{StaffPage::Health, "open health", mark_tr("Health"), kHeart, true, false, health_page,
@@ -37,15 +45,15 @@ constexpr std::array kPages{
                   self_test_page},
     StaffPageInfo{StaffPage::Log, "open log", mark_tr("Log"), kPaper, true, false, log_page},
     StaffPageInfo{StaffPage::Stages, "open stages", mark_tr("Test capture"), kSteps, true, false,
-                  technician_stages_page, mark_tr("Test capture")},
+                  technician<technician_stages_page>, mark_tr("Test capture")},
     StaffPageInfo{StaffPage::Model, "open model", mark_tr("Model"), icon::kShape, true, false,
-                  technician_model_page},
+                  technician<technician_model_page>},
     StaffPageInfo{StaffPage::Tables, "open tables", mark_tr("Figures"), kTable, true, false,
-                  technician_tables_page},
+                  technician<technician_tables_page>},
     StaffPageInfo{StaffPage::Algorithms, "open algorithms", mark_tr("Algorithms"), kTune, true, false,
-                  technician_algorithms_page},
+                  technician<technician_algorithms_page>},
     StaffPageInfo{StaffPage::Compare, "open compare", mark_tr("Comparison"), kCompare, true, false,
-                  technician_compare_page},
+                  technician<technician_compare_page>},
     StaffPageInfo{StaffPage::Settings, "open settings", mark_tr("Settings"), kCog, true, true, settings_page,
                   mark_tr("Settings")},
     StaffPageInfo{StaffPage::Clock, "open clock", mark_tr("Time"), kClock, true, true, clock_page},

@@ -12,6 +12,7 @@
 #include <string>
 #include <string_view>
 
+#include "pipeline/model/live_advice.h"
 #include "ui/technician/technician_result.h"
 #include "ui/view/list_place.h"
 
@@ -43,45 +44,20 @@ struct TechnicianCalibrationRow {
   std::string_view made_at, note;
   float rms_px = 0, depth_error_mm = 0;  // 0: not known
 };
-// As in pipeline/calibrate/live/live_advice.h, one for one. Sides are those of the left camera's picture.
-enum class BoardAdvice : std::uint8_t {
-  ShowBoard,
-  LeftCameraMissesIt,
-  RightCameraMissesIt,
-  HoldStill,
-  TooBlurred,
-  Closer,
-  Farther,
-  Left,
-  Right,
-  Up,
-  Down,
-  TiltLeft,
-  TiltRight,
-  TiltForward,
-  TiltBack,
-  TurnClockwise,
-  TurnCounterclockwise,
-  AlreadyHave,
-  SwappedCameras,
-  Done
-};
-enum class BoardEnd : std::uint8_t { NotYet, GoalReached, Plateau, Full };
-enum class TechnicianVerdict : std::uint8_t { None, Good, Warn, Refuse };
 struct TechnicianCalibration {
   int columns = 10, rows = 7;
   float square_mm = 20;
   bool charuco = false;
   bool running = false, ended = false, stored = false;
   std::array<TechnicianPicture, 2> pictures;  // with the corners and the wanted board drawn in
-  BoardAdvice advice = BoardAdvice::ShowBoard;
-  BoardEnd end = BoardEnd::NotYet;
+  pipeline::LiveAdvice advice = pipeline::LiveAdvice::ShowBoard;
+  pipeline::LiveEnd end = pipeline::LiveEnd::NotYet;
   int pairs = 0, views = 0, disagreeing = 0;
   std::array<float, 4> bars{};  // across, down, size, tilt: 0 to 1
   std::array<std::array<std::uint32_t, kCoverageCells * kCoverageCells>, 2>
       seen{};                       // corners in each part of the pictures, row by row
   float error_mm = 0, goal_mm = 0;  // predicted, of distances, one standard deviation
-  TechnicianVerdict verdict = TechnicianVerdict::None;
+  pipeline::CalibrationVerdict verdict = pipeline::CalibrationVerdict::Refuse;  // once it has ended
   float depth_error_mm = 0, rms_px = 0, baseline_mm = 0;
   std::span<const float> views_px;  // disagreement with the board, each view of the fit; rms of both cameras
   std::span<const std::string> reasons;  // why it is good, doubted or refused, most important first; English

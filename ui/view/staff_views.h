@@ -2,13 +2,15 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 //
 // What the pages of the staff's side draw, one struct a page, as plain data.
-// Ownership: borrowed for the length of one frame. Thread: main.
+// Spans, pointers and views are borrowed for the length of one frame. Thread: main.
 #pragma once
 
 #include <array>
+#include <compare>
 #include <cstdint>
 #include <optional>
 #include <span>
+#include <string>
 #include <string_view>
 
 #include "ui/draw/draw_list.h"
@@ -43,17 +45,17 @@ enum class LogEvent : std::uint8_t {
   Count
 };
 
-// What the page of records draws. Borrowed for one frame. Thread: main.
 struct RecordRow {
   std::int64_t number = 0;
-  std::string_view name, since, code;
+  std::string name, since, code;
   int portraits = 0;
 };
 
 // Lets pass those of one first letter, or those who agreed to one version of the consent text last.
-struct RecordFilterName {
-  bool letter = false;
-  std::string_view text;
+struct RecordFilter {
+  bool letter = false;  // false: `text` is the version of a consent text
+  std::string text;
+  auto operator<=>(const RecordFilter&) const = default;
 };
 inline constexpr std::size_t kRecordFilters =
     100;  // at most; whoever falls under none of them is searched for
@@ -68,7 +70,7 @@ struct RecordsView {
   bool exported = false;
   int asked = 0;  // records of the last export; 0: the last thing that was done is another
   int whole = 0;  // of these, on the stick and read back
-  std::span<const RecordFilterName> filters{};  // ListPlace::filter 1 is the first; none: not looked up yet
+  std::span<const RecordFilter> filters{};  // ListPlace::filter 1 is the first; none: not looked up yet
 };
 
 // --- status: what needs a hand, as the appliance knows it; the rest stands in ViewState -------------
@@ -107,12 +109,12 @@ struct StatisticsView {
 
 // What has been noted. Of an event or a fault that this version does not know only the text is shown.
 struct LogLine {
-  std::string_view at;  // date and time
+  std::string at;  // date and time
   bool fault = false;
-  std::string_view text;  // English
+  std::string text;  // English
   std::optional<Errc> code{};
   std::optional<LogEvent> event{};
-  std::array<std::string_view, 2> values{};  // of the event
+  std::array<std::string, 2> values{};  // of the event
 };
 
 // --- health ---------------------------------------------------------------------------------------

@@ -51,12 +51,13 @@ std::string best_cell(const std::string& html, bool best) {
 }
 std::string row_head(const std::string& name) { return "<th scope=\"row\">" + escaped(name) + "</th>"; }
 
-std::string table_head(const std::vector<std::string>& columns, std::size_t words) {
-  std::string out = "<table class=\"sets\">\n<thead><tr>";
+std::string table(const std::vector<std::string>& columns, const std::string& rows, std::size_t words) {
+  std::string head;
   for (std::size_t i = 0; i < columns.size(); ++i)
-    out +=
+    head +=
         std::string("<th scope=\"col\"") + (i < words ? "" : " class=\"value\"") + ">" + columns[i] + "</th>";
-  return out + "</tr></thead>\n<tbody>\n";
+  return "<div class=\"scroll\">\n<table class=\"sets\">\n<thead><tr>" + head + "</tr></thead>\n<tbody>\n" +
+         rows + "</tbody>\n</table>\n</div>\n";
 }
 
 std::string settings(const Comparison& c, const std::string& title) {

@@ -30,6 +30,7 @@ using pipeline::report::escaped;
 using pipeline::report::figure;
 using sections::cell;
 using sections::row_head;
+using sections::table;
 
 constexpr std::string_view kTitle = "The dissertation, done again";
 constexpr std::string_view kStyle = R"css(
@@ -56,10 +57,6 @@ std::string row(const std::string& name, const std::vector<std::string>& cells) 
   for (const std::string& text : cells) out += cell(text);
   return out + "</tr>\n";
 }
-std::string table(const std::vector<std::string>& titles, const std::string& rows) {
-  return "<div class=\"scroll\">\n" + sections::table_head(titles) + rows + "</tbody>\n</table>\n</div>\n";
-}
-
 // "Table 1: ...": what the dissertation shows, what we find, what the reader sees, and what is too wide to
 // stand in half a page.
 struct Entry {
@@ -206,7 +203,7 @@ Result<std::string> rule_figure(const Figure& f, const Run& before) {
   return section(e);
 }
 
-std::string figure_17(const Figure& f) {
+Result<std::string> figure_17(const Figure& f) {
   Entry e{"figure-17", "Figure 17: " + f.title, {}, {}, {}, {}};
   e.theirs =
       "<p>A face from two pictures without any help by hand. Numbers are not recorded; its matching failed on "
@@ -261,16 +258,14 @@ Result<std::string> dissertation_html(const Dissertation& d, const std::string& 
       product, kTitle, {escaped(made_at), "tables 1 and 2", "figures 6 to 12 and 17"});
   body += reading(d) + table_1(d.rig) + table_2(d.cube);
   for (const Figure& f : figures_of(d)) {
-    if (f.number == 6) {
-      RELIEVO_TRY_ASSIGN(const std::string six, figure_6(f));
-      body += six;
-    } else if (f.number == 17) {
+    if (f.number == 17)
       body += "<section>\n<h2>Figures 6 to 12 in one table</h2>\n" +
-              sections::figures(d.rules, sections::runs_of(d.rules, 0)) + "</section>\n" + figure_17(f);
-    } else {
-      RELIEVO_TRY_ASSIGN(const std::string one, rule_figure(f, d.rules.runs[f.runs.front()->set - 1]));
-      body += one;
-    }
+              sections::figures(d.rules, sections::runs_of(d.rules, 0)) + "</section>\n";
+    RELIEVO_TRY_ASSIGN(const std::string one, f.number == 6 ? figure_6(f)
+                                              : f.number == 17
+                                                  ? figure_17(f)
+                                                  : rule_figure(f, d.rules.runs[f.runs.front()->set - 1]));
+    body += one;
   }
   return pipeline::report::page(kTitle, std::string(sections::kStyle) + std::string(kStyle),
                                 body + sections::settings(d.rules, "The sets of figures 6 to 12") +

@@ -128,7 +128,7 @@ std::string table(const Comparison& c, const std::vector<const Run*>& runs,
   }
   const std::string width =
       "<td class=\"failed\" colspan=\"" + std::to_string(std::max<std::size_t>(1, columns.size())) + "\">";
-  std::string out = "<div class=\"scroll\">\n" + table_head(titles);
+  std::string out;
   for (const Run* run : runs) {
     out += "<tr>" + row_head(name_of(c, *run));
     bool nothing = true;
@@ -145,11 +145,10 @@ std::string table(const Comparison& c, const std::vector<const Run*>& runs,
     if (say_failures && !nothing && !why.empty())
       out += "<tr><th scope=\"row\"></th>" + width + escaped(why) + "</td></tr>\n";
   }
-  return out + "</tbody>\n</table>\n</div>\n";
+  return sections::table(titles, out);
 }
 
 using pipeline::report::Drawing;
-using pipeline::report::figure;
 
 constexpr std::array<std::string_view, 9> kSteps{"rectify",     "preprocess", "select",  "match",   "judge",
                                                  "reconstruct", "mesh",       "texture", "assemble"};
@@ -191,10 +190,6 @@ std::string swatches(const std::vector<const Run*>& runs) {
   }
   return "<ul class=\"swatches\">" + out + "</ul>\n";
 }
-
-using pipeline::report::Drawing;
-using pipeline::report::escaped;
-using pipeline::report::figure;
 
 std::string facts_of(const Run& run) {
   const SurfaceLook& look = *run.surface;
@@ -240,16 +235,15 @@ std::string costs(const Comparison& c, std::size_t pair) {
       steps.push_back(step);
   for (const std::string_view step : steps) titles.push_back(std::string(step) + "<small>ms</small>");
   titles.insert(titles.end(), {"arenas<small>peak, MiB</small>", "heap<small>peak, MiB</small>"});
-  std::string out = "<h3 class=\"topic\">Time and memory</h3>\n" + swatches(runs) +
-                    "<div class=\"scroll\">\n" + table_head(titles, 2);
+  std::string out;
   for (const Run* run : runs) {
     out += "<tr>" + row_head(name_of(c, *run)) + "<td class=\"bars\">" + bar(*run, longest) + "</td>";
     for (const std::string_view step : steps) out += cell(figure(of_step(*run, step), 0));
     out += cell(figure(double(run->arena_peak_bytes) / kMiB, 0)) +
            cell(run->heap_peak_bytes == 0 ? "–" : figure(double(run->heap_peak_bytes) / kMiB, 0)) + "</tr>\n";
   }
-  return out +
-         "</tbody>\n</table>\n</div>\n<p class=\"note\">Arenas: what the algorithms took of the memory planned for them. Heap: what the process "
+  return "<h3 class=\"topic\">Time and memory</h3>\n" + swatches(runs) + sections::table(titles, out, 2) +
+         "<p class=\"note\">Arenas: what the algorithms took of the memory planned for them. Heap: what the process "
          "held besides at the worst moment, above what it held before.</p>\n";
 }
 
@@ -272,9 +266,6 @@ namespace {
 
 using pipeline::report::Axis;
 using pipeline::report::Box;
-using pipeline::report::Drawing;
-using pipeline::report::escaped;
-using pipeline::report::figure;
 using pipeline::report::figure_of;
 using pipeline::report::Size;
 

@@ -157,9 +157,6 @@ Result<std::string> maps(const Comparison& c, std::size_t index) {
 
 namespace {
 
-using pipeline::report::escaped;
-using pipeline::report::figure;
-
 std::string percent(std::size_t part, std::size_t whole, int decimals = 1) {
   if (whole == 0) return "–";
   return figure(100 * double(part) / double(whole), decimals);
@@ -196,8 +193,8 @@ std::string rules(const Comparison& c, std::size_t pair) {
     if (run->matches.matches > 0 && !run->matches.rules.empty()) rows += rows_of(c, *run, truth);
   if (rows.empty()) return rows;
   return "<h3 class=\"topic\">What the constraints took away</h3>\n<p class=\"lead\">Each match is counted with the first rule that rejected it. "
-         "A good rule’s rejects are bad ones.</p>\n<div class=\"scroll\">\n" +
-         table_head(titles, 2) + rows + "</tbody>\n</table>\n</div>\n";
+         "A good rule’s rejects are bad ones.</p>\n" +
+         table(titles, rows, 2);
 }
 
 Result<std::string> selectors(const Comparison& c, std::size_t pair) {
@@ -222,11 +219,11 @@ Result<std::string> selectors(const Comparison& c, std::size_t pair) {
   }
   if (rows.empty()) return rows;
   return "<h3 class=\"topic\">Where is it worth matching?</h3>\n<p class=\"lead\">Selectors that choose places. Repeated: of the places both views see, "
-         "those chosen again within 1.5 px in the right view. Spread: share of 16 × 16 cells of the region that hold a place.</p>\n<div class=\"scroll\">\n" +
-         table_head({"Set", "places<small>left</small>", "places<small>right</small>",
-                     "repeated<small>%</small>", "matched<small>%</small>",
-                     "bad<small>of the matched, %</small>", "spread<small>%</small>"}) +
-         rows + "</tbody>\n</table>\n</div>\n<div class=\"three places\">\n" + pictures + "</div>\n";
+         "those chosen again within 1.5 px in the right view. Spread: share of 16 × 16 cells of the region that hold a place.</p>\n" +
+         table({"Set", "places<small>left</small>", "places<small>right</small>", "repeated<small>%</small>",
+                "matched<small>%</small>", "bad<small>of the matched, %</small>", "spread<small>%</small>"},
+               rows) +
+         "<div class=\"three places\">\n" + pictures + "</div>\n";
 }
 
 std::string shared_pixels(const Comparison& c, std::size_t pair) {
@@ -236,10 +233,10 @@ std::string shared_pixels(const Comparison& c, std::size_t pair) {
   if (runs.size() < 2 || runs.size() > kMost) return {};
   std::vector<std::string> titles{"Set"};
   for (const Run* run : runs) titles.push_back("beside " + escaped(name_of(c, *run)));
-  std::string out =
+  std::string out;
+  const char* const title =
       "<h3 class=\"topic\">Where both give a disparity</h3>\n<p class=\"lead\">Bad pixels, in percent, of the row’s set and, after the stroke, of the "
-      "column’s, on the pixels that both give: who leaves the difficult ones out gains nothing here.</p>\n<div class=\"scroll\">\n" +
-      table_head(titles);
+      "column’s, on the pixels that both give: who leaves the difficult ones out gains nothing here.</p>\n";
   for (const Run* one : runs) {
     out += "<tr>" + row_head(name_of(c, *one));
     for (const Run* other : runs) {
@@ -251,7 +248,7 @@ std::string shared_pixels(const Comparison& c, std::size_t pair) {
     }
     out += "</tr>\n";
   }
-  return out + "</tbody>\n</table>\n</div>\n";
+  return title + table(titles, out);
 }
 
 }  // namespace relievo::firmware::compare::sections

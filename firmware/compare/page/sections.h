@@ -36,7 +36,7 @@ const std::string& name_of(const Comparison& c, const Run& run);
 std::string cell(const std::string& html);  // a number's
 std::string best_cell(const std::string& html, bool best);
 std::string row_head(const std::string& name);  // escapes
-std::string table_head(const std::vector<std::string>& columns,
-                       std::size_t words = 1);  // the first are words, not numbers
+// The first `words` columns are words, not numbers.
+std::string table(const std::vector<std::string>& columns, const std::string& rows, std::size_t words = 1);
 
 }  // namespace relievo::firmware::compare::sections

@@ -9,7 +9,6 @@
 #include <memory>
 
 #include "firmware/report/report.h"
-#include "firmware/service/page/log_lines.h"
 
 namespace relievo::firmware {
 namespace {
@@ -17,7 +16,7 @@ namespace {
 constexpr std::chrono::seconds kEvery{2};
 constexpr double kMiB = 1048576.0;
 
-double mib(std::size_t bytes) { return static_cast<double>(bytes) / kMiB; }
+double mib(std::size_t bytes) { return double(bytes) / kMiB; }
 
 ui::Mood mood_of(double used, double of) {
   return used > of ? ui::Mood::Bad : used > 0.9 * of ? ui::Mood::Warn : ui::Mood::Good;
@@ -94,11 +93,10 @@ void HealthController::keep() {
 void HealthController::add_memory() {
   view_.costs = services().costs.view();
   double stages = 0;
-  for (const ui::StageCost& cost : view_.costs.stages)
-    stages = std::max(stages, static_cast<double>(cost.mib));
-  const auto plan = static_cast<double>(view_.costs.planned_stage_mib);
+  for (const ui::StageCost& cost : view_.costs.stages) stages = std::max(stages, double(cost.mib));
+  const auto plan = double(view_.costs.planned_stage_mib);
   const double all = mib(budget::kApplianceBytes),
-               resident = std::max(seen_.process_mib, static_cast<double>(view_.costs.resident_mib));
+               resident = std::max(seen_.process_mib, double(view_.costs.resident_mib));
   rows_.push_back({ui::Gauge::Stages, {}, stages, plan, mood_of(stages, plan)});
   rows_.push_back({ui::Gauge::Process, {}, resident, all, mood_of(resident, all)});
 }
@@ -128,9 +126,8 @@ void HealthController::show(ui::ServiceView& view) {
   add_memory();
   add_seen();
   faults_ = services().log.faults();
-  show_lines(faults_, fault_lines_);
   view_.gauges = rows_;
-  view_.faults = fault_lines_;
+  view_.faults = faults_;
   view.health = &view_;
 }
 

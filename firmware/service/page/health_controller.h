@@ -33,7 +33,7 @@ class DayRing {
   DayRing() { all_.fill(std::numeric_limits<float>::quiet_NaN()); }
   void add(double value) {
     std::shift_left(all_.begin(), all_.end(), 1);
-    all_.back() = static_cast<float>(value);
+    all_.back() = float(value);
   }
   std::span<const float> values() const { return all_; }
 
@@ -66,8 +66,7 @@ class HealthController final : public PageController {
   DayRing hottest_, disk_;
   bool ready_ = false;
   std::vector<ui::GaugeRow> rows_;
-  std::vector<LogEntry> faults_;
-  std::vector<ui::LogLine> fault_lines_;
+  std::vector<ui::LogLine> faults_;
   ui::HealthView view_;
 };
 

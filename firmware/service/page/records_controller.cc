@@ -18,12 +18,12 @@ constexpr std::uint32_t kFirstModel = 1U << 20;
 
 }  // namespace
 
-void RecordsController::wipe(Found& found) {
+void RecordsController::wipe(ui::RecordRow& found) {
   for (std::string* text : {&found.name, &found.since, &found.code}) wipe_text(*text);
 }
 
-void RecordsController::wipe(std::vector<Found>& found) {
-  for (Found& one : found) wipe(one);
+void RecordsController::wipe(std::vector<ui::RecordRow>& found) {
+  for (ui::RecordRow& one : found) wipe(one);
   found.clear();
 }
 
@@ -60,8 +60,6 @@ void RecordsController::forget() {
   person_.reset();
   filters_.clear();
   filter_.reset();
-  rows_.clear();
-  shown_ = {};
   view_ = {};
   walk_.begin_anew();
   ready_ = erased_ = exported_ = false;
@@ -112,7 +110,7 @@ void RecordsController::choose(std::size_t filter) {
 }
 
 void RecordsController::find_filters() {
-  const auto found = std::make_shared<std::vector<RecordFilter>>();
+  const auto found = std::make_shared<std::vector<ui::RecordFilter>>();
   services().side_tasks.send(
       JobLane::Keeper,
       [this, found](JobControl& control) -> Result<void> {
@@ -130,8 +128,8 @@ void RecordsController::find_filters() {
 void RecordsController::list() {
   struct Listed {
     std::string searched;
-    std::optional<RecordFilter> filter;
-    std::vector<Found> found;
+    std::optional<ui::RecordFilter> filter;
+    std::vector<ui::RecordRow> found;
     std::int64_t rows = 0;  // of all pages
     ~Listed() {
       wipe_text(searched);
@@ -185,7 +183,7 @@ void RecordsController::list() {
 void RecordsController::label_stretches() {
   struct Labels {
     std::string searched;
-    std::optional<RecordFilter> filter;
+    std::optional<ui::RecordFilter> filter;
     std::vector<std::int64_t> rows;
     std::vector<std::string> found;
     ~Labels() { wipe_text(searched); }
@@ -269,7 +267,7 @@ void RecordsController::take_out(std::int64_t number) {
   std::vector<storage::SubjectId> subjects;
   if (number != 0) subjects.push_back(storage::SubjectId{number});
   else
-    for (const Found& found : found_) subjects.push_back(storage::SubjectId{found.number});
+    for (const ui::RecordRow& found : found_) subjects.push_back(storage::SubjectId{found.number});
   exporting_ = true;
   asked_ = int(subjects.size());
   const auto trace = std::make_shared<ExportTrace>();
@@ -301,21 +299,15 @@ void RecordsController::show(ui::ServiceView& view) {
   view.work.running = exporting_;
   view.work.progress = exporting_ ? services().side_tasks.progress(JobLane::Keeper) : 0;
   if (!ready_) return;
-  rows_.clear();
-  for (const Found& one : found_) rows_.push_back({one.number, one.name, one.since, one.code, one.portraits});
-  filter_names_.clear();
-  for (const RecordFilter& one : filters_) filter_names_.push_back({one.letter, one.text});
-  view_ = {rows_,   walk_.view(), searched_, nullptr,      {},           {},
-           erased_, exported_,    asked_,    trace_.whole, filter_names_};
+  view_ = {found_,  walk_.view(), searched_, nullptr,      {},      {},
+           erased_, exported_,    asked_,    trace_.whole, filters_};
   // The list may have been read anew since it was chosen.
   view_.place.filter = 0;
   if (filter_)
     for (std::size_t i = 0; i < filters_.size(); ++i)
       if (filters_[i] == *filter_) view_.place.filter = i + 1;
   if (person_) {
-    const Found& one = person_->found;
-    shown_ = {one.number, one.name, one.since, one.code, one.portraits};
-    view_.shown = &shown_;
+    view_.shown = &person_->found;
     view_.consent = person_->consent;
     view_.consented_at = person_->consented_at;
     view.inner = true;

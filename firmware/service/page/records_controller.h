@@ -30,19 +30,13 @@ class RecordsController final : public PageController {
 
  private:
   static constexpr std::int64_t kPage = 50;
-  struct Found {
-    std::int64_t number = 0;
-    std::string name, since, code;
-    int portraits = 0;
-  };
   struct Person {
-    Found found;
+    ui::RecordRow found;
     std::string consent, consented_at;
     std::pmr::monotonic_buffer_resource memory;
     std::optional<pipeline::FaceModel> model;
     ~Person();
   };
-  using Work = std::function<Result<void>(JobControl&)>;
   void search(std::string_view text);
   void list();
   void label_stretches();
@@ -54,25 +48,22 @@ class RecordsController final : public PageController {
   void exported(const std::optional<Error>& error, const ExportTrace& trace);
   void told(const std::optional<Error>& error);
   void forget();
-  static void wipe(Found& found);
-  static void wipe(std::vector<Found>& found);
+  static void wipe(ui::RecordRow& found);
+  static void wipe(std::vector<ui::RecordRow>& found);
 
   std::uint32_t visit_ = 0;  // of the page: what was asked before it was left is not shown after
   std::string searched_;
   ListWalk walk_{kPage};
   std::uint32_t division_ = 0;  // of the stretches: what was found for those before is not shown
-  std::vector<RecordFilter> filters_;
-  std::optional<RecordFilter> filter_;  // the chosen one
+  std::vector<ui::RecordFilter> filters_;
+  std::optional<ui::RecordFilter> filter_;  // the chosen one
   bool ready_ = false, erased_ = false, exporting_ = false, exported_ = false;
-  std::vector<Found> found_;
+  std::vector<ui::RecordRow> found_;
   std::shared_ptr<Person> person_;
   std::uint32_t model_number_ = 0;
   ui::Outcome outcome_ = ui::Outcome::None;
   ExportTrace trace_;  // of the last export
   int asked_ = 0;      // how many records it was of
-  std::vector<ui::RecordRow> rows_;
-  std::vector<ui::RecordFilterName> filter_names_;
-  ui::RecordRow shown_;
   ui::RecordsView view_;
 };
 

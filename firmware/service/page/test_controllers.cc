@@ -12,7 +12,6 @@
 #include "firmware/records/disk_room.h"
 #include "firmware/report/report.h"
 #include "firmware/service/page/health_controller.h"
-#include "firmware/service/page/log_lines.h"
 #include "firmware/service/pin_hash.h"
 #include "storage/cipher/recovery.h"
 
@@ -81,7 +80,7 @@ void RecoveryController::show(ui::ServiceView& view) {
   view_ = {each_, {}, 0, state_};
   if (!each_.empty()) {
     view_.code = {code_.view(), version_};
-    view_.asked = static_cast<int>(to_type_[typed_]) + 1;
+    view_.asked = int(to_type_[typed_]) + 1;
   }
   view.work.outcome = outcome_;
   view.recovery = services().words_due || state_ == ui::SheetState::Done ? &view_ : nullptr;
@@ -117,13 +116,12 @@ void StatusController::look() {
         for (const Sensor& sensor : read_temperatures("/sys/class/thermal"))
           seen->hottest_c = std::max(seen->hottest_c, sensor.celsius);
         std::error_code none;
-        seen->free_mib = static_cast<double>(std::filesystem::space(folder, none).available) / (1 << 20);
+        seen->free_mib = double(std::filesystem::space(folder, none).available) / (1 << 20);
         if (none) return Error{Errc::IoFailed, "the disk does not tell how much room it has"};
         RELIEVO_TRY_ASSIGN(const auto calibrations, store.calibrations());
         for (const storage::CalibrationInfo& one : calibrations) {
           if (one.revision == revision)
-            seen->calibration_days =
-                static_cast<int>(std::chrono::floor<std::chrono::days>(now - one.created_at).count());
+            seen->calibration_days = int(std::chrono::floor<std::chrono::days>(now - one.created_at).count());
         }
         return {};
       },
@@ -146,7 +144,7 @@ void StatusController::show(ui::ServiceView& view) {
   view_.clock_jumped = all.retention.clock_jumped();
   view_.store_damaged = false;
   view_.device_faults = 0;
-  for (const LogEntry& fault : all.log.faults()) {
+  for (const ui::LogLine& fault : all.log.faults()) {
     if (!fault.code || !is_of_the_device(*fault.code)) continue;
     ++view_.device_faults;
     view_.store_damaged = view_.store_damaged || *fault.code == Errc::StoreCorrupt;
@@ -179,7 +177,7 @@ void SelfTestController::opened() {
 }
 
 void SelfTestController::begin(Check check, JobLane lane, SideTasks::Work work) {
-  const auto at = static_cast<std::size_t>(check);
+  const auto at = std::size_t(check);
   view_.states[at] = CheckState::Running;
   ++running_;
   services().side_tasks.send(lane, std::move(work),
@@ -253,11 +251,11 @@ void TriggerController::ask(const ui::StaffRequest& request) {
           if (pair) {
             ++seen->pairs;
             seen->delay_ms = std::max(seen->delay_ms, took.count());
-            seen->apart_ms = std::max(seen->apart_ms, std::abs(static_cast<double>(pair->skew_ns)) * 1e-6);
+            seen->apart_ms = std::max(seen->apart_ms, std::abs(double(pair->skew_ns)) * 1e-6);
           } else {
             last = pair.error();
           }
-          control.progress.done.store(static_cast<float>(seen->pulses + 1) / kPulses);
+          control.progress.done.store(float(seen->pulses + 1) / kPulses);
           std::this_thread::sleep_for(kBetweenPulses);
         }
         const GrabCounts& after = t.appliance.grabber().counts();
@@ -280,30 +278,29 @@ void TriggerController::show(ui::ServiceView& view) {
   view.trigger = &view_;
 }
 
-std::vector<LogEntry> LogController::wanted() const {
-  std::vector<LogEntry> lines = services().log.entries();
+std::vector<ui::LogLine> LogController::wanted() const {
+  std::vector<ui::LogLine> lines = services().log.entries();
   std::reverse(lines.begin(), lines.end());
-  if (walk_.filter() != 0) std::erase_if(lines, [](const LogEntry& line) { return !line.fault; });
+  if (walk_.filter() != 0) std::erase_if(lines, [](const ui::LogLine& line) { return !line.fault; });
   return lines;
 }
 
 void LogController::ask(const ui::StaffRequest& request) {
   const auto* asked = request.as<ui::ListRequest>();
   if (asked == nullptr || walk_.ask(*asked) != ListWalk::Ask::Labels) return;
-  const std::vector<LogEntry> lines = wanted();
+  const std::vector<ui::LogLine> lines = wanted();
   for (std::size_t i = 0; i < walk_.stretches(); ++i) {
-    const auto top = static_cast<std::size_t>(walk_.top_row(i));
+    const auto top = std::size_t(walk_.top_row(i));
     walk_.set_label(i, top < lines.size() ? lines[top].at : std::string());
   }
 }
 
 void LogController::show(ui::ServiceView& view) {
   lines_ = wanted();
-  walk_.set_rows(static_cast<std::int64_t>(lines_.size()));
+  walk_.set_rows(std::int64_t(lines_.size()));
   lines_.erase(lines_.begin() + walk_.end_row(), lines_.end());
   lines_.erase(lines_.begin(), lines_.begin() + walk_.first_row());
-  show_lines(lines_, shown_);
-  view_ = {shown_, walk_.view()};
+  view_ = {lines_, walk_.view()};
   view.log = &view_;
 }
 

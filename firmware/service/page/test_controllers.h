@@ -97,10 +97,9 @@ class LogController final : public PageController {
 
  private:
   static constexpr std::int64_t kShown = 40;  // of a page
-  std::vector<LogEntry> wanted() const;       // newest first
+  std::vector<ui::LogLine> wanted() const;    // newest first
   ListWalk walk_{kShown};
-  std::vector<LogEntry> lines_;
-  std::vector<ui::LogLine> shown_;
+  std::vector<ui::LogLine> lines_;
   ui::LogView view_;
 };
 

@@ -239,6 +239,20 @@ Eigen::Vector3d turn_of(const Eigen::Matrix3d& rotation) {
   return turn.angle() * turn.axis();
 }
 
+RigidTransform transform_of(const Pose& pose) {
+  RigidTransform t;
+  for (int i = 0; i < 9; ++i) t.rotation.m[i] = pose.rotation(i / 3, i % 3);
+  t.translation_mm = {pose.translation_mm.x(), pose.translation_mm.y(), pose.translation_mm.z()};
+  return t;
+}
+
+Pose pose_of(const RigidTransform& t) {
+  Pose pose;
+  for (int i = 0; i < 9; ++i) pose.rotation(i / 3, i % 3) = t.rotation.m[i];
+  pose.translation_mm = {t.translation_mm.x, t.translation_mm.y, t.translation_mm.z};
+  return pose;
+}
+
 void Pose::step(const Vector6d& by) {
   rotation = Eigen::Quaterniond(rotation_of(by.head<3>()) * rotation).normalized().toRotationMatrix();
   translation_mm += by.tail<3>();

@@ -23,7 +23,13 @@ struct Pose {
   Eigen::Vector3d translation_mm = Eigen::Vector3d::Zero();
 
   void step(const Eigen::Matrix<double, 6, 1>& by);
+  // First `other`, then this.
+  Pose operator*(const Pose& other) const {
+    return {rotation * other.rotation, rotation * other.translation_mm + translation_mm};
+  }
 };
+RigidTransform transform_of(const Pose& pose);
+Pose pose_of(const RigidTransform& transform);
 
 using Vector6d = Eigen::Matrix<double, 6, 1>;
 using Matrix6d = Eigen::Matrix<double, 6, 6>;

@@ -28,7 +28,6 @@
 #include <vector>
 
 #include "pipeline/calibrate/calibrator.h"
-#include "pipeline/calibrate/live/live_options.h"
 #include "pipeline/calibrate/live/live_state.h"
 #include "pipeline/calibrate/live/view_target.h"
 #include "pipeline/calibrate/live/watch/board_tracker.h"

@@ -9,7 +9,7 @@
 
 #include <Eigen/Cholesky>
 
-#include "pipeline/calibrate/live/rig_problem.h"
+#include "pipeline/calibrate/fit/stereo_fit.h"
 #include "pipeline/calibrate/quality/rig_geometry.h"
 
 namespace relievo::pipeline {
@@ -27,10 +27,7 @@ class Rig {
   explicit Rig(const bundle::Problem& rig) : rig_(rig) {}
 
   bundle::Pose in(int eye, const bundle::Pose& left_from_board) const {
-    const bundle::Pose& relation = rig_.right_from_left;
-    if (eye == 0) return left_from_board;
-    return {relation.rotation * left_from_board.rotation,
-            relation.rotation * left_from_board.translation_mm + relation.translation_mm};
+    return eye == 0 ? left_from_board : rig_.right_from_left * left_from_board;
   }
   Vec2d project(int eye, const bundle::Pose& left_from_board, double column, double row) const {
     const double square = rig_.pattern.square_mm;
@@ -252,6 +249,45 @@ ViewPlan ViewPlanner::plan(std::span<const std::size_t> excluded) const {
     plan.best = {target_of(pose, view[0], rig_.pattern), pose.number};
   }
   return plan;
+}
+
+Problem rig_problem(const StereoCalibration& calibration, const BoardPattern& pattern) {
+  Problem rig;
+  rig.pattern = pattern;
+  rig.camera = {calibration.left, calibration.right};
+  rig.right_from_left = bundle::pose_of(calibration.right_from_left);
+  return rig;
+}
+
+bundle::Pose guessed_pose(const Problem& rig, const BoardCorners& left) {
+  Problem one;
+  one.pattern = rig.pattern;
+  one.camera[0].width_px = rig.camera[0].width_px;
+  one.camera[0].height_px = rig.camera[0].height_px;
+  one.views.emplace_back(&left, nullptr, bundle::Pose{});
+  bundle::first_guess(one);
+  bundle::Pose pose = one.views[0].left_from_board;
+  pose.translation_mm.z() *= rig.camera[0].focal_px.x / one.camera[0].focal_px.x;
+  return pose;
+}
+
+bool solved_problem(const CalibratorInput& input, const CalibratorOutput& calibrated, Problem& solved) {
+  const Problem rig = rig_problem(calibrated.calibration, input.pattern);
+  solved = rig;
+  for (std::size_t v = 0; v < std::min(input.views.size(), calibrated.quality.views.size()); ++v) {
+    if (!calibrated.quality.views[v].used) continue;
+    const BoardView& view = input.views[v];
+    Problem one = rig;
+    one.views.emplace_back(&view.left, &view.right, guessed_pose(rig, view.left));
+    if (!bundle::solve_poses(one)) return false;
+    solved.views.push_back(one.views[0]);
+  }
+  solved.free.fill(true);
+  for (const int eye : {0, 1}) set_priors(solved, eye);
+  const double left = calibrated.quality.left_rms_px;
+  const double right = calibrated.quality.right_rms_px;
+  solved.noise_px2 = std::max(1e-6, 0.25 * (left * left + right * right));  // rms is of both coordinates
+  return bundle::solve(solved);
 }
 
 }  // namespace relievo::pipeline

@@ -19,11 +19,23 @@
 
 #include "pipeline/calibrate/calibrator.h"
 #include "pipeline/calibrate/fit/bundle.h"
-#include "pipeline/calibrate/live/live_options.h"
+#include "pipeline/calibrate/live/live_state.h"
 #include "pipeline/calibrate/live/view_target.h"
 #include "pipeline/calibrate/live/watch/board_parameters.h"
 
 namespace relievo::pipeline {
+
+// A calibration as the bundle adjustment knows rigs.
+// Without views, nothing free.
+bundle::Problem rig_problem(const StereoCalibration& calibration, const BoardPattern& pattern);
+
+// Where the board stands, from the left camera alone; good enough to start from.
+bundle::Pose guessed_pose(const bundle::Problem& rig, const BoardCorners& left);
+
+// The calibration's used views (the first of the input's) as a solved problem: it knows its information and
+// covariance. False where they do not determine it.
+bool solved_problem(const CalibratorInput& input, const CalibratorOutput& calibrated,
+                    bundle::Problem& solved);
 
 // Poses in which a person can hold a board so that both cameras of a rig see it whole: nine places in
 // the picture, as far out as may be, at three distances, facing the camera and tilted eight ways.

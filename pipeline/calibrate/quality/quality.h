@@ -10,6 +10,7 @@
 #include <vector>
 
 #include "pipeline/calibrate/quality/uncertainty.h"
+#include "pipeline/model/live_advice.h"
 
 // What is good and what cannot be used: the verdict's limits, and what the report says of each figure.
 namespace relievo::pipeline::limits {
@@ -43,8 +44,6 @@ inline constexpr double kWorstScalePercent = 100 * kWorstShapeMm / 150;
 namespace relievo::pipeline {
 
 inline constexpr double kFaceMm = 560;  // where faces are
-
-enum class CalibrationVerdict : std::uint8_t { Pass, Usable, Refuse };
 
 // Why left and right disagree more than corner noise explains.
 enum class SlipCause : std::uint8_t {

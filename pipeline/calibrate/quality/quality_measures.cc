@@ -12,7 +12,7 @@
 #include "hal/base/statistics.h"
 #include "pipeline/base/solving.h"
 #include "pipeline/calibrate/fit/bundle.h"
-#include "pipeline/calibrate/fit/relation_evidence.h"
+#include "pipeline/calibrate/fit/view_selection.h"
 #include "pipeline/calibrate/quality/quality.h"
 #include "pipeline/calibrate/quality/rig_geometry.h"
 

@@ -205,11 +205,7 @@ constexpr double kReach = 4;  // standard deviations
 // Both coordinates of every corner of the pairs used.
 std::vector<double> coordinates(const CalibrationReport& r, std::size_t eye) {
   std::vector<double> all;
-  for (std::size_t v = 0; v < r.output.views.size(); ++v) {
-    if (!r.output.quality.views[v].used) continue;
-    for (const CornerResidual& corner : corners_of(r.output.views[v], eye))
-      if (seen(corner.at)) all.insert(all.end(), {corner.off.x, corner.off.y});
-  }
+  for_each_used(r, eye, [&](const CornerResidual& c) { all.insert(all.end(), {c.off.x, c.off.y}); });
   return all;
 }
 

@@ -120,9 +120,7 @@ std::string lens_table(const CalibrationReport& r) {
 std::string relation_table(const CalibrationReport& r) {
   const RigidTransform& t = r.output.calibration.right_from_left;
   const ParameterUncertainty& u = r.output.quality.uncertainty.parameters;
-  Eigen::Matrix3d rotation;
-  for (int i = 0; i < 9; ++i) rotation(i / 3, i % 3) = t.rotation.m[i];
-  const Eigen::Vector3d turn = kDegrees * bundle::turn_of(rotation);
+  const Eigen::Vector3d turn = kDegrees * bundle::turn_of(bundle::pose_of(t).rotation);
   const std::array<double, 3> shift = {t.translation_mm.x, t.translation_mm.y, t.translation_mm.z};
   const char* const axes[] = {"x", "y", "z"};
   std::string out =

@@ -75,7 +75,7 @@ class KioskCalibrationTest : public StaffHands {
     ASSERT_TRUE(until(
         [this] { return technician().calibration.ended || !technician().calibration.problem.empty(); }));
     ASSERT_EQ(technician().calibration.problem.detail, "");
-    ASSERT_NE(technician().calibration.verdict, ui::TechnicianVerdict::Refuse)
+    ASSERT_NE(technician().calibration.verdict, pipeline::CalibrationVerdict::Refuse)
         << technician().calibration.problem.detail;
     EXPECT_EQ(kiosk->view().out_of_order, ui::Trouble::Uncalibrated) << "seen is not accepted";
     tap("calibration store");

@@ -29,7 +29,7 @@ class StaffSettingsTest : public StaffHands {
   }
   // How often, all starts together.
   std::ptrdiff_t logged(std::string_view words) const {
-    return std::ranges::count_if(kiosk->staff().log().entries(), [&](const LogEntry& entry) {
+    return std::ranges::count_if(kiosk->staff().log().entries(), [&](const ui::LogLine& entry) {
       return entry.text.find(words) != std::string::npos;
     });
   }

@@ -99,7 +99,7 @@ class TakeHomeTest : public ApplianceTest {
   }
   int logged() const {
     const auto entries = log.entries();
-    return int(std::ranges::count(entries, std::optional(ui::LogEvent::TakenHome), &LogEntry::event));
+    return int(std::ranges::count(entries, std::optional(ui::LogEvent::TakenHome), &ui::LogLine::event));
   }
   void ends_well_on(hal::RemovableMedia& stick, const std::filesystem::path& root) {
     plug(nullptr);

@@ -321,7 +321,7 @@ TEST_F(TechnicianTest, ACalibrationIsMadeJudgedStoredAndUsed) {
   ASSERT_TRUE(rig().until([] { return rig().now().calibration.ended; }))
       << rig().now().calibration.problem.detail;
   const ui::TechnicianCalibration made = rig().now().calibration;
-  ASSERT_NE(made.verdict, ui::TechnicianVerdict::Refuse)
+  ASSERT_NE(made.verdict, pipeline::CalibrationVerdict::Refuse)
       << (made.reasons.empty() ? "" : made.reasons.front());
   ASSERT_FALSE(made.reasons.empty()) << "good for a reason that is told, too";
   const auto& between = rig().stages->calibration()->right_from_left.translation_mm;

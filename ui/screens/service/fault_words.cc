@@ -57,7 +57,7 @@ static_assert(kLogWords.back()[0] != nullptr);
 
 }  // namespace
 
-const char* words_of(const Words& tr, Errc code) { return tr(kFaultWords[std::size_t(code)]); }
+const char* words_of(const Words& tr, Errc code) { return one_of(tr, kFaultWords, code); }
 
 LogWords words_of(const Words& tr, LogEvent event) {
   if (event >= LogEvent::Count) return {""};
@@ -95,7 +95,7 @@ static_assert(kSettingNames.size() == std::size_t(Setting::Count));
 
 }  // namespace
 
-const char* name_of(const Words& tr, Setting setting) { return tr(kSettingNames[std::size_t(setting)]); }
+const char* name_of(const Words& tr, Setting setting) { return one_of(tr, kSettingNames, setting); }
 
 std::string_view said_value(StaffFrame& page, Setting setting, std::int32_t value) {
   switch (setting) {

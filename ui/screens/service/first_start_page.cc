@@ -7,7 +7,6 @@
 #include <cstdio>
 
 #include "ui/screens/parts/keyboard.h"
-#include "ui/screens/service/pin_entry.h"
 #include "ui/screens/service/staff_pages.h"
 #include "ui/view/staff_views.h"
 
@@ -45,6 +44,12 @@ void told(StaffFrame& page, std::string_view id, std::string_view words, Mood mo
   page.tree.leaf(node);
 }
 
+// Words at the start, dots and digits.
+struct PinWords {
+  const char* hint = nullptr;  // what is asked; stands beside what is told
+  std::string_view told;       // empty: nothing
+  Mood mood = Mood::Plain;     // of what is told
+};
 PinWords words_of(StaffFrame& page) {
   const AccessView& access = page.staff.access;
   if (access.checking) return {page.tr("One moment, please"), {}, Mood::Plain};
@@ -59,8 +64,6 @@ PinWords words_of(StaffFrame& page) {
   return {page.tr("Type your PIN, then touch the tick."),
           access.wrong ? std::string_view(page.tr("That was not right.")) : std::string_view(), Mood::Bad};
 }
-
-}  // namespace
 
 void pin_entry(StaffFrame& page, std::string_view title, const PinWords& words, Action done) {
   Node room = page.grown(page.box(page.portrait ? Flow::Column : Flow::Row, space::kXl));
@@ -77,6 +80,8 @@ void pin_entry(StaffFrame& page, std::string_view title, const PinWords& words, 
   page.tree.close();
   number_pad(page, {"digit ", "pin done"}, done);
 }
+
+}  // namespace
 
 void pin_page(StaffFrame& page) {
   page.begin(page.tr("Staff"), icon::kLock);
@@ -122,12 +127,8 @@ void mover(StaffFrame& page, const char* label, std::string_view id, int minutes
   row.box.justify = Justify::Centre;
   row.box.left_to_right = true;
   page.tree.open(row);
-  const auto named = [&](std::string_view end) {
-    const std::string_view first = page.tree.keep(id), second = page.tree.keep(end);
-    return std::string_view{first.data(), first.size() + second.size()};
-  };
-  page.square_button(named(" less"), page.tr("Less"), "\uf374", Action(MoveClock{-minutes}));
-  page.square_button(named(" more"), page.tr("More"), "\uf415", Action(MoveClock{minutes}));
+  page.square_button(page.joined({id, " less"}), page.tr("Less"), "\uf374", Action(MoveClock{-minutes}));
+  page.square_button(page.joined({id, " more"}), page.tr("More"), "\uf415", Action(MoveClock{minutes}));
   page.tree.close();
   page.tree.close();
 }

@@ -19,8 +19,6 @@ constexpr std::array kGaugeNames{mark_tr("Memory of the stages"), mark_tr("Memor
                                  mark_tr("Disk used"), mark_tr("Temperature")};
 static_assert(kGaugeNames.size() == std::size_t(Gauge::Temperature) + 1);
 
-const char* words_of(const Words& tr, Gauge gauge) { return tr(kGaugeNames[std::size_t(gauge)]); }
-
 constexpr std::size_t kMostSamples = 256;
 
 // What was kept over a day, in the unit of its row.
@@ -51,13 +49,12 @@ void gauge_row(StaffFrame& page, const GaugeRow& row, std::size_t index) {
                   row.of / 1024);
   const std::string_view value =
       row.gauge == Gauge::Temperature ? page.number(row.used, 0, "°C") : page.tree.keep(text);
-  const std::string_view id = page.tree.keep("gauge "), which = page.number(double(index));
-  const char* words = words_of(page.tr, row.gauge);
+  const char* words = one_of(page.tr, kGaugeNames, row.gauge);
   char
       named[160];  // the words outside of any isolate: they tell the direction, also in front of a Latin name
   std::snprintf(named, sizeof named, "%s ({})", words);
   Plot plot;
-  plot.id = {id.data(), id.size() + which.size()};
+  plot.id = page.id("gauge", index);
   plot.title = row.name.empty() ? std::string_view(words) : page.filled(named, {row.name});
   plot.figure = value;
   if (!row.day.empty()) return over_a_day(page, row, plot, gib);
@@ -71,8 +68,6 @@ constexpr std::array kStageNames{mark_tr("Matching"),  mark_tr("Reconstruction")
                                  mark_tr("Model")};
 static_assert(kStageNames.size() == std::size_t(CostlyStage::Count));
 
-const char* words_of(const Words& tr, CostlyStage stage) { return tr(kStageNames[std::size_t(stage)]); }
-
 // Time and memory of every stage, at most in one of the last visits, and what it may take.
 void stage_rows(StaffFrame& page, const VisitCostsView& costs) {
   page.section(page.tr("From the pictures to the portrait"));
@@ -84,8 +79,8 @@ void stage_rows(StaffFrame& page, const VisitCostsView& costs) {
     std::snprintf(text, sizeof text, "%.1f / %.0f s  ·  %.0f / %.0f MiB", double(cost.seconds),
                   double(costs.planned_seconds), double(cost.mib), double(costs.planned_stage_mib));
     const bool over = cost.seconds > costs.planned_seconds || cost.mib > costs.planned_stage_mib;
-    page.row(page.joined({"cost ", page.number(double(i))}), words_of(page.tr, static_cast<CostlyStage>(i)),
-             page.with_numbers(text), over ? Mood::Bad : Mood::Good);
+    page.row(page.id("cost", i), one_of(page.tr, kStageNames, i), page.with_numbers(text),
+             over ? Mood::Bad : Mood::Good);
   }
 }
 

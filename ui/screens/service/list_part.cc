@@ -3,8 +3,6 @@
 #include "ui/screens/service/list_part.h"
 
 #include <algorithm>
-#include <array>
-#include <charconv>
 
 #include "hal/base/utf8.h"
 
@@ -31,16 +29,14 @@ void stretches(StaffFrame& page, const ListPlace& place) {
   for (std::size_t i = 0; i < place.stretch_count; ++i) {
     const ListStretch& one = place.stretches[i];
     const bool single = one.first == one.last;
-    const std::string_view pages =
-        single ? page_number(page, one.first)
-               : page.joined({isolate::kLeft, page_number(page, one.first), "\u00a0–\u00a0",
-                              page_number(page, one.last), isolate::kEnd});
+    const std::string_view pages = single ? page_number(page, one.first)
+                                          : page.left_to_right({page_number(page, one.first), "\u00a0–\u00a0",
+                                                                page_number(page, one.last)});
     const std::string_view dated = page.date(one.label);
-    const char which = char('0' + i);
     const bool here = one.first <= place.page && place.page <= one.last;
     page.row(
-        page.joined({"stretch ", {&which, 1}}), dated == one.label ? page.with_numbers(one.label) : dated,
-        pages, here ? Mood::Good : Mood::Plain,
+        page.id("stretch", i), dated == one.label ? page.with_numbers(one.label) : dated, pages,
+        here ? Mood::Good : Mood::Plain,
         single ? list_action(GoToPage{one.first}) : list_action(DivideList{one.first, one.last}, kJumping));
   }
   page.tree.close();
@@ -48,19 +44,13 @@ void stretches(StaffFrame& page, const ListPlace& place) {
 
 bool is_letter(std::string_view name) { return !name.empty() && first_letter_of(name).bytes == name.size(); }
 
-std::string_view filter_id(StaffFrame& page, std::size_t i) {
-  std::array<char, 8> digits{};
-  const auto end = std::to_chars(digits.data(), digits.data() + digits.size(), i).ptr;
-  return page.joined({"filter ", {digits.data(), end}});
-}
-
 // Letters abreast, from `first` on; the place after the last one.
 std::size_t letter_row(StaffFrame& page, const ListPlace& place, ListFilters filters, std::size_t first) {
   const std::size_t across = page.portrait ? 5 : 10;
   page.tree.open(page.box(Flow::Row, space::kXs, 0, 4));
   std::size_t i = first;
   for (; i < first + across && i < filters.size() && is_letter(filters[i]); ++i)
-    page.small_button(filter_id(page, i), filters[i], nullptr,
+    page.small_button(page.id("filter", i), filters[i], nullptr,
                       i == place.filter ? ButtonLook::Main : ButtonLook::Quiet, list_action(FilterList{i}),
                       1);
   for (std::size_t empty = i; empty < first + across; ++empty) page.space(1);
@@ -76,7 +66,7 @@ void filter_rows(StaffFrame& page, const ListPlace& place, ListFilters filters) 
       continue;
     }
     const bool chosen = i == place.filter;
-    page.row(filter_id(page, i), filters[i],
+    page.row(page.id("filter", i), filters[i],
              chosen ? std::string_view(page.tr("chosen")) : std::string_view(),
              chosen ? Mood::Good : Mood::Plain, list_action(FilterList{i}));
     ++i;
@@ -116,10 +106,10 @@ void list_pager(StaffFrame& page, const ListPlace& place, ListFilters filters) {
   if (place.pages > 1) {
     step(page, "first page", tr("First page"), turned ? kLastSign : kFirstSign, 0, at_first);
     step(page, "page back", tr("One page back"), page.backward(), place.page - 1, at_first);
-    page.small_button("page number",
-                      page.joined({isolate::kLeft, page_number(page, place.page), "\u00a0/\u00a0",
-                                   page_number(page, last), isolate::kEnd}),
-                      nullptr, ButtonLook::Quiet, list_action(DivideList{0, last}, kJumping), 1);
+    page.small_button(
+        "page number",
+        page.left_to_right({page_number(page, place.page), "\u00a0/\u00a0", page_number(page, last)}),
+        nullptr, ButtonLook::Quiet, list_action(DivideList{0, last}, kJumping), 1);
     step(page, "page on", tr("One page on"), page.onward(), place.page + 1, at_last);
     step(page, "last page", tr("Last page"), turned ? kFirstSign : kLastSign, last, at_last);
   }

@@ -71,9 +71,10 @@ using FilterNames = std::array<std::string_view, 1 + kRecordFilters>;
 ListFilters filters_of(StaffFrame& page, const RecordsView& seen, FilterNames& names) {
   names[0] = page.tr("All");
   for (std::size_t i = 0; i < seen.filters.size(); ++i)
-    names[1 + i] = seen.filters[i].letter ? seen.filters[i].text
-                                          : page.joined({page.tr("Consent text"), " ", isolate::kLeft,
-                                                         seen.filters[i].text, isolate::kEnd});
+    names[1 + i] =
+        seen.filters[i].letter
+            ? seen.filters[i].text
+            : page.joined({page.tr("Consent text"), " ", page.left_to_right(seen.filters[i].text)});
   return {names.data(), 1 + seen.filters.size()};
 }
 

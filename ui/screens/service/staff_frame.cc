@@ -142,49 +142,30 @@ void StaffFrame::status(std::string_view id, std::string_view words, Mood mood) 
   tree.leaf(text(words, type::kSmall, Weight::Medium, ink_of(mood)));
 }
 
-void StaffFrame::asked(const char* title, const About* about, const char* words, const char* hint) {
+void StaffFrame::grave_question(const char* title, const About& about, const char* words, const char* yes,
+                                Action yes_action, const char* no, Action no_action) {
   const bool narrow = portrait || text_share > 1.3F;
   tree.open(grown(box(Flow::Row, space::kM)));
-  if (about != nullptr && !narrow) about->draw(*this);
+  if (!narrow) about.draw(*this);
   Node room = grown(box(Flow::Column, space::kM));
   room.id = "question";
   room.box.justify = Justify::Centre;
   room.box.scroll = true;
   tree.open(room);
   heading("question title", title, type::kHeading);
-  if (about != nullptr) {
-    heading("question about", filled("{}", about->name), type::kBody);
-    body("question code", filled("{}", about->code));
-  }
+  heading("question about", filled("{}", about.name), type::kBody);
+  body("question code", filled("{}", about.code));
   body("question words", words);
-  if (hint != nullptr) {
-    Node how = text(hint, type::kSmall, Weight::Medium, palette.ink);
-    how.id = "question hint";
-    tree.leaf(how);
-  }
+  Node how = text(
+      tr("Hold the button for three seconds; let go sooner and nothing happens. With keys: press once and wait; any other key calls it back."),
+      type::kSmall, Weight::Medium, palette.ink);
+  how.id = "question hint";
+  tree.leaf(how);
   tree.close();
   tree.close();
-  tree.open(box(narrow ? Flow::Column : Flow::Row, space::kS));
-}
-
-void StaffFrame::question(const char* title, const char* words, const char* yes, Action yes_action,
-                          const char* no, Action no_action) {
-  asked(title, nullptr, words, nullptr);
-  const float grow = portrait || text_share > 1.3F ? 0 : 1;
-  button("no", no, nullptr, ButtonLook::Quiet, no_action, grow);
-  button("yes", yes, nullptr, ButtonLook::Main, yes_action, grow);
-  tree.close();
-}
-
-void StaffFrame::grave_question(const char* title, const About& about, const char* words, const char* yes,
-                                Action yes_action, const char* no, Action no_action) {
-  asked(
-      title, &about, words,
-      tr("Hold the button for three seconds; let go sooner and nothing happens. With keys: press once and wait; any other key calls it back."));
-  const float grow = portrait || text_share > 1.3F ? 0 : 1;
-  button("no", no, nullptr, ButtonLook::Main, no_action, grow);
-  held_button("yes", yes, yes_action, grow);
-  tree.close();
+  const auto in_row = tree.inside(box(narrow ? Flow::Column : Flow::Row, space::kS));
+  button("no", no, nullptr, ButtonLook::Main, no_action, narrow ? 0 : 1);
+  held_button("yes", yes, yes_action, narrow ? 0 : 1);
 }
 
 // As wide and high as the button beside it, in the colour of what is bad; the bar that fills is as dark as

@@ -7,6 +7,7 @@
 #pragma once
 
 #include <algorithm>
+#include <array>
 #include <string_view>
 
 #include "ui/screens/parts/page.h"
@@ -19,6 +20,12 @@ namespace size {
 inline constexpr float kStaffTarget = 60;
 inline constexpr ButtonSize kStaffButton{kStaffTarget, kStaffTarget, 20, 8, 10, 18, 26, type::kSmall};
 }  // namespace size
+
+// Of one text for each value of an enumeration, in its order.
+template <std::size_t kCount, typename Which>
+const char* one_of(const Words& tr, const std::array<const char*, kCount>& english, Which which) {
+  return tr(english[std::size_t(which)]);
+}
 
 class StaffFrame : public Page {
  public:
@@ -72,20 +79,24 @@ class StaffFrame : public Page {
   void status(std::string_view id, std::string_view words, Mood mood);
   // How the page's work ended, with a sign; nothing where nothing has.
   void outcome();
-  // A big question in place of the page: two answers.
-  void question(const char* title, const char* words, const char* yes, Action yes_action, const char* no,
-                Action no_action);
   // What a question is about: it stays in view; drawn beside the words where there is room.
   struct About {
     std::string_view name, code;
     void (*draw)(StaffFrame&);
   };
-  // The same, of what nobody can undo: "yes" is held for three seconds; by a keypad it waits as long, and
-  // another key calls it back.
+  // A big question in place of the page, of what nobody can undo: "yes" is held for three seconds; by a
+  // keypad it waits as long, and another key calls it back.
   void grave_question(const char* title, const About& about, const char* words, const char* yes,
                       Action yes_action, const char* no, Action no_action);
-  // The parts one after the other, kept for the frame: an id, words of a line.
+  // The parts one after the other, kept for the frame.
   std::string_view joined(std::initializer_list<std::string_view> parts) const;
+  // Figures and identifiers: left to right in every language.
+  std::string_view left_to_right(std::initializer_list<std::string_view> parts) const;
+  std::string_view left_to_right(std::string_view text) const {
+    return joined({isolate::kLeft, text, isolate::kEnd});
+  }
+  // A name made of two parts, kept for the frame: "stage 3".
+  std::string_view id(std::string_view what, std::size_t number) const;
   // "12.5 mm", "90.0°", with the language's decimal mark and digits in threes, kept apart from the direction
   // of the words around.
   std::string_view number(double value, int decimals = 0, const char* unit_name = "");
@@ -104,7 +115,6 @@ class StaffFrame : public Page {
   void due_rule();
   void begin_card(std::string_view id, bool fit_content);
   void leaving();
-  void asked(const char* title, const About* about, const char* words, const char* hint);
   void held_button(std::string_view id, std::string_view label, Action action, float grow);
   void step_button(std::string_view id, const char* end, const char* spoken, std::string_view label,
                    const char* letter, Action action);

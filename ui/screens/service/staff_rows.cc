@@ -3,6 +3,7 @@
 //
 // StaffFrame's lists: rows of figures, of choices, and the lines between them.
 #include <algorithm>
+#include <charconv>
 
 #include "ui/screens/service/staff_frame.h"
 #include "ui/view/staff_views.h"
@@ -27,6 +28,17 @@ std::string_view StaffFrame::joined(std::initializer_list<std::string_view> part
   std::size_t length = 0;
   for (const std::string_view part : parts) length += tree.keep(part).size();
   return {first.data(), length};
+}
+
+std::string_view StaffFrame::left_to_right(std::initializer_list<std::string_view> parts) const {
+  const std::string_view first = tree.keep(isolate::kLeft), middle = joined(parts);
+  return {first.data(), first.size() + middle.size() + tree.keep(isolate::kEnd).size()};
+}
+
+std::string_view StaffFrame::id(std::string_view what, std::size_t number) const {
+  char digits[20];
+  const auto end = std::to_chars(digits, digits + sizeof digits, number).ptr;
+  return joined({what, " ", {digits, end}});
 }
 
 // Beside each other where both have room; else the value under its label, at the same end.

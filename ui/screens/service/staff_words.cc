@@ -77,13 +77,10 @@ std::string_view StaffFrame::as_number(std::string_view text) {
     behind = power + digits(text.substr(std::min(power, text.size())));
   }
   if (behind < text.size() && text[behind] != ' ') return text;
-  const std::string_view first = tree.keep(isolate::kLeft);
-  std::size_t length = first.size() + tree.keep(text[0] == '-' ? kMinus : text.substr(0, sign)).size();
-  for (const std::string_view part :
-       {text.substr(sign, whole), std::string_view(&info_of(visit.language).decimal_mark, 1),
-        text.substr(rest), std::string_view(isolate::kEnd)})
-    length += tree.keep(part).size();
-  return {first.data(), length};
+  return left_to_right({text[0] == '-' ? kMinus : text.substr(0, sign),
+                        text.substr(sign, whole),
+                        {&info_of(visit.language).decimal_mark, 1},
+                        text.substr(rest)});
 }
 
 std::string_view StaffFrame::with_numbers(std::string_view text) {
@@ -124,9 +121,7 @@ std::string_view StaffFrame::date(std::string_view iso) {
 }
 
 Node StaffFrame::english(std::string_view words, float size) const {
-  const std::string_view first = tree.keep(isolate::kLeft);
-  const std::size_t length = first.size() + tree.keep(words).size() + tree.keep(isolate::kEnd).size();
-  Node node = text({first.data(), length}, size, Weight::Regular, palette.ink_soft);
+  Node node = text(left_to_right(words), size, Weight::Regular, palette.ink_soft);
   node.style.size_px = px(size * text_share);  // Latin letters are as large in every language
   node.style.language = info_of(Language::English).code;
   return node;

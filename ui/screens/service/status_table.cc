@@ -14,9 +14,6 @@ using Status = const StatusView&;
 constexpr int kOldCalibrationDays = 365;
 constexpr std::uint64_t kMissedShare = 100;  // one of so many pairs is no fault yet
 
-// Marks words for the catalogues; the menu translates them when it draws.
-constexpr const char* mark_tr(const char* english) { return english; }
-
 Mood bad_if(bool wrong) { return wrong ? Mood::Bad : Mood::Plain; }
 Mood warn_if(bool doubtful) { return doubtful ? Mood::Warn : Mood::Plain; }
 // Before real people it must not be so.

@@ -6,7 +6,6 @@
 
 #include "ui/screens/service/fault_words.h"
 #include "ui/screens/service/list_part.h"
-#include "ui/screens/service/pin_entry.h"
 #include "ui/screens/service/staff_pages.h"
 #include "ui/view/staff_views.h"
 
@@ -24,8 +23,6 @@ constexpr std::array kRefusalWords{mark_tr("No face found"),
                                    mark_tr("It took too long"),
                                    mark_tr("Another reason")};
 static_assert(kRefusalWords.size() == std::size_t(Refusal::Count));
-
-const char* words_of(const Words& tr, Refusal refusal) { return tr(kRefusalWords[std::size_t(refusal)]); }
 
 void days(StaffFrame& page, const StatisticsView& seen) {
   std::array<std::string_view, kStatisticsDays> dates;
@@ -61,9 +58,7 @@ void statistics_page(StaffFrame& page) {
   days(page, *seen);
   for (std::size_t i = 0; i < kRefusals; ++i) {
     if (seen->refused[i] == 0) continue;
-    const auto refusal = static_cast<Refusal>(i);
-    const std::string_view id = page.tree.keep("refused "), which = page.number(double(i));
-    page.row({id.data(), id.size() + which.size()}, words_of(tr, refusal), count(seen->refused[i]));
+    page.row(page.id("refused", i), one_of(tr, kRefusalWords, i), count(seen->refused[i]));
   }
   page.section(tr("From the pictures to the portrait"));
   page.row("median", tr("Half of them are faster than"),
@@ -140,23 +135,13 @@ constexpr std::array kCheckNames{mark_tr("Memory"), mark_tr("Store"), mark_tr("C
                                  mark_tr("Room on the disk"), mark_tr("Cameras")};
 static_assert(kCheckNames.size() == std::size_t(Check::Count));
 
-const char* words_of(const Words& tr, Check check) { return tr(kCheckNames[std::size_t(check)]); }
-
 // In the order of CheckState.
 constexpr std::array kCheckWords{"–", mark_tr("One moment, please"), mark_tr("In order"),
                                  mark_tr("Not in order")};
 static_assert(kCheckWords.size() == std::size_t(CheckState::Bad) + 1);
 
-const char* words_of(const Words& tr, CheckState state) { return tr(kCheckWords[std::size_t(state)]); }
-
 Mood mood_of(CheckState state) {
   return state == CheckState::Good ? Mood::Good : state == CheckState::Bad ? Mood::Bad : Mood::Plain;
-}
-
-std::string_view numbered(StaffFrame& page, const char* what, std::size_t number) {
-  const std::string_view first = page.tree.keep(what);
-  const char digit = char('0' + number);
-  return {first.data(), first.size() + page.tree.keep({&digit, 1}).size()};
 }
 
 }  // namespace
@@ -166,8 +151,8 @@ void self_test_page(StaffFrame& page) {
   page.begin_list("self test");
   if (const SelfTestView* seen = page.staff.self_test) {
     for (std::size_t i = 0; i < kChecks; ++i) {
-      page.row(numbered(page, "check ", i), words_of(tr, static_cast<Check>(i)),
-               words_of(tr, seen->states[i]), mood_of(seen->states[i]));
+      page.row(page.id("check", i), one_of(tr, kCheckNames, i), one_of(tr, kCheckWords, seen->states[i]),
+               mood_of(seen->states[i]));
       if (seen->states[i] != CheckState::Bad) continue;
       page.line(words_of(tr, seen->problems[i].code), Mood::Bad);
       page.detail(seen->problems[i].detail);

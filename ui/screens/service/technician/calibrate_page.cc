@@ -12,9 +12,11 @@
 namespace relievo::ui {
 namespace {
 
+using pipeline::CalibrationVerdict, pipeline::LiveAdvice, pipeline::LiveEnd;
+
 constexpr std::size_t kMostViews = 64;
 
-// In the order of BoardAdvice.
+// In the order of LiveAdvice.
 constexpr std::array kAdviceWords{mark_tr("Show the whole board to both cameras"),
                                   mark_tr("The left camera does not see all of it"),
                                   mark_tr("The right camera does not see all of it"),
@@ -35,41 +37,35 @@ constexpr std::array kAdviceWords{mark_tr("Show the whole board to both cameras"
                                   mark_tr("This view is known: another one, please"),
                                   mark_tr("The cameras have changed places: swap them and begin again"),
                                   mark_tr("Enough has been seen")};
-static_assert(kAdviceWords.size() == std::size_t(BoardAdvice::Done) + 1);
+static_assert(kAdviceWords.size() == std::size_t(LiveAdvice::Done) + 1);
 
-const char* words_of(const Words& tr, BoardAdvice advice) { return tr(kAdviceWords[std::size_t(advice)]); }
-
-// In the order of BoardEnd.
+// In the order of LiveEnd.
 constexpr std::array kEndWords{mark_tr("It was stopped"), mark_tr("The goal is reached."),
                                mark_tr("More views would hardly improve it."),
                                mark_tr("Enough has been seen")};
-static_assert(kEndWords.size() == std::size_t(BoardEnd::Full) + 1);
-
-const char* words_of(const Words& tr, BoardEnd end) { return tr(kEndWords[std::size_t(end)]); }
+static_assert(kEndWords.size() == std::size_t(LiveEnd::Full) + 1);
 
 // How much of the picture has been seen: the more corners in a part, the fuller its square. As large as the
 // picture above it.
 void coverage(TechnicianFrame& f, std::size_t side, float aspect) {
-  const auto& seen = f.view.calibration.seen[side];
-  Node frame = f.page.grown(f.page.box(Flow::Stack));
+  const auto& seen = f.seen.calibration.seen[side];
+  Node frame = f.grown(f.box(Flow::Stack));
   frame.aspect = aspect;
-  const auto in_frame = f.page.tree.inside(frame);
-  Node map = f.page.box(Flow::Column, 3);
-  tell(
-      map, Role::Picture, side == 0 ? "left coverage" : "right coverage",
-      f.page.filled("{}: {}", {side == 0 ? f.tr("Left camera") : f.tr("Right camera"), f.tr("Views taken")}));
-  const auto in_map = f.page.tree.inside(map);
+  const auto in_frame = f.tree.inside(frame);
+  Node map = f.box(Flow::Column, 3);
+  tell(map, Role::Picture, side == 0 ? "left coverage" : "right coverage",
+       f.filled("{}: {}", {side == 0 ? f.tr("Left camera") : f.tr("Right camera"), f.tr("Views taken")}));
+  const auto in_map = f.tree.inside(map);
   for (std::size_t row = 0; row < kCoverageCells; ++row) {
-    Node line = f.page.grown(f.page.box(Flow::Row, 3));
+    Node line = f.grown(f.box(Flow::Row, 3));
     line.box.left_to_right = true;
-    const auto in_line = f.page.tree.inside(line);
+    const auto in_line = f.tree.inside(line);
     for (std::size_t column = 0; column < kCoverageCells; ++column) {
-      Node cell = f.page.grown(f.page.box(Flow::Column));
+      Node cell = f.grown(f.box(Flow::Column));
       const float share = std::min(1.0F, float(seen[row * kCoverageCells + column]) / 40);
-      cell.box.fill =
-          share > 0 ? f.page.palette.accent.with_alpha(0.45F + 0.55F * share) : f.page.palette.track;
-      cell.box.radius = f.page.px(3);
-      f.page.tree.leaf(cell);
+      cell.box.fill = share > 0 ? f.palette.accent.with_alpha(0.45F + 0.55F * share) : f.palette.track;
+      cell.box.radius = f.px(3);
+      f.tree.leaf(cell);
     }
   }
 }
@@ -77,166 +73,160 @@ void coverage(TechnicianFrame& f, std::size_t side, float aspect) {
 // The pictures above, what of each has been seen below.
 void live_pictures(TechnicianFrame& f) {
   const auto pair = [&](const auto& one) {
-    Node row = f.page.grown(f.page.box(Flow::Row, space::kS));
+    Node row = f.grown(f.box(Flow::Row, space::kS));
     row.box.left_to_right = true;
-    const auto in_row = f.page.tree.inside(row);
+    const auto in_row = f.tree.inside(row);
     for (std::size_t side = 0; side < 2; ++side) one(side);
   };
-  Node column = f.page.grown(f.page.box(Flow::Column, space::kS), f.picture_share(1.6F));
-  const auto in_column = f.page.tree.inside(column);
+  Node column = f.grown(f.box(Flow::Column, space::kS), f.picture_share(1.6F));
+  const auto in_column = f.tree.inside(column);
   pair([&](std::size_t side) {
     f.open_picture(side == 0 ? "left board" : "right board",
-                   side == 0 ? f.tr("Left camera") : f.tr("Right camera"), f.view.calibration.pictures[side],
+                   side == 0 ? f.tr("Left camera") : f.tr("Right camera"), f.seen.calibration.pictures[side],
                    side == 0 ? PictureSlot::TechnicianLeft : PictureSlot::TechnicianRight);
     f.close_picture();
   });
   pair([&](std::size_t side) {
-    const ImageView& seen = f.view.calibration.pictures[side].pixels;
+    const ImageView& seen = f.seen.calibration.pictures[side].pixels;
     coverage(f, side, seen.empty() ? 1.0F : float(seen.width_px) / float(seen.height_px));
   });
 }
 
 void bar(TechnicianFrame& f, std::string_view id, const char* label, float share) {
-  const auto in_box = f.page.tree.inside(f.page.box(Flow::Column, 4, 0, 7));
-  f.page.tree.leaf(f.page.text(label, 18, Weight::Medium, f.page.palette.ink));
-  f.page.progress(id, share);
+  const auto in_box = f.tree.inside(f.box(Flow::Column, 4, 0, 7));
+  f.tree.leaf(f.text(label, 18, Weight::Medium, f.palette.ink));
+  f.progress(id, share);
 }
 
 void running(TechnicianFrame& f) {
-  const TechnicianCalibration& c = f.view.calibration;
-  Node said = f.page.text(words_of(f.tr, c.advice), type::kHeading, Weight::Bold, f.page.palette.link,
-                          TextAlign::Centre);
+  const TechnicianCalibration& c = f.seen.calibration;
+  Node said = f.text(one_of(f.tr, kAdviceWords, c.advice), type::kHeading, Weight::Bold, f.palette.link,
+                     TextAlign::Centre);
   said.id = "advice";
   said.role = Role::Status;
-  said.style.size_px = f.page.px(type::kHeading * (1 + (f.page.text_share - 1) * 0.5F));
-  f.page.tree.leaf(said);
-  f.page.tree.open(f.page.grown(f.page.box(f.page.portrait ? Flow::Column : Flow::Row, space::kM)));
+  said.style.size_px = f.px(type::kHeading * (1 + (f.text_share - 1) * 0.5F));
+  f.tree.leaf(said);
+  f.tree.open(f.grown(f.box(f.portrait ? Flow::Column : Flow::Row, space::kM)));
   live_pictures(f);
-  f.page.tree.open(f.page.grown(f.page.box(Flow::Column)));
-  f.page.begin_panel("progress list");
-  f.page.row("views", f.tr("Views taken"), f.page.number(c.views));
-  f.page.row("error", f.tr("Predicted error"),
-             c.error_mm > 0 ? f.page.number(double(c.error_mm), 3, "mm") : std::string_view("–"),
-             c.error_mm > 0 && c.error_mm <= c.goal_mm ? Mood::Good : Mood::Plain);
-  f.page.row("goal", f.tr("Goal"), f.page.number(double(c.goal_mm), 3, "mm"));
+  f.tree.open(f.grown(f.box(Flow::Column)));
+  f.begin_panel("progress list");
+  f.row("views", f.tr("Views taken"), f.number(c.views));
+  f.row("error", f.tr("Predicted error"),
+        c.error_mm > 0 ? f.number(double(c.error_mm), 3, "mm") : std::string_view("–"),
+        c.error_mm > 0 && c.error_mm <= c.goal_mm ? Mood::Good : Mood::Plain);
+  f.row("goal", f.tr("Goal"), f.number(double(c.goal_mm), 3, "mm"));
   if (c.disagreeing > 0)
-    f.page.row("disagreeing", f.tr("Views that disagree"), f.page.number(c.disagreeing), Mood::Warn);
+    f.row("disagreeing", f.tr("Views that disagree"), f.number(c.disagreeing), Mood::Warn);
   const char* const names[] = {f.tr("Across"), f.tr("Up and down"), f.tr("Size"), f.tr("Tilt")};
   for (std::size_t i = 0; i < c.bars.size(); ++i) bar(f, f.id("bar", i), names[i], c.bars[i]);
-  f.page.tree.close();
-  f.page.tree.close();
-  f.page.tree.close();
+  f.tree.close();
+  f.tree.close();
+  f.tree.close();
   const float grow = f.open_buttons();
-  f.page.small_button("calibration cancel", f.tr("Cancel"), icon::kClose, ButtonLook::Quiet,
-                      technician_action(TechnicianAct::CancelCalibration), grow);
-  f.page.small_button("calibration finish", f.tr("Done"), icon::kCheck, ButtonLook::Main,
-                      technician_action(TechnicianAct::StopCalibration), grow);
-  f.page.tree.close();
+  f.small_button("calibration cancel", f.tr("Cancel"), icon::kClose, ButtonLook::Quiet,
+                 TechnicianAct::CancelCalibration, grow);
+  f.small_button("calibration finish", f.tr("Done"), icon::kCheck, ButtonLook::Main,
+                 TechnicianAct::StopCalibration, grow);
+  f.tree.close();
 }
 
 // A view that stands out was held badly, or seen badly.
 void views(TechnicianFrame& f) {
-  const TechnicianCalibration& c = f.view.calibration;
+  const TechnicianCalibration& c = f.seen.calibration;
   std::array<std::string_view, kMostViews> names;
   const std::size_t count = std::min(names.size(), c.views_px.size());
-  for (std::size_t i = 0; i < count; ++i) names[i] = f.page.number(double(i + 1));
+  for (std::size_t i = 0; i < count; ++i) names[i] = f.number(double(i + 1));
   Plot plot;
   plot.id = "rms", plot.title = f.tr("Disagreement with the board");
-  plot.figure = f.page.number(double(c.rms_px), 3, "px");
+  plot.figure = f.number(double(c.rms_px), 3, "px");
   plot.values = c.views_px.first(count), plot.names = {names.data(), count}, plot.unit = "px";
-  f.page.plot(plot);
+  f.plot(plot);
 }
 
 void verdict(TechnicianFrame& f) {
-  const TechnicianCalibration& c = f.view.calibration;
+  const TechnicianCalibration& c = f.seen.calibration;
   if (!c.ended) return;
-  const bool good = c.verdict == TechnicianVerdict::Good, refused = c.verdict == TechnicianVerdict::Refuse;
+  const bool good = c.verdict == CalibrationVerdict::Pass, refused = c.verdict == CalibrationVerdict::Refuse;
   const Mood mood = good ? Mood::Good : refused ? Mood::Bad : Mood::Warn;
   const char* said = good      ? f.tr("Good")
                      : refused ? f.tr("Refused: it would measure wrongly")
                                : f.tr("Usable, with doubts");
-  f.page.section(f.tr("Verdict"));
-  f.page.row("verdict", said, {}, mood);
-  for (const std::string& reason : c.reasons) f.page.detail(reason);
-  if (!c.reasons.empty()) f.page.rule();
-  f.page.row("ended", words_of(f.tr, c.end), {});
-  f.page.row("depth error", f.tr("Predicted error"), f.page.number(double(c.depth_error_mm), 3, "mm"), mood);
+  f.section(f.tr("Verdict"));
+  f.row("verdict", said, {}, mood);
+  for (const std::string& reason : c.reasons) f.detail(reason);
+  if (!c.reasons.empty()) f.rule();
+  f.row("ended", one_of(f.tr, kEndWords, c.end), {});
+  f.row("depth error", f.tr("Predicted error"), f.number(double(c.depth_error_mm), 3, "mm"), mood);
   views(f);
-  f.page.row("baseline", f.tr("Distance of the cameras"), f.page.number(double(c.baseline_mm), 2, "mm"));
-  if (c.stored) f.page.row("stored", f.tr("It applies from now on."), {}, Mood::Good);
+  f.row("baseline", f.tr("Distance of the cameras"), f.number(double(c.baseline_mm), 2, "mm"));
+  if (c.stored) f.row("stored", f.tr("It applies from now on."), {}, Mood::Good);
 }
 
 void history(TechnicianFrame& f) {
-  const TechnicianCalibration& c = f.view.calibration;
-  f.page.section(f.tr("Stored calibrations: touch one to use it"));
-  if (c.history_count == 0) f.page.row("no history", f.tr("There is none yet"), {});
+  const TechnicianCalibration& c = f.seen.calibration;
+  f.section(f.tr("Stored calibrations: touch one to use it"));
+  if (c.history_count == 0) f.row("no history", f.tr("There is none yet"), {});
   for (std::size_t i = 0; i < c.history_count; ++i) {
     const TechnicianCalibrationRow& row = c.history[i];
-    const std::string_view label =
-        f.joined(f.page.number(row.revision), "\u00a0· ", f.page.date(row.made_at));
-    const std::string_view value = row.active ? std::string_view(f.tr("in force"))
-                                   : row.depth_error_mm > 0
-                                       ? f.page.number(double(row.depth_error_mm), 3, "mm")
-                                       : std::string_view("–");
-    f.page.row(f.id("calibration", i), label, value, row.active ? Mood::Good : Mood::Plain,
-               row.active ? Action{} : technician_action(UseCalibration{i}));
+    const std::string_view label = f.left_to_right({f.number(row.revision), "\u00a0· ", f.date(row.made_at)});
+    const std::string_view value = row.active               ? std::string_view(f.tr("in force"))
+                                   : row.depth_error_mm > 0 ? f.number(double(row.depth_error_mm), 3, "mm")
+                                                            : std::string_view("–");
+    f.row(f.id("calibration", i), label, value, row.active ? Mood::Good : Mood::Plain,
+          row.active ? Action{} : technician_action(UseCalibration{i}));
   }
-  list_pager(f.page, c.place);
-  if (f.view.calibrated)
-    f.page.row("calibration export", f.tr("Export to the stick"), {}, Mood::Plain,
-               technician_action(TechnicianAct::ExportCalibration));
-  f.page.row("calibration import", f.tr("Load from the stick"), {}, Mood::Plain,
-             technician_action(TechnicianAct::ImportCalibration));
+  list_pager(f, c.place);
+  if (f.seen.calibrated)
+    f.row("calibration export", f.tr("Export to the stick"), {}, Mood::Plain,
+          technician_action(TechnicianAct::ExportCalibration));
+  f.row("calibration import", f.tr("Load from the stick"), {}, Mood::Plain,
+        technician_action(TechnicianAct::ImportCalibration));
 }
 
 void board(TechnicianFrame& f) {
-  const TechnicianCalibration& c = f.view.calibration;
+  const TechnicianCalibration& c = f.seen.calibration;
   const auto stepper = [&](std::string_view id, const char* label, std::string_view value,
                            BoardMeasure measure, std::int32_t step) {
-    f.page.stepper(id, label, value, icon::kLess, technician_action(ChangeBoard{measure, -step}), icon::kMore,
-                   technician_action(ChangeBoard{measure, step}));
+    f.stepper(id, label, value, icon::kLess, technician_action(ChangeBoard{measure, -step}), icon::kMore,
+              technician_action(ChangeBoard{measure, step}));
   };
-  f.page.section(f.tr("The board"));
-  stepper("columns", f.tr("Inner corners across"), f.page.number(c.columns), BoardMeasure::Columns, 1);
-  stepper("rows", f.tr("Inner corners down"), f.page.number(c.rows), BoardMeasure::Rows, 1);
-  stepper("square", f.tr("Side of a square"), f.page.number(double(c.square_mm), 1, "mm"),
-          BoardMeasure::Square, 5);
-  f.page.row("charuco", f.tr("With markers (ChArUco)"), c.charuco ? f.tr("yes") : f.tr("no"), Mood::Plain,
-             technician_action(TechnicianAct::SwitchCharuco));
+  f.section(f.tr("The board"));
+  stepper("columns", f.tr("Inner corners across"), f.number(c.columns), BoardMeasure::Columns, 1);
+  stepper("rows", f.tr("Inner corners down"), f.number(c.rows), BoardMeasure::Rows, 1);
+  stepper("square", f.tr("Side of a square"), f.number(double(c.square_mm), 1, "mm"), BoardMeasure::Square,
+          5);
+  f.row("charuco", f.tr("With markers (ChArUco)"), c.charuco ? f.tr("yes") : f.tr("no"), Mood::Plain,
+        technician_action(TechnicianAct::SwitchCharuco));
 }
 
 void at_rest(TechnicianFrame& f) {
-  const TechnicianCalibration& c = f.view.calibration;
-  f.page.begin_list("calibration");
+  const TechnicianCalibration& c = f.seen.calibration;
+  f.begin_list("calibration");
   verdict(f);
   board(f);
   history(f);
-  f.page.tree.close();
+  f.tree.close();
   const float grow = f.open_buttons();
-  const bool store =
-      c.ended && !c.stored && c.verdict != TechnicianVerdict::Refuse && c.verdict != TechnicianVerdict::None;
-  f.page.small_button("calibration begin", f.tr("Calibrate"), icon::kCamera,
-                      store ? ButtonLook::Quiet : ButtonLook::Main,
-                      technician_action(TechnicianAct::BeginCalibration), grow);
+  const bool store = c.ended && !c.stored && c.verdict != CalibrationVerdict::Refuse;
+  f.small_button("calibration begin", f.tr("Calibrate"), icon::kCamera,
+                 store ? ButtonLook::Quiet : ButtonLook::Main, TechnicianAct::BeginCalibration, grow);
   if (store)
-    f.page.small_button("calibration store", f.tr("Store and use it"), icon::kDisk, ButtonLook::Main,
-                        technician_action(TechnicianAct::StoreCalibration), grow);
-  f.page.tree.close();
+    f.small_button("calibration store", f.tr("Store and use it"), icon::kDisk, ButtonLook::Main,
+                   TechnicianAct::StoreCalibration, grow);
+  f.tree.close();
 }
 
 }  // namespace
 
-void technician_calibrate_page(StaffFrame& page) {
-  if (page.staff.technician == nullptr) return;
-  TechnicianFrame f(page);
-  if (!f.view.calibration.running && list_choice(page, f.view.calibration.place)) return;
-  if (!f.view.calibration.exported.empty())
-    page.status("calibration exported",
-                page.filled(f.tr("Recorded on the stick as {}. It can be pulled out."),
-                            f.left_to_right(f.view.calibration.exported)),
-                Mood::Good);
-  f.problem(f.view.calibration.problem.empty() ? page.view.calibration_note : f.view.calibration.problem);
-  if (f.view.calibration.running) running(f);
+void technician_calibrate_page(TechnicianFrame& f) {
+  if (!f.seen.calibration.running && list_choice(f, f.seen.calibration.place)) return;
+  if (!f.seen.calibration.exported.empty())
+    f.status("calibration exported",
+             f.filled(f.tr("Recorded on the stick as {}. It can be pulled out."),
+                      f.left_to_right(f.seen.calibration.exported)),
+             Mood::Good);
+  f.problem(f.seen.calibration.problem.empty() ? f.view.calibration_note : f.seen.calibration.problem);
+  if (f.seen.calibration.running) running(f);
   else at_rest(f);
 }
 

@@ -26,36 +26,36 @@ float scale_mm(const FaceRuler& ruler) {
 }  // namespace
 
 void TechnicianFrame::face(float share, void (*tools)(TechnicianFrame&), float tools_dp) {
-  Node card = page.grown(page.box(Flow::Stack), share);
-  card.box.fill = page.palette.stage;
-  card.box.radius = page.px(size::kRadius);
-  const auto in_card = page.tree.inside(card);
-  Node face = page.box(Flow::Column);
+  Node card = grown(box(Flow::Stack), share);
+  card.box.fill = palette.stage;
+  card.box.radius = px(size::kRadius);
+  const auto in_card = tree.inside(card);
+  Node face = box(Flow::Column);
   tell(face, Role::Picture, "face", tr("The model: turn it with a finger"));
   face.mark = Mark::Face;
   face.ruled = true;
-  face.covered_px = page.px(tools_dp);
-  face.box.radius = page.px(size::kRadius);
+  face.covered_px = px(tools_dp);
+  face.box.radius = px(size::kRadius);
   face.action = {ActionKind::TurnFace, 0};
-  page.tree.leaf(face);
+  tree.leaf(face);
   ruler();
   if (tools != nullptr) {
-    const auto in_box = page.tree.inside(page.box(Flow::Column));
-    page.space(1);
+    const auto in_box = tree.inside(box(Flow::Column));
+    space(1);
     tools(*this);
   }
 }
 
 void TechnicianFrame::measure_button(float grow) {
-  choice("measure", tr("Distance"), page.service.ruler.on, {ActionKind::StaffMeasure, 0}, grow);
+  choice("measure", tr("Distance"), service.ruler.on, {ActionKind::StaffMeasure, 0}, grow);
 }
 
 void TechnicianFrame::ruler() {
-  const FaceRuler& ruler = page.service.ruler;
+  const FaceRuler& ruler = service.ruler;
   if (ruler.px_per_mm <= 0) return;
-  page.tree.leaf(page.box(Flow::Column));
+  tree.leaf(box(Flow::Column));
   const auto dot = [&](const pipeline::Vec2f& at, float dp) {
-    page.tree.mark({{at.x, at.y, 0, 0}, kLine, page.px(dp), true});
+    tree.mark({{at.x, at.y, 0, 0}, kLine, px(dp), true});
   };
   if (ruler.count == 2)
     for (int i = 1; i < kLineDots; ++i) {
@@ -64,24 +64,22 @@ void TechnicianFrame::ruler() {
           kLineDp);
     }
   for (std::size_t i = 0; i < ruler.count; ++i) dot(ruler.seen[i], kDotDp);
-  const float mm = scale_mm(ruler), from = page.px(kMargin) / ruler.width_px,
-              long_share = mm * ruler.px_per_mm / ruler.width_px, y = page.px(kMargin) / ruler.height_px;
-  page.tree.mark(
-      {{page.mirrored() ? 1 - from - long_share : from, y, long_share, 0}, kScale, page.px(kScaleDp), false});
-  Node words = page.box(Flow::Column, 4, kMargin, kMargin + kScaleDp + 2);
-  const auto in_words = page.tree.inside(words);
-  Node length = page.text(page.number(double(mm), 0, "mm"), 18, Weight::Medium, kScale);
+  const float mm = scale_mm(ruler), from = px(kMargin) / ruler.width_px,
+              long_share = mm * ruler.px_per_mm / ruler.width_px, y = px(kMargin) / ruler.height_px;
+  tree.mark({{mirrored() ? 1 - from - long_share : from, y, long_share, 0}, kScale, px(kScaleDp), false});
+  Node words = box(Flow::Column, 4, kMargin, kMargin + kScaleDp + 2);
+  const auto in_words = tree.inside(words);
+  Node length = text(number(double(mm), 0, "mm"), 18, Weight::Medium, kScale);
   length.id = "scale";
-  page.tree.leaf(length);
+  tree.leaf(length);
   if (ruler.on) {
     const bool both = ruler.count == 2;
-    Node said = page.text(
-        both ? page.filled("{}: {}", {tr("Distance"), page.number(double(ruler.distance_mm()), 1, "mm")})
-             : std::string_view(tr("Touch two points of the surface.")),
-        type::kSmall, Weight::Medium, kScale);
+    Node said = text(both ? filled("{}: {}", {tr("Distance"), number(double(ruler.distance_mm()), 1, "mm")})
+                          : std::string_view(tr("Touch two points of the surface.")),
+                     type::kSmall, Weight::Medium, kScale);
     said.id = "distance";
     said.role = Role::Status;
-    page.tree.leaf(said);
+    tree.leaf(said);
   }
 }
 

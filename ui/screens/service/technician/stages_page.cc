@@ -22,54 +22,53 @@ bool is_pair(TechnicianStage stage) {
 }
 
 bool makes_pairs(const TechnicianFrame& f) {
-  return f.view.by_hand && f.view.stage == TechnicianStage::Rectified;
+  return f.seen.by_hand && f.seen.stage == TechnicianStage::Rectified;
 }
 
 void tabs(TechnicianFrame& f) {
-  const bool narrow = f.page.portrait && f.page.text_share > 1.2F;  // for long words
+  const bool narrow = f.portrait && f.text_share > 1.2F;  // for long words
   const std::size_t across = narrow ? 3 : f.across(kTechnicianStages);
   for (std::size_t first = 0; first < kTechnicianStages; first += across) {
-    const auto in_box = f.page.tree.inside(f.page.box(Flow::Row, 6));
+    const auto in_box = f.tree.inside(f.box(Flow::Row, 6));
     for (std::size_t i = first; i < std::min(first + across, kTechnicianStages); ++i) {
       const auto stage = static_cast<TechnicianStage>(i);
-      const bool chosen = stage == f.view.stage;
-      Node tab = f.page.grown(f.page.box(Flow::Row, 0, 4, 4));
+      const bool chosen = stage == f.seen.stage;
+      Node tab = f.grown(f.box(Flow::Row, 0, 4, 4));
       tell(tab, Role::Button, f.id("stage", i), title_of(f.tr, stage),
            technician_action(ShowStage{static_cast<TechnicianStage>(i)}));
       centre(tab);
-      frame(tab, chosen ? f.page.palette.accent : f.page.palette.quiet,
-            chosen ? f.page.palette.accent : f.page.palette.quiet_border, f.page.px(2), f.page.px(14));
-      tab.box.min_height = f.page.px(size::kStaffTarget);
-      const auto in_tab = f.page.tree.inside(tab);
-      f.page.tree.leaf(f.page.text(
-          title_of(f.tr, stage), f.page.portrait ? 16 : 17, chosen ? Weight::Bold : Weight::Medium,
-          chosen ? f.page.palette.accent_ink : f.page.palette.link, TextAlign::Centre));
+      frame(tab, chosen ? f.palette.accent : f.palette.quiet,
+            chosen ? f.palette.accent : f.palette.quiet_border, f.px(2), f.px(14));
+      tab.box.min_height = f.px(size::kStaffTarget);
+      const auto in_tab = f.tree.inside(tab);
+      f.tree.leaf(f.text(title_of(f.tr, stage), f.portrait ? 16 : 17, chosen ? Weight::Bold : Weight::Medium,
+                         chosen ? f.palette.accent_ink : f.palette.link, TextAlign::Centre));
     }
   }
 }
 
 void pin_pairs(TechnicianFrame& f, std::size_t side) {
-  for (const TechnicianPoint& p : f.view.pairs.first(std::min(f.view.pairs.size(), kMostPairs)))
+  for (const TechnicianPoint& p : f.seen.pairs.first(std::min(f.seen.pairs.size(), kMostPairs)))
     if (side == 0 || p.matched) f.pin_dot(side == 0 ? p.left_x : p.right_x, p.y, kOther, {});
 }
 
 void pair_pictures(TechnicianFrame& f) {
-  const bool touchable = f.view.stage == TechnicianStage::Rectified;
-  Node row = f.page.grown(f.page.box(Flow::Row, space::kS), f.picture_share(2.4F));
+  const bool touchable = f.seen.stage == TechnicianStage::Rectified;
+  Node row = f.grown(f.box(Flow::Row, space::kS), f.picture_share(2.4F));
   row.box.left_to_right = true;
-  const auto in_row = f.page.tree.inside(row);
+  const auto in_row = f.tree.inside(row);
   for (std::size_t side = 0; side < 2; ++side) {
     Action action{}, dragged{};
     if (touchable) action = technician_action(TouchPicture{side != 0, false});
     if (makes_pairs(f)) dragged = technician_action(TouchPicture{side != 0, true});
     f.open_picture(side == 0 ? "left" : "right", side == 0 ? f.tr("Left camera") : f.tr("Right camera"),
-                   f.view.shown[side], side == 0 ? PictureSlot::TechnicianLeft : PictureSlot::TechnicianRight,
+                   f.seen.shown[side], side == 0 ? PictureSlot::TechnicianLeft : PictureSlot::TechnicianRight,
                    action, dragged);
-    if (f.view.stage != TechnicianStage::Input) {
+    if (f.seen.stage != TechnicianStage::Input) {
       for (int i = 1; i < kLines; ++i) f.pin_line(float(i) / kLines, kFaint, 1);
     }
     if (makes_pairs(f)) pin_pairs(f, side);
-    const TechnicianPoint& point = f.view.point;
+    const TechnicianPoint& point = f.seen.point;
     if (touchable && point.touched) f.pin_line(point.y, kTouched, 2);
     if (touchable && point.touched && side == 0) f.pin_dot(point.left_x, point.y, kTouched, "left mark");
     if (touchable && point.matched && side == 1) f.pin_dot(point.right_x, point.y, kTouched, "right mark");
@@ -78,13 +77,13 @@ void pair_pictures(TechnicianFrame& f) {
 }
 
 void one_picture(TechnicianFrame& f) {
-  Node row = f.page.grown(f.page.box(Flow::Row, space::kS), f.picture_share(2.4F));
-  const auto in_row = f.page.tree.inside(row);
-  f.open_picture("picture", title_of(f.tr, f.view.stage), f.view.shown[0], PictureSlot::TechnicianLeft);
+  Node row = f.grown(f.box(Flow::Row, space::kS), f.picture_share(2.4F));
+  const auto in_row = f.tree.inside(row);
+  f.open_picture("picture", title_of(f.tr, f.seen.stage), f.seen.shown[0], PictureSlot::TechnicianLeft);
   f.close_picture();
-  if (!f.view.shown[1].pixels.empty()) {
-    const bool poses = f.view.stage == TechnicianStage::Poses;
-    f.open_picture("change", poses ? f.tr("Difference") : f.tr("Surface moved"), f.view.shown[1],
+  if (!f.seen.shown[1].pixels.empty()) {
+    const bool poses = f.seen.stage == TechnicianStage::Poses;
+    f.open_picture("change", poses ? f.tr("Difference") : f.tr("Surface moved"), f.seen.shown[1],
                    PictureSlot::TechnicianRight);
     f.close_picture();
   }
@@ -96,178 +95,173 @@ std::string_view coordinates(TechnicianFrame& f, const pipeline::Vec2f& px) {
 
 std::string_view plus_minus(TechnicianFrame& f, double value, double sigma, int decimals,
                             const char* unit_name) {
-  return f.joined(f.page.number(value, decimals), "\u00a0±\u00a0", f.page.number(sigma, decimals, unit_name));
+  return f.left_to_right({f.number(value, decimals), "\u00a0±\u00a0", f.number(sigma, decimals, unit_name)});
 }
 
 void point_rows(TechnicianFrame& f) {
-  const TechnicianPoint& point = f.view.point;
+  const TechnicianPoint& point = f.seen.point;
   if (!point.touched) {
-    f.page.tree.leaf(f.page.text(
-        f.view.by_hand
+    f.tree.leaf(f.text(
+        f.seen.by_hand
             ? f.tr(
                   "Touch a point in the left picture. Its partner is proposed in the right one: touch or drag to correct it.")
             : f.tr("Touch the left picture: the line and the match of that point are shown."),
-        type::kSmall, Weight::Regular, f.page.palette.ink_soft));
+        type::kSmall, Weight::Regular, f.palette.ink_soft));
     return;
   }
-  f.page.row("point left", f.tr("Left camera"), coordinates(f, point.left_px));
+  f.row("point left", f.tr("Left camera"), coordinates(f, point.left_px));
   if (point.waits_for_right) {
-    f.page.tree.leaf(f.page.text(f.tr("Now touch its partner on the orange line in the right picture."),
-                                 type::kSmall, Weight::Medium, f.page.palette.ink));
+    f.tree.leaf(f.text(f.tr("Now touch its partner on the orange line in the right picture."), type::kSmall,
+                       Weight::Medium, f.palette.ink));
     return;
   }
   if (!point.matched) {
-    f.page.row("point none", f.tr("No match here"), {}, Mood::Warn);
+    f.row("point none", f.tr("No match here"), {}, Mood::Warn);
     return;
   }
-  if (point.new_surface) f.page.row("point moved", f.tr("New surface"), f.tr("yes"), Mood::Good);
+  if (point.new_surface) f.row("point moved", f.tr("New surface"), f.tr("yes"), Mood::Good);
   else if (!std::isnan(point.moved_mm))
-    f.page.row("point moved", f.tr("Surface came nearer by"), f.page.number(double(point.moved_mm), 2, "mm"));
-  f.page.row("point right", f.tr("Right camera"), coordinates(f, point.right_px));
-  f.page.row("point disparity", f.tr("Disparity"),
-             plus_minus(f, double(point.disparity_px), double(point.sigma_px), 2, "px"));
-  f.page.row("point likeness", f.tr("Similarity"), f.page.number(1 - double(point.cost), 3));
+    f.row("point moved", f.tr("Surface came nearer by"), f.number(double(point.moved_mm), 2, "mm"));
+  f.row("point right", f.tr("Right camera"), coordinates(f, point.right_px));
+  f.row("point disparity", f.tr("Disparity"),
+        plus_minus(f, double(point.disparity_px), double(point.sigma_px), 2, "px"));
+  f.row("point likeness", f.tr("Similarity"), f.number(1 - double(point.cost), 3));
   if (!point.rejected_by.empty())
-    f.page.row("point rejected", f.tr("Rejected by"), f.rule_name(point.rejected_by), Mood::Bad);
-  else if (!point.by_hand) f.page.row("point accepted", f.tr("Verdict"), f.tr("Good"), Mood::Good);
-  f.page.row("point space", f.tr("In space"),
-             f.several({double(point.at_mm.x), double(point.at_mm.y), double(point.at_mm.z)}, 1, "mm"));
-  f.page.row("point sigma", f.tr("Depth uncertainty"), f.page.number(double(point.sigma_mm), 3, "mm"));
+    f.row("point rejected", f.tr("Rejected by"), f.rule_name(point.rejected_by), Mood::Bad);
+  else if (!point.by_hand) f.row("point accepted", f.tr("Verdict"), f.tr("Good"), Mood::Good);
+  f.row("point space", f.tr("In space"),
+        f.several({double(point.at_mm.x), double(point.at_mm.y), double(point.at_mm.z)}, 1, "mm"));
+  f.row("point sigma", f.tr("Depth uncertainty"), f.number(double(point.sigma_mm), 3, "mm"));
 }
 
 void scale_words(TechnicianFrame& f, float full_colour_mm) {
-  f.page.tree.leaf(
-      f.page.text(f.page.filled(f.tr("Red is nearer, blue farther; white agrees. Full colour: {}."),
-                                f.page.number(double(full_colour_mm), 2, "mm")),
-                  type::kSmall, Weight::Regular, f.page.palette.ink_soft));
+  f.tree.leaf(f.text(f.filled(f.tr("Red is nearer, blue farther; white agrees. Full colour: {}."),
+                              f.number(double(full_colour_mm), 2, "mm")),
+                     type::kSmall, Weight::Regular, f.palette.ink_soft));
 }
 
 void change_rows(TechnicianFrame& f) {
-  if (f.view.pairs.empty()) return;
-  f.page.rule();
-  f.page.row("pairs", f.tr("Match by hand"), f.page.number(double(f.view.pairs.size())));
-  const TechnicianChange& change = f.view.change;
+  if (f.seen.pairs.empty()) return;
+  f.rule();
+  f.row("pairs", f.tr("Match by hand"), f.number(double(f.seen.pairs.size())));
+  const TechnicianChange& change = f.seen.change;
   if (!change.known) return;
-  f.page.row("moved", f.tr("Surface moved"), f.page.number(double(change.moved_mm2), 0, "mm²"));
-  f.page.row("new", f.tr("New surface"), f.page.number(double(change.new_mm2), 0, "mm²"));
-  f.page.row("farthest", f.tr("Largest move"), f.page.number(double(change.farthest_mm), 2, "mm"));
-  if (f.view.stage == TechnicianStage::Mesh) scale_words(f, change.full_colour_mm);
+  f.row("moved", f.tr("Surface moved"), f.number(double(change.moved_mm2), 0, "mm²"));
+  f.row("new", f.tr("New surface"), f.number(double(change.new_mm2), 0, "mm²"));
+  f.row("farthest", f.tr("Largest move"), f.number(double(change.farthest_mm), 2, "mm"));
+  if (f.seen.stage == TechnicianStage::Mesh) scale_words(f, change.full_colour_mm);
 }
 
 // How each pose was turned, and by how much it differs from each of the others.
 void pose_rows(TechnicianFrame& f) {
-  if (f.view.pose_count == 0) {
-    f.page.tree.leaf(f.page.text(
+  if (f.seen.pose_count == 0) {
+    f.tree.leaf(f.text(
         f.tr(
             "Turn the head a little and add a side, up to six times; then calculate again: all become one head."),
-        type::kSmall, Weight::Regular, f.page.palette.ink_soft));
+        type::kSmall, Weight::Regular, f.palette.ink_soft));
     return;
   }
-  for (std::size_t b = 0; b < f.view.pose_count; ++b) {
-    const TechnicianPose& pose = f.view.poses[b];
-    const auto number = [&](std::size_t of) { return f.page.number(double(of + 1)); };
-    f.page.section(f.page.filled("{}: {}", {number(b), f.page.number(double(pose.turned_deg), 1, "°")}));
-    if (!pose.joined) f.page.row(f.id("left out", b), f.tr("No match here"), {}, Mood::Bad);
-    for (std::size_t a = 0; a < f.view.pose_count; ++a)
+  for (std::size_t b = 0; b < f.seen.pose_count; ++b) {
+    const TechnicianPose& pose = f.seen.poses[b];
+    const auto number = [&](std::size_t of) { return f.number(double(of + 1)); };
+    f.section(f.filled("{}: {}", {number(b), f.number(double(pose.turned_deg), 1, "°")}));
+    if (!pose.joined) f.row(f.id("left out", b), f.tr("No match here"), {}, Mood::Bad);
+    for (std::size_t a = 0; a < f.seen.pose_count; ++a)
       if (pose.rms_mm[a] > 0)
-        f.page.row(f.id(f.id("agrees", b), a), f.joined(number(b), "\u00a0–\u00a0", number(a)),
-                   f.page.number(double(pose.rms_mm[a]), 3, "mm"));
+        f.row(f.id(f.id("agrees", b), a), f.left_to_right({number(b), "\u00a0–\u00a0", number(a)}),
+              f.number(double(pose.rms_mm[a]), 3, "mm"));
   }
-  scale_words(f, f.view.full_residual_mm);
+  scale_words(f, f.seen.full_residual_mm);
 }
 
 void pair_buttons(TechnicianFrame& f) {
-  f.choice("by hand", f.tr("Match by hand"), f.view.by_hand, technician_action(TechnicianAct::ByHand), 0);
-  if (!f.view.by_hand) return;
-  if (f.view.point.touched)
-    f.page.small_button("remove pair", f.tr("Remove this pair"), icon::kClose, ButtonLook::Quiet,
-                        technician_action(TechnicianAct::RemovePair));
-  if (f.view.pairs_changed)
-    f.page.small_button("run pairs", f.tr("Calculate again"), icon::kAgain, ButtonLook::Main,
-                        technician_action(RunStages{}));
+  f.choice("by hand", f.tr("Match by hand"), f.seen.by_hand, technician_action(TechnicianAct::ByHand), 0);
+  if (!f.seen.by_hand) return;
+  if (f.seen.point.touched)
+    f.small_button("remove pair", f.tr("Remove this pair"), icon::kClose, ButtonLook::Quiet,
+                   TechnicianAct::RemovePair);
+  if (f.seen.pairs_changed)
+    f.small_button("run pairs", f.tr("Calculate again"), icon::kAgain, ButtonLook::Main,
+                   technician_action(RunStages{}));
 }
 
 void rule_rows(TechnicianFrame& f) {
-  const TechnicianResult& r = f.view.result;
-  f.page.row("matches", f.tr("Matches"), f.page.number(double(r.matches)));
-  f.page.row("accepted", f.tr("Accepted matches"), f.page.number(double(r.accepted)));
-  f.page.section(f.tr("Rejected by"));
+  const TechnicianResult& r = f.seen.result;
+  f.row("matches", f.tr("Matches"), f.number(double(r.matches)));
+  f.row("accepted", f.tr("Accepted matches"), f.number(double(r.accepted)));
+  f.section(f.tr("Rejected by"));
   for (std::size_t i = 0; i < r.rule_count; ++i) {
     const TechnicianRule& rule = r.rules[i];
-    Node row = f.page.box(Flow::Row, space::kS, 0, 6);
+    Node row = f.box(Flow::Row, space::kS, 0, 6);
     row.id = f.id("rule", i);
     row.box.align = Align::Centre;
-    const auto in_row = f.page.tree.inside(row);
-    Node patch = f.page.sized(f.page.box(Flow::Column), 26, 26);
+    const auto in_row = f.tree.inside(row);
+    Node patch = f.sized(f.box(Flow::Column), 26, 26);
     patch.box.fill = {rule.rgb[0], rule.rgb[1], rule.rgb[2], 255};
-    patch.box.radius = f.page.px(6);
-    f.page.tree.leaf(patch);
-    f.page.tree.open(f.page.grown(f.page.box(Flow::Column)));
-    f.page.tree.leaf(f.page.text(f.rule_name(rule.name), type::kSmall, Weight::Medium, f.page.palette.ink));
-    f.page.tree.close();
-    f.page.tree.leaf(f.page.text(f.page.number(double(rule.rejected)), type::kSmall, Weight::Regular,
-                                 f.page.palette.ink_soft));
+    patch.box.radius = f.px(6);
+    f.tree.leaf(patch);
+    f.tree.open(f.grown(f.box(Flow::Column)));
+    f.tree.leaf(f.text(f.rule_name(rule.name), type::kSmall, Weight::Medium, f.palette.ink));
+    f.tree.close();
+    f.tree.leaf(f.text(f.number(double(rule.rejected)), type::kSmall, Weight::Regular, f.palette.ink_soft));
   }
 }
 
 // How uncertain the surface is, of every hundred of its points.
 void sigma_plot(TechnicianFrame& f) {
-  const TechnicianResult& r = f.view.result;
+  const TechnicianResult& r = f.seen.result;
   if (r.coverage <= 0) return;
-  const auto mm = [&](std::size_t bin) { return f.page.number(double(kSigmaBinMm) * double(bin), 2, "mm"); };
+  const auto mm = [&](std::size_t bin) { return f.number(double(kSigmaBinMm) * double(bin), 2, "mm"); };
   std::array<std::string_view, kSigmaBins> names;
   for (std::size_t i = 0; i < names.size(); ++i) names[i] = mm(i);
   Plot plot;
   plot.id = "sigma", plot.title = f.tr("Median uncertainty");
-  plot.figure = f.page.number(double(r.median_sigma_mm), 3, "mm");
+  plot.figure = f.number(double(r.median_sigma_mm), 3, "mm");
   plot.values = r.sigma_percent, plot.names = names, plot.unit = "%";
   plot.under = {mm(0), {}, mm(kSigmaBins)};
-  f.page.plot(plot);
+  f.plot(plot);
 }
 
 void time_rows(TechnicianFrame& f) {
-  const TechnicianResult& r = f.view.result;
+  const TechnicianResult& r = f.seen.result;
   const char* const made[] = {f.tr("Accepted matches"), f.tr("Points"), f.tr("Triangles"), f.tr("Texels"),
                               f.tr("Landmarks")};
   for (std::size_t i = 0; i < r.seconds.size(); ++i) {
-    f.page.section(work_of(f.tr, i));
-    f.page.row(f.id("time", i), f.tr("Time"), f.page.number(double(r.seconds[i]), 2, "s"));
-    f.page.row(f.id("made", i), made[i], f.page.number(double(r.made[i])));
+    f.section(work_of(f.tr, i));
+    f.row(f.id("time", i), f.tr("Time"), f.number(double(r.seconds[i]), 2, "s"));
+    f.row(f.id("made", i), made[i], f.number(double(r.made[i])));
   }
 }
 
 void side_rows(TechnicianFrame& f) {
   f.failure();
-  if (f.view.stage == TechnicianStage::Rectified) {
+  if (f.seen.stage == TechnicianStage::Rectified) {
     point_rows(f);
     return change_rows(f);
   }
-  if (f.view.stage == TechnicianStage::Mesh) change_rows(f);
-  if (f.view.stage == TechnicianStage::Matches) return rule_rows(f);
-  if (f.view.stage == TechnicianStage::Poses) return pose_rows(f);
-  if (f.view.stage >= TechnicianStage::Cloud) sigma_plot(f);
+  if (f.seen.stage == TechnicianStage::Mesh) change_rows(f);
+  if (f.seen.stage == TechnicianStage::Matches) return rule_rows(f);
+  if (f.seen.stage == TechnicianStage::Poses) return pose_rows(f);
+  if (f.seen.stage >= TechnicianStage::Cloud) sigma_plot(f);
   time_rows(f);
 }
 
 }  // namespace
 
-void technician_stages_page(StaffFrame& page) {
-  if (page.staff.technician == nullptr) return;
-  TechnicianFrame f(page);
-  if (f.view.saved.listed) return f.saved_list(false);
+void technician_stages_page(TechnicianFrame& f) {
+  if (f.seen.saved.listed) return f.saved_list(false);
   const bool there = f.capture_state();
   if (there) {
     tabs(f);
-    const auto in_box =
-        page.tree.inside(page.grown(page.box(page.portrait ? Flow::Column : Flow::Row, space::kM)));
-    if (is_pair(f.view.stage)) pair_pictures(f);
+    const auto in_box = f.tree.inside(f.grown(f.box(f.portrait ? Flow::Column : Flow::Row, space::kM)));
+    if (is_pair(f.seen.stage)) pair_pictures(f);
     else one_picture(f);
-    Node side = page.grown(page.box(Flow::Column, space::kXs));
-    const auto in_side = page.tree.inside(side);
-    page.begin_panel("facts");
+    Node side = f.grown(f.box(Flow::Column, space::kXs));
+    const auto in_side = f.tree.inside(side);
+    f.begin_panel("facts");
     side_rows(f);
-    page.tree.close();
-    if (f.view.stage == TechnicianStage::Rectified) pair_buttons(f);
+    f.tree.close();
+    if (f.seen.stage == TechnicianStage::Rectified) pair_buttons(f);
   }
   f.stick_state();
   f.capture_buttons(false, true);

@@ -15,7 +15,7 @@ namespace relievo::ui {
 namespace {
 
 void switches(TechnicianFrame& f) {
-  const FaceLook& look = f.page.visit.look;
+  const FaceLook& look = f.visit.look;
   struct Switch {
     std::string_view id;
     const char* label;
@@ -31,33 +31,30 @@ void switches(TechnicianFrame& f) {
 }
 
 void hands(TechnicianFrame& f) {
-  Node row = f.page.box(Flow::Row, space::kXs, space::kXs, space::kXs);
+  Node row = f.box(Flow::Row, space::kXs, space::kXs, space::kXs);
   row.box.justify = Justify::Centre;
   row.box.left_to_right = true;  // as on the page where a visitor looks at it
-  const auto in_row = f.page.tree.inside(row);
-  f.page.square_button("turn_left", f.tr("Turn left"), icon::kTurnLeft, {ActionKind::TurnLeft, 0});
-  f.page.square_button("turn_right", f.tr("Turn right"), icon::kTurnRight, {ActionKind::TurnRight, 0});
-  f.page.square_button("zoom_out", f.tr("Smaller"), icon::kZoomOut, {ActionKind::ZoomOut, 0});
-  f.page.square_button("zoom_in", f.tr("Larger"), icon::kZoomIn, {ActionKind::ZoomIn, 0});
-  f.page.square_button("light", f.tr("Move the light"), icon::kSun, {ActionKind::MoveLight, 0});
+  const auto in_row = f.tree.inside(row);
+  f.square_button("turn_left", f.tr("Turn left"), icon::kTurnLeft, {ActionKind::TurnLeft, 0});
+  f.square_button("turn_right", f.tr("Turn right"), icon::kTurnRight, {ActionKind::TurnRight, 0});
+  f.square_button("zoom_out", f.tr("Smaller"), icon::kZoomOut, {ActionKind::ZoomOut, 0});
+  f.square_button("zoom_in", f.tr("Larger"), icon::kZoomIn, {ActionKind::ZoomIn, 0});
+  f.square_button("light", f.tr("Move the light"), icon::kSun, {ActionKind::MoveLight, 0});
 }
 
 }  // namespace
 
-void technician_model_page(StaffFrame& page) {
-  if (page.staff.technician == nullptr) return;
-  TechnicianFrame f(page);
-  if (f.capture_state() && f.view.model == nullptr) {
+void technician_model_page(TechnicianFrame& f) {
+  if (f.capture_state() && f.seen.model == nullptr) {
     f.failure();
-    page.nothing("no model", icon::kShape, f.tr("There is nothing: a stage before it gave up."));
-  } else if (f.view.model != nullptr) {
-    const auto in_box =
-        page.tree.inside(page.grown(page.box(page.portrait ? Flow::Column : Flow::Row, space::kM)));
+    f.nothing("no model", icon::kShape, f.tr("There is nothing: a stage before it gave up."));
+  } else if (f.seen.model != nullptr) {
+    const auto in_box = f.tree.inside(f.grown(f.box(f.portrait ? Flow::Column : Flow::Row, space::kM)));
     f.face(3, hands, size::kTarget + 2 * space::kXs);
-    Node side = page.box(Flow::Column, space::kS);
-    if (!page.portrait) side.box.width = page.px(page.text_share > 1.2F ? 330 : 260);
+    Node side = f.box(Flow::Column, space::kS);
+    if (!f.portrait) side.box.width = f.px(f.text_share > 1.2F ? 330 : 260);
     side.box.justify = Justify::Centre;
-    const auto in_side = page.tree.inside(side);
+    const auto in_side = f.tree.inside(side);
     switches(f);
     f.measure_button(0);
   }
@@ -73,10 +70,6 @@ constexpr std::array kTableNames{mark_tr("Matches"), mark_tr("Points"), mark_tr(
                                  mark_tr("Calibration")};
 static_assert(kTableNames.size() == std::size_t(TechnicianTable::Count));
 
-const char* name_of_table(const Words& tr, TechnicianTable table) {
-  return tr(kTableNames[std::size_t(table)]);
-}
-
 struct Wide {  // a column of words, and how much wider than one of numbers
   std::size_t column = ~std::size_t{0};
   float share = 1;
@@ -85,7 +78,7 @@ struct Wide {  // a column of words, and how much wider than one of numbers
 
 // A number, several of them, or the rule that judged.
 std::string_view said(TechnicianFrame& f, std::string_view text) {
-  const std::string_view numbers = f.page.with_numbers(text);
+  const std::string_view numbers = f.with_numbers(text);
   return numbers == text ? f.rule_name(text) : numbers;
 }
 
@@ -95,96 +88,93 @@ struct Shape {
   Wide wide;
 };
 
-float letters_dp(const StaffFrame& page) { return page.portrait ? 15.0F : 18.0F; }
+float letters_dp(const StaffFrame& f) { return f.portrait ? 15.0F : 18.0F; }
 
-Shape shape_of(const StaffFrame& page, std::size_t columns, const Wide& wide) {
+Shape shape_of(const StaffFrame& f, std::size_t columns, const Wide& wide) {
   constexpr float kMargins = 112;  // of page, card and row
   Shape shape{columns, columns, wide};
   const float all = float(columns) - 1 + (wide.column < columns ? wide.share : 1);
   const float gaps = kGap * (float(columns) - 1);
-  if (all * wide.number * letters_dp(page) * page.text_share + gaps > page.width_dp - kMargins)
+  if (all * wide.number * letters_dp(f) * f.text_share + gaps > f.width_dp - kMargins)
     shape.abreast = (columns + 1) / 2;
   return shape;
 }
 
 void cell(TechnicianFrame& f, std::string_view words, bool heading) {
   if (words.empty()) return;
-  Node node = f.page.text(f.left_to_right(heading ? words : said(f, words)), letters_dp(f.page),
-                          heading ? Weight::Bold : Weight::Regular,
-                          heading ? f.page.palette.ink : f.page.palette.ink_soft, TextAlign::Start);
+  Node node = f.text(f.left_to_right(heading ? words : said(f, words)), letters_dp(f),
+                     heading ? Weight::Bold : Weight::Regular, heading ? f.palette.ink : f.palette.ink_soft,
+                     TextAlign::Start);
   node.style.tabular = true;
-  node.style.size_px =
-      f.page.px(letters_dp(f.page) * f.page.text_share);  // figures are as wide in every language
-  f.page.tree.leaf(node);
+  node.style.size_px = f.px(letters_dp(f) * f.text_share);  // figures are as wide in every language
+  f.tree.leaf(node);
 }
 
 // Numbers stay left to right, as in any table of measurements.
 void record(TechnicianFrame& f, std::span<const std::string_view> texts, bool heading, const Shape& shape) {
   const bool divided = shape.abreast < shape.columns;
   for (std::size_t first = 0; first < shape.columns; first += shape.abreast) {
-    Node row = f.page.box(Flow::Row, kGap, 4, 0);
+    Node row = f.box(Flow::Row, kGap, 4, 0);
     row.box.left_to_right = true;
-    row.box.min_height = f.page.px(36);
+    row.box.min_height = f.px(36);
     row.box.align = Align::Centre;
-    const auto in_row = f.page.tree.inside(row);
+    const auto in_row = f.tree.inside(row);
     for (std::size_t i = first; i < first + shape.abreast; ++i) {
-      const auto in_box = f.page.tree.inside(f.page.grown(
-          f.page.box(Flow::Column), !divided && i == shape.wide.column ? shape.wide.share : 1.0F));
+      const auto in_box = f.tree.inside(
+          f.grown(f.box(Flow::Column), !divided && i == shape.wide.column ? shape.wide.share : 1.0F));
       if (i < shape.columns) cell(f, texts[i], heading);
     }
   }
-  if (divided) f.page.rule();
+  if (divided) f.rule();
 }
 
 // Of matches: all, the accepted ones, and those that each rule took first.
 using FilterNames = std::array<std::string_view, 2 + kTechnicianRules>;
 ListFilters filters_of(TechnicianFrame& f, FilterNames& names) {
-  if (f.view.rows.table != TechnicianTable::Matches) return {};
+  if (f.seen.rows.table != TechnicianTable::Matches) return {};
   names = {f.tr("All"), f.tr("Accepted matches")};
-  const TechnicianResult& result = f.view.result;
+  const TechnicianResult& result = f.seen.result;
   for (std::size_t i = 0; i < result.rule_count; ++i) names[2 + i] = f.rule_name(result.rules[i].name);
   return {names.data(), 2 + result.rule_count};
 }
 
 }  // namespace
 
-void technician_tables_page(StaffFrame& page) {
-  if (page.staff.technician == nullptr) return;
-  TechnicianFrame f(page);
-  const TechnicianRows& rows = f.view.rows;
+void technician_tables_page(TechnicianFrame& f) {
+  const TechnicianRows& rows = f.seen.rows;
   FilterNames names;
   const ListFilters filters = filters_of(f, names);
-  if (list_choice(page, rows.place, filters)) return;
-  const std::size_t across = page.portrait || page.text_share > 1.2F ? 2 : kTechnicianTables;
+  if (list_choice(f, rows.place, filters)) return;
+  const std::size_t across = f.portrait || f.text_share > 1.2F ? 2 : kTechnicianTables;
   for (std::size_t first = 0; first < kTechnicianTables; first += across) {
-    const auto in_box = page.tree.inside(page.box(Flow::Row, space::kXs));
+    const auto in_box = f.tree.inside(f.box(Flow::Row, space::kXs));
     for (std::size_t i = first; i < std::min(first + across, kTechnicianTables); ++i) {
       const auto table = static_cast<TechnicianTable>(i);
-      f.choice(f.id("table", i), name_of_table(f.tr, table), rows.table == table,
+      f.choice(f.id("table", i), one_of(f.tr, kTableNames, table), rows.table == table,
                technician_action(ShowTable{static_cast<TechnicianTable>(i)}));
     }
   }
-  if (rows.cells.empty() && (rows.table != TechnicianTable::Calibration || !f.view.calibrated)) {
+  if (rows.cells.empty() && (rows.table != TechnicianTable::Calibration || !f.seen.calibrated)) {
     if (f.capture_state()) {
-      if (rows.place.filter > 0) list_pager(page, rows.place, filters);
-      page.nothing("no rows", icon::kShape, f.tr("There is nothing: a stage before it gave up."));
+      if (rows.place.filter > 0) list_pager(f, rows.place, filters);
+      f.nothing("no rows", icon::kShape, f.tr("There is nothing: a stage before it gave up."));
     }
     return f.capture_buttons(false);
   }
   const std::size_t columns = rows.heads.size(), places = rows.cells.size();
   if (columns == 0) return;
   const Wide wide = rows.table == TechnicianTable::Calibration
-                        ? Wide{3, page.portrait && page.text_share > 1.2F ? 2.0F : 3.0F}
+                        ? Wide{3, f.portrait && f.text_share > 1.2F ? 2.0F : 3.0F}
                     : rows.table == TechnicianTable::Matches ? Wide{columns - 1, 1.8F, 4.4F}
                                                              : Wide{};
-  page.begin_list("table");
-  const Shape shape = rows.table == TechnicianTable::Calibration ? Shape{columns, columns, wide}
-                                                                 : shape_of(page, columns, wide);
+  f.begin_list("table");
+  const Shape shape =
+      rows.table == TechnicianTable::Calibration ? Shape{columns, columns, wide} : shape_of(f, columns, wide);
   record(f, rows.heads, true, shape);
   for (std::size_t at = 0; at + columns <= places; at += columns)
     record(f, rows.cells.subspan(at, columns), false, shape);
-  page.tree.close();
-  list_pager(page, rows.place, filters);
+  f.tree.close();
+  list_pager(f, rows.place, filters);
 }
 
 }  // namespace relievo::ui

@@ -17,39 +17,33 @@ namespace relievo::ui {
 inline Action technician_action(const TechnicianRequest& request) { return Action(StaffAsk(request)); }
 inline Action technician_action(TechnicianAct act) { return technician_action(DoTechnician{act}); }
 
-class TechnicianFrame {
+class TechnicianFrame : public StaffFrame {
  public:
-  explicit TechnicianFrame(StaffFrame& page_in)
-      : page(page_in), tr(page_in.tr), view(*page_in.staff.technician) {}
-  StaffFrame& page;
-  const Words& tr;
-  const TechnicianView& view;
+  explicit TechnicianFrame(const StaffFrame& page) : StaffFrame(page), seen(*page.staff.technician) {}
+  const TechnicianView& seen;
 
-  // A name made of two parts, kept for the frame: "stage 3".
-  std::string_view id(std::string_view what, std::size_t number) const;
-  // Figures and identifiers: left to right in every language.
-  std::string_view left_to_right(std::string_view text) const;
-  // Parts that stand on one line, kept for the frame.
-  std::string_view joined(std::string_view a, std::string_view between, std::string_view b) const;
   // Coordinates: "812.00, 604.00 px", on one line; where the comma is the decimal mark a semicolon stands
   // between them.
-  std::string_view several(std::initializer_list<double> values, int decimals, const char* unit_name) const;
+  std::string_view several(std::initializer_list<double> values, int decimals, const char* unit_name);
   // What a rule for matches is called (pipeline/algorithms); a name nobody knows, as it is.
-  std::string_view rule_name(std::string_view key) const;
+  std::string_view rule_name(std::string_view key);
   // Names of algorithms and options, which may be divided where their parts meet.
   std::string_view breakable(std::string_view names) const;
   // Buttons beside each other, or below where large words stand upright. Gives the share each of them grows
   // by.
-  float open_buttons() const;
+  float open_buttons();
+  using StaffFrame::small_button;
+  void small_button(std::string_view id, std::string_view label, const char* letter, ButtonLook look,
+                    TechnicianAct act, float grow = 0) {
+    small_button(id, label, letter, look, technician_action(act), grow);
+  }
   // One of several: the chosen one is filled and ticked.
   void choice(std::string_view id, std::string_view label, bool chosen, Action action, float grow = 1);
   // Pages whose words are large, or narrow ones, put less beside each other.
-  std::size_t across(std::size_t most) const {
-    return page.portrait || page.text_share > 1.2F ? (most + 1) / 2 : most;
-  }
+  std::size_t across(std::size_t most) const { return portrait || text_share > 1.2F ? (most + 1) / 2 : most; }
   // How much wider than the figures beside them pictures are: large words take room from them.
   float picture_share(float usual) const {
-    return page.portrait ? 1.0F : page.text_share > 1.2F ? usual * 0.65F : usual;
+    return portrait ? 1.0F : text_share > 1.2F ? usual * 0.65F : usual;
   }
 
   // A dark card of the picture's shape in the room there is; what comes until close_picture() can be pinned
@@ -98,13 +92,13 @@ const char* work_of(const Words& tr, std::size_t stage);  // of kStages
 bool fill_technician_pictures(DrawList& list, const TechnicianView& view, const Visit& visit,
                               const Service& service);
 
-// The pages; each draws nothing but "not here" without a TechnicianView.
-void technician_stages_page(StaffFrame& page);
-void technician_model_page(StaffFrame& page);
-void technician_tables_page(StaffFrame& page);
-void technician_algorithms_page(StaffFrame& page);
-void technician_compare_page(StaffFrame& page);
-void technician_cameras_page(StaffFrame& page);
-void technician_calibrate_page(StaffFrame& page);
+// The pages.
+void technician_stages_page(TechnicianFrame& f);
+void technician_model_page(TechnicianFrame& f);
+void technician_tables_page(TechnicianFrame& f);
+void technician_algorithms_page(TechnicianFrame& f);
+void technician_compare_page(TechnicianFrame& f);
+void technician_cameras_page(TechnicianFrame& f);
+void technician_calibrate_page(TechnicianFrame& f);
 
 }  // namespace relievo::ui

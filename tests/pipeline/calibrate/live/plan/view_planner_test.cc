@@ -4,7 +4,6 @@
 
 #include <gtest/gtest.h>
 
-#include "pipeline/calibrate/live/rig_problem.h"
 #include "tests/pipeline/calibrate/live/held_board.h"
 
 namespace relievo::tests {

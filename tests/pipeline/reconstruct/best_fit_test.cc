@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: 2026 The Relievo authors
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include "firmware/measure/best_fit.h"
+#include "pipeline/reconstruct/best_fit.h"
 
 #include <gtest/gtest.h>
 
@@ -8,7 +8,7 @@
 
 #include "hal/sim/base/noise.h"
 
-namespace relievo::firmware::measure {
+namespace relievo::pipeline::best_fit {
 namespace {
 
 constexpr Vec3d kCentre{-31, 12, 571};
@@ -98,4 +98,4 @@ TEST(ReadForm, PointsThatDetermineNothingAreAnError) {
 }
 
 }  // namespace
-}  // namespace relievo::firmware::measure
+}  // namespace relievo::pipeline::best_fit

@@ -7,14 +7,13 @@
 #pragma once
 
 #include <cstddef>
+#include <optional>
 #include <vector>
 
 #include "hal/base/result.h"
 #include "pipeline/model/vector3.h"
 
-namespace relievo::firmware::measure {
-
-using pipeline::Vec3d;
+namespace relievo::pipeline::best_fit {
 
 struct Sphere {
   Vec3d centre_mm;
@@ -45,4 +44,13 @@ struct FormReading {
 Result<FormReading<Sphere>> read_sphere(const std::vector<Vec3d>& points_mm, double discard_share);
 Result<FormReading<Plane>> read_plane(const std::vector<Vec3d>& points_mm, double discard_share);
 
-}  // namespace relievo::firmware::measure
+// A point, and where it meets a surface.
+struct Contact {
+  Vec3d point_mm, surface_mm;
+  Vec3d normal;  // of the surface, unit length
+};
+// The small motion about `pivot_mm` that lays the points on the surface: point to plane (Chen, Medioni 1992).
+// None where they leave one open.
+std::optional<RigidTransform> step_onto(const std::vector<Contact>& contacts, const Vec3d& pivot_mm);
+
+}  // namespace relievo::pipeline::best_fit

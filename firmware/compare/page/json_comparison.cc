@@ -5,7 +5,7 @@
 #include <sstream>
 
 #include "firmware/base/version.h"
-#include "firmware/compare/compare_json.h"
+#include "firmware/compare/page/compare_page.h"
 
 namespace relievo::firmware::compare {
 namespace {
