@@ -15,6 +15,7 @@
 #pragma once
 
 #include <cstdint>
+#include <functional>
 #include <memory_resource>
 #include <span>
 #include <string>
@@ -41,6 +42,10 @@ class Store {
   // How many that finds, without its limit and skip. Of a part of a name all names are opened.
   virtual Result<std::int64_t> count_subjects(const SubjectFilter& filter) = 0;
   virtual Result<Subject> subject(SubjectId id) = 0;  // NotFound
+  // Everybody once, the newest first, but for code and number of enrolments, with the consent they gave last
+  // (none: null); until `visit` fails, which may change what it is given and nothing in the store.
+  using Visit = std::function<Result<void>(Subject& subject, const Consent* newest)>;
+  virtual Result<void> for_each_subject(const Visit& visit) = 0;
   // Name, consents, models, and their traces in free pages, write-ahead log and old copies. NotFound.
   virtual Result<void> erase_subject(SubjectId id) = 0;
 

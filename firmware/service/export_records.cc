@@ -33,6 +33,8 @@ std::string note_of(const storage::Subject& subject, const storage::Enrolment& n
          text_of(newest.consent.given_at) + "\n";
 }
 
+constexpr float kWritten = 0.85F;  // of the progress: what follows is compared once more
+
 // One export: the errors of its steps, and its progress.
 class Export {
  public:
@@ -48,7 +50,7 @@ class Export {
     std::pmr::monotonic_buffer_resource memory;
     RELIEVO_TRY_ASSIGN(const pipeline::FaceModel model, store_.load_model(enrolments.back().id, &memory));
     const auto images = pipeline::make_recognition_images(model, memory, memory);
-    RELIEVO_TRY(work_.reach(ExportStep::Write, done + 0.3F * share));
+    RELIEVO_TRY(work_.reach(ExportStep::Write, done + 0.15F * share));
     RELIEVO_TRY_ASSIGN(const fs::path target,
                        place_on_stick(root, fs::path("relievo") / receipt_of(subject)));
     RELIEVO_TRY_ASSIGN(OutputFolder folder, OutputFolder::begin(target));
@@ -56,6 +58,7 @@ class Export {
     options.version = kVersion;
     if (images) options.images = &*images;  // a head without eyes has none, and is still its person's record
     RELIEVO_TRY(storage::write_model_files(model, folder.path(), options));
+    RELIEVO_TRY(work_.reach(ExportStep::Write, done + 0.35F * share));
     RELIEVO_TRY(write_further_models(model, further_, folder.path(), options.frame, target));
     RELIEVO_TRY(write_text(folder.path() / "record.txt", note_of(subject, enrolments.back()), "record.txt"));
     if (!enrolments.back().report_json.empty())
@@ -68,7 +71,7 @@ class Export {
   }
 
   Result<void> let_go() {
-    RELIEVO_TRY(work_.reach(ExportStep::LetGo, 1));
+    RELIEVO_TRY(work_.reach(ExportStep::LetGo, kWritten));
     std::error_code error;
     // Another stick may have come in the place of the first.
     for (const auto& [record, sums] : made_)
@@ -84,8 +87,11 @@ class Export {
     trace.step = ExportStep::Again;
     RELIEVO_TRY(media_.take_up_again());
     trace.whole = 0;
+    float compared = 0;
     Result<void> same;
     for (const auto& [record, sums] : made_) {
+      ++compared;
+      work_.control.progress.done.store(kWritten + (1 - kWritten) * compared / float(made_.size() + 1));
       const Result<Sums> kept = sums_of(record);
       if (kept && *kept == sums) ++trace.whole;
       else if (same) same = kept ? not_as_written(record) : kept.error();
@@ -116,7 +122,7 @@ Result<void> export_records(storage::Store& store, const hal::Clock& clock, hal:
   RELIEVO_TRY_ASSIGN(const fs::path ours, place_on_stick(medium.root, "relievo"));
   tidy_folder(ours, is_receipt);
   Export work(store, clock, media, further, control, trace);
-  const float share = 1 / float(std::max<std::size_t>(1, subjects.size()));
+  const float share = kWritten / float(std::max<std::size_t>(1, subjects.size()));
   for (const storage::SubjectId id : subjects) {
     const Result<void> written = work.one(id, medium.root, float(trace.whole) * share, share);
     // Whatever failed: a stick that is gone is the reason.

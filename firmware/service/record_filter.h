@@ -16,9 +16,10 @@
 
 namespace relievo::firmware {
 
-// Each record once, the newest first. It is the visitor's business to wipe what it keeps of a name.
-Result<void> for_each_record(storage::Store& store, const std::atomic<bool>& cancelled,
-                             const std::function<Result<void>(const storage::Subject&)>& visit);
+// As Store::for_each_subject. It is the visitor's business to wipe what it keeps of a name.
+Result<void> for_each_record(
+    storage::Store& store, const std::atomic<bool>& cancelled,
+    const std::function<void(const storage::Subject&, const storage::Consent* newest)>& visit);
 
 // All that let a record pass, in their order: texts (none where all agreed to one), then letters.
 Result<std::vector<ui::RecordFilter>> record_filters(storage::Store& store,

@@ -23,11 +23,6 @@ Result<bool> has_jumped(storage::Store& store, WallTime now) {
   return now > WallTime(std::chrono::milliseconds(seen_ms)) + kMostLeap;
 }
 
-Result<bool> is_expired(storage::Store& store, const storage::Subject& subject, WallTime before) {
-  RELIEVO_TRY_ASSIGN(const auto enrolments, store.enrolments(subject.id));
-  return (enrolments.empty() ? subject.created_at : enrolments.back().consent.given_at) < before;
-}
-
 }  // namespace
 
 Result<void> trust_clock(storage::Store& store, WallTime now) {
@@ -43,11 +38,12 @@ Result<int> erase_expired(storage::Store& store, WallTime now, int keep_days,
         Errc::InvalidState,
         "the clock is far ahead of when it was last seen: nothing is erased by age until the operator has chosen the time again"};
   std::vector<storage::SubjectId> expired;
-  RELIEVO_TRY(for_each_record(store, cancelled, [&](const storage::Subject& subject) -> Result<void> {
-    RELIEVO_TRY_ASSIGN(const bool old, is_expired(store, subject, now - std::chrono::days(keep_days)));
-    if (old) expired.push_back(subject.id);
-    return {};
-  }));
+  const WallTime before = now - std::chrono::days(keep_days);
+  RELIEVO_TRY(
+      for_each_record(store, cancelled, [&](const storage::Subject& subject, const storage::Consent* newest) {
+        if ((newest != nullptr ? newest->given_at : subject.created_at) < before)
+          expired.push_back(subject.id);
+      }));
   int erased = 0;
   for (const storage::SubjectId id : expired) {
     if (cancelled.load()) return Error{Errc::Cancelled, "the rest is erased later"};

@@ -71,6 +71,7 @@ Result<Sums> keep_folder(OutputFolder& made, const fs::path& target, hal::Remova
   RELIEVO_TRY_ASSIGN(Sums written, sums_of(made.path()));
   if (work != nullptr) RELIEVO_TRY(work->reach(ExportStep::ReadBack, done + 0.6F * share));
   RELIEVO_TRY(media.settle(made.path()));
+  if (work != nullptr) RELIEVO_TRY(work->reach(ExportStep::ReadBack, done + 0.8F * share));
   RELIEVO_TRY_ASSIGN(const Sums read, sums_of(made.path()));
   if (read != written) return not_as_written(target);
   if (work != nullptr) RELIEVO_TRY(work->reach(ExportStep::Write, done + 0.9F * share));

@@ -57,13 +57,16 @@ void measure_expression(const FacePhoto& photo, StageContext& context, GateMeasu
   m.mouth = measure_mouth(photo, context);
 }
 
-// Of a head that is turned so far that it does not mirror itself, the outline alone tells the yaw. Something
-// before a face takes the mirror image away, too, but leaves the nose before the middle.
+// To which side a head is turned far the outline tells: a cheek taken for a face mirrors itself, too, in a
+// plane that looks the other way, but lies on the right side of its outline. The yaw itself it tells of a
+// head that does not mirror itself. Something before a face takes the mirror image away, too, but leaves the
+// nose before the middle.
 void trust_outline(const Relief& relief, const GateLimits& limits, GateMeasures& m) {
-  if (!m.head.known || m.head.asymmetry_mm < limits.doubtful_mm) return;
+  const bool doubtful = m.head.known && m.head.asymmetry_mm >= limits.doubtful_mm;
+  if (!doubtful && std::abs(m.head.yaw_deg) <= limits.yaw_deg) return;
   const double yaw = outline_yaw_deg(relief, m.head.tip_mm);
-  m.turned_far = std::abs(yaw) > limits.yaw_deg;
-  if (m.turned_far) m.head.yaw_deg = yaw;
+  m.turned_far = doubtful && std::abs(yaw) > limits.yaw_deg;
+  m.head.yaw_deg = m.turned_far ? yaw : std::copysign(m.head.yaw_deg, yaw);
 }
 
 // What may be said of a head that no cascade has seen; what it looks like may be a collar's doing.

@@ -135,6 +135,29 @@ Result<std::int64_t> SqliteStore::count_subjects(const SubjectFilter& filter) {
   });
 }
 
+Result<void> SqliteStore::for_each_subject(const Visit& visit) {
+  return without_exceptions(database_->where(), [&]() -> Result<void> {
+    RELIEVO_TRY_ASSIGN(auto query, database_->prepare(std::string(kSubjects) + "ORDER BY id DESC"));
+    RELIEVO_TRY_ASSIGN(
+        auto newest,
+        database_->prepare("SELECT id, consent.record FROM enrolment JOIN consent ON enrolment_id = id "
+                           "WHERE subject_id = ? ORDER BY id DESC LIMIT 1"));
+    KeySlots slots(*database_);
+    for (;;) {
+      RELIEVO_TRY_ASSIGN(const bool row, query.step());
+      if (!row) return {};
+      RELIEVO_TRY_ASSIGN(auto subject, subject_in(slots, query));
+      newest.again();
+      RELIEVO_TRY_ASSIGN(const bool agreed, newest.bind(number(subject.id)).step());
+      Consent consent;
+      if (agreed) {
+        RELIEVO_TRY_ASSIGN(consent, open_consent(*keys_, EnrolmentId{newest.integer(0)}, newest.blob(1)));
+      }
+      RELIEVO_TRY(visit(subject, agreed ? &consent : nullptr));
+    }
+  });
+}
+
 Result<Subject> SqliteStore::subject(SubjectId id) {
   return without_exceptions(database_->where(), [&]() -> Result<Subject> {
     RELIEVO_TRY_ASSIGN(auto query,

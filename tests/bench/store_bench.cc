@@ -202,6 +202,17 @@ int main(int argc, char** argv) {
          count + "WHERE name LIKE '%family-" + std::to_string(middle) + "%'", "aim 500 ms");
   search("a part that nobody has", {.name = "nobody"}, count + "WHERE name LIKE '%nobody%'", "aim 500 ms");
 
+  std::size_t agreed = 0;
+  const double opened = median_ms(9, [&] {
+    agreed = 0;
+    must(store->for_each_subject([&](Subject&, const Consent* newest) -> Result<void> {
+      agreed += newest != nullptr;
+      return {};
+    }));
+  });
+  print(("all with their newest consent, to filter: " + std::to_string(agreed)).c_str(), opened, 0,
+        "aim 500 ms");
+
   const auto blob = must(encode_model(model));
   int next = 10'000'000;
   std::vector<double> sealed_ms, plain_ms;

@@ -21,8 +21,9 @@ constexpr double kGlareShare = 1.35;  // of skin and sclera
 constexpr double kScleraShare = 1.1;  // of the skin, where that is dark
 constexpr double kBurntOut = 245;
 // A lamp that is mirrored in glasses shines before eye and lids alike; sclera and the lamp in a cornea end
-// where the lids begin.
-constexpr double kEyeHalfWidthMm = 13, kEyeHalfHeightMm = 5;
+// where the lids begin. An eye that looks aside (a ball of 12 mm, by 25 degrees) has its iris beside the
+// opening's middle: so far beside the iris the opening may go on.
+constexpr double kEyeHalfWidthMm = 13, kEyeHalfHeightMm = 5, kGazeMm = 5;
 constexpr double kShineRightMm = 20, kShineDownMm = 14;  // how far about the iris it is looked for
 constexpr double kBesideEyeMm2 = 15;
 constexpr double kLostShare = 0.5;  // of the other eye's contrast: this one is covered
@@ -80,7 +81,8 @@ double disc(const FaceWindow& w, const Circle& c) {
   return sum / count;
 }
 
-// What shines, piece by piece: samples within the opening of an eye there, and beyond it.
+// What shines, piece by piece: samples within the opening of an eye there, and beyond it wherever the eye
+// looks.
 class Shine {
  public:
   Shine(const FaceWindow& window, Vec2d eye, float bright, StageContext& context)
@@ -123,9 +125,10 @@ class Shine {
     take(from_x, from_y);
     for (std::size_t i = 0; i < todo_.size(); ++i) {
       const auto [x, y] = todo_[i];
-      const double u = (w_.right_mm(x) - eye_.x) / kEyeHalfWidthMm,
-                   v = (w_.down_mm(y) - eye_.y) / kEyeHalfHeightMm;
-      ++samples[u * u + v * v < 1 ? 0 : 1];
+      const double right = std::abs(w_.right_mm(x) - eye_.x), v = (w_.down_mm(y) - eye_.y) / kEyeHalfHeightMm,
+                   u = right / kEyeHalfWidthMm, least = std::max(0.0, right - kGazeMm) / kEyeHalfWidthMm;
+      if (u * u + v * v < 1) ++samples[0];
+      else if (least * least + v * v > 1) ++samples[1];
       take(x - 1, y), take(x + 1, y), take(x, y - 1), take(x, y + 1);
     }
     return samples;
@@ -178,11 +181,12 @@ std::array<EyeMeasurement, 2> measure_eyes(const FacePhoto& photo, StageContext&
   for (std::size_t i = 0; i < 2; ++i) eyes[i] = measure_eye(windows[i], kSides[i], context);
   for (std::size_t i = 0; i < 2; ++i) {
     if (!eyes[i].known) continue;
-    const EyeMeasurement& other = eyes[1 - i];
-    const bool covered = other.known && eyes[i].contrast < kLostShare * other.contrast;
-    eyes[i].glare_mm2 = glare(
-        windows[i], kSides[i],
-        covered ? Vec2d{-other.right_mm, other.down_mm} : Vec2d{eyes[i].right_mm, eyes[i].down_mm}, context);
+    const EyeMeasurement &eye = eyes[i], &other = eyes[1 - i];
+    const bool covered = other.known && eye.contrast < kLostShare * other.contrast;
+    // Both eyes of a head are at one height, which the better seen one tells.
+    const double down = other.known && eye.contrast < other.contrast ? other.down_mm : eye.down_mm;
+    eyes[i].glare_mm2 =
+        glare(windows[i], kSides[i], {covered ? -other.right_mm : eye.right_mm, down}, context);
   }
   return eyes;
 }

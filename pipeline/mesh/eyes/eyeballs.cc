@@ -195,7 +195,7 @@ void lay_eyeballs(FaceMesh& mesh, const RigidTransform& head_from_camera, const 
   Arena& scratch = context.scratch;
   const Arena::Mark mark(scratch);
   const auto lids = find_lids(mesh, head_from_camera, pair, context);
-  if (!lids[0] && !lids[1]) return;
+  if ((!lids[0] && !lids[1]) || context.stop()) return;
   std::pmr::vector<Vec3d> in_head(&scratch);
   in_head.reserve(mesh.vertices_mm.size());
   for (const Vec3f& p : mesh.vertices_mm)

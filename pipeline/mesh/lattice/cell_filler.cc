@@ -62,12 +62,14 @@ double squared(const std::pmr::vector<double>& v) {
 class Plate {
  public:
   Plate(std::span<double> value, const PlateGrid& grid, std::span<const std::uint32_t> free,
-        std::span<const std::uint8_t> known, std::span<const double> like, std::pmr::memory_resource* memory)
+        std::span<const std::uint8_t> known, std::span<const double> like, const std::atomic<bool>* cancelled,
+        std::pmr::memory_resource* memory)
       : value_(value),
         grid_(grid),
         free_(free),
         known_(known),
         like_(like),
+        cancelled_(cancelled),
         place_(value.size(), kNone, memory),
         placed_(known.begin(), known.end(), memory),
         differences_(memory),
@@ -99,6 +101,7 @@ class Plate {
   }
 
  private:
+  bool stop() const { return cancelled_ != nullptr && cancelled_->load(std::memory_order_relaxed); }
   std::size_t index(int c, int r) const {
     return std::size_t(r) * std::size_t(grid_.columns) + std::size_t(c);
   }
@@ -124,7 +127,7 @@ class Plate {
       if (place_[here] != kNone) free.push_back(std::uint32_t(k));
     }
     if (free.empty()) return;
-    Plate(value, coarse, free, known, like, memory_).relax();
+    Plate(value, coarse, free, known, like, cancelled_, memory_).relax();
     for (const std::uint32_t k : free_) {
       double sum = 0;
       double count = 0;
@@ -201,7 +204,7 @@ class Plate {
     step_ = slope_;
     double now = squared(slope_);
     const double enough = 1e-9 * now;
-    for (int turn = 0; turn < turns && now > enough; ++turn) {
+    for (int turn = 0; turn < turns && now > enough && !stop(); ++turn) {
       bend();
       const double length = now / squared(change_);
       if (!std::isfinite(length)) return;
@@ -265,6 +268,7 @@ class Plate {
   std::span<const std::uint32_t> free_;
   std::span<const std::uint8_t> known_;
   std::span<const double> like_;
+  const std::atomic<bool>* cancelled_;
   std::pmr::vector<std::int32_t> place_;   // of a place among the free ones
   std::pmr::vector<std::uint8_t> placed_;  // 1 where it has a value
   std::array<std::array<double, 4>, kDifferenceKinds> weights_{};
@@ -280,8 +284,8 @@ class Plate {
 // it. Throws std::bad_alloc when `memory` is used up.
 void relax_thin_plate(std::span<double> value, const PlateGrid& grid, std::span<const std::uint32_t> free,
                       std::span<const std::uint8_t> known, std::span<const double> like,
-                      std::pmr::memory_resource* memory) {
-  if (!free.empty()) Plate(value, grid, free, known, like, memory).relax();
+                      const std::atomic<bool>* cancelled, std::pmr::memory_resource* memory) {
+  if (!free.empty()) Plate(value, grid, free, known, like, cancelled, memory).relax();
 }
 
 constexpr double kLeastRadiusMm = 1;
@@ -314,7 +318,8 @@ void spread_sigma(PointLattice& lattice, const CellMask& carrying, std::span<con
 // On a head's chart a node stays on its ray and the plate is one of radii: no fold can arise, and what
 // nothing bends is round as a head is. Elsewhere each coordinate is a plate.
 void place(PointLattice& l, std::span<const std::uint32_t> free, const CellMask& carrying,
-           std::span<const double> like, std::pmr::memory_resource* memory) {
+           std::span<const double> like, const std::atomic<bool>* cancelled,
+           std::pmr::memory_resource* memory) {
   PlateGrid grid{l.columns, l.rows, l.cell_height_mm / l.cell_width_mm};
   std::pmr::vector<double> value(l.size(), 0.0, memory);
   if (l.chart) {
@@ -323,13 +328,13 @@ void place(PointLattice& l, std::span<const std::uint32_t> free, const CellMask&
     grid.bow = -cell * cell / kBowMm;
     for (std::size_t k = 0; k < l.size(); ++k)
       if (carrying[k]) value[k] = l.radius_mm(k);
-    relax_thin_plate(value, grid, free, carrying, like, memory);
+    relax_thin_plate(value, grid, free, carrying, like, cancelled, memory);
     for (const std::uint32_t k : free) l.at_mm[k] = l.on_ray(k, std::max(value[k], kLeastRadiusMm));
     return;
   }
   for (float Vec3f::*const axis : {&Vec3f::x, &Vec3f::y, &Vec3f::z}) {
     for (std::size_t k = 0; k < l.size(); ++k) value[k] = double(l.at_mm[k].*axis);
-    relax_thin_plate(value, grid, free, carrying, {}, memory);
+    relax_thin_plate(value, grid, free, carrying, {}, cancelled, memory);
     for (const std::uint32_t k : free) l.at_mm[k].*axis = float(value[k]);
   }
 }
@@ -337,7 +342,8 @@ void place(PointLattice& l, std::span<const std::uint32_t> free, const CellMask&
 }  // namespace
 
 void fill_cells(PointLattice& lattice, LatticeSurface& surface, const CellMask& cells, float max_slope,
-                std::span<const double> like, std::pmr::memory_resource* memory) {
+                std::span<const double> like, std::pmr::memory_resource* memory,
+                const std::atomic<bool>* cancelled) {
   CellMask carrying(lattice.size(), 0, memory);
   CellMask listed(lattice.size(), 0, memory);
   for (int r = 0; r < lattice.rows; ++r)
@@ -353,7 +359,7 @@ void fill_cells(PointLattice& lattice, LatticeSurface& surface, const CellMask& 
     if (listed[k]) free.push_back(k);
   for (const std::uint32_t k : free) lattice.node[k] = Node::Filled;
   spread_sigma(lattice, carrying, free, memory);
-  place(lattice, free, carrying, like, memory);
+  place(lattice, free, carrying, like, cancelled, memory);
   for (std::size_t k = 0; k < cells.size(); ++k)
     if (cells[k])
       if (const std::uint8_t cut = best_cut(lattice, k, max_slope)) surface.cells[k] = cut;

@@ -7,6 +7,7 @@
 // cut, but for those that would be steeper than `max_slope`. Throws std::bad_alloc when `memory` is used up.
 #pragma once
 
+#include <atomic>
 #include <memory_resource>
 #include <span>
 
@@ -16,8 +17,10 @@
 namespace relievo::pipeline {
 
 // `cells` must not touch the last column and row. `like`: empty, or on a head's chart the radii of
-// another surface, mm, see relax_thin_plate().
+// another surface, mm, see relax_thin_plate(). Once `cancelled` is set, what is filled is not finished: the
+// caller throws it away.
 void fill_cells(PointLattice& lattice, LatticeSurface& surface, const CellMask& cells, float max_slope,
-                std::span<const double> like, std::pmr::memory_resource* memory);
+                std::span<const double> like, std::pmr::memory_resource* memory,
+                const std::atomic<bool>* cancelled = nullptr);
 
 }  // namespace relievo::pipeline

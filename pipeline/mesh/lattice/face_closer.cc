@@ -233,6 +233,7 @@ CellMask open_cells(const PointLattice& l, const LatticeSurface& surface, const 
 Result<std::optional<ClosedFace>> close_face(const PointLattice& seen, const LatticeSurface& seen_surface,
                                              const Vec3d& right_camera_mm, const LatticeLimits& limits,
                                              StageContext& context) {
+  const Error stopped{Errc::Cancelled, "meshing was stopped"};
   Arena& scratch = context.scratch;
   const FaceMesh rough = rough_surface(seen, seen_surface, scratch);
   const auto head = find_head_frame(rough, context, right_camera_mm);
@@ -241,6 +242,7 @@ Result<std::optional<ClosedFace>> close_face(const PointLattice& seen, const Lat
   const FaceOutline outline = outline_of(rough, head->head_from_camera, scratch);
   PointLattice l = lay_on_head(seen, seen_surface, outline.chart, kRoomMm, context.pool, &scratch);
   if (!(l.cell_width_mm > 0 && l.cell_height_mm > 0)) return std::optional<ClosedFace>{};
+  if (context.stop()) return stopped;
   LatticeSurface surface = join_neighbours(l, limits, &scratch);
   MaskShaper shaper(l.columns, l.rows, l.cell_width_mm, l.cell_height_mm, &scratch);
   const auto between_cameras = [&](double right, double centre) { return float(right / 2 - centre); };
@@ -249,11 +251,14 @@ Result<std::optional<ClosedFace>> close_face(const PointLattice& seen, const Lat
                    between_cameras(right_camera_mm.z, centre.z)};
   drop_poor_rims(l, surface, from, shaper, scratch);
   auto mirror = mirrored(l, surface, scratch);
+  if (context.stop()) return stopped;
   add_generic_head(rough, head->head_from_camera, l, mirror, shaper, scratch);
+  if (context.stop()) return stopped;
   drop_beyond(l, surface, outline);
   const CellMask open = open_cells(l, surface, outline, mirror, shaper, scratch);
-  if (context.stop()) return Error{Errc::Cancelled, "meshing was stopped"};
-  fill_cells(l, surface, open, kSteepest, mirror, &scratch);
+  if (context.stop()) return stopped;
+  fill_cells(l, surface, open, kSteepest, mirror, &scratch, &context.cancelled);
+  if (context.stop()) return stopped;
   drop_beyond(l, surface, outline);
   CellMask inside(l.size(), 0, &scratch);
   for (std::size_t k = 0; k < l.size(); ++k) inside[k] = surface.cells[k] != 0;

@@ -40,7 +40,7 @@ ShapedLattice fill_budget(ShapedLattice shaped, double triangles, float max_slop
     spacing.cells = float(std::sqrt(expected_triangles(shaped, spacing.edge) / triangles));
   }
   spacing.cells = std::max(spacing.cells, float(o.finest_cells));
-  while (spacing.cells != 1 || spacing.edge != 1) {
+  while ((spacing.cells != 1 || spacing.edge != 1) && !context.stop()) {
     ShapedLattice other = resample_lattice(shaped, spacing, max_slope, context.pool, &context.scratch);
     if (expected_triangles(other, 1) <= triangles) return other;
     spacing.cells *= kThinnerStep;
@@ -118,7 +118,6 @@ Result<FaceMesh> GridMesher::mesh(const PointCloud& cloud, StageContext& context
     if (context.stop()) return stopped();
     RELIEVO_TRY_ASSIGN(const CutSurface surface, make_surface(cloud, triangles, *this, context));
     context.progress.done.store(0.8F, std::memory_order_relaxed);
-    if (context.stop()) return stopped();
     if (surface.triangles.empty() || area_mm2(surface.at_mm, surface.triangles) < min_area_mm2)
       return no_surface();
     if (surface.triangles.size() > std::size_t(max_triangles)) {

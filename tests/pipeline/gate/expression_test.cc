@@ -60,6 +60,23 @@ TEST(GateExpression, TellsEyesMouthAndGlassesApart) {
   }
 }
 
+// Who turns the head and goes on looking at the cameras shows most of the white of one eye on one side of its
+// iris: that is no lamp in glasses.
+TEST(GateExpression, AnEyeThatLooksAsideWearsNoGlasses) {
+  test::Album& album = test::shared_album();
+  test::GateFixture gate;
+  for (const double yaw : {18, 19, 20, 21}) {
+    const test::Shot shot = album.photograph(303, {yaw, -9, 13, 580, -25, 23});
+    for (std::uint64_t noise = 1; noise <= 4; ++noise) {
+      test::Developing how;
+      how.noise_seed = noise;
+      const GateMeasures m = gate.first_look(album, shot, how).answer.measures;
+      ASSERT_TRUE(m.head.known) << yaw;
+      EXPECT_NE(judge_expression(m, {}, Advice::None), Advice::GlassesGlare) << yaw << ": " << figures(m);
+    }
+  }
+}
+
 std::optional<StereoCalibration> calibration_of(const fs::path& boards) {
   CalibratorInput input;
   input.pattern = {9, 6, 10};

@@ -146,6 +146,32 @@ TEST_F(SqliteStoreVerbs, FindsPeople) {
   EXPECT_EQ(code_of(store->subject(SubjectId{77})), Errc::NotFound);
 }
 
+TEST_F(SqliteStoreVerbs, ShowsEverybodyOnceWithTheirNewestConsent) {
+  const auto model = sample_model(4);
+  auto enrolment = sample_enrolment(model);
+  const auto ada = store->add_subject({"Ada"});
+  for (const char* wording : {"2026-03", "2026-09"}) {
+    enrolment.consent.wording = wording;
+    ASSERT_TRUE(store->add_enrolment(*ada, enrolment));
+  }
+  ASSERT_TRUE(store->add_subject({"Bob"}));
+  ASSERT_TRUE(store->erase_subject(*store->add_subject({"Eve"})));
+  std::string seen;
+  const Store::Visit note = [&](Subject& subject, const Consent* newest) -> Result<void> {
+    seen += subject.name + (newest != nullptr ? " " + newest->wording : std::string()) + ", ";
+    return {};
+  };
+  ASSERT_TRUE(store->for_each_subject(note));
+  EXPECT_EQ(seen, "Bob, Ada 2026-09, ");
+  int visited = 0;
+  const auto stopped = store->for_each_subject([&](Subject&, const Consent*) -> Result<void> {
+    ++visited;
+    return Error{Errc::Cancelled, "as the test says"};
+  });
+  EXPECT_EQ(code_of(stopped), Errc::Cancelled);
+  EXPECT_EQ(visited, 1);
+}
+
 TEST_F(SqliteStoreVerbs, NeverGivesANumberTwice) {
   const auto ada = store->add_subject({"Ada"});
   ASSERT_TRUE(store->erase_subject(*ada));
