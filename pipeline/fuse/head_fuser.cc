@@ -291,7 +291,6 @@ Result<FaceMesh> HeadFuser::fuse(std::span<PoseSurface> poses, const Registratio
 
   // Vertices on the poses' surfaces; what lies on none is the master's own, or goes.
   OwnFace own_face(volume, &context.scratch);
-  // Lids were measured, eyeballs were not: where both are near, it is a lid.
   std::stable_partition(own.begin(), own.end(), [&](std::uint32_t v) { return face.measured[v] == 0; });
   for (const std::uint32_t v : own)
     own_face.mark(face.vertices_mm[v], face.sigma_mm[v], face.measured[v] != 0);

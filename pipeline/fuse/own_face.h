@@ -18,10 +18,17 @@ class OwnFace {
  public:
   OwnFace(const BandVolume& volume, std::pmr::memory_resource* memory)
       : volume_(volume), sigma_(volume.value.size(), 0.0F, memory) {}
+  // Those that were completed first: what was measured takes their place where it is near.
   void mark(const Vec3f& at, float sigma_mm, bool measured) {
     const float said = measured ? sigma_mm : -1 - sigma_mm;
-    for_each_voxel_near(volume_, at, (measured ? kMeasuredVoxels : kReachVoxels) * volume_.voxel_mm,
-                        [&](int x, int y, int z) { sigma_[volume_.index(x, y, z)] = said; });
+    const auto say_within = [&](float voxels, bool over_others) {
+      for_each_voxel_near(volume_, at, voxels * volume_.voxel_mm, [&](int x, int y, int z) {
+        float& here = sigma_[volume_.index(x, y, z)];
+        if (over_others || here == 0) here = said;
+      });
+    };
+    say_within(kReachVoxels, !measured);
+    if (measured) say_within(kNearVoxels, true);
   }
   // None beyond it.
   struct Said {
@@ -38,7 +45,7 @@ class OwnFace {
   }
 
  private:
-  static constexpr float kReachVoxels = 2, kMeasuredVoxels = 1;
+  static constexpr float kReachVoxels = 2, kNearVoxels = 1;
   const BandVolume& volume_;
   std::pmr::vector<float> sigma_;  // 0: nothing; below: completed
 };

@@ -8,10 +8,12 @@
 
 #include <algorithm>
 #include <cmath>
+#include <functional>
 #include <numbers>
 
 #include "pipeline/fuse/head_fuser.h"
 #include "pipeline/fuse/skin_bender.h"
+#include "pipeline/fuse/skin_patches.h"
 #include "pipeline/model/vector3.h"
 #include "tests/pipeline/mesh/stage_room.h"
 #include "tests/support/allocation_counter.h"
@@ -186,6 +188,15 @@ TEST_F(Poses, AreNotTurnedByALowerFaceThatMoved) {
   EXPECT_LT(degrees_off(found->poses[2], 25), 0.1);
 }
 
+TEST(Skin, SaysAlikeHoweverWellItWasMeasuredWhereItMoves) {
+  const auto counts = [](double weight, double mm, double usual_mm) {
+    return weight * SkinPatches::say({0, 0, 1, mm, weight}, usual_mm);
+  };
+  EXPECT_NEAR(counts(4e4, 0, 0) / counts(2e3, 0, 0), 20, 1e-9) << "skin that stands still: as measured";
+  EXPECT_LT(counts(4e4, 0, 0.06) / counts(2e3, 0, 0.06), 1.2);
+  EXPECT_LT(counts(2e3, 0.5, 0.06), 0.01 * counts(2e3, 0, 0.06)) << "what moved loses its say";
+}
+
 TEST_F(Poses, TellWhereTheyDisagree) {
   show({{0, 0}, {20, 0.8}, {-20, 0}});
   const auto found = registered();
@@ -302,6 +313,11 @@ class ApartPoses : public Poses {
  protected:
   double fused_steepest_deg(const Vec3d& middle, double within_mm, const Landmarks& landmarks,
                             double apart_mm, double edge_y, float trust) {
+    const auto head = fused(landmarks, apart_mm, edge_y, trust, [](const Vec3d&) { return true; });
+    return head ? steepest_deg(*head, poses_[0].head_from_camera, middle, within_mm) : 90;
+  }
+  Result<FaceMesh> fused(const Landmarks& landmarks, double apart_mm, double edge_y, float trust,
+                         const std::function<bool(const Vec3d& in_head)>& measured) {
     for (int k = 0; k < 2; ++k) {
       auto pose = room_.run([](StageContext& c) { return seen(0, 0, 0, c, 0.12); });
       EXPECT_TRUE(pose);
@@ -317,14 +333,27 @@ class ApartPoses : public Poses {
     own.vertices_mm = poses_[0].at_mm;
     own.normals = poses_[0].normal;
     own.sigma_mm = poses_[0].sigma_mm;
-    own.measured.assign(own.sigma_mm.size(), 1);
+    for (const Vec3f& at : own.vertices_mm)
+      own.measured.push_back(measured(apply(poses_[0].head_from_camera, wide(at))) ? 1 : 0);
     HeadFuserOptions options;
     options.most_bend_mm = 0;
     options.still_mm = 1;
-    const auto head = room_.run(
+    auto head = room_.run(
         [&](StageContext& c) { return HeadFuser(options).fuse(poses_, placed, own, landmarks, c); });
     EXPECT_TRUE(head);
-    return head ? steepest_deg(*head, poses_[0].head_from_camera, middle, within_mm) : 90;
+    return head;
+  }
+  static Landmarks left_eye() {
+    const RigidTransform camera = camera_from_head(0);
+    const auto on_skin = [&](double x, double y) {
+      Vec3d p{x, y, 40};
+      while (shape(p, 0) > 0) p.z -= 0.1;
+      return Landmark{narrow(apply(camera, p)), 0.5F, true};
+    };
+    Landmarks landmarks{};
+    landmarks[std::size_t(LandmarkName::EndocanthionLeft)] = on_skin(17, 30);
+    landmarks[std::size_t(LandmarkName::ExocanthionLeft)] = on_skin(43, 30);
+    return landmarks;
   }
 };
 
@@ -333,16 +362,23 @@ TEST_F(ApartPoses, HaveNoStepWhereTheOtherBeginsToCountMost) {
 }
 
 TEST_F(ApartPoses, HaveNoStepAroundAnEye) {
-  const RigidTransform camera = camera_from_head(0);
-  const auto on_skin = [&](double x, double y) {
-    Vec3d p{x, y, 40};
-    while (shape(p, 0) > 0) p.z -= 0.1;
-    return Landmark{narrow(apply(camera, p)), 0.5F, true};
-  };
-  Landmarks landmarks{};
-  landmarks[std::size_t(LandmarkName::EndocanthionLeft)] = on_skin(17, 30);
-  landmarks[std::size_t(LandmarkName::ExocanthionLeft)] = on_skin(43, 30);
-  EXPECT_LT(fused_steepest_deg({33, 30, 0}, 14, landmarks, 0.55, -200, 0.9F), 10.5);
+  EXPECT_LT(fused_steepest_deg({33, 30, 0}, 14, left_eye(), 0.55, -200, 0.9F), 10.5);
+}
+
+TEST_F(ApartPoses, SayThatLidsWereMeasuredAndTheEyeBetweenThemWasNot) {
+  constexpr double kEyeMm = 6, kVoxelMm = 0.8;
+  const auto from_eye = [](const Vec3d& at) { return std::hypot(at.x - 30, at.y - 30); };
+  const auto head =
+      fused(left_eye(), 0.1, -200, 0.9F, [&](const Vec3d& at) { return from_eye(at) > kEyeMm; });
+  ASSERT_TRUE(head);
+  int lids = 0, eye = 0;
+  for (std::size_t v = 0; v < head->vertices_mm.size(); ++v) {
+    const double off = from_eye(apply(poses_[0].head_from_camera, wide(head->vertices_mm[v]))) - kEyeMm;
+    if (off > kVoxelMm && off < 3) lids += head->measured[v] != 0 ? 1 : -100;
+    if (off < -2 * kVoxelMm) eye += head->measured[v] == 0 ? 1 : -100;
+  }
+  EXPECT_GT(lids, 100);
+  EXPECT_GT(eye, 50);
 }
 
 TEST_F(Poses, ThatMeetNothingAreNamed) {
