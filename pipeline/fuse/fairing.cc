@@ -3,7 +3,9 @@
 #include "pipeline/fuse/fairing.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
+#include <set>
 
 #include "pipeline/mesh/completion/mesh_laplacian.h"
 #include "pipeline/model/vector3.h"
@@ -122,9 +124,16 @@ std::pmr::vector<float> fair_part(std::span<Vec3f> vertices_mm, std::span<const 
     for (const std::uint32_t v : around.back()) normals[v] = plus(normals[v], n);
   }
   fair(at, around, free, kTensionMm);
+  // Two vertices on one place would join the sheets there.
+  constexpr float kApartMm = 0.001F;
+  std::pmr::set<std::array<float, 3>> taken(memory);
+  const auto take = [&](const Vec3f& p) { return taken.insert({p.x, p.y, p.z}).second; };
+  for (std::size_t i = 0; i < all.size(); ++i)
+    if (free[i] == 0) take(vertices_mm[all[i]]);
   for (std::size_t i = 0; i < all.size(); ++i) {
     if (free[i] == 0) continue;
-    const Vec3f now = narrow(Vec3d{at[i].x(), at[i].y(), at[i].z()});
+    Vec3f now = narrow(Vec3d{at[i].x(), at[i].y(), at[i].z()});
+    while (!take(now)) now.z += kApartMm;
     Vec3f& was = vertices_mm[all[i]];
     const Vec3f normal = unit(normals[i]), way = minus(now, was);
     moved[all[i]] = length(normal) > 0 ? std::abs(dot(normal, way)) : length(way);

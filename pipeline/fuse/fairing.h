@@ -38,8 +38,8 @@ void add_folds(std::span<const Vec3f> vertices_mm, std::span<const Triangle> tri
 void spread_rings(std::span<const Triangle> triangles, std::span<std::uint8_t> rings);
 
 // Lays anew the vertices with `part` above 0, and around one with n those up to n - 1 edges away; vertices
-// with `stays` 1 are left. Returns by how much each vertex moved along the normal, millimetres. Memory:
-// `memory`, and the heap for what is laid anew.
+// with `stays` 1 are left. No two come to lie on one place. Returns by how much each vertex moved along the
+// normal, millimetres. Memory: `memory`, and the heap for what is laid anew.
 std::pmr::vector<float> fair_part(std::span<Vec3f> vertices_mm, std::span<const Triangle> triangles,
                                   std::span<const std::uint8_t> part, std::span<const std::uint8_t> stays,
                                   std::pmr::memory_resource* memory);

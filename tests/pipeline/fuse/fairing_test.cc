@@ -5,8 +5,10 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <memory_resource>
+#include <set>
 
 #include "pipeline/fuse/rim.h"
 #include "pipeline/mesh/completion/mesh_laplacian.h"
@@ -137,6 +139,25 @@ TEST(Fairing, LetsWhatClosesAHoleGoOnAsTheSurfaceDoes) {
   const auto moved = fair_part(vertices, triangles, part, stays, std::pmr::get_default_resource());
   EXPECT_LT(furthest(), 0.1F);
   for (std::size_t v = 0; v < before; ++v) EXPECT_EQ(moved[v], 0) << "what was there stays";
+}
+
+TEST(Fairing, LaysNoTwoVerticesOnOnePlace) {
+  Sheet two(0);
+  const Sheet second(0);
+  const auto first = static_cast<std::uint32_t>(two.vertices.size());
+  two.vertices.insert(two.vertices.end(), second.vertices.begin(), second.vertices.end());
+  two.stays.insert(two.stays.end(), second.stays.begin(), second.stays.end());
+  for (const Triangle& t : second.triangles)
+    two.triangles.push_back({t[0] + first, t[1] + first, t[2] + first});
+  const std::vector<std::uint8_t> part(two.vertices.size(), 1);
+  fair_part(two.vertices, two.triangles, part, two.stays, std::pmr::get_default_resource());
+  std::set<std::array<float, 3>> places;
+  for (std::size_t v = 0; v < two.vertices.size(); ++v) {
+    const Vec3f& at = two.vertices[v];
+    if (two.stays[v] != 0) continue;
+    EXPECT_TRUE(places.insert({at.x, at.y, at.z}).second) << v;
+    EXPECT_NEAR(at.z, 0, 0.01F);
+  }
 }
 
 // Between two slopes that rise at 45 degrees a thin plate rises further.
