@@ -1,0 +1,111 @@
+// SPDX-FileCopyrightText: 2026 The Relievo authors
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "pipeline/fuse/head_fuser.h"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <functional>
+#include <numbers>
+
+#include "tests/pipeline/fuse/formula_head.h"
+
+namespace relievo::pipeline::test {
+namespace {
+
+// How steeply, in degrees, the fused surface stands to the head's own within so many millimetres of a place.
+double steepest_deg(const FaceMesh& mesh, const RigidTransform& head_from_camera, const Vec3d& middle,
+                    double within_mm) {
+  double least = 1;
+  for (const auto& t : mesh.triangles) {
+    std::array<Vec3d, 3> p;
+    for (std::size_t k = 0; k < 3; ++k) p[k] = apply(head_from_camera, wide(mesh.vertices_mm[t[k]]));
+    const Vec3d centre = times(plus(plus(p[0], p[1]), p[2]), 1.0 / 3);
+    const Vec3d area = cross(minus(p[1], p[0]), minus(p[2], p[0]));
+    if (std::hypot(centre.x - middle.x, centre.y - middle.y) > within_mm || length(area) < 0.2) continue;
+    const auto slope = [&](const Vec3d& by) {
+      return shape(plus(centre, by), 0) - shape(minus(centre, by), 0);
+    };
+    least = std::min(
+        least, dot(unit(area), unit(Vec3d{slope({0.1, 0, 0}), slope({0, 0.1, 0}), slope({0, 0, 0.1})})));
+  }
+  return std::acos(least) * 180 / std::numbers::pi;
+}
+
+// Two poses of one head that lie more than a millimetre apart, and the first one's edge across the face.
+class ApartPoses : public Poses {
+ protected:
+  double fused_steepest_deg(const Vec3d& middle, double within_mm, const Landmarks& landmarks,
+                            double apart_mm, double edge_y, float trust) {
+    const auto head = fused(landmarks, apart_mm, edge_y, trust, [](const Vec3d&) { return true; });
+    return head ? steepest_deg(*head, poses_[0].head_from_camera, middle, within_mm) : 90;
+  }
+  Result<FaceMesh> fused(const Landmarks& landmarks, double apart_mm, double edge_y, float trust,
+                         const std::function<bool(const Vec3d& in_head)>& measured) {
+    for (int k = 0; k < 2; ++k) {
+      auto pose = room_.run([](StageContext& c) { return seen(0, 0, 0, c, 0.12); });
+      EXPECT_TRUE(pose);
+      poses_.push_back(*std::move(pose));
+    }
+    for (std::size_t k = 0; k < poses_[0].trust.size(); ++k)
+      poses_[0].trust[k] *=
+          apply(poses_[0].head_from_camera, wide(poses_[0].at_mm[k])).y < edge_y ? 0 : trust;
+    Registration placed(std::pmr::get_default_resource());
+    placed.poses.resize(2);
+    placed.poses[1].first_from_pose.translation_mm.z = apart_mm;
+    FaceMesh own(std::pmr::get_default_resource());
+    own.vertices_mm = poses_[0].at_mm;
+    own.normals = poses_[0].normal;
+    own.sigma_mm = poses_[0].sigma_mm;
+    for (const Vec3f& at : own.vertices_mm)
+      own.measured.push_back(measured(apply(poses_[0].head_from_camera, wide(at))) ? 1 : 0);
+    HeadFuserOptions options;
+    options.most_bend_mm = 0;
+    options.still_mm = 1;
+    auto head = room_.run(
+        [&](StageContext& c) { return HeadFuser(options).fuse(poses_, placed, own, landmarks, c); });
+    EXPECT_TRUE(head);
+    return head;
+  }
+  static Landmarks left_eye() {
+    const RigidTransform camera = camera_from_head(0);
+    const auto on_skin = [&](double x, double y) {
+      Vec3d p{x, y, 40};
+      while (shape(p, 0) > 0) p.z -= 0.1;
+      return Landmark{narrow(apply(camera, p)), 0.5F, true};
+    };
+    Landmarks landmarks{};
+    landmarks[std::size_t(LandmarkName::EndocanthionLeft)] = on_skin(17, 30);
+    landmarks[std::size_t(LandmarkName::ExocanthionLeft)] = on_skin(43, 30);
+    return landmarks;
+  }
+};
+
+TEST_F(ApartPoses, HaveNoStepWhereTheOtherBeginsToCountMost) {
+  EXPECT_LT(fused_steepest_deg({0, -14, 0}, 12, {}, 0.7, -20, 1), 12);
+}
+
+TEST_F(ApartPoses, HaveNoStepAroundAnEye) {
+  EXPECT_LT(fused_steepest_deg({33, 30, 0}, 14, left_eye(), 0.55, -200, 0.9F), 10.5);
+}
+
+TEST_F(ApartPoses, SayThatLidsWereMeasuredAndTheEyeBetweenThemWasNot) {
+  constexpr double kEyeMm = 6, kVoxelMm = 0.8;
+  const auto from_eye = [](const Vec3d& at) { return std::hypot(at.x - 30, at.y - 30); };
+  const auto head =
+      fused(left_eye(), 0.1, -200, 0.9F, [&](const Vec3d& at) { return from_eye(at) > kEyeMm; });
+  ASSERT_TRUE(head);
+  int lids = 0, eye = 0;
+  for (std::size_t v = 0; v < head->vertices_mm.size(); ++v) {
+    const double off = from_eye(apply(poses_[0].head_from_camera, wide(head->vertices_mm[v]))) - kEyeMm;
+    if (off > kVoxelMm && off < 3) lids += head->measured[v] != 0 ? 1 : -100;
+    if (off < -2 * kVoxelMm) eye += head->measured[v] == 0 ? 1 : -100;
+  }
+  EXPECT_GT(lids, 100);
+  EXPECT_GT(eye, 50);
+}
+
+}  // namespace
+}  // namespace relievo::pipeline::test
