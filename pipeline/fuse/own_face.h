@@ -18,7 +18,8 @@ class OwnFace {
  public:
   OwnFace(const BandVolume& volume, std::pmr::memory_resource* memory)
       : volume_(volume), sigma_(volume.value.size(), 0.0F, memory) {}
-  // Those that were completed first: what was measured takes their place where it is near.
+  // To be called for completed places first: a measured one takes their voxels where it is near, as a lid
+  // those of the eyeball.
   void mark(const Vec3f& at, float sigma_mm, bool measured) {
     const float said = measured ? sigma_mm : -1 - sigma_mm;
     const auto say_within = [&](float voxels, bool over_others) {

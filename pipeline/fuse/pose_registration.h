@@ -6,8 +6,9 @@
 // surface (point to plane; Chen, Medioni 1992, projected as Blais, Levine 1995), with a redescending weight
 // (Geman, McClure 1987) that narrows to the noise. A living face moves: forehead, temples, the bridge of the
 // nose, the sides and the ears count, lids, lips, jaw and neck hardly do.
-// The covariance holds how far regions of skin were seen to move, each as one: what one region moved is one
-// observation and not a thousand. Millimetres, radians.
+// Where skin moves, its patches count alike, however well each was measured. The covariance holds how far
+// regions of skin were seen to move, each as one: what one region moved is one observation and not a
+// thousand. Millimetres, radians.
 #pragma once
 
 #include <array>

@@ -37,7 +37,8 @@ class SkinPatches {
   static std::size_t region_of(std::size_t patch);
   // How far patches lie off, one standard deviation, robustly.
   static double usual_mm(std::span<const PatchMean> means, std::pmr::memory_resource& memory);
-  // What a patch counts, share of how well it was measured.
+  // What a patch counts, as a share of its weight: less where it moved, and the less the better it was
+  // measured.
   static double say(const PatchMean& mean, double usual_mm);
 
   void watch() { take({}); }
