@@ -91,6 +91,7 @@ Result<void> run_script(ui::Display& display, Kiosk& kiosk, Sentinel& sentinel,
 }  // namespace
 
 Result<void> run(const KioskArgs& args, Services& services) {
+  share_one_heap();
   RELIEVO_TRY(ui::prepare_languages());
   std::vector<ScriptAction> script;
   const bool scripted = !args.script.empty(), pictures = !scripted && !args.screenshots.empty();

@@ -108,6 +108,7 @@ class Soak {
 };
 
 int soak(int captures) {
+  firmware::share_one_heap();
   hal::SimDeviceOptions options;
   options.simulation.rig = small_rig(kScale);
   auto device = hal::make_sim_device(options);

@@ -23,6 +23,7 @@ constexpr int kWarm = 3;           // visits until everything has been used once
 constexpr double kMayGrow = 1.01;  // of what is resident, from then to the end
 
 int serve(int visits) {
+  firmware::share_one_heap();
   const TemporaryFolder folder;
   auto visitor = Visitor::at(folder.path() / "store");
   firmware::keep_heap_steady();

@@ -246,6 +246,7 @@ class Watched {
 };
 
 int bench(int visits, int cancels) {
+  share_one_heap();
   const hal::SimDeviceOptions options;
   const test::TemporaryFolder folder;
   const hal::MonotonicClock clock;
