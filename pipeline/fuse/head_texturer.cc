@@ -28,6 +28,7 @@ constexpr float kMasterLevel = 20;           // the others are brought to the ma
 constexpr float kMasterFirst = 1.8F;         // the master's say before others that look as straight
 constexpr float kWinner = 12;                // power of what a view's say is to the best one's
 constexpr float kBorderPx = 3;
+constexpr int kBands = 32;
 
 class Texturing {
  public:
@@ -57,8 +58,9 @@ class Texturing {
     lay_out(max_atlas_px);
     shade();
     if (context_.stop()) return stopped;
-    for (std::size_t v = 0; v < vertices_; ++v)
+    for_each_vertex([&](std::size_t v) {
       if (known_[v] != 0) colours_[v] = blend_at(v);
+    });
     fill_colours(mesh_, known_, colours_, context_);
     paint_filled();
     constexpr int kMarginPx = 8;
@@ -157,18 +159,26 @@ class Texturing {
     return rgb;
   }
 
+  template <typename Work>
+  void for_each_vertex(Work&& work) const {
+    context_.pool.for_each_band(int(vertices_), kBands, [&](int begin, int end, int) {
+      for (int v = begin; v < end; ++v) work(std::size_t(v));
+    });
+  }
+
   // Every photograph's slowly varying difference from the mean of all that see the same skin.
   void even_out() {
     std::pmr::vector<VertexColour> mean(vertices_, VertexColour{}, &context_.scratch);
     std::pmr::vector<float> weight(vertices_, 0.0F, &context_.scratch);
-    for (std::size_t i = 0; i < views_.size(); ++i)
-      for (std::size_t v = 0; v < vertices_; ++v) {
+    for_each_vertex([&](std::size_t v) {
+      for (std::size_t i = 0; i < views_.size(); ++i) {
         if (say(v, i) <= 0) continue;
         const float w = say(v, i) * (views_[i].master ? kMasterLevel : 1);
         level_[i * vertices_ + v] = read(i, mesh_.vertices_mm[v]);
         for (std::size_t c = 0; c < 3; ++c) mean[v][c] += w * level_[i * vertices_ + v][c];
         weight[v] += w;
       }
+    });
     LevelGrid grid(mesh_, &context_.scratch);
     for (std::size_t i = 0; i < views_.size(); ++i) {
       grid.clear();
@@ -180,7 +190,7 @@ class Texturing {
         grid.add(mesh_.vertices_mm[v], difference, say(v, i));
       }
       grid.smooth();
-      for (std::size_t v = 0; v < vertices_; ++v) level_[i * vertices_ + v] = grid.at(mesh_.vertices_mm[v]);
+      for_each_vertex([&](std::size_t v) { level_[i * vertices_ + v] = grid.at(mesh_.vertices_mm[v]); });
     }
   }
 
@@ -213,7 +223,6 @@ class Texturing {
 
   // Bands of rows: a texel on two triangles' edge is painted in their order, whoever paints it.
   void shade() {
-    constexpr int kBands = 32;
     context_.pool.for_each_band(atlas_.height_px, kBands, [&](int begin, int end, int) {
       for (std::size_t s = 0; s < sides_.triangles.size() && !context_.stop(); ++s)
         shade_triangle(s, {begin, end});

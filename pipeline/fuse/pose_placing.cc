@@ -136,6 +136,7 @@ class Placer {
         sum.normal += kPlacingRidge * Matrix6::Identity();
         const Vector6 step = -solved<6>(sum.normal, sum.right);
         residuals_.move(p, {step[0], step[1], step[2]}, {step[3], step[4], step[5]});
+        if (step.norm() <= round.still()) break;
       }
     if (stands_before_others(p)) return {};
     return {placed_[p].first_from_pose, sum.count, sum.count / sum.near};

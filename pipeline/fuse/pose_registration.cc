@@ -64,7 +64,7 @@ class JointSolver {
 
   Result<void> run() {
     for (const RegistrationRound& round : kRounds)
-      for (int k = 0; k < round.times && move(round) > kStillMm; ++k)
+      for (int k = 0; k < round.times && move(round) > round.still(); ++k)
         if (context_.stop()) return registration_stopped();
     residuals_.skin().watch();
     for (int k = 0; k < kLast.times; ++k) {

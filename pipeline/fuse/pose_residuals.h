@@ -28,6 +28,9 @@ struct RegistrationRound {
   double reach_mm, scale_mm;
   int times;
   double samples = 18'000;
+
+  // A step, millimetres and radians together, after which the next round brings more.
+  double still() const { return 0.01 * scale_mm; }
 };
 inline constexpr double kFewSamples = 4'500;  // enough to come near
 

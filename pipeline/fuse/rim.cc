@@ -26,25 +26,31 @@ void count_edges(std::span<const Triangle> triangles, int most, std::pmr::vector
 
 std::pmr::vector<BorderEdge> border_edges(std::span<const Triangle> triangles,
                                           std::pmr::memory_resource* memory) {
-  struct Edge {
-    std::uint64_t key;
-    bool forward;
+  // By the vertex of the lower number: of each of its edges the other end, doubled, and one more where the
+  // triangle runs back from there.
+  std::pmr::vector<std::uint32_t> begin(memory), ends(3 * triangles.size(), memory);
+  const auto for_each_edge = [&](const auto& take) {
+    for (const Triangle& t : triangles)
+      for (std::size_t i = 0; i < 3; ++i) {
+        const std::uint32_t from = t[i], to = t[(i + 1) % 3];
+        from < to ? take(from, 2 * to) : take(to, 2 * from + 1);
+      }
   };
-  std::pmr::vector<Edge> edges(memory);
-  edges.reserve(3 * triangles.size());
   for (const Triangle& t : triangles)
-    for (std::size_t i = 0; i < 3; ++i) {
-      const std::uint64_t a = t[i], b = t[(i + 1) % 3];
-      edges.push_back({a < b ? a << 32 | b : b << 32 | a, a < b});
-    }
-  std::sort(edges.begin(), edges.end(), [](const Edge& a, const Edge& b) { return a.key < b.key; });
+    begin.resize(std::max<std::size_t>({begin.size(), t[0] + 2UL, t[1] + 2UL, t[2] + 2UL}));
+  for_each_edge([&](std::uint32_t low, std::uint32_t) { ++begin[low + 1]; });
+  std::partial_sum(begin.begin(), begin.end(), begin.begin());
+  std::pmr::vector<std::uint32_t> next(begin, memory);
+  for_each_edge([&](std::uint32_t low, std::uint32_t end) { ends[next[low]++] = end; });
   std::pmr::vector<BorderEdge> border(memory);
-  for (std::size_t i = 0; i < edges.size();) {
-    std::size_t end = i + 1;
-    while (end < edges.size() && edges[end].key == edges[i].key) ++end;
-    const auto low = std::uint32_t(edges[i].key >> 32), high = std::uint32_t(edges[i].key);
-    if (end - i == 1) border.push_back(edges[i].forward ? BorderEdge{low, high} : BorderEdge{high, low});
-    i = end;
+  for (std::uint32_t low = 0; low + 1 < begin.size(); ++low) {
+    const auto mine = std::span(ends).subspan(begin[low], begin[low + 1] - begin[low]);
+    std::sort(mine.begin(), mine.end());
+    for (std::size_t i = 0, after = 0; i < mine.size(); i = after) {
+      while (after < mine.size() && mine[after] / 2 == mine[i] / 2) ++after;
+      const std::uint32_t high = mine[i] / 2;
+      if (after - i == 1) border.push_back(mine[i] % 2 == 0 ? BorderEdge{low, high} : BorderEdge{high, low});
+    }
   }
   return border;
 }

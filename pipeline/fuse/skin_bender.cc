@@ -19,6 +19,7 @@ constexpr float kNothingSaid = 0.002F;  // weight that pulls to no displacement,
 constexpr float kLeastSigmaMm = 0.01F;
 constexpr float kSureWeight = 400;  // of a surface with a sigma of 0.05 mm: more of it is no surer
 constexpr float kOwnErrorSigmas = 3;
+constexpr int kBands = 32;
 constexpr float kMovedSigma = 0.9F;  // what is not known of a displacement, share of its usual size around
 
 struct Field {
@@ -126,40 +127,44 @@ class Bender {
     const int every = std::max(1, int(std::lround(kCellMm / node_mm)));
     Field field((pose.columns + every - 1) / every + 1, (pose.rows + every - 1) / every + 1,
                 &context_.scratch);
-    for (int r = 0; r < pose.rows; ++r)
-      for (int c = 0; c < pose.columns; ++c) {
-        const std::size_t i = std::size_t(r) * std::size_t(pose.columns) + std::size_t(c);
-        if (pose.trust[i] <= 0 || (r + c) % 2 != 0) continue;
-        const Gap g = gap(k, i);
-        if (g.weight <= 0) continue;
-        const std::size_t cell = std::size_t(r / every) * std::size_t(field.columns) + std::size_t(c / every);
-        const float w = pose.trust[i] * std::min(1.0F, g.weight / kSureWeight);
-        field.sum[cell] += w * g.distance;
-        field.weight[cell] += w;
-      }
+    // By whole rows of cells: no two threads add to one.
+    const auto for_each_node = [&](const auto& work) {
+      context_.pool.for_each_band(field.rows, kBands, [&](int begin, int end, int) {
+        for (int r = begin * every; r < std::min(end * every, pose.rows); ++r)
+          for (int c = 0; c < pose.columns; ++c)
+            work(r, c, std::size_t(r) * std::size_t(pose.columns) + std::size_t(c));
+      });
+    };
+    for_each_node([&](int r, int c, std::size_t i) {
+      if (pose.trust[i] <= 0 || (r + c) % 2 != 0) return;
+      const Gap g = gap(k, i);
+      if (g.weight <= 0) return;
+      const std::size_t cell = std::size_t(r / every) * std::size_t(field.columns) + std::size_t(c / every);
+      const float w = pose.trust[i] * std::min(1.0F, g.weight / kSureWeight);
+      field.sum[cell] += w * g.distance;
+      field.weight[cell] += w;
+    });
     const double sigma_cells = limits_.width_mm / (double(every) * double(node_mm));
     blur(field.sum, field.columns, field.rows, sigma_cells, &context_.scratch);
     blur(field.weight, field.columns, field.rows, sigma_cells, &context_.scratch);
     usual_square(field, sigma_cells);
     const float still = float(limits_.still_mm), most = float(limits_.most_mm);
-    for (int r = 0; r < pose.rows; ++r)
-      for (int c = 0; c < pose.columns; ++c) {
-        const std::size_t i = std::size_t(r) * std::size_t(pose.columns) + std::size_t(c);
-        if (pose.trust[i] <= 0) continue;
-        const float d =
-            read(field, (float(c) + 0.5F) / float(every) - 0.5F, (float(r) + 0.5F) / float(every) - 0.5F);
-        const float moved = d * d * d / (d * d + still * still);
-        // What is measured badly may lie further off without having moved.
-        if (std::abs(moved) > most + kOwnErrorSigmas * pose.sigma_mm[i]) {
-          pose.trust[i] = 0;
-          continue;
-        }
-        pose.at_mm[i] = along(pose.at_mm[i], -moved, pose.normal[i]);
-        pose.sigma_mm[i] = std::hypot(
-            pose.sigma_mm[i],
-            kMovedSigma * std::sqrt(field.square[std::size_t(r / every) * std::size_t(field.columns) +
-                                                 std::size_t(c / every)]));
+    for_each_node([&](int r, int c, std::size_t i) {
+      if (pose.trust[i] <= 0) return;
+      const float d =
+          read(field, (float(c) + 0.5F) / float(every) - 0.5F, (float(r) + 0.5F) / float(every) - 0.5F);
+      const float moved = d * d * d / (d * d + still * still);
+      // What is measured badly may lie further off without having moved.
+      if (std::abs(moved) > most + kOwnErrorSigmas * pose.sigma_mm[i]) {
+        pose.trust[i] = 0;
+        return;
       }
+      pose.at_mm[i] = along(pose.at_mm[i], -moved, pose.normal[i]);
+      pose.sigma_mm[i] = std::hypot(
+          pose.sigma_mm[i],
+          kMovedSigma * std::sqrt(field.square[std::size_t(r / every) * std::size_t(field.columns) +
+                                               std::size_t(c / every)]));
+    });
   }
 
   // Where nothing overlaps, the mean over all that does.
