@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <array>
 #include <numeric>
+#include <utility>
 
 #include "pipeline/model/vector3.h"
 
@@ -12,14 +13,51 @@ namespace relievo::pipeline {
 namespace {
 
 constexpr std::uint32_t kNobody = 0xFFFFFFFFU;
+constexpr float kSlackMm = 0.6F;  // an opening leaves straight rims where they are
 
-// How many edges each vertex lies from those that are `at` 0; `most` and beyond is `most`.
-void count_edges(std::span<const Triangle> triangles, int most, std::pmr::vector<std::uint8_t>& at) {
-  for (int round = 0; round < most; ++round)
-    for (const Triangle& t : triangles) {
-      const auto next = std::uint8_t(std::min({at[t[0]], at[t[1]], at[t[2]]}) + 1);
-      for (const std::uint32_t v : t) at[v] = std::min(at[v], next);
-    }
+// The triangles around each vertex.
+class Fans {
+ public:
+  Fans(std::size_t vertices, std::span<const Triangle> triangles, std::pmr::memory_resource* memory)
+      : triangles_(triangles), begin_(vertices + 1, 0, memory), around_(3 * triangles.size(), memory) {
+    for (const Triangle& t : triangles)
+      for (const std::uint32_t v : t) ++begin_[v + 1];
+    std::partial_sum(begin_.begin(), begin_.end(), begin_.begin());
+    std::pmr::vector<std::uint32_t> next(begin_, memory);
+    for (std::uint32_t i = 0; i < triangles.size(); ++i)
+      for (const std::uint32_t v : triangles[i]) around_[next[v]++] = i;
+  }
+  template <typename Visit>
+  void for_each_neighbour(std::uint32_t v, Visit&& visit) const {
+    for (std::uint32_t i = begin_[v]; i < begin_[v + 1]; ++i)
+      for (const std::uint32_t other : triangles_[around_[i]]) visit(other);
+  }
+
+ private:
+  std::span<const Triangle> triangles_;
+  std::pmr::vector<std::uint32_t> begin_, around_;
+};
+
+// How far every vertex lies from the nearest one that is marked, `most` where that is further: each learns of
+// it from its neighbours (Danielsson 1980).
+std::pmr::vector<float> distances(std::span<const Vec3f> vertices, const Fans& fans,
+                                  std::span<const std::uint8_t> marked, float most,
+                                  std::pmr::memory_resource* memory) {
+  std::pmr::vector<float> far(vertices.size(), most, memory);
+  std::pmr::vector<std::uint32_t> nearest(vertices.size(), kNobody, memory), told(memory), next(memory);
+  for (std::uint32_t v = 0; v < vertices.size(); ++v)
+    if (marked[v] != 0) far[v] = 0, nearest[v] = v, told.push_back(v);
+  for (; !told.empty(); std::swap(told, next), next.clear())
+    for (const std::uint32_t v : told)
+      fans.for_each_neighbour(v, [&](std::uint32_t other) {
+        if (far[other] <= 0 || nearest[other] == nearest[v]) return;
+        const float mm = distance(vertices[other], vertices[nearest[v]]);
+        if (mm >= far[other]) return;
+        far[other] = mm;
+        nearest[other] = nearest[v];
+        next.push_back(other);
+      });
+  return far;
 }
 
 }  // namespace
@@ -55,21 +93,19 @@ std::pmr::vector<BorderEdge> border_edges(std::span<const Triangle> triangles,
   return border;
 }
 
-void open_rims(std::span<const std::uint8_t> sure, std::pmr::vector<Triangle>& triangles, int edges,
-               int holds, std::pmr::memory_resource* memory) {
+void open_rims(std::span<const Vec3f> at, std::span<const std::uint8_t> sure,
+               std::pmr::vector<Triangle>& triangles, float radius_mm, int holds,
+               std::pmr::memory_resource* memory) {
   const std::size_t vertices = sure.size();
-  const auto far = std::uint8_t(edges);
-  std::pmr::vector<std::uint8_t> from_rim(vertices, far, memory);
-  for (const BorderEdge& e : border_edges(triangles, memory)) from_rim[e[0]] = from_rim[e[1]] = 0;
-  count_edges(triangles, edges, from_rim);
-  std::pmr::vector<std::uint8_t> from_core(vertices, std::uint8_t(far + 1), memory);
-  for (std::size_t v = 0; v < vertices; ++v)
-    if (from_rim[v] >= far) from_core[v] = 0;
-  std::pmr::vector<std::uint8_t> from_sure(from_core, memory);
-  count_edges(triangles, edges, from_core);
-  for (std::size_t v = 0; v < vertices; ++v)
-    if (sure[v] != 0) from_sure[v] = 0;
-  count_edges(triangles, edges, from_sure);
+  std::pmr::vector<std::uint8_t> marked(vertices, 0, memory);
+  for (const BorderEdge& e : border_edges(triangles, memory)) marked[e[0]] = marked[e[1]] = 1;
+  const Fans fans(vertices, triangles, memory);
+  const auto from_rim = distances(at, fans, marked, radius_mm, memory);
+  for (std::size_t v = 0; v < vertices; ++v) marked[v] = from_rim[v] >= radius_mm ? 1 : 0;
+  const float far = radius_mm + kSlackMm;
+  const auto from_core = distances(at, fans, marked, far, memory);
+  for (std::size_t v = 0; v < vertices; ++v) marked[v] = marked[v] != 0 || sure[v] != 0 ? 1 : 0;
+  const auto from_sure = distances(at, fans, marked, far, memory);
   // Parts beside the core, by one of their vertices each, and how many that are sure join each to it.
   std::pmr::vector<std::uint32_t> part(vertices, 0, memory);
   std::iota(part.begin(), part.end(), 0U);
@@ -77,7 +113,7 @@ void open_rims(std::span<const std::uint8_t> sure, std::pmr::vector<Triangle>& t
     while (part[v] != v) v = part[v] = part[part[v]];
     return v;
   };
-  const auto is_in_core = [&](std::uint32_t v) { return from_core[v] <= far; };
+  const auto is_in_core = [&](std::uint32_t v) { return from_core[v] < far; };
   for (const Triangle& t : triangles)
     for (std::size_t k = 0; k < 3; ++k)
       if (!is_in_core(t[k]) && !is_in_core(t[(k + 1) % 3])) part[root(t[k])] = root(t[(k + 1) % 3]);
@@ -92,7 +128,7 @@ void open_rims(std::span<const std::uint8_t> sure, std::pmr::vector<Triangle>& t
   for (const BorderEdge& j : joined) ++held[j[0]];
   std::erase_if(triangles, [&](const Triangle& t) {
     return std::any_of(t.begin(), t.end(), [&](std::uint32_t v) {
-      return from_sure[v] > far || (!is_in_core(v) && held[root(v)] < holds);
+      return from_sure[v] >= far || (!is_in_core(v) && held[root(v)] < holds);
     });
   });
 }

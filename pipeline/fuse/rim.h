@@ -20,11 +20,12 @@ using BorderEdge = std::array<std::uint32_t, 2>;  // as its triangle runs
 std::pmr::vector<BorderEdge> border_edges(std::span<const Triangle> triangles,
                                           std::pmr::memory_resource* memory);
 
-// Takes away what is narrower than about twice so many edges: teeth, threads (an opening; Serra 1982).
-// Vertices with `sure` 1, one byte a vertex, stay, and what lies that near to them; but a part that is joined
-// to the rest by fewer than `holds` vertices that are sure goes all the same.
-void open_rims(std::span<const std::uint8_t> sure, std::pmr::vector<Triangle>& triangles, int edges,
-               int holds, std::pmr::memory_resource* memory);
+// Takes away what no disc of that radius within the surface covers: teeth, threads, corners (an opening;
+// Serra 1982). Vertices with `sure` 1, one byte a vertex, stay, and what lies that near to them; but a part
+// that is joined to the rest by fewer than `holds` vertices that are sure goes all the same.
+void open_rims(std::span<const Vec3f> vertices_mm, std::span<const std::uint8_t> sure,
+               std::pmr::vector<Triangle>& triangles, float radius_mm, int holds,
+               std::pmr::memory_resource* memory);
 
 // Straightens rims: every vertex of them towards the middle of its two neighbours, by at most so much from
 // where it was. One that several rims share stays.

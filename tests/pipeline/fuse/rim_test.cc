@@ -5,6 +5,7 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <cmath>
 
 #include "pipeline/model/vector3.h"
 #include "tests/pipeline/mesh/mesh_checks.h"
@@ -16,17 +17,16 @@ constexpr int kSide = 12;  // vertices
 
 // A flat sheet a millimetre a cell, counter-clockwise seen from -z, without the cells that `hole` names.
 template <typename Hole>
-FaceMesh sheet(Hole&& hole) {
+FaceMesh sheet(Hole&& hole, std::uint32_t side = kSide) {
   FaceMesh mesh(std::pmr::get_default_resource());
-  for (int y = 0; y < kSide; ++y)
-    for (int x = 0; x < kSide; ++x)
-      mesh.vertices_mm.push_back({static_cast<float>(x), static_cast<float>(y), 0});
-  for (int y = 0; y + 1 < kSide; ++y)
-    for (int x = 0; x + 1 < kSide; ++x) {
-      if (hole(x, y)) continue;
-      const auto a = static_cast<std::uint32_t>(y * kSide + x);
-      mesh.triangles.push_back({a, a + kSide, a + kSide + 1});
-      mesh.triangles.push_back({a, a + kSide + 1, a + 1});
+  for (std::uint32_t y = 0; y < side; ++y)
+    for (std::uint32_t x = 0; x < side; ++x) mesh.vertices_mm.push_back({float(x), float(y), 0});
+  for (std::uint32_t y = 0; y + 1 < side; ++y)
+    for (std::uint32_t x = 0; x + 1 < side; ++x) {
+      if (hole(int(x), int(y))) continue;
+      const std::uint32_t a = y * side + x;
+      mesh.triangles.push_back({a, a + side, a + side + 1});
+      mesh.triangles.push_back({a, a + side + 1, a + 1});
     }
   return mesh;
 }
@@ -86,20 +86,40 @@ TEST(Rims, LoseTheBaysOfTheOutline) {
   EXPECT_NEAR(area(mesh), (kSide - 1) * (kSide - 1) - 2, 1e-3) << "closed straight, and facing the same way";
 }
 
+TEST(Rims, LoseTheirCornersAsRoundAsADisc) {
+  constexpr int kWide = 61;
+  constexpr float kRadius = 16, kWidth = kWide - 1, kPi = 3.14159265F;
+  FaceMesh mesh = sheet([](int, int) { return false; }, kWide);
+  const std::vector<std::uint8_t> sure(mesh.vertices_mm.size(), 0);
+  open_rims(mesh.vertices_mm, sure, mesh.triangles, kRadius, 0, std::pmr::get_default_resource());
+  const float lost = kWidth * kWidth - area(mesh), corners = (4 - kPi) * kRadius * kRadius;
+  EXPECT_NEAR(lost, corners, 0.35F * corners) << "a millimetre of slack along every corner";
+  for (const BorderEdge& e : border_edges(mesh.triangles, std::pmr::get_default_resource())) {
+    const Vec3f& v = mesh.vertices_mm[e[0]];
+    const float x = std::min(v.x, kWidth - v.x), y = std::min(v.y, kWidth - v.y);
+    const float to_disc = std::hypot(kRadius - x, kRadius - y) - kRadius;
+    if (x < kRadius && y < kRadius) {
+      EXPECT_NEAR(to_disc, 0, 1.5F) << v.x << ", " << v.y;
+    } else {
+      EXPECT_EQ(std::min(x, y), 0) << "straight sides stay";
+    }
+  }
+}
+
 TEST(Rims, LoseTheirThreadsAndKeepTheRest) {
   // A thread one cell wide between two halves.
   FaceMesh mesh = sheet([](int x, int y) { return x >= 4 && x < 7 && y != 5; });
   const float before = area(mesh);
   std::vector<std::uint8_t> sure(mesh.vertices_mm.size(), 1);
-  open_rims(sure, mesh.triangles, 1, 0, std::pmr::get_default_resource());
+  open_rims(mesh.vertices_mm, sure, mesh.triangles, 1, 0, std::pmr::get_default_resource());
   EXPECT_EQ(area(mesh), before) << "all of it is sure";
   FaceMesh held = mesh;
-  open_rims(sure, held.triangles, 1, 2, std::pmr::get_default_resource());
+  open_rims(held.vertices_mm, sure, held.triangles, 1, 2, std::pmr::get_default_resource());
   EXPECT_EQ(area(held), before) << "joined by two vertices on either side";
-  open_rims(sure, held.triangles, 1, 5, std::pmr::get_default_resource());
+  open_rims(held.vertices_mm, sure, held.triangles, 1, 5, std::pmr::get_default_resource());
   EXPECT_GE(before - area(held), 3) << "it hangs on by less than asked";
   std::fill(sure.begin(), sure.end(), std::uint8_t{0});
-  open_rims(sure, mesh.triangles, 1, 0, std::pmr::get_default_resource());
+  open_rims(mesh.vertices_mm, sure, mesh.triangles, 1, 0, std::pmr::get_default_resource());
   EXPECT_GE(before - area(mesh), 3) << "the thread";
   EXPECT_LE(before - area(mesh), 6) << "and little else";
   for (const auto& t : mesh.triangles) {
