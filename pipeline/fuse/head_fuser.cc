@@ -26,7 +26,8 @@ constexpr float kSureMm = 0.15F;          // skin; hair that was half seen throu
 // Holes are opened before they are closed; of the outline goes what is narrow, then its corners.
 constexpr float kHoleOpenedMm = 8;
 constexpr std::array<float, 2> kOutlineOpenedMm{11, 16};
-constexpr int kEarHolds = 25;  // an ear that hangs on by less is a rag between hair
+constexpr float kEarSureMm = 0.22F;  // an ear is seen at a slant
+constexpr int kEarHolds = 40;        // an ear that hangs on by less is a rag between hair
 constexpr int kRimRounds = 20;
 constexpr float kRimMoveMm = 0.7F;
 constexpr std::uint8_t kClosedRings = 3, kUnsureRings = 9, kLastRings = 3, kEyeRimRings = 1;
@@ -129,7 +130,10 @@ Result<FaceMesh> HeadFuser::fuse(std::span<PoseSurface> poses, const Registratio
     return vertices[t[0]].kept == 0 || vertices[t[1]].kept == 0 || vertices[t[2]].kept == 0;
   });
   std::pmr::vector<std::uint8_t> sure(&context.scratch);
-  for (const Vertex& v : vertices) sure.push_back(v.measured != 0 && v.sigma_mm <= kSureMm ? 1 : 0);
+  for (std::size_t v = 0; v < vertices.size(); ++v) {
+    const float most_mm = zones.is_ear(surface.vertices_mm[v]) ? kEarSureMm : kSureMm;
+    sure.push_back(vertices[v].measured != 0 && vertices[v].sigma_mm <= most_mm ? 1 : 0);
+  }
   const std::size_t settled = vertices.size();
   // What closes a hole was not measured.
   const auto close = [&](std::span<const BorderEdge> border, float mouth_mm) {

@@ -5,6 +5,7 @@
 #include <array>
 #include <cmath>
 #include <numbers>
+#include <optional>
 
 #include "hal/base/statistics.h"
 #include "pipeline/base/solving.h"
@@ -16,6 +17,8 @@ namespace {
 constexpr double kFewestMet = 80;
 constexpr std::size_t kEveryNode = 16;
 constexpr double kPlacingRidge = 1e-9;
+// People lean while they turn: where their own head frames do not tell, a start may be that far off.
+constexpr RegistrationRound kFarRound{80, 40, 2, kFewSamples};
 constexpr std::array<RegistrationRound, 4> kPlacingRounds{
     {{25, 12, 8, kFewSamples}, {12, 6, 6, kFewSamples}, {6, 2, 6, kFewSamples}, {3, 0.7, 4, kFewSamples}}};
 // A cheek lies well on the other one too, but then stands before other skin, where cameras would have seen
@@ -106,7 +109,9 @@ class Placer {
         if (context_.stop()) break;
         RigidTransform start = product(inverse(head), product(turned_by(turn), head));
         if (other_cameras) start.translation_mm = minus(middle_of(0), apply(start.rotation, middle_of(p)));
-        const Laid laid = lay(p, start);
+        placed_[p].first_from_pose = start;
+        if (!come_nearer(p, kFarRound)) continue;
+        const Laid laid = lay(p, placed_[p].first_from_pose);
         if (laid.count * laid.share > best.count * best.share) best = laid;
       }
     }
@@ -128,18 +133,25 @@ class Placer {
   // One pose onto the known ones, which stay.
   Laid lay(std::size_t p, const RigidTransform& start) {
     placed_[p].first_from_pose = start;
-    Sum sum;
+    std::optional<Sum> sum;
     for (const RegistrationRound& round : kPlacingRounds)
-      for (int k = 0; k < round.times; ++k) {
-        sum = against_known(p, round);
-        if (sum.near < kFewestMet) return {};
-        sum.normal += kPlacingRidge * Matrix6::Identity();
-        const Vector6 step = -solved<6>(sum.normal, sum.right);
-        residuals_.move(p, {step[0], step[1], step[2]}, {step[3], step[4], step[5]});
-        if (step.norm() <= round.still()) break;
-      }
+      if (sum = come_nearer(p, round); !sum) return {};
     if (stands_before_others(p)) return {};
-    return {placed_[p].first_from_pose, sum.count, sum.count / sum.near};
+    return {placed_[p].first_from_pose, sum->count, sum->count / sum->near};
+  }
+
+  // By Gauss-Newton steps. What the last of them saw; none where it saw too little.
+  std::optional<Sum> come_nearer(std::size_t p, const RegistrationRound& round) {
+    Sum sum;
+    for (int k = 0; k < round.times; ++k) {
+      sum = against_known(p, round);
+      if (sum.near < kFewestMet) return std::nullopt;
+      sum.normal += kPlacingRidge * Matrix6::Identity();
+      const Vector6 step = -solved<6>(sum.normal, sum.right);
+      residuals_.move(p, {step[0], step[1], step[2]}, {step[3], step[4], step[5]});
+      if (step.norm() <= round.still()) break;
+    }
+    return sum;
   }
 
   // A pose before the known ones, or they before it.
