@@ -14,7 +14,7 @@
 #include <memory>
 #include <optional>
 
-#include "ui/render/face_projection.h"
+#include "ui/render/face_geometry.h"
 #include "ui/speech/narrator.h"
 #include "ui/text/text_engine.h"
 #include "ui/tree/tree.h"

@@ -12,7 +12,6 @@
 #include "firmware/kiosk/glass.h"
 #include "firmware/kiosk/kiosk.h"
 #include "firmware/kiosk/script/script_player.h"
-#include "firmware/kiosk/script/visit_figures.h"
 #include "hal/picture_file.h"
 
 namespace relievo::firmware {

@@ -21,7 +21,6 @@
 #include "pipeline/mesh/detail/level_of_detail.h"
 #include "pipeline/model/face_model.h"
 #include "storage/model_blob.h"
-#include "ui/render/offscreen.h"
 #include "ui/render/renderer.h"
 
 namespace relievo::firmware {

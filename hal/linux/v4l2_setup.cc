@@ -183,12 +183,6 @@ constexpr V4l2Format kFormats[] = {
 
 std::span<const V4l2Format> v4l2_formats() { return kFormats; }
 
-std::optional<RawFormat> raw_format_of(std::uint32_t fourcc) {
-  for (const V4l2Format& format : kFormats)
-    if (format.fourcc == fourcc) return format.raw;
-  return std::nullopt;
-}
-
 namespace {
 
 constexpr std::uint32_t kCapture = V4L2_BUF_TYPE_VIDEO_CAPTURE;

@@ -9,7 +9,6 @@
 
 #include <cstddef>
 #include <cstdint>
-#include <optional>
 #include <span>
 
 #include "hal/base/result.h"
@@ -27,7 +26,6 @@ struct V4l2Format {
 // Every format that can be developed, the best first: a face is to have its colour; samples before YUV;
 // of a mosaic 8 bit, which is what it is developed to; of a grey sensor all its bits; JPEG last.
 std::span<const V4l2Format> v4l2_formats();
-std::optional<RawFormat> raw_format_of(std::uint32_t fourcc);
 
 struct V4l2Stream {
   RawFormat format;

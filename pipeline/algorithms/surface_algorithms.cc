@@ -2,8 +2,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "pipeline/algorithms/algorithm_table.h"
 #include "pipeline/fuse/head_fuser.h"
-#include "pipeline/mesh/completion/generic_head_completion.h"
-#include "pipeline/mesh/completion/symmetric_completion.h"
+#include "pipeline/mesh/completion/completions.h"
 #include "pipeline/mesh/meshers/bezier_mesher.h"
 #include "pipeline/mesh/meshers/grid_mesher.h"
 #include "pipeline/mesh/meshers/scattered_meshers.h"

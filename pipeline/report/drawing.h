@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: 2026 The Relievo authors
 // SPDX-License-Identifier: GPL-3.0-or-later
 //
-// A picture made of lines, as SVG that stands in the page: its styles are classes of page_style.cc.
+// A picture made of lines, as SVG that stands in the page: its styles are classes of page.cc.
 // Axes as on paper: x right, y down. Thread: any.
 #pragma once
 

@@ -12,7 +12,6 @@
 
 #include "tests/ui/quiet_driver.h"
 #include "ui/platform/sdl_display.h"
-#include "ui/render/offscreen.h"
 
 namespace relievo::ui {
 namespace {

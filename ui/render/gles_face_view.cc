@@ -10,9 +10,8 @@
 #include <vector>
 
 #include "ui/render/face_geometry.h"
-#include "ui/render/face_projection.h"
-#include "ui/render/face_view.h"
 #include "ui/render/gles_program.h"
+#include "ui/render/renderer.h"
 
 namespace relievo::ui {
 namespace {

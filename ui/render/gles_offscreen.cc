@@ -2,7 +2,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include <GLES3/gl3.h>
 
-#include "ui/render/offscreen.h"
+#include "ui/render/renderer.h"
 
 namespace relievo::ui {
 namespace {

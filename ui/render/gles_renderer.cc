@@ -7,7 +7,6 @@
 #include <cstring>
 #include <vector>
 
-#include "ui/render/face_view.h"
 #include "ui/render/gles_program.h"
 #include "ui/render/renderer.h"
 

@@ -27,10 +27,10 @@
 namespace relievo::ui {
 
 // FaceRuler: a scale and the distance of two touched points on a model that fills a page. Ui sets the points
-// and where they are seen (ui/render/face_projection.h), the page draws them. Thread: main. Errors: none.
+// and where they are seen (ui/render/face_geometry.h), the page draws them. Thread: main. Errors: none.
 struct FaceRuler {
   bool on = false;                             // touches set points
-  std::array<pipeline::Vec3f, 2> points_mm{};  // on the surface, frame of face_projection.h
+  std::array<pipeline::Vec3f, 2> points_mm{};  // on the surface, frame of face_geometry.h
   std::size_t count = 0;
   // Of the newest frame: where they are, shares of the model's picture; its size and a millimetre, pixels.
   std::array<pipeline::Vec2f, 2> seen{};

@@ -1,13 +1,17 @@
 // SPDX-FileCopyrightText: 2026 The Relievo authors
 // SPDX-License-Identifier: GPL-3.0-or-later
 //
-// ScriptPlayer: synthetic fingers before a kiosk. Once a frame it does the next thing of its script: it
-// finds what is to be touched by its id, as it lies on the screen now, and puts the finger there.
-//   while (turn(kiosk, now) is true) { the loop's own work }
-// Pixels. Thread: main. Errors of turn(): Timeout (a state was not reached, an id did not come to the
-// screen, or lies under something else), InvalidInput (no key for a letter), those of plug.
+// VisitFigures: what a visit cost, frame by frame: touches from "yes" to "thanks", seconds from standing
+// still to the face on the screen, frames a second, processor time and memory taken a frame.
+//
+//   begin() ... the kiosk's turn ... made() ... the renderer ... shown(kiosk)     once a frame
+//
+// Processor time is the calling thread's. Of the kiosk's turn it is all ours; of the drawing most is the
+// GL driver's, which is why the two are told apart. Thread: main. Errors: none.
 #pragma once
 
+#include <array>
+#include <chrono>
 #include <filesystem>
 #include <functional>
 #include <optional>
@@ -18,6 +22,51 @@
 #include "hal/base/result.h"
 
 namespace relievo::firmware {
+
+class VisitFigures {
+ public:
+  // How often this thread has taken memory from the heap until now; empty: it is not counted.
+  explicit VisitFigures(std::function<long()> allocations = {}) : allocations_(std::move(allocations)) {}
+
+  void begin();
+  void made();
+  void shown(const Kiosk& kiosk, bool drawn);  // drawn: something had changed
+
+  int touches() const { return touches_; }  // until Thanks; 0: it was not reached
+  std::optional<double> still_to_face_s() const { return still_to_face_s_; }
+  std::optional<double> live_frames_a_second() const { return rate(page(ui::Step::Position)); }
+  // Lines for a person, with the bars they are held against.
+  std::vector<std::string> lines() const;
+
+ private:
+  struct PageCost {
+    long frames = 0, drawn = 0;  // without the first ones, which lay out words and fill the atlas
+    long waited = 0;
+    double turn_s = 0, draw_s = 0, most_turn_s = 0;
+    long allocations = 0, allocating_frames = 0;
+    std::chrono::steady_clock::time_point from{}, until{};
+  };
+  static constexpr std::size_t kPages = ui::kStepNames.size();
+  const PageCost& page(ui::Step step) const { return pages_[std::size_t(step)]; }
+  static std::optional<double> rate(const PageCost& page);
+  void follow(const Kiosk& kiosk, std::chrono::steady_clock::time_point now);
+
+  std::function<long()> allocations_;
+  std::array<PageCost, kPages> pages_{};
+  double begun_s_ = 0, made_s_ = 0;
+  long taken_before_ = 0, taken_after_ = 0;
+  ui::Step last_ = ui::Step::Starting;
+  std::optional<hal::Instant> still_at_;
+  std::optional<double> still_to_face_s_;
+  std::optional<double> still_to_shot_s_;
+  int touches_ = 0;
+};
+
+// ScriptPlayer: synthetic fingers before a kiosk. Once a frame it does the next thing of its script: it
+// finds what is to be touched by its id, as it lies on the screen now, and puts the finger there.
+//   while (turn(kiosk, now) is true) { the loop's own work }
+// Pixels. Thread: main. Errors of turn(): Timeout (a state was not reached, an id did not come to the
+// screen, or lies under something else), InvalidInput (no key for a letter), those of plug.
 
 // Script: what synthetic fingers are to do, read from a file (README.md has its words).
 // Thread: main. Errors: NotFound, IoFailed, InvalidInput (with file and line).

@@ -2,9 +2,174 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "hal/sim/head/head_model.h"
 
+#include <array>
+
 #include "hal/sim/base/noise.h"
+#include "hal/sim/head/head_hair.h"
 
 namespace relievo::hal::sim {
+
+double SkinLook::blood(Vec3 q) const {
+  const double ax = std::abs(q.x);
+  const Vec3 tip = field_.nose.tip();
+  double b = 0.55 * bell({ax - 38, q.y + 30, q.z - 88}, {17, 15, 30}) + 0.65 * bell(q - tip, {15, 12, 16});
+  b += 0.45 * smoothstep(66, 76, ax) + 0.22 * bell({ax, q.y - gnathion_y(t_) - 14, q.z - 100}, {20, 14, 20});
+  b += 0.30 * bell(ax - field_.eye.centre().x, 17, q.y - 2, 9) * (q.z > 60 ? 1 : 0);
+  return b + 0.42 * fractal_noise(q * (1 / 9.0), t_.seed + 31, 4);
+}
+
+// Darkening: under the eyes, blotches, freckles, moles.
+double SkinLook::melanin(Vec3 p, Vec3 q) const {
+  const double ax = std::abs(q.x);
+  double m = 0.10 * bell(ax - field_.eye.centre().x + 4, 13, q.y + 11, 5.5) * (q.z > 60 ? 1 : 0);
+  m += 0.08 * bell(ax - 13, 6, q.y, 9) * (q.z > 60 ? 1 : 0);
+  m += 0.08 * value_noise(p * (1 / 18.0), t_.seed) + 0.05 * value_noise(p * (1 / 6.0), t_.seed + 1);
+  m += 0.045 * value_noise(p * (1 / 2.2), t_.seed + 2) + 0.035 * value_noise(p * (1 / 0.9), t_.seed + 3);
+  const NearestDot spot = nearest_dot(p * (1 / 2.4), t_.seed + 4);
+  const double chosen = unit_from_hash(spot.hash * 2654435761U);
+  const double zone = 0.35 + 0.65 * gauss((q.y + 18) / 30);
+  if (chosen < 0.65 * t_.freckles * zone) m += 0.20 * (0.4 + chosen) * smoothstep(0.30, 0.12, spot.distance);
+  const NearestDot mole = nearest_dot(p * (1 / 30.0), t_.seed + 5);
+  const double size = 0.35 + 1.1 * unit_from_hash(mole.hash * 747796405U);
+  m += 0.9 * smoothstep(size, size * 0.55, mole.distance * 30 + 0.25 * value_noise(p * 2, 9));
+  return m;
+}
+
+// The skin's own colour: blood and melanin in it, pores and a beard's stubble on it.
+Vec3 SkinLook::complexion(Vec3 p, Vec3 q, double dark) const {
+  Vec3 c = t_.skin;
+  const double red = std::max(0.0, blood(q)) * 0.6;
+  c = c * mix(Vec3{1, 1, 1}, Vec3{1.02, 0.74, 0.74}, red);
+  const auto absorb = [&](double power) { return std::exp(-dark * power); };
+  c = c * Vec3{absorb(0.85), absorb(1.1), absorb(1.35)};
+  const double pores = smoothstep(80, 95, q.z) * 0.7 + 0.5;
+  const NearestDot pore = nearest_dot(p * (1 / 1.05), t_.seed + 6);
+  c = c * (1 - 0.15 * pores * smoothstep(0.30, 0.05, pore.distance));
+  const double beard = beard_area(t_, q) * t_.stubble;
+  if (beard > 0.02) {
+    const double stubble = smoothstep(0.36, 0.16, nearest_dot(p * (1 / 0.85), t_.seed + 7).distance);
+    c = mix(c, c * Vec3{0.80, 0.84, 0.88}, beard * 0.8);
+    c = mix(c, t_.hair * 0.8 + c * 0.2, beard * 0.55 * stubble);
+  }
+  return c;
+}
+
+// Inside the lids' edge it is wet and pink; roots of the lashes draw a dark line.
+Vec3 SkinLook::with_lid(Vec3 c, Vec3 q) const {
+  const double eye_s = field_.eye.along(std::abs(q.x));
+  if (std::abs(eye_s) >= 1.05 || q.z <= 70) return c;
+  const double edge = std::max(q.y - field_.eye.upper_lid(eye_s), field_.eye.lower_lid(eye_s) - q.y);
+  c = mix(c, c * Vec3{0.95, 0.62, 0.60}, smoothstep(0.75, 0.2, edge));
+  c = mix(c, c * 0.35 + t_.hair * 0.3,
+          (q.y > -1 ? 0.75 : 0.35) * gauss((edge - 0.75) / 0.6) * smoothstep(1.02, 0.8, std::abs(eye_s)));
+  return c * (1 - 0.16 * smoothstep(6, 1, edge));
+}
+
+Surface SkinLook::surface(Vec3 p) const {
+  const Vec3 q = field_.warped(p);
+  Surface s;
+  const double dark = melanin(p, q);
+  Vec3 c = complexion(p, q, dark);
+  const double lip = field_.mouth.vermilion(q);
+  if (lip > 0) {
+    const double crease = value_noise({q.x * 1.5, q.y * 0.25, q.z * 0.25}, t_.seed + 8);
+    const Vec3 tone =
+        t_.skin * mix(Vec3{0.82, 0.56, 0.57}, Vec3{0.80, 0.70, 0.72}, smoothstep(0.35, 0.1, t_.skin.x));
+    c = mix(c, tone * (1 + 0.10 * crease) * std::exp(-0.5 * dark), lip * 0.85);
+  }
+  const Vec3 leaning = field_.swayed(p);
+  if (t_.expression.jaw_mm > 0 && leaning.z < field_.mouth.front() - 3 &&
+      field_.mouth.gape(leaning) < 1.5) {  // lining of the cheeks and the palate
+    c = Vec3{0.34, 0.12, 0.11};
+    s.gloss = 0.6, s.colour = c, s.roughness = 0.4, s.translucent = 1;
+    return s;
+  }
+  const double line = q.z > 75 && std::abs(q.x) < field_.mouth.half_width() + 1
+                          ? gauss((q.y - field_.mouth.line_y(q.x)) / 0.55)
+                          : 0;
+  c = c * (1 - 0.6 * line);
+  const double scalp = scalp_hair(t_, p), brow = brow_hair(field_, q);
+  c = mix(c, t_.hair * 1.1 + c * 0.12, 0.85 * smoothstep(0.15, 1.0, scalp));
+  c = mix(c, t_.hair + c * 0.3, 0.30 * brow * t_.brow_density);
+  s.colour = with_lid(c, q);
+  const double oily = 0.5 + 0.5 * bell(q.x, 26, q.y - 40, 28) + 0.7 * bell(q.x, 12, q.y + 20, 26) +
+                      0.25 * value_noise(q * 0.12, t_.seed + 41);
+  s.gloss = mix(0.78 * oily * mix(0.7, 1, smoothstep(0.1, 0.4, t_.skin.x)), 0.5, lip) * (1 - 0.8 * scalp) *
+            (0.8 + 0.4 * unit_from_hash(hash_cell(7, 7, 7, t_.seed))) * t_.shine;
+  s.roughness = mix(0.48, 0.42, lip);
+  s.translucent = 1;
+  return s;
+}
+
+double SkinLook::height(Vec3 p, double lip, double coarse) const {
+  const NearestDot pore = nearest_dot(p * (1 / 1.05), t_.seed + 6);
+  double h = -0.040 * coarse * smoothstep(0.34, 0.05, pore.distance);
+  h += 0.028 * value_noise(p * (1 / 1.3), t_.seed + 51) + 0.010 * value_noise(p * (1 / 0.5), t_.seed + 52);
+  if (lip > 0) h = mix(h, 0.03 * value_noise({p.x * 1.1, p.y * 0.25, p.z * 0.25}, t_.seed + 8), lip);
+  return h;
+}
+
+Vec3 SkinLook::relief_slope(Vec3 p) const {
+  constexpr double e = 0.12;
+  const double lip = field_.mouth.vermilion(p), coarse = 0.5 + 0.7 * smoothstep(80, 95, p.z);
+  const double h = height(p, lip, coarse);
+  return Vec3{height(p + Vec3{e, 0, 0}, lip, coarse) - h, height(p + Vec3{0, e, 0}, lip, coarse) - h,
+              height(p + Vec3{0, 0, e}, lip, coarse) - h} *
+         (1 / e);
+}
+
+EyeLook eye_look(const HeadTraits& t, Vec3 from, Vec3 gaze) {
+  const Vec3 n = normalised(from);
+  const double off =
+      std::acos(std::clamp(dot(n, gaze), -1.0, 1.0)) * 12.0;  // mm along the ball from the pupil
+  EyeLook look;
+  look.normal = n;
+  Surface& s = look.surface;
+  s.gloss = 3.0;
+  s.roughness = 0.12;
+  const Vec3 side = n - gaze * dot(n, gaze);
+  const double spoke = std::atan2(side.y, side.x);
+  const double veins = smoothstep(
+      0.55, 0.9, value_noise({spoke * 5, off * 0.35, value_noise(n * 9, t.seed + 62) * 1.5}, t.seed + 61));
+  const Vec3 sclera = Vec3{0.52, 0.475, 0.445} * (1 - 0.03 * t.age) -
+                      Vec3{0, 0.10, 0.10} * (veins * smoothstep(6.5, 11, off)) -
+                      Vec3{0.0, 0.05, 0.06} * smoothstep(8, 14, off);
+  const double fibres = 0.55 * value_noise({spoke * 9, off * 0.5, 1}, t.seed + 63) +
+                        0.45 * value_noise({spoke * 22, off * 0.9, 2}, t.seed + 64);
+  Vec3 iris = t.iris * (1.0 + 0.45 * fibres);
+  iris = mix(iris, iris * Vec3{1.5, 1.1, 0.7}, 0.5 * smoothstep(3.4, 2.2, off));
+  iris = iris * mix(1, 0.30, smoothstep(4.7, 5.9, off));  // the dark ring
+  const Vec3 pupil{0.006, 0.006, 0.006};
+  s.colour = mix(mix(pupil, iris, smoothstep(1.75, 2.05, off)), sclera, smoothstep(5.6, 6.3, off));
+  // The cornea is a smaller sphere set forward: its normals lean outwards more.
+  const double bulge = smoothstep(6.4, 5.2, off);
+  look.normal = normalised(n + normalised(side + Vec3{1e-9, 0, 0}) * (bulge * 0.5 * off / 12.0));
+  return look;
+}
+
+Surface teeth_look(Vec3 p) {
+  constexpr std::array<double, 4> kEdge{0, 8.5, 15, 22.5};  // central and lateral incisors, canines
+  double gap = 0;
+  for (const double x : kEdge) gap = std::max(gap, gauss((std::abs(p.x) - x) / 0.35));
+  return {Vec3{0.62, 0.58, 0.49} * (1 - 0.55 * gap), 1.6, 0.22, 0.3};
+}
+
+Surface tongue_look(const HeadTraits& t, Vec3 p) {
+  const NearestDot papilla = nearest_dot(p * (1 / 1.4), t.seed + 81);
+  const double furrow = gauss(p.x / 1.2);
+  return {Vec3{0.50, 0.26, 0.25} * (1 - 0.15 * furrow + 0.18 * smoothstep(0.45, 0.1, papilla.distance)), 0.9,
+          0.32, 0.8};
+}
+
+Surface shirt_look(const HeadTraits& t, Vec3 p) {
+  static constexpr std::array<Vec3, 6> kColours{Vec3{0.05, 0.06, 0.09}, {0.35, 0.36, 0.38},
+                                                {0.12, 0.17, 0.30},     {0.30, 0.07, 0.08},
+                                                {0.10, 0.17, 0.12},     {0.55, 0.53, 0.50}};
+  const double weave = 0.12 * std::sin(p.x * 5.2 + 0.3 * std::sin(p.z)) * std::sin((p.y + p.z) * 5.2) +
+                       0.10 * value_noise(p * 1.1, t.seed + 71);
+  return {kColours[std::size_t(t.shirt) % kColours.size()] * (1 + weave), 0.15, 0.7, 0};
+}
+
 namespace {
 
 void append_ball(Mesh& mesh, Vec3 centre, Vec3 radii) {

@@ -6,7 +6,6 @@
 #include <vector>
 
 #include "hal/sim/base/noise.h"
-#include "hal/sim/head/head_look.h"
 #include "hal/sim/head/head_model.h"
 #include "hal/sim/optics/lamps.h"
 
@@ -15,7 +14,6 @@ namespace {
 
 // The kiosk's light (lamps.h) on a head. Shadows are soft because panels are large; how much of each
 // panel a vertex sees is measured once. All in the head frame, mm.
-
 class HeadLight {
  public:
   static constexpr std::size_t kPanels = sim::kPanels;

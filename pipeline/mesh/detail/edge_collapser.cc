@@ -6,7 +6,6 @@
 #include <array>
 #include <cmath>
 
-#include "pipeline/mesh/detail/corner_index.h"
 #include "pipeline/mesh/detail/sliver_mender.h"
 #include "pipeline/model/vector3.h"
 

@@ -1,6 +1,42 @@
 // SPDX-FileCopyrightText: 2026 The Relievo authors
 // SPDX-License-Identifier: GPL-3.0-or-later
 //
+// NearestVertex: which of many points in front of the camera lies nearest, found through cells over the
+// picture plane, ring by ring. Exact within the reach asked for. Millimetres. Thread: any, once made.
+#pragma once
+
+#include <cstdint>
+#include <functional>
+#include <memory_resource>
+#include <span>
+#include <vector>
+
+#include "pipeline/base/cells.h"
+#include "pipeline/base/options.h"
+#include "pipeline/mesh/mesher.h"
+#include "pipeline/mesh/surface_cleaner.h"
+#include "pipeline/model/geometry.h"
+
+namespace relievo::pipeline {
+
+class NearestVertex {
+ public:
+  static constexpr std::uint32_t kNone = 0xFFFFFFFFU;
+  struct Hit {
+    std::uint32_t vertex = kNone;
+    float squared_mm = 0;
+  };
+
+  // Looks at `points` for as long as it lives. Throws std::bad_alloc when `memory` is used up.
+  NearestVertex(std::span<const Vec3f> points_mm, std::pmr::memory_resource* memory);
+  Hit find(const Vec3f& at_mm, float within_mm) const;
+
+ private:
+  std::span<const Vec3f> points_;
+  float left_ = 0, top_ = 0, side_ = 1;
+  Cells cells_;
+};
+
 // What the meshers of the catalogue begin and end with.
 //
 // base_sheet(): the measured points that belong to the largest surface, with normals, as the Delaunay mesher
@@ -8,18 +44,6 @@
 // fitted. finish_surface(): any triangles near those points become a FaceMesh that keeps every mesher's
 // promises; sigma and `measured` are carried over from the nearest measured point. Frame: the left camera's,
 // millimetres. Both throw std::bad_alloc where an arena is used up.
-#pragma once
-
-#include <cstdint>
-#include <functional>
-#include <span>
-#include <vector>
-
-#include "pipeline/base/options.h"
-#include "pipeline/mesh/mesher.h"
-#include "pipeline/mesh/surface_cleaner.h"
-
-namespace relievo::pipeline {
 
 // What two meshers do, for others to begin or end with: the Delaunay mesher on at most half as many points as
 // triangles, and the grid mesher on a cloud with lattice_step_px. Errors: PoorGeometry, Cancelled.

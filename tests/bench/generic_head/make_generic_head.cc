@@ -17,8 +17,8 @@
 #include <cstdio>
 #include <memory_resource>
 
+#include "pipeline/mesh/completion/completions.h"
 #include "pipeline/mesh/completion/generic_head.h"
-#include "pipeline/mesh/completion/generic_head_completion.h"
 #include "pipeline/mesh/completion/unrolled_head.h"
 #include "pipeline/mesh/landmarks/head_frame.h"
 #include "pipeline/mesh/meshers/grid_mesher.h"

@@ -12,9 +12,9 @@
 #include "firmware/appliance/view_of.h"
 #include "firmware/capture/live_judge.h"
 #include "firmware/kiosk/voice.h"
-#include "hal/sim/recording_speaker.h"
 #include "tests/support/made_screen.h"
 #include "tests/support/manual_clock.h"
+#include "tests/support/recording_speaker.h"
 
 namespace relievo::test {
 namespace {

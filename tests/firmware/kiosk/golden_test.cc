@@ -22,7 +22,6 @@
 #include "tests/support/tight_png.h"
 #include "tests/ui/quiet_driver.h"
 #include "ui/platform/sdl_display.h"
-#include "ui/render/offscreen.h"
 #include "ui/render/renderer.h"
 
 namespace relievo::firmware {

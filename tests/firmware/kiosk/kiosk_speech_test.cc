@@ -14,10 +14,10 @@
 #include "firmware/records/receipt.h"
 #include "hal/monotonic_clock.h"
 #include "hal/sim/device.h"
-#include "hal/sim/recording_speaker.h"
 #include "pipeline/calibrate/file/calibration_file.h"
 #include "storage/sqlite/sqlite_store.h"
 #include "tests/firmware/kiosk/kiosk_hands.h"
+#include "tests/support/recording_speaker.h"
 #include "tests/support/small_rig.h"
 #include "tests/support/temporary_folder.h"
 

@@ -182,7 +182,7 @@ TEST_F(StaffExportTest, TheOperatorStopsItAndNothingIsHalfWritten) {
   faulty.let_go_on();
   ASSERT_TRUE(ended());
   EXPECT_EQ(outcome(), Outcome::Cancelled);
-  EXPECT_NE(said().find("was stopped"), std::string::npos) << said();
+  EXPECT_NE(said().find("Cancelled. Nothing was left half done"), std::string::npos) << said();
   EXPECT_NE(whole().find("stick: 1 of 2."), std::string::npos) << whole();
   EXPECT_EQ(exported_on(stick()), "2");
   EXPECT_EQ(entries_of(stick() / "relievo"), 1U);

@@ -6,9 +6,9 @@
 
 #include <algorithm>
 
-#include "hal/sim/recording_speaker.h"
 #include "tests/support/made_screen.h"
 #include "tests/support/manual_clock.h"
+#include "tests/support/recording_speaker.h"
 
 namespace relievo::firmware {
 namespace {

@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: 2026 The Relievo authors
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include "hal/sim/recording_speaker.h"
+#include "tests/support/recording_speaker.h"
 
 #include <gtest/gtest.h>
 

@@ -8,8 +8,8 @@
 #include <cmath>
 #include <numbers>
 
+#include "pipeline/fuse/pose_residuals.h"
 #include "pipeline/fuse/skin_bender.h"
-#include "pipeline/fuse/skin_patches.h"
 #include "tests/pipeline/fuse/formula_head.h"
 #include "tests/support/allocation_counter.h"
 

@@ -2,7 +2,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 //
 // What the kernel shows of screens, played by files. toolchain/vm asks a real kernel.
-#include "ui/platform/missing_screen.h"
+#include "ui/platform/sdl_display.h"
 
 #include <gtest/gtest.h>
 #include <stdlib.h>

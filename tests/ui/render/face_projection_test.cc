@@ -3,7 +3,7 @@
 //
 // Two points on a sphere and on a plane of known size, projected and touched at several zooms and turns, give
 // their distance to 0.1 mm; what is drawn stands where the projection says; the page's ruler says the same.
-#include "ui/render/face_projection.h"
+#include "ui/render/face_geometry.h"
 
 #include <gtest/gtest.h>
 
@@ -18,8 +18,6 @@
 #include "tests/support/made_screen.h"
 #include "tests/ui/quiet_driver.h"
 #include "ui/platform/sdl_display.h"
-#include "ui/render/face_geometry.h"
-#include "ui/render/offscreen.h"
 #include "ui/render/renderer.h"
 #include "ui/technician/technician_view.h"
 

@@ -70,10 +70,9 @@ const char* help_for(const Page& page) {
       return tr(
           "Pictures from the sides show your whole head. Turn it slowly and hold it level: each side is taken by itself. If you cannot or do not want to, touch the button below.");
     case Step::Working: return tr("Please wait a few seconds. To stop, touch the cross.");
-    case Step::Review:
-      return tr("Draw a finger across the portrait to turn it. Keep it, or take another one.");
+    case Step::Review: return tr("Turn the portrait with your finger. Nothing is stored until you say so.");
     case Step::Thanks:
-      return tr("Write the code down, or photograph it. With it everything about you can be erased.");
+      return tr("To have it erased, quote this code to the staff. You can take a photo of it.");
     case Step::Trouble:
     case Step::Starting:
     case Step::Declined: break;

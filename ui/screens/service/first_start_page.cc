@@ -313,7 +313,7 @@ void recovery_page(StaffFrame& page) {
   const RecoveryView* seen = page.staff.recovery;
   if (seen == nullptr) return page.body("wait", page.tr("One moment, please"));
   if (seen->state == SheetState::Done) {
-    page.status("state", page.tr("These words open the records from now on."), Mood::Good);
+    page.status("state", page.tr("It applies from now on."), Mood::Good);
     page.space(1);
     return page.button("go on", page.tr("Go on"), page.onward(), ButtonLook::Main,
                        {ActionKind::StaffOpen, int(StaffPage::Menu)});

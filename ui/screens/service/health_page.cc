@@ -99,7 +99,7 @@ void health_page(StaffFrame& page) {
   if (page.staff.health->costs.visits > 0) stage_rows(page, page.staff.health->costs);
   page.section(tr("Last faults"));
   for (const LogLine& fault : page.staff.health->faults) page.logged(fault);
-  if (page.staff.health->faults.empty()) page.line(tr("Nothing has been noted yet."), Mood::Good);
+  if (page.staff.health->faults.empty()) page.line(tr("There is none yet"), Mood::Good);
   page.tree.close();
 }
 

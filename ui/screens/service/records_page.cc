@@ -55,11 +55,7 @@ void said(StaffFrame& page, const RecordsView& seen) {
   // Of an export it matters what the stick has; one that was pulled out has nothing that is sure.
   const Outcome outcome = page.staff.work.outcome;
   if (seen.asked > 0 && outcome == Outcome::StickFull)
-    page.status("outcome",
-                page.tr("The stick is full. Make room on it or plug in another one, then export again."),
-                Mood::Bad);
-  else if (seen.asked > 0 && outcome == Outcome::Cancelled)
-    page.status("outcome", page.tr("The export was stopped. Export again whenever you like."), Mood::Warn);
+    page.status("outcome", page.tr("The stick is full. Please use another one."), Mood::Bad);
   else page.outcome();
   const bool counts = outcome == Outcome::StickFull || outcome == Outcome::Cancelled ||
                       outcome == Outcome::Failed || outcome == Outcome::StickBad;
@@ -87,7 +83,7 @@ void list(StaffFrame& page, const RecordsView& seen, ListFilters filters) {
              Action(ShowRecord{row.number}));
   if (seen.rows.empty())
     page.nothing("nobody", icon::kPerson,
-                 seen.searched.empty() && seen.place.filter == 0 ? tr("There are no records.")
+                 seen.searched.empty() && seen.place.filter == 0 ? tr("There is none yet")
                                                                  : tr("There is nobody of that name."));
   page.tree.close();
   // One filters, or searches; where there is nobody there is nothing to be chosen among.
@@ -159,9 +155,9 @@ void records_page(StaffFrame& page) {
   if (seen->shown == nullptr) return list(page, *seen, filters);
   if (page.service.mode != kErasing) return record(page, *seen);
   page.grave_question(
-      tr("Erase for ever?"), {seen->shown->name, seen->shown->code, portrait_of},
+      tr("Erase this record"), {seen->shown->name, seen->shown->code, portrait_of},
       tr("Name, consent and every portrait of this person are erased. Nobody can bring them back."),
-      tr("Hold to erase"), Action(EraseRecord{seen->shown->number}, true), tr("Cancel"),
+      tr("Hold to erase"), Action(EraseRecord{seen->shown->number}, true), tr("Back"),
       {ActionKind::StaffMode, kList});
 }
 

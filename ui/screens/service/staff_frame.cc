@@ -24,10 +24,8 @@ constexpr std::array kOutcomes{
     SaidOutcome{mark_tr("Cancelled. Nothing was left half done."), Mood::Warn},
     SaidOutcome{mark_tr("There is no stick. Plug one in, then try again.")},
     SaidOutcome{mark_tr("There is no room left. Nothing was left half written.")},
-    SaidOutcome{mark_tr(
-        "The stick was pulled out too early. Plug it in and export again: what is half written on it does not count.")},
-    SaidOutcome{mark_tr(
-        "The stick is write-protected. Slide its switch back or plug in another one, then export again.")},
+    SaidOutcome{mark_tr("The stick was pulled out too early. Plug it in, then try again.")},
+    SaidOutcome{mark_tr("The stick is write-protected. Please use another one.")},
     SaidOutcome{
         mark_tr("The stick does not keep what is written on it. Plug in another one and export again.")},
     SaidOutcome{
@@ -126,9 +124,9 @@ void StaffFrame::typed_field(std::string_view id, std::string_view asked) {
                  typed.empty() ? palette.ink_soft : palette.ink));
 }
 
-void StaffFrame::outcome() {
-  if (staff.work.outcome == Outcome::None) return;
-  const SaidOutcome& said = kOutcomes[std::size_t(staff.work.outcome) - 1];
+void StaffFrame::outcome(Outcome how) {
+  if (how == Outcome::None) return;
+  const SaidOutcome& said = kOutcomes[std::size_t(how) - 1];
   status("outcome", tr(said.words), said.mood);
 }
 

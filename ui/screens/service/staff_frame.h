@@ -78,7 +78,8 @@ class StaffFrame : public Page {
   // One sentence with the sign of its mood.
   void status(std::string_view id, std::string_view words, Mood mood);
   // How the page's work ended, with a sign; nothing where nothing has.
-  void outcome();
+  void outcome() { outcome(staff.work.outcome); }
+  void outcome(Outcome how);
   // What a question is about: it stays in view; drawn beside the words where there is room.
   struct About {
     std::string_view name, code;

@@ -1,14 +1,171 @@
 // SPDX-FileCopyrightText: 2026 The Relievo authors
 // SPDX-License-Identifier: GPL-3.0-or-later
 //
-// StaffFrame's lists: rows of figures, of choices, and the lines between them.
+// StaffFrame's words: numbers and dates as the language writes them, and what the engine reports.
 #include <algorithm>
+#include <array>
+#include <cctype>
 #include <charconv>
+#include <cstdio>
 
+#include "ui/screens/service/fault_words.h"
 #include "ui/screens/service/staff_frame.h"
 #include "ui/view/staff_views.h"
 
 namespace relievo::ui {
+namespace {
+
+constexpr std::size_t kMostWords = 16, kGroup = 3, kLeastGrouped = 5;
+constexpr std::string_view kMinus = "\u2212";
+constexpr std::string_view kAngle =
+    "°";  // stands at its number, as no other unit does (ISO 80000-1), °C neither
+constexpr std::string_view kBetweenGroups = "\u202f";  // narrow, and no line ends there: ISO 80000-1
+
+bool is_digit(char c) { return std::isdigit(static_cast<unsigned char>(c)) != 0; }
+
+// How many digits stand at the beginning.
+std::size_t digits(std::string_view text) {
+  return std::size_t(std::ranges::find_if_not(text, is_digit) - text.begin());
+}
+
+// "2026-03-14…"
+bool begins_with_date(std::string_view text) {
+  constexpr std::string_view kShape = "dddd-dd-dd";
+  if (text.size() < kShape.size()) return false;
+  for (std::size_t i = 0; i < kShape.size(); ++i) {
+    if (kShape[i] == 'd' ? !is_digit(text[i]) : text[i] != kShape[i]) return false;
+  }
+  return true;
+}
+
+}  // namespace
+
+std::string_view StaffFrame::number(double value, int decimals, const char* unit_name) {
+  char figures[48];
+  std::snprintf(figures, sizeof figures, "%.*f", decimals, value);
+  const std::string_view text = figures;
+  const std::size_t sign = text.starts_with('-') ? 1 : 0, whole = digits(text.substr(sign));
+  char said[128];
+  std::size_t length = 0;
+  const auto put = [&](std::string_view part) { length += part.copy(said + length, sizeof said - length); };
+  put(isolate::kLeft);
+  if (sign > 0) put(kMinus);
+  for (std::size_t i = 0; i < whole; ++i) {
+    if (i > 0 && whole >= kLeastGrouped && (whole - i) % kGroup == 0) put(kBetweenGroups);
+    put(text.substr(sign + i, 1));
+  }
+  if (decimals > 0 && sign + whole < text.size()) {
+    put({&info_of(visit.language).decimal_mark, 1});
+    put(text.substr(sign + whole + 1));
+  }
+  if (*unit_name != 0 && unit_name != kAngle) put("\u00a0");
+  put(unit_name);
+  put(isolate::kEnd);
+  return tree.keep({said, length});
+}
+
+std::string_view StaffFrame::as_number(std::string_view text) {
+  const std::size_t sign = !text.empty() && (text[0] == '+' || text[0] == '-') ? 1 : 0,
+                    whole = digits(text.substr(sign));
+  const std::size_t point = sign + whole, rest = point + 1;
+  if (whole == 0 || point >= text.size() || text[point] != '.') return text;
+  std::size_t behind = rest + digits(text.substr(rest));
+  if (behind == rest) return text;
+  if (behind < text.size() && text[behind] == 'e') {  // 2.5e-05
+    const std::size_t power =
+        behind + 1 +
+        (behind + 1 < text.size() && (text[behind + 1] == '-' || text[behind + 1] == '+') ? 1 : 0);
+    behind = power + digits(text.substr(std::min(power, text.size())));
+  }
+  if (behind < text.size() && text[behind] != ' ') return text;
+  return left_to_right({text[0] == '-' ? kMinus : text.substr(0, sign),
+                        text.substr(sign, whole),
+                        {&info_of(visit.language).decimal_mark, 1},
+                        text.substr(rest)});
+}
+
+std::string_view StaffFrame::with_numbers(std::string_view text) {
+  if (text.find(' ') == std::string_view::npos) return as_number(text);
+  std::array<std::string_view, kMostWords> words{};
+  std::size_t count = 0;
+  for (std::string_view rest = text; !rest.empty();) {
+    if (count == words.size()) return text;
+    const std::size_t end = std::min(rest.find(' '), rest.size());
+    words[count++] = as_number(rest.substr(0, end));
+    rest.remove_prefix(std::min(end + 1, rest.size()));
+  }
+  const std::string_view first = tree.keep({});
+  std::size_t length = 0;
+  for (std::size_t i = 0; i < count; ++i)
+    length += tree.keep(i > 0 ? " " : "").size() + tree.keep(words[i]).size();
+  return {first.data(), length};
+}
+
+std::string_view StaffFrame::date(std::string_view iso) {
+  if (!begins_with_date(iso)) return iso;
+  const std::string_view shape = tr("%Y-%m-%d"), year = iso.substr(0, 4), month = iso.substr(5, 2),
+                         day = iso.substr(8, 2);
+  const std::string_view first = tree.keep(isolate::kLeft);
+  std::size_t length = first.size();
+  for (std::size_t i = 0; i < shape.size(); ++i) {
+    const char part = shape[i] == '%' && i + 1 < shape.size() ? shape[i + 1] : '\0';
+    const std::string_view said = part == 'Y'   ? year
+                                  : part == 'm' ? month
+                                  : part == 'd' ? day
+                                                : shape.substr(i, 1);
+    if (part != '\0') ++i;
+    length += tree.keep(said).size();
+  }
+  for (const char c : iso.substr(10))
+    length += tree.keep(c == ' ' ? std::string_view("\u00a0") : std::string_view(&c, 1)).size();
+  return {first.data(), length + tree.keep(isolate::kEnd).size()};
+}
+
+Node StaffFrame::english(std::string_view words, float size) const {
+  Node node = text(left_to_right(words), size, Weight::Regular, palette.ink_soft);
+  node.style.size_px = px(size * text_share);  // Latin letters are as large in every language
+  node.style.language = info_of(Language::English).code;
+  return node;
+}
+
+void StaffFrame::detail(std::string_view words) {
+  due_rule();
+  tree.leaf(english(words, 17));
+}
+
+std::string_view StaffFrame::noted(const LogLine& what) {
+  if (what.code) return words_of(tr, *what.code);
+  if (*what.event == LogEvent::SettingChanged) {
+    if (const std::string_view change = said_change(*this, what.values[0], what.values[1]); !change.empty())
+      return change;
+  }
+  const LogWords words = words_of(tr, *what.event);
+  if (words.role != nullptr) return filled(words.pattern, words.role);
+  return filled(words.pattern, {what.values[0], what.values[1]});
+}
+
+void StaffFrame::logged(const LogLine& what) {
+  Node row = box(Flow::Row, space::kS, 0, 6);
+  row.box.align = Align::Start;
+  row.role = what.fault ? Role::Status : Role::Group;
+  if (what.fault) row.name = tr("Fault");
+  const auto in_row = tree.inside(row);
+  // Columns: all times are as wide as each other, and the sign has its room where there is none.
+  Node time = text(date(what.at), 18, Weight::Regular, palette.ink_soft);
+  time.style.tabular = true;
+  tree.leaf(time);
+  Node mark = sized(box(Flow::Column), 24 * text_share, 0);
+  mark.box.align = Align::Centre;
+  tree.open(mark);
+  if (what.fault) sign(icon::kAlert, 18, ink_of(Mood::Warn));
+  tree.close();
+  const auto in_box = tree.inside(grown(box(Flow::Column)));
+  if (what.code || what.event)
+    tree.leaf(text(noted(what), 18, Weight::Regular, ink_of(what.fault ? Mood::Warn : Mood::Plain)));
+  if (!what.event) tree.leaf(english(what.text, 17));
+}
+
+// StaffFrame's lists: rows of figures, of choices, and the lines between them.
 
 constexpr float kUprightStretch = 1.8F;  // of rows on an upright screen, where there is room
 

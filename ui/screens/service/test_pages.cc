@@ -88,10 +88,8 @@ void ended(StaffFrame& page, const ConsentTextsView& seen) {
   if (seen.taking) return page.status("outcome", tr("One moment, please"), Mood::Plain);
   if (seen.outcome == Outcome::None) return;
   if (seen.outcome == Outcome::Done) return page.status("outcome", tr("It applies from now on."), Mood::Good);
-  if (seen.outcome == Outcome::NoStick) {
-    page.status("outcome", tr("There is no stick. Plug one in, then try again."), Mood::Bad);
-  } else if (seen.outcome == Outcome::StickGone) {
-    page.status("outcome", tr("The stick was pulled out too early. Plug it in, then try again."), Mood::Bad);
+  if (seen.outcome == Outcome::NoStick || seen.outcome == Outcome::StickGone) {
+    page.outcome(seen.outcome);
   } else if (seen.fault != nullptr) {
     page.status("outcome", words_of(tr, seen.fault->code), Mood::Bad);
     page.detail(seen.fault->detail);
@@ -194,7 +192,7 @@ void log_page(StaffFrame& page) {
   const std::string_view filters[] = {page.tr("All"), page.tr("Fault")};
   if (seen != nullptr && list_choice(page, seen->place, filters)) return;
   page.begin_list("log");
-  if (seen == nullptr || seen->lines.empty()) page.line(page.tr("Nothing has been noted yet."));
+  if (seen == nullptr || seen->lines.empty()) page.line(page.tr("There is none yet"));
   else
     for (const LogLine& line : seen->lines) page.logged(line);
   page.tree.close();

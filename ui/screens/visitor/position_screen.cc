@@ -15,10 +15,8 @@ namespace {
 Said side_of(const Page& page) {
   const LiveView& live = page.view.live;
   if (std::abs(live.face_x) >= std::abs(live.face_y))
-    return live.face_x > 0 ? Said{page.tr("Move a little this way"), icon::kNext, false,
-                                  page.tr("Move a little to your right")}
-                           : Said{page.tr("Move a little this way"), icon::kBack, false,
-                                  page.tr("Move a little to your left")};
+    return live.face_x > 0 ? Said{page.tr("Move a little to your right"), icon::kNext}
+                           : Said{page.tr("Move a little to your left"), icon::kBack};
   return live.face_y > 0 ? Said{page.tr("A little higher, please"), icon::kUp}
                          : Said{page.tr("A little lower, please"), icon::kDown};
 }
@@ -128,10 +126,9 @@ Said said_of_turn(const Page& page) {
   using pipeline::TurnAdvice;
   const auto& tr = page.tr;
   // In the mirror the picture's left is on the right.
-  const char* const on = tr("Turn your head slowly this way");
   switch (page.view.live.turn ? page.view.live.turn->advice : TurnAdvice::Hold) {
-    case TurnAdvice::ToLeft: return {on, icon::kNext, false, tr("Turn your head slowly to your right")};
-    case TurnAdvice::ToRight: return {on, icon::kBack, false, tr("Turn your head slowly to your left")};
+    case TurnAdvice::ToLeft: return {tr("Turn your head slowly to your right"), icon::kNext};
+    case TurnAdvice::ToRight: return {tr("Turn your head slowly to your left"), icon::kBack};
     case TurnAdvice::Level: return {tr("Please hold your head level"), icon::kPerson};
     case TurnAdvice::Slower: return {tr("A little slower, please"), icon::kStill};
     case TurnAdvice::Hold:

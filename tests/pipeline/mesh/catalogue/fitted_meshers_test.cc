@@ -9,8 +9,8 @@
 
 #include "hal/base/statistics.h"
 #include "pipeline/algorithms.h"
+#include "pipeline/mesh/meshers/base_sheet.h"
 #include "pipeline/mesh/meshers/bezier_mesher.h"
-#include "pipeline/mesh/meshers/nearest_vertex.h"
 #include "tests/pipeline/mesh/mesh_checks.h"
 #include "tests/pipeline/mesh/stage_room.h"
 #include "tests/pipeline/mesh/truth_cloud.h"

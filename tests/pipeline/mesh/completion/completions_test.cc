@@ -17,8 +17,8 @@
 #include <Eigen/Geometry>
 
 #include "pipeline/algorithms.h"
+#include "pipeline/mesh/completion/completions.h"
 #include "pipeline/mesh/completion/generic_head.h"
-#include "pipeline/mesh/completion/generic_head_completion.h"
 #include "pipeline/mesh/completion/mesh_laplacian.h"
 #include "pipeline/mesh/meshers/grid_mesher.h"
 #include "tests/pipeline/mesh/landmarks/field_head.h"

@@ -158,7 +158,7 @@ void editor(TechnicianFrame& f) {
   keys(f);
   const bool stacked = f.portrait && f.text_share > 1.3F;
   const auto in_box = f.tree.inside(f.box(stacked ? Flow::Column : Flow::Row, space::kXs));
-  f.small_button("option leave", f.tr("Cancel"), nullptr, ButtonLook::Quiet, TechnicianAct::LeaveOption,
+  f.small_button("option leave", f.tr("Back"), nullptr, ButtonLook::Quiet, TechnicianAct::LeaveOption,
                  stacked ? 0.0F : 1.0F);
   f.small_button("option default", f.tr("Default"), nullptr, ButtonLook::Quiet, TechnicianAct::UseDefault,
                  stacked ? 0.0F : 1.0F);
@@ -197,8 +197,7 @@ void technician_algorithms_page(TechnicianFrame& f) {
   f.tree.close();
   if (editing) return;
   const float grow = f.open_buttons();
-  f.small_button("reset", f.tr("All as delivered"), nullptr, ButtonLook::Quiet, TechnicianAct::ResetSet,
-                 grow);
+  f.small_button("reset", f.tr("As at first"), nullptr, ButtonLook::Quiet, TechnicianAct::ResetSet, grow);
   if (f.seen.calibrated)
     f.small_button("apply", f.tr("Use for visitors"), nullptr, ButtonLook::Quiet, TechnicianAct::ApplySet,
                    grow);

@@ -123,7 +123,7 @@ void running(TechnicianFrame& f) {
   f.tree.close();
   f.tree.close();
   const float grow = f.open_buttons();
-  f.small_button("calibration cancel", f.tr("Cancel"), icon::kClose, ButtonLook::Quiet,
+  f.small_button("calibration cancel", f.tr("Stop"), icon::kClose, ButtonLook::Quiet,
                  TechnicianAct::CancelCalibration, grow);
   f.small_button("calibration finish", f.tr("Done"), icon::kCheck, ButtonLook::Main,
                  TechnicianAct::StopCalibration, grow);
@@ -208,7 +208,7 @@ void at_rest(TechnicianFrame& f) {
   f.tree.close();
   const float grow = f.open_buttons();
   const bool store = c.ended && !c.stored && c.verdict != CalibrationVerdict::Refuse;
-  f.small_button("calibration begin", f.tr("Calibrate"), icon::kCamera,
+  f.small_button("calibration begin", f.tr("Start"), icon::kCamera,
                  store ? ButtonLook::Quiet : ButtonLook::Main, TechnicianAct::BeginCalibration, grow);
   if (store)
     f.small_button("calibration store", f.tr("Store and use it"), icon::kDisk, ButtonLook::Main,

@@ -160,7 +160,7 @@ void technician_cameras_page(TechnicianFrame& f) {
   if (f.seen.cameras.watched)
     f.choice("show relief", f.tr("Relief"), f.seen.cameras.relief_shown,
              technician_action(TechnicianAct::ShowRelief), grow);
-  f.small_button("watch", f.seen.cameras.watched ? f.tr("Stop") : f.tr("Watch"),
+  f.small_button("watch", f.seen.cameras.watched ? f.tr("Stop") : f.tr("Start"),
                  f.seen.cameras.watched ? icon::kClose : icon::kCamera, ButtonLook::Main,
                  TechnicianAct::WatchCameras, grow);
   f.tree.close();

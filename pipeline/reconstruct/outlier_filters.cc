@@ -3,13 +3,156 @@
 #include "pipeline/reconstruct/outlier_filters.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
+#include <cstdint>
 #include <limits>
+#include <memory_resource>
 #include <numbers>
+#include <span>
 
-#include "pipeline/reconstruct/neighbourhood.h"
+#include "pipeline/base/cells.h"
+#include "pipeline/model/point_cloud.h"
 
 namespace relievo::pipeline {
+namespace {
+
+// Neighbourhood: who is near whom in the left view, for clouds on a lattice and for scattered ones.
+// Every cell holds the points of one lattice node (at most one), or of one bucket (a few).
+class Neighbourhood {
+ public:
+  // Throws std::bad_alloc. Points whose coordinates are not finite get no cell.
+  Neighbourhood(const PointCloud& cloud, std::pmr::memory_resource* memory);
+
+  bool on_lattice() const { return on_lattice_; }
+  int columns() const { return cells_.columns(); }
+  int rows() const { return cells_.rows(); }
+  // How far around a point its neighbours are looked for, in cells.
+  int reach() const { return on_lattice_ ? 2 : 1; }
+  std::span<const std::uint32_t> cell(int column, int row) const { return cells_.at(column, row); }
+
+ private:
+  bool on_lattice_;
+  Cells cells_;
+};
+
+constexpr float kLargestPixel = 100'000;
+constexpr double kPointsPerBucket =
+    3;  // nine buckets then hold about as many points as a lattice's neighbourhood
+
+bool usable(const CloudPoint& p) {
+  return std::isfinite(p.at_mm.x) && std::isfinite(p.at_mm.y) && std::isfinite(p.at_mm.z) && p.at_mm.z > 0 &&
+         std::abs(p.left_px.x) < kLargestPixel && std::abs(p.left_px.y) < kLargestPixel;
+}
+
+Neighbourhood::Neighbourhood(const PointCloud& cloud, std::pmr::memory_resource* memory)
+    : on_lattice_(cloud.lattice_step_px > 0), cells_(memory) {
+  float left = kLargestPixel;
+  float top = kLargestPixel;
+  float right = -kLargestPixel;
+  float bottom = -kLargestPixel;
+  std::size_t count = 0;
+  for (const CloudPoint& p : cloud.points) {
+    if (!usable(p)) continue;
+    ++count;
+    left = std::min(left, p.left_px.x);
+    right = std::max(right, p.left_px.x);
+    top = std::min(top, p.left_px.y);
+    bottom = std::max(bottom, p.left_px.y);
+  }
+  if (count == 0) return;
+  const double area = double(right - left + 1) * double(bottom - top + 1);
+  const double step = on_lattice_ ? cloud.lattice_step_px
+                                  : std::max(1e-3, std::sqrt(area * kPointsPerBucket / double(count)));
+  const auto cell_of = [step](float from, float at) { return int(std::lround(double(at - from) / step)); };
+  cells_.fill(cell_of(left, right) + 1, cell_of(top, bottom) + 1, [&](auto&& add) {
+    for (std::uint32_t i = 0; i < cloud.points.size(); ++i)
+      if (const CloudPoint& p = cloud.points[i]; usable(p))
+        add(cell_of(left, p.left_px.x), cell_of(top, p.left_px.y), i);
+  });
+}
+
+constexpr int kMostRings = 8;
+constexpr float kAlone = -1;
+constexpr int kBands = 32;
+
+// The k least of what is offered, by insertion.
+struct Nearest {
+  explicit Nearest(int most) : most_(most) {}
+  void offer(float squared) {
+    if (count_ == most_ && !(squared < least_[std::size_t(count_ - 1)])) return;
+    int at = count_ < most_ ? count_++ : count_ - 1;
+    for (; at > 0 && least_[std::size_t(at - 1)] > squared; --at)
+      least_[std::size_t(at)] = least_[std::size_t(at - 1)];
+    least_[std::size_t(at)] = squared;
+  }
+  bool full() const { return count_ == most_; }
+  float mean_distance() const {
+    if (count_ == 0) return kAlone;
+    float sum = 0;
+    for (int k = 0; k < count_; ++k) sum += std::sqrt(least_[std::size_t(k)]);
+    return sum / float(count_);
+  }
+
+ private:
+  int most_;
+  int count_ = 0;
+  std::array<float, StatisticalOutlierFilter::kMostNeighbours> least_{};
+};
+
+float mean_distance(const PointCloud& cloud, const Neighbourhood& near, std::uint32_t i, int column, int row,
+                    int neighbours) {
+  Nearest nearest(neighbours);
+  const Vec3f& p = cloud.points[i].at_mm;
+  const auto look = [&](int c, int r) {
+    for (const std::uint32_t k : near.cell(c, r)) {
+      if (k == i) continue;
+      const Vec3f& q = cloud.points[k].at_mm;
+      nearest.offer((q.x - p.x) * (q.x - p.x) + (q.y - p.y) * (q.y - p.y) + (q.z - p.z) * (q.z - p.z));
+    }
+  };
+  look(column, row);
+  for (int ring = 1; ring <= kMostRings && (ring <= near.reach() || !nearest.full()); ++ring)
+    for (int s = -ring; s <= ring; ++s) {
+      look(column + s, row - ring);
+      look(column + s, row + ring);
+      if (std::abs(s) == ring) continue;
+      look(column - ring, row + s);
+      look(column + ring, row + s);
+    }
+  return nearest.mean_distance();
+}
+
+}  // namespace
+
+Result<void> StatisticalOutlierFilter::reject(PointCloud& cloud, StageContext& context) const {
+  const Neighbourhood near(cloud, &context.scratch);
+  std::pmr::vector<float> distance(cloud.points.size(), kAlone, &context.scratch);
+  context.pool.for_each_band(near.rows(), kBands, [&](int begin, int end, int) {
+    for (int r = begin; r < end && !context.stop(); ++r)
+      for (int c = 0; c < near.columns(); ++c)
+        for (const std::uint32_t i : near.cell(c, r))
+          distance[i] = mean_distance(cloud, near, i, c, r, neighbours);
+  });
+  if (context.stop()) return Error{Errc::Cancelled, "the search for outliers was stopped"};
+  double n = 0;
+  double sum = 0;
+  double squares = 0;
+  for (const float d : distance) {
+    if (d == kAlone) continue;
+    n += 1;
+    sum += double(d);
+    squares += double(d) * double(d);
+  }
+  const double mean = sum / std::max(1.0, n);
+  const double limit = mean + deviations * std::sqrt(std::max(0.0, squares / std::max(1.0, n) - mean * mean));
+  std::size_t kept = 0;
+  for (std::size_t i = 0; i < cloud.points.size(); ++i)
+    if (distance[i] != kAlone && double(distance[i]) <= limit) cloud.points[kept++] = cloud.points[i];
+  cloud.points.resize(kept);
+  return {};
+}
+
 namespace {
 
 constexpr int kJudgedBands = 32;
