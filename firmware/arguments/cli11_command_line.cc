@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cstdint>
 #include <cstdio>
+#include <filesystem>
 #include <string>
 
 #include "firmware/arguments/algorithm_choice.h"
@@ -88,9 +89,10 @@ void add_further(CLI::App& command, FurtherModels& further) {
 void add_reconstruct(CLI::App& app, CommandArgs& chosen, ReconstructArgs& args) {
   CLI::App* command = app.add_subcommand(
       "reconstruct", "a pair of pictures to a textured model, or several of a head that turned");
-  word(*command, "pictures", args.pictures, "LEFT RIGHT",
-       "LEFT RIGHT, and further pairs of the same head turned to other sides, up to seven; the first is the "
-       "one from in front");
+  word(
+      *command, "pictures", args.pictures, "LEFT RIGHT",
+      "LEFT RIGHT, or the folder of a recording alone, or LEFT RIGHT and further pairs of the same head turned to other sides, up to seven; the first is the "
+      "one from in front");
   word(*command, "--calibration", args.calibrations, "rig.yml", "one for all pairs, or one each");
   CLI::Option* load = word(*command, "--load", args.load, "FILE",
                            "no pictures: a saved reconstruction, with its calibration and settings");
@@ -128,7 +130,8 @@ void add_reconstruct(CLI::App& app, CommandArgs& chosen, ReconstructArgs& args) 
     }
     if (load->count() == 0 && args.pictures.empty()) throw CLI::RequiredError("pictures");
     const std::size_t pairs = args.pictures.size() / 2;
-    if (args.pictures.size() % 2 != 0)
+    const bool recording = args.pictures.size() == 1 && std::filesystem::is_directory(args.pictures[0]);
+    if (args.pictures.size() % 2 != 0 && !recording)
       throw CLI::ValidationError("pictures", "a left one and a right one each");
     if (pairs > kMostPairs) throw CLI::ValidationError("pictures", "seven pairs make a head; these are more");
     if (load->count() == 0 && args.calibrations.size() != 1 && args.calibrations.size() != pairs)

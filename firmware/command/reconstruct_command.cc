@@ -10,6 +10,7 @@
 #include "firmware/reconstruct/reconstruction.h"
 #include "firmware/service/further_models.h"
 #include "hal/base/words.h"
+#include "hal/recording/capture_file.h"
 #include "storage/export/model_files.h"
 
 namespace relievo::firmware {
@@ -65,9 +66,23 @@ Result<void> reconstruct_head(const ReconstructArgs& args, Console& console) {
   return {};
 }
 
+Result<void> reconstruct_recording(const ReconstructArgs& args, Services& services) {
+  ReconstructArgs named = args;
+  RELIEVO_TRY_ASSIGN(named.pictures, hal::recorded_pictures(args.pictures[0]));
+  if (named.pictures.size() > 2 * pipeline::kMostPoses)
+    return Error{Errc::InvalidInput, "seven pairs make a head; these are more"}.at(args.pictures[0].string());
+  if (named.pictures.size() > 2 &&
+      (!args.save.empty() || !args.by_hand.empty() || args.algorithms.whole_view))
+    return Error{Errc::InvalidInput,
+                 "holds a head from several pairs: --save, --by-hand and --region are of one pair alone"}
+        .at(args.pictures[0].string());
+  return run(named, services);
+}
+
 }  // namespace
 
 Result<void> run(const ReconstructArgs& args, Services& services) {
+  if (args.pictures.size() == 1) return reconstruct_recording(args, services);
   if (args.pictures.size() > 2) return reconstruct_head(args, services.console);
   Reconstruction reconstruction;
   RELIEVO_TRY(args.load.empty()

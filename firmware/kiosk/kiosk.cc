@@ -16,6 +16,7 @@
 #include "firmware/base/settings.h"
 #include "firmware/jobs/behind_the_page.h"
 #include "firmware/jobs/job_thread.h"
+#include "hal/recording/capture_file.h"
 #include "pipeline/calibrate/file/calibration_file.h"
 
 namespace relievo::firmware {
@@ -84,6 +85,17 @@ Result<void> Kiosk::set_up_measuring(const KioskArgs& args, Services& services) 
   return {};
 }
 
+namespace {
+
+bool is_recorded_head(const std::string& device) {
+  constexpr std::string_view kFolder = "folder:";
+  if (!device.starts_with(kFolder)) return false;
+  const auto capture = hal::read_capture_file(Path(device.substr(kFolder.size())) / "capture.json");
+  return capture && capture->head;
+}
+
+}  // namespace
+
 Result<void> Kiosk::prepare(const KioskArgs& args, Services& services) {
   RELIEVO_TRY_ASSIGN(auto text, ui::TextEngine::make());
   ui_ = std::make_unique<ui::Ui>(std::move(text));
@@ -94,7 +106,7 @@ Result<void> Kiosk::prepare(const KioskArgs& args, Services& services) {
   RELIEVO_TRY_ASSIGN(const auto newest, store_->subjects({.limit = 1}));
   if (!newest.empty()) newest_record_ = newest.front().created_at;
   RELIEVO_TRY_ASSIGN(device_, services.open_device(args.device));
-  if (args.device == "sim" && services.turn_head)
+  if (services.turn_head && (args.device == "sim" || is_recorded_head(args.device)))
     turn_head_ = [this, turn = services.turn_head](double yaw_deg) { turn(*device_, yaw_deg); };
   RELIEVO_TRY(set_up_measuring(args, services));
   open_speaker_ = services.open_speaker;
@@ -287,7 +299,8 @@ void Kiosk::ask(ui::Intent intent) {
   if (intent != ui::Intent::LookUp) appliance_->ask(intent);
 }
 
-// Before the simulated rig somebody does as the page says: on to the nearest side that is not taken.
+// Before the simulated rig, and in a recorded head, somebody does as the page says: on to the nearest side
+// that is not taken.
 void Kiosk::turn_simulated_head() {
   double to_deg = 0;
   if (const auto& turn = view_.live.turn; turn && appliance_->state() == State::Turn) {

@@ -101,6 +101,8 @@ class SidePairs {
   // No more will come.
   void end();
   std::size_t count() const;
+  // As it lies in its room; while no job runs.
+  const pipeline::StereoFrame& waiting(std::size_t side) const { return pairs_.at(side); }
   // Waits for the next; none: no more come, or the job was cancelled. Valid until the next call.
   std::optional<pipeline::StereoFrame> next(const std::atomic<bool>& cancelled);
   // Room of a pose: 0 is the front's, then the sides' in their order.

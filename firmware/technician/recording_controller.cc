@@ -25,11 +25,13 @@ ImageView copied(const ImageView& view, std::vector<std::byte>& room) {
   return {room.data(), view.width_px, view.height_px, int(row_bytes), view.format};
 }
 
-Result<void> write(const hal::RecordedPair& pair, const fs::path& target, hal::RemovableMedia& media,
-                   StickWork& work) {
-  RELIEVO_TRY(work.reach(ExportStep::Write, 0.1F));
+Result<void> write(std::span<const hal::RecordedPair> pairs, const fs::path& target,
+                   hal::RemovableMedia& media, StickWork& work) {
   RELIEVO_TRY_ASSIGN(OutputFolder folder, OutputFolder::begin(target));
-  RELIEVO_TRY(hal::record_pair(folder.path(), pair));
+  for (std::size_t i = 0; i < pairs.size(); ++i) {
+    RELIEVO_TRY(work.reach(ExportStep::Write, 0.1F + 0.4F * float(i) / float(pairs.size())));
+    RELIEVO_TRY(hal::record_pair(folder.path(), pairs[i]));
+  }
   RELIEVO_TRY(keep_folder(folder, target, media, &work));
   return {};
 }
@@ -46,22 +48,27 @@ std::string name_at(std::chrono::system_clock::time_point when) {
 
 }  // namespace
 
-CaptureCopy::CaptureCopy(const pipeline::StereoFrame& frame, hal::RecordedPair as_taken)
-    : pair_(std::move(as_taken)) {
-  pair_.left = copied(frame.left, left_);
-  pair_.right = copied(frame.right, right_);
+CaptureCopy::CaptureCopy(std::span<const pipeline::StereoFrame> shots, const hal::RecordedPair& as_taken)
+    : rooms_(2 * shots.size()), pairs_(shots.size(), as_taken) {
+  for (std::size_t i = 0; i < shots.size(); ++i) {
+    pairs_[i].left = copied(shots[i].left, rooms_[2 * i]);
+    pairs_[i].right = copied(shots[i].right, rooms_[2 * i + 1]);
+    pairs_[i].left_ns = 0;
+    pairs_[i].right_ns = shots[i].skew_ns;
+    pairs_[i].of_head = shots.size() > 1;
+  }
 }
 
 CaptureCopy::~CaptureCopy() {
-  for (std::vector<std::byte>* room : {&left_, &right_}) explicit_bzero(room->data(), room->size());
+  for (std::vector<std::byte>& room : rooms_) explicit_bzero(room.data(), room.size());
 }
 
-Result<void> record_capture(const hal::RecordedPair& pair, const std::string& name,
+Result<void> record_capture(std::span<const hal::RecordedPair> pairs, const std::string& name,
                             hal::RemovableMedia& media, JobControl& control, ExportTrace& trace) {
   trace = {};
   StickWork work{control, trace};
   return put_on_stick(media, fs::path(kCapturesFolder) / name, &work,
-                      [&](const fs::path& target) { return write(pair, target, media, work); });
+                      [&](const fs::path& target) { return write(pairs, target, media, work); });
 }
 
 std::shared_ptr<ExportTrace> RecordingController::begin(bool reading) {
@@ -88,17 +95,16 @@ std::string RecordingController::saved_name(std::size_t row) const {
   return file.substr(0, file.size() - std::string_view(kSavedEnding).size());
 }
 
-void RecordingController::record(const pipeline::StereoFrame& frame, hal::RecordedPair as_taken) {
+void RecordingController::record(std::span<const pipeline::StereoFrame> shots,
+                                 const hal::RecordedPair& as_taken) {
   const std::shared_ptr<ExportTrace> trace = begin(false);
   if (trace == nullptr) return;
-  as_taken.left_ns = 0;
-  as_taken.right_ns = frame.skew_ns;
-  const auto copy = std::make_shared<const CaptureCopy>(frame, std::move(as_taken));
+  const auto copy = std::make_shared<const CaptureCopy>(shots, as_taken);
   const std::string name = name_now();
   side_tasks_.send(
       JobLane::Keeper,
       [this, copy, trace, name](JobControl& control) {
-        return record_capture(copy->pair(), name, device_.media(), control, *trace);
+        return record_capture(copy->pairs(), name, device_.media(), control, *trace);
       },
       [this, trace, name, visit = visit_](const std::optional<Error>& error) {
         if (visit == visit_) ended(error, *trace, std::string(kCapturesFolder) + "/" + name);

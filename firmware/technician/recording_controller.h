@@ -10,6 +10,7 @@
 #include <functional>
 #include <memory>
 #include <optional>
+#include <span>
 #include <string>
 #include <vector>
 
@@ -24,39 +25,39 @@
 
 namespace relievo::firmware {
 
-// The technician's test capture on a stick: captures/NAME/ with one recorded pair (hal/recording), which
-// folder:DIR replays bit for bit. It is read back and compared before the folder gets its name, and then the
-// stick is let go; what an earlier recording left half written is cleared away. Thread: keeper; between two
-// steps it looks whether it is to stop. Memory: CaptureCopy's, wiped with it. Errors: MediaMissing (no
-// stick), MediaFull, Disconnected (pulled out meanwhile), Cancelled, IoFailed (outcome_of_export() says what
-// it means).
+// The technician's test capture on a stick: captures/NAME/ with its pair, or a head's pairs (hal/recording),
+// which folder:DIR replays bit for bit. It is read back and compared before the folder gets its name, and
+// then the stick is let go; what an earlier recording left half written is cleared away. Thread: keeper;
+// between two steps it looks whether it is to stop. Memory: CaptureCopy's, wiped with it. Errors:
+// MediaMissing (no stick), MediaFull, Disconnected (pulled out meanwhile), Cancelled, IoFailed
+// (outcome_of_export() says what it means).
 
-// A pair of its own, so that the session may be wiped while a slow stick is still being written to.
+// Pairs of its own, so that the session may be wiped while a slow stick is still being written to.
 class CaptureCopy {
  public:
-  // Of `as_taken` the views are replaced.
-  CaptureCopy(const pipeline::StereoFrame& frame, hal::RecordedPair as_taken);
+  // Of `as_taken` views and times are replaced.
+  CaptureCopy(std::span<const pipeline::StereoFrame> shots, const hal::RecordedPair& as_taken);
   ~CaptureCopy();
   CaptureCopy(const CaptureCopy&) = delete;
   CaptureCopy& operator=(const CaptureCopy&) = delete;
-  const hal::RecordedPair& pair() const { return pair_; }
+  std::span<const hal::RecordedPair> pairs() const { return pairs_; }
 
  private:
-  std::vector<std::byte> left_, right_;
-  hal::RecordedPair pair_;
+  std::vector<std::vector<std::byte>> rooms_;
+  std::vector<hal::RecordedPair> pairs_;
 };
 
 inline constexpr const char* kCapturesFolder = "captures";  // on the stick
 
-Result<void> record_capture(const hal::RecordedPair& pair, const std::string& name,
+Result<void> record_capture(std::span<const hal::RecordedPair> pairs, const std::string& name,
                             hal::RemovableMedia& media, JobControl& control, ExportTrace& trace);
 
 class RecordingController {
  public:
   RecordingController(SideTasks& side_tasks, hal::Device& device)
       : side_tasks_(side_tasks), device_(device) {}
-  // `as_taken`: exposure and serial numbers.
-  void record(const pipeline::StereoFrame& frame, hal::RecordedPair as_taken);
+  // The front, then the sides; `as_taken`: exposure and serial numbers.
+  void record(std::span<const pipeline::StereoFrame> shots, const hal::RecordedPair& as_taken);
   // `make` runs on the worker: the document of what is in the session.
   void save(std::function<Result<std::vector<std::byte>>()> make);
   // Those on the stick; shown from then on, until hide().

@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <memory>
 #include <utility>
+#include <vector>
 
 #include "firmware/technician/show/hand_pairs.h"
 #include "firmware/work/session_document.h"
@@ -145,7 +146,9 @@ void TestCapture::record() {
   as_taken.gain = light.gain;
   as_taken.left_serial = loaded_ ? calibration()->cameras.left : shot_.serials().left;
   as_taken.right_serial = loaded_ ? calibration()->cameras.right : shot_.serials().right;
-  recording_.record(*made->frame, std::move(as_taken));
+  std::vector<pipeline::StereoFrame> shots{*made->frame};
+  for (std::size_t i = 0; i < session_.sides().count(); ++i) shots.push_back(session_.sides().waiting(i));
+  recording_.record(shots, as_taken);
 }
 
 // What fills the slot of the test capture waits until nobody else is at the cameras.

@@ -4,8 +4,10 @@
 // capture.json: what a recording knows about its frames beside the pictures.
 //
 //   { "cameras": {"left": {"serial": "A"}, "right": {"serial": "B"}},
-//     "frames": [ {"number": 0, "left_ns": 0, "right_ns": 180000, "exposure_us": 4000, "gain": 1.0} ] }
+//     "frames": [ {"number": 0, "left_ns": 0, "right_ns": 180000, "exposure_us": 4000, "gain": 1.0} ],
+//     "head": true }
 //
+// "head": the frames are one head, from in front, then turned to its sides; without it, false.
 // Times are nanoseconds from any common origin. "number" is the NNNNNN of left_NNNNNN.png.
 // Errors: NotFound, InvalidInput (says what is wrong), IoFailed.
 #pragma once
@@ -31,6 +33,7 @@ struct RecordedPair {
   std::int64_t exposure_us = 0;
   double gain = 1;
   std::string left_serial, right_serial;
+  bool of_head = false;  // so are all of its folder
 };
 
 // "left_NNNNNN.png"; `side` is left or right.
@@ -49,9 +52,12 @@ struct CaptureRecord {
 struct CaptureFile {
   std::string left_serial, right_serial;
   std::vector<CaptureRecord> frames;
+  bool head = false;
 };
 
 Result<CaptureFile> read_capture_file(const std::filesystem::path& file);
 Result<void> write_capture_file(const std::filesystem::path& file, const CaptureFile& capture);
+// left, right, left, right ... of the frames that capture.json names, in its order. NotFound: one is missing.
+Result<std::vector<std::filesystem::path>> recorded_pictures(const std::filesystem::path& folder);
 
 }  // namespace relievo::hal

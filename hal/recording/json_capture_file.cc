@@ -44,6 +44,7 @@ Result<std::int64_t> record_pair(const std::filesystem::path& folder, const Reco
   RELIEVO_TRY(write_picture(folder / recorded_name("right", number), pair.right));
   capture.left_serial = pair.left_serial;
   capture.right_serial = pair.right_serial;
+  capture.head = pair.of_head;
   capture.frames.push_back({number, pair.left_ns, pair.right_ns, pair.exposure_us, pair.gain});
   RELIEVO_TRY(write_capture_file(index, capture));
   return number;
@@ -74,13 +75,15 @@ Result<CaptureFile> read_capture_file(const std::filesystem::path& file) try {
     capture.left_serial = json.at("cameras").at("left").value("serial", "");
     capture.right_serial = json.at("cameras").at("right").value("serial", "");
   }
+  capture.head = json.value("head", false);
   for (const auto& frame : json.at("frames")) capture.frames.push_back(record_of(frame));
   return capture;
 } catch (const nlohmann::json::parse_error&) {
   return Error{Errc::InvalidInput, "this is not valid JSON; record it again or remove it"}.at(file.native());
 } catch (const nlohmann::json::exception&) {
-  return Error{Errc::InvalidInput, "a frame needs number, left_ns and right_ns, all numbers"}.at(
-      file.native());
+  return Error{Errc::InvalidInput,
+               "a frame needs number, left_ns and right_ns, all numbers, and head is true or false"}
+      .at(file.native());
 } catch (const std::bad_alloc&) {
   return Error{Errc::OutOfMemory, "no memory to read this file"}.at(file.native());
 }
@@ -96,8 +99,24 @@ Result<void> write_capture_file(const std::filesystem::path& file, const Capture
                               {"right_ns", r.right_ns},
                               {"exposure_us", r.exposure_us},
                               {"gain", r.gain}});
+  if (capture.head) json["head"] = true;
   const std::string text = json.dump(1) + "\n";
   return write_whole_file(file, std::as_bytes(std::span(text)));
+}
+
+Result<std::vector<std::filesystem::path>> recorded_pictures(const std::filesystem::path& folder) {
+  RELIEVO_TRY_ASSIGN(const CaptureFile capture, read_capture_file(folder / "capture.json"));
+  std::vector<std::filesystem::path> pictures;
+  std::error_code failed;
+  for (const CaptureRecord& frame : capture.frames)
+    for (const char* side : {"left", "right"}) {
+      pictures.push_back(folder / recorded_name(side, frame.number));
+      if (!std::filesystem::is_regular_file(pictures.back(), failed))
+        return Error{Errc::NotFound, "this picture of the recording is missing: copy the whole folder again"}
+            .at(pictures.back().native());
+    }
+  if (pictures.empty()) return Error{Errc::NotFound, "this recording holds no pair"}.at(folder.native());
+  return pictures;
 }
 
 }  // namespace relievo::hal

@@ -30,8 +30,9 @@ struct SimDeviceOptions {
   int threads = 2;
 };
 
-// Turns the head of the simulated person from where it stands, about its neck; the pictures show it when they
-// are rendered, seconds later. Nothing where the device is another one, or holds a board. Thread: any.
+// Turns the head of the simulated person, or shows the next side of a recorded one (capture.json), from where
+// it stands, about its neck; the pictures show it when they are rendered, seconds later. Nothing where the
+// device is another one, or holds a board. Thread: any.
 void turn_simulated_head(Device& device, double yaw_deg);
 
 // Renders at the first frame (seconds); later frames of the same scene only differ in noise.

@@ -1,5 +1,7 @@
 // SPDX-FileCopyrightText: 2026 The Relievo authors
 // SPDX-License-Identifier: GPL-3.0-or-later
+#include <algorithm>
+#include <atomic>
 #include <charconv>
 #include <optional>
 
@@ -16,9 +18,20 @@ class FolderSource final : public PairSource {
       : pairs_(std::move(pairs)), capture_(std::move(capture)) {}
 
   Result<Exposure> expose(Side side, std::uint32_t number) override {
-    const PicturePairFiles& pair = pairs_[(number - 1) % pairs_.size()];
+    // Both cameras see the same pair, whenever the head is asked to turn.
+    if (number != number_) at_ = capture_.head ? wanted_.load() : (number - 1) % pairs_.size();
+    number_ = number;
+    const PicturePairFiles& pair = pairs_[at_];
     RELIEVO_TRY_ASSIGN(Picture picture, read_picture(side == Side::Left ? pair.left : pair.right));
     return Exposure{std::move(picture), lateness(pair, side)};
+  }
+
+  // Of a recorded head: the next side for every direction that is asked for, in front at 0.
+  void turn_head(double yaw_deg) override {
+    if (yaw_deg == 0) asked_deg_.clear();
+    else if (std::ranges::find(asked_deg_, yaw_deg) == asked_deg_.end()) asked_deg_.push_back(yaw_deg);
+    const auto side = std::ranges::find(asked_deg_, yaw_deg) - asked_deg_.begin() + 1;
+    wanted_.store(yaw_deg == 0 ? 0 : std::min(std::size_t(side), pairs_.size() - 1));
   }
 
  private:
@@ -36,6 +49,10 @@ class FolderSource final : public PairSource {
 
   std::vector<PicturePairFiles> pairs_;
   CaptureFile capture_;
+  std::vector<double> asked_deg_;        // main
+  std::atomic<std::size_t> wanted_ = 0;  // from main to capture
+  std::size_t at_ = 0;                   // capture, as the next
+  std::uint32_t number_ = 0;
 };
 
 Result<CaptureFile> optional_capture_file(const std::filesystem::path& folder) {
@@ -49,6 +66,7 @@ Result<CaptureFile> optional_capture_file(const std::filesystem::path& folder) {
 Result<std::unique_ptr<Device>> make_folder_device(const std::filesystem::path& folder) {
   RELIEVO_TRY_ASSIGN(std::vector<PicturePairFiles> pairs, find_picture_pairs(folder));
   RELIEVO_TRY_ASSIGN(CaptureFile capture, optional_capture_file(folder));
+  if (capture.head) RELIEVO_TRY(recorded_pictures(folder));
   RELIEVO_TRY_ASSIGN(const Picture left, read_picture(pairs.front().left));
   RELIEVO_TRY_ASSIGN(const Picture right, read_picture(pairs.front().right));
   if (left.width_px != right.width_px || left.height_px != right.height_px)

@@ -5,6 +5,7 @@
 // it changed is read back from the object behind it.
 #include "tests/firmware/technician/technician_fixture.h"
 
+#include <algorithm>
 #include <cmath>
 #include <filesystem>
 #include <string>
@@ -12,6 +13,8 @@
 
 #include "firmware/measure/self_agreement.h"
 #include "hal/base/whole_file.h"
+#include "hal/picture_file.h"
+#include "hal/recording/capture_file.h"
 #include "hal/sim/device.h"
 #include "storage/document/document.h"
 
@@ -114,6 +117,30 @@ TEST_F(TechnicianTest, SidesBecomeAHeadWhosePosesAreSeen) {
   turn_head(rig(), 0);
   EXPECT_EQ(rig().now().sides, 2U);
   EXPECT_FALSE(products().registration.has_value());
+  // All its pairs go on the stick, the front first.
+  rig().plug_in();
+  rig().tap("record");
+  ASSERT_TRUE(rig().until([] { return rig().now().recording.outcome != ui::Outcome::None; }));
+  ASSERT_EQ(rig().now().recording.outcome, ui::Outcome::Done);
+  const auto recording = rig().stick() / rig().now().recording.where;
+  EXPECT_TRUE(hal::read_capture_file(recording / "capture.json")->head);
+  const auto pictures = hal::recorded_pictures(recording);
+  ASSERT_TRUE(pictures) << pictures.error().what.view();
+  ASSERT_EQ(pictures->size(), 6U);
+  for (std::size_t k = 0; k < 3; ++k) {
+    const pipeline::StereoFrame& shot =
+        k == 0 ? *products().frame : rig().appliance->session().sides().waiting(k - 1);
+    for (std::size_t side = 0; side < 2; ++side) {
+      const ImageView& wanted = side == 0 ? shot.left : shot.right;
+      const auto seen = hal::read_picture(pictures->at(2 * k + side));
+      ASSERT_TRUE(seen && seen->height_px == wanted.height_px && seen->width_px == wanted.width_px);
+      for (int y = 0; y < wanted.height_px; ++y)
+        ASSERT_TRUE(std::equal(wanted.row(y),
+                               wanted.row(y) + wanted.width_px * bytes_per_pixel(wanted.format),
+                               seen->view().row(y)));
+    }
+  }
+  rig().plug_in();
   const std::size_t before = products().model->mesh.triangles.size();
   again();
   EXPECT_EQ(rig().now().result.failure.detail, "");

@@ -5,6 +5,7 @@
 #include <gtest/gtest.h>
 #include <cstring>
 #include <random>
+#include <utility>
 #include <vector>
 
 #include "hal/sim/device.h"
@@ -66,6 +67,54 @@ TEST(Recording, IsReplayedBitForBit) {
       EXPECT_EQ(right->exposed_at() - left->exposed_at(), std::chrono::nanoseconds(40'000));
     }
   }
+}
+
+// What the next trigger shows is the pair of these views.
+void expect_next(Device& device, const Noise& left, const Noise& right) {
+  ASSERT_TRUE(device.trigger().pulse(std::chrono::microseconds(100)));
+  const auto l = device.left().next_frame(device.clock().now() + std::chrono::seconds(5));
+  const auto r = device.right().next_frame(device.clock().now() + std::chrono::seconds(5));
+  ASSERT_TRUE(l && r);
+  expect_same(l->image(), left.view);
+  expect_same(r->image(), right.view);
+}
+
+TEST(Recording, AHeadTurnsToItsNextSideWhenItIsAskedTo) {
+  const TemporaryFolder folder;
+  const Noise views[]{{PixelFormat::Grey8, 1}, {PixelFormat::Grey8, 2}, {PixelFormat::Grey8, 3},
+                      {PixelFormat::Grey8, 4}, {PixelFormat::Grey8, 5}, {PixelFormat::Grey8, 6}};
+  for (std::size_t i = 0; i < 6; i += 2) {
+    RecordedPair pair{views[i].view, views[i + 1].view, 0, 0, 3100, 1, "A7", "B9"};
+    pair.of_head = true;
+    ASSERT_TRUE(record_pair(folder / "head", pair));
+  }
+  const auto pictures = recorded_pictures(folder / "head");
+  ASSERT_TRUE(pictures) << pictures.error().what.view();
+  ASSERT_EQ(pictures->size(), 6U);
+  EXPECT_EQ(pictures->at(3).filename(), "right_000002.png");
+  {
+    auto made = make_folder_device(folder / "head");
+    ASSERT_TRUE(made) << made.error().what.view();
+    Device& device = **made;
+    for (Camera* camera : {&device.left(), &device.right()}) {
+      ASSERT_TRUE(camera->open(device.preferred_mode()));
+      ASSERT_TRUE(camera->start());
+    }
+    for (int visit = 0; visit < 2; ++visit) {
+      for (int again = 0; again < 2; ++again) expect_next(device, views[0], views[1]);
+      const std::pair<double, std::size_t> asked[] = {{-25, 2}, {-25, 2}, {25, 4}, {-25, 2}, {45, 4}, {0, 0}};
+      for (const auto& [yaw_deg, at] : asked) {
+        turn_simulated_head(device, yaw_deg);
+        expect_next(device, views[at], views[at + 1]);
+      }
+    }
+  }
+  for (const char* side : {"left", "right"})
+    std::filesystem::remove(folder / "head" / recorded_name(side, 2));
+  EXPECT_EQ(recorded_pictures(folder / "head").error().code, Errc::NotFound);
+  const auto without = make_folder_device(folder / "head");
+  ASSERT_FALSE(without);
+  EXPECT_NE(without.error().where().find("left_000002.png"), std::string_view::npos);
 }
 
 TEST(Recording, RefusesWhatIsNoPair) {
