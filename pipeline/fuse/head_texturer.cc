@@ -28,7 +28,6 @@ constexpr float kMasterLevel = 20;           // the others are brought to the ma
 constexpr float kMasterFirst = 1.8F;         // the master's say before others that look as straight
 constexpr float kWinner = 12;                // power of what a view's say is to the best one's
 constexpr float kBorderPx = 3;
-constexpr int kBands = 32;
 
 class Texturing {
  public:
@@ -72,6 +71,7 @@ class Texturing {
   }
 
  private:
+  static constexpr int kBands = 32;
   float& say(std::size_t vertex, std::size_t view) { return say_[view * vertices_ + vertex]; }
   float say(std::size_t vertex, std::size_t view) const { return say_[view * vertices_ + vertex]; }
   const VertexColour& level(std::size_t vertex, std::size_t view) const {

@@ -19,7 +19,6 @@ constexpr float kNothingSaid = 0.002F;  // weight that pulls to no displacement,
 constexpr float kLeastSigmaMm = 0.01F;
 constexpr float kSureWeight = 400;  // of a surface with a sigma of 0.05 mm: more of it is no surer
 constexpr float kOwnErrorSigmas = 3;
-constexpr int kBands = 32;
 constexpr float kMovedSigma = 0.9F;  // what is not known of a displacement, share of its usual size around
 
 struct Field {
@@ -85,6 +84,7 @@ class Bender {
   }
 
  private:
+  static constexpr int kBands = 32;
   // By how much node i of pose k lies before what is fixed, and how sure that is.
   struct Gap {
     float distance = 0, weight = 0;
