@@ -27,10 +27,11 @@ ImageView copied(const ImageView& view, std::vector<std::byte>& room) {
 
 Result<void> write(std::span<const hal::RecordedPair> pairs, const fs::path& target,
                    hal::RemovableMedia& media, StickWork& work) {
+  RELIEVO_TRY(work.reach(ExportStep::Write, 0.1F));
   RELIEVO_TRY_ASSIGN(OutputFolder folder, OutputFolder::begin(target));
   for (std::size_t i = 0; i < pairs.size(); ++i) {
-    RELIEVO_TRY(work.reach(ExportStep::Write, 0.1F + 0.4F * float(i) / float(pairs.size())));
     RELIEVO_TRY(hal::record_pair(folder.path(), pairs[i]));
+    RELIEVO_TRY(work.reach(ExportStep::Write, 0.1F + 0.4F * float(i + 1) / float(pairs.size())));
   }
   RELIEVO_TRY(keep_folder(folder, target, media, &work));
   return {};
