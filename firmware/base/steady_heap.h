@@ -10,11 +10,9 @@
 
 namespace relievo::firmware {
 
-// Before any other thread: with a heap of its own for some threads, a block of the same visit lies now in this
-// one and now in that, and each grows to the largest.
-inline void share_one_heap() {
-  mallopt(M_ARENA_MAX, 1);
-}
+// Before any other thread: with a heap of its own for some threads, a block of the same visit lies now in
+// this one and now in that, and each grows to the largest.
+inline void share_one_heap() { mallopt(M_ARENA_MAX, 1); }
 
 // When what is taken once is taken: the one block of base/boot_memory.h.
 inline void keep_heap_steady() {
