@@ -89,10 +89,9 @@ void add_further(CLI::App& command, FurtherModels& further) {
 void add_reconstruct(CLI::App& app, CommandArgs& chosen, ReconstructArgs& args) {
   CLI::App* command = app.add_subcommand(
       "reconstruct", "a pair of pictures to a textured model, or several of a head that turned");
-  word(
-      *command, "pictures", args.pictures, "LEFT RIGHT",
-      "LEFT RIGHT, or the folder of a recording alone, or LEFT RIGHT and further pairs of the same head turned to other sides, up to seven; the first is the "
-      "one from in front");
+  word(*command, "pictures", args.pictures, "LEFT RIGHT",
+       "LEFT RIGHT, or the folder of a recording alone, or LEFT RIGHT and further pairs of the same head "
+       "turned to other sides, up to seven; the first is the one from in front");
   word(*command, "--calibration", args.calibrations, "rig.yml", "one for all pairs, or one each");
   CLI::Option* load = word(*command, "--load", args.load, "FILE",
                            "no pictures: a saved reconstruction, with its calibration and settings");

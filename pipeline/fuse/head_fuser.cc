@@ -6,6 +6,7 @@
 #include <array>
 #include <cmath>
 
+#include "pipeline/fuse/fairing.h"
 #include "pipeline/fuse/head_zones.h"
 #include "pipeline/fuse/pose_blend.h"
 #include "pipeline/fuse/rim.h"

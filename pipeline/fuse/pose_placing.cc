@@ -5,81 +5,14 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <limits>
 #include <numbers>
 #include <optional>
 
 #include "hal/base/statistics.h"
 #include "pipeline/base/solving.h"
 #include "pipeline/fuse/pose_residuals.h"
-#include "pipeline/model/vector3.h"
 
 namespace relievo::pipeline {
-namespace {
-
-constexpr double kSameSkinMm = 3;        // a surface further off is another one
-constexpr double kSameSkinCosine = 0.6;  // cosine between the normals of what is taken for the same skin
-constexpr float kLeastTrust = 0.2F;      // less is the rim of what was measured
-constexpr float kNowhere = std::numeric_limits<float>::quiet_NaN();
-
-// By how much a place of pose `a` lies before what pose `b` shows there.
-float distance_mm(const Vec3d& at, const Vec3d& normal, const PoseSurface& b, const RigidTransform& placed) {
-  const auto hit = b.look(narrow(apply(inverse(placed), at)));
-  if (!hit || hit->trust < kLeastTrust) return kNowhere;
-  const Vec3d n = apply(placed.rotation, wide(hit->normal));
-  const double d = dot(n, minus(at, apply(placed, wide(hit->at_mm))));
-  return dot(n, normal) < kSameSkinCosine || std::abs(d) > kSameSkinMm ? kNowhere : float(d);
-}
-
-PoseMeeting meeting_of(std::pmr::vector<float>& distances, double area_mm2) {
-  if (distances.empty()) return {};
-  double squares = 0;
-  for (float& d : distances) {
-    squares += double(d) * double(d);
-    d = std::abs(d);
-  }
-  return {area_mm2, std::sqrt(squares / double(distances.size())), percentile(distances, 0.95)};
-}
-
-}  // namespace
-
-void measure_agreement(std::span<const PoseSurface> poses, Registration& registration,
-                       StageContext& context) {
-  for (std::size_t a = 0; a < poses.size(); ++a) {
-    const PoseSurface& pose = poses[a];
-    const RigidTransform& placed = registration.poses[a].first_from_pose;
-    ResidualMap& map = registration.residuals.emplace_back(&context.output);
-    map.columns = (pose.columns + kResidualEvery - 1) / kResidualEvery;
-    map.rows = (pose.rows + kResidualEvery - 1) / kResidualEvery;
-    map.mm.assign(std::size_t(map.columns) * std::size_t(map.rows), kNowhere);
-    const Arena::Mark mark(context.scratch);
-    std::array<double, kMostPoses> area_mm2{};
-    std::pmr::vector<std::pmr::vector<float>> distances(poses.size(), &context.scratch);
-    for (auto& of_one : distances) of_one.reserve(map.mm.size());
-    for (std::size_t i = 0; i < map.mm.size(); ++i) {
-      const std::size_t k = i / std::size_t(map.columns) * kResidualEvery * std::size_t(pose.columns) +
-                            i % std::size_t(map.columns) * kResidualEvery;
-      if (pose.trust[k] < kLeastTrust) continue;
-      const Vec3d at = apply(placed, wide(pose.at_mm[k])),
-                  normal = apply(placed.rotation, wide(pose.normal[k]));
-      const double side_mm = kResidualEvery * pose.step_px * double(pose.at_mm[k].z) / pose.focal_px;
-      const double cosine = std::abs(double(dot(pose.normal[k], unit(pose.at_mm[k]))));
-      float sum = 0, count = 0;
-      for (std::size_t b = 0; b < poses.size(); ++b) {
-        if (b == a) continue;
-        const float d = distance_mm(at, normal, poses[b], registration.poses[b].first_from_pose);
-        if (std::isnan(d)) continue;
-        distances[b].push_back(d);
-        area_mm2[b] += side_mm * side_mm / std::max(cosine, 0.1);
-        sum += d, ++count;
-      }
-      if (count > 0) map.mm[i] = sum / count;
-    }
-    for (std::size_t b = 0; b < poses.size(); ++b)
-      registration.poses[a].meets[b] = meeting_of(distances[b], area_mm2[b]);
-  }
-}
-
 namespace {
 
 constexpr double kFewestMet = 80;

@@ -9,6 +9,7 @@
 #include <cmath>
 #include <limits>
 #include <numbers>
+#include <optional>
 #include <span>
 #include <utility>
 #include <vector>
@@ -48,14 +49,23 @@ Result<void> SymmetricCompletion::check() const {
   return {};
 }
 
+namespace {
+
+// None where no head is found: then nothing is completed.
+Result<std::optional<HeadFrame>> frame_of(const FaceMesh& mesh, const Vec3d& across, StageContext& context) {
+  const Result<HeadFrame> frame = find_head_frame(mesh, context, across);
+  if (frame) return std::optional(*frame);
+  if (frame.error().code == Errc::PoorGeometry) return std::optional<HeadFrame>();
+  return frame.error();
+}
+
+}  // namespace
+
 Result<FaceMesh> SymmetricCompletion::complete(FaceMesh mesh, const Vec3d& across,
                                                StageContext& context) const {
   const Error stopped{Errc::Cancelled, "completion was stopped"};
-  const Result<HeadFrame> frame = find_head_frame(mesh, context, across);
-  if (!frame) {
-    if (frame.error().code == Errc::PoorGeometry) return mesh;
-    return frame.error();
-  }
+  RELIEVO_TRY_ASSIGN(const auto frame, frame_of(mesh, across, context));
+  if (!frame) return mesh;
   const Arena::Mark mark(context.scratch);
   UnrolledHead head(mesh, frame->head_from_camera, cell_mm, context.scratch);
   if (context.stop()) return stopped;
@@ -296,11 +306,8 @@ std::vector<char> apart(const Globe& globe, std::span<const double> off) {
 Result<FaceMesh> GenericHeadCompletion::complete(FaceMesh mesh, const Vec3d& across,
                                                  StageContext& context) const {
   const Error stopped{Errc::Cancelled, "completion was stopped"};
-  const Result<HeadFrame> frame = find_head_frame(mesh, context, across);
-  if (!frame) {
-    if (frame.error().code == Errc::PoorGeometry) return mesh;
-    return frame.error();
-  }
+  RELIEVO_TRY_ASSIGN(const auto frame, frame_of(mesh, across, context));
+  if (!frame) return mesh;
   Arena& scratch = context.scratch;
   const Arena::Mark mark(scratch);
   const UnrolledHead face(mesh, frame->head_from_camera, kFitCellMm, scratch);

@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: 2026 The Relievo authors
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include "pipeline/fuse/rim.h"
+#include "pipeline/fuse/fairing.h"
 
 #include <gtest/gtest.h>
 
@@ -10,6 +10,7 @@
 #include <memory_resource>
 #include <set>
 
+#include "pipeline/fuse/rim.h"
 #include "pipeline/mesh/completion/mesh_laplacian.h"
 #include "pipeline/model/vector3.h"
 
