@@ -58,6 +58,179 @@ void drop_hair(std::span<PoseSurface> poses, const Registration& registration, c
   }
 }
 
+// The master's eyes, and what its mesher completed: about nose and mouth for where no pose measured, further
+// out where none shows anything near, for there the sides know better. Of ears and of what lies below a chin
+// it knows nothing. Adds them to the points; returns the vertices, what was completed first.
+std::pmr::vector<std::uint32_t> add_own(const FaceMesh& face, const RigidTransform& head_from_camera,
+                                        const HeadZones& zones, const PoseBlend& blend,
+                                        std::pmr::vector<FieldPoint>& points) {
+  std::pmr::vector<std::uint32_t> own(points.get_allocator());
+  for (std::uint32_t v = 0; v < face.vertices_mm.size(); ++v) {
+    const Vec3f& at = face.vertices_mm[v];
+    const bool below = apply(head_from_camera.rotation, wide(face.normals[v])).y < kDownward;
+    const bool beside = !below && !zones.is_ear(at) && !blend.is_seen_near(at);
+    const bool completed = face.measured[v] == 0 && (zones.is_middle(at) || beside);
+    if (!completed && !zones.is_eye(at)) continue;
+    points.push_back({at, face.normals[v], kCompletedShare});
+    own.push_back(v);
+  }
+  std::stable_partition(own.begin(), own.end(), [&](std::uint32_t v) { return face.measured[v] == 0; });
+  return own;
+}
+
+// The surface while it is made, in this order: vertices are placed on what the poses show, rims trimmed and
+// holes closed, and what lies in steps or was guessed is laid anew.
+class Surface {
+ public:
+  Surface(Polygonised&& polygonised, const PoseBlend& blend, const HeadZones& zones, StageContext& context)
+      : vertices_mm_(std::move(polygonised.vertices_mm)),
+        triangles_(std::move(polygonised.triangles)),
+        blend_(blend),
+        zones_(zones),
+        context_(context),
+        scratch_(&context.scratch),
+        vertices_(vertices_mm_.size(), Vertex{}, scratch_),
+        started_(vertices_mm_, scratch_),
+        normals_(area_normals(vertices_mm_, triangles_, scratch_)),
+        sure_(scratch_) {}
+
+  // What lies on no pose's surface is the master's own, or goes.
+  void place(const OwnFace& own) {
+    context_.pool.for_each_band(int(vertices_.size()), kBands, [&](int begin, int end, int) {
+      for (int v = begin; v < end; ++v) place(std::size_t(v), own);
+    });
+    std::erase_if(triangles_, [&](const Triangle& t) {
+      return std::any_of(t.begin(), t.end(), [&](std::uint32_t v) { return vertices_[v].kept == 0; });
+    });
+    for (std::size_t v = 0; v < vertices_.size(); ++v) {
+      const float most_mm = zones_.is_ear(vertices_mm_[v]) ? kEarSureMm : kSureMm;
+      sure_.push_back(vertices_[v].measured != 0 && vertices_[v].sigma_mm <= most_mm ? 1 : 0);
+    }
+    placed_ = vertices_.size();
+  }
+
+  // False if nothing is left.
+  bool trim_rims(const OwnFace& own) {
+    trim(kHoleOpenedMm, 0);
+    close(border_edges(triangles_, scratch_), 0);
+    // Once only the outline is left: tufts of hair, however sure, but no ears.
+    for (std::size_t v = 0; v < sure_.size(); ++v) sure_[v] = sure_[v] && zones_.is_ear(vertices_mm_[v]);
+    for (const float radius_mm : kOutlineOpenedMm) {
+      trim(radius_mm, kEarHolds);
+      if (triangles_.empty()) return false;
+      const auto border = border_edges(triangles_, scratch_);
+      smooth_rims(vertices_mm_, border, kRimRounds, kRimMoveMm, scratch_);
+      for (const BorderEdge& e : border)
+        if (e[0] < placed_) place(e[0], own);
+      part_equals(vertices_mm_, started_, scratch_);
+      close(border, kBayMouthMm);
+    }
+    return true;
+  }
+
+  // First what closes a hole, with the last of what was measured beside it; steps, but for those that eyes
+  // and ears have; folds. Then what was completed or is unsure, where other poses begin to count.
+  void lay_anew(bool has_steps) {
+    std::pmr::vector<std::uint8_t> part(vertices_.size(), 0, scratch_);
+    std::pmr::vector<std::uint8_t> stays(part, scratch_), label(part, scratch_), unsure(part, scratch_);
+    std::fill(part.begin() + std::ptrdiff_t(placed_), part.end(), kClosedRings);
+    for (std::size_t v = 0; v < vertices_.size(); ++v) {
+      label[v] = v < placed_ ? vertices_[v].poses : kBetweenNothing;
+      unsure[v] = vertices_[v].measured == 0 || vertices_[v].sigma_mm > kSureMm ? 1 : 0;
+      const Vec3f& at = vertices_mm_[v];
+      stays[v] = v < placed_ && !zones_.is_eye_rim(at) && (zones_.is_eye(at) || zones_.is_ear(at));
+      if (zones_.is_eye_rim(at)) part[v] = std::max(part[v], kEyeRimRings);
+    }
+    for (const BorderEdge& e : border_edges(triangles_, scratch_)) stays[e[0]] = 1;
+    if (has_steps) add_steps(vertices_mm_, triangles_, label, part, scratch_);
+    add_folds(vertices_mm_, triangles_, unsure, part, scratch_);
+    fair(part, stays);
+
+    std::fill(part.begin(), part.end(), std::uint8_t{0});
+    for (const Triangle& t : triangles_) {
+      const bool guessed =
+          std::any_of(t.begin(), t.end(), [&](std::uint32_t v) { return vertices_[v].measured == 0; });
+      if (guessed && (label[t[0]] != label[t[1]] || label[t[0]] != label[t[2]]))
+        for (const std::uint32_t v : t) part[v] = kUnsureRings;
+    }
+    // What was measured stays, but for the last of it.
+    std::pmr::vector<std::uint8_t> last(vertices_.size(), 0, scratch_);
+    for (std::size_t v = 0; v < vertices_.size(); ++v)
+      if (v >= placed_ || vertices_[v].poses == 0 || vertices_[v].measured == 0) last[v] = kLastRings + 1;
+    spread_rings(triangles_, last);
+    for (std::size_t v = 0; v < placed_; ++v)
+      if (last[v] == 0) stays[v] = 1;
+    fair(part, stays);
+  }
+
+  // In the context's output.
+  FaceMesh packed() const {
+    std::pmr::vector<std::uint8_t> pose(&context_.output);
+    pose.reserve(vertices_.size());
+    FaceMesh mesh = pack_mesh(vertices_.size(), triangles_, context_, [&](std::size_t v) {
+      pose.push_back(vertices_[v].pose);
+      return PackedVertex{vertices_mm_[v], vertices_[v].sigma_mm, vertices_[v].measured};
+    });
+    mesh.pose = std::move(pose);
+    compute_normals(mesh, 1, scratch_);
+    return mesh;
+  }
+
+ private:
+  struct Vertex {
+    float sigma_mm = 0;
+    std::uint8_t pose = 0, measured = 0, kept = 0;
+    std::uint8_t poses = 0;  // that say where it lies, a bit each
+  };
+
+  void place(std::size_t v, const OwnFace& own) {
+    Vec3f& at = vertices_mm_[v];
+    if (const auto placed = blend_.settle(at, unit(normals_[v]))) {
+      at = placed->at_mm;
+      const bool sure = placed->sigma_mm <= float(kMeasuredSigmaMm);
+      vertices_[v] = {placed->sigma_mm, placed->pose, sure ? std::uint8_t{1} : std::uint8_t{0}, 1,
+                      placed->poses};
+    } else if (const auto said = own.at(at)) {
+      vertices_[v] = {said->sigma_mm, 0, said->measured ? std::uint8_t{1} : std::uint8_t{0}, 1};
+    }
+  }
+
+  void trim(float radius_mm, int holds) {
+    const Arena::Mark mark(context_.scratch);
+    open_rims(vertices_mm_, sure_, triangles_, radius_mm, holds, scratch_);
+    keep_one_surface(vertices_mm_, triangles_, {}, scratch_);
+  }
+
+  // What closes a hole was not measured.
+  void close(std::span<const BorderEdge> border, float mouth_mm) {
+    for (const std::uint32_t v :
+         close_holes(vertices_mm_, normals_, border, {kHoleRimMm, mouth_mm}, triangles_)) {
+      normals_.push_back(normals_[v]);
+      vertices_.push_back({kClosedSigmaMm, vertices_[v].pose, 0, 1});
+      started_.push_back(vertices_mm_[started_.size()]);
+      sure_.push_back(0);
+    }
+  }
+
+  void fair(std::span<const std::uint8_t> part, std::span<const std::uint8_t> stays) {
+    const auto moved = fair_part(vertices_mm_, triangles_, part, stays, scratch_);
+    for (std::size_t v = 0; v < moved.size(); ++v)
+      vertices_[v].sigma_mm = std::hypot(vertices_[v].sigma_mm, moved[v]);
+  }
+
+  std::pmr::vector<Vec3f> vertices_mm_;
+  std::pmr::vector<Triangle> triangles_;
+  const PoseBlend& blend_;
+  const HeadZones& zones_;
+  StageContext& context_;
+  std::pmr::memory_resource* scratch_;
+  std::pmr::vector<Vertex> vertices_;
+  std::pmr::vector<Vec3f> started_;  // where the field had them
+  std::pmr::vector<Vec3f> normals_;
+  std::pmr::vector<std::uint8_t> sure_;
+  std::size_t placed_ = 0;  // vertices before those that close holes
+};
+
 }  // namespace
 
 Result<FaceMesh> HeadFuser::fuse(std::span<PoseSurface> poses, const Registration& registration,
@@ -75,19 +248,7 @@ Result<FaceMesh> HeadFuser::fuse(std::span<PoseSurface> poses, const Registratio
   const PoseBlend blend(poses, registration, zones, context);
   std::pmr::vector<FieldPoint> points = blend.points(float(options_.voxel_mm));
   if (points.empty()) return no_surface();
-  // The master's eyes, and what its mesher completed: about nose and mouth for where no pose measured,
-  // further out where none shows anything near, for there the sides know better. Of ears
-  // and of what lies below a chin it knows nothing.
-  std::pmr::vector<std::uint32_t> own(&context.scratch);
-  for (std::uint32_t v = 0; v < face.vertices_mm.size(); ++v) {
-    const Vec3f& at = face.vertices_mm[v];
-    const bool below = apply(poses[0].head_from_camera.rotation, wide(face.normals[v])).y < kDownward;
-    const bool beside = !below && !zones.is_ear(at) && !blend.is_seen_near(at);
-    const bool completed = face.measured[v] == 0 && (zones.is_middle(at) || beside);
-    if (!completed && !zones.is_eye(at)) continue;
-    points.push_back({at, face.normals[v], kCompletedShare});
-    own.push_back(v);
-  }
+  const auto own_vertices = add_own(face, poses[0].head_from_camera, zones, blend, points);
   if (context.stop()) return stopped;
 
   std::pmr::vector<Vec3f> places(&context.scratch);
@@ -96,123 +257,16 @@ Result<FaceMesh> HeadFuser::fuse(std::span<PoseSurface> poses, const Registratio
   BandVolume volume = volume_around(places, float(options_.voxel_mm), 4, &context.scratch);
   fill_field(points, kBandVoxels * volume.voxel_mm, volume, context);
   if (context.stop()) return stopped;
-  Polygonised surface = polygonise(volume, &context.scratch);
+  OwnFace own(volume, &context.scratch);
+  for (const std::uint32_t v : own_vertices)
+    own.mark(face.vertices_mm[v], face.sigma_mm[v], face.measured[v] != 0);
+  Surface surface(polygonise(volume, &context.scratch), blend, zones, context);
   if (context.stop()) return stopped;
-
-  // Vertices on the poses' surfaces; what lies on none is the master's own, or goes.
-  OwnFace own_face(volume, &context.scratch);
-  std::stable_partition(own.begin(), own.end(), [&](std::uint32_t v) { return face.measured[v] == 0; });
-  for (const std::uint32_t v : own)
-    own_face.mark(face.vertices_mm[v], face.sigma_mm[v], face.measured[v] != 0);
-  struct Vertex {
-    float sigma_mm = 0;
-    std::uint8_t pose = 0, measured = 0, kept = 0;
-    std::uint8_t poses = 0;  // that say where it lies, a bit each
-  };
-  std::pmr::vector<Vertex> vertices(surface.vertices_mm.size(), Vertex{}, &context.scratch);
-  const auto settle = [&](std::size_t v, const Vec3f& normal) {
-    Vec3f& at = surface.vertices_mm[v];
-    if (const auto placed = blend.settle(at, normal)) {
-      at = placed->at_mm;
-      const bool sure = placed->sigma_mm <= float(kMeasuredSigmaMm);
-      vertices[v] = {placed->sigma_mm, placed->pose, sure ? std::uint8_t{1} : std::uint8_t{0}, 1,
-                     placed->poses};
-    } else if (const auto said = own_face.at(at)) {
-      vertices[v] = {said->sigma_mm, 0, said->measured ? std::uint8_t{1} : std::uint8_t{0}, 1};
-    }
-  };
-  std::pmr::vector<Vec3f> started(surface.vertices_mm, &context.scratch);
-  std::pmr::vector<Vec3f> normals = area_normals(surface.vertices_mm, surface.triangles, &context.scratch);
-  context.pool.for_each_band(int(vertices.size()), kBands, [&](int begin, int end, int) {
-    for (int v = begin; v < end; ++v) settle(std::size_t(v), unit(normals[std::size_t(v)]));
-  });
-  std::erase_if(surface.triangles, [&](const Triangle& t) {
-    return vertices[t[0]].kept == 0 || vertices[t[1]].kept == 0 || vertices[t[2]].kept == 0;
-  });
-  std::pmr::vector<std::uint8_t> sure(&context.scratch);
-  for (std::size_t v = 0; v < vertices.size(); ++v) {
-    const float most_mm = zones.is_ear(surface.vertices_mm[v]) ? kEarSureMm : kSureMm;
-    sure.push_back(vertices[v].measured != 0 && vertices[v].sigma_mm <= most_mm ? 1 : 0);
-  }
-  const std::size_t settled = vertices.size();
-  // What closes a hole was not measured.
-  const auto close = [&](std::span<const BorderEdge> border, float mouth_mm) {
-    for (const std::uint32_t v :
-         close_holes(surface.vertices_mm, normals, border, {kHoleRimMm, mouth_mm}, surface.triangles)) {
-      normals.push_back(normals[v]);
-      vertices.push_back({kClosedSigmaMm, vertices[v].pose, 0, 1});
-      started.push_back(surface.vertices_mm[started.size()]);
-      sure.push_back(0);
-    }
-  };
-  const auto trim = [&](float radius_mm, int holds) {
-    const Arena::Mark mark(context.scratch);
-    open_rims(surface.vertices_mm, sure, surface.triangles, radius_mm, holds, &context.scratch);
-    keep_one_surface(surface.vertices_mm, surface.triangles, {}, &context.scratch);
-  };
-  trim(kHoleOpenedMm, 0);
-  close(border_edges(surface.triangles, &context.scratch), 0);
-  // Once only the outline is left: tufts of hair, however sure, but no ears.
-  for (std::size_t v = 0; v < sure.size(); ++v) sure[v] = sure[v] && zones.is_ear(surface.vertices_mm[v]);
-  for (const float radius_mm : kOutlineOpenedMm) {
-    trim(radius_mm, kEarHolds);
-    if (surface.triangles.empty()) return no_surface();
-    const auto border = border_edges(surface.triangles, &context.scratch);
-    smooth_rims(surface.vertices_mm, border, kRimRounds, kRimMoveMm, &context.scratch);
-    for (const BorderEdge& e : border)
-      if (e[0] < settled) settle(e[0], unit(normals[e[0]]));
-    part_equals(surface.vertices_mm, started, &context.scratch);
-    close(border, kBayMouthMm);
-  }
-
-  // Laid anew: what closes a hole, with the last of what was measured beside it; steps, but for those that
-  // eyes and ears have; then what was completed or is unsure, where other poses begin to count.
-  std::pmr::vector<std::uint8_t> part(vertices.size(), 0, &context.scratch);
-  std::pmr::vector<std::uint8_t> stays(part, &context.scratch), label(part, &context.scratch);
-  std::fill(part.begin() + std::ptrdiff_t(settled), part.end(), kClosedRings);
-  for (std::size_t v = 0; v < vertices.size(); ++v) {
-    label[v] = v < settled ? vertices[v].poses : kBetweenNothing;
-    const Vec3f& at = surface.vertices_mm[v];
-    stays[v] = v < settled && !zones.is_eye_rim(at) && (zones.is_eye(at) || zones.is_ear(at));
-    if (zones.is_eye_rim(at)) part[v] = std::max(part[v], kEyeRimRings);
-  }
-  for (const BorderEdge& e : border_edges(surface.triangles, &context.scratch)) stays[e[0]] = 1;
-  std::pmr::vector<std::uint8_t> unsure(&context.scratch);
-  for (const Vertex& v : vertices) unsure.push_back(v.measured == 0 || v.sigma_mm > kSureMm ? 1 : 0);
-  if (disagree(registration))
-    add_steps(surface.vertices_mm, surface.triangles, label, part, &context.scratch);
-  add_folds(surface.vertices_mm, surface.triangles, unsure, part, &context.scratch);
-  const auto lay_anew = [&] {
-    const auto moved = fair_part(surface.vertices_mm, surface.triangles, part, stays, &context.scratch);
-    for (std::size_t v = 0; v < moved.size(); ++v)
-      vertices[v].sigma_mm = std::hypot(vertices[v].sigma_mm, moved[v]);
-  };
-  lay_anew();
-  std::fill(part.begin(), part.end(), std::uint8_t{0});
-  for (const Triangle& t : surface.triangles) {
-    const bool guessed =
-        std::any_of(t.begin(), t.end(), [&](std::uint32_t v) { return vertices[v].measured == 0; });
-    if (guessed && (label[t[0]] != label[t[1]] || label[t[0]] != label[t[2]]))
-      for (const std::uint32_t v : t) part[v] = kUnsureRings;
-  }
-  // What was measured stays, but for the last of it.
-  std::pmr::vector<std::uint8_t> last(vertices.size(), 0, &context.scratch);
-  for (std::size_t v = 0; v < vertices.size(); ++v)
-    if (v >= settled || vertices[v].poses == 0 || vertices[v].measured == 0) last[v] = kLastRings + 1;
-  spread_rings(surface.triangles, last);
-  for (std::size_t v = 0; v < settled; ++v)
-    if (last[v] == 0) stays[v] = 1;
-  lay_anew();
-
-  std::pmr::vector<std::uint8_t> pose(&context.output);
-  pose.reserve(vertices.size());
-  FaceMesh mesh = pack_mesh(vertices.size(), surface.triangles, context, [&](std::size_t v) {
-    pose.push_back(vertices[v].pose);
-    return PackedVertex{surface.vertices_mm[v], vertices[v].sigma_mm, vertices[v].measured};
-  });
-  mesh.pose = std::move(pose);
-  compute_normals(mesh, 1, &context.scratch);
-  return mesh;
+  surface.place(own);
+  if (!surface.trim_rims(own)) return no_surface();
+  if (context.stop()) return stopped;
+  surface.lay_anew(disagree(registration));
+  return surface.packed();
 }
 
 }  // namespace relievo::pipeline
