@@ -281,20 +281,28 @@ class HeadReconstruction::PairsJob final : public Job {
 Result<void> HeadReconstruction::PairsJob::run(JobControl& control) {
   pipeline::StageContext context{owner_.output_, scratch_, pool_, control.progress, control.cancelled};
   std::vector<pipeline::HeadPose> poses;
-  for (std::size_t k = 0; k < shots_.size(); ++k) poses.emplace_back(&*owner_.kept_);
+  poses.reserve(shots_.size());
+  std::optional<pipeline::FaceModel> face;
   for (std::size_t k = 0; k < shots_.size(); ++k) {
+    if (k == 1) {  // the first pair fits its calibration
+      auto made = timed("Face", 0, [&] {
+        return pipeline_.face(shots_[0].pictures.frame(), shots_[0].calibration, context);
+      });
+      if (!made) return placed(made.error(), 0);
+      face.emplace(*std::move(made));
+    }
     const Arena::Mark mark(owner_.output_);
-    auto pose = timed("Pair", k, [&] {
-      return pipeline_.measure(shots_[k].pictures.frame(), shots_[k].calibration, context, *owner_.kept_);
+    const auto added = timed("Pair", k, [&]() -> Result<void> {
+      RELIEVO_TRY_ASSIGN(
+          pipeline::HeadPose pose,
+          pipeline_.measure(shots_[k].pictures.frame(), shots_[k].calibration, context, *owner_.kept_));
+      if (k == 0) owner_.report_.drift = pose.drift;
+      if (refused(pose.drift)) return error_of(pose.drift);
+      poses.push_back(std::move(pose));
+      return k == 0 ? Result<void>() : pipeline_.place_last(*face, poses, context);
     });
-    if (!pose) return placed(pose.error(), k);
-    poses[k] = *std::move(pose);
-    if (k == 0) owner_.report_.drift = poses[k].drift;
-    if (refused(poses[k].drift)) return placed(error_of(poses[k].drift), k);
+    if (!added) return placed(added.error(), k);
   }
-  auto face = timed(
-      "Face", 0, [&] { return pipeline_.face(shots_[0].pictures.frame(), shots_[0].calibration, context); });
-  if (!face) return placed(face.error(), 0);
   auto head = timed("Fuse", shots_.size(), [&] { return pipeline_.fuse(*face, poses, context); });
   if (!head) return head.error();
   owner_.head_.emplace(*std::move(head));

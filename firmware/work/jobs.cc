@@ -76,9 +76,7 @@ Result<void> HeadJob::measure(const pipeline::StereoFrame& pair, JobControl& con
   kept.reset();  // of a pose that came to nothing
   return timed("Pose", control, [&](pipeline::StageContext& context, StageRecord& record) -> Result<void> {
     const Arena::Mark mark(session_.output());
-    RELIEVO_TRY_ASSIGN(pipeline::HeadPose pose, runner_.measure_pose(pair, context, kept));
-    if (pose.drift.verdict == pipeline::DriftVerdict::Refuse) return error_of(pose.drift);
-    poses.push_back(std::move(pose));
+    RELIEVO_TRY(runner_.add_pose(pair, *session_.products().model, poses, context, kept));
     record.in = poses.size();
     return {};
   });

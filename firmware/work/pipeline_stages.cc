@@ -28,11 +28,17 @@ bool may_be_the_pictures(Errc code) {
 
 }  // namespace
 
-Result<pipeline::HeadPose> PipelineStages::measure_pose(const pipeline::StereoFrame& pair,
-                                                        pipeline::StageContext& context, Arena& kept) {
+Result<void> PipelineStages::add_pose(const pipeline::StereoFrame& pair, const pipeline::FaceModel& face,
+                                      std::vector<pipeline::HeadPose>& poses, pipeline::StageContext& context,
+                                      Arena& kept) {
   if (!pipeline_) return uncalibrated();
   RELIEVO_TRY_ASSIGN(const auto head, pipeline::HeadPipeline::make(set_));
-  return head.measure(pair, pipeline_->calibration(), context, kept);
+  RELIEVO_TRY_ASSIGN(pipeline::HeadPose pose, head.measure(pair, pipeline_->calibration(), context, kept));
+  if (pose.drift.verdict == pipeline::DriftVerdict::Refuse) return error_of(pose.drift);
+  poses.push_back(std::move(pose));
+  const Result<void> placed = head.place_last(face, poses, context);
+  if (!placed) poses.pop_back();
+  return placed;
 }
 
 Result<pipeline::FusedHead> PipelineStages::fuse(const pipeline::FaceModel& face,

@@ -49,8 +49,9 @@ class PipelineStages final : public StageRunner {
   void add_by_hand(std::vector<pipeline::Match> matches) { by_hand_ = std::move(matches); }
   Result<void> run(State stage, Products& products, pipeline::StageContext& context,
                    StageRecord& record) override;
-  Result<pipeline::HeadPose> measure_pose(const pipeline::StereoFrame& pair, pipeline::StageContext& context,
-                                          Arena& kept) override;
+  Result<void> add_pose(const pipeline::StereoFrame& pair, const pipeline::FaceModel& face,
+                        std::vector<pipeline::HeadPose>& poses, pipeline::StageContext& context,
+                        Arena& kept) override;
   Result<pipeline::FusedHead> fuse(const pipeline::FaceModel& face, std::span<pipeline::HeadPose> poses,
                                    pipeline::StageContext& context) override;
 

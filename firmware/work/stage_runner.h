@@ -10,6 +10,7 @@
 #include <cstddef>
 #include <cstdint>
 #include <string_view>
+#include <vector>
 
 #include "firmware/machine/machine.h"
 #include "firmware/session/session.h"
@@ -34,10 +35,11 @@ class StageRunner {
   // Fills in and out of the record.
   virtual Result<void> run(State stage, Products& products, pipeline::StageContext& context,
                            StageRecord& record) = 0;
-  // Of a head that turned: one of its pairs, kept in `kept`; and the head of all pairs, the front's first,
-  // with the face of that (pipeline/fuse/head_pipeline.h).
-  virtual Result<pipeline::HeadPose> measure_pose(const pipeline::StereoFrame& pair,
-                                                  pipeline::StageContext& context, Arena& kept) = 0;
+  // Of a head that turned: adds one of its pairs, the front's first, whose face is given; what it shows is
+  // kept in `kept`. And the head of all pairs (pipeline/fuse/head_pipeline.h).
+  virtual Result<void> add_pose(const pipeline::StereoFrame& pair, const pipeline::FaceModel& face,
+                                std::vector<pipeline::HeadPose>& poses, pipeline::StageContext& context,
+                                Arena& kept) = 0;
   virtual Result<pipeline::FusedHead> fuse(const pipeline::FaceModel& face,
                                            std::span<pipeline::HeadPose> poses,
                                            pipeline::StageContext& context) = 0;

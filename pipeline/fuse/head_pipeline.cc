@@ -29,6 +29,30 @@ void keep_photographs(const RectifiedPair& pair, HeadPose& pose) {
   pose.right_rgb.assign(pair.right.rgb.begin(), pair.right.rgb.end());
 }
 
+// The poses' surfaces side by side, until they are given back.
+class Surfaces {
+ public:
+  Surfaces(std::span<HeadPose> poses, const FaceModel& face, std::pmr::memory_resource* memory)
+      : poses_(poses), list_(memory) {
+    for (HeadPose& pose : poses) list_.push_back(std::move(pose.surface));
+    list_[0].head_from_camera = face.head_from_camera;
+    list_[0].has_head = of(face.landmarks, LandmarkName::Pronasale).found;
+  }
+  ~Surfaces() { give_back(); }
+  Surfaces(const Surfaces&) = delete;
+  Surfaces& operator=(const Surfaces&) = delete;
+
+  std::span<PoseSurface> list() { return list_; }
+  void give_back() {
+    for (std::size_t k = 0; k < list_.size(); ++k) poses_[k].surface = std::move(list_[k]);
+    list_.clear();
+  }
+
+ private:
+  std::span<HeadPose> poses_;
+  std::pmr::vector<PoseSurface> list_;
+};
+
 // Both cameras of every pose, the master's first.
 std::pmr::vector<HeadView> views_of(std::span<const HeadPose> poses, const Registration& registration,
                                     std::pmr::memory_resource* memory) {
@@ -101,20 +125,27 @@ Result<HeadPose> HeadPipeline::measure(const StereoFrame& frame, const StereoCal
   return pose;
 }
 
+Result<void> HeadPipeline::place_last(const FaceModel& face, std::span<HeadPose> poses,
+                                      StageContext& context) const {
+  return run_stage(context, [&](StageContext& c) -> Result<void> {
+    Surfaces surfaces(poses, face, &c.scratch);
+    place_last_pose(surfaces.list(), c);
+    return {};
+  });
+}
+
 Result<FusedHead> HeadPipeline::fuse(const FaceModel& face, std::span<HeadPose> poses,
                                      StageContext& context) const {
   if (poses.size() > std::size_t(kMostPoses))
     return Error{Errc::InvalidInput, "at most seven pairs make a head"};
-  std::pmr::vector<PoseSurface> surfaces(&context.output);
-  for (HeadPose& pose : poses) surfaces.push_back(std::move(pose.surface));
-  surfaces[0].head_from_camera = face.head_from_camera;
-  surfaces[0].has_head = of(face.landmarks, LandmarkName::Pronasale).found;
+  Surfaces surfaces(poses, face, &context.output);
   RELIEVO_TRY_ASSIGN(Registration registration,
-                     run_stage(context, [&](StageContext& c) { return register_poses(surfaces, c); }));
+                     run_stage(context, [&](StageContext& c) { return register_poses(surfaces.list(), c); }));
   RELIEVO_TRY_ASSIGN(FaceMesh mesh, run_stage(context, [&](StageContext& c) {
-                       return HeadFuser(fuser_).fuse(surfaces, registration, face.mesh, face.landmarks, c);
+                       return HeadFuser(fuser_).fuse(surfaces.list(), registration, face.mesh, face.landmarks,
+                                                     c);
                      }));
-  for (std::size_t k = 0; k < poses.size(); ++k) poses[k].surface = std::move(surfaces[k]);
+  surfaces.give_back();
   Aliveness aliveness;
   RELIEVO_TRY_ASSIGN(TextureAtlas atlas, run_stage(context, [&](StageContext& c) {
                        const auto views = views_of(poses, registration, &c.scratch);

@@ -53,6 +53,9 @@ class HeadPipeline {
   // Of the master pair alone, without texture. The stages' errors.
   Result<FaceModel> face(const StereoFrame& frame, const StereoCalibration& calibration,
                          StageContext& context) const;
+  // Lays the last pose onto those before it, the master's first, so that `fuse` has less to do. To be called
+  // after each but the first, or not at all: the head is the same.
+  Result<void> place_last(const FaceModel& face, std::span<HeadPose> poses, StageContext& context) const;
   // `poses`: the master's first, whose face it is; they are bent. Where its eyes were not alive the model is
   // `unjudged`, unless nobody asked (relief=off). Errors: InvalidInput (a face without its
   // tip of the nose), PoorGeometry (a pair that meets none of the others, named by its number), Cancelled,

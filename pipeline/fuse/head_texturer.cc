@@ -9,6 +9,7 @@
 #include <vector>
 
 #include "pipeline/fuse/level_grid.h"
+#include "pipeline/fuse/pose_registration.h"
 #include "pipeline/mesh/triangle_raster.h"
 #include "pipeline/model/photo_sampler.h"
 #include "pipeline/model/vector3.h"
@@ -26,8 +27,14 @@ constexpr int kFadeEdges = 8;                // ... over so many edges
 constexpr float kOthersOnCompleted = 0.05F;  // say of other poses where the master completed what it saw
 constexpr float kMasterLevel = 20;           // the others are brought to the master's level
 constexpr float kMasterFirst = 1.8F;         // the master's say before others that look as straight
-constexpr float kWinner = 12;                // power of what a view's say is to the best one's
 constexpr float kBorderPx = 3;
+constexpr std::size_t kMostViews = 2 * kMostPoses;
+
+// By how much the best view wins: the twelfth power of a view's say to the best one's.
+float winning(float share) {
+  const float third = share * share * share;
+  return third * third * third * third;
+}
 
 class Texturing {
  public:
@@ -136,9 +143,8 @@ class Texturing {
     for (std::size_t v = 0; v < vertices_; ++v) say(v, i) *= share[v];
   }
 
-  VertexColour read(std::size_t view, const Vec3f& place) const {
+  VertexColour read(std::size_t view, const Pixel& p) const {
     const HeadView& v = views_[view];
-    const Pixel p = project(v, place);
     VertexColour rgb{};
     const float x = std::clamp(p.x, 0.0F, float(v.width_px - 1) - 1e-3F),
                 y = std::clamp(p.y, 0.0F, float(v.height_px - 1) - 1e-3F);
@@ -151,11 +157,12 @@ class Texturing {
       for (std::size_t c = 0; c < 3; ++c) rgb[c] = float(v.rgb[3 * k + c]);
       return rgb;
     }
+    std::array<float, 12> columns{};
     for (std::size_t r = 0; r < 4; ++r) {
       const std::uint8_t* row = &v.rgb[3 * (k + r * w - w - 1)];
-      for (std::size_t q = 0; q < 4; ++q)
-        for (std::size_t c = 0; c < 3; ++c) rgb[c] += wy[r] * wx[q] * float(row[3 * q + c]);
+      for (std::size_t j = 0; j < columns.size(); ++j) columns[j] += wy[r] * float(row[j]);
     }
+    for (std::size_t j = 0; j < columns.size(); ++j) rgb[j % 3] += wx[j / 3] * columns[j];
     return rgb;
   }
 
@@ -174,7 +181,7 @@ class Texturing {
       for (std::size_t i = 0; i < views_.size(); ++i) {
         if (say(v, i) <= 0) continue;
         const float w = say(v, i) * (views_[i].master ? kMasterLevel : 1);
-        level_[i * vertices_ + v] = read(i, mesh_.vertices_mm[v]);
+        level_[i * vertices_ + v] = read(i, project(views_[i], mesh_.vertices_mm[v]));
         for (std::size_t c = 0; c < 3; ++c) mean[v][c] += w * level_[i * vertices_ + v][c];
         weight[v] += w;
       }
@@ -236,25 +243,30 @@ class Texturing {
     const auto& t = mesh_.triangles[sides_.triangles[s]];
     if (!seen_whole(t)) return;
     // Views that see all of it; where none does, those that see a corner.
-    std::array<std::size_t, 16> list{};
+    std::array<std::size_t, kMostViews> list{};
+    std::array<std::array<Pixel, 3>, kMostViews> corners;
     std::size_t count = 0;
     for (const bool all : {true, false}) {
-      for (std::size_t i = 0; i < views_.size() && count < list.size(); ++i) {
+      for (std::size_t i = 0; i < views_.size(); ++i) {
         const float a = say(t[0], i), b = say(t[1], i), c = say(t[2], i);
         if (all ? a > 0 && b > 0 && c > 0 : a > 0 || b > 0 || c > 0) list[count++] = i;
       }
       if (count > 0) break;
     }
+    for (const std::size_t i : std::span(list.data(), count))
+      for (std::size_t k = 0; k < 3; ++k) corners[i][k] = project(views_[i], mesh_.vertices_mm[t[k]]);
     for_each_texel(sides_.corner[3 * s], sides_.corner[3 * s + 1], sides_.corner[3 * s + 2], atlas_.width_px,
                    rows, [&](int x, int y, float a, float b, float c) {
-                     const Vec3f place =
-                         plus(plus(times(mesh_.vertices_mm[t[0]], a), times(mesh_.vertices_mm[t[1]], b)),
-                              times(mesh_.vertices_mm[t[2]], c));
+                     // So small a triangle is seen as if from far away.
+                     const auto pixel = [&](std::size_t i) {
+                       const auto& [p, q, r] = corners[i];
+                       return Pixel{a * p.x + b * q.x + c * r.x, a * p.y + b * q.y + c * r.y, 1};
+                     };
                      const auto mean = [&](std::size_t i) {
                        return a * say(t[0], i) + b * say(t[1], i) + c * say(t[2], i);
                      };
                      const Blend blend =
-                         mix(std::span(list.data(), count), mean, place, [&](std::size_t i, std::size_t k) {
+                         mix(std::span(list.data(), count), mean, pixel, [&](std::size_t i, std::size_t k) {
                            return a * level(t[0], i)[k] + b * level(t[1], i)[k] + c * level(t[2], i)[k];
                          });
                      const std::size_t at = std::size_t(y) * std::size_t(atlas_.width_px) + std::size_t(x);
@@ -267,17 +279,17 @@ class Texturing {
     VertexColour rgb{};
     float right = 0;
   };
-  template <typename Say, typename Level>
-  Blend mix(std::span<const std::size_t> list, Say&& say_of, const Vec3f& place, Level&& level_of) const {
+  template <typename Say, typename At, typename Level>
+  Blend mix(std::span<const std::size_t> list, Say&& say_of, At&& pixel_of, Level&& level_of) const {
     float best = 1e-9F;
     for (const std::size_t i : list) best = std::max(best, say_of(i));
     Blend blend;
     float weight = 0;
     for (const std::size_t i : list) {
-      const float w = std::pow(std::max(say_of(i), 0.0F) / best, kWinner);
+      const float w = winning(std::max(say_of(i), 0.0F) / best);
       constexpr float kNothing = 0.01F;
       if (w < kNothing) continue;
-      const VertexColour rgb = read(i, place);
+      const VertexColour rgb = read(i, pixel_of(i));
       for (std::size_t k = 0; k < 3; ++k) blend.rgb[k] += w * (rgb[k] + level_of(i, k));
       blend.right += views_[i].right ? w : 0;
       weight += w;
@@ -288,12 +300,13 @@ class Texturing {
   }
 
   VertexColour blend_at(std::size_t v) const {
-    std::array<std::size_t, 16> list{};
+    std::array<std::size_t, kMostViews> list{};
     std::size_t count = 0;
-    for (std::size_t i = 0; i < views_.size() && count < list.size(); ++i)
+    for (std::size_t i = 0; i < views_.size(); ++i)
       if (say(v, i) > 0) list[count++] = i;
+    const auto pixel = [&](std::size_t i) { return project(views_[i], mesh_.vertices_mm[v]); };
     return mix(
-               std::span(list.data(), count), [&](std::size_t i) { return say(v, i); }, mesh_.vertices_mm[v],
+               std::span(list.data(), count), [&](std::size_t i) { return say(v, i); }, pixel,
                [&](std::size_t i, std::size_t k) { return level(v, i)[k]; })
         .rgb;
   }
@@ -330,8 +343,8 @@ class Texturing {
 
 Result<TextureAtlas> texture_head(const FaceMesh& mesh, std::span<const HeadView> views, int max_atlas_px,
                                   StageContext& context) {
-  if (views.empty() || mesh.triangles.empty())
-    return Error{Errc::InvalidInput, "no photograph, or no surface"};
+  if (views.empty() || views.size() > kMostViews || mesh.triangles.empty())
+    return Error{Errc::InvalidInput, "no photograph, too many, or no surface"};
   return Texturing(mesh, views, context).run(max_atlas_px);
 }
 

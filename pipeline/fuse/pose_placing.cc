@@ -58,20 +58,23 @@ class Placer {
         context_(context),
         known_(poses.size(), 0, &context.scratch) {
     known_[0] = 1;
+    for (std::size_t p = 1; p < poses.size(); ++p)
+      if (const auto& laid = poses[p].first_from_pose) {
+        placed[p].first_from_pose = *laid;
+        known_[p] = 1;
+      }
   }
 
   Result<void> place_all() {
     std::pmr::vector<std::size_t> left(&context_.scratch);
-    for (std::size_t p = 1; p < poses_.size(); ++p) left.push_back(p);
+    for (std::size_t p = 1; p < poses_.size(); ++p)
+      if (known_[p] == 0) left.push_back(p);
     for (const bool anywhere : {false, true})
       for (bool more = true; more;) {
         more = false;
         for (std::size_t i = 0; i < left.size(); ++i) {
           if (context_.stop()) return registration_stopped();
-          const Laid laid = anywhere ? lay_from_anywhere(left[i]) : lay_from_head(left[i]);
-          if (laid.count < kFewestMet || laid.share < (anywhere ? kMetShare : kWellMetShare)) continue;
-          placed_[left[i]].first_from_pose = laid.placed;
-          known_[left[i]] = 1;
+          if (!place(left[i], anywhere)) continue;
           left.erase(left.begin() + std::ptrdiff_t(i--));
           more = true;
         }
@@ -81,6 +84,15 @@ class Placer {
       placed_[p].joined = false;
     }
     return {};
+  }
+
+  // Onto the known ones; false where that leads nowhere.
+  bool place(std::size_t p, bool anywhere) {
+    const Laid laid = anywhere ? lay_from_anywhere(p) : lay_from_head(p);
+    if (laid.count < kFewestMet || laid.share < (anywhere ? kMetShare : kWellMetShare)) return false;
+    placed_[p].first_from_pose = laid.placed;
+    known_[p] = 1;
+    return true;
   }
 
  private:
@@ -209,6 +221,14 @@ class Placer {
 Result<void> place_poses(std::span<const PoseSurface> poses, std::span<RegisteredPose> placed,
                          PoseResiduals& residuals, StageContext& context) {
   return Placer(poses, placed, residuals, context).place_all();
+}
+
+void place_last_pose(std::span<PoseSurface> poses, StageContext& context) {
+  if (poses.size() < 2 || !poses[0].has_head) return;
+  std::pmr::vector<RegisteredPose> placed(poses.size(), &context.scratch);
+  PoseResiduals residuals(poses, placed, context);
+  if (Placer(poses, placed, residuals, context).place(poses.size() - 1, false))
+    poses.back().first_from_pose = placed.back().first_from_pose;
 }
 
 }  // namespace relievo::pipeline

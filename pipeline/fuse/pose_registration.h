@@ -62,6 +62,9 @@ struct Registration {
 // out: `joined` is false, and its surface is trusted nowhere. Memory: the result in `output`. Errors:
 // InvalidInput (the first has no head frame), PoorGeometry (all others are left out: names the first of
 // them), Cancelled. Throws std::bad_alloc. Thread: any.
+// `place_last_pose` does a part of it before all poses are there: lays the last of these onto those before
+// it, if its own head frame leads there. Memory: scratch.
+void place_last_pose(std::span<PoseSurface> poses, StageContext& context);
 Result<Registration> register_poses(std::span<PoseSurface> poses, StageContext& context);
 
 }  // namespace relievo::pipeline

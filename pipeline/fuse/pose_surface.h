@@ -43,7 +43,8 @@ struct PoseSurface {
   std::pmr::vector<float> sigma_mm;  // perpendicular to the surface
   std::pmr::vector<float> trust;     // 0: nothing was measured there
   RigidTransform head_from_camera;
-  bool has_head = false;  // whether a head frame was found
+  bool has_head = false;                          // whether a head frame was found
+  std::optional<RigidTransform> first_from_pose;  // where it was laid onto the poses before it, if it was
 
   // None where nothing was measured, or the surface is torn there.
   std::optional<SurfaceHit> look(const Vec3f& place_mm) const;

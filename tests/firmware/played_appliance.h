@@ -46,15 +46,17 @@ class TestStages final : public StageRunner {
   std::deque<Errc> pose_errors;  // of the front and the sides, in their order
   std::atomic<int> measured{0};
   std::optional<Errc> fuse_error;
-  Result<pipeline::HeadPose> measure_pose(const pipeline::StereoFrame&, pipeline::StageContext&,
-                                          Arena& kept) override {
+  Result<void> add_pose(const pipeline::StereoFrame&, const pipeline::FaceModel&,
+                        std::vector<pipeline::HeadPose>& poses, pipeline::StageContext&,
+                        Arena& kept) override {
     ++measured;
     if (!pose_errors.empty()) {
       const Errc code = pose_errors.front();
       pose_errors.pop_front();
       if (code != Errc::Cancelled) return Error{code, "as the test says"};
     }
-    return pipeline::HeadPose(&kept);
+    poses.emplace_back(&kept);
+    return {};
   }
   Result<pipeline::FusedHead> fuse(const pipeline::FaceModel&, std::span<pipeline::HeadPose> poses,
                                    pipeline::StageContext& context) override {

@@ -45,8 +45,8 @@ class Refusing final : public firmware::StageRunner {
     if (products.frame && !products.frame->left.empty()) ++captures;
     return Error{Errc::TooFewMatches, "as the soak says"};
   }
-  Result<pipeline::HeadPose> measure_pose(const pipeline::StereoFrame&, pipeline::StageContext&,
-                                          Arena&) override {
+  Result<void> add_pose(const pipeline::StereoFrame&, const pipeline::FaceModel&,
+                        std::vector<pipeline::HeadPose>&, pipeline::StageContext&, Arena&) override {
     return Error{Errc::Unsupported, "no sides here"};
   }
   Result<pipeline::FusedHead> fuse(const pipeline::FaceModel&, std::span<pipeline::HeadPose>,

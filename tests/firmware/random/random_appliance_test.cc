@@ -54,10 +54,12 @@ class LuckyStages final : public StageRunner {
     if (stage == State::Assemble) products.model.emplace(&context.output);
     return {};
   }
-  Result<pipeline::HeadPose> measure_pose(const pipeline::StereoFrame&, pipeline::StageContext&,
-                                          Arena& kept) override {
+  Result<void> add_pose(const pipeline::StereoFrame&, const pipeline::FaceModel&,
+                        std::vector<pipeline::HeadPose>& poses, pipeline::StageContext&,
+                        Arena& kept) override {
     if (const auto error = luck_.pose.exchange(std::nullopt)) return Error{*error, "as chance says"};
-    return pipeline::HeadPose(&kept);
+    poses.emplace_back(&kept);
+    return {};
   }
   Result<pipeline::FusedHead> fuse(const pipeline::FaceModel&, std::span<pipeline::HeadPose>,
                                    pipeline::StageContext& context) override {

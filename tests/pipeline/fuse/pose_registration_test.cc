@@ -7,6 +7,8 @@
 #include <algorithm>
 #include <cmath>
 #include <numbers>
+#include <span>
+#include <vector>
 
 #include "pipeline/fuse/pose_residuals.h"
 #include "pipeline/fuse/skin_bender.h"
@@ -71,6 +73,34 @@ TEST_F(Poses, AreFoundFromAWrongStart) {
   for (const auto& [k, yaw] : {std::pair<std::size_t, double>{1, -25}, {2, 25}, {3, 45}})
     EXPECT_LT(degrees_off(found->poses[k], yaw), 0.02) << yaw;
   EXPECT_EQ(found->poses[0].first_from_pose.translation_mm.x, 0);
+}
+
+TEST_F(Poses, AreTheSameWherePartOfTheWorkWasDoneBefore) {
+  show({{0, 0}, {-25, 0.8}, {25, -0.8}, {45, 0}});
+  poses_[3].has_head = false;  // must wait for the others
+  const auto at_once = registered();
+  ASSERT_TRUE(at_once) << at_once.error().what.view();
+  const auto places = [](const Registration& r) {
+    std::vector<double> all;
+    for (const RegisteredPose& p : r.poses) {
+      for (const double x : p.first_from_pose.rotation.m) all.push_back(x);
+      for (const double x : {p.first_from_pose.translation_mm.x, p.first_from_pose.translation_mm.y})
+        all.push_back(x);
+    }
+    return all;
+  };
+  const std::vector<double> expected = places(*at_once);
+  for (std::size_t count = 2; count <= poses_.size(); ++count)
+    ASSERT_TRUE(room_.run([&](StageContext& c) -> Result<void> {
+      place_last_pose(std::span(poses_).first(count), c);
+      return {};
+    }));
+  ASSERT_TRUE(poses_[1].first_from_pose && poses_[2].first_from_pose);
+  EXPECT_FALSE(poses_[3].first_from_pose);
+  EXPECT_LT(degrees_off({*poses_[1].first_from_pose}, -25), 1);
+  const auto later = registered();
+  ASSERT_TRUE(later) << later.error().what.view();
+  EXPECT_EQ(places(*later), expected);
 }
 
 // All it works with is in the plan: 1 MB a pose came from the heap once.
