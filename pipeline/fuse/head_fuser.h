@@ -27,7 +27,7 @@ namespace relievo::pipeline {
 struct HeadFuserOptions {
   double voxel_mm = 0.8;
   double most_bend_mm = 1.5;
-  double bend_width_mm = 8;  // sigma of its smoothing
+  double bend_width_mm = 6;  // sigma of its smoothing
   double still_mm = 0.05;    // less than this is noise
   double neck_mm = 112;      // below the tip of the nose
 

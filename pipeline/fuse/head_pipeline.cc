@@ -34,7 +34,12 @@ class Surfaces {
  public:
   Surfaces(std::span<HeadPose> poses, const FaceModel& face, std::pmr::memory_resource* memory)
       : poses_(poses), list_(memory) {
-    for (HeadPose& pose : poses) list_.push_back(std::move(pose.surface));
+    for (HeadPose& pose : poses) {
+      list_.push_back(std::move(pose.surface));
+      list_.back().photo_rgb = pose.left_rgb;
+      list_.back().photo_width_px = pose.width_px;
+      list_.back().photo_height_px = pose.height_px;
+    }
     list_[0].head_from_camera = face.head_from_camera;
     list_[0].has_head = of(face.landmarks, LandmarkName::Pronasale).found;
   }

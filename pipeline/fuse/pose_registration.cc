@@ -13,6 +13,7 @@
 
 #include "hal/base/statistics.h"
 #include "pipeline/fuse/pose_residuals.h"
+#include "pipeline/fuse/skin_slide.h"
 
 namespace relievo::pipeline {
 namespace {
@@ -32,6 +33,7 @@ constexpr std::array<RegistrationRound, 5> kRounds{{{12, 6, 8, kFewSamples},
                                                     {2, 0.25, 8, kFewSamples},
                                                     {1.5, 0.12, 8, kFewSamples}}};
 constexpr RegistrationRound kLast{1.5, 0.08, 20};
+constexpr double kSkinSamples = 2'500, kSlideSigmaMm = 0.1;
 constexpr double kSlow = 0.5, kSlowest = 0.9;  // of a step, to the one before
 constexpr int kSkinTimes = 100;                // at most; each costs a thousandth of a look at the surfaces
 
@@ -67,6 +69,9 @@ class JointSolver {
       for (int k = 0; k < round.times && move(round) > round.still(); ++k)
         if (context_.stop()) return registration_stopped();
     residuals_.skin().watch();
+    SharedArena memory(context_.scratch);
+    const auto found = find_same_skin(memory);
+    same_skin_ = found;
     for (int k = 0; k < kLast.times; ++k) {
       if (context_.stop()) return registration_stopped();
       if (settle() <= kStillMm) break;
@@ -131,6 +136,56 @@ class JointSolver {
     }
   }
 
+  // A place of skin as two poses show it, a < b, each in its own frame, and two directions along it.
+  struct SkinMatch {
+    std::size_t patch, a, b;
+    Vec3d in_a, in_b;
+    std::array<Vec3d, 2> along;  // first pose's frame
+  };
+
+  std::pmr::vector<SkinMatch> find_same_skin(SharedArena& memory) const {
+    std::pmr::vector<std::pmr::vector<SkinMatch>> parts(placed_.size() * kParts, &memory);
+    const Vec3d head_up = apply(transposed(residuals_.surface(0).head_from_camera.rotation), Vec3d{0, 1, 0});
+    residuals_.for_each_part(parts.size(), [&](std::size_t i) {
+      const std::size_t a = i / kParts;
+      const PoseSurface& surface = residuals_.surface(a);
+      const RigidTransform& placed = placed_[a].first_from_pose;
+      const auto look = [&](std::size_t node, const Vec3d& normal, double, const PoseResidual& res) {
+        const Vec3d place = wide(surface.at_mm[node]);
+        if (!shows_skin(surface, place) || context_.stop()) return;
+        const Vec3d up = unit(minus(head_up, times(normal, dot(head_up, normal)))), right = cross(up, normal);
+        const std::array<Vec3d, 2> along{apply(transposed(placed.rotation), right),
+                                         apply(transposed(placed.rotation), up)};
+        for (std::size_t b = a + 1; b < placed_.size(); ++b) {
+          const RigidTransform b_from_a = product(inverse(placed_[b].first_from_pose), placed);
+          if (const auto there = same_skin(surface, place, along, residuals_.surface(b), b_from_a))
+            parts[i].push_back({res.patch, a, b, place, *there, {right, up}});
+        }
+      };
+      residuals_.for_each_sample(a, kSkinSamples, look, i % kParts, kParts);
+    });
+    std::pmr::vector<SkinMatch> all(&memory);
+    for (const auto& part : parts) all.insert(all.end(), part.begin(), part.end());
+    return all;
+  }
+
+  template <typename Visit>
+  void for_each_slide(Visit&& visit) const {
+    for (const SkinMatch& m : same_skin_) {
+      const Vec3d at = apply(placed_[m.a].first_from_pose, m.in_a),
+                  other = apply(placed_[m.b].first_from_pose, m.in_b);
+      for (std::size_t k = 0; k < 2; ++k) {
+        PoseResidual r{};
+        r.value = dot(m.along[k], minus(at, other));
+        r.weight = 1 / (kSlideSigmaMm * kSlideSigmaMm);
+        const Vec3d turn = cross(minus(at, residuals_.pivot()), m.along[k]);
+        r.toward << turn.x, turn.y, turn.z, m.along[k].x, m.along[k].y, m.along[k].z;
+        r.patch = SkinPatches::sliding(m.patch, k);
+        visit(m.a, m.b, r);
+      }
+    }
+  }
+
   // What the samples in one patch say between two poses about small motions of `a` against `b`, a < b.
   struct PatchTerms {
     std::size_t patch = 0, a = 0, b = 0;
@@ -175,6 +230,9 @@ class JointSolver {
         const auto [its, added] = all.try_emplace({t.patch, t.a, t.b}, t);
         if (!added) its->second.add(t);
       }
+    for_each_slide([&](std::size_t a, std::size_t b, const PoseResidual& r) {
+      all.try_emplace({r.patch, a, b}, PatchTerms{.patch = r.patch, .a = a, .b = b}).first->second.add(r, 1);
+    });
     std::pmr::vector<PatchTerms> list(&memory);
     for (const auto& [key, terms] : all) list.push_back(terms);
     return list;
@@ -195,12 +253,12 @@ class JointSolver {
       };
       for (std::size_t i = 0; i < terms.size(); ++i)
         means[i].mm = (terms[i].sum + terms[i].toward.dot(motion(terms[i]))) / terms[i].weight;
-      const double usual_mm = SkinPatches::usual_mm(means, memory);
+      const SkinPatches::Usual usual = SkinPatches::usual(means, memory);
       Square normal = kRidge * Square::Identity(unknowns_, unknowns_);
       Column right = Column::Zero(unknowns_);
       for (std::size_t i = 0; i < terms.size(); ++i) {
         const PatchTerms& t = terms[i];
-        const double say = SkinPatches::say(means[i], usual_mm);
+        const double say = SkinPatches::say(means[i], usual);
         add(normal, right, t.a, t.b, say * t.normal, say * (t.right + t.normal * motion(t)));
       }
       const Column step = normal.ldlt().solve(right);
@@ -273,6 +331,7 @@ class JointSolver {
   StageContext& context_;
   Eigen::Index unknowns_;
   Column last_;  // step of settle()
+  std::span<const SkinMatch> same_skin_;
 };
 
 }  // namespace

@@ -14,6 +14,9 @@ namespace {
 
 constexpr double kLeastScaleMm = 0.05;
 constexpr double kPatchMm = 20;
+constexpr double kLeastSlideScaleMm = 0.2;
+constexpr double kFaceMovesMore = 3;  // below the forehead and before the temples, by so much
+constexpr double kNothingMovesMm = 0.02, kMostMovesMm = 0.1;  // further off are calibrations that differ
 
 }  // namespace
 
@@ -24,46 +27,74 @@ std::size_t SkinPatches::at(const Vec3d& in_head) {
   return (cell(in_head.z + kHeadCentreMm) * kAcross + cell(in_head.y)) * kAcross + cell(in_head.x);
 }
 
+Vec3d SkinPatches::middle_of(std::size_t patch) {
+  const auto middle = [](std::size_t cell) { return (double(cell) - kAcross / 2 + 0.5) * kPatchMm; };
+  return {middle(patch % kAcross), middle(patch / kAcross % kAcross),
+          middle(patch / kAcross / kAcross) - kHeadCentreMm};
+}
+
 std::size_t SkinPatches::region_of(std::size_t patch) {
   const std::size_t x = patch % kAcross, y = patch / kAcross % kAcross, z = patch / kAcross / kAcross;
   return ((z / 2) * (kAcross / 2) + y / 2) * (kAcross / 2) + x / 2;
 }
 
-double SkinPatches::usual_mm(std::span<const PatchMean> means, std::pmr::memory_resource& memory) {
-  std::pmr::vector<double> off(&memory);
-  for (const PatchMean& m : means) off.push_back(std::abs(m.mm));
-  return off.empty() ? 0 : median(off) / 0.6745;
+SkinPatches::Usual SkinPatches::usual(std::span<const PatchMean> means, std::pmr::memory_resource& memory) {
+  const auto deviation = [&](bool sliding) {
+    std::pmr::vector<double> off(&memory);
+    for (const PatchMean& m : means)
+      if (slides(m) == sliding) off.push_back(std::abs(m.mm));
+    return off.empty() ? 0 : median(off) / 0.6745;
+  };
+  return {deviation(false), deviation(true)};
 }
 
 // One that lies off by the scale keeps a quarter of its say.
-double SkinPatches::still(double mean_mm, double usual_mm) {
-  const double scale = std::max(kLeastScaleMm, usual_mm);
-  const double kept = scale * scale / (scale * scale + mean_mm * mean_mm);
+double SkinPatches::still(double mean_mm, double scale_mm) {
+  const double kept = scale_mm * scale_mm / (scale_mm * scale_mm + mean_mm * mean_mm);
   return kept * kept;
 }
 
 // Where skin moves, a patch that was measured better says hardly more (random effects: DerSimonian, Laird
 // 1986).
 double SkinPatches::weight_of(const PatchMean& mean, double usual_mm) {
-  return mean.weight / (1 + mean.weight * usual_mm * usual_mm);
+  const Vec3d middle = middle_of(mean.patch);
+  double usual = usual_mm;
+  if (middle.z > -62 && middle.y < 52)
+    usual += kFaceMovesMore * std::clamp(usual_mm - kNothingMovesMm, 0.0, kMostMovesMm);
+  return mean.weight / (1 + mean.weight * usual * usual);
 }
 
-double SkinPatches::say(const PatchMean& mean, double usual_mm) {
-  return still(mean.mm, usual_mm) * weight_of(mean, usual_mm) / mean.weight;
+// One standard deviation while a face moves by half a millimetre. Ears and what is behind the temples hang on
+// the skull.
+double SkinPatches::usual_slide_mm(std::size_t patch) {
+  const Vec3d middle = middle_of(patch);
+  if (middle.z < -100) return 0.08;
+  if (middle.z < -70) return 0.18;
+  return middle.y > 110 ? 0.15 : 0.35;
+}
+
+double SkinPatches::say(const PatchMean& mean, const Usual& usual) {
+  if (slides(mean)) {
+    const double mm = usual_slide_mm(mean.patch % kPatches);
+    return still(mean.mm, std::max(kLeastSlideScaleMm, usual.slid_mm)) / (1 + mean.weight * mm * mm);
+  }
+  return still(mean.mm, std::max(kLeastScaleMm, usual.off_mm)) * weight_of(mean, usual.off_mm) / mean.weight;
 }
 
 void SkinPatches::take(std::span<const PatchMean> means) {
-  usual_mm_ = usual_mm(means, *say_.get_allocator().resource());
+  const Usual usually = usual(means, *say_.get_allocator().resource());
   // Not robustly, as where the skulls stand is found: what moved is part of how unsure that is.
   double squares = 0, weights = 0;
   for (const PatchMean& m : means) {
-    const double weight = weight_of(m, usual_mm_);
+    if (slides(m)) continue;
+    const double weight = weight_of(m, usually.off_mm);
     squares += weight * m.mm * m.mm;
     weights += weight;
   }
   variance_mm2_ = weights > 0 ? squares / weights / 2 : 0;
   say_.assign(kPatches * poses_ * poses_, 1.0F);
-  for (const PatchMean& m : means) say_[between(m.patch, m.a, m.b)] = float(say(m, usual_mm_));
+  for (const PatchMean& m : means)
+    if (!slides(m)) say_[between(m.patch, m.a, m.b)] = float(say(m, usually));
 }
 
 namespace {

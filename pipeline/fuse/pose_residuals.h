@@ -42,10 +42,15 @@ class SkinPatches {
   // Skin moves in regions of two patches each way.
   static std::size_t region_of(std::size_t patch);
   // How far patches lie off, one standard deviation, robustly.
-  static double usual_mm(std::span<const PatchMean> means, std::pmr::memory_resource& memory);
+  struct Usual {
+    double off_mm = 0, slid_mm = 0;  // along the normal; along the surface
+  };
+  static Usual usual(std::span<const PatchMean> means, std::pmr::memory_resource& memory);
   // What a patch counts, as a share of its weight: less where it moved, and the less the better it was
   // measured.
-  static double say(const PatchMean& mean, double usual_mm);
+  static double say(const PatchMean& mean, const Usual& usual);
+  // Numbers of the same patch where the means tell how far it slid along the surface, `k` 0 or 1.
+  static std::size_t sliding(std::size_t patch, std::size_t k) { return patch + (k + 1) * kPatches; }
 
   void watch() { take({}); }
   bool watched() const { return !say_.empty(); }
@@ -59,15 +64,18 @@ class SkinPatches {
 
  private:
   // How much a patch that lies so far off has to say, 0 to 1.
-  static double still(double mean_mm, double usual_mm);
+  static double still(double mean_mm, double scale_mm);
   static double weight_of(const PatchMean& mean, double usual_mm);
+  static bool slides(const PatchMean& mean) { return mean.patch >= kPatches; }
+  static double usual_slide_mm(std::size_t patch);
+  static Vec3d middle_of(std::size_t patch);  // head frame
   std::size_t between(std::size_t patch, std::size_t a, std::size_t b) const {
     return (patch * poses_ + std::min(a, b)) * poses_ + std::max(a, b);
   }
 
   std::size_t poses_;
   std::pmr::vector<float> say_;
-  double usual_mm_ = 0, variance_mm2_ = 0;
+  double variance_mm2_ = 0;
 };
 
 // What the samples of one pose say against the surfaces of the others: their distance along the normal, what
@@ -109,6 +117,7 @@ class PoseResiduals {
   std::size_t poses() const { return poses_.size(); }
   // Middle of the head, about which small motions turn.
   const Vec3d& pivot() const { return pivot_; }
+  const PoseSurface& surface(std::size_t pose) const { return poses_[pose]; }
   SkinPatches& skin() { return skin_; }
   // Surfaces of calibrations that differ lie off everywhere: no scale is narrower than what is usual.
   void set_usual_mm(double mm) { usual_mm_ = mm; }

@@ -19,6 +19,8 @@ constexpr float kNothingSaid = 0.002F;  // weight that pulls to no displacement,
 constexpr float kLeastSigmaMm = 0.01F;
 constexpr float kSureWeight = 400;  // of a surface with a sigma of 0.05 mm: more of it is no surer
 constexpr float kOwnErrorSigmas = 3;
+constexpr double kSkullSays = 0.3;  // weight that pulls to no displacement where skin hangs on the skull ...
+constexpr double kSkullFromMm = -50, kSkullFadesMm = 30;  // ... behind the temples: of the tip of the nose
 constexpr float kMovedSigma = 0.9F;  // what is not known of a displacement, share of its usual size around
 
 struct Field {
@@ -112,6 +114,13 @@ class Bender {
     return sum;
   }
 
+  // What hangs on the skull moves little, also where no other pose shows it.
+  float still_share(std::size_t k, std::size_t i) const {
+    const Vec3d at = apply(registration_.poses[k].first_from_pose, wide(poses_[k].at_mm[i]));
+    const double z = apply(poses_[0].head_from_camera, at).z;
+    return float(kSkullSays * std::clamp((kSkullFromMm - z) / kSkullFadesMm, 0.0, 1.0));
+  }
+
   double overlap(std::size_t k) const {
     constexpr std::size_t kEvery = 37;
     double met = 0;
@@ -137,9 +146,10 @@ class Bender {
     };
     for_each_node([&](int r, int c, std::size_t i) {
       if (pose.trust[i] <= 0 || (r + c) % 2 != 0) return;
+      const std::size_t cell = std::size_t(r / every) * std::size_t(field.columns) + std::size_t(c / every);
+      field.weight[cell] += pose.trust[i] * still_share(k, i);
       const Gap g = gap(k, i);
       if (g.weight <= 0) return;
-      const std::size_t cell = std::size_t(r / every) * std::size_t(field.columns) + std::size_t(c / every);
       const float w = pose.trust[i] * std::min(1.0F, g.weight / kSureWeight);
       field.sum[cell] += w * g.distance;
       field.weight[cell] += w;

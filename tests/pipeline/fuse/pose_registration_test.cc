@@ -139,7 +139,7 @@ TEST_F(Poses, AreNotTurnedByALowerFaceThatMoved) {
 
 TEST(Skin, SaysAlikeHoweverWellItWasMeasuredWhereItMoves) {
   const auto counts = [](double weight, double mm, double usual_mm) {
-    return weight * SkinPatches::say({0, 0, 1, mm, weight}, usual_mm);
+    return weight * SkinPatches::say({0, 0, 1, mm, weight}, {usual_mm});
   };
   EXPECT_NEAR(counts(4e4, 0, 0) / counts(2e3, 0, 0), 20, 1e-9) << "skin that stands still: as measured";
   EXPECT_LT(counts(4e4, 0, 0.06) / counts(2e3, 0, 0.06), 1.2);
