@@ -240,7 +240,9 @@ Result<FaceMesh> HeadFuser::fuse(std::span<PoseSurface> poses, const Registratio
   RELIEVO_TRY(check_options(options_, "averaged"));
   const HeadZones zones(landmarks, poses[0].head_from_camera, options_.neck_mm);
   drop_hair(poses, registration, zones);
-  bend_to_master(poses, registration, {options_.most_bend_mm, options_.bend_width_mm, options_.still_mm},
+  const bool calibrations_differ = disagree(registration);
+  bend_to_master(poses, registration,
+                 {options_.most_bend_mm, options_.bend_width_mm, options_.still_mm, !calibrations_differ},
                  context);
   // Wider than for registration, and after hair and what moved too far went: no step where a surface ends.
   for (PoseSurface& pose : poses) fade_to_edges(pose, kEdgeNodes, &context.scratch);
@@ -265,7 +267,7 @@ Result<FaceMesh> HeadFuser::fuse(std::span<PoseSurface> poses, const Registratio
   surface.place(own);
   if (!surface.trim_rims(own)) return no_surface();
   if (context.stop()) return stopped;
-  surface.lay_anew(disagree(registration));
+  surface.lay_anew(calibrations_differ);
   return surface.packed();
 }
 

@@ -114,8 +114,7 @@ class Bender {
     return sum;
   }
 
-  // What hangs on the skull moves little, also where no other pose shows it.
-  float still_share(std::size_t k, std::size_t i) const {
+  float skull_share(std::size_t k, std::size_t i) const {
     const Vec3d at = apply(registration_.poses[k].first_from_pose, wide(poses_[k].at_mm[i]));
     const double z = apply(poses_[0].head_from_camera, at).z;
     return float(kSkullSays * std::clamp((kSkullFromMm - z) / kSkullFadesMm, 0.0, 1.0));
@@ -147,9 +146,11 @@ class Bender {
     for_each_node([&](int r, int c, std::size_t i) {
       if (pose.trust[i] <= 0 || (r + c) % 2 != 0) return;
       const std::size_t cell = std::size_t(r / every) * std::size_t(field.columns) + std::size_t(c / every);
-      field.weight[cell] += pose.trust[i] * still_share(k, i);
       const Gap g = gap(k, i);
-      if (g.weight <= 0) return;
+      if (g.weight <= 0) {
+        if (limits_.skull_stays) field.weight[cell] += pose.trust[i] * skull_share(k, i);
+        return;
+      }
       const float w = pose.trust[i] * std::min(1.0F, g.weight / kSureWeight);
       field.sum[cell] += w * g.distance;
       field.weight[cell] += w;

@@ -15,6 +15,9 @@ struct BendLimits {
   double most_mm = 0;   // skin that would have to move further is not shown by that pose
   double width_mm = 0;  // sigma of the Gaussian that smooths the displacement
   double still_mm = 0;  // below this it is not bent
+  // Where no other pose shows it, what hangs on the skull is not bent as the face beside it: not so where
+  // calibrations differ.
+  bool skull_stays = false;
 };
 
 // In the order in which they overlap what was fixed before them; the first never moves. Where a pose was bent
