@@ -15,8 +15,8 @@ namespace {
 constexpr double kLeastScaleMm = 0.05;
 constexpr double kPatchMm = 20;
 constexpr double kLeastSlideScaleMm = 0.2;
-constexpr double kFaceMovesMore = 3;  // by so much: beyond noise, and below what calibrations that differ do
-constexpr double kNothingMovesMm = 0.02, kCalibrationsDifferMm = 0.15;
+constexpr double kFaceMovesMore = 3;  // by so much, beyond noise
+constexpr double kNothingMovesMm = 0.02, kMostMovesMm = 0.1, kCalibrationsDifferMm = 0.15;
 
 }  // namespace
 
@@ -54,37 +54,37 @@ double SkinPatches::still(double mean_mm, double scale_mm) {
   return kept * kept;
 }
 
-// Below the forehead and before the temples: there a face moves more than elsewhere, and its skin slides. Not
-// where all of it lies off: then calibrations differ.
-bool SkinPatches::is_moving_face(std::size_t patch, const Usual& usual) {
+// Below the forehead and before the temples.
+bool SkinPatches::is_face(std::size_t patch) {
   const Vec3d middle = middle_of(patch % kPatches);
-  return middle.z > -62 && middle.y < 52 && usual.off_mm < kCalibrationsDifferMm;
+  return middle.z > -62 && middle.y < 52;
 }
 
 // Where skin moves, a patch that was measured better says hardly more (random effects: DerSimonian, Laird
-// 1986).
-double SkinPatches::weight_of(const PatchMean& mean, const Usual& usual) {
-  double moves = usual.off_mm;
-  if (is_moving_face(mean.patch, usual)) moves += kFaceMovesMore * std::max(moves - kNothingMovesMm, 0.0);
+// 1986); a face moves more than what is around it.
+double SkinPatches::weight_of(const PatchMean& mean, double usual_mm) {
+  double moves = usual_mm;
+  if (is_face(mean.patch))
+    moves += kFaceMovesMore * std::clamp(usual_mm - kNothingMovesMm, 0.0, kMostMovesMm);
   return mean.weight / (1 + mean.weight * moves * moves);
 }
 
 // One standard deviation while a face moves by half a millimetre. Ears and what is behind the temples hang on
-// the skull.
-double SkinPatches::slides_mm(std::size_t patch, const Usual& usual) {
+// the skull. Where all of the skin lies off it has not moved: calibrations differ.
+double SkinPatches::slides_mm(std::size_t patch, double usual_mm) {
   const Vec3d middle = middle_of(patch % kPatches);
   if (middle.z < -100) return 0.08;
   if (middle.z < -70) return 0.18;
-  if (is_moving_face(patch, usual)) return 1;
+  if (is_face(patch) && usual_mm < kCalibrationsDifferMm) return 1;
   return middle.y > 110 ? 0.15 : 0.35;
 }
 
 double SkinPatches::say(const PatchMean& mean, const Usual& usual) {
   if (slides(mean)) {
-    const double mm = slides_mm(mean.patch, usual);
+    const double mm = slides_mm(mean.patch, usual.off_mm);
     return still(mean.mm, std::max(kLeastSlideScaleMm, usual.slid_mm)) / (1 + mean.weight * mm * mm);
   }
-  return still(mean.mm, std::max(kLeastScaleMm, usual.off_mm)) * weight_of(mean, usual) / mean.weight;
+  return still(mean.mm, std::max(kLeastScaleMm, usual.off_mm)) * weight_of(mean, usual.off_mm) / mean.weight;
 }
 
 void SkinPatches::take(std::span<const PatchMean> means) {
@@ -93,7 +93,7 @@ void SkinPatches::take(std::span<const PatchMean> means) {
   double squares = 0, weights = 0;
   for (const PatchMean& m : means) {
     if (slides(m)) continue;
-    const double weight = weight_of(m, usually);
+    const double weight = weight_of(m, usually.off_mm);
     squares += weight * m.mm * m.mm;
     weights += weight;
   }
