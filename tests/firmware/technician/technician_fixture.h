@@ -5,6 +5,7 @@
 // for.
 #pragma once
 
+#include <stdexcept>
 #include <string>
 
 #include "tests/firmware/technician/technician_rig.h"
@@ -38,7 +39,11 @@ class TechnicianTest : public testing::Test {
     ASSERT_TRUE(rig().until(finished));
     ASSERT_EQ(rig().now().phase, TechnicianPhase::Ready) << rig().now().problem.detail;
   }
-  static Products& products() { return rig().appliance->session().products(); }
+  // Throws where the machine has ended the session, as it does when a stage takes longer than it may.
+  static Products& products() {
+    if (!rig().appliance->session().is_open()) throw std::logic_error("the session was ended");
+    return rig().appliance->session().products();
+  }
   // The places of an identifier in the choice.
   static std::string kind(std::string_view key) {
     const auto& kinds = rig().now().choice.kinds;
