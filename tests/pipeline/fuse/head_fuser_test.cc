@@ -62,8 +62,10 @@ class ApartPoses : public Poses {
     for (const Vec3f& at : own.vertices_mm)
       own.measured.push_back(measured(apply(poses_[0].head_from_camera, wide(at))) ? 1 : 0);
     HeadFuserOptions options;
+    // As good as nothing is bent, and that evenly: what is left apart is for the blend.
     options.most_bend_mm = 0;
     options.still_mm = 1;
+    options.bend_width_mm = 40;
     auto head = room_.run(
         [&](StageContext& c) { return HeadFuser(options).fuse(poses_, placed, own, landmarks, c); });
     EXPECT_TRUE(head);
