@@ -88,9 +88,9 @@ float centre(std::array<float, kPixels>& grey) {
 std::optional<Vec2f> track(const Photograph& from, const Window& there, const Photograph& to,
                            const Window& here, Vec2f shift) {
   constexpr int kWide = kSide + 2;
-  std::array<float, kWide * kWide> wide;
+  std::array<float, kWide * kWide> wide{};
   if (!from.read(there, {}, wide)) return std::nullopt;
-  std::array<float, kPixels> sought, across, upwards, seen;
+  std::array<float, kPixels> sought{}, across{}, upwards{}, seen{};
   float xx = 1e-6F, xy = 0, yy = 1e-6F;
   for (int r = 0, k = 0; r < kSide; ++r)
     for (int c = 0; c < kSide; ++c, ++k) {
