@@ -23,25 +23,25 @@ bool is_harmless(void* handle) {
 
 Result<PixelFormat> decode_jpeg(const RawImage& raw, std::byte* pixels) {
   const std::unique_ptr<void, Close> handle(tjInitDecompress());
-  if (!handle) return Error{Errc::OutOfMemory, "no memory to decode a camera's picture"};
+  if (!handle) return Error{Errc::OutOfMemory, "no memory to decode a picture"};
   const auto* stream = reinterpret_cast<const unsigned char*>(raw.bytes);
   int width = 0;
   int height = 0;
   int sampling = 0;
   int colours = 0;
   if (tjDecompressHeader3(handle.get(), stream, raw.size_bytes, &width, &height, &sampling, &colours) != 0)
-    return Error{Errc::InvalidInput, "the camera's JPEG picture has a damaged header"};
+    return Error{Errc::InvalidInput, "this JPEG picture has a damaged header"};
   if (width != raw.width_px || height != raw.height_px)
-    return Error{Errc::InvalidInput, "the camera's JPEG picture has another size than its mode"};
+    return Error{Errc::InvalidInput, "this JPEG picture has another size than it should"};
   if (colours != TJCS_YCbCr && colours != TJCS_GRAY && colours != TJCS_RGB)
-    return Error{Errc::InvalidInput, "the camera's JPEG picture is in a colour space that is not supported"};
+    return Error{Errc::InvalidInput, "this JPEG picture is in a colour space that is not supported"};
   const bool grey = colours == TJCS_GRAY;
   // Half a picture would be believed by a matcher: the first warning ends the decoding.
   if (tjDecompress2(handle.get(), stream, raw.size_bytes, reinterpret_cast<unsigned char*>(pixels), width, 0,
                     height, grey ? TJPF_GRAY : TJPF_RGB,
                     TJFLAG_STOPONWARNING | TJFLAG_LIMITSCANS | TJFLAG_ACCURATEDCT) != 0 &&
       !is_harmless(handle.get()))
-    return Error{Errc::InvalidInput, "the camera's JPEG picture is damaged"};
+    return Error{Errc::InvalidInput, "this JPEG picture is damaged"};
   return grey ? PixelFormat::Grey8 : PixelFormat::Rgb8;
 }
 

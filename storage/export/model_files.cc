@@ -8,16 +8,17 @@
 #include <cstdint>
 #include <functional>
 #include <new>
+#include <span>
 #include <string>
 #include <string_view>
 #include <system_error>
 
 #include "hal/base/whole_file.h"
+#include "hal/picture_file.h"
 #include "storage/byte_order.h"
 #include "storage/export/format/glb_writer.h"
 #include "storage/export/format/mesh_writers.h"
 #include "storage/export/format/number_text.h"
-#include "storage/export/format/png_writer.h"
 
 namespace relievo::storage {
 namespace {
@@ -118,6 +119,15 @@ std::string landmarks_text(const Portrait& p, const pipeline::Landmarks& landmar
   return "  \"landmarks\": {" + (text.empty() ? std::string() : "\n" + text + "\n  ") + "},\n";
 }
 
+template <class Pixels>
+Result<std::vector<std::byte>> png_of(int width_px, int height_px, const Pixels& pixels, PixelFormat format) {
+  const auto bytes = std::as_bytes(std::span(pixels));
+  const int row_bytes = width_px * bytes_per_pixel(format);
+  if (bytes.size() != std::size_t(row_bytes) * std::size_t(height_px))
+    return Error{Errc::InvalidInput, "the picture's size does not fit its pixels"};
+  return hal::encode_png({bytes.data(), width_px, height_px, row_bytes, format});
+}
+
 std::string page(const pipeline::RecognitionImages& images, const pipeline::Landmarks& landmarks,
                  const pipeline::RigidTransform& head_from_camera, std::string_view version) {
   return "{\n  \"generator\": \"Relievo" + (version.empty() ? std::string() : " " + std::string(version)) +
@@ -143,11 +153,12 @@ Result<std::vector<NamedBytes>> recognition_files(const pipeline::RecognitionIma
     files.push_back({name, *std::move(bytes)});
     return {};
   };
-  RELIEVO_TRY(add("portrait.png", png_of_rgb(p.width_px, p.height_px, p.rgb)));
-  RELIEVO_TRY(add("portrait_shows.png", png_of_grey(p.width_px, p.height_px, visible(p.shows))));
-  RELIEVO_TRY(add("range.png", png_of_grey16(r.width_px, r.height_px, heights(r))));
-  RELIEVO_TRY(add("range_sigma.png", png_of_grey16(r.width_px, r.height_px, sigmas(r))));
-  RELIEVO_TRY(add("range_shows.png", png_of_grey(r.width_px, r.height_px, visible(r.shows))));
+  RELIEVO_TRY(add("portrait.png", png_of(p.width_px, p.height_px, p.rgb, PixelFormat::Rgb8)));
+  RELIEVO_TRY(
+      add("portrait_shows.png", png_of(p.width_px, p.height_px, visible(p.shows), PixelFormat::Grey8)));
+  RELIEVO_TRY(add("range.png", png_of(r.width_px, r.height_px, heights(r), PixelFormat::Grey16)));
+  RELIEVO_TRY(add("range_sigma.png", png_of(r.width_px, r.height_px, sigmas(r), PixelFormat::Grey16)));
+  RELIEVO_TRY(add("range_shows.png", png_of(r.width_px, r.height_px, visible(r.shows), PixelFormat::Grey8)));
   const std::string text = page(images, landmarks, head_from_camera, version);
   const auto bytes = bytes_of(text);
   files.push_back({"recognition.json", {bytes.begin(), bytes.end()}});
@@ -202,7 +213,7 @@ Result<std::vector<std::byte>> origin_png(const pipeline::TextureAtlas& texture)
            : o == pipeline::kFilledTexel       ? std::uint8_t{128}
                                                : std::uint8_t{0};
   });
-  return png_of_grey(texture.width_px, texture.height_px, grey);
+  return png_of(texture.width_px, texture.height_px, grey, PixelFormat::Grey8);
 }
 
 // Each file once it is made, so that one at a time lies in memory.
@@ -216,7 +227,8 @@ Result<void> make_all(const pipeline::FaceModel& model, const ExportOptions& opt
   RELIEVO_TRY(take(name(".stl"), stl_bytes(mesh)));
   std::vector<std::byte> png;
   if (mesh.textured()) {
-    RELIEVO_TRY_ASSIGN(png, png_bytes(model.texture));
+    RELIEVO_TRY_ASSIGN(
+        png, png_of(model.texture.width_px, model.texture.height_px, model.texture.rgb, PixelFormat::Rgb8));
     RELIEVO_TRY(take(name(".png"), png));
     if (!model.texture.origin.empty()) {
       RELIEVO_TRY_ASSIGN(const auto origin, origin_png(model.texture));

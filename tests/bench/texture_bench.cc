@@ -12,6 +12,7 @@
 #include <cstdio>
 #include <cstdlib>
 #include <ctime>
+#include <span>
 #include <thread>
 #include <vector>
 
@@ -24,7 +25,6 @@
 #include "storage/export/format/export_mesh.h"
 #include "storage/export/format/glb_writer.h"
 #include "storage/export/format/mesh_writers.h"
-#include "storage/export/format/png_writer.h"
 #include "storage/export/model_files.h"
 #include "tests/support/stage_fixture.h"
 #include "tests/support/texture_seams.h"
@@ -122,10 +122,15 @@ void print_texels(const FaceModel& model, const RectifiedPair& pair) {
       std::sqrt(all_texels / all_mm2), half, fifth);
 }
 
+auto png_of(int width_px, int height_px, const auto& rgb) {
+  const auto bytes = std::as_bytes(std::span(rgb));
+  return hal::encode_png({bytes.data(), width_px, height_px, 3 * width_px, PixelFormat::Rgb8});
+}
+
 void print_times(const FaceModel& model, const RectifiedPair& pair, test::StageFixture& fixture) {
   StageContext& c = fixture.context;
   const storage::ExportMesh mesh = need(storage::make_export_mesh(model, storage::ExportFrame::Head));
-  const auto png = need(storage::png_bytes(model.texture));
+  const auto png = need(png_of(model.texture.width_px, model.texture.height_px, model.texture.rgb));
   std::pmr::unsynchronized_pool_resource heap;
   const auto images = need(make_recognition_images(model, heap, heap));
   Cost all{0, 0};
@@ -140,7 +145,8 @@ void print_times(const FaceModel& model, const RectifiedPair& pair, test::StageF
   say("sharpness", best_of_five([&] { texture_sharpness(model.texture, c); }));
   say("into the head frame",
       best_of_five([&] { need(storage::make_export_mesh(model, storage::ExportFrame::Head)); }));
-  say("png", best_of_five([&] { need(storage::png_bytes(model.texture)); }));
+  say("png", best_of_five(
+                 [&] { need(png_of(model.texture.width_px, model.texture.height_px, model.texture.rgb)); }));
   say("ply", best_of_five([&] { storage::ply_bytes(mesh); }));
   say("stl", best_of_five([&] { storage::stl_bytes(mesh); }));
   say("obj", best_of_five([&] { storage::obj_text(mesh, "model.mtl"); }));
@@ -186,7 +192,7 @@ void draw_three_sides(const FaceModel& model, const char* file) {
       std::copy_n(&view.rgb[static_cast<std::size_t>(3 * y * kWidth)], 3 * kWidth,
                   &sheet[static_cast<std::size_t>(3 * (y * 3 * kWidth + side * kWidth))]);
   }
-  const auto png = need(storage::png_of_rgb(3 * kWidth, kHeight, sheet));
+  const auto png = need(png_of(3 * kWidth, kHeight, sheet));
   std::FILE* out = std::fopen(file, "wb");
   if (out == nullptr || std::fwrite(png.data(), 1, png.size(), out) != png.size() || std::fclose(out) != 0)
     std::exit(1);

@@ -18,7 +18,6 @@
 #include "storage/export/format/glb_writer.h"
 #include "storage/export/format/mesh_writers.h"
 #include "storage/export/format/number_text.h"
-#include "storage/export/format/png_writer.h"
 #include "tests/storage/sample.h"
 #include "tests/support/process.h"
 #include "tests/support/temporary_folder.h"

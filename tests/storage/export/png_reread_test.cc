@@ -6,10 +6,11 @@
 
 #include <cmath>
 #include <cstring>
+#include <span>
 #include <string_view>
 #include <vector>
 
-#include "storage/export/format/png_writer.h"
+#include "hal/picture_file.h"
 #include "storage/export/model_files.h"
 #include "tests/storage/sample.h"
 
@@ -51,7 +52,7 @@ Reread reread(const std::vector<std::byte>& file) {
   return out;
 }
 
-TEST(PngWriter, EveryKindReadsBackValueByValue) {
+TEST(PngPicture, EveryKindReadsBackValueByValue) {
   std::vector<std::uint8_t> rgb, grey;
   std::vector<std::uint16_t> deep;
   for (unsigned k = 0; k < 37 * 23; ++k) {
@@ -59,27 +60,22 @@ TEST(PngWriter, EveryKindReadsBackValueByValue) {
     grey.push_back(static_cast<std::uint8_t>(k * 5));
     deep.push_back(static_cast<std::uint16_t>(k * 77));
   }
-  const auto check = [](const Result<std::vector<std::byte>>& file, const auto& wanted, int bits,
-                        int channels) {
+  const auto check = [](const auto& wanted, PixelFormat format, int level) {
+    const auto bytes = std::as_bytes(std::span(wanted));
+    const auto file = hal::encode_png({bytes.data(), 37, 23, 37 * bytes_per_pixel(format), format}, level);
     ASSERT_TRUE(file);
     const Reread got = reread(*file);
     EXPECT_EQ(got.width, 37);
     EXPECT_EQ(got.height, 23);
-    EXPECT_EQ(got.bits, bits);
-    EXPECT_EQ(got.channels, channels);
+    EXPECT_EQ(got.bits, format == PixelFormat::Grey16 ? 16 : 8);
+    EXPECT_EQ(got.channels, format == PixelFormat::Rgb8 ? 3 : 1);
     ASSERT_EQ(got.values.size(), wanted.size());
     for (std::size_t k = 0; k < wanted.size(); ++k) ASSERT_EQ(got.values[k], wanted[k]) << k;
   };
-  check(png_of_rgb(37, 23, rgb), rgb, 8, 3);
-  check(png_of_grey(37, 23, grey), grey, 8, 1);
-  check(png_of_grey16(37, 23, deep), deep, 16, 1);
-}
-
-TEST(PngWriter, RefusesWhatIsNoPicture) {
-  const std::vector<std::uint8_t> three{1, 2, 3};
-  for (const auto& file : {png_of_rgb(0, 1, {}), png_of_rgb(2, 1, three), png_of_grey(-1, 3, three)}) {
-    ASSERT_FALSE(file);
-    EXPECT_EQ(file.error().code, Errc::InvalidInput);
+  for (const int level : {hal::kQuickPng, 9}) {
+    check(rgb, PixelFormat::Rgb8, level);
+    check(grey, PixelFormat::Grey8, level);
+    check(deep, PixelFormat::Grey16, level);
   }
 }
 

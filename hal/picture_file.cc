@@ -2,20 +2,15 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "hal/picture_file.h"
 
-#include <opencv2/core.hpp>
-#include <opencv2/imgcodecs.hpp>
-#include <opencv2/imgproc.hpp>
-
-#include <algorithm>
 #include <array>
 #include <cctype>
 #include <cstdint>
-#include <cstring>
 #include <new>
 #include <string>
 
 #include "hal/base/whole_file.h"
-#include "hal/reduced_picture.h"
+#include "hal/png_picture.h"
+#include "hal/raw/develop.h"
 
 namespace relievo::hal {
 namespace {
@@ -116,56 +111,6 @@ Result<void> check_limits(const PictureHeader& header) {
   return {};
 }
 
-// Grey stays what it is; colour becomes 8 bit: no stage looks at deeper colour.
-Result<Picture> to_picture(cv::Mat image) {
-  if (image.channels() == 4) cv::cvtColor(image, image, cv::COLOR_BGRA2BGR);
-  if (image.channels() == 3 && image.depth() == CV_16U) image.convertTo(image, CV_8U, 1.0 / 257.0);
-  if (image.channels() == 3) cv::cvtColor(image, image, cv::COLOR_BGR2RGB);
-  Picture picture;
-  if (image.type() == CV_8UC1) picture.format = PixelFormat::Grey8;
-  else if (image.type() == CV_8UC3) picture.format = PixelFormat::Rgb8;
-  else if (image.type() == CV_16UC1) picture.format = PixelFormat::Grey16;
-  else return Error{Errc::InvalidInput, "this picture has a pixel format that is not supported"};
-  picture.width_px = image.cols;
-  picture.height_px = image.rows;
-  const std::size_t row_bytes = std::size_t(image.cols) * image.elemSize();
-  picture.bytes.resize(row_bytes * std::size_t(image.rows));
-  for (int y = 0; y < image.rows; ++y)
-    std::memcpy(picture.bytes.data() + row_bytes * std::size_t(y), image.ptr(y), row_bytes);
-  return picture;
-}
-
-Result<cv::Mat> to_mat(const ImageView& image) {
-  if (image.empty()) return Error{Errc::InvalidInput, "there is no picture to write"};
-  RELIEVO_TRY(check_limits({image.width_px, image.height_px}));
-  const int type = image.format == PixelFormat::Rgb8     ? CV_8UC3
-                   : image.format == PixelFormat::Grey16 ? CV_16UC1
-                                                         : CV_8UC1;
-  // OpenCV has no const Mat over foreign bytes; this one is only read.
-  const cv::Mat borrowed(image.height_px, image.width_px, type,
-                         const_cast<std::byte*>(image.bytes),  // NOLINT
-                         std::size_t(image.stride_bytes));
-  if (image.format != PixelFormat::Rgb8) return borrowed;
-  cv::Mat turned;  // memory of its own: the lender's must not change
-  cv::cvtColor(borrowed, turned, cv::COLOR_RGB2BGR);
-  return turned;
-}
-
-Result<std::vector<std::byte>> encode(const ImageView& image, const char* extension,
-                                      const std::vector<int>& options) try {
-  RELIEVO_TRY_ASSIGN(const cv::Mat mat, to_mat(image));
-  std::vector<unsigned char> encoded;
-  if (!cv::imencode(extension, mat, encoded, options))
-    return Error{Errc::LibraryFailed, "cannot encode this picture"};
-  std::vector<std::byte> bytes(encoded.size());
-  std::memcpy(bytes.data(), encoded.data(), encoded.size());
-  return bytes;
-} catch (const std::bad_alloc&) {
-  return Error{Errc::OutOfMemory, "no memory to encode a picture"};
-} catch (const cv::Exception&) {
-  return Error{Errc::LibraryFailed, "cannot encode this picture"};
-}
-
 std::string lower_extension(const std::filesystem::path& file) {
   std::string extension = file.extension().native();
   for (char& c : extension) c = char(std::tolower(static_cast<unsigned char>(c)));
@@ -177,19 +122,16 @@ std::string lower_extension(const std::filesystem::path& file) {
 Result<Picture> decode_picture(const std::byte* bytes, std::size_t size) try {
   RELIEVO_TRY_ASSIGN(const PictureHeader header, read_picture_header({bytes, size}));
   RELIEVO_TRY(check_limits(header));
-  const cv::Mat encoded(1, int(size), CV_8UC1,
-                        const_cast<std::byte*>(bytes));  // NOLINT: read only
-  // The orientation tag is ignored: a calibration knows the sensor's pixels, not how a viewer turns them.
-  constexpr int kFlags = cv::IMREAD_ANYDEPTH | cv::IMREAD_ANYCOLOR | cv::IMREAD_IGNORE_ORIENTATION;
-  const cv::Mat image = cv::imdecode(encoded, kFlags);
-  if (image.empty()) return Error{Errc::InvalidInput, "this picture is damaged and cannot be decoded"};
-  return to_picture(image);
+  if (starts_with_png({bytes, size})) return decode_png({bytes, size});
+  // The orientation tag is not read: a calibration knows the sensor's pixels, not how a viewer turns them.
+  Picture picture{{}, int(header.width_px), int(header.height_px), PixelFormat::Rgb8};
+  picture.bytes.resize(std::size_t(header.width_px * header.height_px) * 3);
+  const RawImage raw{bytes, size, picture.width_px, picture.height_px, 0, {RawCoding::Mjpeg}};
+  RELIEVO_TRY_ASSIGN(picture.format, decode_jpeg(raw, picture.bytes.data()));
+  picture.bytes.resize(std::size_t(header.width_px * header.height_px * bytes_per_pixel(picture.format)));
+  return picture;
 } catch (const std::bad_alloc&) {
   return Error{Errc::OutOfMemory, "no memory to decode this picture"};
-} catch (const cv::Exception& failure) {
-  if (failure.code == cv::Error::StsNoMem)
-    return Error{Errc::OutOfMemory, "no memory to decode this picture"};
-  return Error{Errc::InvalidInput, "this picture is damaged and cannot be decoded"};
 }
 
 Result<Picture> read_picture(const std::filesystem::path& file) {
@@ -197,16 +139,6 @@ Result<Picture> read_picture(const std::filesystem::path& file) {
   Result<Picture> picture = decode_picture(bytes.data(), bytes.size());
   if (!picture) return picture.error().at(file.native());
   return picture;
-}
-
-Result<std::vector<std::byte>> encode_png(const ImageView& image) {
-  // Level 3 with filters on costs a quarter of the best level's time for a few per cent of size.
-  return encode(image, ".png", {cv::IMWRITE_PNG_COMPRESSION, 3});
-}
-
-Result<std::vector<std::byte>> encode_jpeg(const ImageView& image, int quality_percent) {
-  if (image.format == PixelFormat::Grey16) return Error{Errc::InvalidInput, "a JPEG cannot hold 16 bit"};
-  return encode(image, ".jpg", {cv::IMWRITE_JPEG_QUALITY, quality_percent});
 }
 
 Result<void> write_picture(const std::filesystem::path& file, const ImageView& image) {
@@ -220,16 +152,6 @@ Result<void> write_picture(const std::filesystem::path& file, const ImageView& i
   Result<std::vector<std::byte>> bytes = jpeg ? encode_jpeg(image, 95) : encode_png(image);
   if (!bytes) return bytes.error().at(file.native());
   return write_whole_file(file, *bytes);
-}
-
-Result<Picture> reduced(const ImageView& image, int width_px, int height_px) try {
-  RELIEVO_TRY_ASSIGN(cv::Mat mat, to_mat(image));
-  if (mat.depth() == CV_16U) mat.convertTo(mat, CV_8U, 1.0 / 257.0);
-  cv::Mat small;
-  cv::resize(mat, small, {width_px, height_px}, 0, 0, cv::INTER_AREA);
-  return to_picture(small);
-} catch (const cv::Exception&) {
-  return Error{Errc::OutOfMemory, "no memory to make a picture smaller"};
 }
 
 }  // namespace relievo::hal
