@@ -52,10 +52,10 @@ class AlgorithmSet {
 };
 
 struct AlgorithmDescription {
-  const char* name;
-  const char* sentence;  // what it is
-  const char* source;    // author and year, or "own"
-  bool lattice = false;  // a selector's keypoints lie on a lattice; a mesher joins neighbours of one
+  const char* name = "";
+  const char* sentence = "";  // what it is
+  const char* source = "";    // author and year, or "own"
+  bool lattice = false;       // a selector's keypoints lie on a lattice; a mesher joins neighbours of one
 };
 
 // What may be chosen: for help texts, the technician's page and the documentation.

@@ -75,8 +75,8 @@ template <typename T>
 class [[nodiscard]] Result {
  public:
   // Implicit on purpose, as std::expected: `return value;` and `return Error{…};`.
-  Result(T value)
-      : state_(std::in_place_index<0>, std::move(value)) {}       // NOLINT(google-explicit-constructor)
+  Result(T value)  // NOLINT(google-explicit-constructor)
+      : state_(std::in_place_index<0>, std::move(value)) {}
   Result(Error error) : state_(std::in_place_index<1>, error) {}  // NOLINT(google-explicit-constructor)
 
   bool has_value() const { return state_.index() == 0; }

@@ -34,6 +34,9 @@ constexpr std::array<RegistrationRound, 5> kRounds{{{12, 6, 8, kFewSamples},
                                                     {1.5, 0.12, 8, kFewSamples}}};
 constexpr RegistrationRound kLast{1.5, 0.08, 20};
 constexpr double kSkinSamples = 2'500, kSlideSigmaMm = 0.1;
+// Regions move together, as both cheeks in a smile: so much more than apart (of twelve heads, still and
+// moving).
+constexpr double kRegionsAlike = 2.5;
 constexpr double kSlow = 0.5, kSlowest = 0.9;  // of a step, to the one before
 constexpr int kSkinTimes = 100;                // at most; each costs a thousandth of a look at the surfaces
 
@@ -312,7 +315,7 @@ class JointSolver {
       const Column moved = bread * pull;
       covariance += moved * moved.transpose();
     }
-    covariance *= residuals_.skin().variance_mm2();
+    covariance *= kRegionsAlike * residuals_.skin().variance_mm2();
     for (std::size_t p = 0; p < placed_.size(); ++p) {
       RegisteredPose& pose = placed_[p];
       if (p > 0 && sums[p].count < kFewestSamples) pose.joined = false;

@@ -91,8 +91,8 @@ using Matrix6 = Eigen::Matrix<double, 6, 6>;
 // loses its say; how often the round is made, and how many nodes of a lattice are laid onto the other poses,
 // at most.
 struct RegistrationRound {
-  double reach_mm, scale_mm;
-  int times;
+  double reach_mm = 0, scale_mm = 0;
+  int times = 0;
   double samples = 18'000;
 
   // A step, millimetres and radians together, after which the next round brings more.

@@ -22,10 +22,10 @@ namespace relievo::pipeline {
 
 // Where the surface lies at a place that was projected into the view.
 struct SurfaceHit {
-  Vec3f at_mm;     // on the line of sight through the place
-  Vec3f normal;    // towards the camera, unit length
-  float sigma_mm;  // perpendicular to the surface
-  float trust;     // 0 at the edge of what was measured or where it is seen edge-on, to 1
+  Vec3f at_mm;         // on the line of sight through the place
+  Vec3f normal;        // towards the camera, unit length
+  float sigma_mm = 0;  // perpendicular to the surface
+  float trust = 0;     // 0 at the edge of what was measured or where it is seen edge-on, to 1
 };
 
 struct PoseSurface {

@@ -129,8 +129,9 @@ function(relievo_tests name)
   target_compile_options(test_${name} PRIVATE $<$<CONFIG:Release>:-O1>)
   relievo_precompile(test_${name} <gtest/gtest.h>)
   if(RELIEVO_SANITIZE)
-    # g++ 12 warns of sanitized std::string what it does not of the build that ships, where these hold.
-    target_compile_options(test_${name} PRIVATE $<$<CXX_COMPILER_ID:GNU>:-Wno-restrict;-Wno-maybe-uninitialized>)
+    # g++ 12 warns of sanitized std::string what it does not of the build that ships, where these hold. What a sanitizer
+    # finds lies in the rooms: a fifth of the time to build a test is the lines of its own that a report would name.
+    target_compile_options(test_${name} PRIVATE -g0 $<$<CXX_COMPILER_ID:GNU>:-Wno-restrict;-Wno-maybe-uninitialized>)
   endif()
   gtest_discover_tests(test_${name} TEST_PREFIX ${name}. NO_PRETTY_VALUES PROPERTIES TIMEOUT 900 DISCOVERY_TIMEOUT 60)
 endfunction()

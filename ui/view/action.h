@@ -114,6 +114,7 @@ enum class ActionKind : std::uint8_t {
 
 struct Action {
   Action() = default;
+  // NOLINTNEXTLINE(google-explicit-constructor): `{ActionKind::Back}` is an action.
   Action(ActionKind of_kind, std::int32_t of_value = 0, std::int32_t of_detail = 0)
       : kind(of_kind), value(of_value), detail(of_detail) {}
   // What a page asks of the appliance; `answers`: and then shows its first mode again.

@@ -19,7 +19,7 @@ const char* words_of(const Words& tr, Errc code);
 
 // `pattern` has a place {} for each value of the event, or for `role` where that is there.
 struct LogWords {
-  const char* pattern;
+  const char* pattern = "";
   const char* role = nullptr;
 };
 LogWords words_of(const Words& tr, LogEvent event);
