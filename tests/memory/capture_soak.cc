@@ -5,7 +5,9 @@
 // and its best pair is refused, so that no model costs time. Between two of them a minute goes by on the
 // appliance's clock. Fails where a capture is not counted, or memory, open files or threads grow.
 //
-//   capture_soak CAPTURES
+// Then visits of people who turn their heads (turning_visits.h), from number FIRST on.
+//
+//   capture_soak CAPTURES [VISITS [FIRST]]
 #include <cstdio>
 #include <cstdlib>
 #include <thread>
@@ -16,6 +18,7 @@
 #include "hal/sim/device.h"
 #include "tests/firmware/faults/faulty_rig.h"
 #include "tests/firmware/test_records.h"
+#include "tests/memory/turning_visits.h"
 #include "tests/memory/usage.h"
 #include "tests/support/rig_calibration.h"
 #include "tests/support/small_rig.h"
@@ -153,7 +156,10 @@ int soak(int captures) {
 }  // namespace relievo::test
 
 int main(int argc, char** argv) {
-  const int captures = argc > 1 ? std::atoi(argv[1]) : 0;
-  if (captures < 60) return std::puts("capture_soak CAPTURES   (60 at least)"), 2;
-  return relievo::test::soak(captures);
+  const auto number = [&](int i) { return argc > i ? std::atoi(argv[i]) : 0; };
+  const int captures = number(1), visits = number(2);
+  if ((captures < 60 && captures != 0) || captures + visits < 1)
+    return std::puts("capture_soak CAPTURES [VISITS [FIRST]]   (0 captures, or 60 at least)"), 2;
+  if (captures > 0 && relievo::test::soak(captures) != 0) return 1;
+  return visits == 0 || relievo::test::turning_visits(visits, number(3)) ? 0 : 1;
 }

@@ -148,6 +148,8 @@ sim::Vec3 pronasale(std::uint32_t seed) {
   return at->second;
 }
 
+double roomier_side(const sim::HeadPose& pose) { return pose.right_mm > 0 ? -1 : 1; }
+
 void blur(sim::LightPicture& light, double deviation_px) {
   if (deviation_px < 0.05) return;
   // Three boxes make a bell (Wells 1986).
@@ -207,7 +209,7 @@ void Album::expose(Shot& shot) {
     scene = std::make_unique<Both>(std::move(scene),
                                    std::make_unique<sim::PlateScene>(sim::FlatPlate{70, 90, 7}, place));
   }
-  const double side = shot.pose.right_mm > 0 ? -1 : 1;  // where there is more room
+  const double side = roomier_side(shot.pose);
   if (shot.extra == Extra::BagBeside || shot.extra == Extra::WallBehind) {
     const bool bag = shot.extra == Extra::BagBeside;
     const sim::Vec3 by = bag ? sim::Vec3{side * 158, -25, 35} : sim::Vec3{0, -20, 480};
@@ -219,11 +221,10 @@ void Album::expose(Shot& shot) {
                               bag ? sim::FlatPlate{125, 170, 9} : sim::FlatPlate{1200, 900, 11}, place));
   }
   if (shot.extra == Extra::Friend || shot.extra == Extra::Twin) {
-    sim::HeadPose other = shot.pose;
-    other.right_mm += side * 175, other.distance_mm += 260, other.yaw_deg += side * 14;
     scene = std::make_unique<Both>(
         std::move(scene),
-        sim::make_head_scene(person(shot.seed + (shot.extra == Extra::Friend ? 1 : 0), {}, 1), other, pool_));
+        sim::make_head_scene(person(shot.seed + (shot.extra == Extra::Friend ? 1 : 0), {}, 1),
+                             behind(shot.pose), pool_));
   }
   const sim::SensorOptions lens;
   shot.left = kept(sim::expose(*scene, rig_.left, lens, pool_));
@@ -252,7 +253,7 @@ const Shot& Album::shoot(std::uint32_t seed, const sim::HeadPose& pose, Extra ex
   return shots_.emplace(name, std::move(shot)).first->second;
 }
 
-Shot Album::photograph(std::uint32_t seed, const sim::HeadPose& pose) {
+Shot Album::photograph(std::uint32_t seed, const sim::HeadPose& pose, const sim::HeadPose* twin) {
   if (left_room_.rgb.empty()) {
     left_room_ = sim::expose(Room(), rig_.left, {}, pool_);
     right_room_ = sim::expose(Room(), rig_.right, {}, pool_);
@@ -260,6 +261,7 @@ Shot Album::photograph(std::uint32_t seed, const sim::HeadPose& pose) {
   const PastedHead& head = pasted_.try_emplace(seed, person(seed, {}, 1), pool_).first->second;
   Shot shot{seed, pose, Extra::None, {}, {}, {}};
   const auto photograph = [&](const sim::SimView& view, sim::LightPicture picture) {
+    if (twin != nullptr) head.draw(*twin, view, picture);
     head.draw(pose, view, picture);
     return kept(picture);
   };
@@ -315,6 +317,12 @@ sim::HeadPose standing(double distance_mm, double right_mm, double down_mm, doub
   pose.yaw_deg = std::atan2(to.x, -to.z) / kDegree + yaw_deg;
   pose.pitch_deg = std::asin(to.y) / kDegree + pitch_deg;
   pose.roll_deg = roll_deg;
+  return pose;
+}
+
+sim::HeadPose behind(sim::HeadPose pose) {
+  const double side = roomier_side(pose);
+  pose.right_mm += side * 175, pose.distance_mm += 260, pose.yaw_deg += side * 14;
   return pose;
 }
 

@@ -61,8 +61,9 @@ class Album {
   explicit Album(std::filesystem::path cache = {});  // a folder where shots survive the program; empty: none
   const Shot& shoot(std::uint32_t seed, const hal::sim::HeadPose& pose, Extra extra = Extra::None,
                     const Guise& guise = {});
-  // Of a head that moves: quickly (pasted_head.h), and not kept.
-  Shot photograph(std::uint32_t seed, const hal::sim::HeadPose& pose);
+  // Of a head that moves, perhaps before a twin: quickly (pasted_head.h), and not kept.
+  Shot photograph(std::uint32_t seed, const hal::sim::HeadPose& pose,
+                  const hal::sim::HeadPose* twin = nullptr);
   hal::sim::PicturePair develop(const Shot& shot, const Developing& how) const;
   const pipeline::StereoCalibration& calibration() const { return calibration_; }
 
@@ -88,6 +89,9 @@ Album& shared_album();
 // the rig's middle.
 hal::sim::HeadPose standing(double distance_mm, double right_mm = 0, double down_mm = 0, double yaw_deg = 0,
                             double pitch_deg = 0, double roll_deg = 0);
+
+// Of somebody who looks in over the shoulder of a person in this pose.
+hal::sim::HeadPose behind(hal::sim::HeadPose pose);
 
 // What measure_head() should say of the shot.
 struct TrueHead {

@@ -9,11 +9,11 @@
 #include <bitset>
 #include <cmath>
 #include <numbers>
-#include <random>
 
 #include "pipeline/model/vector3.h"
 #include "tests/support/gate_fixture.h"
 #include "tests/support/proof.h"
+#include "tests/support/turning_person.h"
 
 namespace relievo::pipeline {
 namespace {
@@ -165,71 +165,20 @@ TEST_F(TurnGuide, TakesNothingFromTwoPicturesOfOneInstant) {
 }
 
 // --- people ---------------------------------------------------------------------------------------
-// Somebody who turns their head as they are told, half a second later, at a speed and with a tremor of their
-// own.
-enum class Kind : std::uint8_t { Willing, Hasty, WrongWay, Restless, OneSide, Leaves };
+using test::TurningPerson;
+using Kind = TurningPerson::Kind;
 
-class Turner {
- public:
-  Turner(Kind kind, std::uint32_t seed)
-      : kind_(kind),
-        random_(seed),
-        speed_deg_s_(between(12, 45)),
-        reaction_s_(between(0.25, 0.8)),
-        sway_mm_s_(between(1, 6)) {
-    if (kind == Kind::Hasty) speed_deg_s_ = between(60, 120);
-  }
-  bool gone() const { return kind_ == Kind::Leaves && at_s_ > 6; }
-
-  // `seconds` pass while this is on the page.
-  void hear(TurnAdvice advice, double seconds) {
-    at_s_ += seconds;
-    if (advice != heard_) {
-      // Who has to come back goes slower.
-      const bool turns_round = (advice == TurnAdvice::ToLeft && goal_deg_s_ > 0) ||
-                               (advice == TurnAdvice::ToRight && goal_deg_s_ < 0);
-      if (turns_round) speed_deg_s_ = std::max(8.0, 0.6 * speed_deg_s_);
-      heard_ = advice, heard_s_ = 0;
-    }
-    heard_s_ += seconds;
-    if (kind_ == Kind::Restless && at_s_ - whim_s_ > 4) whim_s_ = at_s_, heard_s_ = -0.7;  // looks about
-    if (heard_s_ > reaction_s_) obey(heard_);
-    if (kind_ == Kind::OneSide) goal_deg_s_ = std::min(goal_deg_s_, yaw_deg_ > -1 ? 0.0 : goal_deg_s_);
-    rate_deg_s_ += std::clamp(goal_deg_s_ - rate_deg_s_, -250 * seconds, 250 * seconds);
-    yaw_deg_ = std::clamp(yaw_deg_ + rate_deg_s_ * seconds, -70.0, 70.0);
-    for (double* axis : {&shift_mm_.x, &shift_mm_.y, &shift_mm_.z})
-      *axis += between(-1, 1) * sway_mm_s_ * seconds;
-  }
-  HeadTurn seen(const FrontFace& front) {
-    HeadTurn turn;
-    if (gone()) return turn;
-    turn.known = true;
-    turn.yaw_deg = yaw_deg_ + between(-0.3, 0.3);
-    const double a = -turn.yaw_deg * std::numbers::pi / 180;
-    turn.now_from_front.rotation = {{std::cos(a), 0, std::sin(a), 0, 1, 0, -std::sin(a), 0, std::cos(a)}};
-    turn.now_from_front.translation_mm =
-        plus(minus(front.pivot_mm, apply(turn.now_from_front.rotation, front.pivot_mm)), shift_mm_);
-    return turn;
-  }
-
- private:
-  double between(double a, double b) { return std::uniform_real_distribution<>(a, b)(random_); }
-  void obey(TurnAdvice advice) {
-    const double way = kind_ == Kind::WrongWay && at_s_ < 3 ? -1 : 1;
-    if (advice == TurnAdvice::ToLeft) goal_deg_s_ = -way * speed_deg_s_;
-    if (advice == TurnAdvice::ToRight) goal_deg_s_ = way * speed_deg_s_;
-    if (advice == TurnAdvice::Slower) goal_deg_s_ *= 0.5;
-    if (advice == TurnAdvice::Hold || advice == TurnAdvice::Done) goal_deg_s_ = 0;
-  }
-
-  Kind kind_;
-  std::mt19937 random_;
-  double speed_deg_s_, reaction_s_, sway_mm_s_;
-  TurnAdvice heard_ = TurnAdvice::Done;
-  double at_s_ = 0, heard_s_ = 0, whim_s_ = 0;
-  double yaw_deg_ = 0, rate_deg_s_ = 0, goal_deg_s_ = 0;
-  Vec3d shift_mm_{};
-};
+HeadTurn seen(TurningPerson& person, const FrontFace& front) {
+  HeadTurn turn;
+  if (person.is_gone()) return turn;
+  turn.known = true;
+  turn.yaw_deg = person.yaw_deg() + person.between(-0.3, 0.3);
+  const double a = -turn.yaw_deg * std::numbers::pi / 180;
+  turn.now_from_front.rotation = {{std::cos(a), 0, std::sin(a), 0, 1, 0, -std::sin(a), 0, std::cos(a)}};
+  turn.now_from_front.translation_mm =
+      plus(minus(front.pivot_mm, apply(turn.now_from_front.rotation, front.pivot_mm)), person.shift_mm());
+  return turn;
+}
 
 // Places all over the face, about a neck.
 FrontFace drawn_face() {
@@ -249,24 +198,24 @@ struct Visit {
 Visit visit(Kind kind, std::uint32_t seed) {
   constexpr double kLookS = 0.125, kPatienceS = 20;
   const FrontFace front = drawn_face();
-  Turner turner(kind, seed);
+  TurningPerson person(kind, seed);
   TurnHistory history;
   Visit made;
   TurnAdvice said = TurnAdvice::Hold;
   HeadTurn before;
   for (double last = 0; !history.taken.all() && made.seconds - last < kPatienceS; made.seconds += kLookS) {
-    turner.hear(said, kLookS);
-    const HeadTurn seen = turner.seen(front);
+    person.hear(said, kLookS);
+    const HeadTurn now_seen = seen(person, front);
     const auto now =
         std::chrono::duration_cast<std::chrono::nanoseconds>(std::chrono::duration<double>(made.seconds + 1));
-    const TurnAnswer answer = guide_turn(front, seen, now, 14, {}, history);
+    const TurnAnswer answer = guide_turn(front, now_seen, now, 14, {}, history);
     said = answer.advice;
     if (answer.take) {
-      made.worst_mm_s = std::max(made.worst_mm_s, moved_mm(front, before, seen) / kLookS);
+      made.worst_mm_s = std::max(made.worst_mm_s, moved_mm(front, before, now_seen) / kLookS);
       history.taken.set(*answer.take);
       last = made.seconds;
     }
-    before = seen;
+    before = now_seen;
   }
   made.taken = history.taken;
   return made;
@@ -277,9 +226,7 @@ TEST(TurnGuideVisits, TheWillingEndWithBothSides) {
   int willing = 0, both = 0, all = 0;
   double longest = 0;
   for (std::uint32_t seed = 0; seed < 1000; ++seed) {
-    constexpr std::array kKinds{Kind::Willing,  Kind::Willing,  Kind::Willing, Kind::Hasty,
-                                Kind::WrongWay, Kind::Restless, Kind::OneSide, Kind::Leaves};
-    const Kind kind = kKinds[seed % kKinds.size()];
+    const auto kind = static_cast<Kind>(seed % static_cast<std::uint32_t>(Kind::Count));
     const Visit made = visit(kind, seed);
     longest = std::max(longest, made.seconds);
     EXPECT_LT(made.seconds, 90) << seed;
@@ -290,7 +237,7 @@ TEST(TurnGuideVisits, TheWillingEndWithBothSides) {
     if (kind == Kind::OneSide) {
       EXPECT_FALSE(made.taken[2] || made.taken[3]) << seed;
     }
-    if (kind == Kind::OneSide || kind == Kind::Leaves) continue;
+    if (!TurningPerson::is_willing(kind)) continue;
     ++willing;
     both += (made.taken[0] || made.taken[1]) && (made.taken[2] || made.taken[3]) ? 1 : 0;
     all += made.taken.all() ? 1 : 0;
