@@ -62,9 +62,9 @@ const std::array<hal::sim::PicturePair, 2>& TurningPictures::of(const Look& look
 Result<hal::PairSource::Exposure> TurningRig::Source::expose(Side side, std::uint32_t number) {
   if (number != number_) {
     number_ = number;
-    clock_.advance(
-        std::chrono::duration_cast<std::chrono::nanoseconds>(std::chrono::duration<double>(kLookS)));
-    if (const auto advice = said.load()) manners_.hear(*advice, kLookS);
+    const double passes_s = manners_.is_gone() ? kEmptyLookS : kLookS;
+    clock_.advance(std::chrono::milliseconds(std::lround(1e3 * passes_s)));
+    if (const auto advice = said.load()) manners_.hear(*advice, passes_s);
   }
   const TurningPictures::Look look{
       person_, manners_.is_gone() ? 0 : static_cast<int>(std::lround(2 * manners_.yaw_deg())),

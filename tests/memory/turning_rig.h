@@ -42,7 +42,8 @@ class TurningPictures {
 
 class TurningRig final : public hal::Device {
  public:
-  static constexpr double kLookS = 0.125;  // between two pictures
+  // Between two pictures: a slow machine's. Before nobody nothing is missed.
+  static constexpr double kLookS = 0.2, kEmptyLookS = 1;
   explicit TurningRig(TurningPictures& pictures) : source_(pictures, time) {}
   void comes(std::uint32_t person, const TurningPerson& manners) { source_.comes(person, manners); }
   void say(std::optional<pipeline::TurnAdvice> advice) { source_.said = advice; }

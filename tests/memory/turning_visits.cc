@@ -17,7 +17,7 @@ using firmware::State;
 using Kind = TurningPerson::Kind;
 
 constexpr int kKiosks = 4;
-constexpr std::uint32_t kFirstPerson = 21, kPeople = 5;
+constexpr std::uint32_t kFirstPerson = 21, kPeople = 3;
 constexpr std::uint32_t kKinds = static_cast<std::uint32_t>(Kind::Count);
 constexpr std::array<const char*, kKinds> kNames{
     "willing", "too fast", "back and forth", "wrong way first", "a second face", "half", "leaves"};
@@ -115,6 +115,7 @@ bool turning_visits(int visits, int first_number) {
   TurningPictures pictures;
   std::array<std::array<int, Outcomes>, kNames.size()> ends{};
   std::mutex told;
+  int served = 0;
   std::atomic<int> next{first_number};
   const auto serve = [&] {
     auto judge = firmware::LiveJudge::open(pictures.calibration());
@@ -131,6 +132,7 @@ bool turning_visits(int visits, int first_number) {
                     end == Stuck ? "stuck"
                     : end == One ? "one side"
                                  : "no side");
+      if (++served % 100 == 0) std::printf("%d visits\n", served);
       std::fflush(stdout);
       if (end == Stuck)
         kiosk = std::make_unique<Kiosk>(pictures, *firmware::LiveJudge::open(pictures.calibration()));

@@ -119,15 +119,32 @@ constexpr double kHeardAfterS = 0.6,
                  kCalmDegS = 12;  // until a person does what they were told; slow enough to stop
 constexpr double kClearlyDeg = 6;
 
+// Who comes no nearer to a side for so long cannot or will not turn there: the other hand is asked for.
+constexpr double kGivenUpAfterS = 6, kNearerDeg = 3;
+
 // The one that is least far to turn to. The one that was asked for stays until another is clearly nearer:
 // between two as far the advice would change with every picture.
-std::size_t next_side(double yaw_deg, const TurnHistory& history) {
+std::size_t next_side(double yaw_deg, TurnHistory& history) {
+  if ((history.taken | history.given_up).all()) history.given_up.reset();
   const auto far = [&](std::size_t i) { return std::abs(kSidesDeg[i] - yaw_deg); };
+  const auto out = history.taken | history.given_up;
   std::size_t nearest = kSides;
   for (std::size_t i = 0; i < kSides; ++i)
-    if (!history.taken[i] && (nearest == kSides || far(i) < far(nearest))) nearest = i;
+    if (!out[i] && (nearest == kSides || far(i) < far(nearest))) nearest = i;
   const std::size_t asked = history.asked.value_or(nearest);
-  return history.taken[asked] || far(nearest) + kClearlyDeg < far(asked) ? nearest : asked;
+  return out[asked] || far(nearest) + kClearlyDeg < far(asked) ? nearest : asked;
+}
+
+void ask(double yaw_deg, std::chrono::nanoseconds at, double reach_deg, TurnHistory& history) {
+  const auto before = history.asked;
+  history.asked = next_side(yaw_deg, history);
+  const double side = kSidesDeg[*history.asked], off = std::abs(side - yaw_deg);
+  if (history.asked != before || off <= reach_deg || off < history.nearest_deg - kNearerDeg) {
+    history.nearest_deg = off, history.nearer_at = at;
+  } else if (std::chrono::duration<double>(at - history.nearer_at).count() > kGivenUpAfterS) {
+    for (std::size_t i = 0; i < kSides; ++i)
+      if (kSidesDeg[i] * side > 0) history.given_up.set(i);
+  }
 }
 
 }  // namespace
@@ -186,7 +203,7 @@ TurnAnswer guide_turn(const FrontFace& front, const HeadTurn& now, std::chrono::
     history.slow = 0;
     return {};
   }
-  history.asked = next_side(now.yaw_deg, history);
+  ask(now.yaw_deg, at, limits.reach_deg, history);
   const double off = kSidesDeg[*history.asked] - now.yaw_deg;
   const bool there = std::abs(off) <= limits.reach_deg;
   const bool level =

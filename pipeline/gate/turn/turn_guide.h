@@ -64,7 +64,9 @@ struct TurnHistory {
   std::chrono::nanoseconds last_at{};
   int slow = 0;                      // pictures in a row
   std::optional<std::size_t> asked;  // the side that is led to
-  std::bitset<kSides> taken;
+  double nearest_deg = 0;            // to it, so far
+  std::chrono::nanoseconds nearer_at{};
+  std::bitset<kSides> taken, given_up;  // given up: of a hand that did not come; for a while
 };
 
 struct TurnAnswer {

@@ -145,6 +145,17 @@ TEST_F(TurnGuide, LeadsToTheNearestSideAndTakesItOnlyWhenTheHeadIsSlow) {
   EXPECT_EQ(look(0).advice, TurnAdvice::Done);
 }
 
+TEST_F(TurnGuide, AsksForTheOtherHandWhereOneDoesNotCome) {
+  for (int i = 0; i < 60; ++i) EXPECT_EQ(look(5).advice, TurnAdvice::ToRight) << i;
+  look(5), look(5);
+  for (int i = 0; i < 60; ++i) EXPECT_EQ(look(5).advice, TurnAdvice::ToLeft) << i << ": though it is further";
+  look(5), look(5);
+  EXPECT_EQ(look(5).advice, TurnAdvice::ToRight) << "neither came: from the start";
+  history_.taken.set(2), history_.taken.set(3);
+  for (int i = 0; i < 150; ++i)
+    EXPECT_EQ(look(5).advice, TurnAdvice::ToLeft) << i << ": nothing else is left";
+}
+
 TEST_F(TurnGuide, TakesNoNoddingOrLostHead) {
   for (int i = 0; i < 4; ++i) {
     const TurnAnswer nods = look(25, 0, 20);
@@ -236,6 +247,7 @@ TEST(TurnGuideVisits, TheWillingEndWithBothSides) {
     }
     if (kind == Kind::OneSide) {
       EXPECT_FALSE(made.taken[2] || made.taken[3]) << seed;
+      EXPECT_TRUE(made.taken[0] || made.taken[1]) << seed << ": what there is";
     }
     if (!TurningPerson::is_willing(kind)) continue;
     ++willing;
