@@ -299,11 +299,19 @@ void Kiosk::ask(ui::Intent intent) {
   if (intent != ui::Intent::LookUp) appliance_->ask(intent);
 }
 
+namespace {
+
+constexpr std::chrono::seconds kShownInVain{4};  // a side of a recording, before its next is shown
+
+}  // namespace
+
 // Before the simulated rig, and in a recorded head, somebody does as the page says: on to the nearest side
-// that is not taken.
+// that is not taken. A recording may show another one, or none: then its next is asked for.
 void Kiosk::turn_simulated_head() {
   double to_deg = 0;
+  std::size_t taken = 0;
   if (const auto& turn = view_.live.turn; turn && appliance_->state() == State::Turn) {
+    taken = turn->taken.count();
     const auto nearer = [&](std::size_t a, std::size_t b) {
       const auto far = [&](std::size_t i) {
         return turn->taken[i] ? 1e3 : std::abs(pipeline::kSidesDeg[i] - turned_to_deg_);
@@ -314,7 +322,10 @@ void Kiosk::turn_simulated_head() {
     std::iota(sides.begin(), sides.end(), 0);
     to_deg = pipeline::kSidesDeg[*std::ranges::min_element(sides, nearer)];
   }
-  if (to_deg != turned_to_deg_) turn_head_(turned_to_deg_ = to_deg);
+  const bool waits = to_deg != 0 && view_.now - turned_at_ > kShownInVain;
+  if (to_deg == turned_to_deg_ && taken == turned_with_ && !waits) return;
+  turned_with_ = taken, turned_at_ = view_.now;
+  turn_head_(turned_to_deg_ = to_deg);
 }
 
 // Who is spoken to is there, whatever the clocks of visit and machine say.

@@ -77,6 +77,8 @@ class Kiosk {
   std::unique_ptr<hal::Device> device_;
   std::function<void(double yaw_deg)> turn_head_;  // of the simulated person; empty: a living one does it
   double turned_to_deg_ = 0;
+  std::size_t turned_with_ = 0;  // so many sides taken
+  hal::Instant turned_at_{};
   std::unique_ptr<storage::Store> store_;
   std::unique_ptr<BootMemory> memory_;
   std::unique_ptr<ThreadPool> pool_;

@@ -10,23 +10,22 @@ namespace {
 constexpr double kDistanceMm = 560;
 constexpr int kNobody = 255, kStraight = 100;
 
+constexpr int kCutPx = (TurningPictures::kAlbumWidthPx - TurningPictures::kWidthPx) / 2;  // on either side
+
 // Each pixel as often as the picture is enlarged, all moved by so many of the new ones.
 hal::Picture enlarge(const hal::Picture& from, int right_px, int down_px) {
   constexpr int n = TurningPictures::kEnlarged;
-  hal::Picture to = from;
-  to.width_px *= n, to.height_px *= n;
+  hal::Picture to{{}, n * TurningPictures::kWidthPx, n * TurningPictures::kHeightPx, from.format};
   const auto at = [](const hal::Picture& p, int x, int y) {
-    return 3 *
-           (static_cast<std::size_t>(y) * static_cast<std::size_t>(p.width_px) + static_cast<std::size_t>(x));
+    return std::ptrdiff_t{3} * (std::ptrdiff_t{y} * p.width_px + x);
   };
-  to.bytes.resize(at(to, 0, to.height_px));
+  to.bytes.resize(static_cast<std::size_t>(at(to, 0, to.height_px)));
   const auto source = [](int i, int by, int size) { return std::clamp(i - by, 0, n * size - 1) / n; };
   for (int y = 0; y < to.height_px; ++y)
     for (int x = 0; x < to.width_px; ++x)
-      std::copy_n(
-          from.bytes.begin() + static_cast<std::ptrdiff_t>(at(from, source(x, right_px, from.width_px),
-                                                              source(y, down_px, from.height_px))),
-          3, to.bytes.begin() + static_cast<std::ptrdiff_t>(at(to, x, y)));
+      std::copy_n(from.bytes.begin() + at(from, source(x + n * kCutPx, right_px, from.width_px),
+                                          source(y, down_px, from.height_px)),
+                  3, to.bytes.begin() + at(to, x, y));
   return to;
 }
 
@@ -34,7 +33,8 @@ hal::Picture enlarge(const hal::Picture& from, int right_px, int down_px) {
 
 pipeline::StereoCalibration TurningPictures::enlarged(pipeline::StereoCalibration of) {
   for (pipeline::CameraIntrinsics* camera : {&of.left, &of.right}) {
-    camera->width_px *= kEnlarged, camera->height_px *= kEnlarged;
+    camera->width_px = kWidthPx * kEnlarged, camera->height_px = kHeightPx * kEnlarged;
+    camera->centre_px.x -= kCutPx;
     for (double* number : {&camera->focal_px.x, &camera->focal_px.y}) *number *= kEnlarged;
     for (double* number : {&camera->centre_px.x, &camera->centre_px.y})
       *number = (*number + 0.5) * kEnlarged - 0.5;

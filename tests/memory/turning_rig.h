@@ -21,7 +21,9 @@ namespace relievo::test {
 // Pictures of a few people at every half degree, each made when it is asked for and kept. Thread: any.
 class TurningPictures {
  public:
-  static constexpr int kEnlarged = 2;  // of the album's pictures: a head that moves is judged by pixels
+  // Of the album's pictures: a head that moves is judged by pixels; and of them the middle, where the head
+  // is.
+  static constexpr int kEnlarged = 2, kAlbumWidthPx = 480, kWidthPx = 360, kHeightPx = 300;
   const pipeline::StereoCalibration& calibration() const { return calibration_; }
   struct Look {
     std::uint32_t person = 0;
@@ -43,7 +45,7 @@ class TurningPictures {
 class TurningRig final : public hal::Device {
  public:
   // Between two pictures: a slow machine's. Before nobody nothing is missed.
-  static constexpr double kLookS = 0.2, kEmptyLookS = 1;
+  static constexpr double kLookS = 0.25, kEmptyLookS = 1;
   explicit TurningRig(TurningPictures& pictures) : source_(pictures, time) {}
   void comes(std::uint32_t person, const TurningPerson& manners) { source_.comes(person, manners); }
   void say(std::optional<pipeline::TurnAdvice> advice) { source_.said = advice; }
@@ -62,7 +64,8 @@ class TurningRig final : public hal::Device {
   hal::ManualClock time;
 
  private:
-  static constexpr hal::CaptureMode kMode{480 * TurningPictures::kEnlarged, 300 * TurningPictures::kEnlarged,
+  static constexpr hal::CaptureMode kMode{TurningPictures::kWidthPx * TurningPictures::kEnlarged,
+                                          TurningPictures::kHeightPx* TurningPictures::kEnlarged,
                                           std::chrono::milliseconds(8)};
   class Source final : public hal::PairSource {
    public:

@@ -17,7 +17,7 @@ using firmware::State;
 using Kind = TurningPerson::Kind;
 
 constexpr int kKiosks = 4;
-constexpr std::uint32_t kFirstPerson = 21, kPeople = 3;
+constexpr std::uint32_t kFirstPerson = 21, kPeople = 2;
 constexpr std::uint32_t kKinds = static_cast<std::uint32_t>(Kind::Count);
 constexpr std::array<const char*, kKinds> kNames{
     "willing", "too fast", "back and forth", "wrong way first", "a second face", "half", "leaves"};

@@ -26,12 +26,11 @@ class FolderSource final : public PairSource {
     return Exposure{std::move(picture), lateness(pair, side)};
   }
 
-  // Of a recorded head: the next side for every direction that is asked for, in front at 0.
+  // Of a recorded head: its next side, whichever that is; in front at 0, and after the last from the first
+  // on.
   void turn_head(double yaw_deg) override {
-    if (yaw_deg == 0) asked_deg_.clear();
-    else if (std::ranges::find(asked_deg_, yaw_deg) == asked_deg_.end()) asked_deg_.push_back(yaw_deg);
-    const auto side = std::ranges::find(asked_deg_, yaw_deg) - asked_deg_.begin() + 1;
-    wanted_.store(yaw_deg == 0 ? 0 : std::min(std::size_t(side), pairs_.size() - 1));
+    const std::size_t sides = pairs_.size() - 1;
+    wanted_.store(yaw_deg == 0 || sides == 0 ? 0 : wanted_.load() % sides + 1);
   }
 
  private:
@@ -49,7 +48,6 @@ class FolderSource final : public PairSource {
 
   std::vector<PicturePairFiles> pairs_;
   CaptureFile capture_;
-  std::vector<double> asked_deg_;        // main
   std::atomic<std::size_t> wanted_ = 0;  // from main to capture
   std::size_t at_ = 0;                   // capture, as the next
   std::uint32_t number_ = 0;

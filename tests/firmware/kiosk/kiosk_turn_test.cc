@@ -15,6 +15,8 @@
 #include "firmware/service/export_records.h"
 #include "hal/base/whole_file.h"
 #include "hal/monotonic_clock.h"
+#include "hal/picture_file.h"
+#include "hal/recording/capture_file.h"
 #include "hal/sim/device.h"
 #include "hal/sim/replay/folder_media.h"
 #include "pipeline/calibrate/file/calibration_file.h"
@@ -124,6 +126,34 @@ TEST_F(KioskTurn, WhoTurnsTheHeadSeesAllOfIt) {
   const std::string_view ply(reinterpret_cast<const char*>(bytes->data()), 4000);
   EXPECT_NE(ply.find("property uchar pose"), std::string_view::npos);
   EXPECT_GT(std::filesystem::file_size(record / "solid.stl"), 1'000'000U);
+}
+
+// Its sides lie in another order than the kiosk asks for them, and one is none.
+TEST_F(KioskTurn, ARecordedHeadIsMadeFromAllItsSides) {
+  const auto made = folder.path() / "visit", head = folder.path() / "head";
+  hal::sim::SimulationOptions simulation;
+  simulation.scene = hal::sim::SceneKind::Visit;
+  simulation.seed = 4;
+  simulation.rig = test::small_rig(0.3);
+  ASSERT_TRUE(hal::sim::render_to_folder(simulation, made));
+  for (const int pair : {0, 5, 2, 3, 4, 1}) {  // in front, nods, 25, -45, 45, -25
+    const auto from = made / std::to_string(pair);
+    const auto left = hal::read_picture(from / "left.png"), right = hal::read_picture(from / "right.png");
+    ASSERT_TRUE(left && right);
+    hal::RecordedPair recorded{left->view(), right->view(), 0, 0, 4000, 1, "", ""};
+    recorded.of_head = true;
+    ASSERT_TRUE(hal::record_pair(head, recorded));
+  }
+  kiosk.reset();
+  services.open_device = [&](std::string_view) { return hal::make_folder_device(head); };
+  args.device = "folder:" + head.string();
+  args.calibration = made / "rig.yml";
+  open(args, services);
+  to_turn();
+  ASSERT_TRUE(reach(ui::Step::Review));
+  kiosk->turn();
+  ASSERT_NE(kiosk->view().model, nullptr);
+  EXPECT_EQ(poses(), (std::set<int>{0, 1, 2, 3, 4}));
 }
 
 TEST_F(KioskTurn, WhoCannotHasTheFaceOfOnePicture) {

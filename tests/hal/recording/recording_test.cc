@@ -102,7 +102,7 @@ TEST(Recording, AHeadTurnsToItsNextSideWhenItIsAskedTo) {
     }
     for (int visit = 0; visit < 2; ++visit) {
       for (int again = 0; again < 2; ++again) expect_next(device, views[0], views[1]);
-      const std::pair<double, std::size_t> asked[] = {{-25, 2}, {-25, 2}, {25, 4}, {-25, 2}, {45, 4}, {0, 0}};
+      const std::pair<double, std::size_t> asked[] = {{-25, 2}, {-25, 4}, {25, 2}, {45, 4}, {0, 0}};
       for (const auto& [yaw_deg, at] : asked) {
         turn_simulated_head(device, yaw_deg);
         expect_next(device, views[at], views[at + 1]);
