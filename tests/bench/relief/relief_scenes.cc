@@ -105,9 +105,11 @@ const char* name_of(Shown shown) {
     case Shown::Face: return "face";
     case Shown::PrintedFlat: return "printed flat";
     case Shown::PrintedBent: return "printed and bent";
-    case Shown::Screen: break;
+    case Shown::Screen: return "on a screen";
+    case Shown::TurningPerson: return "turning person";
+    case Shown::TurningMask: break;
   }
-  return "on a screen";
+  return "turning mask";
 }
 
 Album::Album(std::uint32_t first_person, int count, ThreadPool& pool) {
@@ -163,6 +165,35 @@ Trial People::show(std::uint64_t number) {
   trial.scene = make_head_scene(head_, pose, pool_, lamps_of(random));
   trial.what = "person " + std::to_string(person) + " " + text_of(pose, trial.sensor);
   return trial;
+}
+
+std::array<Trial, 3> show_turning(Shown shown, std::uint32_t first_person, std::uint64_t number,
+                                  ThreadPool& pool) {
+  Random random(Random(number * 8 + static_cast<std::uint64_t>(shown)).next());
+  const bool mask = shown == Shown::TurningMask;
+  sim::HeadTraits traits = sim::traits_of(first_person + static_cast<std::uint32_t>(number));
+  if (mask) traits.expression.lids_open = 0;
+  auto head = sim::make_head(traits, pool);
+  const sim::HeadPose front = pose_of(random, 5, 5);
+  const sim::HeadLighting lamps = lamps_of(random);
+  const sim::SensorOptions sensor = sensor_of(random);
+  std::array<Trial, 3> trials;
+  for (std::size_t k = 0; k < trials.size(); ++k) {
+    sim::HeadPose pose = turned_about_neck(front, k == 0 ? 0 : k == 1 ? -25 : 25);
+    pose.eyes_follow = !mask;
+    if (k == 1 && !mask) {
+      traits.expression.lids_open = 1 - random.uniform(0, 0.15);
+      traits.expression.jaw_mm = random.uniform(0, 0.8);
+      head = sim::make_head(traits, pool);
+    }
+    Trial& trial = trials.at(k);
+    trial.rig.width_px = 640, trial.rig.height_px = 400;
+    trial.sensor = sensor;
+    trial.noise_seed = random.next();
+    trial.scene = make_head_scene(head, pose, pool, lamps);
+    trial.what = "person " + std::to_string(first_person + number) + " " + text_of(pose, sensor);
+  }
+  return trials;
 }
 
 }  // namespace relievo::bench

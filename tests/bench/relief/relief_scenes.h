@@ -5,6 +5,7 @@
 // printed and bent, or shown on a screen. Everything random comes from the number of the trial.
 #pragma once
 
+#include <array>
 #include <cstdint>
 #include <memory>
 #include <string>
@@ -18,7 +19,7 @@
 
 namespace relievo::bench {
 
-enum class Shown : std::uint8_t { Face, PrintedFlat, PrintedBent, Screen };
+enum class Shown : std::uint8_t { Face, PrintedFlat, PrintedBent, Screen, TurningPerson, TurningMask };
 const char* name_of(Shown shown);
 
 struct Trial {
@@ -55,5 +56,10 @@ class People {
   std::uint32_t made_ = 0;
   std::shared_ptr<const hal::sim::HeadModel> head_;
 };
+
+// Three pairs of somebody who turns, in front and 25 degrees to either side, a third of the rig's size. A
+// person blinks and speaks between them; a mask is rigid, its eyes closed.
+std::array<Trial, 3> show_turning(Shown shown, std::uint32_t first_person, std::uint64_t number,
+                                  ThreadPool& pool);
 
 }  // namespace relievo::bench

@@ -2,7 +2,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "tests/bench/relief/relief_trial.h"
 
-#include "pipeline/pipeline.h"
+#include "pipeline/fuse/head_pipeline.h"
 #include "tests/support/rig_calibration.h"
 
 namespace relievo::bench {
@@ -26,7 +26,42 @@ Result<void> reconstruct(const Pipeline& stages, const hal::sim::PicturePair& pi
   return model->unjudged ? Result<void>(*model->unjudged) : Result<void>{};
 }
 
+Result<void> fuse(std::span<const Trial> trials, std::span<const hal::sim::PicturePair> pictures,
+                  test::StageFixture& room, Arena& kept, Verdict& verdict) {
+  const StereoCalibration calibration = test::true_calibration(make_rig(trials.front().rig));
+  RELIEVO_TRY_ASSIGN(const HeadPipeline pipeline, HeadPipeline::make({}));
+  const auto frame = [&](std::size_t k) {
+    return StereoFrame{pictures[k].left.view(), pictures[k].right.view(), 0, 0};
+  };
+  RELIEVO_TRY_ASSIGN(const FaceModel face, pipeline.face(frame(0), calibration, room.context));
+  if (face.unjudged) return *face.unjudged;
+  std::vector<HeadPose> poses;
+  for (std::size_t k = 0; k < trials.size(); ++k) {
+    const Arena::Mark mark(room.output);
+    RELIEVO_TRY_ASSIGN(HeadPose pose, pipeline.measure(frame(k), calibration, room.context, kept));
+    poses.push_back(std::move(pose));
+  }
+  RELIEVO_TRY_ASSIGN(const FusedHead head, pipeline.fuse(face, poses, room.context));
+  verdict.aliveness = head.aliveness;
+  return head.model.unjudged ? Result<void>(*head.model.unjudged) : Result<void>{};
+}
+
+Verdict verdict_of(const Result<void>& done, Verdict verdict) {
+  verdict.accepted = done.has_value();
+  if (!done) verdict.why = std::string(done.error().what.view());
+  return verdict;
+}
+
 }  // namespace
+
+Verdict judge_turning(std::span<const Trial> trials, std::span<const hal::sim::PicturePair> pictures,
+                      test::StageFixture& room, Arena& kept) {
+  room.output.reset();
+  kept.reset();
+  Verdict verdict;
+  const Result<void> done = fuse(trials, pictures, room, kept, verdict);
+  return verdict_of(done, verdict);
+}
 
 hal::sim::PicturePair photograph(const Trial& trial, ThreadPool& pool) {
   return render_pair(*trial.scene, make_rig(trial.rig), trial.sensor, trial.noise_seed, pool);
@@ -38,9 +73,7 @@ Verdict judge(const Trial& trial, const hal::sim::PicturePair& pictures, test::S
   const auto stages = Pipeline::make({}, test::true_calibration(make_rig(trial.rig)));
   const Result<void> done =
       stages ? reconstruct(*stages, pictures, room, verdict) : Result<void>(stages.error());
-  verdict.accepted = done.has_value();
-  if (!done) verdict.why = std::string(done.error().what.view());
-  return verdict;
+  return verdict_of(done, verdict);
 }
 
 }  // namespace relievo::bench

@@ -6,9 +6,11 @@
 #pragma once
 
 #include <optional>
+#include <span>
 #include <string>
 
 #include "hal/sim/render.h"
+#include "pipeline/fuse/aliveness.h"
 #include "pipeline/relief/relief_check.h"
 #include "tests/bench/relief/relief_scenes.h"
 #include "tests/support/stage_fixture.h"
@@ -17,12 +19,16 @@ namespace relievo::bench {
 
 struct Verdict {
   bool accepted = false;
-  std::string why;  // it was not
+  std::string why;                // it was not
+  pipeline::Aliveness aliveness;  // of a head that turned
   std::optional<pipeline::ReliefFigures>
       relief;  // where there was a surface to measure: then it alone refuses
 };
 
 hal::sim::PicturePair photograph(const Trial& trial, ThreadPool& pool);
+// What the kiosk makes of a head that turned: refused where its eyes were not alive.
+Verdict judge_turning(std::span<const Trial> trials, std::span<const hal::sim::PicturePair> pictures,
+                      test::StageFixture& room, Arena& kept);
 Verdict judge(const Trial& trial, const hal::sim::PicturePair& pictures, test::StageFixture& room);
 
 }  // namespace relievo::bench

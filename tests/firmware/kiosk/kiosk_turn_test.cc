@@ -134,6 +134,7 @@ TEST_F(KioskTurn, ARecordedHeadIsMadeFromAllItsSides) {
   hal::sim::SimulationOptions simulation;
   simulation.scene = hal::sim::SceneKind::Visit;
   simulation.seed = 4;
+  simulation.drift = 0;
   simulation.rig = test::small_rig(0.3);
   ASSERT_TRUE(hal::sim::render_to_folder(simulation, made));
   for (const int pair : {0, 5, 2, 3, 4, 1}) {  // in front, nods, 25, -45, 45, -25
