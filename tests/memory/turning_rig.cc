@@ -19,7 +19,7 @@ hal::Picture enlarge(const hal::Picture& from, int right_px, int down_px) {
   const auto at = [](const hal::Picture& p, int x, int y) {
     return std::ptrdiff_t{3} * (std::ptrdiff_t{y} * p.width_px + x);
   };
-  to.bytes.resize(static_cast<std::size_t>(at(to, 0, to.height_px)));
+  to.bytes.resize(std::size_t(at(to, 0, to.height_px)));
   const auto source = [](int i, int by, int size) { return std::clamp(i - by, 0, n * size - 1) / n; };
   for (int y = 0; y < to.height_px; ++y)
     for (int x = 0; x < to.width_px; ++x)
@@ -55,7 +55,7 @@ const std::array<hal::sim::PicturePair, 2>& TurningPictures::of(const Look& look
                                             look.company ? &twin : nullptr);
   for (std::size_t roll = 0; roll < 2; ++roll)
     at->second[roll] =
-        album_.develop(shot, {.noise_seed = 2 * static_cast<std::uint64_t>(look.half_degrees + 999) + roll});
+        album_.develop(shot, {.noise_seed = 2 * std::uint64_t(look.half_degrees + 999) + roll});
   return at->second;
 }
 
@@ -66,16 +66,14 @@ Result<hal::PairSource::Exposure> TurningRig::Source::expose(Side side, std::uin
     clock_.advance(std::chrono::milliseconds(std::lround(1e3 * passes_s)));
     if (const auto advice = said.load()) manners_.hear(*advice, passes_s);
   }
-  const TurningPictures::Look look{
-      person_, manners_.is_gone() ? 0 : static_cast<int>(std::lround(2 * manners_.yaw_deg())),
-      manners_.is_gone(), manners_.has_company()};
+  const TurningPictures::Look look{person_, manners_.is_gone() ? 0 : int(std::lround(2 * manners_.yaw_deg())),
+                                   manners_.is_gone(), manners_.has_company()};
   const hal::sim::PicturePair& pair = pictures_.of(look)[number % 2];
   const double px_per_mm = pictures_.calibration().left.focal_px.x / kDistanceMm;
   hal::Picture picture = enlarge(side == Side::Left ? pair.left : pair.right,
-                                 static_cast<int>(std::lround(px_per_mm * manners_.shift_mm().x)),
-                                 static_cast<int>(std::lround(px_per_mm * manners_.shift_mm().y)));
-  picture.bytes[0] = static_cast<std::byte>(
-      look.gone ? kNobody : kStraight + static_cast<int>(std::lround(manners_.yaw_deg())));
+                                 int(std::lround(px_per_mm * manners_.shift_mm().x)),
+                                 int(std::lround(px_per_mm * manners_.shift_mm().y)));
+  picture.bytes[0] = std::byte(look.gone ? kNobody : kStraight + int(std::lround(manners_.yaw_deg())));
   return Exposure{std::move(picture), std::chrono::nanoseconds(0)};
 }
 

@@ -18,7 +18,7 @@ using Kind = TurningPerson::Kind;
 
 constexpr int kKiosks = 4;
 constexpr std::uint32_t kFirstPerson = 21, kPeople = 2;
-constexpr std::uint32_t kKinds = static_cast<std::uint32_t>(Kind::Count);
+constexpr std::uint32_t kKinds = std::uint32_t(Kind::Count);
 constexpr std::array<const char*, kKinds> kNames{
     "willing", "too fast", "back and forth", "wrong way first", "a second face", "half", "leaves"};
 static_assert(kNames.back() != nullptr);
@@ -122,13 +122,13 @@ bool turning_visits(int visits, int first_number) {
     if (!judge) return;  // then a visit is missing
     auto kiosk = std::make_unique<Kiosk>(pictures, std::move(*judge));
     for (int number = next++; number < first_number + visits; number = next++) {
-      const auto n = static_cast<std::uint32_t>(number);
-      const auto kind = static_cast<Kind>(n % kKinds);
+      const auto n = std::uint32_t(number);
+      const auto kind = Kind(n % kKinds);
       const Outcome end = kiosk->visit(kFirstPerson + 2 * (n / kKinds % kPeople), kind, n);
       const std::lock_guard lock(told);
-      ++ends[static_cast<std::size_t>(kind)][end];
+      ++ends[std::size_t(kind)][end];
       if (end == Stuck || (end != Both && TurningPerson::is_willing(kind)))
-        std::printf("visit %d (%s): %s\n", number, kNames[static_cast<std::size_t>(kind)],
+        std::printf("visit %d (%s): %s\n", number, kNames[std::size_t(kind)],
                     end == Stuck ? "stuck"
                     : end == One ? "one side"
                                  : "no side");
@@ -149,7 +149,7 @@ bool turning_visits(int visits, int first_number) {
     const int sum = e[Both] + e[One] + e[None] + e[Stuck];
     std::printf("| %s | %d | %d | %d | %d | %d |\n", kNames[k], sum, e[Both], e[One], e[None], e[Stuck]);
     all += sum, stuck += e[Stuck];
-    if (TurningPerson::is_willing(static_cast<Kind>(k))) willing += sum, both += e[Both];
+    if (TurningPerson::is_willing(Kind(k))) willing += sum, both += e[Both];
   }
   std::printf("%d visits, %d stuck; %d of %d willing ended with both sides\n", all, stuck, both, willing);
   return all == visits && stuck == 0 && both >= 0.95 * willing;

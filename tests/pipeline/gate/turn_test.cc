@@ -256,6 +256,7 @@ TEST(TurnGuideVisits, TheWillingEndWithBothSides) {
   }
   RecordProperty("both", both);
   RecordProperty("all", all);
+  RecordProperty("longest_s", std::to_string(longest));
   EXPECT_GE(both, 0.95 * willing) << "of " << willing;
   EXPECT_GE(all, 0.9 * willing) << "of " << willing << ", the longest visit took " << longest << " s";
 }
