@@ -89,7 +89,7 @@ class Proof {
   void show_turning_heads(int count) {
     std::vector<std::byte> block(std::size_t{96} << 20);
     Arena kept(block);
-    for (const Shown shown : {Shown::TurningPerson, Shown::TurningMask}) {
+    for (const Shown shown : {Shown::TurningMask, Shown::TurningPerson}) {
       for (int k = 0; k < count; ++k) {
         const auto trials =
             show_turning(shown, kFirstToTurn, kFirstPlace + static_cast<std::uint64_t>(k), room_.pool);
