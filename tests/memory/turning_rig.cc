@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "tests/memory/turning_rig.h"
 
+#include <algorithm>
 #include <cmath>
 
 namespace relievo::test {

@@ -6,6 +6,10 @@
 // picture. Thread: comes() and time main, the cameras capture, say() any.
 #pragma once
 
+#include <array>
+#include <atomic>
+#include <chrono>
+#include <compare>
 #include <map>
 #include <mutex>
 #include <optional>
