@@ -74,6 +74,7 @@ Result<Sums> keep_folder(OutputFolder& made, const fs::path& target, hal::Remova
   if (work != nullptr) RELIEVO_TRY(work->reach(ExportStep::ReadBack, done + 0.8F * share));
   RELIEVO_TRY_ASSIGN(const Sums read, sums_of(made.path()));
   if (read != written) return not_as_written(target);
+  RELIEVO_TRY(plugged_in(media));  // else it all lies in the empty place, on the device
   if (work != nullptr) RELIEVO_TRY(work->reach(ExportStep::Write, done + 0.9F * share));
   RELIEVO_TRY(replace_folder(made, target));
   return written;

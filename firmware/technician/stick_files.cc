@@ -77,6 +77,7 @@ Result<void> write(std::span<const std::byte> bytes, const fs::path& target, hal
                      return not_as_written(target);
                    return {};
                  }));
+  RELIEVO_TRY(plugged_in(media));  // else it lies in the empty place, on the device
   RELIEVO_TRY(work.reach(ExportStep::Write, 0.95F));
   RELIEVO_TRY(file.publish());
   return sync_renamed(target);

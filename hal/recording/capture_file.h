@@ -39,7 +39,8 @@ struct RecordedPair {
 // "left_NNNNNN.png"; `side` is left or right.
 std::string recorded_name(const char* side, std::int64_t number);
 
-// The folder is made when it is not there. The number under which the pair stands: left_NNNNNN.png.
+// The folder is made when it is not there, the way to it is not: where a stick was pulled out, nothing is
+// written in its place. The number under which the pair stands: left_NNNNNN.png.
 Result<std::int64_t> record_pair(const std::filesystem::path& folder, const RecordedPair& pair);
 
 struct CaptureRecord {

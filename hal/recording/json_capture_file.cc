@@ -29,7 +29,7 @@ Result<std::int64_t> record_pair(const std::filesystem::path& folder, const Reco
     return Error{Errc::InvalidInput, "the two views differ in size or format: they are no pair"}.at(
         folder.string());
   std::error_code failed;
-  std::filesystem::create_directories(folder, failed);
+  std::filesystem::create_directory(folder, failed);
   if (failed)
     return Error{Errc::IoFailed, "the folder for recordings cannot be made", failed.value()}.at(
         folder.string());

@@ -4,6 +4,7 @@
 
 #include <gtest/gtest.h>
 
+#include <atomic>
 #include <fstream>
 
 #include "hal/sim/optics/rig.h"
@@ -94,7 +95,16 @@ TEST_F(CalibrationStick, NothingHalfWrittenStands) {
   stick.spoils = false;
   stick.leaves = true;
   EXPECT_EQ(export_calibration(calibration, "0001", stick).error().code, Errc::Disconnected);
+  stick.gone = false;
+  const std::atomic<bool> cancelled{false};
+  pipeline::Progress progress;
+  JobControl control{cancelled, progress};
+  ExportTrace trace;
+  const SavedBytes document({std::byte{1}});
+  EXPECT_EQ(save_reconstruction(document, "one", stick, control, trace).error().code, Errc::Disconnected);
   EXPECT_EQ(stick.ejected, 0);
+  for (const auto& left : fs::recursive_directory_iterator(root))
+    EXPECT_TRUE(left.is_directory()) << left.path() << " lies where the stick was";
 }
 
 // What a stick that was pulled out has left: the next export clears the one and brings back the other.

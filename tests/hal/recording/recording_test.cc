@@ -123,7 +123,9 @@ TEST(Recording, RefusesWhatIsNoPair) {
   EXPECT_EQ(record_pair(folder.path(), {grey.view, colour.view, 0, 0, 0, 1, "", ""}).error().code,
             Errc::InvalidInput);
   EXPECT_EQ(record_pair(folder.path(), {grey.view, {}, 0, 0, 0, 1, "", ""}).error().code, Errc::InvalidInput);
-  EXPECT_TRUE(std::filesystem::is_empty(folder.path())) << "half a pair was written";
+  EXPECT_EQ(record_pair(folder / "stick/taken", {grey.view, grey.view, 0, 0, 0, 1, "", ""}).error().code,
+            Errc::IoFailed);
+  EXPECT_TRUE(std::filesystem::is_empty(folder.path())) << "half a pair was written, or where no stick is";
 }
 
 }  // namespace

@@ -264,7 +264,7 @@ void TechnicianFrame::stick_state() {
   const TechnicianRecording& r = seen.recording;
   if (seen.phase == TechnicianPhase::Capturing || seen.phase == TechnicianPhase::Running) return;
   if (r.running) return progress("record progress", r.progress);
-  if (r.outcome != Outcome::Done) return outcome();
+  if (r.outcome != Outcome::Done) return outcome(r.outcome);
   status("recorded", filled(tr("Recorded on the stick as {}. It can be pulled out."), left_to_right(r.where)),
          Mood::Good);
 }
