@@ -64,6 +64,7 @@ void TakeHome::take(storage::EnrolmentId enrolment, const ui::Settings& settings
   parts_.side_tasks.send(
       JobLane::Keeper,
       [parts = parts_, writing = writing_, enrolment, further](JobControl& control) -> Result<void> {
+        writing->begun.store(true);
         if (writing->stopped.load()) return Error{Errc::Cancelled, "nobody waits for it any more"};
         RELIEVO_TRY_ASSIGN(const storage::Enrolment stored, parts.store.enrolment(enrolment));
         return export_records(parts.store, parts.clock, parts.media, {stored.subject}, further, control,
@@ -71,17 +72,20 @@ void TakeHome::take(storage::EnrolmentId enrolment, const ui::Settings& settings
       },
       [&log = parts_.log, writing = writing_](const std::optional<Error>& error) {
         writing->ended = true;
-        writing->outcome = error ? outcome_of_export(*error, writing->trace) : ui::Outcome::Done;
+        // A stick that was there for the touch and is not for the keeper was pulled out.
+        writing->outcome = !error                              ? ui::Outcome::Done
+                           : error->code == Errc::MediaMissing ? ui::Outcome::StickGone
+                                                               : outcome_of_export(*error, writing->trace);
         if (writing->trace.whole > 0) log.say(ui::LogEvent::TakenHome);
         if (error && error->code != Errc::Cancelled) log.fault(*error);
       },
       SideTasks::Whose::Device);
 }
 
-// It may still wait for the keeper behind others' work.
+// It may still wait for the keeper behind others' work, which goes on.
 void TakeHome::stop() {
   if (!writes() || writing_->stopped.exchange(true)) return;
-  parts_.side_tasks.stop(JobLane::Keeper);
+  if (writing_->begun.load()) parts_.side_tasks.stop(JobLane::Keeper);
 }
 
 }  // namespace relievo::firmware

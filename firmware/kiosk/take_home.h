@@ -39,7 +39,7 @@ class TakeHome {
 
  private:
   struct Writing {
-    std::atomic<bool> stopped{false};
+    std::atomic<bool> begun{false}, stopped{false};
     bool ended = false;  // main
     ui::Outcome outcome = ui::Outcome::None;
     ExportTrace trace;

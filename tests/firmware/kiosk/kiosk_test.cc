@@ -74,6 +74,7 @@ class KioskTest : public KioskHands {
     ASSERT_TRUE((*store)->set_setting("device", "take_home 1\n").has_value());
   }
   Path stick() const { return folder.path() / "stick"; }
+  hal::FolderMedia& socket() const { return dynamic_cast<hal::FolderMedia&>(kiosk->device().media()); }
   void cameras_are_off() {
     EXPECT_TRUE(until([this] { return !kiosk->view().cameras_on; })) << "no camera runs";
     kiosk->turn();
@@ -115,6 +116,8 @@ class KioskTest : public KioskHands {
   }
 
   void enrol_by_touch() {
+    socket().plug(stick());
+    played("pause 0.6\n");  // it is looked for twice a second
     // Nobody touches the screen after "done": the face stands still, and the picture is taken by itself.
     const Result<void> played = play(
         "wait attract\ntap start\ntap agree\ntype Ada\ntap done\nwait position\nwait working 600\nwait review 600\n");
@@ -184,10 +187,12 @@ class KioskTest : public KioskHands {
     links.insert(number);
   }
   void the_model_is_taken_home() {
-    auto& socket = dynamic_cast<hal::FolderMedia&>(kiosk->device().media());
-    EXPECT_TRUE(says("plug in a USB stick"));
+    EXPECT_TRUE(says("If it is yours, pull it out and plug it in again"));
     EXPECT_EQ(find("take_home"), nullptr);
-    socket.plug(stick());
+    socket().unplug();
+    ASSERT_TRUE(until([this] { return says("plug in a USB stick"); }));
+    EXPECT_EQ(find("take_home"), nullptr);
+    socket().plug(stick());
     ASSERT_TRUE(until([this] { return find("take_home") != nullptr; }));
     tap("take_home");
     EXPECT_EQ(find("finish"), nullptr) << "nobody leaves by a touch too many";

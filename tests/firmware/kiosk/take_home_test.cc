@@ -81,6 +81,10 @@ class TakeHomeTest : public ApplianceTest {
     return view.take_home.outcome;
   }
   void ends() {
+    work();
+    turn();
+  }
+  void work() {
     for (int i = 0; i < 60'000; ++i) {
       appliance.step(milliseconds(1));
       side_tasks.turn();
@@ -88,7 +92,6 @@ class TakeHomeTest : public ApplianceTest {
       take_home.follow(view, visited);
       if (taking() != Taking::Busy && !side_tasks.busy(JobLane::Keeper)) break;
     }
-    turn();
   }
   std::string copies(const std::filesystem::path& root) const {
     std::string names;
@@ -185,6 +188,93 @@ TEST_F(TakeHomeTest, AStickThatWasThereBeforeIsNotWrittenTo) {
   EXPECT_EQ(taking(), Taking::NotOurs);
 }
 
+TEST_F(TakeHomeTest, AStickThatCameWhileNobodyVisitedIsNotWrittenTo) {
+  turn();
+  plug(&faulty);
+  begins_a_visit();
+  comes_to_the_end();
+  EXPECT_EQ(taking(), Taking::NotOurs);
+  // Nor is the operator's, which was there when they switched it on.
+  view.receipt = {};
+  visited = false;
+  view.settings.set(ui::Setting::TakeHome, 0);
+  plug(nullptr);
+  plug(&faulty);
+  view.settings.set(ui::Setting::TakeHome, 1);
+  begins_a_visit();
+  comes_to_the_end();
+  EXPECT_EQ(taking(), Taking::NotOurs);
+}
+
+TEST_F(TakeHomeTest, OfTwoSticksTheOneThatIsInIsWrittenTo) {
+  const auto other = folder.path() / "other";
+  std::filesystem::create_directory(other);
+  FaultyStick second(other);
+  begins_a_visit();
+  comes_to_the_end();
+  plug(&faulty);
+  ASSERT_EQ(taking(), Taking::Ready);
+  plug(nullptr);
+  EXPECT_EQ(taking(), Taking::NoStick);
+  take_home.take(enrolment, view.settings);
+  turn();
+  EXPECT_EQ(taking(), Taking::NoStick) << "there is nothing to write to";
+  EXPECT_EQ(view.take_home.outcome, Outcome::None);
+  ends_well_on(second, other);
+  EXPECT_EQ(copies(stick_folder()), "");
+}
+
+TEST_F(TakeHomeTest, AStickThatIsPulledAtTheTouchIsSaidToBeGone) {
+  begins_a_visit();
+  comes_to_the_end();
+  plug(&faulty);
+  socket.stick = nullptr;
+  EXPECT_EQ(take(), Outcome::StickGone);
+  EXPECT_EQ(taking(), Taking::NoStick);
+  EXPECT_EQ(logged(), 0);
+  ends_well_on(faulty, stick_folder());
+}
+
+TEST_F(TakeHomeTest, AStickIsLookedForNowAndThenAndAtOnceWhenItIsWritten) {
+  begins_a_visit();
+  comes_to_the_end();
+  plug(&faulty);
+  const int asked = socket.asked;
+  for (int i = 0; i < 10; ++i) take_home.follow(view, visited);
+  EXPECT_EQ(socket.asked, asked) << "the screen does not wait for it every turn";
+  take_home.take(enrolment, view.settings);
+  work();
+  EXPECT_EQ(view.take_home.outcome, Outcome::Done);
+  EXPECT_EQ(taking(), Taking::NoStick) << "who is told that it may be pulled out is not asked to write to it";
+}
+
+// What the keeper does meanwhile is somebody else's: the printing of the code.
+TEST_F(TakeHomeTest, WhoStopsBeforeItHasBegunStopsNothingElse) {
+  std::atomic<bool> hold{true}, stopped{false};
+  side_tasks.send(
+      JobLane::Keeper,
+      [&](JobControl& control) -> Result<void> {
+        hold.wait(true);
+        stopped = control.cancelled.load();
+        return {};
+      },
+      [](const auto&) {}, SideTasks::Whose::Device);
+  begins_a_visit();
+  comes_to_the_end();
+  plug(&faulty);
+  take_home.take(enrolment, view.settings);
+  turn();
+  EXPECT_EQ(taking(), Taking::Busy);
+  take_home.stop();
+  hold = false;
+  hold.notify_all();
+  ends();
+  EXPECT_FALSE(stopped);
+  EXPECT_EQ(view.take_home.outcome, Outcome::Cancelled);
+  EXPECT_EQ(copies(stick_folder()), "");
+  ends_well_on(faulty, stick_folder());
+}
+
 TEST_F(TakeHomeTest, WhatGoesWrongIsToldAndCanBeTriedAgain) {
   begins_a_visit();
   comes_to_the_end();
@@ -254,6 +344,16 @@ TEST_F(TakeHomeWaitsTest, WhoStopsItLeavesNothingHalf) {
   EXPECT_EQ(copies(stick_folder()), "");
   EXPECT_EQ(logged(), 0);
   ends_well_on(faulty, stick_folder());
+}
+
+TEST_F(TakeHomeWaitsTest, WhoTouchesTwiceHasOneCopy) {
+  take_home.take(enrolment, view.settings);
+  faulty.fail(FaultyStick::Fault::None);
+  faulty.let_go_on();
+  ends();
+  EXPECT_EQ(view.take_home.outcome, Outcome::Done);
+  EXPECT_EQ(copies(stick_folder()), code + " ");
+  EXPECT_EQ(logged(), 1);
 }
 
 TEST_F(TakeHomeWaitsTest, AStickThatDoesNotAnswerIsGivenUp) {
