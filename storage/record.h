@@ -40,9 +40,8 @@ struct Subject {
 };
 
 struct SubjectFilter {
-  std::string name{};       // empty: everyone
-  bool whole_name = false;  // false: `name` anywhere in the name, ASCII letters in either case
-  std::int64_t skip = 0;    // for paging; the newest come first
+  std::string name{};     // empty: everyone
+  std::int64_t skip = 0;  // for paging; the newest come first
   std::int64_t limit = 1000;
   std::int64_t receipt = 0;  // not 0: only whose receipt it is
 };

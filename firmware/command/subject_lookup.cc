@@ -22,7 +22,7 @@ std::optional<storage::SubjectId> number_in(std::string_view text) {
 }
 
 Result<std::vector<storage::Subject>> of_name(storage::Store& store, std::string_view name) {
-  RELIEVO_TRY_ASSIGN(auto found, store.subjects({std::string(name), true, 0, 2}));
+  RELIEVO_TRY_ASSIGN(auto found, store.subjects({std::string(name), 0, 2}));
   if (found.size() > 1) {
     return Error{Errc::InvalidInput,
                  "several have this name: use the number, as in '#3' ('relievo subjects list' shows it)"}

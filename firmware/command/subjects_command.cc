@@ -35,7 +35,7 @@ void say_subject(const storage::Subject& subject, Console& console) {
 Result<void> list(storage::Store& store, Console& console) {
   constexpr std::int64_t kPage = 1000;
   for (std::int64_t skip = 0;; skip += kPage) {
-    RELIEVO_TRY_ASSIGN(const auto page, store.subjects({"", false, skip, kPage}));
+    RELIEVO_TRY_ASSIGN(const auto page, store.subjects({"", skip, kPage}));
     for (const storage::Subject& subject : page) say_subject(subject, console);
     if (std::int64_t(page.size()) < kPage) {
       if (skip == 0 && page.empty()) console.say("nobody is in the store");
@@ -176,7 +176,7 @@ Result<void> import(const SubjectsArgs& args, const Path& folder, Services& serv
   RELIEVO_TRY_ASSIGN(const auto store, open_kept_store(folder, services));
   RELIEVO_TRY(believe(*store, key, args));
   if (!args.same_name) {
-    RELIEVO_TRY_ASSIGN(const auto there, store->subjects({person->name, true, 0, 1}));
+    RELIEVO_TRY_ASSIGN(const auto there, store->subjects({person->name, 0, 1}));
     if (!there.empty())
       return Error{
           Errc::InvalidInput,

@@ -276,6 +276,15 @@ void add_records(std::deque<Shown>& all) {
   all.push_back({"staff_search", StaffPage::Records, 1, records});
   all.push_back({"staff_records_jump", StaffPage::Records, 100, records});
   all.push_back({"staff_records_filter", StaffPage::Records, 101, records});
+  static const ui::RecordsView kLooks = [] {
+    ui::RecordsView looks = kList;
+    looks.looks = true;
+    return looks;
+  }();
+  records.records = &kLooks;
+  records.work.progress = 0.4F;
+  all.push_back({"staff_records_looks", StaffPage::Records, 0, records});
+  records.records = &kList;
   add_sticks(all, records);
   records.work = {true, 0.6F, ui::Outcome::None};
   all.push_back({"staff_export", StaffPage::Records, 0, records});

@@ -50,9 +50,8 @@ Result<RecordAnswer> StoredVisits::look_up(const RecordQuestion& question) {
     return RecordAnswer{ui::Known::Code, subject->id};
   }
   if (!question.tells_names) return RecordAnswer{ui::Known::Nobody};
-  RELIEVO_TRY_ASSIGN(
-      const auto same,
-      store_.subjects({.name = std::string(question.name.view()), .whole_name = true, .limit = 1}));
+  RELIEVO_TRY_ASSIGN(const auto same,
+                     store_.subjects({.name = std::string(question.name.view()), .limit = 1}));
   return RecordAnswer{same.empty() ? ui::Known::Nobody : ui::Known::Name};
 }
 

@@ -10,23 +10,30 @@
 
 namespace relievo::firmware {
 
+void RecordChoice::forget() {
+  wipe_text(part);
+  filter.reset();
+}
+
 Result<void> for_each_record(
-    storage::Store& store, const std::atomic<bool>& cancelled,
+    storage::Store& store, JobControl& control,
     const std::function<void(const storage::Subject&, const storage::Consent* newest)>& visit) {
+  RELIEVO_TRY_ASSIGN(const std::int64_t all, store.count_subjects({}));
+  std::int64_t read = 0;
   return store.for_each_subject(
       [&](storage::Subject& subject, const storage::Consent* newest) -> Result<void> {
         visit(subject, newest);
         wipe_text(subject.name);
-        if (cancelled.load()) return Error{Errc::Cancelled, "the records were not all read"};
+        control.progress.done.store(float(++read) / float(all));
+        if (control.cancelled.load()) return Error{Errc::Cancelled, "the records were not all read"};
         return {};
       });
 }
 
-Result<std::vector<ui::RecordFilter>> record_filters(storage::Store& store,
-                                                     const std::atomic<bool>& cancelled) {
+Result<std::vector<ui::RecordFilter>> record_filters(storage::Store& store, JobControl& control) {
   std::set<ui::RecordFilter> found;
   RELIEVO_TRY(
-      for_each_record(store, cancelled, [&](const storage::Subject& subject, const storage::Consent* newest) {
+      for_each_record(store, control, [&](const storage::Subject& subject, const storage::Consent* newest) {
         if (newest != nullptr && !newest->wording.empty()) found.insert({false, newest->wording});
         found.insert({true, storage::first_letter(subject.name)});
       }));
@@ -35,15 +42,17 @@ Result<std::vector<ui::RecordFilter>> record_filters(storage::Store& store,
   return all;
 }
 
-Result<std::vector<storage::SubjectId>> filtered_records(storage::Store& store,
-                                                         const ui::RecordFilter& filter,
-                                                         const std::atomic<bool>& cancelled) {
+Result<std::vector<storage::SubjectId>> chosen_records(storage::Store& store, const RecordChoice& choice,
+                                                       JobControl& control) {
   std::vector<storage::SubjectId> passed;
+  const auto passes = [&](const storage::Subject& subject, const storage::Consent* newest) {
+    if (!choice.filter) return storage::contains_name(subject.name, choice.part);
+    if (choice.filter->letter) return storage::first_letter(subject.name) == choice.filter->text;
+    return newest != nullptr && newest->wording == choice.filter->text;
+  };
   RELIEVO_TRY(
-      for_each_record(store, cancelled, [&](const storage::Subject& subject, const storage::Consent* newest) {
-        const bool passes = filter.letter ? storage::first_letter(subject.name) == filter.text
-                                          : newest != nullptr && newest->wording == filter.text;
-        if (passes) passed.push_back(subject.id);
+      for_each_record(store, control, [&](const storage::Subject& subject, const storage::Consent* newest) {
+        if (passes(subject, newest)) passed.push_back(subject.id);
       }));
   return passed;
 }

@@ -29,8 +29,7 @@ Result<void> trust_clock(storage::Store& store, WallTime now) {
   return store.set_setting(kClockSeenSetting, std::to_string(now.time_since_epoch().count()));
 }
 
-Result<int> erase_expired(storage::Store& store, WallTime now, int keep_days,
-                          const std::atomic<bool>& cancelled) {
+Result<int> erase_expired(storage::Store& store, WallTime now, int keep_days, JobControl& control) {
   if (keep_days <= 0) return 0;
   RELIEVO_TRY_ASSIGN(const bool jumped, has_jumped(store, now));
   if (jumped)
@@ -40,13 +39,13 @@ Result<int> erase_expired(storage::Store& store, WallTime now, int keep_days,
   std::vector<storage::SubjectId> expired;
   const WallTime before = now - std::chrono::days(keep_days);
   RELIEVO_TRY(
-      for_each_record(store, cancelled, [&](const storage::Subject& subject, const storage::Consent* newest) {
+      for_each_record(store, control, [&](const storage::Subject& subject, const storage::Consent* newest) {
         if ((newest != nullptr ? newest->given_at : subject.created_at) < before)
           expired.push_back(subject.id);
       }));
   int erased = 0;
   for (const storage::SubjectId id : expired) {
-    if (cancelled.load()) return Error{Errc::Cancelled, "the rest is erased later"};
+    if (control.cancelled.load()) return Error{Errc::Cancelled, "the rest is erased later"};
     RELIEVO_TRY(store.erase_subject(id));
     ++erased;
   }
@@ -64,7 +63,7 @@ void RetentionWatch::turn(const ui::Settings& settings) {
       [this, erased, days](JobControl& control) -> Result<void> {
         RELIEVO_TRY_ASSIGN(
             *erased, erase_expired(store_, std::chrono::floor<std::chrono::milliseconds>(clock_.wall_now()),
-                                   days, control.cancelled));
+                                   days, control));
         return {};
       },
       [this, erased](const std::optional<Error>& error) {

@@ -8,7 +8,6 @@
 // RetentionWatch: main. Errors: InvalidState (the clock has jumped), Cancelled, the store's.
 #pragma once
 
-#include <atomic>
 #include <chrono>
 
 #include "firmware/records/event_log.h"
@@ -24,8 +23,7 @@ inline constexpr const char* kClockSeenSetting = "clock.seen";
 // The clock is right: so says somebody who has looked at it.
 Result<void> trust_clock(storage::Store& store, storage::WallTime now);
 // How many records were erased. A record's age is that of its newest consent.
-Result<int> erase_expired(storage::Store& store, storage::WallTime now, int keep_days,
-                          const std::atomic<bool>& cancelled);
+Result<int> erase_expired(storage::Store& store, storage::WallTime now, int keep_days, JobControl& control);
 
 class RetentionWatch {
  public:

@@ -306,8 +306,10 @@ void StaffController::turn() {
   touch_.turn();
   let_in();
   const State state = parts_.appliance.state();
-  // A long export or calibration is somebody's, even if nobody touches the screen.
-  if (state == State::Calibrate || state == State::Export) touched();
+  // A long export or calibration is somebody's, even if nobody touches the screen; so is a long search of the
+  // records, as long as it goes on.
+  const float kept = side_tasks_.progress(JobLane::Keeper);
+  if (state == State::Calibrate || state == State::Export || kept > std::exchange(kept_, kept)) touched();
   if (inside() && state == State::Staff && seconds_left() == 0) leave();
   if (inside() && !is_service(parts_.appliance.state())) {
     close_page();

@@ -90,6 +90,7 @@ class StaffController {
   PageController* page_ = nullptr;
   ui::StaffRole role_ = ui::StaffRole::None, waiting_ = ui::StaffRole::None;
   hal::Instant last_touch_{};
+  float kept_ = 0;  // of the keeper's work, a turn ago
   ui::ServiceView view_;
 };
 

@@ -75,7 +75,7 @@ Result<SubjectId> SqliteStore::add_subject(const NewSubject& subject) {
 
 Result<std::vector<Subject>> SqliteStore::subjects(const SubjectFilter& filter) {
   return without_exceptions(database_->where(), [&]() -> Result<std::vector<Subject>> {
-    const bool by_name = filter.whole_name && !filter.name.empty(), by_code = filter.receipt != 0;
+    const bool by_name = !filter.name.empty(), by_code = filter.receipt != 0;
     RELIEVO_TRY_ASSIGN(
         auto query,
         database_->prepare(std::string(kSubjects) + (by_code ? "AND code_hash = ? " : "") +
@@ -85,15 +85,14 @@ Result<std::vector<Subject>> SqliteStore::subjects(const SubjectFilter& filter) 
     if (by_code) query.bind(code_hash);
     if (by_name) query.bind(name_hash);
     // Of those skipped nothing has to be read, unless their names say whether they count.
-    const bool by_part = !filter.name.empty();
-    query.bind(by_part ? 0 : filter.skip);
+    query.bind(by_name ? 0 : filter.skip);
     KeySlots slots(*database_);
     std::vector<Subject> found;
-    for (std::int64_t skip = by_part ? filter.skip : 0; std::int64_t(found.size()) < filter.limit;) {
+    for (std::int64_t skip = by_name ? filter.skip : 0; std::int64_t(found.size()) < filter.limit;) {
       RELIEVO_TRY_ASSIGN(const bool row, query.step());
       if (!row) break;
       RELIEVO_TRY_ASSIGN(auto subject, subject_in(slots, query));
-      if (by_name ? subject.name != filter.name : !contains_name(subject.name, filter.name)) continue;
+      if (by_name && subject.name != filter.name) continue;
       if (skip-- > 0) continue;
       RELIEVO_TRY_ASSIGN(subject.receipt, open_code(*keys_, subject.id, query.blob(3)));
       if (by_code && subject.receipt != filter.receipt)
@@ -111,16 +110,6 @@ Result<std::vector<Subject>> SqliteStore::subjects(const SubjectFilter& filter) 
 
 Result<std::int64_t> SqliteStore::count_subjects(const SubjectFilter& filter) {
   return without_exceptions(database_->where(), [&]() -> Result<std::int64_t> {
-    if (!filter.name.empty() && !filter.whole_name) {
-      RELIEVO_TRY_ASSIGN(auto query, database_->prepare(kSubjects));
-      KeySlots slots(*database_);
-      for (std::int64_t count = 0;;) {
-        RELIEVO_TRY_ASSIGN(const bool row, query.step());
-        if (!row) return count;
-        RELIEVO_TRY_ASSIGN(const auto subject, subject_in(slots, query));
-        if (contains_name(subject.name, filter.name)) ++count;
-      }
-    }
     const bool by_name = !filter.name.empty(), by_code = filter.receipt != 0;
     // The index of the codes alone is read.
     RELIEVO_TRY_ASSIGN(

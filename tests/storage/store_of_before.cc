@@ -75,7 +75,7 @@ void OfBefore::judge(Store& store, const std::string& when) const {
   const auto subjects = store.subjects({});
   ASSERT_EQ(subjects->size(), static_cast<std::size_t>(people_)) << when;
   for (int i = 1; i <= people_; ++i) {
-    const auto found = store.subjects({.name = name_of(i), .whole_name = true});
+    const auto found = store.subjects({.name = name_of(i)});
     ASSERT_EQ(found->size(), 1U) << when;
     EXPECT_EQ(store.subjects({.receipt = 424'200'000'000 + i})->front().name, name_of(i)) << when;
     const auto enrolment = store.enrolment(EnrolmentId{i});

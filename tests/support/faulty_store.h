@@ -16,7 +16,7 @@
 
 namespace relievo::test {
 
-class FaultyStore final : public storage::Store {
+class FaultyStore : public storage::Store {
  public:
   FaultyStore(std::unique_ptr<storage::Store> real, const std::atomic<std::optional<Errc>>& error)
       : real_(std::move(real)), error_(error) {}

@@ -71,6 +71,7 @@ struct RecordsView {
   int asked = 0;  // records of the last export; 0: the last thing that was done is another
   int whole = 0;  // of these, on the stick and read back
   std::span<const RecordFilter> filters{};  // ListPlace::filter 1 is the first; none: not looked up yet
+  bool looks = false;                       // all are read for what was asked; ServiceView::work says how far
 };
 
 // --- status: what needs a hand, as the appliance knows it; the rest stands in ViewState -------------

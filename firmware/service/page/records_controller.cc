@@ -15,6 +15,8 @@ namespace {
 
 // The models on the screen are numbered apart from the visitors'.
 constexpr std::uint32_t kFirstModel = 1U << 20;
+// What is found sooner needs no sign that it is looked for.
+constexpr std::chrono::milliseconds kLongLook{300};
 
 }  // namespace
 
@@ -56,10 +58,10 @@ void RecordsController::closed() {
 
 void RecordsController::forget() {
   wipe(found_);
-  wipe_text(searched_);
+  choice_.forget();
   person_.reset();
   filters_.clear();
-  filter_.reset();
+  looks_ = 0;
   view_ = {};
   walk_.begin_anew();
   ready_ = erased_ = exported_ = false;
@@ -93,72 +95,72 @@ void RecordsController::ask(const ui::StaffRequest& request) {
   if (request.as<ui::ExportFound>() != nullptr) take_out(0);
 }
 
+void RecordsController::look(SideTasks::Work work, std::function<void()> found) {
+  if (looks_++ == 0) looks_since_ = services().device.clock().now();
+  services().side_tasks.send(
+      JobLane::Keeper, std::move(work),
+      [this, found = std::move(found), visit = visit_](const std::optional<Error>& error) {
+        if (visit != visit_) return;
+        --looks_;
+        if (error) return told(error);
+        found();
+      });
+}
+
 void RecordsController::search(std::string_view text) {
-  wipe_text(searched_);
-  searched_ = text;
-  while (searched_.ends_with(' ')) searched_.pop_back();
-  filter_.reset();
+  choice_.forget();
+  choice_.part = text;
+  while (choice_.part.ends_with(' ')) choice_.part.pop_back();
   walk_.begin_anew();
   list();
 }
 
-// One filters, or searches.
 void RecordsController::choose(std::size_t filter) {
-  wipe_text(searched_);
-  filter_.reset();
-  if (filter > 0 && filter <= filters_.size()) filter_ = filters_[filter - 1];
+  choice_.forget();
+  if (filter > 0 && filter <= filters_.size()) choice_.filter = filters_[filter - 1];
 }
 
 void RecordsController::find_filters() {
   const auto found = std::make_shared<std::vector<ui::RecordFilter>>();
-  services().side_tasks.send(
-      JobLane::Keeper,
+  look(
       [this, found](JobControl& control) -> Result<void> {
-        RELIEVO_TRY_ASSIGN(*found, record_filters(services().store, control.cancelled));
+        RELIEVO_TRY_ASSIGN(*found, record_filters(services().store, control));
         if (found->size() > ui::kRecordFilters) found->resize(ui::kRecordFilters);
         return {};
       },
-      [this, found, visit = visit_](const std::optional<Error>& error) {
-        if (visit != visit_) return;
-        if (error) return told(error);
-        filters_ = std::move(*found);
-      });
+      [this, found] { filters_ = std::move(*found); });
 }
 
 void RecordsController::list() {
   struct Listed {
-    std::string searched;
-    std::optional<ui::RecordFilter> filter;
+    RecordChoice choice;
     std::vector<ui::RecordRow> found;
     std::int64_t rows = 0;  // of all pages
     ~Listed() {
-      wipe_text(searched);
+      choice.forget();
       wipe(found);
     }
   };
   const auto listed = std::make_shared<Listed>();
-  listed->searched = searched_;
-  listed->filter = filter_;
-  services().side_tasks.send(
-      JobLane::Keeper,
+  listed->choice = choice_;
+  look(
       [this, listed, skip = walk_.first_row()](JobControl& control) -> Result<void> {
         std::vector<storage::Subject> subjects;
         // The code that a person quotes for their erasure leads to them, too.
-        if (listed->filter) {
-          RELIEVO_TRY_ASSIGN(const auto passed,
-                             filtered_records(services().store, *listed->filter, control.cancelled));
+        if (is_receipt(listed->choice.part)) {
+          if (auto subject = find_by_receipt(services().store, listed->choice.part))
+            subjects.push_back(std::move(*subject));
+          listed->rows = std::int64_t(subjects.size());
+        } else if (listed->choice.everybody()) {
+          RELIEVO_TRY_ASSIGN(listed->rows, services().store.count_subjects({}));
+          RELIEVO_TRY_ASSIGN(subjects, services().store.subjects({.skip = skip, .limit = kPage}));
+        } else {
+          RELIEVO_TRY_ASSIGN(const auto passed, chosen_records(services().store, listed->choice, control));
           listed->rows = std::int64_t(passed.size());
           for (std::int64_t row = skip; row < std::min(listed->rows, skip + kPage); ++row) {
             RELIEVO_TRY_ASSIGN(auto subject, services().store.subject(passed[std::size_t(row)]));
             subjects.push_back(std::move(subject));
           }
-        } else if (is_receipt(listed->searched)) {
-          if (auto subject = find_by_receipt(services().store, listed->searched))
-            subjects.push_back(std::move(*subject));
-          listed->rows = std::int64_t(subjects.size());
-        } else {
-          RELIEVO_TRY_ASSIGN(listed->rows, services().store.count_subjects({listed->searched}));
-          RELIEVO_TRY_ASSIGN(subjects, services().store.subjects({listed->searched, false, skip, kPage}));
         }
         for (storage::Subject& subject : subjects) {
           listed->found.push_back({std::int64_t(subject.id), subject.name,
@@ -168,9 +170,7 @@ void RecordsController::list() {
         }
         return {};
       },
-      [this, listed, visit = visit_](const std::optional<Error>& error) {
-        if (visit != visit_) return;
-        if (error) return told(error);
+      [this, listed] {
         wipe(found_);
         found_ = std::move(listed->found);
         walk_.set_rows(listed->rows);
@@ -182,27 +182,25 @@ void RecordsController::list() {
 // When the first one of each stretch came. They are read one by one: of those between nothing has to be.
 void RecordsController::label_stretches() {
   struct Labels {
-    std::string searched;
-    std::optional<ui::RecordFilter> filter;
+    RecordChoice choice;
     std::vector<std::int64_t> rows;
     std::vector<std::string> found;
-    ~Labels() { wipe_text(searched); }
+    ~Labels() { choice.forget(); }
   };
   const auto labels = std::make_shared<Labels>();
-  labels->searched = searched_;
-  labels->filter = filter_;
+  labels->choice = choice_;
   for (std::size_t i = 0; i < walk_.stretches(); ++i) labels->rows.push_back(walk_.top_row(i));
-  services().side_tasks.send(
-      JobLane::Keeper,
+  look(
       [this, labels](JobControl& control) -> Result<void> {
+        const bool everybody = labels->choice.everybody();
         std::vector<storage::SubjectId> passed;
-        if (labels->filter) {
-          RELIEVO_TRY_ASSIGN(passed, filtered_records(services().store, *labels->filter, control.cancelled));
+        if (!everybody) {
+          RELIEVO_TRY_ASSIGN(passed, chosen_records(services().store, labels->choice, control));
         }
         for (const std::int64_t row : labels->rows) {
           std::vector<storage::Subject> one;
-          if (!labels->filter) {
-            RELIEVO_TRY_ASSIGN(one, services().store.subjects({labels->searched, false, row, 1}));
+          if (everybody) {
+            RELIEVO_TRY_ASSIGN(one, services().store.subjects({.skip = row, .limit = 1}));
           } else if (row < std::int64_t(passed.size())) {
             RELIEVO_TRY_ASSIGN(auto subject, services().store.subject(passed[std::size_t(row)]));
             one.push_back(std::move(subject));
@@ -213,9 +211,8 @@ void RecordsController::label_stretches() {
         }
         return {};
       },
-      [this, labels, visit = visit_, division = ++division_](const std::optional<Error>& error) {
-        if (visit != visit_ || division != division_) return;
-        if (error) return told(error);
+      [this, labels, division = ++division_] {
+        if (division != division_) return;
         for (std::size_t i = 0; i < labels->found.size(); ++i)
           walk_.set_label(i, std::move(labels->found[i]));
       });
@@ -297,15 +294,16 @@ void RecordsController::exported(const std::optional<Error>& error, const Export
 void RecordsController::show(ui::ServiceView& view) {
   view.work.outcome = outcome_;
   view.work.running = exporting_;
-  view.work.progress = exporting_ ? services().side_tasks.progress(JobLane::Keeper) : 0;
+  view.work.progress = services().side_tasks.progress(JobLane::Keeper);
   if (!ready_) return;
-  view_ = {found_,  walk_.view(), searched_, nullptr,      {},      {},
-           erased_, exported_,    asked_,    trace_.whole, filters_};
+  view_ = {found_,  walk_.view(), choice_.part, nullptr,      {},      {},
+           erased_, exported_,    asked_,       trace_.whole, filters_};
+  view_.looks = looks_ > 0 && services().device.clock().now() - looks_since_ > kLongLook;
   // The list may have been read anew since it was chosen.
   view_.place.filter = 0;
-  if (filter_)
+  if (choice_.filter)
     for (std::size_t i = 0; i < filters_.size(); ++i)
-      if (filters_[i] == *filter_) view_.place.filter = i + 1;
+      if (filters_[i] == *choice_.filter) view_.place.filter = i + 1;
   if (person_) {
     view_.shown = &person_->found;
     view_.consent = person_->consent;

@@ -5,6 +5,7 @@
 // when the page is left. Thread: main; the store's work runs on the keeper.
 #pragma once
 
+#include <functional>
 #include <memory>
 #include <memory_resource>
 #include <optional>
@@ -37,6 +38,8 @@ class RecordsController final : public PageController {
     std::optional<pipeline::FaceModel> model;
     ~Person();
   };
+  // On the keeper; `found` only if it went well and the page is still the same.
+  void look(SideTasks::Work work, std::function<void()> found);
   void search(std::string_view text);
   void list();
   void label_stretches();
@@ -52,11 +55,12 @@ class RecordsController final : public PageController {
   static void wipe(std::vector<ui::RecordRow>& found);
 
   std::uint32_t visit_ = 0;  // of the page: what was asked before it was left is not shown after
-  std::string searched_;
+  RecordChoice choice_;
   ListWalk walk_{kPage};
   std::uint32_t division_ = 0;  // of the stretches: what was found for those before is not shown
   std::vector<ui::RecordFilter> filters_;
-  std::optional<ui::RecordFilter> filter_;  // the chosen one
+  int looks_ = 0;  // under way
+  hal::Instant looks_since_{};
   bool ready_ = false, erased_ = false, exporting_ = false, exported_ = false;
   std::vector<ui::RecordRow> found_;
   std::shared_ptr<Person> person_;

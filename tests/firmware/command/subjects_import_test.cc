@@ -82,7 +82,7 @@ class SubjectsImport : public ::testing::Test {
     const auto done = run(args, services);
     ASSERT_TRUE(done) << done.error().where() << ": " << done.error().what.view();
     const auto to = storage::test::opened(args.store, {.reserve_bytes = 0});
-    const auto ada = to->subjects({.name = "Ada Canary", .whole_name = true});
+    const auto ada = to->subjects({.name = "Ada Canary"});
     ASSERT_EQ(ada->size(), 1U);
     const auto from = storage::test::opened(folder / "from", {.reserve_bytes = 0});
     EXPECT_EQ(encode_person(*to->person(ada->front().id)),

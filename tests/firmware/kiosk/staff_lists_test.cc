@@ -6,6 +6,7 @@
 #include <array>
 
 #include "tests/firmware/kiosk/staff_hands.h"
+#include "tests/support/faulty_store.h"
 #include "ui/view/staff_views.h"
 
 namespace relievo::firmware {
@@ -113,6 +114,107 @@ TEST_F(StaffListsTest, RecordsAreFilteredByTheFirstLetterAndByTheTextAgreedTo) {
   EXPECT_EQ(find("filter"), nullptr);
   tap("all");
   ASSERT_TRUE(shows_first("Örjan"));
+}
+
+// Whose records are opened one by one, as many as a test allows.
+class SlowStore final : public test::FaultyStore {
+ public:
+  SlowStore(std::unique_ptr<storage::Store> real, const std::atomic<std::optional<Errc>>& error,
+            std::atomic<int>& allowed)
+      : FaultyStore(std::move(real), error), allowed_(allowed) {}
+  Result<void> for_each_subject(const Visit& visit) override {
+    int read = 0;
+    return FaultyStore::for_each_subject(
+        [&](storage::Subject& subject, const storage::Consent* newest) -> Result<void> {
+          ++read;
+          for (int allowed = allowed_; allowed < read; allowed = allowed_) allowed_.wait(allowed);
+          return visit(subject, newest);
+        });
+  }
+
+ private:
+  std::atomic<int>& allowed_;
+};
+
+class StaffSearchTest : public StaffListsTest {
+ protected:
+  StaffSearchTest() {
+    changes.clock = &time;
+    services.open_store = [this](const Path& at, bool) -> Result<std::unique_ptr<storage::Store>> {
+      RELIEVO_TRY_ASSIGN(auto real, storage::open_sqlite_store(at, wall(), {}));
+      return std::unique_ptr<storage::Store>(std::make_unique<SlowStore>(std::move(real), none, allowed));
+    };
+  }
+  ~StaffSearchTest() override {
+    read(kPeople);
+    kiosk.reset();
+  }
+  void search() {
+    fill_the_store();
+    start();
+    first_start();
+    sign_in("80526", StaffRole::Operator);
+    tap("open records");
+    ASSERT_TRUE(shows_first("Anna 120"));
+    tap("search");
+    for (const char* key : {"key t", "key t", "key o"}) tap(key);
+    tap("done");
+  }
+  void read(int records) {
+    allowed = records;
+    allowed.notify_all();
+  }
+  bool is_at(float share) {
+    return until([&] { return kiosk->view().service->work.progress >= share; });
+  }
+  bool signed_in() { return kiosk->view().service->role == StaffRole::Operator; }
+
+  const std::atomic<std::optional<Errc>> none{};
+  std::atomic<int> allowed{0};
+  hal::ManualClock time;
+};
+
+TEST_F(StaffSearchTest, WhoSearchesForLongSeesHowFarItIs) {
+  search();
+  read(kPeople / 4);
+  ASSERT_TRUE(is_at(0.25F));
+  kiosk->turn();
+  EXPECT_EQ(find("look progress"), nullptr) << "a short one is not worth a word";
+  time.advance(std::chrono::seconds(1));
+  kiosk->turn();
+  ASSERT_NE(find("look progress"), nullptr);
+  EXPECT_EQ(find("look progress")->value, "25 %");
+  EXPECT_EQ(records().rows[0].name, "Anna 120") << "until there is something new";
+  read(kPeople);
+  ASSERT_TRUE(shows_first("Otto 119"));
+  kiosk->turn();
+  EXPECT_EQ(find("look progress"), nullptr);
+  // What there is to choose among is read for as long.
+  tap("all");
+  ASSERT_TRUE(shows_first("Anna 120"));
+  read(kPeople / 2);
+  tap("filter");
+  ASSERT_TRUE(is_at(0.5F));
+  time.advance(std::chrono::seconds(1));
+  kiosk->turn();
+  ASSERT_NE(find("look progress"), nullptr);
+}
+
+TEST_F(StaffSearchTest, WhoSearchesForLongIsNotSignedOutUntilItStands) {
+  search();
+  const std::chrono::seconds patience(kiosk->staff().settings().of(ui::Setting::StaffPatienceS));
+  for (const int records : {kPeople / 4, kPeople / 2}) {
+    read(records);
+    ASSERT_TRUE(is_at(float(records) / kPeople));
+    kiosk->turn();
+    time.advance(patience - std::chrono::seconds(1));
+    kiosk->turn();
+    ASSERT_TRUE(signed_in()) << records;
+  }
+  time.advance(std::chrono::seconds(1));
+  kiosk->turn();
+  kiosk->turn();
+  EXPECT_FALSE(signed_in()) << "nothing has come of it since: who has gone leaves nobody's page open";
 }
 
 TEST_F(StaffListsTest, TheLogGoesBackToItsFirstLineAndShowsFaultsAlone) {

@@ -130,12 +130,12 @@ TEST_F(SqliteStoreVerbs, RefusedEnrolmentsLeaveNobodyBehind) {
 
 TEST_F(SqliteStoreVerbs, FindsPeople) {
   for (const char* name : {"Ada Lovelace", "Bob", "ada", "Žofie"}) ASSERT_TRUE(store->add_subject({name}));
-  EXPECT_EQ(store->subjects({.name = "ADA"})->size(), 2u);
-  EXPECT_EQ(store->subjects({.name = "ada", .whole_name = true})->size(), 1u);
-  EXPECT_EQ(store->subjects({.name = "Žof"})->size(), 1u);
+  EXPECT_EQ(store->subjects({.name = "ada"})->size(), 1u);
+  EXPECT_EQ(store->subjects({.name = "Žofie"})->size(), 1u);
+  EXPECT_TRUE(store->subjects({.name = "Žof"})->empty()) << "a part of a name is nobody's";
   EXPECT_EQ(store->subjects({.skip = 1, .limit = 2})->front().name, "ada");
-  EXPECT_EQ(*store->count_subjects({.name = "ADA", .skip = 1, .limit = 1}), 2) << "all that are found";
-  EXPECT_EQ(*store->count_subjects({.name = "ada", .whole_name = true}), 1);
+  EXPECT_EQ(*store->count_subjects({.skip = 1, .limit = 1}), 4) << "all that are found";
+  EXPECT_EQ(*store->count_subjects({.name = "ada"}), 1);
   EXPECT_EQ(*store->count_subjects({.name = "nobody"}), 0);
   const auto everyone = store->subjects({});
   EXPECT_EQ(*store->count_subjects({}), static_cast<std::int64_t>(everyone->size()));

@@ -151,6 +151,7 @@ void records_page(StaffFrame& page) {
   if (page.service.mode == kTyping) return typing(page);
   FilterNames names;
   const ListFilters filters = filters_of(page, *seen, names);
+  if (seen->looks) page.progress("look progress", page.staff.work.progress);
   if (seen->shown == nullptr && list_choice(page, seen->place, filters)) return;
   if (seen->shown == nullptr) return list(page, *seen, filters);
   if (page.service.mode != kErasing) return record(page, *seen);
