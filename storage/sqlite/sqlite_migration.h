@@ -3,10 +3,12 @@
 //
 // Brings an open database to this program's version, or makes a new one.
 //
-//   empty file ──► schema.sql ─────────────────────────► kStoreVersion
-//   version n  ──► copied aside ──► migrations n+1 ... ──► kStoreVersion
-//   version n < 7 ──► copied aside ──► migrations n+1 ... 7 ──► sealed (sqlite_sealed_rows.h), 8 ... ──► the
-//   copy removed newer, but compatible with ours ──► used as it is;   newer ──► StoreNewer, untouched
+//   empty file ──► schema.sql
+//   version n  ──► copied aside ──► migrations n+1 ...
+//   version n < 7 ──► copied aside ──► migrations n+1 ... 7 ──► sealed (sqlite_sealed_rows.h)
+//              ──► migrations 8 ... ──► the copy removed
+//   newer, but compatible with ours ──► used as it is
+//   newer ──► StoreNewer, untouched
 #pragma once
 
 #include <cstdint>

@@ -22,8 +22,8 @@ std::vector<std::string> searching_matchers() {
   return names;
 }
 
-// The figures of pipeline/README.md, which a matcher keeps: on the bump of radius 40 px and height 5 px
-// below.
+// The figures that a matcher keeps, as pipeline/FIGURES.md has them: on the bump of radius 40 px and height 5
+// px below.
 struct Stated {
   std::string name;
   double rms_px, covered;
