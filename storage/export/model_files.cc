@@ -170,9 +170,9 @@ namespace {
 namespace fs = std::filesystem;
 
 Result<void> make_directory(const fs::path& dir) {
-  std::error_code failed;
+  std::error_code failed, not_there;
   fs::create_directories(dir, failed);
-  if (fs::is_directory(dir, failed)) return {};
+  if (fs::is_directory(dir, not_there)) return {};
   const bool full = failed.value() == ENOSPC || failed.value() == EDQUOT;
   return Error{full ? Errc::MediaFull : Errc::IoFailed,
                "this directory cannot be made: check the path, its permissions and the room on the disk",
@@ -184,7 +184,9 @@ class Batch {
  public:
   explicit Batch(const fs::path& dir) : dir_(dir) {}
 
+  // The first makes the directory; one that is gone after that is not made anew.
   Result<void> add(std::string_view name, std::span<const std::byte> bytes) {
+    if (files_.empty()) RELIEVO_TRY(make_directory(dir_));
     RELIEVO_TRY_ASSIGN(auto file, PendingFile::create(dir_ / name));
     RELIEVO_TRY(file.write(bytes));
     RELIEVO_TRY(file.finish());
@@ -248,11 +250,9 @@ Result<void> make_all(const pipeline::FaceModel& model, const ExportOptions& opt
 Result<std::vector<fs::path>> write_all(const pipeline::FaceModel& model, const fs::path& dir,
                                         const ExportOptions& options) {
   Batch batch(dir);
-  const Take write = [&](const std::string& name, std::span<const std::byte> bytes) -> Result<void> {
-    RELIEVO_TRY(make_directory(dir));  // not for a model that cannot be written
+  RELIEVO_TRY(make_all(model, options, [&batch](const std::string& name, std::span<const std::byte> bytes) {
     return batch.add(name, bytes);
-  };
-  RELIEVO_TRY(make_all(model, options, write));
+  }));
   return batch.publish();
 }
 

@@ -4,14 +4,17 @@
 
 #include <gtest/gtest.h>
 
+#include <sys/mount.h>
 #include <sys/resource.h>
 
+#include <cerrno>
 #include <cmath>
 #include <csignal>
 #include <cstdlib>
 #include <cstring>
 #include <limits>
 #include <sstream>
+#include <thread>
 
 #include "hal/base/whole_file.h"
 #include "storage/byte_order.h"
@@ -206,6 +209,64 @@ TEST(ModelFiles, ADiskThatIsFullLeavesWhatWasThereAndNothingElse) {
   EXPECT_EQ(written.error().code, Errc::MediaFull);
   EXPECT_EQ(relievo::test::listing(folder.path()), before);
   EXPECT_EQ(relievo::test::read_text(folder / "model.glb"), old_glb);
+}
+
+TEST(ModelFiles, AWriteProtectedDiskIsNamedSo) {
+  const relievo::test::TinyDisk disk(std::size_t{64} << 20);
+  if (!disk.mounted()) GTEST_SKIP() << disk.why_not();
+  ASSERT_TRUE(write_model_files(sample_model(4), disk.path(), ExportFrame::Head));
+  const std::string before = relievo::test::listing(disk.path());
+  ASSERT_TRUE(disk.protect(true));
+  for (const auto& place : {disk.path(), disk.path() / "new"}) {
+    const auto written = write_model_files(sample_model(5), place, ExportFrame::Head);
+    ASSERT_FALSE(written);
+    EXPECT_EQ(written.error().code, Errc::IoFailed);
+    EXPECT_EQ(written.error().sys_errno, EROFS) << "by which who asked is told what to do";
+  }
+  EXPECT_EQ(relievo::test::listing(disk.path()), before);
+}
+
+// No room but for files that are there: a folder needs some, too.
+TEST(ModelFiles, ADiskWithoutRoomForTheFolderIsFull) {
+  const TemporaryFolder folder;
+  if (::mount("tmpfs", folder.path().c_str(), "tmpfs", 0, "nr_inodes=1") != 0)
+    GTEST_SKIP() << "may not mount a small tmpfs";
+  const auto written = write_model_files(sample_model(4), folder / "new", ExportFrame::Head);
+  ::umount(folder.path().c_str());
+  ASSERT_FALSE(written);
+  EXPECT_EQ(written.error().code, Errc::MediaFull);
+}
+
+// The place where the disk was is an empty folder: nothing is begun anew there.
+TEST(ModelFiles, ADiskThatIsPulledMidwayIsNotWrittenOnBesides) {
+  const TemporaryFolder folder;
+  const auto place = folder / "place", out = place / "out", hand = folder / "hand";
+  std::filesystem::create_directory(place);
+  const auto model = sample_model(400);  // the first file takes a while, and the others longer
+  std::thread puller([&] {
+    while (!std::filesystem::exists(out)) std::this_thread::yield();
+    std::filesystem::rename(place, hand);
+    std::filesystem::create_directory(place);
+  });
+  const auto written = write_model_files(model, out, ExportFrame::Head);
+  puller.join();
+  ASSERT_FALSE(written);
+  EXPECT_EQ(written.error().code, Errc::IoFailed);
+  EXPECT_EQ(relievo::test::listing(place), "");
+  for (const auto& entry : std::filesystem::directory_iterator(hand / "out"))
+    EXPECT_NE(entry.path().filename().string().find(".part"), std::string::npos) << entry.path();
+}
+
+TEST(ModelFiles, WithoutEyesThePageOfNumbersSaysSo) {
+  auto images = test::sample_images();
+  images.portrait.between_eyes_mm = 0;
+  const auto files = recognition_files(images, {}, {}, "");
+  ASSERT_TRUE(files);
+  const auto& json = files->back().bytes;
+  const std::string page(reinterpret_cast<const char*>(json.data()), json.size());
+  EXPECT_NE(page.find("\"eyes_found\": false"), std::string::npos);
+  EXPECT_NE(page.find("\"landmarks\": {}"), std::string::npos);
+  EXPECT_NE(page.find("\"generator\": \"Relievo\""), std::string::npos);
 }
 
 TEST(AtomicFile, AnUnfinishedFileIsNeverSeen) {
