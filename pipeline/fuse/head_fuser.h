@@ -3,15 +3,17 @@
 //
 // HeadFuser: makes one surface of what several poses measured of a head. The first pose is the master: its
 // frame, its instant, its expression.
+//   hair      what lies beside the face and is unsure along the line of sight is half seen through: it goes;
 //   bend      what another pose shows otherwise than the surfaces before it, because skin moved, is bent to
 //             them: a smooth displacement along the normals, found where they overlap, at most so many
 //             millimetres, none where they agree within the noise, so that there both are averaged;
-//   choose    where two surfaces still disagree the master counts, or the one that looks straighter at it;
+//   choose    where two surfaces still disagree, the master's counts where it sees well, else the surest;
 //   shape     the zero of the mean distance to what is left (implicit moving least squares; Kolluri 2008), by
 //             marching cubes: one sheet, whoever measured it;
 //   place     every vertex on the mean of the poses' own surfaces at it, weighted by certainty and fading to
-//             the edge of each: no step where one ends.
-// `sigma_mm` holds what was measured, how sure the registration is, and how far the skin was bent.
+//             the edge of each: no step where one ends;
+//   close     cut the rims even, close holes, and lay these and what steps are left anew (fairing.h).
+// `sigma_mm` is made of the measurements' noise, the registration's and how far the skin was bent.
 // Memory: the mesh in `output`; scratch 9 bytes a voxel of the head's box. Errors: PoorGeometry, Cancelled;
 // throws std::bad_alloc. Thread: any; works on the pool, the result does not depend on its size.
 #pragma once
@@ -45,8 +47,8 @@ struct HeadFuserOptions {
 class HeadFuser {
  public:
   explicit HeadFuser(const HeadFuserOptions& options) : options_(options) {}
-  // `face`: the master's own mesh, of which what lies between the lids is taken, found by its `landmarks`.
-  // Bends `poses` in place.
+  // `face`: the master's own mesh, of which is taken what lies between the lids, found by its `landmarks`,
+  // and what was completed where no pose shows anything. Bends `poses` in place.
   Result<FaceMesh> fuse(std::span<PoseSurface> poses, const Registration& registration, const FaceMesh& face,
                         const Landmarks& landmarks, StageContext& context) const;
 

@@ -56,16 +56,16 @@ struct Registration {
   std::pmr::vector<RegisteredPose> poses;   // the first is the identity, its covariance 0
   std::pmr::vector<ResidualMap> residuals;  // of each
   Vec3d pivot_mm;
-  double skin_moved_mm = 0;  // of a region of skin, about where it should be, one standard deviation
+  double skin_moved_mm = 0;  // how far a region of skin lies from where a stiff head has it: one sigma
 };
 
 // The first pose must have a head frame; others start from theirs, or, where that leads nowhere, from a head
-// turned by 25, 45 and 65 degrees. One that meets no other, or whose skin moved by more than 1.5 mm, is left
-// out: `joined` is false, and its surface is trusted nowhere. Memory: the result in `output`. Errors:
-// InvalidInput (the first has no head frame), PoorGeometry (all others are left out: names the first of
-// them), Cancelled. Throws std::bad_alloc. Thread: any.
-// `place_last_pose` does a part of it before all poses are there: lays the last of these onto those before
-// it, if its own head frame leads there. Memory: scratch.
+// turned by 25, 45 and 65 degrees to each side or nodding by 20. One that meets no other, or that lies off
+// them by more than 1.5 mm (rms), is left out: `joined` is false, and its trust is 0 everywhere. Memory: the
+// result in `output`. Errors: InvalidInput (the first has no head frame), PoorGeometry (all others are left
+// out; names the first of them), Cancelled. Throws std::bad_alloc. Thread: any. `place_last_pose` does a part
+// of it before all poses are there: lays the last of these onto those before it, if its own head frame leads
+// there. Memory: scratch.
 void place_last_pose(std::span<PoseSurface> poses, StageContext& context);
 Result<Registration> register_poses(std::span<PoseSurface> poses, StageContext& context);
 

@@ -50,7 +50,7 @@ struct PoseSurface {
   int photo_width_px = 0, photo_height_px = 0;
   std::optional<RigidTransform> first_from_pose;  // where it was laid onto the poses before it, if it was
 
-  // None where nothing was measured, or the surface is torn there.
+  // `place_mm` in this pose's left camera's frame. None where nothing was measured, or the surface is torn.
   std::optional<SurfaceHit> look(const Vec3f& place_mm) const;
 };
 

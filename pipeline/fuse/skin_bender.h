@@ -15,13 +15,15 @@ struct BendLimits {
   double most_mm = 0;   // skin that would have to move further is not shown by that pose
   double width_mm = 0;  // sigma of the Gaussian that smooths the displacement
   double still_mm = 0;  // below this it is not bent
-  // Where no other pose shows it, what hangs on the skull is not bent as the face beside it: not so where
-  // calibrations differ.
+  // Behind the temples, where no other pose shows it, skin is held where it is: it hangs on the skull and
+  // does not move as the face beside it. Not where the poses' calibrations differ: then it may be off as a
+  // whole.
   bool skull_stays = false;
 };
 
-// In the order in which they overlap what was fixed before them; the first never moves. Where a pose was bent
-// by d its sigma grows by a part of d. Memory: scratch. Throws std::bad_alloc.
+// One after the other: the first never moves, and next is always the pose that overlaps most with those that
+// are done. Its sigma grows by a share of how far the skin around was bent. Memory: scratch. Throws
+// std::bad_alloc.
 void bend_to_master(std::span<PoseSurface> poses, const Registration& registration, const BendLimits& limits,
                     StageContext& context);
 
