@@ -58,9 +58,10 @@ class KioskTurn : public KioskHands {
     std::map<int, std::pair<double, double>> sums;
     for (std::size_t v = 0; v < model.mesh.vertices_mm.size(); ++v) {
       if (model.mesh.measured[v] == 0) continue;
-      const Vec3f& at = model.mesh.vertices_mm[v];
+      const auto& at = model.mesh.vertices_mm[v];
       auto& [sum, count] = sums[model.mesh.pose[v]];
-      sum += pipeline::apply(model.head_from_camera, {double(at.x), double(at.y), double(at.z)}).x, ++count;
+      sum += apply(model.head_from_camera, pipeline::Vec3d{double(at.x), double(at.y), double(at.z)}).x,
+          ++count;
     }
     std::vector<double> middles;
     for (const auto& [pose, of] : sums) middles.push_back(of.first / of.second);
