@@ -43,9 +43,11 @@ class Store {
   virtual Result<std::int64_t> count_subjects(const SubjectFilter& filter) = 0;
   virtual Result<Subject> subject(SubjectId id) = 0;  // NotFound
   // Everybody once, the newest first, but for code and number of enrolments, with the consent they gave last
-  // (none: null); until `visit` fails, which may change what it is given and nothing in the store.
+  // (none: null) where consents are opened, too, which takes twice as long; until `visit` fails, which may
+  // change what it is given and nothing in the store.
+  enum class Opened : std::uint8_t { Names, NamesAndConsents };
   using Visit = std::function<Result<void>(Subject& subject, const Consent* newest)>;
-  virtual Result<void> for_each_subject(const Visit& visit) = 0;
+  virtual Result<void> for_each_subject(Opened opened, const Visit& visit) = 0;
   // Name, consents, models, and their traces in free pages, write-ahead log and old copies. NotFound.
   virtual Result<void> erase_subject(SubjectId id) = 0;
 

@@ -28,7 +28,7 @@ struct RecordChoice {
 
 // As Store::for_each_subject. It is the visitor's business to wipe what it keeps of a name.
 Result<void> for_each_record(
-    storage::Store& store, JobControl& control,
+    storage::Store& store, storage::Store::Opened opened, JobControl& control,
     const std::function<void(const storage::Subject&, const storage::Consent* newest)>& visit);
 
 // All that let a record pass, in their order: texts (none where all agreed to one), then letters.

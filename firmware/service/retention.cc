@@ -38,11 +38,11 @@ Result<int> erase_expired(storage::Store& store, WallTime now, int keep_days, Jo
         "the clock is far ahead of when it was last seen: nothing is erased by age until the operator has chosen the time again"};
   std::vector<storage::SubjectId> expired;
   const WallTime before = now - std::chrono::days(keep_days);
-  RELIEVO_TRY(
-      for_each_record(store, control, [&](const storage::Subject& subject, const storage::Consent* newest) {
-        if ((newest != nullptr ? newest->given_at : subject.created_at) < before)
-          expired.push_back(subject.id);
-      }));
+  RELIEVO_TRY(for_each_record(store, storage::Store::Opened::NamesAndConsents, control,
+                              [&](const storage::Subject& subject, const storage::Consent* newest) {
+                                if ((newest != nullptr ? newest->given_at : subject.created_at) < before)
+                                  expired.push_back(subject.id);
+                              }));
   int erased = 0;
   for (const storage::SubjectId id : expired) {
     if (control.cancelled.load()) return Error{Errc::Cancelled, "the rest is erased later"};

@@ -77,7 +77,7 @@ class SqliteStore final : public Store {
   Result<std::vector<Subject>> subjects(const SubjectFilter& filter) override;
   Result<std::int64_t> count_subjects(const SubjectFilter& filter) override;
   Result<Subject> subject(SubjectId id) override;
-  Result<void> for_each_subject(const Visit& visit) override;
+  Result<void> for_each_subject(Opened opened, const Visit& visit) override;
   Result<void> erase_subject(SubjectId id) override;
   Result<EnrolmentId> add_enrolment(const SubjectChoice& subject, const NewEnrolment& enrolment) override;
   Result<std::vector<Enrolment>> enrolments(SubjectId subject) override;

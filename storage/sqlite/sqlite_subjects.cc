@@ -124,7 +124,7 @@ Result<std::int64_t> SqliteStore::count_subjects(const SubjectFilter& filter) {
   });
 }
 
-Result<void> SqliteStore::for_each_subject(const Visit& visit) {
+Result<void> SqliteStore::for_each_subject(Opened opened, const Visit& visit) {
   return without_exceptions(database_->where(), [&]() -> Result<void> {
     RELIEVO_TRY_ASSIGN(auto query, database_->prepare(std::string(kSubjects) + "ORDER BY id DESC"));
     RELIEVO_TRY_ASSIGN(
@@ -136,6 +136,10 @@ Result<void> SqliteStore::for_each_subject(const Visit& visit) {
       RELIEVO_TRY_ASSIGN(const bool row, query.step());
       if (!row) return {};
       RELIEVO_TRY_ASSIGN(auto subject, subject_in(slots, query));
+      if (opened == Opened::Names) {
+        RELIEVO_TRY(visit(subject, nullptr));
+        continue;
+      }
       newest.again();
       RELIEVO_TRY_ASSIGN(const bool agreed, newest.bind(number(subject.id)).step());
       Consent consent;

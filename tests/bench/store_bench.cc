@@ -17,6 +17,7 @@
 #include "storage/model_blob.h"
 #include "storage/sqlite/sqlite_change.h"
 #include "storage/sqlite/sqlite_sealed_rows.h"
+#include "storage/text.h"
 #include "tests/storage/sample.h"
 
 namespace {
@@ -199,13 +200,27 @@ int main(int argc, char** argv) {
   search("a code", {.receipt = code_of(middle)}, count + "WHERE receipt = " + std::to_string(code_of(middle)),
          "aim 50 ms");
 
+  const auto named = [&](std::string_view part) {
+    return median_ms(9, [&] {
+      std::size_t found = 0;
+      must(store->for_each_subject(Store::Opened::Names,
+                                   [&](Subject& subject, const Consent*) -> Result<void> {
+                                     found += contains_name(subject.name, part);
+                                     return {};
+                                   }));
+    });
+  };
+  print("a part of a name", named("family-" + std::to_string(middle)), 0, "aim 500 ms");
+  print("a part that nobody has", named("nobody"), 0, "aim 500 ms");
+
   std::size_t agreed = 0;
   const double opened = median_ms(9, [&] {
     agreed = 0;
-    must(store->for_each_subject([&](Subject&, const Consent* newest) -> Result<void> {
-      agreed += newest != nullptr;
-      return {};
-    }));
+    must(store->for_each_subject(Store::Opened::NamesAndConsents,
+                                 [&](Subject&, const Consent* newest) -> Result<void> {
+                                   agreed += newest != nullptr;
+                                   return {};
+                                 }));
   });
   print(("all with their newest consent, to filter: " + std::to_string(agreed)).c_str(), opened, 0,
         "aim 500 ms");

@@ -32,7 +32,7 @@ class FaultyStore : public storage::Store {
     return real_->count_subjects(f);
   }
   Result<storage::Subject> subject(storage::SubjectId id) override { return real_->subject(id); }
-  Result<void> for_each_subject(const Visit& v) override { return real_->for_each_subject(v); }
+  Result<void> for_each_subject(Opened o, const Visit& v) override { return real_->for_each_subject(o, v); }
   Result<void> erase_subject(storage::SubjectId id) override { return real_->erase_subject(id); }
   Result<storage::EnrolmentId> add_enrolment(const storage::SubjectChoice& s,
                                              const storage::NewEnrolment& e) override {

@@ -122,10 +122,10 @@ class SlowStore final : public test::FaultyStore {
   SlowStore(std::unique_ptr<storage::Store> real, const std::atomic<std::optional<Errc>>& error,
             std::atomic<int>& allowed)
       : FaultyStore(std::move(real), error), allowed_(allowed) {}
-  Result<void> for_each_subject(const Visit& visit) override {
+  Result<void> for_each_subject(Opened opened, const Visit& visit) override {
     int read = 0;
     return FaultyStore::for_each_subject(
-        [&](storage::Subject& subject, const storage::Consent* newest) -> Result<void> {
+        opened, [&](storage::Subject& subject, const storage::Consent* newest) -> Result<void> {
           ++read;
           for (int allowed = allowed_; allowed < read; allowed = allowed_) allowed_.wait(allowed);
           return visit(subject, newest);

@@ -161,13 +161,17 @@ TEST_F(SqliteStoreVerbs, ShowsEverybodyOnceWithTheirNewestConsent) {
     seen += subject.name + (newest != nullptr ? " " + newest->wording : std::string()) + ", ";
     return {};
   };
-  ASSERT_TRUE(store->for_each_subject(note));
+  ASSERT_TRUE(store->for_each_subject(Store::Opened::NamesAndConsents, note));
   EXPECT_EQ(seen, "Bob, Ada 2026-09, ");
+  seen.clear();
+  ASSERT_TRUE(store->for_each_subject(Store::Opened::Names, note));
+  EXPECT_EQ(seen, "Bob, Ada, ");
   int visited = 0;
-  const auto stopped = store->for_each_subject([&](Subject&, const Consent*) -> Result<void> {
-    ++visited;
-    return Error{Errc::Cancelled, "as the test says"};
-  });
+  const auto stopped =
+      store->for_each_subject(Store::Opened::Names, [&](Subject&, const Consent*) -> Result<void> {
+        ++visited;
+        return Error{Errc::Cancelled, "as the test says"};
+      });
   EXPECT_EQ(code_of(stopped), Errc::Cancelled);
   EXPECT_EQ(visited, 1);
 }
