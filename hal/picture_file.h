@@ -48,7 +48,13 @@ Result<void> write_picture(const std::filesystem::path& file, const ImageView& i
 // room (libpng tries all its filters, zlib looks long for what noise does not repeat). Above it, up to 9,
 // libpng looks for the filters.
 inline constexpr int kQuickPng = 2;
-Result<std::vector<std::byte>> encode_png(const ImageView& image, int level = kQuickPng);
+struct PngForm {
+  int level = kQuickPng;
+  // Says that its colours are sRGB. Not of what a camera sent: readers that turn colour into grey weigh it
+  // otherwise then.
+  bool is_srgb = false;
+};
+Result<std::vector<std::byte>> encode_png(const ImageView& image, const PngForm& form = {});
 Result<std::vector<std::byte>> encode_jpeg(const ImageView& image, int quality_percent);  // Grey8 or Rgb8
 Result<Picture> decode_picture(const std::byte* bytes, std::size_t size);
 

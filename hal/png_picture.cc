@@ -49,7 +49,7 @@ static void read(png_structp png, png_bytep to, std::size_t size) {
 }
 }
 
-bool write(const ImageView& image, int level, std::vector<std::byte>* out) {
+bool write(const ImageView& image, const PngForm& form, std::vector<std::byte>* out) {
   png_structp png = png_create_write_struct(PNG_LIBPNG_VER_STRING, nullptr, nullptr, say_nothing);
   png_infop info = png == nullptr ? nullptr : png_create_info_struct(png);
   if (info == nullptr || setjmp(png_jmpbuf(png)) != 0) {  // NOLINT(cert-err52-cpp): C has no other way out
@@ -58,12 +58,13 @@ bool write(const ImageView& image, int level, std::vector<std::byte>* out) {
   }
   const bool colour = image.format == PixelFormat::Rgb8, deep = image.format == PixelFormat::Grey16;
   png_set_write_fn(png, out, append, flush);
-  png_set_compression_level(png, level);
-  if (level <= kQuickPng) png_set_filter(png, PNG_FILTER_TYPE_BASE, colour ? PNG_FILTER_AVG : PNG_FILTER_UP);
+  png_set_compression_level(png, form.level);
+  if (form.level <= kQuickPng)
+    png_set_filter(png, PNG_FILTER_TYPE_BASE, colour ? PNG_FILTER_AVG : PNG_FILTER_UP);
   png_set_IHDR(png, info, png_uint_32(image.width_px), png_uint_32(image.height_px), deep ? 16 : 8,
                colour ? PNG_COLOR_TYPE_RGB : PNG_COLOR_TYPE_GRAY, PNG_INTERLACE_NONE,
                PNG_COMPRESSION_TYPE_DEFAULT, PNG_FILTER_TYPE_DEFAULT);
-  if (colour) png_set_sRGB(png, info, PNG_sRGB_INTENT_PERCEPTUAL);
+  if (colour && form.is_srgb) png_set_sRGB(png, info, PNG_sRGB_INTENT_PERCEPTUAL);
   png_write_info(png, info);
   if (deep && std::endian::native == std::endian::little) png_set_swap(png);
   for (int y = 0; y < image.height_px; ++y) png_write_row(png, image.row(y));
@@ -109,11 +110,11 @@ bool read_rows(Reading& reading, png_bytep* rows) {
 
 }  // namespace
 
-Result<std::vector<std::byte>> encode_png(const ImageView& image, int level) try {
+Result<std::vector<std::byte>> encode_png(const ImageView& image, const PngForm& form) try {
   if (image.empty()) return Error{Errc::InvalidInput, "there is no picture to write"};
   std::vector<std::byte> out;
   out.reserve(std::size_t(image.width_px) * std::size_t(image.height_px * bytes_per_pixel(image.format)) / 2);
-  if (write(image, level, &out)) return out;
+  if (write(image, form, &out)) return out;
   return Error{Errc::OutOfMemory, "no memory to encode a picture"};
 } catch (const std::bad_alloc&) {
   return Error{Errc::OutOfMemory, "no memory to encode a picture"};

@@ -125,7 +125,7 @@ Result<std::vector<std::byte>> png_of(int width_px, int height_px, const Pixels&
   const int row_bytes = width_px * bytes_per_pixel(format);
   if (bytes.size() != std::size_t(row_bytes) * std::size_t(height_px))
     return Error{Errc::InvalidInput, "the picture's size does not fit its pixels"};
-  return hal::encode_png({bytes.data(), width_px, height_px, row_bytes, format});
+  return hal::encode_png({bytes.data(), width_px, height_px, row_bytes, format}, {.is_srgb = true});
 }
 
 std::string page(const pipeline::RecognitionImages& images, const pipeline::Landmarks& landmarks,

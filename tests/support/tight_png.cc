@@ -12,7 +12,7 @@ bool write_tight_png(const hal::Picture& rgb, int step, const std::filesystem::p
   hal::Picture coarse = rgb;
   for (std::byte& value : coarse.bytes)
     value = std::byte(std::min(255, (std::to_integer<int>(value) + step / 2) / step * step));
-  const auto png = hal::encode_png(coarse.view(), 9);
+  const auto png = hal::encode_png(coarse.view(), {.level = 9});
   return png && write_whole_file(file, *png);
 }
 

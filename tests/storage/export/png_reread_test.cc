@@ -62,7 +62,8 @@ TEST(PngPicture, EveryKindReadsBackValueByValue) {
   }
   const auto check = [](const auto& wanted, PixelFormat format, int level) {
     const auto bytes = std::as_bytes(std::span(wanted));
-    const auto file = hal::encode_png({bytes.data(), 37, 23, 37 * bytes_per_pixel(format), format}, level);
+    const auto file =
+        hal::encode_png({bytes.data(), 37, 23, 37 * bytes_per_pixel(format), format}, {.level = level});
     ASSERT_TRUE(file);
     const Reread got = reread(*file);
     EXPECT_EQ(got.width, 37);
@@ -77,6 +78,24 @@ TEST(PngPicture, EveryKindReadsBackValueByValue) {
     check(grey, PixelFormat::Grey8, level);
     check(deep, PixelFormat::Grey16, level);
   }
+}
+
+// Readers weigh the colours of a picture that says it is sRGB otherwise when they make it grey: a matcher
+// would see another picture than the camera's.
+TEST(PngPicture, OnlyWhatIsDrawnSaysThatItIsSrgb) {
+  const auto says_srgb = [](std::span<const std::byte> file) {
+    return std::string_view(reinterpret_cast<const char*>(file.data()), file.size()).find("sRGB") !=
+           std::string_view::npos;
+  };
+  const std::vector<std::byte> rgb(3 * 4 * 4, std::byte{7});
+  const ImageView photograph{rgb.data(), 4, 4, 12, PixelFormat::Rgb8};
+  EXPECT_FALSE(says_srgb(*hal::encode_png(photograph)));
+  const auto files = recognition_files(test::sample_images(), pipeline::Landmarks{}, {}, "1");
+  ASSERT_TRUE(files);
+  for (const auto& file : *files)
+    if (file.name == std::string_view("portrait.png")) {
+      EXPECT_TRUE(says_srgb(file.bytes));
+    }
 }
 
 TEST(RecognitionFiles, HeightsAndSigmasReadBackInMillimetres) {
