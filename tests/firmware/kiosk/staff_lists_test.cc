@@ -25,16 +25,19 @@ class StaffListsTest : public StaffHands {
   bool shows_first(const std::string& name) {
     return until([&] { return !records().rows.empty() && records().rows[0].name == name; });
   }
+  void open_the_records() {
+    fill_the_store();
+    start();
+    first_start();
+    sign_in("80526", StaffRole::Operator);
+    tap("open records");
+    ASSERT_TRUE(until([this] { return kiosk->view().service->records != nullptr; }));
+    ASSERT_TRUE(shows_first("Anna 120"));
+  }
 };
 
 TEST_F(StaffListsTest, RecordsAreTurnedAndJumpedInAlsoWhereSomebodyWasSearchedFor) {
-  fill_the_store();
-  start();
-  first_start();
-  sign_in("80526", StaffRole::Operator);
-  tap("open records");
-  ASSERT_TRUE(until([this] { return kiosk->view().service->records != nullptr; }));
-  ASSERT_TRUE(shows_first("Anna 120"));
+  open_the_records();
   EXPECT_EQ(records().place.pages, 3);
   EXPECT_EQ(find("page back"), nullptr) << "there is none before the first";
   tap("last page");
@@ -150,13 +153,7 @@ class StaffSearchTest : public StaffListsTest {
     StaffListsTest::TearDown();
   }
   void search() {
-    fill_the_store();
-    start();
-    first_start();
-    sign_in("80526", StaffRole::Operator);
-    tap("open records");
-    ASSERT_TRUE(until([this] { return kiosk->view().service->records != nullptr; }));
-    ASSERT_TRUE(shows_first("Anna 120"));
+    open_the_records();
     tap("search");
     for (const char* key : {"key t", "key t", "key o"}) tap(key);
     tap("done");
