@@ -2,6 +2,10 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include <sodium.h>
 
+#include <array>
+#include <mutex>
+#include <utility>
+
 #include "storage/cipher/secret_key.h"
 #include "storage/cipher/sodium_bytes.h"
 
@@ -13,10 +17,41 @@ static_assert(sizeof kContext - 1 == crypto_kdf_CONTEXTBYTES);
 static_assert(SecretKey::kBytes == crypto_kdf_KEYBYTES &&
               SecretKey::kBytes == crypto_aead_xchacha20poly1305_ietf_KEYBYTES);
 
+// What was given up, wiped, waits for the next of its size: a kiosk in service maps no memory (an enrolment
+// needs two keys for a moment). Never given back. Thread: any.
+class Spare {
+ public:
+  std::byte* take(std::size_t size) {
+    const std::lock_guard lock(mutex_);
+    for (Room& room : rooms_)
+      if (room.data != nullptr && room.size == size) return std::exchange(room.data, nullptr);
+    return nullptr;
+  }
+  bool keep(std::byte* data, std::size_t size) {
+    const std::lock_guard lock(mutex_);
+    for (Room& room : rooms_)
+      if (room.data == nullptr) return room = {data, size}, true;
+    return false;
+  }
+
+ private:
+  struct Room {
+    std::byte* data = nullptr;
+    std::size_t size = 0;
+  };
+  std::mutex mutex_;
+  std::array<Room, 8> rooms_;
+};
+Spare& spare() {
+  static Spare rooms;
+  return rooms;
+}
+
 }  // namespace
 
 Result<LockedBytes> LockedBytes::make(std::size_t size) {
   static const int ready = sodium_init();
+  if (auto* kept = spare().take(size)) return LockedBytes(kept, size);
   auto* data = ready < 0 ? nullptr : static_cast<std::byte*>(sodium_malloc(size));
   if (data == nullptr) return Error{Errc::OutOfMemory, "there is no memory for the store's keys"};
   LockedBytes room(data, size);
@@ -28,7 +63,11 @@ Result<LockedBytes> LockedBytes::make(std::size_t size) {
   return room;
 }
 
-LockedBytes::~LockedBytes() { sodium_free(data_); }  // wipes, unlocks
+LockedBytes::~LockedBytes() {
+  if (data_ == nullptr) return;
+  wipe();
+  if (!spare().keep(data_, size_)) sodium_free(data_);  // unlocks
+}
 
 void LockedBytes::wipe() { sodium_memzero(data_, size_); }
 

@@ -62,6 +62,7 @@ int child(const char* folder, const std::vector<long>& points, bool for_good) {
   const Exempt own;
   auto visitor = Visitor::at(folder);
   if (!visitor) return say("cannot open: " + std::string(visitor.error().what.view())), 1;
+  say("invites " + std::to_string((*visitor)->until_invited().count()));
   // Without memory GLib's last words ask for memory, whose refusal it says, until the stack is used up.
   static std::array<char, 1 << 16> other_stack;
   const stack_t there{other_stack.data(), 0, other_stack.size()};
@@ -104,7 +105,7 @@ int child(const char* folder, const std::vector<long>& points, bool for_good) {
 struct Sum {
   long total = 0, stored = 0, restarts = 0;
   std::map<std::string, long> ends, aborts;
-  long worst_told_ms = 0;
+  long worst_told_ms = 0, worst_restart_ms = 0;
   int wrong = 0;
   void bad(const std::string& what) {
     ++wrong;
@@ -149,6 +150,8 @@ std::size_t run(const std::string& folder, const std::vector<long>& points, bool
     char word[32] = "", who[32] = "";
     if (sscanf(line, "at %ld", &number) == 1) {
       at = std::to_string(number) + (for_good ? " for good" : " once");
+    } else if (sscanf(line, "invites %ld", &number) == 1) {
+      sum.worst_restart_ms = std::max(sum.worst_restart_ms, number);
     } else if (sscanf(line, "first %ld %31s", &number, word) == 2) {
       sum.total = std::max(sum.total, number);
       sum.stored += strcmp(word, "stored") == 0 ? 1 : 0;
@@ -229,7 +232,8 @@ int supervise(long points, long begin) {
   }
   check_store(folder.path() / "store", sum);
   for (const auto& [end, count] : sum.ends) std::printf("%6ld %s\n", count, end.c_str());
-  std::printf("told at the latest after %ld ms; %d wrong\n", sum.worst_told_ms, sum.wrong);
+  std::printf("told at the latest after %ld ms, a start to the invitation %ld ms at most; %d wrong\n",
+              sum.worst_told_ms, sum.worst_restart_ms, sum.wrong);
   return sum.wrong == 0 ? 0 : 1;
 }
 

@@ -2,14 +2,17 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 //
 // Visits on end on the small simulated rig, without a screen, so that the GL driver's memory is not in it:
-// what each asks of the system once all is warm. Prints a line a visit; fails where memory grows.
+// several people, who accept, turn the head, try again, decline, leave, or meet a camera that is pulled out,
+// and staff in between. What each asks of the system once every kind has been there twice. Prints a line a
+// visit; fails where memory grows or the heap's largest free block shrinks.
 //
 //   service_visits VISITS
 //
 // toolchain/service_proof runs it under strace, which counts the calls: the lines are its marks.
+#include <algorithm>
+#include <array>
 #include <cstdio>
 #include <cstdlib>
-#include <vector>
 
 #include "firmware/base/steady_heap.h"
 #include "tests/memory/usage.h"
@@ -19,8 +22,12 @@
 namespace relievo::test {
 namespace {
 
-constexpr int kWarm = 3;           // visits until everything has been used once
-constexpr double kMayGrow = 1.01;  // of what is resident, from then to the end
+constexpr int kKinds = int(Manner::Count);
+constexpr int kTurning = 20;  // of so many visitors one turns the head, which takes as long as ten others
+constexpr int kRound = 35;    // visits from one round of the staff to the next
+constexpr int kWarm = 80;     // until everything has been used several times, or half of them
+constexpr double kMayGrow = 1.01, kMayGrowYet = 1.03;  // of what is resident, from then to the end
+constexpr double kMayShrink = 0.95;                    // of the largest free block
 
 int serve(int visits) {
   firmware::share_one_heap();
@@ -28,26 +35,49 @@ int serve(int visits) {
   auto visitor = Visitor::at(folder.path() / "store");
   firmware::keep_heap_steady();
   if (!visitor) return std::puts("the kiosk does not open"), 1;
-  int failed = 0;
+  if (!(*visitor)->first_start()) return std::puts("the first start does not end"), 1;
+  std::array<int, kKinds> came{}, stored{};
+  const int warmed = std::min(kWarm, visits / 2);
+  int wrong = 0;
+  double free_then = 0;
   Usage warm, before = Usage::now();
-  std::vector<double> resident;
   for (int number = 1; number <= visits; ++number) {
-    const VisitEnd end = (*visitor)->visit();
-    if (!end.stored) ++failed;
+    const int kind = number % kTurning == 1 ? int(Manner::Turns) : number % (kKinds - 1);
+    const auto manner = Manner(kind);
+    const VisitEnd end =
+        (*visitor)->visit(manner == Manner::Turns ? 0 : std::size_t(number) % People::kMany, manner);
+    ++came[std::size_t(kind)], stored[std::size_t(kind)] += end.stored;
+    const bool keeps = manner != Manner::Declines && manner != Manner::Leaves && manner != Manner::Unlucky;
+    if (end.stuck || end.stored != keeps || end.apologised != (manner == Manner::Unlucky)) ++wrong;
+    if (number % kRound == 0 && !(*visitor)->staff_round())
+      return std::puts("the staff's round does not end"), 1;
+    if (number == warmed) free_then = Usage::largest_free_mib();
     const Usage now = Usage::now();
-    std::printf("visit %d: %s, %ld minor and %ld major faults, %.1f MiB resident, %.1f MiB in use\n", number,
-                end.stored ? "stored" : "not stored", now.minor - before.minor, now.major - before.major,
-                now.resident_mib, now.in_use_mib);
+    std::printf("visit %d: %s%s%s, %ld minor and %ld major faults, %.1f MiB resident, %.1f MiB in use\n",
+                number, name_of(manner), end.stored ? ", stored" : "", end.apologised ? ", apologised" : "",
+                now.minor - before.minor, now.major - before.major, now.resident_mib, now.in_use_mib);
     std::fflush(stdout);
     before = now;
-    if (number == kWarm) warm = now;
+    if (number == warmed) {
+      warm = now;
+      std::puts("warm");  // strace's marks: this one, and the end
+      std::fflush(stdout);
+    }
   }
   const double growth = before.resident_mib / warm.resident_mib;
-  std::printf(
-      "after warm-up: %ld minor and %ld major faults in %d visits, resident memory x %.4f; %d not stored\n",
-      before.minor - warm.minor, before.major - warm.major, visits - kWarm, growth, failed);
-  std::fflush(stdout);  // strace's mark: what comes is the end
-  return failed == 0 && growth <= kMayGrow ? 0 : 1;
+  std::printf("after warm-up: %ld minor and %ld major faults in %d visits, resident memory x %.4f\n",
+              before.minor - warm.minor, before.major - warm.major, visits - warmed, growth);
+  std::fflush(stdout);
+  const double free_now = Usage::largest_free_mib();
+  std::printf("largest free block %.1f MiB, then %.1f MiB\n", free_then, free_now);
+  for (int kind = 0; kind < kKinds; ++kind)
+    std::printf("%6d %s, %d stored\n", came[std::size_t(kind)], name_of(Manner(kind)),
+                stored[std::size_t(kind)]);
+  std::printf("%d ended as they should not\n", wrong);
+  return wrong == 0 && growth <= (warmed == kWarm ? kMayGrow : kMayGrowYet) &&
+                 free_now >= kMayShrink * free_then
+             ? 0
+             : 1;
 }
 
 }  // namespace
@@ -55,6 +85,6 @@ int serve(int visits) {
 
 int main(int argc, char** argv) {
   const int visits = argc > 1 ? std::atoi(argv[1]) : 0;
-  if (visits < 5) return std::puts("service_visits VISITS   (5 at least)"), 2;
+  if (visits < 2) return std::puts("service_visits VISITS"), 2;
   return relievo::test::serve(visits);
 }
