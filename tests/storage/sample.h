@@ -4,6 +4,8 @@
 // What the tests of the store put into it.
 #pragma once
 
+#include <gtest/gtest.h>
+
 #include <cstddef>
 #include <filesystem>
 #include <memory>
@@ -39,6 +41,14 @@ bool identical(const pipeline::FaceModel& a, const pipeline::FaceModel& b);
 
 // Fails the test where there is none.
 std::unique_ptr<Store> opened(const std::filesystem::path& dir, const SqliteStoreOptions& options = {});
+inline const SqliteStoreOptions kNoReserve{.reserve_bytes = 0};
+
+// Of what must fail.
+template <typename T>
+Errc code_of(const Result<T>& result) {
+  EXPECT_FALSE(result);
+  return result ? Errc::Cancelled : result.error().code;
+}
 
 std::string all_bytes(const std::filesystem::path& dir);  // of every file in it
 

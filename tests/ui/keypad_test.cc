@@ -10,6 +10,7 @@
 #include <vector>
 
 #include "tests/support/made_screen.h"
+#include "tests/ui/languages.h"
 #include "ui/view/keypad_letters.h"
 
 namespace relievo::ui {
@@ -191,14 +192,7 @@ TEST_P(KeypadTest, TypedLettersArriveAndABlankIsALetterWhereOneIsTyped) {
   EXPECT_EQ(ui->visit().step, Step::Consent) << "a blank presses what has the focus";
 }
 
-std::string name(const testing::TestParamInfo<Language>& info) {
-  return std::string(info_of(info.param).code).substr(0, 2);
-}
-INSTANTIATE_TEST_SUITE_P(Languages, KeypadTest,
-                         testing::Values(Language::English, Language::German, Language::French,
-                                         Language::Spanish, Language::Arabic, Language::Hebrew,
-                                         Language::Chinese, Language::Japanese),
-                         name);
+INSTANTIATE_TEST_SUITE_P(Languages, KeypadTest, kEveryLanguage, language_code);
 
 }  // namespace
 }  // namespace relievo::ui

@@ -51,7 +51,7 @@ double first_met(const hal::sim::HeadField& field, const RigidTransform& sim_fro
 
 bool learn(std::uint32_t seed, relievo::test::StageFixture& room, const Globe& globe,
            Eigen::Ref<Eigen::RowVectorXd> radii) {
-  const pipeline::test::FieldHead head(seed);
+  const pipeline::FieldHead head(seed);
   room.output.reset();
   const PointCloud cloud = head.cloud({}, room.pool, 0);
   const auto mesh = run_stage(room.context, [&](StageContext& c) { return GridMesher({}).mesh(cloud, c); });
@@ -59,7 +59,7 @@ bool learn(std::uint32_t seed, relievo::test::StageFixture& room, const Globe& g
   const auto frame = run_stage(room.context, [&](StageContext& c) { return find_head_frame(*mesh, c); });
   if (!frame) return false;
   const RigidTransform camera_from_head = inverse(frame->head_from_camera);
-  const RigidTransform sim_from_camera = inverse(pipeline::test::FieldHead::camera_from_head({}));
+  const RigidTransform sim_from_camera = inverse(pipeline::FieldHead::camera_from_head({}));
   RigidTransform sim_from_head;
   for (int i = 0; i < 3; ++i)
     for (int k = 0; k < 3; ++k) {

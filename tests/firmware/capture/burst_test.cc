@@ -23,8 +23,8 @@ namespace {
 using std::chrono::microseconds;
 using std::chrono::milliseconds;
 
-constexpr int kSide = 128;
-constexpr hal::CaptureMode kMode{kSide, kSide, microseconds(100)};
+constexpr int kBarsSide = 128;
+constexpr hal::CaptureMode kBarsMode{kBarsSide, kBarsSide, microseconds(100)};
 
 struct Look {
   double blur_px = 1;
@@ -51,18 +51,18 @@ class BarsCamera final : public hal::Camera {
       return Error{look.error.value_or(Errc::Timeout), "as the test says"};
     }
     waiting_ = false;
-    for (int y = 0; y < kSide; ++y)
-      for (int x = 0; x < kSide; ++x) {
+    for (int y = 0; y < kBarsSide; ++y)
+      for (int x = 0; x < kBarsSide; ++x) {
         const double wave = std::sin(2 * M_PI * (x + look.shift_px) / 24) * 24 / (2 * M_PI);
-        pixels_[static_cast<std::size_t>(y * kSide + x)] =
+        pixels_[static_cast<std::size_t>(y * kBarsSide + x)] =
             std::byte(static_cast<unsigned char>(std::lround(120 + 60 * std::tanh(wave / look.blur_px))));
       }
     return hal::Frame(
-        hal::raw_of({pixels_.data(), kSide, kSide, kSide, PixelFormat::Grey8}), {at_, ++sequence_},
-        [](void*, int) {}, this, 0);
+        hal::raw_of({pixels_.data(), kBarsSide, kBarsSide, kBarsSide, PixelFormat::Grey8}),
+        {at_, ++sequence_}, [](void*, int) {}, this, 0);
   }
   HandClock& clock_;
-  std::vector<std::byte> pixels_ = std::vector<std::byte>(std::size_t{kSide} * kSide);
+  std::vector<std::byte> pixels_ = std::vector<std::byte>(std::size_t{kBarsSide} * kBarsSide);
   hal::Instant at_;
   bool waiting_ = false;
   std::uint32_t sequence_ = 0;
@@ -91,7 +91,7 @@ class BarsLine final : public hal::TriggerLine {
 
 class BurstTest : public testing::Test {
  public:
-  void SetUp() override { ASSERT_TRUE(grabber.start(kMode)); }
+  void SetUp() override { ASSERT_TRUE(grabber.start(kBarsMode)); }
   void show(const std::vector<Look>& looks) {
     for (BarsCamera* camera : {&left, &right}) camera->looks.assign(looks.begin(), looks.end());
   }
@@ -103,7 +103,7 @@ class BurstTest : public testing::Test {
   BarsCamera left{clock}, right{clock};
   BarsLine line{clock, left, right};
   StereoGrabber grabber{left, right, line, clock};
-  std::vector<std::byte> memory = std::vector<std::byte>(std::size_t{2} * 7 * kSide * kSide);
+  std::vector<std::byte> memory = std::vector<std::byte>(std::size_t{2} * 7 * kBarsSide * kBarsSide);
   StereoSlot first{std::span(memory).first(memory.size() / 2)};
   StereoSlot second{std::span(memory).subspan(memory.size() / 2)};
   std::atomic<bool> cancelled{false};
@@ -201,7 +201,7 @@ TEST_F(BurstTest, TheJobKeepsTheBestPairAndTheSessionWipesAll) {
    public:
     explicit LiveDevice(BurstTest& test) : test_(test) {}
     std::string_view name() const override { return "test"; }
-    hal::CaptureMode preferred_mode() const override { return kMode; }
+    hal::CaptureMode preferred_mode() const override { return kBarsMode; }
     hal::Camera& left() override { return test_.left; }
     hal::Camera& right() override { return test_.right; }
     hal::TriggerLine& trigger() override { return test_.line; }
@@ -215,7 +215,7 @@ TEST_F(BurstTest, TheJobKeepsTheBestPairAndTheSessionWipesAll) {
     void kick() override {}
     BurstTest& test_;
   } device(*this);
-  const BootMemory boot(std::size_t{2} * 7 * kSide * kSide, 1 << 16, 1 << 16);
+  const BootMemory boot(std::size_t{2} * 7 * kBarsSide * kBarsSide, 1 << 16, 1 << 16);
   std::fill(boot.frames().begin(), boot.frames().end(), std::byte{0});
   EnrolmentSession session(boot);
   ASSERT_TRUE(session.open("Ada"));

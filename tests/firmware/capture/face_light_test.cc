@@ -11,13 +11,13 @@
 namespace relievo::firmware {
 namespace {
 
-constexpr int kSide = 80;
+constexpr int kPictureSide = 80;
 
 // Bars whose edges are smeared over about `blur_px`, between two levels of 0 to 255.
 std::vector<double> bars(double blur_px, double low, double high) {
   std::vector<double> picture;
-  for (int y = 0; y < kSide; ++y)
-    for (int x = 0; x < kSide; ++x) {
+  for (int y = 0; y < kPictureSide; ++y)
+    for (int x = 0; x < kPictureSide; ++x) {
       const double wave = std::sin(2 * M_PI * x / 16.0) * 16 / (2 * M_PI);  // pixels from the nearest edge
       picture.push_back(low + (high - low) * 0.5 * (1 + std::tanh(wave / blur_px)));
     }
@@ -35,13 +35,15 @@ struct Shown {
       bytes.push_back(b);
       if (format == PixelFormat::Rgb8) bytes.push_back(std::byte{200});
     }
-    view = {bytes.data(), kSide, kSide, kSide * bytes_per_pixel(format), format};
+    view = {bytes.data(), kPictureSide, kPictureSide, kPictureSide * bytes_per_pixel(format), format};
   }
-  FaceLight light(const FaceBox& box = {0, 0, kSide, kSide}) const { return *face_light(view, box); }
+  FaceLight light(const FaceBox& box = {0, 0, kPictureSide, kPictureSide}) const {
+    return *face_light(view, box);
+  }
 };
 
 TEST(FaceLight, MeasuresBrightnessInEveryFormat) {
-  std::vector<double> levels(kSide * kSide);
+  std::vector<double> levels(kPictureSide * kPictureSide);
   for (std::size_t i = 0; i < levels.size(); ++i) levels[i] = i % 100 < 90 ? 51 : i % 100 < 98 ? 153 : 255;
   for (const PixelFormat format : {PixelFormat::Grey8, PixelFormat::Grey16, PixelFormat::Rgb8}) {
     const FaceLight light = Shown(levels, format).light();
@@ -53,8 +55,8 @@ TEST(FaceLight, MeasuresBrightnessInEveryFormat) {
 }
 
 TEST(FaceLight, LooksAtTheFaceOnly) {
-  std::vector<double> levels(kSide * kSide, 250);
-  for (int y = 20; y < 60; ++y) std::fill_n(levels.begin() + y * kSide + 20, 40, 100.0);
+  std::vector<double> levels(kPictureSide * kPictureSide, 250);
+  for (int y = 20; y < 60; ++y) std::fill_n(levels.begin() + y * kPictureSide + 20, 40, 100.0);
   const Shown shown(levels, PixelFormat::Grey8);
   EXPECT_NEAR(shown.light(middle_box(shown.view)).mean, 100.0 / 255, 1e-6);
   EXPECT_NEAR(shown.light({20, 20, 40, 40}).bright, 100.0 / 255, 1e-6);
@@ -80,7 +82,8 @@ TEST(FaceLight, SharpnessFallsWithBlurAndNotWithLight) {
 }
 
 TEST(FaceLight, AFlatPictureHasNoSharpness) {
-  EXPECT_EQ(Shown(std::vector<double>(kSide * kSide, 90), PixelFormat::Grey8).light().sharpness, 0);
+  EXPECT_EQ(Shown(std::vector<double>(kPictureSide * kPictureSide, 90), PixelFormat::Grey8).light().sharpness,
+            0);
 }
 
 TEST(FocusHelp, TellsTheShareOfTheBest) {

@@ -19,7 +19,7 @@ using hal::FakeKernel;
 using hal::V4l2Camera;
 using pipeline::RigCameras;
 
-const hal::CaptureMode kMode{64, 48, std::chrono::microseconds(4000)};
+const hal::CaptureMode kPluggedMode{64, 48, std::chrono::microseconds(4000)};
 
 // Two cameras of Linux's video interface, each on a kernel that says what the test says.
 struct Plugged {
@@ -31,7 +31,7 @@ struct Plugged {
         right({right_at, {}, 0, true}, right_kernel, right_kernel.clock) {
     left_kernel.serial = left_serial;
     right_kernel.serial = right_serial;
-    EXPECT_TRUE(left.open(kMode) && right.open(kMode));
+    EXPECT_TRUE(left.open(kPluggedMode) && right.open(kPluggedMode));
   }
   RigCameras names() const { return cameras_of(left, right); }
 };

@@ -14,13 +14,11 @@
 namespace relievo::firmware {
 namespace {
 
-constexpr double kScale = 0.5;
-
 // Boards are photographed once for all tests here.
 const pipeline::StereoCalibration& calibrated() {
   static const pipeline::StereoCalibration calibration = [] {
     TargetShot series;
-    series.scale = kScale;
+    series.scale = kHalfScale;
     const std::atomic<bool> never{false};
     auto made = calibrate_on_boards(TargetRig{}, series, 8, never, [] {});
     EXPECT_TRUE(made);
@@ -31,7 +29,7 @@ const pipeline::StereoCalibration& calibrated() {
 
 OpticalCheckOptions few() {
   OpticalCheckOptions o;
-  o.scale = kScale;
+  o.scale = kHalfScale;
   o.dumbbells = {dumbbell_places()[0], dumbbell_places()[4]};
   o.plates = {plate_places()[3]};
   return o;
@@ -59,10 +57,10 @@ TEST(OpticalCheck, AGoodRigHoldsEveryLimitAndFindsTheCentres) {
   };
   const auto report = measured(calibrated(), options);
   ASSERT_TRUE(report) << report.error().where() << ": " << report.error().what.view();
-  for (const AcceptanceLine& line : report->lines(limits_at(kScale)))
+  for (const AcceptanceLine& line : report->lines(limits_at(kHalfScale)))
     EXPECT_TRUE(line.held()) << line.measure << " " << line.value_mm << " mm, limit " << line.limit_mm
                              << " at " << line.where;
-  EXPECT_TRUE(report->verdict(limits_at(kScale)));
+  EXPECT_TRUE(report->verdict(limits_at(kHalfScale)));
   ASSERT_EQ(report->targets.size(), 5U);
   ASSERT_EQ(report->spacings.size(), 2U);
   for (std::size_t k = 0; k < 4; ++k) {
@@ -88,10 +86,10 @@ TEST(OpticalCheck, ABaselineWrongByOnePercentFailsTheSphereSpacing) {
   options.plates.clear();
   const auto report = measured(wrong, options);
   ASSERT_TRUE(report);
-  const auto lines = report->lines(limits_at(kScale));
+  const auto lines = report->lines(limits_at(kHalfScale));
   EXPECT_FALSE(line_of(lines, "sphere spacing").held());
   EXPECT_NEAR(line_of(lines, "sphere spacing").value_mm, 1.2, 0.2);  // one percent of 120 mm
-  EXPECT_FALSE(report->verdict(limits_at(kScale)));
+  EXPECT_FALSE(report->verdict(limits_at(kHalfScale)));
 }
 
 TEST(OpticalCheck, ALensTermOfTheWrongSignFailsTheFlatness) {
@@ -102,7 +100,7 @@ TEST(OpticalCheck, ALensTermOfTheWrongSignFailsTheFlatness) {
   options.dumbbells.clear();
   const auto report = measured(wrong, options);
   ASSERT_TRUE(report);
-  const auto lines = report->lines(limits_at(kScale));
+  const auto lines = report->lines(limits_at(kHalfScale));
   EXPECT_FALSE(line_of(lines, "flatness").held()) << line_of(lines, "flatness").value_mm;
 }
 
@@ -117,7 +115,7 @@ TEST(OpticalCheck, SpheresThatAreNotAsCertifiedFailSizeAndSpacing) {
   options.plates.clear();
   const auto report = measured(calibrated(), options, rig);
   ASSERT_TRUE(report);
-  const auto lines = report->lines(limits_at(kScale));
+  const auto lines = report->lines(limits_at(kHalfScale));
   EXPECT_NEAR(line_of(lines, "probing error, size").value_mm, 1, 0.3);
   EXPECT_NEAR(line_of(lines, "sphere spacing").value_mm, 1, 0.2);
   EXPECT_FALSE(line_of(lines, "probing error, size").held());

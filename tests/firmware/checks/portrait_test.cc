@@ -30,7 +30,6 @@ hal::sim::RigOptions portrait() {
   rig.focal_px = 2320;
   return rig;
 }
-constexpr double kScale = 0.5;
 
 TEST(Portrait, TheRigSeesHigherThanWide) {
   const hal::sim::SimRig rig = hal::sim::make_rig(portrait());
@@ -48,7 +47,7 @@ TEST(Portrait, CalibratesReconstructsAndIsTrue) {
   TargetRig rig;
   rig.rig = portrait();
   TargetShot series;
-  series.scale = kScale;
+  series.scale = kHalfScale;
   series.targets.board_columns = 7;  // the board turned as the picture is
   series.targets.board_rows = 10;
   const std::atomic<bool> never{false};

@@ -12,6 +12,8 @@
 
 namespace relievo::firmware {
 
+inline constexpr double kHalfScale = 0.5;  // of the pixels, for light tests
+
 struct TargetRig {
   hal::sim::RigOptions rig;
   std::optional<OpticalTargets> true_targets;

@@ -8,6 +8,7 @@
 #include <string>
 
 #include "firmware/demo/gallery.h"
+#include "tests/ui/languages.h"
 #include "ui/screens/staff_screens.h"
 #include "ui/screens/visitor/visitor_screens.h"
 #include "ui/speech/narrator.h"
@@ -15,7 +16,6 @@
 namespace relievo::firmware {
 namespace {
 
-const ui::ViewState kNothing;
 constexpr ui::Rect kScreen{0, 0, 1280, 800};
 
 // The icon font's letters: U+F000 to U+F8FF.
@@ -56,7 +56,7 @@ class GallerySpeechTest : public testing::TestWithParam<ui::Language> {
 };
 
 TEST_P(GallerySpeechTest, EveryPageAndEveryButtonHasWords) {
-  for (const Exhibit& exhibit : gallery(kNothing, GetParam(), 0, false)) {
+  for (const Exhibit& exhibit : gallery({}, GetParam(), 0, false)) {
     SCOPED_TRACE(exhibit.name);
     build(exhibit);
     const std::string words = page(true);
@@ -79,7 +79,7 @@ TEST_P(GallerySpeechTest, EveryPageAndEveryButtonHasWords) {
 
 TEST_P(GallerySpeechTest, ALoudspeakerIsToldNothingPrivate) {
   std::size_t codes = 0, names = 0, keys = 0;
-  for (const Exhibit& exhibit : gallery(kNothing, GetParam(), 0, false)) {
+  for (const Exhibit& exhibit : gallery({}, GetParam(), 0, false)) {
     if (exhibit.service.open) continue;  // the staff hear their side in headphones alone
     SCOPED_TRACE(exhibit.name);
     build(exhibit);
@@ -110,14 +110,7 @@ TEST_P(GallerySpeechTest, ALoudspeakerIsToldNothingPrivate) {
   EXPECT_GT(keys, 90U);
 }
 
-std::string name(const testing::TestParamInfo<ui::Language>& info) {
-  return std::string(ui::info_of(info.param).code).substr(0, 2);
-}
-INSTANTIATE_TEST_SUITE_P(Languages, GallerySpeechTest,
-                         testing::Values(ui::Language::English, ui::Language::German, ui::Language::French,
-                                         ui::Language::Spanish, ui::Language::Arabic, ui::Language::Hebrew,
-                                         ui::Language::Chinese, ui::Language::Japanese),
-                         name);
+INSTANTIATE_TEST_SUITE_P(Languages, GallerySpeechTest, ui::kEveryLanguage, ui::language_code);
 
 }  // namespace
 }  // namespace relievo::firmware

@@ -14,13 +14,12 @@
 
 #include "firmware/records/event_log.h"
 #include "tests/support/made_screen.h"
+#include "tests/ui/languages.h"
 #include "ui/screens/visitor/visitor_screens.h"
 #include "ui/view/staff_views.h"
 
 namespace relievo::firmware {
 namespace {
-
-const ui::ViewState kNothing;
 
 constexpr float kTouchDp = 72, kStaffTouchDp = 56;
 
@@ -71,7 +70,7 @@ class GalleryTest : public testing::TestWithParam<ui::Language> {
     for (const Shown shown : kScreens) {
       for (std::size_t text = 0; text < ui::kTextPercents.size(); ++text) {
         if (text == 1 && shown.width_px != 1280) continue;  // 125 %: where there is least room
-        for (const Exhibit& exhibit : gallery(kNothing, GetParam(), text, false)) {
+        for (const Exhibit& exhibit : gallery({}, GetParam(), text, false)) {
           screen_->resize(shown.width_px, shown.height_px);
           screen_->show(exhibit.view, exhibit.visit, exhibit.service);
           SCOPED_TRACE(std::string(exhibit.name) + " " + std::to_string(shown.width_px) + "x" +
@@ -201,7 +200,7 @@ void read_by_keypad(ui::Ui& screen, const Exhibit& exhibit, std::set<std::string
 // Without a finger, in large letters: the focus is seen wherever it goes, and what goes on is read to its
 // end.
 TEST_P(GalleryTest, AKeypadSeesItsFocusAndReadsEveryScrollerToItsEnd) {
-  for (const Exhibit& exhibit : gallery(kNothing, GetParam(), ui::kTextPercents.size() - 1, false)) {
+  for (const Exhibit& exhibit : gallery({}, GetParam(), ui::kTextPercents.size() - 1, false)) {
     SCOPED_TRACE(exhibit.name);
     const auto made = test::make_screen();
     ui::Ui& screen = *made;
@@ -263,7 +262,7 @@ TEST_P(GalleryTest, NoSentenceStaysEnglishButTheEnginesDetails) {
                                    "Museum of Faces", "Maximiliane von und zu"};
   screen_->resize(1280, 800);
   std::size_t looked_at = 0, details = 0;
-  for (const Exhibit& exhibit : gallery(kNothing, GetParam(), 0, false)) {
+  for (const Exhibit& exhibit : gallery({}, GetParam(), 0, false)) {
     screen_->show(exhibit.view, exhibit.visit, exhibit.service);
     for (const ui::Node& node : screen_->tree().nodes()) {
       const bool detail = !node.text.empty() && node.style.language == std::string_view("en");
@@ -286,7 +285,7 @@ TEST_P(GalleryTest, NoSentenceStaysEnglishButTheEnginesDetails) {
 }
 
 TEST_P(GalleryTest, RightToLeftMirrorsThePage) {
-  const auto exhibits = gallery(kNothing, GetParam(), 0, false);
+  const auto exhibits = gallery({}, GetParam(), 0, false);
   screen_->resize(1280, 800);
   for (const Exhibit& exhibit : exhibits) {
     if (exhibit.name != "consent") continue;
@@ -299,7 +298,7 @@ TEST_P(GalleryTest, RightToLeftMirrorsThePage) {
 // On an upright screen, whose upper third hangs high; and for whoever has the other hand.
 TEST_P(GalleryTest, ControlsComeDownAndToTheOtherSide) {
   constexpr float kWidth = 1080, kHeight = 1920;
-  for (Exhibit& exhibit : gallery(kNothing, GetParam(), 0, false)) {
+  for (Exhibit& exhibit : gallery({}, GetParam(), 0, false)) {
     if (exhibit.service.open) continue;
     SCOPED_TRACE(exhibit.name);
     screen_->resize(static_cast<int>(kWidth), static_cast<int>(kHeight));
@@ -325,14 +324,7 @@ TEST_P(GalleryTest, ControlsComeDownAndToTheOtherSide) {
   }
 }
 
-std::string name(const testing::TestParamInfo<ui::Language>& info) {
-  return std::string(ui::info_of(info.param).code).substr(0, 2);
-}
-INSTANTIATE_TEST_SUITE_P(Languages, GalleryTest,
-                         testing::Values(ui::Language::English, ui::Language::German, ui::Language::French,
-                                         ui::Language::Spanish, ui::Language::Arabic, ui::Language::Hebrew,
-                                         ui::Language::Chinese, ui::Language::Japanese),
-                         name);
+INSTANTIATE_TEST_SUITE_P(Languages, GalleryTest, ui::kEveryLanguage, ui::language_code);
 
 }  // namespace
 }  // namespace relievo::firmware

@@ -27,8 +27,6 @@
 namespace relievo::firmware {
 namespace {
 
-const ui::ViewState kNothing;
-
 constexpr int kLevels = 16, kTile = 16;
 constexpr double kMostDifferent = 0.001, kMostInATile = 0.1;
 constexpr int kKeptSteps =
@@ -85,7 +83,7 @@ class GoldenTest : public testing::TestWithParam<Golden> {
     picture.height_px = golden.height_px;
     picture.bytes.resize(std::size_t{3} * static_cast<std::size_t>(picture.width_px) *
                          static_cast<std::size_t>(picture.height_px));
-    const auto exhibits = gallery(kNothing, golden.language, golden.text, golden.contrast);
+    const auto exhibits = gallery({}, golden.language, golden.text, golden.contrast);
     const auto shown = std::find_if(exhibits.begin(), exhibits.end(),
                                     [&](const Exhibit& one) { return one.name == golden.page; });
     EXPECT_NE(shown, exhibits.end());

@@ -11,19 +11,19 @@
 namespace relievo::firmware {
 namespace {
 
-const hal::sim::RigOptions kRig = test::small_rig(0.5);
+const hal::sim::RigOptions kHalfRig = test::small_rig(0.5);
 
 class KioskCalibrationTest : public StaffHands {
  protected:
   KioskCalibrationTest() {
     services.open_device = [](std::string_view) {
       hal::SimDeviceOptions options;
-      options.simulation.rig = kRig;
+      options.simulation.rig = kHalfRig;
       return hal::make_sim_device(options);
     };
     services.simulated_calibration = {};
     services.hold_board = [](const CalibrateLiveArgs& held) -> Result<std::unique_ptr<LivePairs>> {
-      return make_hand_pairs(held_board(kRig, held.board), held.seed);
+      return make_hand_pairs(held_board(kHalfRig, held.board), held.seed);
     };
   }
   void open() {
@@ -114,7 +114,7 @@ TEST_F(KioskCalibrationTest, AKnockedCameraIsNoticedToldAndServesAgainOnceCalibr
   {
     auto store = storage::open_sqlite_store(args.store, clock, {});
     ASSERT_TRUE(store.has_value());
-    const pipeline::StereoCalibration now = test::true_calibration(hal::sim::make_rig(kRig));
+    const pipeline::StereoCalibration now = test::true_calibration(hal::sim::make_rig(kHalfRig));
     ASSERT_TRUE((*store)->save_calibration(now, "as the cameras stand").has_value());
     // Since this one was made, the right camera has been knocked by 3 px across the rows.
     ASSERT_TRUE((*store)

@@ -22,7 +22,7 @@
 namespace relievo::firmware {
 namespace {
 
-const hal::sim::RigOptions kRig = test::small_rig(0.5);
+const hal::sim::RigOptions kScreensRig = test::small_rig(0.5);
 
 class ScreenshotsTest : public testing::Test {
  protected:
@@ -35,12 +35,12 @@ class ScreenshotsTest : public testing::Test {
     std::filesystem::create_directories(args.screenshots);
     services.open_device = [](std::string_view) {
       hal::SimDeviceOptions options;
-      options.simulation.rig = kRig;
+      options.simulation.rig = kScreensRig;
       return hal::make_sim_device(options);
     };
     services.open_store = [this](const Path& at, bool) { return storage::open_sqlite_store(at, clock, {}); };
     services.simulated_calibration = [this]() -> Result<pipeline::StereoCalibration> {
-      RELIEVO_TRY(hal::sim::write_rig(folder.path() / "rig.yml", hal::sim::make_rig(kRig)));
+      RELIEVO_TRY(hal::sim::write_rig(folder.path() / "rig.yml", hal::sim::make_rig(kScreensRig)));
       return pipeline::read_calibration(folder.path() / "rig.yml");
     };
   }
@@ -69,7 +69,7 @@ TEST_F(ScreenshotsTest, AClockThatIsWrongIsToldAsSuch) {
   world.wall_shift_s = -40LL * 365 * 86'400;
   services.open_device = [&world](std::string_view) -> Result<std::unique_ptr<hal::Device>> {
     return std::unique_ptr<hal::Device>(
-        std::make_unique<test::PlayedDevice>(world, kRig.width_px, kRig.height_px));
+        std::make_unique<test::PlayedDevice>(world, kScreensRig.width_px, kScreensRig.height_px));
   };
   const Result<void> taken = take();
   ASSERT_FALSE(taken.has_value());

@@ -18,14 +18,15 @@
 namespace relievo::firmware {
 namespace {
 
-constexpr int kWidth = 4, kHeight = 3;
+constexpr int kPairWidth = 4, kPairHeight = 3;
 
 // A pair of one grey value, with rows that are longer than their pixels.
 class Pair {
  public:
-  explicit Pair(int grey, int width = kWidth) : bytes_(static_cast<std::size_t>(kHeight * (3 * width + 5))) {
+  explicit Pair(int grey, int width = kPairWidth)
+      : bytes_(static_cast<std::size_t>(kPairHeight * (3 * width + 5))) {
     std::fill(bytes_.begin(), bytes_.end(), static_cast<std::byte>(grey));
-    const ImageView view{bytes_.data(), width, kHeight, 3 * width + 5, PixelFormat::Rgb8};
+    const ImageView view{bytes_.data(), width, kPairHeight, 3 * width + 5, PixelFormat::Rgb8};
     frame = {view, view};
   }
   pipeline::StereoFrame frame;
@@ -67,8 +68,8 @@ TEST_F(HeadJobTest, PairsAreHandedOnInTheirOrderAsTheyWere) {
   for (const int grey : {11, 12, 13}) {
     const auto pair = sides().next(cancelled);
     ASSERT_TRUE(pair);
-    EXPECT_EQ(pair->left.stride_bytes, 3 * kWidth);
-    EXPECT_EQ(pair->left.row(kHeight - 1)[3 * kWidth - 1], grey);
+    EXPECT_EQ(pair->left.stride_bytes, 3 * kPairWidth);
+    EXPECT_EQ(pair->left.row(kPairHeight - 1)[3 * kPairWidth - 1], grey);
     EXPECT_EQ(pair->right.row(0)[0], grey);
   }
   std::thread later([this] {

@@ -17,21 +17,21 @@
 namespace relievo::firmware {
 namespace {
 
-constexpr int kWidth = 160, kHeight = 120;
+constexpr int kGrainsWidth = 160, kGrainsHeight = 120;
 
 // Dark at the sides, where nobody stands; in the middle grains of 0.25 to 0.6.
 std::vector<double> grains() {
-  std::vector<double> light(std::size_t{kWidth} * kHeight, 0.01);
-  for (int y = 0; y < kHeight; ++y)
-    for (int x = 0; x < kWidth; ++x)
-      if (std::abs(x - kWidth / 2) < kWidth / 4)
-        light[static_cast<std::size_t>(y * kWidth + x)] = 0.25 + 0.35 * ((x * 7 + y * 13) % 16) / 15.0;
+  std::vector<double> light(std::size_t{kGrainsWidth} * kGrainsHeight, 0.01);
+  for (int y = 0; y < kGrainsHeight; ++y)
+    for (int x = 0; x < kGrainsWidth; ++x)
+      if (std::abs(x - kGrainsWidth / 2) < kGrainsWidth / 4)
+        light[static_cast<std::size_t>(y * kGrainsWidth + x)] = 0.25 + 0.35 * ((x * 7 + y * 13) % 16) / 15.0;
   return light;
 }
 
 pipeline::StereoCalibration calibration() {
   pipeline::StereoCalibration c;
-  c.left = c.right = {{245, 245}, {kWidth / 2.0, kHeight / 2.0}, {}, kWidth, kHeight};
+  c.left = c.right = {{245, 245}, {kGrainsWidth / 2.0, kGrainsHeight / 2.0}, {}, kGrainsWidth, kGrainsHeight};
   // Turned towards each other, so that both see a face at 560 mm.
   const double turn = 0.245, sine = std::sin(turn), cosine = std::cos(turn);
   c.right_from_left.rotation = {{cosine, 0, sine, 0, 1, 0, -sine, 0, cosine}};
@@ -68,8 +68,9 @@ class PoseExposure : public testing::Test {
   // How bright the brighter of both cameras now shows the brightest grains.
   double shown() const { return 0.6 * device.right_camera.factor(); }
 
-  test::LitDevice device{{grains(), grains(), kWidth}};
-  BootMemory memory{std::size_t{14} * kWidth * kHeight, std::size_t{4} << 20, std::size_t{16} << 20};
+  test::LitDevice device{{grains(), grains(), kGrainsWidth}};
+  BootMemory memory{std::size_t{14} * kGrainsWidth * kGrainsHeight, std::size_t{4} << 20,
+                    std::size_t{16} << 20};
   EnrolmentSession session{memory};
   StereoGrabber grabber{device};
   ThreadPool pool{1};

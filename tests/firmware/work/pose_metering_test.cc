@@ -19,10 +19,10 @@
 namespace relievo::firmware {
 namespace {
 
-constexpr int kWidth = 480;  // the album's pictures
+constexpr int kAlbumWidth = 480;  // the album's pictures
 constexpr std::uint32_t kPerson = 3;
-constexpr double kWindow = 1;   // white at 10 ms: eight times the face
-constexpr double kShade = 0.5;  // of the light the person has in the kiosk's own
+constexpr double kWindowLight = 1;  // white at 10 ms: eight times the face
+constexpr double kShade = 0.5;      // of the light the person has in the kiosk's own
 
 double grey(const std::vector<std::uint16_t>& rgb, std::size_t pixel) {
   return (rgb[3 * pixel] + rgb[3 * pixel + 1] + rgb[3 * pixel + 2]) / (3 * test::kLightUnit);
@@ -33,14 +33,15 @@ std::vector<double> before_window(const std::vector<std::uint16_t>& shot,
                                   const std::vector<std::uint16_t>& room, double shade) {
   std::vector<double> light(shot.size() / 3);
   for (std::size_t i = 0; i < light.size(); ++i)
-    light[i] = std::abs(grey(shot, i) - grey(room, i)) < 1e-3 ? kWindow : shade * grey(shot, i);
+    light[i] = std::abs(grey(shot, i) - grey(room, i)) < 1e-3 ? kWindowLight : shade * grey(shot, i);
   return light;
 }
 
 test::LitDevice::Scene scene(const hal::sim::HeadPose& pose, double shade) {
   const test::Shot& room = test::shared_album().shoot(0, {0, 0, 0, 0, 0, 0});
   const test::Shot& shot = test::shared_album().shoot(kPerson, pose);
-  return {before_window(shot.left, room.left, shade), before_window(shot.right, room.right, shade), kWidth};
+  return {before_window(shot.left, room.left, shade), before_window(shot.right, room.right, shade),
+          kAlbumWidth};
 }
 
 class PoseMetering : public testing::Test {
@@ -79,14 +80,14 @@ class PoseMetering : public testing::Test {
     std::vector<double> values;
     for (int v = static_cast<int>(y - 45 * a_mm); v < static_cast<int>(y + 35 * a_mm); ++v)
       for (int u = static_cast<int>(x - 45 * a_mm); u < static_cast<int>(x + 45 * a_mm); ++u)
-        values.push_back(shade * grey(shot.right, static_cast<std::size_t>(v * kWidth + u)) *
+        values.push_back(shade * grey(shot.right, static_cast<std::size_t>(v * kAlbumWidth + u)) *
                          device.right_camera.factor());
     return percentile(values, 0.95);
   }
 
   hal::sim::HeadPose standing = test::standing(640, -45, 20);  // not quite in the middle
   test::LitDevice device{scene(standing, kShade), 1};
-  BootMemory memory{std::size_t{20} * kWidth * 300, std::size_t{8} << 20, std::size_t{64} << 20};
+  BootMemory memory{std::size_t{20} * kAlbumWidth * 300, std::size_t{8} << 20, std::size_t{64} << 20};
   EnrolmentSession session{memory};
   StereoGrabber grabber{device};
   ThreadPool pool{1};
@@ -99,7 +100,7 @@ TEST_F(PoseMetering, AFaceDarkInABrightRoomIsLitForAndFollowed) {
   ASSERT_TRUE(pose->face());
   EXPECT_EQ(pose->exposure().state(), ExposureControl::State::Settled);
   EXPECT_NEAR(face_shown(kShade), kBrightTarget, 0.2 * kBrightTarget);
-  EXPECT_GT(kWindow * device.right_camera.factor(), 1) << "the window burns out, and may";
+  EXPECT_GT(kWindowLight * device.right_camera.factor(), 1) << "the window burns out, and may";
   // The shade grows deeper: the exposure follows the face.
   const double before = device.right_camera.factor();
   test::LitDevice::Scene deeper = scene(standing, kShade / 2);
@@ -109,13 +110,13 @@ TEST_F(PoseMetering, AFaceDarkInABrightRoomIsLitForAndFollowed) {
   EXPECT_GT(device.right_camera.factor(), 1.5 * before);
   EXPECT_NEAR(face_shown(kShade / 2), kBrightTarget, 0.2 * kBrightTarget);
   // They leave: the room is lit for again.
-  const std::vector<double> window(device.left_camera.exposed.empty() ? 0 : std::size_t{kWidth} * 300,
-                                   kWindow);
+  const std::vector<double> window(device.left_camera.exposed.empty() ? 0 : std::size_t{kAlbumWidth} * 300,
+                                   kWindowLight);
   device.left_camera.show(window);
   device.right_camera.show(window);
   pose_for(24);
   EXPECT_FALSE(pose->face());
-  EXPECT_LT(kWindow * device.right_camera.factor(), 1);
+  EXPECT_LT(kWindowLight * device.right_camera.factor(), 1);
 }
 
 }  // namespace

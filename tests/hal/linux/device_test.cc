@@ -13,7 +13,7 @@
 namespace relievo::hal {
 namespace {
 
-constexpr const char* kMode = "[mode]\nwidth_px = 32\nheight_px = 48\nexposure_us = 4000\n";
+constexpr const char* kModeText = "[mode]\nwidth_px = 32\nheight_px = 48\nexposure_us = 4000\n";
 constexpr const char* kTwo =
     "[left]\ndevice = \"/dev/a\"\nserial = \"L\"\n[right]\ndevice = \"/dev/b\"\nformat = \"GREY\"\n";
 constexpr const char* kWires =
@@ -26,7 +26,7 @@ Result<LinuxDeviceOptions> read(const std::string& text) {
 }
 
 TEST(LinuxDeviceFile, SaysWhatIsWiredWhere) {
-  const auto options = read(std::string(kMode) + kTwo + kWires);
+  const auto options = read(std::string(kModeText) + kTwo + kWires);
   ASSERT_TRUE(options) << options.error().where();
   EXPECT_EQ(options->mode.width_px, 32);
   EXPECT_EQ(options->mode.exposure, std::chrono::microseconds(4000));
@@ -42,30 +42,30 @@ TEST(LinuxDeviceFile, SaysWhatIsWiredWhere) {
 }
 
 TEST(LinuxDeviceFile, StickAndWatchdogMayBeLeftOut) {
-  const auto bare = read(std::string(kMode) + kTwo);
+  const auto bare = read(std::string(kModeText) + kTwo);
   ASSERT_TRUE(bare);
   EXPECT_TRUE(bare->stick_folder.empty() && !bare->watchdog);
-  const auto options =
-      read(std::string(kMode) + kTwo + "[stick]\nfolder = \"/media/relievo\"\n[watchdog]\ntimeout_s = 30\n");
+  const auto options = read(std::string(kModeText) + kTwo +
+                            "[stick]\nfolder = \"/media/relievo\"\n[watchdog]\ntimeout_s = 30\n");
   ASSERT_TRUE(options) << options.error().where();
   EXPECT_EQ(options->stick_folder, "/media/relievo");
   EXPECT_EQ(options->watchdog.value_or(WatchdogOptions{}).timeout, std::chrono::seconds(30));
 }
 
 TEST(LinuxDeviceFile, WithoutATriggerTheCamerasRunFree) {
-  const auto options = read(std::string(kMode) + kTwo);
+  const auto options = read(std::string(kModeText) + kTwo);
   ASSERT_TRUE(options);
   EXPECT_FALSE(options->trigger);
   EXPECT_FALSE(options->left.triggered);
 }
 
 TEST(LinuxDeviceFile, WhatIsWrongIsNamedByItsLine) {
-  const std::string good = std::string(kMode) + kTwo;
+  const std::string good = std::string(kModeText) + kTwo;
   const std::pair<std::string, const char*> cases[] = {
       {"[mode\n", "line 1"},
       {kTwo, "[mode]"},
-      {kMode, "[left]"},
-      {std::string(kMode) + "[left]\ndevice = \"/dev/a\"\n", "[both]"},
+      {kModeText, "[left]"},
+      {std::string(kModeText) + "[left]\ndevice = \"/dev/a\"\n", "[both]"},
       {good + "[both]\ndevice = \"/dev/c\"\n", "[both]"},
       {good + "[flash]\nline = 1\n", "flash"},
       {good + "[lamp]\nline = 1\n", "[trigger]"},
@@ -75,8 +75,8 @@ TEST(LinuxDeviceFile, WhatIsWrongIsNamedByItsLine) {
       {good + "[trigger]\nchip = \"x\"\nline = 1\ndelay_us = 999999\n", "delay_us"},
       {"[mode]\nwidth_px = 3\nheight_px = 48\n" + std::string(kTwo), "width_px"},
       {"[mode]\nwidth_px = 32.5\nheight_px = 48\n" + std::string(kTwo), "width_px"},
-      {std::string(kMode) + "[left]\ndevice = \"/dev/a\"\n[right]\ndevice = \"/dev/a\"\n", "same"},
-      {std::string(kMode) +
+      {std::string(kModeText) + "[left]\ndevice = \"/dev/a\"\n[right]\ndevice = \"/dev/a\"\n", "same"},
+      {std::string(kModeText) +
            "[left]\ndevice = \"/dev/a\"\nformat = \"MONO12\"\n[right]\ndevice = \"/dev/b\"\n",
        "format"},
       {"mode = 3\n" + std::string(kTwo), "mode"},
@@ -95,7 +95,7 @@ TEST(LinuxDeviceFile, WhatIsWrongIsNamedByItsLine) {
 
 TEST(LinuxDevice, ATriggerThatIsNotThereIsToldBeforeACameraOpens) {
   FakeKernel kernel;
-  auto options = read(std::string(kMode) + kTwo + kWires);
+  auto options = read(std::string(kModeText) + kTwo + kWires);
   ASSERT_TRUE(options);
   options->trigger->chip = "/nowhere/gpiochip9";
   EXPECT_EQ(make_linux_device(*options, kernel).error().code, Errc::NotFound);
@@ -104,7 +104,7 @@ TEST(LinuxDevice, ATriggerThatIsNotThereIsToldBeforeACameraOpens) {
 
 TEST(LinuxDevice, OneDeviceGivesBothViewsTogetherWithoutAWire) {
   FakeKernel kernel;
-  const auto options = read(std::string(kMode) + "[both]\ndevice = \"/dev/c\"\n");
+  const auto options = read(std::string(kModeText) + "[both]\ndevice = \"/dev/c\"\n");
   ASSERT_TRUE(options) << options.error().where();
   const auto made = make_linux_device(*options, kernel);
   ASSERT_TRUE(made);
@@ -130,7 +130,7 @@ TEST(LinuxDevice, OneDeviceGivesBothViewsTogetherWithoutAWire) {
 
 TEST(LinuxDevice, TwoCamerasWithoutAWireDoNotExposeTogether) {
   FakeKernel kernel;
-  const auto made = make_linux_device(*read(std::string(kMode) + kTwo), kernel);
+  const auto made = make_linux_device(*read(std::string(kModeText) + kTwo), kernel);
   ASSERT_TRUE(made);
   EXPECT_FALSE((*made)->exposes_together());
   EXPECT_NE(&(*made)->left(), &(*made)->right());

@@ -10,16 +10,13 @@
 
 #include <linux/videodev2.h>
 
-#include "hal/linux/v4l2_camera.h"
 #include "hal/linux/v4l2_setup.h"
-#include "tests/support/kernel/v4l2_fake_kernel.h"
+#include "tests/hal/linux/v4l2_fixture.h"
 
 namespace relievo::hal {
 namespace {
 
 using std::chrono::milliseconds;
-
-const CaptureMode kMode{64, 48, std::chrono::microseconds(4000)};
 
 // Every call of opening, starting and taking, failing the first, second … time with every number a driver
 // may give: an error in words or a picture, never a crash, a device left open or a buffer queued twice;

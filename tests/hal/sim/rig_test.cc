@@ -13,7 +13,7 @@
 namespace relievo::hal::sim {
 namespace {
 
-RigOptions small() {
+RigOptions small_rig() {
   RigOptions o;
   o.width_px = 640;
   o.height_px = 400;
@@ -21,7 +21,7 @@ RigOptions small() {
 }
 
 TEST(SimRig, ProjectionUndoesTheRay) {
-  const SimRig rig = make_rig(small());
+  const SimRig rig = make_rig(small_rig());
   for (const SimView* view : {&rig.left, &rig.right})
     for (int y = 0; y < 400; y += 57)
       for (int x = 0; x < 640; x += 71) {
@@ -32,7 +32,7 @@ TEST(SimRig, ProjectionUndoesTheRay) {
 }
 
 TEST(SimRig, BothCamerasLookAtTheMeetingPointFromTheBaseline) {
-  RigOptions o = small();
+  RigOptions o = small_rig();
   o.perturbation = 0;
   const SimRig rig = make_rig(o);
   const Vec3 meeting{0, 0, 560 / std::cos(std::atan(70.0 / 560))};
@@ -44,7 +44,7 @@ TEST(SimRig, BothCamerasLookAtTheMeetingPointFromTheBaseline) {
 }
 
 TEST(SimRig, TheSeedIsTheRig) {
-  RigOptions a = small(), b = small();
+  RigOptions a = small_rig(), b = small_rig();
   b.seed = 2;
   EXPECT_EQ(make_rig(a).left.fx_px, make_rig(a).left.fx_px);
   EXPECT_NE(make_rig(a).left.fx_px, make_rig(b).left.fx_px);
@@ -52,7 +52,7 @@ TEST(SimRig, TheSeedIsTheRig) {
 
 TEST(SimRig, WritesTheKeysOfOpenCvsStereoSample) {
   const TemporaryFolder folder;
-  ASSERT_TRUE(write_rig(folder / "rig.yml", make_rig(small())));
+  ASSERT_TRUE(write_rig(folder / "rig.yml", make_rig(small_rig())));
   const auto bytes = read_whole_file(folder / "rig.yml", 1 << 20);
   ASSERT_TRUE(bytes);
   const std::string text(reinterpret_cast<const char*>(bytes->data()), bytes->size());
@@ -85,7 +85,7 @@ double saddle_error(const Picture& picture, Pixel at) {
 }
 
 TEST(BoardScene, CornersAreWhereTheLensPutsThem) {
-  const SimRig rig = make_rig(small());
+  const SimRig rig = make_rig(small_rig());
   const BoardPattern pattern;
   const auto poses = good_board_poses(rig, pattern, 2, 3);
   ASSERT_TRUE(poses);
@@ -105,7 +105,7 @@ TEST(BoardScene, CornersAreWhereTheLensPutsThem) {
 }
 
 TEST(BoardScene, FourteenPosesTiltAllWays) {
-  const SimRig rig = make_rig(small());
+  const SimRig rig = make_rig(small_rig());
   const auto poses = good_board_poses(rig, {}, 14, 1);
   ASSERT_TRUE(poses);
   ASSERT_EQ(poses->size(), 14U);

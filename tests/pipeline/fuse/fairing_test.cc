@@ -14,25 +14,25 @@
 #include "pipeline/mesh/completion/mesh_laplacian.h"
 #include "pipeline/model/vector3.h"
 
-namespace relievo::pipeline::test {
+namespace relievo::pipeline {
 namespace {
 
-constexpr int kSide = 41;
+constexpr int kStepSide = 41;
 
 // A sheet of triangles with sides of a millimetre; `height` of what lies to the right of its middle.
 struct Sheet {
   explicit Sheet(float height) {
-    for (int y = 0; y < kSide; ++y)
-      for (int x = 0; x < kSide; ++x) {
-        vertices.push_back({static_cast<float>(x), static_cast<float>(y), x > kSide / 2 ? height : 0});
-        label.push_back(x > kSide / 2 ? 2 : 1);
-        stays.push_back(x == 0 || y == 0 || x == kSide - 1 || y == kSide - 1 ? 1 : 0);
+    for (int y = 0; y < kStepSide; ++y)
+      for (int x = 0; x < kStepSide; ++x) {
+        vertices.push_back({static_cast<float>(x), static_cast<float>(y), x > kStepSide / 2 ? height : 0});
+        label.push_back(x > kStepSide / 2 ? 2 : 1);
+        stays.push_back(x == 0 || y == 0 || x == kStepSide - 1 || y == kStepSide - 1 ? 1 : 0);
       }
-    for (std::uint32_t y = 0; y + 1 < kSide; ++y)
-      for (std::uint32_t x = 0; x + 1 < kSide; ++x) {
-        const std::uint32_t k = y * kSide + x;
-        triangles.push_back({k, k + 1, k + kSide});
-        triangles.push_back({k + 1, k + kSide + 1, k + kSide});
+    for (std::uint32_t y = 0; y + 1 < kStepSide; ++y)
+      for (std::uint32_t x = 0; x + 1 < kStepSide; ++x) {
+        const std::uint32_t k = y * kStepSide + x;
+        triangles.push_back({k, k + 1, k + kStepSide});
+        triangles.push_back({k + 1, k + kStepSide + 1, k + kStepSide});
       }
   }
   std::pmr::vector<float> smooth() {
@@ -42,8 +42,8 @@ struct Sheet {
   }
   float steepest() const {
     float most = 0;
-    for (int x = 0; x + 1 < kSide; ++x) {
-      const std::size_t k = kSide * (kSide / 2) + static_cast<std::size_t>(x);
+    for (int x = 0; x + 1 < kStepSide; ++x) {
+      const std::size_t k = kStepSide * (kStepSide / 2) + static_cast<std::size_t>(x);
       most = std::max(most, std::abs(vertices[k + 1].z - vertices[k].z));
     }
     return most;
@@ -60,7 +60,7 @@ TEST(Steps, BetweenTwoPosesAreLaidAnew) {
   EXPECT_LT(sheet.steepest(), 0.35F);
   for (std::size_t v = 0; v < before.size(); ++v) {
     EXPECT_NEAR(moved[v], std::abs(sheet.vertices[v].z - before[v].z), 0.25F) << v;
-    if (std::abs(before[v].x - kSide / 2) > 8) {
+    if (std::abs(before[v].x - kStepSide / 2) > 8) {
       EXPECT_EQ(sheet.vertices[v].z, before[v].z) << "far away";
     }
   }
@@ -82,13 +82,13 @@ TEST(Steps, ThatAreLowStay) {
 TEST(Steps, BesideWhichTheSurfaceTurnsAreFolds) {
   Sheet sheet(1.2F);
   for (Vec3f& v : sheet.vertices)
-    if (v.x > kSide / 2) v.z += 1.5F * (v.x - kSide / 2 - 1);  // 56 degrees
+    if (v.x > kStepSide / 2) v.z += 1.5F * (v.x - kStepSide / 2 - 1);  // 56 degrees
   const auto moved = sheet.smooth();
   EXPECT_TRUE(std::all_of(moved.begin(), moved.end(), [](float d) { return d == 0; }));
 }
 
 TEST(Folds, AreLaidAnewWhereTheSurfaceIsUnsure) {
-  constexpr std::size_t kCrumb = kSide * (kSide / 2) + kSide / 2;
+  constexpr std::size_t kCrumb = kStepSide * (kStepSide / 2) + kStepSide / 2;
   const auto height = [](std::uint8_t unsure_there) {
     Sheet sheet(0);
     sheet.vertices[kCrumb].z = 1.5F;
@@ -172,7 +172,7 @@ TEST(Fairing, DoesNotBulgeOutOfAWideGap) {
       free.push_back(x >= 10 && x <= 50 ? 1 : 0);
     }
     fair(at, sheet.triangles, free, tension_mm);
-    return at[kSide * (kSide / 2) + kSide / 2].z();
+    return at[kStepSide * (kStepSide / 2) + kStepSide / 2].z();
   };
   EXPECT_GT(top(0), 5);
   EXPECT_LT(top(15), 0.85 * top(0));
@@ -181,4 +181,4 @@ TEST(Fairing, DoesNotBulgeOutOfAWideGap) {
 }
 
 }  // namespace
-}  // namespace relievo::pipeline::test
+}  // namespace relievo::pipeline

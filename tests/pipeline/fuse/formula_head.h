@@ -14,7 +14,7 @@
 #include "pipeline/model/vector3.h"
 #include "tests/pipeline/mesh/stage_room.h"
 
-namespace relievo::pipeline::test {
+namespace relievo::pipeline {
 
 inline constexpr int kColumns = 130, kRows = 150, kStepPx = 2;
 inline constexpr double kFocalPx = 900, kSigmaMm = 0.05;
@@ -92,4 +92,4 @@ class Poses : public ::testing::Test {
   std::vector<PoseSurface> poses_;
 };
 
-}  // namespace relievo::pipeline::test
+}  // namespace relievo::pipeline

@@ -12,7 +12,7 @@
 
 #include "tests/pipeline/fuse/formula_head.h"
 
-namespace relievo::pipeline::test {
+namespace relievo::pipeline {
 namespace {
 
 // How steeply, in degrees, the fused surface stands to the head's own within so many millimetres of a place.
@@ -110,4 +110,4 @@ TEST_F(ApartPoses, SayThatLidsWereMeasuredAndTheEyeBetweenThemWasNot) {
 }
 
 }  // namespace
-}  // namespace relievo::pipeline::test
+}  // namespace relievo::pipeline

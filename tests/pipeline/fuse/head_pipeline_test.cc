@@ -14,16 +14,16 @@
 #include "tests/support/proof.h"
 #include "tests/support/stage_fixture.h"
 
-namespace relievo::pipeline::test {
+namespace relievo::pipeline {
 namespace {
 
-using relievo::test::shared_album;
-using relievo::test::StageFixture;
-using relievo::test::standing;
+using test::shared_album;
+using test::StageFixture;
+using test::standing;
 
 constexpr std::uint32_t kPerson = 4;
 
-RigidTransform camera_from_head(const hal::sim::HeadPose& pose) {
+RigidTransform camera_of(const hal::sim::HeadPose& pose) {
   RigidTransform out;
   const hal::sim::Mat3 r = pose.world_from_head();
   for (std::size_t i = 0; i < 3; ++i) {
@@ -53,14 +53,14 @@ class Heads : public ::testing::Test {
   explicit Heads(int threads = 2) : fixture_(std::size_t{256} << 20, std::size_t{512} << 20, threads) {}
 
   Result<FusedHead> fuse(const std::vector<Person>& shots, StageFixture& fixture, Arena& kept) {
-    relievo::test::Album& album = shared_album();
+    test::Album& album = shared_album();
     RELIEVO_TRY_ASSIGN(const HeadPipeline pipeline, HeadPipeline::make({}));
     std::vector<HeadPose> poses;
     for (std::size_t k = 0; k < shots.size(); ++k) poses.emplace_back(&kept);
-    relievo::test::Developing how;
+    test::Developing how;
     const auto photographed = [&](std::size_t k, auto&& use) {
       how.noise_seed = 10 + k;
-      relievo::test::Guise guise;
+      test::Guise guise;
       guise.expression.lids_open = shots[k].lids_open;
       const hal::sim::PicturePair pictures =
           album.develop(album.shoot(shots[k].seed, shots[k].pose, {}, guise), how);
@@ -99,8 +99,7 @@ TEST_F(Heads, StandAboutWhereTheyDid) {
   ASSERT_TRUE(head) << head.error().what.view() << " " << head.error().where();
   ASSERT_EQ(head->registration.poses.size(), shots.size());
   for (std::size_t k = 1; k < shots.size(); ++k) {
-    const RigidTransform back = inverse(camera_from_head(shots[k].pose)),
-                         front = camera_from_head(shots[0].pose);
+    const RigidTransform back = inverse(camera_of(shots[k].pose)), front = camera_of(shots[0].pose);
     const Rotation truth = product(front.rotation, back.rotation);
     const RegisteredPose& found = head->registration.poses[k];
     EXPECT_LT(degrees_between(found.first_from_pose.rotation, truth), 3.5) << k;
@@ -184,4 +183,4 @@ TEST_F(Heads, SayWhenMemoryIsUsedUp) {
 }
 
 }  // namespace
-}  // namespace relievo::pipeline::test
+}  // namespace relievo::pipeline

@@ -15,7 +15,7 @@
 #include "tests/pipeline/fuse/formula_head.h"
 #include "tests/support/allocation_counter.h"
 
-namespace relievo::pipeline::test {
+namespace relievo::pipeline {
 namespace {
 
 RigidTransform turned_by(const RigidTransform& t, double degrees) {
@@ -274,4 +274,4 @@ TEST_F(Poses, NeedAHeadInTheFirst) {
 }
 
 }  // namespace
-}  // namespace relievo::pipeline::test
+}  // namespace relievo::pipeline

@@ -10,14 +10,14 @@
 #include "pipeline/model/vector3.h"
 #include "tests/pipeline/mesh/mesh_checks.h"
 
-namespace relievo::pipeline::test {
+namespace relievo::pipeline {
 namespace {
 
-constexpr int kSide = 12;  // vertices
+constexpr int kSheetSide = 12;  // vertices
 
 // A flat sheet a millimetre a cell, counter-clockwise seen from -z, without the cells that `hole` names.
 template <typename Hole>
-FaceMesh sheet(Hole&& hole, std::uint32_t side = kSide) {
+FaceMesh sheet(Hole&& hole, std::uint32_t side = kSheetSide) {
   FaceMesh mesh(std::pmr::get_default_resource());
   for (std::uint32_t y = 0; y < side; ++y)
     for (std::uint32_t x = 0; x < side; ++x) mesh.vertices_mm.push_back({float(x), float(y), 0});
@@ -45,7 +45,7 @@ std::vector<Vec3f> outwards(const FaceMesh& mesh) { return {mesh.vertices_mm.siz
 TEST(Rims, AreTheEdgesOfOneTriangle) {
   const FaceMesh mesh = sheet([](int, int) { return false; });
   const auto border = border_edges(mesh.triangles, std::pmr::get_default_resource());
-  EXPECT_EQ(border.size(), 4U * (kSide - 1));
+  EXPECT_EQ(border.size(), 4U * (kSheetSide - 1));
   for (const BorderEdge& e : border)
     EXPECT_FLOAT_EQ(distance(mesh.vertices_mm[e[0]], mesh.vertices_mm[e[1]]), 1);
 }
@@ -62,28 +62,29 @@ TEST(Rims, OfHolesAreClosedAndTheOutlineIsNot) {
     EXPECT_GE(*std::ranges::max_element(mesh.triangles[t]), vertices) << "none of measured vertices alone";
   for (const std::uint32_t v : beside)
     EXPECT_TRUE(std::ranges::any_of(border, [&](const BorderEdge& e) { return e[0] == v; }));
-  EXPECT_NEAR(area(mesh), (kSide - 1) * (kSide - 1), 1e-3) << "closed, and facing the same way";
-  EXPECT_EQ(border_edges(mesh.triangles, std::pmr::get_default_resource()).size(), 4U * (kSide - 1));
+  EXPECT_NEAR(area(mesh), (kSheetSide - 1) * (kSheetSide - 1), 1e-3) << "closed, and facing the same way";
+  EXPECT_EQ(border_edges(mesh.triangles, std::pmr::get_default_resource()).size(), 4U * (kSheetSide - 1));
 }
 
 TEST(Rims, OfLargeHolesStayOpen) {
   FaceMesh mesh = sheet([](int x, int y) { return x >= 4 && x < 7 && y >= 4 && y < 6; });
   const auto border = border_edges(mesh.triangles, std::pmr::get_default_resource());
   close_holes(mesh.vertices_mm, outwards(mesh), border, {9, 0}, mesh.triangles);
-  EXPECT_NEAR(area(mesh), (kSide - 1) * (kSide - 1) - 6, 1e-3);
+  EXPECT_NEAR(area(mesh), (kSheetSide - 1) * (kSheetSide - 1) - 6, 1e-3);
 }
 
 TEST(Rims, LoseTheBaysOfTheOutline) {
   // From the right edge a bay two cells wide and five deep; from the lower one a dent a cell deep, which is
   // none.
-  FaceMesh mesh =
-      sheet([](int x, int y) { return (x >= kSide - 6 && y >= 4 && y < 6) || (y == 0 && x >= 2 && x < 4); });
+  FaceMesh mesh = sheet(
+      [](int x, int y) { return (x >= kSheetSide - 6 && y >= 4 && y < 6) || (y == 0 && x >= 2 && x < 4); });
   const auto border = border_edges(mesh.triangles, std::pmr::get_default_resource());
   const std::size_t before = mesh.triangles.size();
   close_holes(mesh.vertices_mm, outwards(mesh), border, {20, 1.5F}, mesh.triangles);
   EXPECT_EQ(mesh.triangles.size(), before) << "too wide";
   close_holes(mesh.vertices_mm, outwards(mesh), border, {20, 3}, mesh.triangles);
-  EXPECT_NEAR(area(mesh), (kSide - 1) * (kSide - 1) - 2, 1e-3) << "closed straight, and facing the same way";
+  EXPECT_NEAR(area(mesh), (kSheetSide - 1) * (kSheetSide - 1) - 2, 1e-3)
+      << "closed straight, and facing the same way";
 }
 
 TEST(Rims, LoseTheirCornersAsRoundAsADisc) {
@@ -130,12 +131,13 @@ TEST(Rims, LoseTheirThreadsAndKeepTheRest) {
 
 TEST(Rims, AreStraightenedByAtMostSoMuch) {
   FaceMesh mesh = sheet([](int, int) { return false; });
-  for (int x = 1; x + 1 < kSide; x += 2) mesh.vertices_mm[static_cast<std::size_t>(x)].y -= 0.4F;  // teeth
+  for (int x = 1; x + 1 < kSheetSide; x += 2)
+    mesh.vertices_mm[static_cast<std::size_t>(x)].y -= 0.4F;  // teeth
   const auto border = border_edges(mesh.triangles, std::pmr::get_default_resource());
   const std::pmr::vector<Vec3f> before = mesh.vertices_mm;
   smooth_rims(mesh.vertices_mm, border, 20, 0.3F, std::pmr::get_default_resource());
   float rough_before = 0, rough = 0;
-  for (std::size_t x = 3; x + 4 < kSide; ++x) {
+  for (std::size_t x = 3; x + 4 < kSheetSide; ++x) {
     rough_before += std::abs(before[x].y - before[x + 1].y);
     rough += std::abs(mesh.vertices_mm[x].y - mesh.vertices_mm[x + 1].y);
   }
@@ -145,4 +147,4 @@ TEST(Rims, AreStraightenedByAtMostSoMuch) {
 }
 
 }  // namespace
-}  // namespace relievo::pipeline::test
+}  // namespace relievo::pipeline

@@ -13,7 +13,7 @@
 #include "pipeline/model/vector3.h"
 #include "tests/pipeline/mesh/stage_room.h"
 
-namespace relievo::pipeline::test {
+namespace relievo::pipeline {
 namespace {
 
 constexpr int kColumns = 150, kRows = 150, kStepPx = 2;
@@ -108,4 +108,4 @@ TEST_F(PaintedBall, SaysNothingWhereThereIsNothingToSee) {
 }
 
 }  // namespace
-}  // namespace relievo::pipeline::test
+}  // namespace relievo::pipeline

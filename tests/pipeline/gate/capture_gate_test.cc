@@ -15,7 +15,7 @@ using test::Developing;
 using test::shared_album;
 using test::standing;
 
-constexpr std::uint32_t kPerson = 3;  // not one of those the limits were set with
+constexpr std::uint32_t kVisitor = 3;  // not one of those the limits were set with
 constexpr GateTime kFrame = std::chrono::milliseconds(66);
 
 // One picture after the other.
@@ -56,7 +56,7 @@ struct Worn {
   test::Guise guise;
 };
 Worn glasses(bool mirror) {
-  const hal::sim::HeadField field(hal::sim::traits_of(kPerson));
+  const hal::sim::HeadField field(hal::sim::traits_of(kVisitor));
   const hal::sim::Vec3 eye = field.eye.centre();
   const hal::sim::Wearer wearer{{eye, {-eye.x, eye.y, eye.z}}, field.eye.radius(), field.traits.head_breadth};
   Worn worn{{}, {{}, true, {}}};
@@ -125,7 +125,7 @@ TEST(CaptureGate, TellsAVisitorStepByStepWhatToDo) {
     for (int i = 0; i < step.pictures; ++i) {
       Developing how = step.how;
       how.noise_seed = noise++;
-      answer = rig.look(shared_album().shoot(kPerson, step.pose, step.extra, step.guise), how);
+      answer = rig.look(shared_album().shoot(kVisitor, step.pose, step.extra, step.guise), how);
       if (step.expected != Advice::None || step.reason != Advice::None) {
         EXPECT_NE(answer.reason, Advice::None) << step.event << ", picture " << i;
       }
@@ -152,7 +152,7 @@ TEST(CaptureGate, TellsAVisitorStepByStepWhatToDo) {
 TEST(CaptureGate, MeasuresPlaceAndPoseByStereo) {
   for (const double distance_mm : {400.0, 560.0}) {
     Rig rig;
-    const GateAnswer answer = rig.look(shared_album().shoot(kPerson, standing(distance_mm)), {});
+    const GateAnswer answer = rig.look(shared_album().shoot(kVisitor, standing(distance_mm)), {});
     const HeadMeasurement& head = answer.measures.head;
     ASSERT_TRUE(head.known);
     EXPECT_NEAR(head.tip_mm.z, distance_mm - 26, 10);  // the nose before the middle of the face
@@ -164,14 +164,14 @@ TEST(CaptureGate, MeasuresPlaceAndPoseByStereo) {
   }
   Rig rig;
   const HeadMeasurement turned =
-      rig.look(shared_album().shoot(kPerson, standing(560, 0, 0, 25)), {}).measures.head;
+      rig.look(shared_album().shoot(kVisitor, standing(560, 0, 0, 25)), {}).measures.head;
   EXPECT_NEAR(turned.yaw_deg, rig.truth.yaw_deg, 9);
 }
 
 TEST(CaptureGate, TheSamePicturesTimeAndHistoryGiveTheSameAnswer) {
   RELIEVO_MANY_TRIALS();
   Rig a, b;
-  const test::Shot& shot = shared_album().shoot(kPerson, standing(560));
+  const test::Shot& shot = shared_album().shoot(kVisitor, standing(560));
   for (int i = 0; i < 2; ++i) {
     const GateAnswer one = a.look(shot, {}), two = b.look(shot, {});
     EXPECT_EQ(one.advice, two.advice);
@@ -186,7 +186,7 @@ TEST(CaptureGate, FastPicturesDoNotMakeARestingHeadHurry) {
   Rig rig;
   rig.every = std::chrono::milliseconds(5);
   for (std::uint64_t seed = 1; seed <= 20; ++seed) {
-    const GateAnswer answer = rig.look(shared_album().shoot(kPerson, standing(560)), {.noise_seed = seed});
+    const GateAnswer answer = rig.look(shared_album().shoot(kVisitor, standing(560)), {.noise_seed = seed});
     EXPECT_EQ(answer.reason, Advice::None) << "picture " << seed << ": speed " << answer.measures.speed_mm_s
                                            << " turn " << answer.measures.turn_deg_s;
   }
@@ -197,7 +197,7 @@ TEST(CaptureGate, FastPicturesOfAMovingHeadSayThatItMoves) {
   rig.every = std::chrono::milliseconds(10);
   GateAnswer answer;
   for (int i = 0; i < 12; ++i)
-    answer = rig.look(shared_album().shoot(kPerson, standing(560, -12 + 2.0 * i)),
+    answer = rig.look(shared_album().shoot(kVisitor, standing(560, -12 + 2.0 * i)),
                       {.noise_seed = static_cast<std::uint64_t>(i + 1)});
   EXPECT_EQ(answer.advice, Advice::Moved);
   EXPECT_NEAR(answer.measures.speed_mm_s, 200, 60) << "a cascade's box moves in steps";

@@ -8,13 +8,12 @@
 #include <vector>
 
 #include "hal/sim/base/noise.h"
-#include "pipeline/base/workspace.h"
+#include "tests/pipeline/gate/seen_relief.h"
 
 namespace relievo::pipeline {
 namespace {
 
-constexpr int kWidth = 480, kHeight = 200;
-constexpr double kFocalPx = 737, kDistanceMm = 540, kPixelMm = kDistanceMm / kFocalPx;
+constexpr int kBlurWidth = 480, kBlurHeight = 200;
 constexpr double kStripePx = 24;
 
 // Upright stripes above, level ones below, whose edges a bell of these deviations has blurred.
@@ -34,32 +33,33 @@ double wave(double at, double deviation_px) {
 
 std::vector<std::uint8_t> picture(const Look& look, std::uint64_t seed) {
   hal::sim::Random random(seed);
-  std::vector<std::uint8_t> pixels(std::size_t{kWidth} * kHeight);
-  for (int y = 0; y < kHeight; ++y)
-    for (int x = 0; x < kWidth; ++x)
-      pixels[static_cast<std::size_t>(y * kWidth + x)] = static_cast<std::uint8_t>(
-          std::lround(120 +
-                      0.5 * look.contrast *
-                          (y < kHeight / 2 ? wave(x + 0.5, look.across_px) : wave(y + 0.5, look.down_px)) +
-                      look.noise * random.normal()));
+  std::vector<std::uint8_t> pixels(std::size_t{kBlurWidth} * kBlurHeight);
+  for (int y = 0; y < kBlurHeight; ++y)
+    for (int x = 0; x < kBlurWidth; ++x)
+      pixels[static_cast<std::size_t>(y * kBlurWidth + x)] = static_cast<std::uint8_t>(std::lround(
+          120 +
+          0.5 * look.contrast *
+              (y < kBlurHeight / 2 ? wave(x + 0.5, look.across_px) : wave(y + 0.5, look.down_px)) +
+          look.noise * random.normal()));
   return pixels;
 }
 
 double blur_mm(const Look& left, const Look& right) {
-  const CameraIntrinsics camera{{kFocalPx, kFocalPx}, {kWidth / 2.0, kHeight / 2.0}, {}, kWidth, kHeight};
+  const CameraIntrinsics camera{
+      {kFocalPx, kFocalPx}, {kBlurWidth / 2.0, kBlurHeight / 2.0}, {}, kBlurWidth, kBlurHeight};
   StereoCalibration calibration;
   calibration.left = calibration.right = camera;
   calibration.right_from_left.translation_mm = {-60, 0, 0};
   const std::vector<std::uint8_t> a = picture(left, 1), b = picture(right, 2);
   const auto view = [](const std::vector<std::uint8_t>& p) {
-    return ImageView{reinterpret_cast<const std::byte*>(p.data()), kWidth, kHeight, kWidth,
+    return ImageView{reinterpret_cast<const std::byte*>(p.data()), kBlurWidth, kBlurHeight, kBlurWidth,
                      PixelFormat::Grey8};
   };
   Workspace work(1, std::size_t{1} << 20, std::size_t{16} << 20);
   Relief relief(&work.output);
   HeadMeasurement head;
   head.known = true;
-  head.tip_mm = {0, 18, kDistanceMm};
+  head.tip_mm = {0, 18, kFaceDistanceMm};
   head.right = {1, 0, 0}, head.down = {0, 1, 0}, head.away = {0, 0, 1};
   return measure_blur_mm({view(a), view(b)}, calibration, relief, head, work.context);
 }

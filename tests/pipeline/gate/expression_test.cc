@@ -21,7 +21,7 @@ using hal::sim::Expression;
 using test::Guise;
 using test::standing;
 
-constexpr std::uint32_t kPerson = 8;  // not one of those the limits were set with
+constexpr std::uint32_t kFacePerson = 8;  // not one of those the limits were set with
 
 std::string figures(const GateMeasures& m) {
   char text[240];
@@ -33,7 +33,7 @@ std::string figures(const GateMeasures& m) {
   return text;
 }
 
-struct Case {
+struct FaceCase {
   const char* what;
   Guise guise;
   Advice expected;
@@ -46,11 +46,11 @@ TEST(GateExpression, TellsEyesMouthAndGlassesApart) {
   test::GateFixture gate;
   hal::sim::Glasses dark;
   dark.passes = 0.12;
-  for (const Case& c :
-       {Case{"at rest", {}, Advice::None}, Case{"dark glasses", {{}, true, dark}, Advice::EyesHidden},
-        Case{"eyes closed, a grin", {{0, 7, 1, 0}, false, {}}, Advice::EyesClosed}}) {
+  for (const FaceCase& c :
+       {FaceCase{"at rest", {}, Advice::None}, FaceCase{"dark glasses", {{}, true, dark}, Advice::EyesHidden},
+        FaceCase{"eyes closed, a grin", {{0, 7, 1, 0}, false, {}}, Advice::EyesClosed}}) {
     const GateMeasures m =
-        gate.first_look(album, album.shoot(kPerson, standing(560), test::Extra::None, c.guise))
+        gate.first_look(album, album.shoot(kFacePerson, standing(560), test::Extra::None, c.guise))
             .answer.measures;
     ASSERT_TRUE(m.head.known) << c.what;
     EXPECT_EQ(judge_expression(m, {}, Advice::None), c.expected) << c.what << ": " << figures(m);

@@ -5,42 +5,29 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
-#include <functional>
 
-#include "pipeline/base/workspace.h"
-#include "pipeline/gate/relief/live_relief.h"
+#include "tests/pipeline/gate/seen_relief.h"
 
 namespace relievo::pipeline {
 namespace {
 
-constexpr int kSide = 300;
-constexpr double kFocalPx = 737, kFaceMm = 540, kPixelMm = kFaceMm / kFocalPx;
 const HeadHint kHint{{150, 140}, 150 / kPixelMm};
-
-// Depth at millimetres right and down of the middle of the face; 0: nothing known. `before` stands before it.
-using Depth = std::function<double(double right, double down)>;
 
 // A face as an egg of 70 x 95 mm that falls back by 60 mm to its rim, on a neck 65 mm behind its chin, before
 // a room without depth.
 double face(double right, double down) {
   const double a = right / 70, b = down / (down < 0 ? 100 : 78), rim = a * a + b * b;
-  if (rim < 1) return kFaceMm + 60 * rim * rim;
-  return std::abs(right) < 50 && down > 60 ? kFaceMm + 85 : 0;
+  if (rim < 1) return kFaceDistanceMm + 60 * rim * rim;
+  return std::abs(right) < 50 && down > 60 ? kFaceDistanceMm + 85 : 0;
 }
 
-// What stands nearer hides from one camera a strip beside it.
-double share_with(const Depth& before) {
-  Workspace work(1, std::size_t{8} << 20, std::size_t{32} << 20);
-  Relief relief(&work.output);
-  relief.width_px = relief.height_px = kSide;
-  relief.focal_px = kFocalPx, relief.baseline_mm = 140, relief.centre_px = {150, 140};
-  const std::size_t count = std::size_t{kSide} * kSide;
-  relief.depth_mm.resize(count);
-  relief.surface.resize(count);
-  relief.grey.resize(count);
-  for (int y = 0; y < kSide; ++y) {
+// What stands nearer than the face (`before`) hides from one camera a strip beside it.
+double share_before(const Depth& before) {
+  SeenRelief work(300, 300, {150, 140});
+  Relief& relief = work.relief;
+  for (int y = 0; y < relief.height_px; ++y) {
     double hidden_until = -1e9;
-    for (int x = 0; x < kSide; ++x) {
+    for (int x = 0; x < relief.width_px; ++x) {
       const double right = (x - kHint.centre_px.x) * kPixelMm, down = (y - kHint.centre_px.y) * kPixelMm;
       const double here = before ? before(right, down) : 0, own = face(right, down);
       if (here > 0 && own > 0) hidden_until = right + 140 * (own - here) / here;
@@ -54,26 +41,27 @@ double share_with(const Depth& before) {
 
 Depth plate(double right, double down, double width, double height, double nearer_mm) {
   return [=](double x, double y) {
-    return std::abs(x - right) < width / 2 && std::abs(y - down) < height / 2 ? kFaceMm - nearer_mm : 0;
+    return std::abs(x - right) < width / 2 && std::abs(y - down) < height / 2 ? kFaceDistanceMm - nearer_mm
+                                                                              : 0;
   };
 }
 
-TEST(FaceCover, AFaceAloneHidesNothing) { EXPECT_EQ(share_with({}), 0); }
+TEST(FaceCover, AFaceAloneHidesNothing) { EXPECT_EQ(share_before({}), 0); }
 
 TEST(FaceCover, SeesWhatStandsBeforeAFace) {
-  EXPECT_NEAR(share_with(plate(0, 35, 80, 60, 45)), 0.35, 0.12) << "a hand before the mouth";
-  EXPECT_GT(share_with(plate(30, -25, 45, 60, 20)), 0.1) << "a hand over an eye, near the skin";
-  EXPECT_GT(share_with(plate(0, -40, 130, 50, 60)), 0.2) << "a sheet before the eyes";
-  EXPECT_GT(share_with(plate(0, 0, 20, 150, 40)), 0.05) << "a stick";
+  EXPECT_NEAR(share_before(plate(0, 35, 80, 60, 45)), 0.35, 0.12) << "a hand before the mouth";
+  EXPECT_GT(share_before(plate(30, -25, 45, 60, 20)), 0.1) << "a hand over an eye, near the skin";
+  EXPECT_GT(share_before(plate(0, -40, 130, 50, 60)), 0.2) << "a sheet before the eyes";
+  EXPECT_GT(share_before(plate(0, 0, 20, 150, 40)), 0.05) << "a stick";
 }
 
 TEST(FaceCover, LeavesAloneWhatDoesNotCover) {
   const Depth fringe = [](double x, double y) {
     return std::abs(x) < 50 && std::abs(y + 55) < 25 ? face(x, y) - 7 : 0;
   };
-  EXPECT_EQ(share_with(fringe), 0) << "a fringe, glasses";
-  EXPECT_EQ(share_with(plate(0, 30, 14, 14, 40)), 0) << "a finger's tip";
-  EXPECT_EQ(share_with(plate(140, 60, 60, 60, 100)), 0) << "a hand that waves beside the face";
+  EXPECT_EQ(share_before(fringe), 0) << "a fringe, glasses";
+  EXPECT_EQ(share_before(plate(0, 30, 14, 14, 40)), 0) << "a finger's tip";
+  EXPECT_EQ(share_before(plate(140, 60, 60, 60, 100)), 0) << "a hand that waves beside the face";
 }
 
 }  // namespace

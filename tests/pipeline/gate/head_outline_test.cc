@@ -11,10 +11,16 @@
 
 #include "tests/support/gate_fixture.h"
 
-namespace relievo::test {
+namespace relievo::pipeline {
 namespace {
 
-using namespace pipeline;
+using test::Album;
+using test::Developing;
+using test::GateFixture;
+using test::shared_album;
+using test::Shot;
+using test::standing;
+using test::true_head;
 
 TEST(HeadOutline, TellsToWhichSideAHeadLooksThatIsTurnedByFortyDegrees) {
   Album& album = shared_album();
@@ -72,4 +78,4 @@ TEST(HeadOutline, ShowsWhereTheHeadIsAndNobodyInAnEmptyRoom) {
 }
 
 }  // namespace
-}  // namespace relievo::test
+}  // namespace relievo::pipeline

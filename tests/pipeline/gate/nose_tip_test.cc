@@ -12,7 +12,7 @@ namespace {
 
 constexpr double kTipErrorMm = 9;
 
-struct Case {
+struct NoseCase {
   const char* what;
   std::uint32_t person;
   hal::sim::HeadPose pose;  // yaw, pitch, roll, distance, right, down
@@ -25,9 +25,10 @@ TEST(NoseTip, IsNeitherBrowNorBridgeNorTongue) {
   RELIEVO_MANY_TRIALS();
   test::Album& album = test::shared_album();
   test::GateFixture gate;
-  for (const Case& c : {Case{"bowed, the mouth open", 72, {0.2, 6.5, 2.8, 630, -20, -10}, {1, 11, 0, 0}},
-                        Case{"bowed, a smile", 73, {9.6, 5.3, -5.3, 626, -5, -4}, {1, 0, 0.79, 0}},
-                        Case{"looks up, a tongue", 31, {7.1, -7, 2.2, 542, -17, -5}, {1, 12.6, 0, 20.1}}}) {
+  for (const NoseCase& c :
+       {NoseCase{"bowed, the mouth open", 72, {0.2, 6.5, 2.8, 630, -20, -10}, {1, 11, 0, 0}},
+        NoseCase{"bowed, a smile", 73, {9.6, 5.3, -5.3, 626, -5, -4}, {1, 0, 0.79, 0}},
+        NoseCase{"looks up, a tongue", 31, {7.1, -7, 2.2, 542, -17, -5}, {1, 12.6, 0, 20.1}}}) {
     const test::Shot& shot = album.shoot(c.person, c.pose, test::Extra::None, {c.expression, false, {}});
     const GateLook look = gate.first_look(album, shot);
     const HeadMeasurement& head = look.answer.measures.head;

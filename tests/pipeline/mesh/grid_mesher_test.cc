@@ -11,21 +11,15 @@
 namespace relievo::pipeline {
 namespace {
 
-using test::StageRoom;
-
-Result<FaceMesh> mesh_grid(const PointCloud& cloud, StageRoom& room, const GridMesher& options = {}) {
-  return room.run([&](StageContext& c) { return GridMesher(options).mesh(cloud, c); });
-}
-
 // A sphere with a round hole of so many pixels; the lattice is 2 px, about 1 mm.
 PointCloud pierced_sphere(double radius_px, double noise_mm = 0) {
-  return test::formula_cloud(
+  return formula_cloud(
       2, 400,
       [&](double sx, double sy) {
         const double dx = 1000 * sx - 30;
         const double dy = 1000 * sy + 20;
         if (dx * dx + dy * dy < radius_px * radius_px) return std::numeric_limits<double>::quiet_NaN();
-        return test::sphere_depth(sx, sy, 600, 90);
+        return sphere_depth(sx, sy, 600, 90);
       },
       noise_mm);
 }
@@ -34,8 +28,8 @@ TEST(GridMesher, ClosesASmallHoleWithTheCurvatureOfItsRim) {
   StageRoom room;
   const auto result = mesh_grid(pierced_sphere(4), room);
   ASSERT_TRUE(result);
-  test::expect_clean(*result);
-  EXPECT_EQ(test::boundary_loops(*result), 1U);
+  expect_clean(*result);
+  EXPECT_EQ(boundary_loops(*result), 1U);
   std::size_t filled = 0;
   for (std::size_t v = 0; v < result->vertices_mm.size(); ++v) {
     if (result->measured[v]) continue;
@@ -50,8 +44,8 @@ TEST(GridMesher, LeavesALargeHoleOpen) {
   StageRoom room;
   const auto result = mesh_grid(pierced_sphere(20), room);
   ASSERT_TRUE(result);
-  test::expect_clean(*result);
-  EXPECT_EQ(test::boundary_loops(*result), 2U);
+  expect_clean(*result);
+  EXPECT_EQ(boundary_loops(*result), 2U);
   EXPECT_EQ(std::count(result->measured.begin(), result->measured.end(), 0), 0);
 }
 
@@ -61,18 +55,18 @@ TEST(GridMesher, LeavesEveryHoleOpenWhenAsked) {
   options.max_hole_mm = 0;
   const auto result = mesh_grid(pierced_sphere(4), room, options);
   ASSERT_TRUE(result);
-  EXPECT_EQ(test::boundary_loops(*result), 2U);
+  EXPECT_EQ(boundary_loops(*result), 2U);
 }
 
 TEST(GridMesher, AnIslandIsDropped) {
   StageRoom room;
-  const PointCloud cloud = test::formula_cloud(2, 400, [](double sx, double sy) {
+  const PointCloud cloud = formula_cloud(2, 400, [](double sx, double sy) {
     if (sx > 0.15 && sy > 0.15) return 500.0;
     return sx < 0.1 && sy < 0.1 ? 500.0 : std::numeric_limits<double>::quiet_NaN();
   });
   const auto result = mesh_grid(cloud, room);
   ASSERT_TRUE(result);
-  test::expect_clean(*result);
+  expect_clean(*result);
   for (const Vec3f& v : result->vertices_mm) EXPECT_LT(v.x, 55);
 }
 
@@ -84,7 +78,7 @@ TEST(GridMesher, ASmallStepIsKnownByLeavingTheSlopeAndASteepFlankIsNot) {
   };
   StageRoom room;
   const auto flank =
-      mesh_grid(test::formula_cloud(2, 300, [&](double sx, double) { return depth(sx, 0.016); }), room);
+      mesh_grid(formula_cloud(2, 300, [&](double sx, double) { return depth(sx, 0.016); }), room);
   ASSERT_TRUE(flank);
   const auto near_and_far = [](const FaceMesh& m) {
     bool near = false;
@@ -98,7 +92,7 @@ TEST(GridMesher, ASmallStepIsKnownByLeavingTheSlopeAndASteepFlankIsNot) {
   EXPECT_TRUE(near_and_far(*flank));
   StageRoom other;
   const auto step =
-      mesh_grid(test::formula_cloud(2, 300, [&](double sx, double) { return depth(sx, 0.0019); }), other);
+      mesh_grid(formula_cloud(2, 300, [&](double sx, double) { return depth(sx, 0.0019); }), other);
   ASSERT_TRUE(step);
   EXPECT_FALSE(near_and_far(*step));
 }
@@ -106,26 +100,26 @@ TEST(GridMesher, ASmallStepIsKnownByLeavingTheSlopeAndASteepFlankIsNot) {
 TEST(GridMesher, TrimsTeethOffTheBoundary) {
   StageRoom room;
   // Every other row is 12 px longer: a comb.
-  const PointCloud cloud = test::formula_cloud(2, 300, [](double sx, double sy) {
+  const PointCloud cloud = formula_cloud(2, 300, [](double sx, double sy) {
     const bool tooth = static_cast<int>(std::lround(1000 * sy) / 2) % 2 == 0;
     return sx < (tooth ? 0.1 : 0.088) ? 500.0 : std::numeric_limits<double>::quiet_NaN();
   });
   const auto result = mesh_grid(cloud, room);
   ASSERT_TRUE(result);
-  test::expect_clean(*result);
+  expect_clean(*result);
   for (const Vec3f& v : result->vertices_mm) EXPECT_LT(v.x, 46);
 }
 
 TEST(GridMesher, CutsOffWhiskersAndKeepsCorners) {
   // A square with a strip of surface 3 mm wide growing out of it, as occlusion leaves them.
-  const auto cloud = test::formula_cloud(2, 300, [](double sx, double sy) {
+  const auto cloud = formula_cloud(2, 300, [](double sx, double sy) {
     const bool strip = sx >= 0.05 && sy > 0.02 && sy < 0.026;
     return sx < 0.05 || strip ? 500.0 : std::numeric_limits<double>::quiet_NaN();
   });
   StageRoom room;
   const auto result = mesh_grid(cloud, room);
   ASSERT_TRUE(result);
-  test::expect_clean(*result);
+  expect_clean(*result);
   float right = 0;
   float top = 0;
   for (const Vec3f& v : result->vertices_mm) {
@@ -152,7 +146,7 @@ TEST(GridMesher, CutsOffWhiskersAndKeepsCorners) {
 
 TEST(GridMesher, ScatteredPointsAreNotItsBusiness) {
   StageRoom room;
-  PointCloud cloud = test::formula_cloud(2, 300, [](double, double) { return 500.0; });
+  PointCloud cloud = formula_cloud(2, 300, [](double, double) { return 500.0; });
   cloud.lattice_step_px = 0;
   const auto result = mesh_grid(cloud, room);
   ASSERT_FALSE(result);
@@ -161,7 +155,7 @@ TEST(GridMesher, ScatteredPointsAreNotItsBusiness) {
 
 // A lattice with ragged rims, cracks and noise, as many nodes as it may have.
 PointCloud torn_sheet(int size_px) {
-  return test::formula_cloud(
+  return formula_cloud(
       1, size_px,
       [](double sx, double sy) {
         const double ragged = 0.003 * std::sin(9000 * sy) * std::sin(700 * sx);
@@ -183,7 +177,7 @@ TEST(GridMesher, TheCapHoldsWhateverTheLattice) {
     EXPECT_LE(result->triangles.size(), static_cast<std::size_t>(most));
     EXPECT_GT(result->triangles.size(), static_cast<std::size_t>(0.5 * most))
         << "thinned no more than need be";
-    test::expect_one_manifold_surface(*result);
+    expect_one_manifold_surface(*result);
   }
 }
 
@@ -191,7 +185,7 @@ TEST(GridMesher, ThinningKeepsWhatFits) {
   // 2 % too many nodes cost 2 % of them, not every second column.
   StageRoom room;
   GridMesher options;
-  const PointCloud cloud = test::formula_cloud(2, 300, [](double, double) { return 500.0; });
+  const PointCloud cloud = formula_cloud(2, 300, [](double, double) { return 500.0; });
   options.max_triangles = static_cast<int>(1.94 * static_cast<double>(cloud.points.size()));
   const auto result = mesh_grid(cloud, room, options);
   ASSERT_TRUE(result);
@@ -201,26 +195,26 @@ TEST(GridMesher, ThinningKeepsWhatFits) {
 TEST(GridMesher, NoSlivers) {
   for (const double noise_mm : {0.0, 0.1, 0.3}) {
     StageRoom room;
-    const auto ball = mesh_grid(
-        test::formula_cloud(
-            2, 400, [](double sx, double sy) { return test::sphere_depth(sx, sy, 600, 90); }, noise_mm),
-        room);
+    const auto ball =
+        mesh_grid(formula_cloud(
+                      2, 400, [](double sx, double sy) { return sphere_depth(sx, sy, 600, 90); }, noise_mm),
+                  room);
     ASSERT_TRUE(ball);
-    EXPECT_GE(test::smallest_angle_deg(*ball), kSmallestAngleDeg - 0.01F);
+    EXPECT_GE(smallest_angle_deg(*ball), kSmallestAngleDeg - 0.01F);
     StageRoom other;
     const auto torn = mesh_grid(torn_sheet(400), other);
     ASSERT_TRUE(torn);
-    EXPECT_GE(test::smallest_angle_deg(*torn), kSmallestAngleDeg - 0.01F);
+    EXPECT_GE(smallest_angle_deg(*torn), kSmallestAngleDeg - 0.01F);
   }
   for (const char* name : {"d1", "d2", "d3"}) {
-    const auto dir = test::rendered_head(name);
+    const auto dir = rendered_head(name);
     if (!dir) GTEST_SKIP() << "RELIEVO_TEST_DATA does not name the rendered heads";
     StageRoom room;
-    test::TruthOptions options;
+    TruthOptions options;
     options.noise_mm = 0.04;
-    const auto head = mesh_grid(test::truth_cloud(*dir, options), room);
+    const auto head = mesh_grid(truth_cloud(*dir, options), room);
     ASSERT_TRUE(head);
-    EXPECT_GE(test::smallest_angle_deg(*head), kSmallestAngleDeg - 0.01F);
+    EXPECT_GE(smallest_angle_deg(*head), kSmallestAngleDeg - 0.01F);
   }
 }
 
@@ -237,10 +231,10 @@ TEST(GridMesher, OptionsHaveLimits) {
 // Slow and obvious: each vertex against the truth it was made from; only the cut along the outline makes new
 // ones.
 TEST(GridMesher, RenderedHeadStaysOnItsSurface) {
-  const auto dir = test::rendered_head("d1");
+  const auto dir = rendered_head("d1");
   if (!dir) GTEST_SKIP() << "RELIEVO_TEST_DATA does not name the rendered heads";
   StageRoom room;
-  const PointCloud truth = test::truth_cloud(*dir, {});
+  const PointCloud truth = truth_cloud(*dir, {});
   GridMesher options;
   options.finest_cells = 1;
   options.max_hole_mm = 0;
@@ -249,7 +243,7 @@ TEST(GridMesher, RenderedHeadStaysOnItsSurface) {
   options.rim_smoothing_mm = 0;
   const auto result = mesh_grid(truth, room, options);
   ASSERT_TRUE(result);
-  test::expect_clean(*result);
+  expect_clean(*result);
   std::set<std::tuple<float, float, float>> known;
   for (const CloudPoint& p : truth.points) known.insert({p.at_mm.x, p.at_mm.y, p.at_mm.z});
   for (const Vec3f& v : result->vertices_mm) EXPECT_TRUE(known.count({v.x, v.y, v.z}));

@@ -17,7 +17,7 @@
 #include "pipeline/model/face_mesh.h"
 #include "pipeline/model/vector3.h"
 
-namespace relievo::pipeline::test {
+namespace relievo::pipeline {
 
 using Edge = std::pair<std::uint32_t, std::uint32_t>;
 
@@ -124,4 +124,4 @@ inline std::size_t boundary_loops(const FaceMesh& m) {
   return loops;
 }
 
-}  // namespace relievo::pipeline::test
+}  // namespace relievo::pipeline

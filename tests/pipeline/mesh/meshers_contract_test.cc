@@ -19,8 +19,6 @@
 namespace relievo::pipeline {
 namespace {
 
-using test::StageRoom;
-
 Mesher make(const std::string& name) { return relievo::test::made(make_mesher, "mesher", name); }
 
 // Every mesher in the table: a new one is found.
@@ -47,13 +45,13 @@ Expected expected_of(const std::string& name) {
 }
 
 PointCloud plane(double noise_mm = 0) {
-  return test::formula_cloud(
+  return formula_cloud(
       2, 300, [](double sx, double sy) { return 500 / (1 - 0.3 * sx + 0.2 * sy); }, noise_mm);
 }
 
 PointCloud sphere(double noise_mm = 0) {
-  return test::formula_cloud(
-      2, 400, [](double sx, double sy) { return test::sphere_depth(sx, sy, 600, 90); }, noise_mm);
+  return formula_cloud(
+      2, 400, [](double sx, double sy) { return sphere_depth(sx, sy, 600, 90); }, noise_mm);
 }
 
 bool quick(const std::string& name) { return name == "grid" || name == "delaunay"; }
@@ -76,7 +74,7 @@ TEST_P(MesherContract, NoPointsAreNoFace) {
 
 TEST_P(MesherContract, AFewPointsAreNoFace) {
   StageRoom room;
-  const PointCloud cloud = test::formula_cloud(2, 20, [](double, double) { return 500.0; });
+  const PointCloud cloud = formula_cloud(2, 20, [](double, double) { return 500.0; });
   const auto result = mesh(cloud, room);
   ASSERT_FALSE(result);
   EXPECT_EQ(result.error().code, Errc::PoorGeometry);
@@ -92,14 +90,14 @@ TEST_P(MesherContract, PointsThatAreNotNumbersAreLeftOut) {
   }
   const auto result = mesh(cloud, room);
   ASSERT_TRUE(result);
-  test::expect_clean(*result);
+  expect_clean(*result);
 }
 
 TEST_P(MesherContract, PlaneKeepsItsAreaAndNormal) {
   StageRoom room;
   const auto result = mesh(plane(), room);
   ASSERT_TRUE(result);
-  test::expect_clean(*result);
+  expect_clean(*result);
   // z = 500 + 0.3 x - 0.2 y over the pyramid of 300 px: the true area from its corners.
   const auto corner = [](double px, double py) {
     const double sx = px / 1000, sy = py / 1000, z = 500 / (1 - 0.3 * sx + 0.2 * sy);
@@ -122,8 +120,8 @@ TEST_P(MesherContract, SphereKeepsItsShape) {
   StageRoom room;
   const auto result = mesh(sphere(), room);
   ASSERT_TRUE(result);
-  test::expect_clean(*result);
-  EXPECT_LE(test::boundary_loops(*result), expected_of(GetParam()).borders);
+  expect_clean(*result);
+  EXPECT_LE(boundary_loops(*result), expected_of(GetParam()).borders);
   const Expected expected = expected_of(GetParam());
   for (std::size_t v = 0; v < result->vertices_mm.size(); ++v) {
     const Vec3f out = minus(result->vertices_mm[v], Vec3f{0, 0, 600});
@@ -155,16 +153,15 @@ TEST_P(MesherContract, NoiseAndDropoutsStillGiveOneCleanSurface) {
     }
   const auto result = mesh(cloud, room);
   ASSERT_TRUE(result);
-  test::expect_clean(*result);
+  expect_clean(*result);
 }
 
 TEST_P(MesherContract, AStepIsNotBridged) {
   StageRoom room;
-  const PointCloud cloud =
-      test::formula_cloud(2, 300, [](double sx, double) { return sx < 0.02 ? 500.0 : 540.0; });
+  const PointCloud cloud = formula_cloud(2, 300, [](double sx, double) { return sx < 0.02 ? 500.0 : 540.0; });
   const auto result = mesh(cloud, room);
   ASSERT_TRUE(result);
-  test::expect_clean(*result);
+  expect_clean(*result);
   for (const Vec3f& v : result->vertices_mm)
     EXPECT_NEAR(v.z, 500, 1) << "the larger half is the one that stays";
 }
@@ -180,7 +177,7 @@ TEST_P(MesherContract, NeverMoreTrianglesThanAllowed) {
   const PointCloud cloud = sphere(0.05);
   const auto result = room.run([&](StageContext& c) { return (*mesher)(cloud, c); });
   ASSERT_TRUE(result);
-  test::expect_clean(*result);
+  expect_clean(*result);
   EXPECT_LE(result->triangles.size(), 6000U);
   EXPECT_GT(result->triangles.size(), 500U);
 }
@@ -200,7 +197,7 @@ TEST_P(MesherContract, SameResultTwice) {
 }
 
 TEST_P(MesherContract, ATinyArenaIsAnErrorNotACrash) {
-  const PointCloud cloud = test::formula_cloud(4, 300, [](double, double) { return 500.0; });
+  const PointCloud cloud = formula_cloud(4, 300, [](double, double) { return 500.0; });
   StageRoom roomy;
   ASSERT_TRUE(mesh(cloud, roomy));
   const std::size_t output = roomy.output.high_water();
@@ -228,15 +225,15 @@ TEST_P(MesherContract, Cancelled) {
 TEST_P(MesherContract, RenderedHeads) {
   for (const char* name : {"d1", "d2", "d3"}) {
     if (!quick(GetParam()) && name != std::string("d1")) break;
-    const auto dir = test::rendered_head(name);
+    const auto dir = rendered_head(name);
     if (!dir) GTEST_SKIP() << "RELIEVO_TEST_DATA does not name the rendered heads";
     StageRoom room;
-    test::TruthOptions options;
+    TruthOptions options;
     options.noise_mm = 0.08;
     options.outlier_share = 0.01;
-    const auto result = mesh(test::truth_cloud(*dir, options), room);
+    const auto result = mesh(truth_cloud(*dir, options), room);
     ASSERT_TRUE(result);
-    test::expect_clean(*result);
+    expect_clean(*result);
     EXPECT_LE(result->triangles.size(), 470'000U);
     EXPECT_GT(area_mm2(result->vertices_mm, result->triangles), expected_of(GetParam()).head_area_mm2)
         << "a whole face";

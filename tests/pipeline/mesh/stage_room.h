@@ -1,16 +1,21 @@
 // SPDX-FileCopyrightText: 2026 The Relievo authors
 // SPDX-License-Identifier: GPL-3.0-or-later
 //
-// StageRoom: a fixture in which a stage is run as the pipeline runs it.
+// StageRoom: a fixture in which a stage is run as the pipeline runs it; the mesher of the default chain in
+// it.
 #pragma once
 
+#include <numbers>
 #include <utility>
 
+#include "pipeline/mesh/meshers/grid_mesher.h"
 #include "tests/support/stage_fixture.h"
 
-namespace relievo::pipeline::test {
+namespace relievo::pipeline {
 
-struct StageRoom : relievo::test::StageFixture {
+inline constexpr double kDeg = std::numbers::pi / 180;
+
+struct StageRoom : test::StageFixture {
   explicit StageRoom(std::size_t output_bytes = std::size_t{64} << 20,
                      std::size_t scratch_bytes = std::size_t{192} << 20)
       : StageFixture(output_bytes, scratch_bytes) {}
@@ -21,4 +26,8 @@ struct StageRoom : relievo::test::StageFixture {
   }
 };
 
-}  // namespace relievo::pipeline::test
+inline Result<FaceMesh> mesh_grid(const PointCloud& cloud, StageRoom& room, const GridMesher& options = {}) {
+  return room.run([&](StageContext& c) { return GridMesher(options).mesh(cloud, c); });
+}
+
+}  // namespace relievo::pipeline

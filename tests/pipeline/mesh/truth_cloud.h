@@ -20,7 +20,7 @@
 
 #include "pipeline/model/point_cloud.h"
 
-namespace relievo::pipeline::test {
+namespace relievo::pipeline {
 
 inline std::optional<std::filesystem::path> rendered_head(const std::string& name) {
   const char* root = std::getenv("RELIEVO_TEST_DATA");
@@ -142,4 +142,4 @@ inline double sphere_depth(double sx, double sy, double centre_z_mm, double radi
   return disc < 0 ? std::numeric_limits<double>::quiet_NaN() : (centre_z_mm - std::sqrt(disc)) / a;
 }
 
-}  // namespace relievo::pipeline::test
+}  // namespace relievo::pipeline

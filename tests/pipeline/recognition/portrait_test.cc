@@ -7,10 +7,12 @@
 #include <cmath>
 #include <vector>
 
+#include "tests/support/stage_fixture.h"
+
 namespace relievo::pipeline {
 namespace {
 
-std::pmr::memory_resource* heap() { return std::pmr::new_delete_resource(); }
+using test::heap;
 
 // A flat model in the plane z = -30 of the head, 120 mm wide and 160 mm high, whose texture has the
 // place painted into it: red grows with x, green with y. The camera stood anywhere.

@@ -20,7 +20,7 @@
 namespace relievo::pipeline {
 namespace {
 
-std::pmr::memory_resource* heap() { return std::pmr::new_delete_resource(); }
+using test::heap;
 
 // Head frame here is the frame of the mesh.
 double height(double x, double y) { return -x * x / 150 - y * y / 300 + 8 * std::sin(x / 15); }

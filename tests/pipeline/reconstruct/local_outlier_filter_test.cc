@@ -13,15 +13,13 @@
 namespace relievo::pipeline {
 namespace {
 
-using test::StageRoom;
-
 Result<void> filter(PointCloud& cloud, StageRoom& room) {
   return room.run([&](StageContext& c) { return LocalOutlierFilter{}.reject(cloud, c); });
 }
 
 PointCloud sphere(double noise_mm = 0.05) {
-  return test::formula_cloud(
-      2, 400, [](double sx, double sy) { return test::sphere_depth(sx, sy, 600, 90); }, noise_mm);
+  return formula_cloud(
+      2, 400, [](double sx, double sy) { return sphere_depth(sx, sy, 600, 90); }, noise_mm);
 }
 
 double off_sphere_mm(const CloudPoint& p) {
@@ -139,12 +137,12 @@ TEST(OutlierFilter, EmptyCancelledTinyArenaAndOptions) {
 }
 
 TEST(OutlierFilter, RenderedHead) {
-  const auto dir = test::rendered_head("d1");
+  const auto dir = rendered_head("d1");
   if (!dir) GTEST_SKIP() << "RELIEVO_TEST_DATA does not name the rendered heads";
   StageRoom room;
-  test::TruthOptions options;
+  TruthOptions options;
   options.noise_mm = 0.08;
-  PointCloud clean = test::truth_cloud(*dir, options);
+  PointCloud clean = truth_cloud(*dir, options);
   const std::size_t before = clean.points.size();
   ASSERT_TRUE(filter(clean, room));
   EXPECT_GT(clean.points.size(), before * 97 / 100) << "a face is no outlier";

@@ -20,8 +20,8 @@ class OutlierFilters : public testing::TestWithParam<std::string> {
  protected:
   OutlierFilter filter() const { return relievo::test::made(make_outlier_filter, "outliers", GetParam()); }
   static PointCloud sphere() {
-    return test::formula_cloud(
-        2, 300, [](double sx, double sy) { return test::sphere_depth(sx, sy, 600, 90); }, 0.05);
+    return formula_cloud(
+        2, 300, [](double sx, double sy) { return sphere_depth(sx, sy, 600, 90); }, 0.05);
   }
 };
 

@@ -138,7 +138,7 @@ TEST(ReliefCheck, TheCurvatureOfABallIsItsSolidAngle) {
 FaceMesh head_in(std::uint32_t seed, const sim::HeadPose& pose, double noise_mm,
                  double keep_from_mm = -1000) {
   static ThreadPool pool(2);
-  const PointCloud cloud = test::FieldHead(seed).cloud(pose, pool, noise_mm);
+  const PointCloud cloud = FieldHead(seed).cloud(pose, pool, noise_mm);
   FaceMesh mesh = empty_mesh();
   for (const CloudPoint& p : cloud.points)
     if (static_cast<double>(p.at_mm.x) > keep_from_mm)
@@ -196,7 +196,7 @@ TEST(ReliefCheck, ScatteredPointsAreJudgedByTheSurfaceThatSpansThem) {
     EXPECT_GT(r.covered, 0.5);
     return judge(r, {});
   };
-  PointCloud head = thinned(test::FieldHead(4).cloud({}, pool, 0.2));
+  PointCloud head = thinned(FieldHead(4).cloud({}, pool, 0.2));
   EXPECT_EQ(verdict_of(head), ReliefVerdict::Face);
   for (CloudPoint& p : head.points) {  // a picture of it on a screen
     const float flat = 560 / p.at_mm.z;

@@ -14,9 +14,9 @@
 #include "pipeline/model/texture_atlas.h"
 #include "tests/pipeline/mesh/stage_room.h"
 
-namespace relievo::pipeline::test {
+namespace relievo::pipeline {
 
-inline constexpr int kWidth = 400, kHeight = 300;
+inline constexpr int kPaintedWidth = 400, kPaintedHeight = 300;
 inline constexpr double kFocal = 600, kBaseline = 100, kDepth = 500;
 
 // Paint at a place of the world, 40 to 200 in each channel, smooth over some millimetres.
@@ -28,16 +28,16 @@ inline Vec3d paint(double x, double y) {
 inline RectifiedPair photographed(const std::function<double(double, double)>& depth_on_ray,
                                   double right_gain = 1) {
   RectifiedPair pair(std::pmr::get_default_resource());
-  pair.width_px = kWidth;
-  pair.height_px = kHeight;
+  pair.width_px = kPaintedWidth;
+  pair.height_px = kPaintedHeight;
   pair.focal_px = kFocal;
   pair.baseline_mm = kBaseline;
-  pair.left_centre_px = {kWidth / 2.0, kHeight / 2.0};
-  pair.right_centre_px = {kWidth / 2.0 + kFocal * kBaseline / kDepth, kHeight / 2.0};
+  pair.left_centre_px = {kPaintedWidth / 2.0, kPaintedHeight / 2.0};
+  pair.right_centre_px = {kPaintedWidth / 2.0 + kFocal * kBaseline / kDepth, kPaintedHeight / 2.0};
   pair.right_from_left.translation_mm = {-kBaseline, 0, 0};
   const auto shoot = [&](RectifiedView& view, const Vec2d& centre, double camera_x, double gain) {
-    for (int y = 0; y < kHeight; ++y)
-      for (int x = 0; x < kWidth; ++x) {
+    for (int y = 0; y < kPaintedHeight; ++y)
+      for (int x = 0; x < kPaintedWidth; ++x) {
         const double sx = (x - centre.x) / kFocal;
         const double sy = (y - centre.y) / kFocal;
         const double z = depth_on_ray(sx, camera_x);
@@ -59,12 +59,12 @@ inline RectifiedPair photographed_plane(double right_gain = 1) {
 // A lattice of vertices every 4 px of the left view, a border of 40 px left free.
 inline FaceMesh plane_mesh(std::pmr::memory_resource* memory = std::pmr::get_default_resource()) {
   FaceMesh mesh(memory);
-  const int columns = (kWidth - 80) / 4 + 1;
-  const int rows = (kHeight - 80) / 4 + 1;
+  const int columns = (kPaintedWidth - 80) / 4 + 1;
+  const int rows = (kPaintedHeight - 80) / 4 + 1;
   for (int r = 0; r < rows; ++r)
     for (int c = 0; c < columns; ++c) {
-      mesh.vertices_mm.push_back({static_cast<float>((40 + 4 * c - kWidth / 2.0) / kFocal * kDepth),
-                                  static_cast<float>((40 + 4 * r - kHeight / 2.0) / kFocal * kDepth),
+      mesh.vertices_mm.push_back({static_cast<float>((40 + 4 * c - kPaintedWidth / 2.0) / kFocal * kDepth),
+                                  static_cast<float>((40 + 4 * r - kPaintedHeight / 2.0) / kFocal * kDepth),
                                   static_cast<float>(kDepth)});
       mesh.normals.push_back({0, 0, -1});
       mesh.sigma_mm.push_back(0.1F);
@@ -97,4 +97,4 @@ inline Vec3d look_up(const TextureAtlas& atlas, const Vec2f& uv) {
   return {sum[0], sum[1], sum[2]};
 }
 
-}  // namespace relievo::pipeline::test
+}  // namespace relievo::pipeline

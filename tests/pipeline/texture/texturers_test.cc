@@ -70,10 +70,11 @@ TEST_P(TexturerContract, ASmallAtlasIsObeyed) {
 TEST_P(TexturerContract, NothingOfTheRoomGetsIntoTheAtlas) {
   RectifiedPair pair = photographed_plane();
   for (RectifiedView* view : {&pair.left, &pair.right})
-    for (int y = 0; y < kHeight; ++y)
-      for (int x = 0; x < kWidth; ++x) {
-        if (x > 20 && x < kWidth - 20 && y > 20 && y < kHeight - 20) continue;
-        for (std::size_t i = 0; i < 3; ++i) view->rgb[3 * static_cast<std::size_t>(y * kWidth + x) + i] = 255;
+    for (int y = 0; y < kPaintedHeight; ++y)
+      for (int x = 0; x < kPaintedWidth; ++x) {
+        if (x > 20 && x < kPaintedWidth - 20 && y > 20 && y < kPaintedHeight - 20) continue;
+        for (std::size_t i = 0; i < 3; ++i)
+          view->rgb[3 * static_cast<std::size_t>(y * kPaintedWidth + x) + i] = 255;
       }
   StageRoom room;
   const auto atlas = texture(plane_mesh(), pair, room);
@@ -150,12 +151,12 @@ TEST_P(TexturerContract, WhatWasCompletedShowsThePhotographOfIt) {
   for (std::size_t v = 0; v < mesh.vertices_mm.size(); ++v)
     if (within(mesh.vertices_mm[v], 25)) mesh.measured[v] = 0;
   const auto paint = [&](RectifiedView& view, const Vec2d& centre, double camera_x) {
-    for (int y = 0; y < kHeight; ++y)
-      for (int x = 0; x < kWidth; ++x) {
+    for (int y = 0; y < kPaintedHeight; ++y)
+      for (int x = 0; x < kPaintedWidth; ++x) {
         const double at_x = camera_x + (x - centre.x) / kFocal * kDepth;
         const double at_y = (y - centre.y) / kFocal * kDepth;
         if (std::abs(at_x) > 20 || std::abs(at_y) > 20) continue;
-        std::uint8_t* p = &view.rgb[3 * static_cast<std::size_t>(y * kWidth + x)];
+        std::uint8_t* p = &view.rgb[3 * static_cast<std::size_t>(y * kPaintedWidth + x)];
         p[0] = 255, p[1] = 0, p[2] = 0;
       }
   };

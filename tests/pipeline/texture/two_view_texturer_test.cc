@@ -90,12 +90,12 @@ TEST(TwoViewTexturer, AnotherWhiteBalanceAndBlackLevelLeaveNoTrace) {
 TEST(TwoViewTexturer, AHighlightOfOneViewIsRejectedAndOneOfBothIsKept) {
   const FaceMesh mesh = plane_mesh();
   const auto shine = [](RectifiedView& view, const Vec2d& centre, double camera_x, double at_x) {
-    for (int y = 0; y < kHeight; ++y)
-      for (int x = 0; x < kWidth; ++x) {
+    for (int y = 0; y < kPaintedHeight; ++y)
+      for (int x = 0; x < kPaintedWidth; ++x) {
         const double dx = camera_x + (x - centre.x) / kFocal * kDepth - at_x;
         const double dy = (y - centre.y) / kFocal * kDepth;
         const double light = 70 * std::exp(-(dx * dx + dy * dy) / (2 * 5.0 * 5.0));
-        std::uint8_t* p = &view.rgb[3 * static_cast<std::size_t>(y * kWidth + x)];
+        std::uint8_t* p = &view.rgb[3 * static_cast<std::size_t>(y * kPaintedWidth + x)];
         for (int c = 0; c < 3; ++c) p[c] = static_cast<std::uint8_t>(std::min(255.0, p[c] + light));
       }
   };
@@ -125,12 +125,12 @@ TEST(TwoViewTexturer, WhatMovedBetweenThePicturesIsShownOnce) {
     return std::abs(x) < 22 && std::abs(y - middle) < 2;
   };
   const auto draw = [&](RectifiedView& view, const Vec2d& centre, double camera_x, double middle) {
-    for (int y = 0; y < kHeight; ++y)
-      for (int x = 0; x < kWidth; ++x) {
+    for (int y = 0; y < kPaintedHeight; ++y)
+      for (int x = 0; x < kPaintedWidth; ++x) {
         const double at_x = camera_x + (x - centre.x) / kFocal * kDepth;
         const double at_y = (y - centre.y) / kFocal * kDepth;
         if (in_bar(at_x, at_y, middle))
-          std::fill_n(&view.rgb[3 * static_cast<std::size_t>(y * kWidth + x)], 3, std::uint8_t{20});
+          std::fill_n(&view.rgb[3 * static_cast<std::size_t>(y * kPaintedWidth + x)], 3, std::uint8_t{20});
       }
   };
   RectifiedPair pair = photographed_plane();
@@ -205,13 +205,13 @@ TEST(TwoViewTexturer, AViewThatLooksPastACompletedRimIsNotItsPhotograph) {
   constexpr std::array<std::uint8_t, 3> kSkin{150, 110, 90};
   RectifiedPair pair = photographed_plane();
   const auto shoot = [&](RectifiedView& view, const Vec2d& centre, double camera_x, bool hair) {
-    for (int y = 0; y < kHeight; ++y)
-      for (int x = 0; x < kWidth; ++x) {
+    for (int y = 0; y < kPaintedHeight; ++y)
+      for (int x = 0; x < kPaintedWidth; ++x) {
         const double at_x = camera_x + (x - centre.x) / kFocal * kDepth,
                      at_y = (y - centre.y) / kFocal * kDepth;
         const bool dark = (at_x < -40 && std::abs(at_y) < kBrowMm) || (hair && at_x < kStripMm);
         for (std::size_t c = 0; c < 3; ++c)
-          view.rgb[3 * static_cast<std::size_t>(y * kWidth + x) + c] =
+          view.rgb[3 * static_cast<std::size_t>(y * kPaintedWidth + x) + c] =
               static_cast<std::uint8_t>(kSkin[c] / (dark ? 2 : 1));
       }
   };

@@ -17,14 +17,14 @@
 namespace relievo::storage {
 namespace {
 
-struct Reread {
+struct PngPixels {
   int width = 0, height = 0, bits = 0, channels = 0;
   std::vector<unsigned> values;
 };
 
 // The plain reader: no conversion of any kind.
-Reread reread(const std::vector<std::byte>& file) {
-  Reread out;
+PngPixels reread(const std::vector<std::byte>& file) {
+  PngPixels out;
   png_structp png = png_create_read_struct(PNG_LIBPNG_VER_STRING, nullptr, nullptr, nullptr);
   png_infop info = png_create_info_struct(png);
   struct Source {
@@ -65,7 +65,7 @@ TEST(PngPicture, EveryKindReadsBackValueByValue) {
     const auto file =
         hal::encode_png({bytes.data(), 37, 23, 37 * bytes_per_pixel(format), format}, {.level = level});
     ASSERT_TRUE(file);
-    const Reread got = reread(*file);
+    const PngPixels got = reread(*file);
     EXPECT_EQ(got.width, 37);
     EXPECT_EQ(got.height, 23);
     EXPECT_EQ(got.bits, format == PixelFormat::Grey16 ? 16 : 8);
@@ -107,12 +107,12 @@ TEST(RecognitionFiles, HeightsAndSigmasReadBackInMillimetres) {
     for (const auto& file : *files)
       if (name == file.name) return reread(file.bytes);
     ADD_FAILURE() << name;
-    return Reread{};
+    return PngPixels{};
   };
   EXPECT_EQ(named("portrait.png").values, (std::vector<unsigned>{10, 20, 30, 200, 201, 202}));
   EXPECT_EQ(named("portrait_shows.png").values, (std::vector<unsigned>{255, 128}));
   EXPECT_EQ(named("range_shows.png").values, (std::vector<unsigned>{0, 255, 128, 255, 255, 255}));
-  const Reread heights = named("range.png"), sigmas = named("range_sigma.png");
+  const PngPixels heights = named("range.png"), sigmas = named("range_sigma.png");
   ASSERT_EQ(heights.bits, 16);
   EXPECT_EQ(heights.values[0], 0u);
   EXPECT_NEAR((heights.values[1] - 32768.0) / 100, -12.34, 0.0051);

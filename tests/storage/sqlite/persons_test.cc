@@ -16,15 +16,9 @@ namespace {
 
 using relievo::test::TemporaryFolder;
 using relievo::test::TinyDisk;
+using test::code_of;
+using test::kNoReserve;
 using test::opened;
-
-const SqliteStoreOptions kNoReserve{.reserve_bytes = 0};
-
-template <typename T>
-Errc code_of(const Result<T>& result) {
-  EXPECT_FALSE(result);
-  return result ? Errc::Cancelled : result.error().code;
-}
 
 // Somebody with two portraits, the first made with a calibration of this store, its third.
 std::unique_ptr<Store> with_ada(const std::filesystem::path& dir) {

@@ -24,12 +24,12 @@ namespace {
 
 using relievo::test::TemporaryFolder;
 using test::kLastPlain;
+using test::kNoReserve;
 using test::make_version;
 using test::OfBefore;
 using test::opened;
 using test::Raw;
 
-const SqliteStoreOptions kNoReserve{.reserve_bytes = 0};
 std::string number(std::int64_t n) { return std::to_string(n); }
 
 std::vector<std::string> schema_of(Raw& raw) {

@@ -17,21 +17,16 @@ namespace relievo::storage {
 namespace {
 
 using relievo::test::TemporaryFolder;
+using test::code_of;
+using test::kNoReserve;
 using test::opened;
 using test::Raw;
 
-const SqliteStoreOptions kNoReserve{.reserve_bytes = 0};
 const test::StillClock kClock;
 
 std::unique_ptr<StoreKeeping> keeping(const std::filesystem::path& dir,
                                       SqliteStoreOptions options = kNoReserve) {
   return keep_sqlite_store(dir, kClock, options);
-}
-
-template <typename T>
-Errc code_of(const Result<T>& result) {
-  EXPECT_FALSE(result);
-  return result ? Errc::Cancelled : result.error().code;
 }
 
 void fill(const std::filesystem::path& dir, int people = 3) {

@@ -17,10 +17,9 @@ namespace relievo::storage {
 namespace {
 
 using relievo::test::TemporaryFolder;
+using test::kNoReserve;
 using test::opened;
 using test::Raw;
-
-const SqliteStoreOptions kNoReserve{.reserve_bytes = 0};
 
 std::string hex_of(std::string_view bytes) {
   constexpr char kDigits[] = "0123456789abcdef";

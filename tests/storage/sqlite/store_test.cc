@@ -10,6 +10,7 @@
 namespace relievo::storage {
 namespace {
 
+using test::code_of;
 using test::identical;
 using test::opened;
 using test::sample_calibration;
@@ -31,12 +32,6 @@ class SqliteStoreVerbs : public ::testing::Test {
   std::filesystem::path dir = folder / "store";
   std::unique_ptr<Store> store;
 };
-
-template <typename T>
-Errc code_of(const Result<T>& result) {
-  EXPECT_FALSE(result);
-  return result ? Errc::Cancelled : result.error().code;
-}
 
 unsigned mode_of(const std::filesystem::path& path) {
   struct stat status {};

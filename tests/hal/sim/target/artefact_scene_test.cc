@@ -16,7 +16,7 @@ namespace {
 
 ArtefactPose turned() { return ArtefactPlace{12, -7, 560, 15, 25, 40}.pose(); }
 
-TargetPhotoOptions small() {
+TargetPhotoOptions small_photo() {
   TargetPhotoOptions o;
   o.rig.width_px = 480;
   o.rig.height_px = 300;
@@ -109,7 +109,7 @@ TEST(Speckle, IsThereAtEverySizeAndDiffersFromSeedToSeed) {
 
 // Grey levels of the picture inside the plate's middle, for what a matcher can work with.
 TEST(TargetPhotos, AreNeitherBlackNorBurntOut) {
-  const auto pair = photograph_plate(small(), FlatPlate{}, {});
+  const auto pair = photograph_plate(small_photo(), FlatPlate{}, {});
   ASSERT_TRUE(pair);
   for (const Picture* picture : {&pair->left, &pair->right}) {
     int burnt = 0, dark = 0, light = 0, count = 0;
@@ -129,11 +129,11 @@ TEST(TargetPhotos, AreNeitherBlackNorBurntOut) {
 }
 
 TEST(TargetPhotos, TheSameNumbersGiveTheSamePicture) {
-  const auto a = photograph_dumbbell(small(), Dumbbell{}, {}),
-             b = photograph_dumbbell(small(), Dumbbell{}, {});
+  const auto a = photograph_dumbbell(small_photo(), Dumbbell{}, {}),
+             b = photograph_dumbbell(small_photo(), Dumbbell{}, {});
   ASSERT_TRUE(a && b);
   EXPECT_EQ(a->left.bytes, b->left.bytes);
-  TargetPhotoOptions other = small();
+  TargetPhotoOptions other = small_photo();
   other.seed = 2;
   const auto c = photograph_dumbbell(other, Dumbbell{}, {});
   ASSERT_TRUE(c);
@@ -141,12 +141,13 @@ TEST(TargetPhotos, TheSameNumbersGiveTheSamePicture) {
 }
 
 TEST(TargetPhotos, WhatTheRigDoesNotSeeWholeIsRefused) {
-  EXPECT_EQ(photograph_dumbbell(small(), Dumbbell{}, {150, 0, 560, 0, 0, 0}).error().code,
+  EXPECT_EQ(photograph_dumbbell(small_photo(), Dumbbell{}, {150, 0, 560, 0, 0, 0}).error().code,
             Errc::PoorGeometry);
-  EXPECT_EQ(photograph_plate(small(), FlatPlate{}, {0, 120, 560, 0, 0, 0}).error().code, Errc::PoorGeometry);
-  EXPECT_EQ(photograph_board(small(), {40, 40, 20}, 0, 4).error().code, Errc::PoorGeometry);
-  EXPECT_EQ(photograph_dumbbell(small(), Dumbbell{60, 50}, {}).error().code, Errc::InvalidInput);
-  EXPECT_EQ(photograph_plate(small(), FlatPlate{5, 5}, {}).error().code, Errc::InvalidInput);
+  EXPECT_EQ(photograph_plate(small_photo(), FlatPlate{}, {0, 120, 560, 0, 0, 0}).error().code,
+            Errc::PoorGeometry);
+  EXPECT_EQ(photograph_board(small_photo(), {40, 40, 20}, 0, 4).error().code, Errc::PoorGeometry);
+  EXPECT_EQ(photograph_dumbbell(small_photo(), Dumbbell{60, 50}, {}).error().code, Errc::InvalidInput);
+  EXPECT_EQ(photograph_plate(small_photo(), FlatPlate{5, 5}, {}).error().code, Errc::InvalidInput);
 }
 
 }  // namespace

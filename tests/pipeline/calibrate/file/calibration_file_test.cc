@@ -122,16 +122,16 @@ TEST(CalibrationFile, FourCoefficientsAreEnoughFiveTheMost) {
             Errc::Unsupported);
 }
 
-struct Hostile {
+struct HostileField {
   const char* what;
   const char* by;
   const char* where;
 };
 
-class HostileCalibration : public ::testing::TestWithParam<Hostile> {};
+class HostileCalibration : public ::testing::TestWithParam<HostileField> {};
 
 TEST_P(HostileCalibration, IsRefusedWithItsField) {
-  const Hostile& h = GetParam();
+  const HostileField& h = GetParam();
   const auto read =
       pipeline::parse_calibration(replaced(pipeline::calibration_text(sample_rig()), h.what, h.by));
   ASSERT_FALSE(read);
@@ -143,25 +143,27 @@ TEST_P(HostileCalibration, IsRefusedWithItsField) {
 INSTANTIATE_TEST_SUITE_P(
     Fields, HostileCalibration,
     ::testing::Values(
-        Hostile{"image_width: 1920", "image_width: 0", "image_width"},
-        Hostile{"image_width: 1920", "image_width: 19200", "image_width"},
-        Hostile{"image_width: 1920", "image_width: -1920", "image_width"},
-        Hostile{"image_width: 1920", "image_width: 1920.5", "image_width"},
-        Hostile{"image_width: 1920", "image_width: 1e300", "image_width"},
-        Hostile{"image_width: 1920", "width: 1920", "image_width"},
-        Hostile{"2.9551234567890124e+03", "2.9551234567890124e+01", "K1"},
-        Hostile{"2.9551234567890124e+03", "-2.9551234567890124e+03", "K1"},
-        Hostile{"2.9551234567890124e+03", ".Nan", "line"}, Hostile{"2.9551234567890124e+03", "1e999", "line"},
-        Hostile{"2.9551234567890124e+03", "2.95.5", "line"}, Hostile{"2.9551234567890124e+03,", "", "line"},
-        Hostile{"K1: !!opencv-matrix\n   rows: 3", "K1: !!opencv-matrix\n   rows: 300000000", "line"},
-        Hostile{"K1: !!opencv-matrix\n   rows: 3", "K1: !!opencv-matrix\n   rows: 9", "line"},
-        Hostile{"K1:", "KX:", "K1"}, Hostile{"K2:", "K1:", "line"},
-        Hostile{"R: !!opencv-matrix", "R: 5 # !!", "line"},
-        Hostile{"-1.3609999999999999e+02", "1.3609999999999999e+02", "T"},
-        Hostile{"-1.3609999999999999e+02", "-1.3609999999999999e+09", "T"},
-        Hostile{"-1.1000000000000000e-01", "-1.1000000000000000e+01", "D1"},
-        Hostile{"2.5000000000000000e-01", "2.6000000000000000e-01", "R"},
-        Hostile{" ]\nR:", " \nR:", "line"}));
+        HostileField{"image_width: 1920", "image_width: 0", "image_width"},
+        HostileField{"image_width: 1920", "image_width: 19200", "image_width"},
+        HostileField{"image_width: 1920", "image_width: -1920", "image_width"},
+        HostileField{"image_width: 1920", "image_width: 1920.5", "image_width"},
+        HostileField{"image_width: 1920", "image_width: 1e300", "image_width"},
+        HostileField{"image_width: 1920", "width: 1920", "image_width"},
+        HostileField{"2.9551234567890124e+03", "2.9551234567890124e+01", "K1"},
+        HostileField{"2.9551234567890124e+03", "-2.9551234567890124e+03", "K1"},
+        HostileField{"2.9551234567890124e+03", ".Nan", "line"},
+        HostileField{"2.9551234567890124e+03", "1e999", "line"},
+        HostileField{"2.9551234567890124e+03", "2.95.5", "line"},
+        HostileField{"2.9551234567890124e+03,", "", "line"},
+        HostileField{"K1: !!opencv-matrix\n   rows: 3", "K1: !!opencv-matrix\n   rows: 300000000", "line"},
+        HostileField{"K1: !!opencv-matrix\n   rows: 3", "K1: !!opencv-matrix\n   rows: 9", "line"},
+        HostileField{"K1:", "KX:", "K1"}, HostileField{"K2:", "K1:", "line"},
+        HostileField{"R: !!opencv-matrix", "R: 5 # !!", "line"},
+        HostileField{"-1.3609999999999999e+02", "1.3609999999999999e+02", "T"},
+        HostileField{"-1.3609999999999999e+02", "-1.3609999999999999e+09", "T"},
+        HostileField{"-1.1000000000000000e-01", "-1.1000000000000000e+01", "D1"},
+        HostileField{"2.5000000000000000e-01", "2.6000000000000000e-01", "R"},
+        HostileField{" ]\nR:", " \nR:", "line"}));
 
 TEST(CalibrationFile, WhatIsNoCalibrationIsRefused) {
   const Folder folder;

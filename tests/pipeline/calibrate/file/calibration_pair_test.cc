@@ -89,13 +89,13 @@ TEST(CameraInfo, ReadsWhatRosWrites) {
   EXPECT_EQ(read->rms_px, 0);
 }
 
-struct Hostile {
+struct HostileInfo {
   const char* what;
   const char* by;
   Errc code = Errc::InvalidInput;
 };
 
-class HostileCameraInfo : public ::testing::TestWithParam<Hostile> {};
+class HostileCameraInfo : public ::testing::TestWithParam<HostileInfo> {};
 
 TEST_P(HostileCameraInfo, IsRefusedInALine) {
   const auto texts = infos();
@@ -109,24 +109,26 @@ TEST_P(HostileCameraInfo, IsRefusedInALine) {
 
 INSTANTIATE_TEST_SUITE_P(
     Fields, HostileCameraInfo,
-    ::testing::Values(Hostile{"image_width: 1920", "image_width: -1"},
-                      Hostile{"image_width: 1920", "image_width: 640"},
-                      Hostile{"image_width: 1920", "image_width: 1920\nimage_width: 1920"},
-                      Hostile{"image_width: 1920", "image_width: \"1920\""},
-                      Hostile{"image_width: 1920", "image_width: 0x780"},
-                      Hostile{"plumb_bob", "equidistant", Errc::Unsupported},
-                      Hostile{"distortion_model", "distortion_muddle"}, Hostile{"2942.25", ".nan"},
-                      Hostile{"2942.25", "nan"}, Hostile{"2942.25", ".inf"}, Hostile{"2942.25", "-inf"},
-                      Hostile{"2942.25", "1e999"}, Hostile{"2942.25", "&a 2942.25"}, Hostile{"2942.25", "*a"},
-                      Hostile{"2942.25", "[2942.25]"}, Hostile{"2942.25", "'2942.25'"},
-                      Hostile{"2942.25, ", ""}, Hostile{"2942.25,", "2942.25, 1,"},
-                      Hostile{"rows: 1\n", "rows: 1\n  rows: 1\n"}, Hostile{"cols: 5", "cols: 500000000"},
-                      Hostile{"cols: 5", "cols: 7"}, Hostile{"cols: 5", "cols: -5"},
-                      Hostile{"rectification_matrix", "camera_matrix"},
-                      Hostile{"rectification_matrix:", "rectification_matrix: 5\nelse:"},
-                      Hostile{"projection_matrix:\n  rows: 3", "projection_matrix:\n  rows: 4"},
-                      Hostile{", 0, 0, 1, 0]", ", 0, 0, 2, 0]"}, Hostile{"]\n", "\n"},
-                      Hostile{"  data", "\tdata"}, Hostile{"image_height", "\xff\xfe"}));
+    ::testing::Values(HostileInfo{"image_width: 1920", "image_width: -1"},
+                      HostileInfo{"image_width: 1920", "image_width: 640"},
+                      HostileInfo{"image_width: 1920", "image_width: 1920\nimage_width: 1920"},
+                      HostileInfo{"image_width: 1920", "image_width: \"1920\""},
+                      HostileInfo{"image_width: 1920", "image_width: 0x780"},
+                      HostileInfo{"plumb_bob", "equidistant", Errc::Unsupported},
+                      HostileInfo{"distortion_model", "distortion_muddle"}, HostileInfo{"2942.25", ".nan"},
+                      HostileInfo{"2942.25", "nan"}, HostileInfo{"2942.25", ".inf"},
+                      HostileInfo{"2942.25", "-inf"}, HostileInfo{"2942.25", "1e999"},
+                      HostileInfo{"2942.25", "&a 2942.25"}, HostileInfo{"2942.25", "*a"},
+                      HostileInfo{"2942.25", "[2942.25]"}, HostileInfo{"2942.25", "'2942.25'"},
+                      HostileInfo{"2942.25, ", ""}, HostileInfo{"2942.25,", "2942.25, 1,"},
+                      HostileInfo{"rows: 1\n", "rows: 1\n  rows: 1\n"},
+                      HostileInfo{"cols: 5", "cols: 500000000"}, HostileInfo{"cols: 5", "cols: 7"},
+                      HostileInfo{"cols: 5", "cols: -5"},
+                      HostileInfo{"rectification_matrix", "camera_matrix"},
+                      HostileInfo{"rectification_matrix:", "rectification_matrix: 5\nelse:"},
+                      HostileInfo{"projection_matrix:\n  rows: 3", "projection_matrix:\n  rows: 4"},
+                      HostileInfo{", 0, 0, 1, 0]", ", 0, 0, 2, 0]"}, HostileInfo{"]\n", "\n"},
+                      HostileInfo{"  data", "\tdata"}, HostileInfo{"image_height", "\xff\xfe"}));
 
 TEST(CameraInfo, TwoLeftsAreNoPair) {
   const auto texts = infos();

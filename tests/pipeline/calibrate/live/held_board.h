@@ -13,6 +13,8 @@
 
 namespace relievo::tests {
 
+inline const pipeline::BoardPattern kHeldPattern{7, 5, 28};
+
 // Middle of the board in the left camera's frame, mm; turned by roll, then pitch (upper edge nearer),
 // then yaw (left edge nearer); degrees.
 struct BoardAt {

@@ -16,24 +16,22 @@ namespace {
 
 using pipeline::LiveAdvice;
 
-const pipeline::BoardPattern kPattern{7, 5, 28};
-
 pipeline::BoardCorners corners_at(int eye, const BoardAt& at) {
-  HeldBoardCorners board(kiosk_rig(), kPattern, 0, 1);
+  HeldBoardCorners board(kiosk_rig(), kHeldPattern, 0, 1);
   auto seen = board.seen(eye, at);
   if (seen.corners.empty()) throw std::logic_error("the test holds the board out of the picture");
   return seen.corners;
 }
 
 pipeline::BoardParameters seen_at(const BoardAt& at) {
-  return pipeline::parameters_of(corners_at(0, at), kPattern, 1920, 1200);
+  return pipeline::parameters_of(corners_at(0, at), kHeldPattern, 1920, 1200);
 }
 
 pipeline::Room room_at(const BoardAt& at) {
   pipeline::Room room{1920, 1200, {}};
   for (int eye = 0; eye < 2; ++eye)
     room.board[static_cast<std::size_t>(eye)] =
-        with_border(outline_of(corners_at(eye, at), kPattern), kPattern);
+        with_border(outline_of(corners_at(eye, at), kHeldPattern), kHeldPattern);
   return room;
 }
 
@@ -148,8 +146,8 @@ TEST(LiveAdvice, TheOpeningAsksForEveryTiltOnce) {
 
 // The advice comes first on the way, and the way is empty where there is nowhere to go.
 TEST(LiveAdvice, TheWayBeginsWithTheAdvice) {
-  HeldBoardCorners board(kiosk_rig(), kPattern, 0.02, 1);
-  auto collector = *pipeline::ViewCollector::begin(kPattern, 1920, 1200, {});
+  HeldBoardCorners board(kiosk_rig(), kHeldPattern, 0.02, 1);
+  auto collector = *pipeline::ViewCollector::begin(kHeldPattern, 1920, 1200, {});
   EXPECT_TRUE(collector.state().way.empty());
   int on_the_way = 0;
   for (double right_mm = 20; right_mm < 70; right_mm += 5) {
@@ -166,8 +164,8 @@ TEST(LiveAdvice, TheWayBeginsWithTheAdvice) {
 
 // Held where it was told and yet nothing new: another view is asked for, and nobody waits for ever.
 TEST(LiveAdvice, ATargetThatBringsNothingIsGivenUp) {
-  HeldBoardCorners board(kiosk_rig(), kPattern, 0.02, 1);
-  auto collector = *pipeline::ViewCollector::begin(kPattern, 1920, 1200, {});
+  HeldBoardCorners board(kiosk_rig(), kHeldPattern, 0.02, 1);
+  auto collector = *pipeline::ViewCollector::begin(kHeldPattern, 1920, 1200, {});
   const auto hold = [&](const BoardAt& at) {
     for (int i = 0; i < 2; ++i) {
       const auto pair = board.pair(at);

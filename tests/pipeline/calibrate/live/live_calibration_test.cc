@@ -14,8 +14,8 @@ namespace {
 using pipeline::LiveAdvice;
 using pipeline::PairVerdict;
 
-constexpr int kWidth = 480;
-constexpr int kHeight = 300;
+constexpr int kHeldWidth = 480;
+constexpr int kHeldHeight = 300;
 
 class Live : public ::testing::Test {
  protected:
@@ -32,7 +32,7 @@ class Live : public ::testing::Test {
     return looked ? Errc::InvalidState : looked.error().code;
   }
 
-  HeldBoardPictures board_{kWidth, kHeight};
+  HeldBoardPictures board_{kHeldWidth, kHeldHeight};
   ThreadPool pool_{2};
   pipeline::LiveCalibration live_ = begin();
   std::chrono::nanoseconds now_{0};
@@ -100,7 +100,7 @@ TEST_F(Live, PartOfACharucoBoardIsTaken) {
 
 TEST_F(Live, ABoardWithAnotherCountIsNone) {
   for (const auto& [columns, rows] : {std::pair(9, 6), std::pair(11, 8), std::pair(11, 7)}) {
-    HeldBoardPictures other(kWidth, kHeight, {columns, rows, 18});
+    HeldBoardPictures other(kHeldWidth, kHeldHeight, {columns, rows, 18});
     for (int i = 0; i < 3; ++i)
       EXPECT_EQ(look(other.pair({0, 0, 620})), PairVerdict::NoBoard) << columns << 'x' << rows;
   }

@@ -12,29 +12,29 @@
 namespace relievo::pipeline {
 namespace {
 
-constexpr int kWidth = 23, kHeight = 17, kAcross = 4, kUp = 3;
+constexpr int kCensusWidth = 23, kCensusHeight = 17, kAcross = 4, kUp = 3;
 
 Plane<float> picture(float gain, float offset) {
-  Plane<float> grey(std::pmr::get_default_resource(), kWidth, kHeight);
+  Plane<float> grey(std::pmr::get_default_resource(), kCensusWidth, kCensusHeight);
   std::mt19937 random(11);
   for (float& v : grey.values) v = gain * static_cast<float>(random() % 64) + offset;
   return grey;
 }
 
 Plane<std::uint64_t> census_of(const Plane<float>& grey) {
-  Plane<std::uint64_t> census(std::pmr::get_default_resource(), kWidth, kHeight, 99);
+  Plane<std::uint64_t> census(std::pmr::get_default_resource(), kCensusWidth, kCensusHeight, 99);
   census_rows(grey, census, 0, 5);  // in two bands, as threads do it
-  census_rows(grey, census, 5, kHeight);
+  census_rows(grey, census, 5, kCensusHeight);
   return census;
 }
 
 TEST(Census, HasABitForEveryDarkerNeighbourAndNoneAtTheBorder) {
   const Plane<float> grey = picture(1, 0);
   const Plane<std::uint64_t> census = census_of(grey);
-  for (int y = 0; y < kHeight; ++y)
-    for (int x = 0; x < kWidth; ++x) {
+  for (int y = 0; y < kCensusHeight; ++y)
+    for (int x = 0; x < kCensusWidth; ++x) {
       int darker = 0;
-      const bool whole = x >= kAcross && x < kWidth - kAcross && y >= kUp && y < kHeight - kUp;
+      const bool whole = x >= kAcross && x < kCensusWidth - kAcross && y >= kUp && y < kCensusHeight - kUp;
       for (int j = -kUp; whole && j <= kUp; ++j)
         for (int i = -kAcross; i <= kAcross; ++i) darker += grey.row(y + j)[x + i] < grey.row(y)[x] ? 1 : 0;
       EXPECT_EQ(std::popcount(census.row(y)[x]), darker) << x << ' ' << y;
@@ -50,23 +50,24 @@ TEST(Census, IsBlindToGainAndOffset) {
 TEST(Census, CostsNothingAtTheTruth) {
   constexpr int kShift = 3, kCandidates = 6;
   const Plane<std::uint64_t> left = census_of(picture(1, 0));
-  Plane<std::uint64_t> right(std::pmr::get_default_resource(), kWidth, kHeight);
-  for (int y = 0; y < kHeight; ++y)
-    for (int x = kShift; x < kWidth; ++x) right.row(y)[x - kShift] = left.row(y)[x];
-  const Plane<std::uint8_t> seen(std::pmr::get_default_resource(), kWidth, kHeight, 1);
+  Plane<std::uint64_t> right(std::pmr::get_default_resource(), kCensusWidth, kCensusHeight);
+  for (int y = 0; y < kCensusHeight; ++y)
+    for (int x = kShift; x < kCensusWidth; ++x) right.row(y)[x - kShift] = left.row(y)[x];
+  const Plane<std::uint8_t> seen(std::pmr::get_default_resource(), kCensusWidth, kCensusHeight, 1);
   Plane<std::uint8_t> blind = seen;
   blind.row(8)[12] = 0;
-  const std::vector<std::int16_t> first(kWidth, 1);
-  std::vector<std::uint8_t> cost(std::size_t{kWidth} * kCandidates);
+  const std::vector<std::int16_t> first(kCensusWidth, 1);
+  std::vector<std::uint8_t> cost(std::size_t{kCensusWidth} * kCandidates);
   census_costs({left, right, seen, blind, +1}, first.data(), 8, kCandidates, cost.data());
   const auto at = [&](int x, int disparity) {
     return cost[static_cast<std::size_t>(x * kCandidates + disparity - 1)];
   };
-  for (int x = kShift; x < kWidth; ++x) EXPECT_EQ(at(x, kShift), x - kShift == 12 ? kUnknownCost : 0) << x;
+  for (int x = kShift; x < kCensusWidth; ++x)
+    EXPECT_EQ(at(x, kShift), x - kShift == 12 ? kUnknownCost : 0) << x;
   EXPECT_GT(at(10, 2), 0);
   EXPECT_EQ(at(2, 4), kUnknownCost) << "left of the picture";
   census_costs({right, left, seen, seen, -1}, first.data(), 8, kCandidates, cost.data());
-  for (int x = 0; x < kWidth - kShift; ++x) EXPECT_EQ(at(x, kShift), 0) << "from the right view, " << x;
+  for (int x = 0; x < kCensusWidth - kShift; ++x) EXPECT_EQ(at(x, kShift), 0) << "from the right view, " << x;
 }
 
 }  // namespace

@@ -13,7 +13,7 @@
 namespace relievo::pipeline {
 namespace {
 
-constexpr int kWidth = 37, kHeight = 21;
+constexpr int kCostsWidth = 37, kCostsHeight = 21;
 constexpr int kUnknown = 40;
 
 struct Views {
@@ -28,14 +28,15 @@ struct Views {
                                     spread);
   }
   std::pmr::memory_resource* memory = std::pmr::get_default_resource();
-  Plane<std::uint64_t> left{memory, kWidth, kHeight}, right{memory, kWidth, kHeight};
-  Plane<std::uint8_t> left_valid{memory, kWidth, kHeight}, right_valid{memory, kWidth, kHeight};
-  Plane<std::int16_t> first{memory, kWidth, kHeight};
+  Plane<std::uint64_t> left{memory, kCostsWidth, kCostsHeight}, right{memory, kCostsWidth, kCostsHeight};
+  Plane<std::uint8_t> left_valid{memory, kCostsWidth, kCostsHeight},
+      right_valid{memory, kCostsWidth, kCostsHeight};
+  Plane<std::int16_t> first{memory, kCostsWidth, kCostsHeight};
 };
 
 // The recurrence as Hirschmueller writes it, path by path and candidate by candidate, over disparities
 // instead of lanes.
-struct Twin {
+struct PathTwin {
   const Views& v;
   int sign, candidates;
   SemiGlobalCosts costs;
@@ -45,21 +46,21 @@ struct Twin {
   int cost(int x, int y, int k) const {
     const int other = x - sign * (first(x, y) + k);
     const bool seen =
-        v.left_valid.row(y)[x] != 0 && other >= 0 && other < kWidth && v.right_valid.row(y)[other] != 0;
+        v.left_valid.row(y)[x] != 0 && other >= 0 && other < kCostsWidth && v.right_valid.row(y)[other] != 0;
     return seen ? std::popcount(v.left.row(y)[x] ^ v.right.row(y)[other]) : kUnknown;
   }
   void add_path(int dx, int dy, Cells& sums) const {
-    Cells path(kWidth * kHeight);
-    for (int i = 0; i < kWidth * kHeight; ++i) {
-      const int x = dx >= 0 ? i % kWidth : kWidth - 1 - i % kWidth,
-                y = dy >= 0 ? i / kWidth : kHeight - 1 - i / kWidth;
+    Cells path(kCostsWidth * kCostsHeight);
+    for (int i = 0; i < kCostsWidth * kCostsHeight; ++i) {
+      const int x = dx >= 0 ? i % kCostsWidth : kCostsWidth - 1 - i % kCostsWidth,
+                y = dy >= 0 ? i / kCostsWidth : kCostsHeight - 1 - i / kCostsWidth;
       const int px = x - dx, py = y - dy;
-      const bool begins = px < 0 || px >= kWidth || py < 0 || py >= kHeight;
-      auto& own = path[static_cast<std::size_t>(y * kWidth + x)];
+      const bool begins = px < 0 || px >= kCostsWidth || py < 0 || py >= kCostsHeight;
+      auto& own = path[static_cast<std::size_t>(y * kCostsWidth + x)];
       for (int k = 0; k < candidates; ++k) {
         own.push_back(cost(x, y, k));
         if (begins) continue;
-        const auto& before = path[static_cast<std::size_t>(py * kWidth + px)];
+        const auto& before = path[static_cast<std::size_t>(py * kCostsWidth + px)];
         const int least = *std::min_element(before.begin(), before.end()),
                   at = first(x, y) + k - first(px, py);
         int best = least + costs.jump_penalty;
@@ -72,12 +73,12 @@ struct Twin {
         own.back() += best - least;
       }
       for (int k = 0; k < candidates; ++k)
-        sums[static_cast<std::size_t>(y * kWidth + x)][static_cast<std::size_t>(k)] +=
+        sums[static_cast<std::size_t>(y * kCostsWidth + x)][static_cast<std::size_t>(k)] +=
             own[static_cast<std::size_t>(k)];
     }
   }
   Cells sums() const {
-    Cells all(kWidth * kHeight, std::vector<int>(static_cast<std::size_t>(candidates), 0));
+    Cells all(kCostsWidth * kCostsHeight, std::vector<int>(static_cast<std::size_t>(candidates), 0));
     for (int dy = -1; dy <= 1; ++dy)
       for (int dx = -1; dx <= 1; ++dx)
         if (dx != 0 || dy != 0) add_path(dx, dy, all);
@@ -91,15 +92,15 @@ TEST(SemiGlobal, FindsWhatItsSlowTwinFinds) {
     for (const int spread : {0, 2, 20})
       for (const int sign : {1, -1}) {
         const Views v(spread);
-        Plane<float> found(v.memory, kWidth, kHeight, 0);
+        Plane<float> found(v.memory, kCostsWidth, kCostsHeight, 0);
         semi_global({v.left, v.right, v.left_valid, v.right_valid, sign}, v.first, candidates, {}, *v.memory,
                     found);
-        const Twin twin{v, sign, candidates, {}};
+        const PathTwin twin{v, sign, candidates, {}};
         const auto sums = twin.sums();
         int known = 0;
-        for (int y = 0; y < kHeight; ++y)
-          for (int x = 0; x < kWidth; ++x) {
-            const auto& sum = sums[static_cast<std::size_t>(y * kWidth + x)];
+        for (int y = 0; y < kCostsHeight; ++y)
+          for (int x = 0; x < kCostsWidth; ++x) {
+            const auto& sum = sums[static_cast<std::size_t>(y * kCostsWidth + x)];
             const auto k = std::min_element(sum.begin(), sum.end()) - sum.begin();
             const float d = found.row(y)[x];
             if (v.left_valid.row(y)[x] == 0) {
@@ -110,7 +111,7 @@ TEST(SemiGlobal, FindsWhatItsSlowTwinFinds) {
                   << candidates << ' ' << spread << ' ' << x << ' ' << y;
             }
           }
-        EXPECT_GT(known, kWidth * kHeight / 3);
+        EXPECT_GT(known, kCostsWidth * kCostsHeight / 3);
       }
 }
 

@@ -12,18 +12,18 @@
 namespace relievo::pipeline {
 namespace {
 
-constexpr int kWidth = 600, kHeight = 500;
+constexpr int kExposedWidth = 600, kExposedHeight = 500;
 constexpr int kFaceX = 250, kFaceY = 240, kFaceWidth = 200, kDisparity = 60;
 
 RectifiedPair grey_pair() {
   RectifiedPair pair(std::pmr::get_default_resource());
-  pair.width_px = kWidth;
-  pair.height_px = kHeight;
+  pair.width_px = kExposedWidth;
+  pair.height_px = kExposedHeight;
   pair.focal_px = 1000;
   pair.near_mm = 650;
   pair.far_mm = 850;
   for (RectifiedView* view : {&pair.left, &pair.right}) {
-    view->grey.assign(std::size_t{kWidth} * kHeight, 100.0F);
+    view->grey.assign(std::size_t{kExposedWidth} * kExposedHeight, 100.0F);
     view->valid.assign(view->grey.size(), 1);
   }
   pair.face_centre_px = {kFaceX, kFaceY};
@@ -32,8 +32,8 @@ RectifiedPair grey_pair() {
 }
 
 void whiten(RectifiedView& view, int left, int right) {
-  for (int y = 0; y < kHeight; ++y)
-    for (int x = left; x < right; ++x) view.grey[static_cast<std::size_t>(y * kWidth + x)] = 255;
+  for (int y = 0; y < kExposedHeight; ++y)
+    for (int x = left; x < right; ++x) view.grey[static_cast<std::size_t>(y * kExposedWidth + x)] = 255;
 }
 
 MatchSet matches_at(float disparity) {
@@ -49,8 +49,8 @@ MatchSet matches_at(float disparity) {
 TEST(Overexposure, IsTheShareOfTheFaceThatIsWhite) {
   RectifiedPair pair = grey_pair();
   EXPECT_EQ(measure_overexposure(pair, matches_at(kDisparity)).left, 0);
-  whiten(pair.left, 0, kFaceX);                          // half of the face
-  whiten(pair.right, kFaceX - kDisparity + 40, kWidth);  // what lies right of half its half width
+  whiten(pair.left, 0, kFaceX);                                 // half of the face
+  whiten(pair.right, kFaceX - kDisparity + 40, kExposedWidth);  // what lies right of half its half width
   const Overexposure white = measure_overexposure(pair, matches_at(kDisparity));
   EXPECT_NEAR(white.left, 0.5, 0.01);
   EXPECT_NEAR(white.right, (std::acos(0.5) - 0.5 * std::sqrt(0.75)) / 3.14159265, 0.01)
@@ -60,8 +60,8 @@ TEST(Overexposure, IsTheShareOfTheFaceThatIsWhite) {
 TEST(Overexposure, AWhiteWallIsNone) {
   RectifiedPair pair = grey_pair();
   whiten(pair.left, 0, kFaceX - kFaceWidth / 2);
-  whiten(pair.left, kFaceX + kFaceWidth / 2, kWidth);
-  whiten(pair.right, kFaceX - kDisparity + kFaceWidth / 2, kWidth);
+  whiten(pair.left, kFaceX + kFaceWidth / 2, kExposedWidth);
+  whiten(pair.right, kFaceX - kDisparity + kFaceWidth / 2, kExposedWidth);
   const Overexposure white = measure_overexposure(pair, matches_at(kDisparity));
   EXPECT_EQ(white.left, 0);
   EXPECT_EQ(white.right, 0);
@@ -70,13 +70,13 @@ TEST(Overexposure, AWhiteWallIsNone) {
 TEST(Overexposure, WhereNoFaceWasLookedForNothingIsSaid) {
   RectifiedPair pair = grey_pair();
   pair.face_width_px = 0;
-  whiten(pair.left, 0, kWidth);
+  whiten(pair.left, 0, kExposedWidth);
   EXPECT_EQ(measure_overexposure(pair, matches_at(kDisparity)).left, 0);
 }
 
 TEST(Overexposure, OfAFaceNobodyFoundIsLookedForInTheMiddle) {
   RectifiedPair pair = grey_pair();
-  whiten(pair.right, kWidth / 2 - 100, kWidth / 2 + 100);
+  whiten(pair.right, kExposedWidth / 2 - 100, kExposedWidth / 2 + 100);
   EXPECT_EQ(guess_overexposure(pair).left, 0);
   EXPECT_EQ(guess_overexposure(pair).right, 1) << "150 mm are 200 px here";
 }

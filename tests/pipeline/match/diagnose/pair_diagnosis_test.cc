@@ -20,8 +20,8 @@
 namespace relievo::pipeline {
 namespace {
 
-constexpr int kWidth = 640;
-constexpr int kHeight = 400;
+constexpr int kPairWidth = 640;
+constexpr int kPairHeight = 400;
 
 using Pixels = std::vector<std::uint8_t>;
 
@@ -34,7 +34,8 @@ Pixels pixels(const hal::Picture& picture) {
 }
 
 ImageView view_of(const Pixels& rgb) {
-  return {reinterpret_cast<const std::byte*>(rgb.data()), kWidth, kHeight, kWidth * 3, PixelFormat::Rgb8};
+  return {reinterpret_cast<const std::byte*>(rgb.data()), kPairWidth, kPairHeight, kPairWidth * 3,
+          PixelFormat::Rgb8};
 }
 
 Pixels brighter(Pixels picture, double factor) {
@@ -45,16 +46,16 @@ Pixels brighter(Pixels picture, double factor) {
 // Far too bright about the middle and dark beyond, as a lit face before a wall is.
 Pixels face_too_bright(const Pixels& picture) {
   Pixels made = brighter(picture, 8);
-  for (int y = 0; y < kHeight; ++y)
-    for (int x = 0; x < kWidth; ++x)
-      if (std::hypot(x - kWidth / 2, y - kHeight / 2) > 110)
-        std::fill_n(made.begin() + 3 * (y * kWidth + x), 3, std::uint8_t{40});
+  for (int y = 0; y < kPairHeight; ++y)
+    for (int x = 0; x < kPairWidth; ++x)
+      if (std::hypot(x - kPairWidth / 2, y - kPairHeight / 2) > 110)
+        std::fill_n(made.begin() + 3 * (y * kPairWidth + x), 3, std::uint8_t{40});
   return made;
 }
 
 // So many rows up, black below.
 Pixels lifted(Pixels picture, int rows) {
-  const auto by = static_cast<std::size_t>(rows) * kWidth * 3;
+  const auto by = static_cast<std::size_t>(rows) * kPairWidth * 3;
   std::copy(picture.begin() + static_cast<std::ptrdiff_t>(by), picture.end(), picture.begin());
   std::fill(picture.end() - static_cast<std::ptrdiff_t>(by), picture.end(), std::uint8_t{0});
   return picture;
@@ -63,8 +64,8 @@ Pixels lifted(Pixels picture, int rows) {
 // One test: photographing the head takes longest.
 TEST(PairDiagnosis, TellsWhatWasDoneToThePictures) {
   hal::sim::RigOptions options;
-  options.width_px = kWidth;
-  options.height_px = kHeight;
+  options.width_px = kPairWidth;
+  options.height_px = kPairHeight;
   const hal::sim::SimRig rig = hal::sim::make_rig(options);
   ThreadPool pool(2);
   const auto scene = hal::sim::make_head_scene(hal::sim::make_head(hal::sim::traits_of(3), pool), {}, pool);

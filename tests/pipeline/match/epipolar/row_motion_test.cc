@@ -15,8 +15,8 @@ namespace {
 
 using test::StageFixture;
 
-constexpr int kWidth = 640;
-constexpr int kHeight = 640;
+constexpr int kRowsWidth = 640;
+constexpr int kRowsHeight = 640;
 
 // Patches every 16 px over a face of 480 px, one in ten a liar; a hill of `height` at (320, 460).
 struct Face {
@@ -44,7 +44,7 @@ struct Face {
     return shift;
   }
   RowMotion fit(StageFixture& fixture) const {
-    RowMotion motion(&fixture.output, kWidth, kHeight);
+    RowMotion motion(&fixture.output, kRowsWidth, kRowsHeight);
     fit_row_motion(locals, linear(), 480, fixture.context, motion);
     return motion;
   }
@@ -97,7 +97,7 @@ TEST(RowMotion, TooLittleToTell) {
 TEST(RowMotion, NeedsNoMoreThanItsMemoryAndSaysWhenItIsShort) {
   StageFixture fixture(std::size_t{1} << 20, 4096);
   const Face face(5, 0.3, 1);
-  RowMotion motion(&fixture.output, kWidth, kHeight);
+  RowMotion motion(&fixture.output, kRowsWidth, kRowsHeight);
   EXPECT_THROW(fit_row_motion(face.locals, Face::linear(), 480, fixture.context, motion), std::bad_alloc);
 }
 

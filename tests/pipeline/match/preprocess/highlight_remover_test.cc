@@ -16,14 +16,16 @@ namespace {
 
 using test::kLeftLamp;
 using test::kRightLamp;
+using test::kSkinScene;
 using test::Lamp;
 using test::StageFixture;
-const test::BumpScene kScene{.width_px = 200, .height_px = 160, .bump_radius_px = 40, .right_gain = 0.7};
 
 struct HighlightFixture : StageFixture {
   explicit HighlightFixture(std::size_t scratch_bytes = std::size_t{1} << 20)
       : StageFixture(std::size_t{8} << 20, scratch_bytes) {}
-  RectifiedPair skin(double light = kLeftLamp.light) { return test::shining_skin(kScene, &output, light); }
+  RectifiedPair skin(double light = kLeftLamp.light) {
+    return test::shining_skin(kSkinScene, &output, light);
+  }
   // A pair without a region is a face all over.
   Result<void> remove(RectifiedPair& pair) {
     if (pair.region.empty()) pair.region.assign(pair.left.grey.size(), 1);
@@ -71,7 +73,7 @@ TEST(HighlightRemover, RedLipsAreAskedByTheirOwnColour) {
   constexpr test::Lips kLips{90, 80, 40, 14};
   constexpr Lamp kLamp{90, 80, 5, 0.12};
   const auto painted = [&](double light) {
-    RectifiedPair pair = kScene.render(&fixture.output);
+    RectifiedPair pair = kSkinScene.render(&fixture.output);
     for (RectifiedView* view : {&pair.left, &pair.right})
       paint_skin(*view, pair.width_px, {kLamp.x_px, kLamp.y_px, kLamp.radius_px, light}, kLips);
     pair.face_centre_px = {90, 80};

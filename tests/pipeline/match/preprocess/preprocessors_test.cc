@@ -20,13 +20,13 @@ namespace relievo::pipeline {
 namespace {
 
 using test::BumpScene;
+using test::kSkinScene;
 using test::StageFixture;
-// A scene small enough for the slowest sanitizer, rendered once.
-const BumpScene kScene{.width_px = 200, .height_px = 160, .bump_radius_px = 40, .right_gain = 0.7};
 
-const RectifiedPair& rendered() {
+// Small enough for the slowest sanitizer, rendered once.
+const RectifiedPair& shining_pair() {
   static const RectifiedPair pair =
-      test::shining_skin(kScene, std::pmr::get_default_resource(), test::kLeftLamp.light);
+      test::shining_skin(kSkinScene, std::pmr::get_default_resource(), test::kLeftLamp.light);
   return pair;
 }
 
@@ -35,7 +35,7 @@ struct PreprocessFixture : StageFixture {
       : StageFixture(std::size_t{8} << 20, std::size_t{1} << 20, threads) {}
   RectifiedPair scene() {
     RectifiedPair pair(&output);
-    pair = rendered();
+    pair = shining_pair();
     return pair;
   }
 };
@@ -167,7 +167,7 @@ constexpr Exposure kExposures[] = {{0.6, 0, 1},   {1, 40, 1},    {0.5, 90, 1},
 
 TEST(Preprocessors, ExposuresAreUndone) {
   for (const std::uint32_t seed : {1U, 2U}) {
-    BumpScene scene = kScene;
+    BumpScene scene = kSkinScene;
     scene.noise = 0.3;
     scene.right_gain = 1;
     scene.seed = seed;
@@ -193,7 +193,7 @@ TEST(Preprocessors, ExposuresAreUndone) {
 }
 
 TEST(Preprocessors, TheStretchUndoesGainAndOffsetAndKeepsProportions) {
-  BumpScene scene = kScene;
+  BumpScene scene = kSkinScene;
   scene.noise = 0.3;
   scene.right_gain = 1;
   PreprocessFixture fixture;
@@ -230,7 +230,7 @@ TEST(Preprocessors, TheEqualisedHistogramIsFlat) {
 }
 
 TEST(Preprocessors, WhatOnlyOneViewSeesHasNoSayInTheTransfer) {
-  BumpScene scene = kScene;
+  BumpScene scene = kSkinScene;
   scene.noise = 0.3;
   scene.right_gain = 1;
   PreprocessFixture fixture;

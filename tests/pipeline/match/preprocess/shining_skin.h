@@ -52,6 +52,8 @@ inline void paint_skin(pipeline::RectifiedView& view, int width_px, const Lamp& 
 
 inline constexpr Lamp kLeftLamp{90, 80, 8, 0.2}, kRightLamp{84, 80, 8, 0.2};
 
+inline const BumpScene kSkinScene{.width_px = 200, .height_px = 160, .bump_radius_px = 40, .right_gain = 0.7};
+
 inline pipeline::RectifiedPair shining_skin(const BumpScene& scene, std::pmr::memory_resource* memory,
                                             double light) {
   pipeline::RectifiedPair pair = scene.render(memory);

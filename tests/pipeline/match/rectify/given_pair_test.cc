@@ -12,19 +12,19 @@
 namespace relievo::pipeline {
 namespace {
 
-constexpr int kWidth = 70;
-constexpr int kHeight = 50;
+constexpr int kGivenWidth = 70;
+constexpr int kGivenHeight = 50;
 
 struct Pictures {
-  std::vector<std::byte> grey = std::vector<std::byte>(kWidth * kHeight);
-  std::vector<std::byte> rgb = std::vector<std::byte>(3 * kWidth * kHeight);
+  std::vector<std::byte> grey = std::vector<std::byte>(kGivenWidth * kGivenHeight);
+  std::vector<std::byte> rgb = std::vector<std::byte>(3 * kGivenWidth * kGivenHeight);
   Pictures() {
     for (std::size_t k = 0; k < grey.size(); ++k) grey[k] = static_cast<std::byte>(k % 251);
     for (std::size_t k = 0; k < rgb.size(); ++k) rgb[k] = static_cast<std::byte>(k * 7 % 253);
   }
   StereoFrame frame() const {
-    return {{grey.data(), kWidth, kHeight, kWidth, PixelFormat::Grey8},
-            {rgb.data(), kWidth, kHeight, 3 * kWidth, PixelFormat::Rgb8}};
+    return {{grey.data(), kGivenWidth, kGivenHeight, kGivenWidth, PixelFormat::Grey8},
+            {rgb.data(), kGivenWidth, kGivenHeight, 3 * kGivenWidth, PixelFormat::Rgb8}};
   }
 };
 
@@ -33,7 +33,7 @@ TEST(GivenPair, TakesEveryPixelAsItIs) {
   test::StageFixture fixture(std::size_t{1} << 20, std::size_t{1} << 16, 2);
   const auto pair = take_rectified(pictures.frame(), {0, 64}, fixture.context);
   ASSERT_TRUE(pair);
-  ASSERT_EQ(pair->width_px, kWidth);
+  ASSERT_EQ(pair->width_px, kGivenWidth);
   for (const std::size_t k : {0U, 777U, 3499U}) {
     EXPECT_EQ(pair->left.grey[k], static_cast<float>(k % 251));
     EXPECT_EQ(pair->left.rgb[3 * k + 1], k % 251);

@@ -17,31 +17,33 @@ namespace {
 
 using test::StageFixture;
 
-constexpr int kWidth = 320;
-constexpr int kHeight = 200;
-constexpr int kLevel = 1;
+constexpr int kSkinWidth = 320;
+constexpr int kSkinHeight = 200;
+constexpr int kSkinLevel = 1;
 constexpr float kSkin = 12;  // disparity in pixels of the level
 constexpr float kHighlight = 9;
 constexpr double kSpot = 22;  // sigma of the highlight
 
 // Both views, noise and all.
-struct Scene {
+struct SkinScene {
   StageFixture fixture{std::size_t{16} << 20, std::size_t{32} << 20};
-  Plane<float> left{&fixture.output, kWidth, kHeight}, right{&fixture.output, kWidth, kHeight};
-  Plane<std::uint8_t> valid{&fixture.output, kWidth, kHeight, 1};
-  SurfaceField field{&fixture.output, kWidth, kHeight, 1 << kLevel};
+  Plane<float> left{&fixture.output, kSkinWidth, kSkinHeight},
+      right{&fixture.output, kSkinWidth, kSkinHeight};
+  Plane<std::uint8_t> valid{&fixture.output, kSkinWidth, kSkinHeight, 1};
+  SurfaceField field{&fixture.output, kSkinWidth, kSkinHeight, 1 << kSkinLevel};
 
-  explicit Scene(float texture, float noise = 0.7F, unsigned seed = 3) {
+  explicit SkinScene(float texture, float noise = 0.7F, unsigned seed = 3) {
     std::mt19937 random(seed);
     std::normal_distribution<float> normal(0, 1);
-    Plane<float> skin(&fixture.output, kWidth + 64, kHeight), across(&fixture.output, kWidth + 64, kHeight);
+    Plane<float> skin(&fixture.output, kSkinWidth + 64, kSkinHeight),
+        across(&fixture.output, kSkinWidth + 64, kSkinHeight);
     for (float& v : skin.values) v = normal(random);
     box_sum(skin, 1, fixture.context.pool, across, skin);  // pores of three pixels, as strong as a third
     const auto spot = [](double x, int y) {
       return 40 * std::exp(-((x - 160) * (x - 160) + (y - 100.0) * (y - 100.0)) / (2 * kSpot * kSpot));
     };
-    for (int y = 0; y < kHeight; ++y)
-      for (int x = 0; x < kWidth; ++x) {
+    for (int y = 0; y < kSkinHeight; ++y)
+      for (int x = 0; x < kSkinWidth; ++x) {
         left.row(y)[x] =
             60 + texture / 3 * skin.row(y)[x] + static_cast<float>(spot(x, y)) + noise * normal(random);
         right.row(y)[x] =
@@ -49,23 +51,23 @@ struct Scene {
             static_cast<float>(spot(static_cast<double>(static_cast<float>(x) + kHighlight), y)) +
             noise * normal(random);
       }
-    for (int y = 10; y < kHeight - 10; ++y)
-      for (int x = 40; x < kWidth - 20; ++x) {
+    for (int y = 10; y < kSkinHeight - 10; ++y)
+      for (int x = 40; x < kSkinWidth - 20; ++x) {
         field.domain.row(y)[x] = 1;
         const double at_highlight = std::hypot(x - 160, y - 100) < 1.5 * kSpot ? 1 : 0;
         field.disparity_px.row(y)[x] =
-            (1 << kLevel) * (kSkin + static_cast<float>(at_highlight) * (kHighlight - kSkin));
+            (1 << kSkinLevel) * (kSkin + static_cast<float>(at_highlight) * (kHighlight - kSkin));
       }
   }
-  RefinerScene views() const { return {left, right, valid, kLevel, 1}; }
+  RefinerScene views() const { return {left, right, valid, kSkinLevel, 1}; }
   // Root of the mean squared error in pixels of the level, within the highlight.
   double error() const {
     double sum = 0;
     int count = 0;
-    for (int y = 0; y < kHeight; ++y)
-      for (int x = 0; x < kWidth; ++x) {
+    for (int y = 0; y < kSkinHeight; ++y)
+      for (int x = 0; x < kSkinWidth; ++x) {
         if (std::hypot(x - 160, y - 100) > kSpot) continue;
-        const double e = static_cast<double>(field.disparity_px.row(y)[x] / (1 << kLevel) - kSkin);
+        const double e = static_cast<double>(field.disparity_px.row(y)[x] / (1 << kSkinLevel) - kSkin);
         sum += e * e;
         ++count;
       }
@@ -74,28 +76,28 @@ struct Scene {
 };
 
 TEST(DetailSearch, ComesBackFromAHighlightToTheSkin) {
-  Scene scene(2);
+  SkinScene scene(2);
   ASSERT_GT(scene.error(), 2.9);
   EXPECT_TRUE(search_by_detail(scene.views(), scene.fixture.context, scene.field));
   EXPECT_LT(scene.error(), 0.3);
 }
 
 TEST(DetailSearch, LeavesWhatIsRight) {
-  Scene scene(2);
-  for (float& d : scene.field.disparity_px.values) d = kSkin * (1 << kLevel);
+  SkinScene scene(2);
+  for (float& d : scene.field.disparity_px.values) d = kSkin * (1 << kSkinLevel);
   EXPECT_FALSE(search_by_detail(scene.views(), scene.fixture.context, scene.field));
   EXPECT_EQ(scene.error(), 0);
 }
 
 TEST(DetailSearch, FindsNothingInNoise) {
-  Scene scene(0);
+  SkinScene scene(0);
   const double before = scene.error();
   EXPECT_FALSE(search_by_detail(scene.views(), scene.fixture.context, scene.field));
   EXPECT_EQ(scene.error(), before);
 }
 
 TEST(DetailSearch, IsTheSameForAnyNumberOfThreads) {
-  Scene one(2), two(2);
+  SkinScene one(2), two(2);
   ThreadPool alone(1), many(3);
   StageContext first{one.fixture.output, one.fixture.scratch, alone, one.fixture.progress,
                      one.fixture.cancelled};
@@ -107,8 +109,8 @@ TEST(DetailSearch, IsTheSameForAnyNumberOfThreads) {
 }
 
 TEST(DetailSearch, WantsNodesOnThePixels) {
-  Scene scene(2);
-  SurfaceField other(&scene.fixture.output, kWidth / 2, kHeight / 2, 4);
+  SkinScene scene(2);
+  SurfaceField other(&scene.fixture.output, kSkinWidth / 2, kSkinHeight / 2, 4);
   EXPECT_FALSE(search_by_detail(scene.views(), scene.fixture.context, other));
 }
 

@@ -16,7 +16,7 @@
 namespace relievo::pipeline {
 namespace {
 
-constexpr int kWidth = 320, kHeight = 200;
+constexpr int kEnlargedWidth = 320, kEnlargedHeight = 200;
 
 RectifiedPair grey_pair(int width, int height) {
   RectifiedPair pair(std::pmr::get_default_resource());
@@ -40,20 +40,22 @@ float& at(RectifiedView& view, int width, int x, int y) {
 }
 
 TEST(EnlargedScene, RepeatsAPolynomialBetweenThePixels) {
-  RectifiedPair pair = grey_pair(kWidth, kHeight);
+  RectifiedPair pair = grey_pair(kEnlargedWidth, kEnlargedHeight);
   const auto grey = [](double x, double y) {
     return 100 + 0.2 * (x - 160) - 0.3 * (y - 100) + 0.001 * (x - 160) * (x - 160) +
            0.002 * (x - 160) * (y - 100);
   };
-  for (int y = 0; y < kHeight; ++y)
-    for (int x = 0; x < kWidth; ++x) at(pair.left, kWidth, x, y) = static_cast<float>(grey(x, y));
-  pair.left.valid[5 * kWidth + 7] = 0;
+  for (int y = 0; y < kEnlargedHeight; ++y)
+    for (int x = 0; x < kEnlargedWidth; ++x)
+      at(pair.left, kEnlargedWidth, x, y) = static_cast<float>(grey(x, y));
+  pair.left.valid[5 * kEnlargedWidth + 7] = 0;
   RectifiedPair made = enlarge(pair, std::pmr::get_default_resource());
-  ASSERT_EQ(made.width_px, 2 * kWidth);
-  ASSERT_EQ(made.height_px, 2 * kHeight);
-  for (int y = 6; y < 2 * kHeight - 6; ++y)
-    for (int x = 6; x < 2 * kWidth - 6; ++x)
-      ASSERT_NEAR(at(made.left, 2 * kWidth, x, y), grey((x - 0.5) / 2, (y - 0.5) / 2), 0.01) << x << " " << y;
+  ASSERT_EQ(made.width_px, 2 * kEnlargedWidth);
+  ASSERT_EQ(made.height_px, 2 * kEnlargedHeight);
+  for (int y = 6; y < 2 * kEnlargedHeight - 6; ++y)
+    for (int x = 6; x < 2 * kEnlargedWidth - 6; ++x)
+      ASSERT_NEAR(at(made.left, 2 * kEnlargedWidth, x, y), grey((x - 0.5) / 2, (y - 0.5) / 2), 0.01)
+          << x << " " << y;
   int invalid = 0;
   for (const std::uint8_t v : made.left.valid) invalid += v == 0 ? 1 : 0;
   EXPECT_EQ(invalid, 4);
@@ -91,17 +93,17 @@ bool on_bar(int x) { return x % 40 < 6; }
 
 TEST(EnlargedScene, BarsSixPixelsWideStandBeforeTheirWall) {
   constexpr int kWall = 12, kBars = 20;
-  RectifiedPair pair = grey_pair(kWidth, kHeight);
+  RectifiedPair pair = grey_pair(kEnlargedWidth, kEnlargedHeight);
   std::mt19937 random(7);
   std::uniform_real_distribution<float> grey(20, 230);
-  for (int y = 0; y < kHeight; ++y) {
-    std::vector<float> wall(kWidth + 64), bars(kWidth + 64);
+  for (int y = 0; y < kEnlargedHeight; ++y) {
+    std::vector<float> wall(kEnlargedWidth + 64), bars(kEnlargedWidth + 64);
     for (float& v : wall) v = grey(random);
     for (float& v : bars) v = grey(random);
-    for (int x = 0; x < kWidth; ++x) {
+    for (int x = 0; x < kEnlargedWidth; ++x) {
       const auto k = static_cast<std::size_t>(x);
-      at(pair.left, kWidth, x, y) = on_bar(x) ? bars[k] : wall[k];
-      at(pair.right, kWidth, x, y) = on_bar(x + kBars) ? bars[k + kBars] : wall[k + kWall];
+      at(pair.left, kEnlargedWidth, x, y) = on_bar(x) ? bars[k] : wall[k];
+      at(pair.right, kEnlargedWidth, x, y) = on_bar(x + kBars) ? bars[k + kBars] : wall[k + kWall];
     }
   }
   test::StageFixture fixture(std::size_t{64} << 20, std::size_t{256} << 20);
@@ -119,7 +121,7 @@ TEST(EnlargedScene, BarsSixPixelsWideStandBeforeTheirWall) {
   for (const Keypoint& k : keypoints.points)
     asked += on_bar(static_cast<int>(k.at_px.x)) && k.at_px.x > 60 ? 1 : 0;
   EXPECT_GT(right, 0.7 * asked);
-  EXPECT_GT(of_wall, 0.5 * kWidth * kHeight);
+  EXPECT_GT(of_wall, 0.5 * kEnlargedWidth * kEnlargedHeight);
   EXPECT_LT(wrong_of_wall, 0.1 * of_wall) << "nor are bars wider than they are";
 }
 

@@ -14,13 +14,13 @@
 namespace relievo::pipeline {
 namespace {
 
-constexpr int kSide = 240;
+constexpr int kHangingSide = 240;
 
 // Residuals of so many grey levels summed over (2 box + 1)^2 pixels, gradients over 3 x 3.
 float hanging(int box, float grey, bool masked = false) {
   test::StageFixture fixture{std::size_t{16} << 20, std::size_t{16} << 20};
-  WarpTerms terms(&fixture.output, kSide, kSide);
-  Plane<float> across(&fixture.output, kSide, kSide);
+  WarpTerms terms(&fixture.output, kHangingSide, kHangingSide);
+  Plane<float> across(&fixture.output, kHangingSide, kHangingSide);
   std::mt19937 random(11);
   std::normal_distribution<float> normal(0, 1);
   for (float& r : terms.residual.values) r = grey * normal(random);

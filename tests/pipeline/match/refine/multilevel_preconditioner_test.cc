@@ -14,17 +14,19 @@
 namespace relievo::pipeline {
 namespace {
 
-constexpr int kWidth = 27, kHeight = 22;  // odd and even: the lattices above have a border on either side
+constexpr int kLatticeWidth = 27,
+              kLatticeHeight = 22;  // odd and even: the lattices above have a border on either side
 
 bool known(int x, int y) {
-  return x >= 2 && y >= 1 && x < kWidth - 1 && y < kHeight - 2 && (x < 9 || x > 11 || y < 6 || y > 9);
+  return x >= 2 && y >= 1 && x < kLatticeWidth - 1 && y < kLatticeHeight - 2 &&
+         (x < 9 || x > 11 || y < 6 || y > 9);
 }
 
 void fill(BendingSystem& s) {
   std::mt19937 random(4);
   std::uniform_real_distribution<float> unit(0.1F, 1);
-  for (int y = 0; y < kHeight; ++y)
-    for (int x = 0; x < kWidth; ++x) {
+  for (int y = 0; y < kLatticeHeight; ++y)
+    for (int x = 0; x < kLatticeWidth; ++x) {
       if (!known(x, y)) continue;
       s.data.row(y)[x] = 0.01F * unit(random);
       if (known(x - 1, y) && known(x + 1, y)) s.bend_xx.row(y)[x] = unit(random);
@@ -35,16 +37,16 @@ void fill(BendingSystem& s) {
 
 // The operator, column by column.
 Eigen::MatrixXd dense(MultilevelPreconditioner& preconditioner, test::StageFixture& fixture) {
-  const std::pmr::vector<ColumnSpan> whole(kHeight, ColumnSpan{0, kWidth});
-  Eigen::MatrixXd m = Eigen::MatrixXd::Zero(kWidth * kHeight, kWidth * kHeight);
-  for (int k = 0; k < kWidth * kHeight; ++k) {
+  const std::pmr::vector<ColumnSpan> whole(kLatticeHeight, ColumnSpan{0, kLatticeWidth});
+  Eigen::MatrixXd m = Eigen::MatrixXd::Zero(kLatticeWidth * kLatticeHeight, kLatticeWidth * kLatticeHeight);
+  for (int k = 0; k < kLatticeWidth * kLatticeHeight; ++k) {
     Arena::Mark mark(fixture.scratch);
-    Plane<float> r(&fixture.scratch, kWidth, kHeight);
-    Plane<float> z(&fixture.scratch, kWidth, kHeight);
-    if (!known(k % kWidth, k / kWidth)) continue;
+    Plane<float> r(&fixture.scratch, kLatticeWidth, kLatticeHeight);
+    Plane<float> z(&fixture.scratch, kLatticeWidth, kLatticeHeight);
+    if (!known(k % kLatticeWidth, k / kLatticeWidth)) continue;
     r.values[static_cast<std::size_t>(k)] = 1;
     preconditioner.apply(r, whole, z);
-    for (int i = 0; i < kWidth * kHeight; ++i)
+    for (int i = 0; i < kLatticeWidth * kLatticeHeight; ++i)
       m(i, k) = static_cast<double>(z.values[static_cast<std::size_t>(i)]);
   }
   return m;
@@ -53,19 +55,21 @@ Eigen::MatrixXd dense(MultilevelPreconditioner& preconditioner, test::StageFixtu
 // Conjugate gradients converge with no other kind.
 TEST(MultilevelPreconditioner, IsSymmetricPositiveAndKeepsToTheKnownNodes) {
   test::StageFixture fixture(1 << 20, 1 << 22);
-  BendingSystem s(&fixture.scratch, kWidth, kHeight);
+  BendingSystem s(&fixture.scratch, kLatticeWidth, kLatticeHeight);
   fill(s);
   MultilevelPreconditioner preconditioner(s, fixture.pool, &fixture.scratch);
   const Eigen::MatrixXd m = dense(preconditioner, fixture);
   EXPECT_LT((m - m.transpose()).cwiseAbs().maxCoeff(), 1e-4 * m.cwiseAbs().maxCoeff());
-  for (int k = 0; k < kWidth * kHeight; ++k)
-    EXPECT_EQ(m(k, k) > 0, known(k % kWidth, k / kWidth)) << k % kWidth << ", " << k / kWidth;
+  for (int k = 0; k < kLatticeWidth * kLatticeHeight; ++k)
+    EXPECT_EQ(m(k, k) > 0, known(k % kLatticeWidth, k / kLatticeWidth))
+        << k % kLatticeWidth << ", " << k / kLatticeWidth;
   const Eigen::VectorXd values =
       Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd>((m + m.transpose()) / 2).eigenvalues();
   int positive = 0;
   for (const double value : values) positive += value > 1e-4;
   int nodes = 0;
-  for (int k = 0; k < kWidth * kHeight; ++k) nodes += known(k % kWidth, k / kWidth);
+  for (int k = 0; k < kLatticeWidth * kLatticeHeight; ++k)
+    nodes += known(k % kLatticeWidth, k / kLatticeWidth);
   EXPECT_EQ(positive, nodes);
   EXPECT_GT(values.minCoeff(), -1e-5);
 }
@@ -73,12 +77,12 @@ TEST(MultilevelPreconditioner, IsSymmetricPositiveAndKeepsToTheKnownNodes) {
 // What one node says reaches one that is ten nodes away: the diagonal alone would leave 0 there.
 TEST(MultilevelPreconditioner, CarriesFar) {
   test::StageFixture fixture(1 << 20, 1 << 22);
-  BendingSystem s(&fixture.scratch, kWidth, kHeight);
+  BendingSystem s(&fixture.scratch, kLatticeWidth, kLatticeHeight);
   fill(s);
   MultilevelPreconditioner preconditioner(s, fixture.pool, &fixture.scratch);
-  const std::pmr::vector<ColumnSpan> whole(kHeight, ColumnSpan{0, kWidth});
-  Plane<float> r(&fixture.scratch, kWidth, kHeight);
-  Plane<float> z(&fixture.scratch, kWidth, kHeight);
+  const std::pmr::vector<ColumnSpan> whole(kLatticeHeight, ColumnSpan{0, kLatticeWidth});
+  Plane<float> r(&fixture.scratch, kLatticeWidth, kLatticeHeight);
+  Plane<float> z(&fixture.scratch, kLatticeWidth, kLatticeHeight);
   r.row(15)[5] = 1;
   preconditioner.apply(r, whole, z);
   EXPECT_GT(z.row(15)[15], 0);
@@ -88,11 +92,12 @@ TEST(MultilevelPreconditioner, IsTheSameWhateverTheThreads) {
   std::vector<float> found[2];
   for (const int threads : {1, 4}) {
     test::StageFixture fixture(1 << 20, 1 << 20, threads);
-    BendingSystem s(&fixture.scratch, kWidth, kHeight);
+    BendingSystem s(&fixture.scratch, kLatticeWidth, kLatticeHeight);
     fill(s);
     MultilevelPreconditioner preconditioner(s, fixture.pool, &fixture.scratch);
-    Plane<float> z(&fixture.scratch, kWidth, kHeight);
-    preconditioner.apply(s.data, std::pmr::vector<ColumnSpan>(kHeight, ColumnSpan{0, kWidth}), z);
+    Plane<float> z(&fixture.scratch, kLatticeWidth, kLatticeHeight);
+    preconditioner.apply(s.data, std::pmr::vector<ColumnSpan>(kLatticeHeight, ColumnSpan{0, kLatticeWidth}),
+                         z);
     found[threads == 1 ? 0 : 1].assign(z.values.begin(), z.values.end());
   }
   EXPECT_EQ(found[0], found[1]);

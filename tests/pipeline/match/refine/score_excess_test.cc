@@ -16,7 +16,7 @@ namespace {
 
 using test::StageFixture;
 
-constexpr int kSide = 112;
+constexpr int kFittedSide = 112;
 constexpr int kMargin = 16;
 
 // A fit of noise alone, white or summed over a box, and what it leaves of the noise.
@@ -25,18 +25,18 @@ struct Fitted {
   Plane<float> pull;
 
   Fitted(StageFixture& fixture, float data, float bend, int box, std::uint32_t seed = 7)
-      : system(&fixture.output, kSide, kSide), pull(&fixture.output, kSide, kSide) {
+      : system(&fixture.output, kFittedSide, kFittedSide), pull(&fixture.output, kFittedSide, kFittedSide) {
     std::mt19937 random(seed);
     std::normal_distribution<float> normal(0, std::sqrt(data));
-    for (int y = 1; y < kSide - 1; ++y)
-      for (int x = 1; x < kSide - 1; ++x) {
+    for (int y = 1; y < kFittedSide - 1; ++y)
+      for (int x = 1; x < kFittedSide - 1; ++x) {
         system.data.row(y)[x] = data;
-        system.bend_xx.row(y)[x] = x > 1 && x < kSide - 2 ? bend : 0;
-        system.bend_yy.row(y)[x] = y > 1 && y < kSide - 2 ? bend : 0;
-        system.bend_xy.row(y)[x] = x < kSide - 2 && y < kSide - 2 ? 2 * bend : 0;
+        system.bend_xx.row(y)[x] = x > 1 && x < kFittedSide - 2 ? bend : 0;
+        system.bend_yy.row(y)[x] = y > 1 && y < kFittedSide - 2 ? bend : 0;
+        system.bend_xy.row(y)[x] = x < kFittedSide - 2 && y < kFittedSide - 2 ? 2 * bend : 0;
         pull.row(y)[x] = normal(random);
       }
-    Plane<float> across(&fixture.output, kSide, kSide);
+    Plane<float> across(&fixture.output, kFittedSide, kFittedSide);
     if (box > 0) {
       box_sum(pull, box, fixture.context.pool, across, pull);
       const auto side = static_cast<float>(2 * box + 1);
@@ -44,19 +44,19 @@ struct Fitted {
     }
     for (std::size_t k = 0; k < pull.values.size(); ++k)
       system.rhs.values[k] = system.data.values[k] > 0 ? -pull.values[k] : 0.0F;
-    Plane<float> fit(&fixture.output, kSide, kSide);
+    Plane<float> fit(&fixture.output, kFittedSide, kFittedSide);
     solve(system, 120, kToTheEnd, fixture.context.pool, fixture.context.scratch, fit);
     for (std::size_t k = 0; k < pull.values.size(); ++k)
       pull.values[k] += system.data.values[k] * fit.values[k];
   }
   double mean_excess(StageFixture& fixture) {
-    Plane<float> excess(&fixture.output, kSide, kSide);
+    Plane<float> excess(&fixture.output, kFittedSide, kFittedSide);
     measure_score_excess(system, pull, system.data, 1, fixture.context.pool, fixture.context.scratch, excess);
     EXPECT_GE(*std::min_element(excess.values.begin(), excess.values.end()), 0.5F);
     double sum = 0;
-    for (int y = kMargin; y < kSide - kMargin; ++y)
-      for (int x = kMargin; x < kSide - kMargin; ++x) sum += static_cast<double>(excess.row(y)[x]);
-    return sum / ((kSide - 2 * kMargin) * (kSide - 2 * kMargin));
+    for (int y = kMargin; y < kFittedSide - kMargin; ++y)
+      for (int x = kMargin; x < kFittedSide - kMargin; ++x) sum += static_cast<double>(excess.row(y)[x]);
+    return sum / ((kFittedSide - 2 * kMargin) * (kFittedSide - 2 * kMargin));
   }
 };
 

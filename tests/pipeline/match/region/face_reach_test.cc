@@ -14,14 +14,14 @@
 namespace relievo::pipeline {
 namespace {
 
-constexpr int kStep = 4;
+constexpr int kWallStep = 4;
 constexpr double kWall = 600;  // mm
 constexpr double kTip = 570;
 
 struct Wall {
   test::StageFixture fixture{std::size_t{8} << 20, std::size_t{8} << 20};
   RectifiedPair pair{&fixture.output};
-  SurfaceField field{&fixture.output, 240, 150, kStep};
+  SurfaceField field{&fixture.output, 240, 150, kWallStep};
 
   Wall() {
     pair.width_px = 960;
@@ -43,11 +43,11 @@ struct Wall {
   }
   // A cone.
   static double depth(int i, int j) {
-    return std::min(kWall, kTip + (kWall - kTip) * std::hypot(i * kStep - 480, j * kStep - 300) / 40);
+    return std::min(kWall, kTip + (kWall - kTip) * std::hypot(i * kWallStep - 480, j * kWallStep - 300) / 40);
   }
   double from_tip_mm(int i, int j) const {
     const double z = depth(i, j);
-    return std::hypot((i * kStep - 480) * z / 1500, (j * kStep - 300) * z / 1500, z - kTip);
+    return std::hypot((i * kWallStep - 480) * z / 1500, (j * kWallStep - 300) * z / 1500, z - kTip);
   }
   long kept() const { return std::count(field.domain.values.begin(), field.domain.values.end(), 1); }
 };
@@ -79,7 +79,7 @@ TEST(FaceReach, AHoleInTheMiddleSaysNothing) {
   Wall wall;
   for (int j = 0; j < wall.field.domain.height; ++j)
     for (int i = 0; i < wall.field.domain.width; ++i)
-      if (std::hypot(i * kStep - 480, j * kStep - 340) < 120) wall.field.domain.row(j)[i] = 0;
+      if (std::hypot(i * kWallStep - 480, j * kWallStep - 340) < 120) wall.field.domain.row(j)[i] = 0;
   const long before = wall.kept();
   keep_within_reach(wall.pair, wall.fixture.context, wall.field);
   EXPECT_EQ(wall.kept(), before);

@@ -15,8 +15,6 @@
 namespace relievo::pipeline {
 namespace {
 
-using test::StageRoom;
-
 bool cascades_installed() { return std::filesystem::exists(FaceFinderOptions{}.cascade_dir); }
 
 RectifiedPair blank_pair(int width, int height) {
@@ -75,7 +73,7 @@ TEST(FaceFinder, TheRegionHoldsTheRenderedFaces) {
   auto finder = FaceFinder::open({});
   ASSERT_TRUE(finder);
   for (const char* name : {"d1", "d2", "d3"}) {
-    const auto dir = test::rendered_head(name);
+    const auto dir = rendered_head(name);
     if (!dir) GTEST_SKIP() << "RELIEVO_TEST_DATA does not name the rendered heads";
     const auto picture = hal::read_picture(*dir / "left.png");
     ASSERT_TRUE(picture);
@@ -84,9 +82,9 @@ TEST(FaceFinder, TheRegionHoldsTheRenderedFaces) {
     RectifiedPair pair = blank_pair(picture->width_px, picture->height_px);
     StageRoom room;
     ASSERT_TRUE(mark_face_region(pair, *box, room.context));
-    test::TruthOptions options;
+    TruthOptions options;
     options.flags = 1;
-    const PointCloud skin = test::truth_cloud(*dir, options);
+    const PointCloud skin = truth_cloud(*dir, options);
     Vec3f tip{0, 0, 1e9F};
     for (const CloudPoint& p : skin.points)
       if (p.at_mm.z < tip.z) tip = p.at_mm;

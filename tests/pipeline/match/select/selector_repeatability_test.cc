@@ -17,16 +17,16 @@ using test::BumpScene;
 using test::StageFixture;
 
 constexpr double kNearPx = 1.5;
-const BumpScene kScene{.width_px = 400,
-                       .height_px = 320,
-                       .bump_radius_px = 80,
-                       .noise = 2,
-                       .right_gain = 0.8,
-                       .right_offset = 10,
-                       .seed = 21};
+const BumpScene kNoisyScene{.width_px = 400,
+                            .height_px = 320,
+                            .bump_radius_px = 80,
+                            .noise = 2,
+                            .right_gain = 0.8,
+                            .right_offset = 10,
+                            .seed = 21};
 
 const RectifiedPair& rendered() {
-  static const RectifiedPair pair = kScene.render(std::pmr::get_default_resource());
+  static const RectifiedPair pair = kNoisyScene.render(std::pmr::get_default_resource());
   return pair;
 }
 
@@ -58,9 +58,9 @@ Figures figures_of(const std::string& name) {
   for (const Keypoint& p : left->points) {
     ++f.count;
     const double x = static_cast<double>(p.at_px.x), y = static_cast<double>(p.at_px.y);
-    if (!kScene.judged(x, y)) continue;
+    if (!kNoisyScene.judged(x, y)) continue;
     ++judged;
-    const double partner = x - kScene.disparity(x, y);
+    const double partner = x - kNoisyScene.disparity(x, y);
     f.repeated += std::any_of(right->points.begin(), right->points.end(), [&](const Keypoint& q) {
       return std::hypot(static_cast<double>(q.at_px.x) - partner, static_cast<double>(q.at_px.y) - y) <=
              kNearPx;
@@ -68,12 +68,12 @@ Figures figures_of(const std::string& name) {
   }
   for (const Match& m : matches->matches) {
     const double x = static_cast<double>(m.left_px.x), y = static_cast<double>(m.left_px.y);
-    f.matched +=
-        kScene.judged(x, y) && std::abs(static_cast<double>(m.disparity_px) - kScene.disparity(x, y)) < 0.25;
+    f.matched += kNoisyScene.judged(x, y) &&
+                 std::abs(static_cast<double>(m.disparity_px) - kNoisyScene.disparity(x, y)) < 0.25;
   }
   f.repeated /= judged;
   f.matched /= judged;
-  const double area = static_cast<double>(kScene.width_px) * kScene.height_px;
+  const double area = static_cast<double>(kNoisyScene.width_px) * kNoisyScene.height_px;
   f.chance =
       1 - std::exp(-static_cast<double>(right->points.size()) / area * std::numbers::pi * kNearPx * kNearPx);
   std::printf("| `%s` | %.0f | %.0f %% | %.0f %% | %.1f %% |\n", name.c_str(), f.count, 100 * f.repeated,

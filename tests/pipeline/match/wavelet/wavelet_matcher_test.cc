@@ -17,7 +17,7 @@ using test::measure;
 using test::StageFixture;
 
 // The slow twin: every scale straight from its definition, by recursion.
-struct Twin {
+struct WaveletTwin {
   const std::pmr::vector<float>& grey;
   int width, height;
 
@@ -49,7 +49,7 @@ TEST(DyadicWavelet, IsItsDefinition) {
   StageFixture fixture(1 << 22, 1 << 22, 3);
   const RectifiedPair pair = BumpScene{.width_px = 48, .height_px = 40}.render(&fixture.output);
   const auto scales = transform_dyadic(pair.left.grey, 48, 40, 3, fixture.context);
-  const Twin twin{pair.left.grey, 48, 40};
+  const WaveletTwin twin{pair.left.grey, 48, 40};
   ASSERT_EQ(scales.size(), 3U);
   for (int s = 1; s <= 3; ++s)
     for (const auto& [x, y] :

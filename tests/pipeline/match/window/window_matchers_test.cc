@@ -80,7 +80,7 @@ TEST(WindowMatchers, SigmaSaysWhatTheErrorIs) {
 }
 
 // The slow twin: the published formula over every window and disparity, one after the other.
-struct Twin {
+struct WindowTwin {
   const RectifiedPair& pair;
   int radius;
   bool correlate;
@@ -146,7 +146,7 @@ TEST(WindowMatchers, TheRunningSumsGiveWhatTheFormulasGive) {
                              .match(pair, keypoints, c);
     });
     ASSERT_TRUE(fast);
-    const Twin twin{pair, 3, correlate};
+    const WindowTwin twin{pair, 3, correlate};
     const auto visible = [&](Vec2f at) {
       return at.x > 12 && at.y > 4 && at.x < 128 && at.y < 65 && at.x - scene.disparity(at.x, at.y) > 12;
     };

@@ -18,8 +18,6 @@
 namespace relievo::pipeline {
 namespace {
 
-using test::StageRoom;
-
 DepthSamples hills(double noise_mm) {
   DepthSamples samples(std::pmr::get_default_resource());
   std::mt19937 random(3);
@@ -92,14 +90,14 @@ TEST(NearestVertex, IsTheNearestOfAll) {
 
 // d1's true points with 0.05 mm of noise: how far from the true surface each mesher's vertices lie.
 TEST(MesherCatalogue, OnTheTruthCloud) {
-  const auto dir = test::rendered_head("d1");
+  const auto dir = rendered_head("d1");
   if (!dir) GTEST_SKIP() << "RELIEVO_TEST_DATA does not name the rendered heads";
-  test::TruthOptions exact, noisy;
+  TruthOptions exact, noisy;
   exact.step_px = 2;
   noisy.step_px = 4;
   noisy.noise_mm = 0.05;
   StageRoom truth_room;
-  const PointCloud truth_points = test::truth_cloud(*dir, exact), cloud = test::truth_cloud(*dir, noisy);
+  const PointCloud truth_points = truth_cloud(*dir, exact), cloud = truth_cloud(*dir, noisy);
   std::vector<Vec3f> truth;
   for (const CloudPoint& p : truth_points.points) truth.push_back(p.at_mm);
   const NearestVertex nearest(truth, std::pmr::get_default_resource());

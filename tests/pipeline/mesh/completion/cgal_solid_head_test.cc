@@ -30,14 +30,13 @@ namespace {
 namespace pmp = CGAL::Polygon_mesh_processing;
 using Kernel = CGAL::Exact_predicates_inexact_constructions_kernel;
 using Mesh = CGAL::Surface_mesh<Kernel::Point_3>;
-using test::StageRoom;
 
 Completion usual_head() { return relievo::test::made(make_completion, "completion", "generic-head"); }
 
 FaceModel face_of(std::uint32_t seed, double yaw_deg, StageRoom& room) {
   hal::sim::HeadPose pose;
   pose.yaw_deg = yaw_deg;
-  const PointCloud cloud = test::FieldHead(seed).cloud(pose, room.pool);
+  const PointCloud cloud = FieldHead(seed).cloud(pose, room.pool);
   GridMesher coarse;
   coarse.max_triangles = 60'000;
   FaceModel model(std::pmr::get_default_resource());
@@ -104,7 +103,7 @@ TEST(SolidHead, IsClosedManifoldTurnedOutwardsAndStandsOnAFlatNeck) {
 TEST(SolidHead, WhereNoHeadIsFoundNothingIsMadeUp) {
   StageRoom room;
   FaceModel model(std::pmr::get_default_resource());
-  const PointCloud sheet = test::formula_cloud(2, 400, [](double, double) { return 520.0; });
+  const PointCloud sheet = formula_cloud(2, 400, [](double, double) { return 520.0; });
   const auto mesh = room.run([&](StageContext& c) { return GridMesher({}).mesh(sheet, c); });
   ASSERT_TRUE(mesh);
   model.mesh = *mesh;

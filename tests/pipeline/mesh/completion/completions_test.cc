@@ -29,9 +29,6 @@
 namespace relievo::pipeline {
 namespace {
 
-using test::FieldHead;
-using test::StageRoom;
-
 struct Turned {
   hal::sim::HeadPose pose;
   FieldHead head{3};
@@ -68,8 +65,8 @@ TEST_P(Completions, MakeOneSurfaceAndLeaveTheMeasuredAsItIs) {
   const FaceMesh& before = turned().mesh;
   const auto after = completed(GetParam(), before, room);
   ASSERT_TRUE(after);
-  test::expect_whole_arrays(*after);
-  test::expect_one_manifold_surface(*after);
+  expect_whole_arrays(*after);
+  expect_one_manifold_surface(*after);
   const auto measured = [](const FaceMesh& m) { return std::count(m.measured.begin(), m.measured.end(), 1); };
   EXPECT_EQ(measured(*after), measured(before));
   ASSERT_GE(after->vertices_mm.size(), before.vertices_mm.size());
@@ -123,8 +120,8 @@ TEST_P(Completions, TakeHalfAFace) {
   const FaceMesh kept = *mesh;  // copies go to the heap
   const auto after = completed(GetParam(), kept, room);
   ASSERT_TRUE(after);
-  test::expect_whole_arrays(*after);
-  test::expect_one_manifold_surface(*after);
+  expect_whole_arrays(*after);
+  expect_one_manifold_surface(*after);
   EXPECT_LT(after->vertices_mm.size(), 3 * whole.vertices_mm.size());
 }
 
@@ -209,7 +206,7 @@ Patch patch_at(const FaceMesh& m, const Vec3f& at, std::size_t from, std::size_t
 }
 
 std::size_t open_edges(const FaceMesh& mesh) {
-  std::set<test::Edge> edges;
+  std::set<Edge> edges;
   for (const auto& t : mesh.triangles)
     for (std::size_t k = 0; k < 3; ++k) edges.insert({t[k], t[(k + 1) % 3]});
   std::size_t open = 0;

@@ -16,15 +16,13 @@
 namespace relievo::pipeline {
 namespace {
 
-using test::StageRoom;
-
 // A textured ball's cap: two charts, seam along x = 0, uv by where a vertex lies.
 FaceModel ball(double noise_mm = 0) {
   StageRoom room;
   auto mesh = room.run([&](StageContext& c) {
     return GridMesher({}).mesh(
-        test::formula_cloud(
-            2, 400, [](double sx, double sy) { return test::sphere_depth(sx, sy, 600, 90); }, noise_mm),
+        formula_cloud(
+            2, 400, [](double sx, double sy) { return sphere_depth(sx, sy, 600, 90); }, noise_mm),
         c);
   });
   FaceModel model(std::pmr::get_default_resource());
@@ -56,7 +54,7 @@ TEST(LevelOfDetail, FewerTrianglesWithinTheStatedErrorAndTheSameTexture) {
     ASSERT_TRUE(light);
     const FaceMesh& m = light->model.mesh;
     EXPECT_LE(m.triangles.size(), static_cast<std::size_t>(triangles));
-    test::expect_clean(m);
+    expect_clean(m);
     EXPECT_LT(light->rms_error_mm, 0.1);
     EXPECT_LE(light->max_error_mm, 0.5);
     // The ball itself is the truth: vertices are the model's, and between them it is as round as stated.

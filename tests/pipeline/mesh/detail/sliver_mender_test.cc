@@ -61,7 +61,7 @@ TEST(SliverMender, MendsWhatCanBeMendedAndKeepsTheSurface) {
   FaceMesh mesh(std::pmr::get_default_resource());
   mesh.vertices_mm.assign(sheet.at.begin(), sheet.at.end());
   mesh.triangles = sheet.triangles;
-  test::expect_one_manifold_surface(mesh);
+  expect_one_manifold_surface(mesh);
   for (const Triangle& t : sheet.triangles)
     EXPECT_LT(cross(minus(sheet.at[t[1]], sheet.at[t[0]]), minus(sheet.at[t[2]], sheet.at[t[0]])).z, 0)
         << "still towards the camera";

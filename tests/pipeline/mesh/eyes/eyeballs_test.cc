@@ -62,7 +62,7 @@ struct Sitter {
   RigidTransform head;
 };
 
-bool same(const Vec3f& a, const Vec3f& b) { return a.x == b.x && a.y == b.y && a.z == b.z; }
+bool same_place(const Vec3f& a, const Vec3f& b) { return a.x == b.x && a.y == b.y && a.z == b.z; }
 
 TEST(Eyeballs, LieWhereThePersonsOwnDo) {
   constexpr std::array kSeeds{4U, 7U};  // fair skin, dark skin
@@ -74,7 +74,7 @@ TEST(Eyeballs, LieWhereThePersonsOwnDo) {
     double then = 0, now = 0;
     int moved = 0;
     for (std::size_t v = 0; v < before.vertices_mm.size(); ++v) {
-      if (same(before.vertices_mm[v], s.mesh->vertices_mm[v])) continue;
+      if (same_place(before.vertices_mm[v], s.mesh->vertices_mm[v])) continue;
       EXPECT_EQ(s.mesh->measured[v], 0);
       const auto was = s.off(before.vertices_mm[v]), is = s.off(s.mesh->vertices_mm[v]);
       if (!was || !is) continue;
@@ -97,15 +97,15 @@ TEST(Eyeballs, ClosedEyesAndGreyPicturesAreLeftAlone) {
   FaceMesh before = *closed.mesh;
   lay_eyeballs(*closed.mesh, closed.head, *closed.pair, closed.fixture.context);
   EXPECT_TRUE(std::equal(before.vertices_mm.begin(), before.vertices_mm.end(),
-                         closed.mesh->vertices_mm.begin(), same));
+                         closed.mesh->vertices_mm.begin(), same_place));
 
   Sitter grey(hal::sim::traits_of(4));
   for (std::size_t k = 0; k < grey.pair->left.rgb.size(); k += 3)
     grey.pair->left.rgb[k] = grey.pair->left.rgb[k + 2] = grey.pair->left.rgb[k + 1];
   before = *grey.mesh;
   lay_eyeballs(*grey.mesh, grey.head, *grey.pair, grey.fixture.context);
-  EXPECT_TRUE(
-      std::equal(before.vertices_mm.begin(), before.vertices_mm.end(), grey.mesh->vertices_mm.begin(), same));
+  EXPECT_TRUE(std::equal(before.vertices_mm.begin(), before.vertices_mm.end(), grey.mesh->vertices_mm.begin(),
+                         same_place));
 }
 
 }  // namespace

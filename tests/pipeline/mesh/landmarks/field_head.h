@@ -13,7 +13,7 @@
 #include "pipeline/model/point_cloud.h"
 #include "tests/support/head_landmarks.h"
 
-namespace relievo::pipeline::test {
+namespace relievo::pipeline {
 
 class FieldHead {
  public:
@@ -95,4 +95,4 @@ class FieldHead {
   hal::sim::HeadField field_;
 };
 
-}  // namespace relievo::pipeline::test
+}  // namespace relievo::pipeline

@@ -4,7 +4,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <numbers>
 
 #include "pipeline/mesh/landmarks/head_frame.h"
 #include "pipeline/mesh/meshers/grid_mesher.h"
@@ -13,9 +12,6 @@
 
 namespace relievo::pipeline {
 namespace {
-
-using test::StageRoom;
-constexpr double kDeg = std::numbers::pi / 180;
 
 Rotation turned(double yaw_deg, double pitch_deg, double roll_deg) {
   const double a = yaw_deg * kDeg, b = pitch_deg * kDeg, c = roll_deg * kDeg;
@@ -63,7 +59,7 @@ RigidTransform about_the_face(const FaceMesh& mesh, const Rotation& rotation, co
 // An egg with a nose, a brow and a chin, mirror-like in x = 0; its tip is foremost at (0, 0).
 // `neck_mm`: below y = 75 the surface lies so far behind the chin.
 PointCloud egg_head(double nose_mm = 26, double chin_mm = 6, double neck_mm = 0) {
-  return test::formula_cloud(2, 420, [=](double sx, double sy) {
+  return formula_cloud(2, 420, [=](double sx, double sy) {
     const double x = 520 * sx;
     const double y = 520 * sy;
     const double r = (x / 78) * (x / 78) + ((y + 5) / 105) * ((y + 5) / 105);
@@ -171,7 +167,7 @@ TEST(HeadFrame, RotationIsProper) {
 TEST(HeadFrame, APhotoOnPaperHasNoNose) {
   StageRoom room;
   const auto frame =
-      frame_of(mesh_of(test::formula_cloud(2, 400, [](double, double) { return 520.0; }), room), room);
+      frame_of(mesh_of(formula_cloud(2, 400, [](double, double) { return 520.0; }), room), room);
   ASSERT_FALSE(frame);
   EXPECT_EQ(frame.error().code, Errc::PoorGeometry);
 }
@@ -200,12 +196,12 @@ TEST(HeadFrame, EmptyCancelledAndTinyArena) {
 
 TEST(HeadFrame, RenderedHeads) {
   for (const char* name : {"d1", "d2", "d3"}) {
-    const auto dir = test::rendered_head(name);
+    const auto dir = rendered_head(name);
     if (!dir) GTEST_SKIP() << "RELIEVO_TEST_DATA does not name the rendered heads";
     StageRoom room(std::size_t{256} << 20);
-    test::TruthOptions options;
+    TruthOptions options;
     options.noise_mm = 0.08;
-    const PointCloud cloud = test::truth_cloud(*dir, options);
+    const PointCloud cloud = truth_cloud(*dir, options);
     const FaceMesh mesh = mesh_of(cloud, room);
     const auto frame = frame_of(mesh, room);
     ASSERT_TRUE(frame);

@@ -20,8 +20,6 @@ namespace relievo::pipeline {
 namespace {
 
 using hal::sim::HeadPose;
-using test::FieldHead;
-using test::StageRoom;
 
 struct Look {
   RigidTransform true_head_from_camera, head_from_camera;

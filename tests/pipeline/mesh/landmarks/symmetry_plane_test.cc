@@ -6,7 +6,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <numbers>
 #include <random>
 #include <vector>
 
@@ -18,9 +17,6 @@ namespace relievo::pipeline {
 namespace {
 
 using Eigen::Vector3d;
-using test::StageRoom;
-constexpr double kDeg = std::numbers::pi / 180;
-
 double height_mm(double x, double y) {
   const auto bump = [](double u, double v) { return std::exp(-u * u - v * v); };
   return -x * x / 160 - y * y / 260 + 24 * bump(x / 13, y / 22) -

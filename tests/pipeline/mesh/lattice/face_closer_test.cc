@@ -22,8 +22,6 @@
 namespace relievo::pipeline {
 namespace {
 
-using test::StageRoom;
-
 hal::sim::HeadPose turned(double yaw_deg, double pitch_deg) {
   hal::sim::HeadPose pose;
   pose.yaw_deg = yaw_deg;
@@ -33,26 +31,26 @@ hal::sim::HeadPose turned(double yaw_deg, double pitch_deg) {
 
 constexpr double kFacing = 8;  // turned so, a head faces the place between the cameras
 
-FaceMesh closed_face(const test::FieldHead& head, const hal::sim::HeadPose& pose, StageRoom& room) {
+FaceMesh closed_face(const FieldHead& head, const hal::sim::HeadPose& pose, StageRoom& room) {
   const PointCloud cloud = head.cloud_of_two(pose, room.pool);
   auto mesh = room.run([&](StageContext& c) { return GridMesher({}).mesh(cloud, c); });
   EXPECT_TRUE(mesh);
   return std::move(*mesh);
 }
 
-double off_the_head(const test::FieldHead& head, const hal::sim::HeadPose& pose, const Vec3f& v) {
+double off_the_head(const FieldHead& head, const hal::sim::HeadPose& pose, const Vec3f& v) {
   const hal::sim::Vec3 p{static_cast<double>(v.x), static_cast<double>(v.y), static_cast<double>(v.z)};
   return std::abs(head.field().distance(pose.world_from_head().transposed() * (p - pose.origin_mm())));
 }
 
 TEST(FaceCloser, LeavesNoHoleAndMovesNothingThatWasMeasured) {
   for (const auto& [seed, yaw] : {std::pair{1U, 0.0}, {2U, 12.0}, {3U, -12.0}}) {
-    const test::FieldHead head(seed);
+    const FieldHead head(seed);
     const hal::sim::HeadPose pose = turned(yaw, 0);
     StageRoom room;
     const FaceMesh mesh = closed_face(head, pose, room);
-    test::expect_one_manifold_surface(mesh);
-    EXPECT_EQ(test::boundary_loops(mesh), 1U) << seed;
+    expect_one_manifold_surface(mesh);
+    EXPECT_EQ(boundary_loops(mesh), 1U) << seed;
     std::vector<double> measured, completed;
     for (std::size_t v = 0; v < mesh.vertices_mm.size(); ++v)
       (mesh.measured[v] != 0 ? measured : completed).push_back(off_the_head(head, pose, mesh.vertices_mm[v]));
@@ -72,7 +70,7 @@ TEST(FaceCloser, LaysAnewWhatIsUnsureInTheLowerFace) {
     double left, right, bottom, top;
   };
   for (const Box& box : {Box{-9, 9, -17, -8}, Box{20, 26, -52, -46}}) {
-    const test::FieldHead head(1);
+    const FieldHead head(1);
     const hal::sim::HeadPose pose = turned(kFacing, 0);
     StageRoom room;
     PointCloud cloud = head.cloud_of_two(pose, room.pool);
@@ -128,7 +126,7 @@ double rms_between(const std::vector<Vec3d>& from, const std::vector<Vec3d>& to)
 TEST(FaceCloser, CutsTheSameOutlineHoweverTheHeadIsTurned) {
   constexpr std::array kSeeds{1U, 2U, 3U};
   for (const std::uint32_t seed : std::span(kSeeds).first(relievo::test::trials(3))) {
-    const test::FieldHead head(seed);
+    const FieldHead head(seed);
     const auto cut_at = [&](double yaw, double pitch) {
       const hal::sim::HeadPose pose = turned(yaw, pitch);
       StageRoom room;

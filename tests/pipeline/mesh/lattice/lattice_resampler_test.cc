@@ -27,7 +27,7 @@ struct Resampled {
 // 2 px of 1000 px focal length at about 500 mm: 1 mm a cell.
 Resampled resample(double (*depth)(double, double), const LatticeSpacing& spacing) {
   auto* memory = std::pmr::get_default_resource();
-  PointLattice lattice = make_lattice(test::formula_cloud(2, 300, depth, 0), memory);
+  PointLattice lattice = make_lattice(formula_cloud(2, 300, depth, 0), memory);
   LatticeSurface joined = join_neighbours(lattice, kLimits, memory);
   CellMask inside(joined.cells.size(), 1, memory);
   ShapedLattice old{std::move(lattice), std::move(joined), std::move(inside)};
@@ -46,7 +46,7 @@ class Spacing : public testing::TestWithParam<float> {};
 
 TEST_P(Spacing, StaysOnASphereWithAsManyNodesAsTheSpacingSays) {
   const Resampled r =
-      resample([](double sx, double sy) { return test::sphere_depth(sx, sy, 600, 90); }, {GetParam(), 1});
+      resample([](double sx, double sy) { return sphere_depth(sx, sy, 600, 90); }, {GetParam(), 1});
   const auto expected = static_cast<double>(measured(r.from)) / static_cast<double>(GetParam() * GetParam());
   EXPECT_NEAR(static_cast<double>(measured(r.to)), expected, 0.08 * expected)
       << "less the horizon, too steep to carry a surface";
@@ -67,7 +67,7 @@ TEST_P(Spacing, StaysOnASphereWithAsManyNodesAsTheSpacingSays) {
 INSTANTIATE_TEST_SUITE_P(Factors, Spacing, testing::Values(0.8F, 0.93F, 1.31F, 2.6F));
 
 TEST(LatticeResampler, AtOneCellRepeatsWhatCarriesTheSurface) {
-  const Resampled r = resample([](double sx, double sy) { return test::sphere_depth(sx, sy, 600, 90); }, {});
+  const Resampled r = resample([](double sx, double sy) { return sphere_depth(sx, sy, 600, 90); }, {});
   ASSERT_EQ(r.to.size(), r.from.size());
   for (std::size_t k = 0; k < r.to.size(); ++k) {
     if (r.to.node[k] == Node::Empty) continue;
@@ -100,7 +100,7 @@ TEST(LatticeResampler, CellsGrowTowardsTheEdgesAndNowhereElse) {
 }
 
 TEST(LatticeResampler, ExpectsAsManyTrianglesAsItMakes) {
-  const auto ball = [](double sx, double sy) { return test::sphere_depth(sx, sy, 600, 90); };
+  const auto ball = [](double sx, double sy) { return sphere_depth(sx, sy, 600, 90); };
   const auto expected = [&](float edge) {
     const Resampled old = resample(ball, {});
     const ShapedLattice surface{old.to, old.surface, CellMask(std::pmr::get_default_resource())};

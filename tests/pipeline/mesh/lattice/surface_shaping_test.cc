@@ -19,25 +19,19 @@
 namespace relievo::pipeline {
 namespace {
 
-using test::StageRoom;
-
 constexpr double kNothing = std::numeric_limits<double>::quiet_NaN();
-
-Result<FaceMesh> mesh_grid(const PointCloud& cloud, StageRoom& room, const GridMesher& options = {}) {
-  return room.run([&](StageContext& c) { return GridMesher(options).mesh(cloud, c); });
-}
 
 // 2 px of 1000 px focal length at 500 mm: 1 mm a cell.
 PointCloud cloud_of(double (*depth)(double, double), double noise_mm = 0) {
-  return test::formula_cloud(2, 300, depth, noise_mm);
+  return formula_cloud(2, 300, depth, noise_mm);
 }
 
 double boundary_mm(const FaceMesh& m, double* turned) {
-  std::set<test::Edge> edges;
+  std::set<Edge> edges;
   for (const auto& t : m.triangles)
     for (std::size_t k = 0; k < 3; ++k) edges.insert({t[k], t[(k + 1) % 3]});
   std::map<std::uint32_t, std::uint32_t> next;
-  for (const test::Edge& e : edges)
+  for (const Edge& e : edges)
     if (!edges.count({e.second, e.first})) next[e.first] = e.second;
   double sum = 0;
   *turned = 0;
@@ -56,12 +50,12 @@ TEST(GridMesher, ClosesACrackOfAnyLengthWhereBothSidesContinue) {
   const auto result = mesh_grid(cloud_of([](double sx, double sy) {
                                   const bool crack =
                                       std::abs(sx - 0.02) < 0.003 || std::abs(sy + 0.01 - sx / 2) < 0.003;
-                                  return crack ? kNothing : test::sphere_depth(sx, sy, 600, 90);
+                                  return crack ? kNothing : sphere_depth(sx, sy, 600, 90);
                                 }),
                                 room);
   ASSERT_TRUE(result);
-  test::expect_clean(*result);
-  EXPECT_EQ(test::boundary_loops(*result), 1U);
+  expect_clean(*result);
+  EXPECT_EQ(boundary_loops(*result), 1U);
   std::size_t filled = 0;
   for (std::size_t v = 0; v < result->vertices_mm.size(); ++v) {
     if (result->measured[v]) continue;
@@ -80,7 +74,7 @@ TEST(GridMesher, LeavesACrackOpenWhereSomethingStandsInFront) {
                                 }),
                                 room);
   ASSERT_TRUE(result);
-  test::expect_clean(*result);
+  expect_clean(*result);
   EXPECT_EQ(std::count(result->measured.begin(), result->measured.end(), 0), 0);
   for (const Vec3f& v : result->vertices_mm) EXPECT_LT(v.z, 500.5F) << "the larger side alone";
 }
@@ -102,7 +96,7 @@ TEST(GridMesher, ARaggedOutlineIsCutSmooth) {
   const auto rough = mesh_grid(cloud, other, options);
   ASSERT_TRUE(smooth);
   ASSERT_TRUE(rough);
-  test::expect_clean(*smooth);
+  expect_clean(*smooth);
   double smooth_turned = 0, rough_turned = 0;
   const double smooth_mm = boundary_mm(*smooth, &smooth_turned);
   const double rough_mm = boundary_mm(*rough, &rough_turned);
@@ -117,7 +111,7 @@ TEST(GridMesher, WavesOfTheOutlineAreStraightenedByGiveAndTake) {
   // A ball's cap whose border swings 3 mm in and out, 16 mm from wave to wave.
   const PointCloud cloud = cloud_of([](double sx, double sy) {
     const double edge = 0.1 + 0.006 * std::sin(20 * std::atan2(sy, sx));
-    return std::hypot(sx, sy) < edge ? test::sphere_depth(sx, sy, 600, 90) : kNothing;
+    return std::hypot(sx, sy) < edge ? sphere_depth(sx, sy, 600, 90) : kNothing;
   });
   GridMesher wavy;
   wavy.outline_wave_mm = 0;
@@ -125,8 +119,8 @@ TEST(GridMesher, WavesOfTheOutlineAreStraightenedByGiveAndTake) {
   const auto straight = mesh_grid(cloud, room);
   const auto before = mesh_grid(cloud, other, wavy);
   ASSERT_TRUE(straight && before);
-  test::expect_clean(*straight);
-  EXPECT_EQ(test::boundary_loops(*straight), 1U);
+  expect_clean(*straight);
+  EXPECT_EQ(boundary_loops(*straight), 1U);
   double turned = 0, turned_before = 0;
   boundary_mm(*straight, &turned);
   boundary_mm(*before, &turned_before);
@@ -149,15 +143,15 @@ TEST(GridMesher, WavesOfTheOutlineAreStraightenedByGiveAndTake) {
 TEST(GridMesher, TheRimThatTurnsAwayGoesAndAHoleInsideKeepsItsSurroundings) {
   // A sphere seen up to its horizon; a hole of 24 mm on its steep side.
   const PointCloud cloud = cloud_of([](double sx, double sy) {
-    const double depth = test::sphere_depth(sx, sy, 600, 60);
+    const double depth = sphere_depth(sx, sy, 600, 60);
     if (std::hypot(sx * depth - 38, sy * depth) < 9) return kNothing;
     return depth;
   });
   StageRoom room;
   const auto result = mesh_grid(cloud, room);
   ASSERT_TRUE(result);
-  test::expect_clean(*result);
-  EXPECT_EQ(test::boundary_loops(*result), 2U);
+  expect_clean(*result);
+  EXPECT_EQ(boundary_loops(*result), 2U);
   double steepest = 0;
   for (std::size_t v = 0; v < result->vertices_mm.size(); ++v) {
     const Vec3f n = result->normals[v];
@@ -182,8 +176,8 @@ TEST(GridMesher, AHoleAtTheOutlineIsNoNickInIt) {
   StageRoom room;
   const auto result = mesh_grid(cloud, room, options);
   ASSERT_TRUE(result);
-  test::expect_clean(*result);
-  EXPECT_EQ(test::boundary_loops(*result), 2U);
+  expect_clean(*result);
+  EXPECT_EQ(boundary_loops(*result), 2U);
   EXPECT_GT(area_mm2(result->vertices_mm, result->triangles), 0.93 * 3.14159 * 60 * 60) << "little is lost";
   for (const Vec3f& v : result->vertices_mm)
     EXPECT_FALSE(std::abs(v.x) < 5 && v.y < -55) << "the bow passes below the hole: it has no walls";

@@ -19,10 +19,7 @@
 namespace relievo::pipeline {
 namespace {
 
-using test::FieldHead;
-using test::StageRoom;
-
-std::pmr::memory_resource* heap() { return std::pmr::new_delete_resource(); }
+using test::heap;
 
 struct Seen {
   RigidFace face{heap()};

@@ -17,14 +17,18 @@
 namespace relievo::firmware::compare {
 namespace {
 
-constexpr int kWidth = 240;
-constexpr int kHeight = 180;
+constexpr int kViewWidth = 240;
+constexpr int kViewHeight = 180;
 constexpr double kTilt = 0.3;  // the plane z = 500 + kTilt x
 
 pipeline::StereoCalibration rig() {
   pipeline::StereoCalibration c;
   for (pipeline::CameraIntrinsics* camera : {&c.left, &c.right})
-    *camera = {{500, 500}, {0.5 * (kWidth - 1), 0.5 * (kHeight - 1)}, {-0.1, 0, 0, 0, 0}, kWidth, kHeight};
+    *camera = {{500, 500},
+               {0.5 * (kViewWidth - 1), 0.5 * (kViewHeight - 1)},
+               {-0.1, 0, 0, 0, 0},
+               kViewWidth,
+               kViewHeight};
   const double a = 0.2;
   c.right_from_left.rotation = {{std::cos(a), 0, std::sin(a), 0, 1, 0, -std::sin(a), 0, std::cos(a)}};
   c.right_from_left.translation_mm = {-100, 0, 5};
@@ -49,22 +53,22 @@ TEST(TruthOfView, DisparitiesOfATiltedPlaneAreThoseOfGeometry) {
   const test::TemporaryFolder here;
   const pipeline::StereoCalibration c = rig();
   ASSERT_TRUE(pipeline::write_calibration(here / "rig.yml", c));
-  std::string text = std::to_string(kWidth) + " " + std::to_string(kHeight) + " z\n";
-  for (int y = 0; y < kHeight; ++y)
-    for (int x = 0; x < kWidth; ++x) {
+  std::string text = std::to_string(kViewWidth) + " " + std::to_string(kViewHeight) + " z\n";
+  for (int y = 0; y < kViewHeight; ++y)
+    for (int x = 0; x < kViewWidth; ++x) {
       const auto z = static_cast<float>(depth(c.left, x, y));
       char bytes[4];
       std::memcpy(bytes, &z, 4);
       text.append(bytes, 4);
     }
-  text.append(static_cast<std::size_t>(kWidth * kHeight), '\x07');
+  text.append(static_cast<std::size_t>(kViewWidth * kViewHeight), '\x07');
   test::write_text(here / "truth.bin", text);
   const auto view = measure::TruthView::read(here.path());
   ASSERT_TRUE(view) << view.error().where();
 
   test::StageFixture fixture(std::size_t{16} << 20, std::size_t{16} << 20, 1);
-  const std::vector<std::byte> blank(static_cast<std::size_t>(kWidth * kHeight));
-  const ImageView picture{blank.data(), kWidth, kHeight, kWidth, PixelFormat::Grey8};
+  const std::vector<std::byte> blank(static_cast<std::size_t>(kViewWidth * kViewHeight));
+  const ImageView picture{blank.data(), kViewWidth, kViewHeight, kViewWidth, PixelFormat::Grey8};
   const auto pair = pipeline::Rectifier({}).rectify({picture, picture}, c, fixture.context);
   ASSERT_TRUE(pair) << pair.error().what.view();
   const DisparityTruth truth = truth_of_view(*view, *pair);

@@ -9,12 +9,10 @@
 namespace relievo::tests {
 namespace {
 
-const pipeline::BoardPattern kPattern{7, 5, 28};
-
 class Planner : public ::testing::Test {
  protected:
   Planner() {
-    input_.pattern = kPattern;
+    input_.pattern = kHeldPattern;
     input_.width_px = 1920;
     input_.height_px = 1200;
     const BoardAt opening[] = {
@@ -23,8 +21,8 @@ class Planner : public ::testing::Test {
   }
   void add(const pipeline::BoardCorners& left, const pipeline::BoardCorners& right) {
     input_.views.push_back({"", left, right});
-    parameters_.push_back({pipeline::parameters_of(left, kPattern, 1920, 1200),
-                           pipeline::parameters_of(right, kPattern, 1920, 1200)});
+    parameters_.push_back({pipeline::parameters_of(left, kHeldPattern, 1920, 1200),
+                           pipeline::parameters_of(right, kHeldPattern, 1920, 1200)});
     coverage_[0].add(left, parameters_.back()[0], 1920, 1200);
     coverage_[1].add(right, parameters_.back()[1], 1920, 1200);
   }
@@ -37,7 +35,7 @@ class Planner : public ::testing::Test {
   double error_mm() const { return calibrated_->quality.uncertainty.depth[3].sigma_mm; }  // 550 mm
   std::vector<pipeline::CandidatePose> candidates(int quarter_turns = 0) {
     if (!calibrated_) calibrated_ = pipeline::calibrate(input_);
-    return pipeline::candidate_poses(pipeline::rig_problem(calibrated_->calibration, kPattern), 560,
+    return pipeline::candidate_poses(pipeline::rig_problem(calibrated_->calibration, kHeldPattern), 560,
                                      quarter_turns);
   }
   // The error after one more view, seen with the noise of the others.
@@ -54,7 +52,7 @@ class Planner : public ::testing::Test {
   }
 
   static constexpr double kNoisePx = 0.05;
-  HeldBoardCorners board_{kiosk_rig(), kPattern, kNoisePx, 3};
+  HeldBoardCorners board_{kiosk_rig(), kHeldPattern, kNoisePx, 3};
   pipeline::CalibratorInput input_;
   std::vector<std::array<pipeline::BoardParameters, 2>> parameters_;
   std::array<pipeline::Coverage, 2> coverage_;
@@ -108,8 +106,8 @@ TEST_F(Planner, EmptyBarsAreFilledWhenTheGoalIsReached) {
   for (const auto& pose : candidates()) {
     if (pose.number != planned.best->number) continue;
     const auto after =
-        lesser(coverage_[0].bars_with(pipeline::parameters_of(pose.corners[0], kPattern, 1920, 1200)),
-               coverage_[1].bars_with(pipeline::parameters_of(pose.corners[1], kPattern, 1920, 1200)));
+        lesser(coverage_[0].bars_with(pipeline::parameters_of(pose.corners[0], kHeldPattern, 1920, 1200)),
+               coverage_[1].bars_with(pipeline::parameters_of(pose.corners[1], kHeldPattern, 1920, 1200)));
     EXPECT_GT(after.x + after.y + after.skew, before.x + before.y + before.skew + 0.1);
   }
 }

@@ -9,7 +9,7 @@
 namespace relievo::tests {
 namespace {
 
-const pipeline::BoardPattern kPattern{5, 3, 10};
+const pipeline::BoardPattern kSmallBoard{5, 3, 10};
 
 // Upright, from (left, top), `step` px a square, sheared by `lean` columns a row.
 pipeline::BoardCorners board(double left, double top, double step, double lean = 0) {
@@ -21,7 +21,7 @@ pipeline::BoardCorners board(double left, double top, double step, double lean =
 }
 
 pipeline::BoardParameters parameters(const pipeline::BoardCorners& corners) {
-  return pipeline::parameters_of(corners, kPattern, 1000, 500);
+  return pipeline::parameters_of(corners, kSmallBoard, 1000, 500);
 }
 
 TEST(BoardParameters, AreThoseOfRos) {

@@ -11,9 +11,9 @@
 namespace relievo::tests {
 namespace {
 
-const pipeline::BoardPattern kPattern{6, 4, 20};
-constexpr int kWidth = 400;
-constexpr int kHeight = 300;
+const pipeline::BoardPattern kEdgeBoard{6, 4, 20};
+constexpr int kEdgeViewWidth = 400;
+constexpr int kEdgeViewHeight = 300;
 constexpr double kStep = 48;
 
 // A chessboard through two Gaussian blurs, one across the upright edges and one across the level ones.
@@ -46,8 +46,8 @@ struct BlurredBoard {
     std::mt19937 random(3);
     std::normal_distribution<double> noise_of(0, std::max(noise, 1e-9));
     std::vector<std::byte> bytes;
-    for (int y = 0; y < kHeight; ++y)
-      for (int x = 0; x < kWidth; ++x) {
+    for (int y = 0; y < kEdgeViewHeight; ++y)
+      for (int x = 0; x < kEdgeViewWidth; ++x) {
         const double grey = 120 + 70 * level(x, y) + noise_of(random);
         const auto byte = [](double value) {
           return static_cast<std::byte>(static_cast<int>(value + 0.5) & 255);
@@ -64,8 +64,9 @@ struct BlurredBoard {
   }
   double width(PixelFormat format = PixelFormat::Grey8) const {
     const auto bytes = draw(format);
-    return pipeline::edge_width_px({bytes.data(), kWidth, kHeight, kWidth * bytes_per_pixel(format), format},
-                                   corners(), kPattern);
+    return pipeline::edge_width_px(
+        {bytes.data(), kEdgeViewWidth, kEdgeViewHeight, kEdgeViewWidth * bytes_per_pixel(format), format},
+        corners(), kEdgeBoard);
   }
 
  private:
@@ -98,11 +99,12 @@ TEST(EdgeWidth, NoiseAndFormatHardlyMatter) {
 }
 
 TEST(EdgeWidth, IsNothingWhereThereIsNothing) {
-  const std::vector<std::byte> flat(static_cast<std::size_t>(kWidth * kHeight), std::byte{90});
-  const ImageView view{flat.data(), kWidth, kHeight, kWidth, PixelFormat::Grey8};
-  EXPECT_EQ(pipeline::edge_width_px(view, BlurredBoard{}.corners(), kPattern), 0);
+  const std::vector<std::byte> flat(static_cast<std::size_t>(kEdgeViewWidth * kEdgeViewHeight),
+                                    std::byte{90});
+  const ImageView view{flat.data(), kEdgeViewWidth, kEdgeViewHeight, kEdgeViewWidth, PixelFormat::Grey8};
+  EXPECT_EQ(pipeline::edge_width_px(view, BlurredBoard{}.corners(), kEdgeBoard), 0);
   const pipeline::BoardCorners unseen(24, {std::nan(""), std::nan("")});
-  EXPECT_EQ(pipeline::edge_width_px(view, unseen, kPattern), 0);
+  EXPECT_EQ(pipeline::edge_width_px(view, unseen, kEdgeBoard), 0);
 }
 
 }  // namespace

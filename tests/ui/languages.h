@@ -1,0 +1,23 @@
+// SPDX-FileCopyrightText: 2026 The Relievo authors
+// SPDX-License-Identifier: GPL-3.0-or-later
+//
+// Every language, for tests that run in each.
+#pragma once
+
+#include <gtest/gtest.h>
+
+#include <string>
+
+#include "ui/language/language.h"
+
+namespace relievo::ui {
+
+inline const auto kEveryLanguage =
+    testing::Values(Language::English, Language::German, Language::French, Language::Spanish,
+                    Language::Arabic, Language::Hebrew, Language::Chinese, Language::Japanese);
+
+inline std::string language_code(const testing::TestParamInfo<Language>& info) {
+  return std::string(info_of(info.param).code).substr(0, 2);
+}
+
+}  // namespace relievo::ui
