@@ -143,6 +143,12 @@ void add_reconstruct(CLI::App& app, CommandArgs& chosen, ReconstructArgs& args) 
   });
 }
 
+void add_memory(CLI::App& app, CommandArgs& chosen, MemoryArgs& args) {
+  CLI::App* command = app.add_subcommand("memory", "the memory plan");
+  word(*command, "--store", args.store, "DIR", "and what the last visits of this store's kiosk took");
+  command->callback([&] { chosen = args; });
+}
+
 void add_enrol(CLI::App& app, CommandArgs& chosen, EnrolArgs& args) {
   CLI::App* command = app.add_subcommand("enrol", "one whole enrolment without a screen");
   word(*command, "--board", args.device, "BOARD", kDevices)->required();
@@ -256,6 +262,7 @@ struct AllArgs {
   StoreArgs store;
   SimulateArgs simulate;
   SelfTestArgs selftest;
+  MemoryArgs memory;
   AlgorithmsArgs algorithms;
 };
 
@@ -278,7 +285,7 @@ CommandLine parse_command_line(int argc, const char* const* argv) {
   add_simulate(app, line.command, args.simulate);
   add_selftest(app, line.command, args.selftest);
   add_algorithm_list(app, line.command, args.algorithms);
-  app.add_subcommand("memory", "the memory plan")->callback([&] { line.command = MemoryArgs{}; });
+  add_memory(app, line.command, args.memory);
   app.add_subcommand("version", "what this is")->callback([&] { line.command = VersionArgs{}; });
   try {
     app.parse(argc, argv);

@@ -210,7 +210,9 @@ struct KioskArgs {
 struct AlgorithmsArgs {
   std::string name;  // of a kind or an algorithm; empty: all of them
 };
-struct MemoryArgs {};
+struct MemoryArgs {
+  Path store;  // of a kiosk whose last visits are shown beside the plan; empty: the plan alone
+};
 struct VersionArgs {};
 struct NothingArgs {};  // help was asked for and printed, or the words were wrong
 

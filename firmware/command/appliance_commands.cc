@@ -21,6 +21,7 @@
 #include "firmware/report/report.h"
 #include "firmware/service/access.h"
 #include "firmware/service/touch_trial.h"
+#include "firmware/service/visit_costs.h"
 
 namespace relievo::firmware {
 namespace {
@@ -38,7 +39,7 @@ Result<void> run(const VersionArgs&, Services& services) {
   return {};
 }
 
-Result<void> run(const MemoryArgs&, Services& services) {
+Result<void> run(const MemoryArgs& args, Services& services) {
   Console& console = services.console;
   console.say("pictures        " + mib(budget::kFramePoolBytes));
   console.say("stage products  " + mib(budget::kOutputArenaBytes));
@@ -49,6 +50,23 @@ Result<void> run(const MemoryArgs&, Services& services) {
   console.say("libraries       " + mib(budget::kLibraryBytes));
   console.say("queues          " + mib(budget::kQueueBytes));
   console.say("of              " + mib(budget::kApplianceBytes));
+  if (args.store.empty()) return {};
+  RELIEVO_TRY_ASSIGN(const auto store, services.open_store(args.store, false));
+  RELIEVO_TRY_ASSIGN(const std::string kept, store->setting(kVisitCostsSetting));
+  VisitCosts costs;
+  costs.read(kept);
+  const ui::VisitCostsView most = costs.view();
+  char line[96];
+  std::snprintf(line, sizeof line, "the last %d visits at most, products and scratch together", most.visits);
+  console.say(line);
+  for (std::size_t stage = 0; stage < most.stages.size(); ++stage) {
+    const std::string name(VisitCosts::name_of(ui::CostlyStage(stage)));
+    std::snprintf(line, sizeof line, "%-15s %8.1f MiB %6.2f s", name.c_str(), double(most.stages[stage].mib),
+                  double(most.stages[stage].seconds));
+    console.say(line);
+  }
+  std::snprintf(line, sizeof line, "all of it       %8.1f MiB resident", double(most.resident_mib));
+  console.say(line);
   return {};
 }
 

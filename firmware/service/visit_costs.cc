@@ -19,6 +19,8 @@ float to_mib(std::uint64_t bytes) { return float(bytes) / float(budget::kMiB); }
 
 }  // namespace
 
+std::string_view VisitCosts::name_of(ui::CostlyStage stage) { return kNames[std::size_t(stage)]; }
+
 void VisitCosts::noted(std::span<const StageRecord> records, std::uint64_t resident_bytes) {
   if (records.empty()) return;
   Visit visit;

@@ -27,6 +27,7 @@ class VisitCosts {
   void noted(std::span<const StageRecord> records, std::uint64_t resident_bytes);
   // The most that any of the kept visits took.
   ui::VisitCostsView view() const;
+  static std::string_view name_of(ui::CostlyStage stage);
   std::uint64_t changes() const { return changes_; }
   std::string text() const;
   bool read(std::string_view text);

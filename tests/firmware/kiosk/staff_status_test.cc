@@ -3,6 +3,7 @@
 //
 // The staff's first page in the real kiosk: a fault reddens it, its row opens the page where it is mended,
 // and when it is mended the row is gone. What the last visits cost stands on the page of health.
+#include "firmware/command/commands.h"
 #include "tests/firmware/kiosk/staff_hands.h"
 #include "tests/support/played_device.h"
 #include "ui/draw/theme.h"
@@ -152,6 +153,18 @@ TEST_F(StaffStatusTest, HealthShowsWhatTheLastVisitsCostAlsoAfterARestart) {
     EXPECT_NE(find("cost 0"), nullptr);
     sign_out();
   }
+  kiosk.reset();
+  testing::internal::CaptureStdout();
+  const Result<void> told = run(MemoryArgs{args.store}, services);
+  const std::string said = testing::internal::GetCapturedStdout();
+  ASSERT_TRUE(told.has_value()) << told.error().where();
+  EXPECT_NE(said.find("the last 1 visits"), std::string::npos) << said;
+  float mib = 0, seconds = 0;
+  const std::size_t match = said.find("Match ");
+  ASSERT_NE(match, std::string::npos) << said;
+  EXPECT_EQ(std::sscanf(said.c_str() + match, "Match %f MiB %f s", &mib, &seconds), 2) << said;
+  EXPECT_GT(mib, 1);
+  EXPECT_GT(seconds, 0);
 }
 
 }  // namespace
