@@ -173,7 +173,22 @@ TEST_P(GalleryTest, NothingIsCutOrOverlapsAndAllIsReachedSpokenAndRead) {
   });
 }
 
-// As many lines as a log keeps, each as long as one may be, faults all of them.
+// The code, what is said of a stick, and that the cameras are off: in letters of the usual size at one look.
+TEST_P(GalleryTest, TheLastPageIsSeenAtOneLook) {
+  screen_->resize(1280, 800);
+  std::size_t looked_at = 0;
+  for (const Exhibit& exhibit : gallery(kNothing, GetParam(), 0, false)) {
+    if (exhibit.visit.step != ui::Step::Thanks) continue;
+    SCOPED_TRACE(exhibit.name);
+    screen_->show(exhibit.view, exhibit.visit, exhibit.service);
+    const ui::Tree& tree = screen_->tree();
+    EXPECT_FALSE(goes_on(*tree.find("message")));
+    EXPECT_FALSE(in_a_scroller(tree, *tree.find("cameras"))) << "seen in larger letters, too";
+    ++looked_at;
+  }
+  EXPECT_GT(looked_at, 10U);
+}
+
 // Presses the keypad's "on" until everything was there; what was in view, scroller by scroller, is struck off
 // `unread`.
 void read_by_keypad(ui::Ui& screen, const Exhibit& exhibit, std::set<std::string>& unread) {
@@ -215,6 +230,7 @@ TEST_P(GalleryTest, AKeypadSeesItsFocusAndReadsEveryScrollerToItsEnd) {
   }
 }
 
+// As many lines as a log keeps, each as long as one may be, faults all of them.
 TEST_P(GalleryTest, AFullLogHasRoom) {
   const std::string sentence(EventLog::kTextBytes, 'x');
   const ui::LogLine line{"2026-03-14 10:21:09", true, sentence, Errc::IoFailed, {}, {}};

@@ -19,6 +19,12 @@ void tools(Page& page) {
   Node row = page.sided(page.box(Flow::Row, space::kS));
   row.box.justify = Justify::End;
   const auto in_row = page.tree.inside(row);
+  if (page.visit.step == Step::Thanks) {
+    Node seen = page.grown(page.box(Flow::Row));
+    seen.box.align = Align::Centre;
+    const auto in_seen = page.tree.inside(seen);
+    page.cameras();
+  }
   page.reading_tools();
   if (page.view.service != nullptr && page.visit.step == Step::Trouble)
     page.tree.leaf(page.sized(page.box(Flow::Column), size::kTarget, 1));
@@ -132,7 +138,7 @@ Words4 words_of(const Page& page) {
           tr("Please tell the staff. This device tries again by itself. Nothing about you was kept.")};
 }
 
-constexpr float kCodeSide = 190;
+constexpr float kCodeSide = 190, kLinkWords = 220;
 
 void qr(Page& page, std::string_view id, PictureSlot slot) {
   Node code = page.sized(page.box(Flow::Column), kCodeSide, kCodeSide);
@@ -144,7 +150,7 @@ void qr(Page& page, std::string_view id, PictureSlot slot) {
 }
 
 Node code_card(const Page& page, std::string_view id, const char* name, Colour border) {
-  Node card = page.box(page.portrait ? Flow::Column : Flow::Row, space::kM, 32, 16);
+  Node card = page.box(page.portrait ? Flow::Column : Flow::Row, space::kM, 32, page.portrait ? 16 : 10);
   tell(card, Role::Group, id, name);
   card.box.align = Align::Centre;
   frame(card, page.palette.card, border, page.px(3), page.px(size::kCardRadius));
@@ -190,7 +196,7 @@ void link(Page& page) {
       type::kSmall, Weight::Medium, page.palette.ink_soft,
       page.portrait ? TextAlign::Centre : TextAlign::Start);
   words.id = "link_words";
-  if (!page.portrait && !at_foot(page)) words.box.width = page.px(kCodeSide);
+  if (!page.portrait && !at_foot(page)) words.box.width = page.px(kLinkWords);
   page.tree.leaf(at_foot(page) ? page.grown(words) : words);
   qr(page, "link_qr", PictureSlot::Link);
 }
@@ -291,11 +297,6 @@ void thanks_screen(Page& page) {
             TextAlign::Centre);
   if (!at_foot(page)) codes(page);
   printing(page);
-  Node row = page.box(Flow::Row);
-  row.box.justify = Justify::Centre;
-  page.tree.open(row);
-  page.cameras();
-  page.tree.close();
   // What is said of a stick is seen without scrolling.
   const bool tall = page.text_share > 1.2F && page.view.take_home.taking != Taking::None;
   end_message(page, !page.portrait || tall, [&] { take_or_leave(page); });
