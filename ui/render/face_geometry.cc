@@ -10,6 +10,7 @@
 #include <memory_resource>
 #include <queue>
 #include <unordered_map>
+#include <unordered_set>
 #include <utility>
 
 #include "hal/base/groups.h"
@@ -169,6 +170,16 @@ std::vector<Dot> dots_of(const pipeline::FaceModel& model, const pipeline::Point
   else
     for (const auto& p : cloud->points) dots.push_back(dot_of(model.head_from_camera, p.at_mm));
   return dots;
+}
+
+std::size_t set_apart(std::vector<Dot>& dots) {
+  constexpr long kAcross = 1 << 12;
+  std::unordered_set<long> taken;
+  const auto first_in_its_cube = [&](const Dot& d) {
+    const auto at = [](float mm) { return std::lround(mm / kApartMm); };
+    return taken.insert((at(d.x) * kAcross + at(d.y)) * kAcross + at(d.z)).second;
+  };
+  return std::size_t(std::stable_partition(dots.begin(), dots.end(), first_in_its_cube) - dots.begin());
 }
 
 std::vector<Tinted> tinted_of(const pipeline::FaceModel& model) {

@@ -75,6 +75,9 @@ Dot dot_of(const pipeline::RigidTransform& head_from_camera, const pipeline::Vec
 std::vector<Corner> corners_of(const pipeline::FaceModel& model, const pipeline::TextureAtlas& texture);
 // The cloud, or where there is none the mesh's vertices.
 std::vector<Dot> dots_of(const pipeline::FaceModel& model, const pipeline::PointCloud* cloud);
+// So many, now the first, lie apart: one in each cube of kApartMm.
+inline constexpr float kApartMm = 3;
+std::size_t set_apart(std::vector<Dot>& dots);
 // The backdrop: two triangles a cell that shows anything.
 std::vector<Tinted> tinted_of(const pipeline::FaceModel& model);
 

@@ -135,7 +135,8 @@ class GlesFaceView final : public FaceView {
   }
 
   void upload_points(const Face& subject) {
-    const std::vector<Dot> dots = dots_of(*subject.model, subject.cloud);
+    std::vector<Dot> dots = dots_of(*subject.model, subject.cloud);
+    apart_count_ = int(set_apart(dots));
     point_count_ = int(dots.size());
     points_version_ = subject.version;
     fill(GL_ARRAY_BUFFER, point_buffer_, dots);
@@ -212,8 +213,9 @@ class GlesFaceView final : public FaceView {
     point_at_corners();
     if (look_.fill) draw_surface();
     if (look_.edges) draw_edges();
-    if (look_.points) draw_points(t, 1);
-    else if (birth_.points > 0) draw_points(t, birth_.points);
+    if (look_.points) draw_points(t, 1, point_count_, 1);
+    else if (birth_.points > 0)
+      draw_points(t, birth_.points, apart_count_, 2);  // all would run into a surface
     glDisable(GL_BLEND);
     glDisable(GL_DEPTH_TEST);
   }
@@ -263,19 +265,19 @@ class GlesFaceView final : public FaceView {
     glDrawElements(GL_LINES, edge_count_, GL_UNSIGNED_INT, nullptr);
   }
 
-  void draw_points(const FaceProjection& t, float opacity) const {
+  void draw_points(const FaceProjection& t, float opacity, int count, float times) const {
     glUseProgram(point_program_);
     glUniform1f(glGetUniformLocation(point_program_, "opacity"), opacity);
     glUniformMatrix4fv(glGetUniformLocation(point_program_, "clip_from_head"), 1, GL_FALSE,
                        t.clip_from_model());
     glUniform1f(glGetUniformLocation(point_program_, "size"),
-                std::max(2.0F, float(height_) / 420 * look_.zoom));
+                times * std::max(2.0F, float(height_) / 420 * look_.zoom));
     glBindBuffer(GL_ARRAY_BUFFER, point_buffer_);
     glDisableVertexAttribArray(1);
     glDisableVertexAttribArray(2);
     glDisableVertexAttribArray(3);
     glVertexAttribPointer(0, 3, GL_FLOAT, GL_FALSE, sizeof(Dot), nullptr);
-    glDrawArrays(GL_POINTS, 0, point_count_);
+    glDrawArrays(GL_POINTS, 0, count);
   }
 
   GLuint program_ = 0, point_program_ = 0, backdrop_program_ = 0, backdrop_buffer_ = 0, edge_buffer_ = 0,
@@ -286,7 +288,8 @@ class GlesFaceView final : public FaceView {
   float covered_ = 0;
   FaceStand stand_;
   float edge_level_mm_ = 0;
-  int count_ = 0, point_count_ = 0, backdrop_count_ = 0, edge_count_ = 0, width_ = 0, height_ = 0;
+  int count_ = 0, point_count_ = 0, apart_count_ = 0, backdrop_count_ = 0, edge_count_ = 0, width_ = 0,
+      height_ = 0;
   int times_ = 1;  // pixels of the frame for one of the screen
   bool textured_ = false;
 };

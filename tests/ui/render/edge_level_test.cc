@@ -4,9 +4,11 @@
 
 #include <gtest/gtest.h>
 
+#include <array>
 #include <cmath>
 #include <memory_resource>
 #include <set>
+#include <vector>
 
 namespace relievo::ui {
 namespace {
@@ -65,6 +67,25 @@ TEST(EdgeLevel, AMeshThatIsCoarseKeepsEverySide) {
       own.insert({std::min(t[i], t[(i + 1) % 3]), std::max(t[i], t[(i + 1) % 3])});
   EXPECT_EQ(edges_of(mesh, 3), Edges(own.begin(), own.end()));
   EXPECT_TRUE(edges_of(pipeline::FaceMesh(std::pmr::get_default_resource()), 3).empty());
+}
+
+// So few that what is between them is seen, and no part without.
+TEST(DotsOfAMesh, SomeStandApartAndComeFirst) {
+  std::vector<Dot> dots;
+  for (const auto& v : bowl(275, 0.6F).vertices_mm) dots.push_back({v.x, v.y, v.z});
+  const std::size_t all = dots.size(), apart = set_apart(dots);
+  EXPECT_EQ(dots.size(), all);
+  const auto cube = [](const Dot& d) {
+    return std::array{std::lround(d.x / kApartMm), std::lround(d.y / kApartMm), std::lround(d.z / kApartMm)};
+  };
+  std::set<std::array<long, 3>> first, whole;
+  for (std::size_t i = 0; i < all; ++i) {
+    whole.insert(cube(dots[i]));
+    if (i < apart) first.insert(cube(dots[i]));
+  }
+  EXPECT_EQ(first.size(), apart);
+  EXPECT_EQ(first, whole);
+  EXPECT_LT(apart, all / 10);
 }
 
 }  // namespace
