@@ -9,6 +9,7 @@
 #include <chrono>
 #include <string>
 #include <thread>
+#include <utility>
 #include <vector>
 
 #include "firmware/records/receipt.h"
@@ -73,12 +74,44 @@ class KioskSpeechTest : public KioskHands {
   testing::AssertionResult hears(const std::string& words) {
     const auto never = std::chrono::steady_clock::now() + std::chrono::minutes(5);
     for (std::size_t from = pressed_at; std::chrono::steady_clock::now() < never; kiosk->turn()) {
+      nothing_shown_falls();
       for (; from < heard().size(); ++from)
         if (heard()[from].text.find(as_spoken(words)) != std::string::npos)
           return testing::AssertionSuccess();
       std::this_thread::sleep_for(std::chrono::milliseconds(1));
     }
     return testing::AssertionFailure() << "never heard: " << words << "; last: " << last_heard();
+  }
+  // Of what the page shows of how far it is: its dots, and the bar of the portrait.
+  void nothing_shown_falls() {
+    const ui::Node* steps = find("steps");
+    const std::pair now{steps != nullptr ? digits_of(steps->value) : shown.first,
+                        find("progress") != nullptr ? kiosk->view().progress : shown.second};
+    EXPECT_GE(now.first, shown.first);
+    EXPECT_GE(now.second, shown.second);
+    shown = now;
+  }
+  // And of what was said of it since: "2 of 4", "75 %".
+  void nothing_said_falls(std::size_t since, const std::string& how_far) {
+    std::string step;
+    int percent = 0, said = 0;
+    for (std::size_t i = since; i < heard().size(); ++i) {
+      const std::string& text = heard()[i].text;
+      for (std::size_t at = text.find(how_far); at != std::string::npos; at = text.find(how_far, at + 1)) {
+        const std::string value = text.substr(at + how_far.size(), 12);
+        if (value.find('%') == std::string::npos) {
+          const std::string now = digits_of(value);
+          EXPECT_GE(now, step) << text;
+          step = now;
+        } else {
+          const int now = std::stoi(digits_of(value.substr(0, value.find('%'))));
+          EXPECT_GE(now, percent) << text;
+          percent = now;
+        }
+        ++said;
+      }
+    }
+    EXPECT_GT(said, 4) << "each page, and the bar";
   }
   static bool is_own_name(const hal::RecordingSpeaker::Heard& one) {
     for (std::size_t i = 0; i < ui::kLanguages; ++i) {
@@ -109,6 +142,7 @@ class KioskSpeechTest : public KioskHands {
       ASSERT_TRUE(hears(tr("Your face in three dimensions")));
     }
     const std::size_t since = heard().size() - 1;
+    shown = {};
     ASSERT_NO_FATAL_FAILURE(choose(tr("Start")));
     ASSERT_TRUE(hears(tr("What happens here")));
     EXPECT_TRUE(
@@ -129,6 +163,7 @@ class KioskSpeechTest : public KioskHands {
     ASSERT_TRUE(hears(tr("Thank you. Your portrait is stored")));
     code_is_heard();
     all_in(info.code, since);
+    nothing_said_falls(since, tr("How far it is"));
     for (const hal::Sound sound : {hal::Sound::Shutter, hal::Sound::Done})
       EXPECT_EQ(std::count_if(heard().begin() + static_cast<std::ptrdiff_t>(since), heard().end(),
                               [&](const auto& one) { return one.text.empty() && one.sound == sound; }),
@@ -226,7 +261,8 @@ class KioskSpeechTest : public KioskHands {
   Services services{.console = console, .clock = clock};
   KioskArgs args;
   hal::RecordingSpeaker* speaker = nullptr;
-  std::size_t pressed_at = 0;  // so much had been heard
+  std::pair<std::string, float> shown;  // of the visit's way, and of its portrait's
+  std::size_t pressed_at = 0;           // so much had been heard
 };
 
 // One test for all, since building the simulated person takes longest.
