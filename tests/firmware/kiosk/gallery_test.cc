@@ -153,7 +153,8 @@ void GalleryTest::nothing_lies_on_the_oval(const ui::Tree& tree) {
   const ui::Node* oval = tree.find("oval");
   if (oval == nullptr || tree.find("veil") != nullptr) return;
   const float x = oval->rect.x + oval->rect.w / 2, y = oval->rect.y + oval->rect.h / 2;
-  for (const char* id : {"advice", "again", "back", "bigger", "language", "help", "leave", "shoot"}) {
+  for (const char* id :
+       {"advice", "again", "back", "bigger", "language", "help", "leave", "shoot", "enough", "sides"}) {
     const ui::Node* node = tree.find(id);
     if (node == nullptr) continue;
     // Its nearest point, where the oval is a circle.

@@ -69,26 +69,28 @@ void languages(Page& page) {
               {ActionKind::ShowLanguages, 0});
 }
 
+// Beside the head, where large words would have to be scrolled to come to it.
+bool tight(const Page& page) { return !page.portrait && page.text_share > 1.3F; }
+
 void words(Page& page) {
   Node column = page.box(Flow::Column, space::kM);
   column.box.grow = page.portrait ? 0 : 1.1F;
   column.box.justify = Justify::Centre;
   column.box.shrink = true;
   const auto in_column = page.tree.inside(column);
-  const bool tight = !page.portrait && page.text_share > 1.3F;
   Node said = page.box(Flow::Column, space::kM);
   said.id = "said";
   said.box.scroll = said.box.shrink = true;
   page.tree.open(said);
   page.heading("title", page.tr("Your face in three dimensions"),
-               tight                                     ? 38
+               tight(page)                               ? 38
                : page.portrait || page.text_share < 1.2F ? type::kDisplay
                                                          : 50);
   page.body(
       "what",
       page.tr(
           "Two cameras look at you for a moment; all of it takes about a minute. You see your 3D portrait first. Without your consent nothing is kept."));
-  page.cameras();
+  if (!tight(page)) page.cameras();
   page.tree.close();
   page.tree.leaf(page.sized(page.box(Flow::Column), 1, 4));
   page.button("start", page.tr("Start"), page.onward(), ButtonLook::Main, {ActionKind::Start, 0});
@@ -111,6 +113,7 @@ void attract_screen(Page& page) {
     const auto in_box = page.tree.inside(page.grown(page.box(Flow::Column, space::kM)));
     host(page);
     face(page);
+    if (tight(page)) page.cameras();
     tools(page);
   }
   page.tree.close();

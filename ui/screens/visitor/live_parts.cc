@@ -32,6 +32,11 @@ float room_above(const Page& page, bool notes) {
   return page.portrait && notes ? pill + 28 + 2 * type::kSmall * line : pill;
 }
 
+// The wide button of who cannot turn reaches under the oval.
+float room_below(const Page& page) {
+  return page.visit.step == Step::Turn && !page.portrait ? kMirrorEdge + size::kMainButton.height + 4 : 0.0F;
+}
+
 // Bright, as the field of a lamp; who asks for more contrast has it dark.
 Colour lamp(const Page& page) {
   return page.visit.high_contrast ? Colour{0, 0, 0, 170} : Colour{255, 255, 255, 230};
@@ -67,8 +72,9 @@ void oval(Page& page, bool good, float share, bool notes) {
       covers(page, aspect) ? std::max(page.width_dp, page.height_dp * aspect) : page.height_dp * aspect;
   const float wanted = page.view.live.ideal_width > 0 ? page.view.live.ideal_width * shown * 1.12F / 0.74F
                                                       : page.height_dp * 0.74F;
-  const float h = std::min({wanted, page.height_dp * (page.text_share > 1.6F ? 0.72F : 0.76F),
-                            page.width_dp * 1.1F, page.height_dp - 2 * room_above(page, notes)});
+  const float h =
+      std::min({wanted, page.height_dp * (page.text_share > 1.6F ? 0.72F : 0.76F), page.width_dp * 1.1F,
+                page.height_dp - 2 * std::max(room_above(page, notes), room_below(page))});
   Node ring = page.sized(page.box(Flow::Column), h * 0.74F, h);
   ring.id = "oval";
   ring.role = Role::Picture;

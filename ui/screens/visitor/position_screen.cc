@@ -4,6 +4,7 @@
 // Until the person stands right: where to go and what to do, one advice at a time.
 #include <algorithm>
 #include <cmath>
+#include <utility>
 
 #include "ui/screens/visitor/live_parts.h"
 #include "ui/screens/visitor/visitor_screens.h"
@@ -209,8 +210,11 @@ void turn_screen(Page& page) {
   page.square_button("leave", page.tr("Stop and leave"), icon::kClose, {ActionKind::Leave, 0});
   if (page.portrait) page.space(1);
   else sides(page);
+  constexpr float kInOneLine = 1.3F;
+  const float share = std::exchange(page.text_share, std::min(kInOneLine, page.text_share));
   page.button("enough", taken == 0 ? page.tr("I cannot turn my head") : page.tr("That is enough"),
               icon::kGood, ButtonLook::Main, {ActionKind::EnoughSides, 0});
+  page.text_share = share;
   page.tree.close();
   page.tree.close();
   page.tree.close();
