@@ -46,17 +46,24 @@ function(relievo_precompile target)
   endif()
 endfunction()
 
-# relievo_together(TARGET SOURCES...): up to eight files of one folder are compiled as one: half of what a small file
-# costs is reading headers, and an edit still compiles a few seconds' worth. So the files of a folder may not have private
-# names in common. CMake's own UNITY_BUILD would name files by absolute paths, and ccache would not find them from
-# another checkout. The presets tsan, tidy and arm64 do not: they find a file that forgets an include.
+# relievo_together(TARGET SOURCES... [ALONE regexes...]): up to eight files of one folder are compiled as one: half of what
+# a small file costs is reading headers, and an edit still compiles a few seconds' worth. So the files of a folder may not
+# have private names in common; of tests all that lies in tests/ROOM/FOLDER is one folder. ALONE: files that are compiled
+# by themselves: those that take seconds, and those that have private names in common with another file of their folder.
+# CMake's own UNITY_BUILD would name files by absolute paths, and ccache would not find them from another checkout. The
+# presets tsan, tidy and arm64 do not: they find a file that forgets an include.
 option(RELIEVO_UNITY "compile the files of a folder together" OFF)
 function(relievo_together target)
   if(NOT RELIEVO_UNITY)
     return()
   endif()
+  cmake_parse_arguments(PARSE_ARGV 1 arg "" "" "ALONE")
+  set(sources ${arg_UNPARSED_ARGUMENTS})
+  foreach(pattern ${arg_ALONE})
+    list(FILTER sources EXCLUDE REGEX ${pattern})
+  endforeach()
   set(parts)
-  foreach(source ${ARGN})
+  foreach(source ${sources})
     cmake_path(NORMAL_PATH source)
     cmake_path(RELATIVE_PATH source BASE_DIRECTORY ${CMAKE_SOURCE_DIR})
     cmake_path(GET source PARENT_PATH folder)
@@ -73,7 +80,7 @@ function(relievo_together target)
     file(CONFIGURE OUTPUT ${CMAKE_CURRENT_BINARY_DIR}/together/${part}.cc CONTENT "${text_of_${part}}" @ONLY)
     target_sources(${target} PRIVATE ${CMAKE_CURRENT_BINARY_DIR}/together/${part}.cc)
   endforeach()
-  set_source_files_properties(${ARGN} PROPERTIES HEADER_FILE_ONLY ON)
+  set_source_files_properties(${sources} PROPERTIES HEADER_FILE_ONLY ON)
   # g++ 12 warns of a class that has a private one in it unless it stands in the file that is compiled.
   target_compile_options(${target} PRIVATE $<$<CXX_COMPILER_ID:GNU>:-Wno-subobject-linkage>)
 endfunction()
@@ -82,8 +89,7 @@ endfunction()
 #              [PRECOMPILE headers of libraries...] [ALONE regexes...])
 # One static library from every .cc below the folders named (default: all of the current folder). READS_BYTES: it takes
 # numbers out of bytes that come from outside, and is sanitized for alignment, too. PRECOMPILE: what many of its files
-# include beside the standard library. ALONE: files that are compiled by themselves: those that take seconds, and those
-# that have private names in common with another file of their folder.
+# include beside the standard library.
 function(relievo_room name)
   cmake_parse_arguments(arg "READS_BYTES" "" "DIRS;EXCLUDE;LIBS;ROOMS;PRECOMPILE;ALONE" ${ARGN})
   if(NOT arg_DIRS)
@@ -98,11 +104,7 @@ function(relievo_room name)
     list(FILTER sources EXCLUDE REGEX ${pattern})
   endforeach()
   add_library(relievo_${name} STATIC ${sources})
-  set(together ${sources})
-  foreach(pattern ${arg_ALONE})
-    list(FILTER together EXCLUDE REGEX ${pattern})
-  endforeach()
-  relievo_together(relievo_${name} ${together})
+  relievo_together(relievo_${name} ${sources} ALONE ${arg_ALONE})
   set_target_properties(relievo_${name} PROPERTIES LINKER_LANGUAGE CXX RELIEVO_READS_BYTES "${arg_READS_BYTES}")
   cmake_path(GET CMAKE_CURRENT_SOURCE_DIR FILENAME folder)
   if(folder IN_LIST RELIEVO_COVERAGE)
@@ -115,15 +117,16 @@ function(relievo_room name)
   target_compile_features(relievo_${name} PUBLIC cxx_std_20)
 endfunction()
 
-# relievo_tests(NAME LIBS...): one GoogleTest program from every *_test.cc below the current folder.
+# relievo_tests(NAME LIBS... [ALONE regexes...]): one GoogleTest program from every *_test.cc below the current folder.
 function(relievo_tests name)
+  cmake_parse_arguments(arg "" "" "ALONE" ${ARGN})
   file(GLOB_RECURSE sources CONFIGURE_DEPENDS ${CMAKE_CURRENT_SOURCE_DIR}/*_test.cc)
   if(NOT sources)
     return()
   endif()
   add_executable(test_${name} ${sources})
-  relievo_together(test_${name} ${sources})
-  target_link_libraries(test_${name} PRIVATE relievo_options ${ARGN} GTest::gtest_main)
+  relievo_together(test_${name} ${sources} ALONE ${arg_ALONE})
+  target_link_libraries(test_${name} PRIVATE relievo_options ${arg_UNPARSED_ARGUMENTS} GTest::gtest_main)
   if(name IN_LIST RELIEVO_COVERAGE)  # what a header has in it is compiled here
     set_target_properties(test_${name} PROPERTIES RELIEVO_COUNTED ON)
   endif()
