@@ -196,7 +196,9 @@ TEST(Truth, FilesHaveTheirSizes) {
 
 TEST(Visit, IsAFolderForEachTurnAndBeginsWithTheFaceFromInFront) {
   const TemporaryFolder folder;
-  SimulationOptions visit = small(1), face = small(1);
+  SimulationOptions face = small(1);
+  face.rig.width_px = 240, face.rig.height_px = 150;
+  SimulationOptions visit = face;
   visit.scene = SceneKind::Visit;
   visit.drift = 0;  // a head is made once
   ASSERT_TRUE(render_to_folder(visit, folder / "visit"));
