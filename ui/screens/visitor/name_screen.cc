@@ -72,9 +72,9 @@ namespace {
 constexpr float kAsked = 38;  // the size of the question above the field
 constexpr float kFinderHigh = 136, kFinderHighAbreast = 78, kFinderHighPortrait = 300;
 constexpr float kMostOfCode = 1.5F;
-constexpr float kLargest = 1.6F;  // share of the text, from which even a row of its own is too short
+constexpr float kLargest = 1.6F;  // share of the text, from which the question has a row of its own
 
-// Large letters leave no room above the keys: question and answer stand side by side.
+// Large letters leave no room above the keys: question and answer stand side by side, up to the largest.
 bool abreast(const Page& page) { return !page.portrait && page.text_share > 1.1F; }
 
 // "4821-9037-____-__": what is there, and how much is still to come. As long as the code itself.
@@ -169,11 +169,13 @@ void wrong_code(Page& page) {
 
 // Question and answer, with the camera's picture beside them.
 void ask_name(Page& page, const char* asked) {
+  const bool largest = abreast(page) && page.text_share > kLargest;
+  if (largest) page.heading("title", asked, type::kSmall);
   Node row = page.box(page.portrait ? Flow::Column : Flow::Row, space::kM);
   row.box.align = page.portrait ? Align::Stretch : Align::Centre;
   const auto in_row = page.tree.inside(row);
   if (abreast(page)) {
-    page.heading("title", asked, page.text_share > kLargest ? type::kSmall : type::kBody);
+    if (!largest) page.heading("title", asked, type::kBody);
     field(page, asked, 1);
   } else {
     const auto in_box =
@@ -186,9 +188,7 @@ void ask_name(Page& page, const char* asked) {
     centred.box.justify = Justify::Centre;
     page.tree.open(centred);
   }
-  // The largest letters need all of the row.
-  if (!abreast(page) || page.text_share < kLargest)
-    finder(page, page.portrait ? kFinderHighPortrait : abreast(page) ? kFinderHighAbreast : kFinderHigh);
+  finder(page, page.portrait ? kFinderHighPortrait : abreast(page) ? kFinderHighAbreast : kFinderHigh);
   if (page.portrait) page.tree.close();
 }
 
