@@ -8,6 +8,7 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <cmath>
 #include <set>
 #include <string>
 #include <utility>
@@ -178,7 +179,7 @@ TEST_P(GalleryTest, NothingIsCutOrOverlapsAndAllIsReachedSpokenAndRead) {
 TEST_P(GalleryTest, TheLastPageIsSeenAtOneLook) {
   screen_->resize(1280, 800);
   std::size_t looked_at = 0;
-  for (const Exhibit& exhibit : gallery(kNothing, GetParam(), 0, false)) {
+  for (const Exhibit& exhibit : gallery({}, GetParam(), 0, false)) {
     if (exhibit.visit.step != ui::Step::Thanks) continue;
     SCOPED_TRACE(exhibit.name);
     screen_->show(exhibit.view, exhibit.visit, exhibit.service);
@@ -326,6 +327,13 @@ TEST_P(GalleryTest, ControlsComeDownAndToTheOtherSide) {
     for (const ui::Node& node : tree.nodes()) {
       if (node.action.kind == ui::ActionKind::None || node.action.kind == ui::ActionKind::TurnFace) continue;
       EXPECT_TRUE(node.id == "staff" || !tree.is_on_top(node) || node.rect.y >= kHeight / 3) << node.id;
+    }
+    if (exhibit.visit.step == ui::Step::Attract && exhibit.visit.overlay == ui::Overlay::None) {
+      const float here = tree.find("help")->rect.x;
+      exhibit.visit.reach = ui::Reach::LowOther;
+      screen_->show(exhibit.view, exhibit.visit, exhibit.service);
+      EXPECT_GT(std::abs(tree.find("help")->rect.x - here), kWidth / 4) << "whoever touches it sees it";
+      exhibit.visit.reach = ui::Reach::Low;
     }
     screen_->resize(1280, 800);
     screen_->show(exhibit.view, exhibit.visit, exhibit.service);

@@ -47,6 +47,7 @@ void face(Page& page) {
 
 void tools(Page& page) {
   Node row = page.box(Flow::Row, space::kS);
+  if (page.portrait) row = page.sided(row);  // elsewhere with the whole page
   row.box.justify = Justify::End;
   const auto in_row = page.tree.inside(row);
   if ((page.view.languages & page.view.voices).any())
