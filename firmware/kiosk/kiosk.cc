@@ -268,15 +268,13 @@ void Kiosk::hear(const ui::Input& input) {
   if (ui_->service().open) staff_->touched();
 }
 
-// Before the consent, and from the moment when the portrait is kept, the cameras are off.
+// Before the consent, and when all is over, the cameras are off.
 void Kiosk::rest_cameras() {
-  const State state = appliance_->state();
   const ui::Step step = ui_->visit().step;
   const bool consented = step == ui::Step::Name || step == ui::Step::Known;
   // One that is out of order is watched until it is back.
   const bool well = view_.out_of_order == ui::Trouble::None && appliance_->cameras() == CameraWatch::Well;
-  if ((state == State::Idle || state == State::Store) && well && !consented &&
-      appliance_->grabber().streams())
+  if (appliance_->state() == State::Idle && well && !consented && appliance_->grabber().streams())
     (void)appliance_->start_side_job(JobLane::Capture, *rest_cameras_);
 }
 

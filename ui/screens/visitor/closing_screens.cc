@@ -23,7 +23,8 @@ void tools(Page& page) {
     Node seen = page.grown(page.box(Flow::Row));
     seen.box.align = Align::Centre;
     const auto in_seen = page.tree.inside(seen);
-    page.cameras();
+    // They rest as soon as the portrait is stored: who listens is not told first that they are on.
+    if (!page.view.cameras_on) page.cameras();
   }
   page.reading_tools();
   if (page.view.service != nullptr && page.visit.step == Step::Trouble)
