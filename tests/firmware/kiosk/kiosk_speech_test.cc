@@ -159,8 +159,11 @@ class KioskSpeechTest : public KioskHands {
     ASSERT_TRUE(hears(tr("Very good. Look straight ahead and hold still"))) << "advice " << last_heard();
     ASSERT_TRUE(hears(tr("Your 3D portrait is being made")));
     ASSERT_TRUE(hears(tr("Is this you?")));
+    const std::size_t accepted = heard().size();
     ASSERT_NO_FATAL_FAILURE(choose(tr("Yes, keep it")));
     ASSERT_TRUE(hears(tr("Thank you. Your portrait is stored")));
+    for (std::size_t i = accepted; i < heard().size(); ++i)
+      EXPECT_EQ(heard()[i].text.find(tr("The cameras are on")), std::string::npos) << heard()[i].text;
     code_is_heard();
     all_in(info.code, since);
     nothing_said_falls(since, tr("How far it is"));
