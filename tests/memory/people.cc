@@ -28,7 +28,7 @@ const std::array<Stands, People::kMany> kPeople{{{4, {}},
 
 }  // namespace
 
-People::People() {
+People::People(std::size_t many) {
   ThreadPool pool(2);
   const auto photograph = [&](const std::shared_ptr<const hal::sim::HeadModel>& head, const HeadPose& pose) {
     const auto scene = hal::sim::make_head_scene(head, pose, pool);
@@ -37,10 +37,10 @@ People::People() {
       rolls[roll] = hal::sim::render_pair(*scene, rig(), {}, 1 + roll, pool);
     return rolls;
   };
-  for (std::size_t who = 0; who < kMany; ++who) {
+  for (std::size_t who = 0; who < many; ++who) {
     const auto head = hal::sim::make_head(hal::sim::traits_of(kPeople[who].person), pool);
     in_front_[who] = photograph(head, kPeople[who].pose);
-    for (std::size_t yaw = 0; who == 0 && yaw < kYawsDeg.size(); ++yaw)
+    for (std::size_t yaw = 0; many > 1 && who == 0 && yaw < kYawsDeg.size(); ++yaw)
       turned_[yaw] = photograph(head, hal::sim::turned_about_neck(kPeople[who].pose, kYawsDeg[yaw]));
   }
 }

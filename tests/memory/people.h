@@ -18,7 +18,8 @@ namespace relievo::test {
 class People {
  public:
   static constexpr std::size_t kMany = 4;  // each stands in another way; the first also turns the head
-  People();
+  // So many of them, of several the first also turned: a second or two each.
+  explicit People(std::size_t many);
   pipeline::StereoCalibration calibration() const;
   // Shows them as long as this lives.
   std::unique_ptr<hal::Device> device();

@@ -32,7 +32,7 @@ constexpr double kMayShrink = 0.95;                    // of the largest free bl
 int serve(int visits) {
   firmware::share_one_heap();
   const TemporaryFolder folder;
-  auto visitor = Visitor::at(folder.path() / "store");
+  auto visitor = Visitor::at(folder.path() / "store", People::kMany);
   firmware::keep_heap_steady();
   if (!visitor) return std::puts("the kiosk does not open"), 1;
   if (!(*visitor)->first_start()) return std::puts("the first start does not end"), 1;
@@ -42,7 +42,7 @@ int serve(int visits) {
   double free_then = 0;
   Usage warm, before = Usage::now();
   for (int number = 1; number <= visits; ++number) {
-    const int kind = number % kTurning == 1 ? int(Manner::Turns) : number % (kKinds - 1);
+    const int kind = number % kTurning == kTurning / 2 ? int(Manner::Turns) : number % (kKinds - 1);
     const auto manner = Manner(kind);
     const VisitEnd end =
         (*visitor)->visit(manner == Manner::Turns ? 0 : std::size_t(number) % People::kMany, manner);

@@ -21,8 +21,8 @@ constexpr std::string_view kTechnician = "4711", kOperator = "80526";
 
 }  // namespace
 
-Result<std::unique_ptr<Visitor>> Visitor::at(const std::filesystem::path& folder) {
-  std::unique_ptr<Visitor> visitor(new Visitor(folder));
+Result<std::unique_ptr<Visitor>> Visitor::at(const std::filesystem::path& folder, std::size_t people) {
+  std::unique_ptr<Visitor> visitor(new Visitor(folder, people));
   RELIEVO_TRY(visitor->open());
   return visitor;
 }

@@ -45,7 +45,7 @@ struct VisitEnd {
 class Visitor {
  public:
   // Errors: the kiosk's.
-  static Result<std::unique_ptr<Visitor>> at(const std::filesystem::path& folder);
+  static Result<std::unique_ptr<Visitor>> at(const std::filesystem::path& folder, std::size_t people = 1);
   // From the opening of the kiosk to its invitation.
   std::chrono::milliseconds until_invited();
   VisitEnd visit(std::size_t person = 0, Manner manner = Manner::Accepts);
@@ -58,7 +58,7 @@ class Visitor {
   firmware::Kiosk& kiosk() { return *kiosk_; }
 
  private:
-  explicit Visitor(const std::filesystem::path& folder) : folder_(folder) {}
+  Visitor(const std::filesystem::path& folder, std::size_t people) : folder_(folder), people_(people) {}
   Result<void> open();
   void turn();
   void tap(std::string_view id);
