@@ -54,11 +54,14 @@ Result<LockedBytes> LockedBytes::make(std::size_t size) {
   if (auto* kept = spare().take(size)) return LockedBytes(kept, size);
   auto* data = ready < 0 ? nullptr : static_cast<std::byte*>(sodium_malloc(size));
   if (data == nullptr) return Error{Errc::OutOfMemory, "there is no memory for the store's keys"};
-  LockedBytes room(data, size);
-  // sodium_malloc() locks, and is silent where it could not: asked once more, it says so.
-  if (sodium_mlock(data, size) != 0)
+  // sodium_malloc() locks, and is silent where it could not: asked once more, it says so. Such a room is not
+  // kept.
+  if (sodium_mlock(data, size) != 0) {
+    sodium_free(data);
     return Error{Errc::OutOfMemory,
                  "the store's keys cannot be kept out of swap: allow more locked memory (LimitMEMLOCK)"};
+  }
+  LockedBytes room(data, size);
   room.wipe();
   return room;
 }
