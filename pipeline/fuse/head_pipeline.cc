@@ -7,7 +7,6 @@
 
 #include "pipeline/fuse/head_texturer.h"
 #include "pipeline/mesh/landmarks/head_frame.h"
-#include "pipeline/mesh/meshers/base_sheet.h"
 #include "pipeline/mesh/model_quality.h"
 #include "pipeline/model/vector3.h"
 #include "pipeline/texture/texture_sharpness.h"
@@ -16,8 +15,7 @@ namespace relievo::pipeline {
 namespace {
 
 constexpr const char* kHeadRadiusMm = "200";  // a head with its ears, about the tip of the nose
-constexpr int kRoughTriangles = 60'000;       // enough to find a head's frame
-constexpr double kRoughAreaMm2 = 3000;
+constexpr int kCoarseTriangles = 60'000;      // enough to find a head's frame
 constexpr int kMostAtlasPx = 4096;
 
 void keep_photographs(const RectifiedPair& pair, HeadPose& pose) {
@@ -119,8 +117,7 @@ Result<HeadPose> HeadPipeline::measure(const StereoFrame& frame, const StereoCal
                      }));
   pose.drift = judge_drift(matches.epipolar_shift, pipeline.calibration());
   const auto head = run_stage(context, [&](StageContext& c) -> Result<HeadFrame> {
-    RELIEVO_TRY_ASSIGN(const FaceMesh rough, lattice_sheet(cloud, kRoughTriangles, kRoughAreaMm2, c));
-    return find_head_frame(rough, c);
+    return find_head_frame(coarse_mesh(pose.surface, kCoarseTriangles, c), c);
   });
   if (!head && head.error().code != Errc::PoorGeometry) return head.error();
   if (head) {

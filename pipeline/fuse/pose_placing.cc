@@ -7,10 +7,13 @@
 #include <cmath>
 #include <numbers>
 #include <optional>
+#include <utility>
+#include <vector>
 
 #include "hal/base/statistics.h"
 #include "pipeline/base/solving.h"
 #include "pipeline/fuse/pose_residuals.h"
+#include "pipeline/fuse/skin_slide.h"
 
 namespace relievo::pipeline {
 namespace {
@@ -18,6 +21,7 @@ namespace {
 constexpr double kFewestMet = 80;
 constexpr std::size_t kEveryNode = 16;
 constexpr double kPlacingRidge = 1e-9;
+constexpr double kSkinSamples = 2'500;
 // People lean while they turn: where their own head frames do not tell, a start may be that far off.
 constexpr RegistrationRound kFarRound{80, 40, 2, kFewSamples};
 constexpr std::array<RegistrationRound, 4> kPlacingRounds{
@@ -27,8 +31,7 @@ constexpr std::array<RegistrationRound, 4> kPlacingRounds{
 // more where it was wrong.
 constexpr double kBeforeMm = 5;
 constexpr double kMostBeforeShare = 0.1;
-// So much of what lies near another pose's surface lies on it: at once from its own head frame, and from the
-// best of all starts.
+// So much of what lies near another pose's surface lies on it: at once, and from the best of all starts.
 constexpr double kMetMm = 1;
 constexpr double kWellMetShare = 0.8, kMetShare = 0.5;
 constexpr std::array<Vec2d, 9> kTurnsDeg{
@@ -50,7 +53,7 @@ RigidTransform turned_by(const Vec2d& turn_deg) {
 
 class Placer {
  public:
-  Placer(std::span<const PoseSurface> poses, std::span<RegisteredPose> placed, PoseResiduals& residuals,
+  Placer(std::span<PoseSurface> poses, std::span<RegisteredPose> placed, PoseResiduals& residuals,
          StageContext& context)
       : poses_(poses),
         placed_(placed),
@@ -69,12 +72,12 @@ class Placer {
     std::pmr::vector<std::size_t> left(&context_.scratch);
     for (std::size_t p = 1; p < poses_.size(); ++p)
       if (known_[p] == 0) left.push_back(p);
-    for (const bool anywhere : {false, true})
+    for (const auto& [anywhere, least_share] : {std::pair{false, kWellMetShare}, {true, kMetShare}})
       for (bool more = true; more;) {
         more = false;
         for (std::size_t i = 0; i < left.size(); ++i) {
           if (context_.stop()) return registration_stopped();
-          if (!place(left[i], anywhere)) continue;
+          if (!place(left[i], anywhere, least_share)) continue;
           left.erase(left.begin() + std::ptrdiff_t(i--));
           more = true;
         }
@@ -87,10 +90,11 @@ class Placer {
   }
 
   // Onto the known ones; false where that leads nowhere.
-  bool place(std::size_t p, bool anywhere) {
+  bool place(std::size_t p, bool anywhere, double least_share) {
     const Laid laid = anywhere ? lay_from_anywhere(p) : lay_from_head(p);
-    if (laid.count < kFewestMet || laid.share < (anywhere ? kMetShare : kWellMetShare)) return false;
+    if (laid.count < kFewestMet || laid.share < least_share) return false;
     placed_[p].first_from_pose = laid.placed;
+    find_shared_skin(p);
     known_[p] = 1;
     return true;
   }
@@ -184,6 +188,35 @@ class Placer {
     return before[0] > kMostBeforeShare * seen[0] || before[1] > kMostBeforeShare * seen[1];
   }
 
+  // What the known ones show of the skin of this one.
+  void find_shared_skin(std::size_t p) {
+    SharedArena memory(context_.scratch);
+    std::pmr::vector<std::pmr::vector<SharedSkin>> parts(poses_.size() * PoseResiduals::kParts, &memory);
+    residuals_.for_each_part(parts.size(), [&](std::size_t i) {
+      const std::size_t b = i / PoseResiduals::kParts;
+      if (known_[b] == 0) return;
+      const PoseSurface& surface = poses_[b];
+      const RigidTransform& placed = placed_[b].first_from_pose;
+      const Rotation back = transposed(placed.rotation);
+      const RigidTransform here_from_there = product(inverse(placed_[p].first_from_pose), placed);
+      const auto look = [&](std::size_t node, const Vec3d& normal, double, const PoseResidual&) {
+        const Vec3d place = wide(surface.at_mm[node]);
+        if (!shows_skin(surface, place) || context_.stop()) return;
+        const auto [right, up] = residuals_.along_skin(normal);
+        if (const auto here =
+                same_skin(surface, place, {apply(back, right), apply(back, up)}, poses_[p], here_from_there))
+          parts[i].push_back({std::uint32_t(b), std::uint32_t(node), narrow(*here)});
+      };
+      residuals_.for_each_sample(b, kSkinSamples, look, i % PoseResiduals::kParts, PoseResiduals::kParts);
+    });
+    std::size_t count = 0;
+    for (const auto& part : parts) count += part.size();
+    std::pmr::vector<SharedSkin>& all = poses_[p].shared_skin;
+    all.clear();
+    all.reserve(count);
+    for (const auto& part : parts) all.insert(all.end(), part.begin(), part.end());
+  }
+
   Sum against_known(std::size_t p, const RegistrationRound& round) const {
     std::array<Sum, PoseResiduals::kParts> parts;
     residuals_.for_each_part(parts.size(), [&](std::size_t i) {
@@ -209,7 +242,7 @@ class Placer {
     return all;
   }
 
-  std::span<const PoseSurface> poses_;
+  std::span<PoseSurface> poses_;
   std::span<RegisteredPose> placed_;
   PoseResiduals& residuals_;
   StageContext& context_;
@@ -218,7 +251,7 @@ class Placer {
 
 }  // namespace
 
-Result<void> place_poses(std::span<const PoseSurface> poses, std::span<RegisteredPose> placed,
+Result<void> place_poses(std::span<PoseSurface> poses, std::span<RegisteredPose> placed,
                          PoseResiduals& residuals, StageContext& context) {
   return Placer(poses, placed, residuals, context).place_all();
 }
@@ -227,7 +260,7 @@ void place_last_pose(std::span<PoseSurface> poses, StageContext& context) {
   if (poses.size() < 2 || !poses[0].has_head) return;
   std::pmr::vector<RegisteredPose> placed(poses.size(), &context.scratch);
   PoseResiduals residuals(poses, placed, context);
-  if (Placer(poses, placed, residuals, context).place(poses.size() - 1, false))
+  if (Placer(poses, placed, residuals, context).place(poses.size() - 1, true, kWellMetShare))
     poses.back().first_from_pose = placed.back().first_from_pose;
 }
 

@@ -8,12 +8,10 @@
 #include <cmath>
 #include <deque>
 #include <map>
-#include <mutex>
 #include <utility>
 
 #include "hal/base/statistics.h"
 #include "pipeline/fuse/pose_residuals.h"
-#include "pipeline/fuse/skin_slide.h"
 
 namespace relievo::pipeline {
 namespace {
@@ -33,7 +31,7 @@ constexpr std::array<RegistrationRound, 5> kRounds{{{12, 6, 8, kFewSamples},
                                                     {2, 0.25, 8, kFewSamples},
                                                     {1.5, 0.12, 8, kFewSamples}}};
 constexpr RegistrationRound kLast{1.5, 0.08, 20};
-constexpr double kSkinSamples = 2'500, kSlideSigmaMm = 0.1;
+constexpr double kSlideSigmaMm = 0.1;
 // Regions move together, as both cheeks in a smile: so much more than apart (of twelve heads, still and
 // moving).
 constexpr double kRegionsAlike = 2.5;
@@ -42,24 +40,6 @@ constexpr int kSkinTimes = 100;                // at most; each costs a thousand
 
 Vec3d vector(const Eigen::Vector3d& v) { return {v[0], v[1], v[2]}; }
 Eigen::Index place(std::size_t pose) { return 6 * (static_cast<Eigen::Index>(pose) - 1); }
-
-// An arena from which several threads take.
-class SharedArena final : public std::pmr::memory_resource {
- public:
-  explicit SharedArena(Arena& arena) : arena_(arena), mark_(arena) {}
-
- private:
-  void* do_allocate(std::size_t bytes, std::size_t alignment) override {
-    const std::lock_guard lock(mutex_);
-    return arena_.allocate(bytes, alignment);
-  }
-  void do_deallocate(void*, std::size_t, std::size_t) override {}
-  bool do_is_equal(const memory_resource& other) const noexcept override { return this == &other; }
-
-  Arena& arena_;
-  Arena::Mark mark_;
-  std::mutex mutex_;
-};
 
 // All poses at once, each against each.
 class JointSolver {
@@ -72,9 +52,6 @@ class JointSolver {
       for (int k = 0; k < round.times && move(round) > round.still(); ++k)
         if (context_.stop()) return registration_stopped();
     residuals_.skin().watch();
-    SharedArena memory(context_.scratch);
-    const auto found = find_same_skin(memory);
-    same_skin_ = found;
     for (int k = 0; k < kLast.times; ++k) {
       if (context_.stop()) return registration_stopped();
       if (settle() <= kStillMm) break;
@@ -139,54 +116,30 @@ class JointSolver {
     }
   }
 
-  // A place of skin as two poses show it, a < b, each in its own frame, and two directions along it.
-  struct SkinMatch {
-    std::size_t patch, a, b;
-    Vec3d in_a, in_b;
-    std::array<Vec3d, 2> along;  // first pose's frame
-  };
-
-  std::pmr::vector<SkinMatch> find_same_skin(SharedArena& memory) const {
-    std::pmr::vector<std::pmr::vector<SkinMatch>> parts(placed_.size() * kParts, &memory);
-    const Vec3d head_up = apply(transposed(residuals_.surface(0).head_from_camera.rotation), Vec3d{0, 1, 0});
-    residuals_.for_each_part(parts.size(), [&](std::size_t i) {
-      const std::size_t a = i / kParts;
-      const PoseSurface& surface = residuals_.surface(a);
-      const RigidTransform& placed = placed_[a].first_from_pose;
-      const auto look = [&](std::size_t node, const Vec3d& normal, double, const PoseResidual& res) {
-        const Vec3d place = wide(surface.at_mm[node]);
-        if (!shows_skin(surface, place) || context_.stop()) return;
-        const Vec3d up = unit(minus(head_up, times(normal, dot(head_up, normal)))), right = cross(up, normal);
-        const std::array<Vec3d, 2> along{apply(transposed(placed.rotation), right),
-                                         apply(transposed(placed.rotation), up)};
-        for (std::size_t b = a + 1; b < placed_.size(); ++b) {
-          const RigidTransform b_from_a = product(inverse(placed_[b].first_from_pose), placed);
-          if (const auto there = same_skin(surface, place, along, residuals_.surface(b), b_from_a))
-            parts[i].push_back({res.patch, a, b, place, *there, {right, up}});
-        }
-      };
-      residuals_.for_each_sample(a, kSkinSamples, look, i % kParts, kParts);
-    });
-    std::pmr::vector<SkinMatch> all(&memory);
-    for (const auto& part : parts) all.insert(all.end(), part.begin(), part.end());
-    return all;
-  }
-
+  // How far skin that two poses share slid along itself: visit(pose, other pose, residual), the lower first.
   template <typename Visit>
   void for_each_slide(Visit&& visit) const {
-    for (const SkinMatch& m : same_skin_) {
-      const Vec3d at = apply(placed_[m.a].first_from_pose, m.in_a),
-                  other = apply(placed_[m.b].first_from_pose, m.in_b);
-      for (std::size_t k = 0; k < 2; ++k) {
-        PoseResidual r{};
-        r.value = dot(m.along[k], minus(at, other));
-        r.weight = 1 / (kSlideSigmaMm * kSlideSigmaMm);
-        const Vec3d turn = cross(minus(at, residuals_.pivot()), m.along[k]);
-        r.toward << turn.x, turn.y, turn.z, m.along[k].x, m.along[k].y, m.along[k].z;
-        r.patch = SkinPatches::sliding(m.patch, k);
-        visit(m.a, m.b, r);
+    for (std::size_t p = 0; p < placed_.size(); ++p)
+      for (const SharedSkin& skin : residuals_.surface(p).shared_skin) {
+        const std::size_t from = skin.pose;
+        if (!placed_[p].joined || !placed_[from].joined) continue;
+        const PoseSurface& surface = residuals_.surface(from);
+        const RigidTransform& placed = placed_[from].first_from_pose;
+        Vec3d at = apply(placed, wide(surface.at_mm[skin.node])),
+              other = apply(placed_[p].first_from_pose, wide(skin.at_mm));
+        const std::size_t patch = residuals_.patch_at(at);
+        const auto along = residuals_.along_skin(apply(placed.rotation, wide(surface.normal[skin.node])));
+        if (from > p) std::swap(at, other);
+        for (std::size_t k = 0; k < 2; ++k) {
+          PoseResidual r{};
+          r.value = dot(along[k], minus(at, other));
+          r.weight = 1 / (kSlideSigmaMm * kSlideSigmaMm);
+          const Vec3d turn = cross(minus(at, residuals_.pivot()), along[k]);
+          r.toward << turn.x, turn.y, turn.z, along[k].x, along[k].y, along[k].z;
+          r.patch = SkinPatches::sliding(patch, k);
+          visit(std::min(from, p), std::max(from, p), r);
+        }
       }
-    }
   }
 
   // What the samples in one patch say between two poses about small motions of `a` against `b`, a < b.
@@ -334,7 +287,6 @@ class JointSolver {
   StageContext& context_;
   Eigen::Index unknowns_;
   Column last_;  // step of settle()
-  std::span<const SkinMatch> same_skin_;
 };
 
 }  // namespace

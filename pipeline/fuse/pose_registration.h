@@ -64,8 +64,8 @@ struct Registration {
 // them by more than 1.5 mm (rms), is left out: `joined` is false, and its trust is 0 everywhere. Memory: the
 // result in `output`. Errors: InvalidInput (the first has no head frame), PoorGeometry (all others are left
 // out; names the first of them), Cancelled. Throws std::bad_alloc. Thread: any. `place_last_pose` does a part
-// of it before all poses are there: lays the last of these onto those before it, if its own head frame leads
-// there. Memory: scratch.
+// of it before all poses are there: lays the last of these onto those before it, if it lies well there, and
+// finds the skin they share. Memory: scratch; what they share in the pose's own.
 void place_last_pose(std::span<PoseSurface> poses, StageContext& context);
 Result<Registration> register_poses(std::span<PoseSurface> poses, StageContext& context);
 

@@ -137,6 +137,16 @@ void PoseResiduals::move(std::size_t pose, const Vec3d& rotation, const Vec3d& t
   placed = product(small_motion(rotation, translation_mm, pivot_), placed);
 }
 
+std::array<Vec3d, 2> PoseResiduals::along_skin(const Vec3d& normal) const {
+  const Vec3d head_up = apply(transposed(poses_[0].head_from_camera.rotation), Vec3d{0, 1, 0});
+  const Vec3d up = unit(minus(head_up, times(normal, dot(head_up, normal))));
+  return {cross(up, normal), up};
+}
+
+std::size_t PoseResiduals::patch_at(const Vec3d& place) const {
+  return SkinPatches::at(apply(poses_[0].head_from_camera, place));
+}
+
 double PoseResiduals::say_of(PoseResidual& res) const {
   const Vec3d in_head = apply(poses_[0].head_from_camera, res.at);
   res.patch = SkinPatches::at(in_head);

@@ -12,6 +12,7 @@
 #include <cmath>
 #include <cstddef>
 #include <memory_resource>
+#include <mutex>
 #include <optional>
 #include <span>
 #include <vector>
@@ -118,6 +119,9 @@ class PoseResiduals {
   std::size_t poses() const { return poses_.size(); }
   // Middle of the head, about which small motions turn.
   const Vec3d& pivot() const { return pivot_; }
+  // To the right and upwards along the skin, unit length.
+  std::array<Vec3d, 2> along_skin(const Vec3d& normal) const;
+  std::size_t patch_at(const Vec3d& place) const;
   const PoseSurface& surface(std::size_t pose) const { return poses_[pose]; }
   SkinPatches& skin() { return skin_; }
   // Surfaces of calibrations that differ lie off everywhere: no scale is narrower than what is usual.
@@ -192,9 +196,28 @@ class PoseResiduals {
 
 // Lays each pose onto those before it: from its own head frame, or, where that leads nowhere, from a head
 // turned by up to 65 degrees, the best of all. Where one would stand before skin that another measured, it
-// does not lie. One that meets no other is not `joined`. Errors: Cancelled.
-Result<void> place_poses(std::span<const PoseSurface> poses, std::span<RegisteredPose> placed,
+// does not lie. One that meets no other is not `joined`. Finds the skin it shares with them. Errors:
+// Cancelled.
+Result<void> place_poses(std::span<PoseSurface> poses, std::span<RegisteredPose> placed,
                          PoseResiduals& residuals, StageContext& context);
+
+// An arena from which several threads take. What they took goes with it.
+class SharedArena final : public std::pmr::memory_resource {
+ public:
+  explicit SharedArena(Arena& arena) : arena_(arena), mark_(arena) {}
+
+ private:
+  void* do_allocate(std::size_t bytes, std::size_t alignment) override {
+    const std::lock_guard lock(mutex_);
+    return arena_.allocate(bytes, alignment);
+  }
+  void do_deallocate(void*, std::size_t, std::size_t) override {}
+  bool do_is_equal(const memory_resource& other) const noexcept override { return this == &other; }
+
+  Arena& arena_;
+  Arena::Mark mark_;
+  std::mutex mutex_;
+};
 
 // Fills `meets` of the poses, and `residuals`, of what is registered.
 void measure_agreement(std::span<const PoseSurface> poses, Registration& registration, StageContext& context);

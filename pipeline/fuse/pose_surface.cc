@@ -7,6 +7,7 @@
 
 #include "hal/base/statistics.h"
 #include "pipeline/mesh/lattice/lattice_surface.h"
+#include "pipeline/mesh/surface_cleaner.h"
 #include "pipeline/model/vector3.h"
 
 namespace relievo::pipeline {
@@ -122,6 +123,37 @@ Result<PoseSurface> make_pose_surface(const PointCloud& cloud, const RectifiedPa
     }
   fade_to_edges(pose, kEdgeNodes, &context.scratch);
   return pose;
+}
+
+FaceMesh coarse_mesh(const PoseSurface& pose, int most_triangles, StageContext& context) {
+  const int every = std::max(1, int(std::ceil(std::sqrt(2 * double(pose.at_mm.size()) / most_triangles))));
+  const int columns = (pose.columns + every - 1) / every, rows = (pose.rows + every - 1) / every;
+  std::pmr::vector<std::size_t> node(&context.scratch);
+  std::pmr::vector<Vec3f> at_mm(&context.scratch);
+  for (int r = 0; r < pose.rows; r += every)
+    for (int c = 0; c < pose.columns; c += every) {
+      node.push_back(std::size_t(r) * std::size_t(pose.columns) + std::size_t(c));
+      at_mm.push_back(pose.at_mm[node.back()]);
+    }
+  std::pmr::vector<Triangle> triangles(&context.scratch);
+  const float least_cosine = cosine_of_slope(kLimits.max_slope);
+  const auto add = [&](const Triangle& t) {
+    if (std::all_of(t.begin(), t.end(), [&](std::uint32_t v) { return pose.trust[node[v]] > 0; }) &&
+        facing(at_mm[t[0]], at_mm[t[1]], at_mm[t[2]], least_cosine))
+      triangles.push_back(t);
+  };
+  const auto w = std::uint32_t(columns);
+  for (std::uint32_t r = 0; r + 1 < std::uint32_t(rows); ++r)
+    for (std::uint32_t a = r * w; a + 1 < (r + 1) * w; ++a) {
+      add({a, a + w, a + w + 1});
+      add({a, a + w + 1, a + 1});
+    }
+  keep_one_surface(at_mm, triangles, {}, &context.scratch);
+  FaceMesh mesh = pack_mesh(at_mm.size(), triangles, context, [&](std::size_t v) {
+    return PackedVertex{at_mm[v], pose.sigma_mm[node[v]], 1};
+  });
+  compute_normals(mesh, 1, &context.scratch);
+  return mesh;
 }
 
 void fade_to_edges(PoseSurface& pose, float nodes, std::pmr::memory_resource* scratch) {

@@ -28,9 +28,15 @@ struct SurfaceHit {
   float trust = 0;     // 0 at the edge of what was measured or where it is seen edge-on, to 1
 };
 
+// Skin that another pose shows, too.
+struct SharedSkin {
+  std::uint32_t pose, node;  // which one, and where on its lattice
+  Vec3f at_mm;               // where this pose has it, in its own frame
+};
+
 struct PoseSurface {
   explicit PoseSurface(std::pmr::memory_resource* memory)
-      : at_mm(memory), normal(memory), sigma_mm(memory), trust(memory) {}
+      : at_mm(memory), normal(memory), sigma_mm(memory), trust(memory), shared_skin(memory) {}
   int columns = 0, rows = 0;
   // How the rectified left view sees the left camera's frame.
   Rotation rectified_from_camera;
@@ -49,6 +55,7 @@ struct PoseSurface {
   std::span<const std::uint8_t> photo_rgb;
   int photo_width_px = 0, photo_height_px = 0;
   std::optional<RigidTransform> first_from_pose;  // where it was laid onto the poses before it, if it was
+  std::pmr::vector<SharedSkin> shared_skin;       // with the poses it was laid onto
 
   // `place_mm` in this pose's left camera's frame. None where nothing was measured, or the surface is torn.
   std::optional<SurfaceHit> look(const Vec3f& place_mm) const;
@@ -59,6 +66,10 @@ struct PoseSurface {
 // PoorGeometry (no surface), Cancelled; throws std::bad_alloc.
 Result<PoseSurface> make_pose_surface(const PointCloud& cloud, const RectifiedPair& pair,
                                       StageContext& context);
+
+// Every so many nodes of its largest part, to find a head's frame on; empty where there are none. Memory:
+// output; scratch. Throws std::bad_alloc.
+FaceMesh coarse_mesh(const PoseSurface& pose, int most_triangles, StageContext& context);
 
 // Lets trust fade over so many nodes to where it ends. Throws std::bad_alloc.
 void fade_to_edges(PoseSurface& pose, float nodes, std::pmr::memory_resource* scratch);

@@ -4,9 +4,11 @@
 
 #include <algorithm>
 #include <array>
+#include <bit>
 #include <cmath>
 #include <limits>
 
+#include "hal/base/assert.h"
 #include "pipeline/model/vector3.h"
 
 namespace relievo::pipeline {
@@ -28,13 +30,20 @@ struct Cell {
 class Walker {
  public:
   Walker(const BandVolume& volume, std::pmr::memory_resource* memory)
-      : volume_(volume), crossings_(memory), corners_(memory), centres_(memory), result_(memory) {
+      : volume_(volume),
+        cells_(memory),
+        corners_(memory),
+        crossed_(memory),
+        before_(memory),
+        centres_(memory),
+        result_(memory) {
     strides_ = {1, std::size_t(volume.nx), std::size_t(volume.nx) * std::size_t(volume.ny)};
   }
 
   Polygonised walk() {
     std::size_t sides = 0, centres = 0;
     for_each_cell([&](const Cell& cell) {
+      cells_.push_back(cell.voxel);
       follow(cell, [&](std::span<const Crossing> loop, bool ambiguous) {
         sides += loop.size();
         centres += ambiguous;
@@ -42,16 +51,13 @@ class Walker {
     });
     corners_.reserve(3 * sides);
     centres_.reserve(centres);
-    for_each_cell([&](const Cell& cell) {
-      follow(cell, [&](std::span<const Crossing> loop, bool ambiguous) {
+    crossed_.assign(4 * volume_.value.size() / kWordBits + 1, 0);
+    for (const std::size_t voxel : cells_)
+      follow(cell_at(voxel), [&](std::span<const Crossing> loop, bool ambiguous) {
+        for (const Crossing c : loop) crossed_[c / kWordBits] |= std::uint64_t{1} << c % kWordBits;
         ambiguous&& loop.size() > 3 ? cut_to_centre(loop) : cut(loop);
       });
-    });
-    crossings_ = corners_;
-    std::ranges::sort(crossings_);
-    crossings_.erase(std::unique(crossings_.begin(), crossings_.end()), crossings_.end());
-    result_.vertices_mm.reserve(crossings_.size());
-    for (const Crossing c : crossings_) result_.vertices_mm.push_back(place(c));
+    number_crossings();
     result_.triangles.reserve(corners_.size() / 3);
     for (std::size_t i = 0; i < corners_.size(); i += 3)
       result_.triangles.push_back({number(corners_[i]), number(corners_[i + 1]), number(corners_[i + 2])});
@@ -59,23 +65,26 @@ class Walker {
   }
 
  private:
+  static constexpr std::size_t kWordBits = 64;
+
+  Cell cell_at(std::size_t voxel) const {
+    Cell cell{{}, voxel};
+    for (std::size_t k = 0; k < 8; ++k)
+      cell.value[k] =
+          volume_.value[voxel + (k & 1) * strides_[0] + (k >> 1 & 1) * strides_[1] + (k >> 2) * strides_[2]];
+    return cell;
+  }
   template <typename Visit>
   void for_each_cell(Visit&& visit) const {
-    Cell cell;
     for (int z = 0; z + 1 < volume_.nz; ++z)
       for (int y = 0; y + 1 < volume_.ny; ++y)
         for (int x = 0; x + 1 < volume_.nx; ++x) {
-          cell.voxel = volume_.index(x, y, z);
-          if (std::isnan(volume_.value[cell.voxel])) continue;
-          int outside = 0;
-          bool known = true;
-          for (std::size_t k = 0; known && k < 8; ++k) {
-            cell.value[k] = volume_.value[cell.voxel + (k & 1) * strides_[0] + (k >> 1 & 1) * strides_[1] +
-                                          (k >> 2) * strides_[2]];
-            known = !std::isnan(cell.value[k]);
-            outside += cell.value[k] >= 0;
-          }
-          if (known && outside > 0 && outside < 8) visit(cell);
+          const std::size_t voxel = volume_.index(x, y, z);
+          if (std::isnan(volume_.value[voxel])) continue;
+          const Cell cell = cell_at(voxel);
+          int outside = 0, unknown = 0;
+          for (const float value : cell.value) outside += value >= 0, unknown += std::isnan(value);
+          if (unknown == 0 && outside > 0 && outside < 8) visit(cell);
         }
   }
 
@@ -186,13 +195,34 @@ class Walker {
     return p;
   }
 
+  // In their order; how many come before a word's is kept.
+  void number_crossings() {
+    before_.reserve(crossed_.size());
+    std::size_t count = 0;
+    for (const std::uint64_t word : crossed_) {
+      before_.push_back(std::uint32_t(count));
+      count += std::size_t(std::popcount(word));
+    }
+    result_.vertices_mm.reserve(count + centres_.size());
+    for (std::size_t i = 0; i < crossed_.size(); ++i)
+      for (std::uint64_t word = crossed_[i]; word != 0; word &= word - 1)
+        result_.vertices_mm.push_back(place(kWordBits * i + std::size_t(std::countr_zero(word))));
+    crossings_ = count;
+    result_.vertices_mm.insert(result_.vertices_mm.end(), centres_.begin(), centres_.end());
+  }
   std::uint32_t number(Crossing c) const {
-    return std::uint32_t(std::lower_bound(crossings_.begin(), crossings_.end(), c) - crossings_.begin());
+    if (c >= kCentre) return std::uint32_t(crossings_ + (c - kCentre));
+    const std::uint64_t lower = (std::uint64_t{1} << c % kWordBits) - 1;
+    return before_[c / kWordBits] + std::uint32_t(std::popcount(crossed_[c / kWordBits] & lower));
   }
 
   const BandVolume& volume_;
   std::array<std::size_t, 3> strides_{};
-  std::pmr::vector<Crossing> crossings_, corners_;
+  std::pmr::vector<std::size_t> cells_;      // that the surface passes through
+  std::pmr::vector<Crossing> corners_;       // of the triangles
+  std::pmr::vector<std::uint64_t> crossed_;  // a bit for each crossing there is
+  std::pmr::vector<std::uint32_t> before_;   // how many there are before a word of these
+  std::size_t crossings_ = 0;
   std::pmr::vector<Vec3f> centres_;
   Polygonised result_;
 };
@@ -219,26 +249,57 @@ BandVolume volume_around(std::span<const Vec3f> points, float voxel_mm, int marg
   return volume;
 }
 
+namespace {
+
+// Of the voxels about a point along one axis: how far each lies from it, and the Gaussian's factor.
+struct AxisNear {
+  static constexpr int kMost = 12;
+  int first = 0, count = 0;
+  std::array<float, kMost> from_mm{}, factor{};
+
+  AxisNear(float at_mm, float corner_mm, float voxel_mm, float radius_mm) {
+    const float at = (at_mm - corner_mm) / voxel_mm, reach = radius_mm / voxel_mm;
+    first = int(at - reach) + 1;
+    for (; count < kMost && float(first + count) <= at + reach; ++count) {
+      const float voxels = float(first + count) - at;
+      from_mm[std::size_t(count)] = voxel_mm * voxels;
+      factor[std::size_t(count)] = std::exp(-voxels * voxels / 2);
+    }
+  }
+};
+
+}  // namespace
+
 // A band of slices each: every voxel sees the points in their order.
 void fill_field(std::span<const FieldPoint> points, float radius_mm, BandVolume& volume,
                 StageContext& context) {
   constexpr int kBands = 32;
+  RELIEVO_ASSERT(2 * radius_mm < float(AxisNear::kMost - 1) * volume.voxel_mm);
   const Arena::Mark mark(context.scratch);
   std::pmr::vector<float> weight(volume.value.size(), 0.0F, &context.scratch);
   std::ranges::fill(volume.value, 0.0F);
-  const float narrowness = 1 / (2 * volume.voxel_mm * volume.voxel_mm);
   context.pool.for_each_band(volume.nz, kBands, [&](int begin, int end, int) {
     const float low = volume.at(0, 0, begin).z - radius_mm, high = volume.at(0, 0, end - 1).z + radius_mm;
     for (const FieldPoint& p : points) {
       if (p.at_mm.z < low || p.at_mm.z > high) continue;
-      for_each_voxel_near(volume, p.at_mm, radius_mm, [&](int x, int y, int z) {
-        if (z < begin || z >= end) return;
-        const Vec3f from = minus(volume.at(x, y, z), p.at_mm);
-        const float w = p.weight * std::exp(-narrowness * dot(from, from));
-        const std::size_t k = volume.index(x, y, z);
-        volume.value[k] += w * dot(from, p.normal);
-        weight[k] += w;
-      });
+      const AxisNear x(p.at_mm.x, volume.corner_mm.x, volume.voxel_mm, radius_mm),
+          y(p.at_mm.y, volume.corner_mm.y, volume.voxel_mm, radius_mm),
+          z(p.at_mm.z, volume.corner_mm.z, volume.voxel_mm, radius_mm);
+      for (int k = std::max(begin - z.first, 0); k < std::min(z.count, end - z.first); ++k)
+        for (int j = 0; j < y.count; ++j) {
+          const float dz = z.from_mm[std::size_t(k)], dy = y.from_mm[std::size_t(j)];
+          const float off = dy * p.normal.y + dz * p.normal.z;
+          const float w_yz = p.weight * z.factor[std::size_t(k)] * y.factor[std::size_t(j)];
+          const float left = radius_mm * radius_mm - dy * dy - dz * dz;
+          const std::size_t row = volume.index(x.first, y.first + j, z.first + k);
+          for (std::size_t i = 0; i < std::size_t(x.count); ++i) {
+            const float dx = x.from_mm[i];
+            if (dx * dx > left) continue;
+            const float w = w_yz * x.factor[i];
+            volume.value[row + i] += w * (off + dx * p.normal.x);
+            weight[row + i] += w;
+          }
+        }
     }
   });
   for (std::size_t k = 0; k < weight.size(); ++k)

@@ -1,15 +1,19 @@
 // SPDX-FileCopyrightText: 2026 The Relievo authors
 // SPDX-License-Identifier: GPL-3.0-or-later
 //
-// A painted ball, seen by rays: turned about its middle it has the same shape, and only its skin tells.
+// A painted ball, seen by rays: turned about its middle it has the same shape, or nearly, and its skin tells.
 #include "pipeline/fuse/skin_slide.h"
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
+#include <cstdio>
 #include <numbers>
+#include <optional>
 #include <vector>
 
+#include "pipeline/fuse/pose_registration.h"
 #include "pipeline/model/vector3.h"
 #include "tests/pipeline/mesh/stage_room.h"
 
@@ -32,6 +36,12 @@ double paint(const Vec3d& p) {
          10 * std::sin(p.x / 2.9) * std::sin(p.z / 2.3);
 }
 
+// Where the ball stands out, and where it does while it makes a face.
+double bump_mm(const Vec3d& p, double face_mm) {
+  return 0.5 * std::sin(p.x / 12) * std::cos(p.y / 14) + 0.5 * std::sin((p.y + p.z) / 15) +
+         face_mm * std::sin(p.x / 17 + p.y / 15);
+}
+
 struct Ball {
   PoseSurface surface;
   std::vector<std::uint8_t> photo;
@@ -40,7 +50,7 @@ struct Ball {
 class PaintedBall : public ::testing::Test {
  protected:
   // `light`: what the photograph shows of the paint.
-  Ball seen(double yaw_deg, double light = 1, double contrast = 1) {
+  Ball seen(double yaw_deg, double light = 1, double contrast = 1, std::optional<double> face_mm = {}) {
     const RigidTransform ball_from_camera = inverse(camera_from_ball(yaw_deg));
     const int width = kColumns * kStepPx, height = kRows * kStepPx;
     std::vector<std::uint8_t> photo(std::size_t(3 * width * height), 20);
@@ -56,8 +66,13 @@ class PaintedBall : public ::testing::Test {
           const double b = kAwayMm / dot(ray, ray);
           const double inside = b * b - (kAwayMm * kAwayMm - kRadiusMm * kRadiusMm) / dot(ray, ray);
           if (inside < 0) continue;
-          const Vec3d at = times(ray, b - std::sqrt(inside));
-          const double shown = light * (120 + contrast * (paint(apply(ball_from_camera, at)) - 120));
+          const double on_ball = b - std::sqrt(inside);
+          Vec3d at = times(ray, on_ball);
+          const auto below = [&] { return times(unit(apply(ball_from_camera, at)), kRadiusMm); };
+          const double slant = std::max(std::sqrt(inside * dot(ray, ray)) / kRadiusMm, 0.2) * length(ray);
+          for (int k = 0; face_mm && k < 3; ++k)
+            at = times(ray, on_ball - bump_mm(below(), *face_mm) / slant);
+          const double shown = light * (120 + contrast * (paint(below()) - 120));
           for (std::size_t c = 0; c < 3; ++c)
             photo[std::size_t(3 * (y * width + x)) + c] = std::uint8_t(std::lround(shown));
           if (x % kStepPx == 0 && y % kStepPx == 0)
@@ -105,6 +120,32 @@ TEST_F(PaintedBall, ShowsTheSameSkinAlsoInOtherLight) {
 TEST_F(PaintedBall, SaysNothingWhereThereIsNothingToSee) {
   EXPECT_EQ(worst_of(seen(0, 1, 0), seen(20), 20, 20).second, 0) << "no paint";
   EXPECT_EQ(worst_of(seen(0), seen(20, 1, 0), 20, 20).second, 0) << "none in the other photograph";
+}
+
+TEST_F(PaintedBall, IsRegisteredBetterByItsSkin) {
+  constexpr double kYawDeg = 15, kStartsOffDeg = 1.5;
+  const Ball front = seen(0, 1, 1, 0), side = seen(kYawDeg, 1, 1, 0.5);
+  const RigidTransform head_from_ball{{}, {0, 20, -95}};
+  const auto degrees_off = [&](bool with_photographs) {
+    std::vector<PoseSurface> poses{front.surface, side.surface};
+    poses[0].head_from_camera = product(head_from_ball, inverse(camera_from_ball(0)));
+    poses[1].head_from_camera = product(head_from_ball, inverse(camera_from_ball(kYawDeg - kStartsOffDeg)));
+    for (PoseSurface& pose : poses) {
+      pose.has_head = true;
+      if (!with_photographs) pose.photo_rgb = {};
+    }
+    const auto found = room_.run([&](StageContext& c) { return register_poses(poses, c); });
+    if (!found) return 180.0;
+    const Rotation truth =
+        product(camera_from_ball(0).rotation, transposed(camera_from_ball(kYawDeg).rotation));
+    double trace = 0;
+    for (std::size_t i = 0; i < 9; ++i) trace += truth.m[i] * found->poses[1].first_from_pose.rotation.m[i];
+    return std::acos(std::min(1.0, (trace - 1) / 2)) * 180 / std::numbers::pi;
+  };
+  const double by_shape = degrees_off(false), by_skin = degrees_off(true);
+  std::printf("by shape alone %.3f, with the skin %.3f degrees off\n", by_shape, by_skin);
+  EXPECT_GT(by_shape, 5 * by_skin);
+  EXPECT_LT(by_skin, 0.3);
 }
 
 }  // namespace
