@@ -131,6 +131,8 @@ class Filler {
     const auto out_of = [&](std::size_t i, std::size_t j) {
       return unit(plus(unit(normals_[vertex(i)]), unit(normals_[vertex(j)])));
     };
+    std::vector<float> widest;
+    for (std::size_t i = 0; i < n; ++i) widest.push_back(limits.mouth_mm(at(i)));
     std::vector<Bay> bays;
     for (std::size_t i = 0; i < n; ++i) {
       Vec3f twice{};  // the area the stretch encloses
@@ -140,7 +142,8 @@ class Filler {
         if (along > limits.rim_mm) break;
         twice = plus(twice, cross(minus(at(j - 1), at(i)), minus(at(j), at(i))));
         const float mouth = distance(at(i), at(j)), area = -dot(twice, out_of(i, j)) / 2;
-        if (mouth <= limits.mouth_mm && area > kLeastDepthMm * mouth) bays.push_back({i, j - i, area});
+        if (area > kLeastDepthMm * mouth && mouth <= std::min(widest[i], widest[j % n]))
+          bays.push_back({i, j - i, area});
       }
     }
     std::sort(bays.begin(), bays.end(), [](const Bay& a, const Bay& b) {

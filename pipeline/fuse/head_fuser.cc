@@ -31,7 +31,8 @@ constexpr int kEarHolds = 40;        // an ear that hangs on by less is a rag be
 constexpr int kRimRounds = 20;
 constexpr float kRimMoveMm = 0.7F;
 constexpr std::uint8_t kClosedRings = 3, kUnsureRings = 9, kLastRings = 3, kEyeRimRings = 1;
-constexpr float kHoleRimMm = 400, kBayMouthMm = 25, kClosedSigmaMm = 1;  // of holes and bays that are closed
+constexpr float kHoleRimMm = 400, kBayMouthMm = 25, kThroatMouthMm = 45,
+                kClosedSigmaMm = 1;  // of holes and bays that are closed
 constexpr int kBands = 32;
 
 // By more than pairs of one good calibration do: then steps are left where one pair's surface ends. Where
@@ -112,7 +113,7 @@ class Surface {
   // False if nothing is left.
   bool trim_rims(const OwnFace& own) {
     trim(kHoleOpenedMm, 0);
-    close(border_edges(triangles_, scratch_), 0);
+    close(border_edges(triangles_, scratch_), false);
     // Once only the outline is left: tufts of hair, however sure, but no ears.
     for (std::size_t v = 0; v < sure_.size(); ++v) sure_[v] = sure_[v] && zones_.is_ear(vertices_mm_[v]);
     for (const float radius_mm : kOutlineOpenedMm) {
@@ -123,7 +124,7 @@ class Surface {
       for (const BorderEdge& e : border)
         if (e[0] < placed_) place(e[0], own);
       part_equals(vertices_mm_, started_, scratch_);
-      close(border, kBayMouthMm);
+      close(border, true);
     }
     return true;
   }
@@ -202,7 +203,11 @@ class Surface {
   }
 
   // What closes a hole was not measured.
-  void close(std::span<const BorderEdge> border, float mouth_mm) {
+  void close(std::span<const BorderEdge> border, bool bays) {
+    const auto mouth_mm = [&](const Vec3f& headland) {
+      if (!bays) return 0.0F;
+      return zones_.is_throat(headland) ? kThroatMouthMm : kBayMouthMm;
+    };
     for (const std::uint32_t v :
          close_holes(vertices_mm_, normals_, border, {kHoleRimMm, mouth_mm}, triangles_)) {
       normals_.push_back(normals_[v]);

@@ -62,6 +62,10 @@ class HeadZones {
     const Vec3d p = in_head(place);
     return std::abs(p.x) > 50 && std::abs(p.y) < 45 && p.z < -60;
   }
+  bool is_throat(const Vec3f& place) const {
+    const Vec3d p = in_head(place);
+    return std::abs(p.x) < 60 && p.y < -60 && p.z > -130;
+  }
 
  private:
   struct Eye {

@@ -7,6 +7,7 @@
 
 #include <array>
 #include <cstdint>
+#include <functional>
 #include <memory_resource>
 #include <span>
 #include <vector>
@@ -38,8 +39,8 @@ void part_equals(std::span<Vec3f> vertices_mm, std::span<const Vec3f> started,
                  std::pmr::memory_resource* memory);
 
 struct HoleLimits {
-  float rim_mm;    // a hole's length around, at most
-  float mouth_mm;  // of a bay of the longest rim, at most
+  float rim_mm;                                 // a hole's length around, at most
+  std::function<float(const Vec3f&)> mouth_mm;  // of a bay of the longest rim, by its headlands, at most
 };
 
 // Closes every hole but the longest rim, and that one's bays from headland to headland, along a curve that

@@ -40,6 +40,10 @@ float area(const FaceMesh& mesh) {
   return std::abs(sum);
 }
 
+auto mouths(float mm) {
+  return [mm](const Vec3f&) { return mm; };
+}
+
 std::vector<Vec3f> outwards(const FaceMesh& mesh) { return {mesh.vertices_mm.size(), Vec3f{0, 0, -1}}; }
 
 TEST(Rims, AreTheEdgesOfOneTriangle) {
@@ -54,7 +58,7 @@ TEST(Rims, OfHolesAreClosedAndTheOutlineIsNot) {
   FaceMesh mesh = sheet([](int x, int y) { return x >= 4 && x < 7 && y >= 4 && y < 6; });
   const auto border = border_edges(mesh.triangles, std::pmr::get_default_resource());
   const std::size_t before = mesh.triangles.size(), vertices = mesh.vertices_mm.size();
-  const auto beside = close_holes(mesh.vertices_mm, outwards(mesh), border, {15, 0}, mesh.triangles);
+  const auto beside = close_holes(mesh.vertices_mm, outwards(mesh), border, {15, mouths(0)}, mesh.triangles);
   EXPECT_EQ(mesh.vertices_mm.size(), vertices + beside.size());
   EXPECT_GE(mesh.triangles.size(), before + 12U) << "about as dense as the sheet";
   EXPECT_LE(mesh.triangles.size(), before + 24U);
@@ -69,7 +73,7 @@ TEST(Rims, OfHolesAreClosedAndTheOutlineIsNot) {
 TEST(Rims, OfLargeHolesStayOpen) {
   FaceMesh mesh = sheet([](int x, int y) { return x >= 4 && x < 7 && y >= 4 && y < 6; });
   const auto border = border_edges(mesh.triangles, std::pmr::get_default_resource());
-  close_holes(mesh.vertices_mm, outwards(mesh), border, {9, 0}, mesh.triangles);
+  close_holes(mesh.vertices_mm, outwards(mesh), border, {9, mouths(0)}, mesh.triangles);
   EXPECT_NEAR(area(mesh), (kSheetSide - 1) * (kSheetSide - 1) - 6, 1e-3);
 }
 
@@ -80,11 +84,21 @@ TEST(Rims, LoseTheBaysOfTheOutline) {
       [](int x, int y) { return (x >= kSheetSide - 6 && y >= 4 && y < 6) || (y == 0 && x >= 2 && x < 4); });
   const auto border = border_edges(mesh.triangles, std::pmr::get_default_resource());
   const std::size_t before = mesh.triangles.size();
-  close_holes(mesh.vertices_mm, outwards(mesh), border, {20, 1.5F}, mesh.triangles);
+  close_holes(mesh.vertices_mm, outwards(mesh), border, {20, mouths(1.5F)}, mesh.triangles);
   EXPECT_EQ(mesh.triangles.size(), before) << "too wide";
-  close_holes(mesh.vertices_mm, outwards(mesh), border, {20, 3}, mesh.triangles);
+  close_holes(mesh.vertices_mm, outwards(mesh), border, {20, mouths(3)}, mesh.triangles);
   EXPECT_NEAR(area(mesh), (kSheetSide - 1) * (kSheetSide - 1) - 2, 1e-3)
       << "closed straight, and facing the same way";
+}
+
+TEST(Rims, LoseWiderBaysWhereTheyMay) {
+  // Two alike, from the left edge and from the right.
+  FaceMesh mesh = sheet([](int x, int y) { return (x >= kSheetSide - 6 || x < 5) && y >= 4 && y < 6; });
+  const auto border = border_edges(mesh.triangles, std::pmr::get_default_resource());
+  const auto wide_to_the_left = [](const Vec3f& headland) { return headland.x < 3 ? 3.0F : 1.5F; };
+  close_holes(mesh.vertices_mm, outwards(mesh), border, {40, wide_to_the_left}, mesh.triangles);
+  EXPECT_NEAR(area(mesh), (kSheetSide - 1) * (kSheetSide - 1) - 10, 1e-3);
+  for (const Vec3f& v : mesh.vertices_mm) EXPECT_TRUE(v.y == std::round(v.y) || v.x < 6);
 }
 
 TEST(Rims, LoseTheirCornersAsRoundAsADisc) {
