@@ -7,6 +7,7 @@
 #include <cmath>
 #include <set>
 
+#include "pipeline/fuse/rim.h"
 #include "pipeline/mesh/completion/mesh_laplacian.h"
 #include "pipeline/model/vector3.h"
 
@@ -140,6 +141,37 @@ std::pmr::vector<float> fair_part(std::span<Vec3f> vertices_mm, std::span<const 
     was = now;
   }
   return moved;
+}
+
+void unfold(std::span<Vec3f> vertices_mm, std::span<const Triangle> triangles,
+            std::pmr::memory_resource* memory) {
+  constexpr int kUnfoldingRounds = 12;
+  std::pmr::vector<std::uint8_t> turned(memory), stays(vertices_mm.size(), 0, memory);
+  for (const BorderEdge& e : border_edges(triangles, memory)) stays[e[0]] = 1;
+  std::pmr::vector<Vec3f> sum(memory);
+  std::pmr::vector<float> count(memory);
+  for (int round = 0; round < kUnfoldingRounds; ++round) {
+    const auto normal = area_normals(vertices_mm, triangles, memory);
+    turned.assign(vertices_mm.size(), 0);
+    bool any = false;
+    for (const Triangle& t : triangles) {
+      const Vec3f around = plus(plus(normal[t[0]], normal[t[1]]), normal[t[2]]);
+      if (dot(area_normal(vertices_mm, t), around) >= 0) continue;
+      any = true;
+      for (const std::uint32_t v : t) turned[v] = stays[v] == 0 ? 1 : 0;
+    }
+    if (!any) return;
+    sum.assign(vertices_mm.size(), Vec3f{});
+    count.assign(vertices_mm.size(), 0);
+    for (const Triangle& t : triangles)
+      for (std::size_t k = 0; k < 3; ++k) {
+        if (turned[t[k]] == 0) continue;
+        sum[t[k]] = plus(sum[t[k]], plus(vertices_mm[t[(k + 1) % 3]], vertices_mm[t[(k + 2) % 3]]));
+        count[t[k]] += 2;
+      }
+    for (std::size_t v = 0; v < vertices_mm.size(); ++v)
+      if (turned[v] != 0) vertices_mm[v] = times(sum[v], 1 / count[v]);
+  }
 }
 
 }  // namespace relievo::pipeline

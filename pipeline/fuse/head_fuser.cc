@@ -162,6 +162,12 @@ class Surface {
     for (std::size_t v = 0; v < placed_; ++v)
       if (last[v] == 0) stays[v] = 1;
     fair(part, stays);
+
+    const std::pmr::vector<Vec3f> before(vertices_mm_, scratch_);
+    unfold(vertices_mm_, triangles_, scratch_);
+    for (std::size_t v = 0; v < before.size(); ++v)
+      if (const float mm = distance(before[v], vertices_mm_[v]); mm > 0)
+        vertices_[v].sigma_mm = std::hypot(vertices_[v].sigma_mm, mm);
   }
 
   // In the context's output.
@@ -170,7 +176,10 @@ class Surface {
     pose.reserve(vertices_.size());
     FaceMesh mesh = pack_mesh(vertices_.size(), triangles_, context_, [&](std::size_t v) {
       pose.push_back(vertices_[v].pose);
-      return PackedVertex{vertices_mm_[v], vertices_[v].sigma_mm, vertices_[v].measured};
+      // What was laid anew by more than that is measured no longer.
+      const bool sure = vertices_[v].sigma_mm <= float(kMeasuredSigmaMm);
+      return PackedVertex{vertices_mm_[v], vertices_[v].sigma_mm,
+                          sure ? vertices_[v].measured : std::uint8_t{0}};
     });
     mesh.pose = std::move(pose);
     compute_normals(mesh, 1, scratch_);

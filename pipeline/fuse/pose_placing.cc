@@ -24,8 +24,11 @@ constexpr double kPlacingRidge = 1e-9;
 constexpr double kSkinSamples = 2'500;
 // People lean while they turn: where their own head frames do not tell, a start may be that far off.
 constexpr RegistrationRound kFarRound{80, 40, 2, kFewSamples};
-constexpr std::array<RegistrationRound, 5> kPlacingRounds{
-    {{25, 12, 8, kFewSamples}, {12, 6, 6, kFewSamples}, {6, 2, 6, kFewSamples}, {3, 0.7, 8, kFewSamples}, {2, 0.25, 8, kFewSamples}}};
+constexpr std::array<RegistrationRound, 5> kPlacingRounds{{{25, 12, 8, kFewSamples},
+                                                           {12, 6, 6, kFewSamples},
+                                                           {6, 2, 6, kFewSamples},
+                                                           {3, 0.7, 8, kFewSamples},
+                                                           {2, 0.25, 8, kFewSamples}}};
 // A cheek lies well on the other one too, but then stands before other skin, where cameras would have seen
 // it. Of what both see, so much stands before the other at most: .06 was seen where it was right, .12 and
 // more where it was wrong.

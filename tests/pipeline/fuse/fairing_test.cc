@@ -101,6 +101,25 @@ TEST(Folds, AreLaidAnewWhereTheSurfaceIsUnsure) {
   EXPECT_EQ(height(0), 1.5F) << "what is sure is skin";
 }
 
+TEST(Folds, ThatAreTurnedOverAreUnfolded) {
+  constexpr std::size_t kMiddle = kStepSide * (kStepSide / 2) + kStepSide / 2;
+  Sheet sheet(0);
+  const std::vector<Vec3f> flat = sheet.vertices;
+  sheet.vertices[kMiddle].x += 1.8F;  // beyond its neighbour
+  sheet.vertices[0].x += 3;           // of the rim
+  unfold(sheet.vertices, sheet.triangles, std::pmr::get_default_resource());
+  for (const Triangle& t : sheet.triangles) {
+    if (t[0] < 3) continue;
+    const Vec3f& a = sheet.vertices[t[0]];
+    EXPECT_GT(cross(minus(sheet.vertices[t[1]], a), minus(sheet.vertices[t[2]], a)).z, 0);
+  }
+  EXPECT_EQ(sheet.vertices[0].x, 3) << "a rim stays";
+  for (std::size_t v = 1; v < flat.size(); ++v)
+    if (distance(flat[v], flat[kMiddle]) > 4 && flat[v].x + flat[v].y > 4) {
+      EXPECT_EQ(sheet.vertices[v].x, flat[v].x) << "far away";
+    }
+}
+
 // A dome with a hole of two centimetres: closed flat it would lie 1.3 mm too low.
 TEST(Fairing, LetsWhatClosesAHoleGoOnAsTheSurfaceDoes) {
   constexpr float kRadius = 40, kHole = 10, kStep = 1;

@@ -7,8 +7,11 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <numbers>
 
+#include "pipeline/fuse/fairing.h"
+#include "pipeline/model/vector3.h"
 #include "tests/pipeline/mesh/mesh_checks.h"
 #include "tests/support/head_album.h"
 #include "tests/support/proof.h"
@@ -91,6 +94,15 @@ std::vector<Person> turning() {
 }
 
 // At a quarter of the size a pixel is 1.4 mm: full size is tried by command (tests/system/json_head_test.cc).
+std::size_t turned_over(const FaceMesh& mesh) {
+  const auto normals = area_normals(mesh.vertices_mm, mesh.triangles, std::pmr::get_default_resource());
+  return std::size_t(std::ranges::count_if(mesh.triangles, [&](const Triangle& t) {
+    const Vec3f& a = mesh.vertices_mm[t[0]];
+    const Vec3f own = cross(minus(mesh.vertices_mm[t[1]], a), minus(mesh.vertices_mm[t[2]], a));
+    return dot(own, plus(normals[t[0]], plus(normals[t[1]], normals[t[2]]))) < 0;
+  }));
+}
+
 TEST_F(Heads, StandAboutWhereTheyDid) {
   RELIEVO_MANY_TRIALS();
   auto shots = turning();
@@ -117,6 +129,7 @@ TEST_F(Heads, BecomeOneSurfaceThatShowsMoreThanOnePair) {
   expect_whole_arrays(mesh);
   expect_one_manifold_surface(mesh);
   EXPECT_EQ(boundary_loops(mesh), 1U) << "open at its outline alone";
+  EXPECT_LE(turned_over(mesh), mesh.triangles.size() / 20'000);
   EXPECT_GT(head->model.quality.measured_area_mm2, 1.4 * alone_mm2_);
   ASSERT_EQ(mesh.pose.size(), mesh.vertices_mm.size());
   std::array<int, 3> by_pose{};
