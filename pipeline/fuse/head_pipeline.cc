@@ -18,13 +18,22 @@ constexpr const char* kHeadRadiusMm = "200";  // a head with its ears, about the
 constexpr int kCoarseTriangles = 60'000;      // enough to find a head's frame
 constexpr int kMostAtlasPx = 4096;
 
+void keep_photograph(const RectifiedView& view, std::pmr::vector<std::uint8_t>& rgb) {
+  rgb.assign(view.rgb.begin(), view.rgb.end());
+  for (std::size_t k = 0; k < view.valid.size(); ++k) {
+    std::uint8_t* pixel = &rgb[3 * k];
+    if (view.valid[k] == 0) pixel[0] = pixel[1] = pixel[2] = 0;
+    else if (pixel[0] == 0 && pixel[1] == 0 && pixel[2] == 0) pixel[0] = pixel[1] = pixel[2] = 1;
+  }
+}
+
 void keep_photographs(const RectifiedPair& pair, HeadPose& pose) {
   pose.width_px = pair.width_px;
   pose.height_px = pair.height_px;
   pose.right_centre_px = pair.right_centre_px;
   pose.baseline_mm = pair.baseline_mm;
-  pose.left_rgb.assign(pair.left.rgb.begin(), pair.left.rgb.end());
-  pose.right_rgb.assign(pair.right.rgb.begin(), pair.right.rgb.end());
+  keep_photograph(pair.left, pose.left_rgb);
+  keep_photograph(pair.right, pose.right_rgb);
 }
 
 // The poses' surfaces side by side, until they are given back.

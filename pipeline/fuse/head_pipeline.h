@@ -32,7 +32,7 @@ struct HeadPose {
   int width_px = 0, height_px = 0;
   Vec2d right_centre_px;
   double baseline_mm = 0;
-  std::pmr::vector<std::uint8_t> left_rgb, right_rgb;
+  std::pmr::vector<std::uint8_t> left_rgb, right_rgb;  // 0 0 0 where the photograph ends, and only there
   DriftJudgement drift;  // what the matches say of the calibration; the caller refuses
 };
 

@@ -94,6 +94,16 @@ class Texturing {
             float(view.focal_px * p.y / p.z + view.centre_px.y), float(p.z)};
   }
 
+  // Rectified, a photograph has edges within the picture.
+  static bool is_photographed(const HeadView& view, const Pixel& p) {
+    for (const float dy : {-kBorderPx, kBorderPx})
+      for (const float dx : {-kBorderPx, kBorderPx}) {
+        const std::size_t k = std::size_t(p.y + dy) * std::size_t(view.width_px) + std::size_t(p.x + dx);
+        if (view.rgb[3 * k] == 0 && view.rgb[3 * k + 1] == 0 && view.rgb[3 * k + 2] == 0) return false;
+      }
+    return true;
+  }
+
   // How well a photograph looks at every vertex.
   void look(std::size_t i) {
     const HeadView& view = views_[i];
@@ -115,7 +125,7 @@ class Texturing {
     for (std::size_t v = 0; v < vertices_; ++v) {
       const Pixel& p = pixel[v];
       if (!(p.z > 0) || p.x < kBorderPx || p.y < kBorderPx || p.x > float(view.width_px) - kBorderPx - 1 ||
-          p.y > float(view.height_px) - kBorderPx - 1)
+          p.y > float(view.height_px) - kBorderPx - 1 || !is_photographed(view, p))
         continue;
       const Vec3d to_eye = unit(minus(eye, wide(mesh_.vertices_mm[v])));
       const float cosine = float(dot(to_eye, wide(mesh_.normals[v])));

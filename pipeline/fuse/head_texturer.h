@@ -21,7 +21,7 @@ namespace relievo::pipeline {
 
 // A rectified photograph and the camera that took it.
 struct HeadView {
-  std::span<const std::uint8_t> rgb;  // 3 a pixel
+  std::span<const std::uint8_t> rgb;  // 3 a pixel; 0 0 0 where the photograph ends
   int width_px = 0, height_px = 0;
   double focal_px = 0;
   Vec2d centre_px;

@@ -51,7 +51,7 @@ struct PoseSurface {
   std::pmr::vector<float> trust;     // 0: nothing was measured there
   RigidTransform head_from_camera;
   bool has_head = false;  // whether a head frame was found
-  // The rectified left photograph, not owned; none: only shape tells how the pose lies.
+  // The rectified left photograph, not owned, 0 0 0 where it ends; none: only shape tells how the pose lies.
   std::span<const std::uint8_t> photo_rgb;
   int photo_width_px = 0, photo_height_px = 0;
   std::optional<RigidTransform> first_from_pose;  // where it was laid onto the poses before it, if it was

@@ -41,11 +41,12 @@ Window window_on(const PoseSurface& pose, const Vec3d& place, const Vec3d& right
 class Photograph {
  public:
   explicit Photograph(const PoseSurface& pose)
-      : photo_(pose.photo_rgb, pose.photo_width_px, pose.photo_height_px),
+      : rgb_(pose.photo_rgb),
+        photo_(pose.photo_rgb, pose.photo_width_px, pose.photo_height_px),
         width_(float(pose.photo_width_px)),
         height_(float(pose.photo_height_px)) {}
 
-  // False where the window leaves the photograph.
+  // False where the window leaves the photograph, as it is rectified.
   template <std::size_t N>
   bool read(const Window& w, const Vec2f& shift, std::array<float, N>& grey) const {
     const int half = int(std::lround(std::sqrt(double(N)))) / 2;
@@ -56,6 +57,8 @@ class Photograph {
       for (const float r : {-float(half), float(half)}) {
         const Vec2f p = at(c + shift.x, r + shift.y);
         if (!(p.x >= 1 && p.y >= 1 && p.x < width_ - 2 && p.y < height_ - 2)) return false;
+        const std::uint8_t* rgb = &rgb_[3 * (std::size_t(p.y) * std::size_t(width_) + std::size_t(p.x))];
+        if (rgb[0] == 0 && rgb[1] == 0 && rgb[2] == 0) return false;
       }
     std::size_t k = 0;
     for (int r = -half; r <= half; ++r)
@@ -69,6 +72,7 @@ class Photograph {
   }
 
  private:
+  std::span<const std::uint8_t> rgb_;
   PhotoSampler photo_;
   float width_, height_;
 };
