@@ -73,29 +73,46 @@ class StereoSlot {
   std::size_t scratch_used_ = 0;
 };
 
+// Counter: counted by one thread, read by any.
+class Counter {
+ public:
+  Counter() = default;
+  Counter(const Counter& other) : count_(other) {}
+  Counter& operator=(const Counter& other) {
+    count_.store(other, std::memory_order_relaxed);
+    return *this;
+  }
+  operator std::uint64_t() const { return count_.load(std::memory_order_relaxed); }
+  void operator++() { *this += 1; }
+  void operator+=(std::uint64_t more) { count_.store(*this + more, std::memory_order_relaxed); }
+
+ private:
+  std::atomic<std::uint64_t> count_{0};
+};
+
 // GrabCounts: what has gone well and wrong between the trigger and the slot since the cameras were
 // first opened; for a technician, who reads a bad cable or a slow hub out of it.
 
 // Of one camera.
 struct CameraCounts {
-  std::uint64_t frames = 0;     // taken
-  std::uint64_t late = 0;       // exposed before the pulse they were waited for, or out of order: dropped
-  std::uint64_t lost = 0;       // numbers missing in the sequence
-  std::uint64_t duplicate = 0;  // a number twice: dropped
-  std::uint64_t damaged = 0;    // the driver says that bytes are wrong: refused
-  std::uint64_t too_short = 0;  // fewer bytes than the picture has: refused
-  std::uint64_t missing = 0;    // a wait that ended without a picture
-  std::uint64_t vanished = 0;   // the camera went away
-  std::uint64_t returned = 0;   // and came back
-  std::uint64_t refused = 0;    // attempts to open it again that failed
+  Counter frames;     // taken
+  Counter late;       // exposed before the pulse they were waited for, or out of order: dropped
+  Counter lost;       // numbers missing in the sequence
+  Counter duplicate;  // a number twice: dropped
+  Counter damaged;    // the driver says that bytes are wrong: refused
+  Counter too_short;  // fewer bytes than the picture has: refused
+  Counter missing;    // a wait that ended without a picture
+  Counter vanished;   // the camera went away
+  Counter returned;   // and came back
+  Counter refused;    // attempts to open it again that failed
 };
 
 struct GrabCounts {
   CameraCounts left;
   CameraCounts right;
-  std::uint64_t pairs = 0;    // handed over
-  std::uint64_t apart = 0;    // refused: exposed further apart than the limit
-  std::uint64_t slipped = 0;  // pairs by time whose numbers moved against each other: a pulse was missed
+  Counter pairs;    // handed over
+  Counter apart;    // refused: exposed further apart than the limit
+  Counter slipped;  // pairs by time whose numbers moved against each other: a pulse was missed
 };
 
 // CameraLink: one camera of the pair, kept alive. It drops frames that are late or came twice, refuses
@@ -203,7 +220,7 @@ class StereoGrabber {
   // Are those opened last the ones expected? As check_cameras(); nothing is refused by start() and grab(),
   // since who calibrates anew or looks for a fault needs any camera. Thread: any.
   Result<void> check_cameras() const;
-  const GrabCounts& counts() const { return counts_; }
+  const GrabCounts& counts() const { return counts_; }  // thread: any
 
  private:
   struct Half {

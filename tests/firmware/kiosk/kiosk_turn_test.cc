@@ -94,7 +94,7 @@ TEST_F(KioskTurn, WhoTurnsTheHeadSeesAllOfIt) {
   ASSERT_NE(kiosk->view().model, nullptr);
   std::string made;
   for (const StageRecord& record : kiosk->appliance().records()) made += std::string(record.name) + " ";
-  EXPECT_EQ(made, "Match Reconstruct Mesh Texture Assemble Pose Pose Pose Pose Pose Fuse ") << told;
+  ASSERT_EQ(made, "Match Reconstruct Mesh Texture Assemble Pose Pose Pose Pose Pose Fuse ") << told;
   EXPECT_EQ(poses(), (std::set<int>{0, 1, 2, 3, 4}));
   EXPECT_EQ(std::set<double>(asked.begin(), asked.end()), (std::set<double>{-45, -25, 25, 45}));
   // Who turns to the picture's right shows the right half of the head, where x is below zero.
