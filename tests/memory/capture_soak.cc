@@ -143,7 +143,8 @@ int soak(int captures) {
                        wrong == 0 && ahead <= 1;
   std::printf(
       "%d captures asked, %d taken, %d handed to the stages, %lu pairs of %lu and %lu pictures, %lu faults\n",
-      captures, soak.taken(), soak.refused(), counts.pairs, counts.left.frames, counts.right.frames, wrong);
+      captures, soak.taken(), soak.refused(), std::uint64_t(counts.pairs), std::uint64_t(counts.left.frames),
+      std::uint64_t(counts.right.frames), wrong);
   std::printf("after warm-up: resident memory x %.4f, files %+td, threads %+td\n",
               end.resident_mib / warm.resident_mib, end.files - warm.files, end.threads - warm.threads);
   return counted && end.resident_mib <= kMayGrow * warm.resident_mib && end.files == warm.files &&
