@@ -10,6 +10,7 @@
 
 #include "pipeline/fuse/level_grid.h"
 #include "pipeline/fuse/pose_registration.h"
+#include "pipeline/fuse/pose_surface.h"
 #include "pipeline/mesh/triangle_raster.h"
 #include "pipeline/model/photo_sampler.h"
 #include "pipeline/model/vector3.h"
@@ -95,11 +96,11 @@ class Texturing {
   }
 
   // Rectified, a photograph has edges within the picture.
-  static bool is_photographed(const HeadView& view, const Pixel& p) {
+  static bool covers(const HeadView& view, const Pixel& p) {
     for (const float dy : {-kBorderPx, kBorderPx})
       for (const float dx : {-kBorderPx, kBorderPx}) {
         const std::size_t k = std::size_t(p.y + dy) * std::size_t(view.width_px) + std::size_t(p.x + dx);
-        if (view.rgb[3 * k] == 0 && view.rgb[3 * k + 1] == 0 && view.rgb[3 * k + 2] == 0) return false;
+        if (!is_photographed(view.rgb, k)) return false;
       }
     return true;
   }
@@ -125,7 +126,7 @@ class Texturing {
     for (std::size_t v = 0; v < vertices_; ++v) {
       const Pixel& p = pixel[v];
       if (!(p.z > 0) || p.x < kBorderPx || p.y < kBorderPx || p.x > float(view.width_px) - kBorderPx - 1 ||
-          p.y > float(view.height_px) - kBorderPx - 1 || !is_photographed(view, p))
+          p.y > float(view.height_px) - kBorderPx - 1 || !covers(view, p))
         continue;
       const Vec3d to_eye = unit(minus(eye, wide(mesh_.vertices_mm[v])));
       const float cosine = float(dot(to_eye, wide(mesh_.normals[v])));

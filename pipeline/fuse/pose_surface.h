@@ -28,6 +28,12 @@ struct SurfaceHit {
   float trust = 0;     // 0 at the edge of what was measured or where it is seen edge-on, to 1
 };
 
+// A rectified photograph is 0 0 0 where it ends, and only there. Whether it covers the pixel, counted row by
+// row.
+inline bool is_photographed(std::span<const std::uint8_t> rgb, std::size_t pixel) {
+  return rgb[3 * pixel] != 0 || rgb[3 * pixel + 1] != 0 || rgb[3 * pixel + 2] != 0;
+}
+
 // Skin that another pose shows, too.
 struct SharedSkin {
   std::uint32_t pose, node;  // which one, and where on its lattice

@@ -57,8 +57,7 @@ class Photograph {
       for (const float r : {-float(half), float(half)}) {
         const Vec2f p = at(c + shift.x, r + shift.y);
         if (!(p.x >= 1 && p.y >= 1 && p.x < width_ - 2 && p.y < height_ - 2)) return false;
-        const std::uint8_t* rgb = &rgb_[3 * (std::size_t(p.y) * std::size_t(width_) + std::size_t(p.x))];
-        if (rgb[0] == 0 && rgb[1] == 0 && rgb[2] == 0) return false;
+        if (!is_photographed(rgb_, std::size_t(p.y) * std::size_t(width_) + std::size_t(p.x))) return false;
       }
     std::size_t k = 0;
     for (int r = -half; r <= half; ++r)
