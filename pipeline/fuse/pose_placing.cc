@@ -11,6 +11,7 @@
 #include <vector>
 
 #include "hal/base/statistics.h"
+#include "pipeline/base/shared_arena.h"
 #include "pipeline/base/solving.h"
 #include "pipeline/fuse/pose_residuals.h"
 #include "pipeline/fuse/skin_slide.h"

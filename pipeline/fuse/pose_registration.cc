@@ -11,6 +11,7 @@
 #include <utility>
 
 #include "hal/base/statistics.h"
+#include "pipeline/base/shared_arena.h"
 #include "pipeline/fuse/pose_residuals.h"
 
 namespace relievo::pipeline {

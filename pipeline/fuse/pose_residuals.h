@@ -12,7 +12,6 @@
 #include <cmath>
 #include <cstddef>
 #include <memory_resource>
-#include <mutex>
 #include <optional>
 #include <span>
 #include <vector>
@@ -200,24 +199,6 @@ class PoseResiduals {
 // Cancelled.
 Result<void> place_poses(std::span<PoseSurface> poses, std::span<RegisteredPose> placed,
                          PoseResiduals& residuals, StageContext& context);
-
-// An arena from which several threads take. What they took goes with it.
-class SharedArena final : public std::pmr::memory_resource {
- public:
-  explicit SharedArena(Arena& arena) : arena_(arena), mark_(arena) {}
-
- private:
-  void* do_allocate(std::size_t bytes, std::size_t alignment) override {
-    const std::lock_guard lock(mutex_);
-    return arena_.allocate(bytes, alignment);
-  }
-  void do_deallocate(void*, std::size_t, std::size_t) override {}
-  bool do_is_equal(const memory_resource& other) const noexcept override { return this == &other; }
-
-  Arena& arena_;
-  Arena::Mark mark_;
-  std::mutex mutex_;
-};
 
 // Fills `meets` of the poses, and `residuals`, of what is registered.
 void measure_agreement(std::span<const PoseSurface> poses, Registration& registration, StageContext& context);
