@@ -171,11 +171,13 @@ class Surface {
   }
 
   // In the context's output.
-  FaceMesh packed() const {
+  FusedSurface packed() const {
+    std::size_t closing = 0;
     std::pmr::vector<std::uint8_t> pose(&context_.output);
     pose.reserve(vertices_.size());
     FaceMesh mesh = pack_mesh(vertices_.size(), triangles_, context_, [&](std::size_t v) {
       pose.push_back(vertices_[v].pose);
+      if (v < placed_) closing = pose.size();
       // What was laid anew by more than that is measured no longer.
       const bool sure = vertices_[v].sigma_mm <= float(kMeasuredSigmaMm);
       return PackedVertex{vertices_mm_[v], vertices_[v].sigma_mm,
@@ -183,7 +185,7 @@ class Surface {
     });
     mesh.pose = std::move(pose);
     compute_normals(mesh, 1, scratch_);
-    return mesh;
+    return {std::move(mesh), closing};
   }
 
  private:
@@ -247,9 +249,9 @@ class Surface {
 
 }  // namespace
 
-Result<FaceMesh> HeadFuser::fuse(std::span<PoseSurface> poses, const Registration& registration,
-                                 const FaceMesh& face, const Landmarks& landmarks,
-                                 StageContext& context) const {
+Result<FusedSurface> HeadFuser::fuse(std::span<PoseSurface> poses, const Registration& registration,
+                                     const FaceMesh& face, const Landmarks& landmarks,
+                                     StageContext& context) const {
   const Error stopped{Errc::Cancelled, "stopped while the poses were fused"};
   RELIEVO_TRY(check_options(options_, "averaged"));
   const HeadZones zones(landmarks, poses[0].head_from_camera, options_.neck_mm);

@@ -18,6 +18,7 @@
 // throws std::bad_alloc. Thread: any; works on the pool, the result does not depend on its size.
 #pragma once
 
+#include <cstddef>
 #include <span>
 
 #include "pipeline/base/options.h"
@@ -44,13 +45,18 @@ struct HeadFuserOptions {
   }
 };
 
+struct FusedSurface {
+  FaceMesh mesh;
+  std::size_t closing;  // its vertices from here on close holes: where they lie, no photograph shows the head
+};
+
 class HeadFuser {
  public:
   explicit HeadFuser(const HeadFuserOptions& options) : options_(options) {}
   // `face`: the master's own mesh, of which is taken what lies between the lids, found by its `landmarks`,
   // and what was completed where no pose shows anything. Bends `poses` in place.
-  Result<FaceMesh> fuse(std::span<PoseSurface> poses, const Registration& registration, const FaceMesh& face,
-                        const Landmarks& landmarks, StageContext& context) const;
+  Result<FusedSurface> fuse(std::span<PoseSurface> poses, const Registration& registration,
+                            const FaceMesh& face, const Landmarks& landmarks, StageContext& context) const;
 
  private:
   HeadFuserOptions options_;

@@ -152,7 +152,7 @@ Result<FusedHead> HeadPipeline::fuse(const FaceModel& face, std::span<HeadPose> 
   Surfaces surfaces(poses, face, &context.output);
   RELIEVO_TRY_ASSIGN(Registration registration,
                      run_stage(context, [&](StageContext& c) { return register_poses(surfaces.list(), c); }));
-  RELIEVO_TRY_ASSIGN(FaceMesh mesh, run_stage(context, [&](StageContext& c) {
+  RELIEVO_TRY_ASSIGN(FusedSurface surface, run_stage(context, [&](StageContext& c) {
                        return HeadFuser(fuser_).fuse(surfaces.list(), registration, face.mesh, face.landmarks,
                                                      c);
                      }));
@@ -161,7 +161,7 @@ Result<FusedHead> HeadPipeline::fuse(const FaceModel& face, std::span<HeadPose> 
   RELIEVO_TRY_ASSIGN(TextureAtlas atlas, run_stage(context, [&](StageContext& c) {
                        const auto views = views_of(poses, registration, &c.scratch);
                        aliveness = measure_aliveness(views, face.landmarks, face.head_from_camera);
-                       return texture_head(mesh, views, kMostAtlasPx, c);
+                       return texture_head(surface.mesh, surface.closing, views, kMostAtlasPx, c);
                      }));
   FaceModel head(&context.output);
   head.head_from_camera = face.head_from_camera;
@@ -176,14 +176,14 @@ Result<FusedHead> HeadPipeline::fuse(const FaceModel& face, std::span<HeadPose> 
   RELIEVO_TRY(run_stage(context, [&](StageContext& c) -> Result<void> {
     HeadFrame frame;
     frame.head_from_camera = head.head_from_camera;
-    const ModelQuality whole = measure_quality(mesh, frame, c);
+    const ModelQuality whole = measure_quality(surface.mesh, frame, c);
     head.quality.median_sigma_mm = whole.median_sigma_mm;
     head.quality.measured_area_mm2 = whole.measured_area_mm2;
     head.quality.coverage = whole.coverage;
     head.quality.texture_sharpness = texture_sharpness(atlas, c);
     return {};
   }));
-  head.mesh = std::move(mesh);
+  head.mesh = std::move(surface.mesh);
   head.texture = std::move(atlas);
   return FusedHead{std::move(head), std::move(registration), aliveness};
 }

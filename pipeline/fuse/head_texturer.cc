@@ -39,8 +39,9 @@ float winning(float share) {
 
 class Texturing {
  public:
-  Texturing(const FaceMesh& mesh, std::span<const HeadView> views, StageContext& context)
+  Texturing(const FaceMesh& mesh, std::size_t closing, std::span<const HeadView> views, StageContext& context)
       : mesh_(mesh),
+        closing_(closing),
         views_(views),
         context_(context),
         vertices_(mesh.vertices_mm.size()),
@@ -123,7 +124,7 @@ class Texturing {
                      });
     }
     const Vec3d eye = apply(inverse(view.view_from_head), Vec3d{0, 0, 0});
-    for (std::size_t v = 0; v < vertices_; ++v) {
+    for (std::size_t v = 0; v < closing_; ++v) {
       const Pixel& p = pixel[v];
       if (!(p.z > 0) || p.x < kBorderPx || p.y < kBorderPx || p.x > float(view.width_px) - kBorderPx - 1 ||
           p.y > float(view.height_px) - kBorderPx - 1 || !covers(view, p))
@@ -339,6 +340,7 @@ class Texturing {
   }
 
   const FaceMesh& mesh_;
+  std::size_t closing_;
   std::span<const HeadView> views_;
   StageContext& context_;
   std::size_t vertices_;
@@ -352,11 +354,11 @@ class Texturing {
 
 }  // namespace
 
-Result<TextureAtlas> texture_head(const FaceMesh& mesh, std::span<const HeadView> views, int max_atlas_px,
-                                  StageContext& context) {
+Result<TextureAtlas> texture_head(const FaceMesh& mesh, std::size_t closing, std::span<const HeadView> views,
+                                  int max_atlas_px, StageContext& context) {
   if (views.empty() || views.size() > kMostViews || mesh.triangles.empty())
     return Error{Errc::InvalidInput, "no photograph, too many, or no surface"};
-  return Texturing(mesh, views, context).run(max_atlas_px);
+  return Texturing(mesh, closing, views, context).run(max_atlas_px);
 }
 
 }  // namespace relievo::pipeline

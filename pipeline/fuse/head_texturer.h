@@ -10,6 +10,7 @@
 // on the pool, the result does not depend on its size. Errors: Cancelled; throws std::bad_alloc.
 #pragma once
 
+#include <cstddef>
 #include <cstdint>
 #include <span>
 
@@ -30,7 +31,8 @@ struct HeadView {
   bool right = false;
 };
 
-Result<TextureAtlas> texture_head(const FaceMesh& mesh, std::span<const HeadView> views, int max_atlas_px,
-                                  StageContext& context);
+// The mesh's vertices from `closing` on close holes.
+Result<TextureAtlas> texture_head(const FaceMesh& mesh, std::size_t closing, std::span<const HeadView> views,
+                                  int max_atlas_px, StageContext& context);
 
 }  // namespace relievo::pipeline

@@ -66,8 +66,10 @@ class ApartPoses : public Poses {
     options.most_bend_mm = 0;
     options.still_mm = 1;
     options.bend_width_mm = 40;
-    auto head = room_.run(
-        [&](StageContext& c) { return HeadFuser(options).fuse(poses_, placed, own, landmarks, c); });
+    auto head = room_.run([&](StageContext& c) -> Result<FaceMesh> {
+      RELIEVO_TRY_ASSIGN(FusedSurface fused, HeadFuser(options).fuse(poses_, placed, own, landmarks, c));
+      return std::move(fused.mesh);
+    });
     EXPECT_TRUE(head);
     return head;
   }

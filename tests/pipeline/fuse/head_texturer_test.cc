@@ -16,22 +16,23 @@ namespace {
 constexpr int kPhotoPx = 200;
 constexpr std::uint8_t kSkin = 120;
 constexpr double kWallMm = 500;
+constexpr std::uint32_t kSide = 31;
 
-// A wall of 60 mm, two millimetres a cell, that fills the middle of the photograph.
+// A wall of 60 mm, two millimetres a cell, that fills the middle of the photograph. Its vertices begin at the
+// left.
 FaceMesh wall() {
-  constexpr std::uint32_t kSide = 31;
   FaceMesh mesh(std::pmr::get_default_resource());
-  for (std::uint32_t y = 0; y < kSide; ++y)
-    for (std::uint32_t x = 0; x < kSide; ++x) {
+  for (std::uint32_t x = 0; x < kSide; ++x)
+    for (std::uint32_t y = 0; y < kSide; ++y) {
       mesh.vertices_mm.push_back({2 * float(x) - 30, 2 * float(y) - 30, float(kWallMm)});
       mesh.normals.push_back({0, 0, -1});
       mesh.sigma_mm.push_back(0.1F);
       mesh.measured.push_back(1);
     }
-  for (std::uint32_t y = 0; y + 1 < kSide; ++y)
-    for (std::uint32_t a = y * kSide; a + 1 < (y + 1) * kSide; ++a) {
-      mesh.triangles.push_back({a, a + kSide, a + kSide + 1});
-      mesh.triangles.push_back({a, a + kSide + 1, a + 1});
+  for (std::uint32_t x = 0; x + 1 < kSide; ++x)
+    for (std::uint32_t a = x * kSide; a + 1 < (x + 1) * kSide; ++a) {
+      mesh.triangles.push_back({a, a + kSide + 1, a + kSide});
+      mesh.triangles.push_back({a, a + 1, a + kSide + 1});
     }
   return mesh;
 }
@@ -40,8 +41,9 @@ struct Texels {
   int dark = 0, filled = 0, photographed = 0;
 };
 
-// Of a wall whose photograph has that grey in its right third.
-Texels texels_of(std::uint8_t right_third) {
+// Of a wall whose photograph has that grey in its right third, and whose columns from that one on close a
+// hole.
+Texels texels_of(std::uint8_t right_third, std::uint32_t closing = kSide) {
   std::vector<std::uint8_t> rgb(std::size_t(3 * kPhotoPx * kPhotoPx), kSkin);
   for (std::size_t k = 0; k < rgb.size(); ++k)
     if (k / 3 % kPhotoPx > kPhotoPx * 2 / 3) rgb[k] = right_third;
@@ -54,7 +56,8 @@ Texels texels_of(std::uint8_t right_third) {
   StageRoom room;
   Texels texels;
   const auto done = room.run([&](StageContext& c) -> Result<void> {
-    RELIEVO_TRY_ASSIGN(const TextureAtlas atlas, texture_head(wall(), std::span(&view, 1), 1024, c));
+    RELIEVO_TRY_ASSIGN(const TextureAtlas atlas,
+                       texture_head(wall(), std::size_t{closing} * kSide, std::span(&view, 1), 1024, c));
     for (std::size_t k = 0; k < atlas.origin.size(); ++k) {
       if (atlas.origin[k] == kNoSurfaceTexel) continue;
       ++(atlas.origin[k] == kFilledTexel ? texels.filled : texels.photographed);
@@ -77,6 +80,14 @@ TEST(HeadTexture, ShowsWhatIsBlackInThePhotograph) {
   const Texels texels = texels_of(1);
   EXPECT_EQ(texels.filled, 0);
   EXPECT_GT(texels.dark, texels.photographed / 4);
+}
+
+// Between an ear and the head, what lies behind was painted on the closed hole.
+TEST(HeadTexture, OnAClosedHoleIsThatOfTheSkinAround) {
+  const Texels texels = texels_of(1, kSide * 2 / 3 - 2);
+  EXPECT_EQ(texels.dark, 0);
+  EXPECT_GT(texels.filled, 100);
+  EXPECT_GT(texels.photographed, texels.filled);
 }
 
 }  // namespace
