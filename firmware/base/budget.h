@@ -49,12 +49,10 @@ inline constexpr std::size_t kKeptModelBytes = 40 * kMiB;
 inline constexpr std::size_t kTechnicianBytes =
     (13 + 9 * kKeptResults) * kTechnicianPictureBytes + kKeptResults * kKeptModelBytes;
 
-// Live pictures (capture/live_feed.h) and the reliefs beside them: the visitor's, two of a calibration, one
-// of a relief; two cameras' that are watched, whose room is taken when they are.
+// Live pictures (capture/live_feed.h): the visitor's, two of a calibration, one of a relief; two cameras'
+// that are watched, whose room is taken when they are.
 inline constexpr std::size_t kLiveSlots = 3;  // one is filled, one is the newest, one is on the screen
-constexpr std::size_t live_feed_bytes(std::size_t side_px) {
-  return kLiveSlots * (3 * side_px * side_px + std::size_t{kLiveSidePx} * kLiveSidePx);
-}
+constexpr std::size_t live_feed_bytes(std::size_t side_px) { return kLiveSlots * 3 * side_px * side_px; }
 inline constexpr std::size_t kLiveBytes =
     4 * live_feed_bytes(kLiveSidePx) + 2 * live_feed_bytes(kWatchedSidePx);
 

@@ -7,14 +7,10 @@
 #include <algorithm>
 #include <utility>
 
-#include "pipeline/gate/relief/live_relief.h"
-
 namespace relievo::firmware {
 namespace {
 
-constexpr double kNearestDrawnMm = 350, kFarthestDrawnMm = 1000;
-constexpr auto kSide = std::size_t(budget::kLiveSidePx);
-constexpr std::size_t kRoom = kSide * kSide * 3;
+constexpr std::size_t kRoom = std::size_t{budget::kLiveSidePx} * budget::kLiveSidePx * 3;
 
 // Means over step x step pixels.
 void shrink(const ImageView& from, int step, int width, int height, std::uint8_t* to) {
@@ -40,10 +36,7 @@ void shrink(const ImageView& from, int step, int width, int height, std::uint8_t
 }  // namespace
 
 LiveFeed::LiveFeed(int side_px) : side_px_(side_px) {
-  for (Slot& slot : slots_) {
-    slot.rgb.resize(kRoom);
-    slot.relief.resize(kSide * kSide);
-  }
+  for (Slot& slot : slots_) slot.rgb.resize(kRoom);
 }
 
 ImageView LiveFeed::fill(const ImageView& picture) {
@@ -54,18 +47,9 @@ ImageView LiveFeed::fill(const ImageView& picture) {
   const auto bytes = std::size_t(width) * std::size_t(height) * 3;
   if (slot.rgb.size() < bytes) slot.rgb.resize(bytes);
   shrink(picture, step, width, height, slot.rgb.data());
-  slot.live.relief = {};
   slot.live.picture = {reinterpret_cast<const std::byte*>(slot.rgb.data()), width, height, 3 * width,
                        PixelFormat::Rgb8};
   return slot.live.picture;
-}
-
-void LiveFeed::fill_relief(const pipeline::Relief& relief) {
-  Slot& slot = slots_[filling_];
-  if (relief.depth_mm.size() > slot.relief.size()) return;
-  pipeline::draw_relief(relief, kNearestDrawnMm, kFarthestDrawnMm, slot.relief.data());
-  slot.live.relief = {reinterpret_cast<const std::byte*>(slot.relief.data()), relief.width_px,
-                      relief.height_px, relief.width_px, PixelFormat::Grey8};
 }
 
 void LiveFeed::publish(const Guidance& guidance) {
@@ -87,7 +71,6 @@ void LiveFeed::wipe() {
   for (Slot& slot : slots_) {
     if (slot.live.picture.empty()) continue;
     explicit_bzero(slot.rgb.data(), slot.rgb.size());
-    explicit_bzero(slot.relief.data(), slot.relief.size());
     slot.live = {};
   }
   fresh_ = false;

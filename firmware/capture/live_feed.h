@@ -1,9 +1,8 @@
 // SPDX-FileCopyrightText: 2026 The Relievo authors
 // SPDX-License-Identifier: GPL-3.0-or-later
 //
-// LiveFeed: the newest small picture of the person, with the relief it is
-// judged by, from the capture thread to the screen. Three
-// buffers: one is being filled, one is the newest, one is on the screen; nobody waits.
+// LiveFeed: the newest small picture of the person, from the capture thread to the screen. Three buffers: one
+// is being filled, one is the newest, one is on the screen; nobody waits.
 // Thread: fill() and publish() capture, newest() main; wipe() main, and only while no job runs.
 #pragma once
 
@@ -15,14 +14,11 @@
 #include "firmware/base/budget.h"
 #include "firmware/capture/live_judge.h"
 #include "hal/base/image_view.h"
-#include "pipeline/model/relief.h"
 
 namespace relievo::firmware {
 
 struct LivePicture {
   ImageView picture;  // Rgb8; valid until the next newest()
-  ImageView relief;   // Grey8, as valid: how near everything is, near is bright, 0 unknown; empty where
-                      // nothing judges
   Guidance guidance;
   std::uint32_t number = 0;  // 0: none since the last wipe
 };
@@ -35,8 +31,6 @@ class LiveFeed {
   explicit LiveFeed(int side_px = budget::kLiveSidePx);
   // A copy of the picture, shrunk by a whole number.
   ImageView fill(const ImageView& picture);
-  // With the picture that is being filled; a relief larger than the room for it is left out.
-  void fill_relief(const pipeline::Relief& relief);
   // What fill() made, to draw into before it is published.
   std::uint8_t* filled() { return slots_[filling_].rgb.data(); }
   void publish(const Guidance& guidance);
@@ -45,7 +39,7 @@ class LiveFeed {
 
  private:
   struct Slot {
-    std::vector<std::uint8_t> rgb, relief;
+    std::vector<std::uint8_t> rgb;
     LivePicture live;
   };
   int side_px_;

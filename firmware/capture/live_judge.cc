@@ -105,7 +105,8 @@ Result<TurnMeasurement> LiveJudge::look_turned(const pipeline::StereoFrame& fram
                                                std::chrono::microseconds shutter,
                                                pipeline::StageContext& context) {
   if (!calibration_) return uncalibrated();
-  RELIEVO_TRY_ASSIGN(pipeline::Relief relief, pipeline::run_stage(context, [&](pipeline::StageContext& c) {
+  RELIEVO_TRY_ASSIGN(const pipeline::Relief relief,
+                     pipeline::run_stage(context, [&](pipeline::StageContext& c) {
                        return relief_.look(frame, *calibration_, c);
                      }));
   const pipeline::HeadTurn turn = follow_head(*front_, relief, turn_.last);
@@ -114,7 +115,7 @@ Result<TurnMeasurement> LiveJudge::look_turned(const pipeline::StereoFrame& fram
   const double slow_mm_s = kLimits.smear_px / px_per_mm / std::chrono::duration<double>(shutter).count();
   const pipeline::TurnAnswer answer =
       guide_turn(*front_, turn, now.time_since_epoch(), slow_mm_s, kLimits, turn_);
-  TurnMeasurement measured{{}, answer.take, std::move(relief)};
+  TurnMeasurement measured{{}, answer.take};
   measured.guidance.turn = TurnGuidance{answer.advice, turn.yaw_deg, turn_.taken};
   return measured;
 }
@@ -122,13 +123,14 @@ Result<TurnMeasurement> LiveJudge::look_turned(const pipeline::StereoFrame& fram
 Result<LiveMeasurement> LiveJudge::look(const pipeline::StereoFrame& frame, hal::Instant now,
                                         pipeline::StageContext& context) {
   if (!calibration_) return uncalibrated();
-  RELIEVO_TRY_ASSIGN(pipeline::GateLook look, pipeline::run_stage(context, [&](pipeline::StageContext& c) {
+  RELIEVO_TRY_ASSIGN(const pipeline::GateLook look,
+                     pipeline::run_stage(context, [&](pipeline::StageContext& c) {
                        return gate_.look(frame, *calibration_, now.time_since_epoch(), history_, c);
                      }));
   const pipeline::HeadMeasurement& head = look.answer.measures.head;
   std::optional<FaceBoxes> face;
   if (head.known) face = face_boxes(*calibration_, look.relief.rectified_from_left, head.tip_mm);
-  return LiveMeasurement{guidance_of(look.answer, *calibration_, look.relief), face, std::move(look.relief)};
+  return LiveMeasurement{guidance_of(look.answer, *calibration_, look.relief), face};
 }
 
 }  // namespace relievo::firmware

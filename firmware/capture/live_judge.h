@@ -48,13 +48,11 @@ struct FaceBoxes {
 struct LiveMeasurement {
   Guidance guidance;
   std::optional<FaceBoxes> face;
-  pipeline::Relief relief;  // in context.output
 };
 
 struct TurnMeasurement {
   Guidance guidance;                // with its turn
   std::optional<std::size_t> take;  // this pair shows that side
-  pipeline::Relief relief;          // in context.output
 };
 
 class LiveJudge {

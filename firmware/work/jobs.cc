@@ -126,7 +126,6 @@ Result<void> TurnJob::follow(JobControl& control, Arena& output, Arena& scratch)
     session_.live().fill(frame.left);
     RELIEVO_TRY_ASSIGN(const TurnMeasurement seen,
                        judge_->look_turned(frame, device_.clock().now(), shutter, context));
-    session_.live().fill_relief(seen.relief);
     session_.live().publish(seen.guidance);
     if (seen.take) {
       RELIEVO_TRY(take(frame, control));
@@ -199,8 +198,7 @@ Result<Guidance> PoseJob::judge(const pipeline::StereoFrame& frame, JobControl& 
   EnrolmentSession::Scratch scratch(session_);
   pipeline::StageContext context{session_.output(), scratch.arena(), pool_, control.progress,
                                  control.cancelled};
-  RELIEVO_TRY_ASSIGN(LiveMeasurement measured, judge_->look(frame, device_.clock().now(), context));
-  session_.live().fill_relief(measured.relief);
+  RELIEVO_TRY_ASSIGN(const LiveMeasurement measured, judge_->look(frame, device_.clock().now(), context));
   face_ = measured.face;
   RELIEVO_TRY(meter(frame));
   return measured.guidance;

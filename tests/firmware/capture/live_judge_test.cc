@@ -123,25 +123,5 @@ TEST(LiveFeed, ShowsACameraPixelByPixelWhereAskedAndForgetsIt) {
   EXPECT_EQ(live.picture.row(1199)[3], 0) << "wiped where it lay";
 }
 
-TEST(LiveFeed, ShowsTheReliefBesideThePictureAndForgetsIt) {
-  pipeline::Relief relief(std::pmr::get_default_resource());
-  relief.width_px = 3, relief.height_px = 1;
-  relief.depth_mm = {0, 400, 800};
-  std::vector<std::byte> grey(16, std::byte{90});
-  LiveFeed feed;
-  feed.fill({grey.data(), 4, 4, 4, PixelFormat::Grey8});
-  feed.fill_relief(relief);
-  feed.publish({});
-  const LivePicture live = feed.newest();
-  ASSERT_EQ(live.relief.width_px, 3);
-  EXPECT_EQ(live.relief.row(0)[0], 0) << "unknown";
-  EXPECT_GT(live.relief.row(0)[1], live.relief.row(0)[2]) << "near is bright";
-  EXPECT_GT(live.relief.row(0)[2], 0);
-  const std::uint8_t* bytes = live.relief.row(0);
-  feed.wipe();
-  EXPECT_EQ(bytes[1], 0);
-  EXPECT_TRUE(feed.newest().relief.empty());
-}
-
 }  // namespace
 }  // namespace relievo::firmware
