@@ -28,7 +28,6 @@ class ListWalk {
 
   std::int64_t first_row() const { return page_ * per_page_; }
   std::int64_t end_row() const { return std::min(rows_, first_row() + per_page_); }
-  std::int64_t per_page() const { return per_page_; }
   std::size_t filter() const { return filter_; }
   // The stretches asked for last, and the row at the top of each.
   std::size_t stretches() const { return count_; }

@@ -95,7 +95,6 @@ Result<BurstResult> Burst::shoot(StereoSlot& first, StereoSlot& second, const Bu
     RELIEVO_TRY_ASSIGN(const FaceLight right, face_light(frame->right, box));
     RELIEVO_TRY_ASSIGN(const Thumbnail now, thumbnail(frame->left, box));
     BurstPair& pair = result.pairs[std::size_t(i)];
-    pair.taken = true;
     pair.sharpness = std::min(left.sharpness, right.sharpness);
     if (before) pair.movement = movement(*before, now);
     sharpest = std::max(sharpest, pair.sharpness);

@@ -35,7 +35,6 @@ struct BurstOptions {
 };
 
 struct BurstPair {
-  bool taken = false;
   double sharpness = 0;  // of the worse view; see FaceLight
   double movement = 0;   // mean change of the face since the pair before, 0 to 1
 };

@@ -139,7 +139,6 @@ class CameraLink {
   // IoFailed (the frame was damaged or short), what the camera says.
   Result<hal::Frame> next(hal::Instant asked, hal::Instant deadline, const std::atomic<bool>& cancelled);
   bool gone() const { return gone_.load(std::memory_order_relaxed); }
-  hal::Instant due() const { return due_; }
   // How often the camera was opened: each time it may be another one.
   int opened() const { return opened_; }
 

@@ -52,7 +52,6 @@ class Kiosk {
   hal::Device& device() { return *device_; }
   const Appliance& appliance() const { return *appliance_; }
   const StaffController& staff() const { return *staff_; }
-  const StagePictures& stage_pictures() const { return appliance_->session().stage_pictures(); }
 
  private:
   Kiosk() = default;

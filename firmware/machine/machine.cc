@@ -13,23 +13,9 @@ constexpr std::array<std::string_view, std::size_t(State::Count)> kStateNames{
     "Texture",  "Assemble", "Fuse",      "Review",   "Store",   "Export", "Staff", "Fault"};
 static_assert(!kStateNames.back().empty());
 
-// In the order of Event.
-constexpr std::array<std::string_view, std::size_t(Event::Count)> kEventNames{
-    "Passed",    "Failed",      "PoseAsked",   "Begin",          "Triggered",  "TurnAsked",
-    "StageDone", "StageFailed", "AdviceGiven", "Accept",         "Retake",     "Cancel",
-    "Timeout",   "StaffIn",     "StaffOut",    "CalibrateAsked", "ExportAsked"};
-static_assert(!kEventNames.back().empty());
-
-template <typename Enum>
-std::string_view name_in(const auto& names, Enum which) {
-  return which < Enum::Count ? names[std::size_t(which)] : "?";
-}
-
 }  // namespace
 
-std::string_view name_of(State state) { return name_in(kStateNames, state); }
-
-std::string_view name_of(Event event) { return name_in(kEventNames, event); }
+std::string_view name_of(State state) { return state < State::Count ? kStateNames[std::size_t(state)] : "?"; }
 
 std::optional<std::chrono::milliseconds> limit_of(State state) {
   switch (state) {

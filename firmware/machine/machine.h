@@ -219,7 +219,6 @@ constexpr std::optional<State> next(State from, Event event) {
 }
 
 std::string_view name_of(State state);
-std::string_view name_of(Event event);
 
 // --- proofs -------------------------------------------------------------------------------------
 namespace proof {
@@ -286,7 +285,6 @@ class Machine {
   explicit Machine(hal::Instant now) : entered_(now) {}
 
   State state() const { return state_; }
-  hal::Instant entered() const { return entered_; }
 
   // Entering a state, also the same one again, starts its time anew.
   std::optional<Change> handle(Event event, hal::Instant now);

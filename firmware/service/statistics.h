@@ -27,7 +27,6 @@ class Statistics {
   void noted(const Change& change, const Error* problem, std::chrono::nanoseconds total,
              std::chrono::sys_days today);
   void begin(std::string_view date) { since_ = date; }
-  bool empty() const { return since_.empty(); }
   std::uint64_t changes() const { return changes_; }
 
   std::string text() const;

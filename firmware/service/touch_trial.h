@@ -45,7 +45,6 @@ class TouchTrial {
   void abandon() { end(ui::TouchVerdict::None); }
   void turn();
   const ui::TouchView& view() const { return view_; }
-  const ui::TouchMap& map() const { return map_; }
 
  private:
   void wait();

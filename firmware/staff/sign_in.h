@@ -45,7 +45,6 @@ class SignIn {
   ui::StaffRole take_entered() { return std::exchange(entered_, ui::StaffRole::None); }
   void show(ui::AccessView& view) const;
   void forget();
-  bool is_set_up() const { return set_up_; }
 
  private:
   struct Pins {

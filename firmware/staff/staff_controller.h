@@ -57,7 +57,6 @@ class StaffController {
 
   EventLog& log() { return log_; }
   const EventLog& log() const { return log_; }
-  const Statistics& statistics() const { return statistics_; }
   const ui::Settings& settings() const { return settings_.now(); }
   TouchTrial& touch() { return touch_; }
   ConsentTextStore& consent() { return consent_; }

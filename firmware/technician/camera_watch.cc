@@ -88,11 +88,6 @@ void CameraWatchJob::prepare(const pipeline::StereoCalibration* calibration) {
 }
 
 Result<void> CameraWatchJob::run(JobControl& control) {
-  outcome_ = Error{Errc::LibraryFailed, "the watch ended early"};
-  return outcome_ = watch(control);
-}
-
-Result<void> CameraWatchJob::watch(JobControl& control) {
   RELIEVO_TRY(grabber_.start(device_.preferred_mode()));
   light_ = {device_.preferred_mode().exposure, 1};
   while (!control.cancelled.load(std::memory_order_relaxed)) {
@@ -151,7 +146,6 @@ Result<void> CameraWatchJob::look(const pipeline::StereoFrame& frame, JobControl
   now.apart = counts.apart;
   now.skew_us = float(frame.skew_ns) / 1000;
   now.exposure_us = float(light_.time.count());
-  now.gain = float(light_.gain);
   now.can_be_set =
       device_.left().exposure_limits().has_value() && device_.right().exposure_limits().has_value();
   const hal::Instant at = device_.clock().now();

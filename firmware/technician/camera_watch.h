@@ -71,13 +71,11 @@ class CameraWatchJob final : public Job {
   Result<void> run(JobControl& control) override;
   // The newest pair and its figures; `watched` false before the first one.
   ui::TechnicianCameras newest();
-  const Result<void>& outcome() const { return outcome_; }  // while it does not run
   // As asked for last; no time: it never watched. While it does not run.
   const hal::Exposure& light() const { return light_; }
   void wipe();
 
  private:
-  Result<void> watch(JobControl& control);
   Result<void> look(const pipeline::StereoFrame& frame, JobControl& control);
   bool draw_relief(const pipeline::StereoFrame& frame, JobControl& control, ui::TechnicianCameras& now);
   void set_light();
@@ -96,7 +94,6 @@ class CameraWatchJob final : public Job {
   std::optional<hal::Instant> last_pair_;
   std::mutex mutex_;
   ui::TechnicianCameras figures_;  // without pictures and texts; with those of the feeds, under the mutex
-  Result<void> outcome_;
 };
 
 }  // namespace relievo::firmware

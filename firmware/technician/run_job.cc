@@ -31,11 +31,6 @@ void RunJob::order(std::shared_ptr<const SavedBytes> document, Making making) {
 }
 
 Result<void> RunJob::run(JobControl& control) {
-  outcome_ = Error{Errc::LibraryFailed, "the stages ended early"};  // what a library's exception leaves
-  return outcome_ = work(control);
-}
-
-Result<void> RunJob::work(JobControl& control) {
   pictures_.wipe();
   figures_.begin(making_.set, name_);
   if (document_ != nullptr) return load(control);

@@ -4,10 +4,9 @@
 // RunJob: all stages of the pipeline, or the last of them, on the test capture that lies in the session, with
 // the algorithms that were chosen, or a saved reconstruction into the session; then the pictures and figures
 // of what came out. A stage that gives up leaves what the stages before it made, and its reason in the
-// result: for a technician that is an answer, not an error. TestShotJob takes the capture. Both keep their
-// outcome until the next run. Errors of run(): Cancelled; InvalidInput (algorithms that do not fit together);
-// OutOfMemory; the document's. Thread: order() and outcome() main, while the job does not run; run() worker
-// (TestShotJob: capture).
+// result: for a technician that is an answer, not an error. TestShotJob takes the capture. Errors of run():
+// Cancelled; InvalidInput (algorithms that do not fit together); OutOfMemory; the document's. Thread: order()
+// main, while the job does not run; run() worker (TestShotJob: capture).
 #pragma once
 
 #include <atomic>
@@ -40,7 +39,6 @@ class RunJob final : public Job {
   Result<void> run(JobControl& control) override;
 
   State stage() const { return now_.load(std::memory_order_relaxed); }  // any thread
-  const Result<void>& outcome() const { return outcome_; }
   TechnicianPictures& pictures() { return pictures_; }
   TechnicianFigures& figures() { return figures_; }
   HandChange& change() { return change_; }
@@ -48,7 +46,6 @@ class RunJob final : public Job {
   const Making& making() const { return making_; }
 
  private:
-  Result<void> work(JobControl& control);
   Result<void> load(JobControl& control);
   // The surface without pairs by hand, which those change; of what is done, only the matches stay.
   Result<void> before_pairs(PipelineStages& stages, StageJob& job, JobControl& control);
@@ -68,7 +65,6 @@ class RunJob final : public Job {
   TechnicianFigures figures_;
   HandChange change_;
   std::atomic<State> now_{State::Match};
-  Result<void> outcome_;
 };
 
 class TestShotJob final : public Job {
@@ -84,12 +80,10 @@ class TestShotJob final : public Job {
   void order(bool side) { side_ = side; }
   bool is_side() const { return side_; }
   Result<void> run(JobControl& control) override {
-    outcome_ = Error{Errc::LibraryFailed, "the capture ended early"};
-    outcome_ = side_ ? take_side(control) : grab_.run(control);
+    Result<void> taken = side_ ? take_side(control) : grab_.run(control);
     serials_ = {std::string(device_.left().serial()), std::string(device_.right().serial())};
-    return outcome_;
+    return taken;
   }
-  const Result<void>& outcome() const { return outcome_; }
   struct Serials {
     std::string left, right;
   };
@@ -104,7 +98,6 @@ class TestShotJob final : public Job {
   PoseJob nobody_;  // never runs: no face was found, and no light metered, before the shot
   GrabJob grab_;
   TurnJob turn_;  // takes a side, follows nobody
-  Result<void> outcome_;
   Serials serials_;
   bool side_ = false;
 };

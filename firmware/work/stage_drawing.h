@@ -53,7 +53,6 @@ class FaceWindow {
   double y(double px) const { return (px - top_) * canvas_ / side_; }
   double back_x(double at) const { return left_ + at * side_ / canvas_; }
   double back_y(double at) const { return top_ + at * side_ / canvas_; }
-  double pixel() const { return canvas_ / side_; }  // of the canvas, for one of the view
 
  private:
   double left_ = 0, top_ = 0, side_ = 1, canvas_ = 1;

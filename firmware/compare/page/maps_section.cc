@@ -157,9 +157,9 @@ Result<std::string> maps(const Comparison& c, std::size_t index) {
 
 namespace {
 
-std::string percent(std::size_t part, std::size_t whole, int decimals = 1) {
+std::string percent(std::size_t part, std::size_t whole) {
   if (whole == 0) return "–";
-  return figure(100 * double(part) / double(whole), decimals);
+  return figure(100 * double(part) / double(whole), 1);
 }
 
 // The rules of one set, the bad share before and after.

@@ -32,8 +32,6 @@ class VisitFigures {
   void made();
   void shown(const Kiosk& kiosk, bool drawn);  // drawn: something had changed
 
-  int touches() const { return touches_; }  // until Thanks; 0: it was not reached
-  std::optional<double> still_to_face_s() const { return still_to_face_s_; }
   std::optional<double> live_frames_a_second() const { return rate(page(ui::Step::Position)); }
   // Lines for a person, with the bars they are held against.
   std::vector<std::string> lines() const;
@@ -59,7 +57,7 @@ class VisitFigures {
   std::optional<hal::Instant> still_at_;
   std::optional<double> still_to_face_s_;
   std::optional<double> still_to_shot_s_;
-  int touches_ = 0;
+  int touches_ = 0;  // until Thanks; 0: it was not reached
 };
 
 // ScriptPlayer: synthetic fingers before a kiosk. Once a frame it does the next thing of its script: it

@@ -11,6 +11,7 @@
 #include <vector>
 
 #include "firmware/base/budget.h"
+#include "tests/firmware/machine/event_names.h"
 
 namespace relievo::firmware {
 namespace {

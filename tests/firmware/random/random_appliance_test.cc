@@ -11,6 +11,7 @@
 
 #include "firmware/capture/live_judge.h"
 #include "hal/sim/optics/rig.h"
+#include "tests/firmware/machine/event_names.h"
 #include "tests/firmware/played_appliance.h"
 #include "tests/firmware/random/random_events.h"
 #include "tests/support/rig_calibration.h"
