@@ -80,13 +80,9 @@ ui::ViewState view_of(Appliance& appliance) {
   view.screen = screen_of(appliance.state());
   view.progress = appliance.progress();
   view.attempt = appliance.attempt();
-  if (appliance.problem()) {
-    view.trouble = trouble_of(*appliance.problem(), appliance.state());
-    if (appliance.problem()->code == Errc::NoFace) view.advice = pipeline::Advice::NoFace;
-  }
+  if (appliance.problem()) view.trouble = trouble_of(*appliance.problem(), appliance.state());
   view.calibration_note = {Errc::NotCalibrated, std::string(appliance.calibration_note())};
   if (!appliance.session().is_open()) return view;
-  view.subject = appliance.session().subject();
   view.live = live_of(appliance.live().newest());
   const StagePictures& pictures = appliance.session().stage_pictures();
   for (std::size_t i = 0; i < pictures_done(appliance); ++i) {

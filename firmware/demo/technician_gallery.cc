@@ -132,7 +132,6 @@ ui::TechnicianCameras watched(const ui::ViewState& review) {
   c.pairs = 1203;
   c.pairs_per_second = 9.6F;
   c.exposure_us = 4000;
-  c.gain = 1;
   return c;
 }
 
@@ -144,7 +143,6 @@ ui::TechnicianCalibration calibrated(const ui::ViewState& review, bool running) 
   c.end = pipeline::LiveEnd::GoalReached;
   for (std::size_t i = 0; i < 2 && review.frame != nullptr; ++i)
     c.pictures[i] = {i == 0 ? review.frame->left : review.frame->right, 900030 + std::uint32_t(i)};
-  c.pairs = 88;
   c.views = 11;
   c.bars = {0.82F, 0.64F, 1, 0.37F};
   for (std::size_t i = 0; i < 64; ++i)
@@ -161,8 +159,8 @@ ui::TechnicianCalibration calibrated(const ui::ViewState& review, bool running) 
   static constexpr std::array kViews{0.018F, 0.022F, 0.019F, 0.031F, 0.017F, 0.02F,
                                      0.016F, 0.021F, 0.024F, 0.018F, 0.019F};
   if (!running) c.reasons = kGood, c.views_px = kViews;
-  c.history[0] = {4, true, "2026-03-12 09:14", "", 0.022F, 0.097F};
-  c.history[1] = {3, false, "2026-01-30 16:40", "", 0.025F, 0.11F};
+  c.history[0] = {4, true, "2026-03-12 09:14", 0.097F};
+  c.history[1] = {3, false, "2026-01-30 16:40", 0.11F};
   c.history_count = 2;
   return c;
 }
@@ -226,11 +224,11 @@ void add_stages(Lender& all, const ui::ViewState& review) {
   view = ready(review);
   view.point = touched();
   view.can_record = true;
-  view.recording = {true, false, 0.6F, ui::Outcome::None, {}};
+  view.recording = {true, 0.6F, ui::Outcome::None, {}};
   all.add("technician_recording", StaffPage::Stages, view);
-  view.recording = {false, false, 0, ui::Outcome::Done, "captures/2026-03-12_09-14-07"};
+  view.recording = {false, 0, ui::Outcome::Done, "captures/2026-03-12_09-14-07"};
   all.add("technician_recorded", StaffPage::Stages, view);
-  view.recording = {true, true, 0.3F, ui::Outcome::None, {}};
+  view.recording = {true, 0.3F, ui::Outcome::None, {}};
   all.add("technician_loading", StaffPage::Stages, view);
   view.recording = {};
   static const std::vector<std::string> saved{"2026-03-12_09-14-07.relievo", "2026-03-11_16-40-52.relievo"};

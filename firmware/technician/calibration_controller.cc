@@ -132,7 +132,6 @@ void CalibrateJob::publish(const LivePair& pair, const pipeline::LiveState& stat
   ui::TechnicianCalibration now;
   now.advice = state.advice;
   now.end = state.end;
-  now.pairs = state.pairs;
   now.views = state.views;
   now.disagreeing = state.disagreeing;
   now.bars = {float(state.bars.x), float(state.bars.y), float(state.bars.size), float(state.bars.skew)};
@@ -345,8 +344,7 @@ ui::TechnicianCalibration CalibrationController::view() {
   for (std::size_t i = 0; i < view.history_count; ++i) {
     const Row& row = history_[std::size_t(walk_.first_row()) + i];
     const storage::CalibrationInfo& info = row.info;
-    view.history[i] = {info.revision, info.active,        row.made_at,
-                       info.note,     float(info.rms_px), float(info.figures.depth_sigma_mm)};
+    view.history[i] = {info.revision, info.active, row.made_at, float(info.figures.depth_sigma_mm)};
   }
   return view;
 }

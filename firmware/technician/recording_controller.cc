@@ -72,10 +72,9 @@ Result<void> record_capture(std::span<const hal::RecordedPair> pairs, const std:
                       [&](const fs::path& target) { return write(pairs, target, media, work); });
 }
 
-std::shared_ptr<ExportTrace> RecordingController::begin(bool reading) {
+std::shared_ptr<ExportTrace> RecordingController::begin() {
   if (running_) return nullptr;
   running_ = true;
-  reading_ = reading;
   outcome_ = ui::Outcome::None;
   where_.clear();
   return std::make_shared<ExportTrace>();
@@ -98,7 +97,7 @@ std::string RecordingController::saved_name(std::size_t row) const {
 
 void RecordingController::record(std::span<const pipeline::StereoFrame> shots,
                                  const hal::RecordedPair& as_taken) {
-  const std::shared_ptr<ExportTrace> trace = begin(false);
+  const std::shared_ptr<ExportTrace> trace = begin();
   if (trace == nullptr) return;
   const auto copy = std::make_shared<const CaptureCopy>(shots, as_taken);
   const std::string name = name_now();
@@ -113,7 +112,7 @@ void RecordingController::record(std::span<const pipeline::StereoFrame> shots,
 }
 
 void RecordingController::save(std::function<Result<std::vector<std::byte>>()> make) {
-  if (begin(false) == nullptr) return;
+  if (begin() == nullptr) return;
   const auto document = std::make_shared<std::shared_ptr<const SavedBytes>>();
   side_tasks_.send(
       JobLane::Worker,
@@ -143,7 +142,7 @@ void RecordingController::write(std::shared_ptr<const SavedBytes> document) {
 }
 
 void RecordingController::list() {
-  if (begin(true) == nullptr) return;
+  if (begin() == nullptr) return;
   const auto names = std::make_shared<std::vector<std::string>>();
   side_tasks_.send(
       JobLane::Keeper,
@@ -163,7 +162,7 @@ void RecordingController::load(std::size_t row, std::function<void(std::shared_p
                                std::function<void(const Error&)> refused) {
   if (!names_ || row >= names_->size() || running_) return;
   const std::string name = names_->at(row);
-  (void)begin(true);
+  (void)begin();
   hide();
   const auto saved = std::make_shared<std::shared_ptr<const SavedBytes>>();
   side_tasks_.send(
@@ -200,7 +199,7 @@ void RecordingController::forget() {
 }
 
 ui::TechnicianRecording RecordingController::view() const {
-  return {running_, reading_, running_ ? side_tasks_.progress(JobLane::Keeper) : 0, outcome_, where_};
+  return {running_, running_ ? side_tasks_.progress(JobLane::Keeper) : 0, outcome_, where_};
 }
 
 }  // namespace relievo::firmware

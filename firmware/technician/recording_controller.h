@@ -81,7 +81,7 @@ class RecordingController {
 
  private:
   // What runs from now on; null: something else does.
-  std::shared_ptr<ExportTrace> begin(bool reading);
+  std::shared_ptr<ExportTrace> begin();
   void write(std::shared_ptr<const SavedBytes> document);
   void ended(const std::optional<Error>& error, const ExportTrace& trace, const std::string& where);
 
@@ -89,7 +89,7 @@ class RecordingController {
   hal::Device& device_;
   std::string where_;
   ui::Outcome outcome_ = ui::Outcome::None;
-  bool running_ = false, reading_ = false;
+  bool running_ = false;
   std::optional<std::vector<std::string>> names_;  // on the stick, while they are shown
   std::uint32_t visit_ = 0;  // what a visit to the pages before this one asked for is not told here
 };

@@ -124,7 +124,6 @@ void TestCapture::wait_for_cameras(Next what) {
 
 void TestCapture::choose(const ui::TechnicianRequest& request) {
   algorithms_.act(request);
-  changed_ = first_change(run_.making().set, algorithms_.set()) != State::Review;
   applied_ = false;
 }
 
@@ -222,7 +221,6 @@ void TestCapture::send_run() {
   problem_ = {};
   point_ = {};
   tables_.forget();
-  changed_ = false;
   phase_ = TechnicianPhase::Running;
   parts_.side_tasks.send(
       JobLane::Worker, [this](JobControl& control) { return run_.run(control); },
@@ -341,7 +339,7 @@ void TestCapture::watch_cameras(bool on) {
 void TestCapture::leave() {
   watch_.show_relief(false);
   watch_.show_edges(false);
-  watching_ = by_hand_ = changed_ = applied_ = applying_ = differences_ = false;
+  watching_ = by_hand_ = applied_ = applying_ = differences_ = false;
   next_ = Next::None;
   saved_.reset();
   saved_making_.reset();

@@ -118,7 +118,6 @@ class TestCapture {
   bool loaded_ = false;       // what is in the session was, with a calibration of its own
   bool by_hand_ = false;      // pairs are set by hand
   bool watching_ = false;     // the cameras
-  bool changed_ = false;      // the algorithms, since the last run
   bool applied_ = false;      // the algorithms: visitors are measured with them ...
   bool applying_ = false;     // ... or soon will be
   bool differences_ = false;  // are shown beside the kept results

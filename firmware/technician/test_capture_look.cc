@@ -38,7 +38,6 @@ void TestCapture::look() {
   if (made == nullptr) return;
   view_.can_record = made->frame.has_value();
   view_.result = run_.figures().view();
-  view_.choice.changed = changed_;
   for (std::size_t side = 0; side < 2; ++side) view_.shown[side] = run_.pictures().picture(stage_, side);
   if (made->model) view_.model = &*made->model;
   if (made->cloud) view_.cloud = &*made->cloud;

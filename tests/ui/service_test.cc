@@ -22,7 +22,7 @@ class ServiceTest : public testing::Test {
     view.now = hal::Instant(std::chrono::seconds(1000));
     view.service = &staff;
   }
-  void act(ActionKind kind, int value = 0, int detail = 0) { service.act({kind, value, detail}, view); }
+  void act(ActionKind kind, int value = 0) { service.act({kind, value}, view); }
   void sign_in(StaffRole role) {
     act(ActionKind::StaffEnter);
     staff.role = role;

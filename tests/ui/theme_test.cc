@@ -4,6 +4,8 @@
 
 #include <gtest/gtest.h>
 
+#include "tests/support/contrast.h"
+
 namespace relievo::ui {
 namespace {
 

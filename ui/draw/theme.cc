@@ -2,23 +2,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "ui/draw/theme.h"
 
-#include <algorithm>
-#include <cmath>
-
 namespace relievo::ui {
-
-double luminance(Colour colour) {
-  const auto linear = [](std::uint8_t v) {
-    const double s = v / 255.0;
-    return s <= 0.04045 ? s / 12.92 : std::pow((s + 0.055) / 1.055, 2.4);
-  };
-  return 0.2126 * linear(colour.r) + 0.7152 * linear(colour.g) + 0.0722 * linear(colour.b);
-}
-
-double contrast(Colour text, Colour ground) {
-  const double a = luminance(text), b = luminance(ground);
-  return (std::max(a, b) + 0.05) / (std::min(a, b) + 0.05);
-}
 
 Colour pressed(Colour fill) {
   const auto darker = [](std::uint8_t v) { return std::uint8_t(v * 21 / 25); };

@@ -69,9 +69,6 @@ inline constexpr Palette kHighContrast{
     {255, 221, 0, 255},   {95, 255, 170, 255}, {255, 221, 0, 255}, {255, 160, 160, 255}, {0, 0, 0, 255},
     {0, 224, 255, 255},   {0, 0, 0, 225},      {96, 96, 96, 255}};
 
-// Relative luminance and contrast as WCAG 2.2 define them.
-double luminance(Colour colour);
-double contrast(Colour text, Colour ground);
 // A box while a finger is on it.
 Colour pressed(Colour fill);
 

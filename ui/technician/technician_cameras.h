@@ -30,7 +30,7 @@ struct TechnicianCameras {
   std::array<TechnicianCamera, 2> camera;  // left, right
   float skew_us = 0, pairs_per_second = 0;
   std::uint64_t pairs = 0, apart = 0;
-  float exposure_us = 0, gain = 0;  // as asked for last
+  float exposure_us = 0;  // as asked for last
   bool can_be_set = false;
   bool relief_shown = false, edges_shown = false;
   TechnicianPicture relief;  // near is bright, black is unknown
@@ -41,8 +41,8 @@ inline constexpr std::size_t kCalibrationRows = 6, kCoverageCells = 8;
 struct TechnicianCalibrationRow {
   std::uint32_t revision = 0;
   bool active = false;
-  std::string_view made_at, note;
-  float rms_px = 0, depth_error_mm = 0;  // 0: not known
+  std::string_view made_at;
+  float depth_error_mm = 0;  // 0: not known
 };
 struct TechnicianCalibration {
   int columns = 10, rows = 7;
@@ -52,7 +52,7 @@ struct TechnicianCalibration {
   std::array<TechnicianPicture, 2> pictures;  // with the corners and the wanted board drawn in
   pipeline::LiveAdvice advice = pipeline::LiveAdvice::ShowBoard;
   pipeline::LiveEnd end = pipeline::LiveEnd::NotYet;
-  int pairs = 0, views = 0, disagreeing = 0;
+  int views = 0, disagreeing = 0;
   std::array<float, 4> bars{};  // across, down, size, tilt: 0 to 1
   std::array<std::array<std::uint32_t, kCoverageCells * kCoverageCells>, 2>
       seen{};                       // corners in each part of the pictures, row by row

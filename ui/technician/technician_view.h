@@ -43,7 +43,6 @@ struct TechnicianChoice {
   std::span<const TechnicianOption> options;  // of the kind's chosen algorithms
   const TechnicianOption* edited = nullptr;   // one of them
   std::string_view typed, refused;            // what was typed, and why it was not taken
-  bool changed = false;                       // since the last run
 };
 
 struct TechnicianRows {
@@ -59,7 +58,6 @@ enum class TechnicianPage : std::uint8_t { Stages, Model, Tables, Algorithms, Co
 // The test capture, or all of the reconstruction, on its way to the stick; or a saved one on its way back.
 struct TechnicianRecording {
   bool running = false;
-  bool reading = false;  // what runs
   float progress = 0;
   Outcome outcome = Outcome::None;
   std::string_view where;  // the folder on the stick; empty: nothing is there

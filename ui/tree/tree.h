@@ -159,7 +159,6 @@ class Tree {
   const Node* question() const;
   // The scroller that goes on and holds the node; nullptr: none.
   const Node* scroller_around(const Node& node) const;
-  bool right_to_left() const { return right_to_left_; }
   // [{"id", "role", "name", "value", "x", "y", "w", "h"}, ...] of everything that speaks or can be touched.
   std::string to_json() const;
 

@@ -107,23 +107,20 @@ enum class ActionKind : std::uint8_t {
   StaffOpen,    // value: a StaffPage
   StaffDo,      // what: Action::ask
   StaffAnswer,  // the same, and the page's mode is `value`, mostly 0, its first
-  StaffMode,
-  StaffChoose,  // value: the page's mode; a row, detail: the mode
+  StaffMode,    // value: the page's mode
   StaffMeasure  // touches on the model set points; again: no longer
 };
 
 struct Action {
   Action() = default;
   // NOLINTNEXTLINE(google-explicit-constructor): `{ActionKind::Back}` is an action.
-  Action(ActionKind of_kind, std::int32_t of_value = 0, std::int32_t of_detail = 0)
-      : kind(of_kind), value(of_value), detail(of_detail) {}
+  Action(ActionKind of_kind, std::int32_t of_value = 0) : kind(of_kind), value(of_value) {}
   // What a page asks of the appliance; `answers`: and then shows its first mode again.
   explicit Action(StaffAsk of_staff, bool answers = false)
       : kind(answers ? ActionKind::StaffAnswer : ActionKind::StaffDo), ask(of_staff) {}
 
   ActionKind kind = ActionKind::None;
   std::int32_t value = 0;
-  std::int32_t detail = 0;
   StaffAsk ask{};
 };
 

@@ -39,10 +39,6 @@ void Service::act(const Action& action, const ViewState& view) {
   if (kind == ActionKind::StaffAnswer || kind == ActionKind::StaffMode) mode = action.value;
   if (kind == ActionKind::StaffMode) ruler = {};
   if (kind == ActionKind::StaffMeasure) ruler = {.on = !ruler.on};
-  if (kind == ActionKind::StaffChoose) {
-    chosen = action.value;
-    mode = action.detail;
-  }
   if (kind == ActionKind::StaffLeave) leave();
   if (kind == ActionKind::Erase) erase_letter();
   if (kind == ActionKind::Back) back(view.service != nullptr && view.service->inner);
@@ -93,7 +89,6 @@ void Service::go(StaffPage to) {
   forget_typed();
   page = to;
   mode = 0;
-  chosen = 0;
   ruler = {};
   request(PageOpened{});
 }
@@ -103,7 +98,6 @@ void Service::close() {
   open = false;
   page = StaffPage::Pin;
   mode = 0;
-  chosen = 0;
   ruler = {};
 }
 

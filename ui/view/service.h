@@ -66,9 +66,8 @@ class Service {
  public:
   bool open = false;
   StaffPage page = StaffPage::Pin;
-  int mode = 0;             // the page's own: a question, a step; 0 when the page is opened
-  std::int64_t chosen = 0;  // the page's own: a row
-  FaceRuler ruler;          // of the page's model
+  int mode = 0;     // the page's own: a question, a step; 0 when the page is opened
+  FaceRuler ruler;  // of the page's model
 
   std::string_view typed() const { return {typed_.data(), length_}; }
   bool takes(ActionKind kind) const;

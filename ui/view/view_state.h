@@ -126,10 +126,8 @@ struct ViewState {
   hal::Instant now{};
   std::chrono::system_clock::time_point wall_now{};
   float progress = 0;  // 0 to 1 of the way from the photograph to the portrait; falls for a new one alone
-  pipeline::Advice advice = pipeline::Advice::None;
   Trouble trouble = Trouble::None;
   Fault calibration_note;    // for the technician: what speaks against the calibration
-  std::string_view subject;  // who is being enrolled
   std::string_view receipt;  // what to quote for an erasure; from the moment of storing on
   StageView receipt_code;    // the same as a QR code
   Printing printing = Printing::None;

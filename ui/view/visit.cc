@@ -161,7 +161,6 @@ std::optional<Intent> Visit::act(Action action, const ViewState& view) {
     case ActionKind::StaffDo:
     case ActionKind::StaffAnswer:
     case ActionKind::StaffMode:
-    case ActionKind::StaffChoose:
     case ActionKind::StaffMeasure:
     case ActionKind::None: break;
   }

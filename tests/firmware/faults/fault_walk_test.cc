@@ -119,7 +119,7 @@ class FaultWalk : public FaultHands, public testing::WithParamInterface<State> {
   void expect_nothing_is_left(Fate fate) {
     if (fate.kind == Fate::Kind::In && (fate.state == State::Idle || fate.state == State::Fault)) {
       EXPECT_FALSE(kiosk->appliance().session().is_open());
-      EXPECT_EQ(kiosk->view().subject, "");
+      EXPECT_EQ(kiosk->appliance().session().subject(), "");
       EXPECT_EQ(kiosk->view().model, nullptr);
       if (kiosk->ui().visit().step != ui::Step::Thanks) {
         EXPECT_EQ(kiosk->ui().visit().name(), "");

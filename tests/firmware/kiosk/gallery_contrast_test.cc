@@ -10,6 +10,7 @@
 #include <string>
 
 #include "firmware/demo/gallery.h"
+#include "tests/support/contrast.h"
 #include "tests/support/made_screen.h"
 #include "ui/draw/theme.h"
 

@@ -203,7 +203,7 @@ TEST_F(KioskMomentsTest, WhoIsInTheRecordsIsToldAndProvesItByTheCode) {
   ASSERT_TRUE(reach(ui::Step::Known));
   tap("renew");
   ASSERT_TRUE(reach(ui::Step::Position));
-  EXPECT_EQ(kiosk->view().subject, "Ada");
+  EXPECT_EQ(kiosk->appliance().session().subject(), "Ada");
   EXPECT_LE(kiosk->ui().visit().touches, 9);
 }
 

@@ -37,7 +37,7 @@ class KioskPulledTest : public StaffHands, public testing::WithParamInterface<bo
     tap("done");
     ASSERT_TRUE(reach(ui::Step::Position));
     ASSERT_TRUE(until([this] { return kiosk->view().live.number > 0 && find("shoot") != nullptr; }));
-    EXPECT_EQ(kiosk->view().subject, name);
+    EXPECT_EQ(kiosk->appliance().session().subject(), name);
   }
   // The trigger has gone, the left picture is here, the right one is not.
   void shoot_half() {
@@ -55,7 +55,7 @@ class KioskPulledTest : public StaffHands, public testing::WithParamInterface<bo
     EXPECT_TRUE(says("tries again by itself")) << "the way on";
     EXPECT_FALSE(says("Grace"));
     EXPECT_EQ(kiosk->ui().visit().name(), "");
-    EXPECT_EQ(kiosk->view().subject, "");
+    EXPECT_EQ(kiosk->appliance().session().subject(), "");
     EXPECT_FALSE(kiosk->appliance().session().is_open());
     EXPECT_TRUE(kiosk->take_forgotten()) << "the renderer forgets, too";
     for (const auto& picture : kiosk->ui().draw_list().pictures) EXPECT_TRUE(picture.pixels.empty());

@@ -214,7 +214,7 @@ class RandomKiosk : public FaultHands {
     visited.insert(now_in);
     if (now_in == State::Idle || now_in == State::Fault || now_in == State::SelfTest) {
       EXPECT_FALSE(kiosk->appliance().session().is_open()) << name_of(now_in);
-      EXPECT_EQ(kiosk->view().subject, "");
+      EXPECT_EQ(kiosk->appliance().session().subject(), "");
       EXPECT_EQ(kiosk->view().model, nullptr);
     }
     const bool alone = kiosk->ui().visit().step == ui::Step::Attract && !kiosk->ui().service().open;

@@ -218,7 +218,6 @@ TEST_F(TechnicianTest, AlgorithmsAreChosenEditedComparedAndUsedForVisitors) {
   rig().tap(kind("constraints"));
   rig().tap(name("continuity"));
   EXPECT_EQ(rig().now().choice.kinds[rig().now().choice.kind].value, "similarity+uniqueness");
-  EXPECT_TRUE(rig().now().choice.changed);
   rig().tap(kind("matcher"));
   rig().tap(name("zmncc"));
   // An option beyond its bounds is refused and stays; within them it is taken.

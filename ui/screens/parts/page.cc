@@ -198,12 +198,6 @@ void Page::square_button(std::string_view id, std::string_view spoken, const cha
   tree.leaf(sign_node);
 }
 
-const char* Page::kept(std::string_view words) {
-  const char* first = tree.keep(words).data();
-  tree.keep(std::string_view("\0", 1));
-  return first;
-}
-
 std::string_view Page::filled(const char* words, std::span<const std::string_view> values) {
   std::string_view rest(words);
   const std::string_view first = tree.keep({});

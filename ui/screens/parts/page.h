@@ -24,7 +24,7 @@ inline constexpr const char *kBack = "\uf04d", *kNext = "\uf054", *kUp = "\uf05d
                             *kClose = "\uf156", *kCamera = "\uf100", *kAgain = "\uf450", *kErase = "\uf06e",
                             *kText = "\uf27f", *kAlert = "\uf028", *kSun = "\uf5a8", *kZoomIn = "\uf34b",
                             *kZoomOut = "\uf34a", *kWrench = "\uf5b7", *kShift = "\uf636",
-                            *kContrast = "\uf197", *kNear = "\uf04c", *kLock = "\uf33e", *kWait = "\uf51f",
+                            *kContrast = "\uf197", *kLock = "\uf33e", *kWait = "\uf51f",
                             *kTurnLeft = "\uf465", *kTurnRight = "\uf467", *kShape = "\uf563",
                             *kNoCamera = "\uf5df", *kDisk = "\uf2ca", *kDark = "\uf594", *kInfo = "\uf2fc",
                             *kPerson = "\uf64a", *kStill = "\uf51f", *kBin = "\uf1c0", *kLess = "\uf374",
@@ -127,8 +127,6 @@ class Page {
   void privacy();
   // Whether the cameras are off, before the consent and when all is over.
   void cameras();
-  // Kept for the frame, with a zero at its end, as gettext wants its keys.
-  const char* kept(std::string_view words);
   // "… {} …" with the value in it, kept apart from the direction of the words around.
   std::string_view filled(const char* words, std::string_view value) { return filled(words, {value}); }
   // The same for several, in the order of their places.

@@ -11,7 +11,6 @@ namespace {
 
 constexpr float kMargin = 32, kTop = 20;
 constexpr const char* kLeaveSign = "\uf343";
-constexpr Colour kNone{};
 
 struct SaidOutcome {
   const char* words;

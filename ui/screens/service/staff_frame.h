@@ -51,8 +51,7 @@ class StaffFrame : public Page {
   void row(std::string_view id, std::string_view label, std::string_view value, Mood mood = Mood::Plain,
            Action action = {});
   // Label, then less, the value, more; an end has no action. Ids: "ID less", "ID more".
-  void stepper(std::string_view id, std::string_view label, std::string_view value, const char* less_letter,
-               Action less, const char* more_letter, Action more);
+  void stepper(std::string_view id, std::string_view label, std::string_view value, Action less, Action more);
   // What is being typed; before the first letter, what is asked.
   void typed_field(std::string_view id, std::string_view asked);
   // A series of values, as a row of a card.

@@ -260,8 +260,8 @@ void StaffFrame::step_button(std::string_view id, const char* end, const char* s
   if (!dead) sign(letter, 30, palette.link);
 }
 
-void StaffFrame::stepper(std::string_view id, std::string_view label, std::string_view value,
-                         const char* less_letter, Action less, const char* more_letter, Action more) {
+void StaffFrame::stepper(std::string_view id, std::string_view label, std::string_view value, Action less,
+                         Action more) {
   due_rule();
   Node row = box(Flow::Row, space::kS, 0, 6);
   row.box.align = Align::Centre;
@@ -279,13 +279,13 @@ void StaffFrame::stepper(std::string_view id, std::string_view label, std::strin
   scale.box.align = Align::Centre;
   scale.box.left_to_right = true;  // less, then more, as on every page that counts
   tree.open(scale);
-  step_button(id, "less", tr("Less"), label, less_letter, less);
+  step_button(id, "less", tr("Less"), label, icon::kLess, less);
   Node middle = box(Flow::Column);
   middle.box.width = px(150 * std::min(1.3F, text_share));
   tree.open(middle);
   tree.leaf(text(filled("{}", value), type::kSmall, Weight::Medium, palette.ink, TextAlign::Centre));
   tree.close();
-  step_button(id, "more", tr("More"), label, more_letter, more);
+  step_button(id, "more", tr("More"), label, icon::kMore, more);
   tree.close();
   tree.close();
   tree.close();

@@ -21,7 +21,7 @@ void chooser(StaffFrame& page, const Settings& settings, Setting setting) {
     return end ? Action{} : Action(ChangeSetting{setting, more});
   };
   page.stepper(info.key, name_of(page.tr, setting), said_value(page, setting, settings.of(setting)),
-               icon::kLess, ask(false), icon::kMore, ask(true));
+               ask(false), ask(true));
 }
 
 void group(StaffFrame& page, const char* title, std::span<const Setting> settings) {

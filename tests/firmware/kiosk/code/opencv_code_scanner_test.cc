@@ -106,7 +106,7 @@ TEST_F(CodeScannerTest, ACodeStandsInTheFieldAfterTheConsentAndIsConfirmedByTouc
   tap("key 1");
   tap("done");
   ASSERT_TRUE(reach(ui::Step::Position));
-  EXPECT_EQ(kiosk->view().subject, "A-2041");
+  EXPECT_EQ(kiosk->appliance().session().subject(), "A-2041");
   EXPECT_LE(kiosk->ui().visit().touches, 2);
 }
 

@@ -187,7 +187,7 @@ void board(TechnicianFrame& f) {
   const TechnicianCalibration& c = f.seen.calibration;
   const auto stepper = [&](std::string_view id, const char* label, std::string_view value,
                            BoardMeasure measure, std::int32_t step) {
-    f.stepper(id, label, value, icon::kLess, technician_action(ChangeBoard{measure, -step}), icon::kMore,
+    f.stepper(id, label, value, technician_action(ChangeBoard{measure, -step}),
               technician_action(ChangeBoard{measure, step}));
   };
   f.section(f.tr("The board"));
