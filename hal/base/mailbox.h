@@ -17,20 +17,12 @@ namespace relievo {
 template <typename T>
 class Mailbox {
  public:
-  // True when an item that nobody had taken was replaced.
-  bool put(T item) {
-    bool replaced = false;
+  void put(T item) {
     {
       const std::lock_guard lock(mutex_);
-      replaced = slot_.has_value();
       slot_.emplace(std::move(item));
     }
     arrived_.notify_one();
-    return replaced;
-  }
-  std::optional<T> take() {
-    const std::lock_guard lock(mutex_);
-    return std::exchange(slot_, std::nullopt);
   }
   // Waits until something arrives or the time is over.
   std::optional<T> take_for(std::chrono::milliseconds wait) {

@@ -73,7 +73,7 @@ class SdlSpeaker final : public Speaker {
     wanted.language = speech.language;
     wanted.volume_percent = speech.volume_percent;
     wanted.speed_percent = speech.speed_percent;
-    (void)wanted_.put(std::move(wanted));  // the newest counts
+    wanted_.put(std::move(wanted));  // the newest counts
   }
   void hush() override { mixer_.cut(); }
   bool is_speaking() const override { return !mute_ && mixer_.is_speaking(); }
