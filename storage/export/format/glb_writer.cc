@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: 2026 The Relievo authors
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include "storage/export/format/glb_writer.h"
+#include "storage/export/format/mesh_writers.h"
 
 #include <algorithm>
 #include <cmath>

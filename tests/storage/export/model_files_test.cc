@@ -18,7 +18,6 @@
 
 #include "hal/base/whole_file.h"
 #include "storage/byte_order.h"
-#include "storage/export/format/glb_writer.h"
 #include "storage/export/format/mesh_writers.h"
 #include "storage/export/format/number_text.h"
 #include "tests/storage/sample.h"
