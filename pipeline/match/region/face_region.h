@@ -17,10 +17,9 @@
 namespace relievo::pipeline {
 
 struct FaceBox {
-  Vec2d centre_px;       // between the eyes and the mouth, in the picture given
-  double width_px = 0;   // about 150 mm on a grown-up, whatever the cascade that saw it
-  double angle_deg = 0;  // how far the head was tilted in the try that saw it; clockwise in the picture
-  int votes = 0;         // overlapping hits: 5 doubtful, 50 certain
+  Vec2d centre_px;      // between the eyes and the mouth, in the picture given
+  double width_px = 0;  // about 150 mm on a grown-up, whatever the cascade that saw it
+  int votes = 0;        // overlapping hits: 5 doubtful, 50 certain
 };
 
 struct FaceFinderOptions {

@@ -178,7 +178,6 @@ Result<FaceBox> FaceFinder::find(const ImageView& picture, const std::atomic<boo
       if (hit.votes < cascades_->options.least_votes || hit.votes <= best.votes) continue;
       best = {{(hit.centre.x + 0.5) * scale - 0.5, (hit.centre.y + 0.5) * scale - 0.5},
               hit.width * scale,
-              -look_at.tilt * cascades_->options.tilt_deg,
               hit.votes};
       if (best.votes >= cascades_->options.certain_votes) break;
     }

@@ -103,7 +103,7 @@ TEST(FaceFinder, TheRegionHoldsTheRenderedFaces) {
 TEST(FaceRegion, AnEllipseAroundTheFaceCutAtTheBorder) {
   StageRoom room;
   RectifiedPair pair = blank_pair(400, 300);
-  ASSERT_TRUE(mark_face_region(pair, {{100, 150}, 100, 0, 50}, room.context));
+  ASSERT_TRUE(mark_face_region(pair, {{100, 150}, 100, 50}, room.context));
   const auto at = [&](int x, int y) {
     return pair.region[static_cast<std::size_t>(y) * 400 + static_cast<std::size_t>(x)];
   };
@@ -112,22 +112,22 @@ TEST(FaceRegion, AnEllipseAroundTheFaceCutAtTheBorder) {
   EXPECT_EQ(at(100, 160 + 77), 1);
   EXPECT_EQ(at(399, 150), 0);
   EXPECT_EQ(at(100, 299), 0);
-  ASSERT_TRUE(mark_face_region(pair, {{-50, -40}, 100, 0, 50}, room.context));
+  ASSERT_TRUE(mark_face_region(pair, {{-50, -40}, 100, 50}, room.context));
   EXPECT_EQ(at(0, 0), 1);
   EXPECT_EQ(at(399, 299), 0);
-  ASSERT_TRUE(mark_face_region(pair, {{-5000, -4000}, 100, 0, 50}, room.context));
+  ASSERT_TRUE(mark_face_region(pair, {{-5000, -4000}, 100, 50}, room.context));
   EXPECT_EQ(std::count(pair.region.begin(), pair.region.end(), 1), 0);
 }
 
 TEST(FaceRegion, WhatCannotBeMarked) {
   StageRoom room;
   RectifiedPair pair = blank_pair(0, 0);
-  EXPECT_FALSE(mark_face_region(pair, {{100, 150}, 100, 0, 50}, room.context));
+  EXPECT_FALSE(mark_face_region(pair, {{100, 150}, 100, 50}, room.context));
   pair = blank_pair(400, 300);
-  EXPECT_FALSE(mark_face_region(pair, {{100, 150}, 0, 0, 50}, room.context));
-  EXPECT_FALSE(mark_face_region(pair, {{std::nan(""), 150}, 10, 0, 50}, room.context));
+  EXPECT_FALSE(mark_face_region(pair, {{100, 150}, 0, 50}, room.context));
+  EXPECT_FALSE(mark_face_region(pair, {{std::nan(""), 150}, 10, 50}, room.context));
   room.cancelled = true;
-  const auto cancelled = mark_face_region(pair, {{100, 150}, 100, 0, 50}, room.context);
+  const auto cancelled = mark_face_region(pair, {{100, 150}, 100, 50}, room.context);
   ASSERT_FALSE(cancelled);
   EXPECT_EQ(cancelled.error().code, Errc::Cancelled);
   StageRoom tiny(100, 100);
@@ -135,7 +135,7 @@ TEST(FaceRegion, WhatCannotBeMarked) {
     RectifiedPair in_arena(&c.output);
     in_arena.width_px = 400;
     in_arena.height_px = 300;
-    return mark_face_region(in_arena, {{100, 150}, 100, 0, 50}, c);
+    return mark_face_region(in_arena, {{100, 150}, 100, 50}, c);
   });
   ASSERT_FALSE(small);
   EXPECT_EQ(small.error().code, Errc::OutOfMemory);
