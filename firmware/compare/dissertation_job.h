@@ -3,7 +3,7 @@
 //
 // DissertationJob: all of the dissertation's tables and figures. Figures 6 to 12 are done on the pair given;
 // figure 17 too, where that is calibrated. What is left is done on a simulated person, whose truth is known.
-// Thread: worker; now() any; result() once done. Errors: Cancelled; those of virtual_rig.h and of the disk.
+// Thread: worker; now() any; result() once done. Errors: Cancelled; those of the virtual rig and of the disk.
 #pragma once
 
 #include <atomic>

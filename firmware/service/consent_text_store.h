@@ -5,10 +5,10 @@
 //
 //   stick: consent/VERSION/LANGUAGE.txt --take()--> the store's consent/VERSION/ --adopt()--> in force
 //
-// It is checked on the stick (records/consent_files.h), written beside what is in force, read back, and
+// It is checked on the stick (read_consent_version()), written beside what is in force, read back, and
 // gets its name then: whatever goes wrong, the text before stays. A version never changes its words,
 // because records name it.
-// Thread: main; the stick is read on the keeper. Errors of look(): see consent_files.h.
+// Thread: main; the stick is read on the keeper. Errors of look(): see read_consent().
 #pragma once
 
 #include <filesystem>

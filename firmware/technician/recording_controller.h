@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: 2026 The Relievo authors
 // SPDX-License-Identifier: GPL-3.0-or-later
 //
-// RecordingController: the buttons that put the test capture (record_capture.h) or all of the reconstruction
+// RecordingController: the buttons that put the test capture or all of the reconstruction
 // (stick_files.h) on the stick, and bring a saved one back; how far it is, how it ended, and where
 // it lies. One at a time; who leaves ends it, and nothing half written stays. Thread: main; the stick is the
 // keeper's. Errors: none are returned, view() has them, but what is wrong with a document goes to `refused`.

@@ -15,7 +15,7 @@ namespace relievo::ui {
 
 enum class StaffRole : std::uint8_t { None, Technician, Operator };
 
-// Every page of the staff's side. Pin and FirstStart need no role; the rest are rows of kStaffPages.
+// Every page of the staff's side. Pin and FirstStart need no role; the rest are rows of staff_pages().
 enum class StaffPage : std::uint8_t {
   Pin,
   FirstStart,

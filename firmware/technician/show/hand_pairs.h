@@ -4,7 +4,7 @@
 // HandPairs: the matches that a technician makes on the rectified pair. A finger on the left picture begins a
 // pair, and its partner is proposed by correlation along its row; a finger on the right one corrects the
 // partner, which has no other row. Either end is dragged. A partner is set to the best likeness near the
-// finger where there is one (match/window/row_search.h), else where the finger says, with a pixel of sigma.
+// finger where there is one (match_on_row()), else where the finger says, with a pixel of sigma.
 // Places are shares of the pictures. Thread: main, while no job runs. Errors: none.
 #pragma once
 

@@ -3,7 +3,7 @@
 //
 // TechnicianFigures: what a set of algorithms cost and made, as the technician reads it: times, counts, what
 // each rule rejected, and what the result says of itself where nothing is known to be true
-// (firmware/command/compare/measure). Its texts stay where they are: view() borrows them.
+// (firmware/measure). Its texts stay where they are: view() borrows them.
 // Thread: worker while a job runs, else main. Errors of measure(): Cancelled, OutOfMemory.
 #pragma once
 

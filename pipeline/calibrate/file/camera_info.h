@@ -7,7 +7,7 @@
 // How the cameras stand to each other is in the rectification: with R1, R2 the rectification matrices
 // and Tx = P2(0,3) / P2(0,0), which is minus the baseline, in metres,
 //   right_from_left = R2^T R1,   translation = R2^T (Tx, 0, 0) * 1000 mm.
-// What is written here rectifies as rectified_geometry.h does (the x axis is the baseline, the z axis
+// What is written here rectifies as rectifier.h does (the x axis is the baseline, the z axis
 // lies between the two optical axes), with the pictures' own size and a principal point of its own for
 // each camera: toed-in cameras would otherwise look past each other. image_proc and image_geometry's
 // StereoCameraModel take both into account.

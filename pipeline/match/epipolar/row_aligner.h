@@ -23,7 +23,7 @@ namespace relievo::pipeline {
 // A camera that was nudged, a mount that warmed up or a pair that was not exposed at the same instant
 // leaves a vertical disagreement that is, over one face, nearly linear in the picture. Patches of the
 // surface each say what it is there; one field is laid through them, and those that
-// contradict it (highlights, edges) lose their say (shift_field.h).
+// contradict it (highlights, edges) lose their say (fit_shift_field()).
 //
 // What the same error does along the rows cannot be seen: it changes the depth of the face, not its
 // likeness.

@@ -4,7 +4,7 @@
 // ViewBlend: one colour from two photographs. Where one is brighter than the other in every channel,
 // after the exposures are matched, it shows light mirrored towards that camera (Shafer: Using color to
 // separate reflection components, 1985: mirrored light adds the lamp's colour), and the darker one is the
-// skin. Where they disagree otherwise, something moved: one camera shows the whole of it (view_choice.h).
+// skin. Where they disagree otherwise, something moved: one camera shows the whole of it (ViewChoice).
 // Thread: prepared by one, then mix() by any number.
 #pragma once
 
