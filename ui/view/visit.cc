@@ -261,8 +261,21 @@ void Visit::follow_language(const ViewState& view) {
 }
 
 bool Visit::person_expected() const {
-  return step == Step::Consent || step == Step::Name || step == Step::Known || step == Step::Position ||
-         step == Step::Review || step == Step::Thanks;
+  switch (step) {
+    case Step::Consent:
+    case Step::Name:
+    case Step::Known:
+    case Step::Position:
+    case Step::Review:
+    case Step::Thanks: return true;
+    case Step::Attract:
+    case Step::Turn:
+    case Step::Working:
+    case Step::Trouble:
+    case Step::Starting:
+    case Step::Declined: break;
+  }
+  return false;
 }
 
 // Whose face is before the cameras is there, and has no hand free for the screen.
