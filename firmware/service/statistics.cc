@@ -10,10 +10,27 @@ namespace relievo::firmware {
 namespace {
 
 bool is_visit(State state) {
-  return state == State::Position || state == State::Capture || state == State::Turn ||
-         state == State::Match || state == State::Reconstruct || state == State::Mesh ||
-         state == State::Texture || state == State::Assemble || state == State::Fuse ||
-         state == State::Review;
+  switch (state) {
+    case State::Position:
+    case State::Capture:
+    case State::Turn:
+    case State::Match:
+    case State::Reconstruct:
+    case State::Mesh:
+    case State::Texture:
+    case State::Assemble:
+    case State::Fuse:
+    case State::Review: return true;
+    case State::SelfTest:
+    case State::Idle:
+    case State::Calibrate:
+    case State::Store:
+    case State::Export:
+    case State::Staff:
+    case State::Fault:
+    case State::Count: break;
+  }
+  return false;
 }
 
 ui::Refusal refusal_of(const Error& error) {
