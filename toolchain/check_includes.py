@@ -1,7 +1,7 @@
 #!/usr/bin/env python3
 # SPDX-FileCopyrightText: 2026 The Relievo authors
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""Fails when a file includes what its folder may not.
+"""Fails when a file includes what its folder may not, or when a README or a comment names a file that is not there.
 
     check_includes.py [ROOT]
 
@@ -12,7 +12,8 @@ The rules, each with one line here and one planted violation in tests/toolchain/
   - a library's header appears only in .cc files named after the library (LIBRARIES);
   - a library that has no line here may not be used at all;
   - the folders in CHOSEN_BY are named only by the one file that chooses the implementation;
-  - a concrete algorithm's header is included only by pipeline/algorithms/, by .cc files beside it and by tests.
+  - a concrete algorithm's header is included only by pipeline/algorithms/, by .cc files beside it and by tests;
+  - a source file that a README or a comment of C++ names, with or without its folders, is there.
 """
 import pathlib
 import re
@@ -81,10 +82,12 @@ CHOSEN_BY = {
     "firmware/demo/": "firmware/main.cc",
 }
 ALGORITHMS = "pipeline/algorithms/"
+ROOMS = ("hal", "pipeline", "storage", "ui", "firmware", "tests")
 
 INCLUDE = re.compile(r'^\s*#\s*include\s+(["<])([^">]+)[">]')
 CHOSEN = re.compile(r"\balgorithm<&(\w+)::")
 STRUCT = re.compile(r"\bstruct\s+(\w+)\s*\{")
+NAMED = re.compile(r"(?<![\w./-])((?:[\w-]+/)*[a-z]\w*\.(?:h|cc|py|sql))\b")
 
 
 def folder_of(path):
@@ -92,7 +95,7 @@ def folder_of(path):
 
 
 def sources(root):
-    for room in ("hal", "pipeline", "storage", "ui", "firmware", "tests"):
+    for room in ROOMS:
         for path in sorted((root / room).rglob("*")):
             if path.suffix in (".h", ".cc"):
                 yield path.relative_to(root).as_posix(), path.read_text(errors="replace")
@@ -159,9 +162,21 @@ def floor_problems(root, files):
                     yield f"{here}:{number}: {home} may not include {to}: it does not lie below it (README.md, Floors)"
 
 
+def name_problems(root, files):
+    readmes = {path.relative_to(root).as_posix(): path.read_text() for folder in (*ROOMS, "toolchain", "")
+               for path in (root / folder).glob("**/*.md" if folder else "*.md")}
+    there = {"/".join(path.parts[i:]) for folder in (*ROOMS, "toolchain")
+             for path in (root / folder).rglob("*.*") for i in range(len(path.parts))}
+    for here, text in (files | readmes).items():
+        for number, line in enumerate(text.splitlines(), 1):
+            said = line if here in readmes else line.partition("//")[2]
+            yield from (f"{here}:{number}: {name} is not there" for name in NAMED.findall(said) if name not in there)
+
+
 def problems(root):
     files = dict(sources(root))
     yield from floor_problems(root, files)
+    yield from name_problems(root, files)
     concrete = concrete_algorithms(files)
     for here, text in files.items():
         for number, line in enumerate(text.splitlines(), 1):

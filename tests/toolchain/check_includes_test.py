@@ -118,6 +118,12 @@ class CheckIncludes(unittest.TestCase):
         self.assertEqual(len(found), 1, found)
         self.assertIn("tree, which is not there", found[0])
 
+    def test_a_file_that_is_named_is_there(self):
+        files = GOOD | {"README.md": "`hal/camera.h`, `camera.h`\n`gone.cc`\n",
+                        "ui/tree.h": "// As camera.h says, and hal/lost.h did.\nint gone = 0;\n"}
+        self.assertEqual([one for one in findings(files) if "is not there" in one],
+                         ["ui/tree.h:1: hal/lost.h is not there", "README.md:2: gone.cc is not there"])
+
     def test_only_main_includes_a_command(self):
         found = findings(GOOD | {"firmware/staff/staff.h": '#include "firmware/command/parser.h"\n'})
         self.assertTrue(any("only firmware/main.cc may choose" in one for one in found), found)
