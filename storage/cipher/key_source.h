@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: 2026 The Relievo authors
 // SPDX-License-Identifier: GPL-3.0-or-later
 //
-// Where the appliance's key comes from: the key that opens the store's own (storage/README.md, "Keys").
+// Where the appliance's key comes from: the key that opens the store's own (storage/cipher/README.md).
 // Errors: NotFound (no key there), InvalidInput (what is there is no key, or others may read it), MediaFull,
 // IoFailed, OutOfMemory; each names the file. Thread: one at a time.
 #pragma once
