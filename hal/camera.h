@@ -13,6 +13,7 @@
 // Thread: capture.
 #pragma once
 
+#include <cstddef>
 #include <cstdint>
 #include <string_view>
 #include <utility>
@@ -69,6 +70,7 @@ struct CaptureMode {
   int width_px = 0;
   int height_px = 0;
   std::chrono::microseconds exposure{0};
+  std::size_t pixels() const { return std::size_t(width_px) * std::size_t(height_px); }
 };
 
 // How much light the sensor takes: both cameras of a pair get the same. Gain 1 is the sensor's own.

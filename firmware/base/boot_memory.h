@@ -16,10 +16,9 @@ namespace relievo::firmware {
 
 class BootMemory {
  public:
-  BootMemory()
-      : BootMemory(budget::kFramePoolBytes, budget::kOutputArenaBytes, budget::kScratchArenaBytes,
-                   budget::kSidesBytes, budget::kFollowBytes) {}
-  // Tests shrink it until nothing fits; without sides one pair makes a face.
+  explicit BootMemory(const budget::MemoryPlan& plan = budget::kLargestPlan)
+      : BootMemory(plan.frames, plan.products, plan.scratch, plan.sides, plan.follow) {}
+  // Tests shrink it until nothing fits.
   BootMemory(std::size_t frame_bytes, std::size_t output_bytes, std::size_t scratch_bytes,
              std::size_t sides_bytes = 0, std::size_t follow_bytes = 0)
       : block_(frame_bytes + output_bytes + scratch_bytes + sides_bytes + follow_bytes),

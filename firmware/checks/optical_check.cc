@@ -99,7 +99,7 @@ using pipeline::Vec3d;
 
 struct TargetMeter::Room {
   Room(pipeline::Pipeline stages, const std::atomic<bool>& cancelled)
-      : memory(0, budget::kOutputArenaBytes, budget::kScratchArenaBytes),
+      : memory(0, budget::kLargestPlan.products, budget::kLargestPlan.scratch),
         output(memory.output()),
         scratch(memory.scratch()),
         pool(pool_size()),

@@ -3,6 +3,7 @@
 //
 // selftest, memory, version: what the appliance says about itself.
 #include <algorithm>
+#include <array>
 #include <cstdio>
 #include <optional>
 #include <string>
@@ -32,6 +33,35 @@ std::string mib(std::size_t bytes) {
   return text;
 }
 
+void say_plan(Console& console) {
+  struct Part {
+    const char* name;
+    std::size_t (*bytes)(std::size_t pixels);
+  };
+  static constexpr std::array<Part, 10> kParts{{
+      {"pictures", [](std::size_t pixels) { return budget::plan_of_a_head(pixels).frames; }},
+      {"stage products", [](std::size_t pixels) { return budget::plan_of_a_head(pixels).products; }},
+      {"stage scratch", [](std::size_t pixels) { return budget::plan_of_a_head(pixels).scratch; }},
+      {"sides of a head",
+       [](std::size_t pixels) {
+         return budget::plan_of_a_head(pixels).sides + budget::plan_of_a_head(pixels).follow;
+       }},
+      {"technician", [](std::size_t) { return budget::kTechnicianBytes; }},
+      {"live pictures", [](std::size_t) { return budget::kLiveBytes; }},
+      {"libraries", [](std::size_t) { return budget::kLibraryBytes; }},
+      {"queues", [](std::size_t) { return budget::kQueueBytes; }},
+      {"all of it", [](std::size_t pixels) { return budget::appliance_bytes(pixels); }},
+      {"one pair's face", [](std::size_t pixels) { return budget::plan_of_a_face(pixels).all(); }},
+  }};
+  console.say("at                1920 x 1200   2448 x 2048");
+  for (const Part& part : kParts) {
+    char name[24];
+    std::snprintf(name, sizeof name, "%-16s", part.name);
+    console.say(name + mib(part.bytes(std::size_t{1920} * 1200)) + " " +
+                mib(part.bytes(budget::kMostFramePixels)));
+  }
+}
+
 }  // namespace
 
 Result<void> run(const VersionArgs&, Services& services) {
@@ -41,15 +71,7 @@ Result<void> run(const VersionArgs&, Services& services) {
 
 Result<void> run(const MemoryArgs& args, Services& services) {
   Console& console = services.console;
-  console.say("pictures        " + mib(budget::kFramePoolBytes));
-  console.say("stage products  " + mib(budget::kOutputArenaBytes));
-  console.say("stage scratch   " + mib(budget::kScratchArenaBytes));
-  console.say("sides of a head " + mib(budget::kSidesBytes + budget::kFollowBytes));
-  console.say("technician      " + mib(budget::kTechnicianBytes));
-  console.say("live pictures   " + mib(budget::kLiveBytes));
-  console.say("libraries       " + mib(budget::kLibraryBytes));
-  console.say("queues          " + mib(budget::kQueueBytes));
-  console.say("of              " + mib(budget::kApplianceBytes));
+  say_plan(console);
   if (args.store.empty()) return {};
   RELIEVO_TRY_ASSIGN(const auto store, services.open_store(args.store, false));
   RELIEVO_TRY_ASSIGN(const std::string kept, store->setting(kVisitCostsSetting));

@@ -149,12 +149,13 @@ Result<void> log_drift(const Appliance& appliance, const Calibrated& calibrated,
 Result<void> run(const EnrolArgs& args, Services& services) {
   RELIEVO_TRY(check_subject(args.subject));
   RELIEVO_TRY_ASSIGN(const auto device, services.open_device(args.device));
-  RELIEVO_TRY_ASSIGN(const Calibrated calibrated, find_calibration(args, device->preferred_mode(), services));
+  const hal::CaptureMode mode = device->preferred_mode();
+  RELIEVO_TRY_ASSIGN(const Calibrated calibrated, find_calibration(args, mode, services));
   RELIEVO_TRY_ASSIGN(auto pipeline, make_pipeline(args.algorithms, calibrated.calibration));
   RELIEVO_TRY_ASSIGN(const auto store, services.open_store(store_folder(args.store), true));
   RELIEVO_TRY_ASSIGN(const std::optional<storage::SubjectId> subject, choose_subject(*store, args.subject));
 
-  const BootMemory memory;
+  const BootMemory memory(budget::plan_of_a_face(mode.pixels()));
   ThreadPool pool(pool_size());
   PipelineStages stages(std::move(pipeline));
   EnrolledVisits visits(*store, device->clock(), store_folder(args.store), calibrated);

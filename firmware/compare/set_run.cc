@@ -129,7 +129,7 @@ Result<SurfaceLook> surface_look(const pipeline::FaceModel& model) {
 class StepRunner {
  public:
   StepRunner(ThreadPool& pool, JobControl& control, Run& run)
-      : memory_(0, budget::kOutputArenaBytes, budget::kScratchArenaBytes),
+      : memory_(0, budget::kLargestPlan.products, budget::kLargestPlan.scratch),
         output_(memory_.output()),
         pool_(pool),
         control_(control),
@@ -149,7 +149,7 @@ class StepRunner {
   // What is looked at beside the reconstruction: neither its time nor its memory counts.
   template <typename Step>
   auto beside(Step&& work) {
-    BootMemory memory(0, budget::kOutputArenaBytes, budget::kScratchArenaBytes);
+    BootMemory memory(0, budget::kLargestPlan.products, budget::kLargestPlan.scratch);
     Arena output(memory.output());
     Arena scratch(memory.scratch());
     pipeline::StageContext context{output, scratch, pool_, control_.progress, control_.cancelled};

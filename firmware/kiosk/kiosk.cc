@@ -111,7 +111,8 @@ Result<void> Kiosk::prepare(const KioskArgs& args, Services& services) {
   RELIEVO_TRY(set_up_measuring(args, services));
   open_speaker_ = services.open_speaker;
   if (services.find_presence_sensor) presence_ = services.find_presence_sensor();
-  memory_ = std::make_unique<BootMemory>();
+  const hal::CaptureMode mode = device_->preferred_mode();
+  memory_ = std::make_unique<BootMemory>(budget::plan_of_a_head(mode.pixels()));
   std::thread([this] {
     stand_behind_the_page();
     pool_ = std::make_unique<ThreadPool>(pool_size());
@@ -124,8 +125,7 @@ Result<void> Kiosk::prepare(const KioskArgs& args, Services& services) {
   moved_faces_ = std::make_unique<MovedFaces>(*store_);
   RELIEVO_TRY_ASSIGN(MovedFaces::Said moved, moved_faces_->read(revision_));
   appliance_->remember_moved(moved.faces, std::move(moved.note));
-  camera_look_ =
-      std::make_unique<CameraLook>(appliance_->grabber(), appliance_->session(), device_->preferred_mode());
+  camera_look_ = std::make_unique<CameraLook>(appliance_->grabber(), appliance_->session(), mode);
   if (const auto* calibration = stages_->calibration()) appliance_->grabber().expect(calibration->cameras);
   RELIEVO_TRY_ASSIGN(staff_, StaffController::open({*appliance_, *device_, *store_, store_folder(args.store),
                                                     revision_, services.set_clock}));

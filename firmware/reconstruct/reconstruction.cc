@@ -321,7 +321,7 @@ Result<void> HeadReconstruction::run(const std::vector<Path>& pictures, const st
     const Path& file = calibrations[calibrations.size() == 1 ? 0 : k];
     RELIEVO_TRY_ASSIGN(shots[k].calibration, read_calibration_for(shots[k].pictures, file, shots[k].left));
   }
-  const std::size_t kept = shots.size() * budget::kPoseBytes;
+  const std::size_t kept = shots.size() * budget::pose_bytes(budget::kMostFramePixels);
   kept_block_ = PageBlock(kept);
   kept_.emplace(kept_block_.bytes());
   ThreadPool pool(pool_size());

@@ -24,7 +24,8 @@ namespace relievo::firmware {
 
 class Reconstruction {
  public:
-  Reconstruction() : memory_(0, budget::kOutputArenaBytes, budget::kScratchArenaBytes), session_(memory_) {}
+  Reconstruction()
+      : memory_(0, budget::kLargestPlan.products, budget::kLargestPlan.scratch), session_(memory_) {}
   // `by_hand`: a file of matches (pipeline/match/file/match_text.h), checked before anything is matched;
   // empty: none. Errors: those of the files, of the settings and of the stages; each names its place.
   Result<void> run(const Path& left, const Path& right, const Path& calibration,
@@ -56,11 +57,11 @@ class Reconstruction {
 };
 
 // A head from several pairs of picture files, with progress and Ctrl-C. Owns the memory in which the model
-// lies: budget.h's arenas, and kPoseBytes for each pair. Thread: main.
+// lies: budget.h's arenas, and pose_bytes() for each pair. Thread: main.
 class HeadReconstruction {
  public:
   HeadReconstruction()
-      : memory_(0, budget::kOutputArenaBytes, budget::kScratchArenaBytes), output_(memory_.output()) {}
+      : memory_(0, budget::kLargestPlan.products, budget::kLargestPlan.scratch), output_(memory_.output()) {}
   // `pictures`: left, right of each pair, two or more pairs, the frontal one first. `calibrations`: one, or
   // one a pair. Errors: those of the files, the settings and the stages; each names its place.
   Result<void> run(const std::vector<Path>& pictures, const std::vector<Path>& calibrations,

@@ -52,10 +52,10 @@ Result<std::string> write_light(const pipeline::FaceModel& model, int triangles,
 Result<std::string> write_solid(const pipeline::FaceModel& model, const std::filesystem::path& folder,
                                 storage::ExportFrame frame, const std::filesystem::path& place) {
   // Not value-initialised: pages stay untouched.
-  const std::unique_ptr<std::byte[]> output_block(new std::byte[budget::kOutputArenaBytes]),
-      scratch_block(new std::byte[budget::kScratchArenaBytes]);
-  Arena output({output_block.get(), budget::kOutputArenaBytes}),
-      scratch({scratch_block.get(), budget::kScratchArenaBytes});
+  const std::unique_ptr<std::byte[]> output_block(new std::byte[budget::kLargestPlan.products]),
+      scratch_block(new std::byte[budget::kLargestPlan.scratch]);
+  Arena output({output_block.get(), budget::kLargestPlan.products}),
+      scratch({scratch_block.get(), budget::kLargestPlan.scratch});
   ThreadPool pool(pool_size());
   pipeline::Progress progress;
   const std::atomic<bool> never{false};

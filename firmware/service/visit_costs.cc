@@ -49,7 +49,6 @@ ui::VisitCostsView VisitCosts::view() const {
     most.resident_mib = std::max(most.resident_mib, visits_[i].resident_mib);
   }
   most.planned_seconds = std::chrono::duration<float>(budget::kStageLimit).count();
-  most.planned_stage_mib = to_mib(budget::kOutputArenaBytes + budget::kScratchArenaBytes);
   return most;
 }
 

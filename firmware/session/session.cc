@@ -15,7 +15,7 @@ namespace relievo::firmware {
 namespace {
 
 constexpr std::size_t kCopyShare = 10;
-static_assert(budget::kSidesBytes / kCopyShare >= 2 * budget::kFrameBytes,
+static_assert(budget::kLargestPlan.sides / kCopyShare >= 2 * budget::kFrameBytes,
               "no room for a pair of the largest sensor");
 
 template <std::size_t... I>
@@ -64,7 +64,7 @@ Result<void> SidePairs::add(const pipeline::StereoFrame& pair) {
   std::span<std::byte> room = rooms_[at + 1];
   if (both > std::min(room.size(), copy_.size()))
     return Error{Errc::OutOfMemory,
-                 "pictures larger than the plan in budget.h allows for the sides of a head"};
+                 "the sides' pictures are larger than those that memory was taken for at the start"};
   bytes_[at] = both;
   pairs_[at] = pair;
   pairs_[at].left = copied(pair.left, room.data());

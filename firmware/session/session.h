@@ -173,6 +173,7 @@ class EnrolmentSession {
   const StagePictures& stage_pictures() const { return stage_pictures_; }
   StereoSlot& spare_slot() { return spare_slot_; }  // of a burst, which keeps its best pair in one of the two
   Arena& output() { return output_; }
+  std::size_t stage_bytes() const { return output_.capacity() + scratch_block_.size(); }
   // Of a head that turns. Without memory for it (has_sides()) one pair makes a face.
   bool has_sides() const { return !follow_block_.empty(); }
   SidePairs& sides() { return sides_; }

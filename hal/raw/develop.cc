@@ -156,7 +156,9 @@ Result<ImageView> develop(const RawImage& raw, std::span<std::byte> room, std::s
   view.stride_bytes = raw.width_px * bytes_per_pixel(view.format);
   if (std::size_t(view.stride_bytes) * std::size_t(raw.height_px) > room.size() ||
       develop_scratch_bytes(raw.format, raw.width_px, raw.height_px) > scratch.size())
-    return Error{Errc::InvalidInput, "the picture is larger than budget.h allows: choose a smaller mode"};
+    return Error{
+        Errc::InvalidInput,
+        "the picture is larger than those that memory was taken for at the start: choose a smaller mode"};
   RELIEVO_TRY(fill(raw, view, room.data(), scratch.data()));
   return view;
 }

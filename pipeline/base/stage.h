@@ -42,8 +42,9 @@ auto run_stage(StageContext& context, Stage&& stage) -> decltype(stage(context))
   try {
     return std::forward<Stage>(stage)(context);
   } catch (const std::bad_alloc&) {
-    return Error{Errc::OutOfMemory,
-                 "the stage's memory is used up: the picture is larger than the plan in budget.h allows"};
+    return Error{
+        Errc::OutOfMemory,
+        "the stage's memory is used up: the pictures or what an option asks for are larger than was planned"};
   } catch (const std::exception&) {
     return Error{Errc::LibraryFailed, "a library gave up on this input"};
   }

@@ -90,10 +90,24 @@ class Surface {
         zones_(zones),
         context_(context),
         scratch_(&context.scratch),
-        vertices_(vertices_mm_.size(), Vertex{}, scratch_),
-        started_(vertices_mm_, scratch_),
-        normals_(area_normals(vertices_mm_, triangles_, scratch_)),
-        sure_(scratch_) {}
+        vertices_(scratch_),
+        started_(scratch_),
+        normals_(scratch_),
+        sure_(scratch_) {
+    // What closes holes comes to them: vectors that grow in an arena leave all they were before behind.
+    const std::size_t most = vertices_mm_.size() + vertices_mm_.size() / 8;
+    vertices_mm_.reserve(most);
+    triangles_.reserve(2 * most);
+    vertices_.reserve(most);
+    started_.reserve(most);
+    normals_.reserve(most);
+    sure_.reserve(most);
+    vertices_.resize(vertices_mm_.size());
+    started_ = vertices_mm_;
+    const Arena::Mark mark(context.scratch);
+    const auto normals = area_normals(vertices_mm_, triangles_, scratch_);
+    normals_.assign(normals.begin(), normals.end());
+  }
 
   // What lies on no pose's surface is the master's own, or goes.
   void place(const OwnFace& own) {
@@ -143,8 +157,11 @@ class Surface {
       if (zones_.is_eye_rim(at)) part[v] = std::max(part[v], kEyeRimRings);
     }
     for (const BorderEdge& e : border_edges(triangles_, scratch_)) stays[e[0]] = 1;
-    if (has_steps) add_steps(vertices_mm_, triangles_, label, part, scratch_);
-    add_folds(vertices_mm_, triangles_, unsure, part, scratch_);
+    {
+      const Arena::Mark mark(context_.scratch);
+      if (has_steps) add_steps(vertices_mm_, triangles_, label, part, scratch_);
+      add_folds(vertices_mm_, triangles_, unsure, part, scratch_);
+    }
     fair(part, stays);
 
     std::fill(part.begin(), part.end(), std::uint8_t{0});
@@ -229,6 +246,7 @@ class Surface {
   }
 
   void fair(std::span<const std::uint8_t> part, std::span<const std::uint8_t> stays) {
+    const Arena::Mark mark(context_.scratch);
     const auto moved = fair_part(vertices_mm_, triangles_, part, stays, scratch_);
     for (std::size_t v = 0; v < moved.size(); ++v)
       vertices_[v].sigma_mm = std::hypot(vertices_[v].sigma_mm, moved[v]);
@@ -275,10 +293,10 @@ Result<FusedSurface> HeadFuser::fuse(std::span<PoseSurface> poses, const Registr
   BandVolume volume = volume_around(places, float(options_.voxel_mm), 4, &context.scratch);
   fill_field(points, kBandVoxels * volume.voxel_mm, volume, context);
   if (context.stop()) return stopped;
-  OwnFace own(volume, &context.scratch);
+  Surface surface(polygonise(volume, &context.scratch), blend, zones, context);
+  OwnFace own(std::move(volume));
   for (const std::uint32_t v : own_vertices)
     own.mark(face.vertices_mm[v], face.sigma_mm[v], face.measured[v] != 0);
-  Surface surface(polygonise(volume, &context.scratch), blend, zones, context);
   if (context.stop()) return stopped;
   surface.place(own);
   if (!surface.trim_rims(own)) return no_surface();

@@ -92,10 +92,11 @@ void HealthController::keep() {
 // Of the last visits, over restarts, and of this run.
 void HealthController::add_memory() {
   view_.costs = services().costs.view();
+  view_.costs.planned_stage_mib = float(mib(services().appliance.session().stage_bytes()));
   double stages = 0;
   for (const ui::StageCost& cost : view_.costs.stages) stages = std::max(stages, double(cost.mib));
   const auto plan = double(view_.costs.planned_stage_mib);
-  const double all = mib(budget::kApplianceBytes),
+  const double all = mib(budget::appliance_bytes(services().device.preferred_mode().pixels())),
                resident = std::max(seen_.process_mib, double(view_.costs.resident_mib));
   rows_.push_back({ui::Gauge::Stages, {}, stages, plan, mood_of(stages, plan)});
   rows_.push_back({ui::Gauge::Process, {}, resident, all, mood_of(resident, all)});

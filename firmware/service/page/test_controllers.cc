@@ -195,8 +195,8 @@ void SelfTestController::ask(const ui::StaffRequest& request) {
   view_ = {};
   PageServices& t = services();
   t.log.say(ui::LogEvent::SelfTestBegun);
-  begin(Check::Memory, JobLane::Keeper, [](JobControl&) -> Result<void> {
-    if (peak_rss_bytes() > budget::kApplianceBytes)
+  begin(Check::Memory, JobLane::Keeper, [&t](JobControl&) -> Result<void> {
+    if (peak_rss_bytes() > budget::appliance_bytes(t.device.preferred_mode().pixels()))
       return Error{Errc::OutOfMemory,
                    "the program has used more memory than was planned: see the page of health"};
     return {};
