@@ -7,6 +7,7 @@
 #include <algorithm>
 #include <cstring>
 #include <string>
+#include <utility>
 #include <vector>
 
 namespace relievo::firmware {
@@ -101,6 +102,32 @@ TEST_F(SessionTest, RefusesASecondPersonAndAnEndlessName) {
   EXPECT_EQ(session.open(std::string(129, 'x')).error().code, Errc::InvalidInput);
   EXPECT_FALSE(session.is_open());
   EXPECT_TRUE(session.open(std::string(128, 'x')));
+}
+
+// The kiosk takes memory for the size of its own cameras' pictures.
+TEST(MemoryPlan, HoldsTheFrontAndEverySideOfItsSizeAndRefusesLargerPictures) {
+  for (const auto& [width, height] : {std::pair{640, 400}, {1920, 1200}, {2448, 2048}}) {
+    SCOPED_TRACE(width);
+    const BootMemory memory(budget::plan_of_a_head(std::size_t(width) * std::size_t(height)));
+    EnrolmentSession session(memory);
+    ASSERT_TRUE(session.open("Ada"));
+    ASSERT_TRUE(session.has_sides());
+    const int larger = height * 9 / 8;
+    const std::vector<std::byte> pixels(std::size_t(3) * std::size_t(width) * std::size_t(larger));
+    const auto picture = [&](int rows) {
+      return ImageView{pixels.data(), width, rows, 3 * width, PixelFormat::Rgb8};
+    };
+    for (StereoSlot* slot : {&session.slot(), &session.spare_slot()}) {
+      EXPECT_TRUE(slot->keep_left(hal::raw_of(picture(height))));
+      EXPECT_TRUE(slot->keep_right(hal::raw_of(picture(height))));
+      EXPECT_EQ(slot->keep_left(hal::raw_of(picture(larger))).error().code, Errc::InvalidInput);
+    }
+    pipeline::StereoFrame pair;
+    pair.left = pair.right = picture(larger);
+    EXPECT_EQ(session.sides().add(pair).error().code, Errc::OutOfMemory);
+    pair.left = pair.right = picture(height);
+    for (std::size_t side = 0; side < pipeline::kSides; ++side) EXPECT_TRUE(session.sides().add(pair));
+  }
 }
 
 }  // namespace
