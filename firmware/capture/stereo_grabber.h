@@ -79,10 +79,12 @@ class Counter {
   Counter() = default;
   Counter(const Counter& other) : count_(other) {}
   Counter& operator=(const Counter& other) {
-    count_.store(other, std::memory_order_relaxed);
+    if (this != &other) count_.store(other, std::memory_order_relaxed);
     return *this;
   }
-  operator std::uint64_t() const { return count_.load(std::memory_order_relaxed); }
+  operator std::uint64_t() const {  // NOLINT(google-explicit-constructor): read as the number it is
+    return count_.load(std::memory_order_relaxed);
+  }
   void operator++() { *this += 1; }
   void operator+=(std::uint64_t more) { count_.store(*this + more, std::memory_order_relaxed); }
 

@@ -361,8 +361,9 @@ void Kiosk::turn_once() {
     restarted_ = false;  // told once: it was read, or nobody is there
   look();
   if (auto shown = code_scanner_->turn(ui_->visit(), view_.now)) {
-    ui_->visit().enter(*shown, view_.now);
-    explicit_bzero(shown->data(), shown->size());
+    std::string& code = *shown;
+    ui_->visit().enter(code, view_.now);
+    explicit_bzero(code.data(), code.size());
   }
   // What fingers asked for comes first: a frame must not take an older answer for the new one's.
   while (const auto intent = ui_->take_intent()) {

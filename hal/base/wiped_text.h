@@ -18,7 +18,8 @@ namespace relievo {
 // wipe_stack(): what the functions that have returned left on this thread's stack goes: names and rows of
 // pictures lie there until something else is called as deeply. Thread: any, for its own.
 [[gnu::noinline]] inline void wipe_stack() {
-  std::array<std::byte, std::size_t{256} << 10> below;  // deeper than what was seen to be left
+  // Deeper than what was seen to be left. NOLINTNEXTLINE(cppcoreguidelines-pro-type-member-init)
+  std::array<std::byte, std::size_t{256} << 10> below;
   explicit_bzero(below.data(), below.size());
 }
 
@@ -27,7 +28,10 @@ class WipedText {
   WipedText() = default;
   explicit WipedText(std::string_view text) : text_(text) {}
   WipedText(const WipedText&) = default;
-  WipedText& operator=(const WipedText& other) { return *this = other.view(); }
+  WipedText& operator=(const WipedText& other) {
+    if (this != &other) *this = other.view();
+    return *this;
+  }
   WipedText& operator=(std::string_view text) {
     std::string held(text);  // it may be a part of this one
     wipe();

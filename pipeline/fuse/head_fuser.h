@@ -47,7 +47,8 @@ struct HeadFuserOptions {
 
 struct FusedSurface {
   FaceMesh mesh;
-  std::size_t closing;  // its vertices from here on close holes: where they lie, no photograph shows the head
+  // Its vertices from here on close holes: where they lie, no photograph shows the head.
+  std::size_t closing = 0;
 };
 
 class HeadFuser {

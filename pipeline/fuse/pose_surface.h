@@ -36,8 +36,8 @@ inline bool is_photographed(std::span<const std::uint8_t> rgb, std::size_t pixel
 
 // Skin that another pose shows, too.
 struct SharedSkin {
-  std::uint32_t pose, node;  // which one, and where on its lattice
-  Vec3f at_mm;               // where this pose has it, in its own frame
+  std::uint32_t pose = 0, node = 0;  // which one, and where on its lattice
+  Vec3f at_mm;                       // where this pose has it, in its own frame
 };
 
 struct PoseSurface {

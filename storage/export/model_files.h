@@ -47,8 +47,8 @@ Result<std::vector<NamedBytes>> recognition_files(const pipeline::RecognitionIma
                                                   std::string_view version);
 
 struct ExportOptions {
-  ExportOptions(ExportFrame in_frame)
-      : frame(in_frame) {}  // NOLINT(google-explicit-constructor): a frame says it all, mostly
+  // A frame says it all, mostly. NOLINTNEXTLINE(google-explicit-constructor)
+  ExportOptions(ExportFrame in_frame) : frame(in_frame) {}
   ExportFrame frame;
   std::string_view version{};                           // of the program
   const pipeline::RecognitionImages* images = nullptr;  // always in the head frame

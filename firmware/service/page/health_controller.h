@@ -38,7 +38,7 @@ class DayRing {
   std::span<const float> values() const { return all_; }
 
  private:
-  std::array<float, kKept> all_;
+  std::array<float, kKept> all_{};
 };
 
 class HealthController final : public PageController {
