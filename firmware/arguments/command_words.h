@@ -36,9 +36,9 @@ auto* number(App& command, const char* name, Value& value, const Range& range, c
 // Two whole numbers in one word, such as "1280x800": each from its least on, to `most`. `wants`: the
 // complaint.
 struct TwoNumbersRule {
-  char between;
-  int least_first, least_second, most;
-  const char *type, *wants;
+  char between = 'x';
+  int least_first = 0, least_second = 0, most = 0;
+  const char *type = "", *wants = "";
   bool rising = false;  // the second is the larger
 };
 CLI::Option* add_two_numbers(CLI::App& command, const char* name, int& first, int& second,
