@@ -38,7 +38,8 @@ struct MemoryPlan {
   constexpr std::size_t all() const { return frames + products + scratch + sides + follow; }
 };
 inline constexpr std::size_t kHeadPoses = 5;  // the front and four sides
-// Of a head from several pairs each has its surface and both rectified photographs.
+// Of a head from several pairs each has both rectified photographs, 6 bytes a pixel, and its surface, 32
+// bytes a node: of the picture's pixels one in six was a node at most.
 constexpr std::size_t pose_bytes(std::size_t pixels) { return 47 * pixels / 4; }
 constexpr MemoryPlan plan_of_a_face(std::size_t pixels) {
   return {kStereoSlots * 7 * pixels, 64 * kMiB + 44 * pixels, 48 * kMiB + 84 * pixels};

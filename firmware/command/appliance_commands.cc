@@ -3,7 +3,6 @@
 //
 // selftest, memory, version: what the appliance says about itself.
 #include <algorithm>
-#include <array>
 #include <cstdio>
 #include <optional>
 #include <string>
@@ -34,32 +33,25 @@ std::string mib(std::size_t bytes) {
 }
 
 void say_plan(Console& console) {
-  struct Part {
-    const char* name;
-    std::size_t (*bytes)(std::size_t pixels);
-  };
-  static constexpr std::array<Part, 10> kParts{{
-      {"pictures", [](std::size_t pixels) { return budget::plan_of_a_head(pixels).frames; }},
-      {"stage products", [](std::size_t pixels) { return budget::plan_of_a_head(pixels).products; }},
-      {"stage scratch", [](std::size_t pixels) { return budget::plan_of_a_head(pixels).scratch; }},
-      {"sides of a head",
-       [](std::size_t pixels) {
-         return budget::plan_of_a_head(pixels).sides + budget::plan_of_a_head(pixels).follow;
-       }},
-      {"technician", [](std::size_t) { return budget::kTechnicianBytes; }},
-      {"live pictures", [](std::size_t) { return budget::kLiveBytes; }},
-      {"libraries", [](std::size_t) { return budget::kLibraryBytes; }},
-      {"queues", [](std::size_t) { return budget::kQueueBytes; }},
-      {"all of it", [](std::size_t pixels) { return budget::appliance_bytes(pixels); }},
-      {"one pair's face", [](std::size_t pixels) { return budget::plan_of_a_face(pixels).all(); }},
-  }};
-  console.say("at                1920 x 1200   2448 x 2048");
-  for (const Part& part : kParts) {
+  using Plan = budget::MemoryPlan;
+  constexpr std::size_t kCommon = std::size_t{1920} * 1200, kMost = budget::kMostFramePixels;
+  constexpr Plan common = budget::plan_of_a_head(kCommon), most = budget::plan_of_a_head(kMost);
+  const auto say = [&](const char* what, std::size_t at_common, std::size_t at_most) {
     char name[24];
-    std::snprintf(name, sizeof name, "%-16s", part.name);
-    console.say(name + mib(part.bytes(std::size_t{1920} * 1200)) + " " +
-                mib(part.bytes(budget::kMostFramePixels)));
-  }
+    std::snprintf(name, sizeof name, "%-16s", what);
+    console.say(name + mib(at_common) + " " + mib(at_most));
+  };
+  console.say("at                1920 x 1200   2448 x 2048");
+  say("pictures", common.frames, most.frames);
+  say("stage products", common.products, most.products);
+  say("stage scratch", common.scratch, most.scratch);
+  say("sides of a head", common.sides + common.follow, most.sides + most.follow);
+  say("technician", budget::kTechnicianBytes, budget::kTechnicianBytes);
+  say("live pictures", budget::kLiveBytes, budget::kLiveBytes);
+  say("libraries", budget::kLibraryBytes, budget::kLibraryBytes);
+  say("queues", budget::kQueueBytes, budget::kQueueBytes);
+  say("all of it", budget::appliance_bytes(kCommon), budget::appliance_bytes(kMost));
+  say("one pair's face", budget::plan_of_a_face(kCommon).all(), budget::plan_of_a_face(kMost).all());
 }
 
 }  // namespace
