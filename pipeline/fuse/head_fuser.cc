@@ -18,11 +18,12 @@
 namespace relievo::pipeline {
 namespace {
 
-constexpr double kDownward = -0.6;        // cosine to upwards
-constexpr float kBandVoxels = 2.5F;       // how far from a point the field reaches
-constexpr float kCompletedShare = 0.02F;  // of a measured point's weight
-constexpr float kEdgeNodes = 16;          // over which a pose's weight fades
-constexpr float kSureMm = 0.15F;          // skin; hair that was half seen through is less certain
+constexpr double kDownward = -0.6, kUpward = 0.5;  // cosine to upwards
+constexpr float kAwayFromCamera = 0.3F;            // cosine to the line of sight
+constexpr float kBandVoxels = 2.5F;                // how far from a point the field reaches
+constexpr float kCompletedShare = 0.02F;           // of a measured point's weight
+constexpr float kEdgeNodes = 16;                   // over which a pose's weight fades
+constexpr float kSureMm = 0.15F;                   // skin; hair that was half seen through is less certain
 // Holes are opened before they are closed; of the outline goes what is narrow, then its corners.
 constexpr float kHoleOpenedMm = 8;
 constexpr std::array<float, 2> kOutlineOpenedMm{11, 16};
@@ -60,16 +61,19 @@ void drop_hair(std::span<PoseSurface> poses, const Registration& registration, c
 }
 
 // The master's eyes, and what its mesher completed: about nose and mouth for where no pose measured, further
-// out where none shows anything near, for there the sides know better. Of ears and of what lies below a chin
-// it knows nothing. Adds them to the points; returns the vertices, what was completed first.
+// out where none shows anything near, for there the sides know better. Of ears, of what lies below a chin, of
+// crown and back of a head, of which plates would be left, it knows nothing. Adds them to the points; returns
+// the vertices, what was completed first.
 std::pmr::vector<std::uint32_t> add_own(const FaceMesh& face, const RigidTransform& head_from_camera,
                                         const HeadZones& zones, const PoseBlend& blend,
                                         std::pmr::vector<FieldPoint>& points) {
   std::pmr::vector<std::uint32_t> own(points.get_allocator());
   for (std::uint32_t v = 0; v < face.vertices_mm.size(); ++v) {
     const Vec3f& at = face.vertices_mm[v];
-    const bool below = apply(head_from_camera.rotation, wide(face.normals[v])).y < kDownward;
-    const bool beside = !below && !zones.is_ear(at) && !blend.is_seen_near(at);
+    const double upwards = apply(head_from_camera.rotation, wide(face.normals[v])).y;
+    const float away = dot(face.normals[v], unit(at));
+    const bool behind = away > kAwayFromCamera || (away > 0 && upwards > kUpward);
+    const bool beside = !behind && upwards >= kDownward && !zones.is_ear(at) && !blend.is_seen_near(at);
     const bool completed = face.measured[v] == 0 && (zones.is_middle(at) || beside);
     if (!completed && !zones.is_eye(at)) continue;
     points.push_back({at, face.normals[v], kCompletedShare});
