@@ -55,7 +55,7 @@ class HeadFuser {
  public:
   explicit HeadFuser(const HeadFuserOptions& options) : options_(options) {}
   // `face`: the master's own mesh, of which is taken what lies between the lids, found by its `landmarks`,
-  // and what was completed where no pose shows anything. Bends `poses` in place.
+  // and what was completed where no pose shows anything, but for crown and back of a head. Bends `poses`.
   Result<FusedSurface> fuse(std::span<PoseSurface> poses, const Registration& registration,
                             const FaceMesh& face, const Landmarks& landmarks, StageContext& context) const;
 
