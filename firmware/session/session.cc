@@ -17,6 +17,7 @@ namespace {
 constexpr std::size_t kCopyShare = 10;
 static_assert(budget::kLargestPlan.sides / kCopyShare >= 2 * budget::kFrameBytes,
               "no room for a pair of the largest sensor");
+static_assert(budget::kHeadPoses == SidePairs::kPoses, "the plan is for another number of sides");
 
 template <std::size_t... I>
 std::array<std::span<std::byte>, sizeof...(I)> cut(std::span<std::byte> block, std::index_sequence<I...>) {

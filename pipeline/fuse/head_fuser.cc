@@ -61,9 +61,9 @@ void drop_hair(std::span<PoseSurface> poses, const Registration& registration, c
 }
 
 // The master's eyes, and what its mesher completed: about nose and mouth for where no pose measured, further
-// out where none shows anything near, for there the sides know better. Of ears, of what lies below a chin, of
-// crown and back of a head, of which plates would be left, it knows nothing. Adds them to the points; returns
-// the vertices, what was completed first.
+// out where none shows anything near, for there the sides know better. Of ears and of what lies below a chin
+// it knows nothing; of a completed crown or back, loose plates would be left. Adds them to the points;
+// returns the vertices, what was completed first.
 std::pmr::vector<std::uint32_t> add_own(const FaceMesh& face, const RigidTransform& head_from_camera,
                                         const HeadZones& zones, const PoseBlend& blend,
                                         std::pmr::vector<FieldPoint>& points) {
