@@ -1,8 +1,8 @@
 // SPDX-FileCopyrightText: 2026 The Relievo authors
 // SPDX-License-Identifier: GPL-3.0-or-later
 //
-// FrozenThread: stops one thread of this process where it stands, by a signal whose handler does not return:
-// as a driver's call that never comes back. One at a time.
+// FrozenThread: stops a thread of this process where it stands, by a signal whose handler does not return:
+// as a driver's call that never comes back. One name at a time.
 #pragma once
 
 #include <csignal>
@@ -21,17 +21,19 @@ namespace relievo::test {
 
 class FrozenThread {
  public:
-  // Freezes the thread that has this name. Is there one?
+  // Freezes the thread that has this name, and those that libraries started from it, which have it, too. Is
+  // there one?
   static bool freeze(std::string_view name) {
     std::signal(SIGUSR1, stand);
+    bool found = false;
     for (const auto& task : std::filesystem::directory_iterator("/proc/self/task")) {
       std::string its;
       std::getline(std::ifstream(task.path() / "comm") >> std::ws, its);
       if (its != name) continue;
       frozen.store(true);
-      return syscall(SYS_tgkill, getpid(), std::stoi(task.path().filename()), SIGUSR1) == 0;
+      found |= syscall(SYS_tgkill, getpid(), std::stoi(task.path().filename()), SIGUSR1) == 0;
     }
-    return false;
+    return found;
   }
   static void thaw() { frozen.store(false); }
 
