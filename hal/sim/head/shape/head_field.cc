@@ -195,6 +195,8 @@ NoseForm::NoseForm(const HeadTraits& traits, const SkullForm& skull) : t_(traits
   bridge_ = {Bead{root, 5.2}, Bead{middle, 5.0 + 0.3 * t.bridge}, Bead{tip_centre, r_tip}};
   wall_ = {Bead{{5.0, 2, root_z - 13}, 5.5}, Bead{{0.25 * t.nose_width, sn_y_ + 9.5, sn_z_ - 3.0}, 9.2}};
   ala_ = {t.nose_width / 2 - 4.9, sn_y_ + 6.0, sn_z_ + 0.6};
+  wing_turn_ = rotation(0.30, 0.42, -0.16);
+  nostril_turn_ = rotation(0.62, 0.36, 0.20);
 }
 
 double NoseForm::add_to(double field, Vec3 p) const {
@@ -210,8 +212,7 @@ double NoseForm::add_to(double field, Vec3 p) const {
   nose = join(nose, tapered(q, dome, {ala_ + Vec3{-1.5, 0.5, 1}, 4.4}), 4);
   double d = join(field, nose, 12);
   // The wing: a thick shell standing off the tip, with its groove behind and above it.
-  const Mat3 lean = rotation(0.30, 0.42, -0.16);
-  const double wing = ellipsoid(lean * (q - ala_), {4.7, 6.6, 9.2});
+  const double wing = ellipsoid(wing_turn_ * (q - ala_), {4.7, 6.6, 9.2});
   const double rim = std::abs(wing - 1.6);
   d = join(d, wing, 4.5);
   d += 0.55 * gauss(rim / 2.0) * smoothstep(ala_.y - 3.5, ala_.y + 3.5, q.y) *
@@ -220,8 +221,7 @@ double NoseForm::add_to(double field, Vec3 p) const {
        smoothstep(sn_y_ + 14, sn_y_ + 8, q.y);
   // Nostrils: narrow towards the tip, opening downwards and outwards.
   const Vec3 hole{0.205 * t_.nose_width, sn_y_ + 2.2, sn_z_ + 7.2};
-  const Mat3 turn = rotation(0.62, 0.36, 0.20);
-  const double nostril = ellipsoid(turn * (q - hole), {3.1 + 0.05 * (t_.nose_width - 34), 5.8, 5.6});
+  const double nostril = ellipsoid(nostril_turn_ * (q - hole), {3.1 + 0.05 * (t_.nose_width - 34), 5.8, 5.6});
   return cut(d, -nostril, 2.2);
 }
 
@@ -316,14 +316,20 @@ double SkullForm::distance(Vec3 p) const {
 }
 
 HeadField::HeadField(const HeadTraits& t)
-    : traits(t), skull(t), strokes(t), nose(t, skull), mouth(t, skull), eye(t, skull), ear(t, skull) {}
+    : traits(t),
+      skull(t),
+      strokes(t),
+      nose(t, skull),
+      mouth(t, skull),
+      eye(t, skull),
+      ear(t, skull),
+      sway_a_(unit_from_hash(hash_cell(1, 2, 3, t.seed)) * 6.28),
+      sway_b_(unit_from_hash(hash_cell(4, 5, 6, t.seed)) * 6.28) {}
 
 Vec3 HeadField::swayed(Vec3 p) const {
   // No face is symmetric: two slow waves move its sides by up to a millimetre or so.
-  const double a = unit_from_hash(hash_cell(1, 2, 3, traits.seed)) * 6.28,
-               b = unit_from_hash(hash_cell(4, 5, 6, traits.seed)) * 6.28;
-  return {p.x + 0.8 * std::sin(p.y * 0.021 + a), p.y + 0.7 * std::sin(p.x * 0.035 + b),
-          p.z + 0.6 * std::sin(p.x * 0.03 + p.y * 0.02 + a + b)};
+  return {p.x + 0.8 * std::sin(p.y * 0.021 + sway_a_), p.y + 0.7 * std::sin(p.x * 0.035 + sway_b_),
+          p.z + 0.6 * std::sin(p.x * 0.03 + p.y * 0.02 + sway_a_ + sway_b_)};
 }
 
 Vec3 HeadField::warped(Vec3 p) const { return mouth.closed(swayed(p)); }

@@ -51,6 +51,7 @@ class NoseForm {
   Vec3 tip_, ala_;
   std::array<Bead, 3> bridge_;
   std::array<Bead, 2> wall_;
+  Mat3 wing_turn_, nostril_turn_;
 };
 
 class MouthForm {
@@ -124,6 +125,9 @@ struct HeadField {
   MouthForm mouth;
   EyeForm eye;
   EarForm ear;
+
+ private:
+  double sway_a_, sway_b_;  // phases
 };
 
 }  // namespace relievo::hal::sim
