@@ -28,6 +28,9 @@ struct SimDeviceOptions {
   // Where an inserted stick is shown as a folder; none: no stick.
   std::optional<std::filesystem::path> media_folder;
   int threads = 2;
+  // A folder where pictures of rendered heads are kept from run to run, so that the next need not render
+  // them; empty: nowhere.
+  std::filesystem::path album;
 };
 
 // Turns the head of the simulated person, or shows the next side of a recorded one (capture.json), from where

@@ -21,7 +21,7 @@
 #include "tests/memory/turning_visits.h"
 #include "tests/memory/usage.h"
 #include "tests/support/rig_calibration.h"
-#include "tests/support/small_rig.h"
+#include "tests/support/small_device.h"
 
 namespace relievo::test {
 namespace {
@@ -112,8 +112,7 @@ class Soak {
 
 int soak(int captures) {
   firmware::share_one_heap();
-  hal::SimDeviceOptions options;
-  options.simulation.rig = small_rig(kScale);
+  const hal::SimDeviceOptions options = small_device(kScale);
   auto device = hal::make_sim_device(options);
   if (!device) return std::puts("the rig does not open"), 1;
   auto judge = firmware::LiveJudge::open(true_calibration(hal::sim::make_rig(options.simulation.rig)));

@@ -4,17 +4,17 @@
 
 #include <algorithm>
 #include <cmath>
-#include <cstdio>
-#include <cstdlib>
 #include <fstream>
 #include <numbers>
 
+#include "hal/base/whole_file.h"
 #include "hal/sim/base/noise.h"
 #include "hal/sim/head/shape/head_traits.h"
 #include "hal/sim/target/target_photo.h"
 #include "pipeline/gate/head/head_measurement.h"
 #include "tests/support/head_landmarks.h"
 #include "tests/support/rig_calibration.h"
+#include "tests/support/small_device.h"
 
 namespace relievo::test {
 namespace {
@@ -70,36 +70,19 @@ std::vector<std::uint16_t> kept(const sim::LightPicture& light) {
   return out;
 }
 
-// Nothing for a face at rest.
-std::string name_of(const Guise& guise) {
-  const sim::Expression& e = guise.expression;
-  const sim::Glasses& g = guise.glasses;
-  char text[160];
-  std::string out;
-  if (e.lids_open < 1 || e.jaw_mm > 0 || e.smile > 0) {
-    std::snprintf(text, sizeof text, "_lids%.2f_jaw%.1f_smile%.2f_tongue%.1f", e.lids_open, e.jaw_mm, e.smile,
-                  e.tongue_mm);
-    out += text;
-  }
-  if (guise.wears_glasses) {
-    std::snprintf(text, sizeof text, "_glasses%.1f_%.1f_%.1f_%.1f_%.2f_%.1f", g.curve_mm, g.half_width_mm,
-                  g.half_height_mm, g.tilt_deg, g.passes, g.rim_mm);
-    out += text;
-  }
-  if (guise.shine != 1) {
-    std::snprintf(text, sizeof text, "_shine%.1f", guise.shine);
-    out += text;
-  }
-  return out;
+// Whom a head was made for: every number it depends on.
+std::vector<double> numbers_of(std::uint32_t seed, const sim::Expression& expression, double shine) {
+  const auto& [lids, jaw, smile, tongue] = expression;
+  return {double(seed), lids, jaw, smile, tongue, shine};
 }
 
-std::string name_of(const Shot& s) {
-  char text[320];
-  const int used = std::snprintf(text, sizeof text, "s%u_d%.0f_x%.0f_y%.0f_yaw%.1f_pitch%.1f_roll%.1f_%d",
-                                 s.seed, s.pose.distance_mm, s.pose.right_mm, s.pose.down_mm, s.pose.yaw_deg,
-                                 s.pose.pitch_deg, s.pose.roll_deg, static_cast<int>(s.extra));
-  return std::string(text, static_cast<std::size_t>(used)) + (s.pose.eyes_follow ? "" : "_painted") +
-         name_of(s.guise);
+std::vector<double> numbers_of(const Shot& s) {
+  std::vector<double> out = numbers_of(s.seed, s.guise.expression, s.guise.shine);
+  const auto& [yaw, pitch, roll, distance, right, down, follow] = s.pose;
+  const auto& [curve, half_width, half_height, tilt, passes, rim] = s.guise.glasses;
+  out.insert(out.end(), {yaw, pitch, roll, distance, right, down, double(follow), double(s.extra),
+                         double(s.guise.wears_glasses), curve, half_width, half_height, tilt, passes, rim});
+  return out;
 }
 
 void smear(sim::LightPicture& light, double length_px) {
@@ -179,7 +162,7 @@ Album::Album(std::filesystem::path cache)
 
 std::shared_ptr<const sim::HeadModel> Album::person(std::uint32_t seed, const sim::Expression& expression,
                                                     double shine) {
-  auto& model = heads_[std::to_string(seed) + name_of(Guise{expression, false, {}, shine})];
+  auto& model = heads_[numbers_of(seed, expression, shine)];
   if (!model) {
     sim::HeadTraits traits = sim::traits_of(seed);
     traits.expression = expression;
@@ -233,10 +216,10 @@ void Album::expose(Shot& shot) {
 
 const Shot& Album::shoot(std::uint32_t seed, const sim::HeadPose& pose, Extra extra, const Guise& guise) {
   Shot shot{seed, pose, extra, guise, {}, {}};
-  const std::string name = name_of(shot);
-  if (const auto known = shots_.find(name); known != shots_.end()) return known->second;
+  const std::vector<double> numbers = numbers_of(shot);
+  if (const auto known = shots_.find(numbers); known != shots_.end()) return known->second;
   constexpr std::size_t kValues = 3 * static_cast<std::size_t>(kWidth) * static_cast<std::size_t>(kHeight);
-  const std::filesystem::path file = cache_ / (name + ".light");
+  const std::filesystem::path file = cache_ / ("light_" + sim::name_of_numbers(numbers));
   std::ifstream in;
   if (!cache_.empty()) in.open(file, std::ios::binary);
   shot.left.resize(kValues), shot.right.resize(kValues);
@@ -244,13 +227,13 @@ const Shot& Album::shoot(std::uint32_t seed, const sim::HeadPose& pose, Extra ex
   if (!(in && in.read(reinterpret_cast<char*>(shot.left.data()), bytes) &&
         in.read(reinterpret_cast<char*>(shot.right.data()), bytes))) {
     expose(shot);
-    if (!cache_.empty()) {
-      std::ofstream out(file, std::ios::binary);
-      out.write(reinterpret_cast<const char*>(shot.left.data()), bytes);
-      out.write(reinterpret_cast<const char*>(shot.right.data()), bytes);
+    if (!cache_.empty()) {  // whole or not there: other tests read it at the same time
+      std::vector<std::uint16_t> both = shot.left;
+      both.insert(both.end(), shot.right.begin(), shot.right.end());
+      static_cast<void>(write_whole_file(file, std::as_bytes(std::span(both))));
     }
   }
-  return shots_.emplace(name, std::move(shot)).first->second;
+  return shots_.emplace(numbers, std::move(shot)).first->second;
 }
 
 Shot Album::photograph(std::uint32_t seed, const sim::HeadPose& pose, const sim::HeadPose* twin) {
@@ -295,8 +278,7 @@ sim::PicturePair Album::develop(const Shot& shot, const Developing& how) const {
 }
 
 Album& shared_album() {
-  static const char* folder = std::getenv("RELIEVO_ALBUM");
-  static Album once(folder != nullptr ? folder : "");
+  static Album once(album_folder());
   return once;
 }
 

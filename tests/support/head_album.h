@@ -10,7 +10,6 @@
 #include <filesystem>
 #include <map>
 #include <memory>
-#include <string>
 #include <vector>
 
 #include "hal/base/thread_pool.h"
@@ -75,8 +74,8 @@ class Album {
   pipeline::StereoCalibration calibration_;
   std::shared_ptr<const hal::sim::HeadModel> person(std::uint32_t seed,
                                                     const hal::sim::Expression& expression, double shine);
-  std::map<std::string, std::shared_ptr<const hal::sim::HeadModel>> heads_;
-  std::map<std::string, Shot> shots_;
+  std::map<std::vector<double>, std::shared_ptr<const hal::sim::HeadModel>> heads_;
+  std::map<std::vector<double>, Shot> shots_;
   std::map<std::uint32_t, PastedHead> pasted_;
   hal::sim::LightPicture left_room_, right_room_;
 };

@@ -2,6 +2,11 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "hal/sim/base/noise.h"
 
+#include <array>
+#include <bit>
+
+#include "hal/sim/base/text.h"
+
 namespace relievo::hal::sim {
 
 std::uint64_t Random::next() {
@@ -32,6 +37,14 @@ std::uint32_t hash_cell(int x, int y, int z, std::uint32_t seed) {
 }
 
 double unit_from_hash(std::uint32_t hash) { return (hash >> 8) * 0x1.0p-24; }
+
+std::string name_of_numbers(std::span<const double> numbers) {
+  std::uint64_t hash = 14695981039346656037ULL;
+  for (const double number : numbers)
+    for (const std::uint8_t byte : std::bit_cast<std::array<std::uint8_t, sizeof number>>(number))
+      hash = (hash ^ byte) * 1099511628211ULL;
+  return text("%016llx", static_cast<unsigned long long>(hash));
+}
 
 double value_noise(Vec3 p, std::uint32_t seed) {
   const double fx = std::floor(p.x), fy = std::floor(p.y), fz = std::floor(p.z);

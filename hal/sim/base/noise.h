@@ -7,6 +7,8 @@
 #pragma once
 
 #include <cstdint>
+#include <span>
+#include <string>
 
 #include "hal/sim/base/vec3.h"
 
@@ -27,6 +29,8 @@ class Random {
 
 std::uint32_t hash_cell(int x, int y, int z, std::uint32_t seed);
 double unit_from_hash(std::uint32_t hash);  // [0, 1)
+// A file's name for what was rendered from these numbers (FNV-1a over their bytes).
+std::string name_of_numbers(std::span<const double> numbers);
 
 double value_noise(Vec3 p, std::uint32_t seed);  // about [-1, 1], features of size 1
 double fractal_noise(Vec3 p, std::uint32_t seed, int octaves);

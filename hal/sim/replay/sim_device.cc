@@ -1,15 +1,32 @@
 // SPDX-FileCopyrightText: 2026 The Relievo authors
 // SPDX-License-Identifier: GPL-3.0-or-later
+#include <algorithm>
+#include <array>
 #include <condition_variable>
 #include <map>
 #include <mutex>
 #include <thread>
 
+#include "hal/base/whole_file.h"
+#include "hal/sim/base/noise.h"
 #include "hal/sim/device.h"
 #include "hal/sim/replay/replay_device.h"
 
 namespace relievo::hal {
 namespace {
+
+// In the album: of every number that the pictures of a head depend on.
+std::string album_name(const sim::SimulationOptions& o, double yaw_deg) {
+  const auto& [yaw, pitch, roll, distance, right, down, follow] = o.pose;
+  const auto& [width, height, focal, baseline, convergence, rig_seed, perturbation] = o.rig;
+  const auto& [exposure, full_well, read_noise, noise, defocus, gamma, grey] = o.sensor;
+  return "head_" + sim::name_of_numbers(std::array{
+                       double(o.seed), yaw_deg,       yaw,         pitch,          roll,
+                       distance,       right,         down,        double(follow), double(width),
+                       double(height), focal,         baseline,    convergence,    double(rig_seed),
+                       perturbation,   exposure,      full_well,   read_noise,     noise,
+                       defocus,        double(gamma), double(grey)});
+}
 
 // Exposes both views of a scene once; each further frame only rolls new noise over the same light. Of a
 // head a few rolls are made at the start and come by turns: a camera does not take a second for a picture. A
@@ -19,6 +36,7 @@ class RenderedSource final : public PairSource {
   RenderedSource(const SimDeviceOptions& options, std::vector<sim::BoardPose> poses)
       : o_(options.simulation),
         rig_(sim::make_rig(o_.rig)),
+        album_(options.album),
         pool_(options.threads),
         poses_(std::move(poses)) {
     // Here, since a frame has a deadline, and a slow machine takes half a minute to make a head.
@@ -77,6 +95,8 @@ class RenderedSource final : public PairSource {
   const Rolls& photograph(double yaw_deg) {
     Rolls& rolls = turned_[yaw_deg];
     if (!rolls.empty()) return rolls;
+    const std::filesystem::path file = album_.empty() ? album_ : album_ / album_name(o_, yaw_deg);
+    if (!file.empty() && read_rolls(file, rolls)) return rolls;
     if (!head_) head_ = sim::make_head(sim::traits_of(o_.seed), pool_);
     expose_both(*sim::make_head_scene(head_, sim::turned_about_neck(o_.pose, yaw_deg), pool_));
     Rolls made(2 * kRolls);
@@ -85,7 +105,25 @@ class RenderedSource final : public PairSource {
         made[std::size_t(i)] = roll(i % 2 == 0 ? Side::Left : Side::Right, std::uint32_t(i / 2));
     });
     rolls = std::move(made);
+    if (!file.empty()) keep_rolls(file, rolls);
     return rolls;
+  }
+
+  bool read_rolls(const std::filesystem::path& file, Rolls& rolls) const {
+    const std::size_t size = 3 * std::size_t(rig_.left.width_px) * std::size_t(rig_.left.height_px);
+    const auto bytes = read_whole_file(file, 2 * kRolls * size);
+    if (!bytes || bytes->size() != 2 * kRolls * size) return false;
+    for (auto from = bytes->begin(); from != bytes->end(); from += std::ptrdiff_t(size))
+      rolls.push_back(
+          {{from, from + std::ptrdiff_t(size)}, rig_.left.width_px, rig_.left.height_px, PixelFormat::Rgb8});
+    return true;
+  }
+  // What cannot be kept is rendered again.
+  static void keep_rolls(const std::filesystem::path& file, const Rolls& rolls) {
+    std::vector<std::byte> bytes;
+    for (const Picture& picture : rolls)
+      bytes.insert(bytes.end(), picture.bytes.begin(), picture.bytes.end());
+    static_cast<void>(write_whole_file(file, bytes));
   }
 
   Picture roll(Side side, std::uint32_t number) const {
@@ -107,6 +145,7 @@ class RenderedSource final : public PairSource {
 
   sim::SimulationOptions o_;
   sim::SimRig rig_;
+  std::filesystem::path album_;
   std::mutex mutex_;
   ThreadPool pool_;
   std::vector<sim::BoardPose> poses_;

@@ -28,7 +28,7 @@ using test::FrozenThread;
 class FaultHands : public StaffHands {
  protected:
   static void SetUpTestSuite() {
-    auto looks = small_device(kScale);
+    auto looks = test::small_device(kScale);
     looks.simulation.seed = 4;  // somebody whose turning can be followed at this size
     auto made = hal::make_sim_device(looks);
     ASSERT_TRUE(made);

@@ -16,11 +16,7 @@ const hal::sim::RigOptions kHalfRig = test::small_rig(0.5);
 class KioskCalibrationTest : public StaffHands {
  protected:
   KioskCalibrationTest() {
-    services.open_device = [](std::string_view) {
-      hal::SimDeviceOptions options;
-      options.simulation.rig = kHalfRig;
-      return hal::make_sim_device(options);
-    };
+    services.open_device = [](std::string_view) { return hal::make_sim_device(test::small_device(0.5)); };
     services.simulated_calibration = {};
     services.hold_board = [](const CalibrateLiveArgs& held) -> Result<std::unique_ptr<LivePairs>> {
       return make_hand_pairs(held_board(kHalfRig, held.board), held.seed);

@@ -20,7 +20,7 @@
 #include "hal/sim/device.h"
 #include "pipeline/calibrate/file/calibration_file.h"
 #include "storage/sqlite/sqlite_store.h"
-#include "tests/support/small_rig.h"
+#include "tests/support/small_device.h"
 
 namespace relievo::firmware {
 
@@ -47,11 +47,6 @@ class KioskHands : public testing::Test {
     EXPECT_TRUE(opened.has_value()) << opened.error().what.view();
     kiosk = std::move(*opened);
     kiosk->ui().resize(1280, 800);
-  }
-  static hal::SimDeviceOptions small_device(double scale) {
-    hal::SimDeviceOptions options;
-    options.simulation.rig = test::small_rig(scale);
-    return options;
   }
   // Before what the test lends it goes.
   void TearDown() override { kiosk.reset(); }

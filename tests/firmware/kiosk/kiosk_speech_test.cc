@@ -28,7 +28,7 @@ namespace {
 class KioskSpeechTest : public KioskHands {
  protected:
   KioskSpeechTest() {
-    lend_small_rig(services, args, folder.path(), clock, small_device(0.5));
+    lend_small_rig(services, args, folder.path(), clock, test::small_device(0.5));
     services.open_speaker = [this] {
       auto made = std::make_unique<hal::RecordingSpeaker>(
           clock, std::vector<std::string>{"en", "de", "fr", "es", "zh-Hans"});

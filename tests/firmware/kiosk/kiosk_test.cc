@@ -51,7 +51,7 @@ class PlayedPrinter final : public hal::Printer {
 class KioskTest : public KioskHands {
  protected:
   KioskTest() {
-    lend_small_rig(services, args, folder.path(), clock, small_device(0.3));
+    lend_small_rig(services, args, folder.path(), clock, test::small_device(0.3));
     services.open_store = [this](const Path& at, bool) -> Result<std::unique_ptr<storage::Store>> {
       RELIEVO_TRY_ASSIGN(auto real, storage::open_sqlite_store(at, clock, {}));
       return std::unique_ptr<storage::Store>(

@@ -32,7 +32,7 @@ namespace {
 class KioskTurn : public KioskHands {
  protected:
   KioskTurn() {
-    auto lent = small_device(0.3);  // small: turned heads are rendered while it waits
+    auto lent = test::small_device(0.3);  // small: turned heads are rendered while it waits
     lent.simulation.seed = 4;
     lend_small_rig(services, args, folder.path(), clock, lent);
     services.turn_head = [this](hal::Device& device, double yaw_deg) {

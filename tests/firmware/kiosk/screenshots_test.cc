@@ -16,7 +16,7 @@
 #include "pipeline/calibrate/file/calibration_file.h"
 #include "storage/sqlite/sqlite_store.h"
 #include "tests/support/played_device.h"
-#include "tests/support/small_rig.h"
+#include "tests/support/small_device.h"
 #include "tests/support/temporary_folder.h"
 
 namespace relievo::firmware {
@@ -36,6 +36,7 @@ class ScreenshotsTest : public testing::Test {
     services.open_device = [](std::string_view) {
       hal::SimDeviceOptions options;
       options.simulation.rig = kScreensRig;
+      options.album = test::album_folder();
       return hal::make_sim_device(options);
     };
     services.open_store = [this](const Path& at, bool) { return storage::open_sqlite_store(at, clock, {}); };

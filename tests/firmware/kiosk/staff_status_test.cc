@@ -117,7 +117,7 @@ TEST_F(StaffStatusTest, APulledCameraReddensItForBothRolesAndOnlyTheTechnicianIs
 // A visit on the simulated rig, with all its stages; the session is wiped when it ends, and so is what the
 // appliance keeps of the next one as soon as that begins.
 TEST_F(StaffStatusTest, HealthShowsWhatTheLastVisitsCostAlsoAfterARestart) {
-  lend_small_rig(services, args, folder.path(), clock, small_device(0.5));
+  lend_small_rig(services, args, folder.path(), clock, test::small_device(0.5));
   start();
   const Result<void> played =
       play("tap start\ntap agree\ntype Ada\ntap done\nwait position\nwait working 600\nwait review 600\n");

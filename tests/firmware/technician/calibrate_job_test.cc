@@ -12,6 +12,7 @@
 #include <vector>
 
 #include "hal/sim/device.h"
+#include "tests/support/small_device.h"
 
 namespace relievo::firmware {
 namespace {
@@ -35,7 +36,7 @@ class GreyPairs final : public LivePairs {
 };
 
 TEST(CalibrateJob, LeftAndRightAreOfTheSameInstantWheneverTheyAreRead) {
-  auto device = *hal::make_sim_device({});
+  auto device = *hal::make_sim_device(test::small_device(1));
   const BootMemory memory;
   EnrolmentSession session(memory);
   StereoGrabber grabber(*device);

@@ -23,7 +23,7 @@
 #include "tests/firmware/held_hand.h"
 #include "tests/firmware/test_records.h"
 #include "tests/support/made_screen.h"
-#include "tests/support/small_rig.h"
+#include "tests/support/small_device.h"
 #include "tests/support/temporary_folder.h"
 
 namespace relievo::firmware::test_technician {
@@ -37,8 +37,7 @@ inline Result<std::unique_ptr<LivePairs>> show_boards(const BoardArgs& args) {
 class TechnicianRig {
  public:
   TechnicianRig() {
-    hal::SimDeviceOptions options;
-    options.simulation.rig = test::small_rig(kScale);
+    hal::SimDeviceOptions options = test::small_device(kScale);
     std::filesystem::create_directory(stick());
     options.media_folder = stick();
     device = *hal::make_sim_device(options);

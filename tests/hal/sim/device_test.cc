@@ -203,6 +203,38 @@ TEST(SimDevice, ShowsCalibrationBoardsOneAfterAnother) {
   EXPECT_NE(rows[0], rows[1]);
 }
 
+// The first picture that the left camera takes.
+std::vector<std::byte> first_picture(const SimDeviceOptions& options) {
+  auto made = make_sim_device(options);
+  EXPECT_TRUE(made);
+  Device& device = **made;
+  EXPECT_TRUE(device.left().open(device.preferred_mode()) && device.left().start());
+  EXPECT_TRUE(device.trigger().pulse(std::chrono::microseconds(100)));
+  const auto frame = device.left().next_frame(soon(device));
+  EXPECT_TRUE(frame);
+  const ImageView image = frame->image();
+  return {image.bytes, image.bytes + std::ptrdiff_t{image.stride_bytes} * image.height_px};
+}
+
+TEST(SimDevice, KeepsAHeadInItsAlbumAndRendersItAnewWhereThatIsDamaged) {
+  const TemporaryFolder folder;
+  SimDeviceOptions options;
+  options.simulation.rig.width_px = 240;
+  options.simulation.rig.height_px = 150;
+  options.album = folder.path();
+  const auto rendered = first_picture(options);
+  EXPECT_EQ(first_picture(options), rendered);
+
+  const auto is_kept = std::filesystem::directory_iterator(folder.path());
+  const std::filesystem::path file = is_kept->path();
+  const auto size = std::filesystem::file_size(file);
+  std::ofstream(file, std::ios::binary) << std::string(size, '\0');
+  EXPECT_EQ(first_picture(options), std::vector<std::byte>(rendered.size())) << "the album was not asked";
+  std::filesystem::resize_file(file, size - 1);
+  EXPECT_EQ(first_picture(options), rendered);
+  EXPECT_EQ(std::filesystem::file_size(file), size);
+}
+
 TEST(SimDevice, RefusesNonsense) {
   SimDeviceOptions options;
   options.simulation.pose.yaw_deg = 170;
