@@ -42,10 +42,8 @@ class ApartPoses : public Poses {
     const auto head = fused(landmarks, apart_mm, edge_y, trust, [](const Vec3d&) { return true; });
     return head ? steepest_deg(*head, poses_[0].head_from_camera, middle, within_mm) : 90;
   }
-  Result<FaceMesh> fused(
-      const Landmarks& landmarks, double apart_mm, double edge_y, float trust,
-      const std::function<bool(const Vec3d& in_head)>& measured,
-      const std::function<void(FaceMesh& own)>& complete = [](FaceMesh&) {}) {
+  Result<FaceMesh> fused(const Landmarks& landmarks, double apart_mm, double edge_y, float trust,
+                         const std::function<bool(const Vec3d& in_head)>& measured) {
     for (int k = 0; k < 2; ++k) {
       auto pose = room_.run([](StageContext& c) { return seen(0, 0, 0, c, 0.12); });
       EXPECT_TRUE(pose);
@@ -63,7 +61,6 @@ class ApartPoses : public Poses {
     own.sigma_mm = poses_[0].sigma_mm;
     for (const Vec3f& at : own.vertices_mm)
       own.measured.push_back(measured(apply(poses_[0].head_from_camera, wide(at))) ? 1 : 0);
-    complete(own);
     HeadFuserOptions options;
     // As good as nothing is bent, and that evenly: what is left apart is for the blend.
     options.most_bend_mm = 0;
@@ -112,29 +109,6 @@ TEST_F(ApartPoses, SayThatLidsWereMeasuredAndTheEyeBetweenThemWasNot) {
   }
   EXPECT_GT(lids, 100);
   EXPECT_GT(eye, 50);
-}
-
-// Loose plates would be left of it.
-TEST_F(ApartPoses, TakeNothingThatTheMasterCompletedBehindTheHead) {
-  const RigidTransform camera = camera_from_head(0);
-  const auto complete_back = [&](FaceMesh& own) {
-    for (double x = -20; x <= 20; x += 0.8)
-      for (double y = 0; y <= 40; y += 0.8) {
-        Vec3d at{x, y, -300};
-        while (shape(at, 0) > 0) at.z += 0.1;
-        own.vertices_mm.push_back(narrow(apply(camera, at)));
-        own.normals.push_back(narrow(apply(camera.rotation, Vec3d{0, 0, -1})));
-        own.sigma_mm.push_back(1);
-        own.measured.push_back(0);
-      }
-  };
-  const auto head = fused(
-      {}, 0.1, -200, 1, [](const Vec3d&) { return true; }, complete_back);
-  ASSERT_TRUE(head);
-  EXPECT_EQ(std::ranges::count_if(
-                head->vertices_mm,
-                [&](const Vec3f& v) { return apply(poses_[0].head_from_camera, wide(v)).z < -130; }),
-            0);
 }
 
 }  // namespace
