@@ -42,8 +42,10 @@ class ApartPoses : public Poses {
     const auto head = fused(landmarks, apart_mm, edge_y, trust, [](const Vec3d&) { return true; });
     return head ? steepest_deg(*head, poses_[0].head_from_camera, middle, within_mm) : 90;
   }
-  Result<FaceMesh> fused(const Landmarks& landmarks, double apart_mm, double edge_y, float trust,
-                         const std::function<bool(const Vec3d& in_head)>& measured) {
+  Result<FaceMesh> fused(
+      const Landmarks& landmarks, double apart_mm, double edge_y, float trust,
+      const std::function<bool(const Vec3d& in_head)>& measured,
+      const std::function<void(FaceMesh& own)>& complete = [](FaceMesh&) {}) {
     for (int k = 0; k < 2; ++k) {
       auto pose = room_.run([](StageContext& c) { return seen(0, 0, 0, c, 0.12); });
       EXPECT_TRUE(pose);
@@ -61,6 +63,7 @@ class ApartPoses : public Poses {
     own.sigma_mm = poses_[0].sigma_mm;
     for (const Vec3f& at : own.vertices_mm)
       own.measured.push_back(measured(apply(poses_[0].head_from_camera, wide(at))) ? 1 : 0);
+    complete(own);
     HeadFuserOptions options;
     // As good as nothing is bent, and that evenly: what is left apart is for the blend.
     options.most_bend_mm = 0;
@@ -109,6 +112,40 @@ TEST_F(ApartPoses, SayThatLidsWereMeasuredAndTheEyeBetweenThemWasNot) {
   }
   EXPECT_GT(lids, 100);
   EXPECT_GT(eye, 50);
+}
+
+// Parts of it were left as plates behind ears and crown.
+TEST_F(ApartPoses, TakeNoBackFromTheMastersCompletedHead) {
+  constexpr double kStep = 0.011;  // radians: a millimetre
+  const Vec3d middle{0, 20, -95};
+  const RigidTransform camera = camera_from_head(0);
+  const auto complete = [&](FaceMesh& own) {
+    for (double polar = 0; polar < std::numbers::pi; polar += kStep)
+      for (double around = 0; around < 2 * std::numbers::pi;
+           around += kStep / std::max(std::sin(polar), kStep)) {
+        const Vec3d out{std::sin(polar) * std::cos(around), std::cos(polar),
+                        std::sin(polar) * std::sin(around)};
+        double inside = 40, outside = 150;
+        while (outside - inside > 0.01) {
+          const double between = (inside + outside) / 2;
+          (shape(plus(middle, times(out, between)), 0) < 0 ? inside : outside) = between;
+        }
+        const Vec3d at = apply(camera, plus(middle, times(out, inside)));
+        const Vec3d normal = apply(camera.rotation, out);
+        if (dot(normal, unit(at)) < -0.2) continue;  // the poses show it
+        own.vertices_mm.push_back(narrow(at));
+        own.normals.push_back(narrow(normal));
+        own.sigma_mm.push_back(1);
+        own.measured.push_back(0);
+      }
+  };
+  const auto head = fused(
+      {}, 0.1, -200, 1, [](const Vec3d&) { return true; }, complete);
+  ASSERT_TRUE(head);
+  double furthest = 0;
+  for (const Vec3f& v : head->vertices_mm)
+    furthest = std::min(furthest, apply(poses_[0].head_from_camera, wide(v)).z);
+  EXPECT_GT(furthest, -135) << "its middle is at -95, its back at -190";
 }
 
 }  // namespace
