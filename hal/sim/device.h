@@ -29,7 +29,7 @@ struct SimDeviceOptions {
   std::optional<std::filesystem::path> media_folder;
   int threads = 2;
   // A folder where pictures of rendered heads are kept from run to run, so that the next need not render
-  // them; empty: nowhere.
+  // them; empty: nowhere. To be emptied when what renders them changes.
   std::filesystem::path album;
 };
 

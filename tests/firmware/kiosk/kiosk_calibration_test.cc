@@ -11,12 +11,13 @@
 namespace relievo::firmware {
 namespace {
 
-const hal::sim::RigOptions kHalfRig = test::small_rig(0.5);
+constexpr double kScale = 0.5;
+const hal::sim::RigOptions kHalfRig = test::small_rig(kScale);
 
 class KioskCalibrationTest : public StaffHands {
  protected:
   KioskCalibrationTest() {
-    services.open_device = [](std::string_view) { return hal::make_sim_device(test::small_device(0.5)); };
+    services.open_device = [](std::string_view) { return hal::make_sim_device(test::small_device(kScale)); };
     services.simulated_calibration = {};
     services.hold_board = [](const CalibrateLiveArgs& held) -> Result<std::unique_ptr<LivePairs>> {
       return make_hand_pairs(held_board(kHalfRig, held.board), held.seed);
