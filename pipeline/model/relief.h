@@ -23,7 +23,8 @@ struct ReliefFigures {
   double off_plane_mm = 0;    // rms of the nearest three quarters off the best plane
   double off_sheet_mm = 0;    // off the best sheet, bent along any one direction
   double sheet_range_mm = 0;  // of the same, averaged over discs of 8 mm radius: 2nd to 98th percentile
-  double curvature_sr = 0;    // integral of |Gaussian curvature|, steradians
+  double curvature_sr = 0;    // integral of |Gaussian curvature| over the disc, steradians; what was not
+                              // measured is taken to curve as the rest
 };
 
 struct Relief {

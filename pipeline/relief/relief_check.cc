@@ -22,8 +22,9 @@ constexpr std::size_t kLeastCells = 200;  // a sixth of the disc
 constexpr double kTrusted = 0.75;         // share of the cells that counts: the nearest
 constexpr double kSmoothMm = 8;           // narrower than a nose, wider than what noise makes hang together
 constexpr double kCurveMm = 12;
-constexpr double kTelling = 0.4;  // of the disc: less of a face may curve as little as a sheet
-constexpr double kFull = 0.8;     // share of a neighbourhood that must have been measured
+constexpr double kTelling = 0.4;        // of the disc: less of a face may be nearly as flat as a sheet
+constexpr double kCurveTelling = 0.04;  // of the disc: less of it may curve unlike the rest
+constexpr double kFull = 0.8;           // share of a neighbourhood that must have been measured
 
 double rms_of_trusted(const SheetFit& fit, Arena& scratch) {
   Arena::Mark mark(scratch);
@@ -78,10 +79,11 @@ double range_of(const HeightCells& cells, const SheetFit& sheet, Arena& scratch)
 }
 
 // From the quadratic that fits the heights round each cell best: K dA = (ac - b^2) / (1 + p^2 + q^2)^(3/2) dx
-// dy.
-double curvature_of(const HeightCells& cells) {
+// dy. What has no full neighbourhood curves as the rest does: none where that is too little.
+std::optional<double> curvature_of(const HeightCells& cells) {
   using Row = Eigen::Matrix<double, 6, 1>;
   double sum = 0;
+  int count = 0;
   for (const HeightCell& cell : cells.cells) {
     Eigen::Matrix<double, 6, 6> a = Eigen::Matrix<double, 6, 6>::Zero();
     Row b = Row::Zero();
@@ -94,9 +96,12 @@ double curvature_of(const HeightCells& cells) {
     if (!full) continue;
     const Row f = solved<6>(a, b);
     const double steep = 1 + f[1] * f[1] + f[2] * f[2];
-    sum += std::abs(f[3] * f[5] - f[4] * f[4]) / (steep * std::sqrt(steep)) * cells.cell_mm * cells.cell_mm;
+    sum += std::abs(f[3] * f[5] - f[4] * f[4]) / (steep * std::sqrt(steep));
+    ++count;
   }
-  return sum;
+  const double disc_mm2 = std::numbers::pi * kRadiusMm * kRadiusMm;
+  if (count * cells.cell_mm * cells.cell_mm < kCurveTelling * disc_mm2) return std::nullopt;
+  return sum / count * disc_mm2;
 }
 
 }  // namespace
@@ -105,6 +110,8 @@ Result<ReliefFigures> measure_relief(const FaceMesh& mesh, const RectifiedPair& 
   Arena::Mark mark(context.scratch);
   const HeightCells cells = make_height_cells(mesh, pair, kRadiusMm, kCellMm, context);
   if (cells.cells.size() < kLeastCells) return ReliefFigures{};
+  const std::optional<double> curvature = curvature_of(cells);
+  if (!curvature) return ReliefFigures{};
   const SheetFit plane = fit_plane(cells, context);
   RELIEVO_TRY_ASSIGN(const SheetFit sheet, fit_sheet(cells, context));
   ReliefFigures relief;
@@ -113,7 +120,7 @@ Result<ReliefFigures> measure_relief(const FaceMesh& mesh, const RectifiedPair& 
   relief.off_plane_mm = rms_of_trusted(plane, context.scratch);
   relief.off_sheet_mm = rms_of_trusted(sheet, context.scratch);
   relief.sheet_range_mm = range_of(cells, sheet, context.scratch);
-  relief.curvature_sr = curvature_of(cells);
+  relief.curvature_sr = *curvature;
   return relief;
 }
 
@@ -124,7 +131,8 @@ ReliefVerdict judge(const ReliefFigures& r, const ReliefOptions& o) {
   if (off_sheet && beyond_noise && r.curvature_sr >= o.least_curvature_sr) return ReliefVerdict::Face;
   // Would a face's relief have been seen?
   const bool quiet = o.least_sigmas * r.sigma_mm <= o.least_off_sheet_mm, whole = r.covered >= kTelling;
-  return quiet && (whole || !off_sheet) ? ReliefVerdict::Picture : ReliefVerdict::Unjudged;
+  const bool flat = r.off_sheet_mm < o.least_off_sheet_mm / 2;
+  return quiet && (whole || flat) ? ReliefVerdict::Picture : ReliefVerdict::Unjudged;
 }
 
 Error error_of(ReliefVerdict verdict, const ReliefFigures& r, const ReliefOptions& o) {

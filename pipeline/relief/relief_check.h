@@ -9,7 +9,7 @@
 //                  quarters: a lamp that glossy paper mirrors lies behind or before it, and does not count.
 //                  A sheet: the noise. A face: 1.5 to 2.5 mm, without its nose.
 //   curvature_sr   how much it curves both ways at once: the integral of |Gaussian curvature|, which bending
-//                  cannot change (Gauss 1827: it is that of the flat sheet, none). A face: 6 sr and more.
+//                  cannot change (Gauss 1827: it is that of the flat sheet, none). A face: 5 to 13 sr.
 // Masks have a face's relief: they are beyond this check.
 // Memory: scratch only. Thread: any. Deterministic, whatever the number of threads.
 #pragma once
@@ -28,8 +28,7 @@ namespace relievo::pipeline {
 
 struct ReliefOptions {
   double least_off_sheet_mm = 1.2;  // two thirds of a flat face's
-  double least_curvature_sr = 1.5;  // half again what 900 pictures of faces came to; of a face half may be
-                                    // hidden, and noise takes from the rest
+  double least_curvature_sr = 2.5;  // between pictures, with their noise, and half hidden faces
   double least_sigmas = 1.5;        // off_sheet_mm over the stated sigma: noise alone makes 0.55
 
   void describe(auto&& field) {

@@ -32,9 +32,11 @@ People::People(std::size_t many) {
   ThreadPool pool(2);
   const auto photograph = [&](const std::shared_ptr<const hal::sim::HeadModel>& head, const HeadPose& pose) {
     const auto scene = hal::sim::make_head_scene(head, pose, pool);
+    const hal::sim::LightPicture left = expose(*scene, rig().left, {}, pool);
+    const hal::sim::LightPicture right = expose(*scene, rig().right, {}, pool);
     Rolls rolls;
     for (std::size_t roll = 0; roll < kRolls; ++roll)
-      rolls[roll] = hal::sim::render_pair(*scene, rig(), {}, 1 + roll, pool);
+      rolls[roll] = {read_sensor(left, {}, 2 * roll), read_sensor(right, {}, 2 * roll + 1)};
     return rolls;
   };
   for (std::size_t who = 0; who < many; ++who) {

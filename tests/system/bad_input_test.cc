@@ -121,7 +121,7 @@ TEST_F(BadInput, NoFaceInView) { reconstruct_refused("left.png", "right.png", "l
 
 // The cause is told, not what it led to.
 TEST_F(BadInput, PicturesInTheWrongPlaces) {
-  done({"simulate", "face", "--seed", "3", "--scale", "0.4", "-o", "face"});
+  simulated({"face", "--seed", "3", "--scale", "0.4"}, "face");
   const auto wrong = [&](const char* left, const char* right, const char* trouble) {
     reconstruct_refused(std::string("face/") + left, std::string("face/") + right, left, trouble,
                         "face/rig.yml");

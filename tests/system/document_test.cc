@@ -33,7 +33,7 @@ class SavedReconstruction : public RelievoProcess {
 };
 
 TEST_F(SavedReconstruction, IsTheSameLoadedAndCalculatedAgainFromEveryStage) {
-  done({"simulate", "face", "--seed", "3", "--scale", "0.4", "-o", "face"});
+  simulated({"face", "--seed", "3", "--scale", "0.4"}, "face");
   const std::vector<std::string> first{
       "reconstruct",  "face/left.png", "face/right.png",       "--calibration",
       "face/rig.yml", "--set",         "texturer=single-view", "-o",
@@ -89,7 +89,7 @@ TEST_F(SavedReconstruction, IsTheSameLoadedAndCalculatedAgainFromEveryStage) {
 }
 
 TEST_F(SavedReconstruction, SaysAgainWhyItIsNotKnownToBeAFace) {
-  done({"simulate", "face", "--seed", "3", "--scale", "0.4", "-o", "face"});
+  simulated({"face", "--seed", "3", "--scale", "0.4"}, "face");
   const auto why = [](const std::string& out) {
     const std::size_t from = out.find("not judged to be a face");
     return from == std::string::npos ? "" : out.substr(from, out.find('\n', from) - from);
@@ -104,7 +104,7 @@ TEST_F(SavedReconstruction, SaysAgainWhyItIsNotKnownToBeAFace) {
 
 // Loaded where these files are not, it is calculated again from the first stage on.
 TEST_F(SavedReconstruction, HasTheTextsThatItsAlgorithmsRead) {
-  done({"simulate", "face", "--seed", "3", "--scale", "0.4", "-o", "face"});
+  simulated({"face", "--seed", "3", "--scale", "0.4"}, "face");
   const auto rig = pipeline::read_calibration(here / "face/rig.yml");
   pipeline::RectifiedPair windows(std::pmr::get_default_resource());
   ASSERT_TRUE(rig && pipeline::lay_windows(*rig, {}, windows));
@@ -143,7 +143,7 @@ TEST_F(SavedReconstruction, HasTheTextsThatItsAlgorithmsRead) {
 }
 
 TEST_F(SavedReconstruction, MatchesByHandFromAFileAreCalculatedWithAndKept) {
-  done({"simulate", "face", "--seed", "3", "--scale", "0.4", "-o", "face"});
+  simulated({"face", "--seed", "3", "--scale", "0.4"}, "face");
   const auto rig = pipeline::read_calibration(here / "face/rig.yml");
   pipeline::RectifiedPair windows(std::pmr::get_default_resource());
   ASSERT_TRUE(rig && pipeline::lay_windows(*rig, {}, windows));

@@ -19,7 +19,7 @@ using Json = nlohmann::json;
 class DissertationReport : public RelievoProcess {
  protected:
   void SetUp() override {
-    done({"simulate", "face", "--scale", "0.4", "--truth", "-o", "face"});
+    simulated({"face", "--scale", "0.4", "--truth"}, "face");
     done({"compare", "face/left.png", "face/right.png", "--calibration", "face/rig.yml", "--truth", "face",
           "--suite", "dissertation", "-o", "out"});
     json = Json::parse(read_text(here / "out/compare.json"));

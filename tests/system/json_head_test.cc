@@ -20,7 +20,7 @@ class HeadByCommand : public RelievoProcess {};
 
 TEST_F(HeadByCommand, IsMadeOfSeveralPairsAndSaysHowTheyStand) {
   for (const std::string yaw : {"0", "-25", "25"})
-    done({"simulate", "face", "--seed", "3", "--scale", "0.6", "--yaw", yaw, "-o", "y" + yaw});
+    simulated({"face", "--seed", "3", "--scale", "0.6", "--yaw", yaw}, "y" + yaw);
   const std::vector<std::string> call{"reconstruct",    "y0/left.png",  "y0/right.png",  "y-25/left.png",
                                       "y-25/right.png", "y25/left.png", "y25/right.png", "--calibration",
                                       "y0/rig.yml",     "-o",           "head"};

@@ -13,7 +13,7 @@ namespace {
 using RelievoRelief = RelievoProcess;
 
 TEST_F(RelievoRelief, APhotographOfAFaceIsRefusedAndTheFaceIsNot) {
-  done({"simulate", "face", "--seed", "8", "--scale", "0.4", "-o", "face"});
+  simulated({"face", "--seed", "8", "--scale", "0.4"}, "face");
   const auto reconstruct = [](std::string from, std::string to) {
     return std::vector<std::string>{"reconstruct",   from + "/left.png", from + "/right.png",
                                     "--calibration", from + "/rig.yml",  "-o",

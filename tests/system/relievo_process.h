@@ -6,11 +6,15 @@
 
 #include <gtest/gtest.h>
 
+#include <unistd.h>
+
 #include <algorithm>
+#include <filesystem>
 #include <string>
 #include <vector>
 
 #include "tests/support/process.h"
+#include "tests/support/small_device.h"
 #include "tests/support/temporary_folder.h"
 
 namespace relievo::test {
@@ -27,6 +31,26 @@ class RelievoProcess : public testing::Test {
     EXPECT_EQ(said.exit_code, 0) << said.err;
     EXPECT_EQ(said.err, "");
     return said;
+  }
+  // `folder` as `relievo simulate` makes it by these words: the same for all tests and builds, so it is made
+  // once where there is an album.
+  void simulated(std::vector<std::string> words, const std::string& folder) {
+    std::filesystem::path name = "simulate";
+    for (const std::string& word : words) name += " " + word;
+    words.insert(words.begin(), "simulate");
+    words.insert(words.end(), {"-o", folder});
+    if (album_folder().empty()) return static_cast<void>(done(words));
+    const std::filesystem::path kept = album_folder() / name;
+    if (!std::filesystem::exists(kept)) {
+      // Whoever else makes it at the same time makes the same.
+      const std::filesystem::path begun = kept.string() + " " + std::to_string(getpid());
+      words.back() = begun;
+      done(words);
+      std::error_code first;
+      std::filesystem::rename(begun, kept, first);
+      if (first) std::filesystem::remove_all(begun);
+    }
+    std::filesystem::copy(kept, here / folder, std::filesystem::copy_options::recursive);
   }
   // It must refuse: exit code 1, one line that names the place and the trouble, and nothing written.
   void refused(const std::vector<std::string>& words, const std::string& place,

@@ -41,7 +41,7 @@ class WholeWay : public RelievoProcess {
   }
 
   void reconstruct() {
-    done({"simulate", "face", "-o", "face", "--scale", "0.33", "--truth"});
+    simulated({"face", "--scale", "0.33", "--truth"}, "face");
     done({"reconstruct", "face/left.png", "face/right.png", "--calibration", "rig.yml", "-o", "model",
           "--frame", "camera"});
     expect_files("model", {"model.ply", "model.stl", "model.obj", "model.mtl", "model.png", "model.glb",

@@ -27,6 +27,7 @@ constexpr double kHalfFissureMm = 14, kHalfFissureSigmaMm = 1.5, kFissureCost = 
 constexpr double kAsideSigmaMm = 3, kAsideCost = 2;
 constexpr double kUpperMm = 5.5, kLowerMm = 4, kHeightSigmaMm = 2, kHeightCost = 2;
 constexpr double kTiltMm = 1, kTiltSigmaMm = 2, kTiltCost = 1;  // of the outer corner over the inner one
+constexpr double kLowestMm = -12, kHighestMm = 12;              // of the corners, from kUpMm
 constexpr double kLeastOpenMm = 3, kLeastHeightMm = 0.5;
 constexpr std::size_t kHighest = 9;
 constexpr double kUnlikeCost = 0.5;  // of an eye's own almond, from the one of both
@@ -137,6 +138,8 @@ bool tell_skin(Window& w, Arena& scratch) {
 
 double squared(double v) { return v * v; }
 
+double middle_mm(const Lids& l) { return (l.inner.y + l.outer.y) / 2; }  // of the corners, upwards
+
 // What an almond's corners and its opening cost, mm2.
 double cost(const Lids& l) {
   return kFissureCost * squared(((l.outer.x - l.inner.x) / 2 - kHalfFissureMm) / kHalfFissureSigmaMm) +
@@ -164,8 +167,9 @@ double worth(const Window& w, const Lids& l) {
   return sum_below(w, l.inner, l.outer, l.upper) - sum_below(w, l.inner, l.outer, -l.lower) - cost(l);
 }
 
-// Whether an eye is seen in the almond, and is open.
-bool is_eye(const Window& w, const Lids& lids, Arena& scratch) {
+// How many times lighter the lightest of an open eye is than its darkest; 0 where none is seen in the almond.
+double eye_contrast(const Window& w, const Lids& lids, Arena& scratch) {
+  const Arena::Mark mark(scratch);
   std::pmr::vector<float> red(&scratch), light(&scratch);
   double within = 0, around = 0;
   int inside = 0, outside = 0;
@@ -179,12 +183,14 @@ bool is_eye(const Window& w, const Lids& lids, Arena& scratch) {
         around += double(w.unlike_skin[k]), ++outside;
     }
   if (red.empty() || inside == 0 || outside == 0 || within / inside - around / outside < kLeastShare)
-    return false;
-  return median(red) < kWhiteRed * w.skin || percentile(light, 0.9) > kIrisContrast * percentile(light, 0.1);
+    return 0;
+  const double contrast = percentile(light, 0.9) / percentile(light, 0.1);
+  return median(red) < kWhiteRed * w.skin || contrast > kIrisContrast ? contrast : 0;
 }
 
-// Of all almonds the best, within a millimetre or two.
-Lids search(const Window& w, ThreadPool& pool) {
+// Of all almonds whose corners lie no higher than `highest_mm` over kUpMm the best, within a millimetre or
+// two.
+Lids search(const Window& w, double highest_mm, ThreadPool& pool) {
   struct Best {
     Lids lids;
     double value = -1e9;
@@ -207,7 +213,7 @@ Lids search(const Window& w, ThreadPool& pool) {
   pool.for_each_band(7, 7, [&](int, int, int k) {
     const int from = 2 * k - 19;
     for (int width = 22; width <= std::min(34, 20 - from); width += 2)
-      for (int up = -12; up <= 12; ++up)
+      for (double up = kLowestMm; up <= highest_mm; ++up)
         for (const double tilt : {-4.0, -2.0, 0.0, 2.0, 4.0})
           consider({kPupilMm + from, kUpMm + up - tilt / 2}, {kPupilMm + from + width, kUpMm + up + tilt / 2},
                    found[std::size_t(k)]);
@@ -248,6 +254,23 @@ Lids refine(const Window& w, const Lids& common) {
   return best;
 }
 
+// Both eyes near the almond that is best for both.
+struct Eyes {
+  std::array<std::optional<Lids>, 2> lids;  // columns away from the nose
+  double contrast = 0;                      // of the one that has more
+};
+Eyes eyes_near(const std::array<Window, 2>& windows, const Lids& common, Arena& scratch) {
+  Eyes eyes;
+  for (std::size_t i = 0; i < 2; ++i) {
+    if (windows[i].below.empty()) continue;
+    const Lids lids = refine(windows[i], common);
+    const double contrast = eye_contrast(windows[i], lids, scratch);
+    if (contrast > 0) eyes.lids[i] = lids;
+    eyes.contrast = std::max(eyes.contrast, contrast);
+  }
+  return eyes;
+}
+
 }  // namespace
 
 std::array<std::optional<Lids>, 2> find_lids(const FaceMesh& mesh, const RigidTransform& head_from_camera,
@@ -269,17 +292,19 @@ std::array<std::optional<Lids>, 2> find_lids(const FaceMesh& mesh, const RigidTr
     both.below.resize(w.below.size(), 0);
     for (std::size_t k = 0; k < w.below.size(); ++k) both.below[k] += w.below[k] / 2;
   }
-  std::array<std::optional<Lids>, 2> eyes;
-  if (both.below.empty()) return eyes;
-  const Lids common = search(both, context.pool);
-  for (std::size_t i = 0; i < 2; ++i) {
-    if (windows[i].below.empty()) continue;
-    Lids lids = refine(windows[i], common);
-    if (!is_eye(windows[i], lids, scratch)) continue;
-    if (i == 0) lids.inner.x *= -1, lids.outer.x *= -1;
-    eyes[i] = lids;
+  if (both.below.empty()) return {};
+  const Lids best = search(both, kHighestMm, context.pool);
+  Eyes eyes = eyes_near(windows, best, scratch);
+  // Grey brows are less red than skin, too, and lie over another eye; below an eye nothing looks like one.
+  if (const double below_mm = middle_mm(best) - best.lower - kUpperMm - kUpMm; below_mm >= kLowestMm) {
+    const Eyes lower = eyes_near(windows, search(both, below_mm, context.pool), scratch);
+    const bool apart = std::ranges::all_of(lower.lids, [&](const std::optional<Lids>& eye) {
+      return !eye || middle_mm(*eye) + eye->upper < middle_mm(best) - best.lower;
+    });
+    if (apart && lower.contrast > eyes.contrast) eyes = lower;
   }
-  return eyes;
+  if (auto& right = eyes.lids[0]) right->inner.x *= -1, right->outer.x *= -1;
+  return eyes.lids;
 }
 
 }  // namespace relievo::pipeline

@@ -187,7 +187,7 @@ std::array<Trial, 3> show_turning(Shown shown, std::uint32_t first_person, std::
       head = sim::make_head(traits, pool);
     }
     Trial& trial = trials.at(k);
-    trial.rig.width_px = 640, trial.rig.height_px = 400;
+    trial.rig.width_px = 960, trial.rig.height_px = 600;
     trial.sensor = sensor;
     trial.noise_seed = random.next();
     trial.scene = make_head_scene(head, pose, pool, lamps);

@@ -57,8 +57,8 @@ class People {
   std::shared_ptr<const hal::sim::HeadModel> head_;
 };
 
-// Three pairs of somebody who turns, in front and 25 degrees to either side, a third of the rig's size. A
-// person blinks and speaks between them; a mask is rigid, its eyes closed.
+// Three pairs of somebody who turns, in front and 25 degrees to either side, half size. A person blinks and
+// speaks between them; a mask is rigid, its eyes closed.
 std::array<Trial, 3> show_turning(Shown shown, std::uint32_t first_person, std::uint64_t number,
                                   ThreadPool& pool);
 

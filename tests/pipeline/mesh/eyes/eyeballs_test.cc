@@ -30,8 +30,9 @@ namespace {
 
 // A person before the rig, and the face as the mesher leaves it.
 struct Sitter {
-  explicit Sitter(const hal::sim::HeadTraits& traits) : model(hal::sim::make_head(traits, fixture.pool)) {
-    const hal::sim::SimRig rig = hal::sim::make_rig(test::small_rig(0.8));
+  explicit Sitter(const hal::sim::HeadTraits& traits, double scale = 0.8)
+      : model(hal::sim::make_head(traits, fixture.pool)) {
+    const hal::sim::SimRig rig = hal::sim::make_rig(test::small_rig(scale));
     const auto scene = hal::sim::make_head_scene(model, pose, fixture.pool);
     const auto pictures = hal::sim::render_pair(*scene, rig, {}, 1, fixture.pool);
     const auto pipeline = Pipeline::make({}, test::true_calibration(rig));
@@ -106,6 +107,22 @@ TEST(Eyeballs, ClosedEyesAndGreyPicturesAreLeftAlone) {
   lay_eyeballs(*grey.mesh, grey.head, *grey.pair, grey.fixture.context);
   EXPECT_TRUE(std::equal(before.vertices_mm.begin(), before.vertices_mm.end(), grey.mesh->vertices_mm.begin(),
                          same_place));
+}
+
+// They are as little red as the white of an eye, and wider.
+TEST(Eyeballs, GreyBrowsAreNoEyes) {
+  hal::sim::HeadTraits traits = hal::sim::traits_of(105060);
+  traits.hair = {0.45, 0.44, 0.43};
+  traits.brow_density = 2;
+  Sitter s(traits, 0.4);
+  const auto eyes = find_lids(*s.mesh, s.head, *s.pair, s.fixture.context);
+  for (std::size_t i = 0; i < 2; ++i) {
+    ASSERT_TRUE(eyes[i]);
+    const hal::sim::Vec3 centre = s.pose.world_from_head() * s.model->eye_centres[1 - i] + s.pose.origin_mm();
+    const Vec3d at = apply(s.head, Vec3d{centre.x, centre.y, centre.z});
+    EXPECT_NEAR((eyes[i]->inner.y + eyes[i]->outer.y) / 2, at.y, 3);
+    EXPECT_NEAR((eyes[i]->inner.x + eyes[i]->outer.x) / 2, at.x, 3);
+  }
 }
 
 }  // namespace
