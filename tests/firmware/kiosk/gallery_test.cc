@@ -215,8 +215,9 @@ void read_by_keypad(ui::Ui& screen, const Exhibit& exhibit, std::set<std::string
 }
 
 // Without a finger, in large letters: the focus is seen wherever it goes, and what goes on is read to its
-// end.
-TEST_P(GalleryTest, AKeypadSeesItsFocusAndReadsEveryScrollerToItsEnd) {
+// end. In the longest words, from right to left, and without spaces: it takes longest of all.
+using GalleryKeypadTest = GalleryTest;
+TEST_P(GalleryKeypadTest, AKeypadSeesItsFocusAndReadsEveryScrollerToItsEnd) {
   for (const Exhibit& exhibit : gallery({}, GetParam(), ui::kTextPercents.size() - 1, false)) {
     SCOPED_TRACE(exhibit.name);
     const auto made = test::make_screen();
@@ -350,6 +351,9 @@ TEST_P(GalleryTest, ControlsComeDownAndToTheOtherSide) {
 }
 
 INSTANTIATE_TEST_SUITE_P(Languages, GalleryTest, ui::kEveryLanguage, ui::language_code);
+INSTANTIATE_TEST_SUITE_P(Languages, GalleryKeypadTest,
+                         testing::Values(ui::Language::German, ui::Language::Arabic, ui::Language::Japanese),
+                         ui::language_code);
 
 }  // namespace
 }  // namespace relievo::firmware

@@ -94,13 +94,13 @@ TEST(Eyeballs, LieWhereThePersonsOwnDo) {
 TEST(Eyeballs, ClosedEyesAndGreyPicturesAreLeftAlone) {
   hal::sim::HeadTraits traits = hal::sim::traits_of(4);
   traits.expression.lids_open = 0;
-  Sitter closed(traits);
+  Sitter closed(traits, 0.4);
   FaceMesh before = *closed.mesh;
   lay_eyeballs(*closed.mesh, closed.head, *closed.pair, closed.fixture.context);
   EXPECT_TRUE(std::equal(before.vertices_mm.begin(), before.vertices_mm.end(),
                          closed.mesh->vertices_mm.begin(), same_place));
 
-  Sitter grey(hal::sim::traits_of(4));
+  Sitter grey(hal::sim::traits_of(4), 0.4);
   for (std::size_t k = 0; k < grey.pair->left.rgb.size(); k += 3)
     grey.pair->left.rgb[k] = grey.pair->left.rgb[k + 2] = grey.pair->left.rgb[k + 1];
   before = *grey.mesh;
