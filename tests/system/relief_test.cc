@@ -14,7 +14,7 @@ using RelievoRelief = RelievoProcess;
 
 TEST_F(RelievoRelief, APhotographOfAFaceIsRefusedAndTheFaceIsNot) {
   simulated({"face", "--seed", "8", "--scale", "0.4"}, "face");
-  const auto reconstruct = [](std::string from, std::string to) {
+  const auto reconstruct = [](const std::string& from, std::string to) {
     return std::vector<std::string>{"reconstruct",   from + "/left.png", from + "/right.png",
                                     "--calibration", from + "/rig.yml",  "-o",
                                     std::move(to)};

@@ -27,7 +27,7 @@ constexpr double kHalfFissureMm = 14, kHalfFissureSigmaMm = 1.5, kFissureCost = 
 constexpr double kAsideSigmaMm = 3, kAsideCost = 2;
 constexpr double kUpperMm = 5.5, kLowerMm = 4, kHeightSigmaMm = 2, kHeightCost = 2;
 constexpr double kTiltMm = 1, kTiltSigmaMm = 2, kTiltCost = 1;  // of the outer corner over the inner one
-constexpr double kLowestMm = -12, kHighestMm = 12;              // of the corners, from kUpMm
+constexpr int kLowestMm = -12, kHighestMm = 12;                 // of the corners, from kUpMm
 constexpr double kLeastOpenMm = 3, kLeastHeightMm = 0.5;
 constexpr std::size_t kHighest = 9;
 constexpr double kUnlikeCost = 0.5;  // of an eye's own almond, from the one of both
@@ -190,7 +190,7 @@ double eye_contrast(const Window& w, const Lids& lids, Arena& scratch) {
 
 // Of all almonds whose corners lie no higher than `highest_mm` over kUpMm the best, within a millimetre or
 // two.
-Lids search(const Window& w, double highest_mm, ThreadPool& pool) {
+Lids search(const Window& w, int highest_mm, ThreadPool& pool) {
   struct Best {
     Lids lids;
     double value = -1e9;
@@ -213,7 +213,7 @@ Lids search(const Window& w, double highest_mm, ThreadPool& pool) {
   pool.for_each_band(7, 7, [&](int, int, int k) {
     const int from = 2 * k - 19;
     for (int width = 22; width <= std::min(34, 20 - from); width += 2)
-      for (double up = kLowestMm; up <= highest_mm; ++up)
+      for (int up = kLowestMm; up <= highest_mm; ++up)
         for (const double tilt : {-4.0, -2.0, 0.0, 2.0, 4.0})
           consider({kPupilMm + from, kUpMm + up - tilt / 2}, {kPupilMm + from + width, kUpMm + up + tilt / 2},
                    found[std::size_t(k)]);
@@ -296,7 +296,8 @@ std::array<std::optional<Lids>, 2> find_lids(const FaceMesh& mesh, const RigidTr
   const Lids best = search(both, kHighestMm, context.pool);
   Eyes eyes = eyes_near(windows, best, scratch);
   // Grey brows are less red than skin, too, and lie over another eye; below an eye nothing looks like one.
-  if (const double below_mm = middle_mm(best) - best.lower - kUpperMm - kUpMm; below_mm >= kLowestMm) {
+  const int below_mm = int(std::floor(middle_mm(best) - best.lower - kUpperMm - kUpMm));
+  if (below_mm >= kLowestMm) {
     const Eyes lower = eyes_near(windows, search(both, below_mm, context.pool), scratch);
     const bool apart = std::ranges::all_of(lower.lids, [&](const std::optional<Lids>& eye) {
       return !eye || middle_mm(*eye) + eye->upper < middle_mm(best) - best.lower;

@@ -54,8 +54,11 @@ FaceMesh held(const std::function<Vec3(double, double)>& surface, double noise_m
       sim::rotation(sim::radians(turn_deg.x), sim::radians(turn_deg.y), sim::radians(turn_deg.z));
   std::mt19937 random(11);
   std::normal_distribution<double> noise(0, noise_mm);
-  for (double v = -80; v <= 80; v += 1.25)
-    for (double u = -80; u <= 80; u += 1.25) {
+  constexpr int kHalf = 64;
+  constexpr double kStepMm = 1.25;
+  for (int row = -kHalf; row <= kHalf; ++row)
+    for (int column = -kHalf; column <= kHalf; ++column) {
+      const double u = column * kStepMm, v = row * kStepMm;
       const Vec3 p = turn * surface(u, v) + Vec3{0, 0, kDepthMm};
       add(mesh, p + normalised(p) * noise(random), std::max(noise_mm, 0.02));
     }

@@ -85,8 +85,8 @@ class FieldHead {
       const hal::sim::Vec3 to_left = normalised(in_head({0, 0, 0}) - p),
                            to_right = normalised(in_head(kRight) - p);
       if (length(p - tip) > 105 || dot(n, to_left) < 0.3 || dot(n, to_right) < 0.3) return 0;
-      for (double s = 2; s < 60; s += 1.5)
-        if (field_.distance(p + to_right * s) < 0) return 0;
+      for (int step = 0; step < 39; ++step)
+        if (field_.distance(p + to_right * (2 + 1.5 * step)) < 0) return 0;
       return z;
     }
     return 0;
