@@ -35,11 +35,14 @@ class RelievoProcess : public testing::Test {
   // `folder` as `relievo simulate` makes it by these words: the same for all tests and builds, so it is made
   // once where there is an album.
   void simulated(std::vector<std::string> words, const std::string& folder) {
-    std::filesystem::path name = "simulate";
+    std::string name = "simulate";
     for (const std::string& word : words) name += " " + word;
     words.insert(words.begin(), "simulate");
     words.insert(words.end(), {"-o", folder});
-    if (album_folder().empty()) return static_cast<void>(done(words));
+    if (album_folder().empty()) {
+      done(words);
+      return;
+    }
     const std::filesystem::path kept = album_folder() / name;
     if (!std::filesystem::exists(kept)) {
       // Whoever else makes it at the same time makes the same.

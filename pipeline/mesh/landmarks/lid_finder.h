@@ -4,7 +4,8 @@
 // Where an open eye lies between its lids, by the left photograph: sclera and most irises are less red than
 // skin is, under any lamp, and the lids' margins are redder. Of all almonds (two parabolas that meet in the
 // corners of the eye) the one is taken that parts the one from the other best; how large eyes are (Farkas
-// 1994) weighs little against it. Thread: any.
+// 1994) weighs little against it. Grey brows are as little red: where an almond below the best one has more
+// contrast, that is the eye. Thread: any.
 #pragma once
 
 #include <array>

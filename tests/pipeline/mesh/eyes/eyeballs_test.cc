@@ -101,6 +101,10 @@ TEST(Eyeballs, ClosedEyesAndGreyPicturesAreLeftAlone) {
                          closed.mesh->vertices_mm.begin(), same_place));
 
   Sitter grey(hal::sim::traits_of(4), 0.4);
+  FaceMesh open = *grey.mesh;  // so large an eye would be found, were it open and in colours
+  lay_eyeballs(open, grey.head, *grey.pair, grey.fixture.context);
+  EXPECT_FALSE(std::equal(open.vertices_mm.begin(), open.vertices_mm.end(), grey.mesh->vertices_mm.begin(),
+                          same_place));
   for (std::size_t k = 0; k < grey.pair->left.rgb.size(); k += 3)
     grey.pair->left.rgb[k] = grey.pair->left.rgb[k + 2] = grey.pair->left.rgb[k + 1];
   before = *grey.mesh;
