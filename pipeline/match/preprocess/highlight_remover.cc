@@ -7,117 +7,16 @@
 #include <cmath>
 #include <vector>
 
-#include "hal/base/simd.h"
 #include "hal/base/statistics.h"
 #include "hal/base/thread_pool.h"
 #include "pipeline/match/image/plane.h"
+#include "pipeline/match/image/plane_filters.h"
 #include "pipeline/match/preprocess/grey_histogram.h"
 
 namespace relievo::pipeline {
 namespace {
 
-// Separable filters of a plane of numbers: Gaussian, erosion and dilation by a square. In place; the plane's
-// edge goes on outwards. `room` is theirs to overwrite: as high as the plane, wider by twice Gaussian::reach,
-// or as wide. Thread: one caller; uses the pool's. Bit for bit the same for any number of threads.
-
-class Gaussian {
- public:
-  explicit Gaussian(double sigma_cells);  // cut off at three sigma, at 16 cells at most
-  int reach() const { return reach_; }
-  void smooth(Plane<float>& plane, ThreadPool& pool, Plane<float>& room) const;
-
- private:
-  std::array<float, 17> weight_{};  // the middle first, which counts half: each is added from both sides
-  int reach_ = 0;
-};
-
 constexpr int kRowsOfABand = 16;
-
-// to += weight * (a + b)
-RELIEVO_SIMD void add_weighted(const float* a, const float* b, float weight, int count, float* to) {
-  for (int x = 0; x < count; ++x) to[x] += weight * (a[x] + b[x]);
-}
-
-// to = min(to, from)
-RELIEVO_SIMD void lower(const float* from, int count, float* to) {
-  for (int x = 0; x < count; ++x) to[x] = from[x] < to[x] ? from[x] : to[x];
-}
-
-// to = max(to, from)
-RELIEVO_SIMD void raise(const float* from, int count, float* to) {
-  for (int x = 0; x < count; ++x) to[x] = from[x] > to[x] ? from[x] : to[x];
-}
-
-template <typename Towards>
-void over_square(Plane<float>& plane, int reach, Towards towards, ThreadPool& pool, Plane<float>& room) {
-  const int width = plane.width, height = plane.height;
-  pool.for_each_band(height, kRowsOfABand, [&](int begin, int end, int) {
-    for (int y = begin; y < end; ++y) {
-      float* to = room.row(y);
-      std::copy_n(plane.row(y), width, to);
-      for (int v = std::max(y - reach, 0); v <= std::min(y + reach, height - 1); ++v)
-        towards(plane.row(v), width, to);
-    }
-  });
-  pool.for_each_band(height, kRowsOfABand, [&](int begin, int end, int) {
-    for (int y = begin; y < end; ++y) {
-      const float* from = room.row(y);
-      float* to = plane.row(y);
-      std::copy_n(from, width, to);
-      for (int i = 1; i <= std::min(reach, width - 1); ++i) {
-        towards(from + i, width - i, to);
-        towards(from, width - i, to + i);
-      }
-    }
-  });
-}
-
-Gaussian::Gaussian(double sigma_cells) {
-  reach_ = std::min(int(std::ceil(3 * sigma_cells)), int(weight_.size()) - 1);
-  float sum = 0;
-  for (int i = 0; i <= reach_; ++i) {
-    float& weight = weight_[std::size_t(i)];
-    weight = float((i == 0 ? 0.5 : 1.0) * std::exp(-0.5 * i * i / (sigma_cells * sigma_cells)));
-    sum += 2 * weight;
-  }
-  for (float& weight : weight_) weight /= sum;
-}
-
-void Gaussian::smooth(Plane<float>& plane, ThreadPool& pool, Plane<float>& room) const {
-  const int reach = reach_;
-  pool.for_each_band(plane.height, kRowsOfABand, [&](int begin, int end, int) {
-    for (int y = begin; y < end; ++y) {
-      float* wide = room.row(y);
-      float* to = wide + reach;
-      std::fill_n(to, plane.width, 0.0F);
-      for (int i = 0; i <= reach; ++i)
-        add_weighted(plane.row(std::max(y - i, 0)), plane.row(std::min(y + i, plane.height - 1)),
-                     weight_[std::size_t(i)], plane.width, to);
-      std::fill_n(wide, reach, to[0]);
-      std::fill_n(to + plane.width, reach, to[plane.width - 1]);
-    }
-  });
-  pool.for_each_band(plane.height, kRowsOfABand, [&](int begin, int end, int) {
-    for (int y = begin; y < end; ++y) {
-      const float* from = room.row(y) + reach;
-      float* to = plane.row(y);
-      std::fill_n(to, plane.width, 0.0F);
-      for (int i = 0; i <= reach; ++i)
-        add_weighted(from - i, from + i, weight_[std::size_t(i)], plane.width, to);
-    }
-  });
-}
-
-// Every value becomes the least, or the most, of the square of 2 * reach + 1 around it.
-void erode(Plane<float>& plane, int reach, ThreadPool& pool, Plane<float>& room) {
-  over_square(
-      plane, reach, [](const float* from, int count, float* to) { lower(from, count, to); }, pool, room);
-}
-
-void dilate(Plane<float>& plane, int reach, ThreadPool& pool, Plane<float>& room) {
-  over_square(
-      plane, reach, [](const float* from, int count, float* to) { raise(from, count, to); }, pool, room);
-}
 
 constexpr int kCell =
     2;  // pixels of a cell's side: what is looked for is smooth, a quarter of the work finds it
@@ -133,6 +32,15 @@ constexpr float kReddest = 0.6F;        // of the face's ratio: what is redder t
 constexpr double kLampReach =
     0.03;  // of the face's width, 4.5 mm: a lamp's image on a lip or a nose is less than twice that wide
 constexpr double kFaceOfPicture = 0.3;  // its width, where no face was looked for
+constexpr double kFineRadius = 0.5;     // pixels: what single pixels' colours get wrong
+constexpr float kDull =
+    0.03F;  // of the grey value: where a lamp adds less, skin tells what colours are worth
+// Times the variance of what is fine in dull skin, grey levels: so bright must a lamp's image be for half of
+// what is fine in it to be taken for its own. What is mirrored misleads all pixels one way, noise does not.
+constexpr float kPerNoise = 1.3F;
+// The colours' contrast from pixel to pixel, of the brightness'. With a quarter of the colours (JPEG) it is
+// 0.74 to 0.87, and what is fine in them says nothing; with a colour for every pixel it is 1.1 and more.
+constexpr float kLeastContrast = 0.9F, kFullContrast = 1.0F;
 constexpr double kSkinShare =
     0.5;  // of the face's width, to every side of its middle: cheeks, nose, mouth, little else
 
@@ -199,8 +107,21 @@ struct Light {
   Plane<float> colour;  // red beyond green and blue
 };
 
-void gather(const RectifiedView& view, int width_px, const Part& part, Light& light, int begin, int end) {
+struct Pixel {
+  float red, rest;  // linear light, green and blue together
+  bool known;       // valid, and no channel at its end
+  float all() const { return (red + rest) / 3; }
+  float colour() const { return red - 0.5F * rest; }
+};
+
+Pixel pixel_of(const RectifiedView& view, std::size_t k) {
   const std::array<float, 256>& linear = curves().linear;
+  const std::uint8_t* rgb = &view.rgb[3 * k];
+  return {linear[rgb[0]], linear[rgb[1]] + linear[rgb[2]],
+          view.valid[k] != 0 && std::max({rgb[0], rgb[1], rgb[2]}) < kClipped};
+}
+
+void gather(const RectifiedView& view, int width_px, const Part& part, Light& light, int begin, int end) {
   constexpr float kShare = 1.0F / (kCell * kCell);
   for (int cy = begin; cy < end; ++cy) {
     float* all = light.all.row(cy);
@@ -211,10 +132,9 @@ void gather(const RectifiedView& view, int width_px, const Part& part, Light& li
       for (int i = 0; i < kCell * kCell; ++i) {
         const std::size_t k = std::size_t((part.top + cy) * kCell + i / kCell) * std::size_t(width_px) +
                               std::size_t((part.left + cx) * kCell + i % kCell);
-        const std::uint8_t* rgb = &view.rgb[3 * k];
-        red += linear[rgb[0]];
-        rest += linear[rgb[1]] + linear[rgb[2]];
-        valid = valid && view.valid[k] != 0 && std::max({rgb[0], rgb[1], rgb[2]}) < kClipped;
+        const Pixel pixel = pixel_of(view, k);
+        red += pixel.red, rest += pixel.rest;
+        valid = valid && pixel.known;
       }
       all[cx] = valid ? (red + rest) * (kShare / 3) : 0;
       colour[cx] = valid ? (red - 0.5F * rest) * kShare : 0;
@@ -277,46 +197,119 @@ float doubted(float excess, float least) {
   return excess * excess * excess / (excess * excess + least * least + 1e-6F);
 }
 
-// What is to be taken away, in grey levels, into light.all, and how far it is to be believed, into
-// light.colour.
-void find_excess(const Plane<float>& ratio, float least, Light& light, int begin, int end) {
-  const Curves& c = curves();
-  for (int y = begin; y < end; ++y) {
-    float* all = light.all.row(y);
-    float* colour = light.colour.row(y);
-    for (int x = 0; x < ratio.width; ++x) {
-      const float seen = c.to_grey(all[x]);
-      const float skin = colour[x] * ratio.row(y)[x];  // light without the lamp's
-      colour[x] = std::clamp((skin - kWhite * all[x]) / (kWhite * all[x] + 1e-6F), 0.0F, 1.0F);
-      all[x] = doubted(std::max(0.0F, seen - c.to_grey(skin)), least);
+std::size_t first_pixel(const Part& part, int y, int width_px) {
+  return std::size_t(part.top * kCell + y) * std::size_t(width_px) + std::size_t(part.left * kCell);
+}
+
+float excess_of(float all, float skin) { return curves().to_grey(all) - curves().to_grey(skin); }
+
+// Grey levels per linear light: the slope of sRGB's curve.
+float steepness_of(float all) { return (curves().to_grey(all) + 14) / (2.4F * std::max(all, 0.003F)); }
+
+// What the colours of single pixels are worth, by neighbours on dull skin.
+struct FineColours {
+  float variance = 0;  // of what a pixel is brighter than its colour says, grey levels squared
+  float trust = 0;     // 0: there are none
+};
+
+FineColours fine_colours_of(const RectifiedView& view, int width_px, const Part& part, const Part& skin,
+                            const Light& light, const Plane<float>& ratio) {
+  double bright = 0, colourful = 0, apart = 0, n = 0;
+  for (int y = skin.top; y < skin.top + skin.height; ++y)
+    for (int x = skin.left; x < skin.left + skin.width; ++x) {
+      const float all = light.all.row(y)[x], colour = light.colour.row(y)[x], per = ratio.row(y)[x];
+      if (all < kLit || colour < kColoured ||
+          std::abs(excess_of(all, colour * per)) >= kDull * curves().to_grey(all))
+        continue;
+      const std::size_t k = first_pixel(part, y * kCell, width_px) + std::size_t(x * kCell);
+      const Pixel one = pixel_of(view, k), next = pixel_of(view, k + 1);
+      if (!one.known || !next.known) continue;
+      const double b = double((one.all() - next.all()) / all),
+                   c = double(per * (one.colour() - next.colour()) / all),
+                   grey = (b - c) * double(all * steepness_of(all));
+      bright += b * b, colourful += c * c, apart += 0.5 * grey * grey, ++n;
     }
-  }
+  if (!(bright > 0)) return {};
+  const auto contrast = float(std::sqrt(colourful / bright));
+  return {float(apart / n),
+          std::clamp((contrast - kLeastContrast) / (kFullContrast - kLeastContrast), 0.0F, 1.0F)};
+}
+
+// What lamps add, in cells.
+struct Mirrored {
+  Plane<float> light;   // linear, coarser than `radius_px`
+  Plane<float> excess;  // the same in grey levels, as far as it is to be taken away
+  Plane<float> fine;    // grey levels to be taken away for finer linear light
+  Plane<float> belief;  // how far both are to be believed
+};
+
+void find_mirrored(const Light& light, const Plane<float>& ratio, float least, const FineColours& colours,
+                   Mirrored& mirrored, int begin, int end) {
+  for (int y = begin; y < end; ++y)
+    for (int x = 0; x < ratio.width; ++x) {
+      const float all = light.all.row(y)[x];
+      const float skin = light.colour.row(y)[x] * ratio.row(y)[x];  // light without the lamp's
+      const float excess = std::max(0.0F, excess_of(all, skin)),
+                  lit = std::max(0.0F, excess - kDull * curves().to_grey(all)),
+                  bright = kPerNoise * colours.variance;
+      const float share = colours.trust * lit * lit / (lit * lit + bright * bright + 1e-6F);
+      mirrored.light.row(y)[x] = all - skin;
+      mirrored.excess.row(y)[x] = doubted(excess, least);
+      mirrored.fine.row(y)[x] = share * steepness_of(all);
+      mirrored.belief.row(y)[x] = std::clamp((skin - kWhite * all) / (kWhite * all + 1e-6F), 0.0F, 1.0F);
+    }
 }
 
 // Next to a grey wall or an eye the Gaussian mixes skin with what is none: nothing is believed there.
-void weigh(Light& light, int reach, ThreadPool& pool, Plane<float>& room) {
-  erode(light.colour, reach, pool, room);
-  for (std::size_t i = 0; i < light.all.values.size(); ++i) light.all.values[i] *= light.colour.values[i];
+void weigh(Mirrored& mirrored, int reach, ThreadPool& pool, Plane<float>& room) {
+  erode(mirrored.belief, reach, pool, room);
+  for (std::size_t i = 0; i < mirrored.belief.values.size(); ++i) {
+    mirrored.excess.values[i] *= mirrored.belief.values[i];
+    mirrored.fine.values[i] *= mirrored.belief.values[i];
+  }
 }
 
-void subtract(const Plane<float>& excess, const Part& part, int width_px, std::pmr::vector<float>& grey,
-              int begin, int end) {
+// A row of pixels between cells, whose values stand in their middles.
+void spread(const Plane<float>& cells, int y, float* to) {
+  static_assert(kCell == 2);
+  const int near = y / kCell, far = std::clamp(near + (y % kCell == 0 ? -1 : 1), 0, cells.height - 1);
+  const float *near_row = cells.row(near), *far_row = cells.row(far);
+  const auto at = [&](int x) { return 0.75F * near_row[x] + 0.25F * far_row[x]; };
+  float before = at(0), here = before;
+  for (int x = 0; x < cells.width; ++x) {
+    const float next = at(std::min(x + 1, cells.width - 1));
+    to[kCell * x] = 0.75F * here + 0.25F * before;
+    to[kCell * x + 1] = 0.75F * here + 0.25F * next;
+    before = here, here = next;
+  }
+}
+
+// What single pores and creases mirror: what a pixel is brighter than its colour says, beyond that of its
+// cell. `room`: as wide and high as `fine`, or more.
+void find_fine(const RectifiedView& view, int width_px, const Part& part, const Plane<float>& ratio,
+               const Mirrored& mirrored, Plane<float>& fine, Plane<float>& room, int begin, int end) {
   for (int y = begin; y < end; ++y) {
-    // A cell's value stands in its middle.
-    const float cy = std::clamp((float(y) + 0.5F) / kCell - 0.5F, 0.0F, float(part.height - 1));
-    const int y0 = int(cy);
-    const float ty = cy - float(y0);
-    const float* upper = excess.row(y0);
-    const float* lower = excess.row(std::min(y0 + 1, part.height - 1));
-    float* to =
-        grey.data() + std::ptrdiff_t(part.top * kCell + y) * width_px + std::ptrdiff_t(part.left) * kCell;
-    for (int x = 0; x < part.width * kCell; ++x) {
-      const float cx = std::clamp((float(x) + 0.5F) / kCell - 0.5F, 0.0F, float(part.width - 1));
-      const int x0 = int(cx), x1 = std::min(x0 + 1, part.width - 1);
-      const float tx = cx - float(x0);
-      const float a = upper[x0] + tx * (upper[x1] - upper[x0]), b = lower[x0] + tx * (lower[x1] - lower[x0]);
-      to[x] = std::max(0.0F, to[x] - (a + ty * (b - a)));
+    const std::size_t first = first_pixel(part, y, width_px);
+    float *to = fine.row(y), *cells = room.row(y);
+    spread(mirrored.light, y, to);
+    spread(ratio, y, cells);
+    for (int x = 0; x < fine.width; ++x) {
+      const Pixel pixel = pixel_of(view, first + std::size_t(x));
+      to[x] = pixel.known ? pixel.all() - cells[x] * pixel.colour() - to[x] : 0;
     }
+    spread(mirrored.fine, y, cells);
+    for (int x = 0; x < fine.width; ++x) to[x] *= cells[x];
+  }
+}
+
+void subtract(const Plane<float>& excess, const Plane<float>& fine, const Part& part, int width_px,
+              std::pmr::vector<float>& grey, Plane<float>& room, int begin, int end) {
+  for (int y = begin; y < end; ++y) {
+    float *to = grey.data() + first_pixel(part, y, width_px), *coarse = room.row(y);
+    const float* mirrored = fine.row(y);
+    spread(excess, y, coarse);
+    for (int x = 0; x < fine.width; ++x)
+      to[x] = std::max(0.0F, to[x] - std::max(0.0F, coarse[x] + mirrored[x]));
   }
 }
 
@@ -332,18 +325,31 @@ void clean(RectifiedPair& pair, bool right, const HighlightRemover& options, con
   });
   gaussian.smooth(light.all, context.pool, room);
   gaussian.smooth(light.colour, context.pool, room);
-  const float ratio = dull_ratio(skin_of(pair, right, part), light, options.dull, &context.scratch);
+  const Part skin = skin_of(pair, right, part);
+  const float ratio = dull_ratio(skin, light, options.dull, &context.scratch);
   if (!(ratio > 0)) return;
-  Plane<float> local(&context.scratch, part.width, part.height);
+  const auto plane = [&] { return Plane<float>(&context.scratch, part.width, part.height); };
+  Plane<float> local = plane();
   const double face = pair.face_width_px > 0 ? pair.face_width_px : kFaceOfPicture * pair.width_px;
   find_local_ratio(light, ratio, std::max(1, int(std::lround(kLampReach * face / kCell))), gaussian,
                    context.pool, local, room);
+  const FineColours colours = fine_colours_of(view, pair.width_px, part, skin, light, local);
+  Mirrored mirrored{plane(), plane(), plane(), plane()};
   context.pool.for_each_band(part.height, kRowsOfABand, [&](int begin, int end, int) {
-    find_excess(local, float(options.least), light, begin, end);
+    find_mirrored(light, local, float(options.least), colours, mirrored, begin, end);
   });
-  weigh(light, 2 * gaussian.reach() / 3, context.pool, room);
-  context.pool.for_each_band(part.height * kCell, kRowsOfABand, [&](int begin, int end, int) {
-    subtract(light.all, part, pair.width_px, view.grey, begin, end);
+  weigh(mirrored, 2 * gaussian.reach() / 3, context.pool, room);
+  const Gaussian pixel(kFineRadius);
+  Plane<float> fine(&context.scratch, part.width * kCell, part.height * kCell);
+  Plane<float> wide(&context.scratch, fine.width + 2 * pixel.reach(), fine.height);
+  if (colours.trust > 0) {
+    context.pool.for_each_band(fine.height, kRowsOfABand, [&](int begin, int end, int) {
+      find_fine(view, pair.width_px, part, local, mirrored, fine, wide, begin, end);
+    });
+    pixel.smooth(fine, context.pool, wide);
+  }
+  context.pool.for_each_band(fine.height, kRowsOfABand, [&](int begin, int end, int) {
+    subtract(mirrored.excess, fine, part, pair.width_px, view.grey, wide, begin, end);
   });
 }
 

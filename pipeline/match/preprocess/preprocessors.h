@@ -18,19 +18,24 @@ namespace relievo::pipeline {
 // bright the skin would be without; lips, blemishes and noses that are redder than the rest go by the least
 // white nearby. What is brighter than that, over `radius_px`, is subtracted: little of what is less than
 // `least`, which stands above what compressed pictures get wrong in colours, most of what is twice that.
-// Pores and freckles, finer than that, stay. What has next to no colour is no skin (the white of an eye,
-// teeth, a beard) and stays. Looks only where a face may be: pictures in which no region is marked stay as
-// they are, and those without colour. The pictures' values are taken for sRGB's (IEC 61966-2-1). Errors:
-// InvalidInput (a view without pixels), OutOfMemory, Cancelled.
+// Finer than that pores and creases mirror lamps, too, where lamps are mirrored at all, and the two cameras
+// see other sides of each pore shine. There what a pixel is brighter than its own colour says is subtracted
+// as well, by so much as the excess around it stands above the noise of single pixels' colours; dull skin
+// tells how much that is. Where colours are coarser than the brightness (JPEG with a quarter of the colours,
+// single-chip cameras) dull skin shows it, and what is fine stays, as freckles and pores in dull skin do.
+// What has next to no colour is no skin (the white of an eye, teeth, a beard) and stays. Looks only where a
+// face may be: pictures in which no region is marked stay as they are, and those without colour. The
+// pictures' values are taken for sRGB's (IEC 61966-2-1). Errors: InvalidInput (a view without pixels),
+// OutOfMemory, Cancelled.
 struct HighlightRemover {
   double radius_px =
-      2.5;  // standard deviation of the Gaussian: finer than mirrored lamps, coarser than pores
+      2.5;  // standard deviation of the Gaussian: finer than mirrored lamps, coarser than colours' noise
   double dull = 0.5;
   double least = 10;
 
   void describe(auto&& field) {
     field("radius_px", radius_px, OptionRange{0.5, 10},
-          "what is finer than this stays, pixels of the picture");
+          "what is finer than this goes by single pixels' colours, pixels of the picture");
     field("dull", dull, OptionRange{0.05, 0.95}, "share of the face that is taken to mirror no lamp");
     field("least", least, OptionRange{0, 64},
           "grey levels of brightness of which half is taken for a highlight's");

@@ -6,7 +6,10 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <array>
 #include <cmath>
+#include <functional>
+#include <random>
 
 #include "tests/pipeline/match/preprocess/shining_skin.h"
 #include "tests/support/stage_fixture.h"
@@ -21,7 +24,7 @@ using test::Lamp;
 using test::StageFixture;
 
 struct HighlightFixture : StageFixture {
-  explicit HighlightFixture(std::size_t scratch_bytes = std::size_t{1} << 20)
+  explicit HighlightFixture(std::size_t scratch_bytes = std::size_t{2} << 20)
       : StageFixture(std::size_t{8} << 20, scratch_bytes) {}
   RectifiedPair skin(double light = kLeftLamp.light) {
     return test::shining_skin(kSkinScene, &output, light);
@@ -65,6 +68,69 @@ TEST(HighlightRemover, TakesAwayWhatALampAddsAndNothingElse) {
     ++far;
   }
   EXPECT_GT(far, 10'000U);
+}
+
+// What single pores mirror differs between two cameras. `spoil` stands for what a camera does to colours.
+struct ShiningPores : HighlightFixture {
+  RectifiedPair painted(double light, double pores, const std::function<void(RectifiedView&)>& spoil) {
+    RectifiedPair pair = kSkinScene.render(&output);
+    for (RectifiedView* view : {&pair.left, &pair.right}) {
+      test::paint_skin(*view, pair.width_px,
+                       {kLeftLamp.x_px, kLeftLamp.y_px, kLeftLamp.radius_px, light, pores});
+      spoil(*view);
+    }
+    return pair;
+  }
+  // Share of what they mirror, from a pixel to the next, that is left.
+  double share_left(const std::function<void(RectifiedView&)>& spoil) {
+    const RectifiedPair dull = painted(0, 0, spoil), shining = painted(kLeftLamp.light, 0.3, spoil);
+    RectifiedPair done = painted(kLeftLamp.light, 0.3, spoil);
+    EXPECT_TRUE(remove(done));
+    double before = 0, after = 0;
+    for (std::size_t k = 0; k + 1 < dull.left.grey.size(); ++k) {
+      if (std::hypot(double(k % 200) - kLeftLamp.x_px, double(k / 200) - kLeftLamp.y_px) >
+          kLeftLamp.radius_px)
+        continue;
+      const auto step = [k](const RectifiedPair& pair) { return pair.left.grey[k] - pair.left.grey[k + 1]; };
+      before += std::pow(double(step(shining) - step(dull)), 2);
+      after += std::pow(double(step(done) - step(dull)), 2);
+    }
+    EXPECT_GT(before, 1000);
+    return std::sqrt(after / before);
+  }
+};
+
+TEST(HighlightRemover, WhatPoresMirrorGoesWithIt) {
+  EXPECT_LT(ShiningPores().share_left([](RectifiedView&) {}), 0.45);
+}
+
+// JPEG keeps a quarter of the colours: every pixel of four is as red as the mean.
+TEST(HighlightRemover, ColoursThatAreCoarseSayNothingOfPores) {
+  const double left = ShiningPores().share_left([](RectifiedView& view) {
+    for (std::size_t y = 0; y < 160; y += 2)
+      for (std::size_t x = 0; x < 200; x += 2) {
+        std::array<double, 3> mean{};
+        for (std::size_t i = 0; i < 12; ++i)
+          mean[i % 3] += view.rgb[3 * ((y + i / 6) * 200 + x) + i % 6] / 4.0;
+        for (std::size_t i = 0; i < 12; ++i) {
+          const std::size_t k = (y + i / 6) * 200 + x + i % 6 / 3;
+          const double colour = mean[i % 3] - (mean[0] + mean[1] + mean[2]) / 3;
+          view.rgb[3 * k + i % 3] =
+              std::uint8_t(std::lround(std::clamp(double(view.grey[k]) + colour, 0.0, 255.0)));
+        }
+      }
+  });
+  EXPECT_GT(left, 0.9);
+  EXPECT_LT(left, 1.1);
+}
+
+TEST(HighlightRemover, ColoursThatAreNoiseSayNothingOfPores) {
+  const double left = ShiningPores().share_left([](RectifiedView& view) {
+    std::mt19937 random(7);
+    for (std::uint8_t& v : view.rgb) v = std::uint8_t(std::clamp(int(v) + int(random() % 41) - 20, 0, 251));
+  });
+  EXPECT_GT(left, 0.8);
+  EXPECT_LT(left, 1.2);
 }
 
 // Against the ratio of the whole face a lamp upon red lips would be no brighter than dull skin.

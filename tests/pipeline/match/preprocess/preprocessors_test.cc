@@ -32,7 +32,7 @@ const RectifiedPair& shining_pair() {
 
 struct PreprocessFixture : StageFixture {
   explicit PreprocessFixture(int threads = 2)
-      : StageFixture(std::size_t{8} << 20, std::size_t{1} << 20, threads) {}
+      : StageFixture(std::size_t{8} << 20, std::size_t{2} << 20, threads) {}
   RectifiedPair scene() {
     RectifiedPair pair(&output);
     pair = shining_pair();

@@ -16,9 +16,9 @@
 namespace relievo::test {
 
 // A lamp that skin mirrors: where its image stands in this view, its radius (one standard deviation), how
-// bright (1: full light).
+// bright (1: full light), and by which share of it one pixel mirrors more than its neighbour, as pores do.
 struct Lamp {
-  double x_px, y_px, radius_px, light;
+  double x_px = 0, y_px = 0, radius_px = 1, light = 0, pores = 0;
 };
 
 // The view as skin of one reddish colour, lit well, lips about (x, y) redder still, and the lamp's white
@@ -35,8 +35,8 @@ inline void paint_skin(pipeline::RectifiedView& view, int width_px, const Lamp& 
     const double dx = static_cast<double>(k % static_cast<std::size_t>(width_px)) - lamp.x_px;
     const double dy = static_cast<double>(k / static_cast<std::size_t>(width_px)) - lamp.y_px;
     const double skin = linear(std::clamp((100 + 0.5 * static_cast<double>(view.grey[k])) / 255, 0.0, 1.0));
-    const double white =
-        lamp.light * std::exp(-0.5 * (dx * dx + dy * dy) / (lamp.radius_px * lamp.radius_px));
+    const double white = lamp.light * (1 + lamp.pores * (k * 31 / 7 % 2 == 0 ? 0.5 : -0.5)) *
+                         std::exp(-0.5 * (dx * dx + dy * dy) / (lamp.radius_px * lamp.radius_px));
     double sum = 0;
     std::size_t channel = 3 * k;
     const bool lip = std::abs(dx + lamp.x_px - lips.x_px) < lips.half_width_px &&
