@@ -32,15 +32,16 @@ constexpr float kReddest = 0.6F;        // of the face's ratio: what is redder t
 constexpr double kLampReach =
     0.03;  // of the face's width, 4.5 mm: a lamp's image on a lip or a nose is less than twice that wide
 constexpr double kFaceOfPicture = 0.3;  // its width, where no face was looked for
-constexpr double kFineRadius = 0.5;     // pixels: what single pixels' colours get wrong
+constexpr double kFineRadius = 0.5;     // pixels, a standard deviation: evens out some of the colours' noise
 constexpr float kDull =
     0.03F;  // of the grey value: where a lamp adds less, skin tells what colours are worth
 // Times the variance of what is fine in dull skin, grey levels: so bright must a lamp's image be for half of
 // what is fine in it to be taken for its own. What is mirrored misleads all pixels one way, noise does not.
 constexpr float kPerNoise = 1.3F;
-// The colours' contrast from pixel to pixel, of the brightness'. With a quarter of the colours (JPEG) it is
-// 0.74 to 0.87, and what is fine in them says nothing; with a colour for every pixel it is 1.1 and more.
-constexpr float kLeastContrast = 0.9F, kFullContrast = 1.0F;
+// What colours miss at a pixel, squared: of its neighbour as a share of that of one three pixels away. Where
+// every pixel has colours of its own it is noise, and the share 0.5 to 0.7; colours that a single-chip camera
+// has put together from neighbours (0.35), or JPEG from four pixels (0.2 to 0.3), say nothing of one pixel.
+constexpr float kLeastOwn = 0.4F, kOwn = 0.5F;
 constexpr double kSkinShare =
     0.5;  // of the face's width, to every side of its middle: cheeks, nose, mouth, little else
 
@@ -213,26 +214,35 @@ struct FineColours {
 };
 
 FineColours fine_colours_of(const RectifiedView& view, int width_px, const Part& part, const Part& skin,
-                            const Light& light, const Plane<float>& ratio) {
-  double bright = 0, colourful = 0, apart = 0, n = 0;
+                            const Light& light, const Plane<float>& ratio,
+                            std::pmr::memory_resource* memory) {
+  constexpr int kFar = 3;  // pixels
+  std::pmr::vector<float> near(memory), far(memory);
+  near.reserve(std::size_t(skin.width) * std::size_t(skin.height)), far.reserve(near.capacity());
+  double sum = 0;
   for (int y = skin.top; y < skin.top + skin.height; ++y)
-    for (int x = skin.left; x < skin.left + skin.width; ++x) {
+    for (int x = skin.left; x < std::min(skin.left + skin.width, part.width - kFar / kCell); ++x) {
       const float all = light.all.row(y)[x], colour = light.colour.row(y)[x], per = ratio.row(y)[x];
       if (all < kLit || colour < kColoured ||
           std::abs(excess_of(all, colour * per)) >= kDull * curves().to_grey(all))
         continue;
       const std::size_t k = first_pixel(part, y * kCell, width_px) + std::size_t(x * kCell);
-      const Pixel one = pixel_of(view, k), next = pixel_of(view, k + 1);
-      if (!one.known || !next.known) continue;
-      const double b = double((one.all() - next.all()) / all),
-                   c = double(per * (one.colour() - next.colour()) / all),
-                   grey = (b - c) * double(all * steepness_of(all));
-      bright += b * b, colourful += c * c, apart += 0.5 * grey * grey, ++n;
+      const Pixel here = pixel_of(view, k), next = pixel_of(view, k + 1), beyond = pixel_of(view, k + kFar);
+      if (!here.known || !next.known || !beyond.known) continue;
+      const float steepness = steepness_of(all);
+      const auto missed = [per](const Pixel& pixel) { return pixel.all() - per * pixel.colour(); };
+      const auto squared = [&](const Pixel& other) {
+        const float apart = steepness * (missed(here) - missed(other));
+        return apart * apart;
+      };
+      near.push_back(squared(next)), far.push_back(squared(beyond));
+      sum += double(near.back());
     }
-  if (!(bright > 0)) return {};
-  const auto contrast = float(std::sqrt(colourful / bright));
-  return {float(apart / n),
-          std::clamp((contrast - kLeastContrast) / (kFullContrast - kLeastContrast), 0.0F, 1.0F)};
+  if (near.empty()) return {};
+  const auto variance = float(sum / 2 / double(near.size()));
+  const double beyond = median(far);
+  if (!(beyond > 0)) return {};
+  return {variance, std::clamp((float(median(near) / beyond) - kLeastOwn) / (kOwn - kLeastOwn), 0.0F, 1.0F)};
 }
 
 // What lamps add, in cells.
@@ -333,7 +343,8 @@ void clean(RectifiedPair& pair, bool right, const HighlightRemover& options, con
   const double face = pair.face_width_px > 0 ? pair.face_width_px : kFaceOfPicture * pair.width_px;
   find_local_ratio(light, ratio, std::max(1, int(std::lround(kLampReach * face / kCell))), gaussian,
                    context.pool, local, room);
-  const FineColours colours = fine_colours_of(view, pair.width_px, part, skin, light, local);
+  const FineColours colours =
+      fine_colours_of(view, pair.width_px, part, skin, light, local, &context.scratch);
   Mirrored mirrored{plane(), plane(), plane(), plane()};
   context.pool.for_each_band(part.height, kRowsOfABand, [&](int begin, int end, int) {
     find_mirrored(light, local, float(options.least), colours, mirrored, begin, end);

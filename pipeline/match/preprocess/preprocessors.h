@@ -21,8 +21,9 @@ namespace relievo::pipeline {
 // Finer than that pores and creases mirror lamps, too, where lamps are mirrored at all, and the two cameras
 // see other sides of each pore shine. There what a pixel is brighter than its own colour says is subtracted
 // as well, by so much as the excess around it stands above the noise of single pixels' colours; dull skin
-// tells how much that is. Where colours are coarser than the brightness (JPEG with a quarter of the colours,
-// single-chip cameras) dull skin shows it, and what is fine stays, as freckles and pores in dull skin do.
+// tells how much that is. Where colours are coarser than the brightness (single-chip cameras, JPEG with a
+// quarter of the colours) what they miss hangs together from pixel to pixel; there what is fine stays, as
+// freckles and pores in dull skin do.
 // What has next to no colour is no skin (the white of an eye, teeth, a beard) and stays. Looks only where a
 // face may be: pictures in which no region is marked stay as they are, and those without colour. The
 // pictures' values are taken for sRGB's (IEC 61966-2-1). Errors: InvalidInput (a view without pixels),
