@@ -36,6 +36,7 @@ LIBRARIES = {
     r"embree3/|embree4/": "embree_",
     r"sqlite3\.h$": "sqlite_",
     r"sodium(\.h$|/)": "sodium_",
+    r"argon2\.h$": "argon2_",
     r"tss2/": "tss2_",
     r"gpiod(\.h|\.hpp)$": "gpiod_",
     r"linux/videodev2\.h$": "v4l2_",

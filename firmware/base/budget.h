@@ -71,11 +71,12 @@ constexpr std::size_t live_feed_bytes(std::size_t side_px) { return kLiveSlots *
 inline constexpr std::size_t kLiveBytes =
     4 * live_feed_bytes(kLiveSidePx) + 2 * live_feed_bytes(kWatchedSidePx);
 
-inline constexpr std::size_t kLibraryBytes = 256 * kMiB;  // OpenCV, CGAL, SQLite: measured, not enforced
-inline constexpr std::size_t kQueueBytes = 64 * 1024;
+// The heap, everybody's: screen, store, libraries, and the textures of a GL driver that draws in software.
+// What comes on top of it is refused (base/steady_heap.h): pages that a driver maps, and stacks.
+inline constexpr std::size_t kHeapBytes = 448 * kMiB, kDriverBytes = 128 * kMiB;
 // Of the machine's memory, for the process.
 constexpr std::size_t appliance_bytes(std::size_t pixels) {
-  return plan_of_a_head(pixels).all() + kTechnicianBytes + kLiveBytes + kLibraryBytes + kQueueBytes;
+  return plan_of_a_head(pixels).all() + kTechnicianBytes + kLiveBytes + kHeapBytes + kDriverBytes;
 }
 
 // --- queues and names ---------------------------------------------------------------------------

@@ -1,24 +1,26 @@
 // SPDX-FileCopyrightText: 2026 The Relievo authors
 // SPDX-License-Identifier: GPL-3.0-or-later
 //
-// A heap that keeps what it was given: what a visit has used the next one uses again, and nothing goes back
-// to the system in between. Without it the C library gives large blocks back and takes them anew, page by
-// page, in every visit. Thread: main.
+// The heap of the whole process, our own code's and every library's: taken once, at boot, and bounded.
+// Without it the C library gives large blocks back and takes them anew, page by page, in every visit, and a
+// program that wants ever more memory gets it until the machine stands still. Thread: main.
 #pragma once
 
-#include <malloc.h>
+#include <cstddef>
+
+#include "hal/base/result.h"
 
 namespace relievo::firmware {
 
-// Before any other thread: with a heap of its own for some threads, a block of the same visit lies now in
-// this one and now in that, and each grows to the largest.
-inline void share_one_heap() { mallopt(M_ARENA_MAX, 1); }
+// Before any other thread, and before anything large is taken. One heap for all threads: with one of its own
+// for some, a block of the same visit lies now in this one and now in that, and each grows to the largest.
+// Large blocks come from it, too, and nothing goes back. Pages that nothing touches cost nothing.
+// Errors: OutOfMemory.
+Result<void> take_heap(std::size_t bytes);
 
-// When what is taken once is taken: the one block of base/boot_memory.h.
-inline void keep_heap_steady() {
-  mallopt(M_MMAP_MAX, 0);         // large blocks from the heap, too
-  mallopt(M_TRIM_THRESHOLD, -1);  // its end stays
-  mallopt(M_TOP_PAD, 8 << 20);    // it grows by so much, in few steps
-}
+// From here on all private memory of the process, the heap's growth, stacks and a driver's pages counted,
+// grows by at most so many bytes (RLIMIT_DATA, getrlimit(2)): more is refused as if there were none, and
+// std::bad_alloc ends what asked for it. Errors: IoFailed.
+Result<void> bound_memory(std::size_t more_bytes);
 
 }  // namespace relievo::firmware

@@ -48,8 +48,8 @@ void say_plan(Console& console) {
   say("sides of a head", common.sides + common.follow, most.sides + most.follow);
   say("technician", budget::kTechnicianBytes, budget::kTechnicianBytes);
   say("live pictures", budget::kLiveBytes, budget::kLiveBytes);
-  say("libraries", budget::kLibraryBytes, budget::kLibraryBytes);
-  say("queues", budget::kQueueBytes, budget::kQueueBytes);
+  say("heap", budget::kHeapBytes, budget::kHeapBytes);
+  say("GL driver", budget::kDriverBytes, budget::kDriverBytes);
   say("all of it", budget::appliance_bytes(kCommon), budget::appliance_bytes(kMost));
   say("one pair's face", budget::plan_of_a_face(kCommon).all(), budget::plan_of_a_face(kMost).all());
 }

@@ -5,6 +5,7 @@
 #include <chrono>
 #include <thread>
 
+#include "firmware/base/budget.h"
 #include "firmware/base/interrupt.h"
 #include "firmware/base/sentinel.h"
 #include "firmware/base/steady_heap.h"
@@ -90,7 +91,7 @@ Result<void> run_script(ui::Display& display, Kiosk& kiosk, Sentinel& sentinel,
 }  // namespace
 
 Result<void> run(const KioskArgs& args, Services& services) {
-  share_one_heap();
+  RELIEVO_TRY(take_heap(budget::kHeapBytes));
   RELIEVO_TRY(ui::prepare_languages());
   std::vector<ScriptAction> script;
   const bool scripted = !args.script.empty(), pictures = !scripted && !args.screenshots.empty();
@@ -102,9 +103,9 @@ Result<void> run(const KioskArgs& args, Services& services) {
     return Error{Errc::IoFailed, "no folder can be made there: choose another"}.at(args.screenshots.string());
   Sentinel sentinel(services.clock);  // also while the kiosk closes
   RELIEVO_TRY_ASSIGN(const auto kiosk, Kiosk::open(args, services));
-  keep_heap_steady();
   RELIEVO_TRY_ASSIGN(const auto display, services.open_display({pictures ? 1280 : args.width_px,
                                                                 pictures ? 800 : args.height_px}));
+  RELIEVO_TRY(bound_memory(budget::kDriverBytes));
   if (scripted) return run_script(*display, *kiosk, sentinel, std::move(script), args.screenshots, services);
   return pictures ? services.take_screenshots(args, *kiosk, services.console)
                   : run_on(*display, *kiosk, sentinel, nullptr);

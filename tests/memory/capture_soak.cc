@@ -111,14 +111,13 @@ class Soak {
 };
 
 int soak(int captures) {
-  firmware::share_one_heap();
+  if (!firmware::take_heap(firmware::budget::kHeapBytes)) return std::puts("no heap"), 1;
   const hal::SimDeviceOptions options = small_device(kScale);
   auto device = hal::make_sim_device(options);
   if (!device) return std::puts("the rig does not open"), 1;
   auto judge = firmware::LiveJudge::open(true_calibration(hal::sim::make_rig(options.simulation.rig)));
   if (!judge) return std::puts("nothing judges"), 1;
   Soak soak(**device, *judge);
-  firmware::keep_heap_steady();
   Usage warm;
   for (int number = 1; number <= captures; ++number) {
     if (!soak.capture()) return std::printf("stuck at capture %d\n", number), 1;

@@ -14,6 +14,7 @@
 #include <cstdio>
 #include <cstdlib>
 
+#include "firmware/base/budget.h"
 #include "firmware/base/steady_heap.h"
 #include "tests/memory/usage.h"
 #include "tests/memory/visitor.h"
@@ -30,10 +31,10 @@ constexpr double kMayGrow = 1.01, kMayGrowYet = 1.03;  // of what is resident, f
 constexpr double kMayShrink = 0.95;                    // of the largest free block
 
 int serve(int visits) {
-  firmware::share_one_heap();
+  if (!firmware::take_heap(firmware::budget::kHeapBytes)) return std::puts("no heap"), 1;
   const TemporaryFolder folder;
   auto visitor = Visitor::at(folder.path() / "store", People::kMany);
-  firmware::keep_heap_steady();
+  if (!firmware::bound_memory(firmware::budget::kDriverBytes)) return std::puts("no bound"), 1;
   if (!visitor) return std::puts("the kiosk does not open"), 1;
   if (!(*visitor)->first_start()) return std::puts("the first start does not end"), 1;
   std::array<int, kKinds> came{}, stored{};

@@ -84,8 +84,9 @@ void Visitor::answer(ui::Step step, Manner manner) {
       return tap(manner == Manner::Retakes && !std::exchange(again_, true) ? "retake" : "accept");
     case ui::Step::Thanks: return tap("finish");
     case ui::Step::Trouble: people_.plug(true); return tap("finish");
+    // One in ten walks away: the page goes by itself, after half a minute.
+    case ui::Step::Declined: return visits_ % 50 == 2 ? void() : tap("finish");
     case ui::Step::Starting:
-    case ui::Step::Declined:
     case ui::Step::Attract:
     case ui::Step::Working: return;  // the page goes on by itself, or is visit()'s
   }

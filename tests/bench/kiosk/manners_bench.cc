@@ -246,7 +246,7 @@ class Watched {
 };
 
 int bench(int visits, int cancels) {
-  share_one_heap();
+  if (!take_heap(budget::kHeapBytes)) return std::puts("no heap"), 1;
   const hal::SimDeviceOptions options;
   const test::TemporaryFolder folder;
   const hal::MonotonicClock clock;
@@ -268,7 +268,6 @@ int bench(int visits, int cancels) {
   if (visits == 0) return good ? 0 : 1;
   if (!ui::prepare_languages()) return 1;
   auto kiosk = Kiosk::open(args, services);
-  keep_heap_steady();
   auto display = ui::open_sdl_display({1280, 800});
   if (!kiosk || !display) return std::puts("no kiosk or no display"), 1;
   (*kiosk)->ui().resize(1280, 800);
