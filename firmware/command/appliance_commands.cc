@@ -4,6 +4,7 @@
 // selftest, memory, version: what the appliance says about itself.
 #include <algorithm>
 #include <cstdio>
+#include <new>
 #include <optional>
 #include <string>
 #include <type_traits>
@@ -187,13 +188,28 @@ Result<std::unique_ptr<storage::Store>> open_kept_store(const Path& folder, Serv
   return services.open_store(folder, true);
 }
 
+namespace {
+
+// A stage that has its own memory says itself when that is used up. This is the machine's.
+template <typename Args>
+Result<void> run_in_memory_there_is(const Args& args, Services& services) {
+  try {
+    return run(args, services);
+  } catch (const std::bad_alloc&) {
+    return Error{Errc::OutOfMemory,
+                 "this machine has too little free memory for that: end other programs, or give it more"};
+  }
+}
+
+}  // namespace
+
 int run_command(const CommandLine& line, Services& services) {
   return std::visit(
       [&](const auto& args) {
         if constexpr (std::is_same_v<std::decay_t<decltype(args)>, NothingArgs>) {
           return line.exit_code;
         } else {
-          const Result<void> done = run(args, services);
+          const Result<void> done = run_in_memory_there_is(args, services);
           if (!done) services.console.fail(done.error());
           return done ? 0 : 1;
         }

@@ -54,6 +54,21 @@ class BadInput : public RelievoProcess {
   }
 };
 
+#ifndef RELIEVO_SANITIZED  // sanitizers reserve terabytes
+TEST_F(BadInput, AMachineWithTooLittleMemory) {
+  const std::string before = listing(here.path());
+  // The kiosk asks for its heap first, the self-test for the stages' block.
+  for (const char* command : {"--tell-nobody", "selftest"}) {
+    const Said said =
+        run_program({"/usr/bin/prlimit", "--data=200000000", RELIEVO_BINARY, command}, here.path());
+    EXPECT_EQ(said.exit_code, 1) << command << "\n" << said.err;
+    EXPECT_EQ(std::count(said.err.begin(), said.err.end(), '\n'), 1) << said.err;
+    EXPECT_NE(said.err.find("this machine has too little"), std::string::npos) << said.err;
+  }
+  EXPECT_EQ(listing(here.path()), before);
+}
+#endif
+
 TEST_F(BadInput, PicturesThatAreNone) {
   write_text(here / "empty.png", "");
   write_text(here / "text.png", "this is no picture\n");
