@@ -76,7 +76,7 @@ CLI::App* add_compare(CLI::App& app, CommandArgs& chosen, CompareArgs& args) {
       ->allow_extra_args(false);
   word(
       *command, "--suite", args.suites, "NAME",
-      "sets that belong together: peers, matchers, constraints, selectors, preprocessors, meshers; or dissertation: its tables 1 and 2, figures 6 to 12 and 17 done again, as one report")
+      "sets that belong together: peers, matchers, constraints, selectors, preprocessors, meshers, dissertation-face; or dissertation: its tables 1 and 2, figures 6 to 12 and 17 done again, as one report")
       ->take_all()
       ->allow_extra_args(false);
   command->add_flag("--keep-maps", args.keep_maps, "every set's disparities as PFM beside the page");
