@@ -50,6 +50,7 @@ void say_plan(Console& console) {
   say("technician", budget::kTechnicianBytes, budget::kTechnicianBytes);
   say("live pictures", budget::kLiveBytes, budget::kLiveBytes);
   say("heap", budget::kHeapBytes, budget::kHeapBytes);
+  say("solid", budget::kSolidBytes, budget::kSolidBytes);
   say("GL driver", budget::kDriverBytes, budget::kDriverBytes);
   say("all of it", budget::appliance_bytes(kCommon), budget::appliance_bytes(kMost));
   say("one pair's face", budget::plan_of_a_face(kCommon).all(), budget::plan_of_a_face(kMost).all());

@@ -106,7 +106,7 @@ Result<void> run(const KioskArgs& args, Services& services) {
   RELIEVO_TRY_ASSIGN(const auto display, services.open_display({pictures ? 1280 : args.width_px,
                                                                 pictures ? 800 : args.height_px}));
   // What a simulated rig or a recording holds is none of the appliance's.
-  if (kiosk->device().is_live()) RELIEVO_TRY(bound_memory(budget::kDriverBytes));
+  if (kiosk->device().is_live()) RELIEVO_TRY(bound_memory(budget::kDriverBytes + budget::kSolidBytes));
   if (scripted) return run_script(*display, *kiosk, sentinel, std::move(script), args.screenshots, services);
   return pictures ? services.take_screenshots(args, *kiosk, services.console)
                   : run_on(*display, *kiosk, sentinel, nullptr);

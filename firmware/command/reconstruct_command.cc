@@ -4,6 +4,7 @@
 #include <string>
 #include <vector>
 
+#include "firmware/base/interrupt.h"
 #include "firmware/base/output_folder.h"
 #include "firmware/base/version.h"
 #include "firmware/command/commands.h"
@@ -33,9 +34,9 @@ Result<std::vector<std::string>> write_results(const ReconstructArgs& args, Made
   if (const auto files = storage::write_model_files(made.model(), folder.path(), options); !files) {
     return files.error().at(args.output.string());
   }
-  RELIEVO_TRY_ASSIGN(
-      const std::vector<std::string> further,
-      write_further_models(made.model(), args.further, folder.path(), options.frame, args.output));
+  RELIEVO_TRY_ASSIGN(const std::vector<std::string> further,
+                     write_further_models(made.model(), args.further, folder.path(), options.frame,
+                                          args.output, interrupted()));
   RELIEVO_TRY(write_text(folder.path() / "report.json", report_json(made.report()), args.output));
   RELIEVO_TRY(save());
   RELIEVO_TRY(folder.commit());

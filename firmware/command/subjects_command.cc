@@ -9,6 +9,7 @@
 #include <span>
 #include <string>
 
+#include "firmware/base/interrupt.h"
 #include "firmware/base/output_folder.h"
 #include "firmware/base/version.h"
 #include "firmware/base/wall_time.h"
@@ -115,8 +116,9 @@ Result<void> export_newest(storage::Store& store, const storage::Subject& subjec
   if (const auto files = storage::write_model_files(model, folder.path(), options); !files) {
     return files.error().at(args.output.string());
   }
-  RELIEVO_TRY_ASSIGN(const std::vector<std::string> further,
-                     write_further_models(model, args.further, folder.path(), options.frame, args.output));
+  RELIEVO_TRY_ASSIGN(
+      const std::vector<std::string> further,
+      write_further_models(model, args.further, folder.path(), options.frame, args.output, interrupted()));
   for (const std::string& line : further) console.say(line);
   if (!newest.report_json.empty())
     RELIEVO_TRY(write_text(folder.path() / "report.json", newest.report_json, args.output));

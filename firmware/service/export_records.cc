@@ -59,7 +59,8 @@ class Export {
     if (images) options.images = &*images;  // a head without eyes has none, and is still its person's record
     RELIEVO_TRY(storage::write_model_files(model, folder.path(), options));
     RELIEVO_TRY(work_.reach(ExportStep::Write, done + 0.35F * share));
-    RELIEVO_TRY(write_further_models(model, further_, folder.path(), options.frame, target));
+    RELIEVO_TRY(
+        write_further_models(model, further_, folder.path(), options.frame, target, work_.control.cancelled));
     RELIEVO_TRY(write_text(folder.path() / "record.txt", note_of(subject, enrolments.back()), "record.txt"));
     if (!enrolments.back().report_json.empty())
       RELIEVO_TRY(write_text(folder.path() / "report.json", enrolments.back().report_json, "report.json"));

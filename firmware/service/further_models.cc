@@ -4,9 +4,9 @@
 
 #include <atomic>
 #include <cstdio>
-#include <memory>
 #include <memory_resource>
 
+#include "firmware/base/boot_memory.h"
 #include "firmware/base/budget.h"
 #include "firmware/base/version.h"
 #include "firmware/jobs/job_thread.h"
@@ -50,22 +50,20 @@ Result<std::string> write_light(const pipeline::FaceModel& model, int triangles,
 }
 
 Result<std::string> write_solid(const pipeline::FaceModel& model, const std::filesystem::path& folder,
-                                storage::ExportFrame frame, const std::filesystem::path& place) {
-  // Not value-initialised: pages stay untouched.
-  const std::unique_ptr<std::byte[]> output_block(new std::byte[budget::kLargestPlan.products]),
-      scratch_block(new std::byte[budget::kLargestPlan.scratch]);
-  Arena output({output_block.get(), budget::kLargestPlan.products}),
-      scratch({scratch_block.get(), budget::kLargestPlan.scratch});
+                                storage::ExportFrame frame, const std::filesystem::path& place,
+                                const std::atomic<bool>& cancelled) {
+  // Of its own, since a visit's may still be on the page. The kernel clears what is given back.
+  const BootMemory memory(0, budget::kSolidProductBytes, budget::kSolidScratchBytes);
+  Arena output(memory.output()), scratch(memory.scratch());
   ThreadPool pool(pool_size());
   pipeline::Progress progress;
-  const std::atomic<bool> never{false};
-  pipeline::StageContext context{output, scratch, pool, progress, never};
+  pipeline::StageContext context{output, scratch, pool, progress, cancelled};
   pipeline::AlgorithmSet set;
   RELIEVO_TRY(set.set("completion", "generic-head"));
   RELIEVO_TRY_ASSIGN(const auto head, pipeline::make_completion(set));
   auto mesh = pipeline::make_solid(model, head, context);
   // The model is no worse for it.
-  if (!mesh && mesh.error().code == Errc::PoorGeometry)
+  if (!mesh && (mesh.error().code == Errc::PoorGeometry || mesh.error().code == Errc::OutOfMemory))
     return "no solid: " + std::string(mesh.error().what.view());
   if (!mesh) return mesh.error().at(place.string());
   pipeline::FaceModel solid(&output);
@@ -74,25 +72,22 @@ Result<std::string> write_solid(const pipeline::FaceModel& model, const std::fil
   solid.head_from_camera = model.head_from_camera;
   const std::size_t triangles = solid.mesh.triangles.size();
   const Result<void> written = write_files(solid, "solid", folder, frame, place);
-  output.wipe(), scratch.wipe();  // somebody's head
   RELIEVO_TRY(written);
   return "solid: " + std::to_string(triangles) + " triangles, closed, cut flat at the neck";
 }
 
 }  // namespace
 
-Result<std::vector<std::string>> write_further_models(const pipeline::FaceModel& model,
-                                                      const FurtherModels& wanted,
-                                                      const std::filesystem::path& folder,
-                                                      storage::ExportFrame frame,
-                                                      const std::filesystem::path& place) {
+Result<std::vector<std::string>> write_further_models(
+    const pipeline::FaceModel& model, const FurtherModels& wanted, const std::filesystem::path& folder,
+    storage::ExportFrame frame, const std::filesystem::path& place, const std::atomic<bool>& cancelled) {
   std::vector<std::string> lines;
   if (wanted.lod > 0) {
     RELIEVO_TRY_ASSIGN(std::string line, write_light(model, wanted.lod, folder, frame, place));
     lines.push_back(std::move(line));
   }
   if (wanted.watertight) {
-    RELIEVO_TRY_ASSIGN(std::string line, write_solid(model, folder, frame, place));
+    RELIEVO_TRY_ASSIGN(std::string line, write_solid(model, folder, frame, place, cancelled));
     lines.push_back(std::move(line));
   }
   return lines;

@@ -3,10 +3,12 @@
 //
 // What may stand beside a model's files: a lighter model (light.*), a solid for printing (solid.*). Each
 // leaves a line that says what it is. Errors: those of lighten(), make_solid() and the files, with `place`
-// for what the caller was asked for. Takes its memory while it works, and wipes what a solid used. Thread:
+// for what the caller was asked for. A solid takes memory of its own while it
+// is made (budget::kSolidBytes). Thread:
 // any.
 #pragma once
 
+#include <atomic>
 #include <filesystem>
 #include <string>
 #include <vector>
@@ -18,10 +20,8 @@
 
 namespace relievo::firmware {
 
-Result<std::vector<std::string>> write_further_models(const pipeline::FaceModel& model,
-                                                      const FurtherModels& wanted,
-                                                      const std::filesystem::path& folder,
-                                                      storage::ExportFrame frame,
-                                                      const std::filesystem::path& place);
+Result<std::vector<std::string>> write_further_models(
+    const pipeline::FaceModel& model, const FurtherModels& wanted, const std::filesystem::path& folder,
+    storage::ExportFrame frame, const std::filesystem::path& place, const std::atomic<bool>& cancelled);
 
 }  // namespace relievo::firmware
