@@ -4,23 +4,12 @@
 
 #include <algorithm>
 #include <cmath>
-#include <thread>
 
 namespace relievo::firmware {
 namespace {
 
 // Pairs are equally sharp within this share.
 constexpr double kAlike = 0.1;
-
-int level(const ImageView& view, int x, int y) {
-  const std::uint8_t* row = view.row(y);
-  switch (view.format) {
-    case PixelFormat::Grey8: return row[x];
-    case PixelFormat::Grey16: return row[2 * x + 1];
-    case PixelFormat::Rgb8: break;
-  }
-  return row[3 * x + 1];
-}
 
 bool is_better(const BurstPair& pair, const BurstPair& best, double sharpest) {
   if (pair.sharpness > (1 + kAlike) * best.sharpness) return true;
@@ -45,7 +34,7 @@ Result<Thumbnail> thumbnail(const ImageView& view, const FaceBox& box) {
       const int y1 = top + (v + 1) * height / Thumbnail::kHeight;
       long sum = 0;
       for (int y = y0; y < y1; ++y)
-        for (int x = x0; x < x1; ++x) sum += level(view, x, y);
+        for (int x = x0; x < x1; ++x) sum += level_of(view.row(y), x, view.format);
       const auto cell = std::size_t(v * Thumbnail::kWidth + u);
       small.level[cell] = float(sum) / (255.0F * float((x1 - x0) * (y1 - y0)));
     }
@@ -56,19 +45,6 @@ double movement(const Thumbnail& a, const Thumbnail& b) {
   double sum = 0;
   for (std::size_t i = 0; i < a.level.size(); ++i) sum += std::abs(double(a.level[i]) - double(b.level[i]));
   return sum / double(a.level.size());
-}
-
-Burst::Burst(StereoGrabber& grabber, hal::TriggerLine& trigger, const hal::Clock& clock)
-    : Burst(grabber, trigger, [&clock](hal::Instant until, const std::atomic<bool>& cancelled) {
-        while (clock.now() < until && !cancelled.load(std::memory_order_relaxed))
-          std::this_thread::sleep_for(std::min<std::chrono::nanoseconds>(until - clock.now(), budget::kTick));
-      }) {}
-
-Result<pipeline::StereoFrame> Burst::take(StereoSlot& slot, const BurstOptions& options,
-                                          const std::atomic<bool>& cancelled) {
-  if (options.light == hal::Light::Flash || trigger_.lights_with_every_pulse())
-    wait_(trigger_.flash_allowed_at(), cancelled);
-  return grabber_.grab(slot, cancelled, options.light);
 }
 
 Result<BurstResult> Burst::shoot(StereoSlot& first, StereoSlot& second, const BurstOptions& options,
@@ -82,7 +58,7 @@ Result<BurstResult> Burst::shoot(StereoSlot& first, StereoSlot& second, const Bu
   int taken = 0;
   double sharpest = 0;
   for (int i = 0; i < options.pairs; ++i) {
-    const auto frame = take(*free, options, cancelled);
+    const auto frame = grabber_.grab(*free, cancelled, options.light);
     if (!frame) {
       const bool over =
           frame.error().code == Errc::Cancelled || (frame.error().code == Errc::Disconnected && taken == 0);

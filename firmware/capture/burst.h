@@ -58,24 +58,14 @@ double movement(const Thumbnail& a, const Thumbnail& b);
 
 class Burst {
  public:
-  // How to wait until an instant; returns early when cancelled.
-  using Wait = std::function<void(hal::Instant until, const std::atomic<bool>& cancelled)>;
-
-  Burst(StereoGrabber& grabber, hal::TriggerLine& trigger, const hal::Clock& clock);
-  Burst(StereoGrabber& grabber, hal::TriggerLine& trigger, Wait wait)
-      : grabber_(grabber), trigger_(trigger), wait_(std::move(wait)) {}
+  explicit Burst(StereoGrabber& grabber) : grabber_(grabber) {}
 
   // InvalidInput: the number of pairs. The slots are two.
   Result<BurstResult> shoot(StereoSlot& first, StereoSlot& second, const BurstOptions& options,
                             const std::atomic<bool>& cancelled);
 
  private:
-  Result<pipeline::StereoFrame> take(StereoSlot& slot, const BurstOptions& options,
-                                     const std::atomic<bool>& cancelled);
-
   StereoGrabber& grabber_;
-  hal::TriggerLine& trigger_;
-  Wait wait_;
 };
 
 }  // namespace relievo::firmware

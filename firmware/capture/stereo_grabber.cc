@@ -7,6 +7,7 @@
 #include <algorithm>
 #include <chrono>
 #include <string>
+#include <thread>
 #include <utility>
 
 #include "hal/raw/develop.h"
@@ -259,9 +260,14 @@ CameraWatch StereoGrabber::watch() const {
 
 Result<StereoFrame> StereoGrabber::grab(StereoSlot& slot, const std::atomic<bool>& cancelled,
                                         hal::Light light) {
+  const bool lit = light == hal::Light::Flash || trigger_.lights_with_every_pulse();
+  if (lit) rest(trigger_.flash_allowed_at(), cancelled);
   const hal::Instant now = clock_.now();
-  Result<StereoFrame> pair = grab_within({slot, now, now + budget::kFrameWait, cancelled}, light);
+  Result<StereoFrame> pair = grab_within({slot, now, now + budget::kFrameWait, cancelled}, light, lit);
   if (!pair && pair.error().code != Errc::Cancelled) {
+    // Both first: two halves of one camera stop when nobody wants either.
+    left_.stop();
+    right_.stop();
     // A restart that fails too changes nothing: the first reason is the one to tell.
     left_.restart();
     right_.restart();
@@ -270,8 +276,14 @@ Result<StereoFrame> StereoGrabber::grab(StereoSlot& slot, const std::atomic<bool
   return pair;
 }
 
+void StereoGrabber::rest(hal::Instant until, const std::atomic<bool>& cancelled) const {
+  if (options_.wait) return options_.wait(until, cancelled);
+  while (clock_.now() < until && !cancelled.load(std::memory_order_relaxed))
+    std::this_thread::sleep_for(std::min<std::chrono::nanoseconds>(until - clock_.now(), budget::kTick));
+}
+
 // A new pulse for a pair that was refused; one reason more is not worth a person's wait.
-Result<StereoFrame> StereoGrabber::grab_within(const Shot& shot, hal::Light light) {
+Result<StereoFrame> StereoGrabber::grab_within(const Shot& shot, hal::Light light, bool lit) {
   for (int attempt = 1;; ++attempt) {
     const hal::Instant asked = clock_.now();
     RELIEVO_TRY(trigger_.pulse(budget::kTriggerPulse, light));
@@ -280,7 +292,7 @@ Result<StereoFrame> StereoGrabber::grab_within(const Shot& shot, hal::Light ligh
     const Errc code = pair.error().code;
     const bool worth_it = code == Errc::IoFailed || (code == Errc::Timeout && clock_.now() < shot.deadline);
     // A lamp may not be asked again so soon.
-    if (!worth_it || light == hal::Light::Flash) return pair;
+    if (!worth_it || lit) return pair;
   }
 }
 

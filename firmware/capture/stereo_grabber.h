@@ -21,6 +21,7 @@
 #include <chrono>
 #include <cstddef>
 #include <cstdint>
+#include <functional>
 #include <mutex>
 #include <optional>
 #include <span>
@@ -181,6 +182,8 @@ struct GrabberOptions {
   bool together = true;
   // Between the two exposures of a pair.
   std::chrono::microseconds max_skew = budget::kMaxSkew;
+  // How to wait until an instant; returns early when cancelled. Empty: asleep, by the clock.
+  std::function<void(hal::Instant until, const std::atomic<bool>& cancelled)> wait{};
 };
 // The limit a device's cameras can keep: kMaxSkew at one trigger, kMaxFreeSkew without.
 GrabberOptions grabber_options(const hal::Device& device);
@@ -206,8 +209,8 @@ class StereoGrabber {
   // Opens the cameras where they are closed and starts the streams. Both are tried before it fails.
   Result<void> start(const hal::CaptureMode& mode);
   void stop();
-  // The views of the result lie in the slot. With Light::Flash the lamp's rest is the caller's to wait
-  // for: hal::TriggerLine::flash_allowed_at().
+  // The views of the result lie in the slot. Where there will be light the lamp's rest is waited for first
+  // (hal::TriggerLine::flash_allowed_at()).
   Result<pipeline::StereoFrame> grab(StereoSlot& slot, const std::atomic<bool>& cancelled,
                                      hal::Light light = hal::Light::Off);
 
@@ -238,7 +241,8 @@ class StereoGrabber {
   std::atomic<bool> streams_{false};
   void recognise();
   Result<Half> take(CameraLink& camera, const Shot& shot);
-  Result<pipeline::StereoFrame> grab_within(const Shot& shot, hal::Light light);
+  Result<pipeline::StereoFrame> grab_within(const Shot& shot, hal::Light light, bool lit);
+  void rest(hal::Instant until, const std::atomic<bool>& cancelled) const;
   Result<pipeline::StereoFrame> grab_once(const Shot& shot);
   Result<pipeline::StereoFrame> pair_of(const Half& left, const Half& right);
 

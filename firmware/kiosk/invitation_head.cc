@@ -11,8 +11,6 @@
 #include "storage/model_blob.h"
 
 namespace relievo::firmware {
-namespace {}  // namespace
-
 Result<std::unique_ptr<InvitationHead>> InvitationHead::read(const std::filesystem::path& folder) {
   auto piece = std::make_unique<InvitationHead>();
   std::ifstream in(folder / kInvitationHeadMesh, std::ios::binary);

@@ -102,11 +102,16 @@ constexpr std::size_t kReliefShare = 8;  // of the memory: an eighth for the rel
 Result<void> TurnJob::run(JobControl& control) {
   const std::span<std::byte> block = session_.follow_block();
   Arena output(block.first(block.size() / kReliefShare)), scratch(block.subspan(block.size() / kReliefShare));
-  const Result<void> done = judge_ == nullptr ? Result<void>() : follow(control, output, scratch);
-  output.wipe();
-  scratch.wipe();
-  session_.sides().end();
-  return done;
+  struct AtTheEnd {  // also of what a library throws: HeadJob waits for it
+    Arena &output, &scratch;
+    SidePairs& sides;
+    ~AtTheEnd() {
+      output.wipe();
+      scratch.wipe();
+      sides.end();
+    }
+  } at_the_end{output, scratch, session_.sides()};
+  return judge_ == nullptr ? Result<void>() : follow(control, output, scratch);
 }
 
 Result<void> TurnJob::follow(JobControl& control, Arena& output, Arena& scratch) {

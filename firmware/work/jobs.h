@@ -72,11 +72,7 @@ class PoseJob final : public Job {
 class GrabJob final : public Job {
  public:
   GrabJob(StereoGrabber& grabber, EnrolmentSession& session, hal::Device& device, PoseJob& pose)
-      : grabber_(grabber),
-        session_(session),
-        device_(device),
-        pose_(pose),
-        burst_(grabber, device.trigger(), device.clock()) {}
+      : grabber_(grabber), session_(session), device_(device), pose_(pose), burst_(grabber) {}
   Result<void> run(JobControl& control) override;
 
  private:
@@ -146,12 +142,7 @@ class TurnJob final : public Job {
  public:
   TurnJob(StereoGrabber& grabber, EnrolmentSession& session, hal::Device& device, PoseJob& pose,
           LiveJudge* judge)
-      : grabber_(grabber),
-        session_(session),
-        device_(device),
-        pose_(pose),
-        judge_(judge),
-        burst_(grabber, device.trigger(), device.clock()) {}
+      : grabber_(grabber), session_(session), device_(device), pose_(pose), judge_(judge), burst_(grabber) {}
   // Before it starts: the frontal pair, which lies in the session.
   void begin_with(const pipeline::StereoFrame& front) {
     front_ = front;

@@ -102,14 +102,15 @@ class BurstTest : public testing::Test {
   HandClock clock;
   BarsCamera left{clock}, right{clock};
   BarsLine line{clock, left, right};
-  StereoGrabber grabber{left, right, line, clock};
+  StereoGrabber grabber{
+      left, right, line, clock, {.wait = [this](hal::Instant until, const std::atomic<bool>&) {
+        clock.time = std::max(clock.time, until);
+      }}};
   std::vector<std::byte> memory = std::vector<std::byte>(std::size_t{2} * 7 * kBarsSide * kBarsSide);
   StereoSlot first{std::span(memory).first(memory.size() / 2)};
   StereoSlot second{std::span(memory).subspan(memory.size() / 2)};
   std::atomic<bool> cancelled{false};
-  Burst burst{grabber, line, [this](hal::Instant until, const std::atomic<bool>&) {
-                clock.time = std::max(clock.time, until);
-              }};
+  Burst burst{grabber};
 };
 
 TEST_F(BurstTest, TheSharpestOfFiveIsKeptWhereverItComes) {

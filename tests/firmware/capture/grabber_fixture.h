@@ -41,7 +41,10 @@ class StereoGrabberTest : public testing::Test {
   std::vector<std::byte> memory = std::vector<std::byte>(7 * 8 * 8);
   StereoSlot slot{memory};
   std::atomic<bool> cancelled{false};
-  StereoGrabber grabber{left, right, line, clock};
+  StereoGrabber grabber{
+      left, right, line, clock, {.wait = [this](hal::Instant until, const std::atomic<bool>&) {
+        clock.time = std::max(clock.time, until);
+      }}};
 };
 
 }  // namespace relievo::firmware

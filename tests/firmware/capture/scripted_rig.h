@@ -46,6 +46,7 @@ class ScriptedCamera final : public hal::Camera {
   explicit ScriptedCamera(HandClock& clock) : clock_(clock) {}
   std::deque<Fault> script;       // one a pulse; afterwards None
   std::function<void()> on_wait;  // when it is asked for a frame
+  std::function<void()> on_start;
   std::uint32_t sequence = 0;
   int width_px = kSide;
   int held = 0;
@@ -93,6 +94,7 @@ class ScriptedCamera final : public hal::Camera {
   Result<void> do_start() override {
     if (!plugged) return Error{Errc::Disconnected, "there is no camera"};
     ++starts;
+    if (on_start) on_start();
     queue_.clear();
     withheld_.clear();
     return {};
@@ -129,6 +131,8 @@ class ScriptedLine final : public hal::TriggerLine {
       : TriggerLine(clock), clock_(clock), left_(left), right_(right) {}
   int pulses = 0;
   bool broken = false;
+  bool lamp_on_it = false;
+  bool lights_with_every_pulse() const override { return lamp_on_it; }
 
  private:
   Result<void> do_pulse(std::chrono::microseconds, hal::Light) override {

@@ -211,5 +211,22 @@ TEST_F(StereoGrabberTest, OfTwentyThousandPulsesWithFaultsNoPairIsMixed) {
   EXPECT_EQ(grabber.counts().left.vanished, grabber.counts().left.returned);
 }
 
+// Two halves of one camera stop when neither is wanted: a stream that broke must end before it begins anew.
+TEST_F(StereoGrabberTest, AfterAnErrorBothStreamsStopBeforeEitherBegins) {
+  int beside_the_other = 0;
+  left.on_start = [&] { beside_the_other += right.state() == hal::Camera::State::Running; };
+  right.script = {Fault::Miss, Fault::Miss, Fault::Miss};
+  EXPECT_EQ(error_of_grab(), Errc::Timeout);
+  EXPECT_EQ(left.starts, 2);
+  EXPECT_EQ(right.starts, 2);
+  EXPECT_EQ(beside_the_other, 0);
+}
+
+// A lamp on the trigger's wire: every pair is a flash, whoever asks for it.
+TEST_F(StereoGrabberTest, WaitsForTheRestOfALampOnTheTriggersWire) {
+  line.lamp_on_it = true;
+  for (int i = 1; i <= 12; ++i) expect_pair_of_pulse(i);
+}
+
 }  // namespace
 }  // namespace relievo::firmware
