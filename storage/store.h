@@ -14,6 +14,7 @@
 // Thread: one at a time (the keeper).
 #pragma once
 
+#include <atomic>
 #include <cstdint>
 #include <functional>
 #include <memory_resource>
@@ -33,8 +34,9 @@ class Store {
   virtual ~Store() = default;
 
   // Reads every page, every model, every calibration and the whole audit chain. StoreCorrupt says
-  // what is wrong with what. Takes seconds to minutes on a full store.
-  virtual Result<void> check() = 0;
+  // what is wrong with what. Takes seconds to minutes on a full store; Cancelled soon after `stop` is true.
+  virtual Result<void> check(const std::atomic<bool>& stop) = 0;
+  Result<void> check() { return check(std::atomic<bool>(false)); }
 
   // InvalidInput: the name is empty, too long or not UTF-8.
   virtual Result<SubjectId> add_subject(const NewSubject& subject) = 0;
@@ -52,7 +54,8 @@ class Store {
   virtual Result<void> erase_subject(SubjectId id) = 0;
 
   // NotFound: no such subject or calibration. InvalidInput: the model does not hang together.
-  // One that renews also removes the traces of those before, as erase_subject() does.
+  // One that renews also removes the traces of those before, as erase_subject() does; while another program
+  // reads the store they stay in its log until the next change or opening.
   virtual Result<EnrolmentId> add_enrolment(const SubjectChoice& subject, const NewEnrolment& enrolment) = 0;
   virtual Result<std::vector<Enrolment>> enrolments(SubjectId subject) = 0;  // oldest first
   virtual Result<Enrolment> enrolment(EnrolmentId id) = 0;                   // NotFound

@@ -97,7 +97,7 @@ void Appliance::ask_records(RecordQuestion question) {
   look_up_.give(std::move(question));
   answer_ = {ui::Known::Asking};
   looks_up_ = true;
-  start(keeper_, look_up_);
+  start_on_keeper(look_up_);
 }
 
 void Appliance::forget_answer() {
@@ -115,6 +115,8 @@ void Appliance::heard_answer() {
 
 void Appliance::step(std::chrono::milliseconds wait) {
   if (const auto report = reports_.take_for(wait)) heard(*report);
+  if (awaits_keeper_ != nullptr && !keeper_.busy())
+    job_ = start_on(keeper_, *std::exchange(awaits_keeper_, nullptr));
   if (const auto change = machine_.tick(device_.clock().now())) {
     if (change->to == State::Idle || change->to == State::Fault) {
       note(Error{Errc::Timeout, "took longer than its limit: try again"}.at(name_of(change->from)));
@@ -152,6 +154,8 @@ JobThread& Appliance::thread_at(JobLane lane) {
 }
 
 Result<void> Appliance::start_side_job(JobLane lane, Job& job) {
+  if (lane == JobLane::Keeper && awaits_keeper_ != nullptr)
+    return Error{Errc::InvalidState, "a visitor waits for this thread"};
   RELIEVO_TRY_ASSIGN(side_jobs_[std::size_t(lane)], thread_at(lane).start(job));
   return {};
 }
@@ -245,10 +249,19 @@ void Appliance::start(JobThread& thread, Job& job) {
   running_ = &thread;
 }
 
+void Appliance::start_on_keeper(Job& job) {
+  running_ = &keeper_;
+  awaits_keeper_ = &job;
+  if (keeper_.busy()) keeper_.cancel();
+  else job_ = start_on(keeper_, *std::exchange(awaits_keeper_, nullptr));
+}
+
 void Appliance::stop_job() {
   if (running_ == nullptr) return;
-  running_->cancel();
-  running_->wait_until_idle();
+  if (std::exchange(awaits_keeper_, nullptr) == nullptr) {
+    running_->cancel();
+    running_->wait_until_idle();
+  }
   running_ = nullptr;
   job_ = 0;
   if (looks_up_) heard_answer();
@@ -362,7 +375,7 @@ void Appliance::entered(const Change& change) {
       record_.stages = records_;
       record_.drift = drift_;
       keep_.give(record_);
-      start(keeper_, keep_);
+      start_on_keeper(keep_);
       break;
     case State::Idle:
     case State::Fault: close_session(); break;

@@ -95,7 +95,8 @@ class Appliance {
   // Of the present or last session; kept until the next begins.
   const std::vector<StageRecord>& records() const { return records_; }
   // Work of the staff's pages, beside the states' own (firmware/service/side_tasks.h). InvalidState: the
-  // thread is busy. A state that needs the thread stops such work and waits for it to end.
+  // thread is busy, or a visitor's question waits for it. A state that needs the thread stops such work and
+  // waits for it to end; the keeper's is waited for between the turns, since a stick may hold it for long.
   Result<void> start_side_job(JobLane lane, Job& job);
   void cancel_side_job(JobLane lane);
   void end_side_job(JobLane lane);  // waits until it has stopped; it is not reported any more
@@ -119,6 +120,7 @@ class Appliance {
   bool open_session();
   void enter_turn();
   void start(JobThread& thread, Job& job);
+  void start_on_keeper(Job& job);
   JobId start_on(JobThread& thread, Job& job);
   void stop_job();
   void stop_head();
@@ -160,6 +162,7 @@ class Appliance {
   std::vector<StageRecord> records_;
   std::function<void(const Change&)> listener_;
   JobThread* running_ = nullptr;  // the thread whose job belongs to the present state
+  Job* awaits_keeper_ = nullptr;  // that job, until the keeper has stopped what it was at
   JobId job_ = 0;
   JobId head_job_ = 0;  // on the worker, from Turn until it reports in Fuse
   std::array<JobId, kJobLanes> side_jobs_{};

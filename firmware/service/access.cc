@@ -95,11 +95,16 @@ Result<Attempt> Access::attempt(std::string_view pin) {
   record.wrong_at_s = now_s();
   RELIEVO_TRY(write(record));
   // Both are looked at, whichever it is: the time tells nothing.
-  const bool technician = is_pin_of(pin, record.technician), clerk = is_pin_of(pin, record.clerk);
-  if (!technician && !clerk) return Attempt{ui::StaffRole::None, true, wait_after(record.wrong)};
+  const Result<bool> technician = is_pin_of(pin, record.technician), clerk = is_pin_of(pin, record.clerk);
+  if (!technician || !clerk) {
+    --record.wrong;  // nobody knows
+    RELIEVO_TRY(write(record));
+    return technician ? clerk.error() : technician.error();
+  }
+  if (!*technician && !*clerk) return Attempt{ui::StaffRole::None, true, wait_after(record.wrong)};
   record.wrong = 0;
   RELIEVO_TRY(write(record));
-  return Attempt{technician ? ui::StaffRole::Technician : ui::StaffRole::Operator, false, seconds(0)};
+  return Attempt{*technician ? ui::StaffRole::Technician : ui::StaffRole::Operator, false, seconds(0)};
 }
 
 Result<void> Access::check_new(ui::StaffRole role, std::string_view pin) {
@@ -108,8 +113,9 @@ Result<void> Access::check_new(ui::StaffRole role, std::string_view pin) {
     return Error{Errc::InvalidInput, "a PIN has four to eight digits"};
   if (is_simple(pin)) return Error{Errc::InvalidInput, "this PIN is too easy to guess: choose another"};
   RELIEVO_TRY_ASSIGN(const Record record, read());
-  if (is_pin_of(pin, role == ui::StaffRole::Technician ? record.clerk : record.technician))
-    return Error{Errc::InvalidState, "the other role has this PIN: choose another"};
+  RELIEVO_TRY_ASSIGN(const bool taken,
+                     is_pin_of(pin, role == ui::StaffRole::Technician ? record.clerk : record.technician));
+  if (taken) return Error{Errc::InvalidState, "the other role has this PIN: choose another"};
   return {};
 }
 

@@ -17,6 +17,10 @@ namespace {
 constexpr std::uint32_t kPasses = 2, kMemoryKiB = 19 << 10, kLanes = 1;
 constexpr std::size_t kSaltBytes = 16, kHashBytes = 32, kTextBytes = 128;
 
+Error no_memory() {
+  return {Errc::OutOfMemory, "there is not enough memory to look at a PIN safely: restart, then try again"};
+}
+
 }  // namespace
 
 Result<std::string> stretched(std::string_view pin) {
@@ -25,14 +29,15 @@ Result<std::string> stretched(std::string_view pin) {
   if (::getrandom(salt.data(), salt.size(), 0) != ssize_t(salt.size()) ||
       argon2id_hash_encoded(kPasses, kMemoryKiB, kLanes, pin.data(), pin.size(), salt.data(), salt.size(),
                             kHashBytes, text.data(), text.size()) != ARGON2_OK)
-    return Error{Errc::OutOfMemory,
-                 "there is not enough memory to keep a PIN safely: restart, then try again"};
+    return no_memory();
   return std::string(text.data());
 }
 
-bool is_pin_of(std::string_view pin, const std::string& kept) {
-  return !kept.empty() && kept.size() < kTextBytes &&
-         argon2id_verify(kept.c_str(), pin.data(), pin.size()) == ARGON2_OK;
+Result<bool> is_pin_of(std::string_view pin, const std::string& kept) {
+  if (kept.empty() || kept.size() >= kTextBytes) return false;
+  const int answer = argon2id_verify(kept.c_str(), pin.data(), pin.size());
+  if (answer == ARGON2_MEMORY_ALLOCATION_ERROR) return no_memory();
+  return answer == ARGON2_OK;
 }
 
 void wipe_text(std::string& text) {

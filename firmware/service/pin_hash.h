@@ -2,7 +2,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 //
 // A PIN as it may be kept: salted and stretched by Argon2id (RFC 9106; 19 MiB, two passes, as OWASP's
-// password sheet asks for at least). Takes about 40 ms and its memory on top of the appliance's.
+// password sheet asks for at least). Takes about 40 ms and its memory from the heap.
 // Thread: any (the keeper). Errors: OutOfMemory.
 #pragma once
 
@@ -14,7 +14,7 @@
 namespace relievo::firmware {
 
 Result<std::string> stretched(std::string_view pin);
-bool is_pin_of(std::string_view pin, const std::string& kept);  // false, too, where there is none
+Result<bool> is_pin_of(std::string_view pin, const std::string& kept);  // false, too, where there is none
 void wipe_text(std::string& text);
 
 }  // namespace relievo::firmware

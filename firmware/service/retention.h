@@ -22,8 +22,9 @@ inline constexpr const char* kClockSeenSetting = "clock.seen";
 
 // The clock is right: so says somebody who has looked at it.
 Result<void> trust_clock(storage::Store& store, storage::WallTime now);
-// How many records were erased. A record's age is that of its newest consent.
-Result<int> erase_expired(storage::Store& store, storage::WallTime now, int keep_days, JobControl& control);
+// A record's age is that of its newest consent. `erased`: how many were, also where it ends early.
+Result<void> erase_expired(storage::Store& store, storage::WallTime now, int keep_days, JobControl& control,
+                           int& erased);
 
 class RetentionWatch {
  public:

@@ -4,7 +4,9 @@
 // What every verb of SqliteStore that changes something runs in. Included by their sources only.
 #pragma once
 
+#include "storage/sqlite/sqlite_erasure.h"
 #include "storage/sqlite/sqlite_store.h"
+#include "storage/sqlite/store_directory.h"
 
 namespace relievo::storage {
 
@@ -19,8 +21,18 @@ auto SqliteStore::change(const Work& work) -> decltype(work(WallTime{})) {
     auto done = work(now());
     if (!done) return done;
     RELIEVO_TRY(transaction.commit());
+    if (traces_left_) traces_left_ = !empty_the_log(*database_);
     return done;
   });
+}
+
+// The way out of a full disk, and into the pages that lead there, may not itself end there.
+template <typename Work>
+auto SqliteStore::change_in_reserve(const Work& work) -> decltype(work(WallTime{})) {
+  auto done = change(work);
+  if (!done && done.error().code == Errc::MediaFull && give_up_reserve(database_->file().parent_path()))
+    done = change(work);
+  return done;
 }
 
 constexpr std::int64_t number(SubjectId id) { return std::int64_t(id); }

@@ -38,6 +38,7 @@ Error sqlite_error(int code, int system_errno, std::string_view where) {
     case SQLITE_FULL:
       return made(Errc::MediaFull,
                   "the disk is full, nothing was changed: erase subjects or make room, then try again");
+    case SQLITE_INTERRUPT: return made(Errc::Cancelled, "was stopped; nothing was changed");
     case SQLITE_NOMEM: return made(Errc::OutOfMemory, "not enough memory for this; nothing was changed");
     case SQLITE_BUSY:
     case SQLITE_LOCKED:
@@ -149,6 +150,18 @@ Result<void> Database::open(bool writable) {
 Result<void> Database::tidy_up_on_close(bool on) {
   const int code = sqlite3_db_config(handle_, SQLITE_DBCONFIG_NO_CKPT_ON_CLOSE, on ? 0 : 1, nullptr);
   return code == SQLITE_OK ? Result<void>() : error(code);
+}
+
+void Database::stop_at(const std::atomic<bool>* flag) {
+  constexpr int kSteps = 1000;  // of SQLite's machine: a millisecond at most
+  stop_ = flag;
+  sqlite3_progress_handler(
+      handle_, flag != nullptr ? kSteps : 0,
+      [](void* stop) -> int { return static_cast<Database*>(stop)->stop_->load(); }, this);
+}
+
+Result<void> Database::go_on() const {
+  return stop_ != nullptr && stop_->load() ? sqlite_error(SQLITE_INTERRUPT, 0, where_) : Result<void>();
 }
 
 Result<bool> Database::empty_log() {

@@ -78,6 +78,10 @@ class Database {
   std::int64_t last_row_id() const;
   std::int64_t changes() const;
   bool in_transaction() const;
+  // Until the flag's end or `nullptr`: what runs ends with Cancelled soon after the flag is true, long
+  // statements by themselves, loops over rows where they ask.
+  void stop_at(const std::atomic<bool>* flag);
+  Result<void> go_on() const;
   // Whether closing moves the write-ahead log into the file: off until it is known to be ours.
   Result<void> tidy_up_on_close(bool on);
   // Moves the write-ahead log into the file; on the disk nothing is left in it. false: a reader is in the
@@ -101,6 +105,7 @@ class Database {
   friend class Blob;
   Error error(int code) const;
   sqlite3* handle_ = nullptr;
+  const std::atomic<bool>* stop_ = nullptr;
   std::filesystem::path file_;
   std::string where_;
 };

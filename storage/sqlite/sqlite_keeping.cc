@@ -142,7 +142,12 @@ std::unique_ptr<StoreKeeping> keep_sqlite_store(const std::filesystem::path& dir
 }
 
 // SqliteStore: the long check.
-Result<void> SqliteStore::check() {
+Result<void> SqliteStore::check(const std::atomic<bool>& stop) {
+  struct Stopping {
+    Database& database;
+    ~Stopping() { database.stop_at(nullptr); }
+  } stopping{*database_};
+  database_->stop_at(&stop);
   return without_exceptions(database_->where(), [&]() -> Result<void> {
     RELIEVO_TRY(check_pages());
     RELIEVO_TRY(check_calibrations());
@@ -193,6 +198,7 @@ Result<void> SqliteStore::check_subjects() {
   for (;;) {
     RELIEVO_TRY_ASSIGN(const bool row, query.step());
     if (!row) break;
+    RELIEVO_TRY(database_->go_on());
     RELIEVO_TRY_ASSIGN(const auto subject, subject_in(slots, query));
     RELIEVO_TRY_ASSIGN(const auto code, open_code(*keys_, subject.id, query.blob(3)));
     if (!std::ranges::equal(query.blob(4), keys_->name_hash(subject.name)) ||
@@ -236,6 +242,7 @@ Result<void> SqliteStore::check_models() {
   for (;;) {
     RELIEVO_TRY_ASSIGN(const bool row, query.step());
     if (!row) return {};
+    RELIEVO_TRY(database_->go_on());
     const EnrolmentId id{query.integer(0)};
     RELIEVO_TRY(enrolment(id));  // its texts, its consent
     RELIEVO_TRY_ASSIGN(const auto bytes, model_bytes(id));

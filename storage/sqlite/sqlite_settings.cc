@@ -63,7 +63,8 @@ Result<void> SqliteStore::set_setting(std::string_view key, std::string_view val
     return Error{Errc::InvalidInput, "a setting needs a short key, and a value of at most a million bytes"}
         .at(key);
   }
-  return change([&](WallTime at) -> Result<void> {
+  // Signing in writes one.
+  return change_in_reserve([&](WallTime at) -> Result<void> {
     RELIEVO_TRY_ASSIGN(auto settings, read_settings(*database_, *keys_));
     settings.insert_or_assign(std::string(key), std::string(value));
     // The key only: a value may be a secret.

@@ -72,7 +72,8 @@ class SqliteStore final : public Store {
   Result<std::vector<SubjectId>> erased_since(const std::filesystem::path& backup);
   Result<void> rekey(KeySource& to);
 
-  Result<void> check() override;
+  using Store::check;
+  Result<void> check(const std::atomic<bool>& stop) override;
   Result<SubjectId> add_subject(const NewSubject& subject) override;
   Result<std::vector<Subject>> subjects(const SubjectFilter& filter) override;
   Result<std::int64_t> count_subjects(const SubjectFilter& filter) override;
@@ -106,6 +107,8 @@ class SqliteStore final : public Store {
   // Runs `work` in one transaction, with its line of the audit log; memory that runs out is an error.
   template <typename Work>
   auto change(const Work& work) -> decltype(work(WallTime{}));
+  template <typename Work>
+  auto change_in_reserve(const Work& work) -> decltype(work(WallTime{}));
   WallTime now() const;
   Error not_found(Literal what, std::int64_t number) const;
   Result<void> subject_must_exist(SubjectId id);  // its key is in keys_ then
@@ -135,6 +138,7 @@ class SqliteStore final : public Store {
 
   std::unique_ptr<StoreLock> lock_;  // outlives the database
   std::unique_ptr<Database> database_;
+  bool traces_left_ = false;  // of a renewal, in the log: somebody read it
   std::unique_ptr<StoreKeys> keys_;
   const hal::Clock& clock_;
   OpenMode mode_;

@@ -173,19 +173,12 @@ Result<void> SqliteStore::erase_subject(SubjectId id) {
   return without_exceptions(database_->where(), [&]() -> Result<void> {
     RELIEVO_TRY(subject_must_exist(id));
     if (mode_ == OpenMode::ReadWrite) RELIEVO_TRY(remove_old_copies(database_->file()));
-    // The way out of a full disk may not itself end there.
-    const auto in_reserve = [&](const auto& step) {
-      auto done = change(step);
-      if (!done && done.error().code == Errc::MediaFull && give_up_reserve(database_->file().parent_path()))
-        done = change(step);
-      return done;
-    };
     if (mode_ == OpenMode::ReadWrite) RELIEVO_TRY(remember_erased(*database_, *keys_, id));
     const auto destroyed =
-        in_reserve([&](WallTime at) { return destroy_subject_key(*database_, *keys_, id, at); });
+        change_in_reserve([&](WallTime at) { return destroy_subject_key(*database_, *keys_, id, at); });
     if (!destroyed) return destroyed;
     (void)empty_the_log(*database_);  // where a reader is in the way, the last one below says so
-    const auto removed = in_reserve([&](WallTime) { return remove_erased_rows(*database_); });
+    const auto removed = change_in_reserve([&](WallTime) { return remove_erased_rows(*database_); });
     if (!removed)
       return Error{removed.error().code,
                    "erased; the room it took is not free yet: close the store and open it again",

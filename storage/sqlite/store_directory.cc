@@ -80,8 +80,14 @@ Result<void> make_private_file(const fs::path& file) {
 void set_aside_reserve(const fs::path& dir, std::int64_t bytes) {
   constexpr std::int64_t kTooSmall = 65'536;
   const fs::path file = dir / "relievo.reserve";
-  const int fd = ::open(file.c_str(), O_CREAT | O_EXCL | O_WRONLY | O_CLOEXEC, 0600);
+  const int fd = ::open(file.c_str(), O_CREAT | O_WRONLY | O_CLOEXEC | O_NOFOLLOW, 0600);
   if (fd < 0) return;
+  // A power cut may have left it empty.
+  struct stat kept {};
+  if (::fstat(fd, &kept) == 0 && kept.st_size >= kTooSmall) {
+    ::close(fd);
+    return;
+  }
   while (bytes >= kTooSmall && ::posix_fallocate(fd, 0, bytes) != 0) bytes /= 2;
   ::close(fd);
   if (bytes < kTooSmall) ::unlink(file.c_str());

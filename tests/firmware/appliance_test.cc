@@ -144,4 +144,37 @@ TEST_F(ApplianceTest, AnAnswerThatComesWhenItsVisitorHasGoneIsNobodys) {
   EXPECT_EQ(appliance.answer().record, storage::SubjectId{});
 }
 
+// What the keeper is at for the staff may take long to stop, as a stick that does not answer: the main thread
+// goes on meanwhile, and the visitor comes next.
+TEST_F(ApplianceTest, AQuestionDoesNotHoldTheMainThreadWhileTheKeeperStops) {
+  struct Slow final : Job {
+    std::atomic<bool> begun{false}, goes{true}, cancelled{false};
+    Result<void> run(JobControl& control) override {
+      begun = true;
+      for (int i = 0; i < 5'000 && goes; ++i) std::this_thread::sleep_for(milliseconds(1));
+      cancelled = control.cancelled.load();
+      return {};
+    }
+  } slow;
+  ASSERT_TRUE(reach(State::Idle));
+  records.known = {ui::Known::Code, storage::SubjectId{7}};
+  ASSERT_TRUE(appliance.start_side_job(JobLane::Keeper, slow));
+  while (!slow.begun) std::this_thread::sleep_for(milliseconds(1));
+  int heard = 0;
+  appliance.on_side_report([&](JobLane lane, const std::optional<Error>&) {
+    ++heard;
+    EXPECT_FALSE(appliance.start_side_job(lane, slow)) << "before the visitor";
+  });
+  appliance.ask_records({WipedText("Ada"), WipedText("4821"), true});
+  appliance.step(milliseconds(5));
+  EXPECT_FALSE(slow.cancelled) << "it still runs";
+  EXPECT_EQ(appliance.answer().known, ui::Known::Asking);
+  slow.goes = false;
+  for (int turn = 0; turn < 60'000 && appliance.answer().known == ui::Known::Asking; ++turn)
+    appliance.step(milliseconds(1));
+  EXPECT_TRUE(slow.cancelled);
+  EXPECT_EQ(heard, 1);
+  EXPECT_EQ(appliance.answer().known, ui::Known::Code);
+}
+
 }  // namespace relievo::firmware

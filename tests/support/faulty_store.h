@@ -21,7 +21,7 @@ class FaultyStore : public storage::Store {
   FaultyStore(std::unique_ptr<storage::Store> real, const std::atomic<std::optional<Errc>>& error)
       : real_(std::move(real)), error_(error) {}
 
-  Result<void> check() override { return real_->check(); }
+  Result<void> check(const std::atomic<bool>& stop) override { return real_->check(stop); }
   Result<storage::SubjectId> add_subject(const storage::NewSubject& s) override {
     return real_->add_subject(s);
   }

@@ -201,7 +201,8 @@ void SelfTestController::ask(const ui::StaffRequest& request) {
                    "the program has used more memory than was planned: see the page of health"};
     return {};
   });
-  begin(Check::Store, JobLane::Keeper, [&t](JobControl&) { return t.store.check(); });
+  begin(Check::Store, JobLane::Keeper,
+        [&t](JobControl& control) { return t.store.check(control.cancelled); });
   // The one that is measured with, which may be a file's or the simulated rig's and so not the store's active
   // one.
   begin(Check::Calibration, JobLane::Keeper, [&t, revision = t.calibration](JobControl&) -> Result<void> {

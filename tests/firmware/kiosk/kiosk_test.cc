@@ -311,5 +311,25 @@ TEST_F(KioskTest, WhoLeavesLeavesNothingAndTheNextIsEnrolledStopsRenewsAndAdds) 
   everything_is_readable();
 }
 
+// What opening the device leaves behind (a process that rests the trigger) has a copy of the memory there is.
+TEST(KioskOpens, TheDeviceBeforeAnyKeyOrName) {
+  const test::TemporaryFolder folder;
+  const hal::MonotonicClock clock;
+  Console console;
+  Services services{.console = console, .clock = clock};
+  bool store_opened = false;
+  services.open_device = [](std::string_view) -> Result<std::unique_ptr<hal::Device>> {
+    return Error{Errc::NotFound, "as the test says"};
+  };
+  services.open_store = [&](const std::filesystem::path& at, bool) {
+    store_opened = true;
+    return storage::open_sqlite_store(at, clock, {});
+  };
+  KioskArgs args;
+  args.store = folder.path() / "store";
+  EXPECT_EQ(Kiosk::open(args, services).error().code, Errc::NotFound);
+  EXPECT_FALSE(store_opened);
+}
+
 }  // namespace
 }  // namespace relievo::firmware

@@ -382,5 +382,38 @@ TEST_F(TakeHomeWaitsTest, WhoeverLeavesStopsIt) {
   EXPECT_EQ(view.take_home.outcome, Outcome::None) << "and they are not told of it";
 }
 
+TEST_F(TakeHomeWaitsTest, WhoComesBeforeItHasStoppedIsNotOfferedTheStickOfWhoLeft) {
+  view.receipt = {};
+  visited = false;
+  turn();
+  visited = true;
+  turn();
+  faulty.let_go_on();
+  ends();
+  comes_to_the_end();
+  EXPECT_EQ(taking(), Taking::NotOurs);
+}
+
+// A stick that is being flushed answers nobody else until it has been: the page would stand still.
+TEST_F(TakeHomeTest, NobodyLooksForAStickWhileTheKeeperHasOne) {
+  std::atomic<bool> done{false};
+  side_tasks.send(
+      JobLane::Keeper,
+      [&](JobControl&) -> Result<void> {
+        while (!done) std::this_thread::sleep_for(milliseconds(1));
+        return {};
+      },
+      [](const std::optional<Error>&) {}, SideTasks::Whose::Device);
+  side_tasks.turn();
+  ASSERT_TRUE(side_tasks.busy(JobLane::Keeper));
+  const int asked = socket.asked;
+  for (int i = 0; i < 5; ++i) turn();
+  EXPECT_EQ(socket.asked, asked);
+  done = true;
+  work();
+  turn();
+  EXPECT_GT(socket.asked, asked);
+}
+
 }  // namespace
 }  // namespace relievo::firmware

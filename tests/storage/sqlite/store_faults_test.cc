@@ -115,6 +115,24 @@ TEST(StoreFaults, AFullDiskIsSurvived) {
   fill_and_recover(disk.path() / "store", {.reserve_bytes = 900'000});
 }
 
+// Every try of a PIN is counted before it is judged: without room nobody could sign in and make some.
+TEST(StoreFaults, OnADiskThatAnotherProgramFilledTheStaffComeInAndErase) {
+  const TinyDisk disk(4'000'000);
+  if (!disk.mounted()) GTEST_SKIP() << disk.why_not();
+  const auto store = opened(disk.path() / "store", {.reserve_bytes = 900'000});
+  ASSERT_TRUE(store);
+  const auto ada = store->add_enrolment(NewSubject{"Ada"}, sample_enrolment(sample_model(40)));
+  ASSERT_TRUE(ada);
+  {
+    std::ofstream junk(disk.path() / "junk", std::ios::binary);
+    for (const std::string block(4096, 'x'); junk << block << std::flush;) {
+    }
+  }
+  EXPECT_TRUE(store->set_setting("pin", "4711"));
+  EXPECT_TRUE(store->erase_subject(store->enrolment(*ada)->subject));
+  EXPECT_TRUE(store->check());
+}
+
 TEST(StoreFaults, ADiskTooSmallForAnEmptyStoreSaysSo) {
   const TinyDisk disk(16'384);
   if (!disk.mounted()) GTEST_SKIP() << disk.why_not();

@@ -271,6 +271,41 @@ TEST_F(SqliteStoreVerbs, AuditsWithoutNames) {
   EXPECT_TRUE(store->check());
 }
 
+// What was committed is said to be stored, whoever reads meanwhile; what it replaced goes from the log later.
+TEST_F(SqliteStoreVerbs, ARenewalBesideAReaderIsStored) {
+  const auto model = sample_model();
+  store.reset();
+  store = opened(dir, {.wait_for_lock = std::chrono::milliseconds(40)});
+  const auto first = store->add_enrolment(NewSubject{"Ada"}, sample_enrolment(model));
+  ASSERT_TRUE(first);
+  const SubjectId ada = store->enrolment(*first)->subject;
+  NewEnrolment renewed = sample_enrolment(model);
+  renewed.renews = true;
+  const auto log_bytes = [&] { return std::filesystem::file_size(dir / "relievo.db-wal"); };
+  {
+    const auto reader = opened(dir, {.mode = OpenMode::ReadOnly});
+    ASSERT_TRUE(reader->for_each_subject(Store::Opened::Names, [&](Subject&, const Consent*) -> Result<void> {
+      const auto again = store->add_enrolment(ada, renewed);
+      EXPECT_TRUE(again) << again.error().what.view();
+      return {};
+    }));
+    EXPECT_EQ(store->enrolments(ada)->size(), 1U);
+    EXPECT_GT(log_bytes(), 0U) << "the reader was no hindrance: this shows nothing";
+  }
+  ASSERT_TRUE(store->set_setting("language", "de"));
+  EXPECT_EQ(log_bytes(), 0U);
+}
+
+TEST_F(SqliteStoreVerbs, ACheckThatNobodyWaitsForEnds) {
+  for (int i = 0; i < 20; ++i)
+    ASSERT_TRUE(store->add_enrolment(NewSubject{"Ada"}, sample_enrolment(sample_model())));
+  std::atomic<bool> stop{true};
+  EXPECT_EQ(code_of(store->check(stop)), Errc::Cancelled);
+  stop = false;
+  EXPECT_TRUE(store->check(stop));
+  EXPECT_TRUE(store->subjects({}));
+}
+
 TEST_F(SqliteStoreVerbs, OneWriterAtATimeAnyReaders) {
   ASSERT_TRUE(store->add_subject({"Ada"}));
   const test::StillClock clock;
