@@ -99,13 +99,15 @@ bool is_recorded_head(const std::string& device) {
 Result<void> Kiosk::prepare(const KioskArgs& args, Services& services) {
   RELIEVO_TRY_ASSIGN(auto text, ui::TextEngine::make());
   ui_ = std::make_unique<ui::Ui>(std::move(text));
+  // Before the store: a trigger line leaves a process behind (hal/linux/wire/), a copy of all memory there is
+  // then, and no key and no name may be in it.
+  RELIEVO_TRY_ASSIGN(device_, services.open_device(args.device));
   RELIEVO_TRY_ASSIGN(store_, services.open_store(store_folder(args.store), true));
   may_tell_known_ = args.tells_known;
   RELIEVO_TRY_ASSIGN(run_mark_, RunMark::set(store_folder(args.store)));
   restarted_ = run_mark_->ended_early();
   RELIEVO_TRY_ASSIGN(const auto newest, store_->subjects({.limit = 1}));
   if (!newest.empty()) newest_record_ = newest.front().created_at;
-  RELIEVO_TRY_ASSIGN(device_, services.open_device(args.device));
   if (services.turn_head && (args.device == "sim" || is_recorded_head(args.device)))
     turn_head_ = [this, turn = services.turn_head](double yaw_deg) { turn(*device_, yaw_deg); };
   RELIEVO_TRY(set_up_measuring(args, services));
@@ -195,6 +197,8 @@ void Kiosk::look() {
   view_.now = device_->clock().now();
   view_.wall_now = device_->clock().wall_now();
   if (appliance_->state() != State::Store) view_.receipt = appliance_->kept().receipt.view();
+  if (!view_.receipt.empty())
+    newest_record_ = std::max(newest_record_, std::chrono::floor<std::chrono::milliseconds>(view_.wall_now));
   if (ui_->service().open || ui_->visit().step == ui::Step::Attract) staff_->consent().adopt();
   view_.consent = staff_->consent().now();
   view_.cameras_on = appliance_->grabber().streams();

@@ -21,6 +21,8 @@ void TakeHome::look(bool visited) {
 
 void TakeHome::follow(ui::ViewState& view, bool visited) {
   ui::TakeHomeView& home = view.take_home;
+  // A visit that ends while its copy is still being stopped leaves its stick to nobody.
+  ours_ = ours_ && visited;
   const bool left = view.receipt.empty();
   if (writes()) {
     if (left || view.now - begun_ > budget::kTakeHomeLimit) {
@@ -37,7 +39,10 @@ void TakeHome::follow(ui::ViewState& view, bool visited) {
       there_ = true;
       return;
     }
-    if (wrote_ || view.now - looked_ >= budget::kStickLook) {
+    // The staff's export may hold its stick for long; what is there afterwards is no visitor's.
+    if (!visited && parts_.side_tasks.busy(JobLane::Keeper)) {
+      there_ = true;
+    } else if (wrote_ || view.now - looked_ >= budget::kStickLook) {
       looked_ = view.now;
       look(visited);
     }

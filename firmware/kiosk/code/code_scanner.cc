@@ -89,10 +89,14 @@ std::optional<std::string> CodeScanner::Look::take() {
 }
 
 Result<void> CodeScanner::Look::run(JobControl& control) {
-  Result<void> looked = look(control);
-  appliance_.session().slot().wipe();  // whoever holds the code is in the pictures, too
-  ended.store(true, std::memory_order_release);
-  return looked;
+  struct AtTheEnd {  // also of what a library throws
+    Look& look;
+    ~AtTheEnd() {
+      look.appliance_.session().slot().wipe();  // whoever holds the code is in the pictures, too
+      look.ended.store(true, std::memory_order_release);
+    }
+  } at_the_end{*this};
+  return look(control);
 }
 
 // Left and right by turns: a code may lie in one camera's mirror image of a lamp.
