@@ -2,11 +2,11 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "firmware/kiosk/invitation_head.h"
 
-#include <cstdlib>
 #include <cstring>
 #include <fstream>
 #include <vector>
 
+#include "hal/base/shared_files.h"
 #include "hal/picture_file.h"
 #include "storage/model_blob.h"
 
@@ -31,8 +31,7 @@ Result<std::unique_ptr<InvitationHead>> InvitationHead::read(const std::filesyst
 }
 
 std::filesystem::path asset_folder() {
-  const char* named = std::getenv("RELIEVO_ASSET_DIR");
-  return named != nullptr ? named : RELIEVO_ASSET_DIR;
+  return shared_files("RELIEVO_ASSET_DIR", "assets", RELIEVO_ASSET_DIR);
 }
 
 }  // namespace relievo::firmware

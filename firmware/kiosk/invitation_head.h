@@ -30,7 +30,7 @@ class InvitationHead {
   std::optional<pipeline::FaceModel> model_;
 };
 
-// $RELIEVO_ASSET_DIR, or where the build put it.
+// hal/base/shared_files.h, $RELIEVO_ASSET_DIR.
 std::filesystem::path asset_folder();
 
 }  // namespace relievo::firmware

@@ -127,5 +127,25 @@ TEST_F(Package, AnotherVersionIsRefused) {
   EXPECT_NE(said.err.find("relievo"), std::string::npos) << said.err;
 }
 
+// The program as an integrator installs it: it finds its words where it was put, and its unit starts it
+// there.
+TEST_F(Package, TheKioskIsInstalledWithItsWordsAndItsUnit) {
+  const std::filesystem::path prefix = here / "opt";
+  ASSERT_TRUE(
+      done({RELIEVO_CMAKE, "--install", RELIEVO_BUILD, "--component", "kiosk", "--prefix", prefix.string()}));
+  const std::string program = (prefix / "bin/relievo").string();
+  ASSERT_TRUE(done({program, "version"}));
+  EXPECT_TRUE(std::filesystem::exists(prefix / "share/relievo/assets/invitation_head.face"));
+  EXPECT_TRUE(std::filesystem::exists(prefix / "lib/sysusers.d/relievo.conf"));
+  const std::string unit = read_text(prefix / "lib/systemd/system/relievo.service");
+  EXPECT_NE(unit.find("\nExecStart=" + program + " --board linux"), std::string::npos) << unit;
+  EXPECT_EQ(unit.find('@'), unit.find("@tty1")) << "something was not filled in";
+  const std::filesystem::path words = prefix / "share/relievo/locale";
+  ASSERT_TRUE(std::filesystem::remove(words / "C.UTF-8/LC_MESSAGES/relievo-ja.mo"));
+  const Said said = run_program({program, "--store", "store", "--windowed", "640x480"}, here.path());
+  EXPECT_EQ(said.exit_code, 1);
+  EXPECT_NE(said.err.find(words.string() + ": has no words"), std::string::npos) << said.err;
+}
+
 }  // namespace
 }  // namespace relievo::test

@@ -7,6 +7,7 @@
 #include <filesystem>
 #include <string>
 
+#include "hal/base/shared_files.h"
 #include "ui/language/language.h"
 
 namespace relievo::ui {
@@ -37,8 +38,7 @@ Result<void> prepare_languages() {
   // Numbers stay as C writes them: only words and letters change.
   if (std::setlocale(LC_CTYPE, "C.UTF-8") == nullptr || std::setlocale(LC_MESSAGES, "C.UTF-8") == nullptr)
     return Error{Errc::LibraryFailed, "the system has no locale C.UTF-8: install Debian's libc-bin"};
-  const char* named = getenv("RELIEVO_LOCALE_DIR");
-  const std::string folder = named != nullptr ? named : RELIEVO_LOCALE_DIR;
+  const std::string folder = shared_files("RELIEVO_LOCALE_DIR", "locale", RELIEVO_LOCALE_DIR).string();
   for (const char* domain : kDomains) {
     if (domain == domain_of(Language::English)) continue;
     if (!std::filesystem::exists(std::filesystem::path(folder) / "C.UTF-8" / "LC_MESSAGES" /
