@@ -27,7 +27,8 @@ Result<void> take_heap(std::size_t bytes) {
   mallopt(M_TRIM_THRESHOLD, -1);
   // The heap grows by what does not fit into its end, and by the pad. Small blocks: what is given back is
   // wiped (base/wiping_heap.cc), and so touched.
-  std::vector<std::unique_ptr<void, decltype(&std::free)> > blocks;
+  using Block = std::unique_ptr<void, decltype(&std::free)>;
+  std::vector<Block> blocks;
   for (auto heap = mallinfo2(); heap.arena < bytes; heap = mallinfo2()) {
     mallopt(M_TOP_PAD, int(bytes - heap.arena));
     blocks.emplace_back(std::malloc(heap.keepcost + 1), &std::free);

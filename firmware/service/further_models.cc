@@ -71,8 +71,7 @@ Result<std::string> write_solid(const pipeline::FaceModel& model, const std::fil
   solid.landmarks = model.landmarks;
   solid.head_from_camera = model.head_from_camera;
   const std::size_t triangles = solid.mesh.triangles.size();
-  const Result<void> written = write_files(solid, "solid", folder, frame, place);
-  RELIEVO_TRY(written);
+  RELIEVO_TRY(write_files(solid, "solid", folder, frame, place));
   return "solid: " + std::to_string(triangles) + " triangles, closed, cut flat at the neck";
 }
 
