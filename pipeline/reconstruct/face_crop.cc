@@ -3,10 +3,19 @@
 #include "pipeline/reconstruct/face_crop.h"
 
 #include <algorithm>
+#include <cmath>
+#include <span>
 
+#include "hal/base/statistics.h"
 #include "pipeline/match/region/face_reach.h"
 
 namespace relievo::pipeline {
+namespace {
+
+constexpr double kFurthestFromMostMm = 150;  // also of a head that is turned away
+
+}  // namespace
+
 Result<void> crop_to_face(PointCloud& cloud, const RectifiedPair& pair, const FaceCropOptions& options,
                           StageContext& context) {
   if (!(pair.face_width_px > 0)) return {};
@@ -19,7 +28,15 @@ Result<void> crop_to_face(PointCloud& cloud, const RectifiedPair& pair, const Fa
   if (middle.size() < 50)
     return Error{Errc::NoFace,
                  "nothing was measured in the middle of the face: more light, or nothing before the face"};
-  const Vec3d tip = outstanding_tip(middle);
+  // A window finds false partners by the thousand: what lies far from most of it is none of the face.
+  std::pmr::vector<double> depths(&context.scratch);
+  depths.reserve(middle.size());
+  for (const Vec3d& p : middle) depths.push_back(p.z);
+  const double most = median(depths);
+  const auto strays = std::partition(middle.begin(), middle.end(), [&](const Vec3d& p) {
+    return std::abs(p.z - most) < kFurthestFromMostMm;
+  });
+  const Vec3d tip = outstanding_tip(std::span(middle.begin(), strays));
   const auto outside = [&](const CloudPoint& p) {
     const double dx = p.at_mm.x - tip.x;
     const double dy = p.at_mm.y - tip.y;

@@ -32,6 +32,7 @@ namespace {
 
 constexpr double kNearest = 0.01;
 constexpr std::size_t kLeast = 50;  // nodes in the middle; of fewer nothing can be said
+constexpr double kLongestNoseMm = 60;
 constexpr double kNoseDown = 0.12;  // of the face's width, from the middle of its box
 
 // Depth over the middle's plane: level + right * x + down * y, about the points' mean.
@@ -89,6 +90,11 @@ Vec3d outstanding_tip(std::span<Vec3d> middle) { return outstanding_tip(middle, 
 
 Vec3d outstanding_tip(std::span<Vec3d> middle, std::size_t candidates) {
   const Plane3 plane = plane_of(middle);
+  // What stands out further than any nose is a false match.
+  const auto begin = middle.begin();
+  const auto end = std::partition(begin, begin + std::ptrdiff_t(candidates),
+                                  [&](const Vec3d& p) { return plane.before(p) < kLongestNoseMm; });
+  if (end - begin >= 10) candidates = std::size_t(end - begin);
   return mean_of_first(middle.first(candidates),
                        [&](const Vec3d& a, const Vec3d& b) { return plane.before(a) > plane.before(b); });
 }

@@ -2,7 +2,9 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // The verbs, one by one.
 #include <gtest/gtest.h>
+
 #include <sys/stat.h>
+#include <atomic>
 
 #include "tests/storage/sample.h"
 #include "tests/support/temporary_folder.h"
