@@ -83,8 +83,7 @@ TEST(FaceCrop, AThousandFalseMatchesDoNotMoveTheBall) {
     cloud.points[k].at_mm.z = 250 + float(k * 2'654'435'761U % 1000);
   for (PointCloud* each : {&cloud, &undisturbed})
     ASSERT_TRUE(crop_to_face(*each, pair_with_face(300), {.radius_mm = 60}, fixture.context));
-  EXPECT_NEAR(double(cloud.points.size()), double(undisturbed.points.size()) * 6 / 7,
-              double(undisturbed.points.size()) / 20);
+  EXPECT_GT(cloud.points.size(), undisturbed.points.size() * 3 / 4);
 }
 
 TEST(FaceCrop, LeavesEverythingWhereNoFaceWasLookedFor) {
