@@ -28,6 +28,7 @@ constexpr double kAboveJawMm = -35;  // from the tip of the nose: jaws differ to
 constexpr float kUnsureMm = 8;       // of the outline, where that is only known about
 constexpr float kRimMm = 2;          // so near to a hole ...
 constexpr float kCrumbMm = 1;        // half the width of the narrowest strip that stays
+constexpr double kLeastPart = 0.05;  // of the surface: what is smaller and by itself is a crumb
 constexpr float kSteepRim =
     1.5F;                      // ... surface steeper than this tangent was measured worst and is laid anew
 constexpr double kUnsure = 6;  // times the usual sigma: in the lower face that is no skin
@@ -179,7 +180,8 @@ void drop_poor_rims(const PointLattice& l, LatticeSurface& surface, const Vec3f&
   };
   for (std::size_t k = 0; k < l.size(); ++k) kept[k] = kept[k] && !(near[k] && steep[k]) && !unsure(k);
   shaper.open(kept, kCrumbMm);
-  shaper.keep_largest_piece(kept);
+  // A noisy matcher's surface may fall into parts here: what lies between them is laid anew.
+  shaper.drop_pieces_below(kept, std::size_t(kLeastPart * double(std::ranges::count(kept, 1))));
   for (std::size_t k = 0; k < l.size(); ++k)
     if (!kept[k]) surface.cells[k] = 0;
 }
