@@ -30,7 +30,7 @@ class InvitationHead {
   std::optional<pipeline::FaceModel> model_;
 };
 
-// hal/base/shared_files.h, $RELIEVO_ASSET_DIR.
+// Where its files lie: shared_files() of $RELIEVO_ASSET_DIR.
 std::filesystem::path asset_folder();
 
 }  // namespace relievo::firmware

@@ -3,9 +3,8 @@
 //
 // What may stand beside a model's files: a lighter model (light.*), a solid for printing (solid.*). Each
 // leaves a line that says what it is. Errors: those of lighten(), make_solid() and the files, with `place`
-// for what the caller was asked for. A solid takes memory of its own while it
-// is made (budget::kSolidBytes). Thread:
-// any.
+// for what the caller was asked for; Cancelled, of a solid. That takes memory of its own while it is made
+// (budget::kSolidBytes). Thread: any.
 #pragma once
 
 #include <atomic>

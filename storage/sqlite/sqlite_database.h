@@ -79,8 +79,8 @@ class Database {
   std::int64_t last_row_id() const;
   std::int64_t changes() const;
   bool in_transaction() const;
-  // Until the flag's end or `nullptr`: what runs ends with Cancelled soon after the flag is true, long
-  // statements by themselves, loops over rows where they ask.
+  // Soon after the flag is true, what runs ends with Cancelled: a long statement by itself, a loop over rows
+  // where it calls go_on(). The flag is borrowed until stop_at(nullptr).
   void stop_at(const std::atomic<bool>* flag);
   Result<void> go_on() const;
   // Whether closing moves the write-ahead log into the file: off until it is known to be ours.

@@ -63,7 +63,7 @@ Result<void> SqliteStore::set_setting(std::string_view key, std::string_view val
     return Error{Errc::InvalidInput, "a setting needs a short key, and a value of at most a million bytes"}
         .at(key);
   }
-  // Signing in writes one.
+  // Signing in writes one: on a full disk nobody could come in and make room.
   return change_in_reserve([&](WallTime at) -> Result<void> {
     RELIEVO_TRY_ASSIGN(auto settings, read_settings(*database_, *keys_));
     settings.insert_or_assign(std::string(key), std::string(value));
