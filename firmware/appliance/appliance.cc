@@ -117,6 +117,12 @@ void Appliance::step(std::chrono::milliseconds wait) {
   if (const auto report = reports_.take_for(wait)) heard(*report);
   if (awaits_keeper_ != nullptr && !keeper_.busy())
     job_ = start_on(keeper_, *std::exchange(awaits_keeper_, nullptr));
+  // A commit past its limit ends all the same, whole or not at all: the visitor is told which.
+  if (machine_.state() == State::Store && job_ != 0 && machine_.is_over(device_.clock().now())) {
+    keeper_.cancel();
+    keeper_.wait_until_idle();
+    while (const auto report = reports_.take_for(std::chrono::milliseconds(0))) heard(*report);
+  }
   if (const auto change = machine_.tick(device_.clock().now())) {
     if (change->to == State::Idle || change->to == State::Fault) {
       note(Error{Errc::Timeout, "took longer than its limit: try again"}.at(name_of(change->from)));

@@ -75,9 +75,9 @@ void JobThread::serve() {
     {
       const std::lock_guard lock(idle_mutex_);
       busy_.store(false, std::memory_order_release);  // before the report: who hears it may start the next
+      reports_.put(report);                           // in the lock: who waited until it is idle finds it
     }
     idle_.notify_all();
-    reports_.put(report);
   }
 }
 

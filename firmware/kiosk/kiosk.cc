@@ -360,7 +360,7 @@ void Kiosk::turn_once() {
   staff_->turn();
   if (appliance_->state() == State::Idle || appliance_->state() == State::Staff)
     moved_faces_->keep(revision_, {appliance_->moved_in_a_row(), std::string(appliance_->calibration_note())},
-                       staff_->side_tasks(), staff_->log());
+                       staff_->side_tasks(), staff_->log(), view_.now);
   if (told_ && ui_->visit().step != ui::Step::Trouble)
     restarted_ = false;  // told once: it was read, or nobody is there
   look();

@@ -25,10 +25,11 @@ Result<KeptVisit> StoredVisits::keep(const VisitRecord& record, const pipeline::
   const storage::SubjectChoice whose = record.whose ? storage::SubjectChoice(*record.whose)
                                                     : storage::NewSubject{std::string(record.name.view())};
   KeptVisit kept;
-  RELIEVO_TRY_ASSIGN(kept.enrolment, store_.add_enrolment(whose, {model, record.consent, record.calibration,
-                                                                  record.algorithms, json, record.renews}));
-  RELIEVO_TRY_ASSIGN(const storage::Enrolment stored, store_.enrolment(kept.enrolment));
-  RELIEVO_TRY_ASSIGN(const storage::Subject whom, store_.subject(stored.subject));
+  storage::Subject whom;
+  RELIEVO_TRY_ASSIGN(
+      kept.enrolment,
+      store_.add_enrolment(
+          whose, {model, record.consent, record.calibration, record.algorithms, json, record.renews}, &whom));
   std::string receipt = receipt_of(whom);
   kept.receipt = std::string_view(receipt);
   explicit_bzero(receipt.data(), receipt.size());
@@ -75,18 +76,24 @@ Result<MovedFaces::Said> MovedFaces::read(std::uint32_t revision) {
   return kept_;
 }
 
-void MovedFaces::keep(std::uint32_t revision, const Said& said, SideTasks& side_tasks, EventLog& log) {
-  if (revision == revision_ && said == kept_) return;
-  const bool news = said != kept_;  // another calibration of which nothing is said needs no line
+void MovedFaces::keep(std::uint32_t revision, const Said& said, SideTasks& side_tasks, EventLog& log,
+                      hal::Instant now) {
+  const bool changed = revision != revision_ || said != kept_;
+  const bool again = again_ && now >= *again_;
+  if (!changed && !again) return;
+  const bool news = said != kept_ || again;  // another calibration of which nothing is said needs no line
   revision_ = revision;
   kept_ = said;
   if (!news && said == Said{}) return;
+  again_.reset();
   side_tasks.send(
       JobLane::Keeper,
       [this, text = std::to_string(said.faces) + " " + std::to_string(revision) + " " +
                     said.note](JobControl&) { return store_.set_setting(kMovedFacesSetting, text); },
-      [&log](const std::optional<Error>& error) {
-        if (error) log.fault(*error);
+      [this, &log, again, now](const std::optional<Error>& error) {
+        if (!error) return;
+        again_ = now + std::chrono::minutes(1);
+        if (!again) log.fault(*error);
       },
       SideTasks::Whose::Device);
 }

@@ -7,6 +7,7 @@
 
 #include <cstdint>
 #include <filesystem>
+#include <optional>
 #include <string>
 
 #include "firmware/records/event_log.h"
@@ -47,13 +48,15 @@ class MovedFaces {
   };
   // As it was kept of this calibration; nothing: of another. Before any thread uses the store.
   Result<Said> read(std::uint32_t revision);
-  // Once a turn in which nobody waits for the keeper: writes what has changed.
-  void keep(std::uint32_t revision, const Said& said, SideTasks& side_tasks, EventLog& log);
+  // Once a turn in which nobody waits for the keeper: writes what has changed; what could not be written is
+  // tried again every minute.
+  void keep(std::uint32_t revision, const Said& said, SideTasks& side_tasks, EventLog& log, hal::Instant now);
 
  private:
   storage::Store& store_;
   std::uint32_t revision_ = 0;
   Said kept_;
+  std::optional<hal::Instant> again_;  // when what could not be written is tried again
 };
 
 }  // namespace relievo::firmware

@@ -54,9 +54,13 @@ void Machine::renew(hal::Instant now) {
   if (state_ == State::Position || state_ == State::Review || state_ == State::Staff) entered_ = now;
 }
 
-std::optional<Change> Machine::tick(hal::Instant now) {
+bool Machine::is_over(hal::Instant now) const {
   const auto limit = limit_of(state_);
-  if (!limit || now - entered_ < *limit) return std::nullopt;
+  return limit && now - entered_ >= *limit;
+}
+
+std::optional<Change> Machine::tick(hal::Instant now) {
+  if (!is_over(now)) return std::nullopt;
   return handle(Event::Timeout, now);
 }
 

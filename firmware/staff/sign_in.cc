@@ -105,7 +105,8 @@ void SignIn::check(std::string_view pin) {
       [this, tried](const std::optional<Error>& error) {
         checking_ = false;
         if (error) log_.fault(*error);
-        wrong_ = error || tried->attempt.wrong;
+        failed_ = error ? std::optional(error->code) : std::nullopt;
+        wrong_ = tried->attempt.wrong;
         wait_until_ = clock_.now() + tried->attempt.wait;
         entered_ = error ? StaffRole::None : tried->attempt.role;
         if (tried->attempt.wrong) log_.say(ui::LogEvent::WrongPin);
@@ -214,12 +215,19 @@ void SignIn::show(ui::AccessView& view) const {
   const auto minute = std::chrono::floor<std::chrono::minutes>(clock_.wall_now() + clock_moved_);
   if (clock_text_.empty() || minute != clock_text_at_) clock_text_ = text_of(minute);
   clock_text_at_ = minute;
-  view = {set_up_,        demands_set_up_,
-          step_,          fault_,
-          clock_text_,    clock_right_,
-          clock_refused_, checking_,
-          wrong_,         int(std::max<std::int64_t>(0, wait.count())),
-          consent_right_, forgotten_ != StaffRole::None};
+  view = {.set_up = set_up_,
+          .demanded = demands_set_up_,
+          .step = step_,
+          .fault = fault_,
+          .clock = clock_text_,
+          .clock_right = clock_right_,
+          .clock_refused = clock_refused_,
+          .checking = checking_,
+          .wrong = wrong_,
+          .failed = failed_,
+          .wait_s = int(std::max<std::int64_t>(0, wait.count())),
+          .consent_right = consent_right_,
+          .forgotten = forgotten_ != StaffRole::None};
 }
 
 }  // namespace relievo::firmware

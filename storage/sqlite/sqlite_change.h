@@ -26,12 +26,15 @@ auto SqliteStore::change(const Work& work) -> decltype(work(WallTime{})) {
   });
 }
 
-// The way out of a full disk, and into the pages that lead there, may not itself end there.
+// The way out of a full disk, and into the pages that lead there, may not itself end there. What is left of
+// the reserve is set aside again: the next that needs it must find some.
 template <typename Work>
 auto SqliteStore::change_in_reserve(const Work& work) -> decltype(work(WallTime{})) {
   auto done = change(work);
-  if (!done && done.error().code == Errc::MediaFull && give_up_reserve(database_->file().parent_path()))
-    done = change(work);
+  const std::filesystem::path home = database_->file().parent_path();
+  if (done || done.error().code != Errc::MediaFull || !give_up_reserve(home)) return done;
+  done = change(work);
+  set_aside_reserve(home, reserve_bytes_);
   return done;
 }
 

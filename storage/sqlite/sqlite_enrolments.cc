@@ -80,7 +80,8 @@ Result<EnrolmentId> SqliteStore::insert_enrolment(SubjectId subject, const NewEn
   return id;
 }
 
-Result<EnrolmentId> SqliteStore::add_enrolment(const SubjectChoice& subject, const NewEnrolment& enrolment) {
+Result<EnrolmentId> SqliteStore::add_enrolment(const SubjectChoice& choice, const NewEnrolment& enrolment,
+                                               Subject* whose) {
   return without_exceptions(database_->where(), [&]() -> Result<EnrolmentId> {
     RELIEVO_TRY(check_texts(enrolment));
     RELIEVO_TRY_ASSIGN(const auto blob, encode_model(enrolment.model));
@@ -92,10 +93,13 @@ Result<EnrolmentId> SqliteStore::add_enrolment(const SubjectChoice& subject, con
         if (!row)
           return not_found("there is no calibration of this revision", enrolment.calibration_revision);
       }
-      RELIEVO_TRY_ASSIGN(const SubjectId id, resolve(subject, at));
+      RELIEVO_TRY_ASSIGN(const SubjectId id, resolve(choice, at));
       if (enrolment.renews) RELIEVO_TRY(renew_key(id));
       RELIEVO_TRY_ASSIGN(const EnrolmentId made, insert_enrolment(id, enrolment, blob, at, at));
       if (enrolment.renews) RELIEVO_TRY(erase_others(id, made, at));
+      if (whose != nullptr) {
+        RELIEVO_TRY_ASSIGN(*whose, subject(id));
+      }
       return made;
     });
     // It is stored, whoever still reads the log: the next change or opening empties that.

@@ -88,7 +88,7 @@ void set_aside_reserve(const fs::path& dir, std::int64_t bytes) {
     ::close(fd);
     return;
   }
-  while (bytes >= kTooSmall && ::posix_fallocate(fd, 0, bytes) != 0) bytes /= 2;
+  while (bytes >= kTooSmall && ::posix_fallocate(fd, 0, bytes) != 0) bytes -= bytes / 32;
   ::close(fd);
   if (bytes < kTooSmall) ::unlink(file.c_str());
 }

@@ -26,6 +26,8 @@ class TestRecords final : public VisitRecords {
       return Error{code, "as the test says"};
     }
     kept_ += record.name.view();
+    keeping = true;
+    while (held.load()) std::this_thread::sleep_for(std::chrono::milliseconds(1));
     KeptVisit visit;
     visit.receipt = std::string_view("receipt");
     return visit;
@@ -36,7 +38,7 @@ class TestRecords final : public VisitRecords {
     return known;
   }
   std::string asked;
-  std::atomic<bool> held{false};
+  std::atomic<bool> held{false}, keeping{false};
 
  private:
   std::string& kept_;

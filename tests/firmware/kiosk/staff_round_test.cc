@@ -6,6 +6,7 @@
 #include "firmware/records/event_log.h"
 #include "firmware/service/access.h"
 #include "tests/firmware/kiosk/staff_hands.h"
+#include "tests/support/faulty_store.h"
 #include "ui/view/staff_views.h"
 
 namespace relievo::firmware {
@@ -169,6 +170,41 @@ TEST_F(StaffRoundTest, AWrongPinOpensNothingAndIsCountedOverARestart) {
   ASSERT_TRUE(store.has_value());
   const std::string kept = *(*store)->setting(kAccessSetting);
   EXPECT_NE(kept.find(" 1 "), std::string::npos) << kept;
+}
+
+// A store whose settings cannot be written, as a read-only disk's.
+class LockedStore final : public test::FaultyStore {
+ public:
+  LockedStore(std::unique_ptr<storage::Store> real, const std::atomic<std::optional<Errc>>& error)
+      : FaultyStore(std::move(real), error), locked_(error) {}
+  Result<void> set_setting(std::string_view key, std::string_view value) override {
+    if (const auto error = locked_.load()) return Error{*error, "as the test says"};
+    return FaultyStore::set_setting(key, value);
+  }
+
+ private:
+  const std::atomic<std::optional<Errc>>& locked_;
+};
+
+TEST_F(StaffRoundTest, APinThatCannotBeLookedAtIsNotCalledWrong) {
+  std::atomic<std::optional<Errc>> error;
+  services.open_store = [&](const Path& at, bool) -> Result<std::unique_ptr<storage::Store>> {
+    RELIEVO_TRY_ASSIGN(auto real, storage::open_sqlite_store(at, wall(), {}));
+    return std::unique_ptr<storage::Store>(std::make_unique<LockedStore>(std::move(real), error));
+  };
+  start();
+  first_start();
+  error = Errc::IoFailed;
+  type_pin("1999");
+  ASSERT_TRUE(until([this] { return kiosk->view().service->access.failed.has_value(); }));
+  EXPECT_EQ(kiosk->view().service->access.failed, Errc::IoFailed);
+  EXPECT_FALSE(kiosk->view().service->access.wrong);
+  EXPECT_TRUE(says("Reading or writing failed"));
+  error = std::nullopt;
+  type_pin("1999");
+  EXPECT_FALSE(kiosk->view().service->access.failed);
+  EXPECT_TRUE(kiosk->view().service->access.wrong);
+  kiosk.reset();
 }
 
 TEST_F(StaffRoundTest, TheLogSpeaksTheReadersLanguageAlsoOfWhatWasNotedBeforeARestart) {

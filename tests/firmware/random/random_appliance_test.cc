@@ -221,12 +221,19 @@ class RandomAppliance : public testing::Test {
       default: appliance.end_side_job(lane);
     }
   }
+  // A moment for the threads; now and then a long one, so that slow sanitizers' walks come as far as others.
+  void let_work() {
+    const bool works =
+        in == State::SelfTest || (in >= State::Capture && in <= State::Fuse) || in == State::Store;
+    if (works && events.one_in(4)) return appliance.step(milliseconds(5));
+    std::this_thread::yield();
+  }
   void event() {
     const int kind = events.of(100);
     if (kind < 45) return ask();
     if (kind < 49) return let_in();
     if (kind < 72) {  // and else only time goes by for the threads
-      if (kind >= 56) return std::this_thread::yield();
+      if (kind >= 56) return let_work();
       const int jump_s = events.one_in(10) ? events.of(700) : events.of(4);
       events.note("time " + std::to_string(jump_s));
       world.ahead_s += jump_s;

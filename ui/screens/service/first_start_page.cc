@@ -7,6 +7,7 @@
 #include <cstdio>
 
 #include "ui/screens/parts/keyboard.h"
+#include "ui/screens/service/fault_words.h"
 #include "ui/screens/service/staff_pages.h"
 #include "ui/view/staff_views.h"
 
@@ -61,6 +62,7 @@ PinWords words_of(StaffFrame& page) {
                                        static_cast<unsigned long>(access.wait_s));
     return {nullptr, page.filled(words, text), Mood::Bad};
   }
+  if (access.failed) return {nullptr, words_of(page.tr, *access.failed), Mood::Bad};
   return {page.tr("Type your PIN, then touch the tick."),
           access.wrong ? std::string_view(page.tr("That was not right.")) : std::string_view(), Mood::Bad};
 }
