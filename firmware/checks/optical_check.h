@@ -78,8 +78,8 @@ inline constexpr double kRimMm = 3;
 struct AcceptanceLimits {  // mm; what may not be exceeded, either sign
   double form_mm = 0, size_mm = 0, spacing_mm = 0, flatness_mm = 0;
 };
-// For pictures `scale` (0.5 to 1) times 1920 x 1200: a pixel of smaller ones covers more. README.md
-// says where the numbers come from.
+// For pictures `scale` (0.5 to 1) times 1920 x 1200: a pixel of smaller ones covers more.
+// firmware/FIGURES.md says where the numbers come from.
 AcceptanceLimits limits_at(double scale);
 
 struct TargetReading {

@@ -7,7 +7,7 @@
 // brow leans before the cheeks beside the nose by what is usual; both are windows that cameras see however
 // the head turns, filled from the other side where one is hidden. The tip is that of a robust paraboloid.
 // Repeatable, of heads that turn by 25 and nod by 15 degrees, to 0.53 mm and 0.56 degrees at 1920 x 1200 (the
-// worst of 80 pairs), to 0.85 and 0.77 at half of that (tests/bench/frame_repeatability). No axis of the
+// worst of 80 pairs), to 1.3 and 0.7 at half of that (tests/bench/frame_repeatability). No axis of the
 // camera enters but as a first guess. Memory: scratch only. Errors: PoorGeometry (too little surface, or no
 // symmetry in it), Cancelled; throws std::bad_alloc as every stage does. Thread: any.
 #pragma once

@@ -2,7 +2,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 //
 // What each fault does to the appliance in each of its states, as one table. fault_walk_test.cc walks it cell
-// by cell through the real kiosk; firmware/README.md has it as fault_table_test.cc prints it.
+// by cell through the real kiosk; firmware/FAULTS.md has it as fault_table_test.cc prints it.
 //
 // A cell says where the appliance is when all that ran has ended and nobody has touched the screen: in a
 // state, at its end (exit code 0), or ended by its sentinel to be started anew.

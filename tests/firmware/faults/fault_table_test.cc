@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: 2026 The Relievo authors
 // SPDX-License-Identifier: GPL-3.0-or-later
 //
-// Prints the table of faults and compares it with firmware/README.md. RELIEVO_RENEW_GOLDENS=1 writes it
+// Prints the table of faults and compares it with firmware/FAULTS.md. RELIEVO_RENEW_GOLDENS=1 writes it
 // there.
 #include "tests/firmware/faults/fault_table.h"
 
@@ -80,20 +80,20 @@ std::string table() {
   return text;
 }
 
-TEST(FaultTable, StandsInTheReadmeAsItIs) {
-  const std::filesystem::path file = std::filesystem::path(RELIEVO_SOURCE_DIR) / "firmware/README.md";
+TEST(FaultTable, StandsInItsPageAsItIs) {
+  const std::filesystem::path file = std::filesystem::path(RELIEVO_SOURCE_DIR) / "firmware/FAULTS.md";
   std::ifstream in(file);
-  std::string readme(std::istreambuf_iterator<char>(in), {});
+  std::string page(std::istreambuf_iterator<char>(in), {});
   const std::string head = "| what happens |";
-  const std::size_t begin = readme.find(head), end = readme.find("\n\n", begin);
+  const std::size_t begin = page.find(head), end = page.find("\n\n", begin);
   ASSERT_NE(begin, std::string::npos);
   ASSERT_NE(end, std::string::npos);
   if (const char* renew = std::getenv("RELIEVO_RENEW_GOLDENS"); renew != nullptr) {
-    readme.replace(begin, end + 1 - begin, table());
-    std::ofstream(file) << readme;
+    page.replace(begin, end + 1 - begin, table());
+    std::ofstream(file) << page;
     return;
   }
-  EXPECT_EQ(readme.substr(begin, end + 1 - begin), table()) << "RELIEVO_RENEW_GOLDENS=1 writes it anew";
+  EXPECT_EQ(page.substr(begin, end + 1 - begin), table()) << "RELIEVO_RENEW_GOLDENS=1 writes it anew";
 }
 
 }  // namespace
