@@ -44,9 +44,13 @@ constexpr std::string_view kDeviceFile = "/etc/relievo/board.toml";
 // "linux", or "linux:FILE" with another file that says what is wired where.
 Result<std::unique_ptr<hal::Device>> open_linux_device(std::string_view device) {
   const bool named = device.size() > kLinux.size();
-  RELIEVO_TRY_ASSIGN(const auto options,
-                     hal::read_linux_device_file(named ? device.substr(kLinux.size() + 1) : kDeviceFile));
-  return hal::make_linux_device(options);
+  const auto options = hal::read_linux_device_file(named ? device.substr(kLinux.size() + 1) : kDeviceFile);
+  if (!options && !named && options.error().code == Errc::NotFound)
+    return Error{Errc::NotFound,
+                 "says what is wired where, and is not there: write it, as hal/linux/README.md says"}
+        .at(kDeviceFile);
+  if (!options) return options.error();
+  return hal::make_linux_device(*options);
 }
 
 Result<std::unique_ptr<hal::Device>> open_device(std::string_view device) {

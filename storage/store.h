@@ -56,10 +56,10 @@ class Store {
   // NotFound: no such subject or calibration. InvalidInput: the model does not hang together.
   // One that renews also removes the traces of those before, as erase_subject() does; while another program
   // reads the store they stay in its log until the next change or opening.
-  // `whose`: is told to whom it belongs, if not null, in the same change: a person whose code cannot be told
-  // has nothing stored.
+  // `owner`, if not null, gets the subject it was stored for, read in the same transaction: if that fails,
+  // nothing is stored. Not specified on error.
   virtual Result<EnrolmentId> add_enrolment(const SubjectChoice& subject, const NewEnrolment& enrolment,
-                                            Subject* whose = nullptr) = 0;
+                                            Subject* owner = nullptr) = 0;
   virtual Result<std::vector<Enrolment>> enrolments(SubjectId subject) = 0;  // oldest first
   virtual Result<Enrolment> enrolment(EnrolmentId id) = 0;                   // NotFound
   // The model, bit for bit as it was stored, in `memory`. NotFound.

@@ -117,13 +117,9 @@ void Appliance::step(std::chrono::milliseconds wait) {
   if (const auto report = reports_.take_for(wait)) heard(*report);
   if (awaits_keeper_ != nullptr && !keeper_.busy())
     job_ = start_on(keeper_, *std::exchange(awaits_keeper_, nullptr));
-  // A commit past its limit ends all the same, whole or not at all: the visitor is told which.
-  if (machine_.state() == State::Store && job_ != 0 && machine_.is_over(device_.clock().now())) {
-    keeper_.cancel();
-    keeper_.wait_until_idle();
-    while (const auto report = reports_.take_for(std::chrono::milliseconds(0))) heard(*report);
-  }
-  if (const auto change = machine_.tick(device_.clock().now())) {
+  const hal::Instant now = device_.clock().now();
+  if (machine_.limit_reached(now)) await_commit();
+  if (const auto change = machine_.tick(now)) {
     if (change->to == State::Idle || change->to == State::Fault) {
       note(Error{Errc::Timeout, "took longer than its limit: try again"}.at(name_of(change->from)));
     }
@@ -260,6 +256,15 @@ void Appliance::start_on_keeper(Job& job) {
   awaits_keeper_ = &job;
   if (keeper_.busy()) keeper_.cancel();
   else job_ = start_on(keeper_, *std::exchange(awaits_keeper_, nullptr));
+}
+
+// What has begun to be stored is stored whole or not at all: the visitor is told which, whatever would end
+// the state.
+void Appliance::await_commit() {
+  if (machine_.state() != State::Store || job_ == 0) return;
+  keeper_.cancel();
+  keeper_.wait_until_idle();
+  while (const auto report = reports_.take_for(std::chrono::milliseconds(0))) heard(*report);
 }
 
 void Appliance::stop_job() {

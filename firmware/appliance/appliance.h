@@ -122,6 +122,7 @@ class Appliance {
   void start(JobThread& thread, Job& job);
   void start_on_keeper(Job& job);
   JobId start_on(JobThread& thread, Job& job);
+  void await_commit();
   void stop_job();
   void stop_head();
   JobThread& thread_at(JobLane lane);

@@ -18,6 +18,8 @@ void Appliance::look_at_progress() {
 std::size_t Appliance::parts_done() const { return head_.parts_done(); }
 
 void Appliance::give_up(const Error& error) {
+  await_commit();
+  if (!session_.is_open()) return;  // it was stored
   note(error);
   handle(Event::Failed);
 }

@@ -2,8 +2,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "firmware/kiosk/stored_visits.h"
 
-#include <string.h>
-
+#include <new>
 #include <sstream>
 #include <string>
 
@@ -25,15 +24,17 @@ Result<KeptVisit> StoredVisits::keep(const VisitRecord& record, const pipeline::
   const storage::SubjectChoice whose = record.whose ? storage::SubjectChoice(*record.whose)
                                                     : storage::NewSubject{std::string(record.name.view())};
   KeptVisit kept;
-  storage::Subject whom;
-  RELIEVO_TRY_ASSIGN(
-      kept.enrolment,
-      store_.add_enrolment(
-          whose, {model, record.consent, record.calibration, record.algorithms, json, record.renews}, &whom));
-  std::string receipt = receipt_of(whom);
-  kept.receipt = std::string_view(receipt);
-  explicit_bzero(receipt.data(), receipt.size());
-  if (const auto link = link_number_of(store_, whom)) kept.link = std::string_view(*link);
+  storage::Subject owner;
+  RELIEVO_TRY_ASSIGN(kept.enrolment, store_.add_enrolment(whose,
+                                                          {model, record.consent, record.calibration,
+                                                           record.algorithms, json, record.renews},
+                                                          &owner));
+  // It is stored: nothing from here on may fail, or its person would be told that it is not.
+  kept.receipt = short_receipt_of(owner);
+  try {
+    if (const auto link = link_number_of(store_, owner)) kept.link = std::string_view(*link);
+  } catch (const std::bad_alloc&) {  // the code alone, then
+  }
   return kept;
 }
 
@@ -79,20 +80,20 @@ Result<MovedFaces::Said> MovedFaces::read(std::uint32_t revision) {
 void MovedFaces::keep(std::uint32_t revision, const Said& said, SideTasks& side_tasks, EventLog& log,
                       hal::Instant now) {
   const bool changed = revision != revision_ || said != kept_;
-  const bool again = again_ && now >= *again_;
+  const bool again = retry_at_ && now >= *retry_at_;
   if (!changed && !again) return;
   const bool news = said != kept_ || again;  // another calibration of which nothing is said needs no line
   revision_ = revision;
   kept_ = said;
   if (!news && said == Said{}) return;
-  again_.reset();
+  retry_at_.reset();
   side_tasks.send(
       JobLane::Keeper,
       [this, text = std::to_string(said.faces) + " " + std::to_string(revision) + " " +
                     said.note](JobControl&) { return store_.set_setting(kMovedFacesSetting, text); },
       [this, &log, again, now](const std::optional<Error>& error) {
         if (!error) return;
-        again_ = now + std::chrono::minutes(1);
+        retry_at_ = now + std::chrono::minutes(1);
         if (!again) log.fault(*error);
       },
       SideTasks::Whose::Device);

@@ -56,7 +56,7 @@ class MovedFaces {
   storage::Store& store_;
   std::uint32_t revision_ = 0;
   Said kept_;
-  std::optional<hal::Instant> again_;  // when what could not be written is tried again
+  std::optional<hal::Instant> retry_at_;  // when what could not be written is tried again
 };
 
 }  // namespace relievo::firmware

@@ -54,13 +54,13 @@ void Machine::renew(hal::Instant now) {
   if (state_ == State::Position || state_ == State::Review || state_ == State::Staff) entered_ = now;
 }
 
-bool Machine::is_over(hal::Instant now) const {
+bool Machine::limit_reached(hal::Instant now) const {
   const auto limit = limit_of(state_);
   return limit && now - entered_ >= *limit;
 }
 
 std::optional<Change> Machine::tick(hal::Instant now) {
-  if (!is_over(now)) return std::nullopt;
+  if (!limit_reached(now)) return std::nullopt;
   return handle(Event::Timeout, now);
 }
 

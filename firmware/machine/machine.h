@@ -292,7 +292,7 @@ class Machine {
   void renew(hal::Instant now);
   // Handles Timeout when the state's time is over.
   std::optional<Change> tick(hal::Instant now);
-  bool is_over(hal::Instant now) const;  // the state's limit: the next tick leaves it
+  bool limit_reached(hal::Instant now) const;  // of the state: a tick leaves it
 
  private:
   State state_ = State::SelfTest;

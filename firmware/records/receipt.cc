@@ -42,12 +42,19 @@ std::optional<std::int64_t> read(std::string_view code) {
 
 }  // namespace
 
-std::string receipt_of(const storage::Subject& subject) {
+ShortWipedText<24> short_receipt_of(const storage::Subject& subject) {
   char text[40];
   const auto part = [&](std::int64_t unit) { return int(subject.receipt / unit % 10'000); };
   std::snprintf(text, sizeof text, "%04d-%04d-%04d-%02d", part(100'000'000), part(10'000), part(1),
                 check_digits(subject.receipt));
-  return text;
+  ShortWipedText<24> receipt;
+  receipt = std::string_view(text);
+  explicit_bzero(text, sizeof text);
+  return receipt;
+}
+
+std::string receipt_of(const storage::Subject& subject) {
+  return std::string(short_receipt_of(subject).view());
 }
 
 // A signature is a function that needs the store's secret key. A hash alone would be undone by trying all

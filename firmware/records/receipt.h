@@ -9,11 +9,13 @@
 #include <string>
 #include <string_view>
 
+#include "hal/base/wiped_text.h"
 #include "storage/store.h"
 
 namespace relievo::firmware {
 
 std::string receipt_of(const storage::Subject& subject);
+ShortWipedText<24> short_receipt_of(const storage::Subject& subject);  // the same, without the heap
 
 // A number for the same person that whoever offers their portrait may know: nobody but this store can make it
 // of the code, or the code of it. 32 hexadecimal digits, the same at every time. Thread: the keeper. Errors:

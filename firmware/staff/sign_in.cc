@@ -44,6 +44,7 @@ Result<void> SignIn::look() {
 void SignIn::opened(StaffPage page) {
   forget();
   wrong_ = clock_right_ = clock_refused_ = consent_right_ = false;
+  failed_.reset();
   if (page == StaffPage::FirstStart) consent_.opened();
   clock_moved_ = std::chrono::minutes(0);
   fault_ = PinFault::None;
@@ -119,6 +120,7 @@ void SignIn::check(std::string_view pin) {
 // The first time a PIN is judged, the second time it is compared.
 void SignIn::offer(std::string_view pin, StaffRole role) {
   fault_ = PinFault::None;
+  failed_.reset();
   switch (step_) {
     case PinStep::Technician: return judge(std::string(pin), StaffRole::Technician, PinStep::TechnicianAgain);
     case PinStep::Operator:
@@ -179,8 +181,9 @@ void SignIn::judge(std::string pin, StaffRole role, PinStep next) {
 
 void SignIn::refuse(const Error& error, PinStep again) {
   step_ = again;
-  fault_ = error.code == Errc::InvalidState ? PinFault::Taken : PinFault::Simple;
-  if (error.code != Errc::InvalidState && error.code != Errc::InvalidInput) log_.fault(error);
+  if (error.code == Errc::InvalidState) fault_ = PinFault::Taken;
+  else if (error.code == Errc::InvalidInput) fault_ = PinFault::Simple;
+  else failed_ = error.code, log_.fault(error);
 }
 
 // A PIN is kept by the keeper and known to nobody then. One of the two that was forgotten is chosen alone; a

@@ -68,7 +68,7 @@ class SignIn {
   ConsentTextStore& consent_;
   Access access_;
   const bool demands_set_up_;
-  std::optional<Errc> failed_;  // why the last PIN could not be looked at
+  std::optional<Errc> failed_;  // why the last PIN could not be checked or kept
   bool set_up_ = false, checking_ = false, wrong_ = false, clock_right_ = false, clock_refused_ = false,
        consent_right_ = false;
   ui::StaffRole forgotten_ = ui::StaffRole::None;  // whose PIN is to be chosen anew

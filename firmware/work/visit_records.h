@@ -37,10 +37,11 @@ struct VisitRecord {
   std::optional<pipeline::DriftJudgement> drift;
 };
 
+// In place: on its way to the person nothing can fail any more.
 struct KeptVisit {
   storage::EnrolmentId enrolment{};
-  WipedText receipt;  // for the person's erasure
-  WipedText link;     // for where the operator offers their portrait; erases nothing
+  ShortWipedText<24> receipt;  // for the person's erasure
+  ShortWipedText<32> link;     // for where the operator offers their portrait; erases nothing
 };
 
 // Is there a record of this name, or of this code?

@@ -3,7 +3,7 @@
 //
 // WipedText: a name or a code that leaves no copy of itself in memory when it goes or is replaced. It is
 // never moved, only copied: a moved short string stays where it was. Thread: one at a time. Throws
-// std::bad_alloc.
+// std::bad_alloc. ShortWipedText: the same of at most N bytes, in place, so that no copy of it can fail.
 #pragma once
 
 #include <string.h>
@@ -50,6 +50,32 @@ class WipedText {
 
  private:
   std::string text_;
+};
+
+template <std::size_t N>
+class ShortWipedText {
+ public:
+  ShortWipedText() = default;
+  ShortWipedText(const ShortWipedText&) = default;
+  ShortWipedText& operator=(const ShortWipedText&) = default;
+  // What is longer than N is cut.
+  ShortWipedText& operator=(std::string_view text) {
+    wipe();
+    length_ = text.copy(bytes_.data(), N);
+    return *this;
+  }
+  ~ShortWipedText() { wipe(); }
+
+  std::string_view view() const { return {bytes_.data(), length_}; }
+  bool empty() const { return length_ == 0; }
+  void wipe() {
+    explicit_bzero(bytes_.data(), N);
+    length_ = 0;
+  }
+
+ private:
+  std::array<char, N> bytes_{};
+  std::size_t length_ = 0;
 };
 
 }  // namespace relievo

@@ -26,15 +26,12 @@ auto SqliteStore::change(const Work& work) -> decltype(work(WallTime{})) {
   });
 }
 
-// The way out of a full disk, and into the pages that lead there, may not itself end there. What is left of
-// the reserve is set aside again: the next that needs it must find some.
+// The way out of a full disk, and into the pages that lead there, may not itself end there. Who calls
+// it sets the reserve aside again afterwards.
 template <typename Work>
 auto SqliteStore::change_in_reserve(const Work& work) -> decltype(work(WallTime{})) {
   auto done = change(work);
-  const std::filesystem::path home = database_->file().parent_path();
-  if (done || done.error().code != Errc::MediaFull || !give_up_reserve(home)) return done;
-  done = change(work);
-  set_aside_reserve(home, reserve_bytes_);
+  if (!done && done.error().code == Errc::MediaFull && give_up_reserve(home_)) done = change(work);
   return done;
 }
 

@@ -81,7 +81,7 @@ Result<EnrolmentId> SqliteStore::insert_enrolment(SubjectId subject, const NewEn
 }
 
 Result<EnrolmentId> SqliteStore::add_enrolment(const SubjectChoice& choice, const NewEnrolment& enrolment,
-                                               Subject* whose) {
+                                               Subject* owner) {
   return without_exceptions(database_->where(), [&]() -> Result<EnrolmentId> {
     RELIEVO_TRY(check_texts(enrolment));
     RELIEVO_TRY_ASSIGN(const auto blob, encode_model(enrolment.model));
@@ -97,8 +97,8 @@ Result<EnrolmentId> SqliteStore::add_enrolment(const SubjectChoice& choice, cons
       if (enrolment.renews) RELIEVO_TRY(renew_key(id));
       RELIEVO_TRY_ASSIGN(const EnrolmentId made, insert_enrolment(id, enrolment, blob, at, at));
       if (enrolment.renews) RELIEVO_TRY(erase_others(id, made, at));
-      if (whose != nullptr) {
-        RELIEVO_TRY_ASSIGN(*whose, subject(id));
+      if (owner != nullptr) {
+        RELIEVO_TRY_ASSIGN(*owner, subject(id));
       }
       return made;
     });

@@ -64,7 +64,7 @@ Result<void> SqliteStore::set_setting(std::string_view key, std::string_view val
         .at(key);
   }
   // Signing in writes one: on a full disk nobody could come in and make room.
-  return change_in_reserve([&](WallTime at) -> Result<void> {
+  const Result<void> done = change_in_reserve([&](WallTime at) -> Result<void> {
     RELIEVO_TRY_ASSIGN(auto settings, read_settings(*database_, *keys_));
     settings.insert_or_assign(std::string(key), std::string(value));
     // The key only: a value may be a secret.
@@ -73,6 +73,8 @@ Result<void> SqliteStore::set_setting(std::string_view key, std::string_view val
         append_audit_line(*database_, *keys_, {std::string(kSettingChanged), {}, std::string(key)}, at));
     return write_settings(*database_, *keys_, settings, line);
   });
+  if (done) set_aside_reserve(home_, reserve_bytes_);
+  return done;
 }
 
 }  // namespace relievo::storage

@@ -62,6 +62,7 @@ class SqliteStore final : public Store {
         keys_(std::move(keys)),
         clock_(clock),
         mode_(options.mode),
+        home_(database_->file().parent_path()),
         reserve_bytes_(options.reserve_bytes),
         draw_receipt_(options.draw_receipt) {}
 
@@ -82,7 +83,7 @@ class SqliteStore final : public Store {
   Result<void> for_each_subject(Opened opened, const Visit& visit) override;
   Result<void> erase_subject(SubjectId id) override;
   Result<EnrolmentId> add_enrolment(const SubjectChoice& subject, const NewEnrolment& enrolment,
-                                    Subject* whose = nullptr) override;
+                                    Subject* owner = nullptr) override;
   Result<std::vector<Enrolment>> enrolments(SubjectId subject) override;
   Result<Enrolment> enrolment(EnrolmentId id) override;
   Result<pipeline::FaceModel> load_model(EnrolmentId id, std::pmr::memory_resource* memory) override;
@@ -144,6 +145,7 @@ class SqliteStore final : public Store {
   std::unique_ptr<StoreKeys> keys_;
   const hal::Clock& clock_;
   OpenMode mode_;
+  std::filesystem::path home_;  // the store's directory
   std::int64_t reserve_bytes_;
   std::int64_t (*draw_receipt_)();
 };

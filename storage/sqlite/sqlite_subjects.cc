@@ -170,7 +170,7 @@ Result<Subject> SqliteStore::subject(SubjectId id) {
 // Two steps: the key, which is small and makes all else unreadable for ever; then the room it took. Where the
 // second is cut off, opening the store makes up for it (sqlite_erasure.h).
 Result<void> SqliteStore::erase_subject(SubjectId id) {
-  return without_exceptions(database_->where(), [&]() -> Result<void> {
+  const Result<void> erased = without_exceptions(database_->where(), [&]() -> Result<void> {
     RELIEVO_TRY(subject_must_exist(id));
     if (mode_ == OpenMode::ReadWrite) RELIEVO_TRY(remove_old_copies(database_->file()));
     if (mode_ == OpenMode::ReadWrite) RELIEVO_TRY(remember_erased(*database_, *keys_, id));
@@ -186,6 +186,8 @@ Result<void> SqliteStore::erase_subject(SubjectId id) {
           .at(database_->where());
     return empty_the_log(*database_);
   });
+  if (mode_ == OpenMode::ReadWrite) set_aside_reserve(home_, reserve_bytes_);
+  return erased;
 }
 
 // SqliteStore: people who go from one store to another.

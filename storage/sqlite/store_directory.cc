@@ -77,7 +77,7 @@ Result<void> make_private_file(const fs::path& file) {
   return {};
 }
 
-void set_aside_reserve(const fs::path& dir, std::int64_t bytes) {
+void set_aside_reserve(const fs::path& dir, std::int64_t bytes) noexcept try {
   constexpr std::int64_t kTooSmall = 65'536;
   const fs::path file = dir / "relievo.reserve";
   const int fd = ::open(file.c_str(), O_CREAT | O_WRONLY | O_CLOEXEC | O_NOFOLLOW, 0600);
@@ -88,9 +88,12 @@ void set_aside_reserve(const fs::path& dir, std::int64_t bytes) {
     ::close(fd);
     return;
   }
-  while (bytes >= kTooSmall && ::posix_fallocate(fd, 0, bytes) != 0) bytes -= bytes / 32;
+  // ext4 keeps what it got before there was no more room.
+  while (bytes >= kTooSmall && ::posix_fallocate(fd, 0, bytes) != 0 && ::ftruncate(fd, 0) == 0)
+    bytes -= bytes / 32;
   ::close(fd);
   if (bytes < kTooSmall) ::unlink(file.c_str());
+} catch (const std::bad_alloc&) {  // the next time
 }
 
 bool give_up_reserve(const fs::path& dir) { return ::unlink((dir / "relievo.reserve").c_str()) == 0; }

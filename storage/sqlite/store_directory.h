@@ -35,8 +35,9 @@ Result<void> make_store_directory(const std::filesystem::path& dir);
 // take over the file's mode.
 Result<void> make_private_file(const std::filesystem::path& file);
 
-// As much of `bytes` as there is room for, unless it is there. Never an error: it is a precaution.
-void set_aside_reserve(const std::filesystem::path& dir, std::int64_t bytes);
+// As much of `bytes` as there is room for, unless it is there. Never an error, nor an exception: it is a
+// precaution.
+void set_aside_reserve(const std::filesystem::path& dir, std::int64_t bytes) noexcept;
 bool give_up_reserve(const std::filesystem::path& dir);  // false: there was none
 
 }  // namespace relievo::storage

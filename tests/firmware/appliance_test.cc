@@ -67,24 +67,33 @@ TEST_F(ApplianceTest, CancelStopsTheStageUnderWayAndForgets) {
   EXPECT_TRUE(reach(State::Review));
 }
 
-// A disk may take longer than the state's limit: what was committed has a code, which its person needs.
-TEST_F(ApplianceTest, WhatIsStoredTooLateIsStoredAllTheSame) {
-  ASSERT_TRUE(reach(State::Idle));
-  appliance.ask(ui::Intent::Begin);
-  ASSERT_TRUE(reach(State::Review));
-  records.held = true;
-  appliance.ask(ui::Intent::Accept);
-  while (!records.keeping) appliance.step(milliseconds(1));
-  world.ahead_s = budget::kStoreLimit / std::chrono::seconds(1) + 1;
-  std::thread disk([this] {
-    std::this_thread::sleep_for(milliseconds(50));
-    records.held = false;
-  });
-  appliance.step(milliseconds(1));
-  disk.join();
-  EXPECT_EQ(appliance.state(), State::Idle) << "not Fault";
-  EXPECT_EQ(appliance.kept().receipt.view(), "receipt");
-  EXPECT_FALSE(appliance.problem());
+// What was committed has a code, which its person needs: also where the disk takes longer than the state's
+// limit, or memory ends meanwhile.
+TEST_F(ApplianceTest, WhatIsBeingStoredIsStoredWhateverHappensMeanwhile) {
+  for (const bool late : {true, false}) {
+    ASSERT_TRUE(reach(State::Idle));
+    appliance.forget_kept();
+    appliance.ask(ui::Intent::Begin);
+    ASSERT_TRUE(reach(State::Review));
+    records.held = true;
+    records.keeping = false;
+    appliance.ask(ui::Intent::Accept);
+    while (!records.keeping) appliance.step(milliseconds(1));
+    std::thread disk([this] {
+      std::this_thread::sleep_for(milliseconds(50));
+      records.held = false;
+    });
+    if (late) {
+      world.ahead_s = budget::kStoreLimit / std::chrono::seconds(1) + 1;
+      appliance.step(milliseconds(1));
+    } else {
+      appliance.give_up({Errc::OutOfMemory, "as the test says"});
+    }
+    disk.join();
+    EXPECT_EQ(appliance.state(), State::Idle) << "not Fault";
+    EXPECT_EQ(appliance.kept().receipt.view(), "receipt");
+    EXPECT_FALSE(appliance.problem());
+  }
 }
 
 TEST_F(ApplianceTest, CancelAtReviewStoresNothing) {

@@ -35,9 +35,9 @@ class FaultyStore : public storage::Store {
   Result<void> for_each_subject(Opened o, const Visit& v) override { return real_->for_each_subject(o, v); }
   Result<void> erase_subject(storage::SubjectId id) override { return real_->erase_subject(id); }
   Result<storage::EnrolmentId> add_enrolment(const storage::SubjectChoice& s, const storage::NewEnrolment& e,
-                                             storage::Subject* whose = nullptr) override {
+                                             storage::Subject* owner = nullptr) override {
     if (const auto error = error_.load()) return Error{*error, "as the test says"};
-    return real_->add_enrolment(s, e, whose);
+    return real_->add_enrolment(s, e, owner);
   }
   Result<std::vector<storage::Enrolment>> enrolments(storage::SubjectId s) override {
     return real_->enrolments(s);

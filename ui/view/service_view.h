@@ -91,7 +91,7 @@ struct AccessView {
   bool clock_refused = false;  // the system does not let this program set its clock
   bool checking = false;
   bool wrong = false;          // the last one was
-  std::optional<Errc> failed;  // it could not be looked at
+  std::optional<Errc> failed;  // why the last one could not be checked or kept
   int wait_s = 0;              // until the next try
   bool consent_right = false;  // somebody has seen which consent text is in force, and goes on with it
   bool forgotten = false;      // not set up, because one of the two is to be chosen anew

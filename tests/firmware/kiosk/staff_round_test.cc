@@ -186,25 +186,47 @@ class LockedStore final : public test::FaultyStore {
   const std::atomic<std::optional<Errc>>& locked_;
 };
 
-TEST_F(StaffRoundTest, APinThatCannotBeLookedAtIsNotCalledWrong) {
+class LockedStoreTest : public StaffRoundTest {
+ protected:
+  LockedStoreTest() {
+    services.open_store = [this](const Path& at, bool) -> Result<std::unique_ptr<storage::Store>> {
+      RELIEVO_TRY_ASSIGN(auto real, storage::open_sqlite_store(at, wall(), {}));
+      return std::unique_ptr<storage::Store>(std::make_unique<LockedStore>(std::move(real), error));
+    };
+  }
+  void TearDown() override { kiosk.reset(); }  // its store reads the error
+  const ui::AccessView& access() const { return kiosk->view().service->access; }
   std::atomic<std::optional<Errc>> error;
-  services.open_store = [&](const Path& at, bool) -> Result<std::unique_ptr<storage::Store>> {
-    RELIEVO_TRY_ASSIGN(auto real, storage::open_sqlite_store(at, wall(), {}));
-    return std::unique_ptr<storage::Store>(std::make_unique<LockedStore>(std::move(real), error));
-  };
+};
+
+TEST_F(LockedStoreTest, APinThatCannotBeCheckedIsNotCalledWrong) {
   start();
   first_start();
   error = Errc::IoFailed;
   type_pin("1999");
-  ASSERT_TRUE(until([this] { return kiosk->view().service->access.failed.has_value(); }));
-  EXPECT_EQ(kiosk->view().service->access.failed, Errc::IoFailed);
-  EXPECT_FALSE(kiosk->view().service->access.wrong);
+  EXPECT_EQ(access().failed, Errc::IoFailed);
+  EXPECT_FALSE(access().wrong);
   EXPECT_TRUE(says("Reading or writing failed"));
   error = std::nullopt;
   type_pin("1999");
-  EXPECT_FALSE(kiosk->view().service->access.failed);
-  EXPECT_TRUE(kiosk->view().service->access.wrong);
-  kiosk.reset();
+  EXPECT_FALSE(access().failed);
+  EXPECT_TRUE(access().wrong);
+}
+
+TEST_F(LockedStoreTest, APinThatCannotBeKeptIsNotCalledTooEasy) {
+  start();
+  first_start();
+  sign_in("80526", StaffRole::Operator);
+  tap("open pins");
+  type_pin("2718");
+  error = Errc::MediaFull;
+  type_pin("2718");
+  EXPECT_EQ(access().failed, Errc::MediaFull);
+  EXPECT_EQ(access().fault, ui::PinFault::None);
+  EXPECT_TRUE(says("There is no room left"));
+  error = std::nullopt;
+  for (int twice = 0; twice < 2; ++twice) type_pin("2718");
+  EXPECT_EQ(access().step, ui::PinStep::Done);
 }
 
 TEST_F(StaffRoundTest, TheLogSpeaksTheReadersLanguageAlsoOfWhatWasNotedBeforeARestart) {

@@ -46,6 +46,7 @@ class StoredVisitsTest : public ApplianceTest {
       side_tasks.turn();
       appliance.step(milliseconds(1));
     }
+    while (side_tasks.busy(JobLane::Keeper)) appliance.step(milliseconds(1));
   }
   test::TemporaryFolder folder;
   hal::ManualClock clock;

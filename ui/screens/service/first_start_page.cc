@@ -62,9 +62,10 @@ PinWords words_of(StaffFrame& page) {
                                        static_cast<unsigned long>(access.wait_s));
     return {nullptr, page.filled(words, text), Mood::Bad};
   }
-  if (access.failed) return {nullptr, words_of(page.tr, *access.failed), Mood::Bad};
-  return {page.tr("Type your PIN, then touch the tick."),
-          access.wrong ? std::string_view(page.tr("That was not right.")) : std::string_view(), Mood::Bad};
+  std::string_view told;
+  if (access.failed) told = words_of(page.tr, *access.failed);
+  else if (access.wrong) told = page.tr("That was not right.");
+  return {page.tr("Type your PIN, then touch the tick."), told, Mood::Bad};
 }
 
 void pin_entry(StaffFrame& page, std::string_view title, const PinWords& words, Action done) {
@@ -205,7 +206,7 @@ const char* words_of(const Words& tr, PinFault fault) {
 PinWords words_of(const Words& tr, const AccessView& access) {
   if (access.checking) return {tr("One moment, please"), {}, Mood::Plain};
   if (access.step == PinStep::Done) return {nullptr, tr("It applies from now on."), Mood::Good};
-  const char* fault = words_of(tr, access.fault);
+  const char* fault = access.failed ? words_of(tr, *access.failed) : words_of(tr, access.fault);
   return {tr("Four to eight digits. Nobody else should know it."),
           fault == nullptr ? std::string_view() : fault, Mood::Bad};
 }
