@@ -62,7 +62,7 @@ def accelerator(guest):
 class Machine:
     """with Machine(...) as machine: machine.run("a command of the guest")"""
 
-    def __init__(self, guest, repository, results, accel, width_px, height_px):
+    def __init__(self, guest, repository, results, accel, width_px, height_px, words=""):
         for path in (repository, results):
             if re.search(r"[\s,]", str(path)):
                 raise Failed(f"{path}: has a blank or a comma in it, which a kernel's command line cannot take: use another folder")
@@ -76,7 +76,7 @@ class Machine:
         self.command = [
             "nice", "qemu-system-x86_64", "-M", "q35", "-accel", accel, "-cpu", cpu, "-smp", "2", "-m", "3072", "-nodefaults", "-no-reboot",
             "-display", "none", "-kernel", f"{guest}/vmlinuz", "-initrd", f"{guest}/initrd",
-            "-append", f"console=ttyS0 quiet panic=-1 mitigations=off consoleblank=0 vt.global_cursor_default=0 relievo.repository={repository} relievo.results={results}",
+            "-append", f"console=ttyS0 quiet panic=-1 mitigations=off consoleblank=0 vt.global_cursor_default=0 relievo.repository={repository} relievo.results={results} {words}",
             "-drive", f"file={guest}/root.sqfs,if=virtio,format=raw,readonly=on",
             "-virtfs", f"{share},path={repository},mount_tag=repository,readonly=on", "-virtfs", f"{share},path={results},mount_tag=results",
             "-device", f"virtio-gpu-pci,xres={width_px},yres={height_px}", "-device", "virtio-rng-pci",

@@ -160,6 +160,41 @@ def refused(kiosk, user, line):
     print(said, flush=True)
 
 
+def service(machine, pages):
+    """As it is installed, under systemd: a user and a store of its own, the screen, memory that stays; started again when it dies."""
+    installed = machine.results / "installed"
+    subprocess.run(["cmake", "--install", BUILT, "--component", "kiosk", "--prefix", "/usr/local"], check=True, stdout=subprocess.DEVNULL,
+                   env={**os.environ, "DESTDIR": str(installed)})
+    machine.run(f"cp -a {installed}/usr/local/. /usr/local/ && systemd-sysusers && systemctl daemon-reload && systemctl enable --now relievo")
+    kiosk = Kiosk(machine, None, pages, None)
+
+    def says():
+        said = machine.run("journalctl -u relievo -o cat", check=False).splitlines()
+        return next((line for line in said if line.startswith("relievo: /etc/relievo/board.toml")), None)
+    print(until("it says that nothing is wired", SLOW, says), flush=True)
+    override = "/etc/systemd/system/relievo.service.d"
+    machine.run(f"mkdir -p {override} && printf '[Service]\\nExecStart=\\nExecStart=/usr/local/bin/relievo {photographed()} --store /var/lib/relievo\\n' "
+                f">{override}/cameras.conf && systemctl daemon-reload && systemctl restart relievo")
+    try:
+        kiosk.see("attract", SLOW, ["invitation_head"])
+    except Failed as failed:
+        raise Failed(f"{failed}; its last words: {machine.run('journalctl -u relievo -o cat | tail -n 8', check=False)}") from None
+    process = "/proc/$(systemctl show -p MainPID --value relievo)"
+    for what, command, wanted in (("its user", f"stat -c %U {process}", "relievo"),
+                                  ("its store", "stat -c '%a %U' /var/lib/relievo", "700 relievo"),
+                                  ("the rights to set the clock and to mount sticks", f"awk '/CapAmb/ {{print $2}}' {process}/status", "0000000002200000"),
+                                  ("core dumps", f"awk '/core file size/ {{print $5}}' {process}/limits", "0")):
+        said = machine.run(command)
+        check(said == wanted, f"{what}: {said!r}, wanted {wanted!r}")
+    locked = int(machine.run(f"awk '/VmLck/ {{print $2}}' {process}/status"))
+    check(locked > 100_000, f"only {locked} KiB of it stay in memory")
+    machine.run("systemctl kill -s KILL relievo")
+    kiosk.see("trouble_restarted", SLOW)
+    machine.run("systemctl stop relievo")
+    result = machine.run("systemctl show -p Result --value relievo")
+    check(result == "success", f"it ended with {result}")
+
+
 def sticks(machine, _):
     """Real file systems under an export: full, read-only, corrupt, pulled, hostile; what guest/sticks says is the result."""
     said = machine.run(f"bash {ROOT}/tests/vm/guest/sticks {RELIEVO} {BUILT}/tests/vm/stick_export 50 2>&1 | tee {machine.results}/sticks.log", 7200, check=False)
@@ -178,6 +213,7 @@ def power_cuts(machine, _):
 CASES = {
     "faults": ("1280x800", faults),
     "visit-1280x800": ("1280x800", visit),
+    "service": ("1280x800", service, "relievo.systemd"),
     "sticks": (None, sticks),
     "power_cuts": (None, power_cuts),
     "visit-1080x1920": ("1080x1920", visit),
@@ -185,12 +221,12 @@ CASES = {
 
 
 def play(name, accel):
-    size, case = CASES[name]
+    size, case, *words = CASES[name]
     pages = drawn_headless(size) if size else None
     results = GUEST / "seen" / name
     shutil.rmtree(results, ignore_errors=True)
     results.mkdir(parents=True)
-    with Machine(GUEST, ROOT, results, accel, *map(int, (size or "640x480").split("x"))) as machine:
+    with Machine(GUEST, ROOT, results, accel, *map(int, (size or "640x480").split("x")), *words) as machine:
         case(machine, pages)
 
 
