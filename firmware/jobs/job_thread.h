@@ -100,7 +100,7 @@ class JobThread {
   Result<JobId> start(Job& job);
   void cancel() { cancelled_.store(true, std::memory_order_relaxed); }
   bool busy() const { return busy_.load(std::memory_order_acquire); }
-  void wait_until_idle();
+  void wait_until_idle();  // the report is in the queue then
   float progress() const { return progress_.done.load(std::memory_order_relaxed); }
 
  private:
