@@ -220,6 +220,9 @@ void add_sign_in(std::deque<Shown>& all) {
   all.push_back({"staff_pin", StaffPage::Pin, 0, sign_in});
   sign_in.access.wait_s = 300;
   all.push_back({"staff_pin_locked", StaffPage::Pin, 0, sign_in});
+  sign_in.access.wait_s = 0;
+  sign_in.access.failed = Errc::MediaFull;
+  all.push_back({"staff_pin_failed", StaffPage::Pin, 0, sign_in});
   ServiceView fresh;
   fresh.access.set_up = false;
   fresh.access.clock = "2026-03-14 10:21:09";
