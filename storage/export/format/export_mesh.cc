@@ -31,7 +31,7 @@ Result<void> check(const FaceModel& model) {
       fits(texture.origin.size(), texture.rgb.size() / 3) && fits(texture.vertex_rgb.size(), v * 3);
   if (mesh.triangles.empty()) return Error{Errc::InvalidInput, "the model has no surface to write"};
   if (v > 0x7fffffff || !fits(mesh.normals.size(), v) || !fits(mesh.sigma_mm.size(), v) ||
-      !fits(mesh.measured.size(), v) || !texture_fits) {
+      !fits(mesh.measured.size(), v) || !fits(mesh.pose.size(), v) || !texture_fits) {
     return Error{Errc::InvalidInput, "the model's arrays do not fit together"};
   }
   const bool indices_fit = std::ranges::all_of(mesh.triangles, [v](const auto& triangle) {
