@@ -282,6 +282,60 @@ TEST(ModelFiles, WithoutEyesThePageOfNumbersSaysSo) {
   EXPECT_NE(page.find("\"generator\": \"Relievo\""), std::string::npos);
 }
 
+// Landmarks whose place or uncertainty is no number, or nowhere near a head.
+TEST(ModelFiles, ALandmarkThatIsNowhereIsLeftOut) {
+  constexpr float kNone = std::numeric_limits<float>::quiet_NaN();
+  auto model = sample_model();
+  for (pipeline::Landmark& l : model.landmarks) l = {};
+  ASSERT_GE(pipeline::kLandmarkCount, 7U);
+  model.landmarks[0] = {{1, 2, 600}, 0.5F, true};
+  model.landmarks[1] = {{1, 2, 600}, 0.5F, false};
+  model.landmarks[2] = {{kNone, 2, 600}, 0.5F, true};
+  model.landmarks[3] = {{1, -2e6F, 600}, 0.5F, true};
+  model.landmarks[4] = {{1, 2, 600}, -1, true};
+  model.landmarks[5] = {{1, 2, 600}, 2e6F, true};
+  model.landmarks[6] = {{1, 2, 600}, kNone, true};
+  const auto images = test::sample_images();
+  ExportOptions options = ExportFrame::Camera;
+  options.images = &images;
+  const TemporaryFolder folder;
+  ASSERT_TRUE(write_model_files(model, folder.path(), options));
+  const std::string ply = relievo::test::read_text(folder / "model.ply");
+  const std::string page = relievo::test::read_text(folder / "recognition.json");
+  for (std::size_t k = 0; k < 7; ++k) {
+    const std::string name(word(static_cast<pipeline::LandmarkName>(k)));
+    EXPECT_EQ(ply.find("comment landmark " + name + " ") != std::string::npos, k == 0) << name;
+    EXPECT_EQ(page.find("\"" + name + "\": {\"mm\"") != std::string::npos, k == 0) << name;
+  }
+}
+
+// What a model need not have: a writer says nothing of it, and the uncertainty that is none is 0.
+TEST(ModelFiles, WhatIsNotKnownIsNotWritten) {
+  auto model = sample_model();
+  model.mesh.sigma_mm[0] = std::numeric_limits<float>::infinity();
+  model.mesh.pose.assign(model.mesh.vertices_mm.size(), 2);
+  model.quality.texture_sharpness = std::numeric_limits<double>::quiet_NaN();
+  const TemporaryFolder folder;
+  ASSERT_TRUE(write_model_files(model, folder / "known", ExportFrame::Camera));
+  EXPECT_NE(relievo::test::read_text(folder / "known/model.ply").find("property uchar pose"),
+            std::string::npos);
+  const std::string known = relievo::test::read_text(folder / "known/model.glb");
+  EXPECT_EQ(known.find("texture_sharpness"), std::string::npos);
+  EXPECT_NE(known.find("_SIGMA_MM"), std::string::npos);
+  model.mesh.sigma_mm.clear();
+  model.mesh.measured.clear();
+  model.mesh.pose.clear();
+  model.texture.origin.clear();
+  const auto files = write_model_files(model, folder / "unknown", ExportFrame::Camera);
+  ASSERT_TRUE(files);
+  EXPECT_FALSE(std::filesystem::exists(folder / "unknown/model_origin.png"));
+  const std::string unknown = relievo::test::read_text(folder / "unknown/model.glb");
+  EXPECT_EQ(unknown.find("_SIGMA_MM"), std::string::npos);
+  EXPECT_EQ(unknown.find("_MEASURED"), std::string::npos);
+  EXPECT_EQ(relievo::test::read_text(folder / "unknown/model.ply").find("property uchar pose"),
+            std::string::npos);
+}
+
 TEST(AtomicFile, AnUnfinishedFileIsNeverSeen) {
   const TemporaryFolder folder;
   relievo::test::write_text(folder / "a", "old");
