@@ -326,14 +326,34 @@ TEST(ModelFiles, WhatIsNotKnownIsNotWritten) {
   model.mesh.measured.clear();
   model.mesh.pose.clear();
   model.texture.origin.clear();
-  const auto files = write_model_files(model, folder / "unknown", ExportFrame::Camera);
-  ASSERT_TRUE(files);
+  model.mesh.normals[1] = {};
+  model.mesh.normals[2].x = std::numeric_limits<float>::quiet_NaN();
+  model.mesh.triangles[0][1] = model.mesh.triangles[0][0];  // a triangle that faces nowhere
+  model.quality.width_mm = 1e12;
+  ASSERT_TRUE(write_model_files(model, folder / "unknown", ExportFrame::Camera));
   EXPECT_FALSE(std::filesystem::exists(folder / "unknown/model_origin.png"));
   const std::string unknown = relievo::test::read_text(folder / "unknown/model.glb");
   EXPECT_EQ(unknown.find("_SIGMA_MM"), std::string::npos);
   EXPECT_EQ(unknown.find("_MEASURED"), std::string::npos);
+  EXPECT_EQ(unknown.find("width_mm"), std::string::npos);
+  const std::string stl = relievo::test::read_text(folder / "unknown/model.stl");
+  EXPECT_EQ(stl.substr(84, 12), std::string(12, '\0')) << "no normal";
   EXPECT_EQ(relievo::test::read_text(folder / "unknown/model.ply").find("property uchar pose"),
             std::string::npos);
+  model.texture.uv.clear();
+  model.texture.rgb.clear();
+  model.texture.vertex_rgb.clear();
+  model.texture.width_px = model.texture.height_px = 0;
+  ASSERT_TRUE(write_model_files(model, folder / "bare", ExportFrame::Camera));
+  EXPECT_FALSE(std::filesystem::exists(folder / "bare/model.png"));
+  EXPECT_NE(relievo::test::read_text(folder / "bare/model.glb").find("COLOR_0"), std::string::npos)
+      << "white";
+}
+
+TEST(ModelFiles, PicturesThatDoNotFitTheirSizeAreRefused) {
+  auto images = test::sample_images();
+  images.portrait.width_px += 1;
+  EXPECT_EQ(test::code_of(recognition_files(images, {}, {}, "")), Errc::InvalidInput);
 }
 
 TEST(AtomicFile, AnUnfinishedFileIsNeverSeen) {
