@@ -76,7 +76,7 @@ std::string lower(const unsigned char* text, std::size_t room) {
   return name;
 }
 
-// Of a menu the first entry that names the outside; else its second, since the first is "off".
+// Of a menu the first entry that names the outside, or "on"; else its second, since the first is "off".
 std::int64_t external_of(Kernel& kernel, int file, const v4l2_queryctrl& asked) {
   if (asked.type != V4L2_CTRL_TYPE_MENU) return 1;
   for (std::int64_t i = asked.minimum; i <= asked.maximum; ++i) {
@@ -85,7 +85,8 @@ std::int64_t external_of(Kernel& kernel, int file, const v4l2_queryctrl& asked) 
     entry.index = std::uint32_t(i);
     if (call(kernel, file, VIDIOC_QUERYMENU, &entry) < 0) continue;
     const std::string name = lower(entry.name, sizeof entry.name);
-    for (const std::string_view word : {"external", "hardware", "slave", "on"})
+    if (name == "on") return i;  // "continuous" has it, too
+    for (const std::string_view word : {"external", "hardware", "slave"})
       if (name.find(word) != std::string::npos) return i;
   }
   return asked.minimum + 1;

@@ -111,6 +111,24 @@ TEST_F(V4l2OpenTest, TheExternalTriggerIsSetWhereTheDriverHasIt) {
   EXPECT_TRUE(camera->open(kMode));
 }
 
+TEST_F(V4l2OpenTest, OfATriggerMenuTheEntryOfTheOutsideIsChosen) {
+  const struct {
+    std::vector<std::string> menu;
+    std::int32_t chosen;
+  } kCases[] = {{{"Continuous", "Software", "External Line 0"}, 2},
+                {{"Off", "On"}, 1},
+                {{"Master", "", "Slave"}, 2},
+                {{"Free Run", "Hardware Trigger"}, 1},
+                {{"Mode 0", "Mode 1", "Mode 2"}, 1}};
+  for (const auto& c : kCases) {
+    kernel.trigger_menu = c.menu;
+    make();
+    ASSERT_TRUE(camera->open(kMode));
+    EXPECT_EQ(kernel.set_controls[V4L2_CID_USER_BASE + 0x1010], c.chosen) << c.menu.front();
+    camera.reset();
+  }
+}
+
 TEST_F(V4l2OpenTest, ExposureAndGainGoToTheSensorAndTheAutomaticsEnd) {
   make();
   ASSERT_TRUE(camera->open(kMode));

@@ -177,7 +177,12 @@ int FakeKernel::answer_control(unsigned long request, void* argument) {
     set_controls[control.id] = control.value;
     return 0;
   }
-  if (request == VIDIOC_QUERYMENU) return -EINVAL;
+  if (request == VIDIOC_QUERYMENU) {
+    auto& entry = as<v4l2_querymenu>(argument);
+    if (entry.index >= trigger_menu.size() || trigger_menu[entry.index].empty()) return -EINVAL;
+    trigger_menu[entry.index].copy(reinterpret_cast<char*>(entry.name), sizeof entry.name - 1);
+    return 0;
+  }
   auto& asked = as<v4l2_queryctrl>(argument);
   const std::uint32_t id = asked.id;
   asked.minimum = 1;
@@ -185,9 +190,9 @@ int FakeKernel::answer_control(unsigned long request, void* argument) {
     if (trigger_control.empty() || (id & ~static_cast<std::uint32_t>(V4L2_CTRL_FLAG_NEXT_CTRL)) >= kTriggerId)
       return -EINVAL;
     asked.id = kTriggerId;
-    asked.type = V4L2_CTRL_TYPE_BOOLEAN;
+    asked.type = trigger_menu.empty() ? V4L2_CTRL_TYPE_BOOLEAN : V4L2_CTRL_TYPE_MENU;
     asked.minimum = 0;
-    asked.maximum = 1;
+    asked.maximum = trigger_menu.empty() ? 1 : std::int32_t(trigger_menu.size()) - 1;
     std::memcpy(asked.name, trigger_control.data(), std::min(trigger_control.size(), sizeof asked.name - 1));
     return 0;
   }

@@ -57,6 +57,7 @@ class FakeKernel final : public Kernel {
   bool interlaced = false;
   bool has_exposure = true;
   std::string trigger_control = "Trigger Mode";  // empty: none
+  std::vector<std::string> trigger_menu;         // its entries; empty: it is on or off, no menu
   std::vector<std::uint32_t> formats;            // default: GREY
   int width_px = 64, height_px = 48;             // the only size
   int padding_bytes = 16;
