@@ -258,15 +258,6 @@ void Appliance::start_on_keeper(Job& job) {
   else job_ = start_on(keeper_, *std::exchange(awaits_keeper_, nullptr));
 }
 
-// What has begun to be stored is stored whole or not at all: the visitor is told which, whatever would end
-// the state.
-void Appliance::await_commit() {
-  if (machine_.state() != State::Store || job_ == 0) return;
-  keeper_.cancel();
-  keeper_.wait_until_idle();
-  while (const auto report = reports_.take_for(std::chrono::milliseconds(0))) heard(*report);
-}
-
 void Appliance::stop_job() {
   if (running_ == nullptr) return;
   if (std::exchange(awaits_keeper_, nullptr) == nullptr) {

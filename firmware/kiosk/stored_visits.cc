@@ -6,6 +6,7 @@
 #include <sstream>
 #include <string>
 
+#include "firmware/base/budget.h"
 #include "firmware/kiosk/code/code_guard.h"
 #include "firmware/records/disk_room.h"
 #include "firmware/records/receipt.h"
@@ -93,7 +94,7 @@ void MovedFaces::keep(std::uint32_t revision, const Said& said, SideTasks& side_
                     said.note](JobControl&) { return store_.set_setting(kMovedFacesSetting, text); },
       [this, &log, again, now](const std::optional<Error>& error) {
         if (!error) return;
-        retry_at_ = now + std::chrono::minutes(1);
+        retry_at_ = now + budget::kMovedFacesRetry;
         if (!again) log.fault(*error);
       },
       SideTasks::Whose::Device);

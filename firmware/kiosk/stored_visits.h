@@ -49,7 +49,7 @@ class MovedFaces {
   // As it was kept of this calibration; nothing: of another. Before any thread uses the store.
   Result<Said> read(std::uint32_t revision);
   // Once a turn in which nobody waits for the keeper: writes what has changed; what could not be written is
-  // tried again every minute.
+  // tried again (budget::kMovedFacesRetry).
   void keep(std::uint32_t revision, const Said& said, SideTasks& side_tasks, EventLog& log, hal::Instant now);
 
  private:

@@ -19,7 +19,6 @@
 #include "hal/base/whole_file.h"
 #include "storage/byte_order.h"
 #include "storage/export/format/mesh_writers.h"
-#include "storage/export/format/number_text.h"
 #include "tests/storage/sample.h"
 #include "tests/support/process.h"
 #include "tests/support/temporary_folder.h"
@@ -173,21 +172,6 @@ TEST(ModelFiles, ImagesForRecognitionGoBesideTheModel) {
   const std::string glb = relievo::test::read_text(folder / "model.glb");
   EXPECT_NE(glb.find("\"generator\":\"Relievo 1.2.3\""), std::string::npos);
   EXPECT_NE(glb.find("\"texture_sharpness\":0.7"), std::string::npos);
-}
-
-TEST(NumberText, RoundsAndKeepsNoNeedlessDigit) {
-  const struct {
-    double value;
-    int decimals;
-    const char* text;
-  } kCases[] = {{0, 3, "0"},       {-0.0004, 3, "0"},        {-0.0006, 3, "-0.001"},
-                {12.5, 3, "12.5"}, {-12.0625, 3, "-12.063"}, {100, 3, "100"},
-                {0.99999, 3, "1"}, {0.00001, 5, "0.00001"},  {7.25, 0, "7"}};
-  for (const auto& c : kCases) {
-    std::string text;
-    append_rounded(text, c.value, c.decimals);
-    EXPECT_EQ(text, c.text);
-  }
 }
 
 TEST(ModelFiles, SaysWhereItCouldNotWrite) {
