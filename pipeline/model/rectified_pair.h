@@ -23,10 +23,13 @@ namespace relievo::pipeline {
 
 // Shared by all rows: width_px * height_px values, no padding.
 struct RectifiedView {
-  explicit RectifiedView(std::pmr::memory_resource* memory) : grey(memory), rgb(memory), valid(memory) {}
+  explicit RectifiedView(std::pmr::memory_resource* memory)
+      : grey(memory), rgb(memory), valid(memory), mirrored(memory) {}
   std::pmr::vector<float> grey;          // 0..255, luminance
   std::pmr::vector<std::uint8_t> rgb;    // 3 a pixel, as captured
   std::pmr::vector<std::uint8_t> valid;  // 1 where the source picture covers the pixel
+  // Grey levels by which lamps that skin mirrors make the pixel brighter. Empty: nobody has looked for them.
+  std::pmr::vector<std::uint8_t> mirrored;
 };
 
 struct RectifiedPair {
@@ -48,6 +51,8 @@ struct RectifiedPair {
   double face_reach_mm = 0;  // what lies further from the tip of its nose is not wanted; 0: everything is
   std::pmr::vector<std::uint8_t> region;  // left view: 1 where the face may be; empty means everywhere
 
+  std::size_t pixels() const { return std::size_t(width_px) * std::size_t(height_px); }
+  std::size_t index(int x, int y) const { return std::size_t(y) * std::size_t(width_px) + std::size_t(x); }
   double disparity_at_infinity_px() const { return left_centre_px.x - right_centre_px.x; }
   double depth_mm(double disparity_px) const {
     return focal_px * baseline_mm / (disparity_px - disparity_at_infinity_px());
@@ -55,17 +60,15 @@ struct RectifiedPair {
   double disparity_px(double depth_mm) const {
     return focal_px * baseline_mm / depth_mm + disparity_at_infinity_px();
   }
-  Vec3d right_camera_mm() const {
-    return apply(transposed(rectified_from_left), Vec3d{baseline_mm, 0, 0});
-  }  // in the left camera's frame
+  // In the left camera's frame.
+  Vec3d right_camera_mm() const { return apply(transposed(rectified_from_left), Vec3d{baseline_mm, 0, 0}); }
 };
 
 // Both views hold width_px * height_px values. Error: InvalidInput.
 inline Result<void> check_pixels(const RectifiedPair& pair) {
   const bool none = pair.width_px <= 0 || pair.height_px <= 0;
-  const std::size_t pixels = none ? 0 : std::size_t(pair.width_px) * std::size_t(pair.height_px);
   for (const RectifiedView* view : {&pair.left, &pair.right})
-    if (none || view->grey.size() != pixels || view->valid.size() != pixels)
+    if (none || view->grey.size() != pair.pixels() || view->valid.size() != pair.pixels())
       return Error{Errc::InvalidInput, "the rectified pair has no pixels"};
   return {};
 }

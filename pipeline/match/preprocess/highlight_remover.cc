@@ -18,19 +18,16 @@ namespace {
 
 constexpr int kRowsOfABand = 16;
 
-constexpr int kCell =
-    2;  // pixels of a cell's side: what is looked for is smooth, a quarter of the work finds it
+constexpr int kCell = 2;  // pixels of a cell's side: what is looked for is smooth
 // A place says something about the skin's colour where it is lit at all (shares of full light).
 constexpr float kLit = 0.05F, kColoured = 0.01F;
 // Below this share of the brightness there is no colour to go by: a grey camera, a coloured lamp.
 constexpr float kLeastColour = 0.05F;
-constexpr float kWhite =
-    0.2F;  // less of the light than this is skin's: no highlight but a white of the eye, teeth, a beard
+constexpr float kWhite = 0.2F;  // less of the light than this is skin's: a white of the eye, teeth, a beard
 constexpr std::uint8_t kClipped = 252;  // of a channel that has reached its end nobody knows the colour: red
                                         // ends first, and skin would pass for white
 constexpr float kReddest = 0.6F;        // of the face's ratio: what is redder than lips is paint
-constexpr double kLampReach =
-    0.03;  // of the face's width, 4.5 mm: a lamp's image on a lip or a nose is less than twice that wide
+constexpr double kLampReach = 0.03;     // of the face's width, 4.5 mm: half a lamp's image on a lip or a nose
 constexpr double kFaceOfPicture = 0.3;  // its width, where no face was looked for
 constexpr double kFineRadius = 0.5;     // pixels, a standard deviation: evens out some of the colours' noise
 constexpr float kDull =
@@ -42,8 +39,7 @@ constexpr float kPerNoise = 1.3F;
 // every pixel has colours of its own it is noise, and the share 0.5 to 0.7; colours that a single-chip camera
 // has put together from neighbours (0.35), or JPEG from four pixels (0.2 to 0.3), say nothing of one pixel.
 constexpr float kLeastOwn = 0.4F, kOwn = 0.5F;
-constexpr double kSkinShare =
-    0.5;  // of the face's width, to every side of its middle: cheeks, nose, mouth, little else
+constexpr double kSkinShare = 0.5;  // of the face's width, to every side of its middle: little but skin
 
 double linear_of(double grey) {
   const double v = grey / 255;
@@ -192,8 +188,7 @@ void find_local_ratio(const Light& light, float ratio, int reach, const Gaussian
   gaussian.smooth(local, pool, room);
 }
 
-// Nothing of what is little, for that may be noise; all of what is much; smooth between, for an edge would be
-// matched.
+// Nothing of what is little (noise), all of what is much; smooth between, for an edge would be matched.
 float doubted(float excess, float least) {
   return excess * excess * excess / (excess * excess + least * least + 1e-6F);
 }
@@ -248,12 +243,13 @@ FineColours fine_colours_of(const RectifiedView& view, int width_px, const Part&
 // What lamps add, in cells.
 struct Mirrored {
   Plane<float> light;   // linear, coarser than `radius_px`
-  Plane<float> excess;  // the same in grey levels, as far as it is to be taken away
+  Plane<float> excess;  // the same in grey levels
+  Plane<float> taken;   // of that what is to be taken away
   Plane<float> fine;    // grey levels to be taken away for finer linear light
-  Plane<float> belief;  // how far both are to be believed
+  Plane<float> belief;  // how far all of them are to be believed
 };
 
-void find_mirrored(const Light& light, const Plane<float>& ratio, float least, const FineColours& colours,
+void find_mirrored(const Light& light, const Plane<float>& ratio, const FineColours& colours,
                    Mirrored& mirrored, int begin, int end) {
   for (int y = begin; y < end; ++y)
     for (int x = 0; x < ratio.width; ++x) {
@@ -264,18 +260,20 @@ void find_mirrored(const Light& light, const Plane<float>& ratio, float least, c
                   bright = kPerNoise * colours.variance;
       const float share = colours.trust * lit * lit / (lit * lit + bright * bright + 1e-6F);
       mirrored.light.row(y)[x] = all - skin;
-      mirrored.excess.row(y)[x] = doubted(excess, least);
+      mirrored.excess.row(y)[x] = excess;
       mirrored.fine.row(y)[x] = share * steepness_of(all);
       mirrored.belief.row(y)[x] = std::clamp((skin - kWhite * all) / (kWhite * all + 1e-6F), 0.0F, 1.0F);
     }
 }
 
 // Next to a grey wall or an eye the Gaussian mixes skin with what is none: nothing is believed there.
-void weigh(Mirrored& mirrored, int reach, ThreadPool& pool, Plane<float>& room) {
+void weigh(Mirrored& mirrored, float least, int reach, ThreadPool& pool, Plane<float>& room) {
   erode(mirrored.belief, reach, pool, room);
   for (std::size_t i = 0; i < mirrored.belief.values.size(); ++i) {
-    mirrored.excess.values[i] *= mirrored.belief.values[i];
-    mirrored.fine.values[i] *= mirrored.belief.values[i];
+    const float belief = mirrored.belief.values[i];
+    mirrored.taken.values[i] = doubted(mirrored.excess.values[i], least) * belief;
+    mirrored.excess.values[i] *= belief;
+    mirrored.fine.values[i] *= belief;
   }
 }
 
@@ -312,14 +310,18 @@ void find_fine(const RectifiedView& view, int width_px, const Part& part, const 
   }
 }
 
-void subtract(const Plane<float>& excess, const Plane<float>& fine, const Part& part, int width_px,
-              std::pmr::vector<float>& grey, Plane<float>& room, int begin, int end) {
+// Takes what is mirrored out of the grey values, and keeps how much there was.
+void subtract(const Mirrored& mirrored, const Plane<float>& fine, const Part& part, int width_px,
+              RectifiedView& view, Plane<float>& room, int begin, int end) {
   for (int y = begin; y < end; ++y) {
-    float *to = grey.data() + first_pixel(part, y, width_px), *coarse = room.row(y);
-    const float* mirrored = fine.row(y);
-    spread(excess, y, coarse);
+    const std::size_t first = first_pixel(part, y, width_px);
+    float *to = view.grey.data() + first, *coarse = room.row(y);
+    const float* pores = fine.row(y);
+    spread(mirrored.taken, y, coarse);
+    for (int x = 0; x < fine.width; ++x) to[x] = std::max(0.0F, to[x] - std::max(0.0F, coarse[x] + pores[x]));
+    spread(mirrored.excess, y, coarse);
     for (int x = 0; x < fine.width; ++x)
-      to[x] = std::max(0.0F, to[x] - std::max(0.0F, coarse[x] + mirrored[x]));
+      view.mirrored[first + std::size_t(x)] = std::uint8_t(std::min(coarse[x] + 0.5F, 255.0F));
   }
 }
 
@@ -345,11 +347,11 @@ void clean(RectifiedPair& pair, bool right, const HighlightRemover& options, con
                    context.pool, local, room);
   const FineColours colours =
       fine_colours_of(view, pair.width_px, part, skin, light, local, &context.scratch);
-  Mirrored mirrored{plane(), plane(), plane(), plane()};
+  Mirrored mirrored{plane(), plane(), plane(), plane(), plane()};
   context.pool.for_each_band(part.height, kRowsOfABand, [&](int begin, int end, int) {
-    find_mirrored(light, local, float(options.least), colours, mirrored, begin, end);
+    find_mirrored(light, local, colours, mirrored, begin, end);
   });
-  weigh(mirrored, 2 * gaussian.reach() / 3, context.pool, room);
+  weigh(mirrored, float(options.least), 2 * gaussian.reach() / 3, context.pool, room);
   const Gaussian pixel(kFineRadius);
   Plane<float> fine(&context.scratch, part.width * kCell, part.height * kCell);
   Plane<float> wide(&context.scratch, fine.width + 2 * pixel.reach(), fine.height);
@@ -359,8 +361,9 @@ void clean(RectifiedPair& pair, bool right, const HighlightRemover& options, con
     });
     pixel.smooth(fine, context.pool, wide);
   }
+  view.mirrored.assign(pair.pixels(), 0);
   context.pool.for_each_band(fine.height, kRowsOfABand, [&](int begin, int end, int) {
-    subtract(mirrored.excess, fine, part, pair.width_px, view.grey, wide, begin, end);
+    subtract(mirrored, fine, part, pair.width_px, view, wide, begin, end);
   });
 }
 

@@ -24,9 +24,8 @@ struct Overlap {
   bool holds(int left_x, int y) const {
     const int right_x = left_x - shift_px;
     if (left_x < 0 || right_x < 0 || left_x >= pair.width_px || right_x >= pair.width_px) return false;
-    const std::size_t row = std::size_t(y) * std::size_t(pair.width_px);
-    const std::size_t left = row + std::size_t(left_x);
-    return pair.left.valid[left] != 0 && pair.right.valid[row + std::size_t(right_x)] != 0 &&
+    const std::size_t left = pair.index(left_x, y);
+    return pair.left.valid[left] != 0 && pair.right.valid[pair.index(right_x, y)] != 0 &&
            (pair.region.empty() || pair.region[left] != 0);
   }
 };
@@ -37,15 +36,13 @@ Result<void> HistogramNormaliser::process(RectifiedPair& pair, StageContext& con
   RELIEVO_TRY(check_pixels(pair));
   for (RectifiedView* view : {&pair.left, &pair.right}) {
     if (context.stop()) return Error{Errc::Cancelled, "the preprocessing was stopped"};
-    const auto valid = [&](int x, int y) {
-      return view->valid[std::size_t(y) * std::size_t(pair.width_px) + std::size_t(x)] != 0;
-    };
+    const auto valid = [&](int x, int y) { return view->valid[pair.index(x, y)] != 0; };
     const GreyHistogram histogram =
         GreyHistogram::of(view->grey, pair.width_px, pair.height_px, valid, context.pool);
     if (histogram.count() == 0) continue;
     const double dark = histogram.grey_at(tail);
-    const double range =
-        std::max(1.0, histogram.grey_at(1 - tail) - dark);  // noise of one level is no picture
+    // Noise of one level is no picture.
+    const double range = std::max(1.0, histogram.grey_at(1 - tail) - dark);
     GreyMap([&](double grey) {
       const double stretched = std::clamp((grey - dark) / range, 0.0, 1.0);
       return 255 * (stretched + equalise * (histogram.share_below(grey) - stretched));

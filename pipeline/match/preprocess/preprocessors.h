@@ -12,25 +12,22 @@ namespace relievo::pipeline {
 // HighlightRemover ("remove-highlights"): takes out of the grey values what lamps add that oily skin mirrors.
 // Two cameras see a lamp's mirror image at two places of the skin, so that who matches it finds a surface
 // behind the face: half a millimetre on a forehead, 1.5 to 4 mm at the tip of a nose. Skin's own colour is
-// reddish and what it mirrors has the lamp's colour (dichromatic reflection, Shafer 1985), white after the
-// camera's white balance. R - (G + B) / 2 of linear light does not see white (after Mallick, Zickler,
-// Kriegman, Belhumeur 2005); times what it is short of the brightness where the skin is dull, it says how
-// bright the skin would be without; lips, blemishes and noses that are redder than the rest go by the least
-// white nearby. What is brighter than that, over `radius_px`, is subtracted: little of what is less than
-// `least`, which stands above what compressed pictures get wrong in colours, most of what is twice that.
-// Finer than that pores and creases mirror lamps, too, where lamps are mirrored at all, and the two cameras
-// see other sides of each pore shine. There what a pixel is brighter than its own colour says is subtracted
-// as well, by so much as the excess around it stands above the noise of single pixels' colours; dull skin
-// tells how much that is. Where colours are coarser than the brightness (single-chip cameras, JPEG with a
-// quarter of the colours) what they miss hangs together from pixel to pixel; there what is fine stays, as
-// freckles and pores in dull skin do.
-// What has next to no colour is no skin (the white of an eye, teeth, a beard) and stays. Looks only where a
-// face may be: pictures in which no region is marked stay as they are, and those without colour. The
-// pictures' values are taken for sRGB's (IEC 61966-2-1). Errors: InvalidInput (a view without pixels),
-// OutOfMemory, Cancelled.
+// reddish and what it mirrors is white after the camera's white balance (dichromatic reflection, Shafer
+// 1985). R - (G + B) / 2 of linear light does not see white (after Mallick, Zickler, Kriegman, Belhumeur
+// 2005); times what it is short of the brightness where the skin is dull, it says how bright the skin would
+// be without; lips, blemishes and noses that are redder go by the least white nearby. What is brighter than
+// that, over `radius_px`, is subtracted: little of what is less than `least`, which stands above what
+// compressed pictures get wrong in colours, most of what is twice that. Where lamps are mirrored, pores and
+// creases mirror them too, and each camera sees other sides of a pore shine: what a pixel is brighter than
+// its own colour says is subtracted as well, by so much as the excess around it stands above the noise of
+// single pixels' colours in dull skin. Where colours are coarser than the brightness (single-chip cameras,
+// JPEG) what they miss hangs together from pixel to pixel, and what is fine stays, as freckles and pores in
+// dull skin do. What has next to no colour is no skin (the white of an eye, teeth, a beard) and stays, as do
+// pictures without colour or without a marked region. What lamps add is kept as `mirrored` of each
+// view: what is taken out is never quite it, and matches there are less certain. Values are taken for sRGB's
+// (IEC 61966-2-1). Errors: InvalidInput (a view without pixels), OutOfMemory, Cancelled.
 struct HighlightRemover {
-  double radius_px =
-      2.5;  // standard deviation of the Gaussian: finer than mirrored lamps, coarser than colours' noise
+  double radius_px = 2.5;  // sigma of the Gaussian: finer than mirrored lamps, coarser than colours' noise
   double dull = 0.5;
   double least = 10;
 
@@ -66,10 +63,9 @@ struct HistogramNormaliser {
 
 // HistogramTransfer ("histogram-match"): the right view's grey values are changed so that their
 // cumulative histogram becomes the left view's (histogram specification; Gonzalez and Woods, section
-// 3.3); the dissertation's HistMatch. The left view stays as it is. Histograms are taken where both
-// views are valid and, where a face region is marked, in it: a pixel counts with the one it would
-// meet at the middle of the depth that is searched, so that what only one view sees has
-// no say. Blind to any monotone difference of exposure, gamma included.
+// 3.3); the dissertation's HistMatch. Histograms are taken where both views are valid, in the face region if
+// one is marked: a pixel counts with the one it would meet at the middle of the depth that is searched, so
+// that what only one view sees has no say. Blind to any monotone difference of exposure, gamma included.
 // Errors: InvalidInput (a view without pixels), OutOfMemory, Cancelled.
 struct HistogramTransfer {
   double strength = 1;

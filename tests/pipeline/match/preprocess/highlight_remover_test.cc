@@ -9,6 +9,7 @@
 #include <cmath>
 #include <functional>
 #include <random>
+#include <tuple>
 #include <vector>
 
 #include "tests/pipeline/match/preprocess/shining_skin.h"
@@ -106,6 +107,23 @@ struct ShiningPores : HighlightFixture {
     return {std::sqrt(after / before), std::sqrt(change / before)};
   }
 };
+
+TEST(HighlightRemover, KeepsHowMuchLampsAdd) {
+  HighlightFixture fixture;
+  const RectifiedPair dull = fixture.skin(0), shining = fixture.skin();
+  RectifiedPair pair = fixture.skin();
+  ASSERT_TRUE(fixture.remove(pair));
+  for (const auto& [view, of, without, lamp] :
+       {std::tuple{&pair.left, &shining.left, &dull.left, kLeftLamp},
+        std::tuple{&pair.right, &shining.right, &dull.right, kRightLamp}}) {
+    ASSERT_EQ(view->mirrored.size(), pair.pixels());
+    const std::size_t at = pair.index(int(lamp.x_px), int(lamp.y_px));
+    const float added = of->grey[at] - without->grey[at];
+    EXPECT_GT(added, 20);
+    EXPECT_NEAR(float(view->mirrored[at]), added, 0.35F * added);
+    EXPECT_LT(view->mirrored[pair.index(20, 20)], 3);
+  }
+}
 
 TEST(HighlightRemover, WhatPoresMirrorGoesWithIt) {
   const double left = ShiningPores()

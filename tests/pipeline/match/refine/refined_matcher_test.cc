@@ -66,6 +66,36 @@ TEST(RefinedMatcher, FindsTheTrueSurfaceToAFewHundredthsOfAPixel) {
   EXPECT_GT(errors.covered, 0.99);
 }
 
+// What lamps add is never taken out whole: matches there are less certain, and no others.
+TEST(RefinedMatcher, WhereSkinMirrorsLampsSigmaGrows) {
+  StageFixture fixture(std::size_t{64} << 20, std::size_t{256} << 20, 2);
+  const auto matched = [&](int light) {
+    RectifiedPair pair = BumpScene{}.render(&fixture.output);
+    for (RectifiedView* view : {&pair.left, &pair.right}) {
+      view->mirrored.assign(pair.pixels(), 0);
+      for (int y = 0; y < pair.height_px / 2; ++y)
+        for (int x = 0; x < pair.width_px; ++x) view->mirrored[pair.index(x, y)] = std::uint8_t(light);
+    }
+    const Keypoints keypoints = test::lattice(pair, 2, &fixture.output);
+    auto matches = run_stage(fixture.context,
+                             [&](StageContext& c) { return RefinedMatcher({}).match(pair, keypoints, c); });
+    EXPECT_TRUE(matches);
+    return std::move(*matches);
+  };
+  const MatchSet dull = matched(0), weak = matched(9), strong = matched(60);
+  ASSERT_EQ(dull.matches.size(), weak.matches.size());
+  ASSERT_EQ(dull.matches.size(), strong.matches.size());
+  ASSERT_GT(dull.matches.size(), 10'000U);
+  for (std::size_t k = 0; k < dull.matches.size(); ++k) {
+    const Match& was = dull.matches[k];
+    EXPECT_EQ(weak.matches[k].disparity_px, was.disparity_px);
+    const bool shines = was.left_px.y < 127;
+    if (std::abs(was.left_px.y - 128) < 2) continue;
+    EXPECT_NEAR(weak.matches[k].sigma_px / was.sigma_px, shines ? std::sqrt(2.5F) : 1, 1e-4);
+    EXPECT_NEAR(strong.matches[k].sigma_px / was.sigma_px, shines ? 1.98F : 1, 0.02);
+  }
+}
+
 TEST(RefinedMatcher, DoesNotLockToWholePixels) {
   const Errors errors = measure({.noise = 0.3, .seed = 5});
   for (const double mean : errors.mean_at_phase) EXPECT_LT(std::abs(mean), 0.01);
