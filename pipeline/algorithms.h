@@ -46,7 +46,7 @@ class AlgorithmSet {
   void keep_text(std::string_view key, std::string text);
 
  private:
-  friend class OptionReader;
+  friend struct OptionReader;
   std::map<std::string, std::string, std::less<>> chosen_;
   Texts texts_;
 };

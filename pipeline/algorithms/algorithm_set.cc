@@ -47,8 +47,6 @@ Result<void> check_value(const OptionDescription& option, const std::string& val
 
 }  // namespace
 
-double OptionReader::number(const std::string& text) { return std::strtod(text.c_str(), nullptr); }
-
 std::vector<std::string> split_names(std::string_view text) {
   std::vector<std::string> parts;
   while (true) {

@@ -44,8 +44,8 @@ void describe_options(std::string_view section, Kind& kind) {
     one.value = option_text(value, range);
     one.sentence = sentence;
     one.names.assign(range.names.begin(), range.names.end());
-    one.range = range;
     using Value = std::remove_reference_t<decltype(value)>;
+    one.range = range_of<Value>(range);
     one.file = std::is_same_v<Value, TextFile>;
     one.text = one.file || std::is_same_v<Value, std::string>;
     one.kind = kind.key;
@@ -53,10 +53,8 @@ void describe_options(std::string_view section, Kind& kind) {
   });
 }
 
-// Reads one algorithm's options out of the set. The set has checked that numbers are numbers in range,
-// and names known.
-class OptionReader {
- public:
+// Reads one algorithm's options out of the set, which has checked numbers and names.
+struct OptionReader {
   template <typename Options>
   static Result<Options> read(const AlgorithmSet& set, std::string_view section) {
     Options options;
@@ -71,14 +69,11 @@ class OptionReader {
         value = {chosen->second, read == set.texts_.end() ? nullptr : read->second};
       } else if constexpr (std::is_enum_v<Value>)
         value = static_cast<Value>(std::ranges::find(range.names, chosen->second) - range.names.begin());
-      else value = static_cast<Value>(number(chosen->second));
+      else value = static_cast<Value>(std::strtod(chosen->second.c_str(), nullptr));
     });
     RELIEVO_TRY(check_options(options, section));
     return options;
   }
-
- private:
-  static double number(const std::string& text);
 };
 
 template <typename Form>  // one of the kinds: a std::function

@@ -33,6 +33,13 @@ struct OptionRange {
   std::string possible() const;    // "3 to 63 in steps of 2", "3way or hh"
 };
 
+// An integer's values are whole.
+template <typename Value>
+OptionRange range_of(OptionRange range) {
+  if (std::is_integral_v<Value> && range.step == 0) range.step = 1;
+  return range;
+}
+
 // "sgm.band", "3": InvalidInput, with what would be possible.
 Error out_of_range(const std::string& option, const std::string& value, const OptionRange& range);
 
@@ -70,7 +77,8 @@ Result<void> check_options(const Options& options, std::string_view algorithm) {
     if constexpr (std::is_arithmetic_v<std::remove_cvref_t<decltype(value)>>)
       // A float as it was written: 0.01F is a little less than 0.01.
       if (checked && !range.holds(std::strtod(option_text(value, range).c_str(), nullptr)))
-        checked = out_of_range(std::string(algorithm) + "." + name, option_text(value, range), range);
+        checked = out_of_range(std::string(algorithm) + "." + name, option_text(value, range),
+                               range_of<std::remove_cvref_t<decltype(value)>>(range));
   });
   if constexpr (requires { options.check(); })
     if (checked) return options.check();

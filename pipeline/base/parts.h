@@ -12,6 +12,15 @@
 
 namespace relievo::pipeline {
 
+// Calls visit(neighbour) for the neighbours that a cell has.
+template <typename Visit>
+void for_each_beside(std::size_t cell, std::size_t width, std::size_t size, const Visit& visit) {
+  if (cell % width > 0) visit(cell - 1);
+  if (cell % width + 1 < width) visit(cell + 1);
+  if (cell >= width) visit(cell - width);
+  if (cell + width < size) visit(cell + width);
+}
+
 // `label` is 0 before and where belongs(cell) is not; together(cell, neighbour) may part two that belong.
 // found(cells): of one part after the other, breadth first.
 template <typename Label, typename Belongs, typename Together, typename Found>
@@ -33,10 +42,7 @@ void label_parts(std::span<Label> label, std::size_t width, std::pmr::memory_res
     join(start);
     for (std::size_t next = 0; next < cells.size(); ++next) {
       from = cells[next];
-      if (from % width > 0) join(from - 1);
-      if (from % width + 1 < width) join(from + 1);
-      if (from >= width) join(from - width);
-      if (from + width < label.size()) join(from + width);
+      for_each_beside(from, width, label.size(), join);
     }
     found(std::span<const std::uint32_t>(cells));
   }

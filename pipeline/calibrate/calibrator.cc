@@ -4,10 +4,10 @@
 
 #include <algorithm>
 #include <cmath>
-#include <cstdio>
 #include <iterator>
 
 #include "hal/base/statistics.h"
+#include "hal/base/words.h"
 #include "pipeline/calibrate/file/calibration_file.h"
 #include "pipeline/calibrate/fit/stereo_fit.h"
 #include "pipeline/calibrate/fit/view_selection.h"
@@ -36,7 +36,7 @@ Result<void> check_input(const CalibratorInput& input) {
       if (!board->empty() && board->size() != corners)
         return Error{Errc::InvalidInput, "a board with another number of corners than the pattern"}.at(
             view.name);
-      if (!std::all_of(board->begin(), board->end(), [](const Vec2d& at) {
+      if (!std::ranges::all_of(*board, [](const Vec2d& at) {
             return !seen(at) || (std::abs(at.x) < 1e5 && std::abs(at.y) < 1e5);
           }))
         return Error{Errc::InvalidInput, "a corner far outside the picture"}.at(view.name);
@@ -86,13 +86,6 @@ Strays find_strays(const CalibratorInput& input, bool right, std::span<const int
   return strays;
 }
 
-void name_loose(bool right, std::size_t strays, double limit_px, ViewQuality& view) {
-  char text[160];
-  std::snprintf(text, sizeof text, "%s: %d corners are more than %.2f px off any flat board",
-                right ? "right" : "left", int(strays), limit_px);
-  view.reason = text;
-}
-
 // One camera alone, without stray corners (set to not-a-number) and without boards that have many:
 // the worst of these goes first, since it bends the fit of the others.
 bool fit_without_strays(CalibratorInput& input, bool right, std::vector<int>& views, CameraFit& fit,
@@ -105,7 +98,11 @@ bool fit_without_strays(CalibratorInput& input, bool right, std::vector<int>& vi
     if (worst->empty()) return true;
     if (double(worst->size()) > kLooseShare * input.pattern.corners()) {
       const auto at = worst - strays.of_view.begin();
-      name_loose(right, worst->size(), strays.limit_px, quality.views[std::size_t(views[std::size_t(at)])]);
+      std::string& reason = quality.views[std::size_t(views[std::size_t(at)])].reason;
+      if (!reason.empty()) reason += "; ";
+      reason +=
+          filled("{}: {} corners are more than {} px off any flat board",
+                 {right ? "right" : "left", std::to_string(worst->size()), decimal(strays.limit_px, 2)});
       views.erase(views.begin() + at);
       continue;
     }
@@ -129,21 +126,20 @@ void name_views(const CalibratorInput& input, CalibrationQuality& quality) {
   }
 }
 
-void name_left_out(const Selection& selection, std::span<const int> pairs, CalibrationQuality& quality) {
-  const double usual = std::sqrt(6 * selection.spread_px2 / (2.0 * selection.fit.problem.pattern.corners()));
+void name_left_out(const CalibratorInput& input, const Selection& selection, std::span<const int> pairs,
+                   CalibrationQuality& quality) {
   for (const int pair : pairs) {
     ViewQuality& view = quality.views[std::size_t(pair)];
     if (view.used) continue;
-    char text[200];
+    const double usual =
+        std::sqrt(6 * selection.spread_px2 / double(corners_seen(input.views[std::size_t(pair)])));
     if (quality.moved_after >= 0 && view.excess_px < 2 * usual)
-      std::snprintf(text, sizeof text, "taken on the other side of a camera's move (%s)",
-                    quality.views[std::size_t(quality.moved_after)].name.c_str());
+      view.reason = filled("taken on the other side of a camera's move ({})",
+                           {quality.views[std::size_t(quality.moved_after)].name});
     else
-      std::snprintf(
-          text, sizeof text,
-          "left and right disagree with the other views by %.2f px (usual here: %.2f px), epipolar %.2f px",
-          view.excess_px, usual, view.epipolar_rms_px);
-    view.reason = text;
+      view.reason =
+          filled("left and right disagree with the other views by {} px (usual here: {} px), epipolar {} px",
+                 {decimal(view.excess_px, 2), decimal(usual, 2), decimal(view.epipolar_rms_px, 2)});
   }
 }
 
@@ -172,8 +168,6 @@ StereoCalibration calibration_of(const StereoFit& fit) {
   StereoCalibration calibration;
   calibration.left = fit.problem.camera[0];
   calibration.right = fit.problem.camera[1];
-  calibration.right.width_px = calibration.left.width_px;
-  calibration.right.height_px = calibration.left.height_px;
   calibration.right_from_left = bundle::transform_of(fit.problem.right_from_left);
   calibration.rms_px = fit.rms_px();
   return calibration;
@@ -225,8 +219,12 @@ Result<CalibratorOutput> calibrate(const CalibratorInput& given) {
   name_views(input, out.quality);
   std::vector<int> left = boards(input, false);
   std::vector<int> right = boards(input, true);
-  std::vector<int> pairs;
-  std::set_intersection(left.begin(), left.end(), right.begin(), right.end(), std::back_inserter(pairs));
+  const auto in_both = [&] {
+    std::vector<int> both;
+    std::ranges::set_intersection(left, right, std::back_inserter(both));
+    return both;
+  };
+  std::vector<int> pairs = in_both();
   if (pairs.size() < kMinBoardPairs)
     return poor_geometry("the whole board is in both pictures of too few pairs; take at least 5, better 15",
                          pairs.size());
@@ -238,8 +236,7 @@ Result<CalibratorOutput> calibrate(const CalibratorInput& given) {
   if (!fit_without_strays(input, false, left, left_fit, out.quality) ||
       !fit_without_strays(input, true, right, right_fit, out.quality))
     return undetermined;
-  pairs.clear();
-  std::set_intersection(left.begin(), left.end(), right.begin(), right.end(), std::back_inserter(pairs));
+  pairs = in_both();
   if (pairs.size() < kMinBoardPairs)
     return poor_geometry("too few pairs show a flat board; is the print glued to something stiff?",
                          pairs.size());
@@ -254,7 +251,7 @@ Result<CalibratorOutput> calibrate(const CalibratorInput& given) {
   RELIEVO_TRY(check_calibration(out.calibration));
   measure_quality({input, cameras, pairs, selection}, out.quality);
   out.calibration.epipolar_shift_px = out.quality.held_out_shift_px;
-  name_left_out(selection, pairs, out.quality);
+  name_left_out(input, selection, pairs, out.quality);
   expect_baseline(input, out.calibration, out.quality);
   out.views = fitted_views(input.views.size(), selection.fit);
   judge_quality(out.quality);

@@ -4,7 +4,6 @@
 
 #include <array>
 #include <cmath>
-#include <cstdio>
 
 #include <Eigen/Dense>
 
@@ -77,9 +76,8 @@ std::string sentence(const DriftJudgement& j) {
 }
 
 Error error_of(const DriftJudgement& judgement) {
-  char place[64];
-  std::snprintf(place, sizeof place, "%.2f px", judgement.residual_px);
-  return Error{Errc::NotCalibrated, "a camera has moved since it was calibrated: calibrate again"}.at(place);
+  return Error{Errc::NotCalibrated, "a camera has moved since it was calibrated: calibrate again"}.at(
+      decimal(judgement.residual_px, 2) + " px");
 }
 
 }  // namespace relievo::pipeline

@@ -16,7 +16,7 @@
 // What cannot be seen: the same error along the rows. It changes the depth of the face, not its
 // likeness. So beyond kRefusedPx, where a camera has certainly moved, nothing is measured any more: a
 // knock that moved a picture by so much across the rows has moved it as likely by as much along them,
-// and one and a half pixels there are 2 mm of depth, the most that a calibration may be wrong by.
+// and one and a half pixels there are a millimetre or two of depth.
 // Pixels of the full-size rectified view. Thread: any.
 #pragma once
 

@@ -67,7 +67,26 @@ class BallPicture {
   // How alike what lies about `pupil_deg` in the picture before is to what lies `shift_deg` beside it here:
   // correlation; 0 where too little is seen in both.
   double alike(const BallPicture& before, double pupil_deg, int shift_deg) const {
-    return correlation(before, int(std::lround((pupil_deg + kAcross) / kStep)), shift_deg / kStep);
+    const int pupil = int(std::lround((pupil_deg + kAcross) / kStep)), shift = shift_deg / kStep;
+    double n = 0, a = 0, b = 0, aa = 0, bb = 0, ab = 0;
+    int all = 0;
+    for (int r = 0; r < kRows; ++r)
+      for (int c = pupil - kPatternDeg / kStep; c <= pupil + kPatternDeg / kStep; ++c) {
+        ++all;
+        if (c < 0 || c >= kColumns || c + shift < 0 || c + shift >= kColumns) continue;
+        const double x = double(before.light_[index(c, r)]);
+        const double y = double(light_[index(c + shift, r)]);
+        if (x < 0 || y < 0) continue;
+        n += 1;
+        a += x;
+        b += y;
+        aa += x * x;
+        bb += y * y;
+        ab += x * y;
+      }
+    if (2 * n < all) return 0;
+    const double spread = (aa - a * a / n) * (bb - b * b / n);
+    return spread > 0 ? (ab - a * b / n) / std::sqrt(spread) : 0;
   }
   // How much darker the iris is than what lies beside it, share.
   double contrast(double pupil_deg) const {
@@ -91,29 +110,6 @@ class BallPicture {
   static double across_deg(int column) { return kStep * column - kAcross; }
   static double up_deg(int row) { return kStep * row - kUp; }
   static std::size_t index(int column, int row) { return std::size_t(row) * kColumns + std::size_t(column); }
-
-  // 0 where too little is seen in both.
-  double correlation(const BallPicture& before, int pupil, int shift) const {
-    double n = 0, a = 0, b = 0, aa = 0, bb = 0, ab = 0;
-    int all = 0;
-    for (int r = 0; r < kRows; ++r)
-      for (int c = pupil - kPatternDeg / kStep; c <= pupil + kPatternDeg / kStep; ++c) {
-        ++all;
-        if (c < 0 || c >= kColumns || c + shift < 0 || c + shift >= kColumns) continue;
-        const double x = double(before.light_[index(c, r)]);
-        const double y = double(light_[index(c + shift, r)]);
-        if (x < 0 || y < 0) continue;
-        n += 1;
-        a += x;
-        b += y;
-        aa += x * x;
-        bb += y * y;
-        ab += x * y;
-      }
-    if (2 * n < all) return 0;
-    const double spread = (aa - a * a / n) * (bb - b * b / n);
-    return spread > 0 ? (ab - a * b / n) / std::sqrt(spread) : 0;
-  }
 
   std::array<float, std::size_t(kColumns) * kRows> light_;
 };

@@ -23,10 +23,6 @@ constexpr int kNormalRounds = 4;        // how far around a fold the surface is 
 constexpr double kTensionMm = 15;
 constexpr std::uint8_t kHeldRings = 2;  // around those, what says how the surface goes on
 
-Vec3f area_normal(std::span<const Vec3f> at, const Triangle& t) {
-  return cross(minus(at[t[1]], at[t[0]]), minus(at[t[2]], at[t[0]]));
-}
-
 // Steep, while what lies to both sides of it faces one way: a nostril's rim is none.
 bool is_step(std::span<const Vec3f> at, std::span<const Vec3f> beside, const Triangle& t) {
   Vec3f around{};

@@ -3,6 +3,7 @@
 #include "pipeline/fuse/head_pipeline.h"
 
 #include <algorithm>
+#include <optional>
 #include <utility>
 
 #include "pipeline/fuse/head_texturer.h"
@@ -41,6 +42,7 @@ class Surfaces {
  public:
   Surfaces(std::span<HeadPose> poses, const FaceModel& face, std::pmr::memory_resource* memory)
       : poses_(poses), list_(memory) {
+    list_.reserve(poses.size());  // throws before anything is moved
     for (HeadPose& pose : poses) {
       list_.push_back(std::move(pose.surface));
       list_.back().photo_rgb = pose.left_rgb;
@@ -64,6 +66,12 @@ class Surfaces {
   std::span<HeadPose> poses_;
   std::pmr::vector<PoseSurface> list_;
 };
+
+Result<void> check_count(std::span<const HeadPose> poses) {
+  if (poses.empty() || poses.size() > std::size_t(kMostPoses))
+    return Error{Errc::InvalidInput, "one to seven pairs make a head"};
+  return {};
+}
 
 // Both cameras of every pose, the master's first.
 std::pmr::vector<HeadView> views_of(std::span<const HeadPose> poses, const Registration& registration,
@@ -138,6 +146,7 @@ Result<HeadPose> HeadPipeline::measure(const StereoFrame& frame, const StereoCal
 
 Result<void> HeadPipeline::place_last(const FaceModel& face, std::span<HeadPose> poses,
                                       StageContext& context) const {
+  RELIEVO_TRY(check_count(poses));
   return run_stage(context, [&](StageContext& c) -> Result<void> {
     Surfaces surfaces(poses, face, &c.scratch);
     place_last_pose(surfaces.list(), c);
@@ -147,16 +156,20 @@ Result<void> HeadPipeline::place_last(const FaceModel& face, std::span<HeadPose>
 
 Result<FusedHead> HeadPipeline::fuse(const FaceModel& face, std::span<HeadPose> poses,
                                      StageContext& context) const {
-  if (poses.size() > std::size_t(kMostPoses))
-    return Error{Errc::InvalidInput, "at most seven pairs make a head"};
-  Surfaces surfaces(poses, face, &context.output);
-  RELIEVO_TRY_ASSIGN(Registration registration,
-                     run_stage(context, [&](StageContext& c) { return register_poses(surfaces.list(), c); }));
-  RELIEVO_TRY_ASSIGN(FusedSurface surface, run_stage(context, [&](StageContext& c) {
-                       return HeadFuser(fuser_).fuse(surfaces.list(), registration, face.mesh, face.landmarks,
-                                                     c);
+  RELIEVO_TRY(check_count(poses));
+  std::optional<Surfaces> surfaces;
+  RELIEVO_TRY(run_stage(context, [&](StageContext& c) -> Result<void> {
+    surfaces.emplace(poses, face, &c.output);
+    return {};
+  }));
+  RELIEVO_TRY_ASSIGN(Registration registration, run_stage(context, [&](StageContext& c) {
+                       return register_poses(surfaces->list(), c);
                      }));
-  surfaces.give_back();
+  RELIEVO_TRY_ASSIGN(FusedSurface surface, run_stage(context, [&](StageContext& c) {
+                       return HeadFuser(fuser_).fuse(surfaces->list(), registration, face.mesh,
+                                                     face.landmarks, c);
+                     }));
+  surfaces->give_back();
   Aliveness aliveness;
   RELIEVO_TRY_ASSIGN(TextureAtlas atlas, run_stage(context, [&](StageContext& c) {
                        const auto views = views_of(poses, registration, &c.scratch);

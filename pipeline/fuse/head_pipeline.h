@@ -58,8 +58,8 @@ class HeadPipeline {
   Result<void> place_last(const FaceModel& face, std::span<HeadPose> poses, StageContext& context) const;
   // `poses`: the master's first, whose face it is; they are bent. Where its eyes were not alive the model is
   // `unjudged`, unless nobody asked (relief=off). A pair that fits none of the others is left out. Errors:
-  // InvalidInput (a face without its tip of the nose, more than seven pairs), PoorGeometry (all pairs but the
-  // master's are left out; names the first of them), Cancelled, OutOfMemory.
+  // InvalidInput (a face without its tip of the nose, no pair or more than seven), PoorGeometry (all pairs
+  // but the master's are left out; names the first of them), Cancelled, OutOfMemory.
   Result<FusedHead> fuse(const FaceModel& face, std::span<HeadPose> poses, StageContext& context) const;
 
  private:

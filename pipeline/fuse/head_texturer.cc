@@ -6,6 +6,7 @@
 #include <array>
 #include <cmath>
 #include <cstddef>
+#include <memory_resource>
 #include <vector>
 
 #include "pipeline/fuse/level_grid.h"
@@ -54,10 +55,7 @@ class Texturing {
 
   Result<TextureAtlas> run(int max_atlas_px) {
     const Error stopped{Errc::Cancelled, "texturing was stopped"};
-    context_.pool.for_each_band(int(views_.size()), int(views_.size()), [&](int begin, int end, int) {
-      for (int i = begin; i < end; ++i)
-        if (!context_.stop()) look(std::size_t(i));
-    });
+    look_from_all();
     if (context_.stop()) return stopped;
     for (std::size_t v = 0; v < vertices_; ++v)
       for (std::size_t i = 0; i < views_.size(); ++i) known_[v] = known_[v] != 0 || say(v, i) > 0 ? 1 : 0;
@@ -106,12 +104,45 @@ class Texturing {
     return true;
   }
 
+  // What looking from one view takes.
+  struct Room {
+    Room(std::size_t places, std::size_t vertices, std::pmr::memory_resource* memory)
+        : depth(memory), pixel(vertices, Pixel{}, memory), share(vertices, 0.0F, memory) {
+      depth.reserve(places);
+    }
+    std::pmr::vector<float> depth;
+    std::pmr::vector<Pixel> pixel;
+    std::pmr::vector<float> share;
+  };
+
+  // As many views at once as there are threads, so that no more rooms are needed. The arena is for one
+  // thread: they are made before.
+  void look_from_all() {
+    const Arena::Mark mark(context_.scratch);
+    std::size_t places = 0;
+    for (const HeadView& view : views_)
+      places = std::max(places,
+                        std::size_t(view.width_px / kDepthShare) * std::size_t(view.height_px / kDepthShare));
+    const std::size_t at_once = std::min(views_.size(), std::size_t(context_.pool.size()));
+    std::pmr::vector<Room> rooms(&context_.scratch);
+    rooms.reserve(at_once);
+    for (std::size_t k = 0; k < at_once; ++k) rooms.emplace_back(places, vertices_, &context_.scratch);
+    for (std::size_t first = 0; first < views_.size(); first += at_once) {
+      const int count = int(std::min(at_once, views_.size() - first));
+      context_.pool.for_each_band(count, count, [&](int begin, int end, int) {
+        for (int k = begin; k < end; ++k)
+          if (!context_.stop()) look(first + std::size_t(k), rooms[std::size_t(k)]);
+      });
+    }
+  }
+
   // How well a photograph looks at every vertex.
-  void look(std::size_t i) {
+  void look(std::size_t i, Room& room) {
     const HeadView& view = views_[i];
     const int w = view.width_px / kDepthShare, h = view.height_px / kDepthShare;
-    std::vector<float> depth(std::size_t(w) * std::size_t(h), 1e9F);
-    std::vector<Pixel> pixel(vertices_);
+    std::pmr::vector<float>& depth = room.depth;
+    std::pmr::vector<Pixel>& pixel = room.pixel;
+    depth.assign(std::size_t(w) * std::size_t(h), 1e9F);
     for (std::size_t v = 0; v < vertices_; ++v) pixel[v] = project(view, mesh_.vertices_mm[v]);
     for (const auto& t : mesh_.triangles) {
       const auto corner = [&](std::size_t k) {
@@ -140,12 +171,11 @@ class Texturing {
       if (!view.master && mesh_.measured[v] == 0) here *= kOthersOnCompleted;
       say(v, i) = here;
     }
-    fade(i);
+    fade(i, room.share);
   }
 
   // Towards where a view ends, or something hides the head from it.
-  void fade(std::size_t i) {
-    std::vector<float> share(vertices_);
+  void fade(std::size_t i, std::pmr::vector<float>& share) {
     for (std::size_t v = 0; v < vertices_; ++v) share[v] = say(v, i) > 0 ? 1 : 0;
     for (int round = 0; round < kFadeEdges; ++round)
       for (const auto& t : mesh_.triangles) {

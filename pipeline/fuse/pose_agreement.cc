@@ -18,11 +18,10 @@ constexpr float kNowhere = std::numeric_limits<float>::quiet_NaN();
 
 // By how much a place of pose `a` lies before what pose `b` shows there.
 float distance_mm(const Vec3d& at, const Vec3d& normal, const PoseSurface& b, const RigidTransform& placed) {
-  const auto hit = b.look(narrow(apply(inverse(placed), at)));
-  if (!hit || hit->trust < kLeastTrust) return kNowhere;
-  const Vec3d n = apply(placed.rotation, wide(hit->normal));
-  const double d = dot(n, minus(at, apply(placed, wide(hit->at_mm))));
-  return dot(n, normal) < kSameWay || std::abs(d) > kReachMm ? kNowhere : float(d);
+  const auto hit = look(b, placed, at);
+  if (!hit || hit->own.trust < kLeastTrust) return kNowhere;
+  return dot(hit->normal, normal) < kSameWay || std::abs(hit->before_mm) > kReachMm ? kNowhere
+                                                                                    : float(hit->before_mm);
 }
 
 PoseMeeting meeting_of(std::pmr::vector<float>& distances, double area_mm2) {

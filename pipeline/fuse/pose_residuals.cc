@@ -18,6 +18,66 @@ constexpr double kLeastSlideScaleMm = 0.2;
 constexpr double kFaceMovesMore = 3;  // by so much, beyond noise
 constexpr double kNothingMovesMm = 0.02, kMostMovesMm = 0.1, kCalibrationsDifferMm = 0.15;
 
+bool slides(const PatchMean& mean) { return mean.patch >= SkinPatches::kPatches; }
+
+// Head frame.
+Vec3d middle_of(std::size_t patch) {
+  const auto middle = [](std::size_t cell) {
+    return (double(cell) - SkinPatches::kAcross / 2 + 0.5) * kPatchMm;
+  };
+  return {middle(patch % SkinPatches::kAcross), middle(patch / SkinPatches::kAcross % SkinPatches::kAcross),
+          middle(patch / SkinPatches::kAcross / SkinPatches::kAcross) - kHeadCentreMm};
+}
+
+// How much a patch that lies so far off has to say, 0 to 1; one that lies off by the scale keeps a quarter of
+// its say.
+double still(double mean_mm, double scale_mm) {
+  const double kept = scale_mm * scale_mm / (scale_mm * scale_mm + mean_mm * mean_mm);
+  return kept * kept;
+}
+
+// Below the forehead and before the temples.
+bool is_face(std::size_t patch) {
+  const Vec3d middle = middle_of(patch % SkinPatches::kPatches);
+  return middle.z > -62 && middle.y < 52;
+}
+
+// Where skin moves, a patch that was measured better says hardly more (random effects: DerSimonian, Laird
+// 1986); a face moves more than what is around it.
+double weight_of(const PatchMean& mean, double usual_mm) {
+  double moves = usual_mm;
+  if (is_face(mean.patch))
+    moves += kFaceMovesMore * std::clamp(usual_mm - kNothingMovesMm, 0.0, kMostMovesMm);
+  return mean.weight / (1 + mean.weight * moves * moves);
+}
+
+// One standard deviation while a face moves by half a millimetre. Ears and what is behind the temples hang on
+// the skull. Where all of the skin lies off it has not moved: calibrations differ.
+double slides_mm(std::size_t patch, double usual_mm) {
+  const Vec3d middle = middle_of(patch % SkinPatches::kPatches);
+  if (middle.z < -100) return 0.08;
+  if (middle.z < -70) return 0.18;
+  if (is_face(patch) && usual_mm < kCalibrationsDifferMm) return 1;
+  return middle.y > 110 ? 0.15 : 0.35;
+}
+
+constexpr double kSameFacing = 0.7;  // cosine between the normals of what is taken for the same skin
+constexpr double kSurfaceSigmaMm = 0.03;
+constexpr double kNeckMm = -60;  // above the tip of the nose
+constexpr double kScaleOfUsual = 1.5;
+
+double say_in_head(const Vec3d& p) {
+  const double side = std::abs(p.x);
+  if (p.y < kNeckMm) return 0;                // neck
+  if (p.y > 105) return 0.1;                  // hair
+  if (p.z < -62) return p.y < -30 ? 0.1 : 1;  // temples, ears; the jaw's corner
+  if (p.y > 52) return 1;                     // forehead
+  if (side < 9 && p.y > 12) return 1;         // bridge of the nose
+  if (p.y > 20 && side < 60) return 0.05;     // lids and brows
+  if (p.y > 0) return side > 30 ? 0.3 : 0.1;  // cheek bones
+  return 0.02;                                // lips, chin, jaw
+}
+
 }  // namespace
 
 std::size_t SkinPatches::at(const Vec3d& in_head) {
@@ -25,12 +85,6 @@ std::size_t SkinPatches::at(const Vec3d& in_head) {
     return std::size_t(std::clamp(int(std::floor(x / kPatchMm)) + kAcross / 2, 0, kAcross - 1));
   };
   return (cell(in_head.z + kHeadCentreMm) * kAcross + cell(in_head.y)) * kAcross + cell(in_head.x);
-}
-
-Vec3d SkinPatches::middle_of(std::size_t patch) {
-  const auto middle = [](std::size_t cell) { return (double(cell) - kAcross / 2 + 0.5) * kPatchMm; };
-  return {middle(patch % kAcross), middle(patch / kAcross % kAcross),
-          middle(patch / kAcross / kAcross) - kHeadCentreMm};
 }
 
 std::size_t SkinPatches::region_of(std::size_t patch) {
@@ -46,37 +100,6 @@ SkinPatches::Usual SkinPatches::usual(std::span<const PatchMean> means, std::pmr
     return off.empty() ? 0 : median(off) / 0.6745;
   };
   return {deviation(false), deviation(true)};
-}
-
-// One that lies off by the scale keeps a quarter of its say.
-double SkinPatches::still(double mean_mm, double scale_mm) {
-  const double kept = scale_mm * scale_mm / (scale_mm * scale_mm + mean_mm * mean_mm);
-  return kept * kept;
-}
-
-// Below the forehead and before the temples.
-bool SkinPatches::is_face(std::size_t patch) {
-  const Vec3d middle = middle_of(patch % kPatches);
-  return middle.z > -62 && middle.y < 52;
-}
-
-// Where skin moves, a patch that was measured better says hardly more (random effects: DerSimonian, Laird
-// 1986); a face moves more than what is around it.
-double SkinPatches::weight_of(const PatchMean& mean, double usual_mm) {
-  double moves = usual_mm;
-  if (is_face(mean.patch))
-    moves += kFaceMovesMore * std::clamp(usual_mm - kNothingMovesMm, 0.0, kMostMovesMm);
-  return mean.weight / (1 + mean.weight * moves * moves);
-}
-
-// One standard deviation while a face moves by half a millimetre. Ears and what is behind the temples hang on
-// the skull. Where all of the skin lies off it has not moved: calibrations differ.
-double SkinPatches::slides_mm(std::size_t patch, double usual_mm) {
-  const Vec3d middle = middle_of(patch % kPatches);
-  if (middle.z < -100) return 0.08;
-  if (middle.z < -70) return 0.18;
-  if (is_face(patch) && usual_mm < kCalibrationsDifferMm) return 1;
-  return middle.y > 110 ? 0.15 : 0.35;
 }
 
 double SkinPatches::say(const PatchMean& mean, const Usual& usual) {
@@ -102,27 +125,6 @@ void SkinPatches::take(std::span<const PatchMean> means) {
   for (const PatchMean& m : means)
     if (!slides(m)) say_[between(m.patch, m.a, m.b)] = float(say(m, usually));
 }
-
-namespace {
-
-constexpr double kSameFacing = 0.7;  // cosine between the normals of what is taken for the same skin
-constexpr double kSurfaceSigmaMm = 0.03;
-constexpr double kNeckMm = -60;  // above the tip of the nose
-constexpr double kScaleOfUsual = 1.5;
-
-double say_in_head(const Vec3d& p) {
-  const double side = std::abs(p.x);
-  if (p.y < kNeckMm) return 0;                // neck
-  if (p.y > 105) return 0.1;                  // hair
-  if (p.z < -62) return p.y < -30 ? 0.1 : 1;  // temples, ears; the jaw's corner
-  if (p.y > 52) return 1;                     // forehead
-  if (side < 9 && p.y > 12) return 1;         // bridge of the nose
-  if (p.y > 20 && side < 60) return 0.05;     // lids and brows
-  if (p.y > 0) return side > 30 ? 0.3 : 0.1;  // cheek bones
-  return 0.02;                                // lips, chin, jaw
-}
-
-}  // namespace
 
 PoseResiduals::PoseResiduals(std::span<const PoseSurface> poses, std::span<RegisteredPose> placed,
                              StageContext& context)
@@ -156,18 +158,17 @@ double PoseResiduals::say_of(PoseResidual& res) const {
 
 bool PoseResiduals::meet(std::size_t a, std::size_t k, const Vec3d& normal, std::size_t b,
                          const RegistrationRound& round, PoseResidual& res) const {
-  const RigidTransform& placed = placed_[b].first_from_pose;
-  const auto hit = poses_[b].look(narrow(apply(inverse(placed), res.at)));
-  if (!hit || hit->trust < kLeastTrust) return false;
-  const Vec3d n = apply(placed.rotation, wide(hit->normal));
+  const auto hit = look(poses_[b], placed_[b].first_from_pose, res.at);
+  if (!hit || hit->own.trust < kLeastTrust) return false;
+  const Vec3d& n = hit->normal;
   if (dot(n, normal) < kSameFacing) return false;
-  res.value = dot(n, minus(res.at, apply(placed, wide(hit->at_mm))));
+  res.value = hit->before_mm;
   if (std::abs(res.value) > round.reach_mm) return false;
   const PoseSurface& from = poses_[a];
-  const double sigma = double(from.sigma_mm[k]), other = double(hit->sigma_mm);
+  const double sigma = double(from.sigma_mm[k]), other = double(hit->own.sigma_mm);
   const double scale = std::max(round.scale_mm, kScaleOfUsual * usual_mm_);
   const double kept = scale * scale / (scale * scale + res.value * res.value);
-  res.weight = double(std::min(from.trust[k], hit->trust)) * kept * kept /
+  res.weight = double(std::min(from.trust[k], hit->own.trust)) * kept * kept /
                (sigma * sigma + other * other + kSurfaceSigmaMm * kSurfaceSigmaMm);
   const Vec3d turn = cross(minus(res.at, pivot_), n);
   res.toward << turn.x, turn.y, turn.z, n.x, n.y, n.z;

@@ -63,13 +63,6 @@ class SkinPatches {
   double variance_mm2() const { return variance_mm2_; }
 
  private:
-  // How much a patch that lies so far off has to say, 0 to 1.
-  static double still(double mean_mm, double scale_mm);
-  static double weight_of(const PatchMean& mean, double usual_mm);
-  static bool slides(const PatchMean& mean) { return mean.patch >= kPatches; }
-  static double slides_mm(std::size_t patch, double usual_mm);
-  static bool is_face(std::size_t patch);
-  static Vec3d middle_of(std::size_t patch);  // head frame
   std::size_t between(std::size_t patch, std::size_t a, std::size_t b) const {
     return (patch * poses_ + std::min(a, b)) * poses_ + std::max(a, b);
   }

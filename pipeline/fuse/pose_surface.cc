@@ -89,9 +89,8 @@ Result<PoseSurface> make_pose_surface(const PointCloud& cloud, const RectifiedPa
   pose.sigma_mm.assign(lattice.size(), 0.0F);
   pose.trust.assign(lattice.size(), 0.0F);
 
-  for_each_triangle(lattice, surface, [&](const std::array<std::uint32_t, 3>& t) {
-    const Vec3f& a = lattice.at_mm[t[0]];
-    const Vec3f area = cross(minus(lattice.at_mm[t[1]], a), minus(lattice.at_mm[t[2]], a));
+  for_each_triangle(lattice, surface, [&](const Triangle& t) {
+    const Vec3f area = area_normal(lattice.at_mm, t);
     for (const std::uint32_t v : t) pose.normal[v] = plus(pose.normal[v], area);
   });
   std::pmr::vector<float> sigmas(&context.scratch);
@@ -186,6 +185,14 @@ std::optional<SurfaceHit> PoseSurface::look(const Vec3f& place) const {
   if (least < 0) return std::nullopt;  // a fold between the nodes
   hit.normal = unit(hit.normal);
   return hit;
+}
+
+std::optional<PlacedHit> look(const PoseSurface& pose, const RigidTransform& first_from_pose,
+                              const Vec3d& place) {
+  const auto hit = pose.look(narrow(apply(inverse(first_from_pose), place)));
+  if (!hit) return std::nullopt;
+  const Vec3d normal = apply(first_from_pose.rotation, wide(hit->normal));
+  return PlacedHit{*hit, normal, dot(normal, minus(place, apply(first_from_pose, wide(hit->at_mm))))};
 }
 
 }  // namespace relievo::pipeline

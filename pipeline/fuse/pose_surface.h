@@ -67,6 +67,16 @@ struct PoseSurface {
   std::optional<SurfaceHit> look(const Vec3f& place_mm) const;
 };
 
+// What a pose that was placed in the first one's frame shows of a place there: its normal, and by how much
+// the place lies before it along that.
+struct PlacedHit {
+  SurfaceHit own;  // its own frame
+  Vec3d normal;
+  double before_mm = 0;
+};
+std::optional<PlacedHit> look(const PoseSurface& pose, const RigidTransform& first_from_pose,
+                              const Vec3d& place_mm);
+
 // Of a cloud on a lattice. Nodes on the edge of what was measured and surface steeper than 75 degrees to the
 // line of sight go. Memory: output; scratch. Thread: any. Errors: Unsupported (scattered points),
 // PoorGeometry (no surface), Cancelled; throws std::bad_alloc.

@@ -15,33 +15,10 @@ namespace {
 constexpr std::uint32_t kNobody = 0xFFFFFFFFU;
 constexpr float kSlackMm = 0.6F;  // an opening leaves straight rims where they are
 
-// The triangles around each vertex.
-class Fans {
- public:
-  Fans(std::size_t vertices, std::span<const Triangle> triangles, std::pmr::memory_resource* memory)
-      : triangles_(triangles), begin_(vertices + 1, 0, memory), around_(3 * triangles.size(), memory) {
-    for (const Triangle& t : triangles)
-      for (const std::uint32_t v : t) ++begin_[v + 1];
-    std::partial_sum(begin_.begin(), begin_.end(), begin_.begin());
-    std::pmr::vector<std::uint32_t> next(begin_, memory);
-    for (std::uint32_t i = 0; i < triangles.size(); ++i)
-      for (const std::uint32_t v : triangles[i]) around_[next[v]++] = i;
-  }
-  template <typename Visit>
-  void for_each_neighbour(std::uint32_t v, Visit&& visit) const {
-    for (std::uint32_t i = begin_[v]; i < begin_[v + 1]; ++i)
-      for (const std::uint32_t other : triangles_[around_[i]]) visit(other);
-  }
-
- private:
-  std::span<const Triangle> triangles_;
-  std::pmr::vector<std::uint32_t> begin_, around_;
-};
-
 // How far every vertex lies from the nearest one that is marked, `most` where that is further: each learns of
 // it from its neighbours (Danielsson 1980).
-std::pmr::vector<float> distances(std::span<const Vec3f> vertices, const Fans& fans,
-                                  std::span<const std::uint8_t> marked, float most,
+std::pmr::vector<float> distances(std::span<const Vec3f> vertices, std::span<const Triangle> triangles,
+                                  const Groups& around, std::span<const std::uint8_t> marked, float most,
                                   std::pmr::memory_resource* memory) {
   std::pmr::vector<float> far(vertices.size(), most, memory);
   std::pmr::vector<std::uint32_t> nearest(vertices.size(), kNobody, memory), told(memory), next(memory);
@@ -49,49 +26,19 @@ std::pmr::vector<float> distances(std::span<const Vec3f> vertices, const Fans& f
     if (marked[v] != 0) far[v] = 0, nearest[v] = v, told.push_back(v);
   for (; !told.empty(); std::swap(told, next), next.clear())
     for (const std::uint32_t v : told)
-      fans.for_each_neighbour(v, [&](std::uint32_t other) {
-        if (far[other] <= 0 || nearest[other] == nearest[v]) return;
-        const float mm = distance(vertices[other], vertices[nearest[v]]);
-        if (mm >= far[other]) return;
-        far[other] = mm;
-        nearest[other] = nearest[v];
-        next.push_back(other);
-      });
+      for (const std::uint32_t t : around[v])
+        for (const std::uint32_t other : triangles[t]) {
+          if (far[other] <= 0 || nearest[other] == nearest[v]) continue;
+          const float mm = distance(vertices[other], vertices[nearest[v]]);
+          if (mm >= far[other]) continue;
+          far[other] = mm;
+          nearest[other] = nearest[v];
+          next.push_back(other);
+        }
   return far;
 }
 
 }  // namespace
-
-std::pmr::vector<BorderEdge> border_edges(std::span<const Triangle> triangles,
-                                          std::pmr::memory_resource* memory) {
-  // By the vertex of the lower number: of each of its edges the other end, doubled, and one more where the
-  // triangle runs back from there.
-  std::pmr::vector<std::uint32_t> begin(memory), ends(3 * triangles.size(), memory);
-  const auto for_each_edge = [&](const auto& take) {
-    for (const Triangle& t : triangles)
-      for (std::size_t i = 0; i < 3; ++i) {
-        const std::uint32_t from = t[i], to = t[(i + 1) % 3];
-        from < to ? take(from, 2 * to) : take(to, 2 * from + 1);
-      }
-  };
-  for (const Triangle& t : triangles)
-    begin.resize(std::max<std::size_t>({begin.size(), t[0] + 2UL, t[1] + 2UL, t[2] + 2UL}));
-  for_each_edge([&](std::uint32_t low, std::uint32_t) { ++begin[low + 1]; });
-  std::partial_sum(begin.begin(), begin.end(), begin.begin());
-  std::pmr::vector<std::uint32_t> next(begin, memory);
-  for_each_edge([&](std::uint32_t low, std::uint32_t end) { ends[next[low]++] = end; });
-  std::pmr::vector<BorderEdge> border(memory);
-  for (std::uint32_t low = 0; low + 1 < begin.size(); ++low) {
-    const auto mine = std::span(ends).subspan(begin[low], begin[low + 1] - begin[low]);
-    std::sort(mine.begin(), mine.end());
-    for (std::size_t i = 0, after = 0; i < mine.size(); i = after) {
-      while (after < mine.size() && mine[after] / 2 == mine[i] / 2) ++after;
-      const std::uint32_t high = mine[i] / 2;
-      if (after - i == 1) border.push_back(mine[i] % 2 == 0 ? BorderEdge{low, high} : BorderEdge{high, low});
-    }
-  }
-  return border;
-}
 
 void open_rims(std::span<const Vec3f> at, std::span<const std::uint8_t> sure,
                std::pmr::vector<Triangle>& triangles, float radius_mm, int holds,
@@ -99,13 +46,14 @@ void open_rims(std::span<const Vec3f> at, std::span<const std::uint8_t> sure,
   const std::size_t vertices = sure.size();
   std::pmr::vector<std::uint8_t> marked(vertices, 0, memory);
   for (const BorderEdge& e : border_edges(triangles, memory)) marked[e[0]] = marked[e[1]] = 1;
-  const Fans fans(vertices, triangles, memory);
-  const auto from_rim = distances(at, fans, marked, radius_mm, memory);
+  Groups around(memory);
+  group_around(around, vertices, triangles);
+  const auto from_rim = distances(at, triangles, around, marked, radius_mm, memory);
   for (std::size_t v = 0; v < vertices; ++v) marked[v] = from_rim[v] >= radius_mm ? 1 : 0;
   const float far = radius_mm + kSlackMm;
-  const auto from_core = distances(at, fans, marked, far, memory);
+  const auto from_core = distances(at, triangles, around, marked, far, memory);
   for (std::size_t v = 0; v < vertices; ++v) marked[v] = marked[v] != 0 || sure[v] != 0 ? 1 : 0;
-  const auto from_sure = distances(at, fans, marked, far, memory);
+  const auto from_sure = distances(at, triangles, around, marked, far, memory);
   // Parts beside the core, by one of their vertices each, and how many that are sure join each to it.
   std::pmr::vector<std::uint32_t> part(vertices, 0, memory);
   std::iota(part.begin(), part.end(), 0U);

@@ -5,7 +5,6 @@
 // std::bad_alloc.
 #pragma once
 
-#include <array>
 #include <cstdint>
 #include <functional>
 #include <memory_resource>
@@ -15,11 +14,6 @@
 #include "pipeline/mesh/surface_cleaner.h"
 
 namespace relievo::pipeline {
-
-using BorderEdge = std::array<std::uint32_t, 2>;  // as its triangle runs
-
-std::pmr::vector<BorderEdge> border_edges(std::span<const Triangle> triangles,
-                                          std::pmr::memory_resource* memory);
 
 // Takes away what no disc of that radius within the surface covers: teeth, threads, corners (an opening;
 // Serra 1982). Vertices with `sure` 1, one byte a vertex, stay, and what lies that near to them; but a part

@@ -98,15 +98,12 @@ class Bender {
     Gap sum;
     for (std::size_t j = 0; j < poses_.size(); ++j) {
       if (fixed_[j] == 0) continue;
-      const RigidTransform& other = registration_.poses[j].first_from_pose;
-      const auto hit = poses_[j].look(narrow(apply(inverse(other), at)));
-      if (!hit) continue;
-      const Vec3d n = apply(other.rotation, wide(hit->normal));
-      if (dot(n, normal) < double(kSameWay)) continue;
-      const float d = float(dot(n, minus(at, apply(other, wide(hit->at_mm)))));
-      const float unsure_mm = kReachSigmas * std::hypot(hit->sigma_mm, poses_[k].sigma_mm[i]);
+      const auto hit = look(poses_[j], registration_.poses[j].first_from_pose, at);
+      if (!hit || dot(hit->normal, normal) < double(kSameWay)) continue;
+      const float d = float(hit->before_mm), sigma = hit->own.sigma_mm;
+      const float unsure_mm = kReachSigmas * std::hypot(sigma, poses_[k].sigma_mm[i]);
       if (std::abs(d) > std::clamp(unsure_mm, kReachMm, kFarthestMm)) continue;
-      const float w = hit->trust / (hit->sigma_mm * hit->sigma_mm + kLeastSigmaMm * kLeastSigmaMm);
+      const float w = hit->own.trust / (sigma * sigma + kLeastSigmaMm * kLeastSigmaMm);
       sum.distance += w * d;
       sum.weight += w;
     }

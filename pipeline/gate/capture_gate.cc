@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cmath>
 #include <numbers>
+#include <utility>
 
 #include "pipeline/gate/head/head_outline.h"
 #include "pipeline/gate/light/face_light.h"
@@ -16,6 +17,10 @@ constexpr double kFaceWidthMm = 150;      // what a cascade's box stands for
 constexpr double kSecondFaceShare = 0.4;  // smaller ones are passers-by far away
 constexpr int kSecondFaceVotes = 8;
 constexpr double kTurnSmoothing = 0.5;
+constexpr GateTime kKeepsTrack = std::chrono::milliseconds{1500};  // of a head that no cascade sees any more
+// What is measured wanders by a millimetre: over less time that would look like haste, however fast the
+// pictures come.
+constexpr GateTime kShortestMotion = std::chrono::milliseconds{50};
 constexpr double kNeckMm = 60;  // a head turns about an axis so far behind the tip of its nose, or farther
 
 // A second face must be as wide as one at its own distance, where that is known.
@@ -50,11 +55,6 @@ void measure_picture(const Relief& relief, double nearest_mm, GateMeasures& m) {
   m.picture_dark_share = double(dark) / double(std::max<std::size_t>(1, relief.grey.size()));
   m.middle_bright_share = double(bright) / middle;
   m.middle_near_share = double(near) / middle;
-}
-
-void measure_expression(const FacePhoto& photo, StageContext& context, GateMeasures& m) {
-  m.eyes = measure_eyes(photo, context);
-  m.mouth = measure_mouth(photo, context);
 }
 
 // To which side a head is turned far the outline tells: a cheek taken for a face mirrors itself, too, in a
@@ -92,13 +92,10 @@ double moved_mm(const Relief& relief, const SeenHead& from, const SeenHead& to) 
   return std::hypot(across, b.z - a.z);
 }
 
-// However fast the pictures come: a head at rest must not seem to hurry because two of them are taken within
-// a blink.
-void measure_motion(const Relief& relief, const SeenHead& now, GateTime shortest, const GateHistory& history,
-                    GateMeasures& m) {
+void measure_motion(const Relief& relief, const SeenHead& now, const GateHistory& history, GateMeasures& m) {
   m.speed_mm_s = history.speed_mm_s;
   m.turn_deg_s = history.turn_deg_s;
-  if (now.at - history.from.at < shortest) return;
+  if (now.at - history.from.at < kShortestMotion) return;
   const double seconds = std::chrono::duration<double>(now.at - history.from.at).count();
   const double moved = moved_mm(relief, history.from, now), speed = moved / seconds;
   // The tip of a nose at rest wanders by a millimetre from picture to picture: two pictures speak together.
@@ -110,13 +107,10 @@ void measure_motion(const Relief& relief, const SeenHead& now, GateTime shortest
   m.turn_deg_s = kTurnSmoothing * turn + (1 - kTurnSmoothing) * std::min(history.turn_deg_s, 2 * turn);
 }
 
-void remember(const SeenHead& now, GateTime shortest, const GateMeasures& m, GateHistory& history) {
-  if (!m.head.known) {
-    history.seen = false;
-    return;
-  }
-  if (!history.seen || now.at - history.from.at >= shortest) history.from = now;
-  history.seen = true;
+void remember(const SeenHead& now, const GateMeasures& m, GateHistory& history) {
+  const bool before = std::exchange(history.seen, m.head.known);
+  if (!m.head.known) return;
+  if (!before || now.at - history.from.at >= kShortestMotion) history.from = now;
   if (now.by_cascade) history.last_by_cascade = now.at;
   history.last = now;
   history.speed_mm_s = m.speed_mm_s;
@@ -141,7 +135,7 @@ void settle(GateTime now, GateAnswer& answer, GateHistory& history) {
 Result<CaptureGate> CaptureGate::open(const CaptureGateOptions& options) {
   RELIEVO_TRY(options.relief.check());
   RELIEVO_TRY(options.limits.check());
-  RELIEVO_TRY_ASSIGN(FaceWatch watch, FaceWatch::open(options.faces));
+  RELIEVO_TRY_ASSIGN(FaceWatch watch, FaceWatch::open(options.cascade_dir));
   return CaptureGate(std::move(watch), options);
 }
 
@@ -163,7 +157,7 @@ Result<GateLook> CaptureGate::look(const StereoFrame& frame, const StereoCalibra
     m.tracked = head.known && head.relief_mm > options_.limits.relief_mm;
     if (m.tracked) m.face = place, m.head = head, m.faces = std::max(m.faces, 1);
   };
-  if (!m.head.known && history.seen && now - history.last_by_cascade < options_.keeps_track)
+  if (!m.head.known && history.seen && now - history.last_by_cascade < kKeepsTrack)
     look_at(expected(relief, history));
   const bool unseen = !m.head.known && m.faces == 0;
   if (unseen) {
@@ -181,17 +175,19 @@ Result<GateLook> CaptureGate::look(const StereoFrame& frame, const StereoCalibra
     // In the dark and in glare the head seems to tremble: nothing is said of its motion there.
     const bool lit = m.light.luminance_mean >= options_.limits.darkest_mean &&
                      m.light.luminance_mean <= options_.limits.brightest_mean;
-    if (lit && history.seen) measure_motion(relief, seen, options_.shortest_motion, history, m);
+    if (lit && history.seen) measure_motion(relief, seen, history, m);
     m.blur_mm = measure_blur_mm(frame, calibration, relief, m.head, context);
     m.beside_share = beside_share(relief, m.head);
-    measure_expression({frame, calibration, relief, m.head}, context, m);
+    const FacePhoto photo{frame, calibration, relief, m.head};
+    m.eyes = measure_eyes(photo, context);
+    m.mouth = measure_mouth(photo, context);
   }
   answer.reason = judge(m, options_.limits, history.said);
   if (unseen && m.tracked && !is_of_place_or_pose(answer.reason)) {
     m.head = {}, m.face = {}, m.tracked = false, m.faces = 0;
     answer.reason = judge(m, options_.limits, history.said);
   }
-  remember(seen, options_.shortest_motion, m, history);
+  remember(seen, m, history);
   settle(now, answer, history);
   return GateLook{answer, std::move(relief)};
 }

@@ -16,6 +16,7 @@
 #pragma once
 
 #include <chrono>
+#include <string>
 
 #include "pipeline/gate/face/face_watch.h"
 #include "pipeline/gate/judgement.h"
@@ -27,11 +28,8 @@ using GateTime = std::chrono::nanoseconds;  // of the exposure, on any steady cl
 
 struct CaptureGateOptions {
   LiveReliefOptions relief;
-  FaceWatchOptions faces;
+  std::string cascade_dir = "/usr/share/opencv4/haarcascades";  // Debian's opencv-data
   GateLimits limits;
-  GateTime keeps_track = std::chrono::milliseconds{1500};  // of a head that no cascade sees any more
-  GateTime shortest_motion = std::chrono::milliseconds{
-      50};  // what is measured wanders by a millimetre: over less time that would look like haste
 };
 
 // A head as one picture showed it.
@@ -46,7 +44,7 @@ struct SeenHead {
 struct GateHistory {
   bool seen = false;  // a head, in the picture before
   GateTime last_by_cascade{};
-  SeenHead last, from;  // from: what motion is measured against, shortest_motion ago or more
+  SeenHead last, from;  // from: what motion is measured against, kShortestMotion ago or more
   double speed_mm_s = 0, turn_deg_s = 0;
   Advice said = Advice::NoFace;   // to the person
   Advice heard = Advice::NoFace;  // the reason of the picture before

@@ -8,15 +8,13 @@
 #include <iterator>
 
 #include "hal/base/statistics.h"
+#include "pipeline/model/vector3.h"
 
 namespace relievo::pipeline {
 namespace {
 
 double triangle_area(const Vec3f& a, const Vec3f& b, const Vec3f& c) {
-  const double ux = b.x - a.x, uy = b.y - a.y, uz = b.z - a.z;
-  const double vx = c.x - a.x, vy = c.y - a.y, vz = c.z - a.z;
-  const double nx = uy * vz - uz * vy, ny = uz * vx - ux * vz, nz = ux * vy - uy * vx;
-  return 0.5 * std::sqrt(nx * nx + ny * ny + nz * nz);
+  return 0.5 * length(cross(wide(minus(b, a)), wide(minus(c, a))));
 }
 
 // What a visitor looks at first, in the head's frame; mm. The mouth lies that far below the nose, however it
@@ -56,7 +54,7 @@ ModelQuality measure_quality(const FaceMesh& mesh, const HeadFrame& frame, Stage
       share.measured += measured;
     };
     add(face);
-    const Vec3d p = apply(frame.head_from_camera, {double(a.x), double(a.y), double(a.z)});
+    const Vec3d p = apply(frame.head_from_camera, wide(a));
     for (std::size_t i = 0; i < features.size(); ++i)
       if (std::abs(p.x - kFeatures[i].x) < kFeatures[i].half_width &&
           std::abs(p.y - kFeatures[i].y) < kFeatures[i].half_height)

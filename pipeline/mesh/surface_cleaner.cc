@@ -5,16 +5,13 @@
 #include <algorithm>
 #include <cmath>
 
-#include "hal/base/groups.h"
-#include "pipeline/model/vector3.h"
-
 namespace relievo::pipeline {
 namespace {
 
 constexpr std::uint32_t kNone = 0xFFFFFFFFU;
 
 double triangle_area(std::span<const Vec3f> v, const Triangle& t) {
-  return 0.5 * double(length(cross(minus(v[t[1]], v[t[0]]), minus(v[t[2]], v[t[0]]))));
+  return 0.5 * double(length(area_normal(v, t)));
 }
 
 // Triangles with their neighbours; triangles die, they are never moved.
@@ -32,7 +29,7 @@ class Soup {
         corners_(vertices.size(), 0, memory),
         inner_(vertices.size(), 0, memory) {
     stack_.reserve(triangles.size());
-    index_corners();
+    group_around(around_, vertices.size(), triangles);
     find_neighbours();
   }
 
@@ -82,13 +79,6 @@ class Soup {
   }
 
  private:
-  void index_corners() {
-    around_.sort(vertices_.size(), [this](auto&& add) {
-      for (std::uint32_t t = 0; t < triangles_.size(); ++t)
-        for (const std::uint32_t v : triangles_[t]) add(v, t);
-    });
-  }
-
   void find_neighbours() {
     for (std::uint32_t t = 0; t < triangles_.size(); ++t)
       for (std::size_t k = 0; k < 3; ++k) {
@@ -177,6 +167,34 @@ class Soup {
 
 }  // namespace
 
+std::pmr::vector<BorderEdge> border_edges(std::span<const Triangle> triangles,
+                                          std::pmr::memory_resource* memory) {
+  std::uint32_t most = 0;
+  for (const Triangle& t : triangles) most = std::max({most, t[0], t[1], t[2]});
+  // By the vertex of the lower number: of each of its edges the other end, doubled, and one more where the
+  // triangle runs back from there.
+  Groups ends(memory);
+  ends.sort(std::size_t{most} + 1, [&](auto&& add) {
+    for (const Triangle& t : triangles)
+      for (std::size_t i = 0; i < 3; ++i) {
+        const std::uint32_t from = t[i], to = t[(i + 1) % 3];
+        from < to ? add(from, 2 * to) : add(to, 2 * from + 1);
+      }
+  });
+  std::pmr::vector<BorderEdge> border(memory);
+  std::pmr::vector<std::uint32_t> mine(memory);
+  for (std::uint32_t low = 0; low < ends.size(); ++low) {
+    mine.assign(ends[low].begin(), ends[low].end());
+    std::ranges::sort(mine);
+    for (std::size_t i = 0, after = 0; i < mine.size(); i = after) {
+      while (after < mine.size() && mine[after] / 2 == mine[i] / 2) ++after;
+      const std::uint32_t high = mine[i] / 2;
+      if (after - i == 1) border.push_back(mine[i] % 2 == 0 ? BorderEdge{low, high} : BorderEdge{high, low});
+    }
+  }
+  return border;
+}
+
 Error no_surface() {
   return {Errc::PoorGeometry,
           "the points form no surface of a face's size: look straight into the cameras and try again"};
@@ -209,8 +227,7 @@ void keep_one_surface(std::span<const Vec3f> vertices, std::pmr::vector<Triangle
 void compute_normals(FaceMesh& face, int passes, std::pmr::memory_resource* scratch) {
   face.normals.assign(face.vertices_mm.size(), Vec3f{});
   for (const Triangle& t : face.triangles) {
-    const Vec3f& a = face.vertices_mm[t[0]];
-    const Vec3f n = cross(minus(face.vertices_mm[t[1]], a), minus(face.vertices_mm[t[2]], a));
+    const Vec3f n = area_normal(face.vertices_mm, t);
     for (const std::uint32_t v : t) face.normals[v] = plus(face.normals[v], n);
   }
   for (Vec3f& n : face.normals) n = unit(n);

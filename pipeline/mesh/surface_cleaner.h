@@ -10,13 +10,33 @@
 #include <span>
 #include <vector>
 
+#include "hal/base/groups.h"
 #include "hal/base/result.h"
 #include "pipeline/base/stage.h"
 #include "pipeline/model/face_mesh.h"
+#include "pipeline/model/vector3.h"
 
 namespace relievo::pipeline {
 
 using Triangle = std::array<std::uint32_t, 3>;
+using BorderEdge = std::array<std::uint32_t, 2>;  // as its triangle runs
+
+// Out of a triangle as it winds; as long as twice its area.
+inline Vec3f area_normal(std::span<const Vec3f> vertices_mm, const Triangle& t) {
+  return cross(minus(vertices_mm[t[1]], vertices_mm[t[0]]), minus(vertices_mm[t[2]], vertices_mm[t[0]]));
+}
+
+// Which triangles lie around each vertex. Throws std::bad_alloc.
+inline void group_around(Groups& around, std::size_t vertices, std::span<const Triangle> triangles) {
+  around.sort(vertices, [triangles](auto&& add) {
+    for (std::uint32_t t = 0; t < triangles.size(); ++t)
+      for (const std::uint32_t v : triangles[t]) add(v, t);
+  });
+}
+
+// Edges of one triangle alone, by their lower, then by their higher vertex. Throws std::bad_alloc.
+std::pmr::vector<BorderEdge> border_edges(std::span<const Triangle> triangles,
+                                          std::pmr::memory_resource* memory);
 
 struct CleanerOptions {
   int ear_passes = 2;  // how often triangles that hang on by one edge are taken off the boundary

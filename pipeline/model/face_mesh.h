@@ -26,8 +26,7 @@ struct FaceMesh {
   std::pmr::vector<Vec3f> normals;          // one a vertex
   std::pmr::vector<float> sigma_mm;         // one a vertex: standard deviation perpendicular to the surface
   std::pmr::vector<std::uint8_t> measured;  // one a vertex: 1 seen by both cameras, 0 completed
-  std::pmr::vector<std::uint8_t>
-      pose;  // one a vertex: which pair of pictures measured it; empty: there was one
+  std::pmr::vector<std::uint8_t> pose;      // one a vertex: the pair that measured it; empty: there was one
   std::pmr::vector<std::array<std::uint32_t, 3>> triangles;
 };
 

@@ -22,11 +22,9 @@ struct ModelQuality {
                         // of mouth, nose or an eye, whichever has the least
   double width_mm = 0;  // of the surface in the head frame, first to last percentile
   double height_mm = 0;
-  double nose_relief_mm = 0;  // tip of the nose in front of the cheeks
-  double epipolar_residual_px =
-      0;  // rms vertical disagreement of the face's own matches, before any realignment
-  double texture_sharpness =
-      0;  // of the photographed texels, 0 blurred to 1 sharp: 1 - the blur of Crete et al. (2007)
+  double nose_relief_mm = 0;        // tip of the nose in front of the cheeks
+  double epipolar_residual_px = 0;  // rms vertical disagreement of the face's matches, before any realignment
+  double texture_sharpness = 0;     // 0 blurred to 1 sharp, of the photographed texels (texture_sharpness.h)
   double symmetry_residual_mm = 0;  // median distance of the mirrored face from the face
   ReliefFigures relief;             // all 0 where nothing could be told, or nobody asked
 };

@@ -24,6 +24,15 @@ struct Vec3d {
   double x = 0, y = 0, z = 0;
 };
 
+// Upright, in a picture.
+struct Ellipse {
+  double x, y, half_width, half_height;
+  bool holds(double px, double py) const {
+    const double u = (px - x) / half_width, v = (py - y) / half_height;
+    return u * u + v * v < 1;
+  }
+};
+
 // Row-major rotation. Variables are named target_from_source.
 struct Rotation {
   double m[9] = {1, 0, 0, 0, 1, 0, 0, 0, 1};

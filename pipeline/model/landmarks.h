@@ -2,8 +2,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 //
 // Landmarks: the named points of a face, after L. G. Farkas, Anthropometry of the Head and Face (2nd ed.,
-// 1994), found on the measured surface. Left camera's frame, as the mesh; millimetres. Left and right
-// are the person's.
+// 1994), found on the measured surface. Left camera's frame, millimetres; left and right are the person's.
 #pragma once
 
 #include <array>

@@ -19,8 +19,7 @@ inline Vec2d pixel_of_ray(const CameraIntrinsics& camera, Vec2d ray) {
   return {camera.focal_px.x * xd + camera.centre_px.x, camera.focal_px.y * yd + camera.centre_px.y};
 }
 
-// By fixed point, which a lens whose picture does not fold over contracts; far more rounds than mild
-// distortion needs.
+// By fixed point, which contracts where the picture does not fold over; mild distortion needs far less.
 inline Vec2d ray_of_pixel(const CameraIntrinsics& camera, Vec2d pixel) {
   const double* k = camera.distortion;
   const double xd = (pixel.x - camera.centre_px.x) / camera.focal_px.x;

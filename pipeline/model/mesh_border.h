@@ -13,8 +13,7 @@
 
 namespace relievo::pipeline {
 
-// One byte a vertex: 1 on the border, where the triangles around it do not close. Of a manifold surface.
-// Throws std::bad_alloc.
+// One a vertex: 1 where the triangles around it do not close. Of a manifold surface. Throws std::bad_alloc.
 inline std::pmr::vector<std::uint8_t> border_vertices(const FaceMesh& mesh,
                                                       std::pmr::memory_resource* memory) {
   std::pmr::vector<std::int64_t> turn(mesh.vertices_mm.size(), 0, memory);  // where they close it sums to 0

@@ -3,8 +3,7 @@
 //
 // Relief: how far away everything in the live picture is, small enough to be made many times a second. Row by
 // row without padding, in pixels of a rectified left view; the frame is that of rectified_pair.h (origin in
-// the left camera, x along the baseline, z away from the rig, millimetres). Plain data: it can be drawn as it
-// is.
+// the left camera, x along the baseline, z away from the rig, millimetres). Plain data, to be drawn as it is.
 #pragma once
 
 #include <cstddef>
@@ -33,10 +32,9 @@ struct Relief {
   double focal_px = 0, baseline_mm = 0;
   Vec2d centre_px;
   Rotation rectified_from_left;
-  std::pmr::vector<float> depth_mm;  // z; 0 where nothing is known
-  std::pmr::vector<std::uint16_t>
-      surface;  // 0 where nothing is known, else which connected surface; 1 is the largest
-  std::pmr::vector<std::uint8_t> grey;  // luminance of the left view
+  std::pmr::vector<float> depth_mm;         // z; 0 where nothing is known
+  std::pmr::vector<std::uint16_t> surface;  // which connected one, 1 the largest; 0: nothing is known
+  std::pmr::vector<std::uint8_t> grey;      // luminance of the left view
   int surfaces = 0;
 
   std::size_t index(int x, int y) const { return std::size_t(y) * std::size_t(width_px) + std::size_t(x); }

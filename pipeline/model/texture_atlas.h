@@ -31,17 +31,13 @@ struct TextureAtlas {
 };
 
 // Backdrop: what a photograph showed around the face, hair, ears and neck, out of focus on a head's rough
-// shape. It stands behind the face where it is shown; it is no measurement, and is neither stored nor
-// exported.
-
-// A grid of columns * rows vertices, row by row; none where nothing is known. Left camera's frame,
-// millimetres.
+// shape. Shown behind the face, no measurement, neither stored nor exported. A grid of columns * rows
+// vertices, row by row; none where nothing is known. Left camera's frame, millimetres.
 struct Backdrop {
   explicit Backdrop(std::pmr::memory_resource* memory) : at_mm(memory), rgba(memory) {}
   int columns = 0, rows = 0;
   std::pmr::vector<Vec3f> at_mm;
-  std::pmr::vector<std::array<std::uint8_t, 4>>
-      rgba;  // sRGB as photographed, dimmed; opacity, not premultiplied
+  std::pmr::vector<std::array<std::uint8_t, 4>> rgba;  // sRGB, dimmed; opacity, not premultiplied
 };
 
 }  // namespace relievo::pipeline

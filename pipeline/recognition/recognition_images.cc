@@ -8,6 +8,7 @@
 
 #include "pipeline/model/photo_sampler.h"
 #include "pipeline/model/recognition_images.h"
+#include "pipeline/model/vector3.h"
 #include "pipeline/texture/chart/raster.h"
 
 namespace relievo::pipeline {
@@ -25,7 +26,7 @@ std::pmr::vector<HeadPoint> on_the_grid(const FaceMesh& mesh, const RigidTransfo
   std::pmr::vector<HeadPoint> points(memory);
   points.reserve(mesh.vertices_mm.size());
   for (const Vec3f& v : mesh.vertices_mm) {
-    const Vec3d p = apply(head_from_camera, Vec3d{double(v.x), double(v.y), double(v.z)});
+    const Vec3d p = apply(head_from_camera, wide(v));
     points.push_back(
         {{float((p.x - grid.first_mm.x) / grid.pitch_mm), float((grid.first_mm.y - p.y) / grid.pitch_mm)},
          float(p.z)});
@@ -35,13 +36,12 @@ std::pmr::vector<HeadPoint> on_the_grid(const FaceMesh& mesh, const RigidTransfo
 
 // Cosine between a triangle's normal and +z; negative from behind. Rows run downwards, hence the sign.
 float facing(const HeadPoint& a, const HeadPoint& b, const HeadPoint& c, float pitch) {
-  const float ux = (b.pixel.x - a.pixel.x) * pitch, uy = -(b.pixel.y - a.pixel.y) * pitch,
-              uz = b.z_mm - a.z_mm;
-  const float vx = (c.pixel.x - a.pixel.x) * pitch, vy = -(c.pixel.y - a.pixel.y) * pitch,
-              vz = c.z_mm - a.z_mm;
-  const float nx = uy * vz - uz * vy, ny = uz * vx - ux * vz, nz = ux * vy - uy * vx;
-  const float length = std::sqrt(nx * nx + ny * ny + nz * nz);
-  return length > 0 ? nz / length : 0;
+  const auto side = [&](const HeadPoint& to) {
+    return Vec3f{(to.pixel.x - a.pixel.x) * pitch, -(to.pixel.y - a.pixel.y) * pitch, to.z_mm - a.z_mm};
+  };
+  const Vec3f normal = cross(side(b), side(c));
+  const float size = length(normal);
+  return size > 0 ? normal.z / size : 0;
 }
 
 constexpr int kWidthPx = 840;
@@ -51,6 +51,8 @@ constexpr double kCameraMm = 1500;
 constexpr double kEyeLine = 0.45;  // of the height, from above
 // From the tip of the nose, where eyes were not found; faces differ by some millimetres.
 constexpr Vec3d kTypicalEyesMm{0, 34, -30};
+
+Vec3d middle(const Vec3d& a, const Vec3d& b) { return times(plus(a, b), 0.5); }
 
 struct Eyes {
   Vec3d right_mm, left_mm;
@@ -64,12 +66,9 @@ Eyes eyes_of(const FaceModel& model) {
     const bool own = of(model.landmarks, name).found;
     const Landmark& l = of(model.landmarks, own ? name : mirrored);
     eyes.found = eyes.found && l.found;
-    Vec3d at = apply(model.head_from_camera, Vec3d{double(l.at_mm.x), double(l.at_mm.y), double(l.at_mm.z)});
+    Vec3d at = apply(model.head_from_camera, wide(l.at_mm));
     if (!own) at.x = -at.x;
     return at;
-  };
-  const auto middle = [](const Vec3d& a, const Vec3d& b) {
-    return Vec3d{0.5 * (a.x + b.x), 0.5 * (a.y + b.y), 0.5 * (a.z + b.z)};
   };
   using enum LandmarkName;
   eyes.right_mm =
@@ -91,7 +90,7 @@ std::pmr::vector<Seen> project(const FaceMesh& mesh, const ViewCamera& camera,
   std::pmr::vector<Seen> seen(memory);
   seen.reserve(mesh.vertices_mm.size());
   for (const Vec3f& v : mesh.vertices_mm) {
-    const Vec3d p = apply(camera.view_from_camera, Vec3d{double(v.x), double(v.y), double(v.z)});
+    const Vec3d p = apply(camera.view_from_camera, wide(v));
     if (p.z < 1) {
       seen.push_back({{0, 0}, 0});
       continue;
@@ -122,31 +121,27 @@ struct Samples {
 void read_texel(const TextureAtlas& atlas, float u, float v, std::uint8_t* rgb, std::uint8_t& shows) {
   const float x = std::clamp(u * float(atlas.width_px) - 0.5F, 0.0F, float(atlas.width_px - 1));
   const float y = std::clamp(v * float(atlas.height_px) - 0.5F, 0.0F, float(atlas.height_px - 1));
-  const std::size_t w = std::size_t(atlas.width_px);
-  const std::size_t k = std::size_t(y) * w + std::size_t(x);
-  const float fx = x - std::floor(x);
-  const float fy = y - std::floor(y);
-  const std::size_t right = fx > 0 ? 3 : 0;
-  const std::size_t below = fy > 0 ? 3 * w : 0;
-  const std::uint8_t* p = &atlas.rgb[3 * k];
-  for (std::size_t c = 0; c < 3; ++c) {
-    const float upper = float(p[c]) + fx * float(p[right + c] - p[c]);
-    const float lower = float(p[below + c]) + fx * float(p[below + right + c] - p[below + c]);
-    rgb[c] = to_byte(upper + fy * (lower - upper));
-  }
+  float colour[3];
+  PhotoSampler(atlas.rgb, atlas.width_px, atlas.height_px).read(x, y, colour);
+  for (std::size_t c = 0; c < 3; ++c) rgb[c] = to_byte(colour[c]);
+  const std::size_t k = std::size_t(y) * std::size_t(atlas.width_px) + std::size_t(x);
   if (!atlas.origin.empty() && atlas.origin[k] == kFilledTexel) shows = kCompletedShown;
 }
 
-void draw(const FaceMesh& mesh, const TextureAtlas& atlas, std::span<const Seen> seen, Samples& samples) {
+// Of a triangle.
+std::uint8_t shown(const FaceMesh& mesh, const std::array<std::uint32_t, 3>& triangle) {
   const auto measured = [&](std::uint32_t v) { return mesh.measured.empty() || mesh.measured[v] != 0; };
+  return std::ranges::all_of(triangle, measured) ? kMeasuredShown : kCompletedShown;
+}
+
+void draw(const FaceMesh& mesh, const TextureAtlas& atlas, std::span<const Seen> seen, Samples& samples) {
   for (std::size_t k = 0; k < mesh.triangles.size(); ++k) {
     const auto& t = mesh.triangles[k];
     const Seen& a = seen[t[0]];
     const Seen& b = seen[t[1]];
     const Seen& c = seen[t[2]];
     if (a.z_mm <= 0 || b.z_mm <= 0 || c.z_mm <= 0) continue;
-    const std::uint8_t shows =
-        measured(t[0]) && measured(t[1]) && measured(t[2]) ? kMeasuredShown : kCompletedShown;
+    const std::uint8_t shows = shown(mesh, t);
     const Vec2f* uv = &atlas.uv[3 * k];
     for_each_texel(a.at, b.at, c.at, samples.width, {0, samples.height},
                    [&](int x, int y, float wa, float wb, float wc) {
@@ -177,15 +172,13 @@ RangeImage measure_range(const FaceMesh& mesh, const RigidTransform& head_from_c
   image.shows.assign(size, kNothingShown);
   const auto points = on_the_grid(mesh, head_from_camera, grid, scratch);
   const auto sigma = [&](std::uint32_t v) { return mesh.sigma_mm.empty() ? 0.0F : mesh.sigma_mm[v]; };
-  const auto measured = [&](std::uint32_t v) { return mesh.measured.empty() || mesh.measured[v] != 0; };
   for (const auto& t : mesh.triangles) {
     const HeadPoint& a = points[t[0]];
     const HeadPoint& b = points[t[1]];
     const HeadPoint& c = points[t[2]];
     const float cosine = facing(a, b, c, float(grid.pitch_mm));
     if (cosine < kLeastFacing) continue;
-    const std::uint8_t shows =
-        measured(t[0]) && measured(t[1]) && measured(t[2]) ? kMeasuredShown : kCompletedShown;
+    const std::uint8_t shows = shown(mesh, t);
     for_each_texel(a.pixel, b.pixel, c.pixel, grid.width_px, {0, grid.height_px},
                    [&](int x, int y, float wa, float wb, float wc) {
                      const std::size_t k = std::size_t(y) * std::size_t(grid.width_px) + std::size_t(x);
@@ -211,7 +204,7 @@ Portrait draw_portrait(const FaceModel& model, std::pmr::memory_resource* output
   portrait.eyes_px = {(kWidthPx - 1) / 2.0, kEyeLine * kHeightPx};
   if (const Eyes eyes = eyes_of(model); eyes.found) {
     const Vec3d &r = eyes.right_mm, &l = eyes.left_mm;
-    portrait.eyes_mm = {0.5 * (r.x + l.x), 0.5 * (r.y + l.y), 0.5 * (r.z + l.z)};
+    portrait.eyes_mm = middle(r, l);
     portrait.between_eyes_mm = std::hypot(l.x - r.x, l.y - r.y, l.z - r.z);
     portrait.right_eye_px = portrait.place_of(r);
     portrait.left_eye_px = portrait.place_of(l);

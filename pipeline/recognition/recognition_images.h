@@ -23,7 +23,7 @@ namespace relievo::pipeline {
 // A surface as heights over a fixed grid of the head frame, as face recognition from range images takes
 // it (Bowyer, Chang, Flynn: A survey of approaches and challenges in 3D and multi-modal 3D + 2D face
 // recognition, CVIU 2006). Exact on the triangles: a pixel is a ray along -z through its centre.
-// Throws std::bad_alloc. Thread: any.
+// Throws std::bad_alloc.
 struct RangeGrid {
   double pitch_mm = 0.5;
   Vec2d first_mm{-100, 130};  // x of the left column, y of the upper row

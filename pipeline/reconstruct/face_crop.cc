@@ -8,6 +8,7 @@
 
 #include "hal/base/statistics.h"
 #include "pipeline/match/region/face_reach.h"
+#include "pipeline/model/vector3.h"
 
 namespace relievo::pipeline {
 namespace {
@@ -23,8 +24,7 @@ Result<void> crop_to_face(PointCloud& cloud, const RectifiedPair& pair, const Fa
   std::pmr::vector<Vec3d> middle(&context.scratch);
   middle.reserve(cloud.points.size());
   for (const CloudPoint& p : cloud.points)
-    if (may_be_nose(pair, double(p.left_px.x), double(p.left_px.y)))
-      middle.push_back({double(p.at_mm.x), double(p.at_mm.y), double(p.at_mm.z)});
+    if (may_be_nose(pair, double(p.left_px.x), double(p.left_px.y))) middle.push_back(wide(p.at_mm));
   if (middle.size() < 50)
     return Error{Errc::NoFace,
                  "nothing was measured in the middle of the face: more light, or nothing before the face"};
@@ -37,13 +37,9 @@ Result<void> crop_to_face(PointCloud& cloud, const RectifiedPair& pair, const Fa
     return std::abs(p.z - most) < kFurthestFromMostMm;
   });
   const Vec3d tip = outstanding_tip(std::span(middle.begin(), strays));
-  const auto outside = [&](const CloudPoint& p) {
-    const double dx = p.at_mm.x - tip.x;
-    const double dy = p.at_mm.y - tip.y;
-    const double dz = p.at_mm.z - tip.z;
-    return dx * dx + dy * dy + dz * dz > options.radius_mm * options.radius_mm;
-  };
-  std::erase_if(cloud.points, outside);
+  std::erase_if(cloud.points, [&](const CloudPoint& p) {
+    return squared_distance(wide(p.at_mm), tip) > options.radius_mm * options.radius_mm;
+  });
   return {};
 }
 

@@ -13,32 +13,38 @@
 
 #include "pipeline/base/cells.h"
 #include "pipeline/model/point_cloud.h"
+#include "pipeline/model/vector3.h"
 
 namespace relievo::pipeline {
 namespace {
 
+constexpr int kBands = 32;
+
 // Neighbourhood: who is near whom in the left view, for clouds on a lattice and for scattered ones.
 // Every cell holds the points of one lattice node (at most one), or of one bucket (a few).
-class Neighbourhood {
- public:
+struct Neighbourhood {
   // Throws std::bad_alloc. Points whose coordinates are not finite get no cell.
   Neighbourhood(const PointCloud& cloud, std::pmr::memory_resource* memory);
 
-  bool on_lattice() const { return on_lattice_; }
-  int columns() const { return cells_.columns(); }
-  int rows() const { return cells_.rows(); }
   // How far around a point its neighbours are looked for, in cells.
-  int reach() const { return on_lattice_ ? 2 : 1; }
-  std::span<const std::uint32_t> cell(int column, int row) const { return cells_.at(column, row); }
+  int reach() const { return on_lattice ? 2 : 1; }
+  // judge(point, column, row), on the pool. False once stopped.
+  template <typename Judge>
+  bool for_each_point(StageContext& context, const Judge& judge) const {
+    context.pool.for_each_band(cells.rows(), kBands, [&](int begin, int end, int) {
+      for (int r = begin; r < end && !context.stop(); ++r)
+        for (int c = 0; c < cells.columns(); ++c)
+          for (const std::uint32_t i : cells.at(c, r)) judge(i, c, r);
+    });
+    return !context.stop();
+  }
 
- private:
-  bool on_lattice_;
-  Cells cells_;
+  bool on_lattice;
+  Cells cells;
 };
 
 constexpr float kLargestPixel = 100'000;
-constexpr double kPointsPerBucket =
-    3;  // nine buckets then hold about as many points as a lattice's neighbourhood
+constexpr double kPointsPerBucket = 3;  // nine then hold about as many as a lattice's neighbourhood
 
 bool usable(const CloudPoint& p) {
   return std::isfinite(p.at_mm.x) && std::isfinite(p.at_mm.y) && std::isfinite(p.at_mm.z) && p.at_mm.z > 0 &&
@@ -46,7 +52,7 @@ bool usable(const CloudPoint& p) {
 }
 
 Neighbourhood::Neighbourhood(const PointCloud& cloud, std::pmr::memory_resource* memory)
-    : on_lattice_(cloud.lattice_step_px > 0), cells_(memory) {
+    : on_lattice(cloud.lattice_step_px > 0), cells(memory) {
   float left = kLargestPixel;
   float top = kLargestPixel;
   float right = -kLargestPixel;
@@ -62,10 +68,10 @@ Neighbourhood::Neighbourhood(const PointCloud& cloud, std::pmr::memory_resource*
   }
   if (count == 0) return;
   const double area = double(right - left + 1) * double(bottom - top + 1);
-  const double step = on_lattice_ ? cloud.lattice_step_px
-                                  : std::max(1e-3, std::sqrt(area * kPointsPerBucket / double(count)));
+  const double step =
+      on_lattice ? cloud.lattice_step_px : std::max(1e-3, std::sqrt(area * kPointsPerBucket / double(count)));
   const auto cell_of = [step](float from, float at) { return int(std::lround(double(at - from) / step)); };
-  cells_.fill(cell_of(left, right) + 1, cell_of(top, bottom) + 1, [&](auto&& add) {
+  cells.fill(cell_of(left, right) + 1, cell_of(top, bottom) + 1, [&](auto&& add) {
     for (std::uint32_t i = 0; i < cloud.points.size(); ++i)
       if (const CloudPoint& p = cloud.points[i]; usable(p))
         add(cell_of(left, p.left_px.x), cell_of(top, p.left_px.y), i);
@@ -74,7 +80,6 @@ Neighbourhood::Neighbourhood(const PointCloud& cloud, std::pmr::memory_resource*
 
 constexpr int kMostRings = 8;
 constexpr float kAlone = -1;
-constexpr int kBands = 32;
 
 // The k least of what is offered, by insertion.
 struct Nearest {
@@ -104,22 +109,10 @@ float mean_distance(const PointCloud& cloud, const Neighbourhood& near, std::uin
                     int neighbours) {
   Nearest nearest(neighbours);
   const Vec3f& p = cloud.points[i].at_mm;
-  const auto look = [&](int c, int r) {
-    for (const std::uint32_t k : near.cell(c, r)) {
-      if (k == i) continue;
-      const Vec3f& q = cloud.points[k].at_mm;
-      nearest.offer((q.x - p.x) * (q.x - p.x) + (q.y - p.y) * (q.y - p.y) + (q.z - p.z) * (q.z - p.z));
-    }
-  };
-  look(column, row);
-  for (int ring = 1; ring <= kMostRings && (ring <= near.reach() || !nearest.full()); ++ring)
-    for (int s = -ring; s <= ring; ++s) {
-      look(column + s, row - ring);
-      look(column + s, row + ring);
-      if (std::abs(s) == ring) continue;
-      look(column - ring, row + s);
-      look(column + ring, row + s);
-    }
+  const auto done = [&](int ring) { return ring > kMostRings || (ring > near.reach() && nearest.full()); };
+  near.cells.by_rings(column, row, done, [&](std::uint32_t k) {
+    if (k != i) nearest.offer(squared_distance(cloud.points[k].at_mm, p));
+  });
   return nearest.mean_distance();
 }
 
@@ -128,13 +121,10 @@ float mean_distance(const PointCloud& cloud, const Neighbourhood& near, std::uin
 Result<void> StatisticalOutlierFilter::reject(PointCloud& cloud, StageContext& context) const {
   const Neighbourhood near(cloud, &context.scratch);
   std::pmr::vector<float> distance(cloud.points.size(), kAlone, &context.scratch);
-  context.pool.for_each_band(near.rows(), kBands, [&](int begin, int end, int) {
-    for (int r = begin; r < end && !context.stop(); ++r)
-      for (int c = 0; c < near.columns(); ++c)
-        for (const std::uint32_t i : near.cell(c, r))
-          distance[i] = mean_distance(cloud, near, i, c, r, neighbours);
-  });
-  if (context.stop()) return Error{Errc::Cancelled, "the search for outliers was stopped"};
+  if (!near.for_each_point(context, [&](std::uint32_t i, int column, int row) {
+        distance[i] = mean_distance(cloud, near, i, column, row, neighbours);
+      }))
+    return Error{Errc::Cancelled, "the search for outliers was stopped"};
   double n = 0;
   double sum = 0;
   double squares = 0;
@@ -155,28 +145,27 @@ Result<void> StatisticalOutlierFilter::reject(PointCloud& cloud, StageContext& c
 
 namespace {
 
-constexpr int kJudgedBands = 32;
-
 enum class Verdict : std::uint8_t { Kept, Unsupported, Spike, Island };
 
-// Depth along the line of sight of the centre and the place across it: the frame in which support and planes
-// are judged.
+struct Offset {
+  float u, v, depth;
+};  // from the centre, in its RayFrame
+
+// Depth along the line of sight of the centre, and across it: the frame for support and planes.
 struct RayFrame {
-  explicit RayFrame(const Vec3f& at) {
-    const float l = std::sqrt(at.x * at.x + at.y * at.y + at.z * at.z);
+  explicit RayFrame(const Vec3f& centre) : at(centre) {
+    const float l = length(at);
     along = {at.x / l, at.y / l, at.z / l};
     const float flat = std::sqrt(along.x * along.x + along.z * along.z);
     across = {along.z / flat, 0, -along.x / flat};
     down = {along.y * across.z, along.z * across.x - along.x * across.z, -along.y * across.x};
   }
-  Vec3f along, across, down;
+  Offset operator()(const Vec3f& place) const {
+    const Vec3f d = minus(place, at);
+    return {dot(d, across), dot(d, down), dot(d, along)};
+  }
+  Vec3f at, along, across, down;
 };
-
-float dot(const Vec3f& a, const Vec3f& b) { return a.x * b.x + a.y * b.y + a.z * b.z; }
-
-struct Offset {
-  float u, v, depth;
-};  // from the centre, in its RayFrame
 
 class Filter {
  public:
@@ -191,21 +180,17 @@ class Filter {
 
   // Points without a cell were not finite; they stay unsupported.
   bool judge(StageContext& context) {
-    context.pool.for_each_band(near_.rows(), kJudgedBands, [&](int begin, int end, int) {
-      for (int r = begin; r < end && !context.stop(); ++r)
-        for (int c = 0; c < near_.columns(); ++c)
-          for (const std::uint32_t i : near_.cell(c, r)) verdict_[i] = judge_point(i, c, r);
-    });
-    return !context.stop();
+    return near_.for_each_point(
+        context, [&](std::uint32_t i, int column, int row) { verdict_[i] = judge_point(i, column, row); });
   }
 
   void drop_islands(Arena& scratch) {
     island_.assign(points_.size(), 0U);
     stack_.reserve(points_.size());
     std::pmr::vector<std::uint64_t> at(points_.size(), 0U, &scratch);  // row << 32 | column
-    for (int r = 0; r < near_.rows(); ++r)
-      for (int c = 0; c < near_.columns(); ++c)
-        for (const std::uint32_t i : near_.cell(c, r)) at[i] = std::uint64_t(r) << 32 | std::uint64_t(c);
+    for (int r = 0; r < near_.cells.rows(); ++r)
+      for (int c = 0; c < near_.cells.columns(); ++c)
+        for (const std::uint32_t i : near_.cells.at(c, r)) at[i] = std::uint64_t(r) << 32 | std::uint64_t(c);
     const std::size_t least = std::size_t(options_.min_island * double(points_.size()));
     std::uint32_t label = 0;
     for (std::uint32_t i = 0; i < points_.size(); ++i) {
@@ -228,23 +213,26 @@ class Filter {
     const RayFrame ray(p.at_mm);
     int places = 0;
     int support = 0;
-    Offset near[64];
+    constexpr int kMostKept = 64;  // enough for a plane
+    Offset near[kMostKept];
     const int reach = near_.reach();
     for (int r = row - reach; r <= row + reach; ++r)
       for (int c = column - reach; c <= column + reach; ++c)
-        for (const std::uint32_t k : near_.cell(c, r)) {
+        for (const std::uint32_t k : near_.cells.at(c, r)) {
           if (k == i) continue;
           ++places;
-          const CloudPoint& q = points_[k];
-          const Vec3f d{q.at_mm.x - p.at_mm.x, q.at_mm.y - p.at_mm.y, q.at_mm.z - p.at_mm.z};
-          const Offset o{dot(d, ray.across), dot(d, ray.down), dot(d, ray.along)};
-          if (supports(o, std::max(p.sigma_mm, q.sigma_mm)) && support < 64) near[support++] = o;
+          const Offset o = ray(points_[k].at_mm);
+          if (!supports(o, std::max(p.sigma_mm, points_[k].sigma_mm))) continue;
+          if (support < kMostKept) near[support] = o;
+          ++support;
         }
     // On a lattice an empty place is evidence against a point; in a scattered cloud it means nothing.
-    const double wanted = options_.min_support * (near_.on_lattice() ? 24 : std::max(places, 6));
+    const double wanted = options_.min_support * (near_.on_lattice ? 24 : std::max(places, 6));
     if (support < wanted) return Verdict::Unsupported;
-    return options_.spike_sigmas > 0 && off_plane({near, std::size_t(support)}, p.sigma_mm) ? Verdict::Spike
-                                                                                            : Verdict::Kept;
+    return options_.spike_sigmas > 0 &&
+                   off_plane({near, std::size_t(std::min(support, kMostKept))}, p.sigma_mm)
+               ? Verdict::Spike
+               : Verdict::Kept;
   }
 
   struct Plane {
@@ -306,13 +294,9 @@ class Filter {
       const int row = int(at[i] >> 32);
       for (int r = row - 1; r <= row + 1; ++r)
         for (int c = column - 1; c <= column + 1; ++c)
-          for (const std::uint32_t k : near_.cell(c, r)) {
-            if (verdict_[k] != Verdict::Kept || island_[k] != 0) continue;
-            const Vec3f& a = points_[i].at_mm;
-            const Vec3f& b = points_[k].at_mm;
-            const Vec3f d{b.x - a.x, b.y - a.y, b.z - a.z};
-            if (!supports({dot(d, ray.across), dot(d, ray.down), dot(d, ray.along)},
-                          std::max(points_[i].sigma_mm, points_[k].sigma_mm)))
+          for (const std::uint32_t k : near_.cells.at(c, r)) {
+            if (verdict_[k] != Verdict::Kept || island_[k] != 0 ||
+                !supports(ray(points_[k].at_mm), std::max(points_[i].sigma_mm, points_[k].sigma_mm)))
               continue;
             island_[k] = label;
             stack_.push_back(k);

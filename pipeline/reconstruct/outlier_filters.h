@@ -11,16 +11,13 @@ namespace relievo::pipeline {
 
 // LocalOutlierFilter ("local", the default): takes points out of a cloud that do not belong to its surface:
 // flying ones without support among their neighbours, spikes off the plane their neighbours span, and islands
-// (the dissertation's Constraint3D "NoOutliers"). Left-camera frame, millimetres; works on the lattice of the
-// left view where the cloud has one, on buckets of left_px where it is scattered. Memory: scratch only; the
-// cloud shrinks in place and keeps its order. Thread: any. Errors: Cancelled; throws
-// std::bad_alloc as every stage does.
+// (the dissertation's Constraint3D "NoOutliers"). Works on the lattice of the left view where the cloud has
+// one, on buckets of left_px where it is scattered. Memory: scratch only.
 struct LocalOutlierFilter {
-  double max_incidence_deg =
-      78;                     // neighbours steeper than this to the line of sight do not support each other
-  double min_support = 0.34;  // share of the 24 places around a point that must support it
-  double spike_sigmas = 4;    // distance from the neighbours' plane, in their own scatter; 0 keeps spikes
-  double min_island = 0.01;   // islands with less than this share of the points go
+  double max_incidence_deg = 78;  // neighbours steeper to the line of sight do not support each other
+  double min_support = 0.34;      // share of the 24 places around a point that must support it
+  double spike_sigmas = 4;        // distance from the neighbours' plane, in their own scatter; 0 keeps spikes
+  double min_island = 0.01;       // islands with less than this share of the points go
 
   void describe(auto&& field) {
     field("max_incidence_deg", max_incidence_deg, OptionRange{30, 89},

@@ -18,8 +18,7 @@ struct Placed {
   double stretch;  // of the line of sight: its length over its depth
 };
 
-// `place` says where a match lies. The standard deviation along the line of sight follows from its
-// disparity's.
+// `place` says where a match lies. Sigma along the line of sight follows from the disparity's.
 template <typename Place>
 Result<PointCloud> place_matches(const RectifiedPair& pair, const MatchSet& matches, StageContext& context,
                                  const Place& place) {
@@ -147,10 +146,11 @@ Result<PointCloud> OptimalTriangulator::triangulate(const RectifiedPair& pair, c
   return place_matches(pair, matches, context, [&](const Match& match) {
     const Vec3d left{(match.left_px.x - pair.left_centre_px.x) / f,
                      (match.left_px.y - pair.left_centre_px.y) / f, 1};
-    const double row = double(match.left_px.y) +
-                       (matches.epipolar_shift.measured()
-                            ? matches.epipolar_shift.at(double(match.left_px.x), double(match.left_px.y))
-                            : 0);
+    const double column =
+        double(match.left_px.x) - double(match.disparity_px);  // the shift is the right view's
+    const double row =
+        double(match.left_px.y) +
+        (matches.epipolar_shift.measured() ? matches.epipolar_shift.at(column, double(match.left_px.y)) : 0);
     const Vec3d right{(match.left_px.x - match.disparity_px - pair.right_centre_px.x) / f,
                       (row - pair.right_centre_px.y) / f, 1};
     const PlacePair moved =

@@ -8,6 +8,7 @@
 #include <cmath>
 #include <cstdio>
 #include <numbers>
+#include <span>
 
 #include "hal/base/statistics.h"
 #include "pipeline/base/solving.h"
@@ -26,11 +27,11 @@ constexpr double kTelling = 0.4;        // of the disc: less of a face may be ne
 constexpr double kCurveTelling = 0.04;  // of the disc: less of it may curve unlike the rest
 constexpr double kFull = 0.8;           // share of a neighbourhood that must have been measured
 
-double rms_of_trusted(const SheetFit& fit, Arena& scratch) {
+double rms_of_trusted(std::span<const double> off_mm, Arena& scratch) {
   Arena::Mark mark(scratch);
   std::pmr::vector<double> squares(&scratch);
-  squares.reserve(fit.residual_mm.size());
-  for (const double r : fit.residual_mm) squares.push_back(r * r);
+  squares.reserve(off_mm.size());
+  for (const double r : off_mm) squares.push_back(r * r);
   std::ranges::sort(squares);
   const auto count = std::size_t(kTrusted * double(squares.size()));
   double sum = 0;
@@ -62,15 +63,15 @@ bool around(const HeightCells& cells, const HeightCell& middle, double reach_mm,
   return found >= kFull * std::numbers::pi * (reach_mm / cells.cell_mm) * (reach_mm / cells.cell_mm);
 }
 
-double range_of(const HeightCells& cells, const SheetFit& sheet, Arena& scratch) {
+double range_of(const HeightCells& cells, std::span<const double> off_mm, Arena& scratch) {
   Arena::Mark mark(scratch);
   std::pmr::vector<double> smooth(&scratch);
   smooth.reserve(cells.cells.size());
   for (const HeightCell& cell : cells.cells) {
     double sum = 0;
     int count = 0;
-    const bool full = around(cells, cell, kSmoothMm,
-                             [&](std::size_t k, double, double) { sum += sheet.residual_mm[k], ++count; });
+    const bool full =
+        around(cells, cell, kSmoothMm, [&](std::size_t k, double, double) { sum += off_mm[k], ++count; });
     if (full) smooth.push_back(sum / count);
   }
   if (smooth.empty()) return 0;
@@ -112,14 +113,14 @@ Result<ReliefFigures> measure_relief(const FaceMesh& mesh, const RectifiedPair& 
   if (cells.cells.size() < kLeastCells) return ReliefFigures{};
   const std::optional<double> curvature = curvature_of(cells);
   if (!curvature) return ReliefFigures{};
-  const SheetFit plane = fit_plane(cells, context);
-  RELIEVO_TRY_ASSIGN(const SheetFit sheet, fit_sheet(cells, context));
+  const std::pmr::vector<double> off_plane = off_plane_mm(cells, context);
+  RELIEVO_TRY_ASSIGN(const std::pmr::vector<double> off_sheet, off_sheet_mm(cells, context));
   ReliefFigures relief;
   relief.covered = std::min(1.0, cells.covered);
   relief.sigma_mm = median_sigma(cells, context.scratch);
-  relief.off_plane_mm = rms_of_trusted(plane, context.scratch);
-  relief.off_sheet_mm = rms_of_trusted(sheet, context.scratch);
-  relief.sheet_range_mm = range_of(cells, sheet, context.scratch);
+  relief.off_plane_mm = rms_of_trusted(off_plane, context.scratch);
+  relief.off_sheet_mm = rms_of_trusted(off_sheet, context.scratch);
+  relief.sheet_range_mm = range_of(cells, off_sheet, context.scratch);
   relief.curvature_sr = *curvature;
   return relief;
 }

@@ -48,8 +48,7 @@ Result<ReliefFigures> measure_relief(const FaceMesh& mesh, const RectifiedPair& 
 // picture, and nobody is told to be a face.
 enum class ReliefVerdict : std::uint8_t { Face, Picture, Unjudged };
 ReliefVerdict judge(const ReliefFigures& relief, const ReliefOptions& options);
-// What to tell of it, with the figures for the technician as where(). Picture: NoFace. Unjudged:
-// PoorGeometry.
+// For the person, with figures for the technician as where(). Picture: NoFace; Unjudged: PoorGeometry.
 Error error_of(ReliefVerdict verdict, const ReliefFigures& relief, const ReliefOptions& options);
 // Why an assembled model is not known to be a face, by its figures and landmarks; none where it is, or where
 // nobody asked. Also of a model that was read from a file.

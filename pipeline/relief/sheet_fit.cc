@@ -11,6 +11,7 @@
 
 #include "hal/base/statistics.h"
 #include "pipeline/base/solving.h"
+#include "pipeline/model/vector3.h"
 
 namespace relievo::pipeline {
 namespace {
@@ -30,29 +31,28 @@ struct Sample {
 };
 using Samples = std::pmr::vector<Sample>;
 
+Vector3d rectified(const RectifiedPair& pair, const Vec3f& at) {
+  const Vec3d p = apply(pair.rectified_from_left, wide(at));
+  return {p.x, p.y, p.z};
+}
+
 Samples measured_of(const FaceMesh& mesh, const RectifiedPair& pair, std::pmr::memory_resource* memory) {
   Samples all(memory);
   all.reserve(mesh.vertices_mm.size());
   for (std::size_t k = 0; k < mesh.vertices_mm.size(); ++k) {
     if (mesh.measured[k] == 0) continue;
-    const Vec3f& v = mesh.vertices_mm[k];
-    const Vec3d p = apply(pair.rectified_from_left, Vec3d{v.x, v.y, v.z});
-    if (p.z > 0) all.push_back({{p.x, p.y, p.z}, double(mesh.sigma_mm[k])});
+    const Vector3d p = rectified(pair, mesh.vertices_mm[k]);
+    if (p.z() > 0) all.push_back({p, double(mesh.sigma_mm[k])});
   }
   return all;
 }
 
-// Of triangles wider than a cell also places in between: where points are scattered, what spans them is the
-// surface that was measured.
+// Of triangles wider than a cell also places in between: what spans scattered points is measured surface.
 void add_between(Samples& all, const FaceMesh& mesh, const RectifiedPair& pair, double cell_mm) {
   for (const auto& t : mesh.triangles) {
     if (mesh.measured[t[0]] == 0 || mesh.measured[t[1]] == 0 || mesh.measured[t[2]] == 0) continue;
     std::array<Vector3d, 3> corner;
-    for (std::size_t k = 0; k < 3; ++k) {
-      const Vec3f& v = mesh.vertices_mm[t[k]];
-      const Vec3d p = apply(pair.rectified_from_left, Vec3d{v.x, v.y, v.z});
-      corner[k] = {p.x, p.y, p.z};
-    }
+    for (std::size_t k = 0; k < 3; ++k) corner[k] = rectified(pair, mesh.vertices_mm[t[k]]);
     const double longest = std::max(
         {(corner[0] - corner[1]).norm(), (corner[1] - corner[2]).norm(), (corner[2] - corner[0]).norm()});
     const int parts = int(std::min(kMostParts, 2 * longest / cell_mm));
@@ -88,8 +88,7 @@ Vector3d middle_of(const Samples& all, const RectifiedPair& pair, std::pmr::memo
           (pair.face_centre_px.y - pair.left_centre_px.y) / pair.focal_px * depth, depth};
 }
 
-// Rows: x, y and height of the frame on the robust mean plane (Huber's weights; heights point back to the
-// cameras).
+// Rows: x, y and height (towards the cameras) of the frame on the robust mean plane (Huber's weights).
 struct PlaneFrame {
   Vector3d origin = Vector3d::Zero();
   Matrix3d axes = Matrix3d::Identity();
@@ -144,6 +143,8 @@ constexpr double kMostConvergence = 1 / 150.;
 using System = Eigen::Matrix<double, kUnknowns, kUnknowns>;
 using Unknowns = Eigen::Matrix<double, kUnknowns, 1>;
 
+double soft(double deviation_mm) { return std::sqrt(deviation_mm * deviation_mm + kSoftMm * kSoftMm); }
+
 struct Lines {
   double direction = 0;    // radians
   double convergence = 0;  // per mm
@@ -177,18 +178,15 @@ class Sheet {
   double solve() {
     for (int round = 0; round < kRounds; ++round) improve(round == 0);
     double cost = 0;
-    for (const Row& row : rows_) cost += soft(deviation(row));
+    for (const Row& row : rows_) cost += soft(deviation(row)) - kSoftMm;
     return cost / double(cells_.size());
   }
 
-  void residuals(std::pmr::vector<double>& out) const {
-    out.clear();
+  void deviations(std::pmr::vector<double>& out) const {
     for (const Row& row : rows_) out.push_back(deviation(row));
   }
 
  private:
-  static double soft(double d) { return std::sqrt(d * d + kSoftMm * kSoftMm) - kSoftMm; }
-
   Row row_of(const HeightCell& cell) const {
     Row row;
     row.t = -sin_ * cell.x_mm + cos_ * cell.y_mm;
@@ -222,7 +220,7 @@ class Sheet {
     Unknowns b = Unknowns::Zero();
     for (const Row& row : rows_) {
       const double d = first ? 0 : deviation(row);
-      const double w = 1 / std::sqrt(d * d + kSoftMm * kSoftMm);
+      const double w = 1 / soft(d);
       std::array<double, 5> value{};
       for (std::size_t k = 0; k < 4; ++k) value[k] = row.nearer * row.spline[k];
       value[4] = row.t;
@@ -293,12 +291,12 @@ HeightCells make_height_cells(const FaceMesh& mesh, const RectifiedPair& pair, d
         out.cells.push_back({column, row, sum.x / sum.count, sum.y / sum.count, sum.height / sum.count,
                              sum.sigma / sum.count});
     }
-  const double disc = 3.14159265358979323846 * (radius_mm / cell_mm) * (radius_mm / cell_mm);
+  const double disc = std::numbers::pi * (radius_mm / cell_mm) * (radius_mm / cell_mm);
   out.covered = double(out.cells.size()) / disc;
   return out;
 }
 
-Result<SheetFit> fit_sheet(const HeightCells& cells, StageContext& context) {
+Result<std::pmr::vector<double>> off_sheet_mm(const HeightCells& cells, StageContext& context) {
   Best best;
   Rows rows(cells.cells.size(), Row{}, &context.scratch);
   for (int k = 0; k < kDirections; ++k) {
@@ -314,15 +312,15 @@ Result<SheetFit> fit_sheet(const HeightCells& cells, StageContext& context) {
         best.offer(cells, {from.direction + i * turn, from.convergence + j * meet}, rows);
     turn /= 2, meet /= 2;
   }
-  SheetFit fit(&context.scratch);
+  std::pmr::vector<double> off(&context.scratch);
+  off.reserve(cells.cells.size());
   Sheet sheet(cells, best.lines, rows);
-  fit.cost = sheet.solve();
-  fit.residual_mm.reserve(cells.cells.size());
-  sheet.residuals(fit.residual_mm);
-  return fit;
+  sheet.solve();
+  sheet.deviations(off);
+  return off;
 }
 
-SheetFit fit_plane(const HeightCells& cells, StageContext& context) {
+std::pmr::vector<double> off_plane_mm(const HeightCells& cells, StageContext& context) {
   Eigen::Vector3d plane = Eigen::Vector3d::Zero();
   const auto off = [&](const HeightCell& c) {
     return (c.height_mm - plane.dot(Eigen::Vector3d(1, c.x_mm, c.y_mm))) / std::hypot(1, plane[1], plane[2]);
@@ -331,21 +329,17 @@ SheetFit fit_plane(const HeightCells& cells, StageContext& context) {
     Eigen::Matrix3d a = 1e-9 * Eigen::Matrix3d::Identity();
     Eigen::Vector3d b = Eigen::Vector3d::Zero();
     for (const HeightCell& c : cells.cells) {
-      const double d = round == 0 ? 0 : off(c), w = 1 / std::sqrt(d * d + kSoftMm * kSoftMm);
+      const double w = 1 / soft(round == 0 ? 0 : off(c));
       const Eigen::Vector3d row(1, c.x_mm, c.y_mm);
       a += w * row * row.transpose();
       b += w * c.height_mm * row;
     }
     plane = solved<3>(a, b);
   }
-  SheetFit fit(&context.scratch);
-  fit.residual_mm.reserve(cells.cells.size());
-  for (const HeightCell& c : cells.cells) {
-    fit.residual_mm.push_back(off(c));
-    fit.cost += std::sqrt(off(c) * off(c) + kSoftMm * kSoftMm) - kSoftMm;
-  }
-  fit.cost /= double(std::max<std::size_t>(1, cells.cells.size()));
-  return fit;
+  std::pmr::vector<double> all(&context.scratch);
+  all.reserve(cells.cells.size());
+  for (const HeightCell& c : cells.cells) all.push_back(off(c));
+  return all;
 }
 
 }  // namespace relievo::pipeline

@@ -44,14 +44,8 @@ struct HeightCells {
 HeightCells make_height_cells(const FaceMesh& mesh, const RectifiedPair& pair, double radius_mm,
                               double cell_mm, StageContext& context);
 
-struct SheetFit {
-  double cost = 0;                       // what was made least: mean softened deviation, mm
-  std::pmr::vector<double> residual_mm;  // one a cell, perpendicular to the sheet, + before it
-  explicit SheetFit(std::pmr::memory_resource* memory) : residual_mm(memory) {}
-};
-
-// At least 30 cells. Errors: Cancelled.
-Result<SheetFit> fit_sheet(const HeightCells& cells, StageContext& context);
-SheetFit fit_plane(const HeightCells& cells, StageContext& context);
+// How far each cell lies off the sheet, perpendicular, + before it. At least 30 cells. Errors: Cancelled.
+Result<std::pmr::vector<double>> off_sheet_mm(const HeightCells& cells, StageContext& context);
+std::pmr::vector<double> off_plane_mm(const HeightCells& cells, StageContext& context);
 
 }  // namespace relievo::pipeline

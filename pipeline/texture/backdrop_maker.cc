@@ -29,10 +29,6 @@ float smooth_step(float from, float to, float at) {
   return t * t * (3 - 2 * t);
 }
 
-Vec3f sum_with(const Vec3f& v, const Vec3d& c) {
-  return {v.x + float(c.x), v.y + float(c.y), v.z + float(c.z)};
-}
-
 class Maker {
  public:
   Maker(const FaceMesh& mesh, const RigidTransform& head_from_camera, const RectifiedPair& pair,
@@ -45,7 +41,7 @@ class Maker {
         away_mm_(size(), 1e6F, &context.scratch),
         made_(&context.output) {
     for (const Vec3f& v : mesh.vertices_mm) {
-      const Vec3f from_centre = sum_with(v, {-chart_.centre_mm.x, -chart_.centre_mm.y, -chart_.centre_mm.z});
+      const Vec3f from_centre = minus(v, narrow(chart_.centre_mm));
       const Vec2d at = chart_.place(from_centre);
       const long c = std::lround((at.x + kAsideMm) / kStepMm), r = std::lround((at.y + kAboveMm) / kStepMm);
       if (c < 0 || r < 0 || c >= columns_ || r >= rows_) continue;
@@ -64,7 +60,7 @@ class Maker {
     for (int r = 0; r < rows_; ++r)
       for (int c = 0; c < columns_; ++c)
         made_.at_mm[index(c, r)] =
-            sum_with(chart_.at(place(c, r), double(radius_[index(c, r)])), chart_.centre_mm);
+            plus(chart_.at(place(c, r), double(radius_[index(c, r)])), narrow(chart_.centre_mm));
     made_.rgba.resize(size());
     for (int r = 0; r < rows_; ++r)
       for (int c = 0; c < columns_; ++c) made_.rgba[index(c, r)] = colour(c, r);
@@ -95,18 +91,15 @@ class Maker {
 
   // From the chart's centre to the ellipsoid's front, or to the plane behind.
   float rough_radius(int c, int r) const {
-    const Vec3d d = apply(chart_.head_from_axes, as_double(chart_.at(place(c, r), 1)));
-    const Vec3d o{(HeadChart::kCentreMm.x - kHeadMm.x) / kHalfMm.x,
-                  (HeadChart::kCentreMm.y - kHeadMm.y) / kHalfMm.y,
-                  (HeadChart::kCentreMm.z - kHeadMm.z) / kHalfMm.z};
-    const Vec3d e{d.x / kHalfMm.x, d.y / kHalfMm.y, d.z / kHalfMm.z};
-    const double a = e.x * e.x + e.y * e.y + e.z * e.z, b = o.x * e.x + o.y * e.y + o.z * e.z,
-                 rest = b * b - a * (o.x * o.x + o.y * o.y + o.z * o.z - 1);
+    const auto in_halves = [](const Vec3d& v) {
+      return Vec3d{v.x / kHalfMm.x, v.y / kHalfMm.y, v.z / kHalfMm.z};
+    };
+    const Vec3d d = apply(chart_.head_from_axes, wide(chart_.at(place(c, r), 1)));
+    const Vec3d e = in_halves(d), o = in_halves(minus(HeadChart::kCentreMm, kHeadMm));
+    const double a = dot(e, e), b = dot(o, e), rest = b * b - a * (dot(o, o) - 1);
     const double plane = (kBehindMm - HeadChart::kCentreMm.z) / std::max(d.z, 0.2);
     return float(rest > 0 ? std::max(plane, (-b + std::sqrt(rest)) / a) : plane);
   }
-  static Vec3d as_double(const Vec3f& v) { return {double(v.x), double(v.y), double(v.z)}; }
-
   void shape(Arena& scratch) {
     std::pmr::vector<float> rough(size(), 0.0F, &scratch);
     for (int r = 0; r < rows_; ++r)
@@ -137,7 +130,7 @@ class Maker {
 
   std::array<std::uint8_t, 4> colour(int c, int r) const {
     const std::size_t k = index(c, r);
-    const Vec3d p = apply(pair_.rectified_from_left, as_double(made_.at_mm[k]));
+    const Vec3d p = apply(pair_.rectified_from_left, wide(made_.at_mm[k]));
     if (p.z <= 0) return {};
     const double scale = pair_.focal_px / p.z;
     std::array<float, 3> sum{};
@@ -148,7 +141,7 @@ class Maker {
         const long x = std::lround(pair_.left_centre_px.x + scale * (p.x + aside(i))),
                    y = std::lround(pair_.left_centre_px.y + scale * (p.y + aside(j)));
         if (x < 0 || y < 0 || x >= pair_.width_px || y >= pair_.height_px) continue;
-        const std::size_t at = std::size_t(y) * std::size_t(pair_.width_px) + std::size_t(x);
+        const std::size_t at = pair_.index(int(x), int(y));
         if (!pair_.left.valid.empty() && pair_.left.valid[at] == 0) continue;
         for (std::size_t n = 0; n < 3; ++n) sum[n] += float(pair_.left.rgb[3 * at + n]);
         ++taps;

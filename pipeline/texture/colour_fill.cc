@@ -6,12 +6,12 @@
 #include <cmath>
 
 #include "hal/base/groups.h"
+#include "pipeline/base/parts.h"
 
 namespace relievo::pipeline {
 namespace {
 
-// There and back. A hole is smooth long before; a whole completed head gets as many as its size allows in the
-// time.
+// There and back. A hole is smooth long before; a whole completed head gets as many as there is time for.
 constexpr int kFewestSweeps = 10, kMostSweeps = 40;
 constexpr std::size_t kSweptVertices = 1'500'000;
 constexpr float kStill = 0.25F;          // grey levels: nothing moves by more
@@ -124,14 +124,9 @@ void fill_colours(const FaceMesh& mesh, std::span<const std::uint8_t> known, std
 
 void continue_outwards(TextureAtlas& atlas, int margin_px, std::pmr::memory_resource* memory) {
   constexpr int kInside = 2;  // texels
-  const std::size_t w = std::size_t(atlas.width_px);
   const std::size_t size = atlas.origin.size();
-  const auto for_each_beside = [&](std::size_t k, auto&& visit) {
-    const std::size_t x = k % w;
-    if (x > 0) visit(k - 1);
-    if (x + 1 < w) visit(k + 1);
-    if (k >= w) visit(k - w);
-    if (k + w < size) visit(k + w);
+  const auto beside = [&](std::size_t k, const auto& visit) {
+    for_each_beside(k, std::size_t(atlas.width_px), size, visit);
   };
   enum : std::uint8_t { kOutside, kInner, kRim, kReached };
   std::pmr::vector<std::uint8_t> state(size, kOutside, memory);
@@ -140,21 +135,20 @@ void continue_outwards(TextureAtlas& atlas, int margin_px, std::pmr::memory_reso
     std::uint32_t at, from;
   };
   std::pmr::vector<Step> steps(memory);
-  steps.reserve(
-      2 * size);  // a texel is visited inwards once and outwards once; what is never visited costs nothing
+  steps.reserve(2 * size);  // inwards once and outwards once; what is never visited costs nothing
   const auto put = [&](std::size_t at, std::size_t from) {
     steps.push_back({std::uint32_t(at), std::uint32_t(from)});
   };
   for (std::size_t k = 0; k < size; ++k) {
     bool open = false;
-    if (state[k] == kInner) for_each_beside(k, [&](std::size_t n) { open = open || state[n] == kOutside; });
+    if (state[k] == kInner) beside(k, [&](std::size_t n) { open = open || state[n] == kOutside; });
     if (open) put(k, k);
   }
   std::size_t begin = 0;
   const auto next_ring = [&](auto&& visit) {
     const std::size_t end = steps.size();
     for (; begin < end; ++begin)
-      for_each_beside(steps[begin].at, [&, from = steps[begin].from](std::size_t n) { visit(n, from); });
+      beside(steps[begin].at, [&, from = steps[begin].from](std::size_t n) { visit(n, from); });
   };
   for (const Step& s : steps) state[s.at] = kRim;
   for (int step = 0; step < kInside; ++step)  // inwards, the last ring being the first of clean colours

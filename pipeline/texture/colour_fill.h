@@ -24,9 +24,8 @@ void fill_colours(const FaceMesh& mesh, std::span<const std::uint8_t> known, std
                   StageContext& context);
 
 // Paints what lies beyond the charts: `margin_px` texels with the nearest colour from a little inside
-// (the outermost texels mix in what lies behind the face), the rest with the mean, so that filtering at the
-// outline and smaller copies of the texture mix in skin and not black. Nothing of the room gets into the
-// atlas.
+// (the outermost texels mix in what lies behind the face), the rest with the mean: filters and smaller copies
+// mix in skin, not black. Nothing of the room gets into the atlas.
 void continue_outwards(TextureAtlas& atlas, int margin_px, std::pmr::memory_resource* memory);
 
 }  // namespace relievo::pipeline

@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <functional>
 
 #include "pipeline/base/stage.h"
 #include "pipeline/model/photo_sampler.h"
@@ -17,11 +18,8 @@
 namespace relievo::pipeline {
 namespace {
 
-// PhotographLayer: the whole way from a surface and its photographs to an atlas; both texturers use it.
-// Surface that a camera saw shows its photograph, measured or not; what none saw is filled smoothly from its
-// surroundings and flagged in `origin`.
-// Memory: the atlas in `output`, the rest in `scratch`. Thread: any; works on the pool, and the result
-// does not depend on its size. Errors: InvalidInput, Cancelled; throws std::bad_alloc.
+// The whole way from a surface and its photographs to an atlas, for both texturers. Surface that a camera saw
+// shows its photograph, measured or not; what none saw is filled smoothly and flagged in `origin`.
 struct LayerOptions {
   ChartOptions chart;
   ShotOptions shot;
@@ -90,6 +88,11 @@ class Layer {
   const Vec2f& side_corner(std::size_t side, std::size_t corner) const {
     return sides_.corner[3 * side + corner];
   }
+  template <typename Visit>  // visit(vertex, texel)
+  void for_each_side_corner(Visit&& visit) {
+    for (std::size_t s = 0; s < sides_.triangles.size(); ++s)
+      for (std::size_t i = 0; i < 3; ++i) visit(mesh_.triangles[sides_.triangles[s]][i], side_corner(s, i));
+  }
   bool seen_whole(const std::array<std::uint32_t, 3>& t) const {
     return photographed_[t[0]] != 0 && photographed_[t[1]] != 0 && photographed_[t[2]] != 0;
   }
@@ -148,27 +151,19 @@ class Layer {
   }
 
   void shade(const ShotPlanes& planes, const ViewBlend& blend) {
-    struct Work {
-      Layer& self;
-      const ShotPlanes& planes;
-      const ViewBlend& blend;
-    } work{*this, planes, blend};
-    context_.pool.for_each_band(chart_.height_px, kBands, [&work](int begin, int end, int) {
-      Layer& self = work.self;
-      for (int y = begin; y < end && !self.context_.stop(); ++y)
-        for (int x = 0; x < self.chart_.width_px; ++x) {
-          const std::size_t k = self.chart_.index(x, y);
-          if ((work.planes.seen[k] & kSurface) == 0 ||
-              !self.seen_whole(self.mesh_.triangles[self.maps_[0].owner[k]]))
-            continue;
-          const ViewBlend::Colour colour = work.blend.mix(k, x, y);
-          self.set(self.atlas_index(x, y), colour.rgb, origin_of(colour.share));
+    const auto shade_rows = [&](int begin, int end, int) {
+      for (int y = begin; y < end && !context_.stop(); ++y)
+        for (int x = 0; x < chart_.width_px; ++x) {
+          const std::size_t k = chart_.index(x, y);
+          if ((planes.seen[k] & kSurface) == 0 || !seen_whole(mesh_.triangles[maps_[0].owner[k]])) continue;
+          const ViewBlend::Colour colour = blend.mix(k, x, y);
+          set(atlas_index(x, y), colour.rgb, origin_of(colour.share));
         }
-    });
+    };
+    context_.pool.for_each_band(chart_.height_px, kBands, std::cref(shade_rows));  // by reference: no heap
   }
 
-  // What was photographed and yet does not fit into the main chart: folds, read from the photographs
-  // directly.
+  // What was photographed and yet does not fit into the main chart: folds, read from the photographs.
   void photograph_sides(const VertexViews& views, const ViewBlend& blend) {
     const PhotoSampler left(pair_.left.rgb, pair_.width_px, pair_.height_px);
     const PhotoSampler right(pair_.right.rgb, pair_.width_px, pair_.height_px);
@@ -207,15 +202,13 @@ class Layer {
     const auto read = [&](std::uint32_t v, const Vec2f& texel) {
       if (photographed_[v] != 0 && known_[v] == 0) known_[v] = read_clean(texel, colours_[v]) ? 1 : 0;
     };
-    for (std::size_t s = 0; s < sides_.triangles.size(); ++s)
-      for (std::size_t i = 0; i < 3; ++i) read(mesh_.triangles[sides_.triangles[s]][i], side_corner(s, i));
+    for_each_side_corner(read);
     for (std::size_t k = 0; k < kept_.size(); ++k)
       for (std::size_t i = 0; i < 3 && kept_[k] != 0; ++i)
         read(mesh_.triangles[k][i], chart_.texel[mesh_.triangles[k][i]]);
   }
 
-  // As a renderer reads it, but from photographed texels alone: the others are still empty. False where there
-  // is none.
+  // As a renderer reads it, but from photographed texels alone: the others are still empty. False: none.
   bool read_clean(const Vec2f& at, VertexColour& colour) const {
     const int x = int(at.x);
     const int y = int(at.y);
@@ -258,11 +251,8 @@ class Layer {
       const auto& t = mesh_.triangles[sides_.triangles[s]];
       if (!seen_whole(t)) paint(side_corner(s, 0), side_corner(s, 1), side_corner(s, 2), t, false);
     }
-    // A triangle between texel centres covers none: what a filter reads around its corners is its corners'
-    // colour.
-    for (std::size_t s = 0; s < sides_.triangles.size(); ++s)
-      for (std::size_t i = 0; i < 3; ++i)
-        surround(side_corner(s, i), colours_[mesh_.triangles[sides_.triangles[s]][i]]);
+    // A triangle between texel centres covers none: a filter reads its corners' colour around them.
+    for_each_side_corner([&](std::uint32_t v, const Vec2f& at) { surround(at, colours_[v]); });
   }
 
   void surround(const Vec2f& corner, const VertexColour& colour) {
@@ -302,35 +292,29 @@ Result<TextureAtlas> lay_photographs(const FaceMesh& mesh, const RectifiedPair& 
   return Layer(mesh, pair, options, context).run();
 }
 
+Result<void> check_margin(int margin_px, int max_atlas_px, std::string_view algorithm) {
+  if (4 * margin_px <= max_atlas_px) return {};
+  return Error{Errc::InvalidInput, "margin_px must be at most a quarter of max_atlas_px"}.at(algorithm);
+}
+
 }  // namespace
 
-Result<void> TwoViewTexturer::check() const {
-  if (4 * margin_px > max_atlas_px)
-    return Error{Errc::InvalidInput, "margin_px must be at most a quarter of max_atlas_px"}.at("two-view");
-  return {};
-}
+Result<void> TwoViewTexturer::check() const { return check_margin(margin_px, max_atlas_px, "two-view"); }
 
 Result<TextureAtlas> TwoViewTexturer::texture(const FaceMesh& mesh, const RectifiedPair& pair,
                                               StageContext& context) const {
-  LayerOptions layer;
-  layer.chart = {max_atlas_px, margin_px, finer};
-  layer.shot = {float(angle_power), float(occlusion_px), float(feather_px), false};
-  layer.highlight_level = float(highlight_level);
-  return lay_photographs(mesh, pair, layer, context);
+  const ShotOptions shot{float(angle_power), float(occlusion_px), float(feather_px)};
+  return lay_photographs(mesh, pair, {{max_atlas_px, margin_px, finer}, shot, float(highlight_level)},
+                         context);
 }
 
 Result<void> SingleViewTexturer::check() const {
-  if (4 * margin_px > max_atlas_px)
-    return Error{Errc::InvalidInput, "margin_px must be at most a quarter of max_atlas_px"}.at("single-view");
-  return {};
+  return check_margin(margin_px, max_atlas_px, "single-view");
 }
 
 Result<TextureAtlas> SingleViewTexturer::texture(const FaceMesh& mesh, const RectifiedPair& pair,
                                                  StageContext& context) const {
-  LayerOptions layer;
-  layer.chart = {max_atlas_px, margin_px};
-  layer.shot.left_only = true;
-  return lay_photographs(mesh, pair, layer, context);
+  return lay_photographs(mesh, pair, {{max_atlas_px, margin_px}, {.left_only = true}}, context);
 }
 
 }  // namespace relievo::pipeline

@@ -11,12 +11,11 @@ namespace relievo::pipeline {
 
 // TwoViewTexturer (`two-view`, the default): both photographs, each where it sees the surface and the
 // more the straighter it looks at it. The right one is first brought to the left one's exposure and
-// white balance (level_field.h), both to one level where they still differ slowly;
-// where one is brighter in every channel it holds a highlight and the darker one counts (view_blend.h).
+// white balance (level_field.h), both to one level where they still differ slowly; where one is brighter in
+// every channel it holds a highlight and the darker one counts (view_blend.h).
 // Surface nobody photographed is filled smoothly and flagged (colour_fill.h).
-// Memory: atlas, uv and vertex colours in `output`, the rest in `scratch`; nothing else.
-// Errors: InvalidInput (a mesh without triangles, a pair without pixels), OutOfMemory, Cancelled.
-// Thread: any; keeps no state; shades on the pool, and the result does not depend on its size.
+// Memory: atlas, uv and vertex colours in `output`, the rest in `scratch`. Thread: any; the result does not
+// depend on the pool. Errors: InvalidInput (no triangles, a pair without pixels), OutOfMemory, Cancelled.
 struct TwoViewTexturer {
   int max_atlas_px = 2048;  // widest and highest atlas
   int margin_px = 8;        // texels left free around the face
@@ -45,11 +44,8 @@ struct TwoViewTexturer {
   Result<TextureAtlas> texture(const FaceMesh& mesh, const RectifiedPair& pair, StageContext& context) const;
 };
 
-// SingleViewTexturer (`single-view`): the left photograph alone, as the dissertation does;
-// what it does not see is filled.
-// Memory: atlas, uv and vertex colours in `output`, the rest in `scratch`; nothing else.
-// Errors: InvalidInput (a mesh without triangles, a pair without pixels), OutOfMemory, Cancelled.
-// Thread: any; keeps no state.
+// SingleViewTexturer (`single-view`): the left photograph alone, as the dissertation does; what it does not
+// see is filled. Memory, errors, thread: as TwoViewTexturer.
 struct SingleViewTexturer {
   int max_atlas_px = 2048;  // widest and highest atlas
   int margin_px = 8;        // texels left free around the face

@@ -110,6 +110,22 @@ TEST(Algorithms, WhatIsOutOfRangeIsNamedWithItsValueAndItsRange) {
   EXPECT_EQ(set.error().where(), even.error().where()) << "one range, wherever it is asked";
 }
 
+TEST(Algorithms, WholeNumbersTakeNoFractions) {
+  const auto refused = AlgorithmSet{}.set("sgm.band", "4.5");
+  ASSERT_FALSE(refused);
+  EXPECT_EQ(refused.error().code, Errc::InvalidInput);
+  EXPECT_TRUE(refused.error().where().starts_with("sgm.band = 4.5 (")) << refused.error().where();
+  EXPECT_NE(refused.error().where().find("in steps of 1)"), std::string_view::npos);
+  // What is taken is what is made and reported.
+  for (const OptionDescription& option : describe_algorithms()) {
+    if (!option.names.empty() || option.text) continue;
+    AlgorithmSet set;
+    EXPECT_EQ(bool(set.set(option.key, number_text(option.range.least + 0.5))),
+              option.range.step == 0 && option.range.least + 0.5 <= option.range.most)
+        << option.key;
+  }
+}
+
 TEST(Algorithms, ModesAreChosenByName) {
   AlgorithmSet set;
   EXPECT_EQ(set.get("opencv-sgbm.mode"), "3way");

@@ -134,6 +134,12 @@ TEST_F(BadInput, ACalibrationWithImpossibleNumbers) {
 
 TEST_F(BadInput, NoFaceInView) { reconstruct_refused("left.png", "right.png", "left.png", "face"); }
 
+TEST_F(BadInput, ADissertationOfAPairWithoutAFace) {
+  refused({"compare", "left.png", "right.png", "--calibration", "rig.yml", "--suite", "dissertation", "-o",
+           "out"},
+          "rectify: ", "no set could be tried");
+}
+
 // The cause is told, not what it led to.
 TEST_F(BadInput, PicturesInTheWrongPlaces) {
   simulated({"face", "--seed", "3", "--scale", "0.4"}, "face");

@@ -203,5 +203,20 @@ TEST_F(Compare, AnInterruptEndsItAndLeavesNothing) {
   EXPECT_EQ(listing(here.path()), before);
 }
 
+class CompareFace : public RelievoProcess {};
+
+TEST_F(CompareFace, AModelThatCannotBeWrittenFailsAndLeavesNothing) {
+  simulated({"face", "--scale", "0.25"}, "face");
+  const std::string before = listing(here.path());
+  // Room for the page, not for the model.
+  const Said said = run_program(
+      {"/usr/bin/env", "--ignore-signal=XFSZ", "/usr/bin/prlimit", "--fsize=1000000", RELIEVO_BINARY,
+       "compare", "face/left.png", "face/right.png", "--calibration", "face/rig.yml", "-o", "out"},
+      here.path());
+  EXPECT_EQ(said.exit_code, 1) << said.out << said.err;
+  EXPECT_NE(said.err.find("out: not written"), std::string::npos) << said.err;
+  EXPECT_EQ(listing(here.path()), before);
+}
+
 }  // namespace
 }  // namespace relievo::test

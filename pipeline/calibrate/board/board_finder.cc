@@ -19,10 +19,17 @@
 namespace relievo::pipeline {
 namespace {
 
-// What a lattice's own regularity tells: where corners are that the search overlooked, and which of those
-// found do not belong.
-
-constexpr double kStrayFactor = 6;  // times the usual distance from where the neighbours say
+constexpr int kLeastSidePx = 32;
+constexpr std::size_t kMostSaddles = 6000;  // of a picture: the largest board has 3600
+constexpr std::size_t kMostLattices = 12;   // that are looked into
+constexpr int kLeastGroup = 6;              // crossings
+constexpr double kWholeShare = 0.6;         // of a chessboard's corners that must be seen, and
+constexpr double kLineShare = 0.3;          // of those of each outer row and column
+constexpr int kLeastCorners = 8;            // of a ChArUco board
+constexpr double kStrayFactor = 6;          // times the usual distance from where the neighbours say
+constexpr double kStrayShare = 0.15;        // of a step, that a crossing may be off its neighbours' lattice
+constexpr double kStrayPx = 0.3;            // and that a refined corner may
+constexpr double kPlainShare = 0.5;         // of a chessboard's square beside an edge: all of it
 
 double distance(const Vec2d& a, const Vec2d& b) { return std::hypot(a.x - b.x, a.y - b.y); }
 
@@ -63,7 +70,7 @@ void fill_gaps(CornerRefiner& refiner, Lattice& lattice) {
     for (int row = 0; row < lattice.rows(); ++row)
       for (int column = 0; column < lattice.columns(); ++column) {
         if (lattice.seen(column, row)) continue;
-        int& before = tried[std::size_t(row) * std::size_t(lattice.columns()) + std::size_t(column)];
+        int& before = tried[lattice.index(column, row)];
         const int around = neighbours(lattice, column, row);
         if (around <= before) continue;
         before = around;
@@ -90,8 +97,7 @@ void drop_strays(Lattice& lattice, double least_px) {
   const double limit = std::max(least_px, kStrayFactor * median(usual));
   for (int row = 0; row < lattice.rows(); ++row)
     for (int column = 0; column < lattice.columns(); ++column)
-      if (off[std::size_t(row) * std::size_t(lattice.columns()) + std::size_t(column)] > limit)
-        lattice.node(column, row).swing = 0;
+      if (off[lattice.index(column, row)] > limit) lattice.node(column, row).swing = 0;
 }
 
 // The usual distance between neighbours, px.
@@ -107,17 +113,6 @@ double step_px(const Lattice& lattice) {
       }
   return count > 0 ? sum / count : 0;
 }
-
-constexpr int kLeastSidePx = 32;
-constexpr std::size_t kMostSaddles = 6000;  // of a picture: the largest board has 3600
-constexpr std::size_t kMostLattices = 12;   // that are looked into
-constexpr int kLeastGroup = 6;              // crossings
-constexpr double kWholeShare = 0.6;         // of a chessboard's corners that must be seen, and
-constexpr double kLineShare = 0.3;          // of those of each outer row and column
-constexpr int kLeastCorners = 8;            // of a ChArUco board
-constexpr double kStrayShare = 0.15;        // of a step, that a crossing may be off its neighbours' lattice
-constexpr double kStrayPx = 0.3;            // and that a refined corner may
-constexpr double kPlainShare = 0.5;         // of a chessboard's square beside an edge: all of it
 
 // The narrowest frame around the lattice whose outer rows and columns are no accident.
 Lattice framed(const Lattice& lattice) {
@@ -143,10 +138,8 @@ bool fits(const Lattice& lattice, const BoardPattern& pattern) {
 
 // Every way up that the colours allow; of those the one whose rows run most to the right.
 Lattice upright(const Lattice& lattice, const BoardPattern& pattern) {
-  std::optional<Lattice> best;
-  double best_run = 0;
-  bool best_dark = false;
-  Lattice turned = lattice;
+  Lattice best = lattice, turned = lattice;
+  std::pair most{false, -1e300};
   for (int turns = 0; turns < 4; ++turns, turned = turned.quarter_turned()) {
     if (turned.columns() != pattern.columns || turned.rows() != pattern.rows) continue;
     double run = 0;
@@ -154,13 +147,12 @@ Lattice upright(const Lattice& lattice, const BoardPattern& pattern) {
       for (int column = 0; column + 1 < turned.columns(); ++column)
         if (turned.seen(column, row) && turned.seen(column + 1, row))
           run += turned.node(column + 1, row).at.x - turned.node(column, row).at.x;
-    const bool dark = turned.dark(-1, -1);
-    if (best && std::pair(dark, run) < std::pair(best_dark, best_run)) continue;
+    const std::pair here(turned.dark(-1, -1), run);
+    if (here < most) continue;
     best = turned;
-    best_run = run;
-    best_dark = dark;
+    most = here;
   }
-  return best ? *best : lattice;
+  return best;
 }
 
 // Room for what the search has overlooked, one line more than the board has: a larger board is none.

@@ -41,6 +41,28 @@ Vec2d run_of(const BoardCorners& corners, const BoardPattern& pattern) {
   return sum;
 }
 
+// A marker with its black border, each row of modules in as few pieces as there are runs.
+void draw_marker(std::uint64_t white, int bits, double x_mm, double y_mm, double side_mm,
+                 std::vector<BlackArea>& out) {
+  const int modules = bits + 2;
+  const double module_mm = side_mm / modules;
+  const auto black = [&](int column, int row) {
+    if (column == 0 || row == 0 || column == modules - 1 || row == modules - 1) return true;
+    return (white >> ((row - 1) * bits + column - 1) & 1) == 0;
+  };
+  for (int row = 0; row < modules; ++row)
+    for (int column = 0; column < modules;) {
+      if (!black(column, row)) {
+        ++column;
+        continue;
+      }
+      const int first = column;
+      while (column < modules && black(column, row)) ++column;
+      out.push_back(
+          {x_mm + first * module_mm, y_mm + row * module_mm, (column - first) * module_mm, module_mm});
+    }
+}
+
 }  // namespace
 
 Result<void> BoardPattern::check() const {
@@ -66,40 +88,14 @@ void pair_order(const BoardCorners& left, BoardCorners& right, const BoardPatter
     const Vec2d b = run_of(corners, pattern);
     return a.x * b.x + a.y * b.y;
   };
-  BoardCorners turned = half_turned(right);
-  if (agreement(turned) > agreement(right)) right = turned;
-  if (pattern.columns != pattern.rows) return;
-  turned = quarter_turned(right, pattern);
-  if (agreement(turned) > agreement(right)) right = std::move(turned);
-  turned = half_turned(quarter_turned(right, pattern));
-  if (agreement(turned) > agreement(right)) right = std::move(turned);
-}
-
-namespace {
-
-// A marker with its black border, each row of modules in as few pieces as there are runs.
-void draw_marker(std::uint64_t white, int bits, double x_mm, double y_mm, double side_mm,
-                 std::vector<BlackArea>& out) {
-  const int modules = bits + 2;
-  const double module_mm = side_mm / modules;
-  const auto black = [&](int column, int row) {
-    if (column == 0 || row == 0 || column == modules - 1 || row == modules - 1) return true;
-    return (white >> ((row - 1) * bits + column - 1) & 1) == 0;
+  const auto offer = [&](BoardCorners turned) {
+    if (agreement(turned) > agreement(right)) right = std::move(turned);
   };
-  for (int row = 0; row < modules; ++row)
-    for (int column = 0; column < modules;) {
-      if (!black(column, row)) {
-        ++column;
-        continue;
-      }
-      const int first = column;
-      while (column < modules && black(column, row)) ++column;
-      out.push_back(
-          {x_mm + first * module_mm, y_mm + row * module_mm, (column - first) * module_mm, module_mm});
-    }
+  offer(half_turned(right));
+  if (pattern.columns != pattern.rows) return;
+  offer(quarter_turned(right, pattern));
+  offer(half_turned(quarter_turned(right, pattern)));
 }
-
-}  // namespace
 
 Result<std::vector<BlackArea>> draw_board(const BoardPattern& pattern) try {
   RELIEVO_TRY(pattern.check());

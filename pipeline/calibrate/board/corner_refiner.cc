@@ -94,72 +94,6 @@ RELIEVO_SIMD float product(const float* a, const float* b, std::size_t count) {
   return sum;
 }
 
-}  // namespace
-
-void CornerWindow::clear() {
-  x.clear();
-  y.clear();
-  value.clear();
-  weight.clear();
-  strip.clear();
-  count = 0;
-}
-
-void CornerWindow::add(float px, float py, float grey, unsigned char part) {
-  x.push_back(px);
-  y.push_back(py);
-  value.push_back(grey);
-  weight.push_back(1);
-  strip.push_back(part);
-  ++count;
-}
-
-void CornerWindow::pad() {
-  const std::size_t whole = (count + kLanes - 1) / kLanes * kLanes;
-  for (auto* column : {&x, &y, &value, &weight}) column->resize(whole, 0.F);
-}
-
-void sum_up(const CornerWindow& window, const CornerModel& model, bool information, CornerScratch& scratch,
-            CornerSums& sums) {
-  constexpr auto kAll = std::size_t(CornerModel::Count) + 1;
-  const std::size_t length = window.x.size();
-  std::array<float*, kAll> out{};
-  for (std::size_t k = 0; k < kAll; ++k) {
-    if (scratch.column[k].size() < length) scratch.column[k].resize(length);
-    out[k] = scratch.column[k].data();
-  }
-  const auto& p = model.p;
-  Frame f{};
-  f.sin1 = std::sin(p[CornerModel::Angle1]), f.cos1 = std::cos(p[CornerModel::Angle1]);
-  f.sin2 = std::sin(p[CornerModel::Angle2]), f.cos2 = std::cos(p[CornerModel::Angle2]);
-  f.width1 = p[CornerModel::Width1], f.width2 = p[CornerModel::Width2];
-  f.per_width1 = 1 / f.width1, f.per_width2 = 1 / f.width2;
-  f.half1 = std::max(std::abs(f.sin1), std::abs(f.cos1)) / 2,
-  f.half2 = std::max(std::abs(f.sin2), std::abs(f.cos2)) / 2;
-  f.per_pixel1 = 0.5F / f.half1, f.per_pixel2 = 0.5F / f.half2;
-  f.per_reach = 1 / window.reach_px;
-  fill_columns(window.x.data(), window.y.data(), window.value.data(), window.weight.data(), length, p.data(),
-               f, out.data());
-  constexpr auto kResidual = std::size_t(CornerModel::Count);
-  for (std::size_t a = 0; a < kResidual; ++a) {
-    sums.slope(int(a)) = double(product(out[a], out[kResidual], length));
-    for (std::size_t b = a; information && b < kResidual; ++b)
-      sums.information(int(a), int(b)) = sums.information(int(b), int(a)) =
-          double(product(out[a], out[b], length));
-  }
-  sums.squared = double(product(out[kResidual], out[kResidual], length));
-  sums.strip_mean.fill(0);
-  sums.strip_count.fill(0);
-  for (std::size_t i = 0; i < window.count; ++i) {
-    sums.strip_mean[window.strip[i]] += double(out[kResidual][i]);
-    sums.strip_count[window.strip[i]] += 1;
-  }
-  for (std::size_t k = 0; k < sums.strip_mean.size(); ++k)
-    sums.strip_mean[k] /= std::max(sums.strip_count[k], 1.0);
-}
-
-namespace {
-
 // The window reaches this share of the way to the next corner: clear of its crossing edges. Beyond
 // the most pixels the lens bends an edge more than its pixels are worth.
 constexpr double kReachShare = 0.42;
@@ -198,6 +132,68 @@ double reach_inside(const GreyView& picture, const Vec2d& at, const CornerGuess&
 }
 
 }  // namespace
+
+void CornerWindow::clear() {
+  x.clear();
+  y.clear();
+  value.clear();
+  weight.clear();
+  strip.clear();
+  count = 0;
+}
+
+void CornerWindow::add(float px, float py, float grey, unsigned char part) {
+  x.push_back(px);
+  y.push_back(py);
+  value.push_back(grey);
+  weight.push_back(1);
+  strip.push_back(part);
+  ++count;
+}
+
+void CornerWindow::pad() {
+  const std::size_t whole = (count + kLanes - 1) / kLanes * kLanes;
+  for (auto* column : {&x, &y, &value, &weight}) column->resize(whole, 0.F);
+}
+
+void sum_up(const CornerWindow& window, const CornerModel& model, bool information, CornerScratch& scratch,
+            CornerSums& sums) {
+  constexpr auto kAll = std::size_t(CornerModel::Count) + 1;
+  const std::size_t length = window.x.size();
+  std::array<float*, kAll> out{};
+  for (std::size_t k = 0; k < kAll; ++k) {
+    if (scratch[k].size() < length) scratch[k].resize(length);
+    out[k] = scratch[k].data();
+  }
+  const auto& p = model.p;
+  Frame f{};
+  f.sin1 = std::sin(p[CornerModel::Angle1]), f.cos1 = std::cos(p[CornerModel::Angle1]);
+  f.sin2 = std::sin(p[CornerModel::Angle2]), f.cos2 = std::cos(p[CornerModel::Angle2]);
+  f.width1 = p[CornerModel::Width1], f.width2 = p[CornerModel::Width2];
+  f.per_width1 = 1 / f.width1, f.per_width2 = 1 / f.width2;
+  f.half1 = std::max(std::abs(f.sin1), std::abs(f.cos1)) / 2,
+  f.half2 = std::max(std::abs(f.sin2), std::abs(f.cos2)) / 2;
+  f.per_pixel1 = 0.5F / f.half1, f.per_pixel2 = 0.5F / f.half2;
+  f.per_reach = 1 / window.reach_px;
+  fill_columns(window.x.data(), window.y.data(), window.value.data(), window.weight.data(), length, p.data(),
+               f, out.data());
+  constexpr auto kResidual = std::size_t(CornerModel::Count);
+  for (std::size_t a = 0; a < kResidual; ++a) {
+    sums.slope(int(a)) = double(product(out[a], out[kResidual], length));
+    for (std::size_t b = a; information && b < kResidual; ++b)
+      sums.information(int(a), int(b)) = sums.information(int(b), int(a)) =
+          double(product(out[a], out[b], length));
+  }
+  sums.squared = double(product(out[kResidual], out[kResidual], length));
+  sums.strip_mean.fill(0);
+  sums.strip_count.fill(0);
+  for (std::size_t i = 0; i < window.count; ++i) {
+    sums.strip_mean[window.strip[i]] += double(out[kResidual][i]);
+    sums.strip_count[window.strip[i]] += 1;
+  }
+  for (std::size_t k = 0; k < sums.strip_mean.size(); ++k)
+    sums.strip_mean[k] /= std::max(sums.strip_count[k], 1.0);
+}
 
 std::optional<CornerFit> CornerRefiner::refine(const CornerGuess& guess) {
   const double area = cross(guess.along_row, guess.along_column);

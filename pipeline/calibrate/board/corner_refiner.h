@@ -71,9 +71,7 @@ struct CornerSums {
 };
 
 // Columns that the sums need; kept between calls so that nothing is allocated anew.
-struct CornerScratch {
-  std::array<std::vector<float>, CornerModel::Count + 1> column;
-};
+using CornerScratch = std::array<std::vector<float>, CornerModel::Count + 1>;
 
 // The information is left as it was where only the slope is asked for.
 void sum_up(const CornerWindow& window, const CornerModel& model, bool information, CornerScratch& scratch,

@@ -69,20 +69,24 @@ RELIEVO_SIMD void weigh_columns(const std::uint16_t* sum, int half_width, std::u
 // Every second pixel of every second row after the binomial filter 1 4 6 4 1; the edges repeat.
 std::vector<std::uint8_t> half_of(const GreyView& from, int width, int height) {
   std::vector<std::uint8_t> out(std::size_t(width) * std::size_t(height));
-  std::vector<std::uint16_t> sum(std::size_t(from.width_px) + 5);
+  std::vector<std::uint16_t> sum(std::size_t(from.width_px) + 4);
   for (int y = 0; y < height; ++y) {
-    std::array<const std::uint8_t*, 5> rows{};
-    for (int k = 0; k < 5; ++k)
-      rows[std::size_t(k)] = from.row(std::clamp(2 * y + k - 2, 0, from.height_px - 1));
-    weigh_rows(rows.data(), from.width_px, sum.data() + 2);
-    sum[0] = sum[1] = sum[2];
-    std::fill(sum.end() - 3, sum.end(), sum[std::size_t(from.width_px) + 1]);
+    smooth_columns(from, 2 * y, sum);
     weigh_columns(sum.data(), width, &out[std::size_t(y) * std::size_t(width)]);
   }
   return out;
 }
 
 }  // namespace
+
+void smooth_columns(const GreyView& picture, int y, std::vector<std::uint16_t>& sum) {
+  std::array<const std::uint8_t*, 5> rows{};
+  for (int k = 0; k < 5; ++k)
+    rows[std::size_t(k)] = picture.row(std::clamp(y + k - 2, 0, picture.height_px - 1));
+  weigh_rows(rows.data(), picture.width_px, sum.data() + 2);
+  sum[0] = sum[1] = sum[2];
+  sum.end()[-1] = sum.end()[-2] = sum.end()[-3];
+}
 
 GreyPyramid::GreyPyramid(const ImageView& picture) {
   if (picture.format == PixelFormat::Grey8) {

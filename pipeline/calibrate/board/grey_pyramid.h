@@ -23,6 +23,10 @@ struct GreyView {
   const std::uint8_t* row(int y) const { return pixels + y * stride; }
 };
 
+// The binomial filter 1 4 6 4 1 down the columns about row y, times 16; the picture's edges repeat. `sum` has
+// two places more to either side: the filter along the row needs them.
+void smooth_columns(const GreyView& picture, int y, std::vector<std::uint16_t>& sum);
+
 class GreyPyramid {
  public:
   explicit GreyPyramid(const ImageView& picture);  // not empty; must outlive this

@@ -14,16 +14,6 @@
 #include "pipeline/base/solving.h"
 
 namespace relievo::pipeline {
-namespace {
-
-constexpr int kReach = 3;   // nodes, of a prediction
-constexpr int kEnough = 8;  // neighbours after which no wider circle is asked
-// One node's position is believed to half a pixel, the homography's change from node to node to a
-// twentieth: decides only where nothing else does.
-constexpr double kPerspectivePx = 10;
-
-}  // namespace
-
 int Lattice::count_row(int row) const {
   int count = 0;
   for (int column = 0; column < columns_; ++column) count += seen(column, row) ? 1 : 0;
@@ -63,44 +53,13 @@ void Lattice::scale(double factor) {
   for (LatticeNode& one : nodes_) one.at = {one.at.x * factor, one.at.y * factor};
 }
 
-std::optional<CornerGuess> predict(const Lattice& lattice, int column, int row) {
-  // x = (a i + b j + c) / (g i + h j + 1), y alike with d e f; i, j counted from the node.
-  Eigen::Matrix<double, 8, 8> n = Eigen::Matrix<double, 8, 8>::Zero();
-  Eigen::Matrix<double, 8, 1> g = Eigen::Matrix<double, 8, 1>::Zero();
-  Eigen::Matrix3d spread = Eigen::Matrix3d::Zero();
-  Vec2d near;
-  int count = 0;
-  for (int ring = 1; ring <= kReach && count < kEnough; ++ring)
-    for (int j = -ring; j <= ring; ++j)
-      for (int i = -ring; i <= ring; ++i) {
-        if (std::max(std::abs(i), std::abs(j)) != ring || !lattice.seen(column + i, row + j)) continue;
-        const Vec2d& at = lattice.node(column + i, row + j).at;
-        if (count++ == 0) near = at;
-        const double x = at.x - near.x;
-        const double y = at.y - near.y;
-        Eigen::Matrix<double, 2, 8> rows;
-        rows << i, j, 1, 0, 0, 0, -x * i, -x * j, 0, 0, 0, i, j, 1, -y * i, -y * j;
-        const double weight = 1.0 / (i * i + j * j);
-        n += weight * rows.transpose() * rows;
-        g += weight * rows.transpose() * Eigen::Vector2d(x, y);
-        const Eigen::Vector3d place(i, j, 1);
-        spread += place * place.transpose();
-      }
-  // Nodes on one line say nothing about what lies beside it.
-  if (count < 3 || !(spread.determinant() > 0.5)) return std::nullopt;
-  n(6, 6) += kPerspectivePx * kPerspectivePx;
-  n(7, 7) += kPerspectivePx * kPerspectivePx;
-  const Eigen::Matrix<double, 8, 1> h = solved<8>(n, g);
-  if (!h.allFinite()) return std::nullopt;
-  CornerGuess guess;
-  guess.at = {h(2) + near.x, h(5) + near.y};
-  guess.along_row = {h(0) - h(2) * h(6), h(3) - h(5) * h(6)};
-  guess.along_column = {h(1) - h(2) * h(7), h(4) - h(5) * h(7)};
-  guess.dark = lattice.dark(column, row);
-  return guess;
-}
-
 namespace {
+
+constexpr int kReach = 3;   // nodes, of a prediction
+constexpr int kEnough = 8;  // neighbours after which no wider circle is asked
+// One node's position is believed to half a pixel, the homography's change from node to node to a
+// twentieth: decides only where nothing else does.
+constexpr double kPerspectivePx = 10;
 
 constexpr float kMinAhead =
     0.976F;  // cosine between a half edge and the way to the next crossing: 12.5 degrees
@@ -304,6 +263,43 @@ Lattice lattice_of(const std::map<std::pair<int, int>, int>& at, std::span<const
 }
 
 }  // namespace
+
+std::optional<CornerGuess> predict(const Lattice& lattice, int column, int row) {
+  // x = (a i + b j + c) / (g i + h j + 1), y alike with d e f; i, j counted from the node.
+  Eigen::Matrix<double, 8, 8> n = Eigen::Matrix<double, 8, 8>::Zero();
+  Eigen::Matrix<double, 8, 1> g = Eigen::Matrix<double, 8, 1>::Zero();
+  Eigen::Matrix3d spread = Eigen::Matrix3d::Zero();
+  Vec2d near;
+  int count = 0;
+  for (int ring = 1; ring <= kReach && count < kEnough; ++ring)
+    for (int j = -ring; j <= ring; ++j)
+      for (int i = -ring; i <= ring; ++i) {
+        if (std::max(std::abs(i), std::abs(j)) != ring || !lattice.seen(column + i, row + j)) continue;
+        const Vec2d& at = lattice.node(column + i, row + j).at;
+        if (count++ == 0) near = at;
+        const double x = at.x - near.x;
+        const double y = at.y - near.y;
+        Eigen::Matrix<double, 2, 8> rows;
+        rows << i, j, 1, 0, 0, 0, -x * i, -x * j, 0, 0, 0, i, j, 1, -y * i, -y * j;
+        const double weight = 1.0 / (i * i + j * j);
+        n += weight * rows.transpose() * rows;
+        g += weight * rows.transpose() * Eigen::Vector2d(x, y);
+        const Eigen::Vector3d place(i, j, 1);
+        spread += place * place.transpose();
+      }
+  // Nodes on one line say nothing about what lies beside it.
+  if (count < 3 || !(spread.determinant() > 0.5)) return std::nullopt;
+  n(6, 6) += kPerspectivePx * kPerspectivePx;
+  n(7, 7) += kPerspectivePx * kPerspectivePx;
+  const Eigen::Matrix<double, 8, 1> h = solved<8>(n, g);
+  if (!h.allFinite()) return std::nullopt;
+  CornerGuess guess;
+  guess.at = {h(2) + near.x, h(5) + near.y};
+  guess.along_row = {h(0) - h(2) * h(6), h(3) - h(5) * h(6)};
+  guess.along_column = {h(1) - h(2) * h(7), h(4) - h(5) * h(7)};
+  guess.dark = lattice.dark(column, row);
+  return guess;
+}
 
 std::vector<Lattice> find_lattices(const SmoothPicture& picture, std::span<const Saddle> saddles, int least) {
   const Links links = link_up(picture, saddles);

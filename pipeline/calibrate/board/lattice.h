@@ -36,6 +36,9 @@ class Lattice {
   bool holds(int column, int row) const {
     return column >= 0 && row >= 0 && column < columns_ && row < rows_;
   }
+  std::size_t index(int column, int row) const {
+    return std::size_t(row) * std::size_t(columns_) + std::size_t(column);
+  }
   LatticeNode& node(int column, int row) { return nodes_[index(column, row)]; }
   const LatticeNode& node(int column, int row) const { return nodes_[index(column, row)]; }
   bool seen(int column, int row) const { return holds(column, row) && node(column, row).seen(); }
@@ -51,9 +54,6 @@ class Lattice {
   void scale(double factor);       // of the places
 
  private:
-  std::size_t index(int column, int row) const {
-    return std::size_t(row) * std::size_t(columns_) + std::size_t(column);
-  }
   int columns_;
   int rows_;
   bool first_dark_;

@@ -20,7 +20,7 @@ namespace relievo::pipeline {
 std::vector<std::uint64_t> marker_modules(int bits, int count);
 
 // The lattice's nodes in their places on the board: columns x rows of the pattern. No value where too
-// few markers agree. `scale`: of the lattice's pixels to those of the picture.
+// few markers agree. The lattice in pixels of the picture.
 std::optional<Lattice> place_on_board(const GreyView& picture, const Lattice& lattice,
                                       const BoardPattern& pattern, const std::vector<std::uint64_t>& markers);
 

@@ -21,11 +21,6 @@ constexpr float kMinOpening = 0.35F;  // rad, between two edges
 constexpr int kMargin = 7;            // px, that the circle needs
 constexpr int kSamples = 32;          // on the circle
 
-RELIEVO_SIMD void smooth_columns(const std::uint8_t* const* rows, int width, std::uint16_t* sum) {
-  for (int x = 0; x < width; ++x)
-    sum[x] = std::uint16_t(rows[0][x] + 4 * rows[1][x] + 6 * rows[2][x] + 4 * rows[3][x] + rows[4][x]);
-}
-
 RELIEVO_SIMD void smooth_row(const std::uint16_t* sum, int width, std::int16_t* out) {
   for (int x = 0; x < width; ++x)
     out[x] = std::int16_t((sum[x] + 4 * sum[x + 1] + 6 * sum[x + 2] + 4 * sum[x + 3] + sum[x + 4]) >> 4);
@@ -169,11 +164,7 @@ SmoothPicture::SmoothPicture(const GreyView& grey) : width_px_(grey.width_px), h
   values_.resize(width * std::size_t(height_px_));
   std::vector<std::uint16_t> sum(width + 4);
   for (int y = 0; y < height_px_; ++y) {
-    std::array<const std::uint8_t*, 5> rows{};
-    for (int k = 0; k < 5; ++k) rows[std::size_t(k)] = grey.row(std::clamp(y + k - 2, 0, height_px_ - 1));
-    smooth_columns(rows.data(), width_px_, sum.data() + 2);
-    sum[0] = sum[1] = sum[2];
-    sum[width + 2] = sum[width + 3] = sum[width + 1];
+    smooth_columns(grey, y, sum);
     smooth_row(sum.data(), width_px_, &values_[std::size_t(y) * width]);
   }
 }

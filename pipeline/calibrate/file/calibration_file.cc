@@ -17,9 +17,6 @@
 namespace relievo::pipeline {
 namespace {
 
-// OpenCV's stereo YAML: cameras and relation in one document, or in the two of its stereo sample.
-// Errors: InvalidInput (the field in where()), Unsupported.
-
 constexpr FieldNames kLeftMatrix{"K1", "M1", "cameraMatrix1"};
 constexpr FieldNames kRightMatrix{"K2", "M2", "cameraMatrix2"};
 constexpr FieldNames kLeftDistortion{"D1", "distCoeffs1"};
@@ -84,9 +81,7 @@ void append_camera(std::string& text, const CameraIntrinsics& c, const char* k_n
   append_matrix(text, d_name, 1, 5, c.distortion);
 }
 
-// K1, M1 or cameraMatrix1.
 bool has_stereo_cameras(const YamlFields& fields) { return holds(fields, kLeftMatrix); }
-// R and T.
 bool has_stereo_relation(const YamlFields& fields) { return holds(fields, {"R", "T"}); }
 
 // The same fields twice where one document holds both. Not yet checked.
@@ -101,11 +96,6 @@ Result<StereoCalibration> read_stereo_yaml(const YamlFields& cameras, const Yaml
   RELIEVO_TRY_ASSIGN(calibration.cameras.left, words_or_empty(cameras, "left_camera"));
   RELIEVO_TRY_ASSIGN(calibration.cameras.right, words_or_empty(cameras, "right_camera"));
   return calibration;
-}
-
-Result<std::string> read_text(const std::filesystem::path& file) {
-  RELIEVO_TRY_ASSIGN(const auto bytes, read_whole_file(file, kMaxCalibrationFileBytes));
-  return std::string(reinterpret_cast<const char*>(bytes.data()), bytes.size());
 }
 
 Result<YamlFields> fields_of(std::string_view text) {
@@ -125,9 +115,28 @@ Result<StereoCalibration> checked(Result<StereoCalibration> calibration, const C
   return calibration;
 }
 
+// What was read, or what is wrong with it and in which file.
+template <typename T>
+Result<T> in_file(const std::string& file, Result<T> read) {
+  if (read) return read;
+  const std::string inside(read.error().where());
+  return read.error().at(inside.empty() ? file : file + ": " + inside);
+}
+
+Result<YamlFields> fields_in(const std::filesystem::path& file) {
+  RELIEVO_TRY_ASSIGN(const auto bytes, read_whole_file(file, kMaxCalibrationFileBytes));
+  return in_file(file.native(), fields_of({reinterpret_cast<const char*>(bytes.data()), bytes.size()}));
+}
+
 // Is this half of a calibration, whose other half is in another file?
 bool is_half(const YamlFields& fields) {
   return is_camera_info(fields) || has_stereo_cameras(fields) != has_stereo_relation(fields);
+}
+
+Result<StereoCalibration> read_one(const YamlFields& fields, const CalibrationHints& hints) {
+  if (is_camera_info(fields))
+    return Error{Errc::InvalidInput, "is one camera's half of a ROS calibration; give left and right"};
+  return checked(read_stereo_yaml(fields, fields, hints), hints, !fields.numbers.contains("image_width"));
 }
 
 Result<StereoCalibration> read_pair(const YamlFields& one, const YamlFields& other,
@@ -154,11 +163,6 @@ std::filesystem::path partner_of(const std::filesystem::path& file) {
   return {};
 }
 
-Error in_file(const Error& error, const std::filesystem::path& file) {
-  const std::string inside(error.where());
-  return error.at(inside.empty() ? file.native() : file.native() + ": " + inside);
-}
-
 }  // namespace
 
 std::string calibration_text(const StereoCalibration& c) {
@@ -182,9 +186,7 @@ std::string calibration_text(const StereoCalibration& c) {
 
 Result<StereoCalibration> parse_calibration(std::string_view text, const CalibrationHints& hints) {
   RELIEVO_TRY_ASSIGN(const YamlFields fields, fields_of(text));
-  if (is_camera_info(fields))
-    return Error{Errc::InvalidInput, "is one camera's half of a ROS calibration; give left and right"};
-  return checked(read_stereo_yaml(fields, fields, hints), hints, !fields.numbers.contains("image_width"));
+  return read_one(fields, hints);
 }
 
 Result<StereoCalibration> parse_calibration_pair(std::string_view one, std::string_view other,
@@ -196,25 +198,17 @@ Result<StereoCalibration> parse_calibration_pair(std::string_view one, std::stri
 
 Result<StereoCalibration> read_calibration(const std::filesystem::path& file, const CalibrationHints& hints,
                                            const std::filesystem::path& named) {
-  RELIEVO_TRY_ASSIGN(const std::string text, read_text(file));
-  const auto fields = fields_of(text);
-  if (!fields) return in_file(fields.error(), file);
+  RELIEVO_TRY_ASSIGN(const YamlFields fields, fields_in(file));
   const std::filesystem::path other = named.empty() ? partner_of(file) : named;
   // A rig.yml that was cut looks like half of a pair, too; its name tells.
-  if (named.empty() && (!is_half(*fields) || (other.empty() && !is_camera_info(*fields)))) {
-    const auto calibration = parse_calibration(text, hints);
-    return calibration ? calibration : in_file(calibration.error(), file);
-  }
+  if (named.empty() && (!is_half(fields) || (other.empty() && !is_camera_info(fields))))
+    return in_file(file.native(), read_one(fields, hints));
   std::error_code missing;
   if (other.empty() || (named.empty() && !std::filesystem::exists(other, missing)))
     return wrong("is half of a calibration, and the other half is not beside it; give both files",
                  file.native());
-  RELIEVO_TRY_ASSIGN(const std::string other_text, read_text(other));
-  const auto other_fields = fields_of(other_text);
-  if (!other_fields) return in_file(other_fields.error(), other);
-  const auto calibration = read_pair(*fields, *other_fields, hints);
-  return calibration ? calibration
-                     : in_file(calibration.error(), file.native() + " and " + other.filename().native());
+  RELIEVO_TRY_ASSIGN(const YamlFields other_fields, fields_in(other));
+  return in_file(file.native() + " and " + other.filename().native(), read_pair(fields, other_fields, hints));
 }
 
 Result<void> write_calibration(const std::filesystem::path& file, const StereoCalibration& calibration) {

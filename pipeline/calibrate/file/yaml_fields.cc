@@ -35,21 +35,16 @@ class Event {
     return {reinterpret_cast<const char*>(event_.data.scalar.value), event_.data.scalar.length};
   }
   bool plain() const { return event_.data.scalar.style == YAML_PLAIN_SCALAR_STYLE; }
+  // Of a map.
+  std::string_view tag() const {
+    const auto* tag = event_.data.mapping_start.tag;
+    return tag != nullptr ? reinterpret_cast<const char*>(tag) : std::string_view();
+  }
   bool named() const {
-    switch (event_.type) {
-      case YAML_ALIAS_EVENT: return true;
-      case YAML_SCALAR_EVENT: return event_.data.scalar.anchor != nullptr;
-      case YAML_SEQUENCE_START_EVENT: return event_.data.sequence_start.anchor != nullptr;
-      case YAML_MAPPING_START_EVENT: return event_.data.mapping_start.anchor != nullptr;
-      case YAML_NO_EVENT:
-      case YAML_STREAM_START_EVENT:
-      case YAML_STREAM_END_EVENT:
-      case YAML_DOCUMENT_START_EVENT:
-      case YAML_DOCUMENT_END_EVENT:
-      case YAML_SEQUENCE_END_EVENT:
-      case YAML_MAPPING_END_EVENT: break;
-    }
-    return false;
+    const yaml_event_type_t is = event_.type;
+    return is == YAML_ALIAS_EVENT || (is == YAML_SCALAR_EVENT && event_.data.scalar.anchor != nullptr) ||
+           (is == YAML_SEQUENCE_START_EVENT && event_.data.sequence_start.anchor != nullptr) ||
+           (is == YAML_MAPPING_START_EVENT && event_.data.mapping_start.anchor != nullptr);
   }
 
  private:
@@ -162,8 +157,7 @@ class Reader {
 
   // A matrix, or some other map, which is stepped over.
   Result<void> read_map(const std::string& name, const Event& head) {
-    const auto* tag = head_tag(head);
-    const bool must = tag != nullptr && std::string_view(tag).ends_with(":opencv-matrix");
+    const bool must = head.tag().ends_with(":opencv-matrix");
     const int outside = depth_ - 1;
     YamlMatrix matrix;
     bool has_data = false;
@@ -187,10 +181,6 @@ class Reader {
       return wrong(head, "the data of this matrix are not rows times cols numbers");
     fields_.matrices.emplace(name, std::move(matrix));
     return {};
-  }
-
-  static const char* head_tag(const Event& head) {
-    return reinterpret_cast<const char*>(const_cast<Event&>(head).raw()->data.mapping_start.tag);
   }
 
   Result<void> read_part(const std::string& part, YamlMatrix& matrix) {

@@ -12,6 +12,7 @@
 #include <Eigen/SVD>
 
 #include "pipeline/base/solving.h"
+#include "pipeline/model/lens.h"
 
 namespace relievo::pipeline::bundle {
 namespace {
@@ -34,9 +35,7 @@ Eigen::Matrix3d homography(const BoardPattern& pattern, const BoardCorners& corn
   }
   const Eigen::SelfAdjointEigenSolver<Eigen::Matrix<double, 9, 9>> eigen(sum);
   const Eigen::Matrix<double, 9, 1> h = eigen.eigenvectors().col(0);
-  Eigen::Matrix3d m;
-  m << h[0], h[1], h[2], h[3], h[4], h[5], h[6], h[7], h[8];
-  return m;
+  return Eigen::Map<const Eigen::Matrix<double, 3, 3, Eigen::RowMajor>>(h.data());
 }
 
 // Focal length (square pixels) in units of the longer side: each view gives two equations in 1/f².
@@ -69,53 +68,29 @@ Pose pose_of(const Eigen::Matrix3d& h, double focal, double board_mm) {
   return {svd.matrixU() * svd.matrixV().transpose(), m.col(2) * board_mm};
 }
 
-}  // namespace
-
-bool first_guess(Problem& problem) {
-  CameraIntrinsics& camera = problem.camera[0];
-  std::vector<Eigen::Matrix3d> views;
-  for (const View& view : problem.views) views.push_back(homography(problem.pattern, *view.seen[0], camera));
-  double focal = focal_of(views);
-  // Boards that all face the camera leave the focal length open; a usual lens then is the start.
-  if (!(focal > 0.3 && focal < 30)) focal = 1.5;
-  const double side = std::max(camera.width_px, camera.height_px);
-  camera.focal_px = {focal * side, focal * side};
-  camera.centre_px = {0.5 * (camera.width_px - 1), 0.5 * (camera.height_px - 1)};
-  for (double& k : camera.distortion) k = 0;
-  const double board_mm = problem.pattern.columns * problem.pattern.square_mm;
-  for (std::size_t v = 0; v < views.size(); ++v)
-    problem.views[v].left_from_board = pose_of(views[v], focal, board_mm);
-  return !views.empty();
-}
-
-namespace {
-
 constexpr double kBehind = 1e12;  // the price of a board behind the camera, px²
+
+struct ViewTerms {
+  Eigen::Matrix<double, kGlobals, 6> b = Eigen::Matrix<double, kGlobals, 6>::Zero();
+  Matrix6d c = Matrix6d::Zero();
+  Vector6d h = Vector6d::Zero();
+};
 
 struct Normal {
   Globals a = Globals::Zero();
   GlobalVector g = GlobalVector::Zero();
-  std::vector<Eigen::Matrix<double, kGlobals, 6>> b;
-  std::vector<Matrix6d> c;
-  std::vector<Vector6d> h;
+  std::vector<ViewTerms> views;
   double cost = 0;     // with the priors
   double squared = 0;  // without
 };
 
-struct Block {
-  Globals& a;
-  GlobalVector& g;
-  Eigen::Matrix<double, kGlobals, 6>& b;
-  Matrix6d& c;
-  Vector6d& h;
-};
-
 template <int kEye>
-void add_camera(const Problem& p, View& view, Block block) {
+void add_camera(const Problem& p, View& view, Normal& n, ViewTerms& of_view) {
   using Terms = CornerTerms<kEye>;
-  auto own_a = block.a.template block<Terms::kOwn, Terms::kOwn>(Terms::kBase, Terms::kBase);
-  auto own_g = block.g.template segment<Terms::kOwn>(Terms::kBase);
-  auto own_b = block.b.template middleRows<Terms::kOwn>(Terms::kBase);
+  if (view.seen[kEye] == nullptr) return;
+  auto own_a = n.a.template block<Terms::kOwn, Terms::kOwn>(Terms::kBase, Terms::kBase);
+  auto own_g = n.g.template segment<Terms::kOwn>(Terms::kBase);
+  auto own_b = of_view.b.template middleRows<Terms::kOwn>(Terms::kBase);
   for (int i = 0; i < p.pattern.corners(); ++i) {
     if (!seen((*view.seen[kEye])[std::size_t(i)])) continue;
     ++view.corners[kEye];
@@ -124,8 +99,8 @@ void add_camera(const Problem& p, View& view, Block block) {
     own_a.noalias() += t.by_own.transpose() * t.by_own;
     own_g.noalias() += t.by_own.transpose() * t.residual;
     own_b.noalias() += t.by_own.transpose() * t.by_pose;
-    block.c.noalias() += t.by_pose.transpose() * t.by_pose;
-    block.h.noalias() += t.by_pose.transpose() * t.residual;
+    of_view.c.noalias() += t.by_pose.transpose() * t.by_pose;
+    of_view.h.noalias() += t.by_pose.transpose() * t.residual;
   }
 }
 
@@ -168,20 +143,17 @@ void add_priors(Problem& p, Normal& n) {
 
 Normal linearise(Problem& p) {
   Normal n;
-  n.b.assign(p.views.size(), Eigen::Matrix<double, kGlobals, 6>::Zero());
-  n.c.assign(p.views.size(), Matrix6d::Zero());
-  n.h.assign(p.views.size(), Vector6d::Zero());
+  n.views.resize(p.views.size());
   p.residuals = 0;
   for (std::size_t v = 0; v < p.views.size(); ++v) {
     View& view = p.views[v];
     view.squared_px = {};
     view.corners = {};
-    const Block block{n.a, n.g, n.b[v], n.c[v], n.h[v]};
-    if (view.seen[0] != nullptr) add_camera<0>(p, view, block);
-    if (view.seen[1] != nullptr) add_camera<1>(p, view, block);
+    add_camera<0>(p, view, n, n.views[v]);
+    add_camera<1>(p, view, n, n.views[v]);
     n.squared += view.squared_px[0] + view.squared_px[1];
     p.residuals += 2 * (view.corners[0] + view.corners[1]);
-    view.information = n.c[v];
+    view.information = n.views[v].c;
   }
   n.cost = n.squared;
   add_priors(p, n);
@@ -192,7 +164,7 @@ Normal linearise(Problem& p) {
     n.a.col(i).setZero();
     n.a(i, i) = 1;
     n.g(i) = 0;
-    for (auto& b : n.b) b.row(i).setZero();
+    for (ViewTerms& of_view : n.views) of_view.b.row(i).setZero();
   }
   return n;
 }
@@ -202,31 +174,58 @@ Problem stepped(const Problem& p, const Normal& n, double damping) {
   Globals s = n.a;
   s.diagonal() *= 1 + damping;
   GlobalVector g = n.g;
-  std::vector<Matrix6d> inverse(n.c.size());
-  for (std::size_t v = 0; v < n.c.size(); ++v) {
-    Matrix6d c = n.c[v];
+  std::vector<Matrix6d> inverse;
+  for (const ViewTerms& of_view : n.views) {
+    Matrix6d c = of_view.c;
     c.diagonal() *= 1 + damping;
-    inverse[v] = inverted<6>(c);
-    s.noalias() -= n.b[v] * inverse[v] * n.b[v].transpose();
-    g.noalias() -= n.b[v] * (inverse[v] * n.h[v]);
+    const Matrix6d& back = inverse.emplace_back(inverted<6>(c));
+    s.noalias() -= of_view.b * back * of_view.b.transpose();
+    g.noalias() -= of_view.b * (back * of_view.h);
   }
   const GlobalVector by = solved<kGlobals>(s, g);
   Problem moved = p;
   step_globals(moved, by);
-  for (std::size_t v = 0; v < n.c.size(); ++v)
-    moved.views[v].left_from_board.step(inverse[v] * (n.h[v] - n.b[v].transpose() * by));
+  for (std::size_t v = 0; v < inverse.size(); ++v)
+    moved.views[v].left_from_board.step(inverse[v] * (n.views[v].h - n.views[v].b.transpose() * by));
   return moved;
 }
 
 void keep_covariance(Problem& p, const Normal& n) {
   p.information = n.a;
-  for (std::size_t v = 0; v < n.c.size(); ++v) p.information -= eliminated<6, kGlobals>(n.c[v], n.b[v]);
+  for (const ViewTerms& of_view : n.views) p.information -= eliminated<6, kGlobals>(of_view.c, of_view.b);
   p.covariance = inverted<kGlobals>(p.information);
   for (int i = 0; i < kGlobals; ++i)
     if (!p.free[std::size_t(i)]) p.covariance(i, i) = 0;
 }
 
+// Of one view alone, without what is known beforehand.
+Normal linearise_alone(const Problem& rig, const View& view) {
+  Problem one = rig;
+  one.views.assign(1, view);
+  one.prior = {};
+  one.aspect_weight = {};
+  one.belief = {};
+  return linearise(one);
+}
+
 }  // namespace
+
+bool first_guess(Problem& problem) {
+  CameraIntrinsics& camera = problem.camera[0];
+  std::vector<Eigen::Matrix3d> views;
+  for (const View& view : problem.views) views.push_back(homography(problem.pattern, *view.seen[0], camera));
+  double focal = focal_of(views);
+  // Boards that all face the camera leave the focal length open; a usual lens then is the start.
+  if (!(focal > 0.3 && focal < 30)) focal = 1.5;
+  const double side = std::max(camera.width_px, camera.height_px);
+  camera.focal_px = {focal * side, focal * side};
+  camera.centre_px = {0.5 * (camera.width_px - 1), 0.5 * (camera.height_px - 1)};
+  for (double& k : camera.distortion) k = 0;
+  const double board_mm = problem.pattern.columns * problem.pattern.square_mm;
+  for (std::size_t v = 0; v < views.size(); ++v)
+    problem.views[v].left_from_board = pose_of(views[v], focal, board_mm);
+  return !views.empty();
+}
 
 Eigen::Matrix3d rotation_of(const Eigen::Vector3d& turn) {
   const double angle = turn.norm();
@@ -258,11 +257,13 @@ void Pose::step(const Vector6d& by) {
   translation_mm += by.tail<3>();
 }
 
+Vec2d project(const CameraIntrinsics& camera, const Eigen::Vector3d& point) {
+  return pixel_of_ray(camera, {point.x() / point.z(), point.y() / point.z()});
+}
+
 Vec2d project(const CameraIntrinsics& camera, const Pose& camera_from_board, double x_mm, double y_mm) {
-  const Eigen::Vector2d pixel = pixel_of(
-      camera, camera_from_board.rotation * Eigen::Vector3d(x_mm, y_mm, 0) + camera_from_board.translation_mm,
-      nullptr, nullptr);
-  return {pixel.x(), pixel.y()};
+  return project(
+      camera, camera_from_board.rotation * Eigen::Vector3d(x_mm, y_mm, 0) + camera_from_board.translation_mm);
 }
 
 bool solve(Problem& problem) {
@@ -305,15 +306,11 @@ void step_globals(Problem& p, const GlobalVector& by) {
 
 std::vector<Problem> without_each_view(const Problem& whole) {
   std::vector<Problem> without;
-  Problem one = whole;
   for (const View& view : whole.views) {
-    one.views.assign(1, view);
-    one.prior = {};
-    one.aspect_weight = {};
-    one.belief = {};
-    const Normal n = linearise(one);
-    Globals information = whole.information - (n.a - eliminated<6, kGlobals>(n.c[0], n.b[0]));
-    GlobalVector pull = n.b[0] * solved<6>(n.c[0], n.h[0]) - n.g;
+    const Normal n = linearise_alone(whole, view);
+    const auto& [b, c, h] = n.views[0];
+    Globals information = whole.information - (n.a - eliminated<6, kGlobals>(c, b));
+    GlobalVector pull = b * solved<6>(c, h) - n.g;
     for (int i = 0; i < kGlobals; ++i)
       if (!whole.free[std::size_t(i)]) information(i, i) = 1;
     without.push_back(whole);
@@ -323,13 +320,8 @@ std::vector<Problem> without_each_view(const Problem& whole) {
 }
 
 Globals information_of(const Problem& rig, const View& view) {
-  Problem one = rig;
-  one.views.assign(1, view);
-  one.prior = {};
-  one.aspect_weight = {};
-  one.belief = {};
-  const Normal n = linearise(one);
-  return n.a - eliminated<6, kGlobals>(n.c[0], n.b[0]);
+  const Normal n = linearise_alone(rig, view);
+  return n.a - eliminated<6, kGlobals>(n.views[0].c, n.views[0].b);
 }
 
 bool solve_poses(Problem& problem) {
@@ -346,8 +338,8 @@ Eigen::Matrix3d cross(const Eigen::Vector3d& v) {
   return m;
 }
 
-Eigen::Vector2d pixel_of(const CameraIntrinsics& c, const Eigen::Vector3d& p, CameraJacobian* by_camera,
-                         PointJacobian* by_point) {
+Eigen::Vector2d pixel_of(const CameraIntrinsics& c, const Eigen::Vector3d& p, CameraJacobian& by_camera,
+                         PointJacobian& by_point) {
   const double x = p.x() / p.z();
   const double y = p.y() / p.z();
   const double* k = c.distortion;
@@ -357,22 +349,17 @@ Eigen::Vector2d pixel_of(const CameraIntrinsics& c, const Eigen::Vector3d& p, Ca
   const double yd = y * radial + k[2] * (r2 + 2 * y * y) + 2 * k[3] * x * y;
   const double fx = c.focal_px.x;
   const double fy = c.focal_px.y;
-  if (by_camera != nullptr) {
-    const double r4 = r2 * r2;
-    *by_camera << xd, 0, 1, 0, fx * x * r2, fx * x * r4, fx * 2 * x * y, fx * (r2 + 2 * x * x),
-        fx * x * r4 * r2, 0, yd, 0, 1, fy * y * r2, fy * y * r4, fy * (r2 + 2 * y * y), fy * 2 * x * y,
-        fy * y * r4 * r2;
-  }
-  if (by_point != nullptr) {
-    const double slope = 2 * (k[0] + r2 * (2 * k[1] + r2 * 3 * k[4]));  // of radial, by x over x
-    Eigen::Matrix2d by_plane;
-    by_plane << radial + slope * x * x + 2 * k[2] * y + 6 * k[3] * x,
-        slope * x * y + 2 * k[2] * x + 2 * k[3] * y, slope * x * y + 2 * k[2] * x + 2 * k[3] * y,
-        radial + slope * y * y + 6 * k[2] * y + 2 * k[3] * x;
-    PointJacobian plane_by_point;
-    plane_by_point << 1 / p.z(), 0, -x / p.z(), 0, 1 / p.z(), -y / p.z();
-    *by_point = Eigen::Vector2d(fx, fy).asDiagonal() * by_plane * plane_by_point;
-  }
+  const double r4 = r2 * r2;
+  by_camera << xd, 0, 1, 0, fx * x * r2, fx * x * r4, fx * 2 * x * y, fx * (r2 + 2 * x * x), fx * x * r4 * r2,
+      0, yd, 0, 1, fy * y * r2, fy * y * r4, fy * (r2 + 2 * y * y), fy * 2 * x * y, fy * y * r4 * r2;
+  const double slope = 2 * (k[0] + r2 * (2 * k[1] + r2 * 3 * k[4]));  // of radial, by x over x
+  Eigen::Matrix2d by_plane;
+  by_plane << radial + slope * x * x + 2 * k[2] * y + 6 * k[3] * x,
+      slope * x * y + 2 * k[2] * x + 2 * k[3] * y, slope * x * y + 2 * k[2] * x + 2 * k[3] * y,
+      radial + slope * y * y + 6 * k[2] * y + 2 * k[3] * x;
+  PointJacobian plane_by_point;
+  plane_by_point << 1 / p.z(), 0, -x / p.z(), 0, 1 / p.z(), -y / p.z();
+  by_point = Eigen::Vector2d(fx, fy).asDiagonal() * by_plane * plane_by_point;
   return {fx * xd + c.centre_px.x, fy * yd + c.centre_px.y};
 }
 

@@ -91,7 +91,8 @@ struct Problem {
 
 CameraVector parameters_of(const CameraIntrinsics& camera);
 
-// Where a camera sees the board's corner (column, row).
+// Where a camera sees a point of its own frame, and of the board's plane.
+Vec2d project(const CameraIntrinsics& camera, const Eigen::Vector3d& point);
 Vec2d project(const CameraIntrinsics& camera, const Pose& camera_from_board, double x_mm, double y_mm);
 
 // False where it does not converge to a finite answer.
@@ -100,8 +101,8 @@ bool solve(Problem& problem);
 // Poses and sums only: the same problem with nothing global free.
 bool solve_poses(Problem& problem);
 
-// Where the globals would go if view `v` had never been taken: one Newton step from the solution, poses
-// adapting (exact for a linear problem). Adds the step to the globals of a copy; its views are untouched.
+// For each view where the globals would go if it had never been taken: one Newton step from the solution,
+// poses adapting (exact for a linear problem). The copies' own views are untouched.
 std::vector<Problem> without_each_view(const Problem& whole);
 
 // What one more view would add to Problem::information at these globals; `rig` without views.
@@ -114,17 +115,16 @@ void step_globals(Problem& problem, const GlobalVector& by);
 // middle (Zhang 2000). False where the views do not determine it.
 bool first_guess(Problem& problem);
 
-// One corner in one picture: what the fit misses it by, and how its picture follows every parameter.
-// Inside fit/ only.
 Eigen::Matrix3d cross(const Eigen::Vector3d& v);
 
 using CameraJacobian = Eigen::Matrix<double, 2, 9>;  // of a pixel by fx fy cx cy k1 k2 p1 p2 k3
 using PointJacobian = Eigen::Matrix<double, 2, 3>;
 
-// Pixel of a point in the camera's frame, with its derivatives where asked for.
+// Pixel of a point in the camera's frame, with its derivatives.
 Eigen::Vector2d pixel_of(const CameraIntrinsics& camera, const Eigen::Vector3d& point,
-                         CameraJacobian* by_camera, PointJacobian* by_point);
+                         CameraJacobian& by_camera, PointJacobian& by_point);
 
+// One corner in one picture: what the fit misses it by, and how its picture follows every parameter.
 // The globals of one eye lie together: its camera, and for the right eye the relation behind it.
 template <int kEye>
 struct CornerTerms {
@@ -146,7 +146,7 @@ struct CornerTerms {
     const Eigen::Vector3d turned_left = p.right_from_left.rotation * here;
     if constexpr (kEye == 1) here = turned_left + p.right_from_left.translation_mm;
     CameraJacobian by_camera;
-    const Eigen::Vector2d pixel = pixel_of(p.camera[kEye], here, &by_camera, &by_left);
+    const Eigen::Vector2d pixel = pixel_of(p.camera[kEye], here, by_camera, by_left);
     residual = Eigen::Vector2d(at.x, at.y) - pixel;
     depth_mm = here.z();
     by_own.template leftCols<9>() = by_camera;

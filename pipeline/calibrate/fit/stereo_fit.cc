@@ -45,9 +45,9 @@ void begin_at(const StereoFit& start, StereoFit& fit) {
   for (std::size_t k = 0; k < fit.views.size(); ++k) {
     const auto at = std::ranges::find(start.views, fit.views[k]);
     if (at == start.views.end()) continue;
-    const bundle::View& from = start.problem.views[std::size_t(at - start.views.begin())];
     // A board seen by the right camera alone stands where that camera is: it moves with the relation.
-    fit.problem.views[k].left_from_board = from.left_from_board;
+    fit.problem.views[k].left_from_board =
+        start.problem.views[std::size_t(at - start.views.begin())].left_from_board;
   }
 }
 
@@ -57,7 +57,9 @@ double CameraFit::rms_px() const {
   return std::sqrt(2 * problem.squared_px / std::max(problem.residuals, 1));
 }
 double CameraFit::squared_px(int view) const { return problem.views[place(view)].squared_px[0]; }
-int CameraFit::corners(int view) const { return problem.views[place(view)].corners[0]; }
+double CameraFit::rms_px(int view) const {
+  return std::sqrt(squared_px(view) / problem.views[place(view)].corners[0]);
+}
 const bundle::Pose& CameraFit::pose(int view) const { return problem.views[place(view)].left_from_board; }
 std::size_t CameraFit::place(int view) const {
   const auto found = std::lower_bound(views.begin(), views.end(), view);

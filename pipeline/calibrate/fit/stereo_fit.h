@@ -20,9 +20,10 @@ struct CameraFit {
   double variance_px2 = 0;  // of one coordinate of a corner, the noise
   double rms_px() const;    // over both coordinates of a corner
 
-  // Sum of squares of an input view; its pose and its place. Asserts that the view is one of ours.
+  // Of an input view: sum of squares, its mean's root a corner, pose and place. Asserts that it is one of
+  // ours.
   double squared_px(int view) const;
-  int corners(int view) const;
+  double rms_px(int view) const;
   const bundle::Pose& pose(int view) const;
   std::size_t place(int view) const;
 };

@@ -18,6 +18,15 @@ namespace {
 constexpr std::size_t kMaxStarts = 24;
 constexpr int kConcentrations = 4;
 constexpr double kDegrees = 6;
+// Normal deviates: below this a view is let in unasked, above that it is left out, one good view in some
+// 30,000.
+constexpr double kPlain = 1.5;
+constexpr double kSurprise = 4.0;
+
+using bundle::cross;
+using bundle::Matrix6d;
+using bundle::Pose;
+using bundle::Vector6d;
 
 double alone(const CameraFits& cameras, int view) {
   return cameras.left.squared_px(view) + cameras.right.squared_px(view);
@@ -61,7 +70,6 @@ std::vector<std::size_t> calmest(const std::vector<double>& cost, std::size_t co
 std::vector<int> least(std::span<const int> pairs, const std::vector<double>& cost, std::size_t count) {
   std::vector<int> chosen;
   for (const std::size_t k : calmest(cost, count)) chosen.push_back(pairs[k]);
-  std::ranges::sort(chosen);
   return chosen;
 }
 
@@ -78,14 +86,83 @@ double spread_of(const CameraFits& cameras, const StereoFit& fit, std::size_t pa
   return std::max(cameras.noise_px2(), mended * excess_of(cameras, fit) / (kDegrees * (used - 1)));
 }
 
+// What each pair of pictures alone says about where the right camera stands, to second order: enough to try
+// many subsets of the views without a single bundle adjustment. A board as each camera alone sees it, and how
+// firmly (information of the pose, corners of 1 px noise).
+struct RelationEvidence {
+  Pose left_from_board;
+  Pose right_from_board;
+  Matrix6d left_information;
+  Matrix6d right_information;
+};
+
+// One a view, in the order of `pairs`.
+std::vector<RelationEvidence> gather_evidence(const CameraFits& cameras, std::span<const int> pairs) {
+  std::vector<RelationEvidence> views;
+  for (const int pair : pairs) {
+    const bundle::View& left = cameras.left.problem.views[cameras.left.place(pair)];
+    const bundle::View& right = cameras.right.problem.views[cameras.right.place(pair)];
+    views.push_back({left.left_from_board, right.left_from_board, left.information, right.information});
+  }
+  return views;
+}
+
+struct Miss {
+  Vector6d off;      // of the right camera's board, as a step from where it sees it
+  Matrix6d by_step;  // of `off` by a step of the relation
+  Matrix6d weight;   // of `off`, the left camera's freedom taken out
+};
+
+Miss miss_of(const RelationEvidence& view, const Pose& relation) {
+  const Eigen::Matrix3d& r = relation.rotation;
+  const Eigen::Vector3d turned = r * view.left_from_board.translation_mm;
+  Miss miss;
+  miss.off.head<3>() =
+      bundle::turn_of(r * view.left_from_board.rotation * view.right_from_board.rotation.transpose());
+  miss.off.tail<3>() = turned + relation.translation_mm - view.right_from_board.translation_mm;
+  miss.by_step.setIdentity();
+  miss.by_step.bottomLeftCorner<3, 3>() = -cross(turned);
+  Matrix6d carry = Matrix6d::Zero();  // a step of the left board, as one of the right
+  carry.topLeftCorner<3, 3>() = r;
+  carry.bottomRightCorner<3, 3>() = r;
+  const Matrix6d pull = view.right_information * carry;
+  const Matrix6d both = view.left_information + carry.transpose() * pull;
+  miss.weight = view.right_information - eliminated<6, 6>(both, pull);
+  return miss;
+}
+
+// What the view's sum of squares grows by when the right camera stands at `right_from_left` (px²).
+double misfit_px2(const RelationEvidence& view, const Pose& right_from_left) {
+  const Miss miss = miss_of(view, right_from_left);
+  return miss.off.dot(miss.weight * miss.off);
+}
+
+// The relation under which the misfits of `chosen` (places in `views`) sum to the least, from a start.
+Pose fit_relation(std::span<const RelationEvidence> views, std::span<const std::size_t> chosen,
+                  Pose right_from_left) {
+  constexpr int kSteps = 3;
+  for (int i = 0; i < kSteps; ++i) {
+    Matrix6d sum = Matrix6d::Zero();
+    Vector6d pull = Vector6d::Zero();
+    for (const std::size_t v : chosen) {
+      const Miss miss = miss_of(views[v], right_from_left);
+      const Matrix6d weighted = miss.by_step.transpose() * miss.weight;
+      sum.noalias() += weighted * miss.by_step;
+      pull.noalias() -= weighted * miss.off;
+    }
+    right_from_left.step(solved<6>(sum, pull));
+  }
+  return right_from_left;
+}
+
 struct Half {
   std::vector<std::size_t> places;
-  bundle::Pose relation;
+  Pose relation;
   double misfit_px2 = 0;
 };
 
 // From one view's own relation to the half that agrees best with what it leads to.
-Half concentrate(std::span<const RelationEvidence> views, bundle::Pose relation, std::size_t half) {
+Half concentrate(std::span<const RelationEvidence> views, Pose relation, std::size_t half) {
   Half found;
   std::vector<double> cost(views.size());
   for (int round = 0; round < kConcentrations; ++round) {
@@ -147,9 +224,6 @@ bool best_half(const CalibratorInput& input, const CameraFits& cameras, std::spa
   return found;
 }
 
-// Normal deviate below which a view is let in unasked.
-constexpr double kPlain = 1.5;
-
 // Lets in every view outside that is plainly no surprise, else the cheapest if it is not too great a
 // one; false when none is let in.
 bool admit(const CalibratorInput& input, const CameraFits& cameras, std::span<const int> pairs,
@@ -193,36 +267,6 @@ bool admit(const CalibratorInput& input, const CameraFits& cameras, std::span<co
   return true;
 }
 
-// Views on the other side of a camera's move belong to another rig, even if some seem to agree.
-void keep_one_side(std::span<const int> pairs, int last_before, std::vector<int>& used) {
-  const int border = pairs[std::size_t(last_before)];
-  const auto split = std::upper_bound(used.begin(), used.end(), border);
-  if (split - used.begin() >= used.end() - split) used.erase(split, used.end());
-  else used.erase(used.begin(), split);
-}
-
-}  // namespace
-
-bool select_views(const CalibratorInput& input, const CameraFits& cameras, std::span<const int> pairs,
-                  Selection& out) {
-  StereoFit chosen;
-  if (!best_half(input, cameras, pairs, chosen)) return false;
-  while (admit(input, cameras, pairs, chosen)) {
-  }
-  out.used = chosen.paired;
-  out.excess = judge_pairs(input, cameras, chosen, pairs);
-  for (std::size_t i = 0; i < pairs.size(); ++i)
-    out.excess[i] = std::max(0.0, out.excess[i] - alone(cameras, pairs[i]));
-  out.spread_px2 = std::max(0.0, excess_of(cameras, chosen)) / (kDegrees * double(out.used.size() - 1));
-  const double spread = std::max(out.spread_px2, cameras.noise_px2());
-  out.moved = change_point(out.excess, spread);
-  if (out.moved.likeliest >= 0) keep_one_side(pairs, out.moved.likeliest, out.used);
-  // Chosen with the lenses free to follow the pairs, so that a poor lens is not taken for a slip; the last
-  // word has the slip's weight, so that a slip does not bend a lens.
-  return fit_stereo(input, cameras, out.used, chosen.problem.right_from_left, spread / cameras.noise_px2(),
-                    &chosen, out.fit);
-}
-
 ChangePoint change_point(std::span<const double> excess, double spread_px2) {
   constexpr std::size_t kMinRun = 3;
   constexpr double kCertain = 30;
@@ -254,55 +298,13 @@ ChangePoint change_point(std::span<const double> excess, double spread_px2) {
   return {int(at) - 1, int(first) - 1, int(last) - 1};
 }
 
-namespace {
-
-using bundle::cross;
-using bundle::Matrix6d;
-using bundle::Pose;
-using bundle::Vector6d;
-
-struct Miss {
-  Vector6d off;      // of the right camera's board, as a step from where it sees it
-  Matrix6d by_step;  // of `off` by a step of the relation
-  Matrix6d weight;   // of `off`, the left camera's freedom taken out
-};
-
-Miss miss_of(const RelationEvidence& view, const Pose& relation) {
-  const Eigen::Matrix3d& r = relation.rotation;
-  const Eigen::Vector3d turned = r * view.left_from_board.translation_mm;
-  Miss miss;
-  miss.off.head<3>() =
-      bundle::turn_of(r * view.left_from_board.rotation * view.right_from_board.rotation.transpose());
-  miss.off.tail<3>() = turned + relation.translation_mm - view.right_from_board.translation_mm;
-  miss.by_step.setIdentity();
-  miss.by_step.bottomLeftCorner<3, 3>() = -cross(turned);
-  Matrix6d carry = Matrix6d::Zero();  // a step of the left board, as one of the right
-  carry.topLeftCorner<3, 3>() = r;
-  carry.bottomRightCorner<3, 3>() = r;
-  const Matrix6d pull = view.right_information * carry;
-  const Matrix6d both = view.left_information + carry.transpose() * pull;
-  miss.weight = view.right_information - eliminated<6, 6>(both, pull);
-  return miss;
+// Views on the other side of a camera's move belong to another rig, even if some seem to agree.
+void keep_one_side(std::span<const int> pairs, int last_before, std::vector<int>& used) {
+  const int border = pairs[std::size_t(last_before)];
+  const auto split = std::upper_bound(used.begin(), used.end(), border);
+  if (split - used.begin() >= used.end() - split) used.erase(split, used.end());
+  else used.erase(used.begin(), split);
 }
-
-}  // namespace
-
-std::vector<RelationEvidence> gather_evidence(const CameraFits& cameras, std::span<const int> pairs) {
-  std::vector<RelationEvidence> views;
-  for (const int pair : pairs) {
-    const bundle::View& left = cameras.left.problem.views[cameras.left.place(pair)];
-    const bundle::View& right = cameras.right.problem.views[cameras.right.place(pair)];
-    views.push_back({left.left_from_board, right.left_from_board, left.information, right.information});
-  }
-  return views;
-}
-
-double misfit_px2(const RelationEvidence& view, const Pose& right_from_left) {
-  const Miss miss = miss_of(view, right_from_left);
-  return miss.off.dot(miss.weight * miss.off);
-}
-
-namespace {
 
 using Direction = Eigen::Matrix<double, 6, 3>;
 
@@ -348,25 +350,29 @@ double misfit_but(std::span<const RelationEvidence> views, Pose relation, bool c
 
 }  // namespace
 
-Stories tell_stories(std::span<const RelationEvidence> views, const Pose& right_from_left) {
-  return {misfit_but(views, right_from_left, true), misfit_but(views, right_from_left, false)};
+bool select_views(const CalibratorInput& input, const CameraFits& cameras, std::span<const int> pairs,
+                  Selection& out) {
+  StereoFit chosen;
+  if (!best_half(input, cameras, pairs, chosen)) return false;
+  while (admit(input, cameras, pairs, chosen)) {
+  }
+  out.used = chosen.paired;
+  out.excess = judge_pairs(input, cameras, chosen, pairs);
+  for (std::size_t i = 0; i < pairs.size(); ++i)
+    out.excess[i] = std::max(0.0, out.excess[i] - alone(cameras, pairs[i]));
+  out.spread_px2 = std::max(0.0, excess_of(cameras, chosen)) / (kDegrees * double(out.used.size() - 1));
+  const double spread = std::max(out.spread_px2, cameras.noise_px2());
+  out.moved = change_point(out.excess, spread);
+  if (out.moved.likeliest >= 0) keep_one_side(pairs, out.moved.likeliest, out.used);
+  // Chosen with the lenses free to follow the pairs, so that a poor lens is not taken for a slip; the last
+  // word has the slip's weight, so that a slip does not bend a lens.
+  return fit_stereo(input, cameras, out.used, chosen.problem.right_from_left, spread / cameras.noise_px2(),
+                    &chosen, out.fit);
 }
 
-Pose fit_relation(std::span<const RelationEvidence> views, std::span<const std::size_t> chosen,
-                  Pose right_from_left) {
-  constexpr int kSteps = 3;
-  for (int i = 0; i < kSteps; ++i) {
-    Matrix6d sum = Matrix6d::Zero();
-    Vector6d pull = Vector6d::Zero();
-    for (const std::size_t v : chosen) {
-      const Miss miss = miss_of(views[v], right_from_left);
-      const Matrix6d weighted = miss.by_step.transpose() * miss.weight;
-      sum.noalias() += weighted * miss.by_step;
-      pull.noalias() -= weighted * miss.off;
-    }
-    right_from_left.step(solved<6>(sum, pull));
-  }
-  return right_from_left;
+bool board_carried_on(const CameraFits& cameras, std::span<const int> pairs, const Pose& right_from_left) {
+  const std::vector<RelationEvidence> views = gather_evidence(cameras, pairs);
+  return misfit_but(views, right_from_left, false) < misfit_but(views, right_from_left, true);
 }
 
 }  // namespace relievo::pipeline

@@ -22,9 +22,6 @@
 
 namespace relievo::pipeline {
 
-// Normal deviate above which a view is left out: one good view in some 30,000.
-inline constexpr double kSurprise = 4.0;
-
 // Where a lasting change of disagreement lies: index into the excesses of the last view before it,
 // with the range a likelihood ratio at 1 % leaves open; -1 without one.
 struct ChangePoint {
@@ -32,7 +29,6 @@ struct ChangePoint {
   int first = -1;
   int last = -1;
 };
-ChangePoint change_point(std::span<const double> excess, double spread_px2);
 
 struct Selection {
   StereoFit fit;
@@ -45,34 +41,10 @@ struct Selection {
 bool select_views(const CalibratorInput& input, const CameraFits& cameras, std::span<const int> pairs,
                   Selection& out);
 
-// What each pair of pictures alone says about where the right camera stands, to second order: enough to try
-// many subsets of the views without a single bundle adjustment.
-
-// A board as each camera alone sees it, and how firmly (information of the pose, corners of 1 px noise).
-struct RelationEvidence {
-  bundle::Pose left_from_board;
-  bundle::Pose right_from_board;
-  bundle::Matrix6d left_information;
-  bundle::Matrix6d right_information;
-};
-
-// One a view, in the order of `pairs`.
-std::vector<RelationEvidence> gather_evidence(const CameraFits& cameras, std::span<const int> pairs);
-
-// What the view's sum of squares grows by when the right camera stands at `right_from_left` (px²).
-double misfit_px2(const RelationEvidence& view, const bundle::Pose& right_from_left);
-
-// The relation under which the misfits of `chosen` (places in `views`) sum to the least, from a start.
-bundle::Pose fit_relation(std::span<const RelationEvidence> views, std::span<const std::size_t> chosen,
-                          bundle::Pose right_from_left);
-
-// What stays of the misfit of all views (px²) when in every view the right camera may have turned about
-// its own centre, and when instead the board may have been carried on between the two exposures: three
-// numbers of freedom a view each, the relation fitted anew under either story.
-struct Stories {
-  double camera_turned_px2 = 0;
-  double board_carried_px2 = 0;
-};
-Stories tell_stories(std::span<const RelationEvidence> views, const bundle::Pose& right_from_left);
+// Does the pairs' disagreement look more like a board that was carried on between the two exposures than like
+// a right camera that turned about its own centre in every view? Three numbers of freedom a view, the
+// relation fitted anew under either story.
+bool board_carried_on(const CameraFits& cameras, std::span<const int> pairs,
+                      const bundle::Pose& right_from_left);
 
 }  // namespace relievo::pipeline

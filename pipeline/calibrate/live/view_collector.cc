@@ -1,7 +1,5 @@
 // SPDX-FileCopyrightText: 2026 The Relievo authors
 // SPDX-License-Identifier: GPL-3.0-or-later
-//
-// What ViewCollector tells the person.
 #include "pipeline/calibrate/live/view_collector.h"
 
 #include <algorithm>
@@ -18,6 +16,59 @@ namespace relievo::pipeline {
 namespace {
 
 constexpr int kUselessPairs = 3;
+constexpr double kStillPx = 2;       // root mean square of the corners' motion since the pair before
+constexpr double kSharpPx = 4;       // width of the board's edges, 10 to 90 % (board_tracker.h)
+constexpr double kLeastWorth = 0.3;  // of a view, share of what the best one would bring
+constexpr int kPatiencePairs = 100;  // on the way to one target, before another is chosen
+
+// Cables that were exchanged while a live calibration runs.
+
+// A rig known from few views may miss by pixels; an exchange makes it worse by far more than that.
+constexpr double kSuspectPx = 1;
+constexpr double kFarBetter = 0.3;
+
+double rms_px(bundle::Problem rig, const BoardCorners& left, const BoardCorners& right) {
+  return lay_board(rig, left, right) ? std::sqrt(2 * rig.squared_px / rig.residuals) : 1e9;
+}
+
+// True where the pair fits the calibration far better with left and right exchanged than as it is; the
+// two are in pair_order().
+bool is_exchanged(const StereoCalibration& calibration, const BoardPattern& pattern, const BoardCorners& left,
+                  const BoardCorners& right) {
+  const bundle::Problem rig = rig_problem(calibration, pattern);
+  const double as_given = rms_px(rig, left, right);
+  return as_given > kSuspectPx && rms_px(rig, right, left) < kFarBetter * as_given;
+}
+
+constexpr int kLeastCorners = 12;  // of a ChArUco board that both cameras see
+constexpr double kLeastCharucoShare = 0.3;
+
+double moved_px(const BoardCorners& before, BoardCorners now, const BoardPattern& pattern) {
+  pair_order(before, now, pattern);  // the half turn that a chessboard leaves open is no motion
+  double sum = 0;
+  int count = 0;
+  for (std::size_t i = 0; i < now.size(); ++i) {
+    if (!seen(before[i]) || !seen(now[i])) continue;
+    sum += (now[i].x - before[i].x) * (now[i].x - before[i].x) +
+           (now[i].y - before[i].y) * (now[i].y - before[i].y);
+    ++count;
+  }
+  return count > 0 ? std::sqrt(sum / count) : 1e9;
+}
+
+int seen_in_both(const BoardCorners& left, const BoardCorners& right) {
+  int count = 0;
+  for (std::size_t i = 0; i < left.size(); ++i) count += seen(left[i]) && seen(right[i]) ? 1 : 0;
+  return count;
+}
+
+// At kFaceMm, between the distances for which it was computed, along a straight line.
+double error_of(const CalibrationUncertainty& uncertainty) {
+  constexpr double kPlace = (kFaceMm - kFirstDepthMm) / kDepthStepMm;
+  constexpr auto kBelow = std::size_t(kPlace);
+  constexpr double kShare = kPlace - double(kBelow);
+  return (1 - kShare) * uncertainty.depth[kBelow].sigma_mm + kShare * uncertainty.depth[kBelow + 1].sigma_mm;
+}
 
 }  // namespace
 
@@ -27,12 +78,12 @@ void ViewCollector::advise() {
   state_.advice = advice_for_verdict();
   // Not every person reaches every target; another one will do.
   const bool tries = state_.verdict != PairVerdict::NoBoard && state_.verdict != PairVerdict::Taken;
-  if (tries && ++pairs_on_target_ > options_.patience_pairs) give_up_target();
+  if (tries && ++pairs_on_target_ > kPatiencePairs) give_up_target();
 }
 
 LiveAdvice ViewCollector::advice_for_verdict() {
-  if (phase_ == Phase::Done) return LiveAdvice::Done;
-  if (phase_ == Phase::Swapped) return LiveAdvice::SwappedCameras;
+  if (state_.done()) return LiveAdvice::Done;
+  if (swapped_) return LiveAdvice::SwappedCameras;
   switch (state_.verdict) {
     case PairVerdict::Finished: return LiveAdvice::Done;
     case PairVerdict::Swapped: return LiveAdvice::SwappedCameras;
@@ -70,79 +121,15 @@ void ViewCollector::give_up_target() {
   aim();
 }
 
-namespace {
-
-// Cables that were exchanged while a live calibration runs.
-
-// A rig known from few views may miss by pixels; an exchange makes it worse by far more than that.
-constexpr double kSuspectPx = 1;
-constexpr double kFarBetter = 0.3;
-
-double rms_px(bundle::Problem rig, const BoardCorners& left, const BoardCorners& right) {
-  rig.views.emplace_back(&left, &right, guessed_pose(rig, left));
-  if (!bundle::solve_poses(rig)) return 1e9;
-  return std::sqrt(2 * rig.squared_px / rig.residuals);
-}
-
-// True where the pair fits the calibration far better with left and right exchanged than as it is; the
-// two are in pair_order().
-bool is_exchanged(const StereoCalibration& calibration, const BoardPattern& pattern, const BoardCorners& left,
-                  const BoardCorners& right) {
-  const bundle::Problem rig = rig_problem(calibration, pattern);
-  const double as_given = rms_px(rig, left, right);
-  return as_given > kSuspectPx && rms_px(rig, right, left) < kFarBetter * as_given;
-}
-
-constexpr int kLeastCorners = 12;  // of a ChArUco board that both cameras see
-constexpr double kLeastCharucoShare = 0.3;
-
-double moved_px(const BoardCorners& before, BoardCorners now, const BoardPattern& pattern) {
-  pair_order(before, now, pattern);  // the half turn that a chessboard leaves open is no motion
-  double sum = 0;
-  int count = 0;
-  for (std::size_t i = 0; i < now.size(); ++i) {
-    if (!seen(before[i]) || !seen(now[i])) continue;
-    sum += (now[i].x - before[i].x) * (now[i].x - before[i].x) +
-           (now[i].y - before[i].y) * (now[i].y - before[i].y);
-    ++count;
-  }
-  return count > 0 ? std::sqrt(sum / count) : 1e9;
-}
-
-int seen_in_both(const BoardCorners& left, const BoardCorners& right) {
-  int count = 0;
-  for (std::size_t i = 0; i < left.size(); ++i) count += seen(left[i]) && seen(right[i]) ? 1 : 0;
-  return count;
-}
-
-// Between the distances for which it was computed, along a straight line.
-double error_at(const CalibrationUncertainty& uncertainty, double distance_mm) {
-  const double place = std::clamp((distance_mm - kFirstDepthMm) / kDepthStepMm, 0.0, kDepthSteps - 1.0);
-  const auto below = std::size_t(std::min(int(place), kDepthSteps - 2));
-  const double share = place - double(below);
-  return (1 - share) * uncertainty.depth[below].sigma_mm + share * uncertainty.depth[below + 1].sigma_mm;
-}
-
-}  // namespace
-
 Result<void> LiveOptions::check() const {
   const auto within = [](double value, double least, double most) { return value >= least && value <= most; };
   if (!within(goal_mm, 0.001, 100))
     return Error{Errc::InvalidInput, "the goal must be 0.001 to 100 mm"}.at("goal_mm");
-  if (!within(distance_mm, kFirstDepthMm, kFirstDepthMm + (kDepthSteps - 1) * kDepthStepMm))
-    return Error{Errc::InvalidInput, "the error is predicted for distances of 400 to 750 mm"}.at(
-        "distance_mm");
   if (!within(full_bar, 0, 1))
     return Error{Errc::InvalidInput, "a coverage bar goes from 0 to 1"}.at("full_bar");
   if (min_views < kMinBoardPairs || max_views < min_views || max_views > kMaxBoardPairs)
     return Error{Errc::InvalidInput, "wants 5 <= min_views <= max_views <= 500"}.at("min_views, max_views");
   if (!within(plateau_gain, 0, 0.5)) return Error{Errc::InvalidInput, "must be 0 to 0.5"}.at("plateau_gain");
-  if (!within(still_px, 0.01, 1000))
-    return Error{Errc::InvalidInput, "must be 0.01 to 1000 px"}.at("still_px");
-  if (!within(edge_px, 0.5, 100)) return Error{Errc::InvalidInput, "must be 0.5 to 100 px"}.at("edge_px");
-  if (!within(new_distance, 0, 4)) return Error{Errc::InvalidInput, "must be 0 to 4"}.at("new_distance");
-  if (!within(least_worth, 0, 1)) return Error{Errc::InvalidInput, "must be 0 to 1"}.at("least_worth");
-  if (patience_pairs < 1) return Error{Errc::InvalidInput, "must be at least 1"}.at("patience_pairs");
   return {};
 }
 
@@ -180,7 +167,7 @@ Result<void> ViewCollector::check(const PairDetection& pair) const {
     if (!one.corners.empty() && one.corners.size() != corners)
       return Error{Errc::InvalidInput, "a board with another number of corners than the pattern"}.at(
           "pair " + std::to_string(state_.pairs + 1));
-  if (has_last_ && pair.at <= last_.at)
+  if (last_ && pair.at <= last_->at)
     return Error{Errc::InvalidInput, "pairs must come in the order of their times"}.at(
         "pair " + std::to_string(state_.pairs + 1));
   return {};
@@ -189,35 +176,31 @@ Result<void> ViewCollector::check(const PairDetection& pair) const {
 void ViewCollector::measure_motion(const PairDetection& pair) {
   for (std::size_t eye = 0; eye < 2; ++eye) {
     const BoardCorners& now = pair.seen[eye].corners;
-    const bool known = has_last_ && !now.empty() && !last_.seen[eye].corners.empty();
-    state_.moved_px[eye] = known ? moved_px(last_.seen[eye].corners, now, input_.pattern) : 0;
+    const bool known = last_ && !now.empty() && !last_->seen[eye].corners.empty();
+    state_.moved_px[eye] = known ? moved_px(last_->seen[eye].corners, now, input_.pattern) : 0;
   }
 }
 
 bool ViewCollector::is_new() const {
-  const bool differs = std::ranges::all_of(taken_, [&](const auto& other) {
-    return std::max(distance_between(now_[0], other[0]), distance_between(now_[1], other[1])) >
-           options_.new_distance;
-  });
-  if (!differs || best_worth_ <= 0) return differs;
-  return planner_->worth(state_.corners[0], state_.corners[1]) >= options_.least_worth * best_worth_;
+  if (!pipeline::is_new(now_, taken_, 1)) return false;
+  return best_worth_ <= 0 ||
+         planner_->worth(state_.corners[0], state_.corners[1]) >= kLeastWorth * best_worth_;
 }
 
 PairVerdict ViewCollector::judge(const PairDetection& pair) const {
   const BoardCorners& left = pair.seen[0].corners;
   const BoardCorners& right = pair.seen[1].corners;
-  if (phase_ == Phase::Done) return PairVerdict::Finished;
-  if (phase_ == Phase::Swapped) return PairVerdict::Swapped;
+  if (state_.done()) return PairVerdict::Finished;
+  if (swapped_) return PairVerdict::Swapped;
   if (left.empty() && right.empty()) return PairVerdict::NoBoard;
   if (left.empty()) return PairVerdict::LeftMissesIt;
   if (right.empty()) return PairVerdict::RightMissesIt;
   const double least = std::max<double>(kLeastCorners, kLeastCharucoShare * input_.pattern.corners());
   if (seen_in_both(left, right) < std::min<double>(least, input_.pattern.corners()))
     return PairVerdict::NoBoard;
-  const bool known = has_last_ && !last_.seen[0].corners.empty() && !last_.seen[1].corners.empty();
-  if (!known || std::max(state_.moved_px[0], state_.moved_px[1]) > options_.still_px)
-    return PairVerdict::Moving;
-  if (std::max(pair.seen[0].edge_px, pair.seen[1].edge_px) > options_.edge_px) return PairVerdict::Blurred;
+  const bool known = last_ && !last_->seen[0].corners.empty() && !last_->seen[1].corners.empty();
+  if (!known || std::max(state_.moved_px[0], state_.moved_px[1]) > kStillPx) return PairVerdict::Moving;
+  if (std::max(pair.seen[0].edge_px, pair.seen[1].edge_px) > kSharpPx) return PairVerdict::Blurred;
   if (newest_ && is_exchanged(newest_->calibration, input_.pattern, left, right)) return PairVerdict::Swapped;
   if (!is_new()) return PairVerdict::AlreadyHave;
   return PairVerdict::Taken;
@@ -240,7 +223,6 @@ Result<bool> ViewCollector::consider(PairDetection pair) {
   }
   state_.verdict = judge(pair);
   last_ = std::move(pair);
-  has_last_ = true;
   if (state_.verdict == PairVerdict::Taken) return true;
   advise();
   return false;
@@ -252,15 +234,14 @@ Result<void> ViewCollector::take(BoardCorners left, BoardCorners right) {
   if (left.size() != corners || right.size() != corners)
     return Error{Errc::InvalidInput, "a board with another number of corners than the pattern"};
   pair_order(left, right, input_.pattern);
-  std::array<BoardParameters, 2>& view = taken_.emplace_back();
+  ViewParameters& view = taken_.emplace_back();
   for (std::size_t eye = 0; eye < 2; ++eye) {
     const BoardCorners& one = eye == 0 ? left : right;
     view[eye] = parameters_of(one, input_.pattern, input_.width_px, input_.height_px);
     coverage_[eye].add(one, view[eye], input_.width_px, input_.height_px);
-    state_.camera_bars[eye] = coverage_[eye].bars();
     state_.maps[eye] = coverage_[eye].map();
   }
-  state_.bars = lesser(state_.camera_bars[0], state_.camera_bars[1]);
+  state_.bars = lesser(coverage_[0].bars(), coverage_[1].bars());
   state_.views = int(taken_.size());
   input_.views.push_back({std::to_string(state_.views), std::move(left), std::move(right)});
   recalculate();
@@ -284,13 +265,12 @@ void ViewCollector::recalculate() {
   auto made = calibrate(input_);
   if (made) {
     newest_ = *std::move(made);
-    phase_ = Phase::Improving;
-    state_.error_mm = error_at(newest_->quality.uncertainty, options_.distance_mm);
+    state_.error_mm = error_of(newest_->quality.uncertainty);
     state_.disagreeing = state_.views - newest_->quality.used;
   } else {
     CalibratorInput exchanged = input_;
     for (BoardView& view : exchanged.views) std::swap(view.left, view.right);
-    if (calibrate(exchanged)) phase_ = Phase::Swapped;
+    swapped_ = calibrate(exchanged).has_value();
   }
 }
 
@@ -298,28 +278,25 @@ void ViewCollector::recalculate() {
 void ViewCollector::aim() {
   guide_.forget();
   pairs_on_target_ = useless_pairs_ = 0;
-  if (phase_ == Phase::Swapped) return;
+  if (swapped_) return;
   const bool enough = state_.views >= options_.min_views;
-  const bool goal = phase_ == Phase::Improving && state_.error_mm <= options_.goal_mm &&
+  const bool goal = newest_ && state_.error_mm <= options_.goal_mm &&
                     newest_->quality.verdict != CalibrationVerdict::Refuse;
   if (enough && goal && state_.bars.least() >= options_.full_bar) state_.end = LiveEnd::GoalReached;
   else if (state_.views >= options_.max_views) state_.end = LiveEnd::Full;
   ViewPlan plan;
-  if (!state_.done() && phase_ == Phase::Improving) {
+  if (!state_.done() && newest_) {
     if (planner_->update(input_, *newest_, state_.error_mm, taken_, coverage_, options_))
       plan = planner_->plan(given_up_);
     const bool helps =
         (!goal && plan.best_gain >= options_.plateau_gain) || plan.best_bar_gain >= options_.plateau_gain;
     if (enough && given_up_.empty() && !helps) state_.end = goal ? LiveEnd::GoalReached : LiveEnd::Plateau;
   }
-  if (state_.done()) phase_ = Phase::Done;
   best_worth_ = plan.best_worth;
   std::vector<BoardParameters> left;
   for (const auto& view : taken_) left.push_back(view[0]);
   target_ = plan.best ? *plan.best : opening_view(left, given_up_);
-  state_.wanted.reset();
-  const ViewTarget& target = target_.target;
-  if (target.left_outline && !state_.done()) state_.wanted = {*target.left_outline, *target.right_outline};
+  state_.wanted = state_.done() ? std::nullopt : target_.target.outlines;
 }
 
 Result<CalibratorOutput> ViewCollector::finish() const { return calibrate(input_); }

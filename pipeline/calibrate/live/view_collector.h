@@ -64,8 +64,6 @@ class ViewCollector {
   Result<CalibratorOutput> finish() const;  // calibrate()'s errors
 
  private:
-  enum class Phase : std::uint8_t { Opening, Improving, Done, Swapped };
-
   ViewCollector(const BoardPattern& pattern, int width_px, int height_px, const LiveOptions& options);
   Result<void> check(const PairDetection& pair) const;
   void measure_motion(const PairDetection& pair);
@@ -81,9 +79,8 @@ class ViewCollector {
   LiveOptions options_;
   CalibratorInput input_;
   LiveState state_;
-  Phase phase_ = Phase::Opening;
-  PairDetection last_;  // the pair before
-  bool has_last_ = false;
+  bool swapped_ = false;
+  std::optional<PairDetection> last_;                  // the pair before
   std::array<BoardParameters, 2> now_{};               // of the newest pair
   std::vector<std::array<BoardParameters, 2>> taken_;  // one a view
   std::array<Coverage, 2> coverage_;

@@ -101,28 +101,23 @@ using bundle::GlobalVector;
 using bundle::Problem;
 using DepthByGlobals = Eigen::Matrix<double, 9, bundle::kGlobals>;
 
-// A candidate must be newer than new, since nobody hits it exactly.
-constexpr double kSafelyNew = 1.5;
-constexpr double kFieldStepMm = 80;  // the field of DepthUncertainty
+// A view is new that differs by so much (distance_between()); a candidate by more, since nobody hits it
+// exactly.
+constexpr double kNewDistance = 0.2, kSafelyNew = 1.5;
 // A tenth of a bar counts as much as lowering the error by 5 %.
 constexpr double kBarWorth = 0.5;
 constexpr double kPastGoal = 0.2;  // what lowering the error counts when the goal is reached
 // Tolerances of a target, in the axes' own units.
 constexpr std::array<double, kBoardAxes> kTolerance = {0.04, 0.05, 0.07, 0.13, 0.13, 0.2};
 
-// Of the depths of a field's nine points, by steps of one `unit` of each global.
-DepthByGlobals depth_by_globals(const Problem& rig, double distance_mm, const GlobalVector& unit) {
-  std::vector<Eigen::Vector3d> field;
-  field.reserve(9);
-  for (int i = 0; i < 9; ++i)
-    field.emplace_back((i % 3 - 1) * kFieldStepMm, (i / 3 - 1) * kFieldStepMm, distance_mm);
-  Problem bare = rig;
-  bare.views.clear();
-  const Probes probes = probes_of(bare, field);
+// Of the depths of a field's nine points at kFaceMm, by steps of one `unit` of each global; `rig` without
+// views.
+DepthByGlobals depth_by_globals(const Problem& rig, const GlobalVector& unit) {
+  const Probes probes = probes_of(rig, depth_field(kFaceMm));
   DepthByGlobals by;
   for (int i = 0; i < bundle::kGlobals; ++i) {
     const auto depths = [&](double step) -> Eigen::Matrix<double, 9, 1> {
-      Problem moved = bare;
+      Problem moved = rig;
       bundle::step_globals(moved, step * unit[i] * GlobalVector::Unit(i));
       return cloud_of(moved, probes).row(2).transpose();
     };
@@ -141,8 +136,7 @@ ViewTarget target_of(const CandidatePose& pose, const BoardParameters& left, con
   ViewTarget target;
   target.at = axes_of(left);
   target.tolerance = kTolerance;
-  target.left_outline = outline_of(pose.corners[0], pattern);
-  target.right_outline = outline_of(pose.corners[1], pattern);
+  target.outlines = {outline_of(pose.corners[0], pattern), outline_of(pose.corners[1], pattern)};
   return target;
 }
 
@@ -150,6 +144,39 @@ int quarter_turns_of(const CalibratorInput& input) {
   const BoardOutline outline = outline_of(input.views.back().left, input.pattern);
   const double angle = std::atan2(outline[1].y - outline[0].y, outline[1].x - outline[0].x);
   return int(std::lround(angle / (0.5 * std::numbers::pi)));
+}
+
+// Where the board stands, from the left camera alone; good enough to start from.
+bundle::Pose guessed_pose(const Problem& rig, const BoardCorners& left) {
+  Problem one;
+  one.pattern = rig.pattern;
+  one.camera[0].width_px = rig.camera[0].width_px;
+  one.camera[0].height_px = rig.camera[0].height_px;
+  one.views.emplace_back(&left, nullptr, bundle::Pose{});
+  bundle::first_guess(one);
+  bundle::Pose pose = one.views[0].left_from_board;
+  pose.translation_mm.z() *= rig.camera[0].focal_px.x / one.camera[0].focal_px.x;
+  return pose;
+}
+
+// The calibration's used views (the first of the input's) as a solved problem: it knows its information and
+// covariance. False where they do not determine it.
+bool solved_problem(const CalibratorInput& input, const CalibratorOutput& calibrated, Problem& solved) {
+  const Problem rig = rig_problem(calibrated.calibration, input.pattern);
+  solved = rig;
+  for (std::size_t v = 0; v < std::min(input.views.size(), calibrated.quality.views.size()); ++v) {
+    if (!calibrated.quality.views[v].used) continue;
+    const BoardView& view = input.views[v];
+    Problem one = rig;
+    if (!lay_board(one, view.left, view.right)) return false;
+    solved.views.push_back(one.views[0]);
+  }
+  solved.free.fill(true);
+  for (const int eye : {0, 1}) set_priors(solved, eye);
+  const double left = calibrated.quality.left_rms_px;
+  const double right = calibrated.quality.right_rms_px;
+  solved.noise_px2 = std::max(1e-6, 0.25 * (left * left + right * right));  // rms is of both coordinates
+  return bundle::solve(solved);
 }
 
 }  // namespace
@@ -185,7 +212,7 @@ bool ViewPlanner::update(const CalibratorInput& input, const CalibratorOutput& n
   information_ = unit_.asDiagonal() * solved.information * unit_.asDiagonal();
   rig_ = std::move(solved);
   rig_.views.clear();
-  depth_ = depth_by_globals(rig_, options.distance_mm, unit_);
+  depth_ = depth_by_globals(rig_, unit_);
   variance_ = variance_of(depth_, information_);
   options_ = options;
   error_mm_ = error_mm;
@@ -195,16 +222,16 @@ bool ViewPlanner::update(const CalibratorInput& input, const CalibratorOutput& n
   return true;
 }
 
-ViewPlanner::Pair ViewPlanner::parameters(const BoardCorners& left, const BoardCorners& right) const {
+ViewParameters ViewPlanner::parameters(const BoardCorners& left, const BoardCorners& right) const {
   const CameraIntrinsics& camera = rig_.camera[0];
   return {parameters_of(left, rig_.pattern, camera.width_px, camera.height_px),
           parameters_of(right, rig_.pattern, camera.width_px, camera.height_px)};
 }
 
-bool ViewPlanner::safely_new(const Pair& view) const {
-  return std::ranges::all_of(taken_, [&](const Pair& other) {
+bool is_new(const ViewParameters& view, TakenViews taken, double times) {
+  return std::ranges::all_of(taken, [&](const ViewParameters& other) {
     return std::max(distance_between(view[0], other[0]), distance_between(view[1], other[1])) >
-           kSafelyNew * options_.new_distance;
+           times * kNewDistance;
   });
 }
 
@@ -214,7 +241,7 @@ double ViewPlanner::error_gain(const bundle::View& view) const {
   return 1 - std::sqrt(variance_of(depth_, information_ + added) / variance_);
 }
 
-double ViewPlanner::bar_gain(const Pair& view) const {
+double ViewPlanner::bar_gain(const ViewParameters& view) const {
   const auto sum = [full = options_.full_bar](const CoverageBars& bars) {
     return std::min(bars.x, full) + std::min(bars.y, full) + std::min(bars.size, full) +
            std::min(bars.skew, full);
@@ -229,17 +256,16 @@ double ViewPlanner::worth(double error_gain, double bar_gain) const {
 
 double ViewPlanner::worth(const BoardCorners& left, const BoardCorners& right) const {
   Problem one = rig_;
-  one.views.emplace_back(&left, &right, guessed_pose(rig_, left));
-  if (!bundle::solve_poses(one)) return 0;
+  if (!lay_board(one, left, right)) return 0;
   return worth(error_gain(one.views[0]), bar_gain(parameters(left, right)));
 }
 
 ViewPlan ViewPlanner::plan(std::span<const std::size_t> excluded) const {
   ViewPlan plan;
-  for (const CandidatePose& pose : candidate_poses(rig_, options_.distance_mm, quarter_turns_)) {
+  for (const CandidatePose& pose : candidate_poses(rig_, kFaceMm, quarter_turns_)) {
     if (std::ranges::find(excluded, pose.number) != excluded.end()) continue;
-    const Pair view = parameters(pose.corners[0], pose.corners[1]);
-    if (!safely_new(view)) continue;
+    const ViewParameters view = parameters(pose.corners[0], pose.corners[1]);
+    if (!is_new(view, taken_, kSafelyNew)) continue;
     const double error = error_gain({&pose.corners[0], &pose.corners[1], pose.left_from_board});
     const double bars = bar_gain(view);
     plan.best_gain = std::max(plan.best_gain, error);
@@ -259,35 +285,9 @@ Problem rig_problem(const StereoCalibration& calibration, const BoardPattern& pa
   return rig;
 }
 
-bundle::Pose guessed_pose(const Problem& rig, const BoardCorners& left) {
-  Problem one;
-  one.pattern = rig.pattern;
-  one.camera[0].width_px = rig.camera[0].width_px;
-  one.camera[0].height_px = rig.camera[0].height_px;
-  one.views.emplace_back(&left, nullptr, bundle::Pose{});
-  bundle::first_guess(one);
-  bundle::Pose pose = one.views[0].left_from_board;
-  pose.translation_mm.z() *= rig.camera[0].focal_px.x / one.camera[0].focal_px.x;
-  return pose;
-}
-
-bool solved_problem(const CalibratorInput& input, const CalibratorOutput& calibrated, Problem& solved) {
-  const Problem rig = rig_problem(calibrated.calibration, input.pattern);
-  solved = rig;
-  for (std::size_t v = 0; v < std::min(input.views.size(), calibrated.quality.views.size()); ++v) {
-    if (!calibrated.quality.views[v].used) continue;
-    const BoardView& view = input.views[v];
-    Problem one = rig;
-    one.views.emplace_back(&view.left, &view.right, guessed_pose(rig, view.left));
-    if (!bundle::solve_poses(one)) return false;
-    solved.views.push_back(one.views[0]);
-  }
-  solved.free.fill(true);
-  for (const int eye : {0, 1}) set_priors(solved, eye);
-  const double left = calibrated.quality.left_rms_px;
-  const double right = calibrated.quality.right_rms_px;
-  solved.noise_px2 = std::max(1e-6, 0.25 * (left * left + right * right));  // rms is of both coordinates
-  return bundle::solve(solved);
+bool lay_board(Problem& rig, const BoardCorners& left, const BoardCorners& right) {
+  rig.views.emplace_back(&left, &right, guessed_pose(rig, left));
+  return bundle::solve_poses(rig);
 }
 
 }  // namespace relievo::pipeline

@@ -25,21 +25,14 @@
 
 namespace relievo::pipeline {
 
-// A calibration as the bundle adjustment knows rigs.
-// Without views, nothing free.
+// A calibration as the bundle adjustment knows rigs, without views, nothing free.
 bundle::Problem rig_problem(const StereoCalibration& calibration, const BoardPattern& pattern);
 
-// Where the board stands, from the left camera alone; good enough to start from.
-bundle::Pose guessed_pose(const bundle::Problem& rig, const BoardCorners& left);
-
-// The calibration's used views (the first of the input's) as a solved problem: it knows its information and
-// covariance. False where they do not determine it.
-bool solved_problem(const CalibratorInput& input, const CalibratorOutput& calibrated,
-                    bundle::Problem& solved);
+// A rig that sees one board, which is put where it fits best. False where it fits nowhere.
+bool lay_board(bundle::Problem& rig, const BoardCorners& left, const BoardCorners& right);
 
 // Poses in which a person can hold a board so that both cameras of a rig see it whole: nine places in
 // the picture, as far out as may be, at three distances, facing the camera and tilted eight ways.
-// Inside calibrate/ only. Thread: any.
 struct CandidatePose {
   std::size_t number = 0;  // always the same for the same pose of the list
   bundle::Pose left_from_board;
@@ -56,7 +49,12 @@ struct ViewPlan {
   double best_bar_gain = 0;         // what the best candidate (for the bars alone) adds to them, summed
 };
 
-using TakenViews = std::span<const std::array<BoardParameters, 2>>;
+// One view in both cameras.
+using ViewParameters = std::array<BoardParameters, 2>;
+using TakenViews = std::span<const ViewParameters>;
+
+// Is it `times` as far from each view taken as the least that counts as new, in either camera?
+bool is_new(const ViewParameters& view, TakenViews taken, double times);
 
 class ViewPlanner {
  public:
@@ -72,13 +70,11 @@ class ViewPlanner {
   double worth(const BoardCorners& left, const BoardCorners& right) const;
 
  private:
-  using Pair = std::array<BoardParameters, 2>;
   using DepthByGlobals = Eigen::Matrix<double, 9, bundle::kGlobals>;
 
-  Pair parameters(const BoardCorners& left, const BoardCorners& right) const;
-  bool safely_new(const Pair& view) const;
+  ViewParameters parameters(const BoardCorners& left, const BoardCorners& right) const;
   double error_gain(const bundle::View& view) const;
-  double bar_gain(const Pair& view) const;
+  double bar_gain(const ViewParameters& view) const;
   double worth(double error_gain, double bar_gain) const;
 
   LiveOptions options_;
@@ -88,7 +84,7 @@ class ViewPlanner {
   DepthByGlobals depth_;         // of the field's points, by one unit of each global
   double variance_ = 0;          // of the depths, mean, noise of 1 px
   double error_mm_ = 0;
-  std::vector<Pair> taken_;
+  std::vector<ViewParameters> taken_;
   std::array<Coverage, 2> coverage_;
   int quarter_turns_ = 0;  // how the person holds the board
 };

@@ -23,9 +23,8 @@ inline constexpr std::size_t kBoardAxes = 6;
 struct ViewTarget {
   std::array<double, kBoardAxes> at{};         // of BoardParameters; Size: its logarithm
   std::array<double, kBoardAxes> tolerance{};  // nearer is near enough
-  // Where the outer corners would be; none before the cameras are known.
-  std::optional<BoardOutline> left_outline;
-  std::optional<BoardOutline> right_outline;
+  // Where the outer corners would be, left, right; none before the cameras are known.
+  std::optional<std::array<BoardOutline, 2>> outlines;
 };
 
 std::array<double, kBoardAxes> axes_of(const BoardParameters& parameters);

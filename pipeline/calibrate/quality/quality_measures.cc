@@ -118,17 +118,6 @@ BoardBend measure_bend(const bundle::Problem& solved) {
   return found;
 }
 
-// The calibration tried on boards whose size is known. One camera and the known squares say how far away
-// each corner is; both cameras together must find it there. That notices a camera that turned along the
-// rows, which no epipolar line does, and needs no model of what goes wrong.
-
-// Over the used views, each measured by the rig that is fitted without it. Root mean squares.
-struct KnownSquares {
-  double depth_mm = 0;        // of a whole board together: its corners' noise averages out
-  double point_depth_mm = 0;  // of a single corner, noise of finding it included
-  double length_percent = 0;  // of lengths on the board
-};
-
 struct Points {
   Cloud board;     // as the squares say
   Cloud expected;  // where the left camera sees them, by the size of the squares
@@ -162,8 +151,11 @@ Points points_of(const bundle::Problem& rig, const BoardView& view, const bundle
 
 double squared(double value) { return value * value; }
 
-// Depth is brought to `distance_mm` as a disparity's error grows, with the distance squared.
-KnownSquares measure_known_squares(const Fitted& f, const RigSpread& spread, double distance_mm) {
+// The calibration tried on boards whose size is known, each by the rig that is fitted without it. One camera
+// and the known squares say how far away each corner is; both cameras together must find it there. That
+// notices a camera that turned along the rows, which no epipolar line does, and needs no model of what goes
+// wrong. Depth is brought to kFaceMm as a disparity's error grows, with the distance squared.
+void measure_known_squares(const Fitted& f, const RigSpread& spread, CalibrationQuality& q) {
   double boards = 0;
   double corners = 0;
   double lengths = 0;
@@ -174,7 +166,7 @@ KnownSquares measure_known_squares(const Fitted& f, const RigSpread& spread, dou
                                f.selection.fit.problem.views[i].left_from_board);
     if (p.found.cols() < 4) continue;
     const Eigen::ArrayXd off = (p.found.row(2) - p.expected.row(2)).transpose().array() *
-                               (distance_mm / p.expected.row(2).transpose().array()).square();
+                               (kFaceMm / p.expected.row(2).transpose().array()).square();
     boards += squared(off.mean());
     corners += off.square().sum();
     lengths += squared(scale_between(p.board, p.found) - 1);
@@ -182,8 +174,9 @@ KnownSquares measure_known_squares(const Fitted& f, const RigSpread& spread, dou
     views += 1;
   }
   views = std::max(views, 1.0);
-  return {std::sqrt(boards / views), std::sqrt(corners / std::max(all, 1.0)),
-          100 * std::sqrt(lengths / views)};
+  q.measured_depth_mm = std::sqrt(boards / views);
+  q.measured_point_depth_mm = std::sqrt(corners / std::max(all, 1.0));
+  q.measured_length_percent = 100 * std::sqrt(lengths / views);
 }
 
 // What a calibration promises of the next picture: how far everything in it will lie off its epipolar
@@ -242,12 +235,15 @@ constexpr double kDegrees = 57.29577951308232;
 // A spread of the pairs this many times the corners' noise is no accident of a firm rig.
 constexpr double kSlipsVisibly = 1.3;
 
-double epipolar_rms(const Fitted& f, const bundle::Problem& rig, std::span<const int> views) {
+// What the views, the i-th by the rig rig_of(i), miss their epipolar lines by.
+template <typename RigOf>
+double epipolar_rms(const Fitted& f, std::span<const int> views, const RigOf& rig_of) {
   double sum = 0;
   int count = 0;
-  for (const int view : views)
-    sum += epipolar_squared(rig, f.input.views[std::size_t(view)].left,
-                            f.input.views[std::size_t(view)].right, count);
+  for (std::size_t i = 0; i < views.size(); ++i) {
+    const BoardView& view = f.input.views[std::size_t(views[i])];
+    sum += epipolar_squared(rig_of(i), view.left, view.right, count);
+  }
   return std::sqrt(sum / std::max(count, 1));
 }
 
@@ -263,14 +259,6 @@ double coverage(const CalibratorInput& input, bool right) {
   return double(std::ranges::count(covered, true)) / (kGrid * kGrid);
 }
 
-// Did a camera turn, or did the board go on between the two exposures? The pairs tell together.
-SlipCause cause_of(const Fitted& f) {
-  const Stories stories =
-      tell_stories(gather_evidence(f.cameras, f.pairs), f.selection.fit.problem.right_from_left);
-  return stories.board_carried_px2 < stories.camera_turned_px2 ? SlipCause::BoardCarried
-                                                               : SlipCause::CameraTurns;
-}
-
 // Median angle between two boards' normals: boards held alike do not determine a focal length.
 double tilt_spread(const std::vector<Eigen::Vector3d>& normals) {
   std::vector<double> angles;
@@ -278,17 +266,6 @@ double tilt_spread(const std::vector<Eigen::Vector3d>& normals) {
     for (std::size_t j = i + 1; j < normals.size(); ++j)
       angles.push_back(std::acos(std::clamp(normals[i].dot(normals[j]), -1.0, 1.0)) * kDegrees);
   return angles.empty() ? 0 : median(angles);
-}
-
-// What a view misses its epipolar lines by when it had no part in the fit.
-double held_out_epipolar(const Fitted& f, const RigSpread& spread) {
-  double sum = 0;
-  int count = 0;
-  for (std::size_t i = 0; i < f.selection.used.size(); ++i) {
-    const BoardView& view = f.input.views[std::size_t(f.selection.used[i])];
-    sum += epipolar_squared(spread.without()[i], view.left, view.right, count);
-  }
-  return std::sqrt(sum / std::max(count, 1));
 }
 
 // Each camera's boards alone: there nothing that the two cameras do to each other can look like a bend.
@@ -307,28 +284,25 @@ void measure_flatness(const Fitted& f, CalibrationQuality& q) {
 
 void measure_views(const Fitted& f, CalibrationQuality& q) {
   for (const int view : f.cameras.left.views)
-    q.views[std::size_t(view)].left_rms_px =
-        std::sqrt(f.cameras.left.squared_px(view) / f.cameras.left.corners(view));
+    q.views[std::size_t(view)].left_rms_px = f.cameras.left.rms_px(view);
   for (const int view : f.cameras.right.views)
-    q.views[std::size_t(view)].right_rms_px =
-        std::sqrt(f.cameras.right.squared_px(view) / f.cameras.right.corners(view));
+    q.views[std::size_t(view)].right_rms_px = f.cameras.right.rms_px(view);
   std::vector<bundle::View> judged;
   judge_pairs(f.input, f.cameras, f.selection.fit, f.pairs, &judged);
   std::vector<double> distances;
   std::vector<Eigen::Vector3d> normals;
-  const double middle[2] = {0.5 * (f.input.pattern.columns - 1) * f.input.pattern.square_mm,
-                            0.5 * (f.input.pattern.rows - 1) * f.input.pattern.square_mm};
+  const auto fitted_rig = [&](std::size_t) -> const bundle::Problem& { return f.selection.fit.problem; };
+  const Eigen::Vector3d middle(0.5 * (f.input.pattern.columns - 1) * f.input.pattern.square_mm,
+                               0.5 * (f.input.pattern.rows - 1) * f.input.pattern.square_mm, 0);
   for (std::size_t i = 0; i < f.pairs.size(); ++i) {
     ViewQuality& view = q.views[std::size_t(f.pairs[i])];
     view.used = std::ranges::binary_search(f.selection.used, f.pairs[i]);
     view.left_rms_px = std::sqrt(judged[i].squared_px[0] / judged[i].corners[0]);
     view.right_rms_px = std::sqrt(judged[i].squared_px[1] / judged[i].corners[1]);
-    const int one[] = {f.pairs[i]};
-    view.epipolar_rms_px = epipolar_rms(f, f.selection.fit.problem, one);
-    view.excess_px = std::sqrt(f.selection.excess[i] / (2 * f.input.pattern.corners()));
+    view.epipolar_rms_px = epipolar_rms(f, f.pairs.subspan(i, 1), fitted_rig);
+    view.excess_px = std::sqrt(f.selection.excess[i] / corners_seen(f.input.views[std::size_t(f.pairs[i])]));
     const bundle::Pose& pose = judged[i].left_from_board;
-    view.distance_mm =
-        (pose.rotation * Eigen::Vector3d(middle[0], middle[1], 0) + pose.translation_mm).norm();
+    view.distance_mm = (pose.rotation * middle + pose.translation_mm).norm();
     view.tilt_deg = std::acos(std::clamp(std::abs(pose.rotation(2, 2)), 0.0, 1.0)) * kDegrees;
     if (!view.used) continue;
     distances.push_back(view.distance_mm);
@@ -340,6 +314,10 @@ void measure_views(const Fitted& f, CalibrationQuality& q) {
 
 }  // namespace
 
+int corners_seen(const BoardView& view) {
+  return int(std::ranges::count_if(view.left, seen) + std::ranges::count_if(view.right, seen));
+}
+
 void measure_quality(const Fitted& f, CalibrationQuality& q) {
   measure_views(f, q);
   const StereoFit& fit = f.selection.fit;
@@ -347,7 +325,9 @@ void measure_quality(const Fitted& f, CalibrationQuality& q) {
   q.left_rms_px = f.cameras.left.rms_px();
   q.right_rms_px = f.cameras.right.rms_px();
   q.pair_rms_px = fit.rms_px();
-  q.epipolar_rms_px = epipolar_rms(f, fit.problem, f.selection.used);
+  const std::vector<int>& used = f.selection.used;
+  const auto fitted_rig = [&](std::size_t) -> const bundle::Problem& { return fit.problem; };
+  q.epipolar_rms_px = epipolar_rms(f, used, fitted_rig);
   q.coverage_left = coverage(f.input, false);
   q.coverage_right = coverage(f.input, true);
   const double noise = f.cameras.noise_px2();
@@ -355,23 +335,23 @@ void measure_quality(const Fitted& f, CalibrationQuality& q) {
   // Twice the corner noise is beyond what a slightly bent board or a simple lens model explains.
   q.holds_still = q.slip_ratio < 2;
   const RigSpread spread(fit, q.slip_ratio > kSlipsVisibly);
-  q.held_out_epipolar_px = held_out_epipolar(f, spread);
+  const auto rig_without = [&](std::size_t i) -> const bundle::Problem& { return spread.without()[i]; };
+  q.held_out_epipolar_px = epipolar_rms(f, used, rig_without);
   q.held_out_shift_px = held_out_shift(f, spread);
   q.uncertainty = measure_uncertainty(spread, q.working_distance_mm);
   q.face_depth_sigma_mm = depth_uncertainty(spread, kFaceMm).sigma_mm;
   q.depth_sigma_mm = depth_uncertainty(spread, q.working_distance_mm).sigma_mm;
   q.shape_sigma_mm = q.uncertainty.shape_sigma_mm;
-  const KnownSquares known = measure_known_squares(f, spread, kFaceMm);
-  q.measured_depth_mm = known.depth_mm;
-  q.measured_point_depth_mm = known.point_depth_mm;
-  q.measured_length_percent = known.length_percent;
+  measure_known_squares(f, spread, q);
   const ChangePoint& moved = f.selection.moved;
   const auto view_at = [&f](int pair) { return pair < 0 ? -1 : f.pairs[std::size_t(pair)]; };
   q.moved_after = view_at(moved.likeliest);
   q.moved_after_first = view_at(moved.first);
   q.moved_after_last = view_at(moved.last);
   q.baseline_mm = fit.problem.right_from_left.translation_mm.norm();
-  if (!q.holds_still || q.used < int(f.pairs.size())) q.slip_cause = cause_of(f);
+  if (!q.holds_still || q.used < int(f.pairs.size()))
+    q.slip_cause = board_carried_on(f.cameras, f.pairs, fit.problem.right_from_left) ? SlipCause::BoardCarried
+                                                                                     : SlipCause::CameraTurns;
   measure_flatness(f, q);
 }
 

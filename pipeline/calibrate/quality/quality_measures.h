@@ -16,6 +16,9 @@ struct Fitted {
   const Selection& selection;
 };
 
+// In both pictures: of a ChArUco board not all, nor of one with strays.
+int corners_seen(const BoardView& view);
+
 // Fills everything but verdict and reasons. quality.views must name all views already.
 void measure_quality(const Fitted& fitted, CalibrationQuality& quality);
 

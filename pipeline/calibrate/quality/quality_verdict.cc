@@ -64,7 +64,8 @@ void judge_board(const CalibrationQuality& q, Verdict& v) {
   if (q.expected_baseline_mm > 0 && std::abs(off) > limits::kBaselinePercent)
     v.say(CalibrationVerdict::Refuse,
           "the cameras come out {} mm apart, {} % from the {} mm they are known to be; measure a square of "
-          "the board again: it would have to be {} of what was said",
+          "the board again: it would have to be {} of what was said (after the cameras were mounted anew: "
+          "relievo calibrate --baseline-mm 0)",
           {decimal(q.baseline_mm, 2), decimal(off, 1, true), decimal(q.expected_baseline_mm, 2),
            decimal(q.expected_baseline_mm / q.baseline_mm, 3)});
   const double noisy = std::max(q.left_rms_px, q.right_rms_px);
@@ -77,7 +78,7 @@ void judge_board(const CalibrationQuality& q, Verdict& v) {
 
 void judge_depth(const CalibrationQuality& q, Verdict& v) {
   const auto judge = [&v](double mm, std::string_view worst_words, std::string_view good_words) {
-    if (mm > limits::kWorstDepthMm)
+    if (!(mm <= limits::kWorstDepthMm))
       v.say(CalibrationVerdict::Refuse, worst_words,
             {decimal(kFaceMm, 0), decimal(mm, 2), decimal(limits::kWorstDepthMm, 1)});
     else if (mm > limits::kGoodDepthMm)
@@ -117,11 +118,12 @@ void judge_variety(const CalibrationQuality& q, Verdict& v) {
 void judge_quality(CalibrationQuality& q) {
   Verdict v(q);
   using enum CalibrationVerdict;
-  if (q.held_out_epipolar_px > limits::kWorstEpipolarPx)
+  // Written so that not-a-number is refused.
+  if (!(q.held_out_epipolar_px <= limits::kWorstEpipolarPx))
     v.say(Refuse,
           "views not used for the fit miss their epipolar lines by {} px ({} is the most that can be used)",
           {decimal(q.held_out_epipolar_px, 2), decimal(limits::kWorstEpipolarPx, 2)});
-  if (q.shape_sigma_mm > limits::kWorstShapeMm)
+  if (!(q.shape_sigma_mm <= limits::kWorstShapeMm))
     v.say(
         Refuse,
         "the shape of a head at {} mm is uncertain by {} mm ({} is the most); tilt the board more, and take "

@@ -13,6 +13,93 @@
 #include "pipeline/model/lens.h"
 
 namespace relievo::pipeline {
+namespace {
+
+constexpr double kFieldStepMm = 80;
+constexpr int kMapColumns = 24;
+constexpr double kDegrees = 57.29577951308232;
+
+std::vector<Eigen::Vector3d> box(double distance_mm, int layers) {
+  std::vector<Eigen::Vector3d> points;
+  for (int z = 0; z < layers; ++z)
+    for (int y = -1; y <= 1; ++y)
+      for (int x = -1; x <= 1; ++x)
+        points.emplace_back(x * kFieldStepMm, y * kFieldStepMm,
+                            distance_mm + (z - layers / 2) * kFieldStepMm);
+  return points;
+}
+
+// What is left of the difference when `from` is laid over `to` (rigid motion; one column a point).
+Cloud shape_difference(const Cloud& from, const Cloud& to) {
+  const Eigen::Matrix4d lay = Eigen::umeyama(from, to, false);
+  return ((lay.topLeftCorner<3, 3>() * from).colwise() + Eigen::Vector3d(lay.topRightCorner<3, 1>())) - to;
+}
+
+Eigen::VectorXd flat(const Cloud& cloud) {
+  return Eigen::Map<const Eigen::VectorXd>(cloud.data(), cloud.size());
+}
+
+// Pictures of fixed rays, less what the best small turn of the camera explains of their move.
+ProjectionMap projection_map(const RigSpread& spread, int eye) {
+  const CameraIntrinsics& camera = spread.likeliest().camera[std::size_t(eye)];
+  ProjectionMap map;
+  map.columns = kMapColumns;
+  map.rows = std::max(2, int(std::lround(kMapColumns * double(camera.height_px) / camera.width_px)));
+  const auto pixels = [](const CameraIntrinsics& c, const Cloud& rays) {
+    Eigen::VectorXd at(2 * rays.cols());
+    for (Eigen::Index i = 0; i < rays.cols(); ++i) {
+      const Vec2d p = bundle::project(c, rays.col(i));
+      at.segment<2>(2 * i) << p.x, p.y;
+    }
+    return at;
+  };
+  Cloud rays(3, map.rows * map.columns);
+  for (int row = 0; row < map.rows; ++row)
+    for (int column = 0; column < map.columns; ++column)
+      rays.col(row * map.columns + column) =
+          ray_of(camera, {(column + 0.5) * camera.width_px / map.columns - 0.5,
+                          (row + 0.5) * camera.height_px / map.rows - 0.5});
+  const Eigen::VectorXd middle = pixels(camera, rays);
+  Eigen::MatrixX3d by_turn(middle.size(), 3);
+  constexpr double kTurn = 1e-5;
+  for (int axis = 0; axis < 3; ++axis) {
+    const Eigen::Matrix3d turn = bundle::rotation_of(kTurn * Eigen::Vector3d::Unit(axis));
+    Cloud turned = rays;
+    for (Eigen::Index i = 0; i < rays.cols(); ++i) turned.col(i) = turn * Eigen::Vector3d(rays.col(i));
+    by_turn.col(axis) = (pixels(camera, turned) - middle) / kTurn;
+  }
+  const Eigen::LDLT<Eigen::Matrix3d> normal((by_turn.transpose() * by_turn).eval());
+  const Eigen::VectorXd variance = spread.variance([&](const bundle::Problem& rig) -> Eigen::VectorXd {
+    const Eigen::VectorXd moved = pixels(rig.camera[std::size_t(eye)], rays) - middle;
+    return moved - by_turn * normal.solve(by_turn.transpose() * moved);
+  });
+  for (Eigen::Index i = 0; i < variance.size(); i += 2)
+    map.sigma_px.push_back(std::sqrt(0.5 * (variance[i] + variance[i + 1])));
+  return map;
+}
+
+ParameterUncertainty parameter_uncertainty(const RigSpread& spread) {
+  const Eigen::VectorXd variance = spread.variance([](const bundle::Problem& rig) -> Eigen::VectorXd {
+    Eigen::VectorXd all(2 * bundle::kCameraGlobals + 7);
+    const bundle::Pose& relation = rig.right_from_left;
+    all << bundle::parameters_of(rig.camera[0]), bundle::parameters_of(rig.camera[1]),
+        kDegrees * bundle::turn_of(relation.rotation), relation.translation_mm,
+        relation.translation_mm.norm();
+    return all;
+  });
+  ParameterUncertainty u;
+  const double* next = variance.data();
+  const auto take = [&next](auto& into) {
+    for (double& one : into) one = std::sqrt(*next++);
+  };
+  for (auto& lens : u.lens) take(lens);
+  take(u.turn_deg);
+  take(u.translation_mm);
+  u.baseline_mm = std::sqrt(*next);
+  return u;
+}
+
+}  // namespace
 
 Eigen::Vector3d ray_of(const CameraIntrinsics& camera, const Vec2d& at) {
   const Vec2d ray = ray_of_pixel(camera, at);
@@ -49,11 +136,9 @@ double epipolar_squared(const bundle::Problem& p, const BoardCorners& left, cons
 Probes probes_of(const bundle::Problem& p, const std::vector<Eigen::Vector3d>& points) {
   Probes probes;
   for (const Eigen::Vector3d& point : points) {
-    bundle::Pose at;
-    at.translation_mm = point;
-    probes.left.push_back(bundle::project(p.camera[0], at, 0, 0));
-    at.translation_mm = p.right_from_left.rotation * point + p.right_from_left.translation_mm;
-    probes.right.push_back(bundle::project(p.camera[1], at, 0, 0));
+    probes.left.push_back(bundle::project(p.camera[0], point));
+    probes.right.push_back(
+        bundle::project(p.camera[1], p.right_from_left.rotation * point + p.right_from_left.translation_mm));
   }
   return probes;
 }
@@ -65,20 +150,14 @@ Cloud cloud_of(const bundle::Problem& p, const Probes& probes) {
   return cloud;
 }
 
-Cloud shape_difference(const Cloud& from, const Cloud& to) {
-  const Eigen::Matrix4d lay = Eigen::umeyama(from, to, false);
-  return ((lay.topLeftCorner<3, 3>() * from).colwise() + Eigen::Vector3d(lay.topRightCorner<3, 1>())) - to;
-}
-
 double scale_between(const Cloud& from, const Cloud& to) {
   const Eigen::Matrix4d lay = Eigen::umeyama(from, to, true);
   return lay.topLeftCorner<3, 3>().col(0).norm();
 }
 
-RigSpread::RigSpread(const StereoFit& fit, bool slips) : likeliest_(fit.problem), slips_(slips) {
-  std::vector<bundle::Problem> without = bundle::without_each_view(fit.problem);
-  without.resize(fit.paired.size());
-  without_ = std::move(without);
+RigSpread::RigSpread(const StereoFit& fit, bool slips)
+    : likeliest_(fit.problem), without_(bundle::without_each_view(fit.problem)), slips_(slips) {
+  without_.resize(fit.paired.size());
   likeliest_.views.clear();  // the globals are what is spread; poses would be copied for nothing
   for (bundle::Problem& one : without_) one.views.clear();
   // Parameters differ by orders of magnitude: equilibrate, or the small ones drown in rounding.
@@ -109,91 +188,10 @@ Eigen::VectorXd RigSpread::variance(const Measure& measure) const {
   return noise.cwiseMax((views - 1) / views * spread);
 }
 
-namespace {
-
-constexpr double kFieldStepMm = 80;
-constexpr int kMapColumns = 24;
-constexpr double kDegrees = 57.29577951308232;
-
-std::vector<Eigen::Vector3d> box(double distance_mm, double step_mm, int layers) {
-  std::vector<Eigen::Vector3d> points;
-  for (int z = 0; z < layers; ++z)
-    for (int y = -1; y <= 1; ++y)
-      for (int x = -1; x <= 1; ++x)
-        points.emplace_back(x * step_mm, y * step_mm, distance_mm + (z - layers / 2) * step_mm);
-  return points;
-}
-
-Eigen::VectorXd flat(const Cloud& cloud) {
-  return Eigen::Map<const Eigen::VectorXd>(cloud.data(), cloud.size());
-}
-
-// Pictures of fixed rays, less what the best small turn of the camera explains of their move.
-ProjectionMap projection_map(const RigSpread& spread, int eye) {
-  const CameraIntrinsics& camera = spread.likeliest().camera[std::size_t(eye)];
-  ProjectionMap map;
-  map.columns = kMapColumns;
-  map.rows = std::max(2, int(std::lround(kMapColumns * double(camera.height_px) / camera.width_px)));
-  std::vector<bundle::Pose> rays;
-  const auto pixels = [](const CameraIntrinsics& c, const std::vector<bundle::Pose>& of) {
-    Eigen::VectorXd at(2 * static_cast<Eigen::Index>(of.size()));
-    for (std::size_t i = 0; i < of.size(); ++i) {
-      const Vec2d p = bundle::project(c, of[i], 0, 0);
-      at.segment<2>(2 * static_cast<Eigen::Index>(i)) << p.x, p.y;
-    }
-    return at;
-  };
-  for (int row = 0; row < map.rows; ++row)
-    for (int column = 0; column < map.columns; ++column) {
-      bundle::Pose ray;
-      ray.translation_mm = ray_of(camera, {(column + 0.5) * camera.width_px / map.columns - 0.5,
-                                           (row + 0.5) * camera.height_px / map.rows - 0.5});
-      rays.push_back(ray);
-    }
-  const Eigen::VectorXd middle = pixels(camera, rays);
-  Eigen::MatrixX3d by_turn(middle.size(), 3);
-  constexpr double kTurn = 1e-5;
-  for (int axis = 0; axis < 3; ++axis) {
-    std::vector<bundle::Pose> turned = rays;
-    const Eigen::Matrix3d turn = bundle::rotation_of(kTurn * Eigen::Vector3d::Unit(axis));
-    for (bundle::Pose& ray : turned) ray.translation_mm = turn * ray.translation_mm;
-    by_turn.col(axis) = (pixels(camera, turned) - middle) / kTurn;
-  }
-  const Eigen::LDLT<Eigen::Matrix3d> normal((by_turn.transpose() * by_turn).eval());
-  const Eigen::VectorXd variance = spread.variance([&](const bundle::Problem& rig) -> Eigen::VectorXd {
-    const Eigen::VectorXd moved = pixels(rig.camera[std::size_t(eye)], rays) - middle;
-    return moved - by_turn * normal.solve(by_turn.transpose() * moved);
-  });
-  for (Eigen::Index i = 0; i < variance.size(); i += 2)
-    map.sigma_px.push_back(std::sqrt(0.5 * (variance[i] + variance[i + 1])));
-  return map;
-}
-
-ParameterUncertainty parameter_uncertainty(const RigSpread& spread) {
-  const Eigen::VectorXd variance = spread.variance([](const bundle::Problem& rig) -> Eigen::VectorXd {
-    Eigen::VectorXd all(2 * bundle::kCameraGlobals + 7);
-    const bundle::Pose& relation = rig.right_from_left;
-    all << bundle::parameters_of(rig.camera[0]), bundle::parameters_of(rig.camera[1]),
-        kDegrees * bundle::turn_of(relation.rotation), relation.translation_mm,
-        relation.translation_mm.norm();
-    return all;
-  });
-  ParameterUncertainty u;
-  const double* next = variance.data();
-  const auto take = [&next](auto& into) {
-    for (double& one : into) one = std::sqrt(*next++);
-  };
-  for (auto& lens : u.lens) take(lens);
-  take(u.turn_deg);
-  take(u.translation_mm);
-  u.baseline_mm = std::sqrt(*next);
-  return u;
-}
-
-}  // namespace
+std::vector<Eigen::Vector3d> depth_field(double distance_mm) { return box(distance_mm, 1); }
 
 DepthUncertainty depth_uncertainty(const RigSpread& spread, double distance_mm) {
-  const Probes probes = probes_of(spread.likeliest(), box(distance_mm, kFieldStepMm, 1));
+  const Probes probes = probes_of(spread.likeliest(), depth_field(distance_mm));
   const Eigen::VectorXd variance = spread.variance([&](const bundle::Problem& rig) -> Eigen::VectorXd {
     return cloud_of(rig, probes).row(2).transpose();
   });
@@ -206,7 +204,7 @@ CalibrationUncertainty measure_uncertainty(const RigSpread& spread, double worki
   for (const int eye : {0, 1}) u.projection[std::size_t(eye)] = projection_map(spread, eye);
   for (int i = 0; i < kDepthSteps; ++i)
     u.depth[std::size_t(i)] = depth_uncertainty(spread, kFirstDepthMm + i * kDepthStepMm);
-  const Probes probes = probes_of(spread.likeliest(), box(working_distance_mm, kFieldStepMm, 3));
+  const Probes probes = probes_of(spread.likeliest(), box(working_distance_mm, 3));
   const Cloud reference = cloud_of(spread.likeliest(), probes);
   const Eigen::VectorXd scale = spread.variance([&](const bundle::Problem& rig) -> Eigen::VectorXd {
     return Eigen::VectorXd::Constant(1, scale_between(reference, cloud_of(rig, probes)));

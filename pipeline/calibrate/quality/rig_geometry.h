@@ -27,6 +27,9 @@ Eigen::Vector3d point_of(const bundle::Problem& rig, const Vec2d& left, const Ve
 double epipolar_squared(const bundle::Problem& rig, const BoardCorners& left, const BoardCorners& right,
                         int& count);
 
+// Nine points of the field of DepthUncertainty at a distance.
+std::vector<Eigen::Vector3d> depth_field(double distance_mm);
+
 // Points of the field as pixels of both pictures: what another rig makes of them is its error.
 struct Probes {
   std::vector<Vec2d> left;
@@ -37,14 +40,11 @@ Probes probes_of(const bundle::Problem& rig, const std::vector<Eigen::Vector3d>&
 using Cloud = Eigen::Matrix3Xd;
 Cloud cloud_of(const bundle::Problem& rig, const Probes& probes);
 
-// What is left of the difference when `from` is laid over `to` (rigid motion; one column a point).
-Cloud shape_difference(const Cloud& from, const Cloud& to);
-
 // By how much `from` must be scaled to be as large as `to`.
 double scale_between(const Cloud& from, const Cloud& to);
 
 // The rigs that the pictures allow beside the likeliest one, and what anything computed from a rig
-// varies by among them. Inside calibrate/ only. Thread: any.
+// varies by among them.
 class RigSpread {
  public:
   // slips: let the paired views' own spread count, where it is larger than their covariance says.
@@ -68,8 +68,6 @@ class RigSpread {
 
 CalibrationUncertainty measure_uncertainty(const RigSpread& spread, double working_distance_mm);
 
-// Of distances alone (the field of DepthUncertainty at one distance): what a live calibration asks for
-// after every view.
 DepthUncertainty depth_uncertainty(const RigSpread& spread, double distance_mm);
 
 }  // namespace relievo::pipeline

@@ -101,6 +101,8 @@ std::string unit(double value, int decimals, std::string_view name) {
   if (name == "°") return figure(value, decimals) + "°";
   return figure(value, decimals) + "&nbsp;<i>" + std::string(name) + "</i>";
 }
+// In a second line.
+std::string and_below(const std::string& value) { return "<br><span class=\"second\">" + value + "</span>"; }
 std::string up_to(double value, int decimals, std::string_view name) {
   return "up to " + figure(value, decimals) + " " + std::string(name);
 }
@@ -129,16 +131,14 @@ void trust_rows(const CalibrationQuality& q, Table& t) {
   const int decimals = decimals_of(depth);
   t.row("Depth at " + figure(kFaceMm, 0) + " mm",
         "uncertainty owed to the calibration: one sigma, and 95&nbsp;%",
-        unit(depth, decimals, "mm") + "<br><span class=\"second\">±" +
-            unit(kTwoSided95 * depth, decimals, "mm") + "</span>",
+        unit(depth, decimals, "mm") + and_below("±" + unit(kTwoSided95 * depth, decimals, "mm")),
         up_to(limits::kGoodDepthMm, 1, "mm"),
         low_is_good(depth, limits::kGoodDepthMm, limits::kWorstDepthMm));
   t.row("Depth against the known squares",
         "measured at boards left out of the fit in turn, brought to " + figure(kFaceMm, 0) +
             "&nbsp;mm; below, a single corner with its noise",
-        unit(q.measured_depth_mm, decimals_of(q.measured_depth_mm), "mm") + "<br><span class=\"second\">" +
-            unit(q.measured_point_depth_mm, decimals_of(q.measured_point_depth_mm), "mm a corner") +
-            "</span>",
+        unit(q.measured_depth_mm, decimals_of(q.measured_depth_mm), "mm") +
+            and_below(unit(q.measured_point_depth_mm, decimals_of(q.measured_point_depth_mm), "mm a corner")),
         up_to(limits::kGoodDepthMm, 1, "mm"),
         low_is_good(q.measured_depth_mm, limits::kGoodDepthMm, limits::kWorstDepthMm));
   t.row("Shape of a head at " + figure(q.working_distance_mm, 0) + " mm", "laid over the true one, one sigma",
@@ -151,15 +151,15 @@ void trust_rows(const CalibrationQuality& q, Table& t) {
   const double sigma = q.uncertainty.parameters.baseline_mm;
   const bool expected = q.expected_baseline_mm > 0;
   const double off = 100 * std::abs(q.baseline_mm / q.expected_baseline_mm - 1);
-  t.row("Baseline", expected ? "distance of the cameras" : "distance of the cameras; compare it with a ruler",
-        unit(q.baseline_mm, decimals_of(sigma), "mm") + "<br><span class=\"second\">±" +
-            unit(sigma, decimals_of(sigma), "mm") + "</span>",
-        expected ? figure(q.expected_baseline_mm, 2) + " mm within " + figure(limits::kBaselinePercent, 0) +
-                       " %" + (q.expected_as_in_use ? ", as in use until now" : ", as it was given")
-                 : "no expectation was given",
-        !expected                         ? Grade::Open
-        : off <= limits::kBaselinePercent ? Grade::Good
-                                          : Grade::Bad);
+  t.row(
+      "Baseline", expected ? "distance of the cameras" : "distance of the cameras; compare it with a ruler",
+      unit(q.baseline_mm, decimals_of(sigma), "mm") + and_below("±" + unit(sigma, decimals_of(sigma), "mm")),
+      expected ? figure(q.expected_baseline_mm, 2) + " mm within " + figure(limits::kBaselinePercent, 0) +
+                     " %" + (q.expected_as_in_use ? ", as in use until now" : ", as it was given")
+               : "no expectation was given",
+      !expected                         ? Grade::Open
+      : off <= limits::kBaselinePercent ? Grade::Good
+                                        : Grade::Bad);
 }
 
 void board_rows(const CalibrationReport& r, Table& t) {
@@ -168,8 +168,7 @@ void board_rows(const CalibrationReport& r, Table& t) {
   const double flat_mm = limits::kFlat * board.square_mm * (std::max(board.columns, board.rows) - 1);
   const int decimals = decimals_of(q.board_sag_sigma_mm);
   t.row("Board flatness", "highest over lowest point, with one sigma",
-        unit(q.board_sag_mm, decimals, "mm") + "<br><span class=\"second\">±" +
-            unit(q.board_sag_sigma_mm, decimals, "mm") + "</span>",
+        unit(q.board_sag_mm, decimals, "mm") + and_below("±" + unit(q.board_sag_sigma_mm, decimals, "mm")),
         up_to(flat_mm, 2, "mm") + ", or no more than chance",
         !q.board_bent                          ? Grade::Good
         : q.board_sag_mm > limits::kWorstSagMm ? Grade::Bad

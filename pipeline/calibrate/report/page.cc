@@ -21,16 +21,15 @@ std::string heading_of(const CalibrationReport& r) {
 
 constexpr std::string_view kReading =
     "<section class=\"reading\">\n<h2>How to read this</h2>\n<p>The verdict is the worst of its reasons, and "
-    "each reason says what to do. "
-    "One sigma holds in two cases of three, 95 % in nineteen of twenty; all of it is what the calibration is "
-    "to blame for, the matching of a "
-    "face adds its own. Among the pictures look for three things: a picture the board has not covered, "
-    "arrows that lie in one direction, and "
-    "a pair left out for a reason you do not believe.</p>\n</section>\n";
+    "each reason says what to do. One sigma holds in two cases of three, 95 % in nineteen of twenty; all of "
+    "it is what the calibration is to blame for, the matching of a face adds its own. Among the pictures look "
+    "for three things: a picture the board has not covered, arrows that lie in one direction, and a pair left "
+    "out for a reason you do not believe.</p>\n</section>\n";
 
 }  // namespace
 
 std::size_t corner_stride(const CalibrationReport& r) {
+  constexpr std::size_t kMostCorners = 20'000;
   std::size_t most = 0;
   for (const std::size_t eye : {0U, 1U}) {
     std::size_t count = 0;

@@ -67,42 +67,6 @@ void key(Drawing& d) {
   entry(344, "rms", "whole field");
 }
 
-}  // namespace
-
-std::string depth_chart(const CalibrationReport& r) {
-  const auto& depth = r.output.quality.uncertainty.depth;
-  double most = 0;
-  for (const DepthUncertainty& d : depth) most = std::max(most, d.worst_sigma_mm);
-  const double step = tick_step(most, 5);
-  double top = step;
-  while (top < most) top += step;
-  const Axis x{kFirstDepthMm, kFirstDepthMm + (kDepthSteps - 1) * kDepthStepMm, kDepthPlot.corner.x,
-               kDepthPlot.right()};
-  const Axis y{0, top, kDepthPlot.bottom(), kDepthPlot.corner.y};
-  Drawing d(kDepthSize, "Chart: depth uncertainty over the distance from the left camera");
-  held(d, x, r.output.quality);
-  axes(d, x, y);
-  d.line("marker", {x(kFaceMm), kDepthPlot.corner.y}, {x(kFaceMm), kDepthPlot.bottom()});
-  d.text("note begin", {x(kFaceMm) + 5, kDepthPlot.corner.y + 13},
-         "faces, " + figure(kFaceMm, 0) + " mm: " +
-             figure(r.output.quality.face_depth_sigma_mm, decimals_of(r.output.quality.face_depth_sigma_mm)));
-  std::vector<Vec2d> worst;
-  std::vector<Vec2d> rms;
-  for (const DepthUncertainty& one : depth) {
-    worst.push_back({x(one.distance_mm), y(one.worst_sigma_mm)});
-    rms.push_back({x(one.distance_mm), y(one.sigma_mm)});
-  }
-  series(d, "worst", worst);
-  series(d, "rms", rms);
-  key(d);
-  return figure_of(
-      d.svg(), "Depth uncertainty",
-      "Over a field of 160 mm by 160 mm. 95 % of cases lie within 1.96 times the curve. Shaded: where "
-      "boards were held.");
-}
-
-namespace {
-
 constexpr int kGrid = 8;  // as CalibrationQuality.coverage_left counts
 
 struct Layers {
@@ -170,20 +134,6 @@ std::string camera_figure(const CalibrationReport& r, std::size_t eye) {
       d.svg(), kCameraNames[eye],
       "Corners in " + std::to_string(cells) + " of " + std::to_string(kGrid * kGrid) + " fields.");
 }
-
-}  // namespace
-
-std::string coverage_figure(const CalibrationReport& r) {
-  const std::size_t stride = corner_stride(r);
-  std::string lead =
-      "Every corner that took part, with the outline of its board. Hatched fields hold none: bring the board there. "
-      "Grey: pairs left out; they still speak for this camera’s lens.";
-  if (stride > 1) lead += " One corner in " + std::to_string(stride) + " is drawn.";
-  return "<section>\n<h2>Where the board was seen</h2>\n<p class=\"lead\">" + lead + "</p>\n" +
-         side_by_side(camera_figure(r, 0), camera_figure(r, 1)) + "</section>\n";
-}
-
-namespace {
 
 constexpr double kLegend = 46;
 
@@ -267,6 +217,48 @@ std::string map_figure(const CalibrationReport& r, std::size_t eye, const Scale&
 }
 
 }  // namespace
+
+std::string depth_chart(const CalibrationReport& r) {
+  const auto& depth = r.output.quality.uncertainty.depth;
+  double most = 0;
+  for (const DepthUncertainty& d : depth) most = std::max(most, d.worst_sigma_mm);
+  const double step = tick_step(most, 5);
+  double top = step;
+  while (top < most) top += step;
+  const Axis x{kFirstDepthMm, kFirstDepthMm + (kDepthSteps - 1) * kDepthStepMm, kDepthPlot.corner.x,
+               kDepthPlot.right()};
+  const Axis y{0, top, kDepthPlot.bottom(), kDepthPlot.corner.y};
+  Drawing d(kDepthSize, "Chart: depth uncertainty over the distance from the left camera");
+  held(d, x, r.output.quality);
+  axes(d, x, y);
+  d.line("marker", {x(kFaceMm), kDepthPlot.corner.y}, {x(kFaceMm), kDepthPlot.bottom()});
+  d.text("note begin", {x(kFaceMm) + 5, kDepthPlot.corner.y + 13},
+         "faces, " + figure(kFaceMm, 0) + " mm: " +
+             figure(r.output.quality.face_depth_sigma_mm, decimals_of(r.output.quality.face_depth_sigma_mm)));
+  std::vector<Vec2d> worst;
+  std::vector<Vec2d> rms;
+  for (const DepthUncertainty& one : depth) {
+    worst.push_back({x(one.distance_mm), y(one.worst_sigma_mm)});
+    rms.push_back({x(one.distance_mm), y(one.sigma_mm)});
+  }
+  series(d, "worst", worst);
+  series(d, "rms", rms);
+  key(d);
+  return figure_of(
+      d.svg(), "Depth uncertainty",
+      "Over a field of 160 mm by 160 mm. 95 % of cases lie within 1.96 times the curve. Shaded: where "
+      "boards were held.");
+}
+
+std::string coverage_figure(const CalibrationReport& r) {
+  const std::size_t stride = corner_stride(r);
+  std::string lead =
+      "Every corner that took part, with the outline of its board. Hatched fields hold none: bring the board there. "
+      "Grey: pairs left out; they still speak for this camera’s lens.";
+  if (stride > 1) lead += " One corner in " + std::to_string(stride) + " is drawn.";
+  return "<section>\n<h2>Where the board was seen</h2>\n<p class=\"lead\">" + lead + "</p>\n" +
+         side_by_side(camera_figure(r, 0), camera_figure(r, 1)) + "</section>\n";
+}
 
 std::string projection_maps(const CalibrationReport& r) {
   const Scale scale = scale_of(r.output.quality.uncertainty);

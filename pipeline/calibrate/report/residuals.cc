@@ -120,30 +120,6 @@ void draw_measures(Drawing& d, const Plan& plan, double baseline_mm) {
   d.text("tick begin", {14 + length, y + 4.5}, "100 mm");
 }
 
-}  // namespace
-
-std::string rig_plan(const CalibrationReport& r) {
-  const StereoCalibration& c = r.output.calibration;
-  double farthest = kFar + 60;
-  for (const ViewQuality& view : r.output.quality.views)
-    if (view.used) farthest = std::max(farthest, view.distance_mm + 80);
-  const Plan plan(c, farthest);
-  const std::array<Camera, 2> cameras = {Camera{c.left, {}}, Camera{c.right, inverse(c.right_from_left)}};
-  Drawing d(kSize, "The rig from above, to scale: cameras, their fields of view, and the boards");
-  for (const std::size_t eye : {0U, 1U}) draw_field(d, plan, cameras[eye], kCameraStyles[eye], 2 * farthest);
-  draw_faces(d, plan);
-  draw_boards(d, plan, r);
-  name_faces(d, plan);
-  draw_measures(d, plan, r.output.quality.baseline_mm);
-  for (const std::size_t eye : {0U, 1U}) draw_camera(d, plan, cameras[eye], kCameraStyles[eye]);
-  return figure_of(
-      d.svg(), "The rig from above",
-      "To scale. The cameras with their fields of view; the boards of the pairs used and, in grey, of those left out; "
-      "dashed, the volume that the depth uncertainty is worked out for.");
-}
-
-namespace {
-
 constexpr double kKey = 34;
 constexpr double kUsualLength = 0.045;  // of the picture's width: what all but the longest arrows stay below
 
@@ -272,7 +248,33 @@ std::string camera_figure(const CalibrationReport& r, std::size_t eye, double re
   return figure_of(d.svg(), "", caption + ".");
 }
 
+// Against a normal distribution.
+std::string residual_histogram(const CalibrationReport& r) {
+  const double reach = kReach * std::max({deviation(coordinates(r, 0)), deviation(coordinates(r, 1)), 1e-9});
+  return side_by_side(camera_figure(r, 0, reach), camera_figure(r, 1, reach));
+}
+
 }  // namespace
+
+std::string rig_plan(const CalibrationReport& r) {
+  const StereoCalibration& c = r.output.calibration;
+  double farthest = kFar + 60;
+  for (const ViewQuality& view : r.output.quality.views)
+    if (view.used) farthest = std::max(farthest, view.distance_mm + 80);
+  const Plan plan(c, farthest);
+  const std::array<Camera, 2> cameras = {Camera{c.left, {}}, Camera{c.right, inverse(c.right_from_left)}};
+  Drawing d(kSize, "The rig from above, to scale: cameras, their fields of view, and the boards");
+  for (const std::size_t eye : {0U, 1U}) draw_field(d, plan, cameras[eye], kCameraStyles[eye], 2 * farthest);
+  draw_faces(d, plan);
+  draw_boards(d, plan, r);
+  name_faces(d, plan);
+  draw_measures(d, plan, r.output.quality.baseline_mm);
+  for (const std::size_t eye : {0U, 1U}) draw_camera(d, plan, cameras[eye], kCameraStyles[eye]);
+  return figure_of(
+      d.svg(), "The rig from above",
+      "To scale. The cameras with their fields of view; the boards of the pairs used and, in grey, of those left out; "
+      "dashed, the volume that the depth uncertainty is worked out for.");
+}
 
 std::string residual_arrows(const CalibrationReport& r) {
   const double usual = usual_length(r);
@@ -285,11 +287,6 @@ std::string residual_arrows(const CalibrationReport& r) {
   return "<section>\n<h2>What is left over</h2>\n<p class=\"lead\">" + lead + "</p>\n" +
          side_by_side(camera_figure(r, 0, magnified, usual), camera_figure(r, 1, magnified, usual)) +
          residual_histogram(r) + "</section>\n";
-}
-
-std::string residual_histogram(const CalibrationReport& r) {
-  const double reach = kReach * std::max({deviation(coordinates(r, 0)), deviation(coordinates(r, 1)), 1e-9});
-  return side_by_side(camera_figure(r, 0, reach), camera_figure(r, 1, reach));
 }
 
 }  // namespace relievo::pipeline::report

@@ -13,15 +13,14 @@
 
 namespace relievo::pipeline::report {
 
-std::string verdict_section(const CalibrationReport& r);     // word, icon, reasons
-std::string face_figures(const CalibrationReport& r);        // in mm at a face
-std::string key_figures(const CalibrationReport& r);         // with what is good
-std::string depth_chart(const CalibrationReport& r);         // uncertainty over distance
-std::string rig_plan(const CalibrationReport& r);            // from above, to scale
-std::string projection_maps(const CalibrationReport& r);     // heat maps of both cameras
-std::string coverage_figure(const CalibrationReport& r);     // where corners were seen
-std::string residual_arrows(const CalibrationReport& r);     // at every corner
-std::string residual_histogram(const CalibrationReport& r);  // against a normal distribution
+std::string verdict_section(const CalibrationReport& r);  // word, icon, reasons
+std::string face_figures(const CalibrationReport& r);     // in mm at a face
+std::string key_figures(const CalibrationReport& r);      // with what is good
+std::string depth_chart(const CalibrationReport& r);      // uncertainty over distance
+std::string rig_plan(const CalibrationReport& r);         // from above, to scale
+std::string projection_maps(const CalibrationReport& r);  // heat maps of both cameras
+std::string coverage_figure(const CalibrationReport& r);  // where corners were seen
+std::string residual_arrows(const CalibrationReport& r);  // at every corner, and their histograms
 std::string view_table(const CalibrationReport& r);
 std::string number_tables(const CalibrationReport& r);
 
@@ -30,9 +29,7 @@ inline constexpr double kFigureWidth = 480;
 inline constexpr std::array<std::string_view, 2> kCameraNames = {"Left camera", "Right camera"};
 inline constexpr std::array<std::string_view, 2> kCameraStyles = {"left", "right"};
 
-// Corners beyond this make no figure clearer, and a page heavy: every n-th is drawn.
-inline constexpr std::size_t kMostCorners = 20'000;
-// Every which of the corners of one camera to draw.
+// Every which of the corners of one camera to draw: more make no figure clearer, and a page heavy.
 std::size_t corner_stride(const CalibrationReport& r);
 
 const CameraIntrinsics& camera_of(const CalibrationReport& r, std::size_t eye);

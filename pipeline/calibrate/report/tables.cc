@@ -15,12 +15,9 @@ namespace {
 // As fit/view_selection.h and calibrator.cc do it.
 constexpr std::string_view kRule =
     "The rule: a single corner more than 6 standard deviations off its board is dropped, and a board with "
-    "more than 15 % of such "
-    "corners goes whole. The half of the pairs that agree best on where the cameras stand to each other "
-    "(least trimmed squares) "
-    "sets the measure; every other pair is let in, cheapest first, as long as its disagreement is no "
-    "surprise by an F test at 4 "
-    "standard deviations.";
+    "more than 15 % of such corners goes whole. The half of the pairs that agree best on where the cameras "
+    "stand to each other (least trimmed squares) sets the measure; every other pair is let in, cheapest "
+    "first, as long as its disagreement is no surprise by an F test at 4 standard deviations.";
 
 constexpr double kThumb = 160;
 constexpr double kWideGap = 7;
@@ -124,9 +121,8 @@ std::string relation_table(const CalibrationReport& r) {
   const std::array<double, 3> shift = {t.translation_mm.x, t.translation_mm.y, t.translation_mm.z};
   const char* const axes[] = {"x", "y", "z"};
   std::string out =
-      "<table class=\"numbers\">\n<caption>Right camera from left camera</caption>\n<thead><tr><th "
-      "scope=\"col\">Parameter</th>"
-      "<th scope=\"col\" colspan=\"2\">Value</th></tr></thead>\n<tbody>\n";
+      "<table class=\"numbers\">\n<caption>Right camera from left camera</caption>\n<thead><tr>"
+      "<th scope=\"col\">Parameter</th><th scope=\"col\" colspan=\"2\">Value</th></tr></thead>\n<tbody>\n";
   for (std::size_t i = 0; i < 3; ++i)
     out += head("turn about " + std::string(axes[i]) + ", °") +
            with_sigma(turn[static_cast<Eigen::Index>(i)], u.turn_deg[i]) + "</tr>\n";
@@ -185,8 +181,7 @@ std::string view_table(const CalibrationReport& r) {
       (out == 0 ? "none was left out" : counted(out, "was", "were") + " left out") + ". " +
       std::string(kRule) +
       "</p>\n<p class=\"lead\">Left and right: reprojection error with both cameras held together; epipolar: "
-      "distance from the "
-      "epipolar lines; root mean squares over a view.</p>\n<table class=\"views\">\n<thead><tr>"
+      "distance from the epipolar lines; root mean squares over a view.</p>\n<table class=\"views\">\n<thead><tr>"
       "<th scope=\"col\">View</th><th scope=\"col\">Left and right</th><th scope=\"col\">State</th>";
   for (const char* head : {"Left<small>px</small>", "Right<small>px</small>", "Epipolar<small>px</small>",
                            "Distance<small>mm</small>", "Tilt<small>°</small>"})
@@ -198,9 +193,8 @@ std::string view_table(const CalibrationReport& r) {
 
 std::string number_tables(const CalibrationReport& r) {
   return "<section>\n<h2>The numbers</h2>\n<p class=\"lead\">With one sigma. Lens model: pinhole with "
-         "Brown–Conrady distortion in "
-         "OpenCV’s order; pixel (0, 0) is the centre of the top left pixel. All digits are in "
-         "report.json.</p>\n"
+         "Brown–Conrady distortion in OpenCV’s order; pixel (0, 0) is the centre of the top left pixel. "
+         "All digits are in report.json.</p>\n"
          "<div class=\"pair tables\">\n<div class=\"scroll\">\n" +
          lens_table(r) + "</div>\n<div class=\"scroll\">\n" + relation_table(r) + matrix_table(r) +
          "</div>\n</div>\n" + set_table(r) + "</section>\n";

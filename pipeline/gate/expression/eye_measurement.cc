@@ -71,16 +71,6 @@ Circle find_iris(const FaceWindow& w, double side) {
   return best;
 }
 
-double disc(const FaceWindow& w, const Circle& c) {
-  constexpr double kReachMm = 4;
-  double sum = 0;
-  int count = 0;
-  for (double y = -kReachMm; y <= kReachMm; y += 1)
-    for (double x = -kReachMm; x <= kReachMm; x += 1)
-      if (x * x + y * y <= kReachMm * kReachMm) sum += w.between(c.right + x, c.down + y), ++count;
-  return sum / count;
-}
-
 // What shines, piece by piece: samples within the opening of an eye there, and beyond it wherever the eye
 // looks.
 class Shine {
@@ -162,7 +152,6 @@ EyeMeasurement measure_eye(const FaceWindow& w, double side, StageContext& conte
   const Circle iris = find_iris(w, side);
   eye.right_mm = iris.right, eye.down_mm = iris.down;
   eye.contrast = iris.contrast;
-  eye.iris = disc(w, iris) / skin;
   eye.brightness =
       quantile(w, {iris.right - 13, iris.right + 13, iris.down - 8, iris.down + 12}, 0.75, context) / skin;
   return eye;

@@ -5,8 +5,7 @@
 //
 // An iris is as wide in every adult (11.7 mm, +-0.5) and dark between two bright pieces of sclera: it is
 // looked for by the difference of luminance across both sides of a circle of that size (Daugman 1993's
-// operator, on the sides only, since lids cover its top and bottom), and the aperture is the height over
-// which those sides are seen. A closed eye has no such pair of edges.
+// operator, on the sides only, since lids cover its top and bottom). A closed eye has no such pair of edges.
 //
 // Memory: none of its own. Thread: any. Errors: none.
 #pragma once
@@ -21,7 +20,6 @@ struct EyeMeasurement {
   bool known = false;                // the window was seen whole
   double right_mm = 0, down_mm = 0;  // the middle of the iris, from the tip of the nose
   double contrast = 0;               // (sclera - iris) / (sclera + iris), the weaker side
-  double iris = 1;                   // mean luminance within the iris, share of the skin below the eye
   double brightness = 1;  // the brighter parts of the eye and its lids, share of the skin below it: dark
                           // glasses are dark all over (EyesVisible)
   double glare_mm2 = 0;   // of the eye, behind what shines before it and before the lids as well: neither

@@ -99,9 +99,7 @@ class Lattice {
   static Vec2d pixel(const FacePhoto& photo, const Slant& slant, double right, double down) {
     const HeadMeasurement& h = photo.head;
     const double behind = slant.level + slant.across * right + slant.slope * down;
-    const Vec3d p{h.tip_mm.x + right * h.right.x + down * h.down.x + behind * h.away.x,
-                  h.tip_mm.y + right * h.right.y + down * h.down.y + behind * h.away.y,
-                  h.tip_mm.z + right * h.right.z + down * h.down.z + behind * h.away.z};
+    const Vec3d p = along(along(along(h.tip_mm, right, h.right), down, h.down), behind, h.away);
     return source_pixel(photo.calibration.left, photo.relief.rectified_from_left, 1, {0, 0},
                         {p.x / p.z, p.y / p.z});
   }

@@ -7,6 +7,7 @@
 #include <cmath>
 #include <functional>
 #include <numbers>
+#include <optional>
 
 #include "hal/base/statistics.h"
 #include "pipeline/model/vector3.h"
@@ -155,7 +156,7 @@ Vec2d corner(const FaceWindow& w, const Line& middle, double side, double skin) 
 }
 
 // How far behind the tip of the nose the surface lies at a place of the face's middle.
-bool behind(const FacePhoto& photo, double down_mm, double& mm) {
+std::optional<double> behind(const FacePhoto& photo, double down_mm) {
   double sum = 0;
   int count = 0;
   for (const double right : {-4.0, -2.0, 0.0, 2.0, 4.0}) {
@@ -165,22 +166,21 @@ bool behind(const FacePhoto& photo, double down_mm, double& mm) {
     sum += dot(minus(p, photo.head.tip_mm), photo.head.away);
     ++count;
   }
-  mm = count > 0 ? sum / count : 0;
-  return count > 1;
+  return count > 1 ? std::optional(sum / count) : std::nullopt;
 }
 
 // The middle of what is known just below the line; 0 where too little is.
 double stands_before(const FacePhoto& photo, double line_mm) {
   constexpr std::array kDownMm{4.0, 6.0, 8.0, 10.0, 12.0, 14.0};  // further down the chin begins
-  double lip = 0;
-  if (!behind(photo, line_mm - 6, lip)) return 0;
+  const std::optional<double> lip = behind(photo, line_mm - 6);
+  if (!lip) return 0;
   const double slope = std::tan(photo.head.pitch_deg * std::numbers::pi / 180);
   std::array<double, kDownMm.size()> before{};
   before.fill(-1e9);
   std::size_t known = 0;
   for (const double below : kDownMm)
-    if (double here = 0; behind(photo, line_mm + below, here))
-      before[known++] = lip - here + slope * (below + 6);
+    if (const auto here = behind(photo, line_mm + below))
+      before[known++] = *lip - *here + slope * (below + 6);
   if (known < 4) return 0;
   std::ranges::sort(before, std::greater<>());  // what is not known stays behind
   return before[known / 2];

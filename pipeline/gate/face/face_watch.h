@@ -21,7 +21,6 @@ struct FaceHit {
   Vec2d centre_px{};    // between the eyes and the mouth, pixels of the relief
   double width_px = 0;  // about 150 mm on a grown-up
   int votes = 0;        // overlapping hits: 4 doubtful, 30 certain
-  bool frontal = true;  // false: the profile cascade saw it
 };
 
 struct FaceHits {
@@ -29,18 +28,10 @@ struct FaceHits {
   int count = 0;
 };
 
-struct FaceWatchOptions {
-  std::string cascade_dir = "/usr/share/opencv4/haarcascades";  // Debian's opencv-data
-  int search_height_px = 180;                                   // the picture is reduced to this height
-  double smallest_face = 0.2;  // width of the smallest face, share of the picture's height
-  int least_votes = 4;
-  Result<void> check() const;
-};
-
 class FaceWatch {
  public:
-  // Errors: InvalidInput, NotFound, StoreCorrupt (a cascade's SHA-256), LibraryFailed.
-  static Result<FaceWatch> open(const FaceWatchOptions& options = {});
+  // Errors: NotFound, StoreCorrupt (a cascade's SHA-256), LibraryFailed.
+  static Result<FaceWatch> open(const std::string& cascade_dir);
   FaceWatch(FaceWatch&&) noexcept;
   FaceWatch& operator=(FaceWatch&&) noexcept;
   ~FaceWatch();

@@ -16,17 +16,22 @@
 namespace relievo::pipeline {
 namespace {
 
+constexpr int kSearchHeightPx = 180;   // the picture is reduced to this height
+constexpr double kSmallestFace = 0.2;  // width of the smallest face, share of the picture's height
+constexpr int kLeastVotes = 4;
 constexpr double kLeanDeg = 22;  // the cascades stand 15 themselves
 constexpr double kDegree = std::numbers::pi / 180;
+
+Error unreadable(const std::string& folder) {
+  return Error{Errc::LibraryFailed, "OpenCV cannot read the face cascades: reinstall the package opencv-data"}
+      .at(folder);
+}
 
 Result<void> read(const std::string& folder, FaceCascade which, cv::CascadeClassifier& cascade) {
   RELIEVO_TRY_ASSIGN(const std::string text, read_cascade(folder, which));
   const cv::FileStorage file(text,
                              cv::FileStorage::READ | cv::FileStorage::MEMORY | cv::FileStorage::FORMAT_XML);
-  if (!cascade.read(file.getFirstTopLevelNode()))
-    return Error{Errc::LibraryFailed,
-                 "OpenCV cannot read the face cascades: reinstall the package opencv-data"}
-        .at(folder);
+  if (!cascade.read(file.getFirstTopLevelNode())) return unreadable(folder);
   return {};
 }
 
@@ -38,23 +43,21 @@ bool same_face(const FaceHit& a, const FaceHit& b) {
 }  // namespace
 
 struct FaceWatch::Cascades {
-  FaceWatchOptions options;
   cv::CascadeClassifier frontal, profile;
 
   void look(cv::CascadeClassifier& cascade, const cv::Mat& grey, double scale, bool mirrored,
             FaceHits& hits) {
-    const int least = std::max(20, int(options.smallest_face * grey.rows));
+    const int least = std::max(20, int(kSmallestFace * grey.rows));
     std::vector<cv::Rect> boxes;
     std::vector<int> votes;
-    cascade.detectMultiScale(grey, boxes, votes, 1.12, options.least_votes - 1, 0, {least, least});
+    cascade.detectMultiScale(grey, boxes, votes, 1.12, kLeastVotes - 1, 0, {least, least});
     for (std::size_t i = 0; i < boxes.size(); ++i) {
       const cv::Rect& box = boxes[i];
       double x = box.x + (box.width - 1) / 2.0;
       if (mirrored) x = grey.cols - 1 - x;
       add({{(x + 0.5) * scale - 0.5, (box.y + (box.height - 1) / 2.0 + 0.5) * scale - 0.5},
            box.width * scale,
-           votes[i],
-           &cascade == &frontal},
+           votes[i]},
           hits);
     }
   }
@@ -87,33 +90,19 @@ struct FaceWatch::Cascades {
   }
 };
 
-Result<void> FaceWatchOptions::check() const {
-  if (search_height_px < 60 || search_height_px > 2000)
-    return Error{Errc::InvalidInput, "search_height_px must lie in 60 .. 2000"}.at("face-watch");
-  if (!(smallest_face > 0.02 && smallest_face < 1))
-    return Error{Errc::InvalidInput, "smallest_face must lie in 0.02 .. 1"}.at("face-watch");
-  if (least_votes < 1 || least_votes > 1000)
-    return Error{Errc::InvalidInput, "least_votes must lie in 1 .. 1000"}.at("face-watch");
-  return {};
-}
-
 FaceWatch::FaceWatch(std::unique_ptr<Cascades> cascades) : cascades_(std::move(cascades)) {}
 FaceWatch::FaceWatch(FaceWatch&&) noexcept = default;
 FaceWatch& FaceWatch::operator=(FaceWatch&&) noexcept = default;
 FaceWatch::~FaceWatch() = default;
 
-Result<FaceWatch> FaceWatch::open(const FaceWatchOptions& options) {
-  RELIEVO_TRY(options.check());
+Result<FaceWatch> FaceWatch::open(const std::string& cascade_dir) {
   try {
     auto cascades = std::make_unique<Cascades>();
-    cascades->options = options;
-    RELIEVO_TRY(read(options.cascade_dir, FaceCascade::Alt2, cascades->frontal));
-    RELIEVO_TRY(read(options.cascade_dir, FaceCascade::Profile, cascades->profile));
+    RELIEVO_TRY(read(cascade_dir, FaceCascade::Alt2, cascades->frontal));
+    RELIEVO_TRY(read(cascade_dir, FaceCascade::Profile, cascades->profile));
     return FaceWatch(std::move(cascades));
   } catch (const cv::Exception&) {
-    return Error{Errc::LibraryFailed,
-                 "OpenCV cannot read the face cascades: reinstall the package opencv-data"}
-        .at(options.cascade_dir);
+    return unreadable(cascade_dir);
   }
 }
 
@@ -123,7 +112,7 @@ Result<FaceHits> FaceWatch::look(const Relief& relief) {
   try {
     const cv::Mat picture(relief.height_px, relief.width_px, CV_8UC1,
                           const_cast<std::uint8_t*>(relief.grey.data()));
-    const double scale = std::max(1.0, double(relief.height_px) / cascades_->options.search_height_px);
+    const double scale = std::max(1.0, double(relief.height_px) / kSearchHeightPx);
     cv::Mat grey;
     cv::resize(picture, grey,
                {int(std::lround(relief.width_px / scale)), int(std::lround(relief.height_px / scale))}, 0, 0,

@@ -22,14 +22,29 @@ constexpr double kUprightDeg =
 // Of a turned head's own plane a fifth of the images falls where nothing is known, of one that sends the face
 // away most.
 constexpr double kMostUnknown = 0.35, kPriceOfUnknown = 100;
-constexpr double kMostOffsetMm = 15;  // of a head's mirror plane from the tip of its nose
+constexpr double kAsymmetryLimitMm = 12;  // of a point and its mirror image
+constexpr double kMostOffsetMm = 15;      // of a head's mirror plane from the tip of its nose
+
+// The plane in which the points of a relief mirror themselves best, looked for near an upright one through
+// the tip of the nose.
+struct MirrorPlane {
+  double yaw_deg = 0, roll_deg = 0, offset_mm = 0;  // as HeadMeasurement; along the normal, from the tip
+  double rms_mm = 0;  // of the points against the relief behind their mirror images
+  double price = 0;   // the same, more for a head that leans: of two planes the cheaper one is the head's
+};
+
+// To the picture's right.
+Vec3d normal_of(const MirrorPlane& plane, const HeadAxes& axes) {
+  const double yaw = plane.yaw_deg * kDegree, roll = plane.roll_deg * kDegree;
+  const Vec3d turned = along(times(axes.right, std::cos(yaw)), std::sin(yaw), axes.away);
+  return along(times(turned, std::cos(roll)), -std::sin(roll), axes.down);
+}
 
 struct Search {
   const Relief& relief;
   std::span<const Vec3d> points;
   const Vec3d& tip;
   const HeadAxes& axes;
-  double limit_mm;
   bool upright = true;  // whether leaning has a price
 
   // Mean squared distance, in depth, between the points' mirror images and the relief behind them. An image
@@ -47,9 +62,9 @@ struct Search {
       const Vec3d image = along(p, -2 * (dot(minus(p, tip), n) - plane.offset_mm), n);
       const Vec2d at = relief.pixel(image);
       const int x = Relief::nearest(at.x), y = Relief::nearest(at.y);
-      double off = limit_mm / 3;
+      double off = kAsymmetryLimitMm / 3;
       if (!relief.inside(x, y) || !relief.known(x, y)) ++unknown;
-      else off = std::min(limit_mm, std::abs(image.z - double(relief.depth_mm[relief.index(x, y)])));
+      else off = std::min(kAsymmetryLimitMm, std::abs(image.z - double(relief.depth_mm[relief.index(x, y)])));
       total += off * off;
       if (total > most) return least;
     }
@@ -80,25 +95,12 @@ MirrorPlane refine(const Search& search, MirrorPlane best, std::array<double, 3>
   return best;
 }
 
-}  // namespace
-
-HeadAxes axes_facing_the_rig(const Vec3d& at, double baseline_mm) {
-  HeadAxes axes;
-  axes.away = unit(Vec3d{at.x - baseline_mm / 2, at.y, at.z});
-  axes.right = unit(along({1, 0, 0}, -axes.away.x, axes.away));
-  axes.down = cross(axes.away, axes.right);
-  return axes;
-}
-
-Vec3d normal_of(const MirrorPlane& plane, const HeadAxes& axes) {
-  const double yaw = plane.yaw_deg * kDegree, roll = plane.roll_deg * kDegree;
-  const Vec3d turned = along(times(axes.right, std::cos(yaw)), std::sin(yaw), axes.away);
-  return along(times(turned, std::cos(roll)), -std::sin(roll), axes.down);
-}
-
+// The best of three ranges of yaw: turned to the picture's left, straight, to its right. A cheek alone
+// mirrors itself about its own middle as well as a whole face does: which of the three is the head's, the
+// nose must tell.
 std::array<MirrorPlane, 3> find_mirror_planes(const Relief& relief, std::span<const Vec3d> points,
-                                              const Vec3d& tip, const HeadAxes& axes, double limit_mm) {
-  const Search search{relief, points, tip, axes, limit_mm};
+                                              const Vec3d& tip, const HeadAxes& axes) {
+  const Search search{relief, points, tip, axes};
   const std::size_t every = std::max<std::size_t>(1, points.size() / 150);
   std::array<MirrorPlane, 3> best;
   std::array<double, 3> least{1e300, 1e300, 1e300};
@@ -113,7 +115,7 @@ std::array<MirrorPlane, 3> find_mirror_planes(const Relief& relief, std::span<co
         best[range] = tried;
       }
   }
-  const Search unbiased{relief, points, tip, axes, limit_mm, false};
+  const Search unbiased{relief, points, tip, axes, false};
   for (MirrorPlane& plane : best) {
     plane = refine(search, plane, {4, 5, 3});
     plane = refine(unbiased, plane, {1, 1.5, 0.75});
@@ -123,9 +125,6 @@ std::array<MirrorPlane, 3> find_mirror_planes(const Relief& relief, std::span<co
   return best;
 }
 
-namespace {
-
-constexpr double kRadians = std::numbers::pi / 180;
 constexpr double kReachMm = 78;  // of the tip of the nose: brows and chin, little hair
 constexpr std::size_t kLeastHeadPoints = 60;
 constexpr double kNoseReachMm = 27;    // left out where the slope of the face is measured
@@ -228,7 +227,7 @@ void take_axes(const MirrorPlane& plane, const HeadAxes& axes, HeadMeasurement& 
 // What follows from the tip and the axes. False where no face can be fitted.
 bool fit_face(std::span<const Vec3d> points, HeadMeasurement& head, FaceForm& form) {
   form = fit_form(points, head);
-  head.pitch_deg = std::atan(form.slope) / kRadians - kMeanSlopeDeg;
+  head.pitch_deg = std::atan(form.slope) / kDegree - kMeanSlopeDeg;
   head.relief_mm = nose_height(points, head);
   return form.known;
 }
@@ -240,7 +239,7 @@ bool measure_about(const Relief& relief, StageContext& context, HeadMeasurement&
   const HeadAxes axes = axes_facing_the_rig(head.tip_mm, relief.baseline_mm);
   HeadMeasurement best;
   double least = 0;
-  for (const MirrorPlane& plane : find_mirror_planes(relief, points, head.tip_mm, axes, kAsymmetryLimitMm)) {
+  for (const MirrorPlane& plane : find_mirror_planes(relief, points, head.tip_mm, axes)) {
     HeadMeasurement tried = head;
     take_axes(plane, axes, tried);
     tried.yaw_deg = plane.yaw_deg;
@@ -275,6 +274,14 @@ void settle_tip(const Relief& relief, const HeadHint& hint, StageContext& contex
 }
 
 }  // namespace
+
+HeadAxes axes_facing_the_rig(const Vec3d& at, double baseline_mm) {
+  HeadAxes axes;
+  axes.away = unit(Vec3d{at.x - baseline_mm / 2, at.y, at.z});
+  axes.right = unit(along({1, 0, 0}, -axes.away.x, axes.away));
+  axes.down = cross(axes.away, axes.right);
+  return axes;
+}
 
 HeadMeasurement measure_head(const Relief& relief, const HeadHint& hint, StageContext& context) {
   HeadMeasurement head;

@@ -22,42 +22,23 @@
 
 namespace relievo::pipeline {
 
-// The plane in which the points of a relief mirror themselves best, looked for near an upright one through
-// `tip`. Thread: any; deterministic. Errors: none.
-
 // Right, down and away of a head that faces the middle between the cameras from where it is.
 struct HeadAxes {
   Vec3d right, down, away;
 };
 HeadAxes axes_facing_the_rig(const Vec3d& at, double baseline_mm);
 
-struct MirrorPlane {
-  double yaw_deg = 0, roll_deg = 0,
-         offset_mm = 0;  // signs: head_measurement.h; offset along the normal, from the tip
-  double rms_mm = 0;     // of the points against the relief behind their mirror images
-  double price = 0;      // the same, more for a head that leans: of two planes the cheaper one is the head's
-};
-Vec3d normal_of(const MirrorPlane& plane, const HeadAxes& axes);  // to the picture's right
-
-// The best of three ranges of yaw: turned to the picture's left, straight, to its right. A cheek alone
-// mirrors itself about its own middle as well as a whole face does: which of the three is the head's, the
-// nose must tell. `points` within about 80 mm of the tip, 60 or more.
-std::array<MirrorPlane, 3> find_mirror_planes(const Relief& relief, std::span<const Vec3d> points,
-                                              const Vec3d& tip, const HeadAxes& axes, double limit_mm);
-
 struct HeadMeasurement {
   bool known = false;
   Vec3d tip_mm;  // of the nose
   double yaw_deg = 0, pitch_deg = 0, roll_deg = 0;
-  double asymmetry_mm = 0;  // rms between the face and its mirror image, limited to kAsymmetryLimitMm a point
-  double relief_mm = 0;     // how far the nose stands out before the cheeks: what a flat picture has not
+  double asymmetry_mm = 0;    // rms between the face and its mirror image, limited to 12 mm a point
+  double relief_mm = 0;       // how far the nose stands out before the cheeks: what a flat picture has not
   double in_front_share = 0;  // of the face: hidden by something nearer than it should be
   double unknown_share = 0;   // of the face: no depth
   Vec3d right, down,
       away;  // the head's axes in the relief's frame, unit: the picture's right, down, into the head
 };
-
-inline constexpr double kAsymmetryLimitMm = 12;
 
 struct HeadHint {
   Vec2d centre_px;      // of the face, between eyes and mouth

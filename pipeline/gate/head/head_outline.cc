@@ -82,58 +82,6 @@ HeadHint head_in(const Relief& relief, const Rows& rows, double reach_mm, bool c
   return {{sum / seen, 0.5 * (face.from + face.to)}, kFaceWidthMm * per_mm};
 }
 
-}  // namespace
-
-// The middle of all that is near says on which side somebody stands; its upper end whether they are too low,
-// the neck whether they are too high. That it reaches the upper edge says nothing: most heads do.
-Somebody find_somebody(const Relief& relief, double farthest_mm) {
-  constexpr double kReach = 1.2, kLeastShare = 0.03, kClearly = 0.12, kNeckOfHead = 0.72, kHighNeck = 0.6,
-                   kUsualNeck = 0.85;
-  const int w = relief.width_px, h = relief.height_px;
-  double count = 0, right = 0;
-  int top = h, neck = h, widest = 0;
-  for (int y = 0; y < h; ++y) {
-    int in_row = 0;
-    for (int x = 0; x < w; ++x) {
-      if (!relief.known(x, y) || double(relief.depth_mm[relief.index(x, y)]) > kReach * farthest_mm) continue;
-      ++in_row;
-      right += x;
-    }
-    count += in_row;
-    if (top == h && in_row > w / 12) top = y;
-    widest = std::max(widest, in_row);
-    if (neck == h && widest > w / 6 && in_row < kNeckOfHead * widest) neck = y;
-  }
-  Somebody somebody;
-  if (count < kLeastShare * w * h) return somebody;
-  const double off = right / count / w - 0.5, low = double(top) / h - 0.5;
-  if (std::abs(off) > kClearly) somebody.right = off;
-  if (low > 0) somebody.down = low + kClearly;
-  else if (neck < kHighNeck * h) somebody.down = double(neck) / h - kUsualNeck;
-  somebody.head = head_in(relief, {top, neck}, kReach * farthest_mm, top > 2);
-  return somebody;
-}
-
-double outline_yaw_deg(const Relief& relief, const Vec3d& tip_mm) {
-  const Vec2d above = relief.pixel({tip_mm.x, tip_mm.y - kBrowsMm, tip_mm.z}),
-              below = relief.pixel({tip_mm.x, tip_mm.y + kMouthMm, tip_mm.z});
-  double sum = 0;
-  int count = 0;
-  for (int y = std::max(0, int(above.y)); y <= std::min(relief.height_px - 1, int(below.y)); ++y)
-    for (int x = 0; x < relief.width_px; ++x) {
-      if (!relief.known(x, y)) continue;
-      const Vec3d p = relief.point(x, y);
-      if (p.z < tip_mm.z - kBeforeMm || p.z > tip_mm.z + kBehindMm || std::abs(p.x - tip_mm.x) > kAsideMm)
-        continue;
-      sum += p.x, ++count;
-    }
-  if (count == 0) return 0;
-  const double sine = std::clamp((tip_mm.x - sum / count) / kNoseBeforeAxisMm, -0.9, 0.9);
-  return std::asin(sine) * 180 / std::numbers::pi;
-}
-
-namespace {
-
 // The face about the hint's middle, in widths of the hint (150 mm).
 constexpr double kHalfWidth = 0.42, kUp = 0.55, kDown = 0.5;
 constexpr double kGap = 0.3;  // beside something near, one of the cameras does not see what is behind
@@ -252,6 +200,54 @@ std::array<bool, kOwnSurfaces> own_surfaces(const Relief& relief, const Vec3d& t
 }
 
 }  // namespace
+
+// The middle of all that is near says on which side somebody stands; its upper end whether they are too low,
+// the neck whether they are too high. That it reaches the upper edge says nothing: most heads do.
+Somebody find_somebody(const Relief& relief, double farthest_mm) {
+  constexpr double kReach = 1.2, kLeastShare = 0.03, kClearly = 0.12, kNeckOfHead = 0.72, kHighNeck = 0.6,
+                   kUsualNeck = 0.85;
+  const int w = relief.width_px, h = relief.height_px;
+  double count = 0, right = 0;
+  int top = h, neck = h, widest = 0;
+  for (int y = 0; y < h; ++y) {
+    int in_row = 0;
+    for (int x = 0; x < w; ++x) {
+      if (!relief.known(x, y) || double(relief.depth_mm[relief.index(x, y)]) > kReach * farthest_mm) continue;
+      ++in_row;
+      right += x;
+    }
+    count += in_row;
+    if (top == h && in_row > w / 12) top = y;
+    widest = std::max(widest, in_row);
+    if (neck == h && widest > w / 6 && in_row < kNeckOfHead * widest) neck = y;
+  }
+  Somebody somebody;
+  if (count < kLeastShare * w * h) return somebody;
+  const double off = right / count / w - 0.5, low = double(top) / h - 0.5;
+  if (std::abs(off) > kClearly) somebody.right = off;
+  if (low > 0) somebody.down = low + kClearly;
+  else if (neck < kHighNeck * h) somebody.down = double(neck) / h - kUsualNeck;
+  somebody.head = head_in(relief, {top, neck}, kReach * farthest_mm, top > 2);
+  return somebody;
+}
+
+double outline_yaw_deg(const Relief& relief, const Vec3d& tip_mm) {
+  const Vec2d above = relief.pixel({tip_mm.x, tip_mm.y - kBrowsMm, tip_mm.z}),
+              below = relief.pixel({tip_mm.x, tip_mm.y + kMouthMm, tip_mm.z});
+  double sum = 0;
+  int count = 0;
+  for (int y = std::max(0, int(above.y)); y <= std::min(relief.height_px - 1, int(below.y)); ++y)
+    for (int x = 0; x < relief.width_px; ++x) {
+      if (!relief.known(x, y)) continue;
+      const Vec3d p = relief.point(x, y);
+      if (p.z < tip_mm.z - kBeforeMm || p.z > tip_mm.z + kBehindMm || std::abs(p.x - tip_mm.x) > kAsideMm)
+        continue;
+      sum += p.x, ++count;
+    }
+  if (count == 0) return 0;
+  const double sine = std::clamp((tip_mm.x - sum / count) / kNoseBeforeAxisMm, -0.9, 0.9);
+  return std::asin(sine) * 180 / std::numbers::pi;
+}
 
 double covered_share(const Relief& relief, const HeadHint& hint) {
   if (!(hint.width_px > 4) || !std::isfinite(hint.centre_px.x + hint.centre_px.y + hint.width_px)) return 0;

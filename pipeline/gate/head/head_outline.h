@@ -23,15 +23,8 @@ Somebody find_somebody(const Relief& relief, double farthest_mm);
 // the same sign. Signs: HeadMeasurement. 0: no outline.
 double outline_yaw_deg(const Relief& relief, const Vec3d& tip_mm);
 
-// Something beside the head at the depth of the face: somebody else's head that no cascade knows for a face,
-// a hand, a bag. What is matched and measured there would be taken for a part of this person. What lies
-// behind the head, however cluttered, is cut away by its depth and does no harm; of it nothing is said.
-// Frame: that of the relief, millimetres. Memory: none. Thread: any. Errors: none.
-
-// Something before a face: a hand, a sheet, hair that hangs down. Asked of the relief before the head itself
-// is measured, since of a covered face neither tip nor pose can be told. In the frame of the small picture,
-// pixels. Memory: none. Thread: any. Errors: none.
-
+// Something before a face: a hand, a sheet, hair that hangs down. Asked before the head itself is measured,
+// since of a covered face neither tip nor pose can be told.
 // Share of the face about the hint that lies on surfaces which stand before another surface of it: they meet
 // along kLeastMeetingMm or more, and the nearer is nearer by kStepMm or more all along. The face before its
 // own neck, ear or the room is not meant.
@@ -39,6 +32,9 @@ double covered_share(const Relief& relief, const HeadHint& hint);
 
 inline constexpr double kStepMm = 15, kLeastMeetingMm = 25;
 
+// Something beside the head at the depth of the face: somebody else's head that no cascade knows for a face,
+// a hand, a bag. What is matched and measured there would be taken for a part of this person. What lies
+// behind the head, however cluttered, is cut away by its depth and does no harm.
 // Of two fields beside the head, level with the face, kBesideInnerMm to kBesideOuterMm aside from the tip of
 // the nose, the share of the fuller one that something stands in, from kBesideBeforeMm before the tip to
 // kBesideBehindMm behind it. Surfaces that reach into the head are its own (hair, a hat, its back when it is

@@ -9,7 +9,9 @@
 #include <vector>
 
 #include "hal/base/statistics.h"
+#include "pipeline/match/image/plane.h"
 #include "pipeline/match/rectify/rectifier.h"
+#include "pipeline/model/vector3.h"
 
 namespace relievo::pipeline {
 namespace {
@@ -55,42 +57,6 @@ int median_of(const Histogram& counts, int all) {
   return 255;
 }
 
-}  // namespace
-
-FaceLight measure_light(const Relief& relief, const HeadMeasurement& head) {
-  FaceLight light;
-  if (!head.known) return light;
-  Histogram counts{};
-  int all = 0;
-  const double step = std::max(1.0, head.tip_mm.z / relief.focal_px);
-  for (double down = -kUpMm; down <= kDownMm; down += step)
-    for (double right = -kHalfWidthMm; right <= kHalfWidthMm; right += step) {
-      const double v = down < 0 ? down / kUpMm : down / kDownMm, u = right / kHalfWidthMm;
-      if (u * u + v * v > 1) continue;
-      const FacePlace at = place_on(relief, head, right, down);
-      if (!at.inside || !relief.known(at.x, at.y)) continue;
-      ++counts[relief.grey[relief.index(at.x, at.y)]];
-      ++all;
-    }
-  if (all < 200) return light;
-  light.known = true;
-  const int gloss = median_of(counts, all) + kGlossStep;
-  for (int i = 0; i < 256; ++i) {
-    const double share = double(counts[std::size_t(i)]) / all;
-    light.luminance_mean += share * i / 255.0;
-    if (i <= 25) light.dark_share += share;
-    if (i >= 247) light.bright_share += share;
-    if (i >= gloss) light.glossy_share += share;
-  }
-  const double a = mean_of(zone(relief, head, -1)), b = mean_of(zone(relief, head, 1));
-  const double lit = b * turned_share(head.yaw_deg),
-               other = a * turned_share(-head.yaw_deg);  // as on a head that is not turned
-  light.side_ratio = std::max(lit, other) > 0 ? std::min(lit, other) / std::max(lit, other) : 0;
-  return light;
-}
-
-namespace {
-
 constexpr double kHalfMm = 36;    // half the side of the window
 constexpr double kGridMm = 0.38;  // finer pictures are made coarser: smaller blurs are of no account
 constexpr double kLittleMm = 0.7, kMuchMm = 1.4;  // the two blurs that are compared
@@ -102,11 +68,10 @@ constexpr double kSharpest = 0.75;  // which part of the edges speaks: others ar
 // What central differences and the square cell blur by themselves, pixels squared.
 constexpr double kOwnBlur = 1.0 / 3 + 1.0 / 12;
 
-struct Grid {
-  int width = 0, height = 0;
+struct Grid : Plane<float> {
+  using Plane::Plane;
   double pixel_mm = 0;
-  std::pmr::vector<float> values;
-  float at(int x, int y) const { return values[std::size_t(y) * std::size_t(width) + std::size_t(x)]; }
+  float at(int x, int y) const { return row(y)[x]; }
 };
 
 int luminance(const ImageView& image, int x, int y) {
@@ -127,15 +92,14 @@ Grid window(const ImageView& image, const CameraIntrinsics& camera, const Vec3d&
   const int half = int(kHalfMm * pixels_a_mm);
   const int x0 = std::max(0, int(middle.x) - half), x1 = std::min(image.width_px, int(middle.x) + half);
   const int y0 = std::max(0, int(middle.y) - half), y1 = std::min(image.height_px, int(middle.y) + half);
-  Grid grid{std::max(0, (x1 - x0) / k), std::max(0, (y1 - y0) / k), k / pixels_a_mm,
-            std::pmr::vector<float>(&context.scratch)};
-  grid.values.resize(std::size_t(grid.width) * std::size_t(grid.height));
+  Grid grid(&context.scratch, std::max(0, (x1 - x0) / k), std::max(0, (y1 - y0) / k));
+  grid.pixel_mm = k / pixels_a_mm;
   for (int y = 0; y < grid.height; ++y)
     for (int x = 0; x < grid.width; ++x) {
       int sum = 0;
       for (int j = 0; j < k; ++j)
         for (int i = 0; i < k; ++i) sum += luminance(image, x0 + x * k + i, y0 + y * k + j);
-      grid.values[std::size_t(y) * std::size_t(grid.width) + std::size_t(x)] = float(sum) / float(k * k);
+      grid.row(y)[x] = float(sum) / float(k * k);
     }
   return grid;
 }
@@ -151,25 +115,21 @@ Grid blurred(const Grid& from, double deviation_px, StageContext& context) {
   for (int i = -reach; i <= reach; ++i)
     total += weight[std::size_t(i + reach)] = float(std::exp(-0.5 * i * i / (deviation_px * deviation_px)));
   for (float& w : weight) w /= total;
-  Grid across{from.width, from.height, from.pixel_mm,
-              std::pmr::vector<float>(from.values.size(), 0.0F, &context.scratch)};
-  Grid to{from.width, from.height, from.pixel_mm,
-          std::pmr::vector<float>(from.values.size(), 0.0F, &context.scratch)};
+  Grid across(&context.scratch, from.width, from.height), to(&context.scratch, from.width, from.height);
   const auto width = std::size_t(from.width), beside = std::size_t(reach);
   std::pmr::vector<float> wide(width + 2 * beside, 0.0F, &context.scratch);  // a row, its ends repeated
-  for (std::size_t row = 0; row < from.values.size(); row += width) {
-    const float* values = from.values.data() + row;
+  for (int y = 0; y < from.height; ++y) {
+    const float* values = from.row(y);
     std::fill_n(wide.begin(), beside, values[0]);
     std::copy_n(values, width, wide.data() + beside);
     std::fill_n(wide.data() + beside + width, beside, values[width - 1]);
     for (std::size_t k = 0; k < weight.size(); ++k)
-      add_weighted(weight[k], wide.data() + k, width, across.values.data() + row);
+      add_weighted(weight[k], wide.data() + k, width, across.row(y));
   }
   for (int y = 0; y < from.height; ++y)
     for (int k = -reach; k <= reach; ++k) {
-      const auto other = std::size_t(std::clamp(y + k, 0, from.height - 1));
-      add_weighted(weight[std::size_t(k + reach)], across.values.data() + other * width, width,
-                   to.values.data() + std::size_t(y) * width);
+      const float* other = across.row(std::clamp(y + k, 0, from.height - 1));
+      add_weighted(weight[std::size_t(k + reach)], other, width, to.row(y));
     }
   return to;
 }
@@ -248,13 +208,43 @@ double blur_of(const Grid& grid, StageContext& context) {
 
 }  // namespace
 
+FaceLight measure_light(const Relief& relief, const HeadMeasurement& head) {
+  FaceLight light;
+  if (!head.known) return light;
+  Histogram counts{};
+  int all = 0;
+  const double step = std::max(1.0, head.tip_mm.z / relief.focal_px);
+  for (double down = -kUpMm; down <= kDownMm; down += step)
+    for (double right = -kHalfWidthMm; right <= kHalfWidthMm; right += step) {
+      const double v = down < 0 ? down / kUpMm : down / kDownMm, u = right / kHalfWidthMm;
+      if (u * u + v * v > 1) continue;
+      const FacePlace at = place_on(relief, head, right, down);
+      if (!at.inside || !relief.known(at.x, at.y)) continue;
+      ++counts[relief.grey[relief.index(at.x, at.y)]];
+      ++all;
+    }
+  if (all < 200) return light;
+  light.known = true;
+  const int gloss = median_of(counts, all) + kGlossStep;
+  for (int i = 0; i < 256; ++i) {
+    const double share = double(counts[std::size_t(i)]) / all;
+    light.luminance_mean += share * i / 255.0;
+    if (i <= 25) light.dark_share += share;
+    if (i >= 247) light.bright_share += share;
+    if (i >= gloss) light.glossy_share += share;
+  }
+  const double a = mean_of(zone(relief, head, -1)), b = mean_of(zone(relief, head, 1));
+  const double lit = b * turned_share(head.yaw_deg),
+               other = a * turned_share(-head.yaw_deg);  // as on a head that is not turned
+  light.side_ratio = std::max(lit, other) > 0 ? std::min(lit, other) / std::max(lit, other) : 0;
+  return light;
+}
+
 double measure_blur_mm(const StereoFrame& frame, const StereoCalibration& calibration, const Relief& relief,
                        const HeadMeasurement& head, StageContext& context) {
   if (!head.known || frame.left.empty() || frame.right.empty()) return 0;
   Arena::Mark mark(context.scratch);
-  // The middle between nose and eyes.
-  const Vec3d p{head.tip_mm.x - 18 * head.down.x, head.tip_mm.y - 18 * head.down.y,
-                head.tip_mm.z - 18 * head.down.z};
+  const Vec3d p = along(head.tip_mm, -18, head.down);  // the middle between nose and eyes
   const Vec3d in_left = apply(transposed(relief.rectified_from_left), p),
               in_right = apply(calibration.right_from_left, in_left);
   const double left = blur_of(window(frame.left, calibration.left, in_left, context), context);

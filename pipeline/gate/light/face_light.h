@@ -29,8 +29,7 @@ FaceLight measure_light(const Relief& relief, const HeadMeasurement& head);
 // How blurred a face is, in millimetres on the face, whoever's it is: from how much its edges lose when they
 // are blurred once more by a known width (after Zhuo and Sim, Defocus map estimation from a single image,
 // Pattern Recognition 44, 2011). Contrast cancels out; what noise adds is measured on the flattest part of
-// the face and taken off. Memory: scratch. Thread: any; deterministic. Errors: none.
-
+// the face and taken off. Memory: scratch; deterministic.
 // Deviation of the bell that blurs the sharpest edges between brows and mouth, the more blurred direction of
 // the more blurred camera, in the pictures at full size: lens, focus, fog, motion, and the pixels themselves.
 // At most kMostBlurMm, which is also said where no edge is left.

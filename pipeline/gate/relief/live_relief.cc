@@ -9,20 +9,11 @@
 
 #include "hal/base/simd.h"
 #include "pipeline/base/parts.h"
+#include "pipeline/match/coarse/semi_global.h"
 #include "pipeline/match/coarse/size_ladder.h"
 #include "pipeline/match/rectify/rectifier.h"
 
 namespace relievo::pipeline {
-
-void draw_relief(const Relief& relief, double near_mm, double far_mm, std::uint8_t* grey) {
-  const double scale = 215 / (1 / near_mm - 1 / far_mm);
-  for (std::size_t i = 0; i < relief.depth_mm.size(); ++i) {
-    const double z = double(relief.depth_mm[i]);
-    grey[i] = z > 0 ? std::uint8_t(std::lround(std::clamp(40 + scale * (1 / z - 1 / far_mm), 20.0, 255.0)))
-                    : std::uint8_t{0};
-  }
-}
-
 namespace {
 
 constexpr int kBands = 8;
@@ -58,43 +49,12 @@ CameraIntrinsics reduced(CameraIntrinsics camera, int factor) {
   return camera;
 }
 
-}  // namespace
-
-ImageView reduced(const ImageView& image, int factor, StageContext& context) {
-  if (factor == 1) return image;
-  const int channels = image.format == PixelFormat::Rgb8 ? 3 : 1;
-  ImageView small{nullptr, image.width_px / factor, image.height_px / factor, 0, image.format};
-  small.stride_bytes = small.width_px * bytes_per_pixel(image.format);
-  const auto bytes = std::size_t(small.stride_bytes) * std::size_t(small.height_px);
-  auto* to = static_cast<std::byte*>(
-      context.scratch.allocate(std::max<std::size_t>(bytes, 1), alignof(std::uint32_t)));
-  const auto row_sums = std::size_t(image.width_px * channels);
-  std::pmr::vector<std::uint32_t> sums(kBands * row_sums, 0, &context.scratch);
-  context.pool.for_each_band(small.height_px, kBands, [&](int begin, int end, int band) {
-    std::uint32_t* own = sums.data() + std::size_t(band) * row_sums;
-    for (int y = begin; y < end; ++y) {
-      std::byte* row = to + std::ptrdiff_t(y) * small.stride_bytes;
-      if (image.format == PixelFormat::Grey16)
-        reduce_row(image, y, factor, channels, own, reinterpret_cast<std::uint16_t*>(row));
-      else reduce_row(image, y, factor, channels, own, reinterpret_cast<std::uint8_t*>(row));
-    }
-  });
-  small.bytes = to;
-  return small;
-}
-
-StereoCalibration reduced(const StereoCalibration& calibration, int factor) {
-  StereoCalibration small = calibration;
-  small.left = reduced(calibration.left, factor);
-  small.right = reduced(calibration.right, factor);
-  return small;
-}
-
-namespace {
-
 // The pair is a quarter of the size already: two halvings of it are a sixteenth.
 constexpr int kLevels = 3;
 constexpr int kBand = 12;
+constexpr float kCrossCheckPx = 1.5F;  // how far the views may disagree, pixels of each size
+constexpr float kStepPx = 1.5F;    // neighbours whose disparities differ by more are of different surfaces
+constexpr double kSpeckMm2 = 400;  // connected surfaces smaller than this are not believed
 
 void fill_depth(const RectifiedPair& pair, const Plane<float>& disparity, Relief& relief) {
   relief.width_px = pair.width_px;
@@ -138,15 +98,51 @@ int name_by_size(std::pmr::vector<Found>& found, double speck_mm2, StageContext&
 
 }  // namespace
 
+void draw_relief(const Relief& relief, double near_mm, double far_mm, std::uint8_t* grey) {
+  const double scale = 215 / (1 / near_mm - 1 / far_mm);
+  for (std::size_t i = 0; i < relief.depth_mm.size(); ++i) {
+    const double z = double(relief.depth_mm[i]);
+    grey[i] = z > 0 ? std::uint8_t(std::lround(std::clamp(40 + scale * (1 / z - 1 / far_mm), 20.0, 255.0)))
+                    : std::uint8_t{0};
+  }
+}
+
+ImageView reduced(const ImageView& image, int factor, StageContext& context) {
+  if (factor == 1) return image;
+  const int channels = image.format == PixelFormat::Rgb8 ? 3 : 1;
+  ImageView small{nullptr, image.width_px / factor, image.height_px / factor, 0, image.format};
+  small.stride_bytes = small.width_px * bytes_per_pixel(image.format);
+  const auto bytes = std::size_t(small.stride_bytes) * std::size_t(small.height_px);
+  auto* to = static_cast<std::byte*>(
+      context.scratch.allocate(std::max<std::size_t>(bytes, 1), alignof(std::uint32_t)));
+  const auto row_sums = std::size_t(image.width_px * channels);
+  std::pmr::vector<std::uint32_t> sums(kBands * row_sums, 0, &context.scratch);
+  context.pool.for_each_band(small.height_px, kBands, [&](int begin, int end, int band) {
+    std::uint32_t* own = sums.data() + std::size_t(band) * row_sums;
+    for (int y = begin; y < end; ++y) {
+      std::byte* row = to + std::ptrdiff_t(y) * small.stride_bytes;
+      if (image.format == PixelFormat::Grey16)
+        reduce_row(image, y, factor, channels, own, reinterpret_cast<std::uint16_t*>(row));
+      else reduce_row(image, y, factor, channels, own, reinterpret_cast<std::uint8_t*>(row));
+    }
+  });
+  small.bytes = to;
+  return small;
+}
+
+StereoCalibration reduced(const StereoCalibration& calibration, int factor) {
+  StereoCalibration small = calibration;
+  small.left = reduced(calibration.left, factor);
+  small.right = reduced(calibration.right, factor);
+  return small;
+}
+
 Result<void> LiveReliefOptions::check() const {
   if (reduction < 1 || reduction > 16)
     return Error{Errc::InvalidInput, "reduction must lie in 1 .. 16"}.at("live-relief");
   if (!(near_mm > 50 && far_mm > near_mm + 10 && far_mm < 1e5))
     return Error{Errc::InvalidInput,
                  "the volume must begin beyond 50 mm and be 10 mm deep or more: near_mm < far_mm"}
-        .at("live-relief");
-  if (!(cross_check_px > 0 && step_px > 0) || !(speck_mm2 >= 0))
-    return Error{Errc::InvalidInput, "cross_check_px and step_px must be positive, speck_mm2 not negative"}
         .at("live-relief");
   return {};
 }
@@ -203,11 +199,11 @@ Result<Relief> LiveRelief::look(const StereoFrame& frame, const StereoCalibratio
                      Rectifier(volume).rectify(small, reduced(calibration, options_.reduction), inner));
   const Pyramids pyramids = build_pyramids(pair, kLevels, inner);
   Plane<float> disparity(&context.scratch, pair.width_px, pair.height_px, kNoDisparity);
-  RELIEVO_TRY(match_down(whole_range(pair), pyramids, {kLevels - 1, 0, kBand, options_.cross_check_px},
-                         options_.costs, inner, 1, disparity));
+  RELIEVO_TRY(match_down(whole_range(pair), pyramids, {kLevels - 1, 0, kBand, kCrossCheckPx},
+                         SemiGlobalCosts{}, inner, 1, disparity));
   Relief relief(&context.output);
   fill_depth(pair, disparity, relief);
-  label_surfaces(relief, options_.step_px, options_.speck_mm2, context);
+  label_surfaces(relief, kStepPx, kSpeckMm2, context);
   if (context.stop()) return Error{Errc::Cancelled, "stopped while looking for surfaces"};
   return relief;
 }

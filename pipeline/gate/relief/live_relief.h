@@ -16,7 +16,6 @@
 
 #include "hal/base/image_view.h"
 #include "pipeline/base/stage.h"
-#include "pipeline/match/coarse/semi_global.h"
 #include "pipeline/model/calibration.h"
 #include "pipeline/model/relief.h"
 #include "pipeline/model/stereo_frame.h"
@@ -24,30 +23,19 @@
 namespace relievo::pipeline {
 
 // The relief as grey values to look at: near is bright (255 at near_mm, 40 at far_mm, even steps of
-// disparity), 0 is unknown. Thread: any. Errors: none.
-
-// `grey`: width_px * height_px values, row by row without padding.
+// disparity), 0 is unknown. `grey`: width_px * height_px values, row by row without padding.
 void draw_relief(const Relief& relief, double near_mm, double far_mm, std::uint8_t* grey);
 
 // A picture at a fraction of its size, each pixel the mean of a square of the larger's, and the calibration
-// that belongs to it. Memory: context.scratch. Thread: worker. Errors: none; throws std::bad_alloc as every
-// stage does.
-
-// The same format; what is left of a row or column that no whole square covers is dropped. factor 1 hands
-// `image` back.
+// that belongs to it: the same format; what is left of a row or column that no whole square covers is
+// dropped. factor 1 hands `image` back. Memory: context.scratch. Throws std::bad_alloc as every stage does.
 ImageView reduced(const ImageView& image, int factor, StageContext& context);
-
-// Of pictures made smaller by reduced().
 StereoCalibration reduced(const StereoCalibration& calibration, int factor);
 
 struct LiveReliefOptions {
   int reduction = 4;     // the pictures are made smaller so often; 1: they are small already
   double near_mm = 280;  // the volume that is looked at
   double far_mm = 1100;
-  SemiGlobalCosts costs;
-  float cross_check_px = 1.5F;  // how far the views may disagree, pixels of each size
-  float step_px = 1.5F;         // neighbours whose disparities differ by more belong to different surfaces
-  double speck_mm2 = 400;       // connected surfaces smaller than this are not believed
   Result<void> check() const;
 };
 

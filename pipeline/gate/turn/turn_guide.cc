@@ -50,7 +50,6 @@ std::optional<Vec3d> normal_at(const Relief& relief, int x, int y) {
 
 struct Laid {
   std::size_t seen = 0, met = 0, used = 0;  // seen: where the relief is known
-  double squares = 0;
   Matrix6 normal = Matrix6::Zero();
   Vector6 right = Vector6::Zero();
 };
@@ -64,11 +63,10 @@ Laid lay(const FrontFace& front, const Relief& relief, const RigidTransform& mot
     if (-dot(n, unit(at)) < kSeenCosine) continue;
     const Vec2d px = relief.pixel(at);
     const int x = Relief::nearest(px.x), y = Relief::nearest(px.y);
-    if (!relief.inside(x, y)) continue;
-    if (!relief.known(x, y)) continue;
+    if (!relief.inside(x, y) || !relief.known(x, y)) continue;
     ++laid.seen;
     const double off = dot(n, minus(relief.point(x, y), at));
-    if (std::abs(off) < kMetMm) ++laid.met, laid.squares += off * off;
+    if (std::abs(off) < kMetMm) ++laid.met;
     if (std::abs(off) > round.reach_mm) continue;
     const double s = round.scale_mm * round.scale_mm, w = s / (s + off * off);
     const Vec3d lever = cross(minus(at, pivot), n);
@@ -97,7 +95,6 @@ HeadTurn settle(const FrontFace& front, const Relief& relief, RigidTransform mot
   HeadTurn turn;
   turn.now_from_front = motion;
   turn.met_share = double(last.met) / double(std::max<std::size_t>(1, last.seen));
-  turn.rms_mm = std::sqrt(last.squares / double(std::max<std::size_t>(1, last.met)));
   turn.known = last.met >= kFewest && turn.met_share >= kMetShare;
   const auto in_head = [&](const Vec3d& axis) {
     const Vec3d now = apply(motion.rotation, axis);
@@ -195,33 +192,37 @@ double moved_mm(const FrontFace& front, const HeadTurn& from, const HeadTurn& to
 
 TurnAnswer guide_turn(const FrontFace& front, const HeadTurn& now, std::chrono::nanoseconds at,
                       double slow_mm_s, const TurnLimits& limits, TurnHistory& history) {
-  if (history.taken.all()) return {TurnAdvice::Done, {}};
+  const auto say = [&](TurnAdvice advice, std::optional<std::size_t> take = {}) {
+    history.advice = advice;
+    return TurnAnswer{advice, take};
+  };
+  if (history.taken.all()) return say(TurnAdvice::Done);
   const HeadTurn before = history.last;
   const double seconds = std::chrono::duration<double>(at - history.last_at).count();
   if (!now.known || !before.known || seconds >= kShortestS) history.last = now, history.last_at = at;
   if (!now.known) {
     history.slow = 0;
-    return {};
+    return say(TurnAdvice::Lost);
   }
   ask(now.yaw_deg, at, limits.reach_deg, history);
   const double off = kSidesDeg[*history.asked] - now.yaw_deg;
   const bool there = std::abs(off) <= limits.reach_deg;
   const bool level =
       std::abs(now.pitch_deg) <= limits.level_deg && std::abs(now.roll_deg) <= limits.level_deg;
-  if (before.known && seconds < kShortestS) return {there ? TurnAdvice::Hold : TurnAdvice::Lost, {}};
+  if (before.known && seconds < kShortestS) return say(history.advice);
   const bool slow = before.known && moved_mm(front, before, now) - kWanderMm <= slow_mm_s * seconds;
   history.slow = there && level && slow ? history.slow + 1 : 0;
-  if (!level) return {TurnAdvice::Level, {}};
+  if (!level) return say(TurnAdvice::Level);
   if (!there) {
     // Who is told only when they are there is past it before they have heard.
     const double coming_deg_s =
         before.known ? (now.yaw_deg - before.yaw_deg) / seconds * (off > 0 ? 1 : -1) : 0;
     const bool past_soon =
         coming_deg_s * kHeardAfterS > std::abs(off) - limits.reach_deg && coming_deg_s > kCalmDegS;
-    return {past_soon ? TurnAdvice::Slower : off > 0 ? TurnAdvice::ToRight : TurnAdvice::ToLeft, {}};
+    return say(past_soon ? TurnAdvice::Slower : off > 0 ? TurnAdvice::ToRight : TurnAdvice::ToLeft);
   }
-  if (history.slow >= kSlowPictures) return {TurnAdvice::Hold, history.asked};
-  return {slow || !before.known ? TurnAdvice::Hold : TurnAdvice::Slower, {}};
+  if (history.slow >= kSlowPictures) return say(TurnAdvice::Hold, history.asked);
+  return say(slow || !before.known ? TurnAdvice::Hold : TurnAdvice::Slower);
 }
 
 }  // namespace relievo::pipeline

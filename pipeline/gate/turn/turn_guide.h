@@ -46,7 +46,6 @@ struct HeadTurn {
   RigidTransform now_from_front;
   double yaw_deg = 0, pitch_deg = 0, roll_deg = 0;
   double met_share = 0;  // of the face's visible surface: lies on the live one
-  double rms_mm = 0;     // of that
 };
 HeadTurn follow_head(const FrontFace& front, const Relief& relief, const HeadTurn& before);
 
@@ -62,9 +61,10 @@ struct TurnLimits {
 struct TurnHistory {
   HeadTurn last;
   std::chrono::nanoseconds last_at{};
-  int slow = 0;                      // pictures in a row
-  std::optional<std::size_t> asked;  // the side that is led to
-  double nearest_deg = 0;            // to it, so far
+  TurnAdvice advice = TurnAdvice::Lost;  // the last one
+  int slow = 0;                          // pictures in a row
+  std::optional<std::size_t> asked;      // the side that is led to
+  double nearest_deg = 0;                // to it, so far
   std::chrono::nanoseconds nearer_at{};
   std::bitset<kSides> taken, given_up;  // given up: of a hand that did not come; for a while
 };

@@ -16,20 +16,16 @@
 namespace relievo::pipeline {
 
 struct BendingSystem {
-  BendingSystem(std::pmr::memory_resource* memory, int width, int height)
-      : data(memory, width, height),
-        bend_xx(memory, width, height),
-        bend_yy(memory, width, height),
-        bend_xy(memory, width, height),
-        rhs(memory, width, height) {}
-  Plane<float> data;     // A; 0 where nothing was measured
-  Plane<float> bend_xx;  // weight of x[-1] - 2 x + x[+1]; 0 where a neighbour is missing
-  Plane<float> bend_yy;
-  Plane<float> bend_xy;  // weight of the cell whose upper left corner this is
-  Plane<float> rhs;
+  BendingSystem(std::pmr::memory_resource* memory, int width, int height) : shape{memory, width, height} {}
+  PlaneShape shape;
+  Plane<float> data{shape};     // A; 0 where nothing was measured
+  Plane<float> bend_xx{shape};  // weight of x[-1] - 2 x + x[+1]; 0 where a neighbour is missing
+  Plane<float> bend_yy{shape};
+  Plane<float> bend_xy{shape};  // weight of the cell whose upper left corner this is
+  Plane<float> rhs{shape};
 
-  int width() const { return data.width; }
-  int height() const { return data.height; }
+  int width() const { return shape.width; }
+  int height() const { return shape.height; }
 };
 
 // out = (A + D'WD) x for rows [begin, end), or D'WD x without the data. The outermost nodes are never
@@ -40,8 +36,8 @@ void apply_system(const BendingSystem& system, const Plane<float>& x, bool with_
 
 // x, of the system's size and whatever it holds, becomes the solution: from 0, in at most `steps` steps of
 // conjugate gradients, and in fewer when the residual's squared norm, as the preconditioner sees it, has
-// fallen to `tolerance` of what it was at 0. Takes about 8 1/3 planes of the system's size from `scratch`.
-// Throws std::bad_alloc.
+// fallen to `tolerance` of what it was at 0. Takes about 8 1/3 such planes of `scratch`. Throws
+// std::bad_alloc.
 void solve(const BendingSystem& system, int steps, double tolerance, ThreadPool& pool,
            std::pmr::memory_resource& scratch, Plane<float>& x);
 
@@ -54,9 +50,8 @@ inline constexpr double kToTheEnd = 1e-7;  // what single precision gives
 //
 // A single sharp bend is a crease (an eyelid, a nostril) and let go: a Cauchy prior by reweighting, as in
 // Charbonnier et al. 1997. A patch of 17 x 17 nodes (9 mm: waves of 6 mm and more) that bends everywhere is a
-// relief (wrinkles, lips) and held less, too, yet never let go. The patch is that large, and what noise alone
-// bends plain skin is taken off, so that no noise takes itself for relief and runs away; a crease, however
-// sharp, speaks for its own node only. Thread: any; bands of rows on the pool.
+// relief (wrinkles, lips) and held less, yet never let go. The patch is that large, and what noise alone
+// bends is taken off, so that no noise takes itself for relief; a crease speaks for its own node only.
 inline constexpr float kMostWrinkled = 8, kSharpest = 12, kPlain = 3;  // of (bend / wrinkle)^2
 
 struct BendingExpectation {
@@ -65,8 +60,7 @@ struct BendingExpectation {
   double wrinkle;  // likewise; 0: a neighbourhood's bends say nothing
 };
 
-// Writes bend_xx, bend_yy and bend_xy of the system, and to `wrinkled` the last term above. `across` is
-// scratch.
+// Writes bend_xx, bend_yy and bend_xy, and to `wrinkled` the last term above. `across` is scratch.
 void weigh_bending(const Plane<float>& d, const Plane<std::uint8_t>& domain,
                    const BendingExpectation& expected, ThreadPool& pool, Plane<float>& across,
                    Plane<float>& wrinkled, BendingSystem& system);

@@ -37,8 +37,7 @@ class MultilevelPreconditioner {
     Level(std::pmr::memory_resource* memory, int width, int height)
         : inverse_diagonal(memory, width, height), value(memory, width, height) {}
     Plane<float> inverse_diagonal;
-    Plane<float>
-        value;  // the residual as this lattice sees it, then what it makes of it and of all coarser ones
+    Plane<float> value;  // the residual as this lattice sees it, then what it and all coarser ones make of it
   };
   void add_levels(const BendingSystem& system, std::pmr::memory_resource* memory);
   void restrict_to(const Plane<float>& fine, Plane<float>& coarse);

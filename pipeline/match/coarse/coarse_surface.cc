@@ -18,9 +18,8 @@
 namespace relievo::pipeline {
 namespace {
 
-// The surfaces of a field of disparities: neighbours on the lattice whose disparities differ by little belong
-// together. And the holes they enclose. Memory: scratch. Thread: any.
-// How large each is, nodes.
+// The surfaces of a field of disparities, by their size, nodes: neighbours on the lattice whose disparities
+// differ by little belong together.
 struct Surfaces {
   explicit Surfaces(std::pmr::memory_resource* memory) : sizes(memory) {}
   std::pmr::vector<int> sizes;  // [label - 1]
@@ -28,8 +27,7 @@ struct Surfaces {
   int size_of(int label) const { return label > 0 ? sizes[std::size_t(label - 1)] : 0; }
 };
 
-// Fills `label` (0: none) where `allowed` and something is known; neighbours further apart than `step` part
-// surfaces.
+// Fills `label` (0: none) where `allowed` and known; neighbours further apart than `step` part surfaces.
 Surfaces label_surfaces(const Plane<float>& d, const Plane<std::uint8_t>& allowed, float step,
                         Plane<int>& label, std::pmr::memory_resource& scratch) {
   Surfaces found(&scratch);
@@ -107,7 +105,7 @@ constexpr float kApart = 1.5F;  // full-size pixels
 // Of level 1, even, so that level 2 has the same box; the right view's lies `shift` pixels further left.
 struct Box {
   int x = 0, y = 0, w = 0, h = 0, shift = 0;
-  DisparityRange range;  // beyond the shift, full-size pixels
+  DisparityInterval range;  // beyond the shift, full-size pixels
 };
 
 int even(int v) { return v - (v & 1); }
@@ -163,6 +161,11 @@ Pyramids cut(const Pyramids& whole, const Box& box, std::pmr::memory_resource& m
   return part;
 }
 
+// At a node, which may stand beyond the last pixel.
+std::uint8_t in_region(const RectifiedPair& pair, int x, int y) {
+  return pair.region[pair.index(std::min(x, pair.width_px - 1), std::min(y, pair.height_px - 1))];
+}
+
 // What was found of the face: one surface, full-size pixels.
 struct Found {
   Found(std::pmr::memory_resource* memory, const Box& at)
@@ -181,15 +184,12 @@ Result<void> find(const RectifiedPair& pair, const Pyramids& pyramids, const Coa
   RELIEVO_TRY(match_down(box.range, cut(pyramids, box, context.scratch),
                          {kCoarsest, kLevel, kBand, options.cross_check_px}, options.costs, inner, 1,
                          found.disparity));
-  for (int y = 0; y < box.h; ++y)
-    for (int x = 0; x < box.w; ++x)
-      found.face.row(y)[x] = pair.region[std::size_t(std::min(2 * (box.y + y), pair.height_px - 1)) *
-                                             std::size_t(pair.width_px) +
-                                         std::size_t(std::min(2 * (box.x + x), pair.width_px - 1))];
   Plane<std::uint8_t> usable(&context.scratch, box.w, box.h);
   for (int y = 0; y < box.h; ++y)
-    for (int x = 0; x < box.w; ++x)
+    for (int x = 0; x < box.w; ++x) {
+      found.face.row(y)[x] = in_region(pair, 2 * (box.x + x), 2 * (box.y + y));
       usable.row(y)[x] = found.face.row(y)[x] & pyramids.left[kLevel].valid.row(box.y + y)[box.x + x];
+    }
   Plane<int> label(&context.scratch, box.w, box.h);
   const Surfaces surfaces =
       label_surfaces(found.disparity, found.face, options.step_limit_px, label, context.scratch);
@@ -266,11 +266,7 @@ Result<void> find_coarse_surface(const RectifiedPair& pair, const Pyramids& pyra
   Plane<std::uint8_t> allowed(&context.scratch, w, h);
   for (int y = kBorder; y < h - kBorder; ++y)
     for (int x = kBorder; x < w - kBorder; ++x)
-      allowed.row(y)[x] =
-          scene
-              ? std::uint8_t{1}
-              : pair.region[std::size_t(std::min(step * y, pair.height_px - 1)) * std::size_t(pair.width_px) +
-                            std::size_t(std::min(step * x, pair.width_px - 1))];
+      allowed.row(y)[x] = scene ? std::uint8_t{1} : in_region(pair, step * x, step * y);
   Plane<int> label(&context.scratch, w, h);
   const Surfaces surfaces = label_surfaces(disparity, allowed, options.step_limit_px, label, context.scratch);
   if (surfaces.size_of(surfaces.largest) < kLeastFace)

@@ -29,8 +29,8 @@ inline constexpr int kFineLevel = 2;
 inline bool is_scene(const RectifiedPair& pair) { return pair.region.empty(); }
 
 // `field` is a lattice over the pixels of level 2 (step 4), or of level 1 (step 2; a scene needs it for its
-// thin parts); its domain is what was found: the largest surface of the region, or of a scene all that are no
-// specks. Errors: TooFewMatches, Cancelled.
+// thin parts); its domain is what was found: the region's largest surface, all but specks of a scene. Errors:
+// TooFewMatches, Cancelled.
 Result<void> find_coarse_surface(const RectifiedPair& pair, const Pyramids& pyramids,
                                  const CoarseSurfaceOptions& options, StageContext& context,
                                  SurfaceField& field);
@@ -40,10 +40,8 @@ Result<void> find_coarse_surface(const RectifiedPair& pair, const Pyramids& pyra
 // refinement finds back over, and at a quarter of the size the rims themselves are hardly two pixels wide.
 // Where semi-global matching of half the size disagrees with the field by more than a pixel and a half over a
 // whole window, the field is set anew; what it finds in one surface with the face beside the field is added
-// to it. Memory: scratch, by the box of the field: a third of a picture's. Results do not depend on the
-// number of threads. Thread: any.
-
-// `field` is a lattice over the pixels of level 1 (step 2) that knows the face. Errors: Cancelled.
+// to it. `field` is a lattice over the pixels of level 1 (step 2) that knows the face. Memory: scratch, a
+// third of a whole picture's. Results do not depend on the number of threads. Thread: any. Errors: Cancelled.
 Result<void> search_edges(const RectifiedPair& pair, const Pyramids& pyramids,
                           const CoarseSurfaceOptions& options, StageContext& context, SurfaceField& field);
 

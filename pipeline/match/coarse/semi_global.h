@@ -18,8 +18,7 @@
 namespace relievo::pipeline {
 
 // The census transform (Zabih and Woodfill, Non-parametric local transforms for computing visual
-// correspondence, 1994): which neighbours are darker than a pixel, blind to gain and offset; and what two
-// pixels cost that differ in it. Thread: any, on rows of their own.
+// correspondence, 1994), blind to gain and offset. Thread: any, on rows of their own.
 
 // One bit a neighbour (9 x 7 without the centre) that is darker than the centre, of rows [begin, end). The
 // border, four columns and three rows wide, stays 0.
@@ -33,9 +32,8 @@ struct CensusPair {
   int sign;  // +1: x_to = x - d (left to right); -1: x_to = x + d
 };
 
-// Of every pixel of row y, one after the other, its candidates' costs: the bits in which both views differ
-// where it would be found at disparity first[x] + k, and kUnknownCost where one of them knows nothing. Room:
-// width * candidates.
+// Of every pixel of row y its candidates' costs: the bits in which both views differ where it would be found
+// at disparity first[x] + k, kUnknownCost where one of them knows nothing. Room: width * candidates.
 inline constexpr std::uint8_t kUnknownCost = 40;  // worse than any chance match (31)
 void census_costs(const CensusPair& pair, const std::int16_t* first, int y, int candidates,
                   std::uint8_t* cost);

@@ -9,8 +9,8 @@
 // Memory: 6 bytes a candidate and pixel of the finest size (166 MB at full 1920 x 1200, 12 candidates).
 // cost is one minus the correlation of 9 x 9 pixels at the match; what does not correlate is no match.
 // sigma_px: the scatter of the field around its own plane over 5 x 5 pixels of the finest size, and a sixth
-// of such a pixel for the fit between whole candidates (the scatter of neighbours that are tied together
-// understates an error they share). Errors: as Matcher.
+// of such a pixel for the fit (the scatter of neighbours understates an error they share). Errors: as
+// Matcher.
 #pragma once
 
 #include "pipeline/base/options.h"

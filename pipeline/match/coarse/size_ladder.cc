@@ -17,21 +17,14 @@
 namespace relievo::pipeline {
 namespace {
 
-// TwoWay: both views of one size matched against each other by semi-global matching, and what leads from
-// one size to the next: a band of candidates around the coarser field (after Rothermel et al. 2012).
-// Memory: scratch; 2 * width * height * candidates * 3 bytes inside match_both.
-
+// Both views of one size, matched against each other.
 struct TwoWay {
-  TwoWay(std::pmr::memory_resource* memory, int w, int h)
-      : left(memory, w, h, kNoDisparity),
-        right(memory, w, h, kNoDisparity),
-        first_left(memory, w, h),
-        first_right(memory, w, h) {}
-  Plane<float> left, right;                     // disparities of the left and of the right view's pixels
-  Plane<std::int16_t> first_left, first_right;  // the band's first candidate at every pixel
+  PlaneShape shape;
+  Plane<float> left{shape, kNoDisparity}, right{shape, kNoDisparity};  // disparities of either view's pixels
+  Plane<std::int16_t> first_left{shape}, first_right{shape};  // the band's first candidate at every pixel
 };
 
-// Errors: Cancelled.
+// Memory: scratch; 2 * width * height * candidates * 3 bytes. Errors: Cancelled.
 Result<void> match_both(const PyramidLevel& left, const PyramidLevel& right, int candidates,
                         const SemiGlobalCosts& costs, StageContext& context, TwoWay& both) {
   const int w = left.grey.width;
@@ -161,11 +154,11 @@ void median3(Plane<float>& field, StageContext& context) {
 
 }  // namespace
 
-DisparityRange whole_range(const RectifiedPair& pair) {
+DisparityInterval whole_range(const RectifiedPair& pair) {
   return {pair.disparity_px(pair.far_mm), pair.disparity_px(pair.near_mm)};
 }
 
-Result<void> match_down(const DisparityRange& range, const Pyramids& pyramids, const SizeLadder& ladder,
+Result<void> match_down(const DisparityInterval& range, const Pyramids& pyramids, const SizeLadder& ladder,
                         const SemiGlobalCosts& costs, StageContext& context, float progress_share,
                         Plane<float>& finest) {
   Arena::Mark all(context.scratch);
@@ -180,7 +173,7 @@ Result<void> match_down(const DisparityRange& range, const Pyramids& pyramids, c
     Plane<float> next_left(&context.scratch, from.grey.width, from.grey.height);
     Plane<float> next_right(&context.scratch, from.grey.width, from.grey.height);
     Arena::Mark mark(context.scratch);
-    TwoWay both(&context.scratch, from.grey.width, from.grey.height);
+    TwoWay both{{&context.scratch, from.grey.width, from.grey.height}};
     int candidates = last - first + 1;
     if (level == ladder.coarsest) {
       std::ranges::fill(both.first_left.values, std::int16_t(first));

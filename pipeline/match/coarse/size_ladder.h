@@ -23,14 +23,14 @@ struct SizeLadder {
 };
 
 // What is looked for, full-size pixels.
-struct DisparityRange {
+struct DisparityInterval {
   double least_px = 0, most_px = 0;
 };
-DisparityRange whole_range(const RectifiedPair& pair);  // from far_mm to near_mm
+DisparityInterval whole_range(const RectifiedPair& pair);  // from far_mm to near_mm
 
 // Fills `left` (the finest level's size) with disparities in its pixels, kNoDisparity where there is none.
 // Progress goes from 0 to `progress_share`. Errors: Cancelled.
-Result<void> match_down(const DisparityRange& range, const Pyramids& pyramids, const SizeLadder& ladder,
+Result<void> match_down(const DisparityInterval& range, const Pyramids& pyramids, const SizeLadder& ladder,
                         const SemiGlobalCosts& costs, StageContext& context, float progress_share,
                         Plane<float>& left);
 

@@ -11,11 +11,10 @@ namespace relievo::pipeline {
 
 // SimilarityConstraint ("similarity"): the two views must look alike around a match: its cost (one
 // minus zero-mean correlation) stays under a limit.
-// Its limit is loose by default, for the sake of plain skin. Behind a matcher with a threshold of its own it
-// says something only below that: behind zmncc below 1 - min_score, 0.4 in the suite of the dissertation.
+// Behind a matcher with a threshold of its own it says something only below that: behind zmncc below
+// 1 - min_score, 0.4 in the suite of the dissertation.
 struct SimilarityConstraint {
-  float max_cost =
-      0.95F;  // plain skin under noise correlates little and is still right: only the unrelated go
+  float max_cost = 0.95F;  // plain skin under noise correlates little: only the unrelated go
 
   void describe(auto&& field) {
     field("max_cost", max_cost, OptionRange{0, 2}, "one minus correlation above which a match is rejected");
@@ -95,9 +94,8 @@ struct LeftRightConstraint {
 // standard deviation, which the outliers themselves move). Two rules, each off at 0:
 //   global  |d - median of all d|     <= global_sigmas * 1.4826 MAD of all
 //   local   |d - median of neighbours| <= local_sigmas * max(1.4826 MAD of the neighbours, floor_px)
-// Neighbours are the accepted matches no further than radius_px across and down, the match itself not; fewer
-// than five say nothing and the match stays. What earlier rules rejected has no vote; what this one rejects
-// has.
+// Neighbours are the accepted matches no further than radius_px across and down, without the match itself; of
+// fewer than five it stays. What earlier rules rejected has no vote; what this one rejects has.
 struct StatisticalConstraint {
   float global_sigmas = 6;
   float local_sigmas = 4;

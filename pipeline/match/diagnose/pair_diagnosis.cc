@@ -7,6 +7,7 @@
 #include <cmath>
 #include <cstddef>
 #include <cstdlib>
+#include <utility>
 #include <vector>
 
 #include "pipeline/match/image/plane.h"
@@ -19,23 +20,15 @@ constexpr double kFaceWidthMm = 150;                   // a grown-up's, as in Re
 constexpr double kHalfWidth = 0.4, kHalfHeight = 0.5;  // of that width: an ellipse of skin, no background
 constexpr int kEveryTexel = 2;                         // pixels looked at
 
-struct Oval {
-  double x, y, half_width, half_height;
-  bool holds(double px, double py) const {
-    const double u = (px - x) / half_width, v = (py - y) / half_height;
-    return u * u + v * v < 1;
-  }
-};
-
-Oval oval(double x, double y, double face_width) {
+Ellipse skin_at(double x, double y, double face_width) {
   return {x, y, kHalfWidth * face_width, kHalfHeight * face_width};
 }
 
-double white_share(const RectifiedView& view, const RectifiedPair& pair, const Oval& face) {
+double white_share(const RectifiedView& view, const RectifiedPair& pair, const Ellipse& face) {
   long seen = 0, white = 0;
   for (int y = 0; y < pair.height_px; y += kEveryTexel)
     for (int x = 0; x < pair.width_px; x += kEveryTexel) {
-      const std::size_t k = std::size_t(y) * std::size_t(pair.width_px) + std::size_t(x);
+      const std::size_t k = pair.index(x, y);
       if (!view.valid[k] || !face.holds(x, y)) continue;
       ++seen;
       if (view.grey[k] >= kWhiteGrey) ++white;
@@ -47,7 +40,7 @@ double white_share(const RectifiedView& view, const RectifiedPair& pair, const O
 
 Overexposure measure_overexposure(const RectifiedPair& pair, const MatchSet& matches) {
   if (pair.face_width_px <= 0) return {};
-  const Oval left = oval(pair.face_centre_px.x, pair.face_centre_px.y, pair.face_width_px);
+  const Ellipse left = skin_at(pair.face_centre_px.x, pair.face_centre_px.y, pair.face_width_px);
   double sum = 0;
   long count = 0;
   for (const Match& m : matches.matches) {
@@ -55,14 +48,14 @@ Overexposure measure_overexposure(const RectifiedPair& pair, const MatchSet& mat
     sum += double(m.disparity_px);
     ++count;
   }
-  Oval right = left;
+  Ellipse right = left;
   right.x -= count > 0 ? sum / double(count) : 0;
   return {white_share(pair.left, pair, left), white_share(pair.right, pair, right)};
 }
 
 Overexposure guess_overexposure(const RectifiedPair& pair) {
   const double width = pair.focal_px * kFaceWidthMm / ((pair.near_mm + pair.far_mm) / 2);
-  const Oval middle = oval(pair.width_px / 2.0, pair.height_px / 2.0, width);
+  const Ellipse middle = skin_at(pair.width_px / 2.0, pair.height_px / 2.0, width);
   return {white_share(pair.left, pair, middle), white_share(pair.right, pair, middle)};
 }
 
@@ -135,8 +128,7 @@ Plane<float> reduce(const std::pmr::vector<float>& grey, const RectifiedPair& pa
   const int by = reduction(pair);
   Plane<float> small(memory, pair.width_px / by, pair.height_px / by);
   for (int y = 0; y < small.height * by; ++y)
-    for (int x = 0; x < small.width * by; ++x)
-      small.row(y / by)[x / by] += grey[std::size_t(y) * std::size_t(pair.width_px) + std::size_t(x)];
+    for (int x = 0; x < small.width * by; ++x) small.row(y / by)[x / by] += grey[pair.index(x, y)];
   return small;
 }
 
@@ -178,18 +170,15 @@ Place find_middle(const RectifiedPair& pair, std::pmr::memory_resource* memory) 
 }
 
 std::optional<PairFault> fault_of_light(Light left, Light right) {
-  const auto pick = [&](Light light, PairFault l, PairFault r, PairFault both) -> std::optional<PairFault> {
-    if (left == light && right == light) return both;
-    if (left == light) return l;
-    if (right == light) return r;
-    return std::nullopt;
-  };
-  if (const auto dark = pick(Light::Dark, PairFault::LeftDark, PairFault::RightDark, PairFault::BothDark))
-    return dark;
-  if (const auto white = pick(Light::Overexposed, PairFault::LeftOverexposed, PairFault::RightOverexposed,
-                              PairFault::BothOverexposed))
-    return white;
-  return pick(Light::Blank, PairFault::LeftBlank, PairFault::RightBlank, PairFault::BothBlank);
+  constexpr std::array<std::pair<Light, std::array<PairFault, 3>>, 3> kFaults{{
+      {Light::Dark, {PairFault::LeftDark, PairFault::RightDark, PairFault::BothDark}},
+      {Light::Overexposed,
+       {PairFault::LeftOverexposed, PairFault::RightOverexposed, PairFault::BothOverexposed}},
+      {Light::Blank, {PairFault::LeftBlank, PairFault::RightBlank, PairFault::BothBlank}},
+  }};
+  for (const auto& [light, faults] : kFaults)
+    if (left == light || right == light) return faults[left != light ? 1 : right != light ? 0 : 2];
+  return std::nullopt;
 }
 
 }  // namespace
@@ -214,45 +203,38 @@ std::optional<PairFault> diagnose_pair(const StereoFrame& frame, const StereoCal
                                                                    : std::nullopt;
 }
 
+namespace {
+
+struct Words {
+  Errc code;
+  Literal what;
+};
+constexpr std::array<Words, 12> kWords{{
+    // In the order of PairFault.
+    {Errc::InvalidInput, "left and right are the same picture: give one of each camera"},
+    {Errc::NoFace,
+     "the left picture is black: is its lens covered, its light off or the exposure too short?"},
+    {Errc::NoFace,
+     "the right picture is black: is its lens covered, its light off or the exposure too short?"},
+    {Errc::NoFace, "both pictures are black: put light on the face, or expose longer"},
+    {Errc::NoFace, "the left picture is over-exposed: less light, or a shorter exposure"},
+    {Errc::NoFace, "the right picture is over-exposed: less light, or a shorter exposure"},
+    {Errc::NoFace, "both pictures are over-exposed: less light, or a shorter exposure"},
+    {Errc::NoFace, "the left picture shows nothing but one grey: is its lens covered or far out of focus?"},
+    {Errc::NoFace, "the right picture shows nothing but one grey: is its lens covered or far out of focus?"},
+    {Errc::NoFace, "both pictures show nothing but one grey: are the lenses covered or far out of focus?"},
+    {Errc::NotCalibrated,
+     "one picture lies higher than the other: a camera has moved since it was calibrated, or the pictures are not a pair; calibrate again"},
+    {Errc::InvalidInput,
+     "left and right are swapped: give the left camera's picture first, or calibrate anew if the cameras changed places"},
+}};
+static_assert(kWords.size() == std::size_t(PairFault::Swapped) + 1);
+
+}  // namespace
+
 Error error_of(PairFault fault) {
-  switch (fault) {
-    case PairFault::SamePicture:
-      return Error{Errc::InvalidInput, "left and right are the same picture: give one of each camera"};
-    case PairFault::LeftDark:
-      return Error{
-          Errc::NoFace,
-          "the left picture is black: is its lens covered, its light off or the exposure too short?"};
-    case PairFault::RightDark:
-      return Error{
-          Errc::NoFace,
-          "the right picture is black: is its lens covered, its light off or the exposure too short?"};
-    case PairFault::BothDark:
-      return Error{Errc::NoFace, "both pictures are black: put light on the face, or expose longer"};
-    case PairFault::LeftOverexposed:
-      return Error{Errc::NoFace, "the left picture is over-exposed: less light, or a shorter exposure"};
-    case PairFault::RightOverexposed:
-      return Error{Errc::NoFace, "the right picture is over-exposed: less light, or a shorter exposure"};
-    case PairFault::BothOverexposed:
-      return Error{Errc::NoFace, "both pictures are over-exposed: less light, or a shorter exposure"};
-    case PairFault::LeftBlank:
-      return Error{Errc::NoFace,
-                   "the left picture shows nothing but one grey: is its lens covered or far out of focus?"};
-    case PairFault::RightBlank:
-      return Error{Errc::NoFace,
-                   "the right picture shows nothing but one grey: is its lens covered or far out of focus?"};
-    case PairFault::BothBlank:
-      return Error{Errc::NoFace,
-                   "both pictures show nothing but one grey: are the lenses covered or far out of focus?"};
-    case PairFault::Swapped:
-      return Error{
-          Errc::InvalidInput,
-          "left and right are swapped: give the left camera's picture first, or calibrate anew if the cameras changed places"};
-    case PairFault::Shifted:
-      return Error{
-          Errc::NotCalibrated,
-          "one picture lies higher than the other: a camera has moved since it was calibrated, or the pictures are not a pair; calibrate again"};
-  }
-  return Error{Errc::InvalidState, "is no fault"};
+  const Words& words = kWords[std::size_t(fault)];
+  return {words.code, words.what};
 }
 
 }  // namespace relievo::pipeline

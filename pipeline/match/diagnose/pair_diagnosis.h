@@ -16,11 +16,10 @@
 
 namespace relievo::pipeline {
 
-// How much of the face is white in either picture. Such skin has no texture left: it comes back as a hole, or
-// not at all. Memory: none. Thread: any. Errors: none.
+// White skin has no texture left: it comes back as a hole, or not at all.
 inline constexpr float kWhiteGrey = 250;  // grey values, 0 .. 255, from which on a pixel is white
 
-// Shares of the face, 0 .. 1.
+// Shares of the face that are white, 0 .. 1.
 struct Overexposure {
   double left = 0;
   double right = 0;
@@ -52,8 +51,7 @@ enum class PairFault : std::uint8_t {
 std::optional<PairFault> diagnose_pair(const StereoFrame& frame, const StereoCalibration& calibration,
                                        const RectifierOptions& volume, StageContext& context);
 
-// What to tell the person. Codes: InvalidInput for mistakes with files, NotCalibrated where a camera moved,
-// NoFace for light.
+// For the person. Codes: InvalidInput (mistakes with files), NotCalibrated (a camera moved), NoFace (light).
 Error error_of(PairFault fault);
 
 }  // namespace relievo::pipeline

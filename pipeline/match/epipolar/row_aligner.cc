@@ -7,6 +7,7 @@
 #include <algorithm>
 #include <cmath>
 #include <cstddef>
+#include <limits>
 #include <span>
 
 #include "pipeline/base/solving.h"
@@ -19,9 +20,9 @@
 namespace relievo::pipeline {
 namespace {
 
-// Between two rows of a picture: Keys' cubic convolution of fourth order over six rows (1981, section
-// VI). The usual one over four moves fine detail a tenth too little, and a shift measured with it is a
-// tenth too large.
+// Between two rows of a picture: Keys' cubic convolution of fourth order over six rows (1981, section VI).
+// The usual one over four moves fine detail a tenth too little: a shift measured with it is a tenth too
+// large.
 inline constexpr int kColumnReach = 3;  // rows needed on either side
 
 struct ColumnWeights {
@@ -44,20 +45,10 @@ struct ColumnWeights {
 // one size of the pictures. Within a patch its slip along the rows, gain and offset of brightness are
 // eliminated. The gradient is the left view's alone: its noise and the residual's have nothing to do
 // with each other, so the estimate is not drawn towards whole or half rows.
-// Memory: scratch. Results do not depend on the number of threads. Thread: worker.
-// The middle of the face, where hair and neck are not; everywhere where no face was looked for.
-struct FaceEllipse {
-  explicit FaceEllipse(const RectifiedPair& pair);
-  bool holds(double x_px, double y_px) const;  // of the left view
-
- private:
-  double x_ = 0, y_ = 0, half_width_ = 0, half_height_ = 0;
-};
-
 class LocalShifts {
  public:
   // All are borrowed and must outlive this.
-  LocalShifts(const Pyramids& pyramids, int level, const SurfaceField& field, const FaceEllipse& face,
+  LocalShifts(const Pyramids& pyramids, int level, const SurfaceField& field, const Ellipse& face,
               StageContext& context);
 
   // Valid until the next call.
@@ -78,7 +69,7 @@ class LocalShifts {
   const PyramidLevel& left_;
   const PyramidLevel& right_;
   const SurfaceField& field_;
-  const FaceEllipse& face_;
+  const Ellipse& face_;
   StageContext& context_;
   int level_;
   int stride_;       // every so many nodes of the field are a pixel of this level
@@ -121,20 +112,14 @@ struct Extent {
   int block(int at) const { return (at - begin) * kShiftBlocksAcross / (end - begin); }
 };
 
-FaceEllipse::FaceEllipse(const RectifiedPair& pair)
-    : x_(pair.face_centre_px.x),
-      y_(pair.face_centre_px.y),
-      half_width_(kHalfWidth * pair.face_width_px),
-      half_height_(kHalfHeight * pair.face_width_px) {}
-
-bool FaceEllipse::holds(double x_px, double y_px) const {
-  if (half_width_ <= 0) return true;
-  const double u = (x_px - x_) / half_width_, v = (y_px - y_) / half_height_;
-  return u * u + v * v < 1;
+// Of the left view, where hair and neck are not; everywhere where no face was looked for.
+Ellipse middle_of_face(const RectifiedPair& pair) {
+  const double width = pair.face_width_px > 0 ? pair.face_width_px : std::numeric_limits<double>::infinity();
+  return {pair.face_centre_px.x, pair.face_centre_px.y, kHalfWidth * width, kHalfHeight * width};
 }
 
-LocalShifts::LocalShifts(const Pyramids& pyramids, int level, const SurfaceField& field,
-                         const FaceEllipse& face, StageContext& context)
+LocalShifts::LocalShifts(const Pyramids& pyramids, int level, const SurfaceField& field, const Ellipse& face,
+                         StageContext& context)
     : left_(pyramids.left[std::size_t(level)]),
       right_(pyramids.right[std::size_t(level)]),
       field_(field),
@@ -240,7 +225,7 @@ EpipolarShift measure_epipolar_shift(const RectifiedPair& pair, const Pyramids& 
                                      const SurfaceField& field, EpipolarSearch search,
                                      StageContext& context) {
   const bool whole = search == EpipolarSearch::Search;
-  const FaceEllipse face(pair);
+  const Ellipse face = middle_of_face(pair);
   EpipolarShift shift;
   for (int level = whole ? kFirstLevel : kLastLevel; level >= kLastLevel; --level) {
     Arena::Mark mark(context.scratch);
@@ -260,7 +245,7 @@ RowMotion measure_row_motion(const RectifiedPair& pair, const Pyramids& pyramids
                              const EpipolarShift& linear, StageContext& context) {
   RowMotion motion(&context.scratch, pair.width_px, pair.height_px);
   Arena::Mark mark(context.scratch);
-  const FaceEllipse face(pair);
+  const Ellipse face = middle_of_face(pair);
   LocalShifts locals(pyramids, kLastLevel, field, face, context);
   double before = 0;
   for (int round = 0; round < kMotionRounds; ++round) {
@@ -326,7 +311,7 @@ void RowAligner::apply(const EpipolarShift* linear, const RowMotion& motion) {
 }
 
 double RowAligner::largest(const RowShift& shift) const {
-  const FaceEllipse face(pair_);
+  const Ellipse face = middle_of_face(pair_);
   double most = 0;
   for (int y = 0; y < pair_.height_px; y += kMotionStepPx)
     for (int x = 0; x < pair_.width_px; x += kMotionStepPx)

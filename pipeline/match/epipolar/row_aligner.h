@@ -1,11 +1,10 @@
 // SPDX-FileCopyrightText: 2026 The Relievo authors
 // SPDX-License-Identifier: GPL-3.0-or-later
 //
-// RowAligner: keeps the rows of the right view's pictures in step with the left view's, and the account
-// of what that took: the linear shift of the whole face (a nudged camera) and what
-// moved beside it between the two exposures (row_motion.h).
-// Every resampling starts from the pictures as they were: none is blurred twice.
-// Memory: scratch; it must outlive this. Thread: worker.
+// RowAligner: keeps the rows of the right view's pictures in step with the left view's, and the account of
+// what that took: the linear shift of the whole face (a nudged camera) and what moved beside it between the
+// two exposures (row_motion.h). Every resampling starts from the pictures as they were: none is blurred
+// twice. Memory: scratch; it must outlive this. Thread: worker.
 #pragma once
 
 #include "pipeline/base/stage.h"
@@ -21,13 +20,11 @@ namespace relievo::pipeline {
 // and the right view resampled so that they do.
 //
 // A camera that was nudged, a mount that warmed up or a pair that was not exposed at the same instant
-// leaves a vertical disagreement that is, over one face, nearly linear in the picture. Patches of the
-// surface each say what it is there; one field is laid through them, and those that
-// contradict it (highlights, edges) lose their say (fit_shift_field()).
+// leaves a vertical disagreement that is, over one face, nearly linear in the picture. Patches of the surface
+// each say what it is there; those that contradict the field through all (highlights, edges) lose their say.
 //
-// What the same error does along the rows cannot be seen: it changes the depth of the face, not its
-// likeness.
-// Memory: scratch. Results do not depend on the number of threads. Thread: worker.
+// What the same error does along the rows cannot be seen: it changes the depth of the face, not its likeness.
+// Results do not depend on the number of threads.
 
 // Search finds shifts of many pixels: from an eighth of the size down, on a surface good to about a
 // pixel of half the size. Refine measures what is left of one, at half the size on a finished surface.
@@ -37,13 +34,11 @@ enum class EpipolarSearch : std::uint8_t { Search, Refine };
 EpipolarShift measure_epipolar_shift(const RectifiedPair& pair, const Pyramids& pyramids,
                                      const SurfaceField& field, EpipolarSearch search, StageContext& context);
 
-// What moved beside the linear shift that the pictures still have, on a surface good to about a pixel of half
-// the size.
+// What moved beside the linear shift that the pictures still have, on such a surface.
 RowMotion measure_row_motion(const RectifiedPair& pair, const Pyramids& pyramids, const SurfaceField& field,
                              const EpipolarShift& linear, StageContext& context);
 
-// to(x, y) = from(x, y + shift), full size, by cubic convolution along the columns; pixels that would need
-// rows outside are copied.
+// to(x, y) = from(x, y + shift), full size, by cubic convolution; what would need rows outside is copied.
 void shift_rows(const RowShift& shift, std::span<const float> from, Plane<float>& to, StageContext& context);
 
 struct RowAlignerLimits {

@@ -61,8 +61,7 @@ Eigen::Matrix3d moments(const EpipolarShift& face) {
 
 struct Fit {
   Eigen::Vector3d field;
-  Eigen::Matrix3d
-      slope;  // of the equations that the field solves: what an error of a measurement moves it by
+  Eigen::Matrix3d slope;  // of the equations that it solves: what an error of a measurement moves it by
 };
 
 Fit reweighted(std::span<const LocalShift> locals, bool slopes, const EpipolarShift& face,

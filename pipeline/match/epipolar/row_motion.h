@@ -8,9 +8,9 @@
 // a sixth of the face's width in reach, and patches that contradict their surroundings lose their say.
 // Where the patches scatter no more than each is unsure, nothing moved and the field is zero.
 //
-// What moved along the rows cannot be seen: it looks like depth. But motion knows no rows, so what is
-// seen across them says how large it may be.
-// Full-size rectified pixels of the right view. Memory: the one given, and scratch. Thread: worker.
+// What moved along the rows cannot be seen: it looks like depth. But motion knows no rows, so what is seen
+// across them says how large it may be. Full-size rectified pixels of the right view. Memory: the one given,
+// and scratch. Thread: worker.
 #pragma once
 
 #include <span>
@@ -25,8 +25,7 @@ namespace relievo::pipeline {
 // A linear field through many local measurements of a shift, by iteratively reweighted least squares
 // with Tukey's biweight. Its uncertainty is what the scatter of the measurements says, not what their
 // weights promise, and neighbours that err together are told by summing over blocks first (sandwich
-// covariance: Huber 1967; by clusters: Liang and Zeger 1986).
-// Pixels of full size. Thread: any.
+// covariance: Huber 1967; by clusters: Liang and Zeger 1986). Thread: any.
 struct LocalShift {
   double x_px = 0;
   double y_px = 0;
@@ -51,8 +50,8 @@ struct RowMotion {
   // Nothing moves.
   RowMotion(std::pmr::memory_resource* memory, int width_px, int height_px);
 
-  double at(double x_px,
-            double y_px) const;  // beyond the linear shift; bilinear, constant outside the lattice
+  // Beyond the linear shift; bilinear, constant outside the lattice.
+  double at(double x_px, double y_px) const;
 
   Plane<float> shift_px;  // node (i, j) stands on pixel kMotionStepPx * (i, j)
   bool seen = false;      // false: shift_px is 0 everywhere
@@ -68,8 +67,7 @@ struct RowShift {
   }
 };
 
-// `face_width_px` 0: unknown, half the picture is taken. `motion` is the surroundings the patches were warped
-// by; it is replaced.
+// `face_width_px` 0: unknown, half the picture. `motion`, which the patches were warped by, is replaced.
 void fit_row_motion(std::span<const LocalShift> locals, const EpipolarShift& linear, double face_width_px,
                     StageContext& context, RowMotion& motion);
 

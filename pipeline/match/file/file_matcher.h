@@ -4,8 +4,7 @@
 // FileMatcher ("file-matches"): matches made by hand or elsewhere, in a text file (match_text.h).
 // The file says where: keypoints are not asked, and the result is scattered whatever they are.
 // cost is one minus the correlation of 9 x 9 pixels at the match; sigma_px the file's, else the option's.
-// Errors: the text's; NotFound where none is named, or it was not read; TooFewMatches where it holds none;
-// as Matcher.
+// Errors: the text's; NotFound (none is named, or it was not read); TooFewMatches (none in it); as Matcher.
 #pragma once
 
 #include "pipeline/base/options.h"

@@ -25,8 +25,7 @@ bool is_title(std::string_view line) {
   });
 }
 
-// The next number, taken off the front with what parts it from the one before; false, and nothing taken,
-// where there is none.
+// The next number, taken off the front with what parts it from the one before; false: there is none.
 bool take_number(std::string_view& line, bool first, double& value) {
   std::string_view rest = trimmed(line);
   if (!first && !rest.empty() && (rest.front() == ',' || rest.front() == ';')) rest = trimmed(rest.substr(1));

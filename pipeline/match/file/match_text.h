@@ -8,8 +8,7 @@
 //   600, 310.5, 40, 0.2
 //
 // full-size rectified pixels. A match has one row, so none can leave its epipolar line. Errors: InvalidInput
-// with file and line (not three or four numbers, a place outside the pictures, a sigma that is not positive);
-// std::bad_alloc passes. Thread: any.
+// with file and line (not three or four numbers, a place outside, a sigma not positive). Thread: any.
 #pragma once
 
 #include <array>

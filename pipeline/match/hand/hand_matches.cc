@@ -8,6 +8,7 @@
 #include <string>
 #include <tuple>
 
+#include "pipeline/base/parts.h"
 #include "pipeline/match/image/plane.h"
 #include "pipeline/match/window/window_correlation.h"
 
@@ -149,16 +150,13 @@ class Lattice {
   }
 
   void offer_neighbours(std::size_t node, std::uint32_t origin, float disparity) {
-    const auto wide = std::size_t(at_.width), all = at_.values.size();
-    if (node % wide > 0) offer(node - 1, origin, disparity);
-    if (node % wide + 1 < wide) offer(node + 1, origin, disparity);
-    if (node >= wide) offer(node - wide, origin, disparity);
-    if (node + wide < all) offer(node + wide, origin, disparity);
+    for_each_beside(node, std::size_t(at_.width), at_.values.size(),
+                    [&](std::size_t beside) { offer(beside, origin, disparity); });
   }
   void offer(std::size_t node, std::uint32_t origin, float disparity) {
     const Vec2f place = place_of(node);
-    const auto pixel = std::size_t(place.y) * std::size_t(pair_.width_px) + std::size_t(place.x);
-    if (fixed_.values[node] != 0 || (!pair_.region.empty() && pair_.region[pixel] == 0) ||
+    if (fixed_.values[node] != 0 ||
+        (!pair_.region.empty() && pair_.region[pair_.index(int(place.x), int(place.y))] == 0) ||
         apart(place, by_hand_[origin].left_px) > reach_px(by_hand_[origin]))
       return;
     const Match* old = there(node);

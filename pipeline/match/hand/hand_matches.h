@@ -2,8 +2,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 //
 // Matches made by hand among those that a matcher made. The hand is right: no rule judges its matches, no
-// outlier filter takes them away. What it cannot do is leave the pictures, and as a match has one row, its
-// epipolar line. Beyond the volume or the face its points go as all others do.
+// outlier filter takes them away. It cannot leave the pictures or the epipolar line, and beyond the volume or
+// the face its points go as all others do.
 //
 // Scattered matches: the hand's are more of them; a match of the matcher within a window of one goes where
 // their disparities differ by more than their distance, which no surface that both cameras see does (Pollard,
@@ -12,11 +12,10 @@
 // A lattice: the nodes around the place take the hand's disparity. From there the match grows over the
 // lattice, best first (Otto and Chau 1989; Lhuillier and Quan 2002), as long as the windows of both views are
 // alike at about the neighbour's disparity: over holes, and over matches that differ from it by more than a
-// pixel and are less alike. It ends at matches that agree with it, and kHandReachMm from the hand's place.
-// Where it does not grow, for want of texture or because the pictures say otherwise, the surface around
-// bends to the hand's place: the difference there fades out over three times its own pixels, within the same
-// reach, and sigma_px has its part of it. So a right match mends a hole or a wrong patch, and a wrong one
-// does harm within the reach alone.
+// pixel and are less alike, up to matches that agree with it, and to kHandReachMm from the hand's place.
+// Where it does not grow the surface around bends to the hand's place: the difference fades out over three
+// times its own pixels, within the same reach, and sigma_px has its part of it. So a right match mends a hole
+// or a wrong patch, and a wrong one does harm within the reach alone.
 //
 // Pixels of the rectified pair. Thread: any. Errors of join_by_hand(): InvalidInput (a place outside the
 // pictures, "by hand 3": the third), Cancelled; throws std::bad_alloc as every stage does.

@@ -22,14 +22,14 @@ struct PyramidLevel {
   Plane<std::uint8_t> valid;
 };
 
-// `rows` of scratch: a band of the smaller picture, [begin, end).
+// Rows [begin, end) of the smaller picture.
 void halve_rows(const float* grey, const std::uint8_t* valid, int width, int height, PyramidLevel& half,
                 int begin, int end);
 
 // Fills every level from the one before; the first must be filled.
 void halve_levels(std::pmr::vector<PyramidLevel>& levels, ThreadPool& pool);
 
-// Both views at full size, half, a quarter, ... (image_pyramid.h). On context.scratch.
+// Both views at full size, half, a quarter, ... On context.scratch.
 struct Pyramids {
   std::pmr::vector<PyramidLevel> left;  // [level]; level 0 full size
   std::pmr::vector<PyramidLevel> right;

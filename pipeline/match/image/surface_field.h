@@ -14,16 +14,13 @@ namespace relievo::pipeline {
 // A field over the nodes of a lattice; node (i, j) stands on full-size pixel (step_px * i, step_px * j).
 struct SurfaceField {
   SurfaceField(std::pmr::memory_resource* memory, int width, int height, int step)
-      : step_px(step),
-        disparity_px(memory, width, height),
-        domain(memory, width, height),
-        sigma_px(memory, width, height),
-        cost(memory, width, height) {}
+      : step_px(step), shape{memory, width, height} {}
   int step_px;
-  Plane<float> disparity_px;   // full-size pixels
-  Plane<std::uint8_t> domain;  // 1 where the surface is solved for
-  Plane<float> sigma_px;       // of disparity_px
-  Plane<float> cost;           // 1 - local zero-mean correlation
+  PlaneShape shape;
+  Plane<float> disparity_px{shape};   // full-size pixels
+  Plane<std::uint8_t> domain{shape};  // 1 where the surface is solved for
+  Plane<float> sigma_px{shape};       // of disparity_px
+  Plane<float> cost{shape};           // 1 - local zero-mean correlation
 };
 
 }  // namespace relievo::pipeline

@@ -7,6 +7,7 @@
 
 #include "pipeline/match/peer/sgbm_matcher.h"
 #include "pipeline/match/window/field_matches.h"
+#include "pipeline/model/photo_sampler.h"
 
 namespace relievo::pipeline {
 namespace {
@@ -42,11 +43,9 @@ cv::Mat grey_of(const RectifiedPair& pair, const RectifiedView& view, const Crop
                 std::pmr::vector<std::uint8_t>& bytes) {
   bytes.resize(std::size_t(crop.width) * std::size_t(crop.height));
   for (int y = 0; y < crop.height; ++y)
-    for (int x = 0; x < crop.width; ++x) {
-      const auto from = std::size_t(crop.y0 + y) * std::size_t(pair.width_px) + std::size_t(crop.x0 + x);
+    for (int x = 0; x < crop.width; ++x)
       bytes[std::size_t(y) * std::size_t(crop.width) + std::size_t(x)] =
-          std::uint8_t(std::clamp(view.grey[from] + 0.5F, 0.0F, 255.0F));
-    }
+          to_byte(view.grey[pair.index(crop.x0 + x, crop.y0 + y)]);
   return {crop.height, crop.width, CV_8UC1, bytes.data()};
 }
 

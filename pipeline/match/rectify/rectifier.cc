@@ -143,7 +143,6 @@ void resample(const RectifiedPair& pair, const ViewGeometry& geometry, const Ima
       return Vec2d{a.x + ty * (b.x - a.x), a.y + ty * (b.y - a.y)};
     };
     Vec2d from = edge(0);
-    const std::size_t row = std::size_t(y) * std::size_t(width);
     for (int x0 = 0; x0 < width; x0 += kKnotPx) {
       const Vec2d to = edge(x0 + kKnotPx);
       const double dx = (to.x - from.x) / kKnotPx;
@@ -163,7 +162,7 @@ void resample(const RectifiedPair& pair, const ViewGeometry& geometry, const Ima
         span.ty[at] = float(sy - span.y[at]);
       }
       sample_grey(grey.row(0), grey.width, count, span);
-      const std::size_t k = row + std::size_t(x0 + first);
+      const std::size_t k = pair.index(x0 + first, y);
       for (std::size_t i = 0; i < std::size_t(count); ++i) {
         view.grey[k + i] = span.grey[i];
         sample_rgb(image, span.x[i], span.y[i], span.tx[i], span.ty[i], &view.rgb[3 * (k + i)]);
@@ -212,16 +211,7 @@ Result<void> lay_windows(const StereoCalibration& calibration, const RectifierOp
   z = unit(along(z, -dot(z, x), x));
   const Vec3d y = cross(z, x);
   pair.rectified_from_left = {{x.x, x.y, x.z, y.x, y.y, y.z, z.x, z.y, z.z}};
-  // rectified_from_right = rectified_from_left * left_from_right
-  const Rotation back = transposed(left_from_right.rotation);  // rows become left_from_right's columns
-  for (int row = 0; row < 3; ++row) {
-    const Vec3d r = {pair.rectified_from_left.m[3 * row], pair.rectified_from_left.m[3 * row + 1],
-                     pair.rectified_from_left.m[3 * row + 2]};
-    const Vec3d q = apply(back, r);
-    pair.rectified_from_right.m[3 * row] = q.x;
-    pair.rectified_from_right.m[3 * row + 1] = q.y;
-    pair.rectified_from_right.m[3 * row + 2] = q.z;
-  }
+  pair.rectified_from_right = product(pair.rectified_from_left, left_from_right.rotation);
   pair.right_from_left = calibration.right_from_left;
   pair.baseline_mm = baseline_mm;
   pair.near_mm = options.near_mm;
@@ -257,16 +247,15 @@ Result<RectifiedPair> Rectifier::rectify(const StereoFrame& frame, const StereoC
   RELIEVO_TRY(check_picture(frame.right, calibration.right, "right picture"));
   RectifiedPair pair(&context.output);
   RELIEVO_TRY(lay_windows(calibration, options_, pair));
-  const std::size_t pixels = std::size_t(pair.width_px) * std::size_t(pair.height_px);
   Plane<float> grey(&context.scratch, std::max(frame.left.width_px, frame.right.width_px),
                     std::max(frame.left.height_px, frame.right.height_px));
   const std::array views{&pair.left, &pair.right};
   for (std::size_t side = 0; side < 2; ++side) {
     if (context.stop()) return Error{Errc::Cancelled, "stopped while rectifying"};
     RectifiedView& view = *views[side];
-    view.grey.resize(pixels);
-    view.rgb.resize(3 * pixels);
-    view.valid.resize(pixels);
+    view.grey.resize(pair.pixels());
+    view.rgb.resize(3 * pair.pixels());
+    view.valid.resize(pair.pixels());
     const ImageView& image = side == 0 ? frame.left : frame.right;
     const ViewGeometry geometry{side == 0 ? calibration.left : calibration.right,
                                 side == 0 ? pair.rectified_from_left : pair.rectified_from_right,

@@ -22,9 +22,8 @@
 namespace relievo::pipeline {
 
 // Grey values 0 to 255 of a picture's rows, whatever its format: 16 bit scaled down, colour as the mean of
-// its channels: the least noise for texture that all three share. Thread: any. No errors.
-
-// Row y goes to `to + y * stride`.
+// its channels, the least noise for texture that all three share. Row y goes to `to + y * stride`. Thread:
+// any.
 void grey_rows(const ImageView& image, float* to, int stride, int begin, int end);
 
 struct RectifierOptions {
@@ -44,10 +43,8 @@ class Rectifier {
   RectifierOptions options_;
 };
 
-// Where the rectified windows lie and which source pixel each of their pixels comes from.
-
-// Fills everything of `pair` but the pixels. Errors: InvalidInput (the cameras do not look at a
-// common volume, or the window would be larger than allowed).
+// Where the rectified windows lie: fills everything of `pair` but the pixels. Errors: InvalidInput (the
+// cameras do not look at a common volume, or the window would be larger than allowed).
 Result<void> lay_windows(const StereoCalibration& calibration, const RectifierOptions& options,
                          RectifiedPair& pair);
 

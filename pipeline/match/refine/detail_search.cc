@@ -17,26 +17,17 @@ constexpr int kTile = 4;          // pixels a side; scores stand for tiles
 constexpr int kWindowRadius = 2;  // tiles: a window of 20 pixels
 constexpr float kMargin = 0.2F;   // by which the correlation must be better; of noise alone it strays by 0.08
 constexpr float kLeast = 0.3F;    // and what it must reach
-constexpr float kFilled =
-    0.85F;  // share of the window that both views must show: along an outline chance finds much
-constexpr float kNoise = 0.05F;          // squared grey levels: less detail than this is none
+constexpr float kFilled = 0.85F;  // share of the window both views must show: outlines match by chance
+constexpr float kNoise = 0.05F;   // squared grey levels: less detail than this is none
 constexpr std::size_t kLeastTiles = 48;  // half the tip of a nose; what is smaller refinement settles
 
 struct Tiles {
-  Tiles(std::pmr::memory_resource* memory, int w, int h)
-      : across(memory, w, h),
-        pixels(memory, w, h),
-        left(memory, w, h),
-        right(memory, w, h),
-        both(memory, w, h),
-        score(memory, w, h, -1),
-        shift(memory, w, h),
-        here(memory, w, h) {}
-  Plane<float> across;
-  Plane<float> pixels;             // that both views show
-  Plane<float> left, right, both;  // sums of squares and of products
-  Plane<float> score, shift;       // of the best so far
-  Plane<float> here;               // score where the field is now
+  PlaneShape shape;
+  Plane<float> across{shape};
+  Plane<float> pixels{shape};                           // that both views show
+  Plane<float> left{shape}, right{shape}, both{shape};  // sums of squares and of products
+  Plane<float> score{shape, -1}, shift{shape};          // of the best so far
+  Plane<float> here{shape};                             // score where the field is now
 };
 
 // The picture less what two passes of a box leave of its broad shading: even a bent slope is gone.
@@ -135,7 +126,7 @@ bool search_by_detail(const RefinerScene& scene, StageContext& context, SurfaceF
   Arena::Mark mark(context.scratch);
   std::pmr::memory_resource* memory = &context.scratch;
   Plane<float> left(memory, w, h), right(memory, w, h);
-  Tiles tiles(memory, (w + kTile - 1) / kTile, (h + kTile - 1) / kTile);
+  Tiles tiles{{memory, (w + kTile - 1) / kTile, (h + kTile - 1) / kTile}};
   {
     Arena::Mark passing(context.scratch);
     Plane<float> sums(memory, w, h), across(memory, w, h);

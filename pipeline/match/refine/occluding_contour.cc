@@ -37,20 +37,15 @@ struct Curtain {
 };
 
 struct Surfaces {
-  Surfaces(std::pmr::memory_resource* memory, int w, int h)
-      : before(memory, w, h), behind(memory, w, h), asked(memory, w, h) {}
-  Plane<float> before, behind;  // continued disparity, full-size pixels
-  Plane<float> asked;           // 1 where a curtain hangs
+  PlaneShape shape;
+  Plane<float> before{shape}, behind{shape};  // continued disparity, full-size pixels
+  Plane<float> asked{shape};                  // 1 where a curtain hangs
 };
 
-// What the views disagree by, on average over a window: at best near the continued surfaces, and as the field
-// is now.
+// What the views disagree by, mean over a window: at best near the continued surfaces, and as the field is.
 struct Disagreement {
-  Disagreement(std::pmr::memory_resource* memory, int w, int h)
-      : before(memory, w, h, kLoudContour),
-        behind(memory, w, h, kLoudContour),
-        now(memory, w, h, kLoudContour) {}
-  Plane<float> before, behind, now;
+  PlaneShape shape;
+  Plane<float> before{shape, kLoudContour}, behind{shape, kLoudContour}, now{shape, kLoudContour};
 };
 
 // How steep the field is along the row, a pixel.
@@ -225,10 +220,11 @@ std::optional<int> best_cut(const Curtain& curtain, const Disagreement& sums) {
 
 int cut_along(bool rows, const RefinerScene& scene, StageContext& context, SurfaceField& field) {
   Arena::Mark mark(context.scratch);
-  Surfaces surfaces(&context.scratch, field.domain.width, field.domain.height);
+  const PlaneShape shape{&context.scratch, field.domain.width, field.domain.height};
+  Surfaces surfaces{shape};
   const auto curtains = find_curtains(field, rows, surfaces, &context.scratch);
   if (curtains.empty()) return 0;
-  Disagreement sums(&context.scratch, field.domain.width, field.domain.height);
+  Disagreement sums{shape};
   measure_disagreement(scene, field, curtains, surfaces, context, sums);
   int lines = 0;
   for (const Curtain& curtain : curtains) {

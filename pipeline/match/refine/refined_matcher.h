@@ -4,9 +4,8 @@
 // RefinedMatcher ("refined", the default): coarse semi-global matching blind to exposure, then one
 // least-squares surface over the whole face, refined from a quarter of the size to full size.
 // See coarse_surface.h and surface_refiner.h. sigma_px is the posterior of the fit; cost is one minus
-// the local correlation of the warped views. A small picture of a scene is matched at twice its size.
-// Keypoints may lie anywhere; on the lattice of DenseSelector no interpolation is
-// needed.
+// the local correlation of the warped views. Keypoints may lie anywhere; on DenseSelector's lattice no
+// interpolation is needed.
 #pragma once
 
 #include <memory_resource>
@@ -24,8 +23,7 @@ namespace relievo::pipeline {
 // A small picture of a scene (no face was looked for) is matched at twice its size: semi-global matching then
 // sees every pixel, not every second one, and a bar six pixels wide is no longer taken for its neighbour.
 // Cubic between pixels (Keys 1981, a = -1/2), each new one a quarter of a pixel off an old one, so that all
-// are equally sharp. Memory: what is enlarged lies in the arena given. Thread: any. Errors: none; throws
-// std::bad_alloc.
+// are equally sharp. Memory: the one given. Thread: any. Throws std::bad_alloc.
 
 // Whether a pair is one: as large as may be matched at twice its size in the memory there is for a face.
 bool is_small_scene(const RectifiedPair& pair);
@@ -34,8 +32,7 @@ bool is_small_scene(const RectifiedPair& pair);
 RectifiedPair enlarge(const RectifiedPair& pair, std::pmr::memory_resource* memory);
 Keypoints enlarge(const Keypoints& keypoints, std::pmr::memory_resource* memory);
 
-// What was found of an enlarged pair, in the pixels of the pair itself, for keypoints on a lattice of this
-// step.
+// What was found of an enlarged pair, in the pixels of the pair itself, whose lattice has this step.
 void shrink(MatchSet& matches, int lattice_step_px);
 
 struct RefinedMatcher {

@@ -63,12 +63,10 @@ void measure_score_excess(const BendingSystem& system, const Plane<float>& pull,
 
 namespace {
 
-constexpr float kLoud =
-    12;  // grey levels: what disagrees by more is no noise, and a few such pixels would drown it
+constexpr float kLoud = 12;   // grey levels: more is no noise, and a few such pixels would drown it
 constexpr int kFurthest = 2;  // shift in pixels over which hanging noise is looked for
 
-// Mean products of the residuals, and of the gradients, with themselves some pixels further; 0 where none
-// meet.
+// Mean products of residuals, and of gradients, with themselves some pixels further; 0 where none meet.
 struct Alike {
   double residual = 0, gradient = 0;
 };
@@ -97,8 +95,7 @@ Alike likeness(const WarpTerms& terms, int dx, int dy) {
 }  // namespace
 
 float hanging_noise(const WarpTerms& terms, ThreadPool& pool) {
-  constexpr float kWhite =
-      1.6F;  // the sum for pictures with white noise: warping and the skin's own detail make so much of it
+  constexpr float kWhite = 1.6F;  // of pictures with white noise: by warping and the skin's own detail
   constexpr float kMost = 6;
   // A shift and its opposite say the same: half of them, after none at all.
   constexpr int kShifts = kFurthest * (2 * kFurthest + 2) + 1;
@@ -154,20 +151,12 @@ Extent extent_of(const SurfaceField& field, const RefinerScene& scene) {
 }
 
 struct Work {
-  Work(std::pmr::memory_resource* memory, int w, int h)
-      : system(memory, w, h),
-        pull(memory, w, h),
-        agreed(memory, w, h),
-        d(memory, w, h),
-        delta(memory, w, h),
-        wrinkled(memory, w, h),
-        domain(memory, w, h) {}
-  BendingSystem system;
-  Plane<float> pull;    // weight * gradient * residual, gathered
-  Plane<float> agreed;  // weight * agreed, gathered by judge()
-  Plane<float> d, delta;
-  Plane<float> wrinkled;
-  Plane<std::uint8_t> domain;
+  PlaneShape shape;
+  BendingSystem system{shape.memory, shape.width, shape.height};
+  Plane<float> pull{shape};    // weight * gradient * residual, gathered
+  Plane<float> agreed{shape};  // weight * agreed, gathered by judge()
+  Plane<float> d{shape}, delta{shape}, wrinkled{shape};
+  Plane<std::uint8_t> domain{shape};
 };
 
 // Adds what every pixel says to the nodes around it.
@@ -184,8 +173,7 @@ void gather_data(const WarpTerms& terms, const Plane<float>* agreed, int step, W
             const int x = i * step + dx;
             const int y = j * step + dy;
             if (x < 0 || y < 0 || x >= terms.weight.width || y >= terms.weight.height) continue;
-            const float tent =
-                (dx == 0 ? 1.0F : 0.5F) * (dy == 0 ? 1.0F : 0.5F);  // of step 1 only the middle
+            const float tent = (dx == 0 ? 1.0F : 0.5F) * (dy == 0 ? 1.0F : 0.5F);
             const float wg = tent * terms.weight.row(y)[x] * terms.gradient.row(y)[x];
             a += wg * terms.gradient.row(y)[x];
             b += wg * terms.residual.row(y)[x];
@@ -218,9 +206,8 @@ constexpr float kLeastReach = 0.15F;
 
 // sigma of a node: the square root of the integral over the plane of
 //   (A + lambda k^4) / (a + lambda k^4)^2
-// with A the information that the gradients seem to carry, noise in them included, and a what both views'
-// gradients agree on, which holds no noise: the fit answers to a, yet is shaken by A. reach = (a /
-// lambda)^(1/4) a node.
+// with A the information that the gradients seem to carry, noise included, and a what both views' gradients
+// agree on, without noise: the fit answers to a, yet is shaken by A. reach = (a / lambda)^(1/4) a node.
 float posterior_sigma(double seeming, double agreed, double bend) {
   const double real = std::clamp(agreed, double(kLeastReal) * seeming, seeming);
   const double variance = 1 / (8 * std::sqrt(real * bend)) * (1 + (seeming - real) / (2 * real));
@@ -240,8 +227,7 @@ void judge(const WarpTerms& terms, int step, double lambda, const Window& nodes,
   constexpr int kRadius = 6;  // about the reach of one pixel's influence on skin
   constexpr double kCells = (2 * kRadius + 1) * (2 * kRadius + 1);
   box_sum(work.system.data, kRadius, pool, across, mean);
-  // What is not agreed on is noise, as much of it on one patch of skin as on the next: a wide mean knows it
-  // best.
+  // What is not agreed on is noise, alike on all patches of skin: a wide mean knows it best.
   constexpr int kNoiseRadius = 12;
   for (std::size_t k = 0; k < noise.values.size(); ++k)
     noise.values[k] = work.system.data.values[k] - work.agreed.values[k];
@@ -290,7 +276,7 @@ Result<void> refine_surface(const RefinerScene& scene, const SurfaceRefinerOptio
   for (int k = 0; k < steps; ++k) {
     if (context.stop()) return Error{Errc::Cancelled, "stopped while refining"};
     Arena::Mark mark(context.scratch);
-    Work work(&context.scratch, nodes.width, nodes.height);
+    Work work{{&context.scratch, nodes.width, nodes.height}};
     load(field, nodes, work);
     WarpTerms terms(&context.scratch, extent.pixels.width, extent.pixels.height);
     const bool last = k == steps - 1;

@@ -33,15 +33,13 @@ namespace relievo::pipeline {
 // explain are patches. A covariance that takes them for independent is too small there; the variance of
 // what they really pull, summed over blocks as wide as the fit's reach, tells by how much (the "sandwich"
 // of White 1980, in space Conley 1999).
-// Memory: scratch only. Results do not depend on the number of threads. Thread: any.
 
 // Share of what seems to be information that at least is: a smaller estimate is lost in its own noise.
 inline constexpr float kLeastReal = 0.06F;
 
 // `pull` is the weighted gradient times residual gathered at every node, from tents of `step` pixels (1 or 2)
 // on each side. Writes the factor of the variance, 1 where the residuals look independent and where nothing
-// was measured; never below a half. `real` is the part of system.data that holds no noise. `excess` has the
-// system's shape.
+// was measured; never below a half. `real`: the part of system.data without noise. `excess`: as large.
 void measure_score_excess(const BendingSystem& system, const Plane<float>& pull, const Plane<float>& real,
                           int step, ThreadPool& pool, std::pmr::memory_resource& scratch,
                           Plane<float>& excess);
@@ -51,13 +49,11 @@ struct WarpTerms;  // warp_terms.h
 // How much less the pixels say than as many independent ones would: noise that hangs together from pixel to
 // pixel (interpolated colours, compression) shakes the fit by the sum over all shifts of the residual's and
 // the gradient's autocorrelation. 1 for a sensor's own pixels, about 3 for photographs stored as JPEG. What
-// the fit has not followed yet is no part of it: it is small beside the noise, pixel by pixel.
-// Thread: one caller.
+// the fit has not followed yet is small beside the noise, pixel by pixel. Thread: one caller.
 float hanging_noise(const WarpTerms& terms, ThreadPool& pool);
 
 struct SurfaceRefinerOptions {
-  float bending =
-      0.17F;  // expected roughness: spectral density of curvature, 1 (dimensionless: (1/mm)^2 mm^2, root)
+  float bending = 0.17F;       // expected roughness: root of the spectral density of curvature, dimensionless
   float crease = 0.9F;         // second differences beyond this many expected ones count as creases
   float wrinkle = 0.135F;      // at full size, patches that bend well beyond this many expected ones count as
                                // relief; 0: none do

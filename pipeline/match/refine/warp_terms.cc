@@ -13,8 +13,7 @@ namespace {
 
 constexpr int kBands = 16;
 constexpr int kNoiseRadius = 3;
-constexpr float kSaturated =
-    250;  // grey: a highlight moves with the viewer and says nothing about the surface
+constexpr float kSaturated = 250;  // grey: a highlight moves with the viewer
 
 struct Sampled {
   float value, slope;
@@ -54,25 +53,23 @@ struct Warped {
 
 void warp_row(const RefinerScene& scene, const SurfaceField& field, const Window& window, int y,
               Warped& out) {
-  const int nodes_per_pixel_shift =
-      field.step_px >> scene.level;  // 1: nodes are pixels, 2: every other pixel
+  const int step = field.step_px >> scene.level;  // 1: nodes are pixels, 2: every other pixel
   const float to_level = 1.0F / float(1 << scene.level);
   const int py = window.y0 + y;
-  const int j = py / nodes_per_pixel_shift;
+  const int j = py / step;
   const int below = std::min(j + 1, field.domain.height - 1);
   const FieldRow rows{field.disparity_px.row(j), field.disparity_px.row(below), field.domain.row(j),
-                      field.domain.row(below),
-                      float(py % nodes_per_pixel_shift) / float(nodes_per_pixel_shift)};
+                      field.domain.row(below), float(py % step) / float(step)};
   const float* left = scene.left.row(py);
   const float* right = scene.right.row(py);
   const std::uint8_t* right_valid = scene.right_valid.row(py);
   for (int x = 0; x < window.width; ++x) {
     const int px = window.x0 + x;
-    const int i = px / nodes_per_pixel_shift;
+    const int i = px / step;
     out.mask.row(y)[x] = 0;
     out.left.row(y)[x] = out.right.row(y)[x] = out.right_slope.row(y)[x] = 0;
     if (rows.upper_in[i] == 0 || px < 1 || px + 2 > scene.left.width) continue;
-    const float tx = float(px % nodes_per_pixel_shift) / float(nodes_per_pixel_shift);
+    const float tx = float(px % step) / float(step);
     const float d = node_disparity(rows, std::min(i, field.domain.width - 2), tx) * to_level;
     const float at = float(px) - d;
     if (!(at >= 1 && at < float(scene.right.width - 2))) continue;
@@ -95,8 +92,7 @@ struct Moments {
   const float *count, *left, *right, *left_left, *right_right, *left_right;
 };
 
-// May be the very rows that are read: `right` becomes the residual, its slope the gradient, a moment the
-// cost.
+// May be the rows that are read: `right` becomes the residual, its slope the gradient, a moment the cost.
 struct RowTerms {
   float *residual, *gradient, *cost, *agreed;
 };
@@ -152,25 +148,14 @@ float noise_variance(const WarpTerms& terms) {
   return std::max(sigma * sigma, 0.05F);
 }
 
-// Sums over the window about every pixel. The results' own planes hold what leads to them: at full size every
-// plane counts.
+// Sums over the window about every pixel. The results' planes hold what leads to them: each plane counts.
 struct WindowSums {
-  WindowSums(std::pmr::memory_resource* memory, WarpTerms& terms)
-      : WindowSums(memory, terms, terms.mask.width, terms.mask.height) {}
-  Plane<float> count, left, right, left_left;
-  Plane<float>& left_right;   // the costs' plane
-  Plane<float>& right_right;  // the weights'
-  Plane<float> across;        // for box_sum
-
- private:
-  WindowSums(std::pmr::memory_resource* memory, WarpTerms& terms, int w, int h)
-      : count(memory, w, h),
-        left(memory, w, h),
-        right(memory, w, h),
-        left_left(memory, w, h),
-        left_right(terms.cost),
-        right_right(terms.weight),
-        across(memory, w, h) {}
+  PlaneShape shape;
+  WarpTerms& terms;
+  Plane<float> count{shape}, left{shape}, right{shape}, left_left{shape};
+  Plane<float>& left_right = terms.cost;
+  Plane<float>& right_right = terms.weight;
+  Plane<float> across{shape};  // for box_sum
 };
 
 // The right view goes to the residuals' plane and its slope to the gradients'.
@@ -275,7 +260,7 @@ void weigh(ThreadPool& pool, WarpTerms& terms, WindowSums& sums) {
 void form_terms(const RefinerScene& scene, const SurfaceRefinerOptions& options, const SurfaceField& field,
                 const Window& window, StageContext& context, WarpTerms& terms, Plane<float>* agreed) {
   const int radius = std::max(options.smallest_window_px, options.local_window_px >> scene.level) / 2;
-  WindowSums sums(&context.scratch, terms);
+  WindowSums sums{{&context.scratch, terms.shape.width, terms.shape.height}, terms};
   sum_windows(scene, field, window, radius, context.pool, terms, sums);
   form_residuals(scene, window, sums, context.pool, terms, agreed);
   take_out_means(radius, context.pool, terms, sums, agreed);

@@ -16,18 +16,14 @@ struct Window {
 
 // Per pixel of the window, 0 where the pixel says nothing.
 struct WarpTerms {
-  WarpTerms(std::pmr::memory_resource* memory, int width, int height)
-      : residual(memory, width, height),
-        gradient(memory, width, height),
-        weight(memory, width, height),
-        mask(memory, width, height),
-        cost(memory, width, height) {}
-  Plane<float> residual;     // grey levels, offset and gain removed
-  Plane<float> gradient;     // its derivative by the disparity, grey levels per full-size pixel
-  Plane<float> weight;       // 1 / variance of the residual
-  Plane<float> mask;         // 1 where both views show the surface
-  Plane<float> cost;         // 1 - local zero-mean normalised correlation
-  float noise_variance = 0;  // of the residual over the whole surface
+  WarpTerms(std::pmr::memory_resource* memory, int width, int height) : shape{memory, width, height} {}
+  PlaneShape shape;
+  Plane<float> residual{shape};  // grey levels, offset and gain removed
+  Plane<float> gradient{shape};  // its derivative by the disparity, grey levels per full-size pixel
+  Plane<float> weight{shape};    // 1 / variance of the residual
+  Plane<float> mask{shape};      // 1 where both views show the surface
+  Plane<float> cost{shape};      // 1 - local zero-mean normalised correlation
+  float noise_variance = 0;      // of the residual over the whole surface
 };
 
 // `agreed`, where wanted: the product of both views' own derivatives by the disparity, means taken out. Its

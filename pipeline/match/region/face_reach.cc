@@ -8,6 +8,8 @@
 
 #include <Eigen/QR>
 
+#include "pipeline/model/vector3.h"
+
 namespace relievo::pipeline {
 
 void ThreeTerms::add(const std::array<double, 3>& terms, double value, double weight) {
@@ -44,13 +46,12 @@ struct Plane3 {
   }
 };
 
-// Least squares, then five times more with what lies off it counting little (Geman-McClure): the nose itself,
-// above all.
+// Least squares, then five times more with what lies off it (the nose) counting little (Geman-McClure).
 Plane3 plane_of(std::span<const Vec3d> points) {
   constexpr double kScale = 6;       // mm: a face without its nose is about that flat
   constexpr double kSteepest = 1.2;  // 50 degrees: the few points of a poor picture may say anything
   Plane3 plane;
-  for (const Vec3d& p : points) plane.mean.x += p.x, plane.mean.y += p.y, plane.mean.z += p.z;
+  for (const Vec3d& p : points) plane.mean = plus(plane.mean, p);
   const auto count = double(points.size());
   plane.mean.x /= count, plane.mean.y /= count, plane.mean.z /= count;
   for (int round = 0; round < 6; ++round) {
@@ -75,12 +76,9 @@ Vec3d mean_of_first(std::span<Vec3d> middle, Before&& before) {
   const auto count = std::max<std::size_t>(10, std::size_t(kNearest * double(middle.size())));
   const std::span<Vec3d> nearest = middle.first(std::min(count, middle.size()));
   std::nth_element(middle.begin(), middle.begin() + std::ptrdiff_t(nearest.size() - 1), middle.end(), before);
+  const auto share = double(nearest.size());
   Vec3d tip;
-  for (const Vec3d& p : nearest) {
-    tip.x += p.x / double(nearest.size());
-    tip.y += p.y / double(nearest.size());
-    tip.z += p.z / double(nearest.size());
-  }
+  for (const Vec3d& p : nearest) tip = plus(tip, {p.x / share, p.y / share, p.z / share});
   return tip;
 }
 
@@ -123,12 +121,9 @@ void keep_within_reach(const RectifiedPair& pair, StageContext& context, Surface
   const Vec3d tip = outstanding_tip(middle);
   const double reach2 = pair.face_reach_mm * pair.face_reach_mm;
   for (int j = 0; j < field.domain.height; ++j)
-    for (int i = 0; i < field.domain.width; ++i) {
-      if (field.domain.row(j)[i] == 0) continue;
-      const Vec3d at = point(i, j);
-      const double dx = at.x - tip.x, dy = at.y - tip.y, dz = at.z - tip.z;
-      if (!(dx * dx + dy * dy + dz * dz <= reach2)) field.domain.row(j)[i] = 0;
-    }
+    for (int i = 0; i < field.domain.width; ++i)
+      if (field.domain.row(j)[i] != 0 && !(squared_distance(point(i, j), tip) <= reach2))
+        field.domain.row(j)[i] = 0;
 }
 
 }  // namespace relievo::pipeline

@@ -16,8 +16,7 @@
 
 namespace relievo::pipeline {
 
-// Weighted least squares of three terms: value = k0 * t0 + k1 * t1 + k2 * t2, from the sums alone. No memory.
-// Thread: one caller.
+// Weighted least squares of three terms, value = k0 * t0 + k1 * t1 + k2 * t2, from sums. Thread: one caller.
 class ThreeTerms {
  public:
   void add(const std::array<double, 3>& terms, double value, double weight = 1);
@@ -34,8 +33,7 @@ inline constexpr double kNoseReach = 0.25;
 
 // The tip of the nose, however the head is turned or bowed: the mean of the hundredth of points (for a single
 // stray point is none) that stands out furthest towards the cameras from the plane that the rest of them lies
-// about. Any frame whose z leads away from the cameras; reorders the points, of which there must be 10 or
-// more.
+// about. Any frame whose z leads away from the cameras; reorders the points, 10 at least.
 Vec3d outstanding_tip(std::span<Vec3d> middle);
 // The same where only the first `candidates` of the points, 10 or more, can be the tip.
 Vec3d outstanding_tip(std::span<Vec3d> middle, std::size_t candidates);
@@ -45,8 +43,7 @@ Vec3d outstanding_tip(std::span<Vec3d> middle, std::size_t candidates);
 bool may_be_nose(const RectifiedPair& pair, double x_px, double y_px);
 
 // Takes nodes out of the domain that lie further than pair.face_reach_mm from the surface nearest to the
-// cameras in the middle of the face. Does nothing where no face was looked for, or where hardly anything lies
-// there.
+// cameras in the middle of the face. Nothing where no face was looked for, or hardly anything lies there.
 void keep_within_reach(const RectifiedPair& pair, StageContext& context, SurfaceField& field);
 
 }  // namespace relievo::pipeline

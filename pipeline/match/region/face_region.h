@@ -37,8 +37,7 @@ struct FaceFinderOptions {
 // Thread: one caller at a time. Memory: OpenCV's own, bounded by the size of the reduced picture.
 class FaceFinder {
  public:
-  // Errors: InvalidInput (options), NotFound (no such file), StoreCorrupt (not the file we know),
-  // LibraryFailed.
+  // Errors: InvalidInput (options), NotFound and StoreCorrupt (checked_file.h), LibraryFailed.
   static Result<FaceFinder> open(const FaceFinderOptions& options);
   FaceFinder(FaceFinder&&) noexcept;
   FaceFinder& operator=(FaceFinder&&) noexcept;

@@ -132,7 +132,7 @@ std::optional<double> number_in(std::string_view text, double least, double most
 // Parts joined by '+'; empty where there are none or too many.
 std::vector<std::string_view> parts_of(std::string_view text) {
   std::vector<std::string_view> parts;
-  while (parts.size() <= kMostLevels) {
+  while (parts.size() < kMostLevels) {
     const std::size_t plus = text.find('+');
     parts.push_back(text.substr(0, plus));
     if (plus == std::string_view::npos) return parts;

@@ -25,8 +25,7 @@ struct DenseSelector {
 
 // GridSelector ("grid-points"): a keypoint every step_px pixels of a rectangle of the left rectified view,
 // from its upper left corner on, as far as it lies in the face region; the dissertation's PatternGrid.
-// lattice_step_px is set: neighbourhoods are kept.
-// Errors: InvalidInput (a rectangle that leaves the view).
+// lattice_step_px is set: neighbourhoods are kept. Errors: InvalidInput (a rectangle that leaves the view).
 struct GridSelector {
   int step_px = 8;
   int left_px = 0, top_px = 0;      // the rectangle's corner
@@ -53,9 +52,8 @@ struct GridSelector {
 // that strong corners may stand close together and weak ones fill plain skin sparsely.
 // `binary_thresholds`: grey levels at which the picture is also made black and white and searched for
 // corners of the outlines, with the same levels.
-// Keypoints are whole pixels; strength is the eigenvalue, (grey levels a pixel)^2,
-// divided by the strongest one's.
-// Errors: TooFewMatches (no corner). Memory: eight planes of the picture's size in `scratch`.
+// Keypoints are whole pixels; strength is the share of the strongest eigenvalue. Errors: TooFewMatches (no
+// corner). Memory: eight planes of the picture's size in `scratch`.
 struct GoodFeaturesSelector {
   std::string levels = "0.02:4+0.004:7+0.0005:10";
   std::string binary_thresholds = "none";
@@ -78,9 +76,9 @@ struct GoodFeaturesSelector {
 // HarrisSelector ("harris"): C. Harris and M. Stephens, A Combined Corner and Edge Detector, 1988:
 // det - sensitivity * trace^2 of the structure tensor under a smooth window (three running means, close
 // to the paper's Gaussian); peaks among their neighbours (non-maximum suppression) that have at least
-// quality^4 of the strongest response: it grows with the fourth power of the contrast.
-// Keypoints are whole pixels; strength is the share of the strongest response.
-// Errors: TooFewMatches (no corner). Memory: seven planes of the picture's size in `scratch`.
+// quality^4 of the strongest response: it grows with the fourth power of the contrast. Keypoints are whole
+// pixels; strength is the share of the strongest response. Errors: TooFewMatches (no corner). Memory: seven
+// planes of the picture's size in `scratch`.
 struct HarrisSelector {
   double sensitivity = 0.05;
   double quality = 0.02;
@@ -104,9 +102,8 @@ struct HarrisSelector {
 // det = Dxx Dyy - (0.9 Dxy)^2 of box filters 9, 15, 21, 27 pixels wide (first octave; twice the growth
 // and half the sampling in each further one), peaks among their 26 neighbours in place and size,
 // placed by a quadratic (Brown and Lowe 2002), then rounded to whole pixels. A peak needs quality^2 of
-// the strongest response: it grows with the square of the contrast.
-// Strength is the share of the strongest response.
-// Errors: TooFewMatches (no blob). Memory: ten planes of the picture's size in `scratch`.
+// the strongest response: it grows with the square of the contrast. Strength is the share of the strongest
+// response. Errors: TooFewMatches (no blob). Memory: ten planes of the picture's size in `scratch`.
 struct HaarSelector {
   int octaves = 2;
   double quality = 0.005;
@@ -127,10 +124,10 @@ struct HaarSelector {
 // salient points for image retrieval, ICIP 2000, with the orthonormal Haar wavelet. From every
 // coefficient, of every scale and of the three orientations, the track follows the greatest (in
 // magnitude) of its four children down to the finest scale, and ends at the pixel with the greatest
-// gradient under that one. The pixel's saliency is the sum of the magnitudes along the track, the
-// greatest of all tracks that end there: what varies over large and small scales alike stands out.
-// Keypoints are whole pixels; strength is the share of the greatest saliency.
-// Errors: TooFewMatches (nothing varies). Memory: four planes of the picture's size in `scratch`.
+// gradient under that one. The pixel's saliency is the sum of the magnitudes along the track, the greatest of
+// all tracks that end there: what varies over large and small scales alike stands out. Keypoints are whole
+// pixels; strength is the share of the greatest saliency. Errors: TooFewMatches (nothing varies). Memory:
+// four planes of the picture's size in `scratch`.
 struct WaveletSalientSelector {
   int scales = 4;
   double quality = 0.01;
@@ -147,7 +144,7 @@ struct WaveletSalientSelector {
   Result<Keypoints> select(const RectifiedPair& pair, StageContext& context) const;
 };
 
-// RandomSelector ("random"): `count` different pixels of the face region, every one equally likely
+// RandomSelector ("random"): `max_points` different pixels of the face region, every one equally likely
 // (selection sampling: Knuth, The Art of Computer Programming 2, 3.4.2, algorithm S). The same seed
 // gives the same pixels on every machine. The yardstick for selectors that claim to know better.
 struct RandomSelector {
@@ -162,11 +159,10 @@ struct RandomSelector {
   Result<Keypoints> select(const RectifiedPair& pair, StageContext& context) const;
 };
 
-// FileSelector ("file-points"): the keypoints of a text file, one a line (match_text.h): x and y in pixels
-// of the left rectified view; further columns are not looked at. What lies outside of the face region is left
-// out; the same place is taken once; keypoints are in rows from the top. Errors: NotFound (none is named, or
-// it was not read); InvalidInput with the line's number: not two numbers, or outside of the view; NoFace
-// (none in the face region); OutOfMemory, Cancelled.
+// FileSelector ("file-points"): the keypoints of a text file, one a line (match_text.h): x and y in pixels of
+// the left rectified view; further columns are not looked at. What lies outside of the face region is left
+// out; the same place is taken once. Errors: NotFound (none is named, or it was not read); InvalidInput with
+// the line's number: not two numbers, or outside of the view; NoFace (none in the face region).
 struct FileSelector {
   TextFile file;
 

@@ -176,7 +176,7 @@ struct Candidates {
   }
 };
 
-Candidates search_coarsest(const Place& place, const DisparityRange& range, std::size_t scale, int most) {
+Candidates search_coarsest(const Place& place, const CandidateRange& range, std::size_t scale, int most) {
   Candidates found;
   const int step = std::max(1, 1 << scale >> 1);
   double before = -2;
@@ -190,7 +190,7 @@ Candidates search_coarsest(const Place& place, const DisparityRange& range, std:
   return found;
 }
 
-void refine(const Place& place, const DisparityRange& range, std::size_t scale, Candidate& candidate) {
+void refine(const Place& place, const CandidateRange& range, std::size_t scale, Candidate& candidate) {
   const int step = std::max(1, 1 << scale >> 1);
   const int middle = candidate.disparity;
   candidate.latest = -2;
@@ -211,7 +211,7 @@ struct Fitted {
   float sigma_px = 0;  // 0: no match
 };
 
-Fitted fit(const Place& place, const DisparityRange& range, int d, double samples, double bias) {
+Fitted fit(const Place& place, const CandidateRange& range, int d, double samples, double bias) {
   Fitted fitted;
   double here = place.stacked(d);
   double before = place.stacked(d - 1);
@@ -234,7 +234,7 @@ Fitted fit(const Place& place, const DisparityRange& range, int d, double sample
   return fitted;
 }
 
-Fitted match_place(const Place& place, const DisparityRange& range, const WaveletMatcher& options,
+Fitted match_place(const Place& place, const CandidateRange& range, const WaveletMatcher& options,
                    double bias) {
   const auto coarsest = std::size_t(options.scales - 1);
   Candidates candidates = search_coarsest(place, range, coarsest, options.candidates);
@@ -283,7 +283,7 @@ Result<MatchSet> WaveletMatcher::match(const RectifiedPair& pair, const Keypoint
   const int reach = radius + 1;
   const Plane<std::uint8_t> whole_left = whole_windows(pair, pair.left, reach, context);
   const Plane<std::uint8_t> whole_right = whole_windows(pair, pair.right, reach, context);
-  const DisparityRange range = disparity_range(pair);
+  const CandidateRange range = disparity_range(pair);
   const double bias = method_bias_px(pair, 2 * (2 * radius + 1));
   std::pmr::vector<Match> found(keypoints.points.size(), Match{}, &context.scratch);
   context.progress.done.store(0.1F, std::memory_order_relaxed);

@@ -49,8 +49,7 @@ float scatter_about_plane(const Plane<float>& field, int x, int y, float nothing
 struct FieldReading {
   bool known = false;
   float disparity = 0;  // pixels of the field
-  float scatter =
-      0;  // rms about the least-squares plane of 5 x 5 pixels; of those within 2 pixels of the middle
+  float scatter = 0;    // rms about the plane of 5 x 5 pixels, of those within 2 pixels of the middle
 };
 
 // `at` in pixels of the field. Bilinear between four that lie on one surface (within a pixel of each

@@ -24,8 +24,12 @@ void fill_plane(const RectifiedView& view, int channel, int channels, ThreadPool
   });
 }
 
+struct RightMoments {
+  double sum = 0, squares = 0, cross = 0;
+};
+
 // One sum for every column first: independent lanes, added in a fixed order.
-RELIEVO_SIMD void sum_moments(const float* left, const float* right, int side, int stride, double* all) {
+RELIEVO_SIMD RightMoments sum_moments(const float* left, const float* right, int side, int stride) {
   double sum[64] = {};
   double squares[64] = {};
   double cross[64] = {};
@@ -36,12 +40,13 @@ RELIEVO_SIMD void sum_moments(const float* left, const float* right, int side, i
       squares[i] += r * r;
       cross[i] += r * double(left[i]);
     }
-  all[0] = all[1] = all[2] = 0;
+  RightMoments all;
   for (int i = 0; i < side; ++i) {
-    all[0] += sum[i];
-    all[1] += squares[i];
-    all[2] += cross[i];
+    all.sum += sum[i];
+    all.squares += squares[i];
+    all.cross += cross[i];
   }
+  return all;
 }
 
 RELIEVO_SIMD double sum_differences(const float* left, const float* right, int side, int stride) {
@@ -58,7 +63,7 @@ RELIEVO_SIMD double sum_differences(const float* left, const float* right, int s
 
 }  // namespace
 
-DisparityRange disparity_range(const RectifiedPair& pair) {
+CandidateRange disparity_range(const RectifiedPair& pair) {
   return {int(std::floor(pair.disparity_px(pair.far_mm))) - 1,
           int(std::ceil(pair.disparity_px(pair.near_mm))) + 1};
 }
@@ -71,15 +76,12 @@ Plane<std::uint8_t> whole_windows(const RectifiedPair& pair, const RectifiedView
   Arena::Mark mark(context.scratch);
   Plane<int> run(&context.scratch, w, 1);  // valid pixels above and on this row, without a gap
   for (int y = 0; y < h; ++y) {
-    for (int x = 0; x < w; ++x)
-      run.values[std::size_t(x)] = view.valid[std::size_t(y) * std::size_t(w) + std::size_t(x)] != 0
-                                       ? run.values[std::size_t(x)] + 1
-                                       : 0;
+    for (int x = 0; x < w; ++x) run.row(0)[x] = view.valid[pair.index(x, y)] != 0 ? run.row(0)[x] + 1 : 0;
     const int centre = y - radius;
     if (centre < radius) continue;
     int across = 0;
     for (int x = 0; x < w; ++x) {
-      across = run.values[std::size_t(x)] >= 2 * radius + 1 ? across + 1 : 0;
+      across = run.row(0)[x] >= 2 * radius + 1 ? across + 1 : 0;
       if (across >= 2 * radius + 1) whole.row(centre)[x - radius] = 1;
     }
   }
@@ -168,18 +170,6 @@ bool PatchScores::load(Vec2f at, int first, int count) {
   return true;
 }
 
-PatchScores::RightMoments PatchScores::moments(std::size_t channel, int candidate) const {
-  double all[3];
-  sum_moments(left_.data() + channel * std::size_t(side_ * side_), right_window(channel, candidate), side_,
-              strip_width_, all);
-  return {all[0], all[1], all[2]};
-}
-
-double PatchScores::squared_differences(std::size_t channel, int candidate) const {
-  return sum_differences(left_.data() + channel * std::size_t(side_ * side_),
-                         right_window(channel, candidate), side_, strip_width_);
-}
-
 PatchScores::Score PatchScores::score(int candidate) const {
   if (!whole(planes_.whole_right, x_ - (first_ + candidate)))
     return {std::numeric_limits<double>::infinity(), 1};
@@ -187,10 +177,12 @@ PatchScores::Score PatchScores::score(int candidate) const {
   double covariation = 0;
   double right_variation = 0;
   for (std::size_t c = 0; c < planes_.left.size(); ++c) {
-    const RightMoments m = moments(c, candidate);
+    const float *left = left_window(c), *right = right_window(c, candidate);
+    const RightMoments m = sum_moments(left, right, side_, strip_width_);
     right_variation += std::max(0.0, m.squares - m.sum * m.sum / (side_ * side_));
     covariation += m.cross;  // the left window has no mean
-    if (score_ == WindowScore::SquaredDifferences) differences += squared_differences(c, candidate);
+    if (score_ == WindowScore::SquaredDifferences)
+      differences += sum_differences(left, right, side_, strip_width_);
   }
   if (score_ == WindowScore::SquaredDifferences) {
     const double own = left_variation_ + right_variation;

@@ -35,12 +35,12 @@ struct ChannelPlanes {
 };
 
 // Inclusive; whole pixels. One candidate beyond the volume on both sides, so that its ends have neighbours.
-struct DisparityRange {
+struct CandidateRange {
   int first = 0;
   int last = 0;
   int count() const { return last - first + 1; }
 };
-DisparityRange disparity_range(const RectifiedPair& pair);
+CandidateRange disparity_range(const RectifiedPair& pair);
 
 // 1 where the square of 2 radius + 1 pixels about a pixel lies inside the picture and is valid throughout.
 Plane<std::uint8_t> whole_windows(const RectifiedPair& pair, const RectifiedView& view, int radius,
@@ -67,14 +67,12 @@ class PatchScores {
   Score score(int candidate) const;
 
  private:
-  struct RightMoments {
-    double sum, squares, cross;
-  };
-  RightMoments moments(std::size_t channel, int candidate) const;
+  const float* left_window(std::size_t channel) const {
+    return left_.data() + channel * std::size_t(side_ * side_);
+  }
   const float* right_window(std::size_t channel, int candidate) const {
     return strip_.data() + channel * std::size_t(side_ * strip_width_) + (strip_width_ - side_ - candidate);
   }
-  double squared_differences(std::size_t channel, int candidate) const;
   bool whole(const Plane<std::uint8_t>& mask, int x) const;
   void sample(const Plane<float>& from, int x0, int width, float* to) const;
 

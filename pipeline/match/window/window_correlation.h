@@ -12,13 +12,10 @@
 
 namespace relievo::pipeline {
 
-// One place of the left view looked for on its row of the right one, by zero-mean correlation of square
-// windows read from the pair itself: for a few places, where the matchers' tables would cost more than they
-// save. Candidates are whole disparities, a parabola goes through the best; sigma_px as in window_matching.h,
-// cost one minus the correlation. Pixels. Thread: any. Errors: none.
-
-// The best between two disparities, both included; none where no window correlates, or the best lies at an
-// end: what is looked for may then be beyond.
+// One place of the left view looked for on its row of the right one, for a few places, where the matchers'
+// tables would cost more than they save. Candidates are whole disparities, both ends included, a parabola
+// goes through the best; sigma_px as in window_matching.h, cost one minus the correlation. None where no
+// window correlates, or the best lies at an end: what is looked for may be beyond. Pixels. Thread: any.
 std::optional<Match> match_on_row(const RectifiedPair& pair, Vec2f left_px, double least_px, double most_px,
                                   int radius);
 

@@ -8,25 +8,18 @@ namespace relievo::pipeline {
 
 Result<MatchSet> SsdMatcher::match(const RectifiedPair& pair, const Keypoints& keypoints,
                                    StageContext& context) const {
-  WindowRule rule;
-  rule.score = WindowScore::SquaredDifferences;
-  rule.window_px = window_px;
-  rule.channels = channels;
-  rule.most_unlike = double(max_difference) * double(max_difference);
-  rule.sigma_limit_px = sigma_limit_px;
-  return match_windows(pair, keypoints, rule, context);
+  const double most_unlike = double(max_difference) * double(max_difference);
+  return match_windows(
+      pair, keypoints,
+      {WindowScore::SquaredDifferences, window_px, channels, false, most_unlike, sigma_limit_px}, context);
 }
 
 Result<MatchSet> ZmnccMatcher::match(const RectifiedPair& pair, const Keypoints& keypoints,
                                      StageContext& context) const {
-  WindowRule rule;
-  rule.score = WindowScore::ZeroMeanCorrelation;
-  rule.window_px = window_px;
-  rule.channels = channels;
-  rule.equiangular = equiangular != 0;
-  rule.most_unlike = 1 - double(min_score);
-  rule.sigma_limit_px = sigma_limit_px;
-  return match_windows(pair, keypoints, rule, context);
+  return match_windows(pair, keypoints,
+                       {WindowScore::ZeroMeanCorrelation, window_px, channels, equiangular != 0,
+                        1 - double(min_score), sigma_limit_px},
+                       context);
 }
 
 }  // namespace relievo::pipeline

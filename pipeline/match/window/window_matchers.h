@@ -15,8 +15,7 @@ namespace relievo::pipeline {
 // Grey values are compared as they are: both cameras must be exposed alike, gain or offset between the
 // views is taken for unlikeness (`zmncc` is blind to both). Grey levels (0 .. 255), pixels.
 // cost is S over the variation of both windows: one minus correlation where the exposure is equal, 1 where
-// they are unrelated. For sigma_px and lattices see window_matching.h.
-// Errors: as Matcher.
+// they are unrelated. For sigma_px and lattices see window_matching.h. Errors: as Matcher.
 struct SsdMatcher {
   int window_px = 25;         // odd
   int channels = 1;           // 1: grey, 3: the three colours together
@@ -39,8 +38,7 @@ struct SsdMatcher {
 //
 // Blind to gain and offset between the views within the window; with three channels each colour has an
 // offset of its own, and all three share the gain. Pixels.
-// cost is one minus the correlation. For sigma_px and lattices see window_matching.h.
-// Errors: as Matcher.
+// cost is one minus the correlation. For sigma_px and lattices see window_matching.h. Errors: as Matcher.
 struct ZmnccMatcher {
   int window_px = 25;        // odd
   int channels = 1;          // 1: grey, 3: the three colours together

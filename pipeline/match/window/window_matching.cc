@@ -113,7 +113,7 @@ class Search {
     }
   }
 
-  void run(const DisparityRange& range, StageContext& context) {
+  void run(const CandidateRange& range, StageContext& context) {
     context.pool.for_each_band(rows_.count, bands_, [&](int begin, int end, int band) {
       for (int row = begin; row < end; ++row) {
         if (context.stop()) return;
@@ -232,7 +232,7 @@ class Search {
 
 // best.row(j)[x]: the disparity of pixel (x, rows.first_px + j * rows.step_px), kNoCandidate where no
 // window fits (or no correlation is positive). Stopped early where the context says so.
-void search_lattice(const ChannelPlanes& planes, WindowScore score, const DisparityRange& range,
+void search_lattice(const ChannelPlanes& planes, WindowScore score, const CandidateRange& range,
                     const LatticeRows& rows, StageContext& context, Plane<int>& best) {
   std::ranges::fill(best.values, kNoCandidate);
   Arena::Mark mark(context.scratch);
@@ -240,8 +240,7 @@ void search_lattice(const ChannelPlanes& planes, WindowScore score, const Dispar
 }
 
 constexpr int kBands = 32;
-constexpr double kFitBiasPx =
-    0.03;  // rms of the parabola's pull towards whole pixels, textures of 5 to 20 pixels
+constexpr double kFitBiasPx = 0.03;     // rms of a parabola's pull to whole pixels, textures of 5 to 20
 constexpr double kFaceBend = 1.0 / 40;  // 1/mm: between a cheek and the tip of a nose
 
 // Rows of the keypoints, where they lie on pixels of a lattice as they say; else none.
@@ -357,7 +356,7 @@ class WindowMatching {
   const Keypoints& keypoints_;
   const WindowRule& rule_;
   double bias_px_;
-  DisparityRange range_;
+  CandidateRange range_;
   std::optional<LatticeRows> rows_;
   ChannelPlanes planes_;
   Plane<int> best_;

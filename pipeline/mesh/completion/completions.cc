@@ -20,6 +20,7 @@
 #include "pipeline/mesh/completion/mesh_laplacian.h"
 #include "pipeline/mesh/completion/unrolled_head.h"
 #include "pipeline/mesh/landmarks/head_frame.h"
+#include "pipeline/model/vector3.h"
 
 namespace relievo::pipeline {
 namespace {
@@ -36,20 +37,10 @@ std::pmr::vector<Addition> additions(const UnrolledHead& head, const RigidTransf
       const double arc = head.own.x_mm(c), y = head.own.y_mm(r);
       const Vec3d at = apply(camera_from_head, rolled(arc, y, double(radius)));
       const double sigma = options.sigma_mm + options.sigma_per_mm * double(away);
-      all.push_back({{float(at.x), float(at.y), float(at.z)}, {float(arc), float(y)}, float(sigma)});
+      all.push_back({narrow(at), {float(arc), float(y)}, float(sigma)});
     }
   return all;
 }
-
-}  // namespace
-
-Result<void> SymmetricCompletion::check() const {
-  if (longest_edge_mm < 2 * cell_mm)
-    return Error{Errc::InvalidInput, "longest_edge_mm must be at least two cells"}.at("symmetric");
-  return {};
-}
-
-namespace {
 
 // None where no head is found: then nothing is completed.
 Result<std::optional<HeadFrame>> frame_of(const FaceMesh& mesh, const Vec3d& across, StageContext& context) {
@@ -60,6 +51,12 @@ Result<std::optional<HeadFrame>> frame_of(const FaceMesh& mesh, const Vec3d& acr
 }
 
 }  // namespace
+
+Result<void> SymmetricCompletion::check() const {
+  if (longest_edge_mm < 2 * cell_mm)
+    return Error{Errc::InvalidInput, "longest_edge_mm must be at least two cells"}.at("symmetric");
+  return {};
+}
 
 Result<FaceMesh> SymmetricCompletion::complete(FaceMesh mesh, const Vec3d& across,
                                                StageContext& context) const {
@@ -74,10 +71,7 @@ Result<FaceMesh> SymmetricCompletion::complete(FaceMesh mesh, const Vec3d& acros
   if (context.stop()) return stopped;
   const auto added = additions(head, inverse(frame->head_from_camera), *this, context.scratch);
   if (added.empty()) return mesh;
-  std::pmr::vector<Vec2f> plane(&context.scratch);
-  plane.reserve(mesh.vertices_mm.size());
-  for (const Vec3f& v : head.flat.vertices_mm) plane.push_back({v.x, v.y});
-  return sew(mesh, plane, added, {longest_edge_mm}, context);
+  return sew(mesh, head.flat.vertices_mm, added, {longest_edge_mm}, context);
 }
 
 namespace {
@@ -92,10 +86,7 @@ double neighbour_share(int neighbours) {
   return (0.625 - c * c) / neighbours;
 }
 
-double sum(double a, double share, double b) { return a + share * b; }
-Vec3d sum(const Vec3d& a, double share, const Vec3d& b) {
-  return {a.x + share * b.x, a.y + share * b.y, a.z + share * b.z};
-}
+double along(double place, double share, double way) { return place + share * way; }
 
 }  // namespace
 
@@ -135,7 +126,7 @@ void Globe::quarter(std::span<std::pmr::vector<double>> fields) {
   const auto smoothed = [&](const auto& field, auto fine) {
     fine.resize(before + edges.size());
     const auto add = [&fine](std::uint32_t to, double share, const auto& value) {
-      fine[to] = sum(fine[to], share, value);
+      fine[to] = along(fine[to], share, value);
     };
     for (std::uint32_t v = 0; v < before; ++v)
       add(v, 1 - neighbours[v] * neighbour_share(neighbours[v]), field[v]);
@@ -154,11 +145,11 @@ void Globe::quarter(std::span<std::pmr::vector<double>> fields) {
   if (fields.empty()) {
     direction.resize(before + edges.size());
     for (std::size_t k = 0; k < edges.size(); ++k)
-      direction[before + k] = sum(direction[edges[k][0]], 1, direction[edges[k][1]]);
+      direction[before + k] = plus(direction[edges[k][0]], direction[edges[k][1]]);
   } else {
     direction = smoothed(direction, std::pmr::vector<Vec3d>(memory));
   }
-  for (Vec3d& d : direction) d = sum({}, 1 / std::hypot(d.x, d.y, d.z), d);
+  for (Vec3d& d : direction) d = along(Vec3d{}, 1 / std::hypot(d.x, d.y, d.z), d);
   std::pmr::vector<std::array<std::uint32_t, 3>> fine(memory);
   fine.reserve(4 * triangles.size());
   for (const auto& [a, b, c] : triangles) {
@@ -266,30 +257,6 @@ Vec2d plane_of(const Vec3d& direction) {
   return {direction.x * scale, direction.y * scale};
 }
 
-struct Globed {
-  Vec2d plane;
-  double radius;
-};
-
-Globed globed(const Vec3d& in_head) {
-  const Vec3d from{in_head.x - kGlobeCentre.x, in_head.y - kGlobeCentre.y, in_head.z - kGlobeCentre.z};
-  const double radius = std::hypot(from.x, from.y, from.z);
-  return {plane_of({from.x / radius, from.y / radius, from.z / radius}), radius};
-}
-
-// The surface as it is, in the plane; the radius is its height.
-FaceMesh laid_flat(const FaceMesh& mesh, const RigidTransform& head_from_camera, Arena& scratch) {
-  FaceMesh flat(&scratch);
-  flat.vertices_mm.reserve(mesh.vertices_mm.size());
-  for (const Vec3f& v : mesh.vertices_mm) {
-    const Globed g = globed(apply(head_from_camera, {double(v.x), double(v.y), double(v.z)}));
-    flat.vertices_mm.push_back({float(g.plane.x), float(g.plane.y), float(g.radius)});
-  }
-  flat.measured.assign(mesh.vertices_mm.size(), 1);  // gaps that the mesher closed are surface here
-  flat.triangles.assign(mesh.triangles.begin(), mesh.triangles.end());
-  return flat;
-}
-
 // 1 where a node shows nothing of its own, nor does a neighbour.
 std::vector<char> apart(const Globe& globe, std::span<const double> off) {
   std::vector<char> free(off.size());
@@ -318,9 +285,15 @@ Result<FaceMesh> GenericHeadCompletion::complete(FaceMesh mesh, const Vec3d& acr
   for (int k = 0; k < kFiner; ++k) globe.quarter(fields);
   const auto &radius = fields[0], &sigma = fields[1];  // clang 14's lambdas take no structured bindings
 
-  const FaceMesh flat = laid_flat(mesh, frame->head_from_camera, scratch);
+  // The surface as it is, in the plane; the radius is its height.
+  const FaceMesh flat = laid_flat(mesh, scratch, [&](const Vec3f& v) {
+    const Vec3d from = minus(apply(frame->head_from_camera, wide(v)), kGlobeCentre);
+    const double radius_mm = std::hypot(from.x, from.y, from.z);
+    const Vec2d at = plane_of({from.x / radius_mm, from.y / radius_mm, from.z / radius_mm});
+    return Vec3f{float(at.x), float(at.y), float(radius_mm)};
+  });
   FaceRelief own({-kPlaneMm, kPlaneMm, -kPlaneMm, kPlaneMm, kPlaneCellMm}, &scratch);
-  own.add(flat, {});
+  own.add(flat, {}, true);  // gaps that the mesher closed are surface here
   std::pmr::vector<double> off(radius.size(), std::numeric_limits<double>::quiet_NaN(), &scratch);
   for (std::size_t v = 1; v < off.size(); ++v) {  // the first is the pole
     const Vec2d at = plane_of(globe.direction[v]);
@@ -334,20 +307,15 @@ Result<FaceMesh> GenericHeadCompletion::complete(FaceMesh mesh, const Vec3d& acr
   const RigidTransform camera_from_head = inverse(frame->head_from_camera);
   const auto addition = [&](std::size_t v) {
     const Vec3d& d = globe.direction[v];
-    const double r = radius[v] + off[v];
-    const Vec3d at = apply(camera_from_head,
-                           {kGlobeCentre.x + r * d.x, kGlobeCentre.y + r * d.y, kGlobeCentre.z + r * d.z});
+    const Vec3d at = apply(camera_from_head, along(kGlobeCentre, radius[v] + off[v], d));
     const Vec2d plane = plane_of(d);
-    return Addition{
-        {float(at.x), float(at.y), float(at.z)}, {float(plane.x), float(plane.y)}, float(sigma[v])};
+    return Addition{narrow(at), {float(plane.x), float(plane.y)}, float(sigma[v])};
   };
   std::pmr::vector<Addition> added(&scratch);
   for (std::size_t v = 1; v < off.size(); ++v)
     if (free[v] != 0) added.push_back(addition(v));
-  std::pmr::vector<Vec2f> plane(&scratch);
-  plane.reserve(flat.vertices_mm.size());
-  for (const Vec3f& v : flat.vertices_mm) plane.push_back({v.x, v.y});
-  return sew(mesh, plane, added, {std::numeric_limits<float>::max(), addition(0), kFairedMm}, context);
+  return sew(mesh, flat.vertices_mm, added, {std::numeric_limits<float>::max(), addition(0), kFairedMm},
+             context);
 }
 
 }  // namespace relievo::pipeline

@@ -17,9 +17,8 @@ namespace {
 using Modes = Eigen::Matrix<double, kHeadModes, 1>;
 using ModesSquare = Eigen::Matrix<double, kHeadModes, kHeadModes>;
 
-constexpr double kApartMm = 5;  // between the places that the fit looks at
-constexpr double kTogetherMm =
-    12;  // over which the misfit hangs together: that many places tell as much as one
+constexpr double kApartMm = 5;      // between the places that the fit looks at
+constexpr double kTogetherMm = 12;  // over which the misfit hangs together, and tells as much as one place
 constexpr int kRounds = 6;
 constexpr double kHuber = 1.5;  // misfits beyond this many count less: hair, a tongue, a hand
 

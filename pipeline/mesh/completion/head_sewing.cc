@@ -17,30 +17,6 @@ namespace {
 
 using Edge = std::array<std::uint32_t, 2>;
 
-// Directed edges that one triangle alone has.
-std::pmr::vector<Edge> border_of(const FaceMesh& mesh, Arena& scratch) {
-  struct Half {
-    Edge key;
-    Edge as_run;
-  };
-  std::pmr::vector<Half> all(&scratch);
-  all.reserve(mesh.triangles.size() * 3);
-  for (const auto& t : mesh.triangles)
-    for (std::size_t k = 0; k < 3; ++k) {
-      const Edge e{t[k], t[(k + 1) % 3]};
-      all.push_back({{std::min(e[0], e[1]), std::max(e[0], e[1])}, e});
-    }
-  std::ranges::sort(all, [](const Half& l, const Half& r) { return l.key < r.key; });
-  std::pmr::vector<Edge> border(&scratch);
-  for (std::size_t i = 0; i < all.size();) {
-    std::size_t j = i + 1;
-    while (j < all.size() && all[j].key == all[i].key) ++j;
-    if (j - i == 1) border.push_back(all[i].as_run);
-    i = j;
-  }
-  return border;
-}
-
 std::pmr::vector<Edge> directed_edges(const FaceMesh& mesh, Arena& scratch) {
   std::pmr::vector<Edge> edges(&scratch);
   edges.reserve(3 * mesh.triangles.size());
@@ -66,7 +42,7 @@ bool fits(const FaceMesh& mesh, std::span<const Edge> own, const Triangle& t, do
 // that stands upright on it.
 void fair_seam(FaceMesh& mesh, std::size_t own, double width_mm) {
   std::vector<Eigen::Vector3d> at;
-  for (const Vec3f& v : mesh.vertices_mm) at.push_back(Eigen::Vector3f(v.x, v.y, v.z).cast<double>());
+  for (const Vec3f& v : mesh.vertices_mm) at.emplace_back(v.x, v.y, v.z);
   std::vector<double> away(at.size(), width_mm);
   for (std::size_t v = 0; v < own; ++v) away[v] = 0;
   for (bool nearer = true; nearer;) {
@@ -90,35 +66,12 @@ void fair_seam(FaceMesh& mesh, std::size_t own, double width_mm) {
     }
 }
 
-// Vertices that no triangle uses go; the order of the rest stays.
-FaceMesh compacted(const FaceMesh& mesh, Arena& output, Arena& scratch) {
-  std::pmr::vector<std::uint32_t> place(mesh.vertices_mm.size(), 0, &scratch);
-  for (const auto& t : mesh.triangles)
-    for (const std::uint32_t v : t) place[v] = 1;
-  std::uint32_t count = 0;
-  for (std::uint32_t& p : place) p = p != 0 ? ++count : 0;
-  FaceMesh out(&output);
-  out.vertices_mm.reserve(count), out.normals.reserve(count), out.sigma_mm.reserve(count),
-      out.measured.reserve(count);
-  for (std::size_t v = 0; v < place.size(); ++v) {
-    if (place[v] == 0) continue;
-    out.vertices_mm.push_back(mesh.vertices_mm[v]);
-    out.normals.push_back(mesh.normals[v]);
-    out.sigma_mm.push_back(mesh.sigma_mm[v]);
-    out.measured.push_back(mesh.measured[v]);
-  }
-  out.triangles.reserve(mesh.triangles.size());
-  for (const auto& t : mesh.triangles)
-    out.triangles.push_back({place[t[0]] - 1, place[t[1]] - 1, place[t[2]] - 1});
-  return out;
-}
-
 }  // namespace
 
 void fan_holes(FaceMesh& mesh, Arena& scratch) {
   constexpr std::uint32_t kNone = ~std::uint32_t{0};
   std::pmr::vector<std::uint32_t> next(mesh.vertices_mm.size(), kNone, &scratch);
-  for (const auto& [from, to] : border_of(mesh, scratch)) next[to] = from;
+  for (const auto& [from, to] : border_edges(mesh.triangles, &scratch)) next[to] = from;
   std::pmr::vector<std::uint32_t> loop(&scratch);
   for (std::uint32_t start = 0; start < next.size(); ++start) {
     loop.clear();
@@ -143,20 +96,19 @@ void fan_holes(FaceMesh& mesh, Arena& scratch) {
   }
 }
 
-FaceMesh sew(const FaceMesh& mesh, std::span<const Vec2f> plane, std::span<const Addition> added,
+FaceMesh sew(const FaceMesh& mesh, std::span<const Vec3f> flat, std::span<const Addition> added,
              const SewingRules& rules, StageContext& context) {
   FaceMesh whole(&context.scratch);
-  whole.vertices_mm.assign(mesh.vertices_mm.begin(), mesh.vertices_mm.end());
-  whole.sigma_mm.assign(mesh.sigma_mm.begin(), mesh.sigma_mm.end());
-  whole.measured.assign(mesh.measured.begin(), mesh.measured.end());
-  whole.triangles.assign(mesh.triangles.begin(), mesh.triangles.end());
+  whole = mesh;  // keeps its own memory
   const auto add = [&whole](const Addition& a) {
     whole.vertices_mm.push_back(a.at_mm);
     whole.sigma_mm.push_back(a.sigma_mm);
     whole.measured.push_back(0);
     return std::uint32_t(whole.vertices_mm.size() - 1);
   };
-  std::pmr::vector<Vec2f> places(plane.begin(), plane.end(), &context.scratch);
+  std::pmr::vector<Vec2f> places(&context.scratch);
+  places.reserve(mesh.vertices_mm.size() + added.size());
+  for (const Vec3f& v : flat) places.push_back({v.x, v.y});
   std::pmr::vector<std::uint32_t> fresh(&context.scratch);
   for (const Addition& a : added) {
     fresh.push_back(add(a));
@@ -164,7 +116,7 @@ FaceMesh sew(const FaceMesh& mesh, std::span<const Vec2f> plane, std::span<const
   }
   std::optional<std::uint32_t> far_point;
   if (rules.far_point) far_point = add(*rules.far_point);
-  const auto border = border_of(mesh, context.scratch);
+  const auto border = border_edges(mesh.triangles, &context.scratch);
   const auto own = directed_edges(mesh, context.scratch);
   const auto gap = triangulate_gap(places, border, fresh, far_point, &context.scratch);
   for (const Triangle& t : gap)
@@ -176,7 +128,14 @@ FaceMesh sew(const FaceMesh& mesh, std::span<const Vec2f> plane, std::span<const
   compute_normals(whole, 1, &context.scratch);
   for (std::size_t v = 0; v < mesh.normals.size(); ++v)
     if (mesh.measured[v] != 0) whole.normals[v] = mesh.normals[v];
-  return compacted(whole, context.output, context.scratch);
+  std::pmr::vector<Vec3f> normals(&context.scratch);
+  normals.reserve(whole.normals.size());
+  FaceMesh sewn = pack_mesh(whole.vertices_mm.size(), whole.triangles, context, [&](std::size_t v) {
+    normals.push_back(whole.normals[v]);
+    return PackedVertex{whole.vertices_mm[v], whole.sigma_mm[v], whole.measured[v]};
+  });
+  sewn.normals.assign(normals.begin(), normals.end());
+  return sewn;
 }
 
 }  // namespace relievo::pipeline

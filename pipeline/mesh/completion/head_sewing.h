@@ -27,9 +27,9 @@ struct SewingRules {
   double faired_mm = 0;  // so far from the seam what was added is laid anew, to go on without a crease
 };
 
-// `plane`: where each vertex of `mesh` lies when laid flat, seen from outside. No addition may lie where the
-// mesh does. Throws std::bad_alloc.
-FaceMesh sew(const FaceMesh& mesh, std::span<const Vec2f> plane, std::span<const Addition> added,
+// `flat`: where each vertex of `mesh` lies when laid flat, x and y, seen from outside. No addition may lie
+// where the mesh does. Throws std::bad_alloc.
+FaceMesh sew(const FaceMesh& mesh, std::span<const Vec3f> flat, std::span<const Addition> added,
              const SewingRules& rules, StageContext& context);
 
 // Closes every hole: one of three edges by a triangle, a larger one by a fan about a vertex in its middle.

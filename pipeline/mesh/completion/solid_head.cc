@@ -19,9 +19,7 @@ namespace {
 constexpr double kStumpMm = 14;
 constexpr double kLeastFootMm2 = 2000;  // of a neck
 
-Vec3d in_head(const FaceModel& model, const Vec3f& v) {
-  return apply(model.head_from_camera, {double(v.x), double(v.y), double(v.z)});
-}
+Vec3d in_head(const FaceModel& model, const Vec3f& v) { return apply(model.head_from_camera, wide(v)); }
 
 // The part of the mesh above the height, its border on the plane.
 FaceMesh above(const FaceMesh& mesh, std::span<const double> height, double cut, Arena& memory) {

@@ -4,9 +4,9 @@
 // A solid for printing: the face, or the head fused of several pairs, with a usual person's head where
 // nothing was measured (completion=generic-head), cut flat at the neck. Closed, each edge in two triangles,
 // counter-clockwise from outside; without texture. What was measured above the cut stays where it is, the
-// rest has `measured` 0. Memory: the mesh and the whole head in `output`, the rest in scratch; lists of
-// edges, Eigen's and CGAL's from the heap. Errors: PoorGeometry (no head is found in it, or it does not
-// close); Cancelled; OutOfMemory. Thread: any.
+// rest has `measured` 0. Memory: the mesh and the whole head in `output`, the rest in scratch; a copy of the
+// model's mesh, lists of edges, Eigen's and CGAL's from the heap. Errors: PoorGeometry (no head is found in
+// it, or it does not close); Cancelled; OutOfMemory. Thread: any.
 #pragma once
 
 #include "pipeline/base/stage.h"

@@ -25,16 +25,12 @@ Vec3d rolled(double arc, double y, double radius) {
 
 UnrolledHead::UnrolledHead(const FaceMesh& mesh, const RigidTransform& head_from_camera, double cell_mm,
                            Arena& scratch)
-    : flat(&scratch),
+    : flat(laid_flat(mesh, scratch,
+                     [&](const Vec3f& v) { return unrolled(apply(head_from_camera, wide(v))); })),
       own({-kHalfArc, kHalfArc, -kBelow, kAbove, cell_mm}, &scratch),
       added({-kHalfArc, kHalfArc, -kBelow, kAbove, cell_mm}, &scratch),
       distance_mm(&scratch) {
-  flat.vertices_mm.reserve(mesh.vertices_mm.size());
-  for (const Vec3f& v : mesh.vertices_mm)
-    flat.vertices_mm.push_back(unrolled(apply(head_from_camera, wide(v))));
-  flat.measured.assign(mesh.vertices_mm.size(), 1);  // gaps that the mesher closed are surface here
-  flat.triangles.assign(mesh.triangles.begin(), mesh.triangles.end());
-  own.add(flat, {});
+  own.add(flat, {}, true);  // gaps that the mesher closed are surface here
 }
 
 void UnrolledHead::relax(std::pmr::vector<float>& shift, const std::pmr::vector<std::uint8_t>& fixed) {

@@ -20,6 +20,16 @@ inline constexpr double kArcRadius = 80;   // mm: turns angles about it into len
 inline constexpr double kHalfArc = 125;    // to the ears
 inline constexpr double kBelow = 95, kAbove = 95;
 
+// The surface with each vertex where `place` has it, without anything else. Memory: scratch.
+template <typename Place>
+FaceMesh laid_flat(const FaceMesh& mesh, Arena& scratch, Place&& place) {
+  FaceMesh flat(&scratch);
+  flat.vertices_mm.reserve(mesh.vertices_mm.size());
+  for (const Vec3f& v : mesh.vertices_mm) flat.vertices_mm.push_back(place(v));
+  flat.triangles = mesh.triangles;
+  return flat;
+}
+
 // Arc, height and radius about the head's axis, and back.
 Vec3f unrolled(const Vec3d& in_head);
 Vec3d rolled(double arc, double y, double radius);
@@ -53,7 +63,7 @@ class UnrolledHead {
   std::size_t index(int c, int r) const { return std::size_t(r * own.columns() + c); }
   std::size_t cells() const { return std::size_t(own.columns() * own.rows()); }
 
-  FaceMesh flat;  // the measured surface, unrolled
+  FaceMesh flat;  // the surface, unrolled
   FaceRelief own, added;
   std::pmr::vector<float> distance_mm;  // of a cell from the measured ones, in city blocks
 

@@ -25,17 +25,9 @@ struct Quadric {
   double xx = 0, xy = 0, xz = 0, yy = 0, yz = 0, zz = 0, x = 0, y = 0, z = 0, one = 0, weight = 0;
 
   void add_plane(const Vec3d& n, double offset, double w) {
-    xx += w * n.x * n.x;
-    xy += w * n.x * n.y;
-    xz += w * n.x * n.z;
-    yy += w * n.y * n.y;
-    yz += w * n.y * n.z;
-    zz += w * n.z * n.z;
-    x += w * n.x * offset;
-    y += w * n.y * offset;
-    z += w * n.z * offset;
-    one += w * offset * offset;
-    weight += w;
+    const Vec3d a = times(n, w);
+    add({a.x * n.x, a.x * n.y, a.x * n.z, a.y * n.y, a.y * n.z, a.z * n.z, a.x * offset, a.y * offset,
+         a.z * offset, w * offset * offset, w});
   }
   void add(const Quadric& o) {
     xx += o.xx;
@@ -96,10 +88,7 @@ class Collapser {
 
  private:
   // Near the origin, so that squares keep their digits.
-  Vec3d at(std::uint32_t v) const {
-    return {double(vertices_[v].x) - middle_.x, double(vertices_[v].y) - middle_.y,
-            double(vertices_[v].z) - middle_.z};
-  }
+  Vec3d at(std::uint32_t v) const { return minus(wide(vertices_[v]), middle_); }
 
   void add_quadrics() {
     for (const Triangle& t : triangles_) {
@@ -184,12 +173,12 @@ class Collapser {
   }
 
   bool keeps_shape(const Ring& ring, std::uint32_t gone, std::uint32_t kept) const {
-    for (std::size_t i = 0; i < ring.count; ++i) {
-      const Triangle& before = triangles_[ring.at[i]];
+    for (const std::uint32_t t : ring) {
+      const Triangle& before = triangles_[t];
       if (holds(before, kept)) continue;
       Triangle after = before;
       std::ranges::replace(after, gone, kept);
-      const Vec3f n = normal(before), m = normal(after);
+      const Vec3f n = area_normal(vertices_, before), m = area_normal(vertices_, after);
       if (!(dot(n, m) > kMostTurn * length(n) * length(m))) return false;
       const float angle = smallest(after);
       if (angle < kBarDeg && angle < smallest(before)) return false;
@@ -197,9 +186,6 @@ class Collapser {
     return true;
   }
 
-  Vec3f normal(const Triangle& t) const {
-    return cross(minus(vertices_[t[1]], vertices_[t[0]]), minus(vertices_[t[2]], vertices_[t[0]]));
-  }
   float smallest(const Triangle& t) const {
     return smallest_angle_deg(vertices_[t[0]], vertices_[t[1]], vertices_[t[2]]);
   }

@@ -16,8 +16,6 @@
 namespace relievo::pipeline {
 namespace {
 
-using Triangle = std::array<std::uint32_t, 3>;
-
 constexpr float kTrianglesPerCell = 2;
 
 float squared_to_segment(const Vec3f& p, const Vec3f& a, const Vec3f& b) {
@@ -97,6 +95,66 @@ class CellIndex {
   Cells cells_;
 };
 
+constexpr std::uint32_t kUnused = 0xFFFFFFFFU;
+constexpr int kMostTries = 8;
+constexpr double kMoreEachTry = 2;
+
+// What has several entries lies on a seam and stays, with all that it has.
+std::pmr::vector<std::uint8_t> on_seam(const SeamSplit& split, std::size_t vertices,
+                                       std::pmr::memory_resource* memory) {
+  std::pmr::vector<std::uint8_t> shares(vertices, 0, memory), seam(memory);
+  for (const auto& entry : split.entries) shares[entry.vertex] = shares[entry.vertex] == 0 ? 1 : 2;
+  for (const auto& entry : split.entries) seam.push_back(shares[entry.vertex] > 1 ? 1 : 0);
+  return seam;
+}
+
+// `model` with these triangles alone, and the vertices they use.
+void take_over(const FaceModel& model, const SeamSplit& split, const std::pmr::vector<Triangle>& triangles,
+               FaceModel& lighter, std::pmr::memory_resource* memory) {
+  std::pmr::vector<std::uint32_t> place(model.mesh.vertices_mm.size(), kUnused, memory);
+  for (const Triangle& t : triangles)
+    for (const std::uint32_t entry : t) place[split.entries[entry].vertex] = 0;
+  FaceMesh& mesh = lighter.mesh;
+  const bool coloured = !model.texture.vertex_rgb.empty();
+  const bool posed = !model.mesh.pose.empty();
+  std::uint32_t used = 0;
+  for (std::size_t v = 0; v < place.size(); ++v) {
+    if (place[v] == kUnused) continue;
+    mesh.vertices_mm[used] = model.mesh.vertices_mm[v];
+    mesh.normals[used] = model.mesh.normals[v];
+    mesh.sigma_mm[used] = model.mesh.sigma_mm[v];
+    mesh.measured[used] = model.mesh.measured[v];
+    if (posed) mesh.pose[used] = model.mesh.pose[v];
+    if (coloured)
+      std::copy_n(&model.texture.vertex_rgb[3 * v], 3, &lighter.texture.vertex_rgb[std::size_t{3} * used]);
+    place[v] = used++;
+  }
+  mesh.vertices_mm.resize(used);
+  mesh.normals.resize(used);
+  mesh.sigma_mm.resize(used);
+  mesh.measured.resize(used);
+  if (posed) mesh.pose.resize(used);
+  if (coloured) lighter.texture.vertex_rgb.resize(std::size_t{3} * used);
+  mesh.triangles.resize(triangles.size());
+  lighter.texture.uv.resize(model.texture.uv.empty() ? 0 : 3 * triangles.size());
+  for (std::size_t t = 0; t < triangles.size(); ++t)
+    for (std::size_t k = 0; k < 3; ++k) {
+      mesh.triangles[t][k] = place[split.entries[triangles[t][k]].vertex];
+      if (!lighter.texture.uv.empty()) lighter.texture.uv[3 * t + k] = split.entries[triangles[t][k]].uv;
+    }
+}
+
+bool hangs_together(const FaceModel& model) {
+  const FaceMesh& mesh = model.mesh;
+  const std::size_t n = mesh.vertices_mm.size();
+  if (mesh.normals.size() != n || mesh.sigma_mm.size() != n || mesh.measured.size() != n ||
+      (!mesh.pose.empty() && mesh.pose.size() != n) || mesh.triangles.empty())
+    return false;
+  if (!model.texture.uv.empty() && model.texture.uv.size() != 3 * mesh.triangles.size()) return false;
+  if (!model.texture.vertex_rgb.empty() && model.texture.vertex_rgb.size() != 3 * n) return false;
+  return std::ranges::all_of(mesh.triangles, [n](const auto& t) { return t[0] < n && t[1] < n && t[2] < n; });
+}
+
 }  // namespace
 
 double squared_distance_to_triangle(const Vec3f& p, const Vec3f& a, const Vec3f& b, const Vec3f& c) {
@@ -130,67 +188,6 @@ SurfaceDistance distance_to_surface(std::span<const Vec3f> points, std::span<con
   result.max_mm = std::sqrt(most);
   return result;
 }
-
-namespace {
-
-constexpr std::uint32_t kUnused = 0xFFFFFFFFU;
-constexpr int kMostTries = 8;
-constexpr double kMoreEachTry = 2;
-
-// What has several entries lies on a seam and stays, with all that it has.
-std::pmr::vector<std::uint8_t> on_seam(const SeamSplit& split, std::size_t vertices,
-                                       std::pmr::memory_resource* memory) {
-  std::pmr::vector<std::uint8_t> shares(vertices, 0, memory), seam(memory);
-  for (const auto& entry : split.entries) shares[entry.vertex] = shares[entry.vertex] == 0 ? 1 : 2;
-  for (const auto& entry : split.entries) seam.push_back(shares[entry.vertex] > 1 ? 1 : 0);
-  return seam;
-}
-
-// `model` with these triangles alone, and the vertices they use.
-void take_over(const FaceModel& model, const SeamSplit& split, const std::pmr::vector<Triangle>& triangles,
-               FaceModel& lighter, std::pmr::memory_resource* memory) {
-  std::pmr::vector<std::uint32_t> place(model.mesh.vertices_mm.size(), kUnused, memory);
-  for (const Triangle& t : triangles)
-    for (const std::uint32_t entry : t) place[split.entries[entry].vertex] = 0;
-  FaceMesh& mesh = lighter.mesh;
-  const bool coloured = !model.texture.vertex_rgb.empty();
-  std::uint32_t used = 0;
-  for (std::size_t v = 0; v < place.size(); ++v) {
-    if (place[v] == kUnused) continue;
-    mesh.vertices_mm[used] = model.mesh.vertices_mm[v];
-    mesh.normals[used] = model.mesh.normals[v];
-    mesh.sigma_mm[used] = model.mesh.sigma_mm[v];
-    mesh.measured[used] = model.mesh.measured[v];
-    if (coloured)
-      std::copy_n(&model.texture.vertex_rgb[3 * v], 3, &lighter.texture.vertex_rgb[std::size_t{3} * used]);
-    place[v] = used++;
-  }
-  mesh.vertices_mm.resize(used);
-  mesh.normals.resize(used);
-  mesh.sigma_mm.resize(used);
-  mesh.measured.resize(used);
-  if (coloured) lighter.texture.vertex_rgb.resize(std::size_t{3} * used);
-  mesh.triangles.resize(triangles.size());
-  lighter.texture.uv.resize(model.texture.uv.empty() ? 0 : 3 * triangles.size());
-  for (std::size_t t = 0; t < triangles.size(); ++t)
-    for (std::size_t k = 0; k < 3; ++k) {
-      mesh.triangles[t][k] = place[split.entries[triangles[t][k]].vertex];
-      if (!lighter.texture.uv.empty()) lighter.texture.uv[3 * t + k] = split.entries[triangles[t][k]].uv;
-    }
-}
-
-bool hangs_together(const FaceModel& model) {
-  const FaceMesh& mesh = model.mesh;
-  const std::size_t n = mesh.vertices_mm.size();
-  if (mesh.normals.size() != n || mesh.sigma_mm.size() != n || mesh.measured.size() != n ||
-      mesh.triangles.empty())
-    return false;
-  if (!model.texture.uv.empty() && model.texture.uv.size() != 3 * mesh.triangles.size()) return false;
-  if (!model.texture.vertex_rgb.empty() && model.texture.vertex_rgb.size() != 3 * n) return false;
-  return std::ranges::all_of(mesh.triangles, [n](const auto& t) { return t[0] < n && t[1] < n && t[2] < n; });
-}
-
-}  // namespace
 
 Result<void> DetailOptions::check() const {
   if (triangles < 100 || triangles > 10'000'000)

@@ -12,30 +12,20 @@
 
 namespace relievo::pipeline {
 
-CornerIndex::CornerIndex(std::size_t vertices, std::pmr::vector<Corners>& triangles,
+CornerIndex::CornerIndex(std::size_t vertices, std::pmr::vector<Triangle>& triangles,
                          std::pmr::memory_resource* memory)
     : triangles_(triangles), around_(memory), touched_(vertices, 0, memory) {}
 
 void CornerIndex::build(std::span<const std::uint8_t> fixed) {
-  std::erase_if(triangles_, [](const Corners& t) { return t[0] == kGoneVertex; });
+  std::erase_if(triangles_, [](const Triangle& t) { return t[0] == kGoneVertex; });
   if (fixed.empty()) std::ranges::fill(touched_, std::uint8_t{0});
   else std::ranges::copy(fixed, touched_.begin());
-  around_.sort(touched_.size(), [this](auto&& add) {
-    for (std::uint32_t t = 0; t < triangles_.size(); ++t)
-      for (const std::uint32_t v : triangles_[t]) add(v, t);
-  });
-}
-
-CornerIndex::Ring CornerIndex::ring(std::uint32_t v) const {
-  Ring result;
-  if (touched_[v] || around_[v].size() > kMostAround) return result;
-  for (const std::uint32_t t : around_[v]) result.at[result.count++] = t;
-  return result;
+  group_around(around_, touched_.size(), triangles_);
 }
 
 std::uint32_t CornerIndex::across(std::uint32_t a, std::uint32_t b) const {
   for (const std::uint32_t of_b : around_[b]) {
-    const Corners& t = triangles_[of_b];
+    const Triangle& t = triangles_[of_b];
     for (std::size_t k = 0; k < 3; ++k)
       if (t[k] == b && t[(k + 1) % 3] == a) return of_b;
   }
@@ -51,15 +41,15 @@ bool CornerIndex::on_border(std::uint32_t v) const {
 
 bool CornerIndex::may_collapse(const Ring& of_gone, const Ring& of_kept, std::uint32_t gone,
                                std::uint32_t kept) const {
-  if (of_gone.count == 0 || of_kept.count == 0) return false;
+  if (of_gone.empty() || of_kept.empty()) return false;
   const bool border = border_edge(gone, kept);
   if (on_border(gone) && !(border && on_border(kept))) return false;
   return common_neighbours(of_kept, of_gone, kept, gone) == (border ? 1U : 2U);
 }
 
 void CornerIndex::collapse(const Ring& of_gone, std::uint32_t gone, std::uint32_t kept) {
-  for (std::size_t i = 0; i < of_gone.count; ++i) {
-    Corners& moved = triangles_[of_gone.at[i]];
+  for (const std::uint32_t t : of_gone) {
+    Triangle& moved = triangles_[t];
     for (const std::uint32_t v : moved) touch(v);
     if (holds(moved, kept)) moved.fill(kGoneVertex);
     else std::ranges::replace(moved, gone, kept);
@@ -70,17 +60,12 @@ std::size_t CornerIndex::common_neighbours(const Ring& of_a, const Ring& of_b, s
                                            std::uint32_t b) const {
   std::array<std::uint32_t, 2 * kMostAround> near{};
   auto end = near.begin();
-  for (std::size_t i = 0; i < of_a.count; ++i)
-    for (const std::uint32_t v : triangles_[of_a.at[i]])
+  for (const std::uint32_t t : of_a)
+    for (const std::uint32_t v : triangles_[t])
       if (v != a && v != b && std::find(near.begin(), end, v) == end) *end++ = v;
-  std::size_t common = 0;
-  for (auto n = near.begin(); n != end; ++n)
-    for (std::size_t i = 0; i < of_b.count; ++i)
-      if (holds(triangles_[of_b.at[i]], *n)) {
-        ++common;
-        break;
-      }
-  return common;
+  return std::size_t(std::count_if(near.begin(), end, [&](std::uint32_t n) {
+    return std::ranges::any_of(of_b, [&](std::uint32_t t) { return holds(triangles_[t], n); });
+  }));
 }
 
 namespace {
@@ -91,13 +76,12 @@ using Ring = CornerIndex::Ring;
 
 class Mender {
  public:
-  Mender(std::span<const Vec3f> vertices, std::pmr::vector<Triangle>& triangles, const SliverLimits& limits,
+  Mender(std::span<const Vec3f> vertices, std::pmr::vector<Triangle>& triangles, float max_slope,
          std::pmr::memory_resource* memory)
       : vertices_(vertices),
         triangles_(triangles),
-        bar_(limits.smallest_angle_deg),
-        cosine_of_bar_(std::cos(bar_ * std::numbers::pi_v<float> / 180)),
-        min_cosine_(cosine_of_slope(limits.max_slope)),
+        cosine_of_bar_(std::cos(kSmallestAngleDeg * std::numbers::pi_v<float> / 180)),
+        min_cosine_(cosine_of_slope(max_slope)),
         index_(vertices.size(), triangles, memory),
         slivers_(memory) {
     slivers_.reserve(triangles.size());
@@ -192,8 +176,8 @@ class Mender {
     const float worst = angle(corners);
     for (const std::uint32_t gone : corners) {
       const Ring ring = index_.ring(gone);
-      for (std::size_t i = 0; i < ring.count; ++i)
-        for (const std::uint32_t kept : Triangle(triangles_[ring.at[i]]))
+      for (const std::uint32_t beside : ring)
+        for (const std::uint32_t kept : Triangle(triangles_[beside]))
           if (kept != gone && collapse_onto(kept, gone, worst)) return true;
     }
     return false;
@@ -204,8 +188,8 @@ class Mender {
   bool collapse_onto(std::uint32_t kept, std::uint32_t gone, float worst) {
     const Ring of_kept = index_.ring(kept), of_gone = index_.ring(gone);
     if (!index_.may_collapse(of_gone, of_kept, gone, kept)) return false;
-    for (std::size_t i = 0; i < of_gone.count; ++i) {
-      Triangle moved = triangles_[of_gone.at[i]];
+    for (const std::uint32_t t : of_gone) {
+      Triangle moved = triangles_[t];
       if (holds(moved, kept)) continue;
       std::ranges::replace(moved, gone, kept);
       if (!stands(moved) || angle(moved) <= worst) return false;
@@ -237,7 +221,7 @@ class Mender {
 
   std::span<const Vec3f> vertices_;
   std::pmr::vector<Triangle>& triangles_;
-  float bar_, cosine_of_bar_, min_cosine_;
+  float cosine_of_bar_, min_cosine_;
   CornerIndex index_;
   std::pmr::vector<std::uint32_t> slivers_;
 };
@@ -252,8 +236,8 @@ float smallest_angle_deg(const Vec3f& a, const Vec3f& b, const Vec3f& c) {
 }
 
 std::size_t mend_slivers(std::span<const Vec3f> vertices, std::pmr::vector<Triangle>& triangles,
-                         const SliverLimits& limits, std::pmr::memory_resource* scratch) {
-  return Mender(vertices, triangles, limits, scratch).mend();
+                         float max_slope, std::pmr::memory_resource* scratch) {
+  return Mender(vertices, triangles, max_slope, scratch).mend();
 }
 
 }  // namespace relievo::pipeline

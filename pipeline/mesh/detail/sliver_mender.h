@@ -7,7 +7,6 @@
 // Triangles whose first corner is kGoneVertex have been taken out. Thread: one.
 #pragma once
 
-#include <array>
 #include <cstddef>
 #include <cstdint>
 #include <memory_resource>
@@ -23,17 +22,12 @@ inline constexpr std::uint32_t kGoneVertex = 0xFFFFFFFFU;
 
 class CornerIndex {
  public:
-  using Corners = std::array<std::uint32_t, 3>;
   static constexpr std::size_t kMostAround = 24;  // a vertex of more triangles is left alone
 
-  // Triangles around a vertex, a few.
-  struct Ring {
-    std::array<std::uint32_t, kMostAround> at{};
-    std::size_t count = 0;
-  };
+  using Ring = std::span<const std::uint32_t>;  // triangles around a vertex, a few
 
   // Looks at `triangles` for as long as it lives; there are never more later. Throws std::bad_alloc.
-  CornerIndex(std::size_t vertices, std::pmr::vector<Corners>& triangles, std::pmr::memory_resource* memory);
+  CornerIndex(std::size_t vertices, std::pmr::vector<Triangle>& triangles, std::pmr::memory_resource* memory);
 
   // Takes out what is gone, and counts anew. Vertices that are `fixed` (one byte each, or empty) are touched
   // from the start.
@@ -41,9 +35,12 @@ class CornerIndex {
 
   void touch(std::uint32_t v) { touched_[v] = 1; }
   bool touched(std::uint32_t v) const { return touched_[v] != 0; }
-  Ring ring(std::uint32_t v) const;  // empty where touched, or too many
-  std::uint32_t across(std::uint32_t a,
-                       std::uint32_t b) const;  // the triangle that runs from b to a, or kGoneVertex
+  // Empty where touched, or too many.
+  Ring ring(std::uint32_t v) const {
+    return touched_[v] || around_[v].size() > kMostAround ? Ring{} : around_[v];
+  }
+  // The triangle that runs from b to a, or kGoneVertex.
+  std::uint32_t across(std::uint32_t a, std::uint32_t b) const;
   bool joined(std::uint32_t a, std::uint32_t b) const {
     return across(a, b) != kGoneVertex || across(b, a) != kGoneVertex;
   }
@@ -60,14 +57,12 @@ class CornerIndex {
  private:
   std::size_t common_neighbours(const Ring& of_a, const Ring& of_b, std::uint32_t a, std::uint32_t b) const;
 
-  std::pmr::vector<Corners>& triangles_;
+  std::pmr::vector<Triangle>& triangles_;
   Groups around_;  // triangles around each vertex
   std::pmr::vector<std::uint8_t> touched_;
 };
 
-inline bool holds(const CornerIndex::Corners& t, std::uint32_t v) {
-  return t[0] == v || t[1] == v || t[2] == v;
-}
+inline bool holds(const Triangle& t, std::uint32_t v) { return t[0] == v || t[1] == v || t[2] == v; }
 
 // Takes slivers out of a surface: a triangle with an angle below the bar gives its longest edge to a flip,
 // its shortest edge to a collapse, or goes where it hangs on the border by its longest edge (the local
@@ -79,17 +74,12 @@ inline bool holds(const CornerIndex::Corners& t, std::uint32_t v) {
 // lattice's right-angled triangles (77 degrees: 12.7) stays above it.
 inline constexpr float kSmallestAngleDeg = 10;
 
-struct SliverLimits {
-  float smallest_angle_deg = kSmallestAngleDeg;
-  float max_slope = 0;  // tangent of the steepest angle of incidence
-};
-
 // `triangles` must be one manifold surface. Vertices may be left without triangles. Returns how many slivers
 // nothing helped; those that touched the border are gone, and what they held together may have come apart:
 // above 0 the surface must be cleaned again (keep_one_surface). Throws std::bad_alloc when `scratch` is used
 // up.
 std::size_t mend_slivers(std::span<const Vec3f> vertices_mm, std::pmr::vector<Triangle>& triangles,
-                         const SliverLimits& limits, std::pmr::memory_resource* scratch);
+                         float max_slope, std::pmr::memory_resource* scratch);
 
 // The smallest of the three angles, degrees.
 float smallest_angle_deg(const Vec3f& a, const Vec3f& b, const Vec3f& c);

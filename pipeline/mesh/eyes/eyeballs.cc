@@ -14,6 +14,7 @@
 #include "hal/base/statistics.h"
 #include "pipeline/base/solving.h"
 #include "pipeline/mesh/landmarks/lid_finder.h"
+#include "pipeline/mesh/surface_cleaner.h"
 #include "pipeline/model/vector3.h"
 
 namespace relievo::pipeline {
@@ -179,8 +180,7 @@ void turn_normals(FaceMesh& mesh, const std::pmr::vector<std::uint8_t>& moved) {
     if (moved[v] != 0) mesh.normals[v] = {};
   for (const auto& t : mesh.triangles) {
     if ((moved[t[0]] | moved[t[1]] | moved[t[2]]) == 0) continue;
-    const Vec3f across = cross(minus(mesh.vertices_mm[t[1]], mesh.vertices_mm[t[0]]),
-                               minus(mesh.vertices_mm[t[2]], mesh.vertices_mm[t[0]]));
+    const Vec3f across = area_normal(mesh.vertices_mm, t);
     for (const std::uint32_t v : t)
       if (moved[v] != 0) mesh.normals[v] = plus(mesh.normals[v], across);
   }
@@ -198,8 +198,7 @@ void lay_eyeballs(FaceMesh& mesh, const RigidTransform& head_from_camera, const 
   if ((!lids[0] && !lids[1]) || context.stop()) return;
   std::pmr::vector<Vec3d> in_head(&scratch);
   in_head.reserve(mesh.vertices_mm.size());
-  for (const Vec3f& p : mesh.vertices_mm)
-    in_head.push_back(apply(head_from_camera, Vec3d{double(p.x), double(p.y), double(p.z)}));
+  for (const Vec3f& p : mesh.vertices_mm) in_head.push_back(apply(head_from_camera, wide(p)));
   std::array<Eye, 2> eyes{Eye(&scratch), Eye(&scratch)};
   for (std::size_t i = 0; i < 2; ++i) {
     eyes[i].lids = lids[i];
@@ -226,8 +225,7 @@ void lay_eyeballs(FaceMesh& mesh, const RigidTransform& head_from_camera, const 
   const RigidTransform camera_from_head = inverse(head_from_camera);
   for (std::uint32_t v = 0; v < moved.size(); ++v) {
     if (moved[v] == 0) continue;
-    const Vec3d p = apply(camera_from_head, in_head[v]);
-    mesh.vertices_mm[v] = {float(p.x), float(p.y), float(p.z)};
+    mesh.vertices_mm[v] = narrow(apply(camera_from_head, in_head[v]));
     mesh.measured[v] = 0;
     mesh.sigma_mm[v] = std::max(mesh.sigma_mm[v], kSigmaMm);
   }

@@ -160,7 +160,7 @@ ProfilePoint extreme_near(Profile profile, const ProfilePoint& at, double sign) 
   return {at.y_mm + d, at.z_mm + c0 + d * (c1 + d * c2)};
 }
 
-// Foremost (sign 1) or hindmost (-1); nothing where it is an end of the part, unless ends are allowed.
+// Foremost (sign 1) or hindmost (-1); nothing where it is an end of the part.
 std::optional<ProfilePoint> extreme(Profile profile, double from_mm, double to_mm, double sign) {
   const Profile range = part(profile, from_mm, to_mm);
   if (range.size() < 6) return std::nullopt;

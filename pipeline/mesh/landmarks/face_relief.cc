@@ -8,6 +8,8 @@
 #include <cstdint>
 #include <limits>
 
+#include "pipeline/model/vector3.h"
+
 namespace relievo::pipeline {
 namespace {
 
@@ -40,7 +42,7 @@ double FaceRelief::at(double x_mm, double y_mm) const {
 }
 
 Vec3f FaceRelief::in_cells(const Vec3f& vertex, const RigidTransform& frame_from_mesh) const {
-  const Vec3d p = apply(frame_from_mesh, {double(vertex.x), double(vertex.y), double(vertex.z)});
+  const Vec3d p = apply(frame_from_mesh, wide(vertex));
   return {float((p.x - box_.left_mm) / box_.cell_mm), float((p.y - box_.bottom_mm) / box_.cell_mm),
           float(p.z)};
 }

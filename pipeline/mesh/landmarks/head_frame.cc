@@ -6,8 +6,10 @@
 #include <array>
 #include <cmath>
 #include <cstddef>
+#include <memory_resource>
 #include <numbers>
 #include <span>
+#include <vector>
 
 #include <Eigen/Geometry>
 
@@ -26,10 +28,8 @@ struct NoseCandidate {
   double protrusion_mm = 0;  // how far the ring 18 to 28 mm around lies behind, on average; noses 8 to 16
 };
 
-struct NoseCandidates {
-  std::array<NoseCandidate, 4> best;  // falling protrusion, at least 25 mm apart
-  std::size_t count = 0;
-};
+constexpr std::size_t kMostNoses = 4;
+using NoseCandidates = std::pmr::vector<NoseCandidate>;  // falling protrusion, at least 25 mm apart
 
 using Eigen::Vector3d;
 
@@ -72,22 +72,12 @@ double protrusion(std::span<const SurfacePoint> points, const Vector3d& at) {
 }
 
 void keep(NoseCandidates& found, const NoseCandidate& candidate) {
-  for (std::size_t i = 0; i < found.count; ++i) {
-    if ((found.best[i].at_mm - candidate.at_mm).norm() > 25) continue;
-    if (found.best[i].protrusion_mm >= candidate.protrusion_mm) return;
-    std::copy(found.best.begin() + std::ptrdiff_t(i) + 1, found.best.begin() + std::ptrdiff_t(found.count),
-              found.best.begin() + std::ptrdiff_t(i));
-    --found.count;
-    --i;
-  }
-  if (found.count == found.best.size()) {
-    if (found.best.back().protrusion_mm >= candidate.protrusion_mm) return;
-    --found.count;
-  }
-  std::size_t place = found.count++;
-  for (; place > 0 && found.best[place - 1].protrusion_mm < candidate.protrusion_mm; --place)
-    found.best[place] = found.best[place - 1];
-  found.best[place] = candidate;
+  const auto near = [&](const NoseCandidate& c) { return (c.at_mm - candidate.at_mm).norm() <= 25; };
+  const auto better = [&](const NoseCandidate& c) { return c.protrusion_mm >= candidate.protrusion_mm; };
+  if (std::ranges::any_of(found, [&](const NoseCandidate& c) { return near(c) && better(c); })) return;
+  std::erase_if(found, near);
+  found.insert(std::ranges::partition_point(found, better), candidate);
+  if (found.size() > kMostNoses) found.pop_back();
 }
 
 // Any frame. Places at the rim of the surface, whose ring is not closed, do not stand as candidates.
@@ -98,14 +88,14 @@ NoseCandidates find_nose_candidates(std::span<const SurfacePoint> points, StageC
     for (auto i = std::size_t(from); i < std::size_t(to); ++i)
       protrusions[i] = protrusion(points, points[i * every].at_mm);
   });
-  NoseCandidates found;
+  NoseCandidates found(&context.scratch);
+  found.reserve(kMostNoses + 1);
   for (std::size_t i = 0; i < protrusions.size(); ++i)
     if (protrusions[i] > 3) keep(found, {points[i * every].at_mm, protrusions[i]});
   return found;
 }
 
 using Eigen::Matrix3d;
-using Eigen::Vector3d;
 using Points = std::pmr::vector<SurfacePoint>;
 
 struct Frame {  // head = rows * (camera - origin)
@@ -152,8 +142,7 @@ constexpr int kSettlingPoints = 24000, kSettlingRounds = 2;
 constexpr double kSettlingReach = 70;  // mm around the tip: less of a jaw that is pulled aside
 constexpr double kHalfFace = 80;  // mm around the tip of the nose: forehead to chin, cheek to cheek, no neck
 
-constexpr double kWorthOfProtrusion =
-    0.2;  // mm of mirror cost a mm of protrusion makes good: half a nose is a poor mirror, and still a nose
+constexpr double kWorthOfProtrusion = 0.2;  // mm of mirror cost, a mm: half a nose is a poor mirror
 constexpr double kCostOfOneSide = 2;  // mm: a chin may stand out further than a nose, seen from the neck
 constexpr double kMostOfANose = 16;   // mm: what stands out further is no better nose, but hair
 
@@ -260,10 +249,10 @@ Result<Frame> upright_frame(const Points& points, const Vector3d& across, Symmet
   double best_score = 1e9;
   Frame frame;
   const NoseCandidates noses = find_nose_candidates(points, context);
-  std::size_t chosen = noses.count;
-  for (std::size_t i = 0; i < noses.count; ++i) {
-    Points face = around(points, noses.best[i].at_mm, kHalfFace, context.scratch);
-    const Frame guess = first_guess(face, noses.best[i].at_mm, across);
+  std::size_t chosen = noses.size();
+  for (std::size_t i = 0; i < noses.size(); ++i) {
+    Points face = around(points, noses[i].at_mm, kHalfFace, context.scratch);
+    const Frame guess = first_guess(face, noses[i].at_mm, across);
     move_into(face, guess);
     const double one_sided = one_sidedness(face);
     const Result<SymmetryPlane> plane = find_symmetry_plane(face, context);
@@ -274,10 +263,10 @@ Result<Frame> upright_frame(const Points& points, const Vector3d& across, Symmet
     }
     // A nose stands out three times as far as anything else on a head that is mirror-like.
     const double score = plane->cost_mm -
-                         kWorthOfProtrusion * std::min(noses.best[i].protrusion_mm, kMostOfANose) +
+                         kWorthOfProtrusion * std::min(noses[i].protrusion_mm, kMostOfANose) +
                          kCostOfOneSide * one_sided;
     // The bridge of a nose is as good a mirror as its tip, which stands out further and came first.
-    const bool same_nose = chosen < i && (noses.best[i].at_mm - noses.best[chosen].at_mm).norm() < kOneNose;
+    const bool same_nose = chosen < i && (noses[i].at_mm - noses[chosen].at_mm).norm() < kOneNose;
     if (score >= best_score - (same_nose ? kWorthOfTheTip : 0)) continue;
     best_score = score;
     chosen = i;
@@ -355,7 +344,6 @@ Result<HeadFrame> find_head_frame(const FaceMesh& mesh, StageContext& context, c
   HeadFrame head = measured(points, frame, context);
   head.nose_relief_mm = relief_of(points);
   head.asymmetry_mm = plane.residual_mm;
-  head.overlap = plane.overlap;
   return head;
 }
 

@@ -24,7 +24,6 @@ struct HeadFrame {
   double height_mm = 0;
   double nose_relief_mm = 0;  // tip of the nose in front of the cheeks beside it; a photo on paper has none
   double asymmetry_mm = 0;    // median distance of the mirrored face from the face
-  double overlap = 0;         // share of the surface whose mirror image meets surface
 };
 
 // `mesh` in the left camera's frame, normals out of the face. Only measured vertices count, but for the

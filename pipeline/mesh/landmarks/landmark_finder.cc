@@ -6,13 +6,10 @@
 #include <cmath>
 
 #include "pipeline/mesh/landmarks/face_profile.h"
+#include "pipeline/model/vector3.h"
 
 namespace relievo::pipeline {
 namespace {
-
-struct Place {
-  double x = 0, y = 0;
-};
 
 // Where a pit is looked for: mean and deviation, mm in the head frame, on the person's left.
 struct Expected {
@@ -45,7 +42,7 @@ double pit(const FaceRelief& relief, int column, int row) {
 }
 
 // The most pit-like and most expected place within the window.
-bool find_pit(const FaceRelief& relief, const Expected& e, double reach, Place& best) {
+bool find_pit(const FaceRelief& relief, const Expected& e, double reach, Vec2d& best) {
   double best_score = -1e9;
   for (int row = kSpan; row < relief.rows() - kSpan; ++row)
     for (int column = kSpan; column < relief.columns() - kSpan; ++column) {
@@ -91,8 +88,7 @@ class Finder {
 
  private:
   void set(LandmarkName name, const Vec3d& in_head, float sigma_mm) {
-    const Vec3d p = apply(camera_from_head_, in_head);
-    found_[std::size_t(name)] = {{float(p.x), float(p.y), float(p.z)}, sigma_mm, true};
+    found_[std::size_t(name)] = {narrow(apply(camera_from_head_, in_head)), sigma_mm, true};
   }
   void mark(LandmarkName name, const std::optional<ProfilePoint>& at, float sigma_mm) {
     if (!at) return;
@@ -100,45 +96,44 @@ class Finder {
         measured_, [&](const ProfilePoint& p) { return std::abs(p.y_mm - at->y_mm) < kCellMm; });
     set(name, {0, at->y_mm, at->z_mm}, measured ? sigma_mm : kCompleted * sigma_mm);
   }
-  void on_surface(LandmarkName name, const Place& at, float sigma_mm) {
+  void on_surface(LandmarkName name, const Vec2d& at, float sigma_mm) {
     const double z = shown_.at(at.x, at.y);
     const bool measured = !std::isnan(own_.at(at.x, at.y));
     if (!std::isnan(z)) set(name, {at.x, at.y, z}, measured ? sigma_mm : kCompleted * sigma_mm);
   }
 
   // Both sides' common place first, then each side's own near it.
-  bool pair(const Expected& e, LandmarkName right, LandmarkName left, float sigma_mm, Place& common) {
-    if (!find_pit(both_, e, 2.5, common)) return false;
+  void pair(const Expected& e, LandmarkName right, LandmarkName left, float sigma_mm, Vec2d& common) {
+    if (!find_pit(both_, e, 2.5, common)) return;
     for (const double side : {-1.0, 1.0}) {
-      Place own{side * common.x, common.y};
+      Vec2d own{side * common.x, common.y};
       find_pit(own_, {own.x, own.y, kOwnReachMm, kOwnReachMm}, 1, own);
       on_surface(side < 0 ? right : left, own, sigma_mm);
     }
-    return true;
   }
 
   void eyes() {
     const double y = marks_.nasion ? marks_.nasion->y_mm - kNasionOverCanthus : 34;
-    Place inner{16, y};
+    Vec2d inner{16, y};
     pair({16, y, 3, 4}, LandmarkName::EndocanthionRight, LandmarkName::EndocanthionLeft, kInnerEyeSigma,
          inner);
-    const Place outer{inner.x + kFissureMm - 1, inner.y + kFissureRiseMm};
+    const Vec2d outer{inner.x + kFissureMm - 1, inner.y + kFissureRiseMm};
     on_surface(LandmarkName::ExocanthionRight, {-outer.x, outer.y}, kOuterEyeSigma);
     on_surface(LandmarkName::ExocanthionLeft, outer, kOuterEyeSigma);
     // Where a photograph shows the lids, their corners are better known.
     for (const bool left : {false, true}) {
       const auto& lids = eyes_[left ? 1 : 0];
       if (!lids) continue;
-      on_surface(left ? LandmarkName::EndocanthionLeft : LandmarkName::EndocanthionRight,
-                 {lids->inner.x, lids->inner.y}, kLidCornerSigma);
-      on_surface(left ? LandmarkName::ExocanthionLeft : LandmarkName::ExocanthionRight,
-                 {lids->outer.x, lids->outer.y}, kLidCornerSigma);
+      on_surface(left ? LandmarkName::EndocanthionLeft : LandmarkName::EndocanthionRight, lids->inner,
+                 kLidCornerSigma);
+      on_surface(left ? LandmarkName::ExocanthionLeft : LandmarkName::ExocanthionRight, lids->outer,
+                 kLidCornerSigma);
     }
   }
 
   void mouth() {
     const double y = marks_.subnasale ? marks_.subnasale->y_mm - kStomionBelowSubnasale : -34;
-    Place corner;
+    Vec2d corner;
     pair({26, y, 3.5, 3.5}, LandmarkName::CheilionRight, LandmarkName::CheilionLeft, kMouthSigma, corner);
   }
 

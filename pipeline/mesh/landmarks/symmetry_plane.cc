@@ -5,7 +5,10 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <cstdint>
+#include <memory_resource>
 #include <numbers>
+#include <vector>
 
 #include "hal/base/statistics.h"
 #include "pipeline/base/solving.h"
@@ -15,11 +18,62 @@ namespace {
 
 using Eigen::Vector3d;
 
-constexpr double kFar = 6;  // mm: a reflection further off than this says nothing more
-constexpr double kMissing =
-    2.5;  // mm: what a reflection beside the surface costs; dear enough to keep the halves overlapping
+constexpr double kFar = 6;        // mm: a reflection further off than this says nothing more
+constexpr double kMissing = 2.5;  // mm: cost of a reflection beside the surface; keeps the halves overlapping
 constexpr double kCellMm = 2.5;
 constexpr double kScale = 1.5;  // mm: asymmetry of a usual face; the robust weight halves about here
+
+// Means of a surface over square cells of its own x-y plane, seen along z.
+class HeightMap {
+ public:
+  HeightMap(std::span<const SurfacePoint> points, double cell_mm, std::pmr::memory_resource* memory)
+      : cell_mm_(cell_mm), cells_(memory), count_(memory) {
+    double right = -1e9;
+    double top = -1e9;
+    left_mm_ = bottom_mm_ = 1e9;
+    for (const SurfacePoint& p : points) {
+      left_mm_ = std::min(left_mm_, p.at_mm.x());
+      right = std::max(right, p.at_mm.x());
+      bottom_mm_ = std::min(bottom_mm_, p.at_mm.y());
+      top = std::max(top, p.at_mm.y());
+    }
+    if (points.empty() || right - left_mm_ > 5000 || top - bottom_mm_ > 5000) return;
+    columns_ = int((right - left_mm_) / cell_mm) + 1;
+    rows_ = int((top - bottom_mm_) / cell_mm) + 1;
+    const std::size_t n = std::size_t(columns_) * std::size_t(rows_);
+    cells_.assign(n, SurfacePoint{});
+    count_.assign(n, 0U);
+    for (const SurfacePoint& p : points) {
+      const auto c = std::size_t((p.at_mm.x() - left_mm_) / cell_mm);
+      const auto r = std::size_t((p.at_mm.y() - bottom_mm_) / cell_mm);
+      const std::size_t k = r * std::size_t(columns_) + c;
+      cells_[k].at_mm += p.at_mm;
+      cells_[k].normal += p.normal;
+      ++count_[k];
+    }
+    for (std::size_t k = 0; k < n; ++k) {
+      if (count_[k] == 0) continue;
+      cells_[k].at_mm /= double(count_[k]);
+      cells_[k].normal.normalize();
+    }
+  }
+
+  // The cell's mean point below or above (x, y); null where the surface has none.
+  const SurfacePoint* at(double x_mm, double y_mm) const {
+    const double c = std::floor((x_mm - left_mm_) / cell_mm_);
+    const double r = std::floor((y_mm - bottom_mm_) / cell_mm_);
+    if (!(c >= 0 && r >= 0 && c < columns_ && r < rows_)) return nullptr;
+    const std::size_t k = std::size_t(r) * std::size_t(columns_) + std::size_t(c);
+    return count_[k] == 0 ? nullptr : &cells_[k];
+  }
+
+ private:
+  double cell_mm_;
+  double left_mm_ = 0, bottom_mm_ = 0;
+  int columns_ = 0, rows_ = 0;
+  std::pmr::vector<SurfacePoint> cells_;
+  std::pmr::vector<std::uint32_t> count_;
+};
 
 // Yaw about y, roll about z, offset along the normal.
 using Pose = Vector3d;
@@ -116,49 +170,7 @@ std::array<Start, 3> raster(const HeightMap& map, std::span<const SurfacePoint> 
 
 }  // namespace
 
-HeightMap::HeightMap(std::span<const SurfacePoint> points, double cell_mm, std::pmr::memory_resource* memory)
-    : cell_mm_(cell_mm), cells_(memory), count_(memory) {
-  double right = -1e9;
-  double top = -1e9;
-  left_mm_ = bottom_mm_ = 1e9;
-  for (const SurfacePoint& p : points) {
-    left_mm_ = std::min(left_mm_, p.at_mm.x());
-    right = std::max(right, p.at_mm.x());
-    bottom_mm_ = std::min(bottom_mm_, p.at_mm.y());
-    top = std::max(top, p.at_mm.y());
-  }
-  if (points.empty() || right - left_mm_ > 5000 || top - bottom_mm_ > 5000) return;
-  columns_ = int((right - left_mm_) / cell_mm) + 1;
-  rows_ = int((top - bottom_mm_) / cell_mm) + 1;
-  const std::size_t n = std::size_t(columns_) * std::size_t(rows_);
-  cells_.assign(n, SurfacePoint{});
-  count_.assign(n, 0U);
-  for (const SurfacePoint& p : points) {
-    const auto c = std::size_t((p.at_mm.x() - left_mm_) / cell_mm);
-    const auto r = std::size_t((p.at_mm.y() - bottom_mm_) / cell_mm);
-    const std::size_t k = r * std::size_t(columns_) + c;
-    cells_[k].at_mm += p.at_mm;
-    cells_[k].normal += p.normal;
-    ++count_[k];
-  }
-  for (std::size_t k = 0; k < n; ++k) {
-    if (count_[k] == 0) continue;
-    cells_[k].at_mm /= double(count_[k]);
-    cells_[k].normal.normalize();
-  }
-}
-
-const SurfacePoint* HeightMap::at(double x_mm, double y_mm) const {
-  const double c = std::floor((x_mm - left_mm_) / cell_mm_);
-  const double r = std::floor((y_mm - bottom_mm_) / cell_mm_);
-  if (!(c >= 0 && r >= 0 && c < columns_ && r < rows_)) return nullptr;
-  const std::size_t k = std::size_t(r) * std::size_t(columns_) + std::size_t(c);
-  return count_[k] == 0 ? nullptr : &cells_[k];
-}
-
 Result<SymmetryPlane> find_symmetry_plane(std::span<const SurfacePoint> points, StageContext& context) {
-  const Error none{Errc::PoorGeometry,
-                   "the surface has no plane of symmetry: it shows less than half a face"};
   const HeightMap map(points, kCellMm, &context.scratch);
   std::array<Start, 3> ends = raster(map, points, context.pool);
   if (context.stop()) return Error{Errc::Cancelled, "the search for the head's frame was stopped"};
@@ -181,10 +193,9 @@ Result<SymmetryPlane> find_symmetry_plane(std::span<const SurfacePoint> points, 
   for (const SurfacePoint& p : points)
     if (const Residual r = residual(map, p, plane.normal, plane.offset_mm); r.met)
       distances.push_back(std::abs(r.distance));
-  plane.overlap = double(distances.size()) / double(std::max<std::size_t>(1, points.size()));
-  if (distances.size() < 100 || plane.overlap < 0.2 || plane.normal.x() < 0.3 ||
-      std::abs(plane.offset_mm) > 20)
-    return none;
+  const double overlap = double(distances.size()) / double(std::max<std::size_t>(1, points.size()));
+  if (distances.size() < 100 || overlap < 0.2 || plane.normal.x() < 0.3 || std::abs(plane.offset_mm) > 20)
+    return Error{Errc::PoorGeometry, "the surface has no plane of symmetry: it shows less than half a face"};
   plane.residual_mm = median(distances);
   return plane;
 }

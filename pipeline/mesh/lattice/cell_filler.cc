@@ -61,6 +61,8 @@ double squared(const std::pmr::vector<double>& v) {
 
 class Plate {
  public:
+  // `known`, one byte a place, are values that stay; `free` are set, none of the known, and joined to them
+  // through neighbours. `like`: empty, or one a place, 0 where nothing is known of it.
   Plate(std::span<double> value, const PlateGrid& grid, std::span<const std::uint32_t> free,
         std::span<const std::uint8_t> known, std::span<const double> like, const std::atomic<bool>* cancelled,
         std::pmr::memory_resource* memory)
@@ -279,19 +281,9 @@ class Plate {
   std::pmr::memory_resource* memory_;
 };
 
-// Sets `value` at the `free` places, which must be joined to known ones through neighbours; `known` has one
-// byte a place. A free place is none of the known. `like`: empty, or one a place, 0 where nothing is known of
-// it. Throws std::bad_alloc when `memory` is used up.
-void relax_thin_plate(std::span<double> value, const PlateGrid& grid, std::span<const std::uint32_t> free,
-                      std::span<const std::uint8_t> known, std::span<const double> like,
-                      const std::atomic<bool>* cancelled, std::pmr::memory_resource* memory) {
-  if (!free.empty()) Plate(value, grid, free, known, like, cancelled, memory).relax();
-}
-
 constexpr double kLeastRadiusMm = 1;
 constexpr double kBesideMm = 2.5;  // over more than this a plate runs beside the surface it is like
-constexpr double kBowMm =
-    40;  // where nothing says otherwise skin bends back from a ball about the chart's centre, by 1 / this
+constexpr double kBowMm = 40;  // by 1 / this skin bends back from a ball about the chart's centre by itself
 
 // Twice the sigma of the carrying nodes nearby, from ring to ring.
 void spread_sigma(PointLattice& lattice, const CellMask& carrying, std::span<const std::uint32_t> free,
@@ -320,6 +312,7 @@ void spread_sigma(PointLattice& lattice, const CellMask& carrying, std::span<con
 void place(PointLattice& l, std::span<const std::uint32_t> free, const CellMask& carrying,
            std::span<const double> like, const std::atomic<bool>* cancelled,
            std::pmr::memory_resource* memory) {
+  if (free.empty()) return;
   PlateGrid grid{l.columns, l.rows, l.cell_height_mm / l.cell_width_mm};
   std::pmr::vector<double> value(l.size(), 0.0, memory);
   if (l.chart) {
@@ -328,13 +321,13 @@ void place(PointLattice& l, std::span<const std::uint32_t> free, const CellMask&
     grid.bow = -cell * cell / kBowMm;
     for (std::size_t k = 0; k < l.size(); ++k)
       if (carrying[k]) value[k] = l.radius_mm(k);
-    relax_thin_plate(value, grid, free, carrying, like, cancelled, memory);
+    Plate(value, grid, free, carrying, like, cancelled, memory).relax();
     for (const std::uint32_t k : free) l.at_mm[k] = l.on_ray(k, std::max(value[k], kLeastRadiusMm));
     return;
   }
   for (float Vec3f::*const axis : {&Vec3f::x, &Vec3f::y, &Vec3f::z}) {
     for (std::size_t k = 0; k < l.size(); ++k) value[k] = double(l.at_mm[k].*axis);
-    relax_thin_plate(value, grid, free, carrying, {}, cancelled, memory);
+    Plate(value, grid, free, carrying, {}, cancelled, memory).relax();
     for (const std::uint32_t k : free) l.at_mm[k].*axis = float(value[k]);
   }
 }

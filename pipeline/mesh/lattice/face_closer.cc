@@ -18,9 +18,8 @@ namespace relievo::pipeline {
 namespace {
 
 constexpr int kEvery = 3;  // nodes of the lattice a node of the rough surface that shows where the head is
-constexpr float kRoomMm = 25;  // on the chart, around what was measured
-constexpr float kReachMm =
-    35;  // so far from what either side shows, at most, a face is continued to its outline
+constexpr float kRoomMm = 25;     // on the chart, around what was measured
+constexpr float kReachMm = 35;    // from what either side shows a face is continued to its outline, at most
 constexpr float kSeamMm = 6;      // between what one side and what the generic head say
 constexpr float kNoseSeamMm = 1;  // the same below the tip of the nose; less shows the step between both
 constexpr double kHeadCellMm = 2, kHeadMisfitMm = 1.5;
@@ -117,12 +116,11 @@ void add_generic_head(const FaceMesh& rough, const RigidTransform& head_from_cam
   };
   const auto place = [&](int c, int r) {
     const Vec3d p = rolled(fitted.x_mm(c), fitted.y_mm(r), double(fitted.z(c, r)));
-    const Vec3d from{p.x - HeadChart::kCentreMm.x, p.y - HeadChart::kCentreMm.y,
-                     p.z - HeadChart::kCentreMm.z};
+    const Vec3d from = minus(p, HeadChart::kCentreMm);
     const Vec2d on_chart = HeadChart::place_in_head(from);
     return Place{
         {float((on_chart.x - l.first_mm.x) / l.step_mm), float((on_chart.y - l.first_mm.y) / l.step_mm)},
-        float(std::sqrt(from.x * from.x + from.y * from.y + from.z * from.z))};
+        float(length(from))};
   };
   std::pmr::vector<float> radius(l.size(), 0.0F, &scratch);
   const auto draw = [&](const Place& a, const Place& b, const Place& c) {
@@ -247,11 +245,8 @@ Result<std::optional<ClosedFace>> close_face(const PointLattice& seen, const Lat
   if (context.stop()) return stopped;
   LatticeSurface surface = join_neighbours(l, limits, &scratch);
   MaskShaper shaper(l.columns, l.rows, l.cell_width_mm, l.cell_height_mm, &scratch);
-  const auto between_cameras = [&](double right, double centre) { return float(right / 2 - centre); };
-  const Vec3d& centre = outline.chart.centre_mm;
-  const Vec3f from{between_cameras(right_camera_mm.x, centre.x), between_cameras(right_camera_mm.y, centre.y),
-                   between_cameras(right_camera_mm.z, centre.z)};
-  drop_poor_rims(l, surface, from, shaper, scratch);
+  const Vec3d between_cameras = minus(times(right_camera_mm, 0.5), outline.chart.centre_mm);
+  drop_poor_rims(l, surface, narrow(between_cameras), shaper, scratch);
   auto mirror = mirrored(l, surface, scratch);
   if (context.stop()) return stopped;
   add_generic_head(rough, head->head_from_camera, l, mirror, shaper, scratch);

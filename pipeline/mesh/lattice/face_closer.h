@@ -16,8 +16,8 @@
 
 namespace relievo::pipeline {
 
-inline constexpr float kSteepest =
-    28.6F;  // tangent of 88 degrees: of what was completed, to a ray from the chart's centre
+// Of what was completed, to a ray from the chart's centre: tangent of 88 degrees.
+inline constexpr float kSteepest = 28.6F;
 
 struct ClosedFace {
   ShapedLattice shaped;  // on the chart; in scratch

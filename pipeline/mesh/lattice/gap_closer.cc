@@ -9,13 +9,9 @@
 #include <span>
 
 #include "pipeline/mesh/lattice/cell_filler.h"
-#include "pipeline/mesh/view_edge.h"
-#include "pipeline/model/vector3.h"
 
 namespace relievo::pipeline {
 namespace {
-
-using mesh::edge_between, mesh::ViewEdge;
 
 struct Cell {
   int c, r;
@@ -33,13 +29,13 @@ class GapCloser {
         surface_(surface),
         limits_(limits),
         shaper_(shaper),
+        cell_mm_(std::min(lattice.cell_width_mm, lattice.cell_height_mm)),
+        cell_mm2_(lattice.cell_width_mm * lattice.cell_height_mm),
         whole_(lattice.size(), 0, memory),
         gap_(lattice.size(), 0, memory),
         was_gap_(lattice.size(), 0, memory),
         large_(lattice.size(), 0, memory),
-        memory_(memory) {
-    cell_mm_ = std::min(lattice.cell_width_mm, lattice.cell_height_mm);
-  }
+        memory_(memory) {}
 
   void close() {
     drop_specks();
@@ -57,8 +53,7 @@ class GapCloser {
   void drop_specks() {
     for (std::size_t k = 0; k < whole_.size(); ++k) whole_[k] = triangle_count(surface_.cells[k]) == 2;
     const float radius = limits_.max_width_mm / 2;
-    const float area = lattice_.cell_width_mm * lattice_.cell_height_mm;
-    shaper_.drop_pieces_below(whole_, std::size_t(std::numbers::pi_v<float> * radius * radius / area));
+    shaper_.drop_pieces_below(whole_, std::size_t(std::numbers::pi_v<float> * radius * radius / cell_mm2_));
     gap_ = whole_;
     shaper_.dilate(gap_, 1.5F * std::max(lattice_.cell_width_mm, lattice_.cell_height_mm));
     for (std::size_t k = 0; k < gap_.size(); ++k)
@@ -71,8 +66,7 @@ class GapCloser {
     gap_ = whole_;
     shaper_.fill_holes(gap_);
     for (std::size_t k = 0; k < whole_.size(); ++k) gap_[k] = large_[k] = gap_[k] && !whole_[k];
-    shaper_.drop_pieces_below(large_,
-                              std::size_t(kSpeckMm2 / (lattice_.cell_width_mm * lattice_.cell_height_mm)));
+    shaper_.drop_pieces_below(large_, std::size_t(kSpeckMm2 / cell_mm2_));
     for (std::size_t k = 0; k < whole_.size(); ++k) gap_[k] = gap_[k] && !large_[k];
     shaper_.dilate(gap_, kPinholeRimMm);
     for (std::size_t k = 0; k < whole_.size(); ++k) {
@@ -140,8 +134,7 @@ class GapCloser {
   void bridge_specks(std::span<const std::uint32_t> opened) {
     std::fill(large_.begin(), large_.end(), std::uint8_t{0});
     for (const std::uint32_t k : opened) large_[k] = was_gap_[k];
-    shaper_.drop_pieces_below(large_,
-                              std::size_t(kSpeckMm2 / (lattice_.cell_width_mm * lattice_.cell_height_mm)));
+    shaper_.drop_pieces_below(large_, std::size_t(kSpeckMm2 / cell_mm2_));
     for (const std::uint32_t k : opened)
       if (was_gap_[k] && !large_[k]) gap_[k] = kBridged;
   }
@@ -201,7 +194,7 @@ class GapCloser {
   LatticeSurface& surface_;
   const GapLimits& limits_;
   MaskShaper& shaper_;
-  float cell_mm_ = 0;
+  float cell_mm_, cell_mm2_;
   CellMask whole_, gap_, was_gap_, large_;
   std::pmr::memory_resource* memory_;
 };

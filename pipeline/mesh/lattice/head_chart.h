@@ -10,7 +10,7 @@
 
 #include <cmath>
 
-#include "pipeline/model/geometry.h"
+#include "pipeline/model/vector3.h"
 
 namespace relievo::pipeline {
 
@@ -19,21 +19,18 @@ struct HeadChart {
   // seen, too.
   static constexpr Vec3d kCentreMm{0, 10, -220};
   static constexpr double kRadiusMm =
-      210;  // turns angles into millimetres of the map: about the skin's own distance
+      210;  // turns angles into the map's millimetres: about the skin's radius
 
   explicit HeadChart(const RigidTransform& head_from_camera)
       : head_from_axes(head_from_camera.rotation), centre_mm(apply(inverse(head_from_camera), kCentreMm)) {}
 
   // Points run from the centre, along the left camera's axes.
   Vec3d in_head(const Vec3f& from_centre) const {
-    const Vec3d p =
-        apply(head_from_axes, Vec3d{double(from_centre.x), double(from_centre.y), double(from_centre.z)});
-    return {p.x + kCentreMm.x, p.y + kCentreMm.y, p.z + kCentreMm.z};
+    return plus(apply(head_from_axes, wide(from_centre)), kCentreMm);
   }
   // Millimetres on the map. The direction straight backwards has no place.
   Vec2d place(const Vec3f& from_centre) const {
-    return place_in_head(
-        apply(head_from_axes, Vec3d{double(from_centre.x), double(from_centre.y), double(from_centre.z)}));
+    return place_in_head(apply(head_from_axes, wide(from_centre)));
   }
   // The same from the centre along the head's own axes.
   static Vec2d place_in_head(const Vec3d& from_centre) {
@@ -45,9 +42,8 @@ struct HeadChart {
     const double angle = std::hypot(place.x, place.y) / kRadiusMm;
     const double scale =
         angle > 1e-9 ? radius_mm * std::sin(angle) / (angle * kRadiusMm) : radius_mm / kRadiusMm;
-    const Vec3d p = apply(transposed(head_from_axes),
-                          Vec3d{-place.x * scale, -place.y * scale, radius_mm * std::cos(angle)});
-    return {float(p.x), float(p.y), float(p.z)};
+    return narrow(apply(transposed(head_from_axes),
+                        Vec3d{-place.x * scale, -place.y * scale, radius_mm * std::cos(angle)}));
   }
 
   Rotation head_from_axes;  // of the left camera

@@ -171,18 +171,13 @@ struct Nodes {
 Nodes lay_nodes(const PointLattice& from, const LatticeSpacing& spacing, PointLattice& to,
                 std::pmr::memory_resource* memory) {
   Nodes at{lay_nodes(from.columns, spacing, memory), lay_nodes(from.rows, spacing, memory)};
-  to.columns = int(at.x.size());
-  to.rows = int(at.y.size());
+  to.lay_out(int(at.x.size()), int(at.y.size()));
   to.cell_width_mm = from.cell_width_mm * at.x.back() / float(to.columns - 1);
   to.cell_height_mm = from.cell_height_mm * at.y.back() / float(to.rows - 1);
   return at;
 }
 
 void read_nodes(const Reader& reader, const Nodes& at, PointLattice& to, ThreadPool& pool) {
-  const std::size_t count = at.x.size() * at.y.size();
-  to.node.assign(count, Node::Empty);
-  to.at_mm.assign(count, Vec3f{});
-  to.sigma_mm.assign(count, 0.0F);
   pool.for_each_band(to.rows, kBands, [&](int from, int until, int) {
     for (int r = from; r < until; ++r)
       for (int c = 0; c < to.columns; ++c) {
@@ -282,7 +277,7 @@ ShapedLattice resample_lattice(const ShapedLattice& old, const LatticeSpacing& s
 PointLattice lay_on_head(const PointLattice& old, const LatticeSurface& surface, const HeadChart& chart,
                          float margin_mm, ThreadPool& pool, std::pmr::memory_resource* memory) {
   PointLattice made(memory);
-  const Vec3f centre{float(chart.centre_mm.x), float(chart.centre_mm.y), float(chart.centre_mm.z)};
+  const Vec3f centre = narrow(chart.centre_mm);
   const double step = std::sqrt(double(old.cell_width_mm) * double(old.cell_height_mm));
   std::pmr::vector<Vec2f> place(old.size(), Vec2f{}, memory);  // in steps
   pool.for_each_band(int(old.size()), kBands, [&](int from, int to, int) {
@@ -306,18 +301,13 @@ PointLattice lay_on_head(const PointLattice& old, const LatticeSurface& surface,
   };
   const int left = room(aside);
   const int top = room(above);
-  made.columns = 2 * left + 1;
-  made.rows = top + room(below) + 1;
+  made.lay_out(2 * left + 1, top + room(below) + 1);
   made.chart = chart;
   made.step_mm = step;
   made.first_mm = {-left * step, -top * step};
-  const std::size_t nodes = std::size_t(made.columns) * std::size_t(made.rows);
-  made.node.assign(nodes, Node::Empty);
-  made.at_mm.assign(nodes, Vec3f{});
-  made.sigma_mm.assign(nodes, 0.0F);
   for (Vec2f& p : place) p = {p.x + float(left), p.y + float(top)};
   const Reader reader(old, surface);
-  std::pmr::vector<float> radius(nodes, 0.0F, memory);
+  std::pmr::vector<float> radius(made.size(), 0.0F, memory);
   for_each_triangle(old, surface, [&](const std::array<std::uint32_t, 3>& t) {
     const Vec2f &a = place[t[0]], &b = place[t[1]], &c = place[t[2]];
     if ((b.x - a.x) * (c.y - a.y) - (b.y - a.y) * (c.x - a.x) <= 0)

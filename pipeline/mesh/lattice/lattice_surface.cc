@@ -5,9 +5,6 @@
 #include <algorithm>
 #include <cmath>
 
-#include "pipeline/mesh/view_edge.h"
-#include "pipeline/model/vector3.h"
-
 namespace relievo::pipeline {
 namespace {
 
@@ -44,49 +41,11 @@ float usual_distance(const PointLattice& l, int dx, int dy) {
       const std::size_t a = l.index(c, r);
       const std::size_t b = l.index(c + dx, r + dy);
       if (l.node[a] == Node::Empty || l.node[b] == Node::Empty) continue;
-      sum += double(mesh::edge_between(l.at_mm[a], l.at_mm[b]).across_mm);
+      sum += double(edge_between(l.at_mm[a], l.at_mm[b]).across_mm);
       count += 1;
     }
   return count > 0 ? float(sum / count) : 0;
 }
-
-}  // namespace
-
-void measure_cells(PointLattice& lattice) {
-  lattice.cell_width_mm = usual_distance(lattice, 1, 0);
-  lattice.cell_height_mm = usual_distance(lattice, 0, 1);
-}
-
-PointLattice make_lattice(const PointCloud& cloud, std::pmr::memory_resource* memory) {
-  PointLattice lattice(memory);
-  if (cloud.lattice_step_px <= 0) return lattice;
-  const Box box = bounds(cloud);
-  if (box.right < box.left) return lattice;
-
-  const float step = float(cloud.lattice_step_px);
-  const auto steps = [step](float from, float to) { return int(std::lround((to - from) / step)); };
-  lattice.columns = steps(box.left, box.right) + 1;
-  lattice.rows = steps(box.top, box.bottom) + 1;
-  const std::size_t nodes = std::size_t(lattice.columns) * std::size_t(lattice.rows);
-  lattice.node.assign(nodes, Node::Empty);
-  lattice.at_mm.assign(nodes, Vec3f{});
-  lattice.sigma_mm.assign(nodes, 0.0F);
-
-  for (const CloudPoint& p : cloud.points) {
-    if (!usable(p)) continue;
-    const std::size_t k = lattice.index(steps(box.left, p.left_px.x), steps(box.top, p.left_px.y));
-    if (lattice.node[k] != Node::Empty && lattice.sigma_mm[k] <= p.sigma_mm) continue;
-    lattice.node[k] = Node::Measured;
-    lattice.at_mm[k] = p.at_mm;
-    lattice.sigma_mm[k] = p.sigma_mm;
-  }
-  measure_cells(lattice);
-  return lattice;
-}
-
-namespace {
-
-using mesh::edge_between, mesh::ViewEdge;
 
 // Tests whether two neighbours continue one surface. A depth step is not known by its size alone: the
 // flank of a nose is as steep as a small step. It is known by leaving the slope found on both sides.
@@ -152,9 +111,30 @@ std::uint8_t cut_cell(const PointLattice& l, int c, int r, const CellEdges& e, f
 
 }  // namespace
 
-bool continues(const PointLattice& lattice, const LatticeLimits& limits, int column, int row, int dx,
-               int dy) {
-  return EdgeTest(lattice, limits).joined(column, row, dx, dy);
+void measure_cells(PointLattice& lattice) {
+  lattice.cell_width_mm = usual_distance(lattice, 1, 0);
+  lattice.cell_height_mm = usual_distance(lattice, 0, 1);
+}
+
+PointLattice make_lattice(const PointCloud& cloud, std::pmr::memory_resource* memory) {
+  PointLattice lattice(memory);
+  if (cloud.lattice_step_px <= 0) return lattice;
+  const Box box = bounds(cloud);
+  if (box.right < box.left) return lattice;
+
+  const float step = float(cloud.lattice_step_px);
+  const auto steps = [step](float from, float to) { return int(std::lround((to - from) / step)); };
+  lattice.lay_out(steps(box.left, box.right) + 1, steps(box.top, box.bottom) + 1);
+  for (const CloudPoint& p : cloud.points) {
+    if (!usable(p)) continue;
+    const std::size_t k = lattice.index(steps(box.left, p.left_px.x), steps(box.top, p.left_px.y));
+    if (lattice.node[k] != Node::Empty && lattice.sigma_mm[k] <= p.sigma_mm) continue;
+    lattice.node[k] = Node::Measured;
+    lattice.at_mm[k] = p.at_mm;
+    lattice.sigma_mm[k] = p.sigma_mm;
+  }
+  measure_cells(lattice);
+  return lattice;
 }
 
 LatticeSurface join_neighbours(const PointLattice& l, const LatticeLimits& limits,

@@ -11,6 +11,7 @@
 // A surface of cells is planar in the picture, so no edge can carry more than two triangles.
 #pragma once
 
+#include <algorithm>
 #include <array>
 #include <cmath>
 #include <cstddef>
@@ -32,17 +33,6 @@ enum class Node : std::uint8_t { Empty, Measured, Filled };
 
 struct PointLattice {
   explicit PointLattice(std::pmr::memory_resource* memory) : at_mm(memory), sigma_mm(memory), node(memory) {}
-  PointLattice(const PointLattice& other, std::pmr::memory_resource* memory)
-      : columns(other.columns),
-        rows(other.rows),
-        chart(other.chart),
-        first_mm(other.first_mm),
-        step_mm(other.step_mm),
-        cell_width_mm(other.cell_width_mm),
-        cell_height_mm(other.cell_height_mm),
-        at_mm(other.at_mm, memory),
-        sigma_mm(other.sigma_mm, memory),
-        node(other.node, memory) {}
   int columns = 0;
   int rows = 0;
   std::optional<HeadChart> chart;  // whose lattice it is, where it is one's: then every node lies on its own
@@ -68,8 +58,27 @@ struct PointLattice {
     const auto w = std::size_t(columns);
     return chart->at({first_mm.x + step_mm * double(k % w), first_mm.y + step_mm * double(k / w)}, radius_mm);
   }
+  void lay_out(int all_columns, int all_rows) {  // of empty nodes
+    columns = all_columns;
+    rows = all_rows;
+    const std::size_t nodes = std::size_t(columns) * std::size_t(rows);
+    node.assign(nodes, Node::Empty);
+    at_mm.assign(nodes, Vec3f{});
+    sigma_mm.assign(nodes, 0.0F);
+  }
   bool inside(int column, int row) const { return column >= 0 && row >= 0 && column < columns && row < rows; }
 };
+
+// An edge as the camera at the origin sees it: how far it leads along the line of sight and how far across.
+// Their ratio is the surface's slope in that direction.
+struct ViewEdge {
+  float depth_mm, across_mm;
+};
+inline ViewEdge edge_between(const Vec3f& from, const Vec3f& to) {
+  const Vec3f e = minus(to, from);
+  const float depth = dot(e, unit(plus(from, to)));
+  return {depth, std::sqrt(std::max(dot(e, e) - depth * depth, 1e-12F))};
+}
 
 // Sets the size of a cell by the nodes there are.
 void measure_cells(PointLattice& lattice);
@@ -109,9 +118,6 @@ void for_each_triangle(const PointLattice& lattice, const LatticeSurface& surfac
 inline int triangle_count(std::uint8_t cell) {
   return cell == 0 ? 0 : (cell == kFalling || cell == kRising) ? 2 : 1;
 }
-
-// Whether the node (column, row) and its neighbour (column + dx, row + dy) continue one surface.
-bool continues(const PointLattice& lattice, const LatticeLimits& limits, int column, int row, int dx, int dy);
 
 // Cuts every cell whose nodes continue one surface, along the shorter diagonal.
 LatticeSurface join_neighbours(const PointLattice& lattice, const LatticeLimits& limits,

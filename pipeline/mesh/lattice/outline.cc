@@ -16,8 +16,7 @@ constexpr float kGiven = 0.5F, kKept = 0.34F;  // of what lies around, so much m
                                                // to keep one: what was measured weighs more
 constexpr float kAgreeMm = 1;  // along the line of sight, where it is steep: a third of it across the surface
 constexpr float kRimMm = 6;    // a hole so near to the outside is a nick in the outline
-constexpr float kChannelShare =
-    0.5F;  // steep channels narrower than this share of min_width_mm let nothing in
+constexpr float kChannelShare = 0.5F;  // of min_width_mm: narrower steep channels let nothing in
 
 // Sums along rows over windows of 2 reach + 1, in place.
 void sum_along_rows(std::pmr::vector<Vec3f>& v, int columns, int reach, std::pmr::memory_resource* memory) {
@@ -46,14 +45,16 @@ void grow(PointLattice& l, LatticeSurface& surface, const CellMask& before, cons
                 l.inside(int(k) % l.columns + 1,
                          int(k) / l.columns + 1);  // the last column and row are no cells
   }
-  const PointLattice measured(l, memory);
+  const std::pmr::vector<Vec3f> at_mm(l.at_mm, memory);
+  const std::pmr::vector<float> sigma_mm(l.sigma_mm, memory);
+  const std::pmr::vector<Node> node(l.node, memory);
   fill_cells(l, surface, gained, max_slope, {}, memory);
   for (std::size_t k = 0; k < l.size(); ++k) {
-    if (l.node[k] == measured.node[k] || measured.node[k] == Node::Empty) continue;
-    if (length(minus(l.at_mm[k], measured.at_mm[k])) > kAgreeMm) continue;
-    l.at_mm[k] = measured.at_mm[k];
-    l.sigma_mm[k] = measured.sigma_mm[k];
-    l.node[k] = measured.node[k];
+    if (l.node[k] == node[k] || node[k] == Node::Empty) continue;
+    if (distance(l.at_mm[k], at_mm[k]) > kAgreeMm) continue;
+    l.at_mm[k] = at_mm[k];
+    l.sigma_mm[k] = sigma_mm[k];
+    l.node[k] = node[k];
   }
   for (std::size_t k = 0; k < l.size(); ++k)
     if (gained[k]) surface.cells[k] = best_cut(l, k, max_slope);

@@ -5,7 +5,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "pipeline/model/vector3.h"
+#include "pipeline/mesh/surface_cleaner.h"
 
 namespace relievo::pipeline {
 namespace {
@@ -16,22 +16,6 @@ namespace {
 constexpr double kAcross = 112, kUp = 101, kBack = 91;
 constexpr double kJaw = 130;  // mm: from the chin the curve rises sideways as a parabola
 constexpr double kBend = 12;  // mm over which the curve turns from the cheeks to below the chin
-
-}  // namespace
-
-float FaceOutline::depth_mm(const Vec3f& from_chart_centre_mm) const {
-  const Vec3d p = chart.in_head(from_chart_centre_mm);
-  const double share = std::max(std::hypot(p.x / kAcross, p.y / kUp, p.z / kBack), 1e-3);
-  const double to_reach = std::hypot(p.x, p.y, p.z) * (1 / share - 1);
-  const double to_chin = p.y + below_mm - p.x * p.x / kJaw;
-  const double between =
-      std::clamp(0.5 + 0.5 * (to_chin - to_reach) / kBend, 0.0, 1.0);  // the lesser of both, rounded off
-  return float(to_chin + between * (to_reach - to_chin) - kBend * between * (1 - between) / 2);
-}
-
-namespace {
-
-using Triangle = std::array<std::uint32_t, 3>;
 
 constexpr std::uint32_t kNone = 0xFFFFFFFFU;
 constexpr float kInsetCells = 0.6F;   // how far inside a straight edge a line runs at least ...
@@ -94,12 +78,6 @@ struct Place {
   }
 };
 
-struct Point {
-  Vec3f at_mm;
-  float sigma_mm = 0;
-  bool measured = false;
-};
-
 class Cutter {
  public:
   Cutter(const PointLattice& lattice, const LatticeSurface& surface, float max_slope,
@@ -132,7 +110,7 @@ class Cutter {
       if (snaps_[k].towards != kNone) over_[k] = 0;
   }
 
-  CutSurface cut(std::pmr::memory_resource* memory) {
+  FaceMesh cut(std::pmr::memory_resource* memory) {
     std::size_t triangles = 0;
     std::size_t cuts = 0;
     for_each_piece([&](const std::array<Place, 3>& piece) {
@@ -142,7 +120,7 @@ class Cutter {
         else ++cuts;
     });
     list_cuts(cuts);
-    CutSurface result(memory);
+    FaceMesh result(memory);
     number_vertices(result);
     result.triangles.reserve(triangles);
     for_each_piece([&](const std::array<Place, 3>& piece) {
@@ -212,15 +190,16 @@ class Cutter {
 
   float squared(const Place& a, const Place& b) const { return squared_distance(at(a).at_mm, at(b).at_mm); }
 
-  Point at(const Place& p) const {
+  PackedVertex at(const Place& p) const {
     if (p.from != p.to) return between(p.from, p.to, over_[p.from] / (over_[p.from] - over_[p.to]));
     const Snap& snap = snaps_[p.from];
     return snap.towards == kNone ? between(p.from, p.from, 0) : between(p.from, snap.towards, snap.share);
   }
-  Point between(std::uint32_t a, std::uint32_t b, float share) const {
+  PackedVertex between(std::uint32_t a, std::uint32_t b, float share) const {
     const bool measured = lattice_.node[a] == Node::Measured && lattice_.node[b] == Node::Measured;
     return {plus(lattice_.at_mm[a], times(minus(lattice_.at_mm[b], lattice_.at_mm[a]), share)),
-            lattice_.sigma_mm[a] + share * (lattice_.sigma_mm[b] - lattice_.sigma_mm[a]), measured};
+            lattice_.sigma_mm[a] + share * (lattice_.sigma_mm[b] - lattice_.sigma_mm[a]),
+            measured ? std::uint8_t{1} : std::uint8_t{0}};
   }
 
   void list_cuts(std::size_t count) {
@@ -234,18 +213,18 @@ class Cutter {
   }
 
   // Nodes first, in the lattice's order, then the cuts.
-  void number_vertices(CutSurface& result) {
+  void number_vertices(FaceMesh& result) {
     std::uint32_t count = 0;
     for (std::uint32_t& n : number_)
       if (n != kNone) n = count++;
     first_cut_ = count;
     count += std::uint32_t(cuts_.size());
-    result.at_mm.reserve(count);
+    result.vertices_mm.reserve(count);
     result.sigma_mm.reserve(count);
     result.measured.reserve(count);
     const auto add = [&](const Place& p) {
-      const Point point = at(p);
-      result.at_mm.push_back(point.at_mm);
+      const PackedVertex point = at(p);
+      result.vertices_mm.push_back(point.at_mm);
       result.sigma_mm.push_back(point.sigma_mm);
       result.measured.push_back(point.measured);
     };
@@ -271,9 +250,19 @@ class Cutter {
 
 }  // namespace
 
-CutSurface cut_outline(const PointLattice& lattice, const LatticeSurface& surface, const CellMask& inside,
-                       const OutlineSmoothing& smoothing, const std::optional<FaceOutline>& outline,
-                       float max_slope, std::pmr::memory_resource* memory) {
+float FaceOutline::depth_mm(const Vec3f& from_chart_centre_mm) const {
+  const Vec3d p = chart.in_head(from_chart_centre_mm);
+  const double share = std::max(std::hypot(p.x / kAcross, p.y / kUp, p.z / kBack), 1e-3);
+  const double to_reach = std::hypot(p.x, p.y, p.z) * (1 / share - 1);
+  const double to_chin = p.y + below_mm - p.x * p.x / kJaw;
+  const double between =
+      std::clamp(0.5 + 0.5 * (to_chin - to_reach) / kBend, 0.0, 1.0);  // the lesser of both, rounded off
+  return float(to_chin + between * (to_reach - to_chin) - kBend * between * (1 - between) / 2);
+}
+
+FaceMesh cut_outline(const PointLattice& lattice, const LatticeSurface& surface, const CellMask& inside,
+                     const OutlineSmoothing& smoothing, const std::optional<FaceOutline>& outline,
+                     float max_slope, std::pmr::memory_resource* memory) {
   Cutter cutter(lattice, surface, max_slope, memory);
   if (lattice.size() > 0) cutter.draw_lines(inside, smoothing, outline, memory);
   return cutter.cut(memory);

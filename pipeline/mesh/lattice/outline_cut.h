@@ -8,15 +8,13 @@
 // slivers arise (Labelle, Shewchuk 2007). Every vertex stays on an edge it was on.
 #pragma once
 
-#include <array>
-#include <cstdint>
 #include <memory_resource>
 #include <optional>
-#include <vector>
 
 #include "pipeline/mesh/lattice/cell_mask.h"
 #include "pipeline/mesh/lattice/head_chart.h"
 #include "pipeline/mesh/lattice/lattice_surface.h"
+#include "pipeline/model/face_mesh.h"
 
 namespace relievo::pipeline {
 
@@ -32,16 +30,6 @@ struct FaceOutline {
   float depth_mm(const Vec3f& from_chart_centre_mm) const;
 };
 
-// Only vertices that a triangle uses. Frame: left camera, millimetres.
-struct CutSurface {
-  explicit CutSurface(std::pmr::memory_resource* memory)
-      : at_mm(memory), sigma_mm(memory), measured(memory), triangles(memory) {}
-  std::pmr::vector<Vec3f> at_mm;
-  std::pmr::vector<float> sigma_mm;         // along the line of sight
-  std::pmr::vector<std::uint8_t> measured;  // 1 where both nodes of the edge it lies on are
-  std::pmr::vector<std::array<std::uint32_t, 3>> triangles;
-};
-
 // Sigmas of the Gaussians; 0 leaves that line on the lattice.
 struct OutlineSmoothing {
   float outline_mm = 0;
@@ -49,10 +37,11 @@ struct OutlineSmoothing {
 };
 
 // `inside` is what lies within the outline, holes included. Triangles that the move would make steeper
-// than `max_slope` are left out. `outline`: nothing beyond this curve is kept. Throws std::bad_alloc when
-// `memory` is used up.
-CutSurface cut_outline(const PointLattice& lattice, const LatticeSurface& surface, const CellMask& inside,
-                       const OutlineSmoothing& smoothing, const std::optional<FaceOutline>& outline,
-                       float max_slope, std::pmr::memory_resource* memory);
+// than `max_slope` are left out. `outline`: nothing beyond this curve is kept. A mesh of only vertices that a
+// triangle uses, measured where both nodes of their edge are, with sigmas along the line of sight and without
+// normals; in the lattice's frame. Throws std::bad_alloc when `memory` is used up.
+FaceMesh cut_outline(const PointLattice& lattice, const LatticeSurface& surface, const CellMask& inside,
+                     const OutlineSmoothing& smoothing, const std::optional<FaceOutline>& outline,
+                     float max_slope, std::pmr::memory_resource* memory);
 
 }  // namespace relievo::pipeline

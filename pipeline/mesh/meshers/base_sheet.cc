@@ -10,14 +10,49 @@
 #include "pipeline/mesh/detail/edge_collapser.h"
 #include "pipeline/mesh/detail/sliver_mender.h"
 #include "pipeline/mesh/lattice/lattice_surface.h"
+#include "pipeline/mesh/meshers/grid_mesher.h"
+#include "pipeline/model/mesh_border.h"
 #include "pipeline/model/vector3.h"
 
 namespace relievo::pipeline {
 namespace {
 
 constexpr float kPointsPerCell = 2;
-constexpr float kObliquity =
-    0.5F;  // a step in x/z is at least so much of an angle within 60 degrees of the axis
+constexpr float kObliquity = 0.5F;  // of an angle within 60 degrees of the axis a step in x/z is at least
+
+constexpr float kMeasuredEdges = 1.5F;  // a vertex that many usual edges from a measured point is measured
+constexpr float kAnySlope = 1e6F;
+constexpr float kBeyondEdges = 0.3F;  // and so many beyond the border it may lie
+constexpr float kSigmaPerMm = 0.05F;  // what a vertex further from the points loses in certainty
+
+struct Carried {
+  explicit Carried(std::pmr::memory_resource* memory) : sigma_mm(memory), measured(memory), near(memory) {}
+  std::pmr::vector<float> sigma_mm;
+  std::pmr::vector<std::uint8_t> measured, near;
+};
+
+Carried carry_over(const FaceMesh& base, std::span<const Vec3f> vertices, const FinishOptions& options,
+                   StageContext& context) {
+  const NearestVertex nearest(base.vertices_mm, &context.scratch);
+  const auto border = border_vertices(base, &context.scratch);
+  const float usual = usual_edge_mm(base.vertices_mm, base.triangles, &context.scratch);
+  Carried carried(&context.scratch);
+  carried.sigma_mm.assign(vertices.size(), 0.0F);
+  carried.measured.assign(vertices.size(), 0);
+  carried.near.assign(vertices.size(), 0);
+  for (std::size_t v = 0; v < vertices.size(); ++v) {
+    if (!(vertices[v].z > 0)) continue;
+    const auto hit = nearest.find(vertices[v], float(options.max_gap_mm));
+    if (hit.vertex == NearestVertex::kNone) continue;
+    const float distance = std::sqrt(hit.squared_mm);
+    if (border[hit.vertex] && distance > kBeyondEdges * usual)
+      continue;  // nothing grows over the measured border
+    carried.near[v] = 1;
+    carried.measured[v] = base.measured[hit.vertex] && distance <= kMeasuredEdges * usual;
+    carried.sigma_mm[v] = base.sigma_mm[hit.vertex] + kSigmaPerMm * std::max(distance - usual, 0.0F);
+  }
+  return carried;
+}
 
 }  // namespace
 
@@ -62,67 +97,16 @@ NearestVertex::Hit NearestVertex::find(const Vec3f& at, float within_mm) const {
   return best;
 }
 
-namespace {
-
-constexpr float kMeasuredEdges =
-    1.5F;  // so many usual edges from a measured point a vertex counts as measured
-constexpr float kAnySlope = 1e6F;
-constexpr float kBeyondEdges = 0.3F;  // and so many beyond the border it may lie
-constexpr float kSigmaPerMm = 0.05F;  // what a vertex further from the points loses in certainty
-
-struct Carried {
-  explicit Carried(std::pmr::memory_resource* memory) : sigma_mm(memory), measured(memory), near(memory) {}
-  std::pmr::vector<float> sigma_mm;
-  std::pmr::vector<std::uint8_t> measured, near;
-};
-
-// 1 at vertices of the base's own border.
-std::pmr::vector<std::uint8_t> border_of(const FaceMesh& base, std::pmr::memory_resource* memory) {
-  std::pmr::vector<Triangle> triangles(base.triangles, memory);
-  CornerIndex index(base.vertices_mm.size(), triangles, memory);
-  index.build();
-  std::pmr::vector<std::uint8_t> border(base.vertices_mm.size(), 0, memory);
-  for (const Triangle& t : triangles)
-    for (std::size_t k = 0; k < 3; ++k)
-      if (index.across(t[k], t[(k + 1) % 3]) == kGoneVertex) border[t[k]] = border[t[(k + 1) % 3]] = 1;
-  return border;
-}
-
-Carried carry_over(const FaceMesh& base, std::span<const Vec3f> vertices, const FinishOptions& options,
-                   StageContext& context) {
-  const NearestVertex nearest(base.vertices_mm, &context.scratch);
-  const auto border = border_of(base, &context.scratch);
-  const float usual = usual_edge_mm(base, &context.scratch);
-  Carried carried(&context.scratch);
-  carried.sigma_mm.assign(vertices.size(), 0.0F);
-  carried.measured.assign(vertices.size(), 0);
-  carried.near.assign(vertices.size(), 0);
-  for (std::size_t v = 0; v < vertices.size(); ++v) {
-    if (!(vertices[v].z > 0)) continue;
-    const auto hit = nearest.find(vertices[v], float(options.max_gap_mm));
-    if (hit.vertex == NearestVertex::kNone) continue;
-    const float distance = std::sqrt(hit.squared_mm);
-    if (border[hit.vertex] && distance > kBeyondEdges * usual)
-      continue;  // nothing grows over the measured border
-    carried.near[v] = 1;
-    carried.measured[v] = base.measured[hit.vertex] && distance <= kMeasuredEdges * usual;
-    carried.sigma_mm[v] = base.sigma_mm[hit.vertex] + kSigmaPerMm * std::max(distance - usual, 0.0F);
-  }
-  return carried;
-}
-
-}  // namespace
-
 Result<FaceMesh> base_sheet(const PointCloud& cloud, int most_points, StageContext& context) {
   StageContext inner{context.scratch, context.scratch, context.pool, context.progress, context.cancelled};
   return delaunay_sheet(cloud, std::max(2 * most_points, 1000), inner);
 }
 
-float usual_edge_mm(const FaceMesh& base, std::pmr::memory_resource* memory) {
+float usual_edge_mm(std::span<const Vec3f> vertices, std::span<const Triangle> triangles,
+                    std::pmr::memory_resource* memory) {
   std::pmr::vector<float> lengths(memory);
-  lengths.reserve(base.triangles.size());
-  for (const Triangle& t : base.triangles)
-    lengths.push_back(length(minus(base.vertices_mm[t[1]], base.vertices_mm[t[0]])));
+  lengths.reserve(triangles.size());
+  for (const Triangle& t : triangles) lengths.push_back(distance(vertices[t[1]], vertices[t[0]]));
   return lengths.empty() ? 0 : float(median(lengths));
 }
 
@@ -168,7 +152,7 @@ Result<FaceMesh> finish_surface(const FaceMesh& base, std::span<const Vec3f> ver
   keep_one_surface(vertices, triangles, {}, &context.scratch);
   // Slivers first: the way a triangle almost without area faces says nothing.
   const auto mend = [&](float slope) {
-    if (mend_slivers(vertices, triangles, {kSmallestAngleDeg, slope}, &context.scratch) > 0)
+    if (mend_slivers(vertices, triangles, slope, &context.scratch) > 0)
       keep_one_surface(vertices, triangles, {.ear_passes = 0}, &context.scratch);
   };
   mend(kAnySlope);
@@ -266,14 +250,18 @@ Result<FaceMesh> mesh_sheet(const FaceMesh& base, const DepthSamples& samples, c
                std::span(depths).subspan(std::size_t(r) * columns, columns));
   });
   if (context.stop()) return Error{Errc::Cancelled, "meshing was stopped"};
-  const float reach = kReachEdges * std::max(usual_edge_mm(base, &context.scratch), float(options.step_mm));
+  const float usual = usual_edge_mm(base.vertices_mm, base.triangles, &context.scratch);
+  const float reach = kReachEdges * std::max(usual, float(options.step_mm));
   PointCloud cloud(&context.scratch);
   cloud.points.reserve(columns * std::size_t(lattice.rows));
   cloud.lattice_step_px = 1;
   for (int r = 0; r < lattice.rows; ++r)
     add_row(base, samples, nearest, lattice, r, us,
             std::span(depths).subspan(std::size_t(r) * columns, columns), reach, cloud);
-  return lattice_sheet(cloud, options.max_triangles, options.min_area_mm2, context);
+  GridMesher joining;
+  joining.max_triangles = options.max_triangles;
+  joining.min_area_mm2 = options.min_area_mm2;
+  return joining.mesh(cloud, context);
 }
 
 }  // namespace relievo::pipeline

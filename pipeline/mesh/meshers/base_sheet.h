@@ -45,18 +45,16 @@ class NearestVertex {
 // promises; sigma and `measured` are carried over from the nearest measured point. Frame: the left camera's,
 // millimetres. Both throw std::bad_alloc where an arena is used up.
 
-// What two meshers do, for others to begin or end with: the Delaunay mesher on at most half as many points as
-// triangles, and the grid mesher on a cloud with lattice_step_px. Errors: PoorGeometry, Cancelled.
+// The Delaunay mesher on at most half as many points as triangles. Errors: PoorGeometry, Cancelled.
 Result<FaceMesh> delaunay_sheet(const PointCloud& cloud, int max_triangles, StageContext& context);
-Result<FaceMesh> lattice_sheet(const PointCloud& cloud, int max_triangles, double min_area_mm2,
-                               StageContext& context);
 
 // In `scratch`; sigma_mm perpendicular to the surface. At most `most_points`, spread evenly over the cloud.
 // Errors: PoorGeometry, Cancelled.
 Result<FaceMesh> base_sheet(const PointCloud& cloud, int most_points, StageContext& context);
 
 // Half of all edges are shorter.
-float usual_edge_mm(const FaceMesh& base, std::pmr::memory_resource* memory);
+float usual_edge_mm(std::span<const Vec3f> vertices_mm, std::span<const Triangle> triangles,
+                    std::pmr::memory_resource* memory);
 
 // Points on the base's triangles where it has none within the spacing: vertices, normals and sigmas alone.
 FaceMesh densify(const FaceMesh& base, float spacing_mm, std::pmr::memory_resource* memory);

@@ -188,7 +188,6 @@ void BezierNet::depths(std::span<const double> us, double v, std::span<double> d
 }
 
 Result<FaceMesh> BezierMesher::mesh(const PointCloud& cloud, StageContext& context) const {
-  if (context.stop()) return Error{Errc::Cancelled, "meshing was stopped"};
   RELIEVO_TRY_ASSIGN(const FaceMesh base, base_sheet(cloud, max_points, context));
   const DepthSamples samples = sample_depths(base, &context.scratch);
   const BezierNet net(samples, patch_mm, bending, &context.scratch);

@@ -5,8 +5,7 @@
 // tangents (C1; here even C2). Tensor-product cubic B-splines on a uniform net are fitted to the measured
 // points by weighted least squares (1 / sigma^2) with a bending term that carries them over gaps, and
 // turned into Bezier patches by knot insertion (Farin 2002, ch. 8 and 16; Dierckx 1993 for the fit).
-// Takes any cloud. Frame: the left camera's, millimetres. Memory: arenas only.
-// Errors: PoorGeometry, OutOfMemory, Cancelled. Thread: any; the pool evaluates.
+// Takes any cloud. Otherwise as the others (scattered_meshers.h).
 #pragma once
 
 #include <array>

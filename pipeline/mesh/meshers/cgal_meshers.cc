@@ -16,7 +16,6 @@
 #include <utility>
 #include <vector>
 
-#include "hal/base/statistics.h"
 #include "pipeline/mesh/lattice/lattice_surface.h"
 #include "pipeline/mesh/meshers/band_volume.h"
 #include "pipeline/mesh/meshers/base_sheet.h"
@@ -29,6 +28,12 @@ namespace {
 
 using Kernel = CGAL::Exact_predicates_inexact_constructions_kernel;
 using Facet = std::array<std::size_t, 3>;
+
+// CGAL's order follows addresses in memory; ours is the same on every run.
+void put_in_order(std::pmr::vector<Triangle>& triangles) {
+  for (Triangle& t : triangles) std::rotate(t.begin(), std::ranges::min_element(t), t.end());
+  std::ranges::sort(triangles);
+}
 
 // Refuses facets with an edge longer than the bound (as CGAL's manual suggests for open surfaces).
 struct LongestEdge {
@@ -58,25 +63,21 @@ std::pmr::vector<Triangle> grow(const FaceMesh& base, double longest_mm, StageCo
     triangles.push_back({std::uint32_t(f[0]), std::uint32_t(f[1]), std::uint32_t(f[2])});
   // CGAL orients the surface as one, either way round: towards the camera it shall be.
   std::size_t away = 0;
-  for (const Triangle& t : triangles) {
-    const Vec3f &a = base.vertices_mm[t[0]], &b = base.vertices_mm[t[1]], &c = base.vertices_mm[t[2]];
-    const Vec3f u{b.x - a.x, b.y - a.y, b.z - a.z}, v{c.x - a.x, c.y - a.y, c.z - a.z};
-    away += (u.y * v.z - u.z * v.y) * a.x + (u.z * v.x - u.x * v.z) * a.y + (u.x * v.y - u.y * v.x) * a.z > 0;
-  }
+  for (const Triangle& t : triangles)
+    away += dot(area_normal(base.vertices_mm, t), base.vertices_mm[t[0]]) > 0;
   if (2 * away > triangles.size())
     for (Triangle& t : triangles) std::swap(t[1], t[2]);
-  for (Triangle& t : triangles) std::rotate(t.begin(), std::ranges::min_element(t), t.end());
-  std::ranges::sort(triangles);
+  put_in_order(triangles);
   return triangles;
 }
 
 }  // namespace
 
 Result<FaceMesh> AdvancingFrontMesher::mesh(const PointCloud& cloud, StageContext& context) const {
-  if (context.stop()) return Error{Errc::Cancelled, "meshing was stopped"};
   RELIEVO_TRY_ASSIGN(const FaceMesh base, base_sheet(cloud, max_points, context));
   const double longest =
-      std::min(max_edge_mm, max_edge_ratio * double(usual_edge_mm(base, &context.scratch)));
+      std::min(max_edge_mm,
+               max_edge_ratio * double(usual_edge_mm(base.vertices_mm, base.triangles, &context.scratch)));
   std::pmr::vector<Triangle> triangles = grow(base, longest, context);
   if (context.stop()) return Error{Errc::Cancelled, "meshing was stopped"};
   return finish_surface(base, base.vertices_mm, triangles, finish, context);
@@ -84,7 +85,6 @@ Result<FaceMesh> AdvancingFrontMesher::mesh(const PointCloud& cloud, StageContex
 
 namespace {
 
-using Kernel = CGAL::Exact_predicates_inexact_constructions_kernel;
 using Oriented = std::pair<Kernel::Point_3, Kernel::Vector_3>;
 
 constexpr double kBackMm = 60;
@@ -96,15 +96,14 @@ constexpr float kSparse = 1.5F;  // voxels: the band joins points further apart
 bool fill_field(const FaceMesh& base, BandVolume& volume, float radius, StageContext& context) {
   std::vector<Oriented> points;
   points.reserve(base.vertices_mm.size() + base.vertices_mm.size() / kBackStride + 1);
-  const auto d = [](float v) { return double(v); };
   for (std::size_t i = 0; i < base.vertices_mm.size(); ++i) {
-    const Vec3f &p = base.vertices_mm[i], &n = base.normals[i];
-    points.emplace_back(Kernel::Point_3(d(p.x), d(p.y), d(p.z)), Kernel::Vector_3(d(n.x), d(n.y), d(n.z)));
+    const Vec3d p = wide(base.vertices_mm[i]), n = wide(base.normals[i]);
+    points.emplace_back(Kernel::Point_3(p.x, p.y, p.z), Kernel::Vector_3(n.x, n.y, n.z));
     // A face is an open sheet, and a flat one has no volume to refine: a coarse back, far behind, closes it.
     if (i % kBackStride != 0) continue;
-    const double distance = std::sqrt(d(p.x) * d(p.x) + d(p.y) * d(p.y) + d(p.z) * d(p.z));
-    const Kernel::Vector_3 away(d(p.x) / distance, d(p.y) / distance, d(p.z) / distance);
-    points.emplace_back(Kernel::Point_3(d(p.x), d(p.y), d(p.z)) + kBackMm * away, away);
+    const double distance = length(p);
+    const Kernel::Vector_3 away(p.x / distance, p.y / distance, p.z / distance);
+    points.emplace_back(Kernel::Point_3(p.x, p.y, p.z) + kBackMm * away, away);
   }
   CGAL::Poisson_reconstruction_function<Kernel> inside(points.begin(), points.end(),
                                                        CGAL::First_of_pair_property_map<Oriented>(),
@@ -121,8 +120,8 @@ bool fill_field(const FaceMesh& base, BandVolume& volume, float radius, StageCon
       for (int x = 0; x < volume.nx; ++x) {
         float& value = volume.value[volume.index(x, y, z)];
         if (std::isnan(value)) continue;
-        const Vec3f at = volume.at(x, y, z);
-        value = float(inside(Kernel::Point_3(d(at.x), d(at.y), d(at.z))));
+        const Vec3d at = wide(volume.at(x, y, z));
+        value = float(inside(Kernel::Point_3(at.x, at.y, at.z)));
         if (!std::isfinite(value)) value = std::numeric_limits<float>::quiet_NaN();
       }
   return !context.stop();
@@ -142,13 +141,12 @@ void smooth(BandVolume& volume, std::size_t stride, std::pmr::memory_resource* m
 }  // namespace
 
 Result<FaceMesh> PoissonMesher::mesh(const PointCloud& cloud, StageContext& context) const {
-  const Error stopped{Errc::Cancelled, "meshing was stopped"};
-  if (context.stop()) return stopped;
   RELIEVO_TRY_ASSIGN(const FaceMesh base, base_sheet(cloud, max_points, context));
-  const float voxel = std::max(float(voxel_mm), 0.6F * usual_edge_mm(base, &context.scratch));
+  const float voxel =
+      std::max(float(voxel_mm), 0.6F * usual_edge_mm(base.vertices_mm, base.triangles, &context.scratch));
   BandVolume volume = volume_around(base.vertices_mm, voxel, int(band_voxels) + 2, &context.scratch);
   if (!fill_field(base, volume, float(band_voxels) * voxel, context))
-    return context.stop() ? stopped : no_surface();
+    return context.stop() ? Error{Errc::Cancelled, "meshing was stopped"} : no_surface();
   const std::size_t row = std::size_t(volume.nx);
   for (int pass = 0; pass < kSmoothings; ++pass)
     for (const std::size_t stride : {std::size_t{1}, row, row * std::size_t(volume.ny)}) {
@@ -161,7 +159,6 @@ Result<FaceMesh> PoissonMesher::mesh(const PointCloud& cloud, StageContext& cont
 
 namespace {
 
-using Kernel = CGAL::Exact_predicates_inexact_constructions_kernel;
 using VertexBase = CGAL::Triangulation_vertex_base_with_info_2<std::uint32_t, Kernel>;
 using Delaunay = CGAL::Delaunay_triangulation_2<Kernel, CGAL::Triangulation_data_structure_2<VertexBase>>;
 
@@ -190,16 +187,8 @@ std::pmr::vector<std::pair<Kernel::Point_2, std::uint32_t>> plane_points(const P
   return points;
 }
 
-// Half of all edges are shorter.
-float usual_edge_mm(const std::pmr::vector<Vec3f>& at, const std::pmr::vector<Triangle>& triangles,
-                    Arena& scratch) {
-  std::pmr::vector<float> lengths(&scratch);
-  lengths.reserve(triangles.size());
-  for (const Triangle& t : triangles) lengths.push_back(length(minus(at[t[1]], at[t[0]])));
-  return lengths.empty() ? 0 : float(median(lengths));
-}
-
-bool shorter(const Vec3f& a, const Vec3f& b, const Vec3f& c, float longest_mm) {
+bool shorter(std::span<const Vec3f> at, const Triangle& t, float longest_mm) {
+  const Vec3f &a = at[t[0]], &b = at[t[1]], &c = at[t[2]];
   const float longest = longest_mm * longest_mm;
   return squared_distance(a, b) <= longest && squared_distance(b, c) <= longest &&
          squared_distance(c, a) <= longest;
@@ -213,16 +202,12 @@ double even_distance_mm(const std::pmr::vector<Vec3f>& at, const std::pmr::vecto
   double area = 0;
   std::size_t count = 0;
   for (const Triangle& t : triangles) {
-    const Vec3f &a = at[t[0]], &b = at[t[1]], &c = at[t[2]];
-    if (!shorter(a, b, c, longest_mm)) continue;
-    area += double(std::abs(dot(cross(minus(b, a), minus(c, a)), unit(plus(plus(a, b), c))))) / 2;
+    if (!shorter(at, t, longest_mm)) continue;
+    const Vec3f sight = unit(plus(plus(at[t[0]], at[t[1]]), at[t[2]]));
+    area += double(std::abs(dot(area_normal(at, t), sight))) / 2;
     ++count;
   }
   return count > 0 ? std::sqrt(2 * area / double(count)) : 0;  // there are two triangles a point
-}
-
-bool belongs(const Vec3f& a, const Vec3f& b, const Vec3f& c, float longest_mm, float min_cosine) {
-  return shorter(a, b, c, longest_mm) && facing(a, b, c, min_cosine);
 }
 
 // All triangles of the triangulation, wound counter-clockwise seen from the camera. In pixels y runs
@@ -235,9 +220,7 @@ std::pmr::vector<Triangle> triangulate(const PointCloud& cloud, int max_triangle
   triangles.reserve(delaunay.number_of_faces());
   for (const auto& face : delaunay.finite_face_handles())
     triangles.push_back({face->vertex(0)->info(), face->vertex(2)->info(), face->vertex(1)->info()});
-  // CGAL's order follows addresses in memory; ours is the same on every run.
-  for (Triangle& t : triangles) std::rotate(t.begin(), std::ranges::min_element(t), t.end());
-  std::ranges::sort(triangles);
+  put_in_order(triangles);
   return triangles;
 }
 
@@ -258,7 +241,7 @@ Result<FaceMesh> join(const PointCloud& cloud, const DelaunayMesher& options, St
   const float longest = longest_mm(at, triangles);
   const float min_cosine = float(std::cos(options.max_incidence_deg * std::numbers::pi / 180));
   std::erase_if(triangles, [&](const Triangle& t) {
-    return !belongs(at[t[0]], at[t[1]], at[t[2]], longest, min_cosine);
+    return !shorter(at, t, longest) || !facing(at[t[0]], at[t[1]], at[t[2]], min_cosine);
   });
   keep_one_surface(at, triangles, {options.ear_passes}, &context.scratch);
   if (context.stop()) return stopped;
@@ -287,7 +270,7 @@ Result<FaceMesh> delaunay_sheet(const PointCloud& cloud, int max_triangles, Stag
   DelaunayMesher options;
   options.max_triangles = max_triangles;
   return join(cloud, options, context, [&](const auto& at, const auto& triangles) {
-    return std::min(kSheetEdgeMm, kSheetEdges * usual_edge_mm(at, triangles, context.scratch));
+    return std::min(kSheetEdgeMm, kSheetEdges * usual_edge_mm(at, triangles, &context.scratch));
   });
 }
 

@@ -14,9 +14,7 @@
 #include "pipeline/mesh/lattice/lattice_resampler.h"
 #include "pipeline/mesh/lattice/outline.h"
 #include "pipeline/mesh/lattice/outline_cut.h"
-#include "pipeline/mesh/meshers/base_sheet.h"
 #include "pipeline/mesh/surface_cleaner.h"
-#include "pipeline/model/vector3.h"
 
 namespace relievo::pipeline {
 namespace {
@@ -49,21 +47,20 @@ ShapedLattice fill_budget(ShapedLattice shaped, double triangles, float max_slop
 }
 
 // What was seen from within a head, as the cameras see it.
-void turn_outwards(CutSurface& cut, const Vec3d& centre_mm) {
-  const Vec3f centre{float(centre_mm.x), float(centre_mm.y), float(centre_mm.z)};
-  for (Vec3f& v : cut.at_mm) v = plus(v, centre);
+void turn_outwards(FaceMesh& cut, const Vec3d& centre_mm) {
+  for (Vec3f& v : cut.vertices_mm) v = plus(v, narrow(centre_mm));
   for (auto& t : cut.triangles) std::swap(t[1], t[2]);
 }
 
-Result<CutSurface> make_surface(const PointCloud& cloud, double triangles, const GridMesher& o,
-                                StageContext& context) {
+Result<FaceMesh> make_surface(const PointCloud& cloud, double triangles, const GridMesher& o,
+                              StageContext& context) {
   Arena& scratch = context.scratch;
   const LatticeLimits limits{tangent(o.max_incidence_deg), float(o.step_sigmas), float(o.step_slope_ratio),
                              float(o.min_step_mm)};
   PointLattice lattice = make_lattice(cloud, &scratch);
   LatticeSurface surface = join_neighbours(lattice, limits, &scratch);
   if (context.stop()) return stopped();
-  if (!(lattice.cell_width_mm > 0 && lattice.cell_height_mm > 0)) return CutSurface(&scratch);
+  if (!(lattice.cell_width_mm > 0 && lattice.cell_height_mm > 0)) return FaceMesh(&scratch);
   MaskShaper shaper(lattice.columns, lattice.rows, lattice.cell_width_mm, lattice.cell_height_mm, &scratch);
   close_gaps(lattice, surface,
              {float(o.max_hole_mm), limits.max_slope, tangent(o.gap_bend_deg), limits.min_step_mm}, shaper,
@@ -71,8 +68,7 @@ Result<CutSurface> make_surface(const PointCloud& cloud, double triangles, const
   if (context.stop()) return stopped();
   // After the gaps: a crack must not make a narrow place of a wide one.
   const Vec3d& right = cloud.right_camera_mm;
-  const Vec3f between_cameras{float(right.x / 2), float(right.y / 2), float(right.z / 2)};
-  const OutlineLimits trimming{limits.max_slope, tangent(o.max_rim_deg), between_cameras,
+  const OutlineLimits trimming{limits.max_slope, tangent(o.max_rim_deg), narrow(times(right, 0.5)),
                                float(o.min_width_mm), float(o.outline_wave_mm)};
   CellMask inside = trim_outline(lattice, surface, trimming, shaper, &scratch);
   if (context.stop()) return stopped();
@@ -88,13 +84,13 @@ Result<CutSurface> make_surface(const PointCloud& cloud, double triangles, const
                          : ShapedLattice{std::move(lattice), std::move(surface), std::move(inside), false},
                   triangles, max_slope, o, context);
   if (context.stop()) return stopped();
-  CutSurface cut =
+  FaceMesh cut =
       cut_outline(shaped.lattice, shaped.surface, shaped.inside, smoothing, outline, max_slope, &scratch);
   if (context.stop()) return stopped();
-  keep_one_surface(cut.at_mm, cut.triangles, {}, &scratch);
+  keep_one_surface(cut.vertices_mm, cut.triangles, {}, &scratch);
   if (context.stop()) return stopped();
-  if (mend_slivers(cut.at_mm, cut.triangles, {kSmallestAngleDeg, max_slope}, &scratch) > 0)
-    keep_one_surface(cut.at_mm, cut.triangles, {.ear_passes = 0}, &scratch);
+  if (mend_slivers(cut.vertices_mm, cut.triangles, max_slope, &scratch) > 0)
+    keep_one_surface(cut.vertices_mm, cut.triangles, {.ear_passes = 0}, &scratch);
   if (context.stop()) return stopped();
   if (outline) turn_outwards(cut, outline->chart.centre_mm);
   return cut;
@@ -116,17 +112,17 @@ Result<FaceMesh> GridMesher::mesh(const PointCloud& cloud, StageContext& context
   for (;;) {
     const Arena::Mark attempt(context.scratch);
     if (context.stop()) return stopped();
-    RELIEVO_TRY_ASSIGN(const CutSurface surface, make_surface(cloud, triangles, *this, context));
+    RELIEVO_TRY_ASSIGN(const FaceMesh surface, make_surface(cloud, triangles, *this, context));
     context.progress.done.store(0.8F, std::memory_order_relaxed);
-    if (surface.triangles.empty() || area_mm2(surface.at_mm, surface.triangles) < min_area_mm2)
+    if (surface.triangles.empty() || area_mm2(surface.vertices_mm, surface.triangles) < min_area_mm2)
       return no_surface();
     if (surface.triangles.size() > std::size_t(max_triangles)) {
       triangles *= 1 - kCutAway / 2;
       continue;
     }
-    FaceMesh made = pack_mesh(surface.at_mm.size(), surface.triangles, context, [&](std::size_t v) {
+    FaceMesh made = pack_mesh(surface.vertices_mm.size(), surface.triangles, context, [&](std::size_t v) {
       const bool certain = surface.sigma_mm[v] <= float(measured_sigma_mm);
-      return PackedVertex{surface.at_mm[v], surface.sigma_mm[v],
+      return PackedVertex{surface.vertices_mm[v], surface.sigma_mm[v],
                           certain ? surface.measured[v] : std::uint8_t{0}};
     });
     compute_normals(made, normal_passes, &context.scratch);
@@ -134,14 +130,6 @@ Result<FaceMesh> GridMesher::mesh(const PointCloud& cloud, StageContext& context
     context.progress.done.store(1, std::memory_order_relaxed);
     return made;
   }
-}
-
-Result<FaceMesh> lattice_sheet(const PointCloud& cloud, int max_triangles, double min_area_mm2,
-                               StageContext& context) {
-  GridMesher options;
-  options.max_triangles = max_triangles;
-  options.min_area_mm2 = min_area_mm2;
-  return GridMesher(options).mesh(cloud, context);
 }
 
 }  // namespace relievo::pipeline

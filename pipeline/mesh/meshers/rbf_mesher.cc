@@ -28,10 +28,10 @@ void add_points(const FaceMesh& sheet, float share, std::pmr::vector<FieldPoint>
 }  // namespace
 
 Result<FaceMesh> MarchingCubesMesher::mesh(const PointCloud& cloud, StageContext& context) const {
-  if (context.stop()) return Error{Errc::Cancelled, "meshing was stopped"};
   RELIEVO_TRY_ASSIGN(const FaceMesh base, base_sheet(cloud, max_points, context));
   // Points wide apart would leave holes between their balls: the voxels follow.
-  const float voxel = std::max(float(voxel_mm), 0.6F * usual_edge_mm(base, &context.scratch));
+  const float voxel =
+      std::max(float(voxel_mm), 0.6F * usual_edge_mm(base.vertices_mm, base.triangles, &context.scratch));
   const float radius = float(band_voxels) * voxel;
   BandVolume volume = volume_around(base.vertices_mm, voxel, int(band_voxels) + 2, &context.scratch);
   const FaceMesh between = densify(base, kSparse * voxel, &context.scratch);
@@ -194,7 +194,6 @@ class Rbf {
 }  // namespace
 
 Result<FaceMesh> RbfMesher::mesh(const PointCloud& cloud, StageContext& context) const {
-  if (context.stop()) return Error{Errc::Cancelled, "meshing was stopped"};
   RELIEVO_TRY_ASSIGN(const FaceMesh base, base_sheet(cloud, max_points, context));
   const DepthSamples samples = sample_depths(base, &context.scratch);
   Rbf function(samples, *this, context);

@@ -1,7 +1,9 @@
 // SPDX-FileCopyrightText: 2026 The Relievo authors
 // SPDX-License-Identifier: GPL-3.0-or-later
 //
-// Meshers that take any cloud. Frame: the left camera's, millimetres. Memory: arenas only.
+// Meshers that take any cloud. Frame: the left camera's, millimetres. Memory: the mesh in `output`, the rest
+// in `scratch`; where CGAL is named its own structures come from the heap. Errors: those of Mesher. Thread:
+// any; the pool evaluates. They keep no state.
 #pragma once
 
 #include "pipeline/base/options.h"
@@ -11,10 +13,8 @@
 namespace relievo::pipeline {
 
 // AdvancingFrontMesher (`advancing-front`): a surface grown over the 3-D Delaunay triangulation of the
-// points, always by the most plausible triangle (Cohen-Steiner, Da 2004; CGAL). Takes any cloud; its vertices
-// are the measured points. Frame: the left camera's, millimetres. Memory: the mesh in `output`, the rest in
-// `scratch`, but for CGAL's own structure, which comes from the heap (about 700 bytes a point). Errors:
-// PoorGeometry (no surface of a face's size), OutOfMemory, Cancelled. Thread: any; keeps no state.
+// points, always by the most plausible triangle (Cohen-Steiner, Da 2004; CGAL, about 700 bytes a point). Its
+// vertices are the measured points.
 struct AdvancingFrontMesher {
   int max_points = 160'000;   // more are thinned evenly
   double max_edge_mm = 5;     // longest edge
@@ -35,15 +35,13 @@ struct AdvancingFrontMesher {
 // affine part), fitted to the measured points with centres chosen greedily: it begins with few, and adds
 // them where the function is furthest from the points, a few cells apart, until `accuracy_mm` or
 // `max_centres` is reached (Carr et al. 2001, section 4). Each centre may leave its point by what its
-// sigma allows (their approximating spline, section 5; weights 1 / sigma^2). Takes any cloud.
-// Frame: the left camera's, millimetres. Memory: arenas only, max_centres^2 doubles at most.
-// Errors: PoorGeometry, OutOfMemory, Cancelled. Thread: any; the pool evaluates.
+// sigma allows (their approximating spline, section 5; weights 1 / sigma^2). Memory: max_centres^2 doubles at
+// most.
 struct RbfMesher {
   int max_points = 160'000;  // more are thinned evenly
   int max_centres = 1400;
   double accuracy_mm = 0.05;  // no centre is added where the function is as close as this
-  double smoothing =
-      0.02;  // how much a point's sigma lets the function leave it; 0 goes through every centre
+  double smoothing = 0.02;    // 0 goes through every centre
   SheetOptions sheet;
 
   void describe(auto&& field) {
@@ -59,11 +57,9 @@ struct RbfMesher {
 };
 
 // PoissonMesher (`poisson`): the surface whose inside's gradient follows the points' normals (Kazhdan et al.
-// 2006), solved by CGAL on a refined Delaunay triangulation, its zero surface taken by marching cubes in a
-// band around the points (band_volume.h). Takes any cloud; smooths over what the points leave open, within
-// max_gap_mm. Frame: the left camera's, millimetres. Memory: the mesh in `output`, the rest in `scratch`, but
-// for CGAL's own structures, which come from the heap (about 3 kB a point). Errors: PoorGeometry (no surface
-// of a face's size), OutOfMemory, Cancelled. Thread: any; keeps no state.
+// 2006), solved by CGAL (about 3 kB a point) on a refined Delaunay triangulation, its zero surface taken by
+// marching cubes in a band around the points (band_volume.h). Smooths over what the points leave open, within
+// max_gap_mm.
 struct PoissonMesher {
   int max_points = 30'000;  // more are thinned evenly: time and memory go with them
   double voxel_mm = 1;
@@ -84,9 +80,8 @@ struct PoissonMesher {
 // MarchingCubesMesher (`marching-cubes`): a truncated signed distance field around the points, and its zero
 // surface by marching cubes with decided ambiguities (band_volume.h). The field is that of Kolluri (2008,
 // implicit moving least squares): at each voxel of the band the mean of the distances to the planes of the
-// points around, weighted by a Gaussian of a voxel and by 1 / sigma^2; truncated at `band_voxels`. Takes
-// any cloud. Frame: the left camera's, millimetres. Memory: arenas only, 8 bytes a voxel of the box.
-// Errors: PoorGeometry (no surface of a face's size), OutOfMemory, Cancelled. Thread: any; keeps no state.
+// points around, weighted by a Gaussian of a voxel and by 1 / sigma^2; truncated at `band_voxels`. Memory: 8
+// bytes a voxel of the box.
 struct MarchingCubesMesher {
   int max_points = 160'000;  // more are thinned evenly
   double voxel_mm = 0.8;
@@ -104,18 +99,14 @@ struct MarchingCubesMesher {
 };
 
 // DelaunayMesher (`delaunay`): the dissertation's surface, a 2.5-D Delaunay triangulation over where
-// the left rectified view saw the points (CGAL; the dissertation used Bourke's). Takes any cloud,
-// scattered or on a lattice. Long, steep and stray triangles are cut; the same promises as the grid
-// mesher hold: one component, manifold, counter-clockwise seen from the cameras, no fringe. Holes
-// narrower than the longest edge are bridged by the triangulation itself, between measured points.
-// Frame: the left camera's, millimetres. Memory: the mesh in `output`, the rest in `scratch`, but
-// for CGAL's own structure, which comes from the heap (about 150 bytes a point).
-// Errors: PoorGeometry (no surface of a face's size), OutOfMemory, Cancelled. Thread: any.
+// the left rectified view saw the points (CGAL, about 150 bytes a point; the dissertation used Bourke's).
+// Long, steep and stray triangles are cut; the same promises as the grid mesher hold: one component,
+// manifold, counter-clockwise seen from the cameras, no fringe. Holes narrower than the longest edge are
+// bridged by the triangulation itself, between measured points.
 struct DelaunayMesher {
-  int max_triangles = 320'000;  // more points are thinned evenly
-  double max_edge_mm = 25;      // longest edge
-  double max_edge_ratio =
-      12;  // longest edge, in distances of points that are spread evenly over as much surface
+  int max_triangles = 320'000;    // more points are thinned evenly
+  double max_edge_mm = 25;        // longest edge
+  double max_edge_ratio = 12;     // longest edge, in distances of points spread evenly over as much surface
   double max_incidence_deg = 80;  // steepest triangle, between its normal and the line of sight
   int ear_passes = 3;             // how often triangles that hang on by one edge are trimmed; 0 to 16
   int normal_passes = 1;          // how often normals are averaged over the neighbours; 0 to 16

@@ -109,7 +109,7 @@ LevelField::LevelField(const Chart& chart, const ShotPlanes& planes, const Expos
       for (std::size_t c = 0; c < 3; ++c)
         d[c] = exposure.matched(c, planes.right[3 * k + c]) - float(planes.left[3 * k + c]);
       if (std::abs(d[1]) > kFarthest) continue;
-      Cell& to = cells_[std::size_t(y / kLevelCell) * std::size_t(columns_) + std::size_t(x / kLevelCell)];
+      Cell& to = cells_[index(x / kLevelCell, y / kLevelCell)];
       for (std::size_t c = 0; c < 3; ++c) to.sum[c] += d[c];
       to.weight += 1;
     }
@@ -132,7 +132,7 @@ void LevelField::smooth(std::pmr::memory_resource* memory) {
             for (std::size_t c = 0; c < 3; ++c) sum.sum[c] += w * from.sum[c];
             sum.weight += w * from.weight;
           }
-        next[std::size_t(y) * std::size_t(columns_) + std::size_t(x)] = sum;
+        next[index(x, y)] = sum;
       }
     std::swap(cells_, next);
   }
@@ -149,13 +149,13 @@ void LevelField::extend(std::pmr::memory_resource* memory) {
   const int largest = std::max(columns_, rows_);
   for (int y = 0; y < rows_; ++y)
     for (int x = 0; x < columns_; ++x) {
-      Cell& here = cells_[std::size_t(y) * std::size_t(columns_) + std::size_t(x)];
+      Cell& here = cells_[index(x, y)];
       Cell sum = here;
       for (int radius = 1; sum.weight < kEnough && radius <= largest; radius *= 2) {
         sum = {};
         for (int v = std::max(0, y - radius); v <= std::min(rows_ - 1, y + radius); ++v)
           for (int u = std::max(0, x - radius); u <= std::min(columns_ - 1, x + radius); ++u) {
-            const Cell& from = known[std::size_t(v) * std::size_t(columns_) + std::size_t(u)];
+            const Cell& from = known[index(u, v)];
             for (std::size_t c = 0; c < 3; ++c) sum.sum[c] += from.sum[c];
             sum.weight += from.weight;
           }

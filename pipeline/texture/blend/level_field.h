@@ -1,13 +1,11 @@
 // SPDX-FileCopyrightText: 2026 The Relievo authors
 // SPDX-License-Identifier: GPL-3.0-or-later
 //
-// LevelField: by how much the (exposure-matched) right photograph is brighter than the left one, channel
-// by channel, slowly varying over the face. Known where both see the surface, continued smoothly to
-// where one alone does. Half added here and half taken off there makes both photographs agree in their
-// low band, so that no seam is left wherever one gives way to the other: the low band of Burt and
-// Adelson (A multiresolution spline with application to image mosaics, ACM TOG 1983), continued as
-// Lempitsky and Ivanov continue their seam levelling (Seamless mosaicing of image-based texture maps,
-// CVPR 2007).
+// LevelField: by how much the (exposure-matched) right photograph is brighter than the left one, channel by
+// channel, slowly varying over the face; continued smoothly to where one alone sees it. Half added here and
+// half taken off there leaves no seam where one gives way to the other: the low band of Burt and Adelson (A
+// multiresolution spline with application to image mosaics, ACM TOG 1983), continued as Lempitsky and Ivanov
+// level seams (Seamless mosaicing of image-based texture maps, CVPR 2007).
 #pragma once
 
 #include <array>
@@ -20,9 +18,9 @@
 namespace relievo::pipeline {
 
 // Brings the right photograph to the left one's exposure and white balance: a gain and an offset per
-// channel, found on skin that both see. Reduced major axis (both pictures are noisy), repeated with
-// Tukey's weights, so that highlights, hair and edges that do not meet have no say.
-// (P. J. Huber, E. M. Ronchetti: Robust Statistics, 2009, ch. 7.) Grey levels, coded as captured.
+// channel, found on skin that both see. Reduced major axis (both pictures are noisy), repeated with Tukey's
+// weights, against highlights, hair and edges (Huber, Ronchetti: Robust Statistics, 2009, ch. 7). Grey
+// levels.
 struct ExposureMatch {
   std::array<float, 3> gain{1, 1, 1};
   std::array<float, 3> offset{0, 0, 0};
@@ -49,9 +47,8 @@ class LevelField {
     Level sum{0, 0, 0};
     float weight = 0;
   };
-  const Cell& cell(int x, int y) const {
-    return cells_[std::size_t(y) * std::size_t(columns_) + std::size_t(x)];
-  }
+  std::size_t index(int x, int y) const { return std::size_t(y) * std::size_t(columns_) + std::size_t(x); }
+  const Cell& cell(int x, int y) const { return cells_[index(x, y)]; }
   void smooth(std::pmr::memory_resource* memory);
   void extend(std::pmr::memory_resource* memory);
   int columns_, rows_;

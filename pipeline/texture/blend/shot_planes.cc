@@ -16,8 +16,7 @@
 namespace relievo::pipeline {
 namespace {
 
-constexpr float kLeastCosine =
-    0.2F;  // completed surface that a view would only graze may lie behind what that view shows there
+constexpr float kLeastCosine = 0.2F;  // completed surface grazed by a view may lie behind what that shows
 constexpr float kLevels = 3, kShare = 0.17F;  // by which colour may leave that beside it ...
 constexpr float kHue = 0.025F;                // of a channel's part in all three
 constexpr float kMemory = 0.93F;              // ... which remembers so much of where it came from
@@ -126,20 +125,18 @@ void choose_at_limb(std::span<const std::uint8_t> beyond, std::span<const float>
 }
 
 float cosine_towards(const Vec3f& camera, const Vec3f& at, const Vec3f& normal) {
-  const Vec3f d{camera.x - at.x, camera.y - at.y, camera.z - at.z};
-  const float length = std::sqrt(d.x * d.x + d.y * d.y + d.z * d.z);
-  return length > 0 ? std::max(0.0F, (d.x * normal.x + d.y * normal.y + d.z * normal.z) / length) : 0;
+  const Vec3f d = minus(camera, at);
+  return length(d) > 0 ? std::max(0.0F, dot(d, normal) / length(d)) : 0;
 }
 
 bool covered(const RectifiedView& view, const RectifiedPair& pair, float x, float y) {
   const int column = int(std::lround(x));
   const int row = int(std::lround(y));
   if (column < 0 || row < 0 || column >= pair.width_px || row >= pair.height_px) return false;
-  return view.valid.empty() ||
-         view.valid[std::size_t(row) * std::size_t(pair.width_px) + std::size_t(column)] != 0;
+  return view.valid.empty() || view.valid[pair.index(column, row)] != 0;
 }
 
-// Everything a band of rows needs; one reference fits into the pool's callable without an allocation.
+// Everything a band of rows needs.
 struct Shooting {
   const FaceMesh& mesh;
   const RectifiedPair& pair;

@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <functional>
 
 #include "pipeline/model/photo_sampler.h"
 #include "pipeline/texture/chart/raster.h"
@@ -55,6 +56,13 @@ ViewChoice::ViewChoice(const Chart& chart, const ShotPlanes& planes, const Expos
   fade(reach, memory);
 }
 
+// Calls see(block) for the block itself and its neighbours, through sides and corners.
+template <typename See>
+void ViewChoice::around(int u, int v, See&& see) const {
+  for (int y = std::max(v - 1, 0); y <= std::min(v + 1, rows_ - 1); ++y)
+    for (int x = std::max(u - 1, 0); x <= std::min(u + 1, columns_ - 1); ++x) see(index(x, y));
+}
+
 // Every patch of differing blocks, joined through sides and corners, gets its camera.
 void ViewChoice::choose(const Chart& chart, const ShotPlanes& planes, std::span<const float> excess,
                         std::span<const float> difference, float limit, std::pmr::memory_resource* memory) {
@@ -79,13 +87,11 @@ void ViewChoice::choose(const Chart& chart, const ShotPlanes& planes, std::span<
       const float share = float(planes.share[k]) / 255;
       left += float(planes.say_left[k]) * (1 - share);
       right += float(planes.say_right[k]) * share;
-      for (int y = std::max(v - 1, 0); y <= std::min(v + 1, rows_ - 1); ++y)
-        for (int x = std::max(u - 1, 0); x <= std::min(u + 1, columns_ - 1); ++x) {
-          const std::uint32_t other = std::uint32_t(index(x, y));
-          if (taken[other] != 0 || difference[other] < limit) continue;
-          taken[other] = 1;
-          patch.push_back(other);
-        }
+      around(u, v, [&](std::size_t other) {
+        if (taken[other] != 0 || difference[other] < limit) return;
+        taken[other] = 1;
+        patch.push_back(std::uint32_t(other));
+      });
     }
     if (patch.size() < kFewestBlocks || std::abs(one_way) > kOneSided * all) continue;
     for (const std::uint32_t k : patch) blocks_[k] = {right > left ? 1.0F : 0.0F, 1};
@@ -100,9 +106,9 @@ void ViewChoice::widen(int reach, std::pmr::memory_resource* memory) {
     for (int v = 0; v < rows_; ++v)
       for (int u = 0; u < columns_; ++u) {
         if (before[index(u, v)].strength > 0) continue;
-        for (int y = std::max(v - 1, 0); y <= std::min(v + 1, rows_ - 1); ++y)
-          for (int x = std::max(u - 1, 0); x <= std::min(u + 1, columns_ - 1); ++x)
-            if (before[index(x, y)].strength > 0) blocks_[index(u, v)] = before[index(x, y)];
+        around(u, v, [&](std::size_t k) {
+          if (before[k].strength > 0) blocks_[index(u, v)] = before[k];
+        });
       }
   }
 }
@@ -117,11 +123,8 @@ void ViewChoice::fade(int reach, std::pmr::memory_resource* memory) {
       for (int u = 0; u < columns_; ++u) {
         if (before[index(u, v)].strength > 0) continue;
         Choice sum;
-        for (int y = std::max(v - 1, 0); y <= std::min(v + 1, rows_ - 1); ++y)
-          for (int x = std::max(u - 1, 0); x <= std::min(u + 1, columns_ - 1); ++x) {
-            sum.right += before[index(x, y)].right;
-            sum.strength += before[index(x, y)].strength;
-          }
+        around(u, v,
+               [&](std::size_t k) { sum.right += before[k].right, sum.strength += before[k].strength; });
         if (sum.strength > 0) blocks_[index(u, v)] = {strength * sum.right / sum.strength, strength};
       }
   }
@@ -174,44 +177,36 @@ float ViewBlend::excess_of(const std::uint8_t* left, const std::uint8_t* right) 
 }
 
 void ViewBlend::find_highlights(const RowBands& bands, StageContext& context) {
-  struct Work {
-    ViewBlend& self;
-    const RowBands& bands;
-    std::span<std::int16_t> raw;
-    std::span<BoxSum> columns;
-  };
   constexpr std::int16_t kUnknown = -32768;
+  constexpr int kRadius = 2;  // texels: noise and a tenth of a pixel of misplacement are smoothed away
+  const auto width = std::size_t(chart_.width_px);
   std::pmr::vector<std::int16_t> raw(chart_.size(), kUnknown, &context.scratch);
-  std::pmr::vector<BoxSum> columns(std::size_t(bands.count()) * std::size_t(chart_.width_px), BoxSum{},
-                                   &context.scratch);
-  Work work{*this, bands, raw, columns};
-  context.pool.for_each_band(bands.count(), bands.count(), [&work](int begin, int end, int) {
-    const ShotPlanes& planes = work.self.planes_;
-    const auto width = std::size_t(work.self.chart_.width_px);
-    for (std::size_t k = std::size_t(work.bands.rows(begin).begin) * width;
-         k < std::size_t(work.bands.rows(end - 1).end) * width; ++k)
-      if (planes.say_left[k] != 0 && planes.say_right[k] != 0)
-        work.raw[k] = std::int16_t(16 * work.self.excess_of(&planes.left[3 * k], &planes.right[3 * k]));
-  });
-  context.pool.for_each_band(bands.count(), bands.count(), [&work](int begin, int end, int) {
-    constexpr int kRadius = 2;  // texels: noise and a tenth of a pixel of misplacement are smoothed away
-    ViewBlend& self = work.self;
-    const auto width = std::size_t(self.chart_.width_px);
+  std::pmr::vector<BoxSum> columns(std::size_t(bands.count()) * width, BoxSum{}, &context.scratch);
+  const auto compare = [&](int begin, int end, int) {
+    for (std::size_t k = std::size_t(bands.rows(begin).begin) * width;
+         k < std::size_t(bands.rows(end - 1).end) * width; ++k)
+      if (planes_.say_left[k] != 0 && planes_.say_right[k] != 0)
+        raw[k] = std::int16_t(16 * excess_of(&planes_.left[3 * k], &planes_.right[3 * k]));
+  };
+  const auto smooth = [&](int begin, int end, int) {
     for (int band = begin; band < end; ++band)
       slide_box(
-          self.chart_.width_px, self.chart_.height_px, kRadius, work.bands.rows(band),
-          work.columns.subspan(std::size_t(band) * width, width),
+          chart_.width_px, chart_.height_px, kRadius, bands.rows(band),
+          std::span(columns).subspan(std::size_t(band) * width, width),
           [&](int x, int y) {
-            const std::int16_t d = work.raw[self.chart_.index(x, y)];
+            const std::int16_t d = raw[chart_.index(x, y)];
             return d == kUnknown ? BoxSum{} : BoxSum{d, 1};
           },
           [&](int x, int y, const BoxSum& sum) {
-            const std::size_t k = self.chart_.index(x, y);
-            if (work.raw[k] == kUnknown || sum.second == 0) return;
-            self.excess_[k] = std::int16_t(sum.first / sum.second);
-            self.shines_[k] = float(std::abs(self.excess_[k])) > 16 * self.level_ ? 1 : 0;
+            const std::size_t k = chart_.index(x, y);
+            if (raw[k] == kUnknown || sum.second == 0) return;
+            excess_[k] = std::int16_t(sum.first / sum.second);
+            shines_[k] = float(std::abs(excess_[k])) > 16 * level_ ? 1 : 0;
           });
-  });
+  };
+  // By reference: the pool's callable takes no heap then.
+  context.pool.for_each_band(bands.count(), bands.count(), std::cref(compare));
+  context.pool.for_each_band(bands.count(), bands.count(), std::cref(smooth));
 }
 
 ViewBlend::Colour ViewBlend::mix(const Views& v, float texel_x, float texel_y) const {

@@ -23,8 +23,8 @@ namespace relievo::pipeline {
 // exposures (lips, an eyelid) would be shown twice by their mean. Such a part is a connected patch of blocks
 // whose colours differ by more than noise; it is widened to where they agree again, so that the seam lies
 // there, and taken from the camera that sees more of it, more straightly. A patch that one camera shows
-// brighter throughout is a lamp's reflection: view_blend.h decides. Memory: the one given. Thread: one, then
-// any. Throws std::bad_alloc.
+// brighter throughout is a lamp's reflection: ViewBlend decides. Thread: one, then any. Throws
+// std::bad_alloc.
 class ViewChoice {
  public:
   // `margin_px`: by how many texels a part is widened, and over how many the choice fades beyond that.
@@ -39,6 +39,8 @@ class ViewChoice {
 
  private:
   std::size_t index(int x, int y) const { return std::size_t(y) * std::size_t(columns_) + std::size_t(x); }
+  template <typename See>
+  void around(int u, int v, See&& see) const;
   void choose(const Chart& chart, const ShotPlanes& planes, std::span<const float> excess,
               std::span<const float> difference, float limit, std::pmr::memory_resource* memory);
   void widen(int reach, std::pmr::memory_resource* memory);
@@ -50,7 +52,6 @@ class ViewChoice {
 class ViewBlend {
  public:
   // `highlight_level`: grey levels by which a view must be brighter to lose its say; 0 keeps both.
-  // `margin_px`: see ViewChoice.
   ViewBlend(const Chart& chart, const ShotPlanes& planes, const RowBands& bands, float highlight_level,
             float margin_px, StageContext& context);
 
@@ -69,7 +70,6 @@ class ViewBlend {
   Colour mix(const Views& views, float texel_x, float texel_y) const;
   Colour mix(std::size_t k, int x, int y) const;  // of a texel of the chart
 
-  const ExposureMatch& exposure() const { return exposure_; }
   // How much the left colour exceeds the matched right one in the channel where it does least; signed.
   float excess_of(const std::uint8_t* left, const std::uint8_t* right) const;
 

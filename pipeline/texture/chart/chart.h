@@ -55,9 +55,8 @@ inline constexpr float kRightSide = -0.5F;
 // What no texturer can work with: InvalidInput.
 Result<void> check_texture_input(const FaceMesh& mesh, const RectifiedPair& pair);
 
-// `finer` times as fine as the better photograph on 95 % of the measured surface; coarser where
-// `max_px` asks for it. Its frame is that of the vertices both windows can see, measured or turned to the
-// cameras.
+// `finer` times as fine as the better photograph on 95 % of the measured surface; coarser where `max_px` asks
+// for it. Its frame: the vertices both windows can see, measured or turned to the cameras.
 Chart lay_out(const FaceMesh& mesh, const RectifiedPair& pair, const ChartOptions& options,
               std::pmr::memory_resource* memory);
 

@@ -2,6 +2,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "pipeline/texture/chart/raster.h"
 
+#include <functional>
+
 namespace relievo::pipeline {
 
 RowBands::RowBands(const FaceMesh& mesh, const Chart& chart, int bands, std::pmr::memory_resource* memory)
@@ -44,11 +46,10 @@ FrontMap::FrontMap(const Chart& chart, float at_side, std::pmr::memory_resource*
   }
   const bool middle = side == 0.0F;
   shift = middle || most < least ? 0.0F : std::floor(least) - 1;
-  // A view is a picture's part: what would be wider is no surface of one (disparities are bounded by the
-  // windows).
+  // A view is a picture's part: what would be wider is no surface of one.
   width_px = middle ? chart.width_px : int(std::clamp(most - least, 0.0F, 16384.0F)) + 4;
   const std::size_t size = std::size_t(width_px) * std::size_t(height_px);
-  nearest.assign(size, kNoDisparity);
+  nearest.assign(size, kNothingThere);
   if (middle) owner.assign(size, kNoTriangle);
 }
 
@@ -56,7 +57,7 @@ bool FrontMap::sees(const Vec2f& texel, float disparity, float tolerance_px) con
   const int x = int(std::lround(column(texel.x, disparity)));
   const int y = int(std::lround(texel.y));
   if (x < 0 || y < 0 || x >= width_px || y >= height_px) return true;
-  return nearest[std::size_t(y) * std::size_t(width_px) + std::size_t(x)] <= disparity + tolerance_px;
+  return nearest[index(x, y)] <= disparity + tolerance_px;
 }
 
 namespace {
@@ -73,7 +74,7 @@ void draw(const FaceMesh& mesh, const Chart& chart, std::span<const std::uint32_
     };
     for_each_texel(at(t[0], da), at(t[1], db), at(t[2], dc), map.width_px, rows,
                    [&](int x, int y, float wa, float wb, float wc) {
-                     const std::size_t i = std::size_t(y) * std::size_t(map.width_px) + std::size_t(x);
+                     const std::size_t i = map.index(x, y);
                      const float d = wa * da + wb * db + wc * dc;
                      if (d <= map.nearest[i]) return;
                      map.nearest[i] = d;
@@ -86,18 +87,11 @@ void draw(const FaceMesh& mesh, const Chart& chart, std::span<const std::uint32_
 
 void fill_front_maps(const FaceMesh& mesh, const Chart& chart, const RowBands& bands,
                      std::span<FrontMap> maps, StageContext& context) {
-  struct Work {
-    const FaceMesh& mesh;
-    const Chart& chart;
-    const RowBands& bands;
-    std::span<FrontMap> maps;
-    StageContext& context;
-  } work{mesh, chart, bands, maps, context};
-  context.pool.for_each_band(bands.count(), bands.count(), [&work](int begin, int end, int) {
-    for (int band = begin; band < end && !work.context.stop(); ++band)
-      for (FrontMap& map : work.maps)
-        draw(work.mesh, work.chart, work.bands.triangles(band), work.bands.rows(band), map);
-  });
+  const auto draw_bands = [&](int begin, int end, int) {
+    for (int band = begin; band < end && !context.stop(); ++band)
+      for (FrontMap& map : maps) draw(mesh, chart, bands.triangles(band), bands.rows(band), map);
+  };
+  context.pool.for_each_band(bands.count(), bands.count(), std::cref(draw_bands));  // by reference: no heap
 }
 
 }  // namespace relievo::pipeline

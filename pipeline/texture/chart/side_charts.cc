@@ -115,8 +115,8 @@ struct Scale {
   float seen, filled;
 };  // texels a millimetre
 
-// Columns of charts, the widest first; returns the width they take. A chart larger than the room is pressed
-// into it.
+// Columns of charts, the widest first; returns the width they take. What is higher than the room is pressed
+// in.
 float pack(std::span<Piece> pieces, const Builder& builder, const SideCharts& sides, Scale scale,
            float height_px) {
   float column_x = 0;

@@ -5,8 +5,7 @@
 // completed parts of the head above all) in charts of its own, beside the main one. Neighbouring
 // triangles that face one way within 60 degrees share a chart, laid flat along that way (after the
 // chart growing of Levy et al.: Least squares conformal maps, SIGGRAPH 2002); charts are packed in
-// columns. Where nothing was photographed a texel a millimetre is fine enough: its colours are smooth.
-// Thread: any. Throws std::bad_alloc.
+// columns. What was not photographed is smooth: a texel a millimetre. Thread: any. Throws std::bad_alloc.
 #pragma once
 
 #include <cstdint>

@@ -105,8 +105,8 @@ void print_measures(std::FILE* file, std::uint32_t seed, Kind kind, int place,
                place, static_cast<int>(answer.reason), m.head.yaw_deg, m.head.pitch_deg, m.head.roll_deg,
                m.light.side_ratio);
   for (const pipeline::EyeMeasurement& e : m.eyes)
-    std::fprintf(file, ",%.3f,%.2f,%.2f,%.1f,%.1f,%.1f", e.contrast, e.brightness, e.iris, e.glare_mm2,
-                 e.right_mm, e.down_mm);
+    std::fprintf(file, ",%.3f,%.2f,%.1f,%.1f,%.1f", e.contrast, e.brightness, e.glare_mm2, e.right_mm,
+                 e.down_mm);
   std::fprintf(file, ",%.1f,%.2f,%.2f,%.2f,%.1f\n", m.mouth.dark_mm2, m.mouth.steps_mm, m.mouth.before_mm,
                m.mouth.rise_mm, m.mouth.width_mm);
 }

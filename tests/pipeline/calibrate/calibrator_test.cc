@@ -226,6 +226,45 @@ TEST(Calibrator, NamesViewsWithoutABoard) {
   EXPECT_EQ(found->quality.views[3].reason, "no board found in left and right");
 }
 
+TEST(Calibrator, SaysAllThatIsWrongWithAView) {
+  BoardSimulator boards(SimulatedRig{}, 0.08, 6);
+  boards.add(16);
+  const auto loosen = [](pipeline::BoardCorners& corners) {
+    for (std::size_t i = 0; i < corners.size(); ++i) corners[i].x += 2.5 * std::sin(static_cast<double>(i));
+  };
+  boards.input().views[2].right.clear();
+  loosen(boards.input().views[2].left);
+  loosen(boards.input().views[4].left);
+  loosen(boards.input().views[4].right);
+  const auto found = pipeline::calibrate(boards.input());
+  ASSERT_TRUE(found) << found.error().what.view();
+  const auto says = [&](std::size_t view, std::string_view words) {
+    return found->quality.views[view].reason.find(words) != std::string::npos;
+  };
+  EXPECT_TRUE(says(2, "no board found in right; left: ")) << found->quality.views[2].reason;
+  EXPECT_TRUE(says(4, "left: ") && says(4, "; right: ")) << found->quality.views[4].reason;
+}
+
+// A board that moved between the exposures disagrees by as much, however many of its corners are seen.
+TEST(Calibrator, TellsTheDisagreementOfTheCornersThatWereSeen) {
+  constexpr std::size_t kMoved = 5;
+  BoardSimulator boards(SimulatedRig{}, 0.02, 12);
+  boards.add(static_cast<int>(kMoved));
+  boards.add(boards.random_slip(0.006, 1));
+  boards.add(12);
+  const auto excess_px = [&] {
+    const auto found = pipeline::calibrate(boards.input());
+    EXPECT_TRUE(found) << found.error().what.view();
+    return found ? found->quality.views[kMoved].excess_px : 0;
+  };
+  const double of_all = excess_px();
+  ASSERT_GT(of_all, 0.5);
+  for (pipeline::BoardView& view : boards.input().views)
+    for (pipeline::BoardCorners* corners : {&view.left, &view.right})
+      for (std::size_t i = 0; i < corners->size(); i += 2) (*corners)[i] = {std::nan(""), std::nan("")};
+  EXPECT_NEAR(excess_px() / of_all, 1, 0.15);
+}
+
 TEST(Calibrator, GivesTheSameTwice) {
   BoardSimulator boards(SimulatedRig{}, 0.08, 9);
   boards.add(10);

@@ -3,9 +3,11 @@
 //
 // A deliberately bad set of every kind, each with the right reason; and none of them said of a good set.
 #include <algorithm>
+#include <limits>
 
 #include <gtest/gtest.h>
 
+#include "pipeline/calibrate/quality/quality_measures.h"
 #include "tests/pipeline/calibrate/simulated_boards.h"
 #include "tests/support/proof.h"
 
@@ -38,6 +40,22 @@ TEST(Verdict, AGoodSetPassesAndNothingIsSaidAgainstIt) {
     for (const char* words :
          {"bent", "alike", "hold", "moved", "known to be", "agree with each other", "few"})
       EXPECT_FALSE(says(q, words)) << words << " seed " << seed;
+  }
+}
+
+TEST(Verdict, AFigureThatIsNotANumberIsRefused) {
+  BoardSimulator boards(SimulatedRig{}, 0.03, 1);
+  boards.add(24);
+  const CalibrationQuality good = judged(boards.input());
+  ASSERT_NE(good.verdict, CalibrationVerdict::Refuse);
+  for (const auto figure :
+       {&CalibrationQuality::held_out_epipolar_px, &CalibrationQuality::shape_sigma_mm,
+        &CalibrationQuality::face_depth_sigma_mm, &CalibrationQuality::measured_depth_mm}) {
+    CalibrationQuality q = good;
+    q.reasons.clear();
+    q.*figure = std::numeric_limits<double>::quiet_NaN();
+    pipeline::judge_quality(q);
+    EXPECT_EQ(q.verdict, CalibrationVerdict::Refuse);
   }
 }
 

@@ -195,5 +195,28 @@ TEST_F(Heads, SayWhenMemoryIsUsedUp) {
   EXPECT_EQ(head.error().code, Errc::OutOfMemory);
 }
 
+TEST(HeadPipelineAlone, LeavesThePosesAsTheyWereWhenMemoryIsUsedUpAtOnce) {
+  const auto pipeline = HeadPipeline::make({});
+  ASSERT_TRUE(pipeline);
+  std::vector<HeadPose> poses;
+  for (int k = 0; k < 3; ++k) poses.emplace_back(test::heap()).surface.at_mm.resize(9);
+  StageFixture tiny(2 * sizeof(PoseSurface), 4096, 1);
+  const auto head = pipeline->fuse(FaceModel(test::heap()), poses, tiny.context);
+  ASSERT_FALSE(head);
+  EXPECT_EQ(head.error().code, Errc::OutOfMemory);
+  for (const HeadPose& pose : poses) EXPECT_EQ(pose.surface.at_mm.size(), 9U);
+}
+
+TEST(HeadPipelineAlone, RefusesNoPair) {
+  const auto pipeline = HeadPipeline::make({});
+  ASSERT_TRUE(pipeline);
+  StageFixture room(1 << 20, 1 << 20, 1);
+  const FaceModel face(test::heap());
+  const auto head = pipeline->fuse(face, {}, room.context);
+  ASSERT_FALSE(head);
+  EXPECT_EQ(head.error().code, Errc::InvalidInput);
+  EXPECT_FALSE(pipeline->place_last(face, {}, room.context));
+}
+
 }  // namespace
 }  // namespace relievo::pipeline

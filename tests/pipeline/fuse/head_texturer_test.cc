@@ -90,5 +90,35 @@ TEST(HeadTexture, OnAClosedHoleIsThatOfTheSkinAround) {
   EXPECT_GT(texels.photographed, texels.filled);
 }
 
+// Nothing of what grows with the photograph lies on the heap, where no plan holds it.
+TEST(HeadTexture, TakesItsMemoryFromTheStage) {
+  constexpr int kLargePx = 4000;
+  constexpr std::size_t kDepthMapBytes = sizeof(float) * kLargePx / 2 * kLargePx / 2;
+  const std::vector<std::uint8_t> rgb(std::size_t{3} * kLargePx * kLargePx, kSkin);
+  HeadView view;
+  view.rgb = rgb;
+  view.width_px = view.height_px = kLargePx;
+  view.focal_px = 1500;
+  view.centre_px = {kLargePx / 2.0, kLargePx / 2.0};
+  view.master = true;
+  const FaceMesh mesh = wall();
+  const std::vector<HeadView> views(5, view);
+  const auto texture = [&](StageRoom& room, std::size_t count) {
+    return room.run([&](StageContext& c) -> Result<void> {
+      RELIEVO_TRY(texture_head(mesh, mesh.vertices_mm.size(), std::span(views).first(count), 256, c));
+      return {};
+    });
+  };
+  StageRoom room, little(std::size_t{64} << 20, kDepthMapBytes / 2);
+  ASSERT_TRUE(texture(room, 1));
+  EXPECT_GE(room.scratch.high_water(), kDepthMapBytes);
+  ASSERT_TRUE(texture(room, views.size()));
+  EXPECT_LT(room.scratch.high_water(), kDepthMapBytes * (std::size_t(room.pool.size()) + 1))
+      << "more views than threads take no more";
+  const auto refused = texture(little, 1);
+  ASSERT_FALSE(refused);
+  EXPECT_EQ(refused.error().code, Errc::OutOfMemory);
+}
+
 }  // namespace
 }  // namespace relievo::pipeline

@@ -205,7 +205,7 @@ TEST(CaptureGate, FastPicturesOfAMovingHeadSayThatItMoves) {
 
 TEST(CaptureGate, WithoutItsCascadesItDoesNotOpen) {
   CaptureGateOptions options;
-  options.faces.cascade_dir = "/nonexistent";
+  options.cascade_dir = "/nonexistent";
   const auto gate = CaptureGate::open(options);
   ASSERT_FALSE(gate);
   EXPECT_EQ(gate.error().code, Errc::NotFound);

@@ -175,6 +175,18 @@ TEST_F(TurnGuide, TakesNothingFromTwoPicturesOfOneInstant) {
   EXPECT_FALSE(look(25).take) << "10 ms after the one before";
 }
 
+// A fast machine looks every 33 ms: between two looks that are too near to judge the page must not change.
+TEST_F(TurnGuide, SaysTheSameUntilThereIsEnoughTimeToTell) {
+  const auto soon = [&](double yaw, double pitch = 0) {
+    now_ -= 67ms;
+    return look(yaw, 0, pitch);
+  };
+  for (int i = 0; i < 10; ++i) EXPECT_EQ(soon(12).advice, TurnAdvice::ToRight) << i;
+  for (int i = 0; i < 10; ++i) EXPECT_EQ(soon(12, 20).advice, TurnAdvice::Level) << i;
+  EXPECT_EQ(guide_turn(front_, {}, now_ += 33ms, 10, {}, history_).advice, TurnAdvice::Lost);
+  EXPECT_NE(soon(12).advice, TurnAdvice::Lost) << "it is found";
+}
+
 // --- people ---------------------------------------------------------------------------------------
 using test::TurningPerson;
 using Kind = TurningPerson::Kind;

@@ -88,6 +88,30 @@ TEST(OutlierFilter, WorksOnScatteredPointsToo) {
   EXPECT_LT(static_cast<std::size_t>(left), thrown / 5) << "two that fly side by side may support each other";
 }
 
+// As where a keypoint selector finds much in one place: 700 points on 12 x 12 pixels, and few elsewhere.
+TEST(OutlierFilter, KeepsADensePatchOfScatteredPointsOnAPlane) {
+  StageRoom room;
+  PointCloud cloud(std::pmr::get_default_resource());
+  std::mt19937 random(7);
+  std::uniform_real_distribution<float> wide(0, 400), narrow(194, 206);
+  const auto add = [&](float x, float y) {
+    cloud.points.push_back({{(x - 200) * 0.4F, (y - 200) * 0.4F, 600}, {x, y}, 0.05F});
+  };
+  for (int k = 0; k < 400; ++k) {
+    const float x = wide(random);
+    add(x, wide(random));
+  }
+  for (int k = 0; k < 700; ++k) {
+    const float x = narrow(random);
+    add(x, narrow(random));
+  }
+  ASSERT_TRUE(filter(cloud, room));
+  const auto dense = std::ranges::count_if(cloud.points, [](const CloudPoint& p) {
+    return std::max(std::abs(p.left_px.x - 200), std::abs(p.left_px.y - 200)) <= 6;
+  });
+  EXPECT_GE(dense, 700);
+}
+
 TEST(OutlierFilter, PointsThatAreNotNumbersGo) {
   StageRoom room;
   PointCloud cloud = sphere();

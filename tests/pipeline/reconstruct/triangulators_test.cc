@@ -208,5 +208,21 @@ TEST(OptimalTriangulator, UsesTheRowsThatWereMeasured) {
   EXPECT_NEAR(cloud->points[0].at_mm.y, 560.0 / 1500, 0.01);
 }
 
+// As when a camera is rolled. The shift is zero where the point stands in the right view.
+TEST(OptimalTriangulator, TakesTheShiftOfTheColumnInTheRightView) {
+  const RectifiedPair pair = rig();
+  test::StageFixture fixture(1 << 20, 1 << 20, 1);
+  MatchSet set(&fixture.output);
+  const double disparity_px = pair.disparity_px(560);
+  set.matches.assign(10, {{700, 400}, static_cast<float>(disparity_px), 0, 0.1F, 0});
+  set.epipolar_shift.slope_x = 0.01;
+  set.epipolar_shift.middle_x_px = 700 - disparity_px;
+  set.epipolar_shift.sigma_px = 0.1;
+  const auto cloud = run_stage(
+      fixture.context, [&](StageContext& c) { return OptimalTriangulator().triangulate(pair, set, c); });
+  ASSERT_TRUE(cloud);
+  EXPECT_NEAR(cloud->points[0].at_mm.y, 0, 1e-3);
+}
+
 }  // namespace
 }  // namespace relievo::pipeline

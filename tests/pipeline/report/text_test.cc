@@ -3,6 +3,7 @@
 #include "pipeline/report/text.h"
 
 #include <clocale>
+#include <cmath>
 #include <limits>
 
 #include <gtest/gtest.h>

@@ -108,6 +108,10 @@ int FakeKernel::poll(int, int wait_ms) {
   if (!plugged_) gone_for_file_ = true;
   if (gone_for_file_) return POLLERR | POLLHUP;
   if (!filled_.empty()) return POLLIN;
+  if (announced != 0) {
+    clock.now_at += std::chrono::milliseconds(1);
+    return ++announced_in_vain_ < 1000 ? announced : -EIO;
+  }
   clock.now_at += std::chrono::milliseconds(wait_ms);
   return 0;
 }

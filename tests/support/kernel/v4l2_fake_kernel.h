@@ -68,6 +68,7 @@ class FakeKernel final : public Kernel {
   // What it was told.
   std::map<std::uint32_t, std::int32_t> set_controls;
   std::vector<std::string> complaints;
+  short announced = 0;  // what poll tells at once, though there is no picture
   bool streaming = false;
   int open_files = 0, mapped = 0;
   int queued() const { return static_cast<int>(queue_.size()); }
@@ -122,6 +123,7 @@ class FakeKernel final : public Kernel {
   std::deque<Filled> filled_;
   std::uint32_t sequence_ = 0;
   bool plugged_ = true;
+  int announced_in_vain_ = 0;
   bool gone_for_file_ = false;  // unplugged while open: the file stays dead
 };
 

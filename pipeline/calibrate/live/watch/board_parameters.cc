@@ -13,13 +13,6 @@
 namespace relievo::pipeline {
 namespace {
 
-constexpr double kRangeX = 0.7;
-constexpr double kRangeY = 0.7;
-constexpr double kRangeSize = 0.4;
-constexpr double kRangeSkew = 0.5;
-
-double bar(double range, double full) { return std::clamp(range / full, 0.0, 1.0); }
-
 constexpr double kUsualFocal = 1.5;  // of the longer side
 constexpr double kTiltWeight = 0.7;
 
@@ -131,11 +124,6 @@ CoverageBars lesser(const CoverageBars& a, const CoverageBars& b) {
   return {std::min(a.x, b.x), std::min(a.y, b.y), std::min(a.size, b.size), std::min(a.skew, b.skew)};
 }
 
-double CoverageMap::share() const {
-  const auto covered = std::ranges::count_if(count, [](std::uint32_t n) { return n > 0; });
-  return double(covered) / double(count.size());
-}
-
 void Coverage::Range::widen(const BoardParameters& by) {
   low_x = std::min(low_x, by.x);
   high_x = std::max(high_x, by.x);
@@ -146,8 +134,8 @@ void Coverage::Range::widen(const BoardParameters& by) {
 }
 
 CoverageBars Coverage::bars_of(const Range& r) {
-  return {bar(r.high_x - r.low_x, kRangeX), bar(r.high_y - r.low_y, kRangeY), bar(r.size, kRangeSize),
-          bar(r.skew, kRangeSkew)};
+  const auto bar = [](double range, double full) { return std::clamp(range / full, 0.0, 1.0); };
+  return {bar(r.high_x - r.low_x, 0.7), bar(r.high_y - r.low_y, 0.7), bar(r.size, 0.4), bar(r.skew, 0.5)};
 }
 
 CoverageBars Coverage::bars_with(const BoardParameters& one_more) const {
@@ -163,7 +151,7 @@ void Coverage::add(const BoardCorners& corners, const BoardParameters& parameter
     if (!seen(at)) continue;
     const int column = std::clamp(int((at.x + 0.5) / width_px * kCoverageColumns), 0, kCoverageColumns - 1);
     const int row = std::clamp(int((at.y + 0.5) / height_px * kCoverageRows), 0, kCoverageRows - 1);
-    ++map_.count[std::size_t(row * kCoverageColumns + column)];
+    ++map_[std::size_t(row * kCoverageColumns + column)];
   }
 }
 

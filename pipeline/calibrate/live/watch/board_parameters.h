@@ -64,14 +64,7 @@ inline constexpr int kCoverageColumns = 8;
 inline constexpr int kCoverageRows = 8;
 
 // Corners seen in each cell of the picture, row by row.
-struct CoverageMap {
-  std::array<std::uint32_t, kCoverageColumns * kCoverageRows> count{};
-
-  std::uint32_t at(int column, int row) const {
-    return count[std::size_t(row) * kCoverageColumns + std::size_t(column)];
-  }
-  double share() const;  // of the cells with a corner
-};
+using CoverageMap = std::array<std::uint32_t, kCoverageColumns * kCoverageRows>;
 
 class Coverage {
  public:
@@ -89,7 +82,7 @@ class Coverage {
   static CoverageBars bars_of(const Range& range);
 
   Range range_;
-  CoverageMap map_;
+  CoverageMap map_{};
 };
 
 }  // namespace relievo::pipeline

@@ -222,18 +222,14 @@ void BoardTracker::reduce(const ImageView& picture) {
       brightest = std::max(brightest, mean);
     }
   }
-  // Cameras of 10 and 12 bit fill the lower part of 16: what is brightest becomes white.
+  // Files of 10 and 12 bit cameras may fill the lower part of 16 only: what is brightest becomes white.
   for (std::size_t i = 0; i < pixels; ++i) grey_[i] = static_cast<std::byte>(255U * means_[i] / brightest);
-}
-
-ImageView BoardTracker::reduced() const {
-  return {grey_.data(), width_px_, height_px_, width_px_, PixelFormat::Grey8};
 }
 
 Result<BoardDetection> BoardTracker::look(const ImageView& picture) {
   if (picture.empty()) return Error{Errc::InvalidInput, "there is no picture to look for a board in"};
   reduce(picture);
-  const ImageView small = reduced();
+  const ImageView small{grey_.data(), width_px_, height_px_, width_px_, PixelFormat::Grey8};
   BoardCorners found;
   if (!last_.empty()) {
     RELIEVO_TRY_ASSIGN(found, find_in(part_around(small, last_, 1, kSearchMargin), pattern_));

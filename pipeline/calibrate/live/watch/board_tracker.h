@@ -18,15 +18,13 @@ namespace relievo::pipeline {
 // How sharp a board is in a picture: the distance over which its edges rise from 10 to 90 % of their
 // contrast, in pixels. A well focused picture has about 2; motion and defocus widen it, motion in its
 // own direction only, so edges along rows and along columns are judged apart and the wider ones count.
-// Thread: any.
-
 // Median over the edges between neighbouring corners; corners to a pixel or so. What is wider than a
-// sixth of a square measures as that. 0 where no edge can be measured.
+// sixth of a square measures as that. 0 where no edge can be measured. Thread: any.
 double edge_width_px(const ImageView& picture, const BoardCorners& corners, const BoardPattern& pattern);
 
 struct BoardDetection {
   BoardCorners corners;  // px of the full picture, to a few tenths; empty where the board is not whole
-  double edge_px = 0;    // edge_width()
+  double edge_px = 0;    // edge_width_px()
 };
 
 class BoardTracker {
@@ -40,7 +38,6 @@ class BoardTracker {
 
  private:
   void reduce(const ImageView& picture);
-  ImageView reduced() const;
 
   BoardPattern pattern_;
   BoardCorners last_;  // px of the reduced picture

@@ -14,7 +14,7 @@ namespace {
 constexpr std::size_t kBands = 16;
 
 bool selectable_at(const RectifiedPair& pair, int x, int y) {
-  const std::size_t k = std::size_t(y) * std::size_t(pair.width_px) + std::size_t(x);
+  const std::size_t k = pair.index(x, y);
   return pair.left.valid[k] != 0 && (pair.region.empty() || pair.region[k] != 0);
 }
 
@@ -107,7 +107,7 @@ Selectable::Selectable(const RectifiedPair& pair, std::pmr::memory_resource* mem
   for (int y = 0; y < pair.height_px; ++y) {
     std::int32_t in_row = 0;
     for (int x = 0; x < pair.width_px; ++x) {
-      in_row += pair.left.valid[std::size_t(y) * std::size_t(pair.width_px) + std::size_t(x)] != 0 ? 1 : 0;
+      in_row += pair.left.valid[pair.index(x, y)] != 0 ? 1 : 0;
       valid_above_.row(y + 1)[x + 1] = valid_above_.row(y)[x + 1] + in_row;
       count_ += selectable_at(pair, x, y) ? 1 : 0;
     }
@@ -212,14 +212,15 @@ Gradient sobel(const float* above, const float* here, const float* below, int x)
 }
 
 // Products of the gradient; 0 along the picture's edge.
-template <typename Product>
-void products(const std::pmr::vector<float>& grey, Plane<float>& to, ThreadPool& pool, Product product) {
-  pool.for_each_band(to.height - 2, kCornerBands, [&](int begin, int end, int) {
+void products(const std::pmr::vector<float>& grey, ThreadPool& pool, Plane<float>& xx, Plane<float>& xy,
+              Plane<float>& yy) {
+  pool.for_each_band(xx.height - 2, kCornerBands, [&](int begin, int end, int) {
     for (int y = begin + 1; y < end + 1; ++y) {
-      const float* here = grey.data() + std::ptrdiff_t(y) * to.width;
-      float* out = to.row(y);
-      for (int x = 1; x + 1 < to.width; ++x)
-        out[x] = product(sobel(here - to.width, here, here + to.width, x));
+      const float* here = grey.data() + std::ptrdiff_t(y) * xx.width;
+      for (int x = 1; x + 1 < xx.width; ++x) {
+        const Gradient g = sobel(here - xx.width, here, here + xx.width, x);
+        xx.row(y)[x] = g.x * g.x, xy.row(y)[x] = g.x * g.y, yy.row(y)[x] = g.y * g.y;
+      }
     }
   });
 }
@@ -253,8 +254,8 @@ float SalientTracks::magnitude(int scale, int orientation, int column, int row) 
   const float difference = orientation == 0   ? right - left
                            : orientation == 1 ? lower[0] + lower[1] - upper[0] - upper[1]
                                               : upper[0] + lower[1] - upper[1] - lower[0];
-  return std::ldexp(std::abs(difference),
-                    scale - 2);  // means of 4^(scale-1) pixels; 1/2 a level keeps energy
+  // Means of 4^(scale-1) pixels; half a level keeps the energy.
+  return std::ldexp(std::abs(difference), scale - 2);
 }
 
 Candidate SalientTracks::follow(int scale, int orientation, int column, int row) const {
@@ -349,9 +350,7 @@ bool corner_response(const std::pmr::vector<float>& grey, const Selectable& sele
   Plane<float> xy(&context.scratch, response.width, response.height);
   Plane<float> yy(&context.scratch, response.width, response.height);
   Plane<float> across(&context.scratch, response.width, response.height);
-  products(grey, xx, context.pool, [](Gradient g) { return g.x * g.x; });
-  products(grey, xy, context.pool, [](Gradient g) { return g.x * g.y; });
-  products(grey, yy, context.pool, [](Gradient g) { return g.y * g.y; });
+  products(grey, context.pool, xx, xy, yy);
   for (Plane<float>* plane : {&xx, &xy, &yy})
     for (int pass = 0; pass < window.passes; ++pass) {
       if (context.stop()) return false;

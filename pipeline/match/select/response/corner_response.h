@@ -74,12 +74,7 @@ struct LatticeArea {
 Result<Keypoints> lattice_keypoints(const RectifiedPair& pair, int step_px, const LatticeArea& area,
                                     StageContext& context);
 
-// Corners by the structure tensor (the mean over a window of the gradient's products): what the two
-// corner selectors share. Gradients are Sobel's, in grey levels a pixel.
-// Memory: four planes of the picture's size in `scratch` while it works. Thread: any; bands on the pool.
-
-// SalientTracks: the Haar wavelet transform of a picture and the tracks through it from coarse to fine.
-// See selectors.h.
+// SalientTracks: the Haar wavelet transform of a picture and its tracks from coarse to fine. See selectors.h.
 class SalientTracks {
  public:
   static constexpr int kOrientations = 3;  // changes along x, along y, along both
@@ -129,7 +124,8 @@ struct CornerWindow {
   int reach_px() const { return radius_px * passes + 1; }
 };
 
-// The tensor's entries at a pixel become the response.
+// Corners by the structure tensor, the mean over a window of the products of Sobel's gradient, grey levels a
+// pixel: its entries become the response. Memory: four planes of the picture's size in `scratch`.
 using CornerMeasure = float (*)(float xx, float xy, float yy, float parameter);
 float smaller_eigenvalue(float xx, float xy, float yy, float);          // Shi and Tomasi 1994
 float harris_measure(float xx, float xy, float yy, float sensitivity);  // Harris and Stephens 1988

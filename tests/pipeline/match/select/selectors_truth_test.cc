@@ -102,6 +102,20 @@ TEST(GoodFeatures, BinaryThresholdsFindOutlinesTheGreyPictureHides) {
   EXPECT_LT(nearest(corner, *binary), 4.3F);
 }
 
+TEST(GoodFeatures, TakeUpToSixteenLevels) {
+  const auto makes = [](const char* option, const std::string& part, int count) {
+    std::string parts = part;
+    for (int k = 1; k < count; ++k) parts += "+" + part;
+    AlgorithmSet set;
+    EXPECT_TRUE(set.set("selector", "good-features") && set.set(option, parts));
+    return pipeline::make_selector(set).has_value();
+  };
+  EXPECT_TRUE(makes("good-features.levels", "0.1:4", 16));
+  EXPECT_FALSE(makes("good-features.levels", "0.1:4", 17));
+  EXPECT_TRUE(makes("good-features.binary_thresholds", "64", 16));
+  EXPECT_FALSE(makes("good-features.binary_thresholds", "64", 17));
+}
+
 TEST(GoodFeatures, WrongLevelsAreRefused) {
   for (const char* levels : {"", "0.1", "0.1:", ":4", "0.1:4+", "0:4", "1.1:4", "0.1:0.5", "0.1:4x", "nan:4",
                              "0.1:1e9", "0.1:4,0.2:3"}) {

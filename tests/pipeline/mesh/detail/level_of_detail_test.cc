@@ -87,6 +87,22 @@ TEST(LevelOfDetail, FewerTrianglesWithinTheStatedErrorAndTheSameTexture) {
   }
 }
 
+// A fused head says of each vertex which pair measured it.
+TEST(LevelOfDetail, EveryVertexKeepsItsPose) {
+  FaceModel model = ball();
+  for (const Vec3f& v : model.mesh.vertices_mm) model.mesh.pose.push_back(v.x < 0 ? 1 : 2);
+  DetailOptions options;
+  options.triangles = 2000;
+  const auto light = lighten(model, options, std::pmr::get_default_resource());
+  ASSERT_TRUE(light);
+  const FaceMesh& m = light->model.mesh;
+  ASSERT_LT(m.vertices_mm.size(), model.mesh.vertices_mm.size());
+  ASSERT_EQ(m.pose.size(), m.vertices_mm.size());
+  for (std::size_t v = 0; v < m.pose.size(); ++v) EXPECT_EQ(m.pose[v], m.vertices_mm[v].x < 0 ? 1 : 2);
+  model.mesh.pose.pop_back();
+  EXPECT_FALSE(lighten(model, options, std::pmr::get_default_resource()));
+}
+
 TEST(LevelOfDetail, TheErrorIsATrueBound) {
   const FaceModel model = ball();
   DetailOptions options;

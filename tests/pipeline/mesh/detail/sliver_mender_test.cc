@@ -53,7 +53,7 @@ TEST(SliverMender, MendsWhatCanBeMendedAndKeepsTheSurface) {
   const std::size_t triangles = sheet.triangles.size();
   const double area = area_mm2(sheet.at, sheet.triangles);
   ASSERT_GT(before, 30U);
-  if (mend_slivers(sheet.at, sheet.triangles, {kSmallestAngleDeg, 20}, &memory) > 0)
+  if (mend_slivers(sheet.at, sheet.triangles, 20, &memory) > 0)
     keep_one_surface(sheet.at, sheet.triangles, {.ear_passes = 0}, &memory);
   EXPECT_LT(sheet.slivers(), before / 10);
   EXPECT_LE(sheet.triangles.size(), triangles);
@@ -70,8 +70,7 @@ TEST(SliverMender, MendsWhatCanBeMendedAndKeepsTheSurface) {
 TEST(SliverMender, LeavesAGoodSurfaceAlone) {
   Sheet sheet(0.1F);
   const std::pmr::vector<Triangle> before = sheet.triangles;
-  EXPECT_EQ(
-      mend_slivers(sheet.at, sheet.triangles, {kSmallestAngleDeg, 20}, std::pmr::get_default_resource()), 0U);
+  EXPECT_EQ(mend_slivers(sheet.at, sheet.triangles, 20, std::pmr::get_default_resource()), 0U);
   EXPECT_TRUE(sheet.triangles == before);
 }
 
