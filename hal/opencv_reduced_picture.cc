@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: 2026 The Relievo authors
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include "hal/reduced_picture.h"
+#include "hal/picture_file.h"
 
 #include <new>
 #include <opencv2/imgproc.hpp>

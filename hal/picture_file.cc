@@ -2,20 +2,25 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "hal/picture_file.h"
 
-#include <array>
 #include <cctype>
 #include <cstdint>
 #include <new>
-#include <string>
+#include <string_view>
 
 #include "hal/base/whole_file.h"
-#include "hal/png_picture.h"
 #include "hal/raw/develop.h"
 
 namespace relievo::hal {
 namespace {
 
-constexpr std::array<unsigned, 8> kPngSignature = {0x89, 'P', 'N', 'G', '\r', '\n', 0x1a, '\n'};
+constexpr std::string_view kPngSignature = "\x89PNG\r\n\x1a\n";
+
+// What a PNG or JPEG says about itself before anything is decoded, and whether all of it is there:
+// decoders fill the missing rest of a truncated picture with grey, which a matcher would believe.
+struct PictureHeader {
+  long width_px = 0;
+  long height_px = 0;
+};
 
 unsigned byte_at(std::span<const std::byte> bytes, std::size_t i) {
   return std::to_integer<unsigned>(bytes[i]);
@@ -28,11 +33,8 @@ std::uint32_t big_endian_16(std::span<const std::byte> b, std::size_t i) {
   return byte_at(b, i) << 8 | byte_at(b, i + 1);
 }
 
-bool starts_with_png(std::span<const std::byte> b) {
-  if (b.size() < kPngSignature.size()) return false;
-  for (std::size_t i = 0; i < kPngSignature.size(); ++i)
-    if (byte_at(b, i) != kPngSignature[i]) return false;
-  return true;
+bool starts_with(std::span<const std::byte> b, std::string_view signature) {
+  return std::string_view(reinterpret_cast<const char*>(b.data()), b.size()).starts_with(signature);
 }
 
 Error truncated() { return Error{Errc::InvalidInput, "this picture is cut off; copy it again"}; }
@@ -85,18 +87,12 @@ Result<PictureHeader> jpeg_header(std::span<const std::byte> b) {
   return truncated();
 }
 
-}  // namespace
-
-Result<PictureHeader> read_picture_header(std::span<const std::byte> bytes) {
+Result<PictureHeader> header_of(std::span<const std::byte> bytes) {
   if (bytes.empty()) return Error{Errc::InvalidInput, "this picture is empty"};
-  if (starts_with_png(bytes)) return png_header(bytes);
-  if (bytes.size() >= 3 && byte_at(bytes, 0) == 0xff && byte_at(bytes, 1) == 0xd8 &&
-      byte_at(bytes, 2) == 0xff)
-    return jpeg_header(bytes);
+  if (starts_with(bytes, kPngSignature)) return png_header(bytes);
+  if (starts_with(bytes, "\xff\xd8\xff")) return jpeg_header(bytes);
   return Error{Errc::InvalidInput, "this is neither a PNG nor a JPEG picture"};
 }
-
-namespace {
 
 // No picture within the limits is larger than this, even stored without any compression.
 constexpr std::size_t kMaxEncodedBytes = std::size_t(kMaxPictureAreaPx) * 8 + (1U << 20);
@@ -111,18 +107,18 @@ Result<void> check_limits(const PictureHeader& header) {
   return {};
 }
 
+}  // namespace
+
 std::string lower_extension(const std::filesystem::path& file) {
   std::string extension = file.extension().native();
   for (char& c : extension) c = char(std::tolower(static_cast<unsigned char>(c)));
   return extension;
 }
 
-}  // namespace
-
 Result<Picture> decode_picture(const std::byte* bytes, std::size_t size) try {
-  RELIEVO_TRY_ASSIGN(const PictureHeader header, read_picture_header({bytes, size}));
+  RELIEVO_TRY_ASSIGN(const PictureHeader header, header_of({bytes, size}));
   RELIEVO_TRY(check_limits(header));
-  if (starts_with_png({bytes, size})) return decode_png({bytes, size});
+  if (starts_with({bytes, size}, kPngSignature)) return decode_png({bytes, size});
   // The orientation tag is not read: a calibration knows the sensor's pixels, not how a viewer turns them.
   Picture picture{{}, int(header.width_px), int(header.height_px), PixelFormat::Rgb8};
   picture.bytes.resize(std::size_t(header.width_px * header.height_px) * 3);
@@ -147,8 +143,6 @@ Result<void> write_picture(const std::filesystem::path& file, const ImageView& i
   if (!jpeg && extension != ".png")
     return Error{Errc::InvalidInput, "pictures are written as .png or .jpg; choose one of these names"}.at(
         file.native());
-  if (jpeg && image.format == PixelFormat::Grey16)
-    return Error{Errc::InvalidInput, "a JPEG cannot hold 16 bit; write a .png"}.at(file.native());
   Result<std::vector<std::byte>> bytes = jpeg ? encode_jpeg(image, 95) : encode_png(image);
   if (!bytes) return bytes.error().at(file.native());
   return write_whole_file(file, *bytes);

@@ -9,23 +9,13 @@
 #include <cstddef>
 #include <filesystem>
 #include <span>
+#include <string>
 #include <vector>
 
 #include "hal/base/image_view.h"
 #include "hal/base/result.h"
 
 namespace relievo::hal {
-
-// What a PNG or JPEG says about itself before anything is decoded, and whether all of it is there:
-// decoders fill the missing rest of a truncated picture with grey, which a matcher would believe.
-// Errors: InvalidInput (neither PNG nor JPEG, truncated, no size).
-// Thread: any.
-struct PictureHeader {
-  long width_px = 0;
-  long height_px = 0;
-};
-
-Result<PictureHeader> read_picture_header(std::span<const std::byte> bytes);
 
 // Longest side and area that are read: twice today's largest industrial sensor class we support.
 inline constexpr int kMaxPictureSidePx = 8192;
@@ -57,5 +47,14 @@ struct PngForm {
 Result<std::vector<std::byte>> encode_png(const ImageView& image, const PngForm& form = {});
 Result<std::vector<std::byte>> encode_jpeg(const ImageView& image, int quality_percent);  // Grey8 or Rgb8
 Result<Picture> decode_picture(const std::byte* bytes, std::size_t size);
+// bytes: a PNG that is there to its end. Grey stays what it is; colour becomes 8 bit, as no stage looks at
+// deeper colour; transparency is dropped. Errors: InvalidInput, OutOfMemory. Thread: any.
+Result<Picture> decode_png(std::span<const std::byte> bytes);
+
+// A picture made smaller, each pixel the mean of those it stands for; Grey8 or Rgb8. Errors: InvalidInput,
+// OutOfMemory. Thread: any.
+Result<Picture> reduced(const ImageView& image, int width_px, int height_px);
+
+std::string lower_extension(const std::filesystem::path& file);  // ".png" of A.PNG
 
 }  // namespace relievo::hal

@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: 2026 The Relievo authors
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include "hal/png_picture.h"
+#include "hal/picture_file.h"
 
 #include <png.h>
 
@@ -15,14 +15,10 @@ namespace {
 
 // libpng is C: no exception may pass through it, and when it fails it jumps. So what it calls notes that
 // memory was refused, and the functions that may be jumped out of have nothing in them with a destructor.
-struct Memory {
-  bool refused = false;
-};
-
 extern "C" {
 static png_voidp take(png_structp png, png_alloc_size_t size) {
   void* const taken = std::malloc(size);
-  if (taken == nullptr) static_cast<Memory*>(png_get_mem_ptr(png))->refused = true;
+  if (taken == nullptr) *static_cast<bool*>(png_get_mem_ptr(png)) = true;
   return taken;
 }
 static void give_back(png_structp, png_voidp memory) { std::free(memory); }
@@ -81,9 +77,9 @@ struct Reading {
   ~Reading() { png_destroy_read_struct(&png, &info, nullptr); }
 };
 
-bool begin(Reading& reading, Memory* memory, std::span<const std::byte>* bytes) {
-  reading.png =
-      png_create_read_struct_2(PNG_LIBPNG_VER_STRING, nullptr, nullptr, say_nothing, memory, take, give_back);
+bool begin(Reading& reading, bool* refused, std::span<const std::byte>* bytes) {
+  reading.png = png_create_read_struct_2(PNG_LIBPNG_VER_STRING, nullptr, nullptr, say_nothing, refused, take,
+                                         give_back);
   reading.info = reading.png == nullptr ? nullptr : png_create_info_struct(reading.png);
   if (reading.info == nullptr) return false;
   if (setjmp(png_jmpbuf(reading.png)) != 0) return false;  // NOLINT(cert-err52-cpp): C has no other way out
@@ -121,13 +117,13 @@ Result<std::vector<std::byte>> encode_png(const ImageView& image, const PngForm&
 }
 
 Result<Picture> decode_png(std::span<const std::byte> bytes) try {
-  Memory memory;
+  bool refused = false;
   Reading reading;
-  const auto failed = [&memory] {
-    return memory.refused ? Error{Errc::OutOfMemory, "no memory to decode this picture"}
-                          : Error{Errc::InvalidInput, "this picture is damaged and cannot be decoded"};
+  const auto failed = [&refused] {
+    return refused ? Error{Errc::OutOfMemory, "no memory to decode this picture"}
+                   : Error{Errc::InvalidInput, "this picture is damaged and cannot be decoded"};
   };
-  if (!begin(reading, &memory, &bytes)) return failed();
+  if (!begin(reading, &refused, &bytes)) return failed();
   const bool deep = png_get_bit_depth(reading.png, reading.info) == 16;
   Picture picture{{},
                   int(png_get_image_width(reading.png, reading.info)),

@@ -77,10 +77,12 @@ class TriggerLine {
   }
   virtual bool lights_with_every_pulse() const { return false; }
 
+ protected:
+  const Clock& clock_;
+
  private:
   virtual Result<void> do_pulse(std::chrono::microseconds width, Light light) = 0;
 
-  const Clock& clock_;
   mutable std::mutex mutex_;
   FlashGuard guard_;
 };

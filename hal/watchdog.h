@@ -10,4 +10,11 @@ class Watchdog {
   virtual ~Watchdog() = default;
   virtual void kick() = 0;
 };
+
+// Bites nobody. Thread: any.
+class NullWatchdog final : public Watchdog {
+ public:
+  void kick() override {}
+};
+
 }  // namespace relievo::hal

@@ -16,7 +16,6 @@ namespace {
 
 namespace fs = std::filesystem;
 
-// Close-once for the few lines below; hal/linux has the one for devices.
 struct Descriptor {
   int fd;
   ~Descriptor() {
@@ -64,13 +63,10 @@ bool is_device(const fs::path& file) {
 }
 
 Result<void> sync_one(const fs::path& named, int flags) {
-  const int fd = ::open(named.c_str(), O_RDONLY | O_CLOEXEC | flags);
-  if (fd < 0) return failed(named, errno);
-  const int code = ::fsync(fd);
-  const int cause = errno;
-  ::close(fd);
+  const Descriptor file{::open(named.c_str(), O_RDONLY | O_CLOEXEC | flags)};
+  if (file.fd < 0) return failed(named, errno);
   // Not every file system can sync a directory (EINVAL): then there is nothing more to be had.
-  if (code != 0 && cause != EINVAL && cause != ENOTSUP) return failed(named, cause);
+  if (::fsync(file.fd) != 0 && errno != EINVAL && errno != ENOTSUP) return failed(named, errno);
   return {};
 }
 

@@ -14,10 +14,6 @@ struct FreeDestination {
 };
 using Destination = std::unique_ptr<cups_dest_t, FreeDestination>;
 
-struct FreeInfo {
-  void operator()(cups_dinfo_t* info) const { cupsFreeDestInfo(info); }
-};
-
 class CupsPrinter final : public Printer {
  public:
   bool is_there() override { return usual() != nullptr; }
@@ -26,7 +22,8 @@ class CupsPrinter final : public Printer {
     const Destination to = usual();
     if (to == nullptr)
       return Error{Errc::NotFound, "CUPS has no default printer: choose one with lpadmin -d"};
-    const std::unique_ptr<cups_dinfo_t, FreeInfo> info(cupsCopyDestInfo(CUPS_HTTP_DEFAULT, to.get()));
+    const std::unique_ptr<cups_dinfo_t, void (*)(cups_dinfo_t*)> info(
+        cupsCopyDestInfo(CUPS_HTTP_DEFAULT, to.get()), cupsFreeDestInfo);
     int job = 0;
     const bool taken = info != nullptr &&
                        cupsCreateDestJob(CUPS_HTTP_DEFAULT, to.get(), info.get(), &job, kTitle, 0, nullptr) ==
@@ -36,6 +33,8 @@ class CupsPrinter final : public Printer {
                        cupsWriteRequestData(CUPS_HTTP_DEFAULT, reinterpret_cast<const char*>(png.data()),
                                             png.size()) == HTTP_STATUS_CONTINUE &&
                        cupsFinishDestDocument(CUPS_HTTP_DEFAULT, to.get(), info.get()) == IPP_STATUS_OK;
+    // What is left of it would hold a part of somebody's code.
+    if (!taken && job > 0) cupsCancelDestJob(CUPS_HTTP_DEFAULT, to.get(), job);
     if (!taken) return Error{Errc::IoFailed, "the printer does not take it: look at its queue (lpstat -p)"};
     return {};
   }

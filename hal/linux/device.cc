@@ -35,19 +35,6 @@ bool near_switching_off_at(const fs::path& zone) {
   }
 }
 
-}  // namespace
-
-bool near_switching_off(const fs::path& thermal) {
-  std::error_code error;
-  for (fs::directory_iterator entry(thermal, error), end; !error && entry != end; entry.increment(error)) {
-    if (entry->path().filename().string().starts_with("thermal_zone") && near_switching_off_at(entry->path()))
-      return true;
-  }
-  return false;
-}
-
-namespace {
-
 // Cameras that run on their own need no pulse.
 class NoLine final : public TriggerLine {
  public:
@@ -67,11 +54,6 @@ class NoStick final : public RemovableMedia {
   Result<void> flush_and_eject() override { return Error{Errc::MediaMissing, "there is no stick"}; }
 };
 
-class NoWatchdog final : public Watchdog {
- public:
-  void kick() override {}
-};
-
 class LinuxDevice final : public Device {
  public:
   LinuxDevice(const LinuxDeviceOptions& options, std::unique_ptr<OutputLines> lines, Kernel& kernel)
@@ -83,10 +65,11 @@ class LinuxDevice final : public Device {
     // One device exposes both views at once, with a wire or without.
     together_ = options.trigger.has_value() || !options.right;
     if (options.trigger && options.trigger->lamp) light_ = Light::Flash;
-    if (!options.stick_folder.empty()) stick_ = std::make_unique<MountedStick>(options.stick_folder);
+    if (options.stick_folder.empty()) stick_ = std::make_unique<NoStick>();
+    else stick_ = std::make_unique<MountedStick>(options.stick_folder);
   }
   Result<void> arm(const WatchdogOptions& options, Kernel& kernel) {
-    RELIEVO_TRY_ASSIGN(armed_, HardwareWatchdog::open(options, kernel, clock_));
+    RELIEVO_TRY_ASSIGN(watchdog_, HardwareWatchdog::open(options, kernel, clock_));
     return {};
   }
 
@@ -98,9 +81,9 @@ class LinuxDevice final : public Device {
   bool exposes_together() const override { return together_; }
   Light shot_light() const override { return light_; }
   bool too_hot() const override { return near_switching_off("/sys/class/thermal"); }
-  RemovableMedia& media() override { return stick_ ? *stick_ : static_cast<RemovableMedia&>(no_stick_); }
+  RemovableMedia& media() override { return *stick_; }
   Clock& clock() override { return clock_; }
-  Watchdog& watchdog() override { return armed_ ? *armed_ : static_cast<Watchdog&>(no_watchdog_); }
+  Watchdog& watchdog() override { return *watchdog_; }
 
  private:
   MonotonicClock clock_;
@@ -111,13 +94,20 @@ class LinuxDevice final : public Device {
   std::unique_ptr<TriggerLine> trigger_;
   bool together_ = true;
   Light light_ = Light::Off;
-  NoStick no_stick_;
-  std::unique_ptr<MountedStick> stick_;
-  NoWatchdog no_watchdog_;
-  std::unique_ptr<HardwareWatchdog> armed_;
+  std::unique_ptr<RemovableMedia> stick_;
+  std::unique_ptr<Watchdog> watchdog_ = std::make_unique<NullWatchdog>();
 };
 
 }  // namespace
+
+bool near_switching_off(const fs::path& thermal) {
+  std::error_code error;
+  for (fs::directory_iterator entry(thermal, error), end; !error && entry != end; entry.increment(error)) {
+    if (entry->path().filename().string().starts_with("thermal_zone") && near_switching_off_at(entry->path()))
+      return true;
+  }
+  return false;
+}
 
 Result<std::unique_ptr<Device>> make_linux_device(const LinuxDeviceOptions& options, Kernel& kernel) {
   RELIEVO_TRY(options.timing.check());

@@ -3,19 +3,7 @@
 //
 // The appliance's own hardware: V4L2 cameras, two or one that gives both views side by side, and a GPIO
 // trigger with or without a lamp; without a trigger the cameras run on their own. What is wired where
-// stands in a TOML file:
-//
-//   [mode]      width_px = 1920   height_px = 1200   exposure_us = 4000   of one view
-//   [left]      device = "/dev/v4l/by-path/…"   serial = "…"   format = "GREY"
-//   [right]     the same; or, instead of [left] and [right]:
-//   [both]      device = "…"   one device, the left view left
-//   [trigger]   chip = "/dev/gpiochip0"   line = 17   active_low = false   delay_us = 0
-//   [lamp]      line = 18   lead_us = 200   time_us = 5000   or   on_trigger_wire = true
-//   [stick]     folder = "/media/relievo"   where the system mounts sticks
-//   [watchdog]  device = "/dev/watchdog"   timeout_s = 10
-//
-// Serial, format, trigger, lamp, stick and watchdog may be left out.
-//
+// stands in a TOML file (README.md).
 // Thread: making: main; the devices as their headers say.
 #pragma once
 

@@ -11,22 +11,22 @@ namespace {
 
 constexpr std::chrono::seconds kLeast{2}, kMost{300};
 
-Error cannot_open(int negative_errno, const std::string& device) {
-  const int number = -negative_errno;
-  if (number == ENOENT || number == ENODEV || number == ENXIO)
-    return Error{Errc::NotFound, "there is no watchdog here: load its driver, or leave [watchdog] out",
-                 number}
-        .at(device);
-  if (number == EBUSY)
-    return Error{Errc::IoFailed,
-                 "another program holds the watchdog: systemd, when RuntimeWatchdogSec is set", number}
-        .at(device);
-  if (number == EACCES || number == EPERM)
-    return Error{Errc::IoFailed, "this user may not open the watchdog", number}.at(device);
-  return Error{Errc::IoFailed, "the watchdog cannot be opened", number}.at(device);
+Error cannot_open(int number) {
+  switch (number) {
+    case ENOENT:
+    case ENODEV:
+    case ENXIO:
+      return {Errc::NotFound, "there is no watchdog here: load its driver, or leave [watchdog] out", number};
+    case EBUSY:
+      return {Errc::IoFailed, "another program holds the watchdog: systemd, when RuntimeWatchdogSec is set",
+              number};
+    case EACCES:
+    case EPERM: return {Errc::IoFailed, "this user may not open the watchdog", number};
+    default: return {Errc::IoFailed, "the watchdog cannot be opened", number};
+  }
 }
 
-// The driver rounds, or has a time of its own. Zero where it tells none.
+// The driver rounds, or has a time of its own.
 Result<std::chrono::seconds> set_timeout(Kernel& kernel, int file, std::chrono::seconds wanted) {
   int seconds = int(wanted.count());
   const int set = call(kernel, file, WDIOC_SETTIMEOUT, &seconds);
@@ -61,13 +61,13 @@ Result<void> WatchdogOptions::check() const {
 Result<std::unique_ptr<HardwareWatchdog>> HardwareWatchdog::open(const WatchdogOptions& options,
                                                                  Kernel& kernel, const Clock& clock) {
   RELIEVO_TRY(options.check());
-  int file = kernel.open(options.device.c_str());
+  int file = -EINTR;
   while (file == -EINTR) file = kernel.open(options.device.c_str());
-  if (file < 0) return cannot_open(file, options.device);
+  if (file < 0) return cannot_open(-file).at(options.device);
   const auto timeout = set_timeout(kernel, file, options.timeout);
   if (!timeout) {
     put_to_rest(kernel, file);
-    return Error(timeout.error()).at(options.device);
+    return timeout.error().at(options.device);
   }
   return std::unique_ptr<HardwareWatchdog>(new HardwareWatchdog(kernel, clock, file, *timeout));
 }

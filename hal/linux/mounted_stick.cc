@@ -123,21 +123,18 @@ std::optional<Medium> MountedStick::find() const {
   return std::nullopt;
 }
 
-std::optional<Medium> MountedStick::current() {
-  const std::lock_guard lock(mutex_);
-  return find();
-}
+std::optional<Medium> MountedStick::current() { return find(); }
 
 Result<void> MountedStick::flush_and_eject() {
   const std::lock_guard lock(mutex_);
   const auto medium = find();
   if (!medium) return Error{Errc::MediaMissing, "there is no stick to eject"};
-  if (const int flushed = mounts_.flush(medium->root); flushed == -ENOENT || flushed == -ENODEV) {
+  const int flushed = mounts_.flush(medium->root);
+  if (flushed == -ENOENT || flushed == -ENODEV)
     return Error{Errc::MediaMissing, "the stick is gone", -flushed}.at(medium->root.native());
-  } else if (flushed < 0) {
+  if (flushed < 0)
     return Error{Errc::IoFailed, "the stick could not be flushed; do not trust what was written", -flushed}
         .at(medium->root.native());
-  }
   const auto source = mounts_.source_of(medium->root);
   ejected_.reset();
   if (const int unmounted = mounts_.unmount(medium->root); unmounted < 0)

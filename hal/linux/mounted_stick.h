@@ -43,7 +43,8 @@ class MountedStick final : public RemovableMedia {
   explicit MountedStick(std::filesystem::path folder, Mounts& mounts = real_mounts())
       : folder_(std::move(folder)), mounts_(mounts) {}
 
-  // Of several sticks the first by name.
+  // Of several sticks the first by name. It asks the system alone and waits for nobody: a slow stick may be
+  // flushed meanwhile, and the main thread asks.
   std::optional<Medium> current() override;
   // Errors: MediaMissing (none, or pulled out meanwhile), IoFailed (not flushed: nothing written can be
   // trusted; still in use; not allowed).
@@ -57,9 +58,9 @@ class MountedStick final : public RemovableMedia {
     MountSource source;
     std::filesystem::path root;
   };
-  std::optional<Medium> find() const;
+  std::optional<Medium> find() const;  // touches nothing that changes
+  std::mutex mutex_;                   // one ejection or mount at a time; ejected_
   std::optional<Ejected> ejected_;
-  std::mutex mutex_;
   std::filesystem::path folder_;
   Mounts& mounts_;
 };

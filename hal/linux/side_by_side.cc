@@ -8,15 +8,15 @@
 
 namespace relievo::hal {
 
-Result<void> SideBySide::open(int side, const CaptureMode& mode) {
+Result<void> SideBySide::open(std::size_t side, const CaptureMode& mode) {
   if (device_.state() == Camera::State::Closed)
     RELIEVO_TRY(device_.open({2 * mode.width_px, mode.height_px, mode.exposure}));
-  opened_[std::size_t(side)] = true;
+  opened_[side] = true;
   return {};
 }
 
-void SideBySide::close(int side) {
-  opened_[std::size_t(side)] = false;
+void SideBySide::close(std::size_t side) {
+  opened_[side] = false;
   if (!dead_ && (opened_[0] || opened_[1])) return;
   for (Shared& shared : pictures_) {
     shared.frame.reset();
@@ -26,18 +26,17 @@ void SideBySide::close(int side) {
   dead_ = false;
 }
 
-Result<void> SideBySide::start(int side) {
+Result<void> SideBySide::start(std::size_t side) {
   if (device_.state() == Camera::State::Closed)
     return Error{Errc::Disconnected, "the camera's other half has vanished: both are opened again"};
   if (device_.state() == Camera::State::Idle) RELIEVO_TRY(device_.start());
-  running_[std::size_t(side)] = true;
+  running_[side] = true;
   return {};
 }
 
-void SideBySide::stop(int side) {
-  const auto mine = std::size_t(side);
-  running_[mine] = false;
-  for (Shared& shared : pictures_) shared.waits[mine] = false;
+void SideBySide::stop(std::size_t side) {
+  running_[side] = false;
+  for (Shared& shared : pictures_) shared.waits[side] = false;
   tidy();
   if (!running_[0] && !running_[1]) device_.stop();
 }
@@ -47,10 +46,9 @@ void SideBySide::tidy() {
     if (!shared.lent[0] && !shared.lent[1] && !shared.waits[0] && !shared.waits[1]) shared.frame.reset();
 }
 
-Result<Frame> SideBySide::next(int side, Instant deadline) {
-  const auto mine = std::size_t(side);
-  const std::size_t other = 1 - mine;
-  const auto waiting = std::ranges::find_if(pictures_, [&](const Shared& s) { return s.waits[mine]; });
+Result<Frame> SideBySide::next(std::size_t side, Instant deadline) {
+  const std::size_t other = 1 - side;
+  const auto waiting = std::ranges::find_if(pictures_, [&](const Shared& s) { return s.waits[side]; });
   if (waiting != pictures_.end()) return lend(*waiting, side);
   const auto room = std::ranges::find_if(pictures_, [](const Shared& s) { return !s.frame; });
   if (room == pictures_.end())
@@ -71,17 +69,16 @@ Result<Frame> SideBySide::next(int side, Instant deadline) {
   return lend(*room, side);
 }
 
-Result<Frame> SideBySide::lend(Shared& shared, int side) {
-  const auto mine = std::size_t(side);
+Result<Frame> SideBySide::lend(Shared& shared, std::size_t side) {
   const RawImage& whole = shared.frame->raw();
-  shared.waits[mine] = false;
-  shared.lent[mine] = true;
+  shared.waits[side] = false;
+  shared.lent[side] = true;
   RawImage half = whole;
   half.width_px = whole.width_px / 2;
   const std::size_t row = raw_row_bytes(whole.format.coding, half.width_px);
-  half.bytes += mine * row;
-  half.size_bytes -= std::min(half.size_bytes, mine * row);
-  const int slot = kSides * int(&shared - pictures_.data()) + side;
+  half.bytes += side * row;
+  half.size_bytes -= std::min(half.size_bytes, side * row);
+  const auto slot = int(kSides * std::size_t(&shared - pictures_.data()) + side);
   Frame frame(half, {shared.frame->exposed_at(), shared.frame->sequence(), shared.frame->damaged()},
               &SideBySide::give_back, this, slot);
   if (whole.format.coding == RawCoding::Mjpeg)
@@ -96,7 +93,7 @@ Result<Frame> SideBySide::lend(Shared& shared, int side) {
 
 void SideBySide::give_back(void* owner, int slot) {
   auto* both = static_cast<SideBySide*>(owner);
-  both->pictures_[std::size_t(slot / kSides)].lent[std::size_t(slot % kSides)] = false;
+  both->pictures_[std::size_t(slot) / kSides].lent[std::size_t(slot) % kSides] = false;
   both->tidy();
 }
 

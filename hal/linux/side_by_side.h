@@ -33,11 +33,11 @@ class SideBySide {
 
  private:
   static constexpr std::size_t kPictures = 3;
-  static constexpr int kSides = 2;
+  static constexpr std::size_t kSides = 2;
 
   class Side final : public Camera {
    public:
-    Side(SideBySide& both, int side) : both_(both), side_(side) {}
+    Side(SideBySide& both, std::size_t side) : both_(both), side_(side) {}
     std::string_view serial() const override { return both_.device_.serial(); }
     std::string_view socket() const override { return both_.device_.socket(); }
 
@@ -52,7 +52,7 @@ class SideBySide {
     }
     Result<ExposureLimits> do_exposure_limits() const override { return both_.device_.exposure_limits(); }
     SideBySide& both_;
-    int side_;
+    std::size_t side_;
   };
   // One picture of the device while a half is lent out or still waits to be asked for.
   struct Shared {
@@ -61,12 +61,12 @@ class SideBySide {
     std::array<bool, kSides> waits{};
   };
 
-  Result<void> open(int side, const CaptureMode& mode);
-  Result<void> start(int side);
-  void stop(int side);
-  void close(int side);
-  Result<Frame> next(int side, Instant deadline);
-  Result<Frame> lend(Shared& shared, int side);
+  Result<void> open(std::size_t side, const CaptureMode& mode);
+  Result<void> start(std::size_t side);
+  void stop(std::size_t side);
+  void close(std::size_t side);
+  Result<Frame> next(std::size_t side, Instant deadline);
+  Result<Frame> lend(Shared& shared, std::size_t side);
   void tidy();
   static void give_back(void* owner, int slot);
 

@@ -92,57 +92,6 @@ std::int64_t external_of(Kernel& kernel, int file, const v4l2_queryctrl& asked) 
   return asked.minimum + 1;
 }
 
-}  // namespace
-
-// The kernel has no number for it: makers name theirs "Trigger Mode", "External Trigger", "Trigger".
-Result<bool> set_external_trigger(Kernel& kernel, int file) {
-  std::uint32_t id = V4L2_CTRL_FLAG_NEXT_CTRL;
-  for (int i = 0; i < kMostControls; ++i) {
-    v4l2_queryctrl asked{};
-    asked.id = id;
-    const int r = call(kernel, file, VIDIOC_QUERYCTRL, &asked);
-    if (r == -EINVAL || r == -ENOTTY) return false;
-    if (r < 0) return device_error(r, {Errc::IoFailed, "the camera does not tell its controls"});
-    id = asked.id | V4L2_CTRL_FLAG_NEXT_CTRL;
-    const bool choice = asked.type == V4L2_CTRL_TYPE_BOOLEAN || asked.type == V4L2_CTRL_TYPE_MENU ||
-                        asked.type == V4L2_CTRL_TYPE_INTEGER;
-    const std::string name = lower(asked.name, sizeof asked.name);
-    const bool named =
-        name == "trigger" || name == "trigger mode" || name == "external trigger" || name == "trigger enable";
-    if (!choice || !named || !is_usable(asked)) continue;
-    RELIEVO_TRY(set_control(kernel, file, asked.id, external_of(kernel, file, asked)));
-    return true;
-  }
-  return false;
-}
-
-Result<ExposureLimits> query_exposure(Kernel& kernel, int file) {
-  RELIEVO_TRY_ASSIGN(const auto time, find_control(kernel, file, V4L2_CID_EXPOSURE_ABSOLUTE));
-  if (!time) return kNoExposure;
-  RELIEVO_TRY_ASSIGN(const auto gain, find_gain(kernel, file));
-  using std::chrono::microseconds;
-  return ExposureLimits{{microseconds(std::max<std::int64_t>(time->least, 1) * kExposureUnitUs), 1},
-                        {microseconds(time->most * kExposureUnitUs), gain ? kGainSpan : 1}};
-}
-
-Result<void> apply_exposure(Kernel& kernel, int file, const Exposure& exposure) {
-  RELIEVO_TRY_ASSIGN(const ExposureLimits limits, query_exposure(kernel, file));
-  if (exposure.time < limits.least.time || exposure.time > limits.most.time ||
-      exposure.gain < limits.least.gain || exposure.gain > limits.most.gain)
-    return Error{Errc::InvalidInput, "this exposure is outside what the camera can do"};
-  RELIEVO_TRY(set_if_any(kernel, file, V4L2_CID_EXPOSURE_AUTO, V4L2_EXPOSURE_MANUAL));
-  RELIEVO_TRY(set_if_any(kernel, file, V4L2_CID_AUTOGAIN, 0));
-  RELIEVO_TRY(set_control(kernel, file, V4L2_CID_EXPOSURE_ABSOLUTE,
-                          (exposure.time.count() + kExposureUnitUs / 2) / kExposureUnitUs));
-  RELIEVO_TRY_ASSIGN(const auto gain, find_gain(kernel, file));
-  if (!gain) return {};
-  const double share = (exposure.gain - 1) / (kGainSpan - 1);
-  return set_control(kernel, file, gain->id,
-                     gain->least + std::llround(share * double(gain->most - gain->least)));
-}
-
-namespace {
-
 // In the kernel since 6.3; Debian 12's header is older.
 constexpr std::uint32_t kY12Packed = v4l2_fourcc('Y', '1', '2', 'P');
 
@@ -179,12 +128,6 @@ constexpr V4l2Format kFormats[] = {
     {V4L2_PIX_FMT_MJPEG, {RawCoding::Mjpeg}},
     {V4L2_PIX_FMT_JPEG, {RawCoding::Mjpeg}},
 };
-
-}  // namespace
-
-std::span<const V4l2Format> v4l2_formats() { return kFormats; }
-
-namespace {
 
 constexpr std::uint32_t kCapture = V4L2_BUF_TYPE_VIDEO_CAPTURE;
 constexpr std::uint32_t kShortestPerSecond = 60;
@@ -298,6 +241,55 @@ Result<std::optional<V4l2Stream>> try_format(Kernel& kernel, int file, const Cap
 }
 
 }  // namespace
+
+// The kernel has no number for it: makers name theirs "Trigger Mode", "External Trigger", "Trigger".
+Result<bool> set_external_trigger(Kernel& kernel, int file) {
+  std::uint32_t id = V4L2_CTRL_FLAG_NEXT_CTRL;
+  for (int i = 0; i < kMostControls; ++i) {
+    v4l2_queryctrl asked{};
+    asked.id = id;
+    const int r = call(kernel, file, VIDIOC_QUERYCTRL, &asked);
+    if (r == -EINVAL || r == -ENOTTY) return false;
+    if (r < 0) return device_error(r, {Errc::IoFailed, "the camera does not tell its controls"});
+    id = asked.id | V4L2_CTRL_FLAG_NEXT_CTRL;
+    const bool choice = asked.type == V4L2_CTRL_TYPE_BOOLEAN || asked.type == V4L2_CTRL_TYPE_MENU ||
+                        asked.type == V4L2_CTRL_TYPE_INTEGER;
+    const std::string name = lower(asked.name, sizeof asked.name);
+    const bool named =
+        name == "trigger" || name == "trigger mode" || name == "external trigger" || name == "trigger enable";
+    if (!choice || !named || !is_usable(asked)) continue;
+    RELIEVO_TRY(set_control(kernel, file, asked.id, external_of(kernel, file, asked)));
+    return true;
+  }
+  return false;
+}
+
+Result<ExposureLimits> query_exposure(Kernel& kernel, int file) {
+  RELIEVO_TRY_ASSIGN(const auto time, find_control(kernel, file, V4L2_CID_EXPOSURE_ABSOLUTE));
+  if (!time) return kNoExposure;
+  RELIEVO_TRY_ASSIGN(const auto gain, find_gain(kernel, file));
+  using std::chrono::microseconds;
+  return ExposureLimits{{microseconds(std::max<std::int64_t>(time->least, 1) * kExposureUnitUs), 1},
+                        {microseconds(time->most * kExposureUnitUs), gain ? kGainSpan : 1}};
+}
+
+Result<void> apply_exposure(Kernel& kernel, int file, const Exposure& exposure) {
+  RELIEVO_TRY_ASSIGN(const ExposureLimits limits, query_exposure(kernel, file));
+  if (exposure.time < limits.least.time || exposure.time > limits.most.time ||
+      exposure.gain < limits.least.gain || exposure.gain > limits.most.gain)
+    return Error{Errc::InvalidInput, "this exposure is outside what the camera can do"};
+  RELIEVO_TRY(set_if_any(kernel, file, V4L2_CID_EXPOSURE_AUTO, V4L2_EXPOSURE_MANUAL));
+  RELIEVO_TRY(set_if_any(kernel, file, V4L2_CID_AUTOGAIN, 0));
+  RELIEVO_TRY(set_control(kernel, file, V4L2_CID_EXPOSURE_ABSOLUTE,
+                          (exposure.time.count() + kExposureUnitUs / 2) / kExposureUnitUs));
+  RELIEVO_TRY_ASSIGN(const auto gain, find_gain(kernel, file));
+  if (!gain) return {};
+  const double share = (exposure.gain - 1) / (kGainSpan - 1);
+  return set_control(kernel, file, gain->id,
+                     gain->least + std::llround(share * double(gain->most - gain->least)));
+}
+
+std::span<const V4l2Format> v4l2_formats() { return kFormats; }
 
 Result<V4l2Stream> set_up_stream(Kernel& kernel, int file, const CaptureMode& mode, std::uint32_t fourcc) {
   RELIEVO_TRY(check_capabilities(kernel, file));

@@ -26,21 +26,16 @@ struct Loose {
   }
 };
 
-struct Mipi10 {
-  static constexpr int bits = 10;
+// Groups of samples, their high bytes first, then one byte with the low bits of all.
+template <int kBits>
+struct Packed {
+  static constexpr int bits = kBits;
   static unsigned sample(const std::uint8_t* row, int x) {
-    const std::uint8_t* four = row + x / 4 * 5;
-    const int i = x % 4;
-    return unsigned(four[i]) << 2U | (unsigned(four[4]) >> (2 * i) & 3U);
-  }
-};
-
-struct Mipi12 {
-  static constexpr int bits = 12;
-  static unsigned sample(const std::uint8_t* row, int x) {
-    const std::uint8_t* two = row + x / 2 * 3;
-    const int i = x % 2;
-    return unsigned(two[i]) << 4U | (unsigned(two[2]) >> (4 * i) & 15U);
+    constexpr int low_bits = kBits - 8, count = 8 / low_bits;
+    const std::uint8_t* group = row + x / count * (count + 1);
+    const int i = x % count;
+    return unsigned(group[i]) << low_bits |
+           (unsigned(group[count]) >> (low_bits * i) & ((1U << low_bits) - 1U));
   }
 };
 
@@ -82,8 +77,8 @@ void unpack_all(const RawImage& raw, std::byte* out) {
     case RawCoding::Bits10: return unpack<Loose<10>, Scale>(raw, out);
     case RawCoding::Bits12: return unpack<Loose<12>, Scale>(raw, out);
     case RawCoding::Bits16: return unpack<Loose<16>, Scale>(raw, out);
-    case RawCoding::Packed10: return unpack<Mipi10, Scale>(raw, out);
-    case RawCoding::Packed12: return unpack<Mipi12, Scale>(raw, out);
+    case RawCoding::Packed10: return unpack<Packed<10>, Scale>(raw, out);
+    case RawCoding::Packed12: return unpack<Packed<12>, Scale>(raw, out);
     case RawCoding::Bits8:
     case RawCoding::Rgb8:
     case RawCoding::Yuyv:

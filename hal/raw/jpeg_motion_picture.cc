@@ -10,19 +10,15 @@
 namespace relievo::hal {
 namespace {
 
-struct Close {
-  void operator()(void* handle) const { tjDestroy(handle); }
-};
-
 // Many webcams leave stray bytes between the last row and the end marker: all of the picture is there.
-bool is_harmless(void* handle) {
+bool is_harmless(tjhandle handle) {
   return std::string_view(tjGetErrorStr2(handle)).ends_with("extraneous bytes before marker 0xd9");
 }
 
 }  // namespace
 
 Result<PixelFormat> decode_jpeg(const RawImage& raw, std::byte* pixels) {
-  const std::unique_ptr<void, Close> handle(tjInitDecompress());
+  const std::unique_ptr<void, int (*)(tjhandle)> handle(tjInitDecompress(), tjDestroy);
   if (!handle) return Error{Errc::OutOfMemory, "no memory to decode a picture"};
   const auto* stream = reinterpret_cast<const unsigned char*>(raw.bytes);
   int width = 0;

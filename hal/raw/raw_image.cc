@@ -59,16 +59,12 @@ Result<void> check_shape(const RawImage& raw) {
 bool is_short(const RawImage& raw) { return raw.size_bytes == 0 || raw.size_bytes < raw_whole_bytes(raw); }
 
 RawImage raw_of(const ImageView& view) {
-  RawImage raw;
+  RawImage raw{view.bytes, 0, view.width_px, view.height_px, view.stride_bytes, {}};
   switch (view.format) {
     case PixelFormat::Grey8: raw.format.coding = RawCoding::Bits8; break;
     case PixelFormat::Grey16: raw.format.coding = RawCoding::Bits16; break;
     case PixelFormat::Rgb8: raw.format.coding = RawCoding::Rgb8; break;
   }
-  raw.bytes = view.bytes;
-  raw.width_px = view.width_px;
-  raw.height_px = view.height_px;
-  raw.stride_bytes = view.stride_bytes;
   if (!view.empty()) raw.size_bytes = raw_whole_bytes(raw);
   return raw;
 }

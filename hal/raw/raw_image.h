@@ -3,15 +3,6 @@
 //
 // RawImage: one picture as a driver hands it over, in memory that the driver owns: samples of a sensor,
 // YUV, or a compressed stream. Row-major; samples of more than 8 bit are little-endian.
-//
-//   Bits8, Bits16        one sample in 1 or 2 bytes
-//   Bits10, Bits12       one sample in the low bits of 2 bytes
-//   Packed10             4 samples in 5 bytes: four high bytes, then the low bits, first sample lowest (MIPI
-//   RAW10) Packed12             2 samples in 3 bytes: two high bytes, then the low bits, first sample lowest
-//   (MIPI RAW12) Rgb8                 red, green, blue Yuyv, Nv12           BT.601, limited range; Nv12's
-//   chroma rows follow its luma rows, same stride Mjpeg                one JPEG picture; it may leave out its
-//   Huffman tables, as webcams do
-//
 // Thread: any.
 #pragma once
 
@@ -24,16 +15,16 @@
 namespace relievo::hal {
 
 enum class RawCoding : std::uint8_t {
-  Bits8,
-  Bits10,
+  Bits8,   // one sample in each byte
+  Bits10,  // one sample in the low bits of 2 bytes; so are 12 and 16
   Bits12,
   Bits16,
-  Packed10,
-  Packed12,
+  Packed10,  // MIPI RAW10: 4 samples in 5 bytes, four high bytes, then the low bits, first sample lowest
+  Packed12,  // MIPI RAW12: 2 samples in 3 bytes, likewise
   Rgb8,
-  Yuyv,
-  Nv12,
-  Mjpeg
+  Yuyv,  // BT.601, limited range
+  Nv12,  // the same; its chroma rows follow its luma rows, same stride
+  Mjpeg  // one JPEG picture; it may leave out its Huffman tables, as webcams do
 };
 
 // The colours over the sensor's pixels: top left two of the first row, then two of the second.

@@ -15,6 +15,8 @@
 
 namespace relievo::hal {
 
+constexpr std::int64_t kMostNumber = 999'999;  // six digits in a picture's name
+
 std::string recorded_name(const char* side, std::int64_t number) {
   char name[40];
   std::snprintf(name, sizeof name, "%s_%06lld.png", side, static_cast<long long>(number));
@@ -40,6 +42,8 @@ Result<std::int64_t> record_pair(const std::filesystem::path& folder, const Reco
   }
   std::int64_t number = 1;
   for (const CaptureRecord& frame : capture.frames) number = std::max(number, frame.number + 1);
+  if (number > kMostNumber)
+    return Error{Errc::InvalidInput, "this recording has no number left: begin another"}.at(folder.string());
   RELIEVO_TRY(write_picture(folder / recorded_name("left", number), pair.left));
   RELIEVO_TRY(write_picture(folder / recorded_name("right", number), pair.right));
   capture.left_serial = pair.left_serial;
@@ -76,7 +80,11 @@ Result<CaptureFile> read_capture_file(const std::filesystem::path& file) try {
     capture.right_serial = json.at("cameras").at("right").value("serial", "");
   }
   capture.head = json.value("head", false);
-  for (const auto& frame : json.at("frames")) capture.frames.push_back(record_of(frame));
+  for (const auto& frame : json.at("frames")) {
+    capture.frames.push_back(record_of(frame));
+    if (const auto number = capture.frames.back().number; number < 0 || number > kMostNumber)
+      return Error{Errc::InvalidInput, "a frame's number is 0 to 999999"}.at(file.native());
+  }
   return capture;
 } catch (const nlohmann::json::parse_error&) {
   return Error{Errc::InvalidInput, "this is not valid JSON; record it again or remove it"}.at(file.native());

@@ -16,6 +16,23 @@ constexpr std::int64_t kCellsASquare = 128;
 
 int marker_count(const BoardPattern& b) { return (b.corners_x + 1) * (b.corners_y + 1) / 2; }
 
+bool seen_whole(const SimView& view, const BoardPattern& b, const BoardPose& pose) {
+  for (const double x : {-1.0, double(b.corners_x)})
+    for (const double y : {-1.0, double(b.corners_y)}) {
+      const Vec3 p = pose.to_world({x * b.square_mm, y * b.square_mm, 0});
+      if (view.depth_mm(p) < 50) return false;
+      const Pixel q = view.project(p);
+      if (q.x < 6 || q.y < 6 || q.x > view.width_px - 7 || q.y > view.height_px - 7) return false;
+    }
+  return true;
+}
+
+constexpr double kWhite = 0.62, kBlack = 0.035, kRoom = 0.10, kHand = 0.33;
+constexpr int kSamples = 128;  // of a pixel that sees an edge
+constexpr double kGolden = 0.6180339887498949;
+
+Vec3 across(Vec3 direction) { return normalised(Vec3{direction.z, 0, -direction.x}); }
+
 }  // namespace
 
 Result<void> BoardPattern::check() const {
@@ -60,27 +77,16 @@ BoardPrint::Spot BoardPrint::at(double x_mm, double y_mm) const {
   return spot((markers_[std::size_t(id)] >> bit & 1) == 0);
 }
 
-namespace {
-
-bool seen_whole(const SimView& view, const BoardPattern& b, const BoardPose& pose) {
-  for (const double x : {-1.0, double(b.corners_x)})
-    for (const double y : {-1.0, double(b.corners_y)}) {
-      const Vec3 p = pose.to_world({x * b.square_mm, y * b.square_mm, 0});
-      if (view.depth_mm(p) < 50) return false;
-      const Pixel q = view.project(p);
-      if (q.x < 6 || q.y < 6 || q.x > view.width_px - 7 || q.y > view.height_px - 7) return false;
-    }
-  return true;
+BoardPose with_middle_at(Vec3 middle_mm, const Mat3& world_from_board, const BoardPattern& b) {
+  const Vec3 middle{(b.corners_x - 1) * b.square_mm / 2, (b.corners_y - 1) * b.square_mm / 2, 0};
+  return {world_from_board, middle_mm - world_from_board * middle};
 }
-
-}  // namespace
 
 Result<std::vector<BoardPose>> good_board_poses(const SimRig& rig, const BoardPattern& b, int count,
                                                 std::uint32_t seed, double distance_mm) {
   RELIEVO_TRY(b.check());
   Random random(seed + 0xb0a4dULL);
   std::vector<BoardPose> poses;
-  const Vec3 middle{(b.corners_x - 1) * b.square_mm / 2, (b.corners_y - 1) * b.square_mm / 2, 0};
   const Vec3 aim = rig.left.ray((rig.left.width_px - 1) / 2.0, (rig.left.height_px - 1) / 2.0);
   for (int tries = 0; int(poses.size()) < count && tries < 20000; ++tries) {
     const auto k = int(poses.size());
@@ -88,12 +94,11 @@ Result<std::vector<BoardPose>> good_board_poses(const SimRig& rig, const BoardPa
     const double compass = 6.283185307 * k / std::max(count, 1) * 3 + random.uniform(-0.3, 0.3),
                  tilt = k == 0 ? 0.03 : random.uniform(0.25, 0.6);
     const double spread = 1.0 - 0.9 * std::min(1.0, tries / 15000.0);
-    BoardPose pose;
-    pose.world_from_board =
+    const Mat3 turn =
         rotation(tilt * std::sin(compass), tilt * std::cos(compass), random.uniform(-0.35, 0.35));
     const Vec3 centre = aim * (distance_mm + random.uniform(-60, 110) + 4e-3 * tries) +
                         Vec3{random.uniform(-70, 70), random.uniform(-42, 42), 0} * spread;
-    pose.origin_mm = centre - pose.world_from_board * middle;
+    const BoardPose pose = with_middle_at(centre, turn, b);
     if (seen_whole(rig.left, b, pose) && seen_whole(rig.right, b, pose)) poses.push_back(pose);
   }
   if (int(poses.size()) < count)
@@ -101,16 +106,6 @@ Result<std::vector<BoardPose>> good_board_poses(const SimRig& rig, const BoardPa
                  "this rig does not see the whole board; choose fewer or smaller squares"};
   return poses;
 }
-
-namespace {
-
-constexpr double kWhite = 0.62, kBlack = 0.035, kRoom = 0.10, kHand = 0.33;
-constexpr int kSamples = 128;  // of a pixel that sees an edge
-constexpr double kGolden = 0.6180339887498949;
-
-Vec3 across(Vec3 direction) { return normalised(Vec3{direction.z, 0, -direction.x}); }
-
-}  // namespace
 
 Result<void> BoardLook::check() const {
   for (const double share : {lamp, shadow, cover})
@@ -153,9 +148,7 @@ double BoardScene::light(Vec3 origin, Vec3 direction, const Hit& hit) const {
                h = (pattern_.corners_y + 1) * pattern_.square_mm;
   const double u = hit.x / w, v = hit.y / h;
   const Vec3 p = origin + direction * hit.distance;
-  const Vec3 normal{pose_.world_from_board.row[0].z, pose_.world_from_board.row[1].z,
-                    pose_.world_from_board.row[2].z};
-  double lit = 0.55 + 0.45 * std::abs(dot(normal, normalised(p - Vec3{-200, -200, 0})));
+  double lit = 0.55 + 0.45 * std::abs(dot(pose_.normal(), normalised(p - Vec3{-200, -200, 0})));
   lit *= 1 - look_.lamp * clamp01(u);
   // The shadow's rim is a few millimetres wide.
   lit *= 1 - look_.shadow * smoothstep(0.66, 0.68, u + 0.35 * (v - 0.5));
@@ -201,22 +194,9 @@ bool BoardScene::solid(Vec3 origin, Vec3 direction, SolidPoint& out) const {
   Hit hit;
   if (!meet(origin, direction, hit)) return false;
   out.point = origin + direction * hit.distance;
-  out.normal = pose_.world_from_board * Vec3{0, 0, -1};
+  out.normal = -pose_.normal();
   out.skin = false;
   return true;
-}
-
-Mesh BoardScene::solid_mesh() const {
-  const double low = -pattern_.square_mm - pattern_.margin_mm;
-  const double right = pattern_.corners_x * pattern_.square_mm + pattern_.margin_mm,
-               bottom = pattern_.corners_y * pattern_.square_mm + pattern_.margin_mm;
-  Mesh mesh;
-  for (const Vec3 p : {Vec3{low, low, 0}, {right, low, 0}, {right, bottom, 0}, {low, bottom, 0}}) {
-    const Vec3 q = pose_.to_world(p);
-    mesh.points.push_back({float(q.x), float(q.y), float(q.z)});
-  }
-  mesh.triangles = {{0, 1, 2}, {0, 2, 3}};
-  return mesh;
 }
 
 }  // namespace relievo::hal::sim

@@ -2,7 +2,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 //
 // A printed board in any pose and light. Board frame: origin in the first inner corner, x along a row
-// of corners, y down the rows, z into the board; mm.
+// of corners, y down the rows, z into the board; mm. Thread: any, once made.
 #pragma once
 
 #include <cstdint>
@@ -15,9 +15,7 @@
 namespace relievo::hal::sim {
 
 // What is printed on a simulated board: chessboard or ChArUco, in the layout that OpenCV 4.6 draws
-// (top left square black, marker numbers row by row). Origin in the first inner corner, x along a row
-// of corners, y down the rows, mm.
-// Thread: any, once made.
+// (top left square black, marker numbers row by row).
 enum class BoardKind : std::uint8_t { Chessboard, Charuco };
 
 struct BoardPattern {
@@ -55,7 +53,9 @@ struct BoardPose {
   Mat3 world_from_board;
   Vec3 origin_mm;  // of the board, in world
   Vec3 to_world(Vec3 p) const { return world_from_board * p + origin_mm; }
+  Vec3 normal() const { return world_from_board * Vec3{0, 0, 1}; }
 };
+BoardPose with_middle_at(Vec3 middle_mm, const Mat3& world_from_board, const BoardPattern& pattern);
 
 // What a calibration has to bear; all 0: an even light on a clean board.
 struct BoardLook {
@@ -75,7 +75,6 @@ class BoardScene final : public Scene {
   RayHit look(Vec3 origin, Vec3 direction) const override;
   bool solid(Vec3 origin, Vec3 direction, SolidPoint& out) const override;
   bool blocked(Vec3, Vec3, double) const override { return false; }
-  Mesh solid_mesh() const override;
 
  private:
   struct Hit {

@@ -48,8 +48,6 @@ BoardPose between(const BoardPose& a, const BoardPose& b, double t) {
   return pose;
 }
 
-double srgb(double v) { return v <= 0.0031308 ? 12.92 * v : 1.055 * std::pow(v, 1 / 2.4) - 0.055; }
-
 void blur_row(const float* from, float* to, int count, std::size_t stride, std::span<const float> weight) {
   const int reach = int(weight.size()) - 1;
   for (int i = 0; i < count; ++i) {
@@ -84,9 +82,7 @@ class HeldBoard::Shot {
     for (int k = 0; k < kSamples; ++k)
       at_.emplace_back(eye.view, between(opened, closed, (k + 0.5) / kSamples));
     const BoardPose middle = between(opened, closed, 0.5);
-    const Vec3 normal{middle.world_from_board.row[0].z, middle.world_from_board.row[1].z,
-                      middle.world_from_board.row[2].z};
-    lit_ = 0.55 + 0.45 * std::abs(dot(normal, normalised(middle.origin_mm - Vec3{-200, -200, 0})));
+    lit_ = 0.55 + 0.45 * std::abs(dot(middle.normal(), normalised(middle.origin_mm - Vec3{-200, -200, 0})));
     frame(opened);
     frame(closed);
   }
@@ -152,13 +148,9 @@ class HeldBoard::Shot {
 };
 
 BoardPose HeldPlace::pose(const BoardPattern& pattern) const {
-  const Vec3 middle{0.5 * (pattern.corners_x - 1) * pattern.square_mm,
-                    0.5 * (pattern.corners_y - 1) * pattern.square_mm, 0};
-  BoardPose pose;
-  pose.world_from_board = rotation(0, -radians(yaw_deg), 0) *
-                          (rotation(radians(pitch_deg), 0, 0) * rotation(0, 0, radians(roll_deg)));
-  pose.origin_mm = Vec3{right_mm, down_mm, distance_mm} - pose.world_from_board * middle;
-  return pose;
+  const Mat3 turn = rotation(0, -radians(yaw_deg), 0) *
+                    (rotation(radians(pitch_deg), 0, 0) * rotation(0, 0, radians(roll_deg)));
+  return with_middle_at({right_mm, down_mm, distance_mm}, turn, pattern);
 }
 
 HeldBoard::HeldBoard(const RigOptions& rig, const BoardPattern& pattern, const SensorOptions& sensor,

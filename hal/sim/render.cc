@@ -42,6 +42,76 @@ void append(std::vector<std::byte>& out, std::span<const T> values) {
 }
 void append_text(std::vector<std::byte>& out, const std::string& s) { append<char>(out, s); }
 
+// The board turned as a head in the same pose would be, its middle on the left camera's axis.
+BoardPose board_pose(const SimRig& rig, const BoardPattern& b, const HeadPose& at) {
+  const Vec3 aim = rig.left.ray((rig.left.width_px - 1) / 2.0, (rig.left.height_px - 1) / 2.0);
+  return with_middle_at(rig.left.centre() + aim * at.distance_mm + Vec3{at.right_mm, at.down_mm, 0},
+                        rotation(radians(at.pitch_deg), radians(at.yaw_deg), radians(at.roll_deg)), b);
+}
+
+Result<void> render_boards(const SimulationOptions& o, const SimRig& rig, const std::filesystem::path& folder,
+                           ThreadPool& pool) {
+  std::vector<BoardPose> poses{board_pose(rig, o.board, o.pose)};
+  if (!o.board_in_this_pose) {
+    RELIEVO_TRY_ASSIGN(poses, good_board_poses(rig, o.board, o.board_poses, o.seed, o.pose.distance_mm));
+  }
+  SensorOptions sensor = o.sensor;
+  sensor.grey = true;
+  for (std::size_t k = 0; k < poses.size(); ++k) {
+    const BoardScene scene(o.board, poses[k], o.board_look, 1 / rig.left.fx_px);
+    RELIEVO_TRY(write_pair(render_pair(scene, rig, sensor, o.seed * 1000ULL + k, pool), folder,
+                           text("_%02d", int(k))));
+  }
+  return {};
+}
+
+// A head's pair with what is true of it.
+Result<void> write_head(const Scene& scene, const SimulationOptions& o, const SimRig& rig,
+                        std::uint64_t noise_seed, const std::filesystem::path& folder, ThreadPool& pool) {
+  RELIEVO_TRY(write_pair(render_pair(scene, rig, o.sensor, noise_seed, pool), folder));
+  if (!o.truth) return {};
+  RELIEVO_TRY(write_truth(folder / "truth.bin", measure_truth(scene, rig, pool)));
+  return write_mesh(folder / "head.ply", scene.solid_mesh());
+}
+
+Result<void> render_head(const SimulationOptions& o, const SimRig& rig, const std::filesystem::path& folder,
+                         ThreadPool& pool) {
+  const auto scene = make_head_scene(make_head(traits_of(o.seed), pool), o.pose, pool);
+  return write_head(*scene, o, rig, o.seed * 1000ULL, folder, pool);
+}
+
+// Between two pairs somebody's lips, jaw and lids move a little.
+void let_drift(Expression& face, double drift, std::mt19937& random) {
+  std::uniform_real_distribution<double> upto_one(0, 1);
+  face.smile = 0.08 * drift * upto_one(random);
+  face.jaw_mm = 0.8 * drift * upto_one(random);
+  face.lids_open = 1 - 0.15 * drift * upto_one(random);
+}
+
+Result<void> render_visit(const SimulationOptions& o, const SimRig& rig, const std::filesystem::path& folder,
+                          ThreadPool& pool) {
+  constexpr std::array<std::array<double, 2>, 6> kTurnsDeg{
+      {{0, 0}, {-25, 0}, {25, 0}, {-45, 0}, {45, 0}, {0, 15}}};
+  HeadTraits traits = traits_of(o.seed);
+  if (o.alive == Alive::CastEyesClosed) traits.expression.lids_open = 0;
+  std::shared_ptr<const HeadModel> head = make_head(traits, pool);
+  std::mt19937 random(o.seed);
+  for (std::size_t k = 0; k < kTurnsDeg.size(); ++k) {
+    if (k > 0 && o.drift > 0 && o.alive == Alive::Person) {
+      let_drift(traits.expression, o.drift, random);
+      head = make_head(traits, pool);
+    }
+    HeadPose pose = turned_about_neck(o.pose, kTurnsDeg[k][0]);
+    pose.pitch_deg += kTurnsDeg[k][1];
+    pose.eyes_follow = o.alive == Alive::Person;
+    const std::filesystem::path own = folder / std::to_string(k);
+    RELIEVO_TRY(make_folder(own));
+    RELIEVO_TRY(write_rig(own / "rig.yml", rig));
+    RELIEVO_TRY(write_head(*make_head_scene(head, pose, pool), o, rig, o.seed * 1000ULL + k, own, pool));
+  }
+  return {};
+}
+
 }  // namespace
 
 Truth measure_truth(const Scene& scene, const SimRig& rig, ThreadPool& pool) {
@@ -91,92 +161,18 @@ Result<void> write_mesh(const std::filesystem::path& file, const Mesh& mesh) {
   return write_whole_file(file, out);
 }
 
-namespace {
-
 Result<void> write_pair(const PicturePair& pair, const std::filesystem::path& folder,
-                        const std::string& number) {
-  RELIEVO_TRY(write_picture(folder / ("left" + number + ".png"), pair.left.view()));
-  return write_picture(folder / ("right" + number + ".png"), pair.right.view());
+                        const std::string& behind) {
+  RELIEVO_TRY(write_picture(folder / ("left" + behind + ".png"), pair.left.view()));
+  return write_picture(folder / ("right" + behind + ".png"), pair.right.view());
 }
 
-// The board turned as a head in the same pose would be, its middle on the left camera's axis.
-BoardPose board_pose(const SimRig& rig, const BoardPattern& b, const HeadPose& at) {
-  constexpr double kRadians = 3.14159265358979323846 / 180;
-  const Vec3 middle{(b.corners_x - 1) * b.square_mm / 2, (b.corners_y - 1) * b.square_mm / 2, 0};
-  const Vec3 aim = rig.left.ray((rig.left.width_px - 1) / 2.0, (rig.left.height_px - 1) / 2.0);
-  BoardPose pose;
-  pose.world_from_board = rotation(at.pitch_deg * kRadians, at.yaw_deg * kRadians, at.roll_deg * kRadians);
-  pose.origin_mm = rig.left.centre() + aim * at.distance_mm + Vec3{at.right_mm, at.down_mm, 0} -
-                   pose.world_from_board * middle;
-  return pose;
-}
-
-Result<void> render_boards(const SimulationOptions& o, const SimRig& rig, const std::filesystem::path& folder,
-                           ThreadPool& pool) {
-  std::vector<BoardPose> poses{board_pose(rig, o.board, o.pose)};
-  if (!o.board_in_this_pose) {
-    RELIEVO_TRY_ASSIGN(poses, good_board_poses(rig, o.board, o.board_poses, o.seed, o.pose.distance_mm));
-  }
-  SensorOptions sensor = o.sensor;
-  sensor.grey = true;
-  for (std::size_t k = 0; k < poses.size(); ++k) {
-    const BoardScene scene(o.board, poses[k], o.board_look, 1 / rig.left.fx_px);
-    RELIEVO_TRY(write_pair(render_pair(scene, rig, sensor, o.seed * 1000ULL + k, pool), folder,
-                           text("_%02d", int(k))));
-  }
+Result<void> make_folder(const std::filesystem::path& folder) {
+  std::error_code failed;
+  std::filesystem::create_directories(folder, failed);
+  if (failed) return Error{Errc::IoFailed, "cannot make this folder", failed.value()}.at(folder.native());
   return {};
 }
-
-// A head's pair with what is true of it.
-Result<void> write_head(const Scene& scene, const SimulationOptions& o, const SimRig& rig,
-                        std::uint64_t noise_seed, const std::filesystem::path& folder, ThreadPool& pool) {
-  RELIEVO_TRY(write_pair(render_pair(scene, rig, o.sensor, noise_seed, pool), folder, ""));
-  if (!o.truth) return {};
-  RELIEVO_TRY(write_truth(folder / "truth.bin", measure_truth(scene, rig, pool)));
-  return write_mesh(folder / "head.ply", scene.solid_mesh());
-}
-
-Result<void> render_head(const SimulationOptions& o, const SimRig& rig, const std::filesystem::path& folder,
-                         ThreadPool& pool) {
-  const auto scene = make_head_scene(make_head(traits_of(o.seed), pool), o.pose, pool);
-  return write_head(*scene, o, rig, o.seed * 1000ULL, folder, pool);
-}
-
-// Between two pairs somebody's lips, jaw and lids move a little.
-void let_drift(Expression& face, double drift, std::mt19937& random) {
-  std::uniform_real_distribution<double> upto_one(0, 1);
-  face.smile = 0.08 * drift * upto_one(random);
-  face.jaw_mm = 0.8 * drift * upto_one(random);
-  face.lids_open = 1 - 0.15 * drift * upto_one(random);
-}
-
-Result<void> render_visit(const SimulationOptions& o, const SimRig& rig, const std::filesystem::path& folder,
-                          ThreadPool& pool) {
-  constexpr std::array<std::array<double, 2>, 6> kTurnsDeg{
-      {{0, 0}, {-25, 0}, {25, 0}, {-45, 0}, {45, 0}, {0, 15}}};
-  HeadTraits traits = traits_of(o.seed);
-  if (o.alive == Alive::CastEyesClosed) traits.expression.lids_open = 0;
-  std::shared_ptr<const HeadModel> head = make_head(traits, pool);
-  std::mt19937 random(o.seed);
-  for (std::size_t k = 0; k < kTurnsDeg.size(); ++k) {
-    if (k > 0 && o.drift > 0 && o.alive == Alive::Person) {
-      let_drift(traits.expression, o.drift, random);
-      head = make_head(traits, pool);
-    }
-    HeadPose pose = turned_about_neck(o.pose, kTurnsDeg[k][0]);
-    pose.pitch_deg += kTurnsDeg[k][1];
-    pose.eyes_follow = o.alive == Alive::Person;
-    const std::filesystem::path own = folder / std::to_string(k);
-    std::error_code failed;
-    std::filesystem::create_directories(own, failed);
-    if (failed) return Error{Errc::IoFailed, "cannot make this folder", failed.value()}.at(own.native());
-    RELIEVO_TRY(write_rig(own / "rig.yml", rig));
-    RELIEVO_TRY(write_head(*make_head_scene(head, pose, pool), o, rig, o.seed * 1000ULL + k, own, pool));
-  }
-  return {};
-}
-
-}  // namespace
 
 Result<void> SimulationOptions::check() const {
   RELIEVO_TRY(rig.check());
@@ -204,9 +200,7 @@ PicturePair render_pair(const Scene& scene, const SimRig& rig, const SensorOptio
 Result<void> render_to_folder(const SimulationOptions& options, const std::filesystem::path& folder,
                               int threads) {
   RELIEVO_TRY(options.check());
-  std::error_code failed;
-  std::filesystem::create_directories(folder, failed);
-  if (failed) return Error{Errc::IoFailed, "cannot make this folder", failed.value()}.at(folder.native());
+  RELIEVO_TRY(make_folder(folder));
   ThreadPool pool(threads);
   const SimRig rig = make_rig(options.rig);
   RELIEVO_TRY(write_rig(folder / "rig.yml", rig));

@@ -7,7 +7,7 @@
 
 #include <cstdint>
 #include <filesystem>
-#include <memory>
+#include <string>
 #include <vector>
 
 #include "hal/base/result.h"
@@ -67,6 +67,11 @@ struct PicturePair {
 
 PicturePair render_pair(const Scene& scene, const SimRig& rig, const SensorOptions& sensor,
                         std::uint64_t noise_seed, ThreadPool& pool);
+
+// left.png and right.png, something behind left and right.
+Result<void> write_pair(const PicturePair& pair, const std::filesystem::path& folder,
+                        const std::string& behind = {});
+Result<void> make_folder(const std::filesystem::path& folder);  // with the way to it
 
 // Head: left.png right.png rig.yml; board: left_NN.png right_NN.png rig.yml; visit: a folder each for the
 // front, 25 and 45 degrees to both sides, and 15 down, `0` to `5`, as of a head. Makes the folder. `threads`

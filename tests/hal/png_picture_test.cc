@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: 2026 The Relievo authors
 // SPDX-License-Identifier: GPL-3.0-or-later
 // PNG pictures of the kinds that others write and we do not, written here by libpng itself.
-#include "hal/png_picture.h"
+#include "hal/picture_file.h"
 
 #include <gtest/gtest.h>
 #include <png.h>

@@ -39,7 +39,7 @@ class GpioTriggerLine final : public TriggerLine {
  public:
   GpioTriggerLine(std::unique_ptr<OutputLines> lines, const GpioTiming& timing, const Clock& clock,
                   Waiter& waiter = busy_waiter())
-      : TriggerLine(clock), lines_(std::move(lines)), timing_(timing), clock_(clock), waiter_(waiter) {}
+      : TriggerLine(clock), lines_(std::move(lines)), timing_(timing), waiter_(waiter) {}
 
   bool lights_with_every_pulse() const override { return timing_.lamp_on_trigger_wire; }
 
@@ -50,7 +50,6 @@ class GpioTriggerLine final : public TriggerLine {
 
   std::unique_ptr<OutputLines> lines_;
   GpioTiming timing_;
-  const Clock& clock_;
   Waiter& waiter_;
 };
 

@@ -173,8 +173,7 @@ double brow_hair(const HeadField& field, Vec3 p) {
 
 double beard_area(const HeadTraits& t, Vec3 p) {
   const double sto = stomion_y(t), sn = subnasale_y(t);
-  const double jaw = smoothstep(
-      sto + 16, sto - 6, p.y + 0.5 * std::max(0.0, 42 - std::abs(p.x)) * 0 - 0.30 * (std::abs(p.x) - 30));
+  const double jaw = smoothstep(sto + 16, sto - 6, p.y - 0.30 * (std::abs(p.x) - 30));
   const double moustache = bell(std::abs(p.x), 26, p.y - (sn + sto) / 2 - 1, 8.5);
   return clamp01(std::max(jaw, moustache)) * smoothstep(-25, 5, p.z) *
          smoothstep(gnathion_y(t) - 45, gnathion_y(t) - 15, p.y);

@@ -81,15 +81,6 @@ class HeadModel {
   void measure_openness(ThreadPool& pool);
 };
 
-// Interpolates over a triangle: weights 1 - u - v, u, v.
-template <typename T>
-T blend_corners(const std::vector<T>& values, const std::array<std::uint32_t, 3>& corner, double u,
-                double v) {
-  using Number = std::conditional_t<std::is_same_v<T, float>, float, double>;
-  return values[corner[0]] * static_cast<Number>(1 - u - v) + values[corner[1]] * static_cast<Number>(u) +
-         values[corner[2]] * static_cast<Number>(v);
-}
-
 // Averages each value with its neighbours': takes the grain out of sampled light.
 void smooth_over(const Mesh& mesh, std::vector<float>& values, int times);
 

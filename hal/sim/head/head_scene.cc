@@ -16,7 +16,6 @@ namespace {
 // panel a vertex sees is measured once. All in the head frame, mm.
 class HeadLight {
  public:
-  static constexpr std::size_t kPanels = sim::kPanels;
   HeadLight(const HeadModel& model, const HeadPose& pose, ThreadPool& pool, const HeadLighting& lighting);
 
   struct Point {
@@ -85,9 +84,8 @@ void HeadLight::measure(const HeadModel& model, std::size_t shell_index, std::si
   smooth_over(shell.mesh, seen, 4);
 }
 
-std::array<double, HeadLight::kPanels> HeadLight::seen(std::size_t shell,
-                                                       const std::array<std::uint32_t, 3>& corner, double u,
-                                                       double v) const {
+std::array<double, kPanels> HeadLight::seen(std::size_t shell, const std::array<std::uint32_t, 3>& corner,
+                                            double u, double v) const {
   std::array<double, kPanels> out{};
   for (std::size_t k = 0; k < kPanels; ++k) out[k] = double(blend_corners(seen_[shell][k], corner, u, v));
   return out;
@@ -283,7 +281,7 @@ Vec3 HeadScene::hair(const Hit& hit, Vec3 at, Vec3 d) const {
   const double along = mix(double(hair.along[first]), double(hair.along[first + 1]), hit.u);
   p.openness = scalp ? mix(0.25, 1, along) : 0.8;
   // Only the two main panels cast shadows on hair: rays are dear where every pixel takes many.
-  for (std::size_t k = 0; k < HeadLight::kPanels; ++k)
+  for (std::size_t k = 0; k < kPanels; ++k)
     p.seen[k] = (k < 2 ? light_.seen_from(*head_, at, k) : 0.5) * (scalp ? mix(0.45, 1, along) : 0.9);
   const Vec3 colour = head_->traits.hair * double(hair.tint[first]) * (scalp ? 1.0 : 0.8);
   return light_.on_hair(p, normalised(b - a), colour);

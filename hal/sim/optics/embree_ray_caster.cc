@@ -10,8 +10,6 @@
 namespace relievo::hal::sim {
 namespace {
 
-constexpr unsigned kSolidMask = 1, kStrandMask = 2;
-
 template <typename T>
 T* new_buffer(RTCGeometry geometry, RTCBufferType type, RTCFormat format, std::size_t count) {
   void* place = rtcSetNewGeometryBuffer(geometry, type, 0, format, sizeof(T), count);
@@ -19,12 +17,25 @@ T* new_buffer(RTCGeometry geometry, RTCBufferType type, RTCFormat format, std::s
   return static_cast<T*>(place);
 }
 
-int attach(RTCScene scene, RTCGeometry geometry, unsigned mask) {
-  rtcSetGeometryMask(geometry, mask);
+int attach(RTCScene scene, RTCGeometry geometry) {
   rtcCommitGeometry(geometry);
   const unsigned id = rtcAttachGeometry(scene, geometry);
   rtcReleaseGeometry(geometry);
   return int(id);
+}
+
+bool cast_in(RTCScene scene, Vec3 o, Vec3 d, float far, int first_id, Hit& hit) {
+  RTCIntersectContext context{};
+  rtcInitIntersectContext(&context);
+  RTCRayHit r{};
+  r.ray.org_x = float(o.x), r.ray.org_y = float(o.y), r.ray.org_z = float(o.z);
+  r.ray.dir_x = float(d.x), r.ray.dir_y = float(d.y), r.ray.dir_z = float(d.z);
+  r.ray.tnear = 0.01F, r.ray.tfar = far, r.ray.mask = ~0U;
+  r.hit.geomID = RTC_INVALID_GEOMETRY_ID;
+  rtcIntersect1(scene, &context, &r);
+  if (r.hit.geomID == RTC_INVALID_GEOMETRY_ID) return false;
+  hit = {double(r.ray.tfar), first_id + int(r.hit.geomID), r.hit.primID, double(r.hit.u), double(r.hit.v)};
+  return true;
 }
 
 }  // namespace
@@ -58,7 +69,7 @@ int RayCaster::add(const Mesh& mesh) {
   auto* corners = new_buffer<std::array<std::uint32_t, 3>>(g, RTC_BUFFER_TYPE_INDEX, RTC_FORMAT_UINT3,
                                                            mesh.triangles.size());
   std::ranges::copy(mesh.triangles, corners);
-  return attach(scene_->solid, g, kSolidMask);
+  return attach(scene_->solid, g);
 }
 
 int RayCaster::add(const Strands& strands) {
@@ -68,31 +79,13 @@ int RayCaster::add(const Strands& strands) {
   auto* pieces = new_buffer<std::uint32_t>(g, RTC_BUFFER_TYPE_INDEX, RTC_FORMAT_UINT, strands.pieces.size());
   std::ranges::copy(strands.pieces, pieces);
   scene_->has_hair = true;
-  return 1000 + attach(scene_->hair, g, kStrandMask);
+  return 1000 + attach(scene_->hair, g);
 }
 
 void RayCaster::commit() {
   rtcCommitScene(scene_->solid);
   rtcCommitScene(scene_->hair);
 }
-
-namespace {
-
-bool cast_in(RTCScene scene, Vec3 o, Vec3 d, float far, int first_id, Hit& hit) {
-  RTCIntersectContext context{};
-  rtcInitIntersectContext(&context);
-  RTCRayHit r{};
-  r.ray.org_x = float(o.x), r.ray.org_y = float(o.y), r.ray.org_z = float(o.z);
-  r.ray.dir_x = float(d.x), r.ray.dir_y = float(d.y), r.ray.dir_z = float(d.z);
-  r.ray.tnear = 0.01F, r.ray.tfar = far, r.ray.mask = ~0U;
-  r.hit.geomID = RTC_INVALID_GEOMETRY_ID;
-  rtcIntersect1(scene, &context, &r);
-  if (r.hit.geomID == RTC_INVALID_GEOMETRY_ID) return false;
-  hit = {double(r.ray.tfar), first_id + int(r.hit.geomID), r.hit.primID, double(r.hit.u), double(r.hit.v)};
-  return true;
-}
-
-}  // namespace
 
 bool RayCaster::cast(Vec3 origin, Vec3 direction, Hit& hit, Against against) const {
   bool found = cast_in(scene_->solid, origin, direction, float(kFar), 0, hit);

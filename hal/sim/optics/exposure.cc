@@ -66,8 +66,6 @@ void blur(LightPicture& picture, double deviation_px, ThreadPool& pool) {
   }
 }
 
-double srgb(double v) { return v <= 0.0031308 ? 12.92 * v : 1.055 * std::pow(v, 1 / 2.4) - 0.055; }
-
 std::uint8_t to_byte_by_power(double v) { return std::uint8_t(std::lround(255 * srgb(clamp01(v)))); }
 
 // to_byte_by_power() without a power a value: the least light of every byte, found once by bisection.
@@ -104,6 +102,8 @@ std::uint8_t to_byte(double v, bool gamma) {
 }
 
 }  // namespace
+
+double srgb(double v) { return v <= 0.0031308 ? 12.92 * v : 1.055 * std::pow(v, 1 / 2.4) - 0.055; }
 
 LightPicture expose(const Scene& scene, const SimView& view, const SensorOptions& sensor, ThreadPool& pool) {
   LightPicture out{view.width_px, view.height_px, {}};

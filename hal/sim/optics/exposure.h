@@ -31,6 +31,7 @@ struct SensorOptions {
   bool grey = false;
 };
 
+double srgb(double light);  // of linear light, both 0 to 1
 // A fixed grid of samples a pixel, more where bodies meet or hair runs.
 LightPicture expose(const Scene& scene, const SimView& view, const SensorOptions& sensor, ThreadPool& pool);
 Picture read_sensor(const LightPicture& light, const SensorOptions& sensor, std::uint64_t noise_seed);

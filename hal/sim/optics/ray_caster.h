@@ -7,9 +7,8 @@
 
 #include <array>
 #include <cstdint>
-#include <limits>
 #include <memory>
-#include <span>
+#include <type_traits>
 #include <vector>
 
 #include "hal/sim/base/vec3.h"
@@ -21,7 +20,21 @@ struct Mesh {  // millimetres
   std::vector<std::array<std::uint32_t, 3>> triangles;
 };
 
-// Straight pieces: strand i runs through points[first .. first + count).
+inline Vec3 point_of(const Mesh& mesh, std::size_t i) {
+  const auto& p = mesh.points[i];
+  return {double(p[0]), double(p[1]), double(p[2])};
+}
+inline std::array<float, 3> to_floats(Vec3 p) { return {float(p.x), float(p.y), float(p.z)}; }
+
+// Interpolates over a triangle: weights 1 - u - v, u, v.
+template <typename T>
+T blend_corners(const std::vector<T>& values, const std::array<std::uint32_t, 3>& corner, double u,
+                double v) {
+  using Number = std::conditional_t<std::is_same_v<T, float>, float, double>;
+  return values[corner[0]] * static_cast<Number>(1 - u - v) + values[corner[1]] * static_cast<Number>(u) +
+         values[corner[2]] * static_cast<Number>(v);
+}
+
 struct Strands {
   struct Node {
     float x, y, z, radius_mm;

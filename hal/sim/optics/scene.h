@@ -31,7 +31,7 @@ class Scene {
   virtual RayHit look(Vec3 origin, Vec3 direction) const = 0;
   virtual bool solid(Vec3 origin, Vec3 direction, SolidPoint& out) const = 0;
   virtual bool blocked(Vec3 from, Vec3 direction, double far_mm) const = 0;
-  virtual Mesh solid_mesh() const = 0;  // in world, for head.ply
+  virtual Mesh solid_mesh() const { return {}; }  // in world, for head.ply
 };
 
 }  // namespace relievo::hal::sim

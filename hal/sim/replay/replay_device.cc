@@ -2,7 +2,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "hal/sim/replay/replay_device.h"
 
-#include <cctype>
 #include <map>
 #include <system_error>
 
@@ -10,8 +9,7 @@ namespace relievo::hal {
 namespace {
 
 bool is_picture(const std::filesystem::path& file) {
-  std::string e = file.extension().native();
-  for (char& c : e) c = char(std::tolower(static_cast<unsigned char>(c)));
+  const std::string e = lower_extension(file);
   return e == ".png" || e == ".jpg" || e == ".jpeg";
 }
 
@@ -23,7 +21,8 @@ Result<std::vector<PicturePairFiles>> find_picture_pairs(const std::filesystem::
   if (failed)
     return Error{Errc::NotFound, "there is no such folder of pictures", failed.value()}.at(folder.native());
   std::map<std::string, PicturePairFiles> by_rest;  // sorted by name
-  for (const auto& entry : entries) {
+  for (const std::filesystem::directory_iterator end; entries != end && !failed; entries.increment(failed)) {
+    const std::filesystem::directory_entry& entry = *entries;
     const std::string stem = entry.path().stem().native();
     if (!is_picture(entry.path()) || !entry.is_regular_file(failed)) continue;
     const bool left = stem.starts_with("left"), right = stem.starts_with("right");
@@ -37,6 +36,8 @@ Result<std::vector<PicturePairFiles>> find_picture_pairs(const std::filesystem::
     mine = entry.path();
     pair.rest = rest;
   }
+  if (failed)
+    return Error{Errc::IoFailed, "this folder cannot be read to its end", failed.value()}.at(folder.native());
   if (by_rest.empty())
     return Error{Errc::NotFound, "this folder holds no left* and right* pictures (png or jpg)"}.at(
         folder.native());

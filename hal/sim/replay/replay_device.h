@@ -29,7 +29,6 @@ namespace relievo::hal {
 // The left and right pictures of a folder, paired by what follows "left" and "right" in their
 // names, in name order. Errors: NotFound (no folder, no picture), InvalidInput (no partner).
 // Thread: any.
-
 struct PicturePairFiles {
   std::filesystem::path left, right;
   std::string rest;  // between "left" and the extension: "_000001"
@@ -42,7 +41,7 @@ Result<std::vector<PicturePairFiles>> find_picture_pairs(const std::filesystem::
 // Thread: any.
 class SilentTrigger final : public TriggerLine {
  public:
-  explicit SilentTrigger(const Clock& clock) : TriggerLine(clock), clock_(clock) {}
+  using TriggerLine::TriggerLine;
 
   struct Pulse {
     std::uint32_t number = 0;  // counts from 1
@@ -55,15 +54,10 @@ class SilentTrigger final : public TriggerLine {
  private:
   Result<void> do_pulse(std::chrono::microseconds width, Light light) override;
 
-  const Clock& clock_;
   mutable std::mutex mutex_;
   std::condition_variable pulsed_;
   Pulse last_;
 };
-
-// ReplayCamera: a camera whose exposures come from a PairSource: files, or the simulated rig. One
-// frame per trigger pulse, the same pulse for both cameras; three buffers, as a sensor driver has.
-// Thread: capture.
 
 // Makes the picture of exposure number `number` (from 1). Both cameras ask for each number.
 class PairSource {
@@ -79,6 +73,8 @@ class PairSource {
   virtual void turn_head(double /*yaw_deg*/) {}
 };
 
+// A camera whose exposures come from a PairSource: files, or the simulated rig. One frame per trigger pulse,
+// the same pulse for both cameras; three buffers, as a sensor driver has. Thread: capture.
 class ReplayCamera : public Camera {
  public:
   ReplayCamera(PairSource& source, PairSource::Side side, SilentTrigger& trigger,
@@ -103,12 +99,6 @@ class ReplayCamera : public Camera {
   CaptureMode only_mode_;
   std::uint32_t seen_ = 0;
   std::array<Buffer, kBuffers> buffers_;
-};
-
-// NullWatchdog: bites nobody. Thread: any.
-class NullWatchdog final : public Watchdog {
- public:
-  void kick() override {}
 };
 
 class ReplayDevice final : public Device {

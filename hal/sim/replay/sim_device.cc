@@ -54,8 +54,7 @@ class RenderedSource final : public PairSource {
   Result<Exposure> expose(Side side, std::uint32_t number) override {
     const std::lock_guard lock(mutex_);
     if (poses_.empty())
-      return Exposure{(*shown_)[2 * (number % kRolls) + (side == Side::Left ? 0 : 1)],
-                      std::chrono::nanoseconds(0)};
+      return Exposure{(*shown_)[2 * (number % kRolls) + std::size_t(side)], std::chrono::nanoseconds(0)};
     const std::size_t pose = (number - 1) % poses_.size();
     if (pose != pose_) expose_both(pose);
     return Exposure{roll(side, number), std::chrono::nanoseconds(0)};
@@ -129,8 +128,7 @@ class RenderedSource final : public PairSource {
     sim::SensorOptions sensor = o_.sensor;
     sensor.grey = o_.scene == sim::SceneKind::Board;
     const sim::LightPicture& light = side == Side::Left ? left_ : right_;
-    return sim::read_sensor(light, sensor,
-                            o_.seed * 100000ULL + 2ULL * number + (side == Side::Left ? 0 : 1));
+    return sim::read_sensor(light, sensor, o_.seed * 100000ULL + 2ULL * number + std::uint64_t(side));
   }
 
   void expose_both(std::size_t pose) {

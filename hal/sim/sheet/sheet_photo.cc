@@ -3,7 +3,6 @@
 #include "hal/sim/sheet/sheet_photo.h"
 
 #include <cmath>
-#include <system_error>
 #include <vector>
 
 namespace relievo::hal::sim {
@@ -48,59 +47,6 @@ Vec3 cone(double s, double t, double radius, double apex) {
           along * (slant * (sine * sine * std::cos(turn) + cosine * cosine) - std::abs(apex)),
           radius > 0 ? away : -away};
 }
-
-}  // namespace
-
-Result<void> SheetBend::check() const {
-  if (radius_mm != 0 && !(std::abs(radius_mm) >= kLeastRadiusMm))
-    return Error{Errc::InvalidInput, "a sheet bends to a radius of 30 mm and no closer; 0 is flat"};
-  if (!std::isfinite(radius_mm) || !std::isfinite(axis_deg))
-    return Error{Errc::InvalidInput, "a sheet's bend must be finite"};
-  if (apex_mm != 0 && !(std::abs(apex_mm) >= 250))
-    return Error{Errc::InvalidInput, "a cone's apex lies 250 mm from the sheet's middle or further"};
-  if (wave_mm != 0 && !(wave_mm >= 60))
-    return Error{Errc::InvalidInput, "a sheet's wave is 60 mm long or longer"};
-  if (apex_mm != 0 && wave_mm != 0)
-    return Error{Errc::InvalidInput, "a sheet is bent to a cone or in waves, not both"};
-  return {};
-}
-
-Vec3 bent(const SheetBend& bend, double u, double v) {
-  if (bend.radius_mm == 0) return {u, v, 0};
-  const double c = std::cos(radians(bend.axis_deg)), d = std::sin(radians(bend.axis_deg));
-  const double s = c * u + d * v, t = -d * u + c * v;
-  Vec3 p;
-  if (bend.apex_mm != 0) {
-    p = cone(s, t, bend.radius_mm, bend.apex_mm);
-  } else {
-    const Arc a = bend.wave_mm > 0 ? wave(s, bend.radius_mm, bend.wave_mm) : arc(s, bend.radius_mm);
-    p = {a.across, t, a.away};
-  }
-  return {c * p.x - d * p.y, d * p.x + c * p.y, p.z};
-}
-
-SheetMesh make_sheet(const SheetSize& size, const SheetBend& bend) {
-  const int columns = 1 + int(std::ceil(size.width_mm / kStepMm)),
-            rows = 1 + int(std::ceil(size.height_mm / kStepMm));
-  SheetMesh out;
-  for (int j = 0; j < rows; ++j)
-    for (int i = 0; i < columns; ++i) {
-      const double u = size.width_mm * (double(i) / (columns - 1) - 0.5),
-                   v = size.height_mm * (double(j) / (rows - 1) - 0.5);
-      const Vec3 p = bent(bend, u, v);
-      out.mesh.points.push_back({float(p.x), float(p.y), float(p.z)});
-      out.paper_mm.push_back({float(u), float(v)});
-    }
-  for (int j = 0; j + 1 < rows; ++j)
-    for (int i = 0; i + 1 < columns; ++i) {
-      const auto a = std::uint32_t(j * columns + i), below = a + std::uint32_t(columns);
-      out.mesh.triangles.push_back({a, a + 1, below});
-      out.mesh.triangles.push_back({a + 1, below + 1, below});
-    }
-  return out;
-}
-
-namespace {
 
 constexpr double kScreenBlack = 0.004;  // light that a screen lets through where it shows black
 
@@ -147,10 +93,8 @@ class SheetScene final : public Scene {
         panels_(lamp_panels(o.lamps)) {
     const Mat3 turn = rotation(radians(o.pose.pitch_deg), radians(-o.pose.yaw_deg), radians(o.pose.roll_deg));
     const Vec3 middle{o.pose.right_mm, o.pose.down_mm, o.pose.distance_mm};
-    for (auto& p : sheet_.mesh.points) {
-      const Vec3 q = turn * Vec3{double(p[0]), double(p[1]), double(p[2])} + middle;
-      p = {float(q.x), float(q.y), float(q.z)};
-    }
+    for (std::size_t i = 0; i < sheet_.mesh.points.size(); ++i)
+      sheet_.mesh.points[i] = to_floats(turn * point_of(sheet_.mesh, i) + middle);
     smooth_normals();
     caster_.add(sheet_.mesh);
     caster_.commit();
@@ -160,7 +104,7 @@ class SheetScene final : public Scene {
     Hit hit;
     if (!caster_.cast(origin, direction, hit)) return {room_light(direction), RayCaster::kFar, -1, false};
     const Vec3 at = origin + direction * hit.distance_mm;
-    Vec3 normal = normalised(at_hit(hit, normals_));
+    Vec3 normal = normal_at(hit);
     const bool back = dot(normal, direction) > 0;
     if (back) normal = -normal;
     return {light(hit, at, normal, direction, back), hit.distance_mm, 0, false};
@@ -169,7 +113,7 @@ class SheetScene final : public Scene {
     Hit hit;
     if (!caster_.cast(origin, direction, hit)) return false;
     out.point = origin + direction * hit.distance_mm;
-    out.normal = normalised(at_hit(hit, normals_));
+    out.normal = normal_at(hit);
     if (dot(out.normal, direction) > 0) out.normal = -out.normal;
     out.skin = true;
     return true;
@@ -180,21 +124,17 @@ class SheetScene final : public Scene {
   Mesh solid_mesh() const override { return sheet_.mesh; }
 
  private:
-  Vec3 point(std::uint32_t i) const {
-    const auto& p = sheet_.mesh.points[i];
-    return {double(p[0]), double(p[1]), double(p[2])};
-  }
   // Facets would each mirror a lamp of their own.
   void smooth_normals() {
     normals_.resize(sheet_.mesh.points.size());
     for (const auto& t : sheet_.mesh.triangles) {
-      const Vec3 n = -cross(point(t[1]) - point(t[0]), point(t[2]) - point(t[0]));
+      const Vec3 a = point_of(sheet_.mesh, t[0]);
+      const Vec3 n = -cross(point_of(sheet_.mesh, t[1]) - a, point_of(sheet_.mesh, t[2]) - a);
       for (const std::uint32_t i : t) normals_[i] += n;
     }
   }
-  Vec3 at_hit(const Hit& hit, const std::vector<Vec3>& values) const {
-    const auto& t = sheet_.mesh.triangles[hit.primitive];
-    return values[t[0]] * (1 - hit.u - hit.v) + values[t[1]] * hit.u + values[t[2]] * hit.v;
+  Vec3 normal_at(const Hit& hit) const {
+    return normalised(blend_corners(normals_, sheet_.mesh.triangles[hit.primitive], hit.u, hit.v));
   }
   Vec3 colour(const Hit& hit) const {
     const auto& t = sheet_.mesh.triangles[hit.primitive];
@@ -259,6 +199,54 @@ class SheetScene final : public Scene {
 
 }  // namespace
 
+Result<void> SheetBend::check() const {
+  if (radius_mm != 0 && !(std::abs(radius_mm) >= kLeastRadiusMm))
+    return Error{Errc::InvalidInput, "a sheet bends to a radius of 30 mm and no closer; 0 is flat"};
+  if (!std::isfinite(radius_mm) || !std::isfinite(axis_deg))
+    return Error{Errc::InvalidInput, "a sheet's bend must be finite"};
+  if (apex_mm != 0 && !(std::abs(apex_mm) >= 250))
+    return Error{Errc::InvalidInput, "a cone's apex lies 250 mm from the sheet's middle or further"};
+  if (wave_mm != 0 && !(wave_mm >= 60))
+    return Error{Errc::InvalidInput, "a sheet's wave is 60 mm long or longer"};
+  if (apex_mm != 0 && wave_mm != 0)
+    return Error{Errc::InvalidInput, "a sheet is bent to a cone or in waves, not both"};
+  return {};
+}
+
+Vec3 bent(const SheetBend& bend, double u, double v) {
+  if (bend.radius_mm == 0) return {u, v, 0};
+  const double c = std::cos(radians(bend.axis_deg)), d = std::sin(radians(bend.axis_deg));
+  const double s = c * u + d * v, t = -d * u + c * v;
+  Vec3 p;
+  if (bend.apex_mm != 0) {
+    p = cone(s, t, bend.radius_mm, bend.apex_mm);
+  } else {
+    const Arc a = bend.wave_mm > 0 ? wave(s, bend.radius_mm, bend.wave_mm) : arc(s, bend.radius_mm);
+    p = {a.across, t, a.away};
+  }
+  return {c * p.x - d * p.y, d * p.x + c * p.y, p.z};
+}
+
+SheetMesh make_sheet(const SheetSize& size, const SheetBend& bend) {
+  const int columns = 1 + int(std::ceil(size.width_mm / kStepMm)),
+            rows = 1 + int(std::ceil(size.height_mm / kStepMm));
+  SheetMesh out;
+  for (int j = 0; j < rows; ++j)
+    for (int i = 0; i < columns; ++i) {
+      const double u = size.width_mm * (double(i) / (columns - 1) - 0.5),
+                   v = size.height_mm * (double(j) / (rows - 1) - 0.5);
+      out.mesh.points.push_back(to_floats(bent(bend, u, v)));
+      out.paper_mm.push_back({float(u), float(v)});
+    }
+  for (int j = 0; j + 1 < rows; ++j)
+    for (int i = 0; i + 1 < columns; ++i) {
+      const auto a = std::uint32_t(j * columns + i), below = a + std::uint32_t(columns);
+      out.mesh.triangles.push_back({a, a + 1, below});
+      out.mesh.triangles.push_back({a + 1, below + 1, below});
+    }
+  return out;
+}
+
 Result<void> SheetLook::check() const {
   if (!(brightness > 0) || !(brightness <= 2))
     return Error{Errc::InvalidInput, "a sheet's white is 0 to 2 times a white surface's light"};
@@ -288,15 +276,11 @@ Result<void> photograph_sheet(const Picture& picture, const SheetPhotoOptions& o
                               const std::filesystem::path& folder) {
   RELIEVO_TRY(options.rig.check());
   RELIEVO_TRY_ASSIGN(const auto scene, make_sheet_scene(picture, options.sheet));
-  std::error_code failed;
-  std::filesystem::create_directories(folder, failed);
-  if (failed) return Error{Errc::IoFailed, "cannot make this folder", failed.value()}.at(folder.native());
+  RELIEVO_TRY(make_folder(folder));
   ThreadPool pool(options.threads);
   const SimRig rig = make_rig(options.rig);
   RELIEVO_TRY(write_rig(folder / "rig.yml", rig));
-  const PicturePair pair = render_pair(*scene, rig, options.sensor, options.seed * 1000ULL, pool);
-  RELIEVO_TRY(write_picture(folder / "left.png", pair.left.view()));
-  return write_picture(folder / "right.png", pair.right.view());
+  return write_pair(render_pair(*scene, rig, options.sensor, options.seed * 1000ULL, pool), folder);
 }
 
 }  // namespace relievo::hal::sim

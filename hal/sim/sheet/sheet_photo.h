@@ -1,8 +1,10 @@
 // SPDX-FileCopyrightText: 2026 The Relievo authors
 // SPDX-License-Identifier: GPL-3.0-or-later
 //
-// The rig's pictures of a picture, as files: what `relievo simulate photograph` writes.
-// Thread: any; makes `threads` - 1 of its own meanwhile.
+// The rig's pictures of a picture, as files: what `relievo simulate photograph` writes. The picture is
+// printed on paper, flat or bent, or shown on a screen, and held before the cameras: what a relief check has
+// to tell from a face. Lit by the kiosk's lamps; glossy paper and glass mirror them. Thread: any;
+// photograph_sheet() makes `threads` - 1 of its own meanwhile.
 #pragma once
 
 #include <cstdint>
@@ -21,13 +23,9 @@
 
 namespace relievo::hal::sim {
 
-// A picture held before the cameras: printed on paper, flat or bent, or shown on a screen. What a relief
-// check has to tell from a face. Lit by the kiosk's lamps; glossy paper and glass mirror them.
-// Thread: as Scene.
-
 // A sheet of paper, flat or bent: it bends without stretching (a developable surface), so lengths along
 // it stay what they are. Sheet frame: origin in its middle, x to the right and y down as who looks at it
-// sees them, z away from them, mm. Thread: any.
+// sees them, z away from them, mm.
 struct SheetBend {
   double radius_mm = 0;        // in the middle; + bulges towards who looks, - away; 0: flat
   double axis_deg = 0;         // of the straight lines that stay: 0 upright (as on a column), 90 lying

@@ -26,13 +26,8 @@ struct Lamp {
 constexpr std::array<Lamp, 2> kLamps{Lamp{{-330, -190, 40}, 0.62}, Lamp{{470, -200, 60}, 0.46}};
 constexpr double kReferenceMm = 640;  // where a lamp's power is what it says
 
-}  // namespace
-
-double speckle(Vec3 p, std::uint32_t seed) {
-  const double ink = std::max({dots(p, 0.9, seed), dots(p, 1.4, seed + 57), dots(p, 4.1, seed + 101)});
-  return mix(kPaper, kInk, ink) * (1 + 0.06 * value_noise(p * 0.09, seed + 7));
-}
-
+// How bright a matt surface stands there in world, times reflectance: two soft panels beside the cameras and
+// the room's own light.
 double matt_light(Vec3 p, Vec3 normal) {
   double light = 0.16 + 0.05 * -normal.y;  // the room, a little more of it from above
   for (const Lamp& lamp : kLamps) {
@@ -45,14 +40,13 @@ double matt_light(Vec3 p, Vec3 normal) {
   return light;
 }
 
+// What is behind an artefact.
 Vec3 dark_room(Vec3 direction) {
   const double grey = 0.03 + 0.006 * value_noise(direction * 6, 99) - 0.015 * direction.y;
   return {grey, grey * 1.02, grey * 1.05};
 }
 
-namespace {
-
-enum Body : std::int32_t { kBackground = -1, kSphere = 0, kRod = 1, kPlate = 2 };
+enum Body : std::int32_t { kSphere, kRod, kPlate };
 constexpr double kNone = RayCaster::kFar;
 
 // The nearer meeting of a ray with a sphere; d has unit length.
@@ -75,142 +69,6 @@ double meet_rod(Vec3 o, Vec3 d, double half, double radius) {
 }
 
 Vec3 grey(double v) { return {v, v, v * 0.98}; }
-
-}  // namespace
-
-Result<void> Dumbbell::check() const {
-  if (!(diameter_mm >= 10) || !(diameter_mm <= 200) || !(spacing_mm > diameter_mm) || !(spacing_mm <= 500) ||
-      !(rod_radius_mm > 0) || !(rod_radius_mm < diameter_mm / 4))
-    return Error{Errc::InvalidInput,
-                 "a dumbbell has spheres of 10 to 200 mm, further apart than that, up to 500 mm, on a rod "
-                 "thinner than half of one"};
-  return {};
-}
-
-Result<void> FlatPlate::check() const {
-  if (!(width_mm >= 20) || !(height_mm >= 20) || !(width_mm <= 1000) || !(height_mm <= 1000))
-    return Error{Errc::InvalidInput, "a plate measures between 20 and 1000 mm a side"};
-  return {};
-}
-
-Vec3 DumbbellScene::centre_mm(int sphere) const {
-  return pose_.to_world({(sphere == 0 ? -0.5 : 0.5) * dumbbell_.spacing_mm, 0, 0});
-}
-
-DumbbellScene::Part DumbbellScene::meet(Vec3 o, Vec3 d, double& distance, Vec3& normal) const {
-  const double half = dumbbell_.spacing_mm / 2, radius = dumbbell_.diameter_mm / 2;
-  Part part = Part::None;
-  distance = kNone;
-  for (const double x : {-half, half})
-    if (const double t = meet_sphere(o, d, {x, 0, 0}, radius); t < distance) {
-      distance = t;
-      normal = (o + d * t - Vec3{x, 0, 0}) * (1 / radius);
-      part = Part::Sphere;
-    }
-  if (const double t = meet_rod(o, d, half, dumbbell_.rod_radius_mm); t < distance) {
-    distance = t;
-    const Vec3 p = o + d * t;
-    normal = Vec3{0, p.y, p.z} * (1 / dumbbell_.rod_radius_mm);
-    part = Part::Rod;
-  }
-  return part;
-}
-
-RayHit DumbbellScene::look(Vec3 origin, Vec3 direction) const {
-  const Vec3 o = pose_.to_artefact(origin), d = pose_.world_from_artefact.transposed() * direction;
-  double distance = 0;
-  Vec3 normal;
-  const Part part = meet(o, d, distance, normal);
-  if (part == Part::None) return {dark_room(direction), RayCaster::kFar, kBackground, false};
-  const Vec3 p = o + d * distance;
-  const double reflectance = part == Part::Sphere ? speckle(p, dumbbell_.seed) : 0.10;
-  const double light = matt_light(origin + direction * distance, pose_.world_from_artefact * normal);
-  // Dots are finer than a sample a pixel could show without aliasing.
-  return {grey(reflectance * light), distance, part == Part::Sphere ? kSphere : kRod, part == Part::Sphere};
-}
-
-bool DumbbellScene::solid(Vec3 origin, Vec3 direction, SolidPoint& out) const {
-  double distance = 0;
-  Vec3 normal;
-  const Part part =
-      meet(pose_.to_artefact(origin), pose_.world_from_artefact.transposed() * direction, distance, normal);
-  if (part == Part::None) return false;
-  out.point = origin + direction * distance;
-  out.normal = pose_.world_from_artefact * normal;
-  out.skin = part == Part::Sphere;
-  return true;
-}
-
-bool DumbbellScene::blocked(Vec3 from, Vec3 direction, double far_mm) const {
-  double distance = 0;
-  Vec3 normal;
-  return meet(pose_.to_artefact(from), pose_.world_from_artefact.transposed() * direction, distance,
-              normal) != Part::None &&
-         distance < far_mm;
-}
-
-Mesh DumbbellScene::solid_mesh() const {
-  constexpr int kAround = 96, kAlong = 48;
-  constexpr double kPi = 3.14159265358979323846;
-  Mesh mesh;
-  for (int sphere = 0; sphere < 2; ++sphere) {
-    const auto first = std::uint32_t(mesh.points.size());
-    for (int j = 0; j <= kAlong; ++j)
-      for (int i = 0; i < kAround; ++i) {
-        const double polar = kPi * j / kAlong, turn = 2 * kPi * i / kAround;
-        const Vec3 p = centre_mm(sphere) + Vec3{std::sin(polar) * std::cos(turn),
-                                                std::sin(polar) * std::sin(turn), std::cos(polar)} *
-                                               (dumbbell_.diameter_mm / 2);
-        mesh.points.push_back({float(p.x), float(p.y), float(p.z)});
-      }
-    for (std::uint32_t j = 0; j < kAlong; ++j)
-      for (std::uint32_t i = 0; i < kAround; ++i) {
-        const std::uint32_t a = first + j * kAround + i, b = first + j * kAround + (i + 1) % kAround;
-        mesh.triangles.push_back({a, a + kAround, b + kAround});
-        mesh.triangles.push_back({a, b + kAround, b});
-      }
-  }
-  return mesh;
-}
-
-bool PlateScene::meet(Vec3 o, Vec3 d, double& distance) const {
-  if (std::abs(d.z) < 1e-9) return false;
-  distance = -o.z / d.z;
-  const Vec3 p = o + d * distance;
-  return distance > 0 && std::abs(p.x) < plate_.width_mm / 2 && std::abs(p.y) < plate_.height_mm / 2;
-}
-
-RayHit PlateScene::look(Vec3 origin, Vec3 direction) const {
-  const Vec3 o = pose_.to_artefact(origin), d = pose_.world_from_artefact.transposed() * direction;
-  double distance = 0;
-  if (!meet(o, d, distance)) return {dark_room(direction), RayCaster::kFar, kBackground, false};
-  const Vec3 normal = pose_.world_from_artefact * Vec3{0, 0, d.z > 0 ? -1.0 : 1.0};
-  const double light = matt_light(origin + direction * distance, normal);
-  return {grey(speckle(o + d * distance, plate_.seed) * light), distance, kPlate, true};
-}
-
-bool PlateScene::solid(Vec3 origin, Vec3 direction, SolidPoint& out) const {
-  double distance = 0;
-  if (!meet(pose_.to_artefact(origin), pose_.world_from_artefact.transposed() * direction, distance))
-    return false;
-  out.point = origin + direction * distance;
-  out.normal = pose_.world_from_artefact * Vec3{0, 0, -1};
-  out.skin = true;
-  return true;
-}
-
-Mesh PlateScene::solid_mesh() const {
-  Mesh mesh;
-  const double x = plate_.width_mm / 2, y = plate_.height_mm / 2;
-  for (const Vec3 p : {Vec3{-x, -y, 0}, {x, -y, 0}, {x, y, 0}, {-x, y, 0}}) {
-    const Vec3 q = pose_.to_world(p);
-    mesh.points.push_back({float(q.x), float(q.y), float(q.z)});
-  }
-  mesh.triangles = {{0, 1, 2}, {0, 2, 3}};
-  return mesh;
-}
-
-namespace {
 
 const Error kCut{
     Errc::PoorGeometry,
@@ -243,6 +101,110 @@ std::uint64_t noise_of(const ArtefactPlace& p) {
 }
 
 }  // namespace
+
+double speckle(Vec3 p, std::uint32_t seed) {
+  const double ink = std::max({dots(p, 0.9, seed), dots(p, 1.4, seed + 57), dots(p, 4.1, seed + 101)});
+  return mix(kPaper, kInk, ink) * (1 + 0.06 * value_noise(p * 0.09, seed + 7));
+}
+
+Result<void> Dumbbell::check() const {
+  if (!(diameter_mm >= 10) || !(diameter_mm <= 200) || !(spacing_mm > diameter_mm) || !(spacing_mm <= 500) ||
+      !(rod_radius_mm > 0) || !(rod_radius_mm < diameter_mm / 4))
+    return Error{Errc::InvalidInput,
+                 "a dumbbell has spheres of 10 to 200 mm, further apart than that, up to 500 mm, on a rod "
+                 "thinner than half of one"};
+  return {};
+}
+
+Result<void> FlatPlate::check() const {
+  if (!(width_mm >= 20) || !(height_mm >= 20) || !(width_mm <= 1000) || !(height_mm <= 1000))
+    return Error{Errc::InvalidInput, "a plate measures between 20 and 1000 mm a side"};
+  return {};
+}
+
+Vec3 DumbbellScene::centre_mm(int sphere) const {
+  return pose_.to_world({(sphere == 0 ? -0.5 : 0.5) * dumbbell_.spacing_mm, 0, 0});
+}
+
+ArtefactScene::Met ArtefactScene::met_from(Vec3 origin, Vec3 direction) const {
+  return meet(pose_.to_artefact(origin), pose_.world_from_artefact.transposed() * direction);
+}
+
+RayHit ArtefactScene::look(Vec3 origin, Vec3 direction) const {
+  const Vec3 o = pose_.to_artefact(origin), d = pose_.world_from_artefact.transposed() * direction;
+  const Met met = meet(o, d);
+  if (met.distance == kNone) return {dark_room(direction), kNone, met.body, false};
+  const double reflectance = met.printed ? speckle(o + d * met.distance, seed_) : 0.10;
+  const double light = matt_light(origin + direction * met.distance, pose_.world_from_artefact * met.normal);
+  // Dots are finer than a sample a pixel could show without aliasing.
+  return {grey(reflectance * light), met.distance, met.body, met.printed};
+}
+
+bool ArtefactScene::solid(Vec3 origin, Vec3 direction, SolidPoint& out) const {
+  const Met met = met_from(origin, direction);
+  if (met.distance == kNone) return false;
+  out = {origin + direction * met.distance, pose_.world_from_artefact * met.normal, met.printed};
+  return true;
+}
+
+bool ArtefactScene::blocked(Vec3 from, Vec3 direction, double far_mm) const {
+  return met_from(from, direction).distance < far_mm;
+}
+
+DumbbellScene::Met DumbbellScene::meet(Vec3 o, Vec3 d) const {
+  const double half = dumbbell_.spacing_mm / 2, radius = dumbbell_.diameter_mm / 2;
+  Met met;
+  for (const double x : {-half, half})
+    if (const double t = meet_sphere(o, d, {x, 0, 0}, radius); t < met.distance)
+      met = {t, (o + d * t - Vec3{x, 0, 0}) * (1 / radius), kSphere, true};
+  if (const double t = meet_rod(o, d, half, dumbbell_.rod_radius_mm); t < met.distance) {
+    const Vec3 p = o + d * t;
+    met = {t, Vec3{0, p.y, p.z} * (1 / dumbbell_.rod_radius_mm), kRod, false};
+  }
+  return met;
+}
+
+Mesh DumbbellScene::solid_mesh() const {
+  constexpr int kAround = 96, kAlong = 48;
+  constexpr double kPi = 3.14159265358979323846;
+  Mesh mesh;
+  for (int sphere = 0; sphere < 2; ++sphere) {
+    const auto first = std::uint32_t(mesh.points.size());
+    for (int j = 0; j <= kAlong; ++j)
+      for (int i = 0; i < kAround; ++i) {
+        const double polar = kPi * j / kAlong, turn = 2 * kPi * i / kAround;
+        const Vec3 p = centre_mm(sphere) + Vec3{std::sin(polar) * std::cos(turn),
+                                                std::sin(polar) * std::sin(turn), std::cos(polar)} *
+                                               (dumbbell_.diameter_mm / 2);
+        mesh.points.push_back(to_floats(p));
+      }
+    for (std::uint32_t j = 0; j < kAlong; ++j)
+      for (std::uint32_t i = 0; i < kAround; ++i) {
+        const std::uint32_t a = first + j * kAround + i, b = first + j * kAround + (i + 1) % kAround;
+        mesh.triangles.push_back({a, a + kAround, b + kAround});
+        mesh.triangles.push_back({a, b + kAround, b});
+      }
+  }
+  return mesh;
+}
+
+PlateScene::Met PlateScene::meet(Vec3 o, Vec3 d) const {
+  if (std::abs(d.z) < 1e-9) return {};
+  const double distance = -o.z / d.z;
+  const Vec3 p = o + d * distance;
+  if (distance <= 0 || std::abs(p.x) >= plate_.width_mm / 2 || std::abs(p.y) >= plate_.height_mm / 2)
+    return {};
+  return {distance, {0, 0, d.z > 0 ? -1.0 : 1.0}, kPlate, true};
+}
+
+Mesh PlateScene::solid_mesh() const {
+  Mesh mesh;
+  const double x = plate_.width_mm / 2, y = plate_.height_mm / 2;
+  for (const Vec3 p : {Vec3{-x, -y, 0}, {x, -y, 0}, {x, y, 0}, {-x, y, 0}})
+    mesh.points.push_back(to_floats(pose_.to_world(p)));
+  mesh.triangles = {{0, 1, 2}, {0, 2, 3}};
+  return mesh;
+}
 
 ArtefactPose ArtefactPlace::pose() const {
   return {rotation(radians(pitch_deg), radians(yaw_deg), radians(roll_deg)),

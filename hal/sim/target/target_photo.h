@@ -1,8 +1,12 @@
 // SPDX-FileCopyrightText: 2026 The Relievo authors
 // SPDX-License-Identifier: GPL-3.0-or-later
 //
-// Pictures of calibration boards and acceptance artefacts, as the simulated rig takes them.
-// The same numbers give the same pictures. Thread: any; makes `threads` - 1 of its own meanwhile.
+// Pictures of calibration boards and acceptance artefacts, as the simulated rig takes them: a dumbbell of two
+// matt spheres on a rod, and a flat plate, both printed with a random speckle, before a dark room. Exact: no
+// triangles where rays meet. The same numbers give the same pictures.
+// Artefact frame: origin in the middle, x along the rod or the plate's width, y along its height, z into the
+// plate; mm. World and units: rig.h.
+// Thread: any; photographs make `threads` - 1 of their own meanwhile.
 // Errors: InvalidInput, PoorGeometry (the rig does not see the whole target).
 #pragma once
 
@@ -15,23 +19,10 @@
 
 namespace relievo::hal::sim {
 
-// Artefacts of an acceptance test: a dumbbell of two matt spheres on a rod, and a flat plate, both
-// printed with a random speckle, before a dark room. Exact: no triangles where rays meet.
-// Artefact frame: origin in the middle, x along the rod or the plate's width, y along its height,
-// z into the plate; mm. World and units: rig.h.
-// Thread: any number at once.
-
 // A random speckle as artefacts for passive stereo carry it: dark dots on matt white, in three sizes,
 // so that small pictures of it still have something to match. A field over space: where a surface cuts it
 // the dots lie on the surface without seams.
-// Thread: any.
 double speckle(Vec3 p_mm, std::uint32_t seed);  // reflectance, 0.06 .. 0.8
-
-// How bright a matt surface stands there: two soft panels beside the cameras and the room's own light.
-double matt_light(Vec3 p_mm, Vec3 normal);  // in world; times reflectance
-
-// What is behind an artefact.
-Vec3 dark_room(Vec3 direction);
 
 struct ArtefactPose {
   Mat3 world_from_artefact;
@@ -54,34 +45,50 @@ struct FlatPlate {
   Result<void> check() const;  // InvalidInput
 };
 
-class DumbbellScene final : public Scene {
+class ArtefactScene : public Scene {
  public:
-  DumbbellScene(const Dumbbell& dumbbell, const ArtefactPose& pose) : dumbbell_(dumbbell), pose_(pose) {}
+  ArtefactScene(const ArtefactPose& pose, std::uint32_t seed) : pose_(pose), seed_(seed) {}
   RayHit look(Vec3 origin, Vec3 direction) const override;
-  bool solid(Vec3 origin, Vec3 direction, SolidPoint& out) const override;  // skin: the spheres
+  bool solid(Vec3 origin, Vec3 direction, SolidPoint& out) const override;  // skin: what is printed
   bool blocked(Vec3 from, Vec3 direction, double far_mm) const override;
+
+ protected:
+  struct Met {
+    double distance = RayCaster::kFar;
+    Vec3 normal;
+    std::int32_t body = -1;
+    bool printed = false;
+  };
+  virtual Met meet(Vec3 o, Vec3 d) const = 0;  // artefact frame
+  ArtefactPose pose_;
+
+ private:
+  Met met_from(Vec3 origin, Vec3 direction) const;  // in world, but for the normal
+  std::uint32_t seed_;
+};
+
+class DumbbellScene final : public ArtefactScene {
+ public:
+  DumbbellScene(const Dumbbell& dumbbell, const ArtefactPose& pose)
+      : ArtefactScene(pose, dumbbell.seed), dumbbell_(dumbbell) {}
   Mesh solid_mesh() const override;  // the spheres
   Vec3 centre_mm(int sphere) const;  // 0 at -x, 1 at +x; in world
 
  private:
-  enum class Part : std::int8_t { None, Sphere, Rod };
-  Part meet(Vec3 o, Vec3 d, double& distance, Vec3& normal) const;  // artefact frame
+  Met meet(Vec3 o, Vec3 d) const override;
   Dumbbell dumbbell_;
-  ArtefactPose pose_;
 };
 
-class PlateScene final : public Scene {
+class PlateScene final : public ArtefactScene {
  public:
-  PlateScene(const FlatPlate& plate, const ArtefactPose& pose) : plate_(plate), pose_(pose) {}
-  RayHit look(Vec3 origin, Vec3 direction) const override;
-  bool solid(Vec3 origin, Vec3 direction, SolidPoint& out) const override;
+  PlateScene(const FlatPlate& plate, const ArtefactPose& pose)
+      : ArtefactScene(pose, plate.seed), plate_(plate) {}
   bool blocked(Vec3, Vec3, double) const override { return false; }
   Mesh solid_mesh() const override;
 
  private:
-  bool meet(Vec3 o, Vec3 d, double& distance) const;
+  Met meet(Vec3 o, Vec3 d) const override;
   FlatPlate plate_;
-  ArtefactPose pose_;
 };
 
 struct TargetPhotoOptions {

@@ -7,6 +7,8 @@
 #include <linux/watchdog.h>
 
 #include <cerrno>
+#include <functional>
+#include <future>
 #include <map>
 #include <optional>
 #include <string>
@@ -138,12 +140,14 @@ class PlayedMounts final : public Mounts {
  public:
   std::map<std::string, std::uint64_t> mounted;
   std::vector<std::string> calls;
+  std::function<void()> while_flushing;
   int flush_result = 0, unmount_result = 0;
   std::optional<std::uint64_t> free_at(const std::filesystem::path& folder) override {
     const auto found = mounted.find(folder.native());
     return found == mounted.end() ? std::nullopt : std::optional(found->second);
   }
   int flush(const std::filesystem::path& folder) override {
+    if (while_flushing) while_flushing();
     return calls.push_back("flush " + folder.native()), flush_result;
   }
   int unmount(const std::filesystem::path& folder) override {
@@ -218,6 +222,24 @@ TEST(MountedStick, IsSeenFlushedThenUnmounted) {
   ASSERT_TRUE(stick.flush_and_eject());
   EXPECT_EQ(mounts.calls, (std::vector<std::string>{"flush " + own, "unmount " + own}));
   EXPECT_FALSE(stick.current());
+}
+
+// The main thread asks, and kicks the watchdog: a slow stick must not hold it.
+TEST(MountedStick, WhoAsksForAStickThatIsBeingFlushedDoesNotWait) {
+  const TemporaryFolder folder;
+  const std::string root = folder.path().native();
+  PlayedMounts mounts;
+  mounts.mounted[root] = 5;
+  MountedStick stick(root, mounts);
+  std::future<bool> asked;
+  bool answered = false;
+  mounts.while_flushing = [&] {
+    asked = std::async(std::launch::async, [&] { return stick.current().has_value(); });
+    answered = asked.wait_for(seconds(10)) == std::future_status::ready;
+  };
+  ASSERT_TRUE(stick.flush_and_eject());
+  EXPECT_TRUE(answered);
+  EXPECT_TRUE(asked.get() || !answered) << "it is still there";
 }
 
 TEST(MountedStick, WhatIsNotFlushedIsNotUnmountedAndNothingIsPromised) {

@@ -9,6 +9,7 @@
 #include <set>
 
 #include <linux/videodev2.h>
+#include <poll.h>
 
 #include "hal/linux/v4l2_setup.h"
 #include "tests/hal/linux/v4l2_fixture.h"
@@ -17,6 +18,19 @@ namespace relievo::hal {
 namespace {
 
 using std::chrono::milliseconds;
+
+using V4l2FaultsTest = V4l2Fixture;
+
+TEST_F(V4l2FaultsTest, WhatIsAnnouncedAndDoesNotComeEndsAtTheDeadline) {
+  run();
+  for (const short told : {short(POLLERR), short(POLLIN)}) {
+    kernel.announced = told;
+    EXPECT_EQ(error_of_next(), Errc::Timeout) << told;
+    kernel.announced = 0;
+    kernel.expose({});
+    EXPECT_TRUE(next()) << "it goes on";
+  }
+}
 
 // Every call of opening, starting and taking, failing the first, second … time with every number a driver
 // may give: an error in words or a picture, never a crash, a device left open or a buffer queued twice;

@@ -4,6 +4,8 @@
 
 #include <gtest/gtest.h>
 #include <cstring>
+#include <fstream>
+#include <limits>
 #include <random>
 #include <utility>
 #include <vector>
@@ -126,6 +128,28 @@ TEST(Recording, RefusesWhatIsNoPair) {
   EXPECT_EQ(record_pair(folder / "stick/taken", {grey.view, grey.view, 0, 0, 0, 1, "", ""}).error().code,
             Errc::IoFailed);
   EXPECT_TRUE(std::filesystem::is_empty(folder.path())) << "half a pair was written, or where no stick is";
+}
+
+TEST(Recording, ANumberThatIsNoPicturesIsRefused) {
+  const TemporaryFolder folder;
+  const Noise grey(PixelFormat::Grey8, 1);
+  const auto holds = [&](std::int64_t number) {
+    std::ofstream(folder / "capture.json")
+        << R"({"frames": [{"left_ns": 0, "right_ns": 0, "number": )" << number << "}]}";
+  };
+  const RecordedPair pair{grey.view, grey.view, 0, 0, 0, 1, "", ""};
+  for (const std::int64_t number :
+       {std::numeric_limits<std::int64_t>::max(), std::int64_t{1'000'000}, std::int64_t{-1}}) {
+    holds(number);
+    EXPECT_EQ(read_capture_file(folder / "capture.json").error().code, Errc::InvalidInput) << number;
+    EXPECT_EQ(record_pair(folder.path(), pair).error().code, Errc::InvalidInput) << number;
+  }
+  holds(999'999);
+  EXPECT_TRUE(read_capture_file(folder / "capture.json"));
+  EXPECT_EQ(record_pair(folder.path(), pair).error().code, Errc::InvalidInput)
+      << "it could not be read again";
+  holds(999'998);
+  EXPECT_EQ(*record_pair(folder.path(), pair), 999'999);
 }
 
 }  // namespace

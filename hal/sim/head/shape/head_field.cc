@@ -7,8 +7,7 @@
 namespace relievo::hal::sim {
 
 // Local frame of the left ear: x away from the head, y up along the ear, z towards the face.
-EarForm::EarForm(const HeadTraits& traits, const SkullForm& skull) : size_(traits.ear_height / 61) {
-  (void)skull;
+EarForm::EarForm(const HeadTraits& traits) : size_(traits.ear_height / 61) {
   root_ = {traits.face_breadth / 2 - 0.5, -16, 2};
   turn_ = rotation(-0.20, -0.44 - 0.09 * traits.ear_out, 0.0).transposed();
   const auto at = [](double back, double up, double out, double r) { return Bead{{out, up, -back}, r}; };
@@ -322,7 +321,7 @@ HeadField::HeadField(const HeadTraits& t)
       nose(t, skull),
       mouth(t, skull),
       eye(t, skull),
-      ear(t, skull),
+      ear(t),
       sway_a_(unit_from_hash(hash_cell(1, 2, 3, t.seed)) * 6.28),
       sway_b_(unit_from_hash(hash_cell(4, 5, 6, t.seed)) * 6.28) {}
 

@@ -29,7 +29,7 @@ class SkullForm {
 // Muscle, fat and creases: heights in mm to be added along the normal.
 class FaceStrokes {
  public:
-  explicit FaceStrokes(const HeadTraits& traits);
+  explicit FaceStrokes(const HeadTraits& traits) : t_(traits) {}
   double height(Vec3 p) const;
 
  private:
@@ -84,9 +84,8 @@ class EyeForm {
   double add_to(double field, Vec3 p) const;
   Vec3 centre() const { return centre_; }  // of the person's left eyeball
   double radius() const { return 12.0; }
-  double along(double ax) const {
-    return (ax - middle_x_) / half_fissure_;
-  }  // -1 inner corner, 1 outer corner
+  // -1 inner corner, 1 outer corner.
+  double along(double ax) const { return (ax - middle_x_) / half_fissure_; }
   double upper_lid(double s) const;
   double lower_lid(double s) const;
   Vec3 lid_point(double s, bool upper) const;  // on the lid's edge
@@ -100,7 +99,7 @@ class EyeForm {
 
 class EarForm {
  public:
-  EarForm(const HeadTraits& traits, const SkullForm& skull);
+  explicit EarForm(const HeadTraits& traits);
   double add_to(double field, Vec3 p) const;
 
  private:

@@ -4,8 +4,6 @@
 
 namespace relievo::hal::sim {
 
-FaceStrokes::FaceStrokes(const HeadTraits& traits) : t_(traits) {}
-
 double FaceStrokes::brow_and_orbit(double ax, Vec3 p) const {
   const double eye_x = t_.intercanthal / 2 + t_.eye_fissure / 2;
   double h = 0;
@@ -37,7 +35,7 @@ double FaceStrokes::cheek(double ax, Vec3 p) const {
   const Vec3 along = low - top, from{ax - top.x, p.y - top.y, 0};
   const double s = dot(from, along) / dot(along, along);
   const double side = (from.x * -along.y + from.y * along.x) / length(along);  // + towards the cheek
-  const double bowed = side + 3.2 * (0.25 - (s - 0.5) * (s - 0.5)) * -4 * 0.25;
+  const double bowed = side - 3.2 * (0.25 - (s - 0.5) * (s - 0.5));
   const double reach = smoothstep(-0.22, 0.12, s) * (1 - smoothstep(0.65, 1.15, s));
   h += reach *
        (-(0.35 + 0.75 * t_.age) * gauss(bowed / 3.4) + (0.5 + 0.8 * t_.age) * gauss((bowed - 8) / 7.5));

@@ -26,10 +26,4 @@ void refine(Mesh& mesh, const Field& field, const std::function<bool(Vec3)>& wan
 
 std::vector<Vec3> smooth_normals(const Mesh& mesh);  // weighted by area
 
-inline Vec3 point_of(const Mesh& mesh, std::size_t i) {
-  const auto& p = mesh.points[i];
-  return {double(p[0]), double(p[1]), double(p[2])};
-}
-inline std::array<float, 3> to_floats(Vec3 p) { return {float(p.x), float(p.y), float(p.z)}; }
-
 }  // namespace relievo::hal::sim
