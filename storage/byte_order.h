@@ -3,9 +3,11 @@
 //
 // Numbers to little-endian bytes and back, the same on every machine. Floating point goes by its
 // bits: NaN payloads and negative zero survive.
+//
+// A form of bytes has one walk over its fields, walk(io, fields): a ByteWriter writes them, a ByteReader
+// reads them, and the two cannot differ.
 #pragma once
 
-#include <algorithm>
 #include <bit>
 #include <cstddef>
 #include <cstdint>
@@ -43,6 +45,31 @@ class ByteWriter {
     std::memcpy(out_.data() + at, bytes.data(), bytes.size());
   }
 
+  template <Number... T>
+  void numbers(const T&... values) {
+    (put(values), ...);
+  }
+  void flag(bool set) { put(std::uint8_t(set)); }
+  void text(std::string_view text) {  // behind its length
+    put(std::uint32_t(text.size()));
+    put(std::as_bytes(std::span(text)));
+  }
+  // `items` by their elements: as many as the reader is told, or behind their number.
+  template <typename Element, typename Items>
+  void run(const Items& items, std::size_t /*count*/) {
+    put_run<Element>(std::span(items));
+  }
+  template <typename Element, typename Items>
+  void run(const Items& items) {
+    put(std::uint64_t(items.size()));
+    put_run<Element>(std::span(items));
+  }
+  template <typename Items, typename Field>
+  void each(const Items& items, const Field& field) {
+    put(std::uint64_t(items.size()));
+    for (const auto& item : items) field(*this, item);
+  }
+
   template <typename Element, RunOf<Element> Item>
   void put_run(std::span<const Item> items) {
     const auto bytes = std::as_bytes(items);
@@ -71,6 +98,7 @@ class ByteReader {
 
   bool ok() const { return ok_; }
   std::size_t left() const { return rest_.size(); }
+  bool whole() const { return ok_ && rest_.empty(); }  // all was there, and no more
 
   template <Number T>
   T get() {
@@ -94,11 +122,45 @@ class ByteReader {
     }
   }
 
+  template <Number... T>
+  void numbers(T&... values) {
+    ((values = get<T>()), ...);
+  }
+  void flag(bool& set) { set = get<std::uint8_t>() != 0; }
+  void text(std::string& text) {
+    const auto size = get<std::uint32_t>();
+    if (size > left()) return fail();
+    text.resize(size);
+    get_run<char>(std::span(text));
+  }
+  template <typename Element, typename Items>
+  void run(Items& items, std::size_t count) {
+    items.resize(count);
+    get_run<Element>(std::span(items));
+  }
+  // A number of items that the bytes cannot hold allocates nothing.
+  template <typename Element, typename Items>
+  void run(Items& items) {
+    const auto count = get<std::uint64_t>();
+    if (count <= left() / sizeof(typename Items::value_type)) run<Element>(items, std::size_t(count));
+    else fail();
+  }
+  template <typename Items, typename Field>
+  void each(Items& items, const Field& field) {
+    const auto count = get<std::uint64_t>();
+    if (count > left()) return fail();
+    items.resize(std::size_t(count));
+    for (auto& item : items) field(*this, item);
+  }
+
  private:
+  void fail() {
+    ok_ = false;
+    rest_ = {};
+  }
   bool take(std::size_t size) {
     if (size > rest_.size()) {
-      ok_ = false;
-      rest_ = {};
+      fail();
       return false;
     }
     taken_ = rest_.first(size);
@@ -118,19 +180,8 @@ class ByteReader {
 inline std::span<const std::byte> bytes_of(std::string_view text) {
   return std::as_bytes(std::span(text.data(), text.size()));
 }
-
-// A text behind its length.
-inline void put_text(ByteWriter& to, std::string_view text) {
-  to.put(std::uint32_t(text.size()));
-  to.put(bytes_of(text));
-}
-
-inline std::string get_text(ByteReader& from) {
-  const auto size = from.get<std::uint32_t>();
-  std::string text;
-  text.resize(std::min<std::size_t>(size, from.left()));
-  from.get_run<char>(std::span(text));
-  return text;
+inline std::string_view text_of(std::span<const std::byte> bytes) {
+  return {reinterpret_cast<const char*>(bytes.data()), bytes.size()};
 }
 
 }  // namespace relievo::storage

@@ -25,38 +25,39 @@ constexpr std::size_t kRecordBytes =
     8 + 2 + 4 + 2 * kCameraBytes + 12 * 8 + 2 * 8 + 1 + 3 * 8 + kNamesBytes + sizeof(Sha256);
 constexpr int kMaxSidePx = 65'536;
 
-void put_camera(ByteWriter& to, const CameraIntrinsics& camera) {
-  for (const double v : {camera.focal_px.x, camera.focal_px.y, camera.centre_px.x, camera.centre_px.y})
-    to.put(v);
-  for (const double v : camera.distortion) to.put(v);
-  to.put(std::int32_t(camera.width_px));
-  to.put(std::int32_t(camera.height_px));
-}
-
-CameraIntrinsics get_camera(ByteReader& from) {
-  CameraIntrinsics camera;
-  for (double* v : {&camera.focal_px.x, &camera.focal_px.y, &camera.centre_px.x, &camera.centre_px.y}) {
-    *v = from.get<double>();
-  }
-  for (double& v : camera.distortion) v = from.get<double>();
-  camera.width_px = from.get<std::int32_t>();
-  camera.height_px = from.get<std::int32_t>();
-  return camera;
+template <typename Io>
+void walk_camera(Io& io, CameraIntrinsics& camera) {
+  io.numbers(camera.focal_px.x, camera.focal_px.y, camera.centre_px.x, camera.centre_px.y);
+  for (double& v : camera.distortion) io.numbers(v);
+  io.numbers(camera.width_px, camera.height_px);
 }
 
 // A length and as many bytes as the longest name has.
-void put_name(ByteWriter& to, const std::string& name) {
-  std::array<std::byte, pipeline::kMaxCameraWords> bytes{};
-  std::ranges::copy(bytes_of(name), bytes.begin());
-  to.put(std::uint8_t(name.size()));
-  to.put(bytes);
+template <typename Io>
+void walk_name(Io& io, std::string& name) {
+  auto size = std::uint8_t(name.size());
+  io.numbers(size);
+  name.resize(pipeline::kMaxCameraWords);
+  for (char& c : name) io.numbers(c);
+  name.resize(size);
 }
 
-std::string get_name(ByteReader& from) {
-  const auto size = from.get<std::uint8_t>();
-  std::array<char, pipeline::kMaxCameraWords> bytes{};
-  for (char& c : bytes) c = char(from.get<std::uint8_t>());
-  return {bytes.data(), size};
+template <typename Io>
+void walk(Io& io, StoredCalibration& stored) {
+  StereoCalibration& calibration = stored.calibration;
+  CalibrationFigures& figures = stored.figures;
+  io.numbers(calibration.revision);
+  walk_camera(io, calibration.left);
+  walk_camera(io, calibration.right);
+  for (double& v : calibration.right_from_left.rotation.m) io.numbers(v);
+  auto& t = calibration.right_from_left.translation_mm;
+  io.numbers(t.x, t.y, t.z, calibration.rms_px, calibration.epipolar_shift_px);
+  auto grade = std::uint8_t(figures.grade);
+  io.numbers(grade);
+  if (grade <= std::uint8_t(CalibrationGrade::Refuse)) figures.grade = static_cast<CalibrationGrade>(grade);
+  io.numbers(figures.held_out_epipolar_px, figures.depth_sigma_mm, figures.shape_sigma_mm);
+  walk_name(io, calibration.cameras.left);
+  walk_name(io, calibration.cameras.right);
 }
 
 bool is_name(const std::string& name) {
@@ -114,17 +115,8 @@ std::vector<std::byte> encode_calibration(const StereoCalibration& calibration,
   ByteWriter to(out);
   to.put(bytes_of(kMagic));
   to.put(kForm);
-  to.put(calibration.revision);
-  put_camera(to, calibration.left);
-  put_camera(to, calibration.right);
-  for (const double v : calibration.right_from_left.rotation.m) to.put(v);
-  const auto& t = calibration.right_from_left.translation_mm;
-  for (const double v : {t.x, t.y, t.z, calibration.rms_px, calibration.epipolar_shift_px}) to.put(v);
-  to.put(std::uint8_t(figures.grade));
-  for (const double v : {figures.held_out_epipolar_px, figures.depth_sigma_mm, figures.shape_sigma_mm})
-    to.put(v);
-  put_name(to, calibration.cameras.left);
-  put_name(to, calibration.cameras.right);
+  StoredCalibration stored{calibration, figures};
+  walk(to, stored);
   const Sha256 digest = sha256(out);
   to.put(digest);
   return out;
@@ -144,22 +136,7 @@ Result<StoredCalibration> decode_calibration(std::span<const std::byte> bytes) {
                  "a stored calibration is damaged: calibrate again, or activate an earlier one"};
   }
   StoredCalibration stored;
-  StereoCalibration& calibration = stored.calibration;
-  calibration.revision = from.get<std::uint32_t>();
-  calibration.left = get_camera(from);
-  calibration.right = get_camera(from);
-  for (double& v : calibration.right_from_left.rotation.m) v = from.get<double>();
-  auto& t = calibration.right_from_left.translation_mm;
-  for (double* v : {&t.x, &t.y, &t.z, &calibration.rms_px, &calibration.epipolar_shift_px})
-    *v = from.get<double>();
-  CalibrationFigures& figures = stored.figures;
-  const auto grade = from.get<std::uint8_t>();
-  if (grade <= std::uint8_t(CalibrationGrade::Refuse)) figures.grade = static_cast<CalibrationGrade>(grade);
-  for (double* v : {&figures.held_out_epipolar_px, &figures.depth_sigma_mm, &figures.shape_sigma_mm}) {
-    *v = from.get<double>();
-  }
-  calibration.cameras.left = get_name(from);
-  calibration.cameras.right = get_name(from);
+  walk(from, stored);
   return stored;
 }
 

@@ -29,9 +29,28 @@ inline constexpr std::uint32_t kMaxModelVertices = 4'000'000;
 inline constexpr std::uint32_t kMaxModelTriangles = 8'000'000;
 inline constexpr std::uint32_t kMaxTextureSidePx = 8192;
 
-// InvalidInput: arrays whose lengths do not fit together, an index out of range, more than the
-// limits above. Normals, sigma, measured, vertex colours and pose may be absent as a whole.
-// May throw std::bad_alloc, as may decode_model().
+// The figures of quality in their order, and what files for others call them.
+struct QualityFigure {
+  const char* name;
+  double pipeline::ModelQuality::*of;
+};
+inline constexpr QualityFigure kQualityFigures[] = {
+    {"median_sigma_mm", &pipeline::ModelQuality::median_sigma_mm},
+    {"measured_area_mm2", &pipeline::ModelQuality::measured_area_mm2},
+    {"coverage", &pipeline::ModelQuality::coverage},
+    {"width_mm", &pipeline::ModelQuality::width_mm},
+    {"height_mm", &pipeline::ModelQuality::height_mm},
+    {"nose_relief_mm", &pipeline::ModelQuality::nose_relief_mm},
+    {"epipolar_residual_px", &pipeline::ModelQuality::epipolar_residual_px},
+    {"texture_sharpness", &pipeline::ModelQuality::texture_sharpness},
+    {"symmetry_residual_mm", &pipeline::ModelQuality::symmetry_residual_mm}};
+
+// InvalidInput: arrays whose lengths do not fit together, an index out of range. Normals, sigma, measured,
+// vertex colours, texture and pose may be absent as a whole.
+Result<void> check_arrays(const pipeline::FaceModel& model);
+
+// InvalidInput: as check_arrays(), or more than the limits above. May throw std::bad_alloc, as may
+// decode_model().
 Result<std::vector<std::byte>> encode_model(const pipeline::FaceModel& model);
 
 // StoreCorrupt: not such a piece, cut, changed; StoreNewer: a version of the form not known here.

@@ -13,18 +13,19 @@ namespace {
 constexpr std::string_view kPersonMagic = "RPERSN";
 constexpr std::uint16_t kPersonVersion = 1;
 
-void put_time(ByteWriter& to, WallTime at) { to.put(std::int64_t{at.time_since_epoch().count()}); }
-WallTime get_time(ByteReader& from) { return WallTime(std::chrono::milliseconds(from.get<std::int64_t>())); }
-
-void put_piece(ByteWriter& to, std::span<const std::byte> piece) {
-  to.put(std::uint64_t(piece.size()));
-  to.put(piece);
+void walk_time(ByteWriter& to, const WallTime& at) { to.put(std::int64_t{at.time_since_epoch().count()}); }
+void walk_time(ByteReader& from, WallTime& at) {
+  at = WallTime(std::chrono::milliseconds(from.get<std::int64_t>()));
 }
-std::vector<std::byte> get_piece(ByteReader& from) {
-  const auto size = from.get<std::uint64_t>();
-  std::vector<std::byte> piece(std::min<std::uint64_t>(size, from.left()));
-  from.get_run<std::byte>(std::span(piece));
-  return piece;
+
+template <typename Io, typename Portrait>
+void walk(Io& io, Portrait& one) {
+  walk_time(io, one.created_at);
+  walk_time(io, one.consent.given_at);
+  for (auto* text : {&one.consent.wording, &one.consent.language, &one.algorithms, &one.report_json})
+    io.text(*text);
+  io.template run<std::byte>(one.calibration);
+  io.template run<std::byte>(one.model);
 }
 
 }  // namespace
@@ -34,20 +35,11 @@ std::vector<std::byte> encode_person(const PersonRecord& person) {
   ByteWriter to(out);
   to.put(bytes_of(kPersonMagic));
   to.put(kPersonVersion);
-  put_text(to, person.name);
+  to.text(person.name);
   to.put(person.receipt);
-  put_time(to, person.created_at);
+  walk_time(to, person.created_at);
   to.put(std::uint32_t(person.portraits.size()));
-  for (const PersonRecord::Portrait& one : person.portraits) {
-    put_time(to, one.created_at);
-    put_time(to, one.consent.given_at);
-    for (const std::string_view text :
-         {std::string_view(one.consent.wording), std::string_view(one.consent.language),
-          std::string_view(one.algorithms), std::string_view(one.report_json)})
-      put_text(to, text);
-    put_piece(to, one.calibration);
-    put_piece(to, one.model);
-  }
+  for (const PersonRecord::Portrait& one : person.portraits) walk(to, one);
   return out;
 }
 
@@ -56,23 +48,16 @@ Result<PersonRecord> decode_person(std::span<const std::byte> bytes) {
   const Error strange{Errc::InvalidInput, "this is no record of a person, or it was changed or cut"};
   if (bytes.size() < kHead || !std::ranges::equal(bytes.first(kHead), bytes_of(kPersonMagic))) return strange;
   ByteReader from(bytes.subspan(kHead));
-  if (from.get<std::uint16_t>() > kPersonVersion)
+  const auto version = from.get<std::uint16_t>();
+  if (version > kPersonVersion)
     return Error{Errc::StoreNewer, "this person was exported by a newer version: update Relievo"};
   PersonRecord person;
-  person.name = get_text(from);
-  person.receipt = from.get<std::int64_t>();
-  person.created_at = get_time(from);
-  // What ends too early gives empty pieces, and is not written again as it was.
-  for (auto left = from.get<std::uint32_t>(); left > 0 && from.ok(); --left) {
-    PersonRecord::Portrait& one = person.portraits.emplace_back();
-    one.created_at = get_time(from);
-    one.consent.given_at = get_time(from);
-    for (std::string* text : {&one.consent.wording, &one.consent.language, &one.algorithms, &one.report_json})
-      *text = get_text(from);
-    one.calibration = get_piece(from);
-    one.model = get_piece(from);
-  }
-  if (encode_person(person) != std::vector<std::byte>(bytes.begin(), bytes.end())) return strange;
+  from.text(person.name);
+  from.numbers(person.receipt);
+  walk_time(from, person.created_at);
+  for (auto left = from.get<std::uint32_t>(); left > 0 && from.ok(); --left)
+    walk(from, person.portraits.emplace_back());
+  if (version != kPersonVersion || !from.whole()) return strange;
   return person;
 }
 

@@ -15,4 +15,18 @@ Sha256 sha256(std::span<const std::byte> bytes) {
   return digest;
 }
 
+std::string hex_of(std::span<const std::byte> bytes) {
+  std::string hex(2 * bytes.size() + 1, '\0');
+  sodium_bin2hex(hex.data(), hex.size(), reinterpret_cast<const unsigned char*>(bytes.data()), bytes.size());
+  hex.pop_back();  // its zero
+  return hex;
+}
+
+bool from_hex(std::string_view hex, std::span<std::byte> bytes) {
+  std::size_t size = 0;
+  return sodium_hex2bin(reinterpret_cast<unsigned char*>(bytes.data()), bytes.size(), hex.data(), hex.size(),
+                        nullptr, &size, nullptr) == 0 &&
+         size == bytes.size() && hex_of(bytes) == hex;
+}
+
 }  // namespace relievo::storage

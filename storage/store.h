@@ -41,8 +41,7 @@ class Store {
   // InvalidInput: the name is empty, too long or not UTF-8.
   virtual Result<SubjectId> add_subject(const NewSubject& subject) = 0;
   virtual Result<std::vector<Subject>> subjects(const SubjectFilter& filter) = 0;
-  // How many that finds, without its limit and skip.
-  virtual Result<std::int64_t> count_subjects(const SubjectFilter& filter) = 0;
+  virtual Result<std::int64_t> count_subjects() = 0;
   virtual Result<Subject> subject(SubjectId id) = 0;  // NotFound
   // Everybody once, the newest first, but for code and number of enrolments, with the consent they gave last
   // (none: null) where consents are opened, too, which takes twice as long; until `visit` fails, which may

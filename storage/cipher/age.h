@@ -5,7 +5,7 @@
 // anybody opens them with Debian's `age`. For a recipient by X25519, or by a passphrase through scrypt; the
 // content by ChaCha20-Poly1305 in pieces of 64 KiB (STREAM). What is cut, changed or turned is refused as a
 // whole. Errors: InvalidInput (no such recipient, key or file; not for this key; changed or cut), OutOfMemory
-// (scrypt takes 128 MiB). May throw std::bad_alloc. Thread: any.
+// (scrypt takes 128 MiB, to open somebody else's file up to 1 GiB). May throw std::bad_alloc. Thread: any.
 #pragma once
 
 #include <array>

@@ -336,10 +336,8 @@ Result<std::vector<std::byte>> age_open(const AgeBy& by, std::span<const std::by
     if (piece.size() < kTagBytes || (piece.size() == kTagBytes && i > 0) ||
         crypto_aead_chacha20poly1305_ietf_decrypt(raw(std::span(plain).subspan(at)), &size, nullptr,
                                                   raw(piece), piece.size(), nullptr, 0, raw(nonce),
-                                                  raw(key.bytes())) != 0) {
-      sodium_memzero(plain.data(), plain.size());
+                                                  raw(key.bytes())) != 0)
       return no_age_file();
-    }
     at += size;
     rest = rest.subspan(piece.size());
     if (last) break;

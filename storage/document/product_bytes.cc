@@ -1,8 +1,7 @@
 // SPDX-FileCopyrightText: 2026 The Relievo authors
 // SPDX-License-Identifier: GPL-3.0-or-later
 //
-// Each product has one walk over its fields, taken by a packer to write and by an unpacker to read: they
-// cannot differ.
+// Each product has one walk over its fields (byte_order.h).
 #include "storage/document/product_bytes.h"
 
 #include <algorithm>
@@ -19,68 +18,10 @@ using namespace pipeline;  // NOLINT(google-build-using-namespace): this file is
 
 constexpr int kMaxSidePx = 16'384;
 
-class Packer {
- public:
-  template <Number T>
-  void number(const T& value) {
-    to_.put(value);
-  }
-  template <typename Element, typename Items>
-  void run(const Items& items) {
-    to_.put(std::uint64_t(items.size()));
-    to_.put_run<Element>(std::span(items));
-  }
-  template <typename Items, typename Field>
-  void each(const Items& items, const Field& field) {
-    to_.put(std::uint64_t(items.size()));
-    for (const auto& item : items) field(*this, item);
-  }
-  std::vector<std::byte> take() { return std::move(bytes_); }
-  void reserve(std::size_t bytes) { bytes_.reserve(bytes); }
-
- private:
-  std::vector<std::byte> bytes_;
-  ByteWriter to_{bytes_};
-};
-
-class Unpacker {
- public:
-  explicit Unpacker(std::span<const std::byte> bytes) : from_(bytes) {}
-  template <Number T>
-  void number(T& value) {
-    value = from_.get<T>();
-  }
-  template <typename Element, typename Items>
-  void run(Items& items) {
-    if (make_room(items, sizeof(typename Items::value_type))) from_.get_run<Element>(std::span(items));
-  }
-  template <typename Items, typename Field>
-  void each(Items& items, const Field& field) {
-    if (!make_room(items, 1)) return;
-    for (auto& item : items) field(*this, item);
-  }
-  bool whole() const { return from_.ok() && from_.left() == 0; }
-
- private:
-  // Lengths that the bytes cannot hold allocate nothing.
-  template <typename Items>
-  bool make_room(Items& items, std::size_t least_bytes) {
-    const auto size = from_.get<std::uint64_t>();
-    if (size > from_.left() / least_bytes) {
-      from_ = ByteReader({});
-      (void)from_.get<std::uint8_t>();  // not whole from here on
-      return false;
-    }
-    items.resize(std::size_t(size));
-    return true;
-  }
-  ByteReader from_;
-};
-
 template <typename Io, typename Transform>
 void walk_transform(Io& io, Transform& t) {
-  for (auto& v : t.rotation.m) io.number(v);
-  io.number(t.translation_mm.x), io.number(t.translation_mm.y), io.number(t.translation_mm.z);
+  for (auto& v : t.rotation.m) io.numbers(v);
+  io.numbers(t.translation_mm.x, t.translation_mm.y, t.translation_mm.z);
 }
 
 template <typename Io, typename View>
@@ -92,13 +33,11 @@ void walk_view(Io& io, View& view) {
 
 template <typename Io, typename Pair>
 void walk_pair(Io& io, Pair& pair) {
-  io.number(pair.width_px), io.number(pair.height_px);
-  for (auto* v : {&pair.focal_px, &pair.baseline_mm, &pair.left_centre_px.x, &pair.left_centre_px.y,
-                  &pair.right_centre_px.x, &pair.right_centre_px.y, &pair.near_mm, &pair.far_mm,
-                  &pair.face_centre_px.x, &pair.face_centre_px.y, &pair.face_width_px, &pair.face_reach_mm})
-    io.number(*v);
+  io.numbers(pair.width_px, pair.height_px, pair.focal_px, pair.baseline_mm, pair.left_centre_px.x,
+             pair.left_centre_px.y, pair.right_centre_px.x, pair.right_centre_px.y, pair.near_mm, pair.far_mm,
+             pair.face_centre_px.x, pair.face_centre_px.y, pair.face_width_px, pair.face_reach_mm);
   for (auto* rotation : {&pair.rectified_from_left, &pair.rectified_from_right})
-    for (auto& v : rotation->m) io.number(v);
+    for (auto& v : rotation->m) io.numbers(v);
   walk_transform(io, pair.right_from_left);
   walk_view(io, pair.left);
   walk_view(io, pair.right);
@@ -108,23 +47,21 @@ void walk_pair(Io& io, Pair& pair) {
 template <typename Io, typename Set>
 void walk_matches(Io& io, Set& set) {
   auto& shift = set.epipolar_shift;
-  for (auto* v : {&shift.offset_px, &shift.slope_x, &shift.slope_y, &shift.middle_x_px, &shift.middle_y_px,
-                  &shift.spread_x_px, &shift.spread_y_px, &shift.correlation, &shift.residual_px,
-                  &shift.sigma_px, &set.motion_px})
-    io.number(*v);
-  for (auto& v : shift.covariance_px2) io.number(v);
-  io.number(set.lattice_step_px);
+  io.numbers(shift.offset_px, shift.slope_x, shift.slope_y, shift.middle_x_px, shift.middle_y_px,
+             shift.spread_x_px, shift.spread_y_px, shift.correlation, shift.residual_px, shift.sigma_px,
+             set.motion_px);
+  for (auto& v : shift.covariance_px2) io.numbers(v);
+  io.numbers(set.lattice_step_px);
   io.each(set.matches, [](Io& one, auto& match) {
-    for (auto* v : {&match.left_px.x, &match.left_px.y, &match.disparity_px, &match.cost, &match.sigma_px})
-      one.number(*v);
-    one.number(match.rejected_by);
+    one.numbers(match.left_px.x, match.left_px.y, match.disparity_px, match.cost, match.sigma_px,
+                match.rejected_by);
   });
 }
 
 template <typename Io, typename Cloud>
 void walk_cloud(Io& io, Cloud& cloud) {
-  io.number(cloud.lattice_step_px);
-  io.number(cloud.right_camera_mm.x), io.number(cloud.right_camera_mm.y), io.number(cloud.right_camera_mm.z);
+  io.numbers(cloud.lattice_step_px, cloud.right_camera_mm.x, cloud.right_camera_mm.y,
+             cloud.right_camera_mm.z);
   io.template run<float>(cloud.points);
 }
 
@@ -139,7 +76,7 @@ void walk_mesh(Io& io, Mesh& mesh) {
 
 template <typename Io, typename Drop>
 void walk_backdrop(Io& io, Drop& backdrop) {
-  io.number(backdrop.columns), io.number(backdrop.rows);
+  io.numbers(backdrop.columns, backdrop.rows);
   io.template run<float>(backdrop.at_mm);
   io.template run<std::uint8_t>(backdrop.rgba);
 }
@@ -190,11 +127,19 @@ Error broken() { return {Errc::StoreCorrupt, "what was saved does not hang toget
 
 constexpr std::size_t kPictureHeadBytes = 4 + 4 + 1;
 
-// `walk` names the parts in their order; `beside` is what they must fit to.
+std::vector<std::byte> write(std::size_t room, const auto& walk) {
+  std::vector<std::byte> bytes;
+  bytes.reserve(room);
+  ByteWriter io(bytes);
+  walk(io);
+  return bytes;
+}
+
+// `beside` is what the product must fit to.
 template <typename Product>
 Result<Product> read(std::span<const std::byte> bytes, std::pmr::memory_resource* memory, auto walk,
                      const auto&... beside) {
-  Unpacker io(bytes);
+  ByteReader io(bytes);
   Product product(memory);
   walk(io, product);
   if (!io.whole() || !fits(product, beside...)) return broken();
@@ -232,36 +177,24 @@ Result<ImageView> picture_from(std::span<const std::byte> bytes) {
 }
 
 std::vector<std::byte> pair_bytes(const RectifiedPair& pair) {
-  Packer io;
-  io.reserve(pair.left.grey.size() * 17 + 1024);
-  walk_pair(io, pair);
-  return io.take();
+  return write(pair.left.grey.size() * 17 + 1024, [&](auto& io) { walk_pair(io, pair); });
 }
 
 std::vector<std::byte> matches_bytes(const MatchSet& matches) {
-  Packer io;
-  io.reserve(matches.matches.size() * 22 + 256);
-  walk_matches(io, matches);
-  return io.take();
+  return write(matches.matches.size() * 22 + 256, [&](auto& io) { walk_matches(io, matches); });
 }
 
 std::vector<std::byte> cloud_bytes(const PointCloud& cloud) {
-  Packer io;
-  walk_cloud(io, cloud);
-  return io.take();
+  return write(0, [&](auto& io) { walk_cloud(io, cloud); });
 }
 
 std::vector<std::byte> mesh_bytes(const FaceMesh& mesh) {
-  Packer io;
-  io.reserve(mesh.vertices_mm.size() * 29 + mesh.triangles.size() * 12 + 64);
-  walk_mesh(io, mesh);
-  return io.take();
+  return write(mesh.vertices_mm.size() * 29 + mesh.triangles.size() * 12 + 64,
+               [&](auto& io) { walk_mesh(io, mesh); });
 }
 
 std::vector<std::byte> backdrop_bytes(const Backdrop& backdrop) {
-  Packer io;
-  walk_backdrop(io, backdrop);
-  return io.take();
+  return write(0, [&](auto& io) { walk_backdrop(io, backdrop); });
 }
 
 Result<RectifiedPair> pair_from(std::span<const std::byte> bytes, std::pmr::memory_resource* memory) {

@@ -29,32 +29,32 @@ constexpr double kHeightsPerMm = 100;
 constexpr long kZeroHeight = 32768;
 constexpr double kSigmasPerMm = 1000;
 
+std::uint8_t level(bool photographed, bool completed) { return photographed ? 255 : completed ? 128 : 0; }
+
 std::vector<std::uint8_t> visible(const std::pmr::vector<std::uint8_t>& shows) {
   std::vector<std::uint8_t> grey(shows.size());
   std::ranges::transform(shows, grey.begin(), [](std::uint8_t s) {
-    return s == pipeline::kMeasuredShown    ? std::uint8_t{255}
-           : s == pipeline::kCompletedShown ? std::uint8_t{128}
-                                            : std::uint8_t{0};
+    return level(s == pipeline::kMeasuredShown, s == pipeline::kCompletedShown);
   });
   return grey;
 }
 
-std::uint16_t clamped(double value) { return std::uint16_t(std::clamp(std::lround(value), 1L, 65535L)); }
-
-std::vector<std::uint16_t> heights(const RangeImage& range) {
-  std::vector<std::uint16_t> grey(range.z_mm.size(), 0);
+// 0 where nothing is shown.
+std::vector<std::uint16_t> greys(const RangeImage& range, const std::pmr::vector<float>& values,
+                                 const auto& grey_of) {
+  std::vector<std::uint16_t> grey(values.size(), 0);
   for (std::size_t k = 0; k < grey.size(); ++k)
     if (range.shows[k] != pipeline::kNothingShown)
-      grey[k] = clamped(double(range.z_mm[k]) * kHeightsPerMm + kZeroHeight);
+      grey[k] = std::uint16_t(std::clamp(std::lround(grey_of(double(values[k]))), 1L, 65535L));
   return grey;
 }
 
+std::vector<std::uint16_t> heights(const RangeImage& range) {
+  return greys(range, range.z_mm, [](double mm) { return mm * kHeightsPerMm + kZeroHeight; });
+}
+
 std::vector<std::uint16_t> sigmas(const RangeImage& range) {
-  std::vector<std::uint16_t> grey(range.sigma_mm.size(), 0);
-  for (std::size_t k = 0; k < grey.size(); ++k)
-    if (range.shows[k] != pipeline::kNothingShown)
-      grey[k] = clamped(std::min(double(range.sigma_mm[k]), 65.0) * kSigmasPerMm);
-  return grey;
+  return greys(range, range.sigma_mm, [](double mm) { return std::min(mm, 65.0) * kSigmasPerMm; });
 }
 
 std::string list(std::initializer_list<double> numbers) {
@@ -140,13 +140,13 @@ std::string page(const pipeline::RecognitionImages& images, const pipeline::Land
 
 }  // namespace
 
-Result<std::vector<NamedBytes>> recognition_files(const pipeline::RecognitionImages& images,
+Result<std::vector<BundleFile>> recognition_files(const pipeline::RecognitionImages& images,
                                                   const pipeline::Landmarks& landmarks,
                                                   const pipeline::RigidTransform& head_from_camera,
                                                   std::string_view version) {
   const Portrait& p = images.portrait;
   const RangeImage& r = images.range;
-  std::vector<NamedBytes> files;
+  std::vector<BundleFile> files;
   const auto add = [&](const char* name, Result<std::vector<std::byte>> bytes) -> Result<void> {
     if (!bytes) return bytes.error();
     files.push_back({name, *std::move(bytes)});
@@ -210,9 +210,7 @@ class Batch {
 Result<std::vector<std::byte>> origin_png(const pipeline::TextureAtlas& texture) {
   std::vector<std::uint8_t> grey(texture.origin.size());
   std::ranges::transform(texture.origin, grey.begin(), [](std::uint8_t o) {
-    return o >= pipeline::kLeftPhotographTexel ? std::uint8_t{255}
-           : o == pipeline::kFilledTexel       ? std::uint8_t{128}
-                                               : std::uint8_t{0};
+    return level(o >= pipeline::kLeftPhotographTexel, o == pipeline::kFilledTexel);
   });
   return png_of(texture.width_px, texture.height_px, grey, PixelFormat::Grey8);
 }
@@ -242,17 +240,8 @@ Result<void> make_all(const pipeline::FaceModel& model, const ExportOptions& opt
   if (options.images == nullptr) return {};
   RELIEVO_TRY_ASSIGN(const auto files, recognition_files(*options.images, model.landmarks,
                                                          model.head_from_camera, options.version));
-  for (const NamedBytes& file : files) RELIEVO_TRY(take(file.name, file.bytes));
+  for (const BundleFile& file : files) RELIEVO_TRY(take(file.name, file.bytes));
   return {};
-}
-
-Result<std::vector<fs::path>> write_all(const pipeline::FaceModel& model, const fs::path& dir,
-                                        const ExportOptions& options) {
-  Batch batch(dir);
-  RELIEVO_TRY(make_all(model, options, [&batch](const std::string& name, std::span<const std::byte> bytes) {
-    return batch.add(name, bytes);
-  }));
-  return batch.publish();
 }
 
 }  // namespace
@@ -260,7 +249,11 @@ Result<std::vector<fs::path>> write_all(const pipeline::FaceModel& model, const 
 Result<std::vector<fs::path>> write_model_files(const pipeline::FaceModel& model, const fs::path& dir,
                                                 const ExportOptions& options) {
   try {
-    return write_all(model, dir, options);
+    Batch batch(dir);
+    RELIEVO_TRY(make_all(model, options, [&batch](const std::string& name, std::span<const std::byte> bytes) {
+      return batch.add(name, bytes);
+    }));
+    return batch.publish();
   } catch (const std::bad_alloc&) {
     return Error{Errc::OutOfMemory, "not enough memory to write the model; nothing was written"};
   }

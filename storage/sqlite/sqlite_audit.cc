@@ -48,8 +48,11 @@ struct End {
   KeyedHash hash{};
 };
 
+constexpr std::string_view kLines =
+    "SELECT number, at_ms, subject_id, what, detail, hash FROM audit ORDER BY number";
+
 Error broken(const Database& database) {
-  return Error{Errc::StoreCorrupt, "the audit log was changed or is damaged"}.at(database.where());
+  return database.error(Errc::StoreCorrupt, "the audit log was changed or is damaged");
 }
 
 Result<End> read_end(Database& database) {
@@ -67,7 +70,7 @@ Result<End> read_end(Database& database) {
 Result<std::string> open_detail(const StoreKeys& keys, std::int64_t line, std::span<const std::byte> sealed) {
   if (sealed.empty()) return std::string();
   RELIEVO_TRY_ASSIGN(const auto plain, unseal(keys.device(), detail_of(line), sealed));
-  return std::string(reinterpret_cast<const char*>(plain.data()), plain.size());
+  return std::string(text_of(plain));
 }
 
 Result<std::int64_t> append_audit_line(Database& database, const StoreKeys& keys, const AuditEvent& event,
@@ -79,20 +82,16 @@ Result<std::int64_t> append_audit_line(Database& database, const StoreKeys& keys
   const auto detail = sealed_detail(keys, end.number + 1, event.detail);
   const Line line{end.number + 1, to_ms(at), number(event.subject), event.what, detail};
   const KeyedHash hash = keyed_hash(keys.chain(), chained(end.hash, line));
-  RELIEVO_TRY_ASSIGN(auto insert,
-                     database.prepare("INSERT INTO audit (number, at_ms, what, subject_id, detail, hash) "
-                                      "VALUES (?, ?, ?, ?, ?, ?)"));
-  insert.bind(line.number).bind(line.at_ms).bind(line.what).bind(line.subject).bind(detail).bind(hash);
-  RELIEVO_TRY(insert.run());
-  RELIEVO_TRY_ASSIGN(auto move, database.prepare("UPDATE audit_end SET number = ?, hash = ?"));
-  RELIEVO_TRY(move.bind(line.number).bind(hash).run());
+  RELIEVO_TRY(database.run(
+      "INSERT INTO audit (number, at_ms, what, subject_id, detail, hash) VALUES (?, ?, ?, ?, ?, ?)",
+      line.number, line.at_ms, line.what, line.subject, detail, hash));
+  RELIEVO_TRY(database.run("UPDATE audit_end SET number = ?, hash = ?", line.number, hash));
   return line.number;
 }
 
 Result<void> check_audit_chain(Database& database, const StoreKeys& keys) {
   RELIEVO_TRY_ASSIGN(const End end, read_end(database));
-  RELIEVO_TRY_ASSIGN(auto query, database.prepare("SELECT number, at_ms, subject_id, what, detail, hash "
-                                                  "FROM audit ORDER BY number"));
+  RELIEVO_TRY_ASSIGN(auto query, database.prepare(kLines));
   End reached;
   for (;;) {
     RELIEVO_TRY_ASSIGN(const bool row, query.step());
@@ -109,11 +108,7 @@ Result<void> check_audit_chain(Database& database, const StoreKeys& keys) {
 
 Result<void> seal_audit(Database& database, const StoreKeys& keys) {
   RELIEVO_TRY_ASSIGN(const End end, read_end(database));
-  RELIEVO_TRY_ASSIGN(auto query, database.prepare("SELECT number, at_ms, subject_id, what, detail, hash "
-                                                  "FROM audit ORDER BY number"));
-  RELIEVO_TRY_ASSIGN(
-      auto update,
-      database.prepare("UPDATE audit SET sealed_detail = ?, detail = '', hash = ? WHERE number = ?"));
+  RELIEVO_TRY_ASSIGN(auto query, database.prepare(kLines));
   End old, made;
   for (;;) {
     RELIEVO_TRY_ASSIGN(const bool row, query.step());
@@ -127,30 +122,31 @@ Result<void> seal_audit(Database& database, const StoreKeys& keys) {
     const auto kept = whole ? std::span<const std::byte>(made.hash) : query.blob(5);
     if (query.blob(5).size() == old.hash.size()) std::ranges::copy(query.blob(5), old.hash.begin());
     old.number = line.number;
-    update.again();
-    RELIEVO_TRY(update.bind(detail).bind(kept).bind(line.number).run());
+    RELIEVO_TRY(database.run("UPDATE audit SET sealed_detail = ?, detail = '', hash = ? WHERE number = ?",
+                             detail, kept, line.number));
   }
   if (old.number != end.number || old.hash != end.hash) return {};
-  RELIEVO_TRY_ASSIGN(auto move, database.prepare("UPDATE audit_end SET hash = ?"));
-  return move.bind(made.hash).run();
+  return database.run("UPDATE audit_end SET hash = ?", made.hash);
+}
+
+Result<void> SqliteStore::append_line(const AuditEvent& event, WallTime at) {
+  RELIEVO_TRY(append_audit_line(*database_, *keys_, event, at));
+  return {};
 }
 
 Result<void> SqliteStore::append_audit(const AuditEvent& event) {
   if (event.what == kSettingChanged || event.what == kSubjectErased)
     return Error{Errc::InvalidInput, "only the store itself writes this line of the audit log"}.at(
         event.what);
-  return change([&](WallTime at) -> Result<void> {
-    RELIEVO_TRY(append_audit_line(*database_, *keys_, event, at));
-    return {};
-  });
+  return change([&](WallTime at) { return append_line(event, at); });
 }
 
 Result<std::vector<AuditRecord>> SqliteStore::audit(std::int64_t after_number, std::int64_t limit) {
   return without_exceptions(database_->where(), [&]() -> Result<std::vector<AuditRecord>> {
     RELIEVO_TRY_ASSIGN(auto query,
                        database_->prepare("SELECT number, at_ms, what, subject_id, detail FROM audit "
-                                          "WHERE number > ? ORDER BY number LIMIT ?"));
-    query.bind(after_number).bind(limit);
+                                          "WHERE number > ? ORDER BY number LIMIT ?",
+                                          after_number, limit));
     std::vector<AuditRecord> records;
     for (;;) {
       RELIEVO_TRY_ASSIGN(const bool row, query.step());

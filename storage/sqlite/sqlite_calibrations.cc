@@ -13,8 +13,7 @@ namespace relievo::storage {
 
 Result<void> SqliteStore::make_active(std::uint32_t revision) {
   RELIEVO_TRY(database_->run("UPDATE calibration SET active = 0 WHERE active = 1"));
-  RELIEVO_TRY_ASSIGN(auto update, database_->prepare("UPDATE calibration SET active = 1 WHERE revision = ?"));
-  RELIEVO_TRY(update.bind(std::int64_t{revision}).run());
+  RELIEVO_TRY(database_->run("UPDATE calibration SET active = 1 WHERE revision = ?", revision));
   if (database_->changes() != 1) return not_found("there is no calibration of this revision", revision);
   return {};
 }
@@ -32,19 +31,15 @@ Result<void> check_entry(const pipeline::StereoCalibration& calibration, std::st
 Result<std::uint32_t> SqliteStore::insert_calibration(const pipeline::StereoCalibration& calibration,
                                                       std::string_view note,
                                                       const CalibrationFigures& figures, WallTime at) {
-  RELIEVO_TRY_ASSIGN(auto insert,
-                     database_->prepare("INSERT INTO calibration (created_at_ms, record, active) "
-                                        "VALUES (?, zeroblob(0), 0)"));
-  RELIEVO_TRY(insert.bind(to_ms(at)).run());
+  RELIEVO_TRY(database_->run(
+      "INSERT INTO calibration (created_at_ms, record, active) VALUES (?, zeroblob(0), 0)", to_ms(at)));
   pipeline::StereoCalibration numbered = calibration;
   numbered.revision = std::uint32_t(database_->last_row_id());
   const auto record = encode_calibration(numbered, figures);
   const auto sealed = seal(keys_->device(), calibration_note(numbered.revision), bytes_of(note));
-  RELIEVO_TRY_ASSIGN(auto fill,
-                     database_->prepare("UPDATE calibration SET record = ?, note = ? WHERE revision = ?"));
-  RELIEVO_TRY(fill.bind(record).bind(sealed).bind(std::int64_t{numbered.revision}).run());
-  RELIEVO_TRY(append_audit_line(*database_, *keys_,
-                                {"calibration.saved", {}, std::to_string(numbered.revision)}, at));
+  RELIEVO_TRY(database_->run("UPDATE calibration SET record = ?, note = ? WHERE revision = ?", record, sealed,
+                             numbered.revision));
+  RELIEVO_TRY(append_line({"calibration.saved", {}, std::to_string(numbered.revision)}, at));
   return numbered.revision;
 }
 
@@ -109,7 +104,7 @@ Result<std::vector<CalibrationInfo>> SqliteStore::calibrations() {
       const pipeline::Vec3d& t = calibration.right_from_left.translation_mm;
       found.push_back({.revision = std::uint32_t(query.integer(0)),
                        .created_at = from_ms(query.integer(1)),
-                       .note = std::string(reinterpret_cast<const char*>(note.data()), note.size()),
+                       .note = std::string(text_of(note)),
                        .rms_px = calibration.rms_px,
                        .epipolar_shift_px = calibration.epipolar_shift_px,
                        .baseline_mm = std::hypot(t.x, t.y, t.z),
@@ -137,9 +132,10 @@ Result<pipeline::StereoCalibration> record_in(const Statement& query) {
 
 Result<pipeline::StereoCalibration> SqliteStore::calibration(std::uint32_t revision) {
   return without_exceptions(database_->where(), [&]() -> Result<pipeline::StereoCalibration> {
-    RELIEVO_TRY_ASSIGN(auto query,
-                       database_->prepare("SELECT revision, record FROM calibration WHERE revision = ?"));
-    RELIEVO_TRY_ASSIGN(const bool row, query.bind(std::int64_t{revision}).step());
+    RELIEVO_TRY_ASSIGN(
+        auto query,
+        database_->prepare("SELECT revision, record FROM calibration WHERE revision = ?", revision));
+    RELIEVO_TRY_ASSIGN(const bool row, query.step());
     if (!row) return not_found("there is no calibration of this revision", revision);
     return record_in(query);
   });
@@ -152,21 +148,16 @@ Result<pipeline::StereoCalibration> SqliteStore::active_calibration() {
     RELIEVO_TRY_ASSIGN(const bool row, query.step());
     if (row) return record_in(query);
     RELIEVO_TRY_ASSIGN(const std::int64_t kept, database_->integer("SELECT count(*) FROM calibration"));
-    if (kept > 0)
-      return Error{Errc::NotCalibrated,
-                   "none of the store's calibrations is in use: activate one, or calibrate"}
-          .at(database_->where());
-    return Error{Errc::NotCalibrated, "the store holds no calibration: calibrate first"}.at(
-        database_->where());
+    constexpr Literal kNoneInUse = "none of the store's calibrations is in use: activate one, or calibrate",
+                      kNone = "the store holds no calibration: calibrate first";
+    return Error{Errc::NotCalibrated, kept > 0 ? kNoneInUse : kNone}.at(database_->where());
   });
 }
 
 Result<void> SqliteStore::activate_calibration(std::uint32_t revision) {
   return change([&](WallTime at) -> Result<void> {
     RELIEVO_TRY(make_active(revision));
-    RELIEVO_TRY(
-        append_audit_line(*database_, *keys_, {"calibration.activated", {}, std::to_string(revision)}, at));
-    return {};
+    return append_line({"calibration.activated", {}, std::to_string(revision)}, at);
   });
 }
 

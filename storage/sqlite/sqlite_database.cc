@@ -34,6 +34,9 @@ int system_errno_of(sqlite3* db) {
 Error sqlite_error(int code, int system_errno, std::string_view where) {
   const auto made = [&](Errc errc, Literal what) { return Error{errc, what, system_errno}.at(where); };
   const bool full = system_errno == ENOSPC || system_errno == EDQUOT || system_errno == EFBIG;
+  const int family = code & 0xff;
+  if (code == SQLITE_IOERR_NOMEM) code = SQLITE_NOMEM;
+  else if (full && (family == SQLITE_IOERR || family == SQLITE_CANTOPEN)) code = SQLITE_FULL;
   switch (code & 0xff) {
     case SQLITE_FULL:
       return made(Errc::MediaFull,
@@ -48,12 +51,6 @@ Error sqlite_error(int code, int system_errno, std::string_view where) {
       return made(Errc::StoreCorrupt, "the store is damaged: stop using it and restore a copy");
     case SQLITE_IOERR:
     case SQLITE_CANTOPEN:
-      if (code == SQLITE_IOERR_NOMEM)
-        return made(Errc::OutOfMemory, "not enough memory for this; nothing was changed");
-      if (full) {
-        return made(Errc::MediaFull,
-                    "the disk is full, nothing was changed: erase subjects or make room, then try again");
-      }
       return made(Errc::IoFailed,
                   "the disk could not be read or written: check the disk and its permissions");
     case SQLITE_READONLY:
@@ -82,9 +79,8 @@ Statement& Statement::bind(std::span<const std::byte> blob) {
                                   blob.empty() ? reinterpret_cast<const std::byte*>("") : blob.data(),
                                   blob.size(), SQLITE_STATIC));
 }
-Statement& Statement::bind_null() { return note(sqlite3_bind_null(handle_, ++bound_)); }
-Statement& Statement::bind_zeros(std::int64_t bytes) {
-  return note(sqlite3_bind_zeroblob64(handle_, ++bound_, static_cast<sqlite3_uint64>(bytes)));
+Statement& Statement::bind(Zeros zeros) {
+  return note(sqlite3_bind_zeroblob64(handle_, ++bound_, static_cast<sqlite3_uint64>(zeros.bytes)));
 }
 
 Result<bool> Statement::step() {
@@ -181,34 +177,16 @@ Result<void> Database::run(const char* sql) {
   return code == SQLITE_OK ? Result<void>() : error(code);
 }
 
-Result<Statement> Database::prepare(std::string_view sql) {
+Result<Statement> Database::compile(std::string_view sql) {
   sqlite3_stmt* handle = nullptr;
   const int code = sqlite3_prepare_v2(handle_, sql.data(), int(sql.size()), &handle, nullptr);
   if (code != SQLITE_OK) return error(code);
   return Statement(handle, where_);
 }
 
-Result<std::int64_t> Database::integer(std::string_view sql) {
-  RELIEVO_TRY_ASSIGN(auto statement, prepare(sql));
-  RELIEVO_TRY_ASSIGN(const bool row, statement.step());
-  return row ? statement.integer(0) : 0;
-}
-
 std::int64_t Database::last_row_id() const { return sqlite3_last_insert_rowid(handle_); }
 std::int64_t Database::changes() const { return sqlite3_changes64(handle_); }
 bool Database::in_transaction() const { return sqlite3_get_autocommit(handle_) == 0; }
-
-Result<void> Database::write_blob(const char* table, const char* column, std::int64_t row,
-                                  std::span<const std::byte> bytes) {
-  RELIEVO_TRY_ASSIGN(auto blob, Blob::open(*this, table, column, row, true));
-  return blob.write(0, bytes);
-}
-
-Result<void> Database::read_blob(const char* table, const char* column, std::int64_t row,
-                                 std::span<std::byte> bytes) {
-  RELIEVO_TRY_ASSIGN(auto blob, Blob::open(*this, table, column, row, false));
-  return blob.read(0, bytes);
-}
 
 Result<Blob> Blob::open(Database& database, const char* table, const char* column, std::int64_t row,
                         bool writable) {
@@ -224,9 +202,9 @@ Blob::~Blob() { sqlite3_blob_close(handle_); }
 std::size_t Blob::size() const { return std::size_t(sqlite3_blob_bytes(handle_)); }
 
 Result<void> Blob::write(std::size_t at, std::span<const std::byte> bytes) {
-  for (int code = SQLITE_OK; !bytes.empty();) {
+  while (!bytes.empty()) {
     const auto piece = bytes.first(std::min<std::size_t>(kBlobPieceBytes, bytes.size()));
-    code = sqlite3_blob_write(handle_, piece.data(), int(piece.size()), int(at));
+    const int code = sqlite3_blob_write(handle_, piece.data(), int(piece.size()), int(at));
     if (code != SQLITE_OK) return database_.error(code);
     at += piece.size();
     bytes = bytes.subspan(piece.size());
@@ -235,9 +213,10 @@ Result<void> Blob::write(std::size_t at, std::span<const std::byte> bytes) {
 }
 
 Result<void> Blob::read(std::size_t at, std::span<std::byte> bytes) {
-  for (int code = size() < at + bytes.size() ? SQLITE_CORRUPT : SQLITE_OK; !bytes.empty();) {
+  if (size() < at + bytes.size()) return database_.error(SQLITE_CORRUPT);
+  while (!bytes.empty()) {
     const auto piece = bytes.first(std::min<std::size_t>(kBlobPieceBytes, bytes.size()));
-    if (code == SQLITE_OK) code = sqlite3_blob_read(handle_, piece.data(), int(piece.size()), int(at));
+    const int code = sqlite3_blob_read(handle_, piece.data(), int(piece.size()), int(at));
     if (code != SQLITE_OK) return database_.error(code);
     at += piece.size();
     bytes = bytes.subspan(piece.size());

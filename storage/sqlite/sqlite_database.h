@@ -29,21 +29,27 @@ namespace relievo::storage {
 // The error for what `code` says; `where` is the store's path.
 Error sqlite_error(int code, int system_errno, std::string_view where);
 
+struct Zeros {  // a blob of so many, to be written afterwards
+  std::int64_t bytes = 0;
+};
+
 // One prepared statement. Bound text and blobs are borrowed until the last step().
 class Statement {
  public:
   Statement(sqlite3_stmt* handle, std::string_view where) : handle_(handle), where_(where) {}
   ~Statement();
   Statement(Statement&& other) noexcept
-      : handle_(std::exchange(other.handle_, nullptr)), where_(other.where_), bound_(other.bound_) {}
+      : handle_(std::exchange(other.handle_, nullptr)),
+        where_(other.where_),
+        bound_(other.bound_),
+        bind_code_(other.bind_code_) {}
   Statement& operator=(Statement&&) = delete;
 
   // Placeholders are filled in order, from the first. A failure shows at step().
   Statement& bind(std::int64_t value);
   Statement& bind(std::string_view text);
   Statement& bind(std::span<const std::byte> blob);
-  Statement& bind_null();
-  Statement& bind_zeros(std::int64_t bytes);
+  Statement& bind(Zeros zeros);
 
   Result<bool> step();  // true: there is a row
   Result<void> run();   // to the end, without rows
@@ -74,8 +80,25 @@ class Database {
   void close();
 
   Result<void> run(const char* sql);  // one or more statements without parameters
-  Result<Statement> prepare(std::string_view sql);
-  Result<std::int64_t> integer(std::string_view sql);  // the first column of the first row; 0 if none
+  // The values take the places of the placeholders, in their order.
+  template <typename... Values>
+  Result<Statement> prepare(std::string_view sql, const Values&... values) {
+    RELIEVO_TRY_ASSIGN(auto statement, compile(sql));
+    (statement.bind(values), ...);
+    return statement;
+  }
+  template <typename First, typename... Rest>
+  Result<void> run(std::string_view sql, const First& first, const Rest&... rest) {
+    RELIEVO_TRY_ASSIGN(auto statement, prepare(sql, first, rest...));
+    return statement.run();
+  }
+  // The first column of the first row; 0 if there is none.
+  template <typename... Values>
+  Result<std::int64_t> integer(std::string_view sql, const Values&... values) {
+    RELIEVO_TRY_ASSIGN(auto statement, prepare(sql, values...));
+    RELIEVO_TRY_ASSIGN(const bool row, statement.step());
+    return row ? statement.integer(0) : 0;
+  }
   std::int64_t last_row_id() const;
   std::int64_t changes() const;
   bool in_transaction() const;
@@ -89,10 +112,6 @@ class Database {
   // way.
   Result<bool> empty_log();
 
-  // A whole one, as Blob.
-  Result<void> write_blob(const char* table, const char* column, std::int64_t row,
-                          std::span<const std::byte> bytes);
-  Result<void> read_blob(const char* table, const char* column, std::int64_t row, std::span<std::byte> bytes);
   Result<void> copy_to(const std::filesystem::path& target);
   // Of an open database: from now on it is the first `used` of these bytes, borrowed until it is closed, and
   // touches no disk. `writable`: it may grow to all of them.
@@ -101,10 +120,12 @@ class Database {
   const std::filesystem::path& file() const { return file_; }
   std::string_view where() const { return where_; }
   Error error() const;  // for what failed last
+  Error error(Errc code, Literal what) const { return Error{code, what}.at(where_); }
 
  private:
   friend class Blob;
   Error error(int code) const;
+  Result<Statement> compile(std::string_view sql);
   sqlite3* handle_ = nullptr;
   const std::atomic<bool>* stop_ = nullptr;
   std::filesystem::path file_;

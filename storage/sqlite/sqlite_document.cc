@@ -2,9 +2,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 //
 // What of a document SQLite sees: a table of named parts. One transaction makes it, in memory of the size it
-// will have.
-#include <string.h>
-
+// will have. The bytes of a face are wiped as they go (firmware/base/wiping_heap.cc).
 #include <algorithm>
 #include <utility>
 
@@ -65,39 +63,34 @@ std::vector<std::byte> head_bytes(const DocumentHead& head) {
   std::vector<std::byte> bytes;
   bytes.reserve(256 + head.version.size() + head.algorithms.size() + 16 * head.by_hand.size());
   ByteWriter to(bytes);
-  put_text(to, head.version);
-  put_text(to, head.algorithms);
-  to.put(std::uint8_t(head.whole_view));
-  to.put(head.skew_ns);
-  to.put(std::uint8_t(head.stages.size()));
-  for (const DocumentStage& stage : head.stages) {
-    to.put(std::int64_t(stage.took.count()));
-    for (const std::uint64_t value : {stage.in, stage.out, stage.arena_peak_bytes}) to.put(value);
-  }
+  to.text(head.version);
+  to.text(head.algorithms);
+  to.flag(head.whole_view);
+  to.numbers(head.skew_ns, std::uint8_t(head.stages.size()));
+  for (const DocumentStage& stage : head.stages)
+    to.numbers(std::int64_t(stage.took.count()), stage.in, stage.out, stage.arena_peak_bytes);
   for (const pipeline::Match& m : head.by_hand)
-    for (const float value : {m.left_px.x, m.left_px.y, m.disparity_px, m.sigma_px}) to.put(value);
+    to.numbers(m.left_px.x, m.left_px.y, m.disparity_px, m.sigma_px);
   return bytes;
 }
 
 Result<DocumentHead> head_from(std::span<const std::byte> bytes) {
   ByteReader from(bytes);
   DocumentHead head;
-  head.version = get_text(from);
-  head.algorithms = get_text(from);
-  head.whole_view = from.get<std::uint8_t>() != 0;
-  head.skew_ns = from.get<std::int64_t>();
+  from.text(head.version);
+  from.text(head.algorithms);
+  from.flag(head.whole_view);
+  from.numbers(head.skew_ns);
   const auto stages = from.get<std::uint8_t>();
   if (stages > kDocumentStages) return damaged();
   for (std::size_t i = 0; i < stages; ++i) {
     DocumentStage& stage = head.stages.emplace_back();
     stage.took = std::chrono::nanoseconds(from.get<std::int64_t>());
-    for (std::uint64_t* value : {&stage.in, &stage.out, &stage.arena_peak_bytes})
-      *value = from.get<std::uint64_t>();
+    from.numbers(stage.in, stage.out, stage.arena_peak_bytes);
   }
   while (from.ok() && from.left() > 0) {
     pipeline::Match& m = head.by_hand.emplace_back();
-    for (float* value : {&m.left_px.x, &m.left_px.y, &m.disparity_px, &m.sigma_px})
-      *value = from.get<float>();
+    from.numbers(m.left_px.x, m.left_px.y, m.disparity_px, m.sigma_px);
   }
   if (!from.ok()) return damaged();
   return head;
@@ -139,10 +132,10 @@ std::size_t room_for(const DocumentParts& parts) {
 
 Result<void> put(Database& database, std::string_view name, std::span<const std::byte> data) {
   const Sha256 digest = digest_of(name, data);
-  RELIEVO_TRY_ASSIGN(auto insert, database.prepare("INSERT INTO part (name, sha256, data) VALUES (?, ?, ?)"));
-  RELIEVO_TRY(
-      insert.bind(name).bind(std::span<const std::byte>(digest)).bind_zeros(std::int64_t(data.size())).run());
-  return database.write_blob("part", "data", database.last_row_id(), data);
+  RELIEVO_TRY(database.run("INSERT INTO part (name, sha256, data) VALUES (?, ?, ?)", name, digest,
+                           Zeros{std::int64_t(data.size())}));
+  RELIEVO_TRY_ASSIGN(auto blob, Blob::open(database, "part", "data", database.last_row_id(), true));
+  return blob.write(0, data);
 }
 
 // Of a number in SQLite's header, which is big-endian.
@@ -183,10 +176,8 @@ Result<std::vector<std::byte>> make_document(const DocumentParts& parts) {
     RELIEVO_TRY(transaction.begin());
     RELIEVO_TRY(database.run(kSchema));
     for (const std::string_view name : names_of(parts.head.stages.size())) {
-      RELIEVO_TRY_ASSIGN(std::vector<std::byte> data, bytes_of_part(parts, name));
-      const Result<void> done = put(database, name, data);
-      explicit_bzero(data.data(), data.size());  // a face
-      RELIEVO_TRY(done);
+      RELIEVO_TRY_ASSIGN(const std::vector<std::byte> data, bytes_of_part(parts, name));
+      RELIEVO_TRY(put(database, name, data));
     }
     for (const auto& [option, text] : parts.head.texts)
       RELIEVO_TRY(put(database, std::string(kTextPart) + option, bytes_of(*text)));
@@ -205,12 +196,13 @@ struct Document::Inside {
   Result<std::vector<std::byte>> part(std::string_view name) {
     return without_exceptions({}, [&]() -> Result<std::vector<std::byte>> {
       RELIEVO_TRY_ASSIGN(auto find,
-                         database.prepare("SELECT id, sha256, length(data) FROM part WHERE name = ?"));
-      RELIEVO_TRY_ASSIGN(const bool there, find.bind(name).step());
+                         database.prepare("SELECT id, sha256, length(data) FROM part WHERE name = ?", name));
+      RELIEVO_TRY_ASSIGN(const bool there, find.step());
       const auto size = there ? std::size_t(find.integer(2)) : 0;
       if (size == 0 || size > kMaxDocumentBytes) return damaged();
       std::vector<std::byte> data(size);
-      RELIEVO_TRY(database.read_blob("part", "data", find.integer(0), data));
+      RELIEVO_TRY_ASSIGN(auto blob, Blob::open(database, "part", "data", find.integer(0), false));
+      RELIEVO_TRY(blob.read(0, data));
       if (!std::ranges::equal(digest_of(name, data), find.blob(1))) return damaged();
       return data;
     });
@@ -232,7 +224,6 @@ struct Document::Inside {
     auto data = part(name);
     if (!data) return of_bytes(data.error());
     auto product = without_exceptions({}, [&] { return from(std::span<const std::byte>(*data)); });
-    explicit_bzero(data->data(), data->size());
     if (!product) return of_bytes(product.error());
     return product;
   }
@@ -265,8 +256,7 @@ Result<Document> Document::open(std::span<const std::byte> bytes) {
   for (const std::string& name : *texts) {
     RELIEVO_TRY_ASSIGN(document.head_.texts[name.substr(kTextPart.size())],
                        inside.read(name, [](std::span<const std::byte> data) {
-                         return Result(std::make_shared<const std::string>(
-                             reinterpret_cast<const char*>(data.data()), data.size()));
+                         return Result(std::make_shared<const std::string>(text_of(data)));
                        }));
   }
   return document;
@@ -281,33 +271,28 @@ Result<Document::Picture> Document::picture(bool left) const {
 }
 
 Result<pipeline::RectifiedPair> Document::pair(std::pmr::memory_resource* memory) const {
-  return inside_->read("pair", [memory](std::span<const std::byte> data) { return pair_from(data, memory); });
+  return inside_->read("pair", [&](auto data) { return pair_from(data, memory); });
 }
 
 Result<pipeline::MatchSet> Document::matches(const pipeline::RectifiedPair& of,
                                              std::pmr::memory_resource* memory) const {
-  return inside_->read(
-      "matches", [memory, &of](std::span<const std::byte> data) { return matches_from(data, of, memory); });
+  return inside_->read("matches", [&](auto data) { return matches_from(data, of, memory); });
 }
 
 Result<pipeline::PointCloud> Document::cloud(const pipeline::RectifiedPair& of,
                                              std::pmr::memory_resource* memory) const {
-  return inside_->read(
-      "cloud", [memory, &of](std::span<const std::byte> data) { return cloud_from(data, of, memory); });
+  return inside_->read("cloud", [&](auto data) { return cloud_from(data, of, memory); });
 }
 
 Result<pipeline::FaceMesh> Document::mesh(std::pmr::memory_resource* memory) const {
-  return inside_->read("mesh", [memory](std::span<const std::byte> data) { return mesh_from(data, memory); });
+  return inside_->read("mesh", [&](auto data) { return mesh_from(data, memory); });
 }
 
 Result<pipeline::FaceModel> Document::model(std::pmr::memory_resource* memory) const {
   RELIEVO_TRY_ASSIGN(pipeline::FaceModel model,
-                     inside_->read("model", [memory](std::span<const std::byte> data) {
-                       return decode_model(data, memory);
-                     }));
-  RELIEVO_TRY_ASSIGN(model.backdrop, inside_->read("backdrop", [memory](std::span<const std::byte> data) {
-    return backdrop_from(data, memory);
-  }));
+                     inside_->read("model", [&](auto data) { return decode_model(data, memory); }));
+  RELIEVO_TRY_ASSIGN(model.backdrop,
+                     inside_->read("backdrop", [&](auto data) { return backdrop_from(data, memory); }));
   return model;
 }
 

@@ -38,9 +38,7 @@ Result<Enrolment> SqliteStore::enrolment_in(KeySlots& slots, const Statement& ro
   enrolment.created_at = from_ms(row.integer(2));
   enrolment.calibration_revision = std::uint32_t(row.integer(3));
   RELIEVO_TRY(keys_->take_subject_key(slots, enrolment.subject));
-  RELIEVO_TRY_ASSIGN(auto texts, open_enrolment(*keys_, enrolment.id, row.blob(4)));
-  enrolment.algorithms = std::move(texts.algorithms);
-  enrolment.report_json = std::move(texts.report_json);
+  RELIEVO_TRY(open_enrolment(*keys_, enrolment, row.blob(4)));
   RELIEVO_TRY_ASSIGN(enrolment.consent, open_consent(*keys_, enrolment.id, row.blob(5)));
   const auto sealed = std::size_t(row.integer(6));
   enrolment.model_bytes = std::int64_t(SealedStream::plain_bytes(sealed));
@@ -61,22 +59,15 @@ Result<SubjectId> SqliteStore::resolve(const SubjectChoice& subject, WallTime at
 Result<EnrolmentId> SqliteStore::insert_enrolment(SubjectId subject, const NewEnrolment& enrolment,
                                                   std::span<const std::byte> blob, WallTime created,
                                                   WallTime at) {
-  RELIEVO_TRY_ASSIGN(
-      auto row,
-      database_->prepare(
-          "INSERT INTO enrolment (subject_id, created_at_ms, calibration_revision) VALUES (?, ?, ?)"));
-  row.bind(number(subject)).bind(to_ms(created));
-  if (enrolment.calibration_revision == 0) row.bind_null();
-  else row.bind(std::int64_t{enrolment.calibration_revision});
-  RELIEVO_TRY(row.run());
+  RELIEVO_TRY(database_->run(
+      "INSERT INTO enrolment (subject_id, created_at_ms, calibration_revision) VALUES (?, ?, nullif(?, 0))",
+      number(subject), to_ms(created), enrolment.calibration_revision));
   const EnrolmentId id{database_->last_row_id()};
   RELIEVO_TRY(seal_enrolment(*database_, *keys_, id, enrolment.algorithms, enrolment.report_json));
-  RELIEVO_TRY_ASSIGN(auto consent, database_->prepare("INSERT INTO consent (enrolment_id) VALUES (?)"));
-  RELIEVO_TRY(consent.bind(number(id)).run());
+  RELIEVO_TRY(database_->run("INSERT INTO consent (enrolment_id) VALUES (?)", number(id)));
   RELIEVO_TRY(seal_consent(*database_, *keys_, id, enrolment.consent));
   RELIEVO_TRY(seal_model(*database_, *keys_, id, blob));
-  RELIEVO_TRY(
-      append_audit_line(*database_, *keys_, {"enrolment.added", subject, std::to_string(number(id))}, at));
+  RELIEVO_TRY(append_line({"enrolment.added", subject, std::to_string(number(id))}, at));
   return id;
 }
 
@@ -88,9 +79,10 @@ Result<EnrolmentId> SqliteStore::add_enrolment(const SubjectChoice& choice, cons
     if (enrolment.renews && mode_ == OpenMode::ReadWrite) RELIEVO_TRY(remove_old_copies(database_->file()));
     const auto added = change([&](WallTime at) -> Result<EnrolmentId> {
       if (enrolment.calibration_revision != 0) {
-        RELIEVO_TRY_ASSIGN(auto known, database_->prepare("SELECT 1 FROM calibration WHERE revision = ?"));
-        RELIEVO_TRY_ASSIGN(const bool row, known.bind(std::int64_t{enrolment.calibration_revision}).step());
-        if (!row)
+        RELIEVO_TRY_ASSIGN(const auto known,
+                           database_->integer("SELECT 1 FROM calibration WHERE revision = ?",
+                                              enrolment.calibration_revision));
+        if (known == 0)
           return not_found("there is no calibration of this revision", enrolment.calibration_revision);
       }
       RELIEVO_TRY_ASSIGN(const SubjectId id, resolve(choice, at));
@@ -115,19 +107,16 @@ Result<void> SqliteStore::renew_key(SubjectId id) {
 }
 
 Result<void> SqliteStore::erase_others(SubjectId subject, EnrolmentId but, WallTime at) {
-  RELIEVO_TRY_ASSIGN(auto erase,
-                     database_->prepare("DELETE FROM enrolment WHERE subject_id = ? AND id <> ?"));
-  RELIEVO_TRY(erase.bind(number(subject)).bind(number(but)).run());
   RELIEVO_TRY(
-      append_audit_line(*database_, *keys_, {"enrolment.renewed", subject, std::to_string(number(but))}, at));
-  return {};
+      database_->run("DELETE FROM enrolment WHERE subject_id = ? AND id <> ?", number(subject), number(but)));
+  return append_line({"enrolment.renewed", subject, std::to_string(number(but))}, at);
 }
 
 Result<std::vector<Enrolment>> SqliteStore::enrolments(SubjectId subject) {
   return without_exceptions(database_->where(), [&]() -> Result<std::vector<Enrolment>> {
     RELIEVO_TRY_ASSIGN(auto query, database_->prepare(std::string(kEnrolments) +
-                                                      "WHERE subject_id = ? ORDER BY enrolment.id"));
-    query.bind(number(subject));
+                                                          "WHERE subject_id = ? ORDER BY enrolment.id",
+                                                      number(subject)));
     KeySlots slots(*database_);
     std::vector<Enrolment> found;
     for (;;) {
@@ -141,8 +130,9 @@ Result<std::vector<Enrolment>> SqliteStore::enrolments(SubjectId subject) {
 
 Result<Enrolment> SqliteStore::enrolment(EnrolmentId id) {
   return without_exceptions(database_->where(), [&]() -> Result<Enrolment> {
-    RELIEVO_TRY_ASSIGN(auto query, database_->prepare(std::string(kEnrolments) + "WHERE enrolment.id = ?"));
-    RELIEVO_TRY_ASSIGN(const bool row, query.bind(number(id)).step());
+    RELIEVO_TRY_ASSIGN(auto query,
+                       database_->prepare(std::string(kEnrolments) + "WHERE enrolment.id = ?", number(id)));
+    RELIEVO_TRY_ASSIGN(const bool row, query.step());
     if (!row) return not_found("there is no enrolment with this number", number(id));
     KeySlots slots(*database_);
     return enrolment_in(slots, query);
@@ -150,13 +140,14 @@ Result<Enrolment> SqliteStore::enrolment(EnrolmentId id) {
 }
 
 Result<std::vector<std::byte>> SqliteStore::model_bytes(EnrolmentId id) {
-  RELIEVO_TRY_ASSIGN(auto query,
-                     database_->prepare("SELECT subject.id FROM enrolment JOIN subject ON subject.id "
-                                        "= subject_id AND code_hash IS NOT NULL WHERE enrolment.id = ?"));
-  RELIEVO_TRY_ASSIGN(const bool row, query.bind(number(id)).step());
-  if (!row) return not_found("there is no enrolment with this number", number(id));
+  RELIEVO_TRY_ASSIGN(
+      const auto owner,
+      database_->integer("SELECT subject.id FROM enrolment JOIN subject ON subject.id = subject_id "
+                         "AND code_hash IS NOT NULL WHERE enrolment.id = ?",
+                         number(id)));
+  if (owner == 0) return not_found("there is no enrolment with this number", number(id));
   KeySlots slots(*database_);
-  RELIEVO_TRY(keys_->take_subject_key(slots, SubjectId{query.integer(0)}));
+  RELIEVO_TRY(keys_->take_subject_key(slots, SubjectId{owner}));
   return open_model(*database_, *keys_, id);
 }
 

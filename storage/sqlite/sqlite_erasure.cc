@@ -12,6 +12,7 @@
 
 #include "hal/base/whole_file.h"
 #include "storage/byte_order.h"
+#include "storage/sodium_sha256.h"
 #include "storage/sqlite/sqlite_audit.h"
 #include "storage/sqlite/sqlite_change.h"
 #include "storage/sqlite/sqlite_key_slots.h"
@@ -49,16 +50,6 @@ bool append(const std::filesystem::path& file, std::span<const std::byte> record
   return done && sync_directory(file.parent_path()).has_value();
 }
 
-// As it stands in the log.
-std::string text_of(const KeyedHash& trace) {
-  constexpr std::string_view kDigits = "0123456789abcdef";
-  std::string text;
-  for (const std::byte byte : trace)
-    text +=
-        {kDigits[std::to_integer<std::size_t>(byte >> 4)], kDigits[std::to_integer<std::size_t>(byte) & 15U]};
-  return text;
-}
-
 struct Erased {
   std::int64_t line = 0;
   KeyedHash trace{};
@@ -71,7 +62,7 @@ std::vector<Erased> read_list(const Database& database) {
   ByteReader from(bytes_of(bytes));
   while (from.left() >= std::size_t(kRecordBytes)) {
     Erased& one = all.emplace_back();
-    one.line = std::int64_t(from.get<std::uint64_t>());
+    one.line = from.get<std::int64_t>();
     from.get_run<std::byte>(std::span<std::byte>(one.trace));
   }
   return all;
@@ -79,8 +70,8 @@ std::vector<Erased> read_list(const Database& database) {
 
 // NotFound: they are erased already.
 Result<KeyedHash> trace_of(Database& database, const StoreKeys& keys, SubjectId id) {
-  RELIEVO_TRY_ASSIGN(auto query, database.prepare("SELECT code_hash FROM subject WHERE id = ?"));
-  RELIEVO_TRY_ASSIGN(const bool row, query.bind(number(id)).step());
+  RELIEVO_TRY_ASSIGN(auto query, database.prepare("SELECT code_hash FROM subject WHERE id = ?", number(id)));
+  RELIEVO_TRY_ASSIGN(const bool row, query.step());
   if (!row) return Error{Errc::NotFound, "there is no subject with this number"};
   return trace_of(keys, query.blob(0));
 }
@@ -92,7 +83,7 @@ Result<void> remember_erased(Database& database, const StoreKeys& keys, SubjectI
   RELIEVO_TRY_ASSIGN(const KeyedHash trace, trace_of(database, keys, id));
   std::vector<std::byte> record;
   ByteWriter to(record);
-  to.put(std::uint64_t(line + 1));
+  to.put(line + 1);
   to.put(trace);
   const auto list = list_of(database);
   // An erasure does not wait for it.
@@ -122,23 +113,23 @@ Result<bool> was_erased(Database& database, const StoreKeys& keys, std::int64_t 
   const KeyedHash trace = trace_of(keys, keys.code_hash(code));
   for (const Erased& one : read_list(database))
     if (one.trace == trace) return true;
-  RELIEVO_TRY_ASSIGN(auto query, database.prepare("SELECT number, detail FROM audit WHERE what = ?"));
-  query.bind(kSubjectErased);
+  RELIEVO_TRY_ASSIGN(auto query,
+                     database.prepare("SELECT number, detail FROM audit WHERE what = ?", kSubjectErased));
   for (;;) {
     RELIEVO_TRY_ASSIGN(const bool row, query.step());
     if (!row) return false;
     RELIEVO_TRY_ASSIGN(const std::string detail, open_detail(keys, query.integer(0), query.blob(1)));
-    if (detail == text_of(trace)) return true;
+    if (detail == hex_of(trace)) return true;
   }
 }
 
 Result<void> destroy_subject_key(Database& database, const StoreKeys& keys, SubjectId id, WallTime at) {
   RELIEVO_TRY_ASSIGN(const KeyedHash trace, trace_of(database, keys, id));
-  RELIEVO_TRY(append_audit_line(database, keys, {std::string(kSubjectErased), id, text_of(trace)}, at));
+  RELIEVO_TRY(append_audit_line(database, keys, {std::string(kSubjectErased), id, hex_of(trace)}, at));
   RELIEVO_TRY(KeySlots(database, true).write(id, KeySlots::Slot{}));
-  RELIEVO_TRY_ASSIGN(auto update, database.prepare("UPDATE subject SET name = x'00', name_hash = NULL, "
-                                                   "code = NULL, code_hash = NULL WHERE id = ?"));
-  return update.bind(number(id)).run();
+  return database.run(
+      "UPDATE subject SET name = x'00', name_hash = NULL, code = NULL, code_hash = NULL WHERE id = ?",
+      number(id));
 }
 
 Result<void> remove_erased_rows(Database& database) {
@@ -151,8 +142,8 @@ Result<void> remove_erased_rows(Database& database) {
 Result<void> empty_the_log(Database& database) {
   RELIEVO_TRY_ASSIGN(const bool emptied, database.empty_log());
   if (emptied) return {};
-  return Error{Errc::Timeout, "erased, but another program keeps traces in the log: close it, then restart"}
-      .at(database.where());
+  return database.error(Errc::Timeout,
+                        "erased, but another program keeps traces in the log: close it, then restart");
 }
 
 }  // namespace relievo::storage

@@ -33,20 +33,20 @@ Result<std::vector<SubjectId>> SqliteStore::erased_since(const std::filesystem::
     RELIEVO_TRY_ASSIGN(const bool ended, end.step());
     if (!ended) return another;
     // The same store, if its log goes on where the copy's ends.
-    RELIEVO_TRY_ASSIGN(auto same, database_->prepare("SELECT hash FROM audit WHERE number = ?"));
-    RELIEVO_TRY_ASSIGN(const bool known, same.bind(end.integer(0)).step());
+    RELIEVO_TRY_ASSIGN(auto same,
+                       database_->prepare("SELECT hash FROM audit WHERE number = ?", end.integer(0)));
+    RELIEVO_TRY_ASSIGN(const bool known, same.step());
     if (!known || !std::ranges::equal(same.blob(0), end.blob(1))) return another;
     RELIEVO_TRY_ASSIGN(auto query,
-                       database_->prepare("SELECT subject_id FROM audit WHERE number > ? AND what = ?"));
-    query.bind(end.integer(0)).bind(kSubjectErased);
-    RELIEVO_TRY_ASSIGN(auto there, copy.prepare("SELECT 1 FROM subject WHERE id = ?"));
+                       database_->prepare("SELECT subject_id FROM audit WHERE number > ? AND what = ?",
+                                          end.integer(0), kSubjectErased));
     std::vector<SubjectId> erased;
     for (;;) {
       RELIEVO_TRY_ASSIGN(const bool row, query.step());
       if (!row) return erased;
-      there.again();
-      RELIEVO_TRY_ASSIGN(const bool in_copy, there.bind(query.integer(0)).step());
-      if (in_copy) erased.push_back(SubjectId{query.integer(0)});
+      RELIEVO_TRY_ASSIGN(const std::int64_t in_copy,
+                         copy.integer("SELECT 1 FROM subject WHERE id = ?", query.integer(0)));
+      if (in_copy != 0) erased.push_back(SubjectId{query.integer(0)});
     }
   });
 }
@@ -55,8 +55,7 @@ Result<void> SqliteStore::rekey(KeySource& to) {
   RELIEVO_TRY(remove_old_copies(database_->file()));
   const auto changed = change([&](WallTime at) -> Result<void> {
     RELIEVO_TRY(keys_->rekey(*database_, to, at));
-    RELIEVO_TRY(append_audit_line(*database_, *keys_, {"store.rekeyed", {}, ""}, at));
-    return {};
+    return append_line({"store.rekeyed", {}, ""}, at);
   });
   if (!changed) return changed;
   RELIEVO_TRY(StoreKeys::finish_change(to));
@@ -72,8 +71,7 @@ Result<bool> SqliteStore::has_recovery_words() {
 Result<void> SqliteStore::keep_recovery_words(std::string_view words) {
   return change([&](WallTime at) -> Result<void> {
     RELIEVO_TRY(keys_->keep_recovery_words(*database_, words, at));
-    RELIEVO_TRY(append_audit_line(*database_, *keys_, {"store.recovery_words", {}, ""}, at));
-    return {};
+    return append_line({"store.recovery_words", {}, ""}, at);
   });
 }
 
@@ -162,8 +160,7 @@ Result<void> SqliteStore::check_pages() {
   RELIEVO_TRY_ASSIGN(auto pages, database_->prepare("PRAGMA integrity_check(1)"));
   RELIEVO_TRY_ASSIGN(const bool row, pages.step());
   if (!row || pages.text(0) != "ok") {
-    return Error{Errc::StoreCorrupt, "the store is damaged: stop using it and restore a copy"}.at(
-        database_->where());
+    return database_->error(Errc::StoreCorrupt, "the store is damaged: stop using it and restore a copy");
   }
   RELIEVO_TRY_ASSIGN(auto owners, database_->prepare("PRAGMA foreign_key_check"));
   RELIEVO_TRY_ASSIGN(const bool orphan, owners.step());
@@ -173,8 +170,8 @@ Result<void> SqliteStore::check_pages() {
           "SELECT count(*) FROM enrolment WHERE NOT EXISTS (SELECT 1 FROM model WHERE enrolment_id = "
           "enrolment.id) OR NOT EXISTS (SELECT 1 FROM consent WHERE enrolment_id = enrolment.id)"));
   if (orphan || halves != 0) {
-    return Error{Errc::StoreCorrupt, "a record of the store has lost a part of it: restore a copy"}.at(
-        database_->where());
+    return database_->error(Errc::StoreCorrupt,
+                            "a record of the store has lost a part of it: restore a copy");
   }
   return {};
 }

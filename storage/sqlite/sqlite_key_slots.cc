@@ -18,17 +18,14 @@ Result<void> KeySlots::open(SubjectId id) {
   const std::int64_t block = number(id) / kPerBlock;
   if (blob_ && block == block_) return {};
   blob_.reset();
-  RELIEVO_TRY_ASSIGN(auto query, database_.prepare("SELECT 1 FROM subject_key WHERE block = ?"));
-  RELIEVO_TRY_ASSIGN(const bool there, query.bind(block).step());
-  if (!there && !to_write_)
+  RELIEVO_TRY_ASSIGN(const std::int64_t there,
+                     database_.integer("SELECT 1 FROM subject_key WHERE block = ?", block));
+  if (there == 0 && !to_write_)
     return Error{Errc::StoreCorrupt, "the store has lost this person's key: restore a copy"}.at(
         "subject " + std::to_string(number(id)));
-  if (!there) {
-    RELIEVO_TRY_ASSIGN(auto insert,
-                       database_.prepare("INSERT INTO subject_key (block, slots) VALUES (?, ?)"));
-    insert.bind(block).bind_zeros(kHead + kPerBlock * std::int64_t(sizeof(Slot)));
-    RELIEVO_TRY(insert.run());
-  }
+  if (there == 0)
+    RELIEVO_TRY(database_.run("INSERT INTO subject_key (block, slots) VALUES (?, ?)", block,
+                              Zeros{kHead + kPerBlock * std::int64_t(sizeof(Slot))}));
   RELIEVO_TRY_ASSIGN(auto blob, Blob::open(database_, "subject_key", "slots", block, to_write_));
   blob_.emplace(std::move(blob));
   block_ = block;

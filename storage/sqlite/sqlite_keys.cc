@@ -23,34 +23,30 @@ Place slot_of(SubjectId id) { return {"subject_key", "slots", number(id)}; }
 // Takes the place of the one that was there.
 Result<void> put_key(Database& database, std::string_view kind, std::span<const std::byte> wrapped,
                      WallTime at) {
-  RELIEVO_TRY_ASSIGN(auto update,
-                     database.prepare("UPDATE encryption_key SET created_at_ms = ?, parameters = ? "
-                                      "WHERE kind = ?"));
-  RELIEVO_TRY(update.bind(to_ms(at)).bind(wrapped).bind(kind).run());
+  RELIEVO_TRY(database.run("UPDATE encryption_key SET created_at_ms = ?, parameters = ? WHERE kind = ?",
+                           to_ms(at), wrapped, kind));
   if (database.changes() > 0) return {};
-  RELIEVO_TRY_ASSIGN(
-      auto insert,
-      database.prepare("INSERT INTO encryption_key (created_at_ms, parameters, kind) VALUES (?, ?, ?)"));
-  return insert.bind(to_ms(at)).bind(wrapped).bind(kind).run();
+  return database.run("INSERT INTO encryption_key (created_at_ms, parameters, kind) VALUES (?, ?, ?)",
+                      to_ms(at), wrapped, kind);
 }
 
 // 0: there is none.
 Result<std::int64_t> find_key(Database& database, std::string_view kind, std::vector<std::byte>& wrapped) {
   RELIEVO_TRY_ASSIGN(auto query,
-                     database.prepare("SELECT id, parameters FROM encryption_key WHERE kind = ?"));
-  RELIEVO_TRY_ASSIGN(const bool row, query.bind(kind).step());
+                     database.prepare("SELECT id, parameters FROM encryption_key WHERE kind = ?", kind));
+  RELIEVO_TRY_ASSIGN(const bool row, query.step());
   if (!row) return 0;
   wrapped.assign(query.blob(1).begin(), query.blob(1).end());
   return query.integer(0);
 }
 
 Error lost_keys(const Database& database) {
-  return Error{Errc::StoreCorrupt, "the store has lost its keys: restore a copy"}.at(database.where());
+  return database.error(Errc::StoreCorrupt, "the store has lost its keys: restore a copy");
 }
 
 }  // namespace
 
-StoreKeys::StoreKeys(std::shared_ptr<KeySource> source, SecretKey (&&rooms)[6], SealedStream stream)
+StoreKeys::StoreKeys(std::shared_ptr<KeySource> source, std::vector<SecretKey> rooms, SealedStream stream)
     : source_(std::move(source)),
       appliance_(std::move(rooms[0])),
       store_(std::move(rooms[1])),
@@ -61,16 +57,13 @@ StoreKeys::StoreKeys(std::shared_ptr<KeySource> source, SecretKey (&&rooms)[6], 
       stream_(std::move(stream)) {}
 
 Result<std::unique_ptr<StoreKeys>> StoreKeys::make(std::shared_ptr<KeySource> source) {
-  RELIEVO_TRY_ASSIGN(auto a, SecretKey::make());
-  RELIEVO_TRY_ASSIGN(auto b, SecretKey::make());
-  RELIEVO_TRY_ASSIGN(auto c, SecretKey::make());
-  RELIEVO_TRY_ASSIGN(auto d, SecretKey::make());
-  RELIEVO_TRY_ASSIGN(auto e, SecretKey::make());
-  RELIEVO_TRY_ASSIGN(auto f, SecretKey::make());
+  std::vector<SecretKey> rooms;
+  while (rooms.size() < 6) {
+    RELIEVO_TRY_ASSIGN(auto room, SecretKey::make());
+    rooms.push_back(std::move(room));
+  }
   RELIEVO_TRY_ASSIGN(auto stream, SealedStream::make());
-  return std::unique_ptr<StoreKeys>(new StoreKeys(
-      std::move(source), {std::move(a), std::move(b), std::move(c), std::move(d), std::move(e), std::move(f)},
-      std::move(stream)));
+  return std::unique_ptr<StoreKeys>(new StoreKeys(std::move(source), std::move(rooms), std::move(stream)));
 }
 
 void StoreKeys::derive() {
@@ -90,8 +83,16 @@ Result<void> StoreKeys::create(Database& database, WallTime at) {
   device_.draw();
   RELIEVO_TRY(put_key(database, kAppliance, seal(appliance_, place_of(kAppliance), store_.bytes()), at));
   RELIEVO_TRY(put_key(database, kDevice, seal(store_, place_of(kDevice), device_.bytes()), at));
-  std::vector<std::byte> ignored;
-  RELIEVO_TRY_ASSIGN(id_, find_key(database, kAppliance, ignored));
+  RELIEVO_TRY_ASSIGN(id_, database.integer("SELECT id FROM encryption_key WHERE kind = ?", kAppliance));
+  derive();
+  return {};
+}
+
+Result<void> StoreKeys::load_device(Database& database) {
+  std::vector<std::byte> wrapped;
+  RELIEVO_TRY_ASSIGN(const auto device, find_key(database, kDevice, wrapped));
+  if (device == 0) return lost_keys(database);
+  RELIEVO_TRY(unwrap(store_, place_of(kDevice), wrapped, device_));
   derive();
   return {};
 }
@@ -105,17 +106,13 @@ Result<void> StoreKeys::load(Database& database, bool to_read) {
     // Power may have gone between the store's going by a new key and the key's taking its place.
     if (!source_->read_next(appliance_) || !unwrap(appliance_, place_of(kAppliance), wrapped, store_)) {
       if (!read) return read;
-      return Error{Errc::InvalidInput,
-                   "this is not the key of this store: name the right one (--key), or recover the store"}
-          .at(database.where());
+      return database.error(
+          Errc::InvalidInput,
+          "this is not the key of this store: name the right one (--key), or recover the store");
     }
     if (!to_read) RELIEVO_TRY(source_->take_next());
   }
-  RELIEVO_TRY_ASSIGN(const auto device, find_key(database, kDevice, wrapped));
-  if (device == 0) return lost_keys(database);
-  RELIEVO_TRY(unwrap(store_, place_of(kDevice), wrapped, device_));
-  derive();
-  return {};
+  return load_device(database);
 }
 
 Result<void> StoreKeys::wrap_for_appliance(Database& database, KeySource& to, WallTime at) {
@@ -172,14 +169,11 @@ Result<void> StoreKeys::recover(Database& database, std::string_view words, KeyS
   std::vector<std::byte> wrapped;
   RELIEVO_TRY_ASSIGN(const auto row, find_key(database, kRecovery, wrapped));
   if (row == 0)
-    return Error{Errc::NotFound, "no recovery words were ever made for this store: only its key opens it"}.at(
-        database.where());
+    return database.error(Errc::NotFound,
+                          "no recovery words were ever made for this store: only its key opens it");
   if (auto opened = open_recovered(secret, wrapped, store_); !opened)
     return opened.error().at(database.where());
-  RELIEVO_TRY_ASSIGN(const auto device, find_key(database, kDevice, wrapped));
-  if (device == 0) return lost_keys(database);
-  RELIEVO_TRY(unwrap(store_, place_of(kDevice), wrapped, device_));
-  derive();
+  RELIEVO_TRY(load_device(database));
   return wrap_for_appliance(database, to, at);
 }
 

@@ -64,8 +64,9 @@ class StoreKeys {
   SealedStream& stream() { return stream_; }
 
  private:
-  StoreKeys(std::shared_ptr<KeySource> source, SecretKey (&&rooms)[6], SealedStream stream);
+  StoreKeys(std::shared_ptr<KeySource> source, std::vector<SecretKey> rooms, SealedStream stream);
   void derive();
+  Result<void> load_device(Database& database);
   Result<void> wrap_for_appliance(Database& database, KeySource& to, WallTime at);
 
   std::shared_ptr<KeySource> source_;

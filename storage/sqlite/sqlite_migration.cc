@@ -41,8 +41,8 @@ Result<void> step(Database& database, std::int64_t from, std::int64_t to, const 
   RELIEVO_TRY_ASSIGN(auto broken, database.prepare("PRAGMA foreign_key_check"));
   RELIEVO_TRY_ASSIGN(const bool found, broken.step());
   if (found)
-    return Error{Errc::StoreCorrupt, "the store could not be migrated: a record in it has lost its owner"}.at(
-        database.where());
+    return database.error(Errc::StoreCorrupt,
+                          "the store could not be migrated: a record in it has lost its owner");
   return transaction.commit();
 }
 
@@ -99,16 +99,15 @@ Result<std::int64_t> version_of(Database& database) {
   RELIEVO_TRY_ASSIGN(const std::int64_t tables, database.integer("SELECT count(*) FROM sqlite_schema"));
   if (application == 0 && version == 0 && tables == 0) return 0;
   if (application != kApplicationId || version < 1) {
-    return Error{Errc::InvalidInput, "this file is another program's database: give another directory"}.at(
-        database.where());
+    return database.error(Errc::InvalidInput,
+                          "this file is another program's database: give another directory");
   }
   if (version > store_version()) {
     RELIEVO_TRY_ASSIGN(const std::int64_t compatible,
                        database.integer("SELECT compatible_version FROM store_info"));
     if (compatible > store_version() || compatible < 1) {
-      return Error{Errc::StoreNewer,
-                   "the store was made by a newer version, and was left as it is: update Relievo"}
-          .at(database.where());
+      return database.error(Errc::StoreNewer,
+                            "the store was made by a newer version, and was left as it is: update Relievo");
     }
   }
   return version;

@@ -27,8 +27,8 @@ Result<std::size_t> seal_plain_model(Database& database, StoreKeys& keys, Enrolm
   // The plain one is about to go for good.
   RELIEVO_TRY_ASSIGN(const auto back, open_model(database, keys, id));
   if (back != plain)
-    return Error{Errc::StoreCorrupt, "a model did not come back as it was sealed: check memory and disk"}.at(
-        database.where());
+    return database.error(Errc::StoreCorrupt,
+                          "a model did not come back as it was sealed: check memory and disk");
   return plain.size();
 }
 
@@ -37,8 +37,8 @@ Result<std::size_t> seal_person(Database& database, StoreKeys& keys, SubjectId i
       auto query,
       database.prepare("SELECT enrolment.id, algorithms, report_json, wording, language, given_at_ms "
                        "FROM enrolment JOIN consent ON enrolment_id = enrolment.id "
-                       "WHERE subject_id = ? AND enrolment.record IS NULL ORDER BY enrolment.id"));
-  query.bind(number(id));
+                       "WHERE subject_id = ? AND enrolment.record IS NULL ORDER BY enrolment.id",
+                       number(id)));
   std::size_t bytes = 0;
   for (;;) {
     RELIEVO_TRY_ASSIGN(const bool row, query.step());
@@ -51,6 +51,18 @@ Result<std::size_t> seal_person(Database& database, StoreKeys& keys, SubjectId i
     bytes += model;
   }
 }
+
+// The stream's state opens a model as its key does: it is wiped on every way out.
+class StreamEnd {
+ public:
+  explicit StreamEnd(SealedStream& stream) : stream_(stream) {}
+  StreamEnd(const StreamEnd&) = delete;
+  StreamEnd& operator=(const StreamEnd&) = delete;
+  ~StreamEnd() { stream_.end(); }
+
+ private:
+  SealedStream& stream_;
+};
 
 // false: nobody is left.
 Result<bool> seal_some_people(Database& database, StoreKeys& keys) {
@@ -69,9 +81,8 @@ Result<bool> seal_some_people(Database& database, StoreKeys& keys) {
         return false;
       }
       id = SubjectId{query.integer(0)};
-      const auto name = query.blob(1);
-      const std::string kept(reinterpret_cast<const char*>(name.data()), name.size());
-      RELIEVO_TRY(seal_subject(database, keys, id, kept, query.integer(2)));
+      const std::string name(text_of(query.blob(1)));
+      RELIEVO_TRY(seal_subject(database, keys, id, name, query.integer(2)));
     }
     RELIEVO_TRY_ASSIGN(const std::size_t models, seal_person(database, keys, id));
     bytes += models;
@@ -82,15 +93,13 @@ Result<bool> seal_some_people(Database& database, StoreKeys& keys) {
 
 Result<void> seal_notes(Database& database, const StoreKeys& keys) {
   RELIEVO_TRY_ASSIGN(auto query, database.prepare("SELECT revision, note FROM calibration"));
-  RELIEVO_TRY_ASSIGN(
-      auto update, database.prepare("UPDATE calibration SET sealed_note = ?, note = '' WHERE revision = ?"));
   for (;;) {
     RELIEVO_TRY_ASSIGN(const bool row, query.step());
     if (!row) return {};
     const std::int64_t revision = query.integer(0);
     const auto sealed = seal(keys.device(), calibration_note(revision), bytes_of(query.text(1)));
-    update.again();
-    RELIEVO_TRY(update.bind(sealed).bind(revision).run());
+    RELIEVO_TRY(database.run("UPDATE calibration SET sealed_note = ?, note = '' WHERE revision = ?", sealed,
+                             revision));
   }
 }
 
@@ -156,15 +165,14 @@ Result<void> seal_subject(Database& database, StoreKeys& keys, SubjectId id, std
   const auto sealed_name = seal(keys.subject(), name_of(id), bytes_of(padded));
   const auto sealed_code = seal(keys.subject(), code_of(id), bytes_of(std::to_string(code)));
   const auto name_hash = keys.name_hash(name), code_hash = keys.code_hash(code);
-  RELIEVO_TRY_ASSIGN(auto update, database.prepare("UPDATE subject SET key_id = ?, name = ?, name_hash = ?, "
-                                                   "code = ?, code_hash = ? WHERE id = ?"));
-  update.bind(keys.id()).bind(sealed_name).bind(name_hash).bind(sealed_code).bind(code_hash);
-  return update.bind(number(id)).run();
+  return database.run(
+      "UPDATE subject SET key_id = ?, name = ?, name_hash = ?, code = ?, code_hash = ? WHERE id = ?",
+      keys.id(), sealed_name, name_hash, sealed_code, code_hash, number(id));
 }
 
 Result<std::string> open_name(const StoreKeys& keys, SubjectId id, std::span<const std::byte> sealed) {
   RELIEVO_TRY_ASSIGN(const auto plain, unseal(keys.subject(), name_of(id), sealed));
-  std::string name(reinterpret_cast<const char*>(plain.data()), plain.size());
+  std::string name(text_of(plain));
   name.resize(name.find_last_not_of('\0') + 1);
   return name;
 }
@@ -180,33 +188,28 @@ Result<void> seal_enrolment(Database& database, const StoreKeys& keys, Enrolment
                             std::string_view algorithms, std::string_view report_json) {
   std::vector<std::byte> plain;
   ByteWriter to(plain);
-  put_text(to, algorithms);
-  put_text(to, report_json);
+  to.text(algorithms);
+  to.text(report_json);
   const auto sealed = seal(keys.subject(), record_of(id), plain);
-  RELIEVO_TRY_ASSIGN(auto update, database.prepare("UPDATE enrolment SET record = ? WHERE id = ?"));
-  return update.bind(sealed).bind(number(id)).run();
+  return database.run("UPDATE enrolment SET record = ? WHERE id = ?", sealed, number(id));
 }
 
-Result<EnrolmentTexts> open_enrolment(const StoreKeys& keys, EnrolmentId id,
-                                      std::span<const std::byte> sealed) {
-  RELIEVO_TRY_ASSIGN(const auto plain, unseal(keys.subject(), record_of(id), sealed));
+Result<void> open_enrolment(const StoreKeys& keys, Enrolment& enrolment, std::span<const std::byte> sealed) {
+  RELIEVO_TRY_ASSIGN(const auto plain, unseal(keys.subject(), record_of(enrolment.id), sealed));
   ByteReader from(plain);
-  EnrolmentTexts texts;
-  texts.algorithms = get_text(from);
-  texts.report_json = get_text(from);
-  if (!from.ok() || from.left() != 0) return strange();
-  return texts;
+  from.text(enrolment.algorithms);
+  from.text(enrolment.report_json);
+  return from.whole() ? Result<void>() : strange();
 }
 
 Result<void> seal_consent(Database& database, const StoreKeys& keys, EnrolmentId id, const Consent& consent) {
   std::vector<std::byte> plain;
   ByteWriter to(plain);
   to.put(to_ms(consent.given_at));
-  put_text(to, consent.wording);
-  put_text(to, consent.language);
+  to.text(consent.wording);
+  to.text(consent.language);
   const auto sealed = seal(keys.subject(), consent_of(id), plain);
-  RELIEVO_TRY_ASSIGN(auto update, database.prepare("UPDATE consent SET record = ? WHERE enrolment_id = ?"));
-  return update.bind(sealed).bind(number(id)).run();
+  return database.run("UPDATE consent SET record = ? WHERE enrolment_id = ?", sealed, number(id));
 }
 
 Result<Consent> open_consent(const StoreKeys& keys, EnrolmentId id, std::span<const std::byte> sealed) {
@@ -214,23 +217,19 @@ Result<Consent> open_consent(const StoreKeys& keys, EnrolmentId id, std::span<co
   ByteReader from(plain);
   Consent consent;
   consent.given_at = from_ms(from.get<std::int64_t>());
-  consent.wording = get_text(from);
-  consent.language = get_text(from);
-  if (!from.ok() || from.left() != 0) return strange();
+  from.text(consent.wording);
+  from.text(consent.language);
+  if (!from.whole()) return strange();
   return consent;
 }
 
 Result<void> seal_model(Database& database, StoreKeys& keys, EnrolmentId id,
                         std::span<const std::byte> blob) {
   SealedStream& stream = keys.stream();
+  const StreamEnd end(stream);
   const StreamHeader header = stream.begin_sealing(keys.subject());
-  {
-    RELIEVO_TRY_ASSIGN(
-        auto row,
-        database.prepare("INSERT OR REPLACE INTO model (enrolment_id, nonce, bytes) VALUES (?, ?, ?)"));
-    row.bind(number(id)).bind(header);
-    RELIEVO_TRY(row.bind_zeros(std::int64_t(SealedStream::sealed_bytes(blob.size()))).run());
-  }
+  RELIEVO_TRY(database.run("INSERT OR REPLACE INTO model (enrolment_id, nonce, bytes) VALUES (?, ?, ?)",
+                           number(id), header, Zeros{std::int64_t(SealedStream::sealed_bytes(blob.size()))}));
   RELIEVO_TRY_ASSIGN(auto target, Blob::open(database, "model", "bytes", number(id), true));
   std::size_t at = 0;
   do {
@@ -240,15 +239,15 @@ Result<void> seal_model(Database& database, StoreKeys& keys, EnrolmentId id,
     RELIEVO_TRY(target.write(at, sealed));
     at += sealed.size();
   } while (!blob.empty());
-  stream.end();
   return {};
 }
 
 Result<std::vector<std::byte>> open_model(Database& database, StoreKeys& keys, EnrolmentId id) {
   StreamHeader header{};
   {
-    RELIEVO_TRY_ASSIGN(auto query, database.prepare("SELECT nonce FROM model WHERE enrolment_id = ?"));
-    RELIEVO_TRY_ASSIGN(const bool row, query.bind(number(id)).step());
+    RELIEVO_TRY_ASSIGN(auto query,
+                       database.prepare("SELECT nonce FROM model WHERE enrolment_id = ?", number(id)));
+    RELIEVO_TRY_ASSIGN(const bool row, query.step());
     if (!row)
       return Error{Errc::StoreCorrupt, "a record of the store has lost its model: restore a copy"}.at(
           "enrolment " + std::to_string(number(id)));
@@ -259,6 +258,7 @@ Result<std::vector<std::byte>> open_model(Database& database, StoreKeys& keys, E
   std::vector<std::byte> blob(SealedStream::plain_bytes(source.size()));
   std::vector<std::byte> piece(std::min(source.size(), SealedStream::kSealedPieceBytes));
   SealedStream& stream = keys.stream();
+  const StreamEnd end(stream);
   stream.begin_opening(keys.subject(), header);
   auto rest = std::span(blob);
   std::size_t at = 0;
@@ -273,7 +273,6 @@ Result<std::vector<std::byte>> open_model(Database& database, StoreKeys& keys, E
     RELIEVO_TRY(stream.open_piece(model_of(id), sealed, at == source.size(), room));
     rest = rest.subspan(room.size());
   } while (at < source.size());
-  stream.end();
   return blob;
 }
 

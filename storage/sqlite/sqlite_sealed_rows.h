@@ -24,8 +24,7 @@ namespace relievo::storage {
 //
 //   7 ──► seal_people(): some at a time, each part a transaction; a power cut goes on with the next person
 //     ──► seal_the_rest(): notes, settings, audit log; in the transaction of migration 8 ──► 8
-// Errors: as every change. StoreCorrupt: what was sealed did not come back the same; nothing was changed
-// then. Thread: the store's.
+// StoreCorrupt: what was sealed did not come back the same; nothing was changed then.
 Result<void> seal_people(Database& database, StoreKeys& keys);
 Result<void> seal_the_rest(Database& database, const StoreKeys& keys);
 
@@ -40,13 +39,10 @@ Result<void> seal_subject(Database& database, StoreKeys& keys, SubjectId id, std
 Result<std::string> open_name(const StoreKeys& keys, SubjectId id, std::span<const std::byte> sealed);
 Result<std::int64_t> open_code(const StoreKeys& keys, SubjectId id, std::span<const std::byte> sealed);
 
-struct EnrolmentTexts {
-  std::string algorithms, report_json;
-};
 Result<void> seal_enrolment(Database& database, const StoreKeys& keys, EnrolmentId id,
                             std::string_view algorithms, std::string_view report_json);
-Result<EnrolmentTexts> open_enrolment(const StoreKeys& keys, EnrolmentId id,
-                                      std::span<const std::byte> sealed);
+// Its algorithms and report.
+Result<void> open_enrolment(const StoreKeys& keys, Enrolment& enrolment, std::span<const std::byte> sealed);
 
 Result<void> seal_consent(Database& database, const StoreKeys& keys, EnrolmentId id, const Consent& consent);
 Result<Consent> open_consent(const StoreKeys& keys, EnrolmentId id, std::span<const std::byte> sealed);

@@ -30,8 +30,9 @@ Result<Settings> read_settings(Database& database, const StoreKeys& keys) {
         .at("settings, record");
   RELIEVO_TRY_ASSIGN(const auto plain, unseal(keys.device(), record_of(last), query.blob(1)));
   for (ByteReader from(plain); from.ok() && from.left() > 0;) {
-    auto key = get_text(from);
-    settings.insert_or_assign(std::move(key), get_text(from));
+    std::string key;
+    from.text(key);
+    from.text(settings[key]);
   }
   return settings;
 }
@@ -41,13 +42,12 @@ Result<void> write_settings(Database& database, const StoreKeys& keys, const Set
   std::vector<std::byte> plain;
   ByteWriter to(plain);
   for (const auto& [key, value] : settings) {
-    put_text(to, key);
-    put_text(to, value);
+    to.text(key);
+    to.text(value);
   }
   const auto sealed = seal(keys.device(), record_of(line), plain);
   RELIEVO_TRY(database.run("DELETE FROM settings"));
-  RELIEVO_TRY_ASSIGN(auto insert, database.prepare("INSERT INTO settings (line, record) VALUES (?, ?)"));
-  return insert.bind(line).bind(sealed).run();
+  return database.run("INSERT INTO settings (line, record) VALUES (?, ?)", line, sealed);
 }
 
 Result<std::string> SqliteStore::setting(std::string_view key) {

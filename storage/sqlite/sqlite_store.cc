@@ -28,8 +28,7 @@ Result<void> set_up_writing(Database& database, const SqliteStoreOptions& option
   RELIEVO_TRY_ASSIGN(auto mode, database.prepare("PRAGMA journal_mode = WAL"));
   RELIEVO_TRY_ASSIGN(const bool row, mode.step());
   if (!row || mode.text(0) != "wal") {
-    return Error{Errc::Unsupported, "this disk cannot hold the store's log: use a local disk"}.at(
-        database.where());
+    return database.error(Errc::Unsupported, "this disk cannot hold the store's log: use a local disk");
   }
   RELIEVO_TRY(mode.run());
   // The log is moved into the file after every enrolment: on a full disk little is then left in it.
@@ -83,14 +82,13 @@ Result<void> open_to_write(Database& database, StoreKeys& keys, WallTime at,
 Result<void> open_to_read(Database& database, StoreKeys& keys, const SqliteStoreOptions& options) {
   std::error_code ignored;
   if (!fs::exists(database.file(), ignored)) {
-    return Error{Errc::NotFound, "there is no store: check the path"}.at(database.where());
+    return database.error(Errc::NotFound, "there is no store: check the path");
   }
   RELIEVO_TRY(database.open(false));
   RELIEVO_TRY(set_up(database, options));
   RELIEVO_TRY_ASSIGN(const std::int64_t version, version_of(database));
   if (version < store_version()) {
-    return Error{Errc::InvalidState, "the store is of an older version: open it to write once"}.at(
-        database.where());
+    return database.error(Errc::InvalidState, "the store is of an older version: open it to write once");
   }
   return keys.load(database, true);
 }
@@ -124,7 +122,7 @@ Result<std::unique_ptr<SqliteStore>> SqliteStore::open(const fs::path& dir, cons
     const WallTime at = time_of(clock);
     auto ready =
         writable ? open_to_write(*database, *keys, at, options) : open_to_read(*database, *keys, options);
-    if (!ready && ready.error().code == Errc::MediaFull && give_up_reserve(home)) {
+    if (writable && !ready && ready.error().code == Errc::MediaFull && give_up_reserve(home)) {
       database = std::make_unique<Database>(home / kStoreFile);
       ready = open_to_write(*database, *keys, at, options);
     }

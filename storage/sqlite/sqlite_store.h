@@ -1,11 +1,8 @@
 // SPDX-FileCopyrightText: 2026 The Relievo authors
 // SPDX-License-Identifier: GPL-3.0-or-later
 //
-// The one way to open a store of SQLite. It lives in DIR/relievo.db (directory 0700, file 0600);
-// DIR/relievo.lock keeps a second writer out; DIR/relievo.db.before-N is the copy made before a
-// migration to version N, removed by the next erasure, and at once where people stand in it in the clear;
-// DIR/relievo.key is the appliance's key, unless it has another place; DIR/relievo.reserve is room set aside,
-// given up when the disk is full so that the store still opens and people can still be erased.
+// The one way to open a store of SQLite: DIR/relievo.db (directory 0700, file 0600), and beside it what
+// storage/README.md lists.
 //
 // Errors: InvalidInput (another program's database, DIR is no directory); NotFound (opened to read,
 // nothing there); StoreNewer (made by a newer Relievo: left untouched); StoreCorrupt; Timeout
@@ -78,7 +75,7 @@ class SqliteStore final : public Store {
   Result<void> check(const std::atomic<bool>& stop) override;
   Result<SubjectId> add_subject(const NewSubject& subject) override;
   Result<std::vector<Subject>> subjects(const SubjectFilter& filter) override;
-  Result<std::int64_t> count_subjects(const SubjectFilter& filter) override;
+  Result<std::int64_t> count_subjects() override;
   Result<Subject> subject(SubjectId id) override;
   Result<void> for_each_subject(Opened opened, const Visit& visit) override;
   Result<void> erase_subject(SubjectId id) override;
@@ -114,7 +111,8 @@ class SqliteStore final : public Store {
   auto change_in_reserve(const Work& work) -> decltype(work(WallTime{}));
   WallTime now() const;
   Error not_found(Literal what, std::int64_t number) const;
-  Result<void> subject_must_exist(SubjectId id);  // its key is in keys_ then
+  Result<void> append_line(const AuditEvent& event, WallTime at);  // inside the caller's transaction
+  Result<void> subject_must_exist(SubjectId id);                   // its key is in keys_ then
   Result<Subject> subject_in(KeySlots& slots, const Statement& row);
   Result<Enrolment> enrolment_in(KeySlots& slots, const Statement& row);
   Result<std::int64_t> fresh_receipt();

@@ -19,15 +19,16 @@ namespace {
 // One without a code is erased, even while its row is there. They are few, and an index has them: so rows
 // that are skipped are not read.
 constexpr std::string_view kSubjects =
-    "SELECT id, created_at_ms, name, code FROM subject "
-    "WHERE id NOT IN (SELECT id FROM subject WHERE code_hash IS NULL) ";
+    "SELECT id, created_at_ms, name, code, (SELECT count(*) FROM enrolment WHERE subject_id = subject.id) "
+    "FROM subject WHERE id NOT IN (SELECT id FROM subject WHERE code_hash IS NULL) ";
 
 }  // namespace
 
 Result<void> SqliteStore::subject_must_exist(SubjectId id) {
-  RELIEVO_TRY_ASSIGN(auto query, database_->prepare(std::string(kSubjects) + "AND id = ?"));
-  RELIEVO_TRY_ASSIGN(const bool row, query.bind(number(id)).step());
-  if (!row) return not_found("there is no subject with this number", number(id));
+  RELIEVO_TRY_ASSIGN(
+      const auto known,
+      database_->integer("SELECT count(*) FROM subject WHERE code_hash IS NOT NULL AND id = ?", number(id)));
+  if (known == 0) return not_found("there is no subject with this number", number(id));
   KeySlots slots(*database_);
   return keys_->take_subject_key(slots, id);
 }
@@ -46,9 +47,9 @@ Result<std::int64_t> SqliteStore::fresh_receipt() {
   for (int draw = 0; draw < kMostDraws; ++draw) {
     const std::int64_t drawn = draw_receipt_();
     const auto hash = keys_->code_hash(drawn);
-    RELIEVO_TRY_ASSIGN(auto query, database_->prepare("SELECT 1 FROM subject WHERE code_hash = ?"));
-    RELIEVO_TRY_ASSIGN(const bool taken, query.bind(hash).step());
-    if (!taken) return drawn;
+    RELIEVO_TRY_ASSIGN(const auto taken,
+                       database_->integer("SELECT 1 FROM subject WHERE code_hash = ?", hash));
+    if (taken == 0) return drawn;
   }
   return Error{Errc::LibraryFailed,
                "the system's random numbers repeat themselves: nobody can be given a code"};
@@ -60,12 +61,10 @@ Result<SubjectId> SqliteStore::insert_subject(std::string_view name, std::int64_
   if (!is_name(name)) {
     return Error{Errc::InvalidInput, "a name has 1 to 200 bytes of UTF-8 and no control characters"};
   }
-  RELIEVO_TRY_ASSIGN(auto insert,
-                     database_->prepare("INSERT INTO subject (created_at_ms, name) VALUES (?, x'00')"));
-  RELIEVO_TRY(insert.bind(to_ms(created)).run());
+  RELIEVO_TRY(database_->run("INSERT INTO subject (created_at_ms, name) VALUES (?, x'00')", to_ms(created)));
   const SubjectId id{database_->last_row_id()};
   RELIEVO_TRY(seal_subject(*database_, *keys_, id, name, receipt));
-  RELIEVO_TRY(append_audit_line(*database_, *keys_, {"subject.added", id, ""}, at));
+  RELIEVO_TRY(append_line({"subject.added", id, ""}, at));
   return id;
 }
 
@@ -80,7 +79,6 @@ Result<std::vector<Subject>> SqliteStore::subjects(const SubjectFilter& filter) 
         auto query,
         database_->prepare(std::string(kSubjects) + (by_code ? "AND code_hash = ? " : "") +
                            (by_name ? "AND name_hash = ? " : "") + "ORDER BY id DESC LIMIT -1 OFFSET ?"));
-    RELIEVO_TRY_ASSIGN(auto count, database_->prepare("SELECT count(*) FROM enrolment WHERE subject_id = ?"));
     const auto code_hash = keys_->code_hash(filter.receipt), name_hash = keys_->name_hash(filter.name);
     if (by_code) query.bind(code_hash);
     if (by_name) query.bind(name_hash);
@@ -99,34 +97,22 @@ Result<std::vector<Subject>> SqliteStore::subjects(const SubjectFilter& filter) 
         return Error{Errc::StoreCorrupt,
                      "a code leads to somebody else's record: restore a copy of the store"}
             .at("subject " + std::to_string(number(subject.id)) + ", code_hash");
-      count.again();
-      RELIEVO_TRY_ASSIGN(const bool counted, count.bind(number(subject.id)).step());
-      subject.enrolments = counted ? int(count.integer(0)) : 0;
+      subject.enrolments = int(query.integer(4));
       found.push_back(std::move(subject));
     }
     return found;
   });
 }
 
-Result<std::int64_t> SqliteStore::count_subjects(const SubjectFilter& filter) {
-  return without_exceptions(database_->where(), [&]() -> Result<std::int64_t> {
-    const bool by_name = !filter.name.empty(), by_code = filter.receipt != 0;
-    // The index of the codes alone is read.
-    RELIEVO_TRY_ASSIGN(
-        auto query,
-        database_->prepare(std::string("SELECT count(*) FROM subject WHERE code_hash ") +
-                           (by_code ? "= ?" : "IS NOT NULL") + (by_name ? " AND name_hash = ?" : "")));
-    const auto code_hash = keys_->code_hash(filter.receipt), name_hash = keys_->name_hash(filter.name);
-    if (by_code) query.bind(code_hash);
-    if (by_name) query.bind(name_hash);
-    RELIEVO_TRY_ASSIGN(const bool row, query.step());
-    return row ? query.integer(0) : 0;
-  });
+// The index of the codes alone is read.
+Result<std::int64_t> SqliteStore::count_subjects() {
+  return database_->integer("SELECT count(*) FROM subject WHERE code_hash IS NOT NULL");
 }
 
 Result<void> SqliteStore::for_each_subject(Opened opened, const Visit& visit) {
   return without_exceptions(database_->where(), [&]() -> Result<void> {
-    RELIEVO_TRY_ASSIGN(auto query, database_->prepare(std::string(kSubjects) + "ORDER BY id DESC"));
+    RELIEVO_TRY_ASSIGN(auto query, database_->prepare("SELECT id, created_at_ms, name FROM subject "
+                                                      "WHERE code_hash IS NOT NULL ORDER BY id DESC"));
     RELIEVO_TRY_ASSIGN(
         auto newest,
         database_->prepare("SELECT id, consent.record FROM enrolment JOIN consent ON enrolment_id = id "
@@ -153,11 +139,8 @@ Result<void> SqliteStore::for_each_subject(Opened opened, const Visit& visit) {
 
 Result<Subject> SqliteStore::subject(SubjectId id) {
   return without_exceptions(database_->where(), [&]() -> Result<Subject> {
-    RELIEVO_TRY_ASSIGN(auto query,
-                       database_->prepare("SELECT id, created_at_ms, name, code, (SELECT count(*) FROM "
-                                          "enrolment WHERE subject_id = subject.id) FROM subject "
-                                          "WHERE code_hash IS NOT NULL AND id = ?"));
-    RELIEVO_TRY_ASSIGN(const bool row, query.bind(number(id)).step());
+    RELIEVO_TRY_ASSIGN(auto query, database_->prepare(std::string(kSubjects) + "AND id = ?", number(id)));
+    RELIEVO_TRY_ASSIGN(const bool row, query.step());
     if (!row) return not_found("there is no subject with this number", number(id));
     KeySlots slots(*database_);
     RELIEVO_TRY_ASSIGN(auto subject, subject_in(slots, query));
@@ -172,8 +155,10 @@ Result<Subject> SqliteStore::subject(SubjectId id) {
 Result<void> SqliteStore::erase_subject(SubjectId id) {
   const Result<void> erased = without_exceptions(database_->where(), [&]() -> Result<void> {
     RELIEVO_TRY(subject_must_exist(id));
-    if (mode_ == OpenMode::ReadWrite) RELIEVO_TRY(remove_old_copies(database_->file()));
-    if (mode_ == OpenMode::ReadWrite) RELIEVO_TRY(remember_erased(*database_, *keys_, id));
+    if (mode_ == OpenMode::ReadWrite) {
+      RELIEVO_TRY(remove_old_copies(database_->file()));
+      RELIEVO_TRY(remember_erased(*database_, *keys_, id));
+    }
     const auto destroyed =
         change_in_reserve([&](WallTime at) { return destroy_subject_key(*database_, *keys_, id, at); });
     if (!destroyed) return destroyed;
@@ -196,8 +181,9 @@ namespace {
 // Without its number, which is this store's own.
 Result<std::vector<std::byte>> calibration_of(Database& database, std::uint32_t revision) {
   if (revision == 0) return std::vector<std::byte>();
-  RELIEVO_TRY_ASSIGN(auto query, database.prepare("SELECT record FROM calibration WHERE revision = ?"));
-  RELIEVO_TRY(query.bind(std::int64_t{revision}).step());
+  RELIEVO_TRY_ASSIGN(auto query,
+                     database.prepare("SELECT record FROM calibration WHERE revision = ?", revision));
+  RELIEVO_TRY(query.step());
   RELIEVO_TRY_ASSIGN(auto stored, decode_calibration(query.blob(0)));
   stored.calibration.revision = 0;
   return encode_calibration(stored.calibration, stored.figures);
@@ -228,16 +214,17 @@ Result<PersonRecord> SqliteStore::person(SubjectId id) {
 Result<void> SqliteStore::must_be_new(std::int64_t receipt) {
   if (receipt < kLeastReceipt || receipt > kMostReceipt)
     return Error{Errc::InvalidInput, "this person's code is none that a store gives"};
-  RELIEVO_TRY_ASSIGN(const bool erased, was_erased(*database_, *keys_, receipt));
-  if (erased)
-    return Error{Errc::InvalidInput,
-                 "this person was erased from this store after the copy was made: it brings nobody back"};
   const auto hash = keys_->code_hash(receipt);
   RELIEVO_TRY_ASSIGN(auto query, database_->prepare("SELECT id FROM subject WHERE code_hash = ?"));
   RELIEVO_TRY_ASSIGN(const bool row, query.bind(hash).step());
-  if (!row) return {};
-  return Error{Errc::InvalidInput, "somebody with this person's code is in the store: nothing was changed"}
-      .at("subject " + std::to_string(query.integer(0)));
+  // First: the list of the erased also has whom an erasure that failed left here.
+  if (row)
+    return Error{Errc::InvalidInput, "somebody with this person's code is in the store: nothing was changed"}
+        .at("subject " + std::to_string(query.integer(0)));
+  RELIEVO_TRY_ASSIGN(const bool erased, was_erased(*database_, *keys_, receipt));
+  if (!erased) return {};
+  return Error{Errc::InvalidInput,
+               "this person was erased from this store after the copy was made: it brings nobody back"};
 }
 
 Result<SubjectId> SqliteStore::add_person(const PersonRecord& person) {
@@ -252,7 +239,7 @@ Result<SubjectId> SqliteStore::add_person(const PersonRecord& person) {
       RELIEVO_TRY(check_texts(enrolment));
       RELIEVO_TRY(insert_enrolment(id, enrolment, one.model, one.created_at, at));
     }
-    RELIEVO_TRY(append_audit_line(*database_, *keys_, {"subject.taken_in", id, ""}, at));
+    RELIEVO_TRY(append_line({"subject.taken_in", id, ""}, at));
     return id;
   });
 }

@@ -6,6 +6,7 @@
 #include <cmath>
 
 #include "pipeline/model/vector3.h"
+#include "storage/model_blob.h"
 
 namespace relievo::storage {
 namespace {
@@ -22,23 +23,10 @@ bool finite(const Vec3f& v) { return std::isfinite(v.x) && std::isfinite(v.y) &&
 Result<void> check(const FaceModel& model) {
   const auto& mesh = model.mesh;
   const auto& texture = model.texture;
-  const std::size_t v = mesh.vertices_mm.size();
-  const auto fits = [](std::size_t size, std::size_t wanted) { return size == 0 || size == wanted; };
-  const bool texture_fits =
-      texture.width_px >= 0 && texture.height_px >= 0 &&
-      texture.rgb.size() == std::size_t(texture.width_px) * std::size_t(texture.height_px) * 3 &&
-      fits(texture.uv.size(), mesh.triangles.size() * 3) && (texture.uv.empty() || !texture.rgb.empty()) &&
-      fits(texture.origin.size(), texture.rgb.size() / 3) && fits(texture.vertex_rgb.size(), v * 3);
   if (mesh.triangles.empty()) return Error{Errc::InvalidInput, "the model has no surface to write"};
-  if (v > 0x7fffffff || !fits(mesh.normals.size(), v) || !fits(mesh.sigma_mm.size(), v) ||
-      !fits(mesh.measured.size(), v) || !fits(mesh.pose.size(), v) || !texture_fits) {
+  if (mesh.vertices_mm.size() > 0x7fffffff || (texture.rgb.empty() && !texture.uv.empty()))
     return Error{Errc::InvalidInput, "the model's arrays do not fit together"};
-  }
-  const bool indices_fit = std::ranges::all_of(mesh.triangles, [v](const auto& triangle) {
-    return std::ranges::all_of(triangle, [v](std::uint32_t i) { return i < v; });
-  });
-  if (!indices_fit)
-    return Error{Errc::InvalidInput, "a triangle of the model names a vertex that is not there"};
+  RELIEVO_TRY(check_arrays(model));
   if (!std::ranges::all_of(mesh.vertices_mm, finite) || !std::ranges::all_of(texture.uv, [](const auto& uv) {
         return std::isfinite(uv.x) && std::isfinite(uv.y);
       })) {
@@ -57,9 +45,8 @@ std::vector<Vec3d> normals_of(const pipeline::FaceMesh& mesh) {
   for (const auto& t : mesh.triangles) {
     const Vec3d a = wide(mesh.vertices_mm[t[0]]), b = wide(mesh.vertices_mm[t[1]]),
                 c = wide(mesh.vertices_mm[t[2]]);
-    const Vec3d u{b.x - a.x, b.y - a.y, b.z - a.z}, w{c.x - a.x, c.y - a.y, c.z - a.z};
-    const Vec3d n{u.y * w.z - u.z * w.y, u.z * w.x - u.x * w.z, u.x * w.y - u.y * w.x};
-    for (const std::uint32_t i : t) normals[i] = {normals[i].x + n.x, normals[i].y + n.y, normals[i].z + n.z};
+    const Vec3d n = cross(minus(b, a), minus(c, a));
+    for (const std::uint32_t i : t) normals[i] = plus(normals[i], n);
   }
   return normals;
 }

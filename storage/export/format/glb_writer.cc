@@ -12,6 +12,7 @@
 #include "storage/byte_order.h"
 #include "storage/export/format/export_mesh.h"
 #include "storage/export/format/number_text.h"
+#include "storage/model_blob.h"
 
 // Written by hand, not by Debian's tinygltf: its JSON library aborts the process when memory runs out.
 // The numbers of the format: glTF 2.0 specification, sections 3.6 (accessors) and 4 (GLB).
@@ -35,33 +36,12 @@ class Buffer {
     return view_count_++;
   }
 
-  // `components` numbers make one element: SCALAR, VEC2 or VEC3.
-  template <typename T>
-  int add_array(const std::vector<T>& values, std::size_t components, ComponentType type, Target target) {
-    std::vector<std::byte> bytes;
-    bytes.reserve(values.size() * sizeof(T));
-    ByteWriter(bytes).put_run<T, T>(std::span<const T>(values));
-    const int view = add_view(bytes, target);
-    constexpr const char* kNames[] = {"", "SCALAR", "VEC2", "VEC3"};
-    accessors_ += accessors_.empty() ? "" : ",";
-    accessors_ += "{\"bufferView\":" + number_text(view) + ",\"componentType\":" + number_text(int(type)) +
-                  ",\"count\":" + number_text(values.size() / components) + ",\"type\":\"" +
-                  kNames[components] + "\"";
-    return accessor_count_++;
-  }
   int add_floats(const std::vector<float>& values, std::size_t components) {
-    const int accessor = add_array(values, components, kFloat, kVertices);
-    accessors_ += "}";
-    return accessor;
+    return add_array(values, components, kFloat, kVertices);
   }
-  int add_indices(const std::vector<std::uint32_t>& values) {
-    const int accessor = add_array(values, 1, kUint, kIndices);
-    accessors_ += "}";
-    return accessor;
-  }
+  int add_indices(const std::vector<std::uint32_t>& values) { return add_array(values, 1, kUint, kIndices); }
   // The format wants to know the box that positions lie in.
   int add_positions(const std::vector<float>& values) {
-    const int accessor = add_array(values, 3, kFloat, kVertices);
     std::string low, high;
     for (std::size_t c = 0; c < 3; ++c) {
       float least = values[c], most = values[c];
@@ -72,8 +52,7 @@ class Buffer {
       low += (c == 0 ? "" : ",") + number_text(least);
       high += (c == 0 ? "" : ",") + number_text(most);
     }
-    accessors_ += ",\"min\":[" + low + "],\"max\":[" + high + "]}";
-    return accessor;
+    return add_array(values, 3, kFloat, kVertices, ",\"min\":[" + low + "],\"max\":[" + high + "]");
   }
 
   const std::vector<std::byte>& data() const { return data_; }
@@ -83,6 +62,22 @@ class Buffer {
   }
 
  private:
+  // `components` numbers make one element: SCALAR, VEC2 or VEC3.
+  template <typename T>
+  int add_array(const std::vector<T>& values, std::size_t components, ComponentType type, Target target,
+                const std::string& box = {}) {
+    std::vector<std::byte> bytes;
+    bytes.reserve(values.size() * sizeof(T));
+    ByteWriter(bytes).put_run<T, T>(std::span<const T>(values));
+    const int view = add_view(bytes, target);
+    constexpr const char* kNames[] = {"", "SCALAR", "VEC2", "VEC3"};
+    accessors_ += accessors_.empty() ? "" : ",";
+    accessors_ += "{\"bufferView\":" + number_text(view) + ",\"componentType\":" + number_text(int(type)) +
+                  ",\"count\":" + number_text(values.size() / components) + ",\"type\":\"" +
+                  kNames[components] + "\"" + box + "}";
+    return accessor_count_++;
+  }
+
   std::vector<std::byte> data_;
   std::string views_, accessors_;
   int view_count_ = 0, accessor_count_ = 0;
@@ -167,15 +162,7 @@ std::string quality_text(const pipeline::ModelQuality& q) {
     text += std::string("\"") + name + "\":";
     append_rounded(text, value, 4);
   };
-  add("median_sigma_mm", q.median_sigma_mm);
-  add("measured_area_mm2", q.measured_area_mm2);
-  add("coverage", q.coverage);
-  add("width_mm", q.width_mm);
-  add("height_mm", q.height_mm);
-  add("nose_relief_mm", q.nose_relief_mm);
-  add("epipolar_residual_px", q.epipolar_residual_px);
-  add("texture_sharpness", q.texture_sharpness);
-  add("symmetry_residual_mm", q.symmetry_residual_mm);
+  for (const QualityFigure& figure : kQualityFigures) add(figure.name, q.*figure.of);
   add("off_sheet_mm", q.relief.off_sheet_mm);
   add("curvature_sr", q.relief.curvature_sr);
   return text;

@@ -6,6 +6,7 @@
 #include <string>
 
 #include "pipeline/model/seam_split.h"
+#include "pipeline/model/vector3.h"
 #include "storage/byte_order.h"
 #include "storage/export/format/export_mesh.h"
 #include "storage/export/format/number_text.h"
@@ -17,8 +18,7 @@ constexpr std::size_t kHeaderBytes = 80;
 constexpr std::size_t kStlFaceBytes = 12 * 4 + 2;
 
 pipeline::Vec3f normal_of(const pipeline::Vec3f& a, const pipeline::Vec3f& b, const pipeline::Vec3f& c) {
-  const pipeline::Vec3f u{b.x - a.x, b.y - a.y, b.z - a.z}, v{c.x - a.x, c.y - a.y, c.z - a.z};
-  const pipeline::Vec3f n{u.y * v.z - u.z * v.y, u.z * v.x - u.x * v.z, u.x * v.y - u.y * v.x};
+  const pipeline::Vec3f n = cross(minus(b, a), minus(c, a));
   const float length = std::hypot(n.x, n.y, n.z);
   if (!(length > 0)) return {};  // the format's word for "work it out yourself"
   return {n.x / length, n.y / length, n.z / length};

@@ -155,6 +155,27 @@ TEST(Persons, NoCopyBringsBackWhoWasErased) {
   EXPECT_TRUE(opened(dir, kNoReserve)->add_person(copy)) << "somebody else";
 }
 
+TEST(Persons, WhoseErasureFailedIsNotCalledErased) {
+  const TemporaryFolder folder;
+  const auto store = with_ada(folder / "store");
+  PersonRecord copy = *store->person(SubjectId{1});
+  const auto why_not = [&] {
+    const auto told = store->add_person(copy);
+    EXPECT_FALSE(told);
+    return told ? std::string() : std::string(told.error().what.view());
+  };
+  test::Raw(folder / "store/relievo.db")
+      .run(
+          "CREATE TRIGGER no BEFORE INSERT ON audit WHEN NEW.what = 'subject.erased' "
+          "BEGIN SELECT RAISE(ABORT, 'as the test says'); END");
+  ASSERT_FALSE(store->erase_subject(SubjectId{1}));
+  ASSERT_TRUE(store->subject(SubjectId{1}));
+  EXPECT_NE(why_not().find("is in the store"), std::string::npos);
+  test::Raw(folder / "store/relievo.db").run("DROP TRIGGER no");
+  ASSERT_TRUE(store->erase_subject(SubjectId{1}));
+  EXPECT_NE(why_not().find("was erased from this store"), std::string::npos);
+}
+
 TEST(Persons, OnAFullDiskNobodyIsHalfTakenIn) {
   const TinyDisk disk(3'000'000);
   if (!disk.mounted()) GTEST_SKIP() << disk.why_not();

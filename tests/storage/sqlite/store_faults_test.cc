@@ -10,8 +10,11 @@
 #include <algorithm>
 #include <fstream>
 #include <random>
+#include <utility>
 
 #include "storage/export/model_files.h"
+#include "storage/sqlite/sqlite_keys.h"
+#include "storage/sqlite/sqlite_sealed_rows.h"
 #include "tests/storage/raw_database.h"
 #include "tests/storage/sample.h"
 #include "tests/support/temporary_folder.h"
@@ -281,6 +284,65 @@ TEST(StoreFaults, ErasedMeansGone) {
   for (const EnrolmentId id : kept) EXPECT_TRUE(store->load_model(id, std::pmr::new_delete_resource()));
   store.reset();
   EXPECT_EQ(count(), 0);
+}
+
+// Where the key lies the disk is full, once.
+class FullOnce final : public KeySource {
+ public:
+  explicit FullOnce(const std::filesystem::path& file) : real_(key_file(file)) {}
+  Result<void> read(SecretKey& key) override {
+    if (std::exchange(full_, false)) return Error{Errc::MediaFull, "as the test says"};
+    return real_->read(key);
+  }
+  Result<void> make_next(SecretKey& key) override { return real_->make_next(key); }
+  Result<void> read_next(SecretKey& key) override { return real_->read_next(key); }
+  Result<void> take_next() override { return real_->take_next(); }
+  std::string_view protects() const override { return real_->protects(); }
+
+ private:
+  std::unique_ptr<KeySource> real_;
+  bool full_ = true;
+};
+
+TEST(StoreFaults, WhoOnlyReadsNeverBeginsToWrite) {
+  const TemporaryFolder folder;
+  ASSERT_TRUE(opened(folder.path())->add_subject({"Ada"}));
+  ASSERT_TRUE(std::filesystem::exists(folder / "relievo.reserve"));
+  SqliteStoreOptions options{.mode = OpenMode::ReadOnly};
+  options.keys = std::make_shared<FullOnce>(folder / "relievo.key");
+  static const test::StillClock clock;
+  EXPECT_EQ(test::code_of(open_sqlite_store(folder.path(), clock, options)), Errc::MediaFull);
+  EXPECT_TRUE(std::filesystem::exists(folder / "relievo.reserve")) << "it is whose who writes";
+}
+
+// A stream whose state was wiped seals as one that was never begun: in its state are zeros.
+bool is_wiped(SealedStream& stream) {
+  const std::vector<std::byte> plain(10);
+  const Place place{"model", "bytes", 1};
+  const auto sealed = stream.seal_piece(place, plain, true);
+  const std::vector<std::byte> by_it(sealed.begin(), sealed.end());
+  auto fresh = SealedStream::make();
+  const auto by_fresh = fresh->seal_piece(place, plain, true);
+  return std::ranges::equal(by_it, by_fresh);
+}
+
+TEST(StoreFaults, AModelThatFailsLeavesNoKeyInTheStream) {
+  const TemporaryFolder folder;
+  Database database(folder / "db");
+  ASSERT_TRUE(database.open(true));
+  const auto keys = StoreKeys::make(key_file(folder / "key"));
+  ASSERT_TRUE(keys);
+  const std::vector<std::byte> blob(1000, std::byte{7});
+  EXPECT_FALSE(seal_model(database, **keys, EnrolmentId{1}, blob)) << "there is no table";
+  EXPECT_TRUE(is_wiped((*keys)->stream()));
+  ASSERT_TRUE(database.run("CREATE TABLE model (enrolment_id INTEGER PRIMARY KEY, nonce BLOB, bytes BLOB)"));
+  ASSERT_TRUE(seal_model(database, **keys, EnrolmentId{1}, blob));
+  (*keys)->stream().end();
+  EXPECT_EQ(*open_model(database, **keys, EnrolmentId{1}), blob);
+  (*keys)->stream().end();
+  ASSERT_TRUE(database.run("UPDATE model SET bytes = zeroblob(length(bytes))"));
+  EXPECT_FALSE(open_model(database, **keys, EnrolmentId{1}));
+  EXPECT_TRUE(is_wiped((*keys)->stream()));
 }
 
 }  // namespace

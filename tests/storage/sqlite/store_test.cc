@@ -131,14 +131,10 @@ TEST_F(SqliteStoreVerbs, FindsPeople) {
   EXPECT_EQ(store->subjects({.name = "Žofie"})->size(), 1u);
   EXPECT_TRUE(store->subjects({.name = "Žof"})->empty()) << "a part of a name is nobody's";
   EXPECT_EQ(store->subjects({.skip = 1, .limit = 2})->front().name, "ada");
-  EXPECT_EQ(*store->count_subjects({.skip = 1, .limit = 1}), 4) << "all that are found";
-  EXPECT_EQ(*store->count_subjects({.name = "ada"}), 1);
-  EXPECT_EQ(*store->count_subjects({.name = "nobody"}), 0);
   const auto everyone = store->subjects({});
-  EXPECT_EQ(*store->count_subjects({}), static_cast<std::int64_t>(everyone->size()));
-  EXPECT_EQ(*store->count_subjects({.receipt = everyone->front().receipt}), 1);
+  EXPECT_EQ(*store->count_subjects(), static_cast<std::int64_t>(everyone->size()));
   ASSERT_TRUE(store->erase_subject(everyone->back().id));
-  EXPECT_EQ(*store->count_subjects({}), static_cast<std::int64_t>(everyone->size()) - 1);
+  EXPECT_EQ(*store->count_subjects(), static_cast<std::int64_t>(everyone->size()) - 1);
   EXPECT_EQ(store->subjects({.skip = 1, .limit = 2})->size(), 2u);
   EXPECT_EQ(code_of(store->subject(SubjectId{77})), Errc::NotFound);
 }
