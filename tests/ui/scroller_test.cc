@@ -4,7 +4,9 @@
 // What is higher than its room: all of it can be reached, and where it goes on it fades.
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <memory>
+#include <string>
 #include <vector>
 
 #include "ui/tree/tree.h"
@@ -114,6 +116,59 @@ TEST_F(ScrollerTest, FadesAboveAtItsEndAndVeilsNothingBelow) {
   EXPECT_FLOAT_EQ(found[0].rect.y, kScreen.y);
   EXPECT_EQ(found[0].fill, kGround);
   EXPECT_EQ(found[0].fill_end.a, 0);
+}
+
+// A consent text of 20,000 bytes, in points or as one: all of it that is in the scroller's room is drawn, at
+// every place it is scrolled to, and drawing more does not take the room of what is drawn already.
+TEST_F(ScrollerTest, ALongTextIsDrawnWhereverItIsScrolled) {
+  constexpr Rect kPage{0, 0, 1100, 700};
+  constexpr Colour kInk{1, 2, 3, 255};
+  for (const std::size_t points : {1U, 8U}) {
+    for (const float size_px : {22.0F, 33.0F}) {
+      std::string words;
+      while (words.size() < 20'000 / points) words += "Read all of this before you agree to it. ";
+      const auto lay_out_words = [&](const Interaction& hands) {
+        tree_.begin(false);
+        Node list;
+        list.id = "list";
+        list.box.scroll = true;
+        tree_.open(list);
+        Node point;
+        point.text = words;
+        point.style.size_px = size_px;
+        point.colour = kInk;
+        for (std::size_t i = 0; i < points; ++i) tree_.leaf(point);
+        tree_.close();
+        tree_.layout(kPage, *text_, hands);
+      };
+      lay_out_words({});
+      const float most = tree_.nodes().front().content_height - kPage.h;
+      ASSERT_GT(most, kPage.h);
+      for (float at = 0; at < most + kPage.h; at += kPage.h) {
+        const Interaction hands = scrolled_to(std::min(at, most));
+        lay_out_words(hands);
+        DrawList list;
+        tree_.paint(list, *text_, hands, {}, 1);
+        list.clear();
+        const std::uint32_t generation = text_->atlas().generation();
+        tree_.paint(list, *text_, hands, {}, 1);
+        ASSERT_EQ(text_->atlas().generation(), generation) << "what was drawn first has others' letters";
+        for (std::size_t i = 1; i < tree_.nodes().size(); ++i) {
+          const Rect& box = tree_.nodes()[i].rect;
+          // Between its first and its last line letters stand all the way down.
+          const float from = std::max(box.y + size_px, 0.0F), to = std::min(box.bottom() - size_px, kPage.h);
+          for (float y = from; y < to; ++y) {
+            EXPECT_TRUE(std::ranges::any_of(list.commands,
+                                            [&](const Command& c) {
+                                              return c.fill == kInk && c.rect.holds(box.x + 100, y) &&
+                                                     c.uv.h == c.rect.h;
+                                            }))
+                << points << " points at " << size_px << " px, scrolled to " << at << ": nothing at " << y;
+          }
+        }
+      }
+    }
+  }
 }
 
 }  // namespace

@@ -68,6 +68,22 @@ TEST_F(SharesTest, RowsOfAnyNumberOfKeysEndAtTheSamePixel) {
   }
 }
 
+TEST_F(SharesTest, ARowHoldsSixteenAndMoreIsABug) {
+  const auto row_of = [this](std::size_t count) {
+    tree_.begin(false);
+    Node row;
+    row.id = "row";
+    row.box.flow = Flow::Row;
+    tree_.open(row);
+    for (std::size_t i = 0; i < count; ++i) tree_.leaf(growing(1));
+    tree_.close();
+    tree_.layout({0, 0, 1600, 400}, *text_, {});
+  };
+  row_of(kMostInARow);
+  for (const Rect& place : children("row")) EXPECT_EQ(place.w, 100);
+  EXPECT_DEATH(row_of(kMostInARow + 1), "bug");
+}
+
 TEST_F(SharesTest, AKeyOverThreeColumnsCoversTheGapsBetweenThem) {
   tree_.begin(false);
   tree_.open(Node{});

@@ -255,6 +255,61 @@ TEST_F(TextEngineTest, AFullAtlasStartsAnew) {
   EXPECT_GT(ink_middle(engine->label("number 3", style, 2000)), 0.1) << "written again";
 }
 
+// Seen through a window that moves over it, a text that is larger than the atlas is the same as its lines
+// written one by one.
+TEST_F(TextEngineTest, ATextLargerThanTheAtlasIsWrittenWhereItIsSeen) {
+  TextStyle style;
+  style.size_px = 60;
+  constexpr int kLines = 60;
+  constexpr float kWidth = 3000, kWindow = 400;
+  std::string text;
+  const auto words_of = [](int line) {
+    return std::string(90, char('A' + line % 26)) + std::to_string(line);
+  };
+  for (int i = 0; i < kLines; ++i) text += (i > 0 ? "\n" : "") + words_of(i);
+  const float high = engine->measure(text, style, 1e5F).height_px;
+  const float wide = engine->measure(text, style, 1e5F).width_px;
+  ASSERT_GT(high, 2.0F * float(engine->atlas().side_px()));
+  ASSERT_GT(wide, kWidth);
+  std::vector<double> ink(kLines, 0), by_row;
+  for (float top = 0; top < high; top += kWindow) {
+    const Rect seen{-10, top, wide + 20, kWindow};
+    const std::uint32_t before = engine->atlas().generation();
+    (void)engine->pieces(text, style, 1e5F, seen);
+    const std::uint32_t between = engine->atlas().generation();
+    const auto pieces = engine->pieces(text, style, 1e5F, seen);
+    EXPECT_LE(between, before + 1);
+    EXPECT_EQ(engine->atlas().generation(), between) << "one window has room, as a page's second round";
+    std::vector<double> rows(std::size_t(kWindow), 0);
+    for (const TextPiece& piece : pieces) {
+      const bool meets = piece.ink.y < seen.bottom() && piece.ink.bottom() > seen.y;
+      EXPECT_TRUE(!meets || piece.atlas.w > 0) << "seen, and not written";
+      if (piece.atlas.w <= 0) continue;
+      EXPECT_EQ(piece.atlas.w, piece.ink.w);
+      EXPECT_EQ(piece.atlas.h, piece.ink.h);
+      for (int y = 0; y < int(piece.ink.h); ++y) {
+        const int at = int(piece.ink.y) + y - int(top);
+        if (at < 0 || at >= int(kWindow)) continue;
+        const std::uint8_t* row = engine->atlas().row(int(piece.atlas.x), int(piece.atlas.y) + y);
+        for (int x = 0; x < int(piece.ink.w); ++x) rows[std::size_t(at)] += row[x];
+      }
+    }
+    by_row.insert(by_row.end(), rows.begin(), rows.end());
+  }
+  const double apart = double(high - engine->measure("A", style, 1e5F).height_px) / (kLines - 1);
+  for (std::size_t y = 0; y < by_row.size(); ++y)
+    ink[std::min<std::size_t>(kLines - 1, std::size_t(double(y) / apart))] += by_row[y];
+  for (int i = 0; i < kLines; ++i) {
+    const TextLabel& one = engine->label(std::string(10, char('A' + i % 26)), style, 1e5F);
+    double alone = 0;
+    for (int y = 0; y < int(one.atlas.h); ++y)
+      for (int x = 0; x < int(one.atlas.w); ++x)
+        alone += *engine->atlas().row(int(one.atlas.x) + x, int(one.atlas.y) + y);
+    EXPECT_GT(ink[std::size_t(i)], 8.5 * alone) << "line " << i << " misses letters";
+    EXPECT_LT(ink[std::size_t(i)], 11.5 * alone) << "line " << i << " has others' letters";
+  }
+}
+
 TEST_F(TextEngineTest, ForgettingLeavesNoInk) {
   (void)engine->label("Ada Lovelace", {}, 800);
   engine->forget();

@@ -14,7 +14,7 @@ constexpr std::array<std::int32_t, 8> kEveryLanguage{0, 1, 2, 3, 4, 5, 6, 7};
 static_assert(kEveryLanguage.size() == kLanguages);
 constexpr std::array<std::int32_t, 2> kSwitch{0, 1};
 constexpr std::array<std::int32_t, 4> kText{100, 125, 150, 200};
-// WCAG 2.2.1 wants no less than 20 s to answer; the question comes after this, and waits for 15 more.
+// WCAG 2.2.1 wants no less than 20 s to answer; the question comes after this, and waits for kLastCall more.
 constexpr std::array<std::int32_t, 7> kPatience{20, 30, 45, 60, 90, 120, 180};
 constexpr std::array<std::int32_t, 5> kCountdowns{1000, 1500, 2000, 3000, 5000};
 constexpr std::array<std::int32_t, 5> kAttempts{1, 2, 3, 4, 5};

@@ -13,26 +13,19 @@ namespace {
 constexpr double kLeastScale = 0.25, kMostScale = 4;  // of picture to panel, along either axis
 
 using Row = std::array<double, 3>;
+using Normal = std::array<Row, 3>;
 
-// The normal equations of one axis, by Cramer's rule: three unknowns, well scaled (all within 0 to 1).
-struct Normal {
-  std::array<Row, 3> a{};
-  void add(const Row& row) {
-    for (std::size_t i = 0; i < 3; ++i)
-      for (std::size_t j = 0; j < 3; ++j) a[i][j] += row[i] * row[j];
-  }
-};
-
-double det(const std::array<Row, 3>& a) {
+double det(const Normal& a) {
   return a[0][0] * (a[1][1] * a[2][2] - a[1][2] * a[2][1]) -
          a[0][1] * (a[1][0] * a[2][2] - a[1][2] * a[2][0]) +
          a[0][2] * (a[1][0] * a[2][1] - a[1][1] * a[2][0]);
 }
 
+// The normal equations of one axis, by Cramer's rule: three unknowns, well scaled (all within 0 to 1).
 Row solve(const Normal& normal, const Row& right, double determinant) {
   Row found{};
   for (std::size_t i = 0; i < 3; ++i) {
-    auto a = normal.a;
+    Normal a = normal;
     for (std::size_t row = 0; row < 3; ++row) a[row][i] = right[row];
     found[i] = det(a) / determinant;
   }
@@ -56,17 +49,17 @@ TouchPoint TouchMap::operator()(TouchPoint at) const {
 
 Result<TouchFit> fit_touch_map(std::span<const TouchedCross> crosses) {
   if (crosses.size() < 3) return Error{Errc::InvalidInput, "three crosses are needed"};
-  Normal normal;
+  Normal normal{};
   Row right_x{}, right_y{};
   for (const TouchedCross& one : crosses) {
     const Row row{one.touched.x, one.touched.y, 1};
-    normal.add(row);
     for (std::size_t i = 0; i < 3; ++i) {
+      for (std::size_t j = 0; j < 3; ++j) normal[i][j] += row[i] * row[j];
       right_x[i] += row[i] * double(one.cross.x);
       right_y[i] += row[i] * double(one.cross.y);
     }
   }
-  const double determinant = det(normal.a);
+  const double determinant = det(normal);
   if (determinant < 1e-4)
     return Error{Errc::InvalidInput, "the touches lie too close together, or on one line: touch the crosses"};
   const Row x = solve(normal, right_x, determinant), y = solve(normal, right_y, determinant);

@@ -70,6 +70,9 @@ inline constexpr Palette kHighContrast{
     {0, 224, 255, 255},   {0, 0, 0, 225},      {96, 96, 96, 255}};
 
 // A box while a finger is on it.
-Colour pressed(Colour fill);
+constexpr Colour pressed(Colour fill) {
+  const auto darker = [](std::uint8_t v) { return std::uint8_t(v * 21 / 25); };
+  return {darker(fill.r), darker(fill.g), darker(fill.b), fill.a};
+}
 
 }  // namespace relievo::ui

@@ -13,25 +13,26 @@
 namespace relievo::ui {
 namespace {
 
-constexpr std::array<LanguageInfo, kLanguages> kInfo{{
-    {"en", "English", false, '.'},
-    {"de", "Deutsch", false, ','},
-    {"fr", "Français", false, ','},
-    {"es", "Español", false, ','},
-    {"ar", "العربية", true, '.'},
-    {"he", "עברית", true, '.'},
-    {"zh-Hans", "简体中文", false, '.'},
-    {"ja", "日本語", false, '.'},
+struct Row {
+  LanguageInfo info;
+  const char* domain;  // of its words; English has them from the source
+};
+constexpr std::array<Row, kLanguages> kRows{{
+    {{"en", "English", false, '.'}, nullptr},
+    {{"de", "Deutsch", false, ','}, "relievo-de"},
+    {{"fr", "Français", false, ','}, "relievo-fr"},
+    {{"es", "Español", false, ','}, "relievo-es"},
+    {{"ar", "العربية", true, '.'}, "relievo-ar"},
+    {{"he", "עברית", true, '.'}, "relievo-he"},
+    {{"zh-Hans", "简体中文", false, '.'}, "relievo-zh"},
+    {{"ja", "日本語", false, '.'}, "relievo-ja"},
 }};
-constexpr std::array<const char*, kLanguages> kDomains{"relievo-en", "relievo-de", "relievo-fr",
-                                                       "relievo-es", "relievo-ar", "relievo-he",
-                                                       "relievo-zh", "relievo-ja"};
 
-const char* domain_of(Language language) { return kDomains[std::size_t(language)]; }
+const char* domain_of(Language language) { return kRows[std::size_t(language)].domain; }
 
 }  // namespace
 
-const LanguageInfo& info_of(Language language) { return kInfo[std::size_t(language)]; }
+const LanguageInfo& info_of(Language language) { return kRows[std::size_t(language)].info; }
 
 Result<void> prepare_languages() {
   unsetenv("LANGUAGE");  // the person chooses, not the shell
@@ -39,8 +40,8 @@ Result<void> prepare_languages() {
   if (std::setlocale(LC_CTYPE, "C.UTF-8") == nullptr || std::setlocale(LC_MESSAGES, "C.UTF-8") == nullptr)
     return Error{Errc::LibraryFailed, "the system has no locale C.UTF-8: install Debian's libc-bin"};
   const std::string folder = shared_files("RELIEVO_LOCALE_DIR", "locale", RELIEVO_LOCALE_DIR).string();
-  for (const char* domain : kDomains) {
-    if (domain == domain_of(Language::English)) continue;
+  for (const auto& [info, domain] : kRows) {
+    if (domain == nullptr) continue;
     if (!std::filesystem::exists(std::filesystem::path(folder) / "C.UTF-8" / "LC_MESSAGES" /
                                  (std::string(domain) + ".mo")))
       return Error{Errc::NotFound,

@@ -166,7 +166,12 @@ class SdlDisplay final : public Display {
   }
 
   static std::optional<Input> key(const SDL_KeyboardEvent& key) {
-    switch (key.keysym.sym) {
+    const SDL_Keycode sym = key.keysym.sym;
+    if (sym >= SDLK_KP_1 && sym <= SDLK_KP_9) {
+      if (key.repeat != 0) return std::nullopt;
+      return Input{.kind = Input::Kind::Digit, .letter = {char('1' + (sym - SDLK_KP_1))}};
+    }
+    switch (sym) {
       case SDLK_TAB:
         return Input{(key.keysym.mod & KMOD_SHIFT) != 0 ? Input::Kind::Previous : Input::Kind::Next};
       case SDLK_RIGHT: return Input{Input::Kind::Right};
@@ -177,17 +182,6 @@ class SdlDisplay final : public Display {
       case SDLK_DELETE:
       case SDLK_KP_PERIOD:
       case SDLK_KP_COMMA: return Input{Input::Kind::Erase};
-      case SDLK_KP_1:
-      case SDLK_KP_2:
-      case SDLK_KP_3:
-      case SDLK_KP_4:
-      case SDLK_KP_5:
-      case SDLK_KP_6:
-      case SDLK_KP_7:
-      case SDLK_KP_8:
-      case SDLK_KP_9:
-        if (key.repeat != 0) return std::nullopt;
-        return Input{.kind = Input::Kind::Digit, .letter = {char('1' + (key.keysym.sym - SDLK_KP_1))}};
       case SDLK_RETURN:
       case SDLK_KP_ENTER:
         if (key.repeat != 0) return std::nullopt;  // a key that is kept down is one press
@@ -229,13 +223,11 @@ class SdlDisplay final : public Display {
         return key(event.key);
       case SDL_TEXTINPUT: return letter(event.text);
       case SDL_MOUSEBUTTONDOWN:
-        if (event.button.button != SDL_BUTTON_LEFT) return std::nullopt;
-        held_ = true;
-        return Input{Input::Kind::Down, kMouse, float(event.button.x), float(event.button.y)};
       case SDL_MOUSEBUTTONUP:
         if (event.button.button != SDL_BUTTON_LEFT) return std::nullopt;
-        held_ = false;
-        return Input{Input::Kind::Up, kMouse, float(event.button.x), float(event.button.y)};
+        held_ = event.type == SDL_MOUSEBUTTONDOWN;
+        return Input{held_ ? Input::Kind::Down : Input::Kind::Up, kMouse, float(event.button.x),
+                     float(event.button.y)};
       case SDL_MOUSEMOTION:
         SDL_ShowCursor(SDL_ENABLE);
         if (!held_) return std::nullopt;

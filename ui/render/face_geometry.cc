@@ -15,21 +15,19 @@
 
 #include "hal/base/groups.h"
 #include "pipeline/model/mesh_border.h"
+#include "pipeline/model/vector3.h"
 
 namespace relievo::ui {
 namespace {
 
 using pipeline::Vec3d;
+using pipeline::Vec3f;
 
 // A face turns about the tip of its nose, a head, which is deeper, about its middle, and is seen whole.
 constexpr float kHeadDepthMm = 130, kHeadShare = 0.8F;
 constexpr float kNearMm = 200, kFarMm = 1200;
 
-Vec3d minus(const Vec3d& a, const Vec3d& b) { return {a.x - b.x, a.y - b.y, a.z - b.z}; }
-Vec3d cross(const Vec3d& a, const Vec3d& b) {
-  return {a.y * b.z - a.z * b.y, a.z * b.x - a.x * b.z, a.x * b.y - a.y * b.x};
-}
-double dot(const Vec3d& a, const Vec3d& b) { return a.x * b.x + a.y * b.y + a.z * b.z; }
+float side_mm(const Vec3f& a, const Vec3f& b) { return std::hypot(a.x - b.x, a.y - b.y, a.z - b.z); }
 
 // How far along the ray a triangle is met (Moeller and Trumbore, 1997); infinite: not at all.
 double met(const Vec3d& from, const Vec3d& along, const Vec3d& a, const Vec3d& b, const Vec3d& c) {
@@ -40,6 +38,97 @@ double met(const Vec3d& from, const Vec3d& along, const Vec3d& a, const Vec3d& b
   const Vec3d s = minus(from, a), q = cross(s, ab);
   const double u = dot(s, p) / det, v = dot(along, q) / det, t = dot(ac, q) / det;
   return u < 0 || v < 0 || u + v > 1 || t <= 0 ? kNever : t;
+}
+
+constexpr float kMiddleBehindMm = 45;  // the head turns about a point behind the tip of its nose
+constexpr float kFadeMm = 6;           // of the rim, into what stands behind
+
+// How far from its border each vertex lies, in kFadeMm and no more than 1.
+std::vector<float> within(const pipeline::FaceMesh& mesh) {
+  const auto border = pipeline::border_vertices(mesh, std::pmr::get_default_resource());
+  std::vector<float> share(border.size(), 1.0F);
+  for (std::size_t v = 0; v < border.size(); ++v)
+    if (border[v] != 0) share[v] = 0;
+  const auto spread = [&](const std::array<std::uint32_t, 3>& t) {
+    for (std::size_t i = 0; i < 3; ++i)
+      for (std::size_t j = 1; j < 3; ++j) {
+        const auto &a = mesh.vertices_mm[t[i]], &b = mesh.vertices_mm[t[(i + j) % 3]];
+        if (share[t[i]] >= 1) continue;
+        share[t[(i + j) % 3]] = std::min(share[t[(i + j) % 3]], share[t[i]] + side_mm(a, b) / kFadeMm);
+      }
+  };
+  for (int pass = 0; pass < 2; ++pass) {
+    std::ranges::for_each(mesh.triangles, spread);
+    std::for_each(mesh.triangles.rbegin(), mesh.triangles.rend(), spread);
+  }
+  return share;
+}
+
+// Vertices of which no two are nearer to each other than `least_mm`, and none of the others farther from all.
+std::vector<std::uint32_t> spaced(const pipeline::FaceMesh& mesh, float least_mm) {
+  const auto cell = [least_mm](float v) { return std::int64_t(std::floor(v / least_mm)) + (1 << 20); };
+  const auto key = [](std::int64_t x, std::int64_t y, std::int64_t z) { return (x << 42) | (y << 21) | z; };
+  std::unordered_multimap<std::int64_t, std::uint32_t> held;
+  std::vector<std::uint32_t> chosen;
+  const auto crowded = [&](const Vec3f& at) {
+    const std::int64_t x = cell(at.x), y = cell(at.y), z = cell(at.z);
+    for (std::int64_t k = 0; k < 27; ++k) {
+      const auto [from, to] = held.equal_range(key(x + k % 3 - 1, y + k / 3 % 3 - 1, z + k / 9 - 1));
+      if (std::any_of(from, to, [&](const auto& entry) {
+            return side_mm(mesh.vertices_mm[entry.second], at) < least_mm;
+          }))
+        return true;
+    }
+    return false;
+  };
+  for (std::uint32_t v = 0; v < mesh.vertices_mm.size(); ++v) {
+    const Vec3f& at = mesh.vertices_mm[v];
+    if (crowded(at)) continue;
+    held.emplace(key(cell(at.x), cell(at.y), cell(at.z)), v);
+    chosen.push_back(v);
+  }
+  return chosen;
+}
+
+// The neighbours of every vertex, one list after the other; each twice where two triangles share the side.
+Groups neighbours_of(const pipeline::FaceMesh& mesh) {
+  Groups neighbours;
+  neighbours.sort(mesh.vertices_mm.size(), [&](auto&& add) {
+    for (const auto& t : mesh.triangles)
+      for (std::size_t i = 0; i < 3; ++i)
+        for (std::size_t j = 1; j < 3; ++j) add(t[i], t[(i + j) % 3]);
+  });
+  return neighbours;
+}
+
+// The chosen vertex that is nearest to each along the mesh.
+std::vector<std::uint32_t> nearest(const pipeline::FaceMesh& mesh, const std::vector<std::uint32_t>& chosen) {
+  const Groups neighbours = neighbours_of(mesh);
+  const std::size_t count = mesh.vertices_mm.size();
+  std::vector<std::uint32_t> owner(count);
+  std::vector<float> far(count, HUGE_VALF);
+  using Reached = std::pair<float, std::uint32_t>;
+  std::priority_queue<Reached, std::vector<Reached>, std::greater<>> queue;
+  for (const std::uint32_t v : chosen) {
+    owner[v] = v;
+    far[v] = 0;
+    queue.emplace(0.0F, v);
+  }
+  while (!queue.empty()) {
+    const auto [so_far, v] = queue.top();
+    queue.pop();
+    if (so_far > far[v]) continue;
+    for (const std::uint32_t to : neighbours[v]) {
+      const float reached = so_far + side_mm(mesh.vertices_mm[v], mesh.vertices_mm[to]);
+      if (reached >= far[to]) continue;
+      far[to] = reached;
+      owner[to] = owner[v];
+      queue.emplace(reached, to);
+    }
+  }
+  for (std::uint32_t v = 0; v < count; ++v)
+    if (far[v] == HUGE_VALF) owner[v] = v;  // a piece of the mesh that is smaller than the spacing
+  return owner;
 }
 
 }  // namespace
@@ -118,45 +207,14 @@ std::optional<pipeline::Vec3f> FaceProjection::touched(const pipeline::FaceModel
                   turned_back({-double(shift_[0]), -double(shift_[1]), double(kFaceDistanceMm - shift_[2])}),
               along = turned_back({across, up, -1});
   const auto corner = [&](std::uint32_t at) {
-    const Dot d = dot_of(model.head_from_camera, model.mesh.vertices_mm[at]);
-    return Vec3d{double(d.x), double(d.y), double(d.z)};
+    return pipeline::wide(dot_of(model.head_from_camera, model.mesh.vertices_mm[at]));
   };
   double nearest = std::numeric_limits<double>::infinity();
   for (const auto& t : model.mesh.triangles)
     nearest = std::min(nearest, met(from, along, corner(t[0]), corner(t[1]), corner(t[2])));
   if (std::isinf(nearest)) return std::nullopt;
-  return pipeline::Vec3f{float(from.x + nearest * along.x), float(from.y + nearest * along.y),
-                         float(from.z + nearest * along.z)};
+  return pipeline::narrow(pipeline::along(from, nearest, along));
 }
-
-namespace {
-
-constexpr float kMiddleBehindMm = 45;  // the head turns about a point behind the tip of its nose
-constexpr float kFadeMm = 6;           // of the rim, into what stands behind
-
-// How far from its border each vertex lies, in kFadeMm and no more than 1.
-std::vector<float> within(const pipeline::FaceMesh& mesh) {
-  const auto border = pipeline::border_vertices(mesh, std::pmr::get_default_resource());
-  std::vector<float> share(border.size(), 1.0F);
-  for (std::size_t v = 0; v < border.size(); ++v)
-    if (border[v] != 0) share[v] = 0;
-  const auto spread = [&](const std::array<std::uint32_t, 3>& t) {
-    for (std::size_t i = 0; i < 3; ++i)
-      for (std::size_t j = 1; j < 3; ++j) {
-        const auto &a = mesh.vertices_mm[t[i]], &b = mesh.vertices_mm[t[(i + j) % 3]];
-        if (share[t[i]] >= 1) continue;
-        share[t[(i + j) % 3]] = std::min(share[t[(i + j) % 3]],
-                                         share[t[i]] + std::hypot(a.x - b.x, a.y - b.y, a.z - b.z) / kFadeMm);
-      }
-  };
-  for (int pass = 0; pass < 2; ++pass) {
-    std::ranges::for_each(mesh.triangles, spread);
-    std::for_each(mesh.triangles.rbegin(), mesh.triangles.rend(), spread);
-  }
-  return share;
-}
-
-}  // namespace
 
 Dot dot_of(const pipeline::RigidTransform& t, const pipeline::Vec3f& v) {
   const auto p = apply(t, pipeline::Vec3d{v.x, v.y, v.z});
@@ -218,81 +276,6 @@ std::vector<Corner> corners_of(const pipeline::FaceModel& model, const pipeline:
   }
   return corners;
 }
-
-namespace {
-
-using pipeline::Vec3f;
-
-float distance(const Vec3f& a, const Vec3f& b) { return std::hypot(a.x - b.x, a.y - b.y, a.z - b.z); }
-
-// Vertices of which no two are nearer to each other than `least_mm`, and none of the others farther from all.
-std::vector<std::uint32_t> spaced(const pipeline::FaceMesh& mesh, float least_mm) {
-  const auto cell = [least_mm](float v) { return std::int64_t(std::floor(v / least_mm)) + (1 << 20); };
-  const auto key = [](std::int64_t x, std::int64_t y, std::int64_t z) { return (x << 42) | (y << 21) | z; };
-  std::unordered_multimap<std::int64_t, std::uint32_t> held;
-  std::vector<std::uint32_t> chosen;
-  const auto crowded = [&](const Vec3f& at) {
-    const std::int64_t x = cell(at.x), y = cell(at.y), z = cell(at.z);
-    for (std::int64_t k = 0; k < 27; ++k) {
-      const auto [from, to] = held.equal_range(key(x + k % 3 - 1, y + k / 3 % 3 - 1, z + k / 9 - 1));
-      if (std::any_of(from, to, [&](const auto& entry) {
-            return distance(mesh.vertices_mm[entry.second], at) < least_mm;
-          }))
-        return true;
-    }
-    return false;
-  };
-  for (std::uint32_t v = 0; v < mesh.vertices_mm.size(); ++v) {
-    const Vec3f& at = mesh.vertices_mm[v];
-    if (crowded(at)) continue;
-    held.emplace(key(cell(at.x), cell(at.y), cell(at.z)), v);
-    chosen.push_back(v);
-  }
-  return chosen;
-}
-
-// The neighbours of every vertex, one list after the other; each twice where two triangles share the side.
-Groups neighbours_of(const pipeline::FaceMesh& mesh) {
-  Groups neighbours;
-  neighbours.sort(mesh.vertices_mm.size(), [&](auto&& add) {
-    for (const auto& t : mesh.triangles)
-      for (std::size_t i = 0; i < 3; ++i)
-        for (std::size_t j = 1; j < 3; ++j) add(t[i], t[(i + j) % 3]);
-  });
-  return neighbours;
-}
-
-// The chosen vertex that is nearest to each along the mesh.
-std::vector<std::uint32_t> nearest(const pipeline::FaceMesh& mesh, const std::vector<std::uint32_t>& chosen) {
-  const Groups neighbours = neighbours_of(mesh);
-  const std::size_t count = mesh.vertices_mm.size();
-  std::vector<std::uint32_t> owner(count);
-  std::vector<float> far(count, HUGE_VALF);
-  using Reached = std::pair<float, std::uint32_t>;
-  std::priority_queue<Reached, std::vector<Reached>, std::greater<>> queue;
-  for (const std::uint32_t v : chosen) {
-    owner[v] = v;
-    far[v] = 0;
-    queue.emplace(0.0F, v);
-  }
-  while (!queue.empty()) {
-    const auto [so_far, v] = queue.top();
-    queue.pop();
-    if (so_far > far[v]) continue;
-    for (const std::uint32_t to : neighbours[v]) {
-      const float reached = so_far + distance(mesh.vertices_mm[v], mesh.vertices_mm[to]);
-      if (reached >= far[to]) continue;
-      far[to] = reached;
-      owner[to] = owner[v];
-      queue.emplace(reached, to);
-    }
-  }
-  for (std::uint32_t v = 0; v < count; ++v)
-    if (far[v] == HUGE_VALF) owner[v] = v;  // a piece of the mesh that is smaller than the spacing
-  return owner;
-}
-
-}  // namespace
 
 Edges edges_of(const pipeline::FaceMesh& mesh, float least_mm) {
   const std::vector<std::uint32_t> owner = nearest(mesh, spaced(mesh, least_mm));

@@ -65,9 +65,7 @@ struct Tinted {
   std::array<std::uint8_t, 4> rgba;
 };
 
-struct Dot {
-  float x, y, z;
-};
+using Dot = pipeline::Vec3f;
 
 // From the left camera's frame.
 Dot dot_of(const pipeline::RigidTransform& head_from_camera, const pipeline::Vec3f& at_mm);

@@ -5,7 +5,6 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <cstddef>
 #include <cstdint>
 #include <vector>
 
@@ -122,18 +121,6 @@ class GlesFaceView final : public FaceView {
     smooth_texture();
   }
 
-  void point_at_corners() const {
-    glBindBuffer(GL_ARRAY_BUFFER, buffer_);
-    const int sizes[] = {3, 3, 2, 1};
-    std::size_t offset = 0;
-    for (GLuint i = 0; i < 4; ++i) {
-      glEnableVertexAttribArray(i);
-      glVertexAttribPointer(i, sizes[i], GL_FLOAT, GL_FALSE, sizeof(Corner),
-                            reinterpret_cast<const void*>(offset));  // NOLINT
-      offset += std::size_t(sizes[i]) * sizeof(float);
-    }
-  }
-
   void upload_points(const Face& subject) {
     std::vector<Dot> dots = dots_of(*subject.model, subject.cloud);
     apart_count_ = int(set_apart(dots));
@@ -210,7 +197,8 @@ class GlesFaceView final : public FaceView {
     glActiveTexture(GL_TEXTURE0);
     glBindTexture(GL_TEXTURE_2D, texture_);
     glBindVertexArray(array_);
-    point_at_corners();
+    glBindBuffer(GL_ARRAY_BUFFER, buffer_);
+    point_at({3, 3, 2, 1});  // a Corner
     if (look_.fill) draw_surface();
     if (look_.edges) draw_edges();
     if (look_.points) draw_points(t, 1, point_count_, 1);
@@ -246,13 +234,7 @@ class GlesFaceView final : public FaceView {
     glUniform1f(glGetUniformLocation(backdrop_program_, "opacity"), opacity);
     glBindVertexArray(array_);
     glBindBuffer(GL_ARRAY_BUFFER, backdrop_buffer_);
-    glEnableVertexAttribArray(0);
-    glEnableVertexAttribArray(1);
-    glDisableVertexAttribArray(2);
-    glDisableVertexAttribArray(3);
-    glVertexAttribPointer(0, 3, GL_FLOAT, GL_FALSE, sizeof(Tinted), nullptr);
-    glVertexAttribPointer(1, 4, GL_UNSIGNED_BYTE, GL_TRUE, sizeof(Tinted),
-                          reinterpret_cast<const void*>(offsetof(Tinted, rgba)));  // NOLINT
+    point_at({3, kFourBytes});  // a Tinted
     glDepthMask(GL_FALSE);
     glDrawArrays(GL_TRIANGLES, 0, backdrop_count_);
     glDepthMask(GL_TRUE);
@@ -273,10 +255,7 @@ class GlesFaceView final : public FaceView {
     glUniform1f(glGetUniformLocation(point_program_, "size"),
                 times * std::max(2.0F, float(height_) / 420 * look_.zoom));
     glBindBuffer(GL_ARRAY_BUFFER, point_buffer_);
-    glDisableVertexAttribArray(1);
-    glDisableVertexAttribArray(2);
-    glDisableVertexAttribArray(3);
-    glVertexAttribPointer(0, 3, GL_FLOAT, GL_FALSE, sizeof(Dot), nullptr);
+    point_at({3});
     glDrawArrays(GL_POINTS, 0, count);
   }
 

@@ -252,6 +252,25 @@ void main() {
 
 }  // namespace shader
 
+void point_at(std::initializer_list<int> attributes, std::size_t first, bool each_instance) {
+  constexpr GLuint kMost = 6;
+  const auto bytes_of = [](int floats) { return floats == kFourBytes ? 4U : 4U * unsigned(floats); };
+  unsigned item = 0;
+  for (const int floats : attributes) item += bytes_of(floats);
+  std::size_t offset = first * item;
+  GLuint i = 0;
+  for (const int floats : attributes) {
+    const bool bytes = floats == kFourBytes;
+    glEnableVertexAttribArray(i);
+    glVertexAttribPointer(i, bytes ? 4 : floats, bytes ? GL_UNSIGNED_BYTE : GL_FLOAT,
+                          bytes ? GL_TRUE : GL_FALSE, GLsizei(item),
+                          reinterpret_cast<const void*>(offset));  // NOLINT: GL's way of saying an offset
+    glVertexAttribDivisor(i++, each_instance ? 1 : 0);
+    offset += bytes_of(floats);
+  }
+  for (; i < kMost; ++i) glDisableVertexAttribArray(i);
+}
+
 void smooth_texture() {
   glTexParameteri(GL_TEXTURE_2D, GL_TEXTURE_MIN_FILTER, GL_LINEAR);
   glTexParameteri(GL_TEXTURE_2D, GL_TEXTURE_MAG_FILTER, GL_LINEAR);

@@ -13,7 +13,7 @@
 namespace relievo::ui {
 namespace {
 
-constexpr std::size_t kPrograms = 5;  // Flat, Shape, Glyph, Image (and Face), Ring
+constexpr std::size_t kPrograms = 5;  // in the order of Mark; a Face is an Image
 constexpr int kFinePx = 1024;  // a wider picture may be shown so small that single pixels would sparkle
 
 struct Instance {
@@ -22,17 +22,7 @@ struct Instance {
   float radius, border_px, blur_px, share;
 };
 
-std::size_t program_of(Mark mark) {
-  switch (mark) {
-    case Mark::Flat: return 0;
-    case Mark::Shape: return 1;
-    case Mark::Glyph: return 2;
-    case Mark::Image:
-    case Mark::Face: return 3;
-    case Mark::Ring: return 4;
-  }
-  return 0;
-}
+std::size_t program_of(Mark mark) { return std::size_t(mark == Mark::Face ? Mark::Image : mark); }
 
 struct Program {
   GLuint name = 0;
@@ -175,24 +165,6 @@ class GlesRenderer final : public Renderer {
                  instances_.data(), GL_STREAM_DRAW);
   }
 
-  void point_at(std::size_t first) const {
-    struct Field {
-      GLint count;
-      GLenum type;
-    };
-    constexpr Field fields[] = {{4, GL_FLOAT},         {4, GL_FLOAT},         {4, GL_UNSIGNED_BYTE},
-                                {4, GL_UNSIGNED_BYTE}, {4, GL_UNSIGNED_BYTE}, {4, GL_FLOAT}};
-    std::size_t offset = first * sizeof(Instance);
-    for (GLuint i = 0; i < 6; ++i) {
-      glEnableVertexAttribArray(i);
-      glVertexAttribPointer(i, fields[i].count, fields[i].type,
-                            fields[i].type == GL_UNSIGNED_BYTE ? GL_TRUE : GL_FALSE, sizeof(Instance),
-                            reinterpret_cast<const void*>(offset));  // NOLINT: GL's way of saying an offset
-      glVertexAttribDivisor(i, 1);
-      offset += fields[i].type == GL_FLOAT ? 16U : 4U;
-    }
-  }
-
   void draw_batch(const DrawList& list, std::size_t first, std::size_t last) {
     const Command& c = list.commands[first];
     GLuint texture = c.mark == Mark::Glyph ? atlas_ : pictures_[std::size_t(c.picture)];
@@ -218,7 +190,7 @@ class GlesRenderer final : public Renderer {
     glBindTexture(GL_TEXTURE_2D, texture);
     glBindVertexArray(array_);
     glBindBuffer(GL_ARRAY_BUFFER, buffer_);
-    point_at(first);
+    point_at({4, 4, kFourBytes, kFourBytes, kFourBytes, 4}, first, true);  // an Instance
     glDrawArraysInstanced(GL_TRIANGLE_STRIP, 0, 4, static_cast<GLsizei>(last - first));
   }
 

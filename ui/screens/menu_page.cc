@@ -14,23 +14,19 @@ void finding(StaffFrame& page, const Finding& found) {
   const auto& tr = page.tr;
   const StaffPage where = found.rule->page_of(page.staff.role);
   const bool mine = where != StaffPage::Menu;
-  Node row = page.box(Flow::Row, space::kS, 0, 6);
+  Node row = page.row_box(space::kS, 0, 6);
   tell(row, mine ? Role::Button : Role::Status, page.joined({"status ", found.rule->id}),
        tr(found.rule->words));
   row.value = tr("Not in order");
   if (mine) row.action = {ActionKind::StaffOpen, int(where)};
-  row.box.align = Align::Centre;
   row.box.min_height = page.px(size::kStaffTarget);
   const auto in_row = page.tree.inside(row);
   const Colour ink = page.ink_of(found.mood);
   page.sign(page.sign_of(found.mood), 28, ink);
-  Node both = page.grown(page.box(Flow::Row, space::kM));
-  both.box.align = Align::Centre;
+  Node both = page.grown(page.row_box(space::kM));
   both.box.wrap = true;
   page.tree.open(both);
-  page.tree.open(page.grown(page.box(Flow::Column)));
-  page.tree.leaf(page.text(tr(found.rule->words), type::kSmall, Weight::Medium, ink));
-  page.tree.close();
+  page.wide(page.text(tr(found.rule->words), type::kSmall, Weight::Medium, ink));
   const char* whose = page.staff.role == StaffRole::Operator ? tr("Technician") : tr("Operator");
   const std::string_view value = !mine                          ? std::string_view(whose)
                                  : found.rule->value != nullptr ? found.rule->value(page, *page.staff.status)
@@ -61,16 +57,14 @@ void status(StaffFrame& page) {
 }
 
 void tile(StaffFrame& page, const StaffPageInfo& info) {
-  Node node = page.grown(page.box(Flow::Row, space::kS, page.portrait ? 10 : 16, 8));
+  Node node = page.grown(page.row_box(space::kS, page.portrait ? 10 : 16, 8));
   const char* title = page.tr(info.title);
   tell(node, Role::Button, info.id, title, {ActionKind::StaffOpen, int(info.page)});
-  node.box.align = Align::Centre;
   node.box.min_height = page.px(72);
   frame(node, page.palette.card, page.palette.card_border, page.px(2), page.px(20));
   const auto in_node = page.tree.inside(node);
   page.sign(info.letter, 32 / page.text_share, page.palette.accent);
-  const auto in_box = page.tree.inside(page.grown(page.box(Flow::Column)));
-  page.tree.leaf(page.text(title, type::kSmall, Weight::Medium, page.palette.ink));
+  page.wide(page.text(title, type::kSmall, Weight::Medium, page.palette.ink));
 }
 
 // Tiles abreast, in order; the last row is filled up, so that all are as wide.
@@ -82,9 +76,7 @@ class Tiles {
   }
   void begin(const char* title) {
     end();
-    Node name = page_.text(title, type::kSmall, Weight::Bold, page_.palette.link);
-    name.role = Role::Heading;
-    page_.tree.leaf(name);
+    page_.put({}, Role::Heading, page_.text(title, type::kSmall, Weight::Bold, page_.palette.link));
   }
   void add(const StaffPageInfo& info) {
     if (column_ == 0) page_.tree.open(page_.box(Flow::Row, space::kS));

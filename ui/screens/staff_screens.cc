@@ -4,7 +4,6 @@
 
 #include <array>
 
-#include "ui/screens/parts/overlay.h"
 #include "ui/screens/service/technician/technician_frame.h"
 #include "ui/view/staff_views.h"
 
@@ -12,10 +11,9 @@ namespace relievo::ui {
 namespace {
 
 constexpr const char *kPulse = "\uf430", *kFlash = "\uf241", *kPaper = "\uf219", *kPeople = "\uf016",
-                     *kChart = "\uf128", *kHeart = "\uf5f6", *kKey = "\uf30b", *kDocument = "\uf219";
-
-constexpr const char *kRuler = "\uf46d", *kSteps = "\uf328", *kTable = "\uf4eb", *kTune = "\uf62e",
-                     *kCompare = "\uf18a", *kCog = "\uf493", *kTarget = "\uf4fe", *kClock = "\uf0f0";
+                     *kChart = "\uf128", *kHeart = "\uf5f6", *kKey = "\uf30b", *kRuler = "\uf46d",
+                     *kSteps = "\uf328", *kTable = "\uf4eb", *kTune = "\uf62e", *kCompare = "\uf18a",
+                     *kCog = "\uf493", *kTarget = "\uf4fe", *kClock = "\uf0f0";
 
 // A page of the technician's, where there is one.
 template <void (*kDraw)(TechnicianFrame&)>
@@ -31,8 +29,8 @@ constexpr std::array kPages{
                   mark_tr("Records")},
     StaffPageInfo{StaffPage::Statistics, "open statistics", mark_tr("Statistics"), kChart, false, true,
                   statistics_page},
-    StaffPageInfo{StaffPage::Consent, "open consent", mark_tr("Consent text"), kDocument, false, true,
-                  consent_text_page},
+    StaffPageInfo{StaffPage::Consent, "open consent", mark_tr("Consent text"), kPaper, false, true,
+                  consent_in_force},
     StaffPageInfo{StaffPage::Cameras, "open cameras", mark_tr("Cameras"), icon::kCamera, true, false,
                   technician<technician_cameras_page>, mark_tr("Cameras")},
     StaffPageInfo{StaffPage::Calibrate, "open calibrate", mark_tr("Calibration"), kRuler, true, false,
@@ -119,14 +117,10 @@ void staff_entrance(Page& page) {
   corner.box.align = Align::Start;
   const auto in_corner = page.tree.inside(corner);
   Node lock = page.sized(page.box(Flow::Column), size::kTarget, size::kTarget);
-  lock.id = "staff";
-  lock.name = page.tr("Staff: hold for three seconds");
-  lock.role = Role::Button;
-  lock.action = {ActionKind::StaffEnter, 0};
+  tell(lock, Role::Button, "staff", page.tr("Staff: hold for three seconds"), {ActionKind::StaffEnter, 0});
   lock.hold = true;
   lock.filling = page.palette.accent;
-  lock.box.justify = Justify::Centre;
-  lock.box.align = Align::Centre;
+  centre(lock);
   lock.box.radius = page.px(size::kRadius);
   const auto in_lock = page.tree.inside(lock);
   page.sign(icon::kLock, 30 / page.text_share, page.palette.ink_soft);

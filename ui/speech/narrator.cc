@@ -43,6 +43,33 @@ void say_children(const Tree& tree, const Node& node, const Listener& to, Uttera
   }
 }
 
+// A page is another one, too, when its heading is: while a portrait is made, then stored.
+std::size_t print_of_page(const Tree& tree, const Narrator::Moment& moment, const Listener& to) {
+  std::size_t print = moment.page * 31 + std::size_t(to.tr.language());
+  for (const Node& node : tree.nodes()) {
+    if (node.role == Role::Heading) print = print * 31 + print_of(node.text);
+  }
+  return print;
+}
+
+const Node* field_of(const Tree& tree) {
+  const auto found = std::ranges::find(tree.nodes(), Role::Field, &Node::role);
+  return found == tree.nodes().end() ? nullptr : &*found;
+}
+
+// How far from its place, where 1 is far, by what is to be mended first; negative where no tone can tell.
+float away_of(const LiveView& live) {
+  using pipeline::Advice;
+  constexpr float kFarDeg = 45;
+  if (live.advice == Advice::TooClose || live.advice == Advice::TooFar)
+    return live.nearness > 0 ? 2 * std::abs(live.nearness - 1) : -1;
+  if (live.advice == Advice::OffCentre) return std::hypot(live.face_x, live.face_y);
+  if (live.advice == Advice::TurnedAside) return std::abs(live.yaw_deg) / kFarDeg;
+  if (live.advice == Advice::LooksUpOrDown) return std::abs(live.pitch_deg) / kFarDeg;
+  if (live.advice == Advice::Tilted) return std::abs(live.roll_deg) / kFarDeg;
+  return -1;
+}
+
 }  // namespace
 
 void Utterance::add(std::string_view letters) {
@@ -83,24 +110,6 @@ void say_focus(const Tree& tree, const Node& node, const Listener& to, Utterance
   // A button with words of its own is a language, named in itself.
   if (node.role == Role::Button && node.text.empty()) said.say(to.tr("Button"));
 }
-
-namespace {
-
-// A page is another one, too, when its heading is: while a portrait is made, then stored.
-std::size_t print_of_page(const Tree& tree, const Narrator::Moment& moment, const Listener& to) {
-  std::size_t print = moment.page * 31 + std::size_t(to.tr.language());
-  for (const Node& node : tree.nodes()) {
-    if (node.role == Role::Heading) print = print * 31 + print_of(node.text);
-  }
-  return print;
-}
-
-const Node* field_of(const Tree& tree) {
-  const auto found = std::ranges::find(tree.nodes(), Role::Field, &Node::role);
-  return found == tree.nodes().end() ? nullptr : &*found;
-}
-
-}  // namespace
 
 void Narrator::read_again(std::string_view introduction) {
   again_ = true;
@@ -216,7 +225,9 @@ Cue cue(const Cues& before, const Cues& now) {
   if (other_step && now.step == Step::Thanks) return Cue::Done;
   const bool begun = before.step != Step::Starting && before.step != Step::Attract;
   if (other_step && now.step == Step::Trouble && begun) return Cue::Refused;
-  if (before.trouble != now.trouble && now.trouble == Trouble::Storage) return Cue::Refused;
+  if (before.trouble != now.trouble &&
+      (now.trouble == Trouble::Storage || now.trouble == Trouble::StorageFull))
+    return Cue::Refused;
   if (other_screen && now.screen == Screen::Position && now.trouble == Trouble::Refused) return Cue::Refused;
   // Only what is over was taken.
   if (before.screen == Screen::Capture && (now.screen == Screen::Turn || now.screen == Screen::Match))
@@ -225,23 +236,6 @@ Cue cue(const Cues& before, const Cues& now) {
   if (now.views > before.views) return Cue::Taken;
   return now.number != 0 && now.number != before.number ? Cue::Tick : Cue::None;
 }
-
-namespace {
-
-// How far from its place, where 1 is far, by what is to be mended first; negative where no tone can tell.
-float away_of(const LiveView& live) {
-  using pipeline::Advice;
-  constexpr float kFarDeg = 45;
-  if (live.advice == Advice::TooClose || live.advice == Advice::TooFar)
-    return live.nearness > 0 ? 2 * std::abs(live.nearness - 1) : -1;
-  if (live.advice == Advice::OffCentre) return std::hypot(live.face_x, live.face_y);
-  if (live.advice == Advice::TurnedAside) return std::abs(live.yaw_deg) / kFarDeg;
-  if (live.advice == Advice::LooksUpOrDown) return std::abs(live.pitch_deg) / kFarDeg;
-  if (live.advice == Advice::Tilted) return std::abs(live.roll_deg) / kFarDeg;
-  return -1;
-}
-
-}  // namespace
 
 std::optional<float> guide_pitch(const ViewState& view, const Visit& visit) {
   if (visit.step != Step::Position || visit.overlay != Overlay::None) return std::nullopt;

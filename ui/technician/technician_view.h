@@ -56,10 +56,7 @@ struct TechnicianRows {
 enum class TechnicianPage : std::uint8_t { Stages, Model, Tables, Algorithms, Compare, Cameras, Calibrate };
 
 // The test capture, or all of the reconstruction, on its way to the stick; or a saved one on its way back.
-struct TechnicianRecording {
-  bool running = false;
-  float progress = 0;
-  Outcome outcome = Outcome::None;
+struct TechnicianRecording : Work {
   std::string_view where;  // the folder on the stick; empty: nothing is there
 };
 
@@ -100,8 +97,7 @@ struct TechnicianPose {
 
 struct TechnicianView {
   TechnicianPhase phase = TechnicianPhase::Empty;
-  bool calibrated =
-      true;  // without a calibration there is no test capture, unless it was loaded with its own
+  bool calibrated = true;  // without it there is no test capture, unless it was loaded with its own
   float progress = 0;
   std::uint8_t working_on = 0;  // of the stages, while phase is Running
   Fault problem;

@@ -102,8 +102,10 @@ class PangoParagraph::Impl {
     cairo_t* cairo = cairo_create(surface);
     GSList* line = pango_layout_get_lines_readonly(layout_.get());
     for (const SetLine& one : lines_) {
-      cairo_move_to(cairo, double(one.x) - left, double(one.baseline) - top);
-      pango_cairo_show_layout_line(cairo, static_cast<PangoLayoutLine*>(line->data));
+      if (one.bottom >= float(top) && one.top <= float(top + h)) {  // a long text is drawn in pieces
+        cairo_move_to(cairo, double(one.x) - left, double(one.baseline) - top);
+        pango_cairo_show_layout_line(cairo, static_cast<PangoLayoutLine*>(line->data));
+      }
       line = line->next;
     }
     cairo_destroy(cairo);
@@ -121,6 +123,7 @@ class PangoParagraph::Impl {
  private:
   struct SetLine {
     float x = 0, baseline = 0;
+    float top = 0, bottom = 0;  // of its ink
   };
 
   void set_style(const TextStyle& style) {
@@ -224,7 +227,8 @@ class PangoParagraph::Impl {
       // Whole pixels, so that letters stay sharp; a sign stands as its font has it.
       const float first = style.icon ? own : std::round(std::max(style.size_px * lines.above, own - top));
       const float baseline = lines_.empty() ? first : lines_.back().baseline + apart;
-      lines_.push_back({float(logical.x - whole.x) / kScale, baseline});
+      lines_.push_back(
+          {float(logical.x - whole.x) / kScale, baseline, baseline + top - own, baseline + bottom - own});
       set_.height_px = style.icon ? float(whole.height) / kScale
                                   : baseline + std::max(style.size_px * lines.below, bottom - own);
       if (ink.width <= 0 || ink.height <= 0) continue;

@@ -5,6 +5,8 @@
 #include <algorithm>
 #include <cstdint>
 
+#include "hal/base/utf8.h"
+
 namespace relievo::ui {
 namespace {
 
@@ -18,13 +20,9 @@ struct Letter {
 std::vector<Letter> letters_of(std::string_view text) {
   std::vector<Letter> letters;
   for (std::size_t at = 0; at < text.size();) {
-    const auto first = static_cast<unsigned char>(text[at]);
-    const std::size_t size = first < 0x80 ? 1 : first < 0xE0 ? 2 : first < 0xF0 ? 3 : 4;
-    char32_t code = size == 1 ? first : first & (0xFFU >> (size + 1));
-    for (std::size_t i = 1; i < size && at + i < text.size(); ++i)
-      code = code << 6U | (static_cast<unsigned char>(text[at + i]) & 0x3FU);
-    letters.push_back({at, code});
-    at += size;
+    const Utf8Letter letter = first_letter_of(text.substr(at));
+    letters.push_back({at, letter.code});
+    at += std::max<std::size_t>(1, letter.bytes);
   }
   return letters;
 }

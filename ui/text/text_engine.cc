@@ -6,6 +6,7 @@
 #include <cmath>
 #include <cstring>
 #include <unordered_map>
+#include <utility>
 
 #include "ui/text/pango_paragraph.h"
 
@@ -49,6 +50,13 @@ TextAtlas::Rows TextAtlas::take_changed() {
 
 namespace {
 
+// Pieces of a large text fill the atlas, four in a shelf: a long one is scrolled through it.
+constexpr int kPieceWidthPx = 510, kPieceHeightPx = 254, kWholeHeightPx = 64;
+
+bool meet(const Rect& a, const Rect& b) {
+  return a.x < b.right() && b.x < a.right() && a.y < b.bottom() && b.y < a.bottom();
+}
+
 std::uint64_t mix(std::uint64_t hash, const void* bytes, std::size_t size) {  // FNV-1a
   const auto* at = static_cast<const unsigned char*>(bytes);
   for (std::size_t i = 0; i < size; ++i) hash = (hash ^ at[i]) * 1099511628211ULL;
@@ -77,9 +85,30 @@ class CachedTextEngine final : public TextEngine {
   }
 
   const TextLabel& label(std::string_view text, const TextStyle& style, float max_width_px) override {
+    return label_of(find(text, style, max_width_px), text, style, max_width_px);
+  }
+
+  std::span<const TextPiece> pieces(std::string_view text, const TextStyle& style, float max_width_px,
+                                    const Rect& seen) override {
     Entry& entry = find(text, style, max_width_px);
-    if (entry.generation != atlas_.generation()) rasterise(text, style, max_width_px, entry);
-    return entry.label;
+    const Rect ink = entry.label.ink;
+    if (ink.h <= kWholeHeightPx && ink.w <= float(atlas_.side_px() - 2)) {
+      entry.pieces.resize(1);
+      entry.pieces[0] = {ink, {}};
+      if (meet(ink, seen)) entry.pieces[0].atlas = label_of(entry, text, style, max_width_px).atlas;
+      return entry.pieces;
+    }
+    if (entry.pieces.empty()) cut(entry);
+    keep_written(entry);
+    bool is_set = false;
+    for (TextPiece& piece : entry.pieces) {
+      if (piece.atlas.w > 0 || !meet(piece.ink, seen)) continue;
+      if (!std::exchange(is_set, true)) (void)set(text, style, max_width_px);
+      const Rect place = write(piece.ink);
+      keep_written(entry);
+      piece.atlas = place;
+    }
+    return entry.pieces;
   }
 
   TextAtlas& atlas() override { return atlas_; }
@@ -94,6 +123,8 @@ class CachedTextEngine final : public TextEngine {
   struct Entry {
     TextLabel label;
     std::uint32_t generation = 0;
+    std::vector<TextPiece> pieces;
+    std::uint32_t pieces_generation = 0;
   };
 
   Entry& find(std::string_view text, const TextStyle& style, float max_width_px) {
@@ -106,28 +137,54 @@ class CachedTextEngine final : public TextEngine {
     const SetText& set = paragraph_.set(text, style, width);
     // A pixel more: boxes are rounded to whole pixels, and must not lose a word by that.
     entry.label.size = {std::ceil(set.width_px) + 1, std::ceil(set.height_px), set.lines};
+    // All in whole pixels, so that letters stay sharp.
+    const float left = std::floor(set.left) - 1, top = std::floor(set.top) - 1;
+    entry.label.ink = {left, top, std::ceil(set.right) + 1 - left, std::ceil(set.bottom) + 1 - top};
     entry.label.missing = set.missing;
     entry.label.torn = set.torn;
     return entry;
   }
 
-  void rasterise(std::string_view text, const TextStyle& style, float max_width_px, Entry& entry) {
-    const SetText& set = paragraph_.set(text, style, std::max(1, int(std::ceil(max_width_px))));
-    // All in whole pixels, so that letters stay sharp.
-    const int left = int(std::floor(set.left)) - 1, top = int(std::floor(set.top)) - 1;
-    const int right = int(std::ceil(set.right)) + 1, bottom = int(std::ceil(set.bottom)) + 1;
-    const int w = std::clamp(right - left, 1, atlas_.side_px() - 2),
-              h = std::clamp(bottom - top, 1, atlas_.side_px() - 2);
+  const SetText& set(std::string_view text, const TextStyle& style, float max_width_px) {
+    return paragraph_.set(text, style, std::max(1, int(std::ceil(max_width_px))));
+  }
+
+  const TextLabel& label_of(Entry& entry, std::string_view text, const TextStyle& style, float max_width_px) {
+    if (entry.generation == atlas_.generation()) return entry.label;
+    (void)set(text, style, max_width_px);
+    const auto most = float(atlas_.side_px() - 2);
+    const Rect& ink = entry.label.ink;
+    entry.label.atlas = write({ink.x, ink.y, std::min(ink.w, most), std::min(ink.h, most)});
+    entry.generation = atlas_.generation();
+    return entry.label;
+  }
+
+  // What was written before the atlas started anew is gone.
+  void keep_written(Entry& entry) {
+    if (std::exchange(entry.pieces_generation, atlas_.generation()) == atlas_.generation()) return;
+    for (TextPiece& piece : entry.pieces) piece.atlas = {};
+  }
+
+  static void cut(Entry& entry) {
+    const Rect& ink = entry.label.ink;
+    for (float y = ink.y; y < ink.bottom(); y += kPieceHeightPx)
+      for (float x = ink.x; x < ink.right(); x += kPieceWidthPx)
+        entry.pieces.push_back({{x, y, std::min(float(kPieceWidthPx), ink.right() - x),
+                                 std::min(float(kPieceHeightPx), ink.bottom() - y)},
+                                {}});
+  }
+
+  // Of the paragraph that was set last.
+  Rect write(const Rect& ink) {
+    const int w = int(ink.w), h = int(ink.h);
     auto at = atlas_.place(w, h);
     if (!at) {
       atlas_.reset();
       at = atlas_.place(w, h);
     }
-    entry.generation = atlas_.generation();
-    entry.label.ink = {float(left), float(top), float(w), float(h)};
-    entry.label.atlas = {float(at->x), float(at->y), float(w), float(h)};
-    const GlyphCoverage drawn = paragraph_.draw(left, top, w, h);
+    const GlyphCoverage drawn = paragraph_.draw(int(ink.x), int(ink.y), w, h);
     for (int y = 0; y < h; ++y) std::memcpy(atlas_.row(at->x, at->y + y), drawn.row(y), std::size_t(w));
+    return {float(at->x), float(at->y), ink.w, ink.h};
   }
 
   PangoParagraph paragraph_;

@@ -10,6 +10,7 @@
 #include <cstdint>
 #include <memory>
 #include <optional>
+#include <span>
 #include <string_view>
 #include <vector>
 
@@ -91,6 +92,12 @@ struct TextLabel {
   int torn = 0;     // words that end on one line and go on the next without a hyphen: no room for them
 };
 
+// A part of a label: `ink` as there. `atlas` has no width where the part is not written.
+struct TextPiece {
+  Rect ink;
+  Rect atlas;
+};
+
 class TextEngine {
  public:
   static Result<std::unique_ptr<TextEngine>> make();
@@ -98,8 +105,12 @@ class TextEngine {
 
   // No wider than max_width_px unless a single word is.
   virtual TextSize measure(std::string_view text, const TextStyle& style, float max_width_px) = 0;
-  // The same, in the atlas. Valid until the next call.
+  // The same, in the atlas, as far as it fits there. Valid until the next call.
   virtual const TextLabel& label(std::string_view text, const TextStyle& style, float max_width_px) = 0;
+  // The same in pieces, so that a text may be larger than the atlas: those are written that meet `seen`,
+  // which is relative to the top left corner of the text's box. Valid until the next call.
+  virtual std::span<const TextPiece> pieces(std::string_view text, const TextStyle& style, float max_width_px,
+                                            const Rect& seen) = 0;
   virtual TextAtlas& atlas() = 0;
   // Nothing that was written stays in memory.
   virtual void forget() = 0;

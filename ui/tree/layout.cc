@@ -114,8 +114,7 @@ Layout::Shares Layout::shares(const Node& row, float width) {
   Shares given;
   std::size_t count = 0;
   float fixed = 0, grow = 0, soft = 0;
-  for (std::int32_t at = row.first_child; at >= 0 && count < kMostInARow;
-       at = nodes_[std::size_t(at)].next, ++count) {
+  for (std::int32_t at = row.first_child; at >= 0; at = nodes_[std::size_t(at)].next, ++count) {
     const Node& child = nodes_[std::size_t(at)];
     if (child.box.grow > 0) {
       grow += child.box.grow;
@@ -229,7 +228,7 @@ void Layout::place_row(Node& node, const Rect& inner, const Rect& clip) {
   const Shares given = shares(node, inner.w);
   float used = 0;
   std::size_t count = 0;
-  for (std::int32_t at = node.first_child; at >= 0 && count < kMostInARow; at = nodes_[std::size_t(at)].next)
+  for (std::int32_t at = node.first_child; at >= 0; at = nodes_[std::size_t(at)].next)
     used += given.w[count++];
   float gap = node.box.gap;
   if (count > 1) used += gap * float(count - 1);
@@ -240,9 +239,8 @@ void Layout::place_row(Node& node, const Rect& inner, const Rect& clip) {
   if (node.box.justify == Justify::SpaceBetween && count > 1) gap += left / float(count - 1);
   const bool mirrored = (right_to_left_ && !node.box.left_to_right) != node.box.other_side;
   std::size_t i = 0;
-  for (std::int32_t at = node.first_child; at >= 0 && i < count; ++i) {
+  for (std::int32_t at = node.first_child; at >= 0 && i < count; at = nodes_[std::size_t(at)].next, ++i) {
     const auto child = std::size_t(at);
-    at = nodes_[child].next;
     const float w = given.w[i];
     const float h = node.box.align == Align::Stretch ? inner.h : std::min(inner.h, need(nodes_[child], w).h);
     place(child, {inner.x + (mirrored ? inner.w - x - w : x), inner.y + align_start(node, inner.h, h), w, h},
@@ -252,9 +250,8 @@ void Layout::place_row(Node& node, const Rect& inner, const Rect& clip) {
 }
 
 void Layout::place_stack(Node& node, const Rect& inner, const Rect& clip) {
-  for (std::int32_t at = node.first_child; at >= 0;) {
+  for (std::int32_t at = node.first_child; at >= 0; at = nodes_[std::size_t(at)].next) {
     const auto child = std::size_t(at);
-    at = nodes_[child].next;
     const Node& one = nodes_[child];
     if (!one.pinned) {
       place(child, inner, clip);

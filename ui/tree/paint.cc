@@ -3,6 +3,7 @@
 //
 // Tree's picture and Tree's words: what a node looks like, and what it says of itself.
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <cstdio>
 
@@ -15,37 +16,37 @@ namespace {
 constexpr float kHeldBar = 10;  // dp
 constexpr float kFade = 56;     // dp
 
+// Holds until the next one is added.
+Command& add(DrawList& list, Mark mark, const Rect& rect, const Rect& clip) {
+  Command& command = list.commands.emplace_back();
+  command.mark = mark;
+  command.rect = rect;
+  command.clip = clip;
+  return command;
+}
+
 void paint_box(DrawList& list, const Node& node, bool touched, float unit) {
   const Box& box = node.box;
   if (box.shadow) {
-    Command shadow;
-    shadow.mark = Mark::Shape;
-    shadow.rect = {node.rect.x, node.rect.y + 5 * unit, node.rect.w, node.rect.h};
-    shadow.clip = node.clip;
+    const Rect below{node.rect.x, node.rect.y + 5 * unit, node.rect.w, node.rect.h};
+    Command& shadow = add(list, Mark::Shape, below, node.clip);
     shadow.fill = shadow.fill_end = {16, 32, 64, 46};
     shadow.radius = box.radius;
     shadow.blur_px = 11 * unit;
-    list.commands.push_back(shadow);
   }
   if (!box.fill.seen() && !box.border.seen()) return;
-  Command c;
-  c.mark = box.radius > 0 || box.border_px > 0 ? Mark::Shape : Mark::Flat;
-  c.rect = node.rect;
-  c.clip = node.clip;
+  const bool shaped = box.radius > 0 || box.border_px > 0;
+  Command& c = add(list, shaped ? Mark::Shape : Mark::Flat, node.rect, node.clip);
   c.fill = touched ? pressed(box.fill) : box.fill;
   c.fill_end = touched || !box.fill_end.seen() ? c.fill : box.fill_end;
   c.border = box.border;
   c.border_px = box.border_px;
   c.radius = std::min(box.radius, std::min(node.rect.w, node.rect.h) / 2);
-  list.commands.push_back(c);
 }
 
 // A picture is seen whole, or fills its box and is cut at the sides.
 void paint_picture(DrawList& list, const Node& node) {
-  Command c;
-  c.mark = node.mark;
-  c.rect = node.rect;
-  c.clip = node.clip;
+  Command& c = add(list, node.mark, node.rect, node.clip);
   c.fill = node.colour.seen() ? node.colour : Colour{255, 255, 255, 255};
   c.border = node.box.border;
   c.border_px = node.line_px;
@@ -76,40 +77,43 @@ void paint_picture(DrawList& list, const Node& node) {
     }
     if (node.mirrored) c.uv = {c.uv.x + c.uv.w, c.uv.y, -c.uv.w, c.uv.h};
   }
-  list.commands.push_back(c);
 }
 
 void paint_text(DrawList& list, const Node& node, TextEngine& text, bool right_to_left) {
   const float pad_x = node.box.pad_x, pad_y = node.box.pad_y, room = std::max(1.0F, node.rect.w - 2 * pad_x);
-  const TextLabel& label = text.label(node.text, node.style, room);
+  const TextSize size = text.measure(node.text, node.style, room);
   float x = 0;
-  if (node.style.align == TextAlign::Centre) x = (room - label.size.width_px) / 2;
-  else if (right_to_left != (node.style.align == TextAlign::End)) x = room - label.size.width_px;
-  const float y = (node.rect.h - 2 * pad_y - label.size.height_px) / 2;
-  Command c;
-  c.mark = Mark::Glyph;
-  c.rect = {node.rect.x + pad_x + std::round(x) + label.ink.x,
-            node.rect.y + pad_y + std::round(y) + label.ink.y, label.ink.w, label.ink.h};
-  c.clip = node.clip;
-  c.uv = label.atlas;
-  if (node.mirrored) {
-    c.rect.x = node.rect.x + pad_x + std::round(x) + label.size.width_px - label.ink.x - label.ink.w;
-    c.uv = {c.uv.x + c.uv.w, c.uv.y, -c.uv.w, c.uv.h};
+  if (node.style.align == TextAlign::Centre) x = (room - size.width_px) / 2;
+  else if (right_to_left != (node.style.align == TextAlign::End)) x = room - size.width_px;
+  const float y = (node.rect.h - 2 * pad_y - size.height_px) / 2;
+  // Whole pixels: pieces of a text meet without a seam.
+  const float left = std::round(node.rect.x + pad_x + std::round(x)),
+              top = std::round(node.rect.y + pad_y + std::round(y));
+  const Rect all{-1e6F, -1e6F, 2e6F, 2e6F};  // a mirrored sign is small
+  const Rect seen =
+      node.mirrored ? all : Rect{node.clip.x - left, node.clip.y - top, node.clip.w, node.clip.h};
+  for (const TextPiece& piece : text.pieces(node.text, node.style, room, seen)) {
+    if (piece.atlas.w <= 0) continue;
+    const Rect& ink = piece.ink;
+    Command& c = add(list, Mark::Glyph, {left + ink.x, top + ink.y, ink.w, ink.h}, node.clip);
+    c.uv = piece.atlas;
+    if (node.mirrored) {
+      c.rect.x = left + size.width_px - ink.x - ink.w;
+      c.uv = {c.uv.x + c.uv.w, c.uv.y, -c.uv.w, c.uv.h};
+    }
+    c.fill = node.colour;
   }
-  c.fill = node.colour;
-  list.commands.push_back(c);
 }
 
 void paint_focus(DrawList& list, const Node& node, Colour colour, float unit) {
   const float out = 5 * unit;
-  Command c;
-  c.mark = Mark::Shape;
-  c.rect = {node.rect.x - out, node.rect.y - out, node.rect.w + 2 * out, node.rect.h + 2 * out};
-  c.clip = {node.clip.x - 2 * out, node.clip.y - 2 * out, node.clip.w + 4 * out, node.clip.h + 4 * out};
+  const auto around = [](const Rect& r, float by) {
+    return Rect{r.x - by, r.y - by, r.w + 2 * by, r.h + 2 * by};
+  };
+  Command& c = add(list, Mark::Shape, around(node.rect, out), around(node.clip, 2 * out));
   c.border = colour;
   c.border_px = size::kFocusRing * unit;
   c.radius = node.box.radius + out;
-  list.commands.push_back(c);
 }
 
 bool overflows(const Node& node) { return node.box.scroll && node.content_height > node.rect.h + 1; }
@@ -125,13 +129,10 @@ void paint_scroll_bar(DrawList& list, const Node& node, const Interaction& hands
   const float scrolled = scrolled_px(node, hands);
   const float h = node.rect.h * node.rect.h / node.content_height,
               y = node.rect.y + node.rect.h * scrolled / node.content_height;
-  Command c;
-  c.mark = Mark::Shape;
-  c.rect = {right_to_left ? node.rect.x - 12 * unit : node.rect.right() + 4 * unit, y, 8 * unit, h};
-  c.clip = {c.rect.x, node.rect.y, c.rect.w, node.rect.h};
+  const Rect bar{right_to_left ? node.rect.x - 12 * unit : node.rect.right() + 4 * unit, y, 8 * unit, h};
+  Command& c = add(list, Mark::Shape, bar, {bar.x, node.rect.y, bar.w, node.rect.h});
   c.fill = c.fill_end = {120, 132, 156, 255};
   c.radius = 4 * unit;
-  list.commands.push_back(c);
 }
 
 // What is seen behind a node at a height: the nearest box around it that is filled.
@@ -158,17 +159,13 @@ void paint_fades(DrawList& list, const std::vector<Node>& nodes, std::size_t ind
   const float above = scrolled_px(node, hands), below = node.content_height - node.rect.h - above;
   const float h = std::round(std::min(kFade * unit, node.rect.h / 4)), edge = std::ceil(node.box.border_px);
   const float in = std::max(node.box.pad_x, edge);
-  Command c;
-  c.mark = Mark::Flat;
-  c.clip = node.clip;
   const auto fade = [&](float hidden, float y, float at_edge, bool down) {
     const Colour ground = ground_of(nodes, index, at_edge);
     if (hidden < 1 || !ground.seen()) return;
     const Colour shut = ground.with_alpha(std::min(1.0F, hidden / h)), open = ground.with_alpha(0);
-    c.rect = {node.rect.x + in, y, node.rect.w - 2 * in, h};
+    Command& c = add(list, Mark::Flat, {node.rect.x + in, y, node.rect.w - 2 * in, h}, node.clip);
     c.fill = down ? open : shut;
     c.fill_end = down ? shut : open;
-    list.commands.push_back(c);
   };
   fade(above, node.rect.y + edge, node.rect.y, false);
   fade(below, node.rect.bottom() - edge - h, node.rect.bottom(), true);
@@ -177,31 +174,17 @@ void paint_fades(DrawList& list, const std::vector<Node>& nodes, std::size_t ind
 // How much of the time has passed: a bar along the bottom, in the direction of reading, within the node's
 // round corners.
 void paint_held(DrawList& list, const Node& node, float share, bool right_to_left, float unit) {
-  Command c;
-  c.mark = Mark::Shape;
-  c.rect = node.rect;
+  const float h = std::min(node.rect.h, kHeldBar * unit), w = node.rect.w * share;
+  Command& c = add(list, Mark::Shape, node.rect,
+                   {right_to_left ? node.rect.right() - w : node.rect.x, node.rect.bottom() - h, w, h});
   c.radius = std::min(node.box.radius, std::min(node.rect.w, node.rect.h) / 2);
   c.fill = c.fill_end = node.filling;
-  const float h = std::min(node.rect.h, kHeldBar * unit), w = node.rect.w * share;
-  c.clip = {right_to_left ? node.rect.right() - w : node.rect.x, node.rect.bottom() - h, w, h};
-  list.commands.push_back(c);
 }
 
-std::string_view word(Role role) {
-  switch (role) {
-    case Role::Group: return "group";
-    case Role::Heading: return "heading";
-    case Role::Text: return "text";
-    case Role::Icon: return "icon";
-    case Role::Button: return "button";
-    case Role::Key: return "key";
-    case Role::Field: return "field";
-    case Role::Picture: return "picture";
-    case Role::Status: return "status";
-    case Role::Alert: return "alert";
-  }
-  return "";
-}
+// In the order of Role.
+constexpr std::array<std::string_view, 10> kRoles{"group", "heading", "text",    "icon",   "button",
+                                                  "key",   "field",   "picture", "status", "alert"};
+static_assert(kRoles.size() == std::size_t(Role::Alert) + 1);
 
 std::string quoted(std::string_view text) {
   std::string out = "\"";
@@ -233,7 +216,7 @@ void Tree::paint(DrawList& list, TextEngine& text, const Interaction& hands, Col
 
 void Tree::paint_node(DrawList& list, const Node& node, TextEngine& text, const Interaction& hands,
                       float unit) const {
-  const bool pressed = !node.id.empty() && touches(hands, node);
+  const bool pressed = !node.id.empty() && hands.pressed == node.id;
   if (node.mark == Mark::Shape) paint_box(list, node, pressed, unit);
   else paint_picture(list, node);
   paint_spots(list, node);
@@ -246,21 +229,16 @@ void Tree::paint_spots(DrawList& list, const Node& node) const {
   for (std::uint32_t i = 0; i < node.spots; ++i) {
     const Spot& spot = spots_[node.first_spot + i];
     const float across = spot.place.w > 0 ? 0 : spot.thick_px, down = spot.place.h > 0 ? 0 : spot.thick_px;
-    Command c;
-    c.mark = spot.round ? Mark::Shape : Mark::Flat;
-    c.rect = {node.rect.x + spot.place.x * node.rect.w - across / 2,
-              node.rect.y + spot.place.y * node.rect.h - down / 2, spot.place.w * node.rect.w + across,
-              spot.place.h * node.rect.h + down};
+    const Rect place{node.rect.x + spot.place.x * node.rect.w - across / 2,
+                     node.rect.y + spot.place.y * node.rect.h - down / 2, spot.place.w * node.rect.w + across,
+                     spot.place.h * node.rect.h + down};
+    Command& c = add(list, spot.round ? Mark::Shape : Mark::Flat, place, node.clip);
     if (across > 0) c.rect.x = std::round(c.rect.x);  // a thin line between two pixels would be seen as none
     if (down > 0) c.rect.y = std::round(c.rect.y);
-    c.clip = node.clip;
     c.fill = c.fill_end = spot.colour;
     if (spot.round) c.radius = std::min(c.rect.w, c.rect.h) / 2;
-    list.commands.push_back(c);
   }
 }
-
-bool Tree::touches(const Interaction& hands, const Node& node) { return hands.pressed == node.id; }
 
 std::string Tree::to_json() const {
   std::string out = "[";
@@ -272,7 +250,7 @@ std::string Tree::to_json() const {
     std::snprintf(place, sizeof place, ",\"x\":%.0f,\"y\":%.0f,\"w\":%.0f,\"h\":%.0f}", node.rect.x,
                   node.rect.y, node.rect.w, node.rect.h);
     if (out.size() > 1) out += ",\n ";
-    out += "{\"id\":" + quoted(node.id) + ",\"role\":" + quoted(word(node.role)) +
+    out += "{\"id\":" + quoted(node.id) + ",\"role\":" + quoted(kRoles[std::size_t(node.role)]) +
            ",\"name\":" + quoted(node.name.empty() ? node.text : node.name) +
            (node.value.empty() ? std::string() : ",\"value\":" + quoted(node.value)) + place;
   }

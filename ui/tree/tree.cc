@@ -59,11 +59,14 @@ Node& Tree::leaf(const Node& node) {
   nodes_.push_back(node);
   Node& added = nodes_.back();
   added.first_child = added.last_child = added.next = -1;
+  added.children = 0;
   added.parent = open_.empty() ? -1 : open_.back();
   added.style.right_to_left = right_to_left_;
   if (added.modal) modal_ = index;
   if (!open_.empty()) {
     Node& parent = nodes_[std::size_t(open_.back())];
+    ++parent.children;
+    RELIEVO_ASSERT(parent.box.flow != Flow::Row || parent.children <= kMostInARow);
     if (parent.last_child >= 0) nodes_[std::size_t(parent.last_child)].next = index;
     else parent.first_child = index;
     parent.last_child = index;
@@ -93,10 +96,8 @@ bool Tree::under_modal(std::size_t index) const {
 }
 
 const Node* Tree::find(std::string_view id) const {
-  for (const Node& node : nodes_) {
-    if (node.id == id) return &node;
-  }
-  return nullptr;
+  const auto found = std::ranges::find(nodes_, id, &Node::id);
+  return found == nodes_.end() ? nullptr : &*found;
 }
 
 const Node* Tree::at(float x, float y) const {

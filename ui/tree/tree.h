@@ -99,6 +99,7 @@ struct Node {
   float covered_px = 0;  // of a Face, at its lower end: the model stands in the middle of the rest
   std::uint32_t first_spot = 0, spots = 0;  // of the tree's
   std::int32_t parent = -1, first_child = -1, last_child = -1, next = -1;
+  std::uint32_t children = 0;
   Rect rect;  // set by layout()
   Rect clip;
   float content_height = 0;  // of a scroller: what it would be high to show all, its own padding with it
@@ -114,11 +115,14 @@ struct Interaction {
   float scroll_px = 0;
 };
 
+inline constexpr std::size_t kMostInARow = 16;
+
 class Tree {
  public:
   Tree();
   void begin(bool right_to_left);
-  // Adds a node as the last child of the open one; strings must outlive the frame: keep() copies.
+  // Adds a node as the last child of the open one (of a row no more than kMostInARow); strings must outlive
+  // the frame: keep() copies.
   Node& open(const Node& node);
   void close();
   // Opens it until the end of the block.
@@ -168,7 +172,6 @@ class Tree {
   void paint_node(DrawList& list, const Node& node, TextEngine& text, const Interaction& hands,
                   float unit) const;
   void paint_spots(DrawList& list, const Node& node) const;
-  static bool touches(const Interaction& hands, const Node& node);
 
   std::vector<Node> nodes_;
   std::vector<Spot> spots_;
@@ -193,7 +196,6 @@ class Layout {
   struct Need {
     float w = 0, h = 0;
   };
-  static constexpr std::size_t kMostInARow = 16;
   struct Shares {
     std::array<float, kMostInARow> w{};
   };

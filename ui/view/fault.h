@@ -7,6 +7,7 @@
 #pragma once
 
 #include <string>
+#include <string_view>
 
 #include "hal/base/words.h"
 
@@ -15,6 +16,16 @@ namespace relievo::ui {
 struct Fault {
   Errc code = Errc::InvalidState;
   std::string detail;  // where and what; empty: nothing is wrong
+  bool empty() const { return detail.empty(); }
+};
+
+// The same, kept by somebody else: it costs no memory in every turn.
+struct FaultView {
+  FaultView() = default;
+  FaultView(Errc whose, std::string_view what) : code(whose), detail(what) {}
+  FaultView(const Fault& fault) : code(fault.code), detail(fault.detail) {}
+  Errc code = Errc::InvalidState;
+  std::string_view detail;
   bool empty() const { return detail.empty(); }
 };
 

@@ -4,6 +4,8 @@
 
 #include <array>
 
+#include "hal/base/utf8.h"
+
 namespace relievo::ui {
 namespace {
 
@@ -35,21 +37,16 @@ const Keys& keys_of(Language language, bool capital) {
   return capital ? kPlainBig : kPlain;
 }
 
-std::size_t bytes_of(char first) {
-  const auto byte = static_cast<unsigned char>(first);
-  return byte < 0x80 ? 1 : byte < 0xE0 ? 2 : 3;
-}
-
 }  // namespace
 
 std::string_view keypad_letter(Language language, char digit, std::size_t times, bool capital) {
   const std::string_view key = keys_of(language, capital)[std::size_t(digit - '1')];
   std::size_t at = 0;
   for (std::size_t i = 0; i < times; ++i) {
-    at += bytes_of(key[at]);
+    at += first_letter_of(key.substr(at)).bytes;
     if (at == key.size()) at = 0;
   }
-  return key.substr(at, bytes_of(key[at]));
+  return key.substr(at, first_letter_of(key.substr(at)).bytes);
 }
 
 }  // namespace relievo::ui

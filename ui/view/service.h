@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: 2026 The Relievo authors
 // SPDX-License-Identifier: GPL-3.0-or-later
 //
-// Service: where a member of staff is on their side of the screen, what they have typed and chosen.
+// Service: where a member of staff is on their side of the screen, and what they have typed.
 // The sibling of Visit. It decides nothing: what is to be done goes out as StaffRequest, who may come in
 // the appliance says (ServiceView::role).
 //

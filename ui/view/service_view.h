@@ -81,9 +81,8 @@ enum class PinStep : std::uint8_t {
 enum class PinFault : std::uint8_t { None, Differ, Simple, Taken };
 
 struct AccessView {
-  bool set_up = true;  // both PINs have been chosen
-  bool demanded =
-      false;  // until they are nobody gets past the first start: the device stands before real people
+  bool set_up = true;     // both PINs have been chosen
+  bool demanded = false;  // until they are, nobody gets past the first start: before real people
   PinStep step = PinStep::Technician;
   PinFault fault = PinFault::None;
   std::string_view clock;      // the date and time that is shown for the first start

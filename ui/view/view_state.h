@@ -51,6 +51,7 @@ enum class Trouble : std::uint8_t {
   Calibration,  // the cameras have moved
   Refused,      // no model could be made of these pictures
   Storage,      // full or broken
+  StorageFull,  // this portrait was not stored: for want of room
   TookTooLong,
   Uncalibrated,  // nobody has calibrated this device yet
   Clock,         // set to a time that cannot be: a consent would bear a wrong date
@@ -127,9 +128,9 @@ struct ViewState {
   std::chrono::system_clock::time_point wall_now{};
   float progress = 0;  // 0 to 1 of the way from the photograph to the portrait; falls for a new one alone
   Trouble trouble = Trouble::None;
-  Fault calibration_note;    // for the technician: what speaks against the calibration
-  std::string_view receipt;  // what to quote for an erasure; from the moment of storing on
-  StageView receipt_code;    // the same as a QR code
+  FaultView calibration_note;  // for the technician: what speaks against the calibration
+  std::string_view receipt;    // what to quote for an erasure; from the moment of storing on
+  StageView receipt_code;      // the same as a QR code
   Printing printing = Printing::None;
   TakeHomeView take_home;
   bool cameras_on = false;  // they are streaming: as the capture thread has it
@@ -149,8 +150,7 @@ struct ViewState {
   const ServiceView* service = nullptr;   // for the staff's pages; none: there are none
   const ConsentTexts* consent = nullptr;  // the operator's own; none: the sample
   Known known = Known::NotAsked;
-  Trouble out_of_order =
-      Trouble::None;  // Uncalibrated, Calibration, Clock, Restarted: shown instead of the page that invites
+  Trouble out_of_order = Trouble::None;  // shown instead of the page that invites; Other: too hot
 };
 
 }  // namespace relievo::ui

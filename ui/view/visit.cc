@@ -202,10 +202,7 @@ std::optional<Intent> Visit::act_on_path(ActionKind kind, const ViewState& view)
     while (length_ > 0 && name_[length_ - 1] == ' ') erase_letter();
     if (length_ == 0 || (quotes_code_ && length_ < kCodeDigits)) return std::nullopt;
     // Who tries many codes is not the one they were given to; who tries many names is told nothing more.
-    if (++look_ups_ > kMostLookUps && quotes_code_) {
-      go(Step::Attract, view.now);
-      return Intent::Cancel;
-    }
+    if (++look_ups_ > kMostLookUps && quotes_code_) return leave_now(view);
     if (look_ups_ > kMostLookUps) return Intent::Pose;
     looking_up_ = true;
     return Intent::LookUp;
@@ -340,10 +337,7 @@ std::optional<Intent> Visit::follow(const ViewState& view) {
   }
   if (person_expected()) {
     const auto silent = view.now - last_touch_;
-    if (silent > patience() + kLastCall) {
-      go(Step::Attract, view.now);
-      return Intent::Cancel;
-    }
+    if (silent > patience() + kLastCall) return leave_now(view);
     if (silent > patience()) overlay = Overlay::StillThere;
   } else if ((step == Step::Attract || step == Step::Trouble) &&
              (overlay != Overlay::None || !looks_as_set()) && view.now - last_touch_ > patience()) {

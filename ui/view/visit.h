@@ -97,7 +97,7 @@ class Visit {
 
   // A finger or key somewhere: the person is there.
   void touched(hal::Instant now);
-  // The end of what one agrees to has been on the screen, or all of it was read aloud.
+  // The end of what one agrees to has been on the screen, or the pages are read aloud.
   bool has_read() const { return read_ || spoken; }
   void reads_to_the_end() { read_ = true; }
   // How the face on the page is looked at now: a new portrait comes to be, then turns by itself until

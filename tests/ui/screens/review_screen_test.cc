@@ -6,6 +6,7 @@
 
 #include <algorithm>
 #include <memory_resource>
+#include <string>
 
 #include "pipeline/model/face_model.h"
 #include "tests/support/made_screen.h"
@@ -31,6 +32,40 @@ TEST(ReviewScreen, SaysThatASideWasLeftOut) {
   model.poses_left_out = 1;
   EXPECT_FALSE(says("Very good"));
   EXPECT_TRUE(says("One side did not fit"));
+}
+
+// Only who has no room is told so: another fault is not mended by erasing records.
+TEST(ReviewScreen, SaysThatTheMemoryIsFullOnlyWhereItIs) {
+  const auto ui = test::make_screen();
+  ViewState view;
+  Visit visit;
+  visit.step = Step::Review;
+  const auto told = [&](Trouble trouble) {
+    view.trouble = trouble;
+    ui->show(view, visit);
+    const Node* node = ui->tree().find("trouble");
+    return node == nullptr ? std::string() : std::string(node->text);
+  };
+  EXPECT_EQ(told(Trouble::None), "");
+  EXPECT_NE(told(Trouble::StorageFull).find("the memory is full"), std::string::npos);
+  EXPECT_EQ(told(Trouble::Storage), "Nothing can be stored at the moment");
+}
+
+TEST(PositionScreen, HelpPromisesNoPictureByItselfWhereTheButtonTakesIt) {
+  const auto ui = test::make_screen();
+  ViewState view;
+  Visit visit;
+  visit.step = Step::Position;
+  visit.overlay = Overlay::Help;
+  for (const bool by_itself : {true, false}) {
+    view.settings.set(Setting::Automatic, by_itself ? 1 : 0);
+    ui->show(view, visit);
+    ASSERT_NE(ui->tree().find("overlay_text"), nullptr);
+    const bool says = std::ranges::any_of(ui->tree().nodes(), [](const Node& node) {
+      return node.text.find("taken by itself") != std::string_view::npos;
+    });
+    EXPECT_EQ(says, by_itself);
+  }
 }
 
 }  // namespace

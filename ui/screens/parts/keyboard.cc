@@ -6,81 +6,42 @@
 
 #include <algorithm>
 #include <array>
-#include <span>
 
+#include "hal/base/utf8.h"
 #include "ui/language/language.h"
 
 namespace relievo::ui {
 namespace {
 
-// The letters of the keyboard on the screen, as the speakers of a language know them from their own:
-// three rows, left to right as they lie on a desk.
-
-using KeyRow = std::span<const char* const>;
-using KeyRows = std::array<KeyRow, 3>;
-
-constexpr const char* kEn1[] = {"q", "w", "e", "r", "t", "y", "u", "i", "o", "p"};
-constexpr const char* kEn2[] = {"a", "s", "d", "f", "g", "h", "j", "k", "l", "-"};
-constexpr const char* kEn3[] = {"z", "x", "c", "v", "b", "n", "m", "'", "."};
-constexpr const char* kEn1Big[] = {"Q", "W", "E", "R", "T", "Y", "U", "I", "O", "P"};
-constexpr const char* kEn2Big[] = {"A", "S", "D", "F", "G", "H", "J", "K", "L", "-"};
-constexpr const char* kEn3Big[] = {"Z", "X", "C", "V", "B", "N", "M", "'", "."};
-constexpr const char* kDe1[] = {"q", "w", "e", "r", "t", "z", "u", "i", "o", "p", "ü"};
-constexpr const char* kDe2[] = {"a", "s", "d", "f", "g", "h", "j", "k", "l", "ö", "ä"};
-constexpr const char* kDe3[] = {"y", "x", "c", "v", "b", "n", "m", "ß", "-"};
-constexpr const char* kDe1Big[] = {"Q", "W", "E", "R", "T", "Z", "U", "I", "O", "P", "Ü"};
-constexpr const char* kDe2Big[] = {"A", "S", "D", "F", "G", "H", "J", "K", "L", "Ö", "Ä"};
-constexpr const char* kDe3Big[] = {"Y", "X", "C", "V", "B", "N", "M", "ẞ", "-"};
-constexpr const char* kFr1[] = {"a", "z", "e", "r", "t", "y", "u", "i", "o", "p", "é"};
-constexpr const char* kFr2[] = {"q", "s", "d", "f", "g", "h", "j", "k", "l", "m", "è"};
-constexpr const char* kFr3[] = {"w", "x", "c", "v", "b", "n", "ç", "'", "-"};
-constexpr const char* kFr1Big[] = {"A", "Z", "E", "R", "T", "Y", "U", "I", "O", "P", "É"};
-constexpr const char* kFr2Big[] = {"Q", "S", "D", "F", "G", "H", "J", "K", "L", "M", "È"};
-constexpr const char* kFr3Big[] = {"W", "X", "C", "V", "B", "N", "Ç", "'", "-"};
-constexpr const char* kEs1[] = {"q", "w", "e", "r", "t", "y", "u", "i", "o", "p"};
-constexpr const char* kEs2[] = {"a", "s", "d", "f", "g", "h", "j", "k", "l", "ñ"};
-constexpr const char* kEs3[] = {"z", "x", "c", "v", "b", "n", "m", "'", "-"};
-constexpr const char* kEs1Big[] = {"Q", "W", "E", "R", "T", "Y", "U", "I", "O", "P"};
-constexpr const char* kEs2Big[] = {"A", "S", "D", "F", "G", "H", "J", "K", "L", "Ñ"};
-constexpr const char* kEs3Big[] = {"Z", "X", "C", "V", "B", "N", "M", "'", "-"};
-constexpr const char* kAccent1[] = {"á", "à", "â", "ä", "ã", "å", "æ", "ç", "é", "è", "ê", "ë"};
-constexpr const char* kAccent2[] = {"í", "ì", "î", "ï", "ñ", "ó", "ò", "ô", "ö", "õ", "ø", "œ"};
-constexpr const char* kAccent3[] = {"ú", "ù", "û", "ü", "ý", "ÿ", "ß", "š", "ž", "ł"};
-constexpr const char* kAccent1Big[] = {"Á", "À", "Â", "Ä", "Ã", "Å", "Æ", "Ç", "É", "È", "Ê", "Ë"};
-constexpr const char* kAccent2Big[] = {"Í", "Ì", "Î", "Ï", "Ñ", "Ó", "Ò", "Ô", "Ö", "Õ", "Ø", "Œ"};
-constexpr const char* kAccent3Big[] = {"Ú", "Ù", "Û", "Ü", "Ý", "Ÿ", "ẞ", "Š", "Ž", "Ł"};
-constexpr const char* kAr1[] = {"ض", "ص", "ث", "ق", "ف", "غ", "ع", "ه", "خ", "ح", "ج", "د"};
-constexpr const char* kAr2[] = {"ش", "س", "ي", "ب", "ل", "ا", "ت", "ن", "م", "ك", "ط", "ذ"};
-constexpr const char* kAr3[] = {"ئ", "ء", "ؤ", "ر", "ى", "ة", "و", "ز", "ظ", "أ", "إ"};
-constexpr const char* kHe1[] = {"ק", "ר", "א", "ט", "ו", "ן", "ם", "פ", "'", "-"};
-constexpr const char* kHe2[] = {"ש", "ד", "ג", "כ", "ע", "י", "ח", "ל", "ך", "ף"};
-constexpr const char* kHe3[] = {"ז", "ס", "ב", "ה", "נ", "מ", "צ", "ת", "ץ"};
+// Three rows, left to right as they lie on a desk.
+using KeyRows = std::array<std::string_view, 3>;
+constexpr KeyRows kEnglish{"qwertyuiop", "asdfghjkl-", "zxcvbnm'."},
+    kEnglishBig{"QWERTYUIOP", "ASDFGHJKL-", "ZXCVBNM'."}, kGerman{"qwertzuiopü", "asdfghjklöä", "yxcvbnmß-"},
+    kGermanBig{"QWERTZUIOPÜ", "ASDFGHJKLÖÄ", "YXCVBNMẞ-"}, kFrench{"azertyuiopé", "qsdfghjklmè", "wxcvbnç'-"},
+    kFrenchBig{"AZERTYUIOPÉ", "QSDFGHJKLMÈ", "WXCVBNÇ'-"}, kSpanish{"qwertyuiop", "asdfghjklñ", "zxcvbnm'-"},
+    kSpanishBig{"QWERTYUIOP", "ASDFGHJKLÑ", "ZXCVBNM'-"},
+    kAccents{"áàâäãåæçéèêë", "íìîïñóòôöõøœ", "úùûüýÿßšžł"},
+    kAccentsBig{"ÁÀÂÄÃÅÆÇÉÈÊË", "ÍÌÎÏÑÓÒÔÖÕØŒ", "ÚÙÛÜÝŸẞŠŽŁ"},
+    kArabic{"ضصثقفغعهخحجد", "شسيبلاتنمكطذ", "ئءؤرىةوزظأإ"}, kHebrew{"קראטוןםפ'-", "שדגכעיחלךף", "זסבהנמצתץ"};
 
 // Chinese and Japanese have the Latin letters: names are typed as in a passport.
-KeyRows key_rows(Language language, bool capitals) {
+const KeyRows& key_rows(Language language, bool capitals) {
   switch (language) {
-    case Language::German: return capitals ? KeyRows{kDe1Big, kDe2Big, kDe3Big} : KeyRows{kDe1, kDe2, kDe3};
-    case Language::French: return capitals ? KeyRows{kFr1Big, kFr2Big, kFr3Big} : KeyRows{kFr1, kFr2, kFr3};
-    case Language::Spanish: return capitals ? KeyRows{kEs1Big, kEs2Big, kEs3Big} : KeyRows{kEs1, kEs2, kEs3};
-    case Language::Arabic: return {kAr1, kAr2, kAr3};
-    case Language::Hebrew: return {kHe1, kHe2, kHe3};
+    case Language::German: return capitals ? kGermanBig : kGerman;
+    case Language::French: return capitals ? kFrenchBig : kFrench;
+    case Language::Spanish: return capitals ? kSpanishBig : kSpanish;
+    case Language::Arabic: return kArabic;
+    case Language::Hebrew: return kHebrew;
     case Language::English:
     case Language::Chinese:
     case Language::Japanese:
     case Language::Count: break;
   }
-  return capitals ? KeyRows{kEn1Big, kEn2Big, kEn3Big} : KeyRows{kEn1, kEn2, kEn3};
-}
-
-// The letters with accents, of all languages with Latin letters.
-KeyRows accent_rows(bool capitals) {
-  return capitals ? KeyRows{kAccent1Big, kAccent2Big, kAccent3Big} : KeyRows{kAccent1, kAccent2, kAccent3};
+  return capitals ? kEnglishBig : kEnglish;
 }
 
 // Does the language write in large and small letters?
 bool has_capitals(Language language) { return language != Language::Arabic && language != Language::Hebrew; }
-
-constexpr const char* kDigits[] = {"1", "2", "3", "4", "5", "6", "7", "8", "9", "0"};
 
 void key(Page& page, std::string_view id, std::string_view letter, const char* spoken, bool sign,
          Action action, float grow = 1, bool mirrored = false) {
@@ -90,11 +51,8 @@ void key(Page& page, std::string_view id, std::string_view letter, const char* s
   node.style.size_px = page.px(type::kButton * (1 + (page.text_share - 1) * growth));
   node.style.icon = sign;
   node.mirrored = mirrored;
-  node.id = id;
-  if (spoken != nullptr) node.name = spoken;
+  tell(node, Role::Key, id, spoken != nullptr ? spoken : "", action);
   frame(node, page.palette.card, page.palette.card_border, page.px(1.5F), page.px(16));
-  node.role = Role::Key;
-  node.action = action;
   node.box.grow = grow;
   node.box.min_height = page.px(page.portrait ? size::kTarget : size::kKeyLeast);
   page.tree.leaf(node);
@@ -107,16 +65,15 @@ const char* spoken_sign(const Page& page, std::string_view letter) {
   return letter == "." ? page.tr("Full stop") : nullptr;
 }
 
-void letters(Page& page, KeyRow row) {
-  for (const char* letter : row) {
-    const std::string_view id = page.tree.keep("key ");
-    const std::string_view rest = page.tree.keep(letter);
-    key(page, {id.data(), id.size() + rest.size()}, letter, spoken_sign(page, letter), false,
+void letters(Page& page, std::string_view row) {
+  for (; !row.empty(); row.remove_prefix(first_letter_of(row).bytes)) {
+    const std::string_view letter = row.substr(0, first_letter_of(row).bytes);
+    key(page, page.joined({"key ", letter}), letter, spoken_sign(page, letter), false,
         {ActionKind::TypeKey, 0});
   }
 }
 
-Node row_box(Page& page) {
+Node key_row(Page& page) {
   Node row = page.box(Flow::Row, 8);
   row.box.left_to_right = true;  // keys lie as on a desk, also where the words run to the left
   return row;
@@ -145,14 +102,16 @@ void keyboard(Page& page, Action done, Language language) {
   board.id = "keyboard";
   board.box.justify = Justify::End;
   const auto in_board = page.tree.inside(board);
-  page.tree.open(row_box(page));
-  letters(page, kDigits);
+  page.tree.open(key_row(page));
+  letters(page, "1234567890");
   page.tree.close();
   const bool cased = has_capitals(language);
-  const KeyRows rows = page.visit.accents && cased ? accent_rows(page.visit.capitals)
-                                                   : key_rows(language, page.visit.capitals);
+  const bool capitals = page.visit.capitals;
+  const KeyRows& rows = !page.visit.accents || !cased ? key_rows(language, capitals)
+                        : capitals                    ? kAccentsBig
+                                                      : kAccents;
   for (std::size_t i = 0; i < rows.size(); ++i) {
-    const auto in_box = page.tree.inside(row_box(page));
+    const auto in_box = page.tree.inside(key_row(page));
     const bool last = i == rows.size() - 1;
     if (last && cased)
       key(page, "shift", icon::kShift, page.tr("Capital letters"), true, {ActionKind::Shift, 0});
@@ -180,11 +139,10 @@ void number_pad(Page& page, const PadIds& ids, Action done) {
     node.box.min_height = page.px(size::kKeyLeast * share);
     return node;
   };
-  const auto digit = [&](const char* letter) {
+  const auto digit = [&](std::string_view letter) {
     Node node = shaped(
         page.text(letter, type::kHeading, Weight::Medium, page.palette.link, TextAlign::Centre), false);
-    const std::string_view key = page.tree.keep(ids.digit), rest = page.tree.keep(letter);
-    tell(node, Role::Key, {key.data(), key.size() + rest.size()}, {}, {ActionKind::TypeKey, 0});
+    tell(node, Role::Key, page.joined({ids.digit, letter}), {}, {ActionKind::TypeKey, 0});
     page.tree.leaf(node);
   };
   const auto sign = [&](std::string_view id, const char* spoken, const char* letter, Action action,
@@ -195,12 +153,11 @@ void number_pad(Page& page, const PadIds& ids, Action done) {
     const auto in_node = page.tree.inside(node);
     page.sign(letter, 30, main ? page.palette.accent_ink : page.palette.link);
   };
-  constexpr const char* kRows[3][3] = {{"1", "2", "3"}, {"4", "5", "6"}, {"7", "8", "9"}};
-  for (const auto& keys : kRows) {
-    const auto in_box = page.tree.inside(row_box(page));
-    for (const char* key : keys) digit(key);
+  for (const std::string_view keys : {"123", "456", "789"}) {
+    const auto in_box = page.tree.inside(key_row(page));
+    for (const char& key : keys) digit({&key, 1});
   }
-  page.tree.open(row_box(page));
+  page.tree.open(key_row(page));
   sign("erase", page.tr("Erase"), icon::kErase, {ActionKind::Erase, 0}, false);
   digit("0");
   sign(ids.done, page.tr("Done"), icon::kCheck, done, true);

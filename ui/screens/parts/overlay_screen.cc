@@ -2,10 +2,9 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 //
 // What lies over a page: help, languages, "really leave?", "still there?". Nothing under it is touched.
-#include <cstdio>
 #include <string>
 
-#include "ui/screens/parts/overlay.h"
+#include "ui/screens/parts/page.h"
 
 namespace relievo::ui {
 namespace {
@@ -65,7 +64,7 @@ const char* help_for(const Page& page) {
       return tr("Type your name, or the number you were given. The arrow key erases a letter.");
     case Step::Position:
       return tr(
-          "Stand about an arm's length away, so that your face fills the oval. Take off sunglasses and hat. When all is well the picture is taken by itself.");
+          "Stand about an arm's length away, so that your face fills the oval. Take off sunglasses and hat.");
     case Step::Turn:
       return tr(
           "Pictures from the sides show your whole head. Turn it slowly and hold it level: each side is taken by itself. If you cannot or do not want to, touch the button below.");
@@ -128,6 +127,8 @@ void help(Page& page) {
   words.box.scroll = words.box.shrink = true;
   page.tree.open(words);
   page.body("overlay_text", help_for(page));
+  if (page.visit.step == Step::Position && page.view.settings.is_on(Setting::Automatic))
+    page.body("overlay_itself", page.tr("The picture is taken by itself"));
   if (page.visit.step == Step::Name)
     page.body("overlay_code",
               page.tr("You can also hold a QR code with your name or number up to the cameras."));
@@ -160,29 +161,22 @@ void leave(Page& page) {
 }
 
 // The code is seen nowhere else: it is in view to the last second.
-void code_goes(Page& page, const char* seconds) {
+void code_goes(Page& page, std::string_view seconds) {
   page.body("overlay_text",
             page.tr("To have it erased, quote this code to the staff. You can take a photo of it."));
-  Node row = page.box(Flow::Row, space::kM);
-  row.box.align = Align::Centre;
-  page.tree.open(row);
-  page.tree.open(page.grown(page.box(Flow::Column)));
+  page.tree.open(page.row_box(space::kM));
   Node code = page.text(page.filled("{}", page.view.receipt), type::kTitle, Weight::Bold, page.palette.ink);
   code.style.size_px = page.px(type::kTitle);
   code.secret = true;
-  page.tree.leaf(code);
-  page.tree.close();
-  Node left = page.text(page.tree.keep(seconds), type::kTitle, Weight::Bold, page.palette.warn);
-  left.id = "seconds";
-  left.role = Role::Status;
-  page.tree.leaf(left);
+  page.wide(code);
+  page.put("seconds", Role::Status,
+           page.text(page.tree.keep(seconds), type::kTitle, Weight::Bold, page.palette.warn));
   page.tree.close();
   answers(page, page.tr("Done"), {ActionKind::Finish, 0}, page.tr("Go on"), {ActionKind::Stay, 0});
 }
 
 void told(Page& page, const char* asked, std::string_view words) {
-  Node block = page.box(Flow::Column, 2);
-  const auto in_block = page.tree.inside(block);
+  const auto in_block = page.tree.inside(page.box(Flow::Column, 2));
   page.tree.leaf(page.text(asked, type::kSmall, Weight::Bold, page.palette.ink));
   page.tree.leaf(page.text(words, type::kSmall, Weight::Regular, page.palette.ink_soft));
 }
@@ -191,11 +185,7 @@ void told(Page& page, const char* asked, std::string_view words) {
 std::string_view kept_for(Page& page) {
   const int days = page.view.settings.of(Setting::KeepDays);
   if (days == 0) return page.tr("Until you have it erased.");
-  char number[16];
-  std::snprintf(number, sizeof number, "%d", days);
-  const std::string_view at_most =
-      page.filled(page.tr.plural("{} day", "{} days", static_cast<unsigned long>(days)), number);
-  return page.filled(page.tr("Until you have it erased, at most: {}"), at_most);
+  return page.filled(page.tr("Until you have it erased, at most: {}"), page.days(days));
 }
 
 std::string_view host_of(Page& page) {
@@ -247,18 +237,13 @@ void lost_code(Page& page) {
 
 void still_there(Page& page) {
   const int left = page.visit.seconds_left(page.view.now);
-  char number[8];
-  std::snprintf(number, sizeof number, "%d", left);
+  const std::string number = std::to_string(left);
   page.heading("overlay_title", page.tr("Are you still there?"));
   if (page.visit.step == Step::Thanks) return code_goes(page, number);
-  Node words = page.text(
-      page.filled(page.tr.plural("Everything is wiped in {} second.", "Everything is wiped in {} seconds.",
-                                 static_cast<unsigned long>(left)),
-                  number),
-      type::kBody, Weight::Regular, page.palette.ink_soft);
-  words.id = "overlay_text";
-  words.role = Role::Status;
-  page.tree.leaf(words);
+  const char* words = page.tr.plural("Everything is wiped in {} second.",
+                                     "Everything is wiped in {} seconds.", static_cast<unsigned long>(left));
+  page.put("overlay_text", Role::Status,
+           page.text(page.filled(words, number), type::kBody, Weight::Regular, page.palette.ink_soft));
   answers(page, page.tr("Stop and leave"), {ActionKind::LeaveNow, 0}, page.tr("Go on"),
           {ActionKind::Stay, 0});
 }

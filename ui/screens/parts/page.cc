@@ -68,6 +68,12 @@ Node Page::box(Flow flow, float gap, float pad_x, float pad_y) const {
   return node;
 }
 
+Node Page::row_box(float gap, float pad_x, float pad_y) const {
+  Node row = box(Flow::Row, gap, pad_x, pad_y);
+  row.box.align = Align::Centre;
+  return row;
+}
+
 void Page::space(float grow_share) { tree.leaf(grown(box(Flow::Column), grow_share)); }
 
 Node Page::text(std::string_view words, float size, Weight weight, Colour colour, TextAlign align) const {
@@ -88,15 +94,11 @@ void Page::heading(std::string_view id, std::string_view words, float size, Text
   // The largest letters grow less: they are read from afar already.
   Node node = text(words, size, Weight::Bold, palette.ink, align);
   if (size >= type::kTitle) node.style.size_px = px(size * (1 + (text_share - 1) * 0.5F));
-  node.role = Role::Heading;
-  node.id = id;
-  tree.leaf(node);
+  put(id, Role::Heading, node);
 }
 
 void Page::body(std::string_view id, std::string_view words, TextAlign align) {
-  Node node = text(words, type::kBody, Weight::Regular, palette.ink_soft, align);
-  node.id = id;
-  tree.leaf(node);
+  put(id, Role::Text, text(words, type::kBody, Weight::Regular, palette.ink_soft, align));
 }
 
 void Page::sign(const char* letter, float size, Colour colour) {
@@ -153,6 +155,14 @@ void Page::reading_tools() {
   square_button("language", tr("Language"), icon::kTranslate, {ActionKind::ShowLanguages, 0});
 }
 
+void Page::turning_tools() {
+  square_button("turn_left", tr("Turn left"), icon::kTurnLeft, {ActionKind::TurnLeft, 0});
+  square_button("turn_right", tr("Turn right"), icon::kTurnRight, {ActionKind::TurnRight, 0});
+  square_button("zoom_out", tr("Smaller"), icon::kZoomOut, {ActionKind::ZoomOut, 0});
+  square_button("zoom_in", tr("Larger"), icon::kZoomIn, {ActionKind::ZoomIn, 0});
+  square_button("light", tr("Move the light"), icon::kSun, {ActionKind::MoveLight, 0});
+}
+
 void Page::bigger_text() {
   square_button("bigger", tr("Bigger text"), icon::kText, {ActionKind::BiggerText, 0},
                 filled("{} %", std::to_string(visit.text_percent())));
@@ -175,9 +185,8 @@ void Page::privacy() {
 void Page::cameras() {
   const bool on = view.cameras_on;
   const char* words = on ? tr("The cameras are on") : tr("The cameras are off");
-  Node row = box(Flow::Row, 10);
+  Node row = row_box(10);
   tell(row, Role::Status, "cameras", words);
-  row.box.align = Align::Centre;
   const auto in_row = tree.inside(row);
   sign(on ? icon::kCamera : icon::kCameraOff, 24, on ? palette.warn : palette.good);
   tree.leaf(text(words, type::kSmall, Weight::Medium, on ? palette.warn : palette.good));
@@ -191,11 +200,7 @@ void Page::square_button(std::string_view id, std::string_view spoken, const cha
   centre(node);
   frame(node, palette.quiet, palette.quiet_border, std::max(1.5F, px(2)), px(size::kRadius));
   const auto in_node = tree.inside(node);
-  Node sign_node = text(letter, 34 * std::min(1.0F, kMostSignShare / text_share), Weight::Regular,
-                        palette.link, TextAlign::Centre);
-  sign_node.role = Role::Icon;
-  sign_node.style.icon = true;
-  tree.leaf(sign_node);
+  sign(letter, 34 * std::min(1.0F, kMostSignShare / text_share), palette.link);
 }
 
 std::string_view Page::filled(const char* words, std::span<const std::string_view> values) {
@@ -206,9 +211,7 @@ std::string_view Page::filled(const char* words, std::span<const std::string_vie
     const std::size_t at = rest.find("{}");
     if (at == std::string_view::npos) break;
     // First strong isolate … pop: a name or number keeps its own direction.
-    for (const std::string_view part :
-         {rest.substr(0, at), std::string_view(isolate::kFirst), value, std::string_view(isolate::kEnd)})
-      length += tree.keep(part).size();
+    length += joined({rest.substr(0, at), isolate::kFirst, value, isolate::kEnd}).size();
     rest.remove_prefix(at + 2);
     // A line never ends between a value and its unit.
     if (rest.starts_with(' ') && begins_with_unit(rest.substr(1)))
@@ -217,13 +220,36 @@ std::string_view Page::filled(const char* words, std::span<const std::string_vie
   return {first.data(), length + tree.keep(rest).size()};
 }
 
+std::string_view Page::days(int count) {
+  return filled(tr.plural("{} day", "{} days", static_cast<unsigned long>(count)), std::to_string(count));
+}
+
+std::string_view Page::joined(std::initializer_list<std::string_view> parts) const {
+  const std::string_view first = tree.keep({});
+  std::size_t length = 0;
+  for (const std::string_view part : parts) length += tree.keep(part).size();
+  return {first.data(), length};
+}
+
+std::string_view Page::left_to_right(std::initializer_list<std::string_view> parts) const {
+  const std::string_view first = tree.keep(isolate::kLeft), middle = joined(parts);
+  return {first.data(), first.size() + middle.size() + tree.keep(isolate::kEnd).size()};
+}
+
+std::string_view Page::breakable(std::string_view names, std::string_view behind) const {
+  const std::string_view first = tree.keep({});
+  std::size_t length = 0;
+  for (const char& c : names) {
+    const bool divided = behind.find(c) != std::string_view::npos;
+    length += joined({{&c, 1}, divided ? "\u200b" : ""}).size();
+  }
+  return {first.data(), length};
+}
+
 std::string_view Page::spelled(std::string_view code) {
   const std::string_view first = tree.keep({});
   std::size_t length = 0;
-  for (const char& c : code)
-    for (const std::string_view part :
-         {std::string_view(c == '-' ? "," : std::string_view(&c, 1)), std::string_view(" ")})
-      length += tree.keep(part).size();
+  for (const char& c : code) length += joined({c == '-' ? "," : std::string_view(&c, 1), " "}).size();
   return {first.data(), length};
 }
 
@@ -231,12 +257,15 @@ std::string_view Page::share_of(std::size_t done, std::size_t all) {
   return filled(tr("{} of {}"), {std::to_string(done), std::to_string(all)});
 }
 
-void Page::begin(bool with_back) {
-  Node root = box(Flow::Column, space::kM, kPageMargin, kPageTop);
+void Page::open_page(Node root) {
   root.id = "page";
   root.box.fill = palette.ground;
   root.box.fill_end = palette.ground_end;
   tree.open(root);
+}
+
+void Page::begin(bool with_back) {
+  open_page(box(Flow::Column, space::kM, kPageMargin, kPageTop));
   with_back_ = with_back;
   if (!low()) bar(with_back);
 }
@@ -248,11 +277,7 @@ void Page::end() {
 
 void Page::bar(bool with_back) {
   tree.open(sided(box(Flow::Row, space::kS)));
-  tree.open(grown([&] {
-    Node n = box(Flow::Row, space::kS);
-    n.box.align = Align::Centre;
-    return n;
-  }()));
+  tree.open(grown(row_box(space::kS)));
   constexpr float kNoRoomForWords = 1.6F;
   if (with_back && portrait && text_share > kNoRoomForWords)
     square_button("back", tr("Back"), backward(), {ActionKind::Back, 0});
@@ -271,9 +296,8 @@ void Page::bar(bool with_back) {
 void Page::steps() {
   const int now = number_of(visit.step);
   if (now < 0) return;
-  Node row = box(Flow::Row, space::kXs, tree.find("back") != nullptr ? space::kM : 0.0F, 0);
+  Node row = row_box(space::kXs, tree.find("back") != nullptr ? space::kM : 0.0F);
   tell(row, Role::Status, "steps", tr("How far it is"));
-  row.box.align = Align::Centre;
   row.value = share_of(std::size_t(now) + 1, 4);
   const auto in_row = tree.inside(row);
   for (int i = 0; i < 4; ++i) {

@@ -6,6 +6,7 @@
 // Thread: main. Errors: none.
 #pragma once
 
+#include <algorithm>
 #include <initializer_list>
 #include <span>
 #include <string_view>
@@ -82,7 +83,7 @@ class Page {
   const Palette& palette;
   Words tr;
   float unit;        // pixels of a dp
-  float text_share;  // 1 to 1.5
+  float text_share;  // 1 to 2, on the staff's pages to 1.5
   float width_dp, height_dp;
   bool portrait;
 
@@ -90,6 +91,8 @@ class Page {
   bool mirrored() const { return info_of(visit.language).right_to_left; }
   // A box with nothing in it yet; gap and padding in dp.
   Node box(Flow flow, float gap = 0, float pad_x = 0, float pad_y = 0) const;
+  // A row whose children stand in the middle of its height.
+  Node row_box(float gap = 0, float pad_x = 0, float pad_y = 0) const;
   Node grown(Node node, float share = 1) const {
     node.box.grow = share;
     return node;
@@ -99,6 +102,24 @@ class Page {
     return node;
   }
   void space(float grow_share);
+  // Under a name of its own: what tests look for, or a voice is to tell.
+  void put(std::string_view id, Role role, Node node) const {
+    node.id = id, node.role = role;
+    tree.leaf(node);
+  }
+  // Words that have the room which others leave in a row.
+  void wide(const Node& words) const {
+    const auto in_box = tree.inside(grown(box(Flow::Column)));
+    tree.leaf(words);
+  }
+  // So many things, `across` of them in a row.
+  template <typename Draw>
+  void in_rows(std::size_t count, std::size_t across, float gap, const Draw& draw) const {
+    for (std::size_t first = 0; first < count; first += across) {
+      const auto in_row = tree.inside(box(Flow::Row, gap));
+      for (std::size_t i = first; i < std::min(first + across, count); ++i) draw(i);
+    }
+  }
 
   Node text(std::string_view words, float size, Weight weight, Colour colour,
             TextAlign align = TextAlign::Start) const;
@@ -121,6 +142,8 @@ class Page {
                      std::string_view value = {});
   // What everybody needs who reads: larger letters, more contrast, another language. In an open row.
   void reading_tools();
+  // What turns a model and moves its light, for who has no finger for it. In an open row.
+  void turning_tools();
   void bigger_text();
   void more_contrast();
   void within_reach();
@@ -134,11 +157,21 @@ class Page {
     return filled(words, std::span(values.begin(), values.size()));
   }
   std::string_view filled(const char* words, std::span<const std::string_view> values);
+  std::string_view days(int count);
+  // The parts one after the other, kept for the frame.
+  std::string_view joined(std::initializer_list<std::string_view> parts) const;
+  // Figures and identifiers: left to right in every language.
+  std::string_view left_to_right(std::initializer_list<std::string_view> parts) const;
+  std::string_view left_to_right(std::string_view text) const { return left_to_right({text}); }
+  // Long names, which may be divided behind these letters.
+  std::string_view breakable(std::string_view names, std::string_view behind = "._+") const;
   // A code as it is spoken: digit by digit, with a pause between groups.
   std::string_view spelled(std::string_view code);
   // "3 of 4": what a gauge says to who does not see it.
   std::string_view share_of(std::size_t done, std::size_t all);
 
+  // The page itself, on the ground of the palette.
+  void open_page(Node root);
   // The frame of every page on the way: bar at the top, room for the rest. Closed by end().
   void begin(bool with_back);
   void end();
@@ -159,5 +192,10 @@ class Page {
   void bar(bool with_back);
   void steps();
 };
+
+// What lies over a page of visitors and staff: help, languages, "leave?", "still there?".
+void overlay_screen(Page& page);
+// The languages a visitor may choose, each in its own letters, so many abreast.
+void language_grid(Page& page, std::size_t columns);
 
 }  // namespace relievo::ui

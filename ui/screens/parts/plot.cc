@@ -73,13 +73,10 @@ class Drawing {
     Node row = page.box(Flow::Row, space::kM);
     row.box.wrap = true;
     page.tree.open(row);
-    page.tree.open(page.grown(page.box(Flow::Column)));
-    page.tree.leaf(page.text(what.title, type::kSmall, Weight::Medium, page.palette.ink));
-    page.tree.close();
+    page.wide(page.text(what.title, type::kSmall, Weight::Medium, page.palette.ink));
     const Colour ink = what.figure_ink.seen() ? what.figure_ink : page.palette.ink_soft;
-    Node end = page.box(Flow::Row, space::kXs);
+    Node end = page.row_box(space::kXs);
     end.box.justify = Justify::End;
-    end.box.align = Align::Centre;
     page.tree.open(end);
     if (what.figure_sign != nullptr) page.sign(what.figure_sign, 24, ink);
     if (!what.figure.empty())
@@ -127,7 +124,7 @@ class Drawing {
   }
 
   void field() {
-    Node room = page.box(Flow::Stack, 0, 0, 0);
+    Node room = page.box(Flow::Stack);
     room.box.height = height_px();
     room.box.pad_y = std::round(line_px() / 2);
     const auto in_room = page.tree.inside(room);

@@ -5,7 +5,6 @@
 #include <algorithm>
 #include <array>
 #include <charconv>
-#include <cstdio>
 
 namespace relievo::ui {
 namespace {
@@ -67,13 +66,6 @@ LogWords words_of(const Words& tr, LogEvent event) {
 
 namespace {
 
-std::string_view days(StaffFrame& page, std::int32_t value) {
-  if (value == 0) return page.tr("never");
-  char text[16];
-  std::snprintf(text, sizeof text, "%d", value);
-  return page.filled(page.tr.plural("{} day", "{} days", static_cast<unsigned long>(value)), text);
-}
-
 // In the order of Setting.
 constexpr std::array kSettingNames{mark_tr("Language"),
                                    mark_tr("Size of the text"),
@@ -112,7 +104,7 @@ std::string_view said_value(StaffFrame& page, Setting setting, std::int32_t valu
     case Setting::PatienceS:
     case Setting::StaffPatienceS: return page.number(value, 0, "s");
     case Setting::CountdownMs: return page.number(value * 1e-3, 1, "s");
-    case Setting::KeepDays: return days(page, value);
+    case Setting::KeepDays: return value == 0 ? page.tr("never") : page.days(value);
     case Setting::LeastRoomMib: return page.number(value, 0, "MiB");
     case Setting::Attempts:
     case Setting::Count: break;

@@ -24,14 +24,12 @@ struct LogWords {
 };
 LogWords words_of(const Words& tr, LogEvent event);
 
-// What a setting and its values are called: alike on the settings page and in the log. Thread: main. Errors:
-// none.
+// What a setting and its values are called: alike on the settings page and in the log.
 const char* name_of(const Words& tr, Setting setting);
 // `value` is one of info_of(setting).values.
 std::string_view said_value(StaffFrame& page, Setting setting, std::int32_t value);
 
-// A change as the log keeps it; empty where that is no setting, or no value of it
-// (an older version's).
+// A change as the log keeps it; empty where that is no setting, or no value of it (an older version's).
 std::string_view said_change(StaffFrame& page, std::string_view key, std::string_view value);
 
 }  // namespace relievo::ui

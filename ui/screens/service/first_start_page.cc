@@ -4,7 +4,7 @@
 // The first start: language, clock, consent text, both PINs; and the page on which somebody changes their
 // own.
 #include <array>
-#include <cstdio>
+#include <string>
 
 #include "ui/screens/parts/keyboard.h"
 #include "ui/screens/service/fault_words.h"
@@ -18,18 +18,18 @@ namespace {
 
 // As many dots as digits: nobody behind reads them.
 void dots(StaffFrame& page) {
-  Node row = page.box(Flow::Row, 14);
+  Node row = page.row_box(14);
   tell(row, Role::Field, "typed", page.tr("Your PIN"));
   row.box.justify = page.portrait     ? Justify::Centre
                     : page.mirrored() ? Justify::End
                                       : Justify::Start;  // as the words above it
-  row.box.align = Align::Centre;
   row.box.left_to_right = true;
   row.box.height = page.px(36);
   const auto in_row = page.tree.inside(row);
   for (std::size_t i = 0; i < kMostPinDigits; ++i) {
     const bool typed = i < page.service.typed().size();
-    Node dot = page.sized(page.box(Flow::Column), typed ? 20.0F : 12.0F, typed ? 20.0F : 12.0F);
+    const float across_dp = typed ? 20 : 12;
+    Node dot = page.sized(page.box(Flow::Column), across_dp, across_dp);
     dot.box.radius = page.px(10);
     dot.box.fill = typed ? page.palette.accent : page.palette.track;
     page.tree.leaf(dot);
@@ -37,12 +37,10 @@ void dots(StaffFrame& page) {
 }
 
 void told(StaffFrame& page, std::string_view id, std::string_view words, Mood mood) {
-  Node node = page.text(words, type::kBody, Weight::Regular,
-                        mood == Mood::Plain ? page.palette.ink_soft : page.ink_of(mood),
-                        page.portrait ? TextAlign::Centre : TextAlign::Start);
-  node.id = id;
-  node.role = Role::Status;
-  page.tree.leaf(node);
+  page.put(id, Role::Status,
+           page.text(words, type::kBody, Weight::Regular,
+                     mood == Mood::Plain ? page.palette.ink_soft : page.ink_of(mood),
+                     page.portrait ? TextAlign::Centre : TextAlign::Start));
 }
 
 // Words at the start, dots and digits.
@@ -55,12 +53,10 @@ PinWords words_of(StaffFrame& page) {
   const AccessView& access = page.staff.access;
   if (access.checking) return {page.tr("One moment, please"), {}, Mood::Plain};
   if (access.wait_s > 0) {
-    char text[16];
-    std::snprintf(text, sizeof text, "%d", access.wait_s);
     const char* words = page.tr.plural("Too many wrong PINs. The next try is possible in {} second.",
                                        "Too many wrong PINs. The next try is possible in {} seconds.",
                                        static_cast<unsigned long>(access.wait_s));
-    return {nullptr, page.filled(words, text), Mood::Bad};
+    return {nullptr, page.filled(words, std::to_string(access.wait_s)), Mood::Bad};
   }
   std::string_view told;
   if (access.failed) told = words_of(page.tr, *access.failed);
@@ -110,15 +106,12 @@ void welcome(StaffFrame& page) {
   list.box.scroll = true;
   list.box.row_stretch = page.portrait ? 1.5F : 1;
   page.tree.open(list);
-  const std::size_t abreast = page.portrait ? 1 : 2;
-  for (std::size_t i = 0; i < kLanguages; ++i) {
+  page.in_rows(kLanguages, page.portrait ? 1 : 2, space::kS, [&](std::size_t i) {
     const auto language = static_cast<Language>(i);
     const bool now = language == page.visit.language;
-    if (i % abreast == 0) page.tree.open(page.box(Flow::Row, space::kS));
     page.small_button(info_of(language).code, info_of(language).own_name, now ? icon::kCheck : nullptr,
                       ButtonLook::Quiet, {ActionKind::ChooseLanguage, int(i)}, 1);
-    if (i % abreast == abreast - 1 || i + 1 == kLanguages) page.tree.close();
-  }
+  });
   page.tree.close();
   page.button("go on", tr("Go on"), page.onward(), ButtonLook::Main, {ActionKind::StaffMode, kClock});
 }
@@ -130,8 +123,8 @@ void mover(StaffFrame& page, const char* label, std::string_view id, int minutes
   row.box.justify = Justify::Centre;
   row.box.left_to_right = true;
   page.tree.open(row);
-  page.square_button(page.joined({id, " less"}), page.tr("Less"), "\uf374", Action(MoveClock{-minutes}));
-  page.square_button(page.joined({id, " more"}), page.tr("More"), "\uf415", Action(MoveClock{minutes}));
+  page.square_button(page.joined({id, " less"}), page.tr("Less"), icon::kLess, Action(MoveClock{-minutes}));
+  page.square_button(page.joined({id, " more"}), page.tr("More"), icon::kMore, Action(MoveClock{minutes}));
   page.tree.close();
   page.tree.close();
 }
@@ -146,10 +139,8 @@ void clock(StaffFrame& page) {
   page.tree.open(room);
   Node time = page.text(page.date(page.staff.access.clock), type::kTitle, Weight::Bold, page.palette.ink,
                         TextAlign::Centre);
-  time.id = "clock";
   time.style.size_px = page.px(type::kTitle * (1 + (page.text_share - 1) * 0.5F));  // it stays on one line
-  time.role = Role::Status;
-  page.tree.leaf(time);
+  page.put("clock", Role::Status, time);
   page.tree.open(page.box(Flow::Row, space::kM));
   mover(page, tr("Day"), "day", 24 * 60);
   mover(page, tr("Hour"), "hour", 60);
@@ -211,27 +202,27 @@ PinWords words_of(const Words& tr, const AccessView& access) {
           fault == nullptr ? std::string_view() : fault, Mood::Bad};
 }
 
-void new_pin(StaffFrame& page) {
-  const AccessView& access = page.staff.access;
-  const bool ready = page.service.typed().size() >= kLeastPinDigits && !access.checking;
-  const bool done = access.step == PinStep::Done;
-  pin_entry(page, title_of(page, access.step), words_of(page.tr, access),
-            ready && !done ? Action(OfferPin{}) : Action{});
-}
-
 }  // namespace
+
+void pins_page(StaffFrame& page) {
+  const AccessView& access = page.staff.access;
+  const bool ready =
+      page.service.typed().size() >= kLeastPinDigits && !access.checking && access.step != PinStep::Done;
+  pin_entry(page, title_of(page, access.step), words_of(page.tr, access),
+            ready ? Action(OfferPin{}) : Action{});
+}
 
 void first_start_page(StaffFrame& page) {
   if (page.staff.access.forgotten) {
     page.begin(page.tr("Staff"), icon::kLock);
-    new_pin(page);
+    pins_page(page);
     return page.end();
   }
   page.begin(page.tr("First start"), kClockSign);
   if (page.service.mode == kWelcome) welcome(page);
   else if (page.service.mode == kClock && !page.staff.access.clock_right) clock(page);
   else if (page.service.mode == kClock && !page.staff.access.consent_right) consent(page);
-  else new_pin(page);
+  else pins_page(page);
   page.end();
 }
 
@@ -240,17 +231,14 @@ void clock_page(StaffFrame& page) {
   clock(page);
 }
 
-void pins_page(StaffFrame& page) { new_pin(page); }
-
 // The recovery sheet: twelve words and the same as a QR code, to be written down; then two of them are typed.
 namespace {
 
 enum RecoveryMode : int { kSheet, kTypeWord };
 
 void word(StaffFrame& page, const RecoveryView& seen, std::size_t i) {
-  Node row = page.grown(page.box(Flow::Row, space::kS));
+  Node row = page.grown(page.row_box(space::kS));
   row.box.left_to_right = true;  // English, and in this order
-  row.box.align = Align::Centre;
   const auto in_row = page.tree.inside(row);
   Node number = page.text(page.number(double(i + 1)), type::kSmall, Weight::Regular, page.palette.ink_soft,
                           TextAlign::End);
@@ -277,8 +265,7 @@ void words(StaffFrame& page, const RecoveryView& seen) {
 
 void sheet(StaffFrame& page, const RecoveryView& seen) {
   Node both = page.grown(page.box(page.portrait ? Flow::Column : Flow::Row, space::kL));
-  both.box.align = Align::Centre;
-  both.box.justify = Justify::Centre;
+  centre(both);
   page.tree.open(both);
   page.tree.open(page.grown(page.box(Flow::Column, space::kM), page.portrait ? 0.0F : 1.0F));
   page.body(

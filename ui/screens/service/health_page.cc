@@ -43,15 +43,13 @@ void over_a_day(StaffFrame& page, const GaugeRow& row, Plot plot, bool gib) {
 void gauge_row(StaffFrame& page, const GaugeRow& row, std::size_t index) {
   char text[64]{};
   const bool gib = row.of >= kManyMib;
-  if (!gib) std::snprintf(text, sizeof text, "\u2066%.0f\u00a0/\u00a0%.0f\u00a0MiB\u2069", row.used, row.of);
-  else
-    std::snprintf(text, sizeof text, "\u2066%.0f\u00a0/\u00a0%.0f\u00a0GiB\u2069", row.used / 1024,
-                  row.of / 1024);
+  const double unit_mib = gib ? 1024 : 1;
+  std::snprintf(text, sizeof text, "\u2066%.0f\u00a0/\u00a0%.0f\u00a0%s\u2069", row.used / unit_mib,
+                row.of / unit_mib, gib ? "GiB" : "MiB");
   const std::string_view value =
       row.gauge == Gauge::Temperature ? page.number(row.used, 0, "°C") : page.tree.keep(text);
   const char* words = one_of(page.tr, kGaugeNames, row.gauge);
-  char
-      named[160];  // the words outside of any isolate: they tell the direction, also in front of a Latin name
+  char named[160];  // the words stand outside of any isolate: they tell the direction, also of a Latin name
   std::snprintf(named, sizeof named, "%s ({})", words);
   Plot plot;
   plot.id = page.id("gauge", index);

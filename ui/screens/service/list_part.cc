@@ -66,8 +66,7 @@ void filter_rows(StaffFrame& page, const ListPlace& place, ListFilters filters) 
       continue;
     }
     const bool chosen = i == place.filter;
-    page.row(page.id("filter", i), filters[i],
-             chosen ? std::string_view(page.tr("chosen")) : std::string_view(),
+    page.row(page.id("filter", i), filters[i], chosen ? page.tr("chosen") : "",
              chosen ? Mood::Good : Mood::Plain, list_action(FilterList{i}));
     ++i;
   }

@@ -34,18 +34,15 @@ void working(StaffFrame& page) {
 }
 
 void whole_of(StaffFrame& page, const RecordsView& seen) {
-  const auto figure = [&](int value) { return page.number(value); };
-  Node line = page.text(page.filled(page.tr("Complete on the stick: {} of {}. Nothing else on it counts."),
-                                    {figure(seen.whole), figure(seen.asked)}),
-                        type::kSmall, Weight::Regular, page.palette.ink);
-  line.id = "whole";
-  line.role = Role::Status;
-  page.tree.leaf(line);
+  page.put("whole", Role::Status,
+           page.text(page.filled(page.tr("Complete on the stick: {} of {}. Nothing else on it counts."),
+                                 {page.number(seen.whole), page.number(seen.asked)}),
+                     type::kSmall, Weight::Regular, page.palette.ink));
 }
 
 void said(StaffFrame& page, const RecordsView& seen) {
-  const bool done = page.staff.work.outcome == Outcome::Done;
-  if (done && (seen.erased || seen.exported)) {
+  const Outcome outcome = page.staff.work.outcome;
+  if (outcome == Outcome::Done && (seen.erased || seen.exported)) {
     const char* words = seen.erased
                             ? page.tr("Erased. Nothing of this person is left.")
                             : page.tr("It is all there and has been read back. You can pull out the stick.");
@@ -53,7 +50,6 @@ void said(StaffFrame& page, const RecordsView& seen) {
     return;
   }
   // Of an export it matters what the stick has; one that was pulled out has nothing that is sure.
-  const Outcome outcome = page.staff.work.outcome;
   if (seen.asked > 0 && outcome == Outcome::StickFull)
     page.status("outcome", page.tr("The stick is full. Please use another one."), Mood::Bad);
   else page.outcome();
@@ -104,7 +100,7 @@ void list(StaffFrame& page, const RecordsView& seen, ListFilters filters) {
     page.space(1);
   }
   if (!seen.rows.empty())
-    page.small_button("export all", tr("Export all to the stick"), "\uf553", ButtonLook::Quiet,
+    page.small_button("export all", tr("Export all to the stick"), icon::kStick, ButtonLook::Quiet,
                       Action(ExportFound{}), share);
 }
 
@@ -135,7 +131,7 @@ void record(StaffFrame& page, const RecordsView& seen) {
   page.row("consent text", tr("Consent text"), seen.consent);
   page.tree.close();
   said(page, seen);
-  page.small_button("export", tr("Export to the stick"), "\uf553", ButtonLook::Main,
+  page.small_button("export", tr("Export to the stick"), icon::kStick, ButtonLook::Main,
                     Action(ExportRecord{seen.shown->number}));
   page.small_button("erase", tr("Erase this record"), icon::kBin, ButtonLook::Quiet,
                     {ActionKind::StaffMode, kErasing});

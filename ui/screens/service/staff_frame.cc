@@ -4,7 +4,7 @@
 
 #include <algorithm>
 #include <array>
-#include <cstdio>
+#include <string>
 
 namespace relievo::ui {
 namespace {
@@ -64,19 +64,11 @@ const char* StaffFrame::sign_of(Mood mood) const {
 }
 
 void StaffFrame::begin(const char* title, const char* letter) {
-  Node root = box(Flow::Column, space::kS, kMargin, kTop);
-  root.id = "page";
-  root.box.fill = palette.ground;
-  root.box.fill_end = palette.ground_end;
-  tree.open(root);
-  Node bar = box(Flow::Row, space::kS);
-  bar.box.align = Align::Centre;
-  tree.open(bar);
+  open_page(box(Flow::Column, space::kS, kMargin, kTop));
+  tree.open(row_box(space::kS));
   square_button("back", tr("Back"), backward(), {ActionKind::Back, 0});
   const auto name_page = [&] {
-    Node name = grown(box(Flow::Row, space::kS));
-    name.box.align = Align::Centre;
-    const auto in_name = tree.inside(name);
+    const auto in_name = tree.inside(grown(row_box(space::kS)));
     if (letter != nullptr) sign(letter, 34 / text_share, palette.accent);
     const auto in_box = tree.inside(grown(box(Flow::Column)));
     if (staff.leaves_in_s > 0) leaving();
@@ -98,25 +90,20 @@ void StaffFrame::begin(const char* title, const char* letter) {
 
 // In the title's place: nothing on the page moves away from the finger that stays.
 void StaffFrame::leaving() {
-  char seconds[16];
-  std::snprintf(seconds, sizeof seconds, "%d", staff.leaves_in_s);
-  Node soon = text(filled(tr.plural("You are signed out in {} second. Touch the screen to stay.",
-                                    "You are signed out in {} seconds. Touch the screen to stay.",
-                                    static_cast<unsigned long>(staff.leaves_in_s)),
-                          seconds),
-                   type::kSmall, Weight::Bold, palette.warn);
-  soon.id = "leaves";
-  soon.role = Role::Status;
+  const char* words = tr.plural("You are signed out in {} second. Touch the screen to stay.",
+                                "You are signed out in {} seconds. Touch the screen to stay.",
+                                static_cast<unsigned long>(staff.leaves_in_s));
+  Node soon =
+      text(filled(words, std::to_string(staff.leaves_in_s)), type::kSmall, Weight::Bold, palette.warn);
   soon.style.tabular = true;
-  tree.leaf(soon);
+  put("leaves", Role::Status, soon);
 }
 
 void StaffFrame::typed_field(std::string_view id, std::string_view asked) {
-  Node field = box(Flow::Row, 3, 20, 8);
+  Node field = row_box(3, 20, 8);
   tell(field, Role::Field, id, asked);
   frame(field, palette.card, palette.accent, px(3), px(18));
   field.box.min_height = px(56);
-  field.box.align = Align::Centre;
   const auto in_field = tree.inside(field);
   const std::string_view typed = service.typed();
   tree.leaf(text(typed.empty() ? asked : typed, type::kBody, Weight::Medium,
@@ -130,13 +117,11 @@ void StaffFrame::outcome(Outcome how) {
 }
 
 void StaffFrame::status(std::string_view id, std::string_view words, Mood mood) {
-  Node row = box(Flow::Row, space::kS, 0, 4);
+  Node row = row_box(space::kS, 0, 4);
   tell(row, Role::Status, id, words);
-  row.box.align = Align::Centre;
   const auto in_row = tree.inside(row);
   if (const char* letter = sign_of(mood)) sign(letter, 28, ink_of(mood));
-  const auto in_box = tree.inside(grown(box(Flow::Column)));
-  tree.leaf(text(words, type::kSmall, Weight::Medium, ink_of(mood)));
+  wide(text(words, type::kSmall, Weight::Medium, ink_of(mood)));
 }
 
 void StaffFrame::grave_question(const char* title, const About& about, const char* words, const char* yes,

@@ -88,13 +88,6 @@ class StaffFrame : public Page {
   // keypad it waits as long, and another key calls it back.
   void grave_question(const char* title, const About& about, const char* words, const char* yes,
                       Action yes_action, const char* no, Action no_action);
-  // The parts one after the other, kept for the frame.
-  std::string_view joined(std::initializer_list<std::string_view> parts) const;
-  // Figures and identifiers: left to right in every language.
-  std::string_view left_to_right(std::initializer_list<std::string_view> parts) const;
-  std::string_view left_to_right(std::string_view text) const {
-    return joined({isolate::kLeft, text, isolate::kEnd});
-  }
   // A name made of two parts, kept for the frame: "stage 3".
   std::string_view id(std::string_view what, std::size_t number) const;
   // "12.5 mm", "90.0°", with the language's decimal mark and digits in threes, kept apart from the direction

@@ -18,10 +18,9 @@ void trigger_page(StaffFrame& page);
 void log_page(StaffFrame& page);
 void health_page(StaffFrame& page);
 void settings_page(StaffFrame& page);
-void consent_text_page(StaffFrame& page);
 void recovery_page(StaffFrame& page);
-// What it shows: what is in force, how another comes from a stick, how the last try ended; then the button
-// that asks for it.
+// Which consent text is in force, how another comes from a stick, how the last try ended; then the button
+// that asks for it. Also a step of the first start.
 void consent_in_force(StaffFrame& page);
 void clock_page(StaffFrame& page);
 void touch_page(StaffFrame& page);

@@ -17,8 +17,8 @@ namespace {
 
 constexpr std::size_t kMostWords = 16, kGroup = 3, kLeastGrouped = 5;
 constexpr std::string_view kMinus = "\u2212";
-constexpr std::string_view kAngle =
-    "°";  // stands at its number, as no other unit does (ISO 80000-1), °C neither
+// Stands at its number, as no other unit does (ISO 80000-1), °C neither.
+constexpr std::string_view kAngle = "°";
 constexpr std::string_view kBetweenGroups = "\u202f";  // narrow, and no line ends there: ISO 80000-1
 
 bool is_digit(char c) { return std::isdigit(static_cast<unsigned char>(c)) != 0; }
@@ -96,8 +96,7 @@ std::string_view StaffFrame::with_numbers(std::string_view text) {
   }
   const std::string_view first = tree.keep({});
   std::size_t length = 0;
-  for (std::size_t i = 0; i < count; ++i)
-    length += tree.keep(i > 0 ? " " : "").size() + tree.keep(words[i]).size();
+  for (std::size_t i = 0; i < count; ++i) length += joined({i > 0 ? " " : "", words[i]}).size();
   return {first.data(), length};
 }
 
@@ -180,18 +179,6 @@ void StaffFrame::begin_card(std::string_view id, bool fit_content) {
   rule_due_ = false;
 }
 
-std::string_view StaffFrame::joined(std::initializer_list<std::string_view> parts) const {
-  const std::string_view first = tree.keep({});
-  std::size_t length = 0;
-  for (const std::string_view part : parts) length += tree.keep(part).size();
-  return {first.data(), length};
-}
-
-std::string_view StaffFrame::left_to_right(std::initializer_list<std::string_view> parts) const {
-  const std::string_view first = tree.keep(isolate::kLeft), middle = joined(parts);
-  return {first.data(), first.size() + middle.size() + tree.keep(isolate::kEnd).size()};
-}
-
 std::string_view StaffFrame::id(std::string_view what, std::size_t number) const {
   char digits[20];
   const auto end = std::to_chars(digits, digits + sizeof digits, number).ptr;
@@ -202,34 +189,26 @@ std::string_view StaffFrame::id(std::string_view what, std::size_t number) const
 void StaffFrame::row(std::string_view id, std::string_view label, std::string_view value, Mood mood,
                      Action action) {
   due_rule();
-  Node row = box(Flow::Row, space::kS, 0, 6);
+  const bool touched = action.kind != ActionKind::None;
+  Node row = row_box(space::kS, 0, 6);
   row.id = id;
-  row.box.align = Align::Centre;
-  row.box.min_height = px(action.kind == ActionKind::None ? 44 : size::kStaffTarget);
-  if (action.kind != ActionKind::None) {
-    row.role = Role::Button;
-    row.name = label;
-    row.action = action;
-  }
+  row.box.min_height = px(touched ? size::kStaffTarget : 44);
+  if (touched) tell(row, Role::Button, id, label, action);
   tree.open(row);
-  Node both = grown(box(Flow::Row, space::kM));
-  both.box.align = Align::Centre;
+  Node both = grown(row_box(space::kM));
   both.box.wrap = true;
   tree.open(both);
-  tree.open(grown(box(Flow::Column)));
-  tree.leaf(text(filled("{}", label), type::kSmall, Weight::Medium, palette.ink));
-  tree.close();
+  wide(text(filled("{}", label), type::kSmall, Weight::Medium, palette.ink));
   if (!value.empty()) {
-    Node end = box(Flow::Row, space::kXs);
+    Node end = row_box(space::kXs);
     end.box.justify = Justify::End;
-    end.box.align = Align::Centre;
     const auto in_end = tree.inside(end);
     if (const char* letter = sign_of(mood)) sign(letter, 24, ink_of(mood));
     tree.leaf(text(filled("{}", value), type::kSmall, Weight::Regular,
                    mood == Mood::Plain ? palette.ink_soft : ink_of(mood), TextAlign::End));
   }
   tree.close();
-  if (action.kind != ActionKind::None) sign(onward(), 24, palette.link);
+  if (touched) sign(onward(), 24, palette.link);
   tree.close();
   rule_due_ = true;
 }
@@ -263,20 +242,15 @@ void StaffFrame::step_button(std::string_view id, const char* end, const char* s
 void StaffFrame::stepper(std::string_view id, std::string_view label, std::string_view value, Action less,
                          Action more) {
   due_rule();
-  Node row = box(Flow::Row, space::kS, 0, 6);
-  row.box.align = Align::Centre;
+  Node row = row_box(space::kS, 0, 6);
   row.box.justify = Justify::Centre;  // of a wrapped one
   row.box.wrap = true;
   tree.open(row);
-  tree.open(grown(box(Flow::Column)));
-  tree.leaf(text(filled("{}", label), type::kSmall, Weight::Medium, palette.ink));
-  tree.close();
-  Node end = box(Flow::Row, space::kS);
-  end.box.align = Align::Centre;
+  wide(text(filled("{}", label), type::kSmall, Weight::Medium, palette.ink));
+  Node end = row_box(space::kS);
   end.box.justify = Justify::End;
   tree.open(end);
-  Node scale = box(Flow::Row, space::kS);
-  scale.box.align = Align::Centre;
+  Node scale = row_box(space::kS);
   scale.box.left_to_right = true;  // less, then more, as on every page that counts
   tree.open(scale);
   step_button(id, "less", tr("Less"), label, icon::kLess, less);
@@ -305,17 +279,13 @@ void StaffFrame::nothing(std::string_view id, const char* letter, std::string_vi
   centre(room);
   const auto in_room = tree.inside(room);
   sign(letter, 64 / text_share, palette.track);
-  Node said = text(words, type::kBody, Weight::Regular, palette.ink_soft, TextAlign::Centre);
-  said.id = id;
-  tree.leaf(said);
+  body(id, words, TextAlign::Centre);
 }
 
 void StaffFrame::section(std::string_view words) {
   due_rule();
   tree.leaf(sized(box(Flow::Column), 1, 14));
-  Node name = text(words, type::kSmall, Weight::Bold, palette.link);
-  name.role = Role::Heading;
-  tree.leaf(name);
+  put({}, Role::Heading, text(words, type::kSmall, Weight::Bold, palette.link));
 }
 
 void StaffFrame::line(std::string_view words, Mood mood) {

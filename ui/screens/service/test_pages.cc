@@ -61,18 +61,15 @@ void statistics_page(StaffFrame& page) {
     page.row(page.id("refused", i), one_of(tr, kRefusalWords, i), count(seen->refused[i]));
   }
   page.section(tr("From the pictures to the portrait"));
-  page.row("median", tr("Half of them are faster than"),
-           seen->median_s > 0 ? page.number(seen->median_s, 1, "s") : std::string_view("–"));
-  page.row("slow", tr("Nine of ten are faster than"),
-           seen->slow_s > 0 ? page.number(seen->slow_s, 1, "s") : std::string_view("–"));
+  const auto time = [&](double s) { return s > 0 ? page.number(s, 1, "s") : std::string_view("–"); };
+  page.row("median", tr("Half of them are faster than"), time(seen->median_s));
+  page.row("slow", tr("Nine of ten are faster than"), time(seen->slow_s));
   page.tree.close();
 }
 
 // Which consent text visitors read, and how the operator's own comes from a stick: the operator's page, and a
 // step of the first start.
 namespace {
-
-constexpr const char* kFetch = "\uf553";
 
 // Every language with the title its visitors read.
 void titles(StaffFrame& page, const ConsentTexts& own) {
@@ -104,15 +101,16 @@ void consent_in_force(StaffFrame& page) {
   const ConsentTexts* own = page.view.consent;
   page.begin_list("consent");
   if (page.staff.consent != nullptr) ended(page, *page.staff.consent);
-  if (own == nullptr)
+  if (own == nullptr) {
     page.status("in force", tr("Sample text, not reviewed by a lawyer: the operator puts their own here."),
                 Mood::Warn);
-  else
+  } else {
     page.status("in force",
                 page.filled(tr("Visitors read your text, version {}. They are offered these languages:"),
                             own->version),
                 Mood::Good);
-  if (own != nullptr) titles(page, *own);
+    titles(page, *own);
+  }
   page.rule();
   page.line(tr(
       "On a stick, in the folder consent/VERSION, a file for each language, saved as UTF-8: en.txt, de.txt, fr.txt, es.txt, ar.txt, he.txt, zh-Hans.txt, ja.txt. VERSION is a name of your choice, such as 2026-03; of several the last in order is taken."));
@@ -120,11 +118,9 @@ void consent_in_force(StaffFrame& page) {
       "The first line is the title. Then, after an empty line each, the points: a title, and the words below it."));
   page.tree.close();
   const bool busy = page.staff.consent == nullptr || page.staff.consent->taking;
-  page.small_button("take consent", tr("Load from the stick"), kFetch, ButtonLook::Quiet,
+  page.small_button("take consent", tr("Load from the stick"), icon::kStick, ButtonLook::Quiet,
                     busy ? Action{} : Action(TakeConsentText{}));
 }
-
-void consent_text_page(StaffFrame& page) { consent_in_force(page); }
 
 namespace {
 

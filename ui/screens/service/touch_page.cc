@@ -2,7 +2,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 //
 // The touch screen's correction: crosses to be touched, what came of it.
-#include <cstdio>
+#include <string>
 
 #include "ui/device/settings.h"
 #include "ui/device/touch_map.h"
@@ -111,14 +111,10 @@ void crosses(StaffFrame& page, const TouchView& seen) {
   page.tree.open(middle);
   const bool test = seen.step == TouchStep::Test;
   page.heading("cross words", page.tr("Touch the middle of the cross"), type::kHeading, TextAlign::Centre);
-  char text[16];
-  std::snprintf(text, sizeof text, "%d", seen.seconds_left);
-  page.body("cross wait",
-            page.filled(page.tr.plural("In {} second everything goes back to what it was.",
-                                       "In {} seconds everything goes back to what it was.",
-                                       static_cast<unsigned long>(seen.seconds_left)),
-                        text),
-            TextAlign::Centre);
+  const char* wait = page.tr.plural("In {} second everything goes back to what it was.",
+                                    "In {} seconds everything goes back to what it was.",
+                                    static_cast<unsigned long>(seen.seconds_left));
+  page.body("cross wait", page.filled(wait, std::to_string(seen.seconds_left)), TextAlign::Centre);
   page.tree.close();
   const TouchPoint& at = kTouchCrosses[seen.cross];
   Node cross = page.sized(page.box(Flow::Row), 84, 84);

@@ -12,36 +12,29 @@ void host(Page& page) {
   if (page.view.consent == nullptr || page.view.consent->host.name.empty()) return;
   const Host& host = page.view.consent->host;
   constexpr float kSignHigh = 64, kMostAcross = 4;
-  Node row = page.box(Flow::Row, space::kM);
-  row.box.align = Align::Centre;
-  const auto in_row = page.tree.inside(row);
+  const auto in_row = page.tree.inside(page.row_box(space::kM));
   if (!host.sign.empty()) {
-    const float aspect = std::min(kMostAcross, float(host.sign_width_px) / float(host.sign_height_px));
+    const float aspect = float(host.sign_width_px) / float(host.sign_height_px);
     Node card = page.box(Flow::Column, 0, 10, 10);
     card.box.fill = {255, 255, 255, 255};
     card.box.radius = page.px(14);
     const auto in_card = page.tree.inside(card);
-    Node sign = page.sized(page.box(Flow::Column), kSignHigh * aspect, kSignHigh);
+    Node sign = page.sized(page.box(Flow::Column), kSignHigh * std::min(kMostAcross, aspect), kSignHigh);
     sign.mark = Mark::Image;
     sign.picture = PictureSlot::Sign;
-    sign.aspect = float(host.sign_width_px) / float(host.sign_height_px);
+    sign.aspect = aspect;
     page.tree.leaf(sign);
   }
-  page.tree.open(page.grown(page.box(Flow::Column)));
   Node name = page.text(page.filled("{}", host.name), type::kBody, Weight::Bold, page.palette.good);
   name.id = "host";
-  page.tree.leaf(name);
-  page.tree.close();
+  page.wide(name);
   page.tree.leaf(page.sized(page.box(Flow::Column), size::kTarget, 1));  // the staff's way in stands there
 }
 
 void face(Page& page) {
   Node node = page.grown(page.box(Flow::Column), 1.0F);
-  node.id = "invitation_head";
-  node.name = page.tr("A simulated head, as this device measures one");
-  node.role = Role::Picture;
-  node.mark = Mark::Face;
-  if (page.view.invitation_head == nullptr) node.mark = Mark::Shape;
+  tell(node, Role::Picture, "invitation_head", page.tr("A simulated head, as this device measures one"));
+  node.mark = page.view.invitation_head == nullptr ? Mark::Shape : Mark::Face;
   page.tree.leaf(node);
 }
 
@@ -102,12 +95,8 @@ void words(Page& page) {
 }  // namespace
 
 void attract_screen(Page& page) {
-  Node root = page.portrait ? page.box(Flow::Column, space::kL, 56, 56)
-                            : page.sided(page.box(Flow::Row, space::kXl, 72, 32));
-  root.id = "page";
-  root.box.fill = page.palette.ground;
-  root.box.fill_end = page.palette.ground_end;
-  page.tree.open(root);
+  page.open_page(page.portrait ? page.box(Flow::Column, space::kL, 56, 56)
+                               : page.sided(page.box(Flow::Row, space::kXl, 72, 32)));
   if (page.portrait) host(page), face(page);
   words(page);
   if (!page.portrait) {
@@ -137,20 +126,13 @@ void badge(Page& page, const char* letter) {
   box.box.fill = page.palette.accent.with_alpha(0.12F);
   box.box.radius = page.px(kBadge / 4);
   const auto in_box = page.tree.inside(box);
-  Node sign =
-      page.text(letter, kBadge / 2 / page.text_share, Weight::Regular, page.palette.link, TextAlign::Centre);
-  sign.role = Role::Icon;
-  sign.style.icon = true;
-  page.tree.leaf(sign);
+  page.sign(letter, kBadge / 2 / page.text_share, page.palette.link);
 }
 
 void point(Page& page, const char* letter, std::string_view title, std::string_view words) {
   Node row = page.box(Flow::Row, space::kM, 22, side_by_side(page) ? 26 : 18);
   row.box.align = side_by_side(page) ? Align::Start : Align::Centre;  // titles of neighbours on one line
-  row.box.fill = page.palette.card;
-  row.box.border = page.palette.card_border;
-  row.box.border_px = page.px(1.5F);
-  row.box.radius = page.px(size::kRadius);
+  frame(row, page.palette.card, page.palette.card_border, page.px(1.5F), page.px(size::kRadius));
   row.box.grow = 1;
   const auto in_row = page.tree.inside(row);
   if (letter != nullptr) badge(page, letter);
@@ -163,30 +145,18 @@ void point(Page& page, const char* letter, std::string_view title, std::string_v
 void points(Page& page) {
   const auto& tr = page.tr;
   const bool two = side_by_side(page);
-  const auto open_row = [&] {
-    if (two) page.tree.open(page.grown(page.box(Flow::Row, space::kS)));
-  };
-  const auto close_row = [&] {
-    if (two) page.tree.close();
-  };
-  open_row();
+  if (two) page.tree.open(page.grown(page.box(Flow::Row, space::kS)));
   point(
       page, icon::kCamera, tr("We photograph your head"),
       tr("Two cameras photograph your face at the same moment, and its sides if you turn your head. Nothing is photographed until you say yes."));
   point(page, icon::kShape, tr("You look at it first"),
         tr("This device computes a 3D portrait from it. Nothing leaves the device for this."));
-  close_row();
-  open_row();
+  if (two) page.tree.close(), page.tree.open(page.grown(page.box(Flow::Row, space::kS)));
   point(page, icon::kDisk, tr("You decide what is kept"),
         tr("Only if you accept it are the portrait, your name and this consent stored, on this device."));
   point(page, icon::kBin, tr("You can have it erased"),
         tr("You get a code. Quote it to the staff at any time and everything about you is erased."));
-  close_row();
-}
-
-// The operator's own words, one under the other, as they wrote them.
-void own_points(Page& page, const ConsentText& own) {
-  for (const ConsentPoint& said : own.points) point(page, nullptr, said.title, said.words);
+  if (two) page.tree.close();
 }
 
 }  // namespace
@@ -196,9 +166,8 @@ void consent_screen(Page& page) {
   page.begin(true);
   const ConsentText* own =
       page.view.consent != nullptr ? page.view.consent->of(page.visit.language) : nullptr;
-  Node top = page.box(Flow::Row, space::kM);
+  Node top = page.row_box(space::kM);
   top.box.wrap = true;
-  top.box.align = Align::Centre;
   page.tree.open(top);
   page.tree.open(page.grown(page.box(Flow::Column)));
   page.heading("title", own != nullptr ? std::string_view(own->title) : tr("What happens here"));
@@ -209,11 +178,13 @@ void consent_screen(Page& page) {
   list.id = kToRead;
   list.box.scroll = list.box.even = true;
   page.tree.open(list);
-  if (own != nullptr) own_points(page, *own);
-  else points(page);
-  if (own == nullptr)
+  if (own != nullptr) {  // one under the other, as the operator wrote them
+    for (const ConsentPoint& said : own->points) point(page, nullptr, said.title, said.words);
+  } else {
+    points(page);
     page.tree.leaf(page.text(tr("Sample text, not reviewed by a lawyer: the operator puts their own here."),
                              type::kSmall, Weight::Regular, page.palette.ink_soft));
+  }
   page.tree.close();
   page.tree.open(page.sided(page.box(page.portrait ? Flow::Column : Flow::Row, space::kM)));
   const float grow = page.portrait ? 0.0F : 1.0F;

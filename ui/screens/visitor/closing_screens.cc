@@ -20,9 +20,7 @@ void tools(Page& page) {
   row.box.justify = Justify::End;
   const auto in_row = page.tree.inside(row);
   if (page.visit.step == Step::Thanks) {
-    Node seen = page.grown(page.box(Flow::Row));
-    seen.box.align = Align::Centre;
-    const auto in_seen = page.tree.inside(seen);
+    const auto in_seen = page.tree.inside(page.grown(page.row_box()));
     // They rest as soon as the portrait is stored: who listens is not told first that they are on.
     if (!page.view.cameras_on) page.cameras();
   }
@@ -44,12 +42,8 @@ void begin_message(Page& page, const char* letter, Colour colour, bool with_tool
   // Where the tools stood on the pages before, they stay; on a page that the staff can leave, beside their
   // lock.
   const bool at_lock = page.visit.step == Step::Trouble;
-  Node root =
-      page.box(Flow::Column, space::kM, at_lock ? kCorner : kPageMargin, at_lock ? kCorner : kPageTop);
-  root.id = "page";
-  root.box.fill = page.palette.ground;
-  root.box.fill_end = page.palette.ground_end;
-  page.tree.open(root);
+  page.open_page(
+      page.box(Flow::Column, space::kM, at_lock ? kCorner : kPageMargin, at_lock ? kCorner : kPageTop));
   if (with_tools && !page.low()) tools(page);
   Node middle = page.grown(page.box(Flow::Column, 0, kSide, with_tools ? 0 : kSide));
   middle.box.align = Align::Centre;
@@ -92,13 +86,11 @@ void end_message(Page& page, const char* on, const char* letter, bool foot,
   });
 }
 
-struct Words4 {
-  const char* letter;
-  const char* title;
-  const char* words;
+struct Message {
+  const char *letter, *title, *words;
 };
 
-Words4 words_of(const Page& page) {
+Message words_of(const Page& page) {
   const auto& tr = page.tr;
   // What stands in everybody's way counts more than what stood in the last visitor's.
   const bool waits = page.view.screen == Screen::Idle &&
@@ -114,8 +106,9 @@ Words4 words_of(const Page& page) {
     case Trouble::Refused:
       return {
           icon::kPerson, tr("It did not work this time"),
-          tr("Three pictures were not good enough for a portrait. You can start again, or ask the staff for help. Nothing about you was kept.")};
+          tr("No picture was good enough for a portrait. You can start again, or ask the staff for help. Nothing about you was kept.")};
     case Trouble::Storage:
+    case Trouble::StorageFull:
       return {icon::kDisk, tr("Nothing can be stored at the moment"),
               tr("Please tell the staff. Nothing about you was kept.")};
     case Trouble::TookTooLong:
@@ -178,14 +171,6 @@ void erasure_code(Page& page) {
   if (!page.view.receipt_code.picture.empty() && !at_foot(page)) qr(page, "qr", PictureSlot::Receipt);
 }
 
-// The long name of a site may be divided behind its dots.
-std::string_view divided(Page& page, std::string_view site) {
-  const std::string_view first = page.tree.keep({});
-  std::size_t length = 0;
-  for (const char c : site) length += page.tree.keep(c == '.' ? ".\u200b" : std::string_view(&c, 1)).size();
-  return {first.data(), length};
-}
-
 // Where the operator offers the portrait.
 void link(Page& page) {
   const std::string_view site = site_of(page.view.take_home.link);
@@ -193,7 +178,7 @@ void link(Page& page) {
   card.value = site;
   const auto in_card = page.tree.inside(card);
   Node words = page.text(
-      page.filled(page.tr("Photograph this code to find your portrait at {}."), divided(page, site)),
+      page.filled(page.tr("Photograph this code to find your portrait at {}."), page.breakable(site, ".")),
       type::kSmall, Weight::Medium, page.palette.ink_soft,
       page.portrait ? TextAlign::Centre : TextAlign::Start);
   words.id = "link_words";
@@ -212,11 +197,9 @@ void codes(Page& page) {
 }
 
 void said(Page& page, std::string_view id, const char* words, Colour ink) {
-  Node node =
-      page.text(words, at_foot(page) ? type::kSmall : type::kBody, Weight::Medium, ink, TextAlign::Centre);
-  node.id = id;
-  node.role = Role::Status;
-  page.tree.leaf(node);
+  page.put(
+      id, Role::Status,
+      page.text(words, at_foot(page) ? type::kSmall : type::kBody, Weight::Medium, ink, TextAlign::Centre));
 }
 
 // On paper, where there is a printer.
@@ -256,14 +239,12 @@ void said_of_stick(Page& page) {
     case Outcome::Failed: return bad(tr("It did not work with this stick. Please use another one."));
   }
   if (home.taking != Taking::NoStick && home.taking != Taking::NotOurs) return;
-  Node offer =
-      page.text(home.taking == Taking::NotOurs
-                    ? tr("A stick was already plugged in. If it is yours, pull it out and plug it in again.")
-                    : tr("You can take your portrait with you: plug in a USB stick."),
-                type::kSmall, Weight::Regular, page.palette.ink_soft, TextAlign::Centre);
-  offer.id = "stick";
-  offer.role = Role::Status;
-  page.tree.leaf(offer);
+  const char* offer =
+      home.taking == Taking::NotOurs
+          ? tr("A stick was already plugged in. If it is yours, pull it out and plug it in again.")
+          : tr("You can take your portrait with you: plug in a USB stick.");
+  page.put("stick", Role::Status,
+           page.text(offer, type::kSmall, Weight::Regular, page.palette.ink_soft, TextAlign::Centre));
 }
 
 // Who waits for their stick does not leave by a touch too many.
@@ -314,7 +295,7 @@ void declined_screen(Page& page) {
 }
 
 void trouble_screen(Page& page) {
-  const Words4 said = words_of(page);
+  const Message said = words_of(page);
   begin_message(page, said.letter, page.palette.warn, true);
   page.heading("title", said.title, type::kTitle, TextAlign::Centre);
   page.body("what", said.words, TextAlign::Centre);

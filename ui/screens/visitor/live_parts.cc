@@ -14,9 +14,7 @@ bool covers(const Page& page, float aspect) { return aspect > 0.75F * page.width
 void picture(Page& page) {
   const ImageView& live = page.view.live.picture;
   Node node = page.box(Flow::Column);
-  node.id = "live";
-  node.name = page.tr("You, as in a mirror");
-  node.role = Role::Picture;
+  tell(node, Role::Picture, "live", page.tr("You, as in a mirror"));
   node.mark = live.empty() ? Mark::Shape : Mark::Image;
   node.picture = PictureSlot::Live;
   node.aspect = live.empty() ? 1.6F : float(live.width_px) / float(live.height_px);
@@ -62,8 +60,7 @@ void distance(Page& page, float oval_high_dp) {
 // `share` of its line is bright.
 void oval(Page& page, bool good, float share, bool notes) {
   Node room = page.box(Flow::Row);
-  room.box.justify = Justify::Centre;
-  room.box.align = Align::Centre;
+  centre(room);
   page.tree.open(room);
   // As large as a face at the best distance, as far as there is room.
   const ImageView& live = page.view.live.picture;
@@ -76,15 +73,13 @@ void oval(Page& page, bool good, float share, bool notes) {
       std::min({wanted, page.height_dp * (page.text_share > 1.6F ? 0.72F : 0.76F), page.width_dp * 1.1F,
                 page.height_dp - 2 * std::max(room_above(page, notes), room_below(page))});
   Node ring = page.sized(page.box(Flow::Column), h * 0.74F, h);
-  ring.id = "oval";
-  ring.role = Role::Picture;
-  ring.name = good ? page.tr("Your face is in the oval") : page.tr("An oval for your face");
+  tell(ring, Role::Picture, "oval",
+       good ? page.tr("Your face is in the oval") : page.tr("An oval for your face"));
   ring.mark = Mark::Ring;
   ring.line_px = page.px(10);
   ring.colour = lamp(page);
   ring.box.fill = good ? page.palette.good : page.palette.accent;
-  ring.box.justify = Justify::Centre;
-  ring.box.align = Align::Centre;
+  centre(ring);
   ring.share = share;
   page.tree.leaf(ring);
   page.tree.close();
@@ -175,20 +170,15 @@ void advice(Page& page, const Said& what, int countdown) {
   row.box.justify = Justify::Centre;
   const auto in_row = page.tree.inside(row);
   Node pill = page.box(Flow::Row, 18, 32, 10);
-  pill.id = "advice";
-  pill.role = Role::Alert;
+  tell(pill, Role::Alert, "advice", what.spoken != nullptr ? what.spoken : what.words);
   pill.insists = !what.good;
   // Who turns the head is past the side before they have heard.
   pill.waits = pill.insists && page.visit.step == Step::Position;
-  pill.name = what.spoken != nullptr ? what.spoken : what.words;
-  pill.box.align = Align::Centre;
-  pill.box.justify = Justify::Centre;
+  centre(pill);
   pill.box.max_width = page.px(page.portrait ? 700.0F : 1200.0F);
-  pill.box.fill = page.palette.card;
-  pill.box.border = what.good ? page.palette.good : page.palette.quiet_border;
-  pill.box.border_px = page.px(3);
+  frame(pill, page.palette.card, what.good ? page.palette.good : page.palette.quiet_border, page.px(3),
+        page.px(size::kPillRadius));
   pill.box.shadow = true;
-  pill.box.radius = page.px(size::kPillRadius);
   const auto in_pill = page.tree.inside(pill);
   const Colour ink = what.good ? page.palette.good : page.palette.ink;
   // Sign and words grow alike: in one line they leave the oval free.
@@ -201,11 +191,9 @@ void advice(Page& page, const Said& what, int countdown) {
     const char digit[] = {char('0' + countdown), 0};
     Node number = page.text(page.tree.keep({digit, 1}), type::kTitle, Weight::Bold, page.palette.good,
                             TextAlign::Centre);
-    number.id = "countdown";
-    number.role = Role::Status;
     number.style.size_px = page.px(type::kTitle * (1 + (page.text_share - 1) * 0.15F));
     number.box.width = 0.7F * number.style.size_px;  // words give way, a digit cannot
-    page.tree.leaf(number);
+    page.put("countdown", Role::Status, number);
   }
 }
 

@@ -12,6 +12,8 @@ namespace relievo::ui {
 // that; renew and add are for who quotes the code.
 namespace {
 
+bool narrow(const Page& page) { return page.portrait || page.text_share > 1.3F; }
+
 // One of two ways on: what it is called, what it means.
 void way(Page& page, std::string_view id, const char* label, const char* letter, const char* words,
          Action action) {
@@ -22,9 +24,8 @@ void way(Page& page, std::string_view id, const char* label, const char* letter,
 
 void two_ways(Page& page) {
   const auto& tr = page.tr;
-  const auto in_box =
-      page.tree.inside(page.box(page.portrait || page.text_share > 1.3F ? Flow::Column : Flow::Row,
-                                page.portrait ? space::kL : space::kM));
+  const auto in_box = page.tree.inside(
+      page.box(narrow(page) ? Flow::Column : Flow::Row, page.portrait ? space::kL : space::kM));
   way(page, "renew", tr("Renew it"), icon::kAgain,
       tr("The old portrait is erased the moment the new one is stored."), {ActionKind::Renew, 0});
   way(page, "add", tr("Add another one"), icon::kShape, tr("The old portrait is kept beside the new one."),
@@ -33,8 +34,8 @@ void two_ways(Page& page) {
 
 void name_ways(Page& page) {
   const auto& tr = page.tr;
-  page.tree.open(page.box(page.portrait || page.text_share > 1.3F ? Flow::Column : Flow::Row, space::kM));
-  const float grow = page.portrait || page.text_share > 1.3F ? 0.0F : 1.0F;
+  page.tree.open(page.box(narrow(page) ? Flow::Column : Flow::Row, space::kM));
+  const float grow = narrow(page) ? 0.0F : 1.0F;
   page.button("somebody_else", tr("I am somebody else"), icon::kPerson, ButtonLook::Quiet,
               {ActionKind::SomebodyElse, 0}, grow);
   page.button("have_code", tr("I have my code"), icon::kLock, ButtonLook::Main, {ActionKind::HaveCode, 0},
@@ -88,17 +89,10 @@ std::string_view grouped(Page& page, std::string_view digits) {
   return {first.data(), length};
 }
 
-// What is still to come stays to the right of it, also where words run to the left.
-std::string_view typed_code(Page& page, std::string_view digits) {
-  const std::string_view first = page.tree.keep(isolate::kLeft), code = grouped(page, digits),
-                         last = page.tree.keep(isolate::kEnd);
-  return {first.data(), first.size() + code.size() + last.size()};
-}
-
 void field(Page& page, const char* asked, float grow) {
   const std::string_view name = page.visit.name();
   const bool code = page.visit.quotes_code();
-  Node field = page.box(Flow::Row, 3, 26, 14);
+  Node field = page.row_box(3, 26, 14);
   tell(field, Role::Field, "name", asked);
   field.by_key = {ActionKind::Done, 0};
   field.box.grow = grow;
@@ -106,13 +100,13 @@ void field(Page& page, const char* asked, float grow) {
   field.value = code && name.size() == kCodeDigits ? page.spelled(grouped(page, name)) : name;
   field.secret = true;
   field.box.min_height = page.px(72);
-  field.box.align = Align::Centre;
   field.box.left_to_right = code;
   frame(field, page.palette.card, page.palette.accent, page.px(3), page.px(size::kRadius));
   const auto in_field = page.tree.inside(field);
   const bool hint = name.empty() && !code;
+  // What is still to come of a code stays to the right of it, also where words run to the left.
   Node typed = page.text(hint   ? std::string_view(page.tr("Type here or show a QR code"))
-                         : code ? typed_code(page, name)
+                         : code ? page.left_to_right(grouped(page, name))
                                 : name,
                          hint && abreast(page) && page.text_share > kLargest ? type::kSmall : type::kButton,
                          Weight::Medium, hint ? page.palette.ink_soft : page.palette.ink);
@@ -160,11 +154,9 @@ void finder(Page& page, float high_dp) {
 
 void wrong_code(Page& page) {
   if (page.view.known != Known::NoSuchCode || page.visit.name().empty()) return;
-  Node note = page.text(page.tr("No record has this code. Please check it, or ask the staff."), type::kSmall,
-                        Weight::Bold, page.palette.bad);
-  note.id = "wrong_code";
-  note.role = Role::Alert;
-  page.tree.leaf(note);
+  page.put("wrong_code", Role::Alert,
+           page.text(page.tr("No record has this code. Please check it, or ask the staff."), type::kSmall,
+                     Weight::Bold, page.palette.bad));
 }
 
 // Question and answer, with the camera's picture beside them.
@@ -209,8 +201,7 @@ void ask_code(Page& page, const char* asked) {
   page.heading("title", asked, kAsked);
   field(page, asked, 0);
   wrong_code(page);
-  if (!page.portrait && page.text_share > 1.2F) finder(page, kFinderHighAbreast);
-  else finder(page, kFinderHigh);
+  finder(page, !page.portrait && page.text_share > 1.2F ? kFinderHighAbreast : kFinderHigh);
   page.button("lost_code", page.tr("I lost my code"), icon::kHelp, ButtonLook::Quiet,
               {ActionKind::LostCode, 0});
   page.tree.close();

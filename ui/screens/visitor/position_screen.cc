@@ -96,10 +96,11 @@ void position_screen(Page& page) {
     page.tree.leaf(note);
   }
   page.space(1);
-  const bool stacked = page.portrait;
-  if (stacked)
+  const auto shoot = [&] {
     page.button("shoot", page.tr("Take the picture"), icon::kCamera, ButtonLook::Main,
                 {ActionKind::TakePicture, 0});
+  };
+  if (page.portrait) shoot();
   Node foot = page.sided(page.box(Flow::Row, page.portrait ? space::kS : space::kXs));
   foot.box.align = Align::End;
   page.tree.open(foot);
@@ -112,9 +113,7 @@ void position_screen(Page& page) {
   page.square_button("help", page.tr("Help"), icon::kHelp, {ActionKind::ShowHelp, 0});
   page.square_button("leave", page.tr("Stop and leave"), icon::kClose, {ActionKind::Leave, 0});
   page.space(1);
-  if (!stacked)
-    page.button("shoot", page.tr("Take the picture"), icon::kCamera, ButtonLook::Main,
-                {ActionKind::TakePicture, 0});
+  if (!page.portrait) shoot();
   page.tree.close();
   page.tree.close();
   page.tree.close();
@@ -150,8 +149,7 @@ void sides(Page& page) {
     disc.pin_x = 0.5F - deg / (2 * kFurthestDeg);
     disc.pin_y = 0.5F;
     disc.box.radius = page.px(across_dp / 2);
-    disc.box.justify = Justify::Centre;
-    disc.box.align = Align::Centre;
+    centre(disc);
     return disc;
   };
   constexpr float kHighDp = kStopDp + 18;
@@ -160,22 +158,16 @@ void sides(Page& page) {
   if (!page.portrait && page.text_share > 1.6F) rail.box.grow = 0, rail.box.width = page.px(310);
   rail.box.max_width = page.px(620);
   rail.box.height = page.px(kHighDp);
-  rail.id = "sides";
-  rail.role = Role::Status;
-  rail.name = page.tr("How far it is");
+  tell(rail, Role::Status, "sides", page.tr("How far it is"));
   rail.value = page.share_of(turn ? turn->taken.count() : 0, pipeline::kSides);
-  rail.box.fill = page.palette.card;
-  rail.box.border = page.palette.quiet_border;
-  rail.box.border_px = page.px(2);
-  rail.box.radius = page.px(kHighDp / 2);
+  frame(rail, page.palette.card, page.palette.quiet_border, page.px(2), page.px(kHighDp / 2));
   rail.box.left_to_right = true;
   const auto in_rail = page.tree.inside(rail);
   for (std::size_t i = 0; i < pipeline::kSides; ++i) {
     const bool taken = turn && turn->taken[i];
     Node stop = pinned(float(pipeline::kSidesDeg[i]), kStopDp);
-    stop.box.fill = taken ? page.palette.good : page.palette.ground_end;
-    stop.box.border = taken ? page.palette.good : page.palette.quiet_border;
-    stop.box.border_px = page.px(2.5F);
+    frame(stop, taken ? page.palette.good : page.palette.ground_end,
+          taken ? page.palette.good : page.palette.quiet_border, page.px(2.5F), page.px(kStopDp / 2));
     const auto in_stop = page.tree.inside(stop);
     if (taken) page.sign(icon::kGood, 28 / page.text_share, page.palette.card);
   }
@@ -203,8 +195,7 @@ void turn_screen(Page& page) {
     sides(page);
   }
   Node foot = page.sided(page.box(Flow::Row, space::kS));
-  foot.box.align = Align::Centre;
-  foot.box.justify = Justify::Centre;
+  centre(foot);
   page.tree.open(foot);
   page.square_button("help", page.tr("Help"), icon::kHelp, {ActionKind::ShowHelp, 0});
   page.square_button("leave", page.tr("Stop and leave"), icon::kClose, {ActionKind::Leave, 0});

@@ -6,7 +6,6 @@
 #pragma once
 
 #include "ui/screens/parts/keyboard.h"
-#include "ui/screens/parts/overlay.h"
 #include "ui/screens/parts/page.h"
 
 namespace relievo::ui {

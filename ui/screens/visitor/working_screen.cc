@@ -24,8 +24,7 @@ int stage_under_way(const ViewState& view) {
 void tick(Page& page) {
   const float across_dp = 38 * page.text_share;
   Node disc = page.sized(page.box(Flow::Column), across_dp, across_dp);
-  disc.box.justify = Justify::Centre;
-  disc.box.align = Align::Centre;
+  centre(disc);
   disc.box.radius = page.px(across_dp / 2);
   disc.box.fill = page.palette.card;
   const auto in_disc = page.tree.inside(disc);
@@ -50,8 +49,7 @@ void card(Page& page, std::size_t stage, const char* words) {
   page.tree.open(room);
   if (!shown.empty()) {
     Node picture = page.box(Flow::Column);
-    picture.name = words;
-    picture.role = Role::Picture;
+    tell(picture, Role::Picture, {}, words);
     picture.mark = Mark::Image;
     picture.picture = static_cast<PictureSlot>(std::size_t(PictureSlot::Photograph) + (born ? stage + 1 : 0));
     picture.aspect = float(shown.width_px) / float(shown.height_px);
@@ -68,8 +66,7 @@ void card(Page& page, std::size_t stage, const char* words) {
   page.tree.close();
   page.tree.close();
   Node row = page.box(Flow::Row, 10);
-  row.box.align = Align::Centre;
-  row.box.justify = Justify::Centre;
+  centre(row);
   row.box.min_height = page.px(64 * page.text_share);
   const auto in_row = page.tree.inside(row);
   Node said = page.text(words, 22, Weight::Medium, at <= now ? page.palette.ink : page.palette.ink_soft,

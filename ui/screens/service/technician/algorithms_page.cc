@@ -29,15 +29,16 @@ void kinds(TechnicianFrame& f) {
   for (std::size_t i = 0; i < f.seen.choice.kinds.size(); ++i) {
     const TechnicianKind& kind = f.seen.choice.kinds[i];
     const bool chosen = i == f.seen.choice.kind;
+    const char* label = label_of(f.tr, kind.key);
+    const Colour ink = chosen ? f.palette.accent_ink : f.palette.ink;
     Node row = f.box(Flow::Column, 2, 12, 8);
-    tell(row, Role::Button, f.id("kind", i), label_of(f.tr, kind.key), technician_action(ChooseKind{i}));
+    tell(row, Role::Button, f.id("kind", i), label, technician_action(ChooseKind{i}));
     row.box.min_height = f.px(size::kStaffTarget);
     row.box.justify = Justify::Centre;
     row.box.radius = f.px(12);
     row.box.fill = chosen ? f.palette.accent : f.palette.card;
     const auto in_row = f.tree.inside(row);
-    f.tree.leaf(f.text(label_of(f.tr, kind.key), type::kSmall, Weight::Medium,
-                       chosen ? f.palette.accent_ink : f.palette.ink));
+    f.tree.leaf(f.text(label, type::kSmall, Weight::Medium, ink));
     f.tree.leaf(f.text(f.left_to_right(f.breakable(kind.value)), 17, Weight::Regular,
                        chosen ? f.palette.accent_ink : f.palette.ink_soft));
   }
@@ -46,16 +47,12 @@ void kinds(TechnicianFrame& f) {
 
 void names(TechnicianFrame& f) {
   const TechnicianChoice& choice = f.seen.choice;
-  const std::size_t across = f.text_share > 1.2F ? 2 : 3;
-  for (std::size_t first = 0; first < choice.names.size(); first += across) {
-    const auto in_box = f.tree.inside(f.box(Flow::Row, space::kXs));
-    for (std::size_t i = first; i < first + across; ++i) {
-      if (i >= choice.names.size()) f.space(1);
-      else
-        f.choice(f.id("name", i), f.left_to_right(choice.names[i].name), choice.names[i].chosen,
-                 technician_action(ChooseName{i}));
-    }
-  }
+  const std::size_t across = f.text_share > 1.2F ? 2 : 3, count = choice.names.size();
+  f.in_rows((count + across - 1) / across * across, across, space::kXs, [&](std::size_t i) {
+    if (i >= count) return f.space(1);
+    f.choice(f.id("name", i), f.left_to_right(choice.names[i].name), choice.names[i].chosen,
+             technician_action(ChooseName{i}));
+  });
 }
 
 void rejected(TechnicianFrame& f) {
@@ -137,12 +134,9 @@ void editor(TechnicianFrame& f) {
   words.box.scroll = true;
   f.tree.open(words);
   f.tree.leaf(f.text(f.left_to_right(option.key), type::kBody, Weight::Bold, f.palette.ink));
-  if (!f.seen.choice.refused.empty()) {
-    Node no = f.text(f.tr("This cannot be accepted."), type::kSmall, Weight::Bold, f.palette.bad);
-    no.id = "option refused";
-    no.role = Role::Status;
-    f.tree.leaf(no);
-  }
+  if (!f.seen.choice.refused.empty())
+    f.put("option refused", Role::Status,
+          f.text(f.tr("This cannot be accepted."), type::kSmall, Weight::Bold, f.palette.bad));
   f.tree.leaf(f.english(option.sentence, type::kSmall));
   char text[96];
   std::snprintf(text, sizeof text, "%g … %g", option.least, option.most);
@@ -157,24 +151,19 @@ void editor(TechnicianFrame& f) {
   f.tree.leaf(field);
   keys(f);
   const bool stacked = f.portrait && f.text_share > 1.3F;
+  const float grow = stacked ? 0 : 1;
   const auto in_box = f.tree.inside(f.box(stacked ? Flow::Column : Flow::Row, space::kXs));
-  f.small_button("option leave", f.tr("Back"), nullptr, ButtonLook::Quiet, TechnicianAct::LeaveOption,
-                 stacked ? 0.0F : 1.0F);
+  f.small_button("option leave", f.tr("Back"), nullptr, ButtonLook::Quiet, TechnicianAct::LeaveOption, grow);
   f.small_button("option default", f.tr("Default"), nullptr, ButtonLook::Quiet, TechnicianAct::UseDefault,
-                 stacked ? 0.0F : 1.0F);
-  f.small_button("option use", f.tr("Done"), icon::kCheck, ButtonLook::Main, TechnicianAct::UseTyped,
-                 stacked ? 0.0F : 1.0F);
+                 grow);
+  f.small_button("option use", f.tr("Done"), icon::kCheck, ButtonLook::Main, TechnicianAct::UseTyped, grow);
 }
 
 void status(TechnicianFrame& f) {
   if (!f.seen.calibrated)
     return f.status("uncalibrated", f.tr("This device is not calibrated yet"), Mood::Warn);
   f.problem(f.seen.problem);
-  const bool running = f.seen.phase == TechnicianPhase::Capturing || f.seen.phase == TechnicianPhase::Running;
-  if (running)
-    return f.progress("run progress", f.seen.phase == TechnicianPhase::Running
-                                          ? (float(f.seen.working_on) + f.seen.progress) / kStages
-                                          : 0);
+  if (f.busy()) return f.progress("run progress", f.done());
   if (f.seen.applied) f.status("applied", f.tr("It applies from now on."), Mood::Good);
 }
 

@@ -54,7 +54,7 @@ void coverage(TechnicianFrame& f, std::size_t side, float aspect) {
   const auto in_frame = f.tree.inside(frame);
   Node map = f.box(Flow::Column, 3);
   tell(map, Role::Picture, side == 0 ? "left coverage" : "right coverage",
-       f.filled("{}: {}", {side == 0 ? f.tr("Left camera") : f.tr("Right camera"), f.tr("Views taken")}));
+       f.filled("{}: {}", {f.camera_name(side), f.tr("Views taken")}));
   const auto in_map = f.tree.inside(map);
   for (std::size_t row = 0; row < kCoverageCells; ++row) {
     Node line = f.grown(f.box(Flow::Row, 3));
@@ -81,10 +81,9 @@ void live_pictures(TechnicianFrame& f) {
   Node column = f.grown(f.box(Flow::Column, space::kS), f.picture_share(1.6F));
   const auto in_column = f.tree.inside(column);
   pair([&](std::size_t side) {
-    f.open_picture(side == 0 ? "left board" : "right board",
-                   side == 0 ? f.tr("Left camera") : f.tr("Right camera"), f.seen.calibration.pictures[side],
-                   side == 0 ? PictureSlot::TechnicianLeft : PictureSlot::TechnicianRight);
-    f.close_picture();
+    f.open_picture(side == 0 ? "left board" : "right board", f.camera_name(side),
+                   f.seen.calibration.pictures[side], f.slot_of(side));
+    f.tree.close();
   });
   pair([&](std::size_t side) {
     const ImageView& seen = f.seen.calibration.pictures[side].pixels;
@@ -102,10 +101,8 @@ void running(TechnicianFrame& f) {
   const TechnicianCalibration& c = f.seen.calibration;
   Node said = f.text(one_of(f.tr, kAdviceWords, c.advice), type::kHeading, Weight::Bold, f.palette.link,
                      TextAlign::Centre);
-  said.id = "advice";
-  said.role = Role::Status;
   said.style.size_px = f.px(type::kHeading * (1 + (f.text_share - 1) * 0.5F));
-  f.tree.leaf(said);
+  f.put("advice", Role::Status, said);
   f.tree.open(f.grown(f.box(f.portrait ? Flow::Column : Flow::Row, space::kM)));
   live_pictures(f);
   f.tree.open(f.grown(f.box(Flow::Column)));

@@ -3,7 +3,6 @@
 //
 // Both cameras, live, side by side, or the left one and its relief: light, focus, and whether they expose at
 // the same instant.
-
 #include "ui/screens/service/technician/technician_frame.h"
 
 namespace relievo::ui {
@@ -21,7 +20,7 @@ void live(TechnicianFrame& f, std::string_view id, const char* title, const Tech
   const bool opens = mode > 0 && !picture.pixels.empty();
   f.open_picture(id, opens ? f.filled("{}: {}", {title, f.tr("Larger")}) : title, picture, slot,
                  opens ? Action(ActionKind::StaffMode, mode) : Action());
-  f.close_picture();
+  f.tree.close();
 }
 
 void edges_button(TechnicianFrame& f, float grow) {
@@ -31,8 +30,7 @@ void edges_button(TechnicianFrame& f, float grow) {
 
 // What a hand at the lens looks at.
 void focus_card(TechnicianFrame& f, const TechnicianCamera& camera) {
-  Node row = f.box(Flow::Row, space::kM, space::kM, space::kXs);
-  row.box.align = Align::Centre;
+  Node row = f.row_box(space::kM, space::kM, space::kXs);
   frame(row, f.palette.card, f.palette.card_border, f.px(1.5F), f.px(18));
   const auto in_row = f.tree.inside(row);
   f.tree.open(f.grown(f.box(Flow::Column)));
@@ -52,11 +50,9 @@ void focus_card(TechnicianFrame& f, const TechnicianCamera& camera) {
 // One picture, and the figures below it.
 void whole_page(TechnicianFrame& f, std::size_t side) {
   const TechnicianCamera& camera = f.seen.cameras.camera[side];
-  f.open_picture("whole",
-                 f.filled("{}: {}", {side == 0 ? f.tr("Left camera") : f.tr("Right camera"), f.tr("Back")}),
-                 camera.picture, side == 0 ? PictureSlot::TechnicianLeft : PictureSlot::TechnicianRight,
-                 {ActionKind::StaffMode, 0});
-  f.close_picture();
+  f.open_picture("whole", f.filled("{}: {}", {f.camera_name(side), f.tr("Back")}), camera.picture,
+                 f.slot_of(side), {ActionKind::StaffMode, 0});
+  f.tree.close();
   focus_card(f, camera);
 }
 
@@ -87,9 +83,8 @@ constexpr CameraRow kRows[] = {
 
 // A label, and the figure of the left and of the right camera, on their sides in every language.
 void pair_row(TechnicianFrame& f, const CameraRow& what) {
-  Node row = f.box(Flow::Row, space::kS, 0, 6);
+  Node row = f.row_box(space::kS, 0, 6);
   row.id = what.id;
-  row.box.align = Align::Centre;
   row.box.min_height = f.px(44);
   const auto in_row = f.tree.inside(row);
   f.tree.open(f.grown(f.box(Flow::Column), 1.4F));
@@ -102,9 +97,7 @@ void pair_row(TechnicianFrame& f, const CameraRow& what) {
     const Mood mood = what.doubtful == nullptr ? Mood::Plain
                       : what.doubtful(camera)  ? Mood::Warn
                                                : Mood::Good;
-    Node cell = f.grown(f.box(Flow::Row, space::kXs));
-    cell.box.align = Align::Centre;
-    const auto in_cell = f.tree.inside(cell);
+    const auto in_cell = f.tree.inside(f.grown(f.row_box(space::kXs)));
     if (const char* letter = f.sign_of(mood)) f.sign(letter, 22, f.ink_of(mood));
     f.tree.leaf(f.text(f.number(what.value(camera), what.decimals, what.unit_name), type::kSmall,
                        Weight::Regular, mood == Mood::Plain ? f.palette.ink_soft : f.ink_of(mood)));
@@ -129,13 +122,12 @@ void figures(TechnicianFrame& f) {
 
 void technician_cameras_page(TechnicianFrame& f) {
   f.problem(f.seen.problem.empty() ? f.seen.cameras.problem : f.seen.problem);
-  if (f.service.mode > 0 && f.seen.cameras.watched)
-    return whole_page(f, std::size_t(f.service.mode == 1 ? 0 : 1));
+  const TechnicianCameras& cameras = f.seen.cameras;
+  if (f.service.mode > 0 && cameras.watched) return whole_page(f, f.service.mode == 1 ? 0 : 1);
   f.tree.open(f.grown(f.box(f.portrait ? Flow::Column : Flow::Row, space::kM)));
   Node pair = f.grown(f.box(Flow::Row, space::kS), f.picture_share(1.5F));
   pair.box.left_to_right = true;
   f.tree.open(pair);
-  const TechnicianCameras& cameras = f.seen.cameras;
   live(f, "left live", f.tr("Left camera"), cameras.camera[0].picture, PictureSlot::TechnicianLeft, 1);
   if (cameras.relief_shown)
     live(f, "relief", f.tr("Relief"), cameras.relief, PictureSlot::TechnicianRight, 0);
@@ -144,24 +136,25 @@ void technician_cameras_page(TechnicianFrame& f) {
   f.tree.close();
   f.tree.open(f.grown(f.box(Flow::Column)));
   f.begin_panel("camera figures");
-  if (f.seen.cameras.watched) figures(f);
+  if (cameras.watched) figures(f);
   else f.line(f.tr("One moment, please"));
   f.tree.close();
   f.tree.close();
   f.tree.close();
   const float grow = f.open_buttons();
-  if (f.seen.cameras.can_be_set) {
+  if (cameras.can_be_set) {
     f.small_button("darker", f.tr("Darker"), icon::kDark, ButtonLook::Quiet, TechnicianAct::DarkerShot, grow);
     f.small_button("brighter", f.tr("Brighter"), icon::kSun, ButtonLook::Quiet, TechnicianAct::BrighterShot,
                    grow);
     if (f.portrait) f.tree.close(), f.open_buttons();  // two and two
   }
-  if (f.seen.cameras.watched) edges_button(f, grow);
-  if (f.seen.cameras.watched)
-    f.choice("show relief", f.tr("Relief"), f.seen.cameras.relief_shown,
+  if (cameras.watched) {
+    edges_button(f, grow);
+    f.choice("show relief", f.tr("Relief"), cameras.relief_shown,
              technician_action(TechnicianAct::ShowRelief), grow);
-  f.small_button("watch", f.seen.cameras.watched ? f.tr("Stop") : f.tr("Start"),
-                 f.seen.cameras.watched ? icon::kClose : icon::kCamera, ButtonLook::Main,
+  }
+  f.small_button("watch", cameras.watched ? f.tr("Stop") : f.tr("Start"),
+                 cameras.watched ? icon::kClose : icon::kCamera, ButtonLook::Main,
                  TechnicianAct::WatchCameras, grow);
   f.tree.close();
 }

@@ -18,13 +18,11 @@ namespace {
 void difference_scale(TechnicianFrame& f) {
   if (f.seen.scale.empty()) return;
   const auto end = double(f.seen.full_colour_mm);
-  const std::string_view farther = f.number(-end, 2, "mm"), nearer = f.number(end, 2, "mm");
-  Node row = f.box(Flow::Row, space::kXs, 0, 5);
+  Node row = f.row_box(space::kXs, 0, 5);
   row.id = "difference scale";
   row.box.left_to_right = true;
-  row.box.align = Align::Centre;
   f.tree.open(row);
-  f.tree.leaf(f.text(farther, 18, Weight::Regular, f.palette.ink));
+  f.tree.leaf(f.text(f.number(-end, 2, "mm"), 18, Weight::Regular, f.palette.ink));
   Node strip = f.grown(f.box(Flow::Column));
   strip.box.height = f.px(20);
   f.tree.leaf(strip);
@@ -33,10 +31,9 @@ void difference_scale(TechnicianFrame& f) {
     const auto& c = f.seen.scale[i];
     f.tree.mark({{float(i) * share, 0, share, 1}, {c[0], c[1], c[2], 255}, 0, false});
   }
-  f.tree.leaf(f.text(nearer, 18, Weight::Regular, f.palette.ink));
+  f.tree.leaf(f.text(f.number(end, 2, "mm"), 18, Weight::Regular, f.palette.ink));
   f.tree.close();
-  f.tree.leaf(f.text(f.filled(f.tr("Red is nearer, blue farther; white agrees. Full colour: {}."), nearer),
-                     18, Weight::Regular, f.palette.ink_soft));
+  f.scale_words(f.seen.full_colour_mm, 18);
 }
 
 void difference_button(TechnicianFrame& f, float grow) {
@@ -47,8 +44,7 @@ void difference_button(TechnicianFrame& f, float grow) {
 // One result by itself, to be turned and measured on.
 void alone(TechnicianFrame& f, std::size_t i) {
   f.face(1, nullptr, 0);
-  const bool coloured = f.seen.differences && f.seen.compared[i].difference.known;
-  if (coloured) difference_scale(f);
+  if (f.seen.differences && f.seen.compared[i].difference.known) difference_scale(f);
   const float grow = f.open_buttons();
   if (i < f.seen.put_aside) difference_button(f, grow);
   f.measure_button(grow);
@@ -92,8 +88,7 @@ class Columns {
     for (std::size_t i = 0; i < count; ++i) {
       Node column = f.grown(f.box(Flow::Column, 6));
       const auto in_column = f.tree.inside(column);
-      f.tree.leaf(f.text(is_now(i) ? std::string_view(f.tr("Now")) : name_of(i), type::kSmall, Weight::Bold,
-                         f.palette.ink, TextAlign::Centre));
+      f.tree.leaf(f.text(name_of(i), type::kSmall, Weight::Bold, f.palette.ink, TextAlign::Centre));
       picture(i);
     }
   }
@@ -120,14 +115,16 @@ class Columns {
   bool is_now(std::size_t i) const { return i == f.seen.put_aside; }
   bool labels_above() const { return f.portrait || f.text_share > 1.2F; }
   const R& result(std::size_t i) const { return f.seen.compared[i].result; }
-  std::string_view name_of(std::size_t i) const { return f.number(double(i + 1)); }
+  std::string_view name_of(std::size_t i) const {
+    return is_now(i) ? std::string_view(f.tr("Now")) : f.number(double(i + 1));
+  }
 
   // What stands over the labels.
   void beside_pictures() {
     Node words = f.grown(f.box(Flow::Column, space::kS), label_share());
     const auto in_words = f.tree.inside(words);
     f.tree.leaf(f.text(title_of(f.tr, f.seen.stage), type::kSmall, Weight::Bold, f.palette.ink));
-    f.tree.leaf(f.text(how(), 18, Weight::Regular, f.palette.ink_soft));
+    f.note(how(), 18);
   }
   const char* how() const {
     if (count == kCompared) return f.tr("Four stand side by side: drop one to put another beside them.");
@@ -141,8 +138,8 @@ class Columns {
 
   void picture(std::size_t i) {
     const TechnicianCompared& one = f.seen.compared[i];
-    const std::string_view spoken = is_now(i) ? std::string_view(f.tr("Now")) : name_of(i);
-    const auto slot = static_cast<PictureSlot>(std::size_t(PictureSlot::TechnicianLeft) + i);
+    const std::string_view spoken = name_of(i);
+    const PictureSlot slot = f.slot_of(i);
     const std::string_view id = is_now(i) ? "present picture" : f.id("kept picture", i);
     const Action alone = one.model != nullptr ? Action(ActionKind::StaffMode, std::int32_t(i + 1)) : Action();
     if (shows_difference(i)) {
@@ -286,18 +283,15 @@ class Columns {
     for (std::size_t i = 0; i < kStages; ++i)
       figure(f.id("seconds", i), work_of(f.tr, i), 2, "s", [i](const R& r) { return r.seconds[i]; });
     figure("all matches", f.tr("Matches"), 0, "", [](const R& r) { return r.matches; });
-    const char* const made[] = {f.tr("Accepted matches"), f.tr("Points"), f.tr("Triangles"), f.tr("Texels"),
-                                f.tr("Landmarks")};
     for (std::size_t i = 0; i < kStages; ++i)
-      figure(f.id("count", i), made[i], 0, "", [i](const R& r) { return r.made[i]; });
+      figure(f.id("count", i), made_by(f.tr, i), 0, "", [i](const R& r) { return r.made[i]; });
     for (const FigureRow& one : kMeasures)
       figure(one.id, f.tr(one.label), one.decimals, one.unit, one.value, one.known);
   }
 };
 
 void buttons(TechnicianFrame& f, bool there) {
-  const bool busy = f.seen.phase == TechnicianPhase::Capturing || f.seen.phase == TechnicianPhase::Running;
-  if (busy) return;
+  if (f.busy()) return;
   const float grow = f.open_buttons();
   const bool room = f.seen.put_aside + 1 < kCompared;
   if (there) {

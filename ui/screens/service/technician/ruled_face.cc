@@ -31,12 +31,11 @@ void TechnicianFrame::face(float share, void (*tools)(TechnicianFrame&), float t
   card.box.radius = px(size::kRadius);
   const auto in_card = tree.inside(card);
   Node face = box(Flow::Column);
-  tell(face, Role::Picture, "face", tr("The model: turn it with a finger"));
+  tell(face, Role::Picture, "face", tr("The model: turn it with a finger"), {ActionKind::TurnFace, 0});
   face.mark = Mark::Face;
   face.ruled = true;
   face.covered_px = px(tools_dp);
   face.box.radius = px(size::kRadius);
-  face.action = {ActionKind::TurnFace, 0};
   tree.leaf(face);
   ruler();
   if (tools != nullptr) {
@@ -69,17 +68,13 @@ void TechnicianFrame::ruler() {
   tree.mark({{mirrored() ? 1 - from - long_share : from, y, long_share, 0}, kScale, px(kScaleDp), false});
   Node words = box(Flow::Column, 4, kMargin, kMargin + kScaleDp + 2);
   const auto in_words = tree.inside(words);
-  Node length = text(number(double(mm), 0, "mm"), 18, Weight::Medium, kScale);
-  length.id = "scale";
-  tree.leaf(length);
+  put("scale", Role::Text, text(number(double(mm), 0, "mm"), 18, Weight::Medium, kScale));
   if (ruler.on) {
     const bool both = ruler.count == 2;
-    Node said = text(both ? filled("{}: {}", {tr("Distance"), number(double(ruler.distance_mm()), 1, "mm")})
-                          : std::string_view(tr("Touch two points of the surface.")),
-                     type::kSmall, Weight::Medium, kScale);
-    said.id = "distance";
-    said.role = Role::Status;
-    tree.leaf(said);
+    put("distance", Role::Status,
+        text(both ? filled("{}: {}", {tr("Distance"), number(double(ruler.distance_mm()), 1, "mm")})
+                  : std::string_view(tr("Touch two points of the surface.")),
+             type::kSmall, Weight::Medium, kScale));
   }
 }
 

@@ -28,23 +28,19 @@ bool makes_pairs(const TechnicianFrame& f) {
 void tabs(TechnicianFrame& f) {
   const bool narrow = f.portrait && f.text_share > 1.2F;  // for long words
   const std::size_t across = narrow ? 3 : f.across(kTechnicianStages);
-  for (std::size_t first = 0; first < kTechnicianStages; first += across) {
-    const auto in_box = f.tree.inside(f.box(Flow::Row, 6));
-    for (std::size_t i = first; i < std::min(first + across, kTechnicianStages); ++i) {
-      const auto stage = static_cast<TechnicianStage>(i);
-      const bool chosen = stage == f.seen.stage;
-      Node tab = f.grown(f.box(Flow::Row, 0, 4, 4));
-      tell(tab, Role::Button, f.id("stage", i), title_of(f.tr, stage),
-           technician_action(ShowStage{static_cast<TechnicianStage>(i)}));
-      centre(tab);
-      frame(tab, chosen ? f.palette.accent : f.palette.quiet,
-            chosen ? f.palette.accent : f.palette.quiet_border, f.px(2), f.px(14));
-      tab.box.min_height = f.px(size::kStaffTarget);
-      const auto in_tab = f.tree.inside(tab);
-      f.tree.leaf(f.text(title_of(f.tr, stage), f.portrait ? 16 : 17, chosen ? Weight::Bold : Weight::Medium,
-                         chosen ? f.palette.accent_ink : f.palette.link, TextAlign::Centre));
-    }
-  }
+  f.in_rows(kTechnicianStages, across, 6, [&](std::size_t i) {
+    const auto stage = static_cast<TechnicianStage>(i);
+    const bool chosen = stage == f.seen.stage;
+    Node tab = f.grown(f.box(Flow::Row, 0, 4, 4));
+    tell(tab, Role::Button, f.id("stage", i), title_of(f.tr, stage), technician_action(ShowStage{stage}));
+    centre(tab);
+    frame(tab, chosen ? f.palette.accent : f.palette.quiet,
+          chosen ? f.palette.accent : f.palette.quiet_border, f.px(2), f.px(14));
+    tab.box.min_height = f.px(size::kStaffTarget);
+    const auto in_tab = f.tree.inside(tab);
+    f.tree.leaf(f.text(title_of(f.tr, stage), f.portrait ? 16 : 17, chosen ? Weight::Bold : Weight::Medium,
+                       chosen ? f.palette.accent_ink : f.palette.link, TextAlign::Centre));
+  });
 }
 
 void pin_pairs(TechnicianFrame& f, std::size_t side) {
@@ -61,8 +57,7 @@ void pair_pictures(TechnicianFrame& f) {
     Action action{}, dragged{};
     if (touchable) action = technician_action(TouchPicture{side != 0, false});
     if (makes_pairs(f)) dragged = technician_action(TouchPicture{side != 0, true});
-    f.open_picture(side == 0 ? "left" : "right", side == 0 ? f.tr("Left camera") : f.tr("Right camera"),
-                   f.seen.shown[side], side == 0 ? PictureSlot::TechnicianLeft : PictureSlot::TechnicianRight,
+    f.open_picture(side == 0 ? "left" : "right", f.camera_name(side), f.seen.shown[side], f.slot_of(side),
                    action, dragged);
     if (f.seen.stage != TechnicianStage::Input) {
       for (int i = 1; i < kLines; ++i) f.pin_line(float(i) / kLines, kFaint, 1);
@@ -72,7 +67,7 @@ void pair_pictures(TechnicianFrame& f) {
     if (touchable && point.touched) f.pin_line(point.y, kTouched, 2);
     if (touchable && point.touched && side == 0) f.pin_dot(point.left_x, point.y, kTouched, "left mark");
     if (touchable && point.matched && side == 1) f.pin_dot(point.right_x, point.y, kTouched, "right mark");
-    f.close_picture();
+    f.tree.close();
   }
 }
 
@@ -80,12 +75,12 @@ void one_picture(TechnicianFrame& f) {
   Node row = f.grown(f.box(Flow::Row, space::kS), f.picture_share(2.4F));
   const auto in_row = f.tree.inside(row);
   f.open_picture("picture", title_of(f.tr, f.seen.stage), f.seen.shown[0], PictureSlot::TechnicianLeft);
-  f.close_picture();
+  f.tree.close();
   if (!f.seen.shown[1].pixels.empty()) {
     const bool poses = f.seen.stage == TechnicianStage::Poses;
     f.open_picture("change", poses ? f.tr("Difference") : f.tr("Surface moved"), f.seen.shown[1],
                    PictureSlot::TechnicianRight);
-    f.close_picture();
+    f.tree.close();
   }
 }
 
@@ -101,13 +96,11 @@ std::string_view plus_minus(TechnicianFrame& f, double value, double sigma, int 
 void point_rows(TechnicianFrame& f) {
   const TechnicianPoint& point = f.seen.point;
   if (!point.touched) {
-    f.tree.leaf(f.text(
+    return f.note(
         f.seen.by_hand
             ? f.tr(
                   "Touch a point in the left picture. Its partner is proposed in the right one: touch or drag to correct it.")
-            : f.tr("Touch the left picture: the line and the match of that point are shown."),
-        type::kSmall, Weight::Regular, f.palette.ink_soft));
-    return;
+            : f.tr("Touch the left picture: the line and the match of that point are shown."));
   }
   f.row("point left", f.tr("Left camera"), coordinates(f, point.left_px));
   if (point.waits_for_right) {
@@ -115,10 +108,7 @@ void point_rows(TechnicianFrame& f) {
                        Weight::Medium, f.palette.ink));
     return;
   }
-  if (!point.matched) {
-    f.row("point none", f.tr("No match here"), {}, Mood::Warn);
-    return;
-  }
+  if (!point.matched) return f.row("point none", f.tr("No match here"), {}, Mood::Warn);
   if (point.new_surface) f.row("point moved", f.tr("New surface"), f.tr("yes"), Mood::Good);
   else if (!std::isnan(point.moved_mm))
     f.row("point moved", f.tr("Surface came nearer by"), f.number(double(point.moved_mm), 2, "mm"));
@@ -134,12 +124,6 @@ void point_rows(TechnicianFrame& f) {
   f.row("point sigma", f.tr("Depth uncertainty"), f.number(double(point.sigma_mm), 3, "mm"));
 }
 
-void scale_words(TechnicianFrame& f, float full_colour_mm) {
-  f.tree.leaf(f.text(f.filled(f.tr("Red is nearer, blue farther; white agrees. Full colour: {}."),
-                              f.number(double(full_colour_mm), 2, "mm")),
-                     type::kSmall, Weight::Regular, f.palette.ink_soft));
-}
-
 void change_rows(TechnicianFrame& f) {
   if (f.seen.pairs.empty()) return;
   f.rule();
@@ -149,18 +133,14 @@ void change_rows(TechnicianFrame& f) {
   f.row("moved", f.tr("Surface moved"), f.number(double(change.moved_mm2), 0, "mm²"));
   f.row("new", f.tr("New surface"), f.number(double(change.new_mm2), 0, "mm²"));
   f.row("farthest", f.tr("Largest move"), f.number(double(change.farthest_mm), 2, "mm"));
-  if (f.seen.stage == TechnicianStage::Mesh) scale_words(f, change.full_colour_mm);
+  if (f.seen.stage == TechnicianStage::Mesh) f.scale_words(change.full_colour_mm);
 }
 
 // How each pose was turned, and by how much it differs from each of the others.
 void pose_rows(TechnicianFrame& f) {
-  if (f.seen.pose_count == 0) {
-    f.tree.leaf(f.text(
-        f.tr(
-            "Turn the head a little and add a side, up to six times; then calculate again: all become one head."),
-        type::kSmall, Weight::Regular, f.palette.ink_soft));
-    return;
-  }
+  if (f.seen.pose_count == 0)
+    return f.note(f.tr(
+        "Turn the head a little and add a side, up to six times; then calculate again: all become one head."));
   for (std::size_t b = 0; b < f.seen.pose_count; ++b) {
     const TechnicianPose& pose = f.seen.poses[b];
     const auto number = [&](std::size_t of) { return f.number(double(of + 1)); };
@@ -171,7 +151,7 @@ void pose_rows(TechnicianFrame& f) {
         f.row(f.id(f.id("agrees", b), a), f.left_to_right({number(b), "\u00a0–\u00a0", number(a)}),
               f.number(double(pose.rms_mm[a]), 3, "mm"));
   }
-  scale_words(f, f.seen.full_residual_mm);
+  f.scale_words(f.seen.full_residual_mm);
 }
 
 void pair_buttons(TechnicianFrame& f) {
@@ -192,17 +172,14 @@ void rule_rows(TechnicianFrame& f) {
   f.section(f.tr("Rejected by"));
   for (std::size_t i = 0; i < r.rule_count; ++i) {
     const TechnicianRule& rule = r.rules[i];
-    Node row = f.box(Flow::Row, space::kS, 0, 6);
+    Node row = f.row_box(space::kS, 0, 6);
     row.id = f.id("rule", i);
-    row.box.align = Align::Centre;
     const auto in_row = f.tree.inside(row);
     Node patch = f.sized(f.box(Flow::Column), 26, 26);
     patch.box.fill = {rule.rgb[0], rule.rgb[1], rule.rgb[2], 255};
     patch.box.radius = f.px(6);
     f.tree.leaf(patch);
-    f.tree.open(f.grown(f.box(Flow::Column)));
-    f.tree.leaf(f.text(f.rule_name(rule.name), type::kSmall, Weight::Medium, f.palette.ink));
-    f.tree.close();
+    f.wide(f.text(f.rule_name(rule.name), type::kSmall, Weight::Medium, f.palette.ink));
     f.tree.leaf(f.text(f.number(double(rule.rejected)), type::kSmall, Weight::Regular, f.palette.ink_soft));
   }
 }
@@ -224,12 +201,10 @@ void sigma_plot(TechnicianFrame& f) {
 
 void time_rows(TechnicianFrame& f) {
   const TechnicianResult& r = f.seen.result;
-  const char* const made[] = {f.tr("Accepted matches"), f.tr("Points"), f.tr("Triangles"), f.tr("Texels"),
-                              f.tr("Landmarks")};
   for (std::size_t i = 0; i < r.seconds.size(); ++i) {
     f.section(work_of(f.tr, i));
     f.row(f.id("time", i), f.tr("Time"), f.number(double(r.seconds[i]), 2, "s"));
-    f.row(f.id("made", i), made[i], f.number(double(r.made[i])));
+    f.row(f.id("made", i), made_by(f.tr, i), f.number(double(r.made[i])));
   }
 }
 

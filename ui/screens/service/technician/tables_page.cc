@@ -16,18 +16,11 @@ namespace {
 
 void switches(TechnicianFrame& f) {
   const FaceLook& look = f.visit.look;
-  struct Switch {
-    std::string_view id;
-    const char* label;
-    bool on;
-    ActionKind kind;
-  };
-  const Switch all[] = {{"points", f.tr("Points"), look.points, ActionKind::LookPoints},
-                        {"edges", f.tr("Edges"), look.edges, ActionKind::LookEdges},
-                        {"fill", f.tr("Surface"), look.fill, ActionKind::LookFill},
-                        {"texture", f.tr("Texture"), look.textured, ActionKind::ShowShape},
-                        {"lit", f.tr("Light"), look.lit, ActionKind::LookLight}};
-  for (const Switch& one : all) f.choice(one.id, one.label, one.on, {one.kind, 0}, 0);
+  f.choice("points", f.tr("Points"), look.points, {ActionKind::LookPoints, 0}, 0);
+  f.choice("edges", f.tr("Edges"), look.edges, {ActionKind::LookEdges, 0}, 0);
+  f.choice("fill", f.tr("Surface"), look.fill, {ActionKind::LookFill, 0}, 0);
+  f.choice("texture", f.tr("Texture"), look.textured, {ActionKind::ShowShape, 0}, 0);
+  f.choice("lit", f.tr("Light"), look.lit, {ActionKind::LookLight, 0}, 0);
 }
 
 void hands(TechnicianFrame& f) {
@@ -35,11 +28,7 @@ void hands(TechnicianFrame& f) {
   row.box.justify = Justify::Centre;
   row.box.left_to_right = true;  // as on the page where a visitor looks at it
   const auto in_row = f.tree.inside(row);
-  f.square_button("turn_left", f.tr("Turn left"), icon::kTurnLeft, {ActionKind::TurnLeft, 0});
-  f.square_button("turn_right", f.tr("Turn right"), icon::kTurnRight, {ActionKind::TurnRight, 0});
-  f.square_button("zoom_out", f.tr("Smaller"), icon::kZoomOut, {ActionKind::ZoomOut, 0});
-  f.square_button("zoom_in", f.tr("Larger"), icon::kZoomIn, {ActionKind::ZoomIn, 0});
-  f.square_button("light", f.tr("Move the light"), icon::kSun, {ActionKind::MoveLight, 0});
+  f.turning_tools();
 }
 
 }  // namespace
@@ -146,14 +135,11 @@ void technician_tables_page(TechnicianFrame& f) {
   const ListFilters filters = filters_of(f, names);
   if (list_choice(f, rows.place, filters)) return;
   const std::size_t across = f.portrait || f.text_share > 1.2F ? 2 : kTechnicianTables;
-  for (std::size_t first = 0; first < kTechnicianTables; first += across) {
-    const auto in_box = f.tree.inside(f.box(Flow::Row, space::kXs));
-    for (std::size_t i = first; i < std::min(first + across, kTechnicianTables); ++i) {
-      const auto table = static_cast<TechnicianTable>(i);
-      f.choice(f.id("table", i), one_of(f.tr, kTableNames, table), rows.table == table,
-               technician_action(ShowTable{static_cast<TechnicianTable>(i)}));
-    }
-  }
+  f.in_rows(kTechnicianTables, across, space::kXs, [&](std::size_t i) {
+    const auto table = static_cast<TechnicianTable>(i);
+    f.choice(f.id("table", i), one_of(f.tr, kTableNames, table), rows.table == table,
+             technician_action(ShowTable{table}));
+  });
   if (rows.cells.empty() && (rows.table != TechnicianTable::Calibration || !f.seen.calibrated)) {
     if (f.capture_state()) {
       if (rows.place.filter > 0) list_pager(f, rows.place, filters);

@@ -16,16 +16,20 @@ constexpr std::array kStageTitles{mark_tr("Pictures"), mark_tr("Processed"), mar
                                   mark_tr("Surface"),  mark_tr("Texture"),   mark_tr("Poses")};
 static_assert(kStageTitles.size() == std::size_t(TechnicianStage::Count));
 
+constexpr std::array<const char*, kStages> kWorks{mark_tr("Matching"), mark_tr("Reconstruction"),
+                                                  mark_tr("Surface"), mark_tr("Texture"), mark_tr("Model")},
+    kMade{mark_tr("Accepted matches"), mark_tr("Points"), mark_tr("Triangles"), mark_tr("Texels"),
+          mark_tr("Landmarks")};
+
 }  // namespace
 
 const char* title_of(const Words& tr, TechnicianStage stage) { return one_of(tr, kStageTitles, stage); }
 
+// Beyond the last stage poses are fused: that, too, makes the model.
 const char* work_of(const Words& tr, std::size_t stage) {
-  if (stage == 0) return tr("Matching");
-  if (stage == 1) return tr("Reconstruction");
-  if (stage == 2) return tr("Surface");
-  return stage == 3 ? tr("Texture") : tr("Model");
+  return one_of(tr, kWorks, std::min(stage, kStages - 1));
 }
+const char* made_by(const Words& tr, std::size_t stage) { return one_of(tr, kMade, stage); }
 
 namespace {
 
@@ -58,14 +62,10 @@ std::string_view TechnicianFrame::rule_name(std::string_view key) {
   return key == "statistical" ? std::string_view(tr("Statistics of the neighbours")) : key;
 }
 
-std::string_view TechnicianFrame::breakable(std::string_view names) const {
-  const std::string_view first = tree.keep({});
-  std::size_t length = 0;
-  for (const char& c : names) {
-    length += tree.keep({&c, 1}).size();
-    if (c == '.' || c == '_' || c == '+') length += tree.keep("\u200b").size();
-  }
-  return {first.data(), length};
+void TechnicianFrame::scale_words(float full_colour_mm, float size) {
+  note(filled(tr("Red is nearer, blue farther; white agrees. Full colour: {}."),
+              number(double(full_colour_mm), 2, "mm")),
+       size);
 }
 
 float TechnicianFrame::open_buttons() {
@@ -90,18 +90,15 @@ void TechnicianFrame::open_picture(std::string_view id, std::string_view spoken,
   frame.box.radius = px(12);
   tree.open(frame);
   Node image = box(Flow::Column);
-  tell(image, Role::Picture, id, spoken);
+  tell(image, Role::Picture, id, spoken, action);
   if (!picture.pixels.empty()) {
     image.mark = Mark::Image;
     image.picture = slot;
   }
   image.box.radius = px(12);
-  image.action = action;
   image.dragged = dragged;
   tree.leaf(image);
 }
-
-void TechnicianFrame::close_picture() { tree.close(); }
 
 void TechnicianFrame::pin_line(float y, Colour colour, float thick_dp) {
   Node line = box(Flow::Column);
@@ -130,18 +127,14 @@ namespace {
 // Beside each other the surfaces of the stage; alone, in mode 1 and on, whatever there is of that result.
 void fill_compared(DrawList& list, const TechnicianView& view, int mode) {
   static_assert(kCompared == kFaces);
-  const auto face_of = [&](const TechnicianCompared& one) {
-    const TechnicianDifference& d = one.difference;
-    if (!view.differences || !d.known || d.colours == nullptr)
-      return Face{one.model, nullptr, one.model_number, nullptr};
-    return Face{one.model, nullptr, d.number, d.colours};
-  };
   const std::size_t alone = std::size_t(std::max(0, mode));
   for (std::size_t i = 0; i < kCompared; ++i) {
     const TechnicianCompared& one = view.compared[i];
-    if (alone == 0 && one.model != nullptr && is_turned(view.stage))
-      list.faces[i] = {one.model, nullptr, one.model_number, nullptr};
-    if (alone == i + 1 && one.model != nullptr) list.faces[0] = face_of(one);
+    if (one.model == nullptr || (alone == 0 ? !is_turned(view.stage) : alone != i + 1)) continue;
+    const TechnicianDifference& d = one.difference;
+    if (alone > 0 && view.differences && d.known && d.colours != nullptr)
+      list.faces[0] = {one.model, nullptr, d.number, d.colours};
+    else list.faces[alone == 0 ? i : 0] = {one.model, nullptr, one.model_number, nullptr};
   }
   list.face_look.textured = view.stage == TechnicianStage::Texture || list.faces[0].colours != nullptr;
   list.face_look.fill = true;
@@ -154,7 +147,7 @@ bool fill_technician_pictures(DrawList& list, const TechnicianView& view, const 
                               const Service& service) {
   const StaffPage page = service.page;
   const auto put = [&list](std::size_t place, const TechnicianPicture& picture) {
-    list.pictures[std::size_t(PictureSlot::TechnicianLeft) + place] = {picture.pixels, picture.version};
+    list.pictures[std::size_t(TechnicianFrame::slot_of(place))] = {picture.pixels, picture.version};
   };
   const auto show = [&put](const TechnicianPicture& left, const TechnicianPicture& right) {
     put(0, left);
@@ -181,7 +174,7 @@ bool fill_technician_pictures(DrawList& list, const TechnicianView& view, const 
   return page >= StaffPage::Stages && page <= StaffPage::Calibrate;
 }
 
-void TechnicianFrame::problem(const Fault& fault) {
+void TechnicianFrame::problem(const FaultView& fault) {
   if (!fault.empty()) alert(words_of(tr, fault.code), fault.detail);
 }
 
@@ -192,15 +185,12 @@ void TechnicianFrame::failure() {
 }
 
 void TechnicianFrame::alert(std::string_view words, std::string_view detail) {
-  Node row = box(Flow::Row, space::kS, 0, 8);
-  row.id = "problem";
-  row.role = Role::Status;
-  row.box.align = Align::Centre;
+  Node row = row_box(space::kS, 0, 8);
+  tell(row, Role::Status, "problem", {});
   const auto in_row = tree.inside(row);
   sign(icon::kAlert, 26, palette.bad);
   const auto in_box = tree.inside(grown(box(Flow::Column)));
-  Node said = text(words, 18, Weight::Regular, palette.bad);
-  tree.leaf(said);
+  tree.leaf(text(words, 18, Weight::Regular, palette.bad));
   tree.leaf(english(detail, 17));
 }
 
@@ -224,7 +214,7 @@ bool TechnicianFrame::capture_state() {
   Node room = grown(box(Flow::Column, space::kM, space::kXl, 0));
   room.box.justify = Justify::Centre;
   tree.open(room);
-  if (seen.phase == TechnicianPhase::Empty || seen.phase == TechnicianPhase::Failed) {
+  if (!busy()) {
     heading("nothing", tr("No test capture yet"), type::kHeading, TextAlign::Centre);
     body("nothing words",
          tr("It is looked at stage by stage and belongs to nobody: when you leave, it is wiped."),
@@ -234,9 +224,7 @@ bool TechnicianFrame::capture_state() {
         "working",
         seen.phase == TechnicianPhase::Capturing ? tr("One moment, please") : work_of(tr, seen.working_on),
         type::kHeading, TextAlign::Centre);
-    const float done =
-        seen.phase == TechnicianPhase::Capturing ? 0 : (float(seen.working_on) + seen.progress) / kStages;
-    progress("run progress", done);
+    progress("run progress", done());
   }
   tree.close();
   return false;
@@ -248,12 +236,12 @@ void TechnicianFrame::stick_buttons() {
     small_button("stop recording", tr("Stop"), icon::kClose, ButtonLook::Main, TechnicianAct::StopRecording,
                  grow);
   } else {
-    if (seen.can_record)
+    if (seen.can_record) {
       small_button("record", tr("Record on the stick"), icon::kDisk, ButtonLook::Quiet, TechnicianAct::Record,
                    grow);
-    if (seen.can_record)
       small_button("save", tr("Save on the stick"), icon::kDisk, ButtonLook::Quiet, TechnicianAct::Save,
                    grow);
+    }
     small_button("list saved", tr("Load from the stick"), icon::kDisk, ButtonLook::Quiet,
                  TechnicianAct::ListSaved, grow);
   }
@@ -262,7 +250,7 @@ void TechnicianFrame::stick_buttons() {
 
 void TechnicianFrame::stick_state() {
   const TechnicianRecording& r = seen.recording;
-  if (seen.phase == TechnicianPhase::Capturing || seen.phase == TechnicianPhase::Running) return;
+  if (busy()) return;
   if (r.running) return progress("record progress", r.progress);
   if (r.outcome != Outcome::Done) return outcome(r.outcome);
   status("recorded", filled(tr("Recorded on the stick as {}. It can be pulled out."), left_to_right(r.where)),
@@ -289,11 +277,10 @@ void TechnicianFrame::saved_list(bool beside) {
 }
 
 void TechnicianFrame::capture_buttons(bool with_run, bool with_stick) {
-  const bool busy = seen.phase == TechnicianPhase::Capturing || seen.phase == TechnicianPhase::Running;
-  if (with_stick && !busy) stick_buttons();
+  if (with_stick && !busy()) stick_buttons();
   if (!seen.calibrated) return;
   const float grow = open_buttons();
-  if (busy) {
+  if (busy()) {
     small_button("stop", tr("Stop"), icon::kClose, ButtonLook::Main, TechnicianAct::Stop, grow);
   } else {
     const bool there = seen.result.there;

@@ -27,8 +27,6 @@ class TechnicianFrame : public StaffFrame {
   std::string_view several(std::initializer_list<double> values, int decimals, const char* unit_name);
   // What a rule for matches is called (pipeline/algorithms); a name nobody knows, as it is.
   std::string_view rule_name(std::string_view key);
-  // Names of algorithms and options, which may be divided where their parts meet.
-  std::string_view breakable(std::string_view names) const;
   // Buttons beside each other, or below where large words stand upright. Gives the share each of them grows
   // by.
   float open_buttons();
@@ -41,16 +39,28 @@ class TechnicianFrame : public StaffFrame {
   void choice(std::string_view id, std::string_view label, bool chosen, Action action, float grow = 1);
   // Pages whose words are large, or narrow ones, put less beside each other.
   std::size_t across(std::size_t most) const { return portrait || text_share > 1.2F ? (most + 1) / 2 : most; }
+  // An explanation among the figures, or in their place.
+  void note(std::string_view words, float size = type::kSmall) {
+    tree.leaf(text(words, size, Weight::Regular, palette.ink_soft));
+  }
+  // What the colours of a difference say.
+  void scale_words(float full_colour_mm, float size = type::kSmall);
+  // Camera 0 is the left one, 1 the right one.
+  const char* camera_name(std::size_t side) const {
+    return side == 0 ? tr("Left camera") : tr("Right camera");
+  }
+  static PictureSlot slot_of(std::size_t place) {
+    return static_cast<PictureSlot>(std::size_t(PictureSlot::TechnicianLeft) + place);
+  }
   // How much wider than the figures beside them pictures are: large words take room from them.
   float picture_share(float usual) const {
     return portrait ? 1.0F : text_share > 1.2F ? usual * 0.65F : usual;
   }
 
-  // A dark card of the picture's shape in the room there is; what comes until close_picture() can be pinned
+  // A dark card of the picture's shape in the room there is; what comes until Tree::close() can be pinned
   // to it (Node::pinned). Touched, `action` says where; `dragged` as in Node.
   void open_picture(std::string_view id, std::string_view spoken, const TechnicianPicture& picture,
                     PictureSlot slot, Action action = {}, Action dragged = {});
-  void close_picture();
   // The page's model on a dark card, with its scale and the distance of two touched points; `tools` lie on
   // its lower end.
   void face(float share, void (*tools)(TechnicianFrame&), float tools_dp);
@@ -63,13 +73,18 @@ class TechnicianFrame : public StaffFrame {
   // The way into every page that needs a capture: nothing there, under way, or what went wrong; true when
   // there is a result to be shown below it.
   bool capture_state();
-  // In their place while there is no calibration: what to do first.
-  void uncalibrated();
+  // Something is under way that the pages wait for; how much of it is done.
+  bool busy() const {
+    return seen.phase == TechnicianPhase::Capturing || seen.phase == TechnicianPhase::Running;
+  }
+  float done() const {
+    return seen.phase == TechnicianPhase::Running ? (float(seen.working_on) + seen.progress) / kStages : 0;
+  }
   // The buttons under the pages of the test capture.
   // `with_stick`: also those between the reconstruction and the stick.
   void capture_buttons(bool with_run, bool with_stick = false);
-  void problem(const Fault& fault);  // empty: nothing is shown
-  void failure();                    // of the present result's stages
+  void problem(const FaultView& fault);  // empty: nothing is shown
+  void failure();                        // of the present result's stages
   // The reconstructions on the stick, in place of the page: a touch loads one, `beside` the present one.
   void saved_list(bool beside);
   // What becomes of a recording, above the buttons that lead on.
@@ -77,6 +92,7 @@ class TechnicianFrame : public StaffFrame {
 
  private:
   void ruler();
+  void uncalibrated();  // what to do first
   void alert(std::string_view words, std::string_view detail);
   void stick_buttons();
 };
@@ -86,7 +102,9 @@ const char* title_of(const Words& tr, TechnicianStage stage);
 inline bool is_turned(TechnicianStage stage) {
   return stage == TechnicianStage::Mesh || stage == TechnicianStage::Texture;
 }
-const char* work_of(const Words& tr, std::size_t stage);  // of kStages
+// Of kStages: what it does; what it makes.
+const char* work_of(const Words& tr, std::size_t stage);
+const char* made_by(const Words& tr, std::size_t stage);
 
 // The pictures and the model of these pages; false where `page` is none of them.
 bool fill_technician_pictures(DrawList& list, const TechnicianView& view, const Visit& visit,
