@@ -2,39 +2,21 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "firmware/appliance/appliance.h"
 
-#include <string.h>
-
+#include <algorithm>
 #include <utility>
 
 #include "firmware/base/budget.h"
 #include "hal/base/assert.h"
+#include "ui/device/settings.h"
 
 namespace relievo::firmware {
 namespace {
 
 // Is the machine broken, or was it only this picture?
 bool is_fault(Errc code) {
-  switch (code) {
-    case Errc::Disconnected:
-    case Errc::NotCalibrated:
-    case Errc::InvalidState:
-    case Errc::StoreCorrupt:
-    case Errc::StoreNewer: return true;
-    case Errc::InvalidInput:
-    case Errc::NotFound:
-    case Errc::Timeout:
-    case Errc::NoFace:
-    case Errc::TooFewMatches:
-    case Errc::PoorGeometry:
-    case Errc::LibraryFailed:
-    case Errc::OutOfMemory:
-    case Errc::MediaMissing:
-    case Errc::MediaFull:
-    case Errc::IoFailed:
-    case Errc::Cancelled:
-    case Errc::Unsupported: break;
-  }
-  return false;
+  constexpr std::array kFaults{Errc::Disconnected, Errc::NotCalibrated, Errc::InvalidState,
+                               Errc::StoreCorrupt, Errc::StoreNewer};
+  return std::ranges::find(kFaults, code) != kFaults.end();
 }
 
 Event event_of(ui::Intent intent) {
@@ -76,7 +58,8 @@ Appliance::Appliance(Parts parts)
       capture_(reports_, "capture"),
       worker_(reports_, "worker"),
       keeper_(reports_, "keeper") {
-  records_.reserve(std::size_t(budget::kCaptureAttempts) * (kStages.size() + SidePairs::kPoses + 1));
+  const int most = std::ranges::max(ui::info_of(ui::Setting::Attempts).values);
+  records_.reserve(std::size_t(most) * (kStages.size() + SidePairs::kPoses + 1));
   has_judge_ = parts.judge != nullptr;
   start(capture_, open_cameras_);
 }
@@ -121,7 +104,7 @@ void Appliance::step(std::chrono::milliseconds wait) {
   if (machine_.limit_reached(now)) await_commit();
   if (const auto change = machine_.tick(now)) {
     if (change->to == State::Idle || change->to == State::Fault) {
-      note(Error{Errc::Timeout, "took longer than its limit: try again"}.at(name_of(change->from)));
+      problem_ = Error{Errc::Timeout, "took longer than its limit: try again"}.at(name_of(change->from));
     }
     entered(*change);
   }
@@ -132,8 +115,6 @@ void Appliance::step(std::chrono::milliseconds wait) {
 void Appliance::handle(Event event) {
   if (const auto change = machine_.handle(event, device_.clock().now())) entered(*change);
 }
-
-void Appliance::note(const Error& error) { problem_ = error; }
 
 void Appliance::note(const pipeline::DriftJudgement& drift) {
   drift_ = drift;
@@ -173,19 +154,13 @@ void Appliance::end_side_job(JobLane lane) {
   side_jobs_[std::size_t(lane)] = 0;
 }
 
-float Appliance::side_progress(JobLane lane) const {
-  const JobThread& thread = lane == JobLane::Capture ? capture_ : lane == JobLane::Worker ? worker_ : keeper_;
-  return side_jobs_[std::size_t(lane)] == 0 ? 0 : thread.progress();
-}
-
-void Appliance::heard_side(std::size_t lane, const JobReport& report) {
-  side_jobs_[lane] = 0;
-  if (side_listener_) side_listener_(static_cast<JobLane>(lane), report.error);
+float Appliance::side_progress(JobLane lane) {
+  return side_jobs_[std::size_t(lane)] == 0 ? 0 : thread_at(lane).progress();
 }
 
 // What a job could not do: is the machine broken, or can another try or an advice help?
 void Appliance::failed(const Error& error) {
-  note(error);
+  problem_ = error;
   const State state = machine_.state();
   const bool advise = attended_ && state != State::Position && state != State::Store && session_.is_open();
   handle(is_fault(error.code) || state == State::SelfTest ? Event::Failed
@@ -204,10 +179,12 @@ void Appliance::heard_head(const JobReport& report) {
 }
 
 void Appliance::heard(const JobReport& report) {
-  for (std::size_t i = 0; i < kJobLanes; ++i) {
-    if (report.job == side_jobs_[i] && report.job != 0) return heard_side(i, report);
+  if (const auto side = std::ranges::find(side_jobs_, report.job); side != side_jobs_.end()) {
+    *side = 0;
+    if (side_listener_) side_listener_(static_cast<JobLane>(side - side_jobs_.begin()), report.error);
+    return;
   }
-  if (report.job == head_job_ && report.job != 0) {
+  if (report.job == head_job_) {
     if (running_ == &worker_) running_ = nullptr, job_ = 0;
     return heard_head(report);
   }
@@ -217,7 +194,7 @@ void Appliance::heard(const JobReport& report) {
   if (looks_up_) {
     heard_answer();
     if (!report.error) return;
-    note(*report.error);
+    problem_ = report.error;
     if (is_fault(report.error->code)) handle(Event::Failed);
     return;
   }
@@ -283,7 +260,7 @@ bool Appliance::open_session() {
   records_.clear();
   const Result<void> opened = session_.open(record_.name.view());
   if (opened) return true;
-  note(opened.error());
+  problem_ = opened.error();
   handle(Event::Cancel);
   return false;
 }
@@ -391,6 +368,31 @@ void Appliance::entered(const Change& change) {
     case State::Count: break;
   }
   if (listener_) listener_(change);
+}
+
+void Appliance::look_at_progress() {
+  const hal::Instant now = device_.clock().now();
+  const State state = machine_.state();
+  if (is_stage(state)) making_.works_on(number_of(state), now);
+  else if (state == State::Turn || state == State::Fuse) making_.works_on(head_.parts_done(), now);
+  else if (state == State::Review || state == State::Store) making_.done();
+  else making_.begin();
+}
+
+// What has begun to be stored is stored whole or not at all: the visitor is told which, whatever would end
+// the state.
+void Appliance::await_commit() {
+  if (machine_.state() != State::Store || job_ == 0) return;
+  keeper_.cancel();
+  keeper_.wait_until_idle();
+  while (const auto report = reports_.take_for(std::chrono::milliseconds(0))) heard(*report);
+}
+
+void Appliance::give_up(const Error& error) {
+  await_commit();
+  if (!session_.is_open()) return;  // it was stored
+  problem_ = error;
+  handle(Event::Failed);
 }
 
 }  // namespace relievo::firmware

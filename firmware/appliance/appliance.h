@@ -72,7 +72,7 @@ class Appliance {
   // Does a person at the screen come to Turn after the frontal picture? Never without a judge and the memory.
   void ask_for_sides(bool asks) { asks_for_sides_ = asks; }
   // Of the job that runs while the head turns (HeadJob).
-  std::size_t parts_done() const;
+  std::size_t parts_done() const { return head_.parts_done(); }
   const std::optional<Error>& problem() const { return problem_; }
   // Of the last face that was matched: have the cameras moved?
   const std::optional<pipeline::DriftJudgement>& drift() const { return drift_; }
@@ -100,7 +100,7 @@ class Appliance {
   Result<void> start_side_job(JobLane lane, Job& job);
   void cancel_side_job(JobLane lane);
   void end_side_job(JobLane lane);  // waits until it has stopped; it is not reported any more
-  float side_progress(JobLane lane) const;
+  float side_progress(JobLane lane);
   void on_side_report(std::function<void(JobLane, const std::optional<Error>&)> listener) {
     side_listener_ = std::move(listener);
   }
@@ -126,13 +126,11 @@ class Appliance {
   void stop_job();
   void stop_head();
   JobThread& thread_at(JobLane lane);
-  void heard_side(std::size_t lane, const JobReport& report);
   void heard(const JobReport& report);
   void heard_head(const JobReport& report);
   void failed(const Error& error);
   void close_session();
   void heard_answer();
-  void note(const Error& error);
   void look_at_progress();
   void note(const pipeline::DriftJudgement& drift);
 

@@ -21,7 +21,8 @@ ui::Screen screen_of(State state) {
 }
 
 ui::Trouble trouble_of(const Error& problem, State state) {
-  if (state == State::Review || state == State::Store) return ui::Trouble::Storage;
+  if (state == State::Review || state == State::Store)
+    return problem.code == Errc::MediaFull ? ui::Trouble::StorageFull : ui::Trouble::Storage;
   if (state == State::Fault && problem.code == Errc::OutOfMemory) return ui::Trouble::Other;
   switch (problem.code) {
     case Errc::Disconnected: return ui::Trouble::Camera;
@@ -57,45 +58,27 @@ std::size_t pictures_done(const Appliance& appliance) {
 
 }  // namespace
 
-ui::LiveView live_of(const LivePicture& live) {
-  ui::LiveView view;
-  view.picture = live.picture;
-  view.number = live.number;
-  view.advice = live.guidance.advice;
-  view.face_x = float(live.guidance.face_x);
-  view.face_y = float(live.guidance.face_y);
-  view.ideal_width = float(live.guidance.ideal_width);
-  view.nearness = float(live.guidance.nearness);
-  view.yaw_deg = float(live.guidance.yaw_deg);
-  view.pitch_deg = float(live.guidance.pitch_deg);
-  view.roll_deg = float(live.guidance.roll_deg);
-  view.steady_s = float(live.guidance.steady_s);
-  if (const auto& turn = live.guidance.turn)
-    view.turn = ui::TurnView{turn->advice, float(turn->yaw_deg), turn->taken};
-  return view;
-}
-
 ui::ViewState view_of(Appliance& appliance) {
   ui::ViewState view;
   view.screen = screen_of(appliance.state());
   view.progress = appliance.progress();
   view.attempt = appliance.attempt();
   if (appliance.problem()) view.trouble = trouble_of(*appliance.problem(), appliance.state());
-  view.calibration_note = {Errc::NotCalibrated, std::string(appliance.calibration_note())};
+  view.calibration_note = {Errc::NotCalibrated, appliance.calibration_note()};
   if (!appliance.session().is_open()) return view;
-  view.live = live_of(appliance.live().newest());
+  view.live = appliance.live().newest();
   const StagePictures& pictures = appliance.session().stage_pictures();
   for (std::size_t i = 0; i < pictures_done(appliance); ++i) {
     if (pictures.number(i) != 0) view.stages[i] = {pictures.view(i), pictures.number(i)};
   }
   // While a job runs, the products are the worker's; before Review nothing of them is shown.
-  const bool at_rest = appliance.state() == State::Review || appliance.state() == State::Store;
-  if (!at_rest) return view;
+  if (appliance.state() != State::Review && appliance.state() != State::Store) return view;
   const Products& products = appliance.session().products();
   if (products.frame) view.frame = &*products.frame;
-  if (products.model) view.model = &*products.model;
-  if (view.model != nullptr)
-    view.model_number = appliance.session().stage_pictures().number(kStagePictures - 1) + 1;
+  if (products.model) {
+    view.model = &*products.model;
+    view.model_number = pictures.number(kStagePictures - 1) + 1;
+  }
   return view;
 }
 

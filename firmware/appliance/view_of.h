@@ -10,8 +10,6 @@
 
 namespace relievo::firmware {
 
-// The newest picture and what is said of it.
-ui::LiveView live_of(const LivePicture& live);
 ui::ViewState view_of(Appliance& appliance);
 
 }  // namespace relievo::firmware

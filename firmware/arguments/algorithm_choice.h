@@ -14,13 +14,11 @@
 
 namespace relievo::firmware {
 
-// Two whole numbers in one word of a command: "1280x800", "-16:256". Thread: any.
-
 struct TwoNumbers {
   int first = 0, second = 0;
 };
-
-// Nothing where `text` is anything but two numbers that an int holds, with `between` between them.
+// Two whole numbers in one word of a command: "1280x800", "-16:256". Nothing where `text` is anything but two
+// numbers that an int holds, with `between` between them.
 std::optional<TwoNumbers> two_numbers(std::string_view text, char between);
 
 // What is in the files that the options name, as far as it is not there. Errors: read_whole_file()'s.

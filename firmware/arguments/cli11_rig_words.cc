@@ -102,8 +102,7 @@ CLI::Option* add_live(CLI::App& command, CalibrateLiveArgs& args) {
   number(command, "--goal-mm", args.goal_mm, within(0.001, 100),
          "of --live: the depth error at 560 mm to reach, one standard deviation")
       ->needs(live);
-  command.add_option("--seed", args.seed, "of --live: another number, another simulated rig and hand")
-      ->capture_default_str()
+  number(command, "--seed", args.seed, "of --live: another number, another simulated rig and hand")
       ->needs(live);
   return live;
 }
@@ -129,21 +128,13 @@ void add_simulated_board(CLI::App& command, SimulateArgs& args) {
 void add_held_picture(CLI::App& command, HeldPictureArgs& args) {
   word(command, "picture", args.picture, "PICTURE", "what is held: a photograph of a face, PNG or JPEG")
       ->required();
-  command.add_option("--width-mm", args.width_mm, "of the picture as it is held; its height follows")
-      ->capture_default_str();
-  command
-      .add_option("--radius-mm", args.radius_mm,
-                  "bent: 30 or more towards the cameras, -30 or less away; 0 flat")
-      ->capture_default_str();
-  command
-      .add_option("--axis", args.axis_deg, "of the bend: 0 as on a column, 90 as on a lying roll, degrees")
-      ->capture_default_str();
-  command.add_option("--apex-mm", args.apex_mm, "bent to a cone with its apex this far away; 0 a roll")
-      ->capture_default_str();
-  command.add_option("--wave-mm", args.wave_mm, "bent to and fro, a wave this long; 0 one way")
-      ->capture_default_str();
-  command.add_option("--gloss", args.gloss, "share of the lamps' light that it mirrors: 0 matt, 0.04 glass")
-      ->capture_default_str();
+  number(command, "--width-mm", args.width_mm, "of the picture as it is held; its height follows");
+  number(command, "--radius-mm", args.radius_mm,
+         "bent: 30 or more towards the cameras, -30 or less away; 0 flat");
+  number(command, "--axis", args.axis_deg, "of the bend: 0 as on a column, 90 as on a lying roll, degrees");
+  number(command, "--apex-mm", args.apex_mm, "bent to a cone with its apex this far away; 0 a roll");
+  number(command, "--wave-mm", args.wave_mm, "bent to and fro, a wave this long; 0 one way");
+  number(command, "--gloss", args.gloss, "share of the lamps' light that it mirrors: 0 matt, 0.04 glass");
   command.add_flag("--screen", args.screen, "it shines by itself");
 }
 
@@ -231,16 +222,15 @@ void add_simulate(CLI::App& app, CommandArgs& chosen, SimulateArgs& args) {
     if (board) add_simulated_board(*sub, args);
     word(*sub, "-o,--output", args.output, "DIR", "folder for left*.png, right*.png and the true rig.yml")
         ->required();
-    sub->add_option("--seed", args.seed, "another number, another face, other poses")->capture_default_str();
+    number(*sub, "--seed", args.seed, "another number, another face, other poses");
     if (board) number(*sub, "--pairs", args.pairs, CLI::Range(1, 1000), "how many");
     number(*sub, "--scale", args.scale, within(0.1, 1), "size of the pictures");
     sub->add_flag("--portrait", args.portrait, "cameras turned upright: pictures higher than wide");
     const auto pose = [&args, sub](const char* name, double& value, double least, double most,
                                    const char* what) {
-      sub->add_option(name, value, what)
-          ->check(within(least, most))
-          ->capture_default_str()
-          ->each([&args](const std::string&) { args.one_pose = true; });
+      number(*sub, name, value, within(least, most), what)->each([&args](const std::string&) {
+        args.one_pose = true;
+      });
     };
     pose("--yaw", args.yaw_deg, -60, 60, "turn about the upright axis, degrees");
     pose("--pitch", args.pitch_deg, -45, 45, "nod, degrees");
@@ -266,7 +256,7 @@ void add_selftest(CLI::App& app, CommandArgs& chosen, SelfTestArgs& args) {
                         "measure known spheres and plates through the whole chain instead (a minute)");
   word(*command, "-o,--output", args.output, "DIR", "folder for the report and a picture of every target")
       ->needs(optical);
-  command->add_option("--seed", args.seed, "another rig, other noise")->capture_default_str()->needs(optical);
+  number(*command, "--seed", args.seed, "another rig, other noise")->needs(optical);
   number(*command, "--scale", args.scale, within(0.5, 1),
          "size of the pictures; the limits grow as their pixels do")
       ->needs(optical);

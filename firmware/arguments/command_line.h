@@ -205,7 +205,6 @@ struct KioskArgs {
   std::string only;  // of those, only the sheets whose name has this in it
   bool tells_known = true;             // is a visitor told that their name is in the records already?
   bool write_invitation_head = false;  // make the head of the page that invites, instead
-  AlgorithmArgs algorithms;
 };
 struct AlgorithmsArgs {
   std::string name;  // of a kind or an algorithm; empty: all of them

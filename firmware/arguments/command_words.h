@@ -22,15 +22,19 @@ namespace relievo::firmware {
 inline constexpr const char* kDevices =
     "sim; folder:DIR with recorded pairs; linux, or linux:FILE that says what is wired where (default /etc/relievo/board.toml)";
 
-// An option of a word or several, `type` as its help calls them; and one of a number within `range`, with its
-// default. The templates know App no better than this header does.
+// An option of a word or several, `type` as its help calls them; and one of a number, within `range`, with
+// its default. The templates know App no better than this header does.
 template <typename App, typename Value>
 auto* word(App& command, const char* name, Value& value, const char* type, const std::string& help) {
   return command.add_option(name, value, help)->type_name(type);
 }
+template <typename App, typename Value>
+auto* number(App& command, const char* name, Value& value, const std::string& help) {
+  return command.add_option(name, value, help)->capture_default_str();
+}
 template <typename App, typename Value, typename Range>
 auto* number(App& command, const char* name, Value& value, const Range& range, const std::string& help) {
-  return command.add_option(name, value, help)->check(range)->capture_default_str();
+  return number(command, name, value, help)->check(range);
 }
 
 // Two whole numbers in one word, such as "1280x800": each from its least on, to `most`. `wants`: the

@@ -26,18 +26,18 @@ std::string word_of(const toml::node& value) {
   return out.str();
 }
 
+std::string line_of(std::string_view file_name, const toml::source_region& place) {
+  return std::string(file_name) + ":" + std::to_string(place.begin.line);
+}
+
 Error at_line(std::string_view file_name, const toml::node& node) {
-  std::ostringstream place;
-  place << file_name << ":" << node.source().begin.line;
   return Error{Errc::InvalidInput,
                "is no setting: write [matcher] name = \"refined\", or a number or word in a table of its own"}
-      .at(place.str());
+      .at(line_of(file_name, node.source()));
 }
 
 Error no_toml(std::string_view file_name, const toml::parse_error& error) {
-  std::ostringstream place;
-  place << file_name << ":" << error.source().begin.line;
-  return Error{Errc::InvalidInput, "is not TOML: correct this line"}.at(place.str());
+  return Error{Errc::InvalidInput, "is not TOML: correct this line"}.at(line_of(file_name, error.source()));
 }
 
 // `words`: a kind may be set by a word of its own too, matcher = "refined".

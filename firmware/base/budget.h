@@ -86,7 +86,7 @@ constexpr std::size_t appliance_bytes(std::size_t pixels) {
 
 // --- queues and names ---------------------------------------------------------------------------
 inline constexpr std::size_t kEventQueueLength = 32;
-inline constexpr std::size_t kSubjectNameBytes = 128;
+inline constexpr std::size_t kSubjectNameBytes = 200;  // as many as the store takes
 
 // --- threads ------------------------------------------------------------------------------------
 inline constexpr int kMaxPoolThreads = 4;  // inside the worker, the worker counted

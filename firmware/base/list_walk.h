@@ -18,9 +18,8 @@ namespace relievo::firmware {
 class ListWalk {
  public:
   explicit ListWalk(std::int64_t per_page) : per_page_(per_page) {}
-  // What has to be done: nothing, other rows be shown, labels be found for the stretches, or which filters
-  // there are.
-  enum class Ask : std::uint8_t { Nothing, Rows, Labels, Filters };
+  // What has to be done: other rows be shown, labels be found for the stretches, or which filters there are.
+  enum class Ask : std::uint8_t { Rows, Labels, Filters };
   Ask ask(const ui::ListRequest& request);
   // So many rows are there now; the page stays as near as there are pages.
   void set_rows(std::int64_t rows);

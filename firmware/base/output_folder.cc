@@ -83,10 +83,14 @@ Result<void> OutputFolder::commit() {
       RELIEVO_TRY(sync_directory(one.parent_path()));
     return {};
   }
-  for (const fs::directory_entry& entry : fs::directory_iterator(work_, error)) {
-    fs::rename(entry.path(), target_ / entry.path().filename(), error);
-    if (error) return failed(target_ / entry.path().filename(), error.value());
+  fs::directory_iterator entry(work_, error);
+  for (; !error && entry != fs::directory_iterator(); entry.increment(error)) {
+    const fs::path to = target_ / entry->path().filename();
+    fs::rename(entry->path(), to, error);
+    if (error) return failed(to, error.value());
   }
+  // What could not be listed has not been moved, and would go with this.
+  if (error) return failed(target_, error.value());
   return sync_directory(target_);
 }
 

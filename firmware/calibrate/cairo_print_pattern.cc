@@ -53,49 +53,6 @@ std::vector<std::string> words_of(const pipeline::BoardPattern& b) {
               number((b.columns + 1) * b.square_mm) + " x " + number((b.rows + 1) * b.square_mm) + " mm."};
 }
 
-}  // namespace
-
-Result<PageFormat> page_format(std::string_view file_name) {
-  const std::size_t dot = file_name.rfind('.');
-  std::string ending(dot == std::string_view::npos ? "" : file_name.substr(dot + 1));
-  std::ranges::transform(ending, ending.begin(), [](unsigned char c) { return char(std::tolower(c)); });
-  if (ending == "pdf") return PageFormat::Pdf;
-  if (ending == "svg") return PageFormat::Svg;
-  return Error{Errc::InvalidInput, "the page is a PDF or an SVG: give a name that ends in .pdf or .svg"}.at(
-      file_name);
-}
-
-Result<PatternPage> lay_out_pattern(const pipeline::BoardPattern& pattern) {
-  RELIEVO_TRY(pattern.check());
-  const double board_width = (pattern.columns + 1) * pattern.square_mm;
-  const double board_height = (pattern.rows + 1) * pattern.square_mm;
-  const double margin = std::max(pattern.square_mm, kMinMarginMm);
-  const double width = board_width + 2 * margin;
-  const double height = board_height + 2 * margin + kFooterMm;
-  for (const Paper& paper : kPapers)
-    for (const bool upright : {pattern.rows > pattern.columns, pattern.rows <= pattern.columns}) {
-      PatternPage page;
-      page.paper = paper.name;
-      page.width_mm = upright ? paper.short_mm : paper.long_mm;
-      page.height_mm = upright ? paper.long_mm : paper.short_mm;
-      if (width > page.width_mm || height > page.height_mm) continue;
-      page.board_x_mm = (page.width_mm - board_width) / 2;
-      page.board_y_mm = margin + (page.height_mm - height) / 2;
-      page.ruler_x_mm = 2 * kUnprintableMm;
-      page.ruler_y_mm = page.height_mm - kUnprintableMm - 2.4;
-      page.ruler_mm = kRulerMm;
-      page.text_x_mm = page.ruler_x_mm + kRulerMm + kGapMm;
-      page.text_width_mm = page.width_mm - page.text_x_mm - kUnprintableMm;
-      page.text = words_of(pattern);
-      return page;
-    }
-  return Error{Errc::InvalidInput,
-               "this board with its margin is larger than A0 paper; choose fewer or smaller squares"}
-      .at(number(board_width) + " x " + number(board_height) + " mm");
-}
-
-namespace {
-
 constexpr double kPointsPerMm = 72 / 25.4;
 constexpr double kTextMm = 2.2;
 constexpr double kLineMm = 2.8;
@@ -175,6 +132,45 @@ void paint_words(cairo_t* cairo, const PatternPage& page) {
 }
 
 }  // namespace
+
+Result<PageFormat> page_format(std::string_view file_name) {
+  const std::size_t dot = file_name.rfind('.');
+  std::string ending(dot == std::string_view::npos ? "" : file_name.substr(dot + 1));
+  std::ranges::transform(ending, ending.begin(), [](unsigned char c) { return char(std::tolower(c)); });
+  if (ending == "pdf") return PageFormat::Pdf;
+  if (ending == "svg") return PageFormat::Svg;
+  return Error{Errc::InvalidInput, "the page is a PDF or an SVG: give a name that ends in .pdf or .svg"}.at(
+      file_name);
+}
+
+Result<PatternPage> lay_out_pattern(const pipeline::BoardPattern& pattern) {
+  RELIEVO_TRY(pattern.check());
+  const double board_width = (pattern.columns + 1) * pattern.square_mm;
+  const double board_height = (pattern.rows + 1) * pattern.square_mm;
+  const double margin = std::max(pattern.square_mm, kMinMarginMm);
+  const double width = board_width + 2 * margin;
+  const double height = board_height + 2 * margin + kFooterMm;
+  for (const Paper& paper : kPapers)
+    for (const bool upright : {pattern.rows > pattern.columns, pattern.rows <= pattern.columns}) {
+      PatternPage page;
+      page.paper = paper.name;
+      page.width_mm = upright ? paper.short_mm : paper.long_mm;
+      page.height_mm = upright ? paper.long_mm : paper.short_mm;
+      if (width > page.width_mm || height > page.height_mm) continue;
+      page.board_x_mm = (page.width_mm - board_width) / 2;
+      page.board_y_mm = margin + (page.height_mm - height) / 2;
+      page.ruler_x_mm = 2 * kUnprintableMm;
+      page.ruler_y_mm = page.height_mm - kUnprintableMm - 2.4;
+      page.ruler_mm = kRulerMm;
+      page.text_x_mm = page.ruler_x_mm + kRulerMm + kGapMm;
+      page.text_width_mm = page.width_mm - page.text_x_mm - kUnprintableMm;
+      page.text = words_of(pattern);
+      return page;
+    }
+  return Error{Errc::InvalidInput,
+               "this board with its margin is larger than A0 paper; choose fewer or smaller squares"}
+      .at(number(board_width) + " x " + number(board_height) + " mm");
+}
 
 Result<std::vector<std::byte>> draw_page(const PatternPage& page, const pipeline::BoardPattern& pattern,
                                          PageFormat format) {

@@ -15,7 +15,7 @@
 #include "firmware/base/output_folder.h"
 #include "firmware/base/version.h"
 #include "firmware/calibrate/check_picture.h"
-#include "hal/reduced_picture.h"
+#include "hal/picture_file.h"
 #include "pipeline/calibrate/file/calibration_file.h"
 #include "pipeline/calibrate/report/calibration_report.h"
 
@@ -41,22 +41,18 @@ Result<std::vector<std::byte>> thumbnail(const hal::Picture& picture) {
 }
 
 // Files are made in the report's working folder; an error names the one they are meant for.
-class Report {
- public:
-  Report(OutputFolder& work, const Path& folder) : work_(work), folder_(folder) {}
+struct Report {
+  const OutputFolder& work;
+  const Path& folder;
 
   Result<void> picture(const std::string& name, const hal::Picture& picture) const {
-    const auto written = hal::write_picture(work_.path() / name, picture.view());
-    if (!written) return written.error().at((folder_ / name).native());
+    const auto written = hal::write_picture(work.path() / name, picture.view());
+    if (!written) return written.error().at((folder / name).native());
     return {};
   }
   Result<void> text(const std::string& name, std::string_view text) const {
-    return write_text(work_.path() / name, text, folder_ / name);
+    return write_text(work.path() / name, text, folder / name);
   }
-
- private:
-  OutputFolder& work_;
-  const Path& folder_;
 };
 
 Result<void> write_pictures(const Report& report, const std::string& name, const hal::Picture& left,
@@ -77,41 +73,6 @@ std::string last_name(const Path& folder) {
   if (whole.filename().empty()) whole = whole.parent_path();
   return whole.filename().string();
 }
-
-}  // namespace
-
-Result<void> write_calibration_report(const Path& folder, const std::vector<PicturePairFiles>& pairs,
-                                      const pipeline::CalibratorInput& input,
-                                      const pipeline::CalibratorOutput& result, const std::string& made_at,
-                                      std::ostream& out) {
-  RELIEVO_TRY_ASSIGN(OutputFolder work, OutputFolder::begin(folder));
-  const Report report(work, folder);
-  pipeline::CalibrationReport page{input, result, "Relievo " + std::string(kVersion), made_at, {}, {}};
-  if (!pairs.empty()) page.source = last_name(pairs.front().left.parent_path());
-  std::set<std::string> taken;
-  for (std::size_t i = 0; i < pairs.size(); ++i) {
-    RELIEVO_TRY_ASSIGN(const hal::Picture left, hal::read_picture(pairs[i].left));
-    RELIEVO_TRY_ASSIGN(const hal::Picture right, hal::read_picture(pairs[i].right));
-    const auto fits = [&input](const hal::Picture& one) {
-      return one.width_px == input.width_px && one.height_px == input.height_px;
-    };
-    pipeline::ViewPictures& pictures = page.pictures.emplace_back();
-    RELIEVO_TRY_ASSIGN(pictures.left_jpeg, thumbnail(left));
-    RELIEVO_TRY_ASSIGN(pictures.right_jpeg, thumbnail(right));
-    if (!fits(left) || !fits(right)) {
-      out << "report: view " << pairs[i].name << " has another size, no picture" << std::endl;
-      continue;
-    }
-    RELIEVO_TRY(write_pictures(report, file_name(pairs[i].name, taken), left, right, input.views[i],
-                               result.calibration, pictures));
-    out << "report: view " << pairs[i].name << std::endl;
-  }
-  RELIEVO_TRY(report.text("report.json", pipeline::calibration_report_json(page)));
-  RELIEVO_TRY(report.text("index.html", pipeline::calibration_report_html(page)));
-  return work.commit();
-}
-
-namespace {
 
 using Files = std::map<std::string, Path>;
 
@@ -137,33 +98,13 @@ std::string plain_name(const std::string& key) {
   return first == std::string::npos ? "left/right" : key.substr(first);
 }
 
-struct Pair {
-  hal::Picture left;
-  hal::Picture right;
-};
-
-Result<Pair> read_pair(const PicturePairFiles& files) {
-  Pair pair;
-  RELIEVO_TRY_ASSIGN(pair.left, hal::read_picture(files.left));
-  RELIEVO_TRY_ASSIGN(pair.right, hal::read_picture(files.right));
-  return pair;
-}
-
-// No board is a finding, anything else an error.
-Result<pipeline::BoardCorners> look(const hal::Picture& picture, const pipeline::BoardPattern& pattern,
-                                    const Path& file) {
-  auto corners = pipeline::find_board(picture.view(), pattern);
-  if (corners) return corners;
-  if (corners.error().code == Errc::NotFound) return pipeline::BoardCorners{};
-  return corners.error().at(file.native());
-}
-
-// The size of the cameras' pictures is that of the first board seen. A picture without a board may
-// have any: it plays no part.
+// No board is a finding, anything else an error. The size of the cameras' pictures is that of the first board
+// seen. A picture without a board may have any: it plays no part.
 Result<pipeline::BoardCorners> look_in(const hal::Picture& picture, const Path& file,
                                        pipeline::CalibratorInput& input) {
-  RELIEVO_TRY_ASSIGN(pipeline::BoardCorners corners, look(picture, input.pattern, file));
-  if (corners.empty()) return corners;
+  auto corners = pipeline::find_board(picture.view(), input.pattern);
+  if (!corners && corners.error().code == Errc::NotFound) return pipeline::BoardCorners{};
+  if (!corners) return corners.error().at(file.native());
   if (input.width_px == 0) {
     input.width_px = picture.width_px;
     input.height_px = picture.height_px;
@@ -186,11 +127,12 @@ Result<pipeline::CalibratorInput> read_views(const std::vector<PicturePairFiles>
   input.pattern = pattern;
   bool any = false;
   for (const PicturePairFiles& files : pairs) {
-    RELIEVO_TRY_ASSIGN(const Pair pair, read_pair(files));
+    RELIEVO_TRY_ASSIGN(const hal::Picture left, hal::read_picture(files.left));
+    RELIEVO_TRY_ASSIGN(const hal::Picture right, hal::read_picture(files.right));
     pipeline::BoardView& view = input.views.emplace_back();
     view.name = files.name;
-    RELIEVO_TRY_ASSIGN(view.left, look_in(pair.left, files.left, input));
-    RELIEVO_TRY_ASSIGN(view.right, look_in(pair.right, files.right, input));
+    RELIEVO_TRY_ASSIGN(view.left, look_in(left, files.left, input));
+    RELIEVO_TRY_ASSIGN(view.right, look_in(right, files.right, input));
     any = any || (!view.left.empty() && !view.right.empty());
     out << "view " << view.name << ": " << finding(view) << std::endl;
   }
@@ -202,6 +144,37 @@ Result<pipeline::CalibratorInput> read_views(const std::vector<PicturePairFiles>
 }
 
 }  // namespace
+
+Result<void> write_calibration_report(const Path& folder, const std::vector<PicturePairFiles>& pairs,
+                                      const pipeline::CalibratorInput& input,
+                                      const pipeline::CalibratorOutput& result, const std::string& made_at,
+                                      std::ostream& out) {
+  RELIEVO_TRY_ASSIGN(OutputFolder work, OutputFolder::begin(folder));
+  const Report report{work, folder};
+  pipeline::CalibrationReport page{input, result, "Relievo " + std::string(kVersion), made_at, {}, {}};
+  if (!pairs.empty()) page.source = last_name(pairs.front().left.parent_path());
+  std::set<std::string> taken;
+  for (std::size_t i = 0; i < pairs.size(); ++i) {
+    RELIEVO_TRY_ASSIGN(const hal::Picture left, hal::read_picture(pairs[i].left));
+    RELIEVO_TRY_ASSIGN(const hal::Picture right, hal::read_picture(pairs[i].right));
+    const auto fits = [&input](const hal::Picture& one) {
+      return one.width_px == input.width_px && one.height_px == input.height_px;
+    };
+    pipeline::ViewPictures& pictures = page.pictures.emplace_back();
+    RELIEVO_TRY_ASSIGN(pictures.left_jpeg, thumbnail(left));
+    RELIEVO_TRY_ASSIGN(pictures.right_jpeg, thumbnail(right));
+    if (!fits(left) || !fits(right)) {
+      out << "report: view " << pairs[i].name << " has another size, no picture" << std::endl;
+      continue;
+    }
+    RELIEVO_TRY(write_pictures(report, file_name(pairs[i].name, taken), left, right, input.views[i],
+                               result.calibration, pictures));
+    out << "report: view " << pairs[i].name << std::endl;
+  }
+  RELIEVO_TRY(report.text("report.json", pipeline::calibration_report_json(page)));
+  RELIEVO_TRY(report.text("index.html", pipeline::calibration_report_html(page)));
+  return work.commit();
+}
 
 void tell_quality(const pipeline::CalibrationQuality& q, std::ostream& out) {
   char line[320];

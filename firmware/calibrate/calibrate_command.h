@@ -1,14 +1,12 @@
 // SPDX-FileCopyrightText: 2026 The Relievo authors
 // SPDX-License-Identifier: GPL-3.0-or-later
 //
-// relievo calibrate DIR --corners 10x7 --square-mm 20 [--pattern chessboard|charuco] -o rig.yml [--report
-// DIR]
-//           [--baseline-mm N]
+// relievo calibrate DIR --corners 10x7 --square-mm 20 [--pattern chessboard|charuco] -o rig.yml
+//           [--report DIR] [--baseline-mm N]
 //
-// Reads left*.png|jpg and right*.png|jpg in name order, finds the board in each, calibrates, writes
-// rig.yml and, where asked for, a folder with the report. One line a pair
-// and the reasons of the verdict go to `out`. Nothing half-written stays; a calibration that is
-// refused is not written, its report is.
+// Reads left*.png|jpg and right*.png|jpg in name order, finds the board in each, calibrates, writes rig.yml
+// and, where asked for, a folder with the report. One line a pair and the reasons of the verdict go to `out`.
+// Nothing half-written stays; a calibration that is refused is not written, its report is.
 // Errors: NotFound (folder, pictures), InvalidInput (a name without its partner, pictures of
 // different sizes, no board in any pair), PoorGeometry (too few pairs, refused), the files' own.
 // args.store is the caller's business: the calibration comes back. Thread: main.
@@ -44,8 +42,8 @@ void tell_quality(const pipeline::CalibrationQuality& quality, std::ostream& out
 // What the caller knows of the rig and the day.
 struct RigToday {
   std::string made_at;  // for the report
-  std::optional<pipeline::StereoCalibration>
-      in_use{};  // whose baseline is expected where --baseline-mm is not given
+  // Whose baseline is expected where --baseline-mm is not given.
+  std::optional<pipeline::StereoCalibration> in_use{};
 };
 
 Result<pipeline::CalibratorOutput> run_calibrate(const CalibrateArgs& args, std::ostream& out,
@@ -53,9 +51,7 @@ Result<pipeline::CalibratorOutput> run_calibrate(const CalibrateArgs& args, std:
 
 // The folder that `relievo calibrate --report DIR` writes: index.html for people, report.json for
 // programs, and of each pair a picture with its corners and one with both views rectified.
-// Thread: main.
-
-// Whole or not at all. One line a pair goes to `out`.
+// Whole or not at all. One line a pair goes to `out`. Thread: main.
 // Errors: the pictures' (they are read once more), the disk's; each names its place.
 Result<void> write_calibration_report(const Path& folder, const std::vector<PicturePairFiles>& pairs,
                                       const pipeline::CalibratorInput& input,

@@ -18,6 +18,7 @@
 #include "firmware/calibrate/calibrate_command.h"
 #include "firmware/capture/stereo_grabber.h"
 #include "firmware/jobs/job_thread.h"
+#include "hal/base/words.h"
 #include "pipeline/calibrate/file/calibration_file.h"
 #include "pipeline/calibrate/live/live_calibration.h"
 
@@ -63,46 +64,21 @@ class DevicePairs final : public LivePairs {
   int count_ = 0;
 };
 
-}  // namespace
-
-Result<std::unique_ptr<LivePairs>> make_device_pairs(std::unique_ptr<hal::Device> device,
-                                                     std::string_view name) {
-  int most = std::numeric_limits<int>::max();
-  int shown = 1;
-  const bool folder = name.starts_with(kFolder);
-  if (folder) {
-    const Path pictures = name.substr(kFolder.size());
-    RELIEVO_TRY_ASSIGN(const auto pairs, find_picture_pairs(pictures));
-    most = int(pairs.size());
-    std::error_code error;
-    if (!std::filesystem::exists(pictures / "capture.json", error)) shown = 2;
-  }
-  return std::unique_ptr<LivePairs>(std::make_unique<DevicePairs>(std::move(device), most, shown, !folder));
-}
-
-namespace {
-
 using pipeline::LiveState;
 using pipeline::PairVerdict;
 using Steady = std::chrono::steady_clock;
 
-std::string fixed(double value, int digits) {
-  char text[32];
-  std::snprintf(text, sizeof text, "%.*f", digits, value);
-  return text;
-}
-
 void tell_pair(const LiveState& s, std::ostream& out) {
   std::string line = "pair " + std::to_string(s.pairs) + ": " + pipeline::name_of(s.verdict);
   if (s.verdict == PairVerdict::Moving && s.moved_px[0] > 0)
-    line += " " + fixed(std::max(s.moved_px[0], s.moved_px[1]), 1) + " px";
+    line += " " + decimal(std::max(s.moved_px[0], s.moved_px[1]), 1) + " px";
   if (s.verdict == PairVerdict::Blurred)
-    line += ", edges of " + fixed(std::max(s.edge_px[0], s.edge_px[1]), 1) + " px";
+    line += ", edges of " + decimal(std::max(s.edge_px[0], s.edge_px[1]), 1) + " px";
   if (s.verdict == PairVerdict::Taken) {
     line += " as view " + std::to_string(s.views);
-    if (s.error_mm > 0) line += ", predicted error " + fixed(s.error_mm, 3) + " mm";
-    line += ", X " + fixed(s.bars.x, 2) + " Y " + fixed(s.bars.y, 2) + " size " + fixed(s.bars.size, 2) +
-            " skew " + fixed(s.bars.skew, 2);
+    if (s.error_mm > 0) line += ", predicted error " + decimal(s.error_mm, 3) + " mm";
+    line += ", X " + decimal(s.bars.x, 2) + " Y " + decimal(s.bars.y, 2) + " size " +
+            decimal(s.bars.size, 2) + " skew " + decimal(s.bars.skew, 2);
   }
   line += std::string("; ") + pipeline::name_of(s.advice);
   if (s.how_far > 0 && s.how_far < 2) line += " a little";
@@ -122,6 +98,21 @@ void tell_end(const LiveState& s, Steady::duration busy, Steady::duration slowes
 }
 
 }  // namespace
+
+Result<std::unique_ptr<LivePairs>> make_device_pairs(std::unique_ptr<hal::Device> device,
+                                                     std::string_view name) {
+  int most = std::numeric_limits<int>::max();
+  int shown = 1;
+  const bool folder = name.starts_with(kFolder);
+  if (folder) {
+    const Path pictures = name.substr(kFolder.size());
+    RELIEVO_TRY_ASSIGN(const auto pairs, find_picture_pairs(pictures));
+    most = int(pairs.size());
+    std::error_code error;
+    if (!std::filesystem::exists(pictures / "capture.json", error)) shown = 2;
+  }
+  return std::unique_ptr<LivePairs>(std::make_unique<DevicePairs>(std::move(device), most, shown, !folder));
+}
 
 Result<pipeline::CalibratorOutput> run_calibrate_live(const CalibrateLiveArgs& args, LivePairs& pairs,
                                                       std::ostream& out, const RigToday& today) {

@@ -30,7 +30,6 @@ namespace relievo::firmware {
 // by a hand that follows the advice, or the cameras of a device (hal/device.h). Of a folder every pair is
 // shown once, or, where no capture.json says that it is a recording, twice: a photograph is a board that
 // is held still.
-// Thread: main.
 struct LivePair {
   ImageView left;  // until the next one is asked for
   ImageView right;

@@ -6,6 +6,7 @@
 #include <cstdio>
 
 #include "firmware/base/wall_time.h"
+#include "hal/base/words.h"
 
 namespace relievo::firmware {
 namespace {
@@ -15,12 +16,7 @@ constexpr std::array kGrades{"-", "pass", "usable", "refuse"};
 static_assert(int(storage::CalibrationGrade::Refuse) == 1 + int(pipeline::CalibrationVerdict::Refuse) &&
               kGrades.size() == 1 + std::size_t(storage::CalibrationGrade::Refuse));
 
-std::string number(double value, int decimals) {
-  if (value <= 0) return "-";
-  char text[32];
-  std::snprintf(text, sizeof text, "%.*f", decimals, value);
-  return text;
-}
+std::string number(double value, int decimals) { return value <= 0 ? "-" : decimal(value, decimals); }
 
 }  // namespace
 

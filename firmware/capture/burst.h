@@ -15,12 +15,10 @@
 
 #include <array>
 #include <atomic>
-#include <functional>
 #include <optional>
 
 #include "firmware/capture/face_light.h"
 #include "firmware/capture/stereo_grabber.h"
-#include "hal/clock.h"
 #include "hal/trigger_line.h"
 #include "pipeline/model/stereo_frame.h"
 

@@ -17,6 +17,22 @@ constexpr int kWhiteFrom = 252;
 constexpr double kBrightShare = 0.95;
 constexpr double kHighlightShare = 0.99;
 
+using std::chrono::microseconds;
+
+// How much more light is wanted. What is burnt out does not say by how much it is too bright.
+double factor_for(const FaceLight& light) {
+  if (light.clipped > 0.05) return 0.4;
+  const double factor = std::min(kBrightTarget / std::max(light.bright, 0.01),
+                                 kHighlightTarget / std::max(light.highlight, 0.01));
+  return std::clamp(light.highlight >= 0.995 ? std::min(factor, 0.85) : factor, 0.25, 4.0);
+}
+
+double light_taken(const hal::Exposure& e) { return double(e.time.count()) * e.gain; }
+
+microseconds longest(const hal::ExposureLimits& limits) {
+  return std::clamp(budget::kLongestExposure, limits.least.time, limits.most.time);
+}
+
 }  // namespace
 
 FaceBox middle_box(const ImageView& view) {
@@ -68,26 +84,6 @@ double FocusHelp::share_of_best(const FaceLight& light) {
   best_ = std::max(best_, light.sharpness);
   return best_ > 0 ? light.sharpness / best_ : 0;
 }
-
-namespace {
-
-using std::chrono::microseconds;
-
-// How much more light is wanted. What is burnt out does not say by how much it is too bright.
-double factor_for(const FaceLight& light) {
-  if (light.clipped > 0.05) return 0.4;
-  const double factor = std::min(kBrightTarget / std::max(light.bright, 0.01),
-                                 kHighlightTarget / std::max(light.highlight, 0.01));
-  return std::clamp(light.highlight >= 0.995 ? std::min(factor, 0.85) : factor, 0.25, 4.0);
-}
-
-double light_taken(const hal::Exposure& e) { return double(e.time.count()) * e.gain; }
-
-microseconds longest(const hal::ExposureLimits& limits) {
-  return std::clamp(budget::kLongestExposure, limits.least.time, limits.most.time);
-}
-
-}  // namespace
 
 hal::ExposureLimits common_limits(const hal::ExposureLimits& a, const hal::ExposureLimits& b) {
   return {{std::max(a.least.time, b.least.time), std::max(a.least.gain, b.least.gain)},

@@ -68,8 +68,7 @@ class FocusHelp {
 inline constexpr double kBrightTarget = 0.72;
 inline constexpr double kHighlightTarget = 0.92;
 inline constexpr double kLightTolerance = 0.08;
-inline constexpr hal::Exposure kFirstExposure{std::chrono::milliseconds{4},
-                                              1};  // until the light has been measured
+inline constexpr hal::Exposure kFirstExposure{std::chrono::milliseconds{4}, 1};  // until it is measured
 
 // Where both cameras can go.
 hal::ExposureLimits common_limits(const hal::ExposureLimits& a, const hal::ExposureLimits& b);

@@ -52,15 +52,17 @@ ImageView LiveFeed::fill(const ImageView& picture) {
   return slot.live.picture;
 }
 
-void LiveFeed::publish(const Guidance& guidance) {
-  slots_[filling_].live.guidance = guidance;
-  slots_[filling_].live.number = ++count_;
+void LiveFeed::publish(ui::LiveView guidance) {
+  ui::LiveView& live = slots_[filling_].live;
+  guidance.picture = live.picture;
+  guidance.number = ++count_;
+  live = guidance;
   const std::lock_guard lock(mutex_);
   std::swap(filling_, newest_);
   fresh_ = true;
 }
 
-LivePicture LiveFeed::newest() {
+ui::LiveView LiveFeed::newest() {
   const std::lock_guard lock(mutex_);
   if (std::exchange(fresh_, false)) std::swap(shown_, newest_);
   return slots_[shown_].live;

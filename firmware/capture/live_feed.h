@@ -12,35 +12,30 @@
 #include <vector>
 
 #include "firmware/base/budget.h"
-#include "firmware/capture/live_judge.h"
 #include "hal/base/image_view.h"
+#include "ui/view/view_state.h"
 
 namespace relievo::firmware {
-
-struct LivePicture {
-  ImageView picture;  // Rgb8; valid until the next newest()
-  Guidance guidance;
-  std::uint32_t number = 0;  // 0: none since the last wipe
-};
 
 class LiveFeed {
  public:
   // `side_px`: the longer side of its pictures at most. Room for budget::kLiveSidePx is taken at once; for
-  // more with the first larger picture (bad_alloc); it
-  // stays, for the screen may still hold a view of it.
+  // more with the first larger picture (bad_alloc); it stays, for the screen may still hold a view of it.
   explicit LiveFeed(int side_px = budget::kLiveSidePx);
   // A copy of the picture, shrunk by a whole number.
   ImageView fill(const ImageView& picture);
   // What fill() made, to draw into before it is published.
   std::uint8_t* filled() { return slots_[filling_].rgb.data(); }
-  void publish(const Guidance& guidance);
-  LivePicture newest();
+  // With what fill() made.
+  void publish(ui::LiveView guidance);
+  // Its picture is valid until the next newest(). Number 0: none since the last wipe.
+  ui::LiveView newest();
   void wipe();
 
  private:
   struct Slot {
     std::vector<std::uint8_t> rgb;
-    LivePicture live;
+    ui::LiveView live;
   };
   int side_px_;
   std::array<Slot, budget::kLiveSlots> slots_;

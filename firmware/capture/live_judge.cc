@@ -61,31 +61,32 @@ Result<LiveJudge> LiveJudge::open(int width_px) {
   return LiveJudge(std::move(gate), options.relief);
 }
 
-Guidance guidance_of(const pipeline::GateAnswer& answer, const pipeline::StereoCalibration& calibration,
-                     const pipeline::Relief& relief) {
+ui::LiveView guidance_of(const pipeline::GateAnswer& answer, const pipeline::StereoCalibration& calibration,
+                         const pipeline::Relief& relief) {
   const pipeline::GateMeasures& m = answer.measures;
-  Guidance guidance;
-  guidance.advice = answer.advice;
-  guidance.ideal_width =
-      calibration.left.focal_px.x * kFaceWidthMm / best_distance_mm(calibration) / calibration.left.width_px;
+  ui::LiveView view;
+  view.advice = answer.advice;
+  view.ideal_width = float(calibration.left.focal_px.x * kFaceWidthMm / best_distance_mm(calibration) /
+                           calibration.left.width_px);
   const double z_mm = m.head.known ? m.head.tip_mm.z : m.guessed_mm;
   constexpr pipeline::GateLimits kVolume;
-  if (z_mm > 0) guidance.nearness = std::clamp(z_mm, kVolume.nearest_mm, kVolume.farthest_mm) / z_mm;
-  guidance.steady_s = std::chrono::duration<double>(answer.steady).count();
+  if (z_mm > 0) view.nearness = float(std::clamp(z_mm, kVolume.nearest_mm, kVolume.farthest_mm) / z_mm);
+  view.steady_s = float(std::chrono::duration<double>(answer.steady).count());
   if (m.head.known) {
-    guidance.face_x = m.off_right_mm / kFaceWidthMm;
-    guidance.face_y = m.off_down_mm / kFaceWidthMm;
+    view.face_x = float(m.off_right_mm / kFaceWidthMm);
+    view.face_y = float(m.off_down_mm / kFaceWidthMm);
   } else if (m.face.width_px > 0) {
-    guidance.face_x = (m.face.centre_px.x - relief.width_px / 2.0) / m.face.width_px;
-    guidance.face_y = (m.face.centre_px.y - relief.height_px / 2.0) / m.face.width_px;
+    view.face_x = float((m.face.centre_px.x - relief.width_px / 2.0) / m.face.width_px);
+    view.face_y = float((m.face.centre_px.y - relief.height_px / 2.0) / m.face.width_px);
   } else {
     // About as many faces as the picture has room for.
-    guidance.face_x = 2 * m.somebody_right;
-    guidance.face_y = m.somebody_down;
+    view.face_x = float(2 * m.somebody_right);
+    view.face_y = float(m.somebody_down);
   }
-  guidance.yaw_deg = m.head.yaw_deg, guidance.pitch_deg = m.head.pitch_deg,
-  guidance.roll_deg = m.head.roll_deg;
-  return guidance;
+  view.yaw_deg = float(m.head.yaw_deg);
+  view.pitch_deg = float(m.head.pitch_deg);
+  view.roll_deg = float(m.head.roll_deg);
+  return view;
 }
 
 Result<bool> LiveJudge::begin_turn(const pipeline::StereoFrame& front, pipeline::StageContext& context) {
@@ -116,7 +117,7 @@ Result<TurnMeasurement> LiveJudge::look_turned(const pipeline::StereoFrame& fram
   const pipeline::TurnAnswer answer =
       guide_turn(*front_, turn, now.time_since_epoch(), slow_mm_s, kLimits, turn_);
   TurnMeasurement measured{{}, answer.take};
-  measured.guidance.turn = TurnGuidance{answer.advice, turn.yaw_deg, turn_.taken};
+  measured.guidance.turn = ui::TurnView{answer.advice, float(turn.yaw_deg), turn_.taken};
   return measured;
 }
 

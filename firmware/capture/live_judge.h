@@ -8,7 +8,6 @@
 // of the gate, NotCalibrated; nobody in the picture is no error but an advice.
 #pragma once
 
-#include <bitset>
 #include <chrono>
 #include <memory>
 #include <optional>
@@ -17,41 +16,21 @@
 #include "hal/clock.h"
 #include "pipeline/gate/capture_gate.h"
 #include "pipeline/gate/turn/turn_guide.h"
-#include "pipeline/model/advice.h"
+#include "ui/view/view_state.h"
 
 namespace relievo::firmware {
-
-// Guidance: what the person at the screen is told about where they stand, with one live picture. Plain data.
-
-// Of a head that turns after the frontal picture.
-struct TurnGuidance {
-  pipeline::TurnAdvice advice = pipeline::TurnAdvice::Lost;
-  double yaw_deg = 0;  // against the front, + to the picture's right
-  std::bitset<pipeline::kSides> taken;
-};
-
-struct Guidance {
-  pipeline::Advice advice = pipeline::Advice::NoFace;
-  double face_x = 0, face_y = 0;  // of the face from the middle of where it should be, in widths of a face:
-                                  // the picture's right, down
-  double ideal_width = 0;  // of a face at the best distance, share of the picture's width; 0: not known
-  double nearness = 0;     // 1 at a good distance, 0.5 twice as far, 2 half as far; 0: not known
-  double yaw_deg = 0, pitch_deg = 0, roll_deg = 0;  // of the head: pipeline/gate/head/head_measurement.h
-  double steady_s = 0;                              // so long no picture has had a reason
-  std::optional<TurnGuidance> turn;
-};
 
 struct FaceBoxes {
   FaceBox left, right;  // of the whole pictures
 };
 
 struct LiveMeasurement {
-  Guidance guidance;
+  ui::LiveView guidance;  // without its picture, as everywhere here
   std::optional<FaceBoxes> face;
 };
 
 struct TurnMeasurement {
-  Guidance guidance;                // with its turn
+  ui::LiveView guidance;            // with its turn
   std::optional<std::size_t> take;  // this pair shows that side
 };
 
@@ -96,8 +75,8 @@ int judged_reduction(int width_px);
 
 // Where somebody stands, as the screen shows it. Who is too near or too far for the relief is placed by the
 // picture alone.
-Guidance guidance_of(const pipeline::GateAnswer& answer, const pipeline::StereoCalibration& calibration,
-                     const pipeline::Relief& relief);
+ui::LiveView guidance_of(const pipeline::GateAnswer& answer, const pipeline::StereoCalibration& calibration,
+                         const pipeline::Relief& relief);
 
 // Where a head whose nose is at `tip_mm`, in the frame of the relief, is in the pictures of both cameras.
 FaceBoxes face_boxes(const pipeline::StereoCalibration& calibration,

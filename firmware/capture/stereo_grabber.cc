@@ -38,7 +38,10 @@ void StereoSlot::wipe() {
 
 namespace {
 
+using hal::Camera;
+using hal::Frame;
 using pipeline::RigCameras;
+using pipeline::StereoFrame;
 
 std::string words(std::string_view kind, std::string_view name) {
   const std::size_t room = pipeline::kMaxCameraWords - kind.size();
@@ -59,13 +62,8 @@ bool another(const std::string& calibrated, const std::string& found) {
   return !calibrated.empty() && !found.empty() && calibrated != found;
 }
 
-}  // namespace
-
-using hal::Camera;
-using hal::Frame;
-
-namespace {
 const Error kAway{Errc::Disconnected, "the camera is away: check its plug; it is tried again by itself"};
+
 }  // namespace
 
 Result<void> CameraLink::run(const hal::CaptureMode& mode) {
@@ -189,24 +187,22 @@ Result<void> check_cameras(const RigCameras& calibrated, const RigCameras& found
   if (!left && !right) return {};
   const std::string at_left = calibrated.left + " → " + found.left,
                     at_right = calibrated.right + " → " + found.right;
-  if (left && right && calibrated.left == found.right && calibrated.right == found.left)
-    return Error{Errc::NotCalibrated,
-                 "the left and the right camera have changed places: swap their plugs, or calibrate again"}
-        .at(at_left + "; " + at_right);
-  if (left && right)
-    return Error{Errc::NotCalibrated,
-                 "neither camera is the one that was calibrated: put those back, or calibrate again"}
-        .at(at_left + "; " + at_right);
-  if (left)
+  if (!right)
     return Error{Errc::NotCalibrated,
                  "the left camera is not the one that was calibrated: put that one back, or calibrate again"}
         .at(at_left);
-  return Error{Errc::NotCalibrated,
-               "the right camera is not the one that was calibrated: put that one back, or calibrate again"}
-      .at(at_right);
+  if (!left)
+    return Error{Errc::NotCalibrated,
+                 "the right camera is not the one that was calibrated: put that one back, or calibrate again"}
+        .at(at_right);
+  const bool exchanged = calibrated.left == found.right && calibrated.right == found.left;
+  return Error{
+      Errc::NotCalibrated,
+      exchanged
+          ? Literal("the left and the right camera have changed places: swap their plugs, or calibrate again")
+          : Literal("neither camera is the one that was calibrated: put those back, or calibrate again")}
+      .at(at_left + "; " + at_right);
 }
-
-using pipeline::StereoFrame;
 
 GrabberOptions grabber_options(const hal::Device& device) {
   GrabberOptions options;

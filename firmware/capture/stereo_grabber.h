@@ -43,7 +43,6 @@ namespace relievo::firmware {
 // straight into it (hal/raw/develop.h), rows without padding: the one copy. wipe() leaves no pixel behind.
 // Errors: InvalidInput for a picture larger than the slot, and what develop() says.
 // Thread: whoever holds the slot.
-
 class StereoSlot {
  public:
   // Cuts the block as budget::kStereoSlotBytes does: three bytes a pixel for the left, three for the
@@ -95,8 +94,6 @@ class Counter {
 
 // GrabCounts: what has gone well and wrong between the trigger and the slot since the cameras were
 // first opened; for a technician, who reads a bad cable or a slow hub out of it.
-
-// Of one camera.
 struct CameraCounts {
   Counter frames;     // taken
   Counter late;       // exposed before the pulse they were waited for, or out of order: dropped
@@ -123,8 +120,7 @@ struct GrabCounts {
 //
 //   New --start()--> Running --vanishes--> Lost --start() when due, it answers--> Running
 //                                           |  ^
-//                                           +--+ start(), it does not: the wait doubles, kCameraRetryMost at
-//                                           most
+//                                           +--+ start(), it does not: the wait doubles
 //
 // Thread: capture; gone() any.
 class CameraLink {

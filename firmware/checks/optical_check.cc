@@ -5,9 +5,12 @@
 #include <cmath>
 #include <cstdio>
 
+#include "firmware/base/boot_memory.h"
 #include "firmware/checks/deviation_picture.h"
 #include "firmware/checks/target_calibration.h"
 #include "firmware/jobs/job_thread.h"
+#include "pipeline/model/vector3.h"
+#include "pipeline/pipeline.h"
 #include "pipeline/reconstruct/best_fit.h"
 
 namespace relievo::firmware {
@@ -34,6 +37,94 @@ void keep_worse(AcceptanceLine& line, const std::string& where, double value_mm)
 
 Error at_target(const Error& error, const std::string& name) {
   return error.code == Errc::Cancelled ? error : error.at(name);
+}
+
+Result<pipeline::Pipeline> stages_for_targets(const pipeline::StereoCalibration& calibration) {
+  pipeline::AlgorithmSet set;
+  RELIEVO_TRY(set.set("preprocessor", "none"));      // a target is no skin
+  RELIEVO_TRY(set.set("grid.min_area_mm2", "300"));  // a sphere of 20 mm, seen within 60 degrees
+  return pipeline::Pipeline::make(set, calibration, {}, pipeline::Region::All);
+}
+
+// TargetMeter: measures a target as the product measures a face: rectify, match, triangulate, reject
+// outliers, mesh, with the default algorithms. Only what knows of faces stays out: no face is looked
+// for (a ball around the target is the region instead, so nothing is cropped), the mesher accepts less
+// surface than a face has, and the texture stage with its head frame is not run.
+// Left camera's frame, millimetres.
+// Memory: 0.9 GiB of address space, touched as far as the pictures need; one pool of threads.
+// Errors: the stages' own; PoorGeometry (nothing measured there).
+class TargetMeter {
+ public:
+  TargetMeter(pipeline::Pipeline stages, const std::atomic<bool>& cancelled)
+      : context_{output_, scratch_, pool_, progress_, cancelled}, pipeline_(std::move(stages)) {}
+
+  // Rectifies the pair; it is borrowed until the next one is taken.
+  Result<void> take(const TargetPictures& pictures) {
+    pair_.reset();
+    output_.reset();
+    RELIEVO_TRY_ASSIGN(pair_, pipeline_.rectify({pictures.left.view(), pictures.right.view()}, context_));
+    return {};
+  }
+  // The measured vertices of the mesh (never the bridged ones) within `reach_mm` of `centre_mm` as the
+  // left rectified view shows it.
+  Result<std::vector<Vec3d>> surface_around(const Vec3d& centre_mm, double reach_mm);
+  // The rectified left view around the target, beside it the same with every point coloured by its
+  // deviation: blue -range, white 0, red +range, and the scale below.
+  hal::Picture picture_of(const Vec3d& centre_mm, double reach_mm, const std::vector<Vec3d>& points_mm,
+                          const std::vector<double>& deviations_mm, double range_mm) const;
+
+ private:
+  struct Circle {
+    double x_px = 0, y_px = 0, radius_px = 0;
+  };
+  Circle circle_around(const Vec3d& centre_mm, double reach_mm) const {
+    const Vec3d c = apply(pair_->rectified_from_left, centre_mm);
+    const double scale = pair_->focal_px / c.z;
+    return {scale * c.x + pair_->left_centre_px.x, scale * c.y + pair_->left_centre_px.y, scale * reach_mm};
+  }
+
+  BootMemory memory_{0, budget::kLargestPlan.products, budget::kLargestPlan.scratch};
+  Arena output_{memory_.output()}, scratch_{memory_.scratch()};
+  ThreadPool pool_{pool_size()};
+  pipeline::Progress progress_;
+  pipeline::StageContext context_;
+  pipeline::Pipeline pipeline_;
+  std::optional<pipeline::RectifiedPair> pair_;
+};
+
+Result<std::vector<Vec3d>> TargetMeter::surface_around(const Vec3d& centre_mm, double reach_mm) {
+  pipeline::RectifiedPair& pair = *pair_;
+  const Circle circle = circle_around(centre_mm, reach_mm);
+  const auto width = std::size_t(pair.width_px);
+  pair.region.resize(width * std::size_t(pair.height_px));
+  for (int y = 0; y < pair.height_px; ++y)
+    for (int x = 0; x < pair.width_px; ++x)
+      pair.region[std::size_t(y) * width + std::size_t(x)] =
+          std::hypot(x - circle.x_px, y - circle.y_px) < circle.radius_px ? 1 : 0;
+  const Arena::Mark mark(output_);  // the pair stays for the target's other parts
+  RELIEVO_TRY_ASSIGN(const auto matches, pipeline_.match(pair, context_));
+  RELIEVO_TRY_ASSIGN(const auto cloud, pipeline_.reconstruct(pair, matches, context_));
+  RELIEVO_TRY_ASSIGN(const auto mesh, pipeline_.mesh(cloud, pair, context_));
+  std::vector<Vec3d> points;
+  for (std::size_t i = 0; i < mesh.vertices_mm.size(); ++i)
+    if (mesh.measured[i] != 0) points.push_back(wide(mesh.vertices_mm[i]));
+  return points;
+}
+
+hal::Picture TargetMeter::picture_of(const Vec3d& centre_mm, double reach_mm,
+                                     const std::vector<Vec3d>& points_mm,
+                                     const std::vector<double>& deviations_mm, double range_mm) const {
+  const pipeline::RectifiedPair& pair = *pair_;
+  const Circle circle = circle_around(centre_mm, reach_mm);
+  DeviationPicture picture(pair.left.rgb, pair.width_px, pair.height_px,
+                           {int(circle.x_px - circle.radius_px), int(circle.y_px - circle.radius_px),
+                            int(circle.x_px + circle.radius_px), int(circle.y_px + circle.radius_px)});
+  for (std::size_t i = 0; i < points_mm.size(); ++i) {
+    const Vec3d p = apply(pair.rectified_from_left, points_mm[i]);
+    picture.mark(pair.focal_px * p.x / p.z + pair.left_centre_px.x,
+                 pair.focal_px * p.y / p.z + pair.left_centre_px.y, deviations_mm[i] / range_mm);
+  }
+  return picture.finish();
 }
 
 template <typename Form>
@@ -69,20 +160,59 @@ Result<TargetReading> measure_sphere(TargetMeter& meter, const TargetShot& shot,
   const std::vector<Vec3d> cap = cap_of(*surface, centre_mm, rod);
   const auto read = pipeline::best_fit::read_sphere(cap, kDiscardShare);
   if (!read) return at_target(read.error(), name);
-  TargetReading reading{name,
-                        TargetKind::Dumbbell,
-                        surface->size(),
-                        read->used,
-                        read->discarded,
-                        read->range_mm,
-                        read->rms_mm,
-                        0,
-                        {}};
-  reading.size_mm = 2 * read->form.radius_mm - shot.targets.sphere_diameter_mm;
-  reading.centre_mm = read->form.centre_mm;
+  const double size_mm = 2 * read->form.radius_mm - shot.targets.sphere_diameter_mm;
+  const TargetReading reading{
+      name,           TargetKind::Dumbbell, surface->size(), read->used,          read->discarded,
+      read->range_mm, read->rms_mm,         size_mm,         read->form.centre_mm};
   RELIEVO_TRY(
       show_reading(meter, reading, read->form, cap, centre_mm, radius + kMarginMm, picture_range_mm, show));
   return reading;
+}
+
+// Measures one target that was taken by the meter, and adds its readings to the report.
+// Errors: as TargetMeter, and PoorGeometry where too few points lie on the target; each names it.
+Result<void> measure_dumbbell(TargetMeter& meter, const TargetShot& shot, double picture_range_mm,
+                              const ShowTarget& show, AcceptanceReport& report) {
+  const std::string name = "dumbbell " + std::to_string(shot.number + 1);
+  const Vec3d along = minus(left_from_target(shot.place, {1, 0, 0}), left_from_target(shot.place, {0, 0, 0}));
+  Vec3d centres[2];
+  for (const int side : {0, 1}) {
+    const double out = side == 0 ? -1 : 1;
+    const Vec3d nominal = left_from_target(shot.place, {out * shot.targets.sphere_spacing_mm / 2, 0, 0});
+    RELIEVO_TRY_ASSIGN(const TargetReading reading,
+                       measure_sphere(meter, shot, nominal, times(along, -out),
+                                      name + (side == 0 ? " a" : " b"), picture_range_mm, show));
+    centres[side] = reading.centre_mm;
+    report.targets.push_back(reading);
+  }
+  report.spacings.push_back({name, distance(centres[0], centres[1]) - shot.targets.sphere_spacing_mm});
+  return {};
+}
+
+Result<void> measure_plate(TargetMeter& meter, const TargetShot& shot, double picture_range_mm,
+                           const ShowTarget& show, AcceptanceReport& report) {
+  const std::string name = "plate " + std::to_string(shot.number + 1);
+  const Vec3d middle = left_from_target(shot.place, {0, 0, 0});
+  const Vec3d x = minus(left_from_target(shot.place, {1, 0, 0}), middle),
+              y = minus(left_from_target(shot.place, {0, 1, 0}), middle);
+  const double half_width = shot.targets.plate_width_mm / 2, half_height = shot.targets.plate_height_mm / 2;
+  const double reach = std::hypot(half_width, half_height) + kMarginMm;
+  auto surface = meter.surface_around(middle, reach);
+  if (!surface) return at_target(surface.error(), name);
+  std::vector<Vec3d> inside;
+  for (const Vec3d& p : *surface) {
+    const Vec3d from = minus(p, middle);
+    if (std::abs(dot(from, x)) < half_width - kRimMm && std::abs(dot(from, y)) < half_height - kRimMm)
+      inside.push_back(p);
+  }
+  const auto read = pipeline::best_fit::read_plane(inside, kDiscardShare);
+  if (!read) return at_target(read.error(), name);
+  const TargetReading reading{
+      name, TargetKind::Plate, surface->size(), read->used, read->discarded, read->range_mm, read->rms_mm, 0,
+      {}};
+  RELIEVO_TRY(show_reading(meter, reading, read->form, inside, middle, reach, picture_range_mm, show));
+  report.targets.push_back(reading);
+  return {};
 }
 
 TargetShot series_of(const OpticalCheckOptions& options) {
@@ -94,91 +224,6 @@ TargetShot series_of(const OpticalCheckOptions& options) {
 }
 
 }  // namespace
-
-using pipeline::Vec3d;
-
-struct TargetMeter::Room {
-  Room(pipeline::Pipeline stages, const std::atomic<bool>& cancelled)
-      : memory(0, budget::kLargestPlan.products, budget::kLargestPlan.scratch),
-        output(memory.output()),
-        scratch(memory.scratch()),
-        pool(pool_size()),
-        context{output, scratch, pool, progress, cancelled},
-        pipeline(std::move(stages)) {}
-  BootMemory memory;
-  Arena output, scratch;
-  ThreadPool pool;
-  pipeline::Progress progress;
-  pipeline::StageContext context;
-  pipeline::Pipeline pipeline;
-  std::optional<pipeline::RectifiedPair> pair;
-};
-
-TargetMeter::TargetMeter() = default;
-TargetMeter::TargetMeter(TargetMeter&&) noexcept = default;
-TargetMeter::~TargetMeter() = default;
-
-Result<TargetMeter> TargetMeter::make(const pipeline::StereoCalibration& calibration,
-                                      const std::atomic<bool>& cancelled) {
-  pipeline::AlgorithmSet set;
-  RELIEVO_TRY(set.set("preprocessor", "none"));      // a target is no skin
-  RELIEVO_TRY(set.set("grid.min_area_mm2", "300"));  // a sphere of 20 mm, seen within 60 degrees
-  RELIEVO_TRY_ASSIGN(auto stages, pipeline::Pipeline::make(set, calibration, {}, pipeline::Region::All));
-  TargetMeter meter;
-  meter.room_ = std::make_unique<Room>(std::move(stages), cancelled);
-  return meter;
-}
-
-Result<void> TargetMeter::take(const TargetPictures& pictures) {
-  room_->pair.reset();
-  room_->output.reset();
-  RELIEVO_TRY_ASSIGN(room_->pair,
-                     room_->pipeline.rectify({pictures.left.view(), pictures.right.view()}, room_->context));
-  return {};
-}
-
-TargetMeter::Circle TargetMeter::circle_around(const Vec3d& centre_mm, double reach_mm) const {
-  const pipeline::RectifiedPair& pair = *room_->pair;
-  const Vec3d c = apply(pair.rectified_from_left, centre_mm);
-  const double scale = pair.focal_px / c.z;
-  return {scale * c.x + pair.left_centre_px.x, scale * c.y + pair.left_centre_px.y, scale * reach_mm};
-}
-
-Result<std::vector<Vec3d>> TargetMeter::surface_around(const Vec3d& centre_mm, double reach_mm) {
-  Room& room = *room_;
-  pipeline::RectifiedPair& pair = *room.pair;
-  const Circle circle = circle_around(centre_mm, reach_mm);
-  const auto width = std::size_t(pair.width_px);
-  pair.region.resize(width * std::size_t(pair.height_px));
-  for (int y = 0; y < pair.height_px; ++y)
-    for (int x = 0; x < pair.width_px; ++x)
-      pair.region[std::size_t(y) * width + std::size_t(x)] =
-          std::hypot(x - circle.x_px, y - circle.y_px) < circle.radius_px ? 1 : 0;
-  const Arena::Mark mark(room.output);  // the pair stays for the target's other parts
-  RELIEVO_TRY_ASSIGN(const auto matches, room.pipeline.match(pair, room.context));
-  RELIEVO_TRY_ASSIGN(const auto cloud, room.pipeline.reconstruct(pair, matches, room.context));
-  RELIEVO_TRY_ASSIGN(const auto mesh, room.pipeline.mesh(cloud, pair, room.context));
-  std::vector<Vec3d> points;
-  for (std::size_t i = 0; i < mesh.vertices_mm.size(); ++i)
-    if (mesh.measured[i] != 0) points.push_back(wide(mesh.vertices_mm[i]));
-  return points;
-}
-
-hal::Picture TargetMeter::picture_of(const Vec3d& centre_mm, double reach_mm,
-                                     const std::vector<Vec3d>& points_mm,
-                                     const std::vector<double>& deviations_mm, double range_mm) const {
-  const pipeline::RectifiedPair& pair = *room_->pair;
-  const Circle circle = circle_around(centre_mm, reach_mm);
-  DeviationPicture picture(pair.left.rgb, pair.width_px, pair.height_px,
-                           {int(circle.x_px - circle.radius_px), int(circle.y_px - circle.radius_px),
-                            int(circle.x_px + circle.radius_px), int(circle.y_px + circle.radius_px)});
-  for (std::size_t i = 0; i < points_mm.size(); ++i) {
-    const Vec3d p = apply(pair.rectified_from_left, points_mm[i]);
-    picture.mark(pair.focal_px * p.x / p.z + pair.left_centre_px.x,
-                 pair.focal_px * p.y / p.z + pair.left_centre_px.y, deviations_mm[i] / range_mm);
-  }
-  return picture.finish();
-}
 
 AcceptanceLimits limits_at(double scale) {
   const double coarser = 1 / scale;
@@ -224,55 +269,12 @@ std::vector<TargetPlace> plate_places() {
           {0, 0, 570, 0, 30, 0}, {0, 0, 570, 0, -30, 0}, {0, 0, 580, 30, 0, 0}};
 }
 
-Result<void> measure_dumbbell(TargetMeter& meter, const TargetShot& shot, double picture_range_mm,
-                              const ShowTarget& show, AcceptanceReport& report) {
-  const std::string name = "dumbbell " + std::to_string(shot.number + 1);
-  const Vec3d along = minus(left_from_target(shot.place, {1, 0, 0}), left_from_target(shot.place, {0, 0, 0}));
-  Vec3d centres[2];
-  for (const int side : {0, 1}) {
-    const double out = side == 0 ? -1 : 1;
-    const Vec3d nominal = left_from_target(shot.place, {out * shot.targets.sphere_spacing_mm / 2, 0, 0});
-    RELIEVO_TRY_ASSIGN(const TargetReading reading,
-                       measure_sphere(meter, shot, nominal, times(along, -out),
-                                      name + (side == 0 ? " a" : " b"), picture_range_mm, show));
-    centres[side] = reading.centre_mm;
-    report.targets.push_back(reading);
-  }
-  report.spacings.push_back({name, distance(centres[0], centres[1]) - shot.targets.sphere_spacing_mm});
-  return {};
-}
-
-Result<void> measure_plate(TargetMeter& meter, const TargetShot& shot, double picture_range_mm,
-                           const ShowTarget& show, AcceptanceReport& report) {
-  const std::string name = "plate " + std::to_string(shot.number + 1);
-  const Vec3d middle = left_from_target(shot.place, {0, 0, 0});
-  const Vec3d x = minus(left_from_target(shot.place, {1, 0, 0}), middle),
-              y = minus(left_from_target(shot.place, {0, 1, 0}), middle);
-  const double half_width = shot.targets.plate_width_mm / 2, half_height = shot.targets.plate_height_mm / 2;
-  const double reach = std::hypot(half_width, half_height) + kMarginMm;
-  auto surface = meter.surface_around(middle, reach);
-  if (!surface) return at_target(surface.error(), name);
-  std::vector<Vec3d> inside;
-  for (const Vec3d& p : *surface) {
-    const Vec3d from = minus(p, middle);
-    if (std::abs(dot(from, x)) < half_width - kRimMm && std::abs(dot(from, y)) < half_height - kRimMm)
-      inside.push_back(p);
-  }
-  const auto read = pipeline::best_fit::read_plane(inside, kDiscardShare);
-  if (!read) return at_target(read.error(), name);
-  const TargetReading reading{
-      name, TargetKind::Plate, surface->size(), read->used, read->discarded, read->range_mm, read->rms_mm, 0,
-      {}};
-  RELIEVO_TRY(show_reading(meter, reading, read->form, inside, middle, reach, picture_range_mm, show));
-  report.targets.push_back(reading);
-  return {};
-}
-
 Result<AcceptanceReport> measure_targets(const pipeline::StereoCalibration& calibration,
                                          const Photograph& photograph, const OpticalCheckOptions& options,
                                          const std::atomic<bool>& cancelled,
                                          const std::function<void()>& each) {
-  RELIEVO_TRY_ASSIGN(TargetMeter meter, TargetMeter::make(calibration, cancelled));
+  RELIEVO_TRY_ASSIGN(auto stages, stages_for_targets(calibration));
+  TargetMeter meter(std::move(stages), cancelled);
   AcceptanceReport report;
   TargetShot shot = series_of(options);
   for (const TargetKind kind : {TargetKind::Dumbbell, TargetKind::Plate}) {

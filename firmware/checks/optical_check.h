@@ -8,17 +8,13 @@
 #pragma once
 
 #include <atomic>
-#include <memory>
 #include <string>
 #include <string_view>
 #include <vector>
 
-#include "firmware/base/boot_memory.h"
 #include "firmware/checks/target_calibration.h"
 #include "firmware/jobs/job_thread.h"
 #include "pipeline/calibrate/calibrator.h"
-#include "pipeline/model/vector3.h"
-#include "pipeline/pipeline.h"
 
 namespace relievo::firmware {
 
@@ -33,43 +29,6 @@ namespace relievo::firmware {
 // no more than kCapDeg from its normal, but not within kRodMm of the rod's axis, which shades and
 // hides it; of the plate all but kRimMm along the edge.
 // Thread: worker.
-
-// TargetMeter: measures a target as the product measures a face: rectify, match, triangulate, reject
-// outliers, mesh, with the default algorithms. Only what knows of faces stays out: no face is looked
-// for (a ball around the target is the region instead, so nothing is cropped), the mesher accepts less
-// surface than a face has, and the texture stage with its head frame is not run.
-// Left camera's frame, millimetres.
-// Memory: 0.9 GiB of address space, touched as far as the pictures need; one pool of threads.
-// Errors: the stages' own; PoorGeometry (nothing measured there). Thread: worker; one caller.
-class TargetMeter {
- public:
-  static Result<TargetMeter> make(const pipeline::StereoCalibration& calibration,
-                                  const std::atomic<bool>& cancelled);
-  TargetMeter(TargetMeter&&) noexcept;
-  ~TargetMeter();
-
-  // Rectifies the pair; it is borrowed until the next one is taken.
-  Result<void> take(const TargetPictures& pictures);
-  // The measured vertices of the mesh (never the bridged ones) within `reach_mm` of `centre_mm` as the
-  // left rectified view shows it.
-  Result<std::vector<pipeline::Vec3d>> surface_around(const pipeline::Vec3d& centre_mm, double reach_mm);
-  // The rectified left view around the target, beside it the same with every point coloured by its
-  // deviation: blue -range, white 0, red +range, and the scale below.
-  hal::Picture picture_of(const pipeline::Vec3d& centre_mm, double reach_mm,
-                          const std::vector<pipeline::Vec3d>& points_mm,
-                          const std::vector<double>& deviations_mm, double range_mm) const;
-
- private:
-  struct Circle {
-    double x_px = 0, y_px = 0, radius_px = 0;
-  };
-  TargetMeter();
-  Circle circle_around(const pipeline::Vec3d& centre_mm, double reach_mm) const;
-
-  struct Room;  // memory, threads and the rectified pair: they stay where they are
-  std::unique_ptr<Room> room_;
-};
-
 inline constexpr double kDiscardShare = 0.003;
 inline constexpr double kCapDeg = 60;
 inline constexpr double kRodMm = 12;
@@ -83,7 +42,7 @@ struct AcceptanceLimits {  // mm; what may not be exceeded, either sign
 AcceptanceLimits limits_at(double scale);
 
 struct TargetReading {
-  std::string name;  // "dumbbell 1 left", "plate 3"
+  std::string name;  // "dumbbell 1 a", "plate 3"
   TargetKind kind = TargetKind::Dumbbell;
   std::size_t measured = 0;  // points the mesh holds there; used + discarded of them were evaluated
   std::size_t used = 0, discarded = 0;
@@ -120,13 +79,6 @@ std::vector<TargetPlace> plate_places();
 
 // Called with a picture of every target (DeviationPicture); may be empty.
 using ShowTarget = std::function<Result<void>(const std::string& name, const hal::Picture& picture)>;
-
-// Measures one target that was taken by the meter, and adds its readings to the report.
-// Errors: as TargetMeter, and PoorGeometry where too few points lie on the target; each names it.
-Result<void> measure_dumbbell(TargetMeter& meter, const TargetShot& shot, double picture_range_mm,
-                              const ShowTarget& show, AcceptanceReport& report);
-Result<void> measure_plate(TargetMeter& meter, const TargetShot& shot, double picture_range_mm,
-                           const ShowTarget& show, AcceptanceReport& report);
 
 struct OpticalCheckOptions {
   std::uint32_t seed = 1;

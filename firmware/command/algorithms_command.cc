@@ -85,29 +85,13 @@ Result<void> run(const AlgorithmsArgs& args, Services& services) {
   return Error{Errc::NotFound, "no such kind or algorithm: 'relievo algorithms' lists them"}.at(args.name);
 }
 
-namespace {
-
-class SimulateJob final : public Job {
- public:
-  SimulateJob(const SimulateArgs& args, const Path& folder, const Services& services)
-      : args_(args), folder_(folder), services_(services) {}
-  Result<void> run(JobControl& control) override {
-    RELIEVO_TRY(services_.simulate(args_, folder_));
-    if (control.cancelled.load()) return Error{Errc::Cancelled, "cancelled: nothing was written"};
-    return {};
-  }
-
- private:
-  const SimulateArgs& args_;
-  const Path& folder_;
-  const Services& services_;
-};
-
-}  // namespace
-
 Result<void> run(const SimulateArgs& args, Services& services) {
   RELIEVO_TRY_ASSIGN(OutputFolder folder, OutputFolder::begin(args.output));
-  SimulateJob job(args, folder.path(), services);
+  FunctionJob job([&](JobControl& control) -> Result<void> {
+    RELIEVO_TRY(services.simulate(args, folder.path()));
+    if (control.cancelled.load()) return Error{Errc::Cancelled, "the pictures were no longer wanted"};
+    return {};
+  });
   if (const auto done = run_watched(job, services.console, [] { return "Simulate"; }); !done) {
     if (!args.held.picture.empty() && done.error().where() == args.held.picture.native()) return done.error();
     return done.error().at(args.output.string());  // not where the files lie for the moment

@@ -19,7 +19,6 @@
 #include "firmware/command/commands.h"
 #include "firmware/jobs/job_thread.h"
 #include "firmware/records/event_log.h"
-#include "firmware/report/report.h"
 #include "firmware/service/access.h"
 #include "firmware/service/touch_trial.h"
 #include "firmware/service/visit_costs.h"
@@ -54,6 +53,63 @@ void say_plan(Console& console) {
   say("GL driver", budget::kDriverBytes, budget::kDriverBytes);
   say("all of it", budget::appliance_bytes(kCommon), budget::appliance_bytes(kMost));
   say("one pair's face", budget::plan_of_a_face(kCommon).all(), budget::plan_of_a_face(kMost).all());
+}
+
+std::string file_name(std::string name) {
+  std::ranges::replace(name, ' ', '_');
+  return name + ".png";
+}
+
+// The report and the pictures are written whatever the verdict: a failure wants to be looked at.
+Result<void> run_optical_selftest(const SelfTestArgs& args, Services& services) {
+  (void)interrupted();  // from here on Ctrl-C is ours: nothing half-written stays behind
+  std::optional<OutputFolder> folder;
+  OpticalCheckOptions options;
+  options.seed = args.seed;
+  options.scale = args.scale;
+  if (!args.output.empty()) {
+    RELIEVO_TRY_ASSIGN(OutputFolder made, OutputFolder::begin(args.output));
+    folder.emplace(std::move(made));
+    options.show = [&](const std::string& name, const hal::Picture& picture) -> Result<void> {
+      const auto written = hal::write_picture(folder->path() / file_name(name), picture.view());
+      if (!written) return written.error().at((args.output / file_name(name)).string());
+      return {};
+    };
+  }
+  services.console.say("photographing " + std::to_string(options.boards) + " boards, " +
+                       std::to_string(options.dumbbells.size()) + " dumbbells and " +
+                       std::to_string(options.plates.size()) + " plates: a minute or two");
+  OpticalCheckJob job(services.photograph, options);
+  RELIEVO_TRY(run_watched(job, services.console, [&job] { return job.stage(); }));
+  for (const std::string& line : acceptance_table(job.report(), options, job.calibration().quality))
+    services.console.say(line);
+  if (folder) {
+    RELIEVO_TRY(write_text(folder->path() / "report.json",
+                           acceptance_json(job.report(), options, job.calibration().quality), args.output));
+    RELIEVO_TRY(folder->commit());
+    services.console.say("report and pictures: " + args.output.string());
+  }
+  return job.report().verdict(limits_at(options.scale));
+}
+
+// Both logs: the store's, which shows every edit, and the one the technician reads.
+Result<void> note(storage::Store& store, const Path& folder, const hal::Clock& clock, const char* event,
+                  const char* whose, ui::LogEvent line) {
+  RELIEVO_TRY(store.append_audit({event, {}, whose}));
+  EventLog log(clock, folder / kLogFile);
+  log.say(line);
+  return log.save();
+}
+
+// A stage that has its own memory says itself when that is used up. This is the machine's.
+template <typename Args>
+Result<void> run_in_memory_there_is(const Args& args, Services& services) {
+  try {
+    return run(args, services);
+  } catch (const std::bad_alloc&) {
+    return Error{Errc::OutOfMemory,
+                 "this machine has too little free memory for that: end other programs, or give it more"};
+  }
 }
 
 }  // namespace
@@ -105,19 +161,6 @@ Result<void> run(const SelfTestArgs& args, Services& services) {
 
 // `relievo staff`: the way in of whoever administers the device, when the screen offers none. The store lets
 // nobody else in while a kiosk has it.
-namespace {
-
-// Both logs: the store's, which shows every edit, and the one the technician reads.
-Result<void> note(storage::Store& store, const Path& folder, const hal::Clock& clock, const char* event,
-                  const char* whose, ui::LogEvent line) {
-  RELIEVO_TRY(store.append_audit({event, {}, whose}));
-  EventLog log(clock, folder / kLogFile);
-  log.say(line);
-  return log.save();
-}
-
-}  // namespace
-
 Result<void> run(const StaffArgs& args, Services& services) {
   const Path folder = store_folder(args.store);
   RELIEVO_TRY_ASSIGN(const auto store, open_kept_store(folder, services));
@@ -141,68 +184,12 @@ Result<void> run(const StaffArgs& args, Services& services) {
   return {};
 }
 
-namespace {
-
-std::string file_name(std::string name) {
-  std::ranges::replace(name, ' ', '_');
-  return name + ".png";
-}
-
-}  // namespace
-
-// The report and the pictures are written whatever the verdict: a failure wants to be looked at.
-Result<void> run_optical_selftest(const SelfTestArgs& args, Services& services) {
-  (void)interrupted();  // from here on Ctrl-C is ours: nothing half-written stays behind
-  std::optional<OutputFolder> folder;
-  OpticalCheckOptions options;
-  options.seed = args.seed;
-  options.scale = args.scale;
-  if (!args.output.empty()) {
-    RELIEVO_TRY_ASSIGN(OutputFolder made, OutputFolder::begin(args.output));
-    folder.emplace(std::move(made));
-    options.show = [&](const std::string& name, const hal::Picture& picture) -> Result<void> {
-      const auto written = hal::write_picture(folder->path() / file_name(name), picture.view());
-      if (!written) return written.error().at((args.output / file_name(name)).string());
-      return {};
-    };
-  }
-  services.console.say("photographing " + std::to_string(options.boards) + " boards, " +
-                       std::to_string(options.dumbbells.size()) + " dumbbells and " +
-                       std::to_string(options.plates.size()) + " plates: a minute or two");
-  OpticalCheckJob job(services.photograph, options);
-  RELIEVO_TRY(run_watched(job, services.console, [&job] { return job.stage(); }));
-  for (const std::string& line : acceptance_table(job.report(), options, job.calibration().quality))
-    services.console.say(line);
-  if (folder) {
-    RELIEVO_TRY(write_text(folder->path() / "report.json",
-                           acceptance_json(job.report(), options, job.calibration().quality), args.output));
-    RELIEVO_TRY(folder->commit());
-    services.console.say("report and pictures: " + args.output.string());
-  }
-  return job.report().verdict(limits_at(options.scale));
-}
-
 Result<std::unique_ptr<storage::Store>> open_kept_store(const Path& folder, Services& services) {
   // To read needs the store: one that is named wrongly is not made. An older one can only be opened to write.
   if (const auto there = services.open_store(folder, false); !there && there.error().code == Errc::NotFound)
     return there.error();
   return services.open_store(folder, true);
 }
-
-namespace {
-
-// A stage that has its own memory says itself when that is used up. This is the machine's.
-template <typename Args>
-Result<void> run_in_memory_there_is(const Args& args, Services& services) {
-  try {
-    return run(args, services);
-  } catch (const std::bad_alloc&) {
-    return Error{Errc::OutOfMemory,
-                 "this machine has too little free memory for that: end other programs, or give it more"};
-  }
-}
-
-}  // namespace
 
 int run_command(const CommandLine& line, Services& services) {
   return std::visit(

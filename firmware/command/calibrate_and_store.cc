@@ -1,8 +1,7 @@
 // SPDX-FileCopyrightText: 2026 The Relievo authors
 // SPDX-License-Identifier: GPL-3.0-or-later
 //
-// relievo calibrate as a command, from a folder and live: with its words on the console, Ctrl-C, and the
-// store.
+// `relievo calibrate`, from a folder and live: with its words on the console, Ctrl-C, and the store.
 #include <chrono>
 #include <functional>
 #include <memory>
@@ -47,18 +46,6 @@ class ConsoleLines final : public std::streambuf {
   Console& console_;
   std::string line_;
 };
-
-// Of a store that is not there yet, or holds no calibration, nothing is known.
-Result<std::optional<pipeline::StereoCalibration>> known_calibration(const Path& folder, Services& services) {
-  const auto store = services.open_store(folder, false);
-  if (!store && store.error().code == Errc::NotFound) return std::optional<pipeline::StereoCalibration>();
-  if (!store) return store.error();
-  auto active = (*store)->active_calibration();
-  if (!active && active.error().code == Errc::NotCalibrated)
-    return std::optional<pipeline::StereoCalibration>();
-  if (!active) return active.error();
-  return std::optional(*active);
-}
 
 using Calibrate = std::function<Result<pipeline::CalibratorOutput>(std::ostream& out, const RigToday& today)>;
 
@@ -106,6 +93,17 @@ Result<std::unique_ptr<LivePairs>> open_pairs(const CalibrateLiveArgs& args, Ser
 }
 
 }  // namespace
+
+Result<std::optional<pipeline::StereoCalibration>> known_calibration(const Path& folder, Services& services) {
+  const auto store = services.open_store(folder, false);
+  if (!store && store.error().code == Errc::NotFound) return std::optional<pipeline::StereoCalibration>();
+  if (!store) return store.error();
+  auto active = (*store)->active_calibration();
+  if (!active && active.error().code == Errc::NotCalibrated)
+    return std::optional<pipeline::StereoCalibration>();
+  if (!active) return active.error();
+  return std::optional(*active);
+}
 
 Result<void> run(const CalibrateArgs& args, Services& services) {
   return calibrate_and_store(

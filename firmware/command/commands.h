@@ -5,7 +5,6 @@
 // line; nothing half-written stays. Thread: main; the long ones use the worker and stop at Ctrl-C.
 #pragma once
 
-#include "firmware/base/settings.h"
 #include "firmware/services/services.h"
 
 namespace relievo::firmware {
@@ -22,7 +21,6 @@ Result<void> run(const StaffArgs& args, Services& services);
 Result<void> run(const StoreArgs& args, Services& services);
 Result<void> run(const SimulateArgs& args, Services& services);
 Result<void> run(const SelfTestArgs& args, Services& services);
-Result<void> run_optical_selftest(const SelfTestArgs& args, Services& services);
 Result<void> run(const KioskArgs& args, Services& services);
 Result<void> run(const AlgorithmsArgs& args, Services& services);
 Result<void> run(const MemoryArgs& args, Services& services);
@@ -33,5 +31,8 @@ int run_command(const CommandLine& line, Services& services);
 
 // The store in it, to write. Errors: NotFound (there is none, and none is made); as Services::open_store.
 Result<std::unique_ptr<storage::Store>> open_kept_store(const Path& folder, Services& services);
+
+// The one in use. None: of a store that is not there yet, or holds none. Errors: the store's.
+Result<std::optional<pipeline::StereoCalibration>> known_calibration(const Path& folder, Services& services);
 
 }  // namespace relievo::firmware

@@ -28,13 +28,6 @@ struct Calibrated {
   std::uint32_t revision = 0;  // 0: of a file, and the store does not know it yet
 };
 
-Result<pipeline::StereoCalibration> in_use(const Path& folder, Services& services) {
-  const auto store = services.open_store(folder, false);
-  if (!store && store.error().code == Errc::NotFound) return Error{Errc::NotCalibrated, "there is no store"};
-  if (!store) return store.error();
-  return (*store)->active_calibration();
-}
-
 // Looked for before anything is made: without one no store appears.
 Result<Calibrated> find_calibration(const EnrolArgs& args, const hal::CaptureMode& mode, Services& services) {
   Calibrated found;
@@ -46,14 +39,13 @@ Result<Calibrated> find_calibration(const EnrolArgs& args, const hal::CaptureMod
     return found;
   }
   const Path folder = store_folder(args.store);
-  const Result<pipeline::StereoCalibration> kept = in_use(folder, services);
+  RELIEVO_TRY_ASSIGN(const auto kept, known_calibration(folder, services));
   if (kept) {
     found.calibration = *kept;
     found.revision = kept->revision;
     found.name = found.note = "store revision " + std::to_string(found.revision);
     return found;
   }
-  if (kept.error().code != Errc::NotCalibrated) return kept.error();
   if (args.device != "sim")
     return Error{
         Errc::NotCalibrated,
@@ -73,33 +65,18 @@ Result<void> drive(Appliance& appliance, Console& console) {
   for (;;) {
     appliance.step(budget::kTick);
     if (stop.load()) appliance.ask(ui::Intent::Cancel);
-    switch (appliance.state()) {
-      case State::Idle:
-        if (stop.load()) return Error{Errc::Cancelled, "the enrolment was cancelled: nothing was stored"};
-        if (begun) return appliance.problem() ? Result<void>(*appliance.problem()) : Result<void>();
-        begun = true;
-        appliance.ask(ui::Intent::Begin);
-        break;
-      case State::Review:
-        if (appliance.problem()) return *appliance.problem();  // it could not be stored
-        appliance.ask(ui::Intent::Accept);
-        break;
-      case State::Fault: return *appliance.problem();
-      case State::SelfTest:
-      case State::Capture:
-      case State::Match:
-      case State::Reconstruct:
-      case State::Mesh:
-      case State::Texture:
-      case State::Assemble:
-      case State::Store: console.progress(name_of(appliance.state()), appliance.progress()); break;
-      case State::Position:  // and the two after it are for a person at a screen
-      case State::Turn:
-      case State::Fuse:
-      case State::Calibrate:
-      case State::Export:
-      case State::Staff:
-      case State::Count: break;
+    const State state = appliance.state();
+    if (state == State::Fault) return *appliance.problem();
+    if (state == State::Review) {
+      if (appliance.problem()) return *appliance.problem();  // it could not be stored
+      appliance.ask(ui::Intent::Accept);
+    } else if (state != State::Idle) {
+      console.progress(name_of(state), appliance.progress());
+    } else {
+      if (stop.load()) return Error{Errc::Cancelled, "the enrolment was cancelled: nothing was stored"};
+      if (begun) return appliance.problem() ? Result<void>(*appliance.problem()) : Result<void>();
+      begun = true;
+      appliance.ask(ui::Intent::Begin);
     }
   }
 }

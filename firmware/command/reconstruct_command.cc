@@ -15,7 +15,6 @@
 #include "storage/export/model_files.h"
 
 namespace relievo::firmware {
-
 namespace {
 
 WhenMoved when_moved(const ReconstructArgs& args) {

@@ -7,11 +7,16 @@
 #include <string>
 #include <vector>
 
+#include "firmware/base/budget.h"
 #include "firmware/records/receipt.h"
+#include "storage/record.h"
 #include "storage/text.h"
 
 namespace relievo::firmware {
 namespace {
+
+// Whom the store takes, the session takes: nobody is refused once the cameras are open.
+static_assert(budget::kSubjectNameBytes == storage::kMaxNameBytes);
 
 std::optional<storage::SubjectId> number_in(std::string_view text) {
   if (text.size() < 2 || text.front() != '#') return std::nullopt;
@@ -52,6 +57,11 @@ Result<std::optional<storage::SubjectId>> choose_subject(storage::Store& store,
                                                          std::string_view name_or_number) {
   if (const auto id = number_in(name_or_number)) {
     RELIEVO_TRY_ASSIGN(const auto known, store.subject(*id));
+    return std::optional(known.id);
+  }
+  // Whoever types a code means its owner: as a name it would stand readable in every list.
+  if (is_receipt(name_or_number)) {
+    RELIEVO_TRY_ASSIGN(const auto known, find_by_receipt(store, name_or_number));
     return std::optional(known.id);
   }
   RELIEVO_TRY_ASSIGN(const auto found, of_name(store, name_or_number));

@@ -9,7 +9,6 @@
 
 #include "firmware/base/boot_memory.h"
 #include "firmware/calibrate/calibrate_command.h"
-#include "firmware/compare/suites.h"
 #include "firmware/jobs/job_thread.h"
 #include "hal/base/thread_pool.h"
 #include "pipeline/algorithms.h"
@@ -173,16 +172,6 @@ Result<CubeTable> cube_table(const VirtualRig& rig, pipeline::StageContext& cont
   return table_of(corners, cloud);
 }
 
-std::string_view DissertationJob::now() const {
-  switch (at_.load(std::memory_order_relaxed)) {
-    case At::Tables: return "tables 1 and 2";
-    case At::Person: return "simulated person";
-    case At::Rules: return "figures 6 to 12";
-    case At::Face: break;
-  }
-  return "figure 17";
-}
-
 Result<void> DissertationJob::make_tables(JobControl& control) {
   RELIEVO_TRY_ASSIGN(const VirtualRig rig, calibrate_virtual_rig(simulate_, order_.work / "virtual rig"));
   result_.rig = rig_table(rig);
@@ -210,23 +199,21 @@ Result<ComparedPair> DissertationJob::simulated_person(JobControl& control) {
 }
 
 Result<void> DissertationJob::run(JobControl& control) {
-  const Result<void> done = run_all(control);
-  // A stage says what it was at; who stopped it wants to know what is left.
-  return !done && done.error().code == Errc::Cancelled ? go_on(control) : done;
-}
-
-Result<void> DissertationJob::run_all(JobControl& control) {
   RELIEVO_TRY(make_tables(control));
   RELIEVO_TRY(go_on(control));
   std::optional<ComparedPair> person;
   if (!order_.pair || !order_.pair->calibration) {
-    at_ = At::Person;
+    at_ = "simulated person";
     RELIEVO_TRY_ASSIGN(person, simulated_person(control));
   }
-  at_ = At::Rules;
+  at_ = "figures 6 to 12";
   RELIEVO_TRY_ASSIGN(result_.rules, compared(order_.pair ? *order_.pair : *person, order_.rule_sets,
                                              {order_.whole_view, order_.limit_px, false}, control));
-  at_ = At::Face;
+  // Of what was never rectified there is nothing to draw.
+  if (result_.rules.pairs.front().width_px == 0)
+    return Error{Errc::InvalidInput, "so no set could be tried on this pair: choose another"}.at(
+        result_.rules.runs.front().failure);
+  at_ = "figure 17";
   RELIEVO_TRY_ASSIGN(result_.face, compared(person ? *person : *order_.pair, order_.face_sets,
                                             {!person && order_.whole_view, order_.limit_px}, control));
   return {};

@@ -3,7 +3,8 @@
 //
 // DissertationJob: all of the dissertation's tables and figures. Figures 6 to 12 are done on the pair given;
 // figure 17 too, where that is calibrated. What is left is done on a simulated person, whose truth is known.
-// Thread: worker; now() any; result() once done. Errors: Cancelled; those of the virtual rig and of the disk.
+// Thread: worker; now() any; result() once done. Errors: Cancelled; those of the virtual rig and of the disk;
+// InvalidInput (no set could rectify the pair).
 #pragma once
 
 #include <atomic>
@@ -49,19 +50,17 @@ class DissertationJob final : public Job {
   DissertationJob(DissertationOrder order, Simulate simulate)
       : order_(std::move(order)), simulate_(std::move(simulate)) {}
   Result<void> run(JobControl& control) override;
-  std::string_view now() const;
+  std::string_view now() const { return at_.load(std::memory_order_relaxed); }
   const Dissertation& result() const { return result_; }
 
  private:
-  Result<void> run_all(JobControl& control);
-  enum class At : std::uint8_t { Tables, Person, Rules, Face };
   Result<void> make_tables(JobControl& control);
   Result<ComparedPair> simulated_person(JobControl& control);
 
   DissertationOrder order_;
   Simulate simulate_;
   Dissertation result_;
-  std::atomic<At> at_{At::Tables};
+  std::atomic<const char*> at_{"tables 1 and 2"};
 };
 
 }  // namespace relievo::firmware::compare

@@ -24,7 +24,6 @@
 #include "pipeline/pipeline.h"
 
 namespace relievo::firmware::compare {
-
 namespace {
 
 struct RunOrder {
@@ -67,19 +66,6 @@ Result<void> read_truth(const Path& truth, const CompareArgs& args, ComparedPair
   return {};
 }
 
-// PeakMemory: the most memory the process held resident since this was made, above what it held then: arenas
-// and every library's heap together. Linux counts it; elsewhere, or where /proc may not be written, 0.
-// Thread: any, one at a time.
-
-class PeakMemory {
- public:
-  PeakMemory();
-  std::size_t above_bytes() const;
-
- private:
-  std::size_t before_ = 0;
-};
-
 // A line of /proc/self/status: "VmHWM:	  123456 kB".
 std::size_t status_bytes(std::string_view key) {
   std::ifstream file("/proc/self/status");
@@ -94,12 +80,19 @@ bool restart_peak() {
   return static_cast<bool>(file << "5" << std::flush);
 }
 
-PeakMemory::PeakMemory() : before_(restart_peak() ? status_bytes("VmRSS:") : 0) {}
+// PeakMemory: the most memory the process held resident since this was made, above what it held then: arenas
+// and every library's heap together. Linux counts it; elsewhere, or where /proc may not be written, 0.
+// Thread: any, one at a time.
+class PeakMemory {
+ public:
+  std::size_t above_bytes() const {
+    const std::size_t peak = status_bytes("VmHWM:");
+    return before_ == 0 || peak < before_ ? 0 : peak - before_;
+  }
 
-std::size_t PeakMemory::above_bytes() const {
-  const std::size_t peak = status_bytes("VmHWM:");
-  return before_ == 0 || peak < before_ ? 0 : peak - before_;
-}
+ private:
+  const std::size_t before_ = restart_peak() ? status_bytes("VmRSS:") : 0;
+};
 
 // What a model's surface looks like, in clay: from in front and from the side, each 230 mm across.
 // Times are left to the caller. Errors: those of the picture encoder. Thread: any.
@@ -218,23 +211,20 @@ Result<void> match(const NamedSet& set, StepRunner& runner, Made& made) {
 
 Result<void> build_model(const RunOrder& order, const pipeline::Pipeline& pipeline, StepRunner& runner,
                          Made& made, Run& run) {
-  auto cloud = runner.step("reconstruct", [&](pipeline::StageContext& c) {
-    return pipeline.reconstruct(*made.pair, *made.matches, c);
-  });
-  if (!cloud) return cloud.error();
-  auto mesh =
-      runner.step("mesh", [&](pipeline::StageContext& c) { return pipeline.mesh(*cloud, *made.pair, c); });
-  if (!mesh) return mesh.error();
-  auto texture = runner.step(
-      "texture", [&](pipeline::StageContext& c) { return pipeline.texture(*mesh, *made.pair, c); });
-  if (!texture) return texture.error();
-  auto model = runner.step("assemble", [&](pipeline::StageContext& c) {
-    return pipeline.assemble(*std::move(mesh), *std::move(texture), *made.pair, c);
-  });
-  if (!model) return model.error();
-  if (order.pair.view) run.model = measure::measure(model->mesh, *order.pair.view, *order.pair.head);
-  made.model.emplace(*std::move(model));
-  return order.options.keep_model ? order.options.keep_model(*made.model) : Result<void>{};
+  using pipeline::StageContext;
+  const pipeline::RectifiedPair& pair = *made.pair;
+  RELIEVO_TRY_ASSIGN(const auto cloud, runner.step("reconstruct", [&](StageContext& c) {
+    return pipeline.reconstruct(pair, *made.matches, c);
+  }));
+  RELIEVO_TRY_ASSIGN(auto mesh,
+                     runner.step("mesh", [&](StageContext& c) { return pipeline.mesh(cloud, pair, c); }));
+  RELIEVO_TRY_ASSIGN(
+      auto texture, runner.step("texture", [&](StageContext& c) { return pipeline.texture(mesh, pair, c); }));
+  RELIEVO_TRY_ASSIGN(made.model, runner.step("assemble", [&](StageContext& c) {
+    return pipeline.assemble(std::move(mesh), std::move(texture), pair, c);
+  }));
+  if (order.pair.view) run.model = measure::measure(made.model->mesh, *order.pair.view, *order.pair.head);
+  return {};
 }
 
 void note_facts(const RunOrder& order, const pipeline::RectifiedPair& pair, PairFacts& facts) {
@@ -332,14 +322,11 @@ Result<void> run_set(const RunOrder& order, ThreadPool& pool, JobControl& contro
   run.arena_peak_bytes = runner.touched_bytes();
   const std::size_t above = peak.above_bytes();
   run.heap_peak_bytes = above > run.arena_peak_bytes ? above - run.arena_peak_bytes : 0;
+  // That a model cannot be kept is no failure of the algorithms: it ends the job.
+  if (done && made.model && order.options.keep_model) RELIEVO_TRY(order.options.keep_model(*made.model));
   if (!done) run.failure = words_of(run, done.error());
-  if (done || done.error().code != Errc::Cancelled)
-    if (const auto looked = look_at_matches(order, runner, facts, made, run);
-        !looked && looked.error().code == Errc::Cancelled)
-      done = looked;
-  if (!done && done.error().code == Errc::Cancelled)
-    return Error{Errc::Cancelled, "cancelled: nothing was written"};
-  return {};
+  if (done || done.error().code != Errc::Cancelled) done = look_at_matches(order, runner, facts, made, run);
+  return done || done.error().code != Errc::Cancelled ? Result<void>() : done;
 }
 
 }  // namespace

@@ -75,37 +75,6 @@ Result<std::vector<SetWords>> all_words(const CompareArgs& args) {
   return all;
 }
 
-}  // namespace
-
-Result<std::vector<NamedSet>> choose_sets(const CompareArgs& args) {
-  RELIEVO_TRY_ASSIGN(auto all, all_words(args));
-  if (all.empty()) {
-    RELIEVO_TRY_ASSIGN(const auto only, choose_algorithms(args.algorithms));
-    all.push_back({only.get("matcher"), {}});
-  }
-  return make_sets(args.algorithms, all);
-}
-
-Result<std::vector<NamedSet>> make_sets(const AlgorithmArgs& algorithms, const std::vector<SetWords>& all) {
-  // Algorithms are judged here, not people: a set that makes hardly a face of one is a row with its figures.
-  AlgorithmArgs base = algorithms;
-  base.settings.insert(base.settings.begin(), "relief=off");
-  if (all.size() > kMostSets)
-    return Error{Errc::InvalidInput, "sets are too many for one page: at most 64"}.at(
-        std::to_string(all.size()));
-  std::vector<NamedSet> sets;
-  for (const SetWords& words : all) {
-    const auto same = [&words](const NamedSet& set) { return set.name == words.name; };
-    if (std::ranges::any_of(sets, same))
-      return Error{Errc::InvalidInput, "is the name of two sets: give each its own"}.at(words.name);
-    RELIEVO_TRY_ASSIGN(NamedSet set, named_set(base, words));
-    sets.push_back(std::move(set));
-  }
-  return sets;
-}
-
-namespace {
-
 using Words = std::vector<SetWords>;
 
 // What a kind may be here.
@@ -181,6 +150,33 @@ constexpr std::array kSuites{
 };
 
 }  // namespace
+
+Result<std::vector<NamedSet>> choose_sets(const CompareArgs& args) {
+  RELIEVO_TRY_ASSIGN(auto all, all_words(args));
+  if (all.empty()) {
+    RELIEVO_TRY_ASSIGN(const auto only, choose_algorithms(args.algorithms));
+    all.push_back({only.get("matcher"), {}});
+  }
+  return make_sets(args.algorithms, all);
+}
+
+Result<std::vector<NamedSet>> make_sets(const AlgorithmArgs& algorithms, const std::vector<SetWords>& all) {
+  // Algorithms are judged here, not people: a set that makes hardly a face of one is a row with its figures.
+  AlgorithmArgs base = algorithms;
+  base.settings.insert(base.settings.begin(), "relief=off");
+  if (all.size() > kMostSets)
+    return Error{Errc::InvalidInput, "sets are too many for one page: at most 64"}.at(
+        std::to_string(all.size()));
+  std::vector<NamedSet> sets;
+  for (const SetWords& words : all) {
+    const auto same = [&words](const NamedSet& set) { return set.name == words.name; };
+    if (std::ranges::any_of(sets, same))
+      return Error{Errc::InvalidInput, "is the name of two sets: give each its own"}.at(words.name);
+    RELIEVO_TRY_ASSIGN(NamedSet set, named_set(base, words));
+    sets.push_back(std::move(set));
+  }
+  return sets;
+}
 
 std::vector<SetWords> dissertation_rule_sets() {
   Words words;

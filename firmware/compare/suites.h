@@ -2,7 +2,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 //
 // Sets that belong together, by name. A suite is made from the algorithms that this program has; that of the
-// dissertation is more than sets: dissertation/ makes a report of its own of it.
+// dissertation is more than sets: dissertation_job.h makes a report of its own of it.
 // Errors: NotFound (no such suite; the error's place lists them). Thread: any.
 #pragma once
 

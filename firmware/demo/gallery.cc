@@ -225,7 +225,7 @@ void add_taking_home(Gallery& g, ui::ViewState done) {
 void add_decision(Gallery& g, const ui::ViewState& review, const ui::ViewState& idle) {
   g.add("review", review, g.at(Step::Review));
   ui::ViewState full = review;
-  full.trouble = Trouble::Storage;
+  full.trouble = Trouble::StorageFull;
   ui::Visit turned = g.at(Step::Review);
   turned.look = {.yaw_deg = 32, .pitch_deg = 6, .zoom = 1.1F, .light_deg = 25, .textured = false};
   for (const auto& [name, born] : {std::pair("review_points", 0.42F), {"review_surface", 0.75F}}) {
@@ -318,27 +318,29 @@ std::vector<Exhibit> gallery(const ui::ViewState& review, ui::Language language,
 namespace {
 
 // How the one put aside differs, and the present one by itself.
-void add_differences(Lender& all, const ui::ViewState& review, ui::TechnicianView view) {
+void add_differences(const Lender& all, const ui::ViewState& review, ui::TechnicianView view) {
   view.differences = true;
   view.full_colour_mm = 0.5F;
   view.scale = difference_scale();
   view.compared[0].difference = {true, -0.04F, 0.31F, {review.stages[1].picture, 900041}, nullptr, 900041};
   view.compared[view.put_aside] = {view.result, view.shown[0], view.model, view.model_number, {}};
   all.add("technician_difference", ui::StaffPage::Compare, view);
-  all.add("technician_compare_alone", ui::StaffPage::Compare, view);
-  all.lent.back().mode = 1;
-  all.lent.back().measures = true;
+  ui::FaceRuler& ruler = all.add("technician_compare_alone", ui::StaffPage::Compare, view, 1).service.ruler;
+  ruler.on = true;
+  ruler.set({-31, 34, 18});
+  ruler.set({32, 33, 19});
 }
 
 }  // namespace
 
 // The same capture by other algorithms, another document, and one whose matcher gave up.
-void add_comparisons(Lender& all, const ui::ViewState& review, ui::TechnicianView view) {
-  const auto put_aside = [&view] {
-    view.compared[view.put_aside++] = {view.result, view.shown[0], view.model, view.model_number, {}};
+void add_comparisons(const Lender& all, const ui::ViewState& review, ui::TechnicianView view) {
+  const auto present = [&view] {
+    return ui::TechnicianCompared{view.result, view.shown[0], view.model, view.model_number, {}};
   };
+  const auto put_aside = [&] { view.compared[view.put_aside++] = present(); };
   const auto add_with_present = [&](std::string_view name) {
-    view.compared[view.put_aside] = {view.result, view.shown[0], view.model, view.model_number, {}};
+    view.compared[view.put_aside] = present();
     all.add(name, ui::StaffPage::Compare, view);
   };
   lend(review, ui::TechnicianStage::Mesh, view);

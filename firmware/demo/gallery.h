@@ -32,30 +32,23 @@ void add_staff_exhibits(std::vector<Exhibit>& exhibits, const ui::ViewState& idl
 void add_technician_exhibits(std::vector<Exhibit>& exhibits, const ui::ViewState& review,
                              const ui::ViewState& idle, const ui::Visit& visit);
 
-// What the technician's pages are shown in the gallery, for its files. Thread: main. Errors: none.
-struct Lent {
-  std::string_view name;
-  ui::StaffPage page;
-  ui::TechnicianView view;
-  ui::ServiceView staff;
-  ui::Fault note;  // said against the calibration
-  bool edges = false;
-  int mode = 0;
-  bool measures = false;
-};
-
-// All that is lent to the pages, for as long as they are looked at.
+// Adds the technician's pages; what they borrow is kept in `lent`, for as long as they are looked at.
 struct Lender {
-  std::deque<Lent> lent;
-  void add(std::string_view name, ui::StaffPage page, const ui::TechnicianView& view) {
-    lent.push_back({name, page, view, {}, {}, false, 0, false});
-  }
+  struct Lent {
+    ui::TechnicianView view;
+    ui::ServiceView staff;
+  };
+  std::deque<Lent>& lent;
+  std::vector<Exhibit>& exhibits;
+  const ui::ViewState& idle;
+  const ui::Visit& visit;
+  Exhibit& add(std::string_view name, ui::StaffPage page, const ui::TechnicianView& view, int mode = 0) const;
 };
 
 // The pictures of that stage, as far as the visitor's review has them.
 void lend(const ui::ViewState& review, ui::TechnicianStage stage, ui::TechnicianView& view);
 
 // Results beside each other, beginning with that of `view`.
-void add_comparisons(Lender& all, const ui::ViewState& review, ui::TechnicianView view);
+void add_comparisons(const Lender& all, const ui::ViewState& review, ui::TechnicianView view);
 
 }  // namespace relievo::firmware

@@ -17,7 +17,7 @@
 #include "firmware/kiosk/invitation_head.h"
 #include "hal/base/result.h"
 #include "hal/base/whole_file.h"
-#include "hal/reduced_picture.h"
+#include "hal/picture_file.h"
 #include "pipeline/mesh/detail/level_of_detail.h"
 #include "pipeline/model/face_model.h"
 #include "storage/model_blob.h"
@@ -26,10 +26,8 @@
 namespace relievo::firmware {
 namespace {
 
-// Makes the head of the page that invites (firmware/kiosk/invitation_head.h) from a model: a lighter form of
-// it, as two files in the folder, which must exist. Errors: IoFailed, those of the picture file. Thread:
-// main.
-
+// The head of the page that invites (firmware/kiosk/invitation_head.h): a lighter form of a model, as two
+// files in the folder, which must exist.
 constexpr int kTriangles = 9000;  // seen from across a room
 constexpr int kTexturePx = 768;
 constexpr int kJpegPercent = 88;
@@ -201,26 +199,23 @@ class Photographer {
           (folder_ / words).string());
     ui_.resize(size.width_px, size.height_px);
     RELIEVO_TRY_ASSIGN(const auto target, ui::Offscreen::make(size.width_px, size.height_px));
-    int number = 0;
-    const auto is_wanted = [&](const Exhibit& exhibit) {
-      return file_of(++number, exhibit.name).find(only_.page) != std::string::npos;
-    };
-    const std::ptrdiff_t count = std::ranges::count_if(exhibits, is_wanted);
-    if (count == 0) {
+    std::vector<std::pair<std::string, const Exhibit*>> wanted;
+    for (int number = 0; const Exhibit& exhibit : exhibits) {
+      const std::string page = file_of(++number, exhibit.name);
+      if (page.find(only_.page) != std::string::npos) wanted.emplace_back(page, &exhibit);
+    }
+    if (wanted.empty()) {
       for (const Exhibit& exhibit : exhibits) others_.emplace(exhibit.name);
       return {};
     }
     took_any_ = true;
-    Sheet sheet(std::size_t(count), size);
+    Sheet sheet(wanted.size(), size);
     hal::Picture picture;
     picture.width_px = size.width_px;
     picture.height_px = size.height_px;
     picture.bytes.resize(std::size_t{3} * std::size_t(size.width_px) * std::size_t(size.height_px));
-    number = 0;
-    for (const Exhibit& exhibit : exhibits) {
-      const std::string page = file_of(++number, exhibit.name);
-      if (page.find(only_.page) == std::string::npos) continue;
-      ui_.show(exhibit.view, exhibit.visit, exhibit.service);
+    for (const auto& [page, exhibit] : wanted) {
+      ui_.show(exhibit->view, exhibit->visit, exhibit->service);
       target->begin();
       renderer_->draw(ui_.draw_list(), ui_.text().atlas(), size.width_px, size.height_px);
       renderer_->read_back({reinterpret_cast<std::uint8_t*>(picture.bytes.data()), picture.bytes.size()},

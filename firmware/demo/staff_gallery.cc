@@ -202,8 +202,7 @@ void add_recovery(std::deque<Shown>& all) {
   static ui::RecoveryView sheet{kWords, {code.view(), 1}, 5}, wrong = sheet, done;
   wrong.state = ui::SheetState::Wrong;
   done.state = ui::SheetState::Done;
-  ServiceView recovery;
-  recovery.role = ui::StaffRole::Operator;
+  ServiceView recovery = at(StaffRole::Operator);
   recovery.access.words_due = true;
   recovery.recovery = &sheet;
   all.push_back({"staff_recovery", StaffPage::Recovery, 0, recovery});

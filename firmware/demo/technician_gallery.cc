@@ -183,7 +183,7 @@ ui::TechnicianCalibration refused(const ui::ViewState& review) {
   return c;
 }
 
-void add_stages(Lender& all, const ui::ViewState& review) {
+void add_stages(const Lender& all, const ui::ViewState& review) {
   TechnicianView view;
   all.add("technician_empty", StaffPage::Stages, view);
   view.calibrated = false;
@@ -224,11 +224,11 @@ void add_stages(Lender& all, const ui::ViewState& review) {
   view = ready(review);
   view.point = touched();
   view.can_record = true;
-  view.recording = {true, 0.6F, ui::Outcome::None, {}};
+  view.recording = {{true, 0.6F}, {}};
   all.add("technician_recording", StaffPage::Stages, view);
-  view.recording = {false, 0, ui::Outcome::Done, "captures/2026-03-12_09-14-07"};
+  view.recording = {{false, 0, ui::Outcome::Done}, "captures/2026-03-12_09-14-07"};
   all.add("technician_recorded", StaffPage::Stages, view);
-  view.recording = {true, 0.3F, ui::Outcome::None, {}};
+  view.recording = {{true, 0.3F}, {}};
   all.add("technician_loading", StaffPage::Stages, view);
   view.recording = {};
   static const std::vector<std::string> saved{"2026-03-12_09-14-07.relievo", "2026-03-11_16-40-52.relievo"};
@@ -246,12 +246,11 @@ void add_stages(Lender& all, const ui::ViewState& review) {
 }
 
 // The model, the tables, the choice of algorithms, and results beside each other.
-void add_results(Lender& all, const ui::ViewState& review) {
+void add_results(const Lender& all, const ui::ViewState& review) {
   static const AlgorithmController chosen = edited(false), typing = edited(true);
   TechnicianView view = ready(review);
   all.add("technician_model", StaffPage::Model, view);
-  all.add("technician_model_edges", StaffPage::Model, view);
-  all.lent.back().edges = true;
+  all.add("technician_model_edges", StaffPage::Model, view).visit.look.edges = true;
   view.rows = {ui::TechnicianTable::Matches, kHeads, kCells, {.page = 1, .pages = 17101, .filter = 3}};
   all.add("technician_table", StaffPage::Tables, view);
   view.rows = {ui::TechnicianTable::Calibration, kCalibrationHeads, kCalibrationCells, {}};
@@ -263,22 +262,21 @@ void add_results(Lender& all, const ui::ViewState& review) {
   add_comparisons(all, review, view);
 }
 
-void add_cameras(Lender& all, const ui::ViewState& review) {
+void add_cameras(const Lender& all, const ui::ViewState& review) {
   TechnicianView view = ready(review);
   view.cameras = watched(review);
   all.add("technician_cameras", StaffPage::Cameras, view);
   view.cameras.edges_shown = true;
   view.cameras.camera[0].sharp_edges = 0.031F;
   view.cameras.camera[1].sharp_edges = 0.012F;
-  all.add("technician_camera", StaffPage::Cameras, view);
-  all.lent.back().mode = 1;
+  all.add("technician_camera", StaffPage::Cameras, view, 1);
   view.cameras.edges_shown = false;
   view.cameras.relief_shown = true;
   view.cameras.relief = {review.stages[0].picture, 900022};
   all.add("technician_relief", StaffPage::Cameras, view);
 }
 
-void add_calibrations(Lender& all, const ui::ViewState& review) {
+void add_calibrations(const Lender& all, const ui::ViewState& review) {
   TechnicianView view = ready(review);
   view.calibration = calibrated(review, true);
   all.add("technician_calibrating", StaffPage::Calibrate, view);
@@ -288,17 +286,15 @@ void add_calibrations(Lender& all, const ui::ViewState& review) {
   all.add("technician_refused", StaffPage::Calibrate, view);
   view.calibration = calibrated(review, false);
   view.calibration.ended = false;
-  all.add("technician_moved", StaffPage::Calibrate, view);
-  all.lent.back().note = {
+  all.add("technician_moved", StaffPage::Calibrate, view).view.calibration_note = {
       Errc::NotCalibrated,
       "the rows of both views disagree by 2.47 px (more than 1.5 px is refused): a camera has moved, calibrate again"};
-  all.add("technician_exchanged", StaffPage::Calibrate, view);
-  all.lent.back().note = {
+  all.add("technician_exchanged", StaffPage::Calibrate, view).view.calibration_note = {
       Errc::NotCalibrated,
       "serial 4061 → serial 4088: the left camera is not the one that was calibrated: put that one back, or calibrate again"};
 }
 
-void add_failures(Lender& all, const ui::ViewState& review) {
+void add_failures(const Lender& all, const ui::ViewState& review) {
   TechnicianView view = ready(review);
   lend(review, TechnicianStage::Rectified, view);
   view.result.failed_at = 3;
@@ -330,31 +326,28 @@ void lend(const ui::ViewState& review, TechnicianStage stage, TechnicianView& vi
   view.shown[0] = {review.stages[last].picture, 900010 + std::uint32_t(last)};
 }
 
+Exhibit& Lender::add(std::string_view name, StaffPage page, const TechnicianView& view, int mode) const {
+  Lent& one = lent.emplace_back(Lent{view, {}});
+  one.staff.role = ui::StaffRole::Technician;
+  one.staff.technician = &one.view;
+  Exhibit& exhibit = exhibits.emplace_back(Exhibit{name, idle, visit, {}});
+  exhibit.view.screen = ui::Screen::Staff;
+  exhibit.view.calibration_note = {};
+  exhibit.view.service = &one.staff;
+  exhibit.service.show(page, mode);
+  return exhibit;
+}
+
 void add_technician_exhibits(std::vector<Exhibit>& exhibits, const ui::ViewState& review,
                              const ui::ViewState& idle, const ui::Visit& visit) {
-  static Lender all;
-  all.lent.clear();
+  static std::deque<Lender::Lent> lent;
+  lent.clear();
+  const Lender all{lent, exhibits, idle, visit};
   add_stages(all, review);
   add_results(all, review);
   add_cameras(all, review);
   add_calibrations(all, review);
   add_failures(all, review);
-  for (Lent& one : all.lent) {
-    one.staff.role = ui::StaffRole::Technician;
-    one.staff.technician = &one.view;
-    Exhibit exhibit{one.name, idle, visit, {}};
-    exhibit.view.screen = ui::Screen::Staff;
-    exhibit.view.calibration_note = one.note;
-    exhibit.view.service = &one.staff;
-    exhibit.visit.look.edges = one.edges;
-    exhibit.service.show(one.page, one.mode);
-    if (one.measures) {
-      exhibit.service.ruler.on = true;
-      exhibit.service.ruler.set({-31, 34, 18});
-      exhibit.service.ruler.set({32, 33, 19});
-    }
-    exhibits.push_back(exhibit);
-  }
 }
 
 }  // namespace relievo::firmware

@@ -52,9 +52,9 @@ Result<JobId> JobThread::start(Job& job) {
   cancelled_.store(false, std::memory_order_relaxed);
   progress_.done.store(0, std::memory_order_relaxed);
   busy_.store(true, std::memory_order_release);
-  last_id_ = next_id.fetch_add(1, std::memory_order_relaxed);
-  orders_.put({&job, last_id_});
-  return last_id_;
+  const JobId id = next_id.fetch_add(1, std::memory_order_relaxed);
+  orders_.put({&job, id});
+  return id;
 }
 
 void JobThread::wait_until_idle() {
@@ -94,8 +94,10 @@ Result<void> run_watched(Job& job, Console& console, const std::function<std::st
       continue;
     }
     console.clear_progress();
-    if (report->error) return *report->error;
-    return {};
+    if (!report->error) return {};
+    // What the job was at is no news to who stopped it.
+    return report->error->code == Errc::Cancelled ? Error{Errc::Cancelled, "cancelled: nothing was written"}
+                                                  : *report->error;
   }
 }
 

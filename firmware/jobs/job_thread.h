@@ -88,6 +88,16 @@ class Job {
   virtual Result<void> run(JobControl& control) = 0;
 };
 
+// A job that is one function.
+class FunctionJob final : public Job {
+ public:
+  explicit FunctionJob(std::function<Result<void>(JobControl&)> work) : work_(std::move(work)) {}
+  Result<void> run(JobControl& control) override { return work_(control); }
+
+ private:
+  std::function<Result<void>(JobControl&)> work_;
+};
+
 class JobThread {
  public:
   // The name is the system's for this thread (top -H): 15 letters at most.
@@ -117,14 +127,11 @@ class JobThread {
   std::mutex idle_mutex_;
   std::condition_variable idle_;
   pipeline::Progress progress_;
-  JobId last_id_ = 0;
   std::thread thread_;  // last: everything it uses stands before it starts
 };
 
-// Runs a job on a worker while this thread shows how far it is and listens for Ctrl-C.
-// Thread: main.
-
-// `stage_name` tells what the job is at. Returns the job's own result; Cancelled after Ctrl-C.
+// Runs a job on a worker while this thread shows how far it is and listens for Ctrl-C. `stage_name` tells
+// what the job is at. Returns the job's own result, after Ctrl-C Cancelled, without a place. Thread: main.
 Result<void> run_watched(Job& job, Console& console, const std::function<std::string_view()>& stage_name);
 
 }  // namespace relievo::firmware

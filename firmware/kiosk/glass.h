@@ -20,8 +20,7 @@ class Glass {
   // The display outlives it. Errors: the renderer's.
   static Result<Glass> on(ui::Display& display);
 
-  // True: there is a new frame, to be shown. Errors: LibraryFailed, when the driver gives no context any
-  // more.
+  // True: there is a new frame, to be shown. Errors: LibraryFailed (the driver gives no context any more).
   Result<bool> draw(Kiosk& kiosk, std::chrono::steady_clock::time_point now, bool wanted);
   ui::Renderer& renderer() { return *renderer_; }
 

@@ -27,14 +27,6 @@ Result<std::unique_ptr<Kiosk>> Kiosk::open(const KioskArgs& args, Services& serv
   return kiosk;
 }
 
-Kiosk::~Kiosk() {
-  code_scanner_.reset();
-  slip_.reset();
-  staff_.reset();
-  if (appliance_) appliance_->end_side_job(JobLane::Capture);
-  appliance_.reset();
-}
-
 // None: nobody has calibrated this device yet.
 Result<std::optional<pipeline::StereoCalibration>> Kiosk::find_calibration(const KioskArgs& args,
                                                                            Services& services) {
@@ -58,11 +50,10 @@ Result<std::optional<pipeline::StereoCalibration>> Kiosk::find_calibration(const
   return std::optional(*found);
 }
 
-// What the technician has chosen holds, unless the command says otherwise.
-Result<pipeline::AlgorithmSet> Kiosk::chosen_algorithms(const KioskArgs& args) {
+// What the technician has chosen.
+Result<pipeline::AlgorithmSet> Kiosk::chosen_algorithms() {
   RELIEVO_TRY_ASSIGN(const std::string kept, store_->setting(kAlgorithmsSetting));
-  if (kept.empty() || !args.algorithms.settings.empty() || !args.algorithms.file.empty())
-    return choose_algorithms(args.algorithms);
+  if (kept.empty()) return choose_algorithms({});
   RELIEVO_TRY_ASSIGN(auto set, pipeline::AlgorithmSet::from_text(kept));
   (void)read_texts(set);  // a file that went away keeps nobody out: its algorithm says so
   return set;
@@ -73,7 +64,7 @@ Result<pipeline::AlgorithmSet> Kiosk::chosen_algorithms(const KioskArgs& args) {
 Result<void> Kiosk::set_up_measuring(const KioskArgs& args, Services& services) {
   RELIEVO_TRY_ASSIGN(const std::optional<pipeline::StereoCalibration> calibration,
                      find_calibration(args, services));
-  RELIEVO_TRY_ASSIGN(const pipeline::AlgorithmSet set, chosen_algorithms(args));
+  RELIEVO_TRY_ASSIGN(const pipeline::AlgorithmSet set, chosen_algorithms());
   RELIEVO_TRY_ASSIGN(auto judge, LiveJudge::open(calibration ? calibration->left.width_px
                                                              : device_->preferred_mode().width_px));
   judge_ = std::make_unique<LiveJudge>(std::move(judge));
@@ -93,6 +84,8 @@ bool is_recorded_head(const std::string& device) {
   const auto capture = hal::read_capture_file(Path(device.substr(kFolder.size())) / "capture.json");
   return capture && capture->head;
 }
+
+constexpr std::chrono::seconds kShownInVain{4};  // a side of a recording, before its next is shown
 
 }  // namespace
 
@@ -137,7 +130,10 @@ Result<void> Kiosk::prepare(const KioskArgs& args, Services& services) {
                                         services.make_printer ? services.make_printer() : nullptr);
   take_home_ = std::make_unique<TakeHome>(
       TakeHome::Parts{staff_->side_tasks(), device_->media(), *store_, device_->clock(), staff_->log()});
-  rest_cameras_ = std::make_unique<RestCamerasJob>(appliance_->grabber());
+  rest_cameras_ = std::make_unique<FunctionJob>([this](JobControl&) {
+    appliance_->grabber().stop();
+    return Result<void>();
+  });
   look();
   return {};
 }
@@ -202,16 +198,15 @@ void Kiosk::look() {
   if (ui_->service().open || ui_->visit().step == ui::Step::Attract) staff_->consent().adopt();
   view_.consent = staff_->consent().now();
   view_.cameras_on = appliance_->grabber().streams();
-  if (slip_) slip_->follow(view_, appliance_->kept().link.view());
+  slip_->follow(view_, appliance_->kept().link.view());
   for (std::size_t i = 0; i < ui::kLanguages; ++i)
     languages_[i] = view_.consent == nullptr || view_.consent->in[i].has_value();
   // The staff read their pages in languages of their own; a visitor what can be consented to.
   view_.languages = ui_->service().open ? std::bitset<ui::kLanguages>().set() : languages_;
   view_.settings = staff_->settings();
   const ui::Step step = ui_->visit().step;
-  if (take_home_)
-    take_home_->follow(view_, step != ui::Step::Starting && step != ui::Step::Attract &&
-                                  step != ui::Step::Trouble && !ui_->service().open);
+  take_home_->follow(view_, step != ui::Step::Starting && step != ui::Step::Attract &&
+                                step != ui::Step::Trouble && !ui_->service().open);
   appliance_->set_attempts(view_.settings.of(ui::Setting::Attempts));
   // Recorded pictures turn nowhere.
   appliance_->ask_for_sides(view_.settings.is_on(ui::Setting::Sides) && (device_->is_live() || turn_head_));
@@ -219,7 +214,7 @@ void Kiosk::look() {
   while (!view_.languages[std::size_t(view_.home)])
     view_.home = static_cast<ui::Language>((std::size_t(view_.home) + 1) % ui::kLanguages);
   view_.known = appliance_->answer().known;
-  if (code_scanner_ && code_scanner_->is_looking()) view_.live = live_of(appliance_->live().newest());
+  if (code_scanner_->is_looking()) view_.live = appliance_->live().newest();
   const Result<void> cameras = appliance_->grabber().check_cameras();
   exchanged_ = cameras ? ui::Fault{} : ui::fault_of(cameras.error());
   if (!cameras) view_.calibration_note = exchanged_;
@@ -303,12 +298,6 @@ void Kiosk::ask(ui::Intent intent) {
   if (intent != ui::Intent::LookUp) appliance_->ask(intent);
 }
 
-namespace {
-
-constexpr std::chrono::seconds kShownInVain{4};  // a side of a recording, before its next is shown
-
-}  // namespace
-
 // Before the simulated rig, and in a recorded head, somebody does as the page says: on to the nearest side
 // that is not taken. A recording may show another one, or none: then its next is asked for.
 void Kiosk::turn_simulated_head() {
@@ -359,7 +348,7 @@ void Kiosk::turn_once() {
   if (turn_head_) turn_simulated_head();
   staff_->turn();
   if (appliance_->state() == State::Idle || appliance_->state() == State::Staff)
-    moved_faces_->keep(revision_, {appliance_->moved_in_a_row(), std::string(appliance_->calibration_note())},
+    moved_faces_->keep(revision_, appliance_->moved_in_a_row(), appliance_->calibration_note(),
                        staff_->side_tasks(), staff_->log(), view_.now);
   if (told_ && ui_->visit().step != ui::Step::Trouble)
     restarted_ = false;  // told once: it was read, or nobody is there

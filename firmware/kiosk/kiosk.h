@@ -15,7 +15,6 @@
 #include <functional>
 #include <memory>
 #include <optional>
-#include <string>
 
 #include "firmware/appliance/appliance.h"
 #include "firmware/kiosk/code/code_scanner.h"
@@ -36,7 +35,6 @@ namespace relievo::firmware {
 class Kiosk {
  public:
   static Result<std::unique_ptr<Kiosk>> open(const KioskArgs& args, Services& services);
-  ~Kiosk();
   Kiosk(const Kiosk&) = delete;
   Kiosk& operator=(const Kiosk&) = delete;
 
@@ -58,7 +56,7 @@ class Kiosk {
   Result<void> prepare(const KioskArgs& args, Services& services);
   Result<std::optional<pipeline::StereoCalibration>> find_calibration(const KioskArgs& args,
                                                                       Services& services);
-  Result<pipeline::AlgorithmSet> chosen_algorithms(const KioskArgs& args);
+  Result<pipeline::AlgorithmSet> chosen_algorithms();
   Result<void> set_up_measuring(const KioskArgs& args, Services& services);
   std::unique_ptr<TestCapture> make_test_capture(const KioskArgs& args, Services& services);
   ui::Trouble out_of_order() const;
@@ -92,7 +90,8 @@ class Kiosk {
   std::bitset<ui::kLanguages> languages_;
   WipedText claimed_, quoted_;  // a name that is asked about, a code that is quoted
   std::unique_ptr<CameraLook> camera_look_;
-  ui::Fault exchanged_;  // which cameras are not the calibrated ones; empty: they are
+  std::unique_ptr<FunctionJob> rest_cameras_;  // ends their streams
+  ui::Fault exchanged_;                        // which cameras are not the calibrated ones; empty: they are
   bool may_tell_known_ = true;
   std::unique_ptr<RunMark> run_mark_;
   std::unique_ptr<MovedFaces> moved_faces_;
@@ -110,7 +109,6 @@ class Kiosk {
   std::unique_ptr<CodeScanner> code_scanner_;
   std::unique_ptr<ReceiptSlip> slip_;
   std::unique_ptr<TakeHome> take_home_;
-  std::unique_ptr<RestCamerasJob> rest_cameras_;
 };
 
 }  // namespace relievo::firmware

@@ -8,7 +8,6 @@
 #include <cmath>
 
 #include "firmware/kiosk/code/qr_code.h"
-#include "hal/base/assert.h"
 
 namespace relievo::firmware {
 namespace {

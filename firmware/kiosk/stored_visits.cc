@@ -78,20 +78,21 @@ Result<MovedFaces::Said> MovedFaces::read(std::uint32_t revision) {
   return kept_;
 }
 
-void MovedFaces::keep(std::uint32_t revision, const Said& said, SideTasks& side_tasks, EventLog& log,
-                      hal::Instant now) {
-  const bool changed = revision != revision_ || said != kept_;
+void MovedFaces::keep(std::uint32_t revision, int faces, std::string_view note, SideTasks& side_tasks,
+                      EventLog& log, hal::Instant now) {
+  const bool said = faces != kept_.faces || note != kept_.note;
+  const bool changed = said || revision != revision_;
   const bool again = retry_at_ && now >= *retry_at_;
   if (!changed && !again) return;
-  const bool news = said != kept_ || again;  // another calibration of which nothing is said needs no line
+  const bool news = said || again;  // another calibration of which nothing is said needs no line
   revision_ = revision;
-  kept_ = said;
-  if (!news && said == Said{}) return;
+  if (said) kept_ = {faces, std::string(note)};
+  if (!news && kept_ == Said{}) return;
   retry_at_.reset();
   side_tasks.send(
       JobLane::Keeper,
-      [this, text = std::to_string(said.faces) + " " + std::to_string(revision) + " " +
-                    said.note](JobControl&) { return store_.set_setting(kMovedFacesSetting, text); },
+      [this, text = std::to_string(kept_.faces) + " " + std::to_string(revision) + " " +
+                    kept_.note](JobControl&) { return store_.set_setting(kMovedFacesSetting, text); },
       [this, &log, again, now](const std::optional<Error>& error) {
         if (!error) return;
         retry_at_ = now + budget::kMovedFacesRetry;

@@ -9,6 +9,7 @@
 #include <filesystem>
 #include <optional>
 #include <string>
+#include <string_view>
 
 #include "firmware/records/event_log.h"
 #include "firmware/service/side_tasks.h"
@@ -37,7 +38,6 @@ class StoredVisits : public VisitRecords {
 // the technician, in English: who switches the device off and on makes no calibration true.
 // What was said of another calibration is no more. Thread: main; the store is written on the keeper. Errors
 // of read(): the store's.
-
 class MovedFaces {
  public:
   explicit MovedFaces(storage::Store& store) : store_(store) {}
@@ -50,7 +50,8 @@ class MovedFaces {
   Result<Said> read(std::uint32_t revision);
   // Once a turn in which nobody waits for the keeper: writes what has changed; what could not be written is
   // tried again (budget::kMovedFacesRetry).
-  void keep(std::uint32_t revision, const Said& said, SideTasks& side_tasks, EventLog& log, hal::Instant now);
+  void keep(std::uint32_t revision, int faces, std::string_view note, SideTasks& side_tasks, EventLog& log,
+            hal::Instant now);
 
  private:
   storage::Store& store_;

@@ -2,8 +2,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "firmware/kiosk/take_home.h"
 
-#include <utility>
-
 #include "firmware/base/budget.h"
 
 namespace relievo::firmware {

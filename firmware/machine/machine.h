@@ -6,12 +6,14 @@
 // Thread: main. Errors: none; an event a state does not listen to changes nothing.
 #pragma once
 
+#include <algorithm>
 #include <array>
 #include <chrono>
 #include <cstddef>
 #include <cstdint>
 #include <optional>
 #include <string_view>
+#include <utility>
 
 #include "hal/clock.h"
 
@@ -88,7 +90,8 @@ struct Transition {
   State to;
 };
 
-inline constexpr std::array kTransitions{
+// What a state does that no other does alike.
+inline constexpr std::array kOwnTransitions{
     Transition{State::SelfTest, Event::Passed, State::Idle},
     Transition{State::SelfTest, Event::Failed, State::Fault},
     Transition{State::SelfTest, Event::Timeout, State::Fault},
@@ -106,11 +109,12 @@ inline constexpr std::array kTransitions{
 
     Transition{State::Capture, Event::Triggered, State::Match},
     Transition{State::Capture, Event::TurnAsked, State::Turn},
-    Transition{State::Capture, Event::StageFailed, State::Capture},  // advice is shown, another try
-    Transition{State::Capture, Event::AdviceGiven, State::Position},
-    Transition{State::Capture, Event::Cancel, State::Idle},
-    Transition{State::Capture, Event::Timeout, State::Idle},
-    Transition{State::Capture, Event::Failed, State::Fault},
+    Transition{State::Match, Event::StageDone, State::Reconstruct},
+    Transition{State::Reconstruct, Event::StageDone, State::Mesh},
+    Transition{State::Mesh, Event::StageDone, State::Texture},
+    Transition{State::Texture, Event::StageDone, State::Assemble},
+    Transition{State::Assemble, Event::StageDone, State::Review},
+    Transition{State::Fuse, Event::StageDone, State::Review},
 
     Transition{State::Turn, Event::StageDone, State::Fuse},
     Transition{State::Turn, Event::StageFailed, State::Capture},  // of the frontal picture
@@ -118,48 +122,6 @@ inline constexpr std::array kTransitions{
     Transition{State::Turn, Event::Cancel, State::Idle},
     Transition{State::Turn, Event::Timeout, State::Fuse},  // with the sides that are there
     Transition{State::Turn, Event::Failed, State::Fault},
-
-    Transition{State::Fuse, Event::StageDone, State::Review},
-    Transition{State::Fuse, Event::StageFailed, State::Capture},
-    Transition{State::Fuse, Event::AdviceGiven, State::Position},
-    Transition{State::Fuse, Event::Cancel, State::Idle},
-    Transition{State::Fuse, Event::Timeout, State::Idle},
-    Transition{State::Fuse, Event::Failed, State::Fault},
-
-    Transition{State::Match, Event::StageDone, State::Reconstruct},
-    Transition{State::Match, Event::StageFailed, State::Capture},
-    Transition{State::Match, Event::AdviceGiven, State::Position},
-    Transition{State::Match, Event::Cancel, State::Idle},
-    Transition{State::Match, Event::Timeout, State::Idle},
-    Transition{State::Match, Event::Failed, State::Fault},
-
-    Transition{State::Reconstruct, Event::StageDone, State::Mesh},
-    Transition{State::Reconstruct, Event::StageFailed, State::Capture},
-    Transition{State::Reconstruct, Event::AdviceGiven, State::Position},
-    Transition{State::Reconstruct, Event::Cancel, State::Idle},
-    Transition{State::Reconstruct, Event::Timeout, State::Idle},
-    Transition{State::Reconstruct, Event::Failed, State::Fault},
-
-    Transition{State::Mesh, Event::StageDone, State::Texture},
-    Transition{State::Mesh, Event::StageFailed, State::Capture},
-    Transition{State::Mesh, Event::AdviceGiven, State::Position},
-    Transition{State::Mesh, Event::Cancel, State::Idle},
-    Transition{State::Mesh, Event::Timeout, State::Idle},
-    Transition{State::Mesh, Event::Failed, State::Fault},
-
-    Transition{State::Texture, Event::StageDone, State::Assemble},
-    Transition{State::Texture, Event::StageFailed, State::Capture},
-    Transition{State::Texture, Event::AdviceGiven, State::Position},
-    Transition{State::Texture, Event::Cancel, State::Idle},
-    Transition{State::Texture, Event::Timeout, State::Idle},
-    Transition{State::Texture, Event::Failed, State::Fault},
-
-    Transition{State::Assemble, Event::StageDone, State::Review},
-    Transition{State::Assemble, Event::StageFailed, State::Capture},
-    Transition{State::Assemble, Event::AdviceGiven, State::Position},
-    Transition{State::Assemble, Event::Cancel, State::Idle},
-    Transition{State::Assemble, Event::Timeout, State::Idle},
-    Transition{State::Assemble, Event::Failed, State::Fault},
 
     Transition{State::Review, Event::Accept, State::Store},
     Transition{State::Review, Event::Retake, State::Capture},
@@ -195,6 +157,23 @@ inline constexpr std::array kTransitions{
     Transition{State::Fault, Event::Timeout, State::SelfTest},
     Transition{State::Fault, Event::StaffIn, State::Staff},
 };
+
+// From the photograph to the model what goes wrong leads out of every state alike, but Turn.
+inline constexpr std::array kMaking{State::Capture, State::Match,    State::Reconstruct, State::Mesh,
+                                    State::Texture, State::Assemble, State::Fuse};
+inline constexpr std::array<std::pair<Event, State>, 5> kWaysOut{
+    {{Event::StageFailed, State::Capture},  // advice is shown, another try
+     {Event::AdviceGiven, State::Position},
+     {Event::Cancel, State::Idle},
+     {Event::Timeout, State::Idle},
+     {Event::Failed, State::Fault}}};
+inline constexpr auto kTransitions = [] {
+  std::array<Transition, kOwnTransitions.size() + kMaking.size() * kWaysOut.size()> all{};
+  auto row = std::ranges::copy(kOwnTransitions, all.begin()).out;
+  for (const State from : kMaking)
+    for (const auto& [event, to] : kWaysOut) *row++ = {from, event, to};
+  return all;
+}();
 
 struct Deaf {
   State state;
@@ -246,10 +225,7 @@ consteval bool all_connected(State start, bool backward) {
       if (seen[from]) seen[to] = true;
     }
   }
-  for (const bool reached : seen) {
-    if (!reached) return false;
-  }
-  return true;
+  return std::ranges::find(seen, false) == seen.end();
 }
 
 consteval bool answers_or_is_deaf(Event event) {

@@ -97,12 +97,11 @@ struct MatchFigures {
 
 // How good the places are that a selector chose (Schmid, Mohr, Bauckhage 2000).
 struct SelectorFigures {
-  std::size_t left = 0, right = 0;  // places it chooses in either view
-  std::optional<double>
-      repeatability;      // of the left's that both views see: share with a partner within 1.5 px
-  std::size_t asked = 0;  // how many that share is of
-  double match_rate = 0;  // share whose match was accepted
-  double spread = 0;      // share of 16 x 16 cells of the region that hold one
+  std::size_t left = 0, right = 0;      // places it chooses in either view
+  std::optional<double> repeatability;  // of the left's that both views see: share with a partner in 1.5 px
+  std::size_t asked = 0;                // how many that share is of
+  double match_rate = 0;                // share whose match was accepted
+  double spread = 0;                    // share of 16 x 16 cells of the region that hold one
   std::vector<pipeline::Vec2f> places_px;  // of the left view
 };
 

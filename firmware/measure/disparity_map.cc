@@ -14,6 +14,7 @@
 
 #include "hal/base/whole_file.h"
 #include "hal/picture_file.h"
+#include "storage/byte_order.h"
 
 namespace relievo::firmware::compare {
 namespace {
@@ -34,12 +35,10 @@ std::string word(std::string_view& text) {
 }
 
 float float_of(const char* bytes, bool little) {
-  std::array<unsigned char, 4> b{};
-  std::memcpy(b.data(), bytes, 4);
-  if (!little) std::ranges::reverse(b);
-  const std::uint32_t bits = std::uint32_t(b[0]) | std::uint32_t(b[1]) << 8U | std::uint32_t(b[2]) << 16U |
-                             std::uint32_t(b[3]) << 24U;
-  return std::bit_cast<float>(bits);
+  std::uint32_t bits = 0;
+  std::memcpy(&bits, bytes, sizeof bits);
+  const bool as_here = little == (std::endian::native == std::endian::little);
+  return std::bit_cast<float>(as_here ? bits : __builtin_bswap32(bits));
 }
 
 // A pixel between four nodes of the lattice; `tx`, `ty` of 0 to 1.
@@ -71,6 +70,29 @@ void fill_lattice(DisparityMap& map, int step, int first_x, int first_y) {
     }
 }
 
+constexpr float kHidesPx = 1;  // a surface nearer by more than this, on the same pixel of the right view
+
+Result<DisparityMap> read_map(const std::filesystem::path& file, double scale) {
+  std::string extension = file.extension().string();
+  std::ranges::transform(extension, extension.begin(), [](unsigned char c) { return char(std::tolower(c)); });
+  if (extension == ".pfm") return read_pfm(file);
+  RELIEVO_TRY_ASSIGN(const hal::Picture picture, hal::read_picture(file));
+  if (picture.format == PixelFormat::Rgb8)
+    return Error{Errc::InvalidInput, "is a colour picture: a disparity map is grey, or a PFM"}.at(
+        file.string());
+  DisparityMap map(picture.width_px, picture.height_px);
+  const ImageView view = picture.view();
+  for (int y = 0; y < map.height_px; ++y) {
+    const std::uint8_t* row = view.row(y);
+    const auto* wide = reinterpret_cast<const std::uint16_t*>(row);
+    for (int x = 0; x < map.width_px; ++x) {
+      const int grey = picture.format == PixelFormat::Grey16 ? wide[x] : row[x];
+      if (grey != 0) map.values[map.index(x, y)] = float(grey / scale);
+    }
+  }
+  return map;
+}
+
 }  // namespace
 
 Result<DisparityMap> read_pfm(const std::filesystem::path& file) {
@@ -97,15 +119,13 @@ Result<DisparityMap> read_pfm(const std::filesystem::path& file) {
 std::vector<std::byte> pfm_of(const DisparityMap& map) {
   const std::string head =
       "Pf\n" + std::to_string(map.width_px) + " " + std::to_string(map.height_px) + "\n-1\n";
-  std::vector<std::byte> out(head.size() + 4 * map.values.size());
-  std::memcpy(out.data(), head.data(), head.size());
-  std::byte* to = out.data() + head.size();
+  std::vector<std::byte> out;
+  out.reserve(head.size() + 4 * map.values.size());
+  storage::ByteWriter to(out);
+  to.put(storage::bytes_of(head));
   for (int y = map.height_px - 1; y >= 0; --y)
-    for (int x = 0; x < map.width_px; ++x) {
-      const float d = map.known(x, y) ? map.at(x, y) : std::numeric_limits<float>::infinity();
-      const auto bits = std::bit_cast<std::uint32_t>(d);
-      for (unsigned shift = 0; shift < 32; shift += 8) *to++ = static_cast<std::byte>((bits >> shift) & 255U);
-    }
+    for (int x = 0; x < map.width_px; ++x)
+      to.put(map.known(x, y) ? map.at(x, y) : std::numeric_limits<float>::infinity());
   return out;
 }
 
@@ -145,33 +165,6 @@ DisparityMap thickened(const DisparityMap& map, int side_px) {
     }
   return thick;
 }
-
-namespace {
-
-constexpr float kHidesPx = 1;  // a surface nearer by more than this, on the same pixel of the right view
-
-Result<DisparityMap> read_map(const std::filesystem::path& file, double scale) {
-  std::string extension = file.extension().string();
-  std::ranges::transform(extension, extension.begin(), [](unsigned char c) { return char(std::tolower(c)); });
-  if (extension == ".pfm") return read_pfm(file);
-  RELIEVO_TRY_ASSIGN(const hal::Picture picture, hal::read_picture(file));
-  if (picture.format == PixelFormat::Rgb8)
-    return Error{Errc::InvalidInput, "is a colour picture: a disparity map is grey, or a PFM"}.at(
-        file.string());
-  DisparityMap map(picture.width_px, picture.height_px);
-  const ImageView view = picture.view();
-  for (int y = 0; y < map.height_px; ++y) {
-    const std::uint8_t* row = view.row(y);
-    const auto* wide = reinterpret_cast<const std::uint16_t*>(row);
-    for (int x = 0; x < map.width_px; ++x) {
-      const int grey = picture.format == PixelFormat::Grey16 ? wide[x] : row[x];
-      if (grey != 0) map.values[map.index(x, y)] = float(grey / scale);
-    }
-  }
-  return map;
-}
-
-}  // namespace
 
 std::vector<std::uint8_t> seen_by_both(const DisparityMap& map) {
   std::vector<std::uint8_t> seen(map.values.size(), 0);
@@ -217,9 +210,7 @@ DisparityTruth truth_of_view(const measure::TruthView& view, const pipeline::Rec
       const double z = pipeline::apply(pair.rectified_from_left, *point).z;
       truth.map.values[truth.map.index(x, y)] = float(pair.disparity_px(z));
     }
-  truth.seen.resize(truth.map.values.size());
-  std::ranges::transform(truth.map.values, truth.seen.begin(),
-                         [](float d) { return std::uint8_t(std::isnan(d) ? 0 : 1); });
+  for (const float d : truth.map.values) truth.seen.push_back(std::isnan(d) ? 0 : 1);
   return truth;
 }
 

@@ -22,56 +22,6 @@ Judgement judge(const pipeline::Match& match, const std::optional<DisparityTruth
   return std::abs(error) > limit_px ? Judgement::Bad : Judgement::Good;
 }
 
-}  // namespace
-
-MatchFigures figures_of(const NamedSet& set, const pipeline::Keypoints& keypoints,
-                        const pipeline::MatchSet& matches, const std::optional<DisparityTruth>& truth,
-                        double limit_px) {
-  MatchFigures f;
-  f.keypoints = keypoints.points.size();
-  f.matches = matches.matches.size();
-  for (const std::string& name : pipeline::split_names(set.set.get("constraints")))
-    if (name != "none") f.rules.push_back({name});
-  for (const pipeline::Match& match : matches.matches) {
-    const Judgement judgement = judge(match, truth, limit_px);
-    const std::size_t judged = judgement == Judgement::Unknown ? 0 : 1;
-    const std::size_t bad = judgement == Judgement::Bad ? 1 : 0;
-    f.judged += judged;
-    f.bad += bad;
-    if (match.rejected_by == 0) {
-      ++f.accepted;
-      f.accepted_judged += judged;
-      f.accepted_bad += bad;
-      continue;
-    }
-    const auto rule = std::size_t(std::countr_zero(match.rejected_by));
-    if (rule >= f.rules.size()) continue;
-    ++f.rules[rule].rejected;
-    f.rules[rule].judged += judged;
-    f.rules[rule].bad += bad;
-  }
-  return f;
-}
-
-std::vector<std::uint8_t> rejected_map(const pipeline::MatchSet& matches, int width_px, int height_px) {
-  std::vector<std::uint8_t> map(std::size_t(width_px) * std::size_t(height_px), 0);
-  constexpr int kScatteredPx = 9;
-  const int cell = matches.lattice_step_px > 0 ? matches.lattice_step_px : kScatteredPx;
-  const int before = matches.lattice_step_px > 0 ? 0 : kScatteredPx / 2;
-  for (const pipeline::Match& match : matches.matches) {
-    if (match.rejected_by == 0) continue;
-    const auto rule = std::uint8_t(1 + std::countr_zero(match.rejected_by));
-    const int left = int(std::lround(match.left_px.x)) - before;
-    const int top = int(std::lround(match.left_px.y)) - before;
-    for (int y = std::max(0, top); y < std::min(height_px, top + cell); ++y)
-      for (int x = std::max(0, left); x < std::min(width_px, left + cell); ++x)
-        map[std::size_t(y) * std::size_t(width_px) + std::size_t(x)] = rule;
-  }
-  return map;
-}
-
-namespace {
-
 // Where on the right view each of the left's places should be found again.
 std::vector<pipeline::Vec2d> expected_in_right(const pipeline::Keypoints& left,
                                                const pipeline::MatchSet& matches,
@@ -126,6 +76,52 @@ double spread_of(const pipeline::RectifiedPair& pair, const pipeline::Keypoints&
 }
 
 }  // namespace
+
+MatchFigures figures_of(const NamedSet& set, const pipeline::Keypoints& keypoints,
+                        const pipeline::MatchSet& matches, const std::optional<DisparityTruth>& truth,
+                        double limit_px) {
+  MatchFigures f;
+  f.keypoints = keypoints.points.size();
+  f.matches = matches.matches.size();
+  for (const std::string& name : pipeline::split_names(set.set.get("constraints")))
+    if (name != "none") f.rules.push_back({name});
+  for (const pipeline::Match& match : matches.matches) {
+    const Judgement judgement = judge(match, truth, limit_px);
+    const std::size_t judged = judgement == Judgement::Unknown ? 0 : 1;
+    const std::size_t bad = judgement == Judgement::Bad ? 1 : 0;
+    f.judged += judged;
+    f.bad += bad;
+    if (match.rejected_by == 0) {
+      ++f.accepted;
+      f.accepted_judged += judged;
+      f.accepted_bad += bad;
+      continue;
+    }
+    const auto rule = std::size_t(std::countr_zero(match.rejected_by));
+    if (rule >= f.rules.size()) continue;
+    ++f.rules[rule].rejected;
+    f.rules[rule].judged += judged;
+    f.rules[rule].bad += bad;
+  }
+  return f;
+}
+
+std::vector<std::uint8_t> rejected_map(const pipeline::MatchSet& matches, int width_px, int height_px) {
+  std::vector<std::uint8_t> map(std::size_t(width_px) * std::size_t(height_px), 0);
+  constexpr int kScatteredPx = 9;
+  const int cell = matches.lattice_step_px > 0 ? matches.lattice_step_px : kScatteredPx;
+  const int before = matches.lattice_step_px > 0 ? 0 : kScatteredPx / 2;
+  for (const pipeline::Match& match : matches.matches) {
+    if (match.rejected_by == 0) continue;
+    const auto rule = std::uint8_t(1 + std::countr_zero(match.rejected_by));
+    const int left = int(std::lround(match.left_px.x)) - before;
+    const int top = int(std::lround(match.left_px.y)) - before;
+    for (int y = std::max(0, top); y < std::min(height_px, top + cell); ++y)
+      for (int x = std::max(0, left); x < std::min(width_px, left + cell); ++x)
+        map[std::size_t(y) * std::size_t(width_px) + std::size_t(x)] = rule;
+  }
+  return map;
+}
 
 Result<pipeline::Keypoints> select_in_right(const pipeline::KeypointSelector& selector,
                                             const pipeline::RectifiedPair& pair, const DisparityMap& map,

@@ -95,9 +95,7 @@ pipeline::RectifiedPair mirrored(const pipeline::RectifiedPair& pair, const Disp
                                                    : pair.disparity_px(0.5 * (pair.near_mm + pair.far_mm));
   other.face_centre_px = {last - (pair.face_centre_px.x - between), pair.face_centre_px.y};
   take_region(map, other);
-  for (std::size_t row = 0; row < other.region.size(); row += std::size_t(pair.width_px))
-    std::reverse(other.region.begin() + std::ptrdiff_t(row),
-                 other.region.begin() + std::ptrdiff_t(row) + pair.width_px);
+  mirror_rows(other.region, pair.width_px, 1);
   return other;
 }
 

@@ -98,8 +98,7 @@ std::size_t TriangleGrid::index_of(const Cell& c) const {
   return (std::size_t(c.z) * std::size_t(ny_) + std::size_t(c.y)) * std::size_t(nx_) + std::size_t(c.x);
 }
 
-void TriangleGrid::look(const Cell& cell, const Vec3d& p, double& best, std::uint32_t& which,
-                        Vec3d& at) const {
+void TriangleGrid::look(const Cell& cell, const Vec3d& p, Found& found) const {
   if (cell.x < 0 || cell.y < 0 || cell.z < 0 || cell.x >= nx_ || cell.y >= ny_ || cell.z >= nz_) return;
   const std::size_t index = index_of(cell);
   for (std::uint32_t i = begin_[index]; i < begin_[index + 1]; ++i) {
@@ -107,39 +106,33 @@ void TriangleGrid::look(const Cell& cell, const Vec3d& p, double& best, std::uin
     const Vec3d q = nearest_on_triangle(p, wide(surface_.vertices_mm[t[0]]), wide(surface_.vertices_mm[t[1]]),
                                         wide(surface_.vertices_mm[t[2]]));
     const double d = distance(p, q);
-    if (d >= best) continue;
-    best = d;
-    which = triangles_[i];
-    at = q;
+    if (d < found.best) found = {d, triangles_[i], q};
   }
 }
 
-void TriangleGrid::look_at_ring(const Cell& c, int ring, const Vec3d& p, double& best, std::uint32_t& which,
-                                Vec3d& at) const {
+void TriangleGrid::look_at_ring(const Cell& c, int ring, const Vec3d& p, Found& found) const {
   for (int z = -ring; z <= ring; ++z) {
     for (int y = -ring; y <= ring; ++y) {
       const bool face = std::abs(z) == ring || std::abs(y) == ring;
       for (int x = -ring; x <= ring; x += face || ring == 0 ? 1 : 2 * ring)
-        look({c.x + x, c.y + y, c.z + z}, p, best, which, at);
+        look({c.x + x, c.y + y, c.z + z}, p, found);
     }
   }
 }
 
 std::optional<Nearest> TriangleGrid::nearest(const Vec3d& p, double reach_mm) const {
   if (triangles_.empty()) return std::nullopt;
-  double best = reach_mm;
-  std::uint32_t which = std::numeric_limits<std::uint32_t>::max();
-  Vec3d at;
+  Found found{reach_mm};
   const Cell centre = cell_of(p);
   // What lies in ring r is at least (r - 1) cells away.
-  for (int ring = 0; (ring - 1) * cell_mm_ < best; ++ring) look_at_ring(centre, ring, p, best, which, at);
-  if (which == std::numeric_limits<std::uint32_t>::max()) return std::nullopt;
-  const auto& t = surface_.triangles[which];
+  for (int ring = 0; (ring - 1) * cell_mm_ < found.best; ++ring) look_at_ring(centre, ring, p, found);
+  if (!found.which) return std::nullopt;
+  const auto& t = surface_.triangles[*found.which];
   const Vec3d a = wide(surface_.vertices_mm[t[0]]);
   const Vec3d n =
       cross(minus(wide(surface_.vertices_mm[t[1]]), a), minus(wide(surface_.vertices_mm[t[2]]), a));
   const double size = length(n);
-  return Nearest{best, at, size > 0 ? times(n, 1 / size) : Vec3d{0, 0, 1}};
+  return Nearest{found.best, found.at, size > 0 ? times(n, 1 / size) : Vec3d{0, 0, 1}};
 }
 
 }  // namespace relievo::firmware::measure

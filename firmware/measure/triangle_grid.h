@@ -38,11 +38,15 @@ class TriangleGrid {
   struct Cell {
     int x, y, z;
   };
+  struct Found {
+    double best = 0;  // how far
+    std::optional<std::uint32_t> which{};
+    Vec3d at{};
+  };
   Cell cell_of(const Vec3d& point_mm) const;
   std::size_t index_of(const Cell& cell) const;
-  void look(const Cell& cell, const Vec3d& point_mm, double& best, std::uint32_t& which, Vec3d& at) const;
-  void look_at_ring(const Cell& centre, int ring, const Vec3d& point_mm, double& best, std::uint32_t& which,
-                    Vec3d& at) const;
+  void look(const Cell& cell, const Vec3d& point_mm, Found& found) const;
+  void look_at_ring(const Cell& centre, int ring, const Vec3d& point_mm, Found& found) const;
 
   const Surface& surface_;
   double cell_mm_ = 1;

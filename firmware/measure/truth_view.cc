@@ -30,7 +30,8 @@ bool skip(std::string_view& rest, std::string_view text) {
   return true;
 }
 
-bool number(std::string_view& rest, std::size_t& value) {
+template <typename Number>
+bool number(std::string_view& rest, Number& value) {
   const auto [end, error] = std::from_chars(rest.data(), rest.data() + rest.size(), value);
   if (error != std::errc()) return false;
   rest.remove_prefix(std::size_t(end - rest.data()));
@@ -43,6 +44,24 @@ T take(const char*& from) {
   std::memcpy(&value, from, sizeof value);
   from += sizeof value;
   return value;
+}
+
+constexpr double kNoseRadiusMm = 95;  // the crop of 3D face recognition
+constexpr int kInteriorHalfWindowPx = 11;
+
+Error bad(const std::filesystem::path& file) {
+  return Error{Errc::InvalidInput,
+               "is no truth of the simulated rig: 'relievo simulate face --truth' writes one"}
+      .at(file.string());
+}
+
+// Two whole numbers and the letter z; the number of bytes up to the line feed, or 0.
+std::size_t header(std::string_view text, int& width_px, int& height_px) {
+  std::string_view rest = text.substr(0, 64);
+  const bool known =
+      number(rest, width_px) && skip(rest, " ") && number(rest, height_px) && skip(rest, " z\n");
+  const bool sane = width_px > 0 && height_px > 0 && width_px <= 16384 && height_px <= 16384;
+  return known && sane ? std::size_t(rest.data() - text.data()) : 0;
 }
 
 }  // namespace
@@ -83,32 +102,6 @@ Result<Surface> read_true_surface(const std::filesystem::path& file) {
   return surface;
 }
 
-namespace {
-
-constexpr double kNoseRadiusMm = 95;  // the crop of 3D face recognition
-constexpr int kInteriorHalfWindowPx = 11;
-
-Error bad(const std::filesystem::path& file) {
-  return Error{Errc::InvalidInput,
-               "is no truth of the simulated rig: 'relievo simulate face --truth' writes one"}
-      .at(file.string());
-}
-
-// Two whole numbers and the letter z; the number of bytes up to the line feed, or 0.
-std::size_t header(std::string_view text, int& width_px, int& height_px) {
-  const std::size_t end = text.substr(0, 64).find('\n');
-  if (end == std::string_view::npos) return 0;
-  const char* last = text.data() + end;
-  auto [after_width, e1] = std::from_chars(text.data(), last, width_px);
-  if (e1 != std::errc() || after_width == last || *after_width != ' ') return 0;
-  auto [after_height, e2] = std::from_chars(after_width + 1, last, height_px);
-  if (e2 != std::errc() || std::string_view(after_height, std::size_t(last - after_height)) != " z") return 0;
-  const bool sane = width_px > 0 && height_px > 0 && width_px <= 16384 && height_px <= 16384;
-  return sane ? end + 1 : 0;
-}
-
-}  // namespace
-
 Result<TruthView> TruthView::read(const std::filesystem::path& folder) {
   TruthView truth;
   RELIEVO_TRY_ASSIGN(const auto rig, pipeline::read_calibration(folder / "rig.yml"));
@@ -118,7 +111,8 @@ Result<TruthView> TruthView::read(const std::filesystem::path& folder) {
   const std::size_t start =
       header({reinterpret_cast<const char*>(bytes.data()), bytes.size()}, truth.width_px_, truth.height_px_);
   const std::size_t count = std::size_t(truth.width_px_) * std::size_t(truth.height_px_);
-  if (start == 0 || bytes.size() != start + count * 5 || rig.left.width_px != truth.width_px_)
+  if (start == 0 || bytes.size() != start + count * 5 || rig.left.width_px != truth.width_px_ ||
+      rig.left.height_px != truth.height_px_)
     return bad(file);
   truth.points_mm_.resize(count);
   truth.flags_.resize(count);

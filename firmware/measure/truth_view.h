@@ -22,8 +22,6 @@ namespace relievo::firmware::measure {
 
 // The true surface of a simulated head, also where no camera sees it: head.ply (binary, float x y z,
 // triangles) in the left camera's frame, millimetres.
-// Errors: NotFound, IoFailed, InvalidInput. Thread: any.
-
 Result<Surface> read_true_surface(const std::filesystem::path& file);
 // Nothing but this one form of PLY. An error has no place.
 Result<Surface> parse_true_surface(std::string_view bytes);

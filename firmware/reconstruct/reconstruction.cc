@@ -29,40 +29,49 @@ namespace {
 
 class ReconstructJob final : public Job {
  public:
-  ReconstructJob(StageRunner& runner, EnrolmentSession& session, ThreadPool& pool, const hal::Clock& clock)
-      : stage_(runner, session, pool, clock), clock_(clock) {}
+  // The stages before `first` are done, their products in the session.
+  ReconstructJob(StageRunner& runner, EnrolmentSession& session, ThreadPool& pool, State first)
+      : first_(first), stage_(runner, session, pool, clock_) {}
 
   State stage() const { return now_.load(std::memory_order_relaxed); }  // the one that runs, or ran last
   const std::vector<StageRecord>& records() const { return records_; }
   std::chrono::nanoseconds took() const { return took_; }
-  // The stages before this one are done, their products in the session. While it does not run.
-  void begin_with(State stage) { first_ = stage; }
-  Result<void> run(JobControl& control) override;
+  Result<void> run(JobControl& control) override {
+    const hal::Instant begin = clock_.now();
+    for (const State stage : kStages) {
+      if (stage < first_) continue;
+      now_.store(stage, std::memory_order_relaxed);
+      stage_.choose(stage);
+      RELIEVO_TRY(stage_.run(control));
+      records_.push_back(stage_.record());
+    }
+    took_ = clock_.now() - begin;
+    return {};
+  }
 
  private:
+  const hal::MonotonicClock clock_;
+  const State first_;
   StageJob stage_;
-  const hal::Clock& clock_;
-  State first_ = State::Match;
   std::atomic<State> now_{State::Match};
   std::vector<StageRecord> records_;
   std::chrono::nanoseconds took_{0};
 };
 
-Result<void> ReconstructJob::run(JobControl& control) {
-  records_.clear();
-  const hal::Instant begin = clock_.now();
-  for (const State stage : kStages) {
-    if (stage < first_) continue;
-    now_.store(stage, std::memory_order_relaxed);
-    stage_.choose(stage);
-    RELIEVO_TRY(stage_.run(control));
-    records_.push_back(stage_.record());
-  }
-  took_ = clock_.now() - begin;
-  return {};
+constexpr std::size_t kMostByHandBytes = std::size_t{64} << 20;
+
+// The file, and at what in it.
+Error placed(const Error& error, const Path& file) {
+  return error.at(file.string() + (error.where().empty() ? "" : ": " + std::string(error.where())));
 }
 
-constexpr std::size_t kMostByHandBytes = std::size_t{64} << 20;
+void describe(const pipeline::AlgorithmSet& set, const pipeline::FaceModel& model, Report& report) {
+  report.algorithms = set.to_text();
+  report.peak_rss_bytes = peak_rss_bytes();
+  report.quality = model.quality;
+  report.landmarks = model.landmarks;
+  report.head_from_camera = model.head_from_camera;
+}
 
 // The words of --from.
 State stage_named(std::string_view word) {
@@ -93,116 +102,6 @@ Result<std::vector<pipeline::Match>> read_by_hand(const Path& file,
   return std::vector<pipeline::Match>(matches.begin(), matches.end());
 }
 
-}  // namespace
-
-Result<void> Reconstruction::run(const Path& left, const Path& right, const Path& calibration_file,
-                                 const AlgorithmArgs& algorithms, const Path& by_hand, Console& console,
-                                 WhenMoved when_moved) {
-  RELIEVO_TRY_ASSIGN(PicturePair pictures, read_pair(left, right));
-  RELIEVO_TRY_ASSIGN(making_.calibration, read_calibration_for(pictures, calibration_file, left));
-  RELIEVO_TRY_ASSIGN(making_.set, choose_algorithms(algorithms));
-  making_.whole_view = algorithms.whole_view;
-  if (!by_hand.empty()) {
-    RELIEVO_TRY_ASSIGN(making_.by_hand, read_by_hand(by_hand, making_.calibration));
-  }
-  RELIEVO_TRY(session_.open(""));
-  session_.products().frame = pictures.frame();
-  left_ = std::move(pictures.left.bytes);  // what the frame looks at stays where it is
-  right_ = std::move(pictures.right.bytes);
-  RELIEVO_TRY(work(State::Match, console, left, when_moved));
-  report_.calibration = calibration_file.string();
-  return {};
-}
-
-Result<void> Reconstruction::load(const Path& document, std::string_view from,
-                                  const AlgorithmArgs& algorithms, const Path& by_hand, Console& console,
-                                  WhenMoved when_moved) {
-  const auto placed = [&document](const Error& error) {
-    return error.where().empty() ? error.at(document.string()) : error;
-  };
-  RELIEVO_TRY_ASSIGN(const std::vector<std::byte> bytes,
-                     read_whole_file(document, storage::kMaxDocumentBytes));
-  const auto saved = storage::Document::open(bytes);
-  if (!saved) return placed(saved.error());
-  RELIEVO_TRY_ASSIGN(making_, making_of(*saved));
-  RELIEVO_TRY_ASSIGN(const pipeline::AlgorithmSet wanted, choose_algorithms(algorithms, making_.set));
-  State changed = first_change(making_.set, wanted);
-  if (!by_hand.empty()) {
-    RELIEVO_TRY_ASSIGN(making_.by_hand, read_by_hand(by_hand, making_.calibration));
-    changed = std::min(changed, State::Reconstruct);
-  }
-  RELIEVO_TRY_ASSIGN(const State first, first_stage(from, changed));
-  making_.set = wanted;
-  RELIEVO_TRY(session_.open(""));
-  pipeline::StereoFrame frame;
-  frame.skew_ns = saved->head().skew_ns;
-  for (const bool left : {true, false}) {
-    auto picture = saved->picture(left);
-    if (!picture) return placed(picture.error());
-    (left ? left_ : right_) = std::move(picture->bytes);
-    (left ? frame.left : frame.right) = picture->view;
-  }
-  session_.products().frame = frame;
-  const std::atomic<bool> never{false};
-  pipeline::Progress progress;
-  JobControl control{never, progress};
-  const Result<State> left_to_do = load_products(*saved, first, session_, control);
-  if (!left_to_do) return placed(left_to_do.error());
-  RELIEVO_TRY(work(*left_to_do, console, document, when_moved));
-  report_.calibration = document.string();
-  return {};
-}
-
-// What is done already is in the session, and its records in the making.
-Result<void> Reconstruction::work(State first, Console& console, const Path& named, WhenMoved when_moved) {
-  first_ = first;
-  making_.records.resize(std::min(making_.records.size(), std::size_t(first) - std::size_t(State::Match)));
-  if (first != State::Review) {
-    RELIEVO_TRY_ASSIGN(auto pipeline, pipeline::Pipeline::make(making_.set, making_.calibration, {},
-                                                               making_.whole_view ? pipeline::Region::All
-                                                                                  : pipeline::Region::Face));
-    ThreadPool pool(pool_size());
-    const hal::MonotonicClock clock;
-    PipelineStages stages(std::move(pipeline), when_moved, WhenUnjudged::GoOn);
-    stages.add_by_hand(making_.by_hand);
-    ReconstructJob job(stages, session_, pool, clock);
-    job.begin_with(first);
-    const Result<void> done = run_watched(job, console, [&job] { return name_of(job.stage()); });
-    if (!done && done.error().code == Errc::Cancelled)
-      return Error{Errc::Cancelled, "cancelled: nothing was written"};
-    // A stage does not know the names of the files it works on.
-    if (!done)
-      return done.error().at(named.string() +
-                             (done.error().where().empty() ? "" : ": " + std::string(done.error().where())));
-    making_.records.insert(making_.records.end(), job.records().begin(), job.records().end());
-    report_.total = job.took();
-  }
-  const Products& made = session_.products();
-  report_.algorithms = making_.set.to_text();
-  report_.stages = making_.records;
-  report_.by_hand = making_.by_hand.size();
-  report_.peak_rss_bytes = peak_rss_bytes();
-  report_.quality = model().quality;
-  report_.drift = made.drift;
-  report_.motion_px = made.matches->motion_px;
-  report_.landmarks = model().landmarks;
-  report_.head_from_camera = model().head_from_camera;
-  report_.white = pipeline::measure_overexposure(*made.pair, *made.matches);
-  return {};
-}
-
-Result<void> Reconstruction::save(const Path& document) const {
-  RELIEVO_TRY_ASSIGN(const std::vector<std::byte> bytes, make_document(session_.products(), making_));
-  return write_whole_file(document, bytes);
-}
-
-Result<pipeline::RecognitionImages> Reconstruction::draw_images() {
-  EnrolmentSession::Scratch scratch(session_);
-  return pipeline::make_recognition_images(model(), session_.output(), scratch.arena());
-}
-
-namespace {
-
 static_assert(kMostPairs == pipeline::kMostPoses);
 
 struct Shot {
@@ -227,6 +126,102 @@ PoseReport report_of(const pipeline::RegisteredPose& pose) {
 }
 
 }  // namespace
+
+Result<void> Reconstruction::run(const Path& left, const Path& right, const Path& calibration_file,
+                                 const AlgorithmArgs& algorithms, const Path& by_hand, Console& console,
+                                 WhenMoved when_moved) {
+  RELIEVO_TRY_ASSIGN(PicturePair pictures, read_pair(left, right));
+  RELIEVO_TRY_ASSIGN(making_.calibration, read_calibration_for(pictures, calibration_file, left));
+  RELIEVO_TRY_ASSIGN(making_.set, choose_algorithms(algorithms));
+  making_.whole_view = algorithms.whole_view;
+  if (!by_hand.empty()) {
+    RELIEVO_TRY_ASSIGN(making_.by_hand, read_by_hand(by_hand, making_.calibration));
+  }
+  RELIEVO_TRY(session_.open(""));
+  session_.products().frame = pictures.frame();
+  left_ = std::move(pictures.left.bytes);  // what the frame looks at stays where it is
+  right_ = std::move(pictures.right.bytes);
+  RELIEVO_TRY(work(State::Match, console, left, when_moved));
+  report_.calibration = calibration_file.string();
+  return {};
+}
+
+Result<void> Reconstruction::load(const Path& document, std::string_view from,
+                                  const AlgorithmArgs& algorithms, const Path& by_hand, Console& console,
+                                  WhenMoved when_moved) {
+  const auto of_document = [&document](const Error& error) {
+    return error.where().empty() ? error.at(document.string()) : error;
+  };
+  RELIEVO_TRY_ASSIGN(const std::vector<std::byte> bytes,
+                     read_whole_file(document, storage::kMaxDocumentBytes));
+  const auto saved = storage::Document::open(bytes);
+  if (!saved) return of_document(saved.error());
+  RELIEVO_TRY_ASSIGN(making_, making_of(*saved));
+  RELIEVO_TRY_ASSIGN(const pipeline::AlgorithmSet wanted, choose_algorithms(algorithms, making_.set));
+  State changed = first_change(making_.set, wanted);
+  if (!by_hand.empty()) {
+    RELIEVO_TRY_ASSIGN(making_.by_hand, read_by_hand(by_hand, making_.calibration));
+    changed = std::min(changed, State::Reconstruct);
+  }
+  RELIEVO_TRY_ASSIGN(const State first, first_stage(from, changed));
+  making_.set = wanted;
+  RELIEVO_TRY(session_.open(""));
+  pipeline::StereoFrame frame;
+  frame.skew_ns = saved->head().skew_ns;
+  for (const bool left : {true, false}) {
+    auto picture = saved->picture(left);
+    if (!picture) return of_document(picture.error());
+    (left ? left_ : right_) = std::move(picture->bytes);
+    (left ? frame.left : frame.right) = picture->view;
+  }
+  session_.products().frame = frame;
+  const std::atomic<bool> never{false};
+  pipeline::Progress progress;
+  JobControl control{never, progress};
+  const Result<State> left_to_do = load_products(*saved, first, session_, control);
+  if (!left_to_do) return of_document(left_to_do.error());
+  RELIEVO_TRY(work(*left_to_do, console, document, when_moved));
+  report_.calibration = document.string();
+  return {};
+}
+
+// What is done already is in the session, and its records in the making.
+Result<void> Reconstruction::work(State first, Console& console, const Path& named, WhenMoved when_moved) {
+  first_ = first;
+  making_.records.resize(std::min(making_.records.size(), std::size_t(first) - std::size_t(State::Match)));
+  if (first != State::Review) {
+    RELIEVO_TRY_ASSIGN(auto pipeline, pipeline::Pipeline::make(making_.set, making_.calibration, {},
+                                                               making_.whole_view ? pipeline::Region::All
+                                                                                  : pipeline::Region::Face));
+    ThreadPool pool(pool_size());
+    PipelineStages stages(std::move(pipeline), when_moved, WhenUnjudged::GoOn);
+    stages.add_by_hand(making_.by_hand);
+    ReconstructJob job(stages, session_, pool, first);
+    const Result<void> done = run_watched(job, console, [&job] { return name_of(job.stage()); });
+    // A stage does not know the names of the files it works on.
+    if (!done) return done.error().code == Errc::Cancelled ? done.error() : placed(done.error(), named);
+    making_.records.insert(making_.records.end(), job.records().begin(), job.records().end());
+    report_.total = job.took();
+  }
+  const Products& made = session_.products();
+  describe(making_.set, model(), report_);
+  report_.stages = making_.records;
+  report_.by_hand = making_.by_hand.size();
+  report_.drift = made.drift;
+  report_.motion_px = made.matches->motion_px;
+  report_.white = pipeline::measure_overexposure(*made.pair, *made.matches);
+  return {};
+}
+
+Result<void> Reconstruction::save(const Path& document) const {
+  RELIEVO_TRY_ASSIGN(const std::vector<std::byte> bytes, make_document(session_.products(), making_));
+  return write_whole_file(document, bytes);
+}
+
+Result<pipeline::RecognitionImages> Reconstruction::draw_images() {
+  EnrolmentSession::Scratch scratch(session_);
+  return pipeline::make_recognition_images(model(), session_.output(), scratch.arena());
+}
 
 class HeadReconstruction::PairsJob final : public Job {
  public:
@@ -265,10 +260,6 @@ class HeadReconstruction::PairsJob final : public Job {
   bool refused(const pipeline::DriftJudgement& drift) const {
     return drift.verdict == pipeline::DriftVerdict::Refuse && when_moved_ == WhenMoved::Refuse;
   }
-  Error placed(const Error& error, std::size_t pair) const {
-    const std::string where = error.where().empty() ? "" : ": " + std::string(error.where());
-    return error.at(shots_[pair].left.string() + where);
-  }
   const pipeline::HeadPipeline& pipeline_;
   const std::vector<Shot>& shots_;
   HeadReconstruction& owner_;
@@ -288,7 +279,7 @@ Result<void> HeadReconstruction::PairsJob::run(JobControl& control) {
       auto made = timed("Face", 0, [&] {
         return pipeline_.face(shots_[0].pictures.frame(), shots_[0].calibration, context);
       });
-      if (!made) return placed(made.error(), 0);
+      if (!made) return placed(made.error(), shots_[0].left);
       face.emplace(*std::move(made));
     }
     const Arena::Mark mark(owner_.output_);
@@ -301,7 +292,7 @@ Result<void> HeadReconstruction::PairsJob::run(JobControl& control) {
       poses.push_back(std::move(pose));
       return k == 0 ? Result<void>() : pipeline_.place_last(*face, poses, context);
     });
-    if (!added) return placed(added.error(), k);
+    if (!added) return placed(added.error(), shots_[k].left);
   }
   auto head = timed("Fuse", shots_.size(), [&] { return pipeline_.fuse(*face, poses, context); });
   if (!head) return head.error();
@@ -328,15 +319,9 @@ Result<void> HeadReconstruction::run(const std::vector<Path>& pictures, const st
   PairsJob job(pipeline, shots, *this, pool, when_moved);
   const Result<void> done =
       run_watched(job, console, [&] { return std::string_view(job.at() == shots.size() ? "Fuse" : "Pair"); });
-  if (!done && done.error().code == Errc::Cancelled)
-    return Error{Errc::Cancelled, "cancelled: nothing was written"};
   if (!done) return done.error();
   report_.calibration = calibrations.front().string();
-  report_.algorithms = set.to_text();
-  report_.peak_rss_bytes = peak_rss_bytes();
-  report_.quality = model().quality;
-  report_.landmarks = model().landmarks;
-  report_.head_from_camera = model().head_from_camera;
+  describe(set, model(), report_);
   report_.aliveness = head_->aliveness;
   report_.skin_moved_mm = head_->registration.skin_moved_mm;
   const auto& poses = head_->registration.poses;

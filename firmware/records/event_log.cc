@@ -59,12 +59,15 @@ EventLog::EventLog(const hal::Clock& clock, std::filesystem::path file)
     : clock_(clock), file_(std::move(file)) {
   std::ifstream in(file_);
   for (std::string line; std::getline(in, line);) {
-    Line& next = ring_[(first_ + count_) % kLines];
-    next.length = std::min(line.size(), kLineBytes);
-    line.copy(next.text.data(), next.length);
-    if (count_ < kLines) ++count_;
-    else first_ = (first_ + 1) % kLines;
+    Line& next = next_line();
+    next.length = line.copy(next.text.data(), kLineBytes);
   }
+}
+
+EventLog::Line& EventLog::next_line() {
+  if (count_ < kLines) ++count_;
+  else first_ = (first_ + 1) % kLines;
+  return ring_[(first_ + count_ - 1) % kLines];
 }
 
 void EventLog::say(ui::LogEvent event, std::initializer_list<std::string_view> values) {
@@ -85,31 +88,24 @@ void EventLog::put(std::string text, const std::string& behind, bool fault) {
   if (text.size() > kTextBytes) text.resize(kTextBytes);
   if (text.size() + behind.size() <= kLineBytes) text += behind;
   const std::lock_guard lock(mutex_);
-  Line& next = ring_[(first_ + count_) % kLines];
+  Line& next = next_line();
   next.fault = fault;
   next.length = text.copy(next.text.data(), kLineBytes);
-  if (count_ < kLines) ++count_;
-  else first_ = (first_ + 1) % kLines;
   ++said_;
 }
 
 std::vector<ui::LogLine> EventLog::entries() const {
   const std::lock_guard lock(mutex_);
   std::vector<ui::LogLine> all;
-  for (std::size_t i = 0; i < count_; ++i) {
-    const Line& line = ring_[(first_ + i) % kLines];
-    all.push_back(entry_of({line.text.data(), line.length}));
-  }
+  for (std::size_t i = 0; i < count_; ++i) all.push_back(entry_of({line(i).text.data(), line(i).length}));
   return all;
 }
 
 std::vector<ui::LogLine> EventLog::faults() const {
   const std::lock_guard lock(mutex_);
   std::vector<ui::LogLine> newest;
-  for (std::size_t i = count_; i-- > 0 && newest.size() < kFaults;) {
-    const Line& line = ring_[(first_ + i) % kLines];
-    if (line.fault) newest.push_back(entry_of({line.text.data(), line.length}));
-  }
+  for (std::size_t i = count_; i-- > 0 && newest.size() < kFaults;)
+    if (line(i).fault) newest.push_back(entry_of({line(i).text.data(), line(i).length}));
   return newest;
 }
 
@@ -124,11 +120,7 @@ Result<void> EventLog::save() {
   {
     const std::lock_guard lock(mutex_);
     said = said_;
-    for (std::size_t i = 0; i < count_; ++i) {
-      const Line& line = ring_[(first_ + i) % kLines];
-      text.append(line.text.data(), line.length);
-      text += '\n';
-    }
+    for (std::size_t i = 0; i < count_; ++i) text.append(line(i).text.data(), line(i).length).append(1, '\n');
     saved_ = said;  // one that cannot be written is not tried for ever
   }
   if (file_.empty()) return {};

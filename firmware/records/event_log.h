@@ -52,6 +52,8 @@ class EventLog {
     bool fault = false;
   };
   void put(std::string text, const std::string& behind, bool fault);
+  Line& next_line();
+  const Line& line(std::size_t i) const { return ring_[(first_ + i) % kLines]; }  // 0: the oldest
 
   const hal::Clock& clock_;
   std::filesystem::path file_;

@@ -17,30 +17,13 @@ namespace {
 
 using Json = nlohmann::ordered_json;
 using storage::BundleFile;
+using storage::hex_of;
 
 constexpr const char *kManifest = "manifest.json", *kSignature = "signature.json";
-constexpr std::string_view kDigits = "0123456789abcdef";
 
-std::string hex_of(std::span<const std::byte> bytes) {
-  std::string hex;
-  for (const std::byte byte : bytes) {
-    const auto value = std::to_integer<std::size_t>(byte);
-    hex += {kDigits[value >> 4U], kDigits[value & 15U]};
-  }
-  return hex;
-}
-
-// Exactly so many bytes, as hex_of() has them.
 bool from_hex(const Json& json, const char* key, std::span<std::byte> bytes) {
-  if (!json.is_object() || !json.contains(key) || !json[key].is_string()) return false;
-  const auto& hex = json[key].get_ref<const std::string&>();
-  if (hex.size() != 2 * bytes.size()) return false;
-  for (std::size_t i = 0; i < bytes.size(); ++i) {
-    const std::size_t high = kDigits.find(hex[2 * i]), low = kDigits.find(hex[2 * i + 1]);
-    if (high == std::string_view::npos || low == std::string_view::npos) return false;
-    bytes[i] = std::byte(static_cast<unsigned char>(high << 4U | low));
-  }
-  return true;
+  return json.is_object() && json.contains(key) && json[key].is_string() &&
+         storage::from_hex(json[key].get_ref<const std::string&>(), bytes);
 }
 
 BundleFile file_of(const char* name, const Json& json) {

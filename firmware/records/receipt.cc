@@ -4,7 +4,6 @@
 
 #include <string.h>
 
-#include <charconv>
 #include <cstdio>
 #include <span>
 
@@ -13,21 +12,9 @@
 namespace relievo::firmware {
 namespace {
 
-constexpr std::size_t kDrawnDigits = 12, kCheckDigits = 2;
+constexpr std::size_t kCodeDigits = 12 + 2;  // drawn, and to check them
 
 int check_digits(std::int64_t number) { return int(98 - (number % 97 * 100) % 97); }
-
-std::optional<std::int64_t> number_in(std::string_view digits) {
-  std::int64_t number = 0;
-  const auto [end, error] = std::from_chars(digits.data(), digits.data() + digits.size(), number);
-  const bool all = error == std::errc() && end == digits.data() + digits.size() && !digits.starts_with('-');
-  return all && number > 0 ? std::optional(number) : std::nullopt;
-}
-
-std::optional<std::int64_t> checked(std::string_view number, std::string_view check) {
-  const auto value = number_in(number), digits = number_in(check);
-  return value && digits && *digits == check_digits(*value) ? value : std::nullopt;
-}
 
 std::optional<std::int64_t> read(std::string_view code) {
   const auto between = [](char c) { return c == '-' || c == ' '; };
@@ -35,9 +22,10 @@ std::optional<std::int64_t> read(std::string_view code) {
   std::string digits;
   for (const char c : code)
     if (!between(c)) digits += c;
-  if (digits.size() != kDrawnDigits + kCheckDigits) return std::nullopt;
-  return checked(std::string_view(digits).substr(0, kDrawnDigits),
-                 std::string_view(digits).substr(kDrawnDigits));
+  if (digits.size() != kCodeDigits || digits.find_first_not_of("0123456789") != std::string::npos)
+    return std::nullopt;
+  const std::int64_t all = std::stoll(digits), number = all / 100;
+  return number > 0 && all % 100 == check_digits(number) ? std::optional(number) : std::nullopt;
 }
 
 }  // namespace
@@ -61,11 +49,9 @@ std::string receipt_of(const storage::Subject& subject) {
 // codes.
 Result<std::string> link_number_of(storage::Store& store, const storage::Subject& subject) {
   constexpr std::size_t kDigits = 32;
-  std::string of = "link " + receipt_of(subject);
-  const auto made = store.sign(std::as_bytes(std::span(of)));
-  explicit_bzero(of.data(), of.size());
-  if (!made) return made.error();
-  return text_of(storage::sha256(made->signature)).substr(0, kDigits);
+  const std::string of = "link " + receipt_of(subject);
+  RELIEVO_TRY_ASSIGN(const auto made, store.sign(std::as_bytes(std::span(of))));
+  return text_of(storage::sha256(made.signature)).substr(0, kDigits);
 }
 
 bool is_receipt(std::string_view code) { return read(code).has_value(); }

@@ -11,6 +11,7 @@
 
 #include "firmware/base/version.h"
 #include "firmware/report/report.h"
+#include "storage/model_blob.h"
 
 namespace relievo::firmware {
 namespace {
@@ -87,13 +88,17 @@ nlohmann::ordered_json drift_json(const std::optional<pipeline::DriftJudgement>&
           {"expected_px", drift->expected_px}};
 }
 
-nlohmann::ordered_json relief_json(const pipeline::ReliefFigures& r) {
-  return {{"covered", r.covered},
-          {"sigma_mm", r.sigma_mm},
-          {"off_plane_mm", r.off_plane_mm},
-          {"off_sheet_mm", r.off_sheet_mm},
-          {"sheet_range_mm", r.sheet_range_mm},
-          {"curvature_sr", r.curvature_sr}};
+nlohmann::ordered_json quality_json(const pipeline::ModelQuality& quality) {
+  nlohmann::ordered_json all;
+  for (const storage::QualityFigure& figure : storage::kQualityFigures) all[figure.name] = quality.*figure.of;
+  const pipeline::ReliefFigures& r = quality.relief;
+  all["relief"] = {{"covered", r.covered},
+                   {"sigma_mm", r.sigma_mm},
+                   {"off_plane_mm", r.off_plane_mm},
+                   {"off_sheet_mm", r.off_sheet_mm},
+                   {"sheet_range_mm", r.sheet_range_mm},
+                   {"curvature_sr", r.curvature_sr}};
+  return all;
 }
 
 // In the head frame, whatever frame the files are in.
@@ -159,7 +164,6 @@ std::string report_json(const Report& report) {
     const std::size_t equals = line.find(" = ");
     if (equals != std::string::npos) algorithms[line.substr(0, equals)] = line.substr(equals + 3);
   }
-  const pipeline::ModelQuality& q = report.quality;
   const Json json{
       {"version", kVersion},
       {"calibration", report.calibration},
@@ -168,17 +172,7 @@ std::string report_json(const Report& report) {
       {"matches_by_hand", report.by_hand},
       {"total_ms", milliseconds_of(report.total)},
       {"peak_rss_bytes", report.peak_rss_bytes},
-      {"quality",
-       {{"median_sigma_mm", q.median_sigma_mm},
-        {"measured_area_mm2", q.measured_area_mm2},
-        {"coverage", q.coverage},
-        {"width_mm", q.width_mm},
-        {"height_mm", q.height_mm},
-        {"nose_relief_mm", q.nose_relief_mm},
-        {"epipolar_residual_px", q.epipolar_residual_px},
-        {"texture_sharpness", q.texture_sharpness},
-        {"symmetry_residual_mm", q.symmetry_residual_mm},
-        {"relief", relief_json(q.relief)}}},
+      {"quality", quality_json(report.quality)},
       {"landmarks", landmarks_json(report)},
       {"poses", poses_json(report.poses)},
       {"aliveness", aliveness_json(report)},

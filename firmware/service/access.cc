@@ -124,13 +124,13 @@ Result<void> Access::set(ui::StaffRole role, std::string_view pin) {
   RELIEVO_TRY_ASSIGN(Record record, read());
   if (record.technician.empty() || record.clerk.empty())
     return Error{Errc::InvalidState, "choose both PINs first"};
-  RELIEVO_TRY_ASSIGN(role == ui::StaffRole::Technician ? record.technician : record.clerk, stretched(pin));
+  RELIEVO_TRY_ASSIGN(record.of(role), stretched(pin));
   return write(record);
 }
 
 Result<void> Access::forget(ui::StaffRole role) {
   RELIEVO_TRY_ASSIGN(Record record, read());
-  std::string& kept = role == ui::StaffRole::Technician ? record.technician : record.clerk;
+  std::string& kept = record.of(role);
   if (kept.empty()) return Error{Errc::InvalidState, "has no PIN: it is chosen at the screen"};
   kept.clear();
   return write(record);
@@ -139,7 +139,7 @@ Result<void> Access::forget(ui::StaffRole role) {
 Result<void> Access::choose_again(ui::StaffRole role, std::string_view pin) {
   RELIEVO_TRY(check_new(role, pin));
   RELIEVO_TRY_ASSIGN(Record record, read());
-  std::string& kept = role == ui::StaffRole::Technician ? record.technician : record.clerk;
+  std::string& kept = record.of(role);
   if (!kept.empty()) return Error{Errc::InvalidState, "has a PIN already"};
   RELIEVO_TRY_ASSIGN(kept, stretched(pin));
   return write(record);

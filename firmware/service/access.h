@@ -54,6 +54,7 @@ class Access {
  private:
   struct Record {
     std::string technician, clerk;  // stretched
+    std::string& of(ui::StaffRole role) { return role == ui::StaffRole::Technician ? technician : clerk; }
     int wrong = 0;
     std::int64_t wrong_at_s = 0;  // seconds since 1970, of the last wrong try
   };

@@ -24,19 +24,8 @@
 
 namespace relievo::firmware {
 
-// The operator's consent text: consent/VERSION/LANGUAGE.txt in the folder of the store, UTF-8.
-//
-//   What happens here             the first line: the page's title
-//                                 an empty line, then one block for each point:
-//   We take one picture           its first line is its title,
-//   Two cameras photograph ...    the others, joined, its words
-//
-// Beside them may lie operator.txt (the operator's name; from the second line on, how they are reached) and
-// sign.png (their sign, on white): the page that invites shows whose device it is. The first line of link.txt
-// is where the operator offers portraits: an https address with {model} in its path.
-//
-// The version is the folder's name; in use is the last in the order of their names. LANGUAGE is one of
-// en de fr es ar he zh-Hans ja. Names that begin with a dot are somebody else's (a copy that was not
+// The operator's consent text and what lies beside it, in the form of firmware/records/README.md. In use is
+// the version whose name is the last. Names that begin with a dot are somebody else's (a copy that was not
 // finished, what a computer leaves on a stick). Thread: any.
 // Errors: InvalidInput names the file and what is wrong with it; IoFailed. Their sentences are keys of
 // the staff's catalogues (ui/language).

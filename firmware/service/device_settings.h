@@ -8,6 +8,8 @@
 
 #include <functional>
 #include <optional>
+#include <utility>
+#include <vector>
 
 #include "firmware/base/settings.h"
 #include "firmware/records/event_log.h"
@@ -36,6 +38,7 @@ class DeviceSettings {
   EventLog& log_;
   const hal::Clock& clock_;
   ui::Settings now_, wanted_;
+  std::vector<std::pair<ui::Setting, std::int32_t>> asked_;  // not written yet, the eldest first
 };
 
 }  // namespace relievo::firmware

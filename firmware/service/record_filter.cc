@@ -20,7 +20,7 @@ void RecordChoice::forget() {
 Result<void> for_each_record(
     storage::Store& store, Opened opened, JobControl& control,
     const std::function<void(const storage::Subject&, const storage::Consent* newest)>& visit) {
-  RELIEVO_TRY_ASSIGN(const std::int64_t all, store.count_subjects({}));
+  RELIEVO_TRY_ASSIGN(const std::int64_t all, store.count_subjects());
   std::int64_t read = 0;
   return store.for_each_subject(
       opened, [&](storage::Subject& subject, const storage::Consent* newest) -> Result<void> {

@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cstdio>
 #include <sstream>
+#include <utility>
 
 namespace relievo::firmware {
 namespace {
@@ -33,28 +34,19 @@ bool is_visit(State state) {
   return false;
 }
 
+// Others are ui::Refusal::Other.
+constexpr std::pair<Errc, ui::Refusal> kRefusals[] = {
+    {Errc::NoFace, ui::Refusal::NoFace},
+    {Errc::TooFewMatches, ui::Refusal::TooFewMatches},
+    {Errc::PoorGeometry, ui::Refusal::PoorGeometry},
+    {Errc::OutOfMemory, ui::Refusal::Memory},
+    {Errc::Disconnected, ui::Refusal::Camera},
+    {Errc::Timeout, ui::Refusal::Slow},
+};
+
 ui::Refusal refusal_of(const Error& error) {
-  switch (error.code) {
-    case Errc::NoFace: return ui::Refusal::NoFace;
-    case Errc::TooFewMatches: return ui::Refusal::TooFewMatches;
-    case Errc::PoorGeometry: return ui::Refusal::PoorGeometry;
-    case Errc::OutOfMemory: return ui::Refusal::Memory;
-    case Errc::Disconnected: return ui::Refusal::Camera;
-    case Errc::Timeout: return ui::Refusal::Slow;
-    case Errc::InvalidInput:
-    case Errc::NotFound:
-    case Errc::NotCalibrated:
-    case Errc::LibraryFailed:
-    case Errc::MediaMissing:
-    case Errc::MediaFull:
-    case Errc::StoreCorrupt:
-    case Errc::StoreNewer:
-    case Errc::IoFailed:
-    case Errc::Cancelled:
-    case Errc::InvalidState:
-    case Errc::Unsupported: break;
-  }
-  return ui::Refusal::Other;
+  const auto* const found = std::ranges::find(kRefusals, error.code, &std::pair<Errc, ui::Refusal>::first);
+  return found != std::end(kRefusals) ? found->second : ui::Refusal::Other;
 }
 
 }  // namespace

@@ -19,16 +19,11 @@ static_assert(budget::kLargestPlan.sides / kCopyShare >= 2 * budget::kFrameBytes
               "no room for a pair of the largest sensor");
 static_assert(budget::kHeadPoses == SidePairs::kPoses, "the plan is for another number of sides");
 
-template <std::size_t... I>
-std::array<std::span<std::byte>, sizeof...(I)> cut(std::span<std::byte> block, std::index_sequence<I...>) {
+// Cut into so many alike.
+template <typename Room, std::size_t... I>
+std::array<Room, sizeof...(I)> rooms(std::span<std::byte> block, std::index_sequence<I...>) {
   const std::size_t each = block.size() / sizeof...(I);
-  return {block.subspan(I * each, each)...};
-}
-
-template <std::size_t... I>
-std::array<Arena, sizeof...(I)> arenas(const std::array<std::span<std::byte>, sizeof...(I)>& rooms,
-                                       std::index_sequence<I...>) {
-  return {Arena(rooms[I])...};
+  return {Room(block.subspan(I * each, each))...};
 }
 
 std::size_t row_bytes(const ImageView& view) {
@@ -47,8 +42,8 @@ ImageView copied(const ImageView& view, std::byte* to) {
 
 SidePairs::SidePairs(std::span<std::byte> block)
     : copy_(block.first(block.size() / kCopyShare)),
-      rooms_(cut(block.subspan(copy_.size()), std::make_index_sequence<kPoses>())),
-      kept_(arenas(rooms_, std::make_index_sequence<kPoses>())) {}
+      rooms_(rooms<std::span<std::byte>>(block.subspan(copy_.size()), std::make_index_sequence<kPoses>())),
+      kept_(rooms<Arena>(block.subspan(copy_.size()), std::make_index_sequence<kPoses>())) {}
 
 void SidePairs::begin() {
   const std::lock_guard lock(mutex_);
@@ -58,9 +53,7 @@ void SidePairs::begin() {
 
 Result<void> SidePairs::add(const pipeline::StereoFrame& pair) {
   const std::size_t left = bytes_of(pair.left), both = left + bytes_of(pair.right);
-  std::unique_lock lock(mutex_);
-  const std::size_t at = added_;
-  lock.unlock();  // nobody else touches the room of a pair that was not added yet
+  const std::size_t at = count();  // nobody else touches the room of a pair that was not added yet
   if (at == pipeline::kSides) return Error{Errc::InvalidState, "every side has its pair already"};
   std::span<std::byte> room = rooms_[at + 1];
   if (both > std::min(room.size(), copy_.size()))
@@ -70,7 +63,7 @@ Result<void> SidePairs::add(const pipeline::StereoFrame& pair) {
   pairs_[at] = pair;
   pairs_[at].left = copied(pair.left, room.data());
   pairs_[at].right = copied(pair.right, room.data() + left);
-  lock.lock();
+  const std::lock_guard lock(mutex_);
   ++added_;
   changed_.notify_one();
   return {};
@@ -116,7 +109,7 @@ void SidePairs::wipe() {
 Result<void> EnrolmentSession::open(std::string_view subject) {
   if (is_open()) return Error{Errc::InvalidState, "a session is open already: close it first"};
   if (subject.size() > budget::kSubjectNameBytes) {
-    return Error{Errc::InvalidInput, "the name is longer than 128 bytes: choose a shorter one"};
+    return Error{Errc::InvalidInput, "the name is longer than 200 bytes: choose a shorter one"};
   }
   RELIEVO_ASSERT(output_.used() == 0 && scratch_touched_ == 0);
   subject.copy(subject_.data(), subject.size());
@@ -146,18 +139,17 @@ void EnrolmentSession::took(const pipeline::StereoFrame& frame) {
   holds_ = spare_slot_.holds(frame.left) ? &spare_slot_ : &slot_;
 }
 
-void EnrolmentSession::rework() {
-  const auto frame = products().frame;
-  wipe_products();
-  make_products();
-  products_->frame = frame;
-}
-
 void EnrolmentSession::begins(State stage) { stage_begins_.at(number_of(stage)) = output_.used(); }
 
 void EnrolmentSession::rework(State from) {
-  if (from <= State::Match) return rework();
   Products& made = products();
+  if (from <= State::Match) {  // the pictures alone stay
+    const auto frame = made.frame;
+    wipe_products();
+    make_products();
+    products_->frame = frame;
+    return;
+  }
   if (from > State::Mesh && made.model) {  // they were taken over unchanged
     made.mesh = std::move(made.model->mesh);
     made.texture = std::move(made.model->texture);

@@ -7,7 +7,7 @@
 //   closed --open(subject)--> open --close()--> closed: every byte that was used is zero
 //                             |   ^
 //                             +---+ retake(): pictures and products go, the subject stays
-//                                   rework(): only products go
+//                                   rework(): only products go, of some stages or all
 //
 // Thread: main opens and closes, and only while no job runs; a running job has the products.
 #pragma once
@@ -47,8 +47,8 @@ namespace relievo::firmware {
 // StagePictures: small square pictures of the face for the screen: the photograph, then one for each stage
 // that is done. Fixed memory, part of the session: wiped with it. Thread: who takes or makes it draws its
 // picture before it reports; main reads those reported.
-inline constexpr std::size_t kStagePictures =
-    5;  // Capture, Match, Reconstruct, Mesh, Texture; Assemble has none
+// Capture, Match, Reconstruct, Mesh, Texture; Assemble has none.
+inline constexpr std::size_t kStagePictures = 5;
 
 class StagePictures {
  public:
@@ -150,9 +150,8 @@ class EnrolmentSession {
   // A subject's name longer than kSubjectNameBytes is InvalidInput; an open session InvalidState.
   Result<void> open(std::string_view subject);
   void retake();
-  // The products go, the pictures they were made of stay: all stages can run once more. Also on the worker.
-  void rework();
-  // The products of this stage and of those after it go: they can run once more. Also on the worker.
+  // The products of this stage and of those after it go, never the pictures: they can run once more. Also on
+  // the worker.
   void rework(State from);
   // What comes into output() from now on is this stage's. Thread: worker.
   void begins(State stage);
@@ -170,7 +169,6 @@ class EnrolmentSession {
   // Small pictures for the screen: of the person, and of what the stages made.
   LiveFeed& live() { return live_; }
   StagePictures& stage_pictures() { return stage_pictures_; }
-  const StagePictures& stage_pictures() const { return stage_pictures_; }
   StereoSlot& spare_slot() { return spare_slot_; }  // of a burst, which keeps its best pair in one of the two
   Arena& output() { return output_; }
   std::size_t stage_bytes() const { return output_.capacity() + scratch_block_.size(); }

@@ -6,7 +6,6 @@
 
 #include "firmware/base/wall_time.h"
 #include "firmware/service/pin_hash.h"
-#include "ui/screens/parts/keyboard.h"
 #include "ui/view/staff_views.h"
 
 namespace relievo::firmware {
@@ -54,6 +53,8 @@ void SignIn::opened(StaffPage page) {
 }
 
 void SignIn::forget() {
+  ++visit_;
+  entered_ = StaffRole::None;
   wipe_text(first_);
   wipe_text(technician_);
 }
@@ -103,14 +104,15 @@ void SignIn::check(std::string_view pin) {
         RELIEVO_TRY_ASSIGN(tried->attempt, answer);
         return {};
       },
-      [this, tried](const std::optional<Error>& error) {
+      [this, tried, visit = visit_](const std::optional<Error>& error) {
         checking_ = false;
         if (error) log_.fault(*error);
+        wait_until_ = clock_.now() + tried->attempt.wait;
+        if (tried->attempt.wrong) log_.say(ui::LogEvent::WrongPin);
+        if (visit != visit_) return;  // whoever typed it has gone: the next one at the lock is another
         failed_ = error ? std::optional(error->code) : std::nullopt;
         wrong_ = tried->attempt.wrong;
-        wait_until_ = clock_.now() + tried->attempt.wait;
         entered_ = error ? StaffRole::None : tried->attempt.role;
-        if (tried->attempt.wrong) log_.say(ui::LogEvent::WrongPin);
         if (entered_ == StaffRole::Technician) log_.say(ui::LogEvent::TechnicianSignedIn);
         if (entered_ == StaffRole::Operator) log_.say(ui::LogEvent::OperatorSignedIn);
       },
@@ -167,12 +169,11 @@ void SignIn::judge(std::string pin, StaffRole role, PinStep next) {
   checking_ = true;
   side_tasks_.send(
       JobLane::Keeper, [this, kept, role](JobControl&) { return access_.check_new(role, *kept); },
-      [this, kept, next](const std::optional<Error>& error) {
+      [this, kept, next, visit = visit_](const std::optional<Error>& error) {
         checking_ = false;
-        if (error) {
-          wipe_text(*kept);
-          return refuse(*error, step_);
-        }
+        if (error || visit != visit_) wipe_text(*kept);
+        if (visit != visit_) return;
+        if (error) return refuse(*error, step_);
         first_ = std::move(*kept);
         step_ = next;
       },
@@ -200,14 +201,15 @@ void SignIn::save(Pins pins, PinStep begins, std::function<Result<void>(const Pi
         wipe_text(kept->clerk);
         return saved;
       },
-      [this, begins, said = std::move(said)](const std::optional<Error>& error) {
+      [this, begins, said = std::move(said), visit = visit_](const std::optional<Error>& error) {
         checking_ = false;
+        if (error && visit != visit_) return log_.fault(*error);
         if (error) return refuse(*error, begins);
         if (begins != PinStep::Own) {
           forgotten_ = StaffRole::None;
           set_up_ = true;
         }
-        step_ = PinStep::Done;
+        if (visit == visit_) step_ = PinStep::Done;
         for (const ui::LogEvent event : said) log_.say(event);
       },
       SideTasks::Whose::Device);

@@ -2,10 +2,12 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 //
 // SignIn: behind the pages on which PINs are typed: the way in, the first start, a new PIN of one's own.
-// A PIN that was typed is kept only until its twin has been typed, and wiped when the page is left.
+// A PIN that was typed is kept only until its twin has been typed, and wiped when the page is left. What is
+// found out about it after that lets nobody in and is not shown on the next page.
 // Thread: main; what takes time runs as a side task on the keeper.
 #pragma once
 
+#include <cstdint>
 #include <functional>
 #include <string>
 #include <vector>
@@ -77,6 +79,7 @@ class SignIn {
   ui::PinFault fault_ = ui::PinFault::None;
   hal::Instant wait_until_{};
   std::string first_, technician_;  // typed once; the technician's, until the operator's is there
+  std::uint32_t visit_ = 0;         // of the page: what was asked before it was left is not answered after
   ui::StaffRole entered_ = ui::StaffRole::None;
   mutable std::string clock_text_;
   mutable std::chrono::sys_time<std::chrono::minutes>

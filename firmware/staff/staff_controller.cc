@@ -104,8 +104,7 @@ class TechnicianController final : public PageController {
   void show(ui::ServiceView& view) override {
     view.technician = &test_capture_.view();
     if (page_ == ui::TechnicianPage::Stages || page_ == ui::TechnicianPage::Compare)
-      view.work = {view.technician->recording.running, view.technician->recording.progress,
-                   view.technician->recording.outcome};
+      view.work = view.technician->recording;
     view.inner = page_ == ui::TechnicianPage::Algorithms && view.technician->choice.edited != nullptr;
   }
   void closed() override { test_capture_.closed(page_); }

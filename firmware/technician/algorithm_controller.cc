@@ -116,35 +116,30 @@ void AlgorithmController::type(char letter) {
   refused_.clear();
 }
 
-bool AlgorithmController::takes(const ui::TechnicianRequest& request) {
-  if (const auto* alone = std::get_if<ui::DoTechnician>(&request))
-    return alone->act == ui::TechnicianAct::EraseDigit || alone->act == ui::TechnicianAct::UseTyped ||
-           alone->act == ui::TechnicianAct::UseDefault || alone->act == ui::TechnicianAct::LeaveOption ||
-           alone->act == ui::TechnicianAct::ResetSet;
-  return std::holds_alternative<ui::ChooseKind>(request) || std::holds_alternative<ui::ChooseName>(request) ||
-         std::holds_alternative<ui::EditOption>(request) || std::holds_alternative<ui::TypeDigit>(request);
-}
-
-void AlgorithmController::act(const ui::TechnicianRequest& request) {
-  if (const auto* kind = std::get_if<ui::ChooseKind>(&request);
-      kind != nullptr && kind->index < kinds_.size()) {
+bool AlgorithmController::act(const ui::TechnicianRequest& request) {
+  if (const auto* alone = std::get_if<ui::DoTechnician>(&request)) return act_alone(alone->act);
+  if (const auto* kind = std::get_if<ui::ChooseKind>(&request)) {
+    if (kind->index >= kinds_.size()) return true;
     kind_ = kind->index;
     editing_ = false;
     rebuild();
-  }
-  if (const auto* name = std::get_if<ui::ChooseName>(&request)) {
+  } else if (const auto* name = std::get_if<ui::ChooseName>(&request)) {
     editing_ = false;
     choose_name(name->index);
-  }
-  if (const auto* option = std::get_if<ui::EditOption>(&request)) edit(option->index);
-  if (const auto* typed = std::get_if<ui::TypeDigit>(&request)) type(typed->digit);
-  const auto* alone = std::get_if<ui::DoTechnician>(&request);
-  if (alone == nullptr) return;
-  if (alone->act == ui::TechnicianAct::EraseDigit && !typed_.empty()) typed_.pop_back();
-  if (alone->act == ui::TechnicianAct::UseTyped && editing_) use(typed_);
-  if (alone->act == ui::TechnicianAct::UseDefault && editing_) use(shown_[edited_]->value);
-  if (alone->act == ui::TechnicianAct::LeaveOption) editing_ = false;
-  if (alone->act == ui::TechnicianAct::ResetSet) begin({});
+  } else if (const auto* option = std::get_if<ui::EditOption>(&request)) edit(option->index);
+  else if (const auto* typed = std::get_if<ui::TypeDigit>(&request)) type(typed->digit);
+  else return false;
+  return true;
+}
+
+bool AlgorithmController::act_alone(ui::TechnicianAct act) {
+  using enum ui::TechnicianAct;
+  const bool uses = act == UseTyped || act == UseDefault;
+  if (act == EraseDigit && !typed_.empty()) typed_.pop_back();
+  if (uses && editing_) use(act == UseTyped ? typed_ : shown_[edited_]->value);
+  if (act == LeaveOption) editing_ = false;
+  if (act == ResetSet) begin({});
+  return uses || act == EraseDigit || act == LeaveOption || act == ResetSet;
 }
 
 ui::TechnicianChoice AlgorithmController::view() const {

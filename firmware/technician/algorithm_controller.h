@@ -2,7 +2,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 //
 // AlgorithmController: every algorithm there is, the set that is chosen, and the option that is being edited.
-// What is typed is checked by AlgorithmSet alone: what it refuses stays as it was, and refused() says why.
+// What is typed is checked by AlgorithmSet alone: what it refuses stays as it was, and view() says why.
 //
 //   kind --choose_name()--> name --edit()--> option --type() ... use()--> set()
 //
@@ -22,13 +22,14 @@ class AlgorithmController {
  public:
   AlgorithmController();
   void begin(const pipeline::AlgorithmSet& set);
-  static bool takes(const ui::TechnicianRequest& request);
-  void act(const ui::TechnicianRequest& request);
+  // False: that is nothing of the algorithms'.
+  bool act(const ui::TechnicianRequest& request);
   const pipeline::AlgorithmSet& set() const { return set_; }
   // Until the next change.
   ui::TechnicianChoice view() const;
 
  private:
+  bool act_alone(ui::TechnicianAct act);
   void rebuild();
   void choose_name(std::size_t index);
   void edit(std::size_t index);

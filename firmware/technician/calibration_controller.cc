@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cmath>
 #include <cstdio>
+#include <utility>
 
 #include "firmware/base/wall_time.h"
 #include "firmware/calibrate/calibrate_command.h"
@@ -135,7 +136,7 @@ void CalibrateJob::publish(const LivePair& pair, const pipeline::LiveState& stat
   now.views = state.views;
   now.disagreeing = state.disagreeing;
   now.bars = {float(state.bars.x), float(state.bars.y), float(state.bars.size), float(state.bars.skew)};
-  for (std::size_t k = 0; k < 2; ++k) std::ranges::copy(state.maps[k].count, now.seen[k].begin());
+  for (std::size_t k = 0; k < 2; ++k) std::ranges::copy(state.maps[k], now.seen[k].begin());
   now.error_mm = float(state.error_mm);
   now.goal_mm = float(state.goal_mm);
   const std::lock_guard lock(mutex_);
@@ -147,7 +148,7 @@ ui::TechnicianCalibration CalibrateJob::newest() {
   const std::lock_guard lock(mutex_);
   ui::TechnicianCalibration now = figures_;
   for (std::size_t i = 0; i < 2; ++i) {
-    const LivePicture live = feeds_[i].newest();
+    const ui::LiveView live = feeds_[i].newest();
     now.pictures[i] = {live.picture, live.number};
   }
   return now;
@@ -243,6 +244,31 @@ void CalibrationController::walk(const ui::ListRequest& request) {
   }
 }
 
+void CalibrationController::use(pipeline::Pipeline pipeline, bool calibrated) {
+  next_ = std::move(pipeline);
+  next_calibrated_ = next_calibrated_ || calibrated;
+  turn();
+}
+
+// A visitor's stages run with what it replaces, and a task on the keeper may be looking at both.
+void CalibrationController::turn() {
+  const State state = parts_.appliance.state();
+  const bool nobody_is_measured =
+      state == State::Idle || state == State::Staff || state == State::Calibrate || state == State::Export;
+  if (!next_ || !nobody_is_measured || parts_.side_tasks.busy(JobLane::Keeper)) return;
+  parts_.stages.replace(*std::exchange(next_, std::nullopt));
+  if (std::exchange(next_calibrated_, false)) parts_.in_use(*parts_.stages.calibration());
+}
+
+const pipeline::AlgorithmSet& CalibrationController::algorithms() const {
+  return next_ ? next_->algorithms() : parts_.stages.algorithms();
+}
+
+const pipeline::StereoCalibration* CalibrationController::calibration() const {
+  return next_ ? &next_->calibration() : parts_.stages.calibration();
+}
+
+// The device's task: who leaves meanwhile has it done, in the store and for visitors alike.
 void CalibrationController::adopt(std::function<Result<std::uint32_t>()> first) {
   if (busy_) return;
   busy_ = true;
@@ -256,17 +282,17 @@ void CalibrationController::adopt(std::function<Result<std::uint32_t>()> first) 
       [this, made, first = std::move(first)](JobControl&) -> Result<void> {
         RELIEVO_TRY_ASSIGN(made->revision, first());
         RELIEVO_TRY_ASSIGN(const auto calibration, parts_.store.calibration(made->revision));
-        RELIEVO_TRY_ASSIGN(made->pipeline, pipeline::Pipeline::make(parts_.stages.algorithms(), calibration));
+        RELIEVO_TRY_ASSIGN(made->pipeline, pipeline::Pipeline::make(algorithms(), calibration));
         return {};
       },
-      [this, made](const std::optional<Error>& error) {
+      [this, made, visit = visit_](const std::optional<Error>& error) {
+        if (!error) use(*std::move(made->pipeline), true);
+        if (visit != visit_) return;
         busy_ = false;
         problem_ = error ? ui::fault_of(*error) : ui::Fault{};
-        if (error) return;
-        parts_.stages.replace(*std::move(made->pipeline));
-        parts_.in_use(*parts_.stages.calibration());
-        load_history();
-      });
+        if (!error) load_history();
+      },
+      SideTasks::Whose::Device);
 }
 
 void CalibrationController::store() {
@@ -350,8 +376,12 @@ ui::TechnicianCalibration CalibrationController::view() {
 }
 
 void CalibrationController::forget() {
+  ++visit_;
   parts_.job.wipe();
   running_ = ended_ = stored_ = busy_ = false;
+  problem_ = {};
+  reasons_.clear();
+  views_px_.clear();
   history_.clear();
   walk_.begin_anew();
   walk_.set_rows(0);

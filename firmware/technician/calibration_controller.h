@@ -84,6 +84,7 @@ class CalibrateJob final : public Job {
 class CalibrationController {
  public:
   struct Parts {
+    const Appliance& appliance;
     CalibrateJob& job;
     PipelineStages& stages;  // replaced when another calibration comes into use
     storage::Store& store;
@@ -104,6 +105,14 @@ class CalibrationController {
   ui::TechnicianCalibration view();
   void forget();
   bool running() const { return running_; }
+  // Visitors are measured with it from now on, or, if one is here, as soon as that visit has ended.
+  // `calibrated`: its calibration is another one.
+  void use(pipeline::Pipeline pipeline, bool calibrated);
+  // What is in use, or soon will be. Main; on the keeper within a side task, since use() waits for those.
+  const pipeline::AlgorithmSet& algorithms() const;
+  const pipeline::StereoCalibration* calibration() const;
+  // Every turn of the main loop, also when the technician has gone.
+  void turn();
 
  private:
   void change_board(const ui::ChangeBoard& change);
@@ -128,7 +137,10 @@ class CalibrationController {
   std::vector<float> views_px_;
   std::vector<Row> history_;
   ListWalk walk_{ui::kCalibrationRows};
-  bool busy_ = false;  // the keeper is at it
+  bool busy_ = false;        // the keeper is at it
+  std::uint32_t visit_ = 0;  // what a visit to the pages before this one asked for is not told here
+  std::optional<pipeline::Pipeline> next_;  // comes into use when nobody is measured
+  bool next_calibrated_ = false;
 };
 
 }  // namespace relievo::firmware

@@ -162,11 +162,11 @@ ui::TechnicianCameras CameraWatchJob::newest() {
   const std::lock_guard lock(mutex_);
   ui::TechnicianCameras now = figures_;
   for (std::size_t i = 0; i < 2; ++i) {
-    const LivePicture live = feeds_[i].newest();
+    const ui::LiveView live = feeds_[i].newest();
     now.camera[i].picture = {live.picture, live.number};
   }
   if (now.relief_shown && now.problem.empty()) {
-    const LivePicture live = feeds_[2].newest();
+    const ui::LiveView live = feeds_[2].newest();
     now.relief = {live.picture, live.number == 0 ? 0 : live.number | kReliefVersion};
   }
   return now;

@@ -37,16 +37,6 @@ Result<void> write(std::span<const hal::RecordedPair> pairs, const fs::path& tar
   return {};
 }
 
-// A name every file system of a stick takes: 2026-03-12_09-14-07, UTC.
-std::string name_at(std::chrono::system_clock::time_point when) {
-  const std::time_t seconds = std::chrono::system_clock::to_time_t(when);
-  std::tm parts{};
-  gmtime_r(&seconds, &parts);
-  char name[32];
-  std::strftime(name, sizeof name, "%Y-%m-%d_%H-%M-%S", &parts);
-  return name;
-}
-
 }  // namespace
 
 CaptureCopy::CaptureCopy(std::span<const pipeline::StereoFrame> shots, const hal::RecordedPair& as_taken)
@@ -75,9 +65,15 @@ Result<void> record_capture(std::span<const hal::RecordedPair> pairs, const std:
 std::shared_ptr<ExportTrace> RecordingController::begin() {
   if (running_) return nullptr;
   running_ = true;
+  stopped_ = false;
   outcome_ = ui::Outcome::None;
   where_.clear();
   return std::make_shared<ExportTrace>();
+}
+
+Result<void> RecordingController::go_on() const {
+  if (!stopped_) return {};
+  return Error{Errc::Cancelled, "it was stopped before it was on the stick"};
 }
 
 void RecordingController::ended(const std::optional<Error>& error, const ExportTrace& trace,
@@ -87,7 +83,15 @@ void RecordingController::ended(const std::optional<Error>& error, const ExportT
   if (!error || outcome_ == ui::Outcome::StickHeld) where_ = where;
 }
 
-std::string RecordingController::name_now() const { return name_at(device_.clock().wall_now()); }
+// A name every file system of a stick takes: 2026-03-12_09-14-07, UTC.
+std::string RecordingController::name_now() const {
+  const std::time_t seconds = std::chrono::system_clock::to_time_t(device_.clock().wall_now());
+  std::tm parts{};
+  gmtime_r(&seconds, &parts);
+  char name[32];
+  std::strftime(name, sizeof name, "%Y-%m-%d_%H-%M-%S", &parts);
+  return name;
+}
 
 std::string RecordingController::saved_name(std::size_t row) const {
   if (!names_ || row >= names_->size()) return {};
@@ -103,7 +107,8 @@ void RecordingController::record(std::span<const pipeline::StereoFrame> shots,
   const std::string name = name_now();
   side_tasks_.send(
       JobLane::Keeper,
-      [this, copy, trace, name](JobControl& control) {
+      [this, copy, trace, name](JobControl& control) -> Result<void> {
+        RELIEVO_TRY(go_on());
         return record_capture(copy->pairs(), name, device_.media(), control, *trace);
       },
       [this, trace, name, visit = visit_](const std::optional<Error>& error) {
@@ -113,6 +118,7 @@ void RecordingController::record(std::span<const pipeline::StereoFrame> shots,
 
 void RecordingController::save(std::function<Result<std::vector<std::byte>>()> make) {
   if (begin() == nullptr) return;
+  making_ = true;
   const auto document = std::make_shared<std::shared_ptr<const SavedBytes>>();
   side_tasks_.send(
       JobLane::Worker,
@@ -123,7 +129,9 @@ void RecordingController::save(std::function<Result<std::vector<std::byte>>()> m
       },
       [this, document, visit = visit_](const std::optional<Error>& error) {
         if (visit != visit_) return;
-        if (error) ended(error, {}, {});
+        making_ = false;
+        const Result<void> goes_on = error ? Result<void>(*error) : go_on();
+        if (!goes_on) ended(goes_on.error(), {}, {});
         else write(std::move(*document));
       });
 }
@@ -133,7 +141,8 @@ void RecordingController::write(std::shared_ptr<const SavedBytes> document) {
   const std::string name = name_now();
   side_tasks_.send(
       JobLane::Keeper,
-      [this, document = std::move(document), trace, name](JobControl& control) {
+      [this, document = std::move(document), trace, name](JobControl& control) -> Result<void> {
+        RELIEVO_TRY(go_on());
         return save_reconstruction(*document, name, device_.media(), control, *trace);
       },
       [this, trace, name, visit = visit_](const std::optional<Error>& error) {
@@ -168,6 +177,7 @@ void RecordingController::load(std::size_t row, std::function<void(std::shared_p
   side_tasks_.send(
       JobLane::Keeper,
       [this, name, saved](JobControl& control) -> Result<void> {
+        RELIEVO_TRY(go_on());
         RELIEVO_TRY_ASSIGN(*saved, read_saved(name, device_.media(), control));
         return {};
       },
@@ -183,7 +193,9 @@ void RecordingController::load(std::size_t row, std::function<void(std::shared_p
 }
 
 void RecordingController::stop() {
-  if (running_) side_tasks_.stop(JobLane::Keeper);
+  if (!running_) return;
+  stopped_ = true;
+  if (!making_) side_tasks_.stop(JobLane::Keeper);
 }
 
 void RecordingController::capture_gone() {
@@ -193,13 +205,13 @@ void RecordingController::capture_gone() {
 
 void RecordingController::forget() {
   ++visit_;
-  running_ = false;
+  running_ = making_ = false;
   names_.reset();
   capture_gone();
 }
 
 ui::TechnicianRecording RecordingController::view() const {
-  return {running_, running_ ? side_tasks_.progress(JobLane::Keeper) : 0, outcome_, where_};
+  return {{running_, running_ ? side_tasks_.progress(JobLane::Keeper) : 0, outcome_}, where_};
 }
 
 }  // namespace relievo::firmware

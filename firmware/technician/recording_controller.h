@@ -7,6 +7,7 @@
 // keeper's. Errors: none are returned, view() has them, but what is wrong with a document goes to `refused`.
 #pragma once
 
+#include <atomic>
 #include <functional>
 #include <memory>
 #include <optional>
@@ -80,6 +81,8 @@ class RecordingController {
   }
 
  private:
+  // Cancelled: it is to stop, before it has come to the stick.
+  Result<void> go_on() const;
   // What runs from now on; null: something else does.
   std::shared_ptr<ExportTrace> begin();
   void write(std::shared_ptr<const SavedBytes> document);
@@ -90,6 +93,8 @@ class RecordingController {
   std::string where_;
   ui::Outcome outcome_ = ui::Outcome::None;
   bool running_ = false;
+  bool making_ = false;               // a document, on the worker: the stick is somebody else's yet
+  std::atomic<bool> stopped_{false};  // what runs; read on the keeper, too
   std::optional<std::vector<std::string>> names_;  // on the stick, while they are shown
   std::uint32_t visit_ = 0;  // what a visit to the pages before this one asked for is not told here
 };

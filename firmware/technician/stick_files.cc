@@ -27,6 +27,15 @@ namespace fs = std::filesystem;
 
 constexpr std::size_t kPieceBytes = std::size_t{1} << 20;
 
+// What lies in a folder and is not hidden; nothing where there is none.
+std::vector<fs::path> entries_of(const fs::path& folder) {
+  std::vector<fs::path> all;
+  std::error_code error;
+  for (fs::directory_iterator entry(folder, error), end; !error && entry != end; entry.increment(error))
+    if (!entry->path().filename().string().starts_with('.')) all.push_back(entry->path());
+  return all;
+}
+
 Error unread(const fs::path& file) {
   return Error{Errc::IoFailed, "cannot be read from the stick: pull it out, plug it in and try again", errno}
       .at(file.filename().string());
@@ -98,12 +107,8 @@ Result<void> save_reconstruction(const SavedBytes& document, const std::string& 
 Result<std::vector<std::string>> saved_reconstructions(hal::RemovableMedia& media, std::size_t most) {
   RELIEVO_TRY_ASSIGN(const hal::Medium medium, plugged_in(media));
   std::vector<std::string> names;
-  std::error_code error;
-  for (fs::directory_iterator entry(medium.root / kSavedFolder, error), end; !error && entry != end;
-       entry.increment(error)) {
-    const std::string name = entry->path().filename().string();
-    if (!name.starts_with('.') && name.ends_with(kSavedEnding)) names.push_back(name);
-  }
+  for (const fs::path& entry : entries_of(medium.root / kSavedFolder))
+    if (entry.string().ends_with(kSavedEnding)) names.push_back(entry.filename().string());
   std::ranges::sort(names, std::greater<>());  // a name is the time at which it was saved
   names.resize(std::min(names.size(), most));
   return names;
@@ -143,11 +148,7 @@ Result<void> write(const pipeline::StereoCalibration& calibration, const fs::pat
 
 // The top first, then the folders of calibrations, the last name first.
 std::vector<fs::path> places(const fs::path& root) {
-  std::vector<fs::path> folders;
-  std::error_code error;
-  for (fs::directory_iterator entry(root / kCalibrationsFolder, error), end; !error && entry != end;
-       entry.increment(error))
-    if (!entry->path().filename().string().starts_with('.')) folders.push_back(entry->path());
+  std::vector<fs::path> folders = entries_of(root / kCalibrationsFolder);
   std::sort(folders.rbegin(), folders.rend());
   folders.insert(folders.begin(), root);
   return folders;

@@ -24,8 +24,8 @@ TestCapture::TestCapture(Parts parts)
       watch_(parts_.appliance.grabber(), session_, parts_.device),
       calibrate_(parts_.appliance.grabber(), session_, parts_.device, parts_.pool,
                  std::move(parts_.show_boards)),
-      calibrations_({calibrate_, parts_.stages, parts_.store, parts_.side_tasks, parts_.device.media(),
-                     std::move(parts_.in_use)}),
+      calibrations_({parts_.appliance, calibrate_, parts_.stages, parts_.store, parts_.side_tasks,
+                     parts_.device.media(), std::move(parts_.in_use)}),
       recording_(parts_.side_tasks, parts_.device) {
   algorithms_.begin(parts_.stages.algorithms());
 }
@@ -74,11 +74,10 @@ void TestCapture::act(const ui::TechnicianRequest& request) {
     if (page_ == ui::TechnicianPage::Calibrate) calibrations_.walk(*list);
   }
   if (const auto* finger = std::get_if<ui::TouchPicture>(&request)) touch(*finger);
-  if (const auto* dropped = std::get_if<ui::DropResult>(&request); dropped != nullptr)
-    kept_.drop(dropped->index);
+  if (const auto* dropped = std::get_if<ui::DropResult>(&request)) kept_.drop(dropped->index);
   if (const auto* saved = std::get_if<ui::LoadSaved>(&request)) load(saved->row, saved->beside);
   calibrations_.act(request);
-  if (AlgorithmController::takes(request)) choose(request);
+  if (algorithms_.act(request)) applied_ = false;
 }
 
 void TestCapture::act_alone(TechnicianAct act) {
@@ -116,15 +115,14 @@ void TestCapture::act_alone(TechnicianAct act) {
   }
 }
 
-// What takes pictures begins when nobody else does any more.
+// What takes pictures begins when nobody else does any more. What was read from a stick waits for a run that
+// has begun meanwhile, and is forgotten where a capture is wanted in its place.
 void TestCapture::wait_for_cameras(Next what) {
-  if (phase_ != TechnicianPhase::Capturing && phase_ != TechnicianPhase::Running) next_ = what;
+  const bool loaded = what == Next::Loaded;
+  const bool works = phase_ == TechnicianPhase::Capturing || phase_ == TechnicianPhase::Running;
+  if (loaded || !works) next_ = what;
+  if (!loaded && !works) saved_.reset();
   watch_cameras(false);
-}
-
-void TestCapture::choose(const ui::TechnicianRequest& request) {
-  algorithms_.act(request);
-  applied_ = false;
 }
 
 void TestCapture::keep_result() {
@@ -158,6 +156,16 @@ void TestCapture::begin_next() {
   const Next what = std::exchange(next_, Next::None);
   problem_ = {};
   if (what == Next::Side) return may_add_side() ? shoot(true) : void();
+  if (what == Next::Loaded && saved_beside_) keep_result();
+  forget_capture();
+  if (session_.is_open()) session_.retake();
+  else if (const Result<void> opened = session_.open(""); !opened) return say(opened.error());
+  if (what == Next::Shot) shoot(false);
+  else if (what == Next::Calibration) calibrate();
+  else take_over();
+}
+
+void TestCapture::forget_capture() {
   point_ = {};
   pairs_.forget();
   run_.change().forget();
@@ -167,11 +175,6 @@ void TestCapture::begin_next() {
   run_.figures().forget();
   phase_ = TechnicianPhase::Empty;
   loaded_ = false;
-  if (session_.is_open()) session_.retake();
-  else if (const Result<void> opened = session_.open(""); !opened) return say(opened.error());
-  if (what == Next::Shot) shoot(false);
-  else if (what == Next::Calibration) calibrate();
-  else take_over();
 }
 
 void TestCapture::shoot(bool side) {
@@ -230,7 +233,8 @@ void TestCapture::send_run() {
 void TestCapture::save() {
   const Products* made = products();
   if (made == nullptr || !made->frame) return;
-  recording_.save([this] { return make_document(session_.products(), run_.making()); });
+  // A copy: the next run is ordered while this waits on the worker.
+  recording_.save([this, making = run_.making()] { return make_document(session_.products(), making); });
 }
 
 // What is in the session stays until a whole document has been read.
@@ -242,7 +246,7 @@ void TestCapture::load(std::size_t row, bool beside) {
         const auto document = storage::Document::open(saved->bytes());
         auto making = document ? making_of(*document) : Result<Making>(document.error());
         if (!making) return say(making.error());
-        if (beside) keep_result();
+        saved_beside_ = beside;
         saved_ = std::move(saved);
         saved_name_ = name;
         saved_making_ = *std::move(making);
@@ -297,7 +301,8 @@ void TestCapture::touch(const ui::TouchPicture& touch) {
   else pairs_.touch(*made->pair, !touch.right, touch.x, touch.y);
 }
 
-// The keeper writes it down and makes the pipeline; from then on visitors are measured with it.
+// The keeper writes it down and makes the pipeline; from then on visitors are measured with it, also if the
+// technician leaves meanwhile.
 void TestCapture::apply_set() {
   if (applying_ || !is_calibrated()) return;
   applying_ = true;
@@ -306,16 +311,18 @@ void TestCapture::apply_set() {
   parts_.side_tasks.send(
       JobLane::Keeper,
       [this, made, set](JobControl&) -> Result<void> {
-        RELIEVO_TRY_ASSIGN(*made, pipeline::Pipeline::make(set, *parts_.stages.calibration()));
+        RELIEVO_TRY_ASSIGN(*made, pipeline::Pipeline::make(set, *calibrations_.calibration()));
         return parts_.store.set_setting(kAlgorithmsSetting, set.to_text());
       },
-      [this, made](const std::optional<Error>& error) {
+      [this, made, visit = visit_](const std::optional<Error>& error) {
+        if (!error) calibrations_.use(*std::move(*made), false);
+        if (visit != visit_) return;
         applying_ = false;
         if (error) return say(*error);
-        parts_.stages.replace(*std::move(*made));
         applied_ = true;
         problem_ = {};
-      });
+      },
+      SideTasks::Whose::Device);
 }
 
 void TestCapture::watch_cameras(bool on) {
@@ -337,36 +344,32 @@ void TestCapture::watch_cameras(bool on) {
 
 // The appliance has stopped the work and closed the session on its way to another state.
 void TestCapture::leave() {
+  ++visit_;
   watch_.show_relief(false);
   watch_.show_edges(false);
   watching_ = by_hand_ = applied_ = applying_ = differences_ = false;
   next_ = Next::None;
   saved_.reset();
   saved_making_.reset();
-  loaded_ = false;
   watch_.wipe();
-  run_.pictures().wipe();
-  run_.figures().forget();
   kept_.wipe();
-  tables_.forget();
   calibrations_.forget();
   recording_.forget();
-  point_ = {};
-  pairs_.forget();
-  run_.change().forget();
-  phase_ = TechnicianPhase::Empty;
+  forget_capture();
   problem_ = {};
   algorithms_.begin(parts_.stages.algorithms());
 }
 
 void TestCapture::turn() {
+  calibrations_.turn();
   const State state = parts_.appliance.state();
   const bool mine = state == State::Staff || state == State::Calibrate || state == State::Export;
   if (!mine) {
     if (!std::exchange(left_, true)) leave();
     return;
   }
-  left_ = false;
+  // What the technician before has put into use may have come after they left.
+  if (std::exchange(left_, false)) algorithms_.begin(calibrations_.algorithms());
   // It took longer than the state may: what has been seen is not worked out.
   if (calibrations_.running() && state == State::Staff) parts_.side_tasks.stop(JobLane::Capture);
   begin_next();

@@ -71,6 +71,7 @@ class TestCapture {
   void leave();
   void wait_for_cameras(Next what);
   void begin_next();
+  void forget_capture();
   void shoot(bool side);
   void calibrate();
   void run(std::int64_t latest);
@@ -85,7 +86,6 @@ class TestCapture {
   void touch(const ui::TouchPicture& touch);
   void apply_set();
   void watch_cameras(bool on);
-  void choose(const ui::TechnicianRequest& request);
   void act_alone(ui::TechnicianAct act);
   void keep_result();
   void record();
@@ -115,13 +115,15 @@ class TestCapture {
   std::shared_ptr<const SavedBytes> saved_;  // read from the stick, to be loaded
   std::string saved_name_;
   std::optional<Making> saved_making_;
-  bool loaded_ = false;       // what is in the session was, with a calibration of its own
-  bool by_hand_ = false;      // pairs are set by hand
-  bool watching_ = false;     // the cameras
-  bool applied_ = false;      // the algorithms: visitors are measured with them ...
-  bool applying_ = false;     // ... or soon will be
-  bool differences_ = false;  // are shown beside the kept results
-  bool left_ = true;          // for another state
+  bool saved_beside_ = false;  // what is there is put aside before
+  bool loaded_ = false;        // what is in the session was, with a calibration of its own
+  bool by_hand_ = false;       // pairs are set by hand
+  bool watching_ = false;      // the cameras
+  bool applied_ = false;       // the algorithms: visitors are measured with them ...
+  bool applying_ = false;      // ... or soon will be
+  std::uint32_t visit_ = 0;    // what a technician asked for who has left is not told the next one
+  bool differences_ = false;   // are shown beside the kept results
+  bool left_ = true;           // for another state
   ui::Fault problem_;
   std::uint32_t model_number_ = 0;
   ui::TechnicianView view_;

@@ -37,17 +37,4 @@ class CameraLook final : public Job {
   hal::Instant next_;
 };
 
-// RestCamerasJob: the streams end. Thread: capture.
-class RestCamerasJob final : public Job {
- public:
-  explicit RestCamerasJob(StereoGrabber& grabber) : grabber_(grabber) {}
-  Result<void> run(JobControl&) override {
-    grabber_.stop();
-    return {};
-  }
-
- private:
-  StereoGrabber& grabber_;
-};
-
 }  // namespace relievo::firmware

@@ -97,6 +97,16 @@ namespace {
 
 constexpr std::size_t kReliefShare = 8;  // of the memory: an eighth for the reliefs, the rest to make them
 
+constexpr int kMeterEvery = 3;  // live pairs: a camera that runs on its own obeys one or two later
+
+constexpr double kSkinShare = 0.5;  // of the face's box, about its middle: a window beside the cheeks is not
+                                    // lit for, also where the box is not quite right
+
+FaceBox skin_in(const FaceBox& face) {
+  const int width = int(kSkinShare * face.width_px), height = int(kSkinShare * face.height_px);
+  return {face.x_px + (face.width_px - width) / 2, face.y_px + (face.height_px - height) / 2, width, height};
+}
+
 }  // namespace
 
 Result<void> TurnJob::run(JobControl& control) {
@@ -152,20 +162,6 @@ Result<void> TurnJob::take(const pipeline::StereoFrame& seen, JobControl& contro
   return session_.sides().add(lit.frame);
 }
 
-namespace {
-
-constexpr int kMeterEvery = 3;  // live pairs: a camera that runs on its own obeys one or two later
-
-constexpr double kSkinShare = 0.5;  // of the face's box, about its middle: a window beside the cheeks is not
-                                    // lit for, also where the box is not quite right
-
-FaceBox skin_in(const FaceBox& face) {
-  const int width = int(kSkinShare * face.width_px), height = int(kSkinShare * face.height_px);
-  return {face.x_px + (face.width_px - width) / 2, face.y_px + (face.height_px - height) / 2, width, height};
-}
-
-}  // namespace
-
 Result<void> OpenCamerasJob::run(JobControl& control) {
   const hal::Instant until = clock_.now() + budget::kCameraReturn;
   for (;;) {
@@ -187,7 +183,7 @@ Result<void> PoseJob::run(JobControl& control) {
   while (!control.cancelled.load(std::memory_order_relaxed)) {
     RELIEVO_TRY_ASSIGN(const pipeline::StereoFrame frame, grabber_.grab(session_.slot(), control.cancelled));
     session_.live().fill(frame.left);
-    Guidance guidance;
+    ui::LiveView guidance;
     if (judge_ != nullptr) {
       RELIEVO_TRY_ASSIGN(guidance, judge(frame, control));
     }
@@ -198,7 +194,7 @@ Result<void> PoseJob::run(JobControl& control) {
 }
 
 // The pool is the worker's, which rests while somebody poses.
-Result<Guidance> PoseJob::judge(const pipeline::StereoFrame& frame, JobControl& control) {
+Result<ui::LiveView> PoseJob::judge(const pipeline::StereoFrame& frame, JobControl& control) {
   const Arena::Mark mark(session_.output());
   EnrolmentSession::Scratch scratch(session_);
   pipeline::StageContext context{session_.output(), scratch.arena(), pool_, control.progress,

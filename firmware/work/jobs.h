@@ -2,8 +2,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 //
 // The jobs of the three threads. Each is made once, with the appliance, and started many times.
-//   capture: OpenCamerasJob, PoseJob, GrabJob, TurnJob    worker: StageJob, HeadJob    keeper: KeepJob,
-//   LookUpJob
+//   capture: OpenCamerasJob PoseJob GrabJob TurnJob    worker: StageJob HeadJob    keeper: KeepJob LookUpJob
 #pragma once
 
 #include <atomic>
@@ -55,7 +54,7 @@ class PoseJob final : public Job {
   ExposureControl& exposure() { return exposure_; }
 
  private:
-  Result<Guidance> judge(const pipeline::StereoFrame& frame, JobControl& control);
+  Result<ui::LiveView> judge(const pipeline::StereoFrame& frame, JobControl& control);
   Result<void> meter(const pipeline::StereoFrame& frame);
 
   StereoGrabber& grabber_;

@@ -3,6 +3,7 @@
 #include "firmware/work/pipeline_stages.h"
 
 #include <algorithm>
+#include <array>
 #include <optional>
 #include <utility>
 
@@ -50,42 +51,20 @@ Result<pipeline::FusedHead> PipelineStages::fuse(const pipeline::FaceModel& face
   return fused;
 }
 
-// A face that is not found, not matched or no face's shape may be the pictures' fault: then the cause is
-// told.
+// A face that is not found, not matched or no face's shape may be the pictures' fault: then that is told.
 Result<void> PipelineStages::run(State stage, Products& products, pipeline::StageContext& context,
                                  StageRecord& record) {
+  constexpr std::array kSteps{&PipelineStages::match, &PipelineStages::reconstruct, &PipelineStages::mesh,
+                              &PipelineStages::texture, &PipelineStages::assemble};
+  static_assert(kSteps.size() == kStages.size());
   if (!pipeline_) return uncalibrated();
-  Result<void> done = run_stage_of(stage, products, context, record);
+  if (!is_stage(stage)) return Error{Errc::InvalidState, "is no stage of the pipeline"}.at(name_of(stage));
+  Result<void> done = (this->*kSteps[number_of(stage)])(products, context, record);
   // A surface that is there and has no face's relief needs no other cause.
   if (done || stage >= State::Texture || !may_be_the_pictures(done.error().code) || !products.frame)
     return done;
   if (std::optional<Error> cause = pipeline_->explain(*products.frame, context)) return *cause;
   return done;
-}
-
-Result<void> PipelineStages::run_stage_of(State stage, Products& products, pipeline::StageContext& context,
-                                          StageRecord& record) const {
-  switch (stage) {
-    case State::Match: return match(products, context, record);
-    case State::Reconstruct: return reconstruct(products, context, record);
-    case State::Mesh: return mesh(products, context, record);
-    case State::Texture: return texture(products, context, record);
-    case State::Assemble: return assemble(products, context, record);
-    case State::SelfTest:
-    case State::Idle:
-    case State::Calibrate:
-    case State::Position:
-    case State::Capture:
-    case State::Turn:
-    case State::Fuse:
-    case State::Review:
-    case State::Store:
-    case State::Export:
-    case State::Staff:
-    case State::Fault:
-    case State::Count: break;
-  }
-  return Error{Errc::InvalidState, "is no stage of the pipeline"}.at(name_of(stage));
 }
 
 Result<void> PipelineStages::match(Products& products, pipeline::StageContext& context,

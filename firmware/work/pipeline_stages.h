@@ -56,8 +56,6 @@ class PipelineStages final : public StageRunner {
                                    pipeline::StageContext& context) override;
 
  private:
-  Result<void> run_stage_of(State stage, Products& products, pipeline::StageContext& context,
-                            StageRecord& record) const;
   Result<void> match(Products& products, pipeline::StageContext& context, StageRecord& record) const;
   Result<void> reconstruct(Products& products, pipeline::StageContext& context, StageRecord& record) const;
   Result<void> mesh(Products& products, pipeline::StageContext& context, StageRecord& record) const;

@@ -4,7 +4,7 @@
 // PortraitProgress: how far the way from the photograph to the portrait is, as one number that never falls.
 // Its parts count as long as they took when they were measured (ms in report.json of `relievo reconstruct`);
 // within a part, time itself counts, slower and slower towards the part's end, which may be late. Thread:
-// one. Errors: none.
+// one.
 #pragma once
 
 #include <algorithm>

@@ -28,19 +28,6 @@ std::string_view text_of(const pipeline::AlgorithmSet& set, const pipeline::Opti
   return text == set.texts().end() ? std::string_view() : std::string_view(*text->second);
 }
 
-}  // namespace
-
-State first_change(const pipeline::AlgorithmSet& before, const pipeline::AlgorithmSet& after) {
-  State first = State::Review;
-  for (const pipeline::OptionDescription& option : pipeline::describe_algorithms())
-    if (before.get(option.key) != after.get(option.key) ||
-        (option.file && text_of(before, option) != text_of(after, option)))
-      first = std::min(first, stage_of(option));
-  return first;
-}
-
-namespace {
-
 // A head's sides are not kept: its front is, as far as that was not made part of the head.
 const pipeline::FaceModel* face_of(const Products& made) {
   return made.model && !made.registration ? &*made.model : nullptr;
@@ -78,6 +65,15 @@ Result<void> load_stage(const storage::Document& document, State stage, Enrolmen
 }
 
 }  // namespace
+
+State first_change(const pipeline::AlgorithmSet& before, const pipeline::AlgorithmSet& after) {
+  State first = State::Review;
+  for (const pipeline::OptionDescription& option : pipeline::describe_algorithms())
+    if (before.get(option.key) != after.get(option.key) ||
+        (option.file && text_of(before, option) != text_of(after, option)))
+      first = std::min(first, stage_of(option));
+  return first;
+}
 
 Result<std::vector<std::byte>> make_document(const Products& products, const Making& making) {
   RELIEVO_ASSERT(products.frame.has_value());

@@ -16,9 +16,8 @@
 
 namespace relievo::firmware {
 
-// Where a reconstruction has to begin again when its algorithms change. Thread: any. Errors: none.
-
-// The first stage that one of the differing choices has a part in; Review: none differs.
+// Where a reconstruction has to begin again when its algorithms change: the first stage that one of the
+// differing choices has a part in; Review: none differs. Thread: any. Errors: none.
 State first_change(const pipeline::AlgorithmSet& before, const pipeline::AlgorithmSet& after);
 
 // How a reconstruction was made.

@@ -126,25 +126,17 @@ void draw_capture(const ImageView& picture, const std::optional<FaceBox>& face, 
 }
 
 void draw_stage_picture(State stage, const Products& products, StagePictures& pictures) {
-  if (!products.pair) return;
+  const std::size_t number = 1 + number_of(stage);
+  if (!products.pair || number >= kStagePictures) return;
+  StageCanvas canvas(pictures.begin(number), StagePictures::kSide);
   const auto& pair = *products.pair;
-  if (stage == State::Match && products.matches) {
-    StageCanvas canvas(pictures.begin(1), StagePictures::kSide);
-    draw_matches(pair, *products.matches, canvas);
-    pictures.done(1);
-  } else if (stage == State::Reconstruct && products.cloud) {
-    StageCanvas canvas(pictures.begin(2), StagePictures::kSide);
-    draw_cloud(pair, *products.cloud, canvas);
-    pictures.done(2);
-  } else if (stage == State::Mesh && products.mesh) {
-    StageCanvas canvas(pictures.begin(3), StagePictures::kSide);
-    draw_surface(pair, *products.mesh, nullptr, canvas);
-    pictures.done(3);
-  } else if (stage == State::Texture && products.mesh && products.texture) {
-    StageCanvas canvas(pictures.begin(4), StagePictures::kSide);
+  if (stage == State::Match && products.matches) draw_matches(pair, *products.matches, canvas);
+  else if (stage == State::Reconstruct && products.cloud) draw_cloud(pair, *products.cloud, canvas);
+  else if (stage == State::Mesh && products.mesh) draw_surface(pair, *products.mesh, nullptr, canvas);
+  else if (stage == State::Texture && products.mesh && products.texture)
     draw_surface(pair, *products.mesh, &*products.texture, canvas);
-    pictures.done(4);
-  }
+  else return;
+  pictures.done(number);
 }
 
 Rgb near_far_colour(double share) {

@@ -74,13 +74,10 @@ void draw_surface(const pipeline::RectifiedPair& pair, const pipeline::FaceMesh&
 void draw_head(const pipeline::FaceMesh& mesh, const pipeline::RigidTransform& head_from_camera,
                double turned_deg, double across_mm, StageCanvas& canvas);
 
-// The photograph itself, of the left camera: about the face, or its middle where none was found. Thread:
-// capture.
+// The photograph of the left camera: about the face, or its middle where none was found. Thread: capture.
 void draw_capture(const ImageView& picture, const std::optional<FaceBox>& face, StagePictures& pictures);
 // What a stage made, drawn small as the left camera sees it: the matches coloured by their depth over
 // the photograph, the points, the surface under a lamp, the surface with its colours.
-// Allocates nothing but one depth buffer or the cells of dots. Thread: worker. Errors: none; what is missing
-// stays dark.
 void draw_stage_picture(State stage, const Products& products, StagePictures& pictures);
 
 }  // namespace relievo::firmware

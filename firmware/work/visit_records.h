@@ -57,11 +57,7 @@ struct RecordAnswer {
 
 class VisitRecords {
  public:
-  VisitRecords() = default;
   virtual ~VisitRecords() = default;
-  VisitRecords(const VisitRecords&) = delete;
-  VisitRecords& operator=(const VisitRecords&) = delete;
-
   virtual Result<KeptVisit> keep(const VisitRecord& record, const pipeline::FaceModel& model) = 0;
   virtual Result<RecordAnswer> look_up(const RecordQuestion& question) = 0;
 };

@@ -21,6 +21,18 @@ TEST_F(ApplianceTest, AFullDiskLeavesTheModelToBeAcceptedAgain) {
   EXPECT_EQ(kept, "Ada");
 }
 
+TEST_F(ApplianceTest, OnlyAFullDiskIsCalledFull) {
+  keep_errors = {Errc::MediaFull, Errc::IoFailed};
+  ASSERT_TRUE(reach(State::Idle));
+  appliance.ask(ui::Intent::Begin);
+  ASSERT_TRUE(reach(State::Review));
+  for (const ui::Trouble trouble : {ui::Trouble::StorageFull, ui::Trouble::Storage}) {
+    appliance.ask(ui::Intent::Accept);
+    ASSERT_TRUE(reach(State::Review));
+    EXPECT_EQ(view_of(appliance).trouble, trouble);
+  }
+}
+
 TEST_F(ApplianceTest, AStoreThatIsBrokenIsAFault) {
   keep_errors = {Errc::StoreCorrupt};
   ASSERT_TRUE(reach(State::Idle));
@@ -56,6 +68,7 @@ TEST_F(ApplianceTest, ACameraThatMovedIsTheTechniciansBusiness) {
   enrol();
   EXPECT_EQ(appliance.drift()->verdict, DriftVerdict::Warn);
   EXPECT_NE(note().find("0.31 px"), std::string::npos) << note();
+  EXPECT_EQ(note().data(), appliance.calibration_note().data()) << "no copy in every turn";
   EXPECT_FALSE(appliance.problem()) << "the person is not bothered";
   stages.drift->verdict = DriftVerdict::Unknown;  // the next face cannot tell
   enrol();

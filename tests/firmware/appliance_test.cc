@@ -40,6 +40,11 @@ TEST_F(ApplianceTest, AfterAFailedStageThePersonTriesAgain) {
   EXPECT_EQ(appliance.attempt(), 3);
 }
 
+TEST_F(ApplianceTest, TheMostAttemptsTheStaffCanChooseAreRecordedWithoutMoreMemory) {
+  const int most = std::ranges::max(ui::info_of(ui::Setting::Attempts).values);
+  EXPECT_GE(appliance.records().capacity(), std::size_t(most) * (kStages.size() + SidePairs::kPoses + 1));
+}
+
 TEST_F(ApplianceTest, GivesUpAfterThreeAttemptsAndForgets) {
   stages.errors = {{State::Match, Errc::NoFace}, {State::Match, Errc::NoFace}, {State::Match, Errc::NoFace}};
   ASSERT_TRUE(reach(State::Idle));

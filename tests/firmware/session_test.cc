@@ -9,6 +9,7 @@
 #include <string>
 #include <utility>
 #include <vector>
+#include "storage/record.h"
 
 namespace relievo::firmware {
 namespace {
@@ -99,9 +100,9 @@ TEST_F(SessionTest, RefusesASecondPersonAndAnEndlessName) {
   ASSERT_TRUE(session.open("Ada"));
   EXPECT_EQ(session.open("Grace").error().code, Errc::InvalidState);
   session.close();
-  EXPECT_EQ(session.open(std::string(129, 'x')).error().code, Errc::InvalidInput);
+  EXPECT_EQ(session.open(std::string(storage::kMaxNameBytes + 1, 'x')).error().code, Errc::InvalidInput);
   EXPECT_FALSE(session.is_open());
-  EXPECT_TRUE(session.open(std::string(128, 'x')));
+  EXPECT_TRUE(session.open(std::string(storage::kMaxNameBytes, 'x')));
 }
 
 // The kiosk takes memory for the size of its own cameras' pictures.

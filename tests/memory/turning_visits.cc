@@ -78,11 +78,11 @@ class Kiosk {
     appliance_.expect(firmware::named("Ada"));
     appliance_.ask(ui::Intent::Pose);
     const bool over = until([&] {
-      const firmware::LivePicture live = appliance_.live().newest();
-      const auto& turn = live.guidance.turn;
+      const ui::LiveView live = appliance_.live().newest();
+      const auto& turn = live.turn;
       rig_.say(turn ? std::optional(turn->advice) : std::nullopt);
       const State state = appliance_.state();
-      if (state == State::Position && live.number > 0 && live.guidance.advice == pipeline::Advice::None)
+      if (state == State::Position && live.number > 0 && live.advice == pipeline::Advice::None)
         appliance_.ask(ui::Intent::Begin);
       if (state == State::Review && kind != Kind::Leaves) appliance_.ask(ui::Intent::Accept);
       if (state == State::Review) rig_.time.advance(std::chrono::seconds(1));

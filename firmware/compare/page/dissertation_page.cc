@@ -164,6 +164,7 @@ Result<std::string> figure_6(const Figure& f) {
               " " +
               (run->score ? percent_of(run->score->bad_limit)
                           : percent_of(run->matches.accepted, run->matches.keypoints));
+    if (run->map.values.empty()) continue;  // it failed before it matched
     RELIEVO_TRY_ASSIGN(const std::string maps, sections::map_row(f.of, *run, sections::name_of(f.of, *run)));
     e.wide += maps;
   }

@@ -15,8 +15,13 @@
 namespace relievo::firmware::compare::sections {
 namespace {
 
+using pipeline::report::Axis;
+using pipeline::report::Box;
+using pipeline::report::Drawing;
 using pipeline::report::escaped;
 using pipeline::report::figure;
+using pipeline::report::figure_of;
+using pipeline::report::Size;
 
 // A column: what of a run, how many decimals, whether less is better.
 struct Column {
@@ -29,42 +34,35 @@ struct Column {
 
 constexpr double kNone = std::numeric_limits<double>::quiet_NaN();
 
-double percent(double share) { return 100 * share; }
+// A figure of a part that a run may have, `times` so much.
+template <typename Part>
+auto of(std::optional<Part> Run::*part, double Part::*figure, double times = 1) {
+  return [=](const Run& r) { return r.*part ? times * (*(r.*part)).*figure : kNone; };
+}
 
 std::vector<Column> disparity_columns(const std::string& limit) {
   using B = Column::Better;
-  const auto of = [](double (*get)(const DisparityScore&)) {
-    return [get](const Run& r) { return r.score ? get(*r.score) : kNone; };
-  };
-  return {
-      {"bad<small>off by more than " + limit + "&nbsp;px, or a hole; %</small>",
-       of([](const DisparityScore& s) { return percent(s.bad_limit); }), 2, B::Less},
-      {"bad, seen by both<small>%</small>", of([](const DisparityScore& s) { return percent(s.bad_seen); }),
-       2, B::Less},
-      {"bad of the given<small>%</small>", of([](const DisparityScore& s) { return percent(s.bad_given); }),
-       2, B::Less},
-      {"density<small>%</small>", of([](const DisparityScore& s) { return percent(s.density); }), 1, B::More},
-      {"median<small>error, px</small>", of([](const DisparityScore& s) { return s.median_px; }), 3, B::Less},
-      {"mean<small>px</small>", of([](const DisparityScore& s) { return s.mean_px; }), 2, B::Less},
-      {"rms<small>px</small>", of([](const DisparityScore& s) { return s.rms_px; }), 2, B::Less}};
+  using S = DisparityScore;
+  return {{"bad<small>off by more than " + limit + "&nbsp;px, or a hole; %</small>",
+           of(&Run::score, &S::bad_limit, 100), 2, B::Less},
+          {"bad, seen by both<small>%</small>", of(&Run::score, &S::bad_seen, 100), 2, B::Less},
+          {"bad of the given<small>%</small>", of(&Run::score, &S::bad_given, 100), 2, B::Less},
+          {"density<small>%</small>", of(&Run::score, &S::density, 100), 1, B::More},
+          {"median<small>error, px</small>", of(&Run::score, &S::median_px), 3, B::Less},
+          {"mean<small>px</small>", of(&Run::score, &S::mean_px), 2, B::Less},
+          {"rms<small>px</small>", of(&Run::score, &S::rms_px), 2, B::Less}};
 }
 
 std::vector<Column> model_columns() {
   using B = Column::Better;
-  const auto of = [](double (*get)(const measure::Measurement&)) {
-    return [get](const Run& r) { return r.model ? get(*r.model) : kNone; };
-  };
   using M = measure::Measurement;
   return {
-      {"interior<small>median, mm</small>", of([](const M& m) { return m.interior_median_mm; }), 3, B::Less},
-      {"face within<small>95&nbsp;%, mm</small>", of([](const M& m) { return m.accuracy_p95_mm; }), 2,
-       B::Less},
-      {"complete<small>within 0.5&nbsp;mm, %</small>",
-       of([](const M& m) { return percent(m.complete_half_mm); }), 1, B::More},
-      {"off<small>over 3&nbsp;mm, %</small>", of([](const M& m) { return percent(m.outliers_3mm); }), 2,
-       B::Less},
-      {"in one sigma<small>68 is honest, %</small>", of([](const M& m) { return percent(m.within_sigma); }),
-       0, B::Neither}};
+      {"interior<small>median, mm</small>", of(&Run::model, &M::interior_median_mm), 3, B::Less},
+      {"face within<small>95&nbsp;%, mm</small>", of(&Run::model, &M::accuracy_p95_mm), 2, B::Less},
+      {"complete<small>within 0.5&nbsp;mm, %</small>", of(&Run::model, &M::complete_half_mm, 100), 1,
+       B::More},
+      {"off<small>over 3&nbsp;mm, %</small>", of(&Run::model, &M::outliers_3mm, 100), 2, B::Less},
+      {"in one sigma<small>68 is honest, %</small>", of(&Run::model, &M::within_sigma, 100), 0, B::Neither}};
 }
 
 std::vector<Column> common_columns() {
@@ -74,25 +72,21 @@ std::vector<Column> common_columns() {
            B::Neither},
           {"time<small>to match, ms</small>",
            [](const Run& r) { return r.matches.matches == 0 ? kNone : r.match_ms; }, 0, B::Less},
-          {"time<small>to mesh, ms</small>",
-           [](const Run& r) { return r.surface ? r.surface->mesh_ms : kNone; }, 0, B::Less}};
+          {"time<small>to mesh, ms</small>", of(&Run::surface, &SurfaceLook::mesh_ms), 0, B::Less}};
 }
 
 // What needs no truth.
 std::vector<Column> own_columns() {
   using B = Column::Better;
-  return {{"left-right<small>median, px</small>",
-           [](const Run& r) { return r.left_right ? r.left_right->median_px : kNone; }, 3, B::Less},
-          {"agree<small>left and right within 1&nbsp;px, %</small>",
-           [](const Run& r) { return r.left_right ? percent(r.left_right->within_1px) : kNone; }, 1, B::More},
-          {"photo<small>right view predicted, correlation</small>",
-           [](const Run& r) { return r.photo ? r.photo->median : kNone; }, 3, B::More,
-           [](const Run& r) {
-             return r.photo ? pipeline::report::counted(int(r.photo->asked), "window", "windows")
-                            : std::string();
-           }},
-          {"rows<small>disagree by, px</small>", [](const Run& r) { return r.epipolar_px.value_or(kNone); },
-           3, B::Less}};
+  return {
+      {"left-right<small>median, px</small>", of(&Run::left_right, &LeftRightFigures::median_px), 3, B::Less},
+      {"agree<small>left and right within 1&nbsp;px, %</small>",
+       of(&Run::left_right, &LeftRightFigures::within_1px, 100), 1, B::More},
+      {"photo<small>right view predicted, correlation</small>", of(&Run::photo, &PhotoFigures::median), 3,
+       B::More,
+       [](const Run& r) { return pipeline::report::counted(int(r.photo->asked), "window", "windows"); }},
+      {"rows<small>disagree by, px</small>", [](const Run& r) { return r.epipolar_px.value_or(kNone); }, 3,
+       B::Less}};
 }
 
 void leave_out_empty(const std::vector<const Run*>& runs, std::vector<Column>& columns) {
@@ -148,8 +142,6 @@ std::string table(const Comparison& c, const std::vector<const Run*>& runs,
   return sections::table(titles, out);
 }
 
-using pipeline::report::Drawing;
-
 constexpr std::array<std::string_view, 9> kSteps{"rectify",     "preprocess", "select",  "match",   "judge",
                                                  "reconstruct", "mesh",       "texture", "assemble"};
 constexpr double kMiB = 1048576;
@@ -166,15 +158,13 @@ double of_step(const Run& run, std::string_view step) {
   return 0;
 }
 
-Rgb step_colour(std::size_t step) { return rule_colour(step); }
-
 // All steps of a run, one after the other.
 std::string bar(const Run& run, double longest_ms) {
   Drawing d({360, 16}, "times of the steps");
   double at = 0;
   for (std::size_t i = 0; i < kSteps.size(); ++i) {
     const double width = of_step(run, kSteps[i]) / std::max(longest_ms, 1e-9) * 360;
-    if (width > 0) d.filled({{at, 1}, {std::max(width, 0.3), 14}}, hex(step_colour(i)));
+    if (width > 0) d.filled({{at, 1}, {std::max(width, 0.3), 14}}, hex(rule_colour(i)));
     at += width;
   }
   return d.svg();
@@ -184,9 +174,7 @@ std::string swatches(const std::vector<const Run*>& runs) {
   std::string out;
   for (std::size_t i = 0; i < kSteps.size(); ++i) {
     if (std::ranges::none_of(runs, [i](const Run* run) { return of_step(*run, kSteps[i]) > 0; })) continue;
-    Drawing d({14, 14}, kSteps[i]);
-    d.filled({{0, 0}, {14, 14}}, hex(step_colour(i)));
-    out += "<li>" + d.svg() + std::string(kSteps[i]) + "</li>";
+    out += swatch(rule_colour(i), std::string(kSteps[i]));
   }
   return "<ul class=\"swatches\">" + out + "</ul>\n";
 }
@@ -201,6 +189,51 @@ std::string facts_of(const Run& run) {
     facts += "; interior median " + figure(run.model->interior_median_mm, 3) + " mm, " +
              figure(100 * run.model->complete_half_mm, 1) + " % within 0.5 mm";
   return facts;
+}
+
+constexpr Size kSize{480, 170};
+constexpr Box kPlot{{4, 8}, {472, 118}};
+constexpr double kBinPx = 2 * ErrorHistogram::kReachPx / ErrorHistogram::kBins;
+
+double share(const DisparityScore& s, std::size_t bin) {
+  return s.judged == 0 ? 0 : double(s.histogram.counts[bin]) / double(s.judged);
+}
+
+// The bins at the ends hold all that lies beyond: they are told in words, and no bars.
+double tallest(const std::vector<const Run*>& runs) {
+  double top = 0;
+  for (const Run* run : runs)
+    for (std::size_t i = 1; run->score && i + 1 < ErrorHistogram::kBins; ++i)
+      top = std::max(top, share(*run->score, i));
+  return std::max(top, 1e-6) * 1.04;
+}
+
+std::string of_run(const Comparison& c, const Run& run, double top) {
+  const DisparityScore& s = *run.score;
+  const Axis x{-ErrorHistogram::kReachPx, ErrorHistogram::kReachPx, kPlot.corner.x, kPlot.right()};
+  const Axis y{0, top, kPlot.bottom(), kPlot.corner.y};
+  Drawing d(kSize, name_of(c, run) + ": histogram of the errors");
+  for (std::size_t i = 1; i + 1 < ErrorHistogram::kBins; ++i) {
+    const double middle = -ErrorHistogram::kReachPx + (double(i) + 0.5) * kBinPx;
+    const double left = x(middle - kBinPx / 2);
+    const double high = y(share(s, i));
+    const bool bad = std::abs(middle) > c.limit_px;
+    if (share(s, i) > 0)
+      d.filled({{left + 0.3, high}, {x(middle + kBinPx / 2) - left - 0.6, kPlot.bottom() - high}},
+               bad ? hex(middle < 0 ? kTooFarColour : kTooNearColour) : "#8ba3b8");
+  }
+  d.line("axis", {kPlot.corner.x, kPlot.bottom()}, {kPlot.right(), kPlot.bottom()});
+  for (int tick = -4; tick <= 4; tick += 2) {
+    d.line("axis", {x(tick), kPlot.bottom()}, {x(tick), kPlot.bottom() + 5});
+    d.text(tick == -4  ? "tick"
+           : tick == 4 ? "tick end"
+                       : "tick middle",
+           {x(tick), kPlot.bottom() + 20}, figure(tick, 0) + (tick == 0 ? " px" : ""));
+  }
+  const double beyond = share(s, 0) + share(s, ErrorHistogram::kBins - 1);
+  return figure_of(d.svg(), escaped(name_of(c, run)),
+                   figure(100 * (1 - s.density), 1) + " % have no disparity, " + figure(100 * beyond, 1) +
+                       " % lie beyond ±4 px; bias of the good ones " + figure(s.bias_px, 3) + " px.");
 }
 
 }  // namespace
@@ -254,67 +287,13 @@ std::string surfaces(const Comparison& c, const Runs& runs) {
     Drawing d({480, 240}, name_of(c, *run) + ": its surface from in front and from the side");
     d.picture({{0, 0}, {240, 240}}, run->surface->front);
     d.picture({{240, 0}, {240, 240}}, run->surface->side);
-    out += pipeline::report::figure_of(d.svg(), escaped(name_of(c, *run)), facts_of(*run));
+    out += figure_of(d.svg(), escaped(name_of(c, *run)), facts_of(*run));
   }
   if (out.empty()) return out;
   return "<h3 class=\"topic\">Surfaces</h3>\n<p class=\"lead\">Each set’s model in plain shading, from in "
          "front and turned by 50°, all at one scale.</p>\n<div class=\"pair\">\n" +
          out + "</div>\n";
 }
-
-namespace {
-
-using pipeline::report::Axis;
-using pipeline::report::Box;
-using pipeline::report::figure_of;
-using pipeline::report::Size;
-
-constexpr Size kSize{480, 170};
-constexpr Box kPlot{{4, 8}, {472, 118}};
-constexpr double kBinPx = 2 * ErrorHistogram::kReachPx / ErrorHistogram::kBins;
-
-double share(const DisparityScore& s, std::size_t bin) {
-  return s.judged == 0 ? 0 : double(s.histogram.counts[bin]) / double(s.judged);
-}
-
-// The bins at the ends hold all that lies beyond: they are told in words, and no bars.
-double tallest(const std::vector<const Run*>& runs) {
-  double top = 0;
-  for (const Run* run : runs)
-    for (std::size_t i = 1; run->score && i + 1 < ErrorHistogram::kBins; ++i)
-      top = std::max(top, share(*run->score, i));
-  return std::max(top, 1e-6) * 1.04;
-}
-
-std::string of_run(const Comparison& c, const Run& run, double top) {
-  const DisparityScore& s = *run.score;
-  const Axis x{-ErrorHistogram::kReachPx, ErrorHistogram::kReachPx, kPlot.corner.x, kPlot.right()};
-  const Axis y{0, top, kPlot.bottom(), kPlot.corner.y};
-  Drawing d(kSize, name_of(c, run) + ": histogram of the errors");
-  for (std::size_t i = 1; i + 1 < ErrorHistogram::kBins; ++i) {
-    const double middle = -ErrorHistogram::kReachPx + (double(i) + 0.5) * kBinPx;
-    const double left = x(middle - kBinPx / 2);
-    const double high = y(share(s, i));
-    const bool bad = std::abs(middle) > c.limit_px;
-    if (share(s, i) > 0)
-      d.filled({{left + 0.3, high}, {x(middle + kBinPx / 2) - left - 0.6, kPlot.bottom() - high}},
-               bad ? hex(middle < 0 ? kTooFarColour : kTooNearColour) : "#8ba3b8");
-  }
-  d.line("axis", {kPlot.corner.x, kPlot.bottom()}, {kPlot.right(), kPlot.bottom()});
-  for (int tick = -4; tick <= 4; tick += 2) {
-    d.line("axis", {x(tick), kPlot.bottom()}, {x(tick), kPlot.bottom() + 5});
-    d.text(tick == -4  ? "tick"
-           : tick == 4 ? "tick end"
-                       : "tick middle",
-           {x(tick), kPlot.bottom() + 20}, figure(tick, 0) + (tick == 0 ? " px" : ""));
-  }
-  const double beyond = share(s, 0) + share(s, ErrorHistogram::kBins - 1);
-  return figure_of(d.svg(), escaped(name_of(c, run)),
-                   figure(100 * (1 - s.density), 1) + " % have no disparity, " + figure(100 * beyond, 1) +
-                       " % lie beyond ±4 px; bias of the good ones " + figure(s.bias_px, 3) + " px.");
-}
-
-}  // namespace
 
 std::string histograms(const Comparison& c, std::size_t pair) {
   const std::vector<const Run*> runs = runs_of(c, pair);

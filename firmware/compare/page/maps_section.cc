@@ -41,12 +41,6 @@ std::string strip(const std::string& says, const std::vector<std::string>& words
   return d.svg();
 }
 
-std::string swatch(Rgb colour, const std::string& words) {
-  Drawing d({14, 14}, words);
-  d.filled({{0, 0}, {14, 14}}, hex(colour));
-  return "<li>" + d.svg() + escaped(words) + "</li>";
-}
-
 std::string legend(const Comparison& c, const PairFacts& pair, const Reach& reach) {
   const std::string least = figure(reach.least_px, 0) + " px, far";
   const std::string most = figure(reach.most_px, 0) + " px, near";
@@ -90,7 +84,36 @@ Reach reach_of_pair(const Comparison& c, std::size_t index) {
   return {pair.least_px, pair.most_px};
 }
 
+std::string percent(std::size_t part, std::size_t whole) {
+  if (whole == 0) return "–";
+  return figure(100 * double(part) / double(whole), 1);
+}
+
+// The rules of one set, the bad share before and after.
+std::string rows_of(const Comparison& c, const Run& run, bool truth) {
+  const MatchFigures& f = run.matches;
+  std::string out;
+  const auto row = [&](const std::string& head, const std::string& rule, std::size_t count,
+                       std::size_t judged, std::size_t bad) {
+    out += "<tr>" + row_head(head) + "<td>" + escaped(rule) + "</td>" + cell(std::to_string(count)) +
+           cell(percent(count, f.matches));
+    if (truth) out += cell(percent(bad, judged)) + cell(percent(bad, f.bad));
+    out += "</tr>\n";
+  };
+  row(name_of(c, run), "all matches", f.matches, f.judged, f.bad);
+  for (const RuleFigures& rule : f.rules)
+    row("", "rejected: " + rule.name, rule.rejected, rule.judged, rule.bad);
+  row("", "accepted", f.accepted, f.accepted_judged, f.accepted_bad);
+  return out;
+}
+
 }  // namespace
+
+std::string swatch(Rgb colour, const std::string& words) {
+  Drawing d({14, 14}, words);
+  d.filled({{0, 0}, {14, 14}}, hex(colour));
+  return "<li>" + d.svg() + escaped(words) + "</li>";
+}
 
 Result<std::string> ground(const Comparison& c, std::size_t index) {
   const PairFacts& pair = c.pairs[index];
@@ -155,33 +178,6 @@ Result<std::string> maps(const Comparison& c, std::size_t index) {
   return out;
 }
 
-namespace {
-
-std::string percent(std::size_t part, std::size_t whole) {
-  if (whole == 0) return "–";
-  return figure(100 * double(part) / double(whole), 1);
-}
-
-// The rules of one set, the bad share before and after.
-std::string rows_of(const Comparison& c, const Run& run, bool truth) {
-  const MatchFigures& f = run.matches;
-  std::string out;
-  const auto row = [&](const std::string& head, const std::string& rule, std::size_t count,
-                       std::size_t judged, std::size_t bad) {
-    out += "<tr>" + row_head(head) + "<td>" + escaped(rule) + "</td>" + cell(std::to_string(count)) +
-           cell(percent(count, f.matches));
-    if (truth) out += cell(percent(bad, judged)) + cell(percent(bad, f.bad));
-    out += "</tr>\n";
-  };
-  row(name_of(c, run), "all matches", f.matches, f.judged, f.bad);
-  for (const RuleFigures& rule : f.rules)
-    row("", "rejected: " + rule.name, rule.rejected, rule.judged, rule.bad);
-  row("", "accepted", f.accepted, f.accepted_judged, f.accepted_bad);
-  return out;
-}
-
-}  // namespace
-
 std::string rules(const Comparison& c, std::size_t pair) {
   const bool truth = c.pairs[pair].truth.has_value();
   std::vector<std::string> titles{"Set", "Rule", "matches", "of all<small>%</small>"};
@@ -210,12 +206,9 @@ Result<std::string> selectors(const Comparison& c, std::size_t pair) {
         cell(figure(100 * s.match_rate, 1)) +
         cell(percent(run->matches.accepted_bad, run->matches.accepted_judged)) +
         cell(figure(100 * s.spread, 1)) + "</tr>\n";
-    RELIEVO_TRY_ASSIGN(const Png png, places_picture(c.pairs[pair], s, window, 480));
-    const double height = 480.0 * window.height_px / std::max(1, window.width_px);
-    pipeline::report::Drawing d({480, height}, name_of(c, *run) + ": chosen places");
-    d.picture({{0, 0}, {480, height}}, png);
-    pictures +=
-        pipeline::report::figure_of(d.svg(), escaped(name_of(c, *run)), std::to_string(s.left) + " places");
+    RELIEVO_TRY_ASSIGN(const Png png, places_picture(c.pairs[pair], s, window, kWidthPx));
+    pictures += drawn(window, png, name_of(c, *run) + ": chosen places", escaped(name_of(c, *run)),
+                      std::to_string(s.left) + " places");
   }
   if (rows.empty()) return rows;
   return "<h3 class=\"topic\">Where is it worth matching?</h3>\n<p class=\"lead\">Selectors that choose places. Repeated: of the places both views see, "

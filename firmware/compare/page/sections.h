@@ -9,6 +9,7 @@
 #include <string_view>
 #include <vector>
 
+#include "firmware/compare/page/maps.h"
 #include "firmware/measure/comparison.h"
 #include "hal/base/result.h"
 
@@ -28,7 +29,8 @@ std::string costs(const Comparison& c, std::size_t pair);          // times by s
 std::string rules(const Comparison& c, std::size_t pair);          // what constraints took away
 Result<std::string> selectors(const Comparison& c, std::size_t pair);
 std::string settings(const Comparison& c, const std::string& title);
-extern const std::string_view kStyle;  // that all of these need
+std::string swatch(Rgb colour, const std::string& words);  // an entry of a list of colours
+extern const std::string_view kStyle;                      // that all of these need
 
 // The runs of one pair, in the order of the sets.
 Runs runs_of(const Comparison& c, std::size_t pair);

@@ -5,7 +5,6 @@
 #include <string.h>
 
 #include <chrono>
-#include <cstdint>
 #include <thread>
 #include <utility>
 
@@ -22,6 +21,13 @@ bool is_unseen(char32_t c) {
   return is_control(c) || c == 0xAD || (c >= 0x200B && c <= 0x200F) || (c >= 0x2028 && c <= 0x202E) ||
          (c >= 0x2060 && c <= 0x206F) || c == 0xFEFF || (c >= 0xE000 && c <= 0xF8FF) ||
          (c >= 0xFFF0 && c <= 0xFFFF) || (c & 0xFFFEU) == 0xFFFEU || c >= 0xE0000;
+}
+
+constexpr std::chrono::seconds kRest{1};  // after a look that ended by itself
+
+bool wanted(const ui::Visit& visit, const Appliance& appliance) {
+  return visit.step == ui::Step::Name && visit.overlay == ui::Overlay::None && visit.name().empty() &&
+         appliance.state() == State::Idle;
 }
 
 }  // namespace
@@ -41,17 +47,6 @@ std::optional<std::string> code_text(std::string_view raw) {
   }
   return text;
 }
-
-namespace {
-
-constexpr std::chrono::seconds kRest{1};  // after a look that ended by itself
-
-bool wanted(const ui::Visit& visit, const Appliance& appliance) {
-  return visit.step == ui::Step::Name && visit.overlay == ui::Overlay::None && visit.name().empty() &&
-         appliance.state() == State::Idle;
-}
-
-}  // namespace
 
 CodeScanner::CodeScanner(Appliance& appliance, hal::Device& device)
     : appliance_(appliance), look_(appliance, device) {}

@@ -36,6 +36,94 @@ std::string line(const char* words, Numbers... numbers) {
   return text;
 }
 
+using Kind = ScriptAction::Kind;
+
+constexpr std::size_t kMostLines = 10'000, kMostBytes = 256;  // of a script, of a line
+constexpr double kWaitAtMostS = 60, kLongestS = 3600;
+
+struct Verb {
+  const char* word;
+  Kind kind;
+  bool rest;  // its word is the rest of the line
+};
+constexpr Verb kVerbs[] = {{"wait", Kind::Wait, false},
+                           {"tap", Kind::Tap, true},
+                           {"hold", Kind::Hold, false},
+                           {"drag", Kind::Drag, false},
+                           {"type", Kind::Type, true},
+                           {"pause", Kind::Pause, false},
+                           {"screenshot", Kind::Screenshot, false},
+                           {"plug", Kind::Plug, true},
+                           {"unplug", Kind::Unplug, false}};
+
+Error wrong(const std::string& where, Literal what) { return Error{Errc::InvalidInput, what}.at(where); }
+
+bool length_of(std::istringstream& words, double& seconds) {
+  return (words >> seconds) && seconds >= 0 && seconds <= kLongestS;
+}
+
+std::string rest_of(std::istringstream& words) {
+  std::string rest;
+  std::getline(words >> std::ws, rest);
+  while (!rest.empty() && (rest.back() == ' ' || rest.back() == '\r' || rest.back() == '\t')) rest.pop_back();
+  return rest;
+}
+
+Result<ScriptAction> numbers_of(ScriptAction action, std::istringstream& words) {
+  switch (action.kind) {
+    case Kind::Wait:
+      action.seconds = kWaitAtMostS;
+      if (!(words >> action.word)) return wrong(action.where, "wait for which state?");
+      if (!(words >> std::ws).eof() && !length_of(words, action.seconds))
+        return wrong(action.where, "wants a number of seconds, 0 to 3600");
+      break;
+    case Kind::Hold:
+      if (!(words >> action.word) || !length_of(words, action.seconds))
+        return wrong(action.where, "wants an id and a number of seconds, as hold staff 3");
+      break;
+    case Kind::Drag:
+      if (!(words >> action.word >> action.dx_px >> action.dy_px))
+        return wrong(action.where, "wants an id and two numbers of pixels, as drag face 120 0");
+      break;
+    case Kind::Pause:
+      if (!length_of(words, action.seconds))
+        return wrong(action.where, "wants a number of seconds, 0 to 3600");
+      break;
+    case Kind::Screenshot:
+      if (!(words >> action.word) || action.word.find_first_of("/\\") != std::string::npos ||
+          action.word.front() == '.')
+        return wrong(action.where, "wants a name without a folder, as screenshot review");
+      break;
+    case Kind::Tap:
+    case Kind::Type:
+    case Kind::Plug:
+    case Kind::Unplug: break;
+  }
+  if (!(words >> std::ws).eof()) return wrong(action.where, "has words too many");
+  return action;
+}
+
+constexpr double kOnTheScreenS = 20;  // an id is waited for
+constexpr int kDragSteps = 8;
+constexpr std::array<const char*, 3> kKeysToTry{"shift", "accents", "shift"};
+
+bool same(std::string_view a, std::string_view b) {
+  return a.size() == b.size() && strncasecmp(a.data(), b.data(), a.size()) == 0;
+}
+
+bool is_there(std::string_view state, const Kiosk& kiosk) {
+  return same(state, ui::name_of(kiosk.ui().visit().step)) || same(state, name_of(kiosk.appliance().state()));
+}
+
+// Where a finger would go, if it can.
+const ui::Node* touchable(const Kiosk& kiosk, std::string_view id) {
+  const ui::Node* node = kiosk.ui().tree().find(id);
+  if (node == nullptr) return nullptr;
+  const ui::Node* const met =
+      kiosk.ui().tree().at(node->rect.x + node->rect.w / 2, node->rect.y + node->rect.h / 2);
+  return met != nullptr && met->id == node->id ? node : nullptr;
+}
+
 }  // namespace
 
 void VisitFigures::begin() {
@@ -105,7 +193,7 @@ std::vector<std::string> VisitFigures::lines() const {
         "standing still to the face on the screen   %6.2f s  bar 4 (%.2f s to the shot, %.2f s from there)",
         *still_to_face_s_, shot, *still_to_face_s_ - shot));
   }
-  if (const auto live = live_frames_a_second())
+  if (const auto live = rate(pages_[std::size_t(ui::Step::Position)]))
     said.push_back(line("frames a second on the live page           %6.1f    bar 20", *live));
   said.push_back(
       "page       frames  a second  changed  ms of processor a frame: ours  most  drawing with the GL driver  heap blocks taken");
@@ -123,93 +211,22 @@ std::vector<std::string> VisitFigures::lines() const {
   return said;
 }
 
-namespace {
-
-using Kind = ScriptAction::Kind;
-
-constexpr std::size_t kMostLines = 10'000, kMostBytes = 256;  // of a script, of a line
-constexpr double kWaitAtMostS = 60, kLongestS = 3600;
-
-struct Verb {
-  const char* word;
-  Kind kind;
-  bool rest;  // its word is the rest of the line
-};
-constexpr Verb kVerbs[] = {{"wait", Kind::Wait, false},
-                           {"tap", Kind::Tap, true},
-                           {"hold", Kind::Hold, false},
-                           {"drag", Kind::Drag, false},
-                           {"type", Kind::Type, true},
-                           {"pause", Kind::Pause, false},
-                           {"screenshot", Kind::Screenshot, false},
-                           {"plug", Kind::Plug, true},
-                           {"unplug", Kind::Unplug, false}};
-
-Error wrong(const std::string& where, Literal what) { return Error{Errc::InvalidInput, what}.at(where); }
-
-bool length_of(std::istringstream& words, double& seconds) {
-  return (words >> seconds) && seconds >= 0 && seconds <= kLongestS;
-}
-
-std::string rest_of(std::istringstream& words) {
-  std::string rest;
-  std::getline(words >> std::ws, rest);
-  while (!rest.empty() && (rest.back() == ' ' || rest.back() == '\r' || rest.back() == '\t')) rest.pop_back();
-  return rest;
-}
-
-Result<ScriptAction> numbers_of(ScriptAction action, std::istringstream& words) {
-  switch (action.kind) {
-    case Kind::Wait:
-      action.seconds = kWaitAtMostS;
-      if (!(words >> action.word)) return wrong(action.where, "wait for which state?");
-      if (!(words >> std::ws).eof() && !length_of(words, action.seconds))
-        return wrong(action.where, "wants a number of seconds, 0 to 3600");
-      break;
-    case Kind::Hold:
-      if (!(words >> action.word) || !length_of(words, action.seconds))
-        return wrong(action.where, "wants an id and a number of seconds, as hold staff 3");
-      break;
-    case Kind::Drag:
-      if (!(words >> action.word >> action.dx_px >> action.dy_px))
-        return wrong(action.where, "wants an id and two numbers of pixels, as drag face 120 0");
-      break;
-    case Kind::Pause:
-      if (!length_of(words, action.seconds))
-        return wrong(action.where, "wants a number of seconds, 0 to 3600");
-      break;
-    case Kind::Screenshot:
-      if (!(words >> action.word) || action.word.find_first_of("/\\") != std::string::npos ||
-          action.word.front() == '.')
-        return wrong(action.where, "wants a name without a folder, as screenshot review");
-      break;
-    case Kind::Tap:
-    case Kind::Type:
-    case Kind::Plug:
-    case Kind::Unplug: break;
-  }
-  if (!(words >> std::ws).eof()) return wrong(action.where, "has words too many");
-  return action;
-}
-
-}  // namespace
-
-Result<std::vector<ScriptAction>> read_script_line(const std::string& line, const std::string& where) {
+Result<std::optional<ScriptAction>> read_script_line(const std::string& line, const std::string& where) {
   if (line.size() > kMostBytes) return wrong(where, "is too long for a line of a script");
   std::istringstream words(line);
   words.imbue(std::locale::classic());
   std::string verb;
-  if (!(words >> verb) || verb.front() == '#') return std::vector<ScriptAction>{};
+  if (!(words >> verb) || verb.front() == '#') return std::optional<ScriptAction>();
   for (const Verb& known : kVerbs) {
     if (verb != known.word) continue;
     ScriptAction action{known.kind, {}, 0, 0, 0, where};
-    if (!known.rest) {
-      RELIEVO_TRY_ASSIGN(auto whole, numbers_of(std::move(action), words));
-      return std::vector<ScriptAction>{std::move(whole)};
+    if (known.rest) {
+      action.word = rest_of(words);
+      if (action.word.empty()) return wrong(where, "wants a word after it");
+    } else {
+      RELIEVO_TRY_ASSIGN(action, numbers_of(std::move(action), words));
     }
-    action.word = rest_of(words);
-    if (action.word.empty()) return wrong(where, "wants a word after it");
-    return std::vector<ScriptAction>{std::move(action)};
+    return std::optional(std::move(action));
   }
   return wrong(where, "is no action: use wait, tap, hold, drag, type, pause, screenshot, plug or unplug");
 }
@@ -222,41 +239,13 @@ Result<std::vector<ScriptAction>> read_script(const std::filesystem::path& file)
   for (std::size_t number = 1; std::getline(in, line); ++number) {
     const std::string where = file.string() + ":" + std::to_string(number);
     if (number > kMostLines) return wrong(where, "is one line too many for a script");
-    RELIEVO_TRY_ASSIGN(auto actions, read_script_line(line, where));
-    for (ScriptAction& action : actions) script.push_back(std::move(action));
+    RELIEVO_TRY_ASSIGN(auto action, read_script_line(line, where));
+    if (action) script.push_back(*std::move(action));
   }
   if (in.bad()) return Error{Errc::IoFailed, "could not be read to its end"}.at(file.string());
   if (script.empty()) return wrong(file.string(), "has no action in it");
   return script;
 }
-
-namespace {
-
-using Kind = ScriptAction::Kind;
-using std::chrono::duration;
-
-constexpr double kOnTheScreenS = 20;  // an id is waited for
-constexpr int kDragSteps = 8;
-constexpr std::array<const char*, 3> kKeysToTry{"shift", "accents", "shift"};
-
-bool same(std::string_view a, std::string_view b) {
-  return a.size() == b.size() && strncasecmp(a.data(), b.data(), a.size()) == 0;
-}
-
-bool is_there(std::string_view state, const Kiosk& kiosk) {
-  return same(state, ui::name_of(kiosk.ui().visit().step)) || same(state, name_of(kiosk.appliance().state()));
-}
-
-// Where a finger would go, if it can.
-const ui::Node* touchable(const Kiosk& kiosk, std::string_view id) {
-  const ui::Node* node = kiosk.ui().tree().find(id);
-  if (node == nullptr) return nullptr;
-  const ui::Node* const met =
-      kiosk.ui().tree().at(node->rect.x + node->rect.w / 2, node->rect.y + node->rect.h / 2);
-  return met != nullptr && met->id == node->id ? node : nullptr;
-}
-
-}  // namespace
 
 Result<bool> ScriptPlayer::turn(const Kiosk& kiosk, hal::Instant now) {
   if (next_ == script_.size()) return false;

@@ -32,7 +32,6 @@ class VisitFigures {
   void made();
   void shown(const Kiosk& kiosk, bool drawn);  // drawn: something had changed
 
-  std::optional<double> live_frames_a_second() const { return rate(page(ui::Step::Position)); }
   // Lines for a person, with the bars they are held against.
   std::vector<std::string> lines() const;
 
@@ -45,7 +44,6 @@ class VisitFigures {
     std::chrono::steady_clock::time_point from{}, until{};
   };
   static constexpr std::size_t kPages = ui::kStepNames.size();
-  const PageCost& page(ui::Step step) const { return pages_[std::size_t(step)]; }
   static std::optional<double> rate(const PageCost& page);
   void follow(const Kiosk& kiosk, std::chrono::steady_clock::time_point now);
 
@@ -60,12 +58,6 @@ class VisitFigures {
   int touches_ = 0;  // until Thanks; 0: it was not reached
 };
 
-// ScriptPlayer: synthetic fingers before a kiosk. Once a frame it does the next thing of its script: it
-// finds what is to be touched by its id, as it lies on the screen now, and puts the finger there.
-//   while (turn(kiosk, now) is true) { the loop's own work }
-// Pixels. Thread: main. Errors of turn(): Timeout (a state was not reached, an id did not come to the
-// screen, or lies under something else), InvalidInput (no key for a letter), those of plug.
-
 // Script: what synthetic fingers are to do, read from a file (README.md has its words).
 // Thread: main. Errors: NotFound, IoFailed, InvalidInput (with file and line).
 struct ScriptAction {
@@ -79,8 +71,13 @@ struct ScriptAction {
 
 Result<std::vector<ScriptAction>> read_script(const std::filesystem::path& file);
 // One line; nothing in it is no action.
-Result<std::vector<ScriptAction>> read_script_line(const std::string& line, const std::string& where);
+Result<std::optional<ScriptAction>> read_script_line(const std::string& line, const std::string& where);
 
+// ScriptPlayer: synthetic fingers before a kiosk. Once a frame it does the next thing of its script: it
+// finds what is to be touched by its id, as it lies on the screen now, and puts the finger there.
+//   while (turn(kiosk, now) is true) { the loop's own work }
+// Pixels. Thread: main. Errors of turn(): Timeout (a state was not reached, an id did not come to the
+// screen, or lies under something else), InvalidInput (no key for a letter), those of plug.
 class ScriptPlayer {
  public:
   struct Hands {

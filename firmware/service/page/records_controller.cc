@@ -2,13 +2,12 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "firmware/service/page/records_controller.h"
 
-#include <string.h>
-
 #include <algorithm>
 
 #include "firmware/base/wall_time.h"
 #include "firmware/records/receipt.h"
 #include "firmware/service/pin_hash.h"
+#include "firmware/service/retention.h"
 
 namespace relievo::firmware {
 namespace {
@@ -18,27 +17,34 @@ constexpr std::uint32_t kFirstModel = 1U << 20;
 // What is found sooner needs no sign that it is looked for.
 constexpr std::chrono::milliseconds kLongLook{300};
 
+std::string minute_of(storage::WallTime at) { return text_of(at).substr(0, 16); }
+
+ui::RecordRow row_of(const storage::Subject& subject) {
+  return {std::int64_t(subject.id), subject.name, minute_of(subject.created_at), receipt_of(subject),
+          subject.enrolments};
+}
+
+// Whom the choice lets pass; nothing: everybody.
+using Passed = std::optional<std::vector<storage::SubjectId>>;
+
+Result<Passed> passed_by(storage::Store& store, const RecordChoice& choice, JobControl& control) {
+  if (choice.everybody()) return Passed();
+  RELIEVO_TRY_ASSIGN(auto passed, chosen_records(store, choice, control));
+  return Passed(std::move(passed));
+}
+
+Result<std::vector<storage::Subject>> rows_of(storage::Store& store, const Passed& passed, std::int64_t skip,
+                                              std::int64_t limit) {
+  if (!passed) return store.subjects({.skip = skip, .limit = limit});
+  std::vector<storage::Subject> found;
+  for (std::int64_t row = skip; row < std::min(std::int64_t(passed->size()), skip + limit); ++row) {
+    RELIEVO_TRY_ASSIGN(auto subject, store.subject((*passed)[std::size_t(row)]));
+    found.push_back(std::move(subject));
+  }
+  return found;
+}
+
 }  // namespace
-
-void RecordsController::wipe(ui::RecordRow& found) {
-  for (std::string* text : {&found.name, &found.since, &found.code}) wipe_text(*text);
-}
-
-void RecordsController::wipe(std::vector<ui::RecordRow>& found) {
-  for (ui::RecordRow& one : found) wipe(one);
-  found.clear();
-}
-
-RecordsController::Person::~Person() {
-  wipe(found);
-  wipe_text(consent);
-  wipe_text(consented_at);
-  if (!model) return;
-  // What a face looks like goes before its memory does.
-  explicit_bzero(model->texture.rgb.data(), model->texture.rgb.size());
-  auto& vertices = model->mesh.vertices_mm;
-  explicit_bzero(vertices.data(), vertices.size() * sizeof(pipeline::Vec3f));
-}
 
 void RecordsController::opened() {
   forget();
@@ -57,7 +63,7 @@ void RecordsController::closed() {
 }
 
 void RecordsController::forget() {
-  wipe(found_);
+  found_ = std::vector<ui::RecordRow>();
   choice_.forget();
   person_.reset();
   filters_.clear();
@@ -136,10 +142,6 @@ void RecordsController::list() {
     RecordChoice choice;
     std::vector<ui::RecordRow> found;
     std::int64_t rows = 0;  // of all pages
-    ~Listed() {
-      choice.forget();
-      wipe(found);
-    }
   };
   const auto listed = std::make_shared<Listed>();
   listed->choice = choice_;
@@ -151,27 +153,16 @@ void RecordsController::list() {
           if (auto subject = find_by_receipt(services().store, listed->choice.part))
             subjects.push_back(std::move(*subject));
           listed->rows = std::int64_t(subjects.size());
-        } else if (listed->choice.everybody()) {
-          RELIEVO_TRY_ASSIGN(listed->rows, services().store.count_subjects({}));
-          RELIEVO_TRY_ASSIGN(subjects, services().store.subjects({.skip = skip, .limit = kPage}));
         } else {
-          RELIEVO_TRY_ASSIGN(const auto passed, chosen_records(services().store, listed->choice, control));
-          listed->rows = std::int64_t(passed.size());
-          for (std::int64_t row = skip; row < std::min(listed->rows, skip + kPage); ++row) {
-            RELIEVO_TRY_ASSIGN(auto subject, services().store.subject(passed[std::size_t(row)]));
-            subjects.push_back(std::move(subject));
-          }
+          RELIEVO_TRY_ASSIGN(const Passed passed, passed_by(services().store, listed->choice, control));
+          RELIEVO_TRY_ASSIGN(listed->rows, passed ? Result(std::int64_t(passed->size()))
+                                                  : services().store.count_subjects());
+          RELIEVO_TRY_ASSIGN(subjects, rows_of(services().store, passed, skip, kPage));
         }
-        for (storage::Subject& subject : subjects) {
-          listed->found.push_back({std::int64_t(subject.id), subject.name,
-                                   text_of(subject.created_at).substr(0, 16), receipt_of(subject),
-                                   subject.enrolments});
-          wipe_text(subject.name);
-        }
+        for (const storage::Subject& subject : subjects) listed->found.push_back(row_of(subject));
         return {};
       },
       [this, listed] {
-        wipe(found_);
         found_ = std::move(listed->found);
         walk_.set_rows(listed->rows);
         ready_ = true;
@@ -185,29 +176,16 @@ void RecordsController::label_stretches() {
     RecordChoice choice;
     std::vector<std::int64_t> rows;
     std::vector<std::string> found;
-    ~Labels() { choice.forget(); }
   };
   const auto labels = std::make_shared<Labels>();
   labels->choice = choice_;
   for (std::size_t i = 0; i < walk_.stretches(); ++i) labels->rows.push_back(walk_.top_row(i));
   look(
       [this, labels](JobControl& control) -> Result<void> {
-        const bool everybody = labels->choice.everybody();
-        std::vector<storage::SubjectId> passed;
-        if (!everybody) {
-          RELIEVO_TRY_ASSIGN(passed, chosen_records(services().store, labels->choice, control));
-        }
+        RELIEVO_TRY_ASSIGN(const Passed passed, passed_by(services().store, labels->choice, control));
         for (const std::int64_t row : labels->rows) {
-          std::vector<storage::Subject> one;
-          if (everybody) {
-            RELIEVO_TRY_ASSIGN(one, services().store.subjects({.skip = row, .limit = 1}));
-          } else if (row < std::int64_t(passed.size())) {
-            RELIEVO_TRY_ASSIGN(auto subject, services().store.subject(passed[std::size_t(row)]));
-            one.push_back(std::move(subject));
-          }
-          labels->found.push_back(one.empty() ? std::string()
-                                              : text_of(one.front().created_at).substr(0, 16));
-          for (storage::Subject& subject : one) wipe_text(subject.name);
+          RELIEVO_TRY_ASSIGN(const auto one, rows_of(services().store, passed, row, 1));
+          labels->found.push_back(one.empty() ? std::string() : minute_of(one.front().created_at));
         }
         return {};
       },
@@ -224,14 +202,13 @@ void RecordsController::load(std::int64_t number) {
       JobLane::Keeper,
       [this, person, id = storage::SubjectId{number}](JobControl&) -> Result<void> {
         RELIEVO_TRY_ASSIGN(storage::Subject subject, services().store.subject(id));
-        person->found = {std::int64_t(id), subject.name, text_of(subject.created_at).substr(0, 16),
-                         receipt_of(subject), subject.enrolments};
+        person->found = row_of(subject);
         wipe_text(subject.name);
         RELIEVO_TRY_ASSIGN(const auto enrolments, services().store.enrolments(id));
         if (enrolments.empty()) return {};
         const storage::Consent& consent = enrolments.back().consent;
         person->consent = consent.wording + " (" + consent.language + ")";
-        person->consented_at = text_of(consent.given_at).substr(0, 16);
+        person->consented_at = minute_of(consent.given_at);
         RELIEVO_TRY_ASSIGN(auto model, services().store.load_model(enrolments.back().id, &person->memory));
         person->model.emplace(std::move(model));
         return {};
@@ -244,18 +221,20 @@ void RecordsController::load(std::int64_t number) {
       });
 }
 
+// It was held for three seconds: who signs out meanwhile still has it erased.
 void RecordsController::erase(std::int64_t number) {
   person_.reset();
   services().side_tasks.send(
       JobLane::Keeper,
-      [this, id = storage::SubjectId{number}](JobControl&) { return services().store.erase_subject(id); },
+      [this, id = storage::SubjectId{number}](JobControl&) { return erase_person(services().store, id); },
       [this, number, visit = visit_](const std::optional<Error>& error) {
         if (!error) services().log.say(ui::LogEvent::RecordErased, {std::to_string(number)});
-        if (visit != visit_) return;
+        if (visit != visit_) return error ? services().log.fault(*error) : void();
         told(error);
         erased_ = !error;
         list();
-      });
+      },
+      SideTasks::Whose::Device);
 }
 
 void RecordsController::take_out(std::int64_t number) {
@@ -272,12 +251,15 @@ void RecordsController::take_out(std::int64_t number) {
   services().side_tasks.send(
       JobLane::Keeper,
       [this, subjects = std::move(subjects), further, trace](JobControl& control) {
-        return export_records(services().store, services().device.clock(), services().device.media(),
-                              subjects, further, control, *trace);
-      },
-      [this, trace, visit = visit_](const std::optional<Error>& error) {
+        const Result<void> done =
+            export_records(services().store, services().device.clock(), services().device.media(), subjects,
+                           further, control, *trace);
+        // Here, since nobody hears the end of what was cancelled: these records lie on a stick.
         if (trace->whole > 0)
           services().log.say(ui::LogEvent::RecordsExported, {std::to_string(trace->whole)});
+        return done;
+      },
+      [this, trace, visit = visit_](const std::optional<Error>& error) {
         if (visit == visit_) exported(error, *trace);
       });
 }
@@ -300,10 +282,8 @@ void RecordsController::show(ui::ServiceView& view) {
            erased_, exported_,    asked_,       trace_.whole, filters_};
   view_.looks = looks_ > 0 && services().device.clock().now() - looks_since_ > kLongLook;
   // The list may have been read anew since it was chosen.
-  view_.place.filter = 0;
-  if (choice_.filter)
-    for (std::size_t i = 0; i < filters_.size(); ++i)
-      if (filters_[i] == *choice_.filter) view_.place.filter = i + 1;
+  const auto chosen = choice_.filter ? std::ranges::find(filters_, *choice_.filter) : filters_.end();
+  view_.place.filter = chosen != filters_.end() ? std::size_t(chosen - filters_.begin()) + 1 : 0;
   if (person_) {
     view_.shown = &person_->found;
     view_.consent = person_->consent;

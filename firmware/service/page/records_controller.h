@@ -1,8 +1,9 @@
 // SPDX-FileCopyrightText: 2026 The Relievo authors
 // SPDX-License-Identifier: GPL-3.0-or-later
 //
-// Behind the page of records: search, show, erase, export, on the store. Every name it has read is wiped
-// when the page is left. Thread: main; the store's work runs on the keeper.
+// Behind the page of records: search, show, erase, export, on the store. Every name it has read is given back
+// to the heap when the page is left, which wipes it (base/wiping_heap.cc). Thread: main; the store's work
+// runs on the keeper.
 #pragma once
 
 #include <functional>
@@ -36,7 +37,6 @@ class RecordsController final : public PageController {
     std::string consent, consented_at;
     std::pmr::monotonic_buffer_resource memory;
     std::optional<pipeline::FaceModel> model;
-    ~Person();
   };
   // On the keeper; `found` only if it went well and the page is still the same.
   void look(SideTasks::Work work, std::function<void()> found);
@@ -51,8 +51,6 @@ class RecordsController final : public PageController {
   void exported(const std::optional<Error>& error, const ExportTrace& trace);
   void told(const std::optional<Error>& error);
   void forget();
-  static void wipe(ui::RecordRow& found);
-  static void wipe(std::vector<ui::RecordRow>& found);
 
   std::uint32_t visit_ = 0;  // of the page: what was asked before it was left is not shown after
   RecordChoice choice_;

@@ -7,6 +7,7 @@
 #include <cmath>
 #include <memory>
 #include <thread>
+#include <utility>
 
 #include "firmware/kiosk/code/qr_code.h"
 #include "firmware/records/disk_room.h"
@@ -172,8 +173,14 @@ Result<pipeline::StereoFrame> one_pair(PageServices& services, JobControl& contr
 }  // namespace
 
 void SelfTestController::opened() {
-  ++visit_;
+  closed();
   view_ = {};
+}
+
+// Of what is cancelled nothing is heard: the next visit does not wait for it.
+void SelfTestController::closed() {
+  ++visit_;
+  running_ = 0;
 }
 
 void SelfTestController::begin(Check check, JobLane lane, SideTasks::Work work) {
@@ -182,9 +189,9 @@ void SelfTestController::begin(Check check, JobLane lane, SideTasks::Work work) 
   ++running_;
   services().side_tasks.send(lane, std::move(work),
                              [this, at, visit = visit_](const std::optional<Error>& error) {
-                               --running_;
                                if (error) services().log.fault(*error);
                                if (visit != visit_) return;
+                               --running_;
                                view_.states[at] = error ? CheckState::Bad : CheckState::Good;
                                view_.problems[at] = error ? ui::fault_of(*error) : ui::Fault{};
                              });
@@ -225,13 +232,13 @@ void SelfTestController::show(ui::ServiceView& view) {
 }
 
 void TriggerController::opened() {
-  ++visit_;
+  closed();
   view_ = {};
 }
 
 void TriggerController::closed() {
   ++visit_;
-  if (running_) services().side_tasks.stop(JobLane::Capture);
+  if (std::exchange(running_, false)) services().side_tasks.stop(JobLane::Capture);
 }
 
 void TriggerController::ask(const ui::StaffRequest& request) {
@@ -266,9 +273,9 @@ void TriggerController::ask(const ui::StaffRequest& request) {
         return last ? Result<void>(*last) : Result<void>();
       },
       [this, seen, visit = visit_](const std::optional<Error>& error) {
-        running_ = false;
         if (error) services().log.fault(*error);
         if (visit != visit_) return;
+        running_ = false;
         view_ = *seen;
         view_.ended = true;
       });

@@ -50,6 +50,7 @@ class StatusController final : public PageController {
   using PageController::PageController;
   void opened() override;
   void show(ui::ServiceView& view) override;
+  void closed() override { looking_ = false; }  // what is under way may be forgotten with the page
 
  private:
   void look();
@@ -64,12 +65,12 @@ class SelfTestController final : public PageController {
   void opened() override;
   void ask(const ui::StaffRequest& request) override;
   void show(ui::ServiceView& view) override;
-  void closed() override { ++visit_; }
+  void closed() override;
 
  private:
   void begin(ui::Check check, JobLane lane, SideTasks::Work work);
   std::uint32_t visit_ = 0;
-  int running_ = 0;
+  int running_ = 0;  // of this visit
   ui::SelfTestView view_;
 };
 
@@ -84,7 +85,7 @@ class TriggerController final : public PageController {
  private:
   static constexpr int kPulses = 10;
   std::uint32_t visit_ = 0;
-  bool running_ = false;
+  bool running_ = false;  // of this visit
   ui::TriggerView view_;
 };
 

@@ -3,7 +3,6 @@
 #include "firmware/technician/show/hand_pairs.h"
 
 #include <algorithm>
-#include <bit>
 #include <cmath>
 #include <optional>
 
@@ -49,9 +48,7 @@ ui::TechnicianPoint nearest_match(const pipeline::RectifiedPair& pair, const pip
   }
   if (nearest == nullptr) return point;
   set_match(pair, *nearest, point);
-  const auto rule = std::size_t(std::countr_zero(nearest->rejected_by));
-  if (nearest->rejected_by != 0)
-    point.rejected_by = rule < figures.rule_count() ? std::string_view(figures.rule(rule)) : "?";
+  point.rejected_by = figures.rule_of(*nearest);
   return point;
 }
 
@@ -140,7 +137,7 @@ void HandPairs::move_left(const pipeline::RectifiedPair& pair, float x, float y)
     const double reach = double(kFingerShare) * pair.width_px, was = double(before.disparity_px);
     found = alike(pair, point.left_px, was - reach, was + reach);
   }
-  const pipeline::DisparityRange range = pipeline::disparity_range(pair);
+  const pipeline::CandidateRange range = pipeline::disparity_range(pair);
   if (!found) found = alike(pair, point.left_px, range.first, range.last);
   if (!found) return;
   set_match(pair, *found, point);

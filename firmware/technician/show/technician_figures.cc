@@ -3,6 +3,7 @@
 #include "firmware/technician/show/technician_figures.h"
 
 #include <algorithm>
+#include <bit>
 
 #include "firmware/compare/page/maps.h"
 #include "firmware/measure/selector_figures.h"
@@ -82,6 +83,11 @@ Result<void> TechnicianFigures::measure(const Products& products, pipeline::Stag
     result_.photo_windows = photo.asked;
     return {};
   });
+}
+
+std::string_view TechnicianFigures::rule_of(const pipeline::Match& match) const {
+  const auto rule = std::size_t(std::countr_zero(match.rejected_by));
+  return match.rejected_by == 0 ? "" : rule < rules_.size() ? std::string_view(rules_[rule]) : "?";
 }
 
 ui::TechnicianResult TechnicianFigures::view() const {

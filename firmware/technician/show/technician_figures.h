@@ -37,8 +37,8 @@ class TechnicianFigures {
   // Until the next change.
   ui::TechnicianResult view() const;
   const pipeline::AlgorithmSet& set() const { return set_; }
-  const std::string& rule(std::size_t i) const { return rules_[i]; }
-  std::size_t rule_count() const { return rules_.size(); }
+  // That took a match first; empty: none did.
+  std::string_view rule_of(const pipeline::Match& match) const;
 
  private:
   pipeline::AlgorithmSet set_;

@@ -31,21 +31,13 @@ std::uint32_t next_version() {
   return ++count;
 }
 
-struct Size {
-  int width_px = 0, height_px = 0;
-};
-Size fitted(int width_px, int height_px) {
-  const double scale = std::min(1.0, double(TechnicianPictures::kSide) / std::max(width_px, height_px));
-  return {std::max(1, int(width_px * scale)), std::max(1, int(height_px * scale))};
-}
-
 // Means over the pixels that fall into one; at(x, y, channel).
 template <typename At>
-void shrink(int width_px, int height_px, Size to, std::uint8_t* rgb, At&& at) {
-  for (int y = 0; y < to.height_px; ++y) {
-    const int v0 = y * height_px / to.height_px, v1 = std::max(v0 + 1, (y + 1) * height_px / to.height_px);
-    for (int x = 0; x < to.width_px; ++x, rgb += 3) {
-      const int u0 = x * width_px / to.width_px, u1 = std::max(u0 + 1, (x + 1) * width_px / to.width_px);
+void shrink(int width_px, int height_px, int to_width_px, int to_height_px, std::uint8_t* rgb, At&& at) {
+  for (int y = 0; y < to_height_px; ++y) {
+    const int v0 = y * height_px / to_height_px, v1 = std::max(v0 + 1, (y + 1) * height_px / to_height_px);
+    for (int x = 0; x < to_width_px; ++x, rgb += 3) {
+      const int u0 = x * width_px / to_width_px, u1 = std::max(u0 + 1, (x + 1) * width_px / to_width_px);
       float sum[3] = {0, 0, 0};
       for (int v = v0; v < v1; ++v) {
         for (int u = u0; u < u1; ++u) {
@@ -117,37 +109,36 @@ TechnicianPictures::TechnicianPictures() {
   }
 }
 
-TechnicianPictures::One& TechnicianPictures::begin(TechnicianStage stage, std::size_t side) {
+TechnicianPictures::One& TechnicianPictures::begin(TechnicianStage stage, std::size_t side, int width_px,
+                                                   int height_px) {
   One& one = all_[std::size_t(stage)][side];
-  one.width_px = one.height_px = kSide;
+  const double scale = std::min(1.0, double(kSide) / std::max(width_px, height_px));
+  one.width_px = std::max(1, int(width_px * scale));
+  one.height_px = std::max(1, int(height_px * scale));
   one.version = next_version();
   return one;
 }
 
 void TechnicianPictures::draw_input(const ImageView& view, std::size_t side) {
-  const Size size = fitted(view.width_px, view.height_px);
-  One& one = begin(TechnicianStage::Input, side);
-  one.width_px = size.width_px;
-  one.height_px = size.height_px;
+  One& one = begin(TechnicianStage::Input, side, view.width_px, view.height_px);
   const int bytes = bytes_per_pixel(view.format), high = view.format == PixelFormat::Grey16 ? 1 : 0;
-  shrink(view.width_px, view.height_px, size, one.rgb.get(), [&](int x, int y, int c) {
+  const auto value = [&](int x, int y, int c) {
     const std::uint8_t* pixel = view.row(y) + std::ptrdiff_t(x) * bytes;
     return float(view.format == PixelFormat::Rgb8 ? pixel[c] : pixel[high]);
-  });
+  };
+  shrink(view.width_px, view.height_px, one.width_px, one.height_px, one.rgb.get(), value);
 }
 
 void TechnicianPictures::draw_pair(TechnicianStage stage, const pipeline::RectifiedPair& pair, bool colour) {
-  const Size size = fitted(pair.width_px, pair.height_px);
   for (std::size_t side = 0; side < 2; ++side) {
     const pipeline::RectifiedView& view = side == 0 ? pair.left : pair.right;
-    One& one = begin(stage, side);
-    one.width_px = size.width_px;
-    one.height_px = size.height_px;
+    One& one = begin(stage, side, pair.width_px, pair.height_px);
     const bool rgb = colour && view.rgb.size() == 3 * view.grey.size();
-    shrink(pair.width_px, pair.height_px, size, one.rgb.get(), [&](int x, int y, int c) {
+    const auto value = [&](int x, int y, int c) {
       const std::size_t i = std::size_t(y) * std::size_t(pair.width_px) + std::size_t(x);
       return rgb ? float(view.rgb[3 * i + std::size_t(c)]) : view.grey[i];
-    });
+    };
+    shrink(pair.width_px, pair.height_px, one.width_px, one.height_px, one.rgb.get(), value);
   }
 }
 

@@ -76,7 +76,8 @@ class TechnicianPictures {
     int width_px = 0, height_px = 0;
     std::uint32_t version = 0;  // 0: none
   };
-  One& begin(ui::TechnicianStage stage, std::size_t side);
+  // No larger than kSide.
+  One& begin(ui::TechnicianStage stage, std::size_t side, int width_px = kSide, int height_px = kSide);
   void draw_pair(ui::TechnicianStage stage, const pipeline::RectifiedPair& pair, bool colour);
   void draw_input(const ImageView& view, std::size_t side);
   void draw_rules(const pipeline::RectifiedPair& pair, const pipeline::MatchSet& matches);

@@ -139,10 +139,7 @@ void TechnicianTables::fill_matches(const Source& from, std::size_t row) {
   cell("%.3f", m.disparity_px);
   cell("%.3f", m.sigma_px);
   cell("%.3f", m.cost);
-  const auto rule = std::size_t(std::countr_zero(m.rejected_by));
-  word(m.rejected_by == 0                 ? ""
-       : rule < from.figures.rule_count() ? std::string_view(from.figures.rule(rule))
-                                          : "?");
+  word(from.figures.rule_of(m));
 }
 
 void TechnicianTables::fill_points(const pipeline::PointCloud& cloud, std::size_t row) {

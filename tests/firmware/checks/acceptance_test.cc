@@ -6,6 +6,7 @@
 #include <gtest/gtest.h>
 
 #include "firmware/checks/deviation_picture.h"
+#include "pipeline/model/vector3.h"
 
 namespace relievo::firmware {
 namespace {

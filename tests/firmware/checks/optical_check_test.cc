@@ -8,6 +8,7 @@
 
 #include "firmware/checks/target_calibration.h"
 #include "hal/sim/optics/rig.h"
+#include "pipeline/model/vector3.h"
 #include "tests/firmware/checks/target_rig.h"
 #include "tests/support/proof.h"
 

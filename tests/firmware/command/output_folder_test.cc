@@ -57,5 +57,15 @@ TEST(OutputFolder, RefusesAFileAndAPlaceThatCannotBe) {
   EXPECT_EQ(listing(here.path()), "file\n");
 }
 
+TEST(OutputFolder, WhatCannotBeListedIsNotSaidToBeThere) {
+  const test::TemporaryFolder here;
+  std::filesystem::create_directory(here / "out");
+  auto folder = OutputFolder::begin(here / "out");
+  ASSERT_TRUE(folder);
+  write_text(folder->path() / "a.txt", "a");
+  std::filesystem::remove_all(folder->path());  // somebody tidies up
+  EXPECT_EQ(folder->commit().error().code, Errc::IoFailed);
+}
+
 }  // namespace
 }  // namespace relievo::firmware

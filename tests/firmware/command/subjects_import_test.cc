@@ -5,6 +5,8 @@
 
 #include <algorithm>
 #include <functional>
+#include <memory_resource>
+#include <new>
 #include <utility>
 
 #include "firmware/command/commands.h"
@@ -267,6 +269,32 @@ TEST_F(SubjectsImport, WhatIsExchangedMissingAddedOrLeadsElsewhereIsNamed) {
   write_text(folder / "bad.tar", "no tar at all");
   EXPECT_NE(refused(imported("bad.tar")).find("bad.tar: this is no bundle"), std::string::npos);
   EXPECT_NE(refused(imported("nothing")).find("nothing: there is no such file"), std::string::npos);
+}
+
+// Hands out nothing as large as a picture.
+class NoRoomForPictures final : public std::pmr::memory_resource {
+ public:
+  NoRoomForPictures() : before_(std::pmr::set_default_resource(this)) {}
+  ~NoRoomForPictures() override { std::pmr::set_default_resource(before_); }
+
+ private:
+  void* do_allocate(std::size_t bytes, std::size_t alignment) override {
+    if (bytes > 200'000) throw std::bad_alloc();
+    return std::pmr::new_delete_resource()->allocate(bytes, alignment);
+  }
+  void do_deallocate(void* block, std::size_t bytes, std::size_t alignment) override {
+    std::pmr::new_delete_resource()->deallocate(block, bytes, alignment);
+  }
+  bool do_is_equal(const memory_resource& other) const noexcept override { return this == &other; }
+  std::pmr::memory_resource* before_;
+};
+
+TEST_F(SubjectsImport, AnExportWithoutMemoryForItsPicturesIsNone) {
+  const NoRoomForPictures memory;
+  const auto told = run(exported("ada"), services);
+  ASSERT_FALSE(told);
+  EXPECT_EQ(told.error().code, Errc::OutOfMemory);
+  EXPECT_FALSE(fs::exists(folder / "ada"));
 }
 
 }  // namespace

@@ -9,7 +9,6 @@
 #include <cstring>
 #include <numbers>
 
-#include "firmware/appliance/view_of.h"
 #include "firmware/capture/live_judge.h"
 #include "firmware/kiosk/voice.h"
 #include "tests/support/made_screen.h"
@@ -221,12 +220,11 @@ EarVisit visit_by_ear(std::uint32_t seed, Album& album, GateFixture& gate) {
     const Shot shot = album.photograph(301 + seed % 5, pose_of(made.last));
     const auto taken = page.clock.now();
     const auto look = gate.look(album, shot, how, taken.time_since_epoch(), history);
-    firmware::LivePicture live;
-    live.guidance = firmware::guidance_of(look.answer, album.calibration(), look.relief);
+    ui::LiveView live = firmware::guidance_of(look.answer, album.calibration(), look.relief);
     live.number = page.view.live.number + 1;
     for (int frame = 0; frame < 3 && !made.captured; ++frame) {
       page.clock.advance(kLook / 3);
-      page.view.live = firmware::live_of(live);
+      page.view.live = live;
       made.captured = page.show(ui::Screen::Position);
     }
     for (const auto& heard = page.speaker->heard(); told < heard.size(); ++told) {

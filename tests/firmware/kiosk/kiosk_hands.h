@@ -82,8 +82,8 @@ class KioskHands : public testing::Test {
     std::istringstream in(lines);
     std::string line;
     for (int number = 1; std::getline(in, line); ++number) {
-      RELIEVO_TRY_ASSIGN(const auto actions, read_script_line(line, "line " + std::to_string(number)));
-      script.insert(script.end(), actions.begin(), actions.end());
+      RELIEVO_TRY_ASSIGN(const auto action, read_script_line(line, "line " + std::to_string(number)));
+      if (action) script.push_back(*action);
     }
     ScriptPlayer player(std::move(script), {[this](const ui::Input& input) { kiosk->feed(input); }});
     for (;;) {

@@ -139,7 +139,7 @@ class KioskTest : public KioskHands {
     store_error = Errc::MediaFull;
     tap("accept");
     ASSERT_TRUE(until([this] {
-      return kiosk->view().trouble == ui::Trouble::Storage && kiosk->view().screen == ui::Screen::Review;
+      return kiosk->view().trouble == ui::Trouble::StorageFull && kiosk->view().screen == ui::Screen::Review;
     }));
     EXPECT_EQ(kiosk->view().receipt, "") << "no code for what was not stored";
     EXPECT_NE(find("trouble"), nullptr) << "its own words";

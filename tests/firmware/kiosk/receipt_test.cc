@@ -6,6 +6,7 @@
 
 #include <algorithm>
 
+#include "firmware/command/subject_lookup.h"
 #include "storage/receipt_number.h"
 #include "storage/sqlite/sqlite_store.h"
 #include "tests/storage/sample.h"
@@ -80,6 +81,19 @@ TEST_F(ReceiptInTheStoreTest, AnErasedPersonsCodeLeadsNowhere) {
   const std::string code = receipt_of(*store->subject(id));
   ASSERT_TRUE(store->erase_subject(id).has_value());
   EXPECT_EQ(find_by_receipt(*store, code).error().code, Errc::NotFound);
+}
+
+TEST_F(ReceiptInTheStoreTest, IsNobodysName) {
+  auto store = storage::test::opened(folder.path());
+  const storage::SubjectId id = *store->add_subject({"Ada"});
+  const std::string code = receipt_of(*store->subject(id));
+  const auto chosen = choose_subject(*store, code);
+  ASSERT_TRUE(chosen);
+  EXPECT_EQ(*chosen, id) << "its owner, not somebody new";
+  EXPECT_EQ(choose_subject(*store, receipt_of(with(1, 42))).error().code, Errc::NotFound);
+  const auto grace = choose_subject(*store, "Grace");
+  ASSERT_TRUE(grace);
+  EXPECT_EQ(*grace, std::nullopt) << "somebody new";
 }
 
 }  // namespace

@@ -3,7 +3,12 @@
 //
 // What nobody can undo is held for three seconds: a passing finger, one that slides off or is lifted, and a
 // key that is called back erase nobody.
+#include <algorithm>
+#include <atomic>
+#include <optional>
+
 #include "tests/firmware/kiosk/staff_hands.h"
+#include "tests/support/faulty_store.h"
 #include "ui/view/staff_views.h"
 
 namespace relievo::firmware {
@@ -92,6 +97,33 @@ TEST_F(StaffEraseTest, AFingerThatRestsThreeSecondsErases) {
   kiosk->turn();
   EXPECT_NE(find("search"), nullptr) << "back in the list";
   EXPECT_FALSE(still_kept());
+}
+
+// As where another program reads the store: the person is gone, traces stay in its log.
+class TracesStay final : public test::FaultyStore {
+ public:
+  using FaultyStore::FaultyStore;
+  Result<void> erase_subject(storage::SubjectId id) override {
+    RELIEVO_TRY(FaultyStore::erase_subject(id));
+    return Error{Errc::Timeout, "erased, but as the test says"};
+  }
+};
+
+TEST_F(StaffEraseTest, WhileAnotherProgramReadsTheyAreErasedAllTheSame) {
+  const std::atomic<std::optional<Errc>> none{};
+  services.open_store = [&](const Path& at, bool) -> Result<std::unique_ptr<storage::Store>> {
+    RELIEVO_TRY_ASSIGN(auto real, storage::open_sqlite_store(at, wall(), {}));
+    return std::unique_ptr<storage::Store>(std::make_unique<TracesStay>(std::move(real), none));
+  };
+  ask_to_erase();
+  hold("yes", time);
+  ASSERT_TRUE(erased());
+  lift();
+  EXPECT_TRUE(std::ranges::any_of(kiosk->staff().log().entries(), [](const ui::LogLine& line) {
+    return line.text.find("Record #1 was erased") != std::string::npos;
+  }));
+  EXPECT_FALSE(still_kept());
+  kiosk.reset();  // before what its store borrows
 }
 
 TEST_F(StaffEraseTest, AKeyTakesAsLongAndAnyOtherCallsItBack) {

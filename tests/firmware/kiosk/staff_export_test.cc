@@ -189,6 +189,22 @@ TEST_F(StaffExportTest, TheOperatorStopsItAndNothingIsHalfWritten) {
   ends_well_the_next_time(stick());
 }
 
+TEST_F(StaffExportTest, WhatWasExportedBeforeTheOperatorSignedOutStandsInTheLog) {
+  open_records({"Ada Lovelace", "Grace Hopper"});
+  faulty.fail(FaultyStick::Fault::Waits, 2);
+  tap("export all");
+  ASSERT_TRUE(until([this] { return faulty.waits(); }));
+  kiosk->feed({ui::Input::Kind::Back});
+  ASSERT_TRUE(until([this] { return find("sign out") != nullptr; }));
+  sign_out();
+  faulty.let_go_on();
+  // The event's number and how many they were (EventLog).
+  const std::string line = "\te" + std::to_string(int(ui::LogEvent::RecordsExported)) + "\t1";
+  EXPECT_TRUE(
+      until([&] { return text_of_file(args.store / "relievo.log").find(line) != std::string::npos; }));
+  EXPECT_EQ(exported_on(stick()), "2");
+}
+
 TEST_F(StaffExportTest, OfAStickThatIsNotLetGoItIsSaidThatAllIsThere) {
   open_records({"Ada Lovelace", "Grace Hopper"});
   faulty.fail(FaultyStick::Fault::Held);

@@ -229,6 +229,86 @@ TEST_F(LockedStoreTest, APinThatCannotBeKeptIsNotCalledTooEasy) {
   EXPECT_EQ(access().step, ui::PinStep::Done);
 }
 
+// A store that does not answer about settings, a PIN's among them, until it may.
+class SlowStore final : public test::FaultyStore {
+ public:
+  SlowStore(std::unique_ptr<storage::Store> real, const std::atomic<bool>& held)
+      : FaultyStore(std::move(real), none_), held_(held) {}
+  Result<std::string> setting(std::string_view key) override {
+    held_.wait(true);
+    return FaultyStore::setting(key);
+  }
+
+ private:
+  std::atomic<std::optional<Errc>> none_;
+  const std::atomic<bool>& held_;
+};
+
+class SlowStoreTest : public StaffRoundTest {
+ protected:
+  SlowStoreTest() {
+    services.open_store = [this](const Path& at, bool) -> Result<std::unique_ptr<storage::Store>> {
+      RELIEVO_TRY_ASSIGN(auto real, storage::open_sqlite_store(at, wall(), {}));
+      return std::unique_ptr<storage::Store>(std::make_unique<SlowStore>(std::move(real), held));
+    };
+  }
+  void TearDown() override {
+    let_go_on();
+    kiosk.reset();
+  }
+  void type_pin_and_go(std::string_view pin) {
+    held = true;
+    for (const char digit : pin) tap("digit " + std::string(1, digit));
+    tap("pin done");
+    ASSERT_TRUE(kiosk->view().service->access.checking);
+    kiosk->feed({ui::Input::Kind::Back});
+    kiosk->turn();
+  }
+  void let_go_on() {
+    held = false;
+    held.notify_all();
+  }
+  void until_checked() {
+    let_go_on();
+    ASSERT_TRUE(until([this] { return !kiosk->view().service->access.checking; }));
+    kiosk->turn();
+  }
+  std::atomic<bool> held{false};
+};
+
+TEST_F(SlowStoreTest, ARightPinWhosePageWasLeftLetsInNobodyWhoComesNext) {
+  start();
+  first_start();
+  type_pin_and_go("4711");
+  EXPECT_FALSE(kiosk->ui().service().open);
+  until_checked();
+  EXPECT_EQ(kiosk->view().service->role, StaffRole::None);
+  EXPECT_EQ(kiosk->appliance().state(), State::Idle);
+  knock();
+  kiosk->turn();
+  EXPECT_EQ(kiosk->ui().service().page, StaffPage::Pin) << "the next one is asked for a PIN";
+  // And comes while the one before is still being checked.
+  type_pin_and_go("4711");
+  knock();
+  until_checked();
+  EXPECT_EQ(kiosk->view().service->role, StaffRole::None);
+  EXPECT_EQ(kiosk->ui().service().page, StaffPage::Pin);
+  sign_in("4711", StaffRole::Technician);
+}
+
+TEST_F(SlowStoreTest, ANewPinWhosePageWasLeftIsNotHalfChosenOnTheNextPage) {
+  start();
+  first_start();
+  sign_in("80526", StaffRole::Operator);
+  tap("open pins");
+  type_pin_and_go("2718");
+  tap("open pins");
+  until_checked();
+  EXPECT_EQ(kiosk->view().service->access.step, ui::PinStep::Own);
+  for (int twice = 0; twice < 2; ++twice) type_pin("2718");
+  EXPECT_EQ(kiosk->view().service->access.step, ui::PinStep::Done);
+}
+
 TEST_F(StaffRoundTest, TheLogSpeaksTheReadersLanguageAlsoOfWhatWasNotedBeforeARestart) {
   std::filesystem::create_directories(args.store);
   std::ofstream(args.store / kLogFile)

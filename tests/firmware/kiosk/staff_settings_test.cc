@@ -3,10 +3,13 @@
 //
 // The staff's settings through their page: in force at once, kept over a restart, checked, each by who may.
 #include <algorithm>
+#include <atomic>
+#include <optional>
 
 #include "firmware/service/device_settings.h"
 #include "firmware/service/retention.h"
 #include "tests/firmware/kiosk/staff_hands.h"
+#include "tests/support/faulty_store.h"
 #include "ui/view/staff_views.h"
 
 namespace relievo::firmware {
@@ -84,6 +87,50 @@ TEST_F(StaffSettingsTest, AValueThatIsNoneLeavesTheUsualOneAndIsTold) {
   for (const ui::LogLine& line : kiosk->view().service->log->lines)
     told += line.text.find("what is usual holds") != std::string_view::npos ? 1 : 0;
   EXPECT_EQ(told, 2);
+}
+
+// Takes its time over the next setting, and does not take it.
+class NextSettingFails final : public test::FaultyStore {
+ public:
+  using FaultyStore::FaultyStore;
+  Result<void> set_setting(std::string_view key, std::string_view value) override {
+    if (key != kDeviceSetting || !fails.exchange(false)) return FaultyStore::set_setting(key, value);
+    go_on.wait(false);
+    return Error{Errc::MediaFull, "as the test says"};
+  }
+  std::atomic<bool> fails{false}, go_on{false};
+};
+
+TEST_F(StaffSettingsTest, WhatCannotBeWrittenTakesNothingWithItThatCan) {
+  const std::atomic<std::optional<Errc>> none{};
+  NextSettingFails* store = nullptr;
+  services.open_store = [&](const Path& at, bool) -> Result<std::unique_ptr<storage::Store>> {
+    RELIEVO_TRY_ASSIGN(auto real, storage::open_sqlite_store(at, time, {}));
+    auto made = std::make_unique<NextSettingFails>(std::move(real), none);
+    store = made.get();
+    return std::unique_ptr<storage::Store>(std::move(made));
+  };
+  start();
+  first_start();
+  sign_in("4711", StaffRole::Technician);
+  tap("open settings");
+  const int before = kiosk->staff().settings().of(Setting::TextPercent);
+  store->fails = true;
+  tap("text_percent more");
+  tap("patience_s less");  // waits for the one before
+  store->go_on = true;
+  store->go_on.notify_all();
+  ASSERT_TRUE(until([this] { return kiosk->staff().settings().of(Setting::PatienceS) == 30; }));
+  EXPECT_EQ(kiosk->staff().settings().of(Setting::TextPercent), before) << "not written: it does not hold";
+  choose("staff_patience_s less", Setting::StaffPatienceS, 60);
+  EXPECT_EQ(kiosk->staff().settings().of(Setting::PatienceS), 30) << "written: it holds";
+  kiosk.reset();
+
+  start();
+  EXPECT_EQ(kiosk->staff().settings().of(Setting::TextPercent), before);
+  EXPECT_EQ(kiosk->staff().settings().of(Setting::PatienceS), 30);
+  EXPECT_EQ(kiosk->staff().settings().of(Setting::StaffPatienceS), 60);
+  kiosk.reset();  // before what its store borrows
 }
 
 // Erased by age: not while somebody is inside, not after the clock has jumped.

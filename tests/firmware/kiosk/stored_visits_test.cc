@@ -42,7 +42,7 @@ class StoredVisitsTest : public ApplianceTest {
   // Some turns of the kiosk, at that moment.
   void turns(MovedFaces& moved, const MovedFaces::Said& said, hal::Instant at) {
     for (int turn = 0; turn < 200; ++turn) {
-      moved.keep(7, said, side_tasks, log, at);
+      moved.keep(7, said.faces, said.note, side_tasks, log, at);
       side_tasks.turn();
       appliance.step(milliseconds(1));
     }

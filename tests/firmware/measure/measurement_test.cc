@@ -207,6 +207,13 @@ TEST(TruthView, RefusesWhatIsNone) {
     test::write_text(folder / "truth.bin", bad);
     EXPECT_EQ(TruthView::read(folder.path()).error().code, Errc::InvalidInput);
   }
+  // Another rig's: as wide, not as high.
+  test::write_text(folder / "truth.bin", whole);
+  auto rig = pipeline::read_calibration(folder / "rig.yml");
+  ASSERT_TRUE(rig);
+  rig->left.height_px = rig->right.height_px = kHeight / 2;
+  ASSERT_TRUE(pipeline::write_calibration(folder / "rig.yml", *rig));
+  EXPECT_EQ(TruthView::read(folder.path()).error().code, Errc::InvalidInput);
 }
 
 }  // namespace

@@ -85,7 +85,7 @@ class TechnicianRig {
   // Minutes are "never".
   template <typename Condition>
   bool until(Condition condition) {
-    for (int i = 0; i < 60'000 && !condition(); ++i) {
+    for (int i = 0; i < 300'000 && !condition(); ++i) {
       turn();
       std::this_thread::sleep_for(std::chrono::milliseconds(2));
     }

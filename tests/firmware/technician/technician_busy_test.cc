@@ -1,0 +1,175 @@
+// SPDX-FileCopyrightText: 2026 The Relievo authors
+// SPDX-License-Identifier: GPL-3.0-or-later
+//
+// The technician's pages while their threads are busy: what was asked for and has not begun when something
+// else is asked for, or when the technician leaves.
+#include "tests/firmware/technician/technician_fixture.h"
+
+#include <algorithm>
+#include <atomic>
+#include <filesystem>
+#include <memory>
+#include <string>
+
+#include "firmware/work/session_document.h"
+#include "hal/base/whole_file.h"
+#include "hal/sim/replay/folder_media.h"
+#include "storage/document/document.h"
+
+namespace relievo::firmware {
+namespace {
+
+// A thread that is busy with something else until it goes.
+class Busy {
+ public:
+  Busy(TechnicianRig& rig, JobLane lane) {
+    rig.side_tasks->send(
+        lane,
+        [held = held_](JobControl&) -> Result<void> {
+          held->wait(true);
+          return {};
+        },
+        [](const std::optional<Error>&) {}, SideTasks::Whose::Device);
+  }
+  ~Busy() {
+    held_->store(false);
+    held_->notify_all();
+  }
+  Busy(const Busy&) = delete;
+  Busy& operator=(const Busy&) = delete;
+
+ private:
+  std::shared_ptr<std::atomic<bool>> held_ = std::make_shared<std::atomic<bool>>(true);
+};
+
+// As StaffController does it.
+void sign_out(TechnicianRig& rig) {
+  rig.appliance->ask(ui::Intent::LeaveStaff);
+  rig.side_tasks->cancel();
+  rig.turn();
+  ASSERT_EQ(rig.appliance->state(), State::Idle);
+}
+
+void sign_in(TechnicianRig& rig) {
+  rig.appliance->ask(ui::Intent::OpenStaff);
+  rig.turn();
+  ASSERT_EQ(rig.appliance->state(), State::Staff);
+}
+
+TEST_F(TechnicianTest, WhatIsForVisitorsComesIntoUseThoughTheTechnicianLeavesMeanwhile) {
+  rig().open(StaffPage::Algorithms);
+  rig().tap(kind("matcher"));
+  rig().tap(name("zmncc"));
+  {
+    const Busy keeper(rig(), JobLane::Keeper);
+    rig().tap("apply");
+    sign_out(rig());
+  }
+  EXPECT_TRUE(rig().until([] { return rig().stages->algorithms().get("matcher") == "zmncc"; }));
+  sign_in(rig());
+  rig().open(StaffPage::Algorithms);
+  EXPECT_EQ(rig().now().choice.kinds[rig().now().choice.kind].value, "zmncc");
+  rig().tap("reset");
+  rig().tap("apply");
+  ASSERT_TRUE(rig().until([] { return rig().stages->algorithms().get("matcher") == "refined"; }));
+
+  // A calibration of before, likewise.
+  ASSERT_TRUE(rig().until([] { return !rig().side_tasks->busy(JobLane::Keeper); }));
+  ASSERT_TRUE(rig().store->save_calibration(*rig().stages->calibration(), "once more").has_value());
+  rig().open(StaffPage::Calibrate);
+  ASSERT_TRUE(rig().until([] { return rig().now().calibration.history_count > 1; }));
+  const std::uint32_t wanted = rig().now().calibration.history[1].revision;
+  rig().revision = 0;
+  {
+    const Busy keeper(rig(), JobLane::Keeper);
+    rig().tap("calibration 1");
+    sign_out(rig());
+  }
+  EXPECT_TRUE(rig().until([&] { return rig().revision == wanted; }));
+  EXPECT_EQ(rig().stages->calibration()->revision, wanted);
+  sign_in(rig());
+}
+
+TEST_F(TechnicianTest, WhatWentWrongWithACalibrationIsNotTheNextTechnicians) {
+  dynamic_cast<hal::FolderMedia&>(rig().device->media()).unplug();
+  rig().open(StaffPage::Calibrate);
+  rig().tap("calibration import");
+  ASSERT_TRUE(rig().until([] { return !rig().now().calibration.problem.empty(); }));
+  sign_out(rig());
+  sign_in(rig());
+  EXPECT_TRUE(rig().now().calibration.problem.empty());
+  rig().plug_in();
+}
+
+TEST_F(TechnicianTest, WhatIsSavedIsWhatWasThereWhenItWasAskedFor) {
+  capture();
+  rig().plug_in();
+  {
+    const Busy worker(rig(), JobLane::Worker);
+    rig().tap("save");
+    rig().open(StaffPage::Algorithms);
+    rig().tap(kind("mesher"));
+    rig().tap(name("delaunay"));
+    rig().test_capture->act(ui::RunStages{});
+    ASSERT_EQ(rig().now().phase, TechnicianPhase::Running);
+  }
+  ASSERT_TRUE(rig().until([] { return finished() && rig().now().recording.outcome != ui::Outcome::None; }));
+  ASSERT_EQ(rig().now().recording.outcome, ui::Outcome::Done);
+  const auto saved = read_whole_file(rig().stick() / rig().now().recording.where, 1U << 30);
+  ASSERT_TRUE(saved);
+  const auto document = storage::Document::open(*saved);
+  ASSERT_TRUE(document);
+  const auto making = making_of(*document);
+  ASSERT_TRUE(making);
+  EXPECT_EQ(making->set.get("mesher"), "grid");
+  EXPECT_EQ(making->records.size(), document->head().stages.size());
+  rig().tap("reset");
+  rig().plug_in();
+}
+
+TEST_F(TechnicianTest, ASaveThatIsStoppedBeforeItIsOnTheStickIsNotThere) {
+  capture();
+  rig().plug_in();
+  const auto saved = [] { return test::listing(rig().stick()); };
+  const std::string before = saved();
+  {
+    const Busy worker(rig(), JobLane::Worker);
+    rig().tap("save");
+    rig().test_capture->act(ui::DoTechnician{ui::TechnicianAct::StopRecording});
+  }
+  ASSERT_TRUE(rig().until([] { return rig().now().recording.outcome != ui::Outcome::None; }));
+  EXPECT_EQ(rig().now().recording.outcome, ui::Outcome::Cancelled);
+  EXPECT_EQ(saved(), before);
+}
+
+TEST_F(TechnicianTest, WhatIsLoadedWhileARunGoesOnIsThereAfterIt) {
+  capture();
+  rig().plug_in();
+  rig().tap("save");
+  ASSERT_TRUE(rig().until([] { return rig().now().recording.outcome != ui::Outcome::None; }));
+  const std::string document = std::filesystem::path(rig().now().recording.where).stem().string();
+  rig().plug_in();
+  rig().tap("list saved");
+  ASSERT_TRUE(rig().until([] { return rig().shows("saved 0"); }));
+  const auto& names = rig().now().saved.names;
+  const auto row = std::ranges::find_if(names, [&](const auto& one) { return one.starts_with(document); });
+  ASSERT_NE(row, names.end());
+  {
+    const Busy worker(rig(), JobLane::Worker);
+    {
+      const Busy keeper(rig(), JobLane::Keeper);
+      rig().test_capture->act(ui::LoadSaved{std::size_t(row - names.begin()), true});
+      rig().test_capture->act(ui::RunStages{});
+      ASSERT_EQ(rig().now().phase, TechnicianPhase::Running);
+    }
+    ASSERT_TRUE(rig().until([] { return !rig().side_tasks->busy(JobLane::Keeper); }));
+  }
+  EXPECT_TRUE(rig().until([&] {
+    return finished() && rig().now().put_aside == 1 && rig().now().result.name == document;
+  })) << "and what there was stands beside it";
+  rig().open(StaffPage::Compare);
+  rig().tap("drop 0");
+}
+
+}  // namespace
+}  // namespace relievo::firmware
