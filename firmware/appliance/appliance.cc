@@ -172,7 +172,7 @@ void Appliance::failed(const Error& error) {
 // entered. Failed: the frontal picture did.
 void Appliance::heard_head(const JobReport& report) {
   head_job_ = 0;
-  records_.insert(records_.end(), head_.records().begin(), head_.records().end());
+  for (const StageRecord& one : head_.records()) keep_record(one);
   if (session_.products().drift) note(*session_.products().drift);
   if (report.error) return failed(*report.error);
   if (machine_.state() == State::Fuse) handle(Event::StageDone);
@@ -199,7 +199,7 @@ void Appliance::heard(const JobReport& report) {
     return;
   }
   const State state = machine_.state();
-  if (stage_.record().name == name_of(state)) records_.push_back(stage_.record());
+  if (stage_.record().name == name_of(state)) keep_record(stage_.record());
   if (state == State::Match && session_.products().drift) note(*session_.products().drift);
   // What goes wrong while the sides are taken costs them, never the face.
   const bool sides_end = state == State::Turn && report.error;

@@ -132,6 +132,11 @@ class Appliance {
   void close_session();
   void heard_answer();
   void look_at_progress();
+  // A visitor may retake for ever: without more memory the eldest make room.
+  void keep_record(const StageRecord& one) {
+    if (records_.size() == records_.capacity()) records_.erase(records_.begin());
+    records_.push_back(one);
+  }
   void note(const pipeline::DriftJudgement& drift);
 
   hal::Device& device_;

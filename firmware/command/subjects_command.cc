@@ -96,11 +96,12 @@ Result<void> export_newest(storage::Store& store, const storage::Subject& subjec
                            ": " + args.output.string();
   std::pmr::monotonic_buffer_resource memory;
   RELIEVO_TRY_ASSIGN(const pipeline::FaceModel model, store.load_model(newest.id, &memory));
+  const auto images = pipeline::make_recognition_images(model, memory, memory);
   // Whoever opens the copy would not know that its portrait and range image are missing.
-  RELIEVO_TRY_ASSIGN(const auto images, pipeline::make_recognition_images(model, memory, memory));
+  if (!images && images.error().code == Errc::OutOfMemory) return images.error();
   storage::ExportOptions options(storage::ExportFrame::Head);
   options.version = kVersion;
-  options.images = &images;
+  if (images) options.images = &*images;
   if (!args.recipient.empty() || !args.passphrase.empty()) {
     RELIEVO_TRY_ASSIGN(auto files, storage::make_model_files(model, options));
     const auto report = std::as_bytes(std::span(newest.report_json));

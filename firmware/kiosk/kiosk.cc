@@ -148,14 +148,14 @@ std::unique_ptr<TestCapture> Kiosk::make_test_capture(const KioskArgs& args, Ser
       return hold(held);
     };
   }
-  return std::make_unique<TestCapture>(
-      TestCapture::Parts{*appliance_, staff_->side_tasks(), *device_, *stages_, *pool_, *store_,
-                         std::move(show), [this](const pipeline::StereoCalibration& calibration) {
-                           revision_ = calibration.revision;
-                           judge_->use(calibration);
-                           appliance_->grabber().expect(calibration.cameras);
-                           appliance_->calibrated_anew();
-                         }});
+  return std::make_unique<TestCapture>(TestCapture::Parts{
+      *appliance_, staff_->side_tasks(), *device_, *stages_, *pool_, *store_, staff_->log(), std::move(show),
+      [this](const pipeline::StereoCalibration& calibration) {
+        revision_ = calibration.revision;
+        judge_->use(calibration);
+        appliance_->grabber().expect(calibration.cameras);
+        appliance_->calibrated_anew();
+      }});
 }
 
 VisitRecord Kiosk::record_of(const ui::VisitRequest& request) const {

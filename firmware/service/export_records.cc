@@ -50,13 +50,14 @@ class Export {
     std::pmr::monotonic_buffer_resource memory;
     RELIEVO_TRY_ASSIGN(const pipeline::FaceModel model, store_.load_model(enrolments.back().id, &memory));
     const auto images = pipeline::make_recognition_images(model, memory, memory);
+    if (!images && images.error().code == Errc::OutOfMemory) return images.error();
     RELIEVO_TRY(work_.reach(ExportStep::Write, done + 0.15F * share));
     RELIEVO_TRY_ASSIGN(const fs::path target,
                        place_on_stick(root, fs::path("relievo") / receipt_of(subject)));
     RELIEVO_TRY_ASSIGN(OutputFolder folder, OutputFolder::begin(target));
     storage::ExportOptions options(storage::ExportFrame::Head);
     options.version = kVersion;
-    if (images) options.images = &*images;  // a head without eyes has none, and is still its person's record
+    if (images) options.images = &*images;  // without a surface there are none
     RELIEVO_TRY(storage::write_model_files(model, folder.path(), options));
     RELIEVO_TRY(work_.reach(ExportStep::Write, done + 0.35F * share));
     RELIEVO_TRY(

@@ -23,6 +23,7 @@
 #include "firmware/base/list_walk.h"
 #include "firmware/calibrate/calibrate_live.h"
 #include "firmware/capture/live_feed.h"
+#include "firmware/records/event_log.h"
 #include "firmware/service/side_tasks.h"
 #include "firmware/work/jobs.h"
 #include "firmware/work/pipeline_stages.h"
@@ -88,6 +89,7 @@ class CalibrationController {
     CalibrateJob& job;
     PipelineStages& stages;  // replaced when another calibration comes into use
     storage::Store& store;
+    EventLog& log;
     SideTasks& side_tasks;
     hal::RemovableMedia& media;
     std::function<void(const pipeline::StereoCalibration&)> in_use;  // told when one did

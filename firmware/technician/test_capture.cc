@@ -24,7 +24,7 @@ TestCapture::TestCapture(Parts parts)
       watch_(parts_.appliance.grabber(), session_, parts_.device),
       calibrate_(parts_.appliance.grabber(), session_, parts_.device, parts_.pool,
                  std::move(parts_.show_boards)),
-      calibrations_({parts_.appliance, calibrate_, parts_.stages, parts_.store, parts_.side_tasks,
+      calibrations_({parts_.appliance, calibrate_, parts_.stages, parts_.store, parts_.log, parts_.side_tasks,
                      parts_.device.media(), std::move(parts_.in_use)}),
       recording_(parts_.side_tasks, parts_.device) {
   algorithms_.begin(parts_.stages.algorithms());
@@ -316,7 +316,11 @@ void TestCapture::apply_set() {
       },
       [this, made, visit = visit_](const std::optional<Error>& error) {
         if (!error) calibrations_.use(*std::move(*made), false);
-        if (visit != visit_) return;
+        if (visit != visit_) {
+          if (error) parts_.log.fault(*error);
+          else if (!left_) algorithms_.begin(calibrations_.algorithms());
+          return;
+        }
         applying_ = false;
         if (error) return say(*error);
         applied_ = true;

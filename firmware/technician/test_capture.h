@@ -21,6 +21,7 @@
 #include <string>
 
 #include "firmware/appliance/appliance.h"
+#include "firmware/records/event_log.h"
 #include "firmware/service/side_tasks.h"
 #include "firmware/technician/algorithm_controller.h"
 #include "firmware/technician/calibration_controller.h"
@@ -43,6 +44,7 @@ class TestCapture {
     PipelineStages& stages;
     ThreadPool& pool;
     storage::Store& store;
+    EventLog& log;
     ShowBoards show_boards;                                          // see CalibrateJob
     std::function<void(const pipeline::StereoCalibration&)> in_use;  // another calibration is
   };

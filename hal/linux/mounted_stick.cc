@@ -123,13 +123,18 @@ std::optional<Medium> MountedStick::find() const {
   return std::nullopt;
 }
 
-std::optional<Medium> MountedStick::current() { return find(); }
+std::optional<Medium> MountedStick::current() {
+  const std::lock_guard lock(mutex_);
+  return find();
+}
 
 Result<void> MountedStick::flush_and_eject() {
-  const std::lock_guard lock(mutex_);
+  std::unique_lock lock(mutex_);
   const auto medium = find();
   if (!medium) return Error{Errc::MediaMissing, "there is no stick to eject"};
+  lock.unlock();  // a slow stick must not hold who asks
   const int flushed = mounts_.flush(medium->root);
+  lock.lock();  // who looks into a stick keeps it from being unmounted
   if (flushed == -ENOENT || flushed == -ENODEV)
     return Error{Errc::MediaMissing, "the stick is gone", -flushed}.at(medium->root.native());
   if (flushed < 0)

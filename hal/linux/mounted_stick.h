@@ -43,8 +43,7 @@ class MountedStick final : public RemovableMedia {
   explicit MountedStick(std::filesystem::path folder, Mounts& mounts = real_mounts())
       : folder_(std::move(folder)), mounts_(mounts) {}
 
-  // Of several sticks the first by name. It asks the system alone and waits for nobody: a slow stick may be
-  // flushed meanwhile, and the main thread asks.
+  // Of several sticks the first by name. It waits for an unmount, never for a flush: the main thread asks.
   std::optional<Medium> current() override;
   // Errors: MediaMissing (none, or pulled out meanwhile), IoFailed (not flushed: nothing written can be
   // trusted; still in use; not allowed).
@@ -58,8 +57,8 @@ class MountedStick final : public RemovableMedia {
     MountSource source;
     std::filesystem::path root;
   };
-  std::optional<Medium> find() const;  // touches nothing that changes
-  std::mutex mutex_;                   // one ejection or mount at a time; ejected_
+  std::optional<Medium> find() const;  // with mutex_
+  std::mutex mutex_;                   // nobody looks into a stick while it is unmounted or mounted; ejected_
   std::optional<Ejected> ejected_;
   std::filesystem::path folder_;
   Mounts& mounts_;

@@ -106,7 +106,8 @@ void read_wires(Words& words, LinuxDeviceOptions& options) {
     options.timing.lamp_on_trigger_wire = words.get<bool>(*lamp, "on_trigger_wire", false);
     options.timing.lamp_lead = std::chrono::microseconds(words.number(*lamp, "lead_us", 0, longest, 0));
     options.timing.lamp_time = std::chrono::microseconds(words.number(*lamp, "time_us", 0, longest, 0));
-    if (options.timing.lamp_time.count() > 0 && options.timing.lamp_time <= options.timing.lamp_lead)
+    if (!options.timing.lamp_on_trigger_wire && options.timing.lamp_time.count() > 0 &&
+        options.timing.lamp_time <= options.timing.lamp_lead)
       words.wrong(lamp->get("time_us"), "time_us: longer than lead_us, or the cameras expose in the dark");
     if (options.timing.lamp_on_trigger_wire && lamp->contains("line"))
       words.wrong(lamp->get("line"), "line: none with on_trigger_wire = true");

@@ -152,8 +152,6 @@ Result<void> V4l2Camera::wait(Instant deadline) {
     return device_error(events, {Errc::IoFailed, "the camera cannot be waited for"});
   if (events > 0 && (events & POLLHUP) != 0)
     return device_error(-ENODEV, {Errc::Disconnected, "the camera is gone: check its plug"});
-  // Whatever it tells: a driver may announce a picture, or an error, that it does not give.
-  if (clock_.now() >= deadline) return Error{Errc::Timeout, "no picture came: check the trigger wire"};
   return {};  // a picture, an error that taking it will tell, or a signal: look again
 }
 
@@ -161,7 +159,10 @@ Result<Frame> V4l2Camera::do_next_frame(Instant deadline) {
   if (all_lent()) return Error{Errc::Timeout, "every buffer of this camera is lent out; give a frame back"};
   v4l2_buffer buffer = empty_buffer(0);
   for (int r = -EAGAIN; r != 0;) {
+    const bool last = clock_.now() >= deadline;  // what came at the last moment is taken
     r = call(kernel_, file_, VIDIOC_DQBUF, &buffer);
+    // Whatever poll tells: a driver may announce a picture, or an error, that it does not give.
+    if (r == -EAGAIN && last) return Error{Errc::Timeout, "no picture came: check the trigger wire"};
     if (r == -EAGAIN) RELIEVO_TRY(wait(deadline));
     else if (r < 0) return device_error(r, {Errc::IoFailed, "the camera's stream broke off"});
   }

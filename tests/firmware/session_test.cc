@@ -1,6 +1,7 @@
 // SPDX-FileCopyrightText: 2026 The Relievo authors
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "firmware/session/session.h"
+#include "storage/record.h"
 
 #include <gtest/gtest.h>
 
@@ -9,7 +10,6 @@
 #include <string>
 #include <utility>
 #include <vector>
-#include "storage/record.h"
 
 namespace relievo::firmware {
 namespace {

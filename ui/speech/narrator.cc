@@ -225,9 +225,8 @@ Cue cue(const Cues& before, const Cues& now) {
   if (other_step && now.step == Step::Thanks) return Cue::Done;
   const bool begun = before.step != Step::Starting && before.step != Step::Attract;
   if (other_step && now.step == Step::Trouble && begun) return Cue::Refused;
-  if (before.trouble != now.trouble &&
-      (now.trouble == Trouble::Storage || now.trouble == Trouble::StorageFull))
-    return Cue::Refused;
+  const auto not_stored = [](Trouble t) { return t == Trouble::Storage || t == Trouble::StorageFull; };
+  if (!not_stored(before.trouble) && not_stored(now.trouble)) return Cue::Refused;
   if (other_screen && now.screen == Screen::Position && now.trouble == Trouble::Refused) return Cue::Refused;
   // Only what is over was taken.
   if (before.screen == Screen::Capture && (now.screen == Screen::Turn || now.screen == Screen::Match))

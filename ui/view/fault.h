@@ -24,6 +24,7 @@ struct FaultView {
   FaultView() = default;
   FaultView(Errc whose, std::string_view what) : code(whose), detail(what) {}
   FaultView(const Fault& fault) : code(fault.code), detail(fault.detail) {}
+  FaultView(Fault&&) = delete;  // it would not outlive this
   Errc code = Errc::InvalidState;
   std::string_view detail;
   bool empty() const { return detail.empty(); }

@@ -3,6 +3,7 @@
 #include "firmware/service/page/records_controller.h"
 
 #include <algorithm>
+#include <exception>
 
 #include "firmware/base/wall_time.h"
 #include "firmware/records/receipt.h"
@@ -251,13 +252,21 @@ void RecordsController::take_out(std::int64_t number) {
   services().side_tasks.send(
       JobLane::Keeper,
       [this, subjects = std::move(subjects), further, trace](JobControl& control) {
-        const Result<void> done =
-            export_records(services().store, services().device.clock(), services().device.media(), subjects,
-                           further, control, *trace);
         // Here, since nobody hears the end of what was cancelled: these records lie on a stick.
-        if (trace->whole > 0)
-          services().log.say(ui::LogEvent::RecordsExported, {std::to_string(trace->whole)});
-        return done;
+        const auto told = [&] {
+          if (trace->whole > 0)
+            services().log.say(ui::LogEvent::RecordsExported, {std::to_string(trace->whole)});
+        };
+        try {
+          const Result<void> done =
+              export_records(services().store, services().device.clock(), services().device.media(), subjects,
+                             further, control, *trace);
+          told();
+          return done;
+        } catch (const std::exception&) {
+          told();
+          throw;
+        }
       },
       [this, trace, visit = visit_](const std::optional<Error>& error) {
         if (visit == visit_) exported(error, *trace);

@@ -3,9 +3,9 @@
 //
 // RefinedMatcher ("refined", the default): coarse semi-global matching blind to exposure, then one
 // least-squares surface over the whole face, refined from a quarter of the size to full size.
-// See coarse_surface.h and surface_refiner.h. sigma_px is the posterior of the fit; cost is one minus
-// the local correlation of the warped views. Keypoints may lie anywhere; on DenseSelector's lattice no
-// interpolation is needed.
+// See coarse_surface.h and surface_refiner.h. sigma_px is the posterior of the fit, more where skin
+// mirrors lamps (RectifiedView::mirrored); cost is one minus the local correlation of the warped views.
+// Keypoints may lie anywhere; on DenseSelector's lattice no interpolation is needed.
 #pragma once
 
 #include <memory_resource>

@@ -110,7 +110,7 @@ class TracesStay final : public test::FaultyStore {
 };
 
 TEST_F(StaffEraseTest, WhileAnotherProgramReadsTheyAreErasedAllTheSame) {
-  const std::atomic<std::optional<Errc>> none{};
+  static const std::atomic<std::optional<Errc>> none{};  // outlives the kiosk
   services.open_store = [&](const Path& at, bool) -> Result<std::unique_ptr<storage::Store>> {
     RELIEVO_TRY_ASSIGN(auto real, storage::open_sqlite_store(at, wall(), {}));
     return std::unique_ptr<storage::Store>(std::make_unique<TracesStay>(std::move(real), none));

@@ -102,7 +102,7 @@ class NextSettingFails final : public test::FaultyStore {
 };
 
 TEST_F(StaffSettingsTest, WhatCannotBeWrittenTakesNothingWithItThatCan) {
-  const std::atomic<std::optional<Errc>> none{};
+  static const std::atomic<std::optional<Errc>> none{};  // outlives the kiosk
   NextSettingFails* store = nullptr;
   services.open_store = [&](const Path& at, bool) -> Result<std::unique_ptr<storage::Store>> {
     RELIEVO_TRY_ASSIGN(auto real, storage::open_sqlite_store(at, time, {}));

@@ -13,6 +13,7 @@
 #include <memory>
 #include <thread>
 
+#include "firmware/records/event_log.h"
 #include "firmware/technician/test_capture.h"
 #include "firmware/work/pipeline_stages.h"
 #include "hal/monotonic_clock.h"
@@ -51,7 +52,7 @@ class TechnicianRig {
     appliance = std::make_unique<Appliance>(Appliance::Parts{*device, *stages, memory, pool, records});
     side_tasks = std::make_unique<SideTasks>(*appliance);
     test_capture = std::make_unique<TestCapture>(TestCapture::Parts{
-        *appliance, *side_tasks, *device, *stages, pool, *store, show_boards,
+        *appliance, *side_tasks, *device, *stages, pool, *store, log, show_boards,
         [this](const pipeline::StereoCalibration& in_use) { revision = in_use.revision; }});
     EXPECT_TRUE(until([&] { return appliance->state() == State::Idle; }));
     appliance->ask(ui::Intent::OpenStaff);
@@ -132,6 +133,7 @@ class TechnicianRig {
 
   ::relievo::test::TemporaryFolder folder;
   hal::MonotonicClock clock;
+  EventLog log{clock, {}};
   BootMemory memory;
   ThreadPool pool{2};
   std::unique_ptr<hal::Device> device;

@@ -71,11 +71,15 @@ TEST_F(CueTest, WhatFailsIsHeardAndIsNoShutter) {
   EXPECT_EQ(at(Screen::Capture, Step::Working), Cue::None);
   EXPECT_EQ(at(Screen::Idle, Step::Trouble), Cue::Refused) << "not at all";
   EXPECT_EQ(at(Screen::Idle, Step::Attract), Cue::None);
-  at(Screen::Review, Step::Review);
-  view.trouble = Trouble::Storage;
-  EXPECT_EQ(hear(), Cue::Refused);
-  EXPECT_EQ(hear(), Cue::None);
-  at(Screen::Idle, Step::Attract);
+  for (const Trouble trouble : {Trouble::Storage, Trouble::StorageFull}) {
+    view.trouble = Trouble::None;
+    at(Screen::Review, Step::Review);
+    view.trouble = trouble;
+    EXPECT_EQ(hear(), Cue::Refused);
+    EXPECT_EQ(hear(), Cue::None);
+    view.trouble = Trouble::Storage;  // as the machine has it once the visitor has left
+    EXPECT_EQ(at(Screen::Idle, Step::Attract), Cue::None) << "told already";
+  }
   view.trouble = Trouble::None;
   EXPECT_EQ(at(Screen::Idle, Step::Trouble), Cue::None) << "nobody has begun";
 }

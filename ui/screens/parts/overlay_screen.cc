@@ -127,8 +127,6 @@ void help(Page& page) {
   words.box.scroll = words.box.shrink = true;
   page.tree.open(words);
   page.body("overlay_text", help_for(page));
-  if (page.visit.step == Step::Position && page.view.settings.is_on(Setting::Automatic))
-    page.body("overlay_itself", page.tr("The picture is taken by itself"));
   if (page.visit.step == Step::Name)
     page.body("overlay_code",
               page.tr("You can also hold a QR code with your name or number up to the cameras."));
