@@ -29,8 +29,8 @@ inline constexpr std::size_t kStereoSlots =
 
 // --- memory -------------------------------------------------------------------------------------
 // The appliance's block by the size of its cameras' pictures. What lies on a picture's lattice grows with
-// them; what lies on the head does not. Measured at 1920 x 1200 with every algorithm: products 96 MiB (with
-// the completed head 137), scratch of one pair 183, of a head of six pairs 241 (completed 325), a pose 21
+// them; what lies on the head does not. Measured at 1920 x 1200 with every algorithm: products 100 MiB (with
+// the completed head 141), scratch of one pair 183, of a head of six pairs 241 (completed 325), a pose 21
 // to 24.
 struct MemoryPlan {
   std::size_t frames = 0, products = 0, scratch = 0;
