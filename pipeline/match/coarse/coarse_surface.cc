@@ -42,58 +42,6 @@ Surfaces label_surfaces(const Plane<float>& d, const Plane<std::uint8_t>& allowe
   return found;
 }
 
-// Holes that the surface encloses are bridged smoothly, so that refinement can look there: highlights
-// and plain skin fail the cross-check and may still be found from their surroundings. What the finer
-// pictures do not confirm keeps a large sigma and goes; what is hidden from the right view breaks the
-// uniqueness rule and goes.
-// `usable`: where a hole may lie; `largest`: nodes it may have.
-void bridge_holes(const Plane<std::uint8_t>& usable, int largest, Plane<std::uint8_t>& domain,
-                  Plane<float>& disparity, std::pmr::memory_resource& scratch) {
-  const int w = domain.width;
-  const int h = domain.height;
-  Plane<std::uint8_t> seen(&scratch, w, h);
-  std::pmr::vector<int> hole(&scratch);
-  hole.reserve(seen.values.size());
-  for (int seed = 0; seed < w * h; ++seed) {
-    if (seen.values[std::size_t(seed)] != 0 || domain.values[std::size_t(seed)] != 0) continue;
-    hole.clear();
-    hole.push_back(seed);
-    seen.values[std::size_t(seed)] = 1;
-    bool enclosed = true;
-    double sum = 0;
-    double rim = 0;
-    for (std::size_t next = 0; next < hole.size(); ++next) {
-      const int k = hole[next];
-      const int x = k % w;
-      const int y = k / w;
-      if (x == 0 || y == 0 || x == w - 1 || y == h - 1 || usable.values[std::size_t(k)] == 0) {
-        enclosed = false;
-        continue;
-      }
-      for (const int n : {k - 1, k + 1, k - w, k + w}) {
-        const auto at = std::size_t(n);
-        if (domain.values[at] == 1) {
-          sum += double(disparity.values[at]);
-          ++rim;
-        } else if (seen.values[at] == 0) {
-          seen.values[at] = 1;
-          hole.push_back(n);
-        }
-      }
-    }
-    if (!enclosed || int(hole.size()) > largest || rim == 0) continue;
-    for (const int k : hole) disparity.values[std::size_t(k)] = float(sum / rim);
-    // A soap film over the rim; a few dozen sweeps do for holes this small.
-    for (int sweep = 0; sweep < 60; ++sweep)
-      for (const int k : hole) {
-        const float* d = disparity.values.data() + k;
-        disparity.values[std::size_t(k)] = 0.25F * (d[-1] + d[1] + d[-w] + d[w]);
-      }
-    for (const int k : hole) domain.values[std::size_t(k)] = 2;  // not a rim for the next hole
-  }
-  for (std::uint8_t& inside : domain.values) inside = inside != 0 ? 1 : 0;
-}
-
 constexpr int kLevel = 1;       // the field's
 constexpr int kCoarsest = 2;    // where all depths of the box are tried
 constexpr int kBand = 24;       // of half the size, around what was found there
@@ -230,6 +178,55 @@ SizeLadder ladder_for(const CoarseSurfaceOptions& options, bool scene, int fines
 }
 
 }  // namespace
+
+void bridge_holes(const Plane<std::uint8_t>& usable, int largest, Plane<std::uint8_t>& domain,
+                  Plane<float>& disparity, std::pmr::memory_resource& scratch) {
+  const int w = domain.width;
+  const int h = domain.height;
+  const auto outside = [&](int k) {
+    const int x = k % w;
+    const int y = k / w;
+    return x == 0 || y == 0 || x == w - 1 || y == h - 1 || usable.values[std::size_t(k)] == 0;
+  };
+  Plane<std::uint8_t> seen(&scratch, w, h);
+  std::pmr::vector<int> hole(&scratch);
+  hole.reserve(seen.values.size());
+  for (int seed = 0; seed < w * h; ++seed) {
+    if (seen.values[std::size_t(seed)] != 0 || domain.values[std::size_t(seed)] != 0 || outside(seed))
+      continue;
+    hole.clear();
+    hole.push_back(seed);
+    seen.values[std::size_t(seed)] = 1;
+    bool enclosed = true;
+    double sum = 0;
+    double rim = 0;
+    for (std::size_t next = 0; next < hole.size(); ++next) {
+      const int k = hole[next];
+      for (const int n : {k - 1, k + 1, k - w, k + w}) {
+        const auto at = std::size_t(n);
+        if (domain.values[at] == 1) {
+          sum += double(disparity.values[at]);
+          ++rim;
+        } else if (outside(n)) {
+          enclosed = false;
+        } else if (seen.values[at] == 0) {
+          seen.values[at] = 1;
+          hole.push_back(n);
+        }
+      }
+    }
+    if (!enclosed || int(hole.size()) > largest || rim == 0) continue;
+    for (const int k : hole) disparity.values[std::size_t(k)] = float(sum / rim);
+    // A soap film over the rim; a few dozen sweeps do for holes this small.
+    for (int sweep = 0; sweep < 60; ++sweep)
+      for (const int k : hole) {
+        const float* d = disparity.values.data() + k;
+        disparity.values[std::size_t(k)] = 0.25F * (d[-1] + d[1] + d[-w] + d[w]);
+      }
+    for (const int k : hole) domain.values[std::size_t(k)] = 2;  // not a rim for the next hole
+  }
+  for (std::uint8_t& inside : domain.values) inside = inside != 0 ? 1 : 0;
+}
 
 Result<void> search_edges(const RectifiedPair& pair, const Pyramids& pyramids,
                           const CoarseSurfaceOptions& options, StageContext& context, SurfaceField& field) {

@@ -45,4 +45,12 @@ Result<void> find_coarse_surface(const RectifiedPair& pair, const Pyramids& pyra
 Result<void> search_edges(const RectifiedPair& pair, const Pyramids& pyramids,
                           const CoarseSurfaceOptions& options, StageContext& context, SurfaceField& field);
 
+// Bridges the holes that the surface encloses smoothly, so that refinement can look there: highlights and
+// plain skin fail the cross-check and may still be found from their surroundings. What the finer pictures do
+// not confirm keeps a large sigma and goes; what is hidden from the right view breaks the uniqueness rule and
+// goes. `usable`: where a hole may lie, `largest`: nodes it may have; a hole at the rim of the picture, or
+// beside what is not usable, is open and stays. Thread: any.
+void bridge_holes(const Plane<std::uint8_t>& usable, int largest, Plane<std::uint8_t>& domain,
+                  Plane<float>& disparity, std::pmr::memory_resource& scratch);
+
 }  // namespace relievo::pipeline
