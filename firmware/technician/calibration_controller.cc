@@ -165,6 +165,7 @@ void CalibrationController::act(const ui::TechnicianRequest& request) {
   const auto* alone = std::get_if<ui::DoTechnician>(&request);
   if (alone == nullptr) return;
   if (alone->act == ui::TechnicianAct::SwitchCharuco) board_.charuco = !board_.charuco;
+  if (alone->act == ui::TechnicianAct::SwitchMountedAnew) mounted_anew_ = !mounted_anew_;
   if (alone->act == ui::TechnicianAct::StoreCalibration) store();
   if (alone->act == ui::TechnicianAct::ExportCalibration) export_in_use();
   if (alone->act == ui::TechnicianAct::ImportCalibration) import_one();
@@ -188,7 +189,8 @@ void CalibrationController::change_board(const ui::ChangeBoard& change) {
 CalibrateJob::Order CalibrationController::order() const {
   CalibrateJob::Order order;
   order.board = board_;
-  if (const auto* in_use = parts_.stages.calibration()) order.in_use = *in_use;
+  const auto* in_use = parts_.stages.calibration();
+  if (in_use != nullptr && !mounted_anew_) order.in_use = *in_use;
   return order;
 }
 
@@ -287,6 +289,7 @@ void CalibrationController::adopt(std::function<Result<std::uint32_t>()> first) 
       },
       [this, made, visit = visit_](const std::optional<Error>& error) {
         if (!error) use(*std::move(made->pipeline), true);
+        if (!error) mounted_anew_ = false;
         if (visit != visit_) return error ? parts_.log.fault(*error) : void();
         busy_ = false;
         problem_ = error ? ui::fault_of(*error) : ui::Fault{};
@@ -351,6 +354,7 @@ ui::TechnicianCalibration CalibrationController::view() {
   view.rows = board_.corners_down;
   view.square_mm = float(board_.square_mm);
   view.charuco = board_.charuco;
+  view.mounted_anew = mounted_anew_;
   view.running = running_;
   view.ended = ended_;
   view.stored = stored_;
@@ -378,7 +382,7 @@ ui::TechnicianCalibration CalibrationController::view() {
 void CalibrationController::forget() {
   ++visit_;
   parts_.job.wipe();
-  running_ = ended_ = stored_ = busy_ = false;
+  running_ = ended_ = stored_ = busy_ = mounted_anew_ = false;
   problem_ = {};
   reasons_.clear();
   views_px_.clear();

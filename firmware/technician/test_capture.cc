@@ -105,6 +105,7 @@ void TestCapture::act_alone(TechnicianAct act) {
     case TechnicianAct::LeaveSaved: return recording_.hide();
     case TechnicianAct::StoreCalibration:  // the calibrations' own
     case TechnicianAct::SwitchCharuco:
+    case TechnicianAct::SwitchMountedAnew:
     case TechnicianAct::ExportCalibration:
     case TechnicianAct::ImportCalibration:
     case TechnicianAct::EraseDigit:  // the algorithms' own

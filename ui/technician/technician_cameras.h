@@ -48,6 +48,7 @@ struct TechnicianCalibration {
   int columns = 10, rows = 7;
   float square_mm = 20;
   bool charuco = false;
+  bool mounted_anew = false;  // the next one may find the cameras at another distance
   bool running = false, ended = false, stored = false;
   std::array<TechnicianPicture, 2> pictures;  // with the corners and the wanted board drawn in
   pipeline::LiveAdvice advice = pipeline::LiveAdvice::ShowBoard;

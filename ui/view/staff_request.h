@@ -113,6 +113,7 @@ enum class TechnicianAct : std::uint8_t {
   CancelCalibration,
   StoreCalibration,
   SwitchCharuco,      // the other kind of board
+  SwitchMountedAnew,  // the next calibration may find the cameras at another distance than the last
   ExportCalibration,  // the one in use, to the stick
   ImportCalibration,  // from the stick: stored, and in use
   Record,             // the test capture, on the stick

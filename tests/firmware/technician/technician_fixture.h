@@ -34,6 +34,18 @@ class TechnicianTest : public testing::Test {
     ASSERT_EQ(rig().now().phase, TechnicianPhase::Ready) << rig().now().problem.detail;
     ASSERT_EQ(rig().now().result.failure.detail, "");
   }
+  static void calibrate() {
+    rig().tap("calibration begin");
+    ASSERT_TRUE(rig().until([] { return rig().appliance->state() == State::Calibrate; }));
+    ASSERT_TRUE(rig().until([] { return rig().now().calibration.views > 0; }));
+    EXPECT_FALSE(rig().now().calibration.pictures[0].pixels.empty());
+    EXPECT_TRUE(rig().shows("advice"));
+    ASSERT_TRUE(
+        rig().until([] { return rig().now().calibration.views >= 7 || !rig().now().calibration.running; }));
+    if (rig().now().calibration.running) rig().tap("calibration finish");
+    ASSERT_TRUE(rig().until([] { return rig().now().calibration.ended; }))
+        << rig().now().calibration.problem.detail;
+  }
   static void again() {
     rig().tap("run");
     ASSERT_TRUE(rig().until(finished));

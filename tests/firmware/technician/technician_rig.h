@@ -31,10 +31,6 @@ namespace relievo::firmware::test_technician {
 
 constexpr double kScale = 0.4, kBoardScale = 0.25;  // of the rig's pictures
 
-inline Result<std::unique_ptr<LivePairs>> show_boards(const BoardArgs& args) {
-  return make_hand_pairs(held_board(test::small_rig(kBoardScale), args), 1);
-}
-
 class TechnicianRig {
  public:
   TechnicianRig() {
@@ -52,7 +48,10 @@ class TechnicianRig {
     appliance = std::make_unique<Appliance>(Appliance::Parts{*device, *stages, memory, pool, records});
     side_tasks = std::make_unique<SideTasks>(*appliance);
     test_capture = std::make_unique<TestCapture>(TestCapture::Parts{
-        *appliance, *side_tasks, *device, *stages, pool, *store, log, show_boards,
+        *appliance, *side_tasks, *device, *stages, pool, *store, log,
+        [this](const BoardArgs& args) -> Result<std::unique_ptr<LivePairs>> {
+          return make_hand_pairs(held_board(boards, args), 1);
+        },
         [this](const pipeline::StereoCalibration& in_use) { revision = in_use.revision; }});
     EXPECT_TRUE(until([&] { return appliance->state() == State::Idle; }));
     appliance->ask(ui::Intent::OpenStaff);
@@ -86,7 +85,7 @@ class TechnicianRig {
   // Minutes are "never".
   template <typename Condition>
   bool until(Condition condition) {
-    for (int i = 0; i < 300'000 && !condition(); ++i) {
+    for (int i = 0; i < 60'000 && !condition(); ++i) {
       turn();
       std::this_thread::sleep_for(std::chrono::milliseconds(2));
     }
@@ -148,6 +147,7 @@ class TechnicianRig {
   std::unique_ptr<TestCapture> test_capture;
   ui::ServiceView staff;
   ui::ViewState view;
+  hal::sim::RigOptions boards = test::small_rig(kBoardScale);  // the cameras that are shown one
   ui::StaffPage page = ui::StaffPage::Count;
   std::uint32_t revision = 0;
 
