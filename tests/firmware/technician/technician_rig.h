@@ -71,6 +71,8 @@ class TechnicianRig {
     turn();
   }
   void turn() {
+    // The machine ends a staff round that nobody touches; under a sanitizer a test takes longer than that.
+    appliance->ask(ui::Intent::StillHere);
     appliance->step(std::chrono::milliseconds(0));
     side_tasks->turn();
     test_capture->turn();
