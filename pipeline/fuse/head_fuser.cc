@@ -49,13 +49,14 @@ void drop_hair(std::span<PoseSurface> poses, const Registration& registration, c
   constexpr float kSkinMm = 0.7F, kHairMm = 1, kLeastCosine = 0.26F;
   for (std::size_t k = 0; k < poses.size(); ++k) {
     PoseSurface& pose = poses[k];
-    for (std::size_t i = 0; i < pose.trust.size(); ++i) {
-      if (pose.trust[i] <= 0) continue;
-      const float cosine = std::abs(dot(pose.normal[i], unit(pose.at_mm[i])));
-      const float along_sight_mm = pose.sigma_mm[i] / std::max(cosine, kLeastCosine);
+    for (std::size_t i = 0; i < pose.nodes.size(); ++i) {
+      if (pose.nodes[i].trust <= 0) continue;
+      const float cosine = std::abs(dot(pose.nodes[i].normal, unit(pose.nodes[i].at_mm)));
+      const float along_sight_mm = pose.nodes[i].sigma_mm / std::max(cosine, kLeastCosine);
       if (along_sight_mm <= kSkinMm) continue;
-      if (zones.is_face(narrow(apply(registration.poses[k].first_from_pose, wide(pose.at_mm[i]))))) continue;
-      pose.trust[i] *= std::clamp((kHairMm - along_sight_mm) / (kHairMm - kSkinMm), 0.0F, 1.0F);
+      if (zones.is_face(narrow(apply(registration.poses[k].first_from_pose, wide(pose.nodes[i].at_mm)))))
+        continue;
+      pose.nodes[i].trust *= std::clamp((kHairMm - along_sight_mm) / (kHairMm - kSkinMm), 0.0F, 1.0F);
     }
   }
 }

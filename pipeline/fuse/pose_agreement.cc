@@ -52,11 +52,11 @@ void measure_agreement(std::span<const PoseSurface> poses, Registration& registr
     for (std::size_t i = 0; i < map.mm.size(); ++i) {
       const std::size_t k = i / std::size_t(map.columns) * kResidualEvery * std::size_t(pose.columns) +
                             i % std::size_t(map.columns) * kResidualEvery;
-      if (pose.trust[k] < kLeastTrust) continue;
-      const Vec3d at = apply(placed, wide(pose.at_mm[k])),
-                  normal = apply(placed.rotation, wide(pose.normal[k]));
-      const double side_mm = kResidualEvery * pose.step_px * double(pose.at_mm[k].z) / pose.focal_px;
-      const double cosine = std::abs(double(dot(pose.normal[k], unit(pose.at_mm[k]))));
+      if (pose.nodes[k].trust < kLeastTrust) continue;
+      const Vec3d at = apply(placed, wide(pose.nodes[k].at_mm)),
+                  normal = apply(placed.rotation, wide(pose.nodes[k].normal));
+      const double side_mm = kResidualEvery * pose.step_px * double(pose.nodes[k].at_mm.z) / pose.focal_px;
+      const double cosine = std::abs(double(dot(pose.nodes[k].normal, unit(pose.nodes[k].at_mm))));
       float sum = 0, count = 0;
       for (std::size_t b = 0; b < poses.size(); ++b) {
         if (b == a) continue;

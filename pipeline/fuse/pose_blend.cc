@@ -59,24 +59,24 @@ bool PoseBlend::is_seen_near(const Vec3f& place) const {
 std::pmr::vector<FieldPoint> PoseBlend::points(float voxel_mm) const {
   std::pmr::vector<FieldPoint> all(&context_.scratch);
   std::size_t room = 0;
-  for (const PoseSurface& p : poses_) room += p.at_mm.size();
+  for (const PoseSurface& p : poses_) room += p.nodes.size();
   all.reserve(room);
   for (std::size_t k = 0; k < poses_.size(); ++k) {
     const PoseSurface& pose = poses_[k];
     const RigidTransform& placed = registration_.poses[k].first_from_pose;
     const std::size_t first = all.size(), columns = std::size_t(pose.columns);
     const auto dense_mm = float(kDenseVoxels * pose.focal_px / pose.step_px) * voxel_mm;
-    all.resize(first + pose.at_mm.size());  // weight 0: does not count
-    context_.pool.for_each_band(int(pose.at_mm.size()), kBands, [&](int from, int to, int) {
+    all.resize(first + pose.nodes.size());  // weight 0: does not count
+    context_.pool.for_each_band(int(pose.nodes.size()), kBands, [&](int from, int to, int) {
       for (auto i = std::size_t(from); i < std::size_t(to); ++i) {
-        if (pose.trust[i] < kLeastTrust) continue;
-        if (pose.at_mm[i].z < dense_mm && (i % columns + i / columns) % 2 != 0) continue;
-        const Vec3f at = narrow(apply(placed, wide(pose.at_mm[i])));
+        if (pose.nodes[i].trust < kLeastTrust) continue;
+        if (pose.nodes[i].at_mm.z < dense_mm && (i % columns + i / columns) % 2 != 0) continue;
+        const Vec3f at = narrow(apply(placed, wide(pose.nodes[i].at_mm)));
         if (!zones_.is_head(at) || zones_.is_eye(at)) continue;
-        const Vec3f normal = narrow(apply(placed.rotation, wide(pose.normal[i])));
-        const float trust = pose.trust[i] * (k == 0 ? 1 : zones_.others_share(at));
-        if (!overruled(k, at, normal, pose.sigma_mm[i], trust))
-          all[first + i] = {at, normal, trust / squared(std::max(pose.sigma_mm[i], kLeastSigmaMm))};
+        const Vec3f normal = narrow(apply(placed.rotation, wide(pose.nodes[i].normal)));
+        const float trust = pose.nodes[i].trust * (k == 0 ? 1 : zones_.others_share(at));
+        if (!overruled(k, at, normal, pose.nodes[i].sigma_mm, trust))
+          all[first + i] = {at, normal, trust / squared(std::max(pose.nodes[i].sigma_mm, kLeastSigmaMm))};
       }
     });
     all.erase(std::remove_if(all.begin() + std::ptrdiff_t(first), all.end(),

@@ -144,8 +144,8 @@ class Placer {
     Vec3d middle;
     for (double Vec3d::*axis : {&Vec3d::x, &Vec3d::y, &Vec3d::z}) {
       std::pmr::vector<double> values(&context_.scratch);
-      for (std::size_t k = 0; k < pose.trust.size(); k += kEveryNode)
-        if (pose.trust[k] > 0) values.push_back(wide(pose.at_mm[k]).*axis);
+      for (std::size_t k = 0; k < pose.nodes.size(); k += kEveryNode)
+        if (pose.nodes[k].trust > 0) values.push_back(wide(pose.nodes[k].at_mm).*axis);
       middle.*axis = values.empty() ? 0 : median(values);
     }
     return middle;
@@ -204,7 +204,7 @@ class Placer {
       const Rotation back = transposed(placed.rotation);
       const RigidTransform here_from_there = product(inverse(placed_[p].first_from_pose), placed);
       const auto look = [&](std::size_t node, const Vec3d& normal, double, const PoseResidual&) {
-        const Vec3d place = wide(surface.at_mm[node]);
+        const Vec3d place = wide(surface.nodes[node].at_mm);
         if (!shows_skin(surface, place) || context_.stop()) return;
         const auto [right, up] = residuals_.along_skin(normal);
         if (const auto here =

@@ -126,10 +126,11 @@ class JointSolver {
         if (!placed_[p].joined || !placed_[from].joined) continue;
         const PoseSurface& surface = residuals_.surface(from);
         const RigidTransform& placed = placed_[from].first_from_pose;
-        Vec3d at = apply(placed, wide(surface.at_mm[skin.node])),
+        Vec3d at = apply(placed, wide(surface.nodes[skin.node].at_mm)),
               other = apply(placed_[p].first_from_pose, wide(skin.at_mm));
         const std::size_t patch = residuals_.patch_at(at);
-        const auto along = residuals_.along_skin(apply(placed.rotation, wide(surface.normal[skin.node])));
+        const auto along =
+            residuals_.along_skin(apply(placed.rotation, wide(surface.nodes[skin.node].normal)));
         if (from > p) std::swap(at, other);
         for (std::size_t k = 0; k < 2; ++k) {
           PoseResidual r{};
@@ -307,8 +308,8 @@ Result<Registration> register_poses(std::span<PoseSurface> poses, StageContext& 
     const auto leave_out = [&] {
       bool any = false;
       for (std::size_t p = 1; p < poses.size(); ++p)
-        if (!made.poses[p].joined && !poses[p].trust.empty()) {
-          poses[p].trust.assign(poses[p].trust.size(), 0);
+        if (!made.poses[p].joined && !poses[p].nodes.empty()) {
+          for (SurfaceHit& node : poses[p].nodes) node.trust = 0;
           any = !std::exchange(left_out[p], true) || any;
         }
       return any;

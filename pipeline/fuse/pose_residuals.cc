@@ -165,10 +165,10 @@ bool PoseResiduals::meet(std::size_t a, std::size_t k, const Vec3d& normal, std:
   res.value = hit->before_mm;
   if (std::abs(res.value) > round.reach_mm) return false;
   const PoseSurface& from = poses_[a];
-  const double sigma = double(from.sigma_mm[k]), other = double(hit->own.sigma_mm);
+  const double sigma = double(from.nodes[k].sigma_mm), other = double(hit->own.sigma_mm);
   const double scale = std::max(round.scale_mm, kScaleOfUsual * usual_mm_);
   const double kept = scale * scale / (scale * scale + res.value * res.value);
-  res.weight = double(std::min(from.trust[k], hit->own.trust)) * kept * kept /
+  res.weight = double(std::min(from.nodes[k].trust, hit->own.trust)) * kept * kept /
                (sigma * sigma + other * other + kSurfaceSigmaMm * kSurfaceSigmaMm);
   const Vec3d turn = cross(minus(res.at, pivot_), n);
   res.toward << turn.x, turn.y, turn.z, n.x, n.y, n.z;

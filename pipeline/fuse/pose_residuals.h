@@ -132,17 +132,17 @@ class PoseResiduals {
   template <typename Visit>
   void for_each_sample(std::size_t a, double most, Visit&& visit, std::size_t part, std::size_t parts) const {
     const PoseSurface& from = poses_[a];
-    const int every = std::max(1, int(std::sqrt(double(from.trust.size()) / most)));
+    const int every = std::max(1, int(std::sqrt(double(from.nodes.size()) / most)));
     const RigidTransform& placed = placed_[a].first_from_pose;
     const int step = every * int(parts);
     for (int r = every / 2 + every * int(part); r < from.rows; r += step)
       for (int c = every / 2; c < from.columns; c += every) {
         const std::size_t k = std::size_t(r) * std::size_t(from.columns) + std::size_t(c);
-        if (from.trust[k] < kLeastTrust) continue;
+        if (from.nodes[k].trust < kLeastTrust) continue;
         PoseResidual res{};
-        res.at = apply(placed, wide(from.at_mm[k]));
+        res.at = apply(placed, wide(from.nodes[k].at_mm));
         const double say = say_of(res);
-        if (say > 0) visit(k, apply(placed.rotation, wide(from.normal[k])), say, res);
+        if (say > 0) visit(k, apply(placed.rotation, wide(from.nodes[k].normal)), say, res);
       }
   }
 

@@ -23,16 +23,17 @@ constexpr float kEdgeOnCosine = 0.26F;  // 75 degrees: no trust ...
 constexpr float kFullCosine = 0.5F;     // ... and 60: all of it
 
 // Steps from the edge, by two sweeps of a chamfer (Borgefors 1986).
-std::pmr::vector<float> steps_from_edge(int columns, int rows, const std::pmr::vector<float>& inside,
-                                        std::pmr::memory_resource* memory) {
+std::pmr::vector<float> steps_from_edge(const PoseSurface& pose, std::pmr::memory_resource* memory) {
   constexpr float kDiagonal = 1.4F;
-  std::pmr::vector<float> steps(inside.size(), 0.0F, memory);
+  const int columns = pose.columns, rows = pose.rows;
+  std::pmr::vector<float> steps(memory);
+  steps.reserve(pose.nodes.size());
+  for (const SurfaceHit& node : pose.nodes) steps.push_back(node.trust > 0 ? 1e6F : 0.0F);
   const auto at = [&](int c, int r) {
     return c < 0 || r < 0 || c >= columns || r >= rows
                ? 0.0F
                : steps[std::size_t(r) * std::size_t(columns) + std::size_t(c)];
   };
-  for (std::size_t k = 0; k < inside.size(); ++k) steps[k] = inside[k] > 0 ? 1e6F : 0;
   const auto relax = [&](int c, int r, int way) {
     float& here = steps[std::size_t(r) * std::size_t(columns) + std::size_t(c)];
     here = std::min({here, at(c - way, r) + 1, at(c, r - way) + 1, at(c - way, r - way) + kDiagonal,
@@ -84,14 +85,12 @@ Result<PoseSurface> make_pose_surface(const PointCloud& cloud, const RectifiedPa
     pose.first_px.x = std::min(pose.first_px.x, double(p.left_px.x));
     pose.first_px.y = std::min(pose.first_px.y, double(p.left_px.y));
   }
-  pose.at_mm.assign(lattice.at_mm.begin(), lattice.at_mm.end());
-  pose.normal.assign(lattice.size(), Vec3f{});
-  pose.sigma_mm.assign(lattice.size(), 0.0F);
-  pose.trust.assign(lattice.size(), 0.0F);
+  pose.nodes.reserve(lattice.size());
+  for (const Vec3f& at : lattice.at_mm) pose.nodes.push_back({at, {}});
 
   for_each_triangle(lattice, surface, [&](const Triangle& t) {
     const Vec3f area = area_normal(lattice.at_mm, t);
-    for (const std::uint32_t v : t) pose.normal[v] = plus(pose.normal[v], area);
+    for (const std::uint32_t v : t) pose.nodes[v].normal = plus(pose.nodes[v].normal, area);
   });
   std::pmr::vector<float> sigmas(&context.scratch);
   for (const CloudPoint& p : cloud.points) sigmas.push_back(p.sigma_mm);
@@ -100,7 +99,9 @@ Result<PoseSurface> make_pose_surface(const PointCloud& cloud, const RectifiedPa
   for (std::size_t k = 0; k < whole.size(); ++k)
     if (lattice.sigma_mm[k] > most_sigma_mm) whole[k] = 0;
   // A triangle's normal is noise over a cell's width: five nodes' mean has a fifth of it.
-  std::pmr::vector<Vec3f> raw(pose.normal.begin(), pose.normal.end(), &context.scratch);
+  std::pmr::vector<Vec3f> raw(&context.scratch);
+  raw.reserve(pose.nodes.size());
+  for (const SurfaceHit& node : pose.nodes) raw.push_back(node.normal);
   for (int r = 1; r + 1 < pose.rows; ++r)
     for (int c = 1; c + 1 < pose.columns; ++c) {
       const std::size_t k = lattice.index(c, r);
@@ -116,28 +117,29 @@ Result<PoseSurface> make_pose_surface(const PointCloud& cloud, const RectifiedPa
       const Vec3f sight = unit(lattice.at_mm[k]);
       if (dot(n, sight) > 0) n = times(n, -1.0F);
       const float cosine = -dot(n, sight);
-      pose.normal[k] = n;
-      pose.sigma_mm[k] = lattice.sigma_mm[k] * std::max(cosine, kEdgeOnCosine);
-      pose.trust[k] = std::clamp((cosine - kEdgeOnCosine) / (kFullCosine - kEdgeOnCosine), 0.0F, 1.0F);
+      SurfaceHit& node = pose.nodes[k];
+      node.normal = n;
+      node.sigma_mm = lattice.sigma_mm[k] * std::max(cosine, kEdgeOnCosine);
+      node.trust = std::clamp((cosine - kEdgeOnCosine) / (kFullCosine - kEdgeOnCosine), 0.0F, 1.0F);
     }
   fade_to_edges(pose, kEdgeNodes, &context.scratch);
   return pose;
 }
 
 FaceMesh coarse_mesh(const PoseSurface& pose, int most_triangles, StageContext& context) {
-  const int every = std::max(1, int(std::ceil(std::sqrt(2 * double(pose.at_mm.size()) / most_triangles))));
+  const int every = std::max(1, int(std::ceil(std::sqrt(2 * double(pose.nodes.size()) / most_triangles))));
   const int columns = (pose.columns + every - 1) / every, rows = (pose.rows + every - 1) / every;
   std::pmr::vector<std::size_t> node(&context.scratch);
   std::pmr::vector<Vec3f> at_mm(&context.scratch);
   for (int r = 0; r < pose.rows; r += every)
     for (int c = 0; c < pose.columns; c += every) {
       node.push_back(std::size_t(r) * std::size_t(pose.columns) + std::size_t(c));
-      at_mm.push_back(pose.at_mm[node.back()]);
+      at_mm.push_back(pose.nodes[node.back()].at_mm);
     }
   std::pmr::vector<Triangle> triangles(&context.scratch);
   const float least_cosine = cosine_of_slope(kLimits.max_slope);
   const auto add = [&](const Triangle& t) {
-    if (std::all_of(t.begin(), t.end(), [&](std::uint32_t v) { return pose.trust[node[v]] > 0; }) &&
+    if (std::all_of(t.begin(), t.end(), [&](std::uint32_t v) { return pose.nodes[node[v]].trust > 0; }) &&
         facing(at_mm[t[0]], at_mm[t[1]], at_mm[t[2]], least_cosine))
       triangles.push_back(t);
   };
@@ -149,16 +151,16 @@ FaceMesh coarse_mesh(const PoseSurface& pose, int most_triangles, StageContext& 
     }
   keep_one_surface(at_mm, triangles, {}, &context.scratch);
   FaceMesh mesh = pack_mesh(at_mm.size(), triangles, context, [&](std::size_t v) {
-    return PackedVertex{at_mm[v], pose.sigma_mm[node[v]], 1};
+    return PackedVertex{at_mm[v], pose.nodes[node[v]].sigma_mm, 1};
   });
   compute_normals(mesh, 1, &context.scratch);
   return mesh;
 }
 
 void fade_to_edges(PoseSurface& pose, float nodes, std::pmr::memory_resource* scratch) {
-  const auto steps = steps_from_edge(pose.columns, pose.rows, pose.trust, scratch);
-  for (std::size_t k = 0; k < pose.trust.size(); ++k)
-    pose.trust[k] = std::min(pose.trust[k], steps[k] / nodes);
+  const auto steps = steps_from_edge(pose, scratch);
+  for (std::size_t k = 0; k < pose.nodes.size(); ++k)
+    pose.nodes[k].trust = std::min(pose.nodes[k].trust, steps[k] / nodes);
 }
 
 std::optional<SurfaceHit> PoseSurface::look(const Vec3f& place) const {
@@ -172,15 +174,16 @@ std::optional<SurfaceHit> PoseSurface::look(const Vec3f& place) const {
   const float fx = float(x - std::floor(x)), fy = float(y - std::floor(y));
   SurfaceHit hit{};
   float least = 1;
+  const Vec3f& first_normal = nodes[k].normal;
   for (std::size_t i = 0; i < 4; ++i) {
-    const std::size_t node = k + i % 2 + (i / 2) * w;
-    if (trust[node] <= 0) return std::nullopt;
+    const SurfaceHit& node = nodes[k + i % 2 + (i / 2) * w];
+    if (node.trust <= 0) return std::nullopt;
     const float share = (i % 2 == 0 ? 1 - fx : fx) * (i < 2 ? 1 - fy : fy);
-    hit.at_mm = along(hit.at_mm, share, at_mm[node]);
-    hit.normal = along(hit.normal, share, normal[node]);
-    hit.sigma_mm += share * sigma_mm[node];
-    hit.trust += share * trust[node];
-    least = std::min(least, dot(normal[node], normal[k]));
+    hit.at_mm = along(hit.at_mm, share, node.at_mm);
+    hit.normal = along(hit.normal, share, node.normal);
+    hit.sigma_mm += share * node.sigma_mm;
+    hit.trust += share * node.trust;
+    least = std::min(least, dot(node.normal, first_normal));
   }
   if (least < 0) return std::nullopt;  // a fold between the nodes
   hit.normal = unit(hit.normal);

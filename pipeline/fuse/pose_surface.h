@@ -20,12 +20,12 @@
 
 namespace relievo::pipeline {
 
-// Where the surface lies at a place that was projected into the view.
+// The surface at a node, or at a place that was projected into the view.
 struct SurfaceHit {
-  Vec3f at_mm;         // on the line of sight through the place
+  Vec3f at_mm;         // on the line of sight
   Vec3f normal;        // towards the camera, unit length
   float sigma_mm = 0;  // perpendicular to the surface
-  float trust = 0;     // 0 at the edge of what was measured or where it is seen edge-on, to 1
+  float trust = 0;     // 0 at the edge of what was measured, beyond it, or where it is seen edge-on, to 1
 };
 
 // A rectified photograph is 0 0 0 where it ends, and only there. Whether it covers the pixel, counted row by
@@ -41,8 +41,7 @@ struct SharedSkin {
 };
 
 struct PoseSurface {
-  explicit PoseSurface(std::pmr::memory_resource* memory)
-      : at_mm(memory), normal(memory), sigma_mm(memory), trust(memory), shared_skin(memory) {}
+  explicit PoseSurface(std::pmr::memory_resource* memory) : nodes(memory), shared_skin(memory) {}
   int columns = 0, rows = 0;
   // How the rectified left view sees the left camera's frame.
   Rotation rectified_from_camera;
@@ -50,11 +49,8 @@ struct PoseSurface {
   Vec2d centre_px;
   Vec2d first_px;  // of node (0, 0)
   double step_px = 1;
-  // columns * rows each, row by row.
-  std::pmr::vector<Vec3f> at_mm;
-  std::pmr::vector<Vec3f> normal;
-  std::pmr::vector<float> sigma_mm;  // perpendicular to the surface
-  std::pmr::vector<float> trust;     // 0: nothing was measured there
+  // columns * rows, row by row; a place is looked up among four of them, so that all of one lies together.
+  std::pmr::vector<SurfaceHit> nodes;
   RigidTransform head_from_camera;
   bool has_head = false;  // whether a head frame was found
   // The rectified left photograph, not owned, 0 0 0 where it ends; none: only shape tells how the pose lies.

@@ -93,15 +93,15 @@ class Bender {
   };
   Gap gap(std::size_t k, std::size_t i) const {
     const RigidTransform& placed = registration_.poses[k].first_from_pose;
-    const Vec3d at = apply(placed, wide(poses_[k].at_mm[i]));
-    const Vec3d normal = apply(placed.rotation, wide(poses_[k].normal[i]));
+    const Vec3d at = apply(placed, wide(poses_[k].nodes[i].at_mm));
+    const Vec3d normal = apply(placed.rotation, wide(poses_[k].nodes[i].normal));
     Gap sum;
     for (std::size_t j = 0; j < poses_.size(); ++j) {
       if (fixed_[j] == 0) continue;
       const auto hit = look(poses_[j], registration_.poses[j].first_from_pose, at);
       if (!hit || dot(hit->normal, normal) < double(kSameWay)) continue;
       const float d = float(hit->before_mm), sigma = hit->own.sigma_mm;
-      const float unsure_mm = kReachSigmas * std::hypot(sigma, poses_[k].sigma_mm[i]);
+      const float unsure_mm = kReachSigmas * std::hypot(sigma, poses_[k].nodes[i].sigma_mm);
       if (std::abs(d) > std::clamp(unsure_mm, kReachMm, kFarthestMm)) continue;
       const float w = hit->own.trust / (sigma * sigma + kLeastSigmaMm * kLeastSigmaMm);
       sum.distance += w * d;
@@ -112,7 +112,7 @@ class Bender {
   }
 
   float skull_share(std::size_t k, std::size_t i) const {
-    const Vec3d at = apply(registration_.poses[k].first_from_pose, wide(poses_[k].at_mm[i]));
+    const Vec3d at = apply(registration_.poses[k].first_from_pose, wide(poses_[k].nodes[i].at_mm));
     const double z = apply(poses_[0].head_from_camera, at).z;
     return float(kSkullSays * std::clamp((kSkullFromMm - z) / kSkullFadesMm, 0.0, 1.0));
   }
@@ -120,8 +120,8 @@ class Bender {
   double overlap(std::size_t k) const {
     constexpr std::size_t kEvery = 37;
     double met = 0;
-    for (std::size_t i = 0; i < poses_[k].at_mm.size(); i += kEvery)
-      if (poses_[k].trust[i] > 0 && gap(k, i).weight > 0) met += 1;
+    for (std::size_t i = 0; i < poses_[k].nodes.size(); i += kEvery)
+      if (poses_[k].nodes[i].trust > 0 && gap(k, i).weight > 0) met += 1;
     return met;
   }
 
@@ -141,14 +141,14 @@ class Bender {
       });
     };
     for_each_node([&](int r, int c, std::size_t i) {
-      if (pose.trust[i] <= 0 || (r + c) % 2 != 0) return;
+      if (pose.nodes[i].trust <= 0 || (r + c) % 2 != 0) return;
       const std::size_t cell = std::size_t(r / every) * std::size_t(field.columns) + std::size_t(c / every);
       const Gap g = gap(k, i);
       if (g.weight <= 0) {
-        if (limits_.skull_stays) field.weight[cell] += pose.trust[i] * skull_share(k, i);
+        if (limits_.skull_stays) field.weight[cell] += pose.nodes[i].trust * skull_share(k, i);
         return;
       }
-      const float w = pose.trust[i] * std::min(1.0F, g.weight / kSureWeight);
+      const float w = pose.nodes[i].trust * std::min(1.0F, g.weight / kSureWeight);
       field.sum[cell] += w * g.distance;
       field.weight[cell] += w;
     });
@@ -158,18 +158,18 @@ class Bender {
     usual_square(field, sigma_cells);
     const float still = float(limits_.still_mm), most = float(limits_.most_mm);
     for_each_node([&](int r, int c, std::size_t i) {
-      if (pose.trust[i] <= 0) return;
+      if (pose.nodes[i].trust <= 0) return;
       const float d =
           read(field, (float(c) + 0.5F) / float(every) - 0.5F, (float(r) + 0.5F) / float(every) - 0.5F);
       const float moved = d * d * d / (d * d + still * still);
       // What is measured badly may lie further off without having moved.
-      if (std::abs(moved) > most + kOwnErrorSigmas * pose.sigma_mm[i]) {
-        pose.trust[i] = 0;
+      if (std::abs(moved) > most + kOwnErrorSigmas * pose.nodes[i].sigma_mm) {
+        pose.nodes[i].trust = 0;
         return;
       }
-      pose.at_mm[i] = along(pose.at_mm[i], -moved, pose.normal[i]);
-      pose.sigma_mm[i] = std::hypot(
-          pose.sigma_mm[i],
+      pose.nodes[i].at_mm = along(pose.nodes[i].at_mm, -moved, pose.nodes[i].normal);
+      pose.nodes[i].sigma_mm = std::hypot(
+          pose.nodes[i].sigma_mm,
           kMovedSigma * std::sqrt(field.square[std::size_t(r / every) * std::size_t(field.columns) +
                                                std::size_t(c / every)]));
     });
@@ -194,9 +194,9 @@ class Bender {
 
   static double distance_of(const PoseSurface& pose) {
     double sum = 0, count = 1e-9;
-    for (std::size_t i = 0; i < pose.at_mm.size(); i += 101)
-      if (pose.trust[i] > 0) {
-        sum += double(pose.at_mm[i].z);
+    for (std::size_t i = 0; i < pose.nodes.size(); i += 101)
+      if (pose.nodes[i].trust > 0) {
+        sum += double(pose.nodes[i].at_mm.z);
         count += 1;
       }
     return sum / count;

@@ -51,16 +51,18 @@ class ApartPoses : public Poses {
       EXPECT_TRUE(pose);
       poses_.push_back(*std::move(pose));
     }
-    for (std::size_t k = 0; k < poses_[0].trust.size(); ++k)
-      poses_[0].trust[k] *=
-          apply(poses_[0].head_from_camera, wide(poses_[0].at_mm[k])).y < edge_y ? 0 : trust;
+    for (std::size_t k = 0; k < poses_[0].nodes.size(); ++k)
+      poses_[0].nodes[k].trust *=
+          apply(poses_[0].head_from_camera, wide(poses_[0].nodes[k].at_mm)).y < edge_y ? 0 : trust;
     Registration placed(std::pmr::get_default_resource());
     placed.poses.resize(2);
     placed.poses[1].first_from_pose.translation_mm.z = apart_mm;
     FaceMesh own(std::pmr::get_default_resource());
-    own.vertices_mm = poses_[0].at_mm;
-    own.normals = poses_[0].normal;
-    own.sigma_mm = poses_[0].sigma_mm;
+    for (const SurfaceHit& node : poses_[0].nodes) {
+      own.vertices_mm.push_back(node.at_mm);
+      own.normals.push_back(node.normal);
+      own.sigma_mm.push_back(node.sigma_mm);
+    }
     for (const Vec3f& at : own.vertices_mm)
       own.measured.push_back(measured(apply(poses_[0].head_from_camera, wide(at))) ? 1 : 0);
     complete(own);

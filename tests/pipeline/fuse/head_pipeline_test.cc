@@ -199,12 +199,12 @@ TEST(HeadPipelineAlone, LeavesThePosesAsTheyWereWhenMemoryIsUsedUpAtOnce) {
   const auto pipeline = HeadPipeline::make({});
   ASSERT_TRUE(pipeline);
   std::vector<HeadPose> poses;
-  for (int k = 0; k < 3; ++k) poses.emplace_back(test::heap()).surface.at_mm.resize(9);
+  for (int k = 0; k < 3; ++k) poses.emplace_back(test::heap()).surface.nodes.resize(9);
   StageFixture tiny(2 * sizeof(PoseSurface), 4096, 1);
   const auto head = pipeline->fuse(FaceModel(test::heap()), poses, tiny.context);
   ASSERT_FALSE(head);
   EXPECT_EQ(head.error().code, Errc::OutOfMemory);
-  for (const HeadPose& pose : poses) EXPECT_EQ(pose.surface.at_mm.size(), 9U);
+  for (const HeadPose& pose : poses) EXPECT_EQ(pose.surface.nodes.size(), 9U);
 }
 
 TEST(HeadPipelineAlone, RefusesNoPair) {

@@ -57,7 +57,9 @@ TEST_F(Poses, ShowTheSurfaceWhereItIs) {
 TEST_F(Poses, KeepWhatIsAsUnsureAsAllOfThem) {
   const auto trusted = [this](double sigma_mm) {
     const auto pose = room_.run([&](StageContext& c) { return seen(0, 0, 0, c, sigma_mm); });
-    return pose ? std::count_if(pose->trust.begin(), pose->trust.end(), [](float t) { return t > 0; }) : 0;
+    return pose ? std::ranges::count_if(
+                      pose->nodes, [](float t) { return t > 0; }, &SurfaceHit::trust)
+                : 0;
   };
   EXPECT_GT(trusted(kSigmaMm), 5000);
   EXPECT_EQ(trusted(2), trusted(kSigmaMm));
@@ -157,8 +159,8 @@ TEST_F(Poses, TellWhereTheyDisagree) {
     if (std::isnan(map.mm[i])) continue;
     const std::size_t column = i % static_cast<std::size_t>(map.columns),
                       row = i / static_cast<std::size_t>(map.columns);
-    const Vec3d at =
-        apply(poses_[1].head_from_camera, wide(poses_[1].at_mm[kResidualEvery * (row * kColumns + column)]));
+    const Vec3d at = apply(poses_[1].head_from_camera,
+                           wide(poses_[1].nodes[kResidualEvery * (row * kColumns + column)].at_mm));
     if (at.y > 50 && std::abs(at.x) < 40) {
       EXPECT_LT(std::abs(map.mm[i]), 0.05) << "the brow did not move";
     }
@@ -183,16 +185,16 @@ TEST_F(Poses, AreBentToTheFirstWhereSkinMovedAndStayElsewhere) {
   show({{0, 0}, {20, 0.8}});
   auto found = registered();
   ASSERT_TRUE(found);
-  const std::pmr::vector<Vec3f> first = poses_[0].at_mm, before = poses_[1].at_mm;
+  const std::pmr::vector<SurfaceHit> first = poses_[0].nodes, before = poses_[1].nodes;
   ASSERT_TRUE(room_.run([&](StageContext& c) -> Result<void> {
     bend_to_master(poses_, *found, {1.5, 8, 0.05}, c);
     return {};
   }));
   double jaw_before = 0, jaw = 0, count = 0, brow = 0;
   for (std::size_t k = 0; k < before.size(); ++k) {
-    if (poses_[1].trust[k] < 0.9F) continue;
-    const Vec3d was = apply(poses_[1].head_from_camera, wide(before[k]));
-    const Vec3d is = apply(poses_[1].head_from_camera, wide(poses_[1].at_mm[k]));
+    if (poses_[1].nodes[k].trust < 0.9F) continue;
+    const Vec3d was = apply(poses_[1].head_from_camera, wide(before[k].at_mm));
+    const Vec3d is = apply(poses_[1].head_from_camera, wide(poses_[1].nodes[k].at_mm));
     if (was.y > 50) brow = std::max(brow, distance(was, is));
     if (was.y > -50 && was.y < -20 && was.z > -40 && std::abs(was.x) < 25) {
       jaw_before += std::abs(shape(was, 0));
@@ -204,7 +206,7 @@ TEST_F(Poses, AreBentToTheFirstWhereSkinMovedAndStayElsewhere) {
   EXPECT_GT(jaw_before / count, 0.2);
   EXPECT_LT(jaw, jaw_before / 3) << "what moved lies on the first one's surface";
   EXPECT_LT(brow, 0.05) << "what did not stays";
-  EXPECT_EQ(distance(first[first.size() / 2], poses_[0].at_mm[first.size() / 2]), 0)
+  EXPECT_EQ(distance(first[first.size() / 2].at_mm, poses_[0].nodes[first.size() / 2].at_mm), 0)
       << "the first never moves";
 }
 
@@ -222,9 +224,9 @@ TEST_F(Poses, AreBentAsFarAsBothAreUnsure) {
   placed.poses[1].first_from_pose = product(camera_from_head(0), inverse(camera_from_head(20)));
   const auto furthest_mm = [this] {  // of the jaw, from the first one's
     double most = 0;
-    for (std::size_t k = 0; k < poses_[1].at_mm.size(); ++k) {
-      const Vec3d at = apply(poses_[1].head_from_camera, wide(poses_[1].at_mm[k]));
-      if (poses_[1].trust[k] > 0.9F && at.y > -45 && at.y < -25 && at.z > -30 && std::abs(at.x) < 20)
+    for (std::size_t k = 0; k < poses_[1].nodes.size(); ++k) {
+      const Vec3d at = apply(poses_[1].head_from_camera, wide(poses_[1].nodes[k].at_mm));
+      if (poses_[1].nodes[k].trust > 0.9F && at.y > -45 && at.y < -25 && at.z > -30 && std::abs(at.x) < 20)
         most = std::max(most, std::abs(shape(at, 0)));
     }
     return most;
@@ -240,7 +242,7 @@ TEST_F(Poses, AreBentAsFarAsBothAreUnsure) {
 
 TEST_F(Poses, ThatMeetNothingAreNamed) {
   show({{0, 0}, {0, 0}});
-  for (Vec3f& at : poses_[1].at_mm) at.z += 25 * std::sin(at.x / 6);  // something else
+  for (SurfaceHit& node : poses_[1].nodes) node.at_mm.z += 25 * std::sin(node.at_mm.x / 6);  // something else
   poses_[1].has_head = false;
   const auto found = registered();
   ASSERT_FALSE(found);
@@ -253,13 +255,14 @@ TEST_F(Poses, ThatFitNoneOfTheOthersAreLeftOut) {
   const auto both = registered();
   ASSERT_TRUE(both);
   show({{0, 0}, {25, 0}, {-25, 0}});
-  for (Vec3f& at : poses_[1].at_mm) at.z += 25 * std::sin(at.x / 6);  // something else
+  for (SurfaceHit& node : poses_[1].nodes) node.at_mm.z += 25 * std::sin(node.at_mm.x / 6);  // something else
   const auto found = registered();
   ASSERT_TRUE(found);
   EXPECT_TRUE(found->poses[0].joined);
   EXPECT_FALSE(found->poses[1].joined);
   EXPECT_TRUE(found->poses[2].joined);
-  EXPECT_TRUE(std::ranges::all_of(poses_[1].trust, [](float t) { return t == 0; }));
+  EXPECT_TRUE(std::ranges::all_of(
+      poses_[1].nodes, [](float t) { return t == 0; }, &SurfaceHit::trust));
   for (std::size_t i = 0; i < 9; ++i)
     EXPECT_NEAR(found->poses[2].first_from_pose.rotation.m[i], both->poses[2].first_from_pose.rotation.m[i],
                 0.002);
