@@ -131,19 +131,23 @@ class Filler {
     const auto out_of = [&](std::size_t i, std::size_t j) {
       return unit(plus(unit(normals_[vertex(i)]), unit(normals_[vertex(j)])));
     };
-    std::vector<float> widest;
-    for (std::size_t i = 0; i < n; ++i) widest.push_back(limits.mouth_mm(at(i)));
+    std::vector<float> widest, steps;
+    for (std::size_t i = 0; i < n; ++i) {
+      widest.push_back(limits.mouth_mm(at(i)));
+      steps.push_back(distance(at(i), at(i + 1)));
+    }
     std::vector<Bay> bays;
     for (std::size_t i = 0; i < n; ++i) {
       Vec3f twice{};  // the area the stretch encloses
       float along = 0;
       for (std::size_t j = i + 1; j + 1 < i + n; ++j) {
-        along += distance(at(j - 1), at(j));
+        along += steps[(j - 1) % n];
         if (along > limits.rim_mm) break;
         twice = plus(twice, cross(minus(at(j - 1), at(i)), minus(at(j), at(i))));
-        const float mouth = distance(at(i), at(j)), area = -dot(twice, out_of(i, j)) / 2;
-        if (area > kLeastDepthMm * mouth && mouth <= std::min(widest[i], widest[j % n]))
-          bays.push_back({i, j - i, area});
+        const float mouth = distance(at(i), at(j));
+        if (mouth > std::min(widest[i], widest[j % n])) continue;
+        const float area = -dot(twice, out_of(i, j)) / 2;
+        if (area > kLeastDepthMm * mouth) bays.push_back({i, j - i, area});
       }
     }
     std::sort(bays.begin(), bays.end(), [](const Bay& a, const Bay& b) {

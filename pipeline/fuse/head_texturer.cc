@@ -32,7 +32,9 @@ constexpr float kMasterFirst = 1.8F;         // the master's say before others t
 constexpr float kBorderPx = 3;
 constexpr std::size_t kMostViews = 2 * kMostPoses;
 
-// By how much the best view wins: the twelfth power of a view's say to the best one's.
+// By how much the best view wins: the twelfth power of a view's say to the best one's. Below kLeastShare it
+// is less than kNothing.
+constexpr float kNothing = 0.01F, kLeastShare = 0.68F;
 float winning(float share) {
   const float third = share * share * share;
   return third * third * third * third;
@@ -115,25 +117,29 @@ class Texturing {
     std::pmr::vector<float> share;
   };
 
-  // As many views at once as there are threads, so that no more rooms are needed. The arena is for one
-  // thread: they are made before.
+  // As many views at once as there are threads, so that no more rooms are needed: work(view, room). The arena
+  // is for one thread: what a room needs is made before.
+  std::size_t views_at_once() const { return std::min(views_.size(), std::size_t(context_.pool.size())); }
+  template <typename Work>
+  void for_each_view(Work&& work) const {
+    for (std::size_t first = 0; first < views_.size(); first += views_at_once()) {
+      const int count = int(std::min(views_at_once(), views_.size() - first));
+      context_.pool.for_each_band(count, count, [&](int, int, int room) {
+        if (!context_.stop()) work(first + std::size_t(room), std::size_t(room));
+      });
+    }
+  }
+
   void look_from_all() {
     const Arena::Mark mark(context_.scratch);
     std::size_t places = 0;
     for (const HeadView& view : views_)
       places = std::max(places,
                         std::size_t(view.width_px / kDepthShare) * std::size_t(view.height_px / kDepthShare));
-    const std::size_t at_once = std::min(views_.size(), std::size_t(context_.pool.size()));
     std::pmr::vector<Room> rooms(&context_.scratch);
-    rooms.reserve(at_once);
-    for (std::size_t k = 0; k < at_once; ++k) rooms.emplace_back(places, vertices_, &context_.scratch);
-    for (std::size_t first = 0; first < views_.size(); first += at_once) {
-      const int count = int(std::min(at_once, views_.size() - first));
-      context_.pool.for_each_band(count, count, [&](int begin, int end, int) {
-        for (int k = begin; k < end; ++k)
-          if (!context_.stop()) look(first + std::size_t(k), rooms[std::size_t(k)]);
-      });
-    }
+    rooms.reserve(views_at_once());
+    while (rooms.size() < views_at_once()) rooms.emplace_back(places, vertices_, &context_.scratch);
+    for_each_view([&](std::size_t i, std::size_t room) { look(i, rooms[room]); });
   }
 
   // How well a photograph looks at every vertex.
@@ -228,8 +234,11 @@ class Texturing {
         weight[v] += w;
       }
     });
-    LevelGrid grid(mesh_, &context_.scratch);
-    for (std::size_t i = 0; i < views_.size(); ++i) {
+    std::pmr::vector<LevelGrid> grids(&context_.scratch);
+    grids.reserve(views_at_once());
+    while (grids.size() < views_at_once()) grids.emplace_back(mesh_, &context_.scratch);
+    for_each_view([&](std::size_t i, std::size_t room) {
+      LevelGrid& grid = grids[room];
       grid.clear();
       for (std::size_t v = 0; v < vertices_; ++v) {
         if (say(v, i) <= 0) continue;
@@ -239,8 +248,8 @@ class Texturing {
         grid.add(mesh_.vertices_mm[v], difference, say(v, i));
       }
       grid.smooth();
-      for_each_vertex([&](std::size_t v) { level_[i * vertices_ + v] = grid.at(mesh_.vertices_mm[v]); });
-    }
+      for (std::size_t v = 0; v < vertices_; ++v) level_[i * vertices_ + v] = grid.at(mesh_.vertices_mm[v]);
+    });
   }
 
   void lay_out(int max_px) {
@@ -284,17 +293,26 @@ class Texturing {
     if (high < float(rows.begin) - 1 || low > float(rows.end)) return;
     const auto& t = mesh_.triangles[sides_.triangles[s]];
     if (!seen_whole(t)) return;
-    // Views that see all of it; where none does, those that see a corner.
+    // Views that see all of it; where none does, those that see a corner. Whose say is nothing beside the
+    // best one's all over it is left out.
     std::array<std::size_t, kMostViews> list{};
     std::array<std::array<Pixel, 3>, kMostViews> corners;
+    std::array<float, kMostViews> most{};
     std::size_t count = 0;
+    float best = 0;
     for (const bool all : {true, false}) {
       for (std::size_t i = 0; i < views_.size(); ++i) {
-        const float a = say(t[0], i), b = say(t[1], i), c = say(t[2], i);
-        if (all ? a > 0 && b > 0 && c > 0 : a > 0 || b > 0 || c > 0) list[count++] = i;
+        const auto [least, largest] = std::minmax({say(t[0], i), say(t[1], i), say(t[2], i)});
+        if ((all ? least : largest) <= 0) continue;
+        list[count++] = i;
+        most[i] = largest;
+        best = std::max(best, least);
       }
       if (count > 0) break;
     }
+    const auto end = std::remove_if(list.begin(), list.begin() + std::ptrdiff_t(count),
+                                    [&](std::size_t i) { return most[i] < kLeastShare * best; });
+    count = std::size_t(end - list.begin());
     for (const std::size_t i : std::span(list.data(), count))
       for (std::size_t k = 0; k < 3; ++k) corners[i][k] = project(views_[i], mesh_.vertices_mm[t[k]]);
     for_each_texel(sides_.corner[3 * s], sides_.corner[3 * s + 1], sides_.corner[3 * s + 2], atlas_.width_px,
@@ -329,7 +347,6 @@ class Texturing {
     float weight = 0;
     for (const std::size_t i : list) {
       const float w = winning(std::max(say_of(i), 0.0F) / best);
-      constexpr float kNothing = 0.01F;
       if (w < kNothing) continue;
       const VertexColour rgb = read(i, pixel_of(i));
       for (std::size_t k = 0; k < 3; ++k) blend.rgb[k] += w * (rgb[k] + level_of(i, k));

@@ -5,6 +5,7 @@
 #include <limits>
 
 #include "hal/base/statistics.h"
+#include "pipeline/base/shared_arena.h"
 #include "pipeline/fuse/pose_residuals.h"
 #include "pipeline/model/vector3.h"
 
@@ -34,43 +35,52 @@ PoseMeeting meeting_of(std::pmr::vector<float>& distances, double area_mm2) {
   return {area_mm2, std::sqrt(squares / double(distances.size())), percentile(distances, 0.95)};
 }
 
+// Of one pose with the others.
+void measure_agreement_of(std::size_t a, std::span<const PoseSurface> poses, Registration& registration,
+                          SharedArena& memory) {
+  const PoseSurface& pose = poses[a];
+  const RigidTransform& placed = registration.poses[a].first_from_pose;
+  ResidualMap& map = registration.residuals[a];
+  std::array<double, kMostPoses> area_mm2{};
+  std::pmr::vector<std::pmr::vector<float>> distances(poses.size(), &memory);
+  for (auto& of_one : distances) of_one.reserve(map.mm.size());
+  for (std::size_t i = 0; i < map.mm.size(); ++i) {
+    const std::size_t k = i / std::size_t(map.columns) * kResidualEvery * std::size_t(pose.columns) +
+                          i % std::size_t(map.columns) * kResidualEvery;
+    const SurfaceHit& node = pose.nodes[k];
+    if (node.trust < kLeastTrust) continue;
+    const Vec3d at = apply(placed, wide(node.at_mm)), normal = apply(placed.rotation, wide(node.normal));
+    const double side_mm = kResidualEvery * pose.step_px * double(node.at_mm.z) / pose.focal_px;
+    const double cosine = std::abs(double(dot(node.normal, unit(node.at_mm))));
+    float sum = 0, count = 0;
+    for (std::size_t b = 0; b < poses.size(); ++b) {
+      if (b == a) continue;
+      const float d = distance_mm(at, normal, poses[b], registration.poses[b].first_from_pose);
+      if (std::isnan(d)) continue;
+      distances[b].push_back(d);
+      area_mm2[b] += side_mm * side_mm / std::max(cosine, 0.1);
+      sum += d, ++count;
+    }
+    if (count > 0) map.mm[i] = sum / count;
+  }
+  for (std::size_t b = 0; b < poses.size(); ++b)
+    registration.poses[a].meets[b] = meeting_of(distances[b], area_mm2[b]);
+}
+
 }  // namespace
 
 void measure_agreement(std::span<const PoseSurface> poses, Registration& registration,
                        StageContext& context) {
-  for (std::size_t a = 0; a < poses.size(); ++a) {
-    const PoseSurface& pose = poses[a];
-    const RigidTransform& placed = registration.poses[a].first_from_pose;
+  for (const PoseSurface& pose : poses) {
     ResidualMap& map = registration.residuals.emplace_back(&context.output);
     map.columns = (pose.columns + kResidualEvery - 1) / kResidualEvery;
     map.rows = (pose.rows + kResidualEvery - 1) / kResidualEvery;
     map.mm.assign(std::size_t(map.columns) * std::size_t(map.rows), kNowhere);
-    const Arena::Mark mark(context.scratch);
-    std::array<double, kMostPoses> area_mm2{};
-    std::pmr::vector<std::pmr::vector<float>> distances(poses.size(), &context.scratch);
-    for (auto& of_one : distances) of_one.reserve(map.mm.size());
-    for (std::size_t i = 0; i < map.mm.size(); ++i) {
-      const std::size_t k = i / std::size_t(map.columns) * kResidualEvery * std::size_t(pose.columns) +
-                            i % std::size_t(map.columns) * kResidualEvery;
-      if (pose.nodes[k].trust < kLeastTrust) continue;
-      const Vec3d at = apply(placed, wide(pose.nodes[k].at_mm)),
-                  normal = apply(placed.rotation, wide(pose.nodes[k].normal));
-      const double side_mm = kResidualEvery * pose.step_px * double(pose.nodes[k].at_mm.z) / pose.focal_px;
-      const double cosine = std::abs(double(dot(pose.nodes[k].normal, unit(pose.nodes[k].at_mm))));
-      float sum = 0, count = 0;
-      for (std::size_t b = 0; b < poses.size(); ++b) {
-        if (b == a) continue;
-        const float d = distance_mm(at, normal, poses[b], registration.poses[b].first_from_pose);
-        if (std::isnan(d)) continue;
-        distances[b].push_back(d);
-        area_mm2[b] += side_mm * side_mm / std::max(cosine, 0.1);
-        sum += d, ++count;
-      }
-      if (count > 0) map.mm[i] = sum / count;
-    }
-    for (std::size_t b = 0; b < poses.size(); ++b)
-      registration.poses[a].meets[b] = meeting_of(distances[b], area_mm2[b]);
   }
+  SharedArena memory(context.scratch);
+  context.pool.for_each_band(int(poses.size()), int(poses.size()), [&](int, int, int a) {
+    measure_agreement_of(std::size_t(a), poses, registration, memory);
+  });
 }
 
 }  // namespace relievo::pipeline

@@ -109,15 +109,14 @@ void smooth_rims(std::span<Vec3f> vertices, std::span<const BorderEdge> border, 
 
 void part_equals(std::span<Vec3f> vertices, std::span<const Vec3f> started,
                  std::pmr::memory_resource* memory) {
-  std::pmr::vector<std::uint32_t> order(vertices.size(), 0, memory);
-  std::iota(order.begin(), order.end(), 0U);
-  const auto key = [&](std::uint32_t v) { return std::array{vertices[v].x, vertices[v].y, vertices[v].z}; };
-  std::sort(order.begin(), order.end(),
-            [&](std::uint32_t a, std::uint32_t b) { return key(a) != key(b) ? key(a) < key(b) : a < b; });
-  std::pmr::vector<std::uint32_t> second(memory);
+  std::pmr::vector<std::pair<std::array<float, 3>, std::uint32_t>> order(memory);
+  order.reserve(vertices.size());
+  for (std::uint32_t v = 0; v < vertices.size(); ++v)
+    order.push_back({{vertices[v].x, vertices[v].y, vertices[v].z}, v});
+  std::sort(order.begin(), order.end());
   for (std::size_t i = 1; i < order.size(); ++i)
-    if (key(order[i]) == key(order[i - 1])) second.push_back(order[i]);
-  for (const std::uint32_t v : second) vertices[v] = started[v];
+    if (const std::uint32_t v = order[i].second; order[i].first == order[i - 1].first)
+      vertices[v] = started[v];
 }
 
 }  // namespace relievo::pipeline
