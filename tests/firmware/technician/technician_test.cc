@@ -375,17 +375,20 @@ TEST_F(TechnicianTest, ACalibrationIsMadeJudgedStoredAndUsed) {
 
 // Cameras at another distance than the calibration in use says are refused, unless the technician says why.
 TEST_F(TechnicianTest, CamerasThatWereMountedAnewMayHaveAnotherDistance) {
-  rig().open(StaffPage::Calibrate);
   const std::uint32_t own = rig().stages->calibration()->revision;
-  const auto store = [] {
-    const std::uint32_t before = rig().revision;
-    rig().tap("calibration store");
-    ASSERT_TRUE(rig().until([&] {
-      return rig().revision != before && rig().now().calibration.history[0].revision == rig().revision;
-    }));
+  const auto& rows = rig().now().calibration.history;
+  const auto use = [&](std::size_t row) {
+    rig().tap("calibration " + std::to_string(row));
+    ASSERT_TRUE(rig().until([&] { return rows[row].active && rig().revision == rows[row].revision; }));
   };
-  calibrate();
-  store();
+  const auto file = rig().folder.path() / "boards.yml";
+  ASSERT_TRUE(hal::sim::write_rig(file, hal::sim::make_rig(rig().boards)).has_value());
+  const auto before = rig().store->save_calibration(*pipeline::read_calibration(file), "of the boards' rig");
+  ASSERT_TRUE(before.has_value());
+  rig().open(StaffPage::Calibrate);
+  ASSERT_TRUE(rig().until([&] { return rows[0].revision == *before; }));
+  use(1);
+  use(0);
   rig().boards.baseline_mm *= 1.1;
   calibrate();
   EXPECT_EQ(rig().now().calibration.verdict, pipeline::CalibrationVerdict::Refuse);
@@ -394,14 +397,12 @@ TEST_F(TechnicianTest, CamerasThatWereMountedAnewMayHaveAnotherDistance) {
   calibrate();
   EXPECT_NE(rig().now().calibration.verdict, pipeline::CalibrationVerdict::Refuse);
   EXPECT_NEAR(rig().now().calibration.baseline_mm, rig().boards.baseline_mm, 2);
-  store();
+  rig().tap("calibration store");
+  ASSERT_TRUE(rig().until([&] { return rows[0].active && rows[0].revision > *before; }));
   EXPECT_FALSE(rig().now().calibration.mounted_anew) << "said of one calibration only";
   // Back to the one that fits the test captures.
   rig().boards.baseline_mm /= 1.1;
-  const auto& rows = rig().now().calibration.history;
-  const auto row = std::ranges::find(rows, own, &ui::TechnicianCalibrationRow::revision) - rows.begin();
-  rig().tap("calibration " + std::to_string(row));
-  ASSERT_TRUE(rig().until([&] { return rig().revision == own; }));
+  use(std::size_t(std::ranges::find(rows, own, &ui::TechnicianCalibrationRow::revision) - rows.begin()));
 }
 
 // The last: it leaves.
