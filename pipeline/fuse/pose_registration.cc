@@ -26,11 +26,8 @@ constexpr double kFewestSamples = 300;
 constexpr double kMostMovedMm = 1.5;
 constexpr double kRidge = 1e-9;
 constexpr double kStillMm = 2e-4, kSkinStillMm = 1e-6;
-constexpr std::array<RegistrationRound, 5> kRounds{{{12, 6, 8, kFewSamples},
-                                                    {6, 2, 6, kFewSamples},
-                                                    {3, 0.7, 6, kFewSamples},
-                                                    {2, 0.25, 8, kFewSamples},
-                                                    {1.5, 0.12, 8, kFewSamples}}};
+constexpr std::array<RegistrationRound, 4> kRounds{
+    {{12, 6, 8, kFewSamples}, {6, 2, 6, kFewSamples}, {3, 0.7, 6, kFewSamples}, {2, 0.25, 4, kFewSamples}}};
 constexpr RegistrationRound kLast{1.5, 0.08, 20};
 constexpr double kSlideSigmaMm = 0.1;
 // Regions move together, as both cheeks in a smile: so much more than apart (of twelve heads, still and

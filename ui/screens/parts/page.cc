@@ -131,7 +131,9 @@ void Page::button(std::string_view id, std::string_view label, const char* lette
 }
 
 void Page::progress(std::string_view id, float share) {
-  const float done = std::clamp(share, 0.0F, 1.0F);
+  // A bar that grew with every pixel would have the whole page drawn each time, beside the work it waits for.
+  constexpr float kSteps = 100;
+  const float done = std::floor(std::clamp(share, 0.0F, 1.0F) * kSteps) / kSteps;
   Node track = box(Flow::Row);
   tell(track, Role::Status, id, tr("How far it is"));
   constexpr int kStep = 25;  // who listens is told of a quarter, not of every step
