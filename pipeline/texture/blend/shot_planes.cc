@@ -252,7 +252,13 @@ VertexViews look_at_vertices(const FaceMesh& mesh, const RectifiedPair& pair, co
   VertexViews views(memory);
   views.share.resize(n);
   views.seen.resize(n);
-  for (std::size_t v = 0; v < n; ++v) {
+  const auto for_each_vertex = [&](auto&& work) {
+    constexpr int kBands = 32;
+    context.pool.for_each_band(int(n), kBands, [&](int begin, int end, int) {
+      for (int v = begin; v < end; ++v) work(std::size_t(v));
+    });
+  };
+  for_each_vertex([&](std::size_t v) {
     const float towards_left = cosine_towards({}, mesh.vertices_mm[v], mesh.normals[v]);
     const float towards_right = cosine_towards(right_camera, mesh.vertices_mm[v], mesh.normals[v]);
     const float least = mesh.measured.empty() || mesh.measured[v] != 0 ? 0 : kLeastCosine;
@@ -263,11 +269,11 @@ VertexViews look_at_vertices(const FaceMesh& mesh, const RectifiedPair& pair, co
           right.sees(chart.texel[v], chart.disparity_px[v], options.occlusion_px))
         views.seen[v] |= kSeenRight;
     }
-    if (options.left_only) continue;
+    if (options.left_only) return;
     const float l = std::pow(towards_left, options.angle_power);
     const float r = std::pow(towards_right, options.angle_power);
     views.share[v] = l + r > 1e-6F ? r / (l + r) : 0.5F;
-  }
+  });
   if (context.stop()) return views;
   const auto parts = completed_triangles(mesh, memory);
   const auto beyond = completed_to_border(mesh, parts, memory);
@@ -282,10 +288,10 @@ VertexViews look_at_vertices(const FaceMesh& mesh, const RectifiedPair& pair, co
     if (context.stop()) return;
     forget_what_lies_behind(parts, beyond, bit, colour, views.seen, memory);
     if (context.stop()) return;
-    for (std::uint32_t v = 0; v < n; ++v) {
-      const auto rgb = colour(v);
+    for_each_vertex([&](std::size_t v) {
+      const auto rgb = colour(std::uint32_t(v));
       light[v] = rgb[0] + rgb[1] + rgb[2] + 1;
-    }
+    });
   };
   std::pmr::vector<float> left_light(n, memory), right_light(n, memory);
   look(pair.left, kLeftSide, kSeenLeft, left_light);
