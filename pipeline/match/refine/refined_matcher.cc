@@ -174,10 +174,12 @@ bool read_field(const SurfaceField& field, Vec2f at, Match& match) {
 }
 
 // What is left of a lamp's image once it was taken out misleads all pixels one way, which the residuals do
-// not show. Errors of ten simulated people grow with the light, the more slowly the more there is, up to
-// twice what the residuals say. Factor of the variance.
-float variance_by_mirrored(const RectifiedPair& pair, const Match& match) {
-  constexpr float kMost = 3, kHalf = 9 * 9;  // beyond 1; grey levels squared at half of it
+// not show: by an angle, however large the pixels are, that grows with the light, the more slowly the more
+// there is (of simulated people in full and half size). Variance of the disparity.
+constexpr double kMirroredRad = 5.6e-5;
+float mirrored_variance_px2(const RectifiedPair& pair, const Match& match) {
+  const float most_px = float(kMirroredRad * pair.focal_px);
+  constexpr float kHalf = 9 * 9;  // grey levels squared at half of it
   const auto squared = [&](const RectifiedView& view, float x) {
     const int column = std::clamp(int(std::lround(x)), 0, pair.width_px - 1);
     const int row = std::clamp(int(std::lround(match.left_px.y)), 0, pair.height_px - 1);
@@ -186,7 +188,7 @@ float variance_by_mirrored(const RectifiedPair& pair, const Match& match) {
   };
   const float light =
       (squared(pair.left, match.left_px.x) + squared(pair.right, match.left_px.x - match.disparity_px)) / 2;
-  return 1 + kMost * light / (light + kHalf);
+  return most_px * most_px * light / (light + kHalf);
 }
 
 // What the field says at the keypoints.
@@ -206,7 +208,7 @@ void read_matches(const RectifiedPair& pair, const SurfaceField& field, const Ke
     if (!read(keypoint, match)) continue;
     // What moved across the rows moved along them as well, for all we know.
     const double moved = motion.at(double(match.left_px.x - match.disparity_px), double(match.left_px.y));
-    match.sigma_px = std::hypot(match.sigma_px * std::sqrt(variance_by_mirrored(pair, match)), float(moved));
+    match.sigma_px = std::hypot(match.sigma_px, std::sqrt(mirrored_variance_px2(pair, match)), float(moved));
     set.matches.push_back(match);
   }
 }
