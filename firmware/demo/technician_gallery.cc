@@ -169,7 +169,7 @@ ui::TechnicianCalibration calibrated(const ui::ViewState& review, bool running) 
 ui::TechnicianCalibration refused(const ui::ViewState& review) {
   static const std::vector<std::string> kReasons{
       "left and right do not hold still relative to each other: they disagree 4.2 times more than the corners' noise explains, as cameras do that turn on their mounts; fasten them, and expose both at the same instant",
-      "the cameras come out 102.11 mm apart, -6.0 % from the 108.63 mm they are known to be; measure a square of the board again: it would have to be 1.064 of what was said (if the cameras were mounted anew: say so on the page, or relievo calibrate --baseline-mm 0)",
+      "the cameras come out 102.11 mm apart, -6.0 % from the 108.63 mm they are known to be; measure a square of the board again: it would have to be 1.064 of what was said (if the cameras were mounted anew, say so: on the screen's page of calibration, or relievo calibrate --baseline-mm 0)",
       "only 5 of 14 pairs agree with each other"};
   ui::TechnicianCalibration c = calibrated(review, false);
   c.end = pipeline::LiveEnd::Plateau;

@@ -8,9 +8,9 @@ namespace relievo::firmware {
 
 void TakeHome::look(bool visited) {
   const bool there = parts_.media.current().has_value();
-  // An export lets its stick go and takes it up again to compare: what is away while the keeper works need
-  // not have been pulled out, and what comes back then was plugged by no visitor.
-  if (!there && parts_.side_tasks.busy(JobLane::Keeper)) return;
+  // The staff's export lets its stick go and takes it up again to compare. While the keeper works, one that
+  // is away and was no visitor's need not have been pulled out, and what comes is that one again.
+  if (!there && there_ && !ours_ && parts_.side_tasks.busy(JobLane::Keeper)) return;
   if (there && !there_) {
     ours_ = visited;
     writing_.reset();  // how it went with another stick is no news

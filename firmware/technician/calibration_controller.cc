@@ -289,8 +289,8 @@ void CalibrationController::adopt(std::function<Result<std::uint32_t>()> first) 
       },
       [this, made, visit = visit_](const std::optional<Error>& error) {
         if (!error) use(*std::move(made->pipeline), true);
-        if (!error) mounted_anew_ = false;
         if (visit != visit_) return error ? parts_.log.fault(*error) : void();
+        if (!error) mounted_anew_ = false;
         busy_ = false;
         problem_ = error ? ui::fault_of(*error) : ui::Fault{};
         if (!error) load_history();

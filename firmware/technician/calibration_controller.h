@@ -132,7 +132,7 @@ class CalibrationController {
 
   Parts parts_;
   BoardArgs board_{10, 7, 20};
-  bool mounted_anew_ = false;  // the cameras' distance of the calibration in use is expected no more
+  bool mounted_anew_ = false;  // the next calibration need not have the cameras' distance of the one in use
   bool running_ = false, ended_ = false, stored_ = false;
   ui::Fault problem_;
   std::string exported_;  // the folder on the stick

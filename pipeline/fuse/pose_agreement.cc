@@ -43,7 +43,8 @@ void measure_agreement_of(std::size_t a, std::span<const PoseSurface> poses, Reg
   ResidualMap& map = registration.residuals[a];
   std::array<double, kMostPoses> area_mm2{};
   std::pmr::vector<std::pmr::vector<float>> distances(poses.size(), &memory);
-  for (auto& of_one : distances) of_one.reserve(map.mm.size());
+  for (std::size_t b = 0; b < poses.size(); ++b)
+    if (b != a) distances[b].reserve(map.mm.size());
   for (std::size_t i = 0; i < map.mm.size(); ++i) {
     const std::size_t k = i / std::size_t(map.columns) * kResidualEvery * std::size_t(pose.columns) +
                           i % std::size_t(map.columns) * kResidualEvery;

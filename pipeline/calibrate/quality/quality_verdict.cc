@@ -64,8 +64,8 @@ void judge_board(const CalibrationQuality& q, Verdict& v) {
   if (q.expected_baseline_mm > 0 && std::abs(off) > limits::kBaselinePercent)
     v.say(CalibrationVerdict::Refuse,
           "the cameras come out {} mm apart, {} % from the {} mm they are known to be; measure a square of "
-          "the board again: it would have to be {} of what was said (if the cameras were mounted anew: "
-          "say so on the page, or relievo calibrate --baseline-mm 0)",
+          "the board again: it would have to be {} of what was said (if the cameras were mounted anew, "
+          "say so: on the screen's page of calibration, or relievo calibrate --baseline-mm 0)",
           {decimal(q.baseline_mm, 2), decimal(off, 1, true), decimal(q.expected_baseline_mm, 2),
            decimal(q.expected_baseline_mm / q.baseline_mm, 3)});
   const double noisy = std::max(q.left_rms_px, q.right_rms_px);

@@ -45,7 +45,7 @@ Result<void> find_coarse_surface(const RectifiedPair& pair, const Pyramids& pyra
 Result<void> search_edges(const RectifiedPair& pair, const Pyramids& pyramids,
                           const CoarseSurfaceOptions& options, StageContext& context, SurfaceField& field);
 
-// Bridges the holes that the surface encloses smoothly, so that refinement can look there: highlights and
+// Bridges smoothly the holes that the surface encloses, so that refinement can look there: highlights and
 // plain skin fail the cross-check and may still be found from their surroundings. What the finer pictures do
 // not confirm keeps a large sigma and goes; what is hidden from the right view breaks the uniqueness rule and
 // goes. `usable`: where a hole may lie, `largest`: nodes it may have; a hole at the rim of the picture, or

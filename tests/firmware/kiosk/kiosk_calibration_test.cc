@@ -49,12 +49,12 @@ class KioskCalibrationTest : public StaffHands {
   void the_technician_pages_say_what_comes_first() {
     for (const char* page : {"open stages", "open model", "open tables", "open compare"}) {
       tap(page);
-      EXPECT_TRUE(says("not calibrated yet")) << page;
+      EXPECT_TRUE(says("must be calibrated")) << page;
       EXPECT_EQ(find("capture"), nullptr) << page;
       tap("back");
     }
     tap("open algorithms");
-    EXPECT_TRUE(says("not calibrated yet"));
+    EXPECT_TRUE(says("must be calibrated"));
     EXPECT_EQ(find("apply"), nullptr);
     EXPECT_NE(find("reset"), nullptr) << "what needs no calibration can be done";
     tap("back");

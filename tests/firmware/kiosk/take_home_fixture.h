@@ -4,6 +4,12 @@
 // TakeHomeTest: a visit, a keeper and a socket for sticks, with a record that a visitor may take home.
 #pragma once
 
+#include <algorithm>
+#include <atomic>
+#include <filesystem>
+#include <memory>
+#include <string>
+
 #include "firmware/kiosk/take_home.h"
 #include "firmware/records/receipt.h"
 #include "tests/firmware/played_appliance.h"

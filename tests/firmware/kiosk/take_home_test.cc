@@ -141,7 +141,33 @@ TEST_F(TakeHomeTest, AStickThatAnExportLetsGoAndTakesUpAgainIsNoVisitors) {
   ends_well_on(faulty, stick_folder());
 }
 
-// What the keeper does meanwhile is somebody else's: the printing of the code.
+// As the log is, once a copy has left.
+TEST_F(TakeHomeTest, WhatTheKeeperDoesAfterACopyDoesNotOfferTheStickAgain) {
+  begins_a_visit();
+  comes_to_the_end();
+  plug(&faulty);
+  ASSERT_EQ(take(), Outcome::Done);
+  plug(nullptr);
+  faulty.plug_in_again();
+  plug(&faulty);
+  ASSERT_EQ(taking(), Taking::Ready);
+  std::atomic<bool> hold{true};
+  side_tasks.send(
+      JobLane::Keeper,
+      [&](JobControl&) -> Result<void> {
+        hold.wait(true);
+        return {};
+      },
+      [](const auto&) {}, SideTasks::Whose::Device);
+  plug(nullptr);
+  EXPECT_EQ(taking(), Taking::NoStick);
+  hold = false;
+  hold.notify_all();
+  ends();
+}
+
+// What the keeper does meanwhile is somebody else's: the printing of the code. It begins after the visit:
+// what is plugged while a keeper that was at work before it goes on passes for the staff's.
 TEST_F(TakeHomeTest, WhoStopsBeforeItHasBegunStopsNothingElse) {
   std::atomic<bool> hold{true}, stopped{false};
   begins_a_visit();

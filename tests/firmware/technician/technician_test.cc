@@ -336,7 +336,7 @@ TEST_F(TechnicianTest, ACalibrationIsMadeJudgedStoredAndUsed) {
   ASSERT_TRUE(rig().until([] { return rig().now().calibration.history_count > 0; }));
   const std::size_t count = rig().now().calibration.history_count;
   const std::uint32_t newest = rig().now().calibration.history[0].revision;
-  calibrate();
+  ASSERT_NO_FATAL_FAILURE(calibrate());
   const ui::TechnicianCalibration made = rig().now().calibration;
   ASSERT_NE(made.verdict, pipeline::CalibrationVerdict::Refuse)
       << (made.reasons.empty() ? "" : made.reasons.front());
@@ -390,11 +390,12 @@ TEST_F(TechnicianTest, CamerasThatWereMountedAnewMayHaveAnotherDistance) {
   use(1);
   use(0);
   rig().boards.baseline_mm *= 1.1;
-  calibrate();
+  ASSERT_NO_FATAL_FAILURE(calibrate());
   EXPECT_EQ(rig().now().calibration.verdict, pipeline::CalibrationVerdict::Refuse);
+  EXPECT_NE(rig().now().calibration.reasons.front().find("mm apart"), std::string::npos);
   EXPECT_FALSE(rig().shows("calibration store"));
   rig().tap("mounted");
-  calibrate();
+  ASSERT_NO_FATAL_FAILURE(calibrate());
   EXPECT_NE(rig().now().calibration.verdict, pipeline::CalibrationVerdict::Refuse);
   EXPECT_NEAR(rig().now().calibration.baseline_mm, rig().boards.baseline_mm, 2);
   rig().tap("calibration store");
@@ -402,7 +403,9 @@ TEST_F(TechnicianTest, CamerasThatWereMountedAnewMayHaveAnotherDistance) {
   EXPECT_FALSE(rig().now().calibration.mounted_anew) << "said of one calibration only";
   // Back to the one that fits the test captures.
   rig().boards.baseline_mm /= 1.1;
-  use(std::size_t(std::ranges::find(rows, own, &ui::TechnicianCalibrationRow::revision) - rows.begin()));
+  const auto row = std::ranges::find(rows, own, &ui::TechnicianCalibrationRow::revision);
+  ASSERT_NE(row, rows.end());
+  use(std::size_t(row - rows.begin()));
 }
 
 // The last: it leaves.

@@ -53,6 +53,10 @@ TEST(CoarseSurface, TwoHolesThatOpenToTheSamePlaceAreBothOpen) {
 }
 
 TEST(CoarseSurface, AHoleAtThePicturesRimIsOpen) {
+  for (const std::vector<std::string>& open : {std::vector<std::string>{"##.##", "#...#", "#####"},
+                                               {"#####", "## ##", "#...#", "#####"},
+                                               {"#####", "....#", "#####"}})
+    EXPECT_EQ(bridged(open, 5), open);
   EXPECT_EQ(bridged({"##.##", "#.#.#", "#.#.#", "#####"}, 5),
             (std::vector<std::string>{"##.##", "#####", "#####", "#####"}));
   EXPECT_EQ(bridged({"#####", "#.#.#", ".#.##", "##.##", "##.##"}, 5),

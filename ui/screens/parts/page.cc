@@ -3,6 +3,7 @@
 #include "ui/screens/parts/page.h"
 
 #include <algorithm>
+#include <cmath>
 #include <string>
 
 namespace relievo::ui {
@@ -142,7 +143,7 @@ void Page::progress(std::string_view id, float share) {
   track.box.radius = px(7);
   track.box.fill = palette.track;
   const auto in_track = tree.inside(track);
-  if (done > 0) {
+  if (share > 0) {
     Node bar = grown(box(Flow::Column), std::max(0.02F, done));
     bar.box.radius = px(7);
     bar.box.fill = palette.accent;

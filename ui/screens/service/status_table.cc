@@ -30,7 +30,7 @@ std::string_view free_room(StaffFrame& page, Status seen) { return page.number(s
 constexpr StatusRule kRules[] = {
     {"clock", mark_tr("The clock of this device is wrong"), To::Clock, To::Clock,
      [](View view, Status) { return bad_if(view.out_of_order == Trouble::Clock); }},
-    {"uncalibrated", mark_tr("This device is not calibrated yet"), To::Calibrate, To::Menu,
+    {"uncalibrated", mark_tr("The cameras must be calibrated"), To::Calibrate, To::Menu,
      [](View view, Status) { return bad_if(view.out_of_order == Trouble::Uncalibrated); }},
     {"moved", mark_tr("The cameras need adjusting"), To::Calibrate, To::Menu,
      [](View view, Status) {

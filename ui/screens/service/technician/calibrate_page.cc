@@ -194,7 +194,7 @@ void board(TechnicianFrame& f) {
           5);
   f.row("charuco", f.tr("With markers (ChArUco)"), c.charuco ? f.tr("yes") : f.tr("no"), Mood::Plain,
         technician_action(TechnicianAct::SwitchCharuco));
-  // Else their distance must come out as it is known.
+  // If not, their distance must be that of the calibration in use.
   if (f.seen.calibrated)
     f.row("mounted", f.tr("The cameras were mounted anew"), c.mounted_anew ? f.tr("yes") : f.tr("no"),
           Mood::Plain, technician_action(TechnicianAct::SwitchMountedAnew));

@@ -198,7 +198,7 @@ void TechnicianFrame::uncalibrated() {
   Node room = grown(box(Flow::Column, space::kM, space::kXl, 0));
   centre(room);
   const auto in_room = tree.inside(room);
-  heading("uncalibrated", tr("This device is not calibrated yet"), type::kHeading, TextAlign::Centre);
+  heading("uncalibrated", tr("The cameras must be calibrated"), type::kHeading, TextAlign::Centre);
   small_button("to calibration", tr("Calibration"), icon::kWrench, ButtonLook::Main,
                {ActionKind::StaffOpen, int(StaffPage::Calibrate)});
 }
