@@ -79,9 +79,10 @@ void measure_agreement(std::span<const PoseSurface> poses, Registration& registr
     map.mm.assign(std::size_t(map.columns) * std::size_t(map.rows), kNowhere);
   }
   SharedArena memory(context.scratch);
-  context.pool.for_each_band(int(poses.size()), int(poses.size()), [&](int, int, int a) {
-    measure_agreement_of(std::size_t(a), poses, registration, memory);
-  });
+  const auto measure = [&](int a) { measure_agreement_of(std::size_t(a), poses, registration, memory); };
+  // By one reference: more would be kept in the heap.
+  context.pool.for_each_band(int(poses.size()), int(poses.size()),
+                             [&measure](int, int, int a) { measure(a); });
 }
 
 }  // namespace relievo::pipeline

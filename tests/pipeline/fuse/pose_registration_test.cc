@@ -159,8 +159,8 @@ TEST_F(Poses, TellWhereTheyDisagree) {
     if (std::isnan(map.mm[i])) continue;
     const std::size_t column = i % static_cast<std::size_t>(map.columns),
                       row = i / static_cast<std::size_t>(map.columns);
-    const Vec3d at = apply(poses_[1].head_from_camera,
-                           wide(poses_[1].nodes[kResidualEvery * (row * kColumns + column)].at_mm));
+    const std::size_t node = kResidualEvery * (row * static_cast<std::size_t>(poses_[1].columns) + column);
+    const Vec3d at = apply(poses_[1].head_from_camera, wide(poses_[1].nodes.at(node).at_mm));
     if (at.y > 50 && std::abs(at.x) < 40) {
       EXPECT_LT(std::abs(map.mm[i]), 0.05) << "the brow did not move";
     }
