@@ -5,6 +5,7 @@
 // half written passes for a copy, and only a stick that came during the visit is written to.
 #include "firmware/kiosk/take_home.h"
 
+#include "tests/firmware/busy_lane.h"
 #include "tests/firmware/kiosk/take_home_fixture.h"
 
 namespace relievo::firmware {
@@ -120,21 +121,13 @@ TEST_F(TakeHomeTest, AStickIsLookedForNowAndThenAndAtOnceWhenItIsWritten) {
 
 // The staff's export goes on for a moment after they have left.
 TEST_F(TakeHomeTest, AStickThatAnExportLetsGoAndTakesUpAgainIsNoVisitors) {
-  std::atomic<bool> hold{true};
   socket.stick = &faulty;
   turn();
-  side_tasks.send(
-      JobLane::Keeper,
-      [&](JobControl&) -> Result<void> {
-        hold.wait(true);
-        return {};
-      },
-      [](const auto&) {}, SideTasks::Whose::Device);
+  BusyLane keeper(side_tasks, JobLane::Keeper);
   begins_a_visit();
   plug(nullptr);
   plug(&faulty);
-  hold = false;
-  hold.notify_all();
+  keeper.go_on();
   ends();
   comes_to_the_end();
   EXPECT_EQ(taking(), Taking::NotOurs);
@@ -151,44 +144,27 @@ TEST_F(TakeHomeTest, WhatTheKeeperDoesAfterACopyDoesNotOfferTheStickAgain) {
   faulty.plug_in_again();
   plug(&faulty);
   ASSERT_EQ(taking(), Taking::Ready);
-  std::atomic<bool> hold{true};
-  side_tasks.send(
-      JobLane::Keeper,
-      [&](JobControl&) -> Result<void> {
-        hold.wait(true);
-        return {};
-      },
-      [](const auto&) {}, SideTasks::Whose::Device);
+  BusyLane keeper(side_tasks, JobLane::Keeper);
   plug(nullptr);
   EXPECT_EQ(taking(), Taking::NoStick);
-  hold = false;
-  hold.notify_all();
+  keeper.go_on();
   ends();
 }
 
 // What the keeper does meanwhile is somebody else's: the printing of the code. It begins after the visit:
 // what is plugged while a keeper that was at work before it goes on passes for the staff's.
 TEST_F(TakeHomeTest, WhoStopsBeforeItHasBegunStopsNothingElse) {
-  std::atomic<bool> hold{true}, stopped{false};
   begins_a_visit();
   comes_to_the_end();
-  side_tasks.send(
-      JobLane::Keeper,
-      [&](JobControl& control) -> Result<void> {
-        hold.wait(true);
-        stopped = control.cancelled.load();
-        return {};
-      },
-      [](const auto&) {}, SideTasks::Whose::Device);
+  BusyLane keeper(side_tasks, JobLane::Keeper);
   plug(&faulty);
   take_home.take(enrolment, view.settings);
   turn();
   EXPECT_EQ(taking(), Taking::Busy);
   take_home.stop();
-  hold = false;
-  hold.notify_all();
+  keeper.go_on();
   ends();
-  EXPECT_FALSE(stopped);
+  EXPECT_FALSE(keeper.stopped());
   EXPECT_EQ(view.take_home.outcome, Outcome::Cancelled);
   EXPECT_EQ(copies(stick_folder()), "");
   ends_well_on(faulty, stick_folder());
@@ -233,20 +209,13 @@ TEST_F(TakeHomeTest, AWriteProtectedStickIsNamedSo) {
 
 // A stick that is being flushed answers nobody else until it has been: the page would stand still.
 TEST_F(TakeHomeTest, NobodyLooksForAStickWhileTheKeeperHasOne) {
-  std::atomic<bool> done{false};
-  side_tasks.send(
-      JobLane::Keeper,
-      [&](JobControl&) -> Result<void> {
-        while (!done) std::this_thread::sleep_for(milliseconds(1));
-        return {};
-      },
-      [](const std::optional<Error>&) {}, SideTasks::Whose::Device);
+  BusyLane keeper(side_tasks, JobLane::Keeper);
   side_tasks.turn();
   ASSERT_TRUE(side_tasks.busy(JobLane::Keeper));
   const int asked = socket.asked;
   for (int i = 0; i < 5; ++i) turn();
   EXPECT_EQ(socket.asked, asked);
-  done = true;
+  keeper.go_on();
   work();
   turn();
   EXPECT_GT(socket.asked, asked);

@@ -6,41 +6,17 @@
 #include "tests/firmware/technician/technician_fixture.h"
 
 #include <algorithm>
-#include <atomic>
 #include <filesystem>
-#include <memory>
 #include <string>
 
 #include "firmware/work/session_document.h"
 #include "hal/base/whole_file.h"
 #include "hal/sim/replay/folder_media.h"
 #include "storage/document/document.h"
+#include "tests/firmware/busy_lane.h"
 
 namespace relievo::firmware {
 namespace {
-
-// A thread that is busy with something else until it goes.
-class Busy {
- public:
-  Busy(TechnicianRig& rig, JobLane lane) {
-    rig.side_tasks->send(
-        lane,
-        [held = held_](JobControl&) -> Result<void> {
-          held->wait(true);
-          return {};
-        },
-        [](const std::optional<Error>&) {}, SideTasks::Whose::Device);
-  }
-  ~Busy() {
-    held_->store(false);
-    held_->notify_all();
-  }
-  Busy(const Busy&) = delete;
-  Busy& operator=(const Busy&) = delete;
-
- private:
-  std::shared_ptr<std::atomic<bool>> held_ = std::make_shared<std::atomic<bool>>(true);
-};
 
 // As StaffController does it.
 void sign_out(TechnicianRig& rig) {
@@ -61,7 +37,7 @@ TEST_F(TechnicianTest, WhatIsForVisitorsComesIntoUseThoughTheTechnicianLeavesMea
   rig().tap(kind("matcher"));
   rig().tap(name("zmncc"));
   {
-    const Busy keeper(rig(), JobLane::Keeper);
+    const BusyLane keeper(*rig().side_tasks, JobLane::Keeper);
     rig().tap("apply");
     sign_out(rig());
   }
@@ -81,7 +57,7 @@ TEST_F(TechnicianTest, WhatIsForVisitorsComesIntoUseThoughTheTechnicianLeavesMea
   const std::uint32_t wanted = rig().now().calibration.history[1].revision;
   rig().revision = 0;
   {
-    const Busy keeper(rig(), JobLane::Keeper);
+    const BusyLane keeper(*rig().side_tasks, JobLane::Keeper);
     rig().tap("calibration 1");
     sign_out(rig());
   }
@@ -105,7 +81,7 @@ TEST_F(TechnicianTest, WhatIsSavedIsWhatWasThereWhenItWasAskedFor) {
   capture();
   rig().plug_in();
   {
-    const Busy worker(rig(), JobLane::Worker);
+    const BusyLane worker(*rig().side_tasks, JobLane::Worker);
     rig().tap("save");
     rig().open(StaffPage::Algorithms);
     rig().tap(kind("mesher"));
@@ -133,7 +109,7 @@ TEST_F(TechnicianTest, ASaveThatIsStoppedBeforeItIsOnTheStickIsNotThere) {
   const auto saved = [] { return test::listing(rig().stick()); };
   const std::string before = saved();
   {
-    const Busy worker(rig(), JobLane::Worker);
+    const BusyLane worker(*rig().side_tasks, JobLane::Worker);
     rig().tap("save");
     rig().test_capture->act(ui::DoTechnician{ui::TechnicianAct::StopRecording});
   }
@@ -155,9 +131,9 @@ TEST_F(TechnicianTest, WhatIsLoadedWhileARunGoesOnIsThereAfterIt) {
   const auto row = std::ranges::find_if(names, [&](const auto& one) { return one.starts_with(document); });
   ASSERT_NE(row, names.end());
   {
-    const Busy worker(rig(), JobLane::Worker);
+    const BusyLane worker(*rig().side_tasks, JobLane::Worker);
     {
-      const Busy keeper(rig(), JobLane::Keeper);
+      const BusyLane keeper(*rig().side_tasks, JobLane::Keeper);
       rig().test_capture->act(ui::LoadSaved{std::size_t(row - names.begin()), true});
       rig().test_capture->act(ui::RunStages{});
       ASSERT_EQ(rig().now().phase, TechnicianPhase::Running);

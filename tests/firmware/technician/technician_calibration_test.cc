@@ -1,0 +1,99 @@
+// SPDX-FileCopyrightText: 2026 The Relievo authors
+// SPDX-License-Identifier: GPL-3.0-or-later
+//
+// The technician's page of calibrations, by touch: made, judged, stored, used, taken along on a stick.
+#include "tests/firmware/technician/technician_fixture.h"
+
+#include <algorithm>
+#include <cmath>
+#include <filesystem>
+#include <string>
+
+#include "hal/sim/optics/rig.h"
+#include "pipeline/calibrate/file/calibration_file.h"
+
+namespace relievo::firmware {
+namespace {
+
+TEST_F(TechnicianTest, ACalibrationIsMadeJudgedStoredAndUsed) {
+  rig().open(StaffPage::Calibrate);
+  rig().tap("columns less");
+  EXPECT_EQ(rig().now().calibration.columns, 9);
+  rig().tap("columns more");
+  ASSERT_TRUE(rig().until([] { return rig().now().calibration.history_count > 0; }));
+  const std::size_t count = rig().now().calibration.history_count;
+  const std::uint32_t newest = rig().now().calibration.history[0].revision;
+  ASSERT_NO_FATAL_FAILURE(calibrate());
+  const ui::TechnicianCalibration made = rig().now().calibration;
+  ASSERT_NE(made.verdict, pipeline::CalibrationVerdict::Refuse)
+      << (made.reasons.empty() ? "" : made.reasons.front());
+  ASSERT_FALSE(made.reasons.empty()) << "good for a reason that is told, too";
+  const auto& between = rig().stages->calibration()->right_from_left.translation_mm;
+  EXPECT_NEAR(made.baseline_mm, std::hypot(between.x, between.y, between.z), 0.5);
+  EXPECT_EQ(rig().appliance->state(), State::Staff);
+
+  rig().tap("calibration store");
+  ASSERT_TRUE(rig().until([&] { return rig().now().calibration.history_count == count + 1; }))
+      << rig().now().calibration.problem.detail;
+  EXPECT_EQ(rig().revision, newest + 1);
+  EXPECT_EQ(rig().stages->calibration()->revision, newest + 1) << "visitors are measured with it";
+  EXPECT_EQ(rig().store->active_calibration()->revision, newest + 1);
+  // The one before it comes back by a touch.
+  rig().tap("calibration 1");
+  ASSERT_TRUE(rig().until([&] { return rig().revision == newest; }))
+      << rig().now().calibration.problem.detail;
+  EXPECT_EQ(rig().stages->calibration()->revision, newest);
+
+  // By stick: what was exported comes back as one more of the history.
+  rig().plug_in();
+  rig().tap("calibration export");
+  ASSERT_TRUE(rig().until([] { return !rig().now().calibration.exported.empty(); }))
+      << rig().now().calibration.problem.detail;
+  const auto exported = rig().stick() / rig().now().calibration.exported;
+  EXPECT_TRUE(std::filesystem::exists(exported)) << exported;
+  rig().plug_in();
+  rig().tap("calibration import");
+  ASSERT_TRUE(rig().until([&] { return rig().now().calibration.history_count == count + 2; }))
+      << rig().now().calibration.problem.detail;
+  EXPECT_EQ(rig().store->active_calibration()->right_from_left.translation_mm.x,
+            rig().store->calibration(newest)->right_from_left.translation_mm.x);
+  std::filesystem::remove_all(rig().stick() / "calibrations");
+}
+
+// Cameras at another distance than the calibration in use says are refused, unless the technician says why.
+TEST_F(TechnicianTest, CamerasThatWereMountedAnewMayHaveAnotherDistance) {
+  const std::uint32_t own = rig().stages->calibration()->revision;
+  const auto& rows = rig().now().calibration.history;
+  const auto use = [&](std::size_t row) {
+    rig().tap("calibration " + std::to_string(row));
+    ASSERT_TRUE(rig().until([&] { return rows[row].active && rig().revision == rows[row].revision; }));
+  };
+  const auto file = rig().folder.path() / "boards.yml";
+  ASSERT_TRUE(hal::sim::write_rig(file, hal::sim::make_rig(rig().boards)).has_value());
+  const auto before = rig().store->save_calibration(*pipeline::read_calibration(file), "of the boards' rig");
+  ASSERT_TRUE(before.has_value());
+  rig().open(StaffPage::Calibrate);
+  ASSERT_TRUE(rig().until([&] { return rows[0].revision == *before; }));
+  use(1);
+  use(0);
+  rig().boards.baseline_mm *= 1.1;
+  ASSERT_NO_FATAL_FAILURE(calibrate());
+  EXPECT_EQ(rig().now().calibration.verdict, pipeline::CalibrationVerdict::Refuse);
+  EXPECT_NE(rig().now().calibration.reasons.front().find("mm apart"), std::string::npos);
+  EXPECT_FALSE(rig().shows("calibration store"));
+  rig().tap("mounted");
+  ASSERT_NO_FATAL_FAILURE(calibrate());
+  EXPECT_NE(rig().now().calibration.verdict, pipeline::CalibrationVerdict::Refuse);
+  EXPECT_NEAR(rig().now().calibration.baseline_mm, rig().boards.baseline_mm, 2);
+  rig().tap("calibration store");
+  ASSERT_TRUE(rig().until([&] { return rows[0].active && rows[0].revision > *before; }));
+  EXPECT_FALSE(rig().now().calibration.mounted_anew) << "said of one calibration only";
+  // Back to the one that fits the test captures.
+  rig().boards.baseline_mm /= 1.1;
+  const auto row = std::ranges::find(rows, own, &ui::TechnicianCalibrationRow::revision);
+  ASSERT_NE(row, rows.end());
+  use(std::size_t(row - rows.begin()));
+}
+
+}  // namespace
+}  // namespace relievo::firmware
