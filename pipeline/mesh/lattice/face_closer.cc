@@ -254,7 +254,10 @@ Result<std::optional<ClosedFace>> close_face(const PointLattice& seen, const Lat
   drop_beyond(l, surface, outline);
   const CellMask open = open_cells(l, surface, outline, mirror, shaper, scratch);
   if (context.stop()) return stopped;
-  fill_cells(l, surface, open, kSteepest, mirror, &scratch, &context.cancelled);
+  {
+    const Arena::Mark filling(scratch);
+    fill_cells(l, surface, open, kSteepest, mirror, &scratch, &context.cancelled);
+  }
   if (context.stop()) return stopped;
   drop_beyond(l, surface, outline);
   CellMask inside(l.size(), 0, &scratch);

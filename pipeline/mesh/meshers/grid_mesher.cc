@@ -52,6 +52,15 @@ void turn_outwards(FaceMesh& cut, const Vec3d& centre_mm) {
   for (auto& t : cut.triangles) std::swap(t[1], t[2]);
 }
 
+// Loose parts, ears and slivers that the cut has left.
+void clean(FaceMesh& cut, float max_slope, StageContext& context) {
+  const Arena::Mark mark(context.scratch);  // it takes triangles away and adds none
+  keep_one_surface(cut.vertices_mm, cut.triangles, {}, &context.scratch);
+  if (context.stop()) return;
+  if (mend_slivers(cut.vertices_mm, cut.triangles, max_slope, &context.scratch) > 0)
+    keep_one_surface(cut.vertices_mm, cut.triangles, {.ear_passes = 0}, &context.scratch);
+}
+
 Result<FaceMesh> make_surface(const PointCloud& cloud, double triangles, const GridMesher& o,
                               StageContext& context) {
   Arena& scratch = context.scratch;
@@ -87,10 +96,7 @@ Result<FaceMesh> make_surface(const PointCloud& cloud, double triangles, const G
   FaceMesh cut =
       cut_outline(shaped.lattice, shaped.surface, shaped.inside, smoothing, outline, max_slope, &scratch);
   if (context.stop()) return stopped();
-  keep_one_surface(cut.vertices_mm, cut.triangles, {}, &scratch);
-  if (context.stop()) return stopped();
-  if (mend_slivers(cut.vertices_mm, cut.triangles, max_slope, &scratch) > 0)
-    keep_one_surface(cut.vertices_mm, cut.triangles, {.ear_passes = 0}, &scratch);
+  clean(cut, max_slope, context);
   if (context.stop()) return stopped();
   if (outline) turn_outwards(cut, outline->chart.centre_mm);
   return cut;

@@ -155,10 +155,11 @@ ViewBlend::ViewBlend(const Chart& chart, const ShotPlanes& planes, const RowBand
       excess_(chart.size(), std::int16_t{0}, &context.scratch),
       shines_(chart.size(), std::uint8_t{0}, &context.scratch) {
   // Noise and what is left between the exposures are no highlight, whatever was asked for.
-  constexpr float kSigmas = 3;
+  constexpr float kNoiseSigmas = 3;
   if (highlight_level > 0)
-    level_ = std::max(highlight_level,
-                      kSigmas * std::max({exposure_.sigma[0], exposure_.sigma[1], exposure_.sigma[2]}) / 2);
+    level_ =
+        std::max(highlight_level,
+                 kNoiseSigmas * std::max({exposure_.sigma[0], exposure_.sigma[1], exposure_.sigma[2]}) / 2);
   if (level_ > 0) find_highlights(bands, context);
   if (context.stop()) return;
   field_.emplace(chart, planes, exposure_, shines_, &context.scratch);
