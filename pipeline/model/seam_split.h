@@ -9,9 +9,10 @@
 #include <bit>
 #include <cstdint>
 #include <memory_resource>
+#include <span>
 #include <vector>
 
-#include "pipeline/model/face_model.h"
+#include "pipeline/model/face_mesh.h"
 
 namespace relievo::pipeline {
 
@@ -24,12 +25,12 @@ struct SeamSplit {
   std::pmr::vector<std::array<std::uint32_t, 3>> triangles;  // of entries, in the mesh's order
 };
 
-// For an untextured mesh uv are zero, so that entries are the vertices in use.
-inline SeamSplit split_at_seams(const FaceModel& model,
+// `uv`: three a triangle; where there are none they are zero, so that entries are the vertices in use.
+inline SeamSplit split_at_seams(const FaceMesh& mesh, std::span<const Vec2f> uv,
                                 std::pmr::memory_resource* memory = std::pmr::get_default_resource()) {
   constexpr std::uint32_t kNone = ~std::uint32_t{0};
-  const auto& triangles = model.mesh.triangles;
-  const std::size_t vertices = model.mesh.vertices_mm.size();
+  const auto& triangles = mesh.triangles;
+  const std::size_t vertices = mesh.vertices_mm.size();
   SeamSplit split{std::pmr::vector<SeamSplit::Entry>(memory),
                   std::pmr::vector<std::array<std::uint32_t, 3>>(triangles.size(), memory)};
   split.entries.reserve(vertices);
@@ -39,14 +40,14 @@ inline SeamSplit split_at_seams(const FaceModel& model,
   for (std::size_t t = 0; t < triangles.size(); ++t)
     for (std::size_t k = 0; k < 3; ++k) {
       const std::uint32_t vertex = triangles[t][k];
-      const Vec2f uv = model.texture.uv.empty() ? Vec2f{} : model.texture.uv[3 * t + k];
+      const Vec2f at = uv.empty() ? Vec2f{} : uv[3 * t + k];
       std::uint32_t entry = first[vertex];
       while (entry != kNone &&
-             std::bit_cast<std::uint64_t>(split.entries[entry].uv) != std::bit_cast<std::uint64_t>(uv))
+             std::bit_cast<std::uint64_t>(split.entries[entry].uv) != std::bit_cast<std::uint64_t>(at))
         entry = next[entry];
       if (entry == kNone) {
         entry = std::uint32_t(split.entries.size());
-        split.entries.push_back({vertex, uv});
+        split.entries.push_back({vertex, at});
         next.push_back(first[vertex]);
         first[vertex] = entry;
       }

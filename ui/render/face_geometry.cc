@@ -257,22 +257,16 @@ std::vector<Tinted> tinted_of(const pipeline::FaceModel& model) {
   return corners;
 }
 
-std::vector<Corner> corners_of(const pipeline::FaceModel& model, const pipeline::TextureAtlas& texture) {
+std::vector<Corner> corners_of(const pipeline::FaceModel& model, const pipeline::SeamSplit& split) {
   const auto& t = model.head_from_camera;
   const std::vector<float> share = within(model.mesh);
   std::vector<Corner> corners;
-  corners.reserve(model.mesh.triangles.size() * 3);
-  for (std::size_t i = 0; i < model.mesh.triangles.size(); ++i) {
-    for (std::size_t k = 0; k < 3; ++k) {
-      const std::uint32_t at = model.mesh.triangles[i][k];
-      const auto& v = model.mesh.vertices_mm[at];
-      const auto& n = model.mesh.normals[at];
-      const Dot p = dot_of(t, v);
-      const auto m = apply(t.rotation, pipeline::Vec3d{n.x, n.y, n.z});
-      const bool flat = texture.uv.size() <= 3 * i + k;
-      const pipeline::Vec2f uv = flat ? pipeline::Vec2f{} : texture.uv[3 * i + k];
-      corners.push_back({p.x, p.y, p.z, float(m.x), float(m.y), float(m.z), uv.x, uv.y, share[at]});
-    }
+  corners.reserve(split.entries.size());
+  for (const auto& [at, uv] : split.entries) {
+    const Dot p = dot_of(t, model.mesh.vertices_mm[at]);
+    const auto& n = model.mesh.normals[at];
+    const auto m = apply(t.rotation, pipeline::Vec3d{n.x, n.y, n.z});
+    corners.push_back({p.x, p.y, p.z, float(m.x), float(m.y), float(m.z), uv.x, uv.y, share[at]});
   }
   return corners;
 }

@@ -14,6 +14,7 @@
 #include "pipeline/model/face_mesh.h"
 #include "pipeline/model/face_model.h"
 #include "pipeline/model/point_cloud.h"
+#include "pipeline/model/seam_split.h"
 #include "ui/draw/draw_list.h"
 
 namespace relievo::ui {
@@ -55,7 +56,7 @@ class FaceProjection {
 // What of a model is handed to the graphics card, in the head frame, mm, with the point the head turns about
 // as its origin. Thread: main. Errors: none.
 
-// Of a triangle; `within` is how far from the rim of the surface it lies, 0 to 1.
+// Where triangles meet; `within` is how far from the rim of the surface it lies, 0 to 1.
 struct Corner {
   float x, y, z, nx, ny, nz, u, v, within;
 };
@@ -69,8 +70,8 @@ using Dot = pipeline::Vec3f;
 
 // From the left camera's frame.
 Dot dot_of(const pipeline::RigidTransform& head_from_camera, const pipeline::Vec3f& at_mm);
-// Three for every triangle, in the mesh's order, with their places in the texture.
-std::vector<Corner> corners_of(const pipeline::FaceModel& model, const pipeline::TextureAtlas& texture);
+// One an entry of `split`, in its order.
+std::vector<Corner> corners_of(const pipeline::FaceModel& model, const pipeline::SeamSplit& split);
 // The cloud, or where there is none the mesh's vertices.
 std::vector<Dot> dots_of(const pipeline::FaceModel& model, const pipeline::PointCloud* cloud);
 // So many, now the first, lie apart: one in each cube of kApartMm.

@@ -35,11 +35,19 @@ Birth birth_of(float born) {
           photograph ? 1 : between(0.72F, 1), std::min(between(0.2F, 0.4F), 1 - between(0.5F, 0.72F))};
 }
 
-template <typename Item>
-void fill(GLenum target, GLuint& buffer, const std::vector<Item>& items) {
+template <typename Items>
+void fill(GLenum target, GLuint& buffer, const Items& items) {
   if (buffer == 0) glGenBuffers(1, &buffer);
   glBindBuffer(target, buffer);
-  glBufferData(target, static_cast<GLsizeiptr>(items.size() * sizeof(Item)), items.data(), GL_STATIC_DRAW);
+  glBufferData(target, static_cast<GLsizeiptr>(items.size() * sizeof(items[0])), items.data(),
+               GL_STATIC_DRAW);
+}
+
+const pipeline::TextureAtlas& atlas_of(const Face& subject) {
+  return subject.colours != nullptr ? *subject.colours : subject.model->texture;
+}
+pipeline::SeamSplit split_of(const Face& subject) {
+  return pipeline::split_at_seams(subject.model->mesh, atlas_of(subject).uv);
 }
 
 class GlesFaceView final : public FaceView {
@@ -88,6 +96,7 @@ class GlesFaceView final : public FaceView {
 
   void forget() override {
     glDeleteBuffers(1, &buffer_);
+    glDeleteBuffers(1, &index_buffer_);
     glDeleteBuffers(1, &point_buffer_);
     glDeleteBuffers(1, &backdrop_buffer_);
     glDeleteBuffers(1, &edge_buffer_);
@@ -95,20 +104,23 @@ class GlesFaceView final : public FaceView {
     glDeleteTextures(1, &colour_);
     glDeleteRenderbuffers(1, &depth_);
     glDeleteFramebuffers(1, &frame_);
-    buffer_ = point_buffer_ = backdrop_buffer_ = edge_buffer_ = texture_ = colour_ = depth_ = frame_ = 0;
+    buffer_ = index_buffer_ = point_buffer_ = backdrop_buffer_ = edge_buffer_ = texture_ = colour_ = depth_ =
+        frame_ = 0;
     version_ = points_version_ = edges_version_ = 0;
-    count_ = point_count_ = backdrop_count_ = edge_count_ = width_ = height_ = 0;
+    index_count_ = point_count_ = backdrop_count_ = edge_count_ = width_ = height_ = 0;
   }
 
  private:
   void upload(const Face& subject) {
     const pipeline::FaceModel& model = *subject.model;
-    const pipeline::TextureAtlas& atlas = subject.colours != nullptr ? *subject.colours : model.texture;
+    const pipeline::TextureAtlas& atlas = atlas_of(subject);
     if (texture_ == 0) glGenTextures(1, &texture_);
-    const std::vector<Corner> corners = corners_of(model, atlas);
-    count_ = int(corners.size());
+    const pipeline::SeamSplit split = split_of(subject);
+    index_count_ = int(3 * split.triangles.size());
     stand_ = stand_of(model);
-    fill(GL_ARRAY_BUFFER, buffer_, corners);
+    fill(GL_ARRAY_BUFFER, buffer_, corners_of(model, split));
+    glBindVertexArray(array_);  // which keeps the buffer of indices
+    fill(GL_ELEMENT_ARRAY_BUFFER, index_buffer_, split.triangles);
     const std::vector<Tinted> behind = tinted_of(model);
     backdrop_count_ = int(behind.size());
     fill(GL_ARRAY_BUFFER, backdrop_buffer_, behind);
@@ -136,12 +148,12 @@ class GlesFaceView final : public FaceView {
     edges_version_ = subject.version;
     edge_level_mm_ = level_mm;
     const pipeline::FaceMesh& mesh = subject.model->mesh;
+    const pipeline::SeamSplit split = split_of(subject);
     std::vector<std::uint32_t> corner(mesh.vertices_mm.size(), 0), indices;
-    for (std::size_t i = 0; i < mesh.triangles.size(); ++i)
-      for (std::size_t k = 0; k < 3; ++k) corner[mesh.triangles[i][k]] = std::uint32_t(3 * i + k);
+    for (std::size_t i = 0; i < split.entries.size(); ++i) corner[split.entries[i].vertex] = std::uint32_t(i);
     for (const auto& [a, b] : edges_of(mesh, level_mm)) indices.insert(indices.end(), {corner[a], corner[b]});
     edge_count_ = int(indices.size());
-    glBindVertexArray(array_);  // which keeps the buffer of indices
+    glBindVertexArray(array_);
     fill(GL_ELEMENT_ARRAY_BUFFER, edge_buffer_, indices);
   }
 
@@ -210,13 +222,15 @@ class GlesFaceView final : public FaceView {
 
   // What is seen through must not be its own far side: the nearest of it is looked for first.
   void draw_surface() const {
+    glBindBuffer(GL_ELEMENT_ARRAY_BUFFER, index_buffer_);
+    const auto draw = [this] { glDrawElements(GL_TRIANGLES, index_count_, GL_UNSIGNED_INT, nullptr); };
     if (birth_.surface < 1) {
       glColorMask(GL_FALSE, GL_FALSE, GL_FALSE, GL_FALSE);
-      glDrawArrays(GL_TRIANGLES, 0, count_);
+      draw();
       glColorMask(GL_TRUE, GL_TRUE, GL_TRUE, GL_TRUE);
       glDepthFunc(GL_LEQUAL);
     }
-    glDrawArrays(GL_TRIANGLES, 0, count_);
+    draw();
     glDepthFunc(GL_LESS);
   }
 
@@ -260,14 +274,15 @@ class GlesFaceView final : public FaceView {
   }
 
   GLuint program_ = 0, point_program_ = 0, backdrop_program_ = 0, backdrop_buffer_ = 0, edge_buffer_ = 0,
-         array_ = 0, buffer_ = 0, point_buffer_ = 0, texture_ = 0, frame_ = 0, colour_ = 0, depth_ = 0;
+         array_ = 0, buffer_ = 0, index_buffer_ = 0, point_buffer_ = 0, texture_ = 0, frame_ = 0, colour_ = 0,
+         depth_ = 0;
   std::uint32_t version_ = 0, points_version_ = 0, edges_version_ = 0;
   FaceLook look_;
   Birth birth_ = birth_of(1);
   float covered_ = 0;
   FaceStand stand_;
   float edge_level_mm_ = 0;
-  int count_ = 0, point_count_ = 0, apart_count_ = 0, backdrop_count_ = 0, edge_count_ = 0, width_ = 0,
+  int index_count_ = 0, point_count_ = 0, apart_count_ = 0, backdrop_count_ = 0, edge_count_ = 0, width_ = 0,
       height_ = 0;
   int times_ = 1;  // pixels of the frame for one of the screen
   bool textured_ = false;

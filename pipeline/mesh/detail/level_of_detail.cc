@@ -202,7 +202,7 @@ Result<LighterModel> lighten(const FaceModel& model, const DetailOptions& option
   if (!hangs_together(model)) return Error{Errc::InvalidInput, "the model does not hang together"}.at("lod");
   LighterModel lighter(memory);
   std::size_t wanted = std::size_t(options.triangles);
-  const SeamSplit split = split_at_seams(model, memory);
+  const SeamSplit split = split_at_seams(model.mesh, model.texture.uv, memory);
   const std::pmr::vector<std::uint8_t> seam = on_seam(split, model.mesh.vertices_mm.size(), memory);
   std::pmr::vector<Vec3f> at_mm(memory);
   for (const auto& entry : split.entries) at_mm.push_back(model.mesh.vertices_mm[entry.vertex]);

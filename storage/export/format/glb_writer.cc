@@ -118,7 +118,7 @@ Arrays arrays_of(const ExportMesh& mesh, const pipeline::SeamSplit& split) {
 
 // The JSON of the one mesh.
 std::string add_mesh(Buffer& to, const ExportMesh& mesh) {
-  const pipeline::SeamSplit split = pipeline::split_at_seams(mesh.model);
+  const pipeline::SeamSplit split = pipeline::split_at_seams(mesh.model.mesh, mesh.model.texture.uv);
   const Arrays arrays = arrays_of(mesh, split);
   std::string attributes = "\"POSITION\":" + number_text(to.add_positions(arrays.positions));
   const auto add = [&](const char* name, const std::vector<float>& values, std::size_t components) {

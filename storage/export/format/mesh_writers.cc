@@ -115,7 +115,7 @@ void add_line(std::string& text, const char* word, int decimals, Numbers... valu
 }  // namespace
 
 std::string obj_text(const ExportMesh& mesh, std::string_view mtl_name) {
-  const pipeline::SeamSplit split = pipeline::split_at_seams(mesh.model);
+  const pipeline::SeamSplit split = pipeline::split_at_seams(mesh.model.mesh, mesh.model.texture.uv);
   std::string text;
   text.reserve(256 + mesh.vertices_mm.size() * 29 + split.entries.size() * 20 + split.triangles.size() * 46);
   text += "# Relievo face model, millimetres, ";

@@ -97,6 +97,32 @@ void touch_both(const pipeline::FaceModel& model, const Vec3f& a, const Vec3f& b
   }
 }
 
+// Two charts, cut between the columns: each triangle keeps its own places in the texture, and no vertex but
+// those on the cut is handed over twice.
+TEST(FaceGeometry, CornersAreSharedButAtTheTexturesSeams) {
+  constexpr int kSteps = 10;
+  pipeline::FaceModel model = plane();
+  const auto u_of = [](std::uint32_t v, bool right) {
+    return 0.04F * static_cast<float>(v % (kSteps + 1)) + (right ? 0.5F : 0.0F);
+  };
+  const auto is_right = [](std::size_t triangle) { return triangle / 2 % kSteps >= kSteps / 2; };
+  for (std::size_t t = 0; t < model.mesh.triangles.size(); ++t)
+    for (const std::uint32_t v : model.mesh.triangles[t])
+      model.texture.uv.push_back({u_of(v, is_right(t)), 0.25F});
+  const pipeline::SeamSplit split = pipeline::split_at_seams(model.mesh, model.texture.uv);
+  const std::vector<Corner> corners = corners_of(model, split);
+  EXPECT_EQ(corners.size(), model.mesh.vertices_mm.size() + kSteps + 1);
+  ASSERT_EQ(split.triangles.size(), model.mesh.triangles.size());
+  for (std::size_t t = 0; t < split.triangles.size(); ++t)
+    for (std::size_t k = 0; k < 3; ++k) {
+      const std::uint32_t v = model.mesh.triangles[t][k];
+      const Corner& corner = corners[split.triangles[t][k]];
+      const Dot at = dot_of(model.head_from_camera, model.mesh.vertices_mm[v]);
+      EXPECT_FLOAT_EQ(distance({corner.x, corner.y, corner.z}, at), 0) << t << " " << k;
+      EXPECT_FLOAT_EQ(corner.u, u_of(v, is_right(t))) << t << " " << k;
+    }
+}
+
 TEST(FaceProjection, TwoPointsOnASphereHaveTheirDistance) {
   const pipeline::FaceModel model = sphere();
   touch_both(model, on_sphere(-20, 10), on_sphere(25, -15));
