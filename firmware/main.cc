@@ -19,14 +19,12 @@
 #include "firmware/demo/hand_pairs.h"
 #include "firmware/demo/screenshots.h"
 #include "firmware/jobs/job_thread.h"
-#include "hal/linux/cups_printer.h"
+#include "hal/clock.h"
 #include "hal/linux/device.h"
-#include "hal/linux/input_switch.h"
-#include "hal/monotonic_clock.h"
 #include "hal/picture_file.h"
 #include "hal/sim/device.h"
 #include "hal/sim/held_board.h"
-#include "hal/sim/replay/folder_media.h"
+#include "hal/sim/replay/replay_device.h"
 #include "hal/sim/sheet/sheet_photo.h"
 #include "hal/sim/target/target_photo.h"
 #include "hal/sound/speaker.h"
@@ -213,12 +211,6 @@ Result<std::unique_ptr<LivePairs>> hold_board(const CalibrateLiveArgs& args) {
       },
       args.seed);
 }
-
-}  // namespace
-}  // namespace relievo::firmware
-
-namespace relievo::firmware {
-namespace {
 
 // The rig writes what other tools read; the product reads it as it would anybody's.
 Result<pipeline::StereoCalibration> simulated_calibration() {

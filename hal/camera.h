@@ -96,6 +96,7 @@ class Camera {
   Result<void> open(const CaptureMode& mode) {
     if (state_ != State::Closed) return Error{Errc::InvalidState, "open() needs Closed"};
     RELIEVO_TRY(do_open(mode));
+    exposure_ = {mode.exposure, 1};
     state_ = State::Idle;
     return {};
   }
@@ -124,8 +125,12 @@ class Camera {
   // InvalidInput outside the limits.
   Result<void> set_exposure(const Exposure& exposure) {
     if (state_ == State::Closed) return Error{Errc::InvalidState, "set_exposure() needs Idle or Running"};
-    return do_set_exposure(exposure);
+    RELIEVO_TRY(do_set_exposure(exposure));
+    exposure_ = exposure;
+    return {};
   }
+  // As asked for last, by open() or since; no time: nobody has.
+  const Exposure& exposure() const { return exposure_; }
   Result<ExposureLimits> exposure_limits() const {
     if (state_ == State::Closed) return Error{Errc::InvalidState, "exposure_limits() needs Idle or Running"};
     return do_exposure_limits();
@@ -149,6 +154,7 @@ class Camera {
   }
 
   State state_ = State::Closed;
+  Exposure exposure_;
 };
 
 }  // namespace relievo::hal

@@ -1,20 +1,52 @@
 // SPDX-FileCopyrightText: 2026 The Relievo authors
 // SPDX-License-Identifier: GPL-3.0-or-later
 //
-// Device: the hardware of one appliance, opened and closed as a whole. It owns its cameras, wires, sticks and
-// clock; the references stay valid as long as it lives. Which device it is, firmware/main.cc says.
+// The hardware of one appliance as a whole, and what may be plugged into it beside.
 #pragma once
 
+#include <cstddef>
+#include <span>
 #include <string_view>
 
+#include "hal/base/result.h"
 #include "hal/camera.h"
 #include "hal/clock.h"
 #include "hal/removable_media.h"
 #include "hal/trigger_line.h"
-#include "hal/watchdog.h"
 
 namespace relievo::hal {
 
+// Watchdog: restarts the appliance when the main loop stops turning.
+class Watchdog {
+ public:
+  virtual ~Watchdog() = default;
+  virtual void kick() = 0;
+};
+
+// Bites nobody. Thread: any.
+class NullWatchdog final : public Watchdog {
+ public:
+  void kick() override {}
+};
+
+// InputSwitch: something of the machine that is on or off. Thread: its owner's. Errors: none.
+class InputSwitch {
+ public:
+  virtual ~InputSwitch() = default;
+  virtual bool is_on() = 0;
+};
+
+// Printer: a slip of paper for who wants one. Both calls may take seconds: never the main thread's. Errors:
+// NotFound (there is none), IoFailed (it does not take it).
+class Printer {
+ public:
+  virtual ~Printer() = default;
+  virtual bool is_there() = 0;
+  virtual Result<void> print(std::span<const std::byte> png) = 0;
+};
+
+// Device: opened and closed as a whole. It owns its cameras, wires, sticks and clock; the references stay
+// valid as long as it lives. Which device it is, firmware/main.cc says.
 class Device {
  public:
   virtual ~Device() = default;

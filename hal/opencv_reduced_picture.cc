@@ -21,7 +21,9 @@ Result<Picture> reduced(const ImageView& image, int width_px, int height_px) try
   cv::Mat small(height_px, width_px, colour ? CV_8UC3 : CV_8UC1, picture.bytes.data());
   cv::resize(whole, small, small.size(), 0, 0, cv::INTER_AREA);
   return picture;
-} catch (const cv::Exception&) {
+} catch (const cv::Exception& refused) {
+  if (refused.code != cv::Error::StsNoMem)
+    return Error{Errc::InvalidInput, "this picture cannot be made so small"};
   return Error{Errc::OutOfMemory, "no memory to make a picture smaller"};
 } catch (const std::bad_alloc&) {
   return Error{Errc::OutOfMemory, "no memory to make a picture smaller"};

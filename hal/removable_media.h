@@ -3,20 +3,15 @@
 //
 // RemovableMedia: the USB stick, as far as an export cares.
 #pragma once
-#include <cstdint>
 #include <filesystem>
 #include <optional>
 #include "hal/base/result.h"
 namespace relievo::hal {
 
-struct Medium {
-  std::filesystem::path root;
-  std::uint64_t free_bytes = 0;
-};
 class RemovableMedia {
  public:
   virtual ~RemovableMedia() = default;
-  virtual std::optional<Medium> current() = 0;  // cheap; asked on every tick
+  virtual std::optional<std::filesystem::path> current() = 0;  // its root; cheap; asked on every tick
   // Every file of this folder on the stick is on the medium; who reads one next reads what the stick kept,
   // not what memory still has. IoFailed: it cannot be written through.
   virtual Result<void> settle(const std::filesystem::path& folder);

@@ -17,7 +17,6 @@
 #include "hal/base/result.h"
 #include "pipeline/base/options.h"
 #include "pipeline/match/kinds.h"
-#include "pipeline/mesh/completion/completion.h"
 #include "pipeline/mesh/mesher.h"
 #include "pipeline/reconstruct/face_crop.h"
 #include "pipeline/reconstruct/kinds.h"
@@ -26,19 +25,20 @@
 
 namespace relievo::pipeline {
 
-struct HeadFuserOptions;
+struct HeadFuser;
 
 class AlgorithmSet {
  public:
-  // Errors: NotFound (no such key or algorithm), InvalidInput (not a number, out of range); the error's
-  // place names the key and what would be possible.
+  // Errors: NotFound (no such key or algorithm), InvalidInput (not a number, out of range, an algorithm named
+  // twice, a text that to_text() could not keep); the error's place names the key and what would be possible.
   Result<void> set(std::string_view key, std::string_view value);
   // The value set, or the default.
   std::string get(std::string_view key) const;
   // Every choice, sorted, one "key = value" a line: for reports and the store.
   std::string to_text() const;
-  // Such a text. Errors: those of set(); InvalidInput for a line that is no "key = value".
-  static Result<AlgorithmSet> from_text(std::string_view text);
+  // Such a text. Errors: those of set(); InvalidInput for a line that is no "key = value". Where `unknown` is
+  // given, it gets the lines that have errors, and the others hold.
+  static Result<AlgorithmSet> from_text(std::string_view text, std::vector<std::string>* unknown = nullptr);
   // What is in the files that options name, by the option's key, as far as they were read. Setting the option
   // forgets it. It is no part of to_text().
   using Texts = std::map<std::string, std::shared_ptr<const std::string>, std::less<>>;
@@ -55,7 +55,9 @@ struct AlgorithmDescription {
   const char* name = "";
   const char* sentence = "";  // what it is
   const char* source = "";    // author and year, or "own"
-  bool lattice = false;       // a selector's keypoints lie on a lattice; a mesher joins neighbours of one
+  // A selector's keypoints lie on a lattice; a matcher's matches, where its keypoints do; a mesher joins
+  // neighbours of one.
+  bool lattice = false;
 };
 
 // What may be chosen: for help texts, the technician's page and the documentation.
@@ -76,7 +78,7 @@ struct OptionDescription {
 std::vector<OptionDescription> describe_algorithms();
 
 // Said before the first picture is looked at, not after minutes of matching. Errors: InvalidInput (a mesher
-// for lattices with a scattered selector).
+// for lattices with scattered matches).
 Result<void> check_neighbours(const AlgorithmSet& set);
 
 // Errors: InvalidInput where the options do not fit together.
@@ -92,6 +94,6 @@ Result<Completion> make_completion(const AlgorithmSet& set);
 Result<std::optional<ReliefOptions>> make_relief_check(
     const AlgorithmSet& set);  // none: pictures of faces pass
 Result<Texturer> make_texturer(const AlgorithmSet& set);
-Result<HeadFuserOptions> make_head_fuser(const AlgorithmSet& set);  // pipeline/fuse/head_fuser.h
+Result<HeadFuser> make_head_fuser(const AlgorithmSet& set);  // pipeline/fuse/head_fuser.h
 
 }  // namespace relievo::pipeline

@@ -58,7 +58,7 @@ Result<Pipeline> Pipeline::make(const AlgorithmSet& set, const StereoCalibration
 
 Result<RectifiedPair> Pipeline::rectify(const StereoFrame& frame, StageContext& context) const {
   return run_stage(context, [&](StageContext& c) -> Result<RectifiedPair> {
-    RELIEVO_TRY_ASSIGN(RectifiedPair pair, Rectifier(volume_).rectify(frame, calibration_, c));
+    RELIEVO_TRY_ASSIGN(RectifiedPair pair, volume_.rectify(frame, calibration_, c));
     if (region_ == Region::Head) pair.region.assign(pair.left.valid.size(), 1);
     if (finder_ == nullptr) return pair;
     const Result<FaceBox> box = find_face(*finder_, pair, c);

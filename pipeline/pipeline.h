@@ -34,7 +34,7 @@ enum class Region : std::uint8_t { Face, Head, All };
 
 class Pipeline {
  public:
-  // Errors: InvalidInput (options; a mesher for lattices with a scattered selector), NotFound or
+  // Errors: InvalidInput (options; a mesher for lattices with scattered matches), NotFound or
   // LibraryFailed (the face detector's files).
   static Result<Pipeline> make(const AlgorithmSet& set, const StereoCalibration& calibration,
                                const RectifierOptions& volume = {}, Region region = Region::Face);
@@ -47,7 +47,7 @@ class Pipeline {
   // `by_hand`: matches beside those (match/hand/hand_matches.h).
   Result<PointCloud> reconstruct(const RectifiedPair& pair, const MatchSet& matches, StageContext& context,
                                  std::span<const Match> by_hand = {}) const;
-  // Errors: PoorGeometry (no surface of a face's size), Cancelled, OutOfMemory.
+  // Errors: those of Mesher.
   Result<FaceMesh> mesh(const PointCloud& cloud, const RectifiedPair& pair, StageContext& context) const;
   // Errors: Cancelled, OutOfMemory.
   Result<TextureAtlas> texture(const FaceMesh& mesh, const RectifiedPair& pair, StageContext& context) const;

@@ -117,21 +117,19 @@ std::vector<std::byte> encode_calibration(const StereoCalibration& calibration,
   to.put(kForm);
   StoredCalibration stored{calibration, figures};
   walk(to, stored);
-  const Sha256 digest = sha256(out);
-  to.put(digest);
+  to.put(sha256(out));
   return out;
 }
 
 Result<StoredCalibration> decode_calibration(std::span<const std::byte> bytes) {
-  if (bytes.size() < kMagic.size() + 2 || !std::ranges::equal(bytes.first(kMagic.size()), bytes_of(kMagic))) {
+  if (bytes.size() < kMagic.size() + 2 || !text_of(bytes).starts_with(kMagic)) {
     return Error{Errc::StoreCorrupt, "these bytes are no stored calibration"};
   }
   ByteReader from(bytes.subspan(kMagic.size()));
   const auto form = from.get<std::uint16_t>();
   if (form > kForm)
     return Error{Errc::StoreNewer, "this calibration was stored by a newer version: update Relievo"};
-  if (form != kForm || bytes.size() != kRecordBytes ||
-      !std::ranges::equal(sha256(bytes.first(bytes.size() - sizeof(Sha256))), bytes.last(sizeof(Sha256)))) {
+  if (form != kForm || bytes.size() != kRecordBytes || !ends_in_sha256(bytes)) {
     return Error{Errc::StoreCorrupt,
                  "a stored calibration is damaged: calibrate again, or activate an earlier one"};
   }

@@ -133,7 +133,7 @@ void walk_arrays(Io& io, Model& model, const Shape& shape) {
 
 Result<Shape> read_header(std::span<const std::byte> bytes) {
   constexpr Literal kNoModel = "these bytes are no stored face model, or are damaged";
-  if (bytes.size() < kHeaderBytes || !std::ranges::equal(bytes.first(kMagic.size()), bytes_of(kMagic))) {
+  if (bytes.size() < kHeaderBytes || !text_of(bytes).starts_with(kMagic)) {
     return Error{Errc::StoreCorrupt, kNoModel};
   }
   ByteReader from(bytes.subspan(kMagic.size()));
@@ -177,18 +177,16 @@ Result<std::vector<std::byte>> encode_model(const FaceModel& model) {
   to.numbers(shape.vertices, shape.triangles, shape.width_px, shape.height_px, shape.flags);
   walk_numbers(to, model, kVersion);
   walk_arrays(to, model, shape);
-  const Sha256 digest = sha256(out);
-  to.put(digest);
+  to.put(sha256(out));
   return out;
 }
 
 Result<FaceModel> decode_model(std::span<const std::byte> bytes, std::pmr::memory_resource* memory) {
   RELIEVO_TRY_ASSIGN(const Shape shape, read_header(bytes));
-  const auto body = bytes.first(bytes.size() - sizeof(Sha256));
-  if (!std::ranges::equal(sha256(body), bytes.last(sizeof(Sha256)))) {
+  if (!ends_in_sha256(bytes)) {
     return Error{Errc::StoreCorrupt, "a stored face model is damaged: its checksum does not fit"};
   }
-  ByteReader from(body.subspan(kHeaderBytes));
+  ByteReader from(bytes.first(bytes.size() - sizeof(Sha256)).subspan(kHeaderBytes));
   FaceModel model(memory);
   walk_numbers(from, model, shape.version);
   walk_arrays(from, model, shape);

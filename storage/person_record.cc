@@ -2,7 +2,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "storage/person_record.h"
 
-#include <algorithm>
 #include <string_view>
 
 #include "storage/byte_order.h"
@@ -44,10 +43,9 @@ std::vector<std::byte> encode_person(const PersonRecord& person) {
 }
 
 Result<PersonRecord> decode_person(std::span<const std::byte> bytes) {
-  constexpr std::size_t kHead = kPersonMagic.size();
   const Error strange{Errc::InvalidInput, "this is no record of a person, or it was changed or cut"};
-  if (bytes.size() < kHead || !std::ranges::equal(bytes.first(kHead), bytes_of(kPersonMagic))) return strange;
-  ByteReader from(bytes.subspan(kHead));
+  if (!text_of(bytes).starts_with(kPersonMagic)) return strange;
+  ByteReader from(bytes.subspan(kPersonMagic.size()));
   const auto version = from.get<std::uint16_t>();
   if (version > kPersonVersion)
     return Error{Errc::StoreNewer, "this person was exported by a newer version: update Relievo"};

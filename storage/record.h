@@ -36,7 +36,7 @@ struct Subject {
   std::string name;
   WallTime created_at;
   int enrolments = 0;
-  std::int64_t receipt = 0;  // drawn when they came (receipt_number.h)
+  std::int64_t receipt = 0;  // drawn when they came (draw_receipt())
 };
 
 struct SubjectFilter {
@@ -112,7 +112,7 @@ struct AuditRecord {
   AuditEvent event;
 };
 
-// Ed25519 (cipher/signature.h).
+// Ed25519 (cipher/secret_key.h).
 struct Signed {
   std::array<std::byte, 32> by{};  // the public half
   std::array<std::byte, 64> signature{};
@@ -120,5 +120,11 @@ struct Signed {
 
 inline constexpr std::size_t kMaxNameBytes = 200;
 inline constexpr std::size_t kMaxTextBytes = 1'000'000;  // algorithms, report, setting, note, detail
+
+// The number in the code a person quotes for their erasure: twelve digits, drawn by the system's generator
+// for keys, so that who knows some knows nothing of another. Thread: any. Errors: none.
+inline constexpr std::int64_t kLeastReceipt = 1, kMostReceipt = 999'999'999'999;
+
+std::int64_t draw_receipt();
 
 }  // namespace relievo::storage

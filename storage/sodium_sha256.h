@@ -16,6 +16,8 @@ namespace relievo::storage {
 using Sha256 = std::array<std::byte, 32>;
 
 Sha256 sha256(std::span<const std::byte> bytes);
+// Is their end the SHA-256 of all before it?
+bool ends_in_sha256(std::span<const std::byte> bytes);
 
 // In hexadecimal, small letters; and back: only what hex_of() makes of exactly so many bytes.
 std::string hex_of(std::span<const std::byte> bytes);

@@ -50,7 +50,7 @@ void Ui::feed(const Input& input, const ViewState& view) {
     visit_.touched(view.now);
     service_.touched(view.now);
     if (input.kind == Input::Kind::Down) pressed_at_ = view.now;
-    if (input.kind == Input::Kind::Down || input.kind == Input::Kind::Activate) ask(Intent::StillHere);
+    if (input.kind != Input::Kind::Move && input.kind != Input::Kind::Up) ask(Intent::StillHere);
     if (asked && input.kind == Input::Kind::Down) return;  // the touch that wakes does nothing else
   }
   // A key that takes its time is called back by whatever comes after it.
@@ -138,7 +138,12 @@ void Ui::move(const Input& input, const ViewState& view) {
     if (node != nullptr && node->hold && !node->rect.holds(finger.x, finger.y))
       hands_.pressed.clear();  // it slid off: that is no holding
     const bool on_face = node != nullptr && node->action.kind == ActionKind::TurnFace;
-    if (fingers_[0].down && fingers_[1].down) return pinch(finger, old_x, old_y, fingers_[1 - i]);
+    if (fingers_[0].down && fingers_[1].down) {
+      const Node* under = tree_.at(fingers_[0].start_x, fingers_[0].start_y);
+      if (under != nullptr && under->action.kind == ActionKind::TurnFace)
+        pinch(finger, old_x, old_y, fingers_[1 - i]);
+      return;
+    }
     if (node != nullptr && node->dragged.kind != ActionKind::None)
       return touch(*node, node->dragged, input, view);
     if (on_face) return drag_face(finger.x - old_x, finger.y - old_y);

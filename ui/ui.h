@@ -14,12 +14,12 @@
 #include <memory>
 #include <optional>
 
+#include "ui/display.h"
 #include "ui/render/face_geometry.h"
 #include "ui/speech/narrator.h"
 #include "ui/text/text_engine.h"
 #include "ui/tree/tree.h"
 #include "ui/view/action.h"
-#include "ui/view/input.h"
 #include "ui/view/service.h"
 #include "ui/view/view_state.h"
 #include "ui/view/visit.h"

@@ -50,8 +50,7 @@ void Ui::keep_focus() {
 
 void Ui::focus_on(int direction) {
   const Node* at = focused();
-  const Node* from = at != nullptr ? at : tree_.question();
-  move_focus(at, tree_.after(from != nullptr ? from->id : std::string_view{}, direction), direction);
+  move_focus(at, tree_.after(at != nullptr ? at : tree_.question(), direction), direction);
 }
 
 // Who listens goes through everything in its order.

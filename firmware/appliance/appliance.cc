@@ -8,9 +8,15 @@
 #include "firmware/base/budget.h"
 #include "hal/base/assert.h"
 #include "ui/device/settings.h"
+#include "ui/view/visit.h"
 
 namespace relievo::firmware {
 namespace {
+
+// Whoever walks away is asked, and leaves, by the page: no state's limit may come before that.
+constexpr auto kPageLeavesAfter = std::chrono::seconds(ui::kMostPatienceS) + ui::kLastCall;
+static_assert(budget::kPositionLimit > kPageLeavesAfter && budget::kReviewLimit > kPageLeavesAfter);
+static_assert(budget::kStaffLimit > std::chrono::seconds(ui::kMostStaffPatienceS));
 
 // Is the machine broken, or was it only this picture?
 bool is_fault(Errc code) {
@@ -253,7 +259,12 @@ void Appliance::stop_head() {
   head_job_ = 0;
 }
 
-bool Appliance::open_session() {
+// For another try what the one before made goes. False when no session opens; the machine has then moved on.
+bool Appliance::open_session(const Transition& change) {
+  if (change.from != State::Idle) {
+    session_.retake();
+    return true;
+  }
   attempt_ = 0;
   problem_.reset();
   drift_.reset();
@@ -266,17 +277,10 @@ bool Appliance::open_session() {
 }
 
 // The live picture. False when there is none to show; the machine has then moved on.
-bool Appliance::enter_position(const Change& change) {
+bool Appliance::enter_position(const Transition& change) {
   attended_ = true;
-  if (change.from == State::Idle) {
-    if (!open_session()) return false;
-  } else {
-    session_.retake();
-  }
-  if (change.from == State::Review) {
-    attempt_ = 0;
-    problem_.reset();
-  }
+  if (!open_session(change)) return false;
+  if (change.from == State::Review) attempt_ = 0, problem_.reset();
   if (attempt_ >= most_attempts_) {
     handle(Event::Cancel);
     return false;
@@ -286,13 +290,9 @@ bool Appliance::enter_position(const Change& change) {
 }
 
 // False when there is no capture to begin; the machine has then moved on.
-bool Appliance::enter_capture(const Change& change) {
-  if (change.from == State::Idle) {
-    attended_ = false;
-    if (!open_session()) return false;
-  } else {
-    session_.retake();
-  }
+bool Appliance::enter_capture(const Transition& change) {
+  if (change.from == State::Idle) attended_ = false;
+  if (!open_session(change)) return false;
   if (change.event == Event::Retake) attempt_ = 0;
   if (++attempt_ > most_attempts_) {
     handle(Event::Cancel);
@@ -324,7 +324,7 @@ void Appliance::close_session() {
   session_.close();
 }
 
-void Appliance::entered(const Change& change) {
+void Appliance::entered(const Transition& change) {
   stop_job();
   if (change.to != State::Fuse) stop_head();
   switch (change.to) {

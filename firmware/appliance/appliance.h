@@ -22,9 +22,9 @@
 #include "firmware/machine/machine.h"
 #include "firmware/session/session.h"
 #include "firmware/work/jobs.h"
-#include "firmware/work/portrait_progress.h"
 #include "hal/device.h"
 #include "ui/view/action.h"
+#include "ui/view/view_state.h"
 
 namespace relievo::firmware {
 
@@ -110,14 +110,14 @@ class Appliance {
   StereoGrabber& grabber() { return grabber_; }
   EnrolmentSession& session() { return session_; }
   // Called after every change of state, when what it starts has started.
-  void on_change(std::function<void(const Change&)> listener) { listener_ = std::move(listener); }
+  void on_change(std::function<void(const Transition&)> listener) { listener_ = std::move(listener); }
 
  private:
   void handle(Event event);
-  void entered(const Change& change);
-  bool enter_position(const Change& change);
-  bool enter_capture(const Change& change);
-  bool open_session();
+  void entered(const Transition& change);
+  bool enter_position(const Transition& change);
+  bool enter_capture(const Transition& change);
+  bool open_session(const Transition& change);
   void enter_turn();
   void start(JobThread& thread, Job& job);
   void start_on_keeper(Job& job);
@@ -164,7 +164,7 @@ class Appliance {
   std::string calibration_note_;
   int moved_in_a_row_ = 0;
   std::vector<StageRecord> records_;
-  std::function<void(const Change&)> listener_;
+  std::function<void(const Transition&)> listener_;
   JobThread* running_ = nullptr;  // the thread whose job belongs to the present state
   Job* awaits_keeper_ = nullptr;  // that job, until the keeper has stopped what it was at
   JobId job_ = 0;
@@ -176,5 +176,8 @@ class Appliance {
   JobThread worker_;
   JobThread keeper_;
 };
+
+// What a screen sees of it at this moment. Valid until its next step().
+ui::ViewState view_of(Appliance& appliance);
 
 }  // namespace relievo::firmware

@@ -1,9 +1,9 @@
 // SPDX-FileCopyrightText: 2026 The Relievo authors
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include "firmware/appliance/view_of.h"
-
 #include <algorithm>
 #include <array>
+
+#include "firmware/appliance/appliance.h"
 
 namespace relievo::firmware {
 namespace {

@@ -5,21 +5,11 @@
 // Errors: as read_settings_file() and AlgorithmSet::set(); InvalidInput for a word without '='.
 #pragma once
 
-#include <optional>
-#include <string_view>
-
 #include "firmware/arguments/command_line.h"
 #include "hal/base/result.h"
 #include "pipeline/pipeline.h"
 
 namespace relievo::firmware {
-
-struct TwoNumbers {
-  int first = 0, second = 0;
-};
-// Two whole numbers in one word of a command: "1280x800", "-16:256". Nothing where `text` is anything but two
-// numbers that an int holds, with `between` between them.
-std::optional<TwoNumbers> two_numbers(std::string_view text, char between);
 
 // What is in the files that the options name, as far as it is not there. Errors: read_whole_file()'s.
 Result<void> read_texts(pipeline::AlgorithmSet& set);

@@ -3,12 +3,13 @@
 #include <CLI/CLI.hpp>
 
 #include <algorithm>
+#include <charconv>
 #include <cstdint>
 #include <cstdio>
 #include <filesystem>
 #include <string>
+#include <system_error>
 
-#include "firmware/arguments/algorithm_choice.h"
 #include "firmware/arguments/command_line.h"
 #include "firmware/arguments/command_words.h"
 
@@ -26,12 +27,16 @@ CLI::Option* add_two_numbers(CLI::App& command, const char* name, int& first, in
       .add_option_function<std::string>(
           name,
           [&first, &second, name, rule](const std::string& text) {
-            const auto given = two_numbers(text, rule.between);
-            if (!given || given->first < rule.least_first || given->second < rule.least_second ||
-                std::max(given->first, given->second) > rule.most ||
-                (rule.rising && given->first >= given->second))
+            int one = 0, other = 0;
+            const char* const end = text.data() + text.size();
+            const auto [at, bad_one] = std::from_chars(text.data(), end, one);
+            const bool two = bad_one == std::errc() && at != end && *at == rule.between;
+            const auto [rest, bad_other] = std::from_chars(two ? at + 1 : end, end, other);
+            if (bad_other != std::errc() || rest != end || one < rule.least_first ||
+                other < rule.least_second || std::max(one, other) > rule.most ||
+                (rule.rising && one >= other))
               throw CLI::ValidationError(name, rule.wants + (", not " + text));
-            first = given->first, second = given->second;
+            first = one, second = other;
           },
           help)
       ->type_name(rule.type);
@@ -129,7 +134,9 @@ void add_reconstruct(CLI::App& app, CommandArgs& chosen, ReconstructArgs& args) 
     }
     if (load->count() == 0 && args.pictures.empty()) throw CLI::RequiredError("pictures");
     const std::size_t pairs = args.pictures.size() / 2;
-    const bool recording = args.pictures.size() == 1 && std::filesystem::is_directory(args.pictures[0]);
+    std::error_code error;
+    const bool recording =
+        args.pictures.size() == 1 && std::filesystem::is_directory(args.pictures[0], error);
     if (args.pictures.size() % 2 != 0 && !recording)
       throw CLI::ValidationError("pictures", "a left one and a right one each");
     if (pairs > kMostPairs) throw CLI::ValidationError("pictures", "seven pairs make a head; these are more");
@@ -144,8 +151,9 @@ void add_reconstruct(CLI::App& app, CommandArgs& chosen, ReconstructArgs& args) 
 }
 
 void add_memory(CLI::App& app, CommandArgs& chosen, MemoryArgs& args) {
-  CLI::App* command = app.add_subcommand("memory", "the memory plan");
-  word(*command, "--store", args.store, "DIR", "and what the last visits of this store's kiosk took");
+  CLI::App* command =
+      app.add_subcommand("memory", "the memory plan; with --store also what its kiosk's last visits took");
+  add_store(*command, args.store);
   command->callback([&] { chosen = args; });
 }
 

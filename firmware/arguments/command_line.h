@@ -1,9 +1,9 @@
 // SPDX-FileCopyrightText: 2026 The Relievo authors
 // SPDX-License-Identifier: GPL-3.0-or-later
 //
-// CommandLine: what was asked for, as plain data. parse_command_line() checks words and numbers,
-// never files: a file that is missing is the command's error (exit 1), a wrong word the caller's
-// (exit 2). Thread: main.
+// CommandLine: what was asked for, as plain data. parse_command_line() checks words and numbers, of files
+// only whether a picture that stands alone is a folder: a file that is missing is the command's error
+// (exit 1), a wrong word the caller's (exit 2). Thread: main.
 #pragma once
 
 #include <filesystem>

@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: 2026 The Relievo authors
 // SPDX-License-Identifier: GPL-3.0-or-later
 //
-// The words of the commands that cli11_command_line.cc does not hold itself: few files, since each pays five
+// The words of the commands that cli11_command_line.cc does not hold itself: two files, since each pays five
 // seconds for CLI11. What they fill must outlive the parsing; `args` of a command is copied into `chosen`
 // when that command is met. Thread: main.
 #pragma once

@@ -11,7 +11,6 @@
 #include <filesystem>
 #include <string>
 #include <string_view>
-#include <utility>
 #include <vector>
 
 #include "hal/base/result.h"
@@ -25,8 +24,11 @@ Result<std::vector<std::string>> parse_settings(std::string_view text, std::stri
 //   ["SSD 21"]
 //   matcher = "ssd"              ->  SSD 21: matcher=ssd
 //   ssd.window_px = 21           ->  SSD 21: ssd.window_px=21
-using NamedSettings = std::pair<std::string, std::vector<std::string>>;
-Result<std::vector<NamedSettings>> read_sets_file(const std::filesystem::path& file);
-Result<std::vector<NamedSettings>> parse_sets(std::string_view text, std::string_view file_name);
+struct SetWords {
+  std::string name;
+  std::vector<std::string> settings;
+};
+Result<std::vector<SetWords>> read_sets_file(const std::filesystem::path& file);
+Result<std::vector<SetWords>> parse_sets(std::string_view text, std::string_view file_name);
 
 }  // namespace relievo::firmware

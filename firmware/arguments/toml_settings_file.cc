@@ -6,6 +6,7 @@
 #include <cstddef>
 #include <sstream>
 #include <string>
+#include <utility>
 
 #include "firmware/arguments/settings_file.h"
 #include "hal/base/whole_file.h"
@@ -76,17 +77,17 @@ Result<std::vector<std::string>> read_settings_file(const std::filesystem::path&
   return parse_settings({reinterpret_cast<const char*>(bytes.data()), bytes.size()}, file.string());
 }
 
-Result<std::vector<NamedSettings>> parse_sets(std::string_view text, std::string_view file_name) {
+Result<std::vector<SetWords>> parse_sets(std::string_view text, std::string_view file_name) {
   try {
     const toml::table root = toml::parse(text, file_name);
-    std::vector<std::pair<toml::source_index, NamedSettings>> sets;  // the library sorts by name
+    std::vector<std::pair<toml::source_index, SetWords>> sets;  // the library sorts by name
     for (const auto& [name, node] : root) {
       if (!node.is_table()) return at_line(file_name, node);
       RELIEVO_TRY_ASSIGN(auto settings, settings_of(*node.as_table(), file_name, true));
       sets.push_back({node.source().begin.line, {std::string(name.str()), std::move(settings)}});
     }
     std::ranges::stable_sort(sets, [](const auto& a, const auto& b) { return a.first < b.first; });
-    std::vector<NamedSettings> in_order;
+    std::vector<SetWords> in_order;
     in_order.reserve(sets.size());
     for (auto& set : sets) in_order.push_back(std::move(set.second));
     return in_order;
@@ -95,7 +96,7 @@ Result<std::vector<NamedSettings>> parse_sets(std::string_view text, std::string
   }
 }
 
-Result<std::vector<NamedSettings>> read_sets_file(const std::filesystem::path& file) {
+Result<std::vector<SetWords>> read_sets_file(const std::filesystem::path& file) {
   RELIEVO_TRY_ASSIGN(const auto bytes, read_whole_file(file, kMaxSettingsBytes));
   return parse_sets({reinterpret_cast<const char*>(bytes.data()), bytes.size()}, file.string());
 }

@@ -14,9 +14,8 @@ namespace relievo::firmware::budget {
 inline constexpr std::size_t kMiB = std::size_t{1} << 20;
 
 // --- pictures -----------------------------------------------------------------------------------
-inline constexpr int kMaxFrameWidthPx = 2448;  // 5 megapixels: the largest sensor of the parts list
-inline constexpr int kMaxFrameHeightPx = 2048;
-inline constexpr std::size_t kMostFramePixels = std::size_t{kMaxFrameWidthPx} * kMaxFrameHeightPx;
+// Of the largest sensor of the parts list: 5 megapixels.
+inline constexpr std::size_t kMostFramePixels = std::size_t{2448} * 2048;
 inline constexpr std::size_t kFrameBytes = 3 * kMostFramePixels;
 // Two pictures, and a byte a pixel to develop one behind a colour filter.
 inline constexpr std::size_t kStereoSlotBytes = 2 * kFrameBytes + kFrameBytes / 3;
@@ -54,7 +53,7 @@ constexpr MemoryPlan plan_of_a_head(std::size_t pixels) {
 }
 inline constexpr MemoryPlan kLargestPlan = plan_of_a_head(kMostFramePixels);
 
-// The technician's pages: both pictures of four stages and one of five; beside them, of every result that
+// The technician's pages: both pictures of five stages and one of four; beside them, of every result that
 // was put aside, one picture of each stage and the model (a simulated face at 1920 x 1200: 463,000 triangles
 // and 775,000 texels, 26 MiB; what is larger than the room is not kept).
 inline constexpr std::size_t kTechnicianPictureBytes =
@@ -62,7 +61,7 @@ inline constexpr std::size_t kTechnicianPictureBytes =
 inline constexpr std::size_t kKeptResults = 3;
 inline constexpr std::size_t kKeptModelBytes = 40 * kMiB;
 inline constexpr std::size_t kTechnicianBytes =
-    (13 + 9 * kKeptResults) * kTechnicianPictureBytes + kKeptResults * kKeptModelBytes;
+    (14 + 9 * kKeptResults) * kTechnicianPictureBytes + kKeptResults * kKeptModelBytes;
 
 // Live pictures (capture/live_feed.h): the visitor's, two of a calibration, one of a relief; two cameras'
 // that are watched, whose room is taken when they are.
@@ -113,19 +112,21 @@ inline constexpr milliseconds kCameraReturn{
 inline constexpr int kCaptureAttempts = 3;  // until a person is asked to come again
 inline constexpr int kBurstPairs = 5;       // of which the sharpest, stillest is kept
 inline constexpr milliseconds kSelfTestLimit{30'000};
-inline constexpr milliseconds kPositionLimit{120'000};  // nobody touches the screen: nothing is photographed
+// The three that wait for a person outlast the question whether somebody is there, however it is set
+// (appliance/appliance.cc): they end it only where the page does not.
+inline constexpr milliseconds kPositionLimit{240'000};  // nobody touches the screen: nothing is photographed
 inline constexpr milliseconds kCaptureLimit{30'000};
 inline constexpr milliseconds kTurnPatience{20'000};  // without a new side: what there is will do
 inline constexpr milliseconds kTurnLimit{90'000};
-inline constexpr milliseconds kFuseLimit{120'000};   // of the pairs that are left and the head of all
-inline constexpr milliseconds kStageLimit{60'000};   // a stage that runs longer is stopped
-inline constexpr milliseconds kReviewLimit{60'000};  // nobody answers: nothing is kept
+inline constexpr milliseconds kFuseLimit{120'000};    // of the pairs that are left and the head of all
+inline constexpr milliseconds kStageLimit{60'000};    // a stage that runs longer is stopped
+inline constexpr milliseconds kReviewLimit{240'000};  // nobody answers: nothing is kept
 inline constexpr milliseconds kStoreLimit{30'000};
-inline constexpr milliseconds kExportLimit{600'000};
+inline constexpr milliseconds kExportLimit{600'000};    // since its progress grew last
 inline constexpr milliseconds kTakeHomeLimit{180'000};  // 80 MB on a slow stick, twice
 inline constexpr milliseconds kStickLook{500};          // between two looks for a visitor's stick
 inline constexpr milliseconds kCalibrateLimit{600'000};
-inline constexpr milliseconds kStaffLimit{300'000};
+inline constexpr milliseconds kStaffLimit{360'000};
 inline constexpr milliseconds kFaultRetry{5'000};  // a fault tests itself again after this
 inline constexpr milliseconds kShortOfMemory{
     2'000};  // what was asked could not be done for so long: the program is ended

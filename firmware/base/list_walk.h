@@ -10,7 +10,7 @@
 #include <cstdint>
 #include <string>
 
-#include "ui/view/list_place.h"
+#include "ui/view/service_view.h"
 #include "ui/view/staff_request.h"
 
 namespace relievo::firmware {

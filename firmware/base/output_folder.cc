@@ -50,7 +50,8 @@ Result<OutputFolder> OutputFolder::begin(const fs::path& target) {
   const fs::path parent = folder.target_.parent_path();
   folder.made_parent_ = first_missing(parent);
   folder.work_ = parent / ("." + folder.target_.filename().string() + ".part" + std::to_string(getpid()));
-  fs::create_directories(folder.work_, error);
+  fs::remove_all(folder.work_, error);  // of a run that was killed, and had this number, too
+  if (!error) fs::create_directories(folder.work_, error);
   if (error) return failed(target, error.value());
   return folder;
 }

@@ -5,11 +5,13 @@
 // "key value". Thread: any.
 #pragma once
 
+#include <cstdint>
 #include <filesystem>
 #include <string>
 #include <string_view>
 #include <vector>
 
+#include "hal/base/result.h"
 #include "ui/device/settings.h"
 
 namespace relievo::firmware {
@@ -24,5 +26,8 @@ std::string text_of(const ui::Settings& settings);
 // What is missing, or not one of a setting's values, stays as usual; `complaints` are the lines that say such
 // a thing.
 ui::Settings settings_of(std::string_view text, std::vector<std::string>& complaints);
+
+// Has the disk the room that the staff wants to stay free? MediaFull: it has not; IoFailed: it does not tell.
+Result<void> disk_has_room(const std::filesystem::path& folder, std::int32_t least_mib);
 
 }  // namespace relievo::firmware

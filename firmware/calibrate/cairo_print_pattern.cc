@@ -11,7 +11,7 @@
 #include <memory>
 
 #include "firmware/calibrate/print_pattern.h"
-#include "pipeline/calibrate/board/board_drawing.h"
+#include "pipeline/calibrate/board/board_finder.h"
 
 namespace relievo::firmware {
 namespace {

@@ -3,27 +3,113 @@
 #include "firmware/calibrate/calibrate_command.h"
 
 #include <algorithm>
+#include <array>
 #include <cctype>
 #include <cmath>
+#include <cstdint>
 #include <cstdio>
 #include <map>
-#include <optional>
+#include <memory_resource>
 #include <set>
 #include <string_view>
 #include <system_error>
 
 #include "firmware/base/output_folder.h"
 #include "firmware/base/version.h"
-#include "firmware/calibrate/check_picture.h"
+#include "hal/base/words.h"
 #include "hal/picture_file.h"
 #include "pipeline/calibrate/file/calibration_file.h"
 #include "pipeline/calibrate/report/calibration_report.h"
+#include "pipeline/match/rectify/rectifier.h"
 
 namespace relievo::firmware {
 namespace {
 
 constexpr int kThumbnailPx = 320;  // twice as wide as it is shown: printers and phones see the difference
 constexpr int kThumbnailQuality = 82;
+
+using Colour = std::array<std::uint8_t, 3>;
+constexpr Colour kFirst{255, 60, 60};  // the order starts here
+constexpr Colour kCorner{60, 255, 60};
+constexpr Colour kLine{255, 200, 0};
+
+Colour pixel(const ImageView& image, int x, int y) {
+  const std::uint8_t* row = image.row(y);
+  if (image.format == PixelFormat::Rgb8) return {row[3 * x], row[3 * x + 1], row[3 * x + 2]};
+  // The upper byte of a little-endian 16 bit pixel is enough for a look.
+  const std::uint8_t grey = image.format == PixelFormat::Grey16 ? row[2 * x + 1] : row[x];
+  return {grey, grey, grey};
+}
+
+void put(hal::Picture& picture, int x, int y, const Colour& colour) {
+  if (x < 0 || y < 0 || x >= picture.width_px || y >= picture.height_px) return;
+  for (std::size_t c = 0; c < 3; ++c)
+    picture.bytes[3 * (std::size_t(y) * std::size_t(picture.width_px) + std::size_t(x)) + c] =
+        static_cast<std::byte>(colour[c]);
+}
+
+hal::Picture blank(const ImageView& one) {
+  hal::Picture picture{{}, 2 * one.width_px, one.height_px, PixelFormat::Rgb8};
+  picture.bytes.resize(3 * std::size_t(picture.width_px) * std::size_t(picture.height_px));
+  return picture;
+}
+
+void draw_corners(hal::Picture& picture, const pipeline::BoardCorners& corners, int offset) {
+  const int arm = std::max(4, picture.width_px / 500);
+  for (std::size_t i = 0; i < corners.size(); ++i) {
+    if (!pipeline::seen(corners[i])) continue;
+    const int x = int(std::lround(corners[i].x));
+    const int y = int(std::lround(corners[i].y));
+    for (int d = -arm; d <= arm; ++d) {
+      put(picture, offset + x + d, y, i == 0 ? kFirst : kCorner);
+      put(picture, offset + x, y + d, i == 0 ? kFirst : kCorner);
+    }
+  }
+}
+
+// Left and right side by side, both of the calibration's size, with the corners found (there may be none).
+hal::Picture corner_picture(const ImageView& left, const pipeline::BoardCorners& left_corners,
+                            const ImageView& right, const pipeline::BoardCorners& right_corners) {
+  hal::Picture picture = blank(left);
+  for (int y = 0; y < left.height_px; ++y)
+    for (int x = 0; x < left.width_px; ++x) {
+      put(picture, x, y, pixel(left, x, y));
+      put(picture, left.width_px + x, y, pixel(right, x, y));
+    }
+  draw_corners(picture, left_corners, 0);
+  draw_corners(picture, right_corners, left.width_px);
+  return picture;
+}
+
+// The rectified pair with lines across both views, on which the same point must lie. Errors: InvalidInput
+// (the cameras do not look at a common volume).
+Result<hal::Picture> rectified_picture(const ImageView& left, const ImageView& right,
+                                       const pipeline::StereoCalibration& calibration) {
+  pipeline::RectifiedPair pair(std::pmr::null_memory_resource());  // geometry only
+  pipeline::RectifierOptions any_size;
+  any_size.longest_side_px = 1 << 20;  // no more is drawn than a view is large
+  RELIEVO_TRY(pipeline::lay_windows(calibration, any_size, pair));
+  hal::Picture picture = blank(left);
+  const auto draw = [&](const ImageView& from, const pipeline::CameraIntrinsics& camera,
+                        const pipeline::Rotation& turn, const pipeline::Vec2d& centre, int offset) {
+    // The middle of the window.
+    const double across = 0.5 * (pair.width_px - from.width_px),
+                 down = 0.5 * (pair.height_px - from.height_px);
+    for (int y = 0; y < from.height_px; ++y)
+      for (int x = 0; x < from.width_px; ++x) {
+        const pipeline::Vec2d at =
+            pipeline::source_pixel(camera, turn, pair.focal_px, centre, {x + across, y + down});
+        if (!(at.x >= 0 && at.y >= 0 && at.x <= from.width_px - 1 && at.y <= from.height_px - 1)) continue;
+        put(picture, offset + x, y, pixel(from, int(std::lround(at.x)), int(std::lround(at.y))));
+      }
+  };
+  draw(left, calibration.left, pair.rectified_from_left, pair.left_centre_px, 0);
+  draw(right, calibration.right, pair.rectified_from_right, pair.right_centre_px, left.width_px);
+  const int step = std::max(8, picture.height_px / 24);
+  for (int y = step / 2; y < picture.height_px; y += step)
+    for (int x = 0; x < picture.width_px; ++x) put(picture, x, y, kLine);
+  return picture;
+}
 
 // A view's name as part of a file's; two views may have one name ("left1" and "left_1"), never two files.
 std::string file_name(std::string name, std::set<std::string>& taken) {
@@ -180,25 +266,26 @@ void tell_quality(const pipeline::CalibrationQuality& q, std::ostream& out) {
   char line[320];
   for (const pipeline::ViewQuality& view : q.views) {
     if (view.used)
-      std::snprintf(line, sizeof line, "view %s: used, left %.3f px, right %.3f px, epipolar %.3f px",
-                    view.name.c_str(), view.left_rms_px, view.right_rms_px, view.epipolar_rms_px);
+      std::snprintf(line, sizeof line, "view %s: used, left %.3f px, right %.3f px, epipolar %s px",
+                    view.name.c_str(), view.left_rms_px, view.right_rms_px,
+                    decimal(view.epipolar_rms_px, 3).c_str());
     else std::snprintf(line, sizeof line, "view %s: left out, %s", view.name.c_str(), view.reason.c_str());
     out << line;
     if (view.corners_dropped > 0) out << ", " << view.corners_dropped << " stray corners dropped";
     out << '\n';
   }
   std::snprintf(line, sizeof line,
-                "%d of %d pairs used, pair rms %.3f px, each camera alone %.3f and %.3f px, held out %.3f "
+                "%d of %d pairs used, pair rms %.3f px, each camera alone %.3f and %.3f px, held out %s "
                 "px, baseline %.2f mm",
                 q.used, int(q.views.size()), q.pair_rms_px, q.left_rms_px, q.right_rms_px,
-                q.held_out_epipolar_px, q.baseline_mm);
+                decimal(q.held_out_epipolar_px, 3).c_str(), q.baseline_mm);
   out << line << '\n';
   std::snprintf(
       line, sizeof line,
-      "at %.0f mm: depth within %.3f mm (95 %%); boards held out found %.3f mm from where their squares put them; "
+      "at %.0f mm: depth within %.3f mm (95 %%); boards held out found %s mm from where their squares put them; "
       "lengths within %.3f %% (95 %%)",
-      pipeline::kFaceMm, pipeline::kTwoSided95 * q.face_depth_sigma_mm, q.measured_depth_mm,
-      pipeline::kTwoSided95 * q.uncertainty.scale_percent);
+      pipeline::kFaceMm, pipeline::kTwoSided95 * q.face_depth_sigma_mm,
+      decimal(q.measured_depth_mm, 3).c_str(), pipeline::kTwoSided95 * q.uncertainty.scale_percent);
   out << line << '\n';
   if (q.expected_as_in_use)
     out << "the lenses are those of the calibration in use: its baseline is expected (--baseline-mm N: another, 0: none)\n";

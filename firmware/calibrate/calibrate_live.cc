@@ -3,7 +3,6 @@
 #include "firmware/calibrate/calibrate_live.h"
 
 #include <algorithm>
-#include <chrono>
 #include <cstdio>
 #include <filesystem>
 #include <limits>
@@ -15,7 +14,6 @@
 
 #include "firmware/base/budget.h"
 #include "firmware/base/interrupt.h"
-#include "firmware/calibrate/calibrate_command.h"
 #include "firmware/capture/stereo_grabber.h"
 #include "firmware/jobs/job_thread.h"
 #include "hal/base/words.h"

@@ -47,8 +47,8 @@ double movement(const Thumbnail& a, const Thumbnail& b) {
   return sum / double(a.level.size());
 }
 
-Result<BurstResult> Burst::shoot(StereoSlot& first, StereoSlot& second, const BurstOptions& options,
-                                 const std::atomic<bool>& cancelled) {
+Result<BurstResult> take_burst(StereoGrabber& grabber, StereoSlot& first, StereoSlot& second,
+                               const BurstOptions& options, const std::atomic<bool>& cancelled) {
   if (options.pairs < 1 || options.pairs > kMostBurstPairs)
     return Error{Errc::InvalidInput, "a burst is of 1 to 16 pairs"};
   BurstResult result;
@@ -58,7 +58,7 @@ Result<BurstResult> Burst::shoot(StereoSlot& first, StereoSlot& second, const Bu
   int taken = 0;
   double sharpest = 0;
   for (int i = 0; i < options.pairs; ++i) {
-    const auto frame = grabber_.grab(*free, cancelled, options.light);
+    const auto frame = grabber.grab(*free, cancelled, options.light);
     if (!frame) {
       const bool over =
           frame.error().code == Errc::Cancelled || (frame.error().code == Errc::Disconnected && taken == 0);

@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: 2026 The Relievo authors
 // SPDX-License-Identifier: GPL-3.0-or-later
 //
-// Burst: several pairs in a row, of which the sharpest, stillest one is kept.
+// take_burst(): several pairs in a row, of which the sharpest, stillest one is kept.
 //
 //   pair --> into the slot that does not hold the best --> better? --> that slot now holds the best
 //
@@ -54,16 +54,8 @@ Result<Thumbnail> thumbnail(const ImageView& view, const FaceBox& box);
 // The mean absolute difference.
 double movement(const Thumbnail& a, const Thumbnail& b);
 
-class Burst {
- public:
-  explicit Burst(StereoGrabber& grabber) : grabber_(grabber) {}
-
-  // InvalidInput: the number of pairs. The slots are two.
-  Result<BurstResult> shoot(StereoSlot& first, StereoSlot& second, const BurstOptions& options,
-                            const std::atomic<bool>& cancelled);
-
- private:
-  StereoGrabber& grabber_;
-};
+// InvalidInput: the number of pairs. The slots are two.
+Result<BurstResult> take_burst(StereoGrabber& grabber, StereoSlot& first, StereoSlot& second,
+                               const BurstOptions& options, const std::atomic<bool>& cancelled);
 
 }  // namespace relievo::firmware

@@ -2,8 +2,11 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "firmware/capture/live_judge.h"
 
+#include <string.h>
+
 #include <algorithm>
 #include <cmath>
+#include <type_traits>
 
 #include "pipeline/match/rectify/rectifier.h"
 
@@ -89,16 +92,22 @@ ui::LiveView guidance_of(const pipeline::GateAnswer& answer, const pipeline::Ste
   return view;
 }
 
-Result<bool> LiveJudge::begin_turn(const pipeline::StereoFrame& front, pipeline::StageContext& context) {
+void LiveJudge::forget() {
+  static_assert(std::is_trivially_copyable_v<pipeline::FrontFace>);
+  explicit_bzero(front_.get(), sizeof *front_);
   turn_ = {};
-  front_->count = 0;
+  history_ = {};
+}
+
+Result<bool> LiveJudge::begin_turn(const pipeline::StereoFrame& front, pipeline::StageContext& context) {
+  forget();
   if (!calibration_) return uncalibrated();
   pipeline::GateHistory nothing;
   RELIEVO_TRY_ASSIGN(const pipeline::GateLook look,
                      pipeline::run_stage(context, [&](pipeline::StageContext& c) {
                        return gate_.look(front, *calibration_, {}, nothing, c);
                      }));
-  *front_ = front_face(look.relief, look.answer.measures.head);
+  front_face(look.relief, look.answer.measures.head, *front_);
   return front_->count > 0;
 }
 

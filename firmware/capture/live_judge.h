@@ -42,8 +42,8 @@ class LiveJudge {
 
   // Another calibration of the same cameras; while nobody poses.
   void use(const pipeline::StereoCalibration& calibration) { calibration_ = calibration; }
-  // Somebody else may stand here.
-  void begin() { history_ = {}; }
+  // Whose look or turn has ended may leave: nothing stays of their face and of where it was.
+  void forget();
   Result<LiveMeasurement> look(const pipeline::StereoFrame& frame, hal::Instant now,
                                pipeline::StageContext& context);
 
@@ -55,7 +55,7 @@ class LiveJudge {
   void took(std::size_t side) { turn_.taken.set(side); }
 
  private:
-  LiveJudge(pipeline::CaptureGate gate, const pipeline::LiveReliefOptions& relief)
+  LiveJudge(pipeline::CaptureGate gate, const pipeline::LiveRelief& relief)
       : gate_(std::move(gate)), relief_(relief) {}
 
   pipeline::CaptureGate gate_;

@@ -134,8 +134,14 @@ CameraLink::Verdict CameraLink::judge(const Frame& frame, hal::Instant asked) {
     ++counts_.duplicate;
     return Verdict::Skip;
   }
+  if (const std::uint32_t behind = 0U - step; behind - 1 < gap_) {  // a newer one overtook it
+    --counts_.lost;
+    ++counts_.late;
+    return Verdict::Skip;
+  }
   last_ = frame.sequence();
-  if (!backwards) counts_.lost += step - 1;
+  gap_ = backwards ? 0 : step - 1;
+  counts_.lost += gap_;
   if (backwards || frame.exposed_at() + budget::kStampSlack < asked) {
     ++counts_.late;
     return Verdict::Skip;
@@ -223,7 +229,7 @@ void StereoGrabber::recognise() {
   const int opened = left_.opened() + right_.opened();
   if (opened == recognised_) return;
   recognised_ = opened;
-  pipeline::RigCameras found = cameras_of(left_camera_, right_camera_);
+  pipeline::RigCameras found = cameras_of(left_.camera(), right_.camera());
   const std::lock_guard lock(names_);
   found_ = std::move(found);
 }
@@ -257,7 +263,10 @@ CameraWatch StereoGrabber::watch() const {
 Result<StereoFrame> StereoGrabber::grab(StereoSlot& slot, const std::atomic<bool>& cancelled,
                                         hal::Light light) {
   const bool lit = light == hal::Light::Flash || trigger_.lights_with_every_pulse();
-  if (lit) rest(trigger_.flash_allowed_at(), cancelled);
+  if (lit) {
+    rest(trigger_.flash_allowed_at(), cancelled);
+    if (cancelled.load(std::memory_order_relaxed)) return Error{Errc::Cancelled, "the capture was cancelled"};
+  }
   const hal::Instant now = clock_.now();
   Result<StereoFrame> pair = grab_within({slot, now, now + budget::kFrameWait, cancelled}, light, lit);
   if (!pair && pair.error().code != Errc::Cancelled) {

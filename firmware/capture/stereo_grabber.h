@@ -86,6 +86,7 @@ class Counter {
     return count_.load(std::memory_order_relaxed);
   }
   void operator++() { *this += 1; }
+  void operator--() { *this += ~std::uint64_t{0}; }
   void operator+=(std::uint64_t more) { count_.store(*this + more, std::memory_order_relaxed); }
 
  private:
@@ -97,7 +98,7 @@ class Counter {
 struct CameraCounts {
   Counter frames;     // taken
   Counter late;       // exposed before the pulse they were waited for, or out of order: dropped
-  Counter lost;       // numbers missing in the sequence
+  Counter lost;       // numbers missing in the sequence, also when it has gone on
   Counter duplicate;  // a number twice: dropped
   Counter damaged;    // the driver says that bytes are wrong: refused
   Counter too_short;  // fewer bytes than the picture has: refused
@@ -138,6 +139,7 @@ class CameraLink {
   // IoFailed (the frame was damaged or short), what the camera says.
   Result<hal::Frame> next(hal::Instant asked, hal::Instant deadline, const std::atomic<bool>& cancelled);
   bool gone() const { return gone_.load(std::memory_order_relaxed); }
+  const hal::Camera& camera() const { return camera_; }
   // How often the camera was opened: each time it may be another one.
   int opened() const { return opened_; }
 
@@ -153,6 +155,7 @@ class CameraLink {
   CameraCounts& counts_;
   std::atomic<bool> gone_{false};
   std::optional<std::uint32_t> last_;  // sequence number of this stream's newest frame
+  std::uint32_t gap_ = 0;              // numbers before it that have not come
   hal::Instant due_;
   int opened_ = 0;
   std::chrono::milliseconds wait_ = budget::kCameraRetryFirst;
@@ -188,9 +191,7 @@ class StereoGrabber {
  public:
   StereoGrabber(hal::Camera& left, hal::Camera& right, hal::TriggerLine& trigger, const hal::Clock& clock,
                 const GrabberOptions& options = {})
-      : left_camera_(left),
-        right_camera_(right),
-        trigger_(trigger),
+      : trigger_(trigger),
         clock_(clock),
         options_(options),
         left_(left, clock, counts_.left),
@@ -242,8 +243,6 @@ class StereoGrabber {
   Result<pipeline::StereoFrame> grab_once(const Shot& shot);
   Result<pipeline::StereoFrame> pair_of(const Half& left, const Half& right);
 
-  const hal::Camera& left_camera_;
-  const hal::Camera& right_camera_;
   hal::TriggerLine& trigger_;
   const hal::Clock& clock_;
   GrabberOptions options_;

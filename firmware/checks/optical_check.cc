@@ -4,11 +4,12 @@
 
 #include <cmath>
 #include <cstdio>
+#include <numbers>
 
 #include "firmware/base/boot_memory.h"
 #include "firmware/checks/deviation_picture.h"
-#include "firmware/checks/target_calibration.h"
 #include "firmware/jobs/job_thread.h"
+#include "pipeline/calibrate/board/board_finder.h"
 #include "pipeline/model/vector3.h"
 #include "pipeline/pipeline.h"
 #include "pipeline/reconstruct/best_fit.h"
@@ -223,7 +224,49 @@ TargetShot series_of(const OpticalCheckOptions& options) {
   return shot;
 }
 
+// No board is a finding, anything else an error.
+Result<pipeline::BoardCorners> look(const hal::Picture& picture, const pipeline::BoardPattern& pattern) {
+  auto corners = pipeline::find_board(picture.view(), pattern);
+  if (!corners && corners.error().code == Errc::NotFound) return pipeline::BoardCorners{};
+  return corners;
+}
+
 }  // namespace
+
+Vec3d left_from_target(const TargetPlace& place, const Vec3d& p) {
+  constexpr double kRadians = std::numbers::pi / 180;
+  const double a = place.pitch_deg * kRadians, b = place.yaw_deg * kRadians, c = place.roll_deg * kRadians;
+  const Vec3d x{p.x, p.y * std::cos(a) - p.z * std::sin(a), p.y * std::sin(a) + p.z * std::cos(a)};
+  const Vec3d y{x.x * std::cos(b) + x.z * std::sin(b), x.y, x.z * std::cos(b) - x.x * std::sin(b)};
+  return {y.x * std::cos(c) - y.y * std::sin(c) + place.right_mm,
+          y.x * std::sin(c) + y.y * std::cos(c) + place.down_mm, y.z + place.distance_mm};
+}
+
+Result<pipeline::CalibratorOutput> calibrate_on_boards(const Photograph& photograph, const TargetShot& series,
+                                                       int boards, const std::atomic<bool>& cancelled,
+                                                       const std::function<void()>& each) {
+  pipeline::CalibratorInput input;
+  input.pattern = {series.targets.board_columns, series.targets.board_rows, series.targets.square_mm};
+  TargetShot shot = series;
+  shot.kind = TargetKind::Board;
+  shot.count = boards;
+  for (shot.number = 0; shot.number < boards; ++shot.number) {
+    if (cancelled.load()) return Error{Errc::Cancelled, "cancelled: nothing was written"};
+    RELIEVO_TRY_ASSIGN(const TargetPictures pictures, photograph(shot));
+    input.width_px = pictures.left.width_px;
+    input.height_px = pictures.left.height_px;
+    pipeline::BoardView& view = input.views.emplace_back();
+    view.name = std::to_string(shot.number);
+    RELIEVO_TRY_ASSIGN(view.left, look(pictures.left, input.pattern));
+    RELIEVO_TRY_ASSIGN(view.right, look(pictures.right, input.pattern));
+    each();
+  }
+  RELIEVO_TRY_ASSIGN(auto output, pipeline::calibrate(input));
+  if (output.quality.verdict == pipeline::CalibrationVerdict::Refuse)
+    return Error{Errc::PoorGeometry,
+                 "the calibration on the boards is refused: there is nothing to measure targets with"};
+  return output;
+}
 
 AcceptanceLimits limits_at(double scale) {
   const double coarser = 1 / scale;

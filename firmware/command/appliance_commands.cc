@@ -20,8 +20,8 @@
 #include "firmware/jobs/job_thread.h"
 #include "firmware/records/event_log.h"
 #include "firmware/service/access.h"
+#include "firmware/service/statistics.h"
 #include "firmware/service/touch_trial.h"
-#include "firmware/service/visit_costs.h"
 
 namespace relievo::firmware {
 namespace {

@@ -10,7 +10,6 @@
 #include "firmware/command/commands.h"
 #include "hal/base/whole_file.h"
 #include "pipeline/calibrate/file/calibration_file.h"
-#include "pipeline/calibrate/file/camera_info.h"
 
 namespace relievo::firmware {
 namespace {

@@ -95,12 +95,16 @@ Result<void> run_dissertation(const CompareArgs& args, Services& services) {
   RELIEVO_TRY_ASSIGN(OutputFolder folder, OutputFolder::begin(args.output));
   order.work = folder.path() / "simulated";
   services.console.say("tables 1 and 2, figures 6 to 12 and 17 of the dissertation: a minute or two");
-  compare::DissertationJob job(std::move(order), services.simulate);
-  RELIEVO_TRY(run_watched(job, services.console, [&job] { return job.now(); }));
+  compare::Dissertation made;
+  std::atomic<const char*> at{"tables 1 and 2"};
+  FunctionJob job([&](JobControl& control) -> Result<void> {
+    RELIEVO_TRY_ASSIGN(made, compare::do_again(order, services.simulate, at, control));
+    return {};
+  });
+  RELIEVO_TRY(run_watched(job, services.console, [&at] { return at.load(); }));
   std::error_code ignored;
   std::filesystem::remove_all(folder.path() / "simulated", ignored);
 
-  const compare::Dissertation& made = job.result();
   RELIEVO_TRY(write_result(folder, args.output, compare::dissertation_html(made, kProduct, now_of(services)),
                            compare::dissertation_json(made, now_of(services))));
   RELIEVO_TRY(folder.commit());
@@ -139,11 +143,19 @@ Result<void> run(const CompareArgs& args, Services& services) {
       std::to_string(sets.size()) + (sets.size() == 1 ? " set on " : " sets on ") +
       std::to_string(pairs.size()) + (pairs.size() == 1 ? " pair" : " pairs") +
       (args.truths.empty() ? "; no truth is known: nothing below says how wrong a set is" : ""));
-  compare::CompareJob job(std::move(pairs), std::move(sets),
-                          {args.algorithms.whole_view, args.limit_px, true, keep_model});
-  RELIEVO_TRY(run_watched(job, services.console, [&job] { return job.now(); }));
+  std::vector<std::string> labels;
+  for (const compare::ComparedPair& pair : pairs)
+    for (const compare::NamedSet& set : sets) labels.push_back(pair.name + ", " + set.name);
+  const compare::RunOptions options{args.algorithms.whole_view, args.limit_px, true, keep_model};
+  Comparison comparison;
+  std::atomic<std::size_t> at{0};
+  FunctionJob job([&](JobControl& control) -> Result<void> {
+    RELIEVO_TRY_ASSIGN(comparison,
+                       compare::compare_sets(std::move(pairs), std::move(sets), options, at, control));
+    return {};
+  });
+  RELIEVO_TRY(run_watched(job, services.console, [&]() -> std::string_view { return labels[at.load()]; }));
 
-  const Comparison& comparison = job.comparison();
   RELIEVO_TRY(write_result(folder, args.output,
                            compare::comparison_html(comparison, kProduct, now_of(services)),
                            compare::comparison_json(comparison, now_of(services))));

@@ -8,7 +8,6 @@
 #include "firmware/arguments/algorithm_choice.h"
 #include "firmware/base/interrupt.h"
 #include "firmware/command/commands.h"
-#include "firmware/command/subject_lookup.h"
 #include "firmware/jobs/job_thread.h"
 #include "firmware/kiosk/stored_visits.h"
 #include "firmware/report/report.h"
@@ -82,7 +81,7 @@ Result<void> drive(Appliance& appliance, Console& console) {
 }
 
 // One line for each thing that is done, so that a log shows the way too.
-void tell(const Change& change, const Appliance& appliance, Console& console) {
+void tell(const Transition& change, const Appliance& appliance, Console& console) {
   if (change.event == Event::Triggered) {
     console.say("Capture      attempt " + std::to_string(appliance.attempt()));
   } else if (change.event == Event::StageDone && change.from != State::Store) {
@@ -147,7 +146,7 @@ Result<void> run(const EnrolArgs& args, Services& services) {
   record.calibration_note = calibrated.name;
   record.algorithms = stages.algorithms().to_text();
   appliance.expect(record);
-  appliance.on_change([&](const Change& change) { tell(change, appliance, services.console); });
+  appliance.on_change([&](const Transition& change) { tell(change, appliance, services.console); });
   const Result<void> done = drive(appliance, services.console);
   const Result<void> logged = log_drift(appliance, calibrated, *store);
   if (!done) return done.error().where().empty() ? done.error().at(args.device) : done.error();

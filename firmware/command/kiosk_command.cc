@@ -103,13 +103,17 @@ Result<void> run(const KioskArgs& args, Services& services) {
     return Error{Errc::IoFailed, "no folder can be made there: choose another"}.at(args.screenshots.string());
   Sentinel sentinel(services.clock);  // also while the kiosk closes
   RELIEVO_TRY_ASSIGN(const auto kiosk, Kiosk::open(args, services));
+  kiosk->leave_mark(true);  // whatever ends this from here on, also what is thrown
   RELIEVO_TRY_ASSIGN(const auto display, services.open_display({pictures ? 1280 : args.width_px,
                                                                 pictures ? 800 : args.height_px}));
   // What a simulated rig or a recording holds is none of the appliance's.
   if (kiosk->device().is_live()) RELIEVO_TRY(bound_memory(budget::kDriverBytes + budget::kSolidBytes));
-  if (scripted) return run_script(*display, *kiosk, sentinel, std::move(script), args.screenshots, services);
-  return pictures ? services.take_screenshots(args, *kiosk, services.console)
-                  : run_on(*display, *kiosk, sentinel, nullptr);
+  const Result<void> done =
+      scripted   ? run_script(*display, *kiosk, sentinel, std::move(script), args.screenshots, services)
+      : pictures ? services.take_screenshots(args, *kiosk, services.console)
+                 : run_on(*display, *kiosk, sentinel, nullptr);
+  kiosk->leave_mark(!done);
+  return done;
 }
 
 }  // namespace relievo::firmware

@@ -17,10 +17,6 @@
 namespace relievo::firmware {
 namespace {
 
-WhenMoved when_moved(const ReconstructArgs& args) {
-  return args.despite_drift ? WhenMoved::GoOn : WhenMoved::Refuse;
-}
-
 // Model, pictures and report, all or nothing. `save` writes what else belongs to it.
 template <typename Made, typename Save>
 Result<std::vector<std::string>> write_results(const ReconstructArgs& args, Made& made, Save&& save) {
@@ -56,7 +52,7 @@ void say_of_model(const pipeline::FaceModel& model, const std::vector<std::strin
 
 Result<void> reconstruct_head(const ReconstructArgs& args, Console& console) {
   HeadReconstruction head;
-  RELIEVO_TRY(head.run(args.pictures, args.calibrations, args.algorithms, console, when_moved(args)));
+  RELIEVO_TRY(head.run(args, console));
   RELIEVO_TRY_ASSIGN(const std::vector<std::string> further,
                      write_results(args, head, [] { return Result<void>(); }));
   for (std::size_t k = 1; k < head.report().poses.size(); ++k)
@@ -85,11 +81,8 @@ Result<void> run(const ReconstructArgs& args, Services& services) {
   if (args.pictures.size() == 1) return reconstruct_recording(args, services);
   if (args.pictures.size() > 2) return reconstruct_head(args, services.console);
   Reconstruction reconstruction;
-  RELIEVO_TRY(args.load.empty()
-                  ? reconstruction.run(args.pictures[0], args.pictures[1], args.calibrations[0],
-                                       args.algorithms, args.by_hand, services.console, when_moved(args))
-                  : reconstruction.load(args.load, args.from, args.algorithms, args.by_hand, services.console,
-                                        when_moved(args)));
+  RELIEVO_TRY(args.load.empty() ? reconstruction.run(args, services.console)
+                                : reconstruction.load(args, services.console));
   const auto save = [&] { return args.save.empty() ? Result<void>() : reconstruction.save(args.save); };
   RELIEVO_TRY_ASSIGN(const std::vector<std::string> further, write_results(args, reconstruction, save));
 

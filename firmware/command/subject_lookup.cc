@@ -1,13 +1,12 @@
 // SPDX-FileCopyrightText: 2026 The Relievo authors
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include "firmware/command/subject_lookup.h"
-
 #include <charconv>
 #include <optional>
 #include <string>
 #include <vector>
 
 #include "firmware/base/budget.h"
+#include "firmware/command/commands.h"
 #include "firmware/records/receipt.h"
 #include "storage/record.h"
 #include "storage/text.h"

@@ -14,7 +14,6 @@
 #include "firmware/base/version.h"
 #include "firmware/base/wall_time.h"
 #include "firmware/command/commands.h"
-#include "firmware/command/subject_lookup.h"
 #include "firmware/records/bundle_manifest.h"
 #include "firmware/service/further_models.h"
 #include "hal/base/whole_file.h"

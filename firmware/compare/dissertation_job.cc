@@ -12,8 +12,10 @@
 #include "firmware/jobs/job_thread.h"
 #include "hal/base/thread_pool.h"
 #include "pipeline/algorithms.h"
+#include "pipeline/base/stage.h"
 #include "pipeline/calibrate/file/calibration_file.h"
 #include "pipeline/match/rectify/rectifier.h"
+#include "pipeline/model/calibration.h"
 #include "pipeline/model/lens.h"
 #include "pipeline/model/vector3.h"
 
@@ -103,13 +105,18 @@ Result<void> go_on(const JobControl& control) {
 
 Result<Comparison> compared(const ComparedPair& pair, std::vector<NamedSet> sets, const RunOptions& options,
                             JobControl& control) {
-  CompareJob job({pair}, std::move(sets), options);
-  RELIEVO_TRY(job.run(control));
-  return std::move(job.comparison());
+  std::atomic<std::size_t> at{0};
+  return compare_sets({pair}, std::move(sets), options, at, control);
 }
 
-}  // namespace
+// Tables 1 and 2: a virtual rig of 20 units' baseline is calibrated from photographed boards; then the
+// corners of a cube are matched by hand and triangulated by linear least squares.
+struct VirtualRig {
+  pipeline::StereoCalibration truth, found;
+  double pair_rms_px = 0;
+};
 
+// Pictures and calibrations lie in `folder` afterwards.
 Result<VirtualRig> calibrate_virtual_rig(const Simulate& simulate, const Path& folder) {
   SimulateArgs args;
   args.board = true;
@@ -135,22 +142,14 @@ Result<VirtualRig> calibrate_virtual_rig(const Simulate& simulate, const Path& f
   return rig;
 }
 
-RigTable rig_table(const VirtualRig& rig) {
-  const pipeline::StereoCalibration& c = rig.found;
-  return {.baseline_units = length(c.right_from_left.translation_mm) / kUnitMm,
-          .true_focal_px = rig.truth.left.focal_px.x,
-          .focal_px = {c.left.focal_px.x, c.right.focal_px.x},
-          .pair_rms_px = rig.pair_rms_px};
-}
-
 Result<CubeTable> cube_table(const VirtualRig& rig, pipeline::StageContext& context) {
   const std::vector<std::byte> blank(std::size_t(rig.found.left.width_px) *
                                      std::size_t(rig.found.left.height_px));
   const ImageView view{blank.data(), rig.found.left.width_px, rig.found.left.height_px,
                        rig.found.left.width_px, PixelFormat::Grey8};
-  RELIEVO_TRY_ASSIGN(
-      const pipeline::RectifiedPair pair,
-      pipeline::Rectifier({.near_mm = 400, .far_mm = 950}).rectify({view, view, 0, 0}, rig.found, context));
+  const pipeline::RectifierOptions volume{.near_mm = 400, .far_mm = 950};
+  RELIEVO_TRY_ASSIGN(const pipeline::RectifiedPair pair,
+                     volume.rectify({view, view, 0, 0}, rig.found, context));
   const Vec3d right_camera = pipeline::inverse(rig.truth.right_from_left).translation_mm;
   const std::vector<Vec3d> corners = cube_corners(
       {right_camera.x / 2, right_camera.y / 2, right_camera.z / 2 + recorded::kDistanceUnits * kUnitMm});
@@ -172,23 +171,28 @@ Result<CubeTable> cube_table(const VirtualRig& rig, pipeline::StageContext& cont
   return table_of(corners, cloud);
 }
 
-Result<void> DissertationJob::make_tables(JobControl& control) {
-  RELIEVO_TRY_ASSIGN(const VirtualRig rig, calibrate_virtual_rig(simulate_, order_.work / "virtual rig"));
-  result_.rig = rig_table(rig);
+Result<void> make_tables(const DissertationOrder& order, const Simulate& simulate, JobControl& control,
+                         Dissertation& made) {
+  RELIEVO_TRY_ASSIGN(const VirtualRig rig, calibrate_virtual_rig(simulate, order.work / "virtual rig"));
+  made.rig = {.baseline_units = length(rig.found.right_from_left.translation_mm) / kUnitMm,
+              .true_focal_px = rig.truth.left.focal_px.x,
+              .focal_px = {rig.found.left.focal_px.x, rig.found.right.focal_px.x},
+              .pair_rms_px = rig.pair_rms_px};
   BootMemory memory(0, std::size_t{64} << 20, std::size_t{32} << 20);
   Arena output(memory.output());
   Arena scratch(memory.scratch());
   ThreadPool pool(pool_size());
   pipeline::StageContext context{output, scratch, pool, control.progress, control.cancelled};
-  RELIEVO_TRY_ASSIGN(result_.cube, cube_table(rig, context));
+  RELIEVO_TRY_ASSIGN(made.cube, cube_table(rig, context));
   return {};
 }
 
-Result<ComparedPair> DissertationJob::simulated_person(JobControl& control) {
-  const Path folder = order_.work / "simulated person";
+Result<ComparedPair> simulated_person(const DissertationOrder& order, const Simulate& simulate,
+                                      JobControl& control) {
+  const Path folder = order.work / "simulated person";
   SimulateArgs args;
   args.truth = true;
-  RELIEVO_TRY(simulate_(args, folder));
+  RELIEVO_TRY(simulate(args, folder));
   RELIEVO_TRY(go_on(control));
   CompareArgs read;
   read.pictures = {folder / "left.png", folder / "right.png"};
@@ -198,25 +202,29 @@ Result<ComparedPair> DissertationJob::simulated_person(JobControl& control) {
   return std::move(pairs.front());
 }
 
-Result<void> DissertationJob::run(JobControl& control) {
-  RELIEVO_TRY(make_tables(control));
+}  // namespace
+
+Result<Dissertation> do_again(const DissertationOrder& order, const Simulate& simulate,
+                              std::atomic<const char*>& at, JobControl& control) {
+  Dissertation made;
+  RELIEVO_TRY(make_tables(order, simulate, control, made));
   RELIEVO_TRY(go_on(control));
   std::optional<ComparedPair> person;
-  if (!order_.pair || !order_.pair->calibration) {
-    at_ = "simulated person";
-    RELIEVO_TRY_ASSIGN(person, simulated_person(control));
+  if (!order.pair || !order.pair->calibration) {
+    at = "simulated person";
+    RELIEVO_TRY_ASSIGN(person, simulated_person(order, simulate, control));
   }
-  at_ = "figures 6 to 12";
-  RELIEVO_TRY_ASSIGN(result_.rules, compared(order_.pair ? *order_.pair : *person, order_.rule_sets,
-                                             {order_.whole_view, order_.limit_px, false}, control));
+  at = "figures 6 to 12";
+  RELIEVO_TRY_ASSIGN(made.rules, compared(order.pair ? *order.pair : *person, order.rule_sets,
+                                          {order.whole_view, order.limit_px, false}, control));
   // Of what was never rectified there is nothing to draw.
-  if (result_.rules.pairs.front().width_px == 0)
+  if (made.rules.pairs.front().width_px == 0)
     return Error{Errc::InvalidInput, "so no set could be tried on this pair: choose another"}.at(
-        result_.rules.runs.front().failure);
-  at_ = "figure 17";
-  RELIEVO_TRY_ASSIGN(result_.face, compared(person ? *person : *order_.pair, order_.face_sets,
-                                            {!person && order_.whole_view, order_.limit_px}, control));
-  return {};
+        made.rules.runs.front().failure);
+  at = "figure 17";
+  RELIEVO_TRY_ASSIGN(made.face, compared(person ? *person : *order.pair, order.face_sets,
+                                         {!person && order.whole_view, order.limit_px}, control));
+  return made;
 }
 
 }  // namespace relievo::firmware::compare

@@ -7,20 +7,15 @@
 #include <cstddef>
 #include <cstdlib>
 #include <fstream>
-#include <string>
 #include <string_view>
 #include <utility>
 
 #include "firmware/base/boot_memory.h"
-#include "firmware/jobs/job_thread.h"
-#include "firmware/measure/comparison.h"
-#include "firmware/measure/selector_figures.h"
-#include "firmware/measure/self_agreement.h"
+#include "firmware/measure/match_figures.h"
 #include "firmware/measure/truth_view.h"
 #include "firmware/work/stage_drawing.h"
 #include "hal/base/result.h"
 #include "hal/picture_file.h"
-#include "pipeline/model/face_model.h"
 #include "pipeline/pipeline.h"
 
 namespace relievo::firmware::compare {
@@ -354,29 +349,26 @@ Result<std::vector<ComparedPair>> read_pairs(const CompareArgs& args) {
   return pairs;
 }
 
-CompareJob::CompareJob(std::vector<ComparedPair> pairs, std::vector<NamedSet> sets, RunOptions options)
-    : pairs_(std::move(pairs)), options_(std::move(options)) {
-  comparison_.sets = std::move(sets);
-  comparison_.limit_px = options_.limit_px;
-  for (const ComparedPair& pair : pairs_)
-    for (const NamedSet& set : comparison_.sets) labels_.push_back(pair.name + ", " + set.name);
-}
-
-Result<void> CompareJob::run(JobControl& control) {
+Result<Comparison> compare_sets(std::vector<ComparedPair> pairs, std::vector<NamedSet> sets,
+                                const RunOptions& options, std::atomic<std::size_t>& at,
+                                JobControl& control) {
+  Comparison c;
+  c.sets = std::move(sets);
+  c.limit_px = options.limit_px;
   ThreadPool pool(pool_size());
-  for (std::size_t p = 0; p < pairs_.size(); ++p) {
-    PairFacts& facts = comparison_.pairs.emplace_back();
-    facts.name = pairs_[p].name;
-    for (std::size_t s = 0; s < comparison_.sets.size(); ++s) {
-      at_.store(comparison_.runs.size(), std::memory_order_relaxed);
-      Run& run = comparison_.runs.emplace_back();
+  for (std::size_t p = 0; p < pairs.size(); ++p) {
+    PairFacts& facts = c.pairs.emplace_back();
+    facts.name = pairs[p].name;
+    for (std::size_t s = 0; s < c.sets.size(); ++s) {
+      at.store(c.runs.size(), std::memory_order_relaxed);
+      Run& run = c.runs.emplace_back();
       run.set = s;
       run.pair = p;
-      RELIEVO_TRY(run_set({pairs_[p], comparison_.sets[s], options_}, pool, control, facts, run));
+      RELIEVO_TRY(run_set({pairs[p], c.sets[s], options}, pool, control, facts, run));
     }
-    pairs_[p] = {};  // what is looked at again lies in the facts
+    pairs[p] = {};  // what is looked at again lies in the facts
   }
-  return {};
+  return c;
 }
 
 }  // namespace relievo::firmware::compare

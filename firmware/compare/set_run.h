@@ -17,7 +17,7 @@
 #include "firmware/measure/triangle_grid.h"
 #include "firmware/reconstruct/picture_pair.h"
 #include "hal/base/thread_pool.h"
-#include "pipeline/match/rectify/given_pair.h"
+#include "pipeline/match/rectify/rectifier.h"
 #include "pipeline/model/face_model.h"
 
 namespace relievo::firmware::compare {
@@ -44,22 +44,9 @@ struct RunOptions {
   std::function<Result<void>(const pipeline::FaceModel&)> keep_model{};
 };
 
-// CompareJob: every set on every pair. A set that fails on a pair is a run that says why. Thread: worker;
-// now() any; comparison() once done. Errors: Cancelled; those of `keep_model`.
-class CompareJob final : public Job {
- public:
-  CompareJob(std::vector<ComparedPair> pairs, std::vector<NamedSet> sets, RunOptions options);
-
-  Result<void> run(JobControl& control) override;
-  std::string_view now() const { return labels_[at_.load(std::memory_order_relaxed)]; }  // "pair, set"
-  Comparison& comparison() { return comparison_; }
-
- private:
-  std::vector<ComparedPair> pairs_;
-  Comparison comparison_;
-  std::vector<std::string> labels_;
-  std::atomic<std::size_t> at_{0};
-  RunOptions options_;
-};
+// Every set on every pair. A set that fails on a pair is a run that says why. `at` becomes the number of the
+// run that is being made. Errors: Cancelled; those of `keep_model`.
+Result<Comparison> compare_sets(std::vector<ComparedPair> pairs, std::vector<NamedSet> sets,
+                                const RunOptions& options, std::atomic<std::size_t>& at, JobControl& control);
 
 }  // namespace relievo::firmware::compare

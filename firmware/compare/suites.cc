@@ -4,10 +4,8 @@
 
 #include <algorithm>
 #include <array>
-#include <string_view>
 
 #include "firmware/arguments/algorithm_choice.h"
-#include "firmware/arguments/settings_file.h"
 #include "firmware/compare/page/dissertation.h"
 #include "pipeline/algorithms.h"
 
@@ -56,23 +54,6 @@ Result<NamedSet> named_set(const AlgorithmArgs& base, const SetWords& words) {
   if (!set) return in_set(set.error(), words.name);
   if (const auto made = try_to_make(*set); !made) return in_set(made.error(), words.name);
   return NamedSet{words.name, *set};
-}
-
-Result<std::vector<SetWords>> all_words(const CompareArgs& args) {
-  std::vector<SetWords> all;
-  for (const std::string& name : args.suites) {
-    RELIEVO_TRY_ASSIGN(const auto suite, suite_sets(name));
-    all.insert(all.end(), suite.begin(), suite.end());
-  }
-  for (const Path& file : args.set_files) {
-    RELIEVO_TRY_ASSIGN(const auto sets, read_sets_file(file));
-    for (const auto& [name, settings] : sets) all.push_back({name, settings});
-  }
-  for (const std::string& text : args.set_words) {
-    RELIEVO_TRY_ASSIGN(SetWords words, words_of(text));
-    all.push_back(std::move(words));
-  }
-  return all;
 }
 
 using Words = std::vector<SetWords>;
@@ -149,6 +130,32 @@ constexpr std::array kSuites{
     Suite{"dissertation-face", dissertation_face_sets},
 };
 
+Result<std::vector<SetWords>> suite_sets(std::string_view name) {
+  for (const Suite& suite : kSuites)
+    if (suite.name == name) return suite.make();
+  std::string all(kDissertation);
+  for (const Suite& suite : kSuites) all += ", " + std::string(suite.name);
+  return Error{Errc::NotFound, "no such suite: choose one of those in brackets"}.at(std::string(name) + " (" +
+                                                                                    all + ")");
+}
+
+Result<std::vector<SetWords>> all_words(const CompareArgs& args) {
+  std::vector<SetWords> all;
+  for (const std::string& name : args.suites) {
+    RELIEVO_TRY_ASSIGN(const auto suite, suite_sets(name));
+    all.insert(all.end(), suite.begin(), suite.end());
+  }
+  for (const Path& file : args.set_files) {
+    RELIEVO_TRY_ASSIGN(const auto sets, read_sets_file(file));
+    all.insert(all.end(), sets.begin(), sets.end());
+  }
+  for (const std::string& text : args.set_words) {
+    RELIEVO_TRY_ASSIGN(SetWords words, words_of(text));
+    all.push_back(std::move(words));
+  }
+  return all;
+}
+
 }  // namespace
 
 Result<std::vector<NamedSet>> choose_sets(const CompareArgs& args) {
@@ -213,15 +220,6 @@ std::vector<SetWords> dissertation_face_sets() {
   }
   words.push_back({"Relievo", {}});
   return words;
-}
-
-Result<std::vector<SetWords>> suite_sets(std::string_view name) {
-  for (const Suite& suite : kSuites)
-    if (suite.name == name) return suite.make();
-  std::string all(kDissertation);
-  for (const Suite& suite : kSuites) all += ", " + std::string(suite.name);
-  return Error{Errc::NotFound, "no such suite: choose one of those in brackets"}.at(std::string(name) + " (" +
-                                                                                    all + ")");
 }
 
 }  // namespace relievo::firmware::compare

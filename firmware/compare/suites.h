@@ -11,15 +11,11 @@
 #include <vector>
 
 #include "firmware/arguments/command_line.h"
+#include "firmware/arguments/settings_file.h"
 #include "firmware/measure/comparison.h"
 #include "hal/base/result.h"
 
 namespace relievo::firmware::compare {
-
-struct SetWords {
-  std::string name;
-  std::vector<std::string> settings;  // "matcher=ssd", "ssd.window_px=21"
-};
 
 inline constexpr std::string_view kDissertation = "dissertation";
 
@@ -28,8 +24,6 @@ inline constexpr std::string_view kDissertation = "dissertation";
 std::vector<SetWords> dissertation_rule_sets();
 // Figure 17, the fully automatic face: the chain as it was then, dense and at chosen places, and ours.
 std::vector<SetWords> dissertation_face_sets();
-
-Result<std::vector<SetWords>> suite_sets(std::string_view suite);
 
 // From words to sets of algorithms: all start from --algorithms, relief=off (nobody is refused as a picture
 // of a face unless --set says so) and --set; then come, in this order, the suites, the sets of files and

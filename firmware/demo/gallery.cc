@@ -278,7 +278,7 @@ void add_overlays(Gallery& g, const ui::ViewState& review, const ui::ViewState& 
   g.add("help", idle, g.at(Step::Consent, Overlay::Help));
   g.add("leave", review, g.at(Step::Review, Overlay::Leave));
   ui::ViewState late = idle;
-  late.now += ui::kPatience + std::chrono::seconds(4);
+  late.now += std::chrono::seconds(late.settings.of(ui::Setting::PatienceS) + 4);
   g.add("still_there", late, g.at(Step::Consent, Overlay::StillThere));
 }
 
@@ -310,8 +310,12 @@ std::vector<Exhibit> gallery(const ui::ViewState& review, ui::Language language,
   add_overlays(g, review, idle);
   add_heard(g, idle);
   add_troubles(g, idle);
-  add_staff_exhibits(g.exhibits, idle, g.at(Step::Attract));
-  add_technician_exhibits(g.exhibits, review, idle, g.at(Step::Attract));
+  static std::deque<Lender::Lent> lent;  // until the next call
+  lent.clear();
+  const ui::Visit visit = g.at(Step::Attract);
+  const Lender staff{lent, g.exhibits, idle, visit};
+  add_staff_exhibits(staff);
+  add_technician_exhibits(staff, review);
   return std::move(g.exhibits);
 }
 
@@ -322,7 +326,7 @@ void add_differences(const Lender& all, const ui::ViewState& review, ui::Technic
   view.differences = true;
   view.full_colour_mm = 0.5F;
   view.scale = difference_scale();
-  view.compared[0].difference = {true, -0.04F, 0.31F, {review.stages[1].picture, 900041}, nullptr, 900041};
+  view.compared[0].difference = {true, -0.04F, 0.31F, {review.stages[1].pixels, 900041}, nullptr, 900041};
   view.compared[view.put_aside] = {view.result, view.shown[0], view.model, view.model_number, {}};
   all.add("technician_difference", ui::StaffPage::Compare, view);
   ui::FaceRuler& ruler = all.add("technician_compare_alone", ui::StaffPage::Compare, view, 1).service.ruler;

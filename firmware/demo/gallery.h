@@ -25,25 +25,25 @@ struct Exhibit {
 std::vector<Exhibit> gallery(const ui::ViewState& review, ui::Language language, std::size_t text_size,
                              bool high_contrast);
 
-// Its parts, each in a file of its own: figures that somebody made up. `idle`: the view behind them; what the
-// staff's pages borrow lives for ever. `review`: the view that lends pictures and model, which must outlive
-// the exhibits; what else the technician's pages borrow lives until the next call.
-void add_staff_exhibits(std::vector<Exhibit>& exhibits, const ui::ViewState& idle, const ui::Visit& visit);
-void add_technician_exhibits(std::vector<Exhibit>& exhibits, const ui::ViewState& review,
-                             const ui::ViewState& idle, const ui::Visit& visit);
-
-// Adds the technician's pages; what they borrow is kept in `lent`, for as long as they are looked at.
+// Adds the staff's pages, behind which is the view `idle`; what they borrow is kept in `lent`, for as long as
+// they are looked at.
 struct Lender {
   struct Lent {
-    ui::TechnicianView view;
+    ui::TechnicianView technician;
     ui::ServiceView staff;
   };
   std::deque<Lent>& lent;
   std::vector<Exhibit>& exhibits;
   const ui::ViewState& idle;
   const ui::Visit& visit;
+  Exhibit& add(std::string_view name, ui::StaffPage page, const ui::ServiceView& view, int mode = 0) const;
   Exhibit& add(std::string_view name, ui::StaffPage page, const ui::TechnicianView& view, int mode = 0) const;
 };
+
+// Its parts, each in a file of its own: figures that somebody made up. `review`: the view that lends pictures
+// and model, which must outlive the exhibits.
+void add_staff_exhibits(const Lender& all);
+void add_technician_exhibits(const Lender& all, const ui::ViewState& review);
 
 // The pictures of that stage, as far as the visitor's review has them.
 void lend(const ui::ViewState& review, ui::TechnicianStage stage, ui::TechnicianView& view);

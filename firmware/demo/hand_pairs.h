@@ -14,7 +14,7 @@
 
 #include "firmware/calibrate/calibrate_live.h"
 #include "hal/picture_file.h"
-#include "pipeline/calibrate/live/live_advice.h"
+#include "pipeline/model/live_advice.h"
 
 namespace relievo::firmware {
 

@@ -4,7 +4,6 @@
 
 #include <algorithm>
 #include <array>
-#include <deque>
 #include <limits>
 
 #include "firmware/kiosk/code/qr_code.h"
@@ -154,15 +153,7 @@ ServiceView at(StaffRole role) {
   return view;
 }
 
-// Every page, as a view that lives as long as the program.
-struct Shown {
-  std::string_view name;
-  StaffPage page;
-  int mode;
-  ServiceView view;
-};
-
-void add_touch(std::deque<Shown>& all) {
+void add_touch(const Lender& all) {
   static const ui::TouchView kCross{ui::TouchStep::Cross, {}, 1, 12, false, false, 0, 0, false},
       kTest{ui::TouchStep::Test, {}, 4, 9, false, true, 90, 0.004, false},
       kKept{ui::TouchStep::Rest, ui::TouchVerdict::Kept, 0, 0, true, true, 90, 0.0041, false},
@@ -172,12 +163,12 @@ void add_touch(std::deque<Shown>& all) {
        {std::pair{"staff_touch_cross", &kCross}, std::pair{"staff_touch_test", &kTest},
         std::pair{"staff_touch_kept", &kKept}, std::pair{"staff_touch_misfit", &kMisfit}}) {
     touch.touch = view;
-    all.push_back({name, StaffPage::Touch, 0, touch});
+    all.add(name, StaffPage::Touch, touch);
   }
 }
 
 // How an export of everyone ended.
-void add_sticks(std::deque<Shown>& all, ServiceView records) {
+void add_sticks(const Lender& all, ServiceView records) {
   static const ui::RecordsView kTwoOfFive{kPeople, kPlace, {}, nullptr, {}, {}, false, false, 5, 2};
   using ui::Outcome;
   records.records = &kTwoOfFive;
@@ -188,12 +179,12 @@ void add_sticks(std::deque<Shown>& all, ServiceView records) {
         std::pair{"staff_stick_unchecked", Outcome::StickUnchecked},
         std::pair{"staff_export_stopped", Outcome::Cancelled}}) {
     records.work.outcome = outcome;
-    all.push_back({name, StaffPage::Records, 0, records});
+    all.add(name, StaffPage::Records, records);
   }
 }
 
 // The recovery sheet, of which nobody's words are shown.
-void add_recovery(std::deque<Shown>& all) {
+void add_recovery(const Lender& all) {
   static const std::array<std::string_view, storage::kRecoveryWords> kWords{
       "legal", "winner", "thank", "year",   "wave",  "sausage",
       "worth", "useful", "legal", "winner", "thank", "yellow"};
@@ -205,47 +196,47 @@ void add_recovery(std::deque<Shown>& all) {
   ServiceView recovery = at(StaffRole::Operator);
   recovery.access.words_due = true;
   recovery.recovery = &sheet;
-  all.push_back({"staff_recovery", StaffPage::Recovery, 0, recovery});
-  all.push_back({"staff_recovery_word", StaffPage::Recovery, 1, recovery});
+  all.add("staff_recovery", StaffPage::Recovery, recovery);
+  all.add("staff_recovery_word", StaffPage::Recovery, recovery, 1);
   recovery.recovery = &wrong;
-  all.push_back({"staff_recovery_wrong", StaffPage::Recovery, 1, recovery});
+  all.add("staff_recovery_wrong", StaffPage::Recovery, recovery, 1);
   recovery.recovery = &done;
-  all.push_back({"staff_recovery_done", StaffPage::Recovery, 1, recovery});
+  all.add("staff_recovery_done", StaffPage::Recovery, recovery, 1);
 }
 
 // The way in: PINs, the first start, a PIN that was forgotten.
-void add_sign_in(std::deque<Shown>& all) {
+void add_sign_in(const Lender& all) {
   ServiceView sign_in;
-  all.push_back({"staff_pin", StaffPage::Pin, 0, sign_in});
+  all.add("staff_pin", StaffPage::Pin, sign_in);
   sign_in.access.wait_s = 300;
-  all.push_back({"staff_pin_locked", StaffPage::Pin, 0, sign_in});
+  all.add("staff_pin_locked", StaffPage::Pin, sign_in);
   sign_in.access.wait_s = 0;
   sign_in.access.failed = Errc::MediaFull;
-  all.push_back({"staff_pin_failed", StaffPage::Pin, 0, sign_in});
+  all.add("staff_pin_failed", StaffPage::Pin, sign_in);
   ServiceView fresh;
   fresh.access.set_up = false;
   fresh.access.clock = "2026-03-14 10:21:09";
-  all.push_back({"staff_first_start", StaffPage::FirstStart, 0, fresh});
-  all.push_back({"staff_first_clock", StaffPage::FirstStart, 1, fresh});
+  all.add("staff_first_start", StaffPage::FirstStart, fresh);
+  all.add("staff_first_clock", StaffPage::FirstStart, fresh, 1);
   fresh.access.clock_right = true;
   static const ui::Fault kNoLanguage{
       Errc::InvalidInput,
       "zh.txt: is no text in a language: call it en.txt, de.txt, fr.txt, es.txt, ar.txt, he.txt, zh-Hans.txt or ja.txt"};
   static const ui::ConsentTextsView kUntouched{}, kWrong{false, ui::Outcome::Refused, &kNoLanguage};
   fresh.consent = &kUntouched;
-  all.push_back({"staff_first_consent", StaffPage::FirstStart, 1, fresh});
+  all.add("staff_first_consent", StaffPage::FirstStart, fresh, 1);
   fresh.consent = &kWrong;
-  all.push_back({"staff_first_consent_wrong", StaffPage::FirstStart, 1, fresh});
+  all.add("staff_first_consent_wrong", StaffPage::FirstStart, fresh, 1);
   fresh.access.consent_right = true;
   fresh.access.fault = ui::PinFault::Simple;
-  all.push_back({"staff_first_pin", StaffPage::FirstStart, 1, fresh});
+  all.add("staff_first_pin", StaffPage::FirstStart, fresh, 1);
   fresh.access.forgotten = true;
   fresh.access.fault = ui::PinFault::None;
   fresh.access.step = ui::PinStep::Operator;
-  all.push_back({"staff_forgotten_pin", StaffPage::FirstStart, 0, fresh});
+  all.add("staff_forgotten_pin", StaffPage::FirstStart, fresh);
 }
 
-void add_menus(std::deque<Shown>& all) {
+void add_menus(const Lender& all) {
   static const ui::StatusView kWell{.looked = true, .free_mib = 40960}, kIll{.looked = true,
                                                                              .camera_away = true,
                                                                              .pairs = 400,
@@ -257,27 +248,27 @@ void add_menus(std::deque<Shown>& all) {
                                                                              .device_faults = 3};
   ServiceView technician = at(StaffRole::Technician);
   technician.status = &kWell;
-  all.push_back({"staff_technician", StaffPage::Menu, 0, technician});
+  all.add("staff_technician", StaffPage::Menu, technician).view.consent = &whole_text();
   technician.status = &kIll;
   technician.access.words_due = technician.access.demanded = true;
-  all.push_back({"staff_technician_needed", StaffPage::Menu, 0, technician});
+  all.add("staff_technician_needed", StaffPage::Menu, technician);
   ServiceView leaving = at(StaffRole::Operator);
   leaving.status = &kIll;
   leaving.access.words_due = true;
-  all.push_back({"staff_operator_needed", StaffPage::Menu, 0, leaving});
+  all.add("staff_operator_needed", StaffPage::Menu, leaving);
   leaving.status = &kWell;
   leaving.access.words_due = false;
   leaving.leaves_in_s = 9;
-  all.push_back({"staff_operator", StaffPage::Menu, 0, leaving});
+  all.add("staff_operator", StaffPage::Menu, leaving).view.consent = &whole_text();
 }
 
-void add_records(std::deque<Shown>& all) {
+void add_records(const Lender& all) {
   ServiceView records = at(StaffRole::Operator);
   records.records = &kList;
-  all.push_back({"staff_records", StaffPage::Records, 0, records});
-  all.push_back({"staff_search", StaffPage::Records, 1, records});
-  all.push_back({"staff_records_jump", StaffPage::Records, 100, records});
-  all.push_back({"staff_records_filter", StaffPage::Records, 101, records});
+  all.add("staff_records", StaffPage::Records, records);
+  all.add("staff_search", StaffPage::Records, records, 1);
+  all.add("staff_records_jump", StaffPage::Records, records, 100);
+  all.add("staff_records_filter", StaffPage::Records, records, 101);
   static const ui::RecordsView kLooks = [] {
     ui::RecordsView looks = kList;
     looks.looks = true;
@@ -285,60 +276,63 @@ void add_records(std::deque<Shown>& all) {
   }();
   records.records = &kLooks;
   records.work.progress = 0.4F;
-  all.push_back({"staff_records_looks", StaffPage::Records, 0, records});
+  all.add("staff_records_looks", StaffPage::Records, records);
   records.records = &kList;
   add_sticks(all, records);
   records.work = {true, 0.6F, ui::Outcome::None};
-  all.push_back({"staff_export", StaffPage::Records, 0, records});
+  all.add("staff_export", StaffPage::Records, records);
   records.work = {};
   records.records = &kNobody;
-  all.push_back({"staff_nobody", StaffPage::Records, 0, records});
+  all.add("staff_nobody", StaffPage::Records, records);
   records.records = &kOne;
-  all.push_back({"staff_record", StaffPage::Records, 0, records});
-  all.push_back({"staff_erase", StaffPage::Records, 2, records});
+  records.model = all.idle.invitation_head;
+  records.model_number = 1;
+  all.add("staff_record", StaffPage::Records, records);
+  all.add("staff_erase", StaffPage::Records, records, 2);
   records.records = &kTaken;
   records.work.outcome = ui::Outcome::Done;
-  all.push_back({"staff_exported", StaffPage::Records, 0, records});
+  all.add("staff_exported", StaffPage::Records, records);
 }
 
-void add_figures(std::deque<Shown>& all) {
+void add_figures(const Lender& all) {
   ServiceView statistics = at(StaffRole::Operator);
   statistics.statistics = &statistics_seen();
-  all.push_back({"staff_statistics", StaffPage::Statistics, 0, statistics});
+  all.add("staff_statistics", StaffPage::Statistics, statistics);
   ServiceView health = at(StaffRole::Technician);
   health.health = &kHealth;
-  all.push_back({"staff_health", StaffPage::Health, 0, health});
+  all.add("staff_health", StaffPage::Health, health);
 }
 
-void add_tests(std::deque<Shown>& all) {
+void add_tests(const Lender& all) {
   ServiceView tests = at(StaffRole::Technician);
   tests.self_test = &kTested;
   tests.log = &kLog;
   tests.trigger = &kPulsed;
-  all.push_back({"staff_self_test", StaffPage::SelfTest, 0, tests});
-  all.push_back({"staff_trigger", StaffPage::Trigger, 0, tests});
+  all.add("staff_self_test", StaffPage::SelfTest, tests);
+  all.add("staff_trigger", StaffPage::Trigger, tests);
   tests.trigger = &kMissed;
-  all.push_back({"staff_trigger_missed", StaffPage::Trigger, 0, tests});
-  all.push_back({"staff_log", StaffPage::Log, 0, tests});
-  all.push_back({"staff_log_filter", StaffPage::Log, 101, tests});
+  all.add("staff_trigger_missed", StaffPage::Trigger, tests);
+  all.add("staff_log", StaffPage::Log, tests);
+  all.add("staff_log_filter", StaffPage::Log, tests, 101);
 }
 
-void add_settings(std::deque<Shown>& all) {
+void add_settings(const Lender& all) {
   ServiceView settings = at(StaffRole::Technician);
   static const ui::SettingsView kUsual{}, kJumped{kept_for_a_year(), true};
   settings.settings = &kUsual;
-  all.push_back({"staff_settings", StaffPage::Settings, 0, settings});
+  all.add("staff_settings", StaffPage::Settings, settings);
   settings.role = StaffRole::Operator;
   settings.settings = &kJumped;
   settings.work.outcome = ui::Outcome::Done;
-  all.push_back({"staff_settings_operator", StaffPage::Settings, 0, settings});
+  all.add("staff_settings_operator", StaffPage::Settings, settings);
   static const ui::ConsentTextsView kInForce{false, ui::Outcome::Done, nullptr};
   settings.consent = &kInForce;
-  all.push_back({"staff_consent", StaffPage::Consent, 0, settings});
+  all.add("staff_consent", StaffPage::Consent, settings).view.consent = &own_text();
 }
 
-std::deque<Shown> make_shown() {
-  std::deque<Shown> all;
+}  // namespace
+
+void add_staff_exhibits(const Lender& all) {
   add_sign_in(all);
   add_recovery(all);
   add_menus(all);
@@ -349,27 +343,7 @@ std::deque<Shown> make_shown() {
   add_touch(all);
   ServiceView pins = at(StaffRole::Operator);
   pins.access.step = ui::PinStep::Own;
-  all.push_back({"staff_new_pin", StaffPage::Pins, 0, pins});
-  return all;
-}
-
-}  // namespace
-
-void add_staff_exhibits(std::vector<Exhibit>& exhibits, const ui::ViewState& idle, const ui::Visit& visit) {
-  static std::deque<Shown> all = make_shown();
-  for (Shown& shown : all) {
-    const bool turns = shown.view.records != nullptr && shown.view.records->shown != nullptr;
-    shown.view.model = turns ? idle.invitation_head : nullptr;
-    shown.view.model_number = 1;
-    Exhibit exhibit{shown.name, idle, visit, {}};
-    exhibit.view.screen = ui::Screen::Staff;
-    exhibit.view.service = &shown.view;
-    const bool well = shown.view.status != nullptr && !shown.view.status->camera_away;
-    if (shown.page == StaffPage::Consent) exhibit.view.consent = &own_text();
-    if (well) exhibit.view.consent = &whole_text();
-    exhibit.service.show(shown.page, shown.mode);
-    exhibits.push_back(exhibit);
-  }
+  all.add("staff_new_pin", StaffPage::Pins, pins);
 }
 
 }  // namespace relievo::firmware

@@ -272,7 +272,7 @@ void add_cameras(const Lender& all, const ui::ViewState& review) {
   all.add("technician_camera", StaffPage::Cameras, view, 1);
   view.cameras.edges_shown = false;
   view.cameras.relief_shown = true;
-  view.cameras.relief = {review.stages[0].picture, 900022};
+  view.cameras.relief = {review.stages[0].pixels, 900022};
   all.add("technician_relief", StaffPage::Cameras, view);
 }
 
@@ -315,34 +315,35 @@ void lend(const ui::ViewState& review, TechnicianStage stage, TechnicianView& vi
   view.shown = {};
   if (stage <= TechnicianStage::Rectified) {
     if (review.frame != nullptr)
-      view.shown = {ui::TechnicianPicture{review.frame->left, 900001},
-                    ui::TechnicianPicture{review.frame->right, 900002}};
+      view.shown = {ui::Picture{review.frame->left, 900001}, ui::Picture{review.frame->right, 900002}};
     return;
   }
   const std::size_t last =
       stage == TechnicianStage::Matches || stage == TechnicianStage::Disparity
           ? 0
           : std::min(std::size_t(stage) - std::size_t(TechnicianStage::Cloud) + 1, review.stages.size() - 1);
-  view.shown[0] = {review.stages[last].picture, 900010 + std::uint32_t(last)};
+  view.shown[0] = {review.stages[last].pixels, 900010 + std::uint32_t(last)};
 }
 
-Exhibit& Lender::add(std::string_view name, StaffPage page, const TechnicianView& view, int mode) const {
-  Lent& one = lent.emplace_back(Lent{view, {}});
-  one.staff.role = ui::StaffRole::Technician;
-  one.staff.technician = &one.view;
+Exhibit& Lender::add(std::string_view name, StaffPage page, const ui::ServiceView& view, int mode) const {
+  Lent& one = lent.emplace_back(Lent{{}, view});
   Exhibit& exhibit = exhibits.emplace_back(Exhibit{name, idle, visit, {}});
   exhibit.view.screen = ui::Screen::Staff;
-  exhibit.view.calibration_note = {};
   exhibit.view.service = &one.staff;
   exhibit.service.show(page, mode);
   return exhibit;
 }
 
-void add_technician_exhibits(std::vector<Exhibit>& exhibits, const ui::ViewState& review,
-                             const ui::ViewState& idle, const ui::Visit& visit) {
-  static std::deque<Lender::Lent> lent;
-  lent.clear();
-  const Lender all{lent, exhibits, idle, visit};
+Exhibit& Lender::add(std::string_view name, StaffPage page, const TechnicianView& view, int mode) const {
+  Exhibit& exhibit = add(name, page, ui::ServiceView{}, mode);
+  lent.back().technician = view;
+  lent.back().staff.role = ui::StaffRole::Technician;
+  lent.back().staff.technician = &lent.back().technician;
+  exhibit.view.calibration_note = {};
+  return exhibit;
+}
+
+void add_technician_exhibits(const Lender& all, const ui::ViewState& review) {
   add_stages(all, review);
   add_results(all, review);
   add_cameras(all, review);

@@ -34,6 +34,10 @@ namespace relievo::firmware {
 
 // Threads for a stage, the worker counted: as many as the machine has, at most budget's limit.
 int pool_size();
+// From now on the calling thread, and whatever threads it begins, get the processor when the main thread and
+// the GL driver's leave it: a face that takes a moment longer is not noticed, a button that does not answer a
+// finger is. Linux has this per thread. Thread: any; nothing on main.
+void stand_behind_the_page();
 
 // JobReport: what a thread says when a job has ended. JobReports: the queue in which the main thread
 // hears it; of fixed length, so that nothing grows. One report per running job: it cannot overflow.

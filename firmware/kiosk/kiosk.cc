@@ -10,11 +10,9 @@
 #include <numeric>
 #include <thread>
 
-#include "firmware/appliance/view_of.h"
 #include "firmware/arguments/algorithm_choice.h"
 #include "firmware/base/budget.h"
 #include "firmware/base/settings.h"
-#include "firmware/jobs/behind_the_page.h"
 #include "firmware/jobs/job_thread.h"
 #include "hal/recording/capture_file.h"
 #include "pipeline/calibrate/file/calibration_file.h"
@@ -31,12 +29,11 @@ Result<std::unique_ptr<Kiosk>> Kiosk::open(const KioskArgs& args, Services& serv
 Result<std::optional<pipeline::StereoCalibration>> Kiosk::find_calibration(const KioskArgs& args,
                                                                            Services& services) {
   const hal::CaptureMode mode = device_->preferred_mode();
-  std::string named;
-  Result<pipeline::StereoCalibration> found = Error{Errc::NotCalibrated, "none was named"};
-  if (!args.calibration.empty()) {
-    found = pipeline::read_calibration(args.calibration, {mode.width_px, mode.height_px, 0});
-    named = args.calibration.filename().string();
-  } else if (found = store_->active_calibration(); !found && found.error().code == Errc::NotCalibrated) {
+  std::string named = args.calibration.filename().string();
+  auto found = args.calibration.empty()
+                   ? store_->active_calibration()
+                   : pipeline::read_calibration(args.calibration, {mode.width_px, mode.height_px, 0});
+  if (args.calibration.empty() && !found && found.error().code == Errc::NotCalibrated) {
     if (args.device != "sim" || !services.simulated_calibration)
       return std::optional<pipeline::StereoCalibration>();
     found = services.simulated_calibration();
@@ -50,29 +47,34 @@ Result<std::optional<pipeline::StereoCalibration>> Kiosk::find_calibration(const
   return std::optional(*found);
 }
 
-// What the technician has chosen.
-Result<pipeline::AlgorithmSet> Kiosk::chosen_algorithms() {
+// What the technician has chosen, as far as this program knows it: only their page can mend the rest.
+Result<pipeline::AlgorithmSet> Kiosk::chosen_algorithms(std::vector<std::string>& unknown) {
   RELIEVO_TRY_ASSIGN(const std::string kept, store_->setting(kAlgorithmsSetting));
-  if (kept.empty()) return choose_algorithms({});
-  RELIEVO_TRY_ASSIGN(auto set, pipeline::AlgorithmSet::from_text(kept));
+  RELIEVO_TRY_ASSIGN(auto set, pipeline::AlgorithmSet::from_text(kept, &unknown));
   (void)read_texts(set);  // a file that went away keeps nobody out: its algorithm says so
   return set;
 }
 
 // Without a calibration everything is made that needs none: the rest comes with the first one
 // (make_test_capture).
-Result<void> Kiosk::set_up_measuring(const KioskArgs& args, Services& services) {
+Result<void> Kiosk::set_up_measuring(const KioskArgs& args, Services& services,
+                                     std::vector<std::string>& unknown) {
   RELIEVO_TRY_ASSIGN(const std::optional<pipeline::StereoCalibration> calibration,
                      find_calibration(args, services));
-  RELIEVO_TRY_ASSIGN(const pipeline::AlgorithmSet set, chosen_algorithms());
-  RELIEVO_TRY_ASSIGN(auto judge, LiveJudge::open(calibration ? calibration->left.width_px
-                                                             : device_->preferred_mode().width_px));
+  RELIEVO_TRY_ASSIGN(pipeline::AlgorithmSet set, chosen_algorithms(unknown));
+  RELIEVO_TRY_ASSIGN(auto judge, calibration ? LiveJudge::open(*calibration)
+                                             : LiveJudge::open(device_->preferred_mode().width_px));
   judge_ = std::make_unique<LiveJudge>(std::move(judge));
+  auto made = pipeline::Pipeline::make(set, calibration.value_or(pipeline::StereoCalibration{}));
+  if (!made) {  // what is left of a choice need not fit together
+    services.console.fail(made.error());
+    unknown.emplace_back(kAlgorithmsSetting);
+    set = {};
+    made = pipeline::Pipeline::make(set, calibration.value_or(pipeline::StereoCalibration{}));
+  }
+  if (!made) return made.error();
   stages_ = std::make_unique<PipelineStages>(set);
-  if (!calibration) return {};
-  RELIEVO_TRY_ASSIGN(auto pipeline, pipeline::Pipeline::make(set, *calibration));
-  judge_->use(*calibration);
-  stages_->replace(std::move(pipeline));
+  if (calibration) stages_->replace(*std::move(made));
   return {};
 }
 
@@ -97,13 +99,12 @@ Result<void> Kiosk::prepare(const KioskArgs& args, Services& services) {
   RELIEVO_TRY_ASSIGN(device_, services.open_device(args.device));
   RELIEVO_TRY_ASSIGN(store_, services.open_store(store_folder(args.store), true));
   may_tell_known_ = args.tells_known;
-  RELIEVO_TRY_ASSIGN(run_mark_, RunMark::set(store_folder(args.store)));
-  restarted_ = run_mark_->ended_early();
   RELIEVO_TRY_ASSIGN(const auto newest, store_->subjects({.limit = 1}));
   if (!newest.empty()) newest_record_ = newest.front().created_at;
   if (services.turn_head && (args.device == "sim" || is_recorded_head(args.device)))
     turn_head_ = [this, turn = services.turn_head](double yaw_deg) { turn(*device_, yaw_deg); };
-  RELIEVO_TRY(set_up_measuring(args, services));
+  std::vector<std::string> unknown;
+  RELIEVO_TRY(set_up_measuring(args, services, unknown));
   open_speaker_ = services.open_speaker;
   if (services.find_presence_sensor) presence_ = services.find_presence_sensor();
   const hal::CaptureMode mode = device_->preferred_mode();
@@ -120,10 +121,10 @@ Result<void> Kiosk::prepare(const KioskArgs& args, Services& services) {
   moved_faces_ = std::make_unique<MovedFaces>(*store_);
   RELIEVO_TRY_ASSIGN(MovedFaces::Said moved, moved_faces_->read(revision_));
   appliance_->remember_moved(moved.faces, std::move(moved.note));
-  camera_look_ = std::make_unique<CameraLook>(appliance_->grabber(), appliance_->session(), mode);
   if (const auto* calibration = stages_->calibration()) appliance_->grabber().expect(calibration->cameras);
   RELIEVO_TRY_ASSIGN(staff_, StaffController::open({*appliance_, *device_, *store_, store_folder(args.store),
                                                     revision_, services.set_clock}));
+  for (const std::string& line : unknown) staff_->log().say(ui::LogEvent::SettingUnknown, {line});
   staff_->set_test_capture(make_test_capture(args, services));
   code_scanner_ = std::make_unique<CodeScanner>(*appliance_, *device_);
   slip_ = std::make_unique<ReceiptSlip>(staff_->side_tasks(),
@@ -134,6 +135,13 @@ Result<void> Kiosk::prepare(const KioskArgs& args, Services& services) {
     appliance_->grabber().stop();
     return Result<void>();
   });
+  look_at_cameras_ = std::make_unique<FunctionJob>([this](JobControl& control) -> Result<void> {
+    RELIEVO_TRY(take_and_forget(appliance_->grabber(), appliance_->session(), *device_, control.cancelled));
+    return {};
+  });
+  // Last: a start that fails leaves the mark as it was.
+  RELIEVO_TRY_ASSIGN(run_mark_, RunMark::set(store_folder(args.store)));
+  restarted_ = run_mark_->ended_early();
   look();
   return {};
 }
@@ -199,10 +207,9 @@ void Kiosk::look() {
   view_.consent = staff_->consent().now();
   view_.cameras_on = appliance_->grabber().streams();
   slip_->follow(view_, appliance_->kept().link.view());
-  for (std::size_t i = 0; i < ui::kLanguages; ++i)
-    languages_[i] = view_.consent == nullptr || view_.consent->in[i].has_value();
   // The staff read their pages in languages of their own; a visitor what can be consented to.
-  view_.languages = ui_->service().open ? std::bitset<ui::kLanguages>().set() : languages_;
+  for (std::size_t i = 0; i < ui::kLanguages; ++i)
+    view_.languages[i] = ui_->service().open || view_.consent == nullptr || view_.consent->in[i].has_value();
   view_.settings = staff_->settings();
   const ui::Step step = ui_->visit().step;
   take_home_->follow(view_, step != ui::Step::Starting && step != ui::Step::Attract &&
@@ -305,15 +312,12 @@ void Kiosk::turn_simulated_head() {
   std::size_t taken = 0;
   if (const auto& turn = view_.live.turn; turn && appliance_->state() == State::Turn) {
     taken = turn->taken.count();
-    const auto nearer = [&](std::size_t a, std::size_t b) {
-      const auto far = [&](std::size_t i) {
-        return turn->taken[i] ? 1e3 : std::abs(pipeline::kSidesDeg[i] - turned_to_deg_);
-      };
-      return far(a) < far(b);
+    const auto far = [&](std::size_t i) {
+      return turn->taken[i] ? 1e3 : std::abs(pipeline::kSidesDeg[i] - turned_to_deg_);
     };
     std::array<std::size_t, pipeline::kSides> sides{};
     std::iota(sides.begin(), sides.end(), 0);
-    to_deg = pipeline::kSidesDeg[*std::ranges::min_element(sides, nearer)];
+    to_deg = pipeline::kSidesDeg[*std::ranges::min_element(sides, {}, far)];
   }
   const bool waits = to_deg != 0 && view_.now - turned_at_ > kShownInVain;
   if (to_deg == turned_to_deg_ && taken == turned_with_ && !waits) return;
@@ -332,18 +336,22 @@ void Kiosk::turn_once() {
   if (!voice_) voice_ = std::make_unique<Voice>(open_speaker_ ? open_speaker_() : nullptr);
   appliance_->step(std::chrono::milliseconds(0));
   // Nobody uses cameras that are not the calibrated ones: that those are back must be noticed all the same.
-  if (exchanged_.empty()) rest_cameras();
-  else if (appliance_->state() == State::Idle && camera_look_->due(view_.now))
-    (void)appliance_->start_side_job(JobLane::Capture, *camera_look_);
+  if (exchanged_.empty()) {
+    rest_cameras();
+  } else if (appliance_->state() == State::Idle && view_.now >= next_camera_look_) {
+    next_camera_look_ = view_.now + budget::kCameraReturn;
+    (void)appliance_->start_side_job(JobLane::Capture, *look_at_cameras_);
+  }
   if (appliance_->state() == State::Idle && view_.now >= next_heat_look_) {
-    next_heat_look_ = view_.now + budget::kHeatLook;
     staff_->side_tasks().send(
         JobLane::Keeper,
         [this](JobControl&) -> Result<void> {
           hot_.store(device_->too_hot());
           return {};
         },
-        [](const std::optional<Error>&) {}, SideTasks::Whose::Device);
+        [this](const std::optional<Error>&) { next_heat_look_ = view_.now + budget::kHeatLook; },
+        SideTasks::Whose::Device);
+    next_heat_look_ = hal::Instant::max();  // until then: a keeper that hangs is asked once
   }
   if (turn_head_) turn_simulated_head();
   staff_->turn();
@@ -353,11 +361,8 @@ void Kiosk::turn_once() {
   if (told_ && ui_->visit().step != ui::Step::Trouble)
     restarted_ = false;  // told once: it was read, or nobody is there
   look();
-  if (auto shown = code_scanner_->turn(ui_->visit(), view_.now)) {
-    std::string& code = *shown;
-    ui_->visit().enter(code, view_.now);
-    explicit_bzero(code.data(), code.size());
-  }
+  if (const WipedText code = code_scanner_->turn(ui_->visit(), view_.now); !code.empty())
+    ui_->visit().enter(code.view(), view_.now);
   // What fingers asked for comes first: a frame must not take an older answer for the new one's.
   while (const auto intent = ui_->take_intent()) {
     ask(*intent);

@@ -8,25 +8,26 @@
 //
 // Thread: main; the jobs have threads of their own and turn() never waits for them.
 // Without a calibration it starts, and serves the staff alone until they have made one.
-// Errors of open(): those of device, store, fonts, words and algorithms.
+// A stored choice of algorithms that is none is told in the log, and the usual one holds.
+// Errors of open(): those of device, store, fonts and words.
 #pragma once
 
 #include <atomic>
 #include <functional>
 #include <memory>
 #include <optional>
+#include <string>
+#include <vector>
 
 #include "firmware/appliance/appliance.h"
 #include "firmware/kiosk/code/code_scanner.h"
 #include "firmware/kiosk/invitation_head.h"
 #include "firmware/kiosk/receipt_slip.h"
-#include "firmware/kiosk/run_mark.h"
 #include "firmware/kiosk/stored_visits.h"
 #include "firmware/kiosk/take_home.h"
 #include "firmware/kiosk/voice.h"
 #include "firmware/services/services.h"
 #include "firmware/staff/staff_controller.h"
-#include "firmware/work/camera_look.h"
 #include "firmware/work/pipeline_stages.h"
 #include "ui/ui.h"
 
@@ -41,6 +42,8 @@ class Kiosk {
   void feed(const ui::Input& input);
   // One turn of the main loop: hears what has happened, makes the next frame.
   void turn();
+  // Shall the next start say that this run ended early? Not where nobody says so.
+  void leave_mark(bool stays) { run_mark_->leave(stays); }
   // A visit has ended: what the renderer keeps of it must go.
   bool take_forgotten() { return std::exchange(forgotten_, false); }
 
@@ -56,8 +59,9 @@ class Kiosk {
   Result<void> prepare(const KioskArgs& args, Services& services);
   Result<std::optional<pipeline::StereoCalibration>> find_calibration(const KioskArgs& args,
                                                                       Services& services);
-  Result<pipeline::AlgorithmSet> chosen_algorithms();
-  Result<void> set_up_measuring(const KioskArgs& args, Services& services);
+  // `unknown` gets what is no choice: the usual one holds.
+  Result<pipeline::AlgorithmSet> chosen_algorithms(std::vector<std::string>& unknown);
+  Result<void> set_up_measuring(const KioskArgs& args, Services& services, std::vector<std::string>& unknown);
   std::unique_ptr<TestCapture> make_test_capture(const KioskArgs& args, Services& services);
   ui::Trouble out_of_order() const;
   void turn_simulated_head();
@@ -87,11 +91,11 @@ class Kiosk {
   std::unique_ptr<Voice> voice_;
   std::unique_ptr<hal::InputSwitch> presence_;  // none: somebody may always be near
   std::uint32_t revision_ = 0;
-  std::bitset<ui::kLanguages> languages_;
-  WipedText claimed_, quoted_;  // a name that is asked about, a code that is quoted
-  std::unique_ptr<CameraLook> camera_look_;
+  WipedText claimed_, quoted_;                 // a name that is asked about, a code that is quoted
   std::unique_ptr<FunctionJob> rest_cameras_;  // ends their streams
-  ui::Fault exchanged_;                        // which cameras are not the calibrated ones; empty: they are
+  std::unique_ptr<FunctionJob> look_at_cameras_;
+  hal::Instant next_camera_look_{};
+  ui::Fault exchanged_;  // which cameras are not the calibrated ones; empty: they are
   bool may_tell_known_ = true;
   std::unique_ptr<RunMark> run_mark_;
   std::unique_ptr<MovedFaces> moved_faces_;
@@ -105,7 +109,7 @@ class Kiosk {
   bool forgotten_ = false;
   std::unique_ptr<StoredVisits> visits_;
   std::unique_ptr<Appliance> appliance_;    // its threads use everything above
-  std::unique_ptr<StaffController> staff_;  // these two use the appliance
+  std::unique_ptr<StaffController> staff_;  // it and those below use the appliance
   std::unique_ptr<CodeScanner> code_scanner_;
   std::unique_ptr<ReceiptSlip> slip_;
   std::unique_ptr<TakeHome> take_home_;

@@ -75,14 +75,14 @@ hal::Picture draw_slip(ui::TextEngine& text, ui::Language language, const ui::Vi
   if (view.consent != nullptr && !view.consent->host.name.empty())
     paper.write(view.consent->host.name, 34, ui::Weight::Bold);
   paper.write(tr("Your code"), 30, ui::Weight::Medium);
-  paper.paste(view.receipt_code.picture);
+  paper.paste(view.receipt_code.pixels);
   paper.write(view.receipt, 46, ui::Weight::Bold);
   paper.write(tr("You get a code. Quote it to the staff at any time and everything about you is erased."), 26,
               ui::Weight::Regular);
   const ui::TakeHomeView& home = view.take_home;
-  if (home.link_code.picture.empty()) return paper.take();
+  if (home.link_code.pixels.empty()) return paper.take();
   paper.write(tr("Your portrait"), 30, ui::Weight::Medium);
-  paper.paste(home.link_code.picture);
+  paper.paste(home.link_code.pixels);
   paper.write(ui::site_of(home.link), 30, ui::Weight::Bold);
   return paper.take();
 }

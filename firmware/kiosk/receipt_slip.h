@@ -12,8 +12,8 @@
 #include <string>
 
 #include "firmware/service/side_tasks.h"
+#include "hal/device.h"
 #include "hal/picture_file.h"
-#include "hal/printer.h"
 #include "ui/text/text_engine.h"
 #include "ui/view/view_state.h"
 

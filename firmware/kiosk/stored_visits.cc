@@ -2,17 +2,60 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "firmware/kiosk/stored_visits.h"
 
+#include <algorithm>
+#include <chrono>
 #include <new>
 #include <sstream>
 #include <string>
 
 #include "firmware/base/budget.h"
-#include "firmware/kiosk/code/code_guard.h"
-#include "firmware/records/disk_room.h"
+#include "firmware/base/settings.h"
 #include "firmware/records/receipt.h"
 #include "firmware/report/report.h"
+#include "hal/base/whole_file.h"
 
 namespace relievo::firmware {
+namespace {
+
+constexpr std::int64_t kHourS = 3600;
+constexpr const char* kMovedFacesSetting = "moved_faces";
+
+}  // namespace
+
+Result<CodeGuard::Record> CodeGuard::read() {
+  const std::int64_t now_s =
+      std::chrono::floor<std::chrono::seconds>(clock_.wall_now()).time_since_epoch().count();
+  const Record fresh{0, now_s};
+  RELIEVO_TRY_ASSIGN(const std::string text, store_.setting(kCodesSetting));
+  if (text.empty()) return fresh;
+  std::istringstream in(text);
+  Record record;
+  if (!(in >> record.wrong >> record.since_s) || record.wrong < 0) return Record{kMostWrongCodes, now_s};
+  if (now_s < record.since_s) record.since_s = now_s;
+  return now_s - record.since_s >= kHourS ? fresh : record;
+}
+
+Result<void> CodeGuard::write(const Record& record) {
+  return store_.set_setting(kCodesSetting,
+                            std::to_string(record.wrong) + " " + std::to_string(record.since_s));
+}
+
+Result<bool> CodeGuard::spend() {
+  RELIEVO_TRY_ASSIGN(Record record, read());
+  if (record.wrong >= kMostWrongCodes) {
+    RELIEVO_TRY(write(record));  // an hour that began anew is kept
+    return false;
+  }
+  ++record.wrong;
+  RELIEVO_TRY(write(record));
+  return true;
+}
+
+Result<void> CodeGuard::was_right() {
+  RELIEVO_TRY_ASSIGN(Record record, read());
+  record.wrong = std::max(0, record.wrong - 1);
+  return write(record);
+}
 
 Result<KeptVisit> StoredVisits::keep(const VisitRecord& record, const pipeline::FaceModel& model) {
   RELIEVO_TRY(disk_has_room(folder_, record.least_room_mib));
@@ -58,12 +101,6 @@ Result<RecordAnswer> StoredVisits::look_up(const RecordQuestion& question) {
   return RecordAnswer{same.empty() ? ui::Known::Nobody : ui::Known::Name};
 }
 
-namespace {
-
-constexpr const char* kMovedFacesSetting = "moved_faces";
-
-}  // namespace
-
 Result<MovedFaces::Said> MovedFaces::read(std::uint32_t revision) {
   revision_ = revision;
   kept_ = {};
@@ -99,6 +136,22 @@ void MovedFaces::keep(std::uint32_t revision, int faces, std::string_view note, 
         if (!again) log.fault(*error);
       },
       SideTasks::Whose::Device);
+}
+
+Result<std::unique_ptr<RunMark>> RunMark::set(const std::filesystem::path& folder) {
+  const std::filesystem::path file = folder / "relievo.running";
+  std::error_code error;
+  const bool there = std::filesystem::exists(file, error);
+  // On the disk before anybody comes, and gone from it before the program says that it has ended.
+  if (!there) RELIEVO_TRY(write_whole_file(file, {}));
+  return std::unique_ptr<RunMark>(new RunMark(file, there));
+}
+
+RunMark::~RunMark() {
+  if (stays_) return;
+  std::error_code error;
+  std::filesystem::remove(file_, error);
+  (void)sync_directory(file_.parent_path());
 }
 
 }  // namespace relievo::firmware

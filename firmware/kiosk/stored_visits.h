@@ -7,9 +7,11 @@
 
 #include <cstdint>
 #include <filesystem>
+#include <memory>
 #include <optional>
 #include <string>
 #include <string_view>
+#include <utility>
 
 #include "firmware/records/event_log.h"
 #include "firmware/service/side_tasks.h"
@@ -31,6 +33,34 @@ class StoredVisits : public VisitRecords {
   storage::Store& store_;
   const hal::Clock& clock_;
   std::filesystem::path folder_;  // of the store
+};
+
+// CodeGuard: how many wrong codes of records are listened to: kMostWrongCodes an hour, whoever types them
+// and however often the program is started. Kept in the store's setting "codes", and written before a code
+// is looked at, so that pulling the plug gives no further try. A clock that was set back begins the hour
+// anew. A setting that cannot be read counts as a full hour. Thread: the keeper, as the store. Errors: the
+// store's.
+inline constexpr const char* kCodesSetting = "codes";
+inline constexpr int kMostWrongCodes = 10;
+
+class CodeGuard {
+ public:
+  CodeGuard(storage::Store& store, const hal::Clock& clock) : store_(store), clock_(clock) {}
+
+  // May one more be looked at? It counts as wrong until was_right().
+  Result<bool> spend();
+  Result<void> was_right();
+
+ private:
+  struct Record {
+    int wrong = 0;
+    std::int64_t since_s = 0;  // seconds since 1970, of the first wrong one
+  };
+  Result<Record> read();
+  Result<void> write(const Record& record);
+
+  storage::Store& store_;
+  const hal::Clock& clock_;
 };
 
 // MovedFaces: how many faces on end have said that the cameras have moved since they were calibrated, kept in
@@ -58,6 +88,25 @@ class MovedFaces {
   std::uint32_t revision_ = 0;
   Said kept_;
   std::optional<hal::Instant> retry_at_;  // when what could not be written is tried again
+};
+
+// RunMark: a file that is there while the kiosk runs, and gone when it ended as it should. One that is
+// found at the start means the power went, or the program did. Thread: main. Errors of set(): IoFailed,
+// MediaFull.
+class RunMark {
+ public:
+  static Result<std::unique_ptr<RunMark>> set(const std::filesystem::path& folder);
+  ~RunMark();
+  RunMark(const RunMark&) = delete;
+  RunMark& operator=(const RunMark&) = delete;
+  void leave(bool stays) { stays_ = stays; }  // there when this goes?
+  // Did the run before this one end in the middle?
+  bool ended_early() const { return ended_early_; }
+
+ private:
+  RunMark(std::filesystem::path file, bool ended_early) : file_(std::move(file)), ended_early_(ended_early) {}
+  std::filesystem::path file_;
+  bool ended_early_, stays_ = false;
 };
 
 }  // namespace relievo::firmware

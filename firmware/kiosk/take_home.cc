@@ -67,11 +67,9 @@ void TakeHome::take(storage::EnrolmentId enrolment, const ui::Settings& settings
   given_up_ = false;
   begun_ = parts_.clock.now();
   const FurtherModels further{.watertight = settings.is_on(ui::Setting::Solids)};
-  parts_.side_tasks.send(
+  task_ = parts_.side_tasks.send(
       JobLane::Keeper,
       [parts = parts_, writing = writing_, enrolment, further](JobControl& control) -> Result<void> {
-        writing->begun.store(true);
-        if (writing->stopped.load()) return Error{Errc::Cancelled, "nobody waits for it any more"};
         RELIEVO_TRY_ASSIGN(const storage::Enrolment stored, parts.store.enrolment(enrolment));
         return export_records(parts.store, parts.clock, parts.media, {stored.subject}, further, control,
                               writing->trace);
@@ -90,8 +88,7 @@ void TakeHome::take(storage::EnrolmentId enrolment, const ui::Settings& settings
 
 // It may still wait for the keeper behind others' work, which goes on.
 void TakeHome::stop() {
-  if (!writes() || writing_->stopped.exchange(true)) return;
-  if (writing_->begun.load()) parts_.side_tasks.stop(JobLane::Keeper);
+  if (writes()) parts_.side_tasks.stop(task_);
 }
 
 }  // namespace relievo::firmware

@@ -9,7 +9,7 @@
 // answer. Errors: none: the page says how it ended.
 #pragma once
 
-#include <atomic>
+#include <cstdint>
 #include <memory>
 
 #include "firmware/records/event_log.h"
@@ -39,8 +39,7 @@ class TakeHome {
 
  private:
   struct Writing {
-    std::atomic<bool> begun{false}, stopped{false};
-    bool ended = false;  // main
+    bool ended = false;
     ui::Outcome outcome = ui::Outcome::None;
     ExportTrace trace;
   };
@@ -49,6 +48,7 @@ class TakeHome {
 
   Parts parts_;
   std::shared_ptr<Writing> writing_;  // the last, until another visit begins
+  std::uint32_t task_ = 0;            // that writes it
   hal::Instant begun_{}, looked_{};
   bool there_ = true, ours_ = false;  // is there a stick; was it plugged during this visit?
   bool given_up_ = false;             // the stick has not answered in time

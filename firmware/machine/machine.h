@@ -189,6 +189,12 @@ inline constexpr std::array kDeaf{
     Deaf{State::Fault, Event::Failed, "it already is"},
 };
 
+// Somebody is to be photographed, or was: until they have left, or their record is stored.
+constexpr bool is_of_a_visit(State state) {
+  return state == State::Position || state == State::Turn || state == State::Review ||
+         state == State::Store || std::ranges::find(kMaking, state) != kMaking.end();
+}
+
 // Where an event leads, or nothing when the state does not listen to it.
 constexpr std::optional<State> next(State from, Event event) {
   for (const Transition& t : kTransitions) {
@@ -247,12 +253,6 @@ static_assert(answers_or_is_deaf(Event::Failed), "a state that neither answers F
 
 }  // namespace proof
 
-struct Change {
-  State from;
-  Event event;
-  State to;
-};
-
 // How long a state may last; nothing where it may last for ever.
 std::optional<std::chrono::milliseconds> limit_of(State state);
 
@@ -263,11 +263,11 @@ class Machine {
   State state() const { return state_; }
 
   // Entering a state, also the same one again, starts its time anew.
-  std::optional<Change> handle(Event event, hal::Instant now);
-  // Somebody is there: a state that waits for a person waits its whole time again.
+  std::optional<Transition> handle(Event event, hal::Instant now);
+  // Somebody is there, or an export goes on: a state that waits for that waits its whole time again.
   void renew(hal::Instant now);
   // Handles Timeout when the state's time is over.
-  std::optional<Change> tick(hal::Instant now);
+  std::optional<Transition> tick(hal::Instant now);
   bool limit_reached(hal::Instant now) const;  // of the state: a tick leaves it
 
  private:

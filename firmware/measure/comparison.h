@@ -54,7 +54,7 @@ struct SharedScore {
 SharedScore score_shared(const DisparityMap& one, const DisparityMap& other, const DisparityTruth& truth,
                          double limit_px);
 
-// Figures of self_agreement.h, as plain data.
+// Figures of match_figures.h, as plain data.
 struct LeftRightFigures {
   std::size_t asked = 0;     // pixels of the left view with a disparity
   std::size_t answered = 0;  // whose partner has one too

@@ -6,7 +6,6 @@
 #include <array>
 #include <bit>
 #include <cctype>
-#include <cstdint>
 #include <cstdlib>
 #include <cstring>
 #include <string>
@@ -141,17 +140,6 @@ DisparityMap disparity_map(const pipeline::MatchSet& set, int width_px, int heig
     fill_lattice(map, step, int(std::lround(node.x)) % step, int(std::lround(node.y)) % step);
   }
   return map;
-}
-
-void take_region(const DisparityMap& map, pipeline::RectifiedPair& right) {
-  std::ranges::fill(right.region, std::uint8_t{0});
-  for (int y = 0; y < map.height_px && !right.region.empty(); ++y)
-    for (int x = 0; x < map.width_px; ++x) {
-      if (!map.known(x, y)) continue;
-      const int to = int(std::lround(float(x) - map.at(x, y)));
-      for (int near = std::max(0, to - 1); near <= std::min(map.width_px - 1, to + 1); ++near)
-        right.region[map.index(near, y)] = 1;
-    }
 }
 
 DisparityMap thickened(const DisparityMap& map, int side_px) {

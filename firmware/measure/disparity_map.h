@@ -40,10 +40,6 @@ struct DisparityMap {
 // around agree within a pixel a step, else as the nearest. Scattered ones give one pixel each.
 DisparityMap disparity_map(const pipeline::MatchSet& set, int width_px, int height_px);
 
-// Its region, where it has one, becomes that of the right view: where the map's disparities lead, and a pixel
-// around.
-void take_region(const DisparityMap& map, pipeline::RectifiedPair& pair);
-
 // Scattered disparities as squares of this side, to be looked at; what is known stays.
 DisparityMap thickened(const DisparityMap& map, int side_px);
 

@@ -3,7 +3,6 @@
 #include "firmware/measure/measurement.h"
 
 #include <algorithm>
-#include <vector>
 
 #include "hal/base/statistics.h"
 #include "pipeline/reconstruct/best_fit.h"

@@ -5,7 +5,6 @@
 #include <algorithm>
 #include <charconv>
 #include <cstring>
-#include <string_view>
 
 #include "hal/base/whole_file.h"
 #include "pipeline/calibrate/file/calibration_file.h"
@@ -17,6 +16,7 @@ namespace {
 constexpr std::size_t kMaxFileBytes = std::size_t{1} << 30;
 constexpr std::size_t kVertexBytes = 12;
 constexpr std::size_t kTriangleBytes = 13;  // a count of 3, three numbers
+constexpr float kFarthestMm = 1e5F;         // no head stands there: the file is damaged
 
 Error bad() {
   return Error{Errc::InvalidInput,
@@ -83,7 +83,8 @@ Result<Surface> parse_true_surface(std::string_view rest) {
     v.x = take<float>(at);
     v.y = take<float>(at);
     v.z = take<float>(at);
-    if (!std::isfinite(v.x) || !std::isfinite(v.y) || !std::isfinite(v.z)) return bad();
+    for (const float mm : {v.x, v.y, v.z})
+      if (!(std::abs(mm) <= kFarthestMm)) return bad();
   }
   for (auto& t : surface.triangles) {
     if (take<std::uint8_t>(at) != 3) return bad();

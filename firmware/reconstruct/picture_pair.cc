@@ -29,16 +29,22 @@ Result<PicturePair> read_pair(const std::filesystem::path& left, const std::file
   return pair;
 }
 
+Result<void> check_size(const pipeline::StereoCalibration& calibration, const hal::CaptureMode& pictures,
+                        const std::string& place) {
+  const std::string pictured = size_of(pictures.width_px, pictures.height_px);
+  const std::string calibrated = size_of(calibration.left.width_px, calibration.left.height_px);
+  if (pictured == calibrated) return {};
+  return Error{Errc::InvalidInput, "the calibration is for pictures of another size: calibrate at this one"}
+      .at(place + " (" + pictured + ", calibrated " + calibrated + ")");
+}
+
 Result<pipeline::StereoCalibration> read_calibration_for(const PicturePair& pair,
                                                          const std::filesystem::path& file,
                                                          const std::filesystem::path& left) {
   RELIEVO_TRY_ASSIGN(const auto calibration,
                      pipeline::read_calibration(file, {pair.left.width_px, pair.left.height_px, 0}));
-  const std::string pictured = size_of(pair.left.width_px, pair.left.height_px);
-  const std::string calibrated = size_of(calibration.left.width_px, calibration.left.height_px);
-  if (pictured == calibrated) return calibration;
-  return Error{Errc::InvalidInput, "the calibration is for pictures of another size: calibrate at this one"}
-      .at(left.string() + " (" + pictured + ", calibrated " + calibrated + ")");
+  RELIEVO_TRY(check_size(calibration, {pair.left.width_px, pair.left.height_px}, left.string()));
+  return calibration;
 }
 
 }  // namespace relievo::firmware

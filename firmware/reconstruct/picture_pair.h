@@ -7,7 +7,9 @@
 #pragma once
 
 #include <filesystem>
+#include <string>
 
+#include "hal/camera.h"
 #include "hal/picture_file.h"
 #include "pipeline/model/calibration.h"
 #include "pipeline/model/stereo_frame.h"
@@ -20,6 +22,10 @@ struct PicturePair {
 };
 
 Result<PicturePair> read_pair(const std::filesystem::path& left, const std::filesystem::path& right);
+
+// Is it for pictures this large? `place` is named where it is not.
+Result<void> check_size(const pipeline::StereoCalibration& calibration, const hal::CaptureMode& pictures,
+                        const std::string& place);
 
 // Of pictures this large; a calibration that does not say for which it is (OpenCV's sample) is taken for
 // these. `left` is named where it is not.

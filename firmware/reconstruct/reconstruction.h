@@ -5,14 +5,14 @@
 // need it. Owns the memory in which pictures and model lie. Thread: main.
 #pragma once
 
+#include <atomic>
 #include <optional>
-#include <string_view>
+#include <span>
 #include <vector>
 
 #include "firmware/arguments/command_line.h"
 #include "firmware/base/boot_memory.h"
 #include "firmware/base/console.h"
-#include "firmware/base/page_block.h"
 #include "firmware/report/report.h"
 #include "firmware/session/session.h"
 #include "firmware/work/pipeline_stages.h"
@@ -26,16 +26,13 @@ class Reconstruction {
  public:
   Reconstruction()
       : memory_(0, budget::kLargestPlan.products, budget::kLargestPlan.scratch), session_(memory_) {}
-  // `by_hand`: a file of matches (pipeline/match/file/match_text.h), checked before anything is matched;
-  // empty: none. Errors: those of the files, of the settings and of the stages; each names its place.
-  Result<void> run(const Path& left, const Path& right, const Path& calibration,
-                   const AlgorithmArgs& algorithms, const Path& by_hand, Console& console,
-                   WhenMoved when_moved = WhenMoved::Refuse);
-  // A saved reconstruction; done again are the stages from `from` on ("match" ... "assemble"; empty: from the
-  // first that the settings or `by_hand` change, or that is missing). `by_hand`: in place of the saved ones;
-  // empty: those stay. Errors: also the document's; InvalidInput for what changes a stage before `from`.
-  Result<void> load(const Path& document, std::string_view from, const AlgorithmArgs& algorithms,
-                    const Path& by_hand, Console& console, WhenMoved when_moved);
+  // Of one pair. `by_hand`: a file of matches (pipeline/match/file/match_text.h), checked before anything is
+  // matched. Errors: those of the files, of the settings and of the stages; each names its place.
+  Result<void> run(const ReconstructArgs& args, Console& console);
+  // A saved one: done again are the stages from `from` on; empty: from the first that the settings or
+  // `by_hand` change, or that is missing. Errors: also the document's; InvalidInput for what changes a stage
+  // before `from`.
+  Result<void> load(const ReconstructArgs& args, Console& console);
   // All of it, whole or not at all. Errors: the file's.
   Result<void> save(const Path& document) const;
   // The portrait and the range image of the model, in the same memory. Errors: OutOfMemory.
@@ -46,7 +43,7 @@ class Reconstruction {
   State begun_with() const { return first_; }
 
  private:
-  Result<void> work(State first, Console& console, const Path& named, WhenMoved when_moved);
+  Result<void> work(State first, Console& console, const Path& named, bool despite_drift);
 
   BootMemory memory_;
   EnrolmentSession session_;
@@ -62,23 +59,24 @@ class HeadReconstruction {
  public:
   HeadReconstruction()
       : memory_(0, budget::kLargestPlan.products, budget::kLargestPlan.scratch), output_(memory_.output()) {}
-  // `pictures`: left, right of each pair, two or more pairs, the frontal one first. `calibrations`: one, or
-  // one a pair. Errors: those of the files, the settings and the stages; each names its place.
-  Result<void> run(const std::vector<Path>& pictures, const std::vector<Path>& calibrations,
-                   const AlgorithmArgs& algorithms, Console& console,
-                   WhenMoved when_moved = WhenMoved::Refuse);
+  // Of two or more pairs. Errors: those of the files, the settings and the stages; each names its place.
+  Result<void> run(const ReconstructArgs& args, Console& console);
   // As Reconstruction has them.
   Result<pipeline::RecognitionImages> draw_images();
   const pipeline::FaceModel& model() const { return head_->model; }
   const Report& report() const { return report_; }
 
  private:
-  class PairsJob;
+  struct Shot;
+  Result<void> work(const pipeline::HeadPipeline& pipeline, std::span<const Shot> shots, bool despite_drift,
+                    ThreadPool& pool, JobControl& control);
+
   BootMemory memory_;
   Arena output_;
   PageBlock kept_block_;
   std::optional<Arena> kept_;
   std::optional<pipeline::FusedHead> head_;
+  std::atomic<std::size_t> at_{0};  // the pair that is worked on; as many as there are: all of them together
   Report report_;
 };
 

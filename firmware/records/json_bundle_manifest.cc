@@ -10,7 +10,7 @@
 #include "firmware/base/wall_time.h"
 #include "firmware/records/bundle_manifest.h"
 #include "firmware/records/receipt.h"
-#include "storage/cipher/signature.h"
+#include "storage/cipher/secret_key.h"
 
 namespace relievo::firmware {
 namespace {

@@ -5,7 +5,6 @@
 #include <algorithm>
 #include <sstream>
 
-#include "firmware/service/pin_hash.h"
 #include "ui/view/service.h"
 
 namespace relievo::firmware {

@@ -9,7 +9,7 @@
 
 #include <array>
 
-#include "firmware/service/pin_hash.h"
+#include "firmware/service/access.h"
 
 namespace relievo::firmware {
 namespace {
@@ -41,6 +41,7 @@ Result<bool> is_pin_of(std::string_view pin, const std::string& kept) {
 }
 
 void wipe_text(std::string& text) {
+  text.resize(text.capacity());  // of one that was longer, or moved, more lies behind its end
   ::explicit_bzero(text.data(), text.size());
   text.clear();
 }

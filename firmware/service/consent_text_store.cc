@@ -266,8 +266,8 @@ void ConsentTextStore::take() {
   side_tasks_.send(
       JobLane::Keeper,
       [this, taken, now = now_](JobControl&) -> Result<void> {
-        RELIEVO_TRY_ASSIGN(const hal::Medium medium, plugged_in(media_));
-        auto result = take_consent(medium.root, folder_, now);
+        RELIEVO_TRY_ASSIGN(const std::filesystem::path stick, plugged_in(media_));
+        auto result = take_consent(stick, folder_, now);
         // Whatever failed: a stick that is gone is the reason.
         if (!result && !media_.current()) return pulled_too_early();
         RELIEVO_TRY_ASSIGN(*taken, std::move(result));

@@ -60,9 +60,11 @@ class Export {
     if (images) options.images = &*images;  // without a surface there are none
     RELIEVO_TRY(storage::write_model_files(model, folder.path(), options));
     RELIEVO_TRY(work_.reach(ExportStep::Write, done + 0.35F * share));
-    RELIEVO_TRY(
-        write_further_models(model, further_, folder.path(), options.frame, target, work_.control.cancelled));
-    RELIEVO_TRY(write_text(folder.path() / "record.txt", note_of(subject, enrolments.back()), "record.txt"));
+    RELIEVO_TRY_ASSIGN(const auto lines, write_further_models(model, further_, folder.path(), options.frame,
+                                                              target, work_.control.cancelled));
+    std::string note = note_of(subject, enrolments.back());
+    for (const std::string& line : lines) note += line + "\n";  // of a solid also why there is none
+    RELIEVO_TRY(write_text(folder.path() / "record.txt", note, "record.txt"));
     if (!enrolments.back().report_json.empty())
       RELIEVO_TRY(write_text(folder.path() / "report.json", enrolments.back().report_json, "report.json"));
     const auto now = std::chrono::time_point_cast<std::chrono::milliseconds>(clock_.wall_now());
@@ -118,15 +120,15 @@ class Export {
 Result<void> export_records(storage::Store& store, const hal::Clock& clock, hal::RemovableMedia& media,
                             const std::vector<storage::SubjectId>& subjects, const FurtherModels& further,
                             JobControl& control, ExportTrace& trace) {
-  trace = {};
-  RELIEVO_TRY_ASSIGN(const hal::Medium medium, plugged_in(media));
+  trace = {.asked = int(subjects.size())};
+  RELIEVO_TRY_ASSIGN(const fs::path stick, plugged_in(media));
   trace.step = ExportStep::Write;
-  RELIEVO_TRY_ASSIGN(const fs::path ours, place_on_stick(medium.root, "relievo"));
+  RELIEVO_TRY_ASSIGN(const fs::path ours, place_on_stick(stick, "relievo"));
   tidy_folder(ours, is_receipt);
   Export work(store, clock, media, further, control, trace);
   const float share = kWritten / float(std::max<std::size_t>(1, subjects.size()));
   for (const storage::SubjectId id : subjects) {
-    const Result<void> written = work.one(id, medium.root, float(trace.whole) * share, share);
+    const Result<void> written = work.one(id, stick, float(trace.whole) * share, share);
     // Whatever failed: a stick that is gone is the reason.
     if (!media.current()) return pulled_too_early();
     RELIEVO_TRY(written);

@@ -26,7 +26,8 @@ enum class ExportStep : std::uint8_t { Find, Load, Write, ReadBack, LetGo, Again
 // How far an export came. Written by the keeper; main reads it when the side task has ended.
 struct ExportTrace {
   ExportStep step = ExportStep::Find;
-  int whole = 0;  // records on the stick, read back and under their names
+  int asked = 0;  // records it is of
+  int whole = 0;  // of these, on the stick, read back and under their names
 };
 
 // `further`: what stands beside each portrait's files (service/further_models.h).

@@ -20,7 +20,6 @@
 #include "firmware/service/side_tasks.h"
 #include "firmware/service/statistics.h"
 #include "firmware/service/touch_trial.h"
-#include "firmware/service/visit_costs.h"
 #include "hal/device.h"
 #include "storage/store.h"
 #include "ui/view/service.h"
@@ -69,7 +68,7 @@ class PageController {
   PageServices& services_;
 };
 
-// What an error means to who asked; and what it says to the log's reader.
+// What an error means to who asked.
 ui::Outcome outcome_of(const Error& error);
 
 }  // namespace relievo::firmware

@@ -5,7 +5,8 @@
 #include <algorithm>
 #include <set>
 
-#include "firmware/service/pin_hash.h"
+#include "firmware/records/receipt.h"
+#include "firmware/service/access.h"
 #include "storage/text.h"
 
 namespace relievo::firmware {
@@ -48,6 +49,10 @@ Result<std::vector<ui::RecordFilter>> record_filters(storage::Store& store, JobC
 Result<std::vector<storage::SubjectId>> chosen_records(storage::Store& store, const RecordChoice& choice,
                                                        JobControl& control) {
   std::vector<storage::SubjectId> passed;
+  if (is_receipt(choice.part)) {
+    if (const auto subject = find_by_receipt(store, choice.part)) passed.push_back(subject->id);
+    return passed;
+  }
   const bool by_text = choice.filter && !choice.filter->letter;
   const auto passes = [&](const storage::Subject& subject, const storage::Consent* newest) {
     if (!choice.filter) return storage::contains_name(subject.name, choice.part);

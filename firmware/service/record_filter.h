@@ -34,7 +34,7 @@ Result<void> for_each_record(
 // All that let a record pass, in their order: texts (none where all agreed to one), then letters.
 Result<std::vector<ui::RecordFilter>> record_filters(storage::Store& store, JobControl& control);
 
-// The newest first.
+// The newest first; without a choice all. The code that a person quotes for their erasure leads to them, too.
 Result<std::vector<storage::SubjectId>> chosen_records(storage::Store& store, const RecordChoice& choice,
                                                        JobControl& control);
 

@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "firmware/service/side_tasks.h"
 
+#include <algorithm>
 #include <utility>
 
 namespace relievo::firmware {
@@ -15,13 +16,15 @@ SideTasks::~SideTasks() {
   appliance_.on_side_report({});
 }
 
-void SideTasks::send(JobLane lane, Work work, Done done, Whose whose) {
+std::uint32_t SideTasks::send(JobLane lane, Work work, Done done, Whose whose) {
   auto task = std::make_unique<SideTask>();
   task->work = std::move(work);
   task->done = std::move(done);
   task->whose = whose;
+  const std::uint32_t number = task->number = ++last_;
   queues_[std::size_t(lane)].waiting.push_back(std::move(task));
   turn();
+  return number;
 }
 
 void SideTasks::turn() {
@@ -32,6 +35,20 @@ void SideTasks::turn() {
       continue;  // a visitor has the thread
     queue.running = std::move(queue.waiting.front());
     queue.waiting.pop_front();
+  }
+}
+
+void SideTasks::stop(std::uint32_t task) {
+  for (std::size_t i = 0; i < kJobLanes; ++i) {
+    Queue& queue = queues_[i];
+    if (queue.running != nullptr && queue.running->number == task)
+      return appliance_.cancel_side_job(static_cast<JobLane>(i));
+    const auto at =
+        std::ranges::find_if(queue.waiting, [task](const auto& one) { return one->number == task; });
+    if (at == queue.waiting.end()) continue;
+    const std::unique_ptr<SideTask> dropped = std::move(*at);
+    queue.waiting.erase(at);
+    return dropped->done(Error{Errc::Cancelled, "it was stopped"});
   }
 }
 

@@ -13,6 +13,7 @@
 #pragma once
 
 #include <array>
+#include <cstdint>
 #include <deque>
 #include <functional>
 #include <memory>
@@ -34,11 +35,13 @@ class SideTasks {
   SideTasks(const SideTasks&) = delete;
   SideTasks& operator=(const SideTasks&) = delete;
 
-  void send(JobLane lane, Work work, Done done, Whose whose = Whose::Page);
+  // Its number, for stop(); none is 0.
+  std::uint32_t send(JobLane lane, Work work, Done done, Whose whose = Whose::Page);
   // Starts what waits and can start: once every turn.
   void turn();
-  // Asks what runs on that thread to end early; its done() hears Cancelled, or that it was done already.
-  void stop(JobLane lane) { appliance_.cancel_side_job(lane); }
+  // One that waits is dropped: its done() hears Cancelled at once. One that runs is asked to end early: its
+  // done() hears Cancelled, or that it was done already.
+  void stop(std::uint32_t task);
   void cancel();
   bool busy(JobLane lane) const { return queues_[std::size_t(lane)].running != nullptr; }
   float progress(JobLane lane) const { return appliance_.side_progress(lane); }
@@ -48,6 +51,7 @@ class SideTasks {
     Work work;
     Done done;
     Whose whose = Whose::Page;
+    std::uint32_t number = 0;
     bool forgotten = false;
     Result<void> run(JobControl& control) override { return work(control); }
   };
@@ -59,6 +63,7 @@ class SideTasks {
 
   Appliance& appliance_;
   std::array<Queue, kJobLanes> queues_;
+  std::uint32_t last_ = 0;
 };
 
 }  // namespace relievo::firmware

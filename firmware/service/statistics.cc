@@ -3,36 +3,18 @@
 #include "firmware/service/statistics.h"
 
 #include <algorithm>
+#include <chrono>
 #include <cstdio>
 #include <sstream>
 #include <utility>
 
+#include "firmware/base/budget.h"
+
 namespace relievo::firmware {
 namespace {
 
-bool is_visit(State state) {
-  switch (state) {
-    case State::Position:
-    case State::Capture:
-    case State::Turn:
-    case State::Match:
-    case State::Reconstruct:
-    case State::Mesh:
-    case State::Texture:
-    case State::Assemble:
-    case State::Fuse:
-    case State::Review: return true;
-    case State::SelfTest:
-    case State::Idle:
-    case State::Calibrate:
-    case State::Store:
-    case State::Export:
-    case State::Staff:
-    case State::Fault:
-    case State::Count: break;
-  }
-  return false;
-}
+// Without the record's storing, which nobody can leave.
+bool is_visit(State state) { return is_of_a_visit(state) && state != State::Store; }
 
 // Others are ui::Refusal::Other.
 constexpr std::pair<Errc, ui::Refusal> kRefusals[] = {
@@ -49,6 +31,12 @@ ui::Refusal refusal_of(const Error& error) {
   return found != std::end(kRefusals) ? found->second : ui::Refusal::Other;
 }
 
+// As the jobs call their parts, in the order of ui::CostlyStage.
+constexpr std::array<std::string_view, ui::kCostlyStages> kNames{"Match",    "Reconstruct", "Mesh", "Texture",
+                                                                 "Assemble", "Pose",        "Fuse"};
+
+float to_mib(std::uint64_t bytes) { return float(bytes) / float(budget::kMiB); }
+
 }  // namespace
 
 // The days between the newest and this one had nobody.
@@ -59,13 +47,14 @@ void Statistics::turn_to(std::chrono::sys_days today) {
   newest_ = std::max(newest_, today);
 }
 
-void Statistics::noted(const Change& change, const Error* problem, std::chrono::nanoseconds total,
+void Statistics::noted(const Transition& change, const Error* problem, std::chrono::nanoseconds total,
                        std::chrono::sys_days today) {
   turn_to(today);
   Day& day = days_.back();
-  const auto count = [this](std::uint64_t& number) { ++number, ++changes_; };
+  const auto count = [this](std::uint64_t& number) { ++number, changed_ = true; };
   const auto count_today = [&](std::uint64_t& number, std::uint64_t& of_day) { count(number), ++of_day; };
-  const bool refused = is_visit(change.from) && change.from != State::Review &&
+  // Fuse goes on to a model: who turned for too long is not refused.
+  const bool refused = is_visit(change.from) && change.from != State::Review && change.to != State::Fuse &&
                        (change.event == Event::AdviceGiven || change.event == Event::StageFailed ||
                         change.event == Event::Failed || change.event == Event::Timeout);
   if (change.from == State::Idle && is_visit(change.to)) count_today(visits_, day.visits);
@@ -140,6 +129,66 @@ ui::StatisticsView Statistics::view(std::chrono::sys_days today) const {
     view.days.refused[i] = float(now.days_[i].refused);
   }
   return view;
+}
+
+std::string_view VisitCosts::name_of(ui::CostlyStage stage) { return kNames[std::size_t(stage)]; }
+
+void VisitCosts::noted(std::span<const StageRecord> records, std::uint64_t resident_bytes) {
+  if (records.empty()) return;
+  Visit visit;
+  for (const StageRecord& record : records) {
+    const auto name = std::find(kNames.begin(), kNames.end(), record.name);
+    if (name == kNames.end()) continue;
+    ui::StageCost& cost = visit.stages[std::size_t(name - kNames.begin())];
+    cost.seconds = std::max(cost.seconds, std::chrono::duration<float>(record.took).count());
+    cost.mib = std::max(cost.mib, to_mib(record.arena_peak_bytes));
+  }
+  visit.resident_mib = to_mib(resident_bytes);
+  visits_[next_] = visit;
+  next_ = (next_ + 1) % kKept;
+  count_ = std::min(count_ + 1, kKept);
+  changed_ = true;
+}
+
+ui::VisitCostsView VisitCosts::view() const {
+  ui::VisitCostsView most;
+  most.visits = int(count_);
+  for (std::size_t i = 0; i < count_; ++i) {
+    for (std::size_t k = 0; k < ui::kCostlyStages; ++k) {
+      most.stages[k].seconds = std::max(most.stages[k].seconds, visits_[i].stages[k].seconds);
+      most.stages[k].mib = std::max(most.stages[k].mib, visits_[i].stages[k].mib);
+    }
+    most.resident_mib = std::max(most.resident_mib, visits_[i].resident_mib);
+  }
+  most.planned_seconds = std::chrono::duration<float>(budget::kStageLimit).count();
+  return most;
+}
+
+std::string VisitCosts::text() const {
+  std::ostringstream out;
+  out << "1 " << count_;
+  for (std::size_t i = 0; i < count_; ++i) {  // oldest first
+    const Visit& visit = visits_[(next_ + kKept - count_ + i) % kKept];
+    for (const ui::StageCost& cost : visit.stages) out << ' ' << cost.seconds << ' ' << cost.mib;
+    out << ' ' << visit.resident_mib;
+  }
+  return out.str();
+}
+
+bool VisitCosts::read(std::string_view text) {
+  std::istringstream in{std::string(text)};
+  VisitCosts seen;
+  std::string version;
+  in >> version >> seen.count_;
+  if (!in || version != "1" || seen.count_ > kKept) return false;
+  for (std::size_t i = 0; i < seen.count_; ++i) {
+    for (ui::StageCost& cost : seen.visits_[i].stages) in >> cost.seconds >> cost.mib;
+    in >> seen.visits_[i].resident_mib;
+  }
+  if (!in) return false;
+  seen.next_ = seen.count_ % kKept;
+  *this = seen;
+  return true;
 }
 
 }  // namespace relievo::firmware

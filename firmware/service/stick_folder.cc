@@ -60,7 +60,9 @@ Result<fs::path> place_on_stick(const fs::path& root, const fs::path& place) {
 }
 
 Result<void> StickWork::reach(ExportStep step, float share) {
-  if (control.cancelled.load()) return Error{Errc::Cancelled, "nothing was stored"};
+  // What has its name stays: its stick is let go, whoever stops it now.
+  if (step < ExportStep::LetGo && control.cancelled.load())
+    return Error{Errc::Cancelled, "nothing was stored"};
   trace.step = step;
   control.progress.done.store(share);
   return {};
@@ -82,8 +84,8 @@ Result<Sums> keep_folder(OutputFolder& made, const fs::path& target, hal::Remova
 
 Result<void> put_on_stick(hal::RemovableMedia& media, const fs::path& place, StickWork* work,
                           const std::function<Result<void>(const fs::path& target)>& write) {
-  RELIEVO_TRY_ASSIGN(const hal::Medium medium, plugged_in(media));
-  RELIEVO_TRY_ASSIGN(const fs::path target, place_on_stick(medium.root, place));
+  RELIEVO_TRY_ASSIGN(const fs::path stick, plugged_in(media));
+  RELIEVO_TRY_ASSIGN(const fs::path target, place_on_stick(stick, place));
   tidy_folder(target.parent_path());
   const Result<void> written = write(target);
   // Whatever failed: a stick that is gone is the reason.
@@ -94,8 +96,8 @@ Result<void> put_on_stick(hal::RemovableMedia& media, const fs::path& place, Sti
   return media.flush_and_eject();
 }
 
-Result<hal::Medium> plugged_in(hal::RemovableMedia& media) {
-  if (auto medium = media.current()) return *std::move(medium);
+Result<fs::path> plugged_in(hal::RemovableMedia& media) {
+  if (auto stick = media.current()) return *std::move(stick);
   return Error{Errc::MediaMissing, "there is no stick: plug one in"};
 }
 

@@ -23,7 +23,8 @@ namespace relievo::firmware {
 // device.
 Result<std::filesystem::path> place_on_stick(const std::filesystem::path& root,
                                              const std::filesystem::path& place);
-// How far the work on a stick has come, for who waits and for who may stop it between two steps.
+// How far the work on a stick has come, for who waits and for who may stop it between two steps, the last
+// excepted: then it is there.
 struct StickWork {
   JobControl& control;
   ExportTrace& trace;
@@ -39,7 +40,7 @@ Result<Sums> keep_folder(OutputFolder& made, const std::filesystem::path& target
 Result<void> put_on_stick(hal::RemovableMedia& media, const std::filesystem::path& place, StickWork* work,
                           const std::function<Result<void>(const std::filesystem::path& target)>& write);
 // The stick that is there, or MediaMissing.
-Result<hal::Medium> plugged_in(hal::RemovableMedia& media);
+Result<std::filesystem::path> plugged_in(hal::RemovableMedia& media);
 Error pulled_too_early();
 // What `write` says where it read back something else.
 Error not_as_written(const std::filesystem::path& file);

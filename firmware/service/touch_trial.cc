@@ -21,6 +21,7 @@ Result<void> TouchTrial::look() {
     if (const auto map = ui::parse_touch_map(kept)) map_ = *map;
     else log_.fault(map.error());
   }
+  saved_ = map_;
   view_.corrected = !map_.is_plain();
   return {};
 }
@@ -83,20 +84,24 @@ void TouchTrial::take_plain() {
 
 // It holds at once; what cannot be written does not hold.
 void TouchTrial::keep(const ui::TouchMap& map, TouchVerdict verdict) {
-  const ui::TouchMap before = std::exchange(map_, map);
+  map_ = map;
   end(verdict);
   side_tasks_.send(
       JobLane::Keeper,
       [this, text = text_of(map)](JobControl&) { return store_.set_setting(kTouchSetting, text); },
-      [this, before](const std::optional<Error>& error) {
-        if (!error)
-          return map_.is_plain() ? log_.say(ui::LogEvent::TouchPlain)
-                                 : log_.say(ui::LogEvent::TouchCorrected);
+      [this, map](const std::optional<Error>& error) {
+        --writes_;
+        if (!error) {
+          saved_ = map;
+          return log_.say(map.is_plain() ? ui::LogEvent::TouchPlain : ui::LogEvent::TouchCorrected);
+        }
         log_.fault(*error);
-        map_ = before;
-        end(TouchVerdict::NotSaved);
+        if (writes_ > 0) return;  // a newer one decides
+        map_ = saved_;
+        if (!takes_fingers()) end(TouchVerdict::NotSaved);  // else another trial is under way
       },
       SideTasks::Whose::Device);
+  ++writes_;
 }
 
 void TouchTrial::turn() {

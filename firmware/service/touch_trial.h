@@ -18,7 +18,7 @@
 #include "firmware/service/side_tasks.h"
 #include "storage/store.h"
 #include "ui/device/touch_map.h"
-#include "ui/view/input.h"
+#include "ui/display.h"
 
 namespace relievo::firmware {
 
@@ -56,7 +56,8 @@ class TouchTrial {
   SideTasks& side_tasks_;
   EventLog& log_;
   const hal::Clock& clock_;
-  ui::TouchMap map_, candidate_;
+  ui::TouchMap map_, candidate_, saved_;
+  int writes_ = 0;  // on their way
   std::vector<ui::TouchedCross> crosses_;
   hal::Instant until_{};
   ui::TouchView view_;

@@ -12,14 +12,11 @@
 #include "firmware/arguments/command_line.h"
 #include "firmware/base/console.h"
 #include "firmware/calibrate/calibrate_live.h"
-#include "firmware/checks/target_calibration.h"
+#include "firmware/checks/optical_check.h"
 #include "hal/clock.h"
 #include "hal/device.h"
-#include "hal/input_switch.h"
-#include "hal/printer.h"
 #include "hal/speaker.h"
 #include "storage/store.h"
-#include "storage/store_keeping.h"
 #include "ui/display.h"
 
 namespace relievo::firmware {

@@ -59,7 +59,6 @@ Result<void> SidePairs::add(const pipeline::StereoFrame& pair) {
   if (both > std::min(room.size(), copy_.size()))
     return Error{Errc::OutOfMemory,
                  "the sides' pictures are larger than those that memory was taken for at the start"};
-  bytes_[at] = both;
   pairs_[at] = pair;
   pairs_[at].left = copied(pair.left, room.data());
   pairs_[at].right = copied(pair.right, room.data() + left);
@@ -96,9 +95,9 @@ std::optional<pipeline::StereoFrame> SidePairs::next(const std::atomic<bool>& ca
 void SidePairs::wipe() {
   std::size_t most = 0;
   for (std::size_t i = 0; i < pipeline::kSides; ++i) {
-    explicit_bzero(rooms_[i + 1].data(), bytes_[i]);
-    most = std::max(most, bytes_[i]);
-    bytes_[i] = 0;
+    const std::size_t bytes = bytes_of(pairs_[i].left) + bytes_of(pairs_[i].right);
+    explicit_bzero(rooms_[i + 1].data(), bytes);
+    most = std::max(most, bytes);
     pairs_[i] = {};
   }
   explicit_bzero(copy_.data(), most);

@@ -116,7 +116,6 @@ class SidePairs {
   std::array<std::span<std::byte>, kPoses> rooms_;
   std::array<Arena, kPoses> kept_;
   std::array<pipeline::StereoFrame, pipeline::kSides> pairs_{};  // as they lie in the rooms
-  std::array<std::size_t, pipeline::kSides> bytes_{};
   std::size_t added_ = 0, handed_out_ = 0;
   bool ended_ = false;
 };

@@ -10,12 +10,15 @@
 #include <cstdint>
 #include <functional>
 #include <string>
+#include <string_view>
+#include <utility>
 #include <vector>
 
 #include "firmware/records/event_log.h"
 #include "firmware/service/access.h"
 #include "firmware/service/consent_text_store.h"
 #include "firmware/service/side_tasks.h"
+#include "hal/base/wiped_text.h"
 #include "ui/view/service.h"
 
 namespace relievo::firmware {
@@ -34,8 +37,7 @@ class SignIn {
     ConsentTextStore& consent;
     bool demands_set_up = false;  // see ui::AccessView::demanded
   };
-  explicit SignIn(Parts parts);
-  ~SignIn() { forget(); }
+  explicit SignIn(Parts parts) : parts_(std::move(parts)), access_(parts_.store, parts_.clock) {}
   SignIn(const SignIn&) = delete;
   SignIn& operator=(const SignIn&) = delete;
 
@@ -50,26 +52,20 @@ class SignIn {
 
  private:
   struct Pins {
-    std::string one, clerk;  // the operator's, where both are chosen
+    WipedText one, clerk;  // the operator's, where both are chosen
   };
   void check(std::string_view pin);
   void offer(std::string_view pin, ui::StaffRole role);
   void offered_again(std::string_view pin, ui::StaffRole role);
-  void judge(std::string pin, ui::StaffRole role, ui::PinStep next);
+  void judge(std::string_view pin, ui::StaffRole role, ui::PinStep next);
   // `begins` is where who is refused begins again; `said` goes to the log.
-  void save(Pins pins, ui::PinStep begins, std::function<Result<void>(const Pins&)> write,
+  void save(const Pins& pins, ui::PinStep begins, std::function<Result<void>(const Pins&)> write,
             std::vector<ui::LogEvent> said);
   void refuse(const Error& error, ui::PinStep again);
   void set_clock();
 
-  storage::Store& store_;
-  const hal::Clock& clock_;
-  SideTasks& side_tasks_;
-  EventLog& log_;
-  SetClock set_clock_;
-  ConsentTextStore& consent_;
+  Parts parts_;
   Access access_;
-  const bool demands_set_up_;
   std::optional<Errc> failed_;  // why the last PIN could not be checked or kept
   bool set_up_ = false, checking_ = false, wrong_ = false, clock_right_ = false, clock_refused_ = false,
        consent_right_ = false;
@@ -78,8 +74,8 @@ class SignIn {
   ui::PinStep step_ = ui::PinStep::Technician;
   ui::PinFault fault_ = ui::PinFault::None;
   hal::Instant wait_until_{};
-  std::string first_, technician_;  // typed once; the technician's, until the operator's is there
-  std::uint32_t visit_ = 0;         // of the page: what was asked before it was left is not answered after
+  WipedText first_, technician_;  // typed once; the technician's, until the operator's is there
+  std::uint32_t visit_ = 0;       // of the page: what was asked before it was left is not answered after
   ui::StaffRole entered_ = ui::StaffRole::None;
   mutable std::string clock_text_;
   mutable std::chrono::sys_time<std::chrono::minutes>

@@ -156,11 +156,6 @@ bool is_service(State state) {
   return state == State::Staff || state == State::Calibrate || state == State::Export;
 }
 
-// Behind it something was photographed, or nearly.
-bool is_of_a_visit(State state) {
-  return !is_service(state) && state != State::Idle && state != State::Fault && state != State::SelfTest;
-}
-
 }  // namespace
 
 ui::Outcome outcome_of(const Error& error) {
@@ -201,7 +196,7 @@ StaffController::StaffController(Parts parts)
       sign_in_({parts_.store, parts_.device.clock(), side_tasks_, log_, parts_.set_clock, consent_,
                 parts_.device.is_live()}) {
   fill_page_controllers(services_, pages_);
-  parts_.appliance.on_change([this](const Change& change) { noted(change); });
+  parts_.appliance.on_change([this](const Transition& change) { noted(change); });
 }
 
 StaffController::~StaffController() {
@@ -235,12 +230,14 @@ void StaffController::set_test_capture(std::unique_ptr<TestCapture> test_capture
   fill_technician_pages(services_, *test_capture_, pages_);
 }
 
-void StaffController::noted(const Change& change) {
+void StaffController::noted(const Transition& change) {
   std::chrono::nanoseconds total{0};
   for (const StageRecord& record : parts_.appliance.records()) total += record.took;
   const auto& problem = parts_.appliance.problem();
-  const bool wrong = change.event == Event::Failed || change.event == Event::StageFailed ||
-                     change.event == Event::AdviceGiven || change.event == Event::Timeout;
+  // From other states, and on the way to Fuse, the problem is still that of a visit before.
+  const bool newly = !is_service(change.from) && change.from != State::Fault && change.to != State::Fuse;
+  const bool wrong = newly && (change.event == Event::Failed || change.event == Event::StageFailed ||
+                               change.event == Event::AdviceGiven || change.event == Event::Timeout);
   statistics_.noted(change, problem ? &*problem : nullptr, total,
                     std::chrono::floor<std::chrono::days>(parts_.device.clock().wall_now()));
   if (wrong && problem) log_.fault(*problem);
@@ -250,7 +247,11 @@ void StaffController::noted(const Change& change) {
 
 bool StaffController::inside() const { return role_ != StaffRole::None; }
 
-void StaffController::touched() { last_touch_ = parts_.device.clock().now(); }
+void StaffController::touched() {
+  last_touch_ = parts_.device.clock().now();
+  // The machine's limit comes after this clock's; an export has more time by its progress alone.
+  if (inside() && parts_.appliance.state() != State::Export) parts_.appliance.ask(ui::Intent::StillHere);
+}
 
 void StaffController::ask(const ui::StaffRequest& request) {
   touched();
@@ -305,10 +306,12 @@ void StaffController::turn() {
   touch_.turn();
   let_in();
   const State state = parts_.appliance.state();
-  // A long export or calibration is somebody's, even if nobody touches the screen; so is a long search of the
-  // records, as long as it goes on.
+  // A calibration is somebody's, even if nobody touches the screen; so is an export or a long search of the
+  // records, as long as it goes on: no limit of the machine's ends that either.
   const float kept = side_tasks_.progress(JobLane::Keeper);
-  if (state == State::Calibrate || state == State::Export || kept > std::exchange(kept_, kept)) touched();
+  const bool goes_on = kept > std::exchange(kept_, kept);
+  if (inside() && goes_on) parts_.appliance.ask(ui::Intent::StillHere);
+  if (state == State::Calibrate || state == State::Export || goes_on) touched();
   if (inside() && state == State::Staff && seconds_left() == 0) leave();
   if (inside() && !is_service(parts_.appliance.state())) {
     close_page();
@@ -328,11 +331,8 @@ void StaffController::turn() {
 
 void StaffController::save_what_changed() {
   if (side_tasks_.busy(JobLane::Keeper)) return;
-  const bool counted = statistics_.changes() != saved_statistics_;
-  const bool cost = costs_.changes() != saved_costs_;
+  const bool counted = statistics_.take_changed(), cost = costs_.take_changed();
   if (!counted && !cost && !log_.unsaved()) return;
-  saved_statistics_ = statistics_.changes();
-  saved_costs_ = costs_.changes();
   side_tasks_.send(
       JobLane::Keeper,
       [this, counts = counted ? statistics_.text() : std::string(),

@@ -21,7 +21,6 @@
 #include "firmware/service/retention.h"
 #include "firmware/service/statistics.h"
 #include "firmware/service/touch_trial.h"
-#include "firmware/service/visit_costs.h"
 #include "firmware/staff/sign_in.h"
 #include "firmware/technician/test_capture.h"
 
@@ -66,7 +65,7 @@ class StaffController {
   void let_in();
   void leave();
   void close_page();
-  void noted(const Change& change);
+  void noted(const Transition& change);
   void save_what_changed();
   bool inside() const;
   int seconds_left() const;
@@ -83,7 +82,6 @@ class StaffController {
   ui::ConsentTextsView consent_view_;
   PageServices services_;
   SignIn sign_in_;
-  std::uint64_t saved_statistics_ = 0, saved_costs_ = 0;
   std::array<std::unique_ptr<PageController>, std::size_t(ui::StaffPage::Count)> pages_;
   std::unique_ptr<TestCapture> test_capture_;
   PageController* page_ = nullptr;

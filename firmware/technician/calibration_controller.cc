@@ -10,6 +10,7 @@
 #include "firmware/base/wall_time.h"
 #include "firmware/calibrate/calibrate_command.h"
 #include "firmware/calibrate/calibration_history.h"
+#include "firmware/reconstruct/picture_pair.h"
 #include "firmware/technician/stick_files.h"
 
 namespace relievo::firmware {
@@ -315,6 +316,8 @@ void CalibrationController::activate(std::size_t row) {
   if (row >= history_.size() || history_[row].info.active) return;
   const std::uint32_t revision = history_[row].info.revision;
   adopt([this, revision]() -> Result<std::uint32_t> {
+    RELIEVO_TRY_ASSIGN(const auto calibration, parts_.store.calibration(revision));
+    RELIEVO_TRY(check_size(calibration, parts_.device.preferred_mode(), "cameras"));
     RELIEVO_TRY(parts_.store.activate_calibration(revision));
     return revision;
   });
@@ -332,7 +335,7 @@ void CalibrationController::export_in_use() {
   parts_.side_tasks.send(
       JobLane::Keeper,
       [this, calibration = *in_use, folder](JobControl&) {
-        return export_calibration(calibration, folder, parts_.media);
+        return export_calibration(calibration, folder, parts_.device.media());
       },
       [this, folder](const std::optional<Error>& error) {
         busy_ = false;
@@ -343,7 +346,8 @@ void CalibrationController::export_in_use() {
 
 void CalibrationController::import_one() {
   adopt([this]() -> Result<std::uint32_t> {
-    RELIEVO_TRY_ASSIGN(const StickCalibration found, import_calibration(parts_.media));
+    RELIEVO_TRY_ASSIGN(const StickCalibration found, import_calibration(parts_.device.media()));
+    RELIEVO_TRY(check_size(found.calibration, parts_.device.preferred_mode(), "cameras"));
     return parts_.store.save_calibration(found.calibration, "imported from " + found.file);
   });
 }

@@ -29,7 +29,7 @@
 #include "firmware/work/pipeline_stages.h"
 #include "pipeline/calibrate/live/live_calibration.h"
 #include "storage/store.h"
-#include "ui/technician/technician_cameras.h"
+#include "ui/technician/technician_view.h"
 #include "ui/view/staff_request.h"
 
 namespace relievo::firmware {
@@ -91,7 +91,7 @@ class CalibrationController {
     storage::Store& store;
     EventLog& log;
     SideTasks& side_tasks;
-    hal::RemovableMedia& media;
+    hal::Device& device;
     std::function<void(const pipeline::StereoCalibration&)> in_use;  // told when one did
   };
   explicit CalibrationController(Parts parts) : parts_(std::move(parts)) {}
@@ -124,7 +124,7 @@ class CalibrationController {
   };
   void store();
   void activate(std::size_t row);
-  // By stick (stick_files.h).
+  // By stick (stick_files.h). None of another size than the cameras' pictures comes into use.
   void export_in_use();
   void import_one();
   // Makes it the one in use, once the keeper has done `first`, which names it.

@@ -10,7 +10,6 @@
 #include <string.h>
 
 #include "firmware/base/boot_memory.h"
-#include "firmware/capture/face_light.h"
 #include "firmware/capture/live_judge.h"
 #include "hal/base/thread_pool.h"
 #include "pipeline/gate/relief/live_relief.h"
@@ -55,13 +54,13 @@ Result<ImageView> ReliefWatch::look(const pipeline::StereoFrame& frame, JobContr
   try {
     if (room_ == nullptr) room_ = std::make_unique<Room>();
     room_->output.reset();
-    pipeline::LiveReliefOptions options;
-    options.reduction = judged_reduction(calibration_->left.width_px);
+    pipeline::LiveRelief live;
+    live.reduction = judged_reduction(calibration_->left.width_px);
     pipeline::StageContext context{room_->output, room_->scratch, room_->pool, control.progress,
                                    control.cancelled};
     RELIEVO_TRY_ASSIGN(const pipeline::Relief relief,
                        pipeline::run_stage(context, [&](pipeline::StageContext& c) {
-                         return pipeline::LiveRelief(options).look(frame, *calibration_, c);
+                         return live.look(frame, *calibration_, c);
                        }));
     grey_.resize(relief.depth_mm.size());
     pipeline::draw_relief(relief, kNearestDrawnMm, kFarthestDrawnMm, grey_.data());
@@ -89,7 +88,6 @@ void CameraWatchJob::prepare(const pipeline::StereoCalibration* calibration) {
 
 Result<void> CameraWatchJob::run(JobControl& control) {
   RELIEVO_TRY(grabber_.start(device_.preferred_mode()));
-  light_ = {device_.preferred_mode().exposure, 1};
   while (!control.cancelled.load(std::memory_order_relaxed)) {
     if (steps_.load(std::memory_order_relaxed) != 0) set_light();
     RELIEVO_TRY_ASSIGN(const pipeline::StereoFrame frame,
@@ -106,10 +104,11 @@ void CameraWatchJob::set_light() {
   const auto left = device_.left().exposure_limits(), right = device_.right().exposure_limits();
   if (!left || !right) return;
   const hal::ExposureLimits limits = common_limits(*left, *right);
+  const hal::Exposure now = device_.left().exposure();
   const auto wanted =
-      std::chrono::microseconds(std::lround(double(light_.time.count()) * std::pow(kThirdOfAStop, steps)));
-  const hal::Exposure next{std::clamp(wanted, limits.least.time, limits.most.time), light_.gain};
-  if (device_.left().set_exposure(next) && device_.right().set_exposure(next)) light_ = next;
+      std::chrono::microseconds(std::lround(double(now.time.count()) * std::pow(kThirdOfAStop, steps)));
+  const hal::Exposure next{std::clamp(wanted, limits.least.time, limits.most.time), now.gain};
+  if (device_.left().set_exposure(next)) (void)device_.right().set_exposure(next);
 }
 
 // Pictures of another size than the calibrated one have no relief; they are watched all the same.
@@ -145,7 +144,7 @@ Result<void> CameraWatchJob::look(const pipeline::StereoFrame& frame, JobControl
   now.pairs = counts.pairs;
   now.apart = counts.apart;
   now.skew_us = float(frame.skew_ns) / 1000;
-  now.exposure_us = float(light_.time.count());
+  now.exposure_us = float(device_.left().exposure().time.count());
   now.can_be_set =
       device_.left().exposure_limits().has_value() && device_.right().exposure_limits().has_value();
   const hal::Instant at = device_.clock().now();

@@ -23,7 +23,7 @@
 #include "hal/base/image_view.h"
 #include "pipeline/model/calibration.h"
 #include "pipeline/model/stereo_frame.h"
-#include "ui/technician/technician_cameras.h"
+#include "ui/technician/technician_view.h"
 
 namespace relievo::firmware {
 
@@ -71,8 +71,6 @@ class CameraWatchJob final : public Job {
   Result<void> run(JobControl& control) override;
   // The newest pair and its figures; `watched` false before the first one.
   ui::TechnicianCameras newest();
-  // As asked for last; no time: it never watched. While it does not run.
-  const hal::Exposure& light() const { return light_; }
   void wipe();
 
  private:
@@ -90,7 +88,6 @@ class CameraWatchJob final : public Job {
   ReliefWatch relief_;
   std::atomic<int> steps_{0};
   std::atomic<bool> relief_shown_{false}, edges_shown_{false};
-  hal::Exposure light_;
   std::optional<hal::Instant> last_pair_;
   std::mutex mutex_;
   ui::TechnicianCameras figures_;  // without pictures and texts; with those of the feeds, under the mutex

@@ -14,7 +14,7 @@
 #include <memory>
 #include <optional>
 
-#include "firmware/base/page_block.h"
+#include "firmware/base/boot_memory.h"
 #include "firmware/service/side_tasks.h"
 #include "firmware/technician/show/surface_difference.h"
 #include "firmware/technician/show/technician_figures.h"

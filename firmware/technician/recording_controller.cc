@@ -16,6 +16,8 @@ namespace {
 
 namespace fs = std::filesystem;
 
+constexpr const char* kCapturesFolder = "captures";  // on the stick
+
 // Rows without padding: what is compared and written is pixels alone.
 ImageView copied(const ImageView& view, std::vector<std::byte>& room) {
   const auto row_bytes = std::size_t(view.width_px) * std::size_t(bytes_per_pixel(view.format));
@@ -25,8 +27,35 @@ ImageView copied(const ImageView& view, std::vector<std::byte>& room) {
   return {room.data(), view.width_px, view.height_px, int(row_bytes), view.format};
 }
 
-Result<void> write(std::span<const hal::RecordedPair> pairs, const fs::path& target,
-                   hal::RemovableMedia& media, StickWork& work) {
+// Pairs of its own, so that the session may be wiped while a slow stick is still being written to; wiped with
+// it.
+class CaptureCopy {
+ public:
+  // Of `as_taken` views and times are replaced.
+  CaptureCopy(std::span<const pipeline::StereoFrame> shots, const hal::RecordedPair& as_taken)
+      : rooms_(2 * shots.size()), pairs_(shots.size(), as_taken) {
+    for (std::size_t i = 0; i < shots.size(); ++i) {
+      pairs_[i].left = copied(shots[i].left, rooms_[2 * i]);
+      pairs_[i].right = copied(shots[i].right, rooms_[2 * i + 1]);
+      pairs_[i].left_ns = 0;
+      pairs_[i].right_ns = shots[i].skew_ns;
+      pairs_[i].of_head = shots.size() > 1;
+    }
+  }
+  ~CaptureCopy() {
+    for (std::vector<std::byte>& room : rooms_) explicit_bzero(room.data(), room.size());
+  }
+  CaptureCopy(const CaptureCopy&) = delete;
+  CaptureCopy& operator=(const CaptureCopy&) = delete;
+  std::span<const hal::RecordedPair> pairs() const { return pairs_; }
+
+ private:
+  std::vector<std::vector<std::byte>> rooms_;
+  std::vector<hal::RecordedPair> pairs_;
+};
+
+Result<void> write_pairs(std::span<const hal::RecordedPair> pairs, const fs::path& target,
+                         hal::RemovableMedia& media, StickWork& work) {
   RELIEVO_TRY(work.reach(ExportStep::Write, 0.1F));
   RELIEVO_TRY_ASSIGN(OutputFolder folder, OutputFolder::begin(target));
   for (std::size_t i = 0; i < pairs.size(); ++i) {
@@ -39,41 +68,13 @@ Result<void> write(std::span<const hal::RecordedPair> pairs, const fs::path& tar
 
 }  // namespace
 
-CaptureCopy::CaptureCopy(std::span<const pipeline::StereoFrame> shots, const hal::RecordedPair& as_taken)
-    : rooms_(2 * shots.size()), pairs_(shots.size(), as_taken) {
-  for (std::size_t i = 0; i < shots.size(); ++i) {
-    pairs_[i].left = copied(shots[i].left, rooms_[2 * i]);
-    pairs_[i].right = copied(shots[i].right, rooms_[2 * i + 1]);
-    pairs_[i].left_ns = 0;
-    pairs_[i].right_ns = shots[i].skew_ns;
-    pairs_[i].of_head = shots.size() > 1;
-  }
-}
-
-CaptureCopy::~CaptureCopy() {
-  for (std::vector<std::byte>& room : rooms_) explicit_bzero(room.data(), room.size());
-}
-
-Result<void> record_capture(std::span<const hal::RecordedPair> pairs, const std::string& name,
-                            hal::RemovableMedia& media, JobControl& control, ExportTrace& trace) {
-  trace = {};
-  StickWork work{control, trace};
-  return put_on_stick(media, fs::path(kCapturesFolder) / name, &work,
-                      [&](const fs::path& target) { return write(pairs, target, media, work); });
-}
-
-std::shared_ptr<ExportTrace> RecordingController::begin() {
-  if (running_) return nullptr;
+bool RecordingController::begin() {
+  if (running_) return false;
   running_ = true;
   stopped_ = false;
   outcome_ = ui::Outcome::None;
   where_.clear();
-  return std::make_shared<ExportTrace>();
-}
-
-Result<void> RecordingController::go_on() const {
-  if (!stopped_) return {};
-  return Error{Errc::Cancelled, "it was stopped before it was on the stick"};
+  return true;
 }
 
 void RecordingController::ended(const std::optional<Error>& error, const ExportTrace& trace,
@@ -101,37 +102,37 @@ std::string RecordingController::saved_name(std::size_t row) const {
 
 void RecordingController::record(std::span<const pipeline::StereoFrame> shots,
                                  const hal::RecordedPair& as_taken) {
-  const std::shared_ptr<ExportTrace> trace = begin();
-  if (trace == nullptr) return;
+  if (!begin()) return;
+  const auto trace = std::make_shared<ExportTrace>();
   const auto copy = std::make_shared<const CaptureCopy>(shots, as_taken);
   const std::string name = name_now();
-  side_tasks_.send(
+  task_ = side_tasks_.send(
       JobLane::Keeper,
       [this, copy, trace, name](JobControl& control) -> Result<void> {
-        RELIEVO_TRY(go_on());
-        return record_capture(copy->pairs(), name, device_.media(), control, *trace);
+        StickWork work{control, *trace};
+        hal::RemovableMedia& media = device_.media();
+        return put_on_stick(media, fs::path(kCapturesFolder) / name, &work, [&](const fs::path& target) {
+          return write_pairs(copy->pairs(), target, media, work);
+        });
       },
-      [this, trace, name, visit = visit_](const std::optional<Error>& error) {
-        if (visit == visit_) ended(error, *trace, std::string(kCapturesFolder) + "/" + name);
+      [this, trace, name](const std::optional<Error>& error) {
+        ended(error, *trace, std::string(kCapturesFolder) + "/" + name);
       });
 }
 
 void RecordingController::save(std::function<Result<std::vector<std::byte>>()> make) {
-  if (begin() == nullptr) return;
-  making_ = true;
+  if (!begin()) return;
   const auto document = std::make_shared<std::shared_ptr<const SavedBytes>>();
-  side_tasks_.send(
+  task_ = side_tasks_.send(
       JobLane::Worker,
       [document, make = std::move(make)](JobControl&) -> Result<void> {
         RELIEVO_TRY_ASSIGN(auto bytes, make());
         *document = std::make_shared<const SavedBytes>(std::move(bytes));
         return {};
       },
-      [this, document, visit = visit_](const std::optional<Error>& error) {
-        if (visit != visit_) return;
-        making_ = false;
-        const Result<void> goes_on = error ? Result<void>(*error) : go_on();
-        if (!goes_on) ended(goes_on.error(), {}, {});
+      [this, document](const std::optional<Error>& error) {
+        if (error) ended(error, {}, {});
+        else if (stopped_) ended(Error{Errc::Cancelled, "it was stopped before it was on the stick"}, {}, {});
         else write(std::move(*document));
       });
 }
@@ -139,28 +140,26 @@ void RecordingController::save(std::function<Result<std::vector<std::byte>>()> m
 void RecordingController::write(std::shared_ptr<const SavedBytes> document) {
   const auto trace = std::make_shared<ExportTrace>();
   const std::string name = name_now();
-  side_tasks_.send(
+  task_ = side_tasks_.send(
       JobLane::Keeper,
-      [this, document = std::move(document), trace, name](JobControl& control) -> Result<void> {
-        RELIEVO_TRY(go_on());
+      [this, document = std::move(document), trace, name](JobControl& control) {
         return save_reconstruction(*document, name, device_.media(), control, *trace);
       },
-      [this, trace, name, visit = visit_](const std::optional<Error>& error) {
-        if (visit == visit_) ended(error, *trace, std::string(kSavedFolder) + "/" + name + kSavedEnding);
+      [this, trace, name](const std::optional<Error>& error) {
+        ended(error, *trace, std::string(kSavedFolder) + "/" + name + kSavedEnding);
       });
 }
 
 void RecordingController::list() {
-  if (begin() == nullptr) return;
+  if (!begin()) return;
   const auto names = std::make_shared<std::vector<std::string>>();
-  side_tasks_.send(
+  task_ = side_tasks_.send(
       JobLane::Keeper,
       [this, names](JobControl&) -> Result<void> {
         RELIEVO_TRY_ASSIGN(*names, saved_reconstructions(device_.media(), ui::kSavedRows));
         return {};
       },
-      [this, names, visit = visit_](const std::optional<Error>& error) {
-        if (visit != visit_) return;
+      [this, names](const std::optional<Error>& error) {
         running_ = false;
         if (error) outcome_ = outcome_of_export(*error, {});
         else names_ = std::move(*names);
@@ -169,21 +168,17 @@ void RecordingController::list() {
 
 void RecordingController::load(std::size_t row, std::function<void(std::shared_ptr<const SavedBytes>)> read,
                                std::function<void(const Error&)> refused) {
-  if (!names_ || row >= names_->size() || running_) return;
+  if (!names_ || row >= names_->size() || !begin()) return;
   const std::string name = names_->at(row);
-  (void)begin();
   hide();
   const auto saved = std::make_shared<std::shared_ptr<const SavedBytes>>();
-  side_tasks_.send(
+  task_ = side_tasks_.send(
       JobLane::Keeper,
       [this, name, saved](JobControl& control) -> Result<void> {
-        RELIEVO_TRY(go_on());
         RELIEVO_TRY_ASSIGN(*saved, read_saved(name, device_.media(), control));
         return {};
       },
-      [this, saved, read = std::move(read), refused = std::move(refused),
-       visit = visit_](const std::optional<Error>& error) {
-        if (visit != visit_) return;
+      [this, saved, read = std::move(read), refused = std::move(refused)](const std::optional<Error>& error) {
         running_ = false;
         if (!error) return read(std::move(*saved));
         if (error->code == Errc::Cancelled || error->code == Errc::MediaMissing)
@@ -195,7 +190,7 @@ void RecordingController::load(std::size_t row, std::function<void(std::shared_p
 void RecordingController::stop() {
   if (!running_) return;
   stopped_ = true;
-  if (!making_) side_tasks_.stop(JobLane::Keeper);
+  side_tasks_.stop(task_);
 }
 
 void RecordingController::capture_gone() {
@@ -204,8 +199,7 @@ void RecordingController::capture_gone() {
 }
 
 void RecordingController::forget() {
-  ++visit_;
-  running_ = making_ = false;
+  running_ = false;
   names_.reset();
   capture_gone();
 }

@@ -5,7 +5,6 @@
 #include <string.h>
 
 #include <algorithm>
-#include <utility>
 
 #include "hal/raw/raw_image.h"
 
@@ -13,6 +12,7 @@ namespace relievo::firmware {
 
 void RunJob::order(const pipeline::AlgorithmSet& set, const pipeline::StereoCalibration& calibration,
                    State first, std::vector<pipeline::Match> by_hand, bool whole_view) {
+  before_ = making_;
   making_.set = set;
   making_.calibration = calibration;
   making_.whole_view = whole_view;
@@ -25,12 +25,21 @@ void RunJob::order(const pipeline::AlgorithmSet& set, const pipeline::StereoCali
 }
 
 void RunJob::order(std::shared_ptr<const SavedBytes> document, Making making) {
+  before_ = making_;
   document_ = std::move(document);
   making_ = std::move(making);
   now_.store(State::Match, std::memory_order_relaxed);
 }
 
+bool RunJob::take_back() {
+  if (!before_) return false;
+  document_.reset();
+  making_ = *std::exchange(before_, std::nullopt);
+  return true;
+}
+
 Result<void> RunJob::run(JobControl& control) {
+  before_.reset();
   pictures_.wipe();
   figures_.begin(making_.set, name_);
   if (document_ != nullptr) return load(control);

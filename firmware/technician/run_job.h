@@ -6,11 +6,12 @@
 // of what came out. A stage that gives up leaves what the stages before it made, and its reason in the
 // result: for a technician that is an answer, not an error. TestShotJob takes the capture. Errors of run():
 // Cancelled; InvalidInput (algorithms that do not fit together); OutOfMemory; the document's. Thread: order()
-// main, while the job does not run; run() worker (TestShotJob: capture).
+// and take_back() main, while the job does not run; run() worker (TestShotJob: capture).
 #pragma once
 
 #include <atomic>
 #include <memory>
+#include <optional>
 #include <string>
 #include <utility>
 #include <vector>
@@ -36,6 +37,8 @@ class RunJob final : public Job {
              std::vector<pipeline::Match> by_hand, bool whole_view = false);
   // No stage, but what was saved of all of them; `making` is making_of(it).
   void order(std::shared_ptr<const SavedBytes> document, Making making);
+  // An order whose run never began: all is as before it. False: there is none.
+  bool take_back();
   Result<void> run(JobControl& control) override;
 
   State stage() const { return now_.load(std::memory_order_relaxed); }  // any thread
@@ -59,6 +62,7 @@ class RunJob final : public Job {
   const hal::Clock& clock_;
   std::string name_;
   Making making_;
+  std::optional<Making> before_;  // the order that waits for its run
   State first_ = State::Match;
   std::shared_ptr<const SavedBytes> document_;  // to be loaded
   TechnicianPictures pictures_;
@@ -82,12 +86,15 @@ class TestShotJob final : public Job {
   Result<void> run(JobControl& control) override {
     Result<void> taken = side_ ? take_side(control) : grab_.run(control);
     serials_ = {std::string(device_.left().serial()), std::string(device_.right().serial())};
+    if (!side_) light_ = device_.left().exposure();
     return taken;
   }
   struct Serials {
     std::string left, right;
   };
   const Serials& serials() const { return serials_; }
+  // Of the capture: the cameras may be set anew before it is recorded.
+  const hal::Exposure& light() const { return light_; }
 
  private:
   Result<void> take_side(JobControl& control);
@@ -99,6 +106,7 @@ class TestShotJob final : public Job {
   GrabJob grab_;
   TurnJob turn_;  // takes a side, follows nobody
   Serials serials_;
+  hal::Exposure light_;
   bool side_ = false;
 };
 

@@ -11,13 +11,11 @@
 #include <functional>
 #include <system_error>
 #include <utility>
-#include <vector>
 
 #include "firmware/base/output_folder.h"
 #include "firmware/service/stick_folder.h"
 #include "hal/base/whole_file.h"
 #include "pipeline/calibrate/file/calibration_file.h"
-#include "pipeline/calibrate/file/camera_info.h"
 #include "storage/document/document.h"
 
 namespace relievo::firmware {
@@ -105,9 +103,9 @@ Result<void> save_reconstruction(const SavedBytes& document, const std::string& 
 }
 
 Result<std::vector<std::string>> saved_reconstructions(hal::RemovableMedia& media, std::size_t most) {
-  RELIEVO_TRY_ASSIGN(const hal::Medium medium, plugged_in(media));
+  RELIEVO_TRY_ASSIGN(const fs::path stick, plugged_in(media));
   std::vector<std::string> names;
-  for (const fs::path& entry : entries_of(medium.root / kSavedFolder))
+  for (const fs::path& entry : entries_of(stick / kSavedFolder))
     if (entry.string().ends_with(kSavedEnding)) names.push_back(entry.filename().string());
   std::ranges::sort(names, std::greater<>());  // a name is the time at which it was saved
   names.resize(std::min(names.size(), most));
@@ -116,10 +114,10 @@ Result<std::vector<std::string>> saved_reconstructions(hal::RemovableMedia& medi
 
 Result<std::shared_ptr<const SavedBytes>> read_saved(const std::string& name, hal::RemovableMedia& media,
                                                      JobControl& control) {
-  RELIEVO_TRY_ASSIGN(const hal::Medium medium, plugged_in(media));
+  RELIEVO_TRY_ASSIGN(const fs::path stick, plugged_in(media));
   std::vector<std::byte> bytes;
   RELIEVO_TRY(
-      each_piece(medium.root / kSavedFolder / name, control, 0, 0.9F,
+      each_piece(stick / kSavedFolder / name, control, 0, 0.9F,
                  [&bytes](std::span<const std::byte> piece, std::size_t, std::size_t size) -> Result<void> {
                    bytes.reserve(size);
                    bytes.insert(bytes.end(), piece.begin(), piece.end());
@@ -163,12 +161,12 @@ Result<void> export_calibration(const pipeline::StereoCalibration& calibration, 
 }
 
 Result<StickCalibration> import_calibration(hal::RemovableMedia& media) {
-  RELIEVO_TRY_ASSIGN(const hal::Medium medium, plugged_in(media));
-  for (const fs::path& place : places(medium.root))
+  RELIEVO_TRY_ASSIGN(const fs::path stick, plugged_in(media));
+  for (const fs::path& place : places(stick))
     for (const char* name : {kRig, kLeft}) {
       std::error_code error;
       if (!fs::exists(place / name, error)) continue;
-      const std::string file = (place / name).lexically_relative(medium.root).string();
+      const std::string file = (place / name).lexically_relative(stick).string();
       const auto read = pipeline::read_calibration(place / name);
       if (!read) return read.error();
       return StickCalibration{*read, file};

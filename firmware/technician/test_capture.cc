@@ -3,11 +3,9 @@
 #include "firmware/technician/test_capture.h"
 
 #include <algorithm>
-#include <memory>
 #include <utility>
 #include <vector>
 
-#include "firmware/technician/show/hand_pairs.h"
 #include "firmware/work/session_document.h"
 
 namespace relievo::firmware {
@@ -25,7 +23,7 @@ TestCapture::TestCapture(Parts parts)
       calibrate_(parts_.appliance.grabber(), session_, parts_.device, parts_.pool,
                  std::move(parts_.show_boards)),
       calibrations_({parts_.appliance, calibrate_, parts_.stages, parts_.store, parts_.log, parts_.side_tasks,
-                     parts_.device.media(), std::move(parts_.in_use)}),
+                     parts_.device, std::move(parts_.in_use)}),
       recording_(parts_.side_tasks, parts_.device) {
   algorithms_.begin(parts_.stages.algorithms());
 }
@@ -97,7 +95,7 @@ void TestCapture::act_alone(TechnicianAct act) {
     case TechnicianAct::DarkerShot: return watch_.change_light(-1);
     case TechnicianAct::BeginCalibration: return wait_for_cameras(Next::Calibration);
     case TechnicianAct::StopCalibration: return calibrate_.finish();
-    case TechnicianAct::CancelCalibration: return parts_.side_tasks.stop(JobLane::Capture);
+    case TechnicianAct::CancelCalibration: return parts_.side_tasks.stop(taking_);
     case TechnicianAct::Record: return record();
     case TechnicianAct::StopRecording: return recording_.stop();
     case TechnicianAct::Save: return save();
@@ -136,9 +134,7 @@ void TestCapture::keep_result() {
 void TestCapture::record() {
   const Products* made = products();
   if (made == nullptr || !made->frame) return;
-  const bool set_by_hand = !parts_.side_tasks.busy(JobLane::Capture) && watch_.light().time.count() > 0;
-  const hal::Exposure light =
-      set_by_hand ? watch_.light() : hal::Exposure{parts_.device.preferred_mode().exposure, 1};
+  const hal::Exposure light = loaded_ ? hal::Exposure{} : shot_.light();  // of a loaded one nobody knows
   hal::RecordedPair as_taken;
   as_taken.exposure_us = light.time.count();
   as_taken.gain = light.gain;
@@ -157,7 +153,7 @@ void TestCapture::begin_next() {
   const Next what = std::exchange(next_, Next::None);
   problem_ = {};
   if (what == Next::Side) return may_add_side() ? shoot(true) : void();
-  if (what == Next::Loaded && saved_beside_) keep_result();
+  if (what == Next::Loaded && saved_->beside) keep_result();
   forget_capture();
   if (session_.is_open()) session_.retake();
   else if (const Result<void> opened = session_.open(""); !opened) return say(opened.error());
@@ -182,7 +178,7 @@ void TestCapture::shoot(bool side) {
   phase_ = TechnicianPhase::Capturing;
   shot_.order(side);
   if (!side) run_.name(recording_.name_now());
-  parts_.side_tasks.send(
+  taking_ = parts_.side_tasks.send(
       JobLane::Capture, [this](JobControl& control) { return shot_.run(control); },
       [this](const std::optional<Error>& error) { shot_done(error); });
 }
@@ -192,7 +188,7 @@ void TestCapture::calibrate() {
   parts_.appliance.ask(ui::Intent::Calibrate);
   if (parts_.appliance.state() != State::Calibrate) return;
   calibrations_.begun();
-  parts_.side_tasks.send(
+  taking_ = parts_.side_tasks.send(
       JobLane::Capture, [this](JobControl& control) { return calibrate_.run(control); },
       [this](const std::optional<Error>& error) {
         calibrations_.ended();
@@ -226,7 +222,7 @@ void TestCapture::send_run() {
   point_ = {};
   tables_.forget();
   phase_ = TechnicianPhase::Running;
-  parts_.side_tasks.send(
+  working_ = parts_.side_tasks.send(
       JobLane::Worker, [this](JobControl& control) { return run_.run(control); },
       [this](const std::optional<Error>& error) { run_done(error); });
 }
@@ -247,26 +243,24 @@ void TestCapture::load(std::size_t row, bool beside) {
         const auto document = storage::Document::open(saved->bytes());
         auto making = document ? making_of(*document) : Result<Making>(document.error());
         if (!making) return say(making.error());
-        saved_beside_ = beside;
-        saved_ = std::move(saved);
-        saved_name_ = name;
-        saved_making_ = *std::move(making);
+        saved_ = {std::move(saved), name, *std::move(making), beside};
         wait_for_cameras(Next::Loaded);
       },
       [this](const Error& error) { say(error); });
 }
 
 void TestCapture::take_over() {
-  algorithms_.begin(saved_making_->set);
-  run_.name(saved_name_);
-  run_.order(std::exchange(saved_, nullptr), *std::exchange(saved_making_, std::nullopt));
+  Saved saved = *std::exchange(saved_, std::nullopt);
+  algorithms_.begin(saved.making.set);
+  run_.name(std::move(saved.name));
+  run_.order(std::move(saved.bytes), std::move(saved.making));
   loaded_ = true;
   send_run();
 }
 
 void TestCapture::stop() {
-  if (phase_ == TechnicianPhase::Capturing) parts_.side_tasks.stop(JobLane::Capture);
-  if (phase_ == TechnicianPhase::Running) parts_.side_tasks.stop(JobLane::Worker);
+  if (phase_ == TechnicianPhase::Capturing) parts_.side_tasks.stop(taking_);
+  if (phase_ == TechnicianPhase::Running) parts_.side_tasks.stop(working_);
 }
 
 void TestCapture::shot_done(const std::optional<Error>& error) {
@@ -285,7 +279,11 @@ void TestCapture::run_done(const std::optional<Error>& error) {
   phase_ = error ? TechnicianPhase::Failed : TechnicianPhase::Ready;
   ++model_number_;
   if (error) say(*error);
-  if (const Products* made = products(); made != nullptr && made->pair) {
+  const bool began = !run_.take_back();
+  const Products* made = products();
+  // Of a document that never came in nothing is there.
+  loaded_ = loaded_ && made != nullptr && made->frame;
+  if (began && made != nullptr && made->pair) {
     pairs_.show(*made->pair, run_.making().by_hand);
     run_.change().tell(pairs_.points());
   }
@@ -332,13 +330,13 @@ void TestCapture::apply_set() {
 
 void TestCapture::watch_cameras(bool on) {
   if (on == watching_) return;
-  if (!on) return parts_.side_tasks.stop(JobLane::Capture);
+  if (!on) return parts_.side_tasks.stop(taking_);
   if (parts_.side_tasks.busy(JobLane::Capture) || phase_ == TechnicianPhase::Capturing) return;
   if (!session_.is_open() && !session_.open("")) return;
   problem_ = {};
   watch_.prepare(parts_.stages.calibration());
   watching_ = true;
-  parts_.side_tasks.send(
+  taking_ = parts_.side_tasks.send(
       JobLane::Capture, [this](JobControl& control) { return watch_.run(control); },
       [this](const std::optional<Error>& error) {
         watching_ = false;
@@ -355,11 +353,11 @@ void TestCapture::leave() {
   watching_ = by_hand_ = applied_ = applying_ = differences_ = false;
   next_ = Next::None;
   saved_.reset();
-  saved_making_.reset();
   watch_.wipe();
   kept_.wipe();
   calibrations_.forget();
   recording_.forget();
+  run_.take_back();  // what was dropped while it waited, nobody hears of
   forget_capture();
   problem_ = {};
   algorithms_.begin(parts_.stages.algorithms());
@@ -376,7 +374,7 @@ void TestCapture::turn() {
   // What the technician before has put into use may have come after they left.
   if (std::exchange(left_, false)) algorithms_.begin(calibrations_.algorithms());
   // It took longer than the state may: what has been seen is not worked out.
-  if (calibrations_.running() && state == State::Staff) parts_.side_tasks.stop(JobLane::Capture);
+  if (calibrations_.running() && state == State::Staff) parts_.side_tasks.stop(taking_);
   begin_next();
   // Until they are compared the page shows them as they are.
   const Products* made = products();

@@ -94,7 +94,6 @@ class TestCapture {
   bool is_calibrated();
   bool may_add_side() const;
   void say(const Error& error);
-  void look();
   void look_at_poses(const pipeline::Registration& registration);
 
   Parts parts_;
@@ -114,18 +113,22 @@ class TestCapture {
   ui::TechnicianPoint point_;
   HandPairs pairs_;
   Next next_ = Next::None;
-  std::shared_ptr<const SavedBytes> saved_;  // read from the stick, to be loaded
-  std::string saved_name_;
-  std::optional<Making> saved_making_;
-  bool saved_beside_ = false;  // what is there is put aside before
-  bool loaded_ = false;        // what is in the session was, with a calibration of its own
-  bool by_hand_ = false;       // pairs are set by hand
-  bool watching_ = false;      // the cameras
-  bool applied_ = false;       // the algorithms: visitors are measured with them ...
-  bool applying_ = false;      // ... or soon will be
-  std::uint32_t visit_ = 0;    // what a technician asked for who has left is not told the next one
-  bool differences_ = false;   // are shown beside the kept results
-  bool left_ = true;           // for another state
+  std::uint32_t taking_ = 0, working_ = 0;  // the last side tasks of the capture thread and the worker
+  struct Saved {
+    std::shared_ptr<const SavedBytes> bytes;
+    std::string name;
+    Making making;
+    bool beside = false;  // what is there is put aside before
+  };
+  std::optional<Saved> saved_;  // read from the stick, to be loaded
+  bool loaded_ = false;         // what is in the session was, with a calibration of its own
+  bool by_hand_ = false;        // pairs are set by hand
+  bool watching_ = false;       // the cameras
+  bool applied_ = false;        // the algorithms: visitors are measured with them ...
+  bool applying_ = false;       // ... or soon will be
+  std::uint32_t visit_ = 0;     // what a technician asked for who has left is not told the next one
+  bool differences_ = false;    // are shown beside the kept results
+  bool left_ = true;            // for another state
   ui::Fault problem_;
   std::uint32_t model_number_ = 0;
   ui::TechnicianView view_;

@@ -12,7 +12,7 @@ Products* TestCapture::products() { return at_rest() && session_.is_open() ? &se
 
 TechnicianTables::Source TestCapture::source() { return {products(), run_.figures(), calibration()}; }
 
-void TestCapture::look() {
+const ui::TechnicianView& TestCapture::view() {
   view_ = {};
   view_.phase = phase_;
   view_.calibrated = calibration() != nullptr;
@@ -35,7 +35,7 @@ void TestCapture::look() {
     view_.progress = parts_.side_tasks.progress(JobLane::Worker);
   }
   const Products* made = products();
-  if (made == nullptr) return;
+  if (made == nullptr) return view_;
   view_.can_record = made->frame.has_value();
   view_.result = run_.figures().view();
   for (std::size_t side = 0; side < 2; ++side) view_.shown[side] = run_.pictures().picture(stage_, side);
@@ -50,10 +50,11 @@ void TestCapture::look() {
   if (made->registration) look_at_poses(*made->registration);
   view_.compared[view_.put_aside] = {
       view_.result, run_.pictures().picture(stage_, 0), view_.model, model_number_, {}};
-  if (!differences_ || !kept_.is_compared_with(model_number_)) return;
+  if (!differences_ || !kept_.is_compared_with(model_number_)) return view_;
   for (std::size_t i = 0; i < view_.put_aside; ++i) view_.compared[i].difference = kept_.difference(i);
   view_.full_colour_mm = kept_.full_colour_mm();
   view_.scale = difference_scale();
+  return view_;
 }
 
 void TestCapture::look_at_poses(const pipeline::Registration& registration) {
@@ -65,11 +66,6 @@ void TestCapture::look_at_poses(const pipeline::Registration& registration) {
     view_.poses[a].turned_deg = float(pipeline::turned_deg(pose.first_from_pose.rotation));
     for (std::size_t b = 0; b < view_.pose_count; ++b) view_.poses[a].rms_mm[b] = float(pose.meets[b].rms_mm);
   }
-}
-
-const ui::TechnicianView& TestCapture::view() {
-  look();
-  return view_;
 }
 
 }  // namespace relievo::firmware

@@ -5,8 +5,6 @@
 #include <thread>
 #include <utility>
 
-#include "firmware/jobs/behind_the_page.h"
-#include "firmware/work/portrait_progress.h"
 #include "firmware/work/stage_drawing.h"
 #include "hal/base/assert.h"
 
@@ -35,13 +33,11 @@ Result<void> HeadJob::add_sides(JobControl& control, std::vector<pipeline::HeadP
   };
   poses.reserve(SidePairs::kPoses);
   while (const auto side = session_.sides().next(control.cancelled)) {
-    // What is wrong with a pair here spoils no face.
-    if (poses.empty())
-      if (const auto front = measure(*session_.products().frame, control, poses); !front) {
-        lose(front.error(), 0);
-        continue;
-      }
-    if (const auto done = measure(*side, control, poses); !done) lose(done.error(), 1);
+    // What is wrong with a pair here spoils no face. Without the front's pose there is nothing to join it to.
+    Result<void> done;
+    if (poses.empty()) done = measure(*session_.products().frame, control, poses);
+    if (done) done = measure(*side, control, poses);
+    if (!done) lose(done.error(), 1);
     parts_done_.fetch_add(1, std::memory_order_release);
   }
   parts_done_.store(PortraitProgress::kFuse, std::memory_order_release);
@@ -115,12 +111,14 @@ Result<void> TurnJob::run(JobControl& control) {
   struct AtTheEnd {  // also of what a library throws: HeadJob waits for it
     Arena &output, &scratch;
     SidePairs& sides;
+    LiveJudge* judge;
     ~AtTheEnd() {
+      if (judge != nullptr) judge->forget();
       output.wipe();
       scratch.wipe();
       sides.end();
     }
-  } at_the_end{output, scratch, session_.sides()};
+  } at_the_end{output, scratch, session_.sides(), judge_};
   return judge_ == nullptr ? Result<void>() : follow(control, output, scratch);
 }
 
@@ -158,7 +156,7 @@ Result<void> TurnJob::take(const pipeline::StereoFrame& seen, JobControl& contro
   options.pairs = 1;
   options.light = device_.shot_light();
   StereoSlot& slot = session_.free_slot();
-  RELIEVO_TRY_ASSIGN(const BurstResult lit, burst_.shoot(slot, slot, options, control.cancelled));
+  RELIEVO_TRY_ASSIGN(const BurstResult lit, take_burst(grabber_, slot, slot, options, control.cancelled));
   return session_.sides().add(lit.frame);
 }
 
@@ -172,12 +170,26 @@ Result<void> OpenCamerasJob::run(JobControl& control) {
   }
 }
 
+Result<pipeline::StereoFrame> take_and_forget(StereoGrabber& grabber, EnrolmentSession& session,
+                                              hal::Device& device, const std::atomic<bool>& cancelled) {
+  RELIEVO_TRY(grabber.start(device.preferred_mode()));
+  StereoSlot& slot = session.free_slot();
+  const auto pair = grabber.grab(slot, cancelled);
+  slot.wipe();  // whoever passes by is in the pictures
+  return pair;
+}
+
 Result<void> PoseJob::run(JobControl& control) {
   RELIEVO_TRY(grabber_.start(device_.preferred_mode()));
   RELIEVO_TRY(grabber_.check_cameras());
   const hal::Exposure known = exposure_.exposure();
   RELIEVO_TRY(exposure_.begin(known.time.count() > 0 ? known : kFirstExposure));
-  if (judge_ != nullptr) judge_->begin();
+  struct AtTheEnd {
+    LiveJudge* judge;
+    ~AtTheEnd() {
+      if (judge != nullptr) judge->forget();
+    }
+  } at_the_end{judge_};
   face_.reset();
   pairs_ = 0;
   while (!control.cancelled.load(std::memory_order_relaxed)) {
@@ -229,11 +241,11 @@ Result<void> GrabJob::run(JobControl& control) {
   // Still metering: both have the same exposure all the same, and nobody changes it now.
   if (exposure.state() != ExposureControl::State::Metering) RELIEVO_TRY(exposure.lock());
   Result<BurstResult> burst =
-      burst_.shoot(session_.slot(), session_.spare_slot(), options, control.cancelled);
+      take_burst(grabber_, session_.slot(), session_.spare_slot(), options, control.cancelled);
   if (!burst && burst.error().code == Errc::InvalidInput &&
       options.face) {  // the face box reaches out of a picture
     options.face.reset();
-    burst = burst_.shoot(session_.slot(), session_.spare_slot(), options, control.cancelled);
+    burst = take_burst(grabber_, session_.slot(), session_.spare_slot(), options, control.cancelled);
   }
   exposure.unlock();
   if (!burst) return burst.error();

@@ -5,7 +5,13 @@
 //   capture: OpenCamerasJob PoseJob GrabJob TurnJob    worker: StageJob HeadJob    keeper: KeepJob LookUpJob
 #pragma once
 
+#include <algorithm>
+#include <array>
 #include <atomic>
+#include <cmath>
+#include <cstddef>
+#include <numeric>
+#include <span>
 #include <utility>
 #include <vector>
 
@@ -20,6 +26,7 @@
 #include "hal/base/thread_pool.h"
 #include "hal/clock.h"
 #include "hal/device.h"
+#include "pipeline/model/advice.h"
 
 namespace relievo::firmware {
 
@@ -35,6 +42,12 @@ class OpenCamerasJob final : public Job {
   hal::CaptureMode mode_;
   const hal::Clock& clock_;
 };
+
+// One pair, looked at by nobody and wiped; beside the last test capture, which stays. Cameras that are not
+// open are opened, so that one that was plugged in is recognised (StereoGrabber::check_cameras()). Errors:
+// StereoGrabber's. Thread: capture.
+Result<pipeline::StereoFrame> take_and_forget(StereoGrabber& grabber, EnrolmentSession& session,
+                                              hal::Device& device, const std::atomic<bool>& cancelled);
 
 // Pictures of the person for the screen, with advice, until it is cancelled. Kept are only the newest, small.
 // Meanwhile both cameras are set to the light on the face.
@@ -71,7 +84,7 @@ class PoseJob final : public Job {
 class GrabJob final : public Job {
  public:
   GrabJob(StereoGrabber& grabber, EnrolmentSession& session, hal::Device& device, PoseJob& pose)
-      : grabber_(grabber), session_(session), device_(device), pose_(pose), burst_(grabber) {}
+      : grabber_(grabber), session_(session), device_(device), pose_(pose) {}
   Result<void> run(JobControl& control) override;
 
  private:
@@ -81,7 +94,6 @@ class GrabJob final : public Job {
   EnrolmentSession& session_;
   hal::Device& device_;
   PoseJob& pose_;
-  Burst burst_;
 };
 
 class StageJob final : public Job {
@@ -141,7 +153,7 @@ class TurnJob final : public Job {
  public:
   TurnJob(StereoGrabber& grabber, EnrolmentSession& session, hal::Device& device, PoseJob& pose,
           LiveJudge* judge)
-      : grabber_(grabber), session_(session), device_(device), pose_(pose), judge_(judge), burst_(grabber) {}
+      : grabber_(grabber), session_(session), device_(device), pose_(pose), judge_(judge) {}
   // Before it starts: the frontal pair, which lies in the session.
   void begin_with(const pipeline::StereoFrame& front) {
     front_ = front;
@@ -160,7 +172,6 @@ class TurnJob final : public Job {
   hal::Device& device_;
   PoseJob& pose_;
   LiveJudge* judge_;
-  Burst burst_;
   ThreadPool alone_{1};
   pipeline::StereoFrame front_;
   std::atomic<bool> enough_{false};
@@ -202,6 +213,45 @@ class HeadJob final : public Job {
   std::atomic<std::size_t> parts_done_{0};
   std::vector<StageRecord> records_;
   std::optional<Error> lost_;
+};
+
+// PortraitProgress: how far the way from the photograph to the portrait is, as one number that never falls.
+// Its parts count as long as they took when they were measured (ms in report.json of `relievo reconstruct`);
+// within a part, time itself counts, slower and slower towards the part's end, which may be late. Thread:
+// one.
+class PortraitProgress {
+ public:
+  static constexpr std::size_t kFuse = kStages.size() + pipeline::kSides;
+
+  // A new photograph. A head has the face's stages, its sides and their fusion; a face has the stages alone.
+  void begin(bool head = false) {
+    share_ = 0;
+    head_ = head;
+    part_ = kFuse + 1;
+  }
+  // The stages in their order, then the sides, then kFuse.
+  void works_on(std::size_t part, hal::Instant now) {
+    if (part != part_) begun_ = now;
+    part_ = part;
+    const auto all = std::span(kParts).first(head_ ? kParts.size() : kStages.size());
+    part = std::min(part, all.size() - 1);
+    const float passed = std::chrono::duration<float>(now - begun_).count();
+    const float so_far = std::accumulate(all.begin(), all.begin() + std::ptrdiff_t(part), 0.0F) +
+                         all[part] * (1 - std::exp(-kEase * passed / all[part]));
+    share_ = std::max(share_, std::min(kMost, so_far / std::accumulate(all.begin(), all.end(), 0.0F)));
+  }
+  void done() { share_ = 1; }
+  float share() const { return share_; }
+
+ private:
+  static constexpr float kEase = 1.6F, kMost = 0.99F;
+  static constexpr float kSideS = 0.9F;  // seconds, as the others
+  static constexpr std::array<float, kFuse + 1> kParts{0.58F,  0.04F,  0.37F,  0.15F,  0.12F,
+                                                       kSideS, kSideS, kSideS, kSideS, 2.2F};
+  float share_ = 0;
+  bool head_ = false;
+  std::size_t part_ = kFuse + 1;
+  hal::Instant begun_{};
 };
 
 }  // namespace relievo::firmware

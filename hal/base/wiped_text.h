@@ -66,6 +66,18 @@ class ShortWipedText {
   }
   ~ShortWipedText() { wipe(); }
 
+  // More of it; false, and nothing, where there is no room.
+  bool add(std::string_view text) {
+    if (length_ + text.size() > N) return false;
+    length_ += text.copy(bytes_.data() + length_, N);
+    return true;
+  }
+  // Nothing from there on.
+  void cut(std::size_t at) {
+    explicit_bzero(bytes_.data() + at, length_ - at);
+    length_ = at;
+  }
+
   std::string_view view() const { return {bytes_.data(), length_}; }
   bool empty() const { return length_ == 0; }
   void wipe() {

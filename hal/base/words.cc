@@ -3,12 +3,14 @@
 #include "hal/base/words.h"
 
 #include <algorithm>
+#include <cmath>
 #include <cstdio>
 #include <cstring>
 
 namespace relievo {
 
 std::string decimal(double number, int decimals, bool with_sign) {
+  if (std::isnan(number)) return "-";
   char text[48];
   std::snprintf(text, sizeof text, with_sign ? "%+.*f" : "%.*f", decimals, number);
   return text;

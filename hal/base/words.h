@@ -13,6 +13,7 @@
 
 namespace relievo {
 
+// A dash where there is no number.
 std::string decimal(double number, int decimals, bool with_sign = false);
 
 // `pattern` with the values in its places {}, in their order.

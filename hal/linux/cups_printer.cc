@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: 2026 The Relievo authors
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include "hal/linux/cups_printer.h"
+#include "hal/linux/device.h"
 
 #include <cups/cups.h>
 

@@ -6,9 +6,9 @@
 #include <optional>
 #include <string>
 
+#include "hal/clock.h"
 #include "hal/linux/mounted_stick.h"
 #include "hal/linux/side_by_side.h"
-#include "hal/monotonic_clock.h"
 
 namespace relievo::hal {
 namespace {
@@ -50,7 +50,7 @@ class NoLine final : public TriggerLine {
 
 class NoStick final : public RemovableMedia {
  public:
-  std::optional<Medium> current() override { return std::nullopt; }
+  std::optional<std::filesystem::path> current() override { return std::nullopt; }
   Result<void> flush_and_eject() override { return Error{Errc::MediaMissing, "there is no stick"}; }
 };
 

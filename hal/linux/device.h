@@ -7,18 +7,18 @@
 // Thread: making: main; the devices as their headers say.
 #pragma once
 
+#include <chrono>
 #include <filesystem>
 #include <memory>
 #include <optional>
 #include <string>
 
 #include "hal/base/result.h"
+#include "hal/clock.h"
 #include "hal/device.h"
-#include "hal/linux/hardware_watchdog.h"
 #include "hal/linux/kernel.h"
 #include "hal/linux/v4l2_camera.h"
 #include "hal/linux/wire/gpio_trigger_line.h"
-#include "hal/linux/wire/output_lines.h"
 
 namespace relievo::hal {
 
@@ -31,6 +31,40 @@ inline constexpr double kHeatMargin = 5;
 // Is any zone of `thermal` (/sys/class/thermal) so near? A zone that tells no temperature or no critical
 // point is none.
 bool near_switching_off(const std::filesystem::path& thermal);
+
+// HardwareWatchdog: the kernel's watchdog device (Documentation/watchdog/watchdog-api.rst). From open() on
+// the machine is restarted when nobody kicks it for the given time, the process having died included; a
+// destroyed watchdog is at rest again, where the driver lets it. Thread: main.
+struct WatchdogOptions {
+  std::string device = "/dev/watchdog";
+  std::chrono::seconds timeout{10};
+  Result<void> check() const;  // InvalidInput
+};
+
+class HardwareWatchdog final : public Watchdog {
+ public:
+  // The device is armed when this returns. A driver whose time is fixed keeps its own, two seconds at the
+  // least. Errors: InvalidInput, NotFound (no such device), IoFailed (in use, not allowed, the driver
+  // refuses).
+  static Result<std::unique_ptr<HardwareWatchdog>> open(const WatchdogOptions& options, Kernel& kernel,
+                                                        const Clock& clock);
+  ~HardwareWatchdog() override;
+  HardwareWatchdog(const HardwareWatchdog&) = delete;
+  HardwareWatchdog& operator=(const HardwareWatchdog&) = delete;
+
+  // As often as the loop turns; the device hears four in its time.
+  void kick() override;
+  std::chrono::seconds timeout() const { return timeout_; }
+
+ private:
+  HardwareWatchdog(Kernel& kernel, const Clock& clock, int file, std::chrono::seconds timeout)
+      : kernel_(kernel), clock_(clock), file_(file), timeout_(timeout) {}
+  Kernel& kernel_;
+  const Clock& clock_;
+  int file_;
+  std::chrono::seconds timeout_;
+  Instant next_{};
+};
 
 struct LinuxDeviceOptions {
   CaptureMode mode;
@@ -50,5 +84,16 @@ Result<LinuxDeviceOptions> read_linux_device_file(const std::filesystem::path& f
 // lines', the watchdog's.
 Result<std::unique_ptr<Device>> make_linux_device(const LinuxDeviceOptions& options,
                                                   Kernel& kernel = real_kernel());
+
+// The default printer of CUPS, as the system has it (lpadmin -d). What is printed goes to it from memory.
+std::unique_ptr<Printer> make_cups_printer();
+
+// Switches of input devices, as the kernel tells of them: headphones in the jack of a sound card
+// (SW_HEADPHONE_INSERT), somebody before a presence sensor (SW_FRONT_PROXIMITY). Their state is asked for, so
+// that no event can be missed.
+// Thread: one. Errors: none: what cannot be read is off. The program must be in the group input.
+// Looked for once, in /dev/input/event0 to event31; on if one of them is. Empty: there is none.
+std::unique_ptr<InputSwitch> find_headphone_jack(Kernel& kernel = real_kernel());
+std::unique_ptr<InputSwitch> find_presence_sensor(Kernel& kernel = real_kernel());
 
 }  // namespace relievo::hal

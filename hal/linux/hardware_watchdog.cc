@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: 2026 The Relievo authors
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include "hal/linux/hardware_watchdog.h"
+#include "hal/linux/device.h"
 
 #include <linux/watchdog.h>
 

@@ -1,11 +1,12 @@
 // SPDX-FileCopyrightText: 2026 The Relievo authors
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include "hal/linux/input_switch.h"
+#include "hal/linux/device.h"
 
 #include <linux/input.h>
 
 #include <algorithm>
 #include <array>
+#include <cerrno>
 #include <string>
 #include <vector>
 
@@ -43,7 +44,9 @@ class LinuxInputSwitch final : public InputSwitch {
 std::unique_ptr<InputSwitch> find(Kernel& kernel, int code) {
   std::vector<int> files;
   for (int i = 0; i < kInputDevices; ++i) {
-    const int file = kernel.open(("/dev/input/event" + std::to_string(i)).c_str());
+    const std::string path = "/dev/input/event" + std::to_string(i);
+    int file = -EINTR;
+    while (file == -EINTR) file = kernel.open(path.c_str());
     if (file < 0) continue;
     if (has(kernel, file, EVIOCGBIT(EV_SW, sizeof(Switches)), code)) files.push_back(file);
     else kernel.close(file);

@@ -24,15 +24,13 @@ constexpr std::size_t kMostFolders = 16;  // looked at on every tick
 class RealMounts final : public Mounts {
  public:
   // A folder on another device than its parent is where something is mounted.
-  std::optional<std::uint64_t> free_at(const std::filesystem::path& folder) override {
+  bool is_mounted(const std::filesystem::path& folder) override {
     struct stat own {
     }, above{};
-    if (::lstat(folder.c_str(), &own) != 0 || !S_ISDIR(own.st_mode) ||
-        ::stat((folder / "..").c_str(), &above) != 0 || own.st_dev == above.st_dev)
-      return std::nullopt;
-    struct statvfs info {};
-    if (::statvfs(folder.c_str(), &info) != 0) return std::nullopt;
-    return std::uint64_t(info.f_bavail) * info.f_frsize;
+    struct statvfs answer {};
+    return ::lstat(folder.c_str(), &own) == 0 && S_ISDIR(own.st_mode) &&
+           ::stat((folder / "..").c_str(), &above) == 0 && own.st_dev != above.st_dev &&
+           ::statvfs(folder.c_str(), &answer) == 0;
   }
   int flush(const std::filesystem::path& folder) override {
     const int file = ::open(folder.c_str(), O_RDONLY | O_DIRECTORY | O_CLOEXEC);
@@ -110,8 +108,8 @@ Mounts& real_mounts() {
   return mounts;
 }
 
-std::optional<Medium> MountedStick::find() const {
-  if (const auto free = mounts_.free_at(folder_)) return Medium{folder_, *free};
+std::optional<std::filesystem::path> MountedStick::find() const {
+  if (mounts_.is_mounted(folder_)) return folder_;
   std::error_code failed;
   std::vector<std::filesystem::path> below;
   for (std::filesystem::directory_iterator entry(folder_, failed), end;
@@ -119,32 +117,32 @@ std::optional<Medium> MountedStick::find() const {
     below.push_back(entry->path());
   std::ranges::sort(below);
   for (const std::filesystem::path& path : below)
-    if (const auto free = mounts_.free_at(path)) return Medium{path, *free};
+    if (mounts_.is_mounted(path)) return path;
   return std::nullopt;
 }
 
-std::optional<Medium> MountedStick::current() {
+std::optional<std::filesystem::path> MountedStick::current() {
   const std::lock_guard lock(mutex_);
   return find();
 }
 
 Result<void> MountedStick::flush_and_eject() {
   std::unique_lock lock(mutex_);
-  const auto medium = find();
-  if (!medium) return Error{Errc::MediaMissing, "there is no stick to eject"};
+  const auto stick = find();
+  if (!stick) return Error{Errc::MediaMissing, "there is no stick to eject"};
   lock.unlock();  // a slow stick must not hold who asks
-  const int flushed = mounts_.flush(medium->root);
+  const int flushed = mounts_.flush(*stick);
   lock.lock();  // who looks into a stick keeps it from being unmounted
   if (flushed == -ENOENT || flushed == -ENODEV)
-    return Error{Errc::MediaMissing, "the stick is gone", -flushed}.at(medium->root.native());
+    return Error{Errc::MediaMissing, "the stick is gone", -flushed}.at(stick->native());
   if (flushed < 0)
     return Error{Errc::IoFailed, "the stick could not be flushed; do not trust what was written", -flushed}
-        .at(medium->root.native());
-  const auto source = mounts_.source_of(medium->root);
+        .at(stick->native());
+  const auto source = mounts_.source_of(*stick);
   ejected_.reset();
-  if (const int unmounted = mounts_.unmount(medium->root); unmounted < 0)
-    return cannot_unmount(unmounted).at(medium->root.native());
-  if (source) ejected_ = Ejected{*source, medium->root};
+  if (const int unmounted = mounts_.unmount(*stick); unmounted < 0)
+    return cannot_unmount(unmounted).at(stick->native());
+  if (source) ejected_ = Ejected{*source, *stick};
   return {};
 }
 

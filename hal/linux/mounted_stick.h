@@ -25,10 +25,9 @@ struct MountSource {
 class Mounts {
  public:
   virtual ~Mounts() = default;
-  // Whether something is mounted at this very folder, and what room it has.
-  virtual std::optional<std::uint64_t> free_at(const std::filesystem::path& folder) = 0;
-  virtual int flush(const std::filesystem::path& folder) = 0;    // syncfs
-  virtual int unmount(const std::filesystem::path& folder) = 0;  // umount2, never lazily
+  virtual bool is_mounted(const std::filesystem::path& folder) = 0;  // something, at this very folder
+  virtual int flush(const std::filesystem::path& folder) = 0;        // syncfs
+  virtual int unmount(const std::filesystem::path& folder) = 0;      // umount2, never lazily
   virtual std::optional<MountSource> source_of(
       const std::filesystem::path& folder) = 0;  // /proc/self/mountinfo
   virtual int mount_read_only(const MountSource& source,
@@ -44,7 +43,7 @@ class MountedStick final : public RemovableMedia {
       : folder_(std::move(folder)), mounts_(mounts) {}
 
   // Of several sticks the first by name. It waits for an unmount, never for a flush: the main thread asks.
-  std::optional<Medium> current() override;
+  std::optional<std::filesystem::path> current() override;
   // Errors: MediaMissing (none, or pulled out meanwhile), IoFailed (not flushed: nothing written can be
   // trusted; still in use; not allowed).
   Result<void> flush_and_eject() override;
@@ -57,8 +56,8 @@ class MountedStick final : public RemovableMedia {
     MountSource source;
     std::filesystem::path root;
   };
-  std::optional<Medium> find() const;  // with mutex_
-  std::mutex mutex_;                   // nobody looks into a stick while it is unmounted or mounted; ejected_
+  std::optional<std::filesystem::path> find() const;  // with mutex_
+  std::mutex mutex_;  // nobody looks into a stick while it is unmounted or mounted; ejected_
   std::optional<Ejected> ejected_;
   std::filesystem::path folder_;
   Mounts& mounts_;

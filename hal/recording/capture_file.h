@@ -9,7 +9,7 @@
 //
 // "head": the frames are one head, from in front, then turned to its sides; without it, false.
 // Times are nanoseconds from any common origin. "number" is the NNNNNN of left_NNNNNN.png.
-// Errors: NotFound, InvalidInput (says what is wrong), IoFailed.
+// Errors: NotFound, InvalidInput (says what is wrong), IoFailed, OutOfMemory.
 #pragma once
 
 #include <cstdint>

@@ -96,7 +96,7 @@ Result<CaptureFile> read_capture_file(const std::filesystem::path& file) try {
   return Error{Errc::OutOfMemory, "no memory to read this file"}.at(file.native());
 }
 
-Result<void> write_capture_file(const std::filesystem::path& file, const CaptureFile& capture) {
+Result<void> write_capture_file(const std::filesystem::path& file, const CaptureFile& capture) try {
   nlohmann::ordered_json json;
   json["cameras"] = {{"left", {{"serial", capture.left_serial}}},
                      {"right", {{"serial", capture.right_serial}}}};
@@ -110,6 +110,11 @@ Result<void> write_capture_file(const std::filesystem::path& file, const Capture
   if (capture.head) json["head"] = true;
   const std::string text = json.dump(1) + "\n";
   return write_whole_file(file, std::as_bytes(std::span(text)));
+} catch (const nlohmann::json::exception&) {
+  return Error{Errc::InvalidInput, "a camera's serial number is no UTF-8 and cannot be recorded"}.at(
+      file.native());
+} catch (const std::bad_alloc&) {
+  return Error{Errc::OutOfMemory, "no memory to write this file"}.at(file.native());
 }
 
 Result<std::vector<std::filesystem::path>> recorded_pictures(const std::filesystem::path& folder) {

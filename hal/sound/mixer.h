@@ -4,8 +4,7 @@
 // Mixer: speech that is made piece by piece, and a sound beside it, become what the sound card plays. Three
 // threads meet here without a lock, in memory that was there from the start:
 //
-//   wanted by main: begin(), cut(), play()     made by the voice: put(), finish()     played by the card:
-//   fill()
+//   wanted by main: begin(), cut(), play()   made by the voice: put(), finish()   played by the card: fill()
 //
 // Each piece of speech bears the number of its text: pieces of a text that is not wanted any more are never
 // played, however late they come. Samples: mono, 16 bit, kSamplesPerSecond. Errors: none.

@@ -8,7 +8,7 @@
 #include <memory>
 
 #include "hal/base/result.h"
-#include "hal/input_switch.h"
+#include "hal/device.h"
 #include "hal/speaker.h"
 
 namespace relievo::hal {

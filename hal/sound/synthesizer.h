@@ -2,7 +2,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 //
 // Text becomes speech, piece by piece, as fast as the processor allows.
-// Thread: one for everything, since the library has one voice for the whole process; has_voice(): any.
+// Thread: one for everything, since the library has one voice for the whole process; has_voice_for(): any.
 // Memory: the library's own, taken when it opens; its last sentence stays there.
 #pragma once
 
@@ -16,7 +16,8 @@
 
 namespace relievo::hal {
 
-// BCP 47. Languages whose voice reads them as they are written: see ui/README.md for those it does not.
+// BCP 47. Languages whose voice reads them as they are written: see ui/speech/README.md for those it does
+// not.
 bool has_voice_for(std::string_view language);
 
 // Before the first word. Errors: LibraryFailed (its data is missing: install espeak-ng-data).

@@ -28,14 +28,23 @@ std::string joined(const std::vector<std::string>& names) {
 }
 
 Result<void> check_value(const OptionDescription& option, const std::string& value) {
+  // Nothing else comes back as it was from to_text().
+  if (trimmed(value) != value || std::ranges::any_of(value, [](unsigned char c) { return c < ' '; }))
+    return Error{Errc::InvalidInput,
+                 "takes no line ends or other control characters, and no blanks at its ends"}
+        .at(option.key);
   if (option.text) return {};
   if (!option.names.empty()) {
-    for (const std::string& part : option.several ? split_names(value) : std::vector<std::string>{value})
+    std::vector<std::string> parts = option.several ? split_names(value) : std::vector<std::string>{value};
+    for (const std::string& part : parts)
       if (std::ranges::find(option.names, part) == option.names.end()) {
         if (option.is_option()) return out_of_range(option.key, value, option.range);
         return Error{Errc::NotFound, "no such algorithm: choose one of those in brackets"}.at(
             option.key + " = " + value + " (" + joined(option.names) + ")");
       }
+    std::ranges::sort(parts);
+    if (std::ranges::adjacent_find(parts) != parts.end())
+      return Error{Errc::InvalidInput, "names an algorithm twice"}.at(option.key + " = " + value);
     return {};
   }
   char* end = nullptr;
@@ -46,16 +55,6 @@ Result<void> check_value(const OptionDescription& option, const std::string& val
 }
 
 }  // namespace
-
-std::vector<std::string> split_names(std::string_view text) {
-  std::vector<std::string> parts;
-  while (true) {
-    const std::size_t plus = text.find('+');
-    parts.emplace_back(text.substr(0, plus));
-    if (plus == std::string_view::npos) return parts;
-    text.remove_prefix(plus + 1);
-  }
-}
 
 std::vector<OptionDescription> describe_algorithms() {
   const std::vector<Kind> kinds = all_kinds();
@@ -77,11 +76,12 @@ Result<void> check_neighbours(const AlgorithmSet& set) {
         if (kind.key == key && set.get(key) == algorithm.name) return algorithm.lattice;
     return false;
   };
-  if (on_lattice("selector") || !on_lattice("mesher")) return {};
+  if ((on_lattice("selector") && on_lattice("matcher")) || !on_lattice("mesher")) return {};
   return Error{
       Errc::InvalidInput,
-      "this mesher joins neighbours of a lattice and this selector's points are scattered: choose mesher=delaunay, or selector=dense or grid-points"}
-      .at("selector=" + set.get("selector") + " mesher=" + set.get("mesher"));
+      "this mesher joins neighbours of a lattice and these matches are scattered: choose mesher=delaunay, or selector=dense or grid-points and a matcher other than file-matches"}
+      .at("selector=" + set.get("selector") + " matcher=" + set.get("matcher") +
+          " mesher=" + set.get("mesher"));
 }
 
 namespace {
@@ -147,21 +147,28 @@ std::string_view name_today(std::string_view key, std::string_view value) {
   return value;
 }
 
+Result<void> take_line(AlgorithmSet& set, std::string_view line) {
+  const std::size_t sign = line.find('=');
+  if (sign == std::string_view::npos)
+    return Error{Errc::InvalidInput, "is no choice of an algorithm: key = value is expected"}.at(line);
+  const std::string_view key = trimmed(line.substr(0, sign));
+  if (key == "grid-points.max_points") return {};  // older stores have it
+  return set.set(key, name_today(key, trimmed(line.substr(sign + 1))));
+}
+
 }  // namespace
 
-Result<AlgorithmSet> AlgorithmSet::from_text(std::string_view text) {
+Result<AlgorithmSet> AlgorithmSet::from_text(std::string_view text, std::vector<std::string>* unknown) {
   AlgorithmSet set;
   while (!text.empty()) {
     const std::size_t end = std::min(text.find('\n'), text.size());
     const std::string_view line = text.substr(0, end);
     text.remove_prefix(std::min(end + 1, text.size()));
     if (line.empty()) continue;
-    const std::size_t sign = line.find('=');
-    if (sign == std::string_view::npos)
-      return Error{Errc::InvalidInput, "is no choice of an algorithm: key = value is expected"}.at(line);
-    const std::string_view key = trimmed(line.substr(0, sign));
-    if (key == "grid-points.max_points") continue;  // older stores have it
-    RELIEVO_TRY(set.set(key, name_today(key, trimmed(line.substr(sign + 1)))));
+    const Result<void> taken = take_line(set, line);
+    if (taken) continue;
+    if (unknown == nullptr) return taken.error();
+    unknown->emplace_back(line);
   }
   return set;
 }
@@ -170,12 +177,7 @@ std::string AlgorithmSet::to_text() const {
   std::map<std::string, std::string, std::less<>> all = chosen_;
   for (const Kind& kind : all_kinds()) all.try_emplace(kind.key, kind.value);
   std::string text;
-  for (const auto& [key, value] : all) {
-    text += key;
-    text += " = ";
-    text += value;
-    text += "\n";
-  }
+  for (const auto& [key, value] : all) text += key + " = " + value + "\n";
   return text;
 }
 

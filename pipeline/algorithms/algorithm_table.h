@@ -31,9 +31,6 @@ struct Kind {
 std::vector<Kind> match_kinds();
 std::vector<Kind> surface_kinds();
 
-// Names joined by '+', apart.
-std::vector<std::string> split_names(std::string_view text);
-
 // Adds the options of one algorithm to its kind's, as they are by default.
 template <typename Options>
 void describe_options(std::string_view section, Kind& kind) {

@@ -3,7 +3,6 @@
 #include "pipeline/algorithms/algorithm_table.h"
 #include "pipeline/fuse/head_fuser.h"
 #include "pipeline/mesh/completion/completions.h"
-#include "pipeline/mesh/meshers/bezier_mesher.h"
 #include "pipeline/mesh/meshers/grid_mesher.h"
 #include "pipeline/mesh/meshers/scattered_meshers.h"
 #include "pipeline/reconstruct/outlier_filters.h"
@@ -89,7 +88,7 @@ std::vector<Kind> surface_kinds() {
   describe_options<FaceCropOptions>("face", kinds[0]);
   kinds[1].algorithms.push_back({"none", "every point is taken", "own"});
   describe_options<ReliefOptions>("relief", kinds[4]);
-  describe_options<HeadFuserOptions>("averaged", kinds[6]);
+  describe_options<HeadFuser>("averaged", kinds[6]);
   return kinds;
 }
 
@@ -117,8 +116,8 @@ Result<std::optional<ReliefOptions>> make_relief_check(const AlgorithmSet& set) 
   return std::optional(options);
 }
 
-Result<HeadFuserOptions> make_head_fuser(const AlgorithmSet& set) {
-  return OptionReader::read<HeadFuserOptions>(set, "averaged");
+Result<HeadFuser> make_head_fuser(const AlgorithmSet& set) {
+  return OptionReader::read<HeadFuser>(set, "averaged");
 }
 
 Result<Texturer> make_texturer(const AlgorithmSet& set) {

@@ -25,6 +25,16 @@ Error out_of_range(const std::string& option, const std::string& value, const Op
                                                                            range.possible() + ")");
 }
 
+std::vector<std::string> split_names(std::string_view text) {
+  std::vector<std::string> parts;
+  while (true) {
+    const std::size_t plus = text.find('+');
+    parts.emplace_back(text.substr(0, plus));
+    if (plus == std::string_view::npos) return parts;
+    text.remove_prefix(plus + 1);
+  }
+}
+
 std::string number_text(double value, int digits) {
   std::ostringstream out;
   out.imbue(std::locale::classic());

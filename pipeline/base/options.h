@@ -18,6 +18,7 @@
 #include <string>
 #include <string_view>
 #include <type_traits>
+#include <vector>
 
 #include "hal/base/result.h"
 
@@ -42,6 +43,9 @@ OptionRange range_of(OptionRange range) {
 
 // "sgm.band", "3": InvalidInput, with what would be possible.
 Error out_of_range(const std::string& option, const std::string& value, const OptionRange& range);
+
+// Names joined by '+', apart.
+std::vector<std::string> split_names(std::string_view text);
 
 // To ten digits, a float's to six.
 std::string number_text(double value, int digits = 10);

@@ -1,9 +1,9 @@
 // SPDX-FileCopyrightText: 2026 The Relievo authors
 // SPDX-License-Identifier: GPL-3.0-or-later
 //
-// Symmetric positive systems of the few sizes that fits come in, by LDLT. They are made once (solving.cc,
-// eliminating.cc): each costs a file that makes its own one to three seconds of the compiler. Another size is
-// one more line there. Thread: any. Errors: none; what is singular gives what is not finite.
+// Symmetric positive systems of the few sizes that fits come in, by LDLT. They are made once (solving.cc):
+// each costs a file that makes its own one to three seconds of the compiler. Another size is one more line
+// there. Thread: any. Errors: none; what is singular gives what is not finite.
 #pragma once
 
 #include <Eigen/Core>

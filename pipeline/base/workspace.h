@@ -3,9 +3,9 @@
 //
 // Workspace: all that a stage asks for, in one piece, for programs that are no appliance: memory taken once,
 // threads, progress and a switch to cancel. What a stage returns lies in `output` and lives until
-// output.reset() or the workspace's end. A pair of 1920 x 1200 needs some 250 MB of output and 250 MB of
-// scratch; pages that nothing touches cost nothing. Thread: the stages' caller; `progress` and `cancelled`
-// any. Errors: bad_alloc where the machine has not that much.
+// output.reset() or the workspace's end. A pair of 1920 x 1200 touches some 100 MB of output and 190 MB of
+// scratch (firmware/FIGURES.md); pages that nothing touches cost nothing. Thread: the stages' caller;
+// `progress` and `cancelled` any. Errors: bad_alloc where the machine has not that much.
 #pragma once
 
 #include <atomic>

@@ -51,11 +51,18 @@ std::vector<int> boards(const CalibratorInput& input, bool right) {
   return views;
 }
 
-double distance(const CalibratorInput& input, const CameraFit& fit, int view, int corner, const Vec2d& at) {
-  const Vec2d p =
-      bundle::project(fit.camera, fit.pose(view), corner % input.pattern.columns * input.pattern.square_mm,
-                      corner / input.pattern.columns * input.pattern.square_mm);
-  return std::hypot(at.x - p.x, at.y - p.y);
+std::vector<CornerResidual> residuals(const BoardPattern& pattern, const CameraIntrinsics& camera,
+                                      const bundle::Pose& camera_from_board, const BoardCorners& corners) {
+  std::vector<CornerResidual> all;
+  all.reserve(corners.size());
+  for (int i = 0; i < pattern.corners(); ++i) {
+    const Vec2d& at = corners[std::size_t(i)];
+    const Vec2d put = bundle::project(camera, camera_from_board, i % pattern.columns * pattern.square_mm,
+                                      i / pattern.columns * pattern.square_mm);
+    // A corner that was not seen is not-a-number, and so is its residual.
+    all.push_back({at, {at.x - put.x, at.y - put.y}});
+  }
+  return all;
 }
 
 struct Strays {
@@ -69,11 +76,10 @@ Strays find_strays(const CalibratorInput& input, bool right, std::span<const int
   std::vector<double> all;
   for (std::size_t v = 0; v < views.size(); ++v) {
     const BoardView& view = input.views[std::size_t(views[v])];
-    const BoardCorners& corners = right ? view.right : view.left;
-    for (int i = 0; i < input.pattern.corners(); ++i) {
-      const Vec2d& at = corners[std::size_t(i)];
-      off[v].push_back(seen(at) ? distance(input, fit, views[v], i, at) : 0);
-      if (seen(at)) all.push_back(off[v].back());
+    for (const CornerResidual& c :
+         residuals(input.pattern, fit.camera(), fit.pose(views[v]), right ? view.right : view.left)) {
+      off[v].push_back(seen(c.at) ? std::hypot(c.off.x, c.off.y) : 0);
+      if (seen(c.at)) all.push_back(off[v].back());
     }
   }
   constexpr double kMedianOfDistance = 1.1774;  // in standard deviations of one coordinate
@@ -171,20 +177,6 @@ StereoCalibration calibration_of(const StereoFit& fit) {
   calibration.right_from_left = bundle::transform_of(fit.problem.right_from_left);
   calibration.rms_px = fit.rms_px();
   return calibration;
-}
-
-std::vector<CornerResidual> residuals(const BoardPattern& pattern, const CameraIntrinsics& camera,
-                                      const bundle::Pose& camera_from_board, const BoardCorners& corners) {
-  std::vector<CornerResidual> all;
-  all.reserve(corners.size());
-  for (int i = 0; i < pattern.corners(); ++i) {
-    const Vec2d& at = corners[std::size_t(i)];
-    const Vec2d put = bundle::project(camera, camera_from_board, i % pattern.columns * pattern.square_mm,
-                                      i / pattern.columns * pattern.square_mm);
-    // A corner that was not seen is not-a-number, and so is its residual.
-    all.push_back({at, {at.x - put.x, at.y - put.y}});
-  }
-  return all;
 }
 
 std::vector<FittedView> fitted_views(std::size_t count, const StereoFit& fit) {

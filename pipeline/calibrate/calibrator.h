@@ -8,6 +8,7 @@
 // Thread: any; the same input gives the same result.
 #pragma once
 
+#include <cstddef>
 #include <vector>
 
 #include "pipeline/calibrate/fit/calibrator_input.h"
@@ -29,6 +30,7 @@ struct FittedView {
   RigidTransform left_from_board;    // as the left camera has it, where both disagree
   std::vector<CornerResidual> left;  // in the pattern's order; empty where the camera's board took no part
   std::vector<CornerResidual> right;
+  const std::vector<CornerResidual>& corners(std::size_t eye) const { return eye == 0 ? left : right; }
 };
 
 struct CalibratorOutput {

@@ -29,27 +29,19 @@ constexpr float kLeastDepthMm = 1;  // of a bay, on average
 
 BorderEdge edge_between(std::uint32_t a, std::uint32_t b) { return {std::min(a, b), std::max(a, b)}; }
 
-// Rims that pass through a vertex more than once are left open.
 std::vector<Loop> loops_of(std::span<const Vec3f> vertices, std::span<const BorderEdge> border) {
   std::map<std::uint32_t, std::uint32_t> next;
-  std::map<std::uint32_t, int> times;
-  for (const BorderEdge& e : border) {
-    next[e[0]] = e[1];
-    ++times[e[0]];
-  }
+  for (const BorderEdge& e : border) next[e[0]] = e[1];
   std::vector<Loop> loops;
   while (!next.empty()) {
     Loop loop;
-    bool plain = true;
     for (auto at = next.begin(); at != next.end();) {
       const auto [from, to] = *at;
       loop.vertices.push_back(from);
       loop.length_mm += distance(vertices[from], vertices[to]);
-      plain = plain && times[from] == 1;
       next.erase(at);
       at = next.find(to);
     }
-    if (!plain) loop.length_mm = 0;
     loops.push_back(std::move(loop));
   }
   return loops;
@@ -258,10 +250,8 @@ std::vector<std::uint32_t> close_holes(std::pmr::vector<Vec3f>& vertices_mm, std
       loops.begin(), loops.end(), [](const Loop& a, const Loop& b) { return a.length_mm < b.length_mm; });
   Filler filler(vertices_mm, normals, border, triangles);
   for (auto loop = loops.begin(); loop != loops.end(); ++loop)
-    if (loop != longest && loop->vertices.size() >= 3 && loop->length_mm > 0 &&
-        loop->length_mm <= limits.rim_mm)
-      filler.close(loop->vertices);
-  if (longest != loops.end() && longest->length_mm > 0) filler.close_bays(*longest, limits);
+    if (loop != longest && loop->length_mm <= limits.rim_mm) filler.close(loop->vertices);
+  if (longest != loops.end()) filler.close_bays(*longest, limits);
   return std::move(filler).beside();
 }
 

@@ -45,10 +45,10 @@ bool disagree(const Registration& registration) {
 }
 
 // Hair is half seen through: beside the face, what is that unsure along the line of sight goes.
-void drop_hair(std::span<PoseSurface> poses, const Registration& registration, const HeadZones& zones) {
+void drop_hair(std::span<HeadPose> poses, const Registration& registration, const HeadZones& zones) {
   constexpr float kSkinMm = 0.7F, kHairMm = 1, kLeastCosine = 0.26F;
   for (std::size_t k = 0; k < poses.size(); ++k) {
-    PoseSurface& pose = poses[k];
+    HeadPose& pose = poses[k];
     for (std::size_t i = 0; i < pose.nodes.size(); ++i) {
       if (pose.nodes[i].trust <= 0) continue;
       const float cosine = std::abs(dot(pose.nodes[i].normal, unit(pose.nodes[i].at_mm)));
@@ -272,22 +272,20 @@ class Surface {
 
 }  // namespace
 
-Result<FusedSurface> HeadFuser::fuse(std::span<PoseSurface> poses, const Registration& registration,
+Result<FusedSurface> HeadFuser::fuse(std::span<HeadPose> poses, const Registration& registration,
                                      const FaceMesh& face, const Landmarks& landmarks,
                                      StageContext& context) const {
   const Error stopped{Errc::Cancelled, "stopped while the poses were fused"};
-  RELIEVO_TRY(check_options(options_, "averaged"));
-  const HeadZones zones(landmarks, poses[0].head_from_camera, options_.neck_mm);
+  RELIEVO_TRY(check_options(*this, "averaged"));
+  const HeadZones zones(landmarks, poses[0].head_from_camera, neck_mm);
   drop_hair(poses, registration, zones);
   const bool calibrations_differ = disagree(registration);
-  bend_to_master(poses, registration,
-                 {options_.most_bend_mm, options_.bend_width_mm, options_.still_mm, !calibrations_differ},
-                 context);
+  bend_to_master(poses, registration, {most_bend_mm, bend_width_mm, still_mm, !calibrations_differ}, context);
   // Wider than for registration, and after hair and what moved too far went: no step where a surface ends.
-  for (PoseSurface& pose : poses) fade_to_edges(pose, kEdgeNodes, &context.scratch);
+  for (HeadPose& pose : poses) fade_to_edges(pose, kEdgeNodes, &context.scratch);
   if (context.stop()) return stopped;
   const PoseBlend blend(poses, registration, zones, context);
-  std::pmr::vector<FieldPoint> points = blend.points(float(options_.voxel_mm));
+  std::pmr::vector<FieldPoint> points = blend.points(float(voxel_mm));
   if (points.empty()) return no_surface();
   const auto own_vertices = add_own(face, poses[0].head_from_camera, zones, blend, points);
   if (context.stop()) return stopped;
@@ -295,7 +293,7 @@ Result<FusedSurface> HeadFuser::fuse(std::span<PoseSurface> poses, const Registr
   std::pmr::vector<Vec3f> places(&context.scratch);
   places.reserve(points.size());
   for (const FieldPoint& s : points) places.push_back(s.at_mm);
-  BandVolume volume = volume_around(places, float(options_.voxel_mm), 4, &context.scratch);
+  BandVolume volume = volume_around(places, float(voxel_mm), 4, &context.scratch);
   fill_field(points, kBandVoxels * volume.voxel_mm, volume, context);
   if (context.stop()) return stopped;
   Surface surface(polygonise(volume, &context.scratch), blend, zones, context);

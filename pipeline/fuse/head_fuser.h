@@ -27,7 +27,13 @@
 
 namespace relievo::pipeline {
 
-struct HeadFuserOptions {
+struct FusedSurface {
+  FaceMesh mesh;
+  // Its vertices from here on close holes: where they lie, no photograph shows the head.
+  std::size_t closing = 0;
+};
+
+struct HeadFuser {
   double voxel_mm = 0.8;
   double most_bend_mm = 1.5;
   double bend_width_mm = 6;  // sigma of its smoothing
@@ -43,24 +49,10 @@ struct HeadFuserOptions {
           "what lies off by less than this is not bent but averaged, mm");
     field("neck_mm", neck_mm, OptionRange{60, 300}, "how far below the tip of the nose the head is cut, mm");
   }
-};
-
-struct FusedSurface {
-  FaceMesh mesh;
-  // Its vertices from here on close holes: where they lie, no photograph shows the head.
-  std::size_t closing = 0;
-};
-
-class HeadFuser {
- public:
-  explicit HeadFuser(const HeadFuserOptions& options) : options_(options) {}
   // `face`: the master's own mesh, of which is taken what lies between the lids, found by its `landmarks`,
   // and what was completed where no pose shows anything, but for crown and back of a head. Bends `poses`.
-  Result<FusedSurface> fuse(std::span<PoseSurface> poses, const Registration& registration,
-                            const FaceMesh& face, const Landmarks& landmarks, StageContext& context) const;
-
- private:
-  HeadFuserOptions options_;
+  Result<FusedSurface> fuse(std::span<HeadPose> poses, const Registration& registration, const FaceMesh& face,
+                            const Landmarks& landmarks, StageContext& context) const;
 };
 
 }  // namespace relievo::pipeline

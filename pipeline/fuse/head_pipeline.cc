@@ -2,8 +2,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "pipeline/fuse/head_pipeline.h"
 
-#include <algorithm>
-#include <optional>
 #include <utility>
 
 #include "pipeline/fuse/head_texturer.h"
@@ -19,58 +17,16 @@ constexpr const char* kHeadRadiusMm = "200";  // a head with its ears, about the
 constexpr int kCoarseTriangles = 60'000;      // enough to find a head's frame
 constexpr int kMostAtlasPx = 4096;
 
-void keep_photograph(const RectifiedView& view, std::pmr::vector<std::uint8_t>& rgb) {
-  rgb.assign(view.rgb.begin(), view.rgb.end());
-  for (std::size_t k = 0; k < view.valid.size(); ++k) {
-    std::uint8_t* pixel = &rgb[3 * k];
-    if (view.valid[k] == 0) pixel[0] = pixel[1] = pixel[2] = 0;
-    else if (pixel[0] == 0 && pixel[1] == 0 && pixel[2] == 0) pixel[0] = pixel[1] = pixel[2] = 1;
-  }
-}
-
-void keep_photographs(const RectifiedPair& pair, HeadPose& pose) {
-  pose.width_px = pair.width_px;
-  pose.height_px = pair.height_px;
-  pose.right_centre_px = pair.right_centre_px;
-  pose.baseline_mm = pair.baseline_mm;
-  keep_photograph(pair.left, pose.left_rgb);
-  keep_photograph(pair.right, pose.right_rgb);
-}
-
-// The poses' surfaces side by side, until they are given back.
-class Surfaces {
- public:
-  Surfaces(std::span<HeadPose> poses, const FaceModel& face, std::pmr::memory_resource* memory)
-      : poses_(poses), list_(memory) {
-    list_.reserve(poses.size());  // throws before anything is moved
-    for (HeadPose& pose : poses) {
-      list_.push_back(std::move(pose.surface));
-      list_.back().photo_rgb = pose.left_rgb;
-      list_.back().photo_width_px = pose.width_px;
-      list_.back().photo_height_px = pose.height_px;
-    }
-    list_[0].head_from_camera = face.head_from_camera;
-    list_[0].has_head = of(face.landmarks, LandmarkName::Pronasale).found;
-  }
-  ~Surfaces() { give_back(); }
-  Surfaces(const Surfaces&) = delete;
-  Surfaces& operator=(const Surfaces&) = delete;
-
-  std::span<PoseSurface> list() { return list_; }
-  void give_back() {
-    for (std::size_t k = 0; k < list_.size(); ++k) poses_[k].surface = std::move(list_[k]);
-    list_.clear();
-  }
-
- private:
-  std::span<HeadPose> poses_;
-  std::pmr::vector<PoseSurface> list_;
-};
-
 Result<void> check_count(std::span<const HeadPose> poses) {
   if (poses.empty() || poses.size() > std::size_t(kMostPoses))
     return Error{Errc::InvalidInput, "one to seven pairs make a head"};
   return {};
+}
+
+// Its landmarks say where the master's head is.
+void take_frame(const FaceModel& face, HeadPose& master) {
+  master.head_from_camera = face.head_from_camera;
+  master.has_head = of(face.landmarks, LandmarkName::Pronasale).found;
 }
 
 // Both cameras of every pose, the master's first.
@@ -86,9 +42,9 @@ std::pmr::vector<HeadView> views_of(std::span<const HeadPose> poses, const Regis
       view.rgb = right ? pose.right_rgb : pose.left_rgb;
       view.width_px = pose.width_px;
       view.height_px = pose.height_px;
-      view.focal_px = pose.surface.focal_px;
-      view.centre_px = right ? pose.right_centre_px : pose.surface.centre_px;
-      view.view_from_head = product({pose.surface.rectified_from_camera, {}}, back);
+      view.focal_px = pose.focal_px;
+      view.centre_px = right ? pose.right_centre_px : pose.centre_px;
+      view.view_from_head = product({pose.rectified_from_camera, {}}, back);
       if (right) view.view_from_head.translation_mm.x -= pose.baseline_mm;
       view.master = k == 0;
       view.right = right;
@@ -126,20 +82,16 @@ Result<HeadPose> HeadPipeline::measure(const StereoFrame& frame, const StereoCal
   RELIEVO_TRY_ASSIGN(const MatchSet matches, pipeline.match(pair, context));
   RELIEVO_TRY_ASSIGN(const PointCloud cloud, pipeline.reconstruct(pair, matches, context));
   StageContext keeping{kept, context.scratch, context.pool, context.progress, context.cancelled};
-  RELIEVO_TRY_ASSIGN(HeadPose pose, run_stage(keeping, [&](StageContext& c) -> Result<HeadPose> {
-                       HeadPose made(&c.output);
-                       RELIEVO_TRY_ASSIGN(made.surface, make_pose_surface(cloud, pair, c));
-                       keep_photographs(pair, made);
-                       return made;
-                     }));
+  RELIEVO_TRY_ASSIGN(HeadPose pose,
+                     run_stage(keeping, [&](StageContext& c) { return make_head_pose(cloud, pair, c); }));
   pose.drift = judge_drift(matches.epipolar_shift, pipeline.calibration());
   const auto head = run_stage(context, [&](StageContext& c) -> Result<HeadFrame> {
-    return find_head_frame(coarse_mesh(pose.surface, kCoarseTriangles, c), c);
+    return find_head_frame(coarse_mesh(pose, kCoarseTriangles, c), c);
   });
   if (!head && head.error().code != Errc::PoorGeometry) return head.error();
   if (head) {
-    pose.surface.head_from_camera = head->head_from_camera;
-    pose.surface.has_head = true;
+    pose.head_from_camera = head->head_from_camera;
+    pose.has_head = true;
   }
   return pose;
 }
@@ -147,9 +99,9 @@ Result<HeadPose> HeadPipeline::measure(const StereoFrame& frame, const StereoCal
 Result<void> HeadPipeline::place_last(const FaceModel& face, std::span<HeadPose> poses,
                                       StageContext& context) const {
   RELIEVO_TRY(check_count(poses));
+  take_frame(face, poses[0]);
   return run_stage(context, [&](StageContext& c) -> Result<void> {
-    Surfaces surfaces(poses, face, &c.scratch);
-    place_last_pose(surfaces.list(), c);
+    place_last_pose(poses, c);
     return {};
   });
 }
@@ -157,19 +109,12 @@ Result<void> HeadPipeline::place_last(const FaceModel& face, std::span<HeadPose>
 Result<FusedHead> HeadPipeline::fuse(const FaceModel& face, std::span<HeadPose> poses,
                                      StageContext& context) const {
   RELIEVO_TRY(check_count(poses));
-  std::optional<Surfaces> surfaces;
-  RELIEVO_TRY(run_stage(context, [&](StageContext& c) -> Result<void> {
-    surfaces.emplace(poses, face, &c.output);
-    return {};
-  }));
-  RELIEVO_TRY_ASSIGN(Registration registration, run_stage(context, [&](StageContext& c) {
-                       return register_poses(surfaces->list(), c);
-                     }));
+  take_frame(face, poses[0]);
+  RELIEVO_TRY_ASSIGN(Registration registration,
+                     run_stage(context, [&](StageContext& c) { return register_poses(poses, c); }));
   RELIEVO_TRY_ASSIGN(FusedSurface surface, run_stage(context, [&](StageContext& c) {
-                       return HeadFuser(fuser_).fuse(surfaces->list(), registration, face.mesh,
-                                                     face.landmarks, c);
+                       return fuser_.fuse(poses, registration, face.mesh, face.landmarks, c);
                      }));
-  surfaces->give_back();
   Aliveness aliveness;
   RELIEVO_TRY_ASSIGN(TextureAtlas atlas, run_stage(context, [&](StageContext& c) {
                        const auto views = views_of(poses, registration, &c.scratch);

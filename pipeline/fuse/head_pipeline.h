@@ -13,28 +13,14 @@
 // rectified photographs, at 1920 x 1200 at most 24 MiB. Thread: worker; holds no state between calls.
 #pragma once
 
-#include <memory_resource>
 #include <span>
-#include <vector>
 
-#include "pipeline/calibrate/drift.h"
 #include "pipeline/fuse/aliveness.h"
 #include "pipeline/fuse/head_fuser.h"
 #include "pipeline/fuse/pose_registration.h"
 #include "pipeline/pipeline.h"
 
 namespace relievo::pipeline {
-
-struct HeadPose {
-  explicit HeadPose(std::pmr::memory_resource* memory)
-      : surface(memory), left_rgb(memory), right_rgb(memory) {}
-  PoseSurface surface;
-  int width_px = 0, height_px = 0;
-  Vec2d right_centre_px;
-  double baseline_mm = 0;
-  std::pmr::vector<std::uint8_t> left_rgb, right_rgb;  // 0 0 0 where the photograph ends, and only there
-  DriftJudgement drift;  // what the matches say of the calibration; the caller refuses
-};
 
 struct FusedHead {
   FaceModel model;  // in the first pair's left camera's frame
@@ -65,7 +51,7 @@ class HeadPipeline {
  private:
   explicit HeadPipeline(const AlgorithmSet& set) : face_set_(set), head_set_(set) {}
   AlgorithmSet face_set_, head_set_;  // they differ in how far from the nose is measured
-  HeadFuserOptions fuser_;
+  HeadFuser fuser_;
   bool asks_for_life_ = false;  // as the relief check is asked for
 };
 

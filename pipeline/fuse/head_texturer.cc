@@ -5,13 +5,12 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <cstddef>
 #include <memory_resource>
+#include <numeric>
 #include <vector>
 
 #include "pipeline/fuse/level_grid.h"
 #include "pipeline/fuse/pose_registration.h"
-#include "pipeline/fuse/pose_surface.h"
 #include "pipeline/mesh/triangle_raster.h"
 #include "pipeline/model/photo_sampler.h"
 #include "pipeline/model/vector3.h"
@@ -81,23 +80,20 @@ class Texturing {
 
  private:
   static constexpr int kBands = 32;
-  float& say(std::size_t vertex, std::size_t view) { return say_[view * vertices_ + vertex]; }
   float say(std::size_t vertex, std::size_t view) const { return say_[view * vertices_ + vertex]; }
   const VertexColour& level(std::size_t vertex, std::size_t view) const {
     return level_[view * vertices_ + vertex];
   }
 
-  struct Pixel {
-    float x, y, z;
-  };
-  static Pixel project(const HeadView& view, const Vec3f& place) {
+  // x and y are pixels.
+  static Vec3f project(const HeadView& view, const Vec3f& place) {
     const Vec3d p = apply(view.view_from_head, wide(place));
     return {float(view.focal_px * p.x / p.z + view.centre_px.x),
             float(view.focal_px * p.y / p.z + view.centre_px.y), float(p.z)};
   }
 
   // Rectified, a photograph has edges within the picture.
-  static bool covers(const HeadView& view, const Pixel& p) {
+  static bool covers(const HeadView& view, const Vec3f& p) {
     for (const float dy : {-kBorderPx, kBorderPx})
       for (const float dx : {-kBorderPx, kBorderPx}) {
         const std::size_t k = std::size_t(p.y + dy) * std::size_t(view.width_px) + std::size_t(p.x + dx);
@@ -109,11 +105,9 @@ class Texturing {
   // What looking from one view takes.
   struct Room {
     Room(std::size_t places, std::size_t vertices, std::pmr::memory_resource* memory)
-        : depth(memory), pixel(vertices, Pixel{}, memory), share(vertices, 0.0F, memory) {
-      depth.reserve(places);
-    }
+        : depth(places, 0.0F, memory), pixel(vertices, Vec3f{}, memory), share(vertices, 0.0F, memory) {}
     std::pmr::vector<float> depth;
-    std::pmr::vector<Pixel> pixel;
+    std::pmr::vector<Vec3f> pixel;
     std::pmr::vector<float> share;
   };
 
@@ -146,23 +140,21 @@ class Texturing {
   void look(std::size_t i, Room& room) {
     const HeadView& view = views_[i];
     const int w = view.width_px / kDepthShare, h = view.height_px / kDepthShare;
-    std::pmr::vector<float>& depth = room.depth;
-    std::pmr::vector<Pixel>& pixel = room.pixel;
-    depth.assign(std::size_t(w) * std::size_t(h), 1e9F);
-    for (std::size_t v = 0; v < vertices_; ++v) pixel[v] = project(view, mesh_.vertices_mm[v]);
+    room.depth.assign(std::size_t(w) * std::size_t(h), 1e9F);
+    for (std::size_t v = 0; v < vertices_; ++v) room.pixel[v] = project(view, mesh_.vertices_mm[v]);
     for (const auto& t : mesh_.triangles) {
       const auto corner = [&](std::size_t k) {
-        return Vec2f{pixel[t[k]].x / kDepthShare, pixel[t[k]].y / kDepthShare};
+        return Vec2f{room.pixel[t[k]].x / kDepthShare, room.pixel[t[k]].y / kDepthShare};
       };
-      for_each_texel(corner(0), corner(1), corner(2), w, {0, h},
-                     [&](int x, int y, float a, float b, float c) {
-                       float& d = depth[std::size_t(y) * std::size_t(w) + std::size_t(x)];
-                       d = std::min(d, a * pixel[t[0]].z + b * pixel[t[1]].z + c * pixel[t[2]].z);
-                     });
+      for_each_texel(
+          corner(0), corner(1), corner(2), w, {0, h}, [&](int x, int y, float a, float b, float c) {
+            float& d = room.depth[std::size_t(y) * std::size_t(w) + std::size_t(x)];
+            d = std::min(d, a * room.pixel[t[0]].z + b * room.pixel[t[1]].z + c * room.pixel[t[2]].z);
+          });
     }
     const Vec3d eye = apply(inverse(view.view_from_head), Vec3d{0, 0, 0});
     for (std::size_t v = 0; v < closing_; ++v) {
-      const Pixel& p = pixel[v];
+      const Vec3f& p = room.pixel[v];
       if (!(p.z > 0) || p.x < kBorderPx || p.y < kBorderPx || p.x > float(view.width_px) - kBorderPx - 1 ||
           p.y > float(view.height_px) - kBorderPx - 1 || !covers(view, p))
         continue;
@@ -171,11 +163,11 @@ class Texturing {
       if (cosine <= kLeastCosine) continue;
       const std::size_t x = std::size_t(std::min(int(p.x) / kDepthShare, w - 1)),
                         y = std::size_t(std::min(int(p.y) / kDepthShare, h - 1));
-      if (p.z > depth[y * std::size_t(w) + x] + kHiddenMm / cosine) continue;
+      if (p.z > room.depth[y * std::size_t(w) + x] + kHiddenMm / cosine) continue;
       float here = cosine - kLeastCosine;
       if (view.master) here *= kMasterFirst;
       if (!view.master && mesh_.measured[v] == 0) here *= kOthersOnCompleted;
-      say(v, i) = here;
+      say_[i * vertices_ + v] = here;
     }
     fade(i, room.share);
   }
@@ -188,16 +180,15 @@ class Texturing {
         const float least = std::min({share[t[0]], share[t[1]], share[t[2]]}) + kFadeEdge;
         for (const std::uint32_t v : t) share[v] = std::min(share[v], least);
       }
-    for (std::size_t v = 0; v < vertices_; ++v) say(v, i) *= share[v];
+    for (std::size_t v = 0; v < vertices_; ++v) say_[i * vertices_ + v] *= share[v];
   }
 
-  VertexColour read(std::size_t view, const Pixel& p) const {
+  VertexColour read(std::size_t view, const Vec3f& p) const {
     const HeadView& v = views_[view];
     VertexColour rgb{};
     const float x = std::clamp(p.x, 0.0F, float(v.width_px - 1) - 1e-3F),
                 y = std::clamp(p.y, 0.0F, float(v.height_px - 1) - 1e-3F);
-    const std::size_t w = std::size_t(v.width_px);
-    const std::size_t k = std::size_t(y) * w + std::size_t(x);
+    const std::size_t w = std::size_t(v.width_px), k = std::size_t(y) * w + std::size_t(x);
     float wx[4], wy[4];
     cubic_weights(x - std::floor(x), wx);
     cubic_weights(y - std::floor(y), wy);
@@ -296,7 +287,7 @@ class Texturing {
     // Views that see all of it; where none does, those that see a corner. Whose say is nothing beside the
     // best one's all over it is left out.
     std::array<std::size_t, kMostViews> list{};
-    std::array<std::array<Pixel, 3>, kMostViews> corners;
+    std::array<std::array<Vec3f, 3>, kMostViews> corners;
     std::array<float, kMostViews> most{};
     std::size_t count = 0;
     float best = 0;
@@ -320,7 +311,7 @@ class Texturing {
                      // So small a triangle is seen as if from far away.
                      const auto pixel = [&](std::size_t i) {
                        const auto& [p, q, r] = corners[i];
-                       return Pixel{a * p.x + b * q.x + c * r.x, a * p.y + b * q.y + c * r.y, 1};
+                       return Vec3f{a * p.x + b * q.x + c * r.x, a * p.y + b * q.y + c * r.y, 1};
                      };
                      const auto mean = [&](std::size_t i) {
                        return a * say(t[0], i) + b * say(t[1], i) + c * say(t[2], i);
@@ -359,13 +350,11 @@ class Texturing {
   }
 
   VertexColour blend_at(std::size_t v) const {
-    std::array<std::size_t, kMostViews> list{};
-    std::size_t count = 0;
-    for (std::size_t i = 0; i < views_.size(); ++i)
-      if (say(v, i) > 0) list[count++] = i;
+    std::array<std::size_t, kMostViews> all{};
+    std::iota(all.begin(), all.end(), std::size_t{0});
     const auto pixel = [&](std::size_t i) { return project(views_[i], mesh_.vertices_mm[v]); };
     return mix(
-               std::span(list.data(), count), [&](std::size_t i) { return say(v, i); }, pixel,
+               std::span(all.data(), views_.size()), [&](std::size_t i) { return say(v, i); }, pixel,
                [&](std::size_t i, std::size_t k) { return level(v, i)[k]; })
         .rgb;
   }

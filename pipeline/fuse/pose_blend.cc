@@ -33,7 +33,7 @@ float rank(std::size_t k, float trust, float weight) {
 
 }  // namespace
 
-PoseBlend::PoseBlend(std::span<const PoseSurface> poses, const Registration& registration,
+PoseBlend::PoseBlend(std::span<const HeadPose> poses, const Registration& registration,
                      const HeadZones& zones, StageContext& context)
     : poses_(poses), registration_(registration), zones_(zones), context_(context), back_(&context.scratch) {
   for (const RegisteredPose& p : registration.poses) back_.push_back(inverse(p.first_from_pose));
@@ -59,10 +59,10 @@ bool PoseBlend::is_seen_near(const Vec3f& place) const {
 std::pmr::vector<FieldPoint> PoseBlend::points(float voxel_mm) const {
   std::pmr::vector<FieldPoint> all(&context_.scratch);
   std::size_t room = 0;
-  for (const PoseSurface& p : poses_) room += p.nodes.size();
+  for (const HeadPose& p : poses_) room += p.nodes.size();
   all.reserve(room);
   for (std::size_t k = 0; k < poses_.size(); ++k) {
-    const PoseSurface& pose = poses_[k];
+    const HeadPose& pose = poses_[k];
     const RigidTransform& placed = registration_.poses[k].first_from_pose;
     const std::size_t first = all.size(), columns = std::size_t(pose.columns);
     const auto dense_mm = float(kDenseVoxels * pose.focal_px / pose.step_px) * voxel_mm;

@@ -14,16 +14,16 @@
 #include <span>
 #include <vector>
 
+#include "pipeline/fuse/head_pose.h"
 #include "pipeline/fuse/head_zones.h"
 #include "pipeline/fuse/pose_registration.h"
-#include "pipeline/fuse/pose_surface.h"
 #include "pipeline/mesh/meshers/band_volume.h"
 
 namespace relievo::pipeline {
 
 class PoseBlend {
  public:
-  PoseBlend(std::span<const PoseSurface> poses, const Registration& registration, const HeadZones& zones,
+  PoseBlend(std::span<const HeadPose> poses, const Registration& registration, const HeadZones& zones,
             StageContext& context);
 
   // Whether any pose shows a surface within 15 mm.
@@ -57,7 +57,7 @@ class PoseBlend {
   bool overruled(std::size_t k, const Vec3f& at, const Vec3f& normal, float sigma, float trust) const;
   double registration_sigma(std::size_t k, const Vec3f& at, const Vec3f& normal) const;
 
-  std::span<const PoseSurface> poses_;
+  std::span<const HeadPose> poses_;
   const Registration& registration_;
   const HeadZones& zones_;
   StageContext& context_;

@@ -57,7 +57,7 @@ RigidTransform turned_by(const Vec2d& turn_deg) {
 
 class Placer {
  public:
-  Placer(std::span<PoseSurface> poses, std::span<RegisteredPose> placed, PoseResiduals& residuals,
+  Placer(std::span<HeadPose> poses, std::span<RegisteredPose> placed, PoseResiduals& residuals,
          StageContext& context)
       : poses_(poses),
         placed_(placed),
@@ -140,7 +140,7 @@ class Placer {
   }
   // Of what a pose shows, its own frame.
   Vec3d middle_of(std::size_t p) const {
-    const PoseSurface& pose = poses_[p];
+    const HeadPose& pose = poses_[p];
     Vec3d middle;
     for (double Vec3d::*axis : {&Vec3d::x, &Vec3d::y, &Vec3d::z}) {
       std::pmr::vector<double> values(&context_.scratch);
@@ -199,7 +199,7 @@ class Placer {
     residuals_.for_each_part(parts.size(), [&](std::size_t i) {
       const std::size_t b = i / PoseResiduals::kParts;
       if (known_[b] == 0) return;
-      const PoseSurface& surface = poses_[b];
+      const HeadPose& surface = poses_[b];
       const RigidTransform& placed = placed_[b].first_from_pose;
       const Rotation back = transposed(placed.rotation);
       const RigidTransform here_from_there = product(inverse(placed_[p].first_from_pose), placed);
@@ -246,7 +246,7 @@ class Placer {
     return all;
   }
 
-  std::span<PoseSurface> poses_;
+  std::span<HeadPose> poses_;
   std::span<RegisteredPose> placed_;
   PoseResiduals& residuals_;
   StageContext& context_;
@@ -255,12 +255,12 @@ class Placer {
 
 }  // namespace
 
-Result<void> place_poses(std::span<PoseSurface> poses, std::span<RegisteredPose> placed,
+Result<void> place_poses(std::span<HeadPose> poses, std::span<RegisteredPose> placed,
                          PoseResiduals& residuals, StageContext& context) {
   return Placer(poses, placed, residuals, context).place_all();
 }
 
-void place_last_pose(std::span<PoseSurface> poses, StageContext& context) {
+void place_last_pose(std::span<HeadPose> poses, StageContext& context) {
   if (poses.size() < 2 || !poses[0].has_head) return;
   std::pmr::vector<RegisteredPose> placed(poses.size(), &context.scratch);
   PoseResiduals residuals(poses, placed, context);

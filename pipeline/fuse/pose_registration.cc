@@ -121,7 +121,7 @@ class JointSolver {
       for (const SharedSkin& skin : residuals_.surface(p).shared_skin) {
         const std::size_t from = skin.pose;
         if (!placed_[p].joined || !placed_[from].joined) continue;
-        const PoseSurface& surface = residuals_.surface(from);
+        const HeadPose& surface = residuals_.surface(from);
         const RigidTransform& placed = placed_[from].first_from_pose;
         Vec3d at = apply(placed, wide(surface.nodes[skin.node].at_mm)),
               other = apply(placed_[p].first_from_pose, wide(skin.at_mm));
@@ -290,7 +290,7 @@ class JointSolver {
 
 }  // namespace
 
-Result<Registration> register_poses(std::span<PoseSurface> poses, StageContext& context) {
+Result<Registration> register_poses(std::span<HeadPose> poses, StageContext& context) {
   if (poses.empty() || !poses[0].has_head)
     return Error{Errc::InvalidInput, "no head was found in the first pair: it must be the one from in front"}
         .at("pair 1");
@@ -317,7 +317,9 @@ Result<Registration> register_poses(std::span<PoseSurface> poses, StageContext& 
       made.skin_moved_mm = std::sqrt(residuals.skin().variance_mm2());
     } while (leave_out());
     if (std::none_of(made.poses.begin() + 1, made.poses.end(), [](const auto& p) { return p.joined; }))
-      return meets_no_other_pose(1);
+      return Error{Errc::PoorGeometry,
+                   "what this pair shows meets none of the others: turn the head by less between two of them"}
+          .at("pair 2");
     measure_agreement(poses, made, context);
   }
   return made;

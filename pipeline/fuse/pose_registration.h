@@ -19,7 +19,7 @@
 #include <vector>
 
 #include "pipeline/base/stage.h"
-#include "pipeline/fuse/pose_surface.h"
+#include "pipeline/fuse/head_pose.h"
 
 namespace relievo::pipeline {
 
@@ -66,7 +66,7 @@ struct Registration {
 // out; names the first of them), Cancelled. Throws std::bad_alloc. Thread: any. `place_last_pose` does a part
 // of it before all poses are there: lays the last of these onto those before it, if it lies well there, and
 // finds the skin they share. Memory: scratch; what they share in the pose's own.
-void place_last_pose(std::span<PoseSurface> poses, StageContext& context);
-Result<Registration> register_poses(std::span<PoseSurface> poses, StageContext& context);
+void place_last_pose(std::span<HeadPose> poses, StageContext& context);
+Result<Registration> register_poses(std::span<HeadPose> poses, StageContext& context);
 
 }  // namespace relievo::pipeline

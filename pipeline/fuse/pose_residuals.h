@@ -103,18 +103,18 @@ struct PoseResidual {
 
 class PoseResiduals {
  public:
-  static constexpr std::size_t kParts = 4;  // of a pose's samples, for the threads
+  static constexpr std::size_t kParts = 4;    // of a pose's samples, for the threads
+  static constexpr float kLeastTrust = 0.2F;  // of a node that is laid onto another pose's: less is a rim
 
   // All three outlive it. `placed` is what is solved for.
-  PoseResiduals(std::span<const PoseSurface> poses, std::span<RegisteredPose> placed, StageContext& context);
+  PoseResiduals(std::span<const HeadPose> poses, std::span<RegisteredPose> placed, StageContext& context);
 
-  std::size_t poses() const { return poses_.size(); }
   // Middle of the head, about which small motions turn.
   const Vec3d& pivot() const { return pivot_; }
   // To the right and upwards along the skin, unit length.
   std::array<Vec3d, 2> along_skin(const Vec3d& normal) const;
   std::size_t patch_at(const Vec3d& place) const;
-  const PoseSurface& surface(std::size_t pose) const { return poses_[pose]; }
+  const HeadPose& surface(std::size_t pose) const { return poses_[pose]; }
   SkinPatches& skin() { return skin_; }
   // Surfaces of calibrations that differ lie off everywhere: no scale is narrower than what is usual.
   void set_usual_mm(double mm) { usual_mm_ = mm; }
@@ -131,7 +131,7 @@ class PoseResiduals {
   // visit(node, normal, say, residual with its place and patch).
   template <typename Visit>
   void for_each_sample(std::size_t a, double most, Visit&& visit, std::size_t part, std::size_t parts) const {
-    const PoseSurface& from = poses_[a];
+    const HeadPose& from = poses_[a];
     const int every = std::max(1, int(std::sqrt(double(from.nodes.size()) / most)));
     const RigidTransform& placed = placed_[a].first_from_pose;
     const int step = every * int(parts);
@@ -173,12 +173,10 @@ class PoseResiduals {
   std::optional<double> before_mm(const Vec3d& at, std::size_t b) const;
 
  private:
-  static constexpr float kLeastTrust = 0.2F;  // of a node that is laid onto another pose's
-
   // How much the skin at `res.at` has to say of how the skull stands; sets its patch.
   double say_of(PoseResidual& res) const;
 
-  std::span<const PoseSurface> poses_;
+  std::span<const HeadPose> poses_;
   std::span<RegisteredPose> placed_;
   StageContext& context_;
   double usual_mm_ = 0;  // distance between the surfaces, in the step before
@@ -190,13 +188,12 @@ class PoseResiduals {
 // turned by up to 65 degrees, the best of all. Where one would stand before skin that another measured, it
 // does not lie. One that meets no other is not `joined`. Finds the skin it shares with them. Errors:
 // Cancelled.
-Result<void> place_poses(std::span<PoseSurface> poses, std::span<RegisteredPose> placed,
+Result<void> place_poses(std::span<HeadPose> poses, std::span<RegisteredPose> placed,
                          PoseResiduals& residuals, StageContext& context);
 
 // Fills `meets` of the poses, and `residuals`, of what is registered.
-void measure_agreement(std::span<const PoseSurface> poses, Registration& registration, StageContext& context);
+void measure_agreement(std::span<const HeadPose> poses, Registration& registration, StageContext& context);
 
-Error meets_no_other_pose(std::size_t pose);
 Error registration_stopped();
 
 }  // namespace relievo::pipeline

@@ -85,10 +85,7 @@ void smooth_rims(std::span<Vec3f> vertices, std::span<const BorderEdge> border, 
                  std::pmr::memory_resource* memory) {
   std::pmr::vector<std::uint32_t> next(vertices.size(), kNobody, memory),
       before(vertices.size(), kNobody, memory);
-  std::pmr::vector<std::uint8_t> shared(vertices.size(), 0, memory);
   for (const BorderEdge& e : border) {
-    if (next[e[0]] != kNobody) shared[e[0]] = 1;
-    if (before[e[1]] != kNobody) shared[e[1]] = 1;
     next[e[0]] = e[1];
     before[e[1]] = e[0];
   }
@@ -97,7 +94,6 @@ void smooth_rims(std::span<Vec3f> vertices, std::span<const BorderEdge> border, 
   for (int round = 0; round < rounds; ++round) {
     for (const BorderEdge& e : border) {
       const std::uint32_t v = e[0];
-      if (shared[v] != 0 || before[v] == kNobody) continue;
       const Vec3f middle = times(plus(vertices[next[v]], vertices[before[v]]), 0.5F);
       const Vec3f way = minus(times(plus(vertices[v], middle), 0.5F), first[v]);
       const float far = length(way);

@@ -1,8 +1,8 @@
 // SPDX-FileCopyrightText: 2026 The Relievo authors
 // SPDX-License-Identifier: GPL-3.0-or-later
 //
-// The rims of a fused head's surface. Triangles are counter-clockwise seen from outside. Thread: any. Throw
-// std::bad_alloc.
+// The rims of a fused head's surface. Triangles are counter-clockwise seen from outside; no rim passes
+// through a vertex twice, nor two (keep_one_surface()). Thread: any. Throw std::bad_alloc.
 #pragma once
 
 #include <cstdint>
@@ -23,7 +23,7 @@ void open_rims(std::span<const Vec3f> vertices_mm, std::span<const std::uint8_t>
                std::pmr::memory_resource* memory);
 
 // Straightens rims: every vertex of them towards the middle of its two neighbours, by at most so much from
-// where it was. One that several rims share stays.
+// where it was.
 void smooth_rims(std::span<Vec3f> vertices_mm, std::span<const BorderEdge> border, int rounds, float most_mm,
                  std::pmr::memory_resource* memory);
 

@@ -59,7 +59,7 @@ void blur(std::pmr::vector<float>& plane, int columns, int rows, double sigma_ce
 
 class Bender {
  public:
-  Bender(std::span<PoseSurface> poses, const Registration& registration, const BendLimits& limits,
+  Bender(std::span<HeadPose> poses, const Registration& registration, const BendLimits& limits,
          StageContext& context)
       : poses_(poses),
         registration_(registration),
@@ -126,7 +126,7 @@ class Bender {
   }
 
   void bend(std::size_t k) {
-    PoseSurface& pose = poses_[k];
+    HeadPose& pose = poses_[k];
     const Arena::Mark mark(context_.scratch);
     const float node_mm = float(pose.step_px / pose.focal_px * distance_of(pose));
     const int every = std::max(1, int(std::lround(kCellMm / node_mm)));
@@ -192,7 +192,7 @@ class Bender {
       field.square[k] = (field.square[k] + kNothingSaid * all) / (around[k] + kNothingSaid);
   }
 
-  static double distance_of(const PoseSurface& pose) {
+  static double distance_of(const HeadPose& pose) {
     double sum = 0, count = 1e-9;
     for (std::size_t i = 0; i < pose.nodes.size(); i += 101)
       if (pose.nodes[i].trust > 0) {
@@ -217,7 +217,7 @@ class Bender {
     return sum / weight;
   }
 
-  std::span<PoseSurface> poses_;
+  std::span<HeadPose> poses_;
   const Registration& registration_;
   const BendLimits& limits_;
   StageContext& context_;
@@ -226,7 +226,7 @@ class Bender {
 
 }  // namespace
 
-void bend_to_master(std::span<PoseSurface> poses, const Registration& registration, const BendLimits& limits,
+void bend_to_master(std::span<HeadPose> poses, const Registration& registration, const BendLimits& limits,
                     StageContext& context) {
   Bender(poses, registration, limits, context).run();
 }

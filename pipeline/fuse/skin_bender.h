@@ -24,7 +24,7 @@ struct BendLimits {
 // One after the other: the first never moves, and next is always the pose that overlaps most with those that
 // are done. Its sigma grows by a share of how far the skin around was bent. Memory: scratch. Throws
 // std::bad_alloc.
-void bend_to_master(std::span<PoseSurface> poses, const Registration& registration, const BendLimits& limits,
+void bend_to_master(std::span<HeadPose> poses, const Registration& registration, const BendLimits& limits,
                     StageContext& context);
 
 }  // namespace relievo::pipeline

@@ -26,13 +26,13 @@ struct Window {
   Vec2f middle, right, up;  // pixels
 };
 
-Vec2f project(const PoseSurface& pose, const Vec3d& place) {
+Vec2f project(const HeadPose& pose, const Vec3d& place) {
   const Vec3d p = apply(pose.rectified_from_camera, place);
   return {float(pose.focal_px * p.x / p.z + pose.centre_px.x),
           float(pose.focal_px * p.y / p.z + pose.centre_px.y)};
 }
 
-Window window_on(const PoseSurface& pose, const Vec3d& place, const Vec3d& right, const Vec3d& up) {
+Window window_on(const HeadPose& pose, const Vec3d& place, const Vec3d& right, const Vec3d& up) {
   const Vec2f middle = project(pose, place), r = project(pose, plus(place, right)),
               u = project(pose, plus(place, up));
   return {middle, {r.x - middle.x, r.y - middle.y}, {u.x - middle.x, u.y - middle.y}};
@@ -40,11 +40,11 @@ Window window_on(const PoseSurface& pose, const Vec3d& place, const Vec3d& right
 
 class Photograph {
  public:
-  explicit Photograph(const PoseSurface& pose)
-      : rgb_(pose.photo_rgb),
-        photo_(pose.photo_rgb, pose.photo_width_px, pose.photo_height_px),
-        width_(float(pose.photo_width_px)),
-        height_(float(pose.photo_height_px)) {}
+  explicit Photograph(const HeadPose& pose)
+      : rgb_(pose.left_rgb),
+        photo_(pose.left_rgb, pose.width_px, pose.height_px),
+        width_(float(pose.width_px)),
+        height_(float(pose.height_px)) {}
 
   // False where the window leaves the photograph, as it is rectified.
   template <std::size_t N>
@@ -132,12 +132,12 @@ std::optional<Vec2f> track(const Photograph& from, const Window& there, const Ph
 
 }  // namespace
 
-bool shows_skin(const PoseSurface& pose, const Vec3d& place) {
-  return !pose.photo_rgb.empty() && length(place) < kMostPixelMm * pose.focal_px;
+bool shows_skin(const HeadPose& pose, const Vec3d& place) {
+  return !pose.left_rgb.empty() && length(place) < kMostPixelMm * pose.focal_px;
 }
 
-std::optional<Vec3d> same_skin(const PoseSurface& pose, const Vec3d& place, const std::array<Vec3d, 2>& along,
-                               const PoseSurface& other, const RigidTransform& other_from_pose) {
+std::optional<Vec3d> same_skin(const HeadPose& pose, const Vec3d& place, const std::array<Vec3d, 2>& along,
+                               const HeadPose& other, const RigidTransform& other_from_pose) {
   const Vec3d guess = apply(other_from_pose, place);
   const auto hit = other.look(narrow(guess));
   if (!hit || hit->trust < kLeastTrust || !shows_skin(other, guess)) return std::nullopt;

@@ -9,18 +9,17 @@
 #include <array>
 #include <optional>
 
-#include "pipeline/fuse/pose_surface.h"
+#include "pipeline/fuse/head_pose.h"
 
 namespace relievo::pipeline {
 
 // Whether a pixel is narrow enough to show skin.
-bool shows_skin(const PoseSurface& pose, const Vec3d& place_mm);
+bool shows_skin(const HeadPose& pose, const Vec3d& place_mm);
 
 // Where the other pose's photograph shows what `pose` shows at `place_mm`, each in its own frame. `along`:
 // two directions along the surface, unit length, in the frame of `pose`. None where the other does not show
 // it, or not alike.
-std::optional<Vec3d> same_skin(const PoseSurface& pose, const Vec3d& place_mm,
-                               const std::array<Vec3d, 2>& along, const PoseSurface& other,
-                               const RigidTransform& other_from_pose);
+std::optional<Vec3d> same_skin(const HeadPose& pose, const Vec3d& place_mm, const std::array<Vec3d, 2>& along,
+                               const HeadPose& other, const RigidTransform& other_from_pose);
 
 }  // namespace relievo::pipeline

@@ -24,7 +24,7 @@ constexpr GateTime kShortestMotion = std::chrono::milliseconds{50};
 constexpr double kNeckMm = 60;  // a head turns about an axis so far behind the tip of its nose, or farther
 
 // A second face must be as wide as one at its own distance, where that is known.
-bool is_face(const Relief& relief, const FaceHit& hit) {
+bool is_face(const Relief& relief, const FaceBox& hit) {
   const int x = int(std::lround(hit.centre_px.x)), y = int(std::lround(hit.centre_px.y));
   if (!relief.inside(x, y) || !relief.known(x, y)) return hit.votes >= 2 * kSecondFaceVotes;
   const double width_mm = hit.width_px * double(relief.depth_mm[relief.index(x, y)]) / relief.focal_px;
@@ -34,7 +34,7 @@ bool is_face(const Relief& relief, const FaceHit& hit) {
 int count_faces(const Relief& relief, const FaceHits& hits) {
   int faces = std::min(hits.count, 1);
   for (int i = 1; i < hits.count; ++i) {
-    const FaceHit& hit = hits.hit[std::size_t(i)];
+    const FaceBox& hit = hits.hit[std::size_t(i)];
     if (hit.width_px > kSecondFaceShare * hits.hit[0].width_px && is_face(relief, hit)) ++faces;
   }
   return faces;
@@ -122,11 +122,10 @@ void settle(GateTime now, GateAnswer& answer, GateHistory& history) {
   const bool otherwise =
       answer.reason != history.said && history.heard != history.said && answer.reason != Advice::None;
   if (answer.reason == history.heard || otherwise) history.said = answer.reason;
+  const bool good = answer.reason == Advice::None;
+  if (good && history.heard != Advice::None) history.good_since = now;
   history.heard = answer.reason;
   answer.advice = history.said;
-  const bool good = answer.reason == Advice::None;
-  if (good && !history.good) history.good_since = now;
-  history.good = good;
   answer.steady = good ? now - history.good_since : GateTime{0};
 }
 
@@ -141,7 +140,7 @@ Result<CaptureGate> CaptureGate::open(const CaptureGateOptions& options) {
 
 Result<GateLook> CaptureGate::look(const StereoFrame& frame, const StereoCalibration& calibration,
                                    GateTime now, GateHistory& history, StageContext& context) {
-  RELIEVO_TRY_ASSIGN(Relief relief, relief_.look(frame, calibration, context));
+  RELIEVO_TRY_ASSIGN(Relief relief, options_.relief.look(frame, calibration, context));
   RELIEVO_TRY_ASSIGN(const FaceHits hits, watch_.look(relief));
   GateAnswer answer;
   GateMeasures& m = answer.measures;

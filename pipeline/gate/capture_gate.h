@@ -2,17 +2,12 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 //
 // CaptureGate: judges the live pair and answers with one piece of advice, the first that holds in the order
-// of Advice. None means: take it.
-//
-//   pair --> relief, faces by cascade --> the head by stereo --> light, sharpness, eyes, mouth --> judge()
-//   --> steadied by the history
-//
-// look() is a function of the pictures, the time and the history, which is plain data of fixed size: the same
-// of these gives the same answer. What a person is told changes only when a reason was seen twice; `reason`
-// is this picture's own, and `steady` is how long no picture has had one: nothing may be taken while `reason`
-// is not None. Memory: the relief in context.output, the rest in context.scratch; OpenCV's cascades use their
-// own, bounded by the size of the picture. Thread: one caller at a time. Errors of look(): those of
-// LiveRelief and FaceWatch.
+// of Advice. None means: take it. look() is a function of the pictures, the time and the history, which is
+// plain data of fixed size: the same of these gives the same answer. What a person is told changes only when
+// a reason was seen twice; `reason` is this picture's own, and `steady` is how long no picture has had one:
+// nothing may be taken while `reason` is not None. Memory: the relief in context.output, the rest in
+// context.scratch; OpenCV's cascades use their own, bounded by the size of the picture. Thread: one caller at
+// a time. Errors of look(): those of LiveRelief and FaceWatch.
 #pragma once
 
 #include <chrono>
@@ -27,7 +22,7 @@ namespace relievo::pipeline {
 using GateTime = std::chrono::nanoseconds;  // of the exposure, on any steady clock
 
 struct CaptureGateOptions {
-  LiveReliefOptions relief;
+  LiveRelief relief;
   std::string cascade_dir = "/usr/share/opencv4/haarcascades";  // Debian's opencv-data
   GateLimits limits;
 };
@@ -48,8 +43,7 @@ struct GateHistory {
   double speed_mm_s = 0, turn_deg_s = 0;
   Advice said = Advice::NoFace;   // to the person
   Advice heard = Advice::NoFace;  // the reason of the picture before
-  bool good = false;
-  GateTime good_since{};
+  GateTime good_since{};          // where that was none
 };
 
 struct GateAnswer {
@@ -73,9 +67,8 @@ class CaptureGate {
 
  private:
   CaptureGate(FaceWatch watch, const CaptureGateOptions& options)
-      : watch_(std::move(watch)), relief_(options.relief), options_(options) {}
+      : watch_(std::move(watch)), options_(options) {}
   FaceWatch watch_;
-  LiveRelief relief_;
   CaptureGateOptions options_;
 };
 

@@ -8,8 +8,7 @@
 namespace relievo::pipeline {
 namespace {
 
-constexpr double kFillsMiddle =
-    0.4;  // somebody too near for a whole face, or a face of which light leaves nothing
+constexpr double kFillsMiddle = 0.4;  // too near for a whole face, or a face of which light leaves nothing
 
 struct Judge {
   const GateMeasures& m;

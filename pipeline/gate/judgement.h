@@ -9,8 +9,7 @@
 #include <array>
 
 #include "hal/base/result.h"
-#include "pipeline/gate/expression/eye_measurement.h"
-#include "pipeline/gate/expression/mouth_measurement.h"
+#include "pipeline/gate/expression/expression_measurement.h"
 #include "pipeline/gate/head/head_measurement.h"
 #include "pipeline/gate/light/face_light.h"
 #include "pipeline/model/advice.h"
@@ -22,12 +21,10 @@ struct GateMeasures {
   bool tracked = false;  // no cascade sees the face; the relief shows one, where it was a moment ago or where
                          // the outline of somebody has its head
   bool turned_far = false;  // so far that the yaw is that of the outline: head_outline.h
-  double guessed_mm =
-      0;  // distance by the width of the face, for one too near or too far for the relief; 0: none seen
+  double guessed_mm = 0;    // distance by a face's width, also of one that the relief does not reach; 0: none
   double picture_dark_share = 0;   // of the whole picture, luminance 0 .. 25
   double middle_bright_share = 0;  // of the middle of the picture, where a face should be: 247 .. 255
-  double middle_near_share =
-      0;  // of the same: known by the relief to be nearer than the capture volume begins
+  double middle_near_share = 0;    // of the same: by the relief nearer than the capture volume
   // Somebody near whose face is not found: how far from the picture's middle, in shares of its width and
   // height; 0: not clearly, or nobody.
   double somebody_right = 0, somebody_down = 0;
@@ -40,8 +37,7 @@ struct GateMeasures {
   double blur_mm = 0;                  // on the face: face_light.h
   std::array<EyeMeasurement, 2> eyes;  // on the picture's left, on its right
   MouthMeasurement mouth;
-  double beside_share =
-      0;  // of a field beside the head, by something else at the depth of the face: head_outline.h
+  double beside_share = 0;  // of a field beside the head, by something else that far away: head_outline.h
 };
 
 // A limit is left again only below (or above) a share of it: what was said is not taken back by noise.

@@ -11,7 +11,8 @@
 
 namespace relievo::pipeline {
 
-// Everything but epipolar_residual_px, which the matches know. Memory: scratch only.
+// Everything but epipolar_residual_px (the matches know it), relief and texture_sharpness. Memory: scratch
+// only.
 ModelQuality measure_quality(const FaceMesh& mesh, const HeadFrame& frame, StageContext& context);
 
 }  // namespace relievo::pipeline

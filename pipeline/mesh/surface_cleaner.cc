@@ -120,7 +120,7 @@ class Soup {
     return area;
   }
 
-  // Turns from `start` over the edges at `v` in one sense; the fan's length, its triangles in stack_.
+  // The triangles that hang together with `start` by edges at `v`, in stack_.
   void collect_fan(std::uint32_t v, std::uint32_t start) {
     stack_.assign(1, start);
     for (std::size_t next = 0; next < stack_.size(); ++next) {

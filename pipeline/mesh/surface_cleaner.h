@@ -63,6 +63,14 @@ struct PackedVertex {
   std::uint8_t measured = 0;
 };
 
+// Without a normal. Returns its number.
+inline std::uint32_t add_vertex(FaceMesh& mesh, const PackedVertex& vertex) {
+  mesh.vertices_mm.push_back(vertex.at_mm);
+  mesh.sigma_mm.push_back(vertex.sigma_mm);
+  mesh.measured.push_back(vertex.measured);
+  return std::uint32_t(mesh.vertices_mm.size() - 1);
+}
+
 // The mesh, in `context.output`, of those of `count` vertices that a triangle uses, in their order;
 // `vertex(v)` says what the v-th is. Room for normals is reserved, none are written. Throws std::bad_alloc
 // when memory is used up.
@@ -82,13 +90,8 @@ FaceMesh pack_mesh(std::size_t count, std::span<const Triangle> triangles, Stage
   mesh.sigma_mm.reserve(used);
   mesh.measured.reserve(used);
   mesh.triangles.reserve(triangles.size());
-  for (std::size_t v = 0; v < count; ++v) {
-    if (place[v] == kUnused) continue;
-    const PackedVertex packed = vertex(v);
-    mesh.vertices_mm.push_back(packed.at_mm);
-    mesh.sigma_mm.push_back(packed.sigma_mm);
-    mesh.measured.push_back(packed.measured);
-  }
+  for (std::size_t v = 0; v < count; ++v)
+    if (place[v] != kUnused) add_vertex(mesh, vertex(v));
   for (const Triangle& t : triangles) mesh.triangles.push_back({place[t[0]], place[t[1]], place[t[2]]});
   return mesh;
 }

@@ -6,6 +6,7 @@
 #pragma once
 
 #include <array>
+#include <cstddef>
 #include <cstdint>
 #include <memory_resource>
 #include <vector>
@@ -29,5 +30,18 @@ struct FaceMesh {
   std::pmr::vector<std::uint8_t> pose;      // one a vertex: the pair that measured it; empty: there was one
   std::pmr::vector<std::array<std::uint32_t, 3>> triangles;
 };
+
+// Its border, one a vertex: 1 where the triangles around it do not close. Of a manifold surface. Throws
+// std::bad_alloc.
+inline std::pmr::vector<std::uint8_t> border_vertices(const FaceMesh& mesh,
+                                                      std::pmr::memory_resource* memory) {
+  std::pmr::vector<std::int64_t> turn(mesh.vertices_mm.size(), 0, memory);  // where they close it sums to 0
+  for (const auto& t : mesh.triangles)
+    for (std::size_t i = 0; i < 3; ++i)
+      turn[t[i]] += std::int64_t{t[(i + 1) % 3]} - std::int64_t{t[(i + 2) % 3]};
+  std::pmr::vector<std::uint8_t> border(turn.size(), 0, memory);
+  for (std::size_t v = 0; v < turn.size(); ++v) border[v] = turn[v] != 0 ? 1 : 0;
+  return border;
+}
 
 }  // namespace relievo::pipeline

@@ -39,7 +39,7 @@ enum class LiveAdvice : std::uint8_t {
 enum class LiveEnd : std::uint8_t {
   NotYet,
   GoalReached,  // the predicted error is below the goal, and the bars are full enough
-  Plateau,      // no further view would lower the error noticeably
+  Plateau,      // no further view would lower the error noticeably, or put a wrong square size right
   Full,         // as many views as the options allow
 };
 

@@ -35,7 +35,6 @@ struct Relief {
   std::pmr::vector<float> depth_mm;         // z; 0 where nothing is known
   std::pmr::vector<std::uint16_t> surface;  // which connected one, 1 the largest; 0: nothing is known
   std::pmr::vector<std::uint8_t> grey;      // luminance of the left view
-  int surfaces = 0;
 
   std::size_t index(int x, int y) const { return std::size_t(y) * std::size_t(width_px) + std::size_t(x); }
   // Of a place between pixels; std::lround() is a call, and asked a million times a picture.

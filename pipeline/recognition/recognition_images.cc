@@ -16,28 +16,34 @@ namespace {
 
 constexpr float kLeastFacing = 0.0872F;  // cosine of 85 degrees
 
-struct HeadPoint {
-  Vec2f pixel;
+// 200 x 250 mm about the tip of the nose.
+constexpr double kPitchMm = 0.5;
+constexpr Vec2d kFirstMm{-100, 130};
+constexpr int kRangeWidthPx = 401, kRangeHeightPx = 501;
+
+// A vertex in a picture.
+struct Seen {
+  Vec2f at;  // pixels, or samples
   float z_mm;
 };
 
-std::pmr::vector<HeadPoint> on_the_grid(const FaceMesh& mesh, const RigidTransform& head_from_camera,
-                                        const RangeGrid& grid, std::pmr::memory_resource* memory) {
-  std::pmr::vector<HeadPoint> points(memory);
+std::pmr::vector<Seen> on_the_grid(const FaceMesh& mesh, const RigidTransform& head_from_camera,
+                                   std::pmr::memory_resource* memory) {
+  std::pmr::vector<Seen> points(memory);
   points.reserve(mesh.vertices_mm.size());
   for (const Vec3f& v : mesh.vertices_mm) {
     const Vec3d p = apply(head_from_camera, wide(v));
     points.push_back(
-        {{float((p.x - grid.first_mm.x) / grid.pitch_mm), float((grid.first_mm.y - p.y) / grid.pitch_mm)},
-         float(p.z)});
+        {{float((p.x - kFirstMm.x) / kPitchMm), float((kFirstMm.y - p.y) / kPitchMm)}, float(p.z)});
   }
   return points;
 }
 
 // Cosine between a triangle's normal and +z; negative from behind. Rows run downwards, hence the sign.
-float facing(const HeadPoint& a, const HeadPoint& b, const HeadPoint& c, float pitch) {
-  const auto side = [&](const HeadPoint& to) {
-    return Vec3f{(to.pixel.x - a.pixel.x) * pitch, -(to.pixel.y - a.pixel.y) * pitch, to.z_mm - a.z_mm};
+float facing(const Seen& a, const Seen& b, const Seen& c) {
+  const auto side = [&](const Seen& to) {
+    constexpr auto kPitch = float(kPitchMm);
+    return Vec3f{(to.at.x - a.at.x) * kPitch, -(to.at.y - a.at.y) * kPitch, to.z_mm - a.z_mm};
   };
   const Vec3f normal = cross(side(b), side(c));
   const float size = length(normal);
@@ -80,11 +86,7 @@ Eyes eyes_of(const FaceModel& model) {
 
 constexpr int kFiner = 2;  // samples a pixel and side
 
-struct Seen {
-  Vec2f at;
-  float z_mm;
-};  // in samples; not in front of the camera: z <= 0
-
+// In samples; what is not in front of the camera has no z.
 std::pmr::vector<Seen> project(const FaceMesh& mesh, const ViewCamera& camera,
                                std::pmr::memory_resource* memory) {
   std::pmr::vector<Seen> seen(memory);
@@ -159,29 +161,29 @@ void draw(const FaceMesh& mesh, const TextureAtlas& atlas, std::span<const Seen>
 
 }  // namespace
 
-RangeImage measure_range(const FaceMesh& mesh, const RigidTransform& head_from_camera, const RangeGrid& grid,
+RangeImage measure_range(const FaceMesh& mesh, const RigidTransform& head_from_camera,
                          std::pmr::memory_resource* output, std::pmr::memory_resource* scratch) {
   RangeImage image(output);
-  image.width_px = grid.width_px;
-  image.height_px = grid.height_px;
-  image.pitch_mm = grid.pitch_mm;
-  image.first_mm = grid.first_mm;
-  const std::size_t size = std::size_t(grid.width_px) * std::size_t(grid.height_px);
-  image.z_mm.assign(size, 0);
-  image.sigma_mm.assign(size, 0);
-  image.shows.assign(size, kNothingShown);
-  const auto points = on_the_grid(mesh, head_from_camera, grid, scratch);
+  image.width_px = kRangeWidthPx;
+  image.height_px = kRangeHeightPx;
+  image.pitch_mm = kPitchMm;
+  image.first_mm = kFirstMm;
+  constexpr std::size_t kSize = std::size_t{kRangeWidthPx} * kRangeHeightPx;
+  image.z_mm.assign(kSize, 0);
+  image.sigma_mm.assign(kSize, 0);
+  image.shows.assign(kSize, kNothingShown);
+  const auto points = on_the_grid(mesh, head_from_camera, scratch);
   const auto sigma = [&](std::uint32_t v) { return mesh.sigma_mm.empty() ? 0.0F : mesh.sigma_mm[v]; };
   for (const auto& t : mesh.triangles) {
-    const HeadPoint& a = points[t[0]];
-    const HeadPoint& b = points[t[1]];
-    const HeadPoint& c = points[t[2]];
-    const float cosine = facing(a, b, c, float(grid.pitch_mm));
+    const Seen& a = points[t[0]];
+    const Seen& b = points[t[1]];
+    const Seen& c = points[t[2]];
+    const float cosine = facing(a, b, c);
     if (cosine < kLeastFacing) continue;
     const std::uint8_t shows = shown(mesh, t);
-    for_each_texel(a.pixel, b.pixel, c.pixel, grid.width_px, {0, grid.height_px},
+    for_each_texel(a.at, b.at, c.at, kRangeWidthPx, {0, kRangeHeightPx},
                    [&](int x, int y, float wa, float wb, float wc) {
-                     const std::size_t k = std::size_t(y) * std::size_t(grid.width_px) + std::size_t(x);
+                     const std::size_t k = std::size_t(y) * kRangeWidthPx + std::size_t(x);
                      const float z = wa * a.z_mm + wb * b.z_mm + wc * c.z_mm;
                      if (image.shows[k] != kNothingShown && z <= image.z_mm[k]) return;
                      image.z_mm[k] = z;
@@ -262,7 +264,7 @@ Result<RecognitionImages> make_recognition_images(const FaceModel& model, std::p
   try {
     RecognitionImages images(&output);
     images.portrait = draw_portrait(model, &output, &scratch);
-    images.range = measure_range(model.mesh, model.head_from_camera, {}, &output, &scratch);
+    images.range = measure_range(model.mesh, model.head_from_camera, &output, &scratch);
     return images;
   } catch (const std::bad_alloc&) {
     return Error{Errc::OutOfMemory, "not enough memory for the portrait and the range image"};

@@ -22,17 +22,10 @@ namespace relievo::pipeline {
 
 // A surface as heights over a fixed grid of the head frame, as face recognition from range images takes
 // it (Bowyer, Chang, Flynn: A survey of approaches and challenges in 3D and multi-modal 3D + 2D face
-// recognition, CVIU 2006). Exact on the triangles: a pixel is a ray along -z through its centre.
-// Throws std::bad_alloc.
-struct RangeGrid {
-  double pitch_mm = 0.5;
-  Vec2d first_mm{-100, 130};  // x of the left column, y of the upper row
-  int width_px = 401;         // to x = 100
-  int height_px = 501;        // to y = -120
-};
-
-// Surface seen from behind or at more than 85 degrees has no height worth keeping.
-RangeImage measure_range(const FaceMesh& mesh, const RigidTransform& head_from_camera, const RangeGrid& grid,
+// recognition, CVIU 2006): 401 x 501 pixels of 0.5 mm, x from -100 to 100, y from 130 down to -120. Exact on
+// the triangles: a pixel is a ray along -z through its centre. Surface seen from behind or at more than 85
+// degrees has no height worth keeping. Throws std::bad_alloc.
+RangeImage measure_range(const FaceMesh& mesh, const RigidTransform& head_from_camera,
                          std::pmr::memory_resource* output, std::pmr::memory_resource* scratch);
 
 // The frontal portrait, laid out as ISO/IEC 39794-5:2019, annex D, and ICAO Doc 9303-3 ask of a

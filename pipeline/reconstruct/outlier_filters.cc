@@ -20,11 +20,44 @@ namespace {
 
 constexpr int kBands = 32;
 
+constexpr float kLargestPixel = 100'000;
+constexpr double kPointsPerBucket = 3;  // nine then hold about as many as a lattice's neighbourhood
+
+bool usable(const CloudPoint& p) {
+  return std::isfinite(p.at_mm.x) && std::isfinite(p.at_mm.y) && std::isfinite(p.at_mm.z) && p.at_mm.z > 0 &&
+         std::abs(p.left_px.x) < kLargestPixel && std::abs(p.left_px.y) < kLargestPixel;
+}
+
 // Neighbourhood: who is near whom in the left view, for clouds on a lattice and for scattered ones.
 // Every cell holds the points of one lattice node (at most one), or of one bucket (a few).
 struct Neighbourhood {
   // Throws std::bad_alloc. Points whose coordinates are not finite get no cell.
-  Neighbourhood(const PointCloud& cloud, std::pmr::memory_resource* memory);
+  Neighbourhood(const PointCloud& cloud, std::pmr::memory_resource* memory)
+      : on_lattice(cloud.lattice_step_px > 0), cells(memory) {
+    float left = kLargestPixel;
+    float top = kLargestPixel;
+    float right = -kLargestPixel;
+    float bottom = -kLargestPixel;
+    std::size_t count = 0;
+    for (const CloudPoint& p : cloud.points) {
+      if (!usable(p)) continue;
+      ++count;
+      left = std::min(left, p.left_px.x);
+      right = std::max(right, p.left_px.x);
+      top = std::min(top, p.left_px.y);
+      bottom = std::max(bottom, p.left_px.y);
+    }
+    if (count == 0) return;
+    const double area = double(right - left + 1) * double(bottom - top + 1);
+    const double step = on_lattice ? cloud.lattice_step_px
+                                   : std::max(1e-3, std::sqrt(area * kPointsPerBucket / double(count)));
+    const auto cell_of = [step](float from, float at) { return int(std::lround(double(at - from) / step)); };
+    cells.fill(cell_of(left, right) + 1, cell_of(top, bottom) + 1, [&](auto&& add) {
+      for (std::uint32_t i = 0; i < cloud.points.size(); ++i)
+        if (const CloudPoint& p = cloud.points[i]; usable(p))
+          add(cell_of(left, p.left_px.x), cell_of(top, p.left_px.y), i);
+    });
+  }
 
   // How far around a point its neighbours are looked for, in cells.
   int reach() const { return on_lattice ? 2 : 1; }
@@ -42,41 +75,6 @@ struct Neighbourhood {
   bool on_lattice;
   Cells cells;
 };
-
-constexpr float kLargestPixel = 100'000;
-constexpr double kPointsPerBucket = 3;  // nine then hold about as many as a lattice's neighbourhood
-
-bool usable(const CloudPoint& p) {
-  return std::isfinite(p.at_mm.x) && std::isfinite(p.at_mm.y) && std::isfinite(p.at_mm.z) && p.at_mm.z > 0 &&
-         std::abs(p.left_px.x) < kLargestPixel && std::abs(p.left_px.y) < kLargestPixel;
-}
-
-Neighbourhood::Neighbourhood(const PointCloud& cloud, std::pmr::memory_resource* memory)
-    : on_lattice(cloud.lattice_step_px > 0), cells(memory) {
-  float left = kLargestPixel;
-  float top = kLargestPixel;
-  float right = -kLargestPixel;
-  float bottom = -kLargestPixel;
-  std::size_t count = 0;
-  for (const CloudPoint& p : cloud.points) {
-    if (!usable(p)) continue;
-    ++count;
-    left = std::min(left, p.left_px.x);
-    right = std::max(right, p.left_px.x);
-    top = std::min(top, p.left_px.y);
-    bottom = std::max(bottom, p.left_px.y);
-  }
-  if (count == 0) return;
-  const double area = double(right - left + 1) * double(bottom - top + 1);
-  const double step =
-      on_lattice ? cloud.lattice_step_px : std::max(1e-3, std::sqrt(area * kPointsPerBucket / double(count)));
-  const auto cell_of = [step](float from, float at) { return int(std::lround(double(at - from) / step)); };
-  cells.fill(cell_of(left, right) + 1, cell_of(top, bottom) + 1, [&](auto&& add) {
-    for (std::uint32_t i = 0; i < cloud.points.size(); ++i)
-      if (const CloudPoint& p = cloud.points[i]; usable(p))
-        add(cell_of(left, p.left_px.x), cell_of(top, p.left_px.y), i);
-  });
-}
 
 constexpr int kMostRings = 8;
 constexpr float kAlone = -1;
@@ -145,8 +143,6 @@ Result<void> StatisticalOutlierFilter::reject(PointCloud& cloud, StageContext& c
 
 namespace {
 
-enum class Verdict : std::uint8_t { Kept, Unsupported, Spike, Island };
-
 struct Offset {
   float u, v, depth;
 };  // from the centre, in its RayFrame
@@ -174,41 +170,41 @@ class Filter {
         options_(options),
         near_(cloud, &scratch),
         max_slope_(float(std::tan(options.max_incidence_deg * std::numbers::pi / 180))),
-        verdict_(cloud.points.size(), Verdict::Unsupported, &scratch),
-        island_(&scratch),
+        kept_(cloud.points.size(), std::uint8_t{0}, &scratch),
+        reached_(&scratch),
         stack_(&scratch) {}
 
-  // Points without a cell were not finite; they stay unsupported.
+  // Points without a cell were not finite; they are not kept.
   bool judge(StageContext& context) {
     return near_.for_each_point(
-        context, [&](std::uint32_t i, int column, int row) { verdict_[i] = judge_point(i, column, row); });
+        context, [&](std::uint32_t i, int column, int row) { kept_[i] = belongs(i, column, row) ? 1 : 0; });
   }
 
   void drop_islands(Arena& scratch) {
-    island_.assign(points_.size(), 0U);
+    reached_.assign(points_.size(), std::uint8_t{0});
     stack_.reserve(points_.size());
     std::pmr::vector<std::uint64_t> at(points_.size(), 0U, &scratch);  // row << 32 | column
     for (int r = 0; r < near_.cells.rows(); ++r)
       for (int c = 0; c < near_.cells.columns(); ++c)
         for (const std::uint32_t i : near_.cells.at(c, r)) at[i] = std::uint64_t(r) << 32 | std::uint64_t(c);
     const std::size_t least = std::size_t(options_.min_island * double(points_.size()));
-    std::uint32_t label = 0;
     for (std::uint32_t i = 0; i < points_.size(); ++i) {
-      if (verdict_[i] != Verdict::Kept || island_[i] != 0) continue;
-      flood(i, ++label, at);
+      if (kept_[i] == 0 || reached_[i] != 0) continue;
+      flood(i, at);
       if (stack_.size() >= least) continue;
-      for (const std::uint32_t k : stack_) verdict_[k] = Verdict::Island;
+      for (const std::uint32_t k : stack_) kept_[k] = 0;
     }
   }
 
-  Verdict verdict(std::size_t i) const { return verdict_[i]; }
+  bool keeps(std::size_t i) const { return kept_[i] != 0; }
 
  private:
   bool supports(const Offset& o, float sigma) const {
     return std::abs(o.depth) <= max_slope_ * std::sqrt(o.u * o.u + o.v * o.v) + 2 * sigma;
   }
 
-  Verdict judge_point(std::uint32_t i, int column, int row) const {
+  // Supported by its neighbours, and no spike off their plane.
+  bool belongs(std::uint32_t i, int column, int row) const {
     const CloudPoint& p = points_[i];
     const RayFrame ray(p.at_mm);
     int places = 0;
@@ -228,11 +224,8 @@ class Filter {
         }
     // On a lattice an empty place is evidence against a point; in a scattered cloud it means nothing.
     const double wanted = options_.min_support * (near_.on_lattice ? 24 : std::max(places, 6));
-    if (support < wanted) return Verdict::Unsupported;
-    return options_.spike_sigmas > 0 &&
-                   off_plane({near, std::size_t(std::min(support, kMostKept))}, p.sigma_mm)
-               ? Verdict::Spike
-               : Verdict::Kept;
+    return support >= wanted && !(options_.spike_sigmas > 0 &&
+                                  off_plane({near, std::size_t(std::min(support, kMostKept))}, p.sigma_mm));
   }
 
   struct Plane {
@@ -284,9 +277,9 @@ class Filter {
     return std::abs(plane.base) > float(options_.spike_sigmas) * std::max(plane.scatter, sigma);
   }
 
-  void flood(std::uint32_t seed, std::uint32_t label, const std::pmr::vector<std::uint64_t>& at) {
+  void flood(std::uint32_t seed, const std::pmr::vector<std::uint64_t>& at) {
     stack_.assign(1, seed);
-    island_[seed] = label;
+    reached_[seed] = 1;
     for (std::size_t next = 0; next < stack_.size(); ++next) {
       const std::uint32_t i = stack_[next];
       const RayFrame ray(points_[i].at_mm);
@@ -295,10 +288,10 @@ class Filter {
       for (int r = row - 1; r <= row + 1; ++r)
         for (int c = column - 1; c <= column + 1; ++c)
           for (const std::uint32_t k : near_.cells.at(c, r)) {
-            if (verdict_[k] != Verdict::Kept || island_[k] != 0 ||
+            if (kept_[k] == 0 || reached_[k] != 0 ||
                 !supports(ray(points_[k].at_mm), std::max(points_[i].sigma_mm, points_[k].sigma_mm)))
               continue;
-            island_[k] = label;
+            reached_[k] = 1;
             stack_.push_back(k);
           }
     }
@@ -308,8 +301,8 @@ class Filter {
   const LocalOutlierFilter& options_;
   Neighbourhood near_;
   float max_slope_;
-  std::pmr::vector<Verdict> verdict_;
-  std::pmr::vector<std::uint32_t> island_, stack_;
+  std::pmr::vector<std::uint8_t> kept_, reached_;
+  std::pmr::vector<std::uint32_t> stack_;
 };
 
 }  // namespace
@@ -323,7 +316,7 @@ Result<void> LocalOutlierFilter::reject(PointCloud& cloud, StageContext& context
   if (context.stop()) return stopped;
   std::size_t kept = 0;
   for (std::size_t i = 0; i < cloud.points.size(); ++i)
-    if (filter.verdict(i) == Verdict::Kept) cloud.points[kept++] = cloud.points[i];
+    if (filter.keeps(i)) cloud.points[kept++] = cloud.points[i];
   cloud.points.resize(kept);
   return {};
 }

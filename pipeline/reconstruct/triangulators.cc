@@ -67,13 +67,8 @@ struct Frames {
 
 Vec2d on_plane(const Vec3d& direction) { return {direction.x / direction.z, direction.y / direction.z}; }
 
-struct Step {
-  Vec2d n_left, n_right;
-};
-
-double squares(const Step& s) {
-  return s.n_left.x * s.n_left.x + s.n_left.y * s.n_left.y + s.n_right.x * s.n_right.x +
-         s.n_right.y * s.n_right.y;
+double squares(const PlacePair& s) {
+  return s.left.x * s.left.x + s.left.y * s.left.y + s.right.x * s.right.x + s.right.y * s.right.y;
 }
 
 }  // namespace
@@ -115,28 +110,28 @@ PlacePair correct_optimally(const EpipolarRelation& e, const PlacePair& seen) {
   const double* m = e.m;
   const Vec2d& l = seen.left;
   const Vec2d& r = seen.right;
-  Step n{{m[0] * r.x + m[1] * r.y + m[2], m[3] * r.x + m[4] * r.y + m[5]},
-         {m[0] * l.x + m[3] * l.y + m[6], m[1] * l.x + m[4] * l.y + m[7]}};
+  PlacePair n{{m[0] * r.x + m[1] * r.y + m[2], m[3] * r.x + m[4] * r.y + m[5]},
+              {m[0] * l.x + m[3] * l.y + m[6], m[1] * l.x + m[4] * l.y + m[7]}};
   const auto inner = [&](const Vec2d& p, const Vec2d& q) {
     return p.x * (m[0] * q.x + m[1] * q.y) + p.y * (m[3] * q.x + m[4] * q.y);
   };
-  const double a = inner(n.n_left, n.n_right);
+  const double a = inner(n.left, n.right);
   const double b = 0.5 * squares(n);
-  const double c = l.x * n.n_left.x + l.y * n.n_left.y + m[6] * r.x + m[7] * r.y + m[8];
+  const double c = l.x * n.left.x + l.y * n.left.y + m[6] * r.x + m[7] * r.y + m[8];
   const double d = std::sqrt(std::max(0.0, b * b - a * c));
   if (!(b + d > 0)) return seen;  // at an epipole every line of sight meets
   const double first = c / (b + d);
-  const Vec2d move_left{first * n.n_left.x, first * n.n_left.y};
-  const Vec2d move_right{first * n.n_right.x, first * n.n_right.y};
-  n.n_left = {n.n_left.x - m[0] * move_right.x - m[1] * move_right.y,
-              n.n_left.y - m[3] * move_right.x - m[4] * move_right.y};
-  n.n_right = {n.n_right.x - m[0] * move_left.x - m[3] * move_left.y,
-               n.n_right.y - m[1] * move_left.x - m[4] * move_left.y};
+  const Vec2d move_left{first * n.left.x, first * n.left.y};
+  const Vec2d move_right{first * n.right.x, first * n.right.y};
+  n.left = {n.left.x - m[0] * move_right.x - m[1] * move_right.y,
+            n.left.y - m[3] * move_right.x - m[4] * move_right.y};
+  n.right = {n.right.x - m[0] * move_left.x - m[3] * move_left.y,
+             n.right.y - m[1] * move_left.x - m[4] * move_left.y};
   const double norm = squares(n);
   if (!(norm > 0)) return seen;
   const double second = first * 2 * d / norm;
-  return {{l.x - second * n.n_left.x, l.y - second * n.n_left.y},
-          {r.x - second * n.n_right.x, r.y - second * n.n_right.y}};
+  return {{l.x - second * n.left.x, l.y - second * n.left.y},
+          {r.x - second * n.right.x, r.y - second * n.right.y}};
 }
 
 Result<PointCloud> OptimalTriangulator::triangulate(const RectifiedPair& pair, const MatchSet& matches,

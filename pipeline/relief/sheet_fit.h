@@ -8,7 +8,7 @@
 //   height(s, t) = c t + (1 - k t) g(s / (1 - k t)),  k = 0: the cylinder,
 // g a cubic spline. Direction and k are searched, c and g follow by least absolute deviations (softened;
 // iterated weights, Huber 1981), so that a mirrored lamp or a stray patch moves the sheet little.
-// A plane is the sheet whose g is straight. Memory: the caller's vector. Thread: any. Deterministic.
+// A plane is the sheet whose g is straight. Memory: scratch. Thread: any. Deterministic.
 #pragma once
 
 #include <memory_resource>
@@ -24,7 +24,7 @@ namespace relievo::pipeline {
 // The middle of a face as heights over its own mean plane, on square cells: every part of the surface
 // counts by its area, however densely it was measured. Frame: origin on the plane, x across the pictures
 // as far as the plane allows, y down, height towards the cameras; mm.
-// Memory: the vectors' own. Thread: any. Errors: none; few cells where little was measured.
+// Few cells where little was measured.
 struct HeightCell {
   int column = 0, row = 0;
   double x_mm = 0, y_mm = 0;  // mean place of what fell into it

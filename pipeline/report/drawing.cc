@@ -22,8 +22,6 @@ std::string place(const Box& box) {
          attribute("height", box.size.height);
 }
 
-std::string pair(Vec2d at) { return number(at.x) + " " + number(at.y); }
-
 double kind_of_step(double value, bool up) {
   if (!(value > 0) || !std::isfinite(value)) return 1;
   const double ten = std::pow(10.0, std::floor(std::log10(value)));
@@ -42,25 +40,14 @@ double kind_of_step(double value, bool up) {
 
 }  // namespace
 
-Strokes& Strokes::from(Vec2d at) {
-  d_ += "M" + pair(at);
-  return *this;
-}
-Strokes& Strokes::to(Vec2d at) {
-  d_ += "L" + pair(at);
-  return *this;
-}
-Strokes& Strokes::close() {
-  d_ += "Z";
-  return *this;
-}
-Strokes& Strokes::dot(Vec2d at) {
-  d_ += "M" + pair(at) + "h0";
+Strokes& Strokes::add(std::string_view command, Vec2d at, std::string_view after) {
+  d_.append(command).append(number(at.x) + " " + number(at.y)).append(after);
   return *this;
 }
 Strokes& Strokes::outline(std::span<const Vec2d> polygon) {
   for (std::size_t i = 0; i < polygon.size(); ++i) i == 0 ? from(polygon[i]) : to(polygon[i]);
-  return polygon.empty() ? *this : close();
+  if (!polygon.empty()) d_ += 'Z';
+  return *this;
 }
 
 Drawing::Drawing(Size size, std::string_view says)

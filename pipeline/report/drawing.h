@@ -30,15 +30,15 @@ struct Box {
 // Many strokes as one element: thousands of corners are drawn with it.
 class Strokes {
  public:
-  Strokes& from(Vec2d at);
-  Strokes& to(Vec2d at);
-  Strokes& close();
-  Strokes& dot(Vec2d at);  // as wide as the stroke, where its ends are round
+  Strokes& from(Vec2d at) { return add("M", at); }
+  Strokes& to(Vec2d at) { return add("L", at); }
+  Strokes& dot(Vec2d at) { return add("M", at, "h0"); }  // as wide as the stroke, where its ends are round
   Strokes& outline(std::span<const Vec2d> polygon);
   bool empty() const { return d_.empty(); }
   const std::string& text() const { return d_; }
 
  private:
+  Strokes& add(std::string_view command, Vec2d at, std::string_view after = {});
   std::string d_;
 };
 

@@ -5,11 +5,11 @@
 #include "pipeline/report/text.h"
 
 namespace relievo::pipeline::report {
+namespace {
 
 // Blue and orange for left and right, and outlines beside colours everywhere: whoever confuses red and green
 // reads all of it.
-std::string_view page_style() {
-  return R"css(
+constexpr std::string_view kStyle = R"css(
 :root { --ink: #1a2026; --soft: #5d6873; --line: #d9dee3; --wash: #f5f7f9; --left: #1f63ad; --right: #c45a0b;
   --good: #14703f; --fair: #8a5a00; --bad: #b0241b; }
 * { box-sizing: border-box; }
@@ -173,14 +173,15 @@ svg .measure { stroke: var(--ink); stroke-width: 1; } svg .ruler { stroke: var(-
   svg text { font-size: 15px; } svg .note { font-size: 14px; }
 }
 )css";
-}
+
+}  // namespace
 
 std::string page(std::string_view title, std::string_view more_style, std::string_view body) {
   std::string out =
       "<!DOCTYPE html>\n<html lang=\"en\">\n<head>\n<meta charset=\"utf-8\">\n"
       "<meta name=\"viewport\" content=\"width=device-width, initial-scale=1\">\n<title>" +
       escaped(title) + "</title>\n<style>\n";
-  out.append(page_style()).append(more_style).append("</style>\n</head>\n<body>\n<main>\n").append(body);
+  out.append(kStyle).append(more_style).append("</style>\n</head>\n<body>\n<main>\n").append(body);
   return out + "</main>\n</body>\n</html>\n";
 }
 

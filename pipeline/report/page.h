@@ -12,9 +12,7 @@
 
 namespace relievo::pipeline::report {
 
-std::string_view page_style();  // CSS of all pages
-
-// `more_style` follows page_style().
+// `more_style` follows the style of all pages.
 std::string page(std::string_view title, std::string_view more_style, std::string_view body);
 
 // Product, title, and a line of facts; the facts are HTML.

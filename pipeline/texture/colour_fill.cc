@@ -30,76 +30,62 @@ Groups neighbours_of(const FaceMesh& mesh, std::span<const std::uint8_t> known,
 }
 
 // Unknown vertices in the order in which the known ones reach them, coloured by those that came before.
-std::pmr::vector<std::uint32_t> reach(const FaceMesh& mesh, std::span<const std::uint8_t> known,
-                                      const Groups& neighbours, std::span<VertexColour> colours,
-                                      std::pmr::memory_resource* memory) {
+std::pmr::vector<std::uint32_t> reach(std::span<const std::uint8_t> known, const Groups& neighbours,
+                                      std::span<VertexColour> colours, std::pmr::memory_resource* memory) {
   std::pmr::vector<std::uint8_t> done(known.begin(), known.end(), memory);
   std::pmr::vector<std::uint32_t> order(memory);
   order.reserve(std::size_t(std::ranges::count(known, std::uint8_t{0})));
-  for (std::size_t ring_begin = 0;;) {
-    const std::size_t ring_end = order.size();
-    const auto take = [&](std::uint32_t v) {
-      VertexColour sum{0, 0, 0};
-      float count = 0;
-      for (const std::uint32_t n : neighbours[v]) {
-        if (done[n] != 1) continue;
-        for (std::size_t c = 0; c < 3; ++c) sum[c] += colours[n][c];
-        count += 1;
-      }
-      if (count == 0) return;
-      colours[v] = {sum[0] / count, sum[1] / count, sum[2] / count};
-      done[v] = 2;  // not yet a neighbour for its own ring
-      order.push_back(v);
-    };
-    if (ring_begin == 0 && ring_end == 0) {
-      for (std::uint32_t v = 0; v < mesh.vertices_mm.size(); ++v)
-        if (done[v] == 0) take(v);
-    } else {
-      for (std::size_t i = ring_begin; i < ring_end; ++i)
-        for (const std::uint32_t n : neighbours[order[i]])
-          if (done[n] == 0) take(n);
+  const auto take = [&](std::uint32_t v) {
+    VertexColour sum{0, 0, 0};
+    float count = 0;
+    for (const std::uint32_t n : neighbours[v]) {
+      if (done[n] != 1) continue;
+      for (std::size_t c = 0; c < 3; ++c) sum[c] += colours[n][c];
+      count += 1;
     }
-    for (std::size_t i = ring_end; i < order.size(); ++i) done[order[i]] = 1;
-    if (order.size() == ring_end) return order;
-    ring_begin = ring_end;
+    if (count == 0) return;
+    colours[v] = {sum[0] / count, sum[1] / count, sum[2] / count};
+    done[v] = 2;  // not yet a neighbour for its own ring
+    order.push_back(v);
+  };
+  for (std::uint32_t v = 0; v < known.size(); ++v)
+    if (done[v] == 0) take(v);
+  for (std::size_t next = 0; next < order.size();) {
+    const std::size_t ring_end = order.size();
+    for (std::size_t i = next; i < ring_end; ++i) done[order[i]] = 1;
+    for (; next < ring_end; ++next)
+      for (const std::uint32_t n : neighbours[order[next]])
+        if (done[n] == 0) take(n);
   }
+  return order;
 }
 
-VertexColour mean_of_known(std::span<const std::uint8_t> known, std::span<const VertexColour> colours) {
+// Of the `count` colours those that are used; grey where there are none. colour(k, channel).
+template <typename Used, typename Colour>
+std::array<double, 3> mean_of(std::size_t count, const Used& used, const Colour& colour) {
   std::array<double, 3> sum{0, 0, 0};
-  double count = 0;
-  for (std::size_t v = 0; v < known.size(); ++v) {
-    if (known[v] == 0) continue;
-    for (std::size_t c = 0; c < 3; ++c) sum[c] += double(colours[v][c]);
-    count += 1;
+  double n = 0;
+  for (std::size_t k = 0; k < count; ++k) {
+    if (!used(k)) continue;
+    for (std::size_t c = 0; c < 3; ++c) sum[c] += double(colour(k, c));
+    n += 1;
   }
-  if (count == 0) return {128, 128, 128};
-  return {float(sum[0] / count), float(sum[1] / count), float(sum[2] / count)};
-}
-
-std::array<std::uint8_t, 3> mean_of_surface(const TextureAtlas& atlas) {
-  std::array<double, 3> sum{0, 0, 0};
-  double count = 0;
-  for (std::size_t k = 0; k < atlas.origin.size(); ++k) {
-    if (atlas.origin[k] == kNoSurfaceTexel) continue;
-    for (std::size_t c = 0; c < 3; ++c) sum[c] += atlas.rgb[3 * k + c];
-    count += 1;
-  }
-  std::array<std::uint8_t, 3> mean{128, 128, 128};
-  for (std::size_t c = 0; c < 3 && count > 0; ++c) mean[c] = std::uint8_t(sum[c] / count);
-  return mean;
+  if (n == 0) return {128, 128, 128};
+  return {sum[0] / n, sum[1] / n, sum[2] / n};
 }
 
 }  // namespace
 
 void fill_colours(const FaceMesh& mesh, std::span<const std::uint8_t> known, std::span<VertexColour> colours,
                   StageContext& context) {
-  const VertexColour mean = mean_of_known(known, colours);
+  const auto mean = mean_of(
+      known.size(), [&](std::size_t v) { return known[v] != 0; },
+      [&](std::size_t v, std::size_t c) { return colours[v][c]; });
   for (std::size_t v = 0; v < known.size(); ++v)
-    if (known[v] == 0) colours[v] = mean;
+    if (known[v] == 0) colours[v] = {float(mean[0]), float(mean[1]), float(mean[2])};
   if (std::ranges::find(known, std::uint8_t{1}) == known.end()) return;
   const Groups neighbours = neighbours_of(mesh, known, &context.scratch);
-  const std::pmr::vector<std::uint32_t> order = reach(mesh, known, neighbours, colours, &context.scratch);
+  const std::pmr::vector<std::uint32_t> order = reach(known, neighbours, colours, &context.scratch);
   float moved = 0;
   const auto relax = [&](std::uint32_t v) {
     const auto around = neighbours[v];
@@ -163,9 +149,11 @@ void continue_outwards(TextureAtlas& atlas, int margin_px, std::pmr::memory_reso
       state[n] = kReached;
       put(n, from);
     });
-  const auto mean = mean_of_surface(atlas);
+  const auto on_surface = [&](std::size_t k) { return atlas.origin[k] != kNoSurfaceTexel; };
+  const auto mean =
+      mean_of(size, on_surface, [&](std::size_t k, std::size_t c) { return atlas.rgb[3 * k + c]; });
   for (std::size_t k = 0; k < size; ++k)
-    if (atlas.origin[k] == kNoSurfaceTexel) std::ranges::copy(mean, &atlas.rgb[3 * k]);
+    for (std::size_t c = 0; c < 3 && !on_surface(k); ++c) atlas.rgb[3 * k + c] = std::uint8_t(mean[c]);
   for (const Step& s : steps)
     if (atlas.origin[s.at] == kNoSurfaceTexel)
       std::copy_n(&atlas.rgb[3 * std::size_t{s.from}], 3, &atlas.rgb[3 * std::size_t{s.at}]);

@@ -18,14 +18,6 @@
 namespace relievo::pipeline {
 namespace {
 
-// The whole way from a surface and its photographs to an atlas, for both texturers. Surface that a camera saw
-// shows its photograph, measured or not; what none saw is filled smoothly and flagged in `origin`.
-struct LayerOptions {
-  ChartOptions chart;
-  ShotOptions shot;
-  float highlight_level = 12;
-};
-
 constexpr int kBands = 48;       // of rows, for the pool and for looking at the stop flag
 constexpr float kOwnPx = 0.75F;  // disparity by which rounding lets a triangle seem to lie behind itself
 
@@ -33,14 +25,33 @@ std::uint8_t origin_of(float right_share) {
   return std::uint8_t(kLeftPhotographTexel + std::lround(253 * std::clamp(right_share, 0.0F, 1.0F)));
 }
 
+// What no texturer can work with.
+Result<void> check_input(const FaceMesh& mesh, const RectifiedPair& pair) {
+  const std::size_t n = mesh.vertices_mm.size();
+  if (mesh.triangles.empty() || n == 0 || mesh.normals.size() != n ||
+      (!mesh.measured.empty() && mesh.measured.size() != n))
+    return Error{Errc::InvalidInput, "there is no surface to lay a photograph on"};
+  const std::size_t bytes =
+      3 * std::size_t(std::max(pair.width_px, 0)) * std::size_t(std::max(pair.height_px, 0));
+  if (bytes == 0 || pair.left.rgb.size() != bytes || pair.right.rgb.size() != bytes || !(pair.focal_px > 0))
+    return Error{Errc::InvalidInput, "the rectified pair has no colours to lay on the surface"};
+  return {};
+}
+
+// The whole way from a surface and its photographs to an atlas, for both texturers. Surface that a camera saw
+// shows its photograph, measured or not; what none saw is filled smoothly and flagged in `origin`.
 class Layer {
  public:
-  Layer(const FaceMesh& mesh, const RectifiedPair& pair, const LayerOptions& options, StageContext& context)
+  // Without the right photograph where `left_only`.
+  Layer(const FaceMesh& mesh, const RectifiedPair& pair, const TwoViewTexturer& options, bool left_only,
+        StageContext& context)
       : mesh_(mesh),
         pair_(pair),
         options_(options),
+        shot_{float(options.angle_power), float(options.occlusion_px), float(options.feather_px), left_only},
         context_(context),
-        chart_(lay_out(mesh, pair, options.chart, &context.scratch)),
+        chart_(
+            lay_out(mesh, pair, {options.max_atlas_px, options.margin_px, options.finer}, &context.scratch)),
         bands_(mesh, chart_, kBands, &context.scratch),
         maps_{FrontMap(chart_, 0, &context.scratch), FrontMap(chart_, kLeftSide, &context.scratch),
               FrontMap(chart_, kRightSide, &context.scratch)},
@@ -55,22 +66,20 @@ class Layer {
     const Error stopped{Errc::Cancelled, "texturing was stopped"};
     fill_front_maps(mesh_, chart_, bands_, maps_, context_);
     if (context_.stop()) return stopped;
-    const VertexViews views =
-        look_at_vertices(mesh_, pair_, chart_, maps_[1], maps_[2], options_.shot, context_);
+    const VertexViews views = look_at_vertices(mesh_, pair_, chart_, maps_[1], maps_[2], shot_, context_);
     if (context_.stop()) return stopped;
     choose(views);
-    sides_ = lay_out_sides(mesh_, chart_, kept_, photographed_, photograph_px_per_mm(), options_.chart.max_px,
+    sides_ = lay_out_sides(mesh_, chart_, kept_, photographed_, photograph_px_per_mm(), options_.max_atlas_px,
                            &context_.scratch);
     if (context_.stop()) return stopped;
     make_atlas();
     if (context_.stop()) return stopped;
-    const ShotPlanes planes =
-        shoot(mesh_, pair_, chart_, bands_, maps_, views, kept_, options_.shot, context_);
+    const ShotPlanes planes = shoot(mesh_, pair_, chart_, bands_, maps_, views, kept_, shot_, context_);
     if (context_.stop()) return stopped;
-    const float margin_px = options_.shot.feather_px * float(chart_.texels_per_px);
-    const bool both = !options_.shot.left_only;
-    const ViewBlend blend(chart_, planes, bands_, both ? options_.highlight_level : 0, both ? margin_px : 0,
-                          context_);
+    const float margin_px = shot_.feather_px * float(chart_.texels_per_px);
+    const bool both = !shot_.left_only;
+    const ViewBlend blend(chart_, planes, bands_, both ? float(options_.highlight_level) : 0,
+                          both ? margin_px : 0, context_);
     if (context_.stop()) return stopped;
     shade(planes, blend);
     if (context_.stop()) return stopped;
@@ -79,7 +88,7 @@ class Layer {
     fill_colours(mesh_, known_, colours_, context_);
     if (context_.stop()) return stopped;
     paint_filled();
-    continue_outwards(atlas_, options_.chart.margin_px, &context_.scratch);
+    continue_outwards(atlas_, options_.margin_px, &context_.scratch);
     write_vertex_colours();
     return std::move(atlas_);
   }
@@ -93,9 +102,6 @@ class Layer {
     for (std::size_t s = 0; s < sides_.triangles.size(); ++s)
       for (std::size_t i = 0; i < 3; ++i) visit(mesh_.triangles[sides_.triangles[s]][i], side_corner(s, i));
   }
-  bool seen_whole(const std::array<std::uint32_t, 3>& t) const {
-    return photographed_[t[0]] != 0 && photographed_[t[1]] != 0 && photographed_[t[2]] != 0;
-  }
   std::size_t atlas_index(int x, int y) const {
     return std::size_t(y) * std::size_t(atlas_.width_px) + std::size_t(x);
   }
@@ -108,8 +114,8 @@ class Layer {
       const auto in_front = [&](std::uint32_t v) {
         return maps_[0].sees(chart_.texel[v], chart_.disparity_px[v], kOwnPx);
       };
-      kept_[k] = chart_.placed_all(t) && signed_area(chart_, t) <= 0 && in_front(t[0]) && in_front(t[1]) &&
-                         in_front(t[2])
+      kept_[k] = all_three(chart_.placed, t) && signed_area(chart_, t) <= 0 && in_front(t[0]) &&
+                         in_front(t[1]) && in_front(t[2])
                      ? 1
                      : 0;
     }
@@ -155,7 +161,9 @@ class Layer {
       for (int y = begin; y < end && !context_.stop(); ++y)
         for (int x = 0; x < chart_.width_px; ++x) {
           const std::size_t k = chart_.index(x, y);
-          if ((planes.seen[k] & kSurface) == 0 || !seen_whole(mesh_.triangles[maps_[0].owner[k]])) continue;
+          if ((planes.seen[k] & kSurface) == 0 ||
+              !all_three(photographed_, mesh_.triangles[maps_[0].owner[k]]))
+            continue;
           const ViewBlend::Colour colour = blend.mix(k, x, y);
           set(atlas_index(x, y), colour.rgb, origin_of(colour.share));
         }
@@ -169,7 +177,7 @@ class Layer {
     const PhotoSampler right(pair_.right.rgb, pair_.width_px, pair_.height_px);
     for (std::size_t s = 0; s < sides_.triangles.size(); ++s) {
       const auto& t = mesh_.triangles[sides_.triangles[s]];
-      if (!seen_whole(t)) continue;
+      if (!all_three(photographed_, t)) continue;
       const auto mean = [&](auto&& of, float a, float b, float c) {
         return a * of(t[0]) + b * of(t[1]) + c * of(t[2]);
       };
@@ -244,12 +252,13 @@ class Layer {
   void paint_filled() {
     for (std::size_t k = 0; k < kept_.size(); ++k) {
       const auto& t = mesh_.triangles[k];
-      if (kept_[k] != 0 && !seen_whole(t))
+      if (kept_[k] != 0 && !all_three(photographed_, t))
         paint(chart_.texel[t[0]], chart_.texel[t[1]], chart_.texel[t[2]], t, true);
     }
     for (std::size_t s = 0; s < sides_.triangles.size(); ++s) {
       const auto& t = mesh_.triangles[sides_.triangles[s]];
-      if (!seen_whole(t)) paint(side_corner(s, 0), side_corner(s, 1), side_corner(s, 2), t, false);
+      if (!all_three(photographed_, t))
+        paint(side_corner(s, 0), side_corner(s, 1), side_corner(s, 2), t, false);
     }
     // A triangle between texel centres covers none: a filter reads its corners' colour around them.
     for_each_side_corner([&](std::uint32_t v, const Vec2f& at) { surround(at, colours_[v]); });
@@ -272,7 +281,8 @@ class Layer {
 
   const FaceMesh& mesh_;
   const RectifiedPair& pair_;
-  const LayerOptions& options_;
+  const TwoViewTexturer& options_;
+  ShotOptions shot_;
   StageContext& context_;
   Chart chart_;
   RowBands bands_;
@@ -286,10 +296,10 @@ class Layer {
 };
 
 Result<TextureAtlas> lay_photographs(const FaceMesh& mesh, const RectifiedPair& pair,
-                                     const LayerOptions& options, StageContext& context) {
-  RELIEVO_TRY(check_texture_input(mesh, pair));
+                                     const TwoViewTexturer& options, bool left_only, StageContext& context) {
+  RELIEVO_TRY(check_input(mesh, pair));
   if (context.stop()) return Error{Errc::Cancelled, "texturing was stopped"};
-  return Layer(mesh, pair, options, context).run();
+  return Layer(mesh, pair, options, left_only, context).run();
 }
 
 Result<void> check_margin(int margin_px, int max_atlas_px, std::string_view algorithm) {
@@ -303,9 +313,7 @@ Result<void> TwoViewTexturer::check() const { return check_margin(margin_px, max
 
 Result<TextureAtlas> TwoViewTexturer::texture(const FaceMesh& mesh, const RectifiedPair& pair,
                                               StageContext& context) const {
-  const ShotOptions shot{float(angle_power), float(occlusion_px), float(feather_px)};
-  return lay_photographs(mesh, pair, {{max_atlas_px, margin_px, finer}, shot, float(highlight_level)},
-                         context);
+  return lay_photographs(mesh, pair, *this, false, context);
 }
 
 Result<void> SingleViewTexturer::check() const {
@@ -314,7 +322,7 @@ Result<void> SingleViewTexturer::check() const {
 
 Result<TextureAtlas> SingleViewTexturer::texture(const FaceMesh& mesh, const RectifiedPair& pair,
                                                  StageContext& context) const {
-  return lay_photographs(mesh, pair, {{max_atlas_px, margin_px}, {.left_only = true}}, context);
+  return lay_photographs(mesh, pair, {.max_atlas_px = max_atlas_px, .margin_px = margin_px}, true, context);
 }
 
 }  // namespace relievo::pipeline

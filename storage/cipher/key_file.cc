@@ -12,7 +12,6 @@
 
 #include "hal/base/whole_file.h"
 #include "storage/cipher/key_source.h"
-#include "storage/cipher/tpm.h"
 
 namespace relievo::storage {
 namespace {
@@ -73,6 +72,7 @@ class KeyFile final : public KeySource {
           .at(next().native());
     return sync_renamed(file_);
   }
+  bool is_apart() const override { return !beside_; }
   std::string_view protects() const override {
     if (is_key_sealed_by_tpm(file_))
       return "is sealed by this board's TPM: whoever takes the disk, or copies all of it, can read nobody; whoever rules "

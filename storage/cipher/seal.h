@@ -5,9 +5,8 @@
 // crypto_aead_xchacha20poly1305_ietf), large values as crypto_secretstream_xchacha20poly1305.
 //
 //   a sealed value:   nonce 24, drawn | ciphertext, as long as the plain | tag 16
-//   a sealed stream:  pieces of kPieceBytes, the last may be shorter, each 17 bytes longer than its plain;
-//   the
-//                     header of 24 bytes is kept apart. A cut or turned stream is refused.
+//   a sealed stream:  pieces of kPieceBytes, the last may be shorter, each 17 bytes longer than its plain.
+//                     The header of 24 bytes is kept apart. A cut or turned stream is refused.
 //
 // Each is bound to the place it belongs to (its associated data): opened for any other it is refused.
 // Errors of opening: StoreCorrupt, which names the place. May throw std::bad_alloc. Thread: any; a

@@ -13,6 +13,7 @@
 #include <utility>
 
 #include "hal/base/result.h"
+#include "storage/record.h"
 
 namespace relievo::storage {
 
@@ -56,5 +57,12 @@ class SecretKey {
 // InvalidInput: anything else.
 Result<void> read_key(std::string_view text, SecretKey& key);
 Result<LockedBytes> key_text(const SecretKey& key);  // with a line's end
+
+// Who made a piece of bytes: Ed25519 (RFC 8032), which anybody checks who knows the public half.
+// Errors: OutOfMemory. Thread: any.
+
+// `seed`: Ed25519's secret half, as its standard has it.
+Result<Signed> sign_with(const SecretKey& seed, std::span<const std::byte> bytes);
+bool is_signed(const Signed& claimed, std::span<const std::byte> bytes);
 
 }  // namespace relievo::storage

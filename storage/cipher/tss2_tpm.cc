@@ -14,7 +14,7 @@
 #include <string_view>
 
 #include "storage/byte_order.h"
-#include "storage/cipher/tpm.h"
+#include "storage/cipher/key_source.h"
 #include "storage/sodium_sha256.h"
 
 namespace relievo::storage {
@@ -180,9 +180,7 @@ bool tpm_is_there() {
   return named != nullptr ? std::string_view(named) != "none" : ::access(kDevice, R_OK | W_OK) == 0;
 }
 
-bool is_sealed_by_tpm(std::span<const std::byte> bytes) {
-  return bytes.size() >= kMark.size() && std::ranges::equal(bytes.first(kMark.size()), bytes_of(kMark));
-}
+bool is_sealed_by_tpm(std::span<const std::byte> bytes) { return text_of(bytes).starts_with(kMark); }
 
 Result<std::vector<std::byte>> seal_by_tpm(const SecretKey& key) {
   Tpm tpm;
@@ -207,10 +205,9 @@ Result<std::vector<std::byte>> seal_by_tpm(const SecretKey& key) {
 
 Result<void> open_by_tpm(std::span<const std::byte> sealed, SecretKey& key) {
   constexpr std::size_t kSum = sizeof(Sha256);
-  if (!is_sealed_by_tpm(sealed) || sealed.size() < kMark.size() + kSum) return changed();
-  const auto body = sealed.first(sealed.size() - kSum);
-  if (!std::ranges::equal(sha256(body), sealed.last(kSum))) return changed();
-  const auto parts = body.subspan(kMark.size());
+  if (!is_sealed_by_tpm(sealed) || sealed.size() < kMark.size() + kSum || !ends_in_sha256(sealed))
+    return changed();
+  const auto parts = sealed.first(sealed.size() - kSum).subspan(kMark.size());
   const auto* const raw = reinterpret_cast<const std::uint8_t*>(parts.data());
   TPM2B_NAME name{};
   TPM2B_PUBLIC open_half{};

@@ -33,7 +33,7 @@ CREATE UNIQUE INDEX subject_of_code ON subject (code_hash);
 CREATE INDEX subjects_of_name ON subject (name_hash);
 CREATE INDEX subjects_without_code ON subject (id) WHERE code_hash IS NULL;
 
--- The wrapped keys, where overwriting leaves nothing behind (storage/sqlite/sqlite_key_slots.h).
+-- The wrapped keys, where overwriting leaves nothing behind (storage/sqlite/sqlite_keys.h).
 CREATE TABLE subject_key (
   block INTEGER PRIMARY KEY,
   slots BLOB NOT NULL

@@ -202,24 +202,20 @@ Blob::~Blob() { sqlite3_blob_close(handle_); }
 std::size_t Blob::size() const { return std::size_t(sqlite3_blob_bytes(handle_)); }
 
 Result<void> Blob::write(std::size_t at, std::span<const std::byte> bytes) {
-  while (!bytes.empty()) {
-    const auto piece = bytes.first(std::min<std::size_t>(kBlobPieceBytes, bytes.size()));
-    const int code = sqlite3_blob_write(handle_, piece.data(), int(piece.size()), int(at));
+  for (std::size_t done = 0; done < bytes.size(); done += kBlobPieceBytes) {
+    const auto piece = bytes.subspan(done, std::min(kBlobPieceBytes, bytes.size() - done));
+    const int code = sqlite3_blob_write(handle_, piece.data(), int(piece.size()), int(at + done));
     if (code != SQLITE_OK) return database_.error(code);
-    at += piece.size();
-    bytes = bytes.subspan(piece.size());
   }
   return {};
 }
 
 Result<void> Blob::read(std::size_t at, std::span<std::byte> bytes) {
   if (size() < at + bytes.size()) return database_.error(SQLITE_CORRUPT);
-  while (!bytes.empty()) {
-    const auto piece = bytes.first(std::min<std::size_t>(kBlobPieceBytes, bytes.size()));
-    const int code = sqlite3_blob_read(handle_, piece.data(), int(piece.size()), int(at));
+  for (std::size_t done = 0; done < bytes.size(); done += kBlobPieceBytes) {
+    const auto piece = bytes.subspan(done, std::min(kBlobPieceBytes, bytes.size() - done));
+    const int code = sqlite3_blob_read(handle_, piece.data(), int(piece.size()), int(at + done));
     if (code != SQLITE_OK) return database_.error(code);
-    at += piece.size();
-    bytes = bytes.subspan(piece.size());
   }
   return {};
 }

@@ -15,7 +15,7 @@
 #include "storage/sodium_sha256.h"
 #include "storage/sqlite/sqlite_audit.h"
 #include "storage/sqlite/sqlite_change.h"
-#include "storage/sqlite/sqlite_key_slots.h"
+#include "storage/sqlite/sqlite_keys.h"
 #include "storage/sqlite/store_directory.h"
 
 namespace relievo::storage {

@@ -5,10 +5,10 @@
 //
 //   key, name, code destroyed, log emptied ──► unreadable for ever ──► rows removed, log emptied
 //                                                    └─ power cut: opening the store goes on from here
-// DIR/relievo.erased remembers everyone who was erased, by a hash of the key they had (40 bytes: u64 line of
-// the audit log, hash), which tells nobody who they were. So an older copy of relievo.db that is put back in
-// its place is noticed, and who was erased since is erased again when it is opened. Errors: the database's;
-// Timeout (another program keeps traces in the log). Thread: the store's.
+// DIR/relievo.erased remembers everyone who was erased, by a keyed hash of their code's hash (40 bytes: i64
+// line of the audit log, hash), which tells nobody who they were. So an older copy of relievo.db that is put
+// back in its place is noticed, and who was erased since is erased again when it is opened. Errors: the
+// database's; Timeout (another program keeps traces in the log). Thread: the store's.
 #pragma once
 
 #include <vector>

@@ -10,9 +10,9 @@
 #include "storage/sqlite/sqlite_audit.h"
 #include "storage/sqlite/sqlite_change.h"
 #include "storage/sqlite/sqlite_erasure.h"
+#include "storage/sqlite/sqlite_keys.h"
 #include "storage/sqlite/sqlite_migration.h"
 #include "storage/sqlite/sqlite_sealed_rows.h"
-#include "storage/sqlite/sqlite_settings.h"
 
 namespace relievo::storage {
 
@@ -26,8 +26,7 @@ Result<std::vector<SubjectId>> SqliteStore::erased_since(const std::filesystem::
     RELIEVO_TRY(copy.open(false));
     RELIEVO_TRY_ASSIGN(const std::int64_t version, version_of(copy));
     const Error another =
-        Error{Errc::InvalidInput, "this is no copy of this store, or one of before it was sealed"}.at(
-            backup.native());
+        Error{Errc::InvalidInput, "this is no copy of this store, or an older version's"}.at(backup.native());
     if (version < store_version()) return another;
     RELIEVO_TRY_ASSIGN(auto end, copy.prepare("SELECT number, hash FROM audit_end"));
     RELIEVO_TRY_ASSIGN(const bool ended, end.step());
@@ -93,7 +92,17 @@ class SqliteKeeping final : public StoreKeeping {
   Result<void> rekey(const KeyPlace& to) override {
     RELIEVO_TRY_ASSIGN(const auto store, open(OpenMode::ReadWrite));
     if (to.sealed_by_tpm) return store->rekey(*key_file(dir_ / kKeyFile, true, NextKey::SealedByTpm));
-    if (!to.file.empty()) return store->rekey(*key_file(to.file, false));
+    if (!to.file.empty()) {
+      // A key of another store that is written over leaves that store to its recovery words.
+      SqliteStoreOptions by_it = options_;
+      by_it.mode = OpenMode::ReadOnly;
+      by_it.keys = key_file(to.file, false);
+      std::error_code ignored;
+      if (std::filesystem::exists(to.file, ignored) && !SqliteStore::open(dir_, clock_, by_it))
+        return Error{Errc::InvalidInput, "this file is there, and is not this store's key: name another"}.at(
+            to.file.native());
+      return store->rekey(*by_it.keys);
+    }
     const auto same = options_.keys ? options_.keys : std::shared_ptr<KeySource>(key_file(dir_ / kKeyFile));
     return store->rekey(*same);
   }
@@ -104,6 +113,10 @@ class SqliteKeeping final : public StoreKeeping {
     RELIEVO_TRY(must_exist());
     Database before(dir_ / kStoreFile);
     RELIEVO_TRY(before.open(false));
+    RELIEVO_TRY_ASSIGN(const std::int64_t version, version_of(before));
+    if (version < 2)  // it has no log either
+      return before.error(Errc::NotFound, "no recovery words were ever made for this store");
+    if (options_.keys && options_.keys->is_apart()) RELIEVO_TRY(must_not_be_anothers(before));
     RELIEVO_TRY_ASSIGN(const std::int64_t line, before.integer("SELECT max(number) FROM audit"));
     before.close();
     RELIEVO_TRY_ASSIGN(const auto store, SqliteStore::open(dir_, clock_, options));
@@ -115,6 +128,16 @@ class SqliteKeeping final : public StoreKeeping {
   }
 
  private:
+  // A new key takes the place of --key's. One that nobody can read (a dead TPM's) is no loss.
+  Result<void> must_not_be_anothers(Database& store) {
+    RELIEVO_TRY_ASSIGN(auto key, SecretKey::make());
+    if (!options_.keys->read(key)) return {};
+    RELIEVO_TRY_ASSIGN(const auto keys, StoreKeys::make(options_.keys));
+    const auto opens = keys->load(store, true);
+    if (opens || opens.error().code != Errc::InvalidInput) return {};
+    return Error{Errc::InvalidInput, "the file of --key is there, and is not this store's key: name another"}
+        .at(dir_.native());
+  }
   // A store that is named wrongly is not made.
   Result<void> must_exist() const {
     std::error_code ignored;

@@ -11,25 +11,53 @@
 //   recovery words (recovery.h) ──► store key
 //
 // An arrow is "wraps" (seal.h); what is wrapped stands in encryption_key and in subject_key
-// (sqlite_key_slots.h). Errors: InvalidInput (another store's key), StoreCorrupt, the key source's own.
+// (KeySlots). Errors: InvalidInput (another store's key), StoreCorrupt, the key source's own.
 // Thread: the store's.
 #pragma once
 
+#include <array>
 #include <cstdint>
+#include <map>
 #include <memory>
+#include <optional>
 #include <span>
+#include <string>
 #include <string_view>
 #include <vector>
 
 #include "hal/base/result.h"
 #include "storage/cipher/key_source.h"
 #include "storage/cipher/seal.h"
-#include "storage/cipher/signature.h"
+#include "storage/cipher/secret_key.h"
 #include "storage/record.h"
 #include "storage/sqlite/sqlite_database.h"
-#include "storage/sqlite/sqlite_key_slots.h"
 
 namespace relievo::storage {
+
+// Where the subjects' wrapped keys lie: slots of one size in large blobs. SQLite copies small rows from page
+// to page, and secure_delete leaves such copies behind; the overflow pages of a blob it never moves. So a
+// slot that is overwritten is gone from the file, which is what erasing a person rests on.
+//
+//   row b of subject_key, slots: kHead bytes unused (they may lie in a page that is moved) | kPerBlock slots,
+//   of subjects b * kPerBlock ... ; zeros: no key
+// Errors: the database's. Thread: the store's; for the length of one verb.
+class KeySlots {
+ public:
+  using Slot = std::array<std::byte, kSealBytes + SecretKey::kBytes>;
+  static constexpr std::int64_t kPerBlock = 1024, kHead = 4096;
+
+  // To write, inside the caller's transaction.
+  explicit KeySlots(Database& database, bool to_write = false) : database_(database), to_write_(to_write) {}
+  Result<Slot> read(SubjectId id);
+  Result<void> write(SubjectId id, std::span<const std::byte> wrapped);
+
+ private:
+  Result<void> open(SubjectId id);
+  Database& database_;
+  bool to_write_;
+  std::optional<Blob> blob_;
+  std::int64_t block_ = -1;
+};
 
 class StoreKeys {
  public:
@@ -77,5 +105,18 @@ class StoreKeys {
 
 // Where the note of a calibration is bound to: with the device's key.
 inline Place calibration_note(std::int64_t revision) { return {"calibration", "note", revision}; }
+
+// The settings: one sealed value, bound to the line of the audit log that tells of the last change. So one
+// that was changed, or an older one that was put back, is refused: StoreCorrupt. Thread: the store's.
+using Settings = std::map<std::string, std::string, std::less<>>;
+
+Result<Settings> read_settings(Database& database, const StoreKeys& keys);
+
+// Inside the caller's transaction. `line`: of the log, the last that tells of a change.
+Result<void> write_settings(Database& database, const StoreKeys& keys, const Settings& settings,
+                            std::int64_t line);
+
+// 0: no setting was ever changed.
+Result<std::int64_t> last_setting_line(Database& database);
 
 }  // namespace relievo::storage

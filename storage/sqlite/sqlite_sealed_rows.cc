@@ -7,7 +7,7 @@
 #include "storage/byte_order.h"
 #include "storage/sqlite/sqlite_audit.h"
 #include "storage/sqlite/sqlite_change.h"
-#include "storage/sqlite/sqlite_settings.h"
+#include "storage/sqlite/sqlite_keys.h"
 
 namespace relievo::storage {
 namespace {
@@ -53,15 +53,9 @@ Result<std::size_t> seal_person(Database& database, StoreKeys& keys, SubjectId i
 }
 
 // The stream's state opens a model as its key does: it is wiped on every way out.
-class StreamEnd {
- public:
-  explicit StreamEnd(SealedStream& stream) : stream_(stream) {}
-  StreamEnd(const StreamEnd&) = delete;
-  StreamEnd& operator=(const StreamEnd&) = delete;
-  ~StreamEnd() { stream_.end(); }
-
- private:
-  SealedStream& stream_;
+struct StreamEnd {
+  SealedStream& stream;
+  ~StreamEnd() { stream.end(); }
 };
 
 // false: nobody is left.
@@ -226,7 +220,7 @@ Result<Consent> open_consent(const StoreKeys& keys, EnrolmentId id, std::span<co
 Result<void> seal_model(Database& database, StoreKeys& keys, EnrolmentId id,
                         std::span<const std::byte> blob) {
   SealedStream& stream = keys.stream();
-  const StreamEnd end(stream);
+  const StreamEnd end{stream};
   const StreamHeader header = stream.begin_sealing(keys.subject());
   RELIEVO_TRY(database.run("INSERT OR REPLACE INTO model (enrolment_id, nonce, bytes) VALUES (?, ?, ?)",
                            number(id), header, Zeros{std::int64_t(SealedStream::sealed_bytes(blob.size()))}));
@@ -258,7 +252,7 @@ Result<std::vector<std::byte>> open_model(Database& database, StoreKeys& keys, E
   std::vector<std::byte> blob(SealedStream::plain_bytes(source.size()));
   std::vector<std::byte> piece(std::min(source.size(), SealedStream::kSealedPieceBytes));
   SealedStream& stream = keys.stream();
-  const StreamEnd end(stream);
+  const StreamEnd end{stream};
   stream.begin_opening(keys.subject(), header);
   auto rest = std::span(blob);
   std::size_t at = 0;

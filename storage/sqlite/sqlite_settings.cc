@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: 2026 The Relievo authors
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include "storage/sqlite/sqlite_settings.h"
+#include "storage/sqlite/sqlite_keys.h"
 
 #include "storage/byte_order.h"
 #include "storage/sqlite/sqlite_audit.h"

@@ -23,12 +23,11 @@
 
 #include "hal/base/result.h"
 #include "hal/clock.h"
-#include "storage/receipt_number.h"
+#include "storage/record.h"
 #include "storage/sqlite/sqlite_database.h"
 #include "storage/sqlite/sqlite_keys.h"
 #include "storage/sqlite/store_directory.h"
 #include "storage/store.h"
-#include "storage/store_keeping.h"
 
 namespace relievo::storage {
 
@@ -41,7 +40,7 @@ struct SqliteStoreOptions {
   std::int64_t reserve_bytes = 64'000'000;  // an erasure needs as much as it erases, for a moment
   std::int64_t (*draw_receipt)() = storage::draw_receipt;
   std::shared_ptr<KeySource> keys{};  // empty: the file relievo.key beside the store
-  // Not empty: the store is opened by them, and `keys` gets a new key of the appliance (store_keeping.h,
+  // Not empty: the store is opened by them, and `keys` gets a new key of the appliance (StoreKeeping,
   // recover()).
   std::string recovery_words{};
 };
@@ -66,7 +65,7 @@ class SqliteStore final : public Store {
   static Result<std::unique_ptr<SqliteStore>> open(const std::filesystem::path& dir, const hal::Clock& clock,
                                                    const SqliteStoreOptions& options);
 
-  // As store_keeping.h has them.
+  // As StoreKeeping has them.
   Result<void> backup(const std::filesystem::path& file);
   Result<std::vector<SubjectId>> erased_since(const std::filesystem::path& backup);
   Result<void> rekey(KeySource& to);

@@ -4,7 +4,7 @@
 // SqliteStore: subjects.
 #include "storage/calibration_record.h"
 #include "storage/model_blob.h"
-#include "storage/receipt_number.h"
+#include "storage/record.h"
 #include "storage/sqlite/sqlite_audit.h"
 #include "storage/sqlite/sqlite_change.h"
 #include "storage/sqlite/sqlite_erasure.h"

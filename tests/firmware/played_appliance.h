@@ -12,7 +12,6 @@
 #include <thread>
 
 #include "firmware/appliance/appliance.h"
-#include "firmware/appliance/view_of.h"
 #include "firmware/base/budget.h"
 #include "tests/firmware/test_records.h"
 #include "tests/support/played_device.h"
@@ -71,7 +70,7 @@ class ApplianceTest : public testing::Test {
  protected:
   ApplianceTest() {
     appliance.expect(named("Ada"));
-    appliance.on_change([this](const Change& change) { path += std::string(name_of(change.to)) + " "; });
+    appliance.on_change([this](const Transition& change) { path += std::string(name_of(change.to)) + " "; });
   }
   // Turns the main loop until the state is reached; a minute is "never".
   bool reach(State state) {

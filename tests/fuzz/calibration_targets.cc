@@ -5,7 +5,6 @@
 
 #include "hal/base/assert.h"
 #include "pipeline/calibrate/file/calibration_file.h"
-#include "pipeline/calibrate/file/camera_info.h"
 #include "storage/calibration_record.h"
 #include "storage/sodium_sha256.h"
 #include "tests/fuzz/fuzz_targets.h"

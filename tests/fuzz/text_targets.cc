@@ -10,7 +10,7 @@
 #include "hal/base/assert.h"
 #include "hal/linux/device.h"
 #include "hal/recording/capture_file.h"
-#include "pipeline/calibrate/file/camera_info.h"
+#include "pipeline/calibrate/file/calibration_file.h"
 #include "pipeline/match/file/match_text.h"
 #include "storage/cipher/recovery.h"
 #include "tests/fuzz/fuzz_targets.h"

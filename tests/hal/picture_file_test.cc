@@ -144,6 +144,12 @@ TEST(PictureFile, AFullDiskIsMediaFullAndLeavesNoTrace) {
   ::umount(folder.path().c_str());
 }
 
+TEST(PictureFile, APictureOfNoWidthIsNoLackOfMemory) {
+  const auto none = reduced(pattern(20, 10, PixelFormat::Grey8).view(), 0, 5);
+  ASSERT_FALSE(none);
+  EXPECT_EQ(none.error().code, Errc::InvalidInput);
+}
+
 TEST(PictureFile, RefusesWhatItCannotWrite) {
   const TemporaryFolder folder;
   const Picture p = pattern(4, 4, PixelFormat::Grey16);

@@ -11,7 +11,7 @@
 #include <thread>
 #include <vector>
 
-#include "hal/monotonic_clock.h"
+#include "hal/clock.h"
 #include "tests/support/manual_clock.h"
 
 namespace relievo::hal {

@@ -62,7 +62,7 @@ class Soak {
  public:
   Soak(hal::Device& real, firmware::LiveJudge& judge)
       : rig_(real, faults_, real.media()), appliance_({rig_, stages_, memory_, pool_, records_, &judge}) {
-    appliance_.on_change([this](const firmware::Change& change) {
+    appliance_.on_change([this](const firmware::Transition& change) {
       if (change.from == State::Capture && change.to == State::Match) ++taken_;
     });
   }

@@ -65,7 +65,7 @@ class Kiosk {
         judge_(std::move(judge)),
         appliance_({rig_, stages_, memory_, pool_, records_, &judge_}) {
     appliance_.ask_for_sides(true);
-    appliance_.on_change([this](const firmware::Change& change) {
+    appliance_.on_change([this](const firmware::Transition& change) {
       if (change.to == State::Review) sides_ = int(stages_.left) + int(stages_.right);
     });
   }

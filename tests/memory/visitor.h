@@ -13,7 +13,7 @@
 #include <string>
 
 #include "firmware/kiosk/kiosk.h"
-#include "hal/monotonic_clock.h"
+#include "hal/clock.h"
 #include "tests/memory/people.h"
 
 namespace relievo::test {

@@ -149,6 +149,35 @@ TEST(Algorithms, ConstraintsAreJoinedAndKeepTheirOrder) {
   EXPECT_TRUE(make_constraints(set)->empty());
 }
 
+TEST(Algorithms, AConstraintIsNamedOnce) {
+  AlgorithmSet set;
+  const auto refused = set.set("constraints", "similarity+uniqueness+similarity");
+  ASSERT_FALSE(refused);
+  EXPECT_EQ(refused.error().code, Errc::InvalidInput);
+  EXPECT_EQ(refused.error().where(), "constraints = similarity+uniqueness+similarity");
+}
+
+TEST(Algorithms, MatchesOfAFileAreNoLattice) {
+  AlgorithmSet set;
+  EXPECT_TRUE(check_neighbours(set));
+  ASSERT_TRUE(set.set("matcher", "file-matches"));
+  const auto refused = check_neighbours(set);
+  ASSERT_FALSE(refused);
+  EXPECT_EQ(refused.error().code, Errc::InvalidInput);
+  EXPECT_EQ(refused.error().where(), "selector=dense matcher=file-matches mesher=grid");
+  ASSERT_TRUE(set.set("mesher", "delaunay"));
+  EXPECT_TRUE(check_neighbours(set));
+}
+
+// One is in median edges, the other in distances of points spread evenly.
+TEST(Algorithms, WhatIsMeasuredOtherwiseIsSaidOtherwise) {
+  const auto all = describe_algorithms();
+  const auto sentence = [&](std::string_view key) {
+    return std::ranges::find(all, key, &OptionDescription::key)->sentence;
+  };
+  EXPECT_NE(sentence("delaunay.max_edge_ratio"), sentence("advancing-front.max_edge_ratio"));
+}
+
 TEST(Algorithms, WrongWordsAreRefusedAndSayWhatWouldDo) {
   AlgorithmSet set;
   const auto unknown_key = set.set("macher", "refined");
@@ -189,6 +218,19 @@ TEST(AlgorithmSet, ReadsWhatOlderStoresCallThings) {
   EXPECT_EQ(set->get("selector"), "grid-points");
   EXPECT_EQ(set->get("grid-points.step_px"), "6");
   EXPECT_EQ(AlgorithmSet::from_text("selector = file\n")->get("selector"), "file-points");
+}
+
+TEST(AlgorithmSet, EveryValueItTakesComesBackFromItsText) {
+  AlgorithmSet set;
+  for (const char* value : {"a\nb", "a\r", "a\tb", " a", "a "}) {
+    const auto refused = set.set("file-points.path", value);
+    ASSERT_FALSE(refused) << value;
+    EXPECT_EQ(refused.error().code, Errc::InvalidInput);
+  }
+  ASSERT_TRUE(set.set("file-points.path", "/media/points of a = \xc3\xa4.csv"));
+  const auto read = AlgorithmSet::from_text(set.to_text());
+  ASSERT_TRUE(read);
+  EXPECT_EQ(read->get("file-points.path"), set.get("file-points.path"));
 }
 
 }  // namespace

@@ -7,7 +7,7 @@
 #include <atomic>
 
 #include "firmware/base/output_folder.h"
-#include "firmware/kiosk/run_mark.h"
+#include "firmware/kiosk/stored_visits.h"
 #include "firmware/records/event_log.h"
 #include "firmware/records/receipt.h"
 #include "firmware/service/consent_text_store.h"
@@ -15,7 +15,7 @@
 #include "firmware/service/stick_folder.h"
 #include "firmware/technician/stick_files.h"
 #include "hal/base/whole_file.h"
-#include "hal/sim/replay/folder_media.h"
+#include "hal/sim/replay/replay_device.h"
 #include "pipeline/calibrate/file/calibration_file.h"
 #include "storage/export/model_files.h"
 #include "tests/power/power_cuts.h"

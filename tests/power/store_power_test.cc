@@ -10,7 +10,7 @@
 #include "storage/cipher/recovery.h"
 #include "storage/model_blob.h"
 #include "storage/sodium_sha256.h"
-#include "storage/store_keeping.h"
+#include "storage/store.h"
 #include "tests/power/power_cuts.h"
 #include "tests/storage/raw_database.h"
 #include "tests/storage/sample.h"

@@ -11,7 +11,7 @@
 #include <fstream>
 #include <utility>
 
-#include "hal/sim/replay/folder_media.h"
+#include "hal/sim/replay/replay_device.h"
 
 namespace relievo::test {
 
@@ -50,7 +50,7 @@ class FaultyStick final : public hal::RemovableMedia {
     waits_.notify_all();
   }
 
-  std::optional<hal::Medium> current() override { return real_.current(); }
+  std::optional<std::filesystem::path> current() override { return real_.current(); }
   Result<void> settle(const std::filesystem::path& folder) override {
     const std::string hidden =
         folder.filename().string();  // ".CODE.part123": CODE is its name when it is whole

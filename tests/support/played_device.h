@@ -12,8 +12,8 @@
 #include <thread>
 #include <vector>
 
+#include "hal/clock.h"
 #include "hal/device.h"
-#include "hal/monotonic_clock.h"
 
 namespace relievo::test {
 
@@ -114,7 +114,7 @@ class PlayedDevice final : public hal::Device, hal::RemovableMedia, hal::Watchdo
   hal::Watchdog& watchdog() override { return *this; }
 
  private:
-  std::optional<hal::Medium> current() override { return std::nullopt; }
+  std::optional<std::filesystem::path> current() override { return std::nullopt; }
   Result<void> flush_and_eject() override { return {}; }
   void kick() override { ++kicks; }
   hal::CaptureMode mode_;

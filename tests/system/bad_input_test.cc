@@ -241,6 +241,18 @@ TEST_F(BadInput, APersonWhoIsNotThere) {
   refused({"calibration", "import", "missing.yml", "--store", "nowhere"}, "missing.yml");
 }
 
+// Not as one that was ended: its next start says so (firmware/kiosk/stored_visits.h).
+TEST_F(BadInput, AKioskThatEndsForWantOfAScreenLeavesItsMark) {
+  fs::create_directory(here / "pair");
+  fs::copy_file(here / "left.png", here / "pair/left_000000.png");
+  fs::copy_file(here / "right.png", here / "pair/right_000000.png");
+  const Said said = run_program({"/usr/bin/env", "SDL_VIDEODRIVER=none", RELIEVO_BINARY, "--board",
+                                 "folder:pair", "--calibration", "rig.yml", "--store", "store"},
+                                here.path());
+  EXPECT_EQ(said.exit_code, 1) << said.err;
+  EXPECT_TRUE(fs::exists(here / "store/relievo.running")) << said.err;
+}
+
 TEST_F(BadInput, WrongWordsAreToldFromWrongFiles) {
   for (const auto& words : std::vector<std::vector<std::string>>{
            {"--windowed", "wide"}, {"bogus"}, {"reconstruct", "left.png"}}) {

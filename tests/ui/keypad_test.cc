@@ -11,7 +11,7 @@
 
 #include "tests/support/made_screen.h"
 #include "tests/ui/languages.h"
-#include "ui/view/keypad_letters.h"
+#include "ui/view/visit.h"
 
 namespace relievo::ui {
 namespace {
@@ -190,6 +190,26 @@ TEST_P(KeypadTest, TypedLettersArriveAndABlankIsALetterWhereOneIsTyped) {
   EXPECT_EQ(ui->visit().step, Step::Attract) << "nobody asks for letters here";
   press(Kind::Letter, " ");
   EXPECT_EQ(ui->visit().step, Step::Consent) << "a blank presses what has the focus";
+}
+
+// On the staff's menu a notice stands in the title's place for a while; the other headings have no id.
+TEST(StaffKeypad, TheFocusBeginsAtTheFirstHeading) {
+  const auto ui = test::make_screen();
+  ServiceView staff;
+  staff.role = StaffRole::Operator;
+  staff.leaves_in_s = 9;
+  ViewState view;
+  view.service = &staff;
+  Service service;
+  service.show(StaffPage::Menu);
+  ui->show(view, {}, service);
+  const Node* heading = ui->tree().question();
+  ASSERT_NE(heading, nullptr);
+  ASSERT_EQ(heading->id, "");
+  ui->feed({Kind::Next}, view);
+  const Node* focus = ui->tree().find(ui->focus());
+  ASSERT_GT(focus, heading);
+  for (const Node* node = heading; node != focus; ++node) EXPECT_EQ(node->action.kind, ActionKind::None);
 }
 
 INSTANTIATE_TEST_SUITE_P(Languages, KeypadTest, kEveryLanguage, language_code);

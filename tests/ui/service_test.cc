@@ -66,6 +66,15 @@ TEST_F(ServiceTest, APinIsDigitsAndIsWipedWithItsRequest) {
   EXPECT_EQ(service.typed(), "");
 }
 
+TEST_F(ServiceTest, APinThatCannotBeAskedForIsWiped) {
+  act(ActionKind::StaffEnter);
+  for (int i = 0; i < 20; ++i) service.act(Action(CheckPin{}), view);
+  for (const char* key : {"4", "7", "1", "1"}) service.type(key);
+  service.act(Action(CheckPin{}), view);
+  EXPECT_EQ(service.typed(), "");
+  EXPECT_EQ(last_request()->text(), "") << "there was no room for it";
+}
+
 TEST_F(ServiceTest, BackLeadsOutOneStepAtATime) {
   sign_in(StaffRole::Operator);
   act(ActionKind::StaffOpen, static_cast<int>(StaffPage::Records));

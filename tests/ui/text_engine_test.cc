@@ -8,7 +8,7 @@
 #include <string>
 #include <vector>
 
-#include "ui/text/phrases.h"
+#include "ui/text/pango_paragraph.h"
 
 namespace relievo::ui {
 namespace {

@@ -10,6 +10,9 @@
 
 namespace relievo::ui {
 
+// Where nobody has set another.
+inline const std::chrono::seconds kPatience{Settings().of(Setting::PatienceS)};
+
 class VisitHands : public testing::Test {
  protected:
   VisitHands() {

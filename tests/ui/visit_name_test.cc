@@ -2,6 +2,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 //
 // What is typed, and what it is typed with.
+#include <string>
+
 #include "tests/ui/visit_hands.h"
 
 namespace relievo::ui {
@@ -67,6 +69,24 @@ TEST_F(VisitNameTest, TheDigitsOfAKeypadTypeLettersAndACodeItsDigits) {
   EXPECT_EQ(visit.name(), "44219");
   for (int i = 0; i < 20; ++i) visit.type("7");
   EXPECT_EQ(visit.name().size(), kCodeDigits);
+}
+
+TEST_F(VisitNameTest, ALetterThatIsRefusedTakesNoneAwayWithTheNext) {
+  act(ActionKind::Start);
+  visit.reads_to_the_end();
+  act(ActionKind::Agree);
+  for (const char* letter : {"A", "n", "n", "a", " "}) visit.type(letter);
+  visit.type_by_digit('1', view.now);
+  EXPECT_EQ(visit.name(), "Anna ") << "no second blank";
+  visit.type_by_digit('1', view.now);
+  EXPECT_EQ(visit.name(), "Anna -");
+  visit.type_by_digit('1', view.now);
+  EXPECT_EQ(visit.name(), "Anna '");
+  while (visit.name().size() < kMostNameBytes) visit.type("n");
+  const std::string full(visit.name());
+  visit.type_by_digit('5', view.now);
+  visit.type_by_digit('5', view.now);
+  EXPECT_EQ(visit.name(), full);
 }
 
 }  // namespace

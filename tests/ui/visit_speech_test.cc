@@ -130,7 +130,7 @@ TEST_F(VisitSpeechTest, WhoListensIsThere) {
     follow();
   }
   EXPECT_EQ(visit.overlay, Overlay::None);
-  view.now += kPatience + 1s;
+  view.now += std::chrono::seconds(view.settings.of(Setting::PatienceS)) + 1s;
   follow();
   EXPECT_EQ(visit.overlay, Overlay::StillThere);
   visit.listens(view.now);

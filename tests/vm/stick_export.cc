@@ -18,8 +18,8 @@
 #include "firmware/service/export_records.h"
 #include "firmware/service/stick_folder.h"
 #include "hal/base/words.h"
+#include "hal/clock.h"
 #include "hal/linux/mounted_stick.h"
-#include "hal/monotonic_clock.h"
 #include "storage/sqlite/sqlite_store.h"
 #include "tests/storage/sample.h"
 

@@ -15,10 +15,10 @@ static_assert(kEveryLanguage.size() == kLanguages);
 constexpr std::array<std::int32_t, 2> kSwitch{0, 1};
 constexpr std::array<std::int32_t, 4> kText{100, 125, 150, 200};
 // WCAG 2.2.1 wants no less than 20 s to answer; the question comes after this, and waits for kLastCall more.
-constexpr std::array<std::int32_t, 7> kPatience{20, 30, 45, 60, 90, 120, 180};
+constexpr std::array<std::int32_t, 7> kPatience{20, 30, 45, 60, 90, 120, kMostPatienceS};
 constexpr std::array<std::int32_t, 5> kCountdowns{1000, 1500, 2000, 3000, 5000};
 constexpr std::array<std::int32_t, 5> kAttempts{1, 2, 3, 4, 5};
-constexpr std::array<std::int32_t, 6> kStaffPatience{30, 60, 120, 180, 240, 300};
+constexpr std::array<std::int32_t, 6> kStaffPatience{30, 60, 120, 180, 240, kMostStaffPatienceS};
 // From the longest: whoever goes through them passes no shorter time than the one they want.
 constexpr std::array<std::int32_t, 9> kDays{0, 1825, 1095, 730, 365, 180, 90, 30, 7};
 constexpr std::array<std::int32_t, 6> kRoom{256, 512, 1024, 2048, 4096, 8192};

@@ -35,6 +35,9 @@ enum class Setting : std::uint8_t {
 };
 inline constexpr std::size_t kSettings = std::size_t(Setting::Count);
 
+// The largest of PatienceS and of StaffPatienceS.
+inline constexpr std::int32_t kMostPatienceS = 180, kMostStaffPatienceS = 300;
+
 struct SettingInfo {
   Setting setting;
   std::string_view key;

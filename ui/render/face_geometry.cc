@@ -14,7 +14,7 @@
 #include <utility>
 
 #include "hal/base/groups.h"
-#include "pipeline/model/mesh_border.h"
+#include "pipeline/model/face_mesh.h"
 #include "pipeline/model/vector3.h"
 
 namespace relievo::ui {

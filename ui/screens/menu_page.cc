@@ -100,10 +100,7 @@ class Tiles {
 
 void menu_page(StaffFrame& page) {
   page.begin(page.staff.role == StaffRole::Operator ? page.tr("Operator") : page.tr("Technician"), nullptr);
-  Node list = page.grown(page.box(Flow::Column, space::kXs));
-  list.id = "menu";
-  list.box.scroll = true;
-  page.tree.open(list);
+  page.tree.open(scroller("menu", page.grown(page.box(Flow::Column, space::kXs))));
   status(page);
   Tiles tiles(page);
   const char* group = nullptr;

@@ -112,15 +112,12 @@ void staff_entrance(Page& page) {
   if (page.view.service == nullptr || page.visit.overlay != Overlay::None) return;
   const Step step = page.visit.step;
   if (step != Step::Attract && step != Step::Trouble) return;
-  Node corner = page.box(Flow::Row, 0, 16, 16);
-  corner.box.justify = Justify::End;
-  corner.box.align = Align::Start;
-  const auto in_corner = page.tree.inside(corner);
-  Node lock = page.sized(page.box(Flow::Column), size::kTarget, size::kTarget);
+  const auto in_corner =
+      page.tree.inside(aligned(justified(page.box(Flow::Row, 0, 16, 16), Justify::End), Align::Start));
+  Node lock = centred(page.sized(page.box(Flow::Column), size::kTarget, size::kTarget));
   tell(lock, Role::Button, "staff", page.tr("Staff: hold for three seconds"), {ActionKind::StaffEnter, 0});
   lock.hold = true;
   lock.filling = page.palette.accent;
-  centre(lock);
   lock.box.radius = page.px(size::kRadius);
   const auto in_lock = page.tree.inside(lock);
   page.sign(icon::kLock, 30 / page.text_share, page.palette.ink_soft);

@@ -7,7 +7,7 @@
 
 #include <span>
 
-#include "ui/screens/service/staff_pages.h"
+#include "ui/screens/service/staff_frame.h"
 
 namespace relievo::ui {
 

@@ -193,7 +193,7 @@ void Narrator::follow_statuses(const Tree& tree, const Moment& moment, const Lis
     if ((node.role != Role::Status && node.role != Role::Alert) || node.id.empty() || !tree.is_on_top(node))
       continue;
     Told* told = told_of(print_of(node.id));
-    if (told == nullptr) return;
+    if (told == nullptr) break;
     scratch_.clear();
     say_node(tree, node, to, scratch_);
     const std::size_t words = print_of(scratch_.text());

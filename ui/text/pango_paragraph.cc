@@ -11,7 +11,6 @@
 #include <vector>
 
 #include "ui/draw/theme.h"
-#include "ui/text/phrases.h"
 
 namespace relievo::ui {
 namespace {
@@ -52,11 +51,9 @@ const char* families_of(const TextStyle& style) {
   return style.icon ? kIconFamily : is(style, "ja") ? kJapaneseFamilies : kFamilies;
 }
 
-}  // namespace
-
-class PangoParagraph::Impl {
+class Paragraph final : public PangoParagraph {
  public:
-  Impl() : map_(pango_cairo_font_map_new()), context_(pango_font_map_create_context(map_.get())) {
+  Paragraph() : map_(pango_cairo_font_map_new()), context_(pango_font_map_create_context(map_.get())) {
     cairo_font_options_t* options = cairo_font_options_create();
     cairo_font_options_set_antialias(options, CAIRO_ANTIALIAS_GRAY);
     cairo_font_options_set_hint_style(options, CAIRO_HINT_STYLE_NONE);
@@ -69,7 +66,7 @@ class PangoParagraph::Impl {
     pango_attr_list_insert(tabular_.get(), pango_attr_font_features_new("tnum=1"));
   }
 
-  Result<void> check_fonts() {
+  Result<void> check_fonts() override {
     for (const char* family : {"Inter", "Noto Sans Arabic", "Noto Sans Hebrew", "Noto Sans CJK SC",
                                "Noto Sans CJK JP", kIconFamily}) {
       PangoFontDescription* wanted = pango_font_description_from_string(family);
@@ -84,7 +81,7 @@ class PangoParagraph::Impl {
     return {};
   }
 
-  const SetText& set(std::string_view text, const TextStyle& style, int width) {
+  const SetText& set(std::string_view text, const TextStyle& style, int width) override {
     set_style(style);
     set_out(text, style, width);
     set_lines(style);
@@ -94,7 +91,7 @@ class PangoParagraph::Impl {
     return set_;
   }
 
-  GlyphCoverage draw(int left, int top, int w, int h) {
+  GlyphCoverage draw(int left, int top, int w, int h) override {
     const int stride = cairo_format_stride_for_width(CAIRO_FORMAT_A8, w);
     ink_.assign(std::size_t(stride) * std::size_t(h), 0);
     cairo_surface_t* surface =
@@ -114,7 +111,7 @@ class PangoParagraph::Impl {
     return {ink_.data(), stride};
   }
 
-  void forget() {
+  void forget() override {
     pango_layout_set_text(layout_.get(), "", 0);
     std::ranges::fill(joined_, '\0');  // clear() would leave the bytes
     std::ranges::fill(ink_, static_cast<unsigned char>(0));
@@ -276,13 +273,8 @@ class PangoParagraph::Impl {
   std::string joined_;
 };
 
-PangoParagraph::PangoParagraph() : impl_(std::make_unique<Impl>()) {}
-PangoParagraph::~PangoParagraph() = default;
-Result<void> PangoParagraph::check_fonts() { return impl_->check_fonts(); }
-const SetText& PangoParagraph::set(std::string_view text, const TextStyle& style, int width) {
-  return impl_->set(text, style, width);
-}
-GlyphCoverage PangoParagraph::draw(int left, int top, int w, int h) { return impl_->draw(left, top, w, h); }
-void PangoParagraph::forget() { impl_->forget(); }
+}  // namespace
+
+std::unique_ptr<PangoParagraph> PangoParagraph::make() { return std::make_unique<Paragraph>(); }
 
 }  // namespace relievo::ui

@@ -10,7 +10,9 @@
 
 #include <cstddef>
 #include <memory>
+#include <span>
 #include <string_view>
+#include <vector>
 
 #include "hal/base/result.h"
 #include "ui/text/text_engine.h"
@@ -33,22 +35,37 @@ struct GlyphCoverage {  // one byte a pixel, 255 where a letter covers it
 
 class PangoParagraph {
  public:
-  PangoParagraph();
-  ~PangoParagraph();
-  PangoParagraph(const PangoParagraph&) = delete;
-  PangoParagraph& operator=(const PangoParagraph&) = delete;
+  static std::unique_ptr<PangoParagraph> make();
+  virtual ~PangoParagraph() = default;
 
-  Result<void> check_fonts();
+  virtual Result<void> check_fonts() = 0;
   // No wider than `width` unless a single word is.
-  const SetText& set(std::string_view text, const TextStyle& style, int width);
+  virtual const SetText& set(std::string_view text, const TextStyle& style, int width) = 0;
   // What was set, w x h pixels from (left, top) on.
-  GlyphCoverage draw(int left, int top, int w, int h);
+  virtual GlyphCoverage draw(int left, int top, int w, int h) = 0;
   // Nothing that was set stays in memory.
-  void forget();
-
- private:
-  class Impl;
-  std::unique_ptr<Impl> impl_;
+  virtual void forget() = 0;
 };
+
+// Phrases of a text in Chinese or Japanese, which are written without spaces and may be broken between
+// any two letters: a heading torn inside a word ("撮影しま|す") reads badly all the same.
+// Chinese: a phrase ends at a punctuation mark. Japanese: there too, and where letters of hiragana
+// (endings, particles) are followed by the next word in kanji, katakana, Latin letters or digits; the
+// prefixes お and ご and the words もう, 何も and あと belong to what follows, the parts of a verb (撮り直す)
+// stay together. UTF-8, as a catalogue holds it. Bytes. Thread: any. Errors: none; where no phrase is seen,
+// the whole text is one. Paper: JIS X 4051:2004 says where a line must not break; the phrase is the bunsetsu
+// of Hashimoto (1934).
+
+// The bytes at which the phrases after the first begin, in order.
+std::vector<std::size_t> phrase_starts(std::string_view text, bool japanese);
+
+// The same of sentences in a script that is written with spaces: behind ". ", "! ", "? " and the Arabic
+// question mark.
+std::vector<std::size_t> sentence_starts(std::string_view text);
+
+// Phrases as wide as `widths`, on as few lines no wider than `width` as they need: the numbers of those with
+// which the lines after the first begin. Evened, the widest line is as narrow as that many lines allow;
+// otherwise each is full. A phrase that is wider than `width` has a line of its own.
+std::vector<std::size_t> fill_lines(std::span<const float> widths, float width, bool evened);
 
 }  // namespace relievo::ui

@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: 2026 The Relievo authors
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include "ui/text/phrases.h"
+#include "ui/text/pango_paragraph.h"
 
 #include <algorithm>
 #include <cstdint>

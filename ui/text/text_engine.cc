@@ -78,7 +78,7 @@ std::uint64_t key_of(std::string_view text, const TextStyle& style, int width) {
 
 class CachedTextEngine final : public TextEngine {
  public:
-  Result<void> check_fonts() { return paragraph_.check_fonts(); }
+  Result<void> check_fonts() { return paragraph_->check_fonts(); }
 
   TextSize measure(std::string_view text, const TextStyle& style, float max_width_px) override {
     return find(text, style, max_width_px).label.size;
@@ -116,7 +116,7 @@ class CachedTextEngine final : public TextEngine {
   void forget() override {
     labels_.clear();
     atlas_.reset();
-    paragraph_.forget();
+    paragraph_->forget();
   }
 
  private:
@@ -134,7 +134,7 @@ class CachedTextEngine final : public TextEngine {
     if (known != labels_.end()) return known->second;
     if (labels_.size() > 4000) forget();
     Entry& entry = labels_[key];
-    const SetText& set = paragraph_.set(text, style, width);
+    const SetText& set = paragraph_->set(text, style, width);
     // A pixel more: boxes are rounded to whole pixels, and must not lose a word by that.
     entry.label.size = {std::ceil(set.width_px) + 1, std::ceil(set.height_px), set.lines};
     // All in whole pixels, so that letters stay sharp.
@@ -146,7 +146,7 @@ class CachedTextEngine final : public TextEngine {
   }
 
   const SetText& set(std::string_view text, const TextStyle& style, float max_width_px) {
-    return paragraph_.set(text, style, std::max(1, int(std::ceil(max_width_px))));
+    return paragraph_->set(text, style, std::max(1, int(std::ceil(max_width_px))));
   }
 
   const TextLabel& label_of(Entry& entry, std::string_view text, const TextStyle& style, float max_width_px) {
@@ -182,12 +182,12 @@ class CachedTextEngine final : public TextEngine {
       atlas_.reset();
       at = atlas_.place(w, h);
     }
-    const GlyphCoverage drawn = paragraph_.draw(int(ink.x), int(ink.y), w, h);
+    const GlyphCoverage drawn = paragraph_->draw(int(ink.x), int(ink.y), w, h);
     for (int y = 0; y < h; ++y) std::memcpy(atlas_.row(at->x, at->y + y), drawn.row(y), std::size_t(w));
     return {float(at->x), float(at->y), ink.w, ink.h};
   }
 
-  PangoParagraph paragraph_;
+  std::unique_ptr<PangoParagraph> paragraph_ = PangoParagraph::make();
   TextAtlas atlas_;
   std::unordered_map<std::uint64_t, Entry> labels_;
 };

@@ -117,14 +117,11 @@ const Node* Tree::scroller_at(float x, float y) const {
   return nullptr;
 }
 
-const Node* Tree::after(std::string_view id, int direction) const {
+const Node* Tree::after(const Node* from, int direction) const {
   const auto count = int(nodes_.size());
-  int from = direction > 0 ? -1 : count;
-  for (int i = 0; i < count; ++i) {
-    if (nodes_[std::size_t(i)].id == id) from = i;
-  }
+  const int begin = from != nullptr ? int(from - nodes_.data()) : direction > 0 ? -1 : count;
   for (int step = 1; step <= count; ++step) {
-    const auto i = std::size_t(((from + direction * step) % count + count) % count);
+    const auto i = std::size_t(((begin + direction * step) % count + count) % count);
     if (takes_focus(i) && !under_modal(i)) return &nodes_[i];
   }
   return nullptr;

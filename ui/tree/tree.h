@@ -24,7 +24,7 @@ namespace relievo::ui {
 
 // Node: one thing on the screen. A node has a stable id, by which focus, presses and scrolling are
 // kept from one frame to the next, and a role and a name for tests and assistive use.
-// Lengths are pixels: TreeBuilder has turned dp into them. Strings are borrowed from the tree or literals.
+// Lengths are pixels: Page has turned dp into them. Strings are borrowed from the tree or literals.
 
 // A status is told when there is quiet, an alert at once.
 enum class Role : std::uint8_t { Group, Heading, Text, Icon, Button, Key, Field, Picture, Status, Alert };
@@ -139,6 +139,11 @@ class Tree {
   [[nodiscard]] Inside inside(const Node& node) { return open(node), Inside(*this); }
   Node& leaf(const Node& node);
   std::string_view keep(std::string_view text);
+  // All that was kept since it was so much, as one text.
+  std::size_t kept() const { return strings_used_; }
+  std::string_view kept_since(std::size_t from) const {
+    return {strings_.data() + from, strings_used_ - from};
+  }
   // On the newest node, over what was drawn on it before.
   void mark(const Spot& spot);
 
@@ -153,10 +158,10 @@ class Tree {
   // The topmost node there that can be touched; the scroller there.
   const Node* at(float x, float y) const;
   const Node* scroller_at(float x, float y) const;
-  // The next in reading order (that of the nodes) that can have the focus, round and round: what can be
-  // touched, and a scroller that goes on and has nothing to touch in it, so that a keypad reads on there,
-  // too.
-  const Node* after(std::string_view id, int direction) const;
+  // The next in reading order (that of the nodes) that can have the focus, round and round, nullptr: from
+  // where they begin or end: what can be touched, and a scroller that goes on and has nothing to touch in
+  // it, so that a keypad reads on there, too.
+  const Node* after(const Node* from, int direction) const;
   // The next that can have the focus as the eye sees it: one of `right` and `down` is 1 or -1. nullptr: none.
   const Node* beside(const Node& from, float right, float down) const;
   // The heading of what lies on top: what is asked comes after it. nullptr: it has none.

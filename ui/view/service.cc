@@ -2,8 +2,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "ui/view/service.h"
 
-#include <string.h>
-
 #include <algorithm>
 
 #include "hal/base/utf8.h"
@@ -40,7 +38,7 @@ void Service::act(const Action& action, const ViewState& view) {
   if (kind == ActionKind::StaffMode) ruler = {};
   if (kind == ActionKind::StaffMeasure) ruler = {.on = !ruler.on};
   if (kind == ActionKind::StaffLeave) leave();
-  if (kind == ActionKind::Erase) erase_letter();
+  if (kind == ActionKind::Erase) typed_.cut(last_letter_at(typed()));
   if (kind == ActionKind::Back) back(view.service != nullptr && view.service->inner);
 }
 
@@ -61,22 +59,8 @@ void Service::back(bool inner) {
 }
 
 void Service::type(std::string_view letter) {
-  const std::size_t most = digits_only() ? kMostPinDigits : typed_.size();
-  if (length_ + letter.size() > most) return;
-  if (digits_only() && (letter.size() != 1 || letter[0] < '0' || letter[0] > '9')) return;
-  letter.copy(typed_.data() + length_, letter.size());
-  length_ += letter.size();
-}
-
-void Service::erase_letter() {
-  const std::size_t at = last_letter_at({typed_.data(), length_});
-  std::fill(typed_.begin() + at, typed_.begin() + length_, '\0');
-  length_ = at;
-}
-
-void Service::forget_typed() {
-  explicit_bzero(typed_.data(), typed_.size());
-  length_ = 0;
+  const bool digit = letter.size() == 1 && letter[0] >= '0' && letter[0] <= '9';
+  if (!digits_only() || (digit && typed().size() < kMostPinDigits)) typed_.add(letter);
 }
 
 void Service::show(StaffPage which, int in_mode) {
@@ -86,7 +70,7 @@ void Service::show(StaffPage which, int in_mode) {
 }
 
 void Service::go(StaffPage to) {
-  forget_typed();
+  typed_.wipe();
   page = to;
   mode = 0;
   ruler = {};
@@ -94,7 +78,7 @@ void Service::go(StaffPage to) {
 }
 
 void Service::close() {
-  forget_typed();
+  typed_.wipe();
   open = false;
   page = StaffPage::Pin;
   mode = 0;
@@ -102,21 +86,16 @@ void Service::close() {
 }
 
 void Service::request(const StaffAsk& ask) {
-  if (request_count_ == requests_.size()) return;
-  StaffRequest& next = requests_[request_count_++];
-  next.page = page;
-  next.ask = ask;
-  next.bytes = {};
-  typed().copy(next.bytes.data(), kStaffTextBytes);
-  // A PIN is not kept longer than its check, a name not longer than its search.
-  if (!std::holds_alternative<PageOpened>(ask)) forget_typed();
+  if (request_count_ < requests_.size()) requests_[request_count_++] = {page, ask, typed_};
+  // A PIN is not kept longer than its check, a name not longer than its search; nor where it cannot be asked.
+  if (!std::holds_alternative<PageOpened>(ask)) typed_.wipe();
 }
 
 std::optional<StaffRequest> Service::take_request() {
   if (request_count_ == 0) return std::nullopt;
   const StaffRequest first = requests_[0];
   std::move(requests_.begin() + 1, requests_.begin() + std::ptrdiff_t(request_count_), requests_.begin());
-  explicit_bzero(requests_[--request_count_].bytes.data(), kStaffTextBytes);
+  requests_[--request_count_].typed.wipe();
   return first;
 }
 

@@ -19,6 +19,7 @@
 #include <optional>
 #include <string_view>
 
+#include "hal/base/wiped_text.h"
 #include "hal/clock.h"
 #include "pipeline/model/geometry.h"
 #include "ui/view/action.h"
@@ -69,7 +70,7 @@ class Service {
   int mode = 0;     // the page's own: a question, a step; 0 when the page is opened
   FaceRuler ruler;  // of the page's model
 
-  std::string_view typed() const { return {typed_.data(), length_}; }
+  std::string_view typed() const { return typed_.view(); }
   bool takes(ActionKind kind) const;
   void act(const Action& action, const ViewState& view);
   void type(std::string_view letter);
@@ -89,14 +90,11 @@ class Service {
   void enter(const ViewState& view);
   void leave();
   void back(bool inner);
-  void erase_letter();
-  void forget_typed();
   bool digits_only() const {
     return page == StaffPage::Pin || page == StaffPage::FirstStart || page == StaffPage::Pins;
   }
 
-  std::array<char, kStaffTextBytes> typed_{};
-  std::size_t length_ = 0;
+  ShortWipedText<kStaffTextBytes> typed_;
   std::array<StaffRequest, kRequests> requests_{};
   std::size_t request_count_ = 0;
   hal::Instant last_touch_{};

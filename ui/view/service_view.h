@@ -6,8 +6,11 @@
 // Ownership: everything is borrowed for the length of one frame. Thread: main.
 #pragma once
 
+#include <array>
+#include <cstddef>
 #include <cstdint>
 #include <optional>
+#include <string>
 #include <string_view>
 
 #include "hal/base/words.h"
@@ -121,6 +124,45 @@ struct ServiceView {
   const struct SettingsView* settings = nullptr;
   const struct TouchView* touch = nullptr;
   const struct TechnicianView* technician = nullptr;  // of all the technician's picture pages
+};
+
+// Fault: an error of the engine as the staff's pages show it: its code, which they say in the reader's
+// language (ui/screens/service/fault_words.h), and its detail in English, as it was written. Visitors see
+// none. Thread: any. Errors: none.
+struct Fault {
+  Errc code = Errc::InvalidState;
+  std::string detail;  // where and what; empty: nothing is wrong
+  bool empty() const { return detail.empty(); }
+};
+
+// The same, kept by somebody else: it costs no memory in every turn.
+struct FaultView {
+  FaultView() = default;
+  FaultView(Errc whose, std::string_view what) : code(whose), detail(what) {}
+  FaultView(const Fault& fault) : code(fault.code), detail(fault.detail) {}
+  FaultView(Fault&&) = delete;  // it would not outlive this
+  Errc code = Errc::InvalidState;
+  std::string_view detail;
+  bool empty() const { return detail.empty(); }
+};
+
+inline Fault fault_of(const Error& error) { return {error.code, detail_of(error)}; }
+
+// ListPlace: where one is in a list of many pages, and the ways to another place, as the shared part of all
+// lists draws them (list_pager()). Borrowed for one frame. Thread: main.
+
+// Pages, counted from 0, both ends included; and what stands at the top of the first: a date, a number.
+struct ListStretch {
+  std::int64_t first = 0, last = 0;
+  std::string_view label;
+};
+inline constexpr std::size_t kListStretches = 10;
+
+struct ListPlace {
+  std::int64_t page = 0, pages = 1;
+  std::array<ListStretch, kListStretches> stretches{};  // of what was divided last
+  std::size_t stretch_count = 0;                        // 0: they are being looked up
+  std::size_t filter = 0;                               // of the page's own; 0: all rows
 };
 
 }  // namespace relievo::ui

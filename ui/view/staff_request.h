@@ -11,6 +11,7 @@
 #include <string_view>
 #include <variant>
 
+#include "hal/base/wiped_text.h"
 #include "ui/device/settings.h"
 #include "ui/view/service_view.h"
 
@@ -31,7 +32,7 @@ struct SetClock {};            // the shown time is right
 struct TakeConsentText {};     // from the stick
 struct ConfirmConsentText {};  // the one in force is meant to be
 
-// --- lists of many pages: in the page's own; pages count from 0 (ui/view/list_place.h) ---------------------
+// --- lists of many pages: in the page's own; pages count from 0 (ListPlace) ---------------------
 struct GoToPage {
   std::int64_t page = 0;
 };
@@ -187,8 +188,8 @@ inline constexpr std::size_t kStaffTextBytes = 128;
 struct StaffRequest {
   StaffPage page = StaffPage::Menu;
   StaffAsk ask;
-  std::array<char, kStaffTextBytes + 1> bytes{};
-  std::string_view text() const { return {bytes.data()}; }
+  ShortWipedText<kStaffTextBytes> typed;
+  std::string_view text() const { return typed.view(); }
   // What was asked, if it is that.
   template <typename Ask>
   const Ask* as() const {

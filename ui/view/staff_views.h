@@ -14,8 +14,6 @@
 #include <string_view>
 
 #include "ui/draw/draw_list.h"
-#include "ui/view/fault.h"
-#include "ui/view/list_place.h"
 #include "ui/view/service_view.h"
 
 namespace relievo::ui {

@@ -17,9 +17,9 @@
 #include "pipeline/model/face_model.h"
 #include "pipeline/model/stereo_frame.h"
 #include "ui/device/settings.h"
+#include "ui/draw/draw_list.h"
 #include "ui/language/language.h"
 #include "ui/view/consent_text.h"
-#include "ui/view/fault.h"
 #include "ui/view/service_view.h"
 
 namespace relievo::ui {
@@ -96,11 +96,6 @@ struct LiveView {
   std::optional<TurnView> turn;
 };
 
-// The photograph, or what a stage made of it, as a picture; kept while the session is open.
-struct StageView {
-  ImageView picture;  // empty: not born yet
-  std::uint32_t number = 0;
-};
 inline constexpr std::size_t kStageViews = 5;  // Capture, Match, Reconstruct, Mesh, Texture
 
 // Of the code on paper.
@@ -119,7 +114,7 @@ struct TakeHomeView {
   float progress = 0;               // 0 to 1
   Outcome outcome = Outcome::None;  // of the last try
   std::string_view link;            // to what the operator offers; empty: nothing
-  StageView link_code;              // the same as a QR code
+  Picture link_code;                // the same as a QR code
 };
 
 struct ViewState {
@@ -130,13 +125,14 @@ struct ViewState {
   Trouble trouble = Trouble::None;
   FaultView calibration_note;  // for the technician: what speaks against the calibration
   std::string_view receipt;    // what to quote for an erasure; from the moment of storing on
-  StageView receipt_code;      // the same as a QR code
+  Picture receipt_code;        // the same as a QR code
   Printing printing = Printing::None;
   TakeHomeView take_home;
   bool cameras_on = false;  // they are streaming: as the capture thread has it
   int attempt = 0;          // 1 for the first capture of a session
   LiveView live;
-  std::array<StageView, kStageViews> stages{};
+  // The photograph and what the stages made of it; empty: not born yet. Kept while the session is open.
+  std::array<Picture, kStageViews> stages{};
   const pipeline::StereoFrame* frame = nullptr;          // the pictures of this session, once taken
   const pipeline::FaceModel* model = nullptr;            // from Review on
   std::uint32_t model_number = 0;                        // another for every model

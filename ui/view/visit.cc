@@ -46,7 +46,7 @@ void Visit::forget() {
 }
 
 void Visit::forget_person() {
-  wipe_name();
+  name_.wipe();
   enrolment_kind_ = EnrolmentKind::NewSubject;
   quotes_code_ = looking_up_ = false;
   look_ups_ = 0;
@@ -70,20 +70,6 @@ void Visit::go(Step to, hal::Instant now) {
   if (to == Step::Consent) read_ = false;
 }
 
-void Visit::look_at(ActionKind kind) {
-  if (kind == ActionKind::TurnLeft) look.yaw_deg = std::max(-75.0F, look.yaw_deg - 25);
-  if (kind == ActionKind::TurnRight) look.yaw_deg = std::min(75.0F, look.yaw_deg + 25);
-  if (kind == ActionKind::ZoomIn) look.zoom = std::min(3.0F, look.zoom * 1.25F);
-  if (kind == ActionKind::ZoomOut) look.zoom = std::max(0.8F, look.zoom / 1.25F);
-  if (kind == ActionKind::MoveLight) look.light_deg = look.light_deg >= 55 ? -55 : look.light_deg + 30;
-  if (kind == ActionKind::LookAtFirst) look = {};
-  if (kind == ActionKind::ShowShape) look.textured = !look.textured;
-  if (kind == ActionKind::LookPoints) look.points = !look.points;
-  if (kind == ActionKind::LookEdges) look.edges = !look.edges;
-  if (kind == ActionKind::LookFill) look.fill = !look.fill;
-  if (kind == ActionKind::LookLight) look.lit = !look.lit;
-}
-
 std::optional<Intent> Visit::back(const ViewState& view) {
   if (std::exchange(overlay, Overlay::None) != Overlay::None) return std::nullopt;
   switch (step) {
@@ -105,37 +91,41 @@ std::optional<Intent> Visit::back(const ViewState& view) {
 
 std::optional<Intent> Visit::act(Action action, const ViewState& view) {
   switch (action.kind) {
-    case ActionKind::ShowLanguages:
-    case ActionKind::ShowHelp:
-    case ActionKind::Leave:
-    case ActionKind::LostCode:
-    case ActionKind::ShowPrivacy:
+    // How it is read, and what lies over it: wherever the person is.
+    case ActionKind::BiggerText: text_size = (text_size + 1) % kTextPercents.size(); break;
+    case ActionKind::Contrast: high_contrast = !high_contrast; break;
+    case ActionKind::Reach: reach = static_cast<Reach>((int(reach) + 1) % 3); break;
+    case ActionKind::ShowLanguages: overlay = Overlay::Languages; break;
+    case ActionKind::ShowHelp: overlay = Overlay::Help; break;
+    case ActionKind::Leave: overlay = Overlay::Leave; break;
+    case ActionKind::LostCode: overlay = Overlay::LostCode; break;
+    case ActionKind::ShowPrivacy: overlay = Overlay::Privacy; break;
     case ActionKind::CloseOverlay:
-    case ActionKind::Stay:
+    case ActionKind::Stay: overlay = Overlay::None; break;
     case ActionKind::ChooseLanguage:
-    case ActionKind::BiggerText:
-    case ActionKind::Contrast:
-    case ActionKind::Reach: act_on_page(action, view); break;
-    case ActionKind::Speech:
-    case ActionKind::Quieter:
-    case ActionKind::Louder:
-    case ActionKind::Speed: hear(action.kind); break;
+      overlay = Overlay::None;
+      if (offered(view)[std::size_t(action.value)]) language = static_cast<Language>(action.value);
+      break;
+    case ActionKind::Speech: spoken = !spoken && voices_; break;
+    case ActionKind::Quieter: volume -= volume > 0 ? 1 : 0; break;
+    case ActionKind::Louder: volume = std::min(volume + 1, kVolumePercents.size() - 1); break;
+    case ActionKind::Speed: speed = (speed + 1) % kSpeedPercents.size(); break;
     case ActionKind::Print: return step == Step::Thanks ? std::optional(Intent::Print) : std::nullopt;
     case ActionKind::TakeHome: return step == Step::Thanks ? std::optional(Intent::TakeHome) : std::nullopt;
     case ActionKind::StopTaking: return Intent::StopTaking;
     case ActionKind::LeaveNow: return leave_now(view);
     case ActionKind::Back: return back(view);
-    case ActionKind::TurnLeft:
-    case ActionKind::TurnRight:
-    case ActionKind::ZoomIn:
-    case ActionKind::ZoomOut:
-    case ActionKind::MoveLight:
-    case ActionKind::LookPoints:
-    case ActionKind::LookEdges:
-    case ActionKind::LookFill:
-    case ActionKind::LookLight:
-    case ActionKind::ShowShape:
-    case ActionKind::LookAtFirst: look_at(action.kind); break;
+    case ActionKind::TurnLeft: look.yaw_deg = std::max(-75.0F, look.yaw_deg - 25); break;
+    case ActionKind::TurnRight: look.yaw_deg = std::min(75.0F, look.yaw_deg + 25); break;
+    case ActionKind::ZoomIn: look.zoom = std::min(3.0F, look.zoom * 1.25F); break;
+    case ActionKind::ZoomOut: look.zoom = std::max(0.8F, look.zoom / 1.25F); break;
+    case ActionKind::MoveLight: look.light_deg = look.light_deg >= 55 ? -55 : look.light_deg + 30; break;
+    case ActionKind::LookPoints: look.points = !look.points; break;
+    case ActionKind::LookEdges: look.edges = !look.edges; break;
+    case ActionKind::LookFill: look.fill = !look.fill; break;
+    case ActionKind::LookLight: look.lit = !look.lit; break;
+    case ActionKind::ShowShape: look.textured = !look.textured; break;
+    case ActionKind::LookAtFirst: look = {}; break;
     case ActionKind::Erase: erase_letter(); break;
     case ActionKind::Shift: capitals = !capitals; break;
     case ActionKind::Accents: accents = !accents; break;
@@ -167,21 +157,6 @@ std::optional<Intent> Visit::act(Action action, const ViewState& view) {
   return std::nullopt;
 }
 
-// How it is read, and what lies over it: wherever the person is.
-void Visit::act_on_page(Action action, const ViewState& view) {
-  if (action.kind == ActionKind::BiggerText) text_size = (text_size + 1) % kTextPercents.size();
-  else if (action.kind == ActionKind::Contrast) high_contrast = !high_contrast;
-  else if (action.kind == ActionKind::Reach) reach = static_cast<Reach>((int(reach) + 1) % 3);
-  else if (action.kind == ActionKind::ShowLanguages) overlay = Overlay::Languages;
-  else if (action.kind == ActionKind::ShowHelp) overlay = Overlay::Help;
-  else if (action.kind == ActionKind::Leave) overlay = Overlay::Leave;
-  else if (action.kind == ActionKind::LostCode) overlay = Overlay::LostCode;
-  else if (action.kind == ActionKind::ShowPrivacy) overlay = Overlay::Privacy;
-  else overlay = Overlay::None;
-  if (action.kind == ActionKind::ChooseLanguage && offered(view)[std::size_t(action.value)])
-    language = static_cast<Language>(action.value);
-}
-
 std::optional<Intent> Visit::leave_now(const ViewState& view) {
   go(Step::Attract, view.now);
   return Intent::Cancel;
@@ -199,8 +174,8 @@ std::optional<Intent> Visit::act_on_path(ActionKind kind, const ViewState& view)
     step = Step::Name;
   }
   if (kind == ActionKind::Done) {
-    while (length_ > 0 && name_[length_ - 1] == ' ') erase_letter();
-    if (length_ == 0 || (quotes_code_ && length_ < kCodeDigits)) return std::nullopt;
+    while (name().ends_with(' ')) erase_letter();
+    if (name().empty() || (quotes_code_ && name().size() < kCodeDigits)) return std::nullopt;
     // Who tries many codes is not the one they were given to; who tries many names is told nothing more.
     if (++look_ups_ > kMostLookUps && quotes_code_) return leave_now(view);
     if (look_ups_ > kMostLookUps) return Intent::Pose;
@@ -224,7 +199,7 @@ std::optional<Intent> Visit::act_on_record(ActionKind kind) {
   ++touches;
   if (step != Step::Known) return std::nullopt;
   if (kind == ActionKind::HaveCode) {
-    wipe_name();
+    name_.wipe();
     quotes_code_ = true;
     step = Step::Name;
     return std::nullopt;

@@ -3,7 +3,7 @@
 //
 // Visit: where a person is on the way through the screens, and what they have typed so far. The
 // appliance knows nothing of them before Intent::Pose; what is typed lives here, in fixed memory, and
-// is wiped when they leave, are done, or nobody has touched the screen for kPatience.
+// is wiped when they leave, are done, or nobody has touched the screen for the setting PatienceS.
 //
 //   Attract -> Consent -> Name (-> Known) -> Position (-> Turn) -> Working -> Review -> Thanks -> Attract
 //      (from Position to Review the machine leads and the visit follows)
@@ -17,6 +17,7 @@
 #include <optional>
 #include <string_view>
 
+#include "hal/base/wiped_text.h"
 #include "ui/draw/draw_list.h"
 #include "ui/language/language.h"
 #include "ui/view/action.h"
@@ -44,9 +45,8 @@ inline constexpr std::array<std::string_view, 12> kStepNames{"Attract",  "Consen
 constexpr std::string_view name_of(Step step) { return kStepNames[std::size_t(step)]; }
 enum class Overlay : std::uint8_t { None, Help, Languages, Leave, StillThere, LostCode, Privacy };
 
-// The first where nobody has set another. WCAG 2.2.1 wants 20 seconds for an answer; a code that is seen
-// nowhere else stands longer than other pages.
-inline constexpr std::chrono::seconds kPatience{45}, kLastCall{20}, kReceiptPatience{120}, kToldFor{30};
+// WCAG 2.2.1 wants 20 seconds for an answer; a code that is seen nowhere else stands longer than other pages.
+inline constexpr std::chrono::seconds kLastCall{20}, kReceiptPatience{120}, kToldFor{30};
 inline constexpr std::chrono::milliseconds kTooLate{1000};  // a touch that came as what it was for had ended
 inline constexpr std::chrono::minutes kFaceAlone{5};        // a face keeps a visit no longer without a touch
 inline constexpr float kSteadyFor = 0.6F;                   // seconds, before the countdown begins
@@ -77,7 +77,7 @@ class Visit {
   int touches = 0;  // since "I agree", typing not counted
 
   int text_percent() const { return kTextPercents[text_size]; }
-  std::string_view name() const { return {name_.data(), length_}; }
+  std::string_view name() const { return name_.view(); }
   // Is the code of an earlier record asked for, instead of a name?
   bool quotes_code() const { return quotes_code_; }
   EnrolmentKind enrolment_kind() const { return enrolment_kind_; }
@@ -113,8 +113,7 @@ class Visit {
   // Follows the machine, and the time.
   std::optional<Intent> follow(const ViewState& view);
   void type(std::string_view letter);
-  // '1' to '9': one of the letters on that key (ui/view/keypad_letters.h); again soon after, the next of
-  // them.
+  // '1' to '9': one of the letters on that key; again soon after, the next of them.
   void type_by_digit(char digit, hal::Instant now);
   // A text that was shown to the cameras, as though it had been typed; not over something typed.
   void enter(std::string_view text, hal::Instant now);
@@ -124,10 +123,8 @@ class Visit {
   void go(Step to, hal::Instant now);
   void forget_person();  // not how they like to read
   std::optional<Intent> act_on_path(ActionKind kind, const ViewState& view);
-  void act_on_page(Action action, const ViewState& view);
   std::optional<Intent> leave_now(const ViewState& view);
   std::optional<Intent> back(const ViewState& view);  // what lies over the page first
-  void look_at(ActionKind kind);
   void erase_letter();
   bool person_expected() const;
   void follow_machine(const ViewState& view);
@@ -137,7 +134,6 @@ class Visit {
   void follow_language(const ViewState& view);
   void follow_headphones(const ViewState& view);
   void follow_presence(const ViewState& view);
-  void hear(ActionKind kind);
   void follow_settings(const ViewState& view);
   FaceLook invitation(hal::Instant now) const;
   void look_as_set();
@@ -146,12 +142,11 @@ class Visit {
     const std::chrono::seconds set(settings_.of(Setting::PatienceS));
     return step == Step::Thanks ? std::max(set, kReceiptPatience) : set;
   }
-  void wipe_name();
   void type_code(std::string_view letters);
 
-  std::array<char, kMostNameBytes> name_{};
-  std::size_t length_ = 0;
-  char digit_ = 0;  // that typed the last letter
+  ShortWipedText<kMostNameBytes> name_;
+  char digit_ = 0;               // that typed the last letter
+  std::size_t digit_after_ = 0;  // bytes of the name before that letter
   std::size_t digit_times_ = 0;
   hal::Instant digit_at_{};
   std::chrono::system_clock::time_point agreed_at_{};
@@ -175,5 +170,11 @@ class Visit {
   bool by_itself_ = false;  // the portrait comes to be and turns; nobody has touched anything since
   bool shot_ = false;       // asked for, and not yet under way
 };
+
+// The letters on the digit keys of a keypad: on the keys where telephones have them (ITU-T E.161, ETSI ES 202
+// 130 for Arabic and Hebrew), but on each the frequent ones of names first, which takes a third of the
+// presses away (Pavlovych and Stuerzlinger 2003, "Less-Tap"). The digit itself comes last. `times` 0 is the
+// first, round and round. `digit`: '1' to '9'. The text is a constant.
+std::string_view keypad_letter(Language language, char digit, std::size_t times, bool capital);
 
 }  // namespace relievo::ui

@@ -3,15 +3,13 @@
 //
 // How a visit looks and sounds: when it begins, as the staff has set it, and silent but for who brings
 // headphones; and what moves by itself.
-#include <string.h>
-
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <numbers>
 #include <utility>
 
 #include "hal/base/utf8.h"
-#include "ui/view/keypad_letters.h"
 #include "ui/view/visit.h"
 
 namespace relievo::ui {
@@ -21,31 +19,58 @@ namespace {
 
 constexpr std::chrono::milliseconds kSameKey{1000};  // within it a key means its next letter
 
+// Keys 1 to 9, of small letters and of capital ones.
+using Keys = std::array<std::string_view, 9>;
+using Keypad = std::array<Keys, 2>;
+constexpr Keypad kPlain{{{" -'.1", "acb2", "edf3", "ihg4", "lkj5", "nom6", "rspq7", "tuv8", "wyzx9"},
+                         {" -'.1", "ACB2", "EDF3", "IHG4", "LKJ5", "NOM6", "RSPQ7", "TUV8", "WYZX9"}}},
+    kGerman{{{" -'.1", "aäcb2", "edf3", "ihg4", "lkj5", "nomö6", "rsßpq7", "tüuv8", "wyzx9"},
+             {" -'.1", "AÄCB2", "EDF3", "IHG4", "LKJ5", "MNOÖ6", "RSPQẞ7", "TUÜV8", "WYZX9"}}},
+    kFrench{{{" -'.1", "acbçâà2", "eédfèêë3", "ihgîï4", "lkj5", "nomôœ6", "rspq7", "tuvûùü8", "yzwxÿ9"},
+             {" -'.1", "ACBÇÂÀ2", "EÉDFÈÊË3", "IHGÎÏ4", "LKJ5", "NOMÔŒ6", "RSPQ7", "TUVÛÙÜ8", "YZWXŸ9"}}},
+    kSpanish{{{" -'.1", "acáb2", "edéf3", "iíhg4", "lkj5", "noñóm6", "rspq7", "tuvúü8", "yzwx9"},
+              {" -'.1", "ACBÁ2", "EDFÉ3", "IHGÍ4", "LKJ5", "MNOÑÓ6", "RSPQ7", "TUVÚÜ8", "YZWX9"}}};
+constexpr Keys kArabic{" -1", "تبةث2", "اأءإآئؤ3", "سشصض4", "ردزذ5", "حجخ6", "نيهوى7", "لمقفك8", "عطغظ9"},
+    kHebrew{" -'1", "ודה2", "אבג3", "נמןם4", "ילכך5", "חטז6", "רתש7", "קצץ8", "עפסף9"};
+constexpr std::array kKeypads{
+    kPlain, kGerman, kFrench, kSpanish, Keypad{kArabic, kArabic}, Keypad{kHebrew, kHebrew},
+    kPlain, kPlain};  // in the order of Language
+static_assert(kKeypads.size() == kLanguages);
+
 }  // namespace
+
+std::string_view keypad_letter(Language language, char digit, std::size_t times, bool capital) {
+  const std::string_view key = kKeypads[std::size_t(language)][capital ? 1 : 0][std::size_t(digit - '1')];
+  std::size_t at = 0;
+  for (std::size_t i = 0; i < times; ++i) {
+    at += first_letter_of(key.substr(at)).bytes;
+    if (at == key.size()) at = 0;
+  }
+  return key.substr(at, first_letter_of(key.substr(at)).bytes);
+}
 
 void Visit::type(std::string_view letter) {
   if (step != Step::Name || overlay != Overlay::None) return;
   digit_ = 0;
   if (quotes_code_) return type_code(letter);
-  if (length_ + letter.size() > name_.size()) return;
-  if (letter == " " && (length_ == 0 || name_[length_ - 1] == ' ')) return;
-  letter.copy(name_.data() + length_, letter.size());
-  length_ += letter.size();
+  if (letter == " " && (name().empty() || name().ends_with(' '))) return;
+  if (!name_.add(letter)) return;
   capitals = letter == " " || letter == "-";
   accents = false;
 }
 
 // Its digits alone: they are grouped where they are shown.
 void Visit::type_code(std::string_view letters) {
-  for (const char c : letters)
-    if (c >= '0' && c <= '9' && length_ < kCodeDigits) name_[length_++] = c;
+  for (const char& c : letters)
+    if (c >= '0' && c <= '9' && name().size() < kCodeDigits) name_.add({&c, 1});
 }
 
 void Visit::type_by_digit(char digit, hal::Instant now) {
   if (quotes_code_) return type_code({&digit, 1});
   const bool again = digit == digit_ && now - digit_at_ < kSameKey;
   const std::size_t times = again ? digit_times_ + 1 : 0;
-  if (again) erase_letter();
+  if (again && name().size() > digit_after_) erase_letter();  // the letter before may have been refused
+  digit_after_ = name().size();
   type(keypad_letter(language, digit, times, capitals));
   digit_ = digit;
   digit_times_ = times;
@@ -53,24 +78,18 @@ void Visit::type_by_digit(char digit, hal::Instant now) {
 }
 
 void Visit::enter(std::string_view text, hal::Instant now) {
-  if (step != Step::Name || overlay != Overlay::None || length_ > 0 || text.size() > name_.size()) return;
+  if (step != Step::Name || overlay != Overlay::None || !name().empty() || text.size() > kMostNameBytes)
+    return;
   touched(now);
   if (quotes_code_) return type_code(text);
-  length_ = text.copy(name_.data(), text.size());
+  name_ = text;
   capitals = accents = false;
 }
 
 void Visit::erase_letter() {
   digit_ = 0;
-  const std::size_t at = last_letter_at({name_.data(), length_});
-  std::fill(name_.begin() + at, name_.begin() + length_, '\0');
-  length_ = at;
-  capitals = length_ == 0 || name_[length_ - 1] == ' ' || name_[length_ - 1] == '-';
-}
-
-void Visit::wipe_name() {
-  explicit_bzero(name_.data(), name_.size());
-  length_ = 0;
+  name_.cut(last_letter_at(name()));
+  capitals = name().empty() || name().ends_with(' ') || name().ends_with('-');
 }
 
 namespace {
@@ -146,13 +165,6 @@ void Visit::follow_headphones(const ViewState& view) {
     touched(view.now);
   }
   spoken = spoken && voices_;
-}
-
-void Visit::hear(ActionKind kind) {
-  if (kind == ActionKind::Speech) spoken = !spoken && voices_;
-  if (kind == ActionKind::Quieter && volume > 0) --volume;
-  if (kind == ActionKind::Louder) volume = std::min(volume + 1, kVolumePercents.size() - 1);
-  if (kind == ActionKind::Speed) speed = (speed + 1) % kSpeedPercents.size();
 }
 
 // What the staff has chosen is seen at once where nobody's visit has begun.

@@ -6,13 +6,9 @@
 #include <sstream>
 
 #include "firmware/compare/page/sections.h"
-#include "pipeline/report/page.h"
-#include "pipeline/report/text.h"
 
 namespace relievo::firmware::compare {
 namespace sections {
-
-using pipeline::report::escaped;
 
 const std::string_view kStyle = R"css(
 .sets { font-size: 14px; margin-top: 6px; }
@@ -78,8 +74,8 @@ std::string settings(const Comparison& c, const std::string& title) {
 namespace {
 
 using pipeline::report::counted;
-using pipeline::report::escaped;
-using pipeline::report::figure;
+using sections::escaped;
+using sections::figure;
 
 std::string facts_of(const PairFacts& pair) {
   if (pair.width_px == 0) return "nothing could be rectified";

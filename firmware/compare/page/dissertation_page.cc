@@ -5,8 +5,6 @@
 
 #include "firmware/compare/page/dissertation.h"
 #include "firmware/compare/page/sections.h"
-#include "pipeline/report/page.h"
-#include "pipeline/report/text.h"
 
 namespace relievo::firmware::compare {
 
@@ -26,11 +24,7 @@ std::vector<Figure> figures_of(const Dissertation& d) {
 
 namespace {
 
-using pipeline::report::escaped;
-using pipeline::report::figure;
-using sections::cell;
-using sections::row_head;
-using sections::table;
+using sections::cell, sections::escaped, sections::figure, sections::row_head, sections::table;
 
 constexpr std::string_view kTitle = "The dissertation, done again";
 constexpr std::string_view kStyle = R"css(

@@ -6,21 +6,13 @@
 #include <limits>
 #include <string_view>
 
-#include "firmware/compare/page/maps.h"
 #include "firmware/compare/page/sections.h"
-#include "pipeline/report/drawing.h"
-#include "pipeline/report/page.h"
-#include "pipeline/report/text.h"
 
 namespace relievo::firmware::compare::sections {
 namespace {
 
 using pipeline::report::Axis;
 using pipeline::report::Box;
-using pipeline::report::Drawing;
-using pipeline::report::escaped;
-using pipeline::report::figure;
-using pipeline::report::figure_of;
 using pipeline::report::Size;
 
 // A column: what of a run, how many decimals, whether less is better.

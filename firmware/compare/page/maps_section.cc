@@ -4,19 +4,10 @@
 #include <cmath>
 #include <limits>
 
-#include "firmware/compare/page/maps.h"
 #include "firmware/compare/page/sections.h"
-#include "pipeline/report/drawing.h"
-#include "pipeline/report/page.h"
-#include "pipeline/report/text.h"
 
 namespace relievo::firmware::compare::sections {
 namespace {
-
-using pipeline::report::Drawing;
-using pipeline::report::escaped;
-using pipeline::report::figure;
-using pipeline::report::figure_of;
 
 constexpr int kWidthPx = 480;
 constexpr int kDotPx = 9;  // of scattered matches, in pixels of the map

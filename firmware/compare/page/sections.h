@@ -12,9 +12,14 @@
 #include "firmware/compare/page/maps.h"
 #include "firmware/measure/comparison.h"
 #include "hal/base/result.h"
+#include "pipeline/report/drawing.h"
+#include "pipeline/report/page.h"
+#include "pipeline/report/text.h"
 
 namespace relievo::firmware::compare::sections {
 
+using pipeline::report::Drawing, pipeline::report::escaped, pipeline::report::figure,
+    pipeline::report::figure_of;
 using Runs = std::vector<const Run*>;  // of one pair
 
 std::string figures(const Comparison& c, const Runs& runs);         // one row a set: what matters

@@ -2,11 +2,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "firmware/kiosk/code/code_scanner.h"
 
-#include <string.h>
-
 #include <chrono>
 #include <thread>
-#include <utility>
 
 #include "firmware/base/budget.h"
 #include "firmware/kiosk/code/qr_code.h"
@@ -49,53 +46,43 @@ std::optional<std::string> code_text(std::string_view raw) {
 }
 
 CodeScanner::CodeScanner(Appliance& appliance, hal::Device& device)
-    : appliance_(appliance), look_(appliance, device) {}
+    : appliance_(appliance), device_(device), look_([this](JobControl& control) {
+        struct AtTheEnd {  // also of what a library throws
+          CodeScanner& scanner;
+          ~AtTheEnd() {
+            scanner.appliance_.session().slot().wipe();  // whoever holds the code is in the pictures, too
+            scanner.ended_.store(true, std::memory_order_release);
+          }
+        } at_the_end{*this};
+        return look(control);
+      }) {}
 
 CodeScanner::~CodeScanner() {
   if (running_) appliance_.end_side_job(JobLane::Capture);
 }
 
-std::optional<std::string> CodeScanner::turn(const ui::Visit& visit, hal::Instant now) {
+WipedText CodeScanner::turn(const ui::Visit& visit, hal::Instant now) {
   const bool wants = wanted(visit, appliance_);
-  if (running_ && look_.ended.load(std::memory_order_acquire)) {
+  WipedText text;
+  if (running_ && ended_.load(std::memory_order_acquire)) {
     running_ = false;
     next_try_ = now + kRest;
     if (!appliance_.session().is_open()) appliance_.session().live().wipe();  // else the session does
+    text = text_;
+    text_.wipe();
   }
-  std::optional<std::string> text = look_.take();
   if (running_ && !wants) appliance_.cancel_side_job(JobLane::Capture);
   if (!running_ && wants && now >= next_try_) {
-    look_.ended.store(false);
+    ended_.store(false);
     running_ = appliance_.start_side_job(JobLane::Capture, look_).has_value();
-    if (!running_) look_.ended.store(true);
+    if (!running_) ended_.store(true);
   }
-  if (text && !wants) {  // read in the moment the page was left
-    explicit_bzero(
-        text->data(),
-        text->size());  // NOLINT(clang-analyzer-cplusplus.InnerPointer): the string is whole until reset()
-    text.reset();
-  }
+  if (!wants) text.wipe();  // read in the moment the page was left
   return text;
 }
 
-std::optional<std::string> CodeScanner::Look::take() {
-  const std::lock_guard lock(mutex_);
-  return std::exchange(text_, std::nullopt);
-}
-
-Result<void> CodeScanner::Look::run(JobControl& control) {
-  struct AtTheEnd {  // also of what a library throws
-    Look& look;
-    ~AtTheEnd() {
-      look.appliance_.session().slot().wipe();  // whoever holds the code is in the pictures, too
-      look.ended.store(true, std::memory_order_release);
-    }
-  } at_the_end{*this};
-  return look(control);
-}
-
 // Left and right by turns: a code may lie in one camera's mirror image of a lamp.
-Result<void> CodeScanner::Look::look(JobControl& control) {
+Result<void> CodeScanner::look(JobControl& control) {
   RELIEVO_TRY(appliance_.grabber().start(device_.preferred_mode()));
   for (int pair = 0; !control.cancelled.load(std::memory_order_relaxed); ++pair) {
     RELIEVO_TRY_ASSIGN(const pipeline::StereoFrame frame,
@@ -103,9 +90,8 @@ Result<void> CodeScanner::Look::look(JobControl& control) {
     appliance_.session().live().fill(frame.left);
     appliance_.session().live().publish({});
     const auto raw = read_code(pair % 2 == 0 ? frame.left : frame.right);
-    if (auto text = raw ? code_text(*raw) : std::nullopt) {
-      const std::lock_guard lock(mutex_);
-      text_ = std::move(text);
+    if (const auto text = raw ? code_text(*raw) : std::nullopt) {
+      text_ = std::string_view(*text);
       return {};
     }
     std::this_thread::sleep_for(budget::kLivePause);

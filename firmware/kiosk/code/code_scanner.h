@@ -8,12 +8,12 @@
 #pragma once
 
 #include <atomic>
-#include <mutex>
 #include <optional>
 #include <string>
 #include <string_view>
 
 #include "firmware/appliance/appliance.h"
+#include "hal/base/wiped_text.h"
 #include "ui/view/visit.h"
 
 namespace relievo::firmware {
@@ -30,29 +30,18 @@ class CodeScanner {
   CodeScanner(const CodeScanner&) = delete;
   CodeScanner& operator=(const CodeScanner&) = delete;
 
-  // Once a frame. Something that was read and could be a name; the caller wipes it.
-  // Its pictures are in the session's live feed.
-  bool is_looking() const { return running_; }
-  std::optional<std::string> turn(const ui::Visit& visit, hal::Instant now);
+  bool is_looking() const { return running_; }  // its pictures are in the session's live feed
+  // Once a frame. Something that was read and could be a name; else empty.
+  WipedText turn(const ui::Visit& visit, hal::Instant now);
 
  private:
-  class Look final : public Job {
-   public:
-    Look(Appliance& appliance, hal::Device& device) : appliance_(appliance), device_(device) {}
-    Result<void> run(JobControl& control) override;
-    std::optional<std::string> take();
-    std::atomic<bool> ended{true};
-
-   private:
-    Result<void> look(JobControl& control);
-    Appliance& appliance_;
-    hal::Device& device_;
-    std::mutex mutex_;
-    std::optional<std::string> text_;
-  };
+  Result<void> look(JobControl& control);
 
   Appliance& appliance_;
-  Look look_;
+  hal::Device& device_;
+  FunctionJob look_;
+  std::atomic<bool> ended_{true};
+  WipedText text_;  // the job's until it has ended
   bool running_ = false;
   hal::Instant next_try_{};
 };

@@ -66,10 +66,11 @@ void HealthController::look() {
       [this, seen](const std::optional<Error>& error) {
         looking_ = false;
         next_look_ = services().device.clock().now() + kEvery;
-        if (error) return services().log.fault(*error);
-        seen_ = std::move(*seen);
-        ready_ = true;
-        keep();
+        if (!error) {
+          seen_ = std::move(*seen);
+          ready_ = true;
+        }
+        keep(error);
       },
       open_ ? SideTasks::Whose::Page : SideTasks::Whose::Device);
 }
@@ -80,10 +81,11 @@ void HealthController::turn() {
     look();
 }
 
-void HealthController::keep() {
+void HealthController::keep(const std::optional<Error>& error) {
   const hal::Instant now = services().device.clock().now();
   if (now < next_kept_) return;
   next_kept_ = now + DayRing::kEvery;
+  if (error) return services().log.fault(*error);
   const auto hottest = std::ranges::max_element(seen_.sensors, {}, &Sensor::celsius);
   hottest_.add(hottest != seen_.sensors.end() ? hottest->celsius : std::numeric_limits<double>::quiet_NaN());
   disk_.add(seen_.disk_used_mib);

@@ -55,13 +55,13 @@ class HealthController final : public PageController {
     double disk_used_mib = 0, disk_mib = 0, process_mib = 0;
   };
   void look();
+  // Not every look: nor does a disk that fails fill the log.
+  void keep(const std::optional<Error>& error);
   void add_memory();
   void add_seen();
 
   bool open_ = false, looking_ = false;
   hal::Instant next_look_{}, next_kept_{};
-  void keep();
-
   Seen seen_;
   DayRing hottest_, disk_;
   bool ready_ = false;

@@ -7,7 +7,7 @@
 
 #include "firmware/base/wall_time.h"
 #include "firmware/records/receipt.h"
-#include "firmware/service/pin_hash.h"
+#include "firmware/service/access.h"
 #include "firmware/service/retention.h"
 
 namespace relievo::firmware {
@@ -56,7 +56,7 @@ void RecordsController::opened() {
 void RecordsController::closed() {
   ++visit_;
   if (exporting_) {
-    services().side_tasks.stop(JobLane::Keeper);
+    services().side_tasks.stop(export_);
     services().appliance.ask(ui::Intent::Cancel);
   }
   exporting_ = false;
@@ -74,7 +74,6 @@ void RecordsController::forget() {
   ready_ = erased_ = exported_ = false;
   outcome_ = ui::Outcome::None;
   trace_ = {};
-  asked_ = 0;
 }
 
 void RecordsController::told(const std::optional<Error>& error) {
@@ -83,11 +82,11 @@ void RecordsController::told(const std::optional<Error>& error) {
 }
 
 void RecordsController::ask(const ui::StaffRequest& request) {
-  if (request.as<ui::StopExport>() != nullptr) return services().side_tasks.stop(JobLane::Keeper);
+  if (request.as<ui::StopExport>() != nullptr) return services().side_tasks.stop(export_);
   if (exporting_) return;
   erased_ = exported_ = false;
   outcome_ = ui::Outcome::None;
-  asked_ = 0;
+  trace_ = {};
   if (request.as<ui::FindRecords>() != nullptr) search(request.text());
   if (const auto* asked = request.as<ui::ListRequest>()) {
     if (const auto* chosen = std::get_if<ui::FilterList>(asked)) choose(chosen->filter);
@@ -148,18 +147,10 @@ void RecordsController::list() {
   listed->choice = choice_;
   look(
       [this, listed, skip = walk_.first_row()](JobControl& control) -> Result<void> {
-        std::vector<storage::Subject> subjects;
-        // The code that a person quotes for their erasure leads to them, too.
-        if (is_receipt(listed->choice.part)) {
-          if (auto subject = find_by_receipt(services().store, listed->choice.part))
-            subjects.push_back(std::move(*subject));
-          listed->rows = std::int64_t(subjects.size());
-        } else {
-          RELIEVO_TRY_ASSIGN(const Passed passed, passed_by(services().store, listed->choice, control));
-          RELIEVO_TRY_ASSIGN(listed->rows, passed ? Result(std::int64_t(passed->size()))
-                                                  : services().store.count_subjects());
-          RELIEVO_TRY_ASSIGN(subjects, rows_of(services().store, passed, skip, kPage));
-        }
+        RELIEVO_TRY_ASSIGN(const Passed passed, passed_by(services().store, listed->choice, control));
+        RELIEVO_TRY_ASSIGN(listed->rows,
+                           passed ? Result(std::int64_t(passed->size())) : services().store.count_subjects());
+        RELIEVO_TRY_ASSIGN(const auto subjects, rows_of(services().store, passed, skip, kPage));
         for (const storage::Subject& subject : subjects) listed->found.push_back(row_of(subject));
         return {};
       },
@@ -241,17 +232,19 @@ void RecordsController::erase(std::int64_t number) {
 void RecordsController::take_out(std::int64_t number) {
   services().appliance.ask(ui::Intent::Export);
   if (services().appliance.state() != State::Export) return;
-  std::vector<storage::SubjectId> subjects;
-  if (number != 0) subjects.push_back(storage::SubjectId{number});
-  else
-    for (const ui::RecordRow& found : found_) subjects.push_back(storage::SubjectId{found.number});
   exporting_ = true;
-  asked_ = int(subjects.size());
   const auto trace = std::make_shared<ExportTrace>();
   const FurtherModels further{.watertight = services().settings.now().is_on(ui::Setting::Solids)};
-  services().side_tasks.send(
+  const auto choice = std::make_shared<const RecordChoice>(choice_);  // not moved: a short name would stay
+  export_ = services().side_tasks.send(
       JobLane::Keeper,
-      [this, subjects = std::move(subjects), further, trace](JobControl& control) {
+      [this, number, choice, further, trace](JobControl& control) -> Result<void> {
+        std::vector<storage::SubjectId> subjects{storage::SubjectId{number}};
+        if (number == 0) {  // of every page of the list
+          pipeline::Progress choosing;  // the bar is the writing's
+          JobControl chooses{control.cancelled, choosing};
+          RELIEVO_TRY_ASSIGN(subjects, chosen_records(services().store, *choice, chooses));
+        }
         // Here, since nobody hears the end of what was cancelled: these records lie on a stick.
         const auto told = [&] {
           if (trace->whole > 0)
@@ -288,7 +281,7 @@ void RecordsController::show(ui::ServiceView& view) {
   view.work.progress = services().side_tasks.progress(JobLane::Keeper);
   if (!ready_) return;
   view_ = {found_,  walk_.view(), choice_.part, nullptr,      {},      {},
-           erased_, exported_,    asked_,       trace_.whole, filters_};
+           erased_, exported_,    trace_.asked, trace_.whole, filters_};
   view_.looks = looks_ > 0 && services().device.clock().now() - looks_since_ > kLongLook;
   // The list may have been read anew since it was chosen.
   const auto chosen = choice_.filter ? std::ranges::find(filters_, *choice_.filter) : filters_.end();

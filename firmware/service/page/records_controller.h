@@ -64,8 +64,8 @@ class RecordsController final : public PageController {
   std::shared_ptr<Person> person_;
   std::uint32_t model_number_ = 0;
   ui::Outcome outcome_ = ui::Outcome::None;
-  ExportTrace trace_;  // of the last export
-  int asked_ = 0;      // how many records it was of
+  std::uint32_t export_ = 0;  // the last one's side task
+  ExportTrace trace_;         // and how far it came
   ui::RecordsView view_;
 };
 

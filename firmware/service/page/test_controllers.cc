@@ -9,11 +9,11 @@
 #include <thread>
 #include <utility>
 
+#include "firmware/base/settings.h"
 #include "firmware/kiosk/code/qr_code.h"
-#include "firmware/records/disk_room.h"
 #include "firmware/report/report.h"
+#include "firmware/service/access.h"
 #include "firmware/service/page/health_controller.h"
-#include "firmware/service/pin_hash.h"
 #include "storage/cipher/recovery.h"
 
 namespace relievo::firmware {
@@ -160,16 +160,6 @@ using ui::CheckState;
 
 constexpr std::chrono::milliseconds kBetweenPulses{100};
 
-// One pair, looked at by nobody and wiped; beside the last test capture, which stays.
-Result<pipeline::StereoFrame> one_pair(PageServices& services, JobControl& control) {
-  StereoGrabber& grabber = services.appliance.grabber();
-  RELIEVO_TRY(grabber.start(services.device.preferred_mode()));
-  StereoSlot& slot = services.appliance.session().free_slot();
-  const auto pair = grabber.grab(slot, control.cancelled);
-  slot.wipe();
-  return pair;
-}
-
 }  // namespace
 
 void SelfTestController::opened() {
@@ -221,7 +211,7 @@ void SelfTestController::ask(const ui::StaffRequest& request) {
           return disk_has_room(t.folder, least);
         });
   begin(Check::Cameras, JobLane::Capture, [&t](JobControl& control) -> Result<void> {
-    RELIEVO_TRY(one_pair(t, control));
+    RELIEVO_TRY(take_and_forget(t.appliance.grabber(), t.appliance.session(), t.device, control.cancelled));
     return {};
   });
 }
@@ -238,7 +228,7 @@ void TriggerController::opened() {
 
 void TriggerController::closed() {
   ++visit_;
-  if (std::exchange(running_, false)) services().side_tasks.stop(JobLane::Capture);
+  if (std::exchange(running_, false)) services().side_tasks.stop(task_);
 }
 
 void TriggerController::ask(const ui::StaffRequest& request) {
@@ -247,14 +237,15 @@ void TriggerController::ask(const ui::StaffRequest& request) {
   view_ = {};
   const auto seen = std::make_shared<ui::TriggerView>();
   PageServices& t = services();
-  t.side_tasks.send(
+  task_ = t.side_tasks.send(
       JobLane::Capture,
       [&t, seen](JobControl& control) -> Result<void> {
         const GrabCounts before = t.appliance.grabber().counts();
         std::optional<Error> last;
         for (; seen->pulses < kPulses && !control.cancelled.load(); ++seen->pulses) {
           const hal::Instant asked = t.device.clock().now();
-          const auto pair = one_pair(t, control);
+          const auto pair =
+              take_and_forget(t.appliance.grabber(), t.appliance.session(), t.device, control.cancelled);
           const std::chrono::duration<double, std::milli> took = t.device.clock().now() - asked;
           if (pair) {
             ++seen->pairs;
@@ -273,7 +264,7 @@ void TriggerController::ask(const ui::StaffRequest& request) {
         return last ? Result<void>(*last) : Result<void>();
       },
       [this, seen, visit = visit_](const std::optional<Error>& error) {
-        if (error) services().log.fault(*error);
+        if (error && error->code != Errc::Cancelled) services().log.fault(*error);
         if (visit != visit_) return;
         running_ = false;
         view_ = *seen;

@@ -86,6 +86,7 @@ class TriggerController final : public PageController {
   static constexpr int kPulses = 10;
   std::uint32_t visit_ = 0;
   bool running_ = false;  // of this visit
+  std::uint32_t task_ = 0;
   ui::TriggerView view_;
 };
 

@@ -12,6 +12,13 @@
 namespace relievo::firmware {
 namespace {
 
+constexpr float kFingerShare = 0.02F;  // of the picture's width: what a finger may miss a place by
+constexpr int kRadiusPx = 7;           // of the windows
+constexpr float kMostUnlike = 0.5F;    // cost beyond which the finger is believed, not the windows
+constexpr float kFingerSigmaPx = 1;
+
+float pixel_at(float share, int pixels) { return std::clamp(share * float(pixels), 0.0F, float(pixels - 1)); }
+
 void place(const pipeline::RectifiedPair& pair, ui::TechnicianPoint& point) {
   point.right_px = {point.left_px.x - point.disparity_px, point.left_px.y};
   point.left_x = point.left_px.x / float(pair.width_px);
@@ -30,6 +37,41 @@ void reconstruct(const pipeline::RectifiedPair& pair, ui::TechnicianPoint& point
   point.at_mm = {float(p.x), float(p.y), float(p.z)};
   const double slant = std::sqrt(1 + across * across + down * down);
   point.sigma_mm = float(z * z / (pair.focal_px * pair.baseline_mm) * point.sigma_px * slant);
+}
+
+// A place without a match.
+ui::TechnicianPoint point_at(const pipeline::RectifiedPair& pair, float x, float y) {
+  ui::TechnicianPoint point;
+  point.touched = true;
+  point.left_px = {pixel_at(x, pair.width_px), pixel_at(y, pair.height_px)};
+  place(pair, point);
+  return point;
+}
+
+// The point is this match's.
+void set_match(const pipeline::RectifiedPair& pair, const pipeline::Match& match,
+               ui::TechnicianPoint& point) {
+  point.matched = true;
+  point.left_px = match.left_px;
+  point.disparity_px = match.disparity_px;
+  point.sigma_px = match.sigma_px;
+  point.cost = match.cost;
+  place(pair, point);
+  reconstruct(pair, point);
+}
+
+std::optional<pipeline::Match> alike(const pipeline::RectifiedPair& pair, pipeline::Vec2f left_px,
+                                     double least, double most) {
+  auto found = pipeline::match_on_row(pair, left_px, least, most, kRadiusPx);
+  const bool taken = found && found->cost <= kMostUnlike && found->disparity_px <= left_px.x &&
+                     left_px.x - found->disparity_px <= float(pair.width_px - 1);
+  return taken ? found : std::nullopt;
+}
+
+ui::TechnicianPoint begun(const pipeline::RectifiedPair& pair, float x, float y) {
+  ui::TechnicianPoint point = point_at(pair, x, y);
+  point.by_hand = point.waits_for_right = true;
+  return point;
 }
 
 }  // namespace
@@ -51,47 +93,6 @@ ui::TechnicianPoint nearest_match(const pipeline::RectifiedPair& pair, const pip
   point.rejected_by = figures.rule_of(*nearest);
   return point;
 }
-
-ui::TechnicianPoint point_at(const pipeline::RectifiedPair& pair, float x, float y) {
-  ui::TechnicianPoint point;
-  point.touched = true;
-  point.left_px = {pixel_at(x, pair.width_px), pixel_at(y, pair.height_px)};
-  place(pair, point);
-  return point;
-}
-
-void set_match(const pipeline::RectifiedPair& pair, const pipeline::Match& match,
-               ui::TechnicianPoint& point) {
-  point.matched = true;
-  point.left_px = match.left_px;
-  point.disparity_px = match.disparity_px;
-  point.sigma_px = match.sigma_px;
-  point.cost = match.cost;
-  place(pair, point);
-  reconstruct(pair, point);
-}
-
-namespace {
-
-constexpr int kRadiusPx = 7;         // of the windows
-constexpr float kMostUnlike = 0.5F;  // cost beyond which the finger is believed, not the windows
-constexpr float kFingerSigmaPx = 1;
-
-std::optional<pipeline::Match> alike(const pipeline::RectifiedPair& pair, pipeline::Vec2f left_px,
-                                     double least, double most) {
-  auto found = pipeline::match_on_row(pair, left_px, least, most, kRadiusPx);
-  const bool taken = found && found->cost <= kMostUnlike && found->disparity_px <= left_px.x &&
-                     left_px.x - found->disparity_px <= float(pair.width_px - 1);
-  return taken ? found : std::nullopt;
-}
-
-ui::TechnicianPoint begun(const pipeline::RectifiedPair& pair, float x, float y) {
-  ui::TechnicianPoint point = point_at(pair, x, y);
-  point.by_hand = point.waits_for_right = true;
-  return point;
-}
-
-}  // namespace
 
 void HandPairs::touch(const pipeline::RectifiedPair& pair, bool left, float x, float y) {
   const float high = float(pair.height_px) / float(pair.width_px);

@@ -9,14 +9,14 @@
 
 #include "firmware/base/budget.h"
 #include "firmware/checks/deviation_picture.h"
-#include "firmware/measure/self_agreement.h"
+#include "firmware/measure/match_figures.h"
+#include "hal/base/statistics.h"
 
 namespace relievo::firmware {
 namespace {
 
 constexpr int kSide = budget::kTechnicianPictureSidePx;
 constexpr int kColours = 256;  // of the texture: the first is of what is not known, the second like the third
-constexpr std::size_t kMost = 95;
 
 float texel_of(float share) {
   const float at =
@@ -41,14 +41,11 @@ void wipe(compare::DisparityMap& map) {
 void draw_nearer(const pipeline::RectifiedPair& pair, const std::function<float(int x, int y)>& nearer_mm,
                  float full_colour_mm, StageCanvas& canvas) {
   draw_photograph(pair, 0.5, canvas);
-  const FaceWindow window(pair, canvas.side());
-  for (int y = 0; y < canvas.side(); ++y)
-    for (int x = 0; x < canvas.side(); ++x) {
-      const float nearer = nearer_mm(int(window.back_x(x)), int(window.back_y(y)));
-      if (std::isnan(nearer)) continue;
-      const auto c = deviation_colour(double(nearer / full_colour_mm));
-      canvas.put(x, y, {1.0 * c[0], 1.0 * c[1], 1.0 * c[2]});
-    }
+  paint(pair, canvas, [&](int x, int y) -> std::optional<std::array<std::uint8_t, 3>> {
+    const float nearer = nearer_mm(x, y);
+    if (std::isnan(nearer)) return std::nullopt;
+    return deviation_colour(double(nearer / full_colour_mm));
+  });
 }
 
 std::span<const std::array<std::uint8_t, 3>> difference_scale() {
@@ -72,16 +69,11 @@ void SurfaceDifference::measure(const pipeline::RectifiedPair& pair, const pipel
     if (!std::isnan(nearer_.values[i])) known.push_back(nearer_.values[i]);
   }
   if (known.empty()) return;
-  const auto at = [&known](std::size_t percent) {
-    const auto place = known.begin() + std::ptrdiff_t((known.size() - 1) * percent / 100);
-    std::nth_element(known.begin(), place, known.end());
-    return *place;
-  };
   figures_.known = true;
   figures_.number = number;
-  figures_.median_mm = at(50);
+  figures_.median_mm = float(percentile(known, 0.5));
   for (float& d : known) d = std::abs(d);
-  figures_.most_mm = at(kMost);
+  figures_.most_mm = float(percentile(known, 0.95));
 }
 
 void SurfaceDifference::draw(const pipeline::RectifiedPair& pair, const pipeline::FaceMesh& surface,

@@ -12,6 +12,7 @@
 #include <functional>
 #include <limits>
 #include <memory_resource>
+#include <optional>
 #include <span>
 #include <vector>
 
@@ -27,6 +28,20 @@ namespace relievo::firmware {
 // What the left rectified view sees of a mesh: depths, NaN where there is none.
 compare::DisparityMap depths_of(const pipeline::RectifiedPair& pair, const pipeline::FaceMesh& mesh);
 void wipe(compare::DisparityMap& map);
+
+// Paints every pixel of the canvas as colour(x, y) says of the view's pixel that it shows, where it says
+// anything (std::optional); nothing beyond the view.
+template <typename Colour>
+void paint(const pipeline::RectifiedPair& pair, StageCanvas& canvas, Colour&& colour) {
+  const FaceWindow window(pair, canvas.side());
+  for (int y = 0; y < canvas.side(); ++y)
+    for (int x = 0; x < canvas.side(); ++x) {
+      const int u = int(window.back_x(x)), v = int(window.back_y(y));
+      if (u < 0 || v < 0 || u >= pair.width_px || v >= pair.height_px) continue;
+      const std::optional<std::array<std::uint8_t, 3>> c = colour(u, v);
+      if (c) canvas.put(x, y, {1.0 * (*c)[0], 1.0 * (*c)[1], 1.0 * (*c)[2]});
+    }
+}
 
 // The left view, and on it by how much a surface came nearer (mm at a pixel of it; NaN: not known, the
 // photograph stays), in colours whose scale ends at `full_colour_mm`.

@@ -6,12 +6,12 @@
 #include <bit>
 
 #include "firmware/compare/page/maps.h"
-#include "firmware/measure/selector_figures.h"
-#include "firmware/measure/self_agreement.h"
+#include "firmware/measure/match_figures.h"
 
 namespace relievo::firmware {
 
-std::string difference_of(const pipeline::AlgorithmSet& set) {
+// What differs from the default, one "key = value" a line.
+static std::string difference_of(const pipeline::AlgorithmSet& set) {
   std::string text;
   for (const pipeline::OptionDescription& option : pipeline::describe_algorithms()) {
     const std::string value = set.get(option.key);

@@ -15,12 +15,9 @@
 #include "firmware/work/stage_runner.h"
 #include "pipeline/algorithms.h"
 #include "pipeline/base/stage.h"
-#include "ui/technician/technician_result.h"
+#include "ui/technician/technician_view.h"
 
 namespace relievo::firmware {
-
-// What differs from the default, one "key = value" a line.
-std::string difference_of(const pipeline::AlgorithmSet& set);
 
 // How uncertain the measured vertices are, as TechnicianResult has it.
 std::array<float, ui::kSigmaBins> sigma_percent(const pipeline::FaceMesh& mesh);
@@ -36,7 +33,6 @@ class TechnicianFigures {
 
   // Until the next change.
   ui::TechnicianResult view() const;
-  const pipeline::AlgorithmSet& set() const { return set_; }
   // That took a match first; empty: none did.
   std::string_view rule_of(const pipeline::Match& match) const;
 

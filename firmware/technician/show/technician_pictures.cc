@@ -12,8 +12,7 @@
 
 #include "firmware/checks/deviation_picture.h"
 #include "firmware/compare/page/maps.h"
-#include "firmware/measure/disparity_map.h"
-#include "firmware/measure/selector_figures.h"
+#include "firmware/measure/match_figures.h"
 #include "firmware/technician/show/surface_difference.h"
 #include "firmware/work/stage_drawing.h"
 
@@ -145,37 +144,25 @@ void TechnicianPictures::draw_pair(TechnicianStage stage, const pipeline::Rectif
 void TechnicianPictures::draw_rules(const pipeline::RectifiedPair& pair, const pipeline::MatchSet& matches) {
   StageCanvas canvas(begin(TechnicianStage::Matches, 0).rgb.get(), kSide);
   draw_photograph(pair, 1, canvas);
-  const FaceWindow window(pair, kSide);
   const std::vector<std::uint8_t> rejected = compare::rejected_map(matches, pair.width_px, pair.height_px);
-  for (int y = 0; y < kSide; ++y) {
-    for (int x = 0; x < kSide; ++x) {
-      const int u = int(window.back_x(x)), v = int(window.back_y(y));
-      if (u < 0 || v < 0 || u >= pair.width_px || v >= pair.height_px) continue;
-      const std::uint8_t rule = rejected[std::size_t(v) * std::size_t(pair.width_px) + std::size_t(u)];
-      if (rule == 0) continue;
-      const compare::Rgb c = compare::rule_colour(rule - 1U);
-      canvas.put(x, y, {1.0 * c[0], 1.0 * c[1], 1.0 * c[2]});
-    }
-  }
+  paint(pair, canvas, [&](int x, int y) -> std::optional<compare::Rgb> {
+    const std::uint8_t rule = rejected[std::size_t(y) * std::size_t(pair.width_px) + std::size_t(x)];
+    if (rule == 0) return std::nullopt;
+    return compare::rule_colour(rule - 1U);
+  });
 }
 
 void TechnicianPictures::draw_disparity(const pipeline::RectifiedPair& pair,
                                         const pipeline::MatchSet& matches) {
   constexpr int kScatteredPx = 7;
   StageCanvas canvas(begin(TechnicianStage::Disparity, 0).rgb.get(), kSide);
-  const FaceWindow window(pair, kSide);
   compare::DisparityMap map = compare::disparity_map(matches, pair.width_px, pair.height_px);
   if (matches.lattice_step_px == 0) map = compare::thickened(map, kScatteredPx);
   const compare::Reach reach = compare::reach_of(map);
-  for (int y = 0; y < kSide; ++y) {
-    for (int x = 0; x < kSide; ++x) {
-      const int u = int(window.back_x(x)), v = int(window.back_y(y));
-      if (!map.holds(u, v) || !map.known(u, v)) continue;
-      const compare::Rgb c =
-          compare::depth_colour((double(map.at(u, v)) - reach.least_px) / (reach.most_px - reach.least_px));
-      canvas.put(x, y, {1.0 * c[0], 1.0 * c[1], 1.0 * c[2]});
-    }
-  }
+  paint(pair, canvas, [&](int x, int y) -> std::optional<compare::Rgb> {
+    if (!map.known(x, y)) return std::nullopt;
+    return compare::depth_colour((double(map.at(x, y)) - reach.least_px) / (reach.most_px - reach.least_px));
+  });
 }
 
 void TechnicianPictures::draw_shapes(const Products& products) {
@@ -197,13 +184,6 @@ void TechnicianPictures::draw_shapes(const Products& products) {
   }
 }
 
-void TechnicianPictures::draw_change(const pipeline::RectifiedPair& pair, const HandChange& change) {
-  StageCanvas canvas(begin(TechnicianStage::Mesh, 1).rgb.get(), kSide);
-  draw_nearer(
-      pair, [&change](int x, int y) { return change.nearer_mm(x, y); }, change.figures().full_colour_mm,
-      canvas);
-}
-
 void TechnicianPictures::draw(const Products& products, const HandChange& change) {
   wipe();
   if (products.frame) {
@@ -218,7 +198,11 @@ void TechnicianPictures::draw(const Products& products, const HandChange& change
     draw_disparity(*products.pair, *products.matches);
   }
   draw_shapes(products);
-  if (change.figures().known) draw_change(*products.pair, change);
+  if (!change.figures().known) return;
+  StageCanvas canvas(begin(TechnicianStage::Mesh, 1).rgb.get(), kSide);
+  draw_nearer(
+      *products.pair, [&change](int x, int y) { return change.nearer_mm(x, y); },
+      change.figures().full_colour_mm, canvas);
 }
 
 float full_residual_mm(const pipeline::Registration& registration) {
@@ -237,23 +221,22 @@ void TechnicianPictures::draw_poses(const Products& products, std::span<const pi
   const int cell = kSide / across;
   for (std::size_t k = 0; k < poses.size(); ++k) {
     const pipeline::HeadPose& pose = poses[k];
-    const pipeline::PoseSurface& surface = pose.surface;
     const pipeline::ResidualMap& map = products.registration->residuals[k];
     const int left = int(k) % across * cell, top = int(k) / across * cell;
     // What was measured of it, in the middle of its cell.
-    const double nodes = double(std::max(surface.columns, surface.rows)) / cell;
+    const double nodes = double(std::max(pose.columns, pose.rows)) / cell;
     for (int y = 0; y < cell; ++y)
       for (int x = 0; x < cell; ++x) {
-        const double column = surface.columns / 2.0 + (x - cell / 2.0) * nodes,
-                     row = surface.rows / 2.0 + (y - cell / 2.0) * nodes;
-        const int u = int(surface.first_px.x + column * surface.step_px),
-                  v = int(surface.first_px.y + row * surface.step_px);
+        const double column = pose.columns / 2.0 + (x - cell / 2.0) * nodes,
+                     row = pose.rows / 2.0 + (y - cell / 2.0) * nodes;
+        const int u = int(pose.first_px.x + column * pose.step_px),
+                  v = int(pose.first_px.y + row * pose.step_px);
         if (u < 0 || v < 0 || u >= pose.width_px || v >= pose.height_px) continue;
         const std::uint8_t* rgb =
             &pose.left_rgb[3 * (std::size_t(v) * std::size_t(pose.width_px) + std::size_t(u))];
         photographs.put(left + x, top + y, {1.0 * rgb[0], 1.0 * rgb[1], 1.0 * rgb[2]});
         residuals.put(left + x, top + y, {0.5 * rgb[0], 0.5 * rgb[1], 0.5 * rgb[2]});
-        if (column < 0 || row < 0 || column >= surface.columns || row >= surface.rows) continue;
+        if (column < 0 || row < 0 || column >= pose.columns || row >= pose.rows) continue;
         const float mm = map.mm[std::size_t(row / pipeline::kResidualEvery) * std::size_t(map.columns) +
                                 std::size_t(column / pipeline::kResidualEvery)];
         if (std::isnan(mm)) continue;
@@ -263,7 +246,7 @@ void TechnicianPictures::draw_poses(const Products& products, std::span<const pi
   }
 }
 
-ui::TechnicianPicture TechnicianPictures::picture(TechnicianStage stage, std::size_t side) const {
+ui::Picture TechnicianPictures::picture(TechnicianStage stage, std::size_t side) const {
   const One& one = all_[std::size_t(stage)][side];
   if (one.version == 0) return {};
   return {{reinterpret_cast<const std::byte*>(one.rgb.get()), one.width_px, one.height_px, 3 * one.width_px,

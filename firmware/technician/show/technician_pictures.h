@@ -23,7 +23,7 @@
 #include "pipeline/algorithms.h"
 #include "pipeline/base/stage.h"
 #include "pipeline/fuse/head_pipeline.h"
-#include "ui/technician/technician_result.h"
+#include "ui/technician/technician_view.h"
 
 namespace relievo::firmware {
 
@@ -65,7 +65,7 @@ class TechnicianPictures {
   // Of a head: what its poses were measured as.
   void draw_poses(const Products& products, std::span<const pipeline::HeadPose> poses);
   // The left picture (0) or the right one; empty where the stage has none.
-  ui::TechnicianPicture picture(ui::TechnicianStage stage, std::size_t side) const;
+  ui::Picture picture(ui::TechnicianStage stage, std::size_t side) const;
   // The left ones.
   void copy_from(const TechnicianPictures& other);
   void wipe();
@@ -83,7 +83,6 @@ class TechnicianPictures {
   void draw_rules(const pipeline::RectifiedPair& pair, const pipeline::MatchSet& matches);
   void draw_disparity(const pipeline::RectifiedPair& pair, const pipeline::MatchSet& matches);
   void draw_shapes(const Products& products);
-  void draw_change(const pipeline::RectifiedPair& pair, const HandChange& change);
 
   std::array<std::array<One, 2>, ui::kTechnicianStages> all_;
 };

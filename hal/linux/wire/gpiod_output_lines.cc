@@ -2,7 +2,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 //
 // libgpiod changed every name between 1.6 (Debian 12) and 2 (Debian 13): RELIEVO_GPIOD_2 says which.
-#include "hal/linux/wire/output_lines.h"
+#include "hal/linux/wire/gpio_trigger_line.h"
 
 #include <fcntl.h>
 #include <gpiod.h>

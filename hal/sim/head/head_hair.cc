@@ -1,9 +1,9 @@
 // SPDX-FileCopyrightText: 2026 The Relievo authors
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include "hal/sim/head/head_hair.h"
+#include "hal/sim/head/head_model.h"
 
 #include "hal/sim/base/noise.h"
-#include "hal/sim/head/shape/surface_mesher.h"
+#include "hal/sim/head/shape/head_field.h"
 
 namespace relievo::hal::sim {
 namespace {

@@ -5,7 +5,6 @@
 #include <array>
 
 #include "hal/sim/base/noise.h"
-#include "hal/sim/head/head_hair.h"
 
 namespace relievo::hal::sim {
 

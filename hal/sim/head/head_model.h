@@ -5,13 +5,13 @@
 // creases: 0.02 to 0.1 mm). At points of the head frame, mm; colours are linear reflectances.
 #pragma once
 
+#include <cstdint>
 #include <memory>
 #include <vector>
 
 #include "hal/base/thread_pool.h"
-#include "hal/sim/head/head_hair.h"
 #include "hal/sim/head/shape/head_field.h"
-#include "hal/sim/head/shape/surface_mesher.h"
+#include "hal/sim/optics/ray_caster.h"
 
 namespace relievo::hal::sim {
 
@@ -51,6 +51,20 @@ Surface tongue_look(const HeadTraits& traits, Vec3 p);
 
 Surface shirt_look(const HeadTraits& traits, Vec3 p);
 
+// Where hair grows and how it lies: scalp, brows, lashes. Head frame, mm.
+struct HairStyle {
+  Strands strands;
+  std::vector<float> tint;   // per node of the strands: 1 is the person's hair colour
+  std::vector<float> along;  // per node: 0 root, 1 tip
+};
+
+// 0 bare .. 1 full; at head points.
+double scalp_hair(const HeadTraits& traits, Vec3 p);
+double brow_hair(const HeadField& field, Vec3 p);
+double beard_area(const HeadTraits& traits, Vec3 p);
+
+HairStyle grow_hair(const HeadField& field, const Mesh& skin, const std::vector<Vec3>& normals);
+
 // HeadModel: one person's geometry: skin, eyeballs, shirt and every hair, ready for rays, with the
 // ambient light that reaches each point. Head frame (head_traits.h). Immutable once built.
 struct Shell {  // one solid body
@@ -62,7 +76,6 @@ struct Shell {  // one solid body
 class HeadModel {
  public:
   enum Body : std::uint8_t { Skin, Eyes, Inner, Shirt, Teeth, Tongue, BodyCount };
-  static constexpr int kHairBody = 1000;
 
   HeadModel(const HeadTraits& traits, ThreadPool& pool);
 

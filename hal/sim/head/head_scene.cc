@@ -190,7 +190,7 @@ class HeadScene final : public Scene {
     Hit hit;
     if (!head_->caster.cast(o, d, hit)) return {room_light(direction), RayCaster::kFar, -1, false};
     const Vec3 at = o + d * hit.distance_mm;
-    if (hit.body >= HeadModel::kHairBody) return {hair(hit, at, d), hit.distance_mm, hit.body, true};
+    if (hit.body >= RayCaster::kFirstStrands) return {hair(hit, at, d), hit.distance_mm, hit.body, true};
     return {body(hit, at, d), hit.distance_mm, hit.body, false};
   }
 
@@ -205,7 +205,7 @@ class HeadScene final : public Scene {
     out.point = origin + direction * hit.distance_mm;
     out.normal = world_from_head_ * normalised(cross(point_of(mesh, c[1]) - a, point_of(mesh, c[2]) - a));
     Hit first;
-    const bool under_hair = head_->caster.cast(o, d, first) && first.body >= HeadModel::kHairBody;
+    const bool under_hair = head_->caster.cast(o, d, first) && first.body >= RayCaster::kFirstStrands;
     out.skin = hit.body == HeadModel::Skin && !under_hair && scalp_hair(head_->traits, at) < 0.05 &&
                at.y > gnathion_y(head_->traits) - 6 && at.z > -10;
     return true;

@@ -17,11 +17,10 @@ T* new_buffer(RTCGeometry geometry, RTCBufferType type, RTCFormat format, std::s
   return static_cast<T*>(place);
 }
 
-int attach(RTCScene scene, RTCGeometry geometry) {
+void attach(RTCScene scene, RTCGeometry geometry) {
   rtcCommitGeometry(geometry);
-  const unsigned id = rtcAttachGeometry(scene, geometry);
+  rtcAttachGeometry(scene, geometry);
   rtcReleaseGeometry(geometry);
-  return int(id);
 }
 
 bool cast_in(RTCScene scene, Vec3 o, Vec3 d, float far, int first_id, Hit& hit) {
@@ -61,7 +60,7 @@ RayCaster::RayCaster() : scene_(std::make_unique<Scene>()) {
 }
 RayCaster::~RayCaster() = default;
 
-int RayCaster::add(const Mesh& mesh) {
+void RayCaster::add(const Mesh& mesh) {
   RTCGeometry g = rtcNewGeometry(scene_->device, RTC_GEOMETRY_TYPE_TRIANGLE);
   auto* points =
       new_buffer<std::array<float, 3>>(g, RTC_BUFFER_TYPE_VERTEX, RTC_FORMAT_FLOAT3, mesh.points.size());
@@ -69,17 +68,17 @@ int RayCaster::add(const Mesh& mesh) {
   auto* corners = new_buffer<std::array<std::uint32_t, 3>>(g, RTC_BUFFER_TYPE_INDEX, RTC_FORMAT_UINT3,
                                                            mesh.triangles.size());
   std::ranges::copy(mesh.triangles, corners);
-  return attach(scene_->solid, g);
+  attach(scene_->solid, g);
 }
 
-int RayCaster::add(const Strands& strands) {
+void RayCaster::add(const Strands& strands) {
   RTCGeometry g = rtcNewGeometry(scene_->device, RTC_GEOMETRY_TYPE_FLAT_LINEAR_CURVE);
   auto* nodes = new_buffer<Strands::Node>(g, RTC_BUFFER_TYPE_VERTEX, RTC_FORMAT_FLOAT4, strands.nodes.size());
   std::ranges::copy(strands.nodes, nodes);
   auto* pieces = new_buffer<std::uint32_t>(g, RTC_BUFFER_TYPE_INDEX, RTC_FORMAT_UINT, strands.pieces.size());
   std::ranges::copy(strands.pieces, pieces);
   scene_->has_hair = true;
-  return 1000 + attach(scene_->hair, g);
+  attach(scene_->hair, g);
 }
 
 void RayCaster::commit() {
@@ -91,7 +90,7 @@ bool RayCaster::cast(Vec3 origin, Vec3 direction, Hit& hit, Against against) con
   bool found = cast_in(scene_->solid, origin, direction, float(kFar), 0, hit);
   if (against == Against::Everything && scene_->has_hair) {
     const double far = found ? hit.distance_mm : kFar;
-    found |= cast_in(scene_->hair, origin, direction, float(far), 1000, hit);
+    found |= cast_in(scene_->hair, origin, direction, float(far), kFirstStrands, hit);
   }
   return found;
 }

@@ -45,7 +45,7 @@ struct Strands {
 
 struct Hit {
   double distance_mm = 0;
-  int body = -1;  // what add() returned
+  int body = -1;  // which mesh, in the order of add(); of strands from kFirstStrands on
   std::uint32_t primitive = 0;
   double u = 0, v = 0;  // barycentric, of the second and third corner
 };
@@ -53,14 +53,15 @@ struct Hit {
 class RayCaster {
  public:
   static constexpr double kFar = 1e9;
+  static constexpr int kFirstStrands = 1000;
   RayCaster();
   ~RayCaster();
   RayCaster(const RayCaster&) = delete;
   RayCaster& operator=(const RayCaster&) = delete;
 
-  // Copies. `solid` bodies alone block light and define the truth; strands are never solid.
-  int add(const Mesh& mesh);
-  int add(const Strands& strands);
+  // Copies. Meshes alone block light and define the truth: strands are never solid.
+  void add(const Mesh& mesh);
+  void add(const Strands& strands);
   void commit();
 
   enum class Against : std::uint8_t { Everything, SolidOnly };

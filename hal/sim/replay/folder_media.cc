@@ -1,9 +1,8 @@
 // SPDX-FileCopyrightText: 2026 The Relievo authors
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include "hal/sim/replay/folder_media.h"
+#include "hal/sim/replay/replay_device.h"
 
 #include <fcntl.h>
-#include <sys/statvfs.h>
 #include <unistd.h>
 
 #include <cerrno>
@@ -23,12 +22,10 @@ void FolderMedia::unplug() {
   ejected_.reset();
 }
 
-std::optional<Medium> FolderMedia::current() {
+std::optional<std::filesystem::path> FolderMedia::current() {
   const std::lock_guard lock(mutex_);
-  if (!root_) return std::nullopt;
-  struct statvfs info {};
-  if (::statvfs(root_->c_str(), &info) != 0) return std::nullopt;
-  return Medium{*root_, std::uint64_t(info.f_bavail) * info.f_frsize};
+  std::error_code failed;
+  return root_ && std::filesystem::is_directory(*root_, failed) ? root_ : std::nullopt;
 }
 
 Result<void> FolderMedia::flush_and_eject() {

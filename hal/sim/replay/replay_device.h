@@ -18,13 +18,30 @@
 #include "hal/camera.h"
 #include "hal/clock.h"
 #include "hal/device.h"
-#include "hal/monotonic_clock.h"
 #include "hal/picture_file.h"
-#include "hal/sim/replay/folder_media.h"
+#include "hal/removable_media.h"
 #include "hal/trigger_line.h"
-#include "hal/watchdog.h"
 
 namespace relievo::hal {
+
+// FolderMedia: a folder that plays the USB stick. plug() and unplug() are what a hand would do.
+// Thread: any.
+class FolderMedia final : public RemovableMedia {
+ public:
+  FolderMedia() = default;
+  explicit FolderMedia(std::filesystem::path root) { plug(std::move(root)); }
+
+  void plug(std::filesystem::path root);
+  void unplug();
+
+  std::optional<std::filesystem::path> current() override;  // nothing when unplugged or the folder is gone
+  Result<void> flush_and_eject() override;                  // MediaMissing, IoFailed
+  Result<void> take_up_again() override;                    // MediaMissing
+
+ private:
+  std::mutex mutex_;
+  std::optional<std::filesystem::path> root_, ejected_;
+};
 
 // The left and right pictures of a folder, paired by what follows "left" and "right" in their
 // names, in name order. Errors: NotFound (no folder, no picture), InvalidInput (no partner).

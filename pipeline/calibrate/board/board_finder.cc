@@ -33,12 +33,6 @@ constexpr double kPlainShare = 0.5;         // of a chessboard's square beside a
 
 double distance(const Vec2d& a, const Vec2d& b) { return std::hypot(a.x - b.x, a.y - b.y); }
 
-void take(CornerRefiner& refiner, const CornerGuess& guess, LatticeNode& node) {
-  const auto fit = refiner.refine(guess);
-  if (fit) node = {fit->at, fit->middle, fit->swing};
-  else node.swing = 0;
-}
-
 int neighbours(const Lattice& lattice, int column, int row) {
   return (lattice.seen(column - 1, row) ? 1 : 0) + (lattice.seen(column + 1, row) ? 1 : 0) +
          (lattice.seen(column, row - 1) ? 1 : 0) + (lattice.seen(column, row + 1) ? 1 : 0);
@@ -56,7 +50,7 @@ void refine_nodes(CornerRefiner& refiner, Lattice& lattice) {
         continue;
       }
       guess->at = before.node(column, row).at;
-      take(refiner, *guess, lattice.node(column, row));
+      lattice.node(column, row) = refiner.refine(*guess);
     }
 }
 
@@ -76,7 +70,7 @@ void fill_gaps(CornerRefiner& refiner, Lattice& lattice) {
         before = around;
         const auto guess = predict(lattice, column, row);
         if (!guess) continue;
-        take(refiner, *guess, lattice.node(column, row));
+        lattice.node(column, row) = refiner.refine(*guess);
         grown = grown || lattice.seen(column, row);
       }
   }
@@ -224,7 +218,7 @@ class Search {
       drop_strays(group, kStrayShare * step_px(group));
       group.scale(1 << level);
       refine_nodes(full_size_, group);
-      const auto part = place_on_board(full_size_.picture(), group, pattern_, markers_);
+      const auto part = place_on_board(pyramid_.level(0), group, pattern_, markers_);
       if (!part) continue;
       if (!board) board = *part;
       for (int row = 0; row < pattern_.rows; ++row)

@@ -51,12 +51,21 @@ using BoardCorners = std::vector<Vec2d>;
 inline bool seen(const Vec2d& corner) { return corner.x == corner.x; }
 
 // Errors: NotFound (no whole board, or too little of a ChArUco board), InvalidInput (no picture, wrong
-// pattern), LibraryFailed.
+// pattern), OutOfMemory, LibraryFailed.
 Result<BoardCorners> find_board(const ImageView& picture, const BoardPattern& pattern);
 
 // Turns a chessboard's `right` by half, or by quarters where it has as many columns as rows, so that
 // its rows run as those of `left`: cameras that stand side by side see a board the same way up. What
 // ChArUco markers say stays.
 void pair_order(const BoardCorners& left, BoardCorners& right, const BoardPattern& pattern);
+
+// What is black on a board: for a printer. Origin in the top left corner of the outer squares, x along
+// a row, y down, mm; the field measures (columns + 1) x (rows + 1) squares.
+struct BlackArea {
+  double x_mm, y_mm, width_mm, height_mm;
+};
+
+// Errors: InvalidInput (wrong pattern), LibraryFailed.
+Result<std::vector<BlackArea>> draw_board(const BoardPattern& pattern);
 
 }  // namespace relievo::pipeline

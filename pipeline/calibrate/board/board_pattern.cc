@@ -6,7 +6,6 @@
 
 #include "pipeline/calibrate/board/board_finder.h"
 
-#include "pipeline/calibrate/board/board_drawing.h"
 #include "pipeline/calibrate/board/marker_reader.h"
 
 namespace relievo::pipeline {

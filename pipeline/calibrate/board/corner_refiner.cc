@@ -123,7 +123,7 @@ double length(const Vec2d& v) { return std::hypot(v.x, v.y); }
 double cross(const Vec2d& a, const Vec2d& b) { return a.x * b.y - a.y * b.x; }
 
 // The largest share of the steps within which the whole window lies in the picture.
-double reach_inside(const GreyView& picture, const Vec2d& at, const CornerGuess& guess, double share) {
+double reach_inside(const ImageView& picture, const Vec2d& at, const CornerGuess& guess, double share) {
   const double wide = std::abs(guess.along_row.x) + std::abs(guess.along_column.x);
   const double high = std::abs(guess.along_row.y) + std::abs(guess.along_column.y);
   const double room_x = std::min(at.x, picture.width_px - 1 - at.x);
@@ -133,39 +133,14 @@ double reach_inside(const GreyView& picture, const Vec2d& at, const CornerGuess&
 
 }  // namespace
 
-void CornerWindow::clear() {
-  x.clear();
-  y.clear();
-  value.clear();
-  weight.clear();
-  strip.clear();
-  count = 0;
-}
-
-void CornerWindow::add(float px, float py, float grey, unsigned char part) {
-  x.push_back(px);
-  y.push_back(py);
-  value.push_back(grey);
-  weight.push_back(1);
-  strip.push_back(part);
-  ++count;
-}
-
-void CornerWindow::pad() {
-  const std::size_t whole = (count + kLanes - 1) / kLanes * kLanes;
-  for (auto* column : {&x, &y, &value, &weight}) column->resize(whole, 0.F);
-}
-
-void sum_up(const CornerWindow& window, const CornerModel& model, bool information, CornerScratch& scratch,
-            CornerSums& sums) {
-  constexpr auto kAll = std::size_t(CornerModel::Count) + 1;
-  const std::size_t length = window.x.size();
-  std::array<float*, kAll> out{};
-  for (std::size_t k = 0; k < kAll; ++k) {
-    if (scratch[k].size() < length) scratch[k].resize(length);
-    out[k] = scratch[k].data();
+void CornerRefiner::sum_up(bool information) {
+  const std::size_t length = window_.x.size();
+  std::array<float*, CornerModel::Count + 1> out{};
+  for (std::size_t k = 0; k < out.size(); ++k) {
+    if (scratch_[k].size() < length) scratch_[k].resize(length);
+    out[k] = scratch_[k].data();
   }
-  const auto& p = model.p;
+  const auto& p = model_.p;
   Frame f{};
   f.sin1 = std::sin(p[CornerModel::Angle1]), f.cos1 = std::cos(p[CornerModel::Angle1]);
   f.sin2 = std::sin(p[CornerModel::Angle2]), f.cos2 = std::cos(p[CornerModel::Angle2]);
@@ -174,32 +149,32 @@ void sum_up(const CornerWindow& window, const CornerModel& model, bool informati
   f.half1 = std::max(std::abs(f.sin1), std::abs(f.cos1)) / 2,
   f.half2 = std::max(std::abs(f.sin2), std::abs(f.cos2)) / 2;
   f.per_pixel1 = 0.5F / f.half1, f.per_pixel2 = 0.5F / f.half2;
-  f.per_reach = 1 / window.reach_px;
-  fill_columns(window.x.data(), window.y.data(), window.value.data(), window.weight.data(), length, p.data(),
-               f, out.data());
+  f.per_reach = 1 / window_.reach_px;
+  fill_columns(window_.x.data(), window_.y.data(), window_.value.data(), window_.weight.data(), length,
+               p.data(), f, out.data());
   constexpr auto kResidual = std::size_t(CornerModel::Count);
   for (std::size_t a = 0; a < kResidual; ++a) {
-    sums.slope(int(a)) = double(product(out[a], out[kResidual], length));
+    sums_.slope(int(a)) = double(product(out[a], out[kResidual], length));
     for (std::size_t b = a; information && b < kResidual; ++b)
-      sums.information(int(a), int(b)) = sums.information(int(b), int(a)) =
+      sums_.information(int(a), int(b)) = sums_.information(int(b), int(a)) =
           double(product(out[a], out[b], length));
   }
-  sums.squared = double(product(out[kResidual], out[kResidual], length));
-  sums.strip_mean.fill(0);
-  sums.strip_count.fill(0);
-  for (std::size_t i = 0; i < window.count; ++i) {
-    sums.strip_mean[window.strip[i]] += double(out[kResidual][i]);
-    sums.strip_count[window.strip[i]] += 1;
+  sums_.squared = double(product(out[kResidual], out[kResidual], length));
+  sums_.strip_mean.fill(0);
+  sums_.strip_count.fill(0);
+  for (std::size_t i = 0; i < window_.count(); ++i) {
+    sums_.strip_mean[window_.strip[i]] += double(out[kResidual][i]);
+    sums_.strip_count[window_.strip[i]] += 1;
   }
-  for (std::size_t k = 0; k < sums.strip_mean.size(); ++k)
-    sums.strip_mean[k] /= std::max(sums.strip_count[k], 1.0);
+  for (std::size_t k = 0; k < sums_.strip_mean.size(); ++k)
+    sums_.strip_mean[k] /= std::max(sums_.strip_count[k], 1.0);
 }
 
-std::optional<CornerFit> CornerRefiner::refine(const CornerGuess& guess) {
+CornerFit CornerRefiner::refine(const CornerGuess& guess) {
   const double area = cross(guess.along_row, guess.along_column);
   const double row = length(guess.along_row);
   const double column = length(guess.along_column);
-  if (!(area > 0.2 * row * column)) return std::nullopt;
+  if (!(area > 0.2 * row * column)) return {};
   first_angle_ = {float(std::atan2(guess.along_row.y, guess.along_row.x)),
                   float(std::atan2(guess.along_column.y, guess.along_column.x))};
   model_.p[CornerModel::Angle1] = first_angle_[0];
@@ -210,11 +185,10 @@ std::optional<CornerFit> CornerRefiner::refine(const CornerGuess& guess) {
   const double width = std::clamp(kFirstWidthShare * plain_px, kMinWidthPx, kFirstWidthPx);
   model_.p[CornerModel::Width1] = model_.p[CornerModel::Width2] = float(width);
   for (const bool coarse : {true, false}) {
-    if (!gather(guess, at) || !solve(coarse)) return std::nullopt;
+    if (!gather(guess, at) || !solve(coarse)) return {};
     at = {at.x + double(model_.p[CornerModel::X]), at.y + double(model_.p[CornerModel::Y])};
-    if (length({at.x - guess.at.x, at.y - guess.at.y}) > kMaxDriftShare * std::min(row, column))
-      return std::nullopt;
-    if (coarse && !plausible(guess)) return std::nullopt;
+    if (length({at.x - guess.at.x, at.y - guess.at.y}) > kMaxDriftShare * std::min(row, column)) return {};
+    if (coarse && !plausible(guess)) return {};
   }
   return judged(guess, at);
 }
@@ -237,7 +211,8 @@ bool CornerRefiner::gather(const CornerGuess& guess, const Vec2d& at) {
   };
   const double beside_u = strip(area / length(u)) * length(u) / area;  // in steps
   const double beside_v = strip(area / length(v)) * length(v) / area;
-  window_.clear();
+  for (auto* column : window_.columns()) column->clear();
+  window_.strip.clear();
   window_.reach_px = float(reach * longest);
   const double wide = reach_u * std::abs(u.x) + reach_v * std::abs(v.x);
   const double high = reach_u * std::abs(u.y) + reach_v * std::abs(v.y);
@@ -254,10 +229,15 @@ bool CornerRefiner::gather(const CornerGuess& guess, const Vec2d& at) {
       if (std::abs(b) > beside_u && std::abs(a) > beside_v) continue;
       const bool along_u = std::abs(b) * beside_v < std::abs(a) * beside_u;
       const int part = (along_u ? 0 : 4) + ((along_u ? a : b) > 0 ? 2 : 0) + ((along_u ? b : a) > 0 ? 1 : 0);
-      window_.add(float(d.x), float(d.y), float(picture_.row(y)[x]), static_cast<unsigned char>(part));
+      window_.x.push_back(float(d.x));
+      window_.y.push_back(float(d.y));
+      window_.value.push_back(float(picture_.row(y)[x]));
+      window_.weight.push_back(1);
+      window_.strip.push_back(static_cast<unsigned char>(part));
     }
-  window_.pad();
-  return window_.count >= 3 * CornerModel::Count;
+  const std::size_t whole = (window_.count() + kLanes - 1) / kLanes * kLanes;
+  for (auto* column : window_.columns()) column->resize(whole, 0.F);
+  return window_.count() >= 3 * CornerModel::Count;
 }
 
 bool CornerRefiner::solve(bool coarse) {
@@ -265,12 +245,12 @@ bool CornerRefiner::solve(bool coarse) {
   if (coarse) {
     std::fill(p.begin() + CornerModel::Light, p.end(), 0.F);
     p[CornerModel::X] = p[CornerModel::Y] = 0;
-    sum_up(window_, model_, true, scratch_, sums_);
+    sum_up(true);
     step_linear();
   }
   p[CornerModel::X] = p[CornerModel::Y] = 0;  // the window has moved there
   for (int round = 0; round < kMaxRounds; ++round) {
-    sum_up(window_, model_, coarse || round == 0, scratch_, sums_);
+    sum_up(coarse || round == 0);
     const double moved = step_all();
     if (!(moved < 1e3)) return false;
     if (moved < (coarse ? kNearPx : kSettledPx)) return true;
@@ -291,7 +271,7 @@ double CornerRefiner::step_all() {
   auto& p = model_.p;
   CornerMatrix n = sums_.information;
   CornerVector g = sums_.slope;
-  const double variance = std::max(sums_.squared / double(window_.count), 0.1);
+  const double variance = std::max(sums_.squared / double(window_.count()), 0.1);
   const auto believe = [&](int i, double difference, double deviation) {
     n(i, i) += variance / (deviation * deviation);
     g(i) -= variance / (deviation * deviation) * difference;
@@ -324,14 +304,14 @@ bool CornerRefiner::plausible(const CornerGuess& guess) const {
   return true;
 }
 
-std::optional<CornerFit> CornerRefiner::judged(const CornerGuess& guess, const Vec2d& at) const {
-  if (!plausible(guess)) return std::nullopt;
+CornerFit CornerRefiner::judged(const CornerGuess& guess, const Vec2d& at) const {
+  if (!plausible(guess)) return {};
   const double swing = std::abs(double(model_.p[CornerModel::Swing]));
-  const double variance = sums_.squared / double(window_.count - CornerModel::Count);
-  if (!(variance <= kMaxNoise * kMaxNoise * swing * swing)) return std::nullopt;
+  const double variance = sums_.squared / double(window_.count() - CornerModel::Count);
+  if (!(variance <= kMaxNoise * kMaxNoise * swing * swing)) return {};
   for (std::size_t k = 0; k < sums_.strip_mean.size(); ++k) {
     const double noise = kMisfitDeviations * std::sqrt(variance / std::max(sums_.strip_count[k], 1.0));
-    if (!(std::abs(sums_.strip_mean[k]) <= kMaxMisfit * swing + noise)) return std::nullopt;
+    if (!(std::abs(sums_.strip_mean[k]) <= kMaxMisfit * swing + noise)) return {};
   }
   CornerMatrix n = sums_.information;
   n.diagonal().array() += 1e-3;
@@ -339,8 +319,8 @@ std::optional<CornerFit> CornerRefiner::judged(const CornerGuess& guess, const V
   const double worst =
       std::max(covariance(CornerModel::X, CornerModel::X), covariance(CornerModel::Y, CornerModel::Y));
   const double sigma = std::sqrt(variance * worst);
-  if (!(sigma <= kMaxSigmaPx)) return std::nullopt;
-  return CornerFit{at, sigma, double(model_.p[CornerModel::Light]), swing};
+  if (!(sigma <= kMaxSigmaPx)) return {};
+  return {at, double(model_.p[CornerModel::Light]), swing};
 }
 
 }  // namespace relievo::pipeline

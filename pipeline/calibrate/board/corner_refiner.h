@@ -13,10 +13,9 @@
 
 #include <array>
 #include <cstddef>
-#include <optional>
 #include <vector>
 
-#include "pipeline/calibrate/board/grey_pyramid.h"
+#include "hal/base/image_view.h"
 #include "pipeline/model/geometry.h"
 
 namespace relievo::pipeline {
@@ -29,11 +28,10 @@ struct CornerWindow {
   static constexpr std::size_t kLanes = 16;
   std::vector<float> x, y, value, weight;
   std::vector<unsigned char> strip;  // 0 to 7: which half edge, which side of it
-  std::size_t count = 0;             // without the padding
   float reach_px = 0;                // unit of the light's slope
-  void clear();
-  void add(float px, float py, float grey, unsigned char part);
-  void pad();
+
+  std::array<std::vector<float>*, 4> columns() { return {&x, &y, &value, &weight}; }
+  std::size_t count() const { return strip.size(); }  // without the padding
 };
 
 // brightness = light + swing q + tone q²,  q = F(s1 / width1) F(s2 / width2): s1, s2 the distances
@@ -70,13 +68,6 @@ struct CornerSums {
   std::array<double, 8> strip_count{};
 };
 
-// Columns that the sums need; kept between calls so that nothing is allocated anew.
-using CornerScratch = std::array<std::vector<float>, CornerModel::Count + 1>;
-
-// The information is left as it was where only the slope is asked for.
-void sum_up(const CornerWindow& window, const CornerModel& model, bool information, CornerScratch& scratch,
-            CornerSums& sums);
-
 struct CornerGuess {
   Vec2d at;         // px
   Vec2d along_row;  // to the next corner of the row and of the column, px
@@ -85,36 +76,38 @@ struct CornerGuess {
 };
 
 struct CornerFit {
-  Vec2d at;
-  double sigma_px = 0;  // of either coordinate, the larger
-  double middle = 0;    // grey level between dark and bright
-  double swing = 0;     // half of bright minus dark, positive
+  Vec2d at;           // px
+  double middle = 0;  // grey level between dark and bright
+  double swing = 0;   // half of bright minus dark; 0 where no corner is seen
+  bool seen() const { return swing > 0; }
 };
 
 class CornerRefiner {
  public:
   // `clear_share`: how far from an edge the squares are certainly plain, as a share of a square;
   // markers begin there. The picture must outlive this.
-  CornerRefiner(const GreyView& picture, double clear_share) : picture_(picture), clear_share_(clear_share) {}
+  CornerRefiner(const ImageView& picture, double clear_share)
+      : picture_(picture), clear_share_(clear_share) {}
 
-  const GreyView& picture() const { return picture_; }
-  // No value where there is no such corner, or none that can be trusted.
-  std::optional<CornerFit> refine(const CornerGuess& guess);
+  // Unseen where there is no such corner, or none that can be trusted.
+  CornerFit refine(const CornerGuess& guess);
 
  private:
   bool gather(const CornerGuess& guess, const Vec2d& at);
   bool solve(bool coarse);
+  // Into sums_. The information is left as it was where only the slope is asked for.
+  void sum_up(bool information);
   void step_linear();
   double step_all();
   bool plausible(const CornerGuess& guess) const;
-  std::optional<CornerFit> judged(const CornerGuess& guess, const Vec2d& at) const;
+  CornerFit judged(const CornerGuess& guess, const Vec2d& at) const;
 
-  GreyView picture_;
+  ImageView picture_;
   double clear_share_;
   std::array<float, 2> first_angle_{};
   CornerModel model_;
-  CornerWindow window_;  // these two are kept for their memory
-  CornerScratch scratch_;
+  CornerWindow window_;                                             // these two are kept for their memory
+  std::array<std::vector<float>, CornerModel::Count + 1> scratch_;  // columns that the sums need
   CornerSums sums_;
 };
 

@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <utility>
 
 #include "hal/base/simd.h"
 
@@ -67,7 +68,7 @@ RELIEVO_SIMD void weigh_columns(const std::uint16_t* sum, int half_width, std::u
 }
 
 // Every second pixel of every second row after the binomial filter 1 4 6 4 1; the edges repeat.
-std::vector<std::uint8_t> half_of(const GreyView& from, int width, int height) {
+std::vector<std::uint8_t> half_of(const ImageView& from, int width, int height) {
   std::vector<std::uint8_t> out(std::size_t(width) * std::size_t(height));
   std::vector<std::uint16_t> sum(std::size_t(from.width_px) + 4);
   for (int y = 0; y < height; ++y) {
@@ -79,7 +80,7 @@ std::vector<std::uint8_t> half_of(const GreyView& from, int width, int height) {
 
 }  // namespace
 
-void smooth_columns(const GreyView& picture, int y, std::vector<std::uint16_t>& sum) {
+void smooth_columns(const ImageView& picture, int y, std::vector<std::uint16_t>& sum) {
   std::array<const std::uint8_t*, 5> rows{};
   for (int k = 0; k < 5; ++k)
     rows[std::size_t(k)] = picture.row(std::clamp(y + k - 2, 0, picture.height_px - 1));
@@ -89,18 +90,18 @@ void smooth_columns(const GreyView& picture, int y, std::vector<std::uint16_t>& 
 }
 
 GreyPyramid::GreyPyramid(const ImageView& picture) {
-  if (picture.format == PixelFormat::Grey8) {
-    views_.push_back({picture.row(0), picture.width_px, picture.height_px, picture.stride_bytes});
-  } else {
-    own_.push_back(grey_of(picture));
-    views_.push_back({own_.back().data(), picture.width_px, picture.height_px, picture.width_px});
-  }
+  if (picture.format == PixelFormat::Grey8) views_.push_back(picture);
+  else keep(grey_of(picture), picture.width_px, picture.height_px);
   while (std::min(views_.back().width_px, views_.back().height_px) >= 2 * kMinSidePx) {
     const int width = (views_.back().width_px + 1) / 2;
     const int height = (views_.back().height_px + 1) / 2;
-    own_.push_back(half_of(views_.back(), width, height));
-    views_.push_back({own_.back().data(), width, height, width});
+    keep(half_of(views_.back(), width, height), width, height);
   }
+}
+
+void GreyPyramid::keep(std::vector<std::uint8_t> grey, int width_px, int height_px) {
+  own_.push_back(std::move(grey));
+  views_.push_back({reinterpret_cast<const std::byte*>(own_.back().data()), width_px, height_px, width_px});
 }
 
 }  // namespace relievo::pipeline

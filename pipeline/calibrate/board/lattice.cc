@@ -11,6 +11,7 @@
 #include <Eigen/Core>
 #include <Eigen/LU>
 
+#include "pipeline/base/cells.h"
 #include "pipeline/base/solving.h"
 
 namespace relievo::pipeline {
@@ -23,12 +24,6 @@ int Lattice::count_row(int row) const {
 int Lattice::count_column(int column) const {
   int count = 0;
   for (int row = 0; row < rows_; ++row) count += seen(column, row) ? 1 : 0;
-  return count;
-}
-
-int Lattice::count() const {
-  int count = 0;
-  for (int row = 0; row < rows_; ++row) count += count_row(row);
   return count;
 }
 
@@ -50,7 +45,7 @@ Lattice Lattice::quarter_turned() const {
 }
 
 void Lattice::scale(double factor) {
-  for (LatticeNode& one : nodes_) one.at = {one.at.x * factor, one.at.y * factor};
+  for (CornerFit& one : nodes_) one.at = {one.at.x * factor, one.at.y * factor};
 }
 
 namespace {
@@ -82,38 +77,28 @@ class Neighbourhood {
   Neighbourhood(std::span<const Saddle> saddles, int width_px, int height_px) : saddles_(saddles) {
     const double area = double(width_px) * height_px;
     cell_px_ = std::clamp(float(std::sqrt(2 * area / (double(saddles.size()) + 1))), 8.F, 256.F);
-    across_ = int(float(width_px) / cell_px_) + 1;
-    down_ = int(float(height_px) / cell_px_) + 1;
-    cells_.resize(std::size_t(across_) * std::size_t(down_));
-    for (std::size_t i = 0; i < saddles.size(); ++i)
-      cell(column(saddles[i].x), column(saddles[i].y)).push_back(int(i));
+    cells_.fill(column(float(width_px)) + 1, column(float(height_px)) + 1, [&](auto&& add) {
+      for (std::uint32_t i = 0; i < saddles.size(); ++i) add(column(saddles[i].x), column(saddles[i].y), i);
+    });
   }
 
-  // At least kNeighbours, where there are so many, the nearest among them.
-  void near(int i, std::vector<int>& out) {
+  // At least kNeighbours, where there are so many, the nearest among them: one ring after there are enough.
+  void near(std::size_t i, std::vector<std::uint32_t>& out) const {
     out.clear();
-    const int x = column(saddles_[std::size_t(i)].x);
-    const int y = column(saddles_[std::size_t(i)].y);
-    for (int ring = 0; ring <= std::max(across_, down_); ++ring) {
-      const bool enough = out.size() > kNeighbours;
-      for (int v = std::max(0, y - ring); v <= std::min(down_ - 1, y + ring); ++v)
-        for (int u = std::max(0, x - ring); u <= std::min(across_ - 1, x + ring); ++u)
-          if (std::max(std::abs(u - x), std::abs(v - y)) == ring)
-            out.insert(out.end(), cell(u, v).begin(), cell(u, v).end());
-      if (enough) break;
-    }
+    bool enough = false;
+    const auto done = [&](int ring) {
+      return ring > std::max(cells_.columns(), cells_.rows()) ||
+             std::exchange(enough, out.size() > kNeighbours);
+    };
+    cells_.by_rings(column(saddles_[i].x), column(saddles_[i].y), done,
+                    [&](std::uint32_t k) { out.push_back(k); });
   }
 
  private:
   int column(float place) const { return int(place / cell_px_); }
-  std::vector<int>& cell(int u, int v) {
-    return cells_[std::size_t(v) * std::size_t(across_) + std::size_t(u)];
-  }
   std::span<const Saddle> saddles_;
   float cell_px_ = 0;
-  int across_ = 0;
-  int down_ = 0;
-  std::vector<std::vector<int>> cells_;
+  Cells cells_{std::pmr::get_default_resource()};
 };
 
 // Is there an edge all the way, with the dark side on the hand where `ray` of `from` has it?
@@ -148,15 +133,16 @@ struct Try {
 
 float dot(const Vec2f& a, const Vec2f& b) { return a.x * b.x + a.y * b.y; }
 
-std::vector<Neighbour> neighbours_of(std::span<const Saddle> saddles, int i, std::span<const int> near) {
+std::vector<Neighbour> neighbours_of(std::span<const Saddle> saddles, std::size_t i,
+                                     std::span<const std::uint32_t> near) {
   std::vector<Neighbour> out;
-  const Saddle& from = saddles[std::size_t(i)];
-  for (const int k : near) {
-    const Saddle& to = saddles[std::size_t(k)];
+  const Saddle& from = saddles[i];
+  for (const std::uint32_t k : near) {
+    const Saddle& to = saddles[k];
     const float dx = to.x - from.x;
     const float dy = to.y - from.y;
     const float distance = std::sqrt(dx * dx + dy * dy);
-    if (distance >= kMinStepPx) out.push_back({k, distance, {dx / distance, dy / distance}});
+    if (distance >= kMinStepPx) out.push_back({int(k), distance, {dx / distance, dy / distance}});
   }
   return out;
 }
@@ -189,12 +175,12 @@ Link next_along(const SmoothPicture& picture, std::span<const Saddle> saddles,
 
 // Links that both ends agree on.
 Links link_up(const SmoothPicture& picture, std::span<const Saddle> saddles) {
-  Neighbourhood neighbourhood(saddles, picture.width_px(), picture.height_px());
+  const Neighbourhood neighbourhood(saddles, picture.width_px(), picture.height_px());
   Links links(saddles.size());
-  std::vector<int> near;
+  std::vector<std::uint32_t> near;
   for (std::size_t i = 0; i < saddles.size(); ++i) {
-    neighbourhood.near(int(i), near);
-    const std::vector<Neighbour> around = neighbours_of(saddles, int(i), near);
+    neighbourhood.near(i, near);
+    const std::vector<Neighbour> around = neighbours_of(saddles, i, near);
     for (int ray = 0; ray < 4; ++ray)
       links[i][std::size_t(ray)] = next_along(picture, saddles, around, int(i), ray);
   }

@@ -6,6 +6,7 @@
 // Inside calibrate/board/ only. Thread: any.
 #pragma once
 
+#include <algorithm>
 #include <optional>
 #include <span>
 #include <vector>
@@ -15,13 +16,6 @@
 #include "pipeline/model/geometry.h"
 
 namespace relievo::pipeline {
-
-struct LatticeNode {
-  Vec2d at;           // px
-  double middle = 0;  // grey level between dark and bright
-  double swing = 0;   // half of bright minus dark; 0 where no corner is seen
-  bool seen() const { return swing > 0; }
-};
 
 class Lattice {
  public:
@@ -39,12 +33,12 @@ class Lattice {
   std::size_t index(int column, int row) const {
     return std::size_t(row) * std::size_t(columns_) + std::size_t(column);
   }
-  LatticeNode& node(int column, int row) { return nodes_[index(column, row)]; }
-  const LatticeNode& node(int column, int row) const { return nodes_[index(column, row)]; }
+  CornerFit& node(int column, int row) { return nodes_[index(column, row)]; }
+  const CornerFit& node(int column, int row) const { return nodes_[index(column, row)]; }
   bool seen(int column, int row) const { return holds(column, row) && node(column, row).seen(); }
   // Of the square between node (column, row) and the next of the row and of the column.
   bool dark(int column, int row) const { return ((column + row) % 2 == 0) == first_dark_; }
-  int count() const;
+  int count() const { return int(std::ranges::count_if(nodes_, &CornerFit::seen)); }
   int count_row(int row) const;
   int count_column(int column) const;
 
@@ -57,7 +51,7 @@ class Lattice {
   int columns_;
   int rows_;
   bool first_dark_;
-  std::vector<LatticeNode> nodes_;
+  std::vector<CornerFit> nodes_;
 };
 
 // Every chessboard-like group of at least `least` crossings, the largest first.

@@ -46,7 +46,7 @@ class SquareMap {
   double g_ = 0, h_ = 0;
 };
 
-double grey_at(const GreyView& picture, const Vec2d& at) {
+double grey_at(const ImageView& picture, const Vec2d& at) {
   if (!(at.x >= 0 && at.y >= 0 && at.x < picture.width_px - 1 && at.y < picture.height_px - 1)) return 0;
   const int x = int(at.x);
   const int y = int(at.y);
@@ -59,12 +59,12 @@ double grey_at(const GreyView& picture, const Vec2d& at) {
 
 // Reads the square between node (column, row) and the next ones. False where there is no marker: its
 // border must be dark.
-bool read_square(const GreyView& picture, const Lattice& lattice, const BoardPattern& pattern,
+bool read_square(const ImageView& picture, const Lattice& lattice, const BoardPattern& pattern,
                  Reading& reading) {
-  const LatticeNode& a = lattice.node(reading.column, reading.row);
-  const LatticeNode& b = lattice.node(reading.column + 1, reading.row);
-  const LatticeNode& c = lattice.node(reading.column, reading.row + 1);
-  const LatticeNode& d = lattice.node(reading.column + 1, reading.row + 1);
+  const CornerFit& a = lattice.node(reading.column, reading.row);
+  const CornerFit& b = lattice.node(reading.column + 1, reading.row);
+  const CornerFit& c = lattice.node(reading.column, reading.row + 1);
+  const CornerFit& d = lattice.node(reading.column + 1, reading.row + 1);
   const SquareMap map(a.at, b.at, c.at, d.at);
   const int modules = pattern.marker_bits + 2;
   const double share = pattern.marker_side_mm() / pattern.square_mm;
@@ -89,7 +89,7 @@ bool read_square(const GreyView& picture, const Lattice& lattice, const BoardPat
   return border < 0;
 }
 
-std::vector<Reading> read_all(const GreyView& picture, const Lattice& lattice, const BoardPattern& pattern) {
+std::vector<Reading> read_all(const ImageView& picture, const Lattice& lattice, const BoardPattern& pattern) {
   std::vector<Reading> readings;
   for (int row = 0; row + 1 < lattice.rows(); ++row)
     for (int column = 0; column + 1 < lattice.columns(); ++column) {
@@ -186,7 +186,7 @@ class Judge {
 
 }  // namespace
 
-std::optional<Lattice> place_on_board(const GreyView& picture, const Lattice& lattice,
+std::optional<Lattice> place_on_board(const ImageView& picture, const Lattice& lattice,
                                       const BoardPattern& pattern,
                                       const std::vector<std::uint64_t>& markers) {
   std::vector<Reading> readings = read_all(picture, lattice, pattern);

@@ -21,7 +21,7 @@ std::vector<std::uint64_t> marker_modules(int bits, int count);
 
 // The lattice's nodes in their places on the board: columns x rows of the pattern. No value where too
 // few markers agree. The lattice in pixels of the picture.
-std::optional<Lattice> place_on_board(const GreyView& picture, const Lattice& lattice,
+std::optional<Lattice> place_on_board(const ImageView& picture, const Lattice& lattice,
                                       const BoardPattern& pattern, const std::vector<std::uint64_t>& markers);
 
 }  // namespace relievo::pipeline

@@ -7,6 +7,7 @@
 #include <numbers>
 
 #include "hal/base/simd.h"
+#include "pipeline/calibrate/board/grey_pyramid.h"
 
 namespace relievo::pipeline {
 namespace {
@@ -159,7 +160,7 @@ bool look_around(const SmoothPicture& picture, float radius, Saddle& saddle) {
 
 }  // namespace
 
-SmoothPicture::SmoothPicture(const GreyView& grey) : width_px_(grey.width_px), height_px_(grey.height_px) {
+SmoothPicture::SmoothPicture(const ImageView& grey) : width_px_(grey.width_px), height_px_(grey.height_px) {
   const auto width = std::size_t(width_px_);
   values_.resize(width * std::size_t(height_px_));
   std::vector<std::uint16_t> sum(width + 4);

@@ -13,7 +13,7 @@
 #include <cstdint>
 #include <vector>
 
-#include "pipeline/calibrate/board/grey_pyramid.h"
+#include "hal/base/image_view.h"
 #include "pipeline/model/geometry.h"
 
 namespace relievo::pipeline {
@@ -21,7 +21,7 @@ namespace relievo::pipeline {
 // Brightness times 16, slightly smoothed.
 class SmoothPicture {
  public:
-  explicit SmoothPicture(const GreyView& grey);
+  explicit SmoothPicture(const ImageView& grey);
 
   int width_px() const { return width_px_; }
   int height_px() const { return height_px_; }

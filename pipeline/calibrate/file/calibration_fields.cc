@@ -20,14 +20,14 @@ Result<int> whole_number(const YamlFields& fields, std::string_view name) {
 
 Result<const YamlMatrix*> find_any(const YamlFields& fields, const FieldNames& names) {
   const YamlMatrix* found = nullptr;
-  for (const std::string_view name : {names.usual, names.second, names.third}) {
+  for (const std::string_view name : names) {
     const auto at = fields.matrices.find(name);
     if (at == fields.matrices.end()) continue;
     if (found != nullptr) return wrong("this matrix is there twice, under two names; mend the file", name);
     found = &at->second;
   }
   if (found == nullptr)
-    return wrong("this matrix is missing; the file is damaged or no stereo calibration", names.usual);
+    return wrong("this matrix is missing; the file is damaged or no stereo calibration", names.front());
   return found;
 }
 
@@ -94,14 +94,13 @@ bool are_words(const std::string& text) {
 }  // namespace
 
 bool holds(const YamlFields& fields, const FieldNames& names) {
-  return fields.matrices.contains(names.usual) || fields.matrices.contains(names.second) ||
-         fields.matrices.contains(names.third);
+  return std::ranges::any_of(names, [&](std::string_view name) { return fields.matrices.contains(name); });
 }
 
 Result<const YamlMatrix*> find_matrix(const YamlFields& fields, const FieldNames& names, int rows, int cols) {
   RELIEVO_TRY_ASSIGN(const YamlMatrix* found, find_any(fields, names));
   if (found->rows != rows || found->cols != cols)
-    return wrong("this matrix has the wrong size for a stereo calibration", names.usual);
+    return wrong("this matrix has the wrong size for a stereo calibration", names.front());
   return found;
 }
 
@@ -136,7 +135,7 @@ Result<void> read_camera_matrix(const YamlFields& fields, const FieldNames& name
   RELIEVO_TRY_ASSIGN(const YamlMatrix* k, find_matrix(fields, names, 3, 3));
   const auto& v = k->values;
   if (v[1] != 0 || v[3] != 0 || v[6] != 0 || v[7] != 0 || v[8] != 1)
-    return wrong("must be [fx 0 cx; 0 fy cy; 0 0 1]", names.usual);
+    return wrong("must be [fx 0 cx; 0 fy cy; 0 0 1]", names.front());
   camera.focal_px = {v[0], v[4]};
   camera.centre_px = {v[2], v[5]};
   return {};
@@ -147,11 +146,11 @@ Result<void> read_distortion(const YamlFields& fields, const FieldNames& names, 
   const auto& v = d->values;
   if ((d->rows != 1 && d->cols != 1) ||
       (v.size() != 4 && v.size() != 5 && v.size() != 8 && v.size() != 12 && v.size() != 14))
-    return wrong("distortion must be k1 k2 p1 p2 and perhaps k3", names.usual);
+    return wrong("distortion must be k1 k2 p1 p2 and perhaps k3", names.front());
   for (std::size_t i = 5; i < v.size(); ++i)
     if (v[i] != 0)
       return Error{Errc::Unsupported, "more than five distortion coefficients; calibrate with k1 k2 p1 p2 k3"}
-          .at(names.usual);
+          .at(names.front());
   for (std::size_t i = 0; i < 5; ++i) camera.distortion[i] = i < v.size() ? v[i] : 0;
   return {};
 }

@@ -5,21 +5,43 @@
 // Errors: InvalidInput and Unsupported, the field in where(). Thread: any.
 #pragma once
 
+#include <array>
+#include <functional>
+#include <map>
+#include <string>
 #include <string_view>
+#include <vector>
 
 #include "pipeline/calibrate/file/calibration_file.h"
-#include "pipeline/calibrate/file/yaml_fields.h"
 
 namespace relievo::pipeline {
 
+// A calibration's YAML as flat fields: top-level numbers and words, and matrices (rows, cols, data and
+// perhaps dt), as OpenCV's FileStorage and ROS write them. Other values are stepped over by key.
+//
+// libyaml reads, by events: nothing is built that a hostile file could make large or deep. What YAML
+// lets pass and a calibration must not is refused here: a document that was cut (the last line must be
+// ended, or end in a bracket), a field twice, two documents, references, a list of another length than
+// rows times cols, a number that is not finite. A number is decimal and the whole of its word.
+// Errors: InvalidInput; where() is the line number or the field.
+struct YamlMatrix {
+  int rows = 0;
+  int cols = 0;
+  std::vector<double> values;  // row-major, rows * cols, all finite
+};
+
+struct YamlFields {
+  std::map<std::string, double, std::less<>> numbers;
+  std::map<std::string, std::string, std::less<>> words;
+  std::map<std::string, YamlMatrix, std::less<>> matrices;
+};
+
+Result<YamlFields> parse_yaml_fields(std::string_view text);
+
 inline Error wrong(Literal what, std::string_view field) { return Error{Errc::InvalidInput, what}.at(field); }
 
-// One thing's names in different tools.
-struct FieldNames {
-  std::string_view usual;
-  std::string_view second = {};
-  std::string_view third = {};
-};
+// One thing's names in different tools, the usual one first.
+using FieldNames = std::array<std::string_view, 3>;
 
 // Is any of them there?
 bool holds(const YamlFields& fields, const FieldNames& names);
@@ -39,5 +61,23 @@ Result<void> check_rotation(const Rotation& rotation, std::string_view name);
 
 // k1 k2 p1 p2 and perhaps k3; more are taken only as zeros.
 Result<void> read_distortion(const YamlFields& fields, const FieldNames& names, CameraIntrinsics& camera);
+
+// ROS camera_info: one YAML file a camera, as camera_calibration writes left.yaml and right.yaml
+// (sensor_msgs/CameraInfo, http://wiki.ros.org/image_pipeline/CameraInfo).
+//
+// How the cameras stand to each other is in the rectification: with R1, R2 the rectification matrices
+// and Tx = P2(0,3) / P2(0,0), which is minus the baseline, in metres,
+//   right_from_left = R2^T R1,   translation = R2^T (Tx, 0, 0) * 1000 mm.
+// What is written here rectifies as rectifier.h does (the x axis is the baseline, the z axis
+// lies between the two optical axes), with the pictures' own size and a principal point of its own for
+// each camera: toed-in cameras would otherwise look past each other. image_proc and image_geometry's
+// StereoCameraModel take both into account.
+// ROS has no field for how good a calibration is: rms_px and epipolar_shift_px are not kept; nor are the
+// cameras' names.
+bool is_camera_info(const YamlFields& fields);
+
+// In either order: the right camera is the one that stands away from the origin. Not yet checked.
+Result<StereoCalibration> read_camera_infos(const YamlFields& one, const YamlFields& other,
+                                            const CalibrationHints& hints);
 
 }  // namespace relievo::pipeline

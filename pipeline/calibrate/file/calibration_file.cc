@@ -4,15 +4,15 @@
 
 #include <algorithm>
 #include <cstdio>
+#include <iomanip>
 #include <span>
+#include <sstream>
 #include <string>
 #include <system_error>
 #include <utility>
 
 #include "hal/base/whole_file.h"
 #include "pipeline/calibrate/file/calibration_fields.h"
-#include "pipeline/calibrate/file/camera_info.h"
-#include "pipeline/calibrate/file/yaml_fields.h"
 
 namespace relievo::pipeline {
 namespace {
@@ -39,9 +39,12 @@ Result<void> read_relation(const YamlFields& fields, double unit_mm, RigidTransf
   return {};
 }
 
-double number_or_zero(const YamlFields& fields, std::string_view name) {
+// No field: nobody knows. Words would be no number of ours ("0,02").
+Result<double> number_or_zero(const YamlFields& fields, std::string_view name) {
+  if (fields.words.contains(name))
+    return wrong("this field is missing or no number; the file is damaged or no calibration", name);
   const auto found = fields.numbers.find(name);
-  return found == fields.numbers.end() ? 0 : found->second;
+  return found == fields.numbers.end() ? 0.0 : found->second;
 }
 
 // No field: nobody knows. A number would be no words of ours.
@@ -53,13 +56,7 @@ Result<std::string> words_or_empty(const YamlFields& fields, std::string_view na
 }
 
 void append_words(std::string& text, const char* name, std::string_view words) {
-  if (words.empty()) return;
-  text += std::string(name) + ": \"";
-  for (const char c : words) {
-    if (c == '"' || c == '\\') text += '\\';
-    text += c;
-  }
-  text += "\"\n";
+  if (!words.empty()) text += (std::ostringstream() << name << ": " << std::quoted(words) << '\n').str();
 }
 
 void append_matrix(std::string& text, const char* name, int rows, int cols, std::span<const double> values) {
@@ -91,15 +88,14 @@ Result<StereoCalibration> read_stereo_yaml(const YamlFields& cameras, const Yaml
   RELIEVO_TRY(read_camera(cameras, hints, kLeftMatrix, kLeftDistortion, calibration.left));
   RELIEVO_TRY(read_camera(cameras, hints, kRightMatrix, kRightDistortion, calibration.right));
   RELIEVO_TRY(read_relation(relation, hints.unit_mm > 0 ? hints.unit_mm : 1, calibration.right_from_left));
-  calibration.rms_px = number_or_zero(cameras, "pair_rms_px");
-  calibration.epipolar_shift_px = number_or_zero(cameras, "epipolar_shift_px");
+  RELIEVO_TRY_ASSIGN(calibration.rms_px, number_or_zero(cameras, "pair_rms_px"));
+  RELIEVO_TRY_ASSIGN(calibration.epipolar_shift_px, number_or_zero(cameras, "epipolar_shift_px"));
   RELIEVO_TRY_ASSIGN(calibration.cameras.left, words_or_empty(cameras, "left_camera"));
   RELIEVO_TRY_ASSIGN(calibration.cameras.right, words_or_empty(cameras, "right_camera"));
   return calibration;
 }
 
 Result<YamlFields> fields_of(std::string_view text) {
-  if (text.empty()) return Error{Errc::InvalidInput, "the calibration is empty; calibrate again"};
   if (text.size() > kMaxCalibrationFileBytes)
     return Error{Errc::InvalidInput, "too large for a calibration; give a file such as rig.yml"};
   return parse_yaml_fields(text);

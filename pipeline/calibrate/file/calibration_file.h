@@ -9,7 +9,7 @@
 //                                  right_camera name the cameras it was made with, where they are known
 //   intrinsics.yml extrinsics.yml  the two files of OpenCV's stereo sample; they do not say how large the
 //                                  pictures are
-//   left.yaml right.yaml           ROS camera_info (camera_info.h), metres
+//   left.yaml right.yaml           ROS camera_info (calibration_fields.h), metres
 //
 // OpenCV's own reader takes wrong numbers from a file that was cut short (0.21 becomes 2.1). This
 // one takes a whole document or nothing: every field once, every list closed, every number inside
@@ -52,6 +52,15 @@ Result<StereoCalibration> parse_calibration_pair(std::string_view one, std::stri
 // rig.yml, written under a temporary name beside the file, synced and renamed: nobody meets half a file.
 Result<void> write_calibration(const std::filesystem::path& file, const StereoCalibration& calibration);
 std::string calibration_text(const StereoCalibration& calibration);
+
+// ROS's left.yaml and right.yaml.
+struct CameraInfoTexts {
+  std::string left;
+  std::string right;
+};
+
+// Errors: those of lay_windows(): the cameras do not look at a common volume.
+Result<CameraInfoTexts> camera_info_texts(const StereoCalibration& calibration);
 
 // Could a rig of two cameras standing side by side have these numbers? where() names the field.
 Result<void> check_calibration(const StereoCalibration& calibration);

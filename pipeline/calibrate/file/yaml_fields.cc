@@ -1,13 +1,13 @@
 // SPDX-FileCopyrightText: 2026 The Relievo authors
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include "pipeline/calibrate/file/yaml_fields.h"
-
 #include <charconv>
 #include <cmath>
 #include <set>
 #include <utility>
 
 #include <yaml.h>
+
+#include "pipeline/calibrate/file/calibration_fields.h"
 
 namespace relievo::pipeline {
 namespace {

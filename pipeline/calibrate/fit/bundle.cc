@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <utility>
 #include <vector>
 
 #include <Eigen/Cholesky>
@@ -210,7 +211,7 @@ Normal linearise_alone(const Problem& rig, const View& view) {
 
 }  // namespace
 
-bool first_guess(Problem& problem) {
+void first_guess(Problem& problem) {
   CameraIntrinsics& camera = problem.camera[0];
   std::vector<Eigen::Matrix3d> views;
   for (const View& view : problem.views) views.push_back(homography(problem.pattern, *view.seen[0], camera));
@@ -224,7 +225,6 @@ bool first_guess(Problem& problem) {
   const double board_mm = problem.pattern.columns * problem.pattern.square_mm;
   for (std::size_t v = 0; v < views.size(); ++v)
     problem.views[v].left_from_board = pose_of(views[v], focal, board_mm);
-  return !views.empty();
 }
 
 Eigen::Matrix3d rotation_of(const Eigen::Vector3d& turn) {
@@ -304,10 +304,11 @@ void step_globals(Problem& p, const GlobalVector& by) {
   p.right_from_left.step(by.tail<6>());
 }
 
-std::vector<Problem> without_each_view(const Problem& whole) {
+std::vector<Problem> without_each_view(Problem whole, std::size_t count) {
   std::vector<Problem> without;
-  for (const View& view : whole.views) {
-    const Normal n = linearise_alone(whole, view);
+  const std::vector<View> views = std::exchange(whole.views, {});
+  for (std::size_t v = 0; v < count; ++v) {
+    const Normal n = linearise_alone(whole, views[v]);
     const auto& [b, c, h] = n.views[0];
     Globals information = whole.information - (n.a - eliminated<6, kGlobals>(c, b));
     GlobalVector pull = b * solved<6>(c, h) - n.g;

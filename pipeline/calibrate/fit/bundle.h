@@ -101,9 +101,9 @@ bool solve(Problem& problem);
 // Poses and sums only: the same problem with nothing global free.
 bool solve_poses(Problem& problem);
 
-// For each view where the globals would go if it had never been taken: one Newton step from the solution,
-// poses adapting (exact for a linear problem). The copies' own views are untouched.
-std::vector<Problem> without_each_view(const Problem& whole);
+// For each of the first `count` views where the globals would go if it had never been taken: one Newton step
+// from the solution, poses adapting (exact for a linear problem). The copies have no views.
+std::vector<Problem> without_each_view(Problem whole, std::size_t count);
 
 // What one more view would add to Problem::information at these globals; `rig` without views.
 Globals information_of(const Problem& rig, const View& view);
@@ -112,8 +112,8 @@ Globals information_of(const Problem& rig, const View& view);
 void step_globals(Problem& problem, const GlobalVector& by);
 
 // A first guess of focal length and poses from the boards' homographies, principal point in the
-// middle (Zhang 2000). False where the views do not determine it.
-bool first_guess(Problem& problem);
+// middle (Zhang 2000).
+void first_guess(Problem& problem);
 
 Eigen::Matrix3d cross(const Eigen::Vector3d& v);
 

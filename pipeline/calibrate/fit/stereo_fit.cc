@@ -35,7 +35,7 @@ bundle::Pose left_from_right_board(const bundle::Pose& right_from_left,
 }
 
 bundle::CameraBelief belief_of(const CameraFit& alone, double slip) {
-  return {bundle::parameters_of(alone.camera),
+  return {bundle::parameters_of(alone.camera()),
           (slip - 1) * alone.problem.information.topLeftCorner<kCameraGlobals, kCameraGlobals>()};
 }
 
@@ -56,15 +56,13 @@ void begin_at(const StereoFit& start, StereoFit& fit) {
 double CameraFit::rms_px() const {
   return std::sqrt(2 * problem.squared_px / std::max(problem.residuals, 1));
 }
-double CameraFit::squared_px(int view) const { return problem.views[place(view)].squared_px[0]; }
-double CameraFit::rms_px(int view) const {
-  return std::sqrt(squared_px(view) / problem.views[place(view)].corners[0]);
-}
-const bundle::Pose& CameraFit::pose(int view) const { return problem.views[place(view)].left_from_board; }
-std::size_t CameraFit::place(int view) const {
-  const auto found = std::lower_bound(views.begin(), views.end(), view);
-  RELIEVO_ASSERT(found != views.end() && *found == view);
-  return std::size_t(found - views.begin());
+double CameraFit::squared_px(int of) const { return view(of).squared_px[0]; }
+double CameraFit::rms_px(int of) const { return std::sqrt(squared_px(of) / view(of).corners[0]); }
+const bundle::Pose& CameraFit::pose(int of) const { return view(of).left_from_board; }
+const bundle::View& CameraFit::view(int of) const {
+  const auto found = std::lower_bound(views.begin(), views.end(), of);
+  RELIEVO_ASSERT(found != views.end() && *found == of);
+  return problem.views[std::size_t(found - views.begin())];
 }
 
 double CameraFits::noise_px2() const {
@@ -94,7 +92,7 @@ bool fit_camera(const CalibratorInput& input, bool right, std::span<const int> v
   p.camera[0].width_px = input.width_px;
   p.camera[0].height_px = input.height_px;
   for (const int view : views) p.views.emplace_back(&corners_of(input, right, view), nullptr, bundle::Pose{});
-  if (!bundle::first_guess(p)) return false;
+  bundle::first_guess(p);
   set_priors(p, 0);
   p.noise_px2 = 1;
   set_free(p, 0, kFirstDistortion);
@@ -107,7 +105,6 @@ bool fit_camera(const CalibratorInput& input, bool right, std::span<const int> v
     fit.variance_px2 = p.squared_px / free;
     p.noise_px2 = std::max(1e-6, fit.variance_px2);
   }
-  fit.camera = p.camera[0];
   return true;
 }
 
@@ -124,7 +121,7 @@ bool fit_stereo(const CalibratorInput& input, const CameraFits& cameras, std::sp
   made.paired.assign(paired.begin(), paired.end());
   bundle::Problem& p = made.problem;
   p.pattern = input.pattern;
-  p.camera = {cameras.left.camera, cameras.right.camera};
+  p.camera = {cameras.left.camera(), cameras.right.camera()};
   p.right_from_left = relation;
   const auto add = [&](int view, bool left, bool right) {
     made.views.push_back(view);

@@ -14,18 +14,17 @@ namespace relievo::pipeline {
 
 // One camera alone. `views` are indices of its boards in the input.
 struct CameraFit {
-  CameraIntrinsics camera;
   std::vector<int> views;
   bundle::Problem problem;  // view k is input view views[k]
   double variance_px2 = 0;  // of one coordinate of a corner, the noise
-  double rms_px() const;    // over both coordinates of a corner
+  const CameraIntrinsics& camera() const { return problem.camera[0]; }
+  double rms_px() const;  // over both coordinates of a corner
 
-  // Of an input view: sum of squares, its mean's root a corner, pose and place. Asserts that it is one of
-  // ours.
-  double squared_px(int view) const;
-  double rms_px(int view) const;
-  const bundle::Pose& pose(int view) const;
-  std::size_t place(int view) const;
+  // Of an input view: itself, sum of squares, its mean's root a corner, pose. Asserts that it is one of ours.
+  const bundle::View& view(int of) const;
+  double squared_px(int of) const;
+  double rms_px(int of) const;
+  const bundle::Pose& pose(int of) const;
 };
 
 // What lenses and sensors are like before the first picture is taken, one standard deviation: principal

@@ -87,23 +87,17 @@ double spread_of(const CameraFits& cameras, const StereoFit& fit, std::size_t pa
 }
 
 // What each pair of pictures alone says about where the right camera stands, to second order: enough to try
-// many subsets of the views without a single bundle adjustment. A board as each camera alone sees it, and how
-// firmly (information of the pose, corners of 1 px noise).
+// many subsets of the views without a single bundle adjustment. A board as each camera alone sees it: its
+// left_from_board is that of the camera itself.
 struct RelationEvidence {
-  Pose left_from_board;
-  Pose right_from_board;
-  Matrix6d left_information;
-  Matrix6d right_information;
+  const bundle::View& left;
+  const bundle::View& right;
 };
 
 // One a view, in the order of `pairs`.
 std::vector<RelationEvidence> gather_evidence(const CameraFits& cameras, std::span<const int> pairs) {
   std::vector<RelationEvidence> views;
-  for (const int pair : pairs) {
-    const bundle::View& left = cameras.left.problem.views[cameras.left.place(pair)];
-    const bundle::View& right = cameras.right.problem.views[cameras.right.place(pair)];
-    views.push_back({left.left_from_board, right.left_from_board, left.information, right.information});
-  }
+  for (const int pair : pairs) views.push_back({cameras.left.view(pair), cameras.right.view(pair)});
   return views;
 }
 
@@ -115,19 +109,20 @@ struct Miss {
 
 Miss miss_of(const RelationEvidence& view, const Pose& relation) {
   const Eigen::Matrix3d& r = relation.rotation;
-  const Eigen::Vector3d turned = r * view.left_from_board.translation_mm;
+  const Pose& left = view.left.left_from_board;
+  const Pose& right = view.right.left_from_board;
+  const Eigen::Vector3d turned = r * left.translation_mm;
   Miss miss;
-  miss.off.head<3>() =
-      bundle::turn_of(r * view.left_from_board.rotation * view.right_from_board.rotation.transpose());
-  miss.off.tail<3>() = turned + relation.translation_mm - view.right_from_board.translation_mm;
+  miss.off.head<3>() = bundle::turn_of(r * left.rotation * right.rotation.transpose());
+  miss.off.tail<3>() = turned + relation.translation_mm - right.translation_mm;
   miss.by_step.setIdentity();
   miss.by_step.bottomLeftCorner<3, 3>() = -cross(turned);
   Matrix6d carry = Matrix6d::Zero();  // a step of the left board, as one of the right
   carry.topLeftCorner<3, 3>() = r;
   carry.bottomRightCorner<3, 3>() = r;
-  const Matrix6d pull = view.right_information * carry;
-  const Matrix6d both = view.left_information + carry.transpose() * pull;
-  miss.weight = view.right_information - eliminated<6, 6>(both, pull);
+  const Matrix6d pull = view.right.information * carry;
+  const Matrix6d both = view.left.information + carry.transpose() * pull;
+  miss.weight = view.right.information - eliminated<6, 6>(both, pull);
   return miss;
 }
 
@@ -178,8 +173,7 @@ Half concentrate(std::span<const RelationEvidence> views, Pose relation, std::si
 }
 
 // The halves that every view alone leads to, the calmest first, each once.
-std::vector<Half> halves_of(const CameraFits& cameras, std::span<const int> pairs) {
-  const std::size_t half = pairs.size() / 2 + 1;
+std::vector<Half> halves_of(const CameraFits& cameras, std::span<const int> pairs, std::size_t half) {
   const std::vector<RelationEvidence> views = gather_evidence(cameras, pairs);
   const std::size_t stride = (pairs.size() + kMaxStarts - 1) / kMaxStarts;
   std::vector<Half> halves;
@@ -197,7 +191,7 @@ bool best_half(const CalibratorInput& input, const CameraFits& cameras, std::spa
                StereoFit& best) {
   constexpr std::size_t kFinalists = 3;
   const std::size_t half = pairs.size() / 2 + 1;
-  std::vector<Half> halves = halves_of(cameras, pairs);
+  std::vector<Half> halves = halves_of(cameras, pairs, half);
   halves.resize(std::min(halves.size(), kFinalists));
   double least_excess = 0;
   bool found = false;
@@ -356,17 +350,17 @@ bool select_views(const CalibratorInput& input, const CameraFits& cameras, std::
   if (!best_half(input, cameras, pairs, chosen)) return false;
   while (admit(input, cameras, pairs, chosen)) {
   }
-  out.used = chosen.paired;
+  std::vector<int> used = chosen.paired;
   out.excess = judge_pairs(input, cameras, chosen, pairs);
   for (std::size_t i = 0; i < pairs.size(); ++i)
     out.excess[i] = std::max(0.0, out.excess[i] - alone(cameras, pairs[i]));
-  out.spread_px2 = std::max(0.0, excess_of(cameras, chosen)) / (kDegrees * double(out.used.size() - 1));
+  out.spread_px2 = std::max(0.0, excess_of(cameras, chosen)) / (kDegrees * double(used.size() - 1));
   const double spread = std::max(out.spread_px2, cameras.noise_px2());
   out.moved = change_point(out.excess, spread);
-  if (out.moved.likeliest >= 0) keep_one_side(pairs, out.moved.likeliest, out.used);
+  if (out.moved.likeliest >= 0) keep_one_side(pairs, out.moved.likeliest, used);
   // Chosen with the lenses free to follow the pairs, so that a poor lens is not taken for a slip; the last
   // word has the slip's weight, so that a slip does not bend a lens.
-  return fit_stereo(input, cameras, out.used, chosen.problem.right_from_left, spread / cameras.noise_px2(),
+  return fit_stereo(input, cameras, used, chosen.problem.right_from_left, spread / cameras.noise_px2(),
                     &chosen, out.fit);
 }
 

@@ -31,8 +31,7 @@ struct ChangePoint {
 };
 
 struct Selection {
-  StereoFit fit;
-  std::vector<int> used;       // sorted
+  StereoFit fit;               // of the views used
   std::vector<double> excess;  // one a pair given, px² summed, under the fit they were chosen by
   ChangePoint moved;           // by place among the pairs; only one side of it is used
   double spread_px2 = 0;       // excess of the used views for one degree of freedom

@@ -1,9 +1,9 @@
 // SPDX-FileCopyrightText: 2026 The Relievo authors
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include "pipeline/calibrate/live/live_advice.h"
-
 #include <algorithm>
 #include <array>
+
+#include "pipeline/calibrate/live/live_state.h"
 
 namespace relievo::pipeline {
 namespace {

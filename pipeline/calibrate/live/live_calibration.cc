@@ -82,10 +82,6 @@ Result<void> LiveCalibration::take(const std::array<ImageView, 2>& pictures) {
   return {};
 }
 
-const CalibratorOutput* LiveCalibration::newest() const {
-  return collector_ && collector_->newest() ? &*collector_->newest() : nullptr;
-}
-
 Result<CalibratorOutput> LiveCalibration::finish() const {
   if (!collector_) return Error{Errc::InvalidState, "no pair of pictures has come yet"};
   return collector_->finish();

@@ -30,8 +30,6 @@ class LiveCalibration {
 
   Result<void> look(const ImageView& left, const ImageView& right, std::chrono::nanoseconds at);
   const LiveState& state() const { return collector_ ? collector_->state() : nothing_yet_; }
-  // Of the views so far; none before the first that worked.
-  const CalibratorOutput* newest() const;
   // Errors: InvalidState (before the first pair), calibrate()'s own.
   Result<CalibratorOutput> finish() const;
   void restart();  // forgets every view

@@ -6,13 +6,16 @@
 #pragma once
 
 #include <array>
+#include <cstdint>
 #include <optional>
+#include <span>
+#include <string>
 #include <vector>
 
 #include "hal/base/result.h"
-#include "pipeline/calibrate/live/live_advice.h"
 #include "pipeline/calibrate/live/watch/board_parameters.h"
 #include "pipeline/model/calibration.h"
+#include "pipeline/model/live_advice.h"
 
 namespace relievo::pipeline {
 
@@ -29,6 +32,25 @@ struct LiveOptions {
 
   Result<void> check() const;  // InvalidInput
 };
+
+// Why a pair of pictures was or was not taken.
+enum class PairVerdict : std::uint8_t {
+  Taken,
+  NoBoard,
+  LeftMissesIt,
+  RightMissesIt,
+  Moving,  // corners moved since the pair before, or there was no board in it
+  Blurred,
+  AlreadyHave,
+  Swapped,
+  Finished,  // nothing more is taken
+};
+
+const char* name_of(LiveAdvice advice);  // as a person would say it: "tilt left"
+// Of several things to change: "closer, lower left, tilt back".
+std::string words_of(std::span<const LiveAdvice> way);
+const char* name_of(PairVerdict verdict);
+const char* name_of(LiveEnd end);
 
 struct LiveState {
   int pairs = 0;                               // seen so far

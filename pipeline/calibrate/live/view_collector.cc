@@ -62,6 +62,15 @@ int seen_in_both(const BoardCorners& left, const BoardCorners& right) {
   return count;
 }
 
+// The board's squares are not as large as was said, which no further view puts right; few views know the
+// baseline less well.
+bool is_of_another_size(const CalibrationQuality& q) {
+  constexpr double kSigmas = 3;
+  return q.expected_baseline_mm > 0 && std::abs(q.baseline_mm - q.expected_baseline_mm) >
+                                           limits::kBaselinePercent / 100 * q.expected_baseline_mm +
+                                               kSigmas * q.uncertainty.parameters.baseline_mm;
+}
+
 // At kFaceMm, between the distances for which it was computed, along a straight line.
 double error_of(const CalibrationUncertainty& uncertainty) {
   constexpr double kPlace = (kFaceMm - kFirstDepthMm) / kDepthStepMm;
@@ -173,14 +182,6 @@ Result<void> ViewCollector::check(const PairDetection& pair) const {
   return {};
 }
 
-void ViewCollector::measure_motion(const PairDetection& pair) {
-  for (std::size_t eye = 0; eye < 2; ++eye) {
-    const BoardCorners& now = pair.seen[eye].corners;
-    const bool known = last_ && !now.empty() && !last_->seen[eye].corners.empty();
-    state_.moved_px[eye] = known ? moved_px(last_->seen[eye].corners, now, input_.pattern) : 0;
-  }
-}
-
 bool ViewCollector::is_new() const {
   if (!pipeline::is_new(now_, taken_, 1)) return false;
   return best_worth_ <= 0 ||
@@ -212,9 +213,10 @@ Result<bool> ViewCollector::consider(PairDetection pair) {
   BoardCorners& left = pair.seen[0].corners;
   BoardCorners& right = pair.seen[1].corners;
   if (!left.empty() && !right.empty()) pair_order(left, right, input_.pattern);
-  measure_motion(pair);
   for (std::size_t eye = 0; eye < 2; ++eye) {
     const BoardDetection& one = pair.seen[eye];
+    const bool known = last_ && !one.corners.empty() && !last_->seen[eye].corners.empty();
+    state_.moved_px[eye] = known ? moved_px(last_->seen[eye].corners, one.corners, input_.pattern) : 0;
     state_.corners[eye] = one.corners;
     state_.edge_px[eye] = one.edge_px;
     now_[eye] = one.corners.empty()
@@ -284,10 +286,11 @@ void ViewCollector::aim() {
                     newest_->quality.verdict != CalibrationVerdict::Refuse;
   if (enough && goal && state_.bars.least() >= options_.full_bar) state_.end = LiveEnd::GoalReached;
   else if (state_.views >= options_.max_views) state_.end = LiveEnd::Full;
+  else if (newest_ && is_of_another_size(newest_->quality)) state_.end = LiveEnd::Plateau;
   ViewPlan plan;
-  if (!state_.done() && newest_) {
-    if (planner_->update(input_, *newest_, state_.error_mm, taken_, coverage_, options_))
-      plan = planner_->plan(given_up_);
+  if (!state_.done() && newest_ &&
+      planner_->update(input_, *newest_, state_.error_mm, taken_, coverage_, options_)) {
+    plan = planner_->plan(given_up_);
     const bool helps =
         (!goal && plan.best_gain >= options_.plateau_gain) || plan.best_bar_gain >= options_.plateau_gain;
     if (enough && given_up_.empty() && !helps) state_.end = goal ? LiveEnd::GoalReached : LiveEnd::Plateau;

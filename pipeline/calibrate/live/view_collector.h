@@ -66,7 +66,6 @@ class ViewCollector {
  private:
   ViewCollector(const BoardPattern& pattern, int width_px, int height_px, const LiveOptions& options);
   Result<void> check(const PairDetection& pair) const;
-  void measure_motion(const PairDetection& pair);
   PairVerdict judge(const PairDetection& pair) const;
   bool is_new() const;
   void recalculate();

@@ -39,15 +39,14 @@ class Rig {
     for (const int eye : {0, 1}) {
       const CameraIntrinsics& camera = rig_.camera[std::size_t(eye)];
       const double edge_px = kEdgeShare * camera.width_px;
+      const bundle::Pose pose = in(eye, left_from_board);
+      const double square = rig_.pattern.square_mm;
       for (const double column : {-1, rig_.pattern.columns})
         for (const double row : {-1, rig_.pattern.rows}) {
-          const double square = rig_.pattern.square_mm;
-          const bundle::Pose pose = in(eye, left_from_board);
-          if ((pose.rotation * Eigen::Vector3d(column * square, row * square, 0) + pose.translation_mm).z() <
-              1)
-            return false;
-          const Vec2d at = project(eye, left_from_board, column, row);
-          if (!(at.x > edge_px && at.y > edge_px && at.x < camera.width_px - edge_px &&
+          const Eigen::Vector3d corner =
+              pose.rotation * Eigen::Vector3d(column * square, row * square, 0) + pose.translation_mm;
+          const Vec2d at = bundle::project(camera, corner);
+          if (!(corner.z() >= 1 && at.x > edge_px && at.y > edge_px && at.x < camera.width_px - edge_px &&
                 at.y < camera.height_px - edge_px))
             return false;
         }
@@ -99,7 +98,6 @@ CandidatePose seen_in(const Rig& rig, std::size_t number, const bundle::Pose& po
 using bundle::Globals;
 using bundle::GlobalVector;
 using bundle::Problem;
-using DepthByGlobals = Eigen::Matrix<double, 9, bundle::kGlobals>;
 
 // A view is new that differs by so much (distance_between()); a candidate by more, since nobody hits it
 // exactly.

@@ -56,6 +56,8 @@ using TakenViews = std::span<const ViewParameters>;
 // Is it `times` as far from each view taken as the least that counts as new, in either camera?
 bool is_new(const ViewParameters& view, TakenViews taken, double times);
 
+using DepthByGlobals = Eigen::Matrix<double, 9, bundle::kGlobals>;
+
 class ViewPlanner {
  public:
   // What is known now: the views with their calibration, and the error it promises. False where these
@@ -70,8 +72,6 @@ class ViewPlanner {
   double worth(const BoardCorners& left, const BoardCorners& right) const;
 
  private:
-  using DepthByGlobals = Eigen::Matrix<double, 9, bundle::kGlobals>;
-
   ViewParameters parameters(const BoardCorners& left, const BoardCorners& right) const;
   double error_gain(const bundle::View& view) const;
   double bar_gain(const ViewParameters& view) const;

@@ -11,8 +11,8 @@
 #include <span>
 #include <vector>
 
-#include "pipeline/calibrate/live/live_advice.h"
 #include "pipeline/calibrate/live/watch/board_parameters.h"
+#include "pipeline/model/live_advice.h"
 
 namespace relievo::pipeline {
 

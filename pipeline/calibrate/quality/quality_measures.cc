@@ -151,6 +151,9 @@ Points points_of(const bundle::Problem& rig, const BoardView& view, const bundle
 
 double squared(double value) { return value * value; }
 
+// Not-a-number of nothing: what was not measured is not perfect.
+double rms(double squares, double count) { return std::sqrt(squares / count); }
+
 // The calibration tried on boards whose size is known, each by the rig that is fitted without it. One camera
 // and the known squares say how far away each corner is; both cameras together must find it there. That
 // notices a camera that turned along the rows, which no epipolar line does, and needs no model of what goes
@@ -161,8 +164,8 @@ void measure_known_squares(const Fitted& f, const RigSpread& spread, Calibration
   double lengths = 0;
   double views = 0;
   double all = 0;
-  for (std::size_t i = 0; i < f.selection.used.size(); ++i) {
-    const Points p = points_of(spread.without()[i], f.input.views[std::size_t(f.selection.used[i])],
+  for (std::size_t i = 0; i < f.selection.fit.paired.size(); ++i) {
+    const Points p = points_of(spread.without()[i], f.input.views[std::size_t(f.selection.fit.paired[i])],
                                f.selection.fit.problem.views[i].left_from_board);
     if (p.found.cols() < 4) continue;
     const Eigen::ArrayXd off = (p.found.row(2) - p.expected.row(2)).transpose().array() *
@@ -173,10 +176,9 @@ void measure_known_squares(const Fitted& f, const RigSpread& spread, Calibration
     all += double(off.size());
     views += 1;
   }
-  views = std::max(views, 1.0);
-  q.measured_depth_mm = std::sqrt(boards / views);
-  q.measured_point_depth_mm = std::sqrt(corners / std::max(all, 1.0));
-  q.measured_length_percent = 100 * std::sqrt(lengths / views);
+  q.measured_depth_mm = rms(boards, views);
+  q.measured_point_depth_mm = rms(corners, all);
+  q.measured_length_percent = 100 * rms(lengths, views);
 }
 
 // What a calibration promises of the next picture: how far everything in it will lie off its epipolar
@@ -221,13 +223,14 @@ double field_squared(const std::vector<Missed>& missed) {
 double held_out_shift(const Fitted& f, const RigSpread& spread) {
   double sum = 0;
   double count = 0;
-  for (std::size_t i = 0; i < f.selection.used.size(); ++i) {
-    const auto missed = missed_lines(spread.without()[i], f.input.views[std::size_t(f.selection.used[i])]);
+  for (std::size_t i = 0; i < f.selection.fit.paired.size(); ++i) {
+    const auto missed =
+        missed_lines(spread.without()[i], f.input.views[std::size_t(f.selection.fit.paired[i])]);
     if (missed.size() < 4) continue;
     sum += field_squared(missed);
     count += double(missed.size());
   }
-  return std::sqrt(sum / std::max(count, 1.0));
+  return rms(sum, count);
 }
 
 constexpr int kGrid = 8;
@@ -244,18 +247,21 @@ double epipolar_rms(const Fitted& f, std::span<const int> views, const RigOf& ri
     const BoardView& view = f.input.views[std::size_t(views[i])];
     sum += epipolar_squared(rig_of(i), view.left, view.right, count);
   }
-  return std::sqrt(sum / std::max(count, 1));
+  return rms(sum, count);
 }
 
-double coverage(const CalibratorInput& input, bool right) {
+// By the boards of the fit: one that was left out tells nothing of the lens where it lay.
+double coverage(const Fitted& f, bool right) {
   std::array<bool, kGrid * kGrid> covered{};
-  for (const BoardView& view : input.views)
+  for (const int of : (right ? f.cameras.right : f.cameras.left).views) {
+    const BoardView& view = f.input.views[std::size_t(of)];
     for (const Vec2d& at : right ? view.right : view.left) {
       if (!seen(at)) continue;
-      const int x = std::clamp(int(at.x / input.width_px * kGrid), 0, kGrid - 1);
-      const int y = std::clamp(int(at.y / input.height_px * kGrid), 0, kGrid - 1);
+      const int x = std::clamp(int(at.x / f.input.width_px * kGrid), 0, kGrid - 1);
+      const int y = std::clamp(int(at.y / f.input.height_px * kGrid), 0, kGrid - 1);
       covered[std::size_t(y * kGrid + x)] = true;
     }
+  }
   return double(std::ranges::count(covered, true)) / (kGrid * kGrid);
 }
 
@@ -296,7 +302,7 @@ void measure_views(const Fitted& f, CalibrationQuality& q) {
                                0.5 * (f.input.pattern.rows - 1) * f.input.pattern.square_mm, 0);
   for (std::size_t i = 0; i < f.pairs.size(); ++i) {
     ViewQuality& view = q.views[std::size_t(f.pairs[i])];
-    view.used = std::ranges::binary_search(f.selection.used, f.pairs[i]);
+    view.used = std::ranges::binary_search(f.selection.fit.paired, f.pairs[i]);
     view.left_rms_px = std::sqrt(judged[i].squared_px[0] / judged[i].corners[0]);
     view.right_rms_px = std::sqrt(judged[i].squared_px[1] / judged[i].corners[1]);
     view.epipolar_rms_px = epipolar_rms(f, f.pairs.subspan(i, 1), fitted_rig);
@@ -321,15 +327,15 @@ int corners_seen(const BoardView& view) {
 void measure_quality(const Fitted& f, CalibrationQuality& q) {
   measure_views(f, q);
   const StereoFit& fit = f.selection.fit;
-  q.used = int(f.selection.used.size());
+  q.used = int(f.selection.fit.paired.size());
   q.left_rms_px = f.cameras.left.rms_px();
   q.right_rms_px = f.cameras.right.rms_px();
   q.pair_rms_px = fit.rms_px();
-  const std::vector<int>& used = f.selection.used;
+  const std::vector<int>& used = f.selection.fit.paired;
   const auto fitted_rig = [&](std::size_t) -> const bundle::Problem& { return fit.problem; };
   q.epipolar_rms_px = epipolar_rms(f, used, fitted_rig);
-  q.coverage_left = coverage(f.input, false);
-  q.coverage_right = coverage(f.input, true);
+  q.coverage_left = coverage(f, false);
+  q.coverage_right = coverage(f, true);
   const double noise = f.cameras.noise_px2();
   q.slip_ratio = std::sqrt(std::max(1.0, f.selection.spread_px2 / noise));
   // Twice the corner noise is beyond what a slightly bent board or a simple lens model explains.

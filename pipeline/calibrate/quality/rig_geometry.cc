@@ -9,7 +9,6 @@
 #include <Eigen/Geometry>
 #include <Eigen/LU>
 
-#include "pipeline/calibrate/quality/uncertainty.h"
 #include "pipeline/model/lens.h"
 
 namespace relievo::pipeline {
@@ -156,10 +155,10 @@ double scale_between(const Cloud& from, const Cloud& to) {
 }
 
 RigSpread::RigSpread(const StereoFit& fit, bool slips)
-    : likeliest_(fit.problem), without_(bundle::without_each_view(fit.problem)), slips_(slips) {
-  without_.resize(fit.paired.size());
+    : likeliest_(fit.problem),
+      without_(bundle::without_each_view(fit.problem, fit.paired.size())),
+      slips_(slips) {
   likeliest_.views.clear();  // the globals are what is spread; poses would be copied for nothing
-  for (bundle::Problem& one : without_) one.views.clear();
   // Parameters differ by orders of magnitude: equilibrate, or the small ones drown in rounding.
   const bundle::Globals& covariance = fit.problem.covariance;
   const bundle::GlobalVector unit = covariance.diagonal().cwiseMax(1e-30).cwiseSqrt();

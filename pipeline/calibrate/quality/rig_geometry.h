@@ -12,7 +12,7 @@
 
 #include "pipeline/calibrate/fit/bundle.h"
 #include "pipeline/calibrate/fit/stereo_fit.h"
-#include "pipeline/calibrate/quality/uncertainty.h"
+#include "pipeline/calibrate/quality/quality.h"
 
 namespace relievo::pipeline {
 

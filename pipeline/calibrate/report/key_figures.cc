@@ -17,20 +17,15 @@ struct Words {
   std::string_view icon;  // told apart by outline, too: disc, triangle, octagon
 };
 
-Words words_of(CalibrationVerdict verdict) {
-  switch (verdict) {
-    case CalibrationVerdict::Pass:
-      return {"pass", "Pass", "Fit for measuring faces.",
-              "<circle cx=\"24\" cy=\"24\" r=\"21\"/><path d=\"M14 25l7 7 14-16\"/>"};
-    case CalibrationVerdict::Usable:
-      return {"usable", "Usable", "It measures, less well than it could.",
-              "<path class=\"body\" d=\"M24 4L46 43H2Z\"/><path d=\"M24 17v13M24 36.5v.5\"/>"};
-    case CalibrationVerdict::Refuse: break;
-  }
-  return {"refuse", "Refuse", "Not to be measured with.",
-          "<path class=\"body\" d=\"M15 3h18l12 12v18L33 45H15L3 33V15Z\"/><path d=\"M16 16l16 16M32 16L16 "
-          "32\"/>"};
-}
+// In the order of CalibrationVerdict.
+constexpr Words kVerdicts[] = {
+    {"pass", "Pass", "Fit for measuring faces.",
+     "<circle cx=\"24\" cy=\"24\" r=\"21\"/><path d=\"M14 25l7 7 14-16\"/>"},
+    {"usable", "Usable", "It measures, less well than it could.",
+     "<path class=\"body\" d=\"M24 4L46 43H2Z\"/><path d=\"M24 17v13M24 36.5v.5\"/>"},
+    {"refuse", "Refuse", "Not to be measured with.",
+     "<path class=\"body\" d=\"M15 3h18l12 12v18L33 45H15L3 33V15Z\"/><path d=\"M16 16l16 16M32 16L16 32\"/>"}};
+static_assert(std::size(kVerdicts) == std::size_t(CalibrationVerdict::Refuse) + 1);
 
 // Empty where all were used.
 std::string left_out(const CalibrationQuality& q) {
@@ -67,15 +62,12 @@ Grade high_is_good(double value, double good, double worst) {
   return value >= good ? Grade::Good : Grade::Fair;
 }
 
-std::string mark_of(Grade grade) {
-  switch (grade) {
-    case Grade::Good: return "<span class=\"mark good\"><b aria-hidden=\"true\">✓</b> good</span>";
-    case Grade::Fair: return "<span class=\"mark fair\"><b aria-hidden=\"true\">!</b> fair</span>";
-    case Grade::Bad: return "<span class=\"mark bad\"><b aria-hidden=\"true\">×</b> bad</span>";
-    case Grade::Open: break;
-  }
-  return "<span class=\"mark open\">not judged</span>";
-}
+// In the order of Grade.
+constexpr std::string_view kMarks[] = {"<span class=\"mark good\"><b aria-hidden=\"true\">✓</b> good</span>",
+                                       "<span class=\"mark fair\"><b aria-hidden=\"true\">!</b> fair</span>",
+                                       "<span class=\"mark bad\"><b aria-hidden=\"true\">×</b> bad</span>",
+                                       "<span class=\"mark open\">not judged</span>"};
+static_assert(std::size(kMarks) == std::size_t(Grade::Open) + 1);
 
 class Table {
  public:
@@ -84,7 +76,7 @@ class Table {
            Grade grade) {
     rows_ += "<tr><th scope=\"row\">" + std::string(what) + "<small>" + std::string(explained) +
              "</small></th><td class=\"value\">" + std::string(value) + "</td><td class=\"aim\">" +
-             std::string(good) + "</td><td>" + mark_of(grade) + "</td></tr>\n";
+             std::string(good) + "</td><td>" + std::string(kMarks[std::size_t(grade)]) + "</td></tr>\n";
   }
   std::string html() const {
     return "<table class=\"key\">\n<thead><tr><th scope=\"col\">Figure</th><th scope=\"col\" "
@@ -186,7 +178,7 @@ void board_rows(const CalibrationReport& r, Table& t) {
 
 std::string verdict_section(const CalibrationReport& r) {
   const CalibrationQuality& q = r.output.quality;
-  const Words words = words_of(q.verdict);
+  const Words& words = kVerdicts[std::size_t(q.verdict)];
   std::string out = "<section class=\"verdict " + std::string(words.style) + "\">\n<div class=\"stamp\">";
   out += "<svg viewBox=\"0 0 48 48\" aria-hidden=\"true\">" + std::string(words.icon) + "</svg>";
   out += "<div><h2>" + std::string(words.word) + "</h2><p>" + std::string(words.means) +

@@ -33,7 +33,7 @@ std::size_t corner_stride(const CalibrationReport& r) {
   std::size_t most = 0;
   for (const std::size_t eye : {0U, 1U}) {
     std::size_t count = 0;
-    for (const FittedView& view : r.output.views) count += corners_of(view, eye).size();
+    for (const FittedView& view : r.output.views) count += view.corners(eye).size();
     most = std::max(most, count);
   }
   return 1 + most / kMostCorners;
@@ -41,10 +41,6 @@ std::size_t corner_stride(const CalibrationReport& r) {
 
 const CameraIntrinsics& camera_of(const CalibrationReport& r, std::size_t eye) {
   return eye == 0 ? r.output.calibration.left : r.output.calibration.right;
-}
-
-const std::vector<CornerResidual>& corners_of(const FittedView& view, std::size_t eye) {
-  return eye == 0 ? view.left : view.right;
 }
 
 std::string board_words(const BoardPattern& b) {

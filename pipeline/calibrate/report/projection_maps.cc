@@ -83,7 +83,7 @@ Layers layers_of(const CalibrationReport& r, std::size_t eye, double scale) {
   for (std::size_t v = 0; v < r.output.views.size(); ++v) {
     const bool used = r.output.quality.views[v].used;
     std::vector<Vec2d> corners;
-    for (const CornerResidual& corner : corners_of(r.output.views[v], eye)) {
+    for (const CornerResidual& corner : r.output.views[v].corners(eye)) {
       if (!seen(corner.at)) continue;
       const Vec2d at{(corner.at.x + 0.5) * scale, (corner.at.y + 0.5) * scale};
       corners.push_back(at);

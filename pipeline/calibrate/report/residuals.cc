@@ -9,6 +9,7 @@
 #include "pipeline/calibrate/board/board_finder.h"
 #include "pipeline/calibrate/quality/rig_geometry.h"
 #include "pipeline/calibrate/report/sections.h"
+#include "pipeline/model/vector3.h"
 #include "pipeline/report/drawing.h"
 #include "pipeline/report/text.h"
 
@@ -20,28 +21,35 @@ constexpr double kFieldMm = 160;  // of DepthUncertainty
 constexpr double kNear = kFirstDepthMm;
 constexpr double kFar = kFirstDepthMm + (kDepthSteps - 1) * kDepthStepMm;
 
-// Seen from above, down the left camera's y: x to the right along the baseline, y (of the page) towards the
-// rig.
+// Seen from above, down the left camera's y or, where pictures lie on their sides, along its x: x to the
+// right along the baseline, y (of the page) towards the rig.
 class Plan {
  public:
-  explicit Plan(const StereoCalibration& c, double farthest_mm) {
-    const RigidTransform left_from_right = inverse(c.right_from_left);
-    right_ = left_from_right.translation_mm;
-    const double length = std::max(std::hypot(right_.x, right_.z), 1e-9);
-    along_ = {right_.x / length, right_.z / length};
+  explicit Plan(const StereoCalibration& c, double farthest_mm)
+      : right_(inverse(c.right_from_left).translation_mm) {
+    if (std::abs(right_.y) > std::hypot(right_.x, right_.z)) aside_ = {0, std::copysign(1.0, right_.y), 0};
+    const double across = dot(right_, aside_), length = std::max(std::hypot(across, right_.z), 1e-9);
+    along_ = {across / length, right_.z / length};
     constexpr double kBehind = 110;
     scale_ = (kSize.height - 8) / (farthest_mm + kBehind);
     origin_ = {0.5 * kSize.width - 0.5 * length * scale_, kSize.height - 4 - kBehind * scale_};
   }
   Vec2d operator()(const Vec3d& p) const {
-    return {origin_.x + scale_ * (p.x * along_.x + p.z * along_.y),
-            origin_.y - scale_ * (p.z * along_.x - p.x * along_.y)};
+    const double across = dot(p, aside_);
+    return {origin_.x + scale_ * (across * along_.x + p.z * along_.y),
+            origin_.y - scale_ * (p.z * along_.x - across * along_.y)};
   }
+  // So far to the side of a camera's axis and before it, in the plane of the plan.
+  Vec3d place(double aside_mm, double before_mm) const {
+    return {aside_mm * aside_.x, aside_mm * aside_.y, before_mm};
+  }
+  bool lies() const { return aside_.x == 0; }
   double scale() const { return scale_; }
   const Vec3d& right_camera() const { return right_; }
 
  private:
   Vec3d right_;
+  Vec3d aside_{1, 0, 0};  // of a camera's axes
   Vec2d along_;
   Vec2d origin_;
   double scale_ = 1;
@@ -51,23 +59,26 @@ struct Camera {
   const CameraIntrinsics& lens;
   RigidTransform left_from_camera;
 
-  // On the middle row, `column` pixels from the left rim, at a distance along the camera's axis.
-  Vec3d at(double column, double distance_mm) const {
-    const Eigen::Vector3d ray = ray_of(lens, {column - 0.5, lens.centre_px.y});
+  // On a rim of the picture in the plane of the plan, at a distance along the camera's axis.
+  Vec3d rim(const Plan& plan, bool far, double distance_mm) const {
+    const Vec2d at = plan.lies() ? Vec2d{lens.centre_px.x, (far ? lens.height_px : 0) - 0.5}
+                                 : Vec2d{(far ? lens.width_px : 0) - 0.5, lens.centre_px.y};
+    const Eigen::Vector3d ray = ray_of(lens, at);
     return apply(left_from_camera, {ray.x() * distance_mm, ray.y() * distance_mm, distance_mm});
   }
 };
 
 void draw_field(Drawing& d, const Plan& plan, const Camera& camera, std::string_view style, double reach_mm) {
-  const std::array<Vec2d, 3> wedge = {plan(camera.at(0, 0)), plan(camera.at(0, reach_mm)),
-                                      plan(camera.at(camera.lens.width_px, reach_mm))};
+  const std::array<Vec2d, 3> wedge = {plan(camera.left_from_camera.translation_mm),
+                                      plan(camera.rim(plan, false, reach_mm)),
+                                      plan(camera.rim(plan, true, reach_mm))};
   Strokes field;
   field.outline(wedge);
   d.strokes("field " + std::string(style), field);
 }
 
 void draw_camera(Drawing& d, const Plan& plan, const Camera& camera, std::string_view style) {
-  const auto at = [&](double x, double z) { return plan(apply(camera.left_from_camera, {x, 0, z})); };
+  const auto at = [&](double x, double z) { return plan(apply(camera.left_from_camera, plan.place(x, z))); };
   Strokes body;
   body.outline(std::array<Vec2d, 4>{at(-16, -6), at(16, -6), at(16, -44), at(-16, -44)});
   body.outline(std::array<Vec2d, 4>{at(-9, 0), at(9, 0), at(9, -6), at(-9, -6)});
@@ -91,15 +102,15 @@ void draw_boards(Drawing& d, const Plan& plan, const CalibrationReport& r) {
 void draw_faces(Drawing& d, const Plan& plan) {
   constexpr double kHalf = kFieldMm / 2;
   Strokes volume;
-  volume.outline(std::array<Vec2d, 4>{plan({-kHalf, 0, kNear}), plan({kHalf, 0, kNear}),
-                                      plan({kHalf, 0, kFar}), plan({-kHalf, 0, kFar})});
+  volume.outline(std::array<Vec2d, 4>{plan(plan.place(-kHalf, kNear)), plan(plan.place(kHalf, kNear)),
+                                      plan(plan.place(kHalf, kFar)), plan(plan.place(-kHalf, kFar))});
   d.strokes("volume", volume);
 }
 
 // Over everything else, where boards may lie.
 void name_faces(Drawing& d, const Plan& plan) {
   for (const double mm : {kNear, kFar}) {
-    const Vec2d at = plan({kFieldMm / 2, 0, mm});
+    const Vec2d at = plan(plan.place(kFieldMm / 2, mm));
     d.text("tick begin halo", {at.x + 6, at.y + 4.5}, figure(mm, 0) + " mm");
   }
 }
@@ -127,7 +138,7 @@ template <typename Use>
 void for_each_used(const CalibrationReport& r, std::size_t eye, const Use& use) {
   for (std::size_t v = 0; v < r.output.views.size(); ++v)
     if (r.output.quality.views[v].used)
-      for (const CornerResidual& corner : corners_of(r.output.views[v], eye))
+      for (const CornerResidual& corner : r.output.views[v].corners(eye))
         if (seen(corner.at)) use(corner);
 }
 

@@ -33,7 +33,6 @@ inline constexpr std::array<std::string_view, 2> kCameraStyles = {"left", "right
 std::size_t corner_stride(const CalibrationReport& r);
 
 const CameraIntrinsics& camera_of(const CalibrationReport& r, std::size_t eye);
-const std::vector<CornerResidual>& corners_of(const FittedView& view, std::size_t eye);
 
 std::string board_words(const BoardPattern& board);
 

@@ -1,12 +1,14 @@
 // SPDX-FileCopyrightText: 2026 The Relievo authors
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include "pipeline/gate/expression/eye_measurement.h"
+#include "pipeline/gate/expression/expression_measurement.h"
 
 #include <algorithm>
 #include <array>
 #include <cmath>
 #include <cstdint>
 #include <vector>
+
+#include "pipeline/base/parts.h"
 
 namespace relievo::pipeline {
 namespace {
@@ -71,65 +73,34 @@ Circle find_iris(const FaceWindow& w, double side) {
   return best;
 }
 
-// What shines, piece by piece: samples within the opening of an eye there, and beyond it wherever the eye
-// looks.
-class Shine {
- public:
-  Shine(const FaceWindow& window, Vec2d eye, float bright, StageContext& context)
-      : w_(window),
-        eye_(eye),
-        x0_(std::max(0, int(w_.column(eye.x - kShineRightMm)))),
-        x1_(std::min(w_.columns - 1, int(w_.column(eye.x + kShineRightMm)))),
-        y0_(std::max(0, int(w_.row(eye.y - kShineDownMm)))),
-        y1_(std::min(w_.rows - 1, int(w_.row(eye.y + kShineDownMm)))),
-        open_(&context.scratch),
-        todo_(&context.scratch) {
-    open_.assign(w_.grey.size(), 0);
-    for (int y = y0_; y <= y1_; ++y)
-      for (int x = x0_; x <= x1_; ++x) open_[index(x, y)] = w_.at(x, y) > bright ? 1 : 0;
-    todo_.reserve(w_.grey.size());
-  }
-  // Of the opening, behind pieces that also shine beside it.
-  double before_eye_mm2() {
-    constexpr double kSampleMm2 = FaceWindow::kStepMm * FaceWindow::kStepMm;
-    int sum = 0;
-    for (int y = y0_; y <= y1_; ++y)
-      for (int x = x0_; x <= x1_; ++x) {
-        if (open_[index(x, y)] == 0) continue;
-        const auto [within, beyond] = piece(x, y);
-        if (beyond * kSampleMm2 >= kBesideEyeMm2) sum += within;
-      }
-    return sum * kSampleMm2;
-  }
-
- private:
-  std::size_t index(int x, int y) const { return std::size_t(y * w_.columns + x); }
-  void take(int x, int y) {
-    if (x < x0_ || x > x1_ || y < y0_ || y > y1_ || open_[index(x, y)] == 0) return;
-    open_[index(x, y)] = 0;
-    todo_.push_back({x, y});
-  }
-  std::array<int, 2> piece(int from_x, int from_y) {
-    std::array<int, 2> samples{};
-    todo_.clear();
-    take(from_x, from_y);
-    for (std::size_t i = 0; i < todo_.size(); ++i) {
-      const auto [x, y] = todo_[i];
-      const double right = std::abs(w_.right_mm(x) - eye_.x), v = (w_.down_mm(y) - eye_.y) / kEyeHalfHeightMm,
-                   u = right / kEyeHalfWidthMm, least = std::max(0.0, right - kGazeMm) / kEyeHalfWidthMm;
-      if (u * u + v * v < 1) ++samples[0];
-      else if (least * least + v * v > 1) ++samples[1];
-      take(x - 1, y), take(x + 1, y), take(x, y - 1), take(x, y + 1);
+// Of the opening of an eye there, behind pieces that shine and go on beyond it, wherever the eye looks.
+double shines_before_mm2(const FaceWindow& w, Vec2d eye, float bright, StageContext& context) {
+  constexpr double kSampleMm2 = FaceWindow::kStepMm * FaceWindow::kStepMm;
+  const auto columns = std::size_t(w.columns);
+  const int x0 = int(w.column(eye.x - kShineRightMm)), x1 = int(w.column(eye.x + kShineRightMm));
+  const int y0 = int(w.row(eye.y - kShineDownMm)), y1 = int(w.row(eye.y + kShineDownMm));
+  const auto shines = [&](std::size_t k) {
+    const int x = int(k % columns), y = int(k / columns);
+    return x >= x0 && x <= x1 && y >= y0 && y <= y1 && w.grey[k] > bright;
+  };
+  int sum = 0;
+  const auto add_piece = [&](std::span<const std::uint32_t> piece) {
+    int within = 0, beyond = 0;
+    for (const std::uint32_t k : piece) {
+      const double right = std::abs(w.right_mm(int(k % columns)) - eye.x),
+                   v = (w.down_mm(int(k / columns)) - eye.y) / kEyeHalfHeightMm, u = right / kEyeHalfWidthMm,
+                   least = std::max(0.0, right - kGazeMm) / kEyeHalfWidthMm;
+      if (u * u + v * v < 1) ++within;
+      else if (least * least + v * v > 1) ++beyond;
     }
-    return samples;
-  }
-
-  const FaceWindow& w_;
-  Vec2d eye_;
-  int x0_, x1_, y0_, y1_;
-  std::pmr::vector<std::uint8_t> open_;  // shines and has not been counted yet
-  std::pmr::vector<std::array<int, 2>> todo_;
-};
+    if (beyond * kSampleMm2 >= kBesideEyeMm2) sum += within;
+  };
+  std::pmr::vector<std::uint32_t> label(w.grey.size(), 0U, &context.scratch);
+  label_parts(
+      std::span(label), columns, &context.scratch, shines, [](std::size_t, std::size_t) { return true; },
+      add_piece);
+  return sum * kSampleMm2;
+}
 
 double skin_of(const FaceWindow& w, double side, StageContext& context) {
   const double middle = side * kPupilMm;
@@ -141,7 +112,7 @@ double glare(const FaceWindow& w, double side, Vec2d eye, StageContext& context)
                sclera = quantile(w, {eye.x - 12, eye.x + 12, eye.y - 5, eye.y + 5}, 0.75,
                                  context);  // or the glare itself
   const double bright = std::min(kBurntOut, kGlareShare * std::clamp(sclera, skin, kScleraShare * skin));
-  return Shine(w, eye, float(bright), context).before_eye_mm2();
+  return shines_before_mm2(w, eye, float(bright), context);
 }
 
 EyeMeasurement measure_eye(const FaceWindow& w, double side, StageContext& context) {

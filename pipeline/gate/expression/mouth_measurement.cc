@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: 2026 The Relievo authors
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include "pipeline/gate/expression/mouth_measurement.h"
+#include "pipeline/gate/expression/expression_measurement.h"
 
 #include <algorithm>
 #include <array>
@@ -206,7 +206,6 @@ MouthMeasurement measure_mouth(const FacePhoto& photo, StageContext& context) {
   mouth.dark_mm2 = dark_area(w, line.down, skin);
   mouth.before_mm = stands_before(photo, line.down);
   const Vec2d a = corner(w, line, -1, skin), b = corner(w, line, 1, skin);
-  mouth.width_mm = b.x - a.x;
   // Of a head that is bowed, what lies further behind seems lower.
   mouth.rise_mm = line.down - (a.y + b.y) / 2 -
                   kCornersBehindMm * std::tan(photo.head.pitch_deg * std::numbers::pi / 180);

@@ -11,20 +11,17 @@
 #include <array>
 #include <memory>
 #include <string>
+#include <utility>
 
 #include "hal/base/result.h"
+#include "pipeline/match/region/face_region.h"
 #include "pipeline/model/relief.h"
 
 namespace relievo::pipeline {
 
-struct FaceHit {
-  Vec2d centre_px{};    // between the eyes and the mouth, pixels of the relief
-  double width_px = 0;  // about 150 mm on a grown-up
-  int votes = 0;        // overlapping hits: 4 doubtful, 30 certain
-};
-
+// Pixels of the relief; 4 votes are doubtful, 30 certain.
 struct FaceHits {
-  std::array<FaceHit, 8> hit{};  // the most certain one first
+  std::array<FaceBox, 8> hit{};  // the most certain one first
   int count = 0;
 };
 
@@ -32,17 +29,13 @@ class FaceWatch {
  public:
   // Errors: NotFound, StoreCorrupt (a cascade's SHA-256), LibraryFailed.
   static Result<FaceWatch> open(const std::string& cascade_dir);
-  FaceWatch(FaceWatch&&) noexcept;
-  FaceWatch& operator=(FaceWatch&&) noexcept;
-  ~FaceWatch();
-
   // Errors: InvalidInput (no pixels), LibraryFailed. No face is no error: count is 0.
   Result<FaceHits> look(const Relief& relief);
 
  private:
   struct Cascades;
-  explicit FaceWatch(std::unique_ptr<Cascades> cascades);
-  std::unique_ptr<Cascades> cascades_;
+  explicit FaceWatch(std::shared_ptr<Cascades> cascades) : cascades_(std::move(cascades)) {}
+  std::shared_ptr<Cascades> cascades_;
 };
 
 }  // namespace relievo::pipeline

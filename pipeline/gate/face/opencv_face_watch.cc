@@ -11,7 +11,6 @@
 #include <opencv2/objdetect.hpp>
 
 #include "pipeline/gate/face/face_watch.h"
-#include "pipeline/match/region/checked_file.h"
 
 namespace relievo::pipeline {
 namespace {
@@ -35,7 +34,7 @@ Result<void> read(const std::string& folder, FaceCascade which, cv::CascadeClass
   return {};
 }
 
-bool same_face(const FaceHit& a, const FaceHit& b) {
+bool same_face(const FaceBox& a, const FaceBox& b) {
   return std::hypot(a.centre_px.x - b.centre_px.x, a.centre_px.y - b.centre_px.y) <
          0.6 * std::max(a.width_px, b.width_px);
 }
@@ -80,9 +79,9 @@ struct FaceWatch::Cascades {
   }
 
   // Keeps the more certain of two that are one face.
-  static void add(const FaceHit& hit, FaceHits& hits) {
+  static void add(const FaceBox& hit, FaceHits& hits) {
     for (int i = 0; i < hits.count; ++i)
-      if (FaceHit& known = hits.hit[std::size_t(i)]; same_face(known, hit)) {
+      if (FaceBox& known = hits.hit[std::size_t(i)]; same_face(known, hit)) {
         if (hit.votes > known.votes) known = hit;
         return;
       }
@@ -90,14 +89,9 @@ struct FaceWatch::Cascades {
   }
 };
 
-FaceWatch::FaceWatch(std::unique_ptr<Cascades> cascades) : cascades_(std::move(cascades)) {}
-FaceWatch::FaceWatch(FaceWatch&&) noexcept = default;
-FaceWatch& FaceWatch::operator=(FaceWatch&&) noexcept = default;
-FaceWatch::~FaceWatch() = default;
-
 Result<FaceWatch> FaceWatch::open(const std::string& cascade_dir) {
   try {
-    auto cascades = std::make_unique<Cascades>();
+    auto cascades = std::make_shared<Cascades>();
     RELIEVO_TRY(read(cascade_dir, FaceCascade::Alt2, cascades->frontal));
     RELIEVO_TRY(read(cascade_dir, FaceCascade::Profile, cascades->profile));
     return FaceWatch(std::move(cascades));
@@ -132,7 +126,7 @@ Result<FaceHits> FaceWatch::look(const Relief& relief) {
     for (int i = 0; i < 2 && hits.count == 0; ++i)  // an ear to a shoulder
       cascades_->look_leaning(grey, scale, i == 0 ? kLeanDeg : -kLeanDeg, hits);
     // The most certain to the front; among equals the wider, which is nearer.
-    const auto worth = [](const FaceHit& hit) { return hit.votes * hit.width_px; };
+    const auto worth = [](const FaceBox& hit) { return hit.votes * hit.width_px; };
     for (std::size_t i = 1; i < std::size_t(hits.count); ++i)
       if (worth(hits.hit[i]) > worth(hits.hit[0])) std::swap(hits.hit[i], hits.hit[0]);
     return hits;

@@ -17,8 +17,8 @@ namespace relievo::pipeline {
 namespace {
 
 constexpr double kDegree = std::numbers::pi / 180;
-constexpr double kUprightDeg =
-    7;  // heads are mostly upright: one leaning by so much must mirror itself better by a square millimetre
+// Heads are mostly upright: one leaning by so much must mirror itself better by a square millimetre.
+constexpr double kUprightDeg = 7;
 // Of a turned head's own plane a fifth of the images falls where nothing is known, of one that sends the face
 // away most.
 constexpr double kMostUnknown = 0.35, kPriceOfUnknown = 100;

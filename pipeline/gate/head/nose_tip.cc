@@ -25,6 +25,7 @@ constexpr std::size_t kLeastPoints = 60;
 constexpr double kFaceAside = 0.30, kFaceUp = 0.32, kFaceDown = 0.40;
 constexpr double kTipAside = 0.24, kTipUp = -0.05, kTipDown = 0.27;
 
+constexpr double kNoseAsideMm = 14;  // of the mirror plane
 constexpr double kBinMm = 2;
 constexpr int kBins = 61;                  // of the profile: 60 mm above and below the tip as it was
 constexpr double kRidgeHalfMm = 7;         // of the nose, beside the mirror plane
@@ -180,19 +181,17 @@ bool rough_tip(const Relief& relief, const HeadHint& hint, StageContext& context
   points.reserve(box.room());
   depth.reserve(box.room());
   for (int y = box.y0; y <= box.y1; ++y)
-    for (int x = box.x0; x <= box.x1; ++x)
-      if (relief.known(x, y)) depth.push_back(relief.depth_mm[relief.index(x, y)]);
+    for (int x = box.x0; x <= box.x1; ++x) {
+      if (!relief.known(x, y)) continue;
+      points.push_back(relief.point(x, y));
+      depth.push_back(relief.depth_mm[relief.index(x, y)]);
+    }
   if (depth.size() < kLeastPoints || depth.size() < box.room() / 4) return false;
   const double z = median(depth);
   // Most of what is there: a box as wide as a face of this distance, or it is none.
   const double width_mm = w * z / relief.focal_px;
   if (width_mm < 85 || width_mm > 260) return false;
-  for (int y = box.y0; y <= box.y1; ++y)
-    for (int x = box.x0; x <= box.x1; ++x) {
-      if (!relief.known(x, y)) continue;
-      const Vec3d p = relief.point(x, y);
-      if (std::abs(p.z - z) < kStickOutMm) points.push_back(p);
-    }
+  std::erase_if(points, [&](const Vec3d& p) { return std::abs(p.z - z) >= kStickOutMm; });
   const auto may_be_tip = [&](const Vec3d& p) {
     const Vec2d at = relief.pixel(p);
     const double u = (at.x - hint.centre_px.x) / w, v = (at.y - hint.centre_px.y) / w;

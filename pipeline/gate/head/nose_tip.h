@@ -17,10 +17,8 @@ namespace relievo::pipeline {
 bool rough_tip(const Relief& relief, const HeadHint& hint, StageContext& context, Vec3d& tip);
 
 // Asks of `head` the axes, the pitch and a tip that may be wrong; the new one lies on the surface within
-// kNoseAsideMm of its mirror plane.
+// 14 mm of its mirror plane.
 bool tip_of_profile(const Relief& relief, const HeadHint& hint, const HeadMeasurement& head,
                     StageContext& context, Vec3d& tip);
-
-inline constexpr double kNoseAsideMm = 14;
 
 }  // namespace relievo::pipeline

@@ -19,9 +19,8 @@ struct FaceLight {
   double luminance_mean = 0;  // 0 .. 1                                             LuminanceMean
   double dark_share = 0;      // of the face, luminance 0 .. 25                     UnderExposurePrevention
   double bright_share = 0;    // 247 .. 255                                         OverExposurePrevention
-  double side_ratio =
-      1;  // mean luminance of the darker cheek, share of the brighter's: the same fault, graded
-  double glossy_share = 0;  // much brighter than the skin about it
+  double side_ratio = 1;      // mean luminance of the darker cheek, share of the brighter's
+  double glossy_share = 0;    // much brighter than the skin about it
 };
 
 FaceLight measure_light(const Relief& relief, const HeadMeasurement& head);

@@ -10,7 +10,6 @@
 #include "hal/base/simd.h"
 #include "pipeline/base/parts.h"
 #include "pipeline/match/coarse/semi_global.h"
-#include "pipeline/match/coarse/size_ladder.h"
 #include "pipeline/match/rectify/rectifier.h"
 
 namespace relievo::pipeline {
@@ -83,7 +82,7 @@ struct Found {
 };
 
 // Names in the order of size; specks get none. The first of `found` is no surface.
-int name_by_size(std::pmr::vector<Found>& found, double speck_mm2, StageContext& context) {
+void name_by_size(std::pmr::vector<Found>& found, double speck_mm2, StageContext& context) {
   std::pmr::vector<std::uint32_t> order(&context.scratch);
   order.reserve(found.size());
   for (std::uint32_t i = 1; i < found.size(); ++i)
@@ -93,7 +92,6 @@ int name_by_size(std::pmr::vector<Found>& found, double speck_mm2, StageContext&
   });
   const std::size_t kept = std::min<std::size_t>(order.size(), 65535);
   for (std::size_t i = 0; i < kept; ++i) found[order[i]].name = std::uint16_t(i + 1);
-  return int(kept);
 }
 
 }  // namespace
@@ -137,7 +135,7 @@ StereoCalibration reduced(const StereoCalibration& calibration, int factor) {
   return small;
 }
 
-Result<void> LiveReliefOptions::check() const {
+Result<void> LiveRelief::check() const {
   if (reduction < 1 || reduction > 16)
     return Error{Errc::InvalidInput, "reduction must lie in 1 .. 16"}.at("live-relief");
   if (!(near_mm > 50 && far_mm > near_mm + 10 && far_mm < 1e5))
@@ -168,7 +166,7 @@ void label_surfaces(Relief& relief, float step_px, double speck_mm2, StageContex
         }
         found.push_back({std::uint32_t(cells.size()), area, 0});
       });
-  relief.surfaces = name_by_size(found, speck_mm2, context);
+  name_by_size(found, speck_mm2, context);
   for (std::size_t i = 0; i < count; ++i) {
     relief.surface[i] = found[label[i]].name;
     if (relief.surface[i] == 0) relief.depth_mm[i] = 0;
@@ -177,7 +175,7 @@ void label_surfaces(Relief& relief, float step_px, double speck_mm2, StageContex
 
 Result<Relief> LiveRelief::look(const StereoFrame& frame, const StereoCalibration& calibration,
                                 StageContext& context) const {
-  RELIEVO_TRY(options_.check());
+  RELIEVO_TRY(check());
   if (frame.left.empty() || frame.right.empty())
     return Error{Errc::InvalidInput, "a live picture has no pixels: is a camera unplugged?"}.at(
         "live-relief");
@@ -188,15 +186,14 @@ Result<Relief> LiveRelief::look(const StereoFrame& frame, const StereoCalibratio
     return Error{Errc::InvalidInput,
                  "the live picture's size is not the calibration's: calibrate at this size"}
         .at("live-relief");
-  const StereoFrame small{reduced(frame.left, options_.reduction, context),
-                          reduced(frame.right, options_.reduction, context), frame.sequence, frame.skew_ns};
+  const StereoFrame small{reduced(frame.left, reduction, context), reduced(frame.right, reduction, context),
+                          frame.sequence, frame.skew_ns};
   // The rectified pair is needed no longer than the matching: it lives on the scratch.
   StageContext inner{context.scratch, context.scratch, context.pool, context.progress, context.cancelled};
   RectifierOptions volume;
-  volume.near_mm = options_.near_mm;
-  volume.far_mm = options_.far_mm;
-  RELIEVO_TRY_ASSIGN(const RectifiedPair pair,
-                     Rectifier(volume).rectify(small, reduced(calibration, options_.reduction), inner));
+  volume.near_mm = near_mm;
+  volume.far_mm = far_mm;
+  RELIEVO_TRY_ASSIGN(const RectifiedPair pair, volume.rectify(small, reduced(calibration, reduction), inner));
   const Pyramids pyramids = build_pyramids(pair, kLevels, inner);
   Plane<float> disparity(&context.scratch, pair.width_px, pair.height_px, kNoDisparity);
   RELIEVO_TRY(match_down(whole_range(pair), pyramids, {kLevels - 1, 0, kBand, kCrossCheckPx},

@@ -32,26 +32,18 @@ void draw_relief(const Relief& relief, double near_mm, double far_mm, std::uint8
 ImageView reduced(const ImageView& image, int factor, StageContext& context);
 StereoCalibration reduced(const StereoCalibration& calibration, int factor);
 
-struct LiveReliefOptions {
+struct LiveRelief {
   int reduction = 4;     // the pictures are made smaller so often; 1: they are small already
   double near_mm = 280;  // the volume that is looked at
   double far_mm = 1100;
   Result<void> check() const;
-};
-
-class LiveRelief {
- public:
-  explicit LiveRelief(const LiveReliefOptions& options = {}) : options_(options) {}
   Result<Relief> look(const StereoFrame& frame, const StereoCalibration& calibration,
                       StageContext& context) const;
-
- private:
-  LiveReliefOptions options_;
 };
 
 // Labels connected pixels of one surface (4-neighbours whose disparities differ by at most `step_px`), the
 // largest first, and takes away what is smaller than `speck_mm2` as seen from the camera. Fills
-// relief.surface and relief.surfaces. Memory: scratch.
+// relief.surface. Memory: scratch.
 void label_surfaces(Relief& relief, float step_px, double speck_mm2, StageContext& context);
 
 }  // namespace relievo::pipeline

@@ -146,9 +146,9 @@ void ask(double yaw_deg, std::chrono::nanoseconds at, double reach_deg, TurnHist
 
 }  // namespace
 
-FrontFace front_face(const Relief& relief, const HeadMeasurement& head) {
-  FrontFace face;
-  if (!head.known) return face;
+void front_face(const Relief& relief, const HeadMeasurement& head, FrontFace& face) {
+  face.count = 0;
+  if (!head.known) return;
   face.right = head.right, face.down = head.down, face.away = head.away;
   face.pivot_mm = along(head.tip_mm, kPivotMm, head.away);
   const Vec2d at = relief.pixel(head.tip_mm);
@@ -157,14 +157,13 @@ FrontFace front_face(const Relief& relief, const HeadMeasurement& head) {
   const int stride = std::max(1, (2 * reach + kAcross - 1) / kAcross);
   for (int y = int(at.y) - reach; y <= int(at.y) + reach; y += stride)
     for (int x = int(at.x) - reach; x <= int(at.x) + reach; x += stride) {
-      if (face.count == FrontFace::kMost) return face;
+      if (face.count == FrontFace::kMost) return;
       if (!relief.inside(x, y) || !relief.known(x, y)) continue;
       const Vec3d p = relief.point(x, y), d = minus(p, head.tip_mm);
       const double below = dot(d, head.down), behind = dot(d, head.away);
       if (dot(d, d) > kReachMm * kReachMm || below > kBelowMm || behind > kBehindMm || behind < -15) continue;
       if (const auto normal = normal_at(relief, x, y)) face.points[face.count++] = {p, *normal};
     }
-  return face;
 }
 
 HeadTurn follow_head(const FrontFace& front, const Relief& relief, const HeadTurn& before) {

@@ -38,8 +38,8 @@ struct FrontFace {
   Vec3d pivot_mm;         // about the middle of the head
   Vec3d right, down, away;
 };
-// Of a head that was measured in this relief.
-FrontFace front_face(const Relief& relief, const HeadMeasurement& head);
+// Of a head that was measured in this relief. Into `face`: too large for a stack.
+void front_face(const Relief& relief, const HeadMeasurement& head, FrontFace& face);
 
 struct HeadTurn {
   bool known = false;

@@ -7,8 +7,7 @@
 #include <cstddef>
 
 #include "hal/base/simd.h"
-#include "pipeline/match/bending/multilevel_preconditioner.h"
-#include "pipeline/match/image/box_filter.h"
+#include "pipeline/match/image/plane_filters.h"
 
 namespace relievo::pipeline {
 namespace {

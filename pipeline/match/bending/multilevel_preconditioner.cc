@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: 2026 The Relievo authors
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include "pipeline/match/bending/multilevel_preconditioner.h"
+#include "pipeline/match/bending/bending_system.h"
 
 #include <algorithm>
 #include <cstddef>

@@ -11,9 +11,8 @@
 
 #include "pipeline/base/parts.h"
 #include "pipeline/match/coarse/semi_global.h"
-#include "pipeline/match/coarse/size_ladder.h"
-#include "pipeline/match/image/box_filter.h"
 #include "pipeline/match/image/plane.h"
+#include "pipeline/match/image/plane_filters.h"
 
 namespace relievo::pipeline {
 namespace {
@@ -27,14 +26,16 @@ struct Surfaces {
   int size_of(int label) const { return label > 0 ? sizes[std::size_t(label - 1)] : 0; }
 };
 
-// Fills `label` (0: none) where `allowed` and known; neighbours further apart than `step` part surfaces.
-Surfaces label_surfaces(const Plane<float>& d, const Plane<std::uint8_t>& allowed, float step,
-                        Plane<int>& label, std::pmr::memory_resource& scratch) {
+constexpr float kStepPx = 1.5F;  // neighbours further apart belong to different surfaces
+
+// Fills `label` (0: none) where `allowed` and known.
+Surfaces label_surfaces(const Plane<float>& d, const Plane<std::uint8_t>& allowed, Plane<int>& label,
+                        std::pmr::memory_resource& scratch) {
   Surfaces found(&scratch);
   label_parts(
       std::span(label.values), std::size_t(d.width), &scratch,
       [&](std::size_t k) { return allowed.values[k] != 0 && d.values[k] != kNoDisparity; },
-      [&](std::size_t a, std::size_t b) { return !(std::abs(d.values[b] - d.values[a]) > step); },
+      [&](std::size_t a, std::size_t b) { return !(std::abs(d.values[b] - d.values[a]) > kStepPx); },
       [&](std::span<const std::uint32_t> cells) {
         found.sizes.push_back(int(cells.size()));
         if (found.sizes.back() > found.size_of(found.largest)) found.largest = int(found.sizes.size());
@@ -130,8 +131,7 @@ Result<void> find(const RectifiedPair& pair, const Pyramids& pyramids, const Coa
   Progress own;  // a step of the matcher's: what the bar shows must not go back
   StageContext inner{context.output, context.scratch, context.pool, own, context.cancelled};
   RELIEVO_TRY(match_down(box.range, cut(pyramids, box, context.scratch),
-                         {kCoarsest, kLevel, kBand, options.cross_check_px}, options.costs, inner, 1,
-                         found.disparity));
+                         {kCoarsest, kLevel, kBand, options.cross_check_px}, {}, inner, 1, found.disparity));
   Plane<std::uint8_t> usable(&context.scratch, box.w, box.h);
   for (int y = 0; y < box.h; ++y)
     for (int x = 0; x < box.w; ++x) {
@@ -139,8 +139,7 @@ Result<void> find(const RectifiedPair& pair, const Pyramids& pyramids, const Coa
       usable.row(y)[x] = found.face.row(y)[x] & pyramids.left[kLevel].valid.row(box.y + y)[box.x + x];
     }
   Plane<int> label(&context.scratch, box.w, box.h);
-  const Surfaces surfaces =
-      label_surfaces(found.disparity, found.face, options.step_limit_px, label, context.scratch);
+  const Surfaces surfaces = label_surfaces(found.disparity, found.face, label, context.scratch);
   for (std::size_t k = 0; k < label.values.size(); ++k) {
     found.face.values[k] = label.values[k] != 0 && label.values[k] == surfaces.largest ? 1 : 0;
     found.disparity.values[k] = 2 * (found.disparity.values[k] + float(box.shift));
@@ -181,51 +180,38 @@ SizeLadder ladder_for(const CoarseSurfaceOptions& options, bool scene, int fines
 
 void bridge_holes(const Plane<std::uint8_t>& usable, int largest, Plane<std::uint8_t>& domain,
                   Plane<float>& disparity, std::pmr::memory_resource& scratch) {
-  const int w = domain.width;
-  const int h = domain.height;
-  const auto outside = [&](int k) {
-    const int x = k % w;
-    const int y = k / w;
-    return x == 0 || y == 0 || x == w - 1 || y == h - 1 || usable.values[std::size_t(k)] == 0;
+  const auto w = std::size_t(domain.width), h = std::size_t(domain.height);
+  const auto outside = [&](std::size_t k) {
+    const std::size_t x = k % w, y = k / w;
+    return x == 0 || y == 0 || x == w - 1 || y == h - 1 || usable.values[k] == 0;
   };
-  Plane<std::uint8_t> seen(&scratch, w, h);
-  std::pmr::vector<int> hole(&scratch);
-  hole.reserve(seen.values.size());
-  for (int seed = 0; seed < w * h; ++seed) {
-    if (seen.values[std::size_t(seed)] != 0 || domain.values[std::size_t(seed)] != 0 || outside(seed))
-      continue;
-    hole.clear();
-    hole.push_back(seed);
-    seen.values[std::size_t(seed)] = 1;
+  const auto bridge = [&](std::span<const std::uint32_t> hole) {
     bool enclosed = true;
     double sum = 0;
     double rim = 0;
-    for (std::size_t next = 0; next < hole.size(); ++next) {
-      const int k = hole[next];
-      for (const int n : {k - 1, k + 1, k - w, k + w}) {
-        const auto at = std::size_t(n);
-        if (domain.values[at] == 1) {
-          sum += double(disparity.values[at]);
+    for (const std::size_t k : hole)
+      for (const std::size_t n : {k - 1, k + 1, k - w, k + w})
+        if (domain.values[n] != 0) {
+          sum += double(disparity.values[n]);
           ++rim;
-        } else if (outside(n)) {
-          enclosed = false;
-        } else if (seen.values[at] == 0) {
-          seen.values[at] = 1;
-          hole.push_back(n);
+        } else {
+          enclosed = enclosed && !outside(n);
         }
-      }
-    }
-    if (!enclosed || int(hole.size()) > largest || rim == 0) continue;
-    for (const int k : hole) disparity.values[std::size_t(k)] = float(sum / rim);
+    if (!enclosed || int(hole.size()) > largest || rim == 0) return;
+    for (const std::uint32_t k : hole) disparity.values[k] = float(sum / rim);
     // A soap film over the rim; a few dozen sweeps do for holes this small.
     for (int sweep = 0; sweep < 60; ++sweep)
-      for (const int k : hole) {
-        const float* d = disparity.values.data() + k;
-        disparity.values[std::size_t(k)] = 0.25F * (d[-1] + d[1] + d[-w] + d[w]);
+      for (const std::uint32_t k : hole) {
+        float* d = disparity.values.data() + k;
+        *d = 0.25F * (d[-1] + d[1] + d[-domain.width] + d[domain.width]);
       }
-    for (const int k : hole) domain.values[std::size_t(k)] = 2;  // not a rim for the next hole
-  }
-  for (std::uint8_t& inside : domain.values) inside = inside != 0 ? 1 : 0;
+    for (const std::uint32_t k : hole) domain.values[k] = 1;
+  };
+  Plane<int> label(&scratch, domain.width, domain.height);
+  label_parts(
+      std::span(label.values), w, &scratch,
+      [&](std::size_t k) { return domain.values[k] == 0 && !outside(k); },
+      [](std::size_t, std::size_t) { return true; }, bridge);
 }
 
 Result<void> search_edges(const RectifiedPair& pair, const Pyramids& pyramids,
@@ -257,15 +243,15 @@ Result<void> find_coarse_surface(const RectifiedPair& pair, const Pyramids& pyra
   const int w = field.domain.width;
   const int h = field.domain.height;
   Plane<float> disparity(&context.scratch, w, h);
-  RELIEVO_TRY(match_down(whole_range(pair), pyramids, ladder_for(options, scene, finest), options.costs,
-                         context, 0.3F, disparity));
+  RELIEVO_TRY(match_down(whole_range(pair), pyramids, ladder_for(options, scene, finest), {}, context, 0.3F,
+                         disparity));
 
   Plane<std::uint8_t> allowed(&context.scratch, w, h);
   for (int y = kBorder; y < h - kBorder; ++y)
     for (int x = kBorder; x < w - kBorder; ++x)
       allowed.row(y)[x] = scene ? std::uint8_t{1} : in_region(pair, step * x, step * y);
   Plane<int> label(&context.scratch, w, h);
-  const Surfaces surfaces = label_surfaces(disparity, allowed, options.step_limit_px, label, context.scratch);
+  const Surfaces surfaces = label_surfaces(disparity, allowed, label, context.scratch);
   if (surfaces.size_of(surfaces.largest) < kLeastFace)
     return Error{
         Errc::TooFewMatches,

@@ -9,17 +9,15 @@
 #include "pipeline/base/stage.h"
 #include "pipeline/match/coarse/semi_global.h"
 #include "pipeline/match/image/image_pyramid.h"
-#include "pipeline/match/image/surface_field.h"
+#include "pipeline/match/image/plane.h"
 #include "pipeline/model/rectified_pair.h"
 
 namespace relievo::pipeline {
 
 struct CoarseSurfaceOptions {
-  SemiGlobalCosts costs;
   int band = 12;                // candidates around the prediction at the finer level
   float cross_check_px = 1.5F;  // in pixels of the finer level
   int largest_hole = 600;       // pixels of the finer level: enclosed holes up to this size are bridged
-  float step_limit_px = 1.5F;   // neighbours further apart belong to different surfaces
 };
 
 inline constexpr int kCoarseLevel = 3;

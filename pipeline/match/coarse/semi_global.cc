@@ -330,17 +330,4 @@ void semi_global(const CensusPair& pair, const Plane<std::int16_t>& first, int c
     sweep(Sweep(pair, volume, first, costs, -1, scratch), &disparity, cancelled);
 }
 
-void cross_check(Plane<float>& left, const Plane<float>& right, float limit_px) {
-  for (int y = 0; y < left.height; ++y) {
-    float* l = left.row(y);
-    const float* r = right.row(y);
-    for (int x = 0; x < left.width; ++x) {
-      if (l[x] == kNoDisparity) continue;
-      const int other = int(std::lround(float(x) - l[x]));
-      const bool seen = other >= 0 && other < right.width && std::abs(r[other] - l[x]) <= limit_px;
-      if (!seen) l[x] = kNoDisparity;
-    }
-  }
-}
-
 }  // namespace relievo::pipeline

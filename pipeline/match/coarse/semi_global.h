@@ -13,7 +13,10 @@
 #include <cstdint>
 #include <memory_resource>
 
+#include "pipeline/base/stage.h"
+#include "pipeline/match/image/image_pyramid.h"
 #include "pipeline/match/image/plane.h"
+#include "pipeline/model/rectified_pair.h"
 
 namespace relievo::pipeline {
 
@@ -43,15 +46,34 @@ struct SemiGlobalCosts {
   int jump_penalty = 24;  // P2: anything further
 };
 
-inline constexpr float kNoDisparity = -1.0e6F;
-
 // Fills `disparity` (same size; kNoDisparity where nothing can be known) with sub-pixel minima.
 // Returns early, once `cancelled` is set: what is filled then is of no use.
 void semi_global(const CensusPair& pair, const Plane<std::int16_t>& first, int candidates,
                  const SemiGlobalCosts& costs, std::pmr::memory_resource& scratch, Plane<float>& disparity,
                  const std::atomic<bool>* cancelled = nullptr);
 
-// Marks as kNoDisparity what the other view does not confirm within `limit_px`.
-void cross_check(Plane<float>& left, const Plane<float>& right, float limit_px);
+// Semi-global matching from small pictures to large ones (tSGM, Rothermel et al. 2012): every disparity of
+// the volume at the coarsest size, then at each finer one a band of candidates around what the size before
+// found; cross-checked between the views and freed of single outliers at every size. The cost does not grow
+// with the range, and what is smaller than a few pixels of the coarsest size is not found. Memory: scratch; 6
+// bytes a candidate and pixel of one size at a time. Thread: worker.
+struct SizeLadder {
+  int coarsest = 3;  // level of the pyramid: the pictures are 2^level smaller
+  int finest = 2;
+  int band = 12;                // candidates around the prediction
+  float cross_check_px = 1.5F;  // how far the views may disagree, pixels of each size
+};
+
+// What is looked for, full-size pixels.
+struct DisparityInterval {
+  double least_px = 0, most_px = 0;
+};
+DisparityInterval whole_range(const RectifiedPair& pair);  // from far_mm to near_mm
+
+// Fills `left` (the finest level's size) with disparities in its pixels, kNoDisparity where there is none.
+// Progress goes from 0 to `progress_share`. Errors: Cancelled.
+Result<void> match_down(const DisparityInterval& range, const Pyramids& pyramids, const SizeLadder& ladder,
+                        const SemiGlobalCosts& costs, StageContext& context, float progress_share,
+                        Plane<float>& left);
 
 }  // namespace relievo::pipeline

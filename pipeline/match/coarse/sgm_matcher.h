@@ -1,10 +1,8 @@
 // SPDX-FileCopyrightText: 2026 The Relievo authors
 // SPDX-License-Identifier: GPL-3.0-or-later
 //
-// SgmMatcher ("sgm"): semi-global matching (Hirschmueller 2008) on the census transform, coarse to fine in
-// bounded memory (tSGM, Rothermel et al. 2012): the whole volume at an eighth of the size, then a band of
-// candidates around what the size before found, cross-checked between the views at every size, down to
-// half or full size. Blind to gain and offset. Pixels of full size unless named otherwise.
+// SgmMatcher ("sgm"): semi-global matching down a ladder of sizes (semi_global.h), by default from an eighth
+// of the size to half. Blind to gain and offset. Pixels of full size unless named otherwise.
 //
 // Memory: 6 bytes a candidate and pixel of the finest size (166 MB at full 1920 x 1200, 12 candidates).
 // cost is one minus the correlation of 9 x 9 pixels at the match; what does not correlate is no match.

@@ -11,8 +11,6 @@ namespace relievo::pipeline {
 
 // SimilarityConstraint ("similarity"): the two views must look alike around a match: its cost (one
 // minus zero-mean correlation) stays under a limit.
-// Behind a matcher with a threshold of its own it says something only below that: behind zmncc below
-// 1 - min_score, 0.4 in the suite of the dissertation.
 struct SimilarityConstraint {
   float max_cost = 0.95F;  // plain skin under noise correlates little: only the unrelated go
 
@@ -38,8 +36,8 @@ struct UniquenessConstraint {
 };
 
 // ContinuityConstraint ("continuity"): disparity varies smoothly nearly everywhere (Marr and Poggio
-// 1976). On a lattice, a match most of whose neighbours differ by more than a limit is rejected;
-// scattered matches are not judged.
+// 1976). On a lattice, a match from which all but a few of its neighbours differ by more than a limit is
+// rejected; scattered matches are not judged.
 struct ContinuityConstraint {
   float max_step = 2.0F;  // disparity difference per pixel of distance: beyond 63 degrees of slant
   int least_support = 3;  // of the eight neighbours
@@ -92,7 +90,7 @@ struct LeftRightConstraint {
 // StatisticalConstraint ("statistical"): a match must not stand out from the others, by robust statistics
 // (median and median absolute deviation, Huber 1981; the dissertation's statistical constraint uses mean and
 // standard deviation, which the outliers themselves move). Two rules, each off at 0:
-//   global  |d - median of all d|     <= global_sigmas * 1.4826 MAD of all
+//   global  |d - median of all d|      <= global_sigmas * max(1.4826 MAD of all, floor_px)
 //   local   |d - median of neighbours| <= local_sigmas * max(1.4826 MAD of the neighbours, floor_px)
 // Neighbours are the accepted matches no further than radius_px across and down, without the match itself; of
 // fewer than five it stays. What earlier rules rejected has no vote; what this one rejects has.

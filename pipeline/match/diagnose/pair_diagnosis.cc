@@ -192,7 +192,7 @@ std::optional<PairFault> diagnose_pair(const StereoFrame& frame, const StereoCal
                                         judge_light(frame.right, &context.scratch)))
     return light;
   if (same_picture(frame, &context.scratch)) return PairFault::SamePicture;
-  const auto pair = Rectifier(volume).rectify(frame, calibration, context);
+  const auto pair = volume.rectify(frame, calibration, context);
   if (!pair) return std::nullopt;
   // A white face before a dark wall is little of the picture, and all that matters of it.
   const Overexposure white = guess_overexposure(*pair);

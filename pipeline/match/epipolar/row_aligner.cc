@@ -13,9 +13,8 @@
 #include "pipeline/base/solving.h"
 #include "pipeline/base/stage.h"
 #include "pipeline/match/coarse/coarse_surface.h"
-#include "pipeline/match/epipolar/row_motion.h"
-#include "pipeline/match/image/box_filter.h"
-#include "pipeline/match/image/surface_field.h"
+#include "pipeline/match/image/plane.h"
+#include "pipeline/match/image/plane_filters.h"
 
 namespace relievo::pipeline {
 namespace {
@@ -39,45 +38,6 @@ struct ColumnWeights {
   static float middle(float s) { return s * (-2.0F / 3 + s * (15.0F / 12 - 7.0F / 12 * s)); }  // at 1 + s
   static float outer(float s) { return s * (1.0F / 12 + s * (-2.0F / 12 + 1.0F / 12 * s)); }   // at 2 + s
   float w[6];
-};
-
-// What each patch of the face says about the shift across the rows there (Lucas and Kanade 1981), at
-// one size of the pictures. Within a patch its slip along the rows, gain and offset of brightness are
-// eliminated. The gradient is the left view's alone: its noise and the residual's have nothing to do
-// with each other, so the estimate is not drawn towards whole or half rows.
-class LocalShifts {
- public:
-  // All are borrowed and must outlive this.
-  LocalShifts(const Pyramids& pyramids, int level, const SurfaceField& field, const Ellipse& face,
-              StageContext& context);
-
-  // Valid until the next call.
-  std::span<const LocalShift> measure(const RowShift& from);
-
- private:
-  struct Patch;
-  void gather(const RowShift& from);
-  void add_node(const RowShift& from, int x, int y, double disparity_px, Patch& patch) const;
-
-  // Order of the sums of a patch: lower triangle over slope_x, detail, 1, slope_y, residual.
-  struct Patch {
-    double sums[15] = {};
-    double x = 0, y = 0, right2 = 0;
-    int samples = 0;
-  };
-
-  const PyramidLevel& left_;
-  const PyramidLevel& right_;
-  const SurfaceField& field_;
-  const Ellipse& face_;
-  StageContext& context_;
-  int level_;
-  int stride_;       // every so many nodes of the field are a pixel of this level
-  double gain_ = 1;  // of the right view over the left
-  Plane<float> left_detail_;
-  Plane<float> right_detail_;
-  Plane<Patch> patches_;
-  std::pmr::vector<LocalShift> locals_;
 };
 
 constexpr int kBands = 16;
@@ -118,100 +78,129 @@ Ellipse middle_of_face(const RectifiedPair& pair) {
   return {pair.face_centre_px.x, pair.face_centre_px.y, kHalfWidth * width, kHalfHeight * width};
 }
 
-LocalShifts::LocalShifts(const Pyramids& pyramids, int level, const SurfaceField& field, const Ellipse& face,
-                         StageContext& context)
-    : left_(pyramids.left[std::size_t(level)]),
-      right_(pyramids.right[std::size_t(level)]),
-      field_(field),
-      face_(face),
-      context_(context),
-      level_(level),
-      stride_(std::max(1, (1 << level) / field.step_px)),
-      left_detail_(&context.scratch, left_.grey.width, left_.grey.height),
-      right_detail_(&context.scratch, right_.grey.width, right_.grey.height),
-      patches_(&context.scratch, patches_over(field.domain.width, stride_),
-               patches_over(field.domain.height, stride_)),
-      locals_(patches_.values.size(), &context.scratch) {
-  high_pass(left_.grey, context, left_detail_);
-  high_pass(right_.grey, context, right_detail_);
-}
+// What each patch of the face says about the shift across the rows there (Lucas and Kanade 1981), at
+// one size of the pictures. Within a patch its slip along the rows, gain and offset of brightness are
+// eliminated. The gradient is the left view's alone: its noise and the residual's have nothing to do
+// with each other, so the estimate is not drawn towards whole or half rows.
+class LocalShifts {
+ public:
+  // All are borrowed and must outlive this.
+  LocalShifts(const Pyramids& pyramids, int level, const SurfaceField& field, const Ellipse& face,
+              StageContext& context)
+      : left_(pyramids.left[std::size_t(level)]),
+        right_(pyramids.right[std::size_t(level)]),
+        field_(field),
+        face_(face),
+        context_(context),
+        level_(level),
+        stride_(std::max(1, (1 << level) / field.step_px)),
+        left_detail_(&context.scratch, left_.grey.width, left_.grey.height),
+        right_detail_(&context.scratch, right_.grey.width, right_.grey.height),
+        patches_(&context.scratch, patches_over(field.domain.width, stride_),
+                 patches_over(field.domain.height, stride_)),
+        locals_(patches_.values.size(), &context.scratch) {
+    high_pass(left_.grey, context, left_detail_);
+    high_pass(right_.grey, context, right_detail_);
+  }
 
-void LocalShifts::add_node(const RowShift& from, int x, int y, double disparity_px, Patch& patch) const {
-  const double scale = 1 << level_;
-  const double xr = x - disparity_px / scale;
-  const double yr = y + from.at(xr * scale, y * scale) / scale;
-  const int ix = int(std::floor(xr));
-  const int iy = int(std::floor(yr));
-  constexpr int kMargin = kRadius + kColumnReach;
-  const Plane<float>& l = left_detail_;
-  const Plane<float>& r = right_detail_;
-  if (ix < kMargin || iy < kMargin || ix + kMargin >= r.width || iy + kMargin >= r.height || x < kMargin ||
-      y < kMargin || x + kMargin >= l.width || y + kMargin >= l.height)
-    return;
-  if (left_.grey.row(y)[x] > kSaturated || right_.grey.row(iy)[ix] > kSaturated) return;
-  const auto tx = float(xr - ix);
-  const ColumnWeights column(float(yr - iy));
-  const float* at = r.row(iy) + ix;
-  const double seen = double((1 - tx) * column.sample(at, r.width) + tx * column.sample(at + 1, r.width));
-  const auto here = double(l.row(y)[x]);
-  const double values[5] = {0.5 * (l.row(y)[x + 1] - l.row(y)[x - 1]), here, 1,
-                            0.5 * (l.row(y + 1)[x] - l.row(y - 1)[x]), seen / gain_ - here};
-  int k = 0;
-  for (int i = 0; i < 5; ++i)
-    for (int j = 0; j <= i; ++j) patch.sums[k++] += values[i] * values[j];
-  patch.x += xr * scale;
-  patch.y += y * scale;
-  patch.right2 += seen * seen;
-  ++patch.samples;
-}
-
-void LocalShifts::gather(const RowShift& from) {
-  const int reach = kPatchPx * stride_;
-  context_.pool.for_each_band(patches_.height, kBands, [&](int begin, int end, int) {
-    for (int q = begin; q < end; ++q)
-      for (int p = 0; p < patches_.width; ++p) {
-        Patch& patch = patches_.row(q)[p] = {};
-        const int j_end = std::min(field_.domain.height, (q + 1) * reach);
-        const int i_end = std::min(field_.domain.width, (p + 1) * reach);
-        for (int j = q * reach; j < j_end; j += stride_)
-          for (int i = p * reach; i < i_end; i += stride_)
-            if (field_.domain.row(j)[i] != 0 && face_.holds(i * field_.step_px, j * field_.step_px))
-              add_node(from, i / stride_, j / stride_, double(field_.disparity_px.row(j)[i]), patch);
+  // Valid until the next call.
+  std::span<const LocalShift> measure(const RowShift& from) {
+    gather(from);
+    Extent across, down;
+    for (int q = 0; q < patches_.height; ++q)
+      for (int p = 0; p < patches_.width; ++p)
+        if (patches_.row(q)[p].samples >= kLeastSamples) across.include(p), down.include(q);
+    std::size_t count = 0;
+    double left2 = 0, right2 = 0;
+    for (int q = down.begin; q < down.end; ++q)
+      for (int p = across.begin; p < across.end; ++p) {
+        const Patch& patch = patches_.row(q)[p];
+        if (patch.samples < kLeastSamples) continue;
+        const double* s = patch.sums;
+        left2 += s[2];
+        right2 += patch.right2;
+        Eigen::Matrix3d nuisance;
+        nuisance << s[0] + 1, s[1], s[3], s[1], s[2] + 1, s[4], s[3], s[4], s[5];
+        const Eigen::Vector3d along(s[6], s[7], s[8]);
+        const Eigen::Vector3d taken = solved<3>(nuisance, along);
+        const double information = s[9] - taken.dot(along);
+        if (!(information > kLeastInformation)) continue;
+        const double x = patch.x / patch.samples, y = patch.y / patch.samples;
+        const double step = (s[13] - taken.dot(Eigen::Vector3d(s[10], s[11], s[12]))) / information;
+        locals_[count++] = {x, y, from.at(x, y) - (1 << level_) * step, information,
+                            across.block(p) + kShiftBlocksAcross * down.block(q)};
       }
-  });
-}
+    if (left2 > 0) gain_ = std::clamp(std::sqrt(right2 / left2), 0.3, 3.0);
+    return {locals_.data(), count};
+  }
 
-std::span<const LocalShift> LocalShifts::measure(const RowShift& from) {
-  gather(from);
-  Extent across, down;
-  for (int q = 0; q < patches_.height; ++q)
-    for (int p = 0; p < patches_.width; ++p)
-      if (patches_.row(q)[p].samples >= kLeastSamples) across.include(p), down.include(q);
-  std::size_t count = 0;
-  double left2 = 0, right2 = 0;
-  for (int q = down.begin; q < down.end; ++q)
-    for (int p = across.begin; p < across.end; ++p) {
-      const Patch& patch = patches_.row(q)[p];
-      if (patch.samples < kLeastSamples) continue;
-      const double* s = patch.sums;
-      left2 += s[2];
-      right2 += patch.right2;
-      Eigen::Matrix3d nuisance;
-      nuisance << s[0] + 1, s[1], s[3], s[1], s[2] + 1, s[4], s[3], s[4], s[5];
-      const Eigen::Vector3d along(s[6], s[7], s[8]);
-      const Eigen::Vector3d taken = solved<3>(nuisance, along);
-      const double information = s[9] - taken.dot(along);
-      if (!(information > kLeastInformation)) continue;
-      const double x = patch.x / patch.samples, y = patch.y / patch.samples;
-      const double step = (s[13] - taken.dot(Eigen::Vector3d(s[10], s[11], s[12]))) / information;
-      locals_[count++] = {x, y, from.at(x, y) - (1 << level_) * step, information,
-                          across.block(p) + kShiftBlocksAcross * down.block(q)};
-    }
-  if (left2 > 0) gain_ = std::clamp(std::sqrt(right2 / left2), 0.3, 3.0);
-  return {locals_.data(), count};
-}
+ private:
+  // Order of the sums of a patch: lower triangle over slope_x, detail, 1, slope_y, residual.
+  struct Patch {
+    double sums[15] = {};
+    double x = 0, y = 0, right2 = 0;
+    int samples = 0;
+  };
 
-constexpr int kAlignedBands = 16;
+  void gather(const RowShift& from) {
+    const int reach = kPatchPx * stride_;
+    context_.pool.for_each_band(patches_.height, kBands, [&](int begin, int end, int) {
+      for (int q = begin; q < end; ++q)
+        for (int p = 0; p < patches_.width; ++p) {
+          Patch& patch = patches_.row(q)[p] = {};
+          const int j_end = std::min(field_.domain.height, (q + 1) * reach);
+          const int i_end = std::min(field_.domain.width, (p + 1) * reach);
+          for (int j = q * reach; j < j_end; j += stride_)
+            for (int i = p * reach; i < i_end; i += stride_)
+              if (field_.domain.row(j)[i] != 0 && face_.holds(i * field_.step_px, j * field_.step_px))
+                add_node(from, i / stride_, j / stride_, double(field_.disparity_px.row(j)[i]), patch);
+        }
+    });
+  }
+
+  void add_node(const RowShift& from, int x, int y, double disparity_px, Patch& patch) const {
+    const double scale = 1 << level_;
+    const double xr = x - disparity_px / scale;
+    const double yr = y + from.at(xr * scale, y * scale) / scale;
+    const int ix = int(std::floor(xr));
+    const int iy = int(std::floor(yr));
+    constexpr int kMargin = kRadius + kColumnReach;
+    const Plane<float>& l = left_detail_;
+    const Plane<float>& r = right_detail_;
+    if (ix < kMargin || iy < kMargin || ix + kMargin >= r.width || iy + kMargin >= r.height || x < kMargin ||
+        y < kMargin || x + kMargin >= l.width || y + kMargin >= l.height)
+      return;
+    if (left_.grey.row(y)[x] > kSaturated || right_.grey.row(iy)[ix] > kSaturated) return;
+    const auto tx = float(xr - ix);
+    const ColumnWeights column(float(yr - iy));
+    const float* at = r.row(iy) + ix;
+    const double seen = double((1 - tx) * column.sample(at, r.width) + tx * column.sample(at + 1, r.width));
+    const auto here = double(l.row(y)[x]);
+    const double values[5] = {0.5 * (l.row(y)[x + 1] - l.row(y)[x - 1]), here, 1,
+                              0.5 * (l.row(y + 1)[x] - l.row(y - 1)[x]), seen / gain_ - here};
+    int k = 0;
+    for (int i = 0; i < 5; ++i)
+      for (int j = 0; j <= i; ++j) patch.sums[k++] += values[i] * values[j];
+    patch.x += xr * scale;
+    patch.y += y * scale;
+    patch.right2 += seen * seen;
+    ++patch.samples;
+  }
+
+  const PyramidLevel& left_;
+  const PyramidLevel& right_;
+  const SurfaceField& field_;
+  const Ellipse& face_;
+  StageContext& context_;
+  int level_;
+  int stride_;       // every so many nodes of the field are a pixel of this level
+  double gain_ = 1;  // of the right view over the left
+  Plane<float> left_detail_;
+  Plane<float> right_detail_;
+  Plane<Patch> patches_;
+  std::pmr::vector<LocalShift> locals_;
+};
+
 constexpr int kFirstLevel = 3;
 constexpr int kLastLevel = 1;     // full size would add noise, hardly detail
 constexpr int kSearchRounds = 3;  // at each level
@@ -241,23 +230,8 @@ EpipolarShift measure_epipolar_shift(const RectifiedPair& pair, const Pyramids& 
   return shift;
 }
 
-RowMotion measure_row_motion(const RectifiedPair& pair, const Pyramids& pyramids, const SurfaceField& field,
-                             const EpipolarShift& linear, StageContext& context) {
-  RowMotion motion(&context.scratch, pair.width_px, pair.height_px);
-  Arena::Mark mark(context.scratch);
-  const Ellipse face = middle_of_face(pair);
-  LocalShifts locals(pyramids, kLastLevel, field, face, context);
-  double before = 0;
-  for (int round = 0; round < kMotionRounds; ++round) {
-    fit_row_motion(locals.measure({linear, &motion}), linear, pair.face_width_px, context, motion);
-    if (!motion.seen || std::abs(motion.rms_px - before) < kMotionSettledPx) break;
-    before = motion.rms_px;
-  }
-  return motion;
-}
-
 void shift_rows(const RowShift& shift, std::span<const float> from, Plane<float>& to, StageContext& context) {
-  context.pool.for_each_band(to.height, kAlignedBands, [&](int begin, int end, int) {
+  context.pool.for_each_band(to.height, kBands, [&](int begin, int end, int) {
     for (int y = begin; y < end; ++y)
       for (int x = 0; x < to.width; ++x) {
         const double at = y + shift.at(x, y);
@@ -269,19 +243,20 @@ void shift_rows(const RowShift& shift, std::span<const float> from, Plane<float>
   });
 }
 
-RowAligner::RowAligner(const RectifiedPair& pair, Pyramids& pyramids, const RowAlignerLimits& limits,
+RowAligner::RowAligner(const RectifiedPair& pair, Pyramids& pyramids, double beyond_px, bool follow_motion,
                        StageContext& context)
     : pair_(pair),
       pyramids_(pyramids),
       context_(context),
-      limits_(limits),
+      beyond_px_(beyond_px),
+      follow_motion_(follow_motion),
       motion_(&context.scratch, pair.width_px, pair.height_px) {}
 
 double RowAligner::align(const SurfaceField& field) {
   Arena::Mark mark(context_.scratch);
   measured_ = measure_epipolar_shift(pair_, pyramids_, field, EpipolarSearch::Search, context_);
   const RowMotion motion = measure_motion(field, measured_);
-  const bool realign = measured_.residual_px > limits_.beyond_px;
+  const bool realign = measured_.residual_px > beyond_px_;
   if (!realign && !motion.seen) return 0;
   apply(realign ? &measured_ : nullptr, motion);
   return largest({realign ? measured_ : EpipolarShift{}, &motion});
@@ -294,8 +269,18 @@ void RowAligner::align_motion(const SurfaceField& field) {
 }
 
 RowMotion RowAligner::measure_motion(const SurfaceField& field, const EpipolarShift& linear) const {
-  if (!limits_.follow_motion) return {&context_.scratch, pair_.width_px, pair_.height_px};
-  return measure_row_motion(pair_, pyramids_, field, linear, context_);
+  RowMotion motion(&context_.scratch, pair_.width_px, pair_.height_px);
+  if (!follow_motion_) return motion;
+  Arena::Mark mark(context_.scratch);
+  const Ellipse face = middle_of_face(pair_);
+  LocalShifts locals(pyramids_, kLastLevel, field, face, context_);
+  double before = 0;
+  for (int round = 0; round < kMotionRounds; ++round) {
+    fit_row_motion(locals.measure({linear, &motion}), linear, pair_.face_width_px, context_, motion);
+    if (!motion.seen || std::abs(motion.rms_px - before) < kMotionSettledPx) break;
+    before = motion.rms_px;
+  }
+  return motion;
 }
 
 void RowAligner::apply(const EpipolarShift* linear, const RowMotion& motion) {

@@ -10,7 +10,45 @@
 namespace relievo::pipeline {
 namespace {
 
-constexpr int kRowsOfABand = 16;
+constexpr int kBands = 16, kBoxBands = 8;
+constexpr int kTogether = 4;  // rows: a running sum waits for itself, four of them do not wait for each other
+
+// Rows y to y + rows, at most kTogether of them.
+void sum_rows(const Plane<float>& from, int y, int rows, int radius, Plane<float>& to) {
+  const int w = from.width;
+  const float* in[kTogether];
+  float* out[kTogether];
+  for (int k = 0; k < kTogether; ++k) {
+    in[k] = from.row(y + std::min(k, rows - 1));
+    out[k] = to.row(y + std::min(k, rows - 1));
+  }
+  // Double, because a running sum in single precision drifts along a row of large squares.
+  double sum[kTogether] = {};
+  const auto slide = [&](int begin, int end, bool enters, bool leaves) {
+    for (int x = begin; x < end; ++x)
+      for (int k = 0; k < kTogether; ++k) {
+        if (enters) sum[k] += in[k][x + radius];
+        if (leaves) sum[k] -= in[k][x - radius - 1];
+        out[k][x] = float(sum[k]);
+      }
+  };
+  for (int x = 0; x < std::min(radius, w); ++x)
+    for (int k = 0; k < kTogether; ++k) sum[k] += in[k][x];
+  const int full = std::min(radius + 1, w);  // from here a pixel leaves the window
+  const int last = std::max(w - radius, 0);  // from here none enters
+  slide(0, std::min(full, last), true, false);
+  slide(std::min(full, last), full, false, false);
+  slide(full, std::max(full, last), true, true);
+  slide(std::max(full, last), w, false, true);
+}
+
+RELIEVO_SIMD void add_row(const float* from, int begin, int end, float* to) {
+  for (int x = begin; x < end; ++x) to[x] += from[x];
+}
+RELIEVO_SIMD void slide_row(const float* above, const float* in, const float* out, int begin, int end,
+                            float* to) {
+  for (int x = begin; x < end; ++x) to[x] = above[x] + (in[x] - out[x]);
+}
 
 // to += weight * (a + b)
 RELIEVO_SIMD void add_weighted(const float* a, const float* b, float weight, int count, float* to) {
@@ -30,7 +68,7 @@ RELIEVO_SIMD void raise(const float* from, int count, float* to) {
 template <typename Towards>
 void over_square(Plane<float>& plane, int reach, Towards towards, ThreadPool& pool, Plane<float>& room) {
   const int width = plane.width, height = plane.height;
-  pool.for_each_band(height, kRowsOfABand, [&](int begin, int end, int) {
+  pool.for_each_band(height, kBands, [&](int begin, int end, int) {
     for (int y = begin; y < end; ++y) {
       float* to = room.row(y);
       std::copy_n(plane.row(y), width, to);
@@ -38,7 +76,7 @@ void over_square(Plane<float>& plane, int reach, Towards towards, ThreadPool& po
         towards(plane.row(v), width, to);
     }
   });
-  pool.for_each_band(height, kRowsOfABand, [&](int begin, int end, int) {
+  pool.for_each_band(height, kBands, [&](int begin, int end, int) {
     for (int y = begin; y < end; ++y) {
       const float* from = room.row(y);
       float* to = plane.row(y);
@@ -53,6 +91,33 @@ void over_square(Plane<float>& plane, int reach, Towards towards, ThreadPool& po
 
 }  // namespace
 
+void box_sum(const Plane<float>& from, int radius, ThreadPool& pool, Plane<float>& across, Plane<float>& to) {
+  const int w = from.width;
+  const int h = from.height;
+  pool.for_each_band(h, kBoxBands, [&](int begin, int end, int) {
+    for (int y = begin; y < end; y += kTogether)
+      sum_rows(from, y, std::min(kTogether, end - y), radius, across);
+  });
+  // Bands of rows, each started afresh: rounding does not travel down the whole picture.
+  pool.for_each_band(h, kBoxBands, [&](int begin, int end, int) {
+    float* top = to.row(begin);
+    std::fill(top, top + w, 0.0F);
+    for (int y = std::max(0, begin - radius); y <= std::min(h - 1, begin + radius); ++y)
+      add_row(across.row(y), 0, w, top);
+    for (int y = begin + 1; y < end; ++y) {
+      const float* in = y + radius < h ? across.row(y + radius) : nullptr;
+      const float* out = y - radius - 1 >= 0 ? across.row(y - radius - 1) : nullptr;
+      float* here = to.row(y);
+      const float* above = to.row(y - 1);
+      if (in != nullptr && out != nullptr) slide_row(above, in, out, 0, w, here);
+      else {
+        for (int x = 0; x < w; ++x)
+          here[x] = above[x] + (in != nullptr ? in[x] : 0.0F) - (out != nullptr ? out[x] : 0.0F);
+      }
+    }
+  });
+}
+
 Gaussian::Gaussian(double sigma_cells) {
   reach_ = std::min(int(std::ceil(3 * sigma_cells)), int(weight_.size()) - 1);
   float sum = 0;
@@ -66,7 +131,7 @@ Gaussian::Gaussian(double sigma_cells) {
 
 void Gaussian::smooth(Plane<float>& plane, ThreadPool& pool, Plane<float>& room) const {
   const int reach = reach_;
-  pool.for_each_band(plane.height, kRowsOfABand, [&](int begin, int end, int) {
+  pool.for_each_band(plane.height, kBands, [&](int begin, int end, int) {
     for (int y = begin; y < end; ++y) {
       float* wide = room.row(y);
       float* to = wide + reach;
@@ -78,7 +143,7 @@ void Gaussian::smooth(Plane<float>& plane, ThreadPool& pool, Plane<float>& room)
       std::fill_n(to + plane.width, reach, to[plane.width - 1]);
     }
   });
-  pool.for_each_band(plane.height, kRowsOfABand, [&](int begin, int end, int) {
+  pool.for_each_band(plane.height, kBands, [&](int begin, int end, int) {
     for (int y = begin; y < end; ++y) {
       const float* from = room.row(y) + reach;
       float* to = plane.row(y);

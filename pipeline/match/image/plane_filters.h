@@ -1,9 +1,10 @@
 // SPDX-FileCopyrightText: 2026 The Relievo authors
 // SPDX-License-Identifier: GPL-3.0-or-later
 //
-// Separable filters of a plane of numbers: Gaussian, erosion and dilation by a square. In place; the plane's
-// edge goes on outwards. `room` is theirs to overwrite: as high as the plane, wider by twice Gaussian::reach,
-// or as wide. Thread: one caller; uses the pool's. Bit for bit the same for any number of threads.
+// Separable filters of a plane of numbers: sums over a square; in place Gaussian, erosion and dilation by a
+// square, for which the plane's edge goes on outwards. `room` is theirs to overwrite: as high as the plane,
+// wider by twice Gaussian::reach, or as wide. Thread: one caller; uses the pool's. Bit for bit the same for
+// any number of threads.
 #pragma once
 
 #include <array>
@@ -12,6 +13,10 @@
 #include "pipeline/match/image/plane.h"
 
 namespace relievo::pipeline {
+
+// to(x, y) = sum of from over |dx|, |dy| <= radius, with 0 outside; from and to may be the same plane. By
+// running sums: the cost does not depend on the radius. `across` is scratch of the same size.
+void box_sum(const Plane<float>& from, int radius, ThreadPool& pool, Plane<float>& across, Plane<float>& to);
 
 class Gaussian {
  public:

@@ -6,13 +6,12 @@
 #include <opencv2/calib3d.hpp>
 
 #include "pipeline/match/peer/sgbm_matcher.h"
-#include "pipeline/match/window/field_matches.h"
+#include "pipeline/match/window/window_correlation.h"
 #include "pipeline/model/photo_sampler.h"
 
 namespace relievo::pipeline {
 namespace {
 
-constexpr float kNothing = -1.0e6F;
 constexpr double kMostBytes = 2.0 * (1 << 30);  // aloe with 256 disparities needs 1.4
 
 // The part of both pictures that the keypoints need.
@@ -84,8 +83,8 @@ Result<MatchSet> SgbmMatcher::match(const RectifiedPair& pair, const Keypoints& 
         Errc::OutOfMemory,
         "opencv-sgbm: hh would need more than 2 GiB here: choose 3way or narrow the volume (--near, --far)"};
   if (context.stop()) return Error{Errc::Cancelled, "stopped before OpenCV began"};
-  DisparityField field{
-      {&context.scratch, crop.width, crop.height, kNothing}, kNothing, {float(crop.x0), float(crop.y0)}};
+  DisparityField field{{&context.scratch, crop.width, crop.height, kNoDisparity},
+                       {float(crop.x0), float(crop.y0)}};
   const cv::Mat disparity = compute(pair, *this, crop, first, count, context);
   for (int y = 0; y < crop.height; ++y)
     for (int x = 0; x < crop.width; ++x)

@@ -11,12 +11,11 @@
 #include "hal/base/thread_pool.h"
 #include "pipeline/match/image/plane.h"
 #include "pipeline/match/image/plane_filters.h"
-#include "pipeline/match/preprocess/grey_histogram.h"
 
 namespace relievo::pipeline {
 namespace {
 
-constexpr int kRowsOfABand = 16;
+constexpr int kRowBands = 16;
 
 constexpr int kCell = 2;  // pixels of a cell's side: what is looked for is smooth
 // A place says something about the skin's colour where it is lit at all (shares of full light).
@@ -332,7 +331,7 @@ void clean(RectifiedPair& pair, bool right, const HighlightRemover& options, con
   if (part.width == 0 || part.height == 0) return;
   Light light{{&context.scratch, part.width, part.height}, {&context.scratch, part.width, part.height}};
   Plane<float> room(&context.scratch, part.width + 2 * gaussian.reach(), part.height);
-  context.pool.for_each_band(part.height, kRowsOfABand, [&](int begin, int end, int) {
+  context.pool.for_each_band(part.height, kRowBands, [&](int begin, int end, int) {
     gather(view, pair.width_px, part, light, begin, end);
   });
   gaussian.smooth(light.all, context.pool, room);
@@ -348,7 +347,7 @@ void clean(RectifiedPair& pair, bool right, const HighlightRemover& options, con
   const FineColours colours =
       fine_colours_of(view, pair.width_px, part, skin, light, local, &context.scratch);
   Mirrored mirrored{plane(), plane(), plane(), plane(), plane()};
-  context.pool.for_each_band(part.height, kRowsOfABand, [&](int begin, int end, int) {
+  context.pool.for_each_band(part.height, kRowBands, [&](int begin, int end, int) {
     find_mirrored(light, local, colours, mirrored, begin, end);
   });
   weigh(mirrored, float(options.least), 2 * gaussian.reach() / 3, context.pool, room);
@@ -356,13 +355,13 @@ void clean(RectifiedPair& pair, bool right, const HighlightRemover& options, con
   Plane<float> fine(&context.scratch, part.width * kCell, part.height * kCell);
   Plane<float> wide(&context.scratch, fine.width + 2 * pixel.reach(), fine.height);
   if (colours.trust > 0) {
-    context.pool.for_each_band(fine.height, kRowsOfABand, [&](int begin, int end, int) {
+    context.pool.for_each_band(fine.height, kRowBands, [&](int begin, int end, int) {
       find_fine(view, pair.width_px, part, local, mirrored, fine, wide, begin, end);
     });
     pixel.smooth(fine, context.pool, wide);
   }
   view.mirrored.assign(pair.pixels(), 0);
-  context.pool.for_each_band(fine.height, kRowsOfABand, [&](int begin, int end, int) {
+  context.pool.for_each_band(fine.height, kRowBands, [&](int begin, int end, int) {
     subtract(mirrored, fine, part, pair.width_px, view, wide, begin, end);
   });
 }

@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: 2026 The Relievo authors
 // SPDX-License-Identifier: GPL-3.0-or-later
 //
-// Rectifier: resamples both pictures so that corresponding points share a row.
+// Resamples both pictures so that corresponding points share a row.
 //
 // The common x axis is the baseline; the common z axis lies between the two optical axes. Scale is
 // the cameras' own: the windows are laid over the pictures, one each, so that a toed-in pair is
@@ -31,16 +31,8 @@ struct RectifierOptions {
   double far_mm = 750;
   int longest_side_px = 4096;  // refuse geometry that needs a larger window: the rig cannot see the volume
   Result<void> check() const;
-};
-
-class Rectifier {
- public:
-  explicit Rectifier(const RectifierOptions& options) : options_(options) {}
   Result<RectifiedPair> rectify(const StereoFrame& frame, const StereoCalibration& calibration,
                                 StageContext& context) const;
-
- private:
-  RectifierOptions options_;
 };
 
 // Where the rectified windows lie: fills everything of `pair` but the pixels. Errors: InvalidInput (the
@@ -51,5 +43,18 @@ Result<void> lay_windows(const StereoCalibration& calibration, const RectifierOp
 // The picture pixel that sees what the window pixel `at` of this view shows.
 Vec2d source_pixel(const CameraIntrinsics& camera, const Rotation& rectified_from_camera, double focal_px,
                    Vec2d centre_px, Vec2d at);
+
+// Two pictures that are rectified already, as benchmarks give them: taken as they are, pixel for pixel. No
+// rig is known: a nominal one stands in for algorithms that think in millimetres, so that disparities of the
+// range lie between `near_mm` and `far_mm`. Depths in millimetres then mean nothing; disparities do.
+// Memory: the pair in `output`. Errors: InvalidInput (empty, sizes that differ, an empty range), Cancelled.
+struct DisparityRange {
+  int least_px = 0;
+  int most_px = 256;  // not reached
+  Result<void> check() const;
+};
+
+Result<RectifiedPair> take_rectified(const StereoFrame& frame, const DisparityRange& range,
+                                     StageContext& context);
 
 }  // namespace relievo::pipeline

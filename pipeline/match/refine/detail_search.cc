@@ -1,12 +1,12 @@
 // SPDX-FileCopyrightText: 2026 The Relievo authors
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include "pipeline/match/refine/detail_search.h"
+#include "pipeline/match/refine/surface_refiner.h"
 
 #include <algorithm>
 #include <cmath>
 #include <cstdint>
 
-#include "pipeline/match/image/box_filter.h"
+#include "pipeline/match/image/plane_filters.h"
 
 namespace relievo::pipeline {
 namespace {

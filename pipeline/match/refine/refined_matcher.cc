@@ -9,9 +9,9 @@
 
 #include "pipeline/match/coarse/coarse_surface.h"
 #include "pipeline/match/epipolar/row_aligner.h"
-#include "pipeline/match/refine/detail_search.h"
-#include "pipeline/match/refine/occluding_contour.h"
+#include "pipeline/match/refine/surface_refiner.h"
 #include "pipeline/match/region/face_reach.h"
+#include "pipeline/match/window/window_correlation.h"
 
 namespace relievo::pipeline {
 namespace {
@@ -229,7 +229,7 @@ Result<MatchSet> match_at_size(const RefinedMatcher& o, const RectifiedPair& pai
   const auto& half = pyramids.left[1].grey;
   const auto& fine = pyramids.left[kFineLevel].grey;
   SurfaceField field2(&context.scratch, half.width, half.height, kNodeStepPx);
-  RowAligner rows(pair, pyramids, {double(o.align_beyond_px), o.follow_motion != 0}, context);
+  RowAligner rows(pair, pyramids, double(o.align_beyond_px), o.follow_motion != 0, context);
   for (int pass = 0; pass < kPasses; ++pass) {
     if (is_scene(pair)) {
       Arena::Mark mark(context.scratch);
@@ -261,8 +261,7 @@ Result<MatchSet> match_at_size(const RefinedMatcher& o, const RectifiedPair& pai
   read_matches(pair, field2, keypoints, rows.motion(), o.sigma_limit_px, set);
   // Of a whole face 100 are hardly any; where few places were asked for, a tenth of them.
   if (set.matches.size() < std::clamp<std::size_t>(keypoints.points.size() / 10, 1, 100))
-    return Error{Errc::TooFewMatches,
-                 "hardly anything matches between the views: is the face in both, in focus and lit?"};
+    return nothing_matches();
   return set;
 }
 

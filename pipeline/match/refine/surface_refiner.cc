@@ -7,8 +7,7 @@
 #include <cmath>
 
 #include "pipeline/match/bending/bending_system.h"
-#include "pipeline/match/image/box_filter.h"
-#include "pipeline/match/refine/warp_terms.h"
+#include "pipeline/match/image/plane_filters.h"
 
 namespace relievo::pipeline {
 namespace {

@@ -24,7 +24,6 @@
 #include "pipeline/match/bending/bending_system.h"
 #include "pipeline/match/image/image_pyramid.h"
 #include "pipeline/match/image/plane.h"
-#include "pipeline/match/image/surface_field.h"
 
 namespace relievo::pipeline {
 
@@ -44,7 +43,25 @@ void measure_score_excess(const BendingSystem& system, const Plane<float>& pull,
                           int step, ThreadPool& pool, std::pmr::memory_resource& scratch,
                           Plane<float>& excess);
 
-struct WarpTerms;  // warp_terms.h
+// The data terms: the right view warped onto the left by a disparity field, and what every pixel then says
+// about the field.
+
+// A rectangle of level pixels that surrounds the surface.
+struct Window {
+  int x0 = 0, y0 = 0, width = 0, height = 0;
+};
+
+// Per pixel of the window, 0 where the pixel says nothing.
+struct WarpTerms {
+  WarpTerms(std::pmr::memory_resource* memory, int width, int height) : shape{memory, width, height} {}
+  PlaneShape shape;
+  Plane<float> residual{shape};  // grey levels, offset and gain removed
+  Plane<float> gradient{shape};  // its derivative by the disparity, grey levels per full-size pixel
+  Plane<float> weight{shape};    // 1 / variance of the residual
+  Plane<float> mask{shape};      // 1 where both views show the surface
+  Plane<float> cost{shape};      // 1 - local zero-mean normalised correlation
+  float noise_variance = 0;      // of the residual over the whole surface
+};
 
 // How much less the pixels say than as many independent ones would: noise that hangs together from pixel to
 // pixel (interpolated colours, compression) shakes the fit by the sum over all shifts of the residual's and
@@ -53,14 +70,13 @@ struct WarpTerms;  // warp_terms.h
 float hanging_noise(const WarpTerms& terms, ThreadPool& pool);
 
 struct SurfaceRefinerOptions {
-  float bending = 0.17F;       // expected roughness: root of the spectral density of curvature, dimensionless
-  float crease = 0.9F;         // second differences beyond this many expected ones count as creases
-  float wrinkle = 0.135F;      // at full size, patches that bend well beyond this many expected ones count as
-                               // relief; 0: none do
-  int local_window_px = 13;    // offset and gain are constant over this window, full-size pixels
-  int smallest_window_px = 9;  // and at least this many pixels of a smaller level
-  int steps = 5;               // warps at full size; one less at half, twice that at a quarter of it
-  int solver_steps = 60;       // conjugate-gradient steps a warp
+  float bending = 0.17F;     // expected roughness: root of the spectral density of curvature, dimensionless
+  float crease = 0.9F;       // second differences beyond this many expected ones count as creases
+  float wrinkle = 0.135F;    // at full size, patches that bend well beyond this many expected ones count as
+                             // relief; 0: none do
+  int local_window_px = 13;  // offset and gain are constant over this window, full-size pixels
+  int steps = 5;             // warps at full size; one less at half, twice that at a quarter of it
+  int solver_steps = 60;     // conjugate-gradient steps a warp
 };
 
 struct RefinerScene {
@@ -73,5 +89,34 @@ struct RefinerScene {
 
 Result<void> refine_surface(const RefinerScene& scene, const SurfaceRefinerOptions& options,
                             StageContext& context, SurfaceField& field);
+
+// `agreed`, where wanted: the product of both views' own derivatives by the disparity, means taken out. Its
+// mean is that of the squared gradient without noise, for the noise of the views is independent.
+void form_terms(const RefinerScene& scene, const SurfaceRefinerOptions& options, const SurfaceField& field,
+                const Window& window, StageContext& context, WarpTerms& terms, Plane<float>* agreed);
+
+// Looks for the surface once more by its fine detail. A highlight lies at another depth than the skin it
+// shines on, and on dark or even skin it is all that a small picture shows: the coarse matching follows it,
+// by several pixels at the tip of a nose, too far for refinement to find back. Pores do not: of both views
+// only what is finer than a few pixels is kept, and where that agrees clearly better some pixels to the
+// side, correlated over a window that is still smaller than a nose, the field is moved there.
+// Memory: scratch only. Results do not depend on the number of threads. Thread: any.
+//
+// Moves field.disparity_px where another place is clearly better, and says whether it did. The field's nodes
+// must be the scene's pixels.
+bool search_by_detail(const RefinerScene& scene, StageContext& context, SurfaceField& field);
+
+// Cuts the field along occluding contours: where the left view looks past the edge of a near surface, the
+// ridge of a nose, at a far one, a smooth field hangs a curtain from the one to the other. The curtain is
+// steeper than skin that can be matched, it drags both surfaces along, and it holds itself up: half of its
+// pixels agree with either. Both surfaces are continued under it, and each row is cut where the views agree
+// best with the near one to the left and the far one to the right (no ordering is broken: the right view sees
+// both, and more between them). Curtains that rise to the right hide the far surface from the right view:
+// cross-check and uniqueness deal with them. Where a contour lies across, a chin before its throat, columns
+// are cut the same way. Memory: scratch only. Results do not depend on the number of threads.
+//
+// `field` has a node on every pixel of the scene's level; its domain stays. How many rows and columns were
+// cut.
+int cut_at_occluding_contours(const RefinerScene& scene, StageContext& context, SurfaceField& field);
 
 }  // namespace relievo::pipeline

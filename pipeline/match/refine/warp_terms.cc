@@ -1,19 +1,20 @@
 // SPDX-FileCopyrightText: 2026 The Relievo authors
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include "pipeline/match/refine/warp_terms.h"
+#include "pipeline/match/refine/surface_refiner.h"
 
 #include <algorithm>
 #include <cmath>
 
 #include "hal/base/simd.h"
-#include "pipeline/match/image/box_filter.h"
+#include "pipeline/match/image/plane_filters.h"
 
 namespace relievo::pipeline {
 namespace {
 
 constexpr int kBands = 16;
 constexpr int kNoiseRadius = 3;
-constexpr float kSaturated = 250;  // grey: a highlight moves with the viewer
+constexpr int kSmallestWindowPx = 9;  // of a smaller level
+constexpr float kSaturated = 250;     // grey: a highlight moves with the viewer
 
 struct Sampled {
   float value, slope;
@@ -259,7 +260,7 @@ void weigh(ThreadPool& pool, WarpTerms& terms, WindowSums& sums) {
 
 void form_terms(const RefinerScene& scene, const SurfaceRefinerOptions& options, const SurfaceField& field,
                 const Window& window, StageContext& context, WarpTerms& terms, Plane<float>* agreed) {
-  const int radius = std::max(options.smallest_window_px, options.local_window_px >> scene.level) / 2;
+  const int radius = std::max(kSmallestWindowPx, options.local_window_px >> scene.level) / 2;
   WindowSums sums{{&context.scratch, terms.shape.width, terms.shape.height}, terms};
   sum_windows(scene, field, window, radius, context.pool, terms, sums);
   form_residuals(scene, window, sums, context.pool, terms, agreed);

@@ -11,7 +11,7 @@
 #include <span>
 
 #include "pipeline/base/stage.h"
-#include "pipeline/match/image/surface_field.h"
+#include "pipeline/match/image/plane.h"
 #include "pipeline/model/rectified_pair.h"
 
 namespace relievo::pipeline {

@@ -6,8 +6,12 @@
 #pragma once
 
 #include <atomic>
+#include <cstddef>
+#include <cstdint>
+#include <filesystem>
 #include <memory>
 #include <string>
+#include <utility>
 
 #include "hal/base/image_view.h"
 #include "hal/base/result.h"
@@ -15,6 +19,14 @@
 #include "pipeline/model/rectified_pair.h"
 
 namespace relievo::pipeline {
+
+// Of opencv-data 4.6.0. Other files may be good too, but nobody has measured them here.
+enum class FaceCascade : std::uint8_t { Alt2, Default, Alt, Profile };
+inline constexpr std::size_t kFaceCascades = 4;
+
+// A cascade's file as text, read whole and checked by its SHA-256 before any library parses it.
+// Thread: any. Errors: NotFound (no such file), StoreCorrupt (not the file we know).
+Result<std::string> read_cascade(const std::filesystem::path& folder, FaceCascade which);
 
 struct FaceBox {
   Vec2d centre_px;      // between the eyes and the mouth, in the picture given
@@ -24,24 +36,14 @@ struct FaceBox {
 
 struct FaceFinderOptions {
   std::string cascade_dir = "/usr/share/opencv4/haarcascades";  // Debian's opencv-data
-  int search_height_px = 400;   // the picture is reduced to this height before the search
-  double smallest_face = 0.15;  // width of the smallest face, share of the picture's height
-  int certain_votes = 8;        // a hit with this many votes ends the search
-  int least_votes = 4;          // fewer are no face
-  double tilt_deg = 15;         // how far the picture is turned for tilted heads
-
-  Result<void> check() const;
 };
 
 // Loads the cascades once, at boot; every file's SHA-256 is checked before it is parsed.
 // Thread: one caller at a time. Memory: OpenCV's own, bounded by the size of the reduced picture.
 class FaceFinder {
  public:
-  // Errors: InvalidInput (options), NotFound and StoreCorrupt (checked_file.h), LibraryFailed.
+  // Errors: those of read_cascade(); LibraryFailed.
   static Result<FaceFinder> open(const FaceFinderOptions& options);
-  FaceFinder(FaceFinder&&) noexcept;
-  FaceFinder& operator=(FaceFinder&&) noexcept;
-  ~FaceFinder();
 
   // The most certain face; takes longest (0.4 s) where there is none, and looks at `cancelled`, when
   // given, every 30 ms. Errors: InvalidInput (an empty picture), NoFace, LibraryFailed, Cancelled.
@@ -49,8 +51,8 @@ class FaceFinder {
 
  private:
   struct Cascades;
-  explicit FaceFinder(std::unique_ptr<Cascades> cascades);
-  std::unique_ptr<Cascades> cascades_;
+  explicit FaceFinder(std::shared_ptr<Cascades> cascades) : cascades_(std::move(cascades)) {}
+  std::shared_ptr<Cascades> cascades_;
 };
 
 // Finds the face in the pair's left view. Errors: as find().

@@ -10,19 +10,23 @@
 #include <opencv2/imgproc.hpp>
 #include <opencv2/objdetect.hpp>
 
-#include "pipeline/match/region/checked_file.h"
 #include "pipeline/match/region/face_region.h"
 
 namespace relievo::pipeline {
 namespace {
 
 constexpr std::size_t kProfile = 3;
+constexpr int kSearchHeightPx = 400;    // the picture is reduced to this height before the search
+constexpr double kSmallestFace = 0.15;  // width of the smallest face, share of the picture's height
+constexpr int kCertainVotes = 8;        // a hit with this many votes ends the search
+constexpr int kLeastVotes = 4;          // fewer are no face
+constexpr double kTiltDeg = 15;         // how far the picture is turned for tilted heads
 
 // One look at the picture. Cheap and likely ones first.
 struct Try {
   std::size_t cascade;
   bool local_contrast;  // CLAHE: faces in poor or one-sided light
-  int tilt;             // times tilt_deg
+  int tilt;             // times kTiltDeg
   bool mirrored;        // the profile cascade knows one side only
 };
 constexpr std::array<Try, 16> kTries = {{
@@ -44,14 +48,14 @@ constexpr std::array<Try, 16> kTries = {{
     {kProfile, true, 0, true},
 }};
 
-cv::Mat reduced_grey(const ImageView& view, int height_px) {
+cv::Mat reduced_grey(const ImageView& view) {
   const int type = view.format == PixelFormat::Rgb8     ? CV_8UC3
                    : view.format == PixelFormat::Grey16 ? CV_16UC1
                                                         : CV_8UC1;
   // OpenCV wants a pointer it could write through; nothing here writes.
   const cv::Mat picture(view.height_px, view.width_px, type, const_cast<std::byte*>(view.bytes),
                         std::size_t(view.stride_bytes));
-  const double scale = std::min(1.0, double(height_px) / view.height_px);
+  const double scale = std::min(1.0, double(kSearchHeightPx) / view.height_px);
   cv::Mat small;
   const cv::Size size(std::max(1, int(std::lround(view.width_px * scale))),
                       std::max(1, int(std::lround(view.height_px * scale))));
@@ -70,19 +74,12 @@ cv::Matx23d turn_about_centre(const cv::Size& size, double angle_deg) {
   return {c, -s, cx - c * cx + s * cy, s, c, cy - s * cx - c * cy};
 }
 
-struct Hit {
-  cv::Point2d centre;
-  double width;
-  int votes;
-};
-
-// Overlapping cascades and tries speak for the same face; the largest sum of votes wins, and among
-// equals the wider face, which is nearer.
-Hit best_of(const std::vector<cv::Rect>& boxes, const std::vector<int>& votes) {
-  Hit best{{0, 0}, 0, 0};
+// The most votes times width win: of faces as certain the wider one, which is nearer.
+FaceBox best_of(const std::vector<cv::Rect>& boxes, const std::vector<int>& votes) {
+  FaceBox best;
   for (std::size_t i = 0; i < boxes.size(); ++i) {
     const double worth = double(votes[i]) * boxes[i].width;
-    if (worth <= best.votes * best.width) continue;
+    if (worth <= best.votes * best.width_px) continue;
     best = {{boxes[i].x + (boxes[i].width - 1) / 2.0, boxes[i].y + (boxes[i].height - 1) / 2.0},
             double(boxes[i].width),
             votes[i]};
@@ -93,12 +90,12 @@ Hit best_of(const std::vector<cv::Rect>& boxes, const std::vector<int>& votes) {
 }  // namespace
 
 struct FaceFinder::Cascades {
-  FaceFinderOptions options;
   std::array<cv::CascadeClassifier, kFaceCascades> files;
 
-  Hit look(const cv::Mat& grey, const cv::Mat& even, const Try& look_at) {
+  // In the reduced picture.
+  FaceBox look(const cv::Mat& grey, const cv::Mat& even, const Try& look_at) {
     cv::Mat picture = look_at.local_contrast ? even : grey;
-    const cv::Matx23d turn = turn_about_centre(grey.size(), look_at.tilt * options.tilt_deg);
+    const cv::Matx23d turn = turn_about_centre(grey.size(), look_at.tilt * kTiltDeg);
     if (look_at.tilt != 0) {
       cv::Mat turned;
       cv::warpAffine(picture, turned, turn, picture.size(), cv::INTER_LINEAR, cv::BORDER_REPLICATE);
@@ -109,47 +106,27 @@ struct FaceFinder::Cascades {
       cv::flip(picture, other, 1);
       picture = other;
     }
-    const int least = std::max(20, int(options.smallest_face * grey.rows));
+    const int least = std::max(20, int(kSmallestFace * grey.rows));
     std::vector<cv::Rect> boxes;
     std::vector<int> votes;
-    files[look_at.cascade].detectMultiScale(picture, boxes, votes, 1.08, options.least_votes - 1, 0,
-                                            {least, least});
-    Hit hit = best_of(boxes, votes);
-    if (look_at.mirrored) hit.centre.x = grey.cols - 1 - hit.centre.x;
+    files[look_at.cascade].detectMultiScale(picture, boxes, votes, 1.08, kLeastVotes - 1, 0, {least, least});
+    FaceBox hit = best_of(boxes, votes);
+    if (look_at.mirrored) hit.centre_px.x = grey.cols - 1 - hit.centre_px.x;
     if (look_at.tilt != 0) {
       cv::Matx23d back;
       cv::invertAffineTransform(turn, back);
-      hit.centre = {back(0, 0) * hit.centre.x + back(0, 1) * hit.centre.y + back(0, 2),
-                    back(1, 0) * hit.centre.x + back(1, 1) * hit.centre.y + back(1, 2)};
+      hit.centre_px = {back(0, 0) * hit.centre_px.x + back(0, 1) * hit.centre_px.y + back(0, 2),
+                       back(1, 0) * hit.centre_px.x + back(1, 1) * hit.centre_px.y + back(1, 2)};
     }
     return hit;
   }
 };
 
-Result<void> FaceFinderOptions::check() const {
-  if (search_height_px < 120 || search_height_px > 2000)
-    return Error{Errc::InvalidInput, "search_height_px must lie in 120 .. 2000"}.at("face-region");
-  if (!(smallest_face > 0.02 && smallest_face < 1))
-    return Error{Errc::InvalidInput, "smallest_face must lie in 0.02 .. 1"}.at("face-region");
-  if (least_votes < 1 || certain_votes < least_votes || certain_votes > 1000)
-    return Error{Errc::InvalidInput, "votes: 1 <= least_votes <= certain_votes <= 1000"}.at("face-region");
-  if (!(tilt_deg >= 0 && tilt_deg <= 45))
-    return Error{Errc::InvalidInput, "tilt_deg must lie in 0 .. 45"}.at("face-region");
-  return {};
-}
-
-FaceFinder::FaceFinder(std::unique_ptr<Cascades> cascades) : cascades_(std::move(cascades)) {}
-FaceFinder::FaceFinder(FaceFinder&&) noexcept = default;
-FaceFinder& FaceFinder::operator=(FaceFinder&&) noexcept = default;
-FaceFinder::~FaceFinder() = default;
-
 Result<FaceFinder> FaceFinder::open(const FaceFinderOptions& options) {
-  RELIEVO_TRY(options.check());
   const Error unreadable{Errc::LibraryFailed,
                          "OpenCV cannot read the face cascades: reinstall the package opencv-data"};
   try {
-    auto cascades = std::make_unique<Cascades>();
-    cascades->options = options;
+    auto cascades = std::make_shared<Cascades>();
     for (std::size_t i = 0; i < kFaceCascades; ++i) {
       RELIEVO_TRY_ASSIGN(const std::string text,
                          read_cascade(options.cascade_dir, static_cast<FaceCascade>(i)));
@@ -166,7 +143,7 @@ Result<FaceFinder> FaceFinder::open(const FaceFinderOptions& options) {
 Result<FaceBox> FaceFinder::find(const ImageView& picture, const std::atomic<bool>* cancelled) {
   if (picture.empty()) return Error{Errc::InvalidInput, "a picture without pixels has no face"};
   try {
-    const cv::Mat grey = reduced_grey(picture, cascades_->options.search_height_px);
+    const cv::Mat grey = reduced_grey(picture);
     cv::Mat even;
     cv::createCLAHE(3, {8, 8})->apply(grey, even);
     const double scale = double(picture.height_px) / grey.rows;
@@ -174,12 +151,12 @@ Result<FaceBox> FaceFinder::find(const ImageView& picture, const std::atomic<boo
     for (const Try& look_at : kTries) {
       if (cancelled != nullptr && cancelled->load(std::memory_order_relaxed))
         return Error{Errc::Cancelled, "the search for a face was stopped"};
-      const Hit hit = cascades_->look(grey, even, look_at);
-      if (hit.votes < cascades_->options.least_votes || hit.votes <= best.votes) continue;
-      best = {{(hit.centre.x + 0.5) * scale - 0.5, (hit.centre.y + 0.5) * scale - 0.5},
-              hit.width * scale,
+      const FaceBox hit = cascades_->look(grey, even, look_at);
+      if (hit.votes < kLeastVotes || hit.votes <= best.votes) continue;
+      best = {{(hit.centre_px.x + 0.5) * scale - 0.5, (hit.centre_px.y + 0.5) * scale - 0.5},
+              hit.width_px * scale,
               hit.votes};
-      if (best.votes >= cascades_->options.certain_votes) break;
+      if (best.votes >= kCertainVotes) break;
     }
     if (best.votes == 0)
       return Error{

@@ -7,7 +7,7 @@
 
 #include <sodium.h>
 
-#include "pipeline/match/region/checked_file.h"
+#include "pipeline/match/region/face_region.h"
 
 namespace relievo::pipeline {
 namespace {

@@ -7,7 +7,8 @@
 #include <cmath>
 #include <utility>
 
-#include "pipeline/match/window/window_matching.h"
+#include "pipeline/match/window/patch_scores.h"
+#include "pipeline/match/window/window_correlation.h"
 
 namespace relievo::pipeline {
 namespace {
@@ -274,9 +275,6 @@ std::pmr::vector<Plane<Vec2f>> transform_dyadic(const std::pmr::vector<float>& g
 Result<MatchSet> WaveletMatcher::match(const RectifiedPair& pair, const Keypoints& keypoints,
                                        StageContext& context) const {
   RELIEVO_TRY(check_pixels(pair));
-  MatchSet set(&context.output);
-  set.lattice_step_px = keypoints.lattice_step_px;
-  set.matches.reserve(keypoints.points.size());
   const Scales left = transform_dyadic(pair.left.grey, pair.width_px, pair.height_px, scales, context);
   const Scales right = transform_dyadic(pair.right.grey, pair.width_px, pair.height_px, scales, context);
   // The finest samples and their filters lie inside both pictures; coarser ones may reach over the edge.
@@ -305,13 +303,11 @@ Result<MatchSet> WaveletMatcher::match(const RectifiedPair& pair, const Keypoint
     }
   });
   if (context.stop()) return Error{Errc::Cancelled, "stopped while matching wavelets"};
-  for (const Match& match : found)
-    if (match.sigma_px > 0) set.matches.push_back(match);
-  if (set.matches.empty())
-    return Error{
-        Errc::TooFewMatches,
-        "no place of the left view is found again in the right one: is the face in both, in focus and lit?"};
-  return set;
+  return matches_of(
+      found, keypoints,
+      {Errc::TooFewMatches,
+       "no place of the left view is found again in the right one: is the face in both, in focus and lit?"},
+      context);
 }
 
 }  // namespace relievo::pipeline

@@ -13,7 +13,7 @@
 // 3. The candidate whose correlations over all scales have the greatest sum wins (Bhatti's confidence).
 // 4. A parabola between pixels, through the correlation of the two finest scales stacked.
 //
-// Blind to offset and gain. cost is one minus the stacked correlation; sigma_px as in window_matching.h with
+// Blind to offset and gain. cost is one minus the stacked correlation; sigma_px as in window_matchers.h with
 // the samples of one scale as count. Between pixels: bilinear coefficients in both views. Errors: as Matcher.
 #pragma once
 

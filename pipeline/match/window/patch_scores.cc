@@ -13,6 +13,8 @@ namespace {
 
 constexpr int kPlaneBands = 16;
 constexpr float kMiddleGrey = 128;
+constexpr double kFitBiasPx = 0.03;     // rms of a parabola's pull to whole pixels, textures of 5 to 20
+constexpr double kFaceBend = 1.0 / 40;  // 1/mm: between a cheek and the tip of a nose
 
 void fill_plane(const RectifiedView& view, int channel, int channels, ThreadPool& pool, Plane<float>& to) {
   pool.for_each_band(to.height, kPlaneBands, [&](int begin, int end, int) {
@@ -192,6 +194,14 @@ PatchScores::Score PatchScores::score(int candidate) const {
   // Two plain windows are not alike, they say nothing. The least variation is what rounding leaves.
   const double unlike = scale > 1e-3 * side_ * side_ ? 1 - covariation / scale : 1;
   return {unlike, std::clamp(unlike, 0.0, 1.0)};
+}
+
+// What a window takes off a surface bent both ways: (w^2 - 1) / 24 times its second derivatives, each of
+// which is bend * baseline / focal length.
+double method_bias_px(const RectifiedPair& pair, int window_px) {
+  const double flattened =
+      (window_px * window_px - 1) / 24.0 * 2 * kFaceBend * pair.baseline_mm / pair.focal_px;
+  return std::hypot(kFitBiasPx, flattened);
 }
 
 }  // namespace relievo::pipeline

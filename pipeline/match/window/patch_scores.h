@@ -86,4 +86,8 @@ class PatchScores {
   std::pmr::vector<float> left_, strip_;
 };
 
+// The least sigma of a window this wide on a face before this rig, the method's own `bias`
+// (window_matchers.h), pixels.
+double method_bias_px(const RectifiedPair& pair, int window_px);
+
 }  // namespace relievo::pipeline

@@ -1,7 +1,18 @@
 // SPDX-FileCopyrightText: 2026 The Relievo authors
 // SPDX-License-Identifier: GPL-3.0-or-later
 //
-// The matchers by windows.
+// The matchers by windows: `ssd` and `zmncc`. They share the search over the volume, the fit between pixels
+// and the sigma.
+//
+// sigma_px: the fit's standard deviation under independent noise in both views, from the score itself:
+// with n pixels, S the score at the fitted minimum and S'' its second difference,
+//   sigma^2 = 2 S / (n S'') + bias^2
+// (S / n estimates twice the noise variance, S'' twice the summed squared gradients; of 1 - rho the same
+// holds in units of the windows' own variation). Whatever else keeps the windows apart, slant, highlights,
+// a wrong match next to a right one, raises S and sigma with it. `bias` is the method's own: a parabola
+// through whole pixels draws towards them, and a window flattens what it lies on (taken for a face: 40 mm of
+// radius; a nose is bent more, a forehead less). A wrong peak elsewhere is not in sigma: the constraints are
+// for that. Three channels are counted as one sample a pixel, because demosaicking joins their noise.
 #pragma once
 
 #include "pipeline/base/options.h"
@@ -15,7 +26,7 @@ namespace relievo::pipeline {
 // Grey values are compared as they are: both cameras must be exposed alike, gain or offset between the
 // views is taken for unlikeness (`zmncc` is blind to both). Grey levels (0 .. 255), pixels.
 // cost is S over the variation of both windows: one minus correlation where the exposure is equal, 1 where
-// they are unrelated. For sigma_px and lattices see window_matching.h. Errors: as Matcher.
+// they are unrelated. For sigma_px and lattices see above. Errors: as Matcher.
 struct SsdMatcher {
   int window_px = 25;         // odd
   int channels = 1;           // 1: grey, 3: the three colours together
@@ -38,7 +49,7 @@ struct SsdMatcher {
 //
 // Blind to gain and offset between the views within the window; with three channels each colour has an
 // offset of its own, and all three share the gain. Pixels.
-// cost is one minus the correlation. For sigma_px and lattices see window_matching.h. Errors: as Matcher.
+// cost is one minus the correlation. For sigma_px and lattices see above. Errors: as Matcher.
 struct ZmnccMatcher {
   int window_px = 25;        // odd
   int channels = 1;          // 1: grey, 3: the three colours together

@@ -7,7 +7,7 @@
 #include <CGAL/Exact_predicates_inexact_constructions_kernel.h>
 #include <CGAL/Triangulation_vertex_base_with_info_2.h>
 
-#include "pipeline/mesh/completion/gap_triangulation.h"
+#include "pipeline/mesh/completion/head_sewing.h"
 
 namespace relievo::pipeline {
 namespace {

@@ -14,11 +14,9 @@
 #include <utility>
 #include <vector>
 
-#include "pipeline/mesh/completion/fitted_head.h"
 #include "pipeline/mesh/completion/generic_head.h"
 #include "pipeline/mesh/completion/head_sewing.h"
 #include "pipeline/mesh/completion/mesh_laplacian.h"
-#include "pipeline/mesh/completion/unrolled_head.h"
 #include "pipeline/mesh/landmarks/head_frame.h"
 #include "pipeline/model/vector3.h"
 
@@ -50,32 +48,6 @@ Result<std::optional<HeadFrame>> frame_of(const FaceMesh& mesh, const Vec3d& acr
   return frame.error();
 }
 
-}  // namespace
-
-Result<void> SymmetricCompletion::check() const {
-  if (longest_edge_mm < 2 * cell_mm)
-    return Error{Errc::InvalidInput, "longest_edge_mm must be at least two cells"}.at("symmetric");
-  return {};
-}
-
-Result<FaceMesh> SymmetricCompletion::complete(FaceMesh mesh, const Vec3d& across,
-                                               StageContext& context) const {
-  const Error stopped{Errc::Cancelled, "completion was stopped"};
-  RELIEVO_TRY_ASSIGN(const auto frame, frame_of(mesh, across, context));
-  if (!frame) return mesh;
-  const Arena::Mark mark(context.scratch);
-  UnrolledHead head(mesh, frame->head_from_camera, cell_mm, context.scratch);
-  if (context.stop()) return stopped;
-  head.add([&head](int c, int r) { return head.own.z(head.own.columns() - 1 - c, r); }, cell_mm,
-           context.scratch);
-  if (context.stop()) return stopped;
-  const auto added = additions(head, inverse(frame->head_from_camera), *this, context.scratch);
-  if (added.empty()) return mesh;
-  return sew(mesh, head.flat.vertices_mm, added, {longest_edge_mm}, context);
-}
-
-namespace {
-
 using Edge = std::array<std::uint32_t, 2>;
 
 Edge edge_of(std::uint32_t a, std::uint32_t b) { return {std::min(a, b), std::max(a, b)}; }
@@ -87,79 +59,6 @@ double neighbour_share(int neighbours) {
 }
 
 double along(double place, double share, double way) { return place + share * way; }
-
-}  // namespace
-
-Globe::Globe(int times, std::pmr::memory_resource* memory) : direction(memory), triangles(memory) {
-  const double height = 1 / std::sqrt(5.0), across = 2 / std::sqrt(5.0);
-  direction.push_back({0, 0, -1});
-  for (int k = 0; k < 10; ++k) {  // two rings of five, turned against each other
-    const double angle = std::numbers::pi * (k % 5 * 2 + k / 5) / 5;
-    direction.push_back({across * std::cos(angle), across * std::sin(angle), k < 5 ? -height : height});
-  }
-  direction.push_back({0, 0, 1});
-  for (std::uint32_t k = 0; k < 5; ++k) {
-    const std::uint32_t next = (k + 1) % 5;
-    triangles.push_back({0, 1 + next, 1 + k});
-    triangles.push_back({1 + k, 1 + next, 6 + k});
-    triangles.push_back({1 + next, 6 + next, 6 + k});
-    triangles.push_back({11, 6 + k, 6 + next});
-  }
-  for (int k = 0; k < times; ++k) quarter({});
-}
-
-void Globe::quarter(std::span<std::pmr::vector<double>> fields) {
-  std::pmr::memory_resource* const memory = direction.get_allocator().resource();
-  const std::size_t before = direction.size();
-  std::pmr::vector<Edge> edges(memory);
-  edges.reserve(3 * triangles.size());
-  for (const auto& t : triangles)
-    for (std::size_t k = 0; k < 3; ++k) edges.push_back(edge_of(t[k], t[(k + 1) % 3]));
-  std::ranges::sort(edges);
-  edges.erase(std::unique(edges.begin(), edges.end()), edges.end());
-  const auto middle = [&](std::uint32_t a, std::uint32_t b) {
-    const auto at = std::lower_bound(edges.begin(), edges.end(), edge_of(a, b));
-    return std::uint32_t(before) + std::uint32_t(at - edges.begin());
-  };
-  std::pmr::vector<int> neighbours(before, 0, memory);
-  for (const Edge& e : edges) ++neighbours[e[0]], ++neighbours[e[1]];
-  const auto smoothed = [&](const auto& field, auto fine) {
-    fine.resize(before + edges.size());
-    const auto add = [&fine](std::uint32_t to, double share, const auto& value) {
-      fine[to] = along(fine[to], share, value);
-    };
-    for (std::uint32_t v = 0; v < before; ++v)
-      add(v, 1 - neighbours[v] * neighbour_share(neighbours[v]), field[v]);
-    for (const Edge& e : edges) {
-      add(e[0], neighbour_share(neighbours[e[0]]), field[e[1]]);
-      add(e[1], neighbour_share(neighbours[e[1]]), field[e[0]]);
-    }
-    for (const auto& t : triangles)  // an edge has two of them
-      for (std::size_t k = 0; k < 3; ++k) {
-        const std::uint32_t a = t[k], b = t[(k + 1) % 3], at = middle(a, b);
-        add(at, 3.0 / 16, field[a]), add(at, 3.0 / 16, field[b]), add(at, 2.0 / 16, field[t[(k + 2) % 3]]);
-      }
-    return fine;
-  };
-  for (auto& field : fields) field = smoothed(field, std::pmr::vector<double>(memory));
-  if (fields.empty()) {
-    direction.resize(before + edges.size());
-    for (std::size_t k = 0; k < edges.size(); ++k)
-      direction[before + k] = plus(direction[edges[k][0]], direction[edges[k][1]]);
-  } else {
-    direction = smoothed(direction, std::pmr::vector<Vec3d>(memory));
-  }
-  for (Vec3d& d : direction) d = along(Vec3d{}, 1 / std::hypot(d.x, d.y, d.z), d);
-  std::pmr::vector<std::array<std::uint32_t, 3>> fine(memory);
-  fine.reserve(4 * triangles.size());
-  for (const auto& [a, b, c] : triangles) {
-    const std::uint32_t ab = middle(a, b), bc = middle(b, c), ca = middle(c, a);
-    fine.insert(fine.end(), {{a, ab, ca}, {b, bc, ab}, {c, ca, bc}, {ab, bc, ca}});
-  }
-  triangles = std::move(fine);
-}
-
-namespace {
 
 // A thin plate over a globe: continues values that are known on a part of it, with their slope, and returns
 // to zero some 40 mm further on (least squares: squared Laplacians, nearness to the known, smallness
@@ -269,6 +168,96 @@ std::vector<char> apart(const Globe& globe, std::span<const double> off) {
 }
 
 }  // namespace
+
+Result<void> SymmetricCompletion::check() const {
+  if (longest_edge_mm < 2 * cell_mm)
+    return Error{Errc::InvalidInput, "longest_edge_mm must be at least two cells"}.at("symmetric");
+  return {};
+}
+
+Result<FaceMesh> SymmetricCompletion::complete(FaceMesh mesh, const Vec3d& across,
+                                               StageContext& context) const {
+  const Error stopped{Errc::Cancelled, "completion was stopped"};
+  RELIEVO_TRY_ASSIGN(const auto frame, frame_of(mesh, across, context));
+  if (!frame) return mesh;
+  const Arena::Mark mark(context.scratch);
+  UnrolledHead head(mesh, frame->head_from_camera, cell_mm, context.scratch);
+  if (context.stop()) return stopped;
+  head.add_other_side(cell_mm, context.scratch);
+  if (context.stop()) return stopped;
+  const auto added = additions(head, inverse(frame->head_from_camera), *this, context.scratch);
+  if (added.empty()) return mesh;
+  return sew(mesh, head.flat.vertices_mm, added, {longest_edge_mm}, context);
+}
+
+Globe::Globe(int times, std::pmr::memory_resource* memory) : direction(memory), triangles(memory) {
+  const double height = 1 / std::sqrt(5.0), across = 2 / std::sqrt(5.0);
+  direction.push_back({0, 0, -1});
+  for (int k = 0; k < 10; ++k) {  // two rings of five, turned against each other
+    const double angle = std::numbers::pi * (k % 5 * 2 + k / 5) / 5;
+    direction.push_back({across * std::cos(angle), across * std::sin(angle), k < 5 ? -height : height});
+  }
+  direction.push_back({0, 0, 1});
+  for (std::uint32_t k = 0; k < 5; ++k) {
+    const std::uint32_t next = (k + 1) % 5;
+    triangles.push_back({0, 1 + next, 1 + k});
+    triangles.push_back({1 + k, 1 + next, 6 + k});
+    triangles.push_back({1 + next, 6 + next, 6 + k});
+    triangles.push_back({11, 6 + k, 6 + next});
+  }
+  for (int k = 0; k < times; ++k) quarter({});
+}
+
+void Globe::quarter(std::span<std::pmr::vector<double>> fields) {
+  std::pmr::memory_resource* const memory = direction.get_allocator().resource();
+  const std::size_t before = direction.size();
+  std::pmr::vector<Edge> edges(memory);
+  edges.reserve(3 * triangles.size());
+  for (const auto& t : triangles)
+    for (std::size_t k = 0; k < 3; ++k) edges.push_back(edge_of(t[k], t[(k + 1) % 3]));
+  std::ranges::sort(edges);
+  edges.erase(std::unique(edges.begin(), edges.end()), edges.end());
+  const auto middle = [&](std::uint32_t a, std::uint32_t b) {
+    const auto at = std::lower_bound(edges.begin(), edges.end(), edge_of(a, b));
+    return std::uint32_t(before) + std::uint32_t(at - edges.begin());
+  };
+  std::pmr::vector<int> neighbours(before, 0, memory);
+  for (const Edge& e : edges) ++neighbours[e[0]], ++neighbours[e[1]];
+  const auto smoothed = [&](const auto& field, auto fine) {
+    fine.resize(before + edges.size());
+    const auto add = [&fine](std::uint32_t to, double share, const auto& value) {
+      fine[to] = along(fine[to], share, value);
+    };
+    for (std::uint32_t v = 0; v < before; ++v)
+      add(v, 1 - neighbours[v] * neighbour_share(neighbours[v]), field[v]);
+    for (const Edge& e : edges) {
+      add(e[0], neighbour_share(neighbours[e[0]]), field[e[1]]);
+      add(e[1], neighbour_share(neighbours[e[1]]), field[e[0]]);
+    }
+    for (const auto& t : triangles)  // an edge has two of them
+      for (std::size_t k = 0; k < 3; ++k) {
+        const std::uint32_t a = t[k], b = t[(k + 1) % 3], at = middle(a, b);
+        add(at, 3.0 / 16, field[a]), add(at, 3.0 / 16, field[b]), add(at, 2.0 / 16, field[t[(k + 2) % 3]]);
+      }
+    return fine;
+  };
+  for (auto& field : fields) field = smoothed(field, std::pmr::vector<double>(memory));
+  if (fields.empty()) {
+    direction.resize(before + edges.size());
+    for (std::size_t k = 0; k < edges.size(); ++k)
+      direction[before + k] = plus(direction[edges[k][0]], direction[edges[k][1]]);
+  } else {
+    direction = smoothed(direction, std::pmr::vector<Vec3d>(memory));
+  }
+  for (Vec3d& d : direction) d = along(Vec3d{}, 1 / std::hypot(d.x, d.y, d.z), d);
+  std::pmr::vector<std::array<std::uint32_t, 3>> fine(memory);
+  fine.reserve(4 * triangles.size());
+  for (const auto& [a, b, c] : triangles) {
+    const std::uint32_t ab = middle(a, b), bc = middle(b, c), ca = middle(c, a);
+    fine.insert(fine.end(), {{a, ab, ca}, {b, bc, ab}, {c, ca, bc}, {ab, bc, ca}});
+  }
+  triangles = std::move(fine);
+}
 
 Result<FaceMesh> GenericHeadCompletion::complete(FaceMesh mesh, const Vec3d& across,
                                                  StageContext& context) const {

@@ -14,7 +14,7 @@
 #include <vector>
 
 #include "pipeline/base/options.h"
-#include "pipeline/mesh/completion/completion.h"
+#include "pipeline/mesh/mesher.h"
 #include "pipeline/model/geometry.h"
 
 namespace relievo::pipeline {

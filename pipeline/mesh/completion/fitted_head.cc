@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: 2026 The Relievo authors
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include "pipeline/mesh/completion/fitted_head.h"
+#include "pipeline/mesh/completion/generic_head.h"
 
 #include <Eigen/Cholesky>
 #include <Eigen/Core>
@@ -8,8 +8,6 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
-
-#include "pipeline/mesh/completion/generic_head.h"
 
 namespace relievo::pipeline {
 namespace {

@@ -7,7 +7,6 @@
 #include <utility>
 
 #include "hal/base/assert.h"
-#include "pipeline/mesh/completion/unrolled_head.h"
 
 // The file becomes part of the library: nothing is looked for when it runs.
 asm(R"(.pushsection .rodata

@@ -15,9 +15,12 @@
 #include <bit>
 #include <cstddef>
 #include <cstdint>
+#include <memory_resource>
 #include <span>
+#include <vector>
 
 #include "hal/base/result.h"
+#include "pipeline/mesh/completion/unrolled_head.h"
 #include "pipeline/model/geometry.h"
 
 namespace relievo::pipeline {
@@ -70,5 +73,19 @@ struct HeadPlace {
 };
 HeadPlace head_place(double arc_mm, double y_mm);  // of the face
 HeadPlace globe_place(std::size_t node);
+
+// The head of the family that fits best what was measured of one: ridge regression of the modes' weights on
+// radii, rounds of Huber's weights against hair, a tongue, a hand. `misfit_mm`: what a person differs by from
+// all that the family can be, one standard deviation. Throws std::bad_alloc.
+
+// Radii over the unrolled head's cells; NaN below the jaw.
+FaceRelief fit_generic_face(const UnrolledHead& head, double cell_mm, double misfit_mm);
+
+// At the nodes of the generic head's globe; the sigma is the posterior's, with what the family cannot show.
+struct FittedGlobe {
+  std::pmr::vector<double> radius_mm, sigma_mm;
+};
+FittedGlobe fit_generic_globe(const UnrolledHead& head, double cell_mm, double misfit_mm,
+                              std::pmr::memory_resource* memory);
 
 }  // namespace relievo::pipeline

@@ -7,7 +7,6 @@
 #include <utility>
 #include <vector>
 
-#include "pipeline/mesh/completion/gap_triangulation.h"
 #include "pipeline/mesh/completion/mesh_laplacian.h"
 #include "pipeline/mesh/surface_cleaner.h"
 #include "pipeline/model/vector3.h"
@@ -87,10 +86,7 @@ void fan_holes(FaceMesh& mesh, Arena& scratch) {
       middle = plus(middle, times(mesh.vertices_mm[v], 1 / float(loop.size())));
       sigma = std::max(sigma, mesh.sigma_mm[v]);
     }
-    const auto centre = std::uint32_t(mesh.vertices_mm.size());
-    mesh.vertices_mm.push_back(middle);
-    mesh.sigma_mm.push_back(sigma);
-    mesh.measured.push_back(0);
+    const std::uint32_t centre = add_vertex(mesh, {middle, sigma, 0});
     for (std::size_t k = 0; k < loop.size(); ++k)
       mesh.triangles.push_back({loop[k], loop[(k + 1) % loop.size()], centre});
   }
@@ -100,12 +96,7 @@ FaceMesh sew(const FaceMesh& mesh, std::span<const Vec3f> flat, std::span<const 
              const SewingRules& rules, StageContext& context) {
   FaceMesh whole(&context.scratch);
   whole = mesh;  // keeps its own memory
-  const auto add = [&whole](const Addition& a) {
-    whole.vertices_mm.push_back(a.at_mm);
-    whole.sigma_mm.push_back(a.sigma_mm);
-    whole.measured.push_back(0);
-    return std::uint32_t(whole.vertices_mm.size() - 1);
-  };
+  const auto add = [&whole](const Addition& a) { return add_vertex(whole, {a.at_mm, a.sigma_mm, 0}); };
   std::pmr::vector<Vec2f> places(&context.scratch);
   places.reserve(mesh.vertices_mm.size() + added.size());
   for (const Vec3f& v : flat) places.push_back({v.x, v.y});

@@ -28,12 +28,8 @@ FaceMesh above(const FaceMesh& mesh, std::span<const double> height, double cut,
   part.measured.reserve(mesh.vertices_mm.size()), part.triangles.reserve(mesh.triangles.size());
   std::vector<std::uint32_t> place(mesh.vertices_mm.size(), ~std::uint32_t{0});
   const auto kept = [&](std::uint32_t v) {
-    if (place[v] == ~std::uint32_t{0}) {
-      place[v] = std::uint32_t(part.vertices_mm.size());
-      part.vertices_mm.push_back(mesh.vertices_mm[v]);
-      part.sigma_mm.push_back(mesh.sigma_mm[v]);
-      part.measured.push_back(mesh.measured[v]);
-    }
+    if (place[v] == ~std::uint32_t{0})
+      place[v] = add_vertex(part, {mesh.vertices_mm[v], mesh.sigma_mm[v], mesh.measured[v]});
     return place[v];
   };
   std::map<std::array<std::uint32_t, 2>, std::uint32_t> on_edge;
@@ -43,9 +39,8 @@ FaceMesh above(const FaceMesh& mesh, std::span<const double> height, double cut,
     if (fresh) {
       const float share = float((cut - height[a]) / (height[b] - height[a]));
       const Vec3f& p = mesh.vertices_mm[a];
-      part.vertices_mm.push_back(plus(p, times(minus(mesh.vertices_mm[b], p), share)));
-      part.sigma_mm.push_back(std::max(mesh.sigma_mm[a], mesh.sigma_mm[b]));
-      part.measured.push_back(0);
+      add_vertex(part, {plus(p, times(minus(mesh.vertices_mm[b], p), share)),
+                        std::max(mesh.sigma_mm[a], mesh.sigma_mm[b]), 0});
     }
     return at->second;
   };
@@ -72,12 +67,8 @@ void part_touching(FaceMesh& mesh) {
   for (std::uint32_t v = 0; v < before; ++v) {
     std::vector<std::uint32_t>& left = around[v];
     for (bool first = true; !left.empty(); first = false) {
-      const std::uint32_t name = first ? v : std::uint32_t(mesh.vertices_mm.size());
-      if (!first) {
-        mesh.vertices_mm.push_back(Vec3f(mesh.vertices_mm[v]));
-        mesh.sigma_mm.push_back(float(mesh.sigma_mm[v]));
-        mesh.measured.push_back(std::uint8_t(mesh.measured[v]));
-      }
+      const std::uint32_t name =
+          first ? v : add_vertex(mesh, {mesh.vertices_mm[v], mesh.sigma_mm[v], mesh.measured[v]});
       // From triangle to triangle once around.
       auto next = left.begin();
       while (next != left.end()) {

@@ -10,7 +10,7 @@
 #pragma once
 
 #include "pipeline/base/stage.h"
-#include "pipeline/mesh/completion/completion.h"
+#include "pipeline/mesh/mesher.h"
 #include "pipeline/model/face_model.h"
 
 namespace relievo::pipeline {

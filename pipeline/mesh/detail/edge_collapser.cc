@@ -1,12 +1,11 @@
 // SPDX-FileCopyrightText: 2026 The Relievo authors
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include "pipeline/mesh/detail/edge_collapser.h"
+#include "pipeline/mesh/detail/sliver_mender.h"
 
 #include <algorithm>
 #include <array>
 #include <cmath>
 
-#include "pipeline/mesh/detail/sliver_mender.h"
 #include "pipeline/model/vector3.h"
 
 namespace relievo::pipeline {

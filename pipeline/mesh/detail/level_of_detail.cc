@@ -9,7 +9,7 @@
 #include <vector>
 
 #include "pipeline/base/cells.h"
-#include "pipeline/mesh/detail/edge_collapser.h"
+#include "pipeline/mesh/detail/sliver_mender.h"
 #include "pipeline/model/seam_split.h"
 #include "pipeline/model/vector3.h"
 

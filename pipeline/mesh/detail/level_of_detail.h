@@ -2,7 +2,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 //
 // A lighter level of detail of a finished, textured model, for a screen and for export: edges are collapsed
-// in the order of what they cost in quadric error (edge_collapser.h). Vertices are a subset of the model's,
+// in the order of what they cost in quadric error (collapse_edges). Vertices are a subset of the model's,
 // with their normals, sigmas and colours; the border keeps its line, and vertices at seams of the texture
 // stay, so that the same atlas fits. What it costs is measured afterwards, vertex by vertex, and kept below
 // `max_error_mm` by simplifying less where need be; a model that cannot be kept below it comes back whole.

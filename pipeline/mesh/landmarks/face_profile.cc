@@ -17,7 +17,6 @@ namespace {
 
 using Eigen::Vector3d;
 
-// The core of a face: what cameras see of it however it turns. Beside the nose and below the eyes; the tip.
 constexpr double kCoreHalf = 50, kCoreFrom = -30, kCoreTo = 78;
 constexpr double kCoreCell = 1.25;
 constexpr double kTipReach = 11;     // mm around the tip: both wings' flanks belong to it
@@ -95,21 +94,6 @@ Vector3d tip_of(const FaceRelief& core) {
   }
   return top;
 }
-
-}  // namespace
-
-FaceCore face_core(const FaceMesh& mesh, const RigidTransform& head_from_camera, StageContext& context) {
-  const Arena::Mark mark(context.scratch);
-  const ReliefBox box{-kCoreHalf, kCoreHalf, kCoreFrom - 5, kCoreTo + 5, kCoreCell};
-  FaceRelief core(box, &context.scratch),
-      nose(box, &context.scratch);  // below the tip nothing may be certain
-  FaceRelief::add_both(mesh, head_from_camera, core, nose, context);
-  const Vector3d tip = tip_of(nose);
-  core.symmetrise();
-  return {nod_of(core), tip};
-}
-
-namespace {
 
 constexpr double kCellMm = 0.75;
 constexpr double kSmoothMm = 1.0;
@@ -233,6 +217,17 @@ std::optional<ProfilePoint> find_chin(Profile profile, const ProfilePoint& tip) 
 }
 
 }  // namespace
+
+FaceCore face_core(const FaceMesh& mesh, const RigidTransform& head_from_camera, StageContext& context) {
+  const Arena::Mark mark(context.scratch);
+  const ReliefBox box{-kCoreHalf, kCoreHalf, kCoreFrom - 5, kCoreTo + 5, kCoreCell};
+  FaceRelief core(box, &context.scratch),
+      nose(box, &context.scratch);  // below the tip nothing may be certain
+  FaceRelief::add_both(mesh, head_from_camera, core, nose, context);
+  const Vector3d tip = tip_of(nose);
+  core.symmetrise();
+  return {nod_of(core), tip};
+}
 
 std::pmr::vector<ProfilePoint> profile_of(const FaceMesh& mesh, const RigidTransform& frame_from_mesh,
                                           std::pmr::memory_resource* memory, bool completed_too) {

@@ -26,8 +26,8 @@ constexpr double kScale = 1.5;  // mm: asymmetry of a usual face; the robust wei
 // Means of a surface over square cells of its own x-y plane, seen along z.
 class HeightMap {
  public:
-  HeightMap(std::span<const SurfacePoint> points, double cell_mm, std::pmr::memory_resource* memory)
-      : cell_mm_(cell_mm), cells_(memory), count_(memory) {
+  HeightMap(std::span<const SurfacePoint> points, std::pmr::memory_resource* memory)
+      : cells_(memory), count_(memory) {
     double right = -1e9;
     double top = -1e9;
     left_mm_ = bottom_mm_ = 1e9;
@@ -38,14 +38,14 @@ class HeightMap {
       top = std::max(top, p.at_mm.y());
     }
     if (points.empty() || right - left_mm_ > 5000 || top - bottom_mm_ > 5000) return;
-    columns_ = int((right - left_mm_) / cell_mm) + 1;
-    rows_ = int((top - bottom_mm_) / cell_mm) + 1;
+    columns_ = int((right - left_mm_) / kCellMm) + 1;
+    rows_ = int((top - bottom_mm_) / kCellMm) + 1;
     const std::size_t n = std::size_t(columns_) * std::size_t(rows_);
     cells_.assign(n, SurfacePoint{});
     count_.assign(n, 0U);
     for (const SurfacePoint& p : points) {
-      const auto c = std::size_t((p.at_mm.x() - left_mm_) / cell_mm);
-      const auto r = std::size_t((p.at_mm.y() - bottom_mm_) / cell_mm);
+      const auto c = std::size_t((p.at_mm.x() - left_mm_) / kCellMm);
+      const auto r = std::size_t((p.at_mm.y() - bottom_mm_) / kCellMm);
       const std::size_t k = r * std::size_t(columns_) + c;
       cells_[k].at_mm += p.at_mm;
       cells_[k].normal += p.normal;
@@ -60,15 +60,14 @@ class HeightMap {
 
   // The cell's mean point below or above (x, y); null where the surface has none.
   const SurfacePoint* at(double x_mm, double y_mm) const {
-    const double c = std::floor((x_mm - left_mm_) / cell_mm_);
-    const double r = std::floor((y_mm - bottom_mm_) / cell_mm_);
+    const double c = std::floor((x_mm - left_mm_) / kCellMm);
+    const double r = std::floor((y_mm - bottom_mm_) / kCellMm);
     if (!(c >= 0 && r >= 0 && c < columns_ && r < rows_)) return nullptr;
     const std::size_t k = std::size_t(r) * std::size_t(columns_) + std::size_t(c);
     return count_[k] == 0 ? nullptr : &cells_[k];
   }
 
  private:
-  double cell_mm_;
   double left_mm_ = 0, bottom_mm_ = 0;
   int columns_ = 0, rows_ = 0;
   std::pmr::vector<SurfacePoint> cells_;
@@ -171,7 +170,7 @@ std::array<Start, 3> raster(const HeightMap& map, std::span<const SurfacePoint> 
 }  // namespace
 
 Result<SymmetryPlane> find_symmetry_plane(std::span<const SurfacePoint> points, StageContext& context) {
-  const HeightMap map(points, kCellMm, &context.scratch);
+  const HeightMap map(points, &context.scratch);
   std::array<Start, 3> ends = raster(map, points, context.pool);
   if (context.stop()) return Error{Errc::Cancelled, "the search for the head's frame was stopped"};
   context.pool.for_each_band(int(ends.size()), int(ends.size()), [&](int, int, int k) {
@@ -202,7 +201,7 @@ Result<SymmetryPlane> find_symmetry_plane(std::span<const SurfacePoint> points, 
 
 SymmetryPlane settle_symmetry_plane(std::span<const SurfacePoint> points, Arena& scratch) {
   const Arena::Mark mark(scratch);
-  const Pose pose = descend(HeightMap(points, kCellMm, &scratch), points, Pose::Zero());
+  const Pose pose = descend(HeightMap(points, &scratch), points, Pose::Zero());
   SymmetryPlane plane;
   plane.normal = normal_of(pose);
   plane.offset_mm = pose[2];

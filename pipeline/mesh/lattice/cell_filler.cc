@@ -334,17 +334,15 @@ void place(PointLattice& l, std::span<const std::uint32_t> free, const CellMask&
 
 }  // namespace
 
-void fill_cells(PointLattice& lattice, LatticeSurface& surface, const CellMask& cells, float max_slope,
-                std::span<const double> like, std::pmr::memory_resource* memory,
-                const std::atomic<bool>* cancelled) {
+void fill_cells(PointLattice& lattice, const CellMask& wanted, float max_slope, std::span<const double> like,
+                std::pmr::memory_resource* memory, const std::atomic<bool>* cancelled) {
   CellMask carrying(lattice.size(), 0, memory);
   CellMask listed(lattice.size(), 0, memory);
   for (int r = 0; r < lattice.rows; ++r)
-    for (int c = 0; c < lattice.columns; ++c)
-      carrying[lattice.index(c, r)] = carries_surface(lattice, surface, c, r);
+    for (int c = 0; c < lattice.columns; ++c) carrying[lattice.index(c, r)] = carries_surface(lattice, c, r);
   const std::size_t w = std::size_t(lattice.columns);
-  for (std::size_t k = 0; k < cells.size(); ++k)
-    if (cells[k])
+  for (std::size_t k = 0; k < wanted.size(); ++k)
+    if (wanted[k])
       for (const std::size_t corner : {k, k + 1, k + w, k + w + 1}) listed[corner] = !carrying[corner];
   std::pmr::vector<std::uint32_t> free(memory);
   free.reserve(std::size_t(std::ranges::count(listed, 1)));
@@ -353,9 +351,9 @@ void fill_cells(PointLattice& lattice, LatticeSurface& surface, const CellMask& 
   for (const std::uint32_t k : free) lattice.node[k] = Node::Filled;
   spread_sigma(lattice, carrying, free, memory);
   place(lattice, free, carrying, like, cancelled, memory);
-  for (std::size_t k = 0; k < cells.size(); ++k)
-    if (cells[k])
-      if (const std::uint8_t cut = best_cut(lattice, k, max_slope)) surface.cells[k] = cut;
+  for (std::size_t k = 0; k < wanted.size(); ++k)
+    if (wanted[k])
+      if (const std::uint8_t cut = best_cut(lattice, k, max_slope)) lattice.cells[k] = cut;
 }
 
 }  // namespace relievo::pipeline

@@ -16,11 +16,10 @@
 
 namespace relievo::pipeline {
 
-// `cells` must not touch the last column and row. `like`: empty, or on a head's chart the radii of another
-// surface, mm, 0 where nothing is known of it: the plate bends as that does. Once `cancelled` is set, what is
-// filled is not finished: the caller throws it away.
-void fill_cells(PointLattice& lattice, LatticeSurface& surface, const CellMask& cells, float max_slope,
-                std::span<const double> like, std::pmr::memory_resource* memory,
-                const std::atomic<bool>* cancelled = nullptr);
+// `wanted`: which; they must not touch the last column and row. `like`: empty, or on a head's chart the radii
+// of another surface, mm, 0 where nothing is known of it: the plate bends as that does. Once `cancelled` is
+// set, what is filled is not finished: the caller throws it away.
+void fill_cells(PointLattice& lattice, const CellMask& wanted, float max_slope, std::span<const double> like,
+                std::pmr::memory_resource* memory, const std::atomic<bool>* cancelled = nullptr);
 
 }  // namespace relievo::pipeline

@@ -44,10 +44,10 @@ MaskShaper::MaskShaper(int columns, int rows, float cell_width_mm, float cell_he
   piece_.reserve(along_row_.size());
 }
 
-void MaskShaper::dilate(CellMask& mask, float radius_mm) { mark_within(mask, 1, false, radius_mm, mask); }
+void MaskShaper::dilate(CellMask& mask, float radius_mm) { mark_within(mask, 1, radius_mm); }
 
 void MaskShaper::erode(CellMask& mask, float radius_mm) {
-  mark_within(mask, 0, true, radius_mm, mask);
+  mark_within(mask, 0, radius_mm);
   for (std::uint8_t& cell : mask) cell ^= 1;
 }
 
@@ -79,15 +79,16 @@ void MaskShaper::straighten(CellMask& mask, float sigma_mm, float least) {
   for (std::size_t k = 0; k < mask.size(); ++k) mask[k] = share[k] >= level;
 }
 
-void MaskShaper::measure_rows(const CellMask& mask, std::uint8_t wanted, bool beyond_border) {
+void MaskShaper::measure_rows(const CellMask& mask, std::uint8_t wanted) {
+  const float before_first = wanted == 0 ? 0 : kFar;  // beyond the border nothing is in
   for (int r = 0; r < rows_; ++r) {
     const std::size_t row = std::size_t(r) * std::size_t(columns_);
-    float steps = beyond_border ? 0 : kFar;
+    float steps = before_first;
     for (std::size_t c = 0; c < std::size_t(columns_); ++c) {
       steps = mask[row + c] == wanted ? 0 : steps + 1;
       along_row_[row + c] = steps;
     }
-    steps = beyond_border ? 0 : kFar;
+    steps = before_first;
     for (std::size_t c = std::size_t(columns_); c-- > 0;) {
       steps = mask[row + c] == wanted ? 0 : steps + 1;
       const float mm = std::min(along_row_[row + c], steps) * cell_width_mm_;
@@ -98,9 +99,8 @@ void MaskShaper::measure_rows(const CellMask& mask, std::uint8_t wanted, bool be
 
 // The squared distance separates into a row's and a column's part; within a bounded radius the column's
 // minimum is quickest found by looking (whole rows at a time, so that it vectorises).
-void MaskShaper::mark_within(const CellMask& mask, std::uint8_t wanted, bool beyond_border, float radius_mm,
-                             CellMask& out) {
-  measure_rows(mask, wanted, beyond_border);
+void MaskShaper::mark_within(CellMask& mask, std::uint8_t wanted, float radius_mm) {
+  measure_rows(mask, wanted);
   const int reach = std::min(int(radius_mm / cell_height_mm_), rows_);
   const float limit = radius_mm * radius_mm;
   const std::size_t w = std::size_t(columns_);
@@ -109,14 +109,14 @@ void MaskShaper::mark_within(const CellMask& mask, std::uint8_t wanted, bool bey
     for (int dr = -reach; dr <= reach; ++dr) {
       const float mm = float(dr) * cell_height_mm_;
       if (r + dr < 0 || r + dr >= rows_) {
-        if (beyond_border) std::ranges::fill(nearest_, 0.0F);  // within reach by the loop's bounds
+        if (wanted == 0) std::ranges::fill(nearest_, 0.0F);  // within reach by the loop's bounds
         continue;
       }
       const float* other = &along_row_[std::size_t(r + dr) * w];
       float* nearest = nearest_.data();
       for (std::size_t c = 0; c < w; ++c) nearest[c] = std::min(nearest[c], other[c] + mm * mm);
     }
-    std::uint8_t* mark = &out[std::size_t(r) * w];
+    std::uint8_t* mark = &mask[std::size_t(r) * w];
     for (std::size_t c = 0; c < w; ++c) mark[c] = nearest_[c] <= limit;
   }
 }

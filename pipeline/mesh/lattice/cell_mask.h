@@ -74,9 +74,9 @@ class MaskShaper {
   void keep_largest_piece(CellMask& mask);
 
  private:
-  void mark_within(const CellMask& mask, std::uint8_t wanted, bool beyond_border, float radius_mm,
-                   CellMask& out);
-  void measure_rows(const CellMask& mask, std::uint8_t wanted, bool beyond_border);
+  // Cells that are `wanted`, in or out, and those near them become 1, all others 0.
+  void mark_within(CellMask& mask, std::uint8_t wanted, float radius_mm);
+  void measure_rows(const CellMask& mask, std::uint8_t wanted);
   template <bool Corners>
   void flood(CellMask& mask, std::uint32_t seed, std::uint8_t from, std::uint8_t to);
 

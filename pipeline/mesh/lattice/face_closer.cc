@@ -6,7 +6,7 @@
 #include <cmath>
 
 #include "hal/base/statistics.h"
-#include "pipeline/mesh/completion/fitted_head.h"
+#include "pipeline/mesh/completion/generic_head.h"
 #include "pipeline/mesh/landmarks/face_profile.h"
 #include "pipeline/mesh/landmarks/head_frame.h"
 #include "pipeline/mesh/lattice/cell_filler.h"
@@ -28,11 +28,10 @@ constexpr float kUnsureMm = 8;       // of the outline, where that is only known
 constexpr float kRimMm = 2;          // so near to a hole ...
 constexpr float kCrumbMm = 1;        // half the width of the narrowest strip that stays
 constexpr double kLeastPart = 0.05;  // of the surface: what is smaller and by itself is a crumb
-constexpr float kSteepRim =
-    1.5F;                      // ... surface steeper than this tangent was measured worst and is laid anew
-constexpr double kUnsure = 6;  // times the usual sigma: in the lower face that is no skin
-constexpr double kBelowTipMm = 2;  // of a nose begins the lower face
-constexpr double kStepCells = 8;   // of radius between neighbours, in widths of a cell: more is no slope
+constexpr float kSteepRim = 1.5F;    // ... surface steeper than this tangent was measured worst
+constexpr double kUnsure = 6;        // times the usual sigma: in the lower face that is no skin
+constexpr double kBelowTipMm = 2;    // of a nose begins the lower face
+constexpr double kStepCells = 8;     // of radius between neighbours, in widths of a cell: more is no slope
 constexpr double kChinBelowPogonion = 22;
 constexpr double kShortest = 70, kLongest = 110;  // of what lies below the tip of a nose
 
@@ -43,22 +42,19 @@ bool below_nose(const PointLattice& l, const Vec3f& p) {
 }
 
 // The measured surface, thinned out.
-FaceMesh rough_surface(const PointLattice& l, const LatticeSurface& surface, Arena& scratch) {
+FaceMesh rough_surface(const PointLattice& l, Arena& scratch) {
   FaceMesh mesh(&scratch);
   std::pmr::vector<std::uint32_t> number(l.size(), 0, &scratch);
   for (int r = 0; r < l.rows; r += kEvery)
     for (int c = 0; c < l.columns; c += kEvery) {
       const std::size_t k = l.index(c, r);
       if (l.node[k] != Node::Measured) continue;
-      mesh.vertices_mm.push_back(l.at_mm[k]);
-      mesh.sigma_mm.push_back(l.sigma_mm[k]);
-      mesh.measured.push_back(1);
-      number[k] = std::uint32_t(mesh.vertices_mm.size());
+      number[k] = add_vertex(mesh, {l.at_mm[k], l.sigma_mm[k], 1}) + 1;
     }
   const auto whole = [&](int c, int r) {
     for (int y = r; y < r + kEvery; ++y)
       for (int x = c; x < c + kEvery; ++x)
-        if (triangle_count(surface.cells[l.index(x, y)]) != 2) return false;
+        if (triangle_count(l.cells[l.index(x, y)]) != 2) return false;
     return true;
   };
   for (int r = 0; r + kEvery < l.rows; r += kEvery)
@@ -83,11 +79,11 @@ FaceOutline outline_of(const FaceMesh& rough, const RigidTransform& head_from_ca
 
 // The other side of the face: radii at every node, 0 where it shows nothing. Where surface stands before
 // surface the step between them is nobody's curvature.
-std::pmr::vector<double> mirrored(const PointLattice& l, const LatticeSurface& surface, Arena& scratch) {
+std::pmr::vector<double> mirrored(const PointLattice& l, Arena& scratch) {
   std::pmr::vector<double> radius(l.size(), 0.0, &scratch);
   for (int r = 0; r < l.rows; ++r)
     for (int c = 0; c < l.columns; ++c)
-      if (l.node[l.index(c, r)] == Node::Measured && carries_surface(l, surface, c, r))
+      if (l.node[l.index(c, r)] == Node::Measured && carries_surface(l, c, r))
         radius[l.index(l.columns - 1 - c, r)] = l.radius_mm(l.index(c, r));
   const std::pmr::vector<double> before(radius, &scratch);
   const double most = kStepCells * double(l.cell_width_mm);
@@ -151,15 +147,14 @@ void add_generic_head(const FaceMesh& rough, const RigidTransform& head_from_cam
 // Before a gap the last rows of a nose's back, or of a cheek, are what the matcher's window mixed with what
 // lies behind: they would bend what is laid over the gap. So would crumbs in it, the flaps that a matcher
 // leads into nostrils, and pins of a jaw whose other side was measured well.
-void drop_poor_rims(const PointLattice& l, LatticeSurface& surface, const Vec3f& from_mm, MaskShaper& shaper,
-                    Arena& scratch) {
+void drop_poor_rims(PointLattice& l, const Vec3f& from_mm, MaskShaper& shaper, Arena& scratch) {
   CellMask kept(l.size(), 0, &scratch), near(l.size(), 0, &scratch);
   for (std::size_t k = 0; k < l.size(); ++k) {
-    kept[k] = triangle_count(surface.cells[k]) == 2;
+    kept[k] = triangle_count(l.cells[k]) == 2;
     near[k] = !kept[k];
   }
   shaper.dilate(near, kRimMm);
-  const CellMask steep = steep_cells(l, surface, kSteepRim, from_mm, &scratch);
+  const CellMask steep = steep_cells(l, kSteepRim, from_mm, &scratch);
   std::pmr::vector<float> sigma(&scratch);
   sigma.reserve(l.size());
   for (std::size_t k = 0; k < l.size(); ++k)
@@ -172,36 +167,35 @@ void drop_poor_rims(const PointLattice& l, LatticeSurface& surface, const Vec3f&
   const auto unsure = [&](std::size_t k) {
     if (sigma_at(k) <= most) return false;
     const std::size_t across = k - k % w + (w - 2 - k % w);  // the other side's cell
-    return below_nose(l, l.at_mm[k]) ||
-           (triangle_count(surface.cells[across]) == 2 && sigma_at(across) <= most &&
-            l.chart->in_head(l.at_mm[k]).y < kBelowTipMm);
+    return below_nose(l, l.at_mm[k]) || (triangle_count(l.cells[across]) == 2 && sigma_at(across) <= most &&
+                                         l.chart->in_head(l.at_mm[k]).y < kBelowTipMm);
   };
   for (std::size_t k = 0; k < l.size(); ++k) kept[k] = kept[k] && !(near[k] && steep[k]) && !unsure(k);
   shaper.open(kept, kCrumbMm);
   // A noisy matcher's surface may fall into parts here: what lies between them is laid anew.
   shaper.drop_pieces_below(kept, std::size_t(kLeastPart * double(std::ranges::count(kept, 1))));
   for (std::size_t k = 0; k < l.size(); ++k)
-    if (!kept[k]) surface.cells[k] = 0;
+    if (!kept[k]) l.cells[k] = 0;
 }
 
 // Surface that the outline's cut will not come near.
-void drop_beyond(const PointLattice& l, LatticeSurface& surface, const FaceOutline& outline) {
+void drop_beyond(PointLattice& l, const FaceOutline& outline) {
   for (std::size_t k = 0; k < l.size(); ++k)
-    if (surface.cells[k] != 0 && outline.depth_mm(l.at_mm[l.node[k] != Node::Empty ? k : k + 1]) < -kRimMm)
-      surface.cells[k] = 0;
+    if (l.cells[k] != 0 && outline.depth_mm(l.at_mm[l.node[k] != Node::Empty ? k : k + 1]) < -kRimMm)
+      l.cells[k] = 0;
 }
 
 // The cells that shall carry surface and do not: what lies within the outline, as far as either side or what
 // lies near it tells.
-CellMask open_cells(const PointLattice& l, const LatticeSurface& surface, const FaceOutline& outline,
-                    std::span<const double> mirror, MaskShaper& shaper, Arena& scratch) {
+CellMask open_cells(const PointLattice& l, const FaceOutline& outline, std::span<const double> mirror,
+                    MaskShaper& shaper, Arena& scratch) {
   std::pmr::vector<double> radius(mirror.begin(), mirror.end(), &scratch);  // about
   std::pmr::vector<std::uint32_t> ring(&scratch), next(&scratch);
   const auto within = [&](std::uint32_t k) { return outline.depth_mm(l.on_ray(k, radius[k])) > -kUnsureMm; };
   for (int r = 1; r + 1 < l.rows; ++r)
     for (int c = 1; c + 1 < l.columns; ++c) {
       const std::uint32_t k = std::uint32_t(l.index(c, r));
-      if (carries_surface(l, surface, c, r)) radius[k] = l.radius_mm(k);
+      if (carries_surface(l, c, r)) radius[k] = l.radius_mm(k);
       if (radius[k] > 0 && within(k)) ring.push_back(k);
     }
   CellMask open(l.size(), 0, &scratch);
@@ -224,46 +218,45 @@ CellMask open_cells(const PointLattice& l, const LatticeSurface& surface, const 
   }
   shaper.fill_holes(open);
   for (std::uint32_t k = 0; k < l.size(); ++k)
-    open[k] = open[k] && !border(k) && triangle_count(surface.cells[k]) != 2;
+    open[k] = open[k] && !border(k) && triangle_count(l.cells[k]) != 2;
   return open;
 }
 
 }  // namespace
 
-Result<std::optional<ClosedFace>> close_face(const PointLattice& seen, const LatticeSurface& seen_surface,
-                                             const Vec3d& right_camera_mm, const LatticeLimits& limits,
-                                             StageContext& context) {
+Result<std::optional<ClosedFace>> close_face(const PointLattice& seen, const Vec3d& right_camera_mm,
+                                             const LatticeLimits& limits, StageContext& context) {
   const Error stopped{Errc::Cancelled, "meshing was stopped"};
   Arena& scratch = context.scratch;
-  const FaceMesh rough = rough_surface(seen, seen_surface, scratch);
+  const FaceMesh rough = rough_surface(seen, scratch);
   const auto head = find_head_frame(rough, context, right_camera_mm);
   if (!head && head.error().code == Errc::Cancelled) return head.error();
   if (!head) return std::optional<ClosedFace>{};
   const FaceOutline outline = outline_of(rough, head->head_from_camera, scratch);
-  PointLattice l = lay_on_head(seen, seen_surface, outline.chart, kRoomMm, context.pool, &scratch);
+  PointLattice l = lay_on_head(seen, outline.chart, kRoomMm, context.pool, &scratch);
   if (!(l.cell_width_mm > 0 && l.cell_height_mm > 0)) return std::optional<ClosedFace>{};
   if (context.stop()) return stopped;
-  LatticeSurface surface = join_neighbours(l, limits, &scratch);
+  join_neighbours(l, limits, &scratch);
   MaskShaper shaper(l.columns, l.rows, l.cell_width_mm, l.cell_height_mm, &scratch);
   const Vec3d between_cameras = minus(times(right_camera_mm, 0.5), outline.chart.centre_mm);
-  drop_poor_rims(l, surface, narrow(between_cameras), shaper, scratch);
-  auto mirror = mirrored(l, surface, scratch);
+  drop_poor_rims(l, narrow(between_cameras), shaper, scratch);
+  auto mirror = mirrored(l, scratch);
   if (context.stop()) return stopped;
   add_generic_head(rough, head->head_from_camera, l, mirror, shaper, scratch);
   if (context.stop()) return stopped;
-  drop_beyond(l, surface, outline);
-  const CellMask open = open_cells(l, surface, outline, mirror, shaper, scratch);
+  drop_beyond(l, outline);
+  const CellMask open = open_cells(l, outline, mirror, shaper, scratch);
   if (context.stop()) return stopped;
   {
     const Arena::Mark filling(scratch);
-    fill_cells(l, surface, open, kSteepest, mirror, &scratch, &context.cancelled);
+    fill_cells(l, open, kSteepest, mirror, &scratch, &context.cancelled);
   }
   if (context.stop()) return stopped;
-  drop_beyond(l, surface, outline);
+  drop_beyond(l, outline);
   CellMask inside(l.size(), 0, &scratch);
-  for (std::size_t k = 0; k < l.size(); ++k) inside[k] = surface.cells[k] != 0;
+  for (std::size_t k = 0; k < l.size(); ++k) inside[k] = l.cells[k] != 0;
   shaper.fill_holes(inside);
-  return std::optional(ClosedFace{{std::move(l), std::move(surface), std::move(inside), true}, outline});
+  return std::optional(ClosedFace{{std::move(l), std::move(inside), true}, outline});
 }
 
 }  // namespace relievo::pipeline

@@ -26,8 +26,7 @@ struct ClosedFace {
 
 // `seen`: the left view's lattice. None where no head is found in it. Errors: Cancelled; throws
 // std::bad_alloc.
-Result<std::optional<ClosedFace>> close_face(const PointLattice& seen, const LatticeSurface& surface,
-                                             const Vec3d& right_camera_mm, const LatticeLimits& limits,
-                                             StageContext& context);
+Result<std::optional<ClosedFace>> close_face(const PointLattice& seen, const Vec3d& right_camera_mm,
+                                             const LatticeLimits& limits, StageContext& context);
 
 }  // namespace relievo::pipeline

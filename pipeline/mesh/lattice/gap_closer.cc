@@ -23,10 +23,9 @@ constexpr std::uint8_t kOpen = 0, kBridged = 1, kUndecided = 2;
 
 class GapCloser {
  public:
-  GapCloser(PointLattice& lattice, LatticeSurface& surface, const GapLimits& limits, MaskShaper& shaper,
+  GapCloser(PointLattice& lattice, const GapLimits& limits, MaskShaper& shaper,
             std::pmr::memory_resource* memory)
       : lattice_(lattice),
-        surface_(surface),
         limits_(limits),
         shaper_(shaper),
         cell_mm_(std::min(lattice.cell_width_mm, lattice.cell_height_mm)),
@@ -44,25 +43,25 @@ class GapCloser {
       for (int c = 0; c + 1 < lattice_.columns; ++c)
         if (std::uint8_t& gap = gap_[lattice_.index(c, r)]) gap = bridge({c, r});
     settle_crossings();
-    fill_cells(lattice_, surface_, gap_, limits_.max_slope, {}, memory_);
+    fill_cells(lattice_, gap_, limits_.max_slope, {}, memory_);
     mend_pinholes();
   }
 
  private:
   // A speck between two cracks bridges nothing and would only hold a lid down where an outlier lies.
   void drop_specks() {
-    for (std::size_t k = 0; k < whole_.size(); ++k) whole_[k] = triangle_count(surface_.cells[k]) == 2;
+    for (std::size_t k = 0; k < whole_.size(); ++k) whole_[k] = triangle_count(lattice_.cells[k]) == 2;
     const float radius = limits_.max_width_mm / 2;
     shaper_.drop_pieces_below(whole_, std::size_t(std::numbers::pi_v<float> * radius * radius / cell_mm2_));
     gap_ = whole_;
     shaper_.dilate(gap_, 1.5F * std::max(lattice_.cell_width_mm, lattice_.cell_height_mm));
     for (std::size_t k = 0; k < gap_.size(); ++k)
-      if (!gap_[k]) surface_.cells[k] = 0;
+      if (!gap_[k]) lattice_.cells[k] = 0;
   }
 
   // What a bridge leaves open where noise makes it too steep: what lies around is laid anew.
   void mend_pinholes() {
-    for (std::size_t k = 0; k < whole_.size(); ++k) whole_[k] = triangle_count(surface_.cells[k]) == 2;
+    for (std::size_t k = 0; k < whole_.size(); ++k) whole_[k] = triangle_count(lattice_.cells[k]) == 2;
     gap_ = whole_;
     shaper_.fill_holes(gap_);
     for (std::size_t k = 0; k < whole_.size(); ++k) gap_[k] = large_[k] = gap_[k] && !whole_[k];
@@ -71,9 +70,9 @@ class GapCloser {
     shaper_.dilate(gap_, kPinholeRimMm);
     for (std::size_t k = 0; k < whole_.size(); ++k) {
       gap_[k] = gap_[k] && !large_[k] && inner(k);
-      if (gap_[k]) surface_.cells[k] = 0;
+      if (gap_[k]) lattice_.cells[k] = 0;
     }
-    fill_cells(lattice_, surface_, gap_, limits_.max_slope, {}, memory_);
+    fill_cells(lattice_, gap_, limits_.max_slope, {}, memory_);
   }
 
   // Where a disc of the widest gap's size does not fit. The way back is a little longer than the way
@@ -191,7 +190,6 @@ class GapCloser {
   }
 
   PointLattice& lattice_;
-  LatticeSurface& surface_;
   const GapLimits& limits_;
   MaskShaper& shaper_;
   float cell_mm_, cell_mm2_;
@@ -201,10 +199,10 @@ class GapCloser {
 
 }  // namespace
 
-void close_gaps(PointLattice& lattice, LatticeSurface& surface, const GapLimits& limits, MaskShaper& shaper,
+void close_gaps(PointLattice& lattice, const GapLimits& limits, MaskShaper& shaper,
                 std::pmr::memory_resource* memory) {
   if (limits.max_width_mm <= 0) return;
-  GapCloser(lattice, surface, limits, shaper, memory).close();
+  GapCloser(lattice, limits, shaper, memory).close();
 }
 
 }  // namespace relievo::pipeline

@@ -26,7 +26,7 @@ struct GapLimits {
 // Closed cells get a thin plate (their new nodes become Node::Filled, with twice the rim's sigma). Specks
 // of surface smaller than the widest gap are taken for part of the gap; pinholes that noise leaves
 // in a bridge are laid anew with what lies around them. Throws std::bad_alloc when `memory` is used up.
-void close_gaps(PointLattice& lattice, LatticeSurface& surface, const GapLimits& limits, MaskShaper& shaper,
+void close_gaps(PointLattice& lattice, const GapLimits& limits, MaskShaper& shaper,
                 std::pmr::memory_resource* memory);
 
 }  // namespace relievo::pipeline

@@ -18,8 +18,7 @@ struct HeadChart {
   // In the head's frame (head_frame.h): above the tip of the nose, so that its underside and the chin's are
   // seen, too.
   static constexpr Vec3d kCentreMm{0, 10, -220};
-  static constexpr double kRadiusMm =
-      210;  // turns angles into the map's millimetres: about the skin's radius
+  static constexpr double kRadiusMm = 210;  // about the skin's: turns angles into the map's millimetres
 
   explicit HeadChart(const RigidTransform& head_from_camera)
       : head_from_axes(head_from_camera.rotation), centre_mm(apply(inverse(head_from_camera), kCentreMm)) {}

@@ -64,8 +64,7 @@ bool whole(std::uint8_t cell) { return cell == kFalling || cell == kRising; }
 
 class Reader {
  public:
-  Reader(const PointLattice& lattice, const LatticeSurface& surface)
-      : from_(lattice), cells_(surface.cells) {}
+  explicit Reader(const PointLattice& lattice) : from_(lattice) {}
 
   Place place(float u, float v) const {
     Place at{};
@@ -75,7 +74,7 @@ class Reader {
   }
   bool carried(float u, float v) const {
     const Place at = place(u, v);
-    const std::array<float, 4> w = corner_weights(cells_[from_.index(at.column, at.row)], at.tx, at.ty);
+    const std::array<float, 4> w = corner_weights(from_.cells[from_.index(at.column, at.row)], at.tx, at.ty);
     return w[0] + w[1] + w[2] + w[3] > 0;
   }
 
@@ -84,14 +83,14 @@ class Reader {
     const Place from = place(left, top), to = place(right, bottom);
     for (int r = from.row; r <= to.row; ++r)
       for (int c = from.column; c <= to.column; ++c)
-        if (!whole(cells_[from_.index(c, r)])) return false;
+        if (!whole(from_.cells[from_.index(c, r)])) return false;
     return true;
   }
 
   Node read(const Place& at, Vec3f& point, float& sigma) const {
     const std::size_t a = from_.index(at.column, at.row);
     const std::size_t below = a + std::size_t(from_.columns);
-    const std::array<float, 4> w = corner_weights(cells_[a], at.tx, at.ty);
+    const std::array<float, 4> w = corner_weights(from_.cells[a], at.tx, at.ty);
     const std::array<std::size_t, 4> corner{a, a + 1, below, below + 1};
     if (w[0] + w[1] + w[2] + w[3] <= 0) return Node::Empty;
     Node node = Node::Measured;
@@ -115,7 +114,7 @@ class Reader {
       return false;
     for (int r = -1; r <= 1; ++r)
       for (int c = -1; c <= 1; ++c)
-        if (!whole(cells_[from_.index(at.column + c, at.row + r)])) return false;
+        if (!whole(from_.cells[from_.index(at.column + c, at.row + r)])) return false;
     return true;
   }
 
@@ -134,7 +133,6 @@ class Reader {
   }
 
   const PointLattice& from_;
-  const std::pmr::vector<std::uint8_t>& cells_;
 };
 
 // How many times longer than in the middle a new cell is at `at` (0 .. 1 along the axis): 1 over kEvenPart,
@@ -241,8 +239,7 @@ double expected_triangles(const ShapedLattice& old, float edge) {
   for (int r = 0; r + 1 < l.rows; ++r) {
     double row = 0;
     for (int c = 0; c + 1 < l.columns; ++c)
-      row += triangle_count(old.surface.cells[l.index(c, r)]) /
-             stretch((c + 0.5) / (l.columns - 1), double(edge));
+      row += triangle_count(l.cells[l.index(c, r)]) / stretch((c + 0.5) / (l.columns - 1), double(edge));
     sum += row / stretch((r + 0.5) / (l.rows - 1), double(edge));
   }
   return sum;
@@ -250,13 +247,13 @@ double expected_triangles(const ShapedLattice& old, float edge) {
 
 ShapedLattice resample_lattice(const ShapedLattice& old, const LatticeSpacing& spacing, float max_slope,
                                ThreadPool& pool, std::pmr::memory_resource* memory) {
-  ShapedLattice made{PointLattice(memory), LatticeSurface(memory), CellMask(memory), old.closed};
+  ShapedLattice made{PointLattice(memory), CellMask(memory), old.closed};
   if (old.lattice.columns < 2 || old.lattice.rows < 2) return made;
-  const Reader reader(old.lattice, old.surface);
+  const Reader reader(old.lattice);
   const Nodes at = lay_nodes(old.lattice, spacing, made.lattice, memory);
   read_nodes(reader, at, made.lattice, pool);
-  const PointLattice& l = made.lattice;
-  made.surface.cells.assign(l.size(), 0);
+  PointLattice& l = made.lattice;
+  l.cells.assign(l.size(), 0);
   made.inside.assign(l.size(), 0);
   const auto cut = [&](int c, int r) {
     const std::size_t k = l.index(c, r);
@@ -265,7 +262,7 @@ ShapedLattice resample_lattice(const ShapedLattice& old, const LatticeSpacing& s
     const Window cell{at.x[x], at.y[y], at.x[x + 1] - at.x[x], at.y[y + 1] - at.y[y]};
     const Place middle = reader.place(cell.x + 0.5F * cell.width, cell.y + 0.5F * cell.height);
     made.inside[k] = old.inside[old.lattice.index(middle.column, middle.row)];
-    made.surface.cells[k] = cut_cell(l, c, r, carried_parts(reader, cell), max_slope, old.closed);
+    l.cells[k] = cut_cell(l, c, r, carried_parts(reader, cell), max_slope, old.closed);
   };
   pool.for_each_band(l.rows - 1, kBands, [&](int from, int to, int) {
     for (int r = from; r < to; ++r)
@@ -274,8 +271,8 @@ ShapedLattice resample_lattice(const ShapedLattice& old, const LatticeSpacing& s
   return made;
 }
 
-PointLattice lay_on_head(const PointLattice& old, const LatticeSurface& surface, const HeadChart& chart,
-                         float margin_mm, ThreadPool& pool, std::pmr::memory_resource* memory) {
+PointLattice lay_on_head(const PointLattice& old, const HeadChart& chart, float margin_mm, ThreadPool& pool,
+                         std::pmr::memory_resource* memory) {
   PointLattice made(memory);
   const Vec3f centre = narrow(chart.centre_mm);
   const double step = std::sqrt(double(old.cell_width_mm) * double(old.cell_height_mm));
@@ -306,9 +303,9 @@ PointLattice lay_on_head(const PointLattice& old, const LatticeSurface& surface,
   made.step_mm = step;
   made.first_mm = {-left * step, -top * step};
   for (Vec2f& p : place) p = {p.x + float(left), p.y + float(top)};
-  const Reader reader(old, surface);
+  const Reader reader(old);
   std::pmr::vector<float> radius(made.size(), 0.0F, memory);
-  for_each_triangle(old, surface, [&](const std::array<std::uint32_t, 3>& t) {
+  for_each_triangle(old, [&](const std::array<std::uint32_t, 3>& t) {
     const Vec2f &a = place[t[0]], &b = place[t[1]], &c = place[t[2]];
     if ((b.x - a.x) * (c.y - a.y) - (b.y - a.y) * (c.x - a.x) <= 0)
       return;  // seen from outside it turns away

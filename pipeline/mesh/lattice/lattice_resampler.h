@@ -20,7 +20,6 @@ namespace relievo::pipeline {
 
 struct ShapedLattice {
   PointLattice lattice;
-  LatticeSurface surface;
   CellMask inside;      // what lies within the outline, holes included
   bool closed = false;  // a closed face: what was completed may lie where the view does not see it
 };
@@ -40,7 +39,7 @@ ShapedLattice resample_lattice(const ShapedLattice& old, const LatticeSpacing& s
 
 // Lays it on a head's chart, about as fine, with room around what there is: nodes alone, join_neighbours()
 // joins them. Throws std::bad_alloc when `memory` is used up.
-PointLattice lay_on_head(const PointLattice& old, const LatticeSurface& surface, const HeadChart& chart,
-                         float margin_mm, ThreadPool& pool, std::pmr::memory_resource* memory);
+PointLattice lay_on_head(const PointLattice& old, const HeadChart& chart, float margin_mm, ThreadPool& pool,
+                         std::pmr::memory_resource* memory);
 
 }  // namespace relievo::pipeline

@@ -137,10 +137,8 @@ PointLattice make_lattice(const PointCloud& cloud, std::pmr::memory_resource* me
   return lattice;
 }
 
-LatticeSurface join_neighbours(const PointLattice& l, const LatticeLimits& limits,
-                               std::pmr::memory_resource* memory) {
-  LatticeSurface surface(memory);
-  surface.cells.assign(l.size(), 0);
+void join_neighbours(PointLattice& l, const LatticeLimits& limits, std::pmr::memory_resource* memory) {
+  l.cells.assign(l.size(), 0);
   std::pmr::vector<std::uint8_t> right(l.size(), 0, memory);  // edge (c, r) to (c + 1, r)
   std::pmr::vector<std::uint8_t> down(l.size(), 0, memory);
   const EdgeTest test(l, limits);
@@ -160,10 +158,9 @@ LatticeSurface join_neighbours(const PointLattice& l, const LatticeLimits& limit
       const bool whole = e.top && e.bottom && e.left && e.right;
       e.falling = whole || test.joined(c, r, 1, 1);
       e.rising = whole || test.joined(c + 1, r, -1, 1);
-      surface.cells[k] = cut_cell(l, c, r, e, min_cosine);
+      l.cells[k] = cut_cell(l, c, r, e, min_cosine);
     }
   }
-  return surface;
 }
 
 bool facing(const Vec3f& a, const Vec3f& b, const Vec3f& c, float min_cosine) {
@@ -184,8 +181,8 @@ std::uint8_t best_cut(const PointLattice& l, std::size_t k, float max_slope) {
   return falling && (shorter || !rising) ? kFalling : kRising;
 }
 
-bool carries_surface(const PointLattice& l, const LatticeSurface& s, int c, int r) {
-  const auto cell = [&](int x, int y) { return l.inside(x, y) ? s.cells[l.index(x, y)] : std::uint8_t{0}; };
+bool carries_surface(const PointLattice& l, int c, int r) {
+  const auto cell = [&](int x, int y) { return l.inside(x, y) ? l.cells[l.index(x, y)] : std::uint8_t{0}; };
   return (cell(c, r) & (kUnder | kOver | kLeft)) || (cell(c - 1, r) & (kOver | kLeft | kRight)) ||
          (cell(c - 1, r - 1) & (kUnder | kOver | kRight)) || (cell(c, r - 1) & (kUnder | kLeft | kRight));
 }

@@ -1,8 +1,8 @@
 // SPDX-FileCopyrightText: 2026 The Relievo authors
 // SPDX-License-Identifier: GPL-3.0-or-later
 //
-// LatticeSurface: which triangles each cell of a lattice carries. Cell (c, r) lies between the nodes
-// (c, r) and (c + 1, r + 1); a bit per triangle, two ways to cut the cell:
+// Which triangles each cell of a lattice carries. Cell (c, r) lies between the nodes (c, r) and (c + 1, r +
+// 1); a bit per triangle, two ways to cut the cell:
 //
 //   falling:  a--b   kUnder = a d c, kOver  = a b d        rising:  a--b   kLeft = a b c, kRight = b d c
 //             | \|                                                  | /|
@@ -32,7 +32,8 @@ namespace relievo::pipeline {
 enum class Node : std::uint8_t { Empty, Measured, Filled };
 
 struct PointLattice {
-  explicit PointLattice(std::pmr::memory_resource* memory) : at_mm(memory), sigma_mm(memory), node(memory) {}
+  explicit PointLattice(std::pmr::memory_resource* memory)
+      : at_mm(memory), sigma_mm(memory), node(memory), cells(memory) {}
   int columns = 0;
   int rows = 0;
   std::optional<HeadChart> chart;  // whose lattice it is, where it is one's: then every node lies on its own
@@ -47,6 +48,7 @@ struct PointLattice {
   std::pmr::vector<Vec3f> at_mm;
   std::pmr::vector<float> sigma_mm;  // along the line of sight
   std::pmr::vector<Node> node;
+  std::pmr::vector<std::uint8_t> cells;  // the surface, once they are joined; last column and row empty
 
   std::size_t size() const { return node.size(); }
   std::size_t index(int column, int row) const {
@@ -97,17 +99,12 @@ struct LatticeLimits {
   float min_step_mm = 0;
 };
 
-struct LatticeSurface {
-  explicit LatticeSurface(std::pmr::memory_resource* memory) : cells(memory) {}
-  std::pmr::vector<std::uint8_t> cells;  // as many as the lattice has nodes; last column and row empty
-};
-
 // Nodes of every triangle, counter-clockwise as the camera at the origin sees them.
 template <typename Visit>
-void for_each_triangle(const PointLattice& lattice, const LatticeSurface& surface, Visit&& visit) {
+void for_each_triangle(const PointLattice& lattice, Visit&& visit) {
   const std::uint32_t w = std::uint32_t(lattice.columns);
-  for (std::uint32_t a = 0; a < surface.cells.size(); ++a) {
-    const std::uint8_t cell = surface.cells[a];
+  for (std::uint32_t a = 0; a < lattice.cells.size(); ++a) {
+    const std::uint8_t cell = lattice.cells[a];
     if (cell & kUnder) visit(std::array<std::uint32_t, 3>{a, a + w, a + w + 1});
     if (cell & kOver) visit(std::array<std::uint32_t, 3>{a, a + w + 1, a + 1});
     if (cell & kLeft) visit(std::array<std::uint32_t, 3>{a, a + w, a + 1});
@@ -120,8 +117,7 @@ inline int triangle_count(std::uint8_t cell) {
 }
 
 // Cuts every cell whose nodes continue one surface, along the shorter diagonal.
-LatticeSurface join_neighbours(const PointLattice& lattice, const LatticeLimits& limits,
-                               std::pmr::memory_resource* memory);
+void join_neighbours(PointLattice& lattice, const LatticeLimits& limits, std::pmr::memory_resource* memory);
 
 // Counter-clockwise seen from the camera, and no steeper than the angle of incidence with this cosine.
 bool facing(const Vec3f& a, const Vec3f& b, const Vec3f& c, float min_cosine);
@@ -132,6 +128,6 @@ inline float cosine_of_slope(float slope) { return 1 / std::sqrt(1 + slope * slo
 std::uint8_t best_cut(const PointLattice& lattice, std::size_t k, float max_slope);
 
 // Whether any triangle holds the node (column, row).
-bool carries_surface(const PointLattice& lattice, const LatticeSurface& surface, int column, int row);
+bool carries_surface(const PointLattice& lattice, int column, int row);
 
 }  // namespace relievo::pipeline

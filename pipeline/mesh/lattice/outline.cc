@@ -34,21 +34,21 @@ void sum_along_rows(std::pmr::vector<Vec3f>& v, int columns, int reach, std::pmr
 
 // What the outline gains by being straightened continues the surface within it. Where something was
 // measured that continues it too, the measurement stays; the last rows before the horizon often do not.
-void grow(PointLattice& l, LatticeSurface& surface, const CellMask& before, const CellMask& wanted,
-          float max_slope, MaskShaper& shaper, std::pmr::memory_resource* memory) {
+void grow(PointLattice& l, const CellMask& before, const CellMask& wanted, float max_slope,
+          MaskShaper& shaper, std::pmr::memory_resource* memory) {
   CellMask gained = before;
   shaper.erode(gained,
                1.5F * std::max(l.cell_width_mm, l.cell_height_mm));  // the steps along the old line too
   for (std::size_t k = 0; k < l.size(); ++k) {
-    if (!before[k]) surface.cells[k] = 0;
-    gained[k] = wanted[k] && !gained[k] && triangle_count(surface.cells[k]) < 2 &&
+    if (!before[k]) l.cells[k] = 0;
+    gained[k] = wanted[k] && !gained[k] && triangle_count(l.cells[k]) < 2 &&
                 l.inside(int(k) % l.columns + 1,
                          int(k) / l.columns + 1);  // the last column and row are no cells
   }
   const std::pmr::vector<Vec3f> at_mm(l.at_mm, memory);
   const std::pmr::vector<float> sigma_mm(l.sigma_mm, memory);
   const std::pmr::vector<Node> node(l.node, memory);
-  fill_cells(l, surface, gained, max_slope, {}, memory);
+  fill_cells(l, gained, max_slope, {}, memory);
   for (std::size_t k = 0; k < l.size(); ++k) {
     if (l.node[k] == node[k] || node[k] == Node::Empty) continue;
     if (distance(l.at_mm[k], at_mm[k]) > kAgreeMm) continue;
@@ -57,27 +57,26 @@ void grow(PointLattice& l, LatticeSurface& surface, const CellMask& before, cons
     l.node[k] = node[k];
   }
   for (std::size_t k = 0; k < l.size(); ++k)
-    if (gained[k]) surface.cells[k] = best_cut(l, k, max_slope);
+    if (gained[k]) l.cells[k] = best_cut(l, k, max_slope);
 }
 
 // See outline.h; `bow_mm` is the radius of the disc.
-void round_off_nicks(const LatticeSurface& surface, CellMask& kept, float bow_mm, MaskShaper& shaper,
+void round_off_nicks(const PointLattice& l, CellMask& kept, float bow_mm, MaskShaper& shaper,
                      std::pmr::memory_resource* memory) {
   CellMask near_outside(kept, memory);
   for (std::uint8_t& cell : near_outside) cell ^= 1;
   shaper.dilate(near_outside, kRimMm);
-  for (std::size_t k = 0; k < kept.size(); ++k)
-    kept[k] = kept[k] && (surface.cells[k] != 0 || !near_outside[k]);
+  for (std::size_t k = 0; k < kept.size(); ++k) kept[k] = kept[k] && (l.cells[k] != 0 || !near_outside[k]);
   shaper.open(kept, bow_mm);
 }
 
 }  // namespace
 
-CellMask steep_cells(const PointLattice& l, const LatticeSurface& surface, float max_slope,
-                     const Vec3f& from_mm, std::pmr::memory_resource* memory) {
+CellMask steep_cells(const PointLattice& l, float max_slope, const Vec3f& from_mm,
+                     std::pmr::memory_resource* memory) {
   std::pmr::vector<Vec3f> normal(l.size(), Vec3f{}, memory);
   for (std::size_t k = 0; k < l.size(); ++k) {
-    if (triangle_count(surface.cells[k]) != 2) continue;
+    if (triangle_count(l.cells[k]) != 2) continue;
     const Vec3f* p = &l.at_mm[k];
     const Vec3f* q = p + l.columns;
     normal[k] = cross(minus(q[0], p[1]), minus(q[1], p[0]));
@@ -89,7 +88,7 @@ CellMask steep_cells(const PointLattice& l, const LatticeSurface& surface, float
   for (int r = 0; r + 1 < l.rows; ++r)
     for (int c = 0; c + 1 < l.columns; ++c) {
       const std::size_t k = l.index(c, r);
-      if (surface.cells[k] == 0) continue;
+      if (l.cells[k] == 0) continue;
       Vec3f n{};
       for (int y = std::max(r - reach, 0); y <= std::min(r + reach, l.rows - 1); ++y)
         n = plus(n, normal[l.index(c, y)]);
@@ -101,13 +100,13 @@ CellMask steep_cells(const PointLattice& l, const LatticeSurface& surface, float
   return steep;
 }
 
-CellMask trim_outline(PointLattice& l, LatticeSurface& surface, const OutlineLimits& limits,
-                      MaskShaper& shaper, std::pmr::memory_resource* memory) {
+CellMask trim_outline(PointLattice& l, const OutlineLimits& limits, MaskShaper& shaper,
+                      std::pmr::memory_resource* memory) {
   CellMask all(l.size(), 0, memory);
-  for (std::size_t k = 0; k < l.size(); ++k) all[k] = surface.cells[k] != 0;
+  for (std::size_t k = 0; k < l.size(); ++k) all[k] = l.cells[k] != 0;
   shaper.fill_holes(all);
   CellMask kept = all;
-  const CellMask steep = steep_cells(l, surface, limits.max_rim_slope, limits.from_mm, memory);
+  const CellMask steep = steep_cells(l, limits.max_rim_slope, limits.from_mm, memory);
   for (std::size_t k = 0; k < l.size(); ++k) kept[k] = kept[k] && !steep[k];
   // A steep fold that leads from the outside to the nose must not open a way in.
   const float channel = kChannelShare * limits.min_width_mm;
@@ -122,13 +121,13 @@ CellMask trim_outline(PointLattice& l, LatticeSurface& surface, const OutlineLim
     shaper.straighten(given, limits.wave_mm, kGiven);
     shaper.straighten(kept, limits.wave_mm, kKept);
     for (std::size_t k = 0; k < l.size(); ++k) kept[k] = given[k] || (kept[k] && before[k]);
-    grow(l, surface, before, kept, limits.max_slope, shaper, memory);
-    for (std::size_t k = 0; k < l.size(); ++k) kept[k] = kept[k] && (before[k] || surface.cells[k]);
-    round_off_nicks(surface, kept, limits.min_width_mm, shaper, memory);
+    grow(l, before, kept, limits.max_slope, shaper, memory);
+    for (std::size_t k = 0; k < l.size(); ++k) kept[k] = kept[k] && (before[k] || l.cells[k]);
+    round_off_nicks(l, kept, limits.min_width_mm, shaper, memory);
   }
   shaper.keep_largest_piece(kept);
   for (std::size_t k = 0; k < l.size(); ++k)
-    if (!kept[k]) surface.cells[k] = 0;
+    if (!kept[k]) l.cells[k] = 0;
   return kept;
 }
 

@@ -32,12 +32,12 @@ struct OutlineLimits {
 
 // Empties the cells beyond, fills bays; returns what lies inside, holes included. Throws std::bad_alloc when
 // `memory` is used up.
-CellMask trim_outline(PointLattice& lattice, LatticeSurface& surface, const OutlineLimits& limits,
-                      MaskShaper& shaper, std::pmr::memory_resource* memory);
+CellMask trim_outline(PointLattice& lattice, const OutlineLimits& limits, MaskShaper& shaper,
+                      std::pmr::memory_resource* memory);
 
 // Cells whose surface, averaged over about 1.5 mm, is steeper than this tangent to the line of sight from a
 // place.
-CellMask steep_cells(const PointLattice& lattice, const LatticeSurface& surface, float max_slope,
-                     const Vec3f& from_mm, std::pmr::memory_resource* memory);
+CellMask steep_cells(const PointLattice& lattice, float max_slope, const Vec3f& from_mm,
+                     std::pmr::memory_resource* memory);
 
 }  // namespace relievo::pipeline

@@ -80,10 +80,8 @@ struct Place {
 
 class Cutter {
  public:
-  Cutter(const PointLattice& lattice, const LatticeSurface& surface, float max_slope,
-         std::pmr::memory_resource* memory)
+  Cutter(const PointLattice& lattice, float max_slope, std::pmr::memory_resource* memory)
       : lattice_(lattice),
-        surface_(surface),
         min_cosine_(cosine_of_slope(max_slope)),
         over_(lattice.size(), 1.0F, memory),
         snaps_(lattice.size(), Snap{}, memory),
@@ -101,9 +99,9 @@ class Cutter {
           lattice_, [&](std::size_t k) { return inside[k] ? 2 : 0; }, smoothing.outline_mm, memory));
     if (smoothing.rims_mm > 0)
       take_least(depth_inside(
-          lattice_, [&](std::size_t k) { return triangle_count(surface_.cells[k]); }, smoothing.rims_mm,
+          lattice_, [&](std::size_t k) { return triangle_count(lattice_.cells[k]); }, smoothing.rims_mm,
           memory));
-    for_each_triangle(lattice_, surface_, [this](const Triangle& t) {
+    for_each_triangle(lattice_, [this](const Triangle& t) {
       for (std::size_t i = 0; i < 3; ++i) pull_together(t[i], t[(i + 1) % 3]);
     });
     for (std::size_t k = 0; k < snaps_.size(); ++k)
@@ -151,7 +149,7 @@ class Cutter {
   // The triangles and parts of triangles on the inner side of the line.
   template <typename Visit>
   void for_each_piece(Visit&& visit) const {
-    for_each_triangle(lattice_, surface_, [&](const Triangle& t) {
+    for_each_triangle(lattice_, [&](const Triangle& t) {
       const float least = std::min({over_[t[0]], over_[t[1]], over_[t[2]]});
       const float most = std::max({over_[t[0]], over_[t[1]], over_[t[2]]});
       if (most <= 0) return;
@@ -222,15 +220,9 @@ class Cutter {
     result.vertices_mm.reserve(count);
     result.sigma_mm.reserve(count);
     result.measured.reserve(count);
-    const auto add = [&](const Place& p) {
-      const PackedVertex point = at(p);
-      result.vertices_mm.push_back(point.at_mm);
-      result.sigma_mm.push_back(point.sigma_mm);
-      result.measured.push_back(point.measured);
-    };
     for (std::uint32_t k = 0; k < number_.size(); ++k)
-      if (number_[k] != kNone) add({k, k});
-    for (const Place& p : cuts_) add(p);
+      if (number_[k] != kNone) add_vertex(result, at({k, k}));
+    for (const Place& p : cuts_) add_vertex(result, at(p));
   }
 
   std::uint32_t number(const Place& p) const {
@@ -239,7 +231,6 @@ class Cutter {
   }
 
   const PointLattice& lattice_;
-  const LatticeSurface& surface_;
   float min_cosine_;
   std::pmr::vector<float> over_;            // of a node: in above 0, out below, on the line at 0
   std::pmr::vector<Snap> snaps_;            // of a node: where it moves
@@ -255,15 +246,15 @@ float FaceOutline::depth_mm(const Vec3f& from_chart_centre_mm) const {
   const double share = std::max(std::hypot(p.x / kAcross, p.y / kUp, p.z / kBack), 1e-3);
   const double to_reach = std::hypot(p.x, p.y, p.z) * (1 / share - 1);
   const double to_chin = p.y + below_mm - p.x * p.x / kJaw;
-  const double between =
-      std::clamp(0.5 + 0.5 * (to_chin - to_reach) / kBend, 0.0, 1.0);  // the lesser of both, rounded off
+  // The lesser of both, rounded off.
+  const double between = std::clamp(0.5 + 0.5 * (to_chin - to_reach) / kBend, 0.0, 1.0);
   return float(to_chin + between * (to_reach - to_chin) - kBend * between * (1 - between) / 2);
 }
 
-FaceMesh cut_outline(const PointLattice& lattice, const LatticeSurface& surface, const CellMask& inside,
-                     const OutlineSmoothing& smoothing, const std::optional<FaceOutline>& outline,
-                     float max_slope, std::pmr::memory_resource* memory) {
-  Cutter cutter(lattice, surface, max_slope, memory);
+FaceMesh cut_outline(const PointLattice& lattice, const CellMask& inside, const OutlineSmoothing& smoothing,
+                     const std::optional<FaceOutline>& outline, float max_slope,
+                     std::pmr::memory_resource* memory) {
+  Cutter cutter(lattice, max_slope, memory);
   if (lattice.size() > 0) cutter.draw_lines(inside, smoothing, outline, memory);
   return cutter.cut(memory);
 }

@@ -40,8 +40,8 @@ struct OutlineSmoothing {
 // than `max_slope` are left out. `outline`: nothing beyond this curve is kept. A mesh of only vertices that a
 // triangle uses, measured where both nodes of their edge are, with sigmas along the line of sight and without
 // normals; in the lattice's frame. Throws std::bad_alloc when `memory` is used up.
-FaceMesh cut_outline(const PointLattice& lattice, const LatticeSurface& surface, const CellMask& inside,
-                     const OutlineSmoothing& smoothing, const std::optional<FaceOutline>& outline,
-                     float max_slope, std::pmr::memory_resource* memory);
+FaceMesh cut_outline(const PointLattice& lattice, const CellMask& inside, const OutlineSmoothing& smoothing,
+                     const std::optional<FaceOutline>& outline, float max_slope,
+                     std::pmr::memory_resource* memory);
 
 }  // namespace relievo::pipeline

@@ -7,11 +7,10 @@
 #include <numbers>
 
 #include "hal/base/statistics.h"
-#include "pipeline/mesh/detail/edge_collapser.h"
 #include "pipeline/mesh/detail/sliver_mender.h"
 #include "pipeline/mesh/lattice/lattice_surface.h"
 #include "pipeline/mesh/meshers/grid_mesher.h"
-#include "pipeline/model/mesh_border.h"
+#include "pipeline/model/face_mesh.h"
 #include "pipeline/model/vector3.h"
 
 namespace relievo::pipeline {
@@ -97,11 +96,6 @@ NearestVertex::Hit NearestVertex::find(const Vec3f& at, float within_mm) const {
   return best;
 }
 
-Result<FaceMesh> base_sheet(const PointCloud& cloud, int most_points, StageContext& context) {
-  StageContext inner{context.scratch, context.scratch, context.pool, context.progress, context.cancelled};
-  return delaunay_sheet(cloud, std::max(2 * most_points, 1000), inner);
-}
-
 float usual_edge_mm(std::span<const Vec3f> vertices, std::span<const Triangle> triangles,
                     std::pmr::memory_resource* memory) {
   std::pmr::vector<float> lengths(memory);
@@ -164,9 +158,10 @@ Result<FaceMesh> finish_surface(const FaceMesh& base, std::span<const Vec3f> ver
   if (triangles.size() > most) collapse_edges(vertices, triangles, most, {}, &context.scratch);
   mend(max_slope);
   if (context.stop()) return Error{Errc::Cancelled, "meshing was stopped"};
-  // What cannot be simplified that far is more than a kiosk can hold.
-  if (triangles.size() > most || triangles.empty() || area_mm2(vertices, triangles) < options.min_area_mm2)
-    return no_surface();
+  if (triangles.empty() || area_mm2(vertices, triangles) < options.min_area_mm2) return no_surface();
+  if (triangles.size() > most)
+    return Error{Errc::InvalidInput, "the surface cannot be simplified to so few triangles: allow more"}.at(
+        "max_triangles");
   FaceMesh mesh = pack_mesh(vertices.size(), triangles, context, [&](std::size_t v) {
     return PackedVertex{vertices[v], carried.sigma_mm[v], carried.measured[v]};
   });
@@ -181,32 +176,6 @@ constexpr float kReachEdges = 1.2F;  // how many usual edges a node may lie from
 constexpr float kDisagreeMm = 0.5F;  // ... and how far from the surface around it
 constexpr float kDisagreeSigmas = 4;
 constexpr int kBands = 64;
-
-struct Lattice {
-  double left, top, step;
-  int columns, rows;
-};
-
-// The nodes of one row: those near a measured point, on its tangent plane but for the tolerance.
-void add_row(const FaceMesh& base, const DepthSamples& samples, const NearestVertex& nearest,
-             const Lattice& lattice, int row, std::span<const double> us, std::span<const double> depths,
-             float reach, PointCloud& cloud) {
-  const double v = lattice.top + lattice.step * row;
-  for (int c = 0; c < lattice.columns; ++c) {
-    const std::size_t i = std::size_t(c);
-    if (!std::isfinite(depths[i]) || depths[i] <= 0) continue;
-    const Vec3f at{float(us[i] / samples.usual_depth_mm * depths[i]),
-                   float(v / samples.usual_depth_mm * depths[i]), float(depths[i])};
-    const auto hit = nearest.find(at, 3 * reach + 2 * kDisagreeMm);
-    if (hit.vertex == NearestVertex::kNone) continue;
-    const Vec3f from = minus(at, base.vertices_mm[hit.vertex]);
-    const float off = std::abs(dot(from, base.normals[hit.vertex]));
-    if (off > kDisagreeMm + kDisagreeSigmas * base.sigma_mm[hit.vertex] ||
-        hit.squared_mm - off * off > reach * reach)
-      continue;
-    cloud.points.push_back({at, {float(c), float(row)}, float(samples.sigma[hit.vertex])});
-  }
-}
 
 }  // namespace
 
@@ -237,27 +206,38 @@ DepthSamples sample_depths(const FaceMesh& base, std::pmr::memory_resource* memo
 Result<FaceMesh> mesh_sheet(const FaceMesh& base, const DepthSamples& samples, const DepthFunction& function,
                             const SheetOptions& options, StageContext& context) {
   const NearestVertex nearest(base.vertices_mm, &context.scratch);
-  const Lattice lattice{samples.left, samples.top, options.step_mm,
-                        int((samples.right - samples.left) / options.step_mm) + 1,
-                        int((samples.bottom - samples.top) / options.step_mm) + 1};
-  const std::size_t columns = std::size_t(lattice.columns);
+  const int rows = int((samples.bottom - samples.top) / options.step_mm) + 1;
+  const std::size_t columns = std::size_t(int((samples.right - samples.left) / options.step_mm) + 1);
+  const auto v_of = [&](int row) { return samples.top + options.step_mm * row; };
   std::pmr::vector<double> us(columns, 0.0, &context.scratch);
-  for (std::size_t c = 0; c < columns; ++c) us[c] = lattice.left + lattice.step * double(c);
-  std::pmr::vector<double> depths(columns * std::size_t(lattice.rows), 0.0, &context.scratch);
-  context.pool.for_each_band(lattice.rows, kBands, [&](int from, int to, int) {
+  for (std::size_t c = 0; c < columns; ++c) us[c] = samples.left + options.step_mm * double(c);
+  std::pmr::vector<double> depths(columns * std::size_t(rows), 0.0, &context.scratch);
+  context.pool.for_each_band(rows, kBands, [&](int from, int to, int) {
     for (int r = from; r < to && !context.stop(); ++r)
-      function(us, lattice.top + lattice.step * r,
-               std::span(depths).subspan(std::size_t(r) * columns, columns));
+      function(us, v_of(r), std::span(depths).subspan(std::size_t(r) * columns, columns));
   });
   if (context.stop()) return Error{Errc::Cancelled, "meshing was stopped"};
   const float usual = usual_edge_mm(base.vertices_mm, base.triangles, &context.scratch);
   const float reach = kReachEdges * std::max(usual, float(options.step_mm));
   PointCloud cloud(&context.scratch);
-  cloud.points.reserve(columns * std::size_t(lattice.rows));
+  cloud.points.reserve(depths.size());
   cloud.lattice_step_px = 1;
-  for (int r = 0; r < lattice.rows; ++r)
-    add_row(base, samples, nearest, lattice, r, us,
-            std::span(depths).subspan(std::size_t(r) * columns, columns), reach, cloud);
+  // Of the nodes those near a measured point, on its tangent plane but for the tolerance.
+  for (std::size_t i = 0; i < depths.size(); ++i) {
+    if (!std::isfinite(depths[i]) || depths[i] <= 0) continue;
+    const std::size_t c = i % columns;
+    const int r = int(i / columns);
+    const Vec3f at{float(us[c] / samples.usual_depth_mm * depths[i]),
+                   float(v_of(r) / samples.usual_depth_mm * depths[i]), float(depths[i])};
+    const auto hit = nearest.find(at, 3 * reach + 2 * kDisagreeMm);
+    if (hit.vertex == NearestVertex::kNone) continue;
+    const Vec3f from = minus(at, base.vertices_mm[hit.vertex]);
+    const float off = std::abs(dot(from, base.normals[hit.vertex]));
+    if (off > kDisagreeMm + kDisagreeSigmas * base.sigma_mm[hit.vertex] ||
+        hit.squared_mm - off * off > reach * reach)
+      continue;
+    cloud.points.push_back({at, {float(c), float(r)}, float(samples.sigma[hit.vertex])});
+  }
   GridMesher joining;
   joining.max_triangles = options.max_triangles;
   joining.min_area_mm2 = options.min_area_mm2;

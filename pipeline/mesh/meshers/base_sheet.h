@@ -45,9 +45,6 @@ class NearestVertex {
 // promises; sigma and `measured` are carried over from the nearest measured point. Frame: the left camera's,
 // millimetres. Both throw std::bad_alloc where an arena is used up.
 
-// The Delaunay mesher on at most half as many points as triangles. Errors: PoorGeometry, Cancelled.
-Result<FaceMesh> delaunay_sheet(const PointCloud& cloud, int max_triangles, StageContext& context);
-
 // In `scratch`; sigma_mm perpendicular to the surface. At most `most_points`, spread evenly over the cloud.
 // Errors: PoorGeometry, Cancelled.
 Result<FaceMesh> base_sheet(const PointCloud& cloud, int most_points, StageContext& context);
@@ -76,7 +73,8 @@ struct FinishOptions {
   }
 };
 
-// `triangles` may be any heap in which no directed edge is used twice. Errors: PoorGeometry, Cancelled.
+// `triangles` may be any heap in which no directed edge is used twice. Errors: PoorGeometry, InvalidInput (it
+// cannot be simplified to `max_triangles`), Cancelled.
 Result<FaceMesh> finish_surface(const FaceMesh& base, std::span<const Vec3f> vertices_mm,
                                 std::pmr::vector<Triangle>& triangles, const FinishOptions& options,
                                 StageContext& context);

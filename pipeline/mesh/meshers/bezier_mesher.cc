@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: 2026 The Relievo authors
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include "pipeline/mesh/meshers/bezier_mesher.h"
+#include "pipeline/mesh/meshers/scattered_meshers.h"
 
 #include <algorithm>
 #include <cmath>

@@ -266,10 +266,11 @@ Result<FaceMesh> DelaunayMesher::mesh(const PointCloud& cloud, StageContext& con
   });
 }
 
-Result<FaceMesh> delaunay_sheet(const PointCloud& cloud, int max_triangles, StageContext& context) {
+Result<FaceMesh> base_sheet(const PointCloud& cloud, int most_points, StageContext& context) {
+  StageContext inner{context.scratch, context.scratch, context.pool, context.progress, context.cancelled};
   DelaunayMesher options;
-  options.max_triangles = max_triangles;
-  return join(cloud, options, context, [&](const auto& at, const auto& triangles) {
+  options.max_triangles = std::max(2 * most_points, 1000);
+  return join(cloud, options, inner, [&](const auto& at, const auto& triangles) {
     return std::min(kSheetEdgeMm, kSheetEdges * usual_edge_mm(at, triangles, &context.scratch));
   });
 }

@@ -67,34 +67,31 @@ Result<FaceMesh> make_surface(const PointCloud& cloud, double triangles, const G
   const LatticeLimits limits{tangent(o.max_incidence_deg), float(o.step_sigmas), float(o.step_slope_ratio),
                              float(o.min_step_mm)};
   PointLattice lattice = make_lattice(cloud, &scratch);
-  LatticeSurface surface = join_neighbours(lattice, limits, &scratch);
+  join_neighbours(lattice, limits, &scratch);
   if (context.stop()) return stopped();
   if (!(lattice.cell_width_mm > 0 && lattice.cell_height_mm > 0)) return FaceMesh(&scratch);
   MaskShaper shaper(lattice.columns, lattice.rows, lattice.cell_width_mm, lattice.cell_height_mm, &scratch);
-  close_gaps(lattice, surface,
-             {float(o.max_hole_mm), limits.max_slope, tangent(o.gap_bend_deg), limits.min_step_mm}, shaper,
-             &scratch);
+  close_gaps(lattice, {float(o.max_hole_mm), limits.max_slope, tangent(o.gap_bend_deg), limits.min_step_mm},
+             shaper, &scratch);
   if (context.stop()) return stopped();
   // After the gaps: a crack must not make a narrow place of a wide one.
   const Vec3d& right = cloud.right_camera_mm;
   const OutlineLimits trimming{limits.max_slope, tangent(o.max_rim_deg), narrow(times(right, 0.5)),
                                float(o.min_width_mm), float(o.outline_wave_mm)};
-  CellMask inside = trim_outline(lattice, surface, trimming, shaper, &scratch);
+  CellMask inside = trim_outline(lattice, trimming, shaper, &scratch);
   if (context.stop()) return stopped();
   std::optional<ClosedFace> closed;
   if (right.x != 0 || right.y != 0 || right.z != 0) {
-    RELIEVO_TRY_ASSIGN(closed, close_face(lattice, surface, right, limits, context));
+    RELIEVO_TRY_ASSIGN(closed, close_face(lattice, right, limits, context));
   }
   const float max_slope = closed ? kSteepest : limits.max_slope;
   const std::optional<FaceOutline> outline = closed ? std::optional(closed->outline) : std::nullopt;
   const OutlineSmoothing smoothing{float(o.outline_smoothing_mm), float(o.rim_smoothing_mm)};
-  const ShapedLattice shaped =
-      fill_budget(closed ? std::move(closed->shaped)
-                         : ShapedLattice{std::move(lattice), std::move(surface), std::move(inside), false},
-                  triangles, max_slope, o, context);
+  const ShapedLattice shaped = fill_budget(
+      closed ? std::move(closed->shaped) : ShapedLattice{std::move(lattice), std::move(inside), false},
+      triangles, max_slope, o, context);
   if (context.stop()) return stopped();
-  FaceMesh cut =
-      cut_outline(shaped.lattice, shaped.surface, shaped.inside, smoothing, outline, max_slope, &scratch);
+  FaceMesh cut = cut_outline(shaped.lattice, shaped.inside, smoothing, outline, max_slope, &scratch);
   if (context.stop()) return stopped();
   clean(cut, max_slope, context);
   if (context.stop()) return stopped();

@@ -8,7 +8,6 @@
 #include <span>
 
 #include "hal/base/statistics.h"
-#include "pipeline/model/mesh_border.h"
 #include "pipeline/model/photo_sampler.h"
 #include "pipeline/model/vector3.h"
 #include "pipeline/texture/chart/raster.h"
@@ -26,9 +25,8 @@ using Triangle = std::array<std::uint32_t, 3>;
 // Those that hold a vertex that was completed.
 std::pmr::vector<Triangle> completed_triangles(const FaceMesh& mesh, std::pmr::memory_resource* memory) {
   std::pmr::vector<Triangle> found(memory);
-  const auto measured = [&](std::uint32_t v) { return mesh.measured.empty() || mesh.measured[v] != 0; };
   for (const Triangle& t : mesh.triangles)
-    if (!measured(t[0]) || !measured(t[1]) || !measured(t[2])) found.push_back(t);
+    if (!mesh.measured.empty() && !all_three(mesh.measured, t)) found.push_back(t);
   return found;
 }
 

@@ -18,10 +18,10 @@
 namespace relievo::pipeline {
 
 struct ShotOptions {
-  float angle_power = 4;      // weight of a view: cosine of its angle of incidence to this power
-  float occlusion_px = 1.5F;  // disparity by which something in front hides a point
-  float feather_px = 6;       // pixels over which a view's say fades towards an occlusion
-  bool left_only = false;     // the right photograph has no say at all
+  float angle_power;   // weight of a view: cosine of its angle of incidence to this power
+  float occlusion_px;  // disparity by which something in front hides a point
+  float feather_px;    // pixels over which a view's say fades towards an occlusion
+  bool left_only;      // the right photograph has no say at all
 };
 
 inline constexpr std::uint8_t kSeenLeft = 1, kSeenRight = 2, kSurface = 4;

@@ -10,11 +10,6 @@
 namespace relievo::pipeline {
 namespace {
 
-bool all_measured(const FaceMesh& mesh, const std::array<std::uint32_t, 3>& t) {
-  return mesh.measured.empty() ||
-         (mesh.measured[t[0]] != 0 && mesh.measured[t[1]] != 0 && mesh.measured[t[2]] != 0);
-}
-
 // Whether the chart must reach a vertex: measured, or completed and turned to the camera.
 bool frames(const FaceMesh& mesh, std::size_t v) {
   constexpr float kLeastCosine = 0.2F;
@@ -48,7 +43,7 @@ double pixels_a_pixel(const FaceMesh& mesh, const Chart& chart) {
   std::array<double, kBins> area{};
   double all = 0;
   for (const auto& t : mesh.triangles) {
-    if (!chart.placed_all(t) || !all_measured(mesh, t)) continue;
+    if (!all_three(chart.placed, t) || !(mesh.measured.empty() || all_three(mesh.measured, t))) continue;
     const double middle = double(-signed_area(chart, t));
     if (!(middle > 1e-6)) continue;
     const Vec2f& a = chart.texel[t[0]];
@@ -69,18 +64,6 @@ double pixels_a_pixel(const FaceMesh& mesh, const Chart& chart) {
 }
 
 }  // namespace
-
-Result<void> check_texture_input(const FaceMesh& mesh, const RectifiedPair& pair) {
-  const std::size_t n = mesh.vertices_mm.size();
-  if (mesh.triangles.empty() || n == 0 || mesh.normals.size() != n ||
-      (!mesh.measured.empty() && mesh.measured.size() != n))
-    return Error{Errc::InvalidInput, "there is no surface to lay a photograph on"};
-  const std::size_t bytes =
-      3 * std::size_t(std::max(pair.width_px, 0)) * std::size_t(std::max(pair.height_px, 0));
-  if (bytes == 0 || pair.left.rgb.size() != bytes || pair.right.rgb.size() != bytes || !(pair.focal_px > 0))
-    return Error{Errc::InvalidInput, "the rectified pair has no colours to lay on the surface"};
-  return {};
-}
 
 Chart lay_out(const FaceMesh& mesh, const RectifiedPair& pair, const ChartOptions& options,
               std::pmr::memory_resource* memory) {

@@ -13,18 +13,18 @@
 #include <cstddef>
 #include <cstdint>
 #include <memory_resource>
+#include <span>
 #include <vector>
 
-#include "hal/base/result.h"
 #include "pipeline/model/face_mesh.h"
 #include "pipeline/model/rectified_pair.h"
 
 namespace relievo::pipeline {
 
 struct ChartOptions {
-  int max_px = 2048;  // widest and highest
-  int margin_px = 8;  // texels left free around the face
-  double finer = 1;   // texels a pixel and side of the better photograph
+  int max_px;     // widest and highest
+  int margin_px;  // texels left free around the face
+  double finer;   // texels a pixel and side of the better photograph
 };
 
 struct Chart {
@@ -39,9 +39,6 @@ struct Chart {
 
   std::size_t size() const { return std::size_t(width_px) * std::size_t(height_px); }
   std::size_t index(int x, int y) const { return std::size_t(y) * std::size_t(width_px) + std::size_t(x); }
-  bool placed_all(const std::array<std::uint32_t, 3>& t) const {
-    return placed[t[0]] != 0 && placed[t[1]] != 0 && placed[t[2]] != 0;
-  }
   // Of a photograph, where the surface has this disparity. side: kLeftSide or kRightSide.
   float view_x(float texel_x, float disparity, float side) const {
     return float(origin_px.x) + texel_x / float(texels_per_px) + side * disparity;
@@ -52,13 +49,15 @@ struct Chart {
 inline constexpr float kLeftSide = 0.5F;  // of a disparity, from the middle view's column
 inline constexpr float kRightSide = -0.5F;
 
-// What no texturer can work with: InvalidInput.
-Result<void> check_texture_input(const FaceMesh& mesh, const RectifiedPair& pair);
-
 // `finer` times as fine as the better photograph on 95 % of the measured surface; coarser where `max_px` asks
 // for it. Its frame: the vertices both windows can see, measured or turned to the cameras.
 Chart lay_out(const FaceMesh& mesh, const RectifiedPair& pair, const ChartOptions& options,
               std::pmr::memory_resource* memory);
+
+// Whether all of a triangle's corners are marked. `marks`: one a vertex.
+inline bool all_three(std::span<const std::uint8_t> marks, const std::array<std::uint32_t, 3>& t) {
+  return marks[t[0]] != 0 && marks[t[1]] != 0 && marks[t[2]] != 0;
+}
 
 // Negative where the triangle faces the cameras, in square texels (twice the area).
 inline float signed_area(const Chart& chart, const std::array<std::uint32_t, 3>& t) {

@@ -13,7 +13,7 @@ RowBands::RowBands(const FaceMesh& mesh, const Chart& chart, int bands, std::pmr
   triangles_.sort(std::size_t(bands_), [&](auto&& add) {
     for (std::uint32_t k = 0; k < mesh.triangles.size(); ++k) {
       const auto& t = mesh.triangles[k];
-      if (!chart.placed_all(t)) continue;
+      if (!all_three(chart.placed, t)) continue;
       const float a = chart.texel[t[0]].y;
       const float b = chart.texel[t[1]].y;
       const float c = chart.texel[t[2]].y;

@@ -51,10 +51,7 @@ class Builder {
   }
 
   std::pmr::vector<Piece>& pieces() { return pieces_; }
-  bool seen(std::uint32_t triangle) const {
-    const auto& t = mesh_.triangles[triangle];
-    return photographed_[t[0]] != 0 && photographed_[t[1]] != 0 && photographed_[t[2]] != 0;
-  }
+  bool seen(std::uint32_t triangle) const { return all_three(photographed_, mesh_.triangles[triangle]); }
 
  private:
   // A chart around one triangle, laid flat in millimetres with its upper left corner at zero.

@@ -72,8 +72,7 @@ int run(int argc, char** argv) {
   const auto calibration = need(pipeline::read_calibration(argv[3]));
   const int rounds = argc > 4 ? std::max(1, std::atoi(argv[4])) : 15;
   pipeline::Workspace work(2);
-  const pipeline::LiveReliefOptions options;
-  const pipeline::LiveRelief live(options);
+  const pipeline::LiveRelief live;
   const pipeline::StereoFrame frame{left.view(), right.view()};
   const auto look = [&] {
     work.output.reset();
@@ -100,10 +99,10 @@ int run(int argc, char** argv) {
   work.output.reset();
   pipeline::StageContext& c = work.context;
   pipeline::RectifierOptions volume;
-  volume.near_mm = options.near_mm, volume.far_mm = options.far_mm;
+  volume.near_mm = live.near_mm, volume.far_mm = live.far_mm;
   const pipeline::StereoFrame small{pipeline::reduced(frame.left, 4, c),
                                     pipeline::reduced(frame.right, 4, c)};
-  const auto pair = need(pipeline::Rectifier(volume).rectify(small, pipeline::reduced(calibration, 4), c));
+  const auto pair = need(volume.rectify(small, pipeline::reduced(calibration, 4), c));
   const Time peer = median_of(rounds, [&] { match_like_the_peer(pair); });
   std::printf("peer, matching alone %6.1f ms processor, %6.1f ms wall; ratio %.2f\n", peer.cpu_ms,
               peer.wall_ms, ours.cpu_ms / peer.cpu_ms);

@@ -26,7 +26,7 @@
 #include "firmware/base/steady_heap.h"
 #include "firmware/kiosk/glass.h"
 #include "firmware/work/jobs.h"
-#include "hal/monotonic_clock.h"
+#include "hal/clock.h"
 #include "hal/sim/device.h"
 #include "storage/sqlite/sqlite_store.h"
 #include "tests/support/rig_calibration.h"

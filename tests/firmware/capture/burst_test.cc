@@ -96,7 +96,7 @@ class BurstTest : public testing::Test {
     for (BarsCamera* camera : {&left, &right}) camera->looks.assign(looks.begin(), looks.end());
   }
   Result<BurstResult> shoot(const BurstOptions& options = {}) {
-    return burst.shoot(first, second, options, cancelled);
+    return take_burst(grabber, first, second, options, cancelled);
   }
 
   HandClock clock;
@@ -110,7 +110,6 @@ class BurstTest : public testing::Test {
   StereoSlot first{std::span(memory).first(memory.size() / 2)};
   StereoSlot second{std::span(memory).subspan(memory.size() / 2)};
   std::atomic<bool> cancelled{false};
-  Burst burst{grabber};
 };
 
 TEST_F(BurstTest, TheSharpestOfFiveIsKeptWhereverItComes) {
@@ -211,7 +210,7 @@ TEST_F(BurstTest, TheJobKeepsTheBestPairAndTheSessionWipesAll) {
     hal::Watchdog& watchdog() override { return *this; }
 
    private:
-    std::optional<hal::Medium> current() override { return std::nullopt; }
+    std::optional<std::filesystem::path> current() override { return std::nullopt; }
     Result<void> flush_and_eject() override { return {}; }
     void kick() override {}
     BurstTest& test_;

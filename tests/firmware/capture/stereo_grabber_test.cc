@@ -91,6 +91,19 @@ TEST_F(StereoGrabberTest, ALostFrameIsCountedByItsNumber) {
   EXPECT_EQ(grabber.counts().slipped, 0U);
 }
 
+TEST_F(StereoGrabberTest, AFrameThatANewerOneOvertookIsLateAndNotLost) {
+  expect_pair_of_pulse(1);
+  for (const std::uint32_t before : {3, 2, 1}) {  // 4 comes, then 3 and 2, all before the pulse
+    left.sequence = before;
+    left.pulse(9, clock.now());
+  }
+  left.sequence = 4;
+  clock.time += milliseconds(50);
+  expect_pair_of_pulse(2);
+  EXPECT_EQ(of_left().late, 3U);
+  EXPECT_EQ(of_left().lost, 0U);
+}
+
 TEST_F(StereoGrabberTest, ACameraThatMissedAPulseIsNoticedByItsNumbers) {
   expect_pair_of_pulse(1);
   right.sequence += 1;
@@ -226,6 +239,18 @@ TEST_F(StereoGrabberTest, AfterAnErrorBothStreamsStopBeforeEitherBegins) {
 TEST_F(StereoGrabberTest, WaitsForTheRestOfALampOnTheTriggersWire) {
   line.lamp_on_it = true;
   for (int i = 1; i <= 12; ++i) expect_pair_of_pulse(i);
+}
+
+TEST_F(StereoGrabberTest, WhoCancelsWhileALampRestsTakesNoPictureAndStopsNoStream) {
+  line.lamp_on_it = true;
+  expect_pair_of_pulse(1);
+  StereoGrabber left_alone(left, right, line, clock,
+                           {.wait = [this](hal::Instant, const std::atomic<bool>&) { cancelled = true; }});
+  const auto pair = left_alone.grab(slot, cancelled);
+  ASSERT_FALSE(pair);
+  EXPECT_EQ(pair.error().code, Errc::Cancelled);
+  EXPECT_EQ(line.pulses, 1);
+  EXPECT_EQ(left.starts, 1);
 }
 
 }  // namespace

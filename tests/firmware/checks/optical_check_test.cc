@@ -6,7 +6,6 @@
 
 #include <gtest/gtest.h>
 
-#include "firmware/checks/target_calibration.h"
 #include "hal/sim/optics/rig.h"
 #include "pipeline/model/vector3.h"
 #include "tests/firmware/checks/target_rig.h"

@@ -7,7 +7,7 @@
 #include <cstdlib>
 #include <string>
 
-#include "firmware/checks/target_calibration.h"
+#include "firmware/checks/optical_check.h"
 #include "firmware/measure/measurement.h"
 #include "firmware/measure/truth_view.h"
 #include "firmware/reconstruct/reconstruction.h"
@@ -29,6 +29,13 @@ hal::sim::RigOptions portrait() {
   rig.height_px = 1920;
   rig.focal_px = 2320;
   return rig;
+}
+
+ReconstructArgs pair_in(const Path& folder, const std::string& prefix, const char* calibration) {
+  ReconstructArgs args;
+  args.pictures = {folder / (prefix + "left.png"), folder / (prefix + "right.png")};
+  args.calibrations = {folder / calibration};
+  return args;
 }
 
 TEST(Portrait, TheRigSeesHigherThanWide) {
@@ -67,8 +74,7 @@ TEST(Portrait, CalibratesReconstructsAndIsTrue) {
   ASSERT_TRUE(hal::sim::render_to_folder(face, folder.path()));
   Reconstruction reconstruction;
   Console console;
-  const auto done = reconstruction.run(folder.path() / "left.png", folder.path() / "right.png",
-                                       folder.path() / "rig_calibrated.yml", {}, {}, console);
+  const auto done = reconstruction.run(pair_in(folder.path(), "", "rig_calibrated.yml"), console);
   ASSERT_TRUE(done) << done.error().what.view();
   const auto view = measure::TruthView::read(folder.path());
   const auto surface = measure::read_true_surface(folder.path() / "head.ply");
@@ -102,8 +108,7 @@ TEST(Portrait, LyingSensorsGiveTheSameFace) {
   ASSERT_TRUE(calibration);
   Reconstruction upright;
   Console console;
-  ASSERT_TRUE(upright.run(folder.path() / "left.png", folder.path() / "right.png", folder.path() / "rig.yml",
-                          {}, {}, console));
+  ASSERT_TRUE(upright.run(pair_in(folder.path(), "", "rig.yml"), console));
   for (const test::Side side : {test::Side::Clockwise, test::Side::Counterclockwise}) {
     for (const char* eye : {"left", "right"}) {
       const auto picture = hal::read_picture(folder.path() / (std::string(eye) + ".png"));
@@ -113,8 +118,7 @@ TEST(Portrait, LyingSensorsGiveTheSameFace) {
     }
     ASSERT_TRUE(pipeline::write_calibration(folder.path() / "lying.yml", test::laid(*calibration, side)));
     Reconstruction lying;
-    const auto done = lying.run(folder.path() / "lying_left.png", folder.path() / "lying_right.png",
-                                folder.path() / "lying.yml", {}, {}, console);
+    const auto done = lying.run(pair_in(folder.path(), "lying_", "lying.yml"), console);
     ASSERT_TRUE(done) << done.error().what.view();
     const pipeline::ModelQuality& expected = upright.report().quality;
     // The outline is known to a part of the lattice's cells, 2 mm wide on pictures this small.

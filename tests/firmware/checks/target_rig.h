@@ -7,7 +7,7 @@
 
 #include <optional>
 
-#include "firmware/checks/target_calibration.h"
+#include "firmware/checks/optical_check.h"
 #include "hal/sim/target/target_photo.h"
 
 namespace relievo::firmware {

@@ -3,6 +3,9 @@
 #include "firmware/base/output_folder.h"
 
 #include <gtest/gtest.h>
+#include <unistd.h>
+
+#include <string>
 
 #include "tests/support/temporary_folder.h"
 
@@ -46,6 +49,19 @@ TEST(OutputFolder, ReplacesFilesOfItsOwnNamesAndTouchesNoOther) {
   ASSERT_TRUE(folder->commit());
   EXPECT_EQ(test::read_text(here / "out/a.txt"), "new");
   EXPECT_EQ(test::read_text(here / "out/mine.txt"), "mine");
+}
+
+TEST(OutputFolder, WhatARunThatWasKilledLeftComesIntoNoResult) {
+  const test::TemporaryFolder here;
+  const auto left = here / (".out.part" + std::to_string(getpid()));
+  std::filesystem::create_directory(left);
+  write_text(left / "b.txt", "old");
+  auto folder = OutputFolder::begin(here / "out");
+  ASSERT_TRUE(folder);
+  ASSERT_EQ(folder->path(), left) << "the name that another run may have had";
+  write_text(folder->path() / "a.txt", "a");
+  ASSERT_TRUE(folder->commit());
+  EXPECT_EQ(listing(here.path()), "out\nout/a.txt\n");
 }
 
 TEST(OutputFolder, RefusesAFileAndAPlaceThatCannotBe) {

@@ -15,8 +15,8 @@
 #include <thread>
 #include <vector>
 
+#include "hal/clock.h"
 #include "hal/device.h"
-#include "hal/monotonic_clock.h"
 #include "hal/picture_file.h"
 
 namespace relievo::test {

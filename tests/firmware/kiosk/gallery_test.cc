@@ -138,8 +138,8 @@ void GalleryTest::buttons_are_large_apart_and_named(const ui::Tree& tree, const 
 
 void GalleryTest::keypad_reaches_every_button(const ui::Tree& tree) {
   std::set<std::string> reached;
-  const ui::Node* at = tree.after("", 1);
-  while (at != nullptr && reached.insert(std::string(at->id)).second) at = tree.after(at->id, 1);
+  const ui::Node* at = tree.after(nullptr, 1);
+  while (at != nullptr && reached.insert(std::string(at->id)).second) at = tree.after(at, 1);
   const bool modal = tree.find("veil") != nullptr;
   for (const ui::Node& node : tree.nodes()) {
     const bool wanted =

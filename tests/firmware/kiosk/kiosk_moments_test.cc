@@ -13,7 +13,7 @@
 
 #include "firmware/kiosk/kiosk.h"
 #include "firmware/records/receipt.h"
-#include "hal/monotonic_clock.h"
+#include "hal/clock.h"
 #include "hal/sim/device.h"
 #include "pipeline/calibrate/file/calibration_file.h"
 #include "storage/sqlite/sqlite_store.h"

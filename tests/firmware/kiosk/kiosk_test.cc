@@ -17,10 +17,10 @@
 
 #include "firmware/kiosk/code/qr_code.h"
 #include "firmware/records/receipt.h"
-#include "hal/monotonic_clock.h"
+#include "hal/clock.h"
 #include "hal/picture_file.h"
 #include "hal/sim/device.h"
-#include "hal/sim/replay/folder_media.h"
+#include "hal/sim/replay/replay_device.h"
 #include "pipeline/calibrate/file/calibration_file.h"
 #include "storage/sqlite/sqlite_store.h"
 #include "tests/firmware/kiosk/kiosk_hands.h"
@@ -128,8 +128,8 @@ class KioskTest : public KioskHands {
                                             : "");
     kiosk->turn();
     EXPECT_NE(kiosk->ui().draw_list().faces[0].model, nullptr);
-    for (const ui::StageView& stage : kiosk->view().stages)
-      EXPECT_FALSE(stage.picture.empty()) << "a stage has no picture";
+    for (const ui::Picture& stage : kiosk->view().stages)
+      EXPECT_FALSE(stage.pixels.empty()) << "a stage has no picture";
     // Turned with a finger.
     const ui::Rect face = kiosk->ui().tree().find("face")->rect;
     kiosk->feed({ui::Input::Kind::Down, 1, face.x + 200, face.y + 200});

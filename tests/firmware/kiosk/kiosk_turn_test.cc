@@ -14,11 +14,11 @@
 
 #include "firmware/service/export_records.h"
 #include "hal/base/whole_file.h"
-#include "hal/monotonic_clock.h"
+#include "hal/clock.h"
 #include "hal/picture_file.h"
 #include "hal/recording/capture_file.h"
 #include "hal/sim/device.h"
-#include "hal/sim/replay/folder_media.h"
+#include "hal/sim/replay/replay_device.h"
 #include "pipeline/calibrate/file/calibration_file.h"
 #include "pipeline/model/vector3.h"
 #include "storage/sqlite/sqlite_store.h"
@@ -167,7 +167,7 @@ TEST_F(KioskTurn, WhoCannotHasTheFaceOfOnePicture) {
   kiosk->turn();
   ASSERT_NE(kiosk->view().model, nullptr);
   EXPECT_TRUE(poses().empty());
-  for (const ui::StageView& stage : kiosk->view().stages) EXPECT_FALSE(stage.picture.empty());
+  for (const ui::Picture& stage : kiosk->view().stages) EXPECT_FALSE(stage.pixels.empty());
 }
 
 TEST_F(KioskTurn, WhoLeavesLeavesNothing) {

@@ -6,8 +6,8 @@
 
 #include <algorithm>
 
-#include "firmware/command/subject_lookup.h"
-#include "storage/receipt_number.h"
+#include "firmware/command/commands.h"
+#include "storage/record.h"
 #include "storage/sqlite/sqlite_store.h"
 #include "tests/storage/sample.h"
 #include "tests/support/temporary_folder.h"

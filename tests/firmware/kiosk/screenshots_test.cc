@@ -11,7 +11,7 @@
 #include <filesystem>
 #include <fstream>
 
-#include "hal/monotonic_clock.h"
+#include "hal/clock.h"
 #include "hal/sim/device.h"
 #include "pipeline/calibrate/file/calibration_file.h"
 #include "storage/sqlite/sqlite_store.h"

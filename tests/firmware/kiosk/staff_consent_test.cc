@@ -16,11 +16,11 @@ using ui::Outcome;
 class PulledAtOnce final : public hal::RemovableMedia {
  public:
   explicit PulledAtOnce(Path root) : root_(std::move(root)) {}
-  std::optional<hal::Medium> current() override {
+  std::optional<std::filesystem::path> current() override {
     if (!std::filesystem::exists(root_)) return std::nullopt;
     const Path there = root_.string() + " in a hand";
     std::filesystem::rename(root_, there);
-    return hal::Medium{root_, 1U << 20U};
+    return root_;
   }
   Result<void> flush_and_eject() override { return {}; }
 

@@ -5,6 +5,8 @@
 // half-written passes for an export, and the records stay.
 #include <unistd.h>
 
+#include "firmware/base/budget.h"
+#include "firmware/service/export_records.h"
 #include "tests/firmware/kiosk/staff_hands.h"
 #include "tests/support/faulty_stick.h"
 #include "ui/view/staff_views.h"
@@ -71,6 +73,7 @@ class StaffExportTest : public StaffHands {
     ASSERT_TRUE(store.has_value());
     EXPECT_EQ((*store)->subjects({})->size(), 2U) << "an export takes nobody away";
   }
+  hal::ManualClock time;  // of the test that lends it
   FaultyStick faulty{stick()};
   std::unique_ptr<test::TinyDisk> disk;
   std::unique_ptr<FaultyStick> on_disk;
@@ -170,6 +173,88 @@ TEST_F(StaffExportTest, AStickThatGivesBackOtherBytesIsFoundOut) {
   EXPECT_EQ(exported_on(stick()), "2");
   EXPECT_EQ(entries_of(stick() / "relievo"), 1U);
   ends_well_the_next_time(stick());
+}
+
+TEST_F(StaffExportTest, AllThatTheSearchLetsPassIsExportedNotOnlyThePageThatIsShown) {
+  constexpr int kFound = 51;  // a page and one more
+  const pipeline::FaceModel model = storage::test::sample_model();
+  {
+    auto store = storage::open_sqlite_store(args.store, wall(), {});
+    ASSERT_TRUE(store.has_value());
+    for (int i = 1; i <= kFound; ++i)
+      ASSERT_TRUE((*store)->add_enrolment(storage::NewSubject{"Ada " + std::to_string(i)},
+                                          storage::test::sample_enrolment(model)));
+    ASSERT_TRUE(
+        (*store)->add_enrolment(storage::NewSubject{"Grace Hopper"}, storage::test::sample_enrolment(model)));
+  }
+  start();
+  first_start();
+  sign_in("80526", StaffRole::Operator);
+  tap("open records");
+  const auto newest = "record " + code_of(kFound + 1);
+  ASSERT_TRUE(until([&] { return find(newest) != nullptr; }));
+  tap("search");
+  tap("key d");
+  tap("done");
+  ASSERT_TRUE(until([&] { return find("all") != nullptr && find(newest) == nullptr; }));
+  EXPECT_EQ(export_all(), Outcome::Done);
+  EXPECT_EQ(entries_of(stick() / "relievo"), std::size_t{kFound});
+  EXPECT_TRUE(std::filesystem::exists(stick() / "relievo" / code_of(1))) << "of the last page";
+  EXPECT_FALSE(std::filesystem::exists(stick() / "relievo" / code_of(kFound + 1))) << "who was not found";
+}
+
+TEST_F(StaffExportTest, AnExportThatGoesOnOutlastsTheMachinesLimit) {
+  changes.clock = &time;
+  open_records({"Ada Lovelace", "Grace Hopper"});
+  faulty.fail(FaultyStick::Fault::Waits);
+  tap("export all");
+  ASSERT_TRUE(until([this] { return faulty.waits(); }));
+  kiosk->turn();
+  time.advance(budget::kExportLimit - std::chrono::seconds(1));
+  kiosk->turn();
+  ASSERT_EQ(kiosk->appliance().state(), State::Export);
+  faulty.fail(FaultyStick::Fault::Waits);
+  faulty.let_go_on();
+  ASSERT_TRUE(until([this] { return faulty.waits(); })) << "the second record";
+  kiosk->turn();
+  time.advance(budget::kExportLimit - std::chrono::seconds(1));
+  kiosk->turn();
+  EXPECT_EQ(kiosk->appliance().state(), State::Export) << "a record came meanwhile";
+  faulty.let_go_on();
+  ASSERT_TRUE(ended());
+  EXPECT_EQ(outcome(), Outcome::Done);
+  EXPECT_EQ(exported_on(stick()), "12");
+}
+
+TEST_F(StaffExportTest, AnExportThatHangsIsEndedByTheMachinesLimit) {
+  changes.clock = &time;
+  open_records({"Ada Lovelace"});
+  faulty.fail(FaultyStick::Fault::Waits);
+  tap("export all");
+  ASSERT_TRUE(until([this] { return faulty.waits(); }));
+  kiosk->turn();
+  for (int part = 0; part < 5; ++part) {  // a jump over the whole limit would end any state
+    time.advance(budget::kExportLimit / 4);
+    kiosk->turn();
+  }
+  EXPECT_NE(kiosk->appliance().state(), State::Export);
+  faulty.let_go_on();
+}
+
+// Of a sheet that is no head.
+TEST_F(StaffExportTest, WhyThereIsNoSolidStandsInTheRecord) {
+  enrol("Ada Lovelace");
+  auto store = storage::open_sqlite_store(args.store, wall(), {});
+  ASSERT_TRUE(store.has_value());
+  const std::atomic<bool> cancelled{false};
+  pipeline::Progress progress;
+  JobControl control{cancelled, progress};
+  ExportTrace trace;
+  ASSERT_TRUE(
+      export_records(**store, wall(), faulty, {storage::SubjectId{1}}, {.watertight = true}, control, trace));
+  const Path record = std::filesystem::directory_iterator(stick() / "relievo")->path();
+  EXPECT_FALSE(std::filesystem::exists(record / "solid.stl"));
+  EXPECT_NE(text_of_file(record / "record.txt").find("\nno solid: "), std::string::npos);
 }
 
 TEST_F(StaffExportTest, TheOperatorStopsItAndNothingIsHalfWritten) {

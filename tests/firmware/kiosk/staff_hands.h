@@ -8,13 +8,14 @@
 #include <chrono>
 #include <filesystem>
 #include <fstream>
+#include <functional>
 #include <initializer_list>
 #include <memory>
 #include <string>
 #include <utility>
 
 #include "firmware/records/receipt.h"
-#include "hal/monotonic_clock.h"
+#include "hal/clock.h"
 #include "hal/picture_file.h"
 #include "hal/sim/device.h"
 #include "hal/sim/replay/replay_device.h"
@@ -33,21 +34,41 @@ using ui::StaffRole;
 
 inline hal::sim::RigOptions tiny_rig() { return test::small_rig(0.125); }
 
+// A camera whose light can be set, if only to be told.
+class SettableCamera final : public hal::Camera {
+ public:
+  explicit SettableCamera(hal::Camera& real) : real_(real) {}
+
+ private:
+  Result<void> do_open(const hal::CaptureMode& mode) override { return real_.open(mode); }
+  Result<void> do_start() override { return real_.start(); }
+  Result<hal::Frame> do_next_frame(hal::Instant deadline) override { return real_.next_frame(deadline); }
+  void do_stop() override { real_.stop(); }
+  void do_close() override { real_.close(); }
+  Result<void> do_set_exposure(const hal::Exposure&) override { return {}; }
+  Result<hal::ExposureLimits> do_exposure_limits() const override {
+    return hal::ExposureLimits{{std::chrono::microseconds(50), 1}, {std::chrono::microseconds(30'000), 1}};
+  }
+  hal::Camera& real_;
+};
+
 // Another device with what a test changes: people stand before its cameras, its time moves by hand, its stick
 // has faults.
 class ChangedDevice final : public hal::Device {
  public:
   struct Changes {
     bool live = false;
+    bool settable = false;        // its cameras' light
     hal::Clock* clock = nullptr;  // none: the device's own
     hal::RemovableMedia* media = nullptr;
+    std::function<bool()> too_hot;  // none: it never is
   };
   ChangedDevice(std::unique_ptr<hal::Device> device, const Changes& changes)
       : device_(std::move(device)), changes_(changes) {}
   std::string_view name() const override { return device_->name(); }
   hal::CaptureMode preferred_mode() const override { return device_->preferred_mode(); }
-  hal::Camera& left() override { return device_->left(); }
-  hal::Camera& right() override { return device_->right(); }
+  hal::Camera& left() override { return changes_.settable ? left_ : device_->left(); }
+  hal::Camera& right() override { return changes_.settable ? right_ : device_->right(); }
   hal::TriggerLine& trigger() override { return device_->trigger(); }
   hal::RemovableMedia& media() override {
     return changes_.media != nullptr ? *changes_.media : device_->media();
@@ -56,10 +77,12 @@ class ChangedDevice final : public hal::Device {
   hal::Watchdog& watchdog() override { return device_->watchdog(); }
   bool is_live() const override { return changes_.live; }
   bool exposes_together() const override { return device_->exposes_together(); }
+  bool too_hot() const override { return changes_.too_hot && changes_.too_hot(); }
 
  private:
   std::unique_ptr<hal::Device> device_;
   Changes changes_;
+  SettableCamera left_{device_->left()}, right_{device_->right()};
 };
 
 class StaffHands : public KioskHands {

@@ -6,6 +6,7 @@
 #include <cstring>
 #include <random>
 
+#include "hal/recording/capture_file.h"
 #include "tests/firmware/kiosk/staff_hands.h"
 #include "tests/support/faulty_stick.h"
 
@@ -43,6 +44,33 @@ class StaffRecordTest : public StaffHands {
     EXPECT_EQ(find("record"), nullptr) << "nothing to be recorded yet";
     tap("capture");
     ASSERT_TRUE(until([this] { return find("record") != nullptr; })) << technician().problem.detail;
+  }
+  // The cameras are set while their page is open.
+  void watch(bool brighter) {
+    tap("back");
+    tap("open cameras");
+    ASSERT_TRUE(until([this] { return find("brighter") != nullptr && technician().cameras.watched; }));
+    if (brighter) {
+      tap("brighter");
+      ASSERT_TRUE(until([this] { return technician().cameras.exposure_us > 4500; }));
+    }
+    tap("back");
+    ASSERT_TRUE(until([this] { return !kiosk->staff().side_tasks().busy(JobLane::Capture); }));
+    tap("open stages");
+  }
+  // Whose light can be set, and is 4000 us.
+  void settable_cameras() {
+    hal::CaptureFile pairs;
+    pairs.frames.push_back({.exposure_us = 4000});
+    ASSERT_TRUE(hal::write_capture_file(folder.path() / "pairs" / "capture.json", pairs));
+    changes.settable = true;
+  }
+  std::int64_t recorded_us() {
+    EXPECT_EQ(record(), Outcome::Done);
+    const auto names = recordings_on(stick());
+    if (names.size() != 1) return -1;
+    const auto recorded = hal::read_capture_file(stick() / "captures" / names.front() / "capture.json");
+    return recorded ? recorded->frames.front().exposure_us : -1;
   }
   Outcome record() { return use_stick("record"); }
   Outcome use_stick(const char* button) {
@@ -97,6 +125,24 @@ TEST_F(StaffRecordTest, WhatWasCapturedIsReplayedBitForBit) {
   is_replayed_bit_for_bit(stick() / "captures" / names.front());
   EXPECT_EQ(record(), Outcome::NoStick) << "it was let go";
   EXPECT_TRUE(says("There is no stick"));
+}
+
+TEST_F(StaffRecordTest, TheLightThatIsRecordedIsTheOneTheCaptureWasTakenIn) {
+  settable_cameras();
+  capture();
+  watch(true);  // for the next one
+  EXPECT_EQ(recorded_us(), 4000);
+}
+
+TEST_F(StaffRecordTest, TheLightOfTheCamerasStaysAsItWasSetWhenTheyAreWatchedAgain) {
+  settable_cameras();
+  capture();
+  watch(true);
+  watch(false);
+  const std::uint32_t before = technician().model_number;
+  tap("capture");
+  ASSERT_TRUE(until([&] { return technician().can_record && technician().model_number > before; }));
+  EXPECT_EQ(recorded_us(), 5040) << "a third of a stop";
 }
 
 TEST_F(StaffRecordTest, AStickThatIsPulledOutHasNoHalfRecording) {

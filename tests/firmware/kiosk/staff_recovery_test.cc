@@ -8,7 +8,7 @@
 #include <vector>
 
 #include "firmware/kiosk/code/qr_code.h"
-#include "storage/store_keeping.h"
+#include "storage/store.h"
 #include "tests/firmware/kiosk/staff_hands.h"
 #include "ui/view/staff_views.h"
 

@@ -93,6 +93,14 @@ TEST_F(StaffRoundTest, FirstStartThenEachRoleHasItsPages) {
   EXPECT_EQ(access.attempt("2718")->role, StaffRole::Operator);
 }
 
+TEST_F(StaffRoundTest, NothingOfAPinStaysWithTheStaffWhenItIsChosen) {
+  start();
+  first_start();
+  const StaffController& staff = kiosk->staff();
+  const std::string_view bytes(reinterpret_cast<const char*>(&staff), sizeof staff);
+  EXPECT_EQ(bytes.find("0526"), std::string_view::npos) << "80526, but for its first byte";
+}
+
 // A stick that is not there, and one that nothing can be written to: told, and nothing half-written.
 TEST_F(StaffRoundTest, AnExportThatCannotEndWellSaysSoAndTheNextOneDoes) {
   open_records({"Ada Lovelace"});

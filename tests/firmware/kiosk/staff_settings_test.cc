@@ -6,8 +6,10 @@
 #include <atomic>
 #include <optional>
 
+#include "firmware/base/budget.h"
 #include "firmware/service/device_settings.h"
 #include "firmware/service/retention.h"
+#include "firmware/technician/algorithm_controller.h"
 #include "tests/firmware/kiosk/staff_hands.h"
 #include "tests/support/faulty_store.h"
 #include "ui/view/staff_views.h"
@@ -87,6 +89,42 @@ TEST_F(StaffSettingsTest, AValueThatIsNoneLeavesTheUsualOneAndIsTold) {
   for (const ui::LogLine& line : kiosk->view().service->log->lines)
     told += line.text.find("what is usual holds") != std::string_view::npos ? 1 : 0;
   EXPECT_EQ(told, 2);
+}
+
+// Or the page that mends it is never reached.
+TEST_F(StaffSettingsTest, AChoiceOfAlgorithmsThatIsNoneLeavesTheUsualOneAndIsTold) {
+  store_setting(kAlgorithmsSetting, "matcher = unheard-of\nmesher = delaunay\nssd.window_px = 10\n");
+  start();
+  EXPECT_EQ(logged("“matcher = unheard-of” is not one: what is usual holds"), 1);
+  EXPECT_EQ(logged("“ssd.window_px = 10” is not one: what is usual holds"), 1);
+  first_start();
+  sign_in("4711", StaffRole::Technician);
+  tap("open algorithms");
+  const auto chosen = [this](std::string_view key) {
+    for (const ui::TechnicianKind& kind : kiosk->view().service->technician->choice.kinds)
+      if (kind.key == key) return kind.value;
+    return std::string_view();
+  };
+  EXPECT_EQ(chosen("matcher"), "refined");
+  EXPECT_EQ(chosen("mesher"), "delaunay") << "the rest is kept";
+  kiosk.reset();
+
+  store_setting(kAlgorithmsSetting, "selector = harris\nmesher = unheard-of\n");
+  start();
+  EXPECT_EQ(logged("“algorithms” is not one: what is usual holds"), 1)
+      << "what is left does not fit together";
+}
+
+TEST_F(StaffSettingsTest, WhoseMouseOnlyMovesIsThereForTheMachineToo) {
+  start();
+  first_start();
+  sign_in("4711", StaffRole::Technician);
+  for (hal::Instant end = time.now() + 2 * budget::kStaffLimit; time.now() < end;) {
+    time.advance(std::chrono::seconds(100));
+    kiosk->feed({ui::Input::Kind::Move, ui::kMouse, 1, 1});
+    kiosk->turn();
+    ASSERT_EQ(kiosk->appliance().state(), State::Staff);
+  }
 }
 
 // Takes its time over the next setting, and does not take it.

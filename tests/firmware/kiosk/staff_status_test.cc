@@ -3,6 +3,10 @@
 //
 // The staff's first page in the real kiosk: a fault reddens it, its row opens the page where it is mended,
 // and when it is mended the row is gone. What the last visits cost stands on the page of health.
+#include <algorithm>
+#include <atomic>
+
+#include "firmware/base/budget.h"
 #include "firmware/command/commands.h"
 #include "tests/firmware/kiosk/staff_hands.h"
 #include "tests/support/played_device.h"
@@ -26,6 +30,21 @@ class StaffStatusTest : public StaffHands {
     sign_in(role == StaffRole::Operator ? "80526" : "4711", role);
     ASSERT_TRUE(until([this] { return looked(); })) << "the device is looked at beside the screen";
     kiosk->turn();
+  }
+  void pull_a_camera_from_a_visit() {
+    start();
+    first_start();
+    tap("sign out");
+    ASSERT_TRUE(until([this] { return !kiosk->ui().service().open; }));
+    tap("start");
+    tap("agree");
+    kiosk->ui().visit().type("Grace");
+    kiosk->turn();
+    tap("done");
+    ASSERT_TRUE(reach(ui::Step::Position));
+    ASSERT_TRUE(until([this] { return kiosk->view().live.number > 0; }));
+    world.pulled = true;
+    ASSERT_TRUE(reach(ui::Step::Trouble));
   }
   bool looked() const {
     return kiosk->view().service->status != nullptr && kiosk->view().service->status->looked;
@@ -85,19 +104,7 @@ TEST_F(StaffStatusTest, AWrongClockReddensItUntilItIsSetOnThePageItLeadsTo) {
 
 TEST_F(StaffStatusTest, APulledCameraReddensItForBothRolesAndOnlyTheTechnicianIsLedToIt) {
   play_device();
-  start();
-  first_start();
-  tap("sign out");
-  ASSERT_TRUE(until([this] { return !kiosk->ui().service().open; }));
-  tap("start");
-  tap("agree");
-  kiosk->ui().visit().type("Grace");
-  kiosk->turn();
-  tap("done");
-  ASSERT_TRUE(reach(ui::Step::Position));
-  ASSERT_TRUE(until([this] { return kiosk->view().live.number > 0; }));
-  world.pulled = true;
-  ASSERT_TRUE(reach(ui::Step::Trouble));
+  pull_a_camera_from_a_visit();
   sign_in("4711", StaffRole::Technician);
   ASSERT_TRUE(until([this] { return looked() && find("status camera") != nullptr; }));
   EXPECT_TRUE(red("status camera"));
@@ -112,6 +119,48 @@ TEST_F(StaffStatusTest, APulledCameraReddensItForBothRolesAndOnlyTheTechnicianIs
   EXPECT_TRUE(red("status camera"));
   EXPECT_EQ(find("status camera")->action.kind, ui::ActionKind::None) << "it is the technician's work";
   EXPECT_TRUE(says("Technician"));
+}
+
+TEST_F(StaffStatusTest, AKeeperThatHangsIsAskedForTheHeatOnce) {
+  hal::ManualClock time;
+  changes.clock = &time;
+  std::atomic<int> looks{0};
+  std::atomic<bool> hangs{true};
+  changes.too_hot = [&] {
+    ++looks;
+    hangs.wait(true);
+    return false;
+  };
+  start();
+  for (int look = 0; look < 5; ++look) {
+    time.advance(budget::kHeatLook);
+    kiosk->turn();
+  }
+  hangs = false;
+  hangs.notify_all();
+  first_start();  // the keeper has done what waited before it
+  EXPECT_EQ(looks, 1);
+  kiosk.reset();  // before what its device borrows
+}
+
+TEST_F(StaffStatusTest, AnExportThatFailsDoesNotTellOfAVisitsFaultOnceMore) {
+  play_device();
+  enrol("Ada Lovelace");
+  pull_a_camera_from_a_visit();
+  sign_in("80526", StaffRole::Operator);
+  tap("open records");
+  ASSERT_TRUE(until([this] { return find("export all") != nullptr; }));
+  const auto told = [this] {
+    return std::ranges::count_if(kiosk->staff().log().entries(), [](const ui::LogLine& line) {
+      return line.fault && line.code != Errc::MediaMissing;
+    });
+  };
+  const auto before = told();
+  EXPECT_GT(before, 0);
+  tap("export all");
+  ASSERT_TRUE(until([this] { return kiosk->view().service->work.outcome != ui::Outcome::None; }));
+  EXPECT_EQ(kiosk->view().service->work.outcome, ui::Outcome::NoStick);
+  EXPECT_EQ(told(), before);
 }
 
 // A visit on the simulated rig, with all its stages; the session is wiped when it ends, and so is what the

@@ -29,7 +29,7 @@ class Socket final : public hal::RemovableMedia {
  public:
   std::atomic<hal::RemovableMedia*> stick{nullptr};
   std::atomic<int> asked{0};
-  std::optional<hal::Medium> current() override {
+  std::optional<std::filesystem::path> current() override {
     ++asked;
     hal::RemovableMedia* in = stick;
     return in != nullptr ? in->current() : std::nullopt;

@@ -12,6 +12,8 @@
 
 #include "firmware/base/budget.h"
 #include "tests/firmware/machine/event_names.h"
+#include "ui/device/settings.h"
+#include "ui/view/visit.h"
 
 namespace relievo::firmware {
 namespace {
@@ -120,6 +122,15 @@ TEST(Machine, WhoIsStillThereGetsTheWholeTimeAgain) {
   (void)machine.handle(E::Begin, boot);
   machine.renew(boot + budget::kCaptureLimit);  // a machine's own work gets no more time for that
   EXPECT_TRUE(machine.tick(boot + budget::kCaptureLimit));
+}
+
+TEST(Machine, AStateThatWaitsForAPersonOutlastsWhatItsPageWaits) {
+  const auto most = [](ui::Setting setting) {
+    return std::chrono::seconds(std::ranges::max(ui::info_of(setting).values));
+  };
+  for (const S state : {S::Position, S::Review})
+    EXPECT_GT(*limit_of(state), most(ui::Setting::PatienceS) + ui::kLastCall) << name_of(state);
+  EXPECT_GT(*limit_of(S::Staff), most(ui::Setting::StaffPatienceS));
 }
 
 TEST(Machine, AFullDiskLeadsBackToReview) {

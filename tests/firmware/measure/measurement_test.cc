@@ -197,6 +197,21 @@ TEST(TrueSurface, ReadsOneFormOfPlyAndNothingElse) {
   EXPECT_FALSE(parse_true_surface(text));
 }
 
+// A bit of the exponent is wrong.
+TEST(TrueSurface, RefusesACornerFartherThanAnyHead) {
+  for (const float far : {1e30F, -1e30F, 1e6F}) {
+    std::string text =
+        "ply\nformat binary_little_endian 1.0\nelement vertex 3\nproperty float x\nproperty float y\nproperty float z\n"
+        "element face 1\nproperty list uchar int vertex_indices\nend_header\n";
+    const float corners[9] = {0, 0, 0, 1, 0, 0, 0, far, 5};
+    text.append(reinterpret_cast<const char*>(corners), sizeof corners);
+    text.append("\x03\0\0\0\0\1\0\0\0\2\0\0\0", 13);
+    const auto surface = parse_true_surface(text);
+    ASSERT_FALSE(surface) << far;
+    EXPECT_EQ(surface.error().code, Errc::InvalidInput);
+  }
+}
+
 TEST(TruthView, RefusesWhatIsNone) {
   const test::TemporaryFolder folder;
   EXPECT_EQ(TruthView::read(folder.path()).error().code, Errc::NotFound);

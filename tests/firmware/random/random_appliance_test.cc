@@ -109,7 +109,7 @@ class RandomAppliance : public testing::Test {
   RandomAppliance() {
     std::fill(memory.frames().data(), memory.follow().data() + memory.follow().size(), std::byte{0});
     judge.use(test::true_calibration(hal::sim::make_rig(rig)));
-    appliance.on_change([this](const Change& change) { changed(change); });
+    appliance.on_change([this](const Transition& change) { changed(change); });
   }
   hal::Instant now() { return device.time.now(); }
   // A state in which there is nothing to do is left before anybody is told of it.
@@ -118,7 +118,7 @@ class RandomAppliance : public testing::Test {
     return may && std::any_of(kTransitions.begin(), kTransitions.end(),
                               [&](const Transition& row) { return row.from == before && row.to == state; });
   }
-  void changed(const Change& change) {
+  void changed(const Transition& change) {
     EXPECT_TRUE(change.from == in || left_at_once(in, change.from))
         << "told of " << name_of(change.from) << " " << name_of(change.event) << " in " << name_of(in);
     EXPECT_EQ(next(change.from, change.event), change.to)

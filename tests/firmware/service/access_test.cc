@@ -12,7 +12,6 @@
 #include <optional>
 #include <string>
 
-#include "firmware/service/pin_hash.h"
 #include "firmware/service/statistics.h"
 #include "storage/sqlite/sqlite_store.h"
 #include "tests/support/temporary_folder.h"
@@ -171,6 +170,16 @@ TEST(Statistics, CountsWhatBecameOfEveryVisitAndComesBackFromItsText) {
   EXPECT_EQ(day(read.view(first).days.visits, 0), 1) << "a clock that was set back changes no day";
   EXPECT_FALSE(Statistics().read("1 2026-03-02 7"));
   EXPECT_FALSE(Statistics().read(counts.text().substr(0, counts.text().size() - 6)));
+}
+
+TEST(Statistics, WhoTurnsForTooLongIsNotRefused) {
+  const std::chrono::sys_days day = std::chrono::year{2026} / 3 / 2;
+  Statistics counts;
+  counts.noted({State::Turn, Event::Timeout, State::Fuse}, nullptr, {}, day);
+  counts.noted({State::Fuse, Event::StageDone, State::Review}, nullptr, {}, day);
+  const ui::StatisticsView seen = counts.view(day);
+  EXPECT_EQ(seen.models, 1U);
+  EXPECT_EQ(std::accumulate(seen.refused.begin(), seen.refused.end(), std::uint64_t{0}), 0U);
 }
 
 }  // namespace

@@ -6,6 +6,7 @@
 
 #include <atomic>
 #include <fstream>
+#include <functional>
 
 #include "hal/sim/optics/rig.h"
 #include "pipeline/calibrate/file/calibration_file.h"
@@ -21,8 +22,9 @@ namespace fs = std::filesystem;
 class FolderStick final : public hal::RemovableMedia {
  public:
   explicit FolderStick(fs::path root) : root_(std::move(root)) {}
-  std::optional<hal::Medium> current() override {
-    return gone ? std::nullopt : std::optional<hal::Medium>({root_, 1U << 30U});
+  std::optional<std::filesystem::path> current() override {
+    if (asked) asked();
+    return gone ? std::nullopt : std::optional(root_);
   }
   Result<void> settle(const fs::path& folder) override {
     if (spoils) std::ofstream(folder / "left.yaml", std::ios::app) << "x";
@@ -35,6 +37,7 @@ class FolderStick final : public hal::RemovableMedia {
   }
   bool gone = false, spoils = false, leaves = false;
   int ejected = 0;
+  std::function<void()> asked;  // where it is
 
  private:
   fs::path root_;
@@ -105,6 +108,19 @@ TEST_F(CalibrationStick, NothingHalfWrittenStands) {
   EXPECT_EQ(stick.ejected, 0);
   for (const auto& left : fs::recursive_directory_iterator(root))
     EXPECT_TRUE(left.is_directory()) << left.path() << " lies where the stick was";
+}
+
+TEST_F(CalibrationStick, WhoStopsWhatHasItsNameAlreadyHasItAndTheStickIsLetGo) {
+  std::atomic<bool> cancelled{false};
+  pipeline::Progress progress;
+  JobControl control{cancelled, progress};
+  ExportTrace trace;
+  const fs::path file = root / kSavedFolder / (std::string("one") + kSavedEnding);
+  stick.asked = [&] { cancelled = fs::exists(file); };
+  EXPECT_TRUE(save_reconstruction(SavedBytes({std::byte{1}}), "one", stick, control, trace));
+  EXPECT_TRUE(cancelled) << "it was stopped";
+  EXPECT_TRUE(fs::exists(file));
+  EXPECT_EQ(stick.ejected, 1);
 }
 
 // What a stick that was pulled out has left: the next export clears the one and brings back the other.

@@ -7,7 +7,7 @@
 #include <filesystem>
 
 #include "hal/recording/capture_file.h"
-#include "hal/sim/replay/folder_media.h"
+#include "hal/sim/replay/replay_device.h"
 #include "tests/firmware/technician/technician_fixture.h"
 
 namespace relievo::firmware {

@@ -11,8 +11,9 @@
 
 #include "firmware/work/session_document.h"
 #include "hal/base/whole_file.h"
-#include "hal/sim/replay/folder_media.h"
+#include "hal/sim/replay/replay_device.h"
 #include "storage/document/document.h"
+#include "storage/model_blob.h"
 #include "tests/firmware/busy_lane.h"
 
 namespace relievo::firmware {
@@ -51,7 +52,8 @@ TEST_F(TechnicianTest, WhatIsForVisitorsComesIntoUseThoughTheTechnicianLeavesMea
 
   // A calibration of before, likewise.
   ASSERT_TRUE(rig().until([] { return !rig().side_tasks->busy(JobLane::Keeper); }));
-  ASSERT_TRUE(rig().store->save_calibration(*rig().stages->calibration(), "once more").has_value());
+  for (const char* note : {"once more", "and once more"})
+    ASSERT_TRUE(rig().store->save_calibration(*rig().stages->calibration(), note).has_value());
   rig().open(StaffPage::Calibrate);
   ASSERT_TRUE(rig().until([] { return rig().now().calibration.history_count > 1; }));
   const std::uint32_t wanted = rig().now().calibration.history[1].revision;
@@ -100,6 +102,55 @@ TEST_F(TechnicianTest, WhatIsSavedIsWhatWasThereWhenItWasAskedFor) {
   EXPECT_EQ(making->set.get("mesher"), "grid");
   EXPECT_EQ(making->records.size(), document->head().stages.size());
   rig().tap("reset");
+  rig().plug_in();
+}
+
+// What has the worker is somebody else's: it goes on.
+TEST_F(TechnicianTest, ARunThatIsStoppedBeforeItsTurnNeverBegins) {
+  capture();
+  const auto model = [] { return *storage::encode_model(*products().model); };
+  const auto before = model();
+  BusyLane worker(*rig().side_tasks, JobLane::Worker);
+  rig().test_capture->act(ui::RunStages{});
+  ASSERT_EQ(rig().now().phase, TechnicianPhase::Running);
+  rig().test_capture->act(ui::DoTechnician{ui::TechnicianAct::Stop});
+  EXPECT_EQ(rig().now().phase, TechnicianPhase::Failed) << "at once";
+  worker.go_on();
+  ASSERT_TRUE(rig().until([] { return !rig().side_tasks->busy(JobLane::Worker); }));
+  EXPECT_FALSE(worker.stopped());
+  EXPECT_EQ(model(), before);
+  rig().test_capture->act(ui::RunStages{});
+  ASSERT_TRUE(rig().until(finished));
+  EXPECT_EQ(rig().now().phase, TechnicianPhase::Ready) << rig().now().problem.detail;
+  EXPECT_EQ(model(), before);
+}
+
+TEST_F(TechnicianTest, ARunThatIsStoppedBeforeItsTurnLeavesWhatIsSavedAsItWas) {
+  capture();
+  rig().plug_in();
+  rig().tap("stage 2");
+  rig().tap("by hand");
+  rig().tap("left");
+  ASSERT_TRUE(rig().now().pairs_changed);
+  {
+    const BusyLane worker(*rig().side_tasks, JobLane::Worker);
+    rig().test_capture->act(ui::RunStages{});
+    ASSERT_EQ(rig().now().phase, TechnicianPhase::Running);
+    rig().test_capture->act(ui::DoTechnician{ui::TechnicianAct::Stop});
+  }
+  EXPECT_TRUE(rig().now().pairs_changed) << "a pair by hand still waits to be calculated with";
+  rig().tap("save");
+  ASSERT_TRUE(rig().until([] { return rig().now().recording.outcome != ui::Outcome::None; }));
+  const auto saved = read_whole_file(rig().stick() / rig().now().recording.where, 1U << 30);
+  ASSERT_TRUE(saved);
+  const auto document = storage::Document::open(*saved);
+  ASSERT_TRUE(document);
+  const auto making = making_of(*document);
+  ASSERT_TRUE(making);
+  EXPECT_EQ(making->records.size(), kStages.size());
+  EXPECT_TRUE(making->by_hand.empty());
+  rig().tap("remove pair");
+  rig().tap("by hand");
   rig().plug_in();
 }
 

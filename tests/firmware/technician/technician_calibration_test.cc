@@ -64,18 +64,15 @@ TEST_F(TechnicianTest, ACalibrationIsMadeJudgedStoredAndUsed) {
 TEST_F(TechnicianTest, CamerasThatWereMountedAnewMayHaveAnotherDistance) {
   const std::uint32_t own = rig().stages->calibration()->revision;
   const auto& rows = rig().now().calibration.history;
-  const auto use = [&](std::size_t row) {
-    rig().tap("calibration " + std::to_string(row));
-    ASSERT_TRUE(rig().until([&] { return rows[row].active && rig().revision == rows[row].revision; }));
-  };
   const auto file = rig().folder.path() / "boards.yml";
   ASSERT_TRUE(hal::sim::write_rig(file, hal::sim::make_rig(rig().boards)).has_value());
   const auto before = rig().store->save_calibration(*pipeline::read_calibration(file), "of the boards' rig");
   ASSERT_TRUE(before.has_value());
+  // As on a device of those cameras.
+  rig().stages->replace(
+      *pipeline::Pipeline::make(rig().stages->algorithms(), *rig().store->calibration(*before)));
   rig().open(StaffPage::Calibrate);
   ASSERT_TRUE(rig().until([&] { return rows[0].revision == *before; }));
-  use(1);
-  use(0);
   rig().boards.baseline_mm *= 1.1;
   ASSERT_NO_FATAL_FAILURE(calibrate());
   EXPECT_EQ(rig().now().calibration.verdict, pipeline::CalibrationVerdict::Refuse);
@@ -92,7 +89,41 @@ TEST_F(TechnicianTest, CamerasThatWereMountedAnewMayHaveAnotherDistance) {
   rig().boards.baseline_mm /= 1.1;
   const auto row = std::ranges::find(rows, own, &ui::TechnicianCalibrationRow::revision);
   ASSERT_NE(row, rows.end());
-  use(std::size_t(row - rows.begin()));
+  rig().tap("calibration " + std::to_string(row - rows.begin()));
+  ASSERT_TRUE(rig().until([&] { return rig().revision == own; }));
+}
+
+// Visitors could not be measured with it.
+TEST_F(TechnicianTest, ACalibrationForPicturesOfAnotherSizeComesIntoUseByNoWay) {
+  rig().open(StaffPage::Calibrate);
+  const auto done = [] { return !rig().side_tasks->busy(JobLane::Keeper); };
+  ASSERT_TRUE(rig().until(done));
+  const std::uint32_t own = rig().store->active_calibration()->revision;
+  const std::size_t count = rig().store->calibrations()->size();
+  const auto file = rig().stick() / "rig.yml";
+  ASSERT_TRUE(hal::sim::write_rig(file, hal::sim::make_rig(rig().boards)).has_value());
+  rig().plug_in();
+  rig().tap("calibration import");
+  ASSERT_TRUE(rig().until(done));
+  EXPECT_EQ(rig().store->calibrations()->size(), count);
+  const ui::Fault problem = rig().now().calibration.problem;
+  EXPECT_EQ(problem.code, Errc::InvalidInput);
+  for (const hal::sim::RigOptions& rig_of : {rig().boards, test::small_rig(test_technician::kScale)})
+    EXPECT_NE(problem.detail.find(std::to_string(rig_of.width_px) + "x" + std::to_string(rig_of.height_px)),
+              std::string::npos)
+        << problem.detail;
+
+  // One that the command line has stored.
+  const auto stored = rig().store->save_calibration(*pipeline::read_calibration(file), "of the boards' rig");
+  std::filesystem::remove(file);
+  ASSERT_TRUE(stored.has_value());
+  ASSERT_TRUE(rig().store->activate_calibration(own).has_value());
+  rig().open(StaffPage::Calibrate);
+  ASSERT_TRUE(rig().until([&] { return rig().now().calibration.history[0].revision == *stored; }));
+  rig().tap("calibration 0");
+  ASSERT_TRUE(rig().until(done));
+  EXPECT_EQ(rig().store->active_calibration()->revision, own);
+  EXPECT_NE(rig().revision, *stored);
 }
 
 }  // namespace

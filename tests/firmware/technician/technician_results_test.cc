@@ -8,7 +8,7 @@
 #include <filesystem>
 #include <string>
 
-#include "firmware/measure/self_agreement.h"
+#include "firmware/measure/match_figures.h"
 #include "storage/model_blob.h"
 
 namespace relievo::firmware {

@@ -10,7 +10,7 @@
 #include <string>
 #include <vector>
 
-#include "firmware/measure/self_agreement.h"
+#include "firmware/measure/match_figures.h"
 #include "hal/base/whole_file.h"
 #include "hal/picture_file.h"
 #include "hal/recording/capture_file.h"

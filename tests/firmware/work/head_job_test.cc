@@ -5,14 +5,12 @@
 // the test says.
 #include "firmware/work/jobs.h"
 
-#include "firmware/work/portrait_progress.h"
-
 #include <gtest/gtest.h>
 
 #include <algorithm>
 #include <thread>
 
-#include "hal/monotonic_clock.h"
+#include "hal/clock.h"
 #include "tests/firmware/played_appliance.h"
 
 namespace relievo::firmware {
@@ -120,6 +118,15 @@ TEST_F(HeadJobTest, WhatIsWrongWithASideSpoilsNoFace) {
   stages.pose_errors = {Errc::Cancelled, Errc::NoFace};  // the front's is well, the first side's is not
   ASSERT_TRUE(job.run(control));
   EXPECT_EQ(model()->quality.width_mm, 3);
+}
+
+TEST_F(HeadJobTest, SidesThatHadNoFrontToJoinAreToldAsLeftOut) {
+  for (const int grey : {1, 2}) ASSERT_TRUE(sides().add(Pair(grey).frame));
+  sides().end();
+  stages.pose_errors = {Errc::NoFace, Errc::NoFace};  // the front's, for either side
+  ASSERT_TRUE(job.run(control));
+  ASSERT_NE(model(), nullptr);
+  EXPECT_EQ(model()->poses_left_out, 2);
 }
 
 TEST_F(HeadJobTest, PosesThatDoNotMeetLeaveTheFaceAsItWas) {

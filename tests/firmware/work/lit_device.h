@@ -86,7 +86,7 @@ class LitDevice final : public hal::Device, hal::RemovableMedia, hal::Watchdog {
   hal::Watchdog& watchdog() override { return *this; }
 
  private:
-  std::optional<hal::Medium> current() override { return std::nullopt; }
+  std::optional<std::filesystem::path> current() override { return std::nullopt; }
   Result<void> flush_and_eject() override { return {}; }
   void kick() override {}
   int width_, height_;

@@ -11,7 +11,7 @@
 #include <vector>
 
 #include "firmware/work/jobs.h"
-#include "hal/monotonic_clock.h"
+#include "hal/clock.h"
 #include "tests/firmware/work/lit_device.h"
 
 namespace relievo::firmware {

@@ -8,13 +8,17 @@
 #include <atomic>
 #include <cmath>
 #include <functional>
+#include <memory>
 #include <optional>
+#include <span>
 #include <vector>
 
 #include "firmware/work/jobs.h"
 #include "hal/base/statistics.h"
 #include "tests/firmware/work/lit_device.h"
+#include "tests/support/gate_fixture.h"
 #include "tests/support/head_album.h"
+#include "tests/support/memory_search.h"
 
 namespace relievo::firmware {
 namespace {
@@ -117,6 +121,39 @@ TEST_F(PoseMetering, AFaceDarkInABrightRoomIsLitForAndFollowed) {
   pose_for(24);
   EXPECT_FALSE(pose->face());
   EXPECT_LT(kWindowLight * device.right_camera.factor(), 1);
+}
+
+// The judge outlives the visit: of the face it followed nothing may be found once the turn has ended.
+TEST_F(PoseMetering, TheShapeOfAFaceThatTurnedIsForgottenWithTheTurn) {
+  BootMemory room{std::size_t{20} * kAlbumWidth * 300, std::size_t{1} << 20, std::size_t{1} << 20, 0,
+                  std::size_t{80} << 20};
+  EnrolmentSession turning{room};
+  const hal::sim::PicturePair seen =
+      test::shared_album().develop(test::shared_album().shoot(kPerson, standing), {});
+  const pipeline::StereoFrame front{seen.left.view(), seen.right.view()};
+  std::vector<test::Canary> canaries;
+  {
+    test::GateFixture gate;
+    const pipeline::GateLook look = gate.first_look(front, test::shared_album().calibration());
+    const auto face = std::make_unique<pipeline::FrontFace>();
+    front_face(look.relief, look.answer.measures.head, *face);
+    ASSERT_GT(face->count, 100U);
+    canaries.emplace_back("a cheek", std::as_bytes(std::span(face->points).subspan(face->count / 2, 3)));
+    explicit_bzero(face.get(), sizeof *face);
+  }
+  test::MemorySearch search;
+  pipeline::Workspace work(1, std::size_t{8} << 20, std::size_t{64} << 20);
+  ASSERT_TRUE(*judge->begin_turn(front, work.context));
+  EXPECT_FALSE(search.find(canaries).empty()) << "it can be found";
+  TurnJob turn(grabber, turning, device, *pose, &*judge);
+  turn.begin_with(front);
+  turn.finish();
+  const std::atomic<bool> cancelled{false};
+  pipeline::Progress progress{};
+  JobControl control{cancelled, progress};
+  const auto ended = turn.run(control);
+  ASSERT_TRUE(ended) << ended.error().what.view();
+  EXPECT_TRUE(search.find(canaries).empty());
 }
 
 }  // namespace

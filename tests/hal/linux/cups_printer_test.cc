@@ -2,7 +2,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 //
 // A machine whose CUPS does not answer has no printer, and says what to do.
-#include "hal/linux/cups_printer.h"
+#include "hal/linux/device.h"
 
 #include <gtest/gtest.h>
 

@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: 2026 The Relievo authors
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include "hal/linux/input_switch.h"
+#include "hal/linux/device.h"
 
 #include <gtest/gtest.h>
 #include <linux/input.h>
@@ -25,6 +25,7 @@ class InputKernel final : public Kernel {
   int interruptions = 0;
 
   int open(const char* path) override {
+    if (interruptions > 0) return --interruptions, -EINTR;
     const int number = std::stoi(std::string(path).substr(std::string("/dev/input/event").size()));
     if (!devices.contains(number)) return -ENOENT;
     opened.insert(100 + number);
@@ -77,6 +78,13 @@ TEST(InputSwitch, EitherOfTwoIsEnough) {
   const auto jack = find_headphone_jack(kernel);
   ASSERT_NE(jack, nullptr);
   EXPECT_TRUE(jack->is_on());
+}
+
+TEST(InputSwitch, ASignalWhileItIsOpenedHidesNone) {
+  InputKernel kernel;
+  kernel.devices[0] = {kHeadphones, kHeadphones};
+  kernel.interruptions = 3;
+  EXPECT_NE(find_headphone_jack(kernel), nullptr);
 }
 
 TEST(InputSwitch, APresenceSensorIsNoHeadphoneJack) {

@@ -14,7 +14,7 @@ namespace {
 TEST(RealMounts, AFolderThatIsNoStickIsToldAsItIs) {
   const test::TemporaryFolder folder;
   Mounts& mounts = real_mounts();
-  EXPECT_FALSE(mounts.free_at(folder.path())) << "nothing is mounted there";
+  EXPECT_FALSE(mounts.is_mounted(folder.path())) << "nothing is mounted there";
   EXPECT_EQ(mounts.flush(folder.path()), 0);
   EXPECT_EQ(mounts.flush(folder.path() / "gone"), -ENOENT);
   EXPECT_LT(mounts.unmount(folder.path()), 0);

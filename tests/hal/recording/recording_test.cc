@@ -130,6 +130,13 @@ TEST(Recording, RefusesWhatIsNoPair) {
   EXPECT_TRUE(std::filesystem::is_empty(folder.path())) << "half a pair was written, or where no stick is";
 }
 
+TEST(Recording, ASerialNumberThatIsNoTextIsAnError) {
+  const TemporaryFolder folder;
+  const Noise grey(PixelFormat::Grey8, 1);
+  EXPECT_EQ(record_pair(folder.path(), {grey.view, grey.view, 0, 0, 0, 1, "A\xff", "B"}).error().code,
+            Errc::InvalidInput);
+}
+
 TEST(Recording, ANumberThatIsNoPicturesIsRefused) {
   const TemporaryFolder folder;
   const Noise grey(PixelFormat::Grey8, 1);

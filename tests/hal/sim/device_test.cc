@@ -8,7 +8,6 @@
 #include <fstream>
 
 #include "hal/recording/capture_file.h"
-#include "hal/sim/replay/folder_media.h"
 #include "hal/sim/replay/replay_device.h"
 #include "tests/hal/temporary_folder.h"
 #include "tests/support/manual_clock.h"
@@ -173,8 +172,7 @@ TEST(FolderMedia, ComesAndGoes) {
   EXPECT_FALSE(media.current());
   EXPECT_EQ(media.flush_and_eject().error().code, Errc::MediaMissing);
   media.plug(folder.path());
-  ASSERT_TRUE(media.current());
-  EXPECT_GT(media.current()->free_bytes, 0U);
+  EXPECT_TRUE(media.current());
   EXPECT_TRUE(media.flush_and_eject());
   EXPECT_FALSE(media.current());
   media.plug(folder / "pulled out");

@@ -201,6 +201,28 @@ TEST(Calibrator, LeavesOutABoardThatIsNotFlat) {
   EXPECT_EQ(found->quality.used, 13);
 }
 
+// A board of which nothing was used covers nothing, wherever it lay.
+TEST(Calibrator, ABoardThatWasLeftOutWholeCoversNothing) {
+  BoardSimulator boards(SimulatedRig{}, 0.08, 6);
+  boards.add(14);
+  pipeline::BoardView loose = boards.input().views[4];
+  const auto before = pipeline::calibrate(boards.input());
+  ASSERT_TRUE(before) << before.error().what.view();
+  // Into the corner of the left picture, which no other board reaches.
+  double right = 0, bottom = 0;
+  for (const pipeline::Vec2d& at : loose.left) right = std::max(right, at.x), bottom = std::max(bottom, at.y);
+  for (std::size_t i = 0; i < loose.left.size(); ++i) {
+    loose.left[i].x += 1015 - right + 2.5 * std::sin(double(i));
+    loose.left[i].y += 1015 - bottom;
+  }
+  boards.input().views.push_back(loose);
+  const auto found = pipeline::calibrate(boards.input());
+  ASSERT_TRUE(found) << found.error().what.view();
+  ASSERT_NE(found->quality.views[14].reason.find("flat board"), std::string::npos);
+  EXPECT_EQ(found->quality.coverage_left, before->quality.coverage_left);
+  EXPECT_EQ(found->quality.coverage_right, before->quality.coverage_right);
+}
+
 TEST(Calibrator, TurnsABoardFoundTheOtherWayRound) {
   BoardSimulator boards(SimulatedRig{}, 0.05, 7);
   boards.add(12);

@@ -5,7 +5,7 @@
 
 #include <gtest/gtest.h>
 
-#include "pipeline/calibrate/quality/uncertainty.h"
+#include "pipeline/calibrate/quality/quality.h"
 #include "tests/pipeline/calibrate/simulated_boards.h"
 #include "tests/support/proof.h"
 

@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: 2026 The Relievo authors
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include "pipeline/calibrate/quality/uncertainty.h"
+#include "pipeline/calibrate/quality/quality.h"
 
 #include <gtest/gtest.h>
 

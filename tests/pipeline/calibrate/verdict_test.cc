@@ -3,6 +3,7 @@
 //
 // A deliberately bad set of every kind, each with the right reason; and none of them said of a good set.
 #include <algorithm>
+#include <cmath>
 #include <limits>
 
 #include <gtest/gtest.h>
@@ -48,15 +49,34 @@ TEST(Verdict, AFigureThatIsNotANumberIsRefused) {
   boards.add(24);
   const CalibrationQuality good = judged(boards.input());
   ASSERT_NE(good.verdict, CalibrationVerdict::Refuse);
-  for (const auto figure :
-       {&CalibrationQuality::held_out_epipolar_px, &CalibrationQuality::shape_sigma_mm,
-        &CalibrationQuality::face_depth_sigma_mm, &CalibrationQuality::measured_depth_mm}) {
+  for (const auto figure : {&CalibrationQuality::held_out_epipolar_px, &CalibrationQuality::shape_sigma_mm,
+                            &CalibrationQuality::face_depth_sigma_mm, &CalibrationQuality::measured_depth_mm,
+                            &CalibrationQuality::held_out_shift_px}) {
     CalibrationQuality q = good;
     q.reasons.clear();
     q.*figure = std::numeric_limits<double>::quiet_NaN();
     pipeline::judge_quality(q);
     EXPECT_EQ(q.verdict, CalibrationVerdict::Refuse);
+    EXPECT_FALSE(says(q, "nan"));
   }
+}
+
+// Each camera sees another half of the board: nothing tells how well the two agree.
+TEST(Verdict, WhatIsNotMeasuredIsNotPerfect) {
+  BoardSimulator boards(SimulatedRig{}, 0.03, 2);
+  boards.add(24);
+  boards.input().pattern.kind = pipeline::BoardKind::Charuco;
+  const int columns = boards.input().pattern.columns;
+  constexpr double kUnseen = std::numeric_limits<double>::quiet_NaN();
+  for (pipeline::BoardView& view : boards.input().views)
+    for (std::size_t i = 0; i < view.left.size(); ++i)
+      (int(i) % columns < columns / 2 ? view.right : view.left)[i] = {kUnseen, kUnseen};
+  const CalibrationQuality q = judged(boards.input());
+  EXPECT_EQ(q.verdict, CalibrationVerdict::Refuse);
+  EXPECT_TRUE(says(q, "in both pictures"));
+  EXPECT_TRUE(std::isnan(q.held_out_epipolar_px) && std::isnan(q.held_out_shift_px));
+  EXPECT_TRUE(std::isnan(q.measured_depth_mm) && std::isnan(q.measured_length_percent));
+  EXPECT_FALSE(says(q, "nan"));
 }
 
 TEST(Verdict, TooFew) {

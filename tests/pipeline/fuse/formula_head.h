@@ -40,8 +40,8 @@ inline double shape(const Vec3d& p, double moved_mm) {
 }
 
 // `further_mm`: by how much the camera stands further away than the first one.
-inline Result<PoseSurface> seen(double yaw_deg, double moved_mm, double further_mm, StageContext& context,
-                                double sigma_mm = kSigmaMm) {
+inline Result<HeadPose> seen(double yaw_deg, double moved_mm, double further_mm, StageContext& context,
+                             double sigma_mm = kSigmaMm) {
   RigidTransform camera = camera_from_head(yaw_deg);
   camera.translation_mm.z += further_mm;
   const RigidTransform head = inverse(camera);
@@ -67,7 +67,7 @@ inline Result<PoseSurface> seen(double yaw_deg, double moved_mm, double further_
                               px,
                               static_cast<float>(sigma_mm)});
     }
-  RELIEVO_TRY_ASSIGN(PoseSurface pose, make_pose_surface(cloud, pair, context));
+  RELIEVO_TRY_ASSIGN(HeadPose pose, make_head_pose(cloud, pair, context));
   pose.head_from_camera = head;
   pose.has_head = true;
   return pose;
@@ -89,7 +89,7 @@ class Poses : public ::testing::Test {
     return room_.run([this](StageContext& c) { return register_poses(poses_, c); });
   }
   StageRoom room_;
-  std::vector<PoseSurface> poses_;
+  std::vector<HeadPose> poses_;
 };
 
 }  // namespace relievo::pipeline

@@ -66,13 +66,13 @@ class ApartPoses : public Poses {
     for (const Vec3f& at : own.vertices_mm)
       own.measured.push_back(measured(apply(poses_[0].head_from_camera, wide(at))) ? 1 : 0);
     complete(own);
-    HeadFuserOptions options;
+    HeadFuser fuser;
     // As good as nothing is bent, and that evenly: what is left apart is for the blend.
-    options.most_bend_mm = 0;
-    options.still_mm = 1;
-    options.bend_width_mm = 40;
+    fuser.most_bend_mm = 0;
+    fuser.still_mm = 1;
+    fuser.bend_width_mm = 40;
     auto head = room_.run([&](StageContext& c) -> Result<FaceMesh> {
-      RELIEVO_TRY_ASSIGN(FusedSurface fused, HeadFuser(options).fuse(poses_, placed, own, landmarks, c));
+      RELIEVO_TRY_ASSIGN(FusedSurface fused, fuser.fuse(poses_, placed, own, landmarks, c));
       return std::move(fused.mesh);
     });
     EXPECT_TRUE(head);

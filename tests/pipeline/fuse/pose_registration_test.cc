@@ -36,7 +36,7 @@ double degrees_off(const RegisteredPose& found, double yaw_deg) {
 
 TEST_F(Poses, ShowTheSurfaceWhereItIs) {
   show({{20, 0}});
-  const PoseSurface& pose = poses_[0];
+  const HeadPose& pose = poses_[0];
   int hits = 0;
   for (double x = -60; x <= 60; x += 7)
     for (double y = -60; y <= 60; y += 7) {

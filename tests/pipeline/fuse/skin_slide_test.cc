@@ -42,19 +42,14 @@ double bump_mm(const Vec3d& p, double face_mm) {
          face_mm * std::sin(p.x / 17 + p.y / 15);
 }
 
-struct Ball {
-  PoseSurface surface;
-  std::vector<std::uint8_t> photo;
-};
-
 class PaintedBall : public ::testing::Test {
  protected:
   // `light`: what the photograph shows of the paint.
-  Ball seen(double yaw_deg, double light = 1, double contrast = 1, std::optional<double> face_mm = {}) {
+  HeadPose seen(double yaw_deg, double light = 1, double contrast = 1, std::optional<double> face_mm = {}) {
     const RigidTransform ball_from_camera = inverse(camera_from_ball(yaw_deg));
     const int width = kColumns * kStepPx, height = kRows * kStepPx;
     std::vector<std::uint8_t> photo(std::size_t(3 * width * height), 20);
-    auto surface = room_.run([&](StageContext& context) {
+    auto pose = room_.run([&](StageContext& context) {
       RectifiedPair pair(&context.scratch);
       pair.focal_px = kFocalPx;
       pair.left_centre_px = {width / 2.0, height / 2.0};
@@ -78,17 +73,17 @@ class PaintedBall : public ::testing::Test {
           if (x % kStepPx == 0 && y % kStepPx == 0)
             cloud.points.push_back({narrow(at), {float(x), float(y)}, 0.05F});
         }
-      return make_pose_surface(cloud, pair, context);
+      return make_head_pose(cloud, pair, context);
     });
-    Ball ball{*std::move(surface), std::move(photo)};
-    ball.surface.photo_rgb = ball.photo;
-    ball.surface.photo_width_px = width;
-    ball.surface.photo_height_px = height;
-    return ball;
+    pose->left_rgb.assign(photo.begin(), photo.end());
+    pose->width_px = width;
+    pose->height_px = height;
+    return *std::move(pose);
   }
 
   // How far off the same skin is found, at worst, and how often it is.
-  static std::pair<double, int> worst_of(const Ball& from, const Ball& to, double yaw_deg, double start_deg) {
+  static std::pair<double, int> worst_of(const HeadPose& from, const HeadPose& to, double yaw_deg,
+                                         double start_deg) {
     const RigidTransform truth = product(camera_from_ball(yaw_deg), inverse(camera_from_ball(0)));
     const RigidTransform start = product(camera_from_ball(start_deg), inverse(camera_from_ball(0)));
     std::pair<double, int> worst{0, 0};
@@ -99,8 +94,7 @@ class PaintedBall : public ::testing::Test {
         const Vec3d place = apply(camera, times(normal, kRadiusMm));
         const Vec3d up = unit(minus(Vec3d{0, 1, 0}, times(normal, normal.y))), right = cross(up, normal);
         const auto found =
-            same_skin(from.surface, place, {apply(camera.rotation, right), apply(camera.rotation, up)},
-                      to.surface, start);
+            same_skin(from, place, {apply(camera.rotation, right), apply(camera.rotation, up)}, to, start);
         if (!found) continue;
         worst.first = std::max(worst.first, distance(*found, apply(truth, place)));
         ++worst.second;
@@ -124,15 +118,15 @@ TEST_F(PaintedBall, SaysNothingWhereThereIsNothingToSee) {
 
 TEST_F(PaintedBall, IsRegisteredBetterByItsSkin) {
   constexpr double kYawDeg = 15, kStartsOffDeg = 1.5;
-  const Ball front = seen(0, 1, 1, 0), side = seen(kYawDeg, 1, 1, 0.5);
+  const HeadPose front = seen(0, 1, 1, 0), side = seen(kYawDeg, 1, 1, 0.5);
   const RigidTransform head_from_ball{{}, {0, 20, -95}};
   const auto degrees_off = [&](bool with_photographs) {
-    std::vector<PoseSurface> poses{front.surface, side.surface};
+    std::vector<HeadPose> poses{front, side};
     poses[0].head_from_camera = product(head_from_ball, inverse(camera_from_ball(0)));
     poses[1].head_from_camera = product(head_from_ball, inverse(camera_from_ball(kYawDeg - kStartsOffDeg)));
-    for (PoseSurface& pose : poses) {
+    for (HeadPose& pose : poses) {
       pose.has_head = true;
-      if (!with_photographs) pose.photo_rgb = {};
+      if (!with_photographs) pose.left_rgb.clear();
     }
     const auto found = room_.run([&](StageContext& c) { return register_poses(poses, c); });
     if (!found) return 180.0;

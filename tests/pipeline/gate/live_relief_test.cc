@@ -61,16 +61,15 @@ const Photographed& photographed() {
   return once;
 }
 
-LiveReliefOptions small() {
-  LiveReliefOptions options;
+LiveRelief small() {
+  LiveRelief options;
   options.reduction = 1;  // the pictures are a quarter of the rig's already
   return options;
 }
 
-Result<Relief> look(Workspace& work, const LiveReliefOptions& options = small()) {
+Result<Relief> look(Workspace& work, const LiveRelief& options = small()) {
   const Photographed& p = photographed();
-  return run_stage(work.context,
-                   [&](StageContext& c) { return LiveRelief(options).look(p.frame(), p.calibration, c); });
+  return run_stage(work.context, [&](StageContext& c) { return options.look(p.frame(), p.calibration, c); });
 }
 
 TEST(LiveRelief, IsTrueToTheMillimetreAndKeepsTwoSurfacesApart) {
@@ -80,7 +79,8 @@ TEST(LiveRelief, IsTrueToTheMillimetreAndKeepsTwoSurfacesApart) {
   const Photographed& p = photographed();
   std::vector<double> off;
   int seen = 0, known = 0;
-  std::vector<long> near_names(static_cast<std::size_t>(relief->surfaces) + 1), far_names = near_names;
+  std::vector<long> near_names(std::size_t{*std::ranges::max_element(relief->surface)} + 1),
+      far_names = near_names;
   for (int y = 0; y < relief->height_px; ++y)
     for (int x = 0; x < relief->width_px; ++x) {
       const Vec3d ray = apply(
@@ -131,16 +131,16 @@ TEST(LiveRelief, SaysWhenMemoryEnds) {
 TEST(LiveRelief, RefusesWhatItCannotUse) {
   Workspace work(1, kOutput, kScratch);
   const Photographed& p = photographed();
-  const auto code = [&](const StereoFrame& frame, const LiveReliefOptions& options) {
-    const auto relief = run_stage(
-        work.context, [&](StageContext& c) { return LiveRelief(options).look(frame, p.calibration, c); });
+  const auto code = [&](const StereoFrame& frame, const LiveRelief& options) {
+    const auto relief =
+        run_stage(work.context, [&](StageContext& c) { return options.look(frame, p.calibration, c); });
     return relief ? Errc::InvalidState : relief.error().code;
   };
   EXPECT_EQ(code({}, small()), Errc::InvalidInput);
   StereoFrame cut = p.frame();
   cut.right.height_px -= 4;
   EXPECT_EQ(code(cut, small()), Errc::InvalidInput);
-  LiveReliefOptions options = small();
+  LiveRelief options = small();
   options.reduction = 0;
   EXPECT_EQ(code(p.frame(), options), Errc::InvalidInput);
   options = small();

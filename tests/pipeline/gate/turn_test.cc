@@ -24,7 +24,9 @@ using namespace std::chrono_literals;
 
 FrontFace front_of(std::uint32_t seed, test::GateFixture& gate) {
   const GateLook look = gate.first_look(shared_album(), shared_album().shoot(seed, standing(560)));
-  return front_face(look.relief, look.answer.measures.head);
+  FrontFace face;
+  front_face(look.relief, look.answer.measures.head, face);
+  return face;
 }
 
 HeadTurn turned(std::uint32_t seed, const FrontFace& front, double yaw, double pitch, test::GateFixture& gate,

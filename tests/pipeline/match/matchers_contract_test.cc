@@ -60,6 +60,9 @@ TEST_P(Matchers, KeepTheOrderOfTheKeypointsAndRejectNothing) {
   const auto matches =
       run_stage(fixture.context, [&](StageContext& c) { return matcher()(pair, keypoints, c); });
   ASSERT_TRUE(matches);
+  AlgorithmSet set;
+  ASSERT_TRUE(set.set("matcher", GetParam()));
+  EXPECT_EQ(check_neighbours(set).has_value(), matches->lattice_step_px > 0) << "as the table says";
   std::size_t next = 0;
   for (const Match& m : matches->matches) {
     EXPECT_EQ(m.rejected_by, 0);

@@ -48,7 +48,7 @@ void add_sheet(FaceMesh& mesh, float lift, bool turned, std::uint8_t measured) {
 TEST(RangeImage, HoldsTheHeightsOfTheSurface) {
   FaceMesh mesh(heap());
   add_sheet(mesh, 0, false, 1);
-  const RangeImage image = measure_range(mesh, {}, {}, heap(), heap());
+  const RangeImage image = measure_range(mesh, {}, heap(), heap());
   ASSERT_EQ(image.z_mm.size(), 401u * 501u);
   std::size_t shown = 0;
   for (int row = 0; row < image.height_px; ++row)
@@ -73,9 +73,9 @@ TEST(RangeImage, TheOutermostSurfaceCountsAndWhatWasCompletedIsSaid) {
   add_sheet(mesh, 0, false, 1);
   add_sheet(mesh, 6, true, 1);  // nearer, but seen from behind: no surface of a face
   const std::size_t middle = 260u * 401u + 200u;
-  EXPECT_NEAR(measure_range(mesh, {}, {}, heap(), heap()).z_mm[middle], height(0, 0), 0.02);
+  EXPECT_NEAR(measure_range(mesh, {}, heap(), heap()).z_mm[middle], height(0, 0), 0.02);
   add_sheet(mesh, 3, false, 0);
-  const RangeImage image = measure_range(mesh, {}, {}, heap(), heap());
+  const RangeImage image = measure_range(mesh, {}, heap(), heap());
   EXPECT_NEAR(image.z_mm[middle], height(0, 0) + 3, 0.02);
   EXPECT_EQ(image.shows[middle], kCompletedShown);
 }
@@ -83,7 +83,7 @@ TEST(RangeImage, TheOutermostSurfaceCountsAndWhatWasCompletedIsSaid) {
 TEST(RangeImage, StandsInTheHeadFrameWhereverTheFaceWas) {
   FaceMesh mesh(heap());
   add_sheet(mesh, 0, false, 1);
-  const RangeImage straight = measure_range(mesh, {}, {}, heap(), heap());
+  const RangeImage straight = measure_range(mesh, {}, heap(), heap());
   RigidTransform head_from_camera;
   const double c = std::cos(0.4), s = std::sin(0.4);
   head_from_camera.rotation = {{c, 0, s, 0, 1, 0, -s, 0, c}};
@@ -93,7 +93,7 @@ TEST(RangeImage, StandsInTheHeadFrameWhereverTheFaceWas) {
     const Vec3d p = apply(camera_from_head, Vec3d{double{v.x}, double{v.y}, double{v.z}});
     v = {static_cast<float>(p.x), static_cast<float>(p.y), static_cast<float>(p.z)};
   }
-  const RangeImage turned = measure_range(mesh, head_from_camera, {}, heap(), heap());
+  const RangeImage turned = measure_range(mesh, head_from_camera, heap(), heap());
   for (std::size_t k = 0; k < turned.z_mm.size(); ++k)
     if (turned.shows[k] != kNothingShown && straight.shows[k] != kNothingShown) {
       ASSERT_NEAR(turned.z_mm[k], straight.z_mm[k], 2e-3);

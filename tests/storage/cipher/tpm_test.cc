@@ -1,7 +1,6 @@
 // SPDX-FileCopyrightText: 2026 The Relievo authors
 // SPDX-License-Identifier: GPL-3.0-or-later
 // A store whose key Debian's software TPM (swtpm) seals: each test starts boards of its own.
-#include "storage/cipher/tpm.h"
 
 #include <gtest/gtest.h>
 #include <signal.h>

@@ -2,7 +2,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 //
 // The numbers that lead a person to their record: nobody has another's, and none is told by the others.
-#include "storage/receipt_number.h"
+#include "storage/record.h"
 
 #include <gtest/gtest.h>
 

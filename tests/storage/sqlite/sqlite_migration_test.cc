@@ -10,7 +10,7 @@
 #include "storage/byte_order.h"
 #include "storage/calibration_record.h"
 #include "storage/model_blob.h"
-#include "storage/receipt_number.h"
+#include "storage/record.h"
 #include "storage/schema/embedded_sql.h"
 #include "storage/sodium_sha256.h"
 #include "storage/sqlite/sqlite_migration.h"

@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: 2026 The Relievo authors
 // SPDX-License-Identifier: GPL-3.0-or-later
 // The store as a whole: copies, new keys, recovery.
-#include "storage/store_keeping.h"
+#include "storage/store.h"
 
 #include <gtest/gtest.h>
 #include <sys/stat.h>
@@ -11,6 +11,7 @@
 #include "storage/cipher/recovery.h"
 #include "tests/storage/raw_database.h"
 #include "tests/storage/sample.h"
+#include "tests/storage/store_of_before.h"
 #include "tests/support/temporary_folder.h"
 
 namespace relievo::storage {
@@ -99,6 +100,16 @@ TEST(StoreKeeping, WordsOpenTheStoreOfADeadBoard) {
   judge(dir);
 }
 
+TEST(StoreKeeping, WordsAreRefusedWhereNoneCanHaveBeenMade) {
+  const TemporaryFolder folder;
+  const std::string words = draw_recovery_words();
+  test::make_version(folder / "first", 1);
+  EXPECT_EQ(code_of(keeping(folder / "first")->recover(words)), Errc::NotFound);
+  std::filesystem::create_directory(folder / "songs");
+  Raw(folder / "songs/relievo.db").run("CREATE TABLE song (name TEXT)");
+  EXPECT_EQ(code_of(keeping(folder / "songs")->recover(words)), Errc::InvalidInput) << "another program's";
+}
+
 TEST(StoreKeeping, AnOldKeyOpensNothingAfterANewOne) {
   const TemporaryFolder folder;
   const auto dir = folder / "store";
@@ -122,6 +133,40 @@ TEST(StoreKeeping, AnOldKeyOpensNothingAfterANewOne) {
   ASSERT_TRUE(keeping(dir, credential)->rekey({}));
   EXPECT_NE(before, Raw(dir / "relievo.db").rows("SELECT hex(parameters) FROM encryption_key ORDER BY id"));
   judge(dir, credential);
+}
+
+TEST(StoreKeeping, ANewKeyIsNotWrittenOverAnotherStores) {
+  const TemporaryFolder folder;
+  const auto dir = folder / "store", other = folder / "other";
+  fill(dir);
+  fill(other);
+  EXPECT_EQ(code_of(keeping(dir)->rekey({other / "relievo.key"})), Errc::InvalidInput);
+  judge(other);
+  judge(dir);
+  EXPECT_FALSE(std::filesystem::exists(other / "relievo.key.next"));
+  ASSERT_TRUE(keeping(dir)->rekey({dir / "relievo.key"})) << "its own";
+  judge(dir);
+}
+
+TEST(StoreKeeping, TheKeyOfARecoveredStoreIsNotWrittenOverAnotherStores) {
+  const TemporaryFolder folder;
+  const auto dir = folder / "store", other = folder / "other";
+  fill(dir);
+  fill(other);
+  const auto words = draw_recovery_words();
+  ASSERT_TRUE(opened(dir, kNoReserve)->keep_recovery_words(words));
+  auto named = kNoReserve;
+  named.keys = key_file(other / "relievo.key", false);
+  EXPECT_EQ(code_of(keeping(dir, named)->recover(words)), Errc::InvalidInput);
+  judge(other);
+  judge(dir);
+  EXPECT_FALSE(std::filesystem::exists(other / "relievo.key.next"));
+  std::ofstream(folder / "key") << "no key";  // opens nothing, as what a dead TPM has sealed
+  named.keys = key_file(folder / "key", false);
+  for (const char* what : {"nobody's", "its own"}) {
+    ASSERT_TRUE(keeping(dir, named)->recover(words)) << what;
+    judge(dir, named);
+  }
 }
 
 // The moment that no write of SQLite's marks: the store goes by the new key, the file is not renamed yet.

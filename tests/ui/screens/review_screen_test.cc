@@ -34,6 +34,29 @@ TEST(ReviewScreen, SaysThatASideWasLeftOut) {
   EXPECT_TRUE(says("One side did not fit"));
 }
 
+TEST(ReviewScreen, TwoFingersZoomTheModelAndNothingElse) {
+  const auto ui = test::make_screen();
+  const pipeline::FaceModel model(std::pmr::get_default_resource());
+  ViewState view;
+  view.model = &model;
+  const auto zoom_on = [&](Step step) {
+    Visit visit;
+    visit.step = step;
+    ui->show(view, visit);
+    const Node* face = ui->tree().find("face");
+    const Rect where = face != nullptr ? face->rect : Rect{0, 0, 1280, 800};
+    const float x = where.x + where.w / 2, y = where.y + where.h / 2;
+    ui->feed({Input::Kind::Down, 1, x - 30, y}, view);
+    ui->feed({Input::Kind::Down, 2, x + 30, y}, view);
+    ui->feed({Input::Kind::Move, 2, x + 60, y}, view);
+    for (const int finger : {1, 2}) ui->feed({Input::Kind::Up, finger, x, y}, view);
+    return ui->visit().look.zoom;
+  };
+  EXPECT_FLOAT_EQ(zoom_on(Step::Review), 1.5F);
+  EXPECT_FLOAT_EQ(zoom_on(Step::Working), 1);
+  EXPECT_FLOAT_EQ(zoom_on(Step::Position), 1);
+}
+
 // Only who has no room is told so: another fault is not mended by erasing records.
 TEST(ReviewScreen, SaysThatTheMemoryIsFullOnlyWhereItIs) {
   const auto ui = test::make_screen();

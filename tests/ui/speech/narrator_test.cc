@@ -254,6 +254,19 @@ TEST_F(NarratorTest, SpeaksTheLanguageOfThePage) {
   EXPECT_EQ(narrator.follow(tree, moment, to).language, "de");
 }
 
+// Of more statuses than it follows, too, no words stay behind.
+TEST_F(NarratorTest, KeepsNoTexts) {
+  tree.begin(false);
+  tree.open(node(Role::Group, "screen", {}));
+  for (int i = 0; i < 40; ++i)
+    tree.leaf(node(Role::Status, tree.keep("status " + std::to_string(i)), "Ada Lovelace"));
+  tree.close();
+  EXPECT_EQ(narrator.follow(tree, moment, to).text(), "Ada Lovelace");
+  EXPECT_EQ(narrator.follow(tree, moment, to).text(), "");
+  const std::string_view kept(reinterpret_cast<const char*>(&narrator), sizeof narrator);
+  EXPECT_EQ(kept.find("Lovelace"), std::string_view::npos);
+}
+
 TEST_F(NarratorTest, WhatDoesNotFitIsNotSaid) {
   shown.heading = std::string(30'000, 'a');
   const std::string said = hear();

@@ -2,7 +2,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 //
 // The letters of the language, as its speakers know them from their own.
-#include "ui/screens/parts/keyboard.h"
+#include "ui/screens/parts/page.h"
 
 #include <algorithm>
 #include <array>
@@ -15,33 +15,24 @@ namespace {
 
 // Three rows, left to right as they lie on a desk.
 using KeyRows = std::array<std::string_view, 3>;
-constexpr KeyRows kEnglish{"qwertyuiop", "asdfghjkl-", "zxcvbnm'."},
-    kEnglishBig{"QWERTYUIOP", "ASDFGHJKL-", "ZXCVBNM'."}, kGerman{"qwertzuiopü", "asdfghjklöä", "yxcvbnmß-"},
-    kGermanBig{"QWERTZUIOPÜ", "ASDFGHJKLÖÄ", "YXCVBNMẞ-"}, kFrench{"azertyuiopé", "qsdfghjklmè", "wxcvbnç'-"},
-    kFrenchBig{"AZERTYUIOPÉ", "QSDFGHJKLMÈ", "WXCVBNÇ'-"}, kSpanish{"qwertyuiop", "asdfghjklñ", "zxcvbnm'-"},
-    kSpanishBig{"QWERTYUIOP", "ASDFGHJKLÑ", "ZXCVBNM'-"},
-    kAccents{"áàâäãåæçéèêë", "íìîïñóòôöõøœ", "úùûüýÿßšžł"},
-    kAccentsBig{"ÁÀÂÄÃÅÆÇÉÈÊË", "ÍÌÎÏÑÓÒÔÖÕØŒ", "ÚÙÛÜÝŸẞŠŽŁ"},
-    kArabic{"ضصثقفغعهخحجد", "شسيبلاتنمكطذ", "ئءؤرىةوزظأإ"}, kHebrew{"קראטוןםפ'-", "שדגכעיחלךף", "זסבהנמצתץ"};
+struct Letters {
+  KeyRows small, capital;
+  bool cased() const { return !capital[0].empty(); }  // does the language write in large and small letters?
+};
+constexpr Letters kEnglish{{"qwertyuiop", "asdfghjkl-", "zxcvbnm'."},
+                           {"QWERTYUIOP", "ASDFGHJKL-", "ZXCVBNM'."}},
+    kGerman{{"qwertzuiopü", "asdfghjklöä", "yxcvbnmß-"}, {"QWERTZUIOPÜ", "ASDFGHJKLÖÄ", "YXCVBNMẞ-"}},
+    kFrench{{"azertyuiopé", "qsdfghjklmè", "wxcvbnç'-"}, {"AZERTYUIOPÉ", "QSDFGHJKLMÈ", "WXCVBNÇ'-"}},
+    kSpanish{{"qwertyuiop", "asdfghjklñ", "zxcvbnm'-"}, {"QWERTYUIOP", "ASDFGHJKLÑ", "ZXCVBNM'-"}},
+    kArabic{{"ضصثقفغعهخحجد", "شسيبلاتنمكطذ", "ئءؤرىةوزظأإ"}, {}},
+    kHebrew{{"קראטוןםפ'-", "שדגכעיחלךף", "זסבהנמצתץ"}, {}},
+    kAccents{{"áàâäãåæçéèêë", "íìîïñóòôöõøœ", "úùûüýÿßšžł"}, {"ÁÀÂÄÃÅÆÇÉÈÊË", "ÍÌÎÏÑÓÒÔÖÕØŒ", "ÚÙÛÜÝŸẞŠŽŁ"}};
+// In the order of Language. Chinese and Japanese have the Latin letters: names are typed as in a passport.
+constexpr std::array kLettersOf{&kEnglish, &kGerman, &kFrench,  &kSpanish,
+                                &kArabic,  &kHebrew, &kEnglish, &kEnglish};
+static_assert(kLettersOf.size() == kLanguages);
 
-// Chinese and Japanese have the Latin letters: names are typed as in a passport.
-const KeyRows& key_rows(Language language, bool capitals) {
-  switch (language) {
-    case Language::German: return capitals ? kGermanBig : kGerman;
-    case Language::French: return capitals ? kFrenchBig : kFrench;
-    case Language::Spanish: return capitals ? kSpanishBig : kSpanish;
-    case Language::Arabic: return kArabic;
-    case Language::Hebrew: return kHebrew;
-    case Language::English:
-    case Language::Chinese:
-    case Language::Japanese:
-    case Language::Count: break;
-  }
-  return capitals ? kEnglishBig : kEnglish;
-}
-
-// Does the language write in large and small letters?
-bool has_capitals(Language language) { return language != Language::Arabic && language != Language::Hebrew; }
+const Letters& letters_of(Language language) { return *kLettersOf[std::size_t(language)]; }
 
 void key(Page& page, std::string_view id, std::string_view letter, const char* spoken, bool sign,
          Action action, float grow = 1, bool mirrored = false) {
@@ -81,7 +72,7 @@ Node key_row(Page& page) {
 
 void last_row(Page& page, Action done, Language language) {
   const auto in_box = page.tree.inside(page.box(Flow::Row, 10));
-  if (has_capitals(language)) {
+  if (letters_of(language).cased()) {
     const char* sign = page.visit.accents ? "abc" : page.visit.capitals ? "ÁÑß" : "áñß";
     key(page, "accents", sign, page.tr("Letters with accents"), false, {ActionKind::Accents, 0}, 0.6F);
   }
@@ -98,18 +89,15 @@ void last_row(Page& page, Action done, Language language) {
 void keyboard(Page& page, Action done) { keyboard(page, done, page.visit.language); }
 
 void keyboard(Page& page, Action done, Language language) {
-  Node board = page.grown(page.box(Flow::Column, 8), page.portrait ? 0.0F : 1.0F);
+  Node board = justified(page.grown(page.box(Flow::Column, 8), page.portrait ? 0.0F : 1.0F), Justify::End);
   board.id = "keyboard";
-  board.box.justify = Justify::End;
   const auto in_board = page.tree.inside(board);
   page.tree.open(key_row(page));
   letters(page, "1234567890");
   page.tree.close();
-  const bool cased = has_capitals(language);
-  const bool capitals = page.visit.capitals;
-  const KeyRows& rows = !page.visit.accents || !cased ? key_rows(language, capitals)
-                        : capitals                    ? kAccentsBig
-                                                      : kAccents;
+  const bool cased = letters_of(language).cased();
+  const Letters& shown = cased && page.visit.accents ? kAccents : letters_of(language);
+  const KeyRows& rows = cased && page.visit.capitals ? shown.capital : shown.small;
   for (std::size_t i = 0; i < rows.size(); ++i) {
     const auto in_box = page.tree.inside(key_row(page));
     const bool last = i == rows.size() - 1;
@@ -127,10 +115,9 @@ void keyboard(Page& page, Action done, Language language) {
 void number_pad(Page& page, const PadIds& ids, Action done) {
   // Larger where there is more room.
   const float share = std::min(page.text_share, 1.5F) * (page.portrait ? 1.25F : 1.0F);
-  Node pad = page.box(Flow::Column, 10);
+  Node pad = justified(page.box(Flow::Column, 10), Justify::Centre);
   pad.id = "keyboard";
   pad.box.width = page.px(360 * share);
-  pad.box.justify = Justify::Centre;
   page.tree.open(pad);
   const auto shaped = [&](Node node, bool main) {
     frame(node, main ? page.palette.accent : page.palette.card, main ? Colour{} : page.palette.card_border,
@@ -147,9 +134,8 @@ void number_pad(Page& page, const PadIds& ids, Action done) {
   };
   const auto sign = [&](std::string_view id, const char* spoken, const char* letter, Action action,
                         bool main) {
-    Node node = shaped(page.box(Flow::Row), main);
+    Node node = centred(shaped(page.box(Flow::Row), main));
     tell(node, Role::Key, id, spoken, action);
-    centre(node);
     const auto in_node = page.tree.inside(node);
     page.sign(letter, 30, main ? page.palette.accent_ink : page.palette.link);
   };

@@ -80,8 +80,7 @@ const char* help_for(const Page& page) {
 }
 
 void begin_card(Page& page) {
-  Node veil = page.box(Flow::Column, 0, 40, 32);
-  centre(veil);
+  Node veil = centred(page.box(Flow::Column, 0, 40, 32));
   if (page.low()) veil.box.justify = Justify::End;
   veil.id = "veil";
   veil.modal = true;

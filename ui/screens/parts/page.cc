@@ -70,9 +70,23 @@ Node Page::box(Flow flow, float gap, float pad_x, float pad_y) const {
 }
 
 Node Page::row_box(float gap, float pad_x, float pad_y) const {
-  Node row = box(Flow::Row, gap, pad_x, pad_y);
-  row.box.align = Align::Centre;
+  Node row = aligned(box(Flow::Row, gap, pad_x, pad_y), Align::Centre);
   return row;
+}
+
+Node Page::stage(float radius_dp, float grow) const {
+  Node card = grown(box(Flow::Stack), grow);
+  card.box.fill = palette.stage;
+  card.box.radius = px(radius_dp);
+  return card;
+}
+
+Node Page::model(std::string_view id, const char* words, float radius_dp) const {
+  Node face = box(Flow::Column);
+  tell(face, Role::Picture, id, words, {ActionKind::TurnFace, 0});
+  face.mark = Mark::Face;
+  face.box.radius = px(radius_dp);
+  return face;
 }
 
 void Page::space(float grow_share) { tree.leaf(grown(box(Flow::Column), grow_share)); }
@@ -112,10 +126,9 @@ void Page::sign(const char* letter, float size, Colour colour) {
 void Page::button(std::string_view id, std::string_view label, const char* letter, ButtonLook look,
                   Action action, float grow, const ButtonSize& lengths) {
   const bool main = look == ButtonLook::Main;
-  Node node = box(Flow::Row, lengths.gap, text_share > 1.3F ? std::min(14.0F, lengths.pad_x) : lengths.pad_x,
-                  lengths.pad_y);
+  Node node = centred(box(Flow::Row, lengths.gap,
+                          text_share > 1.3F ? std::min(14.0F, lengths.pad_x) : lengths.pad_x, lengths.pad_y));
   tell(node, Role::Button, id, label, action);
-  centre(node);
   frame(node,
         main                        ? palette.accent
         : look == ButtonLook::Quiet ? palette.quiet
@@ -197,10 +210,9 @@ void Page::cameras() {
 
 void Page::square_button(std::string_view id, std::string_view spoken, const char* letter, Action action,
                          std::string_view value) {
-  Node node = sized(box(Flow::Row), size::kTarget, size::kTarget);
+  Node node = centred(sized(box(Flow::Row), size::kTarget, size::kTarget));
   tell(node, Role::Button, id, spoken, action);
   node.value = value;
-  centre(node);
   frame(node, palette.quiet, palette.quiet_border, std::max(1.5F, px(2)), px(size::kRadius));
   const auto in_node = tree.inside(node);
   sign(letter, 34 * std::min(1.0F, kMostSignShare / text_share), palette.link);
@@ -208,19 +220,18 @@ void Page::square_button(std::string_view id, std::string_view spoken, const cha
 
 std::string_view Page::filled(const char* words, std::span<const std::string_view> values) {
   std::string_view rest(words);
-  const std::string_view first = tree.keep({});
-  std::size_t length = 0;
+  const std::size_t from = tree.kept();
   for (const std::string_view value : values) {
     const std::size_t at = rest.find("{}");
     if (at == std::string_view::npos) break;
     // First strong isolate … pop: a name or number keeps its own direction.
-    length += joined({rest.substr(0, at), isolate::kFirst, value, isolate::kEnd}).size();
+    joined({rest.substr(0, at), isolate::kFirst, value, isolate::kEnd});
     rest.remove_prefix(at + 2);
     // A line never ends between a value and its unit.
-    if (rest.starts_with(' ') && begins_with_unit(rest.substr(1)))
-      length += tree.keep("\u00a0").size(), rest.remove_prefix(1);
+    if (rest.starts_with(' ') && begins_with_unit(rest.substr(1))) tree.keep("\u00a0"), rest.remove_prefix(1);
   }
-  return {first.data(), length + tree.keep(rest).size()};
+  tree.keep(rest);
+  return tree.kept_since(from);
 }
 
 std::string_view Page::days(int count) {
@@ -228,32 +239,30 @@ std::string_view Page::days(int count) {
 }
 
 std::string_view Page::joined(std::initializer_list<std::string_view> parts) const {
-  const std::string_view first = tree.keep({});
-  std::size_t length = 0;
-  for (const std::string_view part : parts) length += tree.keep(part).size();
-  return {first.data(), length};
+  const std::size_t from = tree.kept();
+  for (const std::string_view part : parts) tree.keep(part);
+  return tree.kept_since(from);
 }
 
 std::string_view Page::left_to_right(std::initializer_list<std::string_view> parts) const {
-  const std::string_view first = tree.keep(isolate::kLeft), middle = joined(parts);
-  return {first.data(), first.size() + middle.size() + tree.keep(isolate::kEnd).size()};
+  const std::size_t from = tree.kept();
+  tree.keep(isolate::kLeft), joined(parts), tree.keep(isolate::kEnd);
+  return tree.kept_since(from);
 }
 
 std::string_view Page::breakable(std::string_view names, std::string_view behind) const {
-  const std::string_view first = tree.keep({});
-  std::size_t length = 0;
+  const std::size_t from = tree.kept();
   for (const char& c : names) {
     const bool divided = behind.find(c) != std::string_view::npos;
-    length += joined({{&c, 1}, divided ? "\u200b" : ""}).size();
+    joined({{&c, 1}, divided ? "\u200b" : ""});
   }
-  return {first.data(), length};
+  return tree.kept_since(from);
 }
 
 std::string_view Page::spelled(std::string_view code) {
-  const std::string_view first = tree.keep({});
-  std::size_t length = 0;
-  for (const char& c : code) length += joined({c == '-' ? "," : std::string_view(&c, 1), " "}).size();
-  return {first.data(), length};
+  const std::size_t from = tree.kept();
+  for (const char& c : code) joined({c == '-' ? "," : std::string_view(&c, 1), " "});
+  return tree.kept_since(from);
 }
 
 std::string_view Page::share_of(std::size_t done, std::size_t all) {

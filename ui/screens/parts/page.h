@@ -63,8 +63,12 @@ inline constexpr ButtonSize kOtherButton{kTarget, kTarget, 26, 12, 14, kRadius, 
 inline void tell(Node& node, Role role, std::string_view id, std::string_view spoken, Action action = {}) {
   node.role = role, node.id = id, node.name = spoken, node.action = action;
 }
-// Its children in its middle.
-inline void centre(Node& node) { node.box.justify = Justify::Centre, node.box.align = Align::Centre; }
+// Where its children are: along its flow, across it; in its middle.
+inline Node justified(Node node, Justify where) { return node.box.justify = where, node; }
+inline Node aligned(Node node, Align where) { return node.box.align = where, node; }
+inline Node centred(const Node& node) { return aligned(justified(node, Justify::Centre), Align::Centre); }
+// It goes on where it has no room.
+inline Node scroller(std::string_view id, Node node) { return node.id = id, node.box.scroll = true, node; }
 // Lengths in pixels.
 inline void frame(Node& node, Colour fill, Colour border, float border_px, float radius_px) {
   node.box.fill = fill, node.box.border = border, node.box.border_px = border_px, node.box.radius = radius_px;
@@ -101,6 +105,10 @@ class Page {
     node.box.width = px(width_dp_), node.box.height = px(height_dp_);
     return node;
   }
+  // A dark card, for a picture or a model that fills it and what lies on that.
+  Node stage(float radius_dp, float grow = 1) const;
+  // A model, to be turned.
+  Node model(std::string_view id, const char* words, float radius_dp) const;
   void space(float grow_share);
   // Under a name of its own: what tests look for, or a voice is to tell.
   void put(std::string_view id, Role role, Node node) const {
@@ -197,5 +205,18 @@ class Page {
 void overlay_screen(Page& page);
 // The languages a visitor may choose, each in its own letters, so many abreast.
 void language_grid(Page& page, std::size_t columns);
+
+// The keyboard on the screen, as visitors and staff type on it. Thread: main. Errors: none.
+
+// `done` is what the key that ends typing does; the visitor's does nothing before there is a name. `letters`:
+// whose; most pages have those of the reader.
+void keyboard(Page& page, Action done = {ActionKind::Done, 0});
+void keyboard(Page& page, Action done, Language letters);
+
+// Digits, and a tick for `done`.
+struct PadIds {
+  std::string_view digit, done;  // of the keys: the first goes before the digit
+};
+void number_pad(Page& page, const PadIds& ids, Action done);
 
 }  // namespace relievo::ui

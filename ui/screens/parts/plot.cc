@@ -36,9 +36,8 @@ class Drawing {
     whole.value = words();
     const auto in_whole = page.tree.inside(whole);
     head();
-    Node row = page.box(Flow::Row, 6);
+    Node row = aligned(page.box(Flow::Row, 6), Align::Start);
     row.box.left_to_right = true;
-    row.box.align = Align::Start;
     const auto in_row = page.tree.inside(row);
     upright_axis();
     const auto in_box = page.tree.inside(page.grown(page.box(Flow::Column, 2)));
@@ -75,9 +74,7 @@ class Drawing {
     page.tree.open(row);
     page.wide(page.text(what.title, type::kSmall, Weight::Medium, page.palette.ink));
     const Colour ink = what.figure_ink.seen() ? what.figure_ink : page.palette.ink_soft;
-    Node end = page.row_box(space::kXs);
-    end.box.justify = Justify::End;
-    page.tree.open(end);
+    page.tree.open(justified(page.row_box(space::kXs), Justify::End));
     if (what.figure_sign != nullptr) page.sign(what.figure_sign, 24, ink);
     if (!what.figure.empty())
       page.tree.leaf(
@@ -93,10 +90,8 @@ class Drawing {
 
   // Evenly spaced, the middle of each at its height.
   void upright_axis() {
-    Node axis = page.box(Flow::Column);
+    Node axis = aligned(justified(page.box(Flow::Column), Justify::SpaceBetween), Align::End);
     axis.box.height = height_px();
-    axis.box.justify = Justify::SpaceBetween;
-    axis.box.align = Align::End;
     const auto in_axis = page.tree.inside(axis);
     for (int i = scale.steps; i >= 0; --i)
       page.tree.leaf(label(

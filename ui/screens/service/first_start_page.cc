@@ -6,9 +6,9 @@
 #include <array>
 #include <string>
 
-#include "ui/screens/parts/keyboard.h"
+#include "ui/screens/parts/page.h"
 #include "ui/screens/service/fault_words.h"
-#include "ui/screens/service/staff_pages.h"
+#include "ui/screens/service/staff_frame.h"
 #include "ui/view/staff_views.h"
 
 namespace relievo::ui {
@@ -65,9 +65,8 @@ PinWords words_of(StaffFrame& page) {
 }
 
 void pin_entry(StaffFrame& page, std::string_view title, const PinWords& words, Action done) {
-  Node room = page.grown(page.box(page.portrait ? Flow::Column : Flow::Row, space::kXl));
-  centre(room);
-  const auto in_room = page.tree.inside(room);
+  const auto in_room =
+      page.tree.inside(centred(page.grown(page.box(page.portrait ? Flow::Column : Flow::Row, space::kXl))));
   Node said = page.box(Flow::Column, space::kM);
   said.box.width = page.px(page.portrait ? 560.0F : 440.0F);
   page.tree.open(said);
@@ -101,9 +100,7 @@ void welcome(StaffFrame& page) {
   page.body(
       "what",
       tr("Choose a language, check the clock and the consent text, and choose two PINs: one for the technician, one for the operator."));
-  Node list = page.grown(page.box(Flow::Column, space::kS));
-  list.id = "languages";
-  list.box.scroll = true;
+  Node list = scroller("languages", page.grown(page.box(Flow::Column, space::kS)));
   list.box.row_stretch = page.portrait ? 1.5F : 1;
   page.tree.open(list);
   page.in_rows(kLanguages, page.portrait ? 1 : 2, space::kS, [&](std::size_t i) {
@@ -119,8 +116,7 @@ void welcome(StaffFrame& page) {
 void mover(StaffFrame& page, const char* label, std::string_view id, int minutes) {
   page.tree.open(page.grown(page.box(Flow::Column, space::kXs)));
   page.tree.leaf(page.text(label, type::kSmall, Weight::Medium, page.palette.ink, TextAlign::Centre));
-  Node row = page.box(Flow::Row, space::kXs);
-  row.box.justify = Justify::Centre;
+  Node row = justified(page.box(Flow::Row, space::kXs), Justify::Centre);
   row.box.left_to_right = true;
   page.tree.open(row);
   page.square_button(page.joined({id, " less"}), page.tr("Less"), icon::kLess, Action(MoveClock{-minutes}));
@@ -132,11 +128,8 @@ void mover(StaffFrame& page, const char* label, std::string_view id, int minutes
 void clock(StaffFrame& page) {
   const auto& tr = page.tr;
   page.heading("clock title", tr("Are the date and the time right?"), type::kHeading);
-  Node room = page.grown(page.box(Flow::Column, space::kL));
-  room.box.justify = Justify::Centre;
-  room.box.scroll = true;
-  room.id = "clock room";
-  page.tree.open(room);
+  page.tree.open(
+      scroller("clock room", justified(page.grown(page.box(Flow::Column, space::kL)), Justify::Centre)));
   Node time = page.text(page.date(page.staff.access.clock), type::kTitle, Weight::Bold, page.palette.ink,
                         TextAlign::Centre);
   time.style.size_px = page.px(type::kTitle * (1 + (page.text_share - 1) * 0.5F));  // it stays on one line
@@ -264,9 +257,7 @@ void words(StaffFrame& page, const RecoveryView& seen) {
 }
 
 void sheet(StaffFrame& page, const RecoveryView& seen) {
-  Node both = page.grown(page.box(page.portrait ? Flow::Column : Flow::Row, space::kL));
-  centre(both);
-  page.tree.open(both);
+  page.tree.open(centred(page.grown(page.box(page.portrait ? Flow::Column : Flow::Row, space::kL))));
   page.tree.open(page.grown(page.box(Flow::Column, space::kM), page.portrait ? 0.0F : 1.0F));
   page.body(
       "what",

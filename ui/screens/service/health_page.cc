@@ -6,7 +6,7 @@
 #include <array>
 #include <cstdio>
 
-#include "ui/screens/service/staff_pages.h"
+#include "ui/screens/service/staff_frame.h"
 #include "ui/view/staff_views.h"
 
 namespace relievo::ui {

@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: 2026 The Relievo authors
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include "ui/screens/service/list_part.h"
+#include "ui/screens/service/staff_frame.h"
 
 #include <algorithm>
 
@@ -77,8 +77,7 @@ void filter_rows(StaffFrame& page, const ListPlace& place, ListFilters filters) 
 // To `to`; where the list ends there is nothing to be touched, and the others keep their places.
 void step(StaffFrame& page, std::string_view id, const char* spoken, const char* letter, std::int64_t to,
           bool ends) {
-  Node node = page.sized(page.box(Flow::Row), size::kStaffTarget, size::kStaffTarget);
-  centre(node);
+  Node node = centred(page.sized(page.box(Flow::Row), size::kStaffTarget, size::kStaffTarget));
   if (!ends) {
     tell(node, Role::Button, id, spoken, list_action(GoToPage{to}));
     frame(node, page.palette.quiet, page.palette.quiet_border, page.px(2), page.px(18));

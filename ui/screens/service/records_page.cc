@@ -6,9 +6,8 @@
 
 #include <array>
 
-#include "ui/screens/parts/keyboard.h"
-#include "ui/screens/service/list_part.h"
-#include "ui/screens/service/staff_pages.h"
+#include "ui/screens/parts/page.h"
+#include "ui/screens/service/staff_frame.h"
 
 namespace relievo::ui {
 namespace {
@@ -23,9 +22,7 @@ void typing(StaffFrame& page) {
 }
 
 void working(StaffFrame& page) {
-  Node room = page.grown(page.box(Flow::Column, space::kM, space::kXl, 0));
-  room.box.justify = Justify::Centre;
-  page.tree.open(room);
+  page.tree.open(justified(page.grown(page.box(Flow::Column, space::kM, space::kXl, 0)), Justify::Centre));
   page.heading("writing", page.tr("Writing to the stick"), type::kHeading, TextAlign::Centre);
   page.body("do not pull", page.tr("Please do not pull it out."), TextAlign::Centre);
   page.progress("export progress", page.staff.work.progress);
@@ -105,14 +102,9 @@ void list(StaffFrame& page, const RecordsView& seen, ListFilters filters) {
 }
 
 void portrait_of(StaffFrame& page) {
-  Node card = page.grown(page.box(Flow::Stack), 1.1F);
-  card.box.fill = page.palette.stage;
-  card.box.radius = page.px(size::kCardRadius);
-  const auto in_card = page.tree.inside(card);
-  Node face = page.box(Flow::Column);
-  tell(face, Role::Picture, "face", page.tr("The model: turn it with a finger"), {ActionKind::TurnFace, 0});
-  face.mark = page.staff.model == nullptr ? Mark::Shape : Mark::Face;
-  face.box.radius = page.px(size::kCardRadius);
+  const auto in_card = page.tree.inside(page.stage(size::kCardRadius, 1.1F));
+  Node face = page.model("face", page.tr("The model: turn it with a finger"), size::kCardRadius);
+  if (page.staff.model == nullptr) face.mark = Mark::Shape;
   page.tree.leaf(face);
 }
 

@@ -129,11 +129,7 @@ void StaffFrame::grave_question(const char* title, const About& about, const cha
   const bool narrow = portrait || text_share > 1.3F;
   tree.open(grown(box(Flow::Row, space::kM)));
   if (!narrow) about.draw(*this);
-  Node room = grown(box(Flow::Column, space::kM));
-  room.id = "question";
-  room.box.justify = Justify::Centre;
-  room.box.scroll = true;
-  tree.open(room);
+  tree.open(scroller("question", justified(grown(box(Flow::Column, space::kM)), Justify::Centre)));
   heading("question title", title, type::kHeading);
   heading("question about", filled("{}", about.name), type::kBody);
   body("question code", filled("{}", about.code));
@@ -154,10 +150,9 @@ void StaffFrame::grave_question(const char* title, const About& about, const cha
 // its letters.
 void StaffFrame::held_button(std::string_view id, std::string_view label, Action action, float grow) {
   constexpr ButtonSize kSize = size::kMainButton;
-  Node node = box(Flow::Row, kSize.gap, text_share > 1.3F ? 14 : kSize.pad_x, kSize.pad_y);
+  Node node = centred(box(Flow::Row, kSize.gap, text_share > 1.3F ? 14 : kSize.pad_x, kSize.pad_y));
   tell(node, Role::Button, id, label, action);
   node.hold = node.slow_key = true;
-  centre(node);
   frame(node, palette.quiet, palette.bad, std::max(2.0F, px(3)), px(kSize.radius));
   node.filling = palette.bad;
   node.box.grow = grow;

@@ -8,11 +8,13 @@
 
 #include <algorithm>
 #include <array>
+#include <span>
 #include <string_view>
 
 #include "ui/screens/parts/page.h"
 #include "ui/screens/parts/plot.h"
 #include "ui/view/service.h"
+#include "ui/view/service_view.h"
 
 namespace relievo::ui {
 
@@ -112,5 +114,34 @@ class StaffFrame : public Page {
   void step_button(std::string_view id, const char* end, const char* spoken, std::string_view label,
                    const char* letter, Action action);
 };
+
+// What every list of more than a page has: first, back, where one is, on, last, and its filters. "Where one
+// is" opens the ways to another place: ten stretches of the list, each with what stands at its top (a date, a
+// number); one that is touched is divided again, down to a page. Thread: main. Errors: none.
+using ListFilters = std::span<const std::string_view>;  // names; the first one lets all rows pass
+
+// In place of a page whose list is jumped in or filtered; false: it is not, nothing was drawn.
+bool list_choice(StaffFrame& page, const ListPlace& place, ListFilters filters = {});
+// Under a list; nothing where it has one page and no filters.
+void list_pager(StaffFrame& page, const ListPlace& place, ListFilters filters = {});
+
+// The pages of the staff, one function each (ui/screens/staff_screens.h has their table).
+// Thread: main. Errors: none.
+void pin_page(StaffFrame& page);
+void first_start_page(StaffFrame& page);
+void records_page(StaffFrame& page);
+void statistics_page(StaffFrame& page);
+void self_test_page(StaffFrame& page);
+void trigger_page(StaffFrame& page);
+void log_page(StaffFrame& page);
+void health_page(StaffFrame& page);
+void settings_page(StaffFrame& page);
+void recovery_page(StaffFrame& page);
+// Which consent text is in force, how another comes from a stick, how the last try ended; then the button
+// that asks for it. Also a step of the first start.
+void consent_in_force(StaffFrame& page);
+void clock_page(StaffFrame& page);
+void touch_page(StaffFrame& page);
+void pins_page(StaffFrame& page);
 
 }  // namespace relievo::ui

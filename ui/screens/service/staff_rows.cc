@@ -45,23 +45,21 @@ std::string_view StaffFrame::number(double value, int decimals, const char* unit
   std::snprintf(figures, sizeof figures, "%.*f", decimals, value);
   const std::string_view text = figures;
   const std::size_t sign = text.starts_with('-') ? 1 : 0, whole = digits(text.substr(sign));
-  char said[128];
-  std::size_t length = 0;
-  const auto put = [&](std::string_view part) { length += part.copy(said + length, sizeof said - length); };
-  put(isolate::kLeft);
-  if (sign > 0) put(kMinus);
+  const std::size_t from = tree.kept();
+  tree.keep(isolate::kLeft);
+  if (sign > 0) tree.keep(kMinus);
   for (std::size_t i = 0; i < whole; ++i) {
-    if (i > 0 && whole >= kLeastGrouped && (whole - i) % kGroup == 0) put(kBetweenGroups);
-    put(text.substr(sign + i, 1));
+    if (i > 0 && whole >= kLeastGrouped && (whole - i) % kGroup == 0) tree.keep(kBetweenGroups);
+    tree.keep(text.substr(sign + i, 1));
   }
   if (decimals > 0 && sign + whole < text.size()) {
-    put({&info_of(visit.language).decimal_mark, 1});
-    put(text.substr(sign + whole + 1));
+    tree.keep({&info_of(visit.language).decimal_mark, 1});
+    tree.keep(text.substr(sign + whole + 1));
   }
-  if (*unit_name != 0 && unit_name != kAngle) put("\u00a0");
-  put(unit_name);
-  put(isolate::kEnd);
-  return tree.keep({said, length});
+  if (*unit_name != 0 && unit_name != kAngle) tree.keep("\u00a0");
+  tree.keep(unit_name);
+  tree.keep(isolate::kEnd);
+  return tree.kept_since(from);
 }
 
 std::string_view StaffFrame::as_number(std::string_view text) {
@@ -94,18 +92,17 @@ std::string_view StaffFrame::with_numbers(std::string_view text) {
     words[count++] = as_number(rest.substr(0, end));
     rest.remove_prefix(std::min(end + 1, rest.size()));
   }
-  const std::string_view first = tree.keep({});
-  std::size_t length = 0;
-  for (std::size_t i = 0; i < count; ++i) length += joined({i > 0 ? " " : "", words[i]}).size();
-  return {first.data(), length};
+  const std::size_t from = tree.kept();
+  for (std::size_t i = 0; i < count; ++i) joined({i > 0 ? " " : "", words[i]});
+  return tree.kept_since(from);
 }
 
 std::string_view StaffFrame::date(std::string_view iso) {
   if (!begins_with_date(iso)) return iso;
   const std::string_view shape = tr("%Y-%m-%d"), year = iso.substr(0, 4), month = iso.substr(5, 2),
                          day = iso.substr(8, 2);
-  const std::string_view first = tree.keep(isolate::kLeft);
-  std::size_t length = first.size();
+  const std::size_t from = tree.kept();
+  tree.keep(isolate::kLeft);
   for (std::size_t i = 0; i < shape.size(); ++i) {
     const char part = shape[i] == '%' && i + 1 < shape.size() ? shape[i + 1] : '\0';
     const std::string_view said = part == 'Y'   ? year
@@ -113,11 +110,12 @@ std::string_view StaffFrame::date(std::string_view iso) {
                                   : part == 'd' ? day
                                                 : shape.substr(i, 1);
     if (part != '\0') ++i;
-    length += tree.keep(said).size();
+    tree.keep(said);
   }
   for (const char c : iso.substr(10))
-    length += tree.keep(c == ' ' ? std::string_view("\u00a0") : std::string_view(&c, 1)).size();
-  return {first.data(), length + tree.keep(isolate::kEnd).size()};
+    tree.keep(c == ' ' ? std::string_view("\u00a0") : std::string_view(&c, 1));
+  tree.keep(isolate::kEnd);
+  return tree.kept_since(from);
 }
 
 Node StaffFrame::english(std::string_view words, float size) const {
@@ -144,8 +142,7 @@ std::string_view StaffFrame::noted(const LogLine& what) {
 }
 
 void StaffFrame::logged(const LogLine& what) {
-  Node row = box(Flow::Row, space::kS, 0, 6);
-  row.box.align = Align::Start;
+  Node row = aligned(box(Flow::Row, space::kS, 0, 6), Align::Start);
   row.role = what.fault ? Role::Status : Role::Group;
   if (what.fault) row.name = tr("Fault");
   const auto in_row = tree.inside(row);
@@ -153,9 +150,7 @@ void StaffFrame::logged(const LogLine& what) {
   Node time = text(date(what.at), 18, Weight::Regular, palette.ink_soft);
   time.style.tabular = true;
   tree.leaf(time);
-  Node mark = sized(box(Flow::Column), 24 * text_share, 0);
-  mark.box.align = Align::Centre;
-  tree.open(mark);
+  tree.open(aligned(sized(box(Flow::Column), 24 * text_share, 0), Align::Centre));
   if (what.fault) sign(icon::kAlert, 18, ink_of(Mood::Warn));
   tree.close();
   const auto in_box = tree.inside(grown(box(Flow::Column)));
@@ -169,10 +164,8 @@ void StaffFrame::logged(const LogLine& what) {
 constexpr float kUprightStretch = 1.8F;  // of rows on an upright screen, where there is room
 
 void StaffFrame::begin_card(std::string_view id, bool fit_content) {
-  Node list = grown(box(Flow::Column, 0, space::kM, 8));
+  Node list = scroller(id, grown(box(Flow::Column, 0, space::kM, 8)));
   frame(list, palette.card, palette.card_border, px(1.5F), px(size::kRadius));
-  list.id = id;
-  list.box.scroll = true;
   list.box.fit_content = fit_content;
   list.box.row_stretch = portrait ? kUprightStretch : 1;
   tree.open(list);
@@ -200,9 +193,7 @@ void StaffFrame::row(std::string_view id, std::string_view label, std::string_vi
   tree.open(both);
   wide(text(filled("{}", label), type::kSmall, Weight::Medium, palette.ink));
   if (!value.empty()) {
-    Node end = row_box(space::kXs);
-    end.box.justify = Justify::End;
-    const auto in_end = tree.inside(end);
+    const auto in_end = tree.inside(justified(row_box(space::kXs), Justify::End));
     if (const char* letter = sign_of(mood)) sign(letter, 24, ink_of(mood));
     tree.leaf(text(filled("{}", value), type::kSmall, Weight::Regular,
                    mood == Mood::Plain ? palette.ink_soft : ink_of(mood), TextAlign::End));
@@ -229,10 +220,9 @@ void StaffFrame::rule() {
 void StaffFrame::step_button(std::string_view id, const char* end, const char* spoken, std::string_view label,
                              const char* letter, Action action) {
   const bool dead = action.kind == ActionKind::None;
-  Node node = sized(box(Flow::Row), size::kStaffTarget, size::kStaffTarget);
+  Node node = centred(sized(box(Flow::Row), size::kStaffTarget, size::kStaffTarget));
   tell(node, dead ? Role::Group : Role::Button, joined({id, " ", end}), joined({label, ": ", spoken}),
        action);
-  centre(node);
   frame(node, dead ? Colour{} : palette.quiet, dead ? Colour{} : palette.quiet_border,
         dead ? 0 : std::max(1.5F, px(2)), px(18));
   const auto in_node = tree.inside(node);
@@ -247,9 +237,7 @@ void StaffFrame::stepper(std::string_view id, std::string_view label, std::strin
   row.box.wrap = true;
   tree.open(row);
   wide(text(filled("{}", label), type::kSmall, Weight::Medium, palette.ink));
-  Node end = row_box(space::kS);
-  end.box.justify = Justify::End;
-  tree.open(end);
+  tree.open(justified(row_box(space::kS), Justify::End));
   Node scale = row_box(space::kS);
   scale.box.left_to_right = true;  // less, then more, as on every page that counts
   tree.open(scale);
@@ -275,9 +263,7 @@ void StaffFrame::plot(const Plot& what) {
 }
 
 void StaffFrame::nothing(std::string_view id, const char* letter, std::string_view words) {
-  Node room = grown(box(Flow::Column, space::kS, space::kL, space::kL));
-  centre(room);
-  const auto in_room = tree.inside(room);
+  const auto in_room = tree.inside(centred(grown(box(Flow::Column, space::kS, space::kL, space::kL))));
   sign(letter, 64 / text_share, palette.track);
   body(id, words, TextAlign::Centre);
 }

@@ -5,8 +5,7 @@
 #include <array>
 
 #include "ui/screens/service/fault_words.h"
-#include "ui/screens/service/list_part.h"
-#include "ui/screens/service/staff_pages.h"
+#include "ui/screens/service/staff_frame.h"
 #include "ui/view/staff_views.h"
 
 namespace relievo::ui {

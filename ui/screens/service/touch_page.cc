@@ -7,7 +7,7 @@
 #include "ui/device/settings.h"
 #include "ui/device/touch_map.h"
 #include "ui/screens/service/fault_words.h"
-#include "ui/screens/service/staff_pages.h"
+#include "ui/screens/service/staff_frame.h"
 
 namespace relievo::ui {
 
@@ -117,9 +117,8 @@ void crosses(StaffFrame& page, const TouchView& seen) {
   page.body("cross wait", page.filled(wait, std::to_string(seen.seconds_left)), TextAlign::Centre);
   page.tree.close();
   const TouchPoint& at = kTouchCrosses[seen.cross];
-  Node cross = page.sized(page.box(Flow::Row), 84, 84);
+  Node cross = centred(page.sized(page.box(Flow::Row), 84, 84));
   tell(cross, Role::Status, "cross", page.tr("Touch the middle of the cross"));
-  centre(cross);
   cross.pinned = true;
   cross.pin_x = at.x;
   cross.pin_y = at.y;

@@ -67,9 +67,8 @@ void languages(Page& page) {
 bool tight(const Page& page) { return !page.portrait && page.text_share > 1.3F; }
 
 void words(Page& page) {
-  Node column = page.box(Flow::Column, space::kM);
+  Node column = justified(page.box(Flow::Column, space::kM), Justify::Centre);
   column.box.grow = page.portrait ? 0 : 1.1F;
-  column.box.justify = Justify::Centre;
   column.box.shrink = true;
   const auto in_column = page.tree.inside(column);
   Node said = page.box(Flow::Column, space::kM);
@@ -121,8 +120,7 @@ constexpr float kBadge = 76;
 bool side_by_side(const Page& page) { return !page.portrait && page.text_share < 1.3F; }
 
 void badge(Page& page, const char* letter) {
-  Node box = page.sized(page.box(Flow::Column), kBadge, kBadge);
-  box.box.justify = Justify::Centre;
+  Node box = justified(page.sized(page.box(Flow::Column), kBadge, kBadge), Justify::Centre);
   box.box.fill = page.palette.accent.with_alpha(0.12F);
   box.box.radius = page.px(kBadge / 4);
   const auto in_box = page.tree.inside(box);
@@ -136,8 +134,7 @@ void point(Page& page, const char* letter, std::string_view title, std::string_v
   row.box.grow = 1;
   const auto in_row = page.tree.inside(row);
   if (letter != nullptr) badge(page, letter);
-  Node column = page.grown(page.box(Flow::Column, 4));
-  const auto in_column = page.tree.inside(column);
+  const auto in_column = page.tree.inside(page.grown(page.box(Flow::Column, 4)));
   page.tree.leaf(page.text(title, type::kBody, Weight::Bold, page.palette.ink));
   if (!words.empty()) page.tree.leaf(page.text(words, 22, Weight::Regular, page.palette.ink_soft));
 }

@@ -16,9 +16,7 @@ constexpr float kCorner = 16;  // as the staff's way in has it (staff_entrance)
 // What every page has at its top, beside the staff's way in where there is one: whoever reads a message reads
 // it in their language, and as large as they need it.
 void tools(Page& page) {
-  Node row = page.sided(page.box(Flow::Row, space::kS));
-  row.box.justify = Justify::End;
-  const auto in_row = page.tree.inside(row);
+  const auto in_row = page.tree.inside(justified(page.sided(page.box(Flow::Row, space::kS)), Justify::End));
   if (page.visit.step == Step::Thanks) {
     const auto in_seen = page.tree.inside(page.grown(page.row_box()));
     // They rest as soon as the portrait is stored: who listens is not told first that they are on.
@@ -45,16 +43,12 @@ void begin_message(Page& page, const char* letter, Colour colour, bool with_tool
   page.open_page(
       page.box(Flow::Column, space::kM, at_lock ? kCorner : kPageMargin, at_lock ? kCorner : kPageTop));
   if (with_tools && !page.low()) tools(page);
-  Node middle = page.grown(page.box(Flow::Column, 0, kSide, with_tools ? 0 : kSide));
-  middle.box.align = Align::Centre;
-  page.tree.open(middle);
-  Node column = page.grown(page.box(Flow::Column, gap));
+  page.tree.open(
+      aligned(page.grown(page.box(Flow::Column, 0, kSide, with_tools ? 0 : kSide)), Align::Centre));
+  Node column = scroller("message", justified(page.grown(page.box(Flow::Column, gap)), Justify::Centre));
   const float across = abreast(page) ? kTwoCards : kColumn;
   column.box.max_width = page.px(across);
   column.box.width = page.px(std::min(across, page.width_dp - 80));
-  column.box.justify = Justify::Centre;
-  column.box.scroll = true;
-  column.id = "message";
   page.tree.open(column);
   if (letter != nullptr) page.sign(letter, 88 / page.text_share, colour);
 }
@@ -144,9 +138,10 @@ void qr(Page& page, std::string_view id, PictureSlot slot) {
 }
 
 Node code_card(const Page& page, std::string_view id, const char* name, Colour border) {
-  Node card = page.box(page.portrait ? Flow::Column : Flow::Row, space::kM, 32, page.portrait ? 16 : 10);
+  Node card =
+      aligned(page.box(page.portrait ? Flow::Column : Flow::Row, space::kM, 32, page.portrait ? 16 : 10),
+              Align::Centre);
   tell(card, Role::Group, id, name);
-  card.box.align = Align::Centre;
   frame(card, page.palette.card, border, page.px(3), page.px(size::kCardRadius));
   return card;
 }
@@ -168,7 +163,7 @@ void erasure_code(Page& page) {
   code.style.size_px = page.px(code_dp);
   page.tree.leaf(code);
   page.tree.close();
-  if (!page.view.receipt_code.picture.empty() && !at_foot(page)) qr(page, "qr", PictureSlot::Receipt);
+  if (!page.view.receipt_code.pixels.empty() && !at_foot(page)) qr(page, "qr", PictureSlot::Receipt);
 }
 
 // Where the operator offers the portrait.
@@ -188,8 +183,7 @@ void link(Page& page) {
 }
 
 void codes(Page& page) {
-  Node row = page.box(abreast(page) ? Flow::Row : Flow::Column, space::kM);
-  row.box.justify = Justify::Centre;
+  Node row = justified(page.box(abreast(page) ? Flow::Row : Flow::Column, space::kM), Justify::Centre);
   if (!abreast(page)) row.box.align = Align::Centre;
   const auto in_row = page.tree.inside(row);
   erasure_code(page);

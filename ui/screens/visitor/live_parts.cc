@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: 2026 The Relievo authors
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include "ui/screens/visitor/live_parts.h"
+#include "ui/screens/visitor/visitor_screens.h"
 
 #include <algorithm>
 #include <cmath>
@@ -46,9 +46,7 @@ void distance(Page& page, float oval_high_dp) {
   if (nearness <= 0 || std::abs(nearness - 1) < 0.03F) return;
   const float h =
       std::min({oval_high_dp * std::clamp(nearness, 0.35F, 1.6F), page.width_dp / 0.74F, page.height_dp});
-  Node room = page.box(Flow::Row);
-  centre(room);
-  const auto in_room = page.tree.inside(room);
+  const auto in_room = page.tree.inside(centred(page.box(Flow::Row)));
   Node ring = page.sized(page.box(Flow::Column), h * 0.74F, h);
   ring.id = "distance";
   ring.mark = Mark::Ring;
@@ -59,8 +57,7 @@ void distance(Page& page, float oval_high_dp) {
 
 // `share` of its line is bright.
 void oval(Page& page, bool good, float share, bool notes) {
-  Node room = page.box(Flow::Row);
-  centre(room);
+  Node room = centred(page.box(Flow::Row));
   page.tree.open(room);
   // As large as a face at the best distance, as far as there is room.
   const ImageView& live = page.view.live.picture;
@@ -72,14 +69,13 @@ void oval(Page& page, bool good, float share, bool notes) {
   const float h =
       std::min({wanted, page.height_dp * (page.text_share > 1.6F ? 0.72F : 0.76F), page.width_dp * 1.1F,
                 page.height_dp - 2 * std::max(room_above(page, notes), room_below(page))});
-  Node ring = page.sized(page.box(Flow::Column), h * 0.74F, h);
+  Node ring = centred(page.sized(page.box(Flow::Column), h * 0.74F, h));
   tell(ring, Role::Picture, "oval",
        good ? page.tr("Your face is in the oval") : page.tr("An oval for your face"));
   ring.mark = Mark::Ring;
   ring.line_px = page.px(10);
   ring.colour = lamp(page);
   ring.box.fill = good ? page.palette.good : page.palette.accent;
-  centre(ring);
   ring.share = share;
   page.tree.leaf(ring);
   page.tree.close();
@@ -166,15 +162,12 @@ void begin_mirror(Page& page, const Said& what, float share, bool notes) {
 }
 
 void advice(Page& page, const Said& what, int countdown) {
-  Node row = page.box(Flow::Row);
-  row.box.justify = Justify::Centre;
-  const auto in_row = page.tree.inside(row);
-  Node pill = page.box(Flow::Row, 18, 32, 10);
+  const auto in_row = page.tree.inside(justified(page.box(Flow::Row), Justify::Centre));
+  Node pill = centred(page.box(Flow::Row, 18, 32, 10));
   tell(pill, Role::Alert, "advice", what.spoken != nullptr ? what.spoken : what.words);
   pill.insists = !what.good;
   // Who turns the head is past the side before they have heard.
   pill.waits = pill.insists && page.visit.step == Step::Position;
-  centre(pill);
   pill.box.max_width = page.px(page.portrait ? 700.0F : 1200.0F);
   frame(pill, page.palette.card, what.good ? page.palette.good : page.palette.quiet_border, page.px(3),
         page.px(size::kPillRadius));

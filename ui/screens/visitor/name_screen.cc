@@ -50,11 +50,8 @@ void known_screen(Page& page) {
   const auto& tr = page.tr;
   const bool proven = page.view.known == Known::Code;
   page.begin(true);
-  Node middle = page.grown(page.box(Flow::Column, space::kM));
-  middle.id = "known";
-  middle.box.justify = Justify::Centre;
-  middle.box.scroll = true;
-  page.tree.open(middle);
+  page.tree.open(
+      scroller("known", justified(page.grown(page.box(Flow::Column, space::kM)), Justify::Centre)));
   page.heading("title", proven ? tr("Welcome back") : tr("This name is in our records"));
   page.body(
       "what",
@@ -80,13 +77,12 @@ bool abreast(const Page& page) { return !page.portrait && page.text_share > 1.1F
 
 // "4821-9037-____-__": what is there, and how much is still to come. As long as the code itself.
 std::string_view grouped(Page& page, std::string_view digits) {
-  const std::string_view first = page.tree.keep({});
-  std::size_t length = 0;
+  const std::size_t from = page.tree.kept();
   for (std::size_t i = 0; i < kCodeDigits; ++i) {
-    if (i % 4 == 0 && i > 0) length += page.tree.keep("-").size();
-    length += page.tree.keep(i < digits.size() ? digits.substr(i, 1) : std::string_view("_")).size();
+    if (i % 4 == 0 && i > 0) page.tree.keep("-");
+    page.tree.keep(i < digits.size() ? digits.substr(i, 1) : std::string_view("_"));
   }
-  return {first.data(), length};
+  return page.tree.kept_since(from);
 }
 
 void field(Page& page, const char* asked, float grow) {
@@ -176,9 +172,7 @@ void ask_name(Page& page, const char* asked) {
     field(page, asked, 0);
   }
   if (page.portrait) {
-    Node centred = page.box(Flow::Row);
-    centred.box.justify = Justify::Centre;
-    page.tree.open(centred);
+    page.tree.open(justified(page.box(Flow::Row), Justify::Centre));
   }
   finder(page, page.portrait ? kFinderHighPortrait : abreast(page) ? kFinderHighAbreast : kFinderHigh);
   if (page.portrait) page.tree.close();
@@ -186,17 +180,15 @@ void ask_name(Page& page, const char* asked) {
 
 // Digits only: a pad of them, beside the question where there is room.
 void ask_code(Page& page, const char* asked) {
-  Node room = page.grown(page.sided(page.box(page.portrait ? Flow::Column : Flow::Row, space::kXl)));
-  room.box.justify = Justify::Centre;
+  Node room =
+      justified(page.grown(page.sided(page.box(page.portrait ? Flow::Column : Flow::Row, space::kXl))),
+                Justify::Centre);
   if (page.portrait) room.box.align = Align::Centre;
   const auto in_room = page.tree.inside(room);
-  Node said = page.box(Flow::Column, space::kM);
-  said.id = "said";
-  said.box.scroll = true;
+  Node said = scroller("said", justified(page.box(Flow::Column, space::kM), Justify::Centre));
   said.box.shrink = page.portrait;
   if (page.portrait) said.box.width = page.px(page.width_dp - 2 * kPageMargin);
   else said.box.grow = 1;
-  said.box.justify = Justify::Centre;
   page.tree.open(said);
   page.heading("title", asked, kAsked);
   field(page, asked, 0);

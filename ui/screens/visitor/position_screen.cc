@@ -6,7 +6,6 @@
 #include <cmath>
 #include <utility>
 
-#include "ui/screens/visitor/live_parts.h"
 #include "ui/screens/visitor/visitor_screens.h"
 
 namespace relievo::ui {
@@ -101,9 +100,8 @@ void position_screen(Page& page) {
                 {ActionKind::TakePicture, 0});
   };
   if (page.portrait) shoot();
-  Node foot = page.sided(page.box(Flow::Row, page.portrait ? space::kS : space::kXs));
-  foot.box.align = Align::End;
-  page.tree.open(foot);
+  page.tree.open(
+      aligned(page.sided(page.box(Flow::Row, page.portrait ? space::kS : space::kXs)), Align::End));
   // Large words would reach into the oval.
   if (page.portrait || page.text_share < 1.2F)
     page.button("back", page.tr("Back"), page.backward(), ButtonLook::Quiet, {ActionKind::Back, 0});
@@ -144,12 +142,11 @@ void sides(Page& page) {
   const auto& turn = page.view.live.turn;
   constexpr float kFurthestDeg = 62, kStopDp = 46, kMarkerDp = 22;
   const auto pinned = [&](float deg, float across_dp) {
-    Node disc = page.sized(page.box(Flow::Column), across_dp, across_dp);
+    Node disc = centred(page.sized(page.box(Flow::Column), across_dp, across_dp));
     disc.pinned = true;
     disc.pin_x = 0.5F - deg / (2 * kFurthestDeg);
     disc.pin_y = 0.5F;
     disc.box.radius = page.px(across_dp / 2);
-    centre(disc);
     return disc;
   };
   constexpr float kHighDp = kStopDp + 18;
@@ -189,14 +186,10 @@ void turn_screen(Page& page) {
   advice(page, what);
   page.space(1);
   if (page.portrait) {
-    Node row = page.box(Flow::Row);
-    row.box.justify = Justify::Centre;
-    const auto in_row = page.tree.inside(row);
+    const auto in_row = page.tree.inside(justified(page.box(Flow::Row), Justify::Centre));
     sides(page);
   }
-  Node foot = page.sided(page.box(Flow::Row, space::kS));
-  centre(foot);
-  page.tree.open(foot);
+  page.tree.open(centred(page.sided(page.box(Flow::Row, space::kS))));
   page.square_button("help", page.tr("Help"), icon::kHelp, {ActionKind::ShowHelp, 0});
   page.square_button("leave", page.tr("Stop and leave"), icon::kClose, {ActionKind::Leave, 0});
   if (page.portrait) page.space(1);

@@ -32,8 +32,7 @@ Quality quality_of(const Page& page) {
 
 void tools(Page& page) {
   const auto& tr = page.tr;
-  Node row = page.box(Flow::Row, 10);
-  row.box.justify = Justify::Centre;
+  Node row = justified(page.box(Flow::Row, 10), Justify::Centre);
   row.box.left_to_right = true;  // what turns the face to the left lies on the left
   const auto in_row = page.tree.inside(row);
   page.turning_tools();
@@ -42,19 +41,14 @@ void tools(Page& page) {
 }
 
 void face(Page& page) {
-  Node card = page.grown(page.box(Flow::Stack), page.portrait ? 1.0F : 1.35F);
-  card.box.fill = page.palette.stage;
-  card.box.radius = page.px(size::kCardRadius);
+  Node card = page.stage(size::kCardRadius, page.portrait ? 1.0F : 1.35F);
   card.box.shadow = true;
   const auto in_card = page.tree.inside(card);
-  Node node = page.box(Flow::Column);
-  tell(node, Role::Picture, "face", page.tr("Your face: turn it with a finger"), {ActionKind::TurnFace, 0});
-  node.mark = page.view.model != nullptr ? Mark::Face : Mark::Shape;
+  Node node = page.model("face", page.tr("Your face: turn it with a finger"), size::kCardRadius);
+  if (page.view.model == nullptr) node.mark = Mark::Shape;
   node.covered_px = page.px(size::kTarget + 2 * kToolsEdge);
-  node.box.radius = page.px(size::kCardRadius);
   page.tree.leaf(node);
-  Node column = page.box(Flow::Column, 0, 12, kToolsEdge);
-  const auto in_column = page.tree.inside(column);
+  const auto in_column = page.tree.inside(page.box(Flow::Column, 0, 12, kToolsEdge));
   page.space(1);
   tools(page);
 }
@@ -81,11 +75,10 @@ void question(Page& page) {
   Node column = page.box(Flow::Column, space::kM);
   if (!page.portrait) column.box.grow = 1;
   const auto in_column = page.tree.inside(column);
-  Node words = page.box(Flow::Column, space::kS);
+  Node words = justified(page.box(Flow::Column, space::kS), Justify::Centre);
   words.id = "words";
   words.box.grow = page.portrait ? 0.0F : 1.0F;
   words.box.scroll = !page.portrait;
-  words.box.justify = Justify::Centre;
   page.tree.open(words);
   page.heading("title", tr("Is this you?"));
   if (page.view.trouble == Trouble::Storage) {

@@ -5,7 +5,6 @@
 #include <array>
 
 #include "ui/screens/staff_screens.h"
-#include "ui/screens/visitor/live_parts.h"
 
 namespace relievo::ui {
 namespace {
@@ -56,12 +55,11 @@ const Palette& build_visitor_screen(Tree& tree, const ViewState& view, const Vis
 void fill_pictures(DrawList& list, const ViewState& view, const Visit& visit) {
   list.pictures[std::size_t(PictureSlot::Live)] = {view.live.picture, view.live.number};
   for (std::size_t i = 0; i < kStageViews; ++i)
-    list.pictures[std::size_t(PictureSlot::Photograph) + i] = {view.stages[i].picture, view.stages[i].number};
+    list.pictures[std::size_t(PictureSlot::Photograph) + i] = view.stages[i];
   if (view.consent != nullptr && !view.consent->host.sign.empty())
     list.pictures[std::size_t(PictureSlot::Sign)] = {view.consent->host.sign_view(), 1};
-  list.pictures[std::size_t(PictureSlot::Receipt)] = {view.receipt_code.picture, view.receipt_code.number};
-  const StageView& link = view.take_home.link_code;
-  list.pictures[std::size_t(PictureSlot::Link)] = {link.picture, link.number};
+  list.pictures[std::size_t(PictureSlot::Receipt)] = view.receipt_code;
+  list.pictures[std::size_t(PictureSlot::Link)] = view.take_home.link_code;
   list.faces = {};
   list.faces[0].model = face_of(view, visit);
   if (list.faces[0].model != nullptr)

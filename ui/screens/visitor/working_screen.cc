@@ -16,15 +16,14 @@ constexpr float kWaits = 0.4F;  // so bright is the photograph where nothing has
 // The first whose picture is not born.
 int stage_under_way(const ViewState& view) {
   const auto made = view.stages.begin() + 1;
-  return int(std::find_if(made, view.stages.end(), [](const StageView& one) { return one.picture.empty(); }) -
+  return int(std::find_if(made, view.stages.end(), [](const Picture& one) { return one.pixels.empty(); }) -
              made);
 }
 
 // In a corner of the picture, so that the words below keep the whole width and stay where they are.
 void tick(Page& page) {
   const float across_dp = 38 * page.text_share;
-  Node disc = page.sized(page.box(Flow::Column), across_dp, across_dp);
-  centre(disc);
+  Node disc = centred(page.sized(page.box(Flow::Column), across_dp, across_dp));
   disc.box.radius = page.px(across_dp / 2);
   disc.box.fill = page.palette.card;
   const auto in_disc = page.tree.inside(disc);
@@ -33,9 +32,9 @@ void tick(Page& page) {
 
 void card(Page& page, std::size_t stage, const char* words) {
   const int now = stage_under_way(page.view), at = int(stage);
-  const StageView &made = page.view.stages[stage + 1], &photograph = page.view.stages[0];
-  const bool born = !made.picture.empty();
-  const ImageView& shown = born ? made.picture : photograph.picture;
+  const Picture &made = page.view.stages[stage + 1], &photograph = page.view.stages[0];
+  const bool born = !made.pixels.empty();
+  const ImageView& shown = born ? made.pixels : photograph.pixels;
   constexpr std::string_view kIds[] = {"matches", "cloud", "mesh", "texture"};
   Node node = page.grown(page.box(Flow::Column, space::kS, 14, 14));
   tell(node, Role::Status, kIds[stage], words);
@@ -43,10 +42,7 @@ void card(Page& page, std::size_t stage, const char* words) {
   frame(node, page.palette.card, at == now ? page.palette.accent : page.palette.card_border,
         page.px(at == now ? 3.0F : 1.5F), page.px(size::kCardRadius));
   const auto in_node = page.tree.inside(node);
-  Node room = page.grown(page.box(Flow::Stack));
-  room.box.fill = page.palette.stage;
-  room.box.radius = page.px(18);
-  page.tree.open(room);
+  page.tree.open(page.stage(18));
   if (!shown.empty()) {
     Node picture = page.box(Flow::Column);
     tell(picture, Role::Picture, {}, words);
@@ -58,15 +54,11 @@ void card(Page& page, std::size_t stage, const char* words) {
     if (at > now && !born) picture.colour = Colour{255, 255, 255, 255}.with_alpha(kWaits);
     page.tree.leaf(picture);
   }
-  Node sign = page.box(Flow::Column, 0, 8, 8);
-  sign.box.justify = Justify::End;
-  sign.box.align = Align::End;
-  page.tree.open(sign);
+  page.tree.open(aligned(justified(page.box(Flow::Column, 0, 8, 8), Justify::End), Align::End));
   if (at < now) tick(page);
   page.tree.close();
   page.tree.close();
-  Node row = page.box(Flow::Row, 10);
-  centre(row);
+  Node row = centred(page.box(Flow::Row, 10));
   row.box.min_height = page.px(64 * page.text_share);
   const auto in_row = page.tree.inside(row);
   Node said = page.text(words, 22, Weight::Medium, at <= now ? page.palette.ink : page.palette.ink_soft,

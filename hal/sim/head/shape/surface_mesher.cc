@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: 2026 The Relievo authors
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include "hal/sim/head/shape/surface_mesher.h"
+#include "hal/sim/head/shape/head_field.h"
 
 #include <unordered_map>
 

@@ -178,7 +178,9 @@ BoardOutline with_border(const BoardOutline& o, const BoardPattern& pattern) {
   return wider;
 }
 
-BoardParameters parameters_of(const BoardOutline& outline, int width_px, int height_px) {
+BoardParameters parameters_of(const BoardCorners& corners, const BoardPattern& pattern, int width_px,
+                              int height_px) {
+  const BoardOutline outline = outline_of(corners, pattern);
   BoardParameters p;
   const double width = width_px;
   const double height = height_px;
@@ -198,11 +200,6 @@ BoardParameters parameters_of(const BoardOutline& outline, int width_px, int hei
   const Vec2d along = {o[1].x - o[0].x + o[2].x - o[3].x, o[1].y - o[0].y + o[2].y - o[3].y};
   p.turn_rad = std::atan2(along.y, along.x);
   return p;
-}
-
-BoardParameters parameters_of(const BoardCorners& corners, const BoardPattern& pattern, int width_px,
-                              int height_px) {
-  return parameters_of(outline_of(corners, pattern), width_px, height_px);
 }
 
 double distance_between(const BoardParameters& a, const BoardParameters& b) {

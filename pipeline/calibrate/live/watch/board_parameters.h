@@ -37,7 +37,6 @@ struct BoardParameters {
 
 BoardParameters parameters_of(const BoardCorners& corners, const BoardPattern& pattern, int width_px,
                               int height_px);
-BoardParameters parameters_of(const BoardOutline& outline, int width_px, int height_px);
 
 // How much two views differ: the sum of differences in x, y, size and skew, as in ROS, and 0.7 of those
 // in the tilts, without which views that determine the focal length would count as repetitions.

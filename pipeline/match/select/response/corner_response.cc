@@ -6,12 +6,12 @@
 #include <array>
 #include <cmath>
 
-#include "pipeline/match/image/box_filter.h"
+#include "pipeline/match/image/plane_filters.h"
 
 namespace relievo::pipeline {
 namespace {
 
-constexpr std::size_t kBands = 16;
+constexpr int kBands = 16;
 
 bool selectable_at(const RectifiedPair& pair, int x, int y) {
   const std::size_t k = pair.index(x, y);
@@ -134,16 +134,17 @@ Result<Selectable> selectable_of(const RectifiedPair& pair, StageContext& contex
   return selectable;
 }
 
-bool mark_peaks(Plane<float>& response, const PeakChoice& choice, Plane<float>& chosen,
-                StageContext& context) {
+Result<void> mark_peaks(Plane<float>& response, const PeakChoice& choice, Plane<float>& chosen,
+                        StageContext& context) {
   const float greatest = *std::ranges::max_element(response.values);
-  if (!(greatest > 0)) return true;
+  if (!(greatest > 0)) return {};
   for (float& r : response.values) r /= greatest;
   Arena::Mark mark(context.scratch);
   Candidates peaks = peaks_of(response, float(choice.least), choice.radius_px, context, &context.scratch);
-  if (context.stop()) return false;
+  if (context.stop()) return selection_stopped();
   choose_spread(peaks, choice.distance_px, choice.max_points, chosen, context.scratch);
-  return !context.stop();
+  if (context.stop()) return selection_stopped();
+  return {};
 }
 
 Result<Keypoints> keypoints_of(const Plane<float>& chosen, int max_points, StageContext& context) {
@@ -173,7 +174,7 @@ Result<Keypoints> keypoints_of(const Plane<float>& chosen, int max_points, Stage
 
 Result<Keypoints> peak_keypoints(Plane<float>& response, const PeakChoice& choice, StageContext& context) {
   Plane<float> chosen(&context.scratch, response.width, response.height);
-  if (!mark_peaks(response, choice, chosen, context)) return selection_stopped();
+  RELIEVO_TRY(mark_peaks(response, choice, chosen, context));
   return keypoints_of(chosen, choice.max_points, context);
 }
 
@@ -197,8 +198,6 @@ Result<Keypoints> lattice_keypoints(const RectifiedPair& pair, int step_px, cons
 
 namespace {
 
-constexpr int kCornerBands = 16;
-
 struct Gradient {
   float x, y;
 };
@@ -214,7 +213,7 @@ Gradient sobel(const float* above, const float* here, const float* below, int x)
 // Products of the gradient; 0 along the picture's edge.
 void products(const std::pmr::vector<float>& grey, ThreadPool& pool, Plane<float>& xx, Plane<float>& xy,
               Plane<float>& yy) {
-  pool.for_each_band(xx.height - 2, kCornerBands, [&](int begin, int end, int) {
+  pool.for_each_band(xx.height - 2, kBands, [&](int begin, int end, int) {
     for (int y = begin + 1; y < end + 1; ++y) {
       const float* here = grey.data() + std::ptrdiff_t(y) * xx.width;
       for (int x = 1; x + 1 < xx.width; ++x) {
@@ -340,11 +339,11 @@ float harris_measure(float xx, float xy, float yy, float sensitivity) {
   return xx * yy - xy * xy - sensitivity * trace * trace;
 }
 
-bool corner_response(const std::pmr::vector<float>& grey, const Selectable& selectable,
-                     const CornerWindow& window, CornerMeasure measure, float parameter,
-                     StageContext& context, Plane<float>& response) {
+Result<void> corner_response(const std::pmr::vector<float>& grey, const Selectable& selectable,
+                             const CornerWindow& window, CornerMeasure measure, float parameter,
+                             StageContext& context, Plane<float>& response) {
   std::ranges::fill(response.values, 0.0F);
-  if (response.width < 3 || response.height < 3) return true;
+  if (response.width < 3 || response.height < 3) return {};
   Arena::Mark mark(context.scratch);
   Plane<float> xx(&context.scratch, response.width, response.height);
   Plane<float> xy(&context.scratch, response.width, response.height);
@@ -353,20 +352,21 @@ bool corner_response(const std::pmr::vector<float>& grey, const Selectable& sele
   products(grey, context.pool, xx, xy, yy);
   for (Plane<float>* plane : {&xx, &xy, &yy})
     for (int pass = 0; pass < window.passes; ++pass) {
-      if (context.stop()) return false;
+      if (context.stop()) return selection_stopped();
       box_sum(*plane, window.radius_px, context.pool, across, *plane);
     }
   const float side = float(2 * window.radius_px + 1);
   const float mean = 1 / std::pow(side, float(2 * window.passes));
   const int margin = window.reach_px();
-  context.pool.for_each_band(response.height, kCornerBands, [&](int begin, int end, int) {
+  context.pool.for_each_band(response.height, kBands, [&](int begin, int end, int) {
     for (int y = begin; y < end; ++y)
       for (int x = 0; x < response.width; ++x)
         if (selectable(x, y, margin))
           response.row(y)[x] = std::max(
               0.0F, measure(mean * xx.row(y)[x], mean * xy.row(y)[x], mean * yy.row(y)[x], parameter));
   });
-  return !context.stop();
+  if (context.stop()) return selection_stopped();
+  return {};
 }
 
 }  // namespace relievo::pipeline

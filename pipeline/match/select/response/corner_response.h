@@ -54,9 +54,9 @@ struct PeakChoice {
 };
 
 // Divides the response, which is 0 where nothing may be selected, by its greatest; marks the chosen peaks'
-// strength in `chosen`. False: cancelled.
-bool mark_peaks(Plane<float>& response, const PeakChoice& choice, Plane<float>& chosen,
-                StageContext& context);
+// strength in `chosen`. Error: Cancelled.
+Result<void> mark_peaks(Plane<float>& response, const PeakChoice& choice, Plane<float>& chosen,
+                        StageContext& context);
 
 // What is marked (strength > 0), in rows from the top, at most the max_points strongest.
 // Error: TooFewMatches where nothing is.
@@ -130,9 +130,10 @@ using CornerMeasure = float (*)(float xx, float xy, float yy, float parameter);
 float smaller_eigenvalue(float xx, float xy, float yy, float);          // Shi and Tomasi 1994
 float harris_measure(float xx, float xy, float yy, float sensitivity);  // Harris and Stephens 1988
 
-// Fills `response`: 0 where nothing may be selected and where the measure is negative. False: cancelled.
-bool corner_response(const std::pmr::vector<float>& grey, const Selectable& selectable,
-                     const CornerWindow& window, CornerMeasure measure, float parameter,
-                     StageContext& context, Plane<float>& response);
+// Fills `response`: 0 where nothing may be selected and where the measure is negative. Error:
+// Cancelled.
+Result<void> corner_response(const std::pmr::vector<float>& grey, const Selectable& selectable,
+                             const CornerWindow& window, CornerMeasure measure, float parameter,
+                             StageContext& context, Plane<float>& response);
 
 }  // namespace relievo::pipeline

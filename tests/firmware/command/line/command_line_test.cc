@@ -47,6 +47,37 @@ TEST(CommandLine, AHeadThatTurned) {
   for (const auto& words : wrong) EXPECT_EQ(parse(words).exit_code, 2) << words.size();
 }
 
+// What the file system refuses to look at is a wrong word, too.
+TEST(CommandLine, APictureThatCannotBeAFolderIsNone) {
+  const std::string longer_than_any_name(300, 'x');
+  testing::internal::CaptureStderr();
+  const auto line =
+      parse({"reconstruct", longer_than_any_name.c_str(), "--calibration", "rig.yml", "-o", "out"});
+  EXPECT_NE(testing::internal::GetCapturedStderr().find("a left one and a right one each"),
+            std::string::npos);
+  EXPECT_EQ(line.exit_code, 2);
+}
+
+TEST(CommandLine, TheMemoryOfAStoreWhoseKeyLiesElsewhere) {
+  const auto line = parse({"memory", "--store", "s", "--key", "k"});
+  ASSERT_TRUE(std::holds_alternative<MemoryArgs>(line.command));
+  EXPECT_EQ(std::get<MemoryArgs>(line.command).store, "s");
+  EXPECT_EQ(line.key, "k");
+  EXPECT_TRUE(std::get<MemoryArgs>(parse({"memory"}).command).store.empty()) << "the plan alone";
+}
+
+TEST(CommandLine, ALimitThatIsNoNumberIsRefused) {
+  for (const char* option : {"--bad-px", "--truth-scale"}) {
+    EXPECT_EQ(parse({"compare", "l", "r", "--rectified", "-o", "out", option, "2"}).exit_code, 0);
+    for (const char* value : {"nan", "inf", "0"}) {
+      testing::internal::CaptureStderr();
+      EXPECT_EQ(parse({"compare", "l", "r", "--rectified", "-o", "out", option, value}).exit_code, 2)
+          << option << ' ' << value;
+      (void)testing::internal::GetCapturedStderr();
+    }
+  }
+}
+
 TEST(CommandLine, ALighterModelBesideIt) {
   const auto reconstruct = parse({"reconstruct", "l.png", "r.png", "--calibration", "rig.yml", "-o", "out",
                                   "--lod", "40000", "--watertight"});

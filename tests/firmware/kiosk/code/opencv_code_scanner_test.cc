@@ -8,7 +8,7 @@
 #include <opencv2/core.hpp>
 
 #include "firmware/kiosk/code/qr_code.h"
-#include "hal/monotonic_clock.h"
+#include "hal/clock.h"
 #include "hal/sim/device.h"
 #include "hal/sim/sheet/sheet_photo.h"
 #include "pipeline/calibrate/file/calibration_file.h"

@@ -8,10 +8,13 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <utility>
 
+#include "firmware/service/page/health_controller.h"
 #include "firmware/service/page/records_controller.h"
 #include "tests/firmware/played_appliance.h"
 #include "tests/storage/sample.h"
+#include "tests/support/faulty_store.h"
 #include "tests/support/temporary_folder.h"
 
 namespace relievo::firmware {
@@ -131,6 +134,25 @@ TEST_F(PageTest, ATriggerTestThatWasCancelledBySigningOutCanBeBegunAgain) {
   EXPECT_TRUE(seen(page).trigger->ended);
 }
 
+TEST_F(PageTest, ADiskThatDoesNotAnswerIsToldAsSeldomAsItsRoomIsKept) {
+  services.folder = folder.path() / "gone";
+  HealthController page(services);
+  page.opened();
+  until_all_is_done();
+  for (int look = 0; look < 5; ++look) {
+    page.turn();
+    until_all_is_done();
+    world.ahead_s += 3;
+    (void)seen(page);
+    until_all_is_done();
+  }
+  EXPECT_EQ(log.faults().size(), 1U) << "the log has room for 200 lines";
+  world.ahead_s += std::chrono::seconds(DayRing::kEvery).count();
+  page.turn();
+  until_all_is_done();
+  EXPECT_EQ(log.faults().size(), 2U);
+}
+
 TEST_F(PageTest, TheDeviceIsLookedAtAgainAfterALookThatSigningOutCancelled) {
   StatusController page(services);
   page.opened();
@@ -142,6 +164,40 @@ TEST_F(PageTest, TheDeviceIsLookedAtAgainAfterALookThatSigningOutCancelled) {
   (void)seen(page);
   until_all_is_done();
   EXPECT_TRUE(seen(page).status->looked);
+}
+
+class RefusesTheFirst final : public test::FaultyStore {
+ public:
+  using FaultyStore::FaultyStore;
+  Result<void> set_setting(std::string_view key, std::string_view value) override {
+    if (!std::exchange(refused_, true)) return Error{Errc::MediaFull, "as the test says"};
+    return FaultyStore::set_setting(key, value);
+  }
+
+ private:
+  bool refused_ = false;
+};
+
+TEST_F(PageTest, ATouchMapThatCannotBeWrittenTouchesNoNewerOneAndNoTrial) {
+  const std::atomic<std::optional<Errc>> none{};
+  RefusesTheFirst refuses(storage::test::opened(folder.path() / "touch"), none);
+  TouchTrial trial(refuses, side_tasks, log, device.clock());
+  // A panel that tells only so much of the way.
+  const auto keep = [&](float share) {
+    trial.begin();
+    for (const ui::TouchPoint at :
+         {ui::TouchPoint{0.1F, 0.1F}, {0.9F, 0.1F}, {0.9F, 0.9F}, {0.1F, 0.9F}, {0.5F, 0.5F}})
+      trial.touched({share * at.x, share * at.y}, at);
+    EXPECT_EQ(trial.view().verdict, ui::TouchVerdict::Kept);
+  };
+  keep_busy(JobLane::Keeper);
+  keep(0.9F);  // is not written
+  keep(0.8F);
+  trial.begin();
+  until_all_is_done();
+  EXPECT_TRUE(trial.takes_fingers());
+  trial.abandon();
+  EXPECT_NEAR(trial.placed({ui::Input::Kind::Down, 7, 40, 40}, 100, 100).x, 50, 0.1);
 }
 
 }  // namespace

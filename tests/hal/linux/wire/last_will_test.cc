@@ -2,7 +2,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 //
 // A process that is killed in the middle of a pulse: its last will is done nonetheless.
-#include "hal/linux/wire/output_lines.h"
+#include "hal/linux/wire/gpio_trigger_line.h"
 
 #include <gtest/gtest.h>
 

@@ -8,7 +8,6 @@
 
 #include <gtest/gtest.h>
 
-#include "pipeline/calibrate/board/board_drawing.h"
 #include "pipeline/calibrate/board/board_finder.h"
 
 namespace relievo::tests {

@@ -84,6 +84,13 @@ TEST(CalibrationFile, NamesTheCamerasItWasMadeWith) {
                   .where(),
               "left_camera")
         << by;
+  // Nor is a word a number: it would be read as nought, which stands for unknown.
+  for (const std::string field : {"pair_rms_px", "epipolar_shift_px"})
+    for (const std::string by : {": 0,02\n", ": abc\n", ": \"0.02\"\n"})
+      EXPECT_EQ(
+          pipeline::parse_calibration(replaced(before, field, field + by + "was_" + field)).error().where(),
+          field)
+          << by;
   rig.cameras.right.assign(pipeline::kMaxCameraWords + 1, 'x');
   EXPECT_FALSE(pipeline::check_calibration(rig));
 }

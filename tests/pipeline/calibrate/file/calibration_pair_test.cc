@@ -4,7 +4,7 @@
 // The two-file forms: OpenCV's stereo sample and ROS camera_info.
 #include <gtest/gtest.h>
 
-#include "pipeline/calibrate/file/camera_info.h"
+#include "pipeline/calibrate/file/calibration_file.h"
 #include "tests/pipeline/calibrate/file/sample_rig.h"
 #include "tests/support/temporary_folder.h"
 

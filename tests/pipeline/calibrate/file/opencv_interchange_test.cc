@@ -11,7 +11,7 @@
 #include <opencv2/calib3d.hpp>
 #include <opencv2/core.hpp>
 
-#include "pipeline/calibrate/file/camera_info.h"
+#include "pipeline/calibrate/file/calibration_file.h"
 #include "tests/pipeline/calibrate/file/sample_rig.h"
 #include "tests/support/process.h"
 #include "tests/support/temporary_folder.h"

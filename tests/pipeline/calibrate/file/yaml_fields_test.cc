@@ -1,12 +1,11 @@
 // SPDX-FileCopyrightText: 2026 The Relievo authors
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include "pipeline/calibrate/file/yaml_fields.h"
-
 #include <gtest/gtest.h>
 
 #include <string>
 #include <vector>
 
+#include "pipeline/calibrate/file/calibration_fields.h"
 #include "pipeline/calibrate/file/calibration_file.h"
 #include "tests/support/temporary_folder.h"
 

@@ -195,7 +195,8 @@ TEST_F(Collector, FiveViewsGiveACalibrationAndAnHonestError) {
   EXPECT_EQ(finished->calibration.left.focal_px.x, collector_.newest()->calibration.left.focal_px.x);
 }
 
-// A board whose squares are not as large as was said: the goal is not reached, and the end says why.
+// A board whose squares are not as large as was said: that ends it as soon as it is known, and the end says
+// why.
 TEST_F(Collector, AWrongSquareSizeIsNoticedByTheBaseline) {
   pipeline::LiveOptions options;
   options.full_bar = 0;
@@ -207,8 +208,8 @@ TEST_F(Collector, AWrongSquareSizeIsNoticedByTheBaseline) {
   EXPECT_EQ(state().end, LiveEnd::GoalReached);
   options.expected_baseline_mm = 150;
   collector_ = begin(options);
-  open(6);
-  EXPECT_EQ(state().end, LiveEnd::Full);
+  open(5);
+  EXPECT_EQ(state().end, LiveEnd::Plateau);
   const auto finished = collector_.finish();
   ASSERT_TRUE(finished);
   EXPECT_EQ(finished->quality.verdict, pipeline::CalibrationVerdict::Refuse);

@@ -11,6 +11,7 @@
 
 #include "tests/pipeline/calibrate/report/reported_set.h"
 #include "tests/support/html_reader.h"
+#include "tests/support/lying_sensor.h"
 
 namespace relievo::tests {
 namespace {
@@ -203,6 +204,29 @@ TEST(CalibrationReport, DrawsTheRigToScale) {
   const pipeline::Vec3d right = inverse(set.output.calibration.right_from_left).translation_mm;
   EXPECT_NEAR(100 * drawn / ruler, std::hypot(right.x, right.z), 0.1);
   EXPECT_EQ(page.with_class("board").size(), 15U);
+}
+
+// Cameras on their sides stand one above the other by their own axes: across is then along those.
+TEST(CalibrationReport, DrawsARigOfLyingSensorsFromAboveToo) {
+  for (const test::Side side : {test::Side::Clockwise, test::Side::Counterclockwise}) {
+    ReportedSet set;
+    set.output.calibration = test::laid(set.output.calibration, side);
+    const HtmlReader page(pipeline::calibration_report_html(set.report()));
+    const auto measure = page.with_class("measure").at(0).attributes,
+               ruler = page.with_class("ruler").at(0).attributes;
+    const auto over = [](const auto& line, const char* from, const char* to) {
+      return std::atof(line.at(to).c_str()) - std::atof(line.at(from).c_str());
+    };
+    const pipeline::Vec3d right = inverse(set.output.calibration.right_from_left).translation_mm;
+    EXPECT_NEAR(100 * over(measure, "x1", "x2") / over(ruler, "x1", "x2"), std::hypot(right.y, right.z), 0.1);
+    EXPECT_NEAR(over(measure, "y1", "y2"), 0, 0.11);
+    const std::vector<double> faces = numbers(page.with_class("volume").at(0).attributes.at("d"));
+    ASSERT_GE(faces.size(), 8U);
+    for (std::size_t i = 0; i + 1 < faces.size(); i += 2) {
+      EXPECT_TRUE(faces[i] > 0 && faces[i] < 480) << faces[i];
+      EXPECT_TRUE(faces[i + 1] > 0 && faces[i + 1] < 462) << faces[i + 1];
+    }
+  }
 }
 
 TEST(CalibrationReport, DrawsUncertaintyInProportion) {

@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: 2026 The Relievo authors
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include "pipeline/match/epipolar/row_motion.h"
+#include "pipeline/match/epipolar/row_aligner.h"
 
 #include <gtest/gtest.h>
 

@@ -10,7 +10,7 @@
 #include <vector>
 
 #include "pipeline/algorithms.h"
-#include "pipeline/match/preprocess/grey_histogram.h"
+#include "pipeline/match/preprocess/preprocessors.h"
 #include "tests/pipeline/match/preprocess/shining_skin.h"
 #include "tests/support/bump_scene.h"
 #include "tests/support/names_of.h"

@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: 2026 The Relievo authors
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include "pipeline/match/rectify/given_pair.h"
+#include "pipeline/match/rectify/rectifier.h"
 
 #include <gtest/gtest.h>
 

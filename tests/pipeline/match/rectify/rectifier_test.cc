@@ -122,6 +122,35 @@ TEST(RectifiedGeometry, SwappedCamerasAreNamed) {
   EXPECT_NE(laid.error().what.view().find("swapped"), std::string_view::npos);
 }
 
+TEST(RectifiedGeometry, WindowsLargerThanAllowedAreRefused) {
+  StereoCalibration c = toed_in(480, 640);
+  c.right_from_left = {{}, {-120, 0, 0}};  // side by side: the windows are as large as the pictures
+  test::StageFixture fixture(1 << 20, 1 << 20);
+  RectifiedPair pair(&fixture.output);
+  ASSERT_TRUE(lay_windows(c, {.longest_side_px = 700}, pair));
+  ASSERT_LT(pair.width_px, 560);
+  for (const int longest : {560, 400}) {
+    const auto laid = lay_windows(c, {.longest_side_px = longest}, pair);
+    ASSERT_FALSE(laid) << longest;
+    EXPECT_EQ(laid.error().code, Errc::InvalidInput);
+  }
+}
+
+// No ray of it counts, and a box without rays has no size that an int could hold.
+TEST(RectifiedGeometry, ACameraThatLooksBackIsRefused) {
+  StereoCalibration c = toed_in(640, 480);
+  for (const double a : {3.1, std::acos(-1.0)}) {
+    c.right_from_left.rotation = {{std::cos(a), 0, std::sin(a), 0, 1, 0, -std::sin(a), 0, std::cos(a)}};
+    const Vec3d t = apply(c.right_from_left.rotation, {120, 0, 0});
+    c.right_from_left.translation_mm = {-t.x, -t.y, -t.z};
+    test::StageFixture fixture(1 << 20, 1 << 20);
+    RectifiedPair pair(&fixture.output);
+    const auto laid = lay_windows(c, {}, pair);
+    ASSERT_FALSE(laid) << a;
+    EXPECT_EQ(laid.error().code, Errc::InvalidInput);
+  }
+}
+
 TEST(Rectifier, ResamplesASmoothPictureToItsAnalyticValues) {
   const int w = 320;
   const int h = 240;
@@ -136,7 +165,7 @@ TEST(Rectifier, ResamplesASmoothPictureToItsAnalyticValues) {
   const ImageView view{reinterpret_cast<const std::byte*>(picture.data()), w, h, 2 * w, PixelFormat::Grey16};
   test::StageFixture fixture;
   const auto pair = run_stage(fixture.context, [&](StageContext& ctx) {
-    return Rectifier({}).rectify({view, view}, c, ctx);
+    return RectifierOptions{}.rectify({view, view}, c, ctx);
   });
   ASSERT_TRUE(pair);
   std::size_t seen = 0;
@@ -162,7 +191,7 @@ TEST(Rectifier, RefusesWhatIsNotThisCalibrations) {
   for (const auto& [left, right] : {std::pair{wrong_size, right_size}, std::pair{right_size, wrong_size},
                                     std::pair{ImageView{}, right_size}}) {
     const auto pair = run_stage(fixture.context, [&, l = left, r = right](StageContext& ctx) {
-      return Rectifier({}).rectify({l, r}, c, ctx);
+      return RectifierOptions{}.rectify({l, r}, c, ctx);
     });
     ASSERT_FALSE(pair);
     EXPECT_EQ(pair.error().code, Errc::InvalidInput);
@@ -178,7 +207,7 @@ TEST(Rectifier, EveryArenaTooSmallSaysSo) {
   for (std::size_t size = 512; size < (1U << 24) && !succeeded; size += size / 3) {
     test::StageFixture fixture(size, size, 1);
     const auto pair = run_stage(fixture.context, [&](StageContext& ctx) {
-      return Rectifier({}).rectify({view, view}, c, ctx);
+      return RectifierOptions{}.rectify({view, view}, c, ctx);
     });
     succeeded = pair.has_value();
     if (!succeeded) {

@@ -2,14 +2,14 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 //
 // Skin with pores at one depth, a highlight at another: the field that followed the highlight comes back.
-#include "pipeline/match/refine/detail_search.h"
+#include "pipeline/match/refine/surface_refiner.h"
 
 #include <gtest/gtest.h>
 
 #include <cmath>
 #include <random>
 
-#include "pipeline/match/image/box_filter.h"
+#include "pipeline/match/image/plane_filters.h"
 #include "tests/support/stage_fixture.h"
 
 namespace relievo::pipeline {

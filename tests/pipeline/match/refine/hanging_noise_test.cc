@@ -6,9 +6,8 @@
 
 #include <random>
 
-#include "pipeline/match/image/box_filter.h"
+#include "pipeline/match/image/plane_filters.h"
 #include "pipeline/match/refine/surface_refiner.h"
-#include "pipeline/match/refine/warp_terms.h"
 #include "tests/support/stage_fixture.h"
 
 namespace relievo::pipeline {

@@ -2,14 +2,14 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 //
 // A near surface before a far one, the contour known, and a field that hangs from the one to the other.
-#include "pipeline/match/refine/occluding_contour.h"
+#include "pipeline/match/refine/surface_refiner.h"
 
 #include <gtest/gtest.h>
 
 #include <cmath>
 #include <random>
 
-#include "pipeline/match/image/box_filter.h"
+#include "pipeline/match/image/plane_filters.h"
 #include "tests/support/stage_fixture.h"
 
 namespace relievo::pipeline {

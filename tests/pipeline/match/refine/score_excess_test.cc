@@ -8,7 +8,7 @@
 #include <cmath>
 #include <random>
 
-#include "pipeline/match/image/box_filter.h"
+#include "pipeline/match/image/plane_filters.h"
 #include "tests/support/stage_fixture.h"
 
 namespace relievo::pipeline {

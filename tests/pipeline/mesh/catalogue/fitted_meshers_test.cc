@@ -10,7 +10,7 @@
 #include "hal/base/statistics.h"
 #include "pipeline/algorithms.h"
 #include "pipeline/mesh/meshers/base_sheet.h"
-#include "pipeline/mesh/meshers/bezier_mesher.h"
+#include "pipeline/mesh/meshers/scattered_meshers.h"
 #include "tests/pipeline/mesh/mesh_checks.h"
 #include "tests/pipeline/mesh/stage_room.h"
 #include "tests/pipeline/mesh/truth_cloud.h"
@@ -86,6 +86,37 @@ TEST(NearestVertex, IsTheNearestOfAll) {
     if (least < 900) EXPECT_NEAR(squared_distance(points[hit.vertex], p), least, 1e-3F);
     else EXPECT_EQ(hit.vertex, NearestVertex::kNone);
   }
+}
+
+// A plane with 256 holes: the border of each stays, so that five triangles a hole are the fewest there can
+// be.
+TEST(FinishSurface, WhatCannotBeSimplifiedThatFarSaysSo) {
+  StageRoom room;
+  FaceMesh base(std::pmr::get_default_resource());
+  std::pmr::vector<Triangle> triangles;
+  constexpr std::uint32_t kSide = 66;
+  for (std::uint32_t v = 0; v < kSide * kSide; ++v) {
+    base.vertices_mm.push_back({float(v % kSide) - 33, float(v / kSide) - 33, 500});
+    base.normals.push_back({0, 0, -1});
+    base.sigma_mm.push_back(0.05F);
+    base.measured.push_back(1);
+    const std::uint32_t x = v % kSide, y = v / kSide;
+    if (x + 1 == kSide || y + 1 == kSide || (x % 4 == 2 && y % 4 == 2)) continue;
+    triangles.push_back({v, v + kSide, v + 1});
+    triangles.push_back({v + 1, v + kSide, v + kSide + 1});
+  }
+  base.triangles = triangles;
+  const auto finish = [&](int most) {
+    std::pmr::vector<Triangle> all = triangles;
+    return room.run([&](StageContext& c) {
+      return finish_surface(base, base.vertices_mm, all, {.max_triangles = most}, c);
+    });
+  };
+  ASSERT_TRUE(finish(20'000));
+  const auto refused = finish(1000);
+  ASSERT_FALSE(refused);
+  EXPECT_EQ(refused.error().code, Errc::InvalidInput);
+  EXPECT_EQ(refused.error().where(), "max_triangles");
 }
 
 // d1's true points with 0.05 mm of noise: how far from the true surface each mesher's vertices lie.

@@ -21,19 +21,18 @@ constexpr LatticeLimits kLimits{4, 4, 3, 0.5F};
 
 struct Resampled {
   PointLattice from, to;
-  LatticeSurface surface;
 };
 
 // 2 px of 1000 px focal length at about 500 mm: 1 mm a cell.
 Resampled resample(double (*depth)(double, double), const LatticeSpacing& spacing) {
   auto* memory = std::pmr::get_default_resource();
   PointLattice lattice = make_lattice(formula_cloud(2, 300, depth, 0), memory);
-  LatticeSurface joined = join_neighbours(lattice, kLimits, memory);
-  CellMask inside(joined.cells.size(), 1, memory);
-  ShapedLattice old{std::move(lattice), std::move(joined), std::move(inside)};
+  join_neighbours(lattice, kLimits, memory);
+  CellMask inside(lattice.size(), 1, memory);
+  ShapedLattice old{std::move(lattice), std::move(inside)};
   ThreadPool pool(2);
   ShapedLattice made = resample_lattice(old, spacing, kLimits.max_slope, pool, memory);
-  return {std::move(old.lattice), std::move(made.lattice), std::move(made.surface)};
+  return {std::move(old.lattice), std::move(made.lattice)};
 }
 
 std::size_t measured(const PointLattice& lattice) {
@@ -103,12 +102,12 @@ TEST(LatticeResampler, ExpectsAsManyTrianglesAsItMakes) {
   const auto ball = [](double sx, double sy) { return sphere_depth(sx, sy, 600, 90); };
   const auto expected = [&](float edge) {
     const Resampled old = resample(ball, {});
-    const ShapedLattice surface{old.to, old.surface, CellMask(std::pmr::get_default_resource())};
+    const ShapedLattice surface{old.to, CellMask(std::pmr::get_default_resource())};
     return expected_triangles(surface, edge);
   };
   for (const float edge : {1.0F, 1.4F, 2.0F}) {
     double made = 0;
-    for (const std::uint8_t cell : resample(ball, {1, edge}).surface.cells) made += triangle_count(cell);
+    for (const std::uint8_t cell : resample(ball, {1, edge}).to.cells) made += triangle_count(cell);
     EXPECT_NEAR(expected(edge), made, 0.03 * made) << edge;
   }
   EXPECT_LT(expected(2), 0.95 * expected(1));
@@ -132,7 +131,7 @@ TEST(LatticeResampler, BridgesNoDepthStepAndFillsNoHole) {
   EXPECT_GT(measured(r.to), measured(r.from));
   for (int row = 0; row + 1 < r.to.rows; ++row)
     for (int column = 0; column + 1 < r.to.columns; ++column) {
-      if (triangle_count(r.surface.cells[r.to.index(column, row)]) < 2) continue;
+      if (triangle_count(r.to.cells[r.to.index(column, row)]) < 2) continue;
       const Vec3f& a = r.to.at_mm[r.to.index(column, row)];
       const Vec3f& d = r.to.at_mm[r.to.index(column + 1, row + 1)];
       EXPECT_NEAR(a.z, d.z, 1e-3) << "a cell on both sides of the step";
@@ -141,7 +140,7 @@ TEST(LatticeResampler, BridgesNoDepthStepAndFillsNoHole) {
 
 TEST(LatticeResampler, OfNothingMakesNothing) {
   auto* memory = std::pmr::get_default_resource();
-  const ShapedLattice empty{PointLattice(memory), LatticeSurface(memory), CellMask(memory)};
+  const ShapedLattice empty{PointLattice(memory), CellMask(memory)};
   ThreadPool pool(1);
   EXPECT_EQ(resample_lattice(empty, {0.8F, 1}, 4, pool, memory).lattice.size(), 0U);
 }

@@ -70,10 +70,9 @@ std::string_view value_of(TechnicianFrame& f, const TechnicianOption& option) {
 
 std::string_view as_typed(TechnicianFrame& f, std::string_view typed) {
   const char mark = info_of(f.tr.language()).decimal_mark;
-  const std::string_view first = f.tree.keep({});
-  std::size_t length = 0;
-  for (const char c : typed) length += f.tree.keep({c == '.' ? &mark : &c, 1}).size();
-  return f.left_to_right({first.data(), length});
+  const std::size_t from = f.tree.kept();
+  for (const char c : typed) f.tree.keep({c == '.' ? &mark : &c, 1});
+  return f.left_to_right(f.tree.kept_since(from));
 }
 
 void options(TechnicianFrame& f) {
@@ -117,9 +116,8 @@ void keys(TechnicianFrame& f) {
           technician_action(TypeDigit{*letter}));
     }
     if (*line[0] == '0') {
-      Node erase = f.grown(f.box(Flow::Row), 3);
+      Node erase = centred(f.grown(f.box(Flow::Row), 3));
       tell(erase, Role::Key, "type erase", f.tr("Erase"), technician_action(TechnicianAct::EraseDigit));
-      centre(erase);
       frame(erase, f.palette.card, f.palette.card_border, f.px(1.5F), f.px(14));
       const auto in_erase = f.tree.inside(erase);
       f.sign(icon::kErase, 26, f.palette.link);
@@ -129,10 +127,7 @@ void keys(TechnicianFrame& f) {
 
 void editor(TechnicianFrame& f) {
   const TechnicianOption& option = *f.seen.choice.edited;
-  Node words = f.grown(f.box(Flow::Column, 6));
-  words.id = "option words";
-  words.box.scroll = true;
-  f.tree.open(words);
+  f.tree.open(scroller("option words", f.grown(f.box(Flow::Column, 6))));
   f.tree.leaf(f.text(f.left_to_right(option.key), type::kBody, Weight::Bold, f.palette.ink));
   if (!f.seen.choice.refused.empty())
     f.put("option refused", Role::Status,

@@ -6,7 +6,7 @@
 #include <algorithm>
 #include <array>
 
-#include "ui/screens/service/list_part.h"
+#include "ui/screens/service/staff_frame.h"
 #include "ui/screens/service/technician/technician_frame.h"
 
 namespace relievo::ui {
@@ -78,8 +78,7 @@ void live_pictures(TechnicianFrame& f) {
     const auto in_row = f.tree.inside(row);
     for (std::size_t side = 0; side < 2; ++side) one(side);
   };
-  Node column = f.grown(f.box(Flow::Column, space::kS), f.picture_share(1.6F));
-  const auto in_column = f.tree.inside(column);
+  const auto in_column = f.tree.inside(f.grown(f.box(Flow::Column, space::kS), f.picture_share(1.6F)));
   pair([&](std::size_t side) {
     f.open_picture(side == 0 ? "left board" : "right board", f.camera_name(side),
                    f.seen.calibration.pictures[side], f.slot_of(side));

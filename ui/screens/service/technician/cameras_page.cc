@@ -11,11 +11,9 @@ namespace {
 constexpr float kBurntOut = 0.02F, kTooDark = 0.12F, kSharpEnough = 0.9F;
 
 // Touched, a camera's picture fills the page: mode 1 the left one's, 2 the right one's.
-void live(TechnicianFrame& f, std::string_view id, const char* title, const TechnicianPicture& picture,
+void live(TechnicianFrame& f, std::string_view id, const char* title, const Picture& picture,
           PictureSlot slot, int mode) {
-  Node column = f.grown(f.box(Flow::Column, 6));
-  column.box.justify = Justify::Centre;
-  const auto in_column = f.tree.inside(column);
+  const auto in_column = f.tree.inside(justified(f.grown(f.box(Flow::Column, 6)), Justify::Centre));
   f.tree.leaf(f.text(title, type::kSmall, Weight::Bold, f.palette.ink, TextAlign::Centre));
   const bool opens = mode > 0 && !picture.pixels.empty();
   f.open_picture(id, opens ? f.filled("{}: {}", {title, f.tr("Larger")}) : title, picture, slot,

@@ -86,8 +86,7 @@ class Columns {
     const auto in_box = f.tree.inside(f.grown(f.box(Flow::Row, space::kXs), labels_above() ? 0.65F : 1.0F));
     if (!labels_above()) beside_pictures();
     for (std::size_t i = 0; i < count; ++i) {
-      Node column = f.grown(f.box(Flow::Column, 6));
-      const auto in_column = f.tree.inside(column);
+      const auto in_column = f.tree.inside(f.grown(f.box(Flow::Column, 6)));
       f.tree.leaf(f.text(name_of(i), type::kSmall, Weight::Bold, f.palette.ink, TextAlign::Centre));
       picture(i);
     }
@@ -121,8 +120,7 @@ class Columns {
 
   // What stands over the labels.
   void beside_pictures() {
-    Node words = f.grown(f.box(Flow::Column, space::kS), label_share());
-    const auto in_words = f.tree.inside(words);
+    const auto in_words = f.tree.inside(f.grown(f.box(Flow::Column, space::kS), label_share()));
     f.tree.leaf(f.text(title_of(f.tr, f.seen.stage), type::kSmall, Weight::Bold, f.palette.ink));
     f.note(how(), 18);
   }
@@ -145,16 +143,10 @@ class Columns {
     if (shows_difference(i)) {
       f.open_picture(id, f.filled("{}: {}", {f.tr("Difference"), spoken}), one.difference.map, slot, alone);
     } else if (one.model != nullptr && is_turned(f.seen.stage)) {
-      Node card = f.grown(f.box(Flow::Stack));
-      card.box.fill = f.palette.stage;
-      card.box.radius = f.px(12);
-      f.tree.open(card);
-      Node face = f.box(Flow::Column);
-      tell(face, Role::Picture, id, f.tr("The model: turn it with a finger"), {ActionKind::TurnFace, 0});
+      f.tree.open(f.stage(12));
+      Node face = f.model(id, f.tr("The model: turn it with a finger"), 12);
       face.by_key = alone;
-      face.mark = Mark::Face;
       face.face = std::uint8_t(i);
-      face.box.radius = f.px(12);
       f.tree.leaf(face);
     } else {
       f.open_picture(id, spoken, one.picture, slot, alone);
@@ -164,12 +156,10 @@ class Columns {
   }
   void drop_button(std::size_t i) {
     const auto in_box_2 = f.tree.inside(f.box(Flow::Column));
-    Node end = f.box(Flow::Row);
-    end.box.justify = Justify::End;
+    Node end = justified(f.box(Flow::Row), Justify::End);
     const auto in_end = f.tree.inside(end);
-    Node cross = f.sized(f.box(Flow::Row), size::kStaffTarget, size::kStaffTarget);
+    Node cross = centred(f.sized(f.box(Flow::Row), size::kStaffTarget, size::kStaffTarget));
     tell(cross, Role::Button, f.id("drop", i), f.tr("Drop this result"), technician_action(DropResult{i}));
-    centre(cross);
     cross.box.radius = f.px(12);
     cross.box.fill = f.palette.quiet;
     const auto in_cross = f.tree.inside(cross);

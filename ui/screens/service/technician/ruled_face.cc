@@ -26,16 +26,10 @@ float scale_mm(const FaceRuler& ruler) {
 }  // namespace
 
 void TechnicianFrame::face(float share, void (*tools)(TechnicianFrame&), float tools_dp) {
-  Node card = grown(box(Flow::Stack), share);
-  card.box.fill = palette.stage;
-  card.box.radius = px(size::kRadius);
-  const auto in_card = tree.inside(card);
-  Node face = box(Flow::Column);
-  tell(face, Role::Picture, "face", tr("The model: turn it with a finger"), {ActionKind::TurnFace, 0});
-  face.mark = Mark::Face;
+  const auto in_card = tree.inside(stage(size::kRadius, share));
+  Node face = model("face", tr("The model: turn it with a finger"), size::kRadius);
   face.ruled = true;
   face.covered_px = px(tools_dp);
-  face.box.radius = px(size::kRadius);
   tree.leaf(face);
   ruler();
   if (tools != nullptr) {
@@ -66,8 +60,7 @@ void TechnicianFrame::ruler() {
   const float mm = scale_mm(ruler), from = px(kMargin) / ruler.width_px,
               long_share = mm * ruler.px_per_mm / ruler.width_px, y = px(kMargin) / ruler.height_px;
   tree.mark({{mirrored() ? 1 - from - long_share : from, y, long_share, 0}, kScale, px(kScaleDp), false});
-  Node words = box(Flow::Column, 4, kMargin, kMargin + kScaleDp + 2);
-  const auto in_words = tree.inside(words);
+  const auto in_words = tree.inside(box(Flow::Column, 4, kMargin, kMargin + kScaleDp + 2));
   put("scale", Role::Text, text(number(double(mm), 0, "mm"), 18, Weight::Medium, kScale));
   if (ruler.on) {
     const bool both = ruler.count == 2;

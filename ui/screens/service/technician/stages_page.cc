@@ -31,9 +31,8 @@ void tabs(TechnicianFrame& f) {
   f.in_rows(kTechnicianStages, across, 6, [&](std::size_t i) {
     const auto stage = static_cast<TechnicianStage>(i);
     const bool chosen = stage == f.seen.stage;
-    Node tab = f.grown(f.box(Flow::Row, 0, 4, 4));
+    Node tab = centred(f.grown(f.box(Flow::Row, 0, 4, 4)));
     tell(tab, Role::Button, f.id("stage", i), title_of(f.tr, stage), technician_action(ShowStage{stage}));
-    centre(tab);
     frame(tab, chosen ? f.palette.accent : f.palette.quiet,
           chosen ? f.palette.accent : f.palette.quiet_border, f.px(2), f.px(14));
     tab.box.min_height = f.px(size::kStaffTarget);
@@ -72,8 +71,7 @@ void pair_pictures(TechnicianFrame& f) {
 }
 
 void one_picture(TechnicianFrame& f) {
-  Node row = f.grown(f.box(Flow::Row, space::kS), f.picture_share(2.4F));
-  const auto in_row = f.tree.inside(row);
+  const auto in_row = f.tree.inside(f.grown(f.box(Flow::Row, space::kS), f.picture_share(2.4F)));
   f.open_picture("picture", title_of(f.tr, f.seen.stage), f.seen.shown[0], PictureSlot::TechnicianLeft);
   f.tree.close();
   if (!f.seen.shown[1].pixels.empty()) {
@@ -140,7 +138,7 @@ void change_rows(TechnicianFrame& f) {
 void pose_rows(TechnicianFrame& f) {
   if (f.seen.pose_count == 0)
     return f.note(f.tr(
-        "Turn the head a little and add a side, up to six times; then calculate again: all become one head."));
+        "Turn the head a little and add a side, up to four times; then calculate again: all become one head."));
   for (std::size_t b = 0; b < f.seen.pose_count; ++b) {
     const TechnicianPose& pose = f.seen.poses[b];
     const auto number = [&](std::size_t of) { return f.number(double(of + 1)); };
@@ -231,8 +229,7 @@ void technician_stages_page(TechnicianFrame& f) {
     const auto in_box = f.tree.inside(f.grown(f.box(f.portrait ? Flow::Column : Flow::Row, space::kM)));
     if (is_pair(f.seen.stage)) pair_pictures(f);
     else one_picture(f);
-    Node side = f.grown(f.box(Flow::Column, space::kXs));
-    const auto in_side = f.tree.inside(side);
+    const auto in_side = f.tree.inside(f.grown(f.box(Flow::Column, space::kXs)));
     f.begin_panel("facts");
     side_rows(f);
     f.tree.close();

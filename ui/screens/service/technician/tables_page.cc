@@ -5,7 +5,7 @@
 #include <algorithm>
 #include <array>
 
-#include "ui/screens/service/list_part.h"
+#include "ui/screens/service/staff_frame.h"
 #include "ui/screens/service/technician/technician_frame.h"
 
 namespace relievo::ui {
@@ -24,8 +24,7 @@ void switches(TechnicianFrame& f) {
 }
 
 void hands(TechnicianFrame& f) {
-  Node row = f.box(Flow::Row, space::kXs, space::kXs, space::kXs);
-  row.box.justify = Justify::Centre;
+  Node row = justified(f.box(Flow::Row, space::kXs, space::kXs, space::kXs), Justify::Centre);
   row.box.left_to_right = true;  // as on the page where a visitor looks at it
   const auto in_row = f.tree.inside(row);
   f.turning_tools();
@@ -40,9 +39,8 @@ void technician_model_page(TechnicianFrame& f) {
   } else if (f.seen.model != nullptr) {
     const auto in_box = f.tree.inside(f.grown(f.box(f.portrait ? Flow::Column : Flow::Row, space::kM)));
     f.face(3, hands, size::kTarget + 2 * space::kXs);
-    Node side = f.box(Flow::Column, space::kS);
+    Node side = justified(f.box(Flow::Column, space::kS), Justify::Centre);
     if (!f.portrait) side.box.width = f.px(f.text_share > 1.2F ? 330 : 260);
-    side.box.justify = Justify::Centre;
     const auto in_side = f.tree.inside(side);
     switches(f);
     f.measure_button(0);
@@ -103,10 +101,9 @@ void cell(TechnicianFrame& f, std::string_view words, bool heading) {
 void record(TechnicianFrame& f, std::span<const std::string_view> texts, bool heading, const Shape& shape) {
   const bool divided = shape.abreast < shape.columns;
   for (std::size_t first = 0; first < shape.columns; first += shape.abreast) {
-    Node row = f.box(Flow::Row, kGap, 4, 0);
+    Node row = aligned(f.box(Flow::Row, kGap, 4, 0), Align::Centre);
     row.box.left_to_right = true;
     row.box.min_height = f.px(36);
-    row.box.align = Align::Centre;
     const auto in_row = f.tree.inside(row);
     for (std::size_t i = first; i < first + shape.abreast; ++i) {
       const auto in_box = f.tree.inside(

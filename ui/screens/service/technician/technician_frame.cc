@@ -80,14 +80,11 @@ void TechnicianFrame::choice(std::string_view id, std::string_view label, bool c
                action, grow);
 }
 
-void TechnicianFrame::open_picture(std::string_view id, std::string_view spoken,
-                                   const TechnicianPicture& picture, PictureSlot slot, Action action,
-                                   Action dragged) {
-  Node frame = grown(box(Flow::Stack));
+void TechnicianFrame::open_picture(std::string_view id, std::string_view spoken, const Picture& picture,
+                                   PictureSlot slot, Action action, Action dragged) {
+  Node frame = stage(12);
   frame.aspect =
       picture.pixels.empty() ? 1.0F : float(picture.pixels.width_px) / float(picture.pixels.height_px);
-  frame.box.fill = palette.stage;
-  frame.box.radius = px(12);
   tree.open(frame);
   Node image = box(Flow::Column);
   tell(image, Role::Picture, id, spoken, action);
@@ -146,10 +143,10 @@ void fill_compared(DrawList& list, const TechnicianView& view, int mode) {
 bool fill_technician_pictures(DrawList& list, const TechnicianView& view, const Visit& visit,
                               const Service& service) {
   const StaffPage page = service.page;
-  const auto put = [&list](std::size_t place, const TechnicianPicture& picture) {
-    list.pictures[std::size_t(TechnicianFrame::slot_of(place))] = {picture.pixels, picture.version};
+  const auto put = [&list](std::size_t place, const Picture& picture) {
+    list.pictures[std::size_t(TechnicianFrame::slot_of(place))] = picture;
   };
-  const auto show = [&put](const TechnicianPicture& left, const TechnicianPicture& right) {
+  const auto show = [&put](const Picture& left, const Picture& right) {
     put(0, left);
     put(1, right);
   };
@@ -195,9 +192,7 @@ void TechnicianFrame::alert(std::string_view words, std::string_view detail) {
 }
 
 void TechnicianFrame::uncalibrated() {
-  Node room = grown(box(Flow::Column, space::kM, space::kXl, 0));
-  centre(room);
-  const auto in_room = tree.inside(room);
+  const auto in_room = tree.inside(centred(grown(box(Flow::Column, space::kM, space::kXl, 0))));
   heading("uncalibrated", tr("The cameras must be calibrated"), type::kHeading, TextAlign::Centre);
   small_button("to calibration", tr("Calibration"), icon::kWrench, ButtonLook::Main,
                {ActionKind::StaffOpen, int(StaffPage::Calibrate)});
@@ -211,9 +206,7 @@ bool TechnicianFrame::capture_state() {
   problem(seen.problem);
   if (seen.phase == TechnicianPhase::Ready || (seen.phase == TechnicianPhase::Failed && seen.result.there))
     return true;
-  Node room = grown(box(Flow::Column, space::kM, space::kXl, 0));
-  room.box.justify = Justify::Centre;
-  tree.open(room);
+  tree.open(justified(grown(box(Flow::Column, space::kM, space::kXl, 0)), Justify::Centre));
   if (!busy()) {
     heading("nothing", tr("No test capture yet"), type::kHeading, TextAlign::Centre);
     body("nothing words",

@@ -59,8 +59,8 @@ class TechnicianFrame : public StaffFrame {
 
   // A dark card of the picture's shape in the room there is; what comes until Tree::close() can be pinned
   // to it (Node::pinned). Touched, `action` says where; `dragged` as in Node.
-  void open_picture(std::string_view id, std::string_view spoken, const TechnicianPicture& picture,
-                    PictureSlot slot, Action action = {}, Action dragged = {});
+  void open_picture(std::string_view id, std::string_view spoken, const Picture& picture, PictureSlot slot,
+                    Action action = {}, Action dragged = {});
   // The page's model on a dark card, with its scale and the distance of two touched points; `tools` lie on
   // its lower end.
   void face(float share, void (*tools)(TechnicianFrame&), float tools_dp);

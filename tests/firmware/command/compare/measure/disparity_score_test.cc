@@ -8,7 +8,7 @@
 
 #include <algorithm>
 
-#include "firmware/measure/selector_figures.h"
+#include "firmware/measure/match_figures.h"
 
 namespace relievo::firmware::compare {
 namespace {

@@ -69,7 +69,7 @@ TEST(TruthOfView, DisparitiesOfATiltedPlaneAreThoseOfGeometry) {
   test::StageFixture fixture(std::size_t{16} << 20, std::size_t{16} << 20, 1);
   const std::vector<std::byte> blank(static_cast<std::size_t>(kViewWidth * kViewHeight));
   const ImageView picture{blank.data(), kViewWidth, kViewHeight, kViewWidth, PixelFormat::Grey8};
-  const auto pair = pipeline::Rectifier({}).rectify({picture, picture}, c, fixture.context);
+  const auto pair = pipeline::RectifierOptions{}.rectify({picture, picture}, c, fixture.context);
   ASSERT_TRUE(pair) << pair.error().what.view();
   const DisparityTruth truth = truth_of_view(*view, *pair);
   int known = 0;

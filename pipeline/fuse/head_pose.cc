@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: 2026 The Relievo authors
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include "pipeline/fuse/pose_surface.h"
+#include "pipeline/fuse/head_pose.h"
 
 #include <algorithm>
 #include <cmath>
@@ -23,7 +23,7 @@ constexpr float kEdgeOnCosine = 0.26F;  // 75 degrees: no trust ...
 constexpr float kFullCosine = 0.5F;     // ... and 60: all of it
 
 // Steps from the edge, by two sweeps of a chamfer (Borgefors 1986).
-std::pmr::vector<float> steps_from_edge(const PoseSurface& pose, std::pmr::memory_resource* memory) {
+std::pmr::vector<float> steps_from_edge(const HeadPose& pose, std::pmr::memory_resource* memory) {
   constexpr float kDiagonal = 1.4F;
   const int columns = pose.columns, rows = pose.rows;
   std::pmr::vector<float> steps(memory);
@@ -47,33 +47,41 @@ std::pmr::vector<float> steps_from_edge(const PoseSurface& pose, std::pmr::memor
 }
 
 // 1 where all cells around a node carry surface.
-std::pmr::vector<float> whole_nodes(const PointLattice& lattice, const LatticeSurface& surface,
-                                    std::pmr::memory_resource* memory) {
+std::pmr::vector<float> whole_nodes(const PointLattice& lattice, std::pmr::memory_resource* memory) {
   std::pmr::vector<float> whole(lattice.size(), 0.0F, memory);
   for (int r = 1; r + 1 < lattice.rows; ++r)
     for (int c = 1; c + 1 < lattice.columns; ++c) {
       bool all = true;
       for (const auto& [dc, dr] : {std::pair{0, 0}, {-1, 0}, {0, -1}, {-1, -1}})
-        all = all && triangle_count(surface.cells[lattice.index(c + dc, r + dr)]) == 2;
+        all = all && triangle_count(lattice.cells[lattice.index(c + dc, r + dr)]) == 2;
       whole[lattice.index(c, r)] = all ? 1.0F : 0.0F;
     }
   return whole;
 }
 
+// So that 0 0 0 says where it ends.
+void keep_photograph(const RectifiedView& view, std::pmr::vector<std::uint8_t>& rgb) {
+  rgb.assign(view.rgb.begin(), view.rgb.end());
+  for (std::size_t k = 0; k < view.valid.size(); ++k) {
+    std::uint8_t* pixel = &rgb[3 * k];
+    if (view.valid[k] == 0) pixel[0] = pixel[1] = pixel[2] = 0;
+    else if (pixel[0] == 0 && pixel[1] == 0 && pixel[2] == 0) pixel[0] = pixel[1] = pixel[2] = 1;
+  }
+}
+
 }  // namespace
 
-Result<PoseSurface> make_pose_surface(const PointCloud& cloud, const RectifiedPair& pair,
-                                      StageContext& context) {
+Result<HeadPose> make_head_pose(const PointCloud& cloud, const RectifiedPair& pair, StageContext& context) {
   if (cloud.lattice_step_px <= 0)
     return Error{Errc::Unsupported,
                  "only points on a lattice can be fused: choose selector=dense or grid-points"};
-  const PointLattice lattice = make_lattice(cloud, &context.scratch);
+  PointLattice lattice = make_lattice(cloud, &context.scratch);
   if (lattice.columns < 3 || lattice.rows < 3)
     return Error{Errc::PoorGeometry, "too little was measured to make a surface of"};
-  const LatticeSurface surface = join_neighbours(lattice, kLimits, &context.scratch);
+  join_neighbours(lattice, kLimits, &context.scratch);
   if (context.stop()) return Error{Errc::Cancelled, "stopped before the fusion"};
 
-  PoseSurface pose(&context.output);
+  HeadPose pose(&context.output);
   pose.columns = lattice.columns;
   pose.rows = lattice.rows;
   pose.rectified_from_camera = pair.rectified_from_left;
@@ -88,14 +96,14 @@ Result<PoseSurface> make_pose_surface(const PointCloud& cloud, const RectifiedPa
   pose.nodes.reserve(lattice.size());
   for (const Vec3f& at : lattice.at_mm) pose.nodes.push_back({at, {}});
 
-  for_each_triangle(lattice, surface, [&](const Triangle& t) {
+  for_each_triangle(lattice, [&](const Triangle& t) {
     const Vec3f area = area_normal(lattice.at_mm, t);
     for (const std::uint32_t v : t) pose.nodes[v].normal = plus(pose.nodes[v].normal, area);
   });
   std::pmr::vector<float> sigmas(&context.scratch);
   for (const CloudPoint& p : cloud.points) sigmas.push_back(p.sigma_mm);
   const float most_sigma_mm = std::max(kMostSigmaMm, kMostOfUsual * float(median(sigmas)));
-  std::pmr::vector<float> whole = whole_nodes(lattice, surface, &context.scratch);
+  std::pmr::vector<float> whole = whole_nodes(lattice, &context.scratch);
   for (std::size_t k = 0; k < whole.size(); ++k)
     if (lattice.sigma_mm[k] > most_sigma_mm) whole[k] = 0;
   // A triangle's normal is noise over a cell's width: five nodes' mean has a fifth of it.
@@ -123,10 +131,16 @@ Result<PoseSurface> make_pose_surface(const PointCloud& cloud, const RectifiedPa
       node.trust = std::clamp((cosine - kEdgeOnCosine) / (kFullCosine - kEdgeOnCosine), 0.0F, 1.0F);
     }
   fade_to_edges(pose, kEdgeNodes, &context.scratch);
+  pose.width_px = pair.width_px;
+  pose.height_px = pair.height_px;
+  pose.right_centre_px = pair.right_centre_px;
+  pose.baseline_mm = pair.baseline_mm;
+  keep_photograph(pair.left, pose.left_rgb);
+  keep_photograph(pair.right, pose.right_rgb);
   return pose;
 }
 
-FaceMesh coarse_mesh(const PoseSurface& pose, int most_triangles, StageContext& context) {
+FaceMesh coarse_mesh(const HeadPose& pose, int most_triangles, StageContext& context) {
   const int every = std::max(1, int(std::ceil(std::sqrt(2 * double(pose.nodes.size()) / most_triangles))));
   const int columns = (pose.columns + every - 1) / every, rows = (pose.rows + every - 1) / every;
   std::pmr::vector<std::size_t> node(&context.scratch);
@@ -157,13 +171,13 @@ FaceMesh coarse_mesh(const PoseSurface& pose, int most_triangles, StageContext& 
   return mesh;
 }
 
-void fade_to_edges(PoseSurface& pose, float nodes, std::pmr::memory_resource* scratch) {
+void fade_to_edges(HeadPose& pose, float nodes, std::pmr::memory_resource* scratch) {
   const auto steps = steps_from_edge(pose, scratch);
   for (std::size_t k = 0; k < pose.nodes.size(); ++k)
     pose.nodes[k].trust = std::min(pose.nodes[k].trust, steps[k] / nodes);
 }
 
-std::optional<SurfaceHit> PoseSurface::look(const Vec3f& place) const {
+std::optional<SurfaceHit> HeadPose::look(const Vec3f& place) const {
   const Vec3d p = apply(rectified_from_camera, wide(place));
   if (!(p.z > 0)) return std::nullopt;
   const double x = (focal_px * p.x / p.z + centre_px.x - first_px.x) / step_px;
@@ -190,7 +204,7 @@ std::optional<SurfaceHit> PoseSurface::look(const Vec3f& place) const {
   return hit;
 }
 
-std::optional<PlacedHit> look(const PoseSurface& pose, const RigidTransform& first_from_pose,
+std::optional<PlacedHit> look(const HeadPose& pose, const RigidTransform& first_from_pose,
                               const Vec3d& place) {
   const auto hit = pose.look(narrow(apply(inverse(first_from_pose), place)));
   if (!hit) return std::nullopt;

@@ -1,9 +1,10 @@
 // SPDX-FileCopyrightText: 2026 The Relievo authors
 // SPDX-License-Identifier: GPL-3.0-or-later
 //
-// PoseSurface: what one pair of pictures measured of a head, kept until the heads of all poses are fused: a
-// lattice of points with normals, in that pose's left camera's frame, and how that camera sees it, so that
-// the surface at any place is found by projecting the place into the view. Millimetres. 32 bytes a node.
+// HeadPose: what one pair of pictures showed of a head, kept until the heads of all poses are fused: both
+// rectified photographs, and a lattice of points with normals, in that pose's left camera's frame, with how
+// that camera sees it, so that the surface at any place is found by projecting the place into the view.
+// Millimetres. 32 bytes a node.
 #pragma once
 
 #include <cstddef>
@@ -14,6 +15,7 @@
 #include <vector>
 
 #include "pipeline/base/stage.h"
+#include "pipeline/calibrate/drift.h"
 #include "pipeline/model/face_mesh.h"
 #include "pipeline/model/point_cloud.h"
 #include "pipeline/model/rectified_pair.h"
@@ -40,8 +42,9 @@ struct SharedSkin {
   Vec3f at_mm;                       // where this pose has it, in its own frame
 };
 
-struct PoseSurface {
-  explicit PoseSurface(std::pmr::memory_resource* memory) : nodes(memory), shared_skin(memory) {}
+struct HeadPose {
+  explicit HeadPose(std::pmr::memory_resource* memory)
+      : nodes(memory), left_rgb(memory), right_rgb(memory), shared_skin(memory) {}
   int columns = 0, rows = 0;
   // How the rectified left view sees the left camera's frame.
   Rotation rectified_from_camera;
@@ -53,9 +56,12 @@ struct PoseSurface {
   std::pmr::vector<SurfaceHit> nodes;
   RigidTransform head_from_camera;
   bool has_head = false;  // whether a head frame was found
-  // The rectified left photograph, not owned, 0 0 0 where it ends; none: only shape tells how the pose lies.
-  std::span<const std::uint8_t> photo_rgb;
-  int photo_width_px = 0, photo_height_px = 0;
+  // The rectified photographs; none: only shape tells how the pose lies.
+  int width_px = 0, height_px = 0;
+  std::pmr::vector<std::uint8_t> left_rgb, right_rgb;
+  Vec2d right_centre_px;
+  double baseline_mm = 0;
+  DriftJudgement drift;  // what the matches say of the calibration; the caller refuses
   std::optional<RigidTransform> first_from_pose;  // where it was laid onto the poses before it, if it was
   std::pmr::vector<SharedSkin> shared_skin;       // with the poses it was laid onto
 
@@ -70,20 +76,19 @@ struct PlacedHit {
   Vec3d normal;
   double before_mm = 0;
 };
-std::optional<PlacedHit> look(const PoseSurface& pose, const RigidTransform& first_from_pose,
+std::optional<PlacedHit> look(const HeadPose& pose, const RigidTransform& first_from_pose,
                               const Vec3d& place_mm);
 
 // Of a cloud on a lattice. Nodes on the edge of what was measured and surface steeper than 75 degrees to the
 // line of sight go. Memory: output; scratch. Thread: any. Errors: Unsupported (scattered points),
 // PoorGeometry (no surface), Cancelled; throws std::bad_alloc.
-Result<PoseSurface> make_pose_surface(const PointCloud& cloud, const RectifiedPair& pair,
-                                      StageContext& context);
+Result<HeadPose> make_head_pose(const PointCloud& cloud, const RectifiedPair& pair, StageContext& context);
 
 // Every so many nodes of its largest part, to find a head's frame on; empty where there are none. Memory:
 // output; scratch. Throws std::bad_alloc.
-FaceMesh coarse_mesh(const PoseSurface& pose, int most_triangles, StageContext& context);
+FaceMesh coarse_mesh(const HeadPose& pose, int most_triangles, StageContext& context);
 
 // Lets trust fade over so many nodes to where it ends. Throws std::bad_alloc.
-void fade_to_edges(PoseSurface& pose, float nodes, std::pmr::memory_resource* scratch);
+void fade_to_edges(HeadPose& pose, float nodes, std::pmr::memory_resource* scratch);
 
 }  // namespace relievo::pipeline
