@@ -240,7 +240,7 @@ void RecordsController::take_out(std::int64_t number) {
       JobLane::Keeper,
       [this, number, choice, further, trace](JobControl& control) -> Result<void> {
         std::vector<storage::SubjectId> subjects{storage::SubjectId{number}};
-        if (number == 0) {  // of every page of the list
+        if (number == 0) {              // of every page of the list
           pipeline::Progress choosing;  // the bar is the writing's
           JobControl chooses{control.cancelled, choosing};
           RELIEVO_TRY_ASSIGN(subjects, chosen_records(services().store, *choice, chooses));
