@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: 2026 The Relievo authors
 // SPDX-License-Identifier: GPL-3.0-or-later
 //
-// The linear system of SurfaceRefiner: (diag(A) + D' W D) x = b, where D takes the second differences
+// The linear system of refine_surface(): (diag(A) + D' W D) x = b, where D takes the second differences
 // xx, yy and xy of a field over a lattice and W weighs them. Solved by conjugate gradients,
 // preconditioned on several lattices (MultilevelPreconditioner); reductions run in a fixed order, so that
 // the bytes do not depend on the pool. Thread: one caller; apply_system: any, on rows of its own.
@@ -44,7 +44,7 @@ void solve(const BendingSystem& system, int steps, double tolerance, ThreadPool&
 
 inline constexpr double kToTheEnd = 1e-7;  // what single precision gives
 
-// How firmly SurfaceRefiner holds each node flat: the weights of the second differences in BendingSystem.
+// How firmly refine_surface() holds each node flat: the weights of the second differences in BendingSystem.
 //
 //   omega = lambda / (1 + (bend / crease)^2 + min(kMostWrinkled, max(0, mean of min(kSharpest, (bend /
 //   wrinkle)^2) - kPlain)))

@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: 2026 The Relievo authors
 // SPDX-License-Identifier: GPL-3.0-or-later
 //
-// SurfaceRefiner: turns a rough disparity field into one at the accuracy the image noise allows.
+// refine_surface() turns a rough disparity field into one at the accuracy the image noise allows.
 //
 // One image is warped by the current field, every pixel's residual and gradient are formed
 // symmetrically in both views (Nehab et al. 2005; the one-sided bias cancels), local offset and gain
@@ -27,7 +27,7 @@
 
 namespace relievo::pipeline {
 
-// How much more than white noise the pictures' disagreement shakes SurfaceRefiner's fit. Residuals hang
+// How much more than white noise the pictures' disagreement shakes its fit. Residuals hang
 // together from pixel to pixel: resampling spreads them, highlights and shading that the gain does not
 // explain are patches. A covariance that takes them for independent is too small there; the variance of
 // what they really pull, summed over blocks as wide as the fit's reach, tells by how much (the "sandwich"

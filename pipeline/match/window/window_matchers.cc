@@ -15,7 +15,7 @@
 namespace relievo::pipeline {
 namespace {
 
-// LatticeSearch: the best whole disparity of every node of a lattice over the whole volume. The windows'
+// The search: the best whole disparity of every node of a lattice over the whole volume. The windows'
 // sums run down the columns and are joined across (McDonnell 1981; Faugeras et al. 1993, INRIA RR-2013),
 // one disparity after the other, so that the cost does not depend on the window and the memory does not
 // depend on the range: a few rows a band, one score and one disparity a pixel of a lattice row.
