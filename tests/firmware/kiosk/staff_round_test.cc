@@ -96,6 +96,8 @@ TEST_F(StaffRoundTest, FirstStartThenEachRoleHasItsPages) {
 TEST_F(StaffRoundTest, NothingOfAPinStaysWithTheStaffWhenItIsChosen) {
   start();
   first_start();
+  ASSERT_TRUE(until([this] { return !kiosk->staff().side_tasks().busy(JobLane::Keeper); }))
+      << "it writes, too";
   const StaffController& staff = kiosk->staff();
   const std::string_view bytes(reinterpret_cast<const char*>(&staff), sizeof staff);
   EXPECT_EQ(bytes.find("0526"), std::string_view::npos) << "80526, but for its first byte";
