@@ -9,10 +9,7 @@
 #include <filesystem>
 #include <string>
 
-#include "firmware/work/session_document.h"
-#include "hal/base/whole_file.h"
 #include "hal/sim/replay/replay_device.h"
-#include "storage/document/document.h"
 #include "storage/model_blob.h"
 #include "tests/firmware/busy_lane.h"
 
@@ -93,14 +90,10 @@ TEST_F(TechnicianTest, WhatIsSavedIsWhatWasThereWhenItWasAskedFor) {
   }
   ASSERT_TRUE(rig().until([] { return finished() && rig().now().recording.outcome != ui::Outcome::None; }));
   ASSERT_EQ(rig().now().recording.outcome, ui::Outcome::Done);
-  const auto saved = read_whole_file(rig().stick() / rig().now().recording.where, 1U << 30);
-  ASSERT_TRUE(saved);
-  const auto document = storage::Document::open(*saved);
-  ASSERT_TRUE(document);
-  const auto making = making_of(*document);
+  const auto making = rig().saved_making();
   ASSERT_TRUE(making);
   EXPECT_EQ(making->set.get("mesher"), "grid");
-  EXPECT_EQ(making->records.size(), document->head().stages.size());
+  EXPECT_EQ(making->records.size(), kStages.size());
   rig().tap("reset");
   rig().plug_in();
 }
@@ -141,11 +134,7 @@ TEST_F(TechnicianTest, ARunThatIsStoppedBeforeItsTurnLeavesWhatIsSavedAsItWas) {
   EXPECT_TRUE(rig().now().pairs_changed) << "a pair by hand still waits to be calculated with";
   rig().tap("save");
   ASSERT_TRUE(rig().until([] { return rig().now().recording.outcome != ui::Outcome::None; }));
-  const auto saved = read_whole_file(rig().stick() / rig().now().recording.where, 1U << 30);
-  ASSERT_TRUE(saved);
-  const auto document = storage::Document::open(*saved);
-  ASSERT_TRUE(document);
-  const auto making = making_of(*document);
+  const auto making = rig().saved_making();
   ASSERT_TRUE(making);
   EXPECT_EQ(making->records.size(), kStages.size());
   EXPECT_TRUE(making->by_hand.empty());

@@ -16,10 +16,13 @@
 #include "firmware/records/event_log.h"
 #include "firmware/technician/test_capture.h"
 #include "firmware/work/pipeline_stages.h"
+#include "firmware/work/session_document.h"
+#include "hal/base/whole_file.h"
 #include "hal/clock.h"
 #include "hal/sim/device.h"
 #include "hal/sim/replay/replay_device.h"
 #include "pipeline/calibrate/file/calibration_file.h"
+#include "storage/document/document.h"
 #include "storage/sqlite/sqlite_store.h"
 #include "tests/firmware/held_hand.h"
 #include "tests/firmware/test_records.h"
@@ -131,6 +134,12 @@ class TechnicianRig {
   const ui::TechnicianView& now() { return test_capture->view(); }
 
   std::filesystem::path stick() const { return folder.path() / "stick"; }
+  // What the last "save" has put there.
+  Result<Making> saved_making() {
+    RELIEVO_TRY_ASSIGN(const auto bytes, read_whole_file(stick() / now().recording.where, 1U << 30));
+    RELIEVO_TRY_ASSIGN(const auto document, storage::Document::open(bytes));
+    return making_of(document);
+  }
 
   ::relievo::test::TemporaryFolder folder;
   hal::MonotonicClock clock;

@@ -11,11 +11,9 @@
 #include <vector>
 
 #include "firmware/measure/match_figures.h"
-#include "hal/base/whole_file.h"
 #include "hal/picture_file.h"
 #include "hal/recording/capture_file.h"
 #include "hal/sim/device.h"
-#include "storage/document/document.h"
 
 namespace relievo::firmware {
 namespace {
@@ -162,11 +160,9 @@ TEST_F(TechnicianTest, SidesBecomeAHeadWhosePosesAreSeen) {
   rig().open(StaffPage::Stages);
   rig().tap("save");
   ASSERT_TRUE(rig().until([] { return rig().now().recording.outcome != ui::Outcome::None; }));
-  const auto saved = read_whole_file(rig().stick() / rig().now().recording.where, 1U << 30);
-  ASSERT_TRUE(saved);
-  const auto document = storage::Document::open(*saved);
-  ASSERT_TRUE(document);
-  EXPECT_EQ(document->head().stages.size(), 2U);
+  const auto making = rig().saved_making();
+  ASSERT_TRUE(making);
+  EXPECT_EQ(making->records.size(), 2U);
   rig().plug_in();
   // Without sides it is one pair again.
   rig().tap("run from");
