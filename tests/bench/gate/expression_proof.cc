@@ -107,8 +107,8 @@ void print_measures(std::FILE* file, std::uint32_t seed, Kind kind, int place,
   for (const pipeline::EyeMeasurement& e : m.eyes)
     std::fprintf(file, ",%.3f,%.2f,%.1f,%.1f,%.1f", e.contrast, e.brightness, e.glare_mm2, e.right_mm,
                  e.down_mm);
-  std::fprintf(file, ",%.1f,%.2f,%.2f,%.2f,%.1f\n", m.mouth.dark_mm2, m.mouth.steps_mm, m.mouth.before_mm,
-               m.mouth.rise_mm, m.mouth.width_mm);
+  std::fprintf(file, ",%.1f,%.2f,%.2f,%.2f\n", m.mouth.dark_mm2, m.mouth.steps_mm, m.mouth.before_mm,
+               m.mouth.rise_mm);
 }
 
 void print_table(const std::array<std::array<int, 32>, kKinds>& given, int cases) {
