@@ -30,6 +30,8 @@ struct RectifiedView {
   std::pmr::vector<std::uint8_t> valid;  // 1 where the source picture covers the pixel
   // Grey levels by which lamps that skin mirrors make the pixel brighter. Empty: nobody has looked for them.
   std::pmr::vector<std::uint8_t> mirrored;
+  // Share of what single pores mirror that is still in `grey`, 0 to 1: coarse colours cannot tell it from skin.
+  float pores_left = 0;
 };
 
 struct RectifiedPair {

@@ -360,6 +360,7 @@ void clean(RectifiedPair& pair, bool right, const HighlightRemover& options, con
     });
     pixel.smooth(fine, context.pool, wide);
   }
+  view.pores_left = 1 - colours.trust;
   view.mirrored.assign(pair.pixels(), 0);
   context.pool.for_each_band(fine.height, kRowBands, [&](int begin, int end, int) {
     subtract(mirrored, fine, part, pair.width_px, view, wide, begin, end);

@@ -175,11 +175,12 @@ bool read_field(const SurfaceField& field, Vec2f at, Match& match) {
 
 // What is left of a lamp's image once it was taken out misleads all pixels one way, which the residuals do
 // not show: by an angle, however large the pixels are, that grows with the light, the more slowly the more
-// there is (of simulated people in full and half size). Variance of the disparity.
-constexpr double kMirroredRad = 5.6e-5;
+// there is; with pores' mirror images left in it, more of it and for longer (of simulated people in full and
+// half size, and as single-chip cameras and JPEG show them). Variance of the disparity.
 float mirrored_variance_px2(const RectifiedPair& pair, const Match& match) {
-  const float most_px = float(kMirroredRad * pair.focal_px);
-  constexpr float kHalf = 9 * 9;  // grey levels squared at half of it
+  const float pores = (pair.left.pores_left + pair.right.pores_left) / 2;
+  const float most_px = (5.6e-5F + 6.7e-5F * pores) * float(pair.focal_px);
+  const float half = 9 + 11 * pores;  // grey levels at half of its square
   const auto squared = [&](const RectifiedView& view, float x) {
     const int column = std::clamp(int(std::lround(x)), 0, pair.width_px - 1);
     const int row = std::clamp(int(std::lround(match.left_px.y)), 0, pair.height_px - 1);
@@ -188,7 +189,7 @@ float mirrored_variance_px2(const RectifiedPair& pair, const Match& match) {
   };
   const float light =
       (squared(pair.left, match.left_px.x) + squared(pair.right, match.left_px.x - match.disparity_px)) / 2;
-  return most_px * most_px * light / (light + kHalf);
+  return most_px * most_px * light / (light + half * half);
 }
 
 // What the field says at the keypoints.

@@ -71,10 +71,11 @@ TEST(RefinedMatcher, FindsTheTrueSurfaceToAFewHundredthsOfAPixel) {
 TEST(RefinedMatcher, WhereSkinMirrorsLampsSigmaGrows) {
   StageFixture fixture(std::size_t{64} << 20, std::size_t{256} << 20, 2);
   double focal_px = 0;
-  const auto matched = [&](int light, double share = 1) {
+  const auto matched = [&](int light, double share = 1, float pores_left = 0) {
     RectifiedPair pair = BumpScene{}.render(&fixture.output);
     focal_px = pair.focal_px *= share;
     for (RectifiedView* view : {&pair.left, &pair.right}) {
+      view->pores_left = pores_left;
       view->mirrored.assign(pair.pixels(), 0);
       for (int y = 0; y < pair.height_px / 2; ++y)
         for (int x = 0; x < pair.width_px; ++x) view->mirrored[pair.index(x, y)] = std::uint8_t(light);
@@ -99,6 +100,8 @@ TEST(RefinedMatcher, WhereSkinMirrorsLampsSigmaGrows) {
   expect_added(matched(0), matched(9), 5.6e-5 * std::sqrt(0.5));
   expect_added(matched(0), matched(60), 5.6e-5 * 0.9889);
   expect_added(matched(0, 0.5), matched(60, 0.5), 5.6e-5 * 0.9889);
+  // With what pores mirror left in it.
+  expect_added(matched(0), matched(20, 1, 1), 12.3e-5 * std::sqrt(0.5));
 }
 
 TEST(RefinedMatcher, DoesNotLockToWholePixels) {
