@@ -34,8 +34,7 @@ if(RELIEVO_COVERAGE)
 endif()
 
 # relievo_precompile(TARGET [HEADERS...]): reads the standard library's headers, and HEADERS, once a target: parsing
-# them is most of what a small file costs. The presets tidy and arm64 do without: there a file that forgets an include is
-# found.
+# them is most of what a small file costs. The preset tidy does without: there a file that forgets an include is found.
 option(RELIEVO_PRECOMPILE "read library headers once a target" ON)
 function(relievo_precompile target)
   if(RELIEVO_PRECOMPILE)
@@ -51,7 +50,7 @@ endfunction()
 # have private names in common; of tests all that lies in tests/ROOM/FOLDER is one folder. ALONE: files that are compiled
 # by themselves: those that take seconds, and those that have private names in common with another file of their folder.
 # CMake's own UNITY_BUILD would name files by absolute paths, and ccache would not find them from another checkout. The
-# presets tsan, tidy and arm64 do not: they find a file that forgets an include.
+# preset tidy does not: it finds a file that forgets an include.
 option(RELIEVO_UNITY "compile the files of a folder together" OFF)
 function(relievo_together target)
   if(NOT RELIEVO_UNITY)
