@@ -174,7 +174,7 @@ class RandomAppliance : public testing::Test {
     // Who looks at a live picture waits for the camera's next one: dear, and so is seldom.
     if (wanted == ui::Intent::Pose && !events.one_in(40) && in == State::Idle) return;
     if (wanted == ui::Intent::StillHere &&
-        (in == State::Position || in == State::Review || in == State::Staff))
+        (in == State::Position || in == State::Review || in == State::Staff || in == State::Export))
       since = now();
     appliance.ask(wanted);
   }
