@@ -14,7 +14,7 @@
 #include <utility>
 
 #include "firmware/base/allocation_count.h"
-#include "firmware/base/core_dumps.h"
+#include "firmware/base/process_memory.h"
 #include "firmware/command/commands.h"
 #include "firmware/demo/hand_pairs.h"
 #include "firmware/demo/screenshots.h"

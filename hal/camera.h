@@ -15,8 +15,8 @@
 
 #include <cstddef>
 #include <cstdint>
+#include <memory>
 #include <string_view>
-#include <utility>
 
 #include "hal/base/image_view.h"
 #include "hal/base/result.h"
@@ -39,17 +39,7 @@ class Frame {
     bool damaged = false;
   };
   Frame(const RawImage& raw, const Stamp& stamp, Release release, void* owner, int slot)
-      : raw_(raw), stamp_(stamp), release_(release), owner_(owner), slot_(slot) {}
-  Frame(Frame&& other) noexcept
-      : raw_(other.raw_),
-        stamp_(other.stamp_),
-        release_(std::exchange(other.release_, nullptr)),
-        owner_(other.owner_),
-        slot_(other.slot_) {}
-  Frame& operator=(Frame&&) = delete;
-  ~Frame() {
-    if (release_ != nullptr) release_(owner_, slot_);
-  }
+      : raw_(raw), stamp_(stamp), lender_(owner, {release, slot}) {}
 
   const RawImage& raw() const { return raw_; }
   // Without developing: empty for a format that needs it.
@@ -59,11 +49,14 @@ class Frame {
   bool damaged() const { return stamp_.damaged; }
 
  private:
+  struct GiveBack {
+    Release release;
+    int slot;
+    void operator()(void* owner) const { release(owner, slot); }
+  };
   RawImage raw_;
   Stamp stamp_;
-  Release release_;
-  void* owner_;
-  int slot_;
+  std::unique_ptr<void, GiveBack> lender_;
 };
 
 struct CaptureMode {

@@ -18,6 +18,8 @@ Result<void> RemovableMedia::settle(const std::filesystem::path& folder) {
   std::error_code error;
   for (std::filesystem::directory_iterator entry(folder, error), end; !error && entry != end;
        entry.increment(error)) {
+    std::error_code unknown;                 // then opening it says why
+    if (entry->is_other(unknown)) continue;  // a pipe that somebody left there would wait for a writer
     const int file = ::open(entry->path().c_str(), O_RDONLY | O_CLOEXEC);
     if (file < 0) return failed(entry->path(), errno);
     const int number = ::fsync(file) == 0 ? 0 : errno;

@@ -15,13 +15,10 @@
 #include <vector>
 
 #include "hal/base/result.h"
+#include "pipeline/base/kinds.h"
 #include "pipeline/base/options.h"
-#include "pipeline/match/kinds.h"
-#include "pipeline/mesh/mesher.h"
 #include "pipeline/reconstruct/face_crop.h"
-#include "pipeline/reconstruct/kinds.h"
 #include "pipeline/relief/relief_check.h"
-#include "pipeline/texture/texturer.h"
 
 namespace relievo::pipeline {
 
@@ -65,13 +62,13 @@ struct OptionDescription {
   std::string key;    // "refined.bending", or a kind: "matcher"
   std::string value;  // the default
   std::string sentence;
-  std::vector<std::string> names;                // of a kind, or an option chosen by name: what it may be
-  std::vector<AlgorithmDescription> algorithms;  // of a kind: what each of `names` is
-  OptionRange range;                             // of an option
-  bool text = false;                             // any text
-  bool several = false;                          // of a kind: names may be joined by '+'
-  std::string kind = {};                         // of an option: the kind it belongs to
-  bool file = false;                             // of an option: the path of a text file
+  std::vector<std::string> names = {};  // of a kind, or an option chosen by name: what it may be
+  std::vector<AlgorithmDescription> algorithms = {};  // of a kind: what each of `names` is
+  OptionRange range = {};                             // of an option
+  bool text = false;                                  // any text
+  bool several = false;                               // of a kind: names may be joined by '+'
+  std::string kind = {};                              // of an option: the kind it belongs to
+  bool file = false;                                  // of an option: the path of a text file
 
   bool is_option() const { return !kind.empty(); }
 };
@@ -81,19 +78,23 @@ std::vector<OptionDescription> describe_algorithms();
 // for lattices with scattered matches).
 Result<void> check_neighbours(const AlgorithmSet& set);
 
+// What a set chooses, made.
+struct Algorithms {
+  Preprocessor preprocessor;  // empty: the grey values stay
+  KeypointSelector selector;
+  Matcher matcher;
+  std::vector<MatchConstraint> constraints;
+  Triangulator triangulator;
+  FaceCropOptions crop;
+  OutlierFilter outliers;  // empty: every point is kept
+  Mesher mesher;
+  Completion completion;
+  std::optional<ReliefOptions> relief;  // none: measured, never refused
+  Texturer texturer;
+};
+
 // Errors: InvalidInput where the options do not fit together.
-Result<Preprocessor> make_preprocessor(const AlgorithmSet& set);  // empty: the grey values stay
-Result<KeypointSelector> make_selector(const AlgorithmSet& set);
-Result<Matcher> make_matcher(const AlgorithmSet& set);
-Result<std::vector<MatchConstraint>> make_constraints(const AlgorithmSet& set);
-Result<Triangulator> make_triangulator(const AlgorithmSet& set);
-Result<OutlierFilter> make_outlier_filter(const AlgorithmSet& set);  // empty: keep all points
-Result<FaceCropOptions> make_face_crop(const AlgorithmSet& set);
-Result<Mesher> make_mesher(const AlgorithmSet& set);
-Result<Completion> make_completion(const AlgorithmSet& set);
-Result<std::optional<ReliefOptions>> make_relief_check(
-    const AlgorithmSet& set);  // none: pictures of faces pass
-Result<Texturer> make_texturer(const AlgorithmSet& set);
+Result<Algorithms> make_algorithms(const AlgorithmSet& set);
 Result<HeadFuser> make_head_fuser(const AlgorithmSet& set);  // pipeline/fuse/head_fuser.h
 
 }  // namespace relievo::pipeline

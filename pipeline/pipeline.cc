@@ -38,21 +38,10 @@ Result<Pipeline> Pipeline::make(const AlgorithmSet& set, const StereoCalibration
   pipeline.volume_ = volume;
   pipeline.region_ = region;
   if (region == Region::Face) {
-    RELIEVO_TRY_ASSIGN(FaceFinder finder, FaceFinder::open({}));
-    pipeline.finder_ = std::make_shared<FaceFinder>(std::move(finder));
+    RELIEVO_TRY_ASSIGN(pipeline.finder_, FaceFinder::open({}));
   }
-  RELIEVO_TRY_ASSIGN(pipeline.preprocessor_, make_preprocessor(set));
-  RELIEVO_TRY_ASSIGN(pipeline.selector_, make_selector(set));
-  RELIEVO_TRY_ASSIGN(pipeline.matcher_, make_matcher(set));
-  RELIEVO_TRY_ASSIGN(pipeline.constraints_, make_constraints(set));
-  RELIEVO_TRY_ASSIGN(pipeline.triangulator_, make_triangulator(set));
-  RELIEVO_TRY_ASSIGN(pipeline.crop_, make_face_crop(set));
-  RELIEVO_TRY_ASSIGN(pipeline.outliers_, make_outlier_filter(set));
-  RELIEVO_TRY_ASSIGN(pipeline.mesher_, make_mesher(set));
+  RELIEVO_TRY_ASSIGN(pipeline.chosen_, make_algorithms(set));
   RELIEVO_TRY(check_neighbours(set));
-  RELIEVO_TRY_ASSIGN(pipeline.completion_, make_completion(set));
-  RELIEVO_TRY_ASSIGN(pipeline.relief_, make_relief_check(set));
-  RELIEVO_TRY_ASSIGN(pipeline.texturer_, make_texturer(set));
   return pipeline;
 }
 
@@ -60,11 +49,10 @@ Result<RectifiedPair> Pipeline::rectify(const StereoFrame& frame, StageContext& 
   return run_stage(context, [&](StageContext& c) -> Result<RectifiedPair> {
     RELIEVO_TRY_ASSIGN(RectifiedPair pair, volume_.rectify(frame, calibration_, c));
     if (region_ == Region::Head) pair.region.assign(pair.left.valid.size(), 1);
-    if (finder_ == nullptr) return pair;
-    const Result<FaceBox> box = find_face(*finder_, pair, c);
-    if (!box) return box.error();
-    RELIEVO_TRY(mark_face_region(pair, *box, c));
-    pair.face_reach_mm = kReachBeyondCrop * crop_.radius_mm;
+    if (!finder_) return pair;
+    RELIEVO_TRY_ASSIGN(const FaceBox box, find_face(*finder_, pair, c));
+    RELIEVO_TRY(mark_face_region(pair, box, c));
+    pair.face_reach_mm = kReachBeyondCrop * chosen_.crop.radius_mm;
     return pair;
   });
 }
@@ -102,18 +90,18 @@ std::optional<Error> Pipeline::explain(const StereoFrame& frame, StageContext& c
 }
 
 Result<MatchSet> Pipeline::match(RectifiedPair& pair, StageContext& context) const {
-  if (preprocessor_) RELIEVO_TRY(run_stage(context, [&](StageContext& c) { return preprocessor_(pair, c); }));
-  auto keypoints = run_stage(context, [&](StageContext& c) { return selector_(pair, c); });
-  if (!keypoints) return keypoints.error();
-  auto set = run_stage(context, [&](StageContext& c) { return matcher_(pair, *keypoints, c); });
-  if (!set) return set.error();
+  if (chosen_.preprocessor)
+    RELIEVO_TRY(run_stage(context, [&](StageContext& c) { return chosen_.preprocessor(pair, c); }));
+  RELIEVO_TRY_ASSIGN(const Keypoints keypoints,
+                     run_stage(context, [&](StageContext& c) { return chosen_.selector(pair, c); }));
+  RELIEVO_TRY_ASSIGN(
+      MatchSet set, run_stage(context, [&](StageContext& c) { return chosen_.matcher(pair, keypoints, c); }));
   std::uint16_t bit = 1;
-  for (const auto& constraint : constraints_) {
-    auto judged = run_stage(context, [&](StageContext& c) -> Result<void> {
-      constraint(pair, set->matches, set->lattice_step_px, bit, c);
+  for (const auto& constraint : chosen_.constraints) {
+    RELIEVO_TRY(run_stage(context, [&](StageContext& c) -> Result<void> {
+      constraint(pair, set.matches, set.lattice_step_px, bit, c);
       return {};
-    });
-    if (!judged) return judged.error();
+    }));
     bit = std::uint16_t(bit << 1);
   }
   return set;
@@ -126,10 +114,10 @@ Result<PointCloud> Pipeline::reconstruct(const RectifiedPair& pair, const MatchS
     if (!by_hand.empty()) {
       RELIEVO_TRY_ASSIGN(joined, join_by_hand(pair, matches, by_hand, c));
     }
-    RELIEVO_TRY_ASSIGN(PointCloud cloud, triangulator_(pair, joined ? *joined : matches, c));
-    RELIEVO_TRY(crop_to_face(cloud, pair, crop_, c));
+    RELIEVO_TRY_ASSIGN(PointCloud cloud, chosen_.triangulator(pair, joined ? *joined : matches, c));
+    RELIEVO_TRY(crop_to_face(cloud, pair, chosen_.crop, c));
     const PointsByHand kept(cloud, by_hand, &c.scratch);
-    if (outliers_) RELIEVO_TRY(outliers_(cloud, c));
+    if (chosen_.outliers) RELIEVO_TRY(chosen_.outliers(cloud, c));
     kept.put_back(cloud);
     return cloud;
   });
@@ -138,10 +126,10 @@ Result<PointCloud> Pipeline::reconstruct(const RectifiedPair& pair, const MatchS
 Result<FaceMesh> Pipeline::mesh(const PointCloud& cloud, const RectifiedPair& pair,
                                 StageContext& context) const {
   return run_stage(context, [&](StageContext& c) -> Result<FaceMesh> {
-    RELIEVO_TRY_ASSIGN(FaceMesh mesh, mesher_(cloud, c));
+    RELIEVO_TRY_ASSIGN(FaceMesh mesh, chosen_.mesher(cloud, c));
     if (const auto head = find_head_frame(mesh, c, across(calibration_)))
       lay_eyeballs(mesh, head->head_from_camera, pair, c);
-    return completion_(std::move(mesh), across(calibration_), c);
+    return chosen_.completion(std::move(mesh), across(calibration_), c);
   });
 }
 
@@ -151,15 +139,15 @@ Result<void> Pipeline::judge_relief(FaceModel& model, const FaceMesh& mesh, cons
   if (region_ != Region::Face) return {};
   RELIEVO_TRY_ASSIGN(const ReliefFigures relief, measure_relief(mesh, pair, context));
   model.quality.relief = relief;
-  if (!relief_) return {};
-  const ReliefVerdict verdict = judge(relief, *relief_);
-  if (verdict == ReliefVerdict::Picture) return error_of(verdict, relief, *relief_);
+  if (!chosen_.relief) return {};
+  const ReliefVerdict verdict = judge(relief, *chosen_.relief);
+  if (verdict == ReliefVerdict::Picture) return error_of(verdict, relief, *chosen_.relief);
   return {};
 }
 
 Result<TextureAtlas> Pipeline::texture(const FaceMesh& mesh, const RectifiedPair& pair,
                                        StageContext& context) const {
-  return run_stage(context, [&](StageContext& c) { return texturer_(mesh, pair, c); });
+  return run_stage(context, [&](StageContext& c) { return chosen_.texturer(mesh, pair, c); });
 }
 
 Result<FaceModel> Pipeline::assemble(FaceMesh&& mesh, TextureAtlas&& texture, const RectifiedPair& pair,
@@ -178,7 +166,7 @@ Result<FaceModel> Pipeline::assemble(FaceMesh&& mesh, TextureAtlas&& texture, co
       RELIEVO_TRY_ASSIGN(model.landmarks, find_landmarks(mesh, frame.head_from_camera, eyes, c));
       model.backdrop = make_backdrop(mesh, frame.head_from_camera, pair, c);
     }
-    if (region_ == Region::Face) model.unjudged = why_unjudged(model, relief_);
+    if (region_ == Region::Face) model.unjudged = why_unjudged(model, chosen_.relief);
     const ReliefFigures relief = model.quality.relief;
     model.quality = measure_quality(mesh, frame, c);
     model.quality.relief = relief;

@@ -10,10 +10,8 @@
 // Thread: worker; holds no state between calls.
 #pragma once
 
-#include <memory>
 #include <optional>
 #include <span>
-#include <vector>
 
 #include "pipeline/algorithms.h"
 #include "pipeline/base/stage.h"
@@ -34,8 +32,8 @@ enum class Region : std::uint8_t { Face, Head, All };
 
 class Pipeline {
  public:
-  // Errors: InvalidInput (options; a mesher for lattices with scattered matches), NotFound or
-  // LibraryFailed (the face detector's files).
+  // Errors: InvalidInput (options; a mesher for lattices with scattered matches), NotFound,
+  // StoreCorrupt or LibraryFailed (the face detector's files).
   static Result<Pipeline> make(const AlgorithmSet& set, const StereoCalibration& calibration,
                                const RectifierOptions& volume = {}, Region region = Region::Face);
 
@@ -74,18 +72,8 @@ class Pipeline {
   StereoCalibration calibration_;
   RectifierOptions volume_;
   Region region_ = Region::Face;
-  std::shared_ptr<FaceFinder> finder_;  // null where the whole view is wanted
-  Preprocessor preprocessor_;           // empty: the grey values stay
-  KeypointSelector selector_;
-  Matcher matcher_;
-  std::vector<MatchConstraint> constraints_;
-  Triangulator triangulator_;
-  FaceCropOptions crop_;
-  OutlierFilter outliers_;  // empty: every point is kept
-  Mesher mesher_;
-  Completion completion_;
-  std::optional<ReliefOptions> relief_;  // none: measured, never refused
-  Texturer texturer_;
+  std::optional<FaceFinder> finder_;  // none where the whole view is wanted
+  Algorithms chosen_;
 };
 
 }  // namespace relievo::pipeline

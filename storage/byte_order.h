@@ -1,8 +1,8 @@
 // SPDX-FileCopyrightText: 2026 The Relievo authors
 // SPDX-License-Identifier: GPL-3.0-or-later
 //
-// Numbers to little-endian bytes and back, the same on every machine. Floating point goes by its
-// bits: NaN payloads and negative zero survive.
+// Numbers to little-endian bytes and back: as they lie in the memory of the machines this runs on. Floating
+// point goes by its bits: NaN payloads and negative zero survive.
 //
 // A form of bytes has one walk over its fields, walk(io, fields): a ByteWriter writes them, a ByteReader
 // reads them, and the two cannot differ.
@@ -20,13 +20,15 @@
 
 namespace relievo::storage {
 
+static_assert(std::endian::native == std::endian::little);
+
 template <typename T>
 concept Number = std::is_arithmetic_v<T>;
 
-// Arrays of these are runs of floats or integers of one size, without padding.
-template <typename Item, typename Element>
-concept RunOf = std::is_trivially_copyable_v<Item> && sizeof(Item) % sizeof(Element) == 0 &&
-                alignof(Item) == alignof(Element);
+// Their items are floats or integers of one size, without padding.
+template <typename Items, typename Element, typename Item = typename Items::value_type>
+concept RunsOf = std::is_trivially_copyable_v<Item> && sizeof(Item) % sizeof(Element) == 0 &&
+                 alignof(Item) == alignof(Element);
 
 class ByteWriter {
  public:
@@ -34,9 +36,7 @@ class ByteWriter {
 
   template <Number T>
   void put(T value) {
-    std::byte raw[sizeof(T)];
-    std::memcpy(raw, &value, sizeof(T));
-    put_element(raw, sizeof(T));
+    put(std::as_bytes(std::span(&value, 1)));
   }
   void put(std::span<const std::byte> bytes) {
     if (bytes.empty()) return;
@@ -55,14 +55,14 @@ class ByteWriter {
     put(std::as_bytes(std::span(text)));
   }
   // `items` by their elements: as many as the reader is told, or behind their number.
-  template <typename Element, typename Items>
+  template <typename Element, RunsOf<Element> Items>
   void run(const Items& items, std::size_t /*count*/) {
-    put_run<Element>(std::span(items));
+    put(std::as_bytes(std::span(items)));
   }
-  template <typename Element, typename Items>
+  template <typename Element, RunsOf<Element> Items>
   void run(const Items& items) {
     put(std::uint64_t(items.size()));
-    put_run<Element>(std::span(items));
+    put(std::as_bytes(std::span(items)));
   }
   template <typename Items, typename Field>
   void each(const Items& items, const Field& field) {
@@ -70,24 +70,7 @@ class ByteWriter {
     for (const auto& item : items) field(*this, item);
   }
 
-  template <typename Element, RunOf<Element> Item>
-  void put_run(std::span<const Item> items) {
-    const auto bytes = std::as_bytes(items);
-    if constexpr (std::endian::native == std::endian::little) {
-      put(bytes);
-    } else {
-      for (std::size_t at = 0; at < bytes.size(); at += sizeof(Element)) {
-        put_element(bytes.data() + at, sizeof(Element));
-      }
-    }
-  }
-
  private:
-  void put_element(const std::byte* raw, std::size_t size) {
-    for (std::size_t i = 0; i < size; ++i) {
-      out_.push_back(raw[std::endian::native == std::endian::little ? i : size - 1 - i]);
-    }
-  }
   std::vector<std::byte>& out_;
 };
 
@@ -103,23 +86,14 @@ class ByteReader {
   template <Number T>
   T get() {
     T value{};
-    if (take(sizeof(T))) copy_element(reinterpret_cast<std::byte*>(&value), sizeof(T));
+    get(std::as_writable_bytes(std::span(&value, 1)));
     return value;
   }
-
-  template <typename Element, RunOf<Element> Item>
-  void get_run(std::span<Item> items) {
-    const auto target = std::as_writable_bytes(items);
-    if (target.empty() || !take(target.size())) return;
-    if constexpr (std::endian::native == std::endian::little) {
-      std::memcpy(target.data(), taken_.data(), target.size());
-    } else {
-      const auto all = taken_;
-      for (std::size_t at = 0; at < target.size(); at += sizeof(Element)) {
-        taken_ = all.subspan(at, sizeof(Element));
-        copy_element(target.data() + at, sizeof(Element));
-      }
-    }
+  void get(std::span<std::byte> bytes) {
+    if (bytes.size() > rest_.size()) return fail();
+    if (bytes.empty()) return;
+    std::memcpy(bytes.data(), rest_.data(), bytes.size());
+    rest_ = rest_.subspan(bytes.size());
   }
 
   template <Number... T>
@@ -131,15 +105,15 @@ class ByteReader {
     const auto size = get<std::uint32_t>();
     if (size > left()) return fail();
     text.resize(size);
-    get_run<char>(std::span(text));
+    get(std::as_writable_bytes(std::span(text)));
   }
-  template <typename Element, typename Items>
+  template <typename Element, RunsOf<Element> Items>
   void run(Items& items, std::size_t count) {
     items.resize(count);
-    get_run<Element>(std::span(items));
+    get(std::as_writable_bytes(std::span(items)));
   }
   // A number of items that the bytes cannot hold allocates nothing.
-  template <typename Element, typename Items>
+  template <typename Element, RunsOf<Element> Items>
   void run(Items& items) {
     const auto count = get<std::uint64_t>();
     if (count <= left() / sizeof(typename Items::value_type)) run<Element>(items, std::size_t(count));
@@ -158,22 +132,7 @@ class ByteReader {
     ok_ = false;
     rest_ = {};
   }
-  bool take(std::size_t size) {
-    if (size > rest_.size()) {
-      fail();
-      return false;
-    }
-    taken_ = rest_.first(size);
-    rest_ = rest_.subspan(size);
-    return true;
-  }
-  void copy_element(std::byte* target, std::size_t size) {
-    for (std::size_t i = 0; i < size; ++i) {
-      target[std::endian::native == std::endian::little ? i : size - 1 - i] = taken_[i];
-    }
-  }
   std::span<const std::byte> rest_;
-  std::span<const std::byte> taken_;
   bool ok_ = true;
 };
 

@@ -3,7 +3,7 @@
 //
 // The stored form of a face model: mesh, texture, head frame and quality in one piece of bytes.
 //
-// Little-endian, whatever the machine:
+// Little-endian:
 //   "RFACE\0" u16 version | 5 x u32 vertices triangles width_px height_px flags | 12 f64 head_from_camera
 //   | 9 f64 quality | 10 landmarks: x y z sigma f32, found u8 | 6 f64 relief | vertices 3 f32 | normals 3 f32
 //   | sigma f32 | measured u8 | triangles 3 u32 | texture rgb | uv 2 f32 a corner | vertex rgb | texture

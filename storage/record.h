@@ -112,7 +112,7 @@ struct AuditRecord {
   AuditEvent event;
 };
 
-// Ed25519 (cipher/secret_key.h).
+// Ed25519 (cipher/seal.h).
 struct Signed {
   std::array<std::byte, 32> by{};  // the public half
   std::array<std::byte, 64> signature{};

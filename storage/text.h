@@ -1,11 +1,12 @@
 // SPDX-FileCopyrightText: 2026 The Relievo authors
 // SPDX-License-Identifier: GPL-3.0-or-later
 //
-// Names as people write them.
+// Names as people write them, and words.
 #pragma once
 
 #include <string>
 #include <string_view>
+#include <vector>
 
 namespace relievo::storage {
 
@@ -20,5 +21,8 @@ std::string first_letter(std::string_view name);
 
 // Two names that are written alike but for ASCII capitals and spaces around them are one.
 std::string normal_name(std::string_view name);
+
+// What stands between the marks, before the first and behind the last: one more than there are marks.
+std::vector<std::string_view> split(std::string_view text, char mark);
 
 }  // namespace relievo::storage

@@ -33,7 +33,7 @@ struct Input {
     Activate,
     Back,  // what has the focus is done; one step back
     Speech,
-    Repeat,
+    Repeat,  // of a keypad: `letter` is 0, which it types where digits are asked for
     Quieter,
     Louder,
     Speed,  // what is heard: on or off, the page once more, its volume and speed

@@ -22,6 +22,8 @@ void tell_place(Action& action, const Rect& rect, float x, float y) {
 }
 
 constexpr float kSlopPx = 14;  // a finger that rests moves so far
+// One that lay still so long may have gone with its panel, which was pulled out: nobody heard of its end.
+constexpr std::chrono::seconds kLost{10};
 
 }  // namespace
 
@@ -74,23 +76,24 @@ void Ui::feed(const Input& input, const ViewState& view) {
     case Input::Kind::Erase: return type(input, view);
     case Input::Kind::Activate: return activate_focus(view);
     case Input::Kind::Back:
-      if (visit_.overlay == Overlay::None && service_.open) return service_.act({ActionKind::Back, 0}, view);
-      return ask(visit_.act({ActionKind::Back, 0}, view));
+      if (visit_.overlay == Overlay::None && service_.open) return service_.act(ActionKind::Back, view);
+      return ask(visit_.act(ActionKind::Back, view));
     case Input::Kind::Repeat:
-    case Input::Kind::Speech:
-    case Input::Kind::Quieter:
-    case Input::Kind::Louder:
-    case Input::Kind::Speed: return hear(input.kind, view);
+      if (input.letter[0] != 0 && field() != nullptr &&
+          (service_.open || (visit_.quotes_code() && visit_.name().size() < kCodeDigits)))
+        return type(input, view);
+      return hear(ActionKind::None, view);
+    case Input::Kind::Speech: return hear(ActionKind::Speech, view);
+    case Input::Kind::Quieter: return hear(ActionKind::Quieter, view);
+    case Input::Kind::Louder: return hear(ActionKind::Louder, view);
+    case Input::Kind::Speed: return hear(ActionKind::Speed, view);
     case Input::Kind::Quit: return;
   }
 }
 
 // Who changes how they hear it hears it again: so the change can be judged.
-void Ui::hear(Input::Kind kind, const ViewState& view) {
-  if (kind == Input::Kind::Speech) ask(visit_.act({ActionKind::Speech, 0}, view));
-  if (kind == Input::Kind::Quieter) ask(visit_.act({ActionKind::Quieter, 0}, view));
-  if (kind == Input::Kind::Louder) ask(visit_.act({ActionKind::Louder, 0}, view));
-  if (kind == Input::Kind::Speed) ask(visit_.act({ActionKind::Speed, 0}, view));
+void Ui::hear(ActionKind kind, const ViewState& view) {
+  ask(visit_.act(kind, view));
   narrator_.read_again();
 }
 
@@ -114,11 +117,11 @@ const Utterance& Ui::speak(const ViewState& view, bool busy) {
 
 void Ui::down(const Input& input, const ViewState& view) {
   hands_.show_focus = false;
-  for (Finger& finger : fingers_) {
-    if (finger.down) continue;
-    finger = {true, input.finger, input.x, input.y, input.x, input.y, false};
-    break;
-  }
+  for (Finger& finger : fingers_)
+    finger.down = finger.down && finger.id != input.finger && view.now - finger.felt < kLost;
+  const auto free = std::ranges::find(fingers_, false, &Finger::down);
+  if (free != fingers_.end())
+    *free = {true, input.finger, input.x, input.y, input.x, input.y, false, view.now};
   const Node* node = tree_.at(input.x, input.y);
   hands_.pressed = node != nullptr && !fingers_[1].down ? node->id : std::string_view{};
   if (node != nullptr && !hands_.pressed.empty() && node->dragged.kind != ActionKind::None)
@@ -132,6 +135,7 @@ void Ui::move(const Input& input, const ViewState& view) {
     const float old_x = finger.x, old_y = finger.y;
     finger.x = input.x;
     finger.y = input.y;
+    finger.felt = view.now;
     if (std::hypot(finger.x - finger.start_x, finger.y - finger.start_y) > kSlopPx) finger.dragging = true;
     if (!finger.dragging) return;
     const Node* node = tree_.find(hands_.pressed);
@@ -140,8 +144,10 @@ void Ui::move(const Input& input, const ViewState& view) {
     const bool on_face = node != nullptr && node->action.kind == ActionKind::TurnFace;
     if (fingers_[0].down && fingers_[1].down) {
       const Node* under = tree_.at(fingers_[0].start_x, fingers_[0].start_y);
-      if (under != nullptr && under->action.kind == ActionKind::TurnFace)
+      if (under != nullptr && under->action.kind == ActionKind::TurnFace) {
+        fingers_[1 - i].felt = view.now;  // it may lie still: it holds the other end of what is zoomed
         pinch(finger, old_x, old_y, fingers_[1 - i]);
+      }
       return;
     }
     if (node != nullptr && node->dragged.kind != ActionKind::None)
@@ -250,10 +256,10 @@ void Ui::pinch(const Finger& moved, float old_x, float old_y, const Finger& othe
 void Ui::frame(const ViewState& view) {
   follow_staff(view);
   ask(visit_.follow(view));
-  const std::optional<StaffPage> page = service_.open ? std::optional(service_.page) : std::nullopt;
-  const bool moved_on = visit_.step != last_step_ || visit_.overlay != last_overlay_ || page != last_page_ ||
-                        service_.mode != last_mode_;
-  if (moved_on) {
+  const Place now{visit_.step, visit_.overlay, service_.open ? std::optional(service_.page) : std::nullopt,
+                  service_.mode};
+  const Place last = std::exchange(last_, now);
+  if (now != last) {
     hands_.scrolled.clear();
     hands_.scroll_px = 0;
     hands_.pressed.clear();
@@ -261,16 +267,12 @@ void Ui::frame(const ViewState& view) {
     key_held_ = false;
     hands_.show_focus = false;
   }
-  if (((visit_.step == Step::Attract || visit_.step == Step::Trouble) && last_step_ != visit_.step) ||
-      page != last_page_) {
+  const bool begins_anew = now.step == Step::Attract || now.step == Step::Trouble;
+  if ((begins_anew && now.step != last.step) || now.page != last.page) {
     forgotten_ = true;
     visit_.look = {};
     text_->forget();
   }
-  last_page_ = page;
-  last_mode_ = service_.mode;
-  last_step_ = visit_.step;
-  last_overlay_ = visit_.overlay;
   draw(view);
 }
 

@@ -67,12 +67,20 @@ class Ui {
     std::int64_t id = 0;
     float x = 0, y = 0, start_x = 0, start_y = 0;
     bool dragging = false;
+    hal::Instant felt{};  // last
+  };
+  struct Place {
+    Step step = Step::Starting;
+    Overlay overlay = Overlay::None;
+    std::optional<StaffPage> page;  // none: the visitor's side
+    int mode = 0;
+    bool operator==(const Place&) const = default;
   };
   static constexpr std::size_t kIntents = 8;
   void draw(const ViewState& view);
   void follow_staff(const ViewState& view);
   void ask(std::optional<Intent> intent);
-  void hear(Input::Kind kind, const ViewState& view);
+  void hear(ActionKind kind, const ViewState& view);
   void down(const Input& input, const ViewState& view);
   void move(const Input& input, const ViewState& view);
   void up(const Input& input, const ViewState& view);
@@ -80,6 +88,7 @@ class Ui {
   void focus_beside(float right, float down, const ViewState& view);
   void move_focus(const Node* at, const Node* next, int direction);
   const Node* focused() const { return hands_.show_focus ? tree_.find(hands_.focus) : nullptr; }
+  const Node* field() const;  // where letters are asked for
   void type(const Input& input, const ViewState& view);
   void keep_focus();
   float scrolled_px(const Node& scroller) const {
@@ -113,10 +122,7 @@ class Ui {
   std::array<Finger, 2> fingers_{};
   std::array<Intent, kIntents> intents_{};
   std::size_t intent_count_ = 0;
-  Step last_step_ = Step::Starting;
-  Overlay last_overlay_ = Overlay::None;
-  std::optional<StaffPage> last_page_;  // none: the visitor's side
-  int last_mode_ = 0;
+  Place last_;
   hal::Instant pressed_at_{};
   bool key_held_ = false;  // what is pressed was asked for by the keypad
   bool forgotten_ = false;

@@ -19,11 +19,8 @@ constexpr float kScreenful = 0.7F;  // the last lines of one are seen again, and
 void Ui::activate_focus(const ViewState& view) {
   const Node* node = focused();
   if (node == nullptr && !hands_.show_focus) {  // who types has the focus where they type
-    const auto& nodes = tree_.nodes();
-    const auto field = std::ranges::find_if(nodes, [&](const Node& one) {
-      return one.role == Role::Field && one.by_key.kind != ActionKind::None && tree_.is_on_top(one);
-    });
-    if (field != nodes.end()) node = &*field;
+    node = field();
+    if (node != nullptr && node->by_key.kind == ActionKind::None) return;
   }
   if (node == nullptr) return;
   if (node->by_key.kind != ActionKind::None) {
@@ -78,20 +75,24 @@ void Ui::move_focus(const Node* at, const Node* next, int direction) {
   bring_into_view(*next);
 }
 
+const Node* Ui::field() const {
+  const auto found = std::ranges::find_if(
+      tree_.nodes(), [&](const Node& node) { return node.role == Role::Field && tree_.is_on_top(node); });
+  return found == tree_.nodes().end() ? nullptr : &*found;
+}
+
 // Letters go where letters are asked for. A blank there that follows nothing, and elsewhere, presses what has
 // the focus.
 void Ui::type(const Input& input, const ViewState& view) {
-  const auto& nodes = tree_.nodes();
-  const auto field = std::ranges::find_if(
-      nodes, [&](const Node& node) { return node.role == Role::Field && tree_.is_on_top(node); });
+  const Node* asked = field();
   const std::string_view letter(input.letter.data());
-  if (field == nodes.end() || (letter == " " && field->value.empty())) {
+  if (asked == nullptr || (letter == " " && asked->value.empty())) {
     if (letter == " ") activate_focus(view);
     return;
   }
   if (input.kind == Input::Kind::Erase) {
-    if (service_.open) return service_.act({ActionKind::Erase, 0}, view);
-    return ask(visit_.act({ActionKind::Erase, 0}, view));
+    if (service_.open) return service_.act(ActionKind::Erase, view);
+    return ask(visit_.act(ActionKind::Erase, view));
   }
   if (service_.open) return service_.type(letter);
   if (input.kind == Input::Kind::Digit) return visit_.type_by_digit(letter[0], view.now);

@@ -6,11 +6,9 @@
 #include <charconv>
 #include <cstdint>
 #include <cstdio>
-#include <filesystem>
-#include <string>
 #include <system_error>
+#include <tuple>
 
-#include "firmware/arguments/command_line.h"
 #include "firmware/arguments/command_words.h"
 
 namespace relievo::firmware {
@@ -40,6 +38,14 @@ CLI::Option* add_two_numbers(CLI::App& command, const char* name, int& first, in
           },
           help)
       ->type_name(rule.type);
+}
+
+CLI::Option* add_either(CLI::App& command, const char* name, bool& second, const char* one, const char* other,
+                        const char* help) {
+  return command
+      .add_option_function<std::string>(
+          name, [&second, other](const std::string& word) { second = word == other; }, help)
+      ->check(CLI::IsMember({one, other}));
 }
 
 namespace {
@@ -75,12 +81,7 @@ void add_algorithms(CLI::App& command, AlgorithmArgs& args) {
        "one choice or setting, as in the file: matcher=zmncc, zmncc.window_px=15 (relievo algorithms)")
       ->take_all()
       ->allow_extra_args(false);
-  command
-      .add_option_function<std::string>(
-          "--region", [&args](const std::string& word) { args.whole_view = word == "all"; },
-          "what to reconstruct")
-      ->check(CLI::IsMember({"face", "all"}))
-      ->default_str("face");
+  add_either(command, "--region", args.whole_view, "face", "all", "what to reconstruct")->default_str("face");
 }
 
 void add_further(CLI::App& command, FurtherModels& further) {
@@ -112,11 +113,7 @@ void add_reconstruct(CLI::App& app, CommandArgs& chosen, ReconstructArgs& args) 
       *command, "--by-hand", args.by_hand, "FILE",
       "matches made by hand, beside the matcher's: a line each, x y disparity [sigma], pixels of the rectified views; with --load in place of those that were saved");
   word(*command, "-o,--output", args.output, "DIR", "folder for the model and the report")->required();
-  command
-      ->add_option_function<std::string>(
-          "--frame", [&args](const std::string& word) { args.camera_frame = word == "camera"; },
-          "axes of the model")
-      ->check(CLI::IsMember({"head", "camera"}))
+  add_either(*command, "--frame", args.camera_frame, "head", "camera", "axes of the model")
       ->default_str("head");
   command->add_flag("--despite-drift", args.despite_drift,
                     "go on though the cameras have moved since they were calibrated");
@@ -257,22 +254,10 @@ void add_algorithm_list(CLI::App& app, CommandArgs& chosen, AlgorithmsArgs& args
   command->callback([&] { chosen = args; });
 }
 
-struct AllArgs {
-  KioskArgs kiosk;
-  CalibrateArgs calibrate;
-  CalibrateLiveArgs calibrate_live;
-  CalibrationArgs calibration;
-  ReconstructArgs reconstruct;
-  CompareArgs compare;
-  EnrolArgs enrol;
-  SubjectsArgs subjects;
-  StaffArgs staff;
-  StoreArgs store;
-  SimulateArgs simulate;
-  SelfTestArgs selftest;
-  MemoryArgs memory;
-  AlgorithmsArgs algorithms;
-};
+// One of each command's, to be filled.
+template <typename... Args>
+std::tuple<Args...> one_of_each(const std::variant<Args...>&);
+using AllArgs = decltype(one_of_each(CommandArgs()));
 
 }  // namespace
 
@@ -281,23 +266,27 @@ CommandLine parse_command_line(int argc, const char* const* argv) {
   app.require_subcommand(0, 1);
   CommandLine line;
   AllArgs args;
-  add_kiosk(app, args.kiosk);
-  add_calibrate(app, line.command, args.calibrate, args.calibrate_live);
-  add_calibration(app, line.command, args.calibration);
-  add_reconstruct(app, line.command, args.reconstruct);
-  add_algorithms(*add_compare(app, line.command, args.compare), args.compare.algorithms);
-  add_enrol(app, line.command, args.enrol);
-  add_subjects(app, line.command, args.subjects);
-  add_staff(app, line.command, args.staff);
-  add_store_keeping(app, line.command, args.store);
-  add_simulate(app, line.command, args.simulate);
-  add_selftest(app, line.command, args.selftest);
-  add_algorithm_list(app, line.command, args.algorithms);
-  add_memory(app, line.command, args.memory);
+  add_kiosk(app, std::get<KioskArgs>(args));
+  add_calibrate(app, line.command, std::get<CalibrateArgs>(args), std::get<CalibrateLiveArgs>(args));
+  add_calibration(app, line.command, std::get<CalibrationArgs>(args));
+  add_reconstruct(app, line.command, std::get<ReconstructArgs>(args));
+  add_algorithms(*add_compare(app, line.command, std::get<CompareArgs>(args)),
+                 std::get<CompareArgs>(args).algorithms);
+  add_enrol(app, line.command, std::get<EnrolArgs>(args));
+  add_subjects(app, line.command, std::get<SubjectsArgs>(args));
+  add_staff(app, line.command, std::get<StaffArgs>(args));
+  add_store_keeping(app, line.command, std::get<StoreArgs>(args));
+  add_simulate(app, line.command, std::get<SimulateArgs>(args));
+  add_selftest(app, line.command, std::get<SelfTestArgs>(args));
+  add_algorithm_list(app, line.command, std::get<AlgorithmsArgs>(args));
+  add_memory(app, line.command, std::get<MemoryArgs>(args));
   app.add_subcommand("version", "what this is")->callback([&] { line.command = VersionArgs{}; });
   try {
     app.parse(argc, argv);
-    if (app.get_subcommands().empty()) line.command = args.kiosk;
+    if (app.get_subcommands().empty()) line.command = std::get<KioskArgs>(args);
+    for (const CLI::Option* option : app.get_options())  // else it would go to another store than was said
+      if (!app.get_subcommands().empty() && option->count() > 0)
+        throw CLI::ValidationError(option->get_name(), "is the kiosk's here: write it behind the command");
     const CLI::App* innermost = &app;
     while (!innermost->get_subcommands().empty()) innermost = innermost->get_subcommands().front();
     const CLI::Option* key = innermost->get_option_no_throw(kKeyOption);

@@ -8,7 +8,6 @@
 #include <charconv>
 #include <cstdlib>
 #include <sstream>
-#include <string>
 
 namespace relievo::firmware {
 namespace {
@@ -60,11 +59,8 @@ void add_export(CLI::App& command, CalibrationArgs& args) {
       command.add_option("revision", args.revision, "which; default the one in use")->check(check_revision);
   word(command, "--calibration", args.source, "FILE", "one of a file instead of the store's")
       ->excludes(revision);
-  command
-      .add_option_function<std::string>(
-          "--as", [&args](const std::string& word) { args.ros = word == "ros"; },
-          "rig: one file as OpenCV writes it; ros: left.yaml and right.yaml (camera_info)")
-      ->check(CLI::IsMember({"rig", "ros"}))
+  add_either(command, "--as", args.ros, "rig", "ros",
+             "rig: one file as OpenCV writes it; ros: left.yaml and right.yaml (camera_info)")
       ->default_str("rig");
 }
 
@@ -87,10 +83,7 @@ void add_board_words(CLI::App& command, BoardArgs& board, bool required) {
 }
 
 CLI::Option* add_kind(CLI::App& command, const char* name, BoardArgs& board, const char* help) {
-  return command
-      .add_option_function<std::string>(
-          name, [&board](const std::string& word) { board.charuco = word == "charuco"; }, help)
-      ->check(CLI::IsMember({"chessboard", "charuco"}));
+  return add_either(command, name, board.charuco, "chessboard", "charuco", help);
 }
 
 CLI::Option* add_live(CLI::App& command, CalibrateLiveArgs& args) {

@@ -48,6 +48,10 @@ struct TwoNumbersRule {
 CLI::Option* add_two_numbers(CLI::App& command, const char* name, int& first, int& second,
                              const TwoNumbersRule& rule, const char* help);
 
+// One of two words: is it the second?
+CLI::Option* add_either(CLI::App& command, const char* name, bool& second, const char* one, const char* other,
+                        const char* help);
+
 inline constexpr const char* kKeyOption = "--key";
 void add_store(CLI::App& command, Path& store);  // and kKeyOption, which CommandLine::key takes up
 

@@ -8,15 +8,20 @@
 
 #include <cstddef>
 #include <cstdint>
+#include <memory>
 #include <new>
 #include <span>
-#include <utility>
 
 #include <sys/mman.h>
 
 #include "firmware/base/budget.h"
 
 namespace relievo::firmware {
+
+struct UnmapPages {
+  std::size_t bytes = 0;
+  void operator()(void* begin) const { ::munmap(begin, bytes); }
+};
 
 // PageBlock: a large block of zeros from the kernel, in huge pages where it has them: a stage that takes
 // 150 MB page by page spends a tenth of its time in the kernel. A page that nothing touches costs nothing,
@@ -26,37 +31,24 @@ namespace relievo::firmware {
 class PageBlock {
  public:
   PageBlock() = default;
-  explicit PageBlock(std::size_t bytes) : mapped_(bytes + kHugePage), size_(bytes) {
-    begin_ = ::mmap(nullptr, mapped_, PROT_READ | PROT_WRITE, MAP_PRIVATE | MAP_ANONYMOUS, -1, 0);
-    if (begin_ == MAP_FAILED) throw std::bad_alloc();
+  explicit PageBlock(std::size_t bytes) : size_(bytes) {
+    const std::size_t mapped = bytes + kHugePage;
+    void* const begin = ::mmap(nullptr, mapped, PROT_READ | PROT_WRITE, MAP_PRIVATE | MAP_ANONYMOUS, -1, 0);
+    if (begin == MAP_FAILED) throw std::bad_alloc();
+    pages_ = {begin, UnmapPages{mapped}};
     // Advice: a kernel without huge pages says no, and all is as before.
-    ::madvise(begin_, mapped_, MADV_HUGEPAGE);
-  }
-  PageBlock(PageBlock&& other) noexcept { swap(other); }
-  PageBlock& operator=(PageBlock&& other) noexcept {
-    swap(other);
-    return *this;
-  }
-  ~PageBlock() {
-    if (mapped_ > 0) ::munmap(begin_, mapped_);
+    ::madvise(begin, mapped, MADV_HUGEPAGE);
   }
 
   std::span<std::byte> bytes() const {
-    const std::uintptr_t begin = reinterpret_cast<std::uintptr_t>(begin_);
+    const std::uintptr_t begin = reinterpret_cast<std::uintptr_t>(pages_.get());
     const std::uintptr_t aligned = (begin + kHugePage - 1) / kHugePage * kHugePage;
-    return {static_cast<std::byte*>(begin_) + (aligned - begin), size_};
+    return {static_cast<std::byte*>(pages_.get()) + (aligned - begin), size_};
   }
 
  private:
   static constexpr std::size_t kHugePage = std::size_t{2} << 20;
-  void swap(PageBlock& other) {
-    std::swap(begin_, other.begin_);
-    std::swap(mapped_, other.mapped_);
-    std::swap(size_, other.size_);
-  }
-
-  void* begin_ = nullptr;
-  std::size_t mapped_ = 0;
+  std::unique_ptr<void, UnmapPages> pages_;
   std::size_t size_ = 0;
 };
 

@@ -71,7 +71,7 @@ inline constexpr std::size_t kLiveBytes =
     4 * live_feed_bytes(kLiveSidePx) + 2 * live_feed_bytes(kWatchedSidePx);
 
 // The heap, everybody's: screen, store, libraries, and the textures of a GL driver that draws in software.
-// What comes on top of it is refused (base/steady_heap.h): pages that a driver maps, and stacks.
+// What comes on top of it is refused (base/process_memory.h): pages that a driver maps, and stacks.
 inline constexpr std::size_t kHeapBytes = 448 * kMiB, kDriverBytes = 128 * kMiB;
 // For the solid beside an exported model, while it is made: 27 and 147 MiB of a face at 1920 x 1200, which
 // grow with its mesh.

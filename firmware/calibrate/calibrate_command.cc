@@ -4,7 +4,6 @@
 
 #include <algorithm>
 #include <array>
-#include <cctype>
 #include <cmath>
 #include <cstdint>
 #include <cstdio>
@@ -16,6 +15,7 @@
 
 #include "firmware/base/output_folder.h"
 #include "firmware/base/version.h"
+#include "firmware/base/wall_time.h"
 #include "hal/base/words.h"
 #include "hal/picture_file.h"
 #include "pipeline/calibrate/file/calibration_file.h"
@@ -163,8 +163,7 @@ std::string last_name(const Path& folder) {
 using Files = std::map<std::string, Path>;
 
 std::optional<std::string> key_of(const Path& file, std::string_view side) {
-  std::string extension = file.extension().string();
-  std::ranges::transform(extension, extension.begin(), [](unsigned char c) { return char(std::tolower(c)); });
+  const std::string extension = hal::lower_extension(file);
   const std::string stem = file.stem().string();
   if ((extension != ".png" && extension != ".jpg" && extension != ".jpeg") || !stem.starts_with(side))
     return std::nullopt;
@@ -184,13 +183,13 @@ std::string plain_name(const std::string& key) {
   return first == std::string::npos ? "left/right" : key.substr(first);
 }
 
-// No board is a finding, anything else an error. The size of the cameras' pictures is that of the first board
-// seen. A picture without a board may have any: it plays no part.
+// The size of the cameras' pictures is that of the first board seen. A picture without a board may have any:
+// it plays no part.
 Result<pipeline::BoardCorners> look_in(const hal::Picture& picture, const Path& file,
                                        pipeline::CalibratorInput& input) {
-  auto corners = pipeline::find_board(picture.view(), input.pattern);
-  if (!corners && corners.error().code == Errc::NotFound) return pipeline::BoardCorners{};
+  auto corners = pipeline::look_for_board(picture.view(), input.pattern);
   if (!corners) return corners.error().at(file.native());
+  if (corners->empty()) return corners;
   if (input.width_px == 0) {
     input.width_px = picture.width_px;
     input.height_px = picture.height_px;
@@ -229,6 +228,13 @@ Result<pipeline::CalibratorInput> read_views(const std::vector<PicturePairFiles>
   return input;
 }
 
+// In the order of storage::CalibrationGrade: what nobody knows, then the verdicts in their order.
+constexpr std::array kGrades{"-", "pass", "usable", "refuse"};
+static_assert(int(storage::CalibrationGrade::Refuse) == 1 + int(pipeline::CalibrationVerdict::Refuse) &&
+              kGrades.size() == 1 + std::size_t(storage::CalibrationGrade::Refuse));
+
+std::string number(double value, int decimals) { return value <= 0 ? "-" : decimal(value, decimals); }
+
 }  // namespace
 
 Result<void> write_calibration_report(const Path& folder, const std::vector<PicturePairFiles>& pairs,
@@ -263,34 +269,25 @@ Result<void> write_calibration_report(const Path& folder, const std::vector<Pict
 }
 
 void tell_quality(const pipeline::CalibrationQuality& q, std::ostream& out) {
-  char line[320];
   for (const pipeline::ViewQuality& view : q.views) {
+    out << "view " << view.name;
     if (view.used)
-      std::snprintf(line, sizeof line, "view %s: used, left %.3f px, right %.3f px, epipolar %s px",
-                    view.name.c_str(), view.left_rms_px, view.right_rms_px,
-                    decimal(view.epipolar_rms_px, 3).c_str());
-    else std::snprintf(line, sizeof line, "view %s: left out, %s", view.name.c_str(), view.reason.c_str());
-    out << line;
+      out << ": used, left " << decimal(view.left_rms_px, 3) << " px, right " << decimal(view.right_rms_px, 3)
+          << " px, epipolar " << decimal(view.epipolar_rms_px, 3) << " px";
+    else out << ": left out, " << view.reason;
     if (view.corners_dropped > 0) out << ", " << view.corners_dropped << " stray corners dropped";
     out << '\n';
   }
-  std::snprintf(line, sizeof line,
-                "%d of %d pairs used, pair rms %.3f px, each camera alone %.3f and %.3f px, held out %s "
-                "px, baseline %.2f mm",
-                q.used, int(q.views.size()), q.pair_rms_px, q.left_rms_px, q.right_rms_px,
-                decimal(q.held_out_epipolar_px, 3).c_str(), q.baseline_mm);
-  out << line << '\n';
-  std::snprintf(
-      line, sizeof line,
-      "at %.0f mm: depth within %.3f mm (95 %%); boards held out found %s mm from where their squares put them; "
-      "lengths within %.3f %% (95 %%)",
-      pipeline::kFaceMm, pipeline::kTwoSided95 * q.face_depth_sigma_mm,
-      decimal(q.measured_depth_mm, 3).c_str(), pipeline::kTwoSided95 * q.uncertainty.scale_percent);
-  out << line << '\n';
+  out << q.used << " of " << q.views.size() << " pairs used, pair rms " << decimal(q.pair_rms_px, 3)
+      << " px, each camera alone " << decimal(q.left_rms_px, 3) << " and " << decimal(q.right_rms_px, 3)
+      << " px, held out " << decimal(q.held_out_epipolar_px, 3) << " px, baseline "
+      << decimal(q.baseline_mm, 2) << " mm\nat " << decimal(pipeline::kFaceMm, 0) << " mm: depth within "
+      << decimal(pipeline::kTwoSided95 * q.face_depth_sigma_mm, 3) << " mm (95 %); boards held out found "
+      << decimal(q.measured_depth_mm, 3) << " mm from where their squares put them; lengths within "
+      << decimal(pipeline::kTwoSided95 * q.uncertainty.scale_percent, 3) << " % (95 %)\n";
   if (q.expected_as_in_use)
     out << "the lenses are those of the calibration in use: its baseline is expected (--baseline-mm N: another, 0: none)\n";
-  const char* const words[] = {"pass", "usable", "refuse"};
-  out << "verdict: " << words[int(q.verdict)] << '\n';
+  out << "verdict: " << pipeline::name_of(q.verdict) << '\n';
   for (const std::string& reason : q.reasons) out << "  " << reason << '\n';
   out.flush();
 }
@@ -363,6 +360,27 @@ Result<pipeline::CalibratorOutput> run_calibrate(const CalibrateArgs& args, std:
         .at(args.pictures.native());
   RELIEVO_TRY(pipeline::write_calibration(args.output, result->calibration));
   return result;
+}
+
+storage::CalibrationFigures figures_of(const pipeline::CalibrationQuality& q) {
+  return {static_cast<storage::CalibrationGrade>(1 + int(q.verdict)), q.held_out_epipolar_px,
+          q.depth_sigma_mm, q.shape_sigma_mm};
+}
+
+std::string history_heading() {
+  return "   no  made                  pictures   verdict  pair px  held out  shift px  depth mm  shape mm  baseline mm  used  from";
+}
+
+std::string line_of(const storage::CalibrationInfo& c) {
+  const std::string size = std::to_string(c.width_px) + "x" + std::to_string(c.height_px);
+  char line[200];
+  std::snprintf(line, sizeof line, "%c %4u  %s  %-9s  %-7s  %7s  %8s  %8s  %8s  %8s  %11s  %4d  ",
+                c.active ? '*' : ' ', c.revision, text_of(c.created_at).c_str(), size.c_str(),
+                kGrades[std::size_t(c.figures.grade)], number(c.rms_px, 3).c_str(),
+                number(c.figures.held_out_epipolar_px, 3).c_str(), number(c.epipolar_shift_px, 4).c_str(),
+                number(c.figures.depth_sigma_mm, 2).c_str(), number(c.figures.shape_sigma_mm, 2).c_str(),
+                number(c.baseline_mm, 2).c_str(), c.enrolments);
+  return line + c.note;
 }
 
 }  // namespace relievo::firmware

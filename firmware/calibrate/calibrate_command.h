@@ -20,6 +20,7 @@
 #include "firmware/arguments/command_line.h"
 #include "hal/base/result.h"
 #include "pipeline/calibrate/calibrator.h"
+#include "storage/record.h"
 
 namespace relievo::firmware {
 
@@ -57,5 +58,11 @@ Result<void> write_calibration_report(const Path& folder, const std::vector<Pict
                                       const pipeline::CalibratorInput& input,
                                       const pipeline::CalibratorOutput& result, const std::string& made_at,
                                       std::ostream& out);
+
+// How a calibration stands in the store's history, and how the history is told: a table, the heading and a
+// line for each. What nobody knows is a dash. Thread: any.
+storage::CalibrationFigures figures_of(const pipeline::CalibrationQuality& quality);
+std::string history_heading();
+std::string line_of(const storage::CalibrationInfo& calibration);
 
 }  // namespace relievo::firmware

@@ -2,8 +2,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "firmware/capture/focus_peaking.h"
 
-#include <string.h>
-
 #include <algorithm>
 #include <cstdlib>
 
@@ -122,11 +120,6 @@ double FocusPeaking::mark(const ImageView& picture, std::uint8_t* shown_rgb, int
       std::ranges::copy(kColour, shown_rgb + 3 * (std::ptrdiff_t(y) * shown_width_px + x));
     }
   return double(marked) / (double(shown_width_px) * shown_height_px);
-}
-
-void FocusPeaking::wipe() {
-  if (!smoothed_.empty()) explicit_bzero(smoothed_.data(), smoothed_.size() * sizeof smoothed_[0]);
-  smoothed_.clear();
 }
 
 }  // namespace relievo::firmware

@@ -19,7 +19,7 @@ class FocusPeaking {
   // Colours the pixels of `shown` (Rgb8, as LiveFeed::fill() makes it of `picture`) in which an edge is in
   // focus. Gives the share of them: of the same scene the larger the better in focus.
   double mark(const ImageView& picture, std::uint8_t* shown_rgb, int shown_width_px, int shown_height_px);
-  void wipe();
+  void wipe() { *this = {}; }  // the heap wipes what it takes back
 
   static constexpr std::array<std::uint8_t, 3> kColour{90, 255, 60};
 

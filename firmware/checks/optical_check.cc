@@ -53,11 +53,16 @@ Result<pipeline::Pipeline> stages_for_targets(const pipeline::StereoCalibration&
 // surface than a face has, and the texture stage with its head frame is not run.
 // Left camera's frame, millimetres.
 // Memory: 0.9 GiB of address space, touched as far as the pictures need; one pool of threads.
-// Errors: the stages' own; PoorGeometry (nothing measured there).
+// Errors: the stages' own; PoorGeometry (nothing, or too little, measured there); each names the target.
 class TargetMeter {
  public:
-  TargetMeter(pipeline::Pipeline stages, const std::atomic<bool>& cancelled)
-      : context_{output_, scratch_, pool_, progress_, cancelled}, pipeline_(std::move(stages)) {}
+  TargetMeter(pipeline::Pipeline stages, const OpticalCheckOptions& options,
+              const std::atomic<bool>& cancelled)
+      : context_{output_, scratch_, pool_, progress_, cancelled},
+        pipeline_(std::move(stages)),
+        targets_(options.targets),
+        limits_(limits_at(options.scale)),
+        show_(options.show) {}
 
   // Rectifies the pair; it is borrowed until the next one is taken.
   Result<void> take(const TargetPictures& pictures) {
@@ -66,13 +71,10 @@ class TargetMeter {
     RELIEVO_TRY_ASSIGN(pair_, pipeline_.rectify({pictures.left.view(), pictures.right.view()}, context_));
     return {};
   }
-  // The measured vertices of the mesh (never the bridged ones) within `reach_mm` of `centre_mm` as the
-  // left rectified view shows it.
-  Result<std::vector<Vec3d>> surface_around(const Vec3d& centre_mm, double reach_mm);
-  // The rectified left view around the target, beside it the same with every point coloured by its
-  // deviation: blue -range, white 0, red +range, and the scale below.
-  hal::Picture picture_of(const Vec3d& centre_mm, double reach_mm, const std::vector<Vec3d>& points_mm,
-                          const std::vector<double>& deviations_mm, double range_mm) const;
+  // Of the pair taken, a target that stands there: into the report.
+  Result<void> measure_dumbbell(const TargetPlace& place, const std::string& name);
+  Result<void> measure_plate(const TargetPlace& place, const std::string& name);
+  AcceptanceReport report;
 
  private:
   struct Circle {
@@ -83,6 +85,13 @@ class TargetMeter {
     const double scale = pair_->focal_px / c.z;
     return {scale * c.x + pair_->left_centre_px.x, scale * c.y + pair_->left_centre_px.y, scale * reach_mm};
   }
+  // The measured vertices of the mesh (never the bridged ones) within `reach_mm` of `centre_mm` as the
+  // left rectified view shows it.
+  Result<std::vector<Vec3d>> surface_around(const Vec3d& centre_mm, double reach_mm);
+  template <typename Form>
+  Result<void> show(const std::string& name, const Form& form, const std::vector<Vec3d>& points_mm,
+                    const Vec3d& centre_mm, double reach_mm, double limit_mm) const;
+  Result<Vec3d> measure_sphere(const Vec3d& centre_mm, const Vec3d& rod, const std::string& name);
 
   BootMemory memory_{0, budget::kLargestPlan.products, budget::kLargestPlan.scratch};
   Arena output_{memory_.output()}, scratch_{memory_.scratch()};
@@ -90,8 +99,24 @@ class TargetMeter {
   pipeline::Progress progress_;
   pipeline::StageContext context_;
   pipeline::Pipeline pipeline_;
+  const OpticalTargets& targets_;
+  AcceptanceLimits limits_;
+  const ShowTarget& show_;
   std::optional<pipeline::RectifiedPair> pair_;
 };
+
+// What of the surface the certificate covers. `rod` points along the rod, unit length.
+std::vector<Vec3d> cap_of(const std::vector<Vec3d>& surface, const Vec3d& centre_mm, const Vec3d& rod) {
+  const double least = std::cos(kCapDeg * std::numbers::pi / 180);
+  std::vector<Vec3d> cap;
+  for (const Vec3d& p : surface) {
+    const Vec3d out = minus(p, centre_mm);
+    const bool faces = -dot(out, p) > least * length(out) * length(p);
+    const bool at_rod = dot(out, rod) > 0 && length(cross(out, rod)) < kRodMm;
+    if (faces && !at_rod) cap.push_back(p);
+  }
+  return cap;
+}
 
 Result<std::vector<Vec3d>> TargetMeter::surface_around(const Vec3d& centre_mm, double reach_mm) {
   pipeline::RectifiedPair& pair = *pair_;
@@ -112,93 +137,60 @@ Result<std::vector<Vec3d>> TargetMeter::surface_around(const Vec3d& centre_mm, d
   return points;
 }
 
-hal::Picture TargetMeter::picture_of(const Vec3d& centre_mm, double reach_mm,
-                                     const std::vector<Vec3d>& points_mm,
-                                     const std::vector<double>& deviations_mm, double range_mm) const {
+// The rectified left view around the target, beside it the same with every point coloured by its deviation:
+// blue below, white 0, red above, and the scale below.
+template <typename Form>
+Result<void> TargetMeter::show(const std::string& name, const Form& form, const std::vector<Vec3d>& points_mm,
+                               const Vec3d& centre_mm, double reach_mm, double limit_mm) const {
+  if (!show_) return {};
   const pipeline::RectifiedPair& pair = *pair_;
   const Circle circle = circle_around(centre_mm, reach_mm);
   DeviationPicture picture(pair.left.rgb, pair.width_px, pair.height_px,
                            {int(circle.x_px - circle.radius_px), int(circle.y_px - circle.radius_px),
                             int(circle.x_px + circle.radius_px), int(circle.y_px + circle.radius_px)});
-  for (std::size_t i = 0; i < points_mm.size(); ++i) {
-    const Vec3d p = apply(pair.rectified_from_left, points_mm[i]);
+  // A quarter of what is allowed fills the colours: a good reading then still shows its pattern.
+  const double range_mm = limit_mm / 4;
+  for (const Vec3d& point : points_mm) {
+    const Vec3d p = apply(pair.rectified_from_left, point);
     picture.mark(pair.focal_px * p.x / p.z + pair.left_centre_px.x,
-                 pair.focal_px * p.y / p.z + pair.left_centre_px.y, deviations_mm[i] / range_mm);
+                 pair.focal_px * p.y / p.z + pair.left_centre_px.y, deviation(form, point) / range_mm);
   }
-  return picture.finish();
+  return show_(name, picture.finish());
 }
 
-template <typename Form>
-Result<void> show_reading(const TargetMeter& meter, const TargetReading& reading, const Form& form,
-                          const std::vector<Vec3d>& points, const Vec3d& centre_mm, double reach_mm,
-                          double range_mm, const ShowTarget& show) {
-  if (!show) return {};
-  std::vector<double> deviations;
-  deviations.reserve(points.size());
-  for (const Vec3d& p : points) deviations.push_back(deviation(form, p));
-  return show(reading.name, meter.picture_of(centre_mm, reach_mm, points, deviations, range_mm));
-}
-
-// What of the surface the certificate covers. `rod` points along the rod, unit length.
-std::vector<Vec3d> cap_of(const std::vector<Vec3d>& surface, const Vec3d& centre_mm, const Vec3d& rod) {
-  const double least = std::cos(kCapDeg * std::numbers::pi / 180);
-  std::vector<Vec3d> cap;
-  for (const Vec3d& p : surface) {
-    const Vec3d out = minus(p, centre_mm);
-    const bool faces = -dot(out, p) > least * length(out) * length(p);
-    const bool at_rod = dot(out, rod) > 0 && length(cross(out, rod)) < kRodMm;
-    if (faces && !at_rod) cap.push_back(p);
-  }
-  return cap;
-}
-
-Result<TargetReading> measure_sphere(TargetMeter& meter, const TargetShot& shot, const Vec3d& centre_mm,
-                                     const Vec3d& rod, const std::string& name, double picture_range_mm,
-                                     const ShowTarget& show) {
-  const double radius = shot.targets.sphere_diameter_mm / 2;
-  auto surface = meter.surface_around(centre_mm, radius + kMarginMm);
+// Where its centre is.
+Result<Vec3d> TargetMeter::measure_sphere(const Vec3d& centre_mm, const Vec3d& rod, const std::string& name) {
+  const double reach_mm = targets_.sphere_diameter_mm / 2 + kMarginMm;
+  auto surface = surface_around(centre_mm, reach_mm);
   if (!surface) return at_target(surface.error(), name);
   const std::vector<Vec3d> cap = cap_of(*surface, centre_mm, rod);
   const auto read = pipeline::best_fit::read_sphere(cap, kDiscardShare);
   if (!read) return at_target(read.error(), name);
-  const double size_mm = 2 * read->form.radius_mm - shot.targets.sphere_diameter_mm;
-  const TargetReading reading{
-      name,           TargetKind::Dumbbell, surface->size(), read->used,          read->discarded,
-      read->range_mm, read->rms_mm,         size_mm,         read->form.centre_mm};
-  RELIEVO_TRY(
-      show_reading(meter, reading, read->form, cap, centre_mm, radius + kMarginMm, picture_range_mm, show));
-  return reading;
+  const double size_mm = 2 * read->form.radius_mm - targets_.sphere_diameter_mm;
+  report.targets.push_back({name, TargetKind::Dumbbell, surface->size(), read->used, read->discarded,
+                            read->range_mm, read->rms_mm, size_mm, read->form.centre_mm});
+  RELIEVO_TRY(show(name, read->form, cap, centre_mm, reach_mm, limits_.form_mm));
+  return read->form.centre_mm;
 }
 
-// Measures one target that was taken by the meter, and adds its readings to the report.
-// Errors: as TargetMeter, and PoorGeometry where too few points lie on the target; each names it.
-Result<void> measure_dumbbell(TargetMeter& meter, const TargetShot& shot, double picture_range_mm,
-                              const ShowTarget& show, AcceptanceReport& report) {
-  const std::string name = "dumbbell " + std::to_string(shot.number + 1);
-  const Vec3d along = minus(left_from_target(shot.place, {1, 0, 0}), left_from_target(shot.place, {0, 0, 0}));
-  Vec3d centres[2];
-  for (const int side : {0, 1}) {
-    const double out = side == 0 ? -1 : 1;
-    const Vec3d nominal = left_from_target(shot.place, {out * shot.targets.sphere_spacing_mm / 2, 0, 0});
-    RELIEVO_TRY_ASSIGN(const TargetReading reading,
-                       measure_sphere(meter, shot, nominal, times(along, -out),
-                                      name + (side == 0 ? " a" : " b"), picture_range_mm, show));
-    centres[side] = reading.centre_mm;
-    report.targets.push_back(reading);
-  }
-  report.spacings.push_back({name, distance(centres[0], centres[1]) - shot.targets.sphere_spacing_mm});
+Result<void> TargetMeter::measure_dumbbell(const TargetPlace& place, const std::string& name) {
+  const Vec3d along = minus(left_from_target(place, {1, 0, 0}), left_from_target(place, {0, 0, 0}));
+  const double half_mm = targets_.sphere_spacing_mm / 2;
+  RELIEVO_TRY_ASSIGN(const Vec3d a,
+                     measure_sphere(left_from_target(place, {-half_mm, 0, 0}), along, name + " a"));
+  RELIEVO_TRY_ASSIGN(const Vec3d b,
+                     measure_sphere(left_from_target(place, {half_mm, 0, 0}), times(along, -1), name + " b"));
+  report.spacings.push_back({name, distance(a, b) - targets_.sphere_spacing_mm});
   return {};
 }
 
-Result<void> measure_plate(TargetMeter& meter, const TargetShot& shot, double picture_range_mm,
-                           const ShowTarget& show, AcceptanceReport& report) {
-  const std::string name = "plate " + std::to_string(shot.number + 1);
-  const Vec3d middle = left_from_target(shot.place, {0, 0, 0});
-  const Vec3d x = minus(left_from_target(shot.place, {1, 0, 0}), middle),
-              y = minus(left_from_target(shot.place, {0, 1, 0}), middle);
-  const double half_width = shot.targets.plate_width_mm / 2, half_height = shot.targets.plate_height_mm / 2;
-  const double reach = std::hypot(half_width, half_height) + kMarginMm;
-  auto surface = meter.surface_around(middle, reach);
+Result<void> TargetMeter::measure_plate(const TargetPlace& place, const std::string& name) {
+  const Vec3d middle = left_from_target(place, {0, 0, 0});
+  const Vec3d x = minus(left_from_target(place, {1, 0, 0}), middle),
+              y = minus(left_from_target(place, {0, 1, 0}), middle);
+  const double half_width = targets_.plate_width_mm / 2, half_height = targets_.plate_height_mm / 2;
+  const double reach_mm = std::hypot(half_width, half_height) + kMarginMm;
+  auto surface = surface_around(middle, reach_mm);
   if (!surface) return at_target(surface.error(), name);
   std::vector<Vec3d> inside;
   for (const Vec3d& p : *surface) {
@@ -208,12 +200,16 @@ Result<void> measure_plate(TargetMeter& meter, const TargetShot& shot, double pi
   }
   const auto read = pipeline::best_fit::read_plane(inside, kDiscardShare);
   if (!read) return at_target(read.error(), name);
-  const TargetReading reading{
-      name, TargetKind::Plate, surface->size(), read->used, read->discarded, read->range_mm, read->rms_mm, 0,
-      {}};
-  RELIEVO_TRY(show_reading(meter, reading, read->form, inside, middle, reach, picture_range_mm, show));
-  report.targets.push_back(reading);
-  return {};
+  report.targets.push_back({name,
+                            TargetKind::Plate,
+                            surface->size(),
+                            read->used,
+                            read->discarded,
+                            read->range_mm,
+                            read->rms_mm,
+                            0,
+                            {}});
+  return show(name, read->form, inside, middle, reach_mm, limits_.flatness_mm);
 }
 
 TargetShot series_of(const OpticalCheckOptions& options) {
@@ -222,13 +218,6 @@ TargetShot series_of(const OpticalCheckOptions& options) {
   shot.seed = options.seed;
   shot.scale = options.scale;
   return shot;
-}
-
-// No board is a finding, anything else an error.
-Result<pipeline::BoardCorners> look(const hal::Picture& picture, const pipeline::BoardPattern& pattern) {
-  auto corners = pipeline::find_board(picture.view(), pattern);
-  if (!corners && corners.error().code == Errc::NotFound) return pipeline::BoardCorners{};
-  return corners;
 }
 
 }  // namespace
@@ -257,8 +246,8 @@ Result<pipeline::CalibratorOutput> calibrate_on_boards(const Photograph& photogr
     input.height_px = pictures.left.height_px;
     pipeline::BoardView& view = input.views.emplace_back();
     view.name = std::to_string(shot.number);
-    RELIEVO_TRY_ASSIGN(view.left, look(pictures.left, input.pattern));
-    RELIEVO_TRY_ASSIGN(view.right, look(pictures.right, input.pattern));
+    RELIEVO_TRY_ASSIGN(view.left, pipeline::look_for_board(pictures.left.view(), input.pattern));
+    RELIEVO_TRY_ASSIGN(view.right, pipeline::look_for_board(pictures.right.view(), input.pattern));
     each();
   }
   RELIEVO_TRY_ASSIGN(auto output, pipeline::calibrate(input));
@@ -317,30 +306,23 @@ Result<AcceptanceReport> measure_targets(const pipeline::StereoCalibration& cali
                                          const std::atomic<bool>& cancelled,
                                          const std::function<void()>& each) {
   RELIEVO_TRY_ASSIGN(auto stages, stages_for_targets(calibration));
-  TargetMeter meter(std::move(stages), cancelled);
-  AcceptanceReport report;
+  TargetMeter meter(std::move(stages), options, cancelled);
   TargetShot shot = series_of(options);
-  for (const TargetKind kind : {TargetKind::Dumbbell, TargetKind::Plate}) {
-    const auto& places = kind == TargetKind::Dumbbell ? options.dumbbells : options.plates;
-    const AcceptanceLimits limits = limits_at(options.scale);
-    shot.kind = kind;
+  for (const bool plate : {false, true}) {
+    shot.kind = plate ? TargetKind::Plate : TargetKind::Dumbbell;
     shot.number = 0;
-    for (const TargetPlace& place : places) {
+    for (const TargetPlace& place : plate ? options.plates : options.dumbbells) {
       if (cancelled.load()) return Error{Errc::Cancelled, "cancelled: nothing was written"};
       shot.place = place;
       RELIEVO_TRY_ASSIGN(const TargetPictures pictures, photograph(shot));
       RELIEVO_TRY(meter.take(pictures));
-      // A quarter of what is allowed fills the colours: a good reading then still shows its pattern.
-      if (kind == TargetKind::Dumbbell) {
-        RELIEVO_TRY(measure_dumbbell(meter, shot, limits.form_mm / 4, options.show, report));
-      } else {
-        RELIEVO_TRY(measure_plate(meter, shot, limits.flatness_mm / 4, options.show, report));
-      }
-      ++shot.number;
+      const std::string number = std::to_string(++shot.number);
+      RELIEVO_TRY(plate ? meter.measure_plate(place, "plate " + number)
+                        : meter.measure_dumbbell(place, "dumbbell " + number));
       each();
     }
   }
-  return report;
+  return std::move(meter.report);
 }
 
 Result<void> OpticalCheckJob::run(JobControl& control) {

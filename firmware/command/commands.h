@@ -36,9 +36,8 @@ Result<std::unique_ptr<storage::Store>> open_kept_store(const Path& folder, Serv
 Result<std::optional<pipeline::StereoCalibration>> known_calibration(const Path& folder, Services& services);
 
 // From what a person typed to somebody in the store: a name, a number as "#3", or the code a visitor was
-// given. Errors: NotFound; InvalidInput (several have the name: the numbers tell them apart).
-Result<storage::Subject> find_subject(storage::Store& store, std::string_view name_or_number);
-// The one of that name, or somebody new. A number or a code makes nobody: it is somebody's, or NotFound.
+// given. Nobody: none has that name; a number or a code is somebody's, or NotFound. Errors: InvalidInput
+// (several have the name: the numbers tell them apart).
 Result<std::optional<storage::SubjectId>> choose_subject(storage::Store& store,
                                                          std::string_view name_or_number);
 // Could somebody have this name? Asked before anything is opened: nobody is photographed in vain.

@@ -72,8 +72,9 @@ Result<void> drive(Appliance& appliance, Console& console) {
     } else if (state != State::Idle) {
       console.progress(name_of(state), appliance.progress());
     } else {
+      if (appliance.kept().enrolment != storage::EnrolmentId{}) return {};  // whenever it was to stop
       if (stop.load()) return Error{Errc::Cancelled, "the enrolment was cancelled: nothing was stored"};
-      if (begun) return appliance.problem() ? Result<void>(*appliance.problem()) : Result<void>();
+      if (begun) return *appliance.problem();
       begun = true;
       appliance.ask(ui::Intent::Begin);
     }

@@ -7,8 +7,8 @@
 
 #include "firmware/base/budget.h"
 #include "firmware/base/interrupt.h"
+#include "firmware/base/process_memory.h"
 #include "firmware/base/sentinel.h"
-#include "firmware/base/steady_heap.h"
 #include "firmware/command/commands.h"
 #include "firmware/kiosk/glass.h"
 #include "firmware/kiosk/kiosk.h"

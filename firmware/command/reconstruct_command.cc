@@ -17,9 +17,8 @@
 namespace relievo::firmware {
 namespace {
 
-// Model, pictures and report, all or nothing. `save` writes what else belongs to it.
-template <typename Made, typename Save>
-Result<std::vector<std::string>> write_results(const ReconstructArgs& args, Made& made, Save&& save) {
+// Model, pictures and report, and what is to be saved, all or nothing.
+Result<std::vector<std::string>> write_results(const ReconstructArgs& args, Reconstruction& made) {
   RELIEVO_TRY_ASSIGN(OutputFolder folder, OutputFolder::begin(args.output));
   RELIEVO_TRY_ASSIGN(const auto images, made.draw_images());
   storage::ExportOptions options(args.camera_frame ? storage::ExportFrame::Camera
@@ -33,9 +32,23 @@ Result<std::vector<std::string>> write_results(const ReconstructArgs& args, Made
                      write_further_models(made.model(), args.further, folder.path(), options.frame,
                                           args.output, interrupted()));
   RELIEVO_TRY(write_text(folder.path() / "report.json", report_json(made.report()), args.output));
-  RELIEVO_TRY(save());
+  if (!args.save.empty()) RELIEVO_TRY(made.save(args.save));
   RELIEVO_TRY(folder.commit());
   return further;
+}
+
+void say_of_work(const Reconstruction& made, Console& console) {
+  const Report& report = made.report();
+  int number = int(State::Match);
+  if (report.poses.empty())
+    for (const StageRecord& stage : report.stages)
+      console.say(line_of(stage) + (number++ < int(made.begun_with()) ? "  (as saved)" : ""));
+  for (std::size_t k = 1; k < report.poses.size(); ++k) console.say(line_of(k + 1, report.poses[k]));
+  if (report.by_hand > 0) console.say(std::to_string(report.by_hand) + " of the matches made by hand");
+  console.say(line_of(*report.drift));
+  for (const std::string& advice : {line_of_motion(report.motion_px.value_or(0)),
+                                    line_of_light(report.white.value_or(pipeline::Overexposure{}))})
+    if (!advice.empty()) console.say(advice);
 }
 
 void say_of_model(const pipeline::FaceModel& model, const std::vector<std::string>& further,
@@ -48,18 +61,6 @@ void say_of_model(const pipeline::FaceModel& model, const std::vector<std::strin
   if (model.unjudged) console.say("not judged to be a face: " + detail_of(*model.unjudged));
   for (const std::string& one : further) console.say(one);
   console.say("model and report: " + output.string());
-}
-
-Result<void> reconstruct_head(const ReconstructArgs& args, Console& console) {
-  HeadReconstruction head;
-  RELIEVO_TRY(head.run(args, console));
-  RELIEVO_TRY_ASSIGN(const std::vector<std::string> further,
-                     write_results(args, head, [] { return Result<void>(); }));
-  for (std::size_t k = 1; k < head.report().poses.size(); ++k)
-    console.say(line_of(k + 1, head.report().poses[k]));
-  console.say(line_of(*head.report().drift));
-  say_of_model(head.model(), further, args.output, console);
-  return {};
 }
 
 Result<void> reconstruct_recording(const ReconstructArgs& args, Services& services) {
@@ -79,24 +80,11 @@ Result<void> reconstruct_recording(const ReconstructArgs& args, Services& servic
 
 Result<void> run(const ReconstructArgs& args, Services& services) {
   if (args.pictures.size() == 1) return reconstruct_recording(args, services);
-  if (args.pictures.size() > 2) return reconstruct_head(args, services.console);
-  Reconstruction reconstruction;
-  RELIEVO_TRY(args.load.empty() ? reconstruction.run(args, services.console)
-                                : reconstruction.load(args, services.console));
-  const auto save = [&] { return args.save.empty() ? Result<void>() : reconstruction.save(args.save); };
-  RELIEVO_TRY_ASSIGN(const std::vector<std::string> further, write_results(args, reconstruction, save));
-
-  int number = int(State::Match);
-  for (const StageRecord& stage : reconstruction.report().stages)
-    services.console.say(line_of(stage) +
-                         (number++ < int(reconstruction.begun_with()) ? "  (as saved)" : ""));
-  if (const std::size_t count = reconstruction.report().by_hand; count > 0)
-    services.console.say(std::to_string(count) + " of the matches made by hand");
-  services.console.say(line_of(*reconstruction.report().drift));
-  for (const std::string& advice :
-       {line_of_motion(*reconstruction.report().motion_px), line_of_light(*reconstruction.report().white)})
-    if (!advice.empty()) services.console.say(advice);
-  say_of_model(reconstruction.model(), further, args.output, services.console);
+  Reconstruction made;
+  RELIEVO_TRY(args.load.empty() ? made.run(args, services.console) : made.load(args, services.console));
+  RELIEVO_TRY_ASSIGN(const std::vector<std::string> further, write_results(args, made));
+  say_of_work(made, services.console);
+  say_of_model(made.model(), further, args.output, services.console);
   if (!args.save.empty()) services.console.say("saved, with the person's face: " + args.save.string());
   return {};
 }

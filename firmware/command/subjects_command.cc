@@ -1,6 +1,7 @@
 // SPDX-FileCopyrightText: 2026 The Relievo authors
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include <algorithm>
+#include <charconv>
 #include <chrono>
 #include <cstdint>
 #include <iterator>
@@ -9,20 +10,41 @@
 #include <span>
 #include <string>
 
+#include "firmware/base/budget.h"
 #include "firmware/base/interrupt.h"
 #include "firmware/base/output_folder.h"
+#include "firmware/base/settings.h"
 #include "firmware/base/version.h"
 #include "firmware/base/wall_time.h"
 #include "firmware/command/commands.h"
 #include "firmware/records/bundle_manifest.h"
+#include "firmware/records/receipt.h"
 #include "firmware/service/further_models.h"
 #include "hal/base/whole_file.h"
 #include "pipeline/recognition/recognition_images.h"
 #include "storage/cipher/age.h"
 #include "storage/export/model_files.h"
+#include "storage/text.h"
 
 namespace relievo::firmware {
 namespace {
+
+// Whom the store takes, the session takes: nobody is refused once the cameras are open.
+static_assert(budget::kSubjectNameBytes == storage::kMaxNameBytes);
+
+std::optional<storage::SubjectId> number_in(std::string_view text) {
+  if (text.size() < 2 || text.front() != '#') return std::nullopt;
+  std::int64_t number = 0;
+  const auto [end, error] = std::from_chars(text.data() + 1, text.data() + text.size(), number);
+  if (error != std::errc() || end != text.data() + text.size()) return std::nullopt;
+  return storage::SubjectId{number};
+}
+
+Result<storage::Subject> find_subject(storage::Store& store, const std::string& name_or_number) {
+  RELIEVO_TRY_ASSIGN(const auto known, choose_subject(store, name_or_number));
+  if (!known) return Error{Errc::NotFound, "nobody of this name is in the store"}.at(name_or_number);
+  return store.subject(*known);
+}
 
 std::string number_of(storage::SubjectId id) { return "#" + std::to_string(std::int64_t(id)); }
 
@@ -193,6 +215,30 @@ Result<void> import(const SubjectsArgs& args, const Path& folder, Services& serv
 }
 
 }  // namespace
+
+Result<void> check_subject(std::string_view name_or_number) {
+  if (storage::is_name(name_or_number)) return {};
+  return Error{Errc::InvalidInput,
+               "no possible name: give 1 to 200 bytes of UTF-8 without control characters"}
+      .at("--subject");
+}
+
+Result<std::optional<storage::SubjectId>> choose_subject(storage::Store& store,
+                                                         std::string_view name_or_number) {
+  const auto number = number_in(name_or_number);
+  // Whoever types a code means its owner: as a name it would stand readable in every list.
+  if (number || is_receipt(name_or_number)) {
+    RELIEVO_TRY_ASSIGN(const auto known,
+                       number ? store.subject(*number) : find_by_receipt(store, name_or_number));
+    return std::optional(known.id);
+  }
+  RELIEVO_TRY_ASSIGN(const auto found, store.subjects({std::string(name_or_number), 0, 2}));
+  if (found.size() > 1)
+    return Error{Errc::InvalidInput,
+                 "several have this name: use the number, as in '#3' ('relievo subjects list' shows it)"}
+        .at(name_or_number);
+  return found.empty() ? std::nullopt : std::optional(found.front().id);
+}
 
 Result<void> run(const SubjectsArgs& args, Services& services) {
   using Verb = SubjectsArgs::Verb;

@@ -1,7 +1,5 @@
 // SPDX-FileCopyrightText: 2026 The Relievo authors
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include "firmware/compare/dissertation_job.h"
-
 #include <algorithm>
 #include <cmath>
 #include <random>
@@ -9,14 +7,11 @@
 
 #include "firmware/base/boot_memory.h"
 #include "firmware/calibrate/calibrate_command.h"
-#include "firmware/jobs/job_thread.h"
-#include "hal/base/thread_pool.h"
+#include "firmware/compare/set_run.h"
 #include "pipeline/algorithms.h"
 #include "pipeline/base/stage.h"
 #include "pipeline/calibrate/file/calibration_file.h"
-#include "pipeline/match/rectify/rectifier.h"
 #include "pipeline/model/calibration.h"
-#include "pipeline/model/lens.h"
 #include "pipeline/model/vector3.h"
 
 namespace relievo::firmware::compare {
@@ -163,8 +158,8 @@ Result<CubeTable> cube_table(const VirtualRig& rig, pipeline::StageContext& cont
   }
   pipeline::AlgorithmSet set;
   RELIEVO_TRY(set.set("triangulator", "linear-least-squares"));
-  RELIEVO_TRY_ASSIGN(const auto triangulator, pipeline::make_triangulator(set));
-  RELIEVO_TRY_ASSIGN(const pipeline::PointCloud cloud, triangulator(pair, matches, context));
+  RELIEVO_TRY_ASSIGN(const auto algorithms, pipeline::make_algorithms(set));
+  RELIEVO_TRY_ASSIGN(const pipeline::PointCloud cloud, algorithms.triangulator(pair, matches, context));
   if (cloud.points.size() != kHands * corners.size())
     return Error{Errc::TooFewMatches,
                  "a corner of the cube lies beyond what the virtual rig sees: a fault of this program"};

@@ -180,23 +180,20 @@ Result<void> rectify(const RunOrder& order, const std::optional<pipeline::Pipeli
 
 // Step by step what Pipeline::match() does, so that each can be timed and its product looked at.
 Result<void> match(const NamedSet& set, StepRunner& runner, Made& made) {
-  RELIEVO_TRY_ASSIGN(const auto preprocessor, pipeline::make_preprocessor(set.set));
-  RELIEVO_TRY_ASSIGN(const auto selector, pipeline::make_selector(set.set));
-  RELIEVO_TRY_ASSIGN(const auto matcher, pipeline::make_matcher(set.set));
-  RELIEVO_TRY_ASSIGN(const auto constraints, pipeline::make_constraints(set.set));
-  if (preprocessor) {
-    RELIEVO_TRY(
-        runner.step("preprocess", [&](pipeline::StageContext& c) { return preprocessor(*made.pair, c); }));
+  RELIEVO_TRY_ASSIGN(const auto use, pipeline::make_algorithms(set.set));
+  if (use.preprocessor) {
+    RELIEVO_TRY(runner.step("preprocess",
+                            [&](pipeline::StageContext& c) { return use.preprocessor(*made.pair, c); }));
   }
   const pipeline::RectifiedPair& pair = *made.pair;
   RELIEVO_TRY_ASSIGN(made.keypoints,
-                     runner.step("select", [&](pipeline::StageContext& c) { return selector(pair, c); }));
+                     runner.step("select", [&](pipeline::StageContext& c) { return use.selector(pair, c); }));
   RELIEVO_TRY_ASSIGN(made.matches, runner.step("match", [&](pipeline::StageContext& c) {
-    return matcher(pair, *made.keypoints, c);
+    return use.matcher(pair, *made.keypoints, c);
   }));
   return runner.step("judge", [&](pipeline::StageContext& c) -> Result<void> {
     std::uint16_t bit = 1;
-    for (const auto& constraint : constraints) {
+    for (const auto& constraint : use.constraints) {
       constraint(pair, made.matches->matches, made.matches->lattice_step_px, bit, c);
       bit = std::uint16_t(bit << 1U);
     }
@@ -267,10 +264,10 @@ Result<void> all_steps(const RunOrder& order, StepRunner& runner, PairFacts& fac
 // Of places that are no lattice, which is no choice.
 Result<void> look_at_selector(const RunOrder& order, StepRunner& runner, const pipeline::RectifiedPair& pair,
                               const PairFacts& facts, const Made& made, Run& run) {
-  RELIEVO_TRY_ASSIGN(const auto selector, pipeline::make_selector(order.set.set));
+  RELIEVO_TRY_ASSIGN(const auto use, pipeline::make_algorithms(order.set.set));
   const DisparityMap& region = facts.truth ? facts.truth->map : run.map;
   return runner.beside([&](pipeline::StageContext& c) -> Result<void> {
-    RELIEVO_TRY_ASSIGN(const auto right, select_in_right(selector, pair, region, c));
+    RELIEVO_TRY_ASSIGN(const auto right, select_in_right(use.selector, pair, region, c));
     run.selector = selector_figures(pair, *made.keypoints, right, *made.matches, facts.truth);
     return {};
   });

@@ -1,16 +1,18 @@
 // SPDX-FileCopyrightText: 2026 The Relievo authors
 // SPDX-License-Identifier: GPL-3.0-or-later
 //
-// One set of algorithms on one pair: every step timed, in memory of its own, measured against what is true.
-// Thread: worker.
+// One set of algorithms on one pair: every step timed, in memory of its own, measured against what is true;
+// and the dissertation's tables and figures. Thread: worker.
 #pragma once
 
 #include <atomic>
+#include <functional>
 #include <optional>
 #include <string>
 #include <vector>
 
 #include "firmware/arguments/command_line.h"
+#include "firmware/compare/page/compare_page.h"
 #include "firmware/jobs/job_thread.h"
 #include "firmware/measure/comparison.h"
 #include "firmware/measure/disparity_map.h"
@@ -48,5 +50,22 @@ struct RunOptions {
 // run that is being made. Errors: Cancelled; those of `keep_model`.
 Result<Comparison> compare_sets(std::vector<ComparedPair> pairs, std::vector<NamedSet> sets,
                                 const RunOptions& options, std::atomic<std::size_t>& at, JobControl& control);
+
+using Simulate = std::function<Result<void>(const SimulateArgs& args, const Path& folder)>;
+
+struct DissertationOrder {
+  std::optional<ComparedPair> pair;
+  std::vector<NamedSet> rule_sets, face_sets;  // suites.h
+  bool whole_view = false;
+  double limit_px = 1;
+  Path work;  // a folder of its own, for simulated pictures
+};
+
+// All of the dissertation's tables and figures. Figures 6 to 12 are done on the pair given; figure 17 too,
+// where that is calibrated. What is left is done on a simulated person, whose truth is known. `at` becomes
+// the name of what is being made. Errors: Cancelled; those of the virtual rig and of the disk; InvalidInput
+// (no set could rectify the pair).
+Result<Dissertation> do_again(const DissertationOrder& order, const Simulate& simulate,
+                              std::atomic<const char*>& at, JobControl& control);
 
 }  // namespace relievo::firmware::compare

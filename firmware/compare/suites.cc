@@ -5,8 +5,7 @@
 #include <algorithm>
 #include <array>
 
-#include "firmware/arguments/algorithm_choice.h"
-#include "firmware/compare/page/dissertation.h"
+#include "firmware/compare/page/compare_page.h"
 #include "pipeline/algorithms.h"
 
 namespace relievo::firmware::compare {
@@ -35,24 +34,13 @@ Error in_set(const Error& error, const std::string& name) {
   return error.at("set '" + name + "': " + std::string(error.where()));
 }
 
-// Whether it can be made at all: before anything is computed.
-Result<void> try_to_make(const pipeline::AlgorithmSet& set) {
-  if (const auto made = pipeline::make_preprocessor(set); !made) return made.error();
-  if (const auto made = pipeline::make_selector(set); !made) return made.error();
-  if (const auto made = pipeline::make_matcher(set); !made) return made.error();
-  if (const auto made = pipeline::make_constraints(set); !made) return made.error();
-  if (const auto made = pipeline::make_triangulator(set); !made) return made.error();
-  if (const auto made = pipeline::make_mesher(set); !made) return made.error();
-  if (const auto made = pipeline::make_texturer(set); !made) return made.error();
-  return {};
-}
-
 Result<NamedSet> named_set(const AlgorithmArgs& base, const SetWords& words) {
   AlgorithmArgs all = base;
   all.settings.insert(all.settings.end(), words.settings.begin(), words.settings.end());
   const auto set = choose_algorithms(all);
   if (!set) return in_set(set.error(), words.name);
-  if (const auto made = try_to_make(*set); !made) return in_set(made.error(), words.name);
+  // Whether it can be made at all: before anything is computed.
+  if (const auto made = pipeline::make_algorithms(*set); !made) return in_set(made.error(), words.name);
   return NamedSet{words.name, *set};
 }
 

@@ -2,16 +2,15 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 //
 // Sets that belong together, by name. A suite is made from the algorithms that this program has; that of the
-// dissertation is more than sets: dissertation_job.h makes a report of its own of it.
+// dissertation is more than sets: set_run.h makes a report of its own of it.
 // Errors: NotFound (no such suite; the error's place lists them). Thread: any.
 #pragma once
 
-#include <string>
 #include <string_view>
 #include <vector>
 
+#include "firmware/arguments/algorithm_choice.h"
 #include "firmware/arguments/command_line.h"
-#include "firmware/arguments/settings_file.h"
 #include "firmware/measure/comparison.h"
 #include "hal/base/result.h"
 

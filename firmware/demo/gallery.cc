@@ -62,7 +62,7 @@ class Gallery {
   }
   ui::Visit quoting(std::string_view code) const {
     ui::Visit visit = at(Step::Known);
-    visit.act({ui::ActionKind::HaveCode, 0}, review_);
+    visit.act(ui::ActionKind::HaveCode, review_);
     visit.type(code);
     return visit;
   }
@@ -76,7 +76,9 @@ class Gallery {
     view.live.number = std::max(1U, view.live.number);
     return view;
   }
-  void add_position(std::string_view name, Advice advice, float face_x, float steady_s, int attempt) {
+  // `by_button`: the picture is not taken by itself.
+  void add_position(std::string_view name, Advice advice, float face_x, float steady_s, int attempt,
+                    bool by_button = false) {
     ui::ViewState view = looked_at();
     view.screen = Screen::Position;
     view.live.advice = advice;
@@ -85,16 +87,8 @@ class Gallery {
     view.live.nearness = advice == Advice::TooClose ? 1.3F : advice == Advice::TooFar ? 0.7F : 1.0F;
     view.attempt = attempt;
     if (attempt > 0) view.trouble = Trouble::Refused;
+    if (by_button) view.settings.set(ui::Setting::Automatic, 0);
     add(name, view, at(Step::Position));
-  }
-  // The picture is not taken by itself.
-  void add_by_button() {
-    ui::ViewState view = looked_at();
-    view.screen = Screen::Position;
-    view.live.advice = Advice::None;
-    view.live.steady_s = 0;
-    view.settings.set(ui::Setting::Automatic, 0);
-    add("position_button", view, at(Step::Position));
   }
   void add_turn(std::string_view name, pipeline::TurnAdvice advice, float yaw_deg, unsigned long taken) {
     ui::ViewState view = looked_at();
@@ -182,7 +176,7 @@ void add_capture(Gallery& g) {
   g.add_position("position_chin", Advice::LooksUpOrDown, 0, 0, 0);
   g.add_position("position_again", Advice::Moved, 0, 0, 1);
   g.add_position("position_countdown", Advice::None, 0, ui::kSteadyFor + 0.6F, 0);
-  g.add_by_button();
+  g.add_position("position_button", Advice::None, 0, 0, 0, true);
   g.add_turn("turn_begin", pipeline::TurnAdvice::ToLeft, 0, 0);
   g.add_turn("turn", pipeline::TurnAdvice::Slower, 19, 0b0011);
   g.add_working("working_begin", Screen::Match, 0);
@@ -310,10 +304,8 @@ std::vector<Exhibit> gallery(const ui::ViewState& review, ui::Language language,
   add_overlays(g, review, idle);
   add_heard(g, idle);
   add_troubles(g, idle);
-  static std::deque<Lender::Lent> lent;  // until the next call
-  lent.clear();
   const ui::Visit visit = g.at(Step::Attract);
-  const Lender staff{lent, g.exhibits, idle, visit};
+  const Lender staff{g.exhibits, idle, visit};
   add_staff_exhibits(staff);
   add_technician_exhibits(staff, review);
   return std::move(g.exhibits);

@@ -6,7 +6,7 @@
 // Thread: main. Errors: none.
 #pragma once
 
-#include <deque>
+#include <memory>
 #include <string_view>
 #include <vector>
 
@@ -20,19 +20,19 @@ struct Exhibit {
   ui::ViewState view;
   ui::Visit visit;
   ui::Service service;  // closed, but for the staff's pages
+  // What the view of a staff's page borrows.
+  struct Lent {
+    ui::TechnicianView technician;
+    ui::ServiceView staff;
+  };
+  std::shared_ptr<Lent> lent{};
 };
 
 std::vector<Exhibit> gallery(const ui::ViewState& review, ui::Language language, std::size_t text_size,
                              bool high_contrast);
 
-// Adds the staff's pages, behind which is the view `idle`; what they borrow is kept in `lent`, for as long as
-// they are looked at.
+// Adds the staff's pages, behind which is the view `idle`.
 struct Lender {
-  struct Lent {
-    ui::TechnicianView technician;
-    ui::ServiceView staff;
-  };
-  std::deque<Lent>& lent;
   std::vector<Exhibit>& exhibits;
   const ui::ViewState& idle;
   const ui::Visit& visit;

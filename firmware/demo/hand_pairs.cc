@@ -3,6 +3,7 @@
 #include "firmware/demo/hand_pairs.h"
 
 #include <algorithm>
+#include <array>
 #include <chrono>
 #include <cmath>
 #include <utility>
@@ -20,6 +21,10 @@ constexpr std::chrono::milliseconds kPeriod{100};  // of the pairs
 constexpr double kOpenShare = 0.04;                // of the period the shutter is open
 constexpr int kMostHandPairs = 6000;
 
+constexpr std::size_t kLengths = 3;  // of the axes; behind them come the angles
+constexpr std::array kAxes{&HeldPose::right_mm, &HeldPose::down_mm,   &HeldPose::distance_mm,
+                           &HeldPose::yaw_deg,  &HeldPose::pitch_deg, &HeldPose::roll_deg};
+
 class HandBeforeRig final : public LivePairs {
  public:
   HandBeforeRig(HeldBoard board, std::uint32_t seed) : board_(std::move(board)), hand_({}, seed) {}
@@ -36,9 +41,7 @@ class HandBeforeRig final : public LivePairs {
   // Where the hand is when the shutter closes, if it goes on as it came.
   static HeldPose onward(const HeldPose& before, const HeldPose& now) {
     HeldPose pose = now;
-    for (const auto axis : {&HeldPose::right_mm, &HeldPose::down_mm, &HeldPose::distance_mm,
-                            &HeldPose::yaw_deg, &HeldPose::pitch_deg, &HeldPose::roll_deg})
-      pose.*axis += kOpenShare * (now.*axis - before.*axis);
+    for (const auto axis : kAxes) pose.*axis += kOpenShare * (now.*axis - before.*axis);
     return pose;
   }
 
@@ -69,18 +72,14 @@ void AdvisedHand::step(double HeldPose::*axis, double by) {
 
 void AdvisedHand::go_home() {
   const HeldPose home;
-  for (const auto axis : {&HeldPose::right_mm, &HeldPose::down_mm, &HeldPose::distance_mm, &HeldPose::yaw_deg,
-                          &HeldPose::pitch_deg, &HeldPose::roll_deg})
-    held_.*axis += kHomeShare * (home.*axis - held_.*axis);
+  for (const auto axis : kAxes) held_.*axis += kHomeShare * (home.*axis - held_.*axis);
   axis_ = nullptr;
 }
 
 void AdvisedHand::tremble() {
   pose_ = held_;
-  for (const auto axis : {&HeldPose::right_mm, &HeldPose::down_mm, &HeldPose::distance_mm})
-    pose_.*axis += normal(options_.tremor_mm);
-  for (const auto axis : {&HeldPose::yaw_deg, &HeldPose::pitch_deg, &HeldPose::roll_deg})
-    pose_.*axis += normal(options_.tremor_deg);
+  for (std::size_t i = 0; i < kAxes.size(); ++i)
+    pose_.*kAxes[i] += normal(i < kLengths ? options_.tremor_mm : options_.tremor_deg);
 }
 
 void AdvisedHand::obey(pipeline::LiveAdvice told, double mm, double deg) {

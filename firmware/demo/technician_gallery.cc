@@ -113,7 +113,7 @@ AlgorithmController edited(bool typing) {
   if (!typing) return controller;
   controller.act(ui::EditOption{0});
   for (const char digit : {'9', '9', '9'}) controller.act(ui::TypeDigit{digit});
-  controller.act(ui::DoTechnician{ui::TechnicianAct::UseTyped});
+  controller.act(ui::TechnicianAct::UseTyped);
   return controller;
 }
 
@@ -326,19 +326,19 @@ void lend(const ui::ViewState& review, TechnicianStage stage, TechnicianView& vi
 }
 
 Exhibit& Lender::add(std::string_view name, StaffPage page, const ui::ServiceView& view, int mode) const {
-  Lent& one = lent.emplace_back(Lent{{}, view});
-  Exhibit& exhibit = exhibits.emplace_back(Exhibit{name, idle, visit, {}});
+  const auto lent = std::make_shared<Exhibit::Lent>(Exhibit::Lent{{}, view});
+  Exhibit& exhibit = exhibits.emplace_back(Exhibit{name, idle, visit, {}, lent});
   exhibit.view.screen = ui::Screen::Staff;
-  exhibit.view.service = &one.staff;
+  exhibit.view.service = &lent->staff;
   exhibit.service.show(page, mode);
   return exhibit;
 }
 
 Exhibit& Lender::add(std::string_view name, StaffPage page, const TechnicianView& view, int mode) const {
   Exhibit& exhibit = add(name, page, ui::ServiceView{}, mode);
-  lent.back().technician = view;
-  lent.back().staff.role = ui::StaffRole::Technician;
-  lent.back().staff.technician = &lent.back().technician;
+  exhibit.lent->technician = view;
+  exhibit.lent->staff.role = ui::StaffRole::Technician;
+  exhibit.lent->staff.technician = &exhibit.lent->technician;
   exhibit.view.calibration_note = {};
   return exhibit;
 }

@@ -7,12 +7,9 @@
 #include <unistd.h>
 
 #include <algorithm>
-#include <atomic>
 #include <exception>
 #include <new>
-#include <thread>
 
-#include "firmware/base/budget.h"
 #include "firmware/base/interrupt.h"
 #include "hal/base/wiped_text.h"
 

@@ -2,22 +2,16 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "firmware/kiosk/receipt_slip.h"
 
-#include <string.h>
-
 #include <algorithm>
 #include <cmath>
 
 #include "firmware/kiosk/code/qr_code.h"
+#include "firmware/service/access.h"
 
 namespace relievo::firmware {
 namespace {
 
 constexpr int kWidthPx = 576, kMarginPx = 24, kGapPx = 20, kHighPx = 1600;
-
-void wipe_picture(hal::Picture& picture) {
-  if (!picture.bytes.empty()) explicit_bzero(picture.bytes.data(), picture.bytes.size());
-  picture = {};
-}
 
 // A long white slip; cut where the writing ends.
 class Paper {
@@ -88,12 +82,10 @@ hal::Picture draw_slip(ui::TextEngine& text, ui::Language language, const ui::Vi
 }
 
 void ReceiptSlip::wipe() {
-  for (std::string* text : {&receipt_, &link_}) {
-    explicit_bzero(text->data(), text->size());
-    text->clear();
-  }
-  wipe_picture(code_);
-  wipe_picture(link_code_);
+  wipe_text(receipt_);
+  wipe_text(link_);
+  code_ = {};
+  link_code_ = {};
   printing_ = std::make_shared<ui::Printing>(ui::Printing::None);
 }
 
@@ -137,19 +129,12 @@ void ReceiptSlip::ask_printer() {
 
 void ReceiptSlip::print(ui::TextEngine& text, ui::Language language, const ui::ViewState& view) {
   if (receipt_.empty() || *printing_ == ui::Printing::None || *printing_ == ui::Printing::Busy) return;
-  hal::Picture slip = draw_slip(text, language, view);
-  auto png = hal::encode_png(slip.view());
-  wipe_picture(slip);
+  auto png = hal::encode_png(draw_slip(text, language, view).view());
   if (!png) return void(*printing_ = ui::Printing::Failed);
   *printing_ = ui::Printing::Busy;
   const auto bytes = std::make_shared<std::vector<std::byte>>(std::move(*png));
   side_tasks_.send(
-      JobLane::Keeper,
-      [printer = printer_, bytes](JobControl&) {
-        const Result<void> printed = printer->print(*bytes);
-        explicit_bzero(bytes->data(), bytes->size());
-        return printed;
-      },
+      JobLane::Keeper, [printer = printer_, bytes](JobControl&) { return printer->print(*bytes); },
       [state = printing_](const std::optional<Error>& error) {
         *state = error ? ui::Printing::Failed : ui::Printing::Done;
       },

@@ -3,7 +3,7 @@
 //
 // ReceiptSlip: what a visitor takes home of their visit: the code for the erasure as a QR code on the screen,
 // the link to what the operator offers as another, both on paper where there is a printer. They are there as
-// long as the code is, and wiped with it.
+// long as the code is, and wiped with it: the pictures by the heap that takes them back.
 // Thread: main; the printer is the keeper's. Errors: none: a slip that could not be printed is said so.
 #pragma once
 

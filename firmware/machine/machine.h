@@ -13,7 +13,6 @@
 #include <cstdint>
 #include <optional>
 #include <string_view>
-#include <utility>
 
 #include "hal/clock.h"
 
@@ -93,22 +92,20 @@ struct Transition {
 // What a state does that no other does alike.
 inline constexpr std::array kOwnTransitions{
     Transition{State::SelfTest, Event::Passed, State::Idle},
-    Transition{State::SelfTest, Event::Failed, State::Fault},
     Transition{State::SelfTest, Event::Timeout, State::Fault},
 
     Transition{State::Idle, Event::PoseAsked, State::Position},
     Transition{State::Idle, Event::Begin, State::Capture},
     Transition{State::Idle, Event::StaffIn, State::Staff},
-    Transition{State::Idle, Event::Failed, State::Fault},
 
     Transition{State::Position, Event::Begin, State::Capture},
     Transition{State::Position, Event::StageFailed, State::Idle},  // the cameras are silent
     Transition{State::Position, Event::Cancel, State::Idle},
     Transition{State::Position, Event::Timeout, State::Idle},
-    Transition{State::Position, Event::Failed, State::Fault},
 
     Transition{State::Capture, Event::Triggered, State::Match},
     Transition{State::Capture, Event::TurnAsked, State::Turn},
+    Transition{State::Turn, Event::StageDone, State::Fuse},
     Transition{State::Match, Event::StageDone, State::Reconstruct},
     Transition{State::Reconstruct, Event::StageDone, State::Mesh},
     Transition{State::Mesh, Event::StageDone, State::Texture},
@@ -116,62 +113,49 @@ inline constexpr std::array kOwnTransitions{
     Transition{State::Assemble, Event::StageDone, State::Review},
     Transition{State::Fuse, Event::StageDone, State::Review},
 
-    Transition{State::Turn, Event::StageDone, State::Fuse},
-    Transition{State::Turn, Event::StageFailed, State::Capture},  // of the frontal picture
-    Transition{State::Turn, Event::AdviceGiven, State::Position},
-    Transition{State::Turn, Event::Cancel, State::Idle},
-    Transition{State::Turn, Event::Timeout, State::Fuse},  // with the sides that are there
-    Transition{State::Turn, Event::Failed, State::Fault},
-
     Transition{State::Review, Event::Accept, State::Store},
     Transition{State::Review, Event::Retake, State::Capture},
     Transition{State::Review, Event::PoseAsked, State::Position},
     Transition{State::Review, Event::Cancel, State::Idle},
     Transition{State::Review, Event::Timeout, State::Idle},  // no answer is no consent
-    Transition{State::Review, Event::Failed, State::Fault},
 
     Transition{State::Store, Event::StageDone, State::Idle},
     Transition{State::Store, Event::StageFailed, State::Review},  // a full disk: accept again, or leave
     Transition{State::Store, Event::Timeout, State::Fault},
-    Transition{State::Store, Event::Failed, State::Fault},
 
     Transition{State::Staff, Event::CalibrateAsked, State::Calibrate},
     Transition{State::Staff, Event::ExportAsked, State::Export},
     Transition{State::Staff, Event::StaffOut, State::Idle},
     Transition{State::Staff, Event::Cancel, State::Idle},
     Transition{State::Staff, Event::Timeout, State::Idle},
-    Transition{State::Staff, Event::Failed, State::Fault},
-
-    Transition{State::Calibrate, Event::StageDone, State::Staff},
-    Transition{State::Calibrate, Event::StageFailed, State::Staff},
-    Transition{State::Calibrate, Event::Cancel, State::Staff},
-    Transition{State::Calibrate, Event::Timeout, State::Staff},
-    Transition{State::Calibrate, Event::Failed, State::Fault},
-
-    Transition{State::Export, Event::StageDone, State::Staff},
-    Transition{State::Export, Event::StageFailed, State::Staff},
-    Transition{State::Export, Event::Cancel, State::Staff},
-    Transition{State::Export, Event::Timeout, State::Staff},
-    Transition{State::Export, Event::Failed, State::Fault},
 
     Transition{State::Fault, Event::Timeout, State::SelfTest},
     Transition{State::Fault, Event::StaffIn, State::Staff},
 };
 
-// From the photograph to the model what goes wrong leads out of every state alike, but Turn.
-inline constexpr std::array kMaking{State::Capture, State::Match,    State::Reconstruct, State::Mesh,
-                                    State::Texture, State::Assemble, State::Fuse};
-inline constexpr std::array<std::pair<Event, State>, 5> kWaysOut{
-    {{Event::StageFailed, State::Capture},  // advice is shown, another try
-     {Event::AdviceGiven, State::Position},
-     {Event::Cancel, State::Idle},
-     {Event::Timeout, State::Idle},
-     {Event::Failed, State::Fault}}};
+// From the photograph to the model what goes wrong leads out of every state alike.
+inline constexpr std::array kMaking{State::Capture, State::Turn,    State::Match,    State::Reconstruct,
+                                    State::Mesh,    State::Texture, State::Assemble, State::Fuse};
+// From what the staff asked for everything leads back to them.
+inline constexpr std::array kAsked{State::Calibrate, State::Export};
+inline constexpr std::array kOutcomes{Event::StageDone, Event::StageFailed, Event::Cancel, Event::Timeout};
 inline constexpr auto kTransitions = [] {
-  std::array<Transition, kOwnTransitions.size() + kMaking.size() * kWaysOut.size()> all{};
+  constexpr auto kFaulty = std::size_t(State::Fault);  // all states before it
+  std::array<Transition,
+             kOwnTransitions.size() + 4 * kMaking.size() + kOutcomes.size() * kAsked.size() + kFaulty>
+      all{};
   auto row = std::ranges::copy(kOwnTransitions, all.begin()).out;
-  for (const State from : kMaking)
-    for (const auto& [event, to] : kWaysOut) *row++ = {from, event, to};
+  for (const State from : kMaking) {
+    *row++ = {from, Event::StageFailed, State::Capture};  // advice is shown, another try
+    *row++ = {from, Event::AdviceGiven, State::Position};
+    *row++ = {from, Event::Cancel, State::Idle};
+    // Turn goes on with the sides that are there.
+    *row++ = {from, Event::Timeout, from == State::Turn ? State::Fuse : State::Idle};
+  }
+  for (const State from : kAsked)
+    for (const Event event : kOutcomes) *row++ = {from, event, State::Staff};
+  for (std::size_t from = 0; from < kFaulty; ++from)
+    *row++ = {static_cast<State>(from), Event::Failed, State::Fault};
   return all;
 }();
 
@@ -191,8 +175,8 @@ inline constexpr std::array kDeaf{
 
 // Somebody is to be photographed, or was: until they have left, or their record is stored.
 constexpr bool is_of_a_visit(State state) {
-  return state == State::Position || state == State::Turn || state == State::Review ||
-         state == State::Store || std::ranges::find(kMaking, state) != kMaking.end();
+  return state == State::Position || state == State::Review || state == State::Store ||
+         std::ranges::find(kMaking, state) != kMaking.end();
 }
 
 // Where an event leads, or nothing when the state does not listen to it.

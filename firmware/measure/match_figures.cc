@@ -8,7 +8,7 @@
 #include <cmath>
 
 #include "hal/base/statistics.h"
-#include "pipeline/algorithms/algorithm_table.h"
+#include "pipeline/algorithms.h"
 #include "pipeline/match/image/plane.h"
 #include "pipeline/match/image/plane_filters.h"
 #include "pipeline/mesh/triangle_raster.h"
@@ -110,19 +110,12 @@ void mirror(pipeline::RectifiedView& view, int width) {
   mirror_rows(view.grey, width, 1);
   mirror_rows(view.rgb, width, 3);
   mirror_rows(view.valid, width, 1);
+  mirror_rows(view.mirrored, width, 1);
 }
 
 // Planes whose sums over a window give the correlation.
-struct Products {
-  Products(std::pmr::memory_resource* memory, int w, int h)
-      : count(memory, w, h),
-        left(memory, w, h),
-        right(memory, w, h),
-        left_left(memory, w, h),
-        right_right(memory, w, h),
-        left_right(memory, w, h) {}
-  Plane<float> count, left, right, left_left, right_right, left_right;
-};
+enum Product : std::size_t { Count, Left, Right, LeftLeft, RightRight, LeftRight };
+using Products = std::array<Plane<float>, LeftRight + 1>;
 
 void take_products(const pipeline::RectifiedPair& pair, const DisparityMap& map, Products& p) {
   const auto w = std::size_t(pair.width_px);
@@ -138,23 +131,18 @@ void take_products(const pipeline::RectifiedPair& pair, const DisparityMap& map,
       const float r =
           pair.right.grey[right] + (at - float(k)) * (pair.right.grey[right + 1] - pair.right.grey[right]);
       const float l = pair.left.grey[map.index(x, y)];
-      p.count.row(y)[x] = 1;
-      p.left.row(y)[x] = l;
-      p.right.row(y)[x] = r;
-      p.left_left.row(y)[x] = l * l;
-      p.right_right.row(y)[x] = r * r;
-      p.left_right.row(y)[x] = l * r;
+      const std::array<float, LeftRight + 1> of{1, l, r, l * l, r * r, l * r};
+      for (std::size_t i = 0; i < of.size(); ++i) p[i].row(y)[x] = of[i];
     }
 }
 
 double correlation(const Products& p, std::size_t k) {
-  const double n = double(p.count.values[k]);
-  const auto mean = [&](const Plane<float>& plane) { return double(plane.values[k]) / n; };
-  const double l = mean(p.left);
-  const double r = mean(p.right);
-  const double ll = std::max(mean(p.left_left) - l * l, 0.0);
-  const double rr = std::max(mean(p.right_right) - r * r, 0.0);
-  return (mean(p.left_right) - l * r) / std::sqrt(ll * rr + 1e-9);
+  const auto mean = [&](Product of) { return double(p[of].values[k]) / double(p[Count].values[k]); };
+  const double l = mean(Left);
+  const double r = mean(Right);
+  const double ll = std::max(mean(LeftLeft) - l * l, 0.0);
+  const double rr = std::max(mean(RightRight) - r * r, 0.0);
+  return (mean(LeftRight) - l * r) / std::sqrt(ll * rr + 1e-9);
 }
 
 }  // namespace
@@ -263,10 +251,9 @@ Result<LeftRightFigures> left_right_figures(const pipeline::RectifiedPair& pair,
                                             const std::optional<DisparityMap>& model,
                                             pipeline::StageContext& context) {
   const pipeline::RectifiedPair other = mirrored(pair, map);
-  RELIEVO_TRY_ASSIGN(const auto selector, pipeline::make_selector(set));
-  RELIEVO_TRY_ASSIGN(const auto matcher, pipeline::make_matcher(set));
-  RELIEVO_TRY_ASSIGN(const pipeline::Keypoints keypoints, selector(other, context));
-  RELIEVO_TRY_ASSIGN(const pipeline::MatchSet matches, matcher(other, keypoints, context));
+  RELIEVO_TRY_ASSIGN(const auto algorithms, pipeline::make_algorithms(set));
+  RELIEVO_TRY_ASSIGN(const pipeline::Keypoints keypoints, algorithms.selector(other, context));
+  RELIEVO_TRY_ASSIGN(const pipeline::MatchSet matches, algorithms.matcher(other, keypoints, context));
   const DisparityMap back = disparity_map(matches, pair.width_px, pair.height_px);
   LeftRightFigures figures;
   std::vector<float> apart;
@@ -317,15 +304,15 @@ DisparityMap model_view(const pipeline::RectifiedPair& pair, const pipeline::Fac
 
 PhotoFigures photo_figures(const pipeline::RectifiedPair& pair, const DisparityMap& model,
                            pipeline::StageContext& context) {
-  Products p(&context.scratch, pair.width_px, pair.height_px);
+  const auto plane = [&] { return Plane<float>(&context.scratch, pair.width_px, pair.height_px); };
+  Products p{plane(), plane(), plane(), plane(), plane(), plane()};
   take_products(pair, model, p);
-  Plane<float> across(&context.scratch, pair.width_px, pair.height_px);
-  for (Plane<float>* plane : {&p.count, &p.left, &p.right, &p.left_left, &p.right_right, &p.left_right})
-    pipeline::box_sum(*plane, kPhotoWindowPx / 2, context.pool, across, *plane);
+  Plane<float> across = plane();
+  for (Plane<float>& one : p) pipeline::box_sum(one, kPhotoWindowPx / 2, context.pool, across, one);
   std::vector<float> all;
   constexpr float kFull = kPhotoWindowPx * kPhotoWindowPx;
-  for (std::size_t k = 0; k < p.count.values.size(); ++k)
-    if (p.count.values[k] >= kFull - 0.5F) all.push_back(float(correlation(p, k)));
+  for (std::size_t k = 0; k < p[Count].values.size(); ++k)
+    if (p[Count].values[k] >= kFull - 0.5F) all.push_back(float(correlation(p, k)));
   PhotoFigures figures;
   figures.asked = all.size();
   if (all.empty()) return figures;

@@ -14,10 +14,9 @@
 #include "firmware/measure/disparity_map.h"
 #include "hal/base/result.h"
 #include "pipeline/algorithms.h"
+#include "pipeline/base/kinds.h"
 #include "pipeline/base/stage.h"
-#include "pipeline/match/kinds.h"
 #include "pipeline/model/face_mesh.h"
-#include "pipeline/model/keypoint.h"
 #include "pipeline/model/match_set.h"
 #include "pipeline/model/rectified_pair.h"
 

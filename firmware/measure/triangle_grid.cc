@@ -61,30 +61,20 @@ TriangleGrid::TriangleGrid(const Surface& surface) : surface_(surface) {
     cell_mm_ *= 1.5;
   }
   origin_mm_ = low;
-  // Twice over the triangles: count a cell's, then place them.
-  const std::size_t count = std::size_t(nx_) * std::size_t(ny_) * std::size_t(nz_);
-  begin_.assign(count + 1, 0);
-  const auto for_each_cell = [&](const std::array<std::uint32_t, 3>& t, const auto& visit) {
-    Cell from{nx_, ny_, nz_};
-    Cell to{0, 0, 0};
-    for (const std::uint32_t v : t) {
-      const Cell c = cell_of(wide(surface.vertices_mm[v]));
-      from = {std::min(from.x, c.x), std::min(from.y, c.y), std::min(from.z, c.z)};
-      to = {std::max(to.x, c.x), std::max(to.y, c.y), std::max(to.z, c.z)};
-    }
-    for (int z = from.z; z <= to.z; ++z) {
-      for (int y = from.y; y <= to.y; ++y) {
-        for (int x = from.x; x <= to.x; ++x) visit(index_of({x, y, z}));
+  triangles_.sort(std::size_t(nx_) * std::size_t(ny_) * std::size_t(nz_), [&](auto&& add) {
+    for (std::uint32_t i = 0; i < surface.triangles.size(); ++i) {
+      Cell from{nx_, ny_, nz_};
+      Cell to{0, 0, 0};
+      for (const std::uint32_t v : surface.triangles[i]) {
+        const Cell c = cell_of(wide(surface.vertices_mm[v]));
+        from = {std::min(from.x, c.x), std::min(from.y, c.y), std::min(from.z, c.z)};
+        to = {std::max(to.x, c.x), std::max(to.y, c.y), std::max(to.z, c.z)};
       }
+      for (int z = from.z; z <= to.z; ++z)
+        for (int y = from.y; y <= to.y; ++y)
+          for (int x = from.x; x <= to.x; ++x) add(index_of({x, y, z}), i);
     }
-  };
-  for (const auto& t : surface.triangles) for_each_cell(t, [&](std::size_t cell) { ++begin_[cell + 1]; });
-  for (std::size_t i = 0; i < count; ++i) begin_[i + 1] += begin_[i];
-  triangles_.resize(begin_[count]);
-  std::vector<std::uint32_t> next(begin_.begin(), begin_.end() - 1);
-  for (std::uint32_t i = 0; i < surface.triangles.size(); ++i) {
-    for_each_cell(surface.triangles[i], [&](std::size_t cell) { triangles_[next[cell]++] = i; });
-  }
+  });
 }
 
 TriangleGrid::Cell TriangleGrid::cell_of(const Vec3d& p) const {
@@ -100,13 +90,12 @@ std::size_t TriangleGrid::index_of(const Cell& c) const {
 
 void TriangleGrid::look(const Cell& cell, const Vec3d& p, Found& found) const {
   if (cell.x < 0 || cell.y < 0 || cell.z < 0 || cell.x >= nx_ || cell.y >= ny_ || cell.z >= nz_) return;
-  const std::size_t index = index_of(cell);
-  for (std::uint32_t i = begin_[index]; i < begin_[index + 1]; ++i) {
-    const auto& t = surface_.triangles[triangles_[i]];
+  for (const std::uint32_t i : triangles_[index_of(cell)]) {
+    const auto& t = surface_.triangles[i];
     const Vec3d q = nearest_on_triangle(p, wide(surface_.vertices_mm[t[0]]), wide(surface_.vertices_mm[t[1]]),
                                         wide(surface_.vertices_mm[t[2]]));
     const double d = distance(p, q);
-    if (d < found.best) found = {d, triangles_[i], q};
+    if (d < found.best) found = {d, i, q};
   }
 }
 
@@ -121,7 +110,7 @@ void TriangleGrid::look_at_ring(const Cell& c, int ring, const Vec3d& p, Found& 
 }
 
 std::optional<Nearest> TriangleGrid::nearest(const Vec3d& p, double reach_mm) const {
-  if (triangles_.empty()) return std::nullopt;
+  if (triangles_.members() == 0) return std::nullopt;
   Found found{reach_mm};
   const Cell centre = cell_of(p);
   // What lies in ring r is at least (r - 1) cells away.

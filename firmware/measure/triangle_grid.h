@@ -11,6 +11,7 @@
 #include <optional>
 #include <vector>
 
+#include "hal/base/groups.h"
 #include "pipeline/model/vector3.h"
 
 namespace relievo::firmware::measure {
@@ -52,8 +53,7 @@ class TriangleGrid {
   double cell_mm_ = 1;
   Vec3d origin_mm_;
   int nx_ = 0, ny_ = 0, nz_ = 0;
-  std::vector<std::uint32_t> begin_;      // one a cell, and one more
-  std::vector<std::uint32_t> triangles_;  // sorted by cell
+  Groups triangles_;  // of each cell
 };
 
 }  // namespace relievo::firmware::measure

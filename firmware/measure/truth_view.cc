@@ -4,11 +4,12 @@
 
 #include <algorithm>
 #include <charconv>
-#include <cstring>
+#include <span>
 
 #include "hal/base/whole_file.h"
 #include "pipeline/calibrate/file/calibration_file.h"
-#include "pipeline/model/lens.h"
+#include "pipeline/model/calibration.h"
+#include "storage/byte_order.h"
 
 namespace relievo::firmware::measure {
 namespace {
@@ -36,14 +37,6 @@ bool number(std::string_view& rest, Number& value) {
   if (error != std::errc()) return false;
   rest.remove_prefix(std::size_t(end - rest.data()));
   return true;
-}
-
-template <typename T>
-T take(const char*& from) {
-  T value;
-  std::memcpy(&value, from, sizeof value);
-  from += sizeof value;
-  return value;
 }
 
 constexpr double kNoseRadiusMm = 95;  // the crop of 3D face recognition
@@ -78,18 +71,16 @@ Result<Surface> parse_true_surface(std::string_view rest) {
   Surface surface;
   surface.vertices_mm.resize(vertices);
   surface.triangles.resize(triangles);
-  const char* at = rest.data();
+  storage::ByteReader from(storage::bytes_of(rest));
   for (Vec3f& v : surface.vertices_mm) {
-    v.x = take<float>(at);
-    v.y = take<float>(at);
-    v.z = take<float>(at);
+    from.numbers(v.x, v.y, v.z);
     for (const float mm : {v.x, v.y, v.z})
       if (!(std::abs(mm) <= kFarthestMm)) return bad();
   }
   for (auto& t : surface.triangles) {
-    if (take<std::uint8_t>(at) != 3) return bad();
+    if (from.get<std::uint8_t>() != 3) return bad();
     for (std::uint32_t& v : t) {
-      v = take<std::uint32_t>(at);
+      v = from.get<std::uint32_t>();
       if (v >= vertices) return bad();
     }
   }
@@ -108,7 +99,7 @@ Result<TruthView> TruthView::read(const std::filesystem::path& folder) {
   RELIEVO_TRY_ASSIGN(const auto rig, pipeline::read_calibration(folder / "rig.yml"));
   truth.left_ = rig.left;
   const auto file = folder / "truth.bin";
-  RELIEVO_TRY_ASSIGN(const auto bytes, read_whole_file(file, std::size_t{1} << 30));
+  RELIEVO_TRY_ASSIGN(const auto bytes, read_whole_file(file, kMaxFileBytes));
   const std::size_t start =
       header({reinterpret_cast<const char*>(bytes.data()), bytes.size()}, truth.width_px_, truth.height_px_);
   const std::size_t count = std::size_t(truth.width_px_) * std::size_t(truth.height_px_);
@@ -116,13 +107,14 @@ Result<TruthView> TruthView::read(const std::filesystem::path& folder) {
       rig.left.height_px != truth.height_px_)
     return bad(file);
   truth.points_mm_.resize(count);
-  truth.flags_.resize(count);
-  std::memcpy(truth.flags_.data(), bytes.data() + start + count * 4, count);
+  storage::ByteReader from{std::span(bytes).subspan(start)};
+  std::vector<float> depths;
+  from.run<float>(depths, count);
+  from.run<std::uint8_t>(truth.flags_, count);
   for (int y = 0; y < truth.height_px_; ++y) {
     for (int x = 0; x < truth.width_px_; ++x) {
       const std::size_t i = truth.at(x, y);
-      float z = 0;
-      std::memcpy(&z, bytes.data() + start + i * 4, 4);
+      const float z = depths[i];
       const pipeline::Vec2d ray = pipeline::ray_of_pixel(truth.left_, {double(x), double(y)});
       truth.points_mm_[i] = std::isnan(z) ? Vec3f{0, 0, z} : narrow(times(Vec3d{ray.x, ray.y, 1}, z));
       truth.flags_[i] = std::isnan(z) ? std::uint8_t{0} : std::uint8_t(truth.flags_[i] & kJudged);

@@ -2,8 +2,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "firmware/reconstruct/picture_pair.h"
 
-#include <string>
-
 #include "pipeline/calibrate/file/calibration_file.h"
 
 namespace relievo::firmware {

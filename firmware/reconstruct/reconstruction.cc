@@ -3,8 +3,8 @@
 #include "firmware/reconstruct/reconstruction.h"
 
 #include <algorithm>
-#include <cmath>
-#include <numbers>
+#include <atomic>
+#include <span>
 #include <utility>
 
 #include "firmware/arguments/algorithm_choice.h"
@@ -13,6 +13,7 @@
 #include "firmware/work/jobs.h"
 #include "hal/base/whole_file.h"
 #include "hal/clock.h"
+#include "pipeline/fuse/head_pipeline.h"
 #include "pipeline/match/file/match_text.h"
 #include "pipeline/match/rectify/rectifier.h"
 #include "pipeline/recognition/recognition_images.h"
@@ -25,14 +26,6 @@ constexpr std::size_t kMostByHandBytes = std::size_t{64} << 20;
 // The file, and at what in it.
 Error placed(const Error& error, const Path& file) {
   return error.at(file.string() + (error.where().empty() ? "" : ": " + std::string(error.where())));
-}
-
-void describe(const pipeline::AlgorithmSet& set, const pipeline::FaceModel& model, Report& report) {
-  report.algorithms = set.to_text();
-  report.peak_rss_bytes = peak_rss_bytes();
-  report.quality = model.quality;
-  report.landmarks = model.landmarks;
-  report.head_from_camera = model.head_from_camera;
 }
 
 // The words of --from.
@@ -66,24 +59,10 @@ Result<std::vector<pipeline::Match>> read_by_hand(const Path& file,
 
 static_assert(kMostPairs == pipeline::kMostPoses);
 
-PoseReport report_of(const pipeline::RegisteredPose& pose) {
-  PoseReport report;
-  report.first_from_pose = pose.first_from_pose;
-  report.turned_deg = pipeline::turned_deg(pose.first_from_pose.rotation);
-  report.rms_mm = pose.rms_mm;
-  report.joined = pose.joined;
-  const auto worst = [&](std::size_t from) {
-    return std::sqrt(std::max(
-        {pose.covariance[7 * from], pose.covariance[7 * (from + 1)], pose.covariance[7 * (from + 2)]}));
-  };
-  report.sigma_deg = worst(0) * 180 / std::numbers::pi;
-  report.sigma_mm = worst(3);
-  return report;
-}
-
 }  // namespace
 
 Result<void> Reconstruction::run(const ReconstructArgs& args, Console& console) {
+  if (args.pictures.size() > 2) return run_head(args, console);
   const Path &left = args.pictures[0], &calibration_file = args.calibrations[0];
   RELIEVO_TRY_ASSIGN(PicturePair pictures, read_pair(left, args.pictures[1]));
   RELIEVO_TRY_ASSIGN(making_.calibration, read_calibration_for(pictures, calibration_file, left));
@@ -172,13 +151,21 @@ Result<void> Reconstruction::work(State first, Console& console, const Path& nam
     if (!done) return done.error().code == Errc::Cancelled ? done.error() : placed(done.error(), named);
   }
   const Products& made = session_.products();
-  describe(making_.set, model(), report_);
+  describe();
   report_.stages = making_.records;
   report_.by_hand = making_.by_hand.size();
   report_.drift = made.drift;
   report_.motion_px = made.matches->motion_px;
   report_.white = pipeline::measure_overexposure(*made.pair, *made.matches);
   return {};
+}
+
+void Reconstruction::describe() {
+  report_.algorithms = making_.set.to_text();
+  report_.peak_rss_bytes = peak_rss_bytes();
+  report_.quality = model().quality;
+  report_.landmarks = model().landmarks;
+  report_.head_from_camera = model().head_from_camera;
 }
 
 Result<void> Reconstruction::save(const Path& document) const {
@@ -191,18 +178,28 @@ Result<pipeline::RecognitionImages> Reconstruction::draw_images() {
   return pipeline::make_recognition_images(model(), session_.output(), scratch.arena());
 }
 
-struct HeadReconstruction::Shot {
-  PicturePair pictures;
-  pipeline::StereoCalibration calibration;
-  Path left;
+struct Reconstruction::Head {
+  struct Shot {
+    PicturePair pictures;
+    pipeline::StereoCalibration calibration;
+    Path left;
+  };
+  const pipeline::HeadPipeline& pipeline;
+  std::span<const Shot> shots;
+  Arena& kept;  // of the poses
+  ThreadPool& pool;
+  bool despite_drift;
+  std::atomic<std::size_t> at{0};  // the shot that is worked on; as many as there are: all of them together
 };
 
-Result<void> HeadReconstruction::work(const pipeline::HeadPipeline& pipeline, std::span<const Shot> shots,
-                                      bool despite_drift, ThreadPool& pool, JobControl& control) {
-  Arena scratch(memory_.scratch());
-  pipeline::StageContext context{output_, scratch, pool, control.progress, control.cancelled};
+Result<void> Reconstruction::make_head(Head& head, JobControl& control) {
+  const std::span<const Head::Shot> shots = head.shots;
+  const pipeline::HeadPipeline& pipeline = head.pipeline;
+  EnrolmentSession::Scratch room(session_);
+  Arena &output = session_.output(), &scratch = room.arena();
+  pipeline::StageContext context{output, scratch, head.pool, control.progress, control.cancelled};
   const auto timed = [&](std::string_view name, std::size_t pair, auto&& step) {
-    at_.store(pair, std::memory_order_relaxed);
+    head.at.store(pair, std::memory_order_relaxed);
     const hal::MonotonicClock clock;
     const hal::Instant begin = clock.now();
     scratch.wipe();
@@ -218,64 +215,57 @@ Result<void> HeadReconstruction::work(const pipeline::HeadPipeline& pipeline, st
   };
   std::vector<pipeline::HeadPose> poses;
   poses.reserve(shots.size());
-  std::optional<pipeline::FaceModel> face;
+  Products& made = session_.products();
   for (std::size_t k = 0; k < shots.size(); ++k) {
     if (k == 1) {  // the first pair fits its calibration
-      auto made = timed(
+      auto face = timed(
           "Face", 0, [&] { return pipeline.face(shots[0].pictures.frame(), shots[0].calibration, context); });
-      if (!made) return placed(made.error(), shots[0].left);
-      face.emplace(*std::move(made));
+      if (!face) return placed(face.error(), shots[0].left);
+      made.model.emplace(*std::move(face));
     }
-    const Arena::Mark mark(output_);
+    const Arena::Mark mark(output);
     const auto added = timed("Pair", k, [&]() -> Result<void> {
-      RELIEVO_TRY_ASSIGN(pipeline::HeadPose pose,
-                         pipeline.measure(shots[k].pictures.frame(), shots[k].calibration, context, *kept_));
+      RELIEVO_TRY_ASSIGN(pipeline::HeadPose pose, pipeline.measure(shots[k].pictures.frame(),
+                                                                   shots[k].calibration, context, head.kept));
       if (k == 0) report_.drift = pose.drift;
-      if (pose.drift.verdict == pipeline::DriftVerdict::Refuse && !despite_drift) return error_of(pose.drift);
+      if (pose.drift.verdict == pipeline::DriftVerdict::Refuse && !head.despite_drift)
+        return error_of(pose.drift);
       poses.push_back(std::move(pose));
-      return k == 0 ? Result<void>() : pipeline.place_last(*face, poses, context);
+      return k == 0 ? Result<void>() : pipeline.place_last(*made.model, poses, context);
     });
     if (!added) return placed(added.error(), shots[k].left);
   }
-  auto head = timed("Fuse", shots.size(), [&] { return pipeline.fuse(*face, poses, context); });
-  if (!head) return head.error();
-  head_.emplace(*std::move(head));
+  auto fused = timed("Fuse", shots.size(), [&] { return pipeline.fuse(*made.model, poses, context); });
+  if (!fused) return fused.error();
+  made.model = std::move(fused->model);
+  report_.aliveness = fused->aliveness;
+  report_.skin_moved_mm = fused->registration.skin_moved_mm;
+  report_.poses.assign(fused->registration.poses.begin(), fused->registration.poses.end());
   return {};
 }
 
-Result<void> HeadReconstruction::run(const ReconstructArgs& args, Console& console) {
-  RELIEVO_TRY_ASSIGN(const pipeline::AlgorithmSet set, choose_algorithms(args.algorithms));
-  RELIEVO_TRY_ASSIGN(const auto pipeline, pipeline::HeadPipeline::make(set));
-  std::vector<Shot> shots(args.pictures.size() / 2);
+Result<void> Reconstruction::run_head(const ReconstructArgs& args, Console& console) {
+  RELIEVO_TRY_ASSIGN(making_.set, choose_algorithms(args.algorithms));
+  RELIEVO_TRY_ASSIGN(const auto pipeline, pipeline::HeadPipeline::make(making_.set));
+  std::vector<Head::Shot> shots(args.pictures.size() / 2);
   for (std::size_t k = 0; k < shots.size(); ++k) {
     shots[k].left = args.pictures[2 * k];
     RELIEVO_TRY_ASSIGN(shots[k].pictures, read_pair(shots[k].left, args.pictures[2 * k + 1]));
     const Path& file = args.calibrations[args.calibrations.size() == 1 ? 0 : k];
     RELIEVO_TRY_ASSIGN(shots[k].calibration, read_calibration_for(shots[k].pictures, file, shots[k].left));
   }
-  const std::size_t kept = shots.size() * budget::pose_bytes(budget::kMostFramePixels);
-  kept_block_ = PageBlock(kept);
-  kept_.emplace(kept_block_.bytes());
+  RELIEVO_TRY(session_.open(""));
+  const PageBlock block(shots.size() * budget::pose_bytes(budget::kMostFramePixels));
+  Arena kept(block.bytes());
   ThreadPool pool(pool_size());
-  FunctionJob job(
-      [&](JobControl& control) { return work(pipeline, shots, args.despite_drift, pool, control); });
-  RELIEVO_TRY(run_watched(job, console,
-                          [&] { return std::string_view(at_.load() == shots.size() ? "Fuse" : "Pair"); }));
+  Head head{pipeline, shots, kept, pool, args.despite_drift};
+  FunctionJob job([&](JobControl& control) { return make_head(head, control); });
+  RELIEVO_TRY(run_watched(job, console, [&head] {
+    return std::string_view(head.at.load() == head.shots.size() ? "Fuse" : "Pair");
+  }));
   report_.calibration = args.calibrations.front().string();
-  describe(set, model(), report_);
-  report_.aliveness = head_->aliveness;
-  report_.skin_moved_mm = head_->registration.skin_moved_mm;
-  const auto& poses = head_->registration.poses;
-  for (const auto& pose : poses) {
-    report_.poses.push_back(report_of(pose));
-    report_.poses.back().meets.assign(pose.meets.begin(), pose.meets.begin() + std::ptrdiff_t(poses.size()));
-  }
+  describe();
   return {};
-}
-
-Result<pipeline::RecognitionImages> HeadReconstruction::draw_images() {
-  Arena scratch(memory_.scratch());
-  return pipeline::make_recognition_images(model(), output_, scratch);
 }
 
 }  // namespace relievo::firmware

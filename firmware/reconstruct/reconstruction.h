@@ -5,9 +5,6 @@
 // need it. Owns the memory in which pictures and model lie. Thread: main.
 #pragma once
 
-#include <atomic>
-#include <optional>
-#include <span>
 #include <vector>
 
 #include "firmware/arguments/command_line.h"
@@ -17,7 +14,6 @@
 #include "firmware/session/session.h"
 #include "firmware/work/pipeline_stages.h"
 #include "firmware/work/session_document.h"
-#include "pipeline/fuse/head_pipeline.h"
 #include "pipeline/model/recognition_images.h"
 
 namespace relievo::firmware {
@@ -26,14 +22,15 @@ class Reconstruction {
  public:
   Reconstruction()
       : memory_(0, budget::kLargestPlan.products, budget::kLargestPlan.scratch), session_(memory_) {}
-  // Of one pair. `by_hand`: a file of matches (pipeline/match/file/match_text.h), checked before anything is
-  // matched. Errors: those of the files, of the settings and of the stages; each names its place.
+  // Of one pair, or of several of a head that turned, for which it takes budget::pose_bytes() each beside.
+  // `by_hand`: a file of matches (pipeline/match/file/match_text.h), checked before anything is matched.
+  // Errors: those of the files, of the settings and of the stages; each names its place.
   Result<void> run(const ReconstructArgs& args, Console& console);
   // A saved one: done again are the stages from `from` on; empty: from the first that the settings or
   // `by_hand` change, or that is missing. Errors: also the document's; InvalidInput for what changes a stage
   // before `from`.
   Result<void> load(const ReconstructArgs& args, Console& console);
-  // All of it, whole or not at all. Errors: the file's.
+  // All of one pair's, whole or not at all. Errors: the file's.
   Result<void> save(const Path& document) const;
   // The portrait and the range image of the model, in the same memory. Errors: OutOfMemory.
   Result<pipeline::RecognitionImages> draw_images();
@@ -43,40 +40,17 @@ class Reconstruction {
   State begun_with() const { return first_; }
 
  private:
+  struct Head;
   Result<void> work(State first, Console& console, const Path& named, bool despite_drift);
+  Result<void> run_head(const ReconstructArgs& args, Console& console);
+  Result<void> make_head(Head& head, JobControl& control);
+  void describe();
 
   BootMemory memory_;
   EnrolmentSession session_;
   std::vector<std::byte> left_, right_;  // the pictures
   Making making_;
   State first_ = State::Match;
-  Report report_;
-};
-
-// A head from several pairs of picture files, with progress and Ctrl-C. Owns the memory in which the model
-// lies: budget.h's arenas, and pose_bytes() for each pair. Thread: main.
-class HeadReconstruction {
- public:
-  HeadReconstruction()
-      : memory_(0, budget::kLargestPlan.products, budget::kLargestPlan.scratch), output_(memory_.output()) {}
-  // Of two or more pairs. Errors: those of the files, the settings and the stages; each names its place.
-  Result<void> run(const ReconstructArgs& args, Console& console);
-  // As Reconstruction has them.
-  Result<pipeline::RecognitionImages> draw_images();
-  const pipeline::FaceModel& model() const { return head_->model; }
-  const Report& report() const { return report_; }
-
- private:
-  struct Shot;
-  Result<void> work(const pipeline::HeadPipeline& pipeline, std::span<const Shot> shots, bool despite_drift,
-                    ThreadPool& pool, JobControl& control);
-
-  BootMemory memory_;
-  Arena output_;
-  PageBlock kept_block_;
-  std::optional<Arena> kept_;
-  std::optional<pipeline::FusedHead> head_;
-  std::atomic<std::size_t> at_{0};  // the pair that is worked on; as many as there are: all of them together
   Report report_;
 };
 

@@ -5,20 +5,25 @@
 #include <algorithm>
 #include <optional>
 #include <string>
+#include <system_error>
 
 #include "firmware/base/version.h"
 #include "firmware/base/wall_time.h"
 #include "firmware/records/bundle_manifest.h"
 #include "firmware/records/receipt.h"
-#include "storage/cipher/secret_key.h"
+#include "hal/base/whole_file.h"
+#include "storage/cipher/seal.h"
 
 namespace relievo::firmware {
 namespace {
+
+namespace fs = std::filesystem;
 
 using Json = nlohmann::ordered_json;
 using storage::BundleFile;
 using storage::hex_of;
 
+constexpr std::size_t kMostFileBytes = std::size_t{1} << 31, kMostFiles = 100;
 constexpr const char *kManifest = "manifest.json", *kSignature = "signature.json";
 
 bool from_hex(const Json& json, const char* key, std::span<std::byte> bytes) {
@@ -73,6 +78,45 @@ Result<std::vector<BundleFile>> manifest_files(storage::Store& store, const Copy
   files.push_back(file_of(kManifest, json));
   RELIEVO_TRY_ASSIGN(const storage::Signed made, store.sign(files.back().bytes));
   files.push_back(signature_of(made));
+  return files;
+}
+
+Result<Sums> sums_of(const fs::path& folder) {
+  Sums sums;
+  std::error_code error;
+  for (fs::directory_iterator entry(folder, error), end; !error && entry != end; entry.increment(error)) {
+    RELIEVO_TRY_ASSIGN(const auto bytes, read_whole_file(entry->path(), kMostFileBytes));
+    sums[entry->path().filename().string()] = storage::sha256(bytes);
+  }
+  if (error) return Error{Errc::IoFailed, "the folder cannot be read back", error.value()};
+  return sums;
+}
+
+Result<void> write_manifest(storage::Store& store, const CopyOf& of, const fs::path& folder,
+                            const fs::path& place) {
+  RELIEVO_TRY_ASSIGN(Sums sums, sums_of(folder));
+  RELIEVO_TRY_ASSIGN(const auto files, manifest_files(store, of, std::move(sums)));
+  for (const storage::BundleFile& file : files)
+    if (const auto written = write_whole_file(folder / file.name, file.bytes); !written)
+      return written.error().at(place.native());
+  return {};
+}
+
+Result<std::vector<storage::BundleFile>> read_bundle_folder(const fs::path& folder) {
+  std::vector<storage::BundleFile> files;
+  std::size_t left = kMostFileBytes;
+  std::error_code error;
+  for (fs::directory_iterator entry(folder, error), end; !error && entry != end; entry.increment(error)) {
+    const std::string name = entry->path().filename().string();
+    if (name.starts_with('.')) continue;  // what a computer leaves behind
+    if (!storage::is_plain_name(name) || files.size() == kMostFiles ||
+        !fs::is_regular_file(fs::symlink_status(entry->path(), error)))
+      return Error{Errc::InvalidInput, "is no file as it was exported: nothing was taken"}.at(name);
+    RELIEVO_TRY_ASSIGN(auto bytes, read_whole_file(entry->path(), left));
+    left -= bytes.size();
+    files.push_back({name, std::move(bytes)});
+  }
+  if (error) return Error{Errc::IoFailed, "the folder cannot be read", error.value()}.at(folder.native());
   return files;
 }
 

@@ -2,13 +2,17 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include <sys/resource.h>
 
+#include <algorithm>
 #include <array>
 #include <cinttypes>
+#include <cmath>
 #include <cstdio>
-#include <sstream>
+#include <numbers>
+#include <span>
 
 #include <nlohmann/json.hpp>
 
+#include "firmware/arguments/algorithm_choice.h"
 #include "firmware/base/version.h"
 #include "firmware/report/report.h"
 #include "storage/model_blob.h"
@@ -19,64 +23,15 @@ namespace {
 constexpr double kWorthSayingPx = 0.1;  // less is within what matching follows, and no advice makes it better
 constexpr double kWorthSayingShare = 0.02;  // a shine on the nose is less
 
-}  // namespace
-
-std::string line_of(const StageRecord& stage) {
-  char line[128];
-  std::snprintf(line, sizeof line, "%-12.*s %8.0f ms %10" PRIu64 " -> %" PRIu64, int(stage.name.size()),
-                stage.name.data(), double(stage.took.count()) * 1e-6, stage.in, stage.out);
-  return line;
+// Of the registration: of the worst of three axes.
+double worst_sigma(const pipeline::RegisteredPose& pose, std::size_t from) {
+  const auto& c = pose.covariance;
+  return std::sqrt(std::max({c[7 * from], c[7 * (from + 1)], c[7 * (from + 2)]}));
 }
-
-std::string line_of(std::size_t pair, const PoseReport& pose) {
-  char line[160];
-  if (!pose.joined) {
-    std::snprintf(line, sizeof line,
-                  "Pair %-7zu left out: it meets none of the others, or the skin moved by more than 1.5 mm",
-                  pair);
-    return line;
-  }
-  std::snprintf(
-      line, sizeof line,
-      "Pair %-7zu turned by %.1f degrees, %.3f mm rms from the others; placed to %.3f degrees, %.3f mm", pair,
-      pose.turned_deg, pose.rms_mm, pose.sigma_deg, pose.sigma_mm);
-  return line;
+double sigma_deg(const pipeline::RegisteredPose& pose) {
+  return worst_sigma(pose, 0) * 180 / std::numbers::pi;
 }
-
-std::string line_of(const pipeline::DriftJudgement& drift) {
-  return "Calibration  " + std::string(word(drift.verdict)) + ": " + sentence(drift);
-}
-
-std::string line_of_motion(double motion_px) {
-  if (motion_px < kWorthSayingPx) return {};
-  char line[192];
-  std::snprintf(
-      line, sizeof line,
-      "Motion       the face moved between the two exposures, %.2f px rms: what moved is less certain. "
-      "Hold still, or expose both cameras together",
-      motion_px);
-  return line;
-}
-
-std::string line_of_light(const pipeline::Overexposure& white) {
-  const bool left = white.left >= white.right;
-  const double share = left ? white.left : white.right;
-  if (share < kWorthSayingShare) return {};
-  char line[192];
-  std::snprintf(
-      line, sizeof line,
-      "Light        %.0f %% of the face is white in the %s picture and cannot be measured there: less light, or a shorter exposure",
-      100 * share, left ? "left" : "right");
-  return line;
-}
-
-std::uint64_t peak_rss_bytes() {
-  rusage usage{};
-  getrusage(RUSAGE_SELF, &usage);
-  return std::uint64_t(usage.ru_maxrss) * 1024;
-}
-
-namespace {
+double sigma_mm(const pipeline::RegisteredPose& pose) { return worst_sigma(pose, 3); }
 
 double milliseconds_of(std::chrono::nanoseconds time) { return double(time.count()) * 1e-6; }
 
@@ -115,20 +70,20 @@ nlohmann::ordered_json landmarks_json(const Report& report) {
   return all;
 }
 
-nlohmann::ordered_json poses_json(const std::vector<PoseReport>& poses) {
+nlohmann::ordered_json poses_json(const std::vector<pipeline::RegisteredPose>& poses) {
   auto all = nlohmann::ordered_json::array();
-  for (const PoseReport& pose : poses) {
+  for (const pipeline::RegisteredPose& pose : poses) {
     const auto& [rotation, moved] = pose.first_from_pose;
     auto meets = nlohmann::ordered_json::array();
-    for (const pipeline::PoseMeeting& m : pose.meets)
+    for (const pipeline::PoseMeeting& m : std::span(pose.meets).first(poses.size()))
       meets.push_back({{"overlap_mm2", m.overlap_mm2}, {"rms_mm", m.rms_mm}, {"p95_mm", m.p95_mm}});
     all.push_back({{"joined", pose.joined},
-                   {"turned_deg", pose.turned_deg},
+                   {"turned_deg", pipeline::turned_deg(rotation)},
                    {"rotation", rotation.m},
                    {"translation_mm", {moved.x, moved.y, moved.z}},
                    {"rms_mm", pose.rms_mm},
-                   {"sigma_deg", pose.sigma_deg},
-                   {"sigma_mm", pose.sigma_mm},
+                   {"sigma_deg", sigma_deg(pose)},
+                   {"sigma_mm", sigma_mm(pose)},
                    {"meets", meets}});
   }
   return all;
@@ -148,6 +103,61 @@ nlohmann::ordered_json aliveness_json(const Report& report) {
 
 }  // namespace
 
+std::string line_of(const StageRecord& stage) {
+  char line[128];
+  std::snprintf(line, sizeof line, "%-12.*s %8.0f ms %10" PRIu64 " -> %" PRIu64, int(stage.name.size()),
+                stage.name.data(), double(stage.took.count()) * 1e-6, stage.in, stage.out);
+  return line;
+}
+
+std::string line_of(std::size_t pair, const pipeline::RegisteredPose& pose) {
+  char line[160];
+  if (!pose.joined) {
+    std::snprintf(line, sizeof line,
+                  "Pair %-7zu left out: it meets none of the others, or the skin moved by more than 1.5 mm",
+                  pair);
+    return line;
+  }
+  std::snprintf(
+      line, sizeof line,
+      "Pair %-7zu turned by %.1f degrees, %.3f mm rms from the others; placed to %.3f degrees, %.3f mm", pair,
+      pipeline::turned_deg(pose.first_from_pose.rotation), pose.rms_mm, sigma_deg(pose), sigma_mm(pose));
+  return line;
+}
+
+std::string line_of(const pipeline::DriftJudgement& drift) {
+  return "Calibration  " + std::string(word(drift.verdict)) + ": " + sentence(drift);
+}
+
+std::string line_of_motion(double motion_px) {
+  if (motion_px < kWorthSayingPx) return {};
+  char line[192];
+  std::snprintf(
+      line, sizeof line,
+      "Motion       the face moved between the two exposures, %.2f px rms: what moved is less certain. "
+      "Hold still, or expose both cameras together",
+      motion_px);
+  return line;
+}
+
+std::string line_of_light(const pipeline::Overexposure& white) {
+  const bool left = white.left >= white.right;
+  const double share = left ? white.left : white.right;
+  if (share < kWorthSayingShare) return {};
+  char line[192];
+  std::snprintf(
+      line, sizeof line,
+      "Light        %.0f %% of the face is white in the %s picture and cannot be measured there: less light, or a shorter exposure",
+      100 * share, left ? "left" : "right");
+  return line;
+}
+
+std::uint64_t peak_rss_bytes() {
+  rusage usage{};
+  getrusage(RUSAGE_SELF, &usage);
+  return std::uint64_t(usage.ru_maxrss) * 1024;
+}
+
 std::string report_json(const Report& report) {
   using Json = nlohmann::ordered_json;
   Json stages = Json::array();
@@ -158,16 +168,10 @@ std::string report_json(const Report& report) {
                       {"out", stage.out},
                       {"arena_peak_bytes", stage.arena_peak_bytes}});
   }
-  Json algorithms = Json::object();
-  std::istringstream lines(report.algorithms);
-  for (std::string line; std::getline(lines, line);) {
-    const std::size_t equals = line.find(" = ");
-    if (equals != std::string::npos) algorithms[line.substr(0, equals)] = line.substr(equals + 3);
-  }
   const Json json{
       {"version", kVersion},
       {"calibration", report.calibration},
-      {"algorithms", algorithms},
+      {"algorithms", choices_in(report.algorithms)},
       {"stages", stages},
       {"matches_by_hand", report.by_hand},
       {"total_ms", milliseconds_of(report.total)},

@@ -20,16 +20,6 @@
 
 namespace relievo::firmware {
 
-// Of a head from several pairs: how each lies in the first one's frame.
-struct PoseReport {
-  double turned_deg = 0;  // against the first pair
-  pipeline::RigidTransform first_from_pose;
-  double rms_mm = 0;                   // from the other poses' surfaces
-  bool joined = true;                  // else it fits none of the others, and is no part of the head
-  double sigma_deg = 0, sigma_mm = 0;  // of the registration: the worst axis, about the middle of the head
-  std::vector<pipeline::PoseMeeting> meets{};  // every pose, itself too
-};
-
 struct Report {
   std::string calibration;  // the file, or the store's revision
   std::string algorithms;   // "matcher = refined", one a line
@@ -43,13 +33,13 @@ struct Report {
   pipeline::RigidTransform head_from_camera{};
   std::optional<pipeline::Overexposure> white{};   // of the face, where the pictures are at hand
   std::size_t by_hand = 0;                         // matches, of those that Reconstruct took
-  std::vector<PoseReport> poses{};                 // empty: there was one pair
+  std::vector<pipeline::RegisteredPose> poses{};   // empty: there was one pair
   std::optional<pipeline::Aliveness> aliveness{};  // of a head from several pairs
   double skin_moved_mm = 0;                        // between them: Registration
 };
 
 std::string line_of(const StageRecord& stage);  // for a terminal
-std::string line_of(std::size_t pair, const PoseReport& pose);
+std::string line_of(std::size_t pair, const pipeline::RegisteredPose& pose);
 std::string line_of(const pipeline::DriftJudgement& drift);
 std::string line_of_motion(double motion_px);                    // empty where it is not worth saying
 std::string line_of_light(const pipeline::Overexposure& white);  // the same

@@ -8,8 +8,8 @@
 #include <string>
 
 #include "firmware/base/output_folder.h"
+#include "firmware/service/export_records.h"
 #include "firmware/service/page_controller.h"
-#include "firmware/service/stick_folder.h"
 #include "hal/base/utf8.h"
 #include "hal/base/whole_file.h"
 #include "hal/picture_file.h"

@@ -2,11 +2,84 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "firmware/service/device_settings.h"
 
+#include <charconv>
+#include <memory>
+#include <string>
 #include <utility>
+#include <vector>
 
-#include "firmware/service/retention.h"
+#include "firmware/service/record_filter.h"
 
 namespace relievo::firmware {
+namespace {
+
+using storage::WallTime;
+
+constexpr std::chrono::hours kEvery{24};
+
+Result<bool> has_jumped(storage::Store& store, WallTime now) {
+  RELIEVO_TRY_ASSIGN(const std::string kept, store.setting(kClockSeenSetting));
+  std::int64_t seen_ms = 0;  // nobody has said that it is right
+  std::from_chars(kept.data(), kept.data() + kept.size(), seen_ms);
+  return now > WallTime(std::chrono::milliseconds(seen_ms)) + kMostLeap;
+}
+
+}  // namespace
+
+Result<void> trust_clock(storage::Store& store, WallTime now) {
+  return store.set_setting(kClockSeenSetting, std::to_string(now.time_since_epoch().count()));
+}
+
+Result<void> erase_person(storage::Store& store, storage::SubjectId id) {
+  const Result<void> erased = store.erase_subject(id);
+  if (erased || erased.error().code == Errc::NotFound) return erased;
+  const auto left = store.subject(id);
+  return !left && left.error().code == Errc::NotFound ? Result<void>{} : erased;
+}
+
+Result<void> erase_expired(storage::Store& store, WallTime now, int keep_days, JobControl& control,
+                           int& erased) {
+  if (keep_days <= 0) return {};
+  RELIEVO_TRY_ASSIGN(const bool jumped, has_jumped(store, now));
+  if (jumped)
+    return Error{
+        Errc::InvalidState,
+        "the clock is far ahead of when it was last seen: nothing is erased by age until the operator has chosen the time again"};
+  std::vector<storage::SubjectId> expired;
+  const WallTime before = now - std::chrono::days(keep_days);
+  RELIEVO_TRY(for_each_record(store, storage::Store::Opened::NamesAndConsents, control,
+                              [&](const storage::Subject& subject, const storage::Consent* newest) {
+                                if ((newest != nullptr ? newest->given_at : subject.created_at) < before)
+                                  expired.push_back(subject.id);
+                              }));
+  for (const storage::SubjectId id : expired) {
+    if (control.cancelled.load()) return Error{Errc::Cancelled, "the rest is erased later"};
+    const Result<void> gone = erase_person(store, id);
+    if (!gone && gone.error().code != Errc::NotFound) return gone.error();
+    ++erased;
+  }
+  return trust_clock(store, now);
+}
+
+void RetentionWatch::turn(const ui::Settings& settings) {
+  const int days = settings.of(ui::Setting::KeepDays);
+  if (days == 0 || clock_.now() < next_ || side_tasks_.busy(JobLane::Keeper)) return;
+  next_ = clock_.now() + kEvery;
+  const auto erased = std::make_shared<int>(0);
+  side_tasks_.send(
+      JobLane::Keeper,
+      [this, erased, days](JobControl& control) -> Result<void> {
+        return erase_expired(store_, std::chrono::floor<std::chrono::milliseconds>(clock_.wall_now()), days,
+                             control, *erased);
+      },
+      [this, erased](const std::optional<Error>& error) {
+        if (error && error->code == Errc::Cancelled) next_ = {};  // a visitor came in between
+        else if (error) log_.fault(*error);
+        jumped_ = error && error->code == Errc::InvalidState;
+        if (*erased > 0) log_.say(ui::LogEvent::RecordsExpired, {std::to_string(*erased)});
+      },
+      SideTasks::Whose::Device);
+}
 
 Result<void> DeviceSettings::look() {
   RELIEVO_TRY_ASSIGN(const std::string kept, store_.setting(kDeviceSetting));

@@ -6,17 +6,17 @@
 #include <cerrno>
 #include <chrono>
 #include <memory_resource>
+#include <optional>
 #include <string>
+#include <system_error>
 #include <utility>
+#include <vector>
 
-#include "firmware/base/output_folder.h"
 #include "firmware/base/version.h"
 #include "firmware/base/wall_time.h"
-#include "firmware/records/bundle_manifest.h"
 #include "firmware/records/receipt.h"
 #include "firmware/service/further_models.h"
 #include "firmware/service/page_controller.h"
-#include "firmware/service/stick_folder.h"
 #include "pipeline/recognition/recognition_images.h"
 #include "storage/export/model_files.h"
 
@@ -24,6 +24,121 @@ namespace relievo::firmware {
 namespace {
 
 namespace fs = std::filesystem;
+
+constexpr const char* kBefore = ".before";
+
+fs::path before(const fs::path& target) {
+  return target.parent_path() / ("." + target.filename().string() + kBefore);
+}
+
+// The name in ".NAME.part123" or ".NAME.before"; empty in any other.
+std::string name_in(const std::string& entry) {
+  const std::size_t end =
+      entry.ends_with(kBefore) ? entry.size() - std::string_view(kBefore).size() : entry.rfind(".part");
+  return entry.starts_with('.') && end != std::string::npos && end > 1 ? entry.substr(1, end - 1)
+                                                                       : std::string();
+}
+
+Result<void> replace_folder(OutputFolder& made, const fs::path& target) {
+  std::error_code error;
+  const bool replaces = fs::exists(target, error);
+  if (replaces) {
+    fs::rename(target, before(target), error);
+    if (error)
+      return Error{Errc::IoFailed, "the folder of an earlier export cannot be replaced: use another stick",
+                   error.value()}
+          .at(target.native());
+  }
+  if (const Result<void> done = made.commit(); !done) {
+    if (replaces) fs::rename(before(target), target, error);
+    return done;
+  }
+  fs::remove_all(before(target), error);
+  return {};
+}
+
+}  // namespace
+
+Result<fs::path> place_on_stick(const fs::path& root, const fs::path& place) {
+  fs::path way = root;
+  std::error_code error;
+  for (const fs::path& step : place) {
+    way /= step;
+    if (fs::is_symlink(fs::symlink_status(way, error)))
+      return Error{Errc::IoFailed, "is a link on the stick, which may lead anywhere: use another stick",
+                   ELOOP}
+          .at(step.native());
+  }
+  return way;
+}
+
+Result<void> StickWork::reach(ExportStep step, float share) {
+  // What has its name stays: its stick is let go, whoever stops it now.
+  if (step < ExportStep::LetGo && control.cancelled.load())
+    return Error{Errc::Cancelled, "nothing was stored"};
+  trace.step = step;
+  control.progress.done.store(share);
+  return {};
+}
+
+Result<Sums> keep_folder(OutputFolder& made, const fs::path& target, hal::RemovableMedia& media,
+                         StickWork* work, float done, float share) {
+  RELIEVO_TRY_ASSIGN(Sums written, sums_of(made.path()));
+  if (work != nullptr) RELIEVO_TRY(work->reach(ExportStep::ReadBack, done + 0.6F * share));
+  RELIEVO_TRY(media.settle(made.path()));
+  if (work != nullptr) RELIEVO_TRY(work->reach(ExportStep::ReadBack, done + 0.8F * share));
+  RELIEVO_TRY_ASSIGN(const Sums read, sums_of(made.path()));
+  if (read != written) return not_as_written(target);
+  RELIEVO_TRY(plugged_in(media));  // else it all lies in the empty place, on the device
+  if (work != nullptr) RELIEVO_TRY(work->reach(ExportStep::Write, done + 0.9F * share));
+  RELIEVO_TRY(replace_folder(made, target));
+  return written;
+}
+
+Result<void> put_on_stick(hal::RemovableMedia& media, const fs::path& place, StickWork* work,
+                          const std::function<Result<void>(const fs::path& target)>& write) {
+  RELIEVO_TRY_ASSIGN(const fs::path stick, plugged_in(media));
+  RELIEVO_TRY_ASSIGN(const fs::path target, place_on_stick(stick, place));
+  tidy_folder(target.parent_path());
+  const Result<void> written = write(target);
+  // Whatever failed: a stick that is gone is the reason.
+  std::error_code error;
+  if (!media.current() || (written && !fs::exists(target, error))) return pulled_too_early();
+  RELIEVO_TRY(written);
+  if (work != nullptr) RELIEVO_TRY(work->reach(ExportStep::LetGo, 1));
+  return media.flush_and_eject();
+}
+
+Result<fs::path> plugged_in(hal::RemovableMedia& media) {
+  if (auto stick = media.current()) return *std::move(stick);
+  return Error{Errc::MediaMissing, "there is no stick: plug one in"};
+}
+
+Error pulled_too_early() {
+  return {Errc::Disconnected, "the stick was pulled out too early: plug it in and try again"};
+}
+
+Error not_as_written(const fs::path& file) {
+  return Error{Errc::IoFailed, "what was read back from the stick is not what was written: use another stick"}
+      .at(file.filename().string());
+}
+
+void tidy_folder(const fs::path& folder, bool (*ours)(std::string_view name)) {
+  std::error_code error;
+  std::vector<fs::path> left;
+  for (fs::directory_iterator entry(folder, error), end; !error && entry != end; entry.increment(error)) {
+    const std::string name = name_in(entry->path().filename().string());
+    if (!name.empty() && ours(name)) left.push_back(entry->path());
+  }
+  for (const fs::path& one : left) {
+    const fs::path target = folder / name_in(one.filename().string());
+    if (one.filename().string().ends_with(kBefore) && !fs::exists(target, error))
+      fs::rename(one, target, error);
+    else fs::remove_all(one, error);
+  }
+}
+
+namespace {
 
 std::string note_of(const storage::Subject& subject, const storage::Enrolment& newest) {
   return "code: " + receipt_of(subject) + "\nname: " + subject.name +
@@ -36,22 +151,24 @@ std::string note_of(const storage::Subject& subject, const storage::Enrolment& n
 constexpr float kWritten = 0.85F;  // of the progress: what follows is compared once more
 
 // One export: the errors of its steps, and its progress.
-class Export {
- public:
-  Export(storage::Store& store, const hal::Clock& clock, hal::RemovableMedia& media,
-         const FurtherModels& further, JobControl& control, ExportTrace& trace)
-      : store_(store), clock_(clock), media_(media), further_(further), work_{control, trace} {}
+struct Export {
+  storage::Store& store;
+  const hal::Clock& clock;
+  hal::RemovableMedia& media;
+  const FurtherModels& further;
+  StickWork work;
+  std::vector<std::pair<fs::path, Sums>> made{};
 
   Result<void> one(storage::SubjectId id, const fs::path& root, float done, float share) {
-    RELIEVO_TRY(work_.reach(ExportStep::Load, done));
-    RELIEVO_TRY_ASSIGN(const storage::Subject subject, store_.subject(id));
-    RELIEVO_TRY_ASSIGN(const auto enrolments, store_.enrolments(id));
+    RELIEVO_TRY(work.reach(ExportStep::Load, done));
+    RELIEVO_TRY_ASSIGN(const storage::Subject subject, store.subject(id));
+    RELIEVO_TRY_ASSIGN(const auto enrolments, store.enrolments(id));
     if (enrolments.empty()) return Error{Errc::NotFound, "has no portrait"};
     std::pmr::monotonic_buffer_resource memory;
-    RELIEVO_TRY_ASSIGN(const pipeline::FaceModel model, store_.load_model(enrolments.back().id, &memory));
+    RELIEVO_TRY_ASSIGN(const pipeline::FaceModel model, store.load_model(enrolments.back().id, &memory));
     const auto images = pipeline::make_recognition_images(model, memory, memory);
     if (!images && images.error().code == Errc::OutOfMemory) return images.error();
-    RELIEVO_TRY(work_.reach(ExportStep::Write, done + 0.15F * share));
+    RELIEVO_TRY(work.reach(ExportStep::Write, done + 0.15F * share));
     RELIEVO_TRY_ASSIGN(const fs::path target,
                        place_on_stick(root, fs::path("relievo") / receipt_of(subject)));
     RELIEVO_TRY_ASSIGN(OutputFolder folder, OutputFolder::begin(target));
@@ -59,60 +176,52 @@ class Export {
     options.version = kVersion;
     if (images) options.images = &*images;  // without a surface there are none
     RELIEVO_TRY(storage::write_model_files(model, folder.path(), options));
-    RELIEVO_TRY(work_.reach(ExportStep::Write, done + 0.35F * share));
-    RELIEVO_TRY_ASSIGN(const auto lines, write_further_models(model, further_, folder.path(), options.frame,
-                                                              target, work_.control.cancelled));
+    RELIEVO_TRY(work.reach(ExportStep::Write, done + 0.35F * share));
+    RELIEVO_TRY_ASSIGN(const auto lines, write_further_models(model, further, folder.path(), options.frame,
+                                                              target, work.control.cancelled));
     std::string note = note_of(subject, enrolments.back());
     for (const std::string& line : lines) note += line + "\n";  // of a solid also why there is none
     RELIEVO_TRY(write_text(folder.path() / "record.txt", note, "record.txt"));
     if (!enrolments.back().report_json.empty())
       RELIEVO_TRY(write_text(folder.path() / "report.json", enrolments.back().report_json, "report.json"));
-    const auto now = std::chrono::time_point_cast<std::chrono::milliseconds>(clock_.wall_now());
-    RELIEVO_TRY(write_manifest(store_, {subject, enrolments.back(), now}, folder.path(), "manifest.json"));
-    RELIEVO_TRY_ASSIGN(Sums written, keep_folder(folder, target, media_, &work_, done, share));
-    made_.emplace_back(target, std::move(written));
+    const auto now = std::chrono::time_point_cast<std::chrono::milliseconds>(clock.wall_now());
+    RELIEVO_TRY(write_manifest(store, {subject, enrolments.back(), now}, folder.path(), "manifest.json"));
+    RELIEVO_TRY_ASSIGN(Sums written, keep_folder(folder, target, media, &work, done, share));
+    made.emplace_back(target, std::move(written));
     return {};
   }
 
   Result<void> let_go() {
-    RELIEVO_TRY(work_.reach(ExportStep::LetGo, kWritten));
+    RELIEVO_TRY(work.reach(ExportStep::LetGo, kWritten));
     std::error_code error;
     // Another stick may have come in the place of the first.
-    for (const auto& [record, sums] : made_)
+    for (const auto& [record, sums] : made)
       if (!fs::exists(record / "record.txt", error)) return pulled_too_early();
-    RELIEVO_TRY(media_.flush_and_eject());
+    RELIEVO_TRY(media.flush_and_eject());
     return compare_again();
   }
 
- private:
   // Now nothing but the stick can answer. It is read only, and is let go whatever comes of it.
   Result<void> compare_again() {
-    ExportTrace& trace = work_.trace;
+    ExportTrace& trace = work.trace;
     trace.step = ExportStep::Again;
-    RELIEVO_TRY(media_.take_up_again());
+    RELIEVO_TRY(media.take_up_again());
     trace.whole = 0;
     float compared = 0;
     Result<void> same;
-    for (const auto& [record, sums] : made_) {
+    for (const auto& [record, sums] : made) {
       ++compared;
-      work_.control.progress.done.store(kWritten + (1 - kWritten) * compared / float(made_.size() + 1));
+      work.control.progress.done.store(kWritten + (1 - kWritten) * compared / float(made.size() + 1));
       const Result<Sums> kept = sums_of(record);
       if (kept && *kept == sums) ++trace.whole;
       else if (same) same = kept ? not_as_written(record) : kept.error();
     }
-    if (!media_.current()) return pulled_too_early();
+    if (!media.current()) return pulled_too_early();
     if (same) trace.step = ExportStep::LetGo;
-    const Result<void> gone = media_.flush_and_eject();
+    const Result<void> gone = media.flush_and_eject();
     RELIEVO_TRY(same);
     return gone;
   }
-
-  storage::Store& store_;
-  const hal::Clock& clock_;
-  hal::RemovableMedia& media_;
-  FurtherModels further_;
-  StickWork work_;
-  std::vector<std::pair<fs::path, Sums>> made_;
 };
 
 }  // namespace
@@ -120,21 +229,32 @@ class Export {
 Result<void> export_records(storage::Store& store, const hal::Clock& clock, hal::RemovableMedia& media,
                             const std::vector<storage::SubjectId>& subjects, const FurtherModels& further,
                             JobControl& control, ExportTrace& trace) {
-  trace = {.asked = int(subjects.size())};
+  trace = {};
+  trace.asked = int(subjects.size());
   RELIEVO_TRY_ASSIGN(const fs::path stick, plugged_in(media));
   trace.step = ExportStep::Write;
   RELIEVO_TRY_ASSIGN(const fs::path ours, place_on_stick(stick, "relievo"));
   tidy_folder(ours, is_receipt);
-  Export work(store, clock, media, further, control, trace);
+  Export all{store, clock, media, further, {control, trace}};
   const float share = kWritten / float(std::max<std::size_t>(1, subjects.size()));
+  float done = 0;
   for (const storage::SubjectId id : subjects) {
-    const Result<void> written = work.one(id, stick, float(trace.whole) * share, share);
+    const Result<void> written = all.one(id, stick, done, share);
+    done += share;
     // Whatever failed: a stick that is gone is the reason.
     if (!media.current()) return pulled_too_early();
+    if (!written && written.error().code == Errc::NotFound && trace.step == ExportStep::Load) {
+      trace.left_out = written.error();
+      continue;  // the others are written all the same
+    }
     RELIEVO_TRY(written);
     ++trace.whole;
   }
-  return work.let_go();
+  if (trace.left_out && trace.whole == 0) return *trace.left_out;
+  RELIEVO_TRY(all.let_go());
+  if (!trace.left_out) return {};
+  trace.step = ExportStep::Find;  // no fault of the stick's
+  return *trace.left_out;
 }
 
 ui::Outcome outcome_of_export(const Error& error, const ExportTrace& trace) {
@@ -144,6 +264,7 @@ ui::Outcome outcome_of_export(const Error& error, const ExportTrace& trace) {
                     error.code == Errc::MediaMissing;
   const bool of_the_stick =
       error.code == Errc::IoFailed || error.code == Errc::NotFound || error.code == Errc::MediaMissing;
+  if (trace.step == ExportStep::Find && trace.whole > 0) return ui::Outcome::Failed;  // so many are there
   if (trace.step == ExportStep::Again && error.code == Errc::Unsupported) return ui::Outcome::StickUnchecked;
   if (trace.step >= ExportStep::Write && of_the_stick) {
     if (gone) return ui::Outcome::StickGone;

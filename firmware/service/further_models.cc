@@ -60,8 +60,8 @@ Result<std::string> write_solid(const pipeline::FaceModel& model, const std::fil
   pipeline::StageContext context{output, scratch, pool, progress, cancelled};
   pipeline::AlgorithmSet set;
   RELIEVO_TRY(set.set("completion", "generic-head"));
-  RELIEVO_TRY_ASSIGN(const auto head, pipeline::make_completion(set));
-  auto mesh = pipeline::make_solid(model, head, context);
+  RELIEVO_TRY_ASSIGN(const auto algorithms, pipeline::make_algorithms(set));
+  auto mesh = pipeline::make_solid(model, algorithms.completion, context);
   // The model is no worse for it.
   if (!mesh && (mesh.error().code == Errc::PoorGeometry || mesh.error().code == Errc::OutOfMemory))
     return "no solid: " + std::string(mesh.error().what.view());

@@ -12,11 +12,11 @@
 
 #include <cstdint>
 #include <filesystem>
+#include <memory>
 
 #include "firmware/records/event_log.h"
 #include "firmware/service/consent_text_store.h"
 #include "firmware/service/device_settings.h"
-#include "firmware/service/retention.h"
 #include "firmware/service/side_tasks.h"
 #include "firmware/service/statistics.h"
 #include "firmware/service/touch_trial.h"
@@ -67,6 +67,15 @@ class PageController {
  private:
   PageServices& services_;
 };
+
+// What lies behind the pages (page/).
+std::unique_ptr<PageController> health_controller(PageServices& services);
+std::unique_ptr<PageController> log_controller(PageServices& services);
+std::unique_ptr<PageController> records_controller(PageServices& services);
+std::unique_ptr<PageController> recovery_controller(PageServices& services);
+std::unique_ptr<PageController> self_test_controller(PageServices& services);
+std::unique_ptr<PageController> status_controller(PageServices& services);
+std::unique_ptr<PageController> trigger_controller(PageServices& services);
 
 // What an error means to who asked.
 ui::Outcome outcome_of(const Error& error);

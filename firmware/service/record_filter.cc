@@ -50,7 +50,9 @@ Result<std::vector<storage::SubjectId>> chosen_records(storage::Store& store, co
                                                        JobControl& control) {
   std::vector<storage::SubjectId> passed;
   if (is_receipt(choice.part)) {
-    if (const auto subject = find_by_receipt(store, choice.part)) passed.push_back(subject->id);
+    const auto subject = find_by_receipt(store, choice.part);
+    if (subject) passed.push_back(subject->id);
+    else if (subject.error().code != Errc::NotFound) return subject.error();
     return passed;
   }
   const bool by_text = choice.filter && !choice.filter->letter;

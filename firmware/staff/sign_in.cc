@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: 2026 The Relievo authors
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include "firmware/staff/sign_in.h"
+#include "firmware/staff/staff_controller.h"
 
 #include <utility>
 

@@ -9,9 +9,6 @@
 
 #include "firmware/base/wall_time.h"
 #include "firmware/report/report.h"
-#include "firmware/service/page/health_controller.h"
-#include "firmware/service/page/records_controller.h"
-#include "firmware/service/page/test_controllers.h"
 #include "firmware/service/page_controller.h"
 #include "firmware/technician/test_capture.h"
 #include "hal/base/assert.h"
@@ -94,7 +91,7 @@ class TouchController final : public PageController {
 // Behind one of the technician's seven picture pages, which share one TestCapture.
 class TechnicianController final : public PageController {
  public:
-  TechnicianController(PageServices& services, TestCapture& test_capture, ui::TechnicianPage page)
+  TechnicianController(PageServices& services, TestCapture& test_capture, ui::StaffPage page)
       : PageController(services), test_capture_(test_capture), page_(page) {}
   void opened() override { test_capture_.opened(page_); }
   void ask(const ui::StaffRequest& request) override {
@@ -103,15 +100,15 @@ class TechnicianController final : public PageController {
   }
   void show(ui::ServiceView& view) override {
     view.technician = &test_capture_.view();
-    if (page_ == ui::TechnicianPage::Stages || page_ == ui::TechnicianPage::Compare)
+    if (page_ == ui::StaffPage::Stages || page_ == ui::StaffPage::Compare)
       view.work = view.technician->recording;
-    view.inner = page_ == ui::TechnicianPage::Algorithms && view.technician->choice.edited != nullptr;
+    view.inner = page_ == ui::StaffPage::Algorithms && view.technician->choice.edited != nullptr;
   }
   void closed() override { test_capture_.closed(page_); }
 
  private:
   TestCapture& test_capture_;
-  ui::TechnicianPage page_;
+  ui::StaffPage page_;
 };
 
 // pages[page]: none where SignIn answers, or nobody.
@@ -119,24 +116,23 @@ void fill_page_controllers(PageServices& services, Pages pages) {
   const auto at = [&](ui::StaffPage page) -> std::unique_ptr<PageController>& {
     return pages[std::size_t(page)];
   };
-  at(ui::StaffPage::Menu) = std::make_unique<StatusController>(services);
-  at(ui::StaffPage::Records) = std::make_unique<RecordsController>(services);
+  at(ui::StaffPage::Menu) = status_controller(services);
+  at(ui::StaffPage::Records) = records_controller(services);
   at(ui::StaffPage::Statistics) = std::make_unique<StatisticsController>(services);
   at(ui::StaffPage::Consent) = std::make_unique<ConsentController>(services);
-  at(ui::StaffPage::Recovery) = std::make_unique<RecoveryController>(services);
-  at(ui::StaffPage::SelfTest) = std::make_unique<SelfTestController>(services);
-  at(ui::StaffPage::Trigger) = std::make_unique<TriggerController>(services);
-  at(ui::StaffPage::Log) = std::make_unique<LogController>(services);
-  at(ui::StaffPage::Health) = std::make_unique<HealthController>(services);
+  at(ui::StaffPage::Recovery) = recovery_controller(services);
+  at(ui::StaffPage::SelfTest) = self_test_controller(services);
+  at(ui::StaffPage::Trigger) = trigger_controller(services);
+  at(ui::StaffPage::Log) = log_controller(services);
+  at(ui::StaffPage::Health) = health_controller(services);
   at(ui::StaffPage::Touch) = std::make_unique<TouchController>(services);
   at(ui::StaffPage::Settings) = std::make_unique<SettingsController>(services);
 }
 
-// One for every picture page: StaffPage::Stages and those after it, in TechnicianPage's order.
+// One for every picture page.
 void fill_technician_pages(PageServices& services, TestCapture& test_capture, Pages pages) {
-  for (int i = 0; i <= int(ui::TechnicianPage::Calibrate); ++i)
-    pages[std::size_t(ui::StaffPage::Stages) + std::size_t(i)] =
-        std::make_unique<TechnicianController>(services, test_capture, static_cast<ui::TechnicianPage>(i));
+  for (auto i = std::size_t(ui::StaffPage::Stages); i <= std::size_t(ui::StaffPage::Calibrate); ++i)
+    pages[i] = std::make_unique<TechnicianController>(services, test_capture, static_cast<ui::StaffPage>(i));
 }
 
 // One table says who may open what: the menu's.

@@ -5,8 +5,6 @@
 #include <algorithm>
 #include <string_view>
 
-#include "pipeline/algorithms/algorithm_table.h"
-
 namespace relievo::firmware {
 namespace {
 
@@ -117,7 +115,7 @@ void AlgorithmController::type(char letter) {
 }
 
 bool AlgorithmController::act(const ui::TechnicianRequest& request) {
-  if (const auto* alone = std::get_if<ui::DoTechnician>(&request)) return act_alone(alone->act);
+  if (const auto* alone = std::get_if<ui::TechnicianAct>(&request)) return act_alone(*alone);
   if (const auto* kind = std::get_if<ui::ChooseKind>(&request)) {
     if (kind->index >= kinds_.size()) return true;
     kind_ = kind->index;

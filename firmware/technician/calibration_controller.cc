@@ -4,12 +4,10 @@
 
 #include <algorithm>
 #include <cmath>
-#include <cstdio>
 #include <utility>
 
 #include "firmware/base/wall_time.h"
 #include "firmware/calibrate/calibrate_command.h"
-#include "firmware/calibrate/calibration_history.h"
 #include "firmware/reconstruct/picture_pair.h"
 #include "firmware/technician/stick_files.h"
 
@@ -162,29 +160,24 @@ void CalibrateJob::wipe() {
 void CalibrationController::act(const ui::TechnicianRequest& request) {
   if (running_) return;
   if (const auto* change = std::get_if<ui::ChangeBoard>(&request)) change_board(*change);
-  if (const auto* use = std::get_if<ui::UseCalibration>(&request)) activate(use->row);
-  const auto* alone = std::get_if<ui::DoTechnician>(&request);
+  if (const auto* use = std::get_if<ui::UseCalibration>(&request)) activate(use->index);
+  const auto* alone = std::get_if<ui::TechnicianAct>(&request);
   if (alone == nullptr) return;
-  if (alone->act == ui::TechnicianAct::SwitchCharuco) board_.charuco = !board_.charuco;
-  if (alone->act == ui::TechnicianAct::SwitchMountedAnew) mounted_anew_ = !mounted_anew_;
-  if (alone->act == ui::TechnicianAct::StoreCalibration) store();
-  if (alone->act == ui::TechnicianAct::ExportCalibration) export_in_use();
-  if (alone->act == ui::TechnicianAct::ImportCalibration) import_one();
+  if (*alone == ui::TechnicianAct::SwitchCharuco) board_.charuco = !board_.charuco;
+  if (*alone == ui::TechnicianAct::SwitchMountedAnew) mounted_anew_ = !mounted_anew_;
+  if (*alone == ui::TechnicianAct::StoreCalibration) store();
+  if (*alone == ui::TechnicianAct::ExportCalibration) export_in_use();
+  if (*alone == ui::TechnicianAct::ImportCalibration) import_one();
 }
 
 void CalibrationController::change_board(const ui::ChangeBoard& change) {
-  switch (change.measure) {
-    case ui::BoardMeasure::Columns:
-      board_.corners_across = std::clamp(board_.corners_across + change.step, kLeastCorners, kMostCorners);
-      return;
-    case ui::BoardMeasure::Rows:
-      board_.corners_down = std::clamp(board_.corners_down + change.step, kLeastCorners, kMostCorners);
-      return;
-    case ui::BoardMeasure::Square:
-      board_.square_mm =
-          std::clamp(std::round(10 * board_.square_mm + change.step) / 10, kLeastSquareMm, kMostSquareMm);
-      return;
+  if (change.measure == ui::BoardMeasure::Square) {
+    board_.square_mm =
+        std::clamp(std::round(10 * board_.square_mm + change.step) / 10, kLeastSquareMm, kMostSquareMm);
+    return;
   }
+  int& corners = change.measure == ui::BoardMeasure::Columns ? board_.corners_across : board_.corners_down;
+  corners = std::clamp(corners + change.step, kLeastCorners, kMostCorners);
 }
 
 CalibrateJob::Order CalibrationController::order() const {
@@ -196,6 +189,7 @@ CalibrateJob::Order CalibrationController::order() const {
 }
 
 void CalibrationController::begun() {
+  ++runs_;
   running_ = true;
   ended_ = stored_ = false;
   reasons_.clear();
@@ -272,7 +266,7 @@ const pipeline::StereoCalibration* CalibrationController::calibration() const {
 }
 
 // The device's task: who leaves meanwhile has it done, in the store and for visitors alike.
-void CalibrationController::adopt(std::function<Result<std::uint32_t>()> first) {
+void CalibrationController::adopt(std::function<Result<std::uint32_t>()> first, std::uint32_t calibrated) {
   if (busy_) return;
   busy_ = true;
   struct Made {
@@ -288,10 +282,11 @@ void CalibrationController::adopt(std::function<Result<std::uint32_t>()> first) 
         RELIEVO_TRY_ASSIGN(made->pipeline, pipeline::Pipeline::make(algorithms(), calibration));
         return {};
       },
-      [this, made, visit = visit_](const std::optional<Error>& error) {
+      [this, made, calibrated, visit = visit_](const std::optional<Error>& error) {
         if (!error) use(*std::move(made->pipeline), true);
         if (visit != visit_) return error ? parts_.log.fault(*error) : void();
         if (!error) mounted_anew_ = false;
+        stored_ = stored_ || (calibrated != 0 && calibrated == runs_ && made->revision != 0);
         busy_ = false;
         problem_ = error ? ui::fault_of(*error) : ui::Fault{};
         if (!error) load_history();
@@ -301,14 +296,14 @@ void CalibrationController::adopt(std::function<Result<std::uint32_t>()> first) 
 
 void CalibrationController::store() {
   if (!ended_ || stored_ || !parts_.job.result() ||
-      parts_.job.result()->quality.verdict == pipeline::CalibrationVerdict::Refuse || busy_)
+      parts_.job.result()->quality.verdict == pipeline::CalibrationVerdict::Refuse)
     return;
-  stored_ = true;
-  const pipeline::CalibratorOutput result = *parts_.job.result();
-  adopt([this, result]() -> Result<std::uint32_t> {
-    return parts_.store.save_calibration(result.calibration, "calibrated at the screen",
-                                         figures_of(result.quality));
-  });
+  adopt(
+      [this, result = *parts_.job.result()]() -> Result<std::uint32_t> {
+        return parts_.store.save_calibration(result.calibration, "calibrated at the screen",
+                                             figures_of(result.quality));
+      },
+      runs_);
 }
 
 void CalibrationController::activate(std::size_t row) {
@@ -328,10 +323,8 @@ void CalibrationController::export_in_use() {
   if (busy_ || in_use == nullptr) return;
   busy_ = true;
   exported_.clear();
-  char name[24];
-  std::snprintf(name, sizeof name, "%04u",
-                unsigned(in_use->revision));  // so that their names have their order
-  const std::string folder = name;
+  // Not by the revision: those of two appliances are alike.
+  const std::string folder = stick_name_of(parts_.device.clock().wall_now());
   parts_.side_tasks.send(
       JobLane::Keeper,
       [this, calibration = *in_use, folder](JobControl&) {

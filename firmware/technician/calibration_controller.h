@@ -127,13 +127,15 @@ class CalibrationController {
   // By stick (stick_files.h). None of another size than the cameras' pictures comes into use.
   void export_in_use();
   void import_one();
-  // Makes it the one in use, once the keeper has done `first`, which names it.
-  void adopt(std::function<Result<std::uint32_t>()> first);
+  // Makes it the one in use, once the keeper has done `first`, which names it. `calibrated`: by which of the
+  // job's runs it was made; 0: by none.
+  void adopt(std::function<Result<std::uint32_t>()> first, std::uint32_t calibrated = 0);
 
   Parts parts_;
   BoardArgs board_{10, 7, 20};
   bool mounted_anew_ = false;  // the next calibration need not have the cameras' distance of the one in use
   bool running_ = false, ended_ = false, stored_ = false;
+  std::uint32_t runs_ = 0;  // of the job
   ui::Fault problem_;
   std::string exported_;  // the folder on the stick
   std::vector<std::string> reasons_;

@@ -7,11 +7,7 @@
 #include <new>
 #include <thread>
 
-#include <string.h>
-
-#include "firmware/base/boot_memory.h"
 #include "firmware/capture/live_judge.h"
-#include "hal/base/thread_pool.h"
 #include "pipeline/gate/relief/live_relief.h"
 
 namespace relievo::firmware {
@@ -31,54 +27,31 @@ void count(const CameraCounts& from, ui::TechnicianCamera& to) {
 
 }  // namespace
 
-struct ReliefWatch::Room {
-  BootMemory memory{0, kOutputBytes, kScratchBytes};
-  Arena output{memory.output()}, scratch{memory.scratch()};
-  ThreadPool pool{1};
-  ~Room() {
-    explicit_bzero(memory.output().data(), output.high_water());
-    explicit_bzero(memory.scratch().data(), scratch.high_water());
-  }
-};
-
-ReliefWatch::ReliefWatch() = default;
-ReliefWatch::~ReliefWatch() { forget(); }
-
-void ReliefWatch::use(const pipeline::StereoCalibration* calibration) {
-  calibration_.reset();
-  if (calibration != nullptr) calibration_ = *calibration;
-}
-
-Result<ImageView> ReliefWatch::look(const pipeline::StereoFrame& frame, JobControl& control) {
+Result<ImageView> CameraWatchJob::relief_of(const pipeline::StereoFrame& frame, JobControl& control) {
   if (!calibration_) return Error{Errc::InvalidState, "without a calibration there is no relief"};
   try {
-    if (room_ == nullptr) room_ = std::make_unique<Room>();
-    room_->output.reset();
+    if (!relief_room_) relief_room_.emplace();
+    relief_room_->output.reset();
     pipeline::LiveRelief live;
     live.reduction = judged_reduction(calibration_->left.width_px);
-    pipeline::StageContext context{room_->output, room_->scratch, room_->pool, control.progress,
-                                   control.cancelled};
+    pipeline::StageContext context{relief_room_->output, relief_room_->scratch, relief_room_->pool,
+                                   control.progress, control.cancelled};
     RELIEVO_TRY_ASSIGN(const pipeline::Relief relief,
                        pipeline::run_stage(context, [&](pipeline::StageContext& c) {
                          return live.look(frame, *calibration_, c);
                        }));
-    grey_.resize(relief.depth_mm.size());
-    pipeline::draw_relief(relief, kNearestDrawnMm, kFarthestDrawnMm, grey_.data());
-    return ImageView{reinterpret_cast<const std::byte*>(grey_.data()), relief.width_px, relief.height_px,
-                     relief.width_px, PixelFormat::Grey8};
+    relief_grey_.resize(relief.depth_mm.size());
+    pipeline::draw_relief(relief, kNearestDrawnMm, kFarthestDrawnMm, relief_grey_.data());
+    return ImageView{reinterpret_cast<const std::byte*>(relief_grey_.data()), relief.width_px,
+                     relief.height_px, relief.width_px, PixelFormat::Grey8};
   } catch (const std::bad_alloc&) {
     return Error{Errc::OutOfMemory, "there is no memory left to draw the relief in"};
   }
 }
 
-void ReliefWatch::forget() {
-  room_.reset();
-  if (!grey_.empty()) explicit_bzero(grey_.data(), grey_.size());
-  grey_ = {};
-}
-
 void CameraWatchJob::prepare(const pipeline::StereoCalibration* calibration) {
-  relief_.use(calibration);
+  calibration_.reset();
+  if (calibration != nullptr) calibration_ = *calibration;
   steps_.store(0, std::memory_order_relaxed);
   for (FocusHelp& focus : focus_) focus.reset();
   last_pair_.reset();
@@ -116,7 +89,7 @@ bool CameraWatchJob::draw_relief(const pipeline::StereoFrame& frame, JobControl&
                                  ui::TechnicianCameras& now) {
   now.relief_shown = shows_relief();
   if (!now.relief_shown) return false;
-  const Result<ImageView> relief = relief_.look(frame, control);
+  const Result<ImageView> relief = relief_of(frame, control);
   if (relief) (void)feeds_[2].fill(*relief);
   else if (relief.error().code != Errc::Cancelled) now.problem = ui::fault_of(relief.error());
   return relief.has_value();
@@ -173,7 +146,8 @@ ui::TechnicianCameras CameraWatchJob::newest() {
 
 void CameraWatchJob::wipe() {
   for (LiveFeed& feed : feeds_) feed.wipe();
-  relief_.forget();
+  relief_room_.reset();
+  relief_grey_ = std::vector<std::uint8_t>();  // not {}: that keeps the block, and with it the picture
   peaking_.wipe();
   const std::lock_guard lock(mutex_);
   figures_ = {};

@@ -10,49 +10,24 @@
 #include <atomic>
 #include <cstddef>
 #include <cstdint>
-#include <memory>
 #include <mutex>
 #include <optional>
 #include <vector>
 
+#include "firmware/base/boot_memory.h"
 #include "firmware/capture/face_light.h"
 #include "firmware/capture/focus_peaking.h"
 #include "firmware/capture/live_feed.h"
 #include "firmware/jobs/job_thread.h"
 #include "firmware/work/jobs.h"
+#include "hal/base/arena.h"
 #include "hal/base/image_view.h"
+#include "hal/base/thread_pool.h"
 #include "pipeline/model/calibration.h"
 #include "pipeline/model/stereo_frame.h"
 #include "ui/technician/technician_view.h"
 
 namespace relievo::firmware {
-
-// ReliefWatch: the relief the gate judges by, of pairs that somebody at the cameras looks at: where the rig
-// sees depth and where it does not. The session's memory may be the worker's meanwhile, so it takes its own
-// (kOutputBytes, kScratchBytes) with the first pair and gives it back with forget(). Thread: one at a time.
-// Errors of look(): InvalidState (no calibration), those of LiveRelief, OutOfMemory.
-class ReliefWatch {
- public:
-  static constexpr std::size_t kOutputBytes = std::size_t{4} << 20,
-                               kScratchBytes = std::size_t{64} << 20;  // touched: 1 MB and 27 MB
-
-  ReliefWatch();
-  ~ReliefWatch();
-  ReliefWatch(const ReliefWatch&) = delete;
-  ReliefWatch& operator=(const ReliefWatch&) = delete;
-  // Null: there is none.
-  void use(const pipeline::StereoCalibration* calibration);
-  // Grey8, near is bright, black is unknown; valid until the next look() or forget().
-  Result<ImageView> look(const pipeline::StereoFrame& frame, JobControl& control);
-  // Wipes and gives back.
-  void forget();
-
- private:
-  struct Room;
-  std::optional<pipeline::StereoCalibration> calibration_;
-  std::unique_ptr<Room> room_;
-  std::vector<std::uint8_t> grey_;
-};
 
 class CameraWatchJob final : public Job {
  public:
@@ -77,6 +52,17 @@ class CameraWatchJob final : public Job {
   Result<void> look(const pipeline::StereoFrame& frame, JobControl& control);
   bool draw_relief(const pipeline::StereoFrame& frame, JobControl& control, ui::TechnicianCameras& now);
   void set_light();
+  // Where the rig sees depth and where it does not, as the gate judges by it. Grey8, near is bright, black is
+  // unknown; valid until the next one or wipe(). Errors: InvalidState (no calibration), those of LiveRelief,
+  // OutOfMemory.
+  Result<ImageView> relief_of(const pipeline::StereoFrame& frame, JobControl& control);
+  // The session's memory may be the worker's meanwhile: the first relief takes some, wipe() gives it back.
+  struct ReliefRoom {
+    BootMemory memory{0, std::size_t{4} << 20, std::size_t{64} << 20};  // touched: 1 MB and 27 MB
+    Arena output{memory.output()}, scratch{memory.scratch()};
+    ThreadPool pool{1};
+    ~ReliefRoom() { output.wipe(), scratch.wipe(); }
+  };
 
   StereoGrabber& grabber_;
   EnrolmentSession& session_;
@@ -85,7 +71,9 @@ class CameraWatchJob final : public Job {
                                  LiveFeed()};  // left, right, relief
   std::array<FocusHelp, 2> focus_;
   FocusPeaking peaking_;
-  ReliefWatch relief_;
+  std::optional<pipeline::StereoCalibration> calibration_;
+  std::optional<ReliefRoom> relief_room_;
+  std::vector<std::uint8_t> relief_grey_;
   std::atomic<int> steps_{0};
   std::atomic<bool> relief_shown_{false}, edges_shown_{false};
   std::optional<hal::Instant> last_pair_;

@@ -95,7 +95,7 @@ void KeptResults::compare_on_worker(SideTasks& tasks, const Products& present, s
 void KeptResults::compare(const pipeline::RectifiedPair& pair, const pipeline::FaceMesh& present,
                           std::uint32_t number, const std::atomic<bool>& cancelled) {
   const auto kept = std::span(all_).first(count_);
-  compare::DisparityMap depths = depths_of(pair, present);
+  const compare::DisparityMap depths = depths_of(pair, present);
   full_colour_mm_ = kLeastScaleMm;
   for (const auto& one : kept) {
     if (cancelled.load(std::memory_order_relaxed)) break;
@@ -107,7 +107,6 @@ void KeptResults::compare(const pipeline::RectifiedPair& pair, const pipeline::F
   for (const auto& one : kept)
     if (one->model && one->difference.view().known)
       one->difference.draw(pair, one->model->mesh, full_colour_mm_);
-  firmware::wipe(depths);
 }
 
 ui::TechnicianCompared KeptResults::view(std::size_t which, ui::TechnicianStage stage) const {

@@ -3,13 +3,10 @@
 #include "firmware/technician/recording_controller.h"
 
 #include <cstring>
-#include <ctime>
 #include <utility>
 
-#include <string.h>
-
 #include "firmware/base/output_folder.h"
-#include "firmware/service/stick_folder.h"
+#include "firmware/base/wall_time.h"
 
 namespace relievo::firmware {
 namespace {
@@ -27,8 +24,7 @@ ImageView copied(const ImageView& view, std::vector<std::byte>& room) {
   return {room.data(), view.width_px, view.height_px, int(row_bytes), view.format};
 }
 
-// Pairs of its own, so that the session may be wiped while a slow stick is still being written to; wiped with
-// it.
+// Pairs of its own, so that the session may be wiped while a slow stick is still being written to.
 class CaptureCopy {
  public:
   // Of `as_taken` views and times are replaced.
@@ -42,11 +38,7 @@ class CaptureCopy {
       pairs_[i].of_head = shots.size() > 1;
     }
   }
-  ~CaptureCopy() {
-    for (std::vector<std::byte>& room : rooms_) explicit_bzero(room.data(), room.size());
-  }
   CaptureCopy(const CaptureCopy&) = delete;
-  CaptureCopy& operator=(const CaptureCopy&) = delete;
   std::span<const hal::RecordedPair> pairs() const { return pairs_; }
 
  private:
@@ -84,16 +76,6 @@ void RecordingController::ended(const std::optional<Error>& error, const ExportT
   if (!error || outcome_ == ui::Outcome::StickHeld) where_ = where;
 }
 
-// A name every file system of a stick takes: 2026-03-12_09-14-07, UTC.
-std::string RecordingController::name_now() const {
-  const std::time_t seconds = std::chrono::system_clock::to_time_t(device_.clock().wall_now());
-  std::tm parts{};
-  gmtime_r(&seconds, &parts);
-  char name[32];
-  std::strftime(name, sizeof name, "%Y-%m-%d_%H-%M-%S", &parts);
-  return name;
-}
-
 std::string RecordingController::saved_name(std::size_t row) const {
   if (!names_ || row >= names_->size()) return {};
   const std::string& file = names_->at(row);
@@ -105,7 +87,7 @@ void RecordingController::record(std::span<const pipeline::StereoFrame> shots,
   if (!begin()) return;
   const auto trace = std::make_shared<ExportTrace>();
   const auto copy = std::make_shared<const CaptureCopy>(shots, as_taken);
-  const std::string name = name_now();
+  const std::string name = stick_name_of(device_.clock().wall_now());
   task_ = side_tasks_.send(
       JobLane::Keeper,
       [this, copy, trace, name](JobControl& control) -> Result<void> {
@@ -122,24 +104,23 @@ void RecordingController::record(std::span<const pipeline::StereoFrame> shots,
 
 void RecordingController::save(std::function<Result<std::vector<std::byte>>()> make) {
   if (!begin()) return;
-  const auto document = std::make_shared<std::shared_ptr<const SavedBytes>>();
+  const auto document = std::make_shared<SavedBytes>();
   task_ = side_tasks_.send(
       JobLane::Worker,
       [document, make = std::move(make)](JobControl&) -> Result<void> {
-        RELIEVO_TRY_ASSIGN(auto bytes, make());
-        *document = std::make_shared<const SavedBytes>(std::move(bytes));
+        RELIEVO_TRY_ASSIGN(*document, make());
         return {};
       },
       [this, document](const std::optional<Error>& error) {
         if (error) ended(error, {}, {});
         else if (stopped_) ended(Error{Errc::Cancelled, "it was stopped before it was on the stick"}, {}, {});
-        else write(std::move(*document));
+        else write(document);
       });
 }
 
 void RecordingController::write(std::shared_ptr<const SavedBytes> document) {
   const auto trace = std::make_shared<ExportTrace>();
-  const std::string name = name_now();
+  const std::string name = stick_name_of(device_.clock().wall_now());
   task_ = side_tasks_.send(
       JobLane::Keeper,
       [this, document = std::move(document), trace, name](JobControl& control) {
@@ -171,7 +152,7 @@ void RecordingController::load(std::size_t row, std::function<void(std::shared_p
   if (!names_ || row >= names_->size() || !begin()) return;
   const std::string name = names_->at(row);
   hide();
-  const auto saved = std::make_shared<std::shared_ptr<const SavedBytes>>();
+  const auto saved = std::make_shared<SavedBytes>();
   task_ = side_tasks_.send(
       JobLane::Keeper,
       [this, name, saved](JobControl& control) -> Result<void> {
@@ -180,7 +161,7 @@ void RecordingController::load(std::size_t row, std::function<void(std::shared_p
       },
       [this, saved, read = std::move(read), refused = std::move(refused)](const std::optional<Error>& error) {
         running_ = false;
-        if (!error) return read(std::move(*saved));
+        if (!error) return read(saved);
         if (error->code == Errc::Cancelled || error->code == Errc::MediaMissing)
           outcome_ = outcome_of_export(*error, {});
         else refused(*error);

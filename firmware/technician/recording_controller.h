@@ -40,8 +40,6 @@ class RecordingController {
   void load(std::size_t row, std::function<void(std::shared_ptr<const SavedBytes>)> read,
             std::function<void(const Error&)> refused);
   void stop();
-  // What a capture of this moment is called.
-  std::string name_now() const;
   // Of what list() has found: without its ending.
   std::string saved_name(std::size_t row) const;
   // There is another capture now.

@@ -2,8 +2,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "firmware/technician/run_job.h"
 
-#include <string.h>
-
 #include <algorithm>
 
 #include "hal/raw/raw_image.h"
@@ -114,14 +112,13 @@ Result<void> RunJob::load(JobControl& control) {
   const std::shared_ptr<const SavedBytes> bytes = std::exchange(document_, nullptr);
   change_.forget();                                                       // another capture
   std::vector<StageRecord> records = std::exchange(making_.records, {});  // none is done before all are read
-  RELIEVO_TRY_ASSIGN(const storage::Document document, storage::Document::open(bytes->bytes()));
+  RELIEVO_TRY_ASSIGN(const storage::Document document, storage::Document::open(*bytes));
   pipeline::StereoFrame frame;
   frame.skew_ns = document.head().skew_ns;
   for (const bool left : {true, false}) {
-    RELIEVO_TRY_ASSIGN(storage::Document::Picture picture, document.picture(left));
+    RELIEVO_TRY_ASSIGN(const storage::Document::Picture picture, document.picture(left));
     const hal::RawImage raw = hal::raw_of(picture.view);
     const Result<ImageView> kept = left ? session_.slot().keep_left(raw) : session_.slot().keep_right(raw);
-    explicit_bzero(picture.bytes.data(), picture.bytes.size());
     if (!kept) return kept.error();
     (left ? frame.left : frame.right) = *kept;
   }

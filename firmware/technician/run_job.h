@@ -22,6 +22,7 @@
 #include "firmware/work/jobs.h"
 #include "firmware/work/pipeline_stages.h"
 #include "firmware/work/session_document.h"
+#include "hal/recording/capture_file.h"
 
 namespace relievo::firmware {
 
@@ -85,16 +86,16 @@ class TestShotJob final : public Job {
   bool is_side() const { return side_; }
   Result<void> run(JobControl& control) override {
     Result<void> taken = side_ ? take_side(control) : grab_.run(control);
-    serials_ = {std::string(device_.left().serial()), std::string(device_.right().serial())};
-    if (!side_) light_ = device_.left().exposure();
+    as_taken_.left_serial = device_.left().serial();
+    as_taken_.right_serial = device_.right().serial();
+    if (side_) return taken;
+    const hal::Exposure light = device_.left().exposure();
+    as_taken_.exposure_us = light.time.count();
+    as_taken_.gain = light.gain;
     return taken;
   }
-  struct Serials {
-    std::string left, right;
-  };
-  const Serials& serials() const { return serials_; }
-  // Of the capture: the cameras may be set anew before it is recorded.
-  const hal::Exposure& light() const { return light_; }
+  // Exposure and cameras of the capture: they may be set anew before it is recorded.
+  const hal::RecordedPair& as_taken() const { return as_taken_; }
 
  private:
   Result<void> take_side(JobControl& control);
@@ -104,9 +105,8 @@ class TestShotJob final : public Job {
   EnrolmentSession& session_;
   PoseJob nobody_;  // never runs: no face was found, and no light metered, before the shot
   GrabJob grab_;
-  TurnJob turn_;  // takes a side, follows nobody
-  Serials serials_;
-  hal::Exposure light_;
+  TurnJob turn_;                // takes a side, follows nobody
+  hal::RecordedPair as_taken_;  // without pictures
   bool side_ = false;
 };
 

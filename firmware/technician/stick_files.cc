@@ -2,8 +2,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "firmware/technician/stick_files.h"
 
-#include <string.h>
-
 #include <algorithm>
 #include <cerrno>
 #include <filesystem>
@@ -13,7 +11,6 @@
 #include <utility>
 
 #include "firmware/base/output_folder.h"
-#include "firmware/service/stick_folder.h"
 #include "hal/base/whole_file.h"
 #include "pipeline/calibrate/file/calibration_file.h"
 #include "storage/document/document.h"
@@ -24,6 +21,7 @@ namespace {
 namespace fs = std::filesystem;
 
 constexpr std::size_t kPieceBytes = std::size_t{1} << 20;
+constexpr const char *kRig = "rig.yml", *kLeft = "left.yaml", *kRight = "right.yaml";
 
 // What lies in a folder and is not hidden; nothing where there is none.
 std::vector<fs::path> entries_of(const fs::path& folder) {
@@ -50,15 +48,12 @@ Result<void> each_piece(const fs::path& file, JobControl& control, float from_sh
     return Error{Errc::InvalidInput, "this file is too large for a saved reconstruction"}.at(
         file.filename().string());
   in.seekg(0);
-  struct Piece {
-    std::vector<std::byte> bytes;
-    ~Piece() { explicit_bzero(bytes.data(), bytes.size()); }
-  } piece{std::vector<std::byte>(std::min(size, kPieceBytes))};
+  std::vector<std::byte> piece(std::min(size, kPieceBytes));
   for (std::size_t at = 0; at < size; at += kPieceBytes) {
     if (control.cancelled.load()) return Error{Errc::Cancelled, "it was stopped"};
     const std::size_t bytes = std::min(kPieceBytes, size - at);
-    if (!in.read(reinterpret_cast<char*>(piece.bytes.data()), std::streamsize(bytes))) return unread(file);
-    RELIEVO_TRY(take(std::span<const std::byte>(piece.bytes).first(bytes), at, size));
+    if (!in.read(reinterpret_cast<char*>(piece.data()), std::streamsize(bytes))) return unread(file);
+    RELIEVO_TRY(take(std::span<const std::byte>(piece).first(bytes), at, size));
     control.progress.done.store(from_share + (to_share - from_share) * float(at + bytes) / float(size));
   }
   return {};
@@ -90,49 +85,6 @@ Result<void> write(std::span<const std::byte> bytes, const fs::path& target, hal
   return sync_renamed(target);
 }
 
-}  // namespace
-
-SavedBytes::~SavedBytes() { explicit_bzero(bytes_.data(), bytes_.size()); }
-
-Result<void> save_reconstruction(const SavedBytes& document, const std::string& name,
-                                 hal::RemovableMedia& media, JobControl& control, ExportTrace& trace) {
-  trace = {};
-  StickWork work{control, trace};
-  return put_on_stick(media, fs::path(kSavedFolder) / (name + kSavedEnding), &work,
-                      [&](const fs::path& target) { return write(document.bytes(), target, media, work); });
-}
-
-Result<std::vector<std::string>> saved_reconstructions(hal::RemovableMedia& media, std::size_t most) {
-  RELIEVO_TRY_ASSIGN(const fs::path stick, plugged_in(media));
-  std::vector<std::string> names;
-  for (const fs::path& entry : entries_of(stick / kSavedFolder))
-    if (entry.string().ends_with(kSavedEnding)) names.push_back(entry.filename().string());
-  std::ranges::sort(names, std::greater<>());  // a name is the time at which it was saved
-  names.resize(std::min(names.size(), most));
-  return names;
-}
-
-Result<std::shared_ptr<const SavedBytes>> read_saved(const std::string& name, hal::RemovableMedia& media,
-                                                     JobControl& control) {
-  RELIEVO_TRY_ASSIGN(const fs::path stick, plugged_in(media));
-  std::vector<std::byte> bytes;
-  RELIEVO_TRY(
-      each_piece(stick / kSavedFolder / name, control, 0, 0.9F,
-                 [&bytes](std::span<const std::byte> piece, std::size_t, std::size_t size) -> Result<void> {
-                   bytes.reserve(size);
-                   bytes.insert(bytes.end(), piece.begin(), piece.end());
-                   return {};
-                 }));
-  const auto saved = std::make_shared<const SavedBytes>(std::move(bytes));
-  const auto document = storage::Document::open(saved->bytes());
-  if (!document) return document.error().at(name);
-  return saved;
-}
-
-namespace {
-
-constexpr const char *kRig = "rig.yml", *kLeft = "left.yaml", *kRight = "right.yaml";
-
 Result<void> write(const pipeline::StereoCalibration& calibration, const fs::path& target,
                    hal::RemovableMedia& media) {
   RELIEVO_TRY_ASSIGN(const auto ros, pipeline::camera_info_texts(calibration));
@@ -153,6 +105,39 @@ std::vector<fs::path> places(const fs::path& root) {
 }
 
 }  // namespace
+
+Result<void> save_reconstruction(const SavedBytes& document, const std::string& name,
+                                 hal::RemovableMedia& media, JobControl& control, ExportTrace& trace) {
+  trace = {};
+  StickWork work{control, trace};
+  return put_on_stick(media, fs::path(kSavedFolder) / (name + kSavedEnding), &work,
+                      [&](const fs::path& target) { return write(document, target, media, work); });
+}
+
+Result<std::vector<std::string>> saved_reconstructions(hal::RemovableMedia& media, std::size_t most) {
+  RELIEVO_TRY_ASSIGN(const fs::path stick, plugged_in(media));
+  std::vector<std::string> names;
+  for (const fs::path& entry : entries_of(stick / kSavedFolder))
+    if (entry.string().ends_with(kSavedEnding)) names.push_back(entry.filename().string());
+  std::ranges::sort(names, std::greater<>());  // a name is the time at which it was saved
+  names.resize(std::min(names.size(), most));
+  return names;
+}
+
+Result<SavedBytes> read_saved(const std::string& name, hal::RemovableMedia& media, JobControl& control) {
+  RELIEVO_TRY_ASSIGN(const fs::path stick, plugged_in(media));
+  SavedBytes saved;
+  RELIEVO_TRY(
+      each_piece(stick / kSavedFolder / name, control, 0, 0.9F,
+                 [&saved](std::span<const std::byte> piece, std::size_t, std::size_t size) -> Result<void> {
+                   saved.reserve(size);
+                   saved.insert(saved.end(), piece.begin(), piece.end());
+                   return {};
+                 }));
+  const auto document = storage::Document::open(saved);
+  if (!document) return document.error().at(name);
+  return saved;
+}
 
 Result<void> export_calibration(const pipeline::StereoCalibration& calibration, const std::string& name,
                                 hal::RemovableMedia& media) {

@@ -9,8 +9,6 @@
 #pragma once
 
 #include <cstddef>
-#include <memory>
-#include <span>
 #include <string>
 #include <vector>
 
@@ -21,18 +19,8 @@
 
 namespace relievo::firmware {
 
-// A document in memory, wiped with it: it holds a face.
-class SavedBytes {
- public:
-  explicit SavedBytes(std::vector<std::byte> bytes) : bytes_(std::move(bytes)) {}
-  ~SavedBytes();
-  SavedBytes(const SavedBytes&) = delete;
-  SavedBytes& operator=(const SavedBytes&) = delete;
-  std::span<const std::byte> bytes() const { return bytes_; }
-
- private:
-  std::vector<std::byte> bytes_;
-};
+// A document in memory. It holds a face: the heap wipes it (base/wiping_heap.cc).
+using SavedBytes = std::vector<std::byte>;
 
 inline constexpr const char* kSavedFolder = "reconstructions";  // on the stick
 inline constexpr const char* kSavedEnding = ".relievo";
@@ -41,8 +29,7 @@ Result<void> save_reconstruction(const SavedBytes& document, const std::string& 
                                  hal::RemovableMedia& media, JobControl& control, ExportTrace& trace);
 // Their file names, the newest first, so many at most.
 Result<std::vector<std::string>> saved_reconstructions(hal::RemovableMedia& media, std::size_t most);
-Result<std::shared_ptr<const SavedBytes>> read_saved(const std::string& name, hal::RemovableMedia& media,
-                                                     JobControl& control);
+Result<SavedBytes> read_saved(const std::string& name, hal::RemovableMedia& media, JobControl& control);
 
 // Calibrations on a stick, in both forms: calibrations/NAME/ with rig.yml (OpenCV's) and left.yaml,
 // right.yaml (ROS), read back before the folder gets its name; then the stick is let go. Taken from a stick

@@ -6,6 +6,7 @@
 #include <utility>
 #include <vector>
 
+#include "firmware/base/wall_time.h"
 #include "firmware/work/session_document.h"
 
 namespace relievo::firmware {
@@ -44,32 +45,32 @@ bool TestCapture::is_calibrated() {
 
 void TestCapture::say(const Error& error) { problem_ = ui::fault_of(error); }
 
-void TestCapture::opened(ui::TechnicianPage page) {
+void TestCapture::opened(ui::StaffPage page) {
   recording_.hide();
-  if (page == ui::TechnicianPage::Cameras) watch_cameras(true);
-  if (page == ui::TechnicianPage::Calibrate) calibrations_.load_history();
-  if (page == ui::TechnicianPage::Algorithms) algorithms_.act(ui::DoTechnician{TechnicianAct::LeaveOption});
+  if (page == ui::StaffPage::Cameras) watch_cameras(true);
+  if (page == ui::StaffPage::Calibrate) calibrations_.load_history();
+  if (page == ui::StaffPage::Algorithms) algorithms_.act(TechnicianAct::LeaveOption);
   page_ = page;
-  if (page == ui::TechnicianPage::Tables && at_rest()) tables_.refresh(source());
+  if (page == ui::StaffPage::Tables && at_rest()) tables_.refresh(source());
 }
 
-void TestCapture::closed(ui::TechnicianPage page) {
-  if (page == ui::TechnicianPage::Cameras) watch_cameras(false);
+void TestCapture::closed(ui::StaffPage page) {
+  if (page == ui::StaffPage::Cameras) watch_cameras(false);
 }
 
 void TestCapture::act(const ui::TechnicianRequest& request) {
-  const auto* alone = std::get_if<ui::DoTechnician>(&request);
-  const bool ends = alone != nullptr && (alone->act == TechnicianAct::StopCalibration ||
-                                         alone->act == TechnicianAct::CancelCalibration);
+  const auto* alone = std::get_if<ui::TechnicianAct>(&request);
+  const bool ends = alone != nullptr &&
+                    (*alone == TechnicianAct::StopCalibration || *alone == TechnicianAct::CancelCalibration);
   const bool calibrating = parts_.appliance.state() == State::Calibrate;
   if (ends ? !calibrating : parts_.appliance.state() != State::Staff) return;
-  if (alone != nullptr) act_alone(alone->act);
+  if (alone != nullptr) act_alone(*alone);
   if (const auto* again = std::get_if<ui::RunStages>(&request)) run(again->latest);
   if (const auto* shown = std::get_if<ui::ShowStage>(&request)) stage_ = shown->stage;
   if (const auto* shown = std::get_if<ui::ShowTable>(&request)) tables_.show(shown->table, source());
   if (const auto* list = std::get_if<ui::ListRequest>(&request)) {
-    if (page_ == ui::TechnicianPage::Tables && at_rest()) tables_.ask(*list, source());
-    if (page_ == ui::TechnicianPage::Calibrate) calibrations_.walk(*list);
+    if (page_ == ui::StaffPage::Tables && at_rest()) tables_.ask(*list, source());
+    if (page_ == ui::StaffPage::Calibrate) calibrations_.walk(*list);
   }
   if (const auto* finger = std::get_if<ui::TouchPicture>(&request)) touch(*finger);
   if (const auto* dropped = std::get_if<ui::DropResult>(&request)) kept_.drop(dropped->index);
@@ -134,12 +135,11 @@ void TestCapture::keep_result() {
 void TestCapture::record() {
   const Products* made = products();
   if (made == nullptr || !made->frame) return;
-  const hal::Exposure light = loaded_ ? hal::Exposure{} : shot_.light();  // of a loaded one nobody knows
-  hal::RecordedPair as_taken;
-  as_taken.exposure_us = light.time.count();
-  as_taken.gain = light.gain;
-  as_taken.left_serial = loaded_ ? calibration()->cameras.left : shot_.serials().left;
-  as_taken.right_serial = loaded_ ? calibration()->cameras.right : shot_.serials().right;
+  hal::RecordedPair as_taken = loaded_ ? hal::RecordedPair() : shot_.as_taken();
+  if (loaded_) {  // nobody knows its light
+    as_taken.left_serial = calibration()->cameras.left;
+    as_taken.right_serial = calibration()->cameras.right;
+  }
   std::vector<pipeline::StereoFrame> shots{*made->frame};
   for (std::size_t i = 0; i < session_.sides().count(); ++i) shots.push_back(session_.sides().waiting(i));
   recording_.record(shots, as_taken);
@@ -177,16 +177,16 @@ void TestCapture::forget_capture() {
 void TestCapture::shoot(bool side) {
   phase_ = TechnicianPhase::Capturing;
   shot_.order(side);
-  if (!side) run_.name(recording_.name_now());
+  if (!side) run_.name(stick_name_of(parts_.device.clock().wall_now()));
   taking_ = parts_.side_tasks.send(
       JobLane::Capture, [this](JobControl& control) { return shot_.run(control); },
       [this](const std::optional<Error>& error) { shot_done(error); });
 }
 
 void TestCapture::calibrate() {
-  calibrate_.order(calibrations_.order());
   parts_.appliance.ask(ui::Intent::Calibrate);
   if (parts_.appliance.state() != State::Calibrate) return;
+  calibrate_.order(calibrations_.order());
   calibrations_.begun();
   taking_ = parts_.side_tasks.send(
       JobLane::Capture, [this](JobControl& control) { return calibrate_.run(control); },
@@ -240,7 +240,7 @@ void TestCapture::load(std::size_t row, bool beside) {
   recording_.load(
       row,
       [this, name, beside](std::shared_ptr<const SavedBytes> saved) {
-        const auto document = storage::Document::open(saved->bytes());
+        const auto document = storage::Document::open(*saved);
         auto making = document ? making_of(*document) : Result<Making>(document.error());
         if (!making) return say(making.error());
         saved_ = {std::move(saved), name, *std::move(making), beside};

@@ -56,8 +56,8 @@ class TestCapture {
   // What a page asked for.
   void act(const ui::TechnicianRequest& request);
   // What a page has under way only while it is open begins and ends with it.
-  void opened(ui::TechnicianPage page);
-  void closed(ui::TechnicianPage page);
+  void opened(ui::StaffPage page);
+  void closed(ui::StaffPage page);
   // Every turn of the main loop, whatever page is open.
   void turn();
   // Valid until the next turn() or act().
@@ -106,7 +106,7 @@ class TestCapture {
   RecordingController recording_;
   AlgorithmController algorithms_;
   TechnicianTables tables_;
-  ui::TechnicianPage page_ = ui::TechnicianPage::Stages;  // opened last
+  ui::StaffPage page_ = ui::StaffPage::Stages;  // opened last
   KeptResults kept_;
   ui::TechnicianPhase phase_ = ui::TechnicianPhase::Empty;
   ui::TechnicianStage stage_ = ui::TechnicianStage::Rectified;

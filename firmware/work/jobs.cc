@@ -15,9 +15,9 @@ Result<void> HeadJob::run(JobControl& control) {
   parts_done_ = 0;
   for (const State stage : kStages) {
     JobControl inner{control.cancelled, inner_};
-    stage_.choose(stage);
-    RELIEVO_TRY(stage_.run(inner));
-    records_.push_back(stage_.record());
+    choose(stage);
+    RELIEVO_TRY(StageJob::run(inner));
+    records_.push_back(record());
     parts_done_.fetch_add(1, std::memory_order_release);
   }
   std::vector<pipeline::HeadPose> poses;

@@ -96,7 +96,7 @@ class GrabJob final : public Job {
   PoseJob& pose_;
 };
 
-class StageJob final : public Job {
+class StageJob : public Job {
  public:
   StageJob(StageRunner& runner, EnrolmentSession& session, ThreadPool& pool, const hal::Clock& clock)
       : runner_(runner), session_(session), pool_(pool), clock_(clock) {}
@@ -104,11 +104,13 @@ class StageJob final : public Job {
   const StageRecord& record() const { return record_; }  // of the last run
   Result<void> run(JobControl& control) override;
 
- private:
+ protected:
   StageRunner& runner_;
   EnrolmentSession& session_;
   ThreadPool& pool_;
   const hal::Clock& clock_;
+
+ private:
   State stage_ = State::Match;
   StageRecord record_;
 };
@@ -181,10 +183,10 @@ class TurnJob final : public Job {
 // more come the head of all of them. What goes wrong with a side costs that side: without any that fits, the
 // face of the frontal pair stays as it is. Thread: run() worker; parts_done() any; the others main, once it
 // has ended. Errors: those of the frontal pair's stages, Cancelled.
-class HeadJob final : public Job {
+class HeadJob final : public StageJob {
  public:
   HeadJob(StageRunner& runner, EnrolmentSession& session, ThreadPool& pool, const hal::Clock& clock)
-      : runner_(runner), session_(session), pool_(pool), clock_(clock), stage_(runner, session, pool, clock) {
+      : StageJob(runner, session, pool, clock) {
     records_.reserve(kStages.size() + SidePairs::kPoses + 1);
   }
   // Stages, whose pictures may be shown, then sides; PortraitProgress::kFuse from there on.
@@ -204,11 +206,6 @@ class HeadJob final : public Job {
   template <typename Work>
   auto timed(std::string_view name, JobControl& control, Work&& work);
 
-  StageRunner& runner_;
-  EnrolmentSession& session_;
-  ThreadPool& pool_;
-  const hal::Clock& clock_;
-  StageJob stage_;
   pipeline::Progress inner_;  // of one part
   std::atomic<std::size_t> parts_done_{0};
   std::vector<StageRecord> records_;

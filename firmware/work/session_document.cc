@@ -55,9 +55,9 @@ Result<void> load_stage(const storage::Document& document, State stage, Enrolmen
   } else if (stage == State::Mesh && document.head().stages.size() == storage::kDocumentStages) {
     RELIEVO_TRY_ASSIGN(made.model, document.model(&memory));  // and the mesh in it
     RELIEVO_TRY_ASSIGN(const auto set, pipeline::AlgorithmSet::from_text(document.head().algorithms));
-    RELIEVO_TRY_ASSIGN(auto relief, pipeline::make_relief_check(set));
-    if (document.head().whole_view) relief.reset();
-    made.model->unjudged = pipeline::why_unjudged(*made.model, relief);
+    RELIEVO_TRY_ASSIGN(auto made_of, pipeline::make_algorithms(set));
+    if (document.head().whole_view) made_of.relief.reset();
+    made.model->unjudged = pipeline::why_unjudged(*made.model, made_of.relief);
   } else if (stage == State::Mesh) {
     RELIEVO_TRY_ASSIGN(made.mesh, document.mesh(&memory));
   }

@@ -54,9 +54,6 @@ struct Error {
   Errc code;
   Literal what;
   int sys_errno = 0;
-  // The builtins, not std::source_location: clang-tidy 14 has none of it.
-  const char* file = __builtin_FILE();
-  int line = __builtin_LINE();
   std::array<char, 192> where_text{};
 
   std::string_view where() const { return {where_text.data()}; }

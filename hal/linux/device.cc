@@ -48,53 +48,43 @@ class NoLine final : public TriggerLine {
   }
 };
 
-class NoStick final : public RemovableMedia {
- public:
-  std::optional<std::filesystem::path> current() override { return std::nullopt; }
-  Result<void> flush_and_eject() override { return Error{Errc::MediaMissing, "there is no stick"}; }
-};
-
 class LinuxDevice final : public Device {
  public:
   LinuxDevice(const LinuxDeviceOptions& options, std::unique_ptr<OutputLines> lines, Kernel& kernel)
-      : mode_(options.mode), first_(options.left, kernel, clock_) {
+      : options_(options), first_(options.left, kernel, clock_), stick_(options.stick_folder) {
     if (options.right) second_.emplace(*options.right, kernel, clock_);
     else halves_.emplace(first_);
     if (lines) trigger_ = std::make_unique<GpioTriggerLine>(std::move(lines), options.timing, clock_);
     else trigger_ = std::make_unique<NoLine>(clock_);
-    // One device exposes both views at once, with a wire or without.
-    together_ = options.trigger.has_value() || !options.right;
-    if (options.trigger && options.trigger->lamp) light_ = Light::Flash;
-    if (options.stick_folder.empty()) stick_ = std::make_unique<NoStick>();
-    else stick_ = std::make_unique<MountedStick>(options.stick_folder);
   }
   Result<void> arm(const WatchdogOptions& options, Kernel& kernel) {
-    RELIEVO_TRY_ASSIGN(watchdog_, HardwareWatchdog::open(options, kernel, clock_));
+    RELIEVO_TRY_ASSIGN(watchdog_, open_hardware_watchdog(options, kernel, clock_));
     return {};
   }
 
   std::string_view name() const override { return "linux"; }
-  CaptureMode preferred_mode() const override { return mode_; }
+  CaptureMode preferred_mode() const override { return options_.mode; }
   Camera& left() override { return halves_ ? halves_->left() : first_; }
   Camera& right() override { return halves_ ? halves_->right() : *second_; }
   TriggerLine& trigger() override { return *trigger_; }
-  bool exposes_together() const override { return together_; }
-  Light shot_light() const override { return light_; }
+  // One device exposes both views at once, with a wire or without.
+  bool exposes_together() const override { return options_.trigger.has_value() || !options_.right; }
+  Light shot_light() const override {
+    return options_.trigger && options_.trigger->lamp ? Light::Flash : Light::Off;
+  }
   bool too_hot() const override { return near_switching_off("/sys/class/thermal"); }
-  RemovableMedia& media() override { return *stick_; }
+  RemovableMedia& media() override { return stick_; }
   Clock& clock() override { return clock_; }
   Watchdog& watchdog() override { return *watchdog_; }
 
  private:
   MonotonicClock clock_;
-  CaptureMode mode_;
+  LinuxDeviceOptions options_;
   V4l2Camera first_;
   std::optional<V4l2Camera> second_;
   std::optional<SideBySide> halves_;
   std::unique_ptr<TriggerLine> trigger_;
-  bool together_ = true;
-  Light light_ = Light::Off;
-  std::unique_ptr<RemovableMedia> stick_;
+  MountedStick stick_;
   std::unique_ptr<Watchdog> watchdog_ = std::make_unique<NullWatchdog>();
 };
 

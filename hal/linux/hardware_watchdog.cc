@@ -49,6 +49,28 @@ void put_to_rest(Kernel& kernel, int file) {
   kernel.close(file);
 }
 
+class HardwareWatchdog final : public Watchdog {
+ public:
+  HardwareWatchdog(Kernel& kernel, const Clock& clock, int file, std::chrono::seconds timeout)
+      : kernel_(kernel), clock_(clock), file_(file), timeout_(timeout) {}
+  ~HardwareWatchdog() override { put_to_rest(kernel_, file_); }
+
+  void kick() override {
+    const Instant now = clock_.now();
+    if (now < next_) return;
+    next_ = now + std::chrono::duration_cast<Instant::duration>(timeout_) / 4;
+    int none = 0;
+    (void)call(kernel_, file_, WDIOC_KEEPALIVE, &none);  // what it refuses, the watchdog itself punishes
+  }
+
+ private:
+  Kernel& kernel_;
+  const Clock& clock_;
+  int file_;
+  std::chrono::seconds timeout_;
+  Instant next_{};
+};
+
 }  // namespace
 
 Result<void> WatchdogOptions::check() const {
@@ -58,28 +80,17 @@ Result<void> WatchdogOptions::check() const {
   return {};
 }
 
-Result<std::unique_ptr<HardwareWatchdog>> HardwareWatchdog::open(const WatchdogOptions& options,
-                                                                 Kernel& kernel, const Clock& clock) {
+Result<std::unique_ptr<Watchdog>> open_hardware_watchdog(const WatchdogOptions& options, Kernel& kernel,
+                                                         const Clock& clock) {
   RELIEVO_TRY(options.check());
-  int file = -EINTR;
-  while (file == -EINTR) file = kernel.open(options.device.c_str());
+  const int file = open_device(kernel, options.device.c_str());
   if (file < 0) return cannot_open(-file).at(options.device);
   const auto timeout = set_timeout(kernel, file, options.timeout);
   if (!timeout) {
     put_to_rest(kernel, file);
     return timeout.error().at(options.device);
   }
-  return std::unique_ptr<HardwareWatchdog>(new HardwareWatchdog(kernel, clock, file, *timeout));
-}
-
-HardwareWatchdog::~HardwareWatchdog() { put_to_rest(kernel_, file_); }
-
-void HardwareWatchdog::kick() {
-  const Instant now = clock_.now();
-  if (now < next_) return;
-  next_ = now + std::chrono::duration_cast<Instant::duration>(timeout_) / 4;
-  int none = 0;
-  (void)call(kernel_, file_, WDIOC_KEEPALIVE, &none);  // what it refuses, the watchdog itself punishes
+  return std::unique_ptr<Watchdog>(std::make_unique<HardwareWatchdog>(kernel, clock, file, *timeout));
 }
 
 }  // namespace relievo::hal

@@ -6,7 +6,6 @@
 
 #include <algorithm>
 #include <array>
-#include <cerrno>
 #include <string>
 #include <vector>
 
@@ -45,8 +44,7 @@ std::unique_ptr<InputSwitch> find(Kernel& kernel, int code) {
   std::vector<int> files;
   for (int i = 0; i < kInputDevices; ++i) {
     const std::string path = "/dev/input/event" + std::to_string(i);
-    int file = -EINTR;
-    while (file == -EINTR) file = kernel.open(path.c_str());
+    const int file = open_device(kernel, path.c_str());
     if (file < 0) continue;
     if (has(kernel, file, EVIOCGBIT(EV_SW, sizeof(Switches)), code)) files.push_back(file);
     else kernel.close(file);

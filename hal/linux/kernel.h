@@ -30,7 +30,8 @@ class Kernel {
 
 Kernel& real_kernel();
 
-// An ioctl that a signal interrupted is made once more.
+// What a signal interrupted is done once more.
+int open_device(Kernel& kernel, const char* path);
 int call(Kernel& kernel, int file, unsigned long request, void* argument);
 // A device that is gone says so by any of several numbers; then `otherwise` becomes Disconnected.
 Error device_error(int negative_errno, const Error& otherwise);

@@ -57,11 +57,15 @@ Kernel& real_kernel() {
   return kernel;
 }
 
+int open_device(Kernel& kernel, const char* path) {
+  int file = -EINTR;
+  while (file == -EINTR) file = kernel.open(path);
+  return file;
+}
+
 int call(Kernel& kernel, int file, unsigned long request, void* argument) {
-  int result = 0;
-  do {
-    result = kernel.ioctl(file, request, argument);
-  } while (result == -EINTR);
+  int result = -EINTR;
+  while (result == -EINTR) result = kernel.ioctl(file, request, argument);
   return result;
 }
 

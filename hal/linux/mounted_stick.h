@@ -39,6 +39,7 @@ std::optional<MountSource> source_in(std::string_view mountinfo, std::string_vie
 
 class MountedStick final : public RemovableMedia {
  public:
+  // An empty folder: there is never a stick.
   explicit MountedStick(std::filesystem::path folder, Mounts& mounts = real_mounts())
       : folder_(std::move(folder)), mounts_(mounts) {}
 

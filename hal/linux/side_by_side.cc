@@ -8,16 +8,13 @@
 
 namespace relievo::hal {
 
-Result<void> SideBySide::open(std::size_t side, const CaptureMode& mode) {
-  if (device_.state() == Camera::State::Closed)
-    RELIEVO_TRY(device_.open({2 * mode.width_px, mode.height_px, mode.exposure}));
-  opened_[side] = true;
-  return {};
+Result<void> SideBySide::open(const CaptureMode& mode) {
+  if (device_.state() != Camera::State::Closed) return {};
+  return device_.open({2 * mode.width_px, mode.height_px, mode.exposure});
 }
 
 void SideBySide::close(std::size_t side) {
-  opened_[side] = false;
-  if (!dead_ && (opened_[0] || opened_[1])) return;
+  if (!dead_ && beside(side).state() != Camera::State::Closed) return;
   for (Shared& shared : pictures_) {
     shared.frame.reset();
     shared.lent = shared.waits = {};
@@ -26,19 +23,17 @@ void SideBySide::close(std::size_t side) {
   dead_ = false;
 }
 
-Result<void> SideBySide::start(std::size_t side) {
+Result<void> SideBySide::start() {
   if (device_.state() == Camera::State::Closed)
     return Error{Errc::Disconnected, "the camera's other half has vanished: both are opened again"};
-  if (device_.state() == Camera::State::Idle) RELIEVO_TRY(device_.start());
-  running_[side] = true;
-  return {};
+  if (device_.state() == Camera::State::Running) return {};
+  return device_.start();
 }
 
 void SideBySide::stop(std::size_t side) {
-  running_[side] = false;
   for (Shared& shared : pictures_) shared.waits[side] = false;
   tidy();
-  if (!running_[0] && !running_[1]) device_.stop();
+  if (beside(side).state() != Camera::State::Running) device_.stop();
 }
 
 void SideBySide::tidy() {
@@ -65,7 +60,7 @@ Result<Frame> SideBySide::next(std::size_t side, Instant deadline) {
   tidy();
   room->frame.emplace(*std::move(taken));
   room->waits = {};
-  room->waits[other] = running_[other];
+  room->waits[other] = beside(side).state() == Camera::State::Running;
   return lend(*room, side);
 }
 

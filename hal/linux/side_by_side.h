@@ -42,8 +42,8 @@ class SideBySide {
     std::string_view socket() const override { return both_.device_.socket(); }
 
    private:
-    Result<void> do_open(const CaptureMode& mode) override { return both_.open(side_, mode); }
-    Result<void> do_start() override { return both_.start(side_); }
+    Result<void> do_open(const CaptureMode& mode) override { return both_.open(mode); }
+    Result<void> do_start() override { return both_.start(); }
     Result<Frame> do_next_frame(Instant deadline) override { return both_.next(side_, deadline); }
     void do_stop() override { both_.stop(side_); }
     void do_close() override { both_.close(side_); }
@@ -61,19 +61,18 @@ class SideBySide {
     std::array<bool, kSides> waits{};
   };
 
-  Result<void> open(std::size_t side, const CaptureMode& mode);
-  Result<void> start(std::size_t side);
+  Result<void> open(const CaptureMode& mode);
+  Result<void> start();
   void stop(std::size_t side);
   void close(std::size_t side);
   Result<Frame> next(std::size_t side, Instant deadline);
   Result<Frame> lend(Shared& shared, std::size_t side);
   void tidy();
+  const Camera& beside(std::size_t side) const { return side == 0 ? right_ : left_; }
   static void give_back(void* owner, int slot);
 
   Camera& device_;
   bool dead_ = false;  // the device has vanished: the first side that closes, closes it
-  std::array<bool, kSides> opened_{};
-  std::array<bool, kSides> running_{};
   std::array<Shared, kPictures> pictures_;
   Side left_{*this, 0};
   Side right_{*this, 1};

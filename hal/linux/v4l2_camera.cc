@@ -12,6 +12,8 @@ namespace relievo::hal {
 namespace {
 
 constexpr std::uint32_t kCapture = V4L2_BUF_TYPE_VIDEO_CAPTURE;
+const Error kNoMemory{Errc::OutOfMemory,
+                      "the camera's driver has no memory for its buffers: choose a smaller mode"};
 
 Error open_error(int negative_errno) {
   switch (-negative_errno) {
@@ -39,13 +41,8 @@ v4l2_buffer empty_buffer(std::size_t index) {
 
 }  // namespace
 
-V4l2Camera::~V4l2Camera() {
-  if (streaming_) do_stop();
-  release();
-}
-
 Result<void> V4l2Camera::do_open(const CaptureMode& mode) {
-  const int file = kernel_.open(options_.device.c_str());
+  const int file = open_device(kernel_, options_.device.c_str());
   if (file < 0) return open_error(file).at(options_.device);
   file_ = file;
   if (const Result<void> ready = set_up(mode); !ready) {
@@ -77,12 +74,9 @@ Result<void> V4l2Camera::map_buffers() {
   if (const int r = call(kernel_, file_, VIDIOC_REQBUFS, &wanted); r < 0) {
     if (r == -EBUSY) return Error{Errc::IoFailed, "another program uses this camera: close it", -r};
     if (r == -EINVAL) return Error{Errc::Unsupported, "this camera's driver cannot map its buffers", -r};
-    return device_error(
-        r, {Errc::OutOfMemory, "the camera's driver has no memory for its buffers: choose a smaller mode"});
+    return device_error(r, kNoMemory);
   }
-  if (wanted.count < 2)
-    return Error{Errc::OutOfMemory,
-                 "the camera's driver has no memory for its buffers: choose a smaller mode"};
+  if (wanted.count < 2) return kNoMemory;
   count_ = std::min<std::size_t>(wanted.count, kBuffers);
   for (std::size_t i = 0; i < count_; ++i) {
     v4l2_buffer buffer = empty_buffer(i);
@@ -127,7 +121,6 @@ Result<void> V4l2Camera::do_start() {
       started = Error{Errc::Timeout, "the camera's input has no signal: check the cable", ENOLINK};
     else if (r < 0) started = device_error(r, {Errc::IoFailed, "the camera does not start"});
   }
-  streaming_ = started.has_value();
   // What was queued is taken back, so that the next start begins with all of them.
   if (!started) call(kernel_, file_, VIDIOC_STREAMOFF, &type);
   return started ? started : Result<void>(started.error().at(options_.device));
@@ -136,7 +129,6 @@ Result<void> V4l2Camera::do_start() {
 void V4l2Camera::do_stop() {
   std::uint32_t type = kCapture;
   call(kernel_, file_, VIDIOC_STREAMOFF, &type);  // of a camera that is gone: nothing left to stop
-  streaming_ = false;
 }
 
 bool V4l2Camera::all_lent() const {
@@ -194,7 +186,7 @@ void V4l2Camera::give_back(void* owner, int slot) {
   auto* camera = static_cast<V4l2Camera*>(owner);
   camera->buffers_[std::size_t(slot)].lent = false;
   // A buffer the driver does not take is queued anew with the next start.
-  if (camera->streaming_) (void)camera->queue(std::size_t(slot)).has_value();
+  if (camera->state() == State::Running) (void)camera->queue(std::size_t(slot)).has_value();
 }
 
 }  // namespace relievo::hal

@@ -1,7 +1,5 @@
 // SPDX-FileCopyrightText: 2026 The Relievo authors
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include "hal/linux/v4l2_setup.h"
-
 #include <linux/videodev2.h>
 
 #include <algorithm>
@@ -13,6 +11,8 @@
 #include <string_view>
 #include <vector>
 
+#include "hal/linux/v4l2_camera.h"
+
 namespace relievo::hal {
 namespace {
 
@@ -21,25 +21,26 @@ constexpr std::int64_t kExposureUnitUs = 100;
 
 const Error kNoExposure{Errc::Unsupported, "this camera's exposure cannot be set"};
 
-struct Control {
-  std::uint32_t id = 0;
-  std::int64_t least = 0;
-  std::int64_t most = 0;
-};
-
 bool is_usable(const v4l2_queryctrl& asked) {
   return (asked.flags & (V4L2_CTRL_FLAG_DISABLED | V4L2_CTRL_FLAG_READ_ONLY)) == 0 &&
          asked.maximum > asked.minimum;
 }
 
-Result<std::optional<Control>> find_control(Kernel& kernel, int file, std::uint32_t id) {
+using Control = std::optional<v4l2_queryctrl>;
+
+// None: there is none, or no further one.
+Result<Control> query_control(Kernel& kernel, int file, std::uint32_t id) {
   v4l2_queryctrl asked{};
   asked.id = id;
   const int r = call(kernel, file, VIDIOC_QUERYCTRL, &asked);
-  if (r == -EINVAL || r == -ENOTTY) return std::optional<Control>();
+  if (r == -EINVAL || r == -ENOTTY) return Control();
   if (r < 0) return device_error(r, {Errc::IoFailed, "the camera does not tell its controls"});
-  if (!is_usable(asked)) return std::optional<Control>();
-  return std::optional<Control>({id, asked.minimum, asked.maximum});
+  return Control(asked);
+}
+
+Result<Control> find_control(Kernel& kernel, int file, std::uint32_t id) {
+  RELIEVO_TRY_ASSIGN(const Control asked, query_control(kernel, file, id));
+  return asked && is_usable(*asked) ? asked : Control();
 }
 
 Result<void> set_control(Kernel& kernel, int file, std::uint32_t id, std::int64_t value) {
@@ -63,7 +64,7 @@ Result<void> set_if_any(Kernel& kernel, int file, std::uint32_t id, std::int64_t
   return {};
 }
 
-Result<std::optional<Control>> find_gain(Kernel& kernel, int file) {
+Result<Control> find_gain(Kernel& kernel, int file) {
   RELIEVO_TRY_ASSIGN(const auto analogue, find_control(kernel, file, V4L2_CID_ANALOGUE_GAIN));
   if (analogue) return analogue;
   return find_control(kernel, file, V4L2_CID_GAIN);
@@ -243,25 +244,21 @@ Result<std::optional<V4l2Stream>> try_format(Kernel& kernel, int file, const Cap
 }  // namespace
 
 // The kernel has no number for it: makers name theirs "Trigger Mode", "External Trigger", "Trigger".
-Result<bool> set_external_trigger(Kernel& kernel, int file) {
+Result<void> set_external_trigger(Kernel& kernel, int file) {
   std::uint32_t id = V4L2_CTRL_FLAG_NEXT_CTRL;
   for (int i = 0; i < kMostControls; ++i) {
-    v4l2_queryctrl asked{};
-    asked.id = id;
-    const int r = call(kernel, file, VIDIOC_QUERYCTRL, &asked);
-    if (r == -EINVAL || r == -ENOTTY) return false;
-    if (r < 0) return device_error(r, {Errc::IoFailed, "the camera does not tell its controls"});
-    id = asked.id | V4L2_CTRL_FLAG_NEXT_CTRL;
-    const bool choice = asked.type == V4L2_CTRL_TYPE_BOOLEAN || asked.type == V4L2_CTRL_TYPE_MENU ||
-                        asked.type == V4L2_CTRL_TYPE_INTEGER;
-    const std::string name = lower(asked.name, sizeof asked.name);
+    RELIEVO_TRY_ASSIGN(const Control asked, query_control(kernel, file, id));
+    if (!asked) return {};
+    id = asked->id | V4L2_CTRL_FLAG_NEXT_CTRL;
+    const bool choice = asked->type == V4L2_CTRL_TYPE_BOOLEAN || asked->type == V4L2_CTRL_TYPE_MENU ||
+                        asked->type == V4L2_CTRL_TYPE_INTEGER;
+    const std::string name = lower(asked->name, sizeof asked->name);
     const bool named =
         name == "trigger" || name == "trigger mode" || name == "external trigger" || name == "trigger enable";
-    if (!choice || !named || !is_usable(asked)) continue;
-    RELIEVO_TRY(set_control(kernel, file, asked.id, external_of(kernel, file, asked)));
-    return true;
+    if (choice && named && is_usable(*asked))
+      return set_control(kernel, file, asked->id, external_of(kernel, file, *asked));
   }
-  return false;
+  return {};
 }
 
 Result<ExposureLimits> query_exposure(Kernel& kernel, int file) {
@@ -269,8 +266,8 @@ Result<ExposureLimits> query_exposure(Kernel& kernel, int file) {
   if (!time) return kNoExposure;
   RELIEVO_TRY_ASSIGN(const auto gain, find_gain(kernel, file));
   using std::chrono::microseconds;
-  return ExposureLimits{{microseconds(std::max<std::int64_t>(time->least, 1) * kExposureUnitUs), 1},
-                        {microseconds(time->most * kExposureUnitUs), gain ? kGainSpan : 1}};
+  return ExposureLimits{{microseconds(std::max<std::int64_t>(time->minimum, 1) * kExposureUnitUs), 1},
+                        {microseconds(time->maximum * kExposureUnitUs), gain ? kGainSpan : 1}};
 }
 
 Result<void> apply_exposure(Kernel& kernel, int file, const Exposure& exposure) {
@@ -286,7 +283,7 @@ Result<void> apply_exposure(Kernel& kernel, int file, const Exposure& exposure) 
   if (!gain) return {};
   const double share = (exposure.gain - 1) / (kGainSpan - 1);
   return set_control(kernel, file, gain->id,
-                     gain->least + std::llround(share * double(gain->most - gain->least)));
+                     gain->minimum + std::llround(share * (double(gain->maximum) - gain->minimum)));
 }
 
 std::span<const V4l2Format> v4l2_formats() { return kFormats; }

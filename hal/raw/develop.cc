@@ -13,7 +13,7 @@
 namespace relievo::hal {
 namespace {
 
-// Samples of 8 to 16 bit, packed or not, into whole bytes: scaled so that white stays white.
+// Samples of 10 and 12 bit, packed or not, into whole bytes: scaled so that white stays white.
 // Shapes are checked before (check_shape(), is_short()). Thread: any.
 
 // Each reader gives sample x of a row.
@@ -43,9 +43,7 @@ template <int kBits>
 struct To16 {
   using Out = std::uint16_t;
   // The high bits once more below the low ones: the largest sample becomes the largest number.
-  static Out of(unsigned v) {
-    return static_cast<Out>(kBits == 16 ? v : v << (16 - kBits) | v >> (2 * kBits - 16));
-  }
+  static Out of(unsigned v) { return static_cast<Out>(v << (16 - kBits) | v >> (2 * kBits - 16)); }
 };
 
 template <int kBits>
@@ -70,24 +68,6 @@ void unpack(const RawImage& raw, std::byte* out) {
   }
 }
 
-// To16: Grey16, white 65535. To8: white 255, rounded to the nearest. Rows without padding. Of 10 to 16 bit.
-template <template <int> typename Scale>
-void unpack_all(const RawImage& raw, std::byte* out) {
-  switch (raw.format.coding) {
-    case RawCoding::Bits10: return unpack<Loose<10>, Scale>(raw, out);
-    case RawCoding::Bits12: return unpack<Loose<12>, Scale>(raw, out);
-    case RawCoding::Bits16: return unpack<Loose<16>, Scale>(raw, out);
-    case RawCoding::Packed10: return unpack<Packed<10>, Scale>(raw, out);
-    case RawCoding::Packed12: return unpack<Packed<12>, Scale>(raw, out);
-    case RawCoding::Bits8:
-    case RawCoding::Rgb8:
-    case RawCoding::Yuyv:
-    case RawCoding::Nv12:
-    case RawCoding::Mjpeg: break;
-  }
-  RELIEVO_ASSERT(false && "these are no samples of more than 8 bit");
-}
-
 // Of a JPEG only the stream knows: then the most it can be.
 PixelFormat developed_format(const RawFormat& format) {
   if (!is_samples(format.coding) || format.filter != ColourFilter::None) return PixelFormat::Rgb8;
@@ -105,10 +85,27 @@ void copy_rows(const RawImage& raw, std::byte* out) {
                 row_bytes);
 }
 
+// Without padding. To16: of 10 and 12 bit Grey16, white 65535. To8: white 255, rounded to the nearest.
+template <template <int> typename Scale>
+void plain_rows(const RawImage& raw, std::byte* out) {
+  switch (raw.format.coding) {
+    case RawCoding::Bits10: return unpack<Loose<10>, Scale>(raw, out);
+    case RawCoding::Bits12: return unpack<Loose<12>, Scale>(raw, out);
+    case RawCoding::Packed10: return unpack<Packed<10>, Scale>(raw, out);
+    case RawCoding::Packed12: return unpack<Packed<12>, Scale>(raw, out);
+    case RawCoding::Bits8:
+    case RawCoding::Bits16:
+    case RawCoding::Rgb8: return copy_rows(raw, out);
+    case RawCoding::Yuyv:
+    case RawCoding::Nv12:
+    case RawCoding::Mjpeg: break;
+  }
+  RELIEVO_ASSERT(false && "these are no rows of samples");
+}
+
 // In the scratch, because OpenCV's edge-aware demosaic is wrong for rows with padding (seen in 4.6).
 Result<void> develop_mosaic(const RawImage& raw, std::byte* rgb, std::byte* scratch) {
-  if (raw.format.coding == RawCoding::Bits8) copy_rows(raw, scratch);
-  else unpack_all<To8>(raw, scratch);
+  plain_rows<To8>(raw, scratch);
   const RawImage mosaic{scratch,      std::size_t(raw.width_px) * std::size_t(raw.height_px),
                         raw.width_px, raw.height_px,
                         raw.width_px, {RawCoding::Bits8, raw.format.filter}};
@@ -116,23 +113,15 @@ Result<void> develop_mosaic(const RawImage& raw, std::byte* rgb, std::byte* scra
 }
 
 Result<void> fill(const RawImage& raw, ImageView& view, std::byte* out, std::byte* scratch) {
+  const RawCoding coding = raw.format.coding;
   if (raw.format.filter != ColourFilter::None) return develop_mosaic(raw, out, scratch);
-  switch (raw.format.coding) {
-    case RawCoding::Bits8:
-    case RawCoding::Bits16:
-    case RawCoding::Rgb8: copy_rows(raw, out); break;
-    case RawCoding::Bits10:
-    case RawCoding::Bits12:
-    case RawCoding::Packed10:
-    case RawCoding::Packed12: unpack_all<To16>(raw, out); break;
-    case RawCoding::Yuyv:
-    case RawCoding::Nv12: return yuv_to_rgb(raw, out);
-    case RawCoding::Mjpeg: {
-      RELIEVO_TRY_ASSIGN(view.format, decode_jpeg(raw, out));
-      view.stride_bytes = view.width_px * bytes_per_pixel(view.format);
-      break;
-    }
+  if (coding == RawCoding::Yuyv || coding == RawCoding::Nv12) return yuv_to_rgb(raw, out);
+  if (coding == RawCoding::Mjpeg) {
+    RELIEVO_TRY_ASSIGN(view.format, decode_jpeg(raw, out));
+    view.stride_bytes = view.width_px * bytes_per_pixel(view.format);
+    return {};
   }
+  plain_rows<To16>(raw, out);
   return {};
 }
 

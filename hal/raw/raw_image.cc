@@ -60,11 +60,8 @@ bool is_short(const RawImage& raw) { return raw.size_bytes == 0 || raw.size_byte
 
 RawImage raw_of(const ImageView& view) {
   RawImage raw{view.bytes, 0, view.width_px, view.height_px, view.stride_bytes, {}};
-  switch (view.format) {
-    case PixelFormat::Grey8: raw.format.coding = RawCoding::Bits8; break;
-    case PixelFormat::Grey16: raw.format.coding = RawCoding::Bits16; break;
-    case PixelFormat::Rgb8: raw.format.coding = RawCoding::Rgb8; break;
-  }
+  if (view.format == PixelFormat::Grey16) raw.format.coding = RawCoding::Bits16;
+  if (view.format == PixelFormat::Rgb8) raw.format.coding = RawCoding::Rgb8;
   if (!view.empty()) raw.size_bytes = raw_whole_bytes(raw);
   return raw;
 }

@@ -57,6 +57,8 @@ struct CaptureFile {
 };
 
 Result<CaptureFile> read_capture_file(const std::filesystem::path& file);
+// A folder's capture.json; an empty one where there is none.
+Result<CaptureFile> capture_file_in(const std::filesystem::path& folder);
 Result<void> write_capture_file(const std::filesystem::path& file, const CaptureFile& capture);
 // left, right, left, right ... of the frames that capture.json names, in its order. NotFound: one is missing.
 Result<std::vector<std::filesystem::path>> recorded_pictures(const std::filesystem::path& folder);

@@ -35,11 +35,7 @@ Result<std::int64_t> record_pair(const std::filesystem::path& folder, const Reco
   if (failed)
     return Error{Errc::IoFailed, "the folder for recordings cannot be made", failed.value()}.at(
         folder.string());
-  const std::filesystem::path index = folder / "capture.json";
-  CaptureFile capture;
-  if (std::filesystem::exists(index, failed)) {
-    RELIEVO_TRY_ASSIGN(capture, read_capture_file(index));
-  }
+  RELIEVO_TRY_ASSIGN(CaptureFile capture, capture_file_in(folder));
   std::int64_t number = 1;
   for (const CaptureRecord& frame : capture.frames) number = std::max(number, frame.number + 1);
   if (number > kMostNumber)
@@ -50,7 +46,7 @@ Result<std::int64_t> record_pair(const std::filesystem::path& folder, const Reco
   capture.right_serial = pair.right_serial;
   capture.head = pair.of_head;
   capture.frames.push_back({number, pair.left_ns, pair.right_ns, pair.exposure_us, pair.gain});
-  RELIEVO_TRY(write_capture_file(index, capture));
+  RELIEVO_TRY(write_capture_file(folder / "capture.json", capture));
   return number;
 }
 
@@ -94,6 +90,12 @@ Result<CaptureFile> read_capture_file(const std::filesystem::path& file) try {
       .at(file.native());
 } catch (const std::bad_alloc&) {
   return Error{Errc::OutOfMemory, "no memory to read this file"}.at(file.native());
+}
+
+Result<CaptureFile> capture_file_in(const std::filesystem::path& folder) {
+  Result<CaptureFile> capture = read_capture_file(folder / "capture.json");
+  if (!capture && capture.error().code == Errc::NotFound) return CaptureFile{};
+  return capture;
 }
 
 Result<void> write_capture_file(const std::filesystem::path& file, const CaptureFile& capture) try {

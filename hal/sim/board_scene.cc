@@ -127,10 +127,7 @@ bool BoardScene::meet(Vec3 origin, Vec3 direction, Hit& hit) const {
   hit.distance = -o.z / d.z;
   hit.x = o.x + hit.distance * d.x;
   hit.y = o.y + hit.distance * d.y;
-  const double low = -pattern_.square_mm - pattern_.margin_mm;
-  return hit.distance > 0 && hit.x > low && hit.y > low &&
-         hit.x < pattern_.corners_x * pattern_.square_mm + pattern_.margin_mm &&
-         hit.y < pattern_.corners_y * pattern_.square_mm + pattern_.margin_mm;
+  return hit.distance > 0 && pattern_.covers(hit.x, hit.y);
 }
 
 // A round hand that comes from the right, a third of the board high.
@@ -188,15 +185,6 @@ RayHit BoardScene::look(Vec3 origin, Vec3 direction) const {
       mix(kWhite, kBlack, dark) * lit + look_.highlight * kWhite * gauss(std::sqrt(x * x + y * y) / 0.7);
   const std::int32_t body = pixel_rad_ > 0 ? 0 : dark > 0.5 ? 1 : 2;
   return {{v, v, v}, hit.distance, body, false};
-}
-
-bool BoardScene::solid(Vec3 origin, Vec3 direction, SolidPoint& out) const {
-  Hit hit;
-  if (!meet(origin, direction, hit)) return false;
-  out.point = origin + direction * hit.distance;
-  out.normal = -pose_.normal();
-  out.skin = false;
-  return true;
 }
 
 }  // namespace relievo::hal::sim

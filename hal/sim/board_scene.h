@@ -26,6 +26,12 @@ struct BoardPattern {
   double marker_mm = 0;        // ChArUco: side of a marker; 0: seven tenths of a square
   int marker_bits = 4;         // ChArUco: a side, 4 to 7
   Result<void> check() const;  // InvalidInput
+  // The paper, with its margin.
+  bool covers(double x_mm, double y_mm) const {
+    const double low = -square_mm - margin_mm;
+    return x_mm > low && y_mm > low && x_mm < corners_x * square_mm + margin_mm &&
+           y_mm < corners_y * square_mm + margin_mm;
+  }
   double marker_side_mm() const { return marker_mm > 0 ? marker_mm : 0.7 * square_mm; }
 };
 
@@ -73,8 +79,6 @@ class BoardScene final : public Scene {
   BoardScene(const BoardPattern& pattern, const BoardPose& pose, const BoardLook& look = {},
              double pixel_rad = 0);
   RayHit look(Vec3 origin, Vec3 direction) const override;
-  bool solid(Vec3 origin, Vec3 direction, SolidPoint& out) const override;
-  bool blocked(Vec3, Vec3, double) const override { return false; }
 
  private:
   struct Hit {

@@ -120,11 +120,7 @@ class HeldBoard::Shot {
   };
   Spot spot(const ToBoard& to_board, double u, double v) const {
     const Vec3 p = to_board(u, v);
-    const BoardPattern& b = board_.pattern_;
-    const double low = -b.square_mm - b.margin_mm;
-    if (!(p.x > low && p.y > low && p.x < b.corners_x * b.square_mm + b.margin_mm &&
-          p.y < b.corners_y * b.square_mm + b.margin_mm))
-      return {kNothing, float(kRoom)};
+    if (!board_.pattern_.covers(p.x, p.y)) return {kNothing, float(kRoom)};
     const BoardPrint::Spot printed = board_.print_.at(p.x, p.y);
     return {printed.cell, float((printed.dark ? kBlack : kWhite) * lit_)};
   }

@@ -13,7 +13,6 @@
 #include <system_error>
 
 #include "hal/base/whole_file.h"
-#include "hal/sim/base/text.h"
 
 namespace relievo::hal::sim {
 namespace {
@@ -36,11 +35,9 @@ std::uint8_t flags_of(const Scene& scene, const SimRig& rig, const SolidPoint& s
 }
 
 template <typename T>
-void append(std::vector<std::byte>& out, std::span<const T> values) {
-  const auto bytes = std::as_bytes(values);
-  out.insert(out.end(), bytes.begin(), bytes.end());
+void append(std::string& out, std::span<const T> values) {
+  out.append(reinterpret_cast<const char*>(values.data()), values.size_bytes());
 }
-void append_text(std::vector<std::byte>& out, const std::string& s) { append<char>(out, s); }
 
 // The board turned as a head in the same pose would be, its middle on the left camera's axis.
 BoardPose board_pose(const SimRig& rig, const BoardPattern& b, const HeadPose& at) {
@@ -60,7 +57,7 @@ Result<void> render_boards(const SimulationOptions& o, const SimRig& rig, const 
   for (std::size_t k = 0; k < poses.size(); ++k) {
     const BoardScene scene(o.board, poses[k], o.board_look, 1 / rig.left.fx_px);
     RELIEVO_TRY(write_pair(render_pair(scene, rig, sensor, o.seed * 1000ULL + k, pool), folder,
-                           text("_%02d", int(k))));
+                           (k < 10 ? "_0" : "_") + std::to_string(k)));
   }
   return {};
 }
@@ -136,29 +133,24 @@ Truth measure_truth(const Scene& scene, const SimRig& rig, ThreadPool& pool) {
 }
 
 Result<void> write_truth(const std::filesystem::path& file, const Truth& truth) {
-  std::vector<std::byte> out;
-  append_text(out, text("%d %d z\n", truth.width_px, truth.height_px));
+  std::string out = std::to_string(truth.width_px) + ' ' + std::to_string(truth.height_px) + " z\n";
   append<float>(out, truth.depth_mm);
   append<std::uint8_t>(out, truth.flags);
-  return write_whole_file(file, out);
+  return write_whole_file(file, std::as_bytes(std::span(out)));
 }
 
 Result<void> write_mesh(const std::filesystem::path& file, const Mesh& mesh) {
-  std::vector<std::byte> out;
-  append_text(
-      out,
-      text(
-          "ply\nformat binary_little_endian 1.0\nelement vertex %zu\nproperty float x\nproperty float y\nproperty float z\n",
-          mesh.points.size()));
-  append_text(out, text("element face %zu\nproperty list uchar int vertex_indices\nend_header\n",
-                        mesh.triangles.size()));
+  std::string out =
+      "ply\nformat binary_little_endian 1.0\nelement vertex " + std::to_string(mesh.points.size()) +
+      "\nproperty float x\nproperty float y\nproperty float z\nelement face " +
+      std::to_string(mesh.triangles.size()) + "\nproperty list uchar int vertex_indices\nend_header\n";
   out.reserve(out.size() + mesh.points.size() * 12 + mesh.triangles.size() * 13);
   append<std::array<float, 3>>(out, mesh.points);
   for (const auto& t : mesh.triangles) {
-    out.push_back(std::byte{3});
+    out.push_back(3);
     append<std::uint32_t>(out, t);
   }
-  return write_whole_file(file, out);
+  return write_whole_file(file, std::as_bytes(std::span(out)));
 }
 
 Result<void> write_pair(const PicturePair& pair, const std::filesystem::path& folder,

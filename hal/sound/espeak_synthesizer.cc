@@ -8,7 +8,7 @@
 
 #include "hal/base/wiped_text.h"
 #include "hal/sound/mixer.h"
-#include "hal/sound/synthesizer.h"
+#include "hal/sound/speaker.h"
 
 namespace relievo::hal {
 namespace {

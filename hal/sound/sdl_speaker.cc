@@ -11,7 +11,6 @@
 #include "hal/base/wiped_text.h"
 #include "hal/sound/mixer.h"
 #include "hal/sound/speaker.h"
-#include "hal/sound/synthesizer.h"
 
 namespace relievo::hal {
 namespace {

@@ -4,7 +4,7 @@
 #include <cstdlib>
 #include <utility>
 
-#include "pipeline/algorithms/algorithm_table.h"
+#include "pipeline/algorithms.h"
 
 namespace relievo::pipeline {
 namespace {
@@ -13,12 +13,6 @@ std::string_view trimmed(std::string_view text) {
   while (!text.empty() && text.front() == ' ') text.remove_prefix(1);
   while (!text.empty() && text.back() == ' ') text.remove_suffix(1);
   return text;
-}
-
-std::vector<Kind> all_kinds() {
-  std::vector<Kind> all = match_kinds();
-  for (Kind& kind : surface_kinds()) all.push_back(std::move(kind));
-  return all;
 }
 
 std::string joined(const std::vector<std::string>& names) {
@@ -56,22 +50,10 @@ Result<void> check_value(const OptionDescription& option, const std::string& val
 
 }  // namespace
 
-std::vector<OptionDescription> describe_algorithms() {
-  const std::vector<Kind> kinds = all_kinds();
-  std::vector<OptionDescription> all;
-  for (const Kind& kind : kinds) {
-    all.push_back({kind.key, kind.value, kind.sentence, {}, kind.algorithms, {}, false, kind.several});
-    for (const AlgorithmDescription& algorithm : kind.algorithms)
-      all.back().names.emplace_back(algorithm.name);
-  }
-  for (const Kind& kind : kinds) all.insert(all.end(), kind.options.begin(), kind.options.end());
-  return all;
-}
-
 Result<void> check_neighbours(const AlgorithmSet& set) {
-  const std::vector<Kind> kinds = all_kinds();
+  const std::vector<OptionDescription> kinds = describe_algorithms();
   const auto on_lattice = [&](std::string_view key) {
-    for (const Kind& kind : kinds)
+    for (const OptionDescription& kind : kinds)
       for (const AlgorithmDescription& algorithm : kind.algorithms)
         if (kind.key == key && set.get(key) == algorithm.name) return algorithm.lattice;
     return false;
@@ -175,7 +157,8 @@ Result<AlgorithmSet> AlgorithmSet::from_text(std::string_view text, std::vector<
 
 std::string AlgorithmSet::to_text() const {
   std::map<std::string, std::string, std::less<>> all = chosen_;
-  for (const Kind& kind : all_kinds()) all.try_emplace(kind.key, kind.value);
+  for (const OptionDescription& kind : describe_algorithms())
+    if (!kind.is_option()) all.try_emplace(kind.key, kind.value);
   std::string text;
   for (const auto& [key, value] : all) text += key + " = " + value + "\n";
   return text;

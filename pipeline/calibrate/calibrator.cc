@@ -10,7 +10,6 @@
 #include "hal/base/words.h"
 #include "pipeline/calibrate/file/calibration_file.h"
 #include "pipeline/calibrate/fit/stereo_fit.h"
-#include "pipeline/calibrate/fit/view_selection.h"
 #include "pipeline/calibrate/quality/quality_measures.h"
 
 namespace relievo::pipeline {
@@ -57,8 +56,7 @@ std::vector<CornerResidual> residuals(const BoardPattern& pattern, const CameraI
   all.reserve(corners.size());
   for (int i = 0; i < pattern.corners(); ++i) {
     const Vec2d& at = corners[std::size_t(i)];
-    const Vec2d put = bundle::project(camera, camera_from_board, i % pattern.columns * pattern.square_mm,
-                                      i / pattern.columns * pattern.square_mm);
+    const Vec2d put = bundle::project(camera, camera_from_board * bundle::on_board(pattern, i));
     // A corner that was not seen is not-a-number, and so is its residual.
     all.push_back({at, {at.x - put.x, at.y - put.y}});
   }
@@ -233,15 +231,15 @@ Result<CalibratorOutput> calibrate(const CalibratorInput& given) {
     return poor_geometry("too few pairs show a flat board; is the print glued to something stiff?",
                          pairs.size());
 
-  const CameraFits cameras{left_fit, right_fit};
+  const CameraFits cameras{input, left_fit, right_fit};
   Selection selection;
-  if (!select_views(input, cameras, pairs, selection)) return undetermined;
+  if (!select_views(cameras, pairs, selection)) return undetermined;
   out.calibration = calibration_of(selection.fit);
   const Vec3d stands = inverse(out.calibration.right_from_left).translation_mm;
   if (stands.x < 0 && -stands.x >= std::abs(stands.y))
     return poor_geometry("the left pictures come from the right camera; exchange the two", pairs.size());
   RELIEVO_TRY(check_calibration(out.calibration));
-  measure_quality({input, cameras, pairs, selection}, out.quality);
+  measure_quality({cameras, pairs, selection}, out.quality);
   out.calibration.epipolar_shift_px = out.quality.held_out_shift_px;
   name_left_out(input, selection, pairs, out.quality);
   expect_baseline(input, out.calibration, out.quality);

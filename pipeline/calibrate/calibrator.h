@@ -11,7 +11,7 @@
 #include <cstddef>
 #include <vector>
 
-#include "pipeline/calibrate/fit/calibrator_input.h"
+#include "pipeline/calibrate/board/board_finder.h"
 #include "pipeline/calibrate/quality/quality.h"
 #include "pipeline/model/calibration.h"
 

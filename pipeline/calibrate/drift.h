@@ -44,7 +44,7 @@ struct DriftJudgement {
   DriftVerdict verdict = DriftVerdict::Unknown;
   double residual_px = 0;  // rms of the shift over the face
   double sigma_px = 0;     // and of its standard deviation, as far as the face is to blame
-  double offset_px = 0;    // these three as EpipolarShift has them
+  double offset_px = 0;    // these three as EpipolarShift has them: report.json tells them
   double slope_x = 0;
   double slope_y = 0;
   double expected_px = 0;  // what the calibration promises

@@ -6,12 +6,10 @@
 #include <array>
 #include <cmath>
 
-#include "pipeline/fuse/fairing.h"
+#include "pipeline/base/kinds.h"
 #include "pipeline/fuse/head_zones.h"
 #include "pipeline/fuse/pose_blend.h"
 #include "pipeline/fuse/rim.h"
-#include "pipeline/fuse/skin_bender.h"
-#include "pipeline/mesh/mesher.h"
 #include "pipeline/mesh/surface_cleaner.h"
 #include "pipeline/model/vector3.h"
 
@@ -280,7 +278,7 @@ Result<FusedSurface> HeadFuser::fuse(std::span<HeadPose> poses, const Registrati
   const HeadZones zones(landmarks, poses[0].head_from_camera, neck_mm);
   drop_hair(poses, registration, zones);
   const bool calibrations_differ = disagree(registration);
-  bend_to_master(poses, registration, {most_bend_mm, bend_width_mm, still_mm, !calibrations_differ}, context);
+  bend_to_master(poses, registration, *this, !calibrations_differ, context);
   // Wider than for registration, and after hair and what moved too far went: no step where a surface ends.
   for (HeadPose& pose : poses) fade_to_edges(pose, kEdgeNodes, &context.scratch);
   if (context.stop()) return stopped;

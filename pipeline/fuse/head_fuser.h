@@ -12,7 +12,7 @@
 //             marching cubes: one sheet, whoever measured it;
 //   place     every vertex on the mean of the poses' own surfaces at it, weighted by certainty and fading to
 //             the edge of each: no step where one ends;
-//   close     cut the rims even, close holes, and lay these and what steps are left anew (fairing.h).
+//   close     cut the rims even, close holes, and lay these and what steps are left anew (rim.h).
 // `sigma_mm` is made of the measurements' noise, the registration's and how far the skin was bent.
 // Memory: the mesh in `output`; scratch 9 bytes a voxel of the head's box. Errors: PoorGeometry, Cancelled;
 // throws std::bad_alloc. Thread: any; works on the pool, the result does not depend on its size.
@@ -54,5 +54,14 @@ struct HeadFuser {
   Result<FusedSurface> fuse(std::span<HeadPose> poses, const Registration& registration, const FaceMesh& face,
                             const Landmarks& landmarks, StageContext& context) const;
 };
+
+// Skin that moved between the pictures: one after the other, next always the one that overlaps most with
+// those that are done, the poses are bent along their normals to these; the first never moves. A sigma grows
+// by a share of how far the skin around was bent. `skull_stays`: behind the temples, where no other pose
+// shows it, skin is held where it is, as it hangs on the skull and does not move as the face beside it; not
+// where the poses' calibrations differ, for then it may be off as a whole. Memory: scratch. Throws
+// std::bad_alloc.
+void bend_to_master(std::span<HeadPose> poses, const Registration& registration, const HeadFuser& limits,
+                    bool skull_stays, StageContext& context);
 
 }  // namespace relievo::pipeline

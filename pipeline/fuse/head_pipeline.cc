@@ -60,8 +60,7 @@ Result<HeadPipeline> HeadPipeline::make(const AlgorithmSet& set) {
   if (set.get("face.radius_mm") == AlgorithmSet{}.get("face.radius_mm"))
     RELIEVO_TRY(made.head_set_.set("face.radius_mm", kHeadRadiusMm));
   RELIEVO_TRY_ASSIGN(made.fuser_, make_head_fuser(set));
-  RELIEVO_TRY_ASSIGN(const auto relief, make_relief_check(set));
-  made.asks_for_life_ = relief.has_value();
+  made.asks_for_life_ = set.get("relief") != "off";
   return made;
 }
 

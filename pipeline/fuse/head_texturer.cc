@@ -14,7 +14,7 @@
 #include "pipeline/mesh/triangle_raster.h"
 #include "pipeline/model/photo_sampler.h"
 #include "pipeline/model/vector3.h"
-#include "pipeline/texture/chart/side_charts.h"
+#include "pipeline/texture/chart/chart.h"
 #include "pipeline/texture/colour_fill.h"
 
 namespace relievo::pipeline {

@@ -14,7 +14,6 @@
 #include "pipeline/base/shared_arena.h"
 #include "pipeline/base/solving.h"
 #include "pipeline/fuse/pose_residuals.h"
-#include "pipeline/fuse/skin_slide.h"
 
 namespace relievo::pipeline {
 namespace {

@@ -245,7 +245,7 @@ class JointSolver {
       double squares = 0, weight = 0, count = 0;
     };
     std::pmr::vector<Sum> sums(placed_.size(), Sum{}, &context_.scratch);
-    residuals_.for_each_residual(kLast, [&](std::size_t a, std::size_t b, PoseResidual r) {
+    const auto take = [&](std::size_t a, std::size_t b, PoseResidual r) {
       r.weight *= residuals_.skin().say(r.patch, a, b);
       add(normal, none, a, b, r);
       const Vector6 one = r.weight * r.toward;
@@ -259,7 +259,8 @@ class JointSolver {
         sums[p].weight += r.weight;
         sums[p].count += 1;
       }
-    });
+    };
+    for (std::size_t a = 0; a < placed_.size(); ++a) residuals_.for_each_residual_of(a, 0, 1, kLast, take);
     const Square bread = normal.ldlt().solve(Square::Identity(unknowns_, unknowns_));
     Square covariance = Square::Zero(unknowns_, unknowns_);
     for (const Column& pull : pulls) {

@@ -8,7 +8,7 @@
 
 #include "hal/base/statistics.h"
 #include "pipeline/base/shared_arena.h"
-#include "pipeline/model/small_motion.h"
+#include "pipeline/model/vector3.h"
 
 namespace relievo::pipeline {
 namespace {

@@ -9,6 +9,7 @@
 #include <Eigen/Core>
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <cstddef>
 #include <memory_resource>
@@ -159,10 +160,6 @@ class PoseResiduals {
     };
     for_each_sample(a, round.samples, against_others, part, parts);
   }
-  template <typename Visit>
-  void for_each_residual(const RegistrationRound& round, Visit&& visit) const {
-    for (std::size_t a = 0; a < poses_.size(); ++a) for_each_residual_of(a, 0, 1, round, visit);
-  }
 
   // Node `k` of pose `a`, with its normal, onto pose `b`. False where that shows nothing near, or the other
   // side of something.
@@ -195,5 +192,18 @@ Result<void> place_poses(std::span<HeadPose> poses, std::span<RegisteredPose> pl
 void measure_agreement(std::span<const HeadPose> poses, Registration& registration, StageContext& context);
 
 Error registration_stopped();
+
+// Where the same skin lies in two poses, by their photographs: shape alone hardly tells whether a head slid
+// along its own surface. A window on one surface is found on the other one (Lucas, Kanade 1981), first at
+// half the resolution; light that differs evenly does not matter. Thread: any. No memory is allocated.
+
+// Whether a pixel is narrow enough to show skin.
+bool shows_skin(const HeadPose& pose, const Vec3d& place_mm);
+
+// Where the other pose's photograph shows what `pose` shows at `place_mm`, each in its own frame. `along`:
+// two directions along the surface, unit length, in the frame of `pose`. None where the other does not show
+// it, or not alike.
+std::optional<Vec3d> same_skin(const HeadPose& pose, const Vec3d& place_mm, const std::array<Vec3d, 2>& along,
+                               const HeadPose& other, const RigidTransform& other_from_pose);
 
 }  // namespace relievo::pipeline

@@ -1,10 +1,9 @@
 // SPDX-FileCopyrightText: 2026 The Relievo authors
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include "pipeline/fuse/skin_bender.h"
-
 #include <algorithm>
 #include <cmath>
 
+#include "pipeline/fuse/head_fuser.h"
 #include "pipeline/model/vector3.h"
 
 namespace relievo::pipeline {
@@ -59,11 +58,12 @@ void blur(std::pmr::vector<float>& plane, int columns, int rows, double sigma_ce
 
 class Bender {
  public:
-  Bender(std::span<HeadPose> poses, const Registration& registration, const BendLimits& limits,
-         StageContext& context)
+  Bender(std::span<HeadPose> poses, const Registration& registration, const HeadFuser& limits,
+         bool skull_stays, StageContext& context)
       : poses_(poses),
         registration_(registration),
         limits_(limits),
+        skull_stays_(skull_stays),
         context_(context),
         fixed_(poses.size(), 0, &context.scratch) {
     fixed_[0] = 1;
@@ -145,18 +145,18 @@ class Bender {
       const std::size_t cell = std::size_t(r / every) * std::size_t(field.columns) + std::size_t(c / every);
       const Gap g = gap(k, i);
       if (g.weight <= 0) {
-        if (limits_.skull_stays) field.weight[cell] += pose.nodes[i].trust * skull_share(k, i);
+        if (skull_stays_) field.weight[cell] += pose.nodes[i].trust * skull_share(k, i);
         return;
       }
       const float w = pose.nodes[i].trust * std::min(1.0F, g.weight / kSureWeight);
       field.sum[cell] += w * g.distance;
       field.weight[cell] += w;
     });
-    const double sigma_cells = limits_.width_mm / (double(every) * double(node_mm));
+    const double sigma_cells = limits_.bend_width_mm / (double(every) * double(node_mm));
     blur(field.sum, field.columns, field.rows, sigma_cells, &context_.scratch);
     blur(field.weight, field.columns, field.rows, sigma_cells, &context_.scratch);
     usual_square(field, sigma_cells);
-    const float still = float(limits_.still_mm), most = float(limits_.most_mm);
+    const float still = float(limits_.still_mm), most = float(limits_.most_bend_mm);
     for_each_node([&](int r, int c, std::size_t i) {
       if (pose.nodes[i].trust <= 0) return;
       const float d =
@@ -219,16 +219,17 @@ class Bender {
 
   std::span<HeadPose> poses_;
   const Registration& registration_;
-  const BendLimits& limits_;
+  const HeadFuser& limits_;
+  bool skull_stays_;
   StageContext& context_;
   std::pmr::vector<std::uint8_t> fixed_;
 };
 
 }  // namespace
 
-void bend_to_master(std::span<HeadPose> poses, const Registration& registration, const BendLimits& limits,
-                    StageContext& context) {
-  Bender(poses, registration, limits, context).run();
+void bend_to_master(std::span<HeadPose> poses, const Registration& registration, const HeadFuser& limits,
+                    bool skull_stays, StageContext& context) {
+  Bender(poses, registration, limits, skull_stays, context).run();
 }
 
 }  // namespace relievo::pipeline

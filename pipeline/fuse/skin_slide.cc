@@ -1,10 +1,9 @@
 // SPDX-FileCopyrightText: 2026 The Relievo authors
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include "pipeline/fuse/skin_slide.h"
-
 #include <algorithm>
 #include <cmath>
 
+#include "pipeline/fuse/pose_residuals.h"
 #include "pipeline/model/photo_sampler.h"
 #include "pipeline/model/vector3.h"
 

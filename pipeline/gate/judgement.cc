@@ -3,6 +3,8 @@
 #include "pipeline/gate/judgement.h"
 
 #include <algorithm>
+#include <array>
+#include <bit>
 #include <cmath>
 
 namespace relievo::pipeline {
@@ -133,14 +135,7 @@ Result<void> GateLimits::check() const {
   if (!(sane(nearest_mm) && farthest_mm > nearest_mm && std::isfinite(farthest_mm)))
     return Error{Errc::InvalidInput, "the capture volume must begin before it ends: nearest_mm < farthest_mm"}
         .at("gate");
-  for (const double v : {off_right_mm,   off_down_mm,       yaw_deg,      pitch_deg,       roll_deg,
-                         speed_mm_s,     turn_deg_s,        darkest_mean, brightest_mean,  dark_share,
-                         bright_share,   side_ratio,        glossy_share, blur_mm,         covered_share,
-                         in_front_share, unknown_share,     asymmetry_mm, doubtful_mm,     relief_mm,
-                         lost_dark_mean, lost_bright_share, lost_blur_mm, lost_below_mm_s, eye_brightness,
-                         iris_contrast,  one_eye_share,     glare_mm2,    dark_mm2,        steps_mm,
-                         before_mm,      rise_mm,           beside_share, leave,           leave_pose,
-                         leave_sides})
+  for (const double v : std::bit_cast<std::array<double, sizeof(GateLimits) / sizeof(double)>>(*this))
     if (!sane(v))
       return Error{Errc::InvalidInput, "every limit of the gate must be a positive number"}.at("gate");
   if (leave > 1 || leave_pose > 1 || leave_sides > 1)

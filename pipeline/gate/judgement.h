@@ -40,7 +40,8 @@ struct GateMeasures {
   double beside_share = 0;  // of a field beside the head, by something else that far away: head_outline.h
 };
 
-// A limit is left again only below (or above) a share of it: what was said is not taken back by noise.
+// A limit is left again only below (or above) a share of it: what was said is not taken back by noise. All
+// are doubles.
 struct GateLimits {
   double nearest_mm = 430, farthest_mm = 700;  // the stated capture volume, along the rectified z axis
   double off_right_mm = 60, off_down_mm = 55;

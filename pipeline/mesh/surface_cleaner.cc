@@ -167,6 +167,16 @@ class Soup {
 
 }  // namespace
 
+std::pmr::vector<BorderEdge> directed_edges(std::span<const Triangle> triangles,
+                                            std::pmr::memory_resource* memory) {
+  std::pmr::vector<BorderEdge> edges(memory);
+  edges.reserve(3 * triangles.size());
+  for (const Triangle& t : triangles)
+    for (std::size_t k = 0; k < 3; ++k) edges.push_back({t[k], t[(k + 1) % 3]});
+  std::ranges::sort(edges);
+  return edges;
+}
+
 std::pmr::vector<BorderEdge> border_edges(std::span<const Triangle> triangles,
                                           std::pmr::memory_resource* memory) {
   std::uint32_t most = 0;

@@ -34,6 +34,10 @@ inline void group_around(Groups& around, std::size_t vertices, std::span<const T
   });
 }
 
+// As the triangles run, sorted. Throws std::bad_alloc.
+std::pmr::vector<BorderEdge> directed_edges(std::span<const Triangle> triangles,
+                                            std::pmr::memory_resource* memory);
+
 // Edges of one triangle alone, by their lower, then by their higher vertex. Throws std::bad_alloc.
 std::pmr::vector<BorderEdge> border_edges(std::span<const Triangle> triangles,
                                           std::pmr::memory_resource* memory);
@@ -61,6 +65,7 @@ struct PackedVertex {
   Vec3f at_mm;
   float sigma_mm = 0;
   std::uint8_t measured = 0;
+  Vec3f normal{};  // pack_mesh() alone takes it; compute_normals() sets it
 };
 
 // Without a normal. Returns its number.
@@ -72,8 +77,7 @@ inline std::uint32_t add_vertex(FaceMesh& mesh, const PackedVertex& vertex) {
 }
 
 // The mesh, in `context.output`, of those of `count` vertices that a triangle uses, in their order;
-// `vertex(v)` says what the v-th is. Room for normals is reserved, none are written. Throws std::bad_alloc
-// when memory is used up.
+// `vertex(v)` says what the v-th is. Throws std::bad_alloc when memory is used up.
 template <typename Vertex>
 FaceMesh pack_mesh(std::size_t count, std::span<const Triangle> triangles, StageContext& context,
                    Vertex&& vertex) {
@@ -91,7 +95,11 @@ FaceMesh pack_mesh(std::size_t count, std::span<const Triangle> triangles, Stage
   mesh.measured.reserve(used);
   mesh.triangles.reserve(triangles.size());
   for (std::size_t v = 0; v < count; ++v)
-    if (place[v] != kUnused) add_vertex(mesh, vertex(v));
+    if (place[v] != kUnused) {
+      const PackedVertex packed = vertex(v);
+      add_vertex(mesh, packed);
+      mesh.normals.push_back(packed.normal);
+    }
   for (const Triangle& t : triangles) mesh.triangles.push_back({place[t[0]], place[t[1]], place[t[2]]});
   return mesh;
 }

@@ -4,7 +4,7 @@
 // RectifiedPair: both pictures resampled so that a point of the scene lies on the same row in each.
 //
 // Both windows have the same size, focal length and vertical centre. Each has a horizontal centre of
-// its own, laid over the face volume, so that a toed-in rig is neither zoomed nor cut:
+// its own, laid over its picture, so that a toed-in rig is neither zoomed nor cut:
 //   disparity_px = x_left - x_right (window pixels)
 //   z_mm = focal_px * baseline_mm / (disparity_px - disparity_at_infinity_px())
 //   x_mm = (x_left - left_centre_px.x) * z / focal_px,  y_mm = (y - left_centre_px.y) * z / focal_px
@@ -30,7 +30,7 @@ struct RectifiedView {
   std::pmr::vector<std::uint8_t> valid;  // 1 where the source picture covers the pixel
   // Grey levels by which lamps that skin mirrors make the pixel brighter. Empty: nobody has looked for them.
   std::pmr::vector<std::uint8_t> mirrored;
-  // Share of what single pores mirror that is still in `grey`, 0 to 1: coarse colours cannot tell it from skin.
+  // Share of what single pores mirror that is still in `grey`, 0 to 1: coarse colours cannot tell it.
   float pores_left = 0;
 };
 

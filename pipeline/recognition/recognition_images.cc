@@ -126,7 +126,7 @@ void read_texel(const TextureAtlas& atlas, float u, float v, std::uint8_t* rgb, 
   float colour[3];
   PhotoSampler(atlas.rgb, atlas.width_px, atlas.height_px).read(x, y, colour);
   for (std::size_t c = 0; c < 3; ++c) rgb[c] = to_byte(colour[c]);
-  const std::size_t k = std::size_t(y) * std::size_t(atlas.width_px) + std::size_t(x);
+  const std::size_t k = std::size_t(y + 0.5F) * std::size_t(atlas.width_px) + std::size_t(x + 0.5F);
   if (!atlas.origin.empty() && atlas.origin[k] == kFilledTexel) shows = kCompletedShown;
 }
 

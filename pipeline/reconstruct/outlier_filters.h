@@ -4,8 +4,8 @@
 // The filters of outliers.
 #pragma once
 
+#include "pipeline/base/kinds.h"
 #include "pipeline/base/options.h"
-#include "pipeline/reconstruct/kinds.h"
 
 namespace relievo::pipeline {
 

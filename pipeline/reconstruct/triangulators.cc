@@ -49,21 +49,14 @@ Result<PointCloud> place_matches(const RectifiedPair& pair, const MatchSet& matc
   return cloud;
 }
 
-// The cameras' frames and the rectified one.
-struct Frames {
-  explicit Frames(const RectifiedPair& pair)
-      : left_from_rectified(transposed(pair.rectified_from_left)),
-        right_from_rectified(transposed(pair.rectified_from_right)) {
-    // The right camera stands at (B, 0, 0) of the rectified frame: with l and r the lines of sight there,
-    // (e_x cross l) . r = 0, and each is its own camera's place turned into the rectified frame.
-    const Rotation& a = pair.rectified_from_left;
-    const Rotation& b = pair.rectified_from_right;
-    for (int i = 0; i < 3; ++i)
-      for (int j = 0; j < 3; ++j) relation.m[3 * i + j] = a.m[3 + i] * b.m[6 + j] - a.m[6 + i] * b.m[3 + j];
-  }
-  Rotation left_from_rectified, right_from_rectified;
+// The right camera stands at (B, 0, 0) of the rectified frame: with l and r the lines of sight there,
+// (e_x cross l) . r = 0, and each is its own camera's place turned into the rectified frame.
+EpipolarRelation relation_of(const Rotation& a, const Rotation& b) {
   EpipolarRelation relation{};
-};
+  for (int i = 0; i < 3; ++i)
+    for (int j = 0; j < 3; ++j) relation.m[3 * i + j] = a.m[3 + i] * b.m[6 + j] - a.m[6 + i] * b.m[3 + j];
+  return relation;
+}
 
 Vec2d on_plane(const Vec3d& direction) { return {direction.x / direction.z, direction.y / direction.z}; }
 
@@ -136,7 +129,9 @@ PlacePair correct_optimally(const EpipolarRelation& e, const PlacePair& seen) {
 
 Result<PointCloud> OptimalTriangulator::triangulate(const RectifiedPair& pair, const MatchSet& matches,
                                                     StageContext& context) const {
-  const Frames frames(pair);
+  const EpipolarRelation relation = relation_of(pair.rectified_from_left, pair.rectified_from_right);
+  const Rotation left_from_rectified = transposed(pair.rectified_from_left),
+                 right_from_rectified = transposed(pair.rectified_from_right);
   const double f = pair.focal_px;
   return place_matches(pair, matches, context, [&](const Match& match) {
     const Vec3d left{(match.left_px.x - pair.left_centre_px.x) / f,
@@ -148,9 +143,8 @@ Result<PointCloud> OptimalTriangulator::triangulate(const RectifiedPair& pair, c
         (matches.epipolar_shift.measured() ? matches.epipolar_shift.at(column, double(match.left_px.y)) : 0);
     const Vec3d right{(match.left_px.x - match.disparity_px - pair.right_centre_px.x) / f,
                       (row - pair.right_centre_px.y) / f, 1};
-    const PlacePair moved =
-        correct_optimally(frames.relation, {on_plane(apply(frames.left_from_rectified, left)),
-                                            on_plane(apply(frames.right_from_rectified, right))});
+    const PlacePair moved = correct_optimally(
+        relation, {on_plane(apply(left_from_rectified, left)), on_plane(apply(right_from_rectified, right))});
     // The lines meet now: the rectified disparity of the moved places is exact.
     const Vec2d u = on_plane(apply(pair.rectified_from_left, {moved.left.x, moved.left.y, 1}));
     const Vec2d v = on_plane(apply(pair.rectified_from_right, {moved.right.x, moved.right.y, 1}));

@@ -4,7 +4,7 @@
 // The triangulators. A point between the volume's near and far limits becomes one of the cloud.
 #pragma once
 
-#include "pipeline/reconstruct/kinds.h"
+#include "pipeline/base/kinds.h"
 
 namespace relievo::pipeline {
 
@@ -41,10 +41,10 @@ struct EpipolarRelation {
 PlacePair correct_optimally(const EpipolarRelation& e, const PlacePair& seen);
 
 // OptimalTriangulator ("optimal"): the point whose images are nearest to what was seen, by Lindstrom's two
-// steps
-// ("Triangulation Made Easy", CVPR 2010, niter2): both places are moved by the least squared distance that
-// makes their lines of sight meet, in the cameras' own image planes (focal lengths taken as equal, distortion
-// gone), where noise is alike in all directions, not in the rectified planes, which a toed-in rig stretches.
+// steps ("Triangulation Made Easy", CVPR 2010, niter2): both places are moved by the least squared distance
+// that makes their lines of sight meet, in the cameras' own image planes (focal lengths taken as equal,
+// distortion gone), where noise is alike in all directions, not in the rectified planes, which a toed-in rig
+// stretches.
 //
 // The partner's row is the keypoint's row plus the set's epipolar_shift where that was measured. Rows that
 // agree exactly leave nothing to correct: the result is then that of inverse-disparity. sigma_mm as there.

@@ -12,13 +12,10 @@
 
 #include "hal/base/statistics.h"
 #include "pipeline/base/solving.h"
-#include "pipeline/relief/sheet_fit.h"
 
 namespace relievo::pipeline {
 namespace {
 
-constexpr double kRadiusMm = 60;  // eyes, nose and mouth of any face
-constexpr double kCellMm = 3;
 constexpr std::size_t kLeastCells = 200;  // a sixth of the disc
 constexpr double kTrusted = 0.75;         // share of the cells that counts: the nearest
 constexpr double kSmoothMm = 8;           // narrower than a nose, wider than what noise makes hang together
@@ -42,8 +39,8 @@ double rms_of_trusted(std::span<const double> off_mm, Arena& scratch) {
 double median_sigma(const HeightCells& cells, Arena& scratch) {
   Arena::Mark mark(scratch);
   std::pmr::vector<double> sigmas(&scratch);
-  sigmas.reserve(cells.cells.size());
-  for (const HeightCell& cell : cells.cells) sigmas.push_back(cell.sigma_mm);
+  sigmas.reserve(cells.size());
+  for (const HeightCell& cell : cells) sigmas.push_back(cell.sigma_mm);
   return median(sigmas);
 }
 
@@ -51,23 +48,23 @@ double median_sigma(const HeightCells& cells, Arena& scratch) {
 template <typename Visit>
 bool around(const HeightCells& cells, const HeightCell& middle, double reach_mm, Visit&& visit) {
   int found = 0;
-  const int rows = int(reach_mm / cells.cell_mm) + 1;
-  const auto above = std::lower_bound(cells.cells.begin(), cells.cells.end(), middle.row - rows,
+  const int rows = int(reach_mm / kReliefCellMm) + 1;
+  const auto above = std::lower_bound(cells.begin(), cells.end(), middle.row - rows,
                                       [](const HeightCell& c, int row) { return c.row < row; });
-  for (auto cell = above; cell != cells.cells.end() && cell->row <= middle.row + rows; ++cell) {
+  for (auto cell = above; cell != cells.end() && cell->row <= middle.row + rows; ++cell) {
     const double dx = cell->x_mm - middle.x_mm, dy = cell->y_mm - middle.y_mm;
     if (dx * dx + dy * dy > reach_mm * reach_mm) continue;
-    visit(std::size_t(cell - cells.cells.begin()), dx, dy);
+    visit(std::size_t(cell - cells.begin()), dx, dy);
     ++found;
   }
-  return found >= kFull * std::numbers::pi * (reach_mm / cells.cell_mm) * (reach_mm / cells.cell_mm);
+  return found >= kFull * std::numbers::pi * (reach_mm / kReliefCellMm) * (reach_mm / kReliefCellMm);
 }
 
 double range_of(const HeightCells& cells, std::span<const double> off_mm, Arena& scratch) {
   Arena::Mark mark(scratch);
   std::pmr::vector<double> smooth(&scratch);
-  smooth.reserve(cells.cells.size());
-  for (const HeightCell& cell : cells.cells) {
+  smooth.reserve(cells.size());
+  for (const HeightCell& cell : cells) {
     double sum = 0;
     int count = 0;
     const bool full =
@@ -85,14 +82,14 @@ std::optional<double> curvature_of(const HeightCells& cells) {
   using Row = Eigen::Matrix<double, 6, 1>;
   double sum = 0;
   int count = 0;
-  for (const HeightCell& cell : cells.cells) {
+  for (const HeightCell& cell : cells) {
     Eigen::Matrix<double, 6, 6> a = Eigen::Matrix<double, 6, 6>::Zero();
     Row b = Row::Zero();
     const bool full = around(cells, cell, kCurveMm, [&](std::size_t k, double x, double y) {
       Row row;
       row << 1, x, y, x * x / 2, x * y, y * y / 2;
       a += row * row.transpose();
-      b += row * cells.cells[k].height_mm;
+      b += row * cells[k].height_mm;
     });
     if (!full) continue;
     const Row f = solved<6>(a, b);
@@ -100,8 +97,8 @@ std::optional<double> curvature_of(const HeightCells& cells) {
     sum += std::abs(f[3] * f[5] - f[4] * f[4]) / (steep * std::sqrt(steep));
     ++count;
   }
-  const double disc_mm2 = std::numbers::pi * kRadiusMm * kRadiusMm;
-  if (count * cells.cell_mm * cells.cell_mm < kCurveTelling * disc_mm2) return std::nullopt;
+  const double disc_mm2 = std::numbers::pi * kReliefRadiusMm * kReliefRadiusMm;
+  if (count * kReliefCellMm * kReliefCellMm < kCurveTelling * disc_mm2) return std::nullopt;
   return sum / count * disc_mm2;
 }
 
@@ -109,14 +106,15 @@ std::optional<double> curvature_of(const HeightCells& cells) {
 
 Result<ReliefFigures> measure_relief(const FaceMesh& mesh, const RectifiedPair& pair, StageContext& context) {
   Arena::Mark mark(context.scratch);
-  const HeightCells cells = make_height_cells(mesh, pair, kRadiusMm, kCellMm, context);
-  if (cells.cells.size() < kLeastCells) return ReliefFigures{};
+  const HeightCells cells = make_height_cells(mesh, pair, context);
+  if (cells.size() < kLeastCells) return ReliefFigures{};
   const std::optional<double> curvature = curvature_of(cells);
   if (!curvature) return ReliefFigures{};
   const std::pmr::vector<double> off_plane = off_plane_mm(cells, context);
   RELIEVO_TRY_ASSIGN(const std::pmr::vector<double> off_sheet, off_sheet_mm(cells, context));
   ReliefFigures relief;
-  relief.covered = std::min(1.0, cells.covered);
+  const double side = kReliefRadiusMm / kReliefCellMm;
+  relief.covered = std::min(1.0, double(cells.size()) / (std::numbers::pi * side * side));
   relief.sigma_mm = median_sigma(cells, context.scratch);
   relief.off_plane_mm = rms_of_trusted(off_plane, context.scratch);
   relief.off_sheet_mm = rms_of_trusted(off_sheet, context.scratch);

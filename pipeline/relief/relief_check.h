@@ -5,7 +5,7 @@
 // stretching. A face is no sheet, and by so much that no accuracy has to be reached for: its nose stands
 // 15 mm and more before anything that can be rolled over its cheeks. Two figures of its middle, which know
 // nothing of each other, must both be a face's:
-//   off_sheet_mm   how far it lies off the nearest sheet (sheet_fit.h), root mean square of the nearest three
+//   off_sheet_mm   how far it lies off the nearest sheet (below), root mean square of the nearest three
 //                  quarters: a lamp that glossy paper mirrors lies behind or before it, and does not count.
 //                  A sheet: the noise. A face: 1.5 to 2.5 mm, without its nose.
 //   curvature_sr   how much it curves both ways at once: the integral of |Gaussian curvature|, which bending
@@ -15,7 +15,9 @@
 #pragma once
 
 #include <cstdint>
+#include <memory_resource>
 #include <optional>
+#include <vector>
 
 #include "pipeline/base/options.h"
 #include "pipeline/base/stage.h"
@@ -53,5 +55,35 @@ Error error_of(ReliefVerdict verdict, const ReliefFigures& relief, const ReliefO
 // Why an assembled model is not known to be a face, by its figures and landmarks; none where it is, or where
 // nobody asked. Also of a model that was read from a file.
 std::optional<Error> why_unjudged(const FaceModel& model, const std::optional<ReliefOptions>& asked);
+
+// The middle of a face as heights over its own mean plane, on square cells: every part of the surface
+// counts by its area, however densely it was measured. Frame: origin on the plane, x across the pictures
+// as far as the plane allows, y down, height towards the cameras; mm.
+inline constexpr double kReliefRadiusMm = 60;  // eyes, nose and mouth of any face
+inline constexpr double kReliefCellMm = 3;
+
+struct HeightCell {
+  int row = 0;
+  double x_mm = 0, y_mm = 0;  // mean place of what fell into it
+  double height_mm = 0;       // mean
+  double sigma_mm = 0;        // mean of the stated sigmas: errors of neighbours hang together
+};
+using HeightCells = std::pmr::vector<HeightCell>;  // row by row; few where little was measured
+
+// Measured surface within the radius around the middle of the face, as the pair saw it.
+HeightCells make_height_cells(const FaceMesh& mesh, const RectifiedPair& pair, StageContext& context);
+
+// The sheet of paper that comes closest to a surface. Paper bends without stretching: straight lines stay
+// in it (a developable surface; do Carmo 1976, 3-5). Held by two sides these lines are parallel (a general
+// cylinder: any profile, not only a circle) or meet in one point (a general cone). Seen over a plane
+// both are one linear model: where lines meet at distance 1/k along t,
+//   height(s, t) = c t + (1 - k t) g(s / (1 - k t)),  k = 0: the cylinder,
+// g a cubic spline. Direction and k are searched, c and g follow by least absolute deviations (softened;
+// iterated weights, Huber 1981), so that a mirrored lamp or a stray patch moves the sheet little.
+// A plane is the sheet whose g is straight.
+//
+// How far each cell lies off the sheet, perpendicular, + before it. At least 30 cells. Errors: Cancelled.
+Result<std::pmr::vector<double>> off_sheet_mm(const HeightCells& cells, StageContext& context);
+std::pmr::vector<double> off_plane_mm(const HeightCells& cells, StageContext& context);
 
 }  // namespace relievo::pipeline

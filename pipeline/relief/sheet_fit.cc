@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: 2026 The Relievo authors
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include "pipeline/relief/sheet_fit.h"
+#include "pipeline/relief/relief_check.h"
 
 #include <algorithm>
 #include <array>
@@ -23,7 +23,8 @@ constexpr double kMiddleShare = 0.15;  // of the face's width: surface that is s
 constexpr std::size_t kEnough = 50;
 constexpr double kPlaneBendMm = 3;  // what lies further off the plane pulls no harder
 constexpr int kPlaneRounds = 8;
-constexpr double kMostParts = 40;  // of an edge
+constexpr double kMostParts = 40;                                    // of an edge
+constexpr int kSide = 2 * int(kReliefRadiusMm / kReliefCellMm) + 1;  // columns and rows of the lattice
 
 struct Sample {
   Vector3d at;  // rectified frame
@@ -48,14 +49,14 @@ Samples measured_of(const FaceMesh& mesh, const RectifiedPair& pair, std::pmr::m
 }
 
 // Of triangles wider than a cell also places in between: what spans scattered points is measured surface.
-void add_between(Samples& all, const FaceMesh& mesh, const RectifiedPair& pair, double cell_mm) {
+void add_between(Samples& all, const FaceMesh& mesh, const RectifiedPair& pair) {
   for (const auto& t : mesh.triangles) {
     if (mesh.measured[t[0]] == 0 || mesh.measured[t[1]] == 0 || mesh.measured[t[2]] == 0) continue;
     std::array<Vector3d, 3> corner;
     for (std::size_t k = 0; k < 3; ++k) corner[k] = rectified(pair, mesh.vertices_mm[t[k]]);
     const double longest = std::max(
         {(corner[0] - corner[1]).norm(), (corner[1] - corner[2]).norm(), (corner[2] - corner[0]).norm()});
-    const int parts = int(std::min(kMostParts, 2 * longest / cell_mm));
+    const int parts = int(std::min(kMostParts, 2 * longest / kReliefCellMm));
     const double sigma = double(std::max({mesh.sigma_mm[t[0]], mesh.sigma_mm[t[1]], mesh.sigma_mm[t[2]]}));
     for (int i = 0; i <= parts; ++i)
       for (int j = 0; i + j <= parts; ++j) {
@@ -94,7 +95,7 @@ struct PlaneFrame {
   Matrix3d axes = Matrix3d::Identity();
 };
 
-PlaneFrame plane_of(const Samples& all, const Vector3d& middle, double radius_mm) {
+PlaneFrame plane_of(const Samples& all, const Vector3d& middle) {
   PlaneFrame frame;
   Vector3d normal(0, 0, -1);
   frame.origin = middle;
@@ -103,7 +104,7 @@ PlaneFrame plane_of(const Samples& all, const Vector3d& middle, double radius_mm
     Vector3d mean = Vector3d::Zero();
     Matrix3d spread = Matrix3d::Zero();
     for (const Sample& s : all) {
-      if ((s.at - middle).norm() > radius_mm) continue;
+      if ((s.at - middle).norm() > kReliefRadiusMm) continue;
       const double off = std::abs(normal.dot(s.at - frame.origin));
       const double w = round == 0 || off < kPlaneBendMm ? 1 : kPlaneBendMm / off;
       const Vector3d p = s.at - middle;
@@ -164,12 +165,12 @@ class Sheet {
  public:
   // `rows`: room for a row a cell, lent for the sheet's life.
   Sheet(const HeightCells& cells, Lines lines, Rows& rows)
-      : cells_(cells.cells),
+      : cells_(cells),
         lines_(lines),
         cos_(std::cos(lines.direction)),
         sin_(std::sin(lines.direction)),
         rows_(rows) {
-    const double reach = 0.5 * cells.side * cells.cell_mm * std::numbers::sqrt2;
+    const double reach = 0.5 * kSide * kReliefCellMm * std::numbers::sqrt2;
     const double widest = reach / (1 - std::min(0.8, std::abs(lines.convergence) * reach));
     begin_ = -widest, step_ = 2 * widest / (kSpline - 3);
     for (std::size_t k = 0; k < cells_.size(); ++k) rows_[k] = row_of(cells_[k]);
@@ -240,7 +241,7 @@ class Sheet {
     x_ = a.ldlt().solve(b);
   }
 
-  const std::pmr::vector<HeightCell>& cells_;
+  const HeightCells& cells_;
   Lines lines_;
   double cos_, sin_;
   Rows& rows_;
@@ -260,45 +261,40 @@ struct Best {
 
 }  // namespace
 
-HeightCells make_height_cells(const FaceMesh& mesh, const RectifiedPair& pair, double radius_mm,
-                              double cell_mm, StageContext& context) {
+HeightCells make_height_cells(const FaceMesh& mesh, const RectifiedPair& pair, StageContext& context) {
   HeightCells out(&context.scratch);
-  out.cell_mm = cell_mm;
-  out.side = 2 * int(std::ceil(radius_mm / cell_mm)) + 1;
   Samples all = measured_of(mesh, pair, &context.scratch);
-  add_between(all, mesh, pair, cell_mm);
+  add_between(all, mesh, pair);
   if (all.size() < kEnough) return out;
   const Vector3d middle = middle_of(all, pair, &context.scratch);
-  const PlaneFrame frame = plane_of(all, middle, radius_mm);
+  const PlaneFrame frame = plane_of(all, middle);
 
-  const int half = out.side / 2;
-  std::pmr::vector<Sum> sums(std::size_t(out.side * out.side), Sum{}, &context.scratch);
+  constexpr int kHalf = kSide / 2;
+  std::pmr::vector<Sum> sums(std::size_t(kSide * kSide), Sum{}, &context.scratch);
   for (const Sample& s : all) {
-    if ((s.at - middle).norm() > radius_mm) continue;
+    if ((s.at - middle).norm() > kReliefRadiusMm) continue;
     const Vector3d p = frame.axes * (s.at - frame.origin);
-    const auto column = int(std::lround(p.x() / cell_mm)) + half,
-               row = int(std::lround(p.y() / cell_mm)) + half;
-    if (column < 0 || row < 0 || column >= out.side || row >= out.side) continue;
-    Sum& sum = sums[std::size_t(row * out.side + column)];
+    const auto column = int(std::lround(p.x() / kReliefCellMm)) + kHalf,
+               row = int(std::lround(p.y() / kReliefCellMm)) + kHalf;
+    if (column < 0 || row < 0 || column >= kSide || row >= kSide) continue;
+    Sum& sum = sums[std::size_t(row * kSide + column)];
     sum.x += p.x(), sum.y += p.y(), sum.height += p.z(), sum.sigma += s.sigma_mm;
     ++sum.count;
   }
-  out.cells.reserve(sums.size());
-  for (int row = 0; row < out.side; ++row)
-    for (int column = 0; column < out.side; ++column) {
-      const Sum& sum = sums[std::size_t(row * out.side + column)];
+  out.reserve(sums.size());
+  for (int row = 0; row < kSide; ++row)
+    for (int column = 0; column < kSide; ++column) {
+      const Sum& sum = sums[std::size_t(row * kSide + column)];
       if (sum.count > 0)
-        out.cells.push_back({column, row, sum.x / sum.count, sum.y / sum.count, sum.height / sum.count,
-                             sum.sigma / sum.count});
+        out.push_back(
+            {row, sum.x / sum.count, sum.y / sum.count, sum.height / sum.count, sum.sigma / sum.count});
     }
-  const double disc = std::numbers::pi * (radius_mm / cell_mm) * (radius_mm / cell_mm);
-  out.covered = double(out.cells.size()) / disc;
   return out;
 }
 
 Result<std::pmr::vector<double>> off_sheet_mm(const HeightCells& cells, StageContext& context) {
   Best best;
-  Rows rows(cells.cells.size(), Row{}, &context.scratch);
+  Rows rows(cells.size(), Row{}, &context.scratch);
   for (int k = 0; k < kDirections; ++k) {
     if (context.stop()) return Error{Errc::Cancelled, "stopped while the relief was measured"};
     for (const double convergence : kConvergence)
@@ -313,7 +309,7 @@ Result<std::pmr::vector<double>> off_sheet_mm(const HeightCells& cells, StageCon
     turn /= 2, meet /= 2;
   }
   std::pmr::vector<double> off(&context.scratch);
-  off.reserve(cells.cells.size());
+  off.reserve(cells.size());
   Sheet sheet(cells, best.lines, rows);
   sheet.solve();
   sheet.deviations(off);
@@ -328,7 +324,7 @@ std::pmr::vector<double> off_plane_mm(const HeightCells& cells, StageContext& co
   for (int round = 0; round < kRounds; ++round) {
     Eigen::Matrix3d a = 1e-9 * Eigen::Matrix3d::Identity();
     Eigen::Vector3d b = Eigen::Vector3d::Zero();
-    for (const HeightCell& c : cells.cells) {
+    for (const HeightCell& c : cells) {
       const double w = 1 / soft(round == 0 ? 0 : off(c));
       const Eigen::Vector3d row(1, c.x_mm, c.y_mm);
       a += w * row * row.transpose();
@@ -337,8 +333,8 @@ std::pmr::vector<double> off_plane_mm(const HeightCells& cells, StageContext& co
     plane = solved<3>(a, b);
   }
   std::pmr::vector<double> all(&context.scratch);
-  all.reserve(cells.cells.size());
-  for (const HeightCell& c : cells.cells) all.push_back(off(c));
+  all.reserve(cells.size());
+  for (const HeightCell& c : cells) all.push_back(off(c));
   return all;
 }
 

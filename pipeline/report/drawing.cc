@@ -6,7 +6,7 @@
 #include <cmath>
 #include <cstddef>
 
-#include "pipeline/report/text.h"
+#include "pipeline/report/page.h"
 
 namespace relievo::pipeline::report {
 namespace {

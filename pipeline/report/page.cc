@@ -2,8 +2,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "pipeline/report/page.h"
 
-#include "pipeline/report/text.h"
-
 namespace relievo::pipeline::report {
 namespace {
 

@@ -13,6 +13,8 @@ namespace {
 
 constexpr double kStepMm = 5;  // on the chart
 constexpr double kAsideMm = 160, kAboveMm = 165, kBelowMm = 190;
+constexpr int kColumns = int(2 * kAsideMm / kStepMm) + 1, kRows = int((kAboveMm + kBelowMm) / kStepMm) + 1;
+constexpr std::size_t kVertices = kColumns * kRows;
 constexpr Vec3d kHeadMm{0, 20, -95}, kHalfMm{80, 118, 95};  // the ellipsoid, in the head's frame
 constexpr double kBehindMm = -120;                          // beyond it a plane
 constexpr float kUnderFaceMm = 3;
@@ -35,16 +37,14 @@ class Maker {
         StageContext& context)
       : pair_(pair),
         chart_(head_from_camera),
-        columns_(int(2 * kAsideMm / kStepMm) + 1),
-        rows_(int((kAboveMm + kBelowMm) / kStepMm) + 1),
-        radius_(size(), 0.0F, &context.scratch),
-        away_mm_(size(), 1e6F, &context.scratch),
+        radius_(kVertices, 0.0F, &context.scratch),
+        away_mm_(kVertices, 1e6F, &context.scratch),
         made_(&context.output) {
     for (const Vec3f& v : mesh.vertices_mm) {
       const Vec3f from_centre = minus(v, narrow(chart_.centre_mm));
       const Vec2d at = chart_.place(from_centre);
       const long c = std::lround((at.x + kAsideMm) / kStepMm), r = std::lround((at.y + kAboveMm) / kStepMm);
-      if (c < 0 || r < 0 || c >= columns_ || r >= rows_) continue;
+      if (c < 0 || r < 0 || c >= kColumns || r >= kRows) continue;
       const std::size_t k = index(int(c), int(r));
       radius_[k] = std::max(radius_[k], length(from_centre) - kUnderFaceMm);
       away_mm_[k] = 0;
@@ -54,22 +54,21 @@ class Maker {
   Backdrop make(Arena& scratch) {
     measure_distance();
     shape(scratch);
-    made_.columns = columns_;
-    made_.rows = rows_;
-    made_.at_mm.resize(size());
-    for (int r = 0; r < rows_; ++r)
-      for (int c = 0; c < columns_; ++c)
+    made_.columns = kColumns;
+    made_.rows = kRows;
+    made_.at_mm.resize(kVertices);
+    for (int r = 0; r < kRows; ++r)
+      for (int c = 0; c < kColumns; ++c)
         made_.at_mm[index(c, r)] =
             plus(chart_.at(place(c, r), double(radius_[index(c, r)])), narrow(chart_.centre_mm));
-    made_.rgba.resize(size());
-    for (int r = 0; r < rows_; ++r)
-      for (int c = 0; c < columns_; ++c) made_.rgba[index(c, r)] = colour(c, r);
+    made_.rgba.resize(kVertices);
+    for (int r = 0; r < kRows; ++r)
+      for (int c = 0; c < kColumns; ++c) made_.rgba[index(c, r)] = colour(c, r);
     return std::move(made_);
   }
 
  private:
-  std::size_t size() const { return std::size_t(columns_) * std::size_t(rows_); }
-  std::size_t index(int c, int r) const { return std::size_t(r) * std::size_t(columns_) + std::size_t(c); }
+  static std::size_t index(int c, int r) { return std::size_t(r * kColumns + c); }
   Vec2d place(int c, int r) const { return {c * kStepMm - kAsideMm, r * kStepMm - kAboveMm}; }
   bool face(std::size_t k) const { return away_mm_[k] <= 0; }
 
@@ -77,15 +76,15 @@ class Maker {
   void measure_distance() {
     const float step = float(kStepMm), askew = step * 1.4142F;
     const auto take = [&](int c, int r, int dc, int dr) {
-      if (c + dc < 0 || r + dr < 0 || c + dc >= columns_ || r + dr >= rows_) return;
+      if (c + dc < 0 || r + dr < 0 || c + dc >= kColumns || r + dr >= kRows) return;
       away_mm_[index(c, r)] = std::min(away_mm_[index(c, r)],
                                        away_mm_[index(c + dc, r + dr)] + (dc != 0 && dr != 0 ? askew : step));
     };
-    for (int r = 0; r < rows_; ++r)
-      for (int c = 0; c < columns_; ++c)
+    for (int r = 0; r < kRows; ++r)
+      for (int c = 0; c < kColumns; ++c)
         take(c, r, -1, 0), take(c, r, 0, -1), take(c, r, -1, -1), take(c, r, 1, -1);
-    for (int r = rows_; r-- > 0;)
-      for (int c = columns_; c-- > 0;)
+    for (int r = kRows; r-- > 0;)
+      for (int c = kColumns; c-- > 0;)
         take(c, r, 1, 0), take(c, r, 0, 1), take(c, r, 1, 1), take(c, r, -1, 1);
   }
 
@@ -101,27 +100,27 @@ class Maker {
     return float(rest > 0 ? std::max(plane, (-b + std::sqrt(rest)) / a) : plane);
   }
   void shape(Arena& scratch) {
-    std::pmr::vector<float> rough(size(), 0.0F, &scratch);
-    for (int r = 0; r < rows_; ++r)
-      for (int c = 0; c < columns_; ++c) {
+    std::pmr::vector<float> rough(kVertices, 0.0F, &scratch);
+    for (int r = 0; r < kRows; ++r)
+      for (int c = 0; c < kColumns; ++c) {
         rough[index(c, r)] = rough_radius(c, r);
         if (!face(index(c, r))) radius_[index(c, r)] = rough[index(c, r)];
       }
     for (int round = 0; round < kRounds; ++round)
-      for (int r = 0; r < rows_; ++r)
-        for (int c = 0; c < columns_; ++c) {
+      for (int r = 0; r < kRows; ++r)
+        for (int c = 0; c < kColumns; ++c) {
           const std::size_t k = index(c, r);
           if (face(k)) continue;
           const float around =
-              radius_[index(std::max(c - 1, 0), r)] + radius_[index(std::min(c + 1, columns_ - 1), r)] +
-              radius_[index(c, std::max(r - 1, 0))] + radius_[index(c, std::min(r + 1, rows_ - 1))];
+              radius_[index(std::max(c - 1, 0), r)] + radius_[index(std::min(c + 1, kColumns - 1), r)] +
+              radius_[index(c, std::max(r - 1, 0))] + radius_[index(c, std::min(r + 1, kRows - 1))];
           radius_[k] = (around / 4 + kPull * rough[k]) / (1 + kPull);
         }
   }
 
   float facing(int c, int r) const {
     const auto at = [&](int x, int y) {
-      return made_.at_mm[index(std::clamp(x, 0, columns_ - 1), std::clamp(y, 0, rows_ - 1))];
+      return made_.at_mm[index(std::clamp(x, 0, kColumns - 1), std::clamp(y, 0, kRows - 1))];
     };
     const Vec3f n =
         unit(cross(minus(at(c + kAbout, r), at(c - kAbout, r)), minus(at(c, r + kAbout), at(c, r - kAbout))));
@@ -151,7 +150,7 @@ class Maker {
     const float light = 1 - (1 - kDimmed) * smooth_step(0, kDimMm, away);
     const float beside = smooth_step(0, kDimMm, away);  // what continues the rim is shown however it turns
     const float seen = 1 - beside * (1 - smooth_step(kTurned, kFacing, facing(c, r)));
-    const int to_edge = std::min({c, r, columns_ - 1 - c, rows_ - 1 - r});
+    const int to_edge = std::min({c, r, kColumns - 1 - c, kRows - 1 - r});
     const float opacity = (1 - smooth_step(kClearMm, kGoneMm, away)) *
                           smooth_step(0, kDimMm, float(to_edge * kStepMm)) * seen * float(taps) /
                           (kTaps * kTaps);
@@ -163,7 +162,6 @@ class Maker {
 
   const RectifiedPair& pair_;
   HeadChart chart_;
-  int columns_, rows_;
   std::pmr::vector<float> radius_;   // of a vertex, from the chart's centre
   std::pmr::vector<float> away_mm_;  // from the face; 0 on it
   Backdrop made_;

@@ -12,7 +12,6 @@
 #include "pipeline/texture/blend/shot_planes.h"
 #include "pipeline/texture/blend/view_blend.h"
 #include "pipeline/texture/chart/chart.h"
-#include "pipeline/texture/chart/side_charts.h"
 #include "pipeline/texture/colour_fill.h"
 
 namespace relievo::pipeline {

@@ -4,14 +4,14 @@
 // The texturers.
 #pragma once
 
+#include "pipeline/base/kinds.h"
 #include "pipeline/base/options.h"
-#include "pipeline/texture/texturer.h"
 
 namespace relievo::pipeline {
 
 // TwoViewTexturer (`two-view`, the default): both photographs, each where it sees the surface and the
 // more the straighter it looks at it. The right one is first brought to the left one's exposure and
-// white balance (level_field.h), both to one level where they still differ slowly; where one is brighter in
+// white balance (view_blend.h), both to one level where they still differ slowly; where one is brighter in
 // every channel it holds a highlight and the darker one counts (view_blend.h).
 // Surface nobody photographed is filled smoothly and flagged (colour_fill.h).
 // Memory: atlas, uv and vertex colours in `output`, the rest in `scratch`. Thread: any; the result does not

@@ -20,7 +20,7 @@
 #include <vector>
 
 #include "hal/base/result.h"
-#include "storage/cipher/secret_key.h"
+#include "storage/cipher/seal.h"
 
 namespace relievo::storage {
 

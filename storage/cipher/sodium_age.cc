@@ -10,6 +10,7 @@
 #include "storage/byte_order.h"
 #include "storage/cipher/age.h"
 #include "storage/cipher/sodium_bytes.h"
+#include "storage/text.h"
 
 namespace relievo::storage {
 namespace {
@@ -148,7 +149,7 @@ std::optional<std::array<std::byte, 32>> bech32(std::string_view prefix, std::st
 
 // One way to the file's key, as its header has it.
 struct Stanza {
-  std::vector<std::string> words;
+  std::vector<std::string_view> words;
   std::string body;
 };
 
@@ -158,16 +159,6 @@ struct Header {
   std::array<std::byte, 32> mac{};
   std::size_t bytes = 0;
 };
-
-std::vector<std::string> words_in(std::string_view line) {
-  std::vector<std::string> words;
-  for (std::size_t at = 0; at <= line.size();) {
-    const std::size_t end = std::min(line.find(' ', at), line.size());
-    words.emplace_back(line.substr(at, end - at));
-    at = end + 1;
-  }
-  return words;
-}
 
 std::optional<Header> read_header(std::string_view text) {
   if (!text.starts_with(kVersion)) return std::nullopt;
@@ -191,7 +182,7 @@ std::optional<Header> read_header(std::string_view text) {
       return header;
     }
     if (!first->starts_with("-> ")) return std::nullopt;
-    Stanza& stanza = header.stanzas.emplace_back(Stanza{words_in(first->substr(3)), {}});
+    Stanza& stanza = header.stanzas.emplace_back(Stanza{split(first->substr(3), ' '), {}});
     for (std::size_t length = kColumns; length == kColumns;) {
       const auto more = line();
       if (!more || more->size() > kColumns) return std::nullopt;
@@ -217,7 +208,7 @@ Result<bool> file_key_in(const Stanza& stanza, const AgeBy& by, FileKey& file_ke
   std::array<std::byte, kSaltBytes> salt{};
   if (stanza.words.size() != 3 || stanza.words[0] != "scrypt") return false;
   int work = 0;
-  const std::string& factor = stanza.words[2];
+  const std::string_view factor = stanza.words[2];
   const auto [end, wrong] = std::from_chars(factor.data(), factor.data() + factor.size(), work);
   if (!from_base64(stanza.words[1], salt) || !from_base64(stanza.body, wrapped) || wrong != std::errc() ||
       end != factor.data() + factor.size() || factor[0] == '0' || work < 1)

@@ -7,23 +7,19 @@
 #include "storage/cipher/recovery.h"
 #include "storage/cipher/sodium_bytes.h"
 #include "storage/sodium_sha256.h"
+#include "storage/text.h"
 
 namespace relievo::storage {
 namespace {
 
-constexpr std::size_t kWordBits = 11, kListWords = 2048;
+constexpr std::size_t kWordBits = 11;
 constexpr std::string_view kPurpose = "relievo recovery 1";
 static_assert(sizeof(RecoveryPublic) == crypto_box_PUBLICKEYBYTES &&
               SecretKey::kBytes == crypto_box_SECRETKEYBYTES);
 
 std::vector<std::string_view> word_list() {
-  std::vector<std::string_view> list;
-  list.reserve(kListWords);
-  for (std::string_view rest = recovery_word_list(); !rest.empty();) {
-    const std::size_t end = std::min(rest.find('\n'), rest.size());
-    if (end > 0) list.push_back(rest.substr(0, end));
-    rest.remove_prefix(std::min(end + 1, rest.size()));
-  }
+  auto list = split(recovery_word_list(), '\n');
+  std::erase(list, "");
   return list;
 }
 

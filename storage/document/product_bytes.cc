@@ -6,9 +6,15 @@
 
 #include <algorithm>
 #include <cmath>
+#include <concepts>
 #include <cstdint>
-#include <utility>
+#include <type_traits>
 
+#include "pipeline/model/face_mesh.h"
+#include "pipeline/model/match_set.h"
+#include "pipeline/model/point_cloud.h"
+#include "pipeline/model/rectified_pair.h"
+#include "pipeline/model/texture_atlas.h"
 #include "storage/byte_order.h"
 
 namespace relievo::storage {
@@ -17,6 +23,10 @@ namespace {
 using namespace pipeline;  // NOLINT(google-build-using-namespace): this file is about nothing else
 
 constexpr int kMaxSidePx = 16'384;
+
+// To be written, it is const.
+template <typename T, typename Product>
+concept Of = std::same_as<std::remove_const_t<T>, Product>;
 
 template <typename Io, typename Transform>
 void walk_transform(Io& io, Transform& t) {
@@ -31,8 +41,8 @@ void walk_view(Io& io, View& view) {
   io.template run<std::uint8_t>(view.valid);
 }
 
-template <typename Io, typename Pair>
-void walk_pair(Io& io, Pair& pair) {
+template <typename Io, Of<RectifiedPair> Pair>
+void walk(Io& io, Pair& pair) {
   io.numbers(pair.width_px, pair.height_px, pair.focal_px, pair.baseline_mm, pair.left_centre_px.x,
              pair.left_centre_px.y, pair.right_centre_px.x, pair.right_centre_px.y, pair.near_mm, pair.far_mm,
              pair.face_centre_px.x, pair.face_centre_px.y, pair.face_width_px, pair.face_reach_mm);
@@ -44,8 +54,8 @@ void walk_pair(Io& io, Pair& pair) {
   io.template run<std::uint8_t>(pair.region);
 }
 
-template <typename Io, typename Set>
-void walk_matches(Io& io, Set& set) {
+template <typename Io, Of<MatchSet> Set>
+void walk(Io& io, Set& set) {
   auto& shift = set.epipolar_shift;
   io.numbers(shift.offset_px, shift.slope_x, shift.slope_y, shift.middle_x_px, shift.middle_y_px,
              shift.spread_x_px, shift.spread_y_px, shift.correlation, shift.residual_px, shift.sigma_px,
@@ -58,15 +68,15 @@ void walk_matches(Io& io, Set& set) {
   });
 }
 
-template <typename Io, typename Cloud>
-void walk_cloud(Io& io, Cloud& cloud) {
+template <typename Io, Of<PointCloud> Cloud>
+void walk(Io& io, Cloud& cloud) {
   io.numbers(cloud.lattice_step_px, cloud.right_camera_mm.x, cloud.right_camera_mm.y,
              cloud.right_camera_mm.z);
   io.template run<float>(cloud.points);
 }
 
-template <typename Io, typename Mesh>
-void walk_mesh(Io& io, Mesh& mesh) {
+template <typename Io, Of<FaceMesh> Mesh>
+void walk(Io& io, Mesh& mesh) {
   io.template run<float>(mesh.vertices_mm);
   io.template run<float>(mesh.normals);
   io.template run<float>(mesh.sigma_mm);
@@ -74,8 +84,8 @@ void walk_mesh(Io& io, Mesh& mesh) {
   io.template run<std::uint32_t>(mesh.triangles);
 }
 
-template <typename Io, typename Drop>
-void walk_backdrop(Io& io, Drop& backdrop) {
+template <typename Io, Of<Backdrop> Drop>
+void walk(Io& io, Drop& backdrop) {
   io.numbers(backdrop.columns, backdrop.rows);
   io.template run<float>(backdrop.at_mm);
   io.template run<std::uint8_t>(backdrop.rgba);
@@ -127,24 +137,13 @@ Error broken() { return {Errc::StoreCorrupt, "what was saved does not hang toget
 
 constexpr std::size_t kPictureHeadBytes = 4 + 4 + 1;
 
-std::vector<std::byte> write(std::size_t room, const auto& walk) {
-  std::vector<std::byte> bytes;
-  bytes.reserve(room);
-  ByteWriter io(bytes);
-  walk(io);
-  return bytes;
+// Of those that are more than one array, so much at least.
+std::size_t room_of(const RectifiedPair& pair) { return pair.left.grey.size() * 17 + 1024; }
+std::size_t room_of(const MatchSet& matches) { return matches.matches.size() * 22 + 256; }
+std::size_t room_of(const FaceMesh& mesh) {
+  return mesh.vertices_mm.size() * 29 + mesh.triangles.size() * 12 + 64;
 }
-
-// `beside` is what the product must fit to.
-template <typename Product>
-Result<Product> read(std::span<const std::byte> bytes, std::pmr::memory_resource* memory, auto walk,
-                     const auto&... beside) {
-  ByteReader io(bytes);
-  Product product(memory);
-  walk(io, product);
-  if (!io.whole() || !fits(product, beside...)) return broken();
-  return product;
-}
+std::size_t room_of(const auto&) { return 0; }
 
 }  // namespace
 
@@ -176,49 +175,37 @@ Result<ImageView> picture_from(std::span<const std::byte> bytes) {
   return view;
 }
 
-std::vector<std::byte> pair_bytes(const RectifiedPair& pair) {
-  return write(pair.left.grey.size() * 17 + 1024, [&](auto& io) { walk_pair(io, pair); });
+template <typename Product>
+std::vector<std::byte> product_bytes(const Product& product) {
+  std::vector<std::byte> bytes;
+  bytes.reserve(room_of(product));
+  ByteWriter io(bytes);
+  walk(io, product);
+  return bytes;
 }
 
-std::vector<std::byte> matches_bytes(const MatchSet& matches) {
-  return write(matches.matches.size() * 22 + 256, [&](auto& io) { walk_matches(io, matches); });
+template <typename Product, typename... Beside>
+Result<Product> product_from(std::span<const std::byte> bytes, std::pmr::memory_resource* memory,
+                             const Beside&... beside) {
+  ByteReader io(bytes);
+  Product product(memory);
+  walk(io, product);
+  if (!io.whole() || !fits(product, beside...)) return broken();
+  return product;
 }
 
-std::vector<std::byte> cloud_bytes(const PointCloud& cloud) {
-  return write(0, [&](auto& io) { walk_cloud(io, cloud); });
-}
+template std::vector<std::byte> product_bytes(const RectifiedPair&);
+template std::vector<std::byte> product_bytes(const MatchSet&);
+template std::vector<std::byte> product_bytes(const PointCloud&);
+template std::vector<std::byte> product_bytes(const FaceMesh&);
+template std::vector<std::byte> product_bytes(const Backdrop&);
 
-std::vector<std::byte> mesh_bytes(const FaceMesh& mesh) {
-  return write(mesh.vertices_mm.size() * 29 + mesh.triangles.size() * 12 + 64,
-               [&](auto& io) { walk_mesh(io, mesh); });
-}
-
-std::vector<std::byte> backdrop_bytes(const Backdrop& backdrop) {
-  return write(0, [&](auto& io) { walk_backdrop(io, backdrop); });
-}
-
-Result<RectifiedPair> pair_from(std::span<const std::byte> bytes, std::pmr::memory_resource* memory) {
-  return read<RectifiedPair>(bytes, memory, [](auto& io, auto& pair) { walk_pair(io, pair); });
-}
-
-Result<MatchSet> matches_from(std::span<const std::byte> bytes, const RectifiedPair& pair,
-                              std::pmr::memory_resource* memory) {
-  return read<MatchSet>(
-      bytes, memory, [](auto& io, auto& matches) { walk_matches(io, matches); }, pair);
-}
-
-Result<PointCloud> cloud_from(std::span<const std::byte> bytes, const RectifiedPair& pair,
-                              std::pmr::memory_resource* memory) {
-  return read<PointCloud>(
-      bytes, memory, [](auto& io, auto& cloud) { walk_cloud(io, cloud); }, pair);
-}
-
-Result<FaceMesh> mesh_from(std::span<const std::byte> bytes, std::pmr::memory_resource* memory) {
-  return read<FaceMesh>(bytes, memory, [](auto& io, auto& mesh) { walk_mesh(io, mesh); });
-}
-
-Result<Backdrop> backdrop_from(std::span<const std::byte> bytes, std::pmr::memory_resource* memory) {
-  return read<Backdrop>(bytes, memory, [](auto& io, auto& backdrop) { walk_backdrop(io, backdrop); });
-}
+using Bytes = std::span<const std::byte>;
+using Memory = std::pmr::memory_resource;
+template Result<RectifiedPair> product_from(Bytes, Memory*);
+template Result<MatchSet> product_from(Bytes, Memory*, const RectifiedPair&);
+template Result<PointCloud> product_from(Bytes, Memory*, const RectifiedPair&);
+template Result<FaceMesh> product_from(Bytes, Memory*);
+template Result<Backdrop> product_from(Bytes, Memory*);
 
 }  // namespace relievo::storage

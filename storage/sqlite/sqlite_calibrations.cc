@@ -5,8 +5,7 @@
 
 #include "storage/byte_order.h"
 #include "storage/calibration_record.h"
-#include "storage/sqlite/sqlite_audit.h"
-#include "storage/sqlite/sqlite_change.h"
+#include "storage/sqlite/sqlite_parts.h"
 #include "storage/text.h"
 
 namespace relievo::storage {
@@ -133,20 +132,18 @@ Result<pipeline::StereoCalibration> record_in(const Statement& query) {
 Result<pipeline::StereoCalibration> SqliteStore::calibration(std::uint32_t revision) {
   return without_exceptions(database_->where(), [&]() -> Result<pipeline::StereoCalibration> {
     RELIEVO_TRY_ASSIGN(
-        auto query,
-        database_->prepare("SELECT revision, record FROM calibration WHERE revision = ?", revision));
-    RELIEVO_TRY_ASSIGN(const bool row, query.step());
+        const auto row,
+        database_->row("SELECT revision, record FROM calibration WHERE revision = ?", revision));
     if (!row) return not_found("there is no calibration of this revision", revision);
-    return record_in(query);
+    return record_in(*row);
   });
 }
 
 Result<pipeline::StereoCalibration> SqliteStore::active_calibration() {
   return without_exceptions(database_->where(), [&]() -> Result<pipeline::StereoCalibration> {
-    RELIEVO_TRY_ASSIGN(auto query,
-                       database_->prepare("SELECT revision, record FROM calibration WHERE active = 1"));
-    RELIEVO_TRY_ASSIGN(const bool row, query.step());
-    if (row) return record_in(query);
+    RELIEVO_TRY_ASSIGN(const auto row,
+                       database_->row("SELECT revision, record FROM calibration WHERE active = 1"));
+    if (row) return record_in(*row);
     RELIEVO_TRY_ASSIGN(const std::int64_t kept, database_->integer("SELECT count(*) FROM calibration"));
     constexpr Literal kNoneInUse = "none of the store's calibrations is in use: activate one, or calibrate",
                       kNone = "the store holds no calibration: calibrate first";

@@ -13,6 +13,7 @@
 #include <cstdint>
 #include <filesystem>
 #include <new>
+#include <optional>
 #include <span>
 #include <string>
 #include <string_view>
@@ -92,12 +93,18 @@ class Database {
     RELIEVO_TRY_ASSIGN(auto statement, prepare(sql, first, rest...));
     return statement.run();
   }
+  // At its first row; none where there is none.
+  template <typename... Values>
+  Result<std::optional<Statement>> row(std::string_view sql, const Values&... values) {
+    RELIEVO_TRY_ASSIGN(auto statement, prepare(sql, values...));
+    RELIEVO_TRY_ASSIGN(const bool there, statement.step());
+    return there ? std::optional(std::move(statement)) : std::nullopt;
+  }
   // The first column of the first row; 0 if there is none.
   template <typename... Values>
   Result<std::int64_t> integer(std::string_view sql, const Values&... values) {
-    RELIEVO_TRY_ASSIGN(auto statement, prepare(sql, values...));
-    RELIEVO_TRY_ASSIGN(const bool row, statement.step());
-    return row ? statement.integer(0) : 0;
+    RELIEVO_TRY_ASSIGN(const auto first, row(sql, values...));
+    return first ? first->integer(0) : 0;
   }
   std::int64_t last_row_id() const;
   std::int64_t changes() const;

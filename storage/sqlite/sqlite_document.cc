@@ -101,11 +101,11 @@ Result<std::vector<std::byte>> bytes_of_part(const DocumentParts& parts, std::st
   if (name == "calibration") return encode_calibration(parts.head.calibration);
   if (name == "left") return picture_bytes(parts.frame.left);
   if (name == "right") return picture_bytes(parts.frame.right);
-  if (name == "pair") return pair_bytes(*parts.pair);
-  if (name == "matches") return matches_bytes(*parts.matches);
-  if (name == "cloud") return cloud_bytes(*parts.cloud);
-  if (name == "mesh") return mesh_bytes(*parts.mesh);
-  if (name == "backdrop") return backdrop_bytes(parts.model->backdrop);
+  if (name == "pair") return product_bytes(*parts.pair);
+  if (name == "matches") return product_bytes(*parts.matches);
+  if (name == "cloud") return product_bytes(*parts.cloud);
+  if (name == "mesh") return product_bytes(*parts.mesh);
+  if (name == "backdrop") return product_bytes(parts.model->backdrop);
   return encode_model(*parts.model);
 }
 
@@ -227,6 +227,10 @@ struct Document::Inside {
     if (!product) return of_bytes(product.error());
     return product;
   }
+  template <typename Product>
+  Result<Product> product(std::string_view name, std::pmr::memory_resource* memory, const auto&... beside) {
+    return read(name, [&](auto data) { return product_from<Product>(data, memory, beside...); });
+  }
 };
 
 Document::Document(std::unique_ptr<Inside> inside) : inside_(std::move(inside)) {}
@@ -271,28 +275,27 @@ Result<Document::Picture> Document::picture(bool left) const {
 }
 
 Result<pipeline::RectifiedPair> Document::pair(std::pmr::memory_resource* memory) const {
-  return inside_->read("pair", [&](auto data) { return pair_from(data, memory); });
+  return inside_->product<pipeline::RectifiedPair>("pair", memory);
 }
 
 Result<pipeline::MatchSet> Document::matches(const pipeline::RectifiedPair& of,
                                              std::pmr::memory_resource* memory) const {
-  return inside_->read("matches", [&](auto data) { return matches_from(data, of, memory); });
+  return inside_->product<pipeline::MatchSet>("matches", memory, of);
 }
 
 Result<pipeline::PointCloud> Document::cloud(const pipeline::RectifiedPair& of,
                                              std::pmr::memory_resource* memory) const {
-  return inside_->read("cloud", [&](auto data) { return cloud_from(data, of, memory); });
+  return inside_->product<pipeline::PointCloud>("cloud", memory, of);
 }
 
 Result<pipeline::FaceMesh> Document::mesh(std::pmr::memory_resource* memory) const {
-  return inside_->read("mesh", [&](auto data) { return mesh_from(data, memory); });
+  return inside_->product<pipeline::FaceMesh>("mesh", memory);
 }
 
 Result<pipeline::FaceModel> Document::model(std::pmr::memory_resource* memory) const {
   RELIEVO_TRY_ASSIGN(pipeline::FaceModel model,
                      inside_->read("model", [&](auto data) { return decode_model(data, memory); }));
-  RELIEVO_TRY_ASSIGN(model.backdrop,
-                     inside_->read("backdrop", [&](auto data) { return backdrop_from(data, memory); }));
+  RELIEVO_TRY_ASSIGN(model.backdrop, inside_->product<pipeline::Backdrop>("backdrop", memory));
   return model;
 }
 

@@ -2,11 +2,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // SqliteStore: enrolments and their models.
 #include "storage/model_blob.h"
-#include "storage/sqlite/sqlite_audit.h"
-#include "storage/sqlite/sqlite_change.h"
-#include "storage/sqlite/sqlite_erasure.h"
-#include "storage/sqlite/sqlite_migration.h"
-#include "storage/sqlite/sqlite_sealed_rows.h"
+#include "storage/sqlite/sqlite_parts.h"
 #include "storage/text.h"
 
 namespace relievo::storage {
@@ -130,12 +126,11 @@ Result<std::vector<Enrolment>> SqliteStore::enrolments(SubjectId subject) {
 
 Result<Enrolment> SqliteStore::enrolment(EnrolmentId id) {
   return without_exceptions(database_->where(), [&]() -> Result<Enrolment> {
-    RELIEVO_TRY_ASSIGN(auto query,
-                       database_->prepare(std::string(kEnrolments) + "WHERE enrolment.id = ?", number(id)));
-    RELIEVO_TRY_ASSIGN(const bool row, query.step());
+    RELIEVO_TRY_ASSIGN(const auto row,
+                       database_->row(std::string(kEnrolments) + "WHERE enrolment.id = ?", number(id)));
     if (!row) return not_found("there is no enrolment with this number", number(id));
     KeySlots slots(*database_);
-    return enrolment_in(slots, query);
+    return enrolment_in(slots, *row);
   });
 }
 

@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: 2026 The Relievo authors
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include "storage/sqlite/sqlite_erasure.h"
+#include "storage/sqlite/sqlite_parts.h"
 
 #include <fcntl.h>
 #include <sys/stat.h>
@@ -13,10 +13,6 @@
 #include "hal/base/whole_file.h"
 #include "storage/byte_order.h"
 #include "storage/sodium_sha256.h"
-#include "storage/sqlite/sqlite_audit.h"
-#include "storage/sqlite/sqlite_change.h"
-#include "storage/sqlite/sqlite_keys.h"
-#include "storage/sqlite/store_directory.h"
 
 namespace relievo::storage {
 namespace {
@@ -63,17 +59,16 @@ std::vector<Erased> read_list(const Database& database) {
   while (from.left() >= std::size_t(kRecordBytes)) {
     Erased& one = all.emplace_back();
     one.line = from.get<std::int64_t>();
-    from.get_run<std::byte>(std::span<std::byte>(one.trace));
+    from.get(one.trace);
   }
   return all;
 }
 
 // NotFound: they are erased already.
 Result<KeyedHash> trace_of(Database& database, const StoreKeys& keys, SubjectId id) {
-  RELIEVO_TRY_ASSIGN(auto query, database.prepare("SELECT code_hash FROM subject WHERE id = ?", number(id)));
-  RELIEVO_TRY_ASSIGN(const bool row, query.step());
+  RELIEVO_TRY_ASSIGN(const auto row, database.row("SELECT code_hash FROM subject WHERE id = ?", number(id)));
   if (!row) return Error{Errc::NotFound, "there is no subject with this number"};
-  return trace_of(keys, query.blob(0));
+  return trace_of(keys, row->blob(0));
 }
 
 }  // namespace

@@ -7,59 +7,9 @@
 #include "storage/calibration_record.h"
 #include "storage/cipher/recovery.h"
 #include "storage/model_blob.h"
-#include "storage/sqlite/sqlite_audit.h"
-#include "storage/sqlite/sqlite_change.h"
-#include "storage/sqlite/sqlite_erasure.h"
-#include "storage/sqlite/sqlite_keys.h"
-#include "storage/sqlite/sqlite_migration.h"
-#include "storage/sqlite/sqlite_sealed_rows.h"
+#include "storage/sqlite/sqlite_parts.h"
 
 namespace relievo::storage {
-
-Result<void> SqliteStore::backup(const std::filesystem::path& file) {
-  return without_exceptions(file.native(), [&] { return copy_whole(*database_, file); });
-}
-
-Result<std::vector<SubjectId>> SqliteStore::erased_since(const std::filesystem::path& backup) {
-  return without_exceptions(backup.native(), [&]() -> Result<std::vector<SubjectId>> {
-    Database copy(backup);
-    RELIEVO_TRY(copy.open(false));
-    RELIEVO_TRY_ASSIGN(const std::int64_t version, version_of(copy));
-    const Error another =
-        Error{Errc::InvalidInput, "this is no copy of this store, or an older version's"}.at(backup.native());
-    if (version < store_version()) return another;
-    RELIEVO_TRY_ASSIGN(auto end, copy.prepare("SELECT number, hash FROM audit_end"));
-    RELIEVO_TRY_ASSIGN(const bool ended, end.step());
-    if (!ended) return another;
-    // The same store, if its log goes on where the copy's ends.
-    RELIEVO_TRY_ASSIGN(auto same,
-                       database_->prepare("SELECT hash FROM audit WHERE number = ?", end.integer(0)));
-    RELIEVO_TRY_ASSIGN(const bool known, same.step());
-    if (!known || !std::ranges::equal(same.blob(0), end.blob(1))) return another;
-    RELIEVO_TRY_ASSIGN(auto query,
-                       database_->prepare("SELECT subject_id FROM audit WHERE number > ? AND what = ?",
-                                          end.integer(0), kSubjectErased));
-    std::vector<SubjectId> erased;
-    for (;;) {
-      RELIEVO_TRY_ASSIGN(const bool row, query.step());
-      if (!row) return erased;
-      RELIEVO_TRY_ASSIGN(const std::int64_t in_copy,
-                         copy.integer("SELECT 1 FROM subject WHERE id = ?", query.integer(0)));
-      if (in_copy != 0) erased.push_back(SubjectId{query.integer(0)});
-    }
-  });
-}
-
-Result<void> SqliteStore::rekey(KeySource& to) {
-  RELIEVO_TRY(remove_old_copies(database_->file()));
-  const auto changed = change([&](WallTime at) -> Result<void> {
-    RELIEVO_TRY(keys_->rekey(*database_, to, at));
-    return append_line({"store.rekeyed", {}, ""}, at);
-  });
-  if (!changed) return changed;
-  RELIEVO_TRY(StoreKeys::finish_change(to));
-  return empty_the_log(*database_);
-}
 
 Result<bool> SqliteStore::has_recovery_words() {
   RELIEVO_TRY_ASSIGN(const std::int64_t kept,
@@ -74,8 +24,6 @@ Result<void> SqliteStore::keep_recovery_words(std::string_view words) {
   });
 }
 
-namespace {
-
 class SqliteKeeping final : public StoreKeeping {
  public:
   SqliteKeeping(std::filesystem::path dir, const hal::Clock& clock, const SqliteStoreOptions& options)
@@ -83,15 +31,40 @@ class SqliteKeeping final : public StoreKeeping {
 
   Result<void> backup(const std::filesystem::path& file) override {
     RELIEVO_TRY_ASSIGN(const auto store, open(OpenMode::ReadOnly));
-    return store->backup(file);
+    return without_exceptions(file.native(), [&] { return copy_whole(*store->database_, file); });
   }
   Result<std::vector<SubjectId>> erased_since(const std::filesystem::path& backup) override {
     RELIEVO_TRY_ASSIGN(const auto store, open(OpenMode::ReadOnly));
-    return store->erased_since(backup);
+    return without_exceptions(backup.native(), [&]() -> Result<std::vector<SubjectId>> {
+      Database copy(backup);
+      RELIEVO_TRY(copy.open(false));
+      RELIEVO_TRY_ASSIGN(const std::int64_t version, version_of(copy));
+      const Error another =
+          Error{Errc::InvalidInput, "this is no copy of this store, or an older version's"}.at(
+              backup.native());
+      if (version < store_version()) return another;
+      RELIEVO_TRY_ASSIGN(const auto end, copy.row("SELECT number, hash FROM audit_end"));
+      if (!end) return another;
+      // The same store, if its log goes on where the copy's ends.
+      RELIEVO_TRY_ASSIGN(const auto same,
+                         store->database_->row("SELECT hash FROM audit WHERE number = ?", end->integer(0)));
+      if (!same || !std::ranges::equal(same->blob(0), end->blob(1))) return another;
+      RELIEVO_TRY_ASSIGN(
+          auto query, store->database_->prepare("SELECT subject_id FROM audit WHERE number > ? AND what = ?",
+                                                end->integer(0), kSubjectErased));
+      std::vector<SubjectId> erased;
+      for (;;) {
+        RELIEVO_TRY_ASSIGN(const bool row, query.step());
+        if (!row) return erased;
+        RELIEVO_TRY_ASSIGN(const std::int64_t in_copy,
+                           copy.integer("SELECT 1 FROM subject WHERE id = ?", query.integer(0)));
+        if (in_copy != 0) erased.push_back(SubjectId{query.integer(0)});
+      }
+    });
   }
   Result<void> rekey(const KeyPlace& to) override {
     RELIEVO_TRY_ASSIGN(const auto store, open(OpenMode::ReadWrite));
-    if (to.sealed_by_tpm) return store->rekey(*key_file(dir_ / kKeyFile, true, NextKey::SealedByTpm));
+    if (to.sealed_by_tpm) return rekey(*store, *key_file(dir_ / kKeyFile, true, NextKey::SealedByTpm));
     if (!to.file.empty()) {
       // A key of another store that is written over leaves that store to its recovery words.
       SqliteStoreOptions by_it = options_;
@@ -101,10 +74,10 @@ class SqliteKeeping final : public StoreKeeping {
       if (std::filesystem::exists(to.file, ignored) && !SqliteStore::open(dir_, clock_, by_it))
         return Error{Errc::InvalidInput, "this file is there, and is not this store's key: name another"}.at(
             to.file.native());
-      return store->rekey(*by_it.keys);
+      return rekey(*store, *by_it.keys);
     }
     const auto same = options_.keys ? options_.keys : std::shared_ptr<KeySource>(key_file(dir_ / kKeyFile));
-    return store->rekey(*same);
+    return rekey(*store, *same);
   }
   Result<std::vector<SubjectId>> recover(std::string_view words) override {
     if (auto known = bits_of(words); !known) return known.error();
@@ -128,6 +101,16 @@ class SqliteKeeping final : public StoreKeeping {
   }
 
  private:
+  static Result<void> rekey(SqliteStore& store, KeySource& to) {
+    RELIEVO_TRY(remove_old_copies(store.database_->file()));
+    const auto changed = store.change([&](WallTime at) -> Result<void> {
+      RELIEVO_TRY(store.keys_->rekey(*store.database_, to, at));
+      return store.append_line({"store.rekeyed", {}, ""}, at);
+    });
+    if (!changed) return changed;
+    RELIEVO_TRY(StoreKeys::finish_change(to));
+    return empty_the_log(*store.database_);
+  }
   // A new key takes the place of --key's. One that nobody can read (a dead TPM's) is no loss.
   Result<void> must_not_be_anothers(Database& store) {
     RELIEVO_TRY_ASSIGN(auto key, SecretKey::make());
@@ -155,8 +138,6 @@ class SqliteKeeping final : public StoreKeeping {
   SqliteStoreOptions options_;
 };
 
-}  // namespace
-
 std::unique_ptr<StoreKeeping> keep_sqlite_store(const std::filesystem::path& dir, const hal::Clock& clock,
                                                 const SqliteStoreOptions& options) {
   return std::make_unique<SqliteKeeping>(dir, clock, options);
@@ -180,13 +161,11 @@ Result<void> SqliteStore::check(const std::atomic<bool>& stop) {
 }
 
 Result<void> SqliteStore::check_pages() {
-  RELIEVO_TRY_ASSIGN(auto pages, database_->prepare("PRAGMA integrity_check(1)"));
-  RELIEVO_TRY_ASSIGN(const bool row, pages.step());
-  if (!row || pages.text(0) != "ok") {
+  RELIEVO_TRY_ASSIGN(const auto pages, database_->row("PRAGMA integrity_check(1)"));
+  if (!pages || pages->text(0) != "ok") {
     return database_->error(Errc::StoreCorrupt, "the store is damaged: stop using it and restore a copy");
   }
-  RELIEVO_TRY_ASSIGN(auto owners, database_->prepare("PRAGMA foreign_key_check"));
-  RELIEVO_TRY_ASSIGN(const bool orphan, owners.step());
+  RELIEVO_TRY_ASSIGN(const auto orphan, database_->row("PRAGMA foreign_key_check"));
   RELIEVO_TRY_ASSIGN(
       const std::int64_t halves,
       database_->integer(

@@ -7,7 +7,7 @@
 
 #include "storage/byte_order.h"
 #include "storage/cipher/recovery.h"
-#include "storage/sqlite/sqlite_change.h"
+#include "storage/sqlite/sqlite_parts.h"
 #include "storage/text.h"
 
 namespace relievo::storage {
@@ -32,12 +32,11 @@ Result<void> put_key(Database& database, std::string_view kind, std::span<const 
 
 // 0: there is none.
 Result<std::int64_t> find_key(Database& database, std::string_view kind, std::vector<std::byte>& wrapped) {
-  RELIEVO_TRY_ASSIGN(auto query,
-                     database.prepare("SELECT id, parameters FROM encryption_key WHERE kind = ?", kind));
-  RELIEVO_TRY_ASSIGN(const bool row, query.step());
+  RELIEVO_TRY_ASSIGN(const auto row,
+                     database.row("SELECT id, parameters FROM encryption_key WHERE kind = ?", kind));
   if (!row) return 0;
-  wrapped.assign(query.blob(1).begin(), query.blob(1).end());
-  return query.integer(0);
+  wrapped.assign(row->blob(1).begin(), row->blob(1).end());
+  return row->integer(0);
 }
 
 Error lost_keys(const Database& database) {
@@ -80,16 +79,6 @@ Result<void> KeySlots::write(SubjectId id, std::span<const std::byte> wrapped) {
   RELIEVO_TRY(open(id));
   return blob_->write(offset_of(id), wrapped);
 }
-
-StoreKeys::StoreKeys(std::shared_ptr<KeySource> source, std::vector<SecretKey> rooms, SealedStream stream)
-    : source_(std::move(source)),
-      appliance_(std::move(rooms[0])),
-      store_(std::move(rooms[1])),
-      device_(std::move(rooms[2])),
-      search_(std::move(rooms[3])),
-      chain_(std::move(rooms[4])),
-      subject_(std::move(rooms[5])),
-      stream_(std::move(stream)) {}
 
 Result<std::unique_ptr<StoreKeys>> StoreKeys::make(std::shared_ptr<KeySource> source) {
   std::vector<SecretKey> rooms;

@@ -23,12 +23,12 @@
 #include <span>
 #include <string>
 #include <string_view>
+#include <utility>
 #include <vector>
 
 #include "hal/base/result.h"
 #include "storage/cipher/key_source.h"
 #include "storage/cipher/seal.h"
-#include "storage/cipher/secret_key.h"
 #include "storage/record.h"
 #include "storage/sqlite/sqlite_database.h"
 
@@ -92,13 +92,16 @@ class StoreKeys {
   SealedStream& stream() { return stream_; }
 
  private:
-  StoreKeys(std::shared_ptr<KeySource> source, std::vector<SecretKey> rooms, SealedStream stream);
+  StoreKeys(std::shared_ptr<KeySource> source, std::vector<SecretKey> rooms, SealedStream stream)
+      : source_(std::move(source)), rooms_(std::move(rooms)), stream_(std::move(stream)) {}
   void derive();
   Result<void> load_device(Database& database);
   Result<void> wrap_for_appliance(Database& database, KeySource& to, WallTime at);
 
   std::shared_ptr<KeySource> source_;
-  SecretKey appliance_, store_, device_, search_, chain_, subject_;
+  std::vector<SecretKey> rooms_;
+  SecretKey &appliance_ = rooms_[0], &store_ = rooms_[1], &device_ = rooms_[2], &search_ = rooms_[3],
+            &chain_ = rooms_[4], &subject_ = rooms_[5];
   SealedStream stream_;
   std::int64_t id_ = 0;
 };

@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: 2026 The Relievo authors
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include "storage/sqlite/sqlite_migration.h"
+#include "storage/sqlite/sqlite_parts.h"
 
 #include <fcntl.h>
 #include <sys/stat.h>
@@ -12,7 +12,6 @@
 
 #include "hal/base/whole_file.h"
 #include "storage/schema/embedded_sql.h"
-#include "storage/sqlite/sqlite_sealed_rows.h"
 
 namespace relievo::storage {
 namespace {
@@ -38,9 +37,8 @@ Result<void> step(Database& database, std::int64_t from, std::int64_t to, const 
   const std::string stamp = "PRAGMA application_id = " + std::to_string(kApplicationId) +
                             "; PRAGMA user_version = " + std::to_string(to);
   RELIEVO_TRY(database.run(stamp.c_str()));
-  RELIEVO_TRY_ASSIGN(auto broken, database.prepare("PRAGMA foreign_key_check"));
-  RELIEVO_TRY_ASSIGN(const bool found, broken.step());
-  if (found)
+  RELIEVO_TRY_ASSIGN(const auto broken, database.row("PRAGMA foreign_key_check"));
+  if (broken)
     return database.error(Errc::StoreCorrupt,
                           "the store could not be migrated: a record in it has lost its owner");
   return transaction.commit();

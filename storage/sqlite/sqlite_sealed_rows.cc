@@ -1,13 +1,10 @@
 // SPDX-FileCopyrightText: 2026 The Relievo authors
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include "storage/sqlite/sqlite_sealed_rows.h"
+#include "storage/sqlite/sqlite_parts.h"
 
 #include <algorithm>
 
 #include "storage/byte_order.h"
-#include "storage/sqlite/sqlite_audit.h"
-#include "storage/sqlite/sqlite_change.h"
-#include "storage/sqlite/sqlite_keys.h"
 
 namespace relievo::storage {
 namespace {

@@ -4,12 +4,7 @@
 
 #include <system_error>
 
-#include "storage/sqlite/sqlite_audit.h"
-#include "storage/sqlite/sqlite_change.h"
-#include "storage/sqlite/sqlite_erasure.h"
-#include "storage/sqlite/sqlite_migration.h"
-#include "storage/sqlite/sqlite_sealed_rows.h"
-#include "storage/sqlite/store_directory.h"
+#include "storage/sqlite/sqlite_parts.h"
 
 namespace relievo::storage {
 namespace {

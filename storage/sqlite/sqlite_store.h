@@ -65,11 +65,6 @@ class SqliteStore final : public Store {
   static Result<std::unique_ptr<SqliteStore>> open(const std::filesystem::path& dir, const hal::Clock& clock,
                                                    const SqliteStoreOptions& options);
 
-  // As StoreKeeping has them.
-  Result<void> backup(const std::filesystem::path& file);
-  Result<std::vector<SubjectId>> erased_since(const std::filesystem::path& backup);
-  Result<void> rekey(KeySource& to);
-
   using Store::check;
   Result<void> check(const std::atomic<bool>& stop) override;
   Result<SubjectId> add_subject(const NewSubject& subject) override;
@@ -103,6 +98,7 @@ class SqliteStore final : public Store {
   Result<std::vector<AuditRecord>> audit(std::int64_t after_number, std::int64_t limit) override;
 
  private:
+  friend class SqliteKeeping;
   // Runs `work` in one transaction, with its line of the audit log; memory that runs out is an error.
   template <typename Work>
   auto change(const Work& work) -> decltype(work(WallTime{}));

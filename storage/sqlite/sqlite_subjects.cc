@@ -5,12 +5,7 @@
 #include "storage/calibration_record.h"
 #include "storage/model_blob.h"
 #include "storage/record.h"
-#include "storage/sqlite/sqlite_audit.h"
-#include "storage/sqlite/sqlite_change.h"
-#include "storage/sqlite/sqlite_erasure.h"
-#include "storage/sqlite/sqlite_migration.h"
-#include "storage/sqlite/sqlite_sealed_rows.h"
-#include "storage/sqlite/store_directory.h"
+#include "storage/sqlite/sqlite_parts.h"
 #include "storage/text.h"
 
 namespace relievo::storage {
@@ -46,9 +41,8 @@ Result<std::int64_t> SqliteStore::fresh_receipt() {
   constexpr int kMostDraws = 100;
   for (int draw = 0; draw < kMostDraws; ++draw) {
     const std::int64_t drawn = draw_receipt_();
-    const auto hash = keys_->code_hash(drawn);
-    RELIEVO_TRY_ASSIGN(const auto taken,
-                       database_->integer("SELECT 1 FROM subject WHERE code_hash = ?", hash));
+    RELIEVO_TRY_ASSIGN(const auto taken, database_->integer("SELECT 1 FROM subject WHERE code_hash = ?",
+                                                            keys_->code_hash(drawn)));
     if (taken == 0) return drawn;
   }
   return Error{Errc::LibraryFailed,
@@ -139,19 +133,18 @@ Result<void> SqliteStore::for_each_subject(Opened opened, const Visit& visit) {
 
 Result<Subject> SqliteStore::subject(SubjectId id) {
   return without_exceptions(database_->where(), [&]() -> Result<Subject> {
-    RELIEVO_TRY_ASSIGN(auto query, database_->prepare(std::string(kSubjects) + "AND id = ?", number(id)));
-    RELIEVO_TRY_ASSIGN(const bool row, query.step());
+    RELIEVO_TRY_ASSIGN(const auto row, database_->row(std::string(kSubjects) + "AND id = ?", number(id)));
     if (!row) return not_found("there is no subject with this number", number(id));
     KeySlots slots(*database_);
-    RELIEVO_TRY_ASSIGN(auto subject, subject_in(slots, query));
-    RELIEVO_TRY_ASSIGN(subject.receipt, open_code(*keys_, id, query.blob(3)));
-    subject.enrolments = int(query.integer(4));
+    RELIEVO_TRY_ASSIGN(auto subject, subject_in(slots, *row));
+    RELIEVO_TRY_ASSIGN(subject.receipt, open_code(*keys_, id, row->blob(3)));
+    subject.enrolments = int(row->integer(4));
     return subject;
   });
 }
 
 // Two steps: the key, which is small and makes all else unreadable for ever; then the room it took. Where the
-// second is cut off, opening the store makes up for it (sqlite_erasure.h).
+// second is cut off, opening the store makes up for it (sqlite_parts.h).
 Result<void> SqliteStore::erase_subject(SubjectId id) {
   const Result<void> erased = without_exceptions(database_->where(), [&]() -> Result<void> {
     RELIEVO_TRY(subject_must_exist(id));
@@ -214,13 +207,13 @@ Result<PersonRecord> SqliteStore::person(SubjectId id) {
 Result<void> SqliteStore::must_be_new(std::int64_t receipt) {
   if (receipt < kLeastReceipt || receipt > kMostReceipt)
     return Error{Errc::InvalidInput, "this person's code is none that a store gives"};
-  const auto hash = keys_->code_hash(receipt);
-  RELIEVO_TRY_ASSIGN(auto query, database_->prepare("SELECT id FROM subject WHERE code_hash = ?"));
-  RELIEVO_TRY_ASSIGN(const bool row, query.bind(hash).step());
+  RELIEVO_TRY_ASSIGN(
+      const std::int64_t theirs,
+      database_->integer("SELECT id FROM subject WHERE code_hash = ?", keys_->code_hash(receipt)));
   // First: the list of the erased also has whom an erasure that failed left here.
-  if (row)
+  if (theirs != 0)
     return Error{Errc::InvalidInput, "somebody with this person's code is in the store: nothing was changed"}
-        .at("subject " + std::to_string(query.integer(0)));
+        .at("subject " + std::to_string(theirs));
   RELIEVO_TRY_ASSIGN(const bool erased, was_erased(*database_, *keys_, receipt));
   if (!erased) return {};
   return Error{Errc::InvalidInput,

@@ -15,8 +15,7 @@
 #include <string>
 
 #include "storage/model_blob.h"
-#include "storage/sqlite/sqlite_change.h"
-#include "storage/sqlite/sqlite_sealed_rows.h"
+#include "storage/sqlite/sqlite_parts.h"
 #include "storage/text.h"
 #include "tests/storage/sample.h"
 

@@ -114,10 +114,10 @@ std::vector<std::string> parts() {
     all.push_back(number + text_of(std::span<const std::byte>(bytes)));
   };
   add(2, picture_bytes(view));
-  add(4, pair_bytes(s.pair));
-  add(5, matches_bytes(s.matches));
-  add(6, cloud_bytes(s.cloud));
-  add(7, mesh_bytes(s.face.mesh));
+  add(4, product_bytes(s.pair));
+  add(5, product_bytes(s.matches));
+  add(6, product_bytes(s.cloud));
+  add(7, product_bytes(s.face.mesh));
   all.push_back("\x08some text");
   return all;
 }

@@ -2,7 +2,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // Texts: settings, the device's file, consent, scripts, recordings, matches by hand, the log, words and
 // codes.
-#include "firmware/arguments/settings_file.h"
+#include "firmware/arguments/algorithm_choice.h"
 #include "firmware/kiosk/code/code_scanner.h"
 #include "firmware/kiosk/script/script_player.h"
 #include "firmware/records/event_log.h"

@@ -13,7 +13,7 @@
 #include <thread>
 
 #include "firmware/appliance/appliance.h"
-#include "firmware/base/steady_heap.h"
+#include "firmware/base/process_memory.h"
 #include "firmware/capture/live_judge.h"
 #include "hal/sim/device.h"
 #include "tests/firmware/faults/faulty_rig.h"

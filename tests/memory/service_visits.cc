@@ -15,7 +15,7 @@
 #include <cstdlib>
 
 #include "firmware/base/budget.h"
-#include "firmware/base/steady_heap.h"
+#include "firmware/base/process_memory.h"
 #include "tests/memory/usage.h"
 #include "tests/memory/visitor.h"
 #include "tests/support/temporary_folder.h"

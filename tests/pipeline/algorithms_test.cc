@@ -24,14 +24,7 @@ TEST(Algorithms, EveryDescribedChoiceCanBeMade) {
     for (const std::string& name : option.names) {
       AlgorithmSet set;
       ASSERT_TRUE(set.set(option.key, name)) << option.key << " " << name;
-      EXPECT_TRUE(make_preprocessor(set));
-      EXPECT_TRUE(make_selector(set));
-      EXPECT_TRUE(make_matcher(set));
-      EXPECT_TRUE(make_constraints(set));
-      EXPECT_TRUE(make_triangulator(set));
-      EXPECT_TRUE(make_mesher(set));
-      EXPECT_TRUE(make_relief_check(set));
-      EXPECT_TRUE(make_texturer(set));
+      EXPECT_TRUE(make_algorithms(set));
     }
   }
 }
@@ -70,9 +63,11 @@ TEST(Algorithms, WhatIsMadeIsWhatWasNamed) {
   AlgorithmSet set;
   ASSERT_TRUE(set.set("triangulator", "linear-least-squares"));
   ASSERT_TRUE(set.set("texturer", "single-view"));
-  EXPECT_TRUE(is(*make_triangulator(set), &LinearTriangulator::triangulate));
-  EXPECT_TRUE(is(*make_texturer(set), &SingleViewTexturer::texture));
-  EXPECT_TRUE(is(*make_matcher(set), &RefinedMatcher::match));
+  const auto made = make_algorithms(set);
+  ASSERT_TRUE(made);
+  EXPECT_TRUE(is(made->triangulator, &LinearTriangulator::triangulate));
+  EXPECT_TRUE(is(made->texturer, &SingleViewTexturer::texture));
+  EXPECT_TRUE(is(made->matcher, &RefinedMatcher::match));
 }
 
 TEST(Algorithms, DefaultsLieInTheirOwnRange) {
@@ -88,12 +83,7 @@ TEST(Algorithms, RangesAreWhatTheAlgorithmsThemselvesAccept) {
     for (const double value : {option.range.least, option.range.most}) {
       AlgorithmSet set;
       ASSERT_TRUE(set.set(option.key, std::to_string(value))) << option.key;
-      EXPECT_TRUE(make_preprocessor(set)) << option.key << " = " << value;
-      EXPECT_TRUE(make_selector(set)) << option.key << " = " << value;
-      EXPECT_TRUE(make_matcher(set)) << option.key << " = " << value;
-      EXPECT_TRUE(make_mesher(set)) << option.key << " = " << value;
-      EXPECT_TRUE(make_texturer(set)) << option.key << " = " << value;
-      EXPECT_TRUE(make_constraints(set)) << option.key << " = " << value;
+      EXPECT_TRUE(make_algorithms(set)) << option.key << " = " << value;
     }
   }
 }
@@ -129,7 +119,7 @@ TEST(Algorithms, ModesAreChosenByName) {
   EXPECT_EQ(set.get("opencv-sgbm.mode"), "3way");
   ASSERT_TRUE(set.set("opencv-sgbm.mode", "hh"));
   ASSERT_TRUE(set.set("matcher", "opencv-sgbm"));
-  EXPECT_TRUE(make_matcher(set));
+  EXPECT_TRUE(make_algorithms(set));
   for (const char* number : {"1", "2", "", "HH"}) {
     const auto refused = set.set("opencv-sgbm.mode", number);
     ASSERT_FALSE(refused) << number;
@@ -141,12 +131,12 @@ TEST(Algorithms, ModesAreChosenByName) {
 TEST(Algorithms, ConstraintsAreJoinedAndKeepTheirOrder) {
   AlgorithmSet set;
   ASSERT_TRUE(set.set("constraints", "uniqueness+similarity"));
-  const auto constraints = make_constraints(set);
-  ASSERT_TRUE(constraints);
-  ASSERT_EQ(constraints->size(), 2U);
-  EXPECT_TRUE(is((*constraints)[0], &UniquenessConstraint::judge));
+  const auto made = make_algorithms(set);
+  ASSERT_TRUE(made);
+  ASSERT_EQ(made->constraints.size(), 2U);
+  EXPECT_TRUE(is(made->constraints[0], &UniquenessConstraint::judge));
   ASSERT_TRUE(set.set("constraints", "none"));
-  EXPECT_TRUE(make_constraints(set)->empty());
+  EXPECT_TRUE(make_algorithms(set)->constraints.empty());
 }
 
 TEST(Algorithms, AConstraintIsNamedOnce) {

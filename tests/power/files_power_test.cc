@@ -12,7 +12,6 @@
 #include "firmware/records/receipt.h"
 #include "firmware/service/consent_text_store.h"
 #include "firmware/service/export_records.h"
-#include "firmware/service/stick_folder.h"
 #include "firmware/technician/stick_files.h"
 #include "hal/base/whole_file.h"
 #include "hal/sim/replay/replay_device.h"

@@ -11,7 +11,7 @@
 #include "storage/model_blob.h"
 #include "storage/schema/embedded_sql.h"
 #include "storage/sodium_sha256.h"
-#include "storage/sqlite/sqlite_migration.h"
+#include "storage/sqlite/sqlite_parts.h"
 #include "tests/storage/raw_database.h"
 
 namespace relievo::storage::test {

@@ -8,7 +8,7 @@
 #include <cstdint>
 #include <memory_resource>
 
-#include "pipeline/model/keypoint.h"
+#include "pipeline/model/match_set.h"
 #include "pipeline/model/rectified_pair.h"
 
 namespace relievo::test {

@@ -14,6 +14,7 @@
 #include <vector>
 
 #include "pipeline/algorithms.h"
+#include "tests/support/temporary_folder.h"
 
 namespace relievo::test {
 
@@ -27,14 +28,19 @@ inline std::vector<std::string> names_of(std::string_view kind) {
 
 using Settings = std::vector<std::pair<std::string, std::string>>;
 
-// `make` is one of algorithms.h, of this kind.
-auto made(auto make, const char* kind, const std::string& name, const Settings& settings = {}) {
+// `which` is the member of that kind. Files that options name are read.
+template <typename Form>
+Form made(Form pipeline::Algorithms::*which, const char* kind, const std::string& name,
+          const Settings& settings = {}) {
   pipeline::AlgorithmSet set;
   EXPECT_TRUE(set.set(kind, name));
-  for (const auto& [key, value] : settings) EXPECT_TRUE(set.set(key, value)) << key;
-  auto algorithm = make(set);
-  EXPECT_TRUE(algorithm) << name;
-  return *std::move(algorithm);
+  for (const auto& [key, value] : settings) {
+    EXPECT_TRUE(set.set(key, value)) << key;
+    if (key.ends_with(".path") && !value.empty()) set.keep_text(key, read_text(value));
+  }
+  auto all = pipeline::make_algorithms(set);
+  EXPECT_TRUE(all) << name;
+  return std::move((*all).*which);
 }
 
 // A test's name may hold letters and digits only.

@@ -26,12 +26,13 @@ class WholeWay : public RelievoProcess {
 
   void calibrate() {
     done({"simulate", "board", "-o", "board", "--scale", "0.33", "--pairs", "8"});
-    done({"calibrate", "board", "--corners", "10x7", "--square-mm", "20", "-o", "rig.yml", "--report",
+    done({"calibrate", "board/", "--corners", "10x7", "--square-mm", "20", "-o", "rig.yml", "--report",
           "report", "--store", "store"});
     expect_files(".", {"rig.yml", "store/relievo.db", "report/index.html", "report/report.json",
                        "report/corners_00.png"});
     const std::string list = done({"calibration", "list", "--store", "store"}).out;
     EXPECT_NE(list.find("*    1"), std::string::npos) << list;
+    EXPECT_NE(list.find("calibrated from board"), std::string::npos) << list;
     EXPECT_TRUE(list.find("pass") != std::string::npos || list.find("usable") != std::string::npos) << list;
     refused({"calibrate", "board", "--corners", "10x7", "--square-mm", "20.5", "-o", "wrong.yml", "--store",
              "store"},
@@ -206,6 +207,17 @@ class WholeWay : public RelievoProcess {
     EXPECT_NE(done({"subjects", "list", "--store", "store"}).out.find("1 enrolment "), std::string::npos);
   }
 
+  // One transaction cannot be stopped: what was said of it is true.
+  void press_control_c_while_storing() {
+    std::vector<std::string> words = enrol_words();
+    words[4] = "Eve";
+    words.insert(words.begin(), RELIEVO_BINARY);
+    const Said enrolled = run_program_and_signal(words, here.path(), SIGINT, "Assemble");
+    const Said erased = relievo({"subjects", "erase", "Eve", "--store", "store"});
+    EXPECT_EQ(enrolled.exit_code, erased.exit_code) << "told as it is: " << enrolled.err << erased.err;
+    EXPECT_EQ(done({"subjects", "list", "--store", "store"}).out.find("Eve"), std::string::npos);
+  }
+
   void press_control_c_while_writing() {
     const std::string before = listing(here.path());
     for (const std::vector<std::string>& words : std::vector<std::vector<std::string>>{
@@ -273,6 +285,7 @@ TEST_F(WholeWay, FromAChessboardToAModelThatComesBack) {
   ASSERT_FALSE(HasFailure());
   notice_a_knock();
   press_control_c();
+  press_control_c_while_storing();
   press_control_c_while_writing();
   fill_the_disk();
   erase();

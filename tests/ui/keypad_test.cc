@@ -192,6 +192,20 @@ TEST_P(KeypadTest, TypedLettersArriveAndABlankIsALetterWhereOneIsTyped) {
   EXPECT_EQ(ui->visit().step, Step::Consent) << "a blank presses what has the focus";
 }
 
+// Elsewhere it asks to hear the page once more.
+TEST_P(KeypadTest, TheZeroOfAKeypadIsADigitOfACode) {
+  to_name();
+  press(Kind::Repeat, "0");
+  EXPECT_EQ(ui->visit().name(), "");
+  ui->visit().step = Step::Known;
+  ui->visit().act(ActionKind::HaveCode, view);
+  frame();
+  press(Kind::Repeat, "0");
+  press(Kind::Digit, "4");
+  press(Kind::Repeat);
+  EXPECT_EQ(ui->visit().name(), "04");
+}
+
 // On the staff's menu a notice stands in the title's place for a while; the other headings have no id.
 TEST(StaffKeypad, TheFocusBeginsAtTheFirstHeading) {
   const auto ui = test::make_screen();

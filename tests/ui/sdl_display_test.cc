@@ -140,10 +140,14 @@ TEST_F(SdlDisplayTest, WhatIsHeardHasKeys) {
                                 SDLK_KP_PLUS, SDLK_F3, SDLK_KP_MULTIPLY})
     push_key(key);
   using enum Input::Kind;
-  for (const Input::Kind kind : {Speech, Repeat, Repeat, Quieter, Quieter, Louder, Louder, Speed, Speed}) {
+  const std::pair<Input::Kind, std::string_view> heard[] = {{Speech, ""},  {Repeat, ""},  {Repeat, "0"},
+                                                            {Quieter, ""}, {Quieter, ""}, {Louder, ""},
+                                                            {Louder, ""},  {Speed, ""},   {Speed, ""}};
+  for (const auto& [kind, letter] : heard) {
     const auto input = display->poll();
     ASSERT_TRUE(input.has_value());
     EXPECT_EQ(input->kind, kind);
+    EXPECT_EQ(std::string_view(input->letter.data()), letter);
   }
 }
 

@@ -122,6 +122,20 @@ TEST_F(StaffWordsTest, NoLineEndsBetweenAValueAndItsUnit) {
   EXPECT_EQ(bare(in(Language::German).filled("{} sr (um {})", {"1", "2"})), "1\u00a0sr (um 2)");
 }
 
+// What a finger or a keypad was on is remembered by its id, longer than the page stands.
+TEST_F(StaffWordsTest, NoIdHoldsTheCodeOfARecord) {
+  const std::array rows{RecordRow{7, "Ada Lovelace", "2026-03-14 09:12", "4821-9037-5512-71", 1}};
+  RecordsView records;
+  records.rows = rows;
+  staff_.records = &records;
+  StaffFrame page = in(Language::English);
+  page.begin("", nullptr);
+  records_page(page);
+  page.end();
+  EXPECT_NE(tree_.find("record 7"), nullptr);
+  for (const Node& node : tree_.nodes()) EXPECT_EQ(node.id.find(rows[0].code), std::string_view::npos);
+}
+
 // The log keeps a change by the setting's key; it is read as the settings page names it.
 TEST_F(StaffWordsTest, AChangedSettingIsCalledAsOnItsPage) {
   for (std::size_t l = 0; l < kLanguages; ++l) {

@@ -16,7 +16,6 @@
 #include "firmware/records/bundle_manifest.h"
 #include "firmware/records/receipt.h"
 #include "firmware/service/export_records.h"
-#include "firmware/service/stick_folder.h"
 #include "hal/base/words.h"
 #include "hal/clock.h"
 #include "hal/linux/mounted_stick.h"

@@ -65,6 +65,22 @@ std::optional<Error> why_no_screen(const ScreenPlaces& places) {
 
 namespace {
 
+struct Key {
+  SDL_Keycode sym;
+  Input::Kind kind;
+};
+constexpr Key kKeys[] = {{SDLK_TAB, Input::Kind::Next},           {SDLK_RIGHT, Input::Kind::Right},
+                         {SDLK_DOWN, Input::Kind::Below},         {SDLK_LEFT, Input::Kind::Left},
+                         {SDLK_UP, Input::Kind::Above},           {SDLK_BACKSPACE, Input::Kind::Erase},
+                         {SDLK_DELETE, Input::Kind::Erase},       {SDLK_KP_PERIOD, Input::Kind::Erase},
+                         {SDLK_KP_COMMA, Input::Kind::Erase},     {SDLK_RETURN, Input::Kind::Activate},
+                         {SDLK_KP_ENTER, Input::Kind::Activate},  {SDLK_F1, Input::Kind::Speech},
+                         {SDLK_F2, Input::Kind::Repeat},          {SDLK_KP_0, Input::Kind::Repeat},
+                         {SDLK_VOLUMEDOWN, Input::Kind::Quieter}, {SDLK_KP_MINUS, Input::Kind::Quieter},
+                         {SDLK_VOLUMEUP, Input::Kind::Louder},    {SDLK_KP_PLUS, Input::Kind::Louder},
+                         {SDLK_F3, Input::Kind::Speed},           {SDLK_KP_MULTIPLY, Input::Kind::Speed},
+                         {SDLK_ESCAPE, Input::Kind::Back},        {SDLK_AC_BACK, Input::Kind::Back}};
+
 class SdlDisplay final : public Display {
  public:
   ~SdlDisplay() override {
@@ -167,38 +183,17 @@ class SdlDisplay final : public Display {
 
   static std::optional<Input> key(const SDL_KeyboardEvent& key) {
     const SDL_Keycode sym = key.keysym.sym;
-    if (sym >= SDLK_KP_1 && sym <= SDLK_KP_9) {
-      if (key.repeat != 0) return std::nullopt;
-      return Input{.kind = Input::Kind::Digit, .letter = {char('1' + (sym - SDLK_KP_1))}};
-    }
-    switch (sym) {
-      case SDLK_TAB:
-        return Input{(key.keysym.mod & KMOD_SHIFT) != 0 ? Input::Kind::Previous : Input::Kind::Next};
-      case SDLK_RIGHT: return Input{Input::Kind::Right};
-      case SDLK_DOWN: return Input{Input::Kind::Below};
-      case SDLK_LEFT: return Input{Input::Kind::Left};
-      case SDLK_UP: return Input{Input::Kind::Above};
-      case SDLK_BACKSPACE:
-      case SDLK_DELETE:
-      case SDLK_KP_PERIOD:
-      case SDLK_KP_COMMA: return Input{Input::Kind::Erase};
-      case SDLK_RETURN:
-      case SDLK_KP_ENTER:
-        if (key.repeat != 0) return std::nullopt;  // a key that is kept down is one press
-        return Input{Input::Kind::Activate};
-      case SDLK_F1: return Input{Input::Kind::Speech};
-      case SDLK_F2:
-      case SDLK_KP_0: return Input{Input::Kind::Repeat};
-      case SDLK_VOLUMEDOWN:
-      case SDLK_KP_MINUS: return Input{Input::Kind::Quieter};
-      case SDLK_VOLUMEUP:
-      case SDLK_KP_PLUS: return Input{Input::Kind::Louder};
-      case SDLK_F3:
-      case SDLK_KP_MULTIPLY: return Input{Input::Kind::Speed};
-      case SDLK_ESCAPE:
-      case SDLK_AC_BACK: return Input{Input::Kind::Back};
-      default: return std::nullopt;
-    }
+    const bool digit = sym >= SDLK_KP_1 && sym <= SDLK_KP_9;
+    const auto known = std::ranges::find(kKeys, sym, &Key::sym);
+    if (!digit && known == std::end(kKeys)) return std::nullopt;
+    const bool zero = sym == SDLK_KP_0;
+    // A key that is kept down is one press.
+    if (key.repeat != 0 && (digit || zero || known->kind == Input::Kind::Activate)) return std::nullopt;
+    if (digit) return Input{.kind = Input::Kind::Digit, .letter = {char('1' + (sym - SDLK_KP_1))}};
+    const bool backwards = sym == SDLK_TAB && (key.keysym.mod & KMOD_SHIFT) != 0;
+    Input input{backwards ? Input::Kind::Previous : known->kind};
+    if (zero) input.letter = {'0'};
+    return input;
   }
 
   // What a key of the keypad is for, its key says; the text it makes beside says nothing.

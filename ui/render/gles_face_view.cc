@@ -3,7 +3,6 @@
 #include <GLES3/gl3.h>
 
 #include <algorithm>
-#include <array>
 #include <cmath>
 #include <cstdint>
 #include <vector>
@@ -183,13 +182,15 @@ class GlesFaceView final : public FaceView {
     glUniform3f(glGetUniformLocation(program_, "eye"), 0, 0, kFaceDistanceMm);
     glUniform3f(glGetUniformLocation(program_, "light"), std::sin(side) / norm, up / norm,
                 std::cos(side) / norm);
-    glUniform1f(glGetUniformLocation(program_, "textured"),
-                look_.textured && textured_ ? birth_.colours : 0.0F);
-    glUniform1f(glGetUniformLocation(program_, "opacity"), birth_.surface);
-    glUniform1f(glGetUniformLocation(program_, "lit"), look_.lit ? 1.0F : 0.0F);
-    glUniform1f(glGetUniformLocation(program_, "filled"), look_.fill ? 1.0F : 0.0F);
-    glUniform1f(glGetUniformLocation(program_, "edges"), 0);
-    glUniform1f(glGetUniformLocation(program_, "fading"), shows_backdrop() ? 1.0F : 0.0F);
+    const auto set = [this](const char* name, float value) {
+      glUniform1f(glGetUniformLocation(program_, name), value);
+    };
+    set("textured", look_.textured && textured_ ? birth_.colours : 0.0F);
+    set("opacity", birth_.surface);
+    set("lit", look_.lit ? 1.0F : 0.0F);
+    set("filled", look_.fill ? 1.0F : 0.0F);
+    set("edges", 0);
+    set("fading", shows_backdrop() ? 1.0F : 0.0F);
     glUniform1i(glGetUniformLocation(program_, "picture"), 0);
   }
 

@@ -132,7 +132,7 @@ void main() {
 }
 )";
 
-// numbers: border, dashes in blur's place, share. The distance to an ellipse, first order (Taubin 1994).
+// numbers: half of the line, the line, nothing, share. The distance to an ellipse, first order (Taubin 1994).
 const char* const kRing = R"(#version 300 es
 precision highp float;
 in vec2 at; in vec2 texel; flat in vec4 fill; flat in vec4 border; flat in vec4 numbers;

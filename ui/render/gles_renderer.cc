@@ -214,4 +214,27 @@ Result<std::unique_ptr<Renderer>> Renderer::make() {
   return std::unique_ptr<Renderer>(std::move(renderer));
 }
 
+Result<std::unique_ptr<Offscreen>> Offscreen::make(int width_px, int height_px) {
+  auto made = std::make_unique<Offscreen>();
+  glGenFramebuffers(1, &made->frame_);
+  glGenRenderbuffers(1, &made->colour_);
+  glBindRenderbuffer(GL_RENDERBUFFER, made->colour_);
+  glRenderbufferStorage(GL_RENDERBUFFER, GL_RGBA8, width_px, height_px);
+  made->begin();
+  glFramebufferRenderbuffer(GL_FRAMEBUFFER, GL_COLOR_ATTACHMENT0, GL_RENDERBUFFER, made->colour_);
+  const bool fine = glCheckFramebufferStatus(GL_FRAMEBUFFER) == GL_FRAMEBUFFER_COMPLETE;
+  made->end();
+  if (!fine) return Error{Errc::LibraryFailed, "the graphics driver cannot draw a picture of this size"};
+  return made;
+}
+
+Offscreen::~Offscreen() {
+  end();
+  glDeleteFramebuffers(1, &frame_);
+  glDeleteRenderbuffers(1, &colour_);
+}
+
+void Offscreen::begin() { glBindFramebuffer(GL_FRAMEBUFFER, frame_); }
+void Offscreen::end() { glBindFramebuffer(GL_FRAMEBUFFER, 0); }
+
 }  // namespace relievo::ui

@@ -5,6 +5,7 @@
 // Thread: main, with a current context. Errors of make(): LibraryFailed (larger than the driver can).
 #pragma once
 
+#include <cstdint>
 #include <memory>
 #include <span>
 
@@ -17,9 +18,15 @@ namespace relievo::ui {
 class Offscreen {
  public:
   static Result<std::unique_ptr<Offscreen>> make(int width_px, int height_px);
-  virtual ~Offscreen() = default;
-  virtual void begin() = 0;  // what a Renderer draws and reads back is in here
-  virtual void end() = 0;
+  Offscreen() = default;
+  Offscreen(const Offscreen&) = delete;
+  Offscreen& operator=(const Offscreen&) = delete;
+  ~Offscreen();
+  void begin();  // what a Renderer draws and reads back is in here
+  void end();
+
+ private:
+  std::uint32_t frame_ = 0, colour_ = 0;  // GL's names
 };
 
 // FaceView: the model in three dimensions, drawn into a texture of its own and only when something

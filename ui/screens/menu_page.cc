@@ -3,6 +3,9 @@
 //
 // The staff's first page: what needs a hand, then the pages a role may open, in groups. Both are made from
 // tables (status_table.h, staff_pages()): what is new appears by its row.
+#include <array>
+#include <utility>
+
 #include "ui/screens/service/status_table.h"
 #include "ui/screens/staff_screens.h"
 
@@ -31,8 +34,7 @@ void finding(StaffFrame& page, const Finding& found) {
   const std::string_view value = !mine                          ? std::string_view(whose)
                                  : found.rule->value != nullptr ? found.rule->value(page, *page.staff.status)
                                                                 : std::string_view();
-  if (!value.empty())
-    page.tree.leaf(page.text(value, type::kSmall, Weight::Regular, page.palette.ink_soft, TextAlign::End));
+  if (!value.empty()) page.write(value, type::kSmall, Weight::Regular, page.palette.ink_soft, TextAlign::End);
   page.tree.close();
   if (mine) page.sign(page.onward(), 24, page.palette.link);
 }
@@ -40,7 +42,7 @@ void finding(StaffFrame& page, const Finding& found) {
 void status(StaffFrame& page) {
   const StatusView* seen = page.staff.status;
   Node card = page.box(Flow::Column, 0, space::kM, 4);
-  frame(card, page.palette.card, page.palette.card_border, page.px(1.5F), page.px(size::kRadius));
+  page.card(card, size::kRadius);
   card.id = "status";
   const auto in_card = page.tree.inside(card);
   if (seen == nullptr || !seen->looked) {
@@ -67,52 +69,32 @@ void tile(StaffFrame& page, const StaffPageInfo& info) {
   page.wide(page.text(title, type::kSmall, Weight::Medium, page.palette.ink));
 }
 
-// Tiles abreast, in order; the last row is filled up, so that all are as wide.
-class Tiles {
- public:
-  // Where letters are large, a long word must not be torn: fewer and wider tiles.
-  explicit Tiles(StaffFrame& page) : page_(page) {
-    across_ = page.portrait || page.text_share > 1.2F ? 2 : 4;
-  }
-  void begin(const char* title) {
-    end();
-    page_.put({}, Role::Heading, page_.text(title, type::kSmall, Weight::Bold, page_.palette.link));
-  }
-  void add(const StaffPageInfo& info) {
-    if (column_ == 0) page_.tree.open(page_.box(Flow::Row, space::kS));
-    tile(page_, info);
-    column_ = (column_ + 1) % across_;
-    if (column_ == 0) page_.tree.close();
-  }
-  void end() {
-    if (column_ == 0) return;
-    for (; column_ < across_; ++column_) page_.space(1);
-    page_.tree.close();
-    column_ = 0;
-  }
-
- private:
-  StaffFrame& page_;
-  int across_ = 1, column_ = 0;
-};
-
 }  // namespace
 
 void menu_page(StaffFrame& page) {
   page.begin(page.staff.role == StaffRole::Operator ? page.tr("Operator") : page.tr("Technician"), nullptr);
   page.tree.open(scroller("menu", page.grown(page.box(Flow::Column, space::kXs))));
   status(page);
-  Tiles tiles(page);
+  // Where letters are large, a long word must not be torn: fewer and wider tiles.
+  const std::size_t across = page.portrait || page.text_share > 1.2F ? 2 : 4;
+  std::array<const StaffPageInfo*, std::size_t(StaffPage::Count)> tiles{};
+  std::size_t count = 0;
+  const auto draw = [&] {
+    page.in_full_rows(std::exchange(count, 0), across, space::kS,
+                      [&](std::size_t i) { tile(page, *tiles[i]); });
+  };
   const char* group = nullptr;
   for (const StaffPageInfo& info : staff_pages()) {
     if (info.group != nullptr) group = info.group;
     if (!may_open(page.staff.role, info)) continue;
     if (info.page == StaffPage::Recovery && !page.staff.access.words_due) continue;  // shown once
-    if (group != nullptr) tiles.begin(page.tr(group));
-    group = nullptr;
-    tiles.add(info);
+    if (const char* title = std::exchange(group, nullptr)) {
+      draw();
+      page.put({}, Role::Heading, page.tr(title), type::kSmall, Weight::Bold, page.palette.link);
+    }
+    tiles[count++] = &info;
   }
-  tiles.end();
+  draw();
   page.tree.close();
   page.end();
 }

@@ -12,7 +12,7 @@ namespace {
 
 constexpr const char *kPulse = "\uf430", *kFlash = "\uf241", *kPaper = "\uf219", *kPeople = "\uf016",
                      *kChart = "\uf128", *kHeart = "\uf5f6", *kKey = "\uf30b", *kRuler = "\uf46d",
-                     *kSteps = "\uf328", *kTable = "\uf4eb", *kTune = "\uf62e", *kCompare = "\uf18a",
+                     *kPath = "\uf328", *kTable = "\uf4eb", *kTune = "\uf62e", *kCompare = "\uf18a",
                      *kCog = "\uf493", *kTarget = "\uf4fe", *kClock = "\uf0f0";
 
 // A page of the technician's, where there is one.
@@ -24,42 +24,35 @@ void technician(StaffFrame& page) {
 }
 
 // In the order of the menu.
-constexpr std::array kPages{
-    StaffPageInfo{StaffPage::Records, "open records", mark_tr("Records"), kPeople, false, true, records_page,
-                  mark_tr("Records")},
-    StaffPageInfo{StaffPage::Statistics, "open statistics", mark_tr("Statistics"), kChart, false, true,
-                  statistics_page},
-    StaffPageInfo{StaffPage::Consent, "open consent", mark_tr("Consent text"), kPaper, false, true,
-                  consent_in_force},
-    StaffPageInfo{StaffPage::Cameras, "open cameras", mark_tr("Cameras"), icon::kCamera, true, false,
-                  technician<technician_cameras_page>, mark_tr("Cameras")},
-    StaffPageInfo{StaffPage::Calibrate, "open calibrate", mark_tr("Calibration"), kRuler, true, false,
-                  technician<technician_calibrate_page>},
-    StaffPageInfo{StaffPage::Trigger, "open trigger", mark_tr("Trigger test"), kFlash, true, false,
-                  trigger_page},
-    StaffPageInfo{StaffPage::Health, "open health", mark_tr("Health"), kHeart, true, false, health_page,
-                  mark_tr("Health")},
-    StaffPageInfo{StaffPage::SelfTest, "open self test", mark_tr("Self-test"), kPulse, true, false,
-                  self_test_page},
-    StaffPageInfo{StaffPage::Log, "open log", mark_tr("Log"), kPaper, true, false, log_page},
-    StaffPageInfo{StaffPage::Stages, "open stages", mark_tr("Test capture"), kSteps, true, false,
-                  technician<technician_stages_page>, mark_tr("Test capture")},
-    StaffPageInfo{StaffPage::Model, "open model", mark_tr("Model"), icon::kShape, true, false,
-                  technician<technician_model_page>},
-    StaffPageInfo{StaffPage::Tables, "open tables", mark_tr("Figures"), kTable, true, false,
-                  technician<technician_tables_page>},
-    StaffPageInfo{StaffPage::Algorithms, "open algorithms", mark_tr("Algorithms"), kTune, true, false,
-                  technician<technician_algorithms_page>},
-    StaffPageInfo{StaffPage::Compare, "open compare", mark_tr("Comparison"), kCompare, true, false,
-                  technician<technician_compare_page>},
-    StaffPageInfo{StaffPage::Settings, "open settings", mark_tr("Settings"), kCog, true, true, settings_page,
-                  mark_tr("Settings")},
-    StaffPageInfo{StaffPage::Clock, "open clock", mark_tr("Time"), kClock, true, true, clock_page},
-    StaffPageInfo{StaffPage::Touch, "open touch", mark_tr("Touch screen"), kTarget, true, false, touch_page},
-    StaffPageInfo{StaffPage::Recovery, "open recovery", mark_tr("Recovery words"), kKey, false, true,
-                  recovery_page},
-    StaffPageInfo{StaffPage::Pins, "open pins", mark_tr("Change my PIN"), kKey, true, true, pins_page},
-};
+constexpr auto kPages = [] {
+  using enum StaffPage;
+  return std::to_array<StaffPageInfo>({
+      {Records, "open records", mark_tr("Records"), kPeople, false, true, records_page, mark_tr("Records")},
+      {Statistics, "open statistics", mark_tr("Statistics"), kChart, false, true, statistics_page},
+      {Consent, "open consent", mark_tr("Consent text"), kPaper, false, true, consent_in_force},
+      {Cameras, "open cameras", mark_tr("Cameras"), icon::kCamera, true, false,
+       technician<technician_cameras_page>, mark_tr("Cameras")},
+      {Calibrate, "open calibrate", mark_tr("Calibration"), kRuler, true, false,
+       technician<technician_calibrate_page>},
+      {Trigger, "open trigger", mark_tr("Trigger test"), kFlash, true, false, trigger_page},
+      {Health, "open health", mark_tr("Health"), kHeart, true, false, health_page, mark_tr("Health")},
+      {SelfTest, "open self test", mark_tr("Self-test"), kPulse, true, false, self_test_page},
+      {Log, "open log", mark_tr("Log"), kPaper, true, false, log_page},
+      {Stages, "open stages", mark_tr("Test capture"), kPath, true, false, technician<technician_stages_page>,
+       mark_tr("Test capture")},
+      {Model, "open model", mark_tr("Model"), icon::kShape, true, false, technician<technician_model_page>},
+      {Tables, "open tables", mark_tr("Figures"), kTable, true, false, technician<technician_tables_page>},
+      {Algorithms, "open algorithms", mark_tr("Algorithms"), kTune, true, false,
+       technician<technician_algorithms_page>},
+      {Compare, "open compare", mark_tr("Comparison"), kCompare, true, false,
+       technician<technician_compare_page>},
+      {Settings, "open settings", mark_tr("Settings"), kCog, true, true, settings_page, mark_tr("Settings")},
+      {Clock, "open clock", mark_tr("Time"), kClock, true, true, clock_page},
+      {Touch, "open touch", mark_tr("Touch screen"), kTarget, true, false, touch_page},
+      {Recovery, "open recovery", mark_tr("Recovery words"), kKey, false, true, recovery_page},
+      {Pins, "open pins", mark_tr("Change my PIN"), kKey, true, true, pins_page},
+  });
+}();
 
 void draw_page(StaffFrame& page) {
   if (page.service.page == StaffPage::Pin) return pin_page(page);
@@ -115,7 +108,7 @@ void staff_entrance(Page& page) {
   const auto in_corner =
       page.tree.inside(aligned(justified(page.box(Flow::Row, 0, 16, 16), Justify::End), Align::Start));
   Node lock = centred(page.sized(page.box(Flow::Column), size::kTarget, size::kTarget));
-  tell(lock, Role::Button, "staff", page.tr("Staff: hold for three seconds"), {ActionKind::StaffEnter, 0});
+  tell(lock, Role::Button, "staff", page.tr("Staff: hold for three seconds"), ActionKind::StaffEnter);
   lock.hold = true;
   lock.filling = page.palette.accent;
   lock.box.radius = page.px(size::kRadius);

@@ -72,19 +72,14 @@ float away_of(const LiveView& live) {
 
 }  // namespace
 
-void Utterance::add(std::string_view letters) {
-  if (size_ + letters.size() > text_.size()) return;
-  size_ += letters.copy(text_.data() + size_, letters.size());
-}
-
 void Utterance::say(std::string_view words) {
   if (words.empty() || text().substr(last_) == words) return;
-  if (!empty()) add(ends_a_sentence(text()) ? " " : ". ");
-  last_ = size_;
+  if (!empty()) (void)text_.add(ends_a_sentence(text()) ? " " : ". ");
+  last_ = text().size();
   for (std::size_t at = 0; at < words.size();) {
     const std::size_t bytes = first_letter_of(words.substr(at)).bytes;
     const std::string_view letter = words.substr(at, std::max<std::size_t>(1, bytes));
-    add(as_spoken(letter));
+    (void)text_.add(as_spoken(letter));
     at += letter.size();
   }
 }

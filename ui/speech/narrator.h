@@ -15,14 +15,13 @@
 // Nothing is said twice without one of these. It keeps prints of texts, no texts. Thread: main. Errors: none.
 #pragma once
 
-#include <string.h>
-
 #include <array>
 #include <cstddef>
 #include <cstdint>
 #include <optional>
 #include <string_view>
 
+#include "hal/base/wiped_text.h"
 #include "hal/clock.h"
 #include "ui/language/language.h"
 #include "ui/tree/tree.h"
@@ -38,26 +37,19 @@ namespace relievo::ui {
 // own that is wiped.
 class Utterance {
  public:
-  Utterance() = default;
-  Utterance(const Utterance&) = delete;
-  Utterance& operator=(const Utterance&) = delete;
-  ~Utterance() { clear(); }
-
   void clear() {
-    explicit_bzero(text_.data(), size_);
-    size_ = last_ = 0;
+    text_.cut(0);
+    last_ = 0;
   }
   // As a sentence of its own, where there are any; not the same one twice.
   void say(std::string_view words);
-  std::string_view text() const { return {text_.data(), size_}; }
-  bool empty() const { return size_ == 0; }
+  std::string_view text() const { return text_.view(); }
+  bool empty() const { return text_.empty(); }
   std::string_view language;  // BCP 47
 
  private:
-  void add(std::string_view letters);
-  static constexpr std::size_t kMost = 24 * 1024;  // an operator's consent text has 20,000 bytes
-  std::array<char, kMost> text_{};
-  std::size_t size_ = 0, last_ = 0;  // last_: where the last sentence begins
+  ShortWipedText<24 * 1024> text_;  // an operator's consent text has 20,000 bytes
+  std::size_t last_ = 0;            // where the last sentence begins
 };
 
 struct Listener {

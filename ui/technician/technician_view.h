@@ -172,9 +172,6 @@ struct TechnicianRows {
   ListPlace place;  // of matches also filtered; 1: accepted, from 2 on rejected by that rule of the result
 };
 
-// The pages that have something under way only while they are open.
-enum class TechnicianPage : std::uint8_t { Stages, Model, Tables, Algorithms, Compare, Cameras, Calibrate };
-
 // The test capture, or all of the reconstruction, on its way to the stick; or a saved one on its way back.
 struct TechnicianRecording : Work {
   std::string_view where;  // the folder on the stick; empty: nothing is there

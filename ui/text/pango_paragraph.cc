@@ -29,14 +29,9 @@ struct UnrefAttributes {
   void operator()(PangoAttrList* list) const { pango_attr_list_unref(list); }
 };
 
-PangoWeight pango_weight(Weight weight) {
-  switch (weight) {
-    case Weight::Regular: return PANGO_WEIGHT_NORMAL;
-    case Weight::Medium: return PANGO_WEIGHT_SEMIBOLD;
-    case Weight::Bold: return PANGO_WEIGHT_BOLD;
-  }
-  return PANGO_WEIGHT_NORMAL;
-}
+// In the order of Weight.
+constexpr PangoWeight kWeights[] = {PANGO_WEIGHT_NORMAL, PANGO_WEIGHT_SEMIBOLD, PANGO_WEIGHT_BOLD};
+static_assert(std::size(kWeights) == std::size_t(Weight::Bold) + 1);
 
 bool is(const TextStyle& style, const char* language) { return std::strcmp(style.language, language) == 0; }
 
@@ -81,11 +76,11 @@ class Paragraph final : public PangoParagraph {
     return {};
   }
 
-  const SetText& set(std::string_view text, const TextStyle& style, int width) override {
+  const TextLabel& set(std::string_view text, const TextStyle& style, int width) override {
     set_style(style);
     set_out(text, style, width);
     set_lines(style);
-    set_.lines = pango_layout_get_line_count(layout_.get());
+    set_.size.lines = pango_layout_get_line_count(layout_.get());
     set_.missing = pango_layout_get_unknown_glyphs_count(layout_.get());
     set_.torn = broken_words(false);
     return set_;
@@ -127,7 +122,7 @@ class Paragraph final : public PangoParagraph {
     PangoLayout* layout = layout_.get();
     PangoFontDescription* font = pango_font_description_new();
     pango_font_description_set_family_static(font, families_of(style));
-    pango_font_description_set_weight(font, style.icon ? PANGO_WEIGHT_NORMAL : pango_weight(style.weight));
+    pango_font_description_set_weight(font, style.icon ? PANGO_WEIGHT_NORMAL : kWeights[int(style.weight)]);
     pango_font_description_set_absolute_size(font, style.size_px * kScale);
     pango_context_set_base_dir(context_.get(),
                                style.right_to_left ? PANGO_DIRECTION_RTL : PANGO_DIRECTION_LTR);
@@ -210,7 +205,7 @@ class Paragraph final : public PangoParagraph {
   void set_lines(const TextStyle& style) {
     PangoRectangle whole;
     pango_layout_get_extents(layout_.get(), nullptr, &whole);
-    set_ = {float(whole.width) / kScale, 0, 1e6F, 1e6F, -1e6F, -1e6F, 0, 0, 0};
+    float ink_left = 1e6F, ink_top = 1e6F, ink_right = -1e6F, ink_bottom = -1e6F, height = 0;
     lines_.clear();
     const type::Lines& lines = lines_of(style);
     const float apart =
@@ -226,16 +221,20 @@ class Paragraph final : public PangoParagraph {
       const float baseline = lines_.empty() ? first : lines_.back().baseline + apart;
       lines_.push_back(
           {float(logical.x - whole.x) / kScale, baseline, baseline + top - own, baseline + bottom - own});
-      set_.height_px = style.icon ? float(whole.height) / kScale
-                                  : baseline + std::max(style.size_px * lines.below, bottom - own);
+      height = style.icon ? float(whole.height) / kScale
+                          : baseline + std::max(style.size_px * lines.below, bottom - own);
       if (ink.width <= 0 || ink.height <= 0) continue;
-      set_.left = std::min(set_.left, left),
-      set_.right = std::max(set_.right, left + float(ink.width) / kScale);
-      set_.top = std::min(set_.top, baseline + top - own),
-      set_.bottom = std::max(set_.bottom, baseline + bottom - own);
+      ink_left = std::min(ink_left, left), ink_right = std::max(ink_right, left + float(ink.width) / kScale);
+      ink_top = std::min(ink_top, baseline + top - own),
+      ink_bottom = std::max(ink_bottom, baseline + bottom - own);
     } while (pango_layout_iter_next_line(at) != 0);
     pango_layout_iter_free(at);
-    if (set_.left > set_.right) set_.left = set_.top = set_.right = set_.bottom = 0;  // blanks
+    if (ink_left > ink_right) ink_left = ink_top = ink_right = ink_bottom = 0;  // blanks
+    // A pixel more: boxes are rounded to whole pixels, and must not lose a word by that.
+    set_.size = {std::ceil(float(whole.width) / kScale) + 1, std::ceil(height), 0};
+    // All in whole pixels, so that letters stay sharp.
+    const float x = std::floor(ink_left) - 1, y = std::floor(ink_top) - 1;
+    set_.ink = {x, y, std::ceil(ink_right) + 1 - x, std::ceil(ink_bottom) + 1 - y};
   }
 
   bool is_within(int width) {
@@ -267,7 +266,7 @@ class Paragraph final : public PangoParagraph {
   Owned<PangoLayout> layout_;
   std::unique_ptr<PangoAttrList, UnrefAttributes> tabular_;
   std::vector<unsigned char> ink_;
-  SetText set_;
+  TextLabel set_;
   std::vector<SetLine> lines_;
   std::vector<float> widths_;
   std::string joined_;

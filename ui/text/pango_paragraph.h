@@ -19,14 +19,6 @@
 
 namespace relievo::ui {
 
-struct SetText {
-  float width_px = 0, height_px = 0;
-  float left = 0, top = 0, right = 0, bottom = 0;  // of its ink
-  int lines = 0;
-  int missing = 0;  // letters no font has
-  int torn = 0;     // words that end on one line and go on the next without a hyphen
-};
-
 struct GlyphCoverage {  // one byte a pixel, 255 where a letter covers it
   const unsigned char* pixels = nullptr;
   int stride = 0;
@@ -39,8 +31,8 @@ class PangoParagraph {
   virtual ~PangoParagraph() = default;
 
   virtual Result<void> check_fonts() = 0;
-  // No wider than `width` unless a single word is.
-  virtual const SetText& set(std::string_view text, const TextStyle& style, int width) = 0;
+  // No wider than `width` unless a single word is. In no atlas yet.
+  virtual const TextLabel& set(std::string_view text, const TextStyle& style, int width) = 0;
   // What was set, w x h pixels from (left, top) on.
   virtual GlyphCoverage draw(int left, int top, int w, int h) = 0;
   // Nothing that was set stays in memory.

@@ -103,7 +103,7 @@ class CachedTextEngine final : public TextEngine {
     bool is_set = false;
     for (TextPiece& piece : entry.pieces) {
       if (piece.atlas.w > 0 || !meet(piece.ink, seen)) continue;
-      if (!std::exchange(is_set, true)) (void)set(text, style, max_width_px);
+      if (!std::exchange(is_set, true)) set(text, style, max_width_px);
       const Rect place = write(piece.ink);
       keep_written(entry);
       piece.atlas = place;
@@ -134,24 +134,17 @@ class CachedTextEngine final : public TextEngine {
     if (known != labels_.end()) return known->second;
     if (labels_.size() > 4000) forget();
     Entry& entry = labels_[key];
-    const SetText& set = paragraph_->set(text, style, width);
-    // A pixel more: boxes are rounded to whole pixels, and must not lose a word by that.
-    entry.label.size = {std::ceil(set.width_px) + 1, std::ceil(set.height_px), set.lines};
-    // All in whole pixels, so that letters stay sharp.
-    const float left = std::floor(set.left) - 1, top = std::floor(set.top) - 1;
-    entry.label.ink = {left, top, std::ceil(set.right) + 1 - left, std::ceil(set.bottom) + 1 - top};
-    entry.label.missing = set.missing;
-    entry.label.torn = set.torn;
+    entry.label = paragraph_->set(text, style, width);
     return entry;
   }
 
-  const SetText& set(std::string_view text, const TextStyle& style, float max_width_px) {
-    return paragraph_->set(text, style, std::max(1, int(std::ceil(max_width_px))));
+  void set(std::string_view text, const TextStyle& style, float max_width_px) {
+    (void)paragraph_->set(text, style, std::max(1, int(std::ceil(max_width_px))));
   }
 
   const TextLabel& label_of(Entry& entry, std::string_view text, const TextStyle& style, float max_width_px) {
     if (entry.generation == atlas_.generation()) return entry.label;
-    (void)set(text, style, max_width_px);
+    set(text, style, max_width_px);
     const auto most = float(atlas_.side_px() - 2);
     const Rect& ink = entry.label.ink;
     entry.label.atlas = write({ink.x, ink.y, std::min(ink.w, most), std::min(ink.h, most)});

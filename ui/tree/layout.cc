@@ -66,7 +66,7 @@ Layout::Need Layout::content_need(const Node& node, float width) {
   if (node.box.flow == Flow::Row && !is_wrapped) {
     const Shares given = shares(node, width);
     for (std::int32_t at = node.first_child; at >= 0; at = nodes_[std::size_t(at)].next, ++count) {
-      const Need child = need(nodes_[std::size_t(at)], given.w[std::size_t(count)]);
+      const Need child = need(nodes_[std::size_t(at)], given[std::size_t(count)]);
       n.w += child.w;
       n.h = std::max(n.h, child.h);
     }
@@ -111,7 +111,7 @@ float Layout::row_stretch(const Node& column, const Rect& inner) {
 
 // The widths of a row's children. Those that grow share what the others leave.
 Layout::Shares Layout::shares(const Node& row, float width) {
-  Shares given;
+  Shares given{};
   std::size_t count = 0;
   float fixed = 0, grow = 0, soft = 0;
   for (std::int32_t at = row.first_child; at >= 0; at = nodes_[std::size_t(at)].next, ++count) {
@@ -120,9 +120,9 @@ Layout::Shares Layout::shares(const Node& row, float width) {
       grow += child.box.grow;
       continue;
     }
-    given.w[count] = need(child, width).w;
-    fixed += given.w[count];
-    if (may_shrink(child)) soft += given.w[count];
+    given[count] = need(child, width).w;
+    fixed += given[count];
+    if (may_shrink(child)) soft += given[count];
   }
   const float gaps = count > 1 ? row.box.gap * float(count - 1) : 0;
   const float left = width - fixed - gaps;
@@ -136,21 +136,16 @@ Layout::Shares Layout::shares(const Node& row, float width) {
                   all = std::max(0.0F, row.box.grid ? left + own * float(count) : left);
       const float from = std::floor(all * before / grow);
       before += child.box.grow;
-      given.w[i] = std::max(0.0F, std::floor(all * before / grow + kRounding) - from - own);
+      given[i] = std::max(0.0F, std::floor(all * before / grow + kRounding) - from - own);
     } else if (left < 0 && may_shrink(child) && soft > 0)
-      given.w[i] = std::floor(given.w[i] + left * given.w[i] / soft);
+      given[i] = std::floor(given[i] + left * given[i] / soft);
   }
   return given;
 }
 
 float Layout::align_start(const Node& node, float room, float size) const {
-  switch (node.box.align) {
-    case Align::Stretch:
-    case Align::Start: return 0;
-    case Align::Centre: return (room - size) / 2;
-    case Align::End: return room - size;
-  }
-  return 0;
+  if (node.box.align == Align::End) return room - size;
+  return node.box.align == Align::Centre ? (room - size) / 2 : 0;
 }
 
 void Layout::place(std::size_t index, const Rect& rect, const Rect& clip) {
@@ -228,8 +223,7 @@ void Layout::place_row(Node& node, const Rect& inner, const Rect& clip) {
   const Shares given = shares(node, inner.w);
   float used = 0;
   std::size_t count = 0;
-  for (std::int32_t at = node.first_child; at >= 0; at = nodes_[std::size_t(at)].next)
-    used += given.w[count++];
+  for (std::int32_t at = node.first_child; at >= 0; at = nodes_[std::size_t(at)].next) used += given[count++];
   float gap = node.box.gap;
   if (count > 1) used += gap * float(count - 1);
   const float left = std::max(0.0F, inner.w - used);
@@ -241,7 +235,7 @@ void Layout::place_row(Node& node, const Rect& inner, const Rect& clip) {
   std::size_t i = 0;
   for (std::int32_t at = node.first_child; at >= 0 && i < count; at = nodes_[std::size_t(at)].next, ++i) {
     const auto child = std::size_t(at);
-    const float w = given.w[i];
+    const float w = given[i];
     const float h = node.box.align == Align::Stretch ? inner.h : std::min(inner.h, need(nodes_[child], w).h);
     place(child, {inner.x + (mirrored ? inner.w - x - w : x), inner.y + align_start(node, inner.h, h), w, h},
           clip);

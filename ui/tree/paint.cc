@@ -116,8 +116,6 @@ void paint_focus(DrawList& list, const Node& node, Colour colour, float unit) {
   c.radius = node.box.radius + out;
 }
 
-bool overflows(const Node& node) { return node.box.scroll && node.content_height > node.rect.h + 1; }
-
 float scrolled_px(const Node& node, const Interaction& hands) {
   return hands.scrolled == node.id ? std::clamp(hands.scroll_px, 0.0F, node.content_height - node.rect.h) : 0;
 }
@@ -125,7 +123,7 @@ float scrolled_px(const Node& node, const Interaction& hands) {
 // More lies below, or above: a bar at the side says where one is.
 void paint_scroll_bar(DrawList& list, const Node& node, const Interaction& hands, bool right_to_left,
                       float unit) {
-  if (!overflows(node)) return;
+  if (!node.overflows()) return;
   const float scrolled = scrolled_px(node, hands);
   const float h = node.rect.h * node.rect.h / node.content_height,
               y = node.rect.y + node.rect.h * scrolled / node.content_height;
@@ -155,7 +153,7 @@ Colour ground_of(const std::vector<Node>& nodes, std::size_t index, float y) {
 void paint_fades(DrawList& list, const std::vector<Node>& nodes, std::size_t index, const Interaction& hands,
                  float unit) {
   const Node& node = nodes[index];
-  if (!overflows(node)) return;
+  if (!node.overflows()) return;
   const float above = scrolled_px(node, hands), below = node.content_height - node.rect.h - above;
   const float h = std::round(std::min(kFade * unit, node.rect.h / 4)), edge = std::ceil(node.box.border_px);
   const float in = std::max(node.box.pad_x, edge);

@@ -18,9 +18,7 @@ constexpr std::size_t kNodes = 2048, kDepth = 32, kStringBytes = 128 * 1024;
 constexpr float kAcross = 3, kOff = 0.1F;  // against the way itself, where a keypad looks for the next
 
 bool touchable(const Node& node) { return node.action.kind != ActionKind::None; }
-bool goes_on(const Node& node) {
-  return node.box.scroll && !node.id.empty() && node.content_height > node.rect.h + 1;
-}
+bool goes_on(const Node& node) { return !node.id.empty() && node.overflows(); }
 
 }  // namespace
 

@@ -103,6 +103,7 @@ struct Node {
   Rect rect;  // set by layout()
   Rect clip;
   float content_height = 0;  // of a scroller: what it would be high to show all, its own padding with it
+  bool overflows() const { return box.scroll && content_height > rect.h + 1; }
 };
 
 // What is remembered of the person's hands.
@@ -201,9 +202,7 @@ class Layout {
   struct Need {
     float w = 0, h = 0;
   };
-  struct Shares {
-    std::array<float, kMostInARow> w{};
-  };
+  using Shares = std::array<float, kMostInARow>;  // widths
   Need need(const Node& node, float width);
   Need content_need(const Node& node, float width);
   Shares shares(const Node& row, float width);

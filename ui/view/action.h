@@ -6,6 +6,7 @@
 #pragma once
 
 #include <chrono>
+#include <concepts>
 #include <cstdint>
 #include <string_view>
 
@@ -116,7 +117,8 @@ struct Action {
   // NOLINTNEXTLINE(google-explicit-constructor): `{ActionKind::Back}` is an action.
   Action(ActionKind of_kind, std::int32_t of_value = 0) : kind(of_kind), value(of_value) {}
   // What a page asks of the appliance; `answers`: and then shows its first mode again.
-  explicit Action(StaffAsk of_staff, bool answers = false)
+  // NOLINTNEXTLINE(google-explicit-constructor): `ShowRecord{7}` is an action, too.
+  Action(const std::convertible_to<StaffAsk> auto& of_staff, bool answers = false)
       : kind(answers ? ActionKind::StaffAnswer : ActionKind::StaffDo), ask(of_staff) {}
 
   ActionKind kind = ActionKind::None;

@@ -15,7 +15,6 @@
 #include <chrono>
 #include <cmath>
 #include <cstddef>
-#include <cstdint>
 #include <optional>
 #include <string_view>
 

@@ -5,7 +5,6 @@
 // puts the type into its button's Action; Service (service.h) adds the page and what was typed. Plain values.
 #pragma once
 
-#include <array>
 #include <cstddef>
 #include <cstdint>
 #include <string_view>
@@ -48,15 +47,12 @@ using ListRequest = std::variant<GoToPage, DivideList, FilterList, FindFilters>;
 // --- records ---------------------------------------------------------------------------------------------
 // The text: a part of the name, a number or a code; empty: everyone.
 struct FindRecords {};
-struct ShowRecord {
+struct OfRecord {
   std::int64_t record = 0;
 };
-struct EraseRecord {
-  std::int64_t record = 0;
-};
-struct ExportRecord {
-  std::int64_t record = 0;
-};
+struct ShowRecord : OfRecord {};
+struct EraseRecord : OfRecord {};
+struct ExportRecord : OfRecord {};
 struct ExportFound {};
 struct StopExport {};
 
@@ -123,9 +119,6 @@ enum class TechnicianAct : std::uint8_t {
   ListSaved,
   LeaveSaved  // those that are on it
 };
-struct DoTechnician {
-  TechnicianAct act{};
-};
 // Again, with the algorithms as they are chosen now: from the first stage they change (0), or at the latest
 // from stage 1 .. 4.
 struct RunStages {
@@ -143,30 +136,23 @@ struct TouchPicture {
   bool right = false, dragged = false;
   float x = 0, y = 0;
 };
-// Of TechnicianChoice, what stands there.
-struct ChooseKind {
+// What stands there on the page.
+struct AtIndex {
   std::size_t index = 0;
 };
-struct ChooseName {
-  std::size_t index = 0;
-};  // chosen, or for rules switched
-struct EditOption {
-  std::size_t index = 0;
-};
+struct ChooseKind : AtIndex {};
+struct ChooseName : AtIndex {};  // chosen, or for rules switched
+struct EditOption : AtIndex {};
+struct DropResult : AtIndex {};
+struct UseCalibration : AtIndex {};
 struct TypeDigit {
   char digit = 0;
 };  // '0' to '9', '.', '-', 'e'
-struct DropResult {
-  std::size_t index = 0;
-};
 // Of the calibration board: so many more; the square in tenths of a millimetre.
 enum class BoardMeasure : std::uint8_t { Columns, Rows, Square };
 struct ChangeBoard {
   BoardMeasure measure{};
   std::int32_t step = 0;
-};
-struct UseCalibration {
-  std::size_t row = 0;
 };
 // A saved reconstruction; what was captured goes when it is read, or is put aside first.
 struct LoadSaved {
@@ -175,7 +161,7 @@ struct LoadSaved {
 };
 
 using TechnicianRequest =
-    std::variant<DoTechnician, RunStages, ShowStage, ShowTable, ListRequest, TouchPicture, ChooseKind,
+    std::variant<TechnicianAct, RunStages, ShowStage, ShowTable, ListRequest, TouchPicture, ChooseKind,
                  ChooseName, EditOption, TypeDigit, DropResult, ChangeBoard, UseCalibration, LoadSaved>;
 using StaffAsk =
     std::variant<std::monostate, PageOpened, PageLeft, CheckPin, OfferPin, MoveClock, SetClock,

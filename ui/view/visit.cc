@@ -72,21 +72,12 @@ void Visit::go(Step to, hal::Instant now) {
 
 std::optional<Intent> Visit::back(const ViewState& view) {
   if (std::exchange(overlay, Overlay::None) != Overlay::None) return std::nullopt;
-  switch (step) {
-    case Step::Consent: go(Step::Attract, view.now); break;
-    case Step::Name: step = Step::Consent; break;
-    case Step::Known: step = Step::Name; break;
-    case Step::Position: step = Step::Name; return Intent::Cancel;
-    case Step::Review: return Intent::Pose;
-    case Step::Attract:
-    case Step::Turn:
-    case Step::Working:
-    case Step::Thanks:
-    case Step::Trouble:
-    case Step::Starting:
-    case Step::Declined: break;
-  }
-  return std::nullopt;
+  const Step before = step;
+  if (before == Step::Consent) go(Step::Attract, view.now);
+  if (before == Step::Name) step = Step::Consent;
+  if (before == Step::Known || before == Step::Position) step = Step::Name;
+  if (before == Step::Position) return Intent::Cancel;
+  return before == Step::Review ? std::optional(Intent::Pose) : std::nullopt;
 }
 
 std::optional<Intent> Visit::act(Action action, const ViewState& view) {
@@ -232,24 +223,6 @@ void Visit::follow_language(const ViewState& view) {
     language = static_cast<Language>(i);
 }
 
-bool Visit::person_expected() const {
-  switch (step) {
-    case Step::Consent:
-    case Step::Name:
-    case Step::Known:
-    case Step::Position:
-    case Step::Review:
-    case Step::Thanks: return true;
-    case Step::Attract:
-    case Step::Turn:
-    case Step::Working:
-    case Step::Trouble:
-    case Step::Starting:
-    case Step::Declined: break;
-  }
-  return false;
-}
-
 // Whose face is before the cameras is there, and has no hand free for the screen.
 std::optional<Intent> Visit::follow_face(const ViewState& view) {
   const bool fresh = std::exchange(live_number_, view.live.number) != view.live.number;
@@ -310,7 +283,7 @@ std::optional<Intent> Visit::follow(const ViewState& view) {
     listens(view.now);
     waited_until_ = view.now;
   }
-  if (person_expected()) {
+  if (info_of(step).person_expected) {
     const auto silent = view.now - last_touch_;
     if (silent > patience() + kLastCall) return leave_now(view);
     if (silent > patience()) overlay = Overlay::StillThere;

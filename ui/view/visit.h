@@ -39,10 +39,24 @@ enum class Step : std::uint8_t {
   Starting,
   Declined
 };
-inline constexpr std::array<std::string_view, 12> kStepNames{"Attract",  "Consent", "Name",     "Known",
-                                                             "Position", "Turn",    "Working",  "Review",
-                                                             "Thanks",   "Trouble", "Starting", "Declined"};
-constexpr std::string_view name_of(Step step) { return kStepNames[std::size_t(step)]; }
+struct StepInfo {
+  std::string_view name;
+  int number = -1;               // of the four parts of the way; -1: it is none of them
+  bool person_expected = false;  // who is silent there is asked, and the visit then ends
+};
+inline constexpr std::array<StepInfo, 12> kSteps{{{"Attract"},
+                                                  {"Consent", 0, true},
+                                                  {"Name", 1, true},
+                                                  {"Known", 1, true},
+                                                  {"Position", 2, true},
+                                                  {"Turn", 2},
+                                                  {"Working", 3},
+                                                  {"Review", 3, true},
+                                                  {"Thanks", -1, true},
+                                                  {"Trouble"},
+                                                  {"Starting"},
+                                                  {"Declined"}}};
+constexpr const StepInfo& info_of(Step step) { return kSteps[std::size_t(step)]; }
 enum class Overlay : std::uint8_t { None, Help, Languages, Leave, StillThere, LostCode, Privacy };
 
 // WCAG 2.2.1 wants 20 seconds for an answer; a code that is seen nowhere else stands longer than other pages.
@@ -126,7 +140,6 @@ class Visit {
   std::optional<Intent> leave_now(const ViewState& view);
   std::optional<Intent> back(const ViewState& view);  // what lies over the page first
   void erase_letter();
-  bool person_expected() const;
   void follow_machine(const ViewState& view);
   std::optional<Intent> follow_face(const ViewState& view);
   std::optional<Intent> follow_look_up(const ViewState& view);

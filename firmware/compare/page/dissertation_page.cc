@@ -3,7 +3,7 @@
 #include <cmath>
 #include <cstdlib>
 
-#include "firmware/compare/page/dissertation.h"
+#include "firmware/compare/page/compare_page.h"
 #include "firmware/compare/page/sections.h"
 
 namespace relievo::firmware::compare {

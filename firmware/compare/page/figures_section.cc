@@ -4,7 +4,6 @@
 #include <cmath>
 #include <functional>
 #include <limits>
-#include <string_view>
 
 #include "firmware/compare/page/sections.h"
 

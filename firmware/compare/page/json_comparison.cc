@@ -2,8 +2,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include <nlohmann/json.hpp>
 
-#include <sstream>
-
+#include "firmware/arguments/algorithm_choice.h"
 #include "firmware/base/version.h"
 #include "firmware/compare/page/compare_page.h"
 
@@ -11,15 +10,6 @@ namespace relievo::firmware::compare {
 namespace {
 
 using Json = nlohmann::ordered_json;
-
-Json settings_json(const pipeline::AlgorithmSet& set) {
-  Json all = Json::object();
-  std::istringstream lines(set.to_text());
-  for (std::string line; std::getline(lines, line);)
-    if (const std::size_t equals = line.find(" = "); equals != std::string::npos)
-      all[line.substr(0, equals)] = line.substr(equals + 3);
-  return all;
-}
 
 Json score_json(const DisparityScore& s) {
   return {{"judged_px", s.judged},
@@ -144,7 +134,7 @@ Json shared_json(const Comparison& c) {
 Json sets_json(const Comparison& c) {
   Json sets = Json::array();
   for (const NamedSet& set : c.sets)
-    sets.push_back({{"name", set.name}, {"algorithms", settings_json(set.set)}});
+    sets.push_back({{"name", set.name}, {"algorithms", choices_in(set.set.to_text())}});
   return sets;
 }
 

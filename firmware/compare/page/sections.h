@@ -14,7 +14,6 @@
 #include "hal/base/result.h"
 #include "pipeline/report/drawing.h"
 #include "pipeline/report/page.h"
-#include "pipeline/report/text.h"
 
 namespace relievo::firmware::compare::sections {
 

@@ -112,7 +112,8 @@ bool same(std::string_view a, std::string_view b) {
 }
 
 bool is_there(std::string_view state, const Kiosk& kiosk) {
-  return same(state, ui::name_of(kiosk.ui().visit().step)) || same(state, name_of(kiosk.appliance().state()));
+  return same(state, ui::info_of(kiosk.ui().visit().step).name) ||
+         same(state, name_of(kiosk.appliance().state()));
 }
 
 // Where a finger would go, if it can.
@@ -201,7 +202,7 @@ std::vector<std::string> VisitFigures::lines() const {
     const PageCost& p = pages_[i];
     if (p.frames == 0) continue;
     const double n = double(p.frames);
-    std::string row = line("%-10s %6ld  %8.1f  %7ld  %29.3f %5.2f  %26.2f  ", ui::kStepNames[i].data(),
+    std::string row = line("%-10s %6ld  %8.1f  %7ld  %29.3f %5.2f  %26.2f  ", ui::kSteps[i].name.data(),
                            p.frames, rate(p).value_or(0), p.drawn, 1e3 * p.turn_s / n, 1e3 * p.most_turn_s,
                            1e3 * p.draw_s / double(std::max(1L, p.drawn)));
     row += allocations_ ? line("%ld in %ld frames", p.allocations, p.allocating_frames)

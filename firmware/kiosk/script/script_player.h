@@ -43,7 +43,7 @@ class VisitFigures {
     long allocations = 0, allocating_frames = 0;
     std::chrono::steady_clock::time_point from{}, until{};
   };
-  static constexpr std::size_t kPages = ui::kStepNames.size();
+  static constexpr std::size_t kPages = ui::kSteps.size();
   static std::optional<double> rate(const PageCost& page);
   void follow(const Kiosk& kiosk, std::chrono::steady_clock::time_point now);
 

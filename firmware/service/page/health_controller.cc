@@ -22,7 +22,127 @@ ui::Mood mood_of(double used, double of) {
   return used > of ? ui::Mood::Bad : used > 0.9 * of ? ui::Mood::Warn : ui::Mood::Good;
 }
 
+class HealthController final : public PageController {
+ public:
+  using PageController::PageController;
+  void opened() override {
+    open_ = true;
+    ready_ = false;
+    look();
+  }
+
+  // What is under way is forgotten with the page.
+  void closed() override { open_ = looking_ = false; }
+
+  void turn() override {
+    if (!looking_ && services().device.clock().now() >= next_kept_ &&
+        !services().side_tasks.busy(JobLane::Keeper))
+      look();
+  }
+
+  void show(ui::ServiceView& view) override {
+    if (!looking_ && services().device.clock().now() >= next_look_) look();
+    if (!ready_) return;
+    rows_.clear();
+    add_memory();
+    add_seen();
+    faults_ = services().log.faults();
+    view_.gauges = rows_;
+    view_.faults = faults_;
+    view.health = &view_;
+  }
+
+ private:
+  struct Seen {
+    std::vector<Sensor> sensors;
+    double disk_used_mib = 0, disk_mib = 0, process_mib = 0;
+  };
+
+  void look() {
+    looking_ = true;
+    const auto seen = std::make_shared<Seen>();
+    services().side_tasks.send(
+        JobLane::Keeper,
+        [seen, folder = services().folder](JobControl&) -> Result<void> {
+          seen->sensors = read_temperatures("/sys/class/thermal");
+          seen->process_mib = mib(peak_rss_bytes());
+          std::error_code none;
+          const auto room = std::filesystem::space(folder, none);
+          if (none) return Error{Errc::IoFailed, "the disk's room cannot be told"};
+          seen->disk_mib = mib(room.capacity);
+          seen->disk_used_mib = mib(room.capacity - room.available);
+          return {};
+        },
+        [this, seen](const std::optional<Error>& error) {
+          looking_ = false;
+          next_look_ = services().device.clock().now() + kEvery;
+          if (!error) {
+            seen_ = std::move(*seen);
+            ready_ = true;
+          }
+          keep(error);
+        },
+        open_ ? SideTasks::Whose::Page : SideTasks::Whose::Device);
+  }
+
+  // Not every look: nor does a disk that fails fill the log.
+  void keep(const std::optional<Error>& error) {
+    const hal::Instant now = services().device.clock().now();
+    if (now < next_kept_) return;
+    next_kept_ = now + DayRing::kEvery;
+    if (error) return services().log.fault(*error);
+    const auto hottest = std::ranges::max_element(seen_.sensors, {}, &Sensor::celsius);
+    hottest_.add(hottest != seen_.sensors.end() ? hottest->celsius
+                                                : std::numeric_limits<double>::quiet_NaN());
+    disk_.add(seen_.disk_used_mib);
+  }
+
+  // Of the last visits, over restarts, and of this run.
+  void add_memory() {
+    view_.costs = services().costs.view();
+    view_.costs.planned_stage_mib = float(mib(services().appliance.session().stage_bytes()));
+    double stages = 0;
+    for (const ui::StageCost& cost : view_.costs.stages) stages = std::max(stages, double(cost.mib));
+    const auto plan = double(view_.costs.planned_stage_mib);
+    const double all = mib(budget::appliance_bytes(services().device.preferred_mode().pixels())),
+                 resident = std::max(seen_.process_mib, double(view_.costs.resident_mib));
+    rows_.push_back({ui::Gauge::Stages, {}, stages, plan, mood_of(stages, plan)});
+    rows_.push_back({ui::Gauge::Process, {}, resident, all, mood_of(resident, all)});
+  }
+
+  void add_seen() {
+    rows_.push_back({ui::Gauge::Disk,
+                     {},
+                     seen_.disk_used_mib,
+                     seen_.disk_mib,
+                     mood_of(seen_.disk_used_mib, seen_.disk_mib),
+                     disk_.values()});
+    // The hottest with its day, then the others.
+    std::ranges::stable_sort(seen_.sensors, std::greater{}, &Sensor::celsius);
+    for (const Sensor& sensor : seen_.sensors) {
+      const ui::Mood mood = sensor.celsius >= ui::kHotCelsius    ? ui::Mood::Bad
+                            : sensor.celsius >= ui::kWarmCelsius ? ui::Mood::Warn
+                                                                 : ui::Mood::Good;
+      rows_.push_back({ui::Gauge::Temperature, sensor.name, sensor.celsius, ui::kHotCelsius, mood,
+                       &sensor == seen_.sensors.data() ? hottest_.values() : std::span<const float>()});
+    }
+  }
+
+  bool open_ = false, looking_ = false;
+  hal::Instant next_look_{}, next_kept_{};
+  Seen seen_;
+  DayRing hottest_, disk_;
+  bool ready_ = false;
+  std::vector<ui::GaugeRow> rows_;
+  std::vector<ui::LogLine> faults_;
+  ui::HealthView view_;
+};
+
 }  // namespace
+
+std::unique_ptr<PageController> health_controller(PageServices& services) {
+  return std::make_unique<HealthController>(services);
+}
 
 std::vector<Sensor> read_temperatures(const std::filesystem::path& thermal) {
   std::vector<Sensor> sensors;
@@ -37,101 +157,6 @@ std::vector<Sensor> read_temperatures(const std::filesystem::path& thermal) {
   }
   std::sort(sensors.begin(), sensors.end(), [](const Sensor& a, const Sensor& b) { return a.name < b.name; });
   return sensors;
-}
-
-void HealthController::opened() {
-  open_ = true;
-  ready_ = false;
-  look();
-}
-
-// What is under way is forgotten with the page.
-void HealthController::closed() { open_ = looking_ = false; }
-
-void HealthController::look() {
-  looking_ = true;
-  const auto seen = std::make_shared<Seen>();
-  services().side_tasks.send(
-      JobLane::Keeper,
-      [seen, folder = services().folder](JobControl&) -> Result<void> {
-        seen->sensors = read_temperatures("/sys/class/thermal");
-        seen->process_mib = mib(peak_rss_bytes());
-        std::error_code none;
-        const auto room = std::filesystem::space(folder, none);
-        if (none) return Error{Errc::IoFailed, "the disk's room cannot be told"};
-        seen->disk_mib = mib(room.capacity);
-        seen->disk_used_mib = mib(room.capacity - room.available);
-        return {};
-      },
-      [this, seen](const std::optional<Error>& error) {
-        looking_ = false;
-        next_look_ = services().device.clock().now() + kEvery;
-        if (!error) {
-          seen_ = std::move(*seen);
-          ready_ = true;
-        }
-        keep(error);
-      },
-      open_ ? SideTasks::Whose::Page : SideTasks::Whose::Device);
-}
-
-void HealthController::turn() {
-  if (!looking_ && services().device.clock().now() >= next_kept_ &&
-      !services().side_tasks.busy(JobLane::Keeper))
-    look();
-}
-
-void HealthController::keep(const std::optional<Error>& error) {
-  const hal::Instant now = services().device.clock().now();
-  if (now < next_kept_) return;
-  next_kept_ = now + DayRing::kEvery;
-  if (error) return services().log.fault(*error);
-  const auto hottest = std::ranges::max_element(seen_.sensors, {}, &Sensor::celsius);
-  hottest_.add(hottest != seen_.sensors.end() ? hottest->celsius : std::numeric_limits<double>::quiet_NaN());
-  disk_.add(seen_.disk_used_mib);
-}
-
-// Of the last visits, over restarts, and of this run.
-void HealthController::add_memory() {
-  view_.costs = services().costs.view();
-  view_.costs.planned_stage_mib = float(mib(services().appliance.session().stage_bytes()));
-  double stages = 0;
-  for (const ui::StageCost& cost : view_.costs.stages) stages = std::max(stages, double(cost.mib));
-  const auto plan = double(view_.costs.planned_stage_mib);
-  const double all = mib(budget::appliance_bytes(services().device.preferred_mode().pixels())),
-               resident = std::max(seen_.process_mib, double(view_.costs.resident_mib));
-  rows_.push_back({ui::Gauge::Stages, {}, stages, plan, mood_of(stages, plan)});
-  rows_.push_back({ui::Gauge::Process, {}, resident, all, mood_of(resident, all)});
-}
-
-void HealthController::add_seen() {
-  rows_.push_back({ui::Gauge::Disk,
-                   {},
-                   seen_.disk_used_mib,
-                   seen_.disk_mib,
-                   mood_of(seen_.disk_used_mib, seen_.disk_mib),
-                   disk_.values()});
-  // The hottest with its day, then the others.
-  std::ranges::stable_sort(seen_.sensors, std::greater{}, &Sensor::celsius);
-  for (const Sensor& sensor : seen_.sensors) {
-    const ui::Mood mood = sensor.celsius >= ui::kHotCelsius    ? ui::Mood::Bad
-                          : sensor.celsius >= ui::kWarmCelsius ? ui::Mood::Warn
-                                                               : ui::Mood::Good;
-    rows_.push_back({ui::Gauge::Temperature, sensor.name, sensor.celsius, ui::kHotCelsius, mood,
-                     &sensor == seen_.sensors.data() ? hottest_.values() : std::span<const float>()});
-  }
-}
-
-void HealthController::show(ui::ServiceView& view) {
-  if (!looking_ && services().device.clock().now() >= next_look_) look();
-  if (!ready_) return;
-  rows_.clear();
-  add_memory();
-  add_seen();
-  faults_ = services().log.faults();
-  view_.gauges = rows_;
-  view_.faults = faults_;
-  view.health = &view_;
 }
 
 }  // namespace relievo::firmware

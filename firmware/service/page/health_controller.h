@@ -41,33 +41,4 @@ class DayRing {
   std::array<float, kKept> all_{};
 };
 
-class HealthController final : public PageController {
- public:
-  using PageController::PageController;
-  void opened() override;
-  void show(ui::ServiceView& view) override;
-  void closed() override;
-  void turn() override;
-
- private:
-  struct Seen {
-    std::vector<Sensor> sensors;
-    double disk_used_mib = 0, disk_mib = 0, process_mib = 0;
-  };
-  void look();
-  // Not every look: nor does a disk that fails fill the log.
-  void keep(const std::optional<Error>& error);
-  void add_memory();
-  void add_seen();
-
-  bool open_ = false, looking_ = false;
-  hal::Instant next_look_{}, next_kept_{};
-  Seen seen_;
-  DayRing hottest_, disk_;
-  bool ready_ = false;
-  std::vector<ui::GaugeRow> rows_;
-  std::vector<ui::LogLine> faults_;
-  ui::HealthView view_;
-};
-
 }  // namespace relievo::firmware

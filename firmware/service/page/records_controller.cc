@@ -1,14 +1,23 @@
 // SPDX-FileCopyrightText: 2026 The Relievo authors
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include "firmware/service/page/records_controller.h"
+#include "firmware/service/page_controller.h"
 
 #include <algorithm>
 #include <exception>
+#include <functional>
+#include <memory>
+#include <memory_resource>
+#include <optional>
+#include <string>
+#include <vector>
 
+#include "firmware/base/list_walk.h"
 #include "firmware/base/wall_time.h"
 #include "firmware/records/receipt.h"
 #include "firmware/service/access.h"
-#include "firmware/service/retention.h"
+#include "firmware/service/export_records.h"
+#include "firmware/service/record_filter.h"
+#include "ui/view/staff_views.h"
 
 namespace relievo::firmware {
 namespace {
@@ -45,256 +54,295 @@ Result<std::vector<storage::Subject>> rows_of(storage::Store& store, const Passe
   return found;
 }
 
+// Behind the page of records: search, show, erase, export, on the store. Every name it has read is given back
+// to the heap when the page is left, which wipes it (base/wiping_heap.cc). Thread: main; the store's work
+// runs on the keeper.
+class RecordsController final : public PageController {
+ public:
+  using PageController::PageController;
+  ~RecordsController() override { forget(); }
+  void opened() override {
+    forget();
+    ++visit_;
+    list();
+  }
+
+  void closed() override {
+    ++visit_;
+    if (exporting_) {
+      services().side_tasks.stop(export_);
+      services().appliance.ask(ui::Intent::Cancel);
+    }
+    exporting_ = false;
+    forget();
+  }
+
+  void ask(const ui::StaffRequest& request) override {
+    if (request.as<ui::StopExport>() != nullptr) return services().side_tasks.stop(export_);
+    if (exporting_) return;
+    erased_ = exported_ = false;
+    outcome_ = ui::Outcome::None;
+    trace_ = {};
+    if (request.as<ui::FindRecords>() != nullptr) search(request.text());
+    if (const auto* asked = request.as<ui::ListRequest>()) {
+      if (const auto* chosen = std::get_if<ui::FilterList>(asked)) choose(chosen->filter);
+      const ListWalk::Ask wanted = walk_.ask(*asked);
+      if (wanted == ListWalk::Ask::Labels) label_stretches();
+      else if (wanted == ListWalk::Ask::Filters) find_filters();
+      else list();
+    }
+    if (const auto* show = request.as<ui::ShowRecord>()) load(show->record);
+    if (const auto* gone = request.as<ui::EraseRecord>()) erase(gone->record);
+    if (const auto* one = request.as<ui::ExportRecord>()) take_out(one->record);
+    if (request.as<ui::ExportFound>() != nullptr) take_out(0);
+  }
+
+  void show(ui::ServiceView& view) override {
+    view.work.outcome = outcome_;
+    view.work.running = exporting_;
+    view.work.progress = services().side_tasks.progress(JobLane::Keeper);
+    if (!ready_) return;
+    view_ = {found_,  walk_.view(), choice_.part, nullptr,      {},      {},
+             erased_, exported_,    trace_.asked, trace_.whole, filters_};
+    view_.looks = looks_ > 0 && services().device.clock().now() - looks_since_ > kLongLook;
+    // The list may have been read anew since it was chosen.
+    const auto chosen = choice_.filter ? std::ranges::find(filters_, *choice_.filter) : filters_.end();
+    view_.place.filter = chosen != filters_.end() ? std::size_t(chosen - filters_.begin()) + 1 : 0;
+    if (person_) {
+      view_.shown = &person_->found;
+      view_.consent = person_->consent;
+      view_.consented_at = person_->consented_at;
+      view.inner = true;
+      if (person_->model) view.model = &*person_->model;
+      view.model_number = kFirstModel + model_number_;
+    }
+    view.records = &view_;
+  }
+
+ private:
+  static constexpr std::int64_t kPage = 50;
+  struct Person {
+    ui::RecordRow found;
+    std::string consent, consented_at;
+    std::pmr::monotonic_buffer_resource memory;
+    std::optional<pipeline::FaceModel> model;
+  };
+
+  void forget() {
+    found_ = std::vector<ui::RecordRow>();
+    choice_.forget();
+    person_.reset();
+    filters_.clear();
+    looks_ = 0;
+    view_ = {};
+    walk_.begin_anew();
+    ready_ = erased_ = exported_ = false;
+    outcome_ = ui::Outcome::None;
+    trace_ = {};
+  }
+
+  void told(const std::optional<Error>& error) {
+    outcome_ = error ? outcome_of(*error) : ui::Outcome::Done;
+    if (error && error->code != Errc::Cancelled) services().log.fault(*error);
+  }
+
+  // On the keeper; `found` only if it went well and the page is still the same.
+  void look(SideTasks::Work work, std::function<void()> found) {
+    if (looks_++ == 0) looks_since_ = services().device.clock().now();
+    services().side_tasks.send(
+        JobLane::Keeper, std::move(work),
+        [this, found = std::move(found), visit = visit_](const std::optional<Error>& error) {
+          if (visit != visit_) return;
+          --looks_;
+          if (error) return told(error);
+          found();
+        });
+  }
+
+  void search(std::string_view text) {
+    choice_.forget();
+    choice_.part = text;
+    while (choice_.part.ends_with(' ')) choice_.part.pop_back();
+    walk_.begin_anew();
+    list();
+  }
+
+  void choose(std::size_t filter) {
+    choice_.forget();
+    if (filter > 0 && filter <= filters_.size()) choice_.filter = filters_[filter - 1];
+  }
+
+  void find_filters() {
+    const auto found = std::make_shared<std::vector<ui::RecordFilter>>();
+    look(
+        [this, found](JobControl& control) -> Result<void> {
+          RELIEVO_TRY_ASSIGN(*found, record_filters(services().store, control));
+          if (found->size() > ui::kRecordFilters) found->resize(ui::kRecordFilters);
+          return {};
+        },
+        [this, found] { filters_ = std::move(*found); });
+  }
+
+  void list() {
+    struct Listed {
+      RecordChoice choice;
+      std::vector<ui::RecordRow> found;
+      std::int64_t rows = 0;  // of all pages
+    };
+    const auto listed = std::make_shared<Listed>();
+    listed->choice = choice_;
+    look(
+        [this, listed, skip = walk_.first_row()](JobControl& control) -> Result<void> {
+          RELIEVO_TRY_ASSIGN(const Passed passed, passed_by(services().store, listed->choice, control));
+          RELIEVO_TRY_ASSIGN(listed->rows, passed ? Result(std::int64_t(passed->size()))
+                                                  : services().store.count_subjects());
+          RELIEVO_TRY_ASSIGN(const auto subjects, rows_of(services().store, passed, skip, kPage));
+          for (const storage::Subject& subject : subjects) listed->found.push_back(row_of(subject));
+          return {};
+        },
+        [this, listed] {
+          found_ = std::move(listed->found);
+          walk_.set_rows(listed->rows);
+          ready_ = true;
+          if (found_.empty() && listed->rows > 0) list();  // the last one of the last page was erased
+        });
+  }
+
+  // When the first one of each stretch came. They are read one by one: of those between nothing has to be.
+  void label_stretches() {
+    struct Labels {
+      RecordChoice choice;
+      std::vector<std::int64_t> rows;
+      std::vector<std::string> found;
+    };
+    const auto labels = std::make_shared<Labels>();
+    labels->choice = choice_;
+    for (std::size_t i = 0; i < walk_.stretches(); ++i) labels->rows.push_back(walk_.top_row(i));
+    look(
+        [this, labels](JobControl& control) -> Result<void> {
+          RELIEVO_TRY_ASSIGN(const Passed passed, passed_by(services().store, labels->choice, control));
+          for (const std::int64_t row : labels->rows) {
+            RELIEVO_TRY_ASSIGN(const auto one, rows_of(services().store, passed, row, 1));
+            labels->found.push_back(one.empty() ? std::string() : minute_of(one.front().created_at));
+          }
+          return {};
+        },
+        [this, labels, division = ++division_] {
+          if (division != division_) return;
+          for (std::size_t i = 0; i < labels->found.size(); ++i)
+            walk_.set_label(i, std::move(labels->found[i]));
+        });
+  }
+
+  void load(std::int64_t number) {
+    const auto person = std::make_shared<Person>();
+    services().side_tasks.send(
+        JobLane::Keeper,
+        [this, person, id = storage::SubjectId{number}](JobControl&) -> Result<void> {
+          RELIEVO_TRY_ASSIGN(storage::Subject subject, services().store.subject(id));
+          person->found = row_of(subject);
+          wipe_text(subject.name);
+          RELIEVO_TRY_ASSIGN(const auto enrolments, services().store.enrolments(id));
+          if (enrolments.empty()) return {};
+          const storage::Consent& consent = enrolments.back().consent;
+          person->consent = consent.wording + " (" + consent.language + ")";
+          person->consented_at = minute_of(consent.given_at);
+          RELIEVO_TRY_ASSIGN(auto model, services().store.load_model(enrolments.back().id, &person->memory));
+          person->model.emplace(std::move(model));
+          return {};
+        },
+        [this, person, visit = visit_](const std::optional<Error>& error) {
+          if (visit != visit_) return;
+          if (error) return told(error);
+          person_ = person;
+          ++model_number_;
+        });
+  }
+
+  // It was held for three seconds: who signs out meanwhile still has it erased.
+  void erase(std::int64_t number) {
+    person_.reset();
+    services().side_tasks.send(
+        JobLane::Keeper,
+        [this, id = storage::SubjectId{number}](JobControl&) { return erase_person(services().store, id); },
+        [this, number, visit = visit_](const std::optional<Error>& error) {
+          if (!error) services().log.say(ui::LogEvent::RecordErased, {std::to_string(number)});
+          if (visit != visit_) return error ? services().log.fault(*error) : void();
+          told(error);
+          erased_ = !error;
+          list();
+        },
+        SideTasks::Whose::Device);
+  }
+
+  void take_out(std::int64_t number) {
+    services().appliance.ask(ui::Intent::Export);
+    if (services().appliance.state() != State::Export) return;
+    exporting_ = true;
+    const auto trace = std::make_shared<ExportTrace>();
+    const FurtherModels further{.watertight = services().settings.now().is_on(ui::Setting::Solids)};
+    const auto choice = std::make_shared<const RecordChoice>(choice_);  // not moved: a short name would stay
+    export_ = services().side_tasks.send(
+        JobLane::Keeper,
+        [this, number, choice, further, trace](JobControl& control) -> Result<void> {
+          std::vector<storage::SubjectId> subjects{storage::SubjectId{number}};
+          if (number == 0) {              // of every page of the list
+            pipeline::Progress choosing;  // the bar is the writing's
+            JobControl chooses{control.cancelled, choosing};
+            RELIEVO_TRY_ASSIGN(subjects, chosen_records(services().store, *choice, chooses));
+          }
+          // Here, since nobody hears the end of what was cancelled: these records lie on a stick.
+          const auto told = [&] {
+            if (trace->whole > 0)
+              services().log.say(ui::LogEvent::RecordsExported, {std::to_string(trace->whole)});
+          };
+          try {
+            const Result<void> done =
+                export_records(services().store, services().device.clock(), services().device.media(),
+                               subjects, further, control, *trace);
+            told();
+            return done;
+          } catch (const std::exception&) {
+            told();
+            throw;
+          }
+        },
+        [this, trace, visit = visit_](const std::optional<Error>& error) {
+          if (visit == visit_) exported(error, *trace);
+        });
+  }
+
+  void exported(const std::optional<Error>& error, const ExportTrace& trace) {
+    exporting_ = false;
+    services().appliance.end_service_state(!error);
+    told(error);
+    if (trace.left_out && error && error->code != trace.left_out->code) services().log.fault(*trace.left_out);
+    trace_ = trace;
+    if (error) outcome_ = outcome_of_export(*error, trace);
+    exported_ = !error;
+  }
+
+  std::uint32_t visit_ = 0;  // of the page: what was asked before it was left is not shown after
+  RecordChoice choice_;
+  ListWalk walk_{kPage};
+  std::uint32_t division_ = 0;  // of the stretches: what was found for those before is not shown
+  std::vector<ui::RecordFilter> filters_;
+  int looks_ = 0;  // under way
+  hal::Instant looks_since_{};
+  bool ready_ = false, erased_ = false, exporting_ = false, exported_ = false;
+  std::vector<ui::RecordRow> found_;
+  std::shared_ptr<Person> person_;
+  std::uint32_t model_number_ = 0;
+  ui::Outcome outcome_ = ui::Outcome::None;
+  std::uint32_t export_ = 0;  // the last one's side task
+  ExportTrace trace_;         // and how far it came
+  ui::RecordsView view_;
+};
+
 }  // namespace
 
-void RecordsController::opened() {
-  forget();
-  ++visit_;
-  list();
-}
-
-void RecordsController::closed() {
-  ++visit_;
-  if (exporting_) {
-    services().side_tasks.stop(export_);
-    services().appliance.ask(ui::Intent::Cancel);
-  }
-  exporting_ = false;
-  forget();
-}
-
-void RecordsController::forget() {
-  found_ = std::vector<ui::RecordRow>();
-  choice_.forget();
-  person_.reset();
-  filters_.clear();
-  looks_ = 0;
-  view_ = {};
-  walk_.begin_anew();
-  ready_ = erased_ = exported_ = false;
-  outcome_ = ui::Outcome::None;
-  trace_ = {};
-}
-
-void RecordsController::told(const std::optional<Error>& error) {
-  outcome_ = error ? outcome_of(*error) : ui::Outcome::Done;
-  if (error && error->code != Errc::Cancelled) services().log.fault(*error);
-}
-
-void RecordsController::ask(const ui::StaffRequest& request) {
-  if (request.as<ui::StopExport>() != nullptr) return services().side_tasks.stop(export_);
-  if (exporting_) return;
-  erased_ = exported_ = false;
-  outcome_ = ui::Outcome::None;
-  trace_ = {};
-  if (request.as<ui::FindRecords>() != nullptr) search(request.text());
-  if (const auto* asked = request.as<ui::ListRequest>()) {
-    if (const auto* chosen = std::get_if<ui::FilterList>(asked)) choose(chosen->filter);
-    const ListWalk::Ask wanted = walk_.ask(*asked);
-    if (wanted == ListWalk::Ask::Labels) label_stretches();
-    else if (wanted == ListWalk::Ask::Filters) find_filters();
-    else list();
-  }
-  if (const auto* show = request.as<ui::ShowRecord>()) load(show->record);
-  if (const auto* gone = request.as<ui::EraseRecord>()) erase(gone->record);
-  if (const auto* one = request.as<ui::ExportRecord>()) take_out(one->record);
-  if (request.as<ui::ExportFound>() != nullptr) take_out(0);
-}
-
-void RecordsController::look(SideTasks::Work work, std::function<void()> found) {
-  if (looks_++ == 0) looks_since_ = services().device.clock().now();
-  services().side_tasks.send(
-      JobLane::Keeper, std::move(work),
-      [this, found = std::move(found), visit = visit_](const std::optional<Error>& error) {
-        if (visit != visit_) return;
-        --looks_;
-        if (error) return told(error);
-        found();
-      });
-}
-
-void RecordsController::search(std::string_view text) {
-  choice_.forget();
-  choice_.part = text;
-  while (choice_.part.ends_with(' ')) choice_.part.pop_back();
-  walk_.begin_anew();
-  list();
-}
-
-void RecordsController::choose(std::size_t filter) {
-  choice_.forget();
-  if (filter > 0 && filter <= filters_.size()) choice_.filter = filters_[filter - 1];
-}
-
-void RecordsController::find_filters() {
-  const auto found = std::make_shared<std::vector<ui::RecordFilter>>();
-  look(
-      [this, found](JobControl& control) -> Result<void> {
-        RELIEVO_TRY_ASSIGN(*found, record_filters(services().store, control));
-        if (found->size() > ui::kRecordFilters) found->resize(ui::kRecordFilters);
-        return {};
-      },
-      [this, found] { filters_ = std::move(*found); });
-}
-
-void RecordsController::list() {
-  struct Listed {
-    RecordChoice choice;
-    std::vector<ui::RecordRow> found;
-    std::int64_t rows = 0;  // of all pages
-  };
-  const auto listed = std::make_shared<Listed>();
-  listed->choice = choice_;
-  look(
-      [this, listed, skip = walk_.first_row()](JobControl& control) -> Result<void> {
-        RELIEVO_TRY_ASSIGN(const Passed passed, passed_by(services().store, listed->choice, control));
-        RELIEVO_TRY_ASSIGN(listed->rows,
-                           passed ? Result(std::int64_t(passed->size())) : services().store.count_subjects());
-        RELIEVO_TRY_ASSIGN(const auto subjects, rows_of(services().store, passed, skip, kPage));
-        for (const storage::Subject& subject : subjects) listed->found.push_back(row_of(subject));
-        return {};
-      },
-      [this, listed] {
-        found_ = std::move(listed->found);
-        walk_.set_rows(listed->rows);
-        ready_ = true;
-        if (found_.empty() && listed->rows > 0) list();  // the last one of the last page was erased
-      });
-}
-
-// When the first one of each stretch came. They are read one by one: of those between nothing has to be.
-void RecordsController::label_stretches() {
-  struct Labels {
-    RecordChoice choice;
-    std::vector<std::int64_t> rows;
-    std::vector<std::string> found;
-  };
-  const auto labels = std::make_shared<Labels>();
-  labels->choice = choice_;
-  for (std::size_t i = 0; i < walk_.stretches(); ++i) labels->rows.push_back(walk_.top_row(i));
-  look(
-      [this, labels](JobControl& control) -> Result<void> {
-        RELIEVO_TRY_ASSIGN(const Passed passed, passed_by(services().store, labels->choice, control));
-        for (const std::int64_t row : labels->rows) {
-          RELIEVO_TRY_ASSIGN(const auto one, rows_of(services().store, passed, row, 1));
-          labels->found.push_back(one.empty() ? std::string() : minute_of(one.front().created_at));
-        }
-        return {};
-      },
-      [this, labels, division = ++division_] {
-        if (division != division_) return;
-        for (std::size_t i = 0; i < labels->found.size(); ++i)
-          walk_.set_label(i, std::move(labels->found[i]));
-      });
-}
-
-void RecordsController::load(std::int64_t number) {
-  const auto person = std::make_shared<Person>();
-  services().side_tasks.send(
-      JobLane::Keeper,
-      [this, person, id = storage::SubjectId{number}](JobControl&) -> Result<void> {
-        RELIEVO_TRY_ASSIGN(storage::Subject subject, services().store.subject(id));
-        person->found = row_of(subject);
-        wipe_text(subject.name);
-        RELIEVO_TRY_ASSIGN(const auto enrolments, services().store.enrolments(id));
-        if (enrolments.empty()) return {};
-        const storage::Consent& consent = enrolments.back().consent;
-        person->consent = consent.wording + " (" + consent.language + ")";
-        person->consented_at = minute_of(consent.given_at);
-        RELIEVO_TRY_ASSIGN(auto model, services().store.load_model(enrolments.back().id, &person->memory));
-        person->model.emplace(std::move(model));
-        return {};
-      },
-      [this, person, visit = visit_](const std::optional<Error>& error) {
-        if (visit != visit_) return;
-        if (error) return told(error);
-        person_ = person;
-        ++model_number_;
-      });
-}
-
-// It was held for three seconds: who signs out meanwhile still has it erased.
-void RecordsController::erase(std::int64_t number) {
-  person_.reset();
-  services().side_tasks.send(
-      JobLane::Keeper,
-      [this, id = storage::SubjectId{number}](JobControl&) { return erase_person(services().store, id); },
-      [this, number, visit = visit_](const std::optional<Error>& error) {
-        if (!error) services().log.say(ui::LogEvent::RecordErased, {std::to_string(number)});
-        if (visit != visit_) return error ? services().log.fault(*error) : void();
-        told(error);
-        erased_ = !error;
-        list();
-      },
-      SideTasks::Whose::Device);
-}
-
-void RecordsController::take_out(std::int64_t number) {
-  services().appliance.ask(ui::Intent::Export);
-  if (services().appliance.state() != State::Export) return;
-  exporting_ = true;
-  const auto trace = std::make_shared<ExportTrace>();
-  const FurtherModels further{.watertight = services().settings.now().is_on(ui::Setting::Solids)};
-  const auto choice = std::make_shared<const RecordChoice>(choice_);  // not moved: a short name would stay
-  export_ = services().side_tasks.send(
-      JobLane::Keeper,
-      [this, number, choice, further, trace](JobControl& control) -> Result<void> {
-        std::vector<storage::SubjectId> subjects{storage::SubjectId{number}};
-        if (number == 0) {              // of every page of the list
-          pipeline::Progress choosing;  // the bar is the writing's
-          JobControl chooses{control.cancelled, choosing};
-          RELIEVO_TRY_ASSIGN(subjects, chosen_records(services().store, *choice, chooses));
-        }
-        // Here, since nobody hears the end of what was cancelled: these records lie on a stick.
-        const auto told = [&] {
-          if (trace->whole > 0)
-            services().log.say(ui::LogEvent::RecordsExported, {std::to_string(trace->whole)});
-        };
-        try {
-          const Result<void> done =
-              export_records(services().store, services().device.clock(), services().device.media(), subjects,
-                             further, control, *trace);
-          told();
-          return done;
-        } catch (const std::exception&) {
-          told();
-          throw;
-        }
-      },
-      [this, trace, visit = visit_](const std::optional<Error>& error) {
-        if (visit == visit_) exported(error, *trace);
-      });
-}
-
-void RecordsController::exported(const std::optional<Error>& error, const ExportTrace& trace) {
-  exporting_ = false;
-  services().appliance.end_service_state(!error);
-  told(error);
-  trace_ = trace;
-  if (error) outcome_ = outcome_of_export(*error, trace);
-  exported_ = !error;
-}
-
-void RecordsController::show(ui::ServiceView& view) {
-  view.work.outcome = outcome_;
-  view.work.running = exporting_;
-  view.work.progress = services().side_tasks.progress(JobLane::Keeper);
-  if (!ready_) return;
-  view_ = {found_,  walk_.view(), choice_.part, nullptr,      {},      {},
-           erased_, exported_,    trace_.asked, trace_.whole, filters_};
-  view_.looks = looks_ > 0 && services().device.clock().now() - looks_since_ > kLongLook;
-  // The list may have been read anew since it was chosen.
-  const auto chosen = choice_.filter ? std::ranges::find(filters_, *choice_.filter) : filters_.end();
-  view_.place.filter = chosen != filters_.end() ? std::size_t(chosen - filters_.begin()) + 1 : 0;
-  if (person_) {
-    view_.shown = &person_->found;
-    view_.consent = person_->consent;
-    view_.consented_at = person_->consented_at;
-    view.inner = true;
-    if (person_->model) view.model = &*person_->model;
-    view.model_number = kFirstModel + model_number_;
-  }
-  view.records = &view_;
+std::unique_ptr<PageController> records_controller(PageServices& services) {
+  return std::make_unique<RecordsController>(services);
 }
 
 }  // namespace relievo::firmware

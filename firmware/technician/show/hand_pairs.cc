@@ -6,7 +6,6 @@
 #include <cmath>
 #include <optional>
 
-#include "pipeline/match/window/patch_scores.h"
 #include "pipeline/match/window/window_correlation.h"
 
 namespace relievo::firmware {

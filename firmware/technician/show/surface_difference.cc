@@ -2,8 +2,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "firmware/technician/show/surface_difference.h"
 
-#include <string.h>
-
 #include <algorithm>
 #include <cmath>
 
@@ -33,11 +31,6 @@ compare::DisparityMap depths_of(const pipeline::RectifiedPair& pair, const pipel
   return map;
 }
 
-void wipe(compare::DisparityMap& map) {
-  if (!map.values.empty()) explicit_bzero(map.values.data(), map.values.size() * sizeof(float));
-  map = {};
-}
-
 void draw_nearer(const pipeline::RectifiedPair& pair, const std::function<float(int x, int y)>& nearer_mm,
                  float full_colour_mm, StageCanvas& canvas) {
   draw_photograph(pair, 0.5, canvas);
@@ -62,7 +55,7 @@ void SurfaceDifference::measure(const pipeline::RectifiedPair& pair, const pipel
                                 const compare::DisparityMap& other, std::uint32_t number) {
   forget();
   nearer_ = depths_of(pair, surface);
-  if (nearer_.values.size() != other.values.size()) return wipe(nearer_);
+  if (nearer_.values.size() != other.values.size()) return forget();
   std::vector<float> known;
   for (std::size_t i = 0; i < nearer_.values.size(); ++i) {
     nearer_.values[i] = other.values[i] - nearer_.values[i];
@@ -105,14 +98,6 @@ void SurfaceDifference::draw(const pipeline::RectifiedPair& pair, const pipeline
     for (const std::uint32_t at : t)
       colours_.uv.push_back({texel_of(std::isnan(sum) ? sum : share[at]), 0.5F});
   }
-}
-
-void SurfaceDifference::forget() {
-  wipe(nearer_);
-  if (!rgb_.empty()) explicit_bzero(rgb_.data(), rgb_.size());
-  rgb_ = {};
-  colours_.uv.clear();
-  figures_ = {};
 }
 
 ui::TechnicianDifference SurfaceDifference::view() const {

@@ -27,7 +27,6 @@ namespace relievo::firmware {
 
 // What the left rectified view sees of a mesh: depths, NaN where there is none.
 compare::DisparityMap depths_of(const pipeline::RectifiedPair& pair, const pipeline::FaceMesh& mesh);
-void wipe(compare::DisparityMap& map);
 
 // Paints every pixel of the canvas as colour(x, y) says of the view's pixel that it shows, where it says
 // anything (std::optional); nothing beyond the view.
@@ -53,13 +52,12 @@ std::span<const std::array<std::uint8_t, 3>> difference_scale();
 
 class SurfaceDifference {
  public:
-  ~SurfaceDifference() { forget(); }
   // Of `surface` to `other`; `number` is the coloured surface's from now on.
   void measure(const pipeline::RectifiedPair& pair, const pipeline::FaceMesh& surface,
                const compare::DisparityMap& other, std::uint32_t number);
   // Map and colours, where `full_colour_mm` is the end of the scale.
   void draw(const pipeline::RectifiedPair& pair, const pipeline::FaceMesh& surface, float full_colour_mm);
-  void forget();
+  void forget() { *this = {}; }
 
   float nearer_mm(int x, int y) const {
     return nearer_.holds(x, y) ? nearer_.at(x, y) : std::numeric_limits<float>::quiet_NaN();

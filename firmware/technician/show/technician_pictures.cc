@@ -51,23 +51,15 @@ void shrink(int width_px, int height_px, int to_width_px, int to_height_px, std:
 
 }  // namespace
 
-void HandChange::forget() {
-  wipe(before_);
-  wipe(now_);
-  set_.clear();
-  figures_ = {};
-}
-
 void HandChange::before(const pipeline::AlgorithmSet& set, const pipeline::RectifiedPair& pair,
                         const pipeline::FaceMesh& mesh) {
-  wipe(before_);
   before_ = depths_of(pair, mesh);
   set_ = set.to_text();
 }
 
 void HandChange::measure(const Making& making, const Products& products) {
   figures_ = {};
-  wipe(now_);
+  now_ = {};
   if (!products.pair || !products.model) return;
   const pipeline::RectifiedPair& pair = *products.pair;
   if (making.by_hand.empty()) return before(making.set, pair, products.model->mesh);

@@ -38,7 +38,7 @@ class HandChange {
               const pipeline::FaceMesh& mesh);
   // With pairs; does nothing for a surface without any but keeping it as the one before.
   void measure(const Making& making, const Products& products);
-  void forget();
+  void forget() { *this = {}; }
 
   const ui::TechnicianChange& figures() const { return figures_; }
   // By how much the surface came nearer at a place of the view; NaN where one of the two is not there.

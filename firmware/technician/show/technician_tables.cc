@@ -21,17 +21,9 @@ constexpr std::array<std::string_view, 8> kModel{"n", "X mm", "Y mm", "Z mm", "x
 constexpr std::array<std::string_view, 6> kPoses{"n", "1 – 2", "°", "cm²", "rms mm", "95 % mm"};
 constexpr std::array<std::string_view, 4> kCalibration{"", "1", "2", "1 → 2"};
 
-Heads heads_of(TechnicianTable table) {
-  switch (table) {
-    case TechnicianTable::Matches: return kMatches;
-    case TechnicianTable::Points: return kPoints;
-    case TechnicianTable::Model: return kModel;
-    case TechnicianTable::Poses: return kPoses;
-    case TechnicianTable::Calibration:
-    case TechnicianTable::Count: break;
-  }
-  return kCalibration;
-}
+// In the order of TechnicianTable.
+constexpr std::array<Heads, ui::kTechnicianTables> kHeads{kMatches, kPoints, kModel, kPoses, kCalibration};
+static_assert(!kHeads.back().empty());
 
 std::size_t rows_of(TechnicianTable table, const TechnicianTables::Source& from) {
   if (table == TechnicianTable::Calibration) return from.calibration != nullptr ? kTableRows : 0;
@@ -227,7 +219,7 @@ void TechnicianTables::fill_calibration(const pipeline::StereoCalibration& c) {
 ui::TechnicianRows TechnicianTables::view() const {
   ui::TechnicianRows view;
   view.table = table_;
-  view.heads = heads_of(table_);
+  view.heads = kHeads.at(std::size_t(table_));
   view.cells = cells_;
   view.place = walk_.view();
   return view;

@@ -101,7 +101,7 @@ class Lines {
       gpiod_line_settings_set_active_low(settings, options.active_low);
       gpiod_line_config_add_line_settings(config, lines.offsets_.data(), lines.offsets_.size(), settings);
       gpiod_request_config_set_consumer(request, kConsumer);
-      lines.request_ = gpiod_chip_request_lines(chip, request, config);
+      lines.request_.reset(gpiod_chip_request_lines(chip, request, config));
     }
     const int number = errno;
     gpiod_request_config_free(request);
@@ -111,22 +111,16 @@ class Lines {
     if (lines.request_ == nullptr) return line_error(number);
     return lines;
   }
-  ~Lines() {
-    if (request_ != nullptr) gpiod_line_request_release(request_);
-  }
-  Lines(Lines&& other) noexcept
-      : offsets_(std::move(other.offsets_)), request_(std::exchange(other.request_, nullptr)) {}
-  Lines& operator=(Lines&&) = delete;
   std::size_t count() const { return offsets_.size(); }
   bool set(std::size_t line, bool active) {
-    return gpiod_line_request_set_value(request_, offsets_[line],
+    return gpiod_line_request_set_value(request_.get(), offsets_[line],
                                         active ? GPIOD_LINE_VALUE_ACTIVE : GPIOD_LINE_VALUE_INACTIVE) == 0;
   }
 
  private:
-  Lines() = default;
   std::vector<unsigned> offsets_;
-  gpiod_line_request* request_ = nullptr;
+  std::unique_ptr<gpiod_line_request, void (*)(gpiod_line_request*)> request_{nullptr,
+                                                                              gpiod_line_request_release};
 };
 
 #else
@@ -135,12 +129,12 @@ class Lines {
  public:
   static Result<Lines> request(const GpioOptions& options) {
     Lines lines;
-    lines.chip_ = gpiod_chip_open(options.chip.c_str());
+    lines.chip_.reset(gpiod_chip_open(options.chip.c_str()));
     if (lines.chip_ == nullptr) return chip_error(errno);
     std::vector<unsigned> offsets{options.trigger};
     if (options.lamp) offsets.push_back(*options.lamp);
     for (const unsigned offset : offsets) {
-      gpiod_line* const line = gpiod_chip_get_line(lines.chip_, offset);
+      gpiod_line* const line = gpiod_chip_get_line(lines.chip_.get(), offset);
       if (line == nullptr) return line_error(errno);
       const int flags = options.active_low ? GPIOD_LINE_REQUEST_FLAG_ACTIVE_LOW : 0;
       if (gpiod_line_request_output_flags(line, kConsumer, flags, 0) != 0) return line_error(errno);
@@ -148,18 +142,12 @@ class Lines {
     }
     return lines;
   }
-  ~Lines() {
-    if (chip_ != nullptr) gpiod_chip_close(chip_);  // releases its lines
-  }
-  Lines(Lines&& other) noexcept
-      : chip_(std::exchange(other.chip_, nullptr)), lines_(std::move(other.lines_)) {}
-  Lines& operator=(Lines&&) = delete;
   std::size_t count() const { return lines_.size(); }
   bool set(std::size_t line, bool active) { return gpiod_line_set_value(lines_[line], active ? 1 : 0) == 0; }
 
  private:
-  Lines() = default;
-  gpiod_chip* chip_ = nullptr;
+  // Closed, it releases its lines.
+  std::unique_ptr<gpiod_chip, void (*)(gpiod_chip*)> chip_{nullptr, gpiod_chip_close};
   std::vector<gpiod_line*> lines_;
 };
 
@@ -173,8 +161,6 @@ class GpiodOutputLines final : public OutputLines {
  public:
   GpiodOutputLines(Lines lines, LastWill will) : lines_(std::move(lines)), will_(std::move(will)) {}
   ~GpiodOutputLines() override { set_all_inactive(lines_); }
-  GpiodOutputLines(const GpiodOutputLines&) = delete;
-  GpiodOutputLines& operator=(const GpiodOutputLines&) = delete;
 
   Result<void> set(Wire wire, bool active) override {
     const std::size_t line = wire == Wire::Trigger ? 0 : 1;

@@ -4,8 +4,7 @@
 
 #include <array>
 #include <bit>
-
-#include "hal/sim/base/text.h"
+#include <cstdio>
 
 namespace relievo::hal::sim {
 
@@ -43,7 +42,9 @@ std::string name_of_numbers(std::span<const double> numbers) {
   for (const double number : numbers)
     for (const std::uint8_t byte : std::bit_cast<std::array<std::uint8_t, sizeof number>>(number))
       hash = (hash ^ byte) * 1099511628211ULL;
-  return text("%016llx", static_cast<unsigned long long>(hash));
+  std::array<char, 17> name{};
+  std::snprintf(name.data(), name.size(), "%016llx", static_cast<unsigned long long>(hash));
+  return name.data();
 }
 
 double value_noise(Vec3 p, std::uint32_t seed) {

@@ -7,113 +7,122 @@
 #include "hal/sim/base/noise.h"
 
 namespace relievo::hal::sim {
+namespace {
 
-double SkinLook::blood(Vec3 q) const {
+double blood(const HeadField& f, Vec3 q) {
   const double ax = std::abs(q.x);
-  const Vec3 tip = field_.nose.tip();
+  const Vec3 tip = f.nose.tip();
   double b = 0.55 * bell({ax - 38, q.y + 30, q.z - 88}, {17, 15, 30}) + 0.65 * bell(q - tip, {15, 12, 16});
-  b += 0.45 * smoothstep(66, 76, ax) + 0.22 * bell({ax, q.y - gnathion_y(t_) - 14, q.z - 100}, {20, 14, 20});
-  b += 0.30 * bell(ax - field_.eye.centre().x, 17, q.y - 2, 9) * (q.z > 60 ? 1 : 0);
-  return b + 0.42 * fractal_noise(q * (1 / 9.0), t_.seed + 31, 4);
+  b += 0.45 * smoothstep(66, 76, ax) +
+       0.22 * bell({ax, q.y - gnathion_y(f.traits) - 14, q.z - 100}, {20, 14, 20});
+  b += 0.30 * bell(ax - f.eye.centre().x, 17, q.y - 2, 9) * (q.z > 60 ? 1 : 0);
+  return b + 0.42 * fractal_noise(q * (1 / 9.0), f.traits.seed + 31, 4);
 }
 
 // Darkening: under the eyes, blotches, freckles, moles.
-double SkinLook::melanin(Vec3 p, Vec3 q) const {
+double melanin(const HeadField& f, Vec3 p, Vec3 q) {
   const double ax = std::abs(q.x);
-  double m = 0.10 * bell(ax - field_.eye.centre().x + 4, 13, q.y + 11, 5.5) * (q.z > 60 ? 1 : 0);
+  double m = 0.10 * bell(ax - f.eye.centre().x + 4, 13, q.y + 11, 5.5) * (q.z > 60 ? 1 : 0);
   m += 0.08 * bell(ax - 13, 6, q.y, 9) * (q.z > 60 ? 1 : 0);
-  m += 0.08 * value_noise(p * (1 / 18.0), t_.seed) + 0.05 * value_noise(p * (1 / 6.0), t_.seed + 1);
-  m += 0.045 * value_noise(p * (1 / 2.2), t_.seed + 2) + 0.035 * value_noise(p * (1 / 0.9), t_.seed + 3);
-  const NearestDot spot = nearest_dot(p * (1 / 2.4), t_.seed + 4);
+  m += 0.08 * value_noise(p * (1 / 18.0), f.traits.seed) +
+       0.05 * value_noise(p * (1 / 6.0), f.traits.seed + 1);
+  m += 0.045 * value_noise(p * (1 / 2.2), f.traits.seed + 2) +
+       0.035 * value_noise(p * (1 / 0.9), f.traits.seed + 3);
+  const NearestDot spot = nearest_dot(p * (1 / 2.4), f.traits.seed + 4);
   const double chosen = unit_from_hash(spot.hash * 2654435761U);
   const double zone = 0.35 + 0.65 * gauss((q.y + 18) / 30);
-  if (chosen < 0.65 * t_.freckles * zone) m += 0.20 * (0.4 + chosen) * smoothstep(0.30, 0.12, spot.distance);
-  const NearestDot mole = nearest_dot(p * (1 / 30.0), t_.seed + 5);
+  if (chosen < 0.65 * f.traits.freckles * zone)
+    m += 0.20 * (0.4 + chosen) * smoothstep(0.30, 0.12, spot.distance);
+  const NearestDot mole = nearest_dot(p * (1 / 30.0), f.traits.seed + 5);
   const double size = 0.35 + 1.1 * unit_from_hash(mole.hash * 747796405U);
   m += 0.9 * smoothstep(size, size * 0.55, mole.distance * 30 + 0.25 * value_noise(p * 2, 9));
   return m;
 }
 
 // The skin's own colour: blood and melanin in it, pores and a beard's stubble on it.
-Vec3 SkinLook::complexion(Vec3 p, Vec3 q, double dark) const {
-  Vec3 c = t_.skin;
-  const double red = std::max(0.0, blood(q)) * 0.6;
+Vec3 complexion(const HeadField& f, Vec3 p, Vec3 q, double dark) {
+  Vec3 c = f.traits.skin;
+  const double red = std::max(0.0, blood(f, q)) * 0.6;
   c = c * mix(Vec3{1, 1, 1}, Vec3{1.02, 0.74, 0.74}, red);
   const auto absorb = [&](double power) { return std::exp(-dark * power); };
   c = c * Vec3{absorb(0.85), absorb(1.1), absorb(1.35)};
   const double pores = smoothstep(80, 95, q.z) * 0.7 + 0.5;
-  const NearestDot pore = nearest_dot(p * (1 / 1.05), t_.seed + 6);
+  const NearestDot pore = nearest_dot(p * (1 / 1.05), f.traits.seed + 6);
   c = c * (1 - 0.15 * pores * smoothstep(0.30, 0.05, pore.distance));
-  const double beard = beard_area(t_, q) * t_.stubble;
+  const double beard = beard_area(f.traits, q) * f.traits.stubble;
   if (beard > 0.02) {
-    const double stubble = smoothstep(0.36, 0.16, nearest_dot(p * (1 / 0.85), t_.seed + 7).distance);
+    const double stubble = smoothstep(0.36, 0.16, nearest_dot(p * (1 / 0.85), f.traits.seed + 7).distance);
     c = mix(c, c * Vec3{0.80, 0.84, 0.88}, beard * 0.8);
-    c = mix(c, t_.hair * 0.8 + c * 0.2, beard * 0.55 * stubble);
+    c = mix(c, f.traits.hair * 0.8 + c * 0.2, beard * 0.55 * stubble);
   }
   return c;
 }
 
 // Inside the lids' edge it is wet and pink; roots of the lashes draw a dark line.
-Vec3 SkinLook::with_lid(Vec3 c, Vec3 q) const {
-  const double eye_s = field_.eye.along(std::abs(q.x));
+Vec3 with_lid(const HeadField& f, Vec3 c, Vec3 q) {
+  const double eye_s = f.eye.along(std::abs(q.x));
   if (std::abs(eye_s) >= 1.05 || q.z <= 70) return c;
-  const double edge = std::max(q.y - field_.eye.upper_lid(eye_s), field_.eye.lower_lid(eye_s) - q.y);
+  const double edge = std::max(q.y - f.eye.upper_lid(eye_s), f.eye.lower_lid(eye_s) - q.y);
   c = mix(c, c * Vec3{0.95, 0.62, 0.60}, smoothstep(0.75, 0.2, edge));
-  c = mix(c, c * 0.35 + t_.hair * 0.3,
+  c = mix(c, c * 0.35 + f.traits.hair * 0.3,
           (q.y > -1 ? 0.75 : 0.35) * gauss((edge - 0.75) / 0.6) * smoothstep(1.02, 0.8, std::abs(eye_s)));
   return c * (1 - 0.16 * smoothstep(6, 1, edge));
 }
 
-Surface SkinLook::surface(Vec3 p) const {
-  const Vec3 q = field_.warped(p);
+double skin_height(const HeadField& f, Vec3 p, double lip, double coarse) {
+  const NearestDot pore = nearest_dot(p * (1 / 1.05), f.traits.seed + 6);
+  double h = -0.040 * coarse * smoothstep(0.34, 0.05, pore.distance);
+  h += 0.028 * value_noise(p * (1 / 1.3), f.traits.seed + 51) +
+       0.010 * value_noise(p * (1 / 0.5), f.traits.seed + 52);
+  if (lip > 0) h = mix(h, 0.03 * value_noise({p.x * 1.1, p.y * 0.25, p.z * 0.25}, f.traits.seed + 8), lip);
+  return h;
+}
+
+}  // namespace
+
+Surface skin_look(const HeadField& f, Vec3 p) {
+  const Vec3 q = f.warped(p);
   Surface s;
-  const double dark = melanin(p, q);
-  Vec3 c = complexion(p, q, dark);
-  const double lip = field_.mouth.vermilion(q);
+  const double dark = melanin(f, p, q);
+  Vec3 c = complexion(f, p, q, dark);
+  const double lip = f.mouth.vermilion(q);
   if (lip > 0) {
-    const double crease = value_noise({q.x * 1.5, q.y * 0.25, q.z * 0.25}, t_.seed + 8);
-    const Vec3 tone =
-        t_.skin * mix(Vec3{0.82, 0.56, 0.57}, Vec3{0.80, 0.70, 0.72}, smoothstep(0.35, 0.1, t_.skin.x));
+    const double crease = value_noise({q.x * 1.5, q.y * 0.25, q.z * 0.25}, f.traits.seed + 8);
+    const Vec3 tone = f.traits.skin * mix(Vec3{0.82, 0.56, 0.57}, Vec3{0.80, 0.70, 0.72},
+                                          smoothstep(0.35, 0.1, f.traits.skin.x));
     c = mix(c, tone * (1 + 0.10 * crease) * std::exp(-0.5 * dark), lip * 0.85);
   }
-  const Vec3 leaning = field_.swayed(p);
-  if (t_.expression.jaw_mm > 0 && leaning.z < field_.mouth.front() - 3 &&
-      field_.mouth.gape(leaning) < 1.5) {  // lining of the cheeks and the palate
+  const Vec3 leaning = f.swayed(p);
+  if (f.traits.expression.jaw_mm > 0 && leaning.z < f.mouth.front() - 3 &&
+      f.mouth.gape(leaning) < 1.5) {  // lining of the cheeks and the palate
     c = Vec3{0.34, 0.12, 0.11};
     s.gloss = 0.6, s.colour = c, s.roughness = 0.4, s.translucent = 1;
     return s;
   }
-  const double line = q.z > 75 && std::abs(q.x) < field_.mouth.half_width() + 1
-                          ? gauss((q.y - field_.mouth.line_y(q.x)) / 0.55)
-                          : 0;
+  const double line =
+      q.z > 75 && std::abs(q.x) < f.mouth.half_width() + 1 ? gauss((q.y - f.mouth.line_y(q.x)) / 0.55) : 0;
   c = c * (1 - 0.6 * line);
-  const double scalp = scalp_hair(t_, p), brow = brow_hair(field_, q);
-  c = mix(c, t_.hair * 1.1 + c * 0.12, 0.85 * smoothstep(0.15, 1.0, scalp));
-  c = mix(c, t_.hair + c * 0.3, 0.30 * brow * t_.brow_density);
-  s.colour = with_lid(c, q);
+  const double scalp = scalp_hair(f.traits, p), brow = brow_hair(f, q);
+  c = mix(c, f.traits.hair * 1.1 + c * 0.12, 0.85 * smoothstep(0.15, 1.0, scalp));
+  c = mix(c, f.traits.hair + c * 0.3, 0.30 * brow * f.traits.brow_density);
+  s.colour = with_lid(f, c, q);
   const double oily = 0.5 + 0.5 * bell(q.x, 26, q.y - 40, 28) + 0.7 * bell(q.x, 12, q.y + 20, 26) +
-                      0.25 * value_noise(q * 0.12, t_.seed + 41);
-  s.gloss = mix(0.78 * oily * mix(0.7, 1, smoothstep(0.1, 0.4, t_.skin.x)), 0.5, lip) * (1 - 0.8 * scalp) *
-            (0.8 + 0.4 * unit_from_hash(hash_cell(7, 7, 7, t_.seed))) * t_.shine;
+                      0.25 * value_noise(q * 0.12, f.traits.seed + 41);
+  s.gloss = mix(0.78 * oily * mix(0.7, 1, smoothstep(0.1, 0.4, f.traits.skin.x)), 0.5, lip) *
+            (1 - 0.8 * scalp) * (0.8 + 0.4 * unit_from_hash(hash_cell(7, 7, 7, f.traits.seed))) *
+            f.traits.shine;
   s.roughness = mix(0.48, 0.42, lip);
   s.translucent = 1;
   return s;
 }
 
-double SkinLook::height(Vec3 p, double lip, double coarse) const {
-  const NearestDot pore = nearest_dot(p * (1 / 1.05), t_.seed + 6);
-  double h = -0.040 * coarse * smoothstep(0.34, 0.05, pore.distance);
-  h += 0.028 * value_noise(p * (1 / 1.3), t_.seed + 51) + 0.010 * value_noise(p * (1 / 0.5), t_.seed + 52);
-  if (lip > 0) h = mix(h, 0.03 * value_noise({p.x * 1.1, p.y * 0.25, p.z * 0.25}, t_.seed + 8), lip);
-  return h;
-}
-
-Vec3 SkinLook::relief_slope(Vec3 p) const {
+Vec3 skin_slope(const HeadField& f, Vec3 p) {
   constexpr double e = 0.12;
-  const double lip = field_.mouth.vermilion(p), coarse = 0.5 + 0.7 * smoothstep(80, 95, p.z);
-  const double h = height(p, lip, coarse);
-  return Vec3{height(p + Vec3{e, 0, 0}, lip, coarse) - h, height(p + Vec3{0, e, 0}, lip, coarse) - h,
-              height(p + Vec3{0, 0, e}, lip, coarse) - h} *
+  const double lip = f.mouth.vermilion(p), coarse = 0.5 + 0.7 * smoothstep(80, 95, p.z);
+  const double h = skin_height(f, p, lip, coarse);
+  return Vec3{skin_height(f, p + Vec3{e, 0, 0}, lip, coarse) - h,
+              skin_height(f, p + Vec3{0, e, 0}, lip, coarse) - h,
+              skin_height(f, p + Vec3{0, 0, e}, lip, coarse) - h} *
          (1 / e);
 }
 
@@ -171,6 +180,18 @@ Surface shirt_look(const HeadTraits& t, Vec3 p) {
 
 namespace {
 
+// Cosine-weighted directions about a normal, stratified; turned by the hash.
+Vec3 sky_direction(Vec3 n, int i, int count, std::uint32_t hash) {
+  const double turn = unit_from_hash(hash);
+  const double r2 = (i + 0.5) / count, angle = 6.283185307179586 * (i * 0.6180339887498949 + turn);
+  const Vec3 side = normalised(cross(std::abs(n.y) < 0.9 ? Vec3{0, 1, 0} : Vec3{1, 0, 0}, n)),
+             up = cross(n, side);
+  const double r = std::sqrt(r2);
+  return side * (r * std::cos(angle)) + up * (r * std::sin(angle)) + n * std::sqrt(1 - r2);
+}
+
+}  // namespace
+
 void append_ball(Mesh& mesh, Vec3 centre, Vec3 radii) {
   constexpr std::uint32_t kRings = 60, kSpokes = 120;
   const auto base = std::uint32_t(mesh.points.size());
@@ -188,17 +209,6 @@ void append_ball(Mesh& mesh, Vec3 centre, Vec3 radii) {
       mesh.triangles.push_back({p, q, p + kSpokes});
       mesh.triangles.push_back({q, q + kSpokes, p + kSpokes});
     }
-}
-
-}  // namespace
-
-Vec3 sky_direction(Vec3 n, int i, int count, std::uint32_t hash) {
-  const double turn = unit_from_hash(hash);
-  const double r2 = (i + 0.5) / count, angle = 6.283185307179586 * (i * 0.6180339887498949 + turn);
-  const Vec3 side = normalised(cross(std::abs(n.y) < 0.9 ? Vec3{0, 1, 0} : Vec3{1, 0, 0}, n)),
-             up = cross(n, side);
-  const double r = std::sqrt(r2);
-  return side * (r * std::cos(angle)) + up * (r * std::sin(angle)) + n * std::sqrt(1 - r2);
 }
 
 void smooth_over(const Mesh& mesh, std::vector<float>& values, int times) {

@@ -22,21 +22,8 @@ struct Surface {
   double translucent = 0;  // how far light bleeds round an edge: skin
 };
 
-class SkinLook {
- public:
-  explicit SkinLook(const HeadField& field) : field_(field), t_(field.traits) {}
-  Surface surface(Vec3 p) const;
-  Vec3 relief_slope(Vec3 p) const;  // gradient of the relief's height
-
- private:
-  double blood(Vec3 q) const;
-  double melanin(Vec3 p, Vec3 q) const;
-  Vec3 complexion(Vec3 p, Vec3 q, double dark) const;
-  Vec3 with_lid(Vec3 c, Vec3 q) const;
-  double height(Vec3 p, double lip, double coarse) const;
-  const HeadField& field_;
-  const HeadTraits& t_;
-};
+Surface skin_look(const HeadField& field, Vec3 p);
+Vec3 skin_slope(const HeadField& field, Vec3 p);  // gradient of its relief's height
 
 struct EyeLook {
   Surface surface;
@@ -94,10 +81,9 @@ class HeadModel {
   void measure_openness(ThreadPool& pool);
 };
 
+// The surface of an ellipsoid.
+void append_ball(Mesh& mesh, Vec3 centre, Vec3 radii);
 // Averages each value with its neighbours': takes the grain out of sampled light.
 void smooth_over(const Mesh& mesh, std::vector<float>& values, int times);
-
-// Cosine-weighted directions about a normal, stratified; turned by the hash.
-Vec3 sky_direction(Vec3 normal, int i, int count, std::uint32_t hash);
 
 }  // namespace relievo::hal::sim

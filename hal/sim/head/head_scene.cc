@@ -7,12 +7,11 @@
 
 #include "hal/sim/base/noise.h"
 #include "hal/sim/head/head_model.h"
-#include "hal/sim/optics/lamps.h"
 
 namespace relievo::hal::sim {
 namespace {
 
-// The kiosk's light (lamps.h) on a head. Shadows are soft because panels are large; how much of each
+// The kiosk's light (scene.h) on a head. Shadows are soft because panels are large; how much of each
 // panel a vertex sees is measured once. All in the head frame, mm.
 class HeadLight {
  public:
@@ -176,8 +175,7 @@ class HeadScene final : public Scene {
         world_from_head_(pose.world_from_head()),
         head_from_world_(world_from_head_.transposed()),
         origin_(pose.origin_mm()),
-        light_(*head_, pose, pool, lighting),
-        skin_(head_->field) {
+        light_(*head_, pose, pool, lighting) {
     // Looks between the cameras, as far as eyes turn without the head.
     for (std::size_t k = 0; k < 2; ++k) {
       const Vec3 to = pose.eyes_follow ? to_head({70, 0, 0}) - head_->eye_centres[k] : Vec3{0, 0, 1};
@@ -224,7 +222,6 @@ class HeadScene final : public Scene {
   Mat3 world_from_head_, head_from_world_;
   Vec3 origin_;
   HeadLight light_;
-  SkinLook skin_;
   std::array<Vec3, 2> gaze_;
 };
 
@@ -241,8 +238,8 @@ Vec3 HeadScene::body(const Hit& hit, Vec3 at, Vec3 d) const {
   Surface s;
   switch (static_cast<HeadModel::Body>(hit.body)) {
     case HeadModel::Skin: {
-      s = skin_.surface(at);
-      const Vec3 slope = skin_.relief_slope(at);
+      s = skin_look(head_->field, at);
+      const Vec3 slope = skin_slope(head_->field, at);
       p.normal = normalised(p.normal - (slope - p.normal * dot(slope, p.normal)));
       break;
     }

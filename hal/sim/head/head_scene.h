@@ -10,7 +10,6 @@
 
 #include "hal/base/thread_pool.h"
 #include "hal/sim/head/shape/head_traits.h"
-#include "hal/sim/optics/lamps.h"
 #include "hal/sim/optics/scene.h"
 
 namespace relievo::hal::sim {

@@ -1,8 +1,7 @@
 // SPDX-FileCopyrightText: 2026 The Relievo authors
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include "hal/sim/optics/lamps.h"
-
 #include "hal/sim/base/noise.h"
+#include "hal/sim/optics/scene.h"
 
 namespace relievo::hal::sim {
 namespace {

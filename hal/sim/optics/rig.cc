@@ -2,12 +2,12 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "hal/sim/optics/rig.h"
 
+#include <iomanip>
 #include <span>
-#include <string>
+#include <sstream>
 
 #include "hal/base/whole_file.h"
 #include "hal/sim/base/noise.h"
-#include "hal/sim/base/text.h"
 
 namespace relievo::hal::sim {
 namespace {
@@ -40,16 +40,15 @@ SimView make_view(const RigOptions& o, Random& random) {
   return v;
 }
 
-void append_matrix(std::string& out, const char* name, int rows, std::span<const double> numbers) {
-  out += text("%s: !!opencv-matrix\n   rows: %d\n   cols: %d\n   dt: d\n   data: [ ", name, rows,
-              int(numbers.size()) / rows);
-  for (std::size_t i = 0; i < numbers.size(); ++i) out += text(i == 0 ? "%.17g" : ", %.17g", numbers[i]);
-  out += " ]\n";
+void write_matrix(std::ostream& out, const char* name, int rows, std::span<const double> numbers) {
+  out << name << ": !!opencv-matrix\n   rows: " << rows << "\n   cols: " << int(numbers.size()) / rows
+      << "\n   dt: d\n   data: [ ";
+  for (std::size_t i = 0; i < numbers.size(); ++i) out << (i == 0 ? "" : ", ") << numbers[i];
+  out << " ]\n";
 }
-
-void append_view(std::string& out, const char* k, const char* d, const SimView& v) {
-  append_matrix(out, k, 3, std::array{v.fx_px, 0.0, v.cx_px, 0.0, v.fy_px, v.cy_px, 0.0, 0.0, 1.0});
-  append_matrix(out, d, 1, std::array{v.k1, v.k2, v.p1, v.p2, v.k3});
+void write_view(std::ostream& out, const char* k, const char* d, const SimView& v) {
+  write_matrix(out, k, 3, std::array{v.fx_px, 0.0, v.cx_px, 0.0, v.fy_px, v.cy_px, 0.0, 0.0, 1.0});
+  write_matrix(out, d, 1, std::array{v.k1, v.k2, v.p1, v.p2, v.k3});
 }
 
 }  // namespace
@@ -102,18 +101,17 @@ SimRig make_rig(const RigOptions& o) {
 }
 
 Result<void> write_rig(const std::filesystem::path& file, const SimRig& rig) {
-  std::string out = "%YAML:1.0\n---\n";
-  out += text("image_width: %d\nimage_height: %d\n", rig.left.width_px, rig.left.height_px);
-  append_view(out, "K1", "D1", rig.left);
-  append_view(out, "K2", "D2", rig.right);
-  std::array<double, 9> r{};
-  for (std::size_t i = 0; i < 3; ++i) {
-    const Vec3 row = rig.right.view_from_world.row[i];
-    r[3 * i] = row.x, r[3 * i + 1] = row.y, r[3 * i + 2] = row.z;
-  }
-  append_matrix(out, "R", 3, r);
-  append_matrix(out, "T", 3, std::array{rig.right.offset_mm.x, rig.right.offset_mm.y, rig.right.offset_mm.z});
-  return write_whole_file(file, std::as_bytes(std::span(out)));
+  std::ostringstream out;
+  out << std::setprecision(17) << "%YAML:1.0\n---\nimage_width: " << rig.left.width_px
+      << "\nimage_height: " << rig.left.height_px << '\n';
+  write_view(out, "K1", "D1", rig.left);
+  write_view(out, "K2", "D2", rig.right);
+  const auto& r = rig.right.view_from_world.row;
+  const Vec3& t = rig.right.offset_mm;
+  write_matrix(out, "R", 3,
+               std::array{r[0].x, r[0].y, r[0].z, r[1].x, r[1].y, r[1].z, r[2].x, r[2].y, r[2].z});
+  write_matrix(out, "T", 3, std::array{t.x, t.y, t.z});
+  return write_whole_file(file, std::as_bytes(std::span(out.view())));
 }
 
 }  // namespace relievo::hal::sim

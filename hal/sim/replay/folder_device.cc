@@ -53,17 +53,11 @@ class FolderSource final : public PairSource {
   std::uint32_t number_ = 0;
 };
 
-Result<CaptureFile> optional_capture_file(const std::filesystem::path& folder) {
-  Result<CaptureFile> capture = read_capture_file(folder / "capture.json");
-  if (!capture && capture.error().code == Errc::NotFound) return CaptureFile{};
-  return capture;
-}
-
 }  // namespace
 
 Result<std::unique_ptr<Device>> make_folder_device(const std::filesystem::path& folder) {
   RELIEVO_TRY_ASSIGN(std::vector<PicturePairFiles> pairs, find_picture_pairs(folder));
-  RELIEVO_TRY_ASSIGN(CaptureFile capture, optional_capture_file(folder));
+  RELIEVO_TRY_ASSIGN(CaptureFile capture, capture_file_in(folder));
   if (capture.head) RELIEVO_TRY(recorded_pictures(folder));
   RELIEVO_TRY_ASSIGN(const Picture left, read_picture(pairs.front().left));
   RELIEVO_TRY_ASSIGN(const Picture right, read_picture(pairs.front().right));

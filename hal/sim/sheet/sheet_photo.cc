@@ -109,19 +109,6 @@ class SheetScene final : public Scene {
     if (back) normal = -normal;
     return {light(hit, at, normal, direction, back), hit.distance_mm, 0, false};
   }
-  bool solid(Vec3 origin, Vec3 direction, SolidPoint& out) const override {
-    Hit hit;
-    if (!caster_.cast(origin, direction, hit)) return false;
-    out.point = origin + direction * hit.distance_mm;
-    out.normal = normal_at(hit);
-    if (dot(out.normal, direction) > 0) out.normal = -out.normal;
-    out.skin = true;
-    return true;
-  }
-  bool blocked(Vec3 from, Vec3 direction, double far_mm) const override {
-    return caster_.blocked(from, direction, far_mm);
-  }
-  Mesh solid_mesh() const override { return sheet_.mesh; }
 
  private:
   // Facets would each mirror a lamp of their own.

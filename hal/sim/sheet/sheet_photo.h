@@ -16,7 +16,6 @@
 #include "hal/picture_file.h"
 #include "hal/sim/base/vec3.h"
 #include "hal/sim/head/head_scene.h"
-#include "hal/sim/optics/lamps.h"
 #include "hal/sim/optics/ray_caster.h"
 #include "hal/sim/optics/scene.h"
 #include "hal/sim/render.h"

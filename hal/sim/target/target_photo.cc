@@ -5,6 +5,7 @@
 #include <array>
 
 #include "hal/sim/base/noise.h"
+#include "hal/sim/head/head_model.h"
 
 namespace relievo::hal::sim {
 namespace {
@@ -165,26 +166,9 @@ DumbbellScene::Met DumbbellScene::meet(Vec3 o, Vec3 d) const {
 }
 
 Mesh DumbbellScene::solid_mesh() const {
-  constexpr int kAround = 96, kAlong = 48;
-  constexpr double kPi = 3.14159265358979323846;
+  const double radius = dumbbell_.diameter_mm / 2;
   Mesh mesh;
-  for (int sphere = 0; sphere < 2; ++sphere) {
-    const auto first = std::uint32_t(mesh.points.size());
-    for (int j = 0; j <= kAlong; ++j)
-      for (int i = 0; i < kAround; ++i) {
-        const double polar = kPi * j / kAlong, turn = 2 * kPi * i / kAround;
-        const Vec3 p = centre_mm(sphere) + Vec3{std::sin(polar) * std::cos(turn),
-                                                std::sin(polar) * std::sin(turn), std::cos(polar)} *
-                                               (dumbbell_.diameter_mm / 2);
-        mesh.points.push_back(to_floats(p));
-      }
-    for (std::uint32_t j = 0; j < kAlong; ++j)
-      for (std::uint32_t i = 0; i < kAround; ++i) {
-        const std::uint32_t a = first + j * kAround + i, b = first + j * kAround + (i + 1) % kAround;
-        mesh.triangles.push_back({a, a + kAround, b + kAround});
-        mesh.triangles.push_back({a, b + kAround, b});
-      }
-  }
+  for (const int sphere : {0, 1}) append_ball(mesh, centre_mm(sphere), {radius, radius, radius});
   return mesh;
 }
 

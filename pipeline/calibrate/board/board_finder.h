@@ -16,11 +16,13 @@
 #pragma once
 
 #include <cstdint>
+#include <optional>
+#include <string>
 #include <vector>
 
 #include "hal/base/image_view.h"
 #include "hal/base/result.h"
-#include "pipeline/model/geometry.h"
+#include "pipeline/model/calibration.h"
 
 namespace relievo::pipeline {
 
@@ -53,11 +55,37 @@ inline bool seen(const Vec2d& corner) { return corner.x == corner.x; }
 // Errors: NotFound (no whole board, or too little of a ChArUco board), InvalidInput (no picture, wrong
 // pattern), OutOfMemory, LibraryFailed.
 Result<BoardCorners> find_board(const ImageView& picture, const BoardPattern& pattern);
+// The same, but that no board is a finding: no corners.
+Result<BoardCorners> look_for_board(const ImageView& picture, const BoardPattern& pattern);
 
 // Turns a chessboard's `right` by half, or by quarters where it has as many columns as rows, so that
 // its rows run as those of `left`: cameras that stand side by side see a board the same way up. What
 // ChArUco markers say stays.
 void pair_order(const BoardCorners& left, BoardCorners& right, const BoardPattern& pattern);
+
+inline constexpr int kMinBoardPairs = 5;
+inline constexpr int kMaxBoardPairs = 500;
+
+struct BoardView {
+  std::string name;
+  BoardCorners left;  // empty where no board was found
+  BoardCorners right;
+};
+
+// What a calibration is made from: the corners that were seen, and what is known of the rig beforehand.
+// Pixels, millimetres.
+struct CalibratorInput {
+  BoardPattern pattern;
+  int width_px = 0;  // of both cameras
+  int height_px = 0;
+  std::vector<BoardView> views;
+  // What the distance of the cameras is known to be, from their mount or the calibration before; 0: unknown.
+  // A wrong size of the board's squares cannot be seen without it.
+  double expected_baseline_mm = 0;
+  // The calibration in use until now, if any: where its lenses are these lenses, its baseline is expected,
+  // unless expected_baseline_mm says another.
+  std::optional<StereoCalibration> in_use{};
+};
 
 // What is black on a board: for a printer. Origin in the top left corner of the outer squares, x along
 // a row, y down, mm; the field measures (columns + 1) x (rows + 1) squares.

@@ -71,6 +71,12 @@ struct Link {
 };
 using Links = std::vector<std::array<Link, 4>>;
 
+struct Neighbour {
+  int who;
+  float distance;
+  Vec2f way;  // to it, unit
+};
+
 // Crossings by place, for those near one.
 class Neighbourhood {
  public:
@@ -83,15 +89,21 @@ class Neighbourhood {
   }
 
   // At least kNeighbours, where there are so many, the nearest among them: one ring after there are enough.
-  void near(std::size_t i, std::vector<std::uint32_t>& out) const {
-    out.clear();
+  std::vector<Neighbour> near(const Saddle& from) const {
+    std::vector<Neighbour> out;
+    std::size_t asked = 0;
     bool enough = false;
     const auto done = [&](int ring) {
-      return ring > std::max(cells_.columns(), cells_.rows()) ||
-             std::exchange(enough, out.size() > kNeighbours);
+      return ring > std::max(cells_.columns(), cells_.rows()) || std::exchange(enough, asked > kNeighbours);
     };
-    cells_.by_rings(column(saddles_[i].x), column(saddles_[i].y), done,
-                    [&](std::uint32_t k) { out.push_back(k); });
+    cells_.by_rings(column(from.x), column(from.y), done, [&](std::uint32_t k) {
+      ++asked;
+      const float dx = saddles_[k].x - from.x;
+      const float dy = saddles_[k].y - from.y;
+      const float distance = std::sqrt(dx * dx + dy * dy);
+      if (distance >= kMinStepPx) out.push_back({int(k), distance, {dx / distance, dy / distance}});
+    });
+    return out;
   }
 
  private:
@@ -120,32 +132,12 @@ bool edge_between(const SmoothPicture& picture, const Saddle& from, const Saddle
   return true;
 }
 
-struct Neighbour {
-  int who;
-  float distance;
-  Vec2f way;  // to it, unit
-};
-
 struct Try {
   float cost = 0;
   Link link;
 };
 
 float dot(const Vec2f& a, const Vec2f& b) { return a.x * b.x + a.y * b.y; }
-
-std::vector<Neighbour> neighbours_of(std::span<const Saddle> saddles, std::size_t i,
-                                     std::span<const std::uint32_t> near) {
-  std::vector<Neighbour> out;
-  const Saddle& from = saddles[i];
-  for (const std::uint32_t k : near) {
-    const Saddle& to = saddles[k];
-    const float dx = to.x - from.x;
-    const float dy = to.y - from.y;
-    const float distance = std::sqrt(dx * dx + dy * dy);
-    if (distance >= kMinStepPx) out.push_back({int(k), distance, {dx / distance, dy / distance}});
-  }
-  return out;
-}
 
 // The nearest crossing ahead on which a half edge of the other kind points back.
 Link next_along(const SmoothPicture& picture, std::span<const Saddle> saddles,
@@ -177,10 +169,8 @@ Link next_along(const SmoothPicture& picture, std::span<const Saddle> saddles,
 Links link_up(const SmoothPicture& picture, std::span<const Saddle> saddles) {
   const Neighbourhood neighbourhood(saddles, picture.width_px(), picture.height_px());
   Links links(saddles.size());
-  std::vector<std::uint32_t> near;
   for (std::size_t i = 0; i < saddles.size(); ++i) {
-    neighbourhood.near(i, near);
-    const std::vector<Neighbour> around = neighbours_of(saddles, i, near);
+    const std::vector<Neighbour> around = neighbourhood.near(saddles[i]);
     for (int ray = 0; ray < 4; ++ray)
       links[i][std::size_t(ray)] = next_along(picture, saddles, around, int(i), ray);
   }

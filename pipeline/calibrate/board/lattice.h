@@ -7,10 +7,12 @@
 #pragma once
 
 #include <algorithm>
+#include <cstdint>
 #include <optional>
 #include <span>
 #include <vector>
 
+#include "pipeline/calibrate/board/board_finder.h"
 #include "pipeline/calibrate/board/corner_refiner.h"
 #include "pipeline/calibrate/board/saddle_finder.h"
 #include "pipeline/model/geometry.h"
@@ -60,5 +62,17 @@ std::vector<Lattice> find_lattices(const SmoothPicture& picture, std::span<const
 // Where a node must be and how its edges run, from the nodes around it (not itself), by a local
 // homography. No value where too few are seen.
 std::optional<CornerGuess> predict(const Lattice& lattice, int column, int row);
+
+// Which part of a ChArUco board a lattice is: the markers in its white squares are read, each votes for
+// where the lattice lies on the board, and the place that most agree on wins.
+
+// The first `count` markers of OpenCV's dictionary of `bits` a side: a bit for each module without the
+// border, row by row from the lowest; set: white.
+std::vector<std::uint64_t> marker_modules(int bits, int count);
+
+// The lattice's nodes in their places on the board: columns x rows of the pattern. No value where too
+// few markers agree. The lattice in pixels of the picture.
+std::optional<Lattice> place_on_board(const ImageView& picture, const Lattice& lattice,
+                                      const BoardPattern& pattern, const std::vector<std::uint64_t>& markers);
 
 }  // namespace relievo::pipeline

@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: 2026 The Relievo authors
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include "pipeline/calibrate/board/marker_reader.h"
+#include "pipeline/calibrate/board/lattice.h"
 
 #include <algorithm>
 #include <cmath>

@@ -4,7 +4,7 @@
 
 #include <opencv2/aruco.hpp>
 
-#include "pipeline/calibrate/board/marker_reader.h"
+#include "pipeline/calibrate/board/lattice.h"
 
 namespace relievo::pipeline {
 

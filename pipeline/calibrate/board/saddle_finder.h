@@ -18,6 +18,22 @@
 
 namespace relievo::pipeline {
 
+// A picture in 8 bit grey at full, half, quarter … size. Pixel (x, y) of a level lies at (2x, 2y) of
+// the one below. Grey pictures are borrowed, others copied.
+class GreyPyramid {
+ public:
+  explicit GreyPyramid(const ImageView& picture);  // not empty; must outlive this
+
+  int levels() const { return int(views_.size()); }
+  const ImageView& level(int k) const { return views_[std::size_t(k)]; }
+
+ private:
+  void keep(std::vector<std::uint8_t> grey, int width_px, int height_px);
+
+  std::vector<std::vector<std::uint8_t>> own_;
+  std::vector<ImageView> views_;
+};
+
 // Brightness times 16, slightly smoothed.
 class SmoothPicture {
  public:

@@ -157,12 +157,10 @@ Result<void> read_distortion(const YamlFields& fields, const FieldNames& names, 
 
 Result<void> check_rotation(const Rotation& r, std::string_view name) {
   const double* m = r.m;
-  for (int i = 0; i < 3; ++i)
-    for (int j = i; j < 3; ++j) {
-      const double dot = m[3 * i] * m[3 * j] + m[3 * i + 1] * m[3 * j + 1] + m[3 * i + 2] * m[3 * j + 2];
-      if (!(std::abs(dot - (i == j ? 1 : 0)) <= kRotationTolerance))
-        return wrong("the matrix is no rotation; the file is damaged, calibrate again", name);
-    }
+  const Rotation still = product(r, transposed(r));
+  for (int i = 0; i < 9; ++i)
+    if (!(std::abs(still.m[i] - (i % 4 == 0 ? 1 : 0)) <= kRotationTolerance))
+      return wrong("the matrix is no rotation; the file is damaged, calibrate again", name);
   const double determinant = m[0] * (m[4] * m[8] - m[5] * m[7]) - m[1] * (m[3] * m[8] - m[5] * m[6]) +
                              m[2] * (m[3] * m[7] - m[4] * m[6]);
   if (!(determinant > 0)) return wrong("the matrix mirrors; the file is damaged, calibrate again", name);

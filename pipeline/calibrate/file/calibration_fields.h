@@ -62,22 +62,4 @@ Result<void> check_rotation(const Rotation& rotation, std::string_view name);
 // k1 k2 p1 p2 and perhaps k3; more are taken only as zeros.
 Result<void> read_distortion(const YamlFields& fields, const FieldNames& names, CameraIntrinsics& camera);
 
-// ROS camera_info: one YAML file a camera, as camera_calibration writes left.yaml and right.yaml
-// (sensor_msgs/CameraInfo, http://wiki.ros.org/image_pipeline/CameraInfo).
-//
-// How the cameras stand to each other is in the rectification: with R1, R2 the rectification matrices
-// and Tx = P2(0,3) / P2(0,0), which is minus the baseline, in metres,
-//   right_from_left = R2^T R1,   translation = R2^T (Tx, 0, 0) * 1000 mm.
-// What is written here rectifies as rectifier.h does (the x axis is the baseline, the z axis
-// lies between the two optical axes), with the pictures' own size and a principal point of its own for
-// each camera: toed-in cameras would otherwise look past each other. image_proc and image_geometry's
-// StereoCameraModel take both into account.
-// ROS has no field for how good a calibration is: rms_px and epipolar_shift_px are not kept; nor are the
-// cameras' names.
-bool is_camera_info(const YamlFields& fields);
-
-// In either order: the right camera is the one that stands away from the origin. Not yet checked.
-Result<StereoCalibration> read_camera_infos(const YamlFields& one, const YamlFields& other,
-                                            const CalibrationHints& hints);
-
 }  // namespace relievo::pipeline

@@ -9,7 +9,7 @@
 //                                  right_camera name the cameras it was made with, where they are known
 //   intrinsics.yml extrinsics.yml  the two files of OpenCV's stereo sample; they do not say how large the
 //                                  pictures are
-//   left.yaml right.yaml           ROS camera_info (calibration_fields.h), metres
+//   left.yaml right.yaml           ROS camera_info, metres
 //
 // OpenCV's own reader takes wrong numbers from a file that was cut short (0.21 becomes 2.1). This
 // one takes a whole document or nothing: every field once, every list closed, every number inside

@@ -13,7 +13,7 @@
 #include <Eigen/SVD>
 
 #include "pipeline/base/solving.h"
-#include "pipeline/model/lens.h"
+#include "pipeline/model/calibration.h"
 
 namespace relievo::pipeline::bundle {
 namespace {
@@ -259,11 +259,6 @@ void Pose::step(const Vector6d& by) {
 
 Vec2d project(const CameraIntrinsics& camera, const Eigen::Vector3d& point) {
   return pixel_of_ray(camera, {point.x() / point.z(), point.y() / point.z()});
-}
-
-Vec2d project(const CameraIntrinsics& camera, const Pose& camera_from_board, double x_mm, double y_mm) {
-  return project(
-      camera, camera_from_board.rotation * Eigen::Vector3d(x_mm, y_mm, 0) + camera_from_board.translation_mm);
 }
 
 bool solve(Problem& problem) {

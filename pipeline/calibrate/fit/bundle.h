@@ -27,6 +27,7 @@ struct Pose {
   Pose operator*(const Pose& other) const {
     return {rotation * other.rotation, rotation * other.translation_mm + translation_mm};
   }
+  Eigen::Vector3d operator*(const Eigen::Vector3d& point) const { return rotation * point + translation_mm; }
 };
 RigidTransform transform_of(const Pose& pose);
 Pose pose_of(const RigidTransform& transform);
@@ -91,9 +92,19 @@ struct Problem {
 
 CameraVector parameters_of(const CameraIntrinsics& camera);
 
-// Where a camera sees a point of its own frame, and of the board's plane.
+// Places on a board, in its own frame: of a column and row, of a corner by its number, of the middle.
+inline Eigen::Vector3d on_board(const BoardPattern& pattern, double column, double row) {
+  return {column * pattern.square_mm, row * pattern.square_mm, 0};
+}
+inline Eigen::Vector3d on_board(const BoardPattern& pattern, int corner) {
+  return on_board(pattern, corner % pattern.columns, corner / pattern.columns);
+}
+inline Eigen::Vector3d middle_of(const BoardPattern& pattern) {
+  return on_board(pattern, 0.5 * (pattern.columns - 1), 0.5 * (pattern.rows - 1));
+}
+
+// Where a camera sees a point of its own frame.
 Vec2d project(const CameraIntrinsics& camera, const Eigen::Vector3d& point);
-Vec2d project(const CameraIntrinsics& camera, const Pose& camera_from_board, double x_mm, double y_mm);
 
 // False where it does not converge to a finite answer.
 bool solve(Problem& problem);
@@ -139,9 +150,7 @@ struct CornerTerms {
 
   CornerTerms(const Problem& p, const View& view, int corner) {
     const Vec2d& at = (*view.seen[kEye])[std::size_t(corner)];
-    const Eigen::Vector3d board((corner % p.pattern.columns) * p.pattern.square_mm,
-                                (corner / p.pattern.columns) * p.pattern.square_mm, 0);
-    const Eigen::Vector3d turned = view.left_from_board.rotation * board;
+    const Eigen::Vector3d turned = view.left_from_board.rotation * on_board(p.pattern, corner);
     Eigen::Vector3d here = turned + view.left_from_board.translation_mm;
     const Eigen::Vector3d turned_left = p.right_from_left.rotation * here;
     if constexpr (kEye == 1) here = turned_left + p.right_from_left.translation_mm;

@@ -56,9 +56,6 @@ void begin_at(const StereoFit& start, StereoFit& fit) {
 double CameraFit::rms_px() const {
   return std::sqrt(2 * problem.squared_px / std::max(problem.residuals, 1));
 }
-double CameraFit::squared_px(int of) const { return view(of).squared_px[0]; }
-double CameraFit::rms_px(int of) const { return std::sqrt(squared_px(of) / view(of).corners[0]); }
-const bundle::Pose& CameraFit::pose(int of) const { return view(of).left_from_board; }
 const bundle::View& CameraFit::view(int of) const {
   const auto found = std::lower_bound(views.begin(), views.end(), of);
   RELIEVO_ASSERT(found != views.end() && *found == of);
@@ -115,18 +112,19 @@ bundle::Pose relation_of(const CameraFits& cameras, int view) {
   return {rotation, right.translation_mm - rotation * left.translation_mm};
 }
 
-bool fit_stereo(const CalibratorInput& input, const CameraFits& cameras, std::span<const int> paired,
-                const bundle::Pose& relation, double slip, const StereoFit* start, StereoFit& fit) {
+bool fit_stereo(const CameraFits& cameras, std::span<const int> paired, const bundle::Pose& relation,
+                double slip, const StereoFit* start, StereoFit& fit) {
   StereoFit made;
   made.paired.assign(paired.begin(), paired.end());
   bundle::Problem& p = made.problem;
-  p.pattern = input.pattern;
+  p.pattern = cameras.input.pattern;
   p.camera = {cameras.left.camera(), cameras.right.camera()};
   p.right_from_left = relation;
   const auto add = [&](int view, bool left, bool right) {
     made.views.push_back(view);
     p.views.emplace_back(
-        left ? &corners_of(input, false, view) : nullptr, right ? &corners_of(input, true, view) : nullptr,
+        left ? &corners_of(cameras.input, false, view) : nullptr,
+        right ? &corners_of(cameras.input, true, view) : nullptr,
         left ? cameras.left.pose(view) : left_from_right_board(relation, cameras.right.pose(view)));
   };
   const auto is_paired = [&](int view) { return std::ranges::find(paired, view) != paired.end(); };
@@ -152,22 +150,23 @@ bool fit_stereo(const CalibratorInput& input, const CameraFits& cameras, std::sp
   return true;
 }
 
-std::vector<double> judge_pairs(const CalibratorInput& input, const CameraFits& cameras, const StereoFit& fit,
-                                std::span<const int> views, std::vector<bundle::View>* judged) {
+std::vector<double> judge_pairs(const CameraFits& cameras, const StereoFit& fit, std::span<const int> views,
+                                std::vector<bundle::View>* judged) {
   bundle::Problem p;
-  p.pattern = input.pattern;
+  p.pattern = cameras.input.pattern;
   p.camera = fit.problem.camera;
   p.right_from_left = fit.problem.right_from_left;
-  std::vector<double> squared;
+  std::vector<double> excess;
   // One at a time: a view far off must not hold up the damping of the others.
   for (const int view : views) {
-    p.views.assign(
-        1, {&corners_of(input, false, view), &corners_of(input, true, view), cameras.left.pose(view)});
+    p.views.assign(1, {&corners_of(cameras.input, false, view), &corners_of(cameras.input, true, view),
+                       cameras.left.pose(view)});
     const bool solved = bundle::solve_poses(p);
-    squared.push_back(solved ? p.views[0].squared_px[0] + p.views[0].squared_px[1] : 1e12);
+    const double together = solved ? p.views[0].squared_px[0] + p.views[0].squared_px[1] : 1e12;
+    excess.push_back(together - cameras.squared_px(view));
     if (judged != nullptr) judged->push_back(p.views[0]);
   }
-  return squared;
+  return excess;
 }
 
 }  // namespace relievo::pipeline

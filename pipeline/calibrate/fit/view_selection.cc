@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: 2026 The Relievo authors
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include "pipeline/calibrate/fit/view_selection.h"
+#include "pipeline/calibrate/fit/stereo_fit.h"
 
 #include <algorithm>
 #include <cmath>
@@ -27,10 +27,6 @@ using bundle::cross;
 using bundle::Matrix6d;
 using bundle::Pose;
 using bundle::Vector6d;
-
-double alone(const CameraFits& cameras, int view) {
-  return cameras.left.squared_px(view) + cameras.right.squared_px(view);
-}
 
 // P(chi-square of `degrees` <= x), degrees even: a finite sum.
 double chi_square(double x, int degrees) {
@@ -67,15 +63,15 @@ std::vector<std::size_t> calmest(const std::vector<double>& cost, std::size_t co
   return order;
 }
 
-std::vector<int> least(std::span<const int> pairs, const std::vector<double>& cost, std::size_t count) {
+std::vector<int> pairs_at(std::span<const int> pairs, std::span<const std::size_t> places) {
   std::vector<int> chosen;
-  for (const std::size_t k : calmest(cost, count)) chosen.push_back(pairs[k]);
+  for (const std::size_t place : places) chosen.push_back(pairs[place]);
   return chosen;
 }
 
 double excess_of(const CameraFits& cameras, const StereoFit& fit) {
   double sum = fit.paired_squared_px;
-  for (const int view : fit.paired) sum -= alone(cameras, view);
+  for (const int view : fit.paired) sum -= cameras.squared_px(view);
   return sum;
 }
 
@@ -86,31 +82,19 @@ double spread_of(const CameraFits& cameras, const StereoFit& fit, std::size_t pa
   return std::max(cameras.noise_px2(), mended * excess_of(cameras, fit) / (kDegrees * (used - 1)));
 }
 
-// What each pair of pictures alone says about where the right camera stands, to second order: enough to try
-// many subsets of the views without a single bundle adjustment. A board as each camera alone sees it: its
-// left_from_board is that of the camera itself.
-struct RelationEvidence {
-  const bundle::View& left;
-  const bundle::View& right;
-};
-
-// One a view, in the order of `pairs`.
-std::vector<RelationEvidence> gather_evidence(const CameraFits& cameras, std::span<const int> pairs) {
-  std::vector<RelationEvidence> views;
-  for (const int pair : pairs) views.push_back({cameras.left.view(pair), cameras.right.view(pair)});
-  return views;
-}
-
+// What a pair of pictures alone says about where the right camera stands, to second order: enough to try many
+// subsets of the pairs without a single bundle adjustment.
 struct Miss {
   Vector6d off;      // of the right camera's board, as a step from where it sees it
   Matrix6d by_step;  // of `off` by a step of the relation
   Matrix6d weight;   // of `off`, the left camera's freedom taken out
 };
 
-Miss miss_of(const RelationEvidence& view, const Pose& relation) {
+Miss miss_of(const CameraFits& cameras, int pair, const Pose& relation) {
   const Eigen::Matrix3d& r = relation.rotation;
-  const Pose& left = view.left.left_from_board;
-  const Pose& right = view.right.left_from_board;
+  const Pose& left = cameras.left.pose(pair);
+  const Pose& right = cameras.right.pose(pair);  // from the right camera itself
+  const Matrix6d& right_information = cameras.right.view(pair).information;
   const Eigen::Vector3d turned = r * left.translation_mm;
   Miss miss;
   miss.off.head<3>() = bundle::turn_of(r * left.rotation * right.rotation.transpose());
@@ -120,27 +104,27 @@ Miss miss_of(const RelationEvidence& view, const Pose& relation) {
   Matrix6d carry = Matrix6d::Zero();  // a step of the left board, as one of the right
   carry.topLeftCorner<3, 3>() = r;
   carry.bottomRightCorner<3, 3>() = r;
-  const Matrix6d pull = view.right.information * carry;
-  const Matrix6d both = view.left.information + carry.transpose() * pull;
-  miss.weight = view.right.information - eliminated<6, 6>(both, pull);
+  const Matrix6d pull = right_information * carry;
+  const Matrix6d both = cameras.left.view(pair).information + carry.transpose() * pull;
+  miss.weight = right_information - eliminated<6, 6>(both, pull);
   return miss;
 }
 
-// What the view's sum of squares grows by when the right camera stands at `right_from_left` (px²).
-double misfit_px2(const RelationEvidence& view, const Pose& right_from_left) {
-  const Miss miss = miss_of(view, right_from_left);
+// What the pair's sum of squares grows by when the right camera stands at `right_from_left` (px²).
+double misfit_px2(const CameraFits& cameras, int pair, const Pose& right_from_left) {
+  const Miss miss = miss_of(cameras, pair, right_from_left);
   return miss.off.dot(miss.weight * miss.off);
 }
 
-// The relation under which the misfits of `chosen` (places in `views`) sum to the least, from a start.
-Pose fit_relation(std::span<const RelationEvidence> views, std::span<const std::size_t> chosen,
+// The relation under which the misfits of `chosen` (places in `pairs`) sum to the least, from a start.
+Pose fit_relation(const CameraFits& cameras, std::span<const int> pairs, std::span<const std::size_t> chosen,
                   Pose right_from_left) {
   constexpr int kSteps = 3;
   for (int i = 0; i < kSteps; ++i) {
     Matrix6d sum = Matrix6d::Zero();
     Vector6d pull = Vector6d::Zero();
-    for (const std::size_t v : chosen) {
-      const Miss miss = miss_of(views[v], right_from_left);
+    for (const std::size_t place : chosen) {
+      const Miss miss = miss_of(cameras, pairs[place], right_from_left);
       const Matrix6d weighted = miss.by_step.transpose() * miss.weight;
       sum.noalias() += weighted * miss.by_step;
       pull.noalias() -= weighted * miss.off;
@@ -157,28 +141,28 @@ struct Half {
 };
 
 // From one view's own relation to the half that agrees best with what it leads to.
-Half concentrate(std::span<const RelationEvidence> views, Pose relation, std::size_t half) {
+Half concentrate(const CameraFits& cameras, std::span<const int> pairs, Pose relation, std::size_t half) {
   Half found;
-  std::vector<double> cost(views.size());
+  std::vector<double> cost(pairs.size());
   for (int round = 0; round < kConcentrations; ++round) {
-    for (std::size_t i = 0; i < views.size(); ++i) cost[i] = misfit_px2(views[i], relation);
+    for (std::size_t i = 0; i < pairs.size(); ++i) cost[i] = misfit_px2(cameras, pairs[i], relation);
     std::vector<std::size_t> places = calmest(cost, round == 0 ? std::max<std::size_t>(3, half / 2) : half);
     if (places == found.places) break;
     found.places = std::move(places);
-    relation = fit_relation(views, found.places, relation);
+    relation = fit_relation(cameras, pairs, found.places, relation);
   }
   found.relation = relation;
-  for (const std::size_t v : found.places) found.misfit_px2 += misfit_px2(views[v], relation);
+  for (const std::size_t place : found.places)
+    found.misfit_px2 += misfit_px2(cameras, pairs[place], relation);
   return found;
 }
 
 // The halves that every view alone leads to, the calmest first, each once.
 std::vector<Half> halves_of(const CameraFits& cameras, std::span<const int> pairs, std::size_t half) {
-  const std::vector<RelationEvidence> views = gather_evidence(cameras, pairs);
   const std::size_t stride = (pairs.size() + kMaxStarts - 1) / kMaxStarts;
   std::vector<Half> halves;
   for (std::size_t s = 0; s < pairs.size(); s += stride) {
-    Half one = concentrate(views, relation_of(cameras, pairs[s]), half);
+    Half one = concentrate(cameras, pairs, relation_of(cameras, pairs[s]), half);
     const bool known = std::ranges::any_of(halves, [&](const Half& h) { return h.places == one.places; });
     if (!known) halves.push_back(std::move(one));
   }
@@ -186,9 +170,8 @@ std::vector<Half> halves_of(const CameraFits& cameras, std::span<const int> pair
   return halves;
 }
 
-// The evidence takes each camera's lens as its own boards gave it; the last word has the whole fit.
-bool best_half(const CalibratorInput& input, const CameraFits& cameras, std::span<const int> pairs,
-               StereoFit& best) {
+// The misses take each camera's lens as its own boards gave it; the last word has the whole fit.
+bool best_half(const CameraFits& cameras, std::span<const int> pairs, StereoFit& best) {
   constexpr std::size_t kFinalists = 3;
   const std::size_t half = pairs.size() / 2 + 1;
   std::vector<Half> halves = halves_of(cameras, pairs, half);
@@ -196,17 +179,14 @@ bool best_half(const CalibratorInput& input, const CameraFits& cameras, std::spa
   double least_excess = 0;
   bool found = false;
   for (const Half& one : halves) {
-    std::vector<int> chosen;
-    for (const std::size_t place : one.places) chosen.push_back(pairs[place]);
+    std::vector<int> chosen = pairs_at(pairs, one.places);
     StereoFit fit;
-    if (!fit_stereo(input, cameras, chosen, one.relation, 1, nullptr, fit)) continue;
+    if (!fit_stereo(cameras, chosen, one.relation, 1, nullptr, fit)) continue;
     for (int round = 0; round < kConcentrations; ++round) {
-      std::vector<double> cost = judge_pairs(input, cameras, fit, pairs);
-      for (std::size_t i = 0; i < pairs.size(); ++i) cost[i] -= alone(cameras, pairs[i]);
-      chosen = least(pairs, cost, half);
+      chosen = pairs_at(pairs, calmest(judge_pairs(cameras, fit, pairs), half));
       if (chosen == fit.paired) break;
       StereoFit calmer;
-      if (!fit_stereo(input, cameras, chosen, fit.problem.right_from_left, 1, &fit, calmer)) break;
+      if (!fit_stereo(cameras, chosen, fit.problem.right_from_left, 1, &fit, calmer)) break;
       fit = std::move(calmer);
     }
     const double excess = excess_of(cameras, fit);
@@ -220,15 +200,13 @@ bool best_half(const CalibratorInput& input, const CameraFits& cameras, std::spa
 
 // Lets in every view outside that is plainly no surprise, else the cheapest if it is not too great a
 // one; false when none is let in.
-bool admit(const CalibratorInput& input, const CameraFits& cameras, std::span<const int> pairs,
-           StereoFit& fit) {
+bool admit(const CameraFits& cameras, std::span<const int> pairs, StereoFit& fit) {
   constexpr std::size_t kCandidates = 3;
   std::vector<int> outside;
   for (const int view : pairs)
     if (!std::ranges::binary_search(fit.paired, view)) outside.push_back(view);
   if (outside.empty()) return false;
-  std::vector<double> cost = judge_pairs(input, cameras, fit, outside);
-  for (std::size_t i = 0; i < outside.size(); ++i) cost[i] -= alone(cameras, outside[i]);
+  const std::vector<double> cost = judge_pairs(cameras, fit, outside);
   const double spread = spread_of(cameras, fit, pairs.size());
   const double used = double(fit.paired.size());
   // A scale from a part of the views is known only as well as that part is large.
@@ -237,7 +215,7 @@ bool admit(const CalibratorInput& input, const CameraFits& cameras, std::span<co
   const auto let_in = [&](std::span<const int> views, StereoFit& wider) {
     std::vector<int> with = fit.paired;
     for (const int view : views) with.insert(std::lower_bound(with.begin(), with.end(), view), view);
-    return fit_stereo(input, cameras, with, fit.problem.right_from_left, 1, &fit, wider);
+    return fit_stereo(cameras, with, fit.problem.right_from_left, 1, &fit, wider);
   };
   // Judged under a fit that had no regard to it a view costs more than it would add: a safe side.
   std::vector<int> plain;
@@ -246,7 +224,7 @@ bool admit(const CalibratorInput& input, const CameraFits& cameras, std::span<co
   if (!plain.empty()) return let_in(plain, fit);
   StereoFit best;
   double least_cost = 0;
-  for (const int view : least(outside, cost, kCandidates)) {
+  for (const int view : pairs_at(outside, calmest(cost, kCandidates))) {
     StereoFit wider;
     const int one[] = {view};
     if (!let_in(one, wider)) continue;
@@ -314,8 +292,8 @@ Direction carried_board() {
   return carry;
 }
 
-// The least misfit with `excused` free in every view.
-double misfit_but(std::span<const RelationEvidence> views, Pose relation, bool camera_turned) {
+// The least misfit with a turn of the camera, or else a shift of the board, free in every pair.
+double misfit_but(const CameraFits& cameras, std::span<const int> pairs, Pose relation, bool camera_turned) {
   constexpr int kSteps = 4;
   constexpr double kFirm = 1e-9;  // what the story leaves open of the relation stays as it is
   double cost = 0;
@@ -323,8 +301,8 @@ double misfit_but(std::span<const RelationEvidence> views, Pose relation, bool c
     Matrix6d sum = Matrix6d::Zero();
     Vector6d pull = Vector6d::Zero();
     cost = 0;
-    for (const RelationEvidence& view : views) {
-      const Miss miss = miss_of(view, relation);
+    for (const int pair : pairs) {
+      const Miss miss = miss_of(cameras, pair, relation);
       const Direction excused =
           camera_turned ? Direction(miss.by_step * turned_camera(relation)) : carried_board();
       const Direction weighted = miss.weight * excused;
@@ -344,29 +322,27 @@ double misfit_but(std::span<const RelationEvidence> views, Pose relation, bool c
 
 }  // namespace
 
-bool select_views(const CalibratorInput& input, const CameraFits& cameras, std::span<const int> pairs,
-                  Selection& out) {
+bool select_views(const CameraFits& cameras, std::span<const int> pairs, Selection& out) {
   StereoFit chosen;
-  if (!best_half(input, cameras, pairs, chosen)) return false;
-  while (admit(input, cameras, pairs, chosen)) {
+  if (!best_half(cameras, pairs, chosen)) return false;
+  while (admit(cameras, pairs, chosen)) {
   }
   std::vector<int> used = chosen.paired;
-  out.excess = judge_pairs(input, cameras, chosen, pairs);
-  for (std::size_t i = 0; i < pairs.size(); ++i)
-    out.excess[i] = std::max(0.0, out.excess[i] - alone(cameras, pairs[i]));
+  out.excess = judge_pairs(cameras, chosen, pairs);
+  for (double& excess : out.excess) excess = std::max(0.0, excess);
   out.spread_px2 = std::max(0.0, excess_of(cameras, chosen)) / (kDegrees * double(used.size() - 1));
   const double spread = std::max(out.spread_px2, cameras.noise_px2());
   out.moved = change_point(out.excess, spread);
   if (out.moved.likeliest >= 0) keep_one_side(pairs, out.moved.likeliest, used);
   // Chosen with the lenses free to follow the pairs, so that a poor lens is not taken for a slip; the last
   // word has the slip's weight, so that a slip does not bend a lens.
-  return fit_stereo(input, cameras, used, chosen.problem.right_from_left, spread / cameras.noise_px2(),
-                    &chosen, out.fit);
+  return fit_stereo(cameras, used, chosen.problem.right_from_left, spread / cameras.noise_px2(), &chosen,
+                    out.fit);
 }
 
 bool board_carried_on(const CameraFits& cameras, std::span<const int> pairs, const Pose& right_from_left) {
-  const std::vector<RelationEvidence> views = gather_evidence(cameras, pairs);
-  return misfit_but(views, right_from_left, false) < misfit_but(views, right_from_left, true);
+  return misfit_but(cameras, pairs, right_from_left, false) <
+         misfit_but(cameras, pairs, right_from_left, true);
 }
 
 }  // namespace relievo::pipeline

@@ -22,57 +22,42 @@ constexpr double kTurnRad = 0.6;                 // about the line of sight, in 
 constexpr double kEdgeShare = 0.03;              // of the picture stays free
 constexpr int kOutSteps = 20;
 
-class Rig {
- public:
-  explicit Rig(const bundle::Problem& rig) : rig_(rig) {}
+using bundle::Globals;
+using bundle::GlobalVector;
+using bundle::Problem;
 
-  bundle::Pose in(int eye, const bundle::Pose& left_from_board) const {
-    return eye == 0 ? left_from_board : rig_.right_from_left * left_from_board;
-  }
-  Vec2d project(int eye, const bundle::Pose& left_from_board, double column, double row) const {
-    const double square = rig_.pattern.square_mm;
-    return bundle::project(rig_.camera[std::size_t(eye)], in(eye, left_from_board), column * square,
-                           row * square);
-  }
-  // With the squares around the outer corners.
-  bool seen_whole(const bundle::Pose& left_from_board) const {
-    for (const int eye : {0, 1}) {
-      const CameraIntrinsics& camera = rig_.camera[std::size_t(eye)];
-      const double edge_px = kEdgeShare * camera.width_px;
-      const bundle::Pose pose = in(eye, left_from_board);
-      const double square = rig_.pattern.square_mm;
-      for (const double column : {-1, rig_.pattern.columns})
-        for (const double row : {-1, rig_.pattern.rows}) {
-          const Eigen::Vector3d corner =
-              pose.rotation * Eigen::Vector3d(column * square, row * square, 0) + pose.translation_mm;
-          const Vec2d at = bundle::project(camera, corner);
-          if (!(corner.z() >= 1 && at.x > edge_px && at.y > edge_px && at.x < camera.width_px - edge_px &&
-                at.y < camera.height_px - edge_px))
-            return false;
-        }
-    }
-    return true;
-  }
-  Eigen::Vector3d middle_mm() const {
-    const double square = rig_.pattern.square_mm;
-    return {0.5 * (rig_.pattern.columns - 1) * square, 0.5 * (rig_.pattern.rows - 1) * square, 0};
-  }
-  const bundle::Problem& problem() const { return rig_; }
+bundle::Pose pose_in(const Problem& rig, std::size_t eye, const bundle::Pose& left_from_board) {
+  return eye == 0 ? left_from_board : rig.right_from_left * left_from_board;
+}
 
- private:
-  const bundle::Problem& rig_;
-};
+// With the squares around the outer corners.
+bool seen_whole(const Problem& rig, const bundle::Pose& left_from_board) {
+  for (const std::size_t eye : {0U, 1U}) {
+    const CameraIntrinsics& camera = rig.camera[eye];
+    const double edge_px = kEdgeShare * camera.width_px;
+    const bundle::Pose pose = pose_in(rig, eye, left_from_board);
+    for (const double column : {-1, rig.pattern.columns})
+      for (const double row : {-1, rig.pattern.rows}) {
+        const Eigen::Vector3d corner = pose * bundle::on_board(rig.pattern, column, row);
+        const Vec2d at = bundle::project(camera, corner);
+        if (!(corner.z() >= 1 && at.x > edge_px && at.y > edge_px && at.x < camera.width_px - edge_px &&
+              at.y < camera.height_px - edge_px))
+          return false;
+      }
+  }
+  return true;
+}
 
 // As far towards (across, down) from the picture's middle as it stays whole; false where it never is.
-bool place(const Rig& rig, const Eigen::Matrix3d& rotation, double distance_mm, int across, int down,
+bool place(const Problem& rig, const Eigen::Matrix3d& rotation, double distance_mm, int across, int down,
            bundle::Pose& pose) {
-  const CameraIntrinsics& camera = rig.problem().camera[0];
+  const CameraIntrinsics& camera = rig.camera[0];
   pose.rotation = rotation;
   for (int step = across == 0 && down == 0 ? 0 : kOutSteps; step >= 0; --step) {
     const double out = 0.5 * step / kOutSteps;
     const Vec2d at = {(0.5 + out * across) * camera.width_px, (0.5 + out * down) * camera.height_px};
-    pose.translation_mm = distance_mm * ray_of(camera, at) - rotation * rig.middle_mm();
-    if (rig.seen_whole(pose)) return step > 0 || (across == 0 && down == 0);
+    pose.translation_mm = distance_mm * ray_of(camera, at) - rotation * bundle::middle_of(rig.pattern);
+    if (seen_whole(rig, pose)) return step > 0 || (across == 0 && down == 0);
   }
   return false;
 }
@@ -85,19 +70,14 @@ Eigen::Matrix3d tilted(int tilt) {
 
 Eigen::Matrix3d turned(double by_rad) { return bundle::rotation_of(by_rad * Eigen::Vector3d::UnitZ()); }
 
-CandidatePose seen_in(const Rig& rig, std::size_t number, const bundle::Pose& pose) {
+CandidatePose seen_in(const Problem& rig, std::size_t number, const bundle::Pose& pose) {
   CandidatePose candidate{number, pose, {}};
-  const BoardPattern& pattern = rig.problem().pattern;
-  for (int eye = 0; eye < 2; ++eye)
-    for (int row = 0; row < pattern.rows; ++row)
-      for (int column = 0; column < pattern.columns; ++column)
-        candidate.corners[std::size_t(eye)].push_back(rig.project(eye, pose, column, row));
+  for (const std::size_t eye : {0U, 1U})
+    for (int i = 0; i < rig.pattern.corners(); ++i)
+      candidate.corners[eye].push_back(
+          bundle::project(rig.camera[eye], pose_in(rig, eye, pose) * bundle::on_board(rig.pattern, i)));
   return candidate;
 }
-
-using bundle::Globals;
-using bundle::GlobalVector;
-using bundle::Problem;
 
 // A view is new that differs by so much (distance_between()); a candidate by more, since nobody hits it
 // exactly.
@@ -179,9 +159,8 @@ bool solved_problem(const CalibratorInput& input, const CalibratorOutput& calibr
 
 }  // namespace
 
-std::vector<CandidatePose> candidate_poses(const bundle::Problem& problem, double distance_mm,
+std::vector<CandidatePose> candidate_poses(const bundle::Problem& rig, double distance_mm,
                                            int quarter_turns) {
-  const Rig rig(problem);
   std::vector<CandidatePose> poses;
   std::size_t number = 0;
   const auto add = [&](double distance, int across, int down, int tilt, double turn_rad) {
@@ -199,6 +178,12 @@ std::vector<CandidatePose> candidate_poses(const bundle::Problem& problem, doubl
         for (const double turn : {-kTurnRad, kTurnRad}) add(distance, 0, 0, tilt, turn);
     }
   return poses;
+}
+
+LiveEnd end_of(const std::optional<ViewPlan>& plan, bool reached, double plateau_gain) {
+  if (!plan || plan->best_bar_gain >= plateau_gain || (!reached && plan->best_gain >= plateau_gain))
+    return LiveEnd::NotYet;
+  return reached ? LiveEnd::GoalReached : LiveEnd::Plateau;
 }
 
 bool ViewPlanner::update(const CalibratorInput& input, const CalibratorOutput& now, double error_mm,

@@ -49,6 +49,10 @@ struct ViewPlan {
   double best_bar_gain = 0;         // what the best candidate (for the bars alone) adds to them, summed
 };
 
+// Of enough views: is this the end, as no further one would help? `reached`: the goal. Without a plan nobody
+// knows what would help, and it goes on.
+LiveEnd end_of(const std::optional<ViewPlan>& plan, bool reached, double plateau_gain);
+
 // One view in both cameras.
 using ViewParameters = std::array<BoardParameters, 2>;
 using TakenViews = std::span<const ViewParameters>;

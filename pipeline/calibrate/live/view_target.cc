@@ -4,7 +4,7 @@
 
 #include <algorithm>
 #include <cmath>
-#include <utility>
+#include <functional>
 
 namespace relievo::pipeline {
 namespace {
@@ -37,6 +37,24 @@ bool fulfils(const BoardParameters& view, const ViewTarget& target) {
   for (std::size_t i = 0; i < kBoardAxes; ++i)
     if (std::abs(at[i] - target.at[i]) > target.tolerance[i]) return false;
   return true;
+}
+
+struct Step {
+  std::size_t axis;
+  double off;  // tolerances
+};
+
+LiveAdvice word_of(const Step& step) { return kWords[step.axis][step.off > 0 ? 0 : 1]; }
+
+// Of all axes that are not near enough, the farthest first.
+std::vector<Step> steps_towards(const ViewTarget& target, const BoardParameters& now) {
+  const auto at = axes_of(now);
+  std::vector<Step> steps;
+  for (std::size_t i = 0; i < kBoardAxes; ++i)
+    if (const double off = (target.at[i] - at[i]) / target.tolerance[i]; std::abs(off) > 1)
+      steps.push_back({i, off});
+  std::ranges::stable_sort(steps, std::greater{}, [](const Step& step) { return std::abs(step.off); });
+  return steps;
 }
 
 // How a board becomes narrower with its tilt (axes as sines), at most to a third.
@@ -91,37 +109,25 @@ PlannedView opening_view(const std::vector<BoardParameters>& taken, std::span<co
 }
 
 std::vector<LiveAdvice> words_towards(const ViewTarget& target, const BoardParameters& now) {
-  const auto at = axes_of(now);
-  std::vector<std::pair<double, LiveAdvice>> off;
-  for (std::size_t i = 0; i < kBoardAxes; ++i) {
-    const double steps = (target.at[i] - at[i]) / target.tolerance[i];
-    if (std::abs(steps) > 1) off.emplace_back(std::abs(steps), kWords[i][steps > 0 ? 0 : 1]);
-  }
-  std::ranges::stable_sort(off, [](const auto& a, const auto& b) { return a.first > b.first; });
   std::vector<LiveAdvice> words;
-  words.reserve(off.size());
-  for (const auto& [steps, word] : off) words.push_back(word);
+  for (const Step& step : steps_towards(target, now)) words.push_back(word_of(step));
   return words;
 }
 
 std::optional<WayToGo> Guide::towards(const ViewTarget& target, const BoardParameters& now,
                                       const Room& room) {
   const auto at = axes_of(now);
-  const auto off = [&](std::size_t i) { return (target.at[i] - at[i]) / target.tolerance[i]; };
-  if (axis_ && std::abs(off(*axis_)) <= 1) axis_.reset();
-  if (axis_ && !stays_whole(room, *axis_, at[*axis_], target.at[*axis_])) axis_.reset();
-  const auto largest = [&](bool safely) {
-    double most = 1;
-    std::optional<std::size_t> axis;
-    for (std::size_t i = 0; i < kBoardAxes; ++i)
-      if (std::abs(off(i)) > most && (!safely || stays_whole(room, i, at[i], target.at[i])))
-        most = std::abs(off(i)), axis = i;
-    return axis;
+  const std::vector<Step> steps = steps_towards(target, now);
+  const auto safe = [&](const Step& step) {
+    return stays_whole(room, step.axis, at[step.axis], target.at[step.axis]);
   };
-  if (!axis_) axis_ = largest(true);
-  if (!axis_) axis_ = largest(false);
-  if (!axis_) return std::nullopt;
-  return WayToGo{kWords[*axis_][off(*axis_) > 0 ? 0 : 1], std::abs(off(*axis_))};
+  auto next = std::ranges::find_if(steps, [&](const Step& step) { return step.axis == axis_ && safe(step); });
+  if (next == steps.end()) next = std::ranges::find_if(steps, safe);
+  axis_.reset();
+  if (steps.empty()) return std::nullopt;
+  if (next == steps.end()) next = steps.begin();
+  axis_ = next->axis;
+  return WayToGo{word_of(*next), std::abs(next->off)};
 }
 
 }  // namespace relievo::pipeline

@@ -43,6 +43,8 @@ inline constexpr double kWorstScalePercent = 100 * kWorstShapeMm / 150;
 
 namespace relievo::pipeline {
 
+const char* name_of(CalibrationVerdict verdict);  // pass, usable, refuse
+
 inline constexpr double kFaceMm = 560;  // where faces are
 
 // How wrong a calibration may be, said before anyone is measured with it: the covariance of all its

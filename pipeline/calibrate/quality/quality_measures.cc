@@ -12,7 +12,6 @@
 #include "hal/base/statistics.h"
 #include "pipeline/base/solving.h"
 #include "pipeline/calibrate/fit/bundle.h"
-#include "pipeline/calibrate/fit/view_selection.h"
 #include "pipeline/calibrate/quality/quality.h"
 #include "pipeline/calibrate/quality/rig_geometry.h"
 
@@ -21,7 +20,7 @@ namespace {
 
 // Is the board flat? The same bend in every view leaves the same pattern in the residuals of all of
 // them, which no camera and no pose can: bending along, across and twisting are estimated by one
-// Newton step from the fitted rig, everything else adapting. Inside calibrate/ only. Thread: any.
+// Newton step from the fitted rig, everything else adapting.
 struct BoardBend {
   double sag_mm = 0;      // greatest height above the board's mean plane, less the least
   double sigma_mm = 0;    // of the sag, one standard deviation
@@ -137,11 +136,9 @@ Points points_of(const bundle::Problem& rig, const BoardView& view, const bundle
   Eigen::Index count = 0;
   for (std::size_t i = 0; i < view.left.size(); ++i) {
     if (!seen(view.left[i]) || !seen(view.right[i])) continue;
-    const int n = int(i);
-    const Eigen::Vector3d on_board(n % rig.pattern.columns * rig.pattern.square_mm,
-                                   n / rig.pattern.columns * rig.pattern.square_mm, 0);
+    const Eigen::Vector3d on_board = bundle::on_board(rig.pattern, int(i));
     points.board.col(count) = on_board;
-    points.expected.col(count) = pose.rotation * on_board + pose.translation_mm;
+    points.expected.col(count) = pose * on_board;
     points.found.col(count) = point_of(rig, view.left[i], view.right[i]);
     ++count;
   }
@@ -165,8 +162,9 @@ void measure_known_squares(const Fitted& f, const RigSpread& spread, Calibration
   double views = 0;
   double all = 0;
   for (std::size_t i = 0; i < f.selection.fit.paired.size(); ++i) {
-    const Points p = points_of(spread.without()[i], f.input.views[std::size_t(f.selection.fit.paired[i])],
-                               f.selection.fit.problem.views[i].left_from_board);
+    const Points p =
+        points_of(spread.without()[i], f.cameras.input.views[std::size_t(f.selection.fit.paired[i])],
+                  f.selection.fit.problem.views[i].left_from_board);
     if (p.found.cols() < 4) continue;
     const Eigen::ArrayXd off = (p.found.row(2) - p.expected.row(2)).transpose().array() *
                                (kFaceMm / p.expected.row(2).transpose().array()).square();
@@ -225,7 +223,7 @@ double held_out_shift(const Fitted& f, const RigSpread& spread) {
   double count = 0;
   for (std::size_t i = 0; i < f.selection.fit.paired.size(); ++i) {
     const auto missed =
-        missed_lines(spread.without()[i], f.input.views[std::size_t(f.selection.fit.paired[i])]);
+        missed_lines(spread.without()[i], f.cameras.input.views[std::size_t(f.selection.fit.paired[i])]);
     if (missed.size() < 4) continue;
     sum += field_squared(missed);
     count += double(missed.size());
@@ -244,7 +242,7 @@ double epipolar_rms(const Fitted& f, std::span<const int> views, const RigOf& ri
   double sum = 0;
   int count = 0;
   for (std::size_t i = 0; i < views.size(); ++i) {
-    const BoardView& view = f.input.views[std::size_t(views[i])];
+    const BoardView& view = f.cameras.input.views[std::size_t(views[i])];
     sum += epipolar_squared(rig_of(i), view.left, view.right, count);
   }
   return rms(sum, count);
@@ -254,11 +252,11 @@ double epipolar_rms(const Fitted& f, std::span<const int> views, const RigOf& ri
 double coverage(const Fitted& f, bool right) {
   std::array<bool, kGrid * kGrid> covered{};
   for (const int of : (right ? f.cameras.right : f.cameras.left).views) {
-    const BoardView& view = f.input.views[std::size_t(of)];
+    const BoardView& view = f.cameras.input.views[std::size_t(of)];
     for (const Vec2d& at : right ? view.right : view.left) {
       if (!seen(at)) continue;
-      const int x = std::clamp(int(at.x / f.input.width_px * kGrid), 0, kGrid - 1);
-      const int y = std::clamp(int(at.y / f.input.height_px * kGrid), 0, kGrid - 1);
+      const int x = std::clamp(int(at.x / f.cameras.input.width_px * kGrid), 0, kGrid - 1);
+      const int y = std::clamp(int(at.y / f.cameras.input.height_px * kGrid), 0, kGrid - 1);
       covered[std::size_t(y * kGrid + x)] = true;
     }
   }
@@ -279,7 +277,7 @@ void measure_flatness(const Fitted& f, CalibrationQuality& q) {
   const BoardBend left = measure_bend(f.cameras.left.problem);
   const BoardBend right = measure_bend(f.cameras.right.problem);
   const BoardBend& surer = left.sigma_mm < right.sigma_mm ? left : right;
-  const BoardPattern& pattern = f.input.pattern;
+  const BoardPattern& pattern = f.cameras.input.pattern;
   const double size_mm = pattern.square_mm * (std::max(pattern.columns, pattern.rows) - 1);
   q.board_sag_mm = surer.sag_mm;
   q.board_sag_sigma_mm = surer.sigma_mm;
@@ -294,21 +292,21 @@ void measure_views(const Fitted& f, CalibrationQuality& q) {
   for (const int view : f.cameras.right.views)
     q.views[std::size_t(view)].right_rms_px = f.cameras.right.rms_px(view);
   std::vector<bundle::View> judged;
-  judge_pairs(f.input, f.cameras, f.selection.fit, f.pairs, &judged);
+  judge_pairs(f.cameras, f.selection.fit, f.pairs, &judged);
   std::vector<double> distances;
   std::vector<Eigen::Vector3d> normals;
   const auto fitted_rig = [&](std::size_t) -> const bundle::Problem& { return f.selection.fit.problem; };
-  const Eigen::Vector3d middle(0.5 * (f.input.pattern.columns - 1) * f.input.pattern.square_mm,
-                               0.5 * (f.input.pattern.rows - 1) * f.input.pattern.square_mm, 0);
   for (std::size_t i = 0; i < f.pairs.size(); ++i) {
     ViewQuality& view = q.views[std::size_t(f.pairs[i])];
     view.used = std::ranges::binary_search(f.selection.fit.paired, f.pairs[i]);
     view.left_rms_px = std::sqrt(judged[i].squared_px[0] / judged[i].corners[0]);
     view.right_rms_px = std::sqrt(judged[i].squared_px[1] / judged[i].corners[1]);
     view.epipolar_rms_px = epipolar_rms(f, f.pairs.subspan(i, 1), fitted_rig);
-    view.excess_px = std::sqrt(f.selection.excess[i] / corners_seen(f.input.views[std::size_t(f.pairs[i])]));
+    view.excess_px =
+        std::sqrt(f.selection.excess[i] / corners_seen(f.cameras.input.views[std::size_t(f.pairs[i])]));
     const bundle::Pose& pose = judged[i].left_from_board;
-    view.distance_mm = (pose.rotation * middle + pose.translation_mm).norm();
+    view.distance_mm =
+        (pose.rotation * bundle::middle_of(f.cameras.input.pattern) + pose.translation_mm).norm();
     view.tilt_deg = std::acos(std::clamp(std::abs(pose.rotation(2, 2)), 0.0, 1.0)) * kDegrees;
     if (!view.used) continue;
     distances.push_back(view.distance_mm);

@@ -4,13 +4,12 @@
 // The numbers of CalibrationQuality, from the fits. Inside calibrate/ only.
 #pragma once
 
-#include "pipeline/calibrate/fit/view_selection.h"
+#include "pipeline/calibrate/fit/stereo_fit.h"
 #include "pipeline/calibrate/quality/quality.h"
 
 namespace relievo::pipeline {
 
 struct Fitted {
-  const CalibratorInput& input;
   const CameraFits& cameras;
   std::span<const int> pairs;  // views with a board in both pictures, fit for use
   const Selection& selection;

@@ -1,6 +1,7 @@
 // SPDX-FileCopyrightText: 2026 The Relievo authors
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <initializer_list>
 #include <string>
@@ -99,6 +100,11 @@ void judge_variety(CalibrationQuality& q) {
 }
 
 }  // namespace
+
+const char* name_of(CalibrationVerdict verdict) {
+  constexpr std::array kNames{"pass", "usable", "refuse"};
+  return kNames[std::size_t(verdict)];
+}
 
 void judge_quality(CalibrationQuality& q) {
   q.verdict = CalibrationVerdict::Pass;

@@ -9,7 +9,7 @@
 #include <Eigen/Geometry>
 #include <Eigen/LU>
 
-#include "pipeline/model/lens.h"
+#include "pipeline/model/calibration.h"
 
 namespace relievo::pipeline {
 namespace {
@@ -136,8 +136,7 @@ Probes probes_of(const bundle::Problem& p, const std::vector<Eigen::Vector3d>& p
   Probes probes;
   for (const Eigen::Vector3d& point : points) {
     probes.left.push_back(bundle::project(p.camera[0], point));
-    probes.right.push_back(
-        bundle::project(p.camera[1], p.right_from_left.rotation * point + p.right_from_left.translation_mm));
+    probes.right.push_back(bundle::project(p.camera[1], p.right_from_left * point));
   }
   return probes;
 }

@@ -11,11 +11,6 @@
 namespace relievo::pipeline {
 namespace {
 
-const char* word(CalibrationVerdict verdict) {
-  constexpr std::array kWords{"pass", "usable", "refuse"};
-  return kWords[std::size_t(verdict)];
-}
-
 const char* word(SlipCause cause) {
   constexpr std::array kWords{"none", "camera turns", "board carried on between the exposures"};
   return kWords[std::size_t(cause)];
@@ -121,7 +116,7 @@ nlohmann::ordered_json views_json(const CalibratorOutput& out) {
 
 std::string calibration_report_json(const CalibrationReport& r) {
   const CalibrationQuality& q = r.output.quality;
-  const auto name_of = [&q](int view) -> nlohmann::ordered_json {
+  const auto view_name = [&q](int view) -> nlohmann::ordered_json {
     if (view < 0) return nullptr;
     return q.views[std::size_t(view)].name;
   };
@@ -129,7 +124,7 @@ std::string calibration_report_json(const CalibrationReport& r) {
                                          {"made_at", r.made_at},
                                          {"source", r.source},
                                          {"board", board_json(r.input.pattern)},
-                                         {"verdict", word(q.verdict)},
+                                         {"verdict", name_of(q.verdict)},
                                          {"reasons", q.reasons},
                                          {"views_used", q.used},
                                          {"views_given", q.views.size()},
@@ -144,9 +139,9 @@ std::string calibration_report_json(const CalibrationReport& r) {
                                          {"holds_still", q.holds_still},
                                          {"slip_ratio", q.slip_ratio},
                                          {"slip_cause", word(q.slip_cause)},
-                                         {"moved_after", name_of(q.moved_after)},
-                                         {"moved_after_first", name_of(q.moved_after_first)},
-                                         {"moved_after_last", name_of(q.moved_after_last)},
+                                         {"moved_after", view_name(q.moved_after)},
+                                         {"moved_after_first", view_name(q.moved_after_first)},
+                                         {"moved_after_last", view_name(q.moved_after_last)},
                                          {"baseline_mm", q.baseline_mm},
                                          {"baseline_sigma_mm", q.uncertainty.parameters.baseline_mm},
                                          {"expected_baseline_mm", q.expected_baseline_mm},

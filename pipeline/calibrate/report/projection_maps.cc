@@ -10,7 +10,7 @@
 #include "pipeline/calibrate/board/board_finder.h"
 #include "pipeline/calibrate/report/sections.h"
 #include "pipeline/report/drawing.h"
-#include "pipeline/report/text.h"
+#include "pipeline/report/page.h"
 
 namespace relievo::pipeline::report {
 namespace {

@@ -11,7 +11,7 @@
 #include "pipeline/calibrate/report/sections.h"
 #include "pipeline/model/vector3.h"
 #include "pipeline/report/drawing.h"
-#include "pipeline/report/text.h"
+#include "pipeline/report/page.h"
 
 namespace relievo::pipeline::report {
 namespace {

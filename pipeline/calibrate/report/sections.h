@@ -13,9 +13,6 @@
 
 namespace relievo::pipeline::report {
 
-std::string verdict_section(const CalibrationReport& r);  // word, icon, reasons
-std::string face_figures(const CalibrationReport& r);     // in mm at a face
-std::string key_figures(const CalibrationReport& r);      // with what is good
 std::string depth_chart(const CalibrationReport& r);      // uncertainty over distance
 std::string rig_plan(const CalibrationReport& r);         // from above, to scale
 std::string projection_maps(const CalibrationReport& r);  // heat maps of both cameras

@@ -7,12 +7,12 @@
 #include "pipeline/calibrate/fit/bundle.h"
 #include "pipeline/calibrate/report/sections.h"
 #include "pipeline/report/drawing.h"
-#include "pipeline/report/text.h"
+#include "pipeline/report/page.h"
 
 namespace relievo::pipeline::report {
 namespace {
 
-// As fit/view_selection.h and calibrator.cc do it.
+// As fit/stereo_fit.h and calibrator.cc do it.
 constexpr std::string_view kRule =
     "The rule: a single corner more than 6 standard deviations off its board is dropped, and a board with "
     "more than 15 % of such corners goes whole. The half of the pairs that agree best on where the cameras "

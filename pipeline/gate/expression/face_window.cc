@@ -1,11 +1,10 @@
 // SPDX-FileCopyrightText: 2026 The Relievo authors
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include "pipeline/gate/expression/face_window.h"
-
 #include <algorithm>
 #include <cmath>
 
 #include "hal/base/statistics.h"
+#include "pipeline/gate/expression/expression_measurement.h"
 #include "pipeline/match/rectify/rectifier.h"
 #include "pipeline/match/region/face_reach.h"
 #include "pipeline/model/vector3.h"

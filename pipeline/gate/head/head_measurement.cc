@@ -9,7 +9,6 @@
 #include <span>
 #include <vector>
 
-#include "pipeline/gate/head/nose_tip.h"
 #include "pipeline/match/region/face_reach.h"
 #include "pipeline/model/vector3.h"
 

@@ -1,7 +1,5 @@
 // SPDX-FileCopyrightText: 2026 The Relievo authors
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include "pipeline/gate/head/nose_tip.h"
-
 #include <algorithm>
 #include <array>
 #include <cmath>
@@ -11,6 +9,7 @@
 #include <vector>
 
 #include "hal/base/statistics.h"
+#include "pipeline/gate/head/head_measurement.h"
 #include "pipeline/match/region/face_reach.h"
 #include "pipeline/model/vector3.h"
 
@@ -130,13 +129,9 @@ double midline_at(std::span<const NosePoint> points, double midline_mm, double d
   return midline_mm + std::clamp(-(*k)[1] / (2 * (*k)[2]), -kRidgeHalfMm, kRidgeHalfMm);
 }
 
-struct NoseEnd {
-  double down = 0, out = 0;
-};
-
 // About the peak: the mean of the foremost points, since that of all would lie under the skin. Nothing where
 // there are none.
-std::optional<NoseEnd> foremost(std::span<NosePoint> points, double midline_mm, double down_mm) {
+std::optional<NosePoint> foremost(std::span<NosePoint> points, double midline_mm, double down_mm) {
   const auto about = [&](const NosePoint& p) {
     return std::hypot(p.right - midline_mm, p.down - down_mm) < kTipMm;
   };
@@ -145,7 +140,7 @@ std::optional<NoseEnd> foremost(std::span<NosePoint> points, double midline_mm, 
   if (count == 0) return std::nullopt;
   std::nth_element(points.begin(), points.begin() + count - 1, end,
                    [](const NosePoint& a, const NosePoint& b) { return a.out > b.out; });
-  NoseEnd mean;
+  NosePoint mean{midline_mm, 0, 0};
   for (const NosePoint& p : points.first(std::size_t(count))) {
     mean.down += p.down / double(count), mean.out += p.out / double(count);
   }
@@ -221,9 +216,9 @@ bool tip_of_profile(const Relief& relief, const HeadHint& hint, const HeadMeasur
     if (peak < 0) return false;
     midline = std::clamp(midline_at(points, midline, Profile::down(peak)), -kNoseAsideMm, kNoseAsideMm);
   }
-  const std::optional<NoseEnd> at = foremost(points, midline, Profile::down(peak));
+  const std::optional<NosePoint> at = foremost(points, midline, Profile::down(peak));
   if (!at) return false;
-  tip = along(along(along(head.tip_mm, midline, axes.right), at->down, axes.down), at->out, axes.out);
+  tip = along(along(along(head.tip_mm, at->right, axes.right), at->down, axes.down), at->out, axes.out);
   return true;
 }
 

@@ -82,11 +82,11 @@ struct Found {
 };
 
 // Names in the order of size; specks get none. The first of `found` is no surface.
-void name_by_size(std::pmr::vector<Found>& found, double speck_mm2, StageContext& context) {
+void name_by_size(std::pmr::vector<Found>& found, StageContext& context) {
   std::pmr::vector<std::uint32_t> order(&context.scratch);
   order.reserve(found.size());
   for (std::uint32_t i = 1; i < found.size(); ++i)
-    if (found[i].area_mm2 >= speck_mm2) order.push_back(i);
+    if (found[i].area_mm2 >= kSpeckMm2) order.push_back(i);
   std::ranges::sort(order, [&](std::uint32_t a, std::uint32_t b) {
     return found[a].pixels != found[b].pixels ? found[a].pixels > found[b].pixels : a < b;
   });
@@ -145,10 +145,10 @@ Result<void> LiveRelief::check() const {
   return {};
 }
 
-void label_surfaces(Relief& relief, float step_px, double speck_mm2, StageContext& context) {
+void label_surfaces(Relief& relief, StageContext& context) {
   const std::size_t count = relief.depth_mm.size();
   // Of inverse depth, one pixel of disparity is the same everywhere.
-  const auto step = float(double(step_px) / (relief.focal_px * relief.baseline_mm));
+  const auto step = float(double(kStepPx) / (relief.focal_px * relief.baseline_mm));
   std::pmr::vector<std::uint32_t> label(count, 0, &context.scratch);
   std::pmr::vector<Found> found(1, Found{}, &context.scratch);
   found.reserve(count + 1);
@@ -166,7 +166,7 @@ void label_surfaces(Relief& relief, float step_px, double speck_mm2, StageContex
         }
         found.push_back({std::uint32_t(cells.size()), area, 0});
       });
-  name_by_size(found, speck_mm2, context);
+  name_by_size(found, context);
   for (std::size_t i = 0; i < count; ++i) {
     relief.surface[i] = found[label[i]].name;
     if (relief.surface[i] == 0) relief.depth_mm[i] = 0;
@@ -200,7 +200,7 @@ Result<Relief> LiveRelief::look(const StereoFrame& frame, const StereoCalibratio
                          SemiGlobalCosts{}, inner, 1, disparity));
   Relief relief(&context.output);
   fill_depth(pair, disparity, relief);
-  label_surfaces(relief, kStepPx, kSpeckMm2, context);
+  label_surfaces(relief, context);
   if (context.stop()) return Error{Errc::Cancelled, "stopped while looking for surfaces"};
   return relief;
 }

@@ -41,9 +41,8 @@ struct LiveRelief {
                       StageContext& context) const;
 };
 
-// Labels connected pixels of one surface (4-neighbours whose disparities differ by at most `step_px`), the
-// largest first, and takes away what is smaller than `speck_mm2` as seen from the camera. Fills
-// relief.surface. Memory: scratch.
-void label_surfaces(Relief& relief, float step_px, double speck_mm2, StageContext& context);
+// Labels connected pixels of one surface (4-neighbours whose disparities differ by little), the largest
+// first, and takes away what is small as seen from the camera. Fills relief.surface. Memory: scratch.
+void label_surfaces(Relief& relief, StageContext& context);
 
 }  // namespace relievo::pipeline

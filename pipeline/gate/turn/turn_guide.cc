@@ -9,7 +9,6 @@
 
 #include <Eigen/Cholesky>
 
-#include "pipeline/model/small_motion.h"
 #include "pipeline/model/vector3.h"
 
 namespace relievo::pipeline {

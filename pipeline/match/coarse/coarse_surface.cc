@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: 2026 The Relievo authors
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include "pipeline/match/coarse/coarse_surface.h"
+#include "pipeline/match/coarse/semi_global.h"
 
 #include <algorithm>
 #include <cmath>
@@ -10,7 +10,6 @@
 #include <vector>
 
 #include "pipeline/base/parts.h"
-#include "pipeline/match/coarse/semi_global.h"
 #include "pipeline/match/image/plane.h"
 #include "pipeline/match/image/plane_filters.h"
 
@@ -95,19 +94,18 @@ PyramidLevel cut(const PyramidLevel& from, int x, int y, int w, int h, std::pmr:
 }
 
 Pyramids cut(const Pyramids& whole, const Box& box, std::pmr::memory_resource& memory) {
-  Pyramids part{std::pmr::vector<PyramidLevel>(&memory), std::pmr::vector<PyramidLevel>(&memory)};
-  for (int side = 0; side < 2; ++side) {
-    auto& levels = side == 0 ? part.left : part.right;
+  const auto cut_view = [&](const std::pmr::vector<PyramidLevel>& from, int left) {
+    std::pmr::vector<PyramidLevel> levels(&memory);
     levels.reserve(kCoarsest + 1);
     levels.emplace_back(&memory, 0, 0);  // full size is not asked for
     for (int level = kLevel; level <= kCoarsest; ++level) {
       const int scale = 1 << (level - kLevel);
-      const int x = (side == 0 ? box.x : box.x - box.shift) / scale;
-      levels.push_back(cut((side == 0 ? whole.left : whole.right)[std::size_t(level)], x, box.y / scale,
-                           box.w / scale, box.h / scale, memory));
+      levels.push_back(
+          cut(from[std::size_t(level)], left / scale, box.y / scale, box.w / scale, box.h / scale, memory));
     }
-  }
-  return part;
+    return levels;
+  };
+  return {cut_view(whole.left, box.x), cut_view(whole.right, box.x - box.shift)};
 }
 
 // At a node, which may stand beyond the last pixel.

@@ -12,7 +12,7 @@
 #include "hal/base/simd.h"
 #include "pipeline/base/stage.h"
 #include "pipeline/match/coarse/semi_global.h"
-#include "pipeline/match/image/image_pyramid.h"
+#include "pipeline/match/image/plane_filters.h"
 #include "pipeline/match/window/window_correlation.h"
 
 namespace relievo::pipeline {

@@ -11,9 +11,9 @@
 // Matcher.
 #pragma once
 
+#include "pipeline/base/kinds.h"
 #include "pipeline/base/options.h"
 #include "pipeline/match/coarse/semi_global.h"
-#include "pipeline/match/kinds.h"
 
 namespace relievo::pipeline {
 

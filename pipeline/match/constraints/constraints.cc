@@ -9,7 +9,7 @@
 #include "hal/base/statistics.h"
 #include "pipeline/base/cells.h"
 #include "pipeline/match/image/plane.h"
-#include "pipeline/match/window/patch_scores.h"
+#include "pipeline/match/window/window_correlation.h"
 
 namespace relievo::pipeline {
 namespace {
@@ -141,16 +141,15 @@ namespace {
 
 constexpr int kAskedBands = 32;
 
-enum class Answer : std::uint8_t { Confirmed, Elsewhere, Unasked };
-
-// `scores` has the views exchanged: its left view is the pair's right one, and disparities change sign.
-Answer ask_back(const Match& match, const LeftRightConstraint& options, PatchScores& scores) {
+// False of a match that cannot be asked. `scores` has the views exchanged: its left view is the pair's right
+// one, and disparities change sign.
+bool found_elsewhere(const Match& match, const LeftRightConstraint& options, PatchScores& scores) {
   const float right = match.left_px.x - match.disparity_px;
   const int middle = int(std::lround(match.disparity_px));
   const int count = 2 * options.search_px + 1;
   // Candidate k lies at right + middle + search_px - k on the left row.
-  if (!scores.load({right, match.left_px.y}, -(middle + options.search_px), count)) return Answer::Unasked;
-  if (!std::isfinite(scores.score(options.search_px).unlike)) return Answer::Unasked;
+  if (!scores.load({right, match.left_px.y}, -(middle + options.search_px), count)) return false;
+  if (!std::isfinite(scores.score(options.search_px).unlike)) return false;
   int best = 0;
   double least = scores.score(0).unlike;
   for (int k = 1; k < count; ++k)
@@ -158,14 +157,13 @@ Answer ask_back(const Match& match, const LeftRightConstraint& options, PatchSco
       least = here;
       best = k;
     }
-  if (best == 0 || best == count - 1) return Answer::Elsewhere;
+  if (best == 0 || best == count - 1) return true;
   const double before = scores.score(best - 1).unlike;
   const double after = scores.score(best + 1).unlike;
   const double bend = before - 2 * least + after;
   const double offset = std::isfinite(bend) && bend > 0 ? (before - after) / (2 * bend) : 0;
   const double found = double(right) + middle + options.search_px - best - offset;
-  return std::abs(found - double(match.left_px.x)) <= double(options.limit_px) ? Answer::Confirmed
-                                                                               : Answer::Elsewhere;
+  return !(std::abs(found - double(match.left_px.x)) <= double(options.limit_px));
 }
 
 }  // namespace
@@ -185,7 +183,7 @@ void LeftRightConstraint::judge(const RectifiedPair& pair, std::span<Match> matc
     for (int k = begin; k < end && !context.stop(); ++k) {
       Match& match = matches[std::size_t(k)];
       if (match.rejected_by != 0 || !(std::abs(match.disparity_px) < 1e6F)) continue;
-      if (ask_back(match, *this, scores[std::size_t(band)]) == Answer::Elsewhere) match.rejected_by = bit;
+      if (found_elsewhere(match, *this, scores[std::size_t(band)])) match.rejected_by = bit;
     }
   });
 }

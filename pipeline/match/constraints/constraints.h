@@ -4,8 +4,8 @@
 // The constraints.
 #pragma once
 
+#include "pipeline/base/kinds.h"
 #include "pipeline/base/options.h"
-#include "pipeline/match/kinds.h"
 
 namespace relievo::pipeline {
 

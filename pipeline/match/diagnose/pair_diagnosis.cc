@@ -54,9 +54,12 @@ Overexposure measure_overexposure(const RectifiedPair& pair, const MatchSet& mat
 }
 
 Overexposure guess_overexposure(const RectifiedPair& pair) {
-  const double width = pair.focal_px * kFaceWidthMm / ((pair.near_mm + pair.far_mm) / 2);
-  const Ellipse middle = skin_at(pair.width_px / 2.0, pair.height_px / 2.0, width);
-  return {white_share(pair.left, pair, middle), white_share(pair.right, pair, middle)};
+  const double px_per_mm = pair.focal_px / ((pair.near_mm + pair.far_mm) / 2);
+  const double aside = px_per_mm * pair.baseline_mm / 2;
+  const auto share = [&](const RectifiedView& view, double x) {
+    return white_share(view, pair, skin_at(x, pair.height_px / 2.0, px_per_mm * kFaceWidthMm));
+  };
+  return {share(pair.left, pair.left_centre_px.x + aside), share(pair.right, pair.right_centre_px.x - aside)};
 }
 
 namespace {
@@ -121,11 +124,9 @@ bool same_picture(const StereoFrame& frame, std::pmr::memory_resource* memory) {
   return count > 0 && sum / double(count) < kSame;
 }
 
-int reduction(const RectifiedPair& pair) { return std::max(1, pair.width_px / kReducedWidth); }
-
 Plane<float> reduce(const std::pmr::vector<float>& grey, const RectifiedPair& pair,
                     std::pmr::memory_resource* memory) {
-  const int by = reduction(pair);
+  const int by = std::max(1, pair.width_px / kReducedWidth);
   Plane<float> small(memory, pair.width_px / by, pair.height_px / by);
   for (int y = 0; y < small.height * by; ++y)
     for (int x = 0; x < small.width * by; ++x) small.row(y / by)[x / by] += grey[pair.index(x, y)];

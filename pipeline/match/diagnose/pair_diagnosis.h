@@ -29,7 +29,7 @@ struct Overexposure {
 // is; 0 where none was looked for.
 Overexposure measure_overexposure(const RectifiedPair& pair, const MatchSet& matches);
 
-// Of a face that nothing is known of: in the middle of the volume, in which the windows' middles lie.
+// Of a face that nothing is known of: in the middle of the volume, before the middle of the rig.
 Overexposure guess_overexposure(const RectifiedPair& pair);
 
 enum class PairFault : std::uint8_t {

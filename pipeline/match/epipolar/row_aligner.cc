@@ -12,7 +12,7 @@
 
 #include "pipeline/base/solving.h"
 #include "pipeline/base/stage.h"
-#include "pipeline/match/coarse/coarse_surface.h"
+#include "pipeline/match/coarse/semi_global.h"
 #include "pipeline/match/image/plane.h"
 #include "pipeline/match/image/plane_filters.h"
 

@@ -11,7 +11,7 @@
 
 #include "hal/base/arena.h"
 #include "pipeline/base/stage.h"
-#include "pipeline/match/coarse/coarse_surface.h"
+#include "pipeline/match/coarse/semi_global.h"
 #include "pipeline/match/image/plane.h"
 #include "pipeline/model/match_set.h"
 #include "pipeline/model/rectified_pair.h"

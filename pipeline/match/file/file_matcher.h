@@ -7,9 +7,9 @@
 // Errors: the text's; NotFound (none is named, or it was not read); TooFewMatches (none in it); as Matcher.
 #pragma once
 
+#include "pipeline/base/kinds.h"
 #include "pipeline/base/options.h"
 #include "pipeline/match/file/match_text.h"
-#include "pipeline/match/kinds.h"
 
 namespace relievo::pipeline {
 

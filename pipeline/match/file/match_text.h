@@ -26,9 +26,9 @@
 namespace relievo::pipeline {
 
 // Lines of numbers in a text that somebody else wrote. Numbers are apart by blanks, tabs, a comma or a
-// semicolon; the decimal sign is a point; '#' begins a comment. Empty lines and a first line of words (titles
-// of columns) are passed over. Nothing is copied, so a text may have any length. Errors: none; who reads a
-// line judges it. Thread: any.
+// semicolon; the decimal sign is a point; '#' begins a comment. A byte order mark, empty lines and a first
+// line of words (titles of columns) are passed over. Nothing is copied, so a text may have any length.
+// Errors: none; who reads a line judges it. Thread: any.
 struct NumberLine {
   std::array<double, 4> value{};  // finite
   std::size_t count = 0;          // of them
@@ -39,7 +39,8 @@ struct NumberLine {
 class NumberLines {
  public:
   // `most`: numbers that are read of a line, 4 at most. The text is borrowed.
-  NumberLines(std::string_view text, std::size_t most) : text_(text), most_(most) {}
+  NumberLines(std::string_view text, std::size_t most)
+      : text_(text.substr(text.starts_with("\xEF\xBB\xBF") ? 3 : 0)), most_(most) {}
   // False at the end of the text.
   bool next(NumberLine& line);
 

@@ -89,7 +89,8 @@ class Lattice {
       fix(best.node, best.origin, best.disparity_px, best.sigma_px, 1 - best.alike);
       offer_neighbours(best.node, best.origin, best.disparity_px);
     }
-    const int enough = (2 * kRadiusPx / step_) * (2 * kRadiusPx / step_) / 2;
+    // Half a window's nodes, or a place's own.
+    const int enough = std::max((2 * kRadiusPx / step_) * (2 * kRadiusPx / step_) / 2, 4);
     for (std::uint32_t k = 0; k < by_hand_.size(); ++k)
       if (grown_[k] <= enough) bend(by_hand_[k], before[k]);
     return {};
@@ -125,9 +126,9 @@ class Lattice {
     const std::uint32_t k = at_.values[node];
     return k != kNone && set_.matches[k].rejected_by == 0 ? &set_.matches[k] : nullptr;
   }
-  // Of the nearest accepted match within a window; NaN: there is none.
+  // Of the nearest accepted match within a window, or a step where that is more; NaN: there is none.
   float disparity_near(Vec2f place) {
-    float best = float(kRadiusPx), found = std::nanf("");
+    float best = float(std::max(kRadiusPx, step_)), found = std::nanf("");
     around(place, best, [&](std::size_t node, float distance) {
       if (there(node) != nullptr && distance < best) best = distance, found = there(node)->disparity_px;
     });

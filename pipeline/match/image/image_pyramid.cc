@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: 2026 The Relievo authors
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include "pipeline/match/image/image_pyramid.h"
+#include "pipeline/match/image/plane_filters.h"
 
 #include <algorithm>
 
@@ -15,11 +15,8 @@ float across(const float* row, int x, int width) {
 }  // namespace
 
 Pyramids build_pyramids(const RectifiedPair& pair, int count, StageContext& context) {
-  Pyramids pyramids{std::pmr::vector<PyramidLevel>(&context.scratch),
-                    std::pmr::vector<PyramidLevel>(&context.scratch)};
-  for (int side = 0; side < 2; ++side) {
-    auto& levels = side == 0 ? pyramids.left : pyramids.right;
-    const RectifiedView& view = side == 0 ? pair.left : pair.right;
+  const auto build = [&](const RectifiedView& view) {
+    std::pmr::vector<PyramidLevel> levels(&context.scratch);
     levels.reserve(std::size_t(count));
     levels.emplace_back(&context.scratch, pair.width_px, pair.height_px);
     std::ranges::copy(view.grey, levels[0].grey.values.begin());
@@ -28,19 +25,19 @@ Pyramids build_pyramids(const RectifiedPair& pair, int count, StageContext& cont
       levels.emplace_back(&context.scratch, (levels.back().grey.width + 1) / 2,
                           (levels.back().grey.height + 1) / 2);
     halve_levels(levels, context.pool);
-  }
-  return pyramids;
+    return levels;
+  };
+  return {build(pair.left), build(pair.right)};
 }
 
-void halve_rows(const float* grey, const std::uint8_t* valid, int width, int height, PyramidLevel& half,
-                int begin, int end) {
+void halve_rows(const PyramidLevel& whole, PyramidLevel& half, int begin, int end) {
+  const int width = whole.grey.width, height = whole.grey.height;
   constexpr float kWeight[5] = {1, 4, 6, 4, 1};
   for (int j = begin; j < end; ++j) {
     float* to = half.grey.row(j);
     std::fill(to, to + half.grey.width, 0.0F);
     for (int k = -2; k <= 2; ++k) {
-      const int y = std::clamp(2 * j + k, 0, height - 1);
-      const float* from = grey + std::ptrdiff_t(y) * width;
+      const float* from = whole.grey.row(std::clamp(2 * j + k, 0, height - 1));
       const float w = kWeight[k + 2] * (1.0F / 256);
       const int inner_end = std::min(half.grey.width, (width - 2) / 2);
       for (int i = 0; i < std::min(1, half.grey.width); ++i) to[i] += w * across(from, 2 * i, width);
@@ -50,7 +47,7 @@ void halve_rows(const float* grey, const std::uint8_t* valid, int width, int hei
       }
       for (int i = std::max(1, inner_end); i < half.grey.width; ++i) to[i] += w * across(from, 2 * i, width);
     }
-    const std::uint8_t* from = valid + std::ptrdiff_t(std::min(2 * j, height - 1)) * width;
+    const std::uint8_t* from = whole.valid.row(std::min(2 * j, height - 1));
     std::uint8_t* flag = half.valid.row(j);
     for (int i = 0; i < half.grey.width; ++i) flag[i] = from[std::min(2 * i, width - 1)];
   }
@@ -61,10 +58,8 @@ void halve_levels(std::pmr::vector<PyramidLevel>& levels, ThreadPool& pool) {
   for (std::size_t level = 1; level < levels.size(); ++level) {
     const PyramidLevel& from = levels[level - 1];
     PyramidLevel& to = levels[level];
-    pool.for_each_band(to.grey.height, kPyramidBands, [&](int begin, int end, int) {
-      halve_rows(from.grey.values.data(), from.valid.values.data(), from.grey.width, from.grey.height, to,
-                 begin, end);
-    });
+    pool.for_each_band(to.grey.height, kPyramidBands,
+                       [&](int begin, int end, int) { halve_rows(from, to, begin, end); });
   }
 }
 

@@ -42,12 +42,11 @@ void sum_rows(const Plane<float>& from, int y, int rows, int radius, Plane<float
   slide(std::max(full, last), w, false, true);
 }
 
-RELIEVO_SIMD void add_row(const float* from, int begin, int end, float* to) {
-  for (int x = begin; x < end; ++x) to[x] += from[x];
+RELIEVO_SIMD void add_row(const float* from, int count, float* to) {
+  for (int x = 0; x < count; ++x) to[x] += from[x];
 }
-RELIEVO_SIMD void slide_row(const float* above, const float* in, const float* out, int begin, int end,
-                            float* to) {
-  for (int x = begin; x < end; ++x) to[x] = above[x] + (in[x] - out[x]);
+RELIEVO_SIMD void slide_row(const float* above, const float* in, const float* out, int count, float* to) {
+  for (int x = 0; x < count; ++x) to[x] = above[x] + (in[x] - out[x]);
 }
 
 // to += weight * (a + b)
@@ -103,13 +102,13 @@ void box_sum(const Plane<float>& from, int radius, ThreadPool& pool, Plane<float
     float* top = to.row(begin);
     std::fill(top, top + w, 0.0F);
     for (int y = std::max(0, begin - radius); y <= std::min(h - 1, begin + radius); ++y)
-      add_row(across.row(y), 0, w, top);
+      add_row(across.row(y), w, top);
     for (int y = begin + 1; y < end; ++y) {
       const float* in = y + radius < h ? across.row(y + radius) : nullptr;
       const float* out = y - radius - 1 >= 0 ? across.row(y - radius - 1) : nullptr;
       float* here = to.row(y);
       const float* above = to.row(y - 1);
-      if (in != nullptr && out != nullptr) slide_row(above, in, out, 0, w, here);
+      if (in != nullptr && out != nullptr) slide_row(above, in, out, w, here);
       else {
         for (int x = 0; x < w; ++x)
           here[x] = above[x] + (in != nullptr ? in[x] : 0.0F) - (out != nullptr ? out[x] : 0.0F);
@@ -155,13 +154,11 @@ void Gaussian::smooth(Plane<float>& plane, ThreadPool& pool, Plane<float>& room)
 }
 
 void erode(Plane<float>& plane, int reach, ThreadPool& pool, Plane<float>& room) {
-  over_square(
-      plane, reach, [](const float* from, int count, float* to) { lower(from, count, to); }, pool, room);
+  over_square(plane, reach, lower, pool, room);
 }
 
 void dilate(Plane<float>& plane, int reach, ThreadPool& pool, Plane<float>& room) {
-  over_square(
-      plane, reach, [](const float* from, int count, float* to) { raise(from, count, to); }, pool, room);
+  over_square(plane, reach, raise, pool, room);
 }
 
 }  // namespace relievo::pipeline

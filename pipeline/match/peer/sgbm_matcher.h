@@ -12,8 +12,8 @@
 // plane and a sixth of a pixel for its fit. It cannot be stopped while OpenCV works. Errors: as Matcher.
 #pragma once
 
+#include "pipeline/base/kinds.h"
 #include "pipeline/base/options.h"
-#include "pipeline/match/kinds.h"
 
 namespace relievo::pipeline {
 

@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cmath>
 #include <cstddef>
+#include <span>
 
 namespace relievo::pipeline {
 namespace {
@@ -77,21 +78,24 @@ double GreyHistogram::grey_at(double share) const {
   return 0.5 * (crossing(first) + crossing(last));
 }
 
-GreyMap::GreyMap(const std::function<double(double)>& map) {
-  for (std::size_t k = 0; k < table_.size(); ++k) table_[k] = float(map(double(k) / kPerLevel));
-}
+namespace {
 
-float GreyMap::operator()(float grey) const {
-  const float at = std::clamp(grey, 0.0F, 255.0F) * kPerLevel;
-  const auto k = std::min(std::size_t(at), table_.size() - 2);
-  return table_[k] + (at - float(k)) * (table_[k + 1] - table_[k]);
-}
-
-void GreyMap::apply(std::pmr::vector<float>& grey, ThreadPool& pool) const {
-  pool.for_each_band(int(grey.size()), kBands, [&](int begin, int end, int) {
-    for (int k = begin; k < end; ++k) grey[std::size_t(k)] = (*this)(grey[std::size_t(k)]);
+// By a monotone map, tabulated finely enough for the curves above; linear in between.
+template <typename Map>
+void map_greys(std::pmr::vector<float>& greys, ThreadPool& pool, const Map& map) {
+  constexpr int kPerLevel = 16;
+  std::array<float, 255 * kPerLevel + 1> table{};
+  for (std::size_t k = 0; k < table.size(); ++k) table[k] = float(map(double(k) / kPerLevel));
+  pool.for_each_band(int(greys.size()), kBands, [&](int begin, int end, int) {
+    for (float& grey : std::span(greys).subspan(std::size_t(begin), std::size_t(end - begin))) {
+      const float at = std::clamp(grey, 0.0F, 255.0F) * kPerLevel;
+      const auto k = std::min(std::size_t(at), table.size() - 2);
+      grey = table[k] + (at - float(k)) * (table[k + 1] - table[k]);
+    }
   });
 }
+
+}  // namespace
 
 Result<void> HistogramNormaliser::process(RectifiedPair& pair, StageContext& context) const {
   RELIEVO_TRY(check_pixels(pair));
@@ -104,10 +108,10 @@ Result<void> HistogramNormaliser::process(RectifiedPair& pair, StageContext& con
     const double dark = histogram.grey_at(tail);
     // Noise of one level is no picture.
     const double range = std::max(1.0, histogram.grey_at(1 - tail) - dark);
-    GreyMap([&](double grey) {
+    map_greys(view->grey, context.pool, [&](double grey) {
       const double stretched = std::clamp((grey - dark) / range, 0.0, 1.0);
       return 255 * (stretched + equalise * (histogram.share_below(grey) - stretched));
-    }).apply(view->grey, context.pool);
+    });
   }
   return {};
 }
@@ -124,9 +128,8 @@ Result<void> HistogramTransfer::process(RectifiedPair& pair, StageContext& conte
       GreyHistogram::of(pair.right.grey, pair.width_px, pair.height_px, in_right, context.pool);
   if (left.count() == 0) return {};
   if (context.stop()) return Error{Errc::Cancelled, "the preprocessing was stopped"};
-  GreyMap([&](double grey) {
-    return grey + strength * (left.grey_at(right.share_below(grey)) - grey);
-  }).apply(pair.right.grey, context.pool);
+  map_greys(pair.right.grey, context.pool,
+            [&](double grey) { return grey + strength * (left.grey_at(right.share_below(grey)) - grey); });
   return {};
 }
 

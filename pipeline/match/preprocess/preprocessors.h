@@ -9,8 +9,8 @@
 #include <functional>
 
 #include "hal/base/thread_pool.h"
+#include "pipeline/base/kinds.h"
 #include "pipeline/base/options.h"
-#include "pipeline/match/kinds.h"
 
 namespace relievo::pipeline {
 
@@ -103,18 +103,6 @@ class GreyHistogram {
 
  private:
   std::array<std::uint64_t, kLevels + 1> below_{};  // pixels darker than k - 0.5
-};
-
-// A monotone map of grey values, tabulated finely enough for the curves above; linear in between.
-class GreyMap {
- public:
-  explicit GreyMap(const std::function<double(double)>& map);
-  float operator()(float grey) const;
-  void apply(std::pmr::vector<float>& grey, ThreadPool& pool) const;
-
- private:
-  static constexpr int kPerLevel = 16;
-  std::array<float, 255 * kPerLevel + 1> table_{};
 };
 
 }  // namespace relievo::pipeline

@@ -8,7 +8,7 @@
 
 #include "hal/base/simd.h"
 #include "pipeline/match/image/plane.h"
-#include "pipeline/model/lens.h"
+#include "pipeline/model/calibration.h"
 #include "pipeline/model/vector3.h"
 
 namespace relievo::pipeline {

@@ -7,7 +7,7 @@
 #include <cmath>
 #include <cstddef>
 
-#include "pipeline/match/coarse/coarse_surface.h"
+#include "pipeline/match/coarse/semi_global.h"
 #include "pipeline/match/epipolar/row_aligner.h"
 #include "pipeline/match/refine/surface_refiner.h"
 #include "pipeline/match/region/face_reach.h"

@@ -3,18 +3,17 @@
 //
 // RefinedMatcher ("refined", the default): coarse semi-global matching blind to exposure, then one
 // least-squares surface over the whole face, refined from a quarter of the size to full size.
-// See coarse_surface.h and surface_refiner.h. sigma_px is the posterior of the fit, more where skin
+// See semi_global.h and surface_refiner.h. sigma_px is the posterior of the fit, more where skin
 // mirrors lamps (RectifiedView::mirrored); cost is one minus the local correlation of the warped views.
 // Keypoints may lie anywhere; on DenseSelector's lattice no interpolation is needed.
 #pragma once
 
 #include <memory_resource>
 
+#include "pipeline/base/kinds.h"
 #include "pipeline/base/options.h"
-#include "pipeline/match/coarse/coarse_surface.h"
-#include "pipeline/match/kinds.h"
+#include "pipeline/match/coarse/semi_global.h"
 #include "pipeline/match/refine/surface_refiner.h"
-#include "pipeline/model/keypoint.h"
 #include "pipeline/model/match_set.h"
 #include "pipeline/model/rectified_pair.h"
 

@@ -22,8 +22,8 @@
 #include "hal/base/thread_pool.h"
 #include "pipeline/base/stage.h"
 #include "pipeline/match/bending/bending_system.h"
-#include "pipeline/match/image/image_pyramid.h"
 #include "pipeline/match/image/plane.h"
+#include "pipeline/match/image/plane_filters.h"
 
 namespace relievo::pipeline {
 
@@ -60,7 +60,6 @@ struct WarpTerms {
   Plane<float> weight{shape};    // 1 / variance of the residual
   Plane<float> mask{shape};      // 1 where both views show the surface
   Plane<float> cost{shape};      // 1 - local zero-mean normalised correlation
-  float noise_variance = 0;      // of the residual over the whole surface
 };
 
 // How much less the pixels say than as many independent ones would: noise that hangs together from pixel to

@@ -240,7 +240,7 @@ void weigh(ThreadPool& pool, WarpTerms& terms, WindowSums& sums) {
   const int h = terms.mask.height;
   Plane<float>& squares = sums.right_right;
   Plane<float>& count = sums.left_left;
-  terms.noise_variance = noise_variance(terms);
+  const float least = noise_variance(terms);  // of the residual over the whole surface
   pool.for_each_band(h, kBands, [&](int begin, int end, int) {
     for (int y = begin; y < end; ++y)
       multiply_row(terms.residual.row(y), terms.residual.row(y), w, squares.row(y));
@@ -251,7 +251,7 @@ void weigh(ThreadPool& pool, WarpTerms& terms, WindowSums& sums) {
     for (int y = begin; y < end; ++y)
       for (int x = 0; x < w; ++x) {
         const float local = squares.row(y)[x] / std::max(count.row(y)[x], 1.0F);
-        terms.weight.row(y)[x] = terms.mask.row(y)[x] / std::max(local, terms.noise_variance);
+        terms.weight.row(y)[x] = terms.mask.row(y)[x] / std::max(local, least);
       }
   });
 }

@@ -16,7 +16,7 @@ constexpr double kHalfHeight = 0.95;
 
 }  // namespace
 
-Result<FaceBox> find_face(FaceFinder& finder, const RectifiedPair& pair, StageContext& context) {
+Result<FaceBox> find_face(const FaceFinder& finder, const RectifiedPair& pair, StageContext& context) {
   if (context.stop()) return Error{Errc::Cancelled, "the search for a face was stopped"};
   const auto* rgb = reinterpret_cast<const std::byte*>(pair.left.rgb.data());
   return finder.find({rgb, pair.width_px, pair.height_px, 3 * pair.width_px, PixelFormat::Rgb8},

@@ -47,7 +47,7 @@ class FaceFinder {
 
   // The most certain face; takes longest (0.4 s) where there is none, and looks at `cancelled`, when
   // given, every 30 ms. Errors: InvalidInput (an empty picture), NoFace, LibraryFailed, Cancelled.
-  Result<FaceBox> find(const ImageView& picture, const std::atomic<bool>* cancelled = nullptr);
+  Result<FaceBox> find(const ImageView& picture, const std::atomic<bool>* cancelled = nullptr) const;
 
  private:
   struct Cascades;
@@ -56,7 +56,7 @@ class FaceFinder {
 };
 
 // Finds the face in the pair's left view. Errors: as find().
-Result<FaceBox> find_face(FaceFinder& finder, const RectifiedPair& pair, StageContext& context);
+Result<FaceBox> find_face(const FaceFinder& finder, const RectifiedPair& pair, StageContext& context);
 
 // Fills pair.region with an ellipse that holds everything within about 115 mm of the tip of the nose
 // at the face's depth. Memory: the region's own, one exact reserve.

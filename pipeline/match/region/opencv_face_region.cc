@@ -140,7 +140,7 @@ Result<FaceFinder> FaceFinder::open(const FaceFinderOptions& options) {
   }
 }
 
-Result<FaceBox> FaceFinder::find(const ImageView& picture, const std::atomic<bool>* cancelled) {
+Result<FaceBox> FaceFinder::find(const ImageView& picture, const std::atomic<bool>* cancelled) const {
   if (picture.empty()) return Error{Errc::InvalidInput, "a picture without pixels has no face"};
   try {
     const cv::Mat grey = reduced_grey(picture);

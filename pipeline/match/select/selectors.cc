@@ -202,19 +202,11 @@ constexpr int kSizes = 4;
 
 // One octave: responses of four filter sizes on every step-th pixel.
 struct Octave {
-  Octave(int number, int width_px, int height_px, std::pmr::memory_resource* memory)
-      : step_px(1 << number),
-        size_px{},
-        response{layer(memory, width_px, height_px), layer(memory, width_px, height_px),
-                 layer(memory, width_px, height_px), layer(memory, width_px, height_px)} {
-    for (int k = 0; k < kSizes; ++k) size_px[std::size_t(k)] = 3 * ((2 << number) * (k + 1) + 1);
-  }
-  Plane<float> layer(std::pmr::memory_resource* memory, int width_px, int height_px) const {
-    return Plane<float>(memory, (width_px + step_px - 1) / step_px, (height_px + step_px - 1) / step_px);
-  }
   int step_px;
-  std::array<int, kSizes> size_px;
-  std::array<Plane<float>, kSizes> response;
+  PlaneShape shape;
+  std::array<Plane<float>, kSizes> response{Plane<float>(shape), Plane<float>(shape), Plane<float>(shape),
+                                            Plane<float>(shape)};
+  int size_px(std::size_t k) const { return 3 * (2 * step_px * (int(k) + 1) + 1); }
 };
 
 void respond(const FastHessian& hessian, const Selectable& selectable, ThreadPool& pool, Octave& octave) {
@@ -223,8 +215,8 @@ void respond(const FastHessian& hessian, const Selectable& selectable, ThreadPoo
       for (int j = begin; j < end; ++j)
         for (int i = 0; i < octave.response[k].width; ++i)
           if (const int x = i * octave.step_px, y = j * octave.step_px;
-              selectable(x, y, octave.size_px[k] / 2))
-            octave.response[k].row(j)[i] = std::max(0.0F, hessian.determinant(x, y, octave.size_px[k]));
+              selectable(x, y, octave.size_px(k) / 2))
+            octave.response[k].row(j)[i] = std::max(0.0F, hessian.determinant(x, y, octave.size_px(k)));
   });
 }
 
@@ -284,9 +276,10 @@ Result<Keypoints> HaarSelector::select(const RectifiedPair& pair, StageContext& 
   RELIEVO_TRY_ASSIGN(const Selectable selectable, selectable_of(pair, context));
   const FastHessian hessian(pair.left.grey, pair.width_px, pair.height_px, &context.scratch);
   Plane<float> found(&context.scratch, pair.width_px, pair.height_px);
-  for (int number = 0; number < octaves; ++number) {
+  for (int step = 1; step < 1 << octaves; step *= 2) {
     Arena::Mark mark(context.scratch);
-    Octave octave(number, pair.width_px, pair.height_px, &context.scratch);
+    Octave octave{step,
+                  {&context.scratch, (pair.width_px + step - 1) / step, (pair.height_px + step - 1) / step}};
     respond(hessian, selectable, context.pool, octave);
     if (context.stop()) return selection_stopped();
     mark_peaks(octave, selectable, found);

@@ -7,8 +7,8 @@
 
 #include <string>
 
+#include "pipeline/base/kinds.h"
 #include "pipeline/base/options.h"
-#include "pipeline/match/kinds.h"
 
 namespace relievo::pipeline {
 

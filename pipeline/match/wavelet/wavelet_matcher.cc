@@ -7,7 +7,6 @@
 #include <cmath>
 #include <utility>
 
-#include "pipeline/match/window/patch_scores.h"
 #include "pipeline/match/window/window_correlation.h"
 
 namespace relievo::pipeline {
@@ -206,14 +205,8 @@ void refine(const Place& place, const CandidateRange& range, std::size_t scale, 
   candidate.sum += candidate.latest;
 }
 
-struct Fitted {
-  float disparity_px = 0;
-  float cost = 1;
-  float sigma_px = 0;  // 0: no match
-};
-
-Fitted fit(const Place& place, const CandidateRange& range, int d, double samples, double bias) {
-  Fitted fitted;
+// Its sigma_px is 0 where there is no match.
+Match fit(const Place& place, Vec2f at, const CandidateRange& range, int d, double samples, double bias) {
   double here = place.stacked(d);
   double before = place.stacked(d - 1);
   double after = place.stacked(d + 1);
@@ -226,17 +219,16 @@ Fitted fit(const Place& place, const CandidateRange& range, int d, double sample
     (way < 0 ? before : after) = place.stacked(d + way);
   }
   const double bend = 2 * here - before - after;
-  if (!(bend > 0) || before > here || after > here || d <= range.first || d >= range.last) return fitted;
+  if (!(bend > 0) || before > here || after > here || d <= range.first || d >= range.last) return {};
   const double tilt = after - before;
   const double least = std::max(1 - here - tilt * tilt / (8 * bend), 1e-6 * bend);
-  fitted.disparity_px = float(d + tilt / (2 * bend));
-  fitted.cost = float(std::clamp(1 - here, 0.0, 1.0));
-  fitted.sigma_px = float(std::sqrt(2 * least / (samples * bend) + bias * bias));
-  return fitted;
+  return {at, float(d + tilt / (2 * bend)), float(std::clamp(1 - here, 0.0, 1.0)),
+          float(std::sqrt(2 * least / (samples * bend) + bias * bias)), 0};
 }
 
-Fitted match_place(const Place& place, const CandidateRange& range, const WaveletMatcher& options,
-                   double bias) {
+Match match_place(Place& place, Vec2f at, const CandidateRange& range, const WaveletMatcher& options,
+                  double bias) {
+  place.look_at(at);
   const auto coarsest = std::size_t(options.scales - 1);
   Candidates candidates = search_coarsest(place, range, coarsest, options.candidates);
   const Candidate* winner = nullptr;
@@ -247,7 +239,7 @@ Fitted match_place(const Place& place, const CandidateRange& range, const Wavele
   }
   if (winner == nullptr || winner->sum < double(options.min_score) * options.scales) return {};
   const double side = 2 * options.radius + 1;
-  return fit(place, range, winner->disparity, side * side, bias);
+  return fit(place, at, range, winner->disparity, side * side, bias);
 }
 
 }  // namespace
@@ -295,11 +287,9 @@ Result<MatchSet> WaveletMatcher::match(const RectifiedPair& pair, const Keypoint
     for (int k = begin; k < end && !context.stop(); ++k) {
       const Vec2f at = keypoints.points[std::size_t(k)].at_px;
       if (!inside(whole_left, at.x, at.y)) continue;
-      place.look_at(at);
-      const Fitted fitted = match_place(place, range, *this, bias);
-      if (fitted.sigma_px > 0 && fitted.sigma_px <= sigma_limit_px &&
-          inside(whole_right, at.x - fitted.disparity_px, at.y))
-        found[std::size_t(k)] = {at, fitted.disparity_px, fitted.cost, fitted.sigma_px, 0};
+      const Match match = match_place(place, at, range, *this, bias);
+      if (match.sigma_px <= sigma_limit_px && inside(whole_right, at.x - match.disparity_px, at.y))
+        found[std::size_t(k)] = match;
     }
   });
   if (context.stop()) return Error{Errc::Cancelled, "stopped while matching wavelets"};

@@ -19,10 +19,10 @@
 
 #include <vector>
 
+#include "pipeline/base/kinds.h"
 #include "pipeline/base/options.h"
 #include "pipeline/base/stage.h"
 #include "pipeline/match/image/plane.h"
-#include "pipeline/match/kinds.h"
 #include "pipeline/model/geometry.h"
 
 namespace relievo::pipeline {

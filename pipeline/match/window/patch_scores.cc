@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: 2026 The Relievo authors
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include "pipeline/match/window/patch_scores.h"
+#include "pipeline/match/window/window_correlation.h"
 
 #include <algorithm>
 #include <cmath>

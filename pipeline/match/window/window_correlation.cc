@@ -5,8 +5,6 @@
 #include <algorithm>
 #include <cmath>
 
-#include "pipeline/match/window/patch_scores.h"
-
 namespace relievo::pipeline {
 namespace {
 

@@ -9,7 +9,6 @@
 #include <utility>
 
 #include "hal/base/simd.h"
-#include "pipeline/match/window/patch_scores.h"
 #include "pipeline/match/window/window_correlation.h"
 
 namespace relievo::pipeline {
@@ -19,7 +18,7 @@ namespace {
 // sums run down the columns and are joined across (McDonnell 1981; Faugeras et al. 1993, INRIA RR-2013),
 // one disparity after the other, so that the cost does not depend on the window and the memory does not
 // depend on the range: a few rows a band, one score and one disparity a pixel of a lattice row.
-// Sums are single precision, started afresh every band: a search, not the last word (patch_scores.h).
+// Sums are single precision, started afresh every band: a search, not the last word (window_correlation.h).
 // Parallel in bands of lattice rows; results do not depend on the number of threads.
 struct LatticeRows {
   int first_px, step_px, count;

@@ -15,8 +15,8 @@
 // for that. Three channels are counted as one sample a pixel, because demosaicking joins their noise.
 #pragma once
 
+#include "pipeline/base/kinds.h"
 #include "pipeline/base/options.h"
-#include "pipeline/match/kinds.h"
 
 namespace relievo::pipeline {
 

@@ -30,7 +30,7 @@ std::pmr::vector<Addition> additions(const UnrolledHead& head, const RigidTransf
   for (int r = 0; r < head.own.rows(); ++r)
     for (int c = 0; c < head.own.columns(); ++c) {
       const float radius = head.added.z(c, r);
-      const float away = head.distance_mm[head.index(c, r)];
+      const float away = head.away.z(c, r);
       if (std::isnan(radius) || away < 1.5F * float(options.cell_mm)) continue;
       const double arc = head.own.x_mm(c), y = head.own.y_mm(r);
       const Vec3d at = apply(camera_from_head, rolled(arc, y, double(radius)));
@@ -183,7 +183,7 @@ Result<FaceMesh> SymmetricCompletion::complete(FaceMesh mesh, const Vec3d& acros
   const Arena::Mark mark(context.scratch);
   UnrolledHead head(mesh, frame->head_from_camera, cell_mm, context.scratch);
   if (context.stop()) return stopped;
-  head.add_other_side(cell_mm, context.scratch);
+  head.add_other_side(context.scratch);
   if (context.stop()) return stopped;
   const auto added = additions(head, inverse(frame->head_from_camera), *this, context.scratch);
   if (added.empty()) return mesh;
@@ -267,10 +267,9 @@ Result<FaceMesh> GenericHeadCompletion::complete(FaceMesh mesh, const Vec3d& acr
   Arena& scratch = context.scratch;
   const Arena::Mark mark(scratch);
   const UnrolledHead face(mesh, frame->head_from_camera, kFitCellMm, scratch);
-  FittedGlobe fitted = fit_generic_globe(face, kFitCellMm, misfit_mm, &scratch);
+  std::array<std::pmr::vector<double>, 2> fields = fit_generic_globe(face, misfit_mm, &scratch);
   if (context.stop()) return stopped;
   Globe globe(kGlobeTimes, &scratch);
-  std::array<std::pmr::vector<double>, 2> fields{std::move(fitted.radius_mm), std::move(fitted.sigma_mm)};
   for (int k = 0; k < kFiner; ++k) globe.quarter(fields);
   const auto &radius = fields[0], &sigma = fields[1];  // clang 14's lambdas take no structured bindings
 

@@ -2,7 +2,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 //
 // What one side of the face hides, the other side shows: the measured surface is mirrored at the plane of
-// symmetry found in it and laid where nothing was measured (unrolled_head.h), moved by what the two differ
+// symmetry found in it and laid where nothing was measured (UnrolledHead), moved by what the two differ
 // along their seam, and sewn on (head_sewing.h). Its sigma is that of asymmetry: sigma_mm, and sigma_per_mm
 // more for every millimetre from the seam. Errors: those of Completion. Thread: any.
 #pragma once
@@ -13,8 +13,8 @@
 #include <span>
 #include <vector>
 
+#include "pipeline/base/kinds.h"
 #include "pipeline/base/options.h"
-#include "pipeline/mesh/mesher.h"
 #include "pipeline/model/geometry.h"
 
 namespace relievo::pipeline {

@@ -4,7 +4,7 @@
 // What heads usually look like: radii as a mean and kHeadModes ways in which people differ from it, each
 // scaled to one standard deviation (principal components; Blanz and Vetter, A morphable model for the
 // synthesis of 3D faces, 1999, without their correspondences: a radius is where it is). Two sets of radii:
-// of the face about the head's upright axis (unrolled_head.h), and of the whole head, its neck cut off, at
+// of the face about the head's upright axis (UnrolledHead), and of the whole head, its neck cut off, at
 // the nodes of a globe (Globe) about a point within it; its modes are what goes with those of the face.
 // Learned from kHeadPeople heads of hal/sim, whose measures follow Farkas, each laid into the frame that
 // find_head_frame() found on it. generic_head.bin holds them and is part of the program;
@@ -13,15 +13,17 @@
 
 #include <array>
 #include <bit>
+#include <cmath>
 #include <cstddef>
 #include <cstdint>
 #include <memory_resource>
 #include <span>
 #include <vector>
 
+#include "hal/base/arena.h"
 #include "hal/base/result.h"
-#include "pipeline/mesh/completion/unrolled_head.h"
-#include "pipeline/model/geometry.h"
+#include "pipeline/mesh/landmarks/face_relief.h"
+#include "pipeline/model/face_mesh.h"
 
 namespace relievo::pipeline {
 
@@ -63,29 +65,53 @@ Result<GenericHead> read_generic_head(std::span<const std::byte> file);
 
 // The program's own.
 std::span<const std::byte> generic_head_file();
-const GenericHead& generic_head();
 
-// The mean and every mode at one place, smooth between the cells.
-struct HeadPlace {
-  double mean_mm = 0;
-  double left_mm = 0;
-  std::array<double, kHeadModes> mode_mm{};
+// A head laid flat: radii about its upright axis, which stands kAxisBehind behind the tip of the nose, over
+// arc and height.
+inline constexpr double kAxisBehind = 90;  // mm behind the tip: the head's upright axis
+inline constexpr double kArcRadius = 80;   // mm: turns angles about it into lengths
+inline constexpr double kHalfArc = 125;    // to the ears
+inline constexpr double kBelow = 95, kAbove = 95;
+
+// The surface with each vertex where `place` has it, without anything else. Memory: scratch.
+template <typename Place>
+FaceMesh laid_flat(const FaceMesh& mesh, Arena& scratch, Place&& place) {
+  FaceMesh flat(&scratch);
+  flat.vertices_mm.reserve(mesh.vertices_mm.size());
+  for (const Vec3f& v : mesh.vertices_mm) flat.vertices_mm.push_back(place(v));
+  flat.triangles = mesh.triangles;
+  return flat;
+}
+
+// Of arc, height and radius about the head's axis the place in the head's frame.
+Vec3d rolled(double arc, double y, double radius);
+
+// `own` holds what was measured, `added` what a completion proposes. Memory: scratch.
+struct UnrolledHead {
+  UnrolledHead(const FaceMesh& mesh, const RigidTransform& head_from_camera, double cell_mm, Arena& scratch);
+
+  // Takes as added what the other side shows, wherever nothing was measured; moved by what the two differ
+  // where both are known, relaxed into the new part (Laplace), so that no step is left at the seam.
+  void add_other_side(Arena& scratch);
+
+  bool has_own(int c, int r) const { return !std::isnan(own.z(c, r)); }
+
+  double cell_mm;
+  FaceMesh flat;  // the surface, unrolled
+  FaceRelief own, added;
+  FaceRelief away;  // mm along the cells, of each from what was measured; of the other side alone
 };
-HeadPlace head_place(double arc_mm, double y_mm);  // of the face
-HeadPlace globe_place(std::size_t node);
 
 // The head of the family that fits best what was measured of one: ridge regression of the modes' weights on
 // radii, rounds of Huber's weights against hair, a tongue, a hand. `misfit_mm`: what a person differs by from
 // all that the family can be, one standard deviation. Throws std::bad_alloc.
 
-// Radii over the unrolled head's cells; NaN below the jaw.
-FaceRelief fit_generic_face(const UnrolledHead& head, double cell_mm, double misfit_mm);
+// Takes its radii as added, measured or not; NaN below the jaw.
+void fit_generic_face(UnrolledHead& head, double misfit_mm);
 
-// At the nodes of the generic head's globe; the sigma is the posterior's, with what the family cannot show.
-struct FittedGlobe {
-  std::pmr::vector<double> radius_mm, sigma_mm;
-};
-FittedGlobe fit_generic_globe(const UnrolledHead& head, double cell_mm, double misfit_mm,
-                              std::pmr::memory_resource* memory);
+// Radii and their sigmas at the nodes of the generic head's globe: the sigma is the posterior's, with what
+// the family cannot show.
+std::array<std::pmr::vector<double>, 2> fit_generic_globe(const UnrolledHead& head, double misfit_mm,
+                                                          std::pmr::memory_resource* memory);
 
 }  // namespace relievo::pipeline

@@ -14,22 +14,11 @@
 namespace relievo::pipeline {
 namespace {
 
-using Edge = std::array<std::uint32_t, 2>;
-
-std::pmr::vector<Edge> directed_edges(const FaceMesh& mesh, Arena& scratch) {
-  std::pmr::vector<Edge> edges(&scratch);
-  edges.reserve(3 * mesh.triangles.size());
-  for (const auto& t : mesh.triangles)
-    for (std::size_t k = 0; k < 3; ++k) edges.push_back({t[k], t[(k + 1) % 3]});
-  std::ranges::sort(edges);
-  return edges;
-}
-
 // What the gap's triangles may be: of short edges, none of which the surface has already; where the border
 // folds in the plane, its wrong side was reached.
-bool fits(const FaceMesh& mesh, std::span<const Edge> own, const Triangle& t, double longest_mm) {
+bool fits(const FaceMesh& mesh, std::span<const BorderEdge> own, const Triangle& t, double longest_mm) {
   for (std::size_t k = 0; k < 3; ++k) {
-    const Edge edge{t[k], t[(k + 1) % 3]};
+    const BorderEdge edge{t[k], t[(k + 1) % 3]};
     const float squared = squared_distance(mesh.vertices_mm[edge[0]], mesh.vertices_mm[edge[1]]);
     if (double(squared) > longest_mm * longest_mm) return false;
     if (std::ranges::binary_search(own, edge)) return false;
@@ -108,7 +97,7 @@ FaceMesh sew(const FaceMesh& mesh, std::span<const Vec3f> flat, std::span<const 
   std::optional<std::uint32_t> far_point;
   if (rules.far_point) far_point = add(*rules.far_point);
   const auto border = border_edges(mesh.triangles, &context.scratch);
-  const auto own = directed_edges(mesh, context.scratch);
+  const auto own = directed_edges(mesh.triangles, &context.scratch);
   const auto gap = triangulate_gap(places, border, fresh, far_point, &context.scratch);
   for (const Triangle& t : gap)
     if (fits(whole, own, t, rules.longest_edge_mm)) whole.triangles.push_back(t);
@@ -119,14 +108,9 @@ FaceMesh sew(const FaceMesh& mesh, std::span<const Vec3f> flat, std::span<const 
   compute_normals(whole, 1, &context.scratch);
   for (std::size_t v = 0; v < mesh.normals.size(); ++v)
     if (mesh.measured[v] != 0) whole.normals[v] = mesh.normals[v];
-  std::pmr::vector<Vec3f> normals(&context.scratch);
-  normals.reserve(whole.normals.size());
-  FaceMesh sewn = pack_mesh(whole.vertices_mm.size(), whole.triangles, context, [&](std::size_t v) {
-    normals.push_back(whole.normals[v]);
-    return PackedVertex{whole.vertices_mm[v], whole.sigma_mm[v], whole.measured[v]};
+  return pack_mesh(whole.vertices_mm.size(), whole.triangles, context, [&](std::size_t v) {
+    return PackedVertex{whole.vertices_mm[v], whole.sigma_mm[v], whole.measured[v], whole.normals[v]};
   });
-  sewn.normals.assign(normals.begin(), normals.end());
-  return sewn;
 }
 
 }  // namespace relievo::pipeline

@@ -89,15 +89,9 @@ void part_touching(FaceMesh& mesh) {
 
 // Every edge is run once in each direction.
 bool is_closed(const FaceMesh& mesh) {
-  std::vector<std::array<std::uint32_t, 2>> edges;
-  edges.reserve(3 * mesh.triangles.size());
-  for (const Triangle& t : mesh.triangles)
-    for (std::size_t k = 0; k < 3; ++k) edges.push_back({t[k], t[(k + 1) % 3]});
-  std::ranges::sort(edges);
-  if (std::adjacent_find(edges.begin(), edges.end()) != edges.end()) return false;
-  return std::ranges::all_of(edges, [&](const auto& e) {
-    return std::ranges::binary_search(edges, std::array<std::uint32_t, 2>{e[1], e[0]});
-  });
+  const auto edges = directed_edges(mesh.triangles, std::pmr::get_default_resource());
+  return std::ranges::adjacent_find(edges) == edges.end() &&
+         border_edges(mesh.triangles, edges.get_allocator().resource()).empty();
 }
 
 double foot_mm2(const FaceModel& model, const FaceMesh& solid, double cut) {

@@ -9,8 +9,8 @@
 // it, or it does not close); Cancelled; OutOfMemory. Thread: any.
 #pragma once
 
+#include "pipeline/base/kinds.h"
 #include "pipeline/base/stage.h"
-#include "pipeline/mesh/mesher.h"
 #include "pipeline/model/face_model.h"
 
 namespace relievo::pipeline {

@@ -21,27 +21,19 @@ constexpr std::size_t kTriedShare = 3;  // a pass tries the cheapest third of th
 
 // The sum of squared distances to planes, weighted by area, as a function of a point.
 struct Quadric {
-  double xx = 0, xy = 0, xz = 0, yy = 0, yz = 0, zz = 0, x = 0, y = 0, z = 0, one = 0, weight = 0;
+  std::array<double, 11> of{};  // xx, xy, xz, yy, yz, zz, x, y, z, 1, and the weights'
 
   void add_plane(const Vec3d& n, double offset, double w) {
     const Vec3d a = times(n, w);
-    add({a.x * n.x, a.x * n.y, a.x * n.z, a.y * n.y, a.y * n.z, a.z * n.z, a.x * offset, a.y * offset,
-         a.z * offset, w * offset * offset, w});
+    add({{a.x * n.x, a.x * n.y, a.x * n.z, a.y * n.y, a.y * n.z, a.z * n.z, a.x * offset, a.y * offset,
+          a.z * offset, w * offset * offset, w}});
   }
   void add(const Quadric& o) {
-    xx += o.xx;
-    xy += o.xy;
-    xz += o.xz;
-    yy += o.yy;
-    yz += o.yz;
-    zz += o.zz;
-    x += o.x;
-    y += o.y;
-    z += o.z;
-    one += o.one;
-    weight += o.weight;
+    for (std::size_t k = 0; k < of.size(); ++k) of[k] += o.of[k];
   }
+  double weight() const { return of.back(); }
   double at(const Vec3d& p) const {
+    const auto& [xx, xy, xz, yy, yz, zz, x, y, z, one, weight] = of;
     return p.x * (xx * p.x + 2 * (xy * p.y + xz * p.z + x)) + p.y * (yy * p.y + 2 * (yz * p.z + y)) +
            p.z * (zz * p.z + 2 * z) + one;
   }
@@ -123,7 +115,7 @@ class Collapser {
   float cost(std::uint32_t gone, std::uint32_t kept) const {
     Quadric sum = quadrics_[gone];
     sum.add(quadrics_[kept]);
-    const double square = std::max(sum.at(at(kept)), 0.0) / std::max(sum.weight, 1e-12);
+    const double square = std::max(sum.at(at(kept)), 0.0) / std::max(sum.weight(), 1e-12);
     return float(square) + kLengthWeight * squared_distance(vertices_[gone], vertices_[kept]);
   }
 

@@ -8,15 +8,13 @@
 #include <limits>
 #include <vector>
 
-#include "pipeline/base/cells.h"
 #include "pipeline/mesh/detail/sliver_mender.h"
+#include "pipeline/mesh/view_cells.h"
 #include "pipeline/model/seam_split.h"
 #include "pipeline/model/vector3.h"
 
 namespace relievo::pipeline {
 namespace {
-
-constexpr float kTrianglesPerCell = 2;
 
 float squared_to_segment(const Vec3f& p, const Vec3f& a, const Vec3f& b) {
   const Vec3f along = minus(b, a);
@@ -24,76 +22,6 @@ float squared_to_segment(const Vec3f& p, const Vec3f& a, const Vec3f& b) {
   const float share = square > 0 ? std::clamp(dot(minus(p, a), along) / square, 0.0F, 1.0F) : 0;
   return squared_distance(p, plus(a, times(along, share)));
 }
-
-// Cells over x/z, y/z, each with the triangles that touch it.
-class CellIndex {
- public:
-  CellIndex(std::span<const Vec3f> vertices, std::span<const Triangle> triangles,
-            std::pmr::memory_resource* memory)
-      : vertices_(vertices), triangles_(triangles), cells_(memory) {
-    float right = -std::numeric_limits<float>::max();
-    float bottom = right;
-    for (const Vec3f& v : vertices) {
-      left_ = std::min(left_, v.x / v.z);
-      right = std::max(right, v.x / v.z);
-      top_ = std::min(top_, v.y / v.z);
-      bottom = std::max(bottom, v.y / v.z);
-      nearest_mm_ = std::min(nearest_mm_, v.z);
-    }
-    const float area = std::max((right - left_) * (bottom - top_), 1e-9F);
-    side_ = std::sqrt(area * kTrianglesPerCell / float(triangles.size()));
-    fill(int((right - left_) / side_) + 1, int((bottom - top_) / side_) + 1);
-  }
-
-  double squared_distance(const Vec3f& p) const {
-    const int c = int(std::floor((p.x / p.z - left_) / side_));
-    const int r = int(std::floor((p.y / p.z - top_) / side_));
-    double best = std::numeric_limits<double>::max();
-    const int most =
-        std::max({std::abs(c), std::abs(c - cells_.columns()), std::abs(r), std::abs(r - cells_.rows())}) + 1;
-    const auto done = [&](int ring) {
-      // What lies beyond this ring is further away across the line of sight alone.
-      const double beyond = double(ring - 1) * double(side_ * kObliquity * std::min(nearest_mm_, p.z));
-      return ring > most || (ring > 0 && beyond > 0 && best <= beyond * beyond);
-    };
-    cells_.by_rings(c, r, done, [&](std::uint32_t k) {
-      const Triangle& t = triangles_[k];
-      best =
-          std::min(best, squared_distance_to_triangle(p, vertices_[t[0]], vertices_[t[1]], vertices_[t[2]]));
-    });
-    return best;
-  }
-
- private:
-  // A step in x/z is at least so much of an angle within 60 degrees of the axis.
-  static constexpr float kObliquity = 0.5F;
-
-  void fill(int columns, int rows) {
-    cells_.fill(columns, rows, [&](auto&& add) {
-      for (std::uint32_t k = 0; k < triangles_.size(); ++k) {
-        float l = std::numeric_limits<float>::max(), u = l, r = -l, d = -l;
-        for (const std::uint32_t v : triangles_[k]) {
-          l = std::min(l, vertices_[v].x / vertices_[v].z);
-          r = std::max(r, vertices_[v].x / vertices_[v].z);
-          u = std::min(u, vertices_[v].y / vertices_[v].z);
-          d = std::max(d, vertices_[v].y / vertices_[v].z);
-        }
-        const auto cell = [this](float at, float from, int count) {
-          return std::clamp(int((at - from) / side_), 0, count - 1);
-        };
-        for (int y = cell(u, top_, rows); y <= cell(d, top_, rows); ++y)
-          for (int x = cell(l, left_, columns); x <= cell(r, left_, columns); ++x) add(x, y, k);
-      }
-    });
-  }
-
-  std::span<const Vec3f> vertices_;
-  std::span<const Triangle> triangles_;
-  float left_ = std::numeric_limits<float>::max(), top_ = std::numeric_limits<float>::max();
-  float nearest_mm_ = std::numeric_limits<float>::max();
-  float side_ = 1;
-  Cells cells_;
-};
 
 constexpr std::uint32_t kUnused = 0xFFFFFFFFU;
 constexpr int kMostTries = 8;
@@ -108,39 +36,36 @@ std::pmr::vector<std::uint8_t> on_seam(const SeamSplit& split, std::size_t verti
   return seam;
 }
 
-// `model` with these triangles alone, and the vertices they use.
-void take_over(const FaceModel& model, const SeamSplit& split, const std::pmr::vector<Triangle>& triangles,
-               FaceModel& lighter, std::pmr::memory_resource* memory) {
-  std::pmr::vector<std::uint32_t> place(model.mesh.vertices_mm.size(), kUnused, memory);
+// Leaves a model these triangles alone, and the vertices they use.
+void keep_triangles(FaceModel& model, const SeamSplit& split, const std::pmr::vector<Triangle>& triangles,
+                    std::pmr::memory_resource* memory) {
+  FaceMesh& mesh = model.mesh;
+  std::pmr::vector<std::uint32_t> place(mesh.vertices_mm.size(), kUnused, memory);
   for (const Triangle& t : triangles)
     for (const std::uint32_t entry : t) place[split.entries[entry].vertex] = 0;
-  FaceMesh& mesh = lighter.mesh;
-  const bool coloured = !model.texture.vertex_rgb.empty();
-  const bool posed = !model.mesh.pose.empty();
   std::uint32_t used = 0;
-  for (std::size_t v = 0; v < place.size(); ++v) {
-    if (place[v] == kUnused) continue;
-    mesh.vertices_mm[used] = model.mesh.vertices_mm[v];
-    mesh.normals[used] = model.mesh.normals[v];
-    mesh.sigma_mm[used] = model.mesh.sigma_mm[v];
-    mesh.measured[used] = model.mesh.measured[v];
-    if (posed) mesh.pose[used] = model.mesh.pose[v];
-    if (coloured)
-      std::copy_n(&model.texture.vertex_rgb[3 * v], 3, &lighter.texture.vertex_rgb[std::size_t{3} * used]);
-    place[v] = used++;
-  }
-  mesh.vertices_mm.resize(used);
-  mesh.normals.resize(used);
-  mesh.sigma_mm.resize(used);
-  mesh.measured.resize(used);
-  if (posed) mesh.pose.resize(used);
-  if (coloured) lighter.texture.vertex_rgb.resize(std::size_t{3} * used);
+  for (std::uint32_t& p : place)
+    if (p != kUnused) p = used++;
+  const auto pack = [&](auto& values, std::size_t each = 1) {
+    if (values.empty()) return;
+    for (std::size_t v = 0; v < place.size(); ++v)
+      for (std::size_t k = 0; k < each && place[v] != kUnused; ++k)
+        values[each * place[v] + k] = values[each * v + k];
+    values.resize(each * used);
+  };
+  pack(mesh.vertices_mm);
+  pack(mesh.normals);
+  pack(mesh.sigma_mm);
+  pack(mesh.measured);
+  pack(mesh.pose);
+  pack(model.texture.vertex_rgb, 3);
   mesh.triangles.resize(triangles.size());
-  lighter.texture.uv.resize(model.texture.uv.empty() ? 0 : 3 * triangles.size());
+  if (!model.texture.uv.empty()) model.texture.uv.resize(3 * triangles.size());
   for (std::size_t t = 0; t < triangles.size(); ++t)
     for (std::size_t k = 0; k < 3; ++k) {
-      mesh.triangles[t][k] = place[split.entries[triangles[t][k]].vertex];
-      if (!lighter.texture.uv.empty()) lighter.texture.uv[3 * t + k] = split.entries[triangles[t][k]].uv;
+      const auto& entry = split.entries[triangles[t][k]];
+      mesh.triangles[t][k] = place[entry.vertex];
+      if (!model.texture.uv.empty()) model.texture.uv[3 * t + k] = entry.uv;
     }
 }
 
@@ -176,11 +101,17 @@ SurfaceDistance distance_to_surface(std::span<const Vec3f> points, std::span<con
                                     std::span<const Triangle> triangles, std::pmr::memory_resource* memory) {
   SurfaceDistance result;
   if (points.empty() || triangles.empty()) return result;
-  const CellIndex index(vertices, triangles, memory);
+  const ViewCells cells(
+      vertices, triangles.size(), [&](std::size_t k) { return triangles[k]; }, memory);
   double sum = 0;
   double most = 0;
   for (const Vec3f& p : points) {
-    const double square = index.squared_distance(p);
+    double square = std::numeric_limits<double>::max();
+    cells.search(p, std::min(cells.nearest_mm(), p.z), square, [&](std::uint32_t k) {
+      const Triangle& t = triangles[k];
+      square =
+          std::min(square, squared_distance_to_triangle(p, vertices[t[0]], vertices[t[1]], vertices[t[2]]));
+    });
     sum += square;
     most = std::max(most, square);
   }
@@ -210,7 +141,7 @@ Result<LighterModel> lighten(const FaceModel& model, const DetailOptions& option
     std::pmr::vector<Triangle> triangles(split.triangles, memory);
     collapse_edges(at_mm, triangles, wanted, seam, memory);
     lighter.model = model;  // all that stays, whatever else a model may carry
-    take_over(model, split, triangles, lighter.model, memory);
+    keep_triangles(lighter.model, split, triangles, memory);
     const SurfaceDistance distance = distance_to_surface(
         model.mesh.vertices_mm, lighter.model.mesh.vertices_mm, lighter.model.mesh.triangles, memory);
     lighter.rms_error_mm = distance.rms_mm;

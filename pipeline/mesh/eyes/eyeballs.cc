@@ -13,7 +13,7 @@
 
 #include "hal/base/statistics.h"
 #include "pipeline/base/solving.h"
-#include "pipeline/mesh/landmarks/lid_finder.h"
+#include "pipeline/mesh/landmarks/landmark_finder.h"
 #include "pipeline/mesh/surface_cleaner.h"
 #include "pipeline/model/vector3.h"
 
@@ -46,77 +46,68 @@ struct Eye {
   double weight() const { return double(seen.size()) / kLikeOthers; }
 };
 
-// Both balls' middles, the right eye's before the left one's; an eye that is not found follows the other.
-class Fit {
- public:
-  Fit(const std::array<Eye, 2>& eyes, ThreadPool& pool) : eyes_(eyes) {
-    constexpr int kStarts = 18;
-    std::array<Settled, kStarts> ends;
-    pool.for_each_band(kStarts, kStarts, [&](int, int, int k) {
-      ends[std::size_t(k)] =
-          settle({3.0 * (k / 3 % 3) - 3, 2.0 * (k % 3) - 2, -kRadiusMm - (k < kStarts / 2 ? -1.0 : 1.0)});
-    });
-    middles_ = std::ranges::min_element(ends, [](const Settled& l, const Settled& r) {
-                 return l.cost < r.cost;
-               })->middles;
-  }
-  const Eigen::Vector3d& middle(std::size_t i) const { return middles_[i]; }
-
- private:
-  struct Settled {
-    std::array<Eigen::Vector3d, 2> middles;
-    double cost = 0;
-  };
-
-  // Cauchy's weights, Gauss-Newton's steps.
-  Settled settle(const Eigen::Vector3d& off) const {
-    std::array<Eigen::Vector3d, 2> at;
-    for (std::size_t i = 0; i < 2; ++i)
-      at[i] = eyes_[i].middle + Eigen::Vector3d(i == 0 ? -off.x() : off.x(), off.y(), off.z());
-    double cost = 0;
-    for (int round = 0; round < kRounds; ++round) {
-      Eigen::Matrix<double, 6, 6> normal = 1e-9 * Eigen::Matrix<double, 6, 6>::Identity();
-      Eigen::Matrix<double, 6, 1> right = Eigen::Matrix<double, 6, 1>::Zero();
-      cost = 0;
-      const auto expect = [&](const Eigen::Matrix<double, 6, 1>& slope, double error, double weight) {
-        normal += weight * slope * slope.transpose();
-        right -= weight * error * slope;
-        cost += weight * error * error;
-      };
-      for (std::size_t i = 0; i < 2; ++i) {
-        const std::ptrdiff_t first = std::ptrdiff_t(3 * i);
-        for (const Eigen::Vector3d& p : eyes_[i].seen) {
-          const Eigen::Vector3d from = p - at[i];
-          const double distance = from.norm(), error = (distance - kRadiusMm) / kErrorMm,
-                       weight = 1 / (1 + error * error);
-          const Eigen::Vector3d slope = -from / (distance * kErrorMm);
-          normal.block<3, 3>(first, first) += weight * slope * slope.transpose();
-          right.segment<3>(first) -= weight * error * slope;
-          cost += std::log1p(error * error);
-        }
-        const double sigmas[] = {kAsideSigmaMm, kAboveSigmaMm};
-        for (std::ptrdiff_t k = 0; k < 2; ++k)
-          expect(Eigen::Matrix<double, 6, 1>::Unit(first + k) / sigmas[k],
-                 (at[i][k] - eyes_[i].middle[k]) / sigmas[k], eyes_[i].weight());
-      }
-      for (std::ptrdiff_t k = 0; k < 3; ++k) {
-        const double mirrored = k == 0 ? 1 : -1;
-        Eigen::Matrix<double, 6, 1> slope = Eigen::Matrix<double, 6, 1>::Zero();
-        slope[k] = 1 / kUnlikeSigmaMm;
-        slope[3 + k] = mirrored / kUnlikeSigmaMm;
-        expect(slope, (at[0][k] + mirrored * at[1][k]) / kUnlikeSigmaMm,
-               std::min(eyes_[0].weight(), eyes_[1].weight()));
-      }
-      const Eigen::Matrix<double, 6, 1> step = solved<6>(normal, right);
-      at[0] += step.head<3>();
-      at[1] += step.tail<3>();
-    }
-    return {at, cost};
-  }
-
-  const std::array<Eye, 2>& eyes_;
-  std::array<Eigen::Vector3d, 2> middles_;
+struct Settled {
+  std::array<Eigen::Vector3d, 2> middles;
+  double cost = 0;
 };
+
+// Cauchy's weights, Gauss-Newton's steps.
+Settled settle(const std::array<Eye, 2>& eyes, const Eigen::Vector3d& off) {
+  std::array<Eigen::Vector3d, 2> at;
+  for (std::size_t i = 0; i < 2; ++i)
+    at[i] = eyes[i].middle + Eigen::Vector3d(i == 0 ? -off.x() : off.x(), off.y(), off.z());
+  double cost = 0;
+  for (int round = 0; round < kRounds; ++round) {
+    Eigen::Matrix<double, 6, 6> normal = 1e-9 * Eigen::Matrix<double, 6, 6>::Identity();
+    Eigen::Matrix<double, 6, 1> right = Eigen::Matrix<double, 6, 1>::Zero();
+    cost = 0;
+    const auto expect = [&](const Eigen::Matrix<double, 6, 1>& slope, double error, double weight) {
+      normal += weight * slope * slope.transpose();
+      right -= weight * error * slope;
+      cost += weight * error * error;
+    };
+    for (std::size_t i = 0; i < 2; ++i) {
+      const std::ptrdiff_t first = std::ptrdiff_t(3 * i);
+      for (const Eigen::Vector3d& p : eyes[i].seen) {
+        const Eigen::Vector3d from = p - at[i];
+        const double distance = from.norm(), error = (distance - kRadiusMm) / kErrorMm,
+                     weight = 1 / (1 + error * error);
+        const Eigen::Vector3d slope = -from / (distance * kErrorMm);
+        normal.block<3, 3>(first, first) += weight * slope * slope.transpose();
+        right.segment<3>(first) -= weight * error * slope;
+        cost += std::log1p(error * error);
+      }
+      const double sigmas[] = {kAsideSigmaMm, kAboveSigmaMm};
+      for (std::ptrdiff_t k = 0; k < 2; ++k)
+        expect(Eigen::Matrix<double, 6, 1>::Unit(first + k) / sigmas[k],
+               (at[i][k] - eyes[i].middle[k]) / sigmas[k], eyes[i].weight());
+    }
+    for (std::ptrdiff_t k = 0; k < 3; ++k) {
+      const double mirrored = k == 0 ? 1 : -1;
+      Eigen::Matrix<double, 6, 1> slope = Eigen::Matrix<double, 6, 1>::Zero();
+      slope[k] = 1 / kUnlikeSigmaMm;
+      slope[3 + k] = mirrored / kUnlikeSigmaMm;
+      expect(slope, (at[0][k] + mirrored * at[1][k]) / kUnlikeSigmaMm,
+             std::min(eyes[0].weight(), eyes[1].weight()));
+    }
+    const Eigen::Matrix<double, 6, 1> step = solved<6>(normal, right);
+    at[0] += step.head<3>();
+    at[1] += step.tail<3>();
+  }
+  return {at, cost};
+}
+
+// Both balls' middles, the right eye's before the left one's; an eye that is not found follows the other.
+std::array<Eigen::Vector3d, 2> fit_balls(const std::array<Eye, 2>& eyes, ThreadPool& pool) {
+  constexpr int kStarts = 18;
+  std::array<Settled, kStarts> ends;
+  pool.for_each_band(kStarts, kStarts, [&](int, int, int k) {
+    ends[std::size_t(k)] =
+        settle(eyes, {3.0 * (k / 3 % 3) - 3, 2.0 * (k % 3) - 2, -kRadiusMm - (k < kStarts / 2 ? -1.0 : 1.0)});
+  });
+  return std::ranges::min_element(ends, [](const Settled& l, const Settled& r) { return l.cost < r.cost; })
+      ->middles;
+}
 
 void collect(Eye& eye, const FaceMesh& mesh, const std::pmr::vector<Vec3d>& in_head) {
   std::pmr::vector<std::uint32_t> measured(eye.within.get_allocator());
@@ -204,7 +195,7 @@ void lay_eyeballs(FaceMesh& mesh, const RigidTransform& head_from_camera, const 
     eyes[i].lids = lids[i];
     if (lids[i]) collect(eyes[i], mesh, in_head);
   }
-  const Fit balls(eyes, context.pool);
+  const auto balls = fit_balls(eyes, context.pool);
   std::pmr::vector<std::uint8_t> moved(in_head.size(), 0, &scratch);  // the eye, from 1
   for (std::uint8_t i = 0; i < 2; ++i)
     if (!eyes[i].seen.empty())
@@ -216,7 +207,7 @@ void lay_eyeballs(FaceMesh& mesh, const RigidTransform& head_from_camera, const 
     for (const std::uint32_t v : eyes[i].within) {
       if (moved[v] == 0) continue;
       Vec3d& p = in_head[v];
-      const Eigen::Vector3d& ball = balls.middle(i);
+      const Eigen::Vector3d& ball = balls[i];
       const double depth = lids[i]->depth({p.x, p.y}), x = p.x - ball.x(), y = p.y - ball.y();
       const double on_ball = ball.z() + std::sqrt(std::max(0.0, kRadiusMm * kRadiusMm - x * x - y * y));
       p.z = -soft_larger(-soft_larger(on_ball, p.z - std::min(kMostBehindMm, kBehind * depth)),

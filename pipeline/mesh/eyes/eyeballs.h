@@ -3,10 +3,9 @@
 //
 // Between the lids of an open eye a matcher measures lamps in the cornea and the iris behind it. What lies
 // there is laid on a ball of an eye's size (Bekerman, Gottlieb, Vaiman 2014: 24.2 mm across, +-0.85), fitted
-// robustly to all that was measured between the lids (lid_finder.h), both eyes at once, about as each other's
-// mirror images. Vertices that both cameras saw within 0.4 mm of it stay measured; the others are completed
-// (measured = 0). Towards lids and corners, where no ball is, the surface spans from one to the other. Lids
-// stay as measured; so does an eye whose lids are not found.
+// robustly to all that was measured between the lids (find_lids), both eyes at once, about as each other's
+// mirror images. What is moved is completed (measured = 0). Towards lids and corners, where no ball is, the
+// surface spans from one to the other. Lids stay as measured; so does an eye whose lids are not found.
 #pragma once
 
 #include "pipeline/base/stage.h"

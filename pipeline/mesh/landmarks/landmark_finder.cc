@@ -60,19 +60,19 @@ bool find_pit(const FaceRelief& relief, const Expected& e, double reach, Vec2d& 
 class Finder {
  public:
   using Eyes = std::array<std::optional<Lids>, 2>;
-  Finder(const FaceMesh& mesh, const RigidTransform& head_from_camera, const Eyes& eyes, Arena& scratch)
+  Finder(const FaceMesh& mesh, const RigidTransform& head_from_camera, const Eyes& eyes,
+         StageContext& context)
       : camera_from_head_(inverse(head_from_camera)),
-        own_(kBox, &scratch),
-        both_(kBox, &scratch),
-        shown_(kBox, &scratch),
+        own_(kBox, &context.scratch),
+        both_(kBox, &context.scratch),
+        shown_(kBox, &context.scratch),
         eyes_(eyes),
-        measured_(profile_of(mesh, head_from_camera, &scratch)),
-        marks_(find_profile_marks(profile_of(mesh, head_from_camera, &scratch, true))) {
-    own_.add(mesh, head_from_camera);
-    shown_.add(mesh, head_from_camera, true);
+        measured_(profile_of(mesh, head_from_camera, &context.scratch)),
+        marks_(find_profile_marks(profile_of(mesh, head_from_camera, &context.scratch, true))) {
+    FaceRelief::add_both(mesh, head_from_camera, own_, shown_, context);
     both_ = own_;  // keeps its own memory
     both_.symmetrise();
-    for (FaceRelief* relief : {&own_, &both_, &shown_}) relief->smooth(kSmoothMm, &scratch);
+    for (FaceRelief* relief : {&own_, &both_, &shown_}) relief->smooth(kSmoothMm, &context.scratch);
   }
 
   Landmarks find() {
@@ -151,7 +151,7 @@ Result<Landmarks> find_landmarks(const FaceMesh& mesh, const RigidTransform& hea
                                  const std::array<std::optional<Lids>, 2>& eyes, StageContext& context) {
   if (context.stop()) return Error{Errc::Cancelled, "the search for landmarks was stopped"};
   const Arena::Mark mark(context.scratch);
-  return Finder(mesh, head_from_camera, eyes, context.scratch).find();
+  return Finder(mesh, head_from_camera, eyes, context).find();
 }
 
 }  // namespace relievo::pipeline

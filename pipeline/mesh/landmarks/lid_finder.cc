@@ -1,13 +1,12 @@
 // SPDX-FileCopyrightText: 2026 The Relievo authors
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include "pipeline/mesh/landmarks/lid_finder.h"
-
 #include <algorithm>
 #include <cmath>
 #include <vector>
 
 #include "hal/base/statistics.h"
 #include "pipeline/mesh/landmarks/face_relief.h"
+#include "pipeline/mesh/landmarks/landmark_finder.h"
 #include "pipeline/model/photo_sampler.h"
 
 namespace relievo::pipeline {

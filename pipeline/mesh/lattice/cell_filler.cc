@@ -1,17 +1,11 @@
 // SPDX-FileCopyrightText: 2026 The Relievo authors
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include "pipeline/mesh/lattice/cell_filler.h"
-
 #include <algorithm>
 #include <array>
 #include <cmath>
 #include <cstdint>
-#include <memory_resource>
-#include <span>
-#include <vector>
 
-#include "pipeline/mesh/lattice/cell_mask.h"
-#include "pipeline/model/geometry.h"
+#include "pipeline/mesh/lattice/surface_shaping.h"
 
 namespace relievo::pipeline {
 namespace {
@@ -95,9 +89,16 @@ class Plate {
   void relax() {
     const bool coarser = free_.size() > kCoarsest && std::min(grid_.columns, grid_.rows) > 8;
     if (coarser) start_from_coarser();
-    spread_inwards(
-        grid_.columns, grid_.rows, free_, placed_, [this](std::uint32_t k) { place_from_neighbours(k); },
-        memory_);
+    const auto place = [this](std::uint32_t k, auto&& each_placed_beside) {
+      double sum = 0;
+      double count = 0;
+      each_placed_beside([&](std::uint32_t n) {
+        sum += value_[n] + (guided(k) && guided(n) ? like_[k] - like_[n] : 0);
+        count += 1;
+      });
+      value_[k] = sum / count;
+    };
+    spread_inwards(grid_.columns, grid_.rows, free_, placed_, place, memory_);
     list_differences();
     solve(coarser ? kTurnsBelow : kMostTurns);
   }
@@ -146,18 +147,6 @@ class Plate {
       value_[k] = sum / count;
       placed_[k] = 1;
     }
-  }
-
-  void place_from_neighbours(std::uint32_t k) {
-    double sum = 0;
-    double count = 0;
-    for (int r = row(k) - 1; r <= row(k) + 1; ++r)
-      for (int c = column(k) - 1; c <= column(k) + 1; ++c) {
-        if (!inside(c, r) || placed_[index(c, r)] == 0) continue;
-        sum += value_[index(c, r)] + (guided(k) && guided(index(c, r)) ? like_[k] - like_[index(c, r)] : 0);
-        count += 1;
-      }
-    value_[k] = sum / count;
   }
 
   void list_differences() {
@@ -289,17 +278,13 @@ constexpr double kBowMm = 40;  // by 1 / this skin bends back from a ball about 
 void spread_sigma(PointLattice& lattice, const CellMask& carrying, std::span<const std::uint32_t> free,
                   std::pmr::memory_resource* memory) {
   CellMask known(carrying, memory);
-  const auto place = [&](std::uint32_t k) {
-    const int c = int(k) % lattice.columns;
-    const int r = int(k) / lattice.columns;
+  const auto place = [&](std::uint32_t k, auto&& each_known_beside) {
     float sum = 0;
     float count = 0;
-    for (int y = r - 1; y <= r + 1; ++y)
-      for (int x = c - 1; x <= c + 1; ++x) {
-        if (!lattice.inside(x, y) || !known[lattice.index(x, y)]) continue;
-        sum += lattice.sigma_mm[lattice.index(x, y)] * (carrying[lattice.index(x, y)] ? 2 : 1);
-        count += 1;
-      }
+    each_known_beside([&](std::uint32_t n) {
+      sum += lattice.sigma_mm[n] * (carrying[n] ? 2 : 1);
+      count += 1;
+    });
     lattice.sigma_mm[k] = sum / count;
   };
   spread_inwards(lattice.columns, lattice.rows, free, known, place, memory);

@@ -18,8 +18,9 @@ namespace relievo::pipeline {
 
 using CellMask = std::pmr::vector<std::uint8_t>;
 
-// Calls place(k) for every cell of `free` that is reached from known ones through cells of `free`, corners
-// included: ring by ring, and a ring counts as known when all of it is placed.
+// Calls place(k, each) for every cell of `free` that is reached from known ones through cells of `free`,
+// corners included: ring by ring, and a ring counts as known when all of it is placed. each(look) calls
+// look(n) for the known cells beside the one to be placed.
 template <typename Place>
 void spread_inwards(int columns, int rows, std::span<const std::uint32_t> free, CellMask& known,
                     Place&& place, std::pmr::memory_resource* memory) {
@@ -41,7 +42,12 @@ void spread_inwards(int columns, int rows, std::span<const std::uint32_t> free, 
   }
   for (const std::uint32_t k : ring) open[k] = 0;
   while (!ring.empty()) {
-    for (const std::uint32_t k : ring) place(k);
+    for (const std::uint32_t k : ring)
+      place(k, [&](auto&& look) {
+        for_each_beside(k, [&](std::uint32_t n) {
+          if (known[n]) look(n);
+        });
+      });
     for (const std::uint32_t k : ring) known[k] = 1;
     next.clear();
     for (const std::uint32_t k : ring)

@@ -1,7 +1,5 @@
 // SPDX-FileCopyrightText: 2026 The Relievo authors
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include "pipeline/mesh/lattice/face_closer.h"
-
 #include <algorithm>
 #include <cmath>
 
@@ -9,8 +7,7 @@
 #include "pipeline/mesh/completion/generic_head.h"
 #include "pipeline/mesh/landmarks/face_profile.h"
 #include "pipeline/mesh/landmarks/head_frame.h"
-#include "pipeline/mesh/lattice/cell_filler.h"
-#include "pipeline/mesh/lattice/outline.h"
+#include "pipeline/mesh/lattice/surface_shaping.h"
 #include "pipeline/mesh/surface_cleaner.h"
 #include "pipeline/mesh/triangle_raster.h"
 
@@ -104,8 +101,9 @@ std::pmr::vector<double> mirrored(const PointLattice& l, Arena& scratch) {
 // beside that, and what a nose looks like is better than a lid from its tip to the lip.
 void add_generic_head(const FaceMesh& rough, const RigidTransform& head_from_camera, const PointLattice& l,
                       std::span<double> like, MaskShaper& shaper, Arena& scratch) {
-  const UnrolledHead head(rough, head_from_camera, kHeadCellMm, scratch);
-  const FaceRelief fitted = fit_generic_face(head, kHeadCellMm, kHeadMisfitMm);
+  UnrolledHead head(rough, head_from_camera, kHeadCellMm, scratch);
+  fit_generic_face(head, kHeadMisfitMm);
+  const FaceRelief& fitted = head.added;
   struct Place {
     Vec2f at;
     float radius_mm = 0;
@@ -224,17 +222,17 @@ CellMask open_cells(const PointLattice& l, const FaceOutline& outline, std::span
 
 }  // namespace
 
-Result<std::optional<ClosedFace>> close_face(const PointLattice& seen, const Vec3d& right_camera_mm,
-                                             const LatticeLimits& limits, StageContext& context) {
+Result<std::optional<ShapedLattice>> close_face(const PointLattice& seen, const Vec3d& right_camera_mm,
+                                                const LatticeLimits& limits, StageContext& context) {
   const Error stopped{Errc::Cancelled, "meshing was stopped"};
   Arena& scratch = context.scratch;
   const FaceMesh rough = rough_surface(seen, scratch);
   const auto head = find_head_frame(rough, context, right_camera_mm);
   if (!head && head.error().code == Errc::Cancelled) return head.error();
-  if (!head) return std::optional<ClosedFace>{};
+  if (!head) return std::optional<ShapedLattice>{};
   const FaceOutline outline = outline_of(rough, head->head_from_camera, scratch);
   PointLattice l = lay_on_head(seen, outline.chart, kRoomMm, context.pool, &scratch);
-  if (!(l.cell_width_mm > 0 && l.cell_height_mm > 0)) return std::optional<ClosedFace>{};
+  if (!(l.cell_width_mm > 0 && l.cell_height_mm > 0)) return std::optional<ShapedLattice>{};
   if (context.stop()) return stopped;
   join_neighbours(l, limits, &scratch);
   MaskShaper shaper(l.columns, l.rows, l.cell_width_mm, l.cell_height_mm, &scratch);
@@ -256,7 +254,7 @@ Result<std::optional<ClosedFace>> close_face(const PointLattice& seen, const Vec
   CellMask inside(l.size(), 0, &scratch);
   for (std::size_t k = 0; k < l.size(); ++k) inside[k] = l.cells[k] != 0;
   shaper.fill_holes(inside);
-  return std::optional(ClosedFace{{std::move(l), std::move(inside), true}, outline});
+  return std::optional(ShapedLattice{std::move(l), std::move(inside), outline});
 }
 
 }  // namespace relievo::pipeline

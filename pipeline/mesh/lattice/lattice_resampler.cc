@@ -247,7 +247,7 @@ double expected_triangles(const ShapedLattice& old, float edge) {
 
 ShapedLattice resample_lattice(const ShapedLattice& old, const LatticeSpacing& spacing, float max_slope,
                                ThreadPool& pool, std::pmr::memory_resource* memory) {
-  ShapedLattice made{PointLattice(memory), CellMask(memory), old.closed};
+  ShapedLattice made{PointLattice(memory), CellMask(memory), old.outline};
   if (old.lattice.columns < 2 || old.lattice.rows < 2) return made;
   const Reader reader(old.lattice);
   const Nodes at = lay_nodes(old.lattice, spacing, made.lattice, memory);
@@ -262,7 +262,7 @@ ShapedLattice resample_lattice(const ShapedLattice& old, const LatticeSpacing& s
     const Window cell{at.x[x], at.y[y], at.x[x + 1] - at.x[x], at.y[y + 1] - at.y[y]};
     const Place middle = reader.place(cell.x + 0.5F * cell.width, cell.y + 0.5F * cell.height);
     made.inside[k] = old.inside[old.lattice.index(middle.column, middle.row)];
-    l.cells[k] = cut_cell(l, c, r, carried_parts(reader, cell), max_slope, old.closed);
+    l.cells[k] = cut_cell(l, c, r, carried_parts(reader, cell), max_slope, old.outline.has_value());
   };
   pool.for_each_band(l.rows - 1, kBands, [&](int from, int to, int) {
     for (int r = from; r < to; ++r)

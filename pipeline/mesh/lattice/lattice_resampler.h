@@ -11,6 +11,7 @@
 #pragma once
 
 #include <memory_resource>
+#include <optional>
 
 #include "hal/base/thread_pool.h"
 #include "pipeline/mesh/lattice/cell_mask.h"
@@ -20,8 +21,9 @@ namespace relievo::pipeline {
 
 struct ShapedLattice {
   PointLattice lattice;
-  CellMask inside;      // what lies within the outline, holes included
-  bool closed = false;  // a closed face: what was completed may lie where the view does not see it
+  CellMask inside;  // what lies within the outline, holes included
+  // Of a closed face: what was completed may lie where the view does not see it, nothing beyond this is kept.
+  std::optional<FaceOutline> outline{};
 };
 
 struct LatticeSpacing {

@@ -92,11 +92,20 @@ PointLattice make_lattice(const PointCloud& cloud, std::pmr::memory_resource* me
 inline constexpr std::uint8_t kUnder = 1, kOver = 2, kLeft = 4, kRight = 8;
 inline constexpr std::uint8_t kFalling = kUnder | kOver, kRising = kLeft | kRight;
 
+// What surface may be (grid_mesher.h has the options they come from): its steps, the gaps in it that are
+// closed, its outline.
 struct LatticeLimits {
   float max_slope = 0;  // tangent of the steepest angle of incidence
   float step_sigmas = 0;
   float step_slope_ratio = 0;
   float min_step_mm = 0;
+  float max_gap_mm = 0;  // from rim to rim
+  float max_bend = 0;  // tangent of how far a bridge's slope may leave that of both sides by over min_step_mm
+  float max_rim_slope = 0;  // tangent of the steepest angle of incidence before the outside, seen from:
+  Vec3f rim_from_mm{};
+  float min_width_mm = 0;
+  float wave_mm = 0;                  // sigma of the outline's straightening
+  float outline_mm = 0, rims_mm = 0;  // sigmas of the lines' smoothing; 0 leaves that line on the lattice
 };
 
 // Nodes of every triangle, counter-clockwise as the camera at the origin sees them.

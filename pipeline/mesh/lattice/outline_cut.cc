@@ -1,10 +1,9 @@
 // SPDX-FileCopyrightText: 2026 The Relievo authors
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include "pipeline/mesh/lattice/outline_cut.h"
-
 #include <algorithm>
 #include <cmath>
 
+#include "pipeline/mesh/lattice/surface_shaping.h"
 #include "pipeline/mesh/surface_cleaner.h"
 
 namespace relievo::pipeline {
@@ -88,18 +87,18 @@ class Cutter {
         number_(lattice.size(), kNone, memory),
         cuts_(memory) {}
 
-  void draw_lines(const CellMask& inside, const OutlineSmoothing& smoothing,
-                  const std::optional<FaceOutline>& outline, std::pmr::memory_resource* memory) {
-    if (outline)
+  void draw_lines(const ShapedLattice& shaped, const LatticeLimits& limits,
+                  std::pmr::memory_resource* memory) {
+    if (shaped.outline)
       for (std::size_t k = 0; k < over_.size(); ++k)
         if (lattice_.node[k] != Node::Empty)
-          over_[k] = std::min(over_[k], outline->depth_mm(lattice_.at_mm[k]));
-    if (smoothing.outline_mm > 0)
+          over_[k] = std::min(over_[k], shaped.outline->depth_mm(lattice_.at_mm[k]));
+    if (limits.outline_mm > 0)
       take_least(depth_inside(
-          lattice_, [&](std::size_t k) { return inside[k] ? 2 : 0; }, smoothing.outline_mm, memory));
-    if (smoothing.rims_mm > 0)
+          lattice_, [&](std::size_t k) { return shaped.inside[k] ? 2 : 0; }, limits.outline_mm, memory));
+    if (limits.rims_mm > 0)
       take_least(depth_inside(
-          lattice_, [&](std::size_t k) { return triangle_count(lattice_.cells[k]); }, smoothing.rims_mm,
+          lattice_, [&](std::size_t k) { return triangle_count(lattice_.cells[k]); }, limits.rims_mm,
           memory));
     for_each_triangle(lattice_, [this](const Triangle& t) {
       for (std::size_t i = 0; i < 3; ++i) pull_together(t[i], t[(i + 1) % 3]);
@@ -251,11 +250,10 @@ float FaceOutline::depth_mm(const Vec3f& from_chart_centre_mm) const {
   return float(to_chin + between * (to_reach - to_chin) - kBend * between * (1 - between) / 2);
 }
 
-FaceMesh cut_outline(const PointLattice& lattice, const CellMask& inside, const OutlineSmoothing& smoothing,
-                     const std::optional<FaceOutline>& outline, float max_slope,
+FaceMesh cut_outline(const ShapedLattice& shaped, const LatticeLimits& limits, float max_slope,
                      std::pmr::memory_resource* memory) {
-  Cutter cutter(lattice, max_slope, memory);
-  if (lattice.size() > 0) cutter.draw_lines(inside, smoothing, outline, memory);
+  Cutter cutter(shaped.lattice, max_slope, memory);
+  if (shaped.lattice.size() > 0) cutter.draw_lines(shaped, limits, memory);
   return cutter.cut(memory);
 }
 

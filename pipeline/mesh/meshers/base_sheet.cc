@@ -3,8 +3,10 @@
 #include "pipeline/mesh/meshers/base_sheet.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <numbers>
+#include <optional>
 
 #include "hal/base/statistics.h"
 #include "pipeline/mesh/detail/sliver_mender.h"
@@ -16,29 +18,20 @@
 namespace relievo::pipeline {
 namespace {
 
-constexpr float kPointsPerCell = 2;
-constexpr float kObliquity = 0.5F;  // of an angle within 60 degrees of the axis a step in x/z is at least
-
 constexpr float kMeasuredEdges = 1.5F;  // a vertex that many usual edges from a measured point is measured
 constexpr float kAnySlope = 1e6F;
 constexpr float kBeyondEdges = 0.3F;  // and so many beyond the border it may lie
 constexpr float kSigmaPerMm = 0.05F;  // what a vertex further from the points loses in certainty
 
-struct Carried {
-  explicit Carried(std::pmr::memory_resource* memory) : sigma_mm(memory), measured(memory), near(memory) {}
-  std::pmr::vector<float> sigma_mm;
-  std::pmr::vector<std::uint8_t> measured, near;
-};
-
-Carried carry_over(const FaceMesh& base, std::span<const Vec3f> vertices, const FinishOptions& options,
-                   StageContext& context) {
+// The vertices as they go into the mesh; none where one lies too far from what was measured.
+std::pmr::vector<std::optional<PackedVertex>> carry_over(const FaceMesh& base,
+                                                         std::span<const Vec3f> vertices,
+                                                         const FinishOptions& options,
+                                                         StageContext& context) {
   const NearestVertex nearest(base.vertices_mm, &context.scratch);
   const auto border = border_vertices(base, &context.scratch);
   const float usual = usual_edge_mm(base.vertices_mm, base.triangles, &context.scratch);
-  Carried carried(&context.scratch);
-  carried.sigma_mm.assign(vertices.size(), 0.0F);
-  carried.measured.assign(vertices.size(), 0);
-  carried.near.assign(vertices.size(), 0);
+  std::pmr::vector<std::optional<PackedVertex>> carried(vertices.size(), &context.scratch);
   for (std::size_t v = 0; v < vertices.size(); ++v) {
     if (!(vertices[v].z > 0)) continue;
     const auto hit = nearest.find(vertices[v], float(options.max_gap_mm));
@@ -46,9 +39,9 @@ Carried carry_over(const FaceMesh& base, std::span<const Vec3f> vertices, const 
     const float distance = std::sqrt(hit.squared_mm);
     if (border[hit.vertex] && distance > kBeyondEdges * usual)
       continue;  // nothing grows over the measured border
-    carried.near[v] = 1;
-    carried.measured[v] = base.measured[hit.vertex] && distance <= kMeasuredEdges * usual;
-    carried.sigma_mm[v] = base.sigma_mm[hit.vertex] + kSigmaPerMm * std::max(distance - usual, 0.0F);
+    const bool measured = base.measured[hit.vertex] && distance <= kMeasuredEdges * usual;
+    carried[v] = {vertices[v], base.sigma_mm[hit.vertex] + kSigmaPerMm * std::max(distance - usual, 0.0F),
+                  measured ? std::uint8_t{1} : std::uint8_t{0}};
   }
   return carried;
 }
@@ -56,40 +49,14 @@ Carried carry_over(const FaceMesh& base, std::span<const Vec3f> vertices, const 
 }  // namespace
 
 NearestVertex::NearestVertex(std::span<const Vec3f> points, std::pmr::memory_resource* memory)
-    : points_(points), cells_(memory) {
-  if (points.empty()) return;
-  left_ = top_ = 1e9F;
-  float right = -1e9F, bottom = -1e9F;
-  for (const Vec3f& p : points) {
-    left_ = std::min(left_, p.x / p.z);
-    right = std::max(right, p.x / p.z);
-    top_ = std::min(top_, p.y / p.z);
-    bottom = std::max(bottom, p.y / p.z);
-  }
-  side_ =
-      std::sqrt(std::max((right - left_) * (bottom - top_), 1e-9F) * kPointsPerCell / float(points.size()));
-  const int columns = int((right - left_) / side_) + 1;
-  const int rows = int((bottom - top_) / side_) + 1;
-  cells_.fill(columns, rows, [&](auto&& add) {
-    for (std::uint32_t i = 0; i < points.size(); ++i) {
-      const Vec3f& p = points[i];
-      add(std::clamp(int((p.x / p.z - left_) / side_), 0, columns - 1),
-          std::clamp(int((p.y / p.z - top_) / side_), 0, rows - 1), i);
-    }
-  });
-}
+    : points_(points),
+      cells_(
+          points, points.size(), [](std::uint32_t i) { return std::array{i}; }, memory) {}
 
 NearestVertex::Hit NearestVertex::find(const Vec3f& at, float within_mm) const {
   Hit best{kNone, within_mm * within_mm};
   if (points_.empty()) return best;
-  const int c = int(std::floor((at.x / at.z - left_) / side_));
-  const int r = int(std::floor((at.y / at.z - top_) / side_));
-  const auto done = [&](int ring) {
-    // What lies beyond the rings seen so far is further away across the line of sight alone.
-    const float beyond = float(ring - 1) * side_ * kObliquity * at.z;
-    return ring > 0 && beyond > 0 && beyond * beyond >= best.squared_mm;
-  };
-  cells_.by_rings(c, r, done, [&](std::uint32_t i) {
+  cells_.search(at, at.z, best.squared_mm, [&](std::uint32_t i) {
     const float square = squared_distance(points_[i], at);
     if (square < best.squared_mm) best = {i, square};
   });
@@ -136,13 +103,12 @@ FaceMesh densify(const FaceMesh& base, float spacing_mm, std::pmr::memory_resour
 Result<FaceMesh> finish_surface(const FaceMesh& base, std::span<const Vec3f> vertices,
                                 std::pmr::vector<Triangle>& triangles, const FinishOptions& options,
                                 StageContext& context) {
-  const Carried carried = carry_over(base, vertices, options, context);
+  const auto carried = carry_over(base, vertices, options, context);
   if (context.stop()) return Error{Errc::Cancelled, "meshing was stopped"};
   const float max_slope = float(std::tan(options.max_incidence_deg * std::numbers::pi / 180));
   const float min_cosine = cosine_of_slope(max_slope);
-  std::erase_if(triangles, [&](const Triangle& t) {
-    return !carried.near[t[0]] || !carried.near[t[1]] || !carried.near[t[2]];
-  });
+  std::erase_if(triangles,
+                [&](const Triangle& t) { return !carried[t[0]] || !carried[t[1]] || !carried[t[2]]; });
   keep_one_surface(vertices, triangles, {}, &context.scratch);
   // Slivers first: the way a triangle almost without area faces says nothing.
   const auto mend = [&](float slope) {
@@ -162,9 +128,7 @@ Result<FaceMesh> finish_surface(const FaceMesh& base, std::span<const Vec3f> ver
   if (triangles.size() > most)
     return Error{Errc::InvalidInput, "the surface cannot be simplified to so few triangles: allow more"}.at(
         "max_triangles");
-  FaceMesh mesh = pack_mesh(vertices.size(), triangles, context, [&](std::size_t v) {
-    return PackedVertex{vertices[v], carried.sigma_mm[v], carried.measured[v]};
-  });
+  FaceMesh mesh = pack_mesh(vertices.size(), triangles, context, [&](std::size_t v) { return *carried[v]; });
   compute_normals(mesh, 1, &context.scratch);
   context.progress.done.store(1, std::memory_order_relaxed);
   return mesh;
@@ -208,13 +172,13 @@ Result<FaceMesh> mesh_sheet(const FaceMesh& base, const DepthSamples& samples, c
   const NearestVertex nearest(base.vertices_mm, &context.scratch);
   const int rows = int((samples.bottom - samples.top) / options.step_mm) + 1;
   const std::size_t columns = std::size_t(int((samples.right - samples.left) / options.step_mm) + 1);
+  const auto u_of = [&](std::size_t column) { return samples.left + options.step_mm * double(column); };
   const auto v_of = [&](int row) { return samples.top + options.step_mm * row; };
-  std::pmr::vector<double> us(columns, 0.0, &context.scratch);
-  for (std::size_t c = 0; c < columns; ++c) us[c] = samples.left + options.step_mm * double(c);
   std::pmr::vector<double> depths(columns * std::size_t(rows), 0.0, &context.scratch);
   context.pool.for_each_band(rows, kBands, [&](int from, int to, int) {
     for (int r = from; r < to && !context.stop(); ++r)
-      function(us, v_of(r), std::span(depths).subspan(std::size_t(r) * columns, columns));
+      for (std::size_t c = 0; c < columns; ++c)
+        depths[std::size_t(r) * columns + c] = function(u_of(c), v_of(r));
   });
   if (context.stop()) return Error{Errc::Cancelled, "meshing was stopped"};
   const float usual = usual_edge_mm(base.vertices_mm, base.triangles, &context.scratch);
@@ -227,7 +191,7 @@ Result<FaceMesh> mesh_sheet(const FaceMesh& base, const DepthSamples& samples, c
     if (!std::isfinite(depths[i]) || depths[i] <= 0) continue;
     const std::size_t c = i % columns;
     const int r = int(i / columns);
-    const Vec3f at{float(us[c] / samples.usual_depth_mm * depths[i]),
+    const Vec3f at{float(u_of(c) / samples.usual_depth_mm * depths[i]),
                    float(v_of(r) / samples.usual_depth_mm * depths[i]), float(depths[i])};
     const auto hit = nearest.find(at, 3 * reach + 2 * kDisagreeMm);
     if (hit.vertex == NearestVertex::kNone) continue;

@@ -1,8 +1,8 @@
 // SPDX-FileCopyrightText: 2026 The Relievo authors
 // SPDX-License-Identifier: GPL-3.0-or-later
 //
-// NearestVertex: which of many points in front of the camera lies nearest, found through cells over the
-// picture plane, ring by ring. Exact within the reach asked for. Millimetres. Thread: any, once made.
+// NearestVertex: which of many points in front of the camera lies nearest. Exact within the reach asked for.
+// Millimetres. Thread: any, once made.
 #pragma once
 
 #include <cstdint>
@@ -11,10 +11,10 @@
 #include <span>
 #include <vector>
 
-#include "pipeline/base/cells.h"
+#include "pipeline/base/kinds.h"
 #include "pipeline/base/options.h"
-#include "pipeline/mesh/mesher.h"
 #include "pipeline/mesh/surface_cleaner.h"
+#include "pipeline/mesh/view_cells.h"
 #include "pipeline/model/geometry.h"
 
 namespace relievo::pipeline {
@@ -33,8 +33,7 @@ class NearestVertex {
 
  private:
   std::span<const Vec3f> points_;
-  float left_ = 0, top_ = 0, side_ = 1;
-  Cells cells_;
+  ViewCells cells_;
 };
 
 // What the meshers of the catalogue begin and end with.
@@ -108,8 +107,8 @@ struct SheetOptions {
   }
 };
 
-// Asked for the depths of a row of places: `depths` gets one for each (us[i], v). Called from the pool.
-using DepthFunction = std::function<void(std::span<const double> us, double v, std::span<double> depths)>;
+// Called from the pool.
+using DepthFunction = std::function<double(double u, double v)>;
 
 // Errors: PoorGeometry, Cancelled. Throws std::bad_alloc where an arena is used up.
 Result<FaceMesh> mesh_sheet(const FaceMesh& base, const DepthSamples& samples, const DepthFunction& function,

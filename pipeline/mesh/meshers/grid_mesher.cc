@@ -5,15 +5,10 @@
 #include <algorithm>
 #include <cmath>
 #include <numbers>
-#include <optional>
 #include <utility>
 
 #include "pipeline/mesh/detail/sliver_mender.h"
-#include "pipeline/mesh/lattice/face_closer.h"
-#include "pipeline/mesh/lattice/gap_closer.h"
-#include "pipeline/mesh/lattice/lattice_resampler.h"
-#include "pipeline/mesh/lattice/outline.h"
-#include "pipeline/mesh/lattice/outline_cut.h"
+#include "pipeline/mesh/lattice/surface_shaping.h"
 #include "pipeline/mesh/surface_cleaner.h"
 
 namespace relievo::pipeline {
@@ -64,38 +59,43 @@ void clean(FaceMesh& cut, float max_slope, StageContext& context) {
 Result<FaceMesh> make_surface(const PointCloud& cloud, double triangles, const GridMesher& o,
                               StageContext& context) {
   Arena& scratch = context.scratch;
-  const LatticeLimits limits{tangent(o.max_incidence_deg), float(o.step_sigmas), float(o.step_slope_ratio),
-                             float(o.min_step_mm)};
+  const Vec3d& right = cloud.right_camera_mm;
+  const LatticeLimits limits{.max_slope = tangent(o.max_incidence_deg),
+                             .step_sigmas = float(o.step_sigmas),
+                             .step_slope_ratio = float(o.step_slope_ratio),
+                             .min_step_mm = float(o.min_step_mm),
+                             .max_gap_mm = float(o.max_hole_mm),
+                             .max_bend = tangent(o.gap_bend_deg),
+                             .max_rim_slope = tangent(o.max_rim_deg),
+                             .rim_from_mm = narrow(times(right, 0.5)),
+                             .min_width_mm = float(o.min_width_mm),
+                             .wave_mm = float(o.outline_wave_mm),
+                             .outline_mm = float(o.outline_smoothing_mm),
+                             .rims_mm = float(o.rim_smoothing_mm)};
   PointLattice lattice = make_lattice(cloud, &scratch);
   join_neighbours(lattice, limits, &scratch);
   if (context.stop()) return stopped();
   if (!(lattice.cell_width_mm > 0 && lattice.cell_height_mm > 0)) return FaceMesh(&scratch);
   MaskShaper shaper(lattice.columns, lattice.rows, lattice.cell_width_mm, lattice.cell_height_mm, &scratch);
-  close_gaps(lattice, {float(o.max_hole_mm), limits.max_slope, tangent(o.gap_bend_deg), limits.min_step_mm},
-             shaper, &scratch);
+  close_gaps(lattice, limits, shaper, &scratch);
   if (context.stop()) return stopped();
   // After the gaps: a crack must not make a narrow place of a wide one.
-  const Vec3d& right = cloud.right_camera_mm;
-  const OutlineLimits trimming{limits.max_slope, tangent(o.max_rim_deg), narrow(times(right, 0.5)),
-                               float(o.min_width_mm), float(o.outline_wave_mm)};
-  CellMask inside = trim_outline(lattice, trimming, shaper, &scratch);
+  CellMask inside = trim_outline(lattice, limits, shaper, &scratch);
   if (context.stop()) return stopped();
-  std::optional<ClosedFace> closed;
+  std::optional<ShapedLattice> closed;
   if (right.x != 0 || right.y != 0 || right.z != 0) {
     RELIEVO_TRY_ASSIGN(closed, close_face(lattice, right, limits, context));
   }
   const float max_slope = closed ? kSteepest : limits.max_slope;
-  const std::optional<FaceOutline> outline = closed ? std::optional(closed->outline) : std::nullopt;
-  const OutlineSmoothing smoothing{float(o.outline_smoothing_mm), float(o.rim_smoothing_mm)};
-  const ShapedLattice shaped = fill_budget(
-      closed ? std::move(closed->shaped) : ShapedLattice{std::move(lattice), std::move(inside), false},
-      triangles, max_slope, o, context);
+  const ShapedLattice shaped =
+      fill_budget(closed ? std::move(*closed) : ShapedLattice{std::move(lattice), std::move(inside)},
+                  triangles, max_slope, o, context);
   if (context.stop()) return stopped();
-  FaceMesh cut = cut_outline(shaped.lattice, shaped.inside, smoothing, outline, max_slope, &scratch);
+  FaceMesh cut = cut_outline(shaped, limits, max_slope, &scratch);
   if (context.stop()) return stopped();
   clean(cut, max_slope, context);
   if (context.stop()) return stopped();
-  if (outline) turn_outwards(cut, outline->chart.centre_mm);
+  if (shaped.outline) turn_outwards(cut, shaped.outline->chart.centre_mm);
   return cut;
 }
 

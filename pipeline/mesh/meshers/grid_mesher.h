@@ -8,7 +8,7 @@
 // vertex, counter-clockwise seen from the cameras, no measured triangle steeper than max_incidence_deg to
 // the line of sight of that view, a straightened boundary without fringe, no angle below
 // kSmallestAngleDeg where noise allows it, never more than max_triangles. Where the cloud says from which
-// views it comes and holds a head, the face is closed and cut to its outline (face_closer.h): what was
+// views it comes and holds a head, the face is closed and cut to its outline (surface_shaping.h): what was
 // completed has measured = 0 and may turn away from the cameras. Elsewhere small holes are closed with a
 // thin-plate surface, larger ones stay open. So is marked what is less certain than measured_sigma_mm (a chin
 // that moved between the exposures). sigma_mm is perpendicular to the surface: the line of sight's sigma
@@ -17,8 +17,8 @@
 // Cancelled. Thread: any; keeps no state.
 #pragma once
 
+#include "pipeline/base/kinds.h"
 #include "pipeline/base/options.h"
-#include "pipeline/mesh/mesher.h"
 
 namespace relievo::pipeline {
 

@@ -10,8 +10,8 @@
 #include <memory_resource>
 #include <vector>
 
+#include "pipeline/base/kinds.h"
 #include "pipeline/base/options.h"
-#include "pipeline/mesh/mesher.h"
 #include "pipeline/mesh/meshers/base_sheet.h"
 
 namespace relievo::pipeline {
@@ -144,7 +144,7 @@ class BezierNet {
   int columns() const { return columns_; }
   int rows() const { return rows_; }
   const Patch& patch(int column, int row) const { return patches_[std::size_t(row * columns_ + column)]; }
-  void depths(std::span<const double> us, double v, std::span<double> depths) const;  // a DepthFunction
+  double depth(double u, double v) const;  // a DepthFunction
 
  private:
   double left_, top_, side_, middle_;

@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: 2026 The Relievo authors
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include "pipeline/texture/blend/level_field.h"
+#include "pipeline/texture/blend/view_blend.h"
 
 #include <algorithm>
 #include <cmath>
@@ -95,88 +95,88 @@ ExposureMatch match_exposure(const Chart& chart, const ShotPlanes& planes) {
   return match;
 }
 
-LevelField::LevelField(const Chart& chart, const ShotPlanes& planes, const ExposureMatch& exposure,
-                       std::span<const std::uint8_t> shines, std::pmr::memory_resource* memory)
-    : columns_((chart.width_px + kLevelCell - 1) / kLevelCell),
-      rows_((chart.height_px + kLevelCell - 1) / kLevelCell),
-      cells_(std::size_t(columns_) * std::size_t(rows_), Cell{}, memory) {
-  constexpr float kFarthest = 40;  // grey levels: more is an edge that does not meet, not a level
-  for (int y = 0; y < chart.height_px; ++y)
-    for (int x = 0; x < chart.width_px; ++x) {
-      const std::size_t k = chart.index(x, y);
-      if (std::min(planes.say_left[k], planes.say_right[k]) < 128 || shines[k] != 0) continue;
-      Level d;
-      for (std::size_t c = 0; c < 3; ++c)
-        d[c] = exposure.matched(c, planes.right[3 * k + c]) - float(planes.left[3 * k + c]);
-      if (std::abs(d[1]) > kFarthest) continue;
-      Cell& to = cells_[index(x / kLevelCell, y / kLevelCell)];
-      for (std::size_t c = 0; c < 3; ++c) to.sum[c] += d[c];
-      to.weight += 1;
-    }
-  smooth(memory);
-  extend(memory);
-}
+namespace {
+
+constexpr int kLevelCell = 16;  // texels a cell and side
+
+struct Cell {
+  Level sum{0, 0, 0};
+  float weight = 0;
+  void add(const Cell& other, float share) {
+    for (std::size_t c = 0; c < 3; ++c) sum[c] += share * other.sum[c];
+    weight += share * other.weight;
+  }
+};
 
 // Weighted means with the neighbours (binomial, twice): normalised convolution.
-void LevelField::smooth(std::pmr::memory_resource* memory) {
-  std::pmr::vector<Cell> next(cells_.size(), Cell{}, memory);
+void smooth(Plane<Cell>& cells, std::pmr::memory_resource* memory) {
+  Plane<Cell> next(memory, cells.width, cells.height);
   for (int pass = 0; pass < 2; ++pass) {
-    for (int y = 0; y < rows_; ++y)
-      for (int x = 0; x < columns_; ++x) {
+    for (int y = 0; y < cells.height; ++y)
+      for (int x = 0; x < cells.width; ++x) {
         Cell sum;
-        for (int dy = -1; dy <= 1; ++dy)
-          for (int dx = -1; dx <= 1; ++dx) {
-            if (x + dx < 0 || y + dy < 0 || x + dx >= columns_ || y + dy >= rows_) continue;
-            const float w = (dx == 0 ? 2.0F : 1.0F) * (dy == 0 ? 2.0F : 1.0F) / 16;
-            const Cell& from = cell(x + dx, y + dy);
-            for (std::size_t c = 0; c < 3; ++c) sum.sum[c] += w * from.sum[c];
-            sum.weight += w * from.weight;
-          }
-        next[index(x, y)] = sum;
+        for (int v = std::max(0, y - 1); v <= std::min(cells.height - 1, y + 1); ++v)
+          for (int u = std::max(0, x - 1); u <= std::min(cells.width - 1, x + 1); ++u)
+            sum.add(cells.row(v)[u], (u == x ? 2.0F : 1.0F) * (v == y ? 2.0F : 1.0F) / 16);
+        next.row(y)[x] = sum;
       }
-    std::swap(cells_, next);
+    std::swap(cells.values, next.values);
   }
 }
 
 // Cells nobody knows take the mean of what is known in ever larger squares around them; a few grey
 // levels of evidence count as known, so that a cell at the border is not its one texel's slave.
-void LevelField::extend(std::pmr::memory_resource* memory) {
+Plane<Level> extended(const Plane<Cell>& cells, std::pmr::memory_resource* memory) {
   constexpr float kEnough = 32;  // texels
-  const auto mean_of = [](const Cell& c) {
-    return Cell{{c.sum[0] / c.weight, c.sum[1] / c.weight, c.sum[2] / c.weight}, 1};
-  };
-  const std::pmr::vector<Cell> known(cells_, memory);
-  const int largest = std::max(columns_, rows_);
-  for (int y = 0; y < rows_; ++y)
-    for (int x = 0; x < columns_; ++x) {
-      Cell& here = cells_[index(x, y)];
-      Cell sum = here;
+  Plane<Level> field(memory, cells.width, cells.height);
+  const int largest = std::max(cells.width, cells.height);
+  for (int y = 0; y < cells.height; ++y)
+    for (int x = 0; x < cells.width; ++x) {
+      Cell sum = cells.row(y)[x];
       for (int radius = 1; sum.weight < kEnough && radius <= largest; radius *= 2) {
         sum = {};
-        for (int v = std::max(0, y - radius); v <= std::min(rows_ - 1, y + radius); ++v)
-          for (int u = std::max(0, x - radius); u <= std::min(columns_ - 1, x + radius); ++u) {
-            const Cell& from = known[index(u, v)];
-            for (std::size_t c = 0; c < 3; ++c) sum.sum[c] += from.sum[c];
-            sum.weight += from.weight;
-          }
+        for (int v = std::max(0, y - radius); v <= std::min(cells.height - 1, y + radius); ++v)
+          for (int u = std::max(0, x - radius); u <= std::min(cells.width - 1, x + radius); ++u)
+            sum.add(cells.row(v)[u], 1);
       }
-      here = sum.weight > 0 ? mean_of(sum) : Cell{};
+      for (std::size_t c = 0; c < 3 && sum.weight > 0; ++c) field.row(y)[x][c] = sum.sum[c] / sum.weight;
     }
+  return field;
 }
 
-LevelField::Level LevelField::at(float texel_x, float texel_y) const {
-  const float x = std::clamp((texel_x + 0.5F) / kLevelCell - 0.5F, 0.0F, float(columns_ - 1));
-  const float y = std::clamp((texel_y + 0.5F) / kLevelCell - 0.5F, 0.0F, float(rows_ - 1));
-  const int u = std::min(int(x), std::max(0, columns_ - 2));
-  const int v = std::min(int(y), std::max(0, rows_ - 2));
-  const int u1 = std::min(u + 1, columns_ - 1);
-  const int v1 = std::min(v + 1, rows_ - 1);
+}  // namespace
+
+Plane<Level> measure_levels(const Chart& chart, const ShotPlanes& planes, const ExposureMatch& exposure,
+                            std::span<const std::uint8_t> shines, std::pmr::memory_resource* memory) {
+  constexpr float kFarthest = 40;  // grey levels: more is an edge that does not meet, not a level
+  Plane<Cell> cells(memory, (chart.width_px + kLevelCell - 1) / kLevelCell,
+                    (chart.height_px + kLevelCell - 1) / kLevelCell);
+  for (int y = 0; y < chart.height_px; ++y)
+    for (int x = 0; x < chart.width_px; ++x) {
+      const std::size_t k = chart.index(x, y);
+      if (std::min(planes.say_left[k], planes.say_right[k]) < 128 || shines[k] != 0) continue;
+      Cell here{{}, 1};
+      for (std::size_t c = 0; c < 3; ++c)
+        here.sum[c] = exposure.matched(c, planes.right[3 * k + c]) - float(planes.left[3 * k + c]);
+      if (std::abs(here.sum[1]) <= kFarthest) cells.row(y / kLevelCell)[x / kLevelCell].add(here, 1);
+    }
+  smooth(cells, memory);
+  return extended(cells, memory);
+}
+
+Level level_at(const Plane<Level>& field, float texel_x, float texel_y) {
+  const float x = std::clamp((texel_x + 0.5F) / kLevelCell - 0.5F, 0.0F, float(field.width - 1));
+  const float y = std::clamp((texel_y + 0.5F) / kLevelCell - 0.5F, 0.0F, float(field.height - 1));
+  const int u = std::min(int(x), std::max(0, field.width - 2));
+  const int v = std::min(int(y), std::max(0, field.height - 2));
+  const int u1 = std::min(u + 1, field.width - 1);
+  const Level *above = field.row(v), *below = field.row(std::min(v + 1, field.height - 1));
   const float fx = x - float(u);
   const float fy = y - float(v);
   Level level;
   for (std::size_t c = 0; c < 3; ++c) {
-    const float upper = cell(u, v).sum[c] + fx * (cell(u1, v).sum[c] - cell(u, v).sum[c]);
-    const float lower = cell(u, v1).sum[c] + fx * (cell(u1, v1).sum[c] - cell(u, v1).sum[c]);
+    const float upper = above[u][c] + fx * (above[u1][c] - above[u][c]);
+    const float lower = below[u][c] + fx * (below[u1][c] - below[u][c]);
     level[c] = upper + fy * (lower - upper);
   }
   return level;

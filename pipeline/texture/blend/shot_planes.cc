@@ -184,24 +184,20 @@ struct Shooting {
     const Vec2f at{float(x), float(y)};
     const float disparity = maps[0].nearest[k];
     const std::uint8_t may = views.seen[t[0]] | views.seen[t[1]] | views.seen[t[2]];
-    std::uint8_t seen = kSurface;
-    float rgb[3];
     const float row = chart.view_y(at.y);
-    const float left_x = chart.view_x(at.x, disparity, kLeftSide);
-    left.read(left_x, rgb);
-    for (std::size_t i = 0; i < 3; ++i) planes.left[3 * k + i] = to_byte(rgb[i]);
-    if ((may & kSeenLeft) != 0 && covered(pair.left, pair, left_x, row) &&
-        maps[1].sees(at, disparity, options.occlusion_px))
-      seen |= kSeenLeft;
-    if (!options.left_only) {
-      const float right_x = chart.view_x(at.x, disparity, kRightSide);
-      right.read(right_x, rgb);
-      for (std::size_t i = 0; i < 3; ++i) planes.right[3 * k + i] = to_byte(rgb[i]);
-      if ((may & kSeenRight) != 0 && covered(pair.right, pair, right_x, row) &&
-          maps[2].sees(at, disparity, options.occlusion_px))
-        seen |= kSeenRight;
-    }
-    planes.seen[k] = seen;
+    planes.seen[k] = kSurface;
+    const auto look = [&](const RectifiedView& view, const PhotoRow& photo, const FrontMap& map,
+                          std::uint8_t bit, std::span<std::uint8_t> to) {
+      const float column = chart.view_x(at.x, disparity, map.side);
+      float rgb[3];
+      photo.read(column, rgb);
+      for (std::size_t i = 0; i < 3; ++i) to[3 * k + i] = to_byte(rgb[i]);
+      if ((may & bit) != 0 && covered(view, pair, column, row) &&
+          map.sees(at, disparity, options.occlusion_px))
+        planes.seen[k] |= bit;
+    };
+    look(pair.left, left, maps[1], kSeenLeft, planes.left);
+    if (!options.left_only) look(pair.right, right, maps[2], kSeenRight, planes.right);
     planes.share[k] = to_byte(255 * share_at(at, t));
   }
 

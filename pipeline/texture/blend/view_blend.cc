@@ -18,18 +18,100 @@ constexpr float kLeastLevels = 3;  // ... and beyond this many grey levels is no
 constexpr std::size_t kFewestBlocks = 12;
 constexpr float kOneSided = 0.8F;  // of the difference, on one side: a reflection, not a movement
 
-}  // namespace
+using Choices = Plane<ViewChoice>;  // one a block
 
-ViewChoice::ViewChoice(const Chart& chart, const ShotPlanes& planes, const ExposureMatch& exposure,
-                       const LevelField& field, float margin_px, std::pmr::memory_resource* memory)
-    : columns_((chart.width_px + kBlock - 1) / kBlock),
-      rows_((chart.height_px + kBlock - 1) / kBlock),
-      blocks_(std::size_t(columns_) * std::size_t(rows_), Choice{}, memory) {
-  std::pmr::vector<float> excess(blocks_.size(), 0.0F, memory);      // of the left view, mean over the block
-  std::pmr::vector<float> difference(blocks_.size(), 0.0F, memory);  // its size, mean over the block
-  for (int v = 0; v < rows_; ++v)
-    for (int u = 0; u < columns_; ++u) {
-      const LevelField::Level level = field.at(float(kBlock * u) + 1.5F, float(kBlock * v) + 1.5F);
+// Calls see(block) for the block itself and its neighbours, through sides and corners.
+template <typename See>
+void around(const Choices& blocks, int u, int v, See&& see) {
+  for (int y = std::max(v - 1, 0); y <= std::min(v + 1, blocks.height - 1); ++y)
+    for (int x = std::max(u - 1, 0); x <= std::min(u + 1, blocks.width - 1); ++x)
+      see(std::size_t(y) * std::size_t(blocks.width) + std::size_t(x));
+}
+
+// Every patch of blocks that differ by `limit` and more, joined through sides and corners, gets its camera.
+// `excess`: of the left view.
+void choose(const Chart& chart, const ShotPlanes& planes, const Plane<float>& excess,
+            const Plane<float>& difference, float limit, std::pmr::memory_resource* memory, Choices& blocks) {
+  std::pmr::vector<std::uint8_t> taken(blocks.values.size(), 0, memory);
+  std::pmr::vector<std::uint32_t> patch(memory);
+  patch.reserve(taken.size());
+  for (std::uint32_t seed = 0; seed < taken.size(); ++seed) {
+    if (taken[seed] != 0 || difference.values[seed] < limit) continue;
+    patch.assign(1, seed);
+    taken[seed] = 1;
+    float one_way = 0;
+    float all = 0;
+    float left = 0;
+    float right = 0;
+    for (std::size_t next = 0; next < patch.size(); ++next) {
+      const int u = int(patch[next]) % blocks.width;
+      const int v = int(patch[next]) / blocks.width;
+      one_way += excess.values[patch[next]];
+      all += difference.values[patch[next]];
+      const std::size_t k = chart.index(std::min(kBlock * u + 1, chart.width_px - 1),
+                                        std::min(kBlock * v + 1, chart.height_px - 1));
+      const float share = float(planes.share[k]) / 255;
+      left += float(planes.say_left[k]) * (1 - share);
+      right += float(planes.say_right[k]) * share;
+      around(blocks, u, v, [&](std::size_t other) {
+        if (taken[other] != 0 || difference.values[other] < limit) return;
+        taken[other] = 1;
+        patch.push_back(std::uint32_t(other));
+      });
+    }
+    if (patch.size() < kFewestBlocks || std::abs(one_way) > kOneSided * all) continue;
+    for (const std::uint32_t k : patch) blocks.values[k] = {right > left ? 1.0F : 0.0F, 1};
+  }
+}
+
+// Ring by ring; where two parts meet the stronger evidence is that of the first.
+void widen(int reach, Choices& blocks, std::pmr::memory_resource* memory) {
+  Choices before(memory, blocks.width, blocks.height);
+  for (int ring = 0; ring < reach; ++ring) {
+    before.values = blocks.values;
+    for (int v = 0; v < blocks.height; ++v)
+      for (int u = 0; u < blocks.width; ++u) {
+        if (before.row(v)[u].strength > 0) continue;
+        around(blocks, u, v, [&](std::size_t k) {
+          if (before.values[k].strength > 0) blocks.row(v)[u] = before.values[k];
+        });
+      }
+  }
+}
+
+// Falls to nothing over so many blocks, and never before the widened part ends.
+void fade(int reach, Choices& blocks, std::pmr::memory_resource* memory) {
+  Choices before(memory, blocks.width, blocks.height);
+  for (int ring = reach; ring > 0; --ring) {
+    before.values = blocks.values;
+    const float strength = float(ring) / float(reach + 1);
+    for (int v = 0; v < blocks.height; ++v)
+      for (int u = 0; u < blocks.width; ++u) {
+        if (before.row(v)[u].strength > 0) continue;
+        ViewChoice sum;
+        around(blocks, u, v, [&](std::size_t k) {
+          sum.right += before.values[k].right, sum.strength += before.values[k].strength;
+        });
+        if (sum.strength > 0) blocks.row(v)[u] = {strength * sum.right / sum.strength, strength};
+      }
+  }
+}
+
+// One camera for the whole of a part in which the photographs disagree. What moved between two
+// exposures (lips, an eyelid) would be shown twice by their mean. Such a part is a connected patch of blocks
+// whose colours differ by more than noise; it is widened to where they agree again, so that the seam lies
+// there, and taken from the camera that sees more of it, more straightly. A patch that one camera shows
+// brighter throughout is a lamp's reflection: ViewBlend decides.
+// `margin_px`: by how many texels a part is widened, and over how many the choice fades beyond that.
+Choices choose_views(const Chart& chart, const ShotPlanes& planes, const ExposureMatch& exposure,
+                     const Plane<Level>& field, float margin_px, std::pmr::memory_resource* memory) {
+  const PlaneShape shape{memory, (chart.width_px + kBlock - 1) / kBlock,
+                         (chart.height_px + kBlock - 1) / kBlock};
+  Choices blocks(shape);
+  Plane<float> excess(shape), difference(shape);  // of the left view, mean over the block; and its size
+  for (int v = 0; v < blocks.height; ++v)
+    for (int u = 0; u < blocks.width; ++u) {
+      const Level level = level_at(field, float(kBlock * u) + 1.5F, float(kBlock * v) + 1.5F);
       float signed_sum = 0;
       float sum = 0;
       float count = 0;
@@ -46,106 +128,36 @@ ViewChoice::ViewChoice(const Chart& chart, const ShotPlanes& planes, const Expos
           count += 1;
         }
       if (count == 0) continue;
-      excess[index(u, v)] = signed_sum / count;
-      difference[index(u, v)] = sum / count;
+      excess.row(v)[u] = signed_sum / count;
+      difference.row(v)[u] = sum / count;
     }
   const float sigma = (exposure.sigma[0] + exposure.sigma[1] + exposure.sigma[2]) / 3;
-  choose(chart, planes, excess, difference, std::max(kSigmas * sigma, kLeastLevels), memory);
+  choose(chart, planes, excess, difference, std::max(kSigmas * sigma, kLeastLevels), memory, blocks);
   const int reach = std::max(1, int(std::lround(margin_px / kBlock)));
-  widen(reach, memory);
-  fade(reach, memory);
+  widen(reach, blocks, memory);
+  fade(reach, blocks, memory);
+  return blocks;
 }
 
-// Calls see(block) for the block itself and its neighbours, through sides and corners.
-template <typename See>
-void ViewChoice::around(int u, int v, See&& see) const {
-  for (int y = std::max(v - 1, 0); y <= std::min(v + 1, rows_ - 1); ++y)
-    for (int x = std::max(u - 1, 0); x <= std::min(u + 1, columns_ - 1); ++x) see(index(x, y));
-}
-
-// Every patch of differing blocks, joined through sides and corners, gets its camera.
-void ViewChoice::choose(const Chart& chart, const ShotPlanes& planes, std::span<const float> excess,
-                        std::span<const float> difference, float limit, std::pmr::memory_resource* memory) {
-  std::pmr::vector<std::uint8_t> taken(blocks_.size(), 0, memory);
-  std::pmr::vector<std::uint32_t> patch(memory);
-  patch.reserve(blocks_.size());
-  for (std::uint32_t seed = 0; seed < blocks_.size(); ++seed) {
-    if (taken[seed] != 0 || difference[seed] < limit) continue;
-    patch.assign(1, seed);
-    taken[seed] = 1;
-    float one_way = 0;
-    float all = 0;
-    float left = 0;
-    float right = 0;
-    for (std::size_t next = 0; next < patch.size(); ++next) {
-      const int u = int(patch[next]) % columns_;
-      const int v = int(patch[next]) / columns_;
-      one_way += excess[patch[next]];
-      all += difference[patch[next]];
-      const std::size_t k = chart.index(std::min(kBlock * u + 1, chart.width_px - 1),
-                                        std::min(kBlock * v + 1, chart.height_px - 1));
-      const float share = float(planes.share[k]) / 255;
-      left += float(planes.say_left[k]) * (1 - share);
-      right += float(planes.say_right[k]) * share;
-      around(u, v, [&](std::size_t other) {
-        if (taken[other] != 0 || difference[other] < limit) return;
-        taken[other] = 1;
-        patch.push_back(std::uint32_t(other));
-      });
-    }
-    if (patch.size() < kFewestBlocks || std::abs(one_way) > kOneSided * all) continue;
-    for (const std::uint32_t k : patch) blocks_[k] = {right > left ? 1.0F : 0.0F, 1};
-  }
-}
-
-// Ring by ring; where two parts meet the stronger evidence is that of the first.
-void ViewChoice::widen(int reach, std::pmr::memory_resource* memory) {
-  std::pmr::vector<Choice> before(memory);
-  for (int ring = 0; ring < reach; ++ring) {
-    before = blocks_;
-    for (int v = 0; v < rows_; ++v)
-      for (int u = 0; u < columns_; ++u) {
-        if (before[index(u, v)].strength > 0) continue;
-        around(u, v, [&](std::size_t k) {
-          if (before[k].strength > 0) blocks_[index(u, v)] = before[k];
-        });
-      }
-  }
-}
-
-// Falls to nothing over so many blocks, and never before the widened part ends.
-void ViewChoice::fade(int reach, std::pmr::memory_resource* memory) {
-  std::pmr::vector<Choice> before(memory);
-  for (int ring = reach; ring > 0; --ring) {
-    const float strength = float(ring) / float(reach + 1);
-    before = blocks_;
-    for (int v = 0; v < rows_; ++v)
-      for (int u = 0; u < columns_; ++u) {
-        if (before[index(u, v)].strength > 0) continue;
-        Choice sum;
-        around(u, v,
-               [&](std::size_t k) { sum.right += before[k].right, sum.strength += before[k].strength; });
-        if (sum.strength > 0) blocks_[index(u, v)] = {strength * sum.right / sum.strength, strength};
-      }
-  }
-}
-
-ViewChoice::Choice ViewChoice::at(float texel_x, float texel_y) const {
-  const float x = std::clamp((texel_x + 0.5F) / kBlock - 0.5F, 0.0F, float(columns_ - 1));
-  const float y = std::clamp((texel_y + 0.5F) / kBlock - 0.5F, 0.0F, float(rows_ - 1));
+ViewChoice choice_at(const Choices& blocks, float texel_x, float texel_y) {
+  const float x = std::clamp((texel_x + 0.5F) / kBlock - 0.5F, 0.0F, float(blocks.width - 1));
+  const float y = std::clamp((texel_y + 0.5F) / kBlock - 0.5F, 0.0F, float(blocks.height - 1));
   const int u = int(x);
   const int v = int(y);
   const float fx = x - float(u);
   const float fy = y - float(v);
-  Choice mean;
+  ViewChoice mean;
   for (int k = 0; k < 4; ++k) {
     const float w = (k % 2 == 0 ? 1 - fx : fx) * (k < 2 ? 1 - fy : fy);
-    const Choice& block = blocks_[index(std::min(u + k % 2, columns_ - 1), std::min(v + k / 2, rows_ - 1))];
+    const ViewChoice& block =
+        blocks.row(std::min(v + k / 2, blocks.height - 1))[std::min(u + k % 2, blocks.width - 1)];
     mean.right += w * block.right;
     mean.strength += w * block.strength;
   }
   return mean;
 }
+
+}  // namespace
 
 ViewBlend::ViewBlend(const Chart& chart, const ShotPlanes& planes, const RowBands& bands,
                      float highlight_level, float margin_px, StageContext& context)
@@ -162,8 +174,8 @@ ViewBlend::ViewBlend(const Chart& chart, const ShotPlanes& planes, const RowBand
                  kNoiseSigmas * std::max({exposure_.sigma[0], exposure_.sigma[1], exposure_.sigma[2]}) / 2);
   if (level_ > 0) find_highlights(bands, context);
   if (context.stop()) return;
-  field_.emplace(chart, planes, exposure_, shines_, &context.scratch);
-  if (margin_px > 0) choice_.emplace(chart, planes, exposure_, *field_, margin_px, &context.scratch);
+  field_ = measure_levels(chart, planes, exposure_, shines_, &context.scratch);
+  if (margin_px > 0) choice_ = choose_views(chart, planes, exposure_, *field_, margin_px, &context.scratch);
 }
 
 float ViewBlend::excess_of(const std::uint8_t* left, const std::uint8_t* right) const {
@@ -212,7 +224,7 @@ void ViewBlend::find_highlights(const RowBands& bands, StageContext& context) {
 
 ViewBlend::Colour ViewBlend::mix(const Views& v, float texel_x, float texel_y) const {
   constexpr float kLeast = 0.004F;  // of a view not chosen: it shows what the chosen one cannot see
-  const ViewChoice::Choice choice = choice_ ? choice_->at(texel_x, texel_y) : ViewChoice::Choice{};
+  const ViewChoice choice = choice_ ? choice_at(*choice_, texel_x, texel_y) : ViewChoice{};
   float share = std::clamp(v.share * (1 - choice.strength) + choice.right, kLeast * choice.strength,
                            1 - kLeast * choice.strength);
   const float by_left = (1 - share) * float(v.say_left);
@@ -227,7 +239,7 @@ ViewBlend::Colour ViewBlend::mix(const Views& v, float texel_x, float texel_y) c
     const float trust = (1 - choice.strength) * std::clamp(std::abs(v.excess) / level_ - 1, 0.0F, 1.0F);
     share += trust * ((v.excess > 0 ? 1.0F : 0.0F) - share);
   }
-  const LevelField::Level level = field_->at(texel_x, texel_y);
+  const Level level = level_at(*field_, texel_x, texel_y);
   Colour out{};
   out.share = share;
   for (std::size_t c = 0; c < 3; ++c) {

@@ -8,45 +8,48 @@
 // Thread: prepared by one, then mix() by any number.
 #pragma once
 
+#include <array>
 #include <cstdint>
 #include <memory_resource>
 #include <optional>
 #include <span>
 #include <vector>
 
-#include "pipeline/texture/blend/level_field.h"
+#include "pipeline/match/image/plane.h"
 #include "pipeline/texture/blend/shot_planes.h"
 
 namespace relievo::pipeline {
 
-// ViewChoice: one camera for the whole of a part in which the photographs disagree. What moved between two
-// exposures (lips, an eyelid) would be shown twice by their mean. Such a part is a connected patch of blocks
-// whose colours differ by more than noise; it is widened to where they agree again, so that the seam lies
-// there, and taken from the camera that sees more of it, more straightly. A patch that one camera shows
-// brighter throughout is a lamp's reflection: ViewBlend decides. Thread: one, then any. Throws
-// std::bad_alloc.
-class ViewChoice {
- public:
-  // `margin_px`: by how many texels a part is widened, and over how many the choice fades beyond that.
-  ViewChoice(const Chart& chart, const ShotPlanes& planes, const ExposureMatch& exposure,
-             const LevelField& field, float margin_px, std::pmr::memory_resource* memory);
+// Brings the right photograph to the left one's exposure and white balance: a gain and an offset per
+// channel, found on skin that both see. Reduced major axis (both pictures are noisy), repeated with Tukey's
+// weights, against highlights, hair and edges (Huber, Ronchetti: Robust Statistics, 2009, ch. 7). Grey
+// levels.
+struct ExposureMatch {
+  std::array<float, 3> gain{1, 1, 1};
+  std::array<float, 3> offset{0, 0, 0};
+  std::array<float, 3> sigma{0, 0, 0};  // of left minus matched right, robust
+  float matched(std::size_t channel, std::uint8_t right) const {
+    return gain[channel] * float(right) + offset[channel];
+  }
+};
 
-  // strength: 1 where a camera is chosen, 0 where none is; right: the right one's part of that strength.
-  struct Choice {
-    float right = 0, strength = 0;
-  };
-  Choice at(float texel_x, float texel_y) const;
+ExposureMatch match_exposure(const Chart& chart, const ShotPlanes& planes);
 
- private:
-  std::size_t index(int x, int y) const { return std::size_t(y) * std::size_t(columns_) + std::size_t(x); }
-  template <typename See>
-  void around(int u, int v, See&& see) const;
-  void choose(const Chart& chart, const ShotPlanes& planes, std::span<const float> excess,
-              std::span<const float> difference, float limit, std::pmr::memory_resource* memory);
-  void widen(int reach, std::pmr::memory_resource* memory);
-  void fade(int reach, std::pmr::memory_resource* memory);
-  int columns_, rows_;
-  std::pmr::vector<Choice> blocks_;
+// The level field: by how much the (exposure-matched) right photograph is brighter than the left one, channel
+// by channel, slowly varying over the face; continued smoothly to where one alone sees it. Half added here
+// and half taken off there leaves no seam where one gives way to the other: the low band of Burt and Adelson
+// (A multiresolution spline with application to image mosaics, ACM TOG 1983), continued as Lempitsky and
+// Ivanov level seams (Seamless mosaicing of image-based texture maps, CVPR 2007).
+using Level = std::array<float, 3>;
+// One a cell. `shines`: one a texel, 1 where a highlight makes the views incomparable.
+Plane<Level> measure_levels(const Chart& chart, const ShotPlanes& planes, const ExposureMatch& exposure,
+                            std::span<const std::uint8_t> shines, std::pmr::memory_resource* memory);
+Level level_at(const Plane<Level>& field, float texel_x, float texel_y);
+
+// Which camera shows a part in which the photographs disagree. strength: 1 where one is chosen, 0 where none
+// is; right: the right one's part of that strength.
+struct ViewChoice {
+  float right = 0, strength = 0;
 };
 
 class ViewBlend {
@@ -81,8 +84,8 @@ class ViewBlend {
   float level_ = 0;                        // 0: highlights are kept
   std::pmr::vector<std::int16_t> excess_;  // sixteenths of a grey level, smoothed
   std::pmr::vector<std::uint8_t> shines_;
-  std::optional<LevelField> field_;
-  std::optional<ViewChoice> choice_;  // none where one view alone counts
+  std::optional<Plane<Level>> field_;
+  std::optional<Plane<ViewChoice>> choice_;  // one a block; none where one view alone counts
 };
 
 }  // namespace relievo::pipeline

@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: 2026 The Relievo authors
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include "pipeline/texture/chart/side_charts.h"
+#include "pipeline/texture/chart/chart.h"
 
 #include <algorithm>
 #include <cmath>
@@ -17,6 +17,7 @@ constexpr double kFilledPxPerMm = 1;
 
 struct Piece {
   std::uint32_t first, count;
+  bool photographed;
   float width, height, x, y;
 };  // of a chart; x and y: its place
 
@@ -31,7 +32,6 @@ class Builder {
   Builder(const FaceMesh& mesh, std::span<const std::uint8_t> kept,
           std::span<const std::uint8_t> photographed, std::pmr::memory_resource* memory)
       : mesh_(mesh),
-        kept_(kept),
         photographed_(photographed),
         around_(memory),
         taken_(kept.begin(), kept.end(), memory),
@@ -51,9 +51,10 @@ class Builder {
   }
 
   std::pmr::vector<Piece>& pieces() { return pieces_; }
-  bool seen(std::uint32_t triangle) const { return all_three(photographed_, mesh_.triangles[triangle]); }
 
  private:
+  bool seen(std::uint32_t triangle) const { return all_three(photographed_, mesh_.triangles[triangle]); }
+
   // A chart around one triangle, laid flat in millimetres with its upper left corner at zero.
   void grow(std::uint32_t seed, SideCharts& sides) {
     const Vec3f axis = normal_of(mesh_, seed);
@@ -72,7 +73,7 @@ class Builder {
           sides.triangles.push_back(other);
         }
     }
-    lay_flat(axis, from, sides);
+    lay_flat(axis, from, photograph, sides);
   }
 
   static bool share_an_edge(const std::array<std::uint32_t, 3>& a, const std::array<std::uint32_t, 3>& b) {
@@ -81,7 +82,7 @@ class Builder {
     return shared >= 2;
   }
 
-  void lay_flat(const Vec3f& axis, std::size_t from, SideCharts& sides) {
+  void lay_flat(const Vec3f& axis, std::size_t from, bool photograph, SideCharts& sides) {
     // Down the picture stays down, so that charts are as high as they are wide or higher.
     Vec3f across = cross(Vec3f{0, 1, 0}, axis);
     across = dot(across, across) > 1e-6F ? unit(across) : Vec3f{1, 0, 0};
@@ -97,30 +98,30 @@ class Builder {
       }
     for (std::size_t k = 3 * from; k < sides.corner.size(); ++k)
       sides.corner[k] = {sides.corner[k].x - low.x, sides.corner[k].y - low.y};
-    pieces_.push_back({std::uint32_t(from), std::uint32_t(sides.triangles.size() - from), high.x - low.x,
-                       high.y - low.y, 0, 0});
+    pieces_.push_back({std::uint32_t(from), std::uint32_t(sides.triangles.size() - from), photograph,
+                       high.x - low.x, high.y - low.y, 0, 0});
   }
 
   const FaceMesh& mesh_;
-  std::span<const std::uint8_t> kept_, photographed_;
+  std::span<const std::uint8_t> photographed_;
   Groups around_;  // side triangles around each vertex
   std::pmr::vector<std::uint8_t> taken_;
   std::pmr::vector<Piece> pieces_;
 };
 
 struct Scale {
-  float seen, filled;
-};  // texels a millimetre
+  float photographed, filled;  // texels a millimetre
+  float of(const Piece& p) const { return p.photographed ? photographed : filled; }
+};
 
 // Columns of charts, the widest first; returns the width they take. What is higher than the room is pressed
 // in.
-float pack(std::span<Piece> pieces, const Builder& builder, const SideCharts& sides, Scale scale,
-           float height_px) {
+float pack(std::span<Piece> pieces, const Scale& scale, float height_px) {
   float column_x = 0;
   float column_width = 0;
   float y = 0;
   for (Piece& p : pieces) {
-    const float s = builder.seen(sides.triangles[p.first]) ? scale.seen : scale.filled;
+    const float s = scale.of(p);
     const float width = p.width * s + 1 + 2 * kPaddingPx;
     const float height = std::min(p.height * s + 1 + 2 * kPaddingPx, height_px);
     if (y + height > height_px) {
@@ -153,14 +154,14 @@ SideCharts lay_out_sides(const FaceMesh& mesh, const Chart& main, std::span<cons
   const float room = float(max_px - main.width_px);
   const float high = float(main.height_px);
   Scale scale{float(photograph_px_per_mm), float(kFilledPxPerMm)};
-  float width = pack(pieces, builder, sides, scale, high);
+  float width = pack(pieces, scale, high);
   for (int round = 0; width > room && round < 24; ++round) {
-    scale = {scale.seen / 2, scale.filled / 2};
-    width = pack(pieces, builder, sides, scale, high);
+    scale = {scale.photographed / 2, scale.filled / 2};
+    width = pack(pieces, scale, high);
   }
   const float squeeze = width > room ? room / width : 1;  // thousands of crumbs: they share texels
   for (const Piece& p : pieces) {
-    const float s = builder.seen(sides.triangles[p.first]) ? scale.seen : scale.filled;
+    const float s = scale.of(p);
     const float tall = std::min(s, (high - 1 - 2 * kPaddingPx) / std::max(p.height, 1e-3F));
     for (std::size_t k = 3 * std::size_t{p.first}; k < 3 * (std::size_t{p.first} + p.count); ++k) {
       Vec2f& at = sides.corner[k];

@@ -66,10 +66,7 @@ class Buffer {
   template <typename T>
   int add_array(const std::vector<T>& values, std::size_t components, ComponentType type, Target target,
                 const std::string& box = {}) {
-    std::vector<std::byte> bytes;
-    bytes.reserve(values.size() * sizeof(T));
-    ByteWriter(bytes).put_run<T, T>(std::span<const T>(values));
-    const int view = add_view(bytes, target);
+    const int view = add_view(std::as_bytes(std::span(values)), target);
     constexpr const char* kNames[] = {"", "SCALAR", "VEC2", "VEC3"};
     accessors_ += accessors_.empty() ? "" : ",";
     accessors_ += "{\"bufferView\":" + number_text(view) + ",\"componentType\":" + number_text(int(type)) +

@@ -19,7 +19,6 @@
 
 #include "pipeline/mesh/completion/completions.h"
 #include "pipeline/mesh/completion/generic_head.h"
-#include "pipeline/mesh/completion/unrolled_head.h"
 #include "pipeline/mesh/landmarks/head_frame.h"
 #include "pipeline/mesh/meshers/grid_mesher.h"
 #include "tests/pipeline/mesh/landmarks/field_head.h"

@@ -23,7 +23,7 @@
 #include <thread>
 
 #include "firmware/base/boot_memory.h"
-#include "firmware/base/steady_heap.h"
+#include "firmware/base/process_memory.h"
 #include "firmware/kiosk/glass.h"
 #include "firmware/work/jobs.h"
 #include "hal/clock.h"

@@ -6,7 +6,6 @@
 #include <functional>
 
 #include "pipeline/report/page.h"
-#include "pipeline/report/text.h"
 #include "tests/bench/recognition/score_figures.h"
 
 namespace relievo::bench {

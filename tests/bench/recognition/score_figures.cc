@@ -7,7 +7,7 @@
 #include <cmath>
 
 #include "pipeline/report/drawing.h"
-#include "pipeline/report/text.h"
+#include "pipeline/report/page.h"
 
 namespace relievo::bench {
 namespace {

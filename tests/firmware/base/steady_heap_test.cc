@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: 2026 The Relievo authors
 // SPDX-License-Identifier: GPL-3.0-or-later
 #ifndef RELIEVO_SANITIZED  // sanitizers bring their own heap
-#include "firmware/base/steady_heap.h"
+#include "firmware/base/process_memory.h"
 
 #include <gtest/gtest.h>
 #include <malloc.h>

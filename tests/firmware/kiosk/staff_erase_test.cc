@@ -21,7 +21,7 @@ class StaffEraseTest : public StaffHands {
   StaffEraseTest() { changes.clock = &time; }
   void ask_to_erase() {
     open_records({"Ada Lovelace"});
-    tap("record " + code_of(1));
+    tap("record " + std::to_string(1));
     ASSERT_TRUE(until([this] { return find("erase") != nullptr; }));
     tap("erase");
     ASSERT_NE(find("yes"), nullptr);

@@ -191,7 +191,7 @@ TEST_F(StaffExportTest, AllThatTheSearchLetsPassIsExportedNotOnlyThePageThatIsSh
   first_start();
   sign_in("80526", StaffRole::Operator);
   tap("open records");
-  const auto newest = "record " + code_of(kFound + 1);
+  const auto newest = "record " + std::to_string(kFound + 1);
   ASSERT_TRUE(until([&] { return find(newest) != nullptr; }));
   tap("search");
   tap("key d");
@@ -201,6 +201,20 @@ TEST_F(StaffExportTest, AllThatTheSearchLetsPassIsExportedNotOnlyThePageThatIsSh
   EXPECT_EQ(entries_of(stick() / "relievo"), std::size_t{kFound});
   EXPECT_TRUE(std::filesystem::exists(stick() / "relievo" / code_of(1))) << "of the last page";
   EXPECT_FALSE(std::filesystem::exists(stick() / "relievo" / code_of(kFound + 1))) << "who was not found";
+}
+
+TEST_F(StaffExportTest, WhoHasNoPortraitIsLeftOutAndTheOthersAreWritten) {
+  enrol("Ada Lovelace");
+  ASSERT_TRUE((*storage::open_sqlite_store(args.store, wall(), {}))->add_subject({"Somebody New"}));
+  open_records({"Grace Hopper"});
+  EXPECT_EQ(export_all(), Outcome::Failed);
+  EXPECT_NE(said().find("The log says why"), std::string::npos) << said();
+  EXPECT_NE(whole().find("stick: 2 of 3."), std::string::npos) << whole();
+  EXPECT_EQ(faulty.taken_up(), 1) << "read once more, as ever";
+  EXPECT_EQ(entries_of(stick() / "relievo"), 2U);
+  EXPECT_TRUE(std::ranges::any_of(kiosk->staff().log().entries(), [](const ui::LogLine& line) {
+    return line.text.find("has no portrait") != std::string::npos;
+  }));
 }
 
 TEST_F(StaffExportTest, AnExportThatGoesOnOutlastsTheMachinesLimit) {
@@ -315,7 +329,7 @@ TEST_F(StaffExportTest, AFullStickKeepsWhatWasWholeAndSaysHowMany) {
   start();
   sign_in("80526", StaffRole::Operator);
   tap("open records");
-  ASSERT_TRUE(until([this] { return find("record " + code_of(2)) != nullptr; }));
+  ASSERT_TRUE(until([this] { return find("record " + std::to_string(2)) != nullptr; }));
   EXPECT_EQ(export_all(), Outcome::StickFull);
   EXPECT_NE(said().find("stick is full"), std::string::npos) << said();
   EXPECT_NE(whole().find("stick: 1 of 2."), std::string::npos) << whole();

@@ -196,7 +196,7 @@ class StaffHands : public KioskHands {
     first_start();
     sign_in("80526", StaffRole::Operator);
     tap("open records");
-    const auto newest = "record " + code_of(std::int64_t(names.size()));
+    const auto newest = "record " + std::to_string(names.size());
     ASSERT_TRUE(until([&] { return find(newest) != nullptr; }));
   }
   // A finger comes and stays.

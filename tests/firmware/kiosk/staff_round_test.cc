@@ -128,9 +128,9 @@ TEST_F(StaffRoundTest, TheOperatorFindsExportsAndErasesARecord) {
   tap("search");
   for (const char* key : {"key a", "key d", "key a"}) tap(key);
   tap("done");
-  ASSERT_TRUE(until([this] { return find("record " + code_of(2)) == nullptr; }))
+  ASSERT_TRUE(until([this] { return find("record " + std::to_string(2)) == nullptr; }))
       << "only who was searched for";
-  tap("record " + code_of(1));
+  tap("record " + std::to_string(1));
   ASSERT_TRUE(until([this] { return kiosk->ui().draw_list().faces[0].model != nullptr; }))
       << "the portrait is there to be turned";
 

@@ -8,7 +8,6 @@
 
 #include "firmware/base/budget.h"
 #include "firmware/service/device_settings.h"
-#include "firmware/service/retention.h"
 #include "firmware/technician/algorithm_controller.h"
 #include "tests/firmware/kiosk/staff_hands.h"
 #include "tests/support/faulty_store.h"

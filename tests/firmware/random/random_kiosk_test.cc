@@ -245,7 +245,7 @@ class RandomKiosk : public FaultHands {
       is_well();
     }
     ASSERT_TRUE(rests()) << "no way back: " << name_of(state()) << " "
-                         << ui::name_of(kiosk->ui().visit().step)
+                         << ui::info_of(kiosk->ui().visit().step).name
                          << (kiosk->ui().service().open ? ", the staff's side is open" : "");
     for (int t = 0; t < 60; ++t) turn();  // what runs beside ends, the cameras go to rest
     draw();

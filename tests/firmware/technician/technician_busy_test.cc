@@ -106,7 +106,7 @@ TEST_F(TechnicianTest, ARunThatIsStoppedBeforeItsTurnNeverBegins) {
   BusyLane worker(*rig().side_tasks, JobLane::Worker);
   rig().test_capture->act(ui::RunStages{});
   ASSERT_EQ(rig().now().phase, TechnicianPhase::Running);
-  rig().test_capture->act(ui::DoTechnician{ui::TechnicianAct::Stop});
+  rig().test_capture->act(ui::TechnicianAct::Stop);
   EXPECT_EQ(rig().now().phase, TechnicianPhase::Failed) << "at once";
   worker.go_on();
   ASSERT_TRUE(rig().until([] { return !rig().side_tasks->busy(JobLane::Worker); }));
@@ -129,7 +129,7 @@ TEST_F(TechnicianTest, ARunThatIsStoppedBeforeItsTurnLeavesWhatIsSavedAsItWas) {
     const BusyLane worker(*rig().side_tasks, JobLane::Worker);
     rig().test_capture->act(ui::RunStages{});
     ASSERT_EQ(rig().now().phase, TechnicianPhase::Running);
-    rig().test_capture->act(ui::DoTechnician{ui::TechnicianAct::Stop});
+    rig().test_capture->act(ui::TechnicianAct::Stop);
   }
   EXPECT_TRUE(rig().now().pairs_changed) << "a pair by hand still waits to be calculated with";
   rig().tap("save");
@@ -151,7 +151,7 @@ TEST_F(TechnicianTest, ASaveThatIsStoppedBeforeItIsOnTheStickIsNotThere) {
   {
     const BusyLane worker(*rig().side_tasks, JobLane::Worker);
     rig().tap("save");
-    rig().test_capture->act(ui::DoTechnician{ui::TechnicianAct::StopRecording});
+    rig().test_capture->act(ui::TechnicianAct::StopRecording);
   }
   ASSERT_TRUE(rig().until([] { return rig().now().recording.outcome != ui::Outcome::None; }));
   EXPECT_EQ(rig().now().recording.outcome, ui::Outcome::Cancelled);

@@ -7,6 +7,7 @@
 #include <algorithm>
 #include <cmath>
 #include <filesystem>
+#include <fstream>
 #include <string>
 
 #include "hal/sim/optics/rig.h"
@@ -32,6 +33,11 @@ TEST_F(TechnicianTest, ACalibrationIsMadeJudgedStoredAndUsed) {
   EXPECT_NEAR(made.baseline_mm, std::hypot(between.x, between.y, between.z), 0.5);
   EXPECT_EQ(rig().appliance->state(), State::Staff);
 
+  rig().disk_full = true;
+  rig().tap("calibration store");
+  ASSERT_TRUE(rig().until([] { return !rig().now().calibration.problem.empty(); }));
+  EXPECT_FALSE(rig().now().calibration.stored) << "and is there to be stored once there is room";
+  rig().disk_full = false;
   rig().tap("calibration store");
   ASSERT_TRUE(rig().until([&] { return rig().now().calibration.history_count == count + 1; }))
       << rig().now().calibration.problem.detail;
@@ -46,11 +52,15 @@ TEST_F(TechnicianTest, ACalibrationIsMadeJudgedStoredAndUsed) {
 
   // By stick: what was exported comes back as one more of the history.
   rig().plug_in();
+  const auto other = rig().stick() / "calibrations" / ("000" + std::to_string(newest)) / "rig.yml";
+  std::filesystem::create_directories(other.parent_path());
+  std::ofstream(other) << "another appliance's";
   rig().tap("calibration export");
   ASSERT_TRUE(rig().until([] { return !rig().now().calibration.exported.empty(); }))
       << rig().now().calibration.problem.detail;
   const auto exported = rig().stick() / rig().now().calibration.exported;
   EXPECT_TRUE(std::filesystem::exists(exported)) << exported;
+  EXPECT_EQ(std::filesystem::file_size(other), 19U) << "of the same revision: it stays";
   rig().plug_in();
   rig().tap("calibration import");
   ASSERT_TRUE(rig().until([&] { return rig().now().calibration.history_count == count + 2; }))

@@ -8,6 +8,7 @@
 
 #include <gtest/gtest.h>
 
+#include <atomic>
 #include <chrono>
 #include <filesystem>
 #include <memory>
@@ -26,6 +27,7 @@
 #include "storage/sqlite/sqlite_store.h"
 #include "tests/firmware/held_hand.h"
 #include "tests/firmware/test_records.h"
+#include "tests/support/faulty_store.h"
 #include "tests/support/made_screen.h"
 #include "tests/support/small_device.h"
 #include "tests/support/temporary_folder.h"
@@ -33,6 +35,22 @@
 namespace relievo::firmware::test_technician {
 
 constexpr double kScale = 0.4, kBoardScale = 0.25;  // of the rig's pictures
+
+// Takes no calibration while its disk is full.
+class FullStore final : public test::FaultyStore {
+ public:
+  FullStore(std::unique_ptr<storage::Store> real, const std::atomic<bool>& full)
+      : FaultyStore(std::move(real), none_), full_(full) {}
+  Result<std::uint32_t> save_calibration(const pipeline::StereoCalibration& c, std::string_view note,
+                                         const storage::CalibrationFigures& figures) override {
+    if (full_) return Error{Errc::MediaFull, "as the test says"};
+    return FaultyStore::save_calibration(c, note, figures);
+  }
+
+ private:
+  const std::atomic<std::optional<Errc>> none_{};
+  const std::atomic<bool>& full_;
+};
 
 class TechnicianRig {
  public:
@@ -44,7 +62,8 @@ class TechnicianRig {
     const auto file = folder.path() / "rig.yml";
     EXPECT_TRUE(hal::sim::write_rig(file, hal::sim::make_rig(test::small_rig(kScale))).has_value());
     const auto calibration = pipeline::read_calibration(file);
-    store = *storage::open_sqlite_store(folder.path() / "store", clock, {});
+    store = std::make_unique<FullStore>(*storage::open_sqlite_store(folder.path() / "store", clock, {}),
+                                        disk_full);
     EXPECT_TRUE(store->save_calibration(*calibration, "of the simulated rig").has_value());
     stages = std::make_unique<PipelineStages>(*pipeline::Pipeline::make({}, *store->active_calibration()));
     screen = test::make_screen();
@@ -67,10 +86,10 @@ class TechnicianRig {
   }
 
   void open(ui::StaffPage to) {
-    if (page != ui::StaffPage::Count) test_capture->closed(page_of(page));
+    if (page != ui::StaffPage::Count) test_capture->closed(page);
     page = to;
     screen->service().show(to);
-    test_capture->opened(page_of(to));
+    test_capture->opened(to);
     turn();
   }
   void turn() {
@@ -147,6 +166,7 @@ class TechnicianRig {
   BootMemory memory;
   ThreadPool pool{2};
   std::unique_ptr<hal::Device> device;
+  std::atomic<bool> disk_full{false};
   std::unique_ptr<storage::Store> store;
   std::unique_ptr<PipelineStages> stages;
   std::unique_ptr<ui::Ui> screen;
@@ -163,9 +183,6 @@ class TechnicianRig {
   std::uint32_t revision = 0;
 
  private:
-  static ui::TechnicianPage page_of(ui::StaffPage staff_page) {
-    return static_cast<ui::TechnicianPage>(int(staff_page) - int(ui::StaffPage::Stages));
-  }
   void frame() {
     staff = {};
     staff.role = ui::StaffRole::Technician;

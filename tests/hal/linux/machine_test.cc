@@ -77,7 +77,7 @@ class DogKernel final : public Kernel {
 TEST(HardwareWatchdog, BitesWhoStopsKickingAndNobodyElse) {
   HandClock clock;
   DogKernel kernel(clock);
-  auto dog = HardwareWatchdog::open({"/dev/watchdog", seconds(10)}, kernel, clock);
+  auto dog = open_hardware_watchdog({"/dev/watchdog", seconds(10)}, kernel, clock);
   ASSERT_TRUE(dog);
   EXPECT_EQ(kernel.own_seconds, 10);
   for (int i = 0; i < 3000; ++i, clock.at += milliseconds(20)) {
@@ -103,21 +103,21 @@ TEST(HardwareWatchdog, SaysWhyItCannotBeUsedAndLeavesNothingArmed) {
   for (const auto& [number, code] : opens) {
     DogKernel kernel(clock);
     kernel.open_error = number;
-    const auto dog = HardwareWatchdog::open({}, kernel, clock);
+    const auto dog = open_hardware_watchdog({}, kernel, clock);
     ASSERT_FALSE(dog) << number;
     EXPECT_EQ(dog.error().code, code) << number;
     EXPECT_EQ(dog.error().sys_errno, number);
   }
   DogKernel strict(clock);
   strict.refuses[WDIOC_SETTIMEOUT] = EINVAL;
-  const auto refused = HardwareWatchdog::open({}, strict, clock);
+  const auto refused = open_hardware_watchdog({}, strict, clock);
   ASSERT_FALSE(refused);
   EXPECT_EQ(refused.error().code, Errc::InvalidInput);
   EXPECT_FALSE(strict.armed);
   EXPECT_EQ(strict.open_files, 0);
   DogKernel none(clock);
-  EXPECT_FALSE(HardwareWatchdog::open({"", seconds(10)}, none, clock));
-  EXPECT_FALSE(HardwareWatchdog::open({"/dev/watchdog", seconds(1)}, none, clock));
+  EXPECT_FALSE(open_hardware_watchdog({"", seconds(10)}, none, clock));
+  EXPECT_FALSE(open_hardware_watchdog({"/dev/watchdog", seconds(1)}, none, clock));
   EXPECT_FALSE(none.armed);
 }
 
@@ -127,13 +127,17 @@ TEST(HardwareWatchdog, ADriverMayHaveATimeOfItsOwnAndSignalsInterrupt) {
   kernel.open_error = EINTR;
   kernel.refuses[WDIOC_SETTIMEOUT] = EOPNOTSUPP;
   kernel.refuses[WDIOC_GETTIMEOUT] = EINTR;
-  const auto dog = HardwareWatchdog::open({}, kernel, clock);
+  const auto dog = open_hardware_watchdog({}, kernel, clock);
   ASSERT_TRUE(dog);
-  EXPECT_EQ((*dog)->timeout(), seconds(60));
+  for (const int later : {0, 7, 7, 1}) {
+    clock.at += seconds(later);
+    (*dog)->kick();
+  }
+  EXPECT_EQ(kernel.kicks, 2) << "four in the 60 seconds that it waits";
   DogKernel hasty(clock);
   hasty.own_seconds = 1;
   hasty.refuses[WDIOC_SETTIMEOUT] = EOPNOTSUPP;
-  EXPECT_FALSE(HardwareWatchdog::open({}, hasty, clock));
+  EXPECT_FALSE(open_hardware_watchdog({}, hasty, clock));
   EXPECT_FALSE(hasty.armed);
 }
 

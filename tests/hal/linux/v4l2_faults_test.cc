@@ -11,7 +11,6 @@
 #include <linux/videodev2.h>
 #include <poll.h>
 
-#include "hal/linux/v4l2_setup.h"
 #include "tests/hal/linux/v4l2_fixture.h"
 
 namespace relievo::hal {

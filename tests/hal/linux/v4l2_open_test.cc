@@ -68,6 +68,12 @@ TEST_F(V4l2OpenTest, DevicesThatAreNoUseAreRefusedInClearWords) {
   }
 }
 
+TEST_F(V4l2OpenTest, ASignalThatInterruptsTheOpeningIsNoError) {
+  kernel.fail(KernelCall::Open, EINTR);
+  run();
+  EXPECT_EQ(kernel.calls(KernelCall::Open), 2);
+}
+
 TEST_F(V4l2OpenTest, InputsWithTimingsOnlyWorkAsWell) {
   kernel.has_timings = true;
   run();

@@ -130,6 +130,16 @@ TEST(Recording, RefusesWhatIsNoPair) {
   EXPECT_TRUE(std::filesystem::is_empty(folder.path())) << "half a pair was written, or where no stick is";
 }
 
+TEST(Recording, AnIndexThatCannotBeReadIsNotWrittenOver) {
+  const TemporaryFolder folder;
+  const Noise grey(PixelFormat::Grey8, 1);
+  const RecordedPair pair{grey.view, grey.view, 0, 0, 0, 1, "", ""};
+  std::filesystem::create_symlink("capture.json", folder / "capture.json");  // it leads to itself: ELOOP
+  EXPECT_EQ(record_pair(folder.path(), pair).error().code, Errc::IoFailed);
+  EXPECT_FALSE(std::filesystem::exists(folder / recorded_name("left", 1).c_str()))
+      << "a pair of before may be there";
+}
+
 TEST(Recording, ASerialNumberThatIsNoTextIsAnError) {
   const TemporaryFolder folder;
   const Noise grey(PixelFormat::Grey8, 1);

@@ -4,6 +4,7 @@
 #include "hal/sim/device.h"
 
 #include <gtest/gtest.h>
+#include <sys/stat.h>
 
 #include <fstream>
 
@@ -177,6 +178,17 @@ TEST(FolderMedia, ComesAndGoes) {
   EXPECT_FALSE(media.current());
   media.plug(folder / "pulled out");
   EXPECT_FALSE(media.current());
+}
+
+TEST(FolderMedia, APipeThatLiesThereIsNotWaitedFor) {
+  const TemporaryFolder folder;
+  ASSERT_EQ(::mkfifo((folder / "pipe").c_str(), 0600), 0);
+  std::ofstream(folder / "file") << "written";
+  FolderMedia media;
+  media.plug(folder.path());
+  EXPECT_TRUE(media.settle(folder.path()));
+  std::filesystem::create_symlink("loop", folder / "loop");
+  EXPECT_EQ(media.settle(folder.path()).error().code, Errc::IoFailed);
 }
 
 TEST(SimDevice, ShowsCalibrationBoardsOneAfterAnother) {

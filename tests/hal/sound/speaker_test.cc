@@ -14,8 +14,6 @@
 #include <thread>
 #include <vector>
 
-#include "hal/sound/synthesizer.h"
-
 namespace relievo::hal {
 namespace {
 

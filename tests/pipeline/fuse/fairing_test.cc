@@ -1,7 +1,5 @@
 // SPDX-FileCopyrightText: 2026 The Relievo authors
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include "pipeline/fuse/fairing.h"
-
 #include <gtest/gtest.h>
 
 #include <algorithm>

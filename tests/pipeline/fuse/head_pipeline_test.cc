@@ -10,7 +10,7 @@
 #include <algorithm>
 #include <numbers>
 
-#include "pipeline/fuse/fairing.h"
+#include "pipeline/fuse/rim.h"
 #include "pipeline/model/vector3.h"
 #include "tests/pipeline/mesh/mesh_checks.h"
 #include "tests/support/head_album.h"

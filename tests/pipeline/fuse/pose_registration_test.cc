@@ -10,8 +10,8 @@
 #include <span>
 #include <vector>
 
+#include "pipeline/fuse/head_fuser.h"
 #include "pipeline/fuse/pose_residuals.h"
-#include "pipeline/fuse/skin_bender.h"
 #include "tests/pipeline/fuse/formula_head.h"
 #include "tests/support/allocation_counter.h"
 
@@ -187,7 +187,7 @@ TEST_F(Poses, AreBentToTheFirstWhereSkinMovedAndStayElsewhere) {
   ASSERT_TRUE(found);
   const std::pmr::vector<SurfaceHit> first = poses_[0].nodes, before = poses_[1].nodes;
   ASSERT_TRUE(room_.run([&](StageContext& c) -> Result<void> {
-    bend_to_master(poses_, *found, {1.5, 8, 0.05}, c);
+    bend_to_master(poses_, *found, {.bend_width_mm = 8}, false, c);
     return {};
   }));
   double jaw_before = 0, jaw = 0, count = 0, brow = 0;
@@ -234,7 +234,7 @@ TEST_F(Poses, AreBentAsFarAsBothAreUnsure) {
   const double before = furthest_mm();
   EXPECT_GT(before, 4);
   ASSERT_TRUE(room_.run([&](StageContext& c) -> Result<void> {
-    bend_to_master(poses_, placed, {1.5, 8, 0.05}, c);
+    bend_to_master(poses_, placed, {.bend_width_mm = 8}, false, c);
     return {};
   }));
   EXPECT_LT(furthest_mm(), 0.6 * before);

@@ -2,7 +2,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 //
 // A painted ball, seen by rays: turned about its middle it has the same shape, or nearly, and its skin tells.
-#include "pipeline/fuse/skin_slide.h"
+#include "pipeline/fuse/pose_residuals.h"
 
 #include <gtest/gtest.h>
 
@@ -13,7 +13,6 @@
 #include <optional>
 #include <vector>
 
-#include "pipeline/fuse/pose_registration.h"
 #include "pipeline/model/vector3.h"
 #include "tests/pipeline/mesh/stage_room.h"
 

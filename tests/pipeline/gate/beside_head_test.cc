@@ -24,7 +24,7 @@ double share_beside(const Depth& beside, double tip_x = 240) {
       const double z = rim < 1 ? kFaceDistanceMm + 60 * rim * rim : beside ? beside(right, down) : 0;
       relief.depth_mm[relief.index(x, y)] = static_cast<float>(z);
     }
-  label_surfaces(relief, 1.5F, 400, work.context);
+  label_surfaces(relief, work.context);
   HeadMeasurement head;
   head.known = true;
   head.tip_mm = relief.point(tip_x, 140.0, kFaceDistanceMm);

@@ -35,7 +35,7 @@ double share_before(const Depth& before) {
       relief.depth_mm[relief.index(x, y)] = static_cast<float>(z);
     }
   }
-  label_surfaces(relief, 1.5F, 400, work.context);
+  label_surfaces(relief, work.context);
   return covered_share(relief, kHint);
 }
 

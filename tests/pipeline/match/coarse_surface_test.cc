@@ -2,7 +2,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 //
 // Which holes of the rough surface are bridged: those that it encloses, and no others.
-#include "pipeline/match/coarse/coarse_surface.h"
+#include "pipeline/match/coarse/semi_global.h"
 
 #include <gtest/gtest.h>
 

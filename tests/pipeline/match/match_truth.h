@@ -13,7 +13,7 @@
 #include <random>
 #include <vector>
 
-#include "pipeline/match/kinds.h"
+#include "pipeline/base/kinds.h"
 #include "tests/support/bump_scene.h"
 #include "tests/support/stage_fixture.h"
 

@@ -39,7 +39,7 @@ Stated stated(const std::string& name) {
 
 class Matchers : public testing::TestWithParam<std::string> {
  protected:
-  Matcher matcher() const { return test::made(make_matcher, "matcher", GetParam()); }
+  Matcher matcher() const { return test::made(&Algorithms::matcher, "matcher", GetParam()); }
   BumpScene scene{.width_px = 192, .height_px = 128, .base_px = 20, .bump_px = 5, .bump_radius_px = 40};
 };
 

@@ -19,7 +19,7 @@
 namespace relievo::pipeline {
 namespace {
 
-Mesher make(const std::string& name) { return relievo::test::made(make_mesher, "mesher", name); }
+Mesher make(const std::string& name) { return relievo::test::made(&Algorithms::mesher, "mesher", name); }
 
 // Every mesher in the table: a new one is found.
 std::vector<std::string> all_meshers() {
@@ -172,10 +172,10 @@ TEST_P(MesherContract, NeverMoreTrianglesThanAllowed) {
   ASSERT_TRUE(set.set("mesher", GetParam()));
   const std::string limit = GetParam() + ".max_triangles";
   ASSERT_TRUE(set.set(limit, "6000"));
-  const auto mesher = make_mesher(set);
-  ASSERT_TRUE(mesher);
+  const auto made = make_algorithms(set);
+  ASSERT_TRUE(made);
   const PointCloud cloud = sphere(0.05);
-  const auto result = room.run([&](StageContext& c) { return (*mesher)(cloud, c); });
+  const auto result = room.run([&](StageContext& c) { return made->mesher(cloud, c); });
   ASSERT_TRUE(result);
   expect_clean(*result);
   EXPECT_LE(result->triangles.size(), 6000U);

@@ -97,6 +97,34 @@ TEST(Portrait, EveryPlaceOfTheHeadFallsWhereAPinholeCameraSeesIt) {
   EXPECT_GT(seen, 3000u);
 }
 
+// Every other row of texels is filled, then every other column: a pixel is what the texel nearest to its
+// middle is.
+TEST(Portrait, WhatWasFilledIsMarkedWhereItIsDrawn) {
+  for (const bool rows : {true, false}) {
+    FaceModel model = painted_card();
+    for (std::size_t k = 0; k < model.texture.origin.size(); ++k)
+      model.texture.origin[k] = (rows ? k / 241 : k % 241) % 2 == 1 ? kFilledTexel : kLeftPhotographTexel;
+    const Portrait p = draw_portrait(model, heap(), heap());
+    const double mm = p.mm_per_px * (p.camera_mm + p.eyes_mm.z + 30) / p.camera_mm;
+    const int middle = int(std::lround(p.eyes_px.y + p.eyes_mm.y / mm));  // y = 0: measured
+    int seen = 0;
+    for (int i = 0; i < (rows ? p.height_px : p.width_px); ++i) {
+      const double texel = rows ? (p.eyes_mm.y - (i - p.eyes_px.y) * mm + 80) * 1.5
+                                : (p.eyes_mm.x + (i - p.eyes_px.x) * mm + 60) * 2;
+      const auto nearest = std::lround(texel);
+      if (texel < 2 || texel > (rows ? 200 : 238) ||
+          std::abs(texel - static_cast<double>(nearest)) > (rows ? 0.3 : 0.25))
+        continue;
+      ++seen;
+      EXPECT_EQ(
+          p.shows[static_cast<std::size_t>(rows ? i * p.width_px + p.width_px / 2 : middle * p.width_px + i)],
+          nearest % 2 == 1 ? kCompletedShown : kMeasuredShown)
+          << (rows ? "row " : "column ") << texel;
+    }
+    EXPECT_GT(seen, 100);
+  }
+}
+
 // Eyes somewhere, not level: their middle is where the standard wants it, and each is where it is drawn.
 TEST(Portrait, IsLaidOutByTheEyesWhereTheyWereFound) {
   FaceModel model = painted_card();

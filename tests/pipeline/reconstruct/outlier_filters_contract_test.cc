@@ -18,7 +18,7 @@ using relievo::test::StageFixture;
 
 class OutlierFilters : public testing::TestWithParam<std::string> {
  protected:
-  OutlierFilter filter() const { return relievo::test::made(make_outlier_filter, "outliers", GetParam()); }
+  OutlierFilter filter() const { return relievo::test::made(&Algorithms::outliers, "outliers", GetParam()); }
   static PointCloud sphere() {
     return formula_cloud(
         2, 300, [](double sx, double sy) { return sphere_depth(sx, sy, 600, 90); }, 0.05);

@@ -14,7 +14,7 @@ namespace relievo::pipeline {
 namespace {
 
 Triangulator make(const std::string& name) {
-  return relievo::test::made(make_triangulator, "triangulator", name);
+  return relievo::test::made(&Algorithms::triangulator, "triangulator", name);
 }
 
 RectifiedPair rig() {

@@ -13,7 +13,6 @@
 
 #include "hal/sim/sheet/sheet_photo.h"
 #include "pipeline/mesh/meshers/scattered_meshers.h"
-#include "pipeline/relief/sheet_fit.h"
 #include "tests/pipeline/mesh/landmarks/field_head.h"
 #include "tests/support/stage_fixture.h"
 

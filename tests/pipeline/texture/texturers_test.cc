@@ -18,7 +18,7 @@ namespace {
 using namespace test;  // NOLINT: the painted plane and its numbers
 
 Texturer make(const std::string& name, const relievo::test::Settings& settings = {}) {
-  return relievo::test::made(make_texturer, "texturer", name, settings);
+  return relievo::test::made(&Algorithms::texturer, "texturer", name, settings);
 }
 
 class TexturerContract : public testing::TestWithParam<std::string> {

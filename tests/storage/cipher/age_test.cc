@@ -12,7 +12,7 @@
 #include <random>
 #include <string>
 
-#include "storage/cipher/secret_key.h"
+#include "storage/cipher/seal.h"
 #include "storage/export/bundle.h"
 #include "tests/support/process.h"
 #include "tests/support/temporary_folder.h"

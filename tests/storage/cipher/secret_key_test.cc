@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: 2026 The Relievo authors
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include "storage/cipher/secret_key.h"
+#include "storage/cipher/seal.h"
 
 #include <gtest/gtest.h>
 #include <sys/resource.h>

@@ -13,7 +13,7 @@
 #include "storage/record.h"
 #include "storage/schema/embedded_sql.h"
 #include "storage/sodium_sha256.h"
-#include "storage/sqlite/sqlite_migration.h"
+#include "storage/sqlite/sqlite_parts.h"
 #include "tests/storage/raw_database.h"
 #include "tests/storage/sample.h"
 #include "tests/storage/store_of_before.h"

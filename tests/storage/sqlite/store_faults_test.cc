@@ -14,7 +14,7 @@
 
 #include "storage/export/model_files.h"
 #include "storage/sqlite/sqlite_keys.h"
-#include "storage/sqlite/sqlite_sealed_rows.h"
+#include "storage/sqlite/sqlite_parts.h"
 #include "tests/storage/raw_database.h"
 #include "tests/storage/sample.h"
 #include "tests/support/temporary_folder.h"

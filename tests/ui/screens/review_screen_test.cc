@@ -57,6 +57,24 @@ TEST(ReviewScreen, TwoFingersZoomTheModelAndNothingElse) {
   EXPECT_FLOAT_EQ(zoom_on(Step::Position), 1);
 }
 
+// A panel that is pulled out, or fails for a moment, never says that the finger on it has gone.
+TEST(ReviewScreen, AFingerNobodyHeardOfAgainDoesNotBarTheNext) {
+  const auto ui = test::make_screen();
+  Visit visit;
+  visit.step = Step::Review;
+  ViewState view;
+  ui->show(view, visit);
+  const Rect& button = ui->tree().find("bigger")->rect;
+  const float x = button.x + button.w / 2, y = button.y + button.h / 2;
+  for (const int finger : {1, 2, 3}) {
+    ui->feed({Input::Kind::Down, finger, 1, 1}, view);
+    view.now += std::chrono::minutes(1);
+    ui->feed({Input::Kind::Down, 10 + finger, x, y}, view);
+    ui->feed({Input::Kind::Up, 10 + finger, x, y}, view);
+    EXPECT_EQ(ui->visit().text_size, std::size_t(finger));
+  }
+}
+
 // Only who has no room is told so: another fault is not mended by erasing records.
 TEST(ReviewScreen, SaysThatTheMemoryIsFullOnlyWhereItIs) {
   const auto ui = test::make_screen();

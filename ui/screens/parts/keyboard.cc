@@ -43,7 +43,7 @@ void key(Page& page, std::string_view id, std::string_view letter, const char* s
   node.style.icon = sign;
   node.mirrored = mirrored;
   tell(node, Role::Key, id, spoken != nullptr ? spoken : "", action);
-  frame(node, page.palette.card, page.palette.card_border, page.px(1.5F), page.px(16));
+  page.card(node, 16);
   node.box.grow = grow;
   node.box.min_height = page.px(page.portrait ? size::kTarget : size::kKeyLeast);
   page.tree.leaf(node);
@@ -59,8 +59,7 @@ const char* spoken_sign(const Page& page, std::string_view letter) {
 void letters(Page& page, std::string_view row) {
   for (; !row.empty(); row.remove_prefix(first_letter_of(row).bytes)) {
     const std::string_view letter = row.substr(0, first_letter_of(row).bytes);
-    key(page, page.joined({"key ", letter}), letter, spoken_sign(page, letter), false,
-        {ActionKind::TypeKey, 0});
+    key(page, page.joined({"key ", letter}), letter, spoken_sign(page, letter), false, ActionKind::TypeKey);
   }
 }
 
@@ -74,7 +73,7 @@ void last_row(Page& page, Action done, Language language) {
   const auto in_box = page.tree.inside(page.box(Flow::Row, 10));
   if (letters_of(language).cased()) {
     const char* sign = page.visit.accents ? "abc" : page.visit.capitals ? "ÁÑß" : "áñß";
-    key(page, "accents", sign, page.tr("Letters with accents"), false, {ActionKind::Accents, 0}, 0.6F);
+    key(page, "accents", sign, page.tr("Letters with accents"), false, ActionKind::Accents, 0.6F);
   }
   key(page, "space", page.tr("Space"), nullptr, false, {ActionKind::TypeKey, ' '}, 2);
   page.button("done", page.tr("Done"), icon::kGood, ButtonLook::Main,
@@ -101,13 +100,11 @@ void keyboard(Page& page, Action done, Language language) {
   for (std::size_t i = 0; i < rows.size(); ++i) {
     const auto in_box = page.tree.inside(key_row(page));
     const bool last = i == rows.size() - 1;
-    if (last && cased)
-      key(page, "shift", icon::kShift, page.tr("Capital letters"), true, {ActionKind::Shift, 0});
+    if (last && cased) key(page, "shift", icon::kShift, page.tr("Capital letters"), true, ActionKind::Shift);
     letters(page, rows[i]);
     // Its arrow points to where letters go: the last one of a word that runs to the left is erased to the
     // right.
-    if (last)
-      key(page, "erase", icon::kErase, page.tr("Erase"), true, {ActionKind::Erase, 0}, 1, page.mirrored());
+    if (last) key(page, "erase", icon::kErase, page.tr("Erase"), true, ActionKind::Erase, 1, page.mirrored());
   }
   last_row(page, done, language);
 }
@@ -129,7 +126,7 @@ void number_pad(Page& page, const PadIds& ids, Action done) {
   const auto digit = [&](std::string_view letter) {
     Node node = shaped(
         page.text(letter, type::kHeading, Weight::Medium, page.palette.link, TextAlign::Centre), false);
-    tell(node, Role::Key, page.joined({ids.digit, letter}), {}, {ActionKind::TypeKey, 0});
+    tell(node, Role::Key, page.joined({ids.digit, letter}), {}, ActionKind::TypeKey);
     page.tree.leaf(node);
   };
   const auto sign = [&](std::string_view id, const char* spoken, const char* letter, Action action,
@@ -144,7 +141,7 @@ void number_pad(Page& page, const PadIds& ids, Action done) {
     for (const char& key : keys) digit({&key, 1});
   }
   page.tree.open(key_row(page));
-  sign("erase", page.tr("Erase"), icon::kErase, {ActionKind::Erase, 0}, false);
+  sign("erase", page.tr("Erase"), icon::kErase, ActionKind::Erase, false);
   digit("0");
   sign(ids.done, page.tr("Done"), icon::kCheck, done, true);
   page.tree.close();

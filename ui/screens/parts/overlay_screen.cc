@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 //
 // What lies over a page: help, languages, "really leave?", "still there?". Nothing under it is touched.
+#include <array>
 #include <string>
 
 #include "ui/screens/parts/page.h"
@@ -32,52 +33,40 @@ void language_key(Page& page, Language language) {
 // Rows of even length; each language keeps its place whichever is chosen.
 void language_grid(Page& page, std::size_t columns) {
   const auto languages = page.visit.offered(page.view);
-  const std::size_t count = languages.count();
+  std::array<Language, kLanguages> shown{};
+  std::size_t count = 0;
+  for (std::size_t i = 0; i < kLanguages; ++i)
+    if (languages[i]) shown[count++] = static_cast<Language>(i);
   const std::size_t rows = (count + columns - 1) / columns;
-  const std::size_t abreast = (count + rows - 1) / rows;
   const auto in_box = page.tree.inside(page.box(Flow::Column, space::kS));
-  std::size_t shown = 0;
-  for (std::size_t i = 0; i < kLanguages; ++i) {
-    if (!languages[i]) continue;
-    if (shown % abreast == 0) page.tree.open(page.box(Flow::Row, space::kS));
-    language_key(page, static_cast<Language>(i));
-    if (++shown % abreast == 0) page.tree.close();
-  }
-  if (shown % abreast != 0) page.tree.close();
+  page.in_rows(count, (count + rows - 1) / rows, space::kS,
+               [&](std::size_t i) { language_key(page, shown[i]); });
 }
 
 namespace {
 
-const char* help_for(const Page& page) {
-  const auto& tr = page.tr;
-  switch (page.visit.step) {
-    case Step::Attract:
-      return tr(
-          "This device makes a three-dimensional portrait of your face. Touch Start. You can stop at any time.");
-    case Step::Consent:
-      return tr(
-          "Read what happens, then choose. If you say no, nothing happens and nothing is kept. The staff will help you another way.");
-    case Step::Known:
-      return tr(
-          "Is that you? With the code you were given you can renew your portrait or add another one. Without it nothing from the record is shown.");
-    case Step::Name:
-      return tr("Type your name, or the number you were given. The arrow key erases a letter.");
-    case Step::Position:
-      return tr(
-          "Stand about an arm's length away, so that your face fills the oval. Take off sunglasses and hat.");
-    case Step::Turn:
-      return tr(
-          "Pictures from the sides show your whole head. Turn it slowly and hold it level: each side is taken by itself. If you cannot or do not want to, touch the button below.");
-    case Step::Working: return tr("Please wait a few seconds. To stop, touch the cross.");
-    case Step::Review: return tr("Turn the portrait with your finger. Nothing is stored until you say so.");
-    case Step::Thanks:
-      return tr("To have it erased, quote this code to the staff. You can take a photo of it.");
-    case Step::Trouble:
-    case Step::Starting:
-    case Step::Declined: break;
-  }
-  return tr("Please tell the staff.");
-}
+constexpr const char* kAskStaff = mark_tr("Please tell the staff.");
+
+// In the order of Step.
+constexpr std::array kHelp{
+    mark_tr(
+        "This device makes a three-dimensional portrait of your face. Touch Start. You can stop at any time."),
+    mark_tr(
+        "Read what happens, then choose. If you say no, nothing happens and nothing is kept. The staff will help you another way."),
+    mark_tr("Type your name, or the number you were given. The arrow key erases a letter."),
+    mark_tr(
+        "Is that you? With the code you were given you can renew your portrait or add another one. Without it nothing from the record is shown."),
+    mark_tr(
+        "Stand about an arm's length away, so that your face fills the oval. Take off sunglasses and hat."),
+    mark_tr(
+        "Pictures from the sides show your whole head. Turn it slowly and hold it level: each side is taken by itself. If you cannot or do not want to, touch the button below."),
+    mark_tr("Please wait a few seconds. To stop, touch the cross."),
+    mark_tr("Turn the portrait with your finger. Nothing is stored until you say so."),
+    mark_tr("To have it erased, quote this code to the staff. You can take a photo of it."),
+    kAskStaff,
+    kAskStaff,
+    kAskStaff};
+static_assert(kHelp.size() == kSteps.size());
 
 void begin_card(Page& page) {
   Node veil = centred(page.box(Flow::Column, 0, 40, 32));
@@ -95,11 +84,6 @@ void begin_card(Page& page) {
   page.tree.open(card);
 }
 
-void end_card(Page& page) {
-  page.tree.close();
-  page.tree.close();
-}
-
 // Two answers: side by side where there is room for their words.
 void answers(Page& page, const char* quiet, Action quiet_action, const char* main, Action main_action) {
   const bool row = page.text_share < 1.4F && !(page.portrait && page.text_share > 1.2F);
@@ -112,20 +96,17 @@ void answers(Page& page, const char* quiet, Action quiet_action, const char* mai
 void hearing(Page& page) {
   const auto percent = [&](int value) { return page.filled("{} %", std::to_string(value)); };
   const std::string_view volume = percent(kVolumePercents[page.visit.volume]);
-  page.square_button("quieter", page.tr("Quieter"), icon::kQuieter, {ActionKind::Quieter, 0}, volume);
-  page.square_button("louder", page.tr("Louder"), icon::kSpeaker, {ActionKind::Louder, 0}, volume);
-  page.square_button("speed", page.tr("Speed of speech"), icon::kSpeed, {ActionKind::Speed, 0},
+  page.square_button("quieter", page.tr("Quieter"), icon::kQuieter, ActionKind::Quieter, volume);
+  page.square_button("louder", page.tr("Louder"), icon::kSpeaker, ActionKind::Louder, volume);
+  page.square_button("speed", page.tr("Speed of speech"), icon::kSpeed, ActionKind::Speed,
                      percent(kSpeedPercents[page.visit.speed]));
 }
 
 // Large letters may need more than the screen: then the words can be scrolled.
 void help(Page& page) {
   page.heading("overlay_title", page.tr("Help"));
-  Node words = page.box(Flow::Column, space::kM);
-  words.id = "overlay_words";
-  words.box.scroll = words.box.shrink = true;
-  page.tree.open(words);
-  page.body("overlay_text", help_for(page));
+  page.tree.open(shrinking(scroller("overlay_words", page.box(Flow::Column, space::kM))));
+  page.body("overlay_text", page.tr(kHelp[std::size_t(page.visit.step)]));
   if (page.visit.step == Step::Name)
     page.body("overlay_code",
               page.tr("You can also hold a QR code with your name or number up to the cameras."));
@@ -141,7 +122,7 @@ void help(Page& page) {
   page.privacy();
   if (page.visit.spoken) hearing(page);
   page.tree.close();
-  page.button("close", page.tr("Go on"), icon::kCheck, ButtonLook::Main, {ActionKind::CloseOverlay, 0});
+  page.button("close", page.tr("Go on"), icon::kCheck, ButtonLook::Main, ActionKind::CloseOverlay);
 }
 
 void languages(Page& page) {
@@ -153,8 +134,7 @@ void leave(Page& page) {
   page.heading("overlay_title", page.tr("Stop and leave"));
   page.body("overlay_text",
             page.tr("Everything you have entered and every picture are wiped at once. Nothing is kept."));
-  answers(page, page.tr("Stop and leave"), {ActionKind::LeaveNow, 0}, page.tr("Go on"),
-          {ActionKind::Stay, 0});
+  answers(page, page.tr("Stop and leave"), ActionKind::LeaveNow, page.tr("Go on"), ActionKind::Stay);
 }
 
 // The code is seen nowhere else: it is in view to the last second.
@@ -166,16 +146,15 @@ void code_goes(Page& page, std::string_view seconds) {
   code.style.size_px = page.px(type::kTitle);
   code.secret = true;
   page.wide(code);
-  page.put("seconds", Role::Status,
-           page.text(page.tree.keep(seconds), type::kTitle, Weight::Bold, page.palette.warn));
+  page.put("seconds", Role::Status, page.tree.keep(seconds), type::kTitle, Weight::Bold, page.palette.warn);
   page.tree.close();
-  answers(page, page.tr("Done"), {ActionKind::Finish, 0}, page.tr("Go on"), {ActionKind::Stay, 0});
+  answers(page, page.tr("Done"), ActionKind::Finish, page.tr("Go on"), ActionKind::Stay);
 }
 
 void told(Page& page, const char* asked, std::string_view words) {
   const auto in_block = page.tree.inside(page.box(Flow::Column, 2));
-  page.tree.leaf(page.text(asked, type::kSmall, Weight::Bold, page.palette.ink));
-  page.tree.leaf(page.text(words, type::kSmall, Weight::Regular, page.palette.ink_soft));
+  page.write(asked, type::kSmall, Weight::Bold, page.palette.ink);
+  page.write(words, type::kSmall, Weight::Regular, page.palette.ink_soft);
 }
 
 // How long a record is kept, as the staff have set it.
@@ -197,10 +176,7 @@ std::string_view host_of(Page& page) {
 void privacy(Page& page) {
   const auto& tr = page.tr;
   page.heading("overlay_title", tr("Your data"), type::kHeading);
-  Node words = page.box(Flow::Column, space::kS);
-  words.id = "overlay_words";
-  words.box.scroll = words.box.shrink = true;
-  page.tree.open(words);
+  page.tree.open(shrinking(scroller("overlay_words", page.box(Flow::Column, space::kS))));
   told(page, tr("Who keeps it"), host_of(page));
   told(page, tr("What for"),
        tr("A 3D portrait of you, if you want one. It is used to identify nobody here."));
@@ -210,7 +186,7 @@ void privacy(Page& page) {
   told(page, tr("What leaves this device"),
        tr("It is connected to nothing. The staff can copy stored portraits to a stick."));
   const auto also = [&](std::string_view more) {
-    page.tree.leaf(page.text(more, type::kSmall, Weight::Regular, page.palette.ink_soft));
+    page.write(more, type::kSmall, Weight::Regular, page.palette.ink_soft);
   };
   if (page.view.settings.is_on(Setting::TakeHome))
     also(tr("You can take a copy of yours on a stick of your own."));
@@ -221,44 +197,37 @@ void privacy(Page& page) {
        tr("You get a code. Quote it to the staff at any time and everything about you is erased."));
   page.cameras();
   page.tree.close();
-  page.button("close", tr("Go on"), icon::kCheck, ButtonLook::Main, {ActionKind::CloseOverlay, 0});
+  page.button("close", tr("Go on"), icon::kCheck, ButtonLook::Main, ActionKind::CloseOverlay);
 }
 
 void lost_code(Page& page) {
   page.heading("overlay_title", page.tr("I lost my code"));
   page.body("overlay_text",
             page.tr("Please ask the staff: they can find your record by your name, and renew or erase it."));
-  answers(page, page.tr("Stop and leave"), {ActionKind::LeaveNow, 0}, page.tr("Go on"),
-          {ActionKind::CloseOverlay, 0});
+  answers(page, page.tr("Stop and leave"), ActionKind::LeaveNow, page.tr("Go on"), ActionKind::CloseOverlay);
 }
 
 void still_there(Page& page) {
   const int left = page.visit.seconds_left(page.view.now);
-  const std::string number = std::to_string(left);
   page.heading("overlay_title", page.tr("Are you still there?"));
-  if (page.visit.step == Step::Thanks) return code_goes(page, number);
-  const char* words = page.tr.plural("Everything is wiped in {} second.",
-                                     "Everything is wiped in {} seconds.", static_cast<unsigned long>(left));
+  if (page.visit.step == Step::Thanks) return code_goes(page, std::to_string(left));
   page.put("overlay_text", Role::Status,
-           page.text(page.filled(words, number), type::kBody, Weight::Regular, page.palette.ink_soft));
-  answers(page, page.tr("Stop and leave"), {ActionKind::LeaveNow, 0}, page.tr("Go on"),
-          {ActionKind::Stay, 0});
+           page.plural_tr("Everything is wiped in {} second.", "Everything is wiped in {} seconds.", left),
+           type::kBody, Weight::Regular, page.palette.ink_soft);
+  answers(page, page.tr("Stop and leave"), ActionKind::LeaveNow, page.tr("Go on"), ActionKind::Stay);
 }
+
+// In the order of Overlay, behind None.
+constexpr std::array kOverlays{help, languages, leave, still_there, lost_code, privacy};
+static_assert(kOverlays.size() == std::size_t(Overlay::Privacy));
 
 }  // namespace
 
 void overlay_screen(Page& page) {
   begin_card(page);
-  switch (page.visit.overlay) {
-    case Overlay::Help: help(page); break;
-    case Overlay::Languages: languages(page); break;
-    case Overlay::Leave: leave(page); break;
-    case Overlay::StillThere: still_there(page); break;
-    case Overlay::LostCode: lost_code(page); break;
-    case Overlay::Privacy: privacy(page); break;
-    case Overlay::None: break;
-  }
-  end_card(page);
+  kOverlays[std::size_t(page.visit.overlay) - 1](page);
+  page.tree.close();
+  page.tree.close();
 }
 
 }  // namespace relievo::ui

@@ -22,24 +22,6 @@ bool begins_with_unit(std::string_view text) {
   });
 }
 
-int number_of(Step step) {
-  switch (step) {
-    case Step::Consent: return 0;
-    case Step::Name:
-    case Step::Known: return 1;
-    case Step::Position:
-    case Step::Turn: return 2;
-    case Step::Working:
-    case Step::Review: return 3;
-    case Step::Attract:
-    case Step::Thanks:
-    case Step::Trouble:
-    case Step::Starting:
-    case Step::Declined: break;
-  }
-  return -1;
-}
-
 }  // namespace
 
 float unit_of(const Rect& screen) {
@@ -83,7 +65,7 @@ Node Page::stage(float radius_dp, float grow) const {
 
 Node Page::model(std::string_view id, const char* words, float radius_dp) const {
   Node face = box(Flow::Column);
-  tell(face, Role::Picture, id, words, {ActionKind::TurnFace, 0});
+  tell(face, Role::Picture, id, words, ActionKind::TurnFace);
   face.mark = Mark::Face;
   face.box.radius = px(radius_dp);
   return face;
@@ -113,7 +95,7 @@ void Page::heading(std::string_view id, std::string_view words, float size, Text
 }
 
 void Page::body(std::string_view id, std::string_view words, TextAlign align) {
-  put(id, Role::Text, text(words, type::kBody, Weight::Regular, palette.ink_soft, align));
+  put(id, Role::Text, words, type::kBody, Weight::Regular, palette.ink_soft, align);
 }
 
 void Page::sign(const char* letter, float size, Colour colour) {
@@ -125,29 +107,36 @@ void Page::sign(const char* letter, float size, Colour colour) {
 
 void Page::button(std::string_view id, std::string_view label, const char* letter, ButtonLook look,
                   Action action, float grow, const ButtonSize& lengths) {
-  const bool main = look == ButtonLook::Main;
+  const float thin = std::max(1.5F, px(2));
+  const struct {
+    Colour fill, border, ink;
+    float border_px;
+  } looks[] = {
+      {palette.accent, kNone, palette.accent_ink, 0},
+      {palette.quiet, palette.quiet_border, palette.link, thin},
+      {kNone, palette.quiet_border, palette.link, thin},
+      {palette.quiet, palette.bad, palette.bad, std::max(2.0F, px(3))}};  // in the order of ButtonLook
+  static_assert(std::size(looks) == std::size_t(ButtonLook::Grave) + 1);
+  const auto& [fill, border, ink, border_px] = looks[std::size_t(look)];
   Node node = centred(box(Flow::Row, lengths.gap,
                           text_share > 1.3F ? std::min(14.0F, lengths.pad_x) : lengths.pad_x, lengths.pad_y));
   tell(node, Role::Button, id, label, action);
-  frame(node,
-        main                        ? palette.accent
-        : look == ButtonLook::Quiet ? palette.quiet
-                                    : kNone,
-        main ? kNone : palette.quiet_border, main ? 0 : std::max(1.5F, px(2)), px(lengths.radius));
+  frame(node, fill, border, border_px, px(lengths.radius));
   node.box.grow = grow;
   node.box.min_height = px(lengths.height);
   node.box.min_width = px(lengths.width);
-  node.box.shadow = main && lengths.shadow;
-  const Colour ink = main ? palette.accent_ink : palette.link;
+  node.box.shadow = look == ButtonLook::Main && lengths.shadow;
+  node.hold = node.slow_key = look == ButtonLook::Grave;
+  node.filling = palette.bad;
   const auto in_node = tree.inside(node);
   if (letter != nullptr) sign(letter, lengths.sign, ink);
-  if (!label.empty()) tree.leaf(text(label, lengths.text, Weight::Medium, ink, TextAlign::Centre));
+  if (!label.empty()) write(label, lengths.text, Weight::Medium, ink, TextAlign::Centre);
 }
 
 void Page::progress(std::string_view id, float share) {
   // A bar that grew with every pixel would have the whole page drawn each time, beside the work it waits for.
-  constexpr float kSteps = 100;
-  const float done = std::floor(std::clamp(share, 0.0F, 1.0F) * kSteps) / kSteps;
+  constexpr float kParts = 100;
+  const float done = std::floor(std::clamp(share, 0.0F, 1.0F) * kParts) / kParts;
   Node track = box(Flow::Row);
   tell(track, Role::Status, id, tr("How far it is"));
   constexpr int kStep = 25;  // who listens is told of a quarter, not of every step
@@ -168,35 +157,33 @@ void Page::progress(std::string_view id, float share) {
 void Page::reading_tools() {
   bigger_text();
   more_contrast();
-  square_button("language", tr("Language"), icon::kTranslate, {ActionKind::ShowLanguages, 0});
+  square_button("language", tr("Language"), icon::kTranslate, ActionKind::ShowLanguages);
 }
 
 void Page::turning_tools() {
-  square_button("turn_left", tr("Turn left"), icon::kTurnLeft, {ActionKind::TurnLeft, 0});
-  square_button("turn_right", tr("Turn right"), icon::kTurnRight, {ActionKind::TurnRight, 0});
-  square_button("zoom_out", tr("Smaller"), icon::kZoomOut, {ActionKind::ZoomOut, 0});
-  square_button("zoom_in", tr("Larger"), icon::kZoomIn, {ActionKind::ZoomIn, 0});
-  square_button("light", tr("Move the light"), icon::kSun, {ActionKind::MoveLight, 0});
+  square_button("turn_left", tr("Turn left"), icon::kTurnLeft, ActionKind::TurnLeft);
+  square_button("turn_right", tr("Turn right"), icon::kTurnRight, ActionKind::TurnRight);
+  square_button("zoom_out", tr("Smaller"), icon::kZoomOut, ActionKind::ZoomOut);
+  square_button("zoom_in", tr("Larger"), icon::kZoomIn, ActionKind::ZoomIn);
+  square_button("light", tr("Move the light"), icon::kSun, ActionKind::MoveLight);
 }
 
 void Page::bigger_text() {
-  square_button("bigger", tr("Bigger text"), icon::kText, {ActionKind::BiggerText, 0},
+  square_button("bigger", tr("Bigger text"), icon::kText, ActionKind::BiggerText,
                 filled("{} %", std::to_string(visit.text_percent())));
 }
 
 void Page::more_contrast() {
-  square_button("contrast", tr("More contrast"), icon::kContrast, {ActionKind::Contrast, 0},
+  square_button("contrast", tr("More contrast"), icon::kContrast, ActionKind::Contrast,
                 visit.high_contrast ? tr("yes") : tr("no"));
 }
 
 void Page::within_reach() {
-  square_button("reach", tr("Controls lower or on the other side"), icon::kReach, {ActionKind::Reach, 0},
+  square_button("reach", tr("Controls lower or on the other side"), icon::kReach, ActionKind::Reach,
                 share_of(std::size_t(visit.reach) + 1, 3));
 }
 
-void Page::privacy() {
-  square_button("privacy", tr("Your data"), icon::kShield, {ActionKind::ShowPrivacy, 0});
-}
+void Page::privacy() { square_button("privacy", tr("Your data"), icon::kShield, ActionKind::ShowPrivacy); }
 
 void Page::cameras() {
   const bool on = view.cameras_on;
@@ -205,7 +192,7 @@ void Page::cameras() {
   tell(row, Role::Status, "cameras", words);
   const auto in_row = tree.inside(row);
   sign(on ? icon::kCamera : icon::kCameraOff, 24, on ? palette.warn : palette.good);
-  tree.leaf(text(words, type::kSmall, Weight::Medium, on ? palette.warn : palette.good));
+  write(words, type::kSmall, Weight::Medium, on ? palette.warn : palette.good);
 }
 
 void Page::square_button(std::string_view id, std::string_view spoken, const char* letter, Action action,
@@ -234,8 +221,10 @@ std::string_view Page::filled(const char* words, std::span<const std::string_vie
   return tree.kept_since(from);
 }
 
-std::string_view Page::days(int count) {
-  return filled(tr.plural("{} day", "{} days", static_cast<unsigned long>(count)), std::to_string(count));
+std::string_view Page::days(int count) { return plural_tr("{} day", "{} days", count); }
+
+std::string_view Page::plural_tr(const char* one, const char* many, int count) {
+  return filled(tr.plural(one, many, static_cast<unsigned long>(count)), std::to_string(count));
 }
 
 std::string_view Page::joined(std::initializer_list<std::string_view> parts) const {
@@ -292,21 +281,21 @@ void Page::bar(bool with_back) {
   tree.open(grown(row_box(space::kS)));
   constexpr float kNoRoomForWords = 1.6F;
   if (with_back && portrait && text_share > kNoRoomForWords)
-    square_button("back", tr("Back"), backward(), {ActionKind::Back, 0});
-  else if (with_back) button("back", tr("Back"), backward(), ButtonLook::Quiet, {ActionKind::Back, 0});
+    square_button("back", tr("Back"), backward(), ActionKind::Back);
+  else if (with_back) button("back", tr("Back"), backward(), ButtonLook::Quiet, ActionKind::Back);
   if (!portrait || !with_back) steps();
   tree.close();
   reading_tools();
-  square_button("help", tr("Help"), icon::kHelp, {ActionKind::ShowHelp, 0});
+  square_button("help", tr("Help"), icon::kHelp, ActionKind::ShowHelp);
   // What is being stored is stored: who accepted gets their code.
   if (view.screen != Screen::Store)
-    square_button("leave", tr("Stop and leave"), icon::kClose, {ActionKind::Leave, 0});
+    square_button("leave", tr("Stop and leave"), icon::kClose, ActionKind::Leave);
   tree.close();
 }
 
 // Where one is: four short bars, the done ones filled.
 void Page::steps() {
-  const int now = number_of(visit.step);
+  const int now = info_of(visit.step).number;
   if (now < 0) return;
   Node row = row_box(space::kXs, tree.find("back") != nullptr ? space::kM : 0.0F);
   tell(row, Role::Status, "steps", tr("How far it is"));

@@ -42,7 +42,8 @@ inline constexpr char kFirst[] = {'\xe2', '\x81', '\xa8', '\0'}, kLeft[] = {'\xe
                       kEnd[] = {'\xe2', '\x81', '\xa9', '\0'};
 }  // namespace isolate
 
-enum class ButtonLook : std::uint8_t { Main, Quiet, Plain };
+// Grave: of what nobody can undo. It has to be held, or waits as long for another key; a bar fills meanwhile.
+enum class ButtonLook : std::uint8_t { Main, Quiet, Plain, Grave };
 
 // Lengths of a button, in dp; of the letters, as they are at 100 %.
 struct ButtonSize {
@@ -69,6 +70,18 @@ inline Node aligned(Node node, Align where) { return node.box.align = where, nod
 inline Node centred(const Node& node) { return aligned(justified(node, Justify::Centre), Align::Centre); }
 // It goes on where it has no room.
 inline Node scroller(std::string_view id, Node node) { return node.id = id, node.box.scroll = true, node; }
+inline Node shrinking(Node node) { return node.box.shrink = true, node; }
+// In a stack, with its middle at these shares of it.
+inline Node pinned(Node node, float x, float y) {
+  return node.pinned = true, node.pin_x = x, node.pin_y = y, node;
+}
+// Shows a picture; `aspect` as in Node.
+inline void depict(Node& node, PictureSlot slot, float aspect = 0) {
+  node.mark = Mark::Image, node.picture = slot, node.aspect = aspect;
+}
+inline float aspect_of(const ImageView& of, float of_none = 1) {
+  return of.empty() ? of_none : float(of.width_px) / float(of.height_px);
+}
 // Lengths in pixels.
 inline void frame(Node& node, Colour fill, Colour border, float border_px, float radius_px) {
   node.box.fill = fill, node.box.border = border, node.box.border_px = border_px, node.box.radius = radius_px;
@@ -95,6 +108,8 @@ class Page {
   bool mirrored() const { return info_of(visit.language).right_to_left; }
   // A box with nothing in it yet; gap and padding in dp.
   Node box(Flow flow, float gap = 0, float pad_x = 0, float pad_y = 0) const;
+  // Beside each other; on an upright screen one below the other.
+  Node abreast_box(float gap) const { return box(portrait ? Flow::Column : Flow::Row, gap); }
   // A row whose children stand in the middle of its height.
   Node row_box(float gap = 0, float pad_x = 0, float pad_y = 0) const;
   Node grown(Node node, float share = 1) const {
@@ -105,6 +120,10 @@ class Page {
     node.box.width = px(width_dp_), node.box.height = px(height_dp_);
     return node;
   }
+  // Makes a card of it.
+  void card(Node& node, float radius_dp) const {
+    frame(node, palette.card, palette.card_border, px(1.5F), px(radius_dp));
+  }
   // A dark card, for a picture or a model that fills it and what lies on that.
   Node stage(float radius_dp, float grow = 1) const;
   // A model, to be turned.
@@ -114,6 +133,10 @@ class Page {
   void put(std::string_view id, Role role, Node node) const {
     node.id = id, node.role = role;
     tree.leaf(node);
+  }
+  void put(std::string_view id, Role role, std::string_view words, float size, Weight weight, Colour colour,
+           TextAlign align = TextAlign::Start) const {
+    put(id, role, text(words, size, weight, colour, align));
   }
   // Words that have the room which others leave in a row.
   void wide(const Node& words) const {
@@ -128,9 +151,21 @@ class Page {
       for (std::size_t i = first; i < std::min(first + across, count); ++i) draw(i);
     }
   }
+  // The same; the last row is filled up, so that all are as wide.
+  template <typename Draw>
+  void in_full_rows(std::size_t count, std::size_t across, float gap, const Draw& draw) {
+    in_rows((count + across - 1) / across * across, across, gap, [&](std::size_t i) {
+      if (i < count) draw(i);
+      else space(1);
+    });
+  }
 
   Node text(std::string_view words, float size, Weight weight, Colour colour,
             TextAlign align = TextAlign::Start) const;
+  void write(std::string_view words, float size, Weight weight, Colour colour,
+             TextAlign align = TextAlign::Start) const {
+    tree.leaf(text(words, size, weight, colour, align));
+  }
   void heading(std::string_view id, std::string_view words, float size = type::kTitle,
                TextAlign align = TextAlign::Start);
   void body(std::string_view id, std::string_view words, TextAlign align = TextAlign::Start);
@@ -144,7 +179,7 @@ class Page {
   void button(std::string_view id, std::string_view label, const char* letter, ButtonLook look, Action action,
               float grow = 0) {
     button(id, label, letter, look, action, grow,
-           look == ButtonLook::Main ? size::kMainButton : size::kOtherButton);
+           look == ButtonLook::Main || look == ButtonLook::Grave ? size::kMainButton : size::kOtherButton);
   }
   void square_button(std::string_view id, std::string_view spoken, const char* letter, Action action,
                      std::string_view value = {});
@@ -165,6 +200,8 @@ class Page {
     return filled(words, std::span(values.begin(), values.size()));
   }
   std::string_view filled(const char* words, std::span<const std::string_view> values);
+  // The form that belongs to the number, with the number in it.
+  std::string_view plural_tr(const char* one, const char* many, int count);
   std::string_view days(int count);
   // The parts one after the other, kept for the frame.
   std::string_view joined(std::initializer_list<std::string_view> parts) const;
@@ -210,7 +247,7 @@ void language_grid(Page& page, std::size_t columns);
 
 // `done` is what the key that ends typing does; the visitor's does nothing before there is a name. `letters`:
 // whose; most pages have those of the reader.
-void keyboard(Page& page, Action done = {ActionKind::Done, 0});
+void keyboard(Page& page, Action done = ActionKind::Done);
 void keyboard(Page& page, Action done, Language letters);
 
 // Digits, and a tick for `done`.

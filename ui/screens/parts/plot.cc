@@ -77,12 +77,10 @@ class Drawing {
     page.tree.open(justified(page.row_box(space::kXs), Justify::End));
     if (what.figure_sign != nullptr) page.sign(what.figure_sign, 24, ink);
     if (!what.figure.empty())
-      page.tree.leaf(
-          page.text(page.filled("{}", what.figure), type::kSmall, Weight::Regular, ink, TextAlign::End));
+      page.write(page.filled("{}", what.figure), type::kSmall, Weight::Regular, ink, TextAlign::End);
     page.tree.close();
     page.tree.close();
-    if (!std::isnan(what.limit))
-      page.tree.leaf(page.text(limit_words(), 18, Weight::Regular, page.palette.bad));
+    if (!std::isnan(what.limit)) page.write(limit_words(), 18, Weight::Regular, page.palette.bad);
   }
   std::string_view limit_words() {
     return page.filled(page.tr("Limit: {}"), number(page, double(what.limit), scale.decimals(), what.unit));

@@ -90,25 +90,14 @@ static_assert(kSettingNames.size() == std::size_t(Setting::Count));
 const char* name_of(const Words& tr, Setting setting) { return one_of(tr, kSettingNames, setting); }
 
 std::string_view said_value(StaffFrame& page, Setting setting, std::int32_t value) {
-  switch (setting) {
-    case Setting::Language: return info_of(static_cast<Language>(value)).own_name;
-    case Setting::Contrast:
-    case Setting::Motion:
-    case Setting::Automatic:
-    case Setting::Sides:
-    case Setting::Solids:
-    case Setting::Sounds:
-    case Setting::TakeHome:
-    case Setting::TellsKnown: return value != 0 ? page.tr("yes") : page.tr("no");
-    case Setting::TextPercent: return page.number(value, 0, "%");
-    case Setting::PatienceS:
-    case Setting::StaffPatienceS: return page.number(value, 0, "s");
-    case Setting::CountdownMs: return page.number(value * 1e-3, 1, "s");
-    case Setting::KeepDays: return value == 0 ? page.tr("never") : page.days(value);
-    case Setting::LeastRoomMib: return page.number(value, 0, "MiB");
-    case Setting::Attempts:
-    case Setting::Count: break;
-  }
+  const bool is_switch = info_of(setting).values.size() == 2;
+  if (is_switch) return value != 0 ? page.tr("yes") : page.tr("no");
+  if (setting == Setting::Language) return info_of(static_cast<Language>(value)).own_name;
+  if (setting == Setting::TextPercent) return page.number(value, 0, "%");
+  if (setting == Setting::PatienceS || setting == Setting::StaffPatienceS) return page.number(value, 0, "s");
+  if (setting == Setting::CountdownMs) return page.number(value * 1e-3, 1, "s");
+  if (setting == Setting::KeepDays) return value == 0 ? page.tr("never") : page.days(value);
+  if (setting == Setting::LeastRoomMib) return page.number(value, 0, "MiB");
   return page.number(value);
 }
 

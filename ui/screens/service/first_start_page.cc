@@ -4,7 +4,6 @@
 // The first start: language, clock, consent text, both PINs; and the page on which somebody changes their
 // own.
 #include <array>
-#include <string>
 
 #include "ui/screens/parts/page.h"
 #include "ui/screens/service/fault_words.h"
@@ -37,10 +36,9 @@ void dots(StaffFrame& page) {
 }
 
 void told(StaffFrame& page, std::string_view id, std::string_view words, Mood mood) {
-  page.put(id, Role::Status,
-           page.text(words, type::kBody, Weight::Regular,
-                     mood == Mood::Plain ? page.palette.ink_soft : page.ink_of(mood),
-                     page.portrait ? TextAlign::Centre : TextAlign::Start));
+  page.put(id, Role::Status, words, type::kBody, Weight::Regular,
+           mood == Mood::Plain ? page.palette.ink_soft : page.ink_of(mood),
+           page.portrait ? TextAlign::Centre : TextAlign::Start);
 }
 
 // Words at the start, dots and digits.
@@ -52,12 +50,11 @@ struct PinWords {
 PinWords words_of(StaffFrame& page) {
   const AccessView& access = page.staff.access;
   if (access.checking) return {page.tr("One moment, please"), {}, Mood::Plain};
-  if (access.wait_s > 0) {
-    const char* words = page.tr.plural("Too many wrong PINs. The next try is possible in {} second.",
-                                       "Too many wrong PINs. The next try is possible in {} seconds.",
-                                       static_cast<unsigned long>(access.wait_s));
-    return {nullptr, page.filled(words, std::to_string(access.wait_s)), Mood::Bad};
-  }
+  if (access.wait_s > 0)
+    return {nullptr,
+            page.plural_tr("Too many wrong PINs. The next try is possible in {} second.",
+                           "Too many wrong PINs. The next try is possible in {} seconds.", access.wait_s),
+            Mood::Bad};
   std::string_view told;
   if (access.failed) told = words_of(page.tr, *access.failed);
   else if (access.wrong) told = page.tr("That was not right.");
@@ -65,8 +62,7 @@ PinWords words_of(StaffFrame& page) {
 }
 
 void pin_entry(StaffFrame& page, std::string_view title, const PinWords& words, Action done) {
-  const auto in_room =
-      page.tree.inside(centred(page.grown(page.box(page.portrait ? Flow::Column : Flow::Row, space::kXl))));
+  const auto in_room = page.tree.inside(centred(page.grown(page.abreast_box(space::kXl))));
   Node said = page.box(Flow::Column, space::kM);
   said.box.width = page.px(page.portrait ? 560.0F : 440.0F);
   page.tree.open(said);
@@ -85,7 +81,7 @@ void pin_page(StaffFrame& page) {
   page.begin(page.tr("Staff"), icon::kLock);
   const AccessView& access = page.staff.access;
   const bool ready = page.service.typed().size() >= kLeastPinDigits && !access.checking && access.wait_s == 0;
-  pin_entry(page, page.tr("Your PIN"), words_of(page), ready ? Action(CheckPin{}) : Action{});
+  pin_entry(page, page.tr("Your PIN"), words_of(page), ready ? CheckPin{} : Action{});
   page.end();
 }
 
@@ -115,12 +111,12 @@ void welcome(StaffFrame& page) {
 
 void mover(StaffFrame& page, const char* label, std::string_view id, int minutes) {
   page.tree.open(page.grown(page.box(Flow::Column, space::kXs)));
-  page.tree.leaf(page.text(label, type::kSmall, Weight::Medium, page.palette.ink, TextAlign::Centre));
+  page.write(label, type::kSmall, Weight::Medium, page.palette.ink, TextAlign::Centre);
   Node row = justified(page.box(Flow::Row, space::kXs), Justify::Centre);
   row.box.left_to_right = true;
   page.tree.open(row);
-  page.square_button(page.joined({id, " less"}), page.tr("Less"), icon::kLess, Action(MoveClock{-minutes}));
-  page.square_button(page.joined({id, " more"}), page.tr("More"), icon::kMore, Action(MoveClock{minutes}));
+  page.square_button(page.joined({id, " less"}), page.tr("Less"), icon::kLess, MoveClock{-minutes});
+  page.square_button(page.joined({id, " more"}), page.tr("More"), icon::kMore, MoveClock{minutes});
   page.tree.close();
   page.tree.close();
 }
@@ -149,7 +145,7 @@ void clock(StaffFrame& page) {
         "refused",
         tr("The system does not let this program set its clock. Set it there, then start again; or go on with this one."));
   page.tree.close();
-  page.button("clock right", tr("Go on"), page.onward(), ButtonLook::Main, Action(SetClock{}));
+  page.button("clock right", tr("Go on"), page.onward(), ButtonLook::Main, SetClock{});
 }
 
 void consent(StaffFrame& page) {
@@ -158,41 +154,35 @@ void consent(StaffFrame& page) {
   page.heading("consent title", tr("Consent text"), type::kHeading);
   consent_in_force(page);
   page.button("consent right", tr("Go on"), page.onward(), ButtonLook::Main,
-              busy ? Action{} : Action(ConfirmConsentText{}));
+              busy ? Action{} : ConfirmConsentText{});
 }
 
 std::string_view title_of(StaffFrame& page, PinStep step) {
   const auto& tr = page.tr;
-  const char *choose = tr("Choose a PIN"), *again = tr("The PIN once more");
-  switch (step) {
-    case PinStep::Technician: return page.filled("{} – {}", {tr("Technician"), choose});
-    case PinStep::TechnicianAgain: return page.filled("{} – {}", {tr("Technician"), again});
-    case PinStep::Operator: return page.filled("{} – {}", {tr("Operator"), choose});
-    case PinStep::OperatorAgain: return page.filled("{} – {}", {tr("Operator"), again});
-    case PinStep::Own: return choose;
-    case PinStep::OwnAgain: return again;
-    case PinStep::Done: break;
-  }
-  return tr("Change my PIN");
+  if (step == PinStep::Done) return tr("Change my PIN");
+  const bool again =
+      step == PinStep::TechnicianAgain || step == PinStep::OperatorAgain || step == PinStep::OwnAgain;
+  const char* what = again ? tr("The PIN once more") : tr("Choose a PIN");
+  if (step >= PinStep::Own) return what;
+  return page.filled("{} – {}", {step < PinStep::Operator ? tr("Technician") : tr("Operator"), what});
 }
 
-const char* words_of(const Words& tr, PinFault fault) {
-  switch (fault) {
-    case PinFault::Differ: return tr("The two were not the same. Choose again.");
-    case PinFault::Simple:
-      return tr("Too easy to guess: not one digit repeated, nothing like 1234. Choose another.");
-    case PinFault::Taken: return tr("The other role already has this PIN. Choose another.");
-    case PinFault::None: break;
-  }
-  return nullptr;
-}
+// In the order of PinFault.
+constexpr std::array<const char*, 4> kPinFaults{
+    "", mark_tr("The two were not the same. Choose again."),
+    mark_tr("Too easy to guess: not one digit repeated, nothing like 1234. Choose another."),
+    mark_tr("The other role already has this PIN. Choose another.")};
+static_assert(kPinFaults.size() == std::size_t(PinFault::Taken) + 1);
 
 PinWords words_of(const Words& tr, const AccessView& access) {
   if (access.checking) return {tr("One moment, please"), {}, Mood::Plain};
   if (access.step == PinStep::Done) return {nullptr, tr("It applies from now on."), Mood::Good};
-  const char* fault = access.failed ? words_of(tr, *access.failed) : words_of(tr, access.fault);
+  const bool fault = access.fault != PinFault::None;
   return {tr("Four to eight digits. Nobody else should know it."),
-          fault == nullptr ? std::string_view() : fault, Mood::Bad};
+          access.failed ? words_of(tr, *access.failed)
+          : fault       ? one_of(tr, kPinFaults, access.fault)
+                        : "",
+          Mood::Bad};
 }
 
 }  // namespace
@@ -201,8 +191,7 @@ void pins_page(StaffFrame& page) {
   const AccessView& access = page.staff.access;
   const bool ready =
       page.service.typed().size() >= kLeastPinDigits && !access.checking && access.step != PinStep::Done;
-  pin_entry(page, title_of(page, access.step), words_of(page.tr, access),
-            ready ? Action(OfferPin{}) : Action{});
+  pin_entry(page, title_of(page, access.step), words_of(page.tr, access), ready ? OfferPin{} : Action{});
 }
 
 void first_start_page(StaffFrame& page) {
@@ -233,8 +222,8 @@ void word(StaffFrame& page, const RecoveryView& seen, std::size_t i) {
   Node row = page.grown(page.row_box(space::kS));
   row.box.left_to_right = true;  // English, and in this order
   const auto in_row = page.tree.inside(row);
-  Node number = page.text(page.number(double(i + 1)), type::kSmall, Weight::Regular, page.palette.ink_soft,
-                          TextAlign::End);
+  Node number =
+      page.text(page.number(i + 1), type::kSmall, Weight::Regular, page.palette.ink_soft, TextAlign::End);
   number.box.width = page.px(36 * page.text_share);
   page.tree.leaf(number);
   Node said = page.english(seen.words[i], type::kBody);
@@ -246,7 +235,7 @@ void word(StaffFrame& page, const RecoveryView& seen, std::size_t i) {
 void words(StaffFrame& page, const RecoveryView& seen) {
   const std::size_t columns = page.text_share > 1.2F ? 2 : 3, rows = seen.words.size() / columns;
   Node card = page.box(Flow::Row, space::kM, space::kM, space::kM);
-  frame(card, page.palette.card, page.palette.card_border, page.px(1.5F), page.px(size::kRadius));
+  page.card(card, size::kRadius);
   card.id = "words";
   card.box.left_to_right = true;
   const auto in_card = page.tree.inside(card);
@@ -257,7 +246,7 @@ void words(StaffFrame& page, const RecoveryView& seen) {
 }
 
 void sheet(StaffFrame& page, const RecoveryView& seen) {
-  page.tree.open(centred(page.grown(page.box(page.portrait ? Flow::Column : Flow::Row, space::kL))));
+  page.tree.open(centred(page.grown(page.abreast_box(space::kL))));
   page.tree.open(page.grown(page.box(Flow::Column, space::kM), page.portrait ? 0.0F : 1.0F));
   page.body(
       "what",
@@ -267,8 +256,7 @@ void sheet(StaffFrame& page, const RecoveryView& seen) {
   page.tree.close();
   Node code = page.sized(page.box(Flow::Column), 260, 260);
   tell(code, Role::Picture, "code", page.tr("Recovery words"));
-  code.mark = Mark::Image;
-  code.picture = PictureSlot::TechnicianLeft;
+  depict(code, PictureSlot::TechnicianLeft);
   page.tree.leaf(code);
   page.tree.close();
   page.button("written", page.tr("Go on"), page.onward(), ButtonLook::Main,
@@ -277,15 +265,14 @@ void sheet(StaffFrame& page, const RecoveryView& seen) {
 
 void typing(StaffFrame& page, const RecoveryView& seen) {
   const bool busy = seen.state == SheetState::Saving;
-  page.typed_field("word field",
-                   page.filled(page.tr("Word {} of the sheet"), page.number(double(seen.asked))));
+  page.typed_field("word field", page.filled(page.tr("Word {} of the sheet"), page.number(seen.asked)));
   const std::string_view typed = page.service.typed();
   if (busy) page.status("state", page.tr("One moment, please"), Mood::Plain);
   if (seen.state == SheetState::Wrong && typed.empty())
     page.status("state", page.tr("That was not right."), Mood::Bad);
   if (seen.state == SheetState::Failed) page.outcome();
   if (page.portrait) page.space(1);
-  keyboard(page, typed.empty() || busy ? Action{} : Action(OfferWord{}), Language::English);
+  keyboard(page, typed.empty() || busy ? Action{} : OfferWord{}, Language::English);
 }
 
 }  // namespace

@@ -14,14 +14,12 @@ enum ListMode : int { kJumping = 100, kFiltering };
 constexpr const char *kFirstSign = "\uf600", *kLastSign = "\uf601", *kFilterSign = "\uf232";
 
 Action list_action(const ListRequest& request, int mode = 0) {
-  Action action(StaffAsk(request), true);
+  Action action(request, true);
   action.value = mode;
   return action;
 }
 
-std::string_view page_number(StaffFrame& page, std::int64_t number) {
-  return page.number(double(number + 1));
-}
+std::string_view page_number(StaffFrame& page, std::int64_t number) { return page.number(number + 1); }
 
 void stretches(StaffFrame& page, const ListPlace& place) {
   page.begin_list("stretches");

@@ -27,14 +27,14 @@ void working(StaffFrame& page) {
   page.body("do not pull", page.tr("Please do not pull it out."), TextAlign::Centre);
   page.progress("export progress", page.staff.work.progress);
   page.tree.close();
-  page.button("stop export", page.tr("Stop"), icon::kClose, ButtonLook::Quiet, Action(StopExport{}));
+  page.button("stop export", page.tr("Stop"), icon::kClose, ButtonLook::Quiet, StopExport{});
 }
 
 void whole_of(StaffFrame& page, const RecordsView& seen) {
   page.put("whole", Role::Status,
-           page.text(page.filled(page.tr("Complete on the stick: {} of {}. Nothing else on it counts."),
-                                 {page.number(seen.whole), page.number(seen.asked)}),
-                     type::kSmall, Weight::Regular, page.palette.ink));
+           page.filled(page.tr("Complete on the stick: {} of {}. Nothing else on it counts."),
+                       {page.number(seen.whole), page.number(seen.asked)}),
+           type::kSmall, Weight::Regular, page.palette.ink);
 }
 
 void said(StaffFrame& page, const RecordsView& seen) {
@@ -50,7 +50,9 @@ void said(StaffFrame& page, const RecordsView& seen) {
   if (seen.asked > 0 && outcome == Outcome::StickFull)
     page.status("outcome", page.tr("The stick is full. Please use another one."), Mood::Bad);
   else page.outcome();
-  const bool counts = outcome == Outcome::StickFull || outcome == Outcome::Cancelled ||
+  const bool some_missing =
+      seen.whole < seen.asked && (outcome == Outcome::StickUnchecked || outcome == Outcome::StickHeld);
+  const bool counts = outcome == Outcome::StickFull || outcome == Outcome::Cancelled || some_missing ||
                       outcome == Outcome::Failed || outcome == Outcome::StickBad;
   if (seen.asked > 1 && counts) whole_of(page, seen);
 }
@@ -72,8 +74,8 @@ void list(StaffFrame& page, const RecordsView& seen, ListFilters filters) {
   said(page, seen);
   page.begin_list("records");
   for (const RecordRow& row : seen.rows)
-    page.row(page.joined({"record ", row.code}), row.name, page.date(row.since), Mood::Plain,
-             Action(ShowRecord{row.number}));
+    page.row(page.id("record", std::size_t(row.number)), row.name, page.date(row.since), Mood::Plain,
+             ShowRecord{row.number});
   if (seen.rows.empty())
     page.nothing("nobody", icon::kPerson,
                  seen.searched.empty() && seen.place.filter == 0 ? tr("There is none yet")
@@ -89,7 +91,7 @@ void list(StaffFrame& page, const RecordsView& seen, ListFilters filters) {
   page.small_button("search", tr("Search"), "\uf349", ButtonLook::Main, {ActionKind::StaffMode, kTyping},
                     share);
   if (!seen.searched.empty())
-    page.small_button("all", tr("All"), nullptr, ButtonLook::Quiet, Action(FindRecords{}), share);
+    page.small_button("all", tr("All"), nullptr, ButtonLook::Quiet, FindRecords{}, share);
   if (narrow) {
     page.tree.close();
     page.tree.open(page.box(Flow::Row, space::kS));
@@ -98,7 +100,7 @@ void list(StaffFrame& page, const RecordsView& seen, ListFilters filters) {
   }
   if (!seen.rows.empty())
     page.small_button("export all", tr("Export all to the stick"), icon::kStick, ButtonLook::Quiet,
-                      Action(ExportFound{}), share);
+                      ExportFound{}, share);
 }
 
 void portrait_of(StaffFrame& page) {
@@ -110,8 +112,7 @@ void portrait_of(StaffFrame& page) {
 
 void record(StaffFrame& page, const RecordsView& seen) {
   const auto& tr = page.tr;
-  const auto in_box =
-      page.tree.inside(page.grown(page.box(page.portrait ? Flow::Column : Flow::Row, space::kM)));
+  const auto in_box = page.tree.inside(page.grown(page.abreast_box(space::kM)));
   portrait_of(page);
   const auto in_box_2 = page.tree.inside(page.grown(page.box(Flow::Column, space::kS)));
   page.begin_panel("record");
@@ -124,9 +125,35 @@ void record(StaffFrame& page, const RecordsView& seen) {
   page.tree.close();
   said(page, seen);
   page.small_button("export", tr("Export to the stick"), icon::kStick, ButtonLook::Main,
-                    Action(ExportRecord{seen.shown->number}));
+                    ExportRecord{seen.shown->number});
   page.small_button("erase", tr("Erase this record"), icon::kBin, ButtonLook::Quiet,
                     {ActionKind::StaffMode, kErasing});
+}
+
+// A big question in place of the page, of what nobody can undo. Who it is about stays in view: the portrait,
+// too, where there is room.
+void erasing(StaffFrame& page, const RecordRow& shown) {
+  const auto& tr = page.tr;
+  const bool narrow = page.portrait || page.text_share > 1.3F;
+  page.tree.open(page.grown(page.box(Flow::Row, space::kM)));
+  if (!narrow) portrait_of(page);
+  page.tree.open(
+      scroller("question", justified(page.grown(page.box(Flow::Column, space::kM)), Justify::Centre)));
+  page.heading("question title", tr("Erase this record"), type::kHeading);
+  page.heading("question about", page.filled("{}", shown.name), type::kBody);
+  page.body("question code", page.filled("{}", shown.code));
+  page.body("question words",
+            tr("Name, consent and every portrait of this person are erased. Nobody can bring them back."));
+  const char* how = tr(
+      "Hold the button for three seconds; let go sooner and nothing happens. With keys: press once and wait; any other key calls it back.");
+  page.put("question hint", Role::Text, how, type::kSmall, Weight::Medium, page.palette.ink);
+  page.tree.close();
+  page.tree.close();
+  const auto in_row = page.tree.inside(page.box(narrow ? Flow::Column : Flow::Row, space::kS));
+  const float share = narrow ? 0.0F : 1.0F;
+  page.button("no", tr("Back"), nullptr, ButtonLook::Main, {ActionKind::StaffMode, kList}, share);
+  page.button("yes", tr("Hold to erase"), icon::kBin, ButtonLook::Grave, {EraseRecord{shown.number}, true},
+              share);
 }
 
 }  // namespace
@@ -143,11 +170,7 @@ void records_page(StaffFrame& page) {
   if (seen->shown == nullptr && list_choice(page, seen->place, filters)) return;
   if (seen->shown == nullptr) return list(page, *seen, filters);
   if (page.service.mode != kErasing) return record(page, *seen);
-  page.grave_question(
-      tr("Erase this record"), {seen->shown->name, seen->shown->code, portrait_of},
-      tr("Name, consent and every portrait of this person are erased. Nobody can bring them back."),
-      tr("Hold to erase"), Action(EraseRecord{seen->shown->number}, true), tr("Back"),
-      {ActionKind::StaffMode, kList});
+  erasing(page, *seen->shown);
 }
 
 }  // namespace relievo::ui

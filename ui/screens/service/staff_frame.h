@@ -23,6 +23,12 @@ inline constexpr float kStaffTarget = 60;
 inline constexpr ButtonSize kStaffButton{kStaffTarget, kStaffTarget, 20, 8, 10, 18, 26, type::kSmall};
 }  // namespace size
 
+// A sentence in English, the key of its words.
+struct Told {
+  const char* words;
+  Mood mood = Mood::Bad;
+};
+
 // Of one text for each value of an enumeration, in its order.
 template <std::size_t kCount, typename Which>
 const char* one_of(const Words& tr, const std::array<const char*, kCount>& english, Which which) {
@@ -81,20 +87,14 @@ class StaffFrame : public Page {
   // How the page's work ended, with a sign; nothing where nothing has.
   void outcome() { outcome(staff.work.outcome); }
   void outcome(Outcome how);
-  // What a question is about: it stays in view; drawn beside the words where there is room.
-  struct About {
-    std::string_view name, code;
-    void (*draw)(StaffFrame&);
-  };
-  // A big question in place of the page, of what nobody can undo: "yes" is held for three seconds; by a
-  // keypad it waits as long, and another key calls it back.
-  void grave_question(const char* title, const About& about, const char* words, const char* yes,
-                      Action yes_action, const char* no, Action no_action);
   // A name made of two parts, kept for the frame: "stage 3".
   std::string_view id(std::string_view what, std::size_t number) const;
   // "12.5 mm", "90.0°", with the language's decimal mark and digits in threes, kept apart from the direction
   // of the words around.
-  std::string_view number(double value, int decimals = 0, const char* unit_name = "");
+  template <typename Number>
+  std::string_view number(Number value, int decimals = 0, const char* unit_name = "") {
+    return written(double(value), decimals, unit_name);
+  }
   // What is a number with a point, behind it perhaps a unit, with the language's decimal mark; else as it is.
   std::string_view as_number(std::string_view text);
   // The same of every number in a text, between blanks.
@@ -105,12 +105,12 @@ class StaffFrame : public Page {
   const char* sign_of(Mood mood) const;
 
  private:
+  std::string_view written(double value, int decimals, const char* unit_name);
   std::string_view noted(const struct LogLine& what);
   bool rule_due_ = false;  // a row stands above what comes next
   void due_rule();
   void begin_card(std::string_view id, bool fit_content);
   void leaving();
-  void held_button(std::string_view id, std::string_view label, Action action, float grow);
   void step_button(std::string_view id, const char* end, const char* spoken, std::string_view label,
                    const char* letter, Action action);
 };

@@ -40,7 +40,7 @@ bool begins_with_date(std::string_view text) {
 
 }  // namespace
 
-std::string_view StaffFrame::number(double value, int decimals, const char* unit_name) {
+std::string_view StaffFrame::written(double value, int decimals, const char* unit_name) {
   char figures[48];
   std::snprintf(figures, sizeof figures, "%.*f", decimals, value);
   const std::string_view text = figures;
@@ -155,7 +155,7 @@ void StaffFrame::logged(const LogLine& what) {
   tree.close();
   const auto in_box = tree.inside(grown(box(Flow::Column)));
   if (what.code || what.event)
-    tree.leaf(text(noted(what), 18, Weight::Regular, ink_of(what.fault ? Mood::Warn : Mood::Plain)));
+    write(noted(what), 18, Weight::Regular, ink_of(what.fault ? Mood::Warn : Mood::Plain));
   if (!what.event) tree.leaf(english(what.text, 17));
 }
 
@@ -165,7 +165,7 @@ constexpr float kUprightStretch = 1.8F;  // of rows on an upright screen, where 
 
 void StaffFrame::begin_card(std::string_view id, bool fit_content) {
   Node list = scroller(id, grown(box(Flow::Column, 0, space::kM, 8)));
-  frame(list, palette.card, palette.card_border, px(1.5F), px(size::kRadius));
+  card(list, size::kRadius);
   list.box.fit_content = fit_content;
   list.box.row_stretch = portrait ? kUprightStretch : 1;
   tree.open(list);
@@ -195,8 +195,8 @@ void StaffFrame::row(std::string_view id, std::string_view label, std::string_vi
   if (!value.empty()) {
     const auto in_end = tree.inside(justified(row_box(space::kXs), Justify::End));
     if (const char* letter = sign_of(mood)) sign(letter, 24, ink_of(mood));
-    tree.leaf(text(filled("{}", value), type::kSmall, Weight::Regular,
-                   mood == Mood::Plain ? palette.ink_soft : ink_of(mood), TextAlign::End));
+    write(filled("{}", value), type::kSmall, Weight::Regular,
+          mood == Mood::Plain ? palette.ink_soft : ink_of(mood), TextAlign::End);
   }
   tree.close();
   if (touched) sign(onward(), 24, palette.link);
@@ -245,7 +245,7 @@ void StaffFrame::stepper(std::string_view id, std::string_view label, std::strin
   Node middle = box(Flow::Column);
   middle.box.width = px(150 * std::min(1.3F, text_share));
   tree.open(middle);
-  tree.leaf(text(filled("{}", value), type::kSmall, Weight::Medium, palette.ink, TextAlign::Centre));
+  write(filled("{}", value), type::kSmall, Weight::Medium, palette.ink, TextAlign::Centre);
   tree.close();
   step_button(id, "more", tr("More"), label, icon::kMore, more);
   tree.close();
@@ -271,7 +271,7 @@ void StaffFrame::nothing(std::string_view id, const char* letter, std::string_vi
 void StaffFrame::section(std::string_view words) {
   due_rule();
   tree.leaf(sized(box(Flow::Column), 1, 14));
-  put({}, Role::Heading, text(words, type::kSmall, Weight::Bold, palette.link));
+  put({}, Role::Heading, words, type::kSmall, Weight::Bold, palette.link);
 }
 
 void StaffFrame::line(std::string_view words, Mood mood) {

@@ -30,7 +30,7 @@ void days(StaffFrame& page, const StatisticsView& seen) {
   for (const std::uint64_t count : seen.refused) refused += count;
   const auto count = [&](std::string_view id, const char* title, std::uint64_t all, const auto& values) {
     Plot plot;
-    plot.id = id, plot.title = title, plot.figure = page.number(double(all));
+    plot.id = id, plot.title = title, plot.figure = page.number(all);
     plot.values = values, plot.names = dates;
     page.plot(plot);
   };
@@ -49,15 +49,14 @@ void statistics_page(StaffFrame& page) {
     page.line(tr("One moment, please"));
     return page.tree.close();
   }
-  const auto count = [&](std::uint64_t value) { return page.number(double(value)); };
   page.row("since", tr("Counted since"), page.date(seen->since));
-  page.row("captures", tr("Captures"), count(seen->captures));
-  page.row("models", tr("Portraits made"), count(seen->models));
-  page.row("left", tr("Visits left early"), count(seen->left));
+  page.row("captures", tr("Captures"), page.number(seen->captures));
+  page.row("models", tr("Portraits made"), page.number(seen->models));
+  page.row("left", tr("Visits left early"), page.number(seen->left));
   days(page, *seen);
   for (std::size_t i = 0; i < kRefusals; ++i) {
     if (seen->refused[i] == 0) continue;
-    page.row(page.id("refused", i), one_of(tr, kRefusalWords, i), count(seen->refused[i]));
+    page.row(page.id("refused", i), one_of(tr, kRefusalWords, i), page.number(seen->refused[i]));
   }
   page.section(tr("From the pictures to the portrait"));
   const auto time = [&](double s) { return s > 0 ? page.number(s, 1, "s") : std::string_view("–"); };
@@ -118,7 +117,7 @@ void consent_in_force(StaffFrame& page) {
   page.tree.close();
   const bool busy = page.staff.consent == nullptr || page.staff.consent->taking;
   page.small_button("take consent", tr("Load from the stick"), icon::kStick, ButtonLook::Quiet,
-                    busy ? Action{} : Action(TakeConsentText{}));
+                    busy ? Action{} : TakeConsentText{});
 }
 
 namespace {
@@ -153,7 +152,7 @@ void self_test_page(StaffFrame& page) {
   }
   page.tree.close();
   page.small_button("begin", tr("Start"), icon::kAgain, ButtonLook::Main,
-                    page.staff.work.running ? Action{} : Action(BeginSelfTest{}));
+                    page.staff.work.running ? Action{} : BeginSelfTest{});
 }
 
 void trigger_page(StaffFrame& page) {
@@ -161,25 +160,24 @@ void trigger_page(StaffFrame& page) {
   page.body("what", tr("Ten pulses: does each reach both cameras? The lamp stays off."));
   page.begin_list("trigger");
   if (const TriggerView* seen = page.staff.trigger) {
-    const auto count = [&](std::uint64_t value) { return page.number(double(value)); };
     const bool all = seen->pairs == seen->pulses;
-    page.row("pulses", tr("Pulses given"), count(std::uint64_t(seen->pulses)));
-    page.row("pairs", tr("Pairs"), count(std::uint64_t(seen->pairs)),
+    page.row("pulses", tr("Pulses given"), page.number(seen->pulses));
+    page.row("pairs", tr("Pairs"), page.number(seen->pairs),
              seen->pulses == 0 ? Mood::Plain
              : all             ? Mood::Good
                                : Mood::Bad);
     page.row("apart", tr("Apart in time"), page.number(seen->apart_ms, 3, "ms"));
     page.row("delay", tr("From the pulse to the picture"), page.number(seen->delay_ms, 1, "ms"));
-    page.row("late", tr("Late"), count(seen->late));
-    page.row("lost", tr("Lost"), count(seen->lost));
-    page.row("damaged", tr("Damaged"), count(seen->damaged));
+    page.row("late", tr("Late"), page.number(seen->late));
+    page.row("lost", tr("Lost"), page.number(seen->lost));
+    page.row("damaged", tr("Damaged"), page.number(seen->damaged));
     if (seen->ended)
       page.line(all ? tr("In order") : tr("Some pulses were not seen by both cameras."),
                 all ? Mood::Good : Mood::Bad);
   }
   page.tree.close();
   page.small_button("begin", tr("Start"), icon::kAgain, ButtonLook::Main,
-                    page.staff.work.running ? Action{} : Action(BeginTriggerTest{}));
+                    page.staff.work.running ? Action{} : BeginTriggerTest{});
 }
 
 void log_page(StaffFrame& page) {

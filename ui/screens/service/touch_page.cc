@@ -2,8 +2,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 //
 // The touch screen's correction: crosses to be touched, what came of it.
-#include <string>
-
 #include "ui/device/settings.h"
 #include "ui/device/touch_map.h"
 #include "ui/screens/service/fault_words.h"
@@ -18,7 +16,7 @@ void chooser(StaffFrame& page, const Settings& settings, Setting setting) {
   const SettingInfo& info = info_of(setting);
   const auto ask = [&](bool more) {
     const bool end = settings.beside(setting, more ? 1 : -1) == settings.of(setting);
-    return end ? Action{} : Action(ChangeSetting{setting, more});
+    return end ? Action{} : ChangeSetting{setting, more};
   };
   page.stepper(info.key, name_of(page.tr, setting), said_value(page, setting, settings.of(setting)),
                ask(false), ask(true));
@@ -76,52 +74,38 @@ namespace {
 
 constexpr const char* kCross = "\uf1a3";
 
-struct Told {
-  const char* words;
-  Mood mood;
-};
-
-Told told(const Words& tr, TouchVerdict verdict) {
-  switch (verdict) {
-    case TouchVerdict::None: break;
-    case TouchVerdict::Kept: return {tr("It applies from now on."), Mood::Good};
-    case TouchVerdict::Plain: return {tr("The touch screen is taken as it is."), Mood::Good};
-    case TouchVerdict::NobodyTouched: return {tr("Nothing was changed."), Mood::Warn};
-    case TouchVerdict::Misfit:
-      return {
-          tr("The touches do not fit together. Nothing has changed: try again, with one finger, in the middle of each cross."),
-          Mood::Bad};
-    case TouchVerdict::Missed:
-      return {tr("The test cross was missed. Nothing has changed: try again."), Mood::Bad};
-    case TouchVerdict::NotSaved: return {tr("It could not be done. The log says why."), Mood::Bad};
-  }
-  return {nullptr, Mood::Plain};
-}
+// In the order of TouchVerdict.
+constexpr std::array<Told, 7> kTold{
+    {{nullptr, Mood::Plain},
+     {mark_tr("It applies from now on."), Mood::Good},
+     {mark_tr("The touch screen is taken as it is."), Mood::Good},
+     {mark_tr("Nothing was changed."), Mood::Warn},
+     {mark_tr(
+          "The touches do not fit together. Nothing has changed: try again, with one finger, in the middle of each cross."),
+      Mood::Bad},
+     {mark_tr("The test cross was missed. Nothing has changed: try again."), Mood::Bad},
+     {mark_tr("It could not be done. The log says why."), Mood::Bad}}};
+static_assert(kTold.size() == std::size_t(TouchVerdict::NotSaved) + 1);
 
 // One cross in its place; what is to be done, in the middle.
 void crosses(StaffFrame& page, const TouchView& seen) {
   Node room = page.grown(page.box(Flow::Stack));
   room.id = "crosses";
   const auto in_room = page.tree.inside(room);
-  Node middle = page.box(Flow::Column, space::kS);
-  middle.pinned = true;
-  middle.pin_x = middle.pin_y = 0.5F;
+  Node middle = pinned(page.box(Flow::Column, space::kS), 0.5F, 0.5F);
   middle.box.width = page.px(page.portrait ? 480.0F : 640.0F);
   middle.box.height = page.px(220 * page.text_share);
   page.tree.open(middle);
   const bool test = seen.step == TouchStep::Test;
   page.heading("cross words", page.tr("Touch the middle of the cross"), type::kHeading, TextAlign::Centre);
-  const char* wait = page.tr.plural("In {} second everything goes back to what it was.",
-                                    "In {} seconds everything goes back to what it was.",
-                                    static_cast<unsigned long>(seen.seconds_left));
-  page.body("cross wait", page.filled(wait, std::to_string(seen.seconds_left)), TextAlign::Centre);
+  page.body("cross wait",
+            page.plural_tr("In {} second everything goes back to what it was.",
+                           "In {} seconds everything goes back to what it was.", seen.seconds_left),
+            TextAlign::Centre);
   page.tree.close();
   const TouchPoint& at = kTouchCrosses[seen.cross];
-  Node cross = centred(page.sized(page.box(Flow::Row), 84, 84));
+  Node cross = pinned(centred(page.sized(page.box(Flow::Row), 84, 84)), at.x, at.y);
   tell(cross, Role::Status, "cross", page.tr("Touch the middle of the cross"));
-  cross.pinned = true;
-  cross.pin_x = at.x;
-  cross.pin_y = at.y;
   const auto in_cross = page.tree.inside(cross);
   page.sign(kCross, 72 / page.text_share, test ? page.palette.good : page.palette.accent);
 }
@@ -148,14 +132,14 @@ void touch_page(StaffFrame& page) {
   const TouchView* seen = page.staff.touch;
   if (seen == nullptr) return page.body("wait", tr("One moment, please"));
   if (seen->step != TouchStep::Rest) return crosses(page, *seen);
-  if (const Told said = told(tr, seen->verdict); said.words != nullptr)
-    page.status("verdict", said.words, said.mood);
+  const Told& told = kTold[std::size_t(seen->verdict)];
+  if (told.words != nullptr) page.status("verdict", tr(told.words), told.mood);
   figures(page, *seen);
   const bool upright = page.portrait || page.text_share > 1.2F;
   const auto in_box = page.tree.inside(page.box(upright ? Flow::Column : Flow::Row, space::kS));
-  page.small_button("begin", tr("Start"), kCross, ButtonLook::Main, Action(BeginTouchTrial{}));
+  page.small_button("begin", tr("Start"), kCross, ButtonLook::Main, BeginTouchTrial{});
   if (seen->corrected)
-    page.small_button("plain", tr("Default"), nullptr, ButtonLook::Quiet, Action(TakePlainTouch{}));
+    page.small_button("plain", tr("Default"), nullptr, ButtonLook::Quiet, TakePlainTouch{});
 }
 
 }  // namespace relievo::ui

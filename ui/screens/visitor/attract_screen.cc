@@ -14,15 +14,13 @@ void host(Page& page) {
   constexpr float kSignHigh = 64, kMostAcross = 4;
   const auto in_row = page.tree.inside(page.row_box(space::kM));
   if (!host.sign.empty()) {
-    const float aspect = float(host.sign_width_px) / float(host.sign_height_px);
+    const float aspect = aspect_of(host.sign_view());
     Node card = page.box(Flow::Column, 0, 10, 10);
     card.box.fill = {255, 255, 255, 255};
     card.box.radius = page.px(14);
     const auto in_card = page.tree.inside(card);
     Node sign = page.sized(page.box(Flow::Column), kSignHigh * std::min(kMostAcross, aspect), kSignHigh);
-    sign.mark = Mark::Image;
-    sign.picture = PictureSlot::Sign;
-    sign.aspect = aspect;
+    depict(sign, PictureSlot::Sign, aspect);
     page.tree.leaf(sign);
   }
   Node name = page.text(page.filled("{}", host.name), type::kBody, Weight::Bold, page.palette.good);
@@ -44,13 +42,13 @@ void tools(Page& page) {
   row.box.justify = Justify::End;
   const auto in_row = page.tree.inside(row);
   if ((page.view.languages & page.view.voices).any())
-    page.square_button("speech", page.tr("Read aloud"), icon::kSpeaker, {ActionKind::Speech, 0},
+    page.square_button("speech", page.tr("Read aloud"), icon::kSpeaker, ActionKind::Speech,
                        page.visit.spoken ? page.tr("yes") : page.tr("no"));
   page.bigger_text();
   page.more_contrast();
   page.within_reach();
   page.privacy();
-  page.square_button("help", page.tr("Help"), icon::kHelp, {ActionKind::ShowHelp, 0});
+  page.square_button("help", page.tr("Help"), icon::kHelp, ActionKind::ShowHelp);
 }
 
 // All languages are to be seen, each in its own letters; where large letters leave no room, behind one
@@ -60,7 +58,7 @@ void languages(Page& page) {
   if (count < 2) return;
   if (page.portrait || page.text_share < 1.2F || count <= 4) return language_grid(page, 4);
   page.button("language", page.tr("Language"), icon::kTranslate, ButtonLook::Quiet,
-              {ActionKind::ShowLanguages, 0});
+              ActionKind::ShowLanguages);
 }
 
 // Beside the head, where large words would have to be scrolled to come to it.
@@ -71,10 +69,7 @@ void words(Page& page) {
   column.box.grow = page.portrait ? 0 : 1.1F;
   column.box.shrink = true;
   const auto in_column = page.tree.inside(column);
-  Node said = page.box(Flow::Column, space::kM);
-  said.id = "said";
-  said.box.scroll = said.box.shrink = true;
-  page.tree.open(said);
+  page.tree.open(shrinking(scroller("said", page.box(Flow::Column, space::kM))));
   page.heading("title", page.tr("Your face in three dimensions"),
                tight(page)                               ? 38
                : page.portrait || page.text_share < 1.2F ? type::kDisplay
@@ -86,7 +81,7 @@ void words(Page& page) {
   if (!tight(page)) page.cameras();
   page.tree.close();
   page.tree.leaf(page.sized(page.box(Flow::Column), 1, 4));
-  page.button("start", page.tr("Start"), page.onward(), ButtonLook::Main, {ActionKind::Start, 0});
+  page.button("start", page.tr("Start"), page.onward(), ButtonLook::Main, ActionKind::Start);
   languages(page);
   if (page.portrait) tools(page);
 }
@@ -130,13 +125,13 @@ void badge(Page& page, const char* letter) {
 void point(Page& page, const char* letter, std::string_view title, std::string_view words) {
   Node row = page.box(Flow::Row, space::kM, 22, side_by_side(page) ? 26 : 18);
   row.box.align = side_by_side(page) ? Align::Start : Align::Centre;  // titles of neighbours on one line
-  frame(row, page.palette.card, page.palette.card_border, page.px(1.5F), page.px(size::kRadius));
+  page.card(row, size::kRadius);
   row.box.grow = 1;
   const auto in_row = page.tree.inside(row);
   if (letter != nullptr) badge(page, letter);
   const auto in_column = page.tree.inside(page.grown(page.box(Flow::Column, 4)));
-  page.tree.leaf(page.text(title, type::kBody, Weight::Bold, page.palette.ink));
-  if (!words.empty()) page.tree.leaf(page.text(words, 22, Weight::Regular, page.palette.ink_soft));
+  page.write(title, type::kBody, Weight::Bold, page.palette.ink);
+  if (!words.empty()) page.write(words, 22, Weight::Regular, page.palette.ink_soft);
 }
 
 void points(Page& page) {
@@ -179,17 +174,16 @@ void consent_screen(Page& page) {
     for (const ConsentPoint& said : own->points) point(page, nullptr, said.title, said.words);
   } else {
     points(page);
-    page.tree.leaf(page.text(tr("Sample text, not reviewed by a lawyer: the operator puts their own here."),
-                             type::kSmall, Weight::Regular, page.palette.ink_soft));
+    page.write(tr("Sample text, not reviewed by a lawyer: the operator puts their own here."), type::kSmall,
+               Weight::Regular, page.palette.ink_soft);
   }
   page.tree.close();
-  page.tree.open(page.sided(page.box(page.portrait ? Flow::Column : Flow::Row, space::kM)));
+  page.tree.open(page.sided(page.abreast_box(space::kM)));
   const float grow = page.portrait ? 0.0F : 1.0F;
-  page.button("decline", tr("No, thank you"), nullptr, ButtonLook::Quiet, {ActionKind::Decline, 0}, grow);
+  page.button("decline", tr("No, thank you"), nullptr, ButtonLook::Quiet, ActionKind::Decline, grow);
   if (page.visit.has_read())
-    page.button("agree", tr("I agree"), icon::kGood, ButtonLook::Main, {ActionKind::Agree, 0}, 1.6F * grow);
-  else
-    page.button("read_on", tr("Go on"), icon::kDown, ButtonLook::Quiet, {ActionKind::ReadOn, 0}, 1.6F * grow);
+    page.button("agree", tr("I agree"), icon::kGood, ButtonLook::Main, ActionKind::Agree, 1.6F * grow);
+  else page.button("read_on", tr("Go on"), icon::kDown, ButtonLook::Quiet, ActionKind::ReadOn, 1.6F * grow);
   page.tree.close();
   page.end();
 }

@@ -131,9 +131,7 @@ constexpr float kCodeSide = 190, kLinkWords = 220;
 void qr(Page& page, std::string_view id, PictureSlot slot) {
   Node code = page.sized(page.box(Flow::Column), kCodeSide, kCodeSide);
   code.id = id;
-  code.mark = Mark::Image;
-  code.picture = slot;
-  code.aspect = 1;
+  depict(code, slot, 1);
   page.tree.leaf(code);
 }
 
@@ -154,8 +152,7 @@ void erasure_code(Page& page) {
   card.secret = true;
   const auto in_card = page.tree.inside(card);
   page.tree.open(page.box(Flow::Column, 4));
-  page.tree.leaf(
-      page.text(tr("Your code"), type::kSmall, Weight::Medium, page.palette.ink_soft, TextAlign::Centre));
+  page.write(tr("Your code"), type::kSmall, Weight::Medium, page.palette.ink_soft, TextAlign::Centre);
   const float code_dp = abreast(page) ? 36 : 52;
   Node code = page.text(page.filled("{}", page.view.receipt), code_dp, Weight::Bold, page.palette.ink,
                         TextAlign::Centre);
@@ -191,9 +188,8 @@ void codes(Page& page) {
 }
 
 void said(Page& page, std::string_view id, const char* words, Colour ink) {
-  page.put(
-      id, Role::Status,
-      page.text(words, at_foot(page) ? type::kSmall : type::kBody, Weight::Medium, ink, TextAlign::Centre));
+  page.put(id, Role::Status, words, at_foot(page) ? type::kSmall : type::kBody, Weight::Medium, ink,
+           TextAlign::Centre);
 }
 
 // On paper, where there is a printer.
@@ -206,7 +202,7 @@ void printing(Page& page) {
   // The printer would wait for the stick.
   const bool free = page.view.take_home.taking != Taking::Busy;
   if (free && (paper == Printing::Ready || paper == Printing::Failed))
-    page.button("print", tr("Print the code"), icon::kPrinter, ButtonLook::Quiet, {ActionKind::Print, 0});
+    page.button("print", tr("Print the code"), icon::kPrinter, ButtonLook::Quiet, ActionKind::Print);
 }
 
 // The copy on the visitor's stick: how the last try ended, or how one begins.
@@ -237,8 +233,8 @@ void said_of_stick(Page& page) {
       home.taking == Taking::NotOurs
           ? tr("A stick was already plugged in. If it is yours, pull it out and plug it in again.")
           : tr("You can take your portrait with you: plug in a USB stick.");
-  page.put("stick", Role::Status,
-           page.text(offer, type::kSmall, Weight::Regular, page.palette.ink_soft, TextAlign::Centre));
+  page.put("stick", Role::Status, offer, type::kSmall, Weight::Regular, page.palette.ink_soft,
+           TextAlign::Centre);
 }
 
 // Who waits for their stick does not leave by a touch too many.
@@ -248,15 +244,15 @@ void take_or_leave(Page& page) {
     said(page, "stick", tr("Writing to the stick"), page.palette.ink);
     page.body("do_not_pull", tr("Please do not pull it out."), TextAlign::Centre);
     page.progress("taking", page.view.take_home.progress);
-    return page.button("stop", tr("Stop"), icon::kClose, ButtonLook::Quiet, {ActionKind::StopTaking, 0});
+    return page.button("stop", tr("Stop"), icon::kClose, ButtonLook::Quiet, ActionKind::StopTaking);
   }
   said_of_stick(page);
-  const auto in_row = page.tree.inside(page.box(page.portrait ? Flow::Column : Flow::Row, space::kS));
+  const auto in_row = page.tree.inside(page.abreast_box(space::kS));
   const float share = page.portrait ? 0.0F : 1.0F;
   if (page.view.take_home.taking == Taking::Ready)
     page.button("take_home", tr("Take my portrait with me"), icon::kStick, ButtonLook::Quiet,
-                {ActionKind::TakeHome, 0}, share);
-  page.button("finish", tr("Done"), icon::kCheck, ButtonLook::Main, {ActionKind::Finish, 0}, share);
+                ActionKind::TakeHome, share);
+  page.button("finish", tr("Done"), icon::kCheck, ButtonLook::Main, ActionKind::Finish, share);
 }
 
 }  // namespace

@@ -8,6 +8,8 @@
 namespace relievo::ui {
 namespace {
 
+constexpr float kUsualAspect = 1.6F;  // of a camera's picture
+
 // A picture that is much narrower than the screen is seen whole, in the middle.
 bool covers(const Page& page, float aspect) { return aspect > 0.75F * page.width_dp / page.height_dp; }
 
@@ -17,7 +19,7 @@ void picture(Page& page) {
   tell(node, Role::Picture, "live", page.tr("You, as in a mirror"));
   node.mark = live.empty() ? Mark::Shape : Mark::Image;
   node.picture = PictureSlot::Live;
-  node.aspect = live.empty() ? 1.6F : float(live.width_px) / float(live.height_px);
+  node.aspect = aspect_of(live, kUsualAspect);
   node.covers = covers(page, node.aspect);
   node.mirrored = true;
   page.tree.leaf(node);
@@ -60,8 +62,7 @@ void oval(Page& page, bool good, float share, bool notes) {
   Node room = centred(page.box(Flow::Row));
   page.tree.open(room);
   // As large as a face at the best distance, as far as there is room.
-  const ImageView& live = page.view.live.picture;
-  const float aspect = live.empty() ? 1.6F : float(live.width_px) / float(live.height_px);
+  const float aspect = aspect_of(page.view.live.picture, kUsualAspect);
   const float shown =
       covers(page, aspect) ? std::max(page.width_dp, page.height_dp * aspect) : page.height_dp * aspect;
   const float wanted = page.view.live.ideal_width > 0 ? page.view.live.ideal_width * shown * 1.12F / 0.74F
@@ -86,10 +87,8 @@ void oval(Page& page, bool good, float share, bool notes) {
 void head(Page& page) {
   if (page.view.invitation_head == nullptr) return;
   const float side = page.portrait ? 190.0F : 250.0F;
-  Node room = page.sized(page.box(Flow::Column), side, side);
-  room.pinned = true;
-  room.pin_x = page.portrait ? 0.16F : 0.15F;
-  room.pin_y = page.portrait ? 0.76F : 0.5F;
+  Node room = pinned(page.sized(page.box(Flow::Column), side, side), page.portrait ? 0.16F : 0.15F,
+                     page.portrait ? 0.76F : 0.5F);
   frame(room, page.palette.stage, page.palette.card_border, page.px(2), page.px(side / 2));
   const auto in_room = page.tree.inside(room);
   Node face = page.grown(page.box(Flow::Column));

@@ -19,7 +19,7 @@ void way(Page& page, std::string_view id, const char* label, const char* letter,
          Action action) {
   const auto in_box = page.tree.inside(page.grown(page.box(Flow::Column, space::kS)));
   page.button(id, label, letter, ButtonLook::Main, action);
-  page.tree.leaf(page.text(words, 22, Weight::Regular, page.palette.ink_soft, TextAlign::Centre));
+  page.write(words, 22, Weight::Regular, page.palette.ink_soft, TextAlign::Centre);
 }
 
 void two_ways(Page& page) {
@@ -27,9 +27,9 @@ void two_ways(Page& page) {
   const auto in_box = page.tree.inside(
       page.box(narrow(page) ? Flow::Column : Flow::Row, page.portrait ? space::kL : space::kM));
   way(page, "renew", tr("Renew it"), icon::kAgain,
-      tr("The old portrait is erased the moment the new one is stored."), {ActionKind::Renew, 0});
+      tr("The old portrait is erased the moment the new one is stored."), ActionKind::Renew);
   way(page, "add", tr("Add another one"), icon::kShape, tr("The old portrait is kept beside the new one."),
-      {ActionKind::AddAnother, 0});
+      ActionKind::AddAnother);
 }
 
 void name_ways(Page& page) {
@@ -37,11 +37,10 @@ void name_ways(Page& page) {
   page.tree.open(page.box(narrow(page) ? Flow::Column : Flow::Row, space::kM));
   const float grow = narrow(page) ? 0.0F : 1.0F;
   page.button("somebody_else", tr("I am somebody else"), icon::kPerson, ButtonLook::Quiet,
-              {ActionKind::SomebodyElse, 0}, grow);
-  page.button("have_code", tr("I have my code"), icon::kLock, ButtonLook::Main, {ActionKind::HaveCode, 0},
-              grow);
+              ActionKind::SomebodyElse, grow);
+  page.button("have_code", tr("I have my code"), icon::kLock, ButtonLook::Main, ActionKind::HaveCode, grow);
   page.tree.close();
-  page.button("lost_code", tr("I lost my code"), icon::kHelp, ButtonLook::Plain, {ActionKind::LostCode, 0});
+  page.button("lost_code", tr("I lost my code"), icon::kHelp, ButtonLook::Plain, ActionKind::LostCode);
 }
 
 }  // namespace
@@ -90,7 +89,7 @@ void field(Page& page, const char* asked, float grow) {
   const bool code = page.visit.quotes_code();
   Node field = page.row_box(3, 26, 14);
   tell(field, Role::Field, "name", asked);
-  field.by_key = {ActionKind::Done, 0};
+  field.by_key = ActionKind::Done;
   field.box.grow = grow;
   // Letter by letter while it is typed; a code that is whole, digit by digit.
   field.value = code && name.size() == kCodeDigits ? page.spelled(grouped(page, name)) : name;
@@ -119,24 +118,20 @@ void field(Page& page, const char* asked, float grow) {
 void finder(Page& page, float high_dp) {
   const ImageView& live = page.view.live.picture;
   if (live.empty()) return;
-  const float aspect = float(live.width_px) / float(live.height_px);
+  const float aspect = aspect_of(live);
   Node room = page.sized(page.box(Flow::Stack), high_dp * aspect, high_dp);
   room.aspect = aspect;
   const auto in_room = page.tree.inside(room);
   Node picture = page.box(Flow::Column);
   tell(picture, Role::Picture, "finder", page.tr("What the camera sees: hold a QR code here"));
-  picture.mark = Mark::Image;
-  picture.picture = PictureSlot::Live;
-  picture.aspect = aspect;
+  depict(picture, PictureSlot::Live, aspect);
   picture.mirrored = true;
   picture.box.radius = page.px(12);
   page.tree.leaf(picture);
   const float side = 0.62F * high_dp, arm = 0.16F * high_dp, line = 4;
   const auto bar = [&](float x, float y, float w, float h) {
-    Node one = page.sized(page.box(Flow::Column), w, h);
-    one.pinned = true;
-    one.pin_x = 0.5F + x / (high_dp * aspect);
-    one.pin_y = 0.5F + y / high_dp;
+    Node one =
+        pinned(page.sized(page.box(Flow::Column), w, h), 0.5F + x / (high_dp * aspect), 0.5F + y / high_dp);
     one.box.fill = {255, 255, 255, 235};
     one.box.radius = page.px(line / 2);
     page.tree.leaf(one);
@@ -150,16 +145,15 @@ void finder(Page& page, float high_dp) {
 
 void wrong_code(Page& page) {
   if (page.view.known != Known::NoSuchCode || page.visit.name().empty()) return;
-  page.put("wrong_code", Role::Alert,
-           page.text(page.tr("No record has this code. Please check it, or ask the staff."), type::kSmall,
-                     Weight::Bold, page.palette.bad));
+  page.put("wrong_code", Role::Alert, page.tr("No record has this code. Please check it, or ask the staff."),
+           type::kSmall, Weight::Bold, page.palette.bad);
 }
 
 // Question and answer, with the camera's picture beside them.
 void ask_name(Page& page, const char* asked) {
   const bool largest = abreast(page) && page.text_share > kLargest;
   if (largest) page.heading("title", asked, type::kSmall);
-  Node row = page.box(page.portrait ? Flow::Column : Flow::Row, space::kM);
+  Node row = page.abreast_box(space::kM);
   row.box.align = page.portrait ? Align::Stretch : Align::Centre;
   const auto in_row = page.tree.inside(row);
   if (abreast(page)) {
@@ -180,9 +174,7 @@ void ask_name(Page& page, const char* asked) {
 
 // Digits only: a pad of them, beside the question where there is room.
 void ask_code(Page& page, const char* asked) {
-  Node room =
-      justified(page.grown(page.sided(page.box(page.portrait ? Flow::Column : Flow::Row, space::kXl))),
-                Justify::Centre);
+  Node room = justified(page.grown(page.sided(page.abreast_box(space::kXl))), Justify::Centre);
   if (page.portrait) room.box.align = Align::Centre;
   const auto in_room = page.tree.inside(room);
   Node said = scroller("said", justified(page.box(Flow::Column, space::kM), Justify::Centre));
@@ -194,11 +186,10 @@ void ask_code(Page& page, const char* asked) {
   field(page, asked, 0);
   wrong_code(page);
   finder(page, !page.portrait && page.text_share > 1.2F ? kFinderHighAbreast : kFinderHigh);
-  page.button("lost_code", page.tr("I lost my code"), icon::kHelp, ButtonLook::Quiet,
-              {ActionKind::LostCode, 0});
+  page.button("lost_code", page.tr("I lost my code"), icon::kHelp, ButtonLook::Quiet, ActionKind::LostCode);
   page.tree.close();
   number_pad(page, {"key ", "done"},
-             page.visit.name().size() == kCodeDigits ? Action{ActionKind::Done, 0} : Action{});
+             page.visit.name().size() == kCodeDigits ? Action(ActionKind::Done) : Action{});
 }
 
 }  // namespace

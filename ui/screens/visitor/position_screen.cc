@@ -97,19 +97,19 @@ void position_screen(Page& page) {
   page.space(1);
   const auto shoot = [&] {
     page.button("shoot", page.tr("Take the picture"), icon::kCamera, ButtonLook::Main,
-                {ActionKind::TakePicture, 0});
+                ActionKind::TakePicture);
   };
   if (page.portrait) shoot();
   page.tree.open(
       aligned(page.sided(page.box(Flow::Row, page.portrait ? space::kS : space::kXs)), Align::End));
   // Large words would reach into the oval.
   if (page.portrait || page.text_share < 1.2F)
-    page.button("back", page.tr("Back"), page.backward(), ButtonLook::Quiet, {ActionKind::Back, 0});
-  else page.square_button("back", page.tr("Back"), page.backward(), {ActionKind::Back, 0});
+    page.button("back", page.tr("Back"), page.backward(), ButtonLook::Quiet, ActionKind::Back);
+  else page.square_button("back", page.tr("Back"), page.backward(), ActionKind::Back);
   page.bigger_text();
-  page.square_button("language", page.tr("Language"), icon::kTranslate, {ActionKind::ShowLanguages, 0});
-  page.square_button("help", page.tr("Help"), icon::kHelp, {ActionKind::ShowHelp, 0});
-  page.square_button("leave", page.tr("Stop and leave"), icon::kClose, {ActionKind::Leave, 0});
+  page.square_button("language", page.tr("Language"), icon::kTranslate, ActionKind::ShowLanguages);
+  page.square_button("help", page.tr("Help"), icon::kHelp, ActionKind::ShowHelp);
+  page.square_button("leave", page.tr("Stop and leave"), icon::kClose, ActionKind::Leave);
   page.space(1);
   if (!page.portrait) shoot();
   page.tree.close();
@@ -141,11 +141,9 @@ Said said_of_turn(const Page& page) {
 void sides(Page& page) {
   const auto& turn = page.view.live.turn;
   constexpr float kFurthestDeg = 62, kStopDp = 46, kMarkerDp = 22;
-  const auto pinned = [&](float deg, float across_dp) {
-    Node disc = centred(page.sized(page.box(Flow::Column), across_dp, across_dp));
-    disc.pinned = true;
-    disc.pin_x = 0.5F - deg / (2 * kFurthestDeg);
-    disc.pin_y = 0.5F;
+  const auto disc_at = [&](float deg, float across_dp) {
+    Node disc = pinned(centred(page.sized(page.box(Flow::Column), across_dp, across_dp)),
+                       0.5F - deg / (2 * kFurthestDeg), 0.5F);
     disc.box.radius = page.px(across_dp / 2);
     return disc;
   };
@@ -162,14 +160,14 @@ void sides(Page& page) {
   const auto in_rail = page.tree.inside(rail);
   for (std::size_t i = 0; i < pipeline::kSides; ++i) {
     const bool taken = turn && turn->taken[i];
-    Node stop = pinned(float(pipeline::kSidesDeg[i]), kStopDp);
+    Node stop = disc_at(float(pipeline::kSidesDeg[i]), kStopDp);
     frame(stop, taken ? page.palette.good : page.palette.ground_end,
           taken ? page.palette.good : page.palette.quiet_border, page.px(2.5F), page.px(kStopDp / 2));
     const auto in_stop = page.tree.inside(stop);
     if (taken) page.sign(icon::kGood, 28 / page.text_share, page.palette.card);
   }
   if (turn && turn->advice != pipeline::TurnAdvice::Lost) {
-    Node marker = pinned(std::clamp(turn->yaw_deg, 2 - kFurthestDeg, kFurthestDeg - 2), kMarkerDp);
+    Node marker = disc_at(std::clamp(turn->yaw_deg, 2 - kFurthestDeg, kFurthestDeg - 2), kMarkerDp);
     marker.id = "turned";
     marker.box.fill = page.palette.accent;
     page.tree.leaf(marker);
@@ -190,14 +188,14 @@ void turn_screen(Page& page) {
     sides(page);
   }
   page.tree.open(centred(page.sided(page.box(Flow::Row, space::kS))));
-  page.square_button("help", page.tr("Help"), icon::kHelp, {ActionKind::ShowHelp, 0});
-  page.square_button("leave", page.tr("Stop and leave"), icon::kClose, {ActionKind::Leave, 0});
+  page.square_button("help", page.tr("Help"), icon::kHelp, ActionKind::ShowHelp);
+  page.square_button("leave", page.tr("Stop and leave"), icon::kClose, ActionKind::Leave);
   if (page.portrait) page.space(1);
   else sides(page);
   constexpr float kInOneLine = 1.3F;
   const float share = std::exchange(page.text_share, std::min(kInOneLine, page.text_share));
   page.button("enough", taken == 0 ? page.tr("I cannot turn my head") : page.tr("That is enough"),
-              icon::kGood, ButtonLook::Main, {ActionKind::EnoughSides, 0});
+              icon::kGood, ButtonLook::Main, ActionKind::EnoughSides);
   page.text_share = share;
   page.tree.close();
   page.tree.close();

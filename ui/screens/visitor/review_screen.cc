@@ -36,8 +36,8 @@ void tools(Page& page) {
   row.box.left_to_right = true;  // what turns the face to the left lies on the left
   const auto in_row = page.tree.inside(row);
   page.turning_tools();
-  page.square_button("shape", tr("With and without colour"), icon::kShape, {ActionKind::ShowShape, 0});
-  page.square_button("at_first", tr("As at first"), icon::kUndo, {ActionKind::LookAtFirst, 0});
+  page.square_button("shape", tr("With and without colour"), icon::kShape, ActionKind::ShowShape);
+  page.square_button("at_first", tr("As at first"), icon::kUndo, ActionKind::LookAtFirst);
 }
 
 void face(Page& page) {
@@ -62,7 +62,7 @@ void assurance(Page& page) {
   if (good) what();  // what speaks against keeping it comes first: large text may need scrolling
   Node row = page.row_box(14, 18, 14);
   tell(row, Role::Status, "quality", {});
-  frame(row, page.palette.card, page.palette.card_border, page.px(1.5F), page.px(size::kRadius));
+  page.card(row, size::kRadius);
   page.tree.open(row);
   page.sign(good ? icon::kGood : icon::kInfo, 32, good ? page.palette.good : page.palette.warn);
   page.wide(page.text(said, 22, Weight::Medium, page.palette.ink));
@@ -82,28 +82,27 @@ void question(Page& page) {
   page.tree.open(words);
   page.heading("title", tr("Is this you?"));
   if (page.view.trouble == Trouble::Storage) {
-    page.put("trouble", Role::Alert,
-             page.text(tr("Nothing can be stored at the moment"), 22, Weight::Medium, page.palette.bad));
+    page.put("trouble", Role::Alert, tr("Nothing can be stored at the moment"), 22, Weight::Medium,
+             page.palette.bad);
     page.body("what", tr("Please tell the staff. Nothing about you was kept."));
   } else if (page.view.trouble == Trouble::StorageFull) {
     page.put(
         "trouble", Role::Alert,
-        page.text(
-            tr("It could not be stored: the memory is full. Nothing was kept. Please tell the staff, or try again."),
-            22, Weight::Medium, page.palette.bad));
+        tr("It could not be stored: the memory is full. Nothing was kept. Please tell the staff, or try again."),
+        22, Weight::Medium, page.palette.bad);
   } else {
     assurance(page);
   }
   page.tree.close();
-  page.button("accept", tr("Yes, keep it"), icon::kGood, ButtonLook::Main, {ActionKind::Accept, 0});
-  page.button("retake", tr("Take it again"), icon::kAgain, ButtonLook::Quiet, {ActionKind::Retake, 0});
+  page.button("accept", tr("Yes, keep it"), icon::kGood, ButtonLook::Main, ActionKind::Accept);
+  page.button("retake", tr("Take it again"), icon::kAgain, ButtonLook::Quiet, ActionKind::Retake);
 }
 
 }  // namespace
 
 void review_screen(Page& page) {
   page.begin(false);
-  page.tree.open(page.grown(page.sided(page.box(page.portrait ? Flow::Column : Flow::Row, space::kL))));
+  page.tree.open(page.grown(page.sided(page.abreast_box(space::kL))));
   face(page);
   question(page);
   page.tree.close();

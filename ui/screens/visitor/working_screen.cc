@@ -3,7 +3,6 @@
 //
 // The first four stages: of each the visitor's own photograph, until its picture is born.
 #include <algorithm>
-#include <string>
 
 #include "ui/screens/visitor/visitor_screens.h"
 
@@ -46,9 +45,8 @@ void card(Page& page, std::size_t stage, const char* words) {
   if (!shown.empty()) {
     Node picture = page.box(Flow::Column);
     tell(picture, Role::Picture, {}, words);
-    picture.mark = Mark::Image;
-    picture.picture = static_cast<PictureSlot>(std::size_t(PictureSlot::Photograph) + (born ? stage + 1 : 0));
-    picture.aspect = float(shown.width_px) / float(shown.height_px);
+    depict(picture, static_cast<PictureSlot>(std::size_t(PictureSlot::Photograph) + (born ? stage + 1 : 0)),
+           aspect_of(shown));
     picture.covers = true;
     picture.box.radius = page.px(18);
     if (at > now && !born) picture.colour = Colour{255, 255, 255, 255}.with_alpha(kWaits);
@@ -78,7 +76,7 @@ void working_screen(Page& page) {
                             : tr("It takes a few seconds. You can move again."));
   const char* const words[] = {tr("Both pictures compared"), tr("Points in space"), tr("A closed surface"),
                                tr("The colours of your skin")};
-  Node all = page.grown(page.box(page.portrait ? Flow::Column : Flow::Row, space::kM));
+  Node all = page.grown(page.abreast_box(space::kM));
   all.box.even = true;  // a tick moves nothing
   page.tree.open(all);
   for (std::size_t i = 0; i < 4; ++i) {

@@ -317,7 +317,6 @@ double SkullForm::distance(Vec3 p) const {
 HeadField::HeadField(const HeadTraits& t)
     : traits(t),
       skull(t),
-      strokes(t),
       nose(t, skull),
       mouth(t, skull),
       eye(t, skull),
@@ -337,7 +336,7 @@ double HeadField::distance(Vec3 point) const {
   const Vec3 leaning = swayed(point), p = mouth.closed(leaning);
   double d = skull.distance(p);
   if (d > 45) return d;
-  if (d < 22) d -= strokes.height(p);
+  if (d < 22) d -= stroke_height(traits, p);
   d = nose.add_to(d, p);
   d = mouth.add_to(d, p);
   d = eye.add_to(d, p);

@@ -30,17 +30,7 @@ class SkullForm {
 };
 
 // Muscle, fat and creases: heights in mm to be added along the normal.
-class FaceStrokes {
- public:
-  explicit FaceStrokes(const HeadTraits& traits) : t_(traits) {}
-  double height(Vec3 p) const;
-
- private:
-  double brow_and_orbit(double ax, Vec3 p) const;
-  double cheek(double ax, Vec3 p) const;
-  double lower_face(double ax, Vec3 p) const;
-  HeadTraits t_;
-};
+double stroke_height(const HeadTraits& traits, Vec3 p);
 
 class NoseForm {
  public:
@@ -122,7 +112,6 @@ struct HeadField {
 
   HeadTraits traits;
   SkullForm skull;
-  FaceStrokes strokes;
   NoseForm nose;
   MouthForm mouth;
   EyeForm eye;

@@ -143,10 +143,8 @@ Part part_around(const ImageView& picture, const BoardCorners& corners, double s
 
 Result<BoardCorners> find_in(const Part& part, const BoardPattern& pattern) {
   if (part.view.empty()) return BoardCorners{};
-  auto corners = find_board(part.view, pattern);
-  if (!corners)
-    return corners.error().code == Errc::NotFound ? Result<BoardCorners>(BoardCorners{}) : corners;
-  for (Vec2d& at : *corners) at = {at.x + part.left_px, at.y + part.top_px};
+  RELIEVO_TRY_ASSIGN(auto corners, look_for_board(part.view, pattern));
+  for (Vec2d& at : corners) at = {at.x + part.left_px, at.y + part.top_px};
   return corners;
 }
 

@@ -12,7 +12,7 @@
 
 #include "pipeline/base/stage.h"
 #include "pipeline/match/image/plane.h"
-#include "pipeline/model/keypoint.h"
+#include "pipeline/model/match_set.h"
 #include "pipeline/model/rectified_pair.h"
 
 namespace relievo::pipeline {

@@ -106,6 +106,16 @@ TEST_F(CalibrateCommand, RefusesTooFewViewsAndWrongNumbers) {
   EXPECT_EQ(error(), Errc::NotFound);
 }
 
+TEST(TellQuality, SaysALongReasonWhole) {
+  pipeline::CalibrationQuality quality;
+  pipeline::ViewQuality& view = quality.views.emplace_back();
+  view.name = std::string(200, 'n');
+  view.reason = std::string(200, 'r');
+  std::ostringstream out;
+  firmware::tell_quality(quality, out);
+  EXPECT_NE(out.str().find("view " + view.name + ": left out, " + view.reason + "\n"), std::string::npos);
+}
+
 // Pictures with known answers, where they are installed.
 class MeasuredPictures : public CalibrateCommand {
  protected:

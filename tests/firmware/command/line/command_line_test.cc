@@ -274,6 +274,13 @@ TEST(CommandLine, WithoutACommandItIsTheKiosk) {
   EXPECT_EQ(std::get<KioskArgs>(parse({"--screenshots", "shots"}).command).screenshots, "shots");
 }
 
+// They would not reach it: somebody would be erased from the usual store.
+TEST(CommandLine, WhatStandsBeforeACommandIsAUsageError) {
+  EXPECT_EQ(parse({"subjects", "erase", "Ada", "--store", "st"}).exit_code, 0);
+  EXPECT_EQ(parse({"--store", "st", "subjects", "erase", "Ada"}).exit_code, 2);
+  EXPECT_EQ(parse({"--key", "k", "memory", "--store", "st"}).exit_code, 2);
+}
+
 TEST(CommandLine, WrongWordsAreUsageErrorsInOneLine) {
   const std::vector<std::vector<const char*>> wrong{
       {"--windowed", "wide"},

@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: 2026 The Relievo authors
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include "firmware/arguments/settings_file.h"
+#include "firmware/arguments/algorithm_choice.h"
 
 #include <gtest/gtest.h>
 
@@ -32,7 +32,7 @@ TEST(SettingsFile, EmptyIsNoSettingAndAbsentIsAnError) {
   ASSERT_TRUE(none);
   EXPECT_TRUE(none->empty());
   const test::TemporaryFolder here;
-  EXPECT_EQ(read_settings_file(here / "no.toml").error().code, Errc::NotFound);
+  EXPECT_EQ(choose_algorithms({.file = here / "no.toml", .settings = {}}).error().code, Errc::NotFound);
 }
 
 }  // namespace

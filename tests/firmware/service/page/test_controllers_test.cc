@@ -3,15 +3,18 @@
 //
 // The staff's pages alone, on threads that are busy with something else: what somebody asked for who signs
 // out before its turn has come.
-#include "firmware/service/page/test_controllers.h"
-
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <atomic>
+#include <optional>
 #include <utility>
+#include <vector>
 
+#include "firmware/records/receipt.h"
 #include "firmware/service/page/health_controller.h"
-#include "firmware/service/page/records_controller.h"
+#include "firmware/service/page_controller.h"
+#include "firmware/service/record_filter.h"
 #include "tests/firmware/played_appliance.h"
 #include "tests/storage/sample.h"
 #include "tests/support/faulty_store.h"
@@ -92,7 +95,8 @@ TEST_F(PageTest, WhoseErasureWasConfirmedIsErasedThoughTheOperatorSignsOutMeanwh
   ASSERT_TRUE(store->add_enrolment(storage::NewSubject{"Ada"}, storage::test::sample_enrolment(model)));
   const auto whom = store->subjects({});
   ASSERT_TRUE(whom && whom->size() == 1);
-  RecordsController page(services);
+  const auto made = records_controller(services);
+  PageController& page = *made;
   page.opened();
   until_all_is_done();
   keep_busy(JobLane::Keeper);
@@ -104,7 +108,8 @@ TEST_F(PageTest, WhoseErasureWasConfirmedIsErasedThoughTheOperatorSignsOutMeanwh
 }
 
 TEST_F(PageTest, ASelfTestThatWasCancelledBySigningOutCanBeBegunAgain) {
-  SelfTestController page(services);
+  const auto made = self_test_controller(services);
+  PageController& page = *made;
   page.opened();
   keep_busy(JobLane::Keeper);
   ask(page, ui::BeginSelfTest{});
@@ -121,7 +126,8 @@ TEST_F(PageTest, ASelfTestThatWasCancelledBySigningOutCanBeBegunAgain) {
 }
 
 TEST_F(PageTest, ATriggerTestThatWasCancelledBySigningOutCanBeBegunAgain) {
-  TriggerController page(services);
+  const auto made = trigger_controller(services);
+  PageController& page = *made;
   page.opened();
   keep_busy(JobLane::Capture);
   ask(page, ui::BeginTriggerTest{});
@@ -136,7 +142,8 @@ TEST_F(PageTest, ATriggerTestThatWasCancelledBySigningOutCanBeBegunAgain) {
 
 TEST_F(PageTest, ADiskThatDoesNotAnswerIsToldAsSeldomAsItsRoomIsKept) {
   services.folder = folder.path() / "gone";
-  HealthController page(services);
+  const auto made = health_controller(services);
+  PageController& page = *made;
   page.opened();
   until_all_is_done();
   for (int look = 0; look < 5; ++look) {
@@ -154,7 +161,8 @@ TEST_F(PageTest, ADiskThatDoesNotAnswerIsToldAsSeldomAsItsRoomIsKept) {
 }
 
 TEST_F(PageTest, TheDeviceIsLookedAtAgainAfterALookThatSigningOutCancelled) {
-  StatusController page(services);
+  const auto made = status_controller(services);
+  PageController& page = *made;
   page.opened();
   keep_busy(JobLane::Keeper);
   (void)seen(page);  // looks
@@ -164,6 +172,44 @@ TEST_F(PageTest, TheDeviceIsLookedAtAgainAfterALookThatSigningOutCancelled) {
   (void)seen(page);
   until_all_is_done();
   EXPECT_TRUE(seen(page).status->looked);
+}
+
+TEST_F(PageTest, TheFirstPageTellsOnceThatTheDiskDoesNotAnswer) {
+  services.folder = folder.path() / "gone";
+  const auto made = status_controller(services);
+  PageController& page = *made;
+  page.opened();
+  for (int look = 0; look < 5; ++look) {
+    (void)seen(page);
+    until_all_is_done();
+    world.ahead_s += 3;
+  }
+  EXPECT_EQ(log.faults().size(), 1U) << "the log has room for 200 lines";
+  services.folder = folder.path();
+  (void)seen(page);
+  until_all_is_done();
+  EXPECT_TRUE(seen(page).status->looked) << "and goes on looking";
+}
+
+class TellsNothing final : public test::FaultyStore {
+ public:
+  using FaultyStore::FaultyStore;
+  Result<std::vector<storage::Subject>> subjects(const storage::SubjectFilter&) override {
+    return Error{Errc::IoFailed, "as the test says"};
+  }
+};
+
+TEST_F(PageTest, ACodeThatTheStoreCannotAnswerForIsNotNobodys) {
+  const std::atomic<std::optional<Errc>> none{};
+  TellsNothing silent(storage::test::opened(folder.path() / "silent"), none);
+  const std::atomic<bool> cancelled{false};
+  pipeline::Progress progress;
+  JobControl control{cancelled, progress};
+  storage::Subject whose;
+  whose.receipt = 482190375512;
+  const auto found = chosen_records(silent, {receipt_of(whose), {}}, control);
+  ASSERT_FALSE(found.has_value());
+  EXPECT_EQ(found.error().code, Errc::IoFailed);
 }
 
 class RefusesTheFirst final : public test::FaultyStore {

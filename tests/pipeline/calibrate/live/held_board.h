@@ -8,7 +8,7 @@
 #include <cmath>
 #include <random>
 
-#include "pipeline/calibrate/live/view_collector.h"
+#include "pipeline/calibrate/live/live_calibration.h"
 #include "tests/pipeline/calibrate/simulated_boards.h"
 
 namespace relievo::tests {

@@ -8,7 +8,7 @@
 #include <set>
 #include <stdexcept>
 
-#include "pipeline/calibrate/live/view_collector.h"
+#include "pipeline/calibrate/live/live_calibration.h"
 #include "tests/pipeline/calibrate/live/held_board.h"
 
 namespace relievo::tests {

@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: 2026 The Relievo authors
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include "pipeline/calibrate/live/view_collector.h"
+#include "pipeline/calibrate/live/live_calibration.h"
 
 #include <gtest/gtest.h>
 

@@ -3,7 +3,7 @@
 //
 // A ridge that rises from a plane and falls off it steeply, as a nose does from its root to its tip, both
 // known; and a field that lies over it like a blanket.
-#include "pipeline/match/coarse/coarse_surface.h"
+#include "pipeline/match/coarse/semi_global.h"
 
 #include <gtest/gtest.h>
 

@@ -20,7 +20,7 @@ using test::BumpScene;
 using test::StageFixture;
 
 MatchConstraint constraint(const std::string& name, const test::Settings& settings = {}) {
-  return test::made(make_constraints, "constraints", name, settings).front();
+  return test::made(&Algorithms::constraints, "constraints", name, settings).front();
 }
 
 // True matches of the bump scene with a little noise; every `wrong_every`-th is moved by 6 to 14 pixels.
@@ -126,9 +126,9 @@ TEST(SimilarityConstraint, AfterZmnccOnlyALimitBelowItsThresholdSaysSomething) {
     pair.right.grey[k] = other.right.grey[k];  // its upper half
   AlgorithmSet set;
   ASSERT_TRUE(set.set("matcher", "zmncc"));
-  const auto matcher = make_matcher(set);
+  const auto made = make_algorithms(set);
   auto found = run_stage(fixture.context, [&](StageContext& c) {
-    return (*matcher)(pair, test::lattice(pair, 4, &fixture.output), c);
+    return made->matcher(pair, test::lattice(pair, 4, &fixture.output), c);
   });
   ASSERT_TRUE(found);
   std::vector<Match> matches(found->matches.begin(), found->matches.end());

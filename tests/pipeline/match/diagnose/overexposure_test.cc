@@ -74,11 +74,21 @@ TEST(Overexposure, WhereNoFaceWasLookedForNothingIsSaid) {
   EXPECT_EQ(measure_overexposure(pair, matches_at(kDisparity)).left, 0);
 }
 
-TEST(Overexposure, OfAFaceNobodyFoundIsLookedForInTheMiddle) {
-  RectifiedPair pair = grey_pair();
-  whiten(pair.right, kExposedWidth / 2 - 100, kExposedWidth / 2 + 100);
-  EXPECT_EQ(guess_overexposure(pair).left, 0);
-  EXPECT_EQ(guess_overexposure(pair).right, 1) << "150 mm are 200 px here";
+// Parallel cameras see it beside the middle of their pictures, toed-in ones in it.
+TEST(Overexposure, OfAFaceNobodyFoundIsLookedForBeforeTheMiddleOfTheRig) {
+  constexpr int kAside = 80;  // half the baseline there
+  for (const int toed_in : {0, kAside}) {
+    RectifiedPair pair = grey_pair();
+    pair.baseline_mm = 120;
+    pair.left_centre_px = {kExposedWidth / 2.0 - toed_in, kExposedHeight / 2.0};
+    pair.right_centre_px = {kExposedWidth / 2.0 + toed_in, kExposedHeight / 2.0};
+    const int in_left = kExposedWidth / 2 - toed_in + kAside, in_right = kExposedWidth / 2 + toed_in - kAside;
+    whiten(pair.right, in_right - 100, in_right + 100);
+    EXPECT_EQ(guess_overexposure(pair).left, 0);
+    EXPECT_EQ(guess_overexposure(pair).right, 1) << "150 mm are 200 px here";
+    whiten(pair.left, in_left - 100, in_left + 100);
+    EXPECT_EQ(guess_overexposure(pair).left, 1);
+  }
 }
 
 }  // namespace

@@ -146,6 +146,26 @@ TEST_F(HandMatches, WithoutTextureTheSurfaceBendsToIt) {
   EXPECT_NEAR(nearest, 4, 0.5);
 }
 
+// A window holds a node or two of such a lattice, or none: the place's own are no growth.
+TEST_F(HandMatches, ACoarseLatticeBendsToItToo) {
+  scene.contrast = 0;
+  pair = scene.render(&fixture.output);
+  for (const int coarse : {8, 16}) {
+    const MatchSet matches = true_matches(coarse);
+    const std::array hand{by_hand(4)};
+    const auto joined = join(matches, hand);
+    ASSERT_TRUE(joined);
+    std::size_t around = 0;
+    for (std::size_t k = 0; k < matches.matches.size(); ++k) {
+      const Match& m = joined->matches[k];
+      if (from(m, place) < coarse || from(m, place) > 1.6 * coarse) continue;
+      EXPECT_GT(m.disparity_px - matches.matches[k].disparity_px, 0.5) << "no step beside it: " << coarse;
+      ++around;
+    }
+    EXPECT_GT(around, 0U);
+  }
+}
+
 TEST_F(HandMatches, AmongScatteredOnesItTakesThePlaceOfThoseItContradicts) {
   MatchSet matches = true_matches(0);
   std::erase_if(matches.matches, [&](const Match& m) {

@@ -41,7 +41,7 @@ struct PreprocessFixture : StageFixture {
 };
 
 Preprocessor make(const std::string& name, const test::Settings& settings = {}) {
-  return test::made(make_preprocessor, "preprocessor", name, settings);
+  return test::made(&Algorithms::preprocessor, "preprocessor", name, settings);
 }
 
 Result<RectifiedPair> run(const Preprocessor& preprocessor, const RectifiedPair& pair,

@@ -82,12 +82,26 @@ TEST_F(FilePoints, WhatWasNotReadIsNamed) {
   EXPECT_EQ(choose("").error().where(), "file-points.path");
   AlgorithmSet set;
   ASSERT_TRUE(set.set("selector", "file-points") && set.set("file-points.path", "gone.csv"));
-  const auto made = make_selector(set);
+  const auto made = make_algorithms(set);
   ASSERT_TRUE(made);
-  const auto chosen = fixture_.select(*made, SelectionFixture::rendered());
+  const auto chosen = fixture_.select(made->selector, SelectionFixture::rendered());
   ASSERT_FALSE(chosen);
   EXPECT_EQ(chosen.error().code, Errc::NotFound);
   EXPECT_EQ(chosen.error().where(), "gone.csv");
+}
+
+// As spreadsheets write them.
+TEST(NumberLines, BeginAfterAByteOrderMark) {
+  NumberLine line;
+  NumberLines titled("\xEF\xBB\xBFx,y\n1,2\n", 4), plain(
+                                                       "\xEF\xBB\xBF"
+                                                       "1,2\n",
+                                                       4);
+  ASSERT_TRUE(titled.next(line));
+  EXPECT_EQ(line.number, 2U) << "the first has titles";
+  ASSERT_TRUE(plain.next(line));
+  EXPECT_EQ(line.count, 2U);
+  EXPECT_EQ(line.value[0], 1);
 }
 
 TEST(NumberLines, SaysWhatIsLeftOfALine) {

@@ -18,13 +18,7 @@
 namespace relievo::test {
 
 inline pipeline::KeypointSelector make_selector(const std::string& name, const Settings& settings = {}) {
-  return made(
-      [&](pipeline::AlgorithmSet& set) {
-        for (const auto& [key, value] : settings)
-          if (key.ends_with(".path") && !value.empty()) set.keep_text(key, read_text(value));
-        return pipeline::make_selector(set);
-      },
-      "selector", name, settings);
+  return made(&pipeline::Algorithms::selector, "selector", name, settings);
 }
 
 // The selector `file-points` needs one.

@@ -50,8 +50,8 @@ Figures figures_of(const std::string& name) {
   const auto right = run([&](StageContext& c) { return selector(swapped, c); });
   EXPECT_TRUE(left && right) << name;
   AlgorithmSet set;
-  const auto matcher = make_matcher(set);
-  const auto matches = run([&](StageContext& c) { return (*matcher)(pair, *left, c); });
+  const auto made = make_algorithms(set);
+  const auto matches = run([&](StageContext& c) { return made->matcher(pair, *left, c); });
   EXPECT_TRUE(matches) << name;
   Figures f;
   double judged = 0;

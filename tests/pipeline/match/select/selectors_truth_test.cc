@@ -108,7 +108,7 @@ TEST(GoodFeatures, TakeUpToSixteenLevels) {
     for (int k = 1; k < count; ++k) parts += "+" + part;
     AlgorithmSet set;
     EXPECT_TRUE(set.set("selector", "good-features") && set.set(option, parts));
-    return pipeline::make_selector(set).has_value();
+    return pipeline::make_algorithms(set).has_value();
   };
   EXPECT_TRUE(makes("good-features.levels", "0.1:4", 16));
   EXPECT_FALSE(makes("good-features.levels", "0.1:4", 17));
@@ -121,14 +121,14 @@ TEST(GoodFeatures, WrongLevelsAreRefused) {
                              "0.1:1e9", "0.1:4,0.2:3"}) {
     AlgorithmSet set;
     ASSERT_TRUE(set.set("selector", "good-features") && set.set("good-features.levels", levels));
-    const auto made = pipeline::make_selector(set);
+    const auto made = pipeline::make_algorithms(set);
     ASSERT_FALSE(made) << levels;
     EXPECT_EQ(made.error().code, Errc::InvalidInput);
   }
   for (const char* levels : {"", "0", "255", "64+", "64,128", "nan"}) {
     AlgorithmSet set;
     ASSERT_TRUE(set.set("selector", "good-features") && set.set("good-features.binary_thresholds", levels));
-    EXPECT_FALSE(pipeline::make_selector(set)) << levels;
+    EXPECT_FALSE(pipeline::make_algorithms(set)) << levels;
   }
 }
 

@@ -36,13 +36,6 @@ DepthSamples hills(double noise_mm) {
   return samples;
 }
 
-double depth_at(const BezierNet& net, double u, double v) {
-  const std::array<double, 1> us{u};
-  std::array<double, 1> depth{};
-  net.depths(us, v, depth);
-  return depth[0];
-}
-
 TEST(BezierNet, NeighboursShareBorderAndTangent) {
   const BezierNet net(hills(0.1), 2, 0.01, std::pmr::get_default_resource());
   ASSERT_GT(net.columns(), 20);
@@ -64,7 +57,7 @@ TEST(BezierNet, FollowsTheFunctionAndCarriesItOverGaps) {
   int count = 0;
   for (double v = -26; v <= 26; v += 0.7)
     for (double u = -26; u <= 26; u += 0.7) {
-      const double off = depth_at(net, u, v) - (500 + 5 * std::sin(u / 8) * std::cos(v / 6));
+      const double off = net.depth(u, v) - (500 + 5 * std::sin(u / 8) * std::cos(v / 6));
       EXPECT_LT(std::abs(off), 0.3);
       sum += off * off;
       ++count;
@@ -141,10 +134,10 @@ TEST(MesherCatalogue, OnTheTruthCloud) {
                                                                                    {"poisson", 0.12}}) {
     AlgorithmSet set;
     ASSERT_TRUE(set.set("mesher", name));
-    const auto mesher = make_mesher(set);
-    ASSERT_TRUE(mesher);
+    const auto made = make_algorithms(set);
+    ASSERT_TRUE(made);
     StageRoom room;
-    const auto result = room.run([&](StageContext& c) { return (*mesher)(cloud, c); });
+    const auto result = room.run([&](StageContext& c) { return made->mesher(cloud, c); });
     ASSERT_TRUE(result) << name;
     std::vector<double> off;
     for (std::size_t v = 0; v < result->vertices_mm.size(); v += 7) {

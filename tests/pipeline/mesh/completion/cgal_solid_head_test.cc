@@ -31,7 +31,7 @@ namespace pmp = CGAL::Polygon_mesh_processing;
 using Kernel = CGAL::Exact_predicates_inexact_constructions_kernel;
 using Mesh = CGAL::Surface_mesh<Kernel::Point_3>;
 
-Completion usual_head() { return relievo::test::made(make_completion, "completion", "generic-head"); }
+Completion usual_head() { return relievo::test::made(&Algorithms::completion, "completion", "generic-head"); }
 
 FaceModel face_of(std::uint32_t seed, double yaw_deg, StageRoom& room) {
   hal::sim::HeadPose pose;

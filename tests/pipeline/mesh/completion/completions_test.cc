@@ -49,7 +49,7 @@ const Turned& turned() {
 }
 
 Result<FaceMesh> completed(const std::string& name, const FaceMesh& mesh, StageRoom& room) {
-  const auto completion = relievo::test::made(make_completion, "completion", name);
+  const auto completion = relievo::test::made(&Algorithms::completion, "completion", name);
   return room.run([&](StageContext& c) { return completion(FaceMesh(mesh), {1, 0, 0}, c); });
 }
 
@@ -82,7 +82,7 @@ TEST_P(Completions, AreTheSameForAnyNumberOfThreads) {
   const auto first = completed(GetParam(), turned().mesh, one);
   ThreadPool single(1);
   StageContext context{again.output, again.scratch, single, again.progress, again.cancelled};
-  const auto completion = relievo::test::made(make_completion, "completion", GetParam());
+  const auto completion = relievo::test::made(&Algorithms::completion, "completion", GetParam());
   const auto second = run_stage(context, [&](StageContext& c) {
     return completion(FaceMesh(turned().mesh), {1, 0, 0}, c);
   });

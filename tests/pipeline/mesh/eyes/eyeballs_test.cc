@@ -17,7 +17,7 @@
 #include "hal/sim/head/shape/head_traits.h"
 #include "hal/sim/render.h"
 #include "pipeline/mesh/landmarks/head_frame.h"
-#include "pipeline/mesh/landmarks/lid_finder.h"
+#include "pipeline/mesh/landmarks/landmark_finder.h"
 #include "pipeline/mesh/meshers/grid_mesher.h"
 #include "pipeline/pipeline.h"
 #include "tests/support/proof.h"

@@ -8,6 +8,7 @@
 #include <array>
 #include <cmath>
 #include <map>
+#include <memory_resource>
 #include <span>
 #include <utility>
 #include <vector>
@@ -93,6 +94,17 @@ TEST(FaceCloser, LaysAnewWhatIsUnsureInTheLowerFace) {
     ASSERT_GT(off.size(), 50U);
     EXPECT_LT(percentile(off, 0.5), 0.7) << box.left;
   }
+}
+
+// A heap that is used up ends no visit, and what was known of a face is wiped with the arenas.
+TEST(FaceCloser, TakesNothingButTheStagesMemory) {
+  const FieldHead head(1);
+  StageRoom room;
+  const PointCloud cloud = head.cloud_of_two(turned(kFacing, 0), room.pool);
+  std::pmr::memory_resource* const before = std::pmr::set_default_resource(std::pmr::null_memory_resource());
+  const auto mesh = room.run([&](StageContext& c) { return GridMesher({}).mesh(cloud, c); });
+  std::pmr::set_default_resource(before);
+  EXPECT_TRUE(mesh);
 }
 
 // The border, in the true head's frame.

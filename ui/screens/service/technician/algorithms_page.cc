@@ -32,35 +32,32 @@ void kinds(TechnicianFrame& f) {
     const char* label = label_of(f.tr, kind.key);
     const Colour ink = chosen ? f.palette.accent_ink : f.palette.ink;
     Node row = f.box(Flow::Column, 2, 12, 8);
-    tell(row, Role::Button, f.id("kind", i), label, technician_action(ChooseKind{i}));
+    tell(row, Role::Button, f.id("kind", i), label, ChooseKind{i});
     row.box.min_height = f.px(size::kStaffTarget);
     row.box.justify = Justify::Centre;
     row.box.radius = f.px(12);
     row.box.fill = chosen ? f.palette.accent : f.palette.card;
     const auto in_row = f.tree.inside(row);
-    f.tree.leaf(f.text(label, type::kSmall, Weight::Medium, ink));
-    f.tree.leaf(f.text(f.left_to_right(f.breakable(kind.value)), 17, Weight::Regular,
-                       chosen ? f.palette.accent_ink : f.palette.ink_soft));
+    f.write(label, type::kSmall, Weight::Medium, ink);
+    f.write(f.left_to_right(f.breakable(kind.value)), 17, Weight::Regular,
+            chosen ? f.palette.accent_ink : f.palette.ink_soft);
   }
   f.tree.close();
 }
 
 void names(TechnicianFrame& f) {
   const TechnicianChoice& choice = f.seen.choice;
-  const std::size_t across = f.text_share > 1.2F ? 2 : 3, count = choice.names.size();
-  f.in_rows((count + across - 1) / across * across, across, space::kXs, [&](std::size_t i) {
-    if (i >= count) return f.space(1);
-    f.choice(f.id("name", i), f.left_to_right(choice.names[i].name), choice.names[i].chosen,
-             technician_action(ChooseName{i}));
+  f.in_full_rows(choice.names.size(), f.text_share > 1.2F ? 2 : 3, space::kXs, [&](std::size_t i) {
+    f.choice(f.id("name", i), f.left_to_right(choice.names[i].name), choice.names[i].chosen, ChooseName{i});
   });
 }
 
 void rejected(TechnicianFrame& f) {
   const TechnicianResult& r = f.seen.result;
   f.section(f.tr("Figures"));
-  f.row("accepted count", f.tr("Accepted matches"), f.number(double(r.accepted)));
+  f.row("accepted count", f.tr("Accepted matches"), f.number(r.accepted));
   for (std::size_t i = 0; i < r.rule_count; ++i)
-    f.row(f.id("rejected", i), f.left_to_right(r.rules[i].name), f.number(double(r.rules[i].rejected)));
+    f.row(f.id("rejected", i), f.left_to_right(r.rules[i].name), f.number(r.rules[i].rejected));
 }
 
 // With the language's decimal mark, as it is typed.
@@ -84,7 +81,7 @@ void options(TechnicianFrame& f) {
   f.tree.leaf(said);
   for (std::size_t i = 0; i < choice.options.size(); ++i) {
     const TechnicianOption& option = choice.options[i];
-    const Action action = option.text ? Action{} : technician_action(EditOption{i});
+    const Action action = option.text ? Action{} : EditOption{i};
     f.row(f.id("option", i), f.left_to_right(option.key), value_of(f, option),
           option.changed ? Mood::Warn : Mood::Plain, action);
   }
@@ -98,7 +95,7 @@ void key(TechnicianFrame& f, std::string_view id, const char* letter, Action act
   node.box.grow = 1;
   node.box.min_height =
       f.px(f.portrait ? 1.4F * size::kStaffTarget : size::kStaffTarget);  // upright there is room
-  frame(node, f.palette.card, f.palette.card_border, f.px(1.5F), f.px(14));
+  f.card(node, 14);
   f.tree.leaf(node);
 }
 
@@ -112,13 +109,12 @@ void keys(TechnicianFrame& f) {
     const auto in_row = f.tree.inside(row);
     for (const char* letter : line) {
       if (letter == nullptr) continue;
-      key(f, f.id("type", std::size_t(*letter)), *letter == '.' ? decimal_mark : letter,
-          technician_action(TypeDigit{*letter}));
+      key(f, f.id("type", std::size_t(*letter)), *letter == '.' ? decimal_mark : letter, TypeDigit{*letter});
     }
     if (*line[0] == '0') {
       Node erase = centred(f.grown(f.box(Flow::Row), 3));
-      tell(erase, Role::Key, "type erase", f.tr("Erase"), technician_action(TechnicianAct::EraseDigit));
-      frame(erase, f.palette.card, f.palette.card_border, f.px(1.5F), f.px(14));
+      tell(erase, Role::Key, "type erase", f.tr("Erase"), TechnicianAct::EraseDigit);
+      f.card(erase, 14);
       const auto in_erase = f.tree.inside(erase);
       f.sign(icon::kErase, 26, f.palette.link);
     }
@@ -128,10 +124,10 @@ void keys(TechnicianFrame& f) {
 void editor(TechnicianFrame& f) {
   const TechnicianOption& option = *f.seen.choice.edited;
   f.tree.open(scroller("option words", f.grown(f.box(Flow::Column, 6))));
-  f.tree.leaf(f.text(f.left_to_right(option.key), type::kBody, Weight::Bold, f.palette.ink));
+  f.write(f.left_to_right(option.key), type::kBody, Weight::Bold, f.palette.ink);
   if (!f.seen.choice.refused.empty())
-    f.put("option refused", Role::Status,
-          f.text(f.tr("This cannot be accepted."), type::kSmall, Weight::Bold, f.palette.bad));
+    f.put("option refused", Role::Status, f.tr("This cannot be accepted."), type::kSmall, Weight::Bold,
+          f.palette.bad);
   f.tree.leaf(f.english(option.sentence, type::kSmall));
   char text[96];
   std::snprintf(text, sizeof text, "%g … %g", option.least, option.most);
@@ -167,7 +163,7 @@ void technician_algorithms_page(TechnicianFrame& f) {
   if (f.seen.choice.kinds.empty()) return;
   status(f);
   const bool editing = f.seen.choice.edited != nullptr;
-  f.tree.open(f.grown(f.box(f.portrait ? Flow::Column : Flow::Row, space::kM)));
+  f.tree.open(f.grown(f.abreast_box(space::kM)));
   // Large letters leave room for one of the two while an option is edited.
   if (!editing || !(f.portrait || f.text_share > 1.2F)) {
     const auto in_box = f.tree.inside(f.grown(f.box(Flow::Column)));

@@ -6,7 +6,6 @@
 #include <algorithm>
 #include <array>
 
-#include "ui/screens/service/staff_frame.h"
 #include "ui/screens/service/technician/technician_frame.h"
 
 namespace relievo::ui {
@@ -84,15 +83,12 @@ void live_pictures(TechnicianFrame& f) {
                    f.seen.calibration.pictures[side], f.slot_of(side));
     f.tree.close();
   });
-  pair([&](std::size_t side) {
-    const ImageView& seen = f.seen.calibration.pictures[side].pixels;
-    coverage(f, side, seen.empty() ? 1.0F : float(seen.width_px) / float(seen.height_px));
-  });
+  pair([&](std::size_t side) { coverage(f, side, aspect_of(f.seen.calibration.pictures[side].pixels)); });
 }
 
 void bar(TechnicianFrame& f, std::string_view id, const char* label, float share) {
   const auto in_box = f.tree.inside(f.box(Flow::Column, 4, 0, 7));
-  f.tree.leaf(f.text(label, 18, Weight::Medium, f.palette.ink));
+  f.write(label, 18, Weight::Medium, f.palette.ink);
   f.progress(id, share);
 }
 
@@ -102,15 +98,15 @@ void running(TechnicianFrame& f) {
                      TextAlign::Centre);
   said.style.size_px = f.px(type::kHeading * (1 + (f.text_share - 1) * 0.5F));
   f.put("advice", Role::Status, said);
-  f.tree.open(f.grown(f.box(f.portrait ? Flow::Column : Flow::Row, space::kM)));
+  f.tree.open(f.grown(f.abreast_box(space::kM)));
   live_pictures(f);
   f.tree.open(f.grown(f.box(Flow::Column)));
   f.begin_panel("progress list");
   f.row("views", f.tr("Views taken"), f.number(c.views));
   f.row("error", f.tr("Predicted error"),
-        c.error_mm > 0 ? f.number(double(c.error_mm), 3, "mm") : std::string_view("–"),
+        c.error_mm > 0 ? f.number(c.error_mm, 3, "mm") : std::string_view("–"),
         c.error_mm > 0 && c.error_mm <= c.goal_mm ? Mood::Good : Mood::Plain);
-  f.row("goal", f.tr("Goal"), f.number(double(c.goal_mm), 3, "mm"));
+  f.row("goal", f.tr("Goal"), f.number(c.goal_mm, 3, "mm"));
   if (c.disagreeing > 0)
     f.row("disagreeing", f.tr("Views that disagree"), f.number(c.disagreeing), Mood::Warn);
   const char* const names[] = {f.tr("Across"), f.tr("Up and down"), f.tr("Size"), f.tr("Tilt")};
@@ -131,10 +127,10 @@ void views(TechnicianFrame& f) {
   const TechnicianCalibration& c = f.seen.calibration;
   std::array<std::string_view, kMostViews> names;
   const std::size_t count = std::min(names.size(), c.views_px.size());
-  for (std::size_t i = 0; i < count; ++i) names[i] = f.number(double(i + 1));
+  for (std::size_t i = 0; i < count; ++i) names[i] = f.number(i + 1);
   Plot plot;
   plot.id = "rms", plot.title = f.tr("Disagreement with the board");
-  plot.figure = f.number(double(c.rms_px), 3, "px");
+  plot.figure = f.number(c.rms_px, 3, "px");
   plot.values = c.views_px.first(count), plot.names = {names.data(), count}, plot.unit = "px";
   f.plot(plot);
 }
@@ -152,9 +148,9 @@ void verdict(TechnicianFrame& f) {
   for (const std::string& reason : c.reasons) f.detail(reason);
   if (!c.reasons.empty()) f.rule();
   f.row("ended", one_of(f.tr, kEndWords, c.end), {});
-  f.row("depth error", f.tr("Predicted error"), f.number(double(c.depth_error_mm), 3, "mm"), mood);
+  f.row("depth error", f.tr("Predicted error"), f.number(c.depth_error_mm, 3, "mm"), mood);
   views(f);
-  f.row("baseline", f.tr("Distance of the cameras"), f.number(double(c.baseline_mm), 2, "mm"));
+  f.row("baseline", f.tr("Distance of the cameras"), f.number(c.baseline_mm, 2, "mm"));
   if (c.stored) f.row("stored", f.tr("It applies from now on."), {}, Mood::Good);
 }
 
@@ -166,37 +162,34 @@ void history(TechnicianFrame& f) {
     const TechnicianCalibrationRow& row = c.history[i];
     const std::string_view label = f.left_to_right({f.number(row.revision), "\u00a0· ", f.date(row.made_at)});
     const std::string_view value = row.active               ? std::string_view(f.tr("in force"))
-                                   : row.depth_error_mm > 0 ? f.number(double(row.depth_error_mm), 3, "mm")
+                                   : row.depth_error_mm > 0 ? f.number(row.depth_error_mm, 3, "mm")
                                                             : std::string_view("–");
     f.row(f.id("calibration", i), label, value, row.active ? Mood::Good : Mood::Plain,
-          row.active ? Action{} : technician_action(UseCalibration{i}));
+          row.active ? Action{} : UseCalibration{i});
   }
   list_pager(f, c.place);
   if (f.seen.calibrated)
     f.row("calibration export", f.tr("Export to the stick"), {}, Mood::Plain,
-          technician_action(TechnicianAct::ExportCalibration));
-  f.row("calibration import", f.tr("Load from the stick"), {}, Mood::Plain,
-        technician_action(TechnicianAct::ImportCalibration));
+          TechnicianAct::ExportCalibration);
+  f.row("calibration import", f.tr("Load from the stick"), {}, Mood::Plain, TechnicianAct::ImportCalibration);
 }
 
 void board(TechnicianFrame& f) {
   const TechnicianCalibration& c = f.seen.calibration;
   const auto stepper = [&](std::string_view id, const char* label, std::string_view value,
                            BoardMeasure measure, std::int32_t step) {
-    f.stepper(id, label, value, technician_action(ChangeBoard{measure, -step}),
-              technician_action(ChangeBoard{measure, step}));
+    f.stepper(id, label, value, ChangeBoard{measure, -step}, ChangeBoard{measure, step});
   };
   f.section(f.tr("The board"));
   stepper("columns", f.tr("Inner corners across"), f.number(c.columns), BoardMeasure::Columns, 1);
   stepper("rows", f.tr("Inner corners down"), f.number(c.rows), BoardMeasure::Rows, 1);
-  stepper("square", f.tr("Side of a square"), f.number(double(c.square_mm), 1, "mm"), BoardMeasure::Square,
-          5);
+  stepper("square", f.tr("Side of a square"), f.number(c.square_mm, 1, "mm"), BoardMeasure::Square, 5);
   f.row("charuco", f.tr("With markers (ChArUco)"), c.charuco ? f.tr("yes") : f.tr("no"), Mood::Plain,
-        technician_action(TechnicianAct::SwitchCharuco));
+        TechnicianAct::SwitchCharuco);
   // If not, their distance must be that of the calibration in use.
   if (f.seen.calibrated)
     f.row("mounted", f.tr("The cameras were mounted anew"), c.mounted_anew ? f.tr("yes") : f.tr("no"),
-          Mood::Plain, technician_action(TechnicianAct::SwitchMountedAnew));
+          Mood::Plain, TechnicianAct::SwitchMountedAnew);
 }
 
 void at_rest(TechnicianFrame& f) {

@@ -14,7 +14,7 @@ constexpr float kBurntOut = 0.02F, kTooDark = 0.12F, kSharpEnough = 0.9F;
 void live(TechnicianFrame& f, std::string_view id, const char* title, const Picture& picture,
           PictureSlot slot, int mode) {
   const auto in_column = f.tree.inside(justified(f.grown(f.box(Flow::Column, 6)), Justify::Centre));
-  f.tree.leaf(f.text(title, type::kSmall, Weight::Bold, f.palette.ink, TextAlign::Centre));
+  f.write(title, type::kSmall, Weight::Bold, f.palette.ink, TextAlign::Centre);
   const bool opens = mode > 0 && !picture.pixels.empty();
   f.open_picture(id, opens ? f.filled("{}: {}", {title, f.tr("Larger")}) : title, picture, slot,
                  opens ? Action(ActionKind::StaffMode, mode) : Action());
@@ -22,14 +22,13 @@ void live(TechnicianFrame& f, std::string_view id, const char* title, const Pict
 }
 
 void edges_button(TechnicianFrame& f, float grow) {
-  f.choice("show edges", f.tr("Sharp edges"), f.seen.cameras.edges_shown,
-           technician_action(TechnicianAct::ShowEdges), grow);
+  f.choice("show edges", f.tr("Sharp edges"), f.seen.cameras.edges_shown, TechnicianAct::ShowEdges, grow);
 }
 
 // What a hand at the lens looks at.
 void focus_card(TechnicianFrame& f, const TechnicianCamera& camera) {
   Node row = f.row_box(space::kM, space::kM, space::kXs);
-  frame(row, f.palette.card, f.palette.card_border, f.px(1.5F), f.px(18));
+  f.card(row, 18);
   const auto in_row = f.tree.inside(row);
   f.tree.open(f.grown(f.box(Flow::Column)));
   const auto figure = [&](std::string_view id, const char* label, float share, int decimals) {
@@ -86,7 +85,7 @@ void pair_row(TechnicianFrame& f, const CameraRow& what) {
   row.box.min_height = f.px(44);
   const auto in_row = f.tree.inside(row);
   f.tree.open(f.grown(f.box(Flow::Column), 1.4F));
-  f.tree.leaf(f.text(f.tr(what.label), type::kSmall, Weight::Medium, f.palette.ink));
+  f.write(f.tr(what.label), type::kSmall, Weight::Medium, f.palette.ink);
   f.tree.close();
   Node both = f.grown(f.box(Flow::Row, space::kS), 2);
   both.box.left_to_right = true;
@@ -97,8 +96,8 @@ void pair_row(TechnicianFrame& f, const CameraRow& what) {
                                                : Mood::Good;
     const auto in_cell = f.tree.inside(f.grown(f.row_box(space::kXs)));
     if (const char* letter = f.sign_of(mood)) f.sign(letter, 22, f.ink_of(mood));
-    f.tree.leaf(f.text(f.number(what.value(camera), what.decimals, what.unit_name), type::kSmall,
-                       Weight::Regular, mood == Mood::Plain ? f.palette.ink_soft : f.ink_of(mood)));
+    f.write(f.number(what.value(camera), what.decimals, what.unit_name), type::kSmall, Weight::Regular,
+            mood == Mood::Plain ? f.palette.ink_soft : f.ink_of(mood));
   }
 }
 
@@ -107,11 +106,10 @@ void figures(TechnicianFrame& f) {
   for (const CameraRow& row : kRows)
     if (c.edges_shown || std::string_view(row.id) != "edges") pair_row(f, row);
   f.section(f.tr("Together"));
-  f.row("skew", f.tr("Apart in time"), f.number(double(c.skew_us), 0, "µs"));
-  f.row("pairs", f.tr("Pairs"), f.number(double(c.pairs)));
-  f.row("apart", f.tr("Refused: too far apart"), f.number(double(c.apart)),
-        c.apart > 0 ? Mood::Warn : Mood::Good);
-  f.row("rate", f.tr("Pairs a second"), f.number(double(c.pairs_per_second), 1));
+  f.row("skew", f.tr("Apart in time"), f.number(c.skew_us, 0, "µs"));
+  f.row("pairs", f.tr("Pairs"), f.number(c.pairs));
+  f.row("apart", f.tr("Refused: too far apart"), f.number(c.apart), c.apart > 0 ? Mood::Warn : Mood::Good);
+  f.row("rate", f.tr("Pairs a second"), f.number(c.pairs_per_second, 1));
   f.row("exposure", f.tr("Exposure"), f.number(double(c.exposure_us) / 1000, 2, "ms"));
   if (!c.can_be_set) f.row("fixed", f.tr("The exposure of these cameras cannot be set."), {});
 }
@@ -122,7 +120,7 @@ void technician_cameras_page(TechnicianFrame& f) {
   f.problem(f.seen.problem.empty() ? f.seen.cameras.problem : f.seen.problem);
   const TechnicianCameras& cameras = f.seen.cameras;
   if (f.service.mode > 0 && cameras.watched) return whole_page(f, f.service.mode == 1 ? 0 : 1);
-  f.tree.open(f.grown(f.box(f.portrait ? Flow::Column : Flow::Row, space::kM)));
+  f.tree.open(f.grown(f.abreast_box(space::kM)));
   Node pair = f.grown(f.box(Flow::Row, space::kS), f.picture_share(1.5F));
   pair.box.left_to_right = true;
   f.tree.open(pair);
@@ -148,8 +146,7 @@ void technician_cameras_page(TechnicianFrame& f) {
   }
   if (cameras.watched) {
     edges_button(f, grow);
-    f.choice("show relief", f.tr("Relief"), cameras.relief_shown,
-             technician_action(TechnicianAct::ShowRelief), grow);
+    f.choice("show relief", f.tr("Relief"), cameras.relief_shown, TechnicianAct::ShowRelief, grow);
   }
   f.small_button("watch", cameras.watched ? f.tr("Stop") : f.tr("Start"),
                  cameras.watched ? icon::kClose : icon::kCamera, ButtonLook::Main,

@@ -22,7 +22,7 @@ void difference_scale(TechnicianFrame& f) {
   row.id = "difference scale";
   row.box.left_to_right = true;
   f.tree.open(row);
-  f.tree.leaf(f.text(f.number(-end, 2, "mm"), 18, Weight::Regular, f.palette.ink));
+  f.write(f.number(-end, 2, "mm"), 18, Weight::Regular, f.palette.ink);
   Node strip = f.grown(f.box(Flow::Column));
   strip.box.height = f.px(20);
   f.tree.leaf(strip);
@@ -31,14 +31,13 @@ void difference_scale(TechnicianFrame& f) {
     const auto& c = f.seen.scale[i];
     f.tree.mark({{float(i) * share, 0, share, 1}, {c[0], c[1], c[2], 255}, 0, false});
   }
-  f.tree.leaf(f.text(f.number(end, 2, "mm"), 18, Weight::Regular, f.palette.ink));
+  f.write(f.number(end, 2, "mm"), 18, Weight::Regular, f.palette.ink);
   f.tree.close();
   f.scale_words(f.seen.full_colour_mm, 18);
 }
 
 void difference_button(TechnicianFrame& f, float grow) {
-  f.choice("show difference", f.tr("Difference"), f.seen.differences,
-           technician_action(TechnicianAct::ShowDifference), grow);
+  f.choice("show difference", f.tr("Difference"), f.seen.differences, TechnicianAct::ShowDifference, grow);
 }
 
 // One result by itself, to be turned and measured on.
@@ -87,15 +86,15 @@ class Columns {
     if (!labels_above()) beside_pictures();
     for (std::size_t i = 0; i < count; ++i) {
       const auto in_column = f.tree.inside(f.grown(f.box(Flow::Column, 6)));
-      f.tree.leaf(f.text(name_of(i), type::kSmall, Weight::Bold, f.palette.ink, TextAlign::Centre));
+      f.write(name_of(i), type::kSmall, Weight::Bold, f.palette.ink, TextAlign::Centre);
       picture(i);
     }
   }
 
   void table() {
     f.begin_panel("figures");
-    row("name", f.tr("Pictures"), [this](const R& r) {
-      std::string name(r.name.empty() ? "–" : r.name);
+    row("name", f.tr("Pictures"), [this](const TechnicianCompared& one) {
+      std::string name(one.result.name.empty() ? "–" : one.result.name);
       std::ranges::replace(name, '_', ' ');  // between date and time a line may end
       return f.left_to_right(name);
     });
@@ -115,13 +114,13 @@ class Columns {
   bool labels_above() const { return f.portrait || f.text_share > 1.2F; }
   const R& result(std::size_t i) const { return f.seen.compared[i].result; }
   std::string_view name_of(std::size_t i) const {
-    return is_now(i) ? std::string_view(f.tr("Now")) : f.number(double(i + 1));
+    return is_now(i) ? std::string_view(f.tr("Now")) : f.number(i + 1);
   }
 
   // What stands over the labels.
   void beside_pictures() {
     const auto in_words = f.tree.inside(f.grown(f.box(Flow::Column, space::kS), label_share()));
-    f.tree.leaf(f.text(title_of(f.tr, f.seen.stage), type::kSmall, Weight::Bold, f.palette.ink));
+    f.write(title_of(f.tr, f.seen.stage), type::kSmall, Weight::Bold, f.palette.ink);
     f.note(how(), 18);
   }
   const char* how() const {
@@ -159,7 +158,7 @@ class Columns {
     Node end = justified(f.box(Flow::Row), Justify::End);
     const auto in_end = f.tree.inside(end);
     Node cross = centred(f.sized(f.box(Flow::Row), size::kStaffTarget, size::kStaffTarget));
-    tell(cross, Role::Button, f.id("drop", i), f.tr("Drop this result"), technician_action(DropResult{i}));
+    tell(cross, Role::Button, f.id("drop", i), f.tr("Drop this result"), DropResult{i});
     cross.box.radius = f.px(12);
     cross.box.fill = f.palette.quiet;
     const auto in_cross = f.tree.inside(cross);
@@ -179,13 +178,14 @@ class Columns {
     if (!label.empty() || !above) {
       const auto in_box_3 =
           f.tree.inside(above ? f.box(Flow::Column) : f.grown(f.box(Flow::Column), label_share()));
-      if (!label.empty()) f.tree.leaf(f.text(label, 18, Weight::Medium, f.palette.ink));
+      if (!label.empty()) f.write(label, 18, Weight::Medium, f.palette.ink);
     }
     if (above) f.tree.open(f.box(Flow::Row, space::kXs));
     for (std::size_t i = 0; i < count; ++i) {
       const auto in_box_4 = f.tree.inside(f.grown(f.box(Flow::Column)));
-      Node said = f.text(cell(result(i)), count == kCompared ? 18 * std::min(1.0F, 1.25F / f.text_share) : 18,
-                         Weight::Regular, bad ? f.palette.bad : f.palette.ink, TextAlign::Centre);
+      Node said = f.text(cell(f.seen.compared[i]),
+                         count == kCompared ? 18 * std::min(1.0F, 1.25F / f.text_share) : 18, Weight::Regular,
+                         bad ? f.palette.bad : f.palette.ink, TextAlign::Centre);
       said.style.tabular = true;
       if (english) said.style.language = "en";
       if (!said.text.empty()) f.tree.leaf(said);
@@ -196,25 +196,22 @@ class Columns {
   template <typename Value>
   void figure(std::string_view id, std::string_view label, int decimals, const char* unit, const Value& value,
               bool (*known)(const R&) = always) {
-    row(id, label, [&](const R& r) {
-      return r.there && known(r) ? f.number(double(value(r)), decimals, unit) : std::string_view("–");
+    row(id, label, [&](const TechnicianCompared& one) {
+      const R& r = one.result;
+      return r.there && known(r) ? f.number(value(r), decimals, unit) : std::string_view("–");
     });
   }
 
   // Against the present one, and what the colours say.
   void differences() {
     if (!f.seen.differences) return;
-    const auto each = [&](std::string_view id, const char* label, auto value) {
-      row(id, label, [&](const R& r) {
-        const TechnicianDifference& d =
-            std::ranges::find(f.seen.compared, &r, [](const auto& one) { return &one.result; })->difference;
-        return d.known ? f.number(double(value(d)), 2, "mm") : std::string_view("–");
+    const auto each = [&](std::string_view id, const char* label, float TechnicianDifference::*mm) {
+      row(id, label, [&](const TechnicianCompared& one) {
+        return one.difference.known ? f.number(one.difference.*mm, 2, "mm") : std::string_view("–");
       });
     };
-    each("difference median", f.tr("Median difference"),
-         [](const TechnicianDifference& d) { return d.median_mm; });
-    each("difference most", f.tr("95 % differ by less than"),
-         [](const TechnicianDifference& d) { return d.most_mm; });
+    each("difference median", f.tr("Median difference"), &TechnicianDifference::median_mm);
+    each("difference most", f.tr("95 % differ by less than"), &TechnicianDifference::most_mm);
     difference_scale(f);
   }
   // The value of a changed option; empty: as delivered.
@@ -230,8 +227,8 @@ class Columns {
   }
   void option(std::size_t number, std::string_view key) {
     const char* delivered = f.tr("Default");
-    row(f.id("option", number), f.left_to_right(f.breakable(key)), [&](const R& r) {
-      const std::string_view value = value_of(r.algorithms, key);
+    row(f.id("option", number), f.left_to_right(f.breakable(key)), [&](const TechnicianCompared& one) {
+      const std::string_view value = value_of(one.result.algorithms, key);
       return value.empty() ? std::string_view(delivered) : f.left_to_right(f.breakable(value));
     });
   }
@@ -247,27 +244,23 @@ class Columns {
         rest.remove_prefix(std::min(std::min(rest.find('\n'), rest.size() - 1) + 1, rest.size()));
       }
     }
-    if (number == 0) {
-      row("option 0", f.tr("Algorithms"), [this](const R&) { return std::string_view(f.tr("Default")); });
-    }
+    if (number == 0)
+      row("option 0", f.tr("Algorithms"), [this](const auto&) { return std::string_view(f.tr("Default")); });
   }
   void failures() {
     const auto failed = [](const TechnicianCompared& one) { return !one.result.failure.empty(); };
     if (std::ranges::none_of(f.seen.compared, failed)) return;
-    row(
-        "failed", "",
-        [this](const R& r) {
-          if (r.failure.empty()) return std::string_view();
-          return std::string_view(
-              f.filled("{} – {}", {work_of(f.tr, r.failed_at), words_of(f.tr, r.failure.code)}));
-        },
-        true);
-    row(
-        "failed detail", "",
-        [this](const R& r) {
-          return r.failure.empty() ? std::string_view() : f.left_to_right(f.breakable(r.failure.detail));
-        },
-        false, true);
+    const auto said = [this](const TechnicianCompared& one) {
+      const Fault& fault = one.result.failure;
+      if (fault.empty()) return std::string_view();
+      return f.filled("{} – {}", {work_of(f.tr, one.result.failed_at), words_of(f.tr, fault.code)});
+    };
+    row("failed", "", said, true);
+    const auto detail = [this](const TechnicianCompared& one) {
+      const Fault& fault = one.result.failure;
+      return fault.empty() ? std::string_view() : f.left_to_right(f.breakable(fault.detail));
+    };
+    row("failed detail", "", detail, false, true);
   }
   void figures() {
     for (std::size_t i = 0; i < kStages; ++i)
@@ -287,7 +280,7 @@ void buttons(TechnicianFrame& f, bool there) {
   if (there) {
     const auto next = static_cast<TechnicianStage>((std::size_t(f.seen.stage) + 1) % kTechnicianStages);
     f.small_button("next stage", title_of(f.tr, f.seen.stage), icon::kAgain, ButtonLook::Quiet,
-                   technician_action(ShowStage{next}), grow);
+                   ShowStage{next}, grow);
     if (f.seen.put_aside > 0) {
       difference_button(f, grow);
       if (f.portrait) f.tree.close(), f.open_buttons();  // two and two

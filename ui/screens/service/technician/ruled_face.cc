@@ -2,7 +2,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 //
 // A model that fills the page, and what is measured on it.
-#include <algorithm>
 #include <array>
 
 #include "ui/screens/service/technician/technician_frame.h"
@@ -40,7 +39,7 @@ void TechnicianFrame::face(float share, void (*tools)(TechnicianFrame&), float t
 }
 
 void TechnicianFrame::measure_button(float grow) {
-  choice("measure", tr("Distance"), service.ruler.on, {ActionKind::StaffMeasure, 0}, grow);
+  choice("measure", tr("Distance"), service.ruler.on, ActionKind::StaffMeasure, grow);
 }
 
 void TechnicianFrame::ruler() {
@@ -61,13 +60,13 @@ void TechnicianFrame::ruler() {
               long_share = mm * ruler.px_per_mm / ruler.width_px, y = px(kMargin) / ruler.height_px;
   tree.mark({{mirrored() ? 1 - from - long_share : from, y, long_share, 0}, kScale, px(kScaleDp), false});
   const auto in_words = tree.inside(box(Flow::Column, 4, kMargin, kMargin + kScaleDp + 2));
-  put("scale", Role::Text, text(number(double(mm), 0, "mm"), 18, Weight::Medium, kScale));
+  put("scale", Role::Text, number(mm, 0, "mm"), 18, Weight::Medium, kScale);
   if (ruler.on) {
     const bool both = ruler.count == 2;
     put("distance", Role::Status,
-        text(both ? filled("{}: {}", {tr("Distance"), number(double(ruler.distance_mm()), 1, "mm")})
-                  : std::string_view(tr("Touch two points of the surface.")),
-             type::kSmall, Weight::Medium, kScale));
+        both ? filled("{}: {}", {tr("Distance"), number(ruler.distance_mm(), 1, "mm")})
+             : std::string_view(tr("Touch two points of the surface.")),
+        type::kSmall, Weight::Medium, kScale);
   }
 }
 

@@ -32,13 +32,13 @@ void tabs(TechnicianFrame& f) {
     const auto stage = static_cast<TechnicianStage>(i);
     const bool chosen = stage == f.seen.stage;
     Node tab = centred(f.grown(f.box(Flow::Row, 0, 4, 4)));
-    tell(tab, Role::Button, f.id("stage", i), title_of(f.tr, stage), technician_action(ShowStage{stage}));
+    tell(tab, Role::Button, f.id("stage", i), title_of(f.tr, stage), ShowStage{stage});
     frame(tab, chosen ? f.palette.accent : f.palette.quiet,
           chosen ? f.palette.accent : f.palette.quiet_border, f.px(2), f.px(14));
     tab.box.min_height = f.px(size::kStaffTarget);
     const auto in_tab = f.tree.inside(tab);
-    f.tree.leaf(f.text(title_of(f.tr, stage), f.portrait ? 16 : 17, chosen ? Weight::Bold : Weight::Medium,
-                       chosen ? f.palette.accent_ink : f.palette.link, TextAlign::Centre));
+    f.write(title_of(f.tr, stage), f.portrait ? 16 : 17, chosen ? Weight::Bold : Weight::Medium,
+            chosen ? f.palette.accent_ink : f.palette.link, TextAlign::Centre);
   });
 }
 
@@ -54,8 +54,8 @@ void pair_pictures(TechnicianFrame& f) {
   const auto in_row = f.tree.inside(row);
   for (std::size_t side = 0; side < 2; ++side) {
     Action action{}, dragged{};
-    if (touchable) action = technician_action(TouchPicture{side != 0, false});
-    if (makes_pairs(f)) dragged = technician_action(TouchPicture{side != 0, true});
+    if (touchable) action = TouchPicture{side != 0, false};
+    if (makes_pairs(f)) dragged = TouchPicture{side != 0, true};
     f.open_picture(side == 0 ? "left" : "right", f.camera_name(side), f.seen.shown[side], f.slot_of(side),
                    action, dragged);
     if (f.seen.stage != TechnicianStage::Input) {
@@ -102,14 +102,14 @@ void point_rows(TechnicianFrame& f) {
   }
   f.row("point left", f.tr("Left camera"), coordinates(f, point.left_px));
   if (point.waits_for_right) {
-    f.tree.leaf(f.text(f.tr("Now touch its partner on the orange line in the right picture."), type::kSmall,
-                       Weight::Medium, f.palette.ink));
+    f.write(f.tr("Now touch its partner on the orange line in the right picture."), type::kSmall,
+            Weight::Medium, f.palette.ink);
     return;
   }
   if (!point.matched) return f.row("point none", f.tr("No match here"), {}, Mood::Warn);
   if (point.new_surface) f.row("point moved", f.tr("New surface"), f.tr("yes"), Mood::Good);
   else if (!std::isnan(point.moved_mm))
-    f.row("point moved", f.tr("Surface came nearer by"), f.number(double(point.moved_mm), 2, "mm"));
+    f.row("point moved", f.tr("Surface came nearer by"), f.number(point.moved_mm, 2, "mm"));
   f.row("point right", f.tr("Right camera"), coordinates(f, point.right_px));
   f.row("point disparity", f.tr("Disparity"),
         plus_minus(f, double(point.disparity_px), double(point.sigma_px), 2, "px"));
@@ -119,18 +119,18 @@ void point_rows(TechnicianFrame& f) {
   else if (!point.by_hand) f.row("point accepted", f.tr("Verdict"), f.tr("Good"), Mood::Good);
   f.row("point space", f.tr("In space"),
         f.several({double(point.at_mm.x), double(point.at_mm.y), double(point.at_mm.z)}, 1, "mm"));
-  f.row("point sigma", f.tr("Depth uncertainty"), f.number(double(point.sigma_mm), 3, "mm"));
+  f.row("point sigma", f.tr("Depth uncertainty"), f.number(point.sigma_mm, 3, "mm"));
 }
 
 void change_rows(TechnicianFrame& f) {
   if (f.seen.pairs.empty()) return;
   f.rule();
-  f.row("pairs", f.tr("Match by hand"), f.number(double(f.seen.pairs.size())));
+  f.row("pairs", f.tr("Match by hand"), f.number(f.seen.pairs.size()));
   const TechnicianChange& change = f.seen.change;
   if (!change.known) return;
-  f.row("moved", f.tr("Surface moved"), f.number(double(change.moved_mm2), 0, "mm²"));
-  f.row("new", f.tr("New surface"), f.number(double(change.new_mm2), 0, "mm²"));
-  f.row("farthest", f.tr("Largest move"), f.number(double(change.farthest_mm), 2, "mm"));
+  f.row("moved", f.tr("Surface moved"), f.number(change.moved_mm2, 0, "mm²"));
+  f.row("new", f.tr("New surface"), f.number(change.new_mm2, 0, "mm²"));
+  f.row("farthest", f.tr("Largest move"), f.number(change.farthest_mm, 2, "mm"));
   if (f.seen.stage == TechnicianStage::Mesh) f.scale_words(change.full_colour_mm);
 }
 
@@ -141,32 +141,31 @@ void pose_rows(TechnicianFrame& f) {
         "Turn the head a little and add a side, up to four times; then calculate again: all become one head."));
   for (std::size_t b = 0; b < f.seen.pose_count; ++b) {
     const TechnicianPose& pose = f.seen.poses[b];
-    const auto number = [&](std::size_t of) { return f.number(double(of + 1)); };
-    f.section(f.filled("{}: {}", {number(b), f.number(double(pose.turned_deg), 1, "°")}));
+    const auto number = [&](std::size_t of) { return f.number(of + 1); };
+    f.section(f.filled("{}: {}", {number(b), f.number(pose.turned_deg, 1, "°")}));
     if (!pose.joined) f.row(f.id("left out", b), f.tr("No match here"), {}, Mood::Bad);
     for (std::size_t a = 0; a < f.seen.pose_count; ++a)
       if (pose.rms_mm[a] > 0)
         f.row(f.id(f.id("agrees", b), a), f.left_to_right({number(b), "\u00a0–\u00a0", number(a)}),
-              f.number(double(pose.rms_mm[a]), 3, "mm"));
+              f.number(pose.rms_mm[a], 3, "mm"));
   }
   f.scale_words(f.seen.full_residual_mm);
 }
 
 void pair_buttons(TechnicianFrame& f) {
-  f.choice("by hand", f.tr("Match by hand"), f.seen.by_hand, technician_action(TechnicianAct::ByHand), 0);
+  f.choice("by hand", f.tr("Match by hand"), f.seen.by_hand, TechnicianAct::ByHand, 0);
   if (!f.seen.by_hand) return;
   if (f.seen.point.touched)
     f.small_button("remove pair", f.tr("Remove this pair"), icon::kClose, ButtonLook::Quiet,
                    TechnicianAct::RemovePair);
   if (f.seen.pairs_changed)
-    f.small_button("run pairs", f.tr("Calculate again"), icon::kAgain, ButtonLook::Main,
-                   technician_action(RunStages{}));
+    f.small_button("run pairs", f.tr("Calculate again"), icon::kAgain, ButtonLook::Main, RunStages{});
 }
 
 void rule_rows(TechnicianFrame& f) {
   const TechnicianResult& r = f.seen.result;
-  f.row("matches", f.tr("Matches"), f.number(double(r.matches)));
-  f.row("accepted", f.tr("Accepted matches"), f.number(double(r.accepted)));
+  f.row("matches", f.tr("Matches"), f.number(r.matches));
+  f.row("accepted", f.tr("Accepted matches"), f.number(r.accepted));
   f.section(f.tr("Rejected by"));
   for (std::size_t i = 0; i < r.rule_count; ++i) {
     const TechnicianRule& rule = r.rules[i];
@@ -178,7 +177,7 @@ void rule_rows(TechnicianFrame& f) {
     patch.box.radius = f.px(6);
     f.tree.leaf(patch);
     f.wide(f.text(f.rule_name(rule.name), type::kSmall, Weight::Medium, f.palette.ink));
-    f.tree.leaf(f.text(f.number(double(rule.rejected)), type::kSmall, Weight::Regular, f.palette.ink_soft));
+    f.write(f.number(rule.rejected), type::kSmall, Weight::Regular, f.palette.ink_soft);
   }
 }
 
@@ -191,7 +190,7 @@ void sigma_plot(TechnicianFrame& f) {
   for (std::size_t i = 0; i < names.size(); ++i) names[i] = mm(i);
   Plot plot;
   plot.id = "sigma", plot.title = f.tr("Median uncertainty");
-  plot.figure = f.number(double(r.median_sigma_mm), 3, "mm");
+  plot.figure = f.number(r.median_sigma_mm, 3, "mm");
   plot.values = r.sigma_percent, plot.names = names, plot.unit = "%";
   plot.under = {mm(0), {}, mm(kSigmaBins)};
   f.plot(plot);
@@ -201,8 +200,8 @@ void time_rows(TechnicianFrame& f) {
   const TechnicianResult& r = f.seen.result;
   for (std::size_t i = 0; i < r.seconds.size(); ++i) {
     f.section(work_of(f.tr, i));
-    f.row(f.id("time", i), f.tr("Time"), f.number(double(r.seconds[i]), 2, "s"));
-    f.row(f.id("made", i), made_by(f.tr, i), f.number(double(r.made[i])));
+    f.row(f.id("time", i), f.tr("Time"), f.number(r.seconds[i], 2, "s"));
+    f.row(f.id("made", i), made_by(f.tr, i), f.number(r.made[i]));
   }
 }
 
@@ -226,7 +225,7 @@ void technician_stages_page(TechnicianFrame& f) {
   const bool there = f.capture_state();
   if (there) {
     tabs(f);
-    const auto in_box = f.tree.inside(f.grown(f.box(f.portrait ? Flow::Column : Flow::Row, space::kM)));
+    const auto in_box = f.tree.inside(f.grown(f.abreast_box(space::kM)));
     if (is_pair(f.seen.stage)) pair_pictures(f);
     else one_picture(f);
     const auto in_side = f.tree.inside(f.grown(f.box(Flow::Column, space::kXs)));

@@ -2,10 +2,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 //
 // The numbers behind the pictures, a page at a time.
-#include <algorithm>
 #include <array>
 
-#include "ui/screens/service/staff_frame.h"
 #include "ui/screens/service/technician/technician_frame.h"
 
 namespace relievo::ui {
@@ -16,11 +14,11 @@ namespace {
 
 void switches(TechnicianFrame& f) {
   const FaceLook& look = f.visit.look;
-  f.choice("points", f.tr("Points"), look.points, {ActionKind::LookPoints, 0}, 0);
-  f.choice("edges", f.tr("Edges"), look.edges, {ActionKind::LookEdges, 0}, 0);
-  f.choice("fill", f.tr("Surface"), look.fill, {ActionKind::LookFill, 0}, 0);
-  f.choice("texture", f.tr("Texture"), look.textured, {ActionKind::ShowShape, 0}, 0);
-  f.choice("lit", f.tr("Light"), look.lit, {ActionKind::LookLight, 0}, 0);
+  f.choice("points", f.tr("Points"), look.points, ActionKind::LookPoints, 0);
+  f.choice("edges", f.tr("Edges"), look.edges, ActionKind::LookEdges, 0);
+  f.choice("fill", f.tr("Surface"), look.fill, ActionKind::LookFill, 0);
+  f.choice("texture", f.tr("Texture"), look.textured, ActionKind::ShowShape, 0);
+  f.choice("lit", f.tr("Light"), look.lit, ActionKind::LookLight, 0);
 }
 
 void hands(TechnicianFrame& f) {
@@ -37,7 +35,7 @@ void technician_model_page(TechnicianFrame& f) {
     f.failure();
     f.nothing("no model", icon::kShape, f.tr("There is nothing: a stage before it gave up."));
   } else if (f.seen.model != nullptr) {
-    const auto in_box = f.tree.inside(f.grown(f.box(f.portrait ? Flow::Column : Flow::Row, space::kM)));
+    const auto in_box = f.tree.inside(f.grown(f.abreast_box(space::kM)));
     f.face(3, hands, size::kTarget + 2 * space::kXs);
     Node side = justified(f.box(Flow::Column, space::kS), Justify::Centre);
     if (!f.portrait) side.box.width = f.px(f.text_share > 1.2F ? 330 : 260);
@@ -134,8 +132,7 @@ void technician_tables_page(TechnicianFrame& f) {
   const std::size_t across = f.portrait || f.text_share > 1.2F ? 2 : kTechnicianTables;
   f.in_rows(kTechnicianTables, across, space::kXs, [&](std::size_t i) {
     const auto table = static_cast<TechnicianTable>(i);
-    f.choice(f.id("table", i), one_of(f.tr, kTableNames, table), rows.table == table,
-             technician_action(ShowTable{table}));
+    f.choice(f.id("table", i), one_of(f.tr, kTableNames, table), rows.table == table, ShowTable{table});
   });
   if (rows.cells.empty() && (rows.table != TechnicianTable::Calibration || !f.seen.calibrated)) {
     if (f.capture_state()) {

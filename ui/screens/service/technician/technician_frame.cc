@@ -64,7 +64,7 @@ std::string_view TechnicianFrame::rule_name(std::string_view key) {
 
 void TechnicianFrame::scale_words(float full_colour_mm, float size) {
   note(filled(tr("Red is nearer, blue farther; white agrees. Full colour: {}."),
-              number(double(full_colour_mm), 2, "mm")),
+              number(full_colour_mm, 2, "mm")),
        size);
 }
 
@@ -83,39 +83,27 @@ void TechnicianFrame::choice(std::string_view id, std::string_view label, bool c
 void TechnicianFrame::open_picture(std::string_view id, std::string_view spoken, const Picture& picture,
                                    PictureSlot slot, Action action, Action dragged) {
   Node frame = stage(12);
-  frame.aspect =
-      picture.pixels.empty() ? 1.0F : float(picture.pixels.width_px) / float(picture.pixels.height_px);
+  frame.aspect = aspect_of(picture.pixels);
   tree.open(frame);
   Node image = box(Flow::Column);
   tell(image, Role::Picture, id, spoken, action);
-  if (!picture.pixels.empty()) {
-    image.mark = Mark::Image;
-    image.picture = slot;
-  }
+  if (!picture.pixels.empty()) depict(image, slot);
   image.box.radius = px(12);
   image.dragged = dragged;
   tree.leaf(image);
 }
 
 void TechnicianFrame::pin_line(float y, Colour colour, float thick_dp) {
-  Node line = box(Flow::Column);
-  line.pinned = true;
-  line.pin_x = 0.5F;
-  line.pin_y = y;
+  Node line = pinned(box(Flow::Column), 0.5F, y);
   line.box.height = std::max(1.0F, px(thick_dp));
   line.box.fill = colour;
   tree.leaf(line);
 }
 
 void TechnicianFrame::pin_dot(float x, float y, Colour colour, std::string_view id) {
-  Node dot = sized(box(Flow::Column), 22, 22);
+  Node dot = pinned(sized(box(Flow::Column), 22, 22), x, y);
   dot.id = id;
-  dot.pinned = true;
-  dot.pin_x = x;
-  dot.pin_y = y;
-  dot.box.border = colour;
-  dot.box.border_px = px(3.5F);
-  dot.box.radius = px(11);
+  ui::frame(dot, {}, colour, px(3.5F), px(11));
   tree.leaf(dot);
 }
 
@@ -187,7 +175,7 @@ void TechnicianFrame::alert(std::string_view words, std::string_view detail) {
   const auto in_row = tree.inside(row);
   sign(icon::kAlert, 26, palette.bad);
   const auto in_box = tree.inside(grown(box(Flow::Column)));
-  tree.leaf(text(words, 18, Weight::Regular, palette.bad));
+  write(words, 18, Weight::Regular, palette.bad);
   tree.leaf(english(detail, 17));
 }
 
@@ -260,7 +248,7 @@ void TechnicianFrame::saved_list(bool beside) {
     tree.open(box(Flow::Column, space::kS, 0, space::kXs));
     for (std::size_t i = 0; i < seen.saved.names.size(); ++i)
       small_button(id("saved", i), left_to_right(breakable(seen.saved.names[i])), icon::kShape,
-                   ButtonLook::Quiet, technician_action(LoadSaved{i, beside}));
+                   ButtonLook::Quiet, LoadSaved{i, beside});
     tree.close();
     tree.close();
   }
@@ -280,16 +268,15 @@ void TechnicianFrame::capture_buttons(bool with_run, bool with_stick) {
     small_button("capture", tr("Test capture"), icon::kCamera, there ? ButtonLook::Quiet : ButtonLook::Main,
                  TechnicianAct::Capture, grow);
     if (seen.can_add_side)
-      small_button("add side",
-                   seen.sides == 0 ? tr("Add a side")
-                                   : filled("{} ({})", {tr("Add a side"), number(double(seen.sides))}),
-                   icon::kCamera, ButtonLook::Quiet, TechnicianAct::AddSide, grow);
+      small_button(
+          "add side",
+          seen.sides == 0 ? tr("Add a side") : filled("{} ({})", {tr("Add a side"), number(seen.sides)}),
+          icon::kCamera, ButtonLook::Quiet, TechnicianAct::AddSide, grow);
     if ((with_run || seen.sides > 0) && there)
-      small_button("run", tr("Calculate again"), icon::kAgain, ButtonLook::Main,
-                   technician_action(RunStages{}), grow);
+      small_button("run", tr("Calculate again"), icon::kAgain, ButtonLook::Main, RunStages{}, grow);
     else if (with_stick && there)
       small_button("run from", tr("Calculate again from here"), icon::kAgain, ButtonLook::Quiet,
-                   technician_action(RunStages{work_before(seen.stage)}), grow);
+                   RunStages{work_before(seen.stage)}, grow);
   }
   tree.close();
 }

@@ -14,9 +14,6 @@
 
 namespace relievo::ui {
 
-inline Action technician_action(const TechnicianRequest& request) { return Action(StaffAsk(request)); }
-inline Action technician_action(TechnicianAct act) { return technician_action(DoTechnician{act}); }
-
 class TechnicianFrame : public StaffFrame {
  public:
   explicit TechnicianFrame(const StaffFrame& page) : StaffFrame(page), seen(*page.staff.technician) {}
@@ -30,18 +27,13 @@ class TechnicianFrame : public StaffFrame {
   // Buttons beside each other, or below where large words stand upright. Gives the share each of them grows
   // by.
   float open_buttons();
-  using StaffFrame::small_button;
-  void small_button(std::string_view id, std::string_view label, const char* letter, ButtonLook look,
-                    TechnicianAct act, float grow = 0) {
-    small_button(id, label, letter, look, technician_action(act), grow);
-  }
   // One of several: the chosen one is filled and ticked.
   void choice(std::string_view id, std::string_view label, bool chosen, Action action, float grow = 1);
   // Pages whose words are large, or narrow ones, put less beside each other.
   std::size_t across(std::size_t most) const { return portrait || text_share > 1.2F ? (most + 1) / 2 : most; }
   // An explanation among the figures, or in their place.
   void note(std::string_view words, float size = type::kSmall) {
-    tree.leaf(text(words, size, Weight::Regular, palette.ink_soft));
+    write(words, size, Weight::Regular, palette.ink_soft);
   }
   // What the colours of a difference say.
   void scale_words(float full_colour_mm, float size = type::kSmall);

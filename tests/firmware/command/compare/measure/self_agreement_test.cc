@@ -40,6 +40,20 @@ TEST(SelfAgreement, TwiceMirroredIsThePairItself) {
   EXPECT_DOUBLE_EQ(twice.left_centre_px.x, pair.left_centre_px.x);
 }
 
+// The refined matcher trusts pixels less where a lamp was taken out: the same ones, seen in a mirror.
+TEST(SelfAgreement, WhatSkinMirrorsGoesWithItsPixels) {
+  StageFixture fixture;
+  const BumpScene scene{.seed = 4};
+  RectifiedPair pair = scene.render(&fixture.output);
+  pair.left.mirrored.assign(pair.pixels(), 0);
+  pair.left.mirrored[pair.index(3, 5)] = 200;
+  const RectifiedPair once = mirrored(pair, truth_of(scene, pair, 0));
+  EXPECT_TRUE(once.left.mirrored.empty()) << "nobody has looked for them in the right view";
+  ASSERT_EQ(once.right.mirrored.size(), pair.pixels());
+  EXPECT_EQ(once.right.mirrored[pair.index(pair.width_px - 1 - 3, 5)], 200);
+  EXPECT_EQ(once.right.mirrored[pair.index(3, 5)], 0);
+}
+
 TEST(SelfAgreement, LeftAndRightAgreeOnATrueMapAndNotOnAWrongOne) {
   StageFixture fixture;
   const BumpScene scene{.contrast = 30, .noise = 1, .seed = 5};

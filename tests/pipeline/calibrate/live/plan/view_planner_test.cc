@@ -139,5 +139,20 @@ TEST_F(Planner, WhatIsExcludedOrKnownIsNotPlanned) {
   EXPECT_NE(third.best->number, first.best->number);
 }
 
+// A planner that knows no answer says nothing of what further views would bring.
+TEST(EndOf, IsWhereNoFurtherViewHelps) {
+  using pipeline::LiveEnd;
+  EXPECT_EQ(pipeline::end_of({}, false, 0.02), LiveEnd::NotYet);
+  EXPECT_EQ(pipeline::end_of({}, true, 0.02), LiveEnd::NotYet);
+  const auto end = [](double gain, double bar_gain, bool reached) {
+    return pipeline::end_of(pipeline::ViewPlan{{}, 1, gain, bar_gain}, reached, 0.02);
+  };
+  EXPECT_EQ(end(0.01, 0.01, false), LiveEnd::Plateau);
+  EXPECT_EQ(end(0.01, 0.01, true), LiveEnd::GoalReached);
+  EXPECT_EQ(end(0.03, 0.01, false), LiveEnd::NotYet);
+  EXPECT_EQ(end(0.03, 0.01, true), LiveEnd::GoalReached) << "the error is small enough";
+  EXPECT_EQ(end(0.01, 0.03, true), LiveEnd::NotYet) << "a bar is still to be filled";
+}
+
 }  // namespace
 }  // namespace relievo::tests

@@ -5,16 +5,22 @@
 #include <algorithm>
 #include <cstddef>
 #include <sstream>
-#include <string>
 #include <utility>
 
-#include "firmware/arguments/settings_file.h"
+#include "firmware/arguments/algorithm_choice.h"
 #include "hal/base/whole_file.h"
 
 namespace relievo::firmware {
 namespace {
 
 constexpr std::size_t kMaxSettingsBytes = 64 * 1024;
+// Larger is no list of a picture's points, not of a match at every pixel of 20 megapixels.
+constexpr std::size_t kMostTextBytes = std::size_t{512} << 20;
+
+Result<std::string> read_text(const Path& file, std::size_t most_bytes) {
+  RELIEVO_TRY_ASSIGN(const auto bytes, read_whole_file(file, most_bytes));
+  return std::string(reinterpret_cast<const char*>(bytes.data()), bytes.size());
+}
 
 // A value as --set writes it; empty for what is no single value.
 std::string word_of(const toml::node& value) {
@@ -62,6 +68,17 @@ Result<std::vector<std::string>> settings_of(const toml::table& root, std::strin
   return settings;
 }
 
+Result<void> apply(pipeline::AlgorithmSet& set, const std::vector<std::string>& settings) {
+  for (const std::string& setting : settings) {
+    const std::size_t equals = setting.find('=');
+    if (equals == std::string::npos || equals == 0) {
+      return Error{Errc::InvalidInput, "is no setting: write KEY=VALUE, as in matcher=refined"}.at(setting);
+    }
+    RELIEVO_TRY(set.set(setting.substr(0, equals), setting.substr(equals + 1)));
+  }
+  return {};
+}
+
 }  // namespace
 
 Result<std::vector<std::string>> parse_settings(std::string_view text, std::string_view file_name) {
@@ -70,11 +87,6 @@ Result<std::vector<std::string>> parse_settings(std::string_view text, std::stri
   } catch (const toml::parse_error& error) {
     return no_toml(file_name, error);
   }
-}
-
-Result<std::vector<std::string>> read_settings_file(const std::filesystem::path& file) {
-  RELIEVO_TRY_ASSIGN(const auto bytes, read_whole_file(file, kMaxSettingsBytes));
-  return parse_settings({reinterpret_cast<const char*>(bytes.data()), bytes.size()}, file.string());
 }
 
 Result<std::vector<SetWords>> parse_sets(std::string_view text, std::string_view file_name) {
@@ -96,9 +108,46 @@ Result<std::vector<SetWords>> parse_sets(std::string_view text, std::string_view
   }
 }
 
-Result<std::vector<SetWords>> read_sets_file(const std::filesystem::path& file) {
-  RELIEVO_TRY_ASSIGN(const auto bytes, read_whole_file(file, kMaxSettingsBytes));
-  return parse_sets({reinterpret_cast<const char*>(bytes.data()), bytes.size()}, file.string());
+Result<std::vector<SetWords>> read_sets_file(const Path& file) {
+  RELIEVO_TRY_ASSIGN(const std::string text, read_text(file, kMaxSettingsBytes));
+  return parse_sets(text, file.string());
+}
+
+Result<void> read_texts(pipeline::AlgorithmSet& set) {
+  for (const pipeline::OptionDescription& option : pipeline::describe_algorithms()) {
+    if (!option.file || set.get(option.key).empty() || set.texts().contains(option.key)) continue;
+    RELIEVO_TRY_ASSIGN(std::string text, read_text(set.get(option.key), kMostTextBytes));
+    set.keep_text(option.key, std::move(text));
+  }
+  return {};
+}
+
+Result<pipeline::AlgorithmSet> choose_algorithms(const AlgorithmArgs& args, pipeline::AlgorithmSet start) {
+  pipeline::AlgorithmSet set = std::move(start);
+  if (!args.file.empty()) {
+    RELIEVO_TRY_ASSIGN(const std::string text, read_text(args.file, kMaxSettingsBytes));
+    RELIEVO_TRY_ASSIGN(const auto settings, parse_settings(text, args.file.string()));
+    RELIEVO_TRY(apply(set, settings));
+  }
+  RELIEVO_TRY(apply(set, args.settings));
+  RELIEVO_TRY(read_texts(set));
+  return set;
+}
+
+Result<pipeline::Pipeline> make_pipeline(const AlgorithmArgs& args,
+                                         const pipeline::StereoCalibration& calibration) {
+  RELIEVO_TRY_ASSIGN(const pipeline::AlgorithmSet set, choose_algorithms(args));
+  return pipeline::Pipeline::make(set, calibration, {},
+                                  args.whole_view ? pipeline::Region::All : pipeline::Region::Face);
+}
+
+std::map<std::string, std::string> choices_in(const std::string& text) {
+  std::map<std::string, std::string> all;
+  std::istringstream lines(text);
+  for (std::string line; std::getline(lines, line);)
+    if (const std::size_t equals = line.find(" = "); equals != std::string::npos)
+      all[line.substr(0, equals)] = line.substr(equals + 3);
+  return all;
 }
 
 }  // namespace relievo::firmware
