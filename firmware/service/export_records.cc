@@ -264,7 +264,9 @@ ui::Outcome outcome_of_export(const Error& error, const ExportTrace& trace) {
                     error.code == Errc::MediaMissing;
   const bool of_the_stick =
       error.code == Errc::IoFailed || error.code == Errc::NotFound || error.code == Errc::MediaMissing;
-  if (trace.step == ExportStep::Find && trace.whole > 0) return ui::Outcome::Failed;  // so many are there
+  // All but who is left out is there. How the stick was let go would not tell of them; the log tells both.
+  const bool written = trace.step == ExportStep::Find || trace.step >= ExportStep::LetGo;
+  if (trace.left_out && trace.whole > 0 && written && !gone) return ui::Outcome::Failed;
   if (trace.step == ExportStep::Again && error.code == Errc::Unsupported) return ui::Outcome::StickUnchecked;
   if (trace.step >= ExportStep::Write && of_the_stick) {
     if (gone) return ui::Outcome::StickGone;

@@ -215,6 +215,9 @@ TEST_F(StaffExportTest, WhoHasNoPortraitIsLeftOutAndTheOthersAreWritten) {
   EXPECT_TRUE(std::ranges::any_of(kiosk->staff().log().entries(), [](const ui::LogLine& line) {
     return line.text.find("has no portrait") != std::string::npos;
   }));
+  faulty.fail(FaultyStick::Fault::Held);
+  faulty.plug_in_again();
+  EXPECT_EQ(export_all(), Outcome::Failed) << "not: all is there";
 }
 
 TEST_F(StaffExportTest, AnExportThatGoesOnOutlastsTheMachinesLimit) {

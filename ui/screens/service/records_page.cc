@@ -50,9 +50,7 @@ void said(StaffFrame& page, const RecordsView& seen) {
   if (seen.asked > 0 && outcome == Outcome::StickFull)
     page.status("outcome", page.tr("The stick is full. Please use another one."), Mood::Bad);
   else page.outcome();
-  const bool some_missing =
-      seen.whole < seen.asked && (outcome == Outcome::StickUnchecked || outcome == Outcome::StickHeld);
-  const bool counts = outcome == Outcome::StickFull || outcome == Outcome::Cancelled || some_missing ||
+  const bool counts = outcome == Outcome::StickFull || outcome == Outcome::Cancelled ||
                       outcome == Outcome::Failed || outcome == Outcome::StickBad;
   if (seen.asked > 1 && counts) whole_of(page, seen);
 }
