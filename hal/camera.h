@@ -18,7 +18,6 @@
 #include <memory>
 #include <string_view>
 
-#include "hal/base/image_view.h"
 #include "hal/base/result.h"
 #include "hal/clock.h"
 #include "hal/raw/raw_image.h"
@@ -42,8 +41,6 @@ class Frame {
       : raw_(raw), stamp_(stamp), lender_(owner, {release, slot}) {}
 
   const RawImage& raw() const { return raw_; }
-  // Without developing: empty for a format that needs it.
-  ImageView image() const { return plain_view(raw_); }
   Instant exposed_at() const { return stamp_.exposed_at; }
   std::uint32_t sequence() const { return stamp_.sequence; }
   bool damaged() const { return stamp_.damaged; }

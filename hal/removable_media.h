@@ -22,5 +22,7 @@ class RemovableMedia {
   virtual Result<void> take_up_again() {
     return Error{Errc::Unsupported, "this board cannot take up a stick again"};
   }
+  // Whether what current() has found is what was taken up again: nobody has plugged it.
+  virtual bool is_taken_up() { return false; }
 };
 }  // namespace relievo::hal

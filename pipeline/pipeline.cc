@@ -38,7 +38,7 @@ Result<Pipeline> Pipeline::make(const AlgorithmSet& set, const StereoCalibration
   pipeline.volume_ = volume;
   pipeline.region_ = region;
   if (region == Region::Face) {
-    RELIEVO_TRY_ASSIGN(pipeline.finder_, FaceFinder::open({}));
+    RELIEVO_TRY_ASSIGN(pipeline.finder_, FaceFinder::open());
   }
   RELIEVO_TRY_ASSIGN(pipeline.chosen_, make_algorithms(set));
   RELIEVO_TRY(check_neighbours(set));

@@ -43,6 +43,9 @@ class Store {
   virtual Result<SubjectId> add_subject(const NewSubject& subject) = 0;
   virtual Result<std::vector<Subject>> subjects(const SubjectFilter& filter) = 0;
   virtual Result<std::int64_t> count_subjects() = 0;
+  // When the last portrait or person that is still there came in, by this store's own clock: where they come
+  // from another store, what they were given there says nothing of it. The epoch: there is none.
+  virtual Result<WallTime> last_added_at() = 0;
   virtual Result<Subject> subject(SubjectId id) = 0;  // NotFound
   // Everybody once, the newest first, but for code and number of enrolments, with the consent they gave last
   // (none: null) where consents are opened, too, which takes twice as long; until `visit` fails, which may

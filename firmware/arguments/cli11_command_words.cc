@@ -6,13 +6,22 @@
 
 #include <algorithm>
 #include <charconv>
-#include <cstdlib>
+#include <limits>
 #include <sstream>
+#include <string_view>
 
 namespace relievo::firmware {
 namespace {
 
 using Verb = CalibrationArgs::Verb;
+
+// Not a number where it is none, whatever the locale.
+double word_as_number(std::string_view word) {
+  double number = 0;
+  const auto [end, bad] = std::from_chars(word.data(), word.data() + word.size(), number);
+  return bad == std::errc() && end == word.data() + word.size() ? number
+                                                                : std::numeric_limits<double>::quiet_NaN();
+}
 
 // CLI::Range lets "nan" through.
 CLI::Validator within(double least, double most) {
@@ -20,7 +29,7 @@ CLI::Validator within(double least, double most) {
   words << least << " to " << most;
   return CLI::Validator(
       [least, most, text = words.str()](std::string& word) {
-        const double number = std::strtod(word.c_str(), nullptr);
+        const double number = word_as_number(word);
         return number >= least && number <= most ? std::string()
                                                  : "wants a number from " + text + ", not " + word;
       },
@@ -28,10 +37,9 @@ CLI::Validator within(double least, double most) {
 }
 
 std::string check_unit(const std::string& word) {
-  double unit = 0;
-  const auto [end, bad] = std::from_chars(word.data(), word.data() + word.size(), unit);
-  const bool good = bad == std::errc() && end == word.data() + word.size() && unit >= 1e-6 && unit <= 1e6;
-  return good ? "" : "wants the millimetres of one unit, such as 1 or 1000, not " + word;
+  const double unit = word_as_number(word);
+  return unit >= 1e-6 && unit <= 1e6 ? ""
+                                     : "wants the millimetres of one unit, such as 1 or 1000, not " + word;
 }
 
 std::string check_revision(const std::string& word) {

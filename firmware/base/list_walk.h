@@ -32,6 +32,11 @@ class ListWalk {
   std::size_t stretches() const { return count_; }
   std::int64_t top_row(std::size_t stretch) const { return stretches_[stretch].first * per_page_; }
   void set_label(std::size_t stretch, std::string label);
+  // Of all of them, by the row at the top.
+  template <typename Label>
+  void label_each(const Label& label) {
+    for (std::size_t i = 0; i < count_; ++i) set_label(i, label(std::size_t(top_row(i))));
+  }
   // Wipes the labels.
   void forget();
   ui::ListPlace view() const;

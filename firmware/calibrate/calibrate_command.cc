@@ -207,7 +207,7 @@ const char* finding(const pipeline::BoardView& view) {
 }
 
 Result<pipeline::CalibratorInput> read_views(const std::vector<PicturePairFiles>& pairs,
-                                             const pipeline::BoardPattern& pattern, std::ostream& out) {
+                                             const pipeline::BoardPattern& pattern, const Tell& tell) {
   pipeline::CalibratorInput input;
   input.pattern = pattern;
   bool any = false;
@@ -219,7 +219,7 @@ Result<pipeline::CalibratorInput> read_views(const std::vector<PicturePairFiles>
     RELIEVO_TRY_ASSIGN(view.left, look_in(left, files.left, input));
     RELIEVO_TRY_ASSIGN(view.right, look_in(right, files.right, input));
     any = any || (!view.left.empty() && !view.right.empty());
-    out << "view " << view.name << ": " << finding(view) << std::endl;
+    RELIEVO_TRY(tell("view " + view.name + ": " + finding(view)));
   }
   if (!any)
     return Error{Errc::InvalidInput,
@@ -240,7 +240,7 @@ std::string number(double value, int decimals) { return value <= 0 ? "-" : decim
 Result<void> write_calibration_report(const Path& folder, const std::vector<PicturePairFiles>& pairs,
                                       const pipeline::CalibratorInput& input,
                                       const pipeline::CalibratorOutput& result, const std::string& made_at,
-                                      std::ostream& out) {
+                                      const Tell& tell) {
   RELIEVO_TRY_ASSIGN(OutputFolder work, OutputFolder::begin(folder));
   const Report report{work, folder};
   pipeline::CalibrationReport page{input, result, "Relievo " + std::string(kVersion), made_at, {}, {}};
@@ -256,40 +256,44 @@ Result<void> write_calibration_report(const Path& folder, const std::vector<Pict
     RELIEVO_TRY_ASSIGN(pictures.left_jpeg, thumbnail(left));
     RELIEVO_TRY_ASSIGN(pictures.right_jpeg, thumbnail(right));
     if (!fits(left) || !fits(right)) {
-      out << "report: view " << pairs[i].name << " has another size, no picture" << std::endl;
+      RELIEVO_TRY(tell("report: view " + pairs[i].name + " has another size, no picture"));
       continue;
     }
     RELIEVO_TRY(write_pictures(report, file_name(pairs[i].name, taken), left, right, input.views[i],
                                result.calibration, pictures));
-    out << "report: view " << pairs[i].name << std::endl;
+    RELIEVO_TRY(tell("report: view " + pairs[i].name));
   }
   RELIEVO_TRY(report.text("report.json", pipeline::calibration_report_json(page)));
   RELIEVO_TRY(report.text("index.html", pipeline::calibration_report_html(page)));
   return work.commit();
 }
 
-void tell_quality(const pipeline::CalibrationQuality& q, std::ostream& out) {
+Result<void> tell_quality(const pipeline::CalibrationQuality& q, const Tell& tell) {
   for (const pipeline::ViewQuality& view : q.views) {
-    out << "view " << view.name;
-    if (view.used)
-      out << ": used, left " << decimal(view.left_rms_px, 3) << " px, right " << decimal(view.right_rms_px, 3)
-          << " px, epipolar " << decimal(view.epipolar_rms_px, 3) << " px";
-    else out << ": left out, " << view.reason;
-    if (view.corners_dropped > 0) out << ", " << view.corners_dropped << " stray corners dropped";
-    out << '\n';
+    std::string line = "view " + view.name;
+    line += view.used ? filled(": used, left {} px, right {} px, epipolar {} px",
+                               {decimal(view.left_rms_px, 3), decimal(view.right_rms_px, 3),
+                                decimal(view.epipolar_rms_px, 3)})
+                      : ": left out, " + view.reason;
+    if (view.corners_dropped > 0)
+      line += ", " + std::to_string(view.corners_dropped) + " stray corners dropped";
+    RELIEVO_TRY(tell(line));
   }
-  out << q.used << " of " << q.views.size() << " pairs used, pair rms " << decimal(q.pair_rms_px, 3)
-      << " px, each camera alone " << decimal(q.left_rms_px, 3) << " and " << decimal(q.right_rms_px, 3)
-      << " px, held out " << decimal(q.held_out_epipolar_px, 3) << " px, baseline "
-      << decimal(q.baseline_mm, 2) << " mm\nat " << decimal(pipeline::kFaceMm, 0) << " mm: depth within "
-      << decimal(pipeline::kTwoSided95 * q.face_depth_sigma_mm, 3) << " mm (95 %); boards held out found "
-      << decimal(q.measured_depth_mm, 3) << " mm from where their squares put them; lengths within "
-      << decimal(pipeline::kTwoSided95 * q.uncertainty.scale_percent, 3) << " % (95 %)\n";
+  RELIEVO_TRY(tell(filled(
+      "{} of {} pairs used, pair rms {} px, each camera alone {} and {} px, held out {} px, baseline {} mm",
+      {std::to_string(q.used), std::to_string(q.views.size()), decimal(q.pair_rms_px, 3),
+       decimal(q.left_rms_px, 3), decimal(q.right_rms_px, 3), decimal(q.held_out_epipolar_px, 3),
+       decimal(q.baseline_mm, 2)})));
+  RELIEVO_TRY(tell(filled(
+      "at {} mm: depth within {} mm (95 %); boards held out found {} mm from where their squares put them; lengths within {} % (95 %)",
+      {decimal(pipeline::kFaceMm, 0), decimal(pipeline::kTwoSided95 * q.face_depth_sigma_mm, 3),
+       decimal(q.measured_depth_mm, 3), decimal(pipeline::kTwoSided95 * q.uncertainty.scale_percent, 3)})));
   if (q.expected_as_in_use)
-    out << "the lenses are those of the calibration in use: its baseline is expected (--baseline-mm N: another, 0: none)\n";
-  out << "verdict: " << pipeline::name_of(q.verdict) << '\n';
-  for (const std::string& reason : q.reasons) out << "  " << reason << '\n';
-  out.flush();
+    RELIEVO_TRY(tell(
+        "the lenses are those of the calibration in use: its baseline is expected (--baseline-mm N: another, 0: none)"));
+  RELIEVO_TRY(tell(std::string("verdict: ") + pipeline::name_of(q.verdict)));
+  for (const std::string& reason : q.reasons) RELIEVO_TRY(tell("  " + reason));
+  return {};
 }
 
 Result<void> check_calibration_output(const Path& output) {
@@ -338,7 +342,7 @@ pipeline::BoardPattern pattern_of(const BoardArgs& board) {
       board.marker_mm,      board.marker_bits};
 }
 
-Result<pipeline::CalibratorOutput> run_calibrate(const CalibrateArgs& args, std::ostream& out,
+Result<pipeline::CalibratorOutput> run_calibrate(const CalibrateArgs& args, const Tell& tell,
                                                  const RigToday& today) {
   const pipeline::BoardPattern pattern = pattern_of(args.board);
   RELIEVO_TRY(pattern.check());
@@ -347,14 +351,14 @@ Result<pipeline::CalibratorOutput> run_calibrate(const CalibrateArgs& args, std:
   if (pairs.size() > pipeline::kMaxBoardPairs)
     return Error{Errc::InvalidInput, "holds more than 500 pairs; a few dozen are enough"}.at(
         args.pictures.native());
-  RELIEVO_TRY_ASSIGN(pipeline::CalibratorInput input, read_views(pairs, pattern, out));
+  RELIEVO_TRY_ASSIGN(pipeline::CalibratorInput input, read_views(pairs, pattern, tell));
   input.expected_baseline_mm = args.baseline_mm.value_or(0);
   if (!args.baseline_mm) input.in_use = today.in_use;
   auto result = pipeline::calibrate(input);
   if (!result) return result.error().at(args.pictures.native() + ": " + std::string(result.error().where()));
-  tell_quality(result->quality, out);
+  RELIEVO_TRY(tell_quality(result->quality, tell));
   if (!args.report.empty())
-    RELIEVO_TRY(write_calibration_report(args.report, pairs, input, *result, today.made_at, out));
+    RELIEVO_TRY(write_calibration_report(args.report, pairs, input, *result, today.made_at, tell));
   if (result->quality.verdict == pipeline::CalibrationVerdict::Refuse)
     return Error{Errc::PoorGeometry, "the calibration is refused for the reasons above and was not written"}
         .at(args.pictures.native());

@@ -66,7 +66,7 @@ using pipeline::LiveState;
 using pipeline::PairVerdict;
 using Steady = std::chrono::steady_clock;
 
-void tell_pair(const LiveState& s, std::ostream& out) {
+std::string line_of_pair(const LiveState& s) {
   std::string line = "pair " + std::to_string(s.pairs) + ": " + pipeline::name_of(s.verdict);
   if (s.verdict == PairVerdict::Moving && s.moved_px[0] > 0)
     line += " " + decimal(std::max(s.moved_px[0], s.moved_px[1]), 1) + " px";
@@ -81,10 +81,10 @@ void tell_pair(const LiveState& s, std::ostream& out) {
   line += std::string("; ") + pipeline::name_of(s.advice);
   if (s.how_far > 0 && s.how_far < 2) line += " a little";
   if (s.way.size() > 1) line += ", then " + pipeline::words_of(std::span(s.way).subspan(1));
-  out << line << std::endl;
+  return line;
 }
 
-void tell_end(const LiveState& s, Steady::duration busy, Steady::duration slowest, std::ostream& out) {
+std::string line_of_end(const LiveState& s, Steady::duration busy, Steady::duration slowest) {
   const double seconds = std::chrono::duration<double>(busy).count();
   char line[280];
   std::snprintf(
@@ -92,7 +92,7 @@ void tell_end(const LiveState& s, Steady::duration busy, Steady::duration slowes
       "%s: %d of %d pairs taken, predicted error %.3f mm (goal %.3f mm), %.1f pairs a second, the slowest took %.0f ms",
       s.done() ? pipeline::name_of(s.end) : "no more pairs", s.views, s.pairs, s.error_mm, s.goal_mm,
       s.pairs / std::max(seconds, 1e-9), std::chrono::duration<double, std::milli>(slowest).count());
-  out << line << std::endl;
+  return line;
 }
 
 }  // namespace
@@ -113,7 +113,7 @@ Result<std::unique_ptr<LivePairs>> make_device_pairs(std::unique_ptr<hal::Device
 }
 
 Result<pipeline::CalibratorOutput> run_calibrate_live(const CalibrateLiveArgs& args, LivePairs& pairs,
-                                                      std::ostream& out, const RigToday& today) {
+                                                      const Tell& tell, const RigToday& today) {
   RELIEVO_TRY(check_calibration_output(args.output));
   pipeline::LiveOptions options;
   options.goal_mm = args.goal_mm;
@@ -131,12 +131,12 @@ Result<pipeline::CalibratorOutput> run_calibrate_live(const CalibrateLiveArgs& a
     const auto took = Steady::now() - begin;
     busy += took;
     slowest = std::max(slowest, took);
-    tell_pair(live.state(), out);
+    RELIEVO_TRY(tell(line_of_pair(live.state())));
   }
-  tell_end(live.state(), busy, slowest, out);
+  RELIEVO_TRY(tell(line_of_end(live.state(), busy, slowest)));
   auto result = live.finish();
   if (!result) return result.error().at(args.cameras + ": " + std::string(result.error().where()));
-  tell_quality(result->quality, out);
+  RELIEVO_TRY(tell_quality(result->quality, tell));
   if (result->quality.verdict == pipeline::CalibrationVerdict::Refuse)
     return Error{Errc::PoorGeometry, "the calibration is refused for the reasons above and was not written"}
         .at(args.cameras);

@@ -13,7 +13,6 @@
 #include <chrono>
 #include <memory>
 #include <optional>
-#include <ostream>
 
 #include "firmware/arguments/command_line.h"
 #include "firmware/calibrate/calibrate_command.h"
@@ -50,6 +49,6 @@ Result<std::unique_ptr<LivePairs>> make_device_pairs(std::unique_ptr<hal::Device
                                                      std::string_view name);
 
 Result<pipeline::CalibratorOutput> run_calibrate_live(const CalibrateLiveArgs& args, LivePairs& pairs,
-                                                      std::ostream& out, const RigToday& today = {});
+                                                      const Tell& tell, const RigToday& today = {});
 
 }  // namespace relievo::firmware

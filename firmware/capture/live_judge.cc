@@ -58,10 +58,9 @@ Result<LiveJudge> LiveJudge::open(const pipeline::StereoCalibration& calibration
 }
 
 Result<LiveJudge> LiveJudge::open(int width_px) {
-  pipeline::CaptureGateOptions options;
-  options.relief.reduction = judged_reduction(width_px);
-  RELIEVO_TRY_ASSIGN(auto gate, pipeline::CaptureGate::open(options));
-  return LiveJudge(std::move(gate), options.relief);
+  const pipeline::LiveRelief relief{.reduction = judged_reduction(width_px)};
+  RELIEVO_TRY_ASSIGN(auto gate, pipeline::CaptureGate::open(relief));
+  return LiveJudge(std::move(gate), relief);
 }
 
 ui::LiveView guidance_of(const pipeline::GateAnswer& answer, const pipeline::StereoCalibration& calibration,
@@ -120,11 +119,10 @@ Result<TurnMeasurement> LiveJudge::look_turned(const pipeline::StereoFrame& fram
                        return relief_.look(frame, *calibration_, c);
                      }));
   const pipeline::HeadTurn turn = follow_head(*front_, relief, turn_.last);
-  constexpr pipeline::TurnLimits kLimits;
   const double px_per_mm = calibration_->left.focal_px.x / front_->pivot_mm.z;
-  const double slow_mm_s = kLimits.smear_px / px_per_mm / std::chrono::duration<double>(shutter).count();
-  const pipeline::TurnAnswer answer =
-      guide_turn(*front_, turn, now.time_since_epoch(), slow_mm_s, kLimits, turn_);
+  const double slow_mm_s =
+      pipeline::kMostSmearPx / px_per_mm / std::chrono::duration<double>(shutter).count();
+  const pipeline::TurnAnswer answer = guide_turn(*front_, turn, now.time_since_epoch(), slow_mm_s, turn_);
   TurnMeasurement measured{{}, answer.take};
   measured.guidance.turn = ui::TurnView{answer.advice, float(turn.yaw_deg), turn_.taken};
   return measured;

@@ -7,6 +7,7 @@
 #include "firmware/appliance/appliance.h"
 #include "firmware/arguments/algorithm_choice.h"
 #include "firmware/base/interrupt.h"
+#include "firmware/base/settings.h"
 #include "firmware/command/commands.h"
 #include "firmware/jobs/job_thread.h"
 #include "firmware/kiosk/stored_visits.h"
@@ -45,7 +46,7 @@ Result<Calibrated> find_calibration(const EnrolArgs& args, const hal::CaptureMod
     found.name = found.note = "store revision " + std::to_string(found.revision);
     return found;
   }
-  if (args.device != "sim")
+  if (args.device != "sim" || !services.simulated_calibration)
     return Error{
         Errc::NotCalibrated,
         "no calibration is in use: name one with --calibration, or 'relievo calibrate', 'relievo calibration import' or 'activate' with --store"}

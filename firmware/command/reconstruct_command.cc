@@ -17,7 +17,8 @@
 namespace relievo::firmware {
 namespace {
 
-// Model, pictures and report, and what is to be saved, all or nothing.
+// Model, pictures and report, and what is to be saved, all or nothing. A document that is there says that the
+// folder is, too.
 Result<std::vector<std::string>> write_results(const ReconstructArgs& args, Reconstruction& made) {
   RELIEVO_TRY_ASSIGN(OutputFolder folder, OutputFolder::begin(args.output));
   RELIEVO_TRY_ASSIGN(const auto images, made.draw_images());
@@ -32,8 +33,8 @@ Result<std::vector<std::string>> write_results(const ReconstructArgs& args, Reco
                      write_further_models(made.model(), args.further, folder.path(), options.frame,
                                           args.output, interrupted()));
   RELIEVO_TRY(write_text(folder.path() / "report.json", report_json(made.report()), args.output));
-  if (!args.save.empty()) RELIEVO_TRY(made.save(args.save));
-  RELIEVO_TRY(folder.commit());
+  if (args.save.empty()) RELIEVO_TRY(folder.commit());
+  else RELIEVO_TRY(made.save(args.save, [&folder] { return folder.commit(); }));
   return further;
 }
 

@@ -9,6 +9,7 @@
 #include "firmware/base/settings.h"
 #include "firmware/command/commands.h"
 #include "firmware/records/bundle_manifest.h"
+#include "hal/base/wiped_text.h"
 #include "storage/cipher/recovery.h"
 
 namespace relievo::firmware {
@@ -63,9 +64,8 @@ Result<void> recover(storage::StoreKeeping& keeping, Services& services) {
   return {};
 }
 
-}  // namespace
-
-Result<void> run(const StoreArgs& args, Services& services) {
+// A call of its own: what it leaves on the stack can be wiped when it has returned.
+[[gnu::noinline]] Result<void> keep(const StoreArgs& args, Services& services) {
   const Path folder = store_folder(args.store);
   const auto keeping = services.keep_store(folder);
   switch (args.verb) {
@@ -86,6 +86,14 @@ Result<void> run(const StoreArgs& args, Services& services) {
     case StoreArgs::Verb::Recover: break;
   }
   return recover(*keeping, services);
+}
+
+}  // namespace
+
+Result<void> run(const StoreArgs& args, Services& services) {
+  Result<void> done = keep(args, services);
+  wipe_stack();  // recovery words passed over it, one by one
+  return done;
 }
 
 }  // namespace relievo::firmware

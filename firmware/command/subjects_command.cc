@@ -21,6 +21,7 @@
 #include "firmware/records/receipt.h"
 #include "firmware/service/further_models.h"
 #include "hal/base/whole_file.h"
+#include "hal/base/wiped_text.h"
 #include "pipeline/recognition/recognition_images.h"
 #include "storage/cipher/age.h"
 #include "storage/export/model_files.h"
@@ -81,20 +82,20 @@ Result<void> show(storage::Store& store, const storage::Subject& subject, Consol
 }
 
 // None where no file is named.
-Result<std::optional<std::string>> passphrase_in(const Path& file) {
+Result<std::optional<WipedText>> passphrase_in(const Path& file) {
   constexpr std::size_t kMostBytes = 4096;
-  if (file.empty()) return std::optional<std::string>();
+  if (file.empty()) return std::optional<WipedText>();
   RELIEVO_TRY_ASSIGN(const auto bytes, read_whole_file(file, kMostBytes));
-  std::string text(reinterpret_cast<const char*>(bytes.data()), bytes.size());
-  while (text.ends_with('\n') || text.ends_with('\r')) text.pop_back();
+  std::string_view text(reinterpret_cast<const char*>(bytes.data()), bytes.size());
+  while (text.ends_with('\n') || text.ends_with('\r')) text.remove_suffix(1);
   if (text.empty()) return Error{Errc::InvalidInput, "holds no passphrase"}.at(file.string());
-  return std::optional(text);
+  return std::optional(WipedText(text));
 }
 
 // One file, sealed: nothing of it is written to a disk in the clear.
 Result<void> write_sealed(const SubjectsArgs& args, std::vector<storage::BundleFile>& files) {
   RELIEVO_TRY_ASSIGN(const auto passphrase, passphrase_in(args.passphrase));
-  storage::AgeTo to = storage::Passphrase{passphrase ? std::string_view(*passphrase) : std::string_view()};
+  storage::AgeTo to = storage::Passphrase{passphrase ? passphrase->view() : std::string_view()};
   if (!passphrase) {
     const auto recipient = storage::age_recipient(args.recipient);
     if (!recipient) return recipient.error().at(args.recipient);
@@ -163,7 +164,7 @@ Result<std::vector<storage::BundleFile>> read_copy(const SubjectsArgs& args) {
     if (!passphrase && args.identity.empty())
       return Error{Errc::InvalidInput, "is sealed: name the key (--identity) or --passphrase-file"};
     if (passphrase) {
-      RELIEVO_TRY_ASSIGN(bytes, storage::age_open(storage::Passphrase{*passphrase}, bytes));
+      RELIEVO_TRY_ASSIGN(bytes, storage::age_open(storage::Passphrase{passphrase->view()}, bytes));
     } else {
       RELIEVO_TRY_ASSIGN(const auto text, read_whole_file(args.identity, kMostKeyBytes));
       RELIEVO_TRY_ASSIGN(const auto key,

@@ -170,7 +170,7 @@ Result<void> rectify(const RunOrder& order, const std::optional<pipeline::Pipeli
         RELIEVO_TRY_ASSIGN(pipeline::RectifiedPair pair,
                            pipeline::take_rectified(order.pair.pictures.frame(), order.pair.range, c));
         if (order.options.whole_view) return pair;
-        RELIEVO_TRY_ASSIGN(auto finder, pipeline::FaceFinder::open({}));
+        RELIEVO_TRY_ASSIGN(auto finder, pipeline::FaceFinder::open());
         RELIEVO_TRY_ASSIGN(const pipeline::FaceBox face, pipeline::find_face(finder, pair, c));
         RELIEVO_TRY(pipeline::mark_face_region(pair, face, c));
         return pair;

@@ -99,8 +99,7 @@ Result<void> Kiosk::prepare(const KioskArgs& args, Services& services) {
   RELIEVO_TRY_ASSIGN(device_, services.open_device(args.device));
   RELIEVO_TRY_ASSIGN(store_, services.open_store(store_folder(args.store), true));
   may_tell_known_ = args.tells_known;
-  RELIEVO_TRY_ASSIGN(const auto newest, store_->subjects({.limit = 1}));
-  if (!newest.empty()) newest_record_ = newest.front().created_at;
+  RELIEVO_TRY_ASSIGN(newest_record_, store_->last_added_at());
   if (services.turn_head && (args.device == "sim" || is_recorded_head(args.device)))
     turn_head_ = [this, turn = services.turn_head](double yaw_deg) { turn(*device_, yaw_deg); };
   std::vector<std::string> unknown;
@@ -182,7 +181,7 @@ VisitRecord Kiosk::record_of(const ui::VisitRequest& request) const {
   return record;
 }
 
-// A consent must not bear a date before the newest record's, nor one before this program was; and nobody is
+// A consent must not bear a date before the newest record came in, nor one before this program was; nobody is
 // photographed by cameras that cannot measure.
 ui::Trouble Kiosk::out_of_order() const {
   using namespace std::chrono_literals;
@@ -192,7 +191,7 @@ ui::Trouble Kiosk::out_of_order() const {
   if (stages_->calibration() == nullptr) return ui::Trouble::Uncalibrated;
   if (!exchanged_.empty() || appliance_->moved_in_a_row() >= budget::kMovedFaces)
     return ui::Trouble::Calibration;
-  if (hot_.load()) return ui::Trouble::Other;  // it switches itself off in the middle of somebody's visit
+  if (hot_) return ui::Trouble::Other;  // it switches itself off in the middle of somebody's visit
   return restarted_ ? ui::Trouble::Restarted : ui::Trouble::None;
 }
 
@@ -343,13 +342,12 @@ void Kiosk::turn_once() {
     (void)appliance_->start_side_job(JobLane::Capture, *look_at_cameras_);
   }
   if (appliance_->state() == State::Idle && view_.now >= next_heat_look_) {
-    staff_->side_tasks().send(
-        JobLane::Keeper,
-        [this](JobControl&) -> Result<void> {
-          hot_.store(device_->too_hot());
-          return {};
+    staff_->side_tasks().ask(
+        JobLane::Keeper, [this](JobControl&) { return Result(device_->too_hot()); },
+        [this](const Result<bool>& hot) {
+          if (hot) hot_ = *hot;
+          next_heat_look_ = view_.now + budget::kHeatLook;
         },
-        [this](const std::optional<Error>&) { next_heat_look_ = view_.now + budget::kHeatLook; },
         SideTasks::Whose::Device);
     next_heat_look_ = hal::Instant::max();  // until then: a keeper that hangs is asked once
   }

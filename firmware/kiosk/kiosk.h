@@ -12,7 +12,6 @@
 // Errors of open(): those of device, store, fonts and words.
 #pragma once
 
-#include <atomic>
 #include <functional>
 #include <memory>
 #include <optional>
@@ -99,8 +98,7 @@ class Kiosk {
   bool may_tell_known_ = true;
   std::unique_ptr<RunMark> run_mark_;
   std::unique_ptr<MovedFaces> moved_faces_;
-  bool restarted_ = false, told_ = false;
-  std::atomic<bool> hot_{false};  // the keeper writes it
+  bool restarted_ = false, told_ = false, hot_ = false;
   hal::Instant next_heat_look_{};
   std::optional<hal::Instant> short_since_;  // of memory, again and again
   hal::Instant short_last_{};

@@ -114,15 +114,10 @@ void ReceiptSlip::follow(ui::ViewState& view, std::string_view number) {
 // Who left while it was asked is told nothing: what is heard goes to their visit's state alone.
 void ReceiptSlip::ask_printer() {
   if (printer_ == nullptr) return;
-  const auto there = std::make_shared<bool>(false);
-  side_tasks_.send(
-      JobLane::Keeper,
-      [printer = printer_, there](JobControl&) -> Result<void> {
-        *there = printer->is_there();
-        return {};
-      },
-      [state = printing_, there](const std::optional<Error>&) {
-        if (*there) *state = ui::Printing::Ready;
+  side_tasks_.ask(
+      JobLane::Keeper, [printer = printer_](JobControl&) { return Result(printer->is_there()); },
+      [state = printing_](const Result<bool>& there) {
+        if (there && *there) *state = ui::Printing::Ready;
       },
       SideTasks::Whose::Device);
 }

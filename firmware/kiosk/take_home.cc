@@ -8,11 +8,9 @@ namespace relievo::firmware {
 
 void TakeHome::look(bool visited) {
   const bool there = parts_.media.current().has_value();
-  // The staff's export lets its stick go and takes it up again to compare. While the keeper works, one that
-  // is away and was no visitor's need not have been pulled out, and what comes is that one again.
-  if (!there && there_ && !ours_ && parts_.side_tasks.busy(JobLane::Keeper)) return;
   if (there && !there_) {
-    ours_ = visited;
+    // The staff's export, which may go on after they have left, lets its stick go and takes it up again.
+    ours_ = visited && !parts_.media.is_taken_up();
     writing_.reset();  // how it went with another stick is no news
     given_up_ = false;
   }

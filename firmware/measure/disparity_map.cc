@@ -6,7 +6,8 @@
 #include <array>
 #include <bit>
 #include <cctype>
-#include <cstdlib>
+#include <charconv>
+#include <cmath>
 #include <string>
 #include <string_view>
 
@@ -31,6 +32,14 @@ std::string word(std::string_view& text) {
   std::string found(text.substr(begin, end - begin));
   text.remove_prefix(std::min(text.size(), end + 1));
   return found;
+}
+
+// Whatever the locale; 0 where it is none.
+template <typename Number>
+Number header_number(std::string_view text) {
+  Number number{};
+  std::from_chars(text.data(), text.data() + text.size(), number);
+  return number;
 }
 
 // A pixel between four nodes of the lattice; `tx`, `ty` of 0 to 1.
@@ -114,9 +123,9 @@ Result<DisparityMap> read_pfm(const std::filesystem::path& file) {
   std::string_view rest(reinterpret_cast<const char*>(bytes.data()), bytes.size());
   const std::string magic = word(rest);
   // What is no number reads as 0, which is no width.
-  const long width = std::strtol(word(rest).c_str(), nullptr, 10);
-  const long height = std::strtol(word(rest).c_str(), nullptr, 10);
-  const double scale = std::strtod(word(rest).c_str(), nullptr);
+  const long width = header_number<long>(word(rest));
+  const long height = header_number<long>(word(rest));
+  const double scale = header_number<double>(word(rest));
   const bool sane =
       magic == "Pf" && width > 0 && height > 0 && width <= kMostSidePx && height <= kMostSidePx && scale != 0;
   if (!sane || rest.size() != 4 * std::size_t(width) * std::size_t(height))

@@ -168,9 +168,9 @@ void Reconstruction::describe() {
   report_.head_from_camera = model().head_from_camera;
 }
 
-Result<void> Reconstruction::save(const Path& document) const {
+Result<void> Reconstruction::save(const Path& document, const std::function<Result<void>()>& before) const {
   RELIEVO_TRY_ASSIGN(const std::vector<std::byte> bytes, make_document(session_.products(), making_));
-  return write_whole_file(document, bytes);
+  return write_whole_file(document, bytes, before);
 }
 
 Result<pipeline::RecognitionImages> Reconstruction::draw_images() {

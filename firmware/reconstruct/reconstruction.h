@@ -5,6 +5,7 @@
 // need it. Owns the memory in which pictures and model lie. Thread: main.
 #pragma once
 
+#include <functional>
 #include <vector>
 
 #include "firmware/arguments/command_line.h"
@@ -30,8 +31,9 @@ class Reconstruction {
   // `by_hand` change, or that is missing. Errors: also the document's; InvalidInput for what changes a stage
   // before `from`.
   Result<void> load(const ReconstructArgs& args, Console& console);
-  // All of one pair's, whole or not at all. Errors: the file's.
-  Result<void> save(const Path& document) const;
+  // All of one pair's, whole or not at all, and in its place only after `before`. Errors: the file's, those
+  // of `before`.
+  Result<void> save(const Path& document, const std::function<Result<void>()>& before) const;
   // The portrait and the range image of the model, in the same memory. Errors: OutOfMemory.
   Result<pipeline::RecognitionImages> draw_images();
   const pipeline::FaceModel& model() const { return *session_.products().model; }

@@ -254,52 +254,47 @@ Result<void> ConsentTextStore::look() {
 }
 
 void ConsentTextStore::opened() {
-  outcome_ = ui::Outcome::None;
-  fault_ = {};
+  view_.outcome = ui::Outcome::None;
+  view_.fault = nullptr;
 }
 
 void ConsentTextStore::take() {
-  if (taking_) return;
+  if (view_.taking) return;
   opened();
-  taking_ = true;
-  const auto taken = std::make_shared<std::optional<ui::ConsentTexts>>();
-  side_tasks_.send(
+  view_.taking = true;
+  using Taken = std::optional<ui::ConsentTexts>;
+  side_tasks_.ask(
       JobLane::Keeper,
-      [this, taken, now = now_](JobControl&) -> Result<void> {
+      [this, now = now_](JobControl&) -> Result<Taken> {
         RELIEVO_TRY_ASSIGN(const std::filesystem::path stick, plugged_in(media_));
-        auto result = take_consent(stick, folder_, now);
+        auto taken = take_consent(stick, folder_, now);
         // Whatever failed: a stick that is gone is the reason.
-        if (!result && !media_.current()) return pulled_too_early();
-        RELIEVO_TRY_ASSIGN(*taken, std::move(result));
-        return {};
+        if (!taken && !media_.current()) return pulled_too_early();
+        return taken;
       },
-      [this, taken](const std::optional<Error>& error) {
-        if (!error && *taken) {
-          log_.say(ui::LogEvent::ConsentTaken, {(*taken)->version});
-          next_ = std::move(*taken);
-        }
-        ended(error);
+      [this](Result<Taken> taken) {
+        view_.taking = false;
+        if (!taken) return failed(taken.error());
+        view_.outcome = ui::Outcome::Done;
+        if (!*taken) return;
+        log_.say(ui::LogEvent::ConsentTaken, {(*taken)->version});
+        next_ = *std::move(taken);
       },
       SideTasks::Whose::Device);
 }
 
-void ConsentTextStore::ended(const std::optional<Error>& error) {
-  taking_ = false;
-  outcome_ = error ? outcome_of(*error) : ui::Outcome::Done;
-  if (!error) return;
+void ConsentTextStore::failed(const Error& error) {
+  view_.outcome = outcome_of(error);
   // A file is known to the operator by its name, wherever the stick is mounted.
-  fault_ = ui::fault_of(error->at(fs::path(error->where()).filename().string()));
-  if (error->code != Errc::MediaMissing) log_.fault(*error);
+  fault_ = ui::fault_of(error.at(fs::path(error.where()).filename().string()));
+  view_.fault = &fault_;
+  if (error.code != Errc::MediaMissing) log_.fault(error);
 }
 
 void ConsentTextStore::adopt() {
   if (!next_) return;
   now_ = std::move(next_);
   next_.reset();
-}
-
-void ConsentTextStore::show(ui::ConsentTextsView& view) const {
-  view = {taking_, outcome_, fault_.empty() ? nullptr : &fault_};
 }
 
 }  // namespace relievo::firmware

@@ -62,24 +62,23 @@ class ConsentTextStore {
   Result<void> look();
   // None: our sample, which nobody has reviewed. Valid until adopt().
   const ui::ConsentTexts* now() const { return now_ ? &*now_ : nullptr; }
-  // Takes over what the stick has; show() tells how it ended.
+  // Takes over what the stick has; view() tells how it ended.
   void take();
   // What was taken is in force from here on: while no visitor is in the middle of reading the one before.
   void adopt();
   // The last try is no news to who comes now.
   void opened();
-  void show(ui::ConsentTextsView& view) const;
+  const ui::ConsentTextsView& view() const { return view_; }
 
  private:
-  void ended(const std::optional<Error>& error);
+  void failed(const Error& error);
 
   std::filesystem::path folder_;
   hal::RemovableMedia& media_;
   SideTasks& side_tasks_;
   EventLog& log_;
   std::optional<ui::ConsentTexts> now_, next_;
-  bool taking_ = false;
-  ui::Outcome outcome_ = ui::Outcome::None;
+  ui::ConsentTextsView view_;
   ui::Fault fault_;  // why the last try failed
 };
 

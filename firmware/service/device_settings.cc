@@ -89,9 +89,9 @@ Result<void> DeviceSettings::look() {
   return {};
 }
 
-bool DeviceSettings::change(ui::Setting setting, std::int32_t value, Done done) {
+void DeviceSettings::change(ui::Setting setting, std::int32_t value, Done done) {
   ui::Settings next = wanted_;
-  if (!next.set(setting, value)) return false;
+  if (!next.set(setting, value)) return;
   wanted_ = next;
   asked_.emplace_back(setting, value);
   side_tasks_.send(
@@ -118,7 +118,6 @@ bool DeviceSettings::change(ui::Setting setting, std::int32_t value, Done done) 
         done(error);
       },
       SideTasks::Whose::Device);
-  return true;
 }
 
 }  // namespace relievo::firmware

@@ -31,8 +31,8 @@ class DeviceSettings {
   const ui::Settings& now() const { return now_; }
   // As they will be when everything that was asked for has been written.
   const ui::Settings& wanted() const { return wanted_; }
-  // False where that is no value of it.
-  bool change(ui::Setting setting, std::int32_t value, Done done);
+  // Nothing where that is no value of it.
+  void change(ui::Setting setting, std::int32_t value, Done done);
 
  private:
   storage::Store& store_;

@@ -6,10 +6,10 @@
 //
 //   send(thread, work, done) --> work() on that thread --> done(error or nothing) on main
 //
-// Work looks at its JobControl; what it writes to must live as long as it runs: keep it in a
-// shared_ptr that both closures hold. cancel() drops what waits of a page and asks what runs to end: its
-// done() is not called any more. What belongs to the device (a PIN, a setting) ends, and is heard.
-// Thread: main. Errors: those of the work.
+// Work looks at its JobControl. What it finds goes to `done` by ask(); what it has written to must live as
+// long as it runs: keep that in a shared_ptr that both closures hold. cancel() drops what waits of a page and
+// asks what runs to end: its done() is not called any more. What belongs to the device (a PIN, a setting)
+// ends, and is heard. Thread: main. Errors: those of the work.
 #pragma once
 
 #include <array>
@@ -18,6 +18,8 @@
 #include <functional>
 #include <memory>
 #include <optional>
+#include <type_traits>
+#include <utility>
 
 #include "firmware/appliance/appliance.h"
 
@@ -37,6 +39,22 @@ class SideTasks {
 
   // Its number, for stop(); none is 0.
   std::uint32_t send(JobLane lane, Work work, Done done, Whose whose = Whose::Page);
+  // Of work that finds something: `heard` is called with that, or with why there is none (a Result).
+  template <typename Find, typename Heard>
+  std::uint32_t ask(JobLane lane, Find find, Heard heard, Whose whose = Whose::Page) {
+    using Found = std::invoke_result_t<Find&, JobControl&>;
+    const auto found = std::make_shared<std::optional<Found>>();
+    return send(
+        lane,
+        [found, find = std::move(find)](JobControl& control) -> Result<void> {
+          found->emplace(find(control));
+          return **found ? Result<void>() : Result<void>((*found)->error());
+        },
+        [found, heard = std::move(heard)](const std::optional<Error>& error) {
+          heard(error ? Found(*error) : *std::move(*found));
+        },
+        whose);
+  }
   // Starts what waits and can start: once every turn.
   void turn();
   // One that waits is dropped: its done() hears Cancelled at once. One that runs is asked to end early: its

@@ -22,7 +22,8 @@ ui::LogEvent chosen_by(StaffRole role) {
 }  // namespace
 
 Result<void> SignIn::look() {
-  RELIEVO_TRY_ASSIGN(set_up_, access_.is_set_up());
+  view_.demanded = parts_.demands_set_up;
+  RELIEVO_TRY_ASSIGN(view_.set_up, access_.is_set_up());
   RELIEVO_TRY_ASSIGN(forgotten_, access_.forgotten());
   RELIEVO_TRY_ASSIGN(const auto wait, access_.wait());
   wait_until_ = parts_.clock.now() + wait;
@@ -31,14 +32,14 @@ Result<void> SignIn::look() {
 
 void SignIn::opened(StaffPage page) {
   forget();
-  wrong_ = clock_right_ = clock_refused_ = consent_right_ = false;
-  failed_.reset();
+  view_.wrong = view_.clock_right = view_.clock_refused = view_.consent_right = false;
+  view_.failed.reset();
   if (page == StaffPage::FirstStart) parts_.consent.opened();
   clock_moved_ = std::chrono::minutes(0);
-  fault_ = PinFault::None;
-  step_ = page == StaffPage::Pins             ? PinStep::Own
-          : forgotten_ == StaffRole::Operator ? PinStep::Operator
-                                              : PinStep::Technician;
+  view_.fault = PinFault::None;
+  view_.step = page == StaffPage::Pins             ? PinStep::Own
+               : forgotten_ == StaffRole::Operator ? PinStep::Operator
+                                                   : PinStep::Technician;
 }
 
 void SignIn::forget() {
@@ -49,9 +50,9 @@ void SignIn::forget() {
 }
 
 void SignIn::ask(const ui::StaffRequest& request, StaffRole role) {
-  if (checking_) return;
+  if (view_.checking) return;
   if (request.page == StaffPage::Pin && request.as<ui::CheckPin>() != nullptr) return check(request.text());
-  const bool first = request.page == StaffPage::FirstStart && !set_up_;
+  const bool first = request.page == StaffPage::FirstStart && !view_.set_up;
   const bool clock = first || (request.page == StaffPage::Clock && role != StaffRole::None);
   if (request.as<ui::OfferPin>() != nullptr &&
       (first || (request.page == StaffPage::Pins && role != StaffRole::None)))
@@ -61,47 +62,41 @@ void SignIn::ask(const ui::StaffRequest& request, StaffRole role) {
   if (clock && request.as<ui::SetClock>() != nullptr) set_clock();
   if (!first) return;
   if (request.as<ui::TakeConsentText>() != nullptr) parts_.consent.take();
-  if (request.as<ui::ConfirmConsentText>() != nullptr) consent_right_ = true;
+  if (request.as<ui::ConfirmConsentText>() != nullptr) view_.consent_right = true;
 }
 
 void SignIn::set_clock() {
-  clock_right_ = true;
-  if (clock_moved_.count() == 0 || clock_refused_) return;
+  view_.clock_right = true;
+  if (clock_moved_.count() == 0 || view_.clock_refused) return;
   const Result<void> set = parts_.set_clock
                                ? parts_.set_clock(parts_.clock.wall_now() + clock_moved_)
                                : Result<void>(Error{Errc::Unsupported, "this board's clock cannot be set"});
   clock_moved_ = std::chrono::minutes(0);
-  clock_right_ = set.has_value();
-  clock_refused_ = !set;
+  view_.clock_right = set.has_value();
+  view_.clock_refused = !set;
   if (set) parts_.log.say(ui::LogEvent::ClockSet);
   else parts_.log.fault(set.error());
 }
 
 void SignIn::check(std::string_view pin) {
-  struct Tried {
-    WipedText pin;
-    Attempt attempt;
-  };
-  const auto tried = std::make_shared<Tried>();
-  tried->pin = pin;
-  checking_ = true;
-  parts_.side_tasks.send(
+  view_.checking = true;
+  parts_.side_tasks.ask(
       JobLane::Keeper,
-      [this, tried](JobControl&) -> Result<void> {
-        const auto answer = access_.attempt(tried->pin.view());
-        tried->pin.wipe();
-        RELIEVO_TRY_ASSIGN(tried->attempt, answer);
-        return {};
+      [this, kept = std::make_shared<WipedText>(pin)](JobControl&) {
+        const auto answer = access_.attempt(kept->view());
+        kept->wipe();
+        return answer;
       },
-      [this, tried, visit = visit_](const std::optional<Error>& error) {
-        checking_ = false;
-        if (error) parts_.log.fault(*error);
-        wait_until_ = parts_.clock.now() + tried->attempt.wait;
-        if (tried->attempt.wrong) parts_.log.say(ui::LogEvent::WrongPin);
+      [this, visit = visit_](const Result<Attempt>& answer) {
+        view_.checking = false;
+        if (!answer) parts_.log.fault(answer.error());
+        const Attempt attempt = answer ? *answer : Attempt();
+        wait_until_ = parts_.clock.now() + attempt.wait;
+        if (attempt.wrong) parts_.log.say(ui::LogEvent::WrongPin);
         if (visit != visit_) return;  // whoever typed it has gone: the next one at the lock is another
-        failed_ = error ? std::optional(error->code) : std::nullopt;
-        wrong_ = tried->attempt.wrong;
-        entered_ = error ? StaffRole::None : tried->attempt.role;
+        view_.failed = answer ? std::nullopt : std::optional(answer.error().code);
+        view_.wrong = attempt.wrong;
+        entered_ = attempt.role;
         if (entered_ == StaffRole::Technician) parts_.log.say(ui::LogEvent::TechnicianSignedIn);
         if (entered_ == StaffRole::Operator) parts_.log.say(ui::LogEvent::OperatorSignedIn);
       },
@@ -110,13 +105,13 @@ void SignIn::check(std::string_view pin) {
 
 // The first time a PIN is judged, the second time it is compared.
 void SignIn::offer(std::string_view pin, StaffRole role) {
-  fault_ = PinFault::None;
-  failed_.reset();
-  switch (step_) {
+  view_.fault = PinFault::None;
+  view_.failed.reset();
+  switch (view_.step) {
     case PinStep::Technician: return judge(pin, StaffRole::Technician, PinStep::TechnicianAgain);
     case PinStep::Operator:
       if (pin == technician_.view()) {
-        fault_ = PinFault::Taken;
+        view_.fault = PinFault::Taken;
         return;
       }
       return judge(pin, StaffRole::Operator, PinStep::OperatorAgain);
@@ -129,12 +124,12 @@ void SignIn::offer(std::string_view pin, StaffRole role) {
 }
 
 void SignIn::offered_again(std::string_view pin, StaffRole role) {
-  const PinStep before = step_ == PinStep::TechnicianAgain ? PinStep::Technician
-                         : step_ == PinStep::OperatorAgain ? PinStep::Operator
-                                                           : PinStep::Own;
+  const PinStep before = view_.step == PinStep::TechnicianAgain ? PinStep::Technician
+                         : view_.step == PinStep::OperatorAgain ? PinStep::Operator
+                                                                : PinStep::Own;
   if (pin != first_.view()) {
-    fault_ = PinFault::Differ;
-    step_ = before;
+    view_.fault = PinFault::Differ;
+    view_.step = before;
     return first_.wipe();
   }
   if (before == PinStep::Own) {
@@ -152,31 +147,31 @@ void SignIn::offered_again(std::string_view pin, StaffRole role) {
     technician_.wipe();
   } else {
     technician_ = first_;
-    step_ = PinStep::Operator;
+    view_.step = PinStep::Operator;
   }
   first_.wipe();
 }
 
 void SignIn::judge(std::string_view pin, StaffRole role, PinStep next) {
   const auto kept = std::make_shared<WipedText>(pin);
-  checking_ = true;
+  view_.checking = true;
   parts_.side_tasks.send(
       JobLane::Keeper, [this, kept, role](JobControl&) { return access_.check_new(role, kept->view()); },
       [this, kept, next, visit = visit_](const std::optional<Error>& error) {
-        checking_ = false;
+        view_.checking = false;
         if (visit != visit_) return;
-        if (error) return refuse(*error, step_);
+        if (error) return refuse(*error, view_.step);
         first_ = *kept;
-        step_ = next;
+        view_.step = next;
       },
       SideTasks::Whose::Device);
 }
 
 void SignIn::refuse(const Error& error, PinStep again) {
-  step_ = again;
-  if (error.code == Errc::InvalidState) fault_ = PinFault::Taken;
-  else if (error.code == Errc::InvalidInput) fault_ = PinFault::Simple;
-  else failed_ = error.code, parts_.log.fault(error);
+  view_.step = again;
+  if (error.code == Errc::InvalidState) view_.fault = PinFault::Taken;
+  else if (error.code == Errc::InvalidInput) view_.fault = PinFault::Simple;
+  else view_.failed = error.code, parts_.log.fault(error);
 }
 
 // A PIN is kept by the keeper and known to nobody then. One of the two that was forgotten is chosen alone; a
@@ -184,7 +179,7 @@ void SignIn::refuse(const Error& error, PinStep again) {
 void SignIn::save(const Pins& pins, PinStep begins, std::function<Result<void>(const Pins&)> write,
                   std::vector<ui::LogEvent> said) {
   const auto kept = std::make_shared<Pins>(pins);
-  checking_ = true;
+  view_.checking = true;
   parts_.side_tasks.send(
       JobLane::Keeper,
       [kept, write = std::move(write)](JobControl&) {
@@ -193,14 +188,14 @@ void SignIn::save(const Pins& pins, PinStep begins, std::function<Result<void>(c
         return saved;
       },
       [this, begins, said = std::move(said), visit = visit_](const std::optional<Error>& error) {
-        checking_ = false;
+        view_.checking = false;
         if (error && visit != visit_) return parts_.log.fault(*error);
         if (error) return refuse(*error, begins);
         if (begins != PinStep::Own) {
           forgotten_ = StaffRole::None;
-          set_up_ = true;
+          view_.set_up = true;
         }
-        if (visit == visit_) step_ = PinStep::Done;
+        if (visit == visit_) view_.step = PinStep::Done;
         for (const ui::LogEvent event : said) parts_.log.say(event);
       },
       SideTasks::Whose::Device);
@@ -211,19 +206,10 @@ void SignIn::show(ui::AccessView& view) const {
   const auto minute = std::chrono::floor<std::chrono::minutes>(parts_.clock.wall_now() + clock_moved_);
   if (clock_text_.empty() || minute != clock_text_at_) clock_text_ = text_of(minute);
   clock_text_at_ = minute;
-  view = {.set_up = set_up_,
-          .demanded = parts_.demands_set_up,
-          .step = step_,
-          .fault = fault_,
-          .clock = clock_text_,
-          .clock_right = clock_right_,
-          .clock_refused = clock_refused_,
-          .checking = checking_,
-          .wrong = wrong_,
-          .failed = failed_,
-          .wait_s = int(std::max<std::int64_t>(0, wait.count())),
-          .consent_right = consent_right_,
-          .forgotten = forgotten_ != StaffRole::None};
+  view = view_;
+  view.clock = clock_text_;
+  view.wait_s = int(std::max<std::int64_t>(0, wait.count()));
+  view.forgotten = forgotten_ != StaffRole::None;
 }
 
 }  // namespace relievo::firmware

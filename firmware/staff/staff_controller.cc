@@ -333,12 +333,14 @@ void StaffController::save_what_changed() {
       JobLane::Keeper,
       [this, counts = counted ? statistics_.text() : std::string(),
        costs = cost ? costs_.text() : std::string()](JobControl&) -> Result<void> {
-        RELIEVO_TRY(log_.save());
-        if (!costs.empty()) RELIEVO_TRY(parts_.store.set_setting(kVisitCostsSetting, costs));
-        return counts.empty() ? Result<void>() : parts_.store.set_setting(kStatisticsSetting, counts);
+        // Each by itself: a log that cannot be written takes no count with it. Nothing is said of it either:
+        // a full disk must not fill the log with its own complaint.
+        (void)log_.save();
+        if (!costs.empty()) (void)parts_.store.set_setting(kVisitCostsSetting, costs);
+        if (!counts.empty()) (void)parts_.store.set_setting(kStatisticsSetting, counts);
+        return {};
       },
-      [](const std::optional<Error>&) {},
-      SideTasks::Whose::Device);  // a full disk must not fill the log with its own complaint
+      [](const std::optional<Error>&) {}, SideTasks::Whose::Device);
 }
 
 const ui::ServiceView& StaffController::view() {
@@ -348,8 +350,7 @@ const ui::ServiceView& StaffController::view() {
     view_.leaves_in_s = seconds_left();
   sign_in_.show(view_.access);
   view_.access.words_due = services_.words_due;
-  consent_.show(consent_view_);
-  view_.consent = &consent_view_;
+  view_.consent = &consent_.view();
   if (page_ != nullptr) page_->show(view_);
   return view_;
 }

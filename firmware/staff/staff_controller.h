@@ -79,13 +79,9 @@ class SignIn {
 
   Parts parts_;
   Access access_;
-  std::optional<Errc> failed_;  // why the last PIN could not be checked or kept
-  bool set_up_ = false, checking_ = false, wrong_ = false, clock_right_ = false, clock_refused_ = false,
-       consent_right_ = false;
+  ui::AccessView view_;                            // without what time changes (show())
   ui::StaffRole forgotten_ = ui::StaffRole::None;  // whose PIN is to be chosen anew
   std::chrono::minutes clock_moved_{0};
-  ui::PinStep step_ = ui::PinStep::Technician;
-  ui::PinFault fault_ = ui::PinFault::None;
   hal::Instant wait_until_{};
   WipedText first_, technician_;  // typed once; the technician's, until the operator's is there
   std::uint32_t visit_ = 0;       // of the page: what was asked before it was left is not answered after
@@ -148,7 +144,6 @@ class StaffController {
   RetentionWatch retention_;
   TouchTrial touch_;
   ConsentTextStore consent_;
-  ui::ConsentTextsView consent_view_;
   PageServices services_;
   SignIn sign_in_;
   std::array<std::unique_ptr<PageController>, std::size_t(ui::StaffPage::Count)> pages_;

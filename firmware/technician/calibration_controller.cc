@@ -93,7 +93,6 @@ Result<void> CalibrateJob::run(JobControl& control) {
 Result<void> CalibrateJob::calibrate(JobControl& control) {
   pipeline::LiveOptions options;
   options.in_use = order_.in_use;
-  options.goal_mm = order_.goal_mm;
   RELIEVO_TRY_ASSIGN(auto live, pipeline::LiveCalibration::begin(pattern_of(order_.board), options, pool_));
   std::unique_ptr<LivePairs> pairs;
   if (show_) {
@@ -215,30 +214,26 @@ void CalibrationController::ended() {
 
 void CalibrationController::load_history() {
   exported_.clear();
-  const auto rows = std::make_shared<std::vector<Row>>();
-  parts_.side_tasks.send(
+  using Rows = std::vector<Row>;
+  parts_.side_tasks.ask(
       JobLane::Keeper,
-      [this, rows](JobControl&) -> Result<void> {
-        RELIEVO_TRY_ASSIGN(auto all, parts_.store.calibrations());
-        for (auto& info : all) {
-          std::string made_at = text_of(info.created_at);
-          rows->push_back({std::move(info), std::move(made_at)});
-        }
-        return {};
+      [this](JobControl&) -> Result<Rows> {
+        RELIEVO_TRY_ASSIGN(const auto all, parts_.store.calibrations());
+        Rows rows;
+        for (const storage::CalibrationInfo& info : all) rows.push_back({info, text_of(info.created_at)});
+        return rows;
       },
-      [this, rows](const std::optional<Error>& error) {
-        if (error) problem_ = ui::fault_of(*error);
-        else history_.swap(*rows);
+      [this](Result<Rows> rows) {
+        if (rows) history_ = *std::move(rows);
+        else problem_ = ui::fault_of(rows.error());
         walk_.set_rows(std::int64_t(history_.size()));
       });
 }
 
 void CalibrationController::walk(const ui::ListRequest& request) {
   if (walk_.ask(request) != ListWalk::Ask::Labels) return;
-  for (std::size_t i = 0; i < walk_.stretches(); ++i) {
-    const auto top = std::size_t(walk_.top_row(i));
-    walk_.set_label(i, top < history_.size() ? history_[top].made_at : std::string());
-  }
+  walk_.label_each(
+      [this](std::size_t top) { return top < history_.size() ? history_[top].made_at : std::string(); });
 }
 
 void CalibrationController::use(pipeline::Pipeline pipeline, bool calibrated) {

@@ -49,7 +49,6 @@ class CalibrateJob final : public Job {
   struct Order {
     BoardArgs board;
     std::optional<pipeline::StereoCalibration> in_use;
-    double goal_mm = pipeline::LiveOptions{}.goal_mm;
   };
   CalibrateJob(StereoGrabber& grabber, EnrolmentSession& session, hal::Device& device, ThreadPool& pool,
                ShowBoards show)

@@ -104,26 +104,22 @@ void RecordingController::record(std::span<const pipeline::StereoFrame> shots,
 
 void RecordingController::save(std::function<Result<std::vector<std::byte>>()> make) {
   if (!begin()) return;
-  const auto document = std::make_shared<SavedBytes>();
-  task_ = side_tasks_.send(
-      JobLane::Worker,
-      [document, make = std::move(make)](JobControl&) -> Result<void> {
-        RELIEVO_TRY_ASSIGN(*document, make());
-        return {};
-      },
-      [this, document](const std::optional<Error>& error) {
-        if (error) ended(error, {}, {});
+  task_ = side_tasks_.ask(
+      JobLane::Worker, [make = std::move(make)](JobControl&) { return make(); },
+      [this](Result<SavedBytes> document) {
+        if (!document) ended(document.error(), {}, {});
         else if (stopped_) ended(Error{Errc::Cancelled, "it was stopped before it was on the stick"}, {}, {});
-        else write(document);
+        else write(*std::move(document));
       });
 }
 
-void RecordingController::write(std::shared_ptr<const SavedBytes> document) {
+void RecordingController::write(SavedBytes document) {
   const auto trace = std::make_shared<ExportTrace>();
   const std::string name = stick_name_of(device_.clock().wall_now());
   task_ = side_tasks_.send(
       JobLane::Keeper,
-      [this, document = std::move(document), trace, name](JobControl& control) {
+      [this, document = std::make_shared<const SavedBytes>(std::move(document)), trace,
+       name](JobControl& control) {
         return save_reconstruction(*document, name, device_.media(), control, *trace);
       },
       [this, trace, name](const std::optional<Error>& error) {
@@ -133,38 +129,30 @@ void RecordingController::write(std::shared_ptr<const SavedBytes> document) {
 
 void RecordingController::list() {
   if (!begin()) return;
-  const auto names = std::make_shared<std::vector<std::string>>();
-  task_ = side_tasks_.send(
-      JobLane::Keeper,
-      [this, names](JobControl&) -> Result<void> {
-        RELIEVO_TRY_ASSIGN(*names, saved_reconstructions(device_.media(), ui::kSavedRows));
-        return {};
-      },
-      [this, names](const std::optional<Error>& error) {
+  task_ = side_tasks_.ask(
+      JobLane::Keeper, [this](JobControl&) { return saved_reconstructions(device_.media(), ui::kSavedRows); },
+      [this](Result<std::vector<std::string>> names) {
         running_ = false;
-        if (error) outcome_ = outcome_of_export(*error, {});
-        else names_ = std::move(*names);
+        if (names) names_ = *std::move(names);
+        else outcome_ = outcome_of_export(names.error(), {});
       });
 }
 
-void RecordingController::load(std::size_t row, std::function<void(std::shared_ptr<const SavedBytes>)> read,
+void RecordingController::load(std::size_t row, std::function<void(SavedBytes)> read,
                                std::function<void(const Error&)> refused) {
   if (!names_ || row >= names_->size() || !begin()) return;
   const std::string name = names_->at(row);
   hide();
-  const auto saved = std::make_shared<SavedBytes>();
-  task_ = side_tasks_.send(
+  task_ = side_tasks_.ask(
       JobLane::Keeper,
-      [this, name, saved](JobControl& control) -> Result<void> {
-        RELIEVO_TRY_ASSIGN(*saved, read_saved(name, device_.media(), control));
-        return {};
-      },
-      [this, saved, read = std::move(read), refused = std::move(refused)](const std::optional<Error>& error) {
+      [this, name](JobControl& control) { return read_saved(name, device_.media(), control); },
+      [this, read = std::move(read), refused = std::move(refused)](Result<SavedBytes> saved) {
         running_ = false;
-        if (!error) return read(saved);
-        if (error->code == Errc::Cancelled || error->code == Errc::MediaMissing)
-          outcome_ = outcome_of_export(*error, {});
-        else refused(*error);
+        if (saved) return read(*std::move(saved));
+        const Errc code = saved.error().code;
+        if (code == Errc::Cancelled || code == Errc::MediaMissing)
+          outcome_ = outcome_of_export(saved.error(), {});
+        else refused(saved.error());
       });
 }
 

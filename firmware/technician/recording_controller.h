@@ -32,13 +32,12 @@ class RecordingController {
   // The front, then the sides; `as_taken`: exposure and serial numbers.
   void record(std::span<const pipeline::StereoFrame> shots, const hal::RecordedPair& as_taken);
   // `make` runs on the worker: the document of what is in the session.
-  void save(std::function<Result<std::vector<std::byte>>()> make);
+  void save(std::function<Result<SavedBytes>()> make);
   // Those on the stick; shown from then on, until hide().
   void list();
   void hide() { names_.reset(); }
   // `read` hears the bytes of a whole document.
-  void load(std::size_t row, std::function<void(std::shared_ptr<const SavedBytes>)> read,
-            std::function<void(const Error&)> refused);
+  void load(std::size_t row, std::function<void(SavedBytes)> read, std::function<void(const Error&)> refused);
   void stop();
   // Of what list() has found: without its ending.
   std::string saved_name(std::size_t row) const;
@@ -53,7 +52,7 @@ class RecordingController {
  private:
   // False: something else runs.
   bool begin();
-  void write(std::shared_ptr<const SavedBytes> document);
+  void write(SavedBytes document);
   void ended(const std::optional<Error>& error, const ExportTrace& trace, const std::string& where);
 
   SideTasks& side_tasks_;

@@ -22,7 +22,7 @@ void RunJob::order(const pipeline::AlgorithmSet& set, const pipeline::StereoCali
   now_.store(first_, std::memory_order_relaxed);
 }
 
-void RunJob::order(std::shared_ptr<const SavedBytes> document, Making making) {
+void RunJob::order(SavedBytes document, Making making) {
   before_ = making_;
   document_ = std::move(document);
   making_ = std::move(making);
@@ -40,7 +40,7 @@ Result<void> RunJob::run(JobControl& control) {
   before_.reset();
   pictures_.wipe();
   figures_.begin(making_.set, name_);
-  if (document_ != nullptr) return load(control);
+  if (document_) return load(control);
   if (first_ <= kStages.back()) session_.rework(first_);
   for (const StageRecord& record : making_.records) figures_.add(record);
   RELIEVO_TRY_ASSIGN(auto pipeline, pipeline::Pipeline::make(
@@ -109,10 +109,10 @@ Result<void> RunJob::before_pairs(PipelineStages& stages, StageJob& job, JobCont
 }
 
 Result<void> RunJob::load(JobControl& control) {
-  const std::shared_ptr<const SavedBytes> bytes = std::exchange(document_, nullptr);
+  const SavedBytes bytes = *std::exchange(document_, std::nullopt);
   change_.forget();                                                       // another capture
   std::vector<StageRecord> records = std::exchange(making_.records, {});  // none is done before all are read
-  RELIEVO_TRY_ASSIGN(const storage::Document document, storage::Document::open(*bytes));
+  RELIEVO_TRY_ASSIGN(const storage::Document document, storage::Document::open(bytes));
   pipeline::StereoFrame frame;
   frame.skew_ns = document.head().skew_ns;
   for (const bool left : {true, false}) {

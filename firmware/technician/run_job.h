@@ -10,7 +10,6 @@
 #pragma once
 
 #include <atomic>
-#include <memory>
 #include <optional>
 #include <string>
 #include <utility>
@@ -37,7 +36,7 @@ class RunJob final : public Job {
   void order(const pipeline::AlgorithmSet& set, const pipeline::StereoCalibration& calibration, State first,
              std::vector<pipeline::Match> by_hand, bool whole_view = false);
   // No stage, but what was saved of all of them; `making` is making_of(it).
-  void order(std::shared_ptr<const SavedBytes> document, Making making);
+  void order(SavedBytes document, Making making);
   // An order whose run never began: all is as before it. False: there is none.
   bool take_back();
   Result<void> run(JobControl& control) override;
@@ -65,7 +64,7 @@ class RunJob final : public Job {
   Making making_;
   std::optional<Making> before_;  // the order that waits for its run
   State first_ = State::Match;
-  std::shared_ptr<const SavedBytes> document_;  // to be loaded
+  std::optional<SavedBytes> document_;  // to be loaded
   TechnicianPictures pictures_;
   TechnicianFigures figures_;
   HandChange change_;

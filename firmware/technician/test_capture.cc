@@ -239,8 +239,8 @@ void TestCapture::load(std::size_t row, bool beside) {
   const std::string name = recording_.saved_name(row);
   recording_.load(
       row,
-      [this, name, beside](std::shared_ptr<const SavedBytes> saved) {
-        const auto document = storage::Document::open(*saved);
+      [this, name, beside](SavedBytes saved) {
+        const auto document = storage::Document::open(saved);
         auto making = document ? making_of(*document) : Result<Making>(document.error());
         if (!making) return say(making.error());
         saved_ = {std::move(saved), name, *std::move(making), beside};
@@ -305,23 +305,22 @@ void TestCapture::touch(const ui::TouchPicture& touch) {
 void TestCapture::apply_set() {
   if (applying_ || !is_calibrated()) return;
   applying_ = true;
-  const auto made = std::make_shared<std::optional<pipeline::Pipeline>>();
-  const pipeline::AlgorithmSet set = algorithms_.set();
-  parts_.side_tasks.send(
+  parts_.side_tasks.ask(
       JobLane::Keeper,
-      [this, made, set](JobControl&) -> Result<void> {
-        RELIEVO_TRY_ASSIGN(*made, pipeline::Pipeline::make(set, *calibrations_.calibration()));
-        return parts_.store.set_setting(kAlgorithmsSetting, set.to_text());
+      [this, set = algorithms_.set()](JobControl&) -> Result<pipeline::Pipeline> {
+        RELIEVO_TRY_ASSIGN(auto made, pipeline::Pipeline::make(set, *calibrations_.calibration()));
+        RELIEVO_TRY(parts_.store.set_setting(kAlgorithmsSetting, set.to_text()));
+        return made;
       },
-      [this, made, visit = visit_](const std::optional<Error>& error) {
-        if (!error) calibrations_.use(*std::move(*made), false);
+      [this, visit = visit_](Result<pipeline::Pipeline> made) {
+        if (made) calibrations_.use(*std::move(made), false);
         if (visit != visit_) {
-          if (error) parts_.log.fault(*error);
+          if (!made) parts_.log.fault(made.error());
           else if (!left_) algorithms_.begin(calibrations_.algorithms());
           return;
         }
         applying_ = false;
-        if (error) return say(*error);
+        if (!made) return say(made.error());
         applied_ = true;
         problem_ = {};
       },

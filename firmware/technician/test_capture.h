@@ -115,7 +115,7 @@ class TestCapture {
   Next next_ = Next::None;
   std::uint32_t taking_ = 0, working_ = 0;  // the last side tasks of the capture thread and the worker
   struct Saved {
-    std::shared_ptr<const SavedBytes> bytes;
+    SavedBytes bytes;
     std::string name;
     Making making;
     bool beside = false;  // what is there is put aside before

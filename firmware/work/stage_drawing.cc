@@ -178,16 +178,10 @@ void StageCanvas::put_at(std::ptrdiff_t i, const Rgb& c) {
 
 void draw_photograph(const pipeline::RectifiedPair& pair, double share, StageCanvas& canvas) {
   if (pair.left.grey.empty()) return;
-  const FaceWindow window(pair, canvas.side());
-  for (int y = 0; y < canvas.side(); ++y) {
-    for (int x = 0; x < canvas.side(); ++x) {
-      const int u = int(window.back_x(x)), v = int(window.back_y(y));
-      if (u < 0 || v < 0 || u >= pair.width_px || v >= pair.height_px) continue;
-      const double grey =
-          pair.left.grey[std::size_t(v) * std::size_t(pair.width_px) + std::size_t(u)] * share;
-      canvas.put(x, y, {grey, grey, grey * 1.08});
-    }
-  }
+  for_each_shown(pair, canvas, [&](int x, int y, int u, int v) {
+    const double grey = pair.left.grey[std::size_t(v) * std::size_t(pair.width_px) + std::size_t(u)] * share;
+    canvas.put(x, y, {grey, grey, grey * 1.08});
+  });
 }
 
 void draw_matches(const pipeline::RectifiedPair& pair, const pipeline::MatchSet& set, StageCanvas& canvas) {

@@ -58,6 +58,17 @@ class FaceWindow {
   double left_ = 0, top_ = 0, side_ = 1, canvas_ = 1;
 };
 
+// each(x, y, u, v): every pixel of the canvas with that of the view which it shows; none beyond the view.
+template <typename Each>
+void for_each_shown(const pipeline::RectifiedPair& pair, const StageCanvas& canvas, const Each& each) {
+  const FaceWindow window(pair, canvas.side());
+  for (int y = 0; y < canvas.side(); ++y)
+    for (int x = 0; x < canvas.side(); ++x) {
+      const int u = int(window.back_x(x)), v = int(window.back_y(y));
+      if (u >= 0 && v >= 0 && u < pair.width_px && v < pair.height_px) each(x, y, u, v);
+    }
+}
+
 // The left view, `share` of its brightness.
 void draw_photograph(const pipeline::RectifiedPair& pair, double share, StageCanvas& canvas);
 // Accepted matches over the photograph, coloured by their depth: as dots, at most one in five pixels each

@@ -10,6 +10,7 @@
 #include <cerrno>
 #include <new>
 #include <string>
+#include <system_error>
 
 namespace relievo {
 namespace {
@@ -149,17 +150,22 @@ Result<void> sync_renamed(const fs::path& target) {
   return sync_directory(target.parent_path());
 }
 
-Result<void> write_whole_file(const fs::path& file, std::span<const std::byte> bytes) {
+Result<void> write_whole_file(const fs::path& file, std::span<const std::byte> bytes,
+                              const std::function<Result<void>()>& before) {
   if (file.filename().empty())
     return Error{Errc::InvalidInput, "this is not the name of a file"}.at(file.native());
   if (is_device(file)) {
     const Descriptor out{::open(file.c_str(), O_WRONLY | O_CLOEXEC)};
     const int cause = out.fd < 0 ? errno : write_all(out.fd, bytes);
-    return cause == 0 ? Result<void>() : failed(file, cause);
+    if (cause != 0) return failed(file, cause);
+    return before ? before() : Result<void>();
   }
+  std::error_code ignored;
+  if (fs::is_directory(file, ignored)) return failed(file, EISDIR);
   RELIEVO_TRY_ASSIGN(auto pending, PendingFile::create(file));
   RELIEVO_TRY(pending.write(bytes));
   RELIEVO_TRY(pending.finish());
+  if (before) RELIEVO_TRY(before());
   RELIEVO_TRY(pending.publish());
   return sync_renamed(file);
 }

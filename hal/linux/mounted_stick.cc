@@ -123,7 +123,14 @@ std::optional<std::filesystem::path> MountedStick::find() const {
 
 std::optional<std::filesystem::path> MountedStick::current() {
   const std::lock_guard lock(mutex_);
-  return find();
+  auto stick = find();
+  if (stick != taken_up_) taken_up_.reset();
+  return stick;
+}
+
+bool MountedStick::is_taken_up() {
+  const std::lock_guard lock(mutex_);
+  return taken_up_.has_value();
 }
 
 Result<void> MountedStick::flush_and_eject() {
@@ -142,6 +149,7 @@ Result<void> MountedStick::flush_and_eject() {
   ejected_.reset();
   if (const int unmounted = mounts_.unmount(*stick); unmounted < 0)
     return cannot_unmount(unmounted).at(stick->native());
+  taken_up_.reset();
   if (source) ejected_ = Ejected{*source, *stick};
   return {};
 }
@@ -156,6 +164,7 @@ Result<void> MountedStick::take_up_again() {
   if (mounted < 0)
     return Error{Errc::Unsupported, "the stick could not be mounted again: use another stick", -mounted}.at(
         again.root.native());
+  taken_up_ = again.root;
   return {};
 }
 

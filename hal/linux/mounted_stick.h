@@ -51,6 +51,7 @@ class MountedStick final : public RemovableMedia {
   // Where it was. Errors: MediaMissing (none was ejected, or it was pulled out meanwhile), Unsupported (the
   // system does not mount it).
   Result<void> take_up_again() override;
+  bool is_taken_up() override;
 
  private:
   struct Ejected {
@@ -58,8 +59,9 @@ class MountedStick final : public RemovableMedia {
     std::filesystem::path root;
   };
   std::optional<std::filesystem::path> find() const;  // with mutex_
-  std::mutex mutex_;  // nobody looks into a stick while it is unmounted or mounted; ejected_
+  std::mutex mutex_;  // nobody looks into a stick while it is unmounted or mounted; ejected_, taken_up_
   std::optional<Ejected> ejected_;
+  std::optional<std::filesystem::path> taken_up_;  // where, until it is away
   std::filesystem::path folder_;
   Mounts& mounts_;
 };

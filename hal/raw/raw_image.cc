@@ -66,12 +66,4 @@ RawImage raw_of(const ImageView& view) {
   return raw;
 }
 
-ImageView plain_view(const RawImage& raw) {
-  ImageView view{raw.bytes, raw.width_px, raw.height_px, raw.stride_bytes, PixelFormat::Grey8};
-  if (raw.format == RawFormat{RawCoding::Bits16}) view.format = PixelFormat::Grey16;
-  else if (raw.format == RawFormat{RawCoding::Rgb8}) view.format = PixelFormat::Rgb8;
-  else if (!(raw.format == RawFormat{RawCoding::Bits8})) return {};
-  return view;
-}
-
 }  // namespace relievo::hal

@@ -60,8 +60,7 @@ Result<void> check_shape(const RawImage& raw);
 // Has the driver filled all of it? An empty stream is short too.
 bool is_short(const RawImage& raw);
 
-// A picture that needs no developing, as a RawImage and back; of another format the view is empty.
+// A picture that needs no developing, as a RawImage.
 RawImage raw_of(const ImageView& view);
-ImageView plain_view(const RawImage& raw);
 
 }  // namespace relievo::hal

@@ -2,6 +2,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "hal/sound/mixer.h"
 
+#include <string.h>
+
 #include <algorithm>
 #include <cmath>
 #include <numbers>
@@ -63,12 +65,13 @@ std::int16_t Mixer::next_of_speech() {
   for (;;) {
     const std::size_t taken = taken_.load();
     if (taken == put_.load()) return 0;
-    const Piece& piece = pieces_[taken % kPieces];
+    Piece& piece = pieces_[taken % kPieces];
     const bool wanted = is_wanted(piece.text);
     if (wanted && at_ < piece.size) return piece.samples[at_++];
     // Not after the text that has come since: its number is another one.
     if (wanted && piece.last) played_.store(piece.text);
     at_ = 0;
+    explicit_bzero(piece.samples.data(), sizeof piece.samples);
     taken_.store(taken + 1);
   }
 }

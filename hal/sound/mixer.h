@@ -7,7 +7,8 @@
 //   wanted by main: begin(), cut(), play()   made by the voice: put(), finish()   played by the card: fill()
 //
 // Each piece of speech bears the number of its text: pieces of a text that is not wanted any more are never
-// played, however late they come. Samples: mono, 16 bit, kSamplesPerSecond. Errors: none.
+// played, however late they come. A piece that was played, or will not be, is wiped: it may spell a visitor's
+// name. Samples: mono, 16 bit, kSamplesPerSecond. Errors: none.
 #pragma once
 
 #include <array>

@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: 2026 The Relievo authors
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include <algorithm>
-#include <cstdlib>
+#include <optional>
 #include <utility>
 
 #include "pipeline/algorithms.h"
@@ -41,10 +41,8 @@ Result<void> check_value(const OptionDescription& option, const std::string& val
       return Error{Errc::InvalidInput, "names an algorithm twice"}.at(option.key + " = " + value);
     return {};
   }
-  char* end = nullptr;
-  const double number = std::strtod(value.c_str(), &end);
-  if (value.empty() || end != value.c_str() + value.size() || !option.range.holds(number))
-    return out_of_range(option.key, value, option.range);
+  const std::optional<double> number = number_in(value);
+  if (!number || !option.range.holds(*number)) return out_of_range(option.key, value, option.range);
   return {};
 }
 

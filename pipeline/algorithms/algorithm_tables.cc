@@ -4,7 +4,6 @@
 
 #include <algorithm>
 #include <array>
-#include <cstdlib>
 #include <functional>
 #include <string>
 #include <string_view>
@@ -86,7 +85,7 @@ struct OptionReader {
         value = {chosen->second, read == set.texts_.end() ? nullptr : read->second};
       } else if constexpr (std::is_enum_v<Value>)
         value = static_cast<Value>(std::ranges::find(range.names, chosen->second) - range.names.begin());
-      else value = static_cast<Value>(std::strtod(chosen->second.c_str(), nullptr));
+      else value = static_cast<Value>(*number_in(chosen->second));
     });
     RELIEVO_TRY(check_options(options, section));
     return options;

@@ -12,8 +12,9 @@
 // Numbers have a range, enum classes a name for each value, std::string is any text, a TextFile a path.
 #pragma once
 
-#include <cstdlib>
+#include <limits>
 #include <memory>
+#include <optional>
 #include <span>
 #include <string>
 #include <string_view>
@@ -49,6 +50,8 @@ std::vector<std::string> split_names(std::string_view text);
 
 // To ten digits, a float's to six.
 std::string number_text(double value, int digits = 10);
+// The number that all of the text is, written with a point whatever the locale; "inf" and "nan" are some.
+std::optional<double> number_in(std::string_view text);
 
 // An option that names a file. No algorithm opens one: who makes the choice reads it
 // (AlgorithmSet::keep_text), so that a saved reconstruction has what it was calculated with.
@@ -75,12 +78,13 @@ void describe(Options& options, auto&& field) {
 // has one, of options that do not fit together.
 template <typename Options>
 Result<void> check_options(const Options& options, std::string_view algorithm) {
+  constexpr double kNoNumber = std::numeric_limits<double>::quiet_NaN();
   Result<void> checked;
   Options copy = options;  // describe() is for writing, too
   describe(copy, [&](const char* name, const auto& value, const OptionRange& range, const char*) {
     if constexpr (std::is_arithmetic_v<std::remove_cvref_t<decltype(value)>>)
       // A float as it was written: 0.01F is a little less than 0.01.
-      if (checked && !range.holds(std::strtod(option_text(value, range).c_str(), nullptr)))
+      if (checked && !range.holds(number_in(option_text(value, range)).value_or(kNoNumber)))
         checked = out_of_range(std::string(algorithm) + "." + name, option_text(value, range),
                                range_of<std::remove_cvref_t<decltype(value)>>(range));
   });

@@ -5,6 +5,7 @@
 // order of each part's first cell. Thread: any. Errors: none.
 #pragma once
 
+#include <algorithm>
 #include <cstdint>
 #include <memory_resource>
 #include <span>
@@ -19,6 +20,14 @@ void for_each_beside(std::size_t cell, std::size_t width, std::size_t size, cons
   if (cell % width + 1 < width) visit(cell + 1);
   if (cell >= width) visit(cell - width);
   if (cell + width < size) visit(cell + width);
+}
+
+// Calls visit(cell) for a cell of `columns` * `rows` and its neighbours, corners included, row by row.
+template <typename Visit>
+void for_each_around(int column, int row, int columns, int rows, const Visit& visit) {
+  for (int r = std::max(row - 1, 0); r <= std::min(row + 1, rows - 1); ++r)
+    for (int c = std::max(column - 1, 0); c <= std::min(column + 1, columns - 1); ++c)
+      visit(std::uint32_t(r * columns + c));
 }
 
 // `label` is 0 before and where belongs(cell) is not; together(cell, neighbour) may part two that belong.

@@ -26,9 +26,11 @@ struct StageContext {
   Progress& progress;
   const std::atomic<bool>& cancelled;
 
-  // Long loops ask this at least every 50 ms and return Errc::Cancelled.
+  // Long loops ask this at least every 50 ms and return stopped().
   bool stop() const { return cancelled.load(std::memory_order_relaxed); }
 };
+
+inline Error stopped() { return {Errc::Cancelled, "it was stopped"}; }
 
 // The one place where a library's exception becomes a Result.
 template <typename Stage>
@@ -38,7 +40,7 @@ auto run_stage(StageContext& context, Stage&& stage) -> decltype(stage(context))
     ~Sweep() { scratch.reset(); }
   } sweep{context.scratch};
   context.progress.done.store(0, std::memory_order_relaxed);
-  if (context.stop()) return Error{Errc::Cancelled, "stopped before the stage began"};
+  if (context.stop()) return stopped();
   try {
     return std::forward<Stage>(stage)(context);
   } catch (const std::bad_alloc&) {

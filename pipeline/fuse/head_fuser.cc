@@ -273,7 +273,6 @@ class Surface {
 Result<FusedSurface> HeadFuser::fuse(std::span<HeadPose> poses, const Registration& registration,
                                      const FaceMesh& face, const Landmarks& landmarks,
                                      StageContext& context) const {
-  const Error stopped{Errc::Cancelled, "stopped while the poses were fused"};
   RELIEVO_TRY(check_options(*this, "averaged"));
   const HeadZones zones(landmarks, poses[0].head_from_camera, neck_mm);
   drop_hair(poses, registration, zones);
@@ -281,27 +280,27 @@ Result<FusedSurface> HeadFuser::fuse(std::span<HeadPose> poses, const Registrati
   bend_to_master(poses, registration, *this, !calibrations_differ, context);
   // Wider than for registration, and after hair and what moved too far went: no step where a surface ends.
   for (HeadPose& pose : poses) fade_to_edges(pose, kEdgeNodes, &context.scratch);
-  if (context.stop()) return stopped;
+  if (context.stop()) return stopped();
   const PoseBlend blend(poses, registration, zones, context);
   std::pmr::vector<FieldPoint> points = blend.points(float(voxel_mm));
   if (points.empty()) return no_surface();
   const auto own_vertices = add_own(face, poses[0].head_from_camera, zones, blend, points);
-  if (context.stop()) return stopped;
+  if (context.stop()) return stopped();
 
   std::pmr::vector<Vec3f> places(&context.scratch);
   places.reserve(points.size());
   for (const FieldPoint& s : points) places.push_back(s.at_mm);
   BandVolume volume = volume_around(places, float(voxel_mm), 4, &context.scratch);
   fill_field(points, kBandVoxels * volume.voxel_mm, volume, context);
-  if (context.stop()) return stopped;
+  if (context.stop()) return stopped();
   Surface surface(polygonise(volume, &context.scratch), blend, zones, context);
   OwnFace own(std::move(volume));
   for (const std::uint32_t v : own_vertices)
     own.mark(face.vertices_mm[v], face.sigma_mm[v], face.measured[v] != 0);
-  if (context.stop()) return stopped;
+  if (context.stop()) return stopped();
   surface.place(own);
   if (!surface.trim_rims(own)) return no_surface();
-  if (context.stop()) return stopped;
+  if (context.stop()) return stopped();
   surface.lay_anew(calibrations_differ);
   return surface.packed();
 }

@@ -79,7 +79,7 @@ Result<HeadPose> make_head_pose(const PointCloud& cloud, const RectifiedPair& pa
   if (lattice.columns < 3 || lattice.rows < 3)
     return Error{Errc::PoorGeometry, "too little was measured to make a surface of"};
   join_neighbours(lattice, kLimits, &context.scratch);
-  if (context.stop()) return Error{Errc::Cancelled, "stopped before the fusion"};
+  if (context.stop()) return stopped();
 
   HeadPose pose(&context.output);
   pose.columns = lattice.columns;

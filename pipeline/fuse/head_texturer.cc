@@ -55,16 +55,15 @@ class Texturing {
         atlas_(&context.output) {}
 
   Result<TextureAtlas> run(int max_atlas_px) {
-    const Error stopped{Errc::Cancelled, "texturing was stopped"};
     look_from_all();
-    if (context_.stop()) return stopped;
+    if (context_.stop()) return stopped();
     for (std::size_t v = 0; v < vertices_; ++v)
       for (std::size_t i = 0; i < views_.size(); ++i) known_[v] = known_[v] != 0 || say(v, i) > 0 ? 1 : 0;
     even_out();
-    if (context_.stop()) return stopped;
+    if (context_.stop()) return stopped();
     lay_out(max_atlas_px);
     shade();
-    if (context_.stop()) return stopped;
+    if (context_.stop()) return stopped();
     for_each_vertex([&](std::size_t v) {
       if (known_[v] != 0) colours_[v] = blend_at(v);
     });
@@ -72,9 +71,7 @@ class Texturing {
     paint_filled();
     constexpr int kMarginPx = 8;
     continue_outwards(atlas_, kMarginPx, &context_.scratch);
-    atlas_.vertex_rgb.reserve(3 * colours_.size());
-    for (const VertexColour& colour : colours_)
-      for (const float c : colour) atlas_.vertex_rgb.push_back(to_byte(c));
+    write_vertex_colours(colours_, atlas_);
     return std::move(atlas_);
   }
 
@@ -254,9 +251,8 @@ class Texturing {
     sides_ = lay_out_sides(mesh_, empty, none, known_, px_per_mm, max_px, &context_.scratch);
     atlas_.width_px = std::max(sides_.width_px, 1);
     atlas_.height_px = empty.height_px;
-    const std::size_t texels = std::size_t(atlas_.width_px) * std::size_t(atlas_.height_px);
-    atlas_.rgb.assign(3 * texels, 0);
-    atlas_.origin.assign(texels, kNoSurfaceTexel);
+    atlas_.rgb.assign(3 * atlas_.pixels(), 0);
+    atlas_.origin.assign(atlas_.pixels(), kNoSurfaceTexel);
     atlas_.uv.resize(3 * mesh_.triangles.size());
     for (std::size_t s = 0; s < sides_.triangles.size(); ++s)
       for (std::size_t k = 0; k < 3; ++k) {
@@ -264,10 +260,6 @@ class Texturing {
         atlas_.uv[3 * std::size_t{sides_.triangles[s]} + k] = {(at.x + 0.5F) / float(atlas_.width_px),
                                                                (at.y + 0.5F) / float(atlas_.height_px)};
       }
-  }
-
-  bool seen_whole(const std::array<std::uint32_t, 3>& t) const {
-    return known_[t[0]] != 0 && known_[t[1]] != 0 && known_[t[2]] != 0;
   }
 
   // Bands of rows: a texel on two triangles' edge is painted in their order, whoever paints it.
@@ -283,7 +275,7 @@ class Texturing {
         std::minmax({sides_.corner[3 * s].y, sides_.corner[3 * s + 1].y, sides_.corner[3 * s + 2].y});
     if (high < float(rows.begin) - 1 || low > float(rows.end)) return;
     const auto& t = mesh_.triangles[sides_.triangles[s]];
-    if (!seen_whole(t)) return;
+    if (!all_three(known_, t)) return;
     // Views that see all of it; where none does, those that see a corner. Whose say is nothing beside the
     // best one's all over it is left out.
     std::array<std::size_t, kMostViews> list{};
@@ -320,7 +312,7 @@ class Texturing {
                          mix(std::span(list.data(), count), mean, pixel, [&](std::size_t i, std::size_t k) {
                            return a * level(t[0], i)[k] + b * level(t[1], i)[k] + c * level(t[2], i)[k];
                          });
-                     const std::size_t at = std::size_t(y) * std::size_t(atlas_.width_px) + std::size_t(x);
+                     const std::size_t at = atlas_.index(x, y);
                      for (std::size_t k = 0; k < 3; ++k) atlas_.rgb[3 * at + k] = to_byte(blend.rgb[k]);
                      atlas_.origin[at] = std::uint8_t(kLeftPhotographTexel + std::lround(253 * blend.right));
                    });
@@ -360,19 +352,10 @@ class Texturing {
   }
 
   void paint_filled() {
-    for (std::size_t s = 0; s < sides_.triangles.size(); ++s) {
-      const auto& t = mesh_.triangles[sides_.triangles[s]];
-      if (seen_whole(t)) continue;
-      for_each_texel(sides_.corner[3 * s], sides_.corner[3 * s + 1], sides_.corner[3 * s + 2],
-                     atlas_.width_px, {0, atlas_.height_px}, [&](int x, int y, float a, float b, float c) {
-                       const std::size_t at = std::size_t(y) * std::size_t(atlas_.width_px) + std::size_t(x);
-                       if (atlas_.origin[at] >= kLeftPhotographTexel) return;
-                       for (std::size_t k = 0; k < 3; ++k)
-                         atlas_.rgb[3 * at + k] =
-                             to_byte(a * colours_[t[0]][k] + b * colours_[t[1]][k] + c * colours_[t[2]][k]);
-                       atlas_.origin[at] = kFilledTexel;
-                     });
-    }
+    for (std::size_t s = 0; s < sides_.triangles.size(); ++s)
+      if (const Triangle& t = mesh_.triangles[sides_.triangles[s]]; !all_three(known_, t))
+        fill_triangle(sides_.corner[3 * s], sides_.corner[3 * s + 1], sides_.corner[3 * s + 2], t, colours_,
+                      atlas_.width_px, atlas_);
   }
 
   const FaceMesh& mesh_;

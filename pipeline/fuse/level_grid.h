@@ -13,7 +13,7 @@
 #include <vector>
 
 #include "pipeline/model/face_mesh.h"
-#include "pipeline/texture/colour_fill.h"
+#include "pipeline/texture/blend/view_blend.h"
 
 namespace relievo::pipeline {
 
@@ -31,36 +31,25 @@ class LevelGrid {
     cells_.resize(std::size_t(size_[0]) * std::size_t(size_[1]) * std::size_t(size_[2]));
     spare_.resize(cells_.size());
   }
-  void clear() { std::fill(cells_.begin(), cells_.end(), Cell{}); }
-  void add(const Vec3f& at, const VertexColour& difference, float weight) {
-    for_corners(at, [&](std::size_t k, float share) {
-      for (std::size_t c = 0; c < 3; ++c) cells_[k].sum[c] += share * weight * difference[c];
-      cells_[k].weight += share * weight;
-    });
+  void clear() { std::fill(cells_.begin(), cells_.end(), LevelSum{}); }
+  void add(const Vec3f& at, const Level& difference, float weight) {
+    for_corners(at, [&](std::size_t k, float share) { cells_[k].add({difference, 1}, share * weight); });
   }
   // A binomial along each axis, three times.
   void smooth() {
     for (int round = 0; round < kBlurs; ++round)
       for (std::size_t axis = 0; axis < 3; ++axis) blur(axis);
   }
-  VertexColour at(const Vec3f& place) const {
-    VertexColour sum{0, 0, 0};
-    float weight = 1e-6F;
-    for_corners(place, [&](std::size_t k, float share) {
-      for (std::size_t c = 0; c < 3; ++c) sum[c] += share * cells_[k].sum[c];
-      weight += share * cells_[k].weight;
-    });
-    for (float& c : sum) c /= weight;
-    return sum;
+  Level at(const Vec3f& place) const {
+    LevelSum mean{{}, 1e-6F};
+    for_corners(place, [&](std::size_t k, float share) { mean.add(cells_[k], share); });
+    for (float& c : mean.sum) c /= mean.weight;
+    return mean.sum;
   }
 
  private:
   static constexpr double kCellMm = 8;
   static constexpr int kBlurs = 3;
-  struct Cell {
-    VertexColour sum{};
-    float weight = 0;
-  };
   template <typename Visit>
   void for_corners(const Vec3f& place, Visit&& visit) const {
     const std::array<float, 3> p{(place.x - low_.x), (place.y - low_.y), (place.z - low_.z)};
@@ -85,21 +74,17 @@ class LevelGrid {
     const std::size_t n = std::size_t(size_[axis]), step = stride[axis];
     for (std::size_t k = 0; k < cells_.size(); ++k) {
       const std::size_t at = k / step % n;
-      Cell sum;
-      const auto take = [&](const Cell& cell, float share) {
-        for (std::size_t c = 0; c < 3; ++c) sum.sum[c] += share * cell.sum[c];
-        sum.weight += share * cell.weight;
-      };
-      take(cells_[k], 0.5F);
-      take(cells_[at > 0 ? k - step : k], 0.25F);
-      take(cells_[at + 1 < n ? k + step : k], 0.25F);
+      LevelSum sum;
+      sum.add(cells_[k], 0.5F);
+      sum.add(cells_[at > 0 ? k - step : k], 0.25F);
+      sum.add(cells_[at + 1 < n ? k + step : k], 0.25F);
       spare_[k] = sum;
     }
     std::swap(cells_, spare_);
   }
   Vec3f low_;
   std::array<int, 3> size_{};
-  std::pmr::vector<Cell> cells_, spare_;
+  std::pmr::vector<LevelSum> cells_, spare_;
 };
 
 }  // namespace relievo::pipeline

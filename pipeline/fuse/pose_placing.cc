@@ -79,7 +79,7 @@ class Placer {
       for (bool more = true; more;) {
         more = false;
         for (std::size_t i = 0; i < left.size(); ++i) {
-          if (context_.stop()) return registration_stopped();
+          if (context_.stop()) return stopped();
           if (!place(left[i], anywhere, least_share)) continue;
           left.erase(left.begin() + std::ptrdiff_t(i--));
           more = true;

@@ -48,10 +48,10 @@ class JointSolver {
   Result<void> run() {
     for (const RegistrationRound& round : kRounds)
       for (int k = 0; k < round.times && move(round) > round.still(); ++k)
-        if (context_.stop()) return registration_stopped();
+        if (context_.stop()) return stopped();
     residuals_.skin().watch();
     for (int k = 0; k < kLast.times; ++k) {
-      if (context_.stop()) return registration_stopped();
+      if (context_.stop()) return stopped();
       if (settle() <= kStillMm) break;
     }
     return measure();

@@ -252,8 +252,4 @@ void measure_agreement(std::span<const HeadPose> poses, Registration& registrati
                              [&measure](int, int, int a) { measure(a); });
 }
 
-Error registration_stopped() {
-  return {Errc::Cancelled, "stopped while the poses were laid onto each other"};
-}
-
 }  // namespace relievo::pipeline

@@ -191,8 +191,6 @@ Result<void> place_poses(std::span<HeadPose> poses, std::span<RegisteredPose> pl
 // Fills `meets` of the poses, and `residuals`, of what is registered.
 void measure_agreement(std::span<const HeadPose> poses, Registration& registration, StageContext& context);
 
-Error registration_stopped();
-
 // Where the same skin lies in two poses, by their photographs: shape alone hardly tells whether a head slid
 // along its own surface. A window on one surface is found on the other one (Lucas, Kanade 1981), first at
 // half the resolution; light that differs evenly does not matter. Thread: any. No memory is allocated.

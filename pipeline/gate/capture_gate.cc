@@ -13,6 +13,7 @@
 namespace relievo::pipeline {
 namespace {
 
+constexpr GateLimits kLimits;
 constexpr double kFaceWidthMm = 150;      // what a cascade's box stands for
 constexpr double kSecondFaceShare = 0.4;  // smaller ones are passers-by far away
 constexpr int kSecondFaceVotes = 8;
@@ -61,11 +62,11 @@ void measure_picture(const Relief& relief, double nearest_mm, GateMeasures& m) {
 // plane that looks the other way, but lies on the right side of its outline. The yaw itself it tells of a
 // head that does not mirror itself. Something before a face takes the mirror image away, too, but leaves the
 // nose before the middle.
-void trust_outline(const Relief& relief, const GateLimits& limits, GateMeasures& m) {
-  const bool doubtful = m.head.known && m.head.asymmetry_mm >= limits.doubtful_mm;
-  if (!doubtful && std::abs(m.head.yaw_deg) <= limits.yaw_deg) return;
+void trust_outline(const Relief& relief, GateMeasures& m) {
+  const bool doubtful = m.head.known && m.head.asymmetry_mm >= kLimits.doubtful_mm;
+  if (!doubtful && std::abs(m.head.yaw_deg) <= kLimits.yaw_deg) return;
   const double yaw = outline_yaw_deg(relief, m.head.tip_mm);
-  m.turned_far = doubtful && std::abs(yaw) > limits.yaw_deg;
+  m.turned_far = doubtful && std::abs(yaw) > kLimits.yaw_deg;
   m.head.yaw_deg = m.turned_far ? yaw : std::copysign(m.head.yaw_deg, yaw);
 }
 
@@ -131,20 +132,19 @@ void settle(GateTime now, GateAnswer& answer, GateHistory& history) {
 
 }  // namespace
 
-Result<CaptureGate> CaptureGate::open(const CaptureGateOptions& options) {
-  RELIEVO_TRY(options.relief.check());
-  RELIEVO_TRY(options.limits.check());
-  RELIEVO_TRY_ASSIGN(FaceWatch watch, FaceWatch::open(options.cascade_dir));
-  return CaptureGate(std::move(watch), options);
+Result<CaptureGate> CaptureGate::open(const LiveRelief& relief, const std::string& cascade_folder) {
+  RELIEVO_TRY(relief.check());
+  RELIEVO_TRY_ASSIGN(FaceWatch watch, FaceWatch::open(cascade_folder));
+  return CaptureGate(relief, std::move(watch));
 }
 
 Result<GateLook> CaptureGate::look(const StereoFrame& frame, const StereoCalibration& calibration,
                                    GateTime now, GateHistory& history, StageContext& context) {
-  RELIEVO_TRY_ASSIGN(Relief relief, options_.relief.look(frame, calibration, context));
+  RELIEVO_TRY_ASSIGN(Relief relief, relief_.look(frame, calibration, context));
   RELIEVO_TRY_ASSIGN(const FaceHits hits, watch_.look(relief));
   GateAnswer answer;
   GateMeasures& m = answer.measures;
-  measure_picture(relief, options_.limits.nearest_mm, m);
+  measure_picture(relief, kLimits.nearest_mm, m);
   m.faces = count_faces(relief, hits);
   if (hits.count > 0) {
     m.face = {hits.hit[0].centre_px, hits.hit[0].width_px};
@@ -153,18 +153,18 @@ Result<GateLook> CaptureGate::look(const StereoFrame& frame, const StereoCalibra
   }
   const auto look_at = [&](const HeadHint& place) {
     const HeadMeasurement head = measure_head(relief, place, context);
-    m.tracked = head.known && head.relief_mm > options_.limits.relief_mm;
+    m.tracked = head.known && head.relief_mm > kLimits.relief_mm;
     if (m.tracked) m.face = place, m.head = head, m.faces = std::max(m.faces, 1);
   };
   if (!m.head.known && history.seen && now - history.last_by_cascade < kKeepsTrack)
     look_at(expected(relief, history));
   const bool unseen = !m.head.known && m.faces == 0;
   if (unseen) {
-    const Somebody somebody = find_somebody(relief, options_.limits.farthest_mm);
+    const Somebody somebody = find_somebody(relief, kLimits.farthest_mm);
     m.somebody_right = somebody.right, m.somebody_down = somebody.down;
     look_at(somebody.head);
   }
-  trust_outline(relief, options_.limits, m);
+  trust_outline(relief, m);
   if (m.face.width_px > 0) m.covered_share = covered_share(relief, m.face);
   const SeenHead seen{now, m.head.known && !m.tracked, m.head.tip_mm, m.head.yaw_deg, m.face};
   if (m.head.known) {
@@ -172,8 +172,8 @@ Result<GateLook> CaptureGate::look(const StereoFrame& frame, const StereoCalibra
     m.off_down_mm = m.head.tip_mm.y;
     m.light = measure_light(relief, m.head);
     // In the dark and in glare the head seems to tremble: nothing is said of its motion there.
-    const bool lit = m.light.luminance_mean >= options_.limits.darkest_mean &&
-                     m.light.luminance_mean <= options_.limits.brightest_mean;
+    const bool lit =
+        m.light.luminance_mean >= kLimits.darkest_mean && m.light.luminance_mean <= kLimits.brightest_mean;
     if (lit && history.seen) measure_motion(relief, seen, history, m);
     m.blur_mm = measure_blur_mm(frame, calibration, relief, m.head, context);
     m.beside_share = beside_share(relief, m.head);
@@ -181,10 +181,10 @@ Result<GateLook> CaptureGate::look(const StereoFrame& frame, const StereoCalibra
     m.eyes = measure_eyes(photo, context);
     m.mouth = measure_mouth(photo, context);
   }
-  answer.reason = judge(m, options_.limits, history.said);
+  answer.reason = judge(m, history.said);
   if (unseen && m.tracked && !is_of_place_or_pose(answer.reason)) {
     m.head = {}, m.face = {}, m.tracked = false, m.faces = 0;
-    answer.reason = judge(m, options_.limits, history.said);
+    answer.reason = judge(m, history.said);
   }
   remember(seen, m, history);
   settle(now, answer, history);

@@ -21,12 +21,6 @@ namespace relievo::pipeline {
 
 using GateTime = std::chrono::nanoseconds;  // of the exposure, on any steady clock
 
-struct CaptureGateOptions {
-  LiveRelief relief;
-  std::string cascade_dir = "/usr/share/opencv4/haarcascades";  // Debian's opencv-data
-  GateLimits limits;
-};
-
 // A head as one picture showed it.
 struct SeenHead {
   GateTime at{};
@@ -61,15 +55,15 @@ struct GateLook {
 class CaptureGate {
  public:
   // Errors: InvalidInput, and those of FaceWatch::open().
-  static Result<CaptureGate> open(const CaptureGateOptions& options = {});
+  static Result<CaptureGate> open(const LiveRelief& relief = {},
+                                  const std::string& cascade_folder = kCascadeFolder);
   Result<GateLook> look(const StereoFrame& frame, const StereoCalibration& calibration, GateTime now,
                         GateHistory& history, StageContext& context);
 
  private:
-  CaptureGate(FaceWatch watch, const CaptureGateOptions& options)
-      : watch_(std::move(watch)), options_(options) {}
+  CaptureGate(const LiveRelief& relief, FaceWatch watch) : relief_(relief), watch_(std::move(watch)) {}
+  LiveRelief relief_;
   FaceWatch watch_;
-  CaptureGateOptions options_;
 };
 
 }  // namespace relievo::pipeline

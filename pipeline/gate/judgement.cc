@@ -4,7 +4,6 @@
 
 #include <algorithm>
 #include <array>
-#include <bit>
 #include <cmath>
 
 namespace relievo::pipeline {
@@ -14,8 +13,8 @@ constexpr double kFillsMiddle = 0.4;  // too near for a whole face, or a face of
 
 struct Judge {
   const GateMeasures& m;
-  const GateLimits& l;
   Advice said;
+  static constexpr GateLimits l{};
 
   // While it is said, an advice holds from a little before its limit on.
   bool above(double value, double limit, Advice advice) const {
@@ -130,28 +129,8 @@ struct Judge {
 
 }  // namespace
 
-Result<void> GateLimits::check() const {
-  const auto sane = [](double v) { return v > 0 && std::isfinite(v); };
-  if (!(sane(nearest_mm) && farthest_mm > nearest_mm && std::isfinite(farthest_mm)))
-    return Error{Errc::InvalidInput, "the capture volume must begin before it ends: nearest_mm < farthest_mm"}
-        .at("gate");
-  for (const double v : std::bit_cast<std::array<double, sizeof(GateLimits) / sizeof(double)>>(*this))
-    if (!sane(v))
-      return Error{Errc::InvalidInput, "every limit of the gate must be a positive number"}.at("gate");
-  if (leave > 1 || leave_pose > 1 || leave_sides > 1)
-    return Error{Errc::InvalidInput, "leave, leave_pose and leave_sides are shares of a limit: 1 at most"}.at(
-        "gate");
-  return {};
-}
-
-Advice judge_expression(const GateMeasures& measures, const GateLimits& limits, Advice said) {
-  const Judge judge{measures, limits, said};
-  const Advice eyes = judge.eyes();
-  return eyes != Advice::None ? eyes : judge.mouth();
-}
-
-Advice judge(const GateMeasures& measures, const GateLimits& limits, Advice said) {
-  const Judge judge{measures, limits, said};
+Advice judge(const GateMeasures& measures, Advice said) {
+  const Judge judge{measures, said};
   if (!measures.head.known) return judge.without_head();
   if (measures.faces > 1) return Advice::MoreThanOneFace;
   for (const Advice advice :

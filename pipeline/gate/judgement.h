@@ -40,8 +40,7 @@ struct GateMeasures {
   double beside_share = 0;  // of a field beside the head, by something else that far away: head_outline.h
 };
 
-// A limit is left again only below (or above) a share of it: what was said is not taken back by noise. All
-// are doubles.
+// A limit is left again only below (or above) a share of it: what was said is not taken back by noise.
 struct GateLimits {
   double nearest_mm = 430, farthest_mm = 700;  // the stated capture volume, along the rectified z axis
   double off_right_mm = 60, off_down_mm = 55;
@@ -69,13 +68,11 @@ struct GateLimits {
   double leave = 0.85;        // share of a limit
   double leave_pose = 0.7;    // of place and pose: who stops as soon as they may sways out again
   double leave_sides = 0.96;  // of side_ratio: faces are lit unlike each other in good light, but steadily
-  Result<void> check() const;
 };
 
 // The first that holds, in the order of Advice, but for what spoils the measures themselves: hopeless light
 // and blur, and something before the face, are asked right after the distance. `said` is what was said of the
-// picture before. judge_expression() looks at eyes and mouth alone.
-Advice judge_expression(const GateMeasures& measures, const GateLimits& limits, Advice said);
-Advice judge(const GateMeasures& measures, const GateLimits& limits, Advice said);
+// picture before.
+Advice judge(const GateMeasures& measures, Advice said);
 
 }  // namespace relievo::pipeline

@@ -47,8 +47,7 @@ ModelQuality measure_quality(const FaceMesh& mesh, const HeadFrame& frame, Stage
   for (const auto& t : mesh.triangles) {
     const Vec3f &a = mesh.vertices_mm[t[0]], &b = mesh.vertices_mm[t[1]], &c = mesh.vertices_mm[t[2]];
     const double area = triangle_area(a, b, c);
-    const double measured =
-        mesh.measured[t[0]] != 0 && mesh.measured[t[1]] != 0 && mesh.measured[t[2]] != 0 ? area : 0;
+    const double measured = all_three(mesh.measured, t) ? area : 0;
     const auto add = [&](Share& share) {
       share.all += area;
       share.measured += measured;

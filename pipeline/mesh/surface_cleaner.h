@@ -18,7 +18,6 @@
 
 namespace relievo::pipeline {
 
-using Triangle = std::array<std::uint32_t, 3>;
 using BorderEdge = std::array<std::uint32_t, 2>;  // as its triangle runs
 
 // Out of a triangle as it winds; as long as twice its area.

@@ -9,11 +9,14 @@
 #include <cstddef>
 #include <cstdint>
 #include <memory_resource>
+#include <span>
 #include <vector>
 
 #include "pipeline/model/geometry.h"
 
 namespace relievo::pipeline {
+
+using Triangle = std::array<std::uint32_t, 3>;  // the numbers of its vertices
 
 struct FaceMesh {
   explicit FaceMesh(std::pmr::memory_resource* memory)
@@ -28,8 +31,13 @@ struct FaceMesh {
   std::pmr::vector<float> sigma_mm;         // one a vertex: standard deviation perpendicular to the surface
   std::pmr::vector<std::uint8_t> measured;  // one a vertex: 1 seen by both cameras, 0 completed
   std::pmr::vector<std::uint8_t> pose;      // one a vertex: the pair that measured it; empty: there was one
-  std::pmr::vector<std::array<std::uint32_t, 3>> triangles;
+  std::pmr::vector<Triangle> triangles;
 };
+
+// Whether all three corners are marked, one mark a vertex.
+inline bool all_three(std::span<const std::uint8_t> marks, const Triangle& t) {
+  return marks[t[0]] != 0 && marks[t[1]] != 0 && marks[t[2]] != 0;
+}
 
 // Its border, one a vertex: 1 where the triangles around it do not close. Of a manifold surface. Throws
 // std::bad_alloc.

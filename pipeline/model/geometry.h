@@ -7,6 +7,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstddef>
 #include <numbers>
 
 namespace relievo::pipeline {
@@ -22,6 +23,14 @@ struct Vec2d {
 };
 struct Vec3d {
   double x = 0, y = 0, z = 0;
+};
+
+// The pixels of a picture, row by row.
+struct PixelGrid {
+  int width_px = 0, height_px = 0;
+  std::size_t pixels() const { return std::size_t(width_px) * std::size_t(height_px); }
+  std::size_t index(int x, int y) const { return std::size_t(y) * std::size_t(width_px) + std::size_t(x); }
+  bool inside(int x, int y) const { return x >= 0 && y >= 0 && x < width_px && y < height_px; }
 };
 
 // Upright, in a picture.

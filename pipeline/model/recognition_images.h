@@ -18,19 +18,17 @@ namespace relievo::pipeline {
 inline constexpr std::uint8_t kNothingShown = 0, kCompletedShown = 1, kMeasuredShown = 2;
 
 // A frontal portrait, drawn from the model as a camera straight before the face would see it.
-struct Portrait {
+struct Portrait : PixelGrid {
   explicit Portrait(std::pmr::memory_resource* memory) : rgb(memory), shows(memory) {}
   std::pmr::vector<std::uint8_t> rgb;    // 3 a pixel, coded as the photographs
   std::pmr::vector<std::uint8_t> shows;  // 1 a pixel: kNothingShown (background), kCompletedShown (filled),
                                          // kMeasuredShown (photographed)
-  int width_px = 0;
-  int height_px = 0;
-  double mm_per_px = 0;             // in the plane of the eyes
-  double camera_mm = 0;             // from that plane
-  Vec3d eyes_mm;                    // midpoint between the eyes, head frame
-  Vec2d eyes_px;                    // where it lies in the picture
-  double between_eyes_mm = 0;       // 0 where the eyes were not found: eyes_mm is then what is typical
-  Vec2d right_eye_px, left_eye_px;  // the person's; where both were found
+  double mm_per_px = 0;                  // in the plane of the eyes
+  double camera_mm = 0;                  // from that plane
+  Vec3d eyes_mm;                         // midpoint between the eyes, head frame
+  Vec2d eyes_px;                         // where it lies in the picture
+  double between_eyes_mm = 0;            // 0 where the eyes were not found: eyes_mm is then what is typical
+  Vec2d right_eye_px, left_eye_px;       // the person's; where both were found
 
   // Where a point of the head falls in the picture.
   Vec2d place_of(const Vec3d& at_mm) const {
@@ -40,13 +38,11 @@ struct Portrait {
 };
 
 // The surface as heights over a grid: what z the outermost surface has at each x, y.
-struct RangeImage {
+struct RangeImage : PixelGrid {
   explicit RangeImage(std::pmr::memory_resource* memory) : z_mm(memory), sigma_mm(memory), shows(memory) {}
   std::pmr::vector<float> z_mm;      // 1 a pixel; 0 where nothing is shown
   std::pmr::vector<float> sigma_mm;  // one standard deviation along z; 0 where nothing is shown
   std::pmr::vector<std::uint8_t> shows;
-  int width_px = 0;
-  int height_px = 0;
   double pitch_mm = 0;  // of the grid
   Vec2d first_mm;       // x and y of pixel (0, 0); x = first.x + pitch * column, y = first.y - pitch * row
 };

@@ -34,10 +34,8 @@ struct RectifiedView {
   float pores_left = 0;
 };
 
-struct RectifiedPair {
+struct RectifiedPair : PixelGrid {
   explicit RectifiedPair(std::pmr::memory_resource* memory) : left(memory), right(memory), region(memory) {}
-  int width_px = 0;
-  int height_px = 0;
   double focal_px = 0;
   double baseline_mm = 0;
   Vec2d left_centre_px;
@@ -53,8 +51,6 @@ struct RectifiedPair {
   double face_reach_mm = 0;  // what lies further from the tip of its nose is not wanted; 0: everything is
   std::pmr::vector<std::uint8_t> region;  // left view: 1 where the face may be; empty means everywhere
 
-  std::size_t pixels() const { return std::size_t(width_px) * std::size_t(height_px); }
-  std::size_t index(int x, int y) const { return std::size_t(y) * std::size_t(width_px) + std::size_t(x); }
   double disparity_at_infinity_px() const { return left_centre_px.x - right_centre_px.x; }
   double depth_mm(double disparity_px) const {
     return focal_px * baseline_mm / (disparity_px - disparity_at_infinity_px());

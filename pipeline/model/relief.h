@@ -26,9 +26,8 @@ struct ReliefFigures {
                               // measured is taken to curve as the rest
 };
 
-struct Relief {
+struct Relief : PixelGrid {
   explicit Relief(std::pmr::memory_resource* memory) : depth_mm(memory), surface(memory), grey(memory) {}
-  int width_px = 0, height_px = 0;
   double focal_px = 0, baseline_mm = 0;
   Vec2d centre_px;
   Rotation rectified_from_left;
@@ -36,10 +35,8 @@ struct Relief {
   std::pmr::vector<std::uint16_t> surface;  // which connected one, 1 the largest; 0: nothing is known
   std::pmr::vector<std::uint8_t> grey;      // luminance of the left view
 
-  std::size_t index(int x, int y) const { return std::size_t(y) * std::size_t(width_px) + std::size_t(x); }
   // Of a place between pixels; std::lround() is a call, and asked a million times a picture.
   static int nearest(double v) { return int(v + 4096.5) - 4096; }
-  bool inside(int x, int y) const { return x >= 0 && y >= 0 && x < width_px && y < height_px; }
   bool known(int x, int y) const { return depth_mm[index(x, y)] > 0; }
   Vec3d point(double x, double y, double z_mm) const {
     return {(x - centre_px.x) * z_mm / focal_px, (y - centre_px.y) * z_mm / focal_px, z_mm};

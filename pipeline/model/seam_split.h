@@ -5,7 +5,6 @@
 // texture and nowhere else. Thread: any. Memory: the caller's. Errors: none; indices must be in range.
 #pragma once
 
-#include <array>
 #include <bit>
 #include <cstdint>
 #include <memory_resource>
@@ -21,8 +20,8 @@ struct SeamSplit {
     std::uint32_t vertex = 0;
     Vec2f uv;
   };
-  std::pmr::vector<Entry> entries;                           // in order of first use
-  std::pmr::vector<std::array<std::uint32_t, 3>> triangles;  // of entries, in the mesh's order
+  std::pmr::vector<Entry> entries;       // in order of first use
+  std::pmr::vector<Triangle> triangles;  // of entries, in the mesh's order
 };
 
 // `uv`: three a triangle; where there are none they are zero, so that entries are the vertices in use.
@@ -32,7 +31,7 @@ inline SeamSplit split_at_seams(const FaceMesh& mesh, std::span<const Vec2f> uv,
   const auto& triangles = mesh.triangles;
   const std::size_t vertices = mesh.vertices_mm.size();
   SeamSplit split{std::pmr::vector<SeamSplit::Entry>(memory),
-                  std::pmr::vector<std::array<std::uint32_t, 3>>(triangles.size(), memory)};
+                  std::pmr::vector<Triangle>(triangles.size(), memory)};
   split.entries.reserve(vertices);
   // A vertex has few charts around it: a list per vertex, linked through the entries.
   std::pmr::vector<std::uint32_t> first(vertices, kNone, memory), next(memory);

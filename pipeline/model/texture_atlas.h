@@ -7,6 +7,7 @@
 #pragma once
 
 #include <array>
+#include <cstddef>
 #include <cstdint>
 #include <memory_resource>
 #include <vector>
@@ -19,13 +20,11 @@ inline constexpr std::uint8_t kNoSurfaceTexel = 0;       // beyond the charts: t
 inline constexpr std::uint8_t kFilledTexel = 1;          // surface that was completed, not photographed
 inline constexpr std::uint8_t kLeftPhotographTexel = 2;  // 2 (left view alone) to 255 (right view alone)
 
-struct TextureAtlas {
+struct TextureAtlas : PixelGrid {
   explicit TextureAtlas(std::pmr::memory_resource* memory)
       : rgb(memory), origin(memory), uv(memory), vertex_rgb(memory) {}
-  std::pmr::vector<std::uint8_t> rgb;     // 3 a texel, width_px * height_px
-  std::pmr::vector<std::uint8_t> origin;  // 1 a texel, see above; empty where it is not known
-  int width_px = 0;
-  int height_px = 0;
+  std::pmr::vector<std::uint8_t> rgb;         // 3 a texel, width_px * height_px
+  std::pmr::vector<std::uint8_t> origin;      // 1 a texel, see above; empty where it is not known
   std::pmr::vector<Vec2f> uv;                 // one a corner: 3 a triangle, in the mesh's order
   std::pmr::vector<std::uint8_t> vertex_rgb;  // 3 a vertex: for formats that colour vertices
 };

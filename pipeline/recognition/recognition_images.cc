@@ -105,16 +105,12 @@ std::pmr::vector<Seen> project(const FaceMesh& mesh, const ViewCamera& camera,
   return seen;
 }
 
-struct Samples {
-  Samples(int width_px, int height_px, std::pmr::memory_resource* memory)
-      : width(kFiner * width_px),
-        height(kFiner * height_px),
-        depth(size(), 1e30F, memory),
-        rgb(3 * size(), 0, memory),
-        shows(size(), kNothingShown, memory) {}
-  std::size_t size() const { return std::size_t(width) * std::size_t(height); }
-  std::size_t index(int x, int y) const { return std::size_t(y) * std::size_t(width) + std::size_t(x); }
-  int width, height;
+struct Samples : PixelGrid {
+  Samples(const PixelGrid& picture, std::pmr::memory_resource* memory)
+      : PixelGrid{kFiner * picture.width_px, kFiner * picture.height_px},
+        depth(pixels(), 1e30F, memory),
+        rgb(3 * pixels(), 0, memory),
+        shows(pixels(), kNothingShown, memory) {}
   std::pmr::vector<float> depth;
   std::pmr::vector<std::uint8_t> rgb;
   std::pmr::vector<std::uint8_t> shows;
@@ -126,12 +122,12 @@ void read_texel(const TextureAtlas& atlas, float u, float v, std::uint8_t* rgb, 
   float colour[3];
   PhotoSampler(atlas.rgb, atlas.width_px, atlas.height_px).read(x, y, colour);
   for (std::size_t c = 0; c < 3; ++c) rgb[c] = to_byte(colour[c]);
-  const std::size_t k = std::size_t(y + 0.5F) * std::size_t(atlas.width_px) + std::size_t(x + 0.5F);
+  const std::size_t k = atlas.index(int(x + 0.5F), int(y + 0.5F));
   if (!atlas.origin.empty() && atlas.origin[k] == kFilledTexel) shows = kCompletedShown;
 }
 
 // Of a triangle.
-std::uint8_t shown(const FaceMesh& mesh, const std::array<std::uint32_t, 3>& triangle) {
+std::uint8_t shown(const FaceMesh& mesh, const Triangle& triangle) {
   const auto measured = [&](std::uint32_t v) { return mesh.measured.empty() || mesh.measured[v] != 0; };
   return std::ranges::all_of(triangle, measured) ? kMeasuredShown : kCompletedShown;
 }
@@ -145,7 +141,7 @@ void draw(const FaceMesh& mesh, const TextureAtlas& atlas, std::span<const Seen>
     if (a.z_mm <= 0 || b.z_mm <= 0 || c.z_mm <= 0) continue;
     const std::uint8_t shows = shown(mesh, t);
     const Vec2f* uv = &atlas.uv[3 * k];
-    for_each_texel(a.at, b.at, c.at, samples.width, {0, samples.height},
+    for_each_texel(a.at, b.at, c.at, samples.width_px, {0, samples.height_px},
                    [&](int x, int y, float wa, float wb, float wc) {
                      const std::size_t at = samples.index(x, y);
                      const float z = wa * a.z_mm + wb * b.z_mm + wc * c.z_mm;
@@ -231,7 +227,7 @@ Portrait draw_portrait(const FaceModel& model, std::pmr::memory_resource* output
 
 TexturedView draw_textured(const FaceMesh& mesh, const TextureAtlas& atlas, const ViewCamera& camera,
                            std::pmr::memory_resource* output, std::pmr::memory_resource* scratch) {
-  Samples samples(camera.width_px, camera.height_px, scratch);
+  Samples samples({camera.width_px, camera.height_px}, scratch);
   if (!atlas.uv.empty()) draw(mesh, atlas, project(mesh, camera, scratch), samples);
   TexturedView view(output);
   const std::size_t size = std::size_t(camera.width_px) * std::size_t(camera.height_px);

@@ -122,7 +122,7 @@ Result<void> StatisticalOutlierFilter::reject(PointCloud& cloud, StageContext& c
   if (!near.for_each_point(context, [&](std::uint32_t i, int column, int row) {
         distance[i] = mean_distance(cloud, near, i, column, row, neighbours);
       }))
-    return Error{Errc::Cancelled, "the search for outliers was stopped"};
+    return stopped();
   double n = 0;
   double sum = 0;
   double squares = 0;
@@ -308,12 +308,11 @@ class Filter {
 }  // namespace
 
 Result<void> LocalOutlierFilter::reject(PointCloud& cloud, StageContext& context) const {
-  const Error stopped{Errc::Cancelled, "the search for outliers was stopped"};
-  if (context.stop()) return stopped;
+  if (context.stop()) return stopped();
   Filter filter(cloud, *this, context.scratch);
-  if (!filter.judge(context)) return stopped;
+  if (!filter.judge(context)) return stopped();
   filter.drop_islands(context.scratch);
-  if (context.stop()) return stopped;
+  if (context.stop()) return stopped();
   std::size_t kept = 0;
   for (std::size_t i = 0; i < cloud.points.size(); ++i)
     if (filter.keeps(i)) cloud.points[kept++] = cloud.points[i];

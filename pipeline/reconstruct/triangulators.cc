@@ -32,7 +32,7 @@ Result<PointCloud> place_matches(const RectifiedPair& pair, const MatchSet& matc
   cloud.points.reserve(accepted);
   const Rotation left_from_rectified = transposed(pair.rectified_from_left);
   for (std::size_t k = 0; k < matches.matches.size(); ++k) {
-    if (k % 16384 == 0 && context.stop()) return Error{Errc::Cancelled, "stopped while triangulating"};
+    if (k % 16384 == 0 && context.stop()) return stopped();
     const Match& match = matches.matches[k];
     if (match.rejected_by != 0) continue;
     const Placed placed = place(match);

@@ -51,7 +51,7 @@ Samples measured_of(const FaceMesh& mesh, const RectifiedPair& pair, std::pmr::m
 // Of triangles wider than a cell also places in between: what spans scattered points is measured surface.
 void add_between(Samples& all, const FaceMesh& mesh, const RectifiedPair& pair) {
   for (const auto& t : mesh.triangles) {
-    if (mesh.measured[t[0]] == 0 || mesh.measured[t[1]] == 0 || mesh.measured[t[2]] == 0) continue;
+    if (!all_three(mesh.measured, t)) continue;
     std::array<Vector3d, 3> corner;
     for (std::size_t k = 0; k < 3; ++k) corner[k] = rectified(pair, mesh.vertices_mm[t[k]]);
     const double longest = std::max(
@@ -296,7 +296,7 @@ Result<std::pmr::vector<double>> off_sheet_mm(const HeightCells& cells, StageCon
   Best best;
   Rows rows(cells.size(), Row{}, &context.scratch);
   for (int k = 0; k < kDirections; ++k) {
-    if (context.stop()) return Error{Errc::Cancelled, "stopped while the relief was measured"};
+    if (context.stop()) return stopped();
     for (const double convergence : kConvergence)
       best.offer(cells, {std::numbers::pi * k / kDirections, convergence}, rows);
   }

@@ -7,6 +7,8 @@
 
 #include "hal/base/groups.h"
 #include "pipeline/base/parts.h"
+#include "pipeline/mesh/triangle_raster.h"
+#include "pipeline/model/photo_sampler.h"
 
 namespace relievo::pipeline {
 namespace {
@@ -106,6 +108,23 @@ void fill_colours(const FaceMesh& mesh, std::span<const std::uint8_t> known, std
     for (std::size_t i = order.size(); i > 0; --i) relax(order[i - 1]);
     if (moved < kStill) break;
   }
+}
+
+void fill_triangle(const Vec2f& a, const Vec2f& b, const Vec2f& c, const Triangle& t,
+                   std::span<const VertexColour> colours, int width_px, TextureAtlas& atlas) {
+  for_each_texel(a, b, c, width_px, {0, atlas.height_px}, [&](int x, int y, float wa, float wb, float wc) {
+    const std::size_t at = atlas.index(x, y);
+    if (atlas.origin[at] >= kLeftPhotographTexel) return;
+    for (std::size_t i = 0; i < 3; ++i)
+      atlas.rgb[3 * at + i] = to_byte(wa * colours[t[0]][i] + wb * colours[t[1]][i] + wc * colours[t[2]][i]);
+    atlas.origin[at] = kFilledTexel;
+  });
+}
+
+void write_vertex_colours(std::span<const VertexColour> colours, TextureAtlas& atlas) {
+  atlas.vertex_rgb.reserve(3 * colours.size());
+  for (const VertexColour& colour : colours)
+    for (const float c : colour) atlas.vertex_rgb.push_back(to_byte(c));
 }
 
 void continue_outwards(TextureAtlas& atlas, int margin_px, std::pmr::memory_resource* memory) {

@@ -23,6 +23,13 @@ using VertexColour = std::array<float, 3>;
 void fill_colours(const FaceMesh& mesh, std::span<const std::uint8_t> known, std::span<VertexColour> colours,
                   StageContext& context);
 
+// Paints the texels of a triangle, left of `width_px`, that show no photograph: between the colours of its
+// vertices. One shared with a photographed neighbour at their edge stays.
+void fill_triangle(const Vec2f& a, const Vec2f& b, const Vec2f& c, const Triangle& t,
+                   std::span<const VertexColour> colours, int width_px, TextureAtlas& atlas);
+
+void write_vertex_colours(std::span<const VertexColour> colours, TextureAtlas& atlas);
+
 // Paints what lies beyond the charts: `margin_px` texels with the nearest colour from a little inside
 // (the outermost texels mix in what lies behind the face), the rest with the mean: filters and smaller copies
 // mix in skin, not black. Nothing of the room gets into the atlas.

@@ -62,33 +62,32 @@ class Layer {
         atlas_(&context.output) {}
 
   Result<TextureAtlas> run() {
-    const Error stopped{Errc::Cancelled, "texturing was stopped"};
     fill_front_maps(mesh_, chart_, bands_, maps_, context_);
-    if (context_.stop()) return stopped;
+    if (context_.stop()) return stopped();
     const VertexViews views = look_at_vertices(mesh_, pair_, chart_, maps_[1], maps_[2], shot_, context_);
-    if (context_.stop()) return stopped;
+    if (context_.stop()) return stopped();
     choose(views);
     sides_ = lay_out_sides(mesh_, chart_, kept_, photographed_, photograph_px_per_mm(), options_.max_atlas_px,
                            &context_.scratch);
-    if (context_.stop()) return stopped;
+    if (context_.stop()) return stopped();
     make_atlas();
-    if (context_.stop()) return stopped;
+    if (context_.stop()) return stopped();
     const ShotPlanes planes = shoot(mesh_, pair_, chart_, bands_, maps_, views, kept_, shot_, context_);
-    if (context_.stop()) return stopped;
+    if (context_.stop()) return stopped();
     const float margin_px = shot_.feather_px * float(chart_.texels_per_px);
     const bool both = !shot_.left_only;
     const ViewBlend blend(chart_, planes, bands_, both ? float(options_.highlight_level) : 0,
                           both ? margin_px : 0, context_);
-    if (context_.stop()) return stopped;
+    if (context_.stop()) return stopped();
     shade(planes, blend);
-    if (context_.stop()) return stopped;
+    if (context_.stop()) return stopped();
     photograph_sides(views, blend);
     colour_vertices();
     fill_colours(mesh_, known_, colours_, context_);
-    if (context_.stop()) return stopped;
+    if (context_.stop()) return stopped();
     paint_filled();
     continue_outwards(atlas_, options_.margin_px, &context_.scratch);
-    write_vertex_colours();
+    write_vertex_colours(colours_, atlas_);
     return std::move(atlas_);
   }
 
@@ -100,9 +99,6 @@ class Layer {
   void for_each_side_corner(Visit&& visit) {
     for (std::size_t s = 0; s < sides_.triangles.size(); ++s)
       for (std::size_t i = 0; i < 3; ++i) visit(mesh_.triangles[sides_.triangles[s]][i], side_corner(s, i));
-  }
-  std::size_t atlas_index(int x, int y) const {
-    return std::size_t(y) * std::size_t(atlas_.width_px) + std::size_t(x);
   }
 
   // Which triangles the main chart shows, and which vertices a camera saw.
@@ -134,9 +130,8 @@ class Layer {
   void make_atlas() {
     atlas_.width_px = chart_.width_px + sides_.width_px;
     atlas_.height_px = chart_.height_px;
-    const std::size_t texels = std::size_t(atlas_.width_px) * std::size_t(atlas_.height_px);
-    atlas_.rgb.assign(3 * texels, 0);
-    atlas_.origin.assign(texels, kNoSurfaceTexel);
+    atlas_.rgb.assign(3 * atlas_.pixels(), 0);
+    atlas_.origin.assign(atlas_.pixels(), kNoSurfaceTexel);
     const Vec2f to_uv{1 / float(atlas_.width_px), 1 / float(atlas_.height_px)};
     const auto uv = [&](const Vec2f& texel) {
       return Vec2f{(texel.x + 0.5F) * to_uv.x, (texel.y + 0.5F) * to_uv.y};
@@ -164,7 +159,7 @@ class Layer {
               !all_three(photographed_, mesh_.triangles[maps_[0].owner[k]]))
             continue;
           const ViewBlend::Colour colour = blend.mix(k, x, y);
-          set(atlas_index(x, y), colour.rgb, origin_of(colour.share));
+          set(atlas_.index(x, y), colour.rgb, origin_of(colour.share));
         }
     };
     context_.pool.for_each_band(chart_.height_px, kBands, std::cref(shade_rows));  // by reference: no heap
@@ -198,7 +193,7 @@ class Layer {
                        const ViewBlend::Colour colour = blend.mix(
                            {lb, rb, share, say(kSeenLeft), say(kSeenRight), seen, blend.excess_of(lb, rb)},
                            tx, ty);
-                       set(atlas_index(x, y), colour.rgb, origin_of(colour.share));
+                       set(atlas_.index(x, y), colour.rgb, origin_of(colour.share));
                      });
     }
   }
@@ -223,7 +218,7 @@ class Layer {
     float weight = 0;
     for (int v = y; v <= std::min(y + 1, atlas_.height_px - 1); ++v)
       for (int u = x; u <= std::min(x + 1, atlas_.width_px - 1); ++u) {
-        const std::size_t k = atlas_index(u, v);
+        const std::size_t k = atlas_.index(u, v);
         const float w = (1 - std::abs(at.x - float(u))) * (1 - std::abs(at.y - float(v)));
         if (atlas_.origin[k] < kLeftPhotographTexel) continue;
         for (std::size_t c = 0; c < 3; ++c) sum[c] += w * float(atlas_.rgb[3 * k + c]);
@@ -234,30 +229,18 @@ class Layer {
     return true;
   }
 
-  void paint(const Vec2f& a, const Vec2f& b, const Vec2f& c, const std::array<std::uint32_t, 3>& t,
-             bool main) {
-    for_each_texel(a, b, c, main ? chart_.width_px : atlas_.width_px, {0, atlas_.height_px},
-                   [&](int x, int y, float wa, float wb, float wc) {
-                     const std::size_t at = atlas_index(x, y);
-                     if (atlas_.origin[at] >= kLeftPhotographTexel)
-                       return;  // shared with a photographed neighbour at their edge
-                     float rgb[3];
-                     for (std::size_t i = 0; i < 3; ++i)
-                       rgb[i] = wa * colours_[t[0]][i] + wb * colours_[t[1]][i] + wc * colours_[t[2]][i];
-                     set(at, rgb, kFilledTexel);
-                   });
-  }
-
   void paint_filled() {
     for (std::size_t k = 0; k < kept_.size(); ++k) {
       const auto& t = mesh_.triangles[k];
       if (kept_[k] != 0 && !all_three(photographed_, t))
-        paint(chart_.texel[t[0]], chart_.texel[t[1]], chart_.texel[t[2]], t, true);
+        fill_triangle(chart_.texel[t[0]], chart_.texel[t[1]], chart_.texel[t[2]], t, colours_,
+                      chart_.width_px, atlas_);
     }
     for (std::size_t s = 0; s < sides_.triangles.size(); ++s) {
       const auto& t = mesh_.triangles[sides_.triangles[s]];
       if (!all_three(photographed_, t))
-        paint(side_corner(s, 0), side_corner(s, 1), side_corner(s, 2), t, false);
+        fill_triangle(side_corner(s, 0), side_corner(s, 1), side_corner(s, 2), t, colours_, atlas_.width_px,
+                      atlas_);
     }
     // A triangle between texel centres covers none: a filter reads its corners' colour around them.
     for_each_side_corner([&](std::uint32_t v, const Vec2f& at) { surround(at, colours_[v]); });
@@ -269,13 +252,7 @@ class Layer {
     const int y = int(std::lround(corner.y));
     for (int v = std::max(y - 1, 0); v <= std::min(y + 1, atlas_.height_px - 1); ++v)
       for (int u = std::max(x - 1, chart_.width_px); u <= std::min(x + 1, atlas_.width_px - 1); ++u)
-        if (atlas_.origin[atlas_index(u, v)] == kNoSurfaceTexel) set(atlas_index(u, v), rgb, kFilledTexel);
-  }
-
-  void write_vertex_colours() {
-    atlas_.vertex_rgb.reserve(3 * colours_.size());
-    for (const VertexColour& colour : colours_)
-      for (const float c : colour) atlas_.vertex_rgb.push_back(to_byte(c));
+        if (atlas_.origin[atlas_.index(u, v)] == kNoSurfaceTexel) set(atlas_.index(u, v), rgb, kFilledTexel);
   }
 
   const FaceMesh& mesh_;
@@ -297,7 +274,7 @@ class Layer {
 Result<TextureAtlas> lay_photographs(const FaceMesh& mesh, const RectifiedPair& pair,
                                      const TwoViewTexturer& options, bool left_only, StageContext& context) {
   RELIEVO_TRY(check_input(mesh, pair));
-  if (context.stop()) return Error{Errc::Cancelled, "texturing was stopped"};
+  if (context.stop()) return stopped();
   return Layer(mesh, pair, options, left_only, context).run();
 }
 

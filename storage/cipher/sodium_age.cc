@@ -109,10 +109,10 @@ Nonce nonce_of(std::uint64_t piece, bool last) {
   return nonce;
 }
 
-// Bech32 (BIP 173): 32 bytes behind `prefix`.
+// Bech32 (BIP 173): 32 bytes behind `prefix`. They may be a secret key: they are written to `bytes` alone.
 constexpr std::string_view kBech32 = "qpzry9x8gf2tvdw0s3jn54khce6mua7l";
 
-std::optional<std::array<std::byte, 32>> bech32(std::string_view prefix, std::string text) {
+bool bech32(std::string_view prefix, std::string text, std::span<std::byte> bytes) {
   constexpr std::size_t kData = 52, kSum = 6;  // letters of five bits
   const bool capitals = std::ranges::none_of(text, [](char c) { return c >= 'a' && c <= 'z'; });
   if (capitals)
@@ -120,7 +120,7 @@ std::optional<std::array<std::byte, 32>> bech32(std::string_view prefix, std::st
                            [](char c) { return c >= 'A' && c <= 'Z' ? char(c + 32) : c; });
   if (!text.starts_with(prefix) || text.size() != prefix.size() + 1 + kData + kSum ||
       text[prefix.size()] != '1')
-    return std::nullopt;
+    return false;
   std::uint32_t sum = 1;
   const auto add = [&sum](std::uint32_t five) {
     constexpr std::array<std::uint32_t, 5> kGenerator{0x3b6a57b2, 0x26508e6d, 0x1ea119fa, 0x3d4233dd,
@@ -132,19 +132,19 @@ std::optional<std::array<std::byte, 32>> bech32(std::string_view prefix, std::st
   for (const char c : prefix) add(static_cast<unsigned char>(c) >> 5U);
   add(0);
   for (const char c : prefix) add(static_cast<unsigned char>(c) & 31U);
-  std::array<std::byte, 32> bytes{};
+  std::ranges::fill(bytes, std::byte{0});
   for (std::size_t i = 0; i < kData + kSum; ++i) {
     const std::size_t five = kBech32.find(text[prefix.size() + 1 + i]);
-    if (five == std::string_view::npos) return std::nullopt;
+    if (five == std::string_view::npos) return false;
     add(std::uint32_t(five));
     for (std::size_t bit = 0; i < kData && bit < 5; ++bit) {
       const std::size_t at = 5 * i + bit;
       const bool set = (five >> (4 - bit) & 1U) != 0;
       if (at < 256 && set) bytes[at / 8] |= std::byte{1} << (7 - at % 8);
-      if (at >= 256 && set) return std::nullopt;  // padding
+      if (at >= 256 && set) return false;  // padding
     }
   }
-  return sum == 1 ? std::optional(bytes) : std::nullopt;
+  return sum == 1;
 }
 
 // One way to the file's key, as its header has it.
@@ -192,10 +192,8 @@ std::optional<Header> read_header(std::string_view text) {
   }
 }
 
-using FileKey = std::array<std::byte, kFileKeyBytes>;
-
 // Whether this stanza gives the key to whom `by` is.
-Result<bool> file_key_in(const Stanza& stanza, const AgeBy& by, FileKey& file_key) {
+Result<bool> file_key_in(const Stanza& stanza, const AgeBy& by, std::span<std::byte> file_key) {
   std::array<std::byte, kFileKeyBytes + kTagBytes> wrapped{};
   RELIEVO_TRY_ASSIGN(auto key, SecretKey::make());
   if (const auto* identity = std::get_if<const SecretKey*>(&by)) {
@@ -219,7 +217,7 @@ Result<bool> file_key_in(const Stanza& stanza, const AgeBy& by, FileKey& file_ke
   return unwrap_key(key, wrapped, file_key);
 }
 
-Result<void> mac_of(const FileKey& file_key, std::string_view header, std::span<std::byte> mac) {
+Result<void> mac_of(std::span<const std::byte> file_key, std::string_view header, std::span<std::byte> mac) {
   RELIEVO_TRY_ASSIGN(auto key, SecretKey::make());
   constexpr std::array<std::byte, 32> kNoSalt{};
   derive(file_key, kNoSalt, "header", key);
@@ -230,30 +228,26 @@ Result<void> mac_of(const FileKey& file_key, std::string_view header, std::span<
 }  // namespace
 
 Result<AgeRecipient> age_recipient(std::string_view text) {
-  const auto bytes = bech32("age", std::string(text));
-  if (!bytes || text.starts_with("AGE"))
+  AgeRecipient recipient{};
+  if (!bech32("age", std::string(text), recipient) || text.starts_with("AGE"))
     return Error{Errc::InvalidInput,
                  "this is no recipient: it begins with age1 and has 62 letters and figures"};
-  return *bytes;
+  return recipient;
 }
 
 Result<SecretKey> age_identity(std::string_view text) {
+  RELIEVO_TRY_ASSIGN(auto key, SecretKey::make());
   for (std::size_t at = 0; at < text.size();) {
     const std::size_t end = std::min(text.find_first_of("\r\n", at), text.size());
-    if (auto bytes = bech32("age-secret-key-", std::string(text.substr(at, end - at)))) {
-      RELIEVO_TRY_ASSIGN(auto key, SecretKey::make());
-      std::ranges::copy(*bytes, key.bytes().begin());
-      sodium_memzero(bytes->data(), bytes->size());
-      return key;
-    }
+    if (bech32("age-secret-key-", std::string(text.substr(at, end - at)), key.bytes())) return key;
     at = end + 1;
   }
   return Error{Errc::InvalidInput, "there is no key of age in it: a line begins with AGE-SECRET-KEY-1"};
 }
 
 Result<std::vector<std::byte>> age_seal(const AgeTo& to, std::span<const std::byte> plain) {
-  FileKey file_key{};
-  randombytes_buf(file_key.data(), file_key.size());
+  RELIEVO_TRY_ASSIGN(auto file_key, LockedBytes::make(kFileKeyBytes));
+  randombytes_buf(file_key.bytes().data(), kFileKeyBytes);
   RELIEVO_TRY_ASSIGN(auto key, SecretKey::make());
   std::string header(kVersion);
   if (const auto* recipient = std::get_if<AgeRecipient>(&to)) {
@@ -270,15 +264,14 @@ Result<std::vector<std::byte>> age_seal(const AgeTo& to, std::span<const std::by
     RELIEVO_TRY(stretch(std::get<Passphrase>(to).text, salt, kWorkFactor, key));
     header += "-> scrypt " + base64(salt) + " " + std::to_string(kWorkFactor) + "\n";
   }
-  header += base64(wrap(key, file_key)) + "\n---";
+  header += base64(wrap(key, file_key.bytes())) + "\n---";
   std::array<std::byte, 32> mac{};
-  RELIEVO_TRY(mac_of(file_key, header, mac));
+  RELIEVO_TRY(mac_of(file_key.bytes(), header, mac));
   header += " " + base64(mac) + "\n";
 
   std::array<std::byte, kSaltBytes> salt{};
   randombytes_buf(salt.data(), salt.size());
-  derive(file_key, salt, "payload", key);
-  sodium_memzero(file_key.data(), file_key.size());
+  derive(file_key.bytes(), salt, "payload", key);
   std::vector<std::byte> sealed(bytes_of(header).begin(), bytes_of(header).end());
   sealed.insert(sealed.end(), salt.begin(), salt.end());
   const std::size_t pieces = std::max<std::size_t>(1, (plain.size() + kPieceBytes - 1) / kPieceBytes);
@@ -298,22 +291,21 @@ Result<std::vector<std::byte>> age_seal(const AgeTo& to, std::span<const std::by
 Result<std::vector<std::byte>> age_open(const AgeBy& by, std::span<const std::byte> sealed) {
   const auto header = read_header({reinterpret_cast<const char*>(sealed.data()), sealed.size()});
   if (!header || sealed.size() < header->bytes + kSaltBytes + kTagBytes) return no_age_file();
-  FileKey file_key{};
+  RELIEVO_TRY_ASSIGN(auto file_key, LockedBytes::make(kFileKeyBytes));
   bool found = false;
   for (std::size_t i = 0; i < header->stanzas.size() && !found; ++i) {
     // A passphrase stands alone.
     if (header->stanzas[i].words[0] == "scrypt" && header->stanzas.size() != 1) return no_age_file();
-    RELIEVO_TRY_ASSIGN(found, file_key_in(header->stanzas[i], by, file_key));
+    RELIEVO_TRY_ASSIGN(found, file_key_in(header->stanzas[i], by, file_key.bytes()));
   }
   if (!found) return Error{Errc::InvalidInput, "this file was sealed to another key or passphrase"};
   std::array<std::byte, 32> mac{};
-  RELIEVO_TRY(mac_of(file_key, header->signed_part, mac));
+  RELIEVO_TRY(mac_of(file_key.bytes(), header->signed_part, mac));
   if (sodium_memcmp(mac.data(), header->mac.data(), mac.size()) != 0) return no_age_file();
 
   RELIEVO_TRY_ASSIGN(auto key, SecretKey::make());
   auto rest = sealed.subspan(header->bytes);
-  derive(file_key, rest.first(kSaltBytes), "payload", key);
-  sodium_memzero(file_key.data(), file_key.size());
+  derive(file_key.bytes(), rest.first(kSaltBytes), "payload", key);
   rest = rest.subspan(kSaltBytes);
   constexpr std::size_t kSealedPiece = kPieceBytes + kTagBytes;
   std::vector<std::byte> plain(rest.size());

@@ -70,6 +70,7 @@ class SqliteStore final : public Store {
   Result<SubjectId> add_subject(const NewSubject& subject) override;
   Result<std::vector<Subject>> subjects(const SubjectFilter& filter) override;
   Result<std::int64_t> count_subjects() override;
+  Result<WallTime> last_added_at() override;
   Result<Subject> subject(SubjectId id) override;
   Result<void> for_each_subject(Opened opened, const Visit& visit) override;
   Result<void> erase_subject(SubjectId id) override;

@@ -103,6 +103,16 @@ Result<std::int64_t> SqliteStore::count_subjects() {
   return database_->integer("SELECT count(*) FROM subject WHERE code_hash IS NOT NULL");
 }
 
+// The audit log is read from its end, to the first line that will do.
+Result<WallTime> SqliteStore::last_added_at() {
+  RELIEVO_TRY_ASSIGN(
+      const std::int64_t at_ms,
+      database_->integer("SELECT at_ms FROM audit WHERE what IN ('subject.added', 'enrolment.added') "
+                         "AND EXISTS (SELECT 1 FROM subject WHERE id = audit.subject_id "
+                         "AND code_hash IS NOT NULL) ORDER BY number DESC LIMIT 1"));
+  return from_ms(at_ms);
+}
+
 Result<void> SqliteStore::for_each_subject(Opened opened, const Visit& visit) {
   return without_exceptions(database_->where(), [&]() -> Result<void> {
     RELIEVO_TRY_ASSIGN(auto query, database_->prepare("SELECT id, created_at_ms, name FROM subject "

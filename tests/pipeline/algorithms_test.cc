@@ -5,6 +5,7 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <clocale>
 #include <cmath>
 #include <functional>
 #include <typeinfo>
@@ -193,12 +194,21 @@ TEST(Algorithms, WrongWordsAreRefusedAndSayWhatWouldDo) {
   const auto unknown_name = set.set("matcher", "magic");
   ASSERT_FALSE(unknown_name);
   EXPECT_NE(unknown_name.error().where().find("refined"), std::string_view::npos);
-  for (const char* value : {"", "x", "1x", "nan", "-1", "1e9"}) {
+  for (const char* value : {"", "x", "1x", "nan", "-1", "1e9", "0x1", "0,5"}) {
     const auto refused = set.set("refined.bending", value);
     ASSERT_FALSE(refused) << value;
     EXPECT_EQ(refused.error().code, Errc::InvalidInput);
   }
   EXPECT_EQ(set.to_text(), AlgorithmSet{}.to_text()) << "a refused setting must change nothing";
+}
+
+TEST(AlgorithmSet, NumbersAreTheSameInEveryCountry) {
+  const char* const before = std::setlocale(LC_ALL, "de_DE.UTF-8");
+  AlgorithmSet set;
+  EXPECT_TRUE(set.set("refined.bending", "0.5"));
+  EXPECT_FALSE(set.set("refined.bending", "0,5"));
+  EXPECT_TRUE(make_algorithms(set));
+  if (before != nullptr) std::setlocale(LC_ALL, "C");
 }
 
 TEST(AlgorithmSet, ReadsWhatOlderStoresCallThings) {

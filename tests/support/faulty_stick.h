@@ -71,6 +71,7 @@ class FaultyStick final : public hal::RemovableMedia {
     if (fault_ == Fault::ForgetsLater) damage(newest_);
     return real_.take_up_again();
   }
+  bool is_taken_up() override { return real_.is_taken_up(); }
   int taken_up() const { return taken_up_; }
 
  private:

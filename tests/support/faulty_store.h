@@ -29,6 +29,7 @@ class FaultyStore : public storage::Store {
     return real_->subjects(f);
   }
   Result<std::int64_t> count_subjects() override { return real_->count_subjects(); }
+  Result<storage::WallTime> last_added_at() override { return real_->last_added_at(); }
   Result<storage::Subject> subject(storage::SubjectId id) override { return real_->subject(id); }
   Result<void> for_each_subject(Opened o, const Visit& v) override { return real_->for_each_subject(o, v); }
   Result<void> erase_subject(storage::SubjectId id) override { return real_->erase_subject(id); }

@@ -19,13 +19,23 @@ T need(Result<T> made) {
   std::exit(1);
 }
 
-CaptureGate open(int reduction) {
-  CaptureGateOptions options;
-  options.relief.reduction = reduction;
-  return need(CaptureGate::open(options));
-}
+CaptureGate open(int reduction) { return need(CaptureGate::open({.reduction = reduction})); }
 
 }  // namespace
+
+GateMeasures good_measures() {
+  GateMeasures m;
+  m.faces = 1;
+  m.head.known = true;
+  m.head.tip_mm = {70, 10, 540};
+  m.head.relief_mm = 28;
+  m.light.known = true;
+  m.light.luminance_mean = 0.5;
+  m.blur_mm = 0.5;
+  for (EyeMeasurement& eye : m.eyes) eye.known = true, eye.contrast = 0.28;
+  m.mouth.known = true, m.mouth.steps_mm = 0, m.mouth.before_mm = -2;
+  return m;
+}
 
 GateFixture::GateFixture(int reduction)
     : work_(2, std::size_t{8} << 20, std::size_t{64} << 20), gate_(open(reduction)) {}

@@ -11,6 +11,9 @@
 
 namespace relievo::test {
 
+// Of somebody who does everything right.
+pipeline::GateMeasures good_measures();
+
 class GateFixture {
  public:
   // `reduction` of the relief: 1 for an album's pictures, which are a quarter of the rig's already.

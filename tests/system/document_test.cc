@@ -79,6 +79,15 @@ TEST_F(SavedReconstruction, IsTheSameLoadedAndCalculatedAgainFromEveryStage) {
   refused(load("first/model.ply"), "first/model.ply", "no saved reconstruction");
   refused(load("missing.relievo"), "missing.relievo");
 
+  // The folder cannot become whole: where one of its files belongs a directory stands.
+  fs::create_directories(here / "taken/model.ply");
+  const Said taken =
+      relievo({"reconstruct", "--load", "face.relievo", "-o", "taken", "--save", "late.relievo"});
+  EXPECT_EQ(taken.exit_code, 1);
+  EXPECT_NE(taken.err.find("taken/model.ply"), std::string::npos) << taken.err;
+  EXPECT_FALSE(fs::exists(here / "late.relievo"));
+  EXPECT_FALSE(fs::exists(here / ".late.relievo.part"));
+
   const TinyDisk disk(200'000);
   if (!disk.mounted()) GTEST_SKIP() << disk.why_not();
   refused({"reconstruct", "--load", "face.relievo", "-o", "none", "--save",

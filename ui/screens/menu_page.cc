@@ -76,7 +76,7 @@ void menu_page(StaffFrame& page) {
   page.tree.open(scroller("menu", page.grown(page.box(Flow::Column, space::kXs))));
   status(page);
   // Where letters are large, a long word must not be torn: fewer and wider tiles.
-  const std::size_t across = page.portrait || page.text_share > 1.2F ? 2 : 4;
+  const std::size_t across = page.little_room() ? 2 : 4;
   std::array<const StaffPageInfo*, std::size_t(StaffPage::Count)> tiles{};
   std::size_t count = 0;
   const auto draw = [&] {

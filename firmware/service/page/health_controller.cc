@@ -60,37 +60,33 @@ class HealthController final : public PageController {
 
   void look() {
     looking_ = true;
-    const auto seen = std::make_shared<Seen>();
-    services().side_tasks.send(
+    services().side_tasks.ask(
         JobLane::Keeper,
-        [seen, folder = services().folder](JobControl&) -> Result<void> {
-          seen->sensors = read_temperatures("/sys/class/thermal");
-          seen->process_mib = mib(peak_rss_bytes());
+        [folder = services().folder](JobControl&) -> Result<Seen> {
           std::error_code none;
           const auto room = std::filesystem::space(folder, none);
           if (none) return Error{Errc::IoFailed, "the disk's room cannot be told"};
-          seen->disk_mib = mib(room.capacity);
-          seen->disk_used_mib = mib(room.capacity - room.available);
-          return {};
+          return Seen{read_temperatures("/sys/class/thermal"), mib(room.capacity - room.available),
+                      mib(room.capacity), mib(peak_rss_bytes())};
         },
-        [this, seen](const std::optional<Error>& error) {
+        [this](const Result<Seen>& seen) {
           looking_ = false;
           next_look_ = services().device.clock().now() + kEvery;
-          if (!error) {
-            seen_ = std::move(*seen);
+          if (seen) {
+            seen_ = *seen;
             ready_ = true;
           }
-          keep(error);
+          keep(seen);
         },
         open_ ? SideTasks::Whose::Page : SideTasks::Whose::Device);
   }
 
   // Not every look: nor does a disk that fails fill the log.
-  void keep(const std::optional<Error>& error) {
+  void keep(const Result<Seen>& seen) {
     const hal::Instant now = services().device.clock().now();
     if (now < next_kept_) return;
     next_kept_ = now + DayRing::kEvery;
-    if (error) return services().log.fault(*error);
+    if (!seen) return services().log.fault(seen.error());
     const auto hottest = std::ranges::max_element(seen_.sensors, {}, &Sensor::celsius);
     hottest_.add(hottest != seen_.sensors.end() ? hottest->celsius
                                                 : std::numeric_limits<double>::quiet_NaN());

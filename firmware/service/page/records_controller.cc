@@ -4,7 +4,6 @@
 
 #include <algorithm>
 #include <exception>
-#include <functional>
 #include <memory>
 #include <memory_resource>
 #include <optional>
@@ -146,17 +145,22 @@ class RecordsController final : public PageController {
     if (error && error->code != Errc::Cancelled) services().log.fault(*error);
   }
 
-  // On the keeper; `found` only if it went well and the page is still the same.
-  void look(SideTasks::Work work, std::function<void()> found) {
+  // On the keeper; `show` only if it went well and the page is still the same.
+  template <typename Find, typename Show>
+  void look(Find find, Show show) {
     if (looks_++ == 0) looks_since_ = services().device.clock().now();
-    services().side_tasks.send(
-        JobLane::Keeper, std::move(work),
-        [this, found = std::move(found), visit = visit_](const std::optional<Error>& error) {
-          if (visit != visit_) return;
-          --looks_;
-          if (error) return told(error);
-          found();
-        });
+    services().side_tasks.ask(JobLane::Keeper, std::move(find),
+                              [this, show = std::move(show), visit = visit_](auto found) {
+                                if (visit != visit_) return;
+                                --looks_;
+                                if (!found) return told(found.error());
+                                show(*std::move(found));
+                              });
+  }
+
+  // For work on the keeper: not moved, since a short name would stay where it was.
+  std::shared_ptr<const RecordChoice> kept_choice() const {
+    return std::make_shared<const RecordChoice>(choice_);
   }
 
   void search(std::string_view text) {
@@ -173,88 +177,79 @@ class RecordsController final : public PageController {
   }
 
   void find_filters() {
-    const auto found = std::make_shared<std::vector<ui::RecordFilter>>();
-    look(
-        [this, found](JobControl& control) -> Result<void> {
-          RELIEVO_TRY_ASSIGN(*found, record_filters(services().store, control));
-          if (found->size() > ui::kRecordFilters) found->resize(ui::kRecordFilters);
-          return {};
-        },
-        [this, found] { filters_ = std::move(*found); });
+    look([this](JobControl& control) { return record_filters(services().store, control); },
+         [this](std::vector<ui::RecordFilter> found) {
+           found.resize(std::min(found.size(), ui::kRecordFilters));
+           filters_ = std::move(found);
+         });
   }
 
   void list() {
     struct Listed {
-      RecordChoice choice;
       std::vector<ui::RecordRow> found;
       std::int64_t rows = 0;  // of all pages
     };
-    const auto listed = std::make_shared<Listed>();
-    listed->choice = choice_;
     look(
-        [this, listed, skip = walk_.first_row()](JobControl& control) -> Result<void> {
-          RELIEVO_TRY_ASSIGN(const Passed passed, passed_by(services().store, listed->choice, control));
-          RELIEVO_TRY_ASSIGN(listed->rows, passed ? Result(std::int64_t(passed->size()))
-                                                  : services().store.count_subjects());
+        [this, choice = kept_choice(), skip = walk_.first_row()](JobControl& control) -> Result<Listed> {
+          Listed listed;
+          RELIEVO_TRY_ASSIGN(const Passed passed, passed_by(services().store, *choice, control));
+          RELIEVO_TRY_ASSIGN(
+              listed.rows, passed ? Result(std::int64_t(passed->size())) : services().store.count_subjects());
           RELIEVO_TRY_ASSIGN(const auto subjects, rows_of(services().store, passed, skip, kPage));
-          for (const storage::Subject& subject : subjects) listed->found.push_back(row_of(subject));
-          return {};
+          for (const storage::Subject& subject : subjects) listed.found.push_back(row_of(subject));
+          return listed;
         },
-        [this, listed] {
-          found_ = std::move(listed->found);
-          walk_.set_rows(listed->rows);
+        [this](Listed listed) {
+          found_ = std::move(listed.found);
+          walk_.set_rows(listed.rows);
           ready_ = true;
-          if (found_.empty() && listed->rows > 0) list();  // the last one of the last page was erased
+          if (found_.empty() && listed.rows > 0) list();  // the last one of the last page was erased
         });
   }
 
   // When the first one of each stretch came. They are read one by one: of those between nothing has to be.
   void label_stretches() {
-    struct Labels {
-      RecordChoice choice;
-      std::vector<std::int64_t> rows;
-      std::vector<std::string> found;
-    };
-    const auto labels = std::make_shared<Labels>();
-    labels->choice = choice_;
-    for (std::size_t i = 0; i < walk_.stretches(); ++i) labels->rows.push_back(walk_.top_row(i));
+    std::vector<std::int64_t> rows;
+    for (std::size_t i = 0; i < walk_.stretches(); ++i) rows.push_back(walk_.top_row(i));
+    using Labels = std::vector<std::string>;
     look(
-        [this, labels](JobControl& control) -> Result<void> {
-          RELIEVO_TRY_ASSIGN(const Passed passed, passed_by(services().store, labels->choice, control));
-          for (const std::int64_t row : labels->rows) {
+        [this, choice = kept_choice(), rows](JobControl& control) -> Result<Labels> {
+          Labels labels;
+          RELIEVO_TRY_ASSIGN(const Passed passed, passed_by(services().store, *choice, control));
+          for (const std::int64_t row : rows) {
             RELIEVO_TRY_ASSIGN(const auto one, rows_of(services().store, passed, row, 1));
-            labels->found.push_back(one.empty() ? std::string() : minute_of(one.front().created_at));
+            labels.push_back(one.empty() ? std::string() : minute_of(one.front().created_at));
           }
-          return {};
+          return labels;
         },
-        [this, labels, division = ++division_] {
+        [this, division = ++division_](Labels labels) {
           if (division != division_) return;
-          for (std::size_t i = 0; i < labels->found.size(); ++i)
-            walk_.set_label(i, std::move(labels->found[i]));
+          for (std::size_t i = 0; i < labels.size(); ++i) walk_.set_label(i, std::move(labels[i]));
         });
   }
 
   void load(std::int64_t number) {
-    const auto person = std::make_shared<Person>();
-    services().side_tasks.send(
+    using Loaded = std::shared_ptr<Person>;
+    services().side_tasks.ask(
         JobLane::Keeper,
-        [this, person, id = storage::SubjectId{number}](JobControl&) -> Result<void> {
+        [this, id = storage::SubjectId{number}](JobControl&) -> Result<Loaded> {
+          auto person = std::make_shared<Person>();
           RELIEVO_TRY_ASSIGN(storage::Subject subject, services().store.subject(id));
           person->found = row_of(subject);
           wipe_text(subject.name);
           RELIEVO_TRY_ASSIGN(const auto enrolments, services().store.enrolments(id));
-          if (enrolments.empty()) return {};
+          if (enrolments.empty()) return person;
           const storage::Consent& consent = enrolments.back().consent;
           person->consent = consent.wording + " (" + consent.language + ")";
           person->consented_at = minute_of(consent.given_at);
           RELIEVO_TRY_ASSIGN(auto model, services().store.load_model(enrolments.back().id, &person->memory));
           person->model.emplace(std::move(model));
-          return {};
+          return person;
         },
-        [this, person, visit = visit_](const std::optional<Error>& error) {
+        [this, visit = visit_](const Result<Loaded>& person) {
           if (visit != visit_) return;
-          if (error) return told(error);
-          person_ = person;
+          if (!person) return told(person.error());
+          person_ = *person;
           ++model_number_;
         });
   }
@@ -281,10 +276,9 @@ class RecordsController final : public PageController {
     exporting_ = true;
     const auto trace = std::make_shared<ExportTrace>();
     const FurtherModels further{.watertight = services().settings.now().is_on(ui::Setting::Solids)};
-    const auto choice = std::make_shared<const RecordChoice>(choice_);  // not moved: a short name would stay
     export_ = services().side_tasks.send(
         JobLane::Keeper,
-        [this, number, choice, further, trace](JobControl& control) -> Result<void> {
+        [this, number, choice = kept_choice(), further, trace](JobControl& control) -> Result<void> {
           std::vector<storage::SubjectId> subjects{storage::SubjectId{number}};
           if (number == 0) {              // of every page of the list
             pipeline::Progress choosing;  // the bar is the writing's

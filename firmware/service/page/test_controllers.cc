@@ -162,34 +162,33 @@ class StatusController final : public PageController {
  private:
   void look() {
     looking_ = true;
-    const auto seen = std::make_shared<ui::StatusView>();
-    services().side_tasks.send(
+    services().side_tasks.ask(
         JobLane::Keeper,
-        [seen, &store = services().store, folder = services().folder, revision = services().calibration,
-         now = services().device.clock().wall_now()](JobControl&) -> Result<void> {
+        [&store = services().store, folder = services().folder, revision = services().calibration,
+         now = services().device.clock().wall_now()](JobControl&) -> Result<ui::StatusView> {
+          ui::StatusView seen{.looked = true};
           for (const Sensor& sensor : read_temperatures("/sys/class/thermal"))
-            seen->hottest_c = std::max(seen->hottest_c, sensor.celsius);
+            seen.hottest_c = std::max(seen.hottest_c, sensor.celsius);
           std::error_code none;
-          seen->free_mib = double(std::filesystem::space(folder, none).available) / (1 << 20);
+          seen.free_mib = double(std::filesystem::space(folder, none).available) / (1 << 20);
           if (none) return Error{Errc::IoFailed, "the disk does not tell how much room it has"};
           RELIEVO_TRY_ASSIGN(const auto calibrations, store.calibrations());
           for (const storage::CalibrationInfo& one : calibrations) {
             if (one.revision == revision)
-              seen->calibration_days =
+              seen.calibration_days =
                   int(std::chrono::floor<std::chrono::days>(now - one.created_at).count());
           }
-          return {};
+          return seen;
         },
-        [this, seen](const std::optional<Error>& error) {
+        [this](const Result<ui::StatusView>& seen) {
           looking_ = false;
           next_look_ = services().device.clock().now() + kBetweenLooks;
-          if (error) {
-            if (std::exchange(told_, error->code) != error->code) services().log.fault(*error);
-            return;
+          if (seen) {
+            told_.reset();
+            view_ = *seen;
+          } else if (std::exchange(told_, seen.error().code) != seen.error().code) {
+            services().log.fault(seen.error());
           }
-          told_.reset();
-          view_ = *seen;
-          view_.looked = true;
         });
   }
 
@@ -344,10 +343,7 @@ class LogController final : public PageController {
     const auto* asked = request.as<ui::ListRequest>();
     if (asked == nullptr || walk_.ask(*asked) != ListWalk::Ask::Labels) return;
     const std::vector<ui::LogLine> lines = wanted();
-    for (std::size_t i = 0; i < walk_.stretches(); ++i) {
-      const auto top = std::size_t(walk_.top_row(i));
-      walk_.set_label(i, top < lines.size() ? lines[top].at : std::string());
-    }
+    walk_.label_each([&](std::size_t top) { return top < lines.size() ? lines[top].at : std::string(); });
   }
 
   void show(ui::ServiceView& view) override {

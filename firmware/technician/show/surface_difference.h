@@ -32,14 +32,10 @@ compare::DisparityMap depths_of(const pipeline::RectifiedPair& pair, const pipel
 // anything (std::optional); nothing beyond the view.
 template <typename Colour>
 void paint(const pipeline::RectifiedPair& pair, StageCanvas& canvas, Colour&& colour) {
-  const FaceWindow window(pair, canvas.side());
-  for (int y = 0; y < canvas.side(); ++y)
-    for (int x = 0; x < canvas.side(); ++x) {
-      const int u = int(window.back_x(x)), v = int(window.back_y(y));
-      if (u < 0 || v < 0 || u >= pair.width_px || v >= pair.height_px) continue;
-      const std::optional<std::array<std::uint8_t, 3>> c = colour(u, v);
-      if (c) canvas.put(x, y, {1.0 * (*c)[0], 1.0 * (*c)[1], 1.0 * (*c)[2]});
-    }
+  for_each_shown(pair, canvas, [&](int x, int y, int u, int v) {
+    const std::optional<std::array<std::uint8_t, 3>> c = colour(u, v);
+    if (c) canvas.put(x, y, {1.0 * (*c)[0], 1.0 * (*c)[1], 1.0 * (*c)[2]});
+  });
 }
 
 // The left view, and on it by how much a surface came nearer (mm at a pixel of it; NaN: not known, the

@@ -50,8 +50,7 @@ void TechnicianTables::ask(const ui::ListRequest& request, const Source& from) {
   const ListWalk::Ask asked = walk_.ask(request);
   if (asked == ListWalk::Ask::Rows) return refresh(from);
   if (asked != ListWalk::Ask::Labels) return;
-  for (std::size_t i = 0; i < walk_.stretches(); ++i)
-    walk_.set_label(i, label_of(from, std::size_t(walk_.top_row(i))));
+  walk_.label_each([&](std::size_t top) { return label_of(from, top); });
 }
 
 void TechnicianTables::refresh(const Source& from) {

@@ -24,6 +24,7 @@ void FolderMedia::plug(std::filesystem::path root) {
   const std::lock_guard lock(mutex_);
   root_ = std::move(root);
   ejected_.reset();
+  taken_up_ = false;
 }
 
 void FolderMedia::unplug() {
@@ -49,6 +50,7 @@ Result<void> FolderMedia::flush_and_eject() {
     return Error{Errc::IoFailed, "the stick could not be flushed; do not trust what was written", failed}.at(
         root_->native());
   ejected_ = std::exchange(root_, std::nullopt);
+  taken_up_ = false;
   return {};
 }
 
@@ -58,7 +60,13 @@ Result<void> FolderMedia::take_up_again() {
   if (!ejected_ || !std::filesystem::is_directory(*ejected_, error))
     return Error{Errc::MediaMissing, "the stick is gone"};
   root_ = std::exchange(ejected_, std::nullopt);
+  taken_up_ = true;
   return {};
+}
+
+bool FolderMedia::is_taken_up() {
+  const std::lock_guard lock(mutex_);
+  return taken_up_;
 }
 
 Result<std::vector<PicturePairFiles>> find_picture_pairs(const std::filesystem::path& folder) {

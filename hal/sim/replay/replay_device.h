@@ -37,10 +37,12 @@ class FolderMedia final : public RemovableMedia {
   std::optional<std::filesystem::path> current() override;  // nothing when unplugged or the folder is gone
   Result<void> flush_and_eject() override;                  // MediaMissing, IoFailed
   Result<void> take_up_again() override;                    // MediaMissing
+  bool is_taken_up() override;
 
  private:
   std::mutex mutex_;
   std::optional<std::filesystem::path> root_, ejected_;
+  bool taken_up_ = false;
 };
 
 // The left and right pictures of a folder, paired by what follows "left" and "right" in their

@@ -5,7 +5,6 @@
 #include <array>
 
 #include "hal/sim/base/noise.h"
-#include "hal/sim/head/head_model.h"
 
 namespace relievo::hal::sim {
 namespace {
@@ -165,13 +164,6 @@ DumbbellScene::Met DumbbellScene::meet(Vec3 o, Vec3 d) const {
   return met;
 }
 
-Mesh DumbbellScene::solid_mesh() const {
-  const double radius = dumbbell_.diameter_mm / 2;
-  Mesh mesh;
-  for (const int sphere : {0, 1}) append_ball(mesh, centre_mm(sphere), {radius, radius, radius});
-  return mesh;
-}
-
 PlateScene::Met PlateScene::meet(Vec3 o, Vec3 d) const {
   if (std::abs(d.z) < 1e-9) return {};
   const double distance = -o.z / d.z;
@@ -179,15 +171,6 @@ PlateScene::Met PlateScene::meet(Vec3 o, Vec3 d) const {
   if (distance <= 0 || std::abs(p.x) >= plate_.width_mm / 2 || std::abs(p.y) >= plate_.height_mm / 2)
     return {};
   return {distance, {0, 0, d.z > 0 ? -1.0 : 1.0}, kPlate, true};
-}
-
-Mesh PlateScene::solid_mesh() const {
-  Mesh mesh;
-  const double x = plate_.width_mm / 2, y = plate_.height_mm / 2;
-  for (const Vec3 p : {Vec3{-x, -y, 0}, {x, -y, 0}, {x, y, 0}, {-x, y, 0}})
-    mesh.points.push_back(to_floats(pose_.to_world(p)));
-  mesh.triangles = {{0, 1, 2}, {0, 2, 3}};
-  return mesh;
 }
 
 ArtefactPose ArtefactPlace::pose() const {

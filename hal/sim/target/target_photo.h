@@ -71,7 +71,6 @@ class DumbbellScene final : public ArtefactScene {
  public:
   DumbbellScene(const Dumbbell& dumbbell, const ArtefactPose& pose)
       : ArtefactScene(pose, dumbbell.seed), dumbbell_(dumbbell) {}
-  Mesh solid_mesh() const override;  // the spheres
   Vec3 centre_mm(int sphere) const;  // 0 at -x, 1 at +x; in world
 
  private:
@@ -84,7 +83,6 @@ class PlateScene final : public ArtefactScene {
   PlateScene(const FlatPlate& plate, const ArtefactPose& pose)
       : ArtefactScene(pose, plate.seed), plate_(plate) {}
   bool blocked(Vec3, Vec3, double) const override { return false; }
-  Mesh solid_mesh() const override;
 
  private:
   Met meet(Vec3 o, Vec3 d) const override;

@@ -28,7 +28,7 @@ struct FaceHits {
 class FaceWatch {
  public:
   // Errors: NotFound, StoreCorrupt (a cascade's SHA-256), LibraryFailed.
-  static Result<FaceWatch> open(const std::string& cascade_dir);
+  static Result<FaceWatch> open(const std::string& cascade_folder);
   // Errors: InvalidInput (no pixels), LibraryFailed. No face is no error: count is 0.
   Result<FaceHits> look(const Relief& relief);
 

@@ -21,19 +21,6 @@ constexpr int kLeastVotes = 4;
 constexpr double kLeanDeg = 22;  // the cascades stand 15 themselves
 constexpr double kDegree = std::numbers::pi / 180;
 
-Error unreadable(const std::string& folder) {
-  return Error{Errc::LibraryFailed, "OpenCV cannot read the face cascades: reinstall the package opencv-data"}
-      .at(folder);
-}
-
-Result<void> read(const std::string& folder, FaceCascade which, cv::CascadeClassifier& cascade) {
-  RELIEVO_TRY_ASSIGN(const std::string text, read_cascade(folder, which));
-  const cv::FileStorage file(text,
-                             cv::FileStorage::READ | cv::FileStorage::MEMORY | cv::FileStorage::FORMAT_XML);
-  if (!cascade.read(file.getFirstTopLevelNode())) return unreadable(folder);
-  return {};
-}
-
 bool same_face(const FaceBox& a, const FaceBox& b) {
   return std::hypot(a.centre_px.x - b.centre_px.x, a.centre_px.y - b.centre_px.y) <
          0.6 * std::max(a.width_px, b.width_px);
@@ -89,15 +76,11 @@ struct FaceWatch::Cascades {
   }
 };
 
-Result<FaceWatch> FaceWatch::open(const std::string& cascade_dir) {
-  try {
-    auto cascades = std::make_shared<Cascades>();
-    RELIEVO_TRY(read(cascade_dir, FaceCascade::Alt2, cascades->frontal));
-    RELIEVO_TRY(read(cascade_dir, FaceCascade::Profile, cascades->profile));
-    return FaceWatch(std::move(cascades));
-  } catch (const cv::Exception&) {
-    return unreadable(cascade_dir);
-  }
+Result<FaceWatch> FaceWatch::open(const std::string& cascade_folder) {
+  auto cascades = std::make_shared<Cascades>();
+  RELIEVO_TRY(load_cascade(cascade_folder, FaceCascade::Alt2, cascades->frontal));
+  RELIEVO_TRY(load_cascade(cascade_folder, FaceCascade::Profile, cascades->profile));
+  return FaceWatch(std::move(cascades));
 }
 
 Result<FaceHits> FaceWatch::look(const Relief& relief) {

@@ -138,10 +138,6 @@ StereoCalibration reduced(const StereoCalibration& calibration, int factor) {
 Result<void> LiveRelief::check() const {
   if (reduction < 1 || reduction > 16)
     return Error{Errc::InvalidInput, "reduction must lie in 1 .. 16"}.at("live-relief");
-  if (!(near_mm > 50 && far_mm > near_mm + 10 && far_mm < 1e5))
-    return Error{Errc::InvalidInput,
-                 "the volume must begin beyond 50 mm and be 10 mm deep or more: near_mm < far_mm"}
-        .at("live-relief");
   return {};
 }
 
@@ -190,9 +186,7 @@ Result<Relief> LiveRelief::look(const StereoFrame& frame, const StereoCalibratio
                           frame.sequence, frame.skew_ns};
   // The rectified pair is needed no longer than the matching: it lives on the scratch.
   StageContext inner{context.scratch, context.scratch, context.pool, context.progress, context.cancelled};
-  RectifierOptions volume;
-  volume.near_mm = near_mm;
-  volume.far_mm = far_mm;
+  const RectifierOptions volume{.near_mm = kNearMm, .far_mm = kFarMm};
   RELIEVO_TRY_ASSIGN(const RectifiedPair pair, volume.rectify(small, reduced(calibration, reduction), inner));
   const Pyramids pyramids = build_pyramids(pair, kLevels, inner);
   Plane<float> disparity(&context.scratch, pair.width_px, pair.height_px, kNoDisparity);
@@ -201,7 +195,7 @@ Result<Relief> LiveRelief::look(const StereoFrame& frame, const StereoCalibratio
   Relief relief(&context.output);
   fill_depth(pair, disparity, relief);
   label_surfaces(relief, context);
-  if (context.stop()) return Error{Errc::Cancelled, "stopped while looking for surfaces"};
+  if (context.stop()) return stopped();
   return relief;
 }
 

@@ -33,9 +33,8 @@ ImageView reduced(const ImageView& image, int factor, StageContext& context);
 StereoCalibration reduced(const StereoCalibration& calibration, int factor);
 
 struct LiveRelief {
-  int reduction = 4;     // the pictures are made smaller so often; 1: they are small already
-  double near_mm = 280;  // the volume that is looked at
-  double far_mm = 1100;
+  static constexpr double kNearMm = 280, kFarMm = 1100;  // the volume that is looked at
+  int reduction = 4;  // the pictures are made smaller so often; 1: they are small already
   Result<void> check() const;
   Result<Relief> look(const StereoFrame& frame, const StereoCalibration& calibration,
                       StageContext& context) const;

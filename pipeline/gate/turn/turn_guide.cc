@@ -107,6 +107,8 @@ HeadTurn settle(const FrontFace& front, const Relief& relief, RigidTransform mot
   return turn;
 }
 
+constexpr double kSideReachDeg = 8;  // so far from its angle a side is still taken
+constexpr double kLevelDeg = 12;     // of pitch and roll against the front
 constexpr int kSlowPictures = 2;
 // A tracked head at rest wanders by tenths of a millimetre from picture to picture: of two that follow at
 // once nothing can be told.
@@ -131,11 +133,11 @@ std::size_t next_side(double yaw_deg, TurnHistory& history) {
   return out[asked] || far(nearest) + kClearlyDeg < far(asked) ? nearest : asked;
 }
 
-void ask(double yaw_deg, std::chrono::nanoseconds at, double reach_deg, TurnHistory& history) {
+void ask(double yaw_deg, std::chrono::nanoseconds at, TurnHistory& history) {
   const auto before = history.asked;
   history.asked = next_side(yaw_deg, history);
   const double side = kSidesDeg[*history.asked], off = std::abs(side - yaw_deg);
-  if (history.asked != before || off <= reach_deg || off < history.nearest_deg - kNearerDeg) {
+  if (history.asked != before || off <= kSideReachDeg || off < history.nearest_deg - kNearerDeg) {
     history.nearest_deg = off, history.nearer_at = at;
   } else if (std::chrono::duration<double>(at - history.nearer_at).count() > kGivenUpAfterS) {
     for (std::size_t i = 0; i < kSides; ++i)
@@ -189,7 +191,7 @@ double moved_mm(const FrontFace& front, const HeadTurn& from, const HeadTurn& to
 }
 
 TurnAnswer guide_turn(const FrontFace& front, const HeadTurn& now, std::chrono::nanoseconds at,
-                      double slow_mm_s, const TurnLimits& limits, TurnHistory& history) {
+                      double slow_mm_s, TurnHistory& history) {
   const auto say = [&](TurnAdvice advice, std::optional<std::size_t> take = {}) {
     history.advice = advice;
     return TurnAnswer{advice, take};
@@ -202,11 +204,10 @@ TurnAnswer guide_turn(const FrontFace& front, const HeadTurn& now, std::chrono::
     history.slow = 0;
     return say(TurnAdvice::Lost);
   }
-  ask(now.yaw_deg, at, limits.reach_deg, history);
+  ask(now.yaw_deg, at, history);
   const double off = kSidesDeg[*history.asked] - now.yaw_deg;
-  const bool there = std::abs(off) <= limits.reach_deg;
-  const bool level =
-      std::abs(now.pitch_deg) <= limits.level_deg && std::abs(now.roll_deg) <= limits.level_deg;
+  const bool there = std::abs(off) <= kSideReachDeg;
+  const bool level = std::abs(now.pitch_deg) <= kLevelDeg && std::abs(now.roll_deg) <= kLevelDeg;
   if (before.known && seconds < kShortestS) return say(history.advice);
   const bool slow = before.known && moved_mm(front, before, now) - kWanderMm <= slow_mm_s * seconds;
   history.slow = there && level && slow ? history.slow + 1 : 0;
@@ -216,7 +217,7 @@ TurnAnswer guide_turn(const FrontFace& front, const HeadTurn& now, std::chrono::
     const double coming_deg_s =
         before.known ? (now.yaw_deg - before.yaw_deg) / seconds * (off > 0 ? 1 : -1) : 0;
     const bool past_soon =
-        coming_deg_s * kHeardAfterS > std::abs(off) - limits.reach_deg && coming_deg_s > kCalmDegS;
+        coming_deg_s * kHeardAfterS > std::abs(off) - kSideReachDeg && coming_deg_s > kCalmDegS;
     return say(past_soon ? TurnAdvice::Slower : off > 0 ? TurnAdvice::ToRight : TurnAdvice::ToLeft);
   }
   if (history.slow >= kSlowPictures) return say(TurnAdvice::Hold, history.asked);

@@ -52,11 +52,7 @@ HeadTurn follow_head(const FrontFace& front, const Relief& relief, const HeadTur
 // The furthest any place of the face moved between two, mm.
 double moved_mm(const FrontFace& front, const HeadTurn& from, const HeadTurn& to);
 
-struct TurnLimits {
-  double reach_deg = 8;   // of a side: so far from its angle it is still taken
-  double level_deg = 12;  // of pitch and roll against the front
-  double smear_px = 0.3;  // of a place of the face while the shutter is open, at most
-};
+inline constexpr double kMostSmearPx = 0.3;  // of a place of the face while the shutter is open
 
 struct TurnHistory {
   HeadTurn last;
@@ -76,6 +72,6 @@ struct TurnAnswer {
 
 // `slow_mm_s`: a place of the face that moves no faster is not smeared.
 TurnAnswer guide_turn(const FrontFace& front, const HeadTurn& now, std::chrono::nanoseconds at,
-                      double slow_mm_s, const TurnLimits& limits, TurnHistory& history);
+                      double slow_mm_s, TurnHistory& history);
 
 }  // namespace relievo::pipeline

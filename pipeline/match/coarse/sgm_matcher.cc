@@ -52,7 +52,7 @@ Result<void> match_both(const PyramidLevel& left, const PyramidLevel& right, int
                     costs, own, both.right, &context.cancelled);
     }
   });
-  if (context.stop()) return Error{Errc::Cancelled, "stopped while matching coarsely"};
+  if (context.stop()) return stopped();
   return {};
 }
 

@@ -112,7 +112,7 @@ Result<MatchSet> FileMatcher::match(const RectifiedPair& pair, const Keypoints&,
   MatchSet set(&context.output);
   RELIEVO_TRY_ASSIGN(set.matches, matches_in(*file.text, file.path, pair, sigma_px, &context.output));
   for (Match& match : set.matches) {
-    if (context.stop()) return Error{Errc::Cancelled, "stopped while reading matches"};
+    if (context.stop()) return stopped();
     match.cost = window_cost(pair, match.left_px, match.disparity_px, kCorrelationRadius);
   }
   if (set.matches.empty()) return Error{Errc::TooFewMatches, "the file holds no match"}.at(file.path);

@@ -82,7 +82,7 @@ class Lattice {
         offer_neighbours(node, k, by_hand_[k].disparity_px);
       });
     for (int turn = 0; !offers_.empty(); ++turn) {
-      if (turn % 64 == 0 && context.stop()) return Error{Errc::Cancelled, "stopped while joining matches"};
+      if (turn % 64 == 0 && context.stop()) return stopped();
       const Offer best = offers_.top();
       offers_.pop();
       if (fixed_.values[best.node] != 0) continue;

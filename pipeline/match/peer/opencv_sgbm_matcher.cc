@@ -82,7 +82,7 @@ Result<MatchSet> SgbmMatcher::match(const RectifiedPair& pair, const Keypoints& 
     return Error{
         Errc::OutOfMemory,
         "opencv-sgbm: hh would need more than 2 GiB here: choose 3way or narrow the volume (--near, --far)"};
-  if (context.stop()) return Error{Errc::Cancelled, "stopped before OpenCV began"};
+  if (context.stop()) return stopped();
   DisparityField field{{&context.scratch, crop.width, crop.height, kNoDisparity},
                        {float(crop.x0), float(crop.y0)}};
   const cv::Mat disparity = compute(pair, *this, crop, first, count, context);

@@ -374,7 +374,7 @@ Result<void> HighlightRemover::process(RectifiedPair& pair, StageContext& contex
   if (pair.region.empty()) return {};  // no face is looked for: what is known of skin says nothing of leaves
   const Gaussian gaussian(radius_px / kCell);
   for (const bool right : {false, true}) {
-    if (context.stop()) return Error{Errc::Cancelled, "the preprocessing was stopped"};
+    if (context.stop()) return stopped();
     clean(pair, right, *this, gaussian, context);
   }
   return {};

@@ -100,7 +100,7 @@ void map_greys(std::pmr::vector<float>& greys, ThreadPool& pool, const Map& map)
 Result<void> HistogramNormaliser::process(RectifiedPair& pair, StageContext& context) const {
   RELIEVO_TRY(check_pixels(pair));
   for (RectifiedView* view : {&pair.left, &pair.right}) {
-    if (context.stop()) return Error{Errc::Cancelled, "the preprocessing was stopped"};
+    if (context.stop()) return stopped();
     const auto valid = [&](int x, int y) { return view->valid[pair.index(x, y)] != 0; };
     const GreyHistogram histogram =
         GreyHistogram::of(view->grey, pair.width_px, pair.height_px, valid, context.pool);
@@ -118,7 +118,7 @@ Result<void> HistogramNormaliser::process(RectifiedPair& pair, StageContext& con
 
 Result<void> HistogramTransfer::process(RectifiedPair& pair, StageContext& context) const {
   RELIEVO_TRY(check_pixels(pair));
-  if (context.stop()) return Error{Errc::Cancelled, "the preprocessing was stopped"};
+  if (context.stop()) return stopped();
   const Overlap overlap(pair);
   const auto in_left = [&](int x, int y) { return overlap.holds(x, y); };
   const auto in_right = [&](int x, int y) { return overlap.holds(x + overlap.shift_px, y); };
@@ -127,7 +127,7 @@ Result<void> HistogramTransfer::process(RectifiedPair& pair, StageContext& conte
   const GreyHistogram right =
       GreyHistogram::of(pair.right.grey, pair.width_px, pair.height_px, in_right, context.pool);
   if (left.count() == 0) return {};
-  if (context.stop()) return Error{Errc::Cancelled, "the preprocessing was stopped"};
+  if (context.stop()) return stopped();
   map_greys(pair.right.grey, context.pool,
             [&](double grey) { return grey + strength * (left.grey_at(right.share_below(grey)) - grey); });
   return {};

@@ -254,7 +254,7 @@ Result<RectifiedPair> RectifierOptions::rectify(const StereoFrame& frame,
                     std::max(frame.left.height_px, frame.right.height_px));
   const std::array views{&pair.left, &pair.right};
   for (std::size_t side = 0; side < 2; ++side) {
-    if (context.stop()) return Error{Errc::Cancelled, "stopped while rectifying"};
+    if (context.stop()) return stopped();
     RectifiedView& view = *views[side];
     view.grey.resize(pair.pixels());
     view.rgb.resize(3 * pair.pixels());
@@ -322,7 +322,7 @@ Result<RectifiedPair> take_rectified(const StereoFrame& frame, const DisparityRa
   pair.far_mm = pair.depth_mm(range.least_px);
   pair.right_from_left.translation_mm = {-kBaselineMm, 0, 0};
   take_view(frame.left, pair.left, context);
-  if (context.stop()) return Error{Errc::Cancelled, "stopped while taking the pictures"};
+  if (context.stop()) return stopped();
   take_view(frame.right, pair.right, context);
   return pair;
 }

@@ -273,7 +273,7 @@ Result<void> refine_surface(const RefinerScene& scene, const SurfaceRefinerOptio
   const int steps = steps_at(scene.level, options.steps);
   float hanging = 1;
   for (int k = 0; k < steps; ++k) {
-    if (context.stop()) return Error{Errc::Cancelled, "stopped while refining"};
+    if (context.stop()) return stopped();
     Arena::Mark mark(context.scratch);
     Work work{{&context.scratch, nodes.width, nodes.height}};
     load(field, nodes, work);

@@ -17,14 +17,14 @@ constexpr double kHalfHeight = 0.95;
 }  // namespace
 
 Result<FaceBox> find_face(const FaceFinder& finder, const RectifiedPair& pair, StageContext& context) {
-  if (context.stop()) return Error{Errc::Cancelled, "the search for a face was stopped"};
+  if (context.stop()) return stopped();
   const auto* rgb = reinterpret_cast<const std::byte*>(pair.left.rgb.data());
   return finder.find({rgb, pair.width_px, pair.height_px, 3 * pair.width_px, PixelFormat::Rgb8},
                      &context.cancelled);
 }
 
 Result<void> mark_face_region(RectifiedPair& pair, const FaceBox& face, StageContext& context) {
-  if (context.stop()) return Error{Errc::Cancelled, "marking the face was stopped"};
+  if (context.stop()) return stopped();
   if (pair.width_px <= 0 || pair.height_px <= 0 || !(face.width_px > 0) || !std::isfinite(face.width_px) ||
       !std::isfinite(face.centre_px.x) || !std::isfinite(face.centre_px.y))
     return Error{Errc::InvalidInput, "a face region needs a picture and a face of some size"};

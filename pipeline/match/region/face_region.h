@@ -18,15 +18,22 @@
 #include "pipeline/base/stage.h"
 #include "pipeline/model/rectified_pair.h"
 
+namespace cv {
+class CascadeClassifier;
+}
+
 namespace relievo::pipeline {
 
 // Of opencv-data 4.6.0. Other files may be good too, but nobody has measured them here.
 enum class FaceCascade : std::uint8_t { Alt2, Default, Alt, Profile };
 inline constexpr std::size_t kFaceCascades = 4;
+inline constexpr const char* kCascadeFolder = "/usr/share/opencv4/haarcascades";  // Debian's opencv-data
 
 // A cascade's file as text, read whole and checked by its SHA-256 before any library parses it.
 // Thread: any. Errors: NotFound (no such file), StoreCorrupt (not the file we know).
 Result<std::string> read_cascade(const std::filesystem::path& folder, FaceCascade which);
+// Errors: those, and LibraryFailed.
+Result<void> load_cascade(const std::string& folder, FaceCascade which, cv::CascadeClassifier& cascade);
 
 struct FaceBox {
   Vec2d centre_px;      // between the eyes and the mouth, in the picture given
@@ -34,16 +41,12 @@ struct FaceBox {
   int votes = 0;        // overlapping hits: 5 doubtful, 50 certain
 };
 
-struct FaceFinderOptions {
-  std::string cascade_dir = "/usr/share/opencv4/haarcascades";  // Debian's opencv-data
-};
-
 // Loads the cascades once, at boot; every file's SHA-256 is checked before it is parsed.
 // Thread: one caller at a time. Memory: OpenCV's own, bounded by the size of the reduced picture.
 class FaceFinder {
  public:
-  // Errors: those of read_cascade(); LibraryFailed.
-  static Result<FaceFinder> open(const FaceFinderOptions& options);
+  // Errors: those of load_cascade().
+  static Result<FaceFinder> open(const std::string& cascade_folder = kCascadeFolder);
 
   // The most certain face; takes longest (0.4 s) where there is none, and looks at `cancelled`, when
   // given, every 30 ms. Errors: InvalidInput (an empty picture), NoFace, LibraryFailed, Cancelled.

@@ -89,6 +89,18 @@ FaceBox best_of(const std::vector<cv::Rect>& boxes, const std::vector<int>& vote
 
 }  // namespace
 
+Result<void> load_cascade(const std::string& folder, FaceCascade which, cv::CascadeClassifier& cascade) {
+  RELIEVO_TRY_ASSIGN(const std::string text, read_cascade(folder, which));
+  try {
+    const cv::FileStorage file(text,
+                               cv::FileStorage::READ | cv::FileStorage::MEMORY | cv::FileStorage::FORMAT_XML);
+    if (cascade.read(file.getFirstTopLevelNode())) return {};
+  } catch (const cv::Exception&) {  // as unreadable as what read() refuses
+  }
+  return Error{Errc::LibraryFailed, "OpenCV cannot read the face cascades: reinstall the package opencv-data"}
+      .at(folder);
+}
+
 struct FaceFinder::Cascades {
   std::array<cv::CascadeClassifier, kFaceCascades> files;
 
@@ -122,22 +134,11 @@ struct FaceFinder::Cascades {
   }
 };
 
-Result<FaceFinder> FaceFinder::open(const FaceFinderOptions& options) {
-  const Error unreadable{Errc::LibraryFailed,
-                         "OpenCV cannot read the face cascades: reinstall the package opencv-data"};
-  try {
-    auto cascades = std::make_shared<Cascades>();
-    for (std::size_t i = 0; i < kFaceCascades; ++i) {
-      RELIEVO_TRY_ASSIGN(const std::string text,
-                         read_cascade(options.cascade_dir, static_cast<FaceCascade>(i)));
-      const cv::FileStorage file(
-          text, cv::FileStorage::READ | cv::FileStorage::MEMORY | cv::FileStorage::FORMAT_XML);
-      if (!cascades->files[i].read(file.getFirstTopLevelNode())) return unreadable.at(options.cascade_dir);
-    }
-    return FaceFinder(std::move(cascades));
-  } catch (const cv::Exception&) {
-    return unreadable;
-  }
+Result<FaceFinder> FaceFinder::open(const std::string& cascade_folder) {
+  auto cascades = std::make_shared<Cascades>();
+  for (std::size_t i = 0; i < kFaceCascades; ++i)
+    RELIEVO_TRY(load_cascade(cascade_folder, static_cast<FaceCascade>(i), cascades->files[i]));
+  return FaceFinder(std::move(cascades));
 }
 
 Result<FaceBox> FaceFinder::find(const ImageView& picture, const std::atomic<bool>* cancelled) const {
@@ -149,8 +150,7 @@ Result<FaceBox> FaceFinder::find(const ImageView& picture, const std::atomic<boo
     const double scale = double(picture.height_px) / grey.rows;
     FaceBox best;
     for (const Try& look_at : kTries) {
-      if (cancelled != nullptr && cancelled->load(std::memory_order_relaxed))
-        return Error{Errc::Cancelled, "the search for a face was stopped"};
+      if (cancelled != nullptr && cancelled->load(std::memory_order_relaxed)) return stopped();
       const FaceBox hit = cascades_->look(grey, even, look_at);
       if (hit.votes < kLeastVotes || hit.votes <= best.votes) continue;
       best = {{(hit.centre_px.x + 0.5) * scale - 0.5, (hit.centre_px.y + 0.5) * scale - 0.5},

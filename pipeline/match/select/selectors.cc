@@ -4,7 +4,6 @@
 
 #include <algorithm>
 #include <array>
-#include <charconv>
 #include <cmath>
 #include <optional>
 #include <random>
@@ -120,12 +119,8 @@ struct Level {
 };
 
 std::optional<double> number_in(std::string_view text, double least, double most) {
-  double value = 0;
-  const auto read = std::from_chars(text.data(), text.data() + text.size(), value);
-  if (text.empty() || read.ec != std::errc{} || read.ptr != text.data() + text.size() ||
-      !(value >= least && value <= most))
-    return {};
-  return value;
+  const std::optional<double> value = pipeline::number_in(text);
+  return value && *value >= least && *value <= most ? value : std::nullopt;
 }
 
 Result<std::vector<Level>> read_levels(const std::string& text) {
@@ -281,7 +276,7 @@ Result<Keypoints> HaarSelector::select(const RectifiedPair& pair, StageContext& 
     Octave octave{step,
                   {&context.scratch, (pair.width_px + step - 1) / step, (pair.height_px + step - 1) / step}};
     respond(hessian, selectable, context.pool, octave);
-    if (context.stop()) return selection_stopped();
+    if (context.stop()) return stopped();
     mark_peaks(octave, selectable, found);
   }
   return peak_keypoints(found, {quality * quality, 0, double(min_distance_px), max_points}, context);
@@ -321,7 +316,7 @@ Result<Keypoints> WaveletSalientSelector::select(const RectifiedPair& pair, Stag
   const SalientTracks tracks(pair.left.grey, pair.width_px, pair.height_px, scales, &context.scratch);
   Plane<float> saliency(&context.scratch, pair.width_px, pair.height_px);
   mark_ends(tracks, selectable, context.pool, saliency);
-  if (context.stop()) return selection_stopped();
+  if (context.stop()) return stopped();
   return peak_keypoints(saliency, {quality, 0, double(min_distance_px), max_points}, context);
 }
 

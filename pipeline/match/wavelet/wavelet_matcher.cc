@@ -292,12 +292,8 @@ Result<MatchSet> WaveletMatcher::match(const RectifiedPair& pair, const Keypoint
         found[std::size_t(k)] = match;
     }
   });
-  if (context.stop()) return Error{Errc::Cancelled, "stopped while matching wavelets"};
-  return matches_of(
-      found, keypoints,
-      {Errc::TooFewMatches,
-       "no place of the left view is found again in the right one: is the face in both, in focus and lit?"},
-      context);
+  if (context.stop()) return stopped();
+  return matches_of(found, keypoints, context);
 }
 
 }  // namespace relievo::pipeline

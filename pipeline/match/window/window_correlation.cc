@@ -183,18 +183,17 @@ Result<MatchSet> matches_in_field(const DisparityField& field, const RectifiedPa
         found[std::size_t(k)] = {at, d, cost, field.scale * std::hypot(kFitSigmaPx, reading.scatter), 0};
     }
   });
-  if (context.stop()) return Error{Errc::Cancelled, "stopped while matching"};
-  return matches_of(found, keypoints, nothing_matches(), context);
+  if (context.stop()) return stopped();
+  return matches_of(found, keypoints, context);
 }
 
-Result<MatchSet> matches_of(std::span<const Match> found, const Keypoints& keypoints, const Error& none,
-                            StageContext& context) {
+Result<MatchSet> matches_of(std::span<const Match> found, const Keypoints& keypoints, StageContext& context) {
   MatchSet set(&context.output);
   set.lattice_step_px = keypoints.lattice_step_px;
   set.matches.reserve(keypoints.points.size());
   for (const Match& match : found)
     if (match.sigma_px > 0) set.matches.push_back(match);
-  if (set.matches.empty()) return none;
+  if (set.matches.empty()) return nothing_matches();
   return set;
 }
 

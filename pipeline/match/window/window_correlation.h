@@ -32,10 +32,8 @@ double window_correlation(const RectifiedPair& pair, Vec2f left_px, Vec2f right_
 // One minus the correlation at a match, 0 .. 1.
 float window_cost(const RectifiedPair& pair, Vec2f left_px, float disparity_px, int radius);
 
-// Those of `found`, a match or none (sigma_px 0) a keypoint, that are matches. Error: `none`, where there are
-// none.
-Result<MatchSet> matches_of(std::span<const Match> found, const Keypoints& keypoints, const Error& none,
-                            StageContext& context);
+// Those of `found`, a match or none (sigma_px 0) a keypoint, that are matches. Error: nothing_matches().
+Result<MatchSet> matches_of(std::span<const Match> found, const Keypoints& keypoints, StageContext& context);
 Error nothing_matches();  // TooFewMatches
 
 // Keypoints matched by a dense field of disparities, for matchers that make one of the whole picture.

@@ -349,12 +349,8 @@ Result<MatchSet> match_windows(const RectifiedPair& pair, const Keypoints& keypo
   RELIEVO_TRY(check_pixels(pair));
   WindowMatching matching(pair, keypoints, rule, context);
   matching.run(context);
-  if (context.stop()) return Error{Errc::Cancelled, "stopped while matching windows"};
-  return matches_of(
-      matching.found(), keypoints,
-      {Errc::TooFewMatches,
-       "no window of the left view is found again in the right one: is the face in both, in focus and lit?"},
-      context);
+  if (context.stop()) return stopped();
+  return matches_of(matching.found(), keypoints, context);
 }
 
 }  // namespace

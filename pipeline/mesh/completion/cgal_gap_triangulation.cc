@@ -58,10 +58,11 @@ bool narrow(Triangulation::Face_handle face) {
 
 }  // namespace
 
-std::pmr::vector<std::array<std::uint32_t, 3>> triangulate_gap(
-    std::span<const Vec2f> plane, std::span<const std::array<std::uint32_t, 2>> border,
-    std::span<const std::uint32_t> added, std::optional<std::uint32_t> far_point,
-    std::pmr::memory_resource* memory) {
+std::pmr::vector<Triangle> triangulate_gap(std::span<const Vec2f> plane,
+                                           std::span<const std::array<std::uint32_t, 2>> border,
+                                           std::span<const std::uint32_t> added,
+                                           std::optional<std::uint32_t> far_point,
+                                           std::pmr::memory_resource* memory) {
   Triangulation cdt;
   std::vector<Triangulation::Vertex_handle> at(plane.size());
   std::vector<char> is_added(plane.size(), 0);
@@ -75,9 +76,9 @@ std::pmr::vector<std::array<std::uint32_t, 3>> triangulate_gap(
   for (const std::uint32_t v : added) insert(v), is_added[v] = 1;
   for (const auto& [from, to] : border)
     if (at[from] != at[to]) cdt.insert_constraint(at[from], at[to]);
-  std::pmr::vector<std::array<std::uint32_t, 3>> triangles(memory);
+  std::pmr::vector<Triangle> triangles(memory);
   for (const auto face : outside(cdt, border, at, far_point.has_value())) {
-    std::array<std::uint32_t, 3> t{};
+    Triangle t{};
     bool known = true, fresh = far_point && (cdt.is_infinite(face) || narrow(face));
     for (int k = 0; k < 3; ++k) {
       if (cdt.is_infinite(face->vertex(k))) {

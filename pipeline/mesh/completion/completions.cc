@@ -177,14 +177,13 @@ Result<void> SymmetricCompletion::check() const {
 
 Result<FaceMesh> SymmetricCompletion::complete(FaceMesh mesh, const Vec3d& across,
                                                StageContext& context) const {
-  const Error stopped{Errc::Cancelled, "completion was stopped"};
   RELIEVO_TRY_ASSIGN(const auto frame, frame_of(mesh, across, context));
   if (!frame) return mesh;
   const Arena::Mark mark(context.scratch);
   UnrolledHead head(mesh, frame->head_from_camera, cell_mm, context.scratch);
-  if (context.stop()) return stopped;
+  if (context.stop()) return stopped();
   head.add_other_side(context.scratch);
-  if (context.stop()) return stopped;
+  if (context.stop()) return stopped();
   const auto added = additions(head, inverse(frame->head_from_camera), *this, context.scratch);
   if (added.empty()) return mesh;
   return sew(mesh, head.flat.vertices_mm, added, {longest_edge_mm}, context);
@@ -250,7 +249,7 @@ void Globe::quarter(std::span<std::pmr::vector<double>> fields) {
     direction = smoothed(direction, std::pmr::vector<Vec3d>(memory));
   }
   for (Vec3d& d : direction) d = along(Vec3d{}, 1 / std::hypot(d.x, d.y, d.z), d);
-  std::pmr::vector<std::array<std::uint32_t, 3>> fine(memory);
+  std::pmr::vector<Triangle> fine(memory);
   fine.reserve(4 * triangles.size());
   for (const auto& [a, b, c] : triangles) {
     const std::uint32_t ab = middle(a, b), bc = middle(b, c), ca = middle(c, a);
@@ -261,14 +260,13 @@ void Globe::quarter(std::span<std::pmr::vector<double>> fields) {
 
 Result<FaceMesh> GenericHeadCompletion::complete(FaceMesh mesh, const Vec3d& across,
                                                  StageContext& context) const {
-  const Error stopped{Errc::Cancelled, "completion was stopped"};
   RELIEVO_TRY_ASSIGN(const auto frame, frame_of(mesh, across, context));
   if (!frame) return mesh;
   Arena& scratch = context.scratch;
   const Arena::Mark mark(scratch);
   const UnrolledHead face(mesh, frame->head_from_camera, kFitCellMm, scratch);
   std::array<std::pmr::vector<double>, 2> fields = fit_generic_globe(face, misfit_mm, &scratch);
-  if (context.stop()) return stopped;
+  if (context.stop()) return stopped();
   Globe globe(kGlobeTimes, &scratch);
   for (int k = 0; k < kFiner; ++k) globe.quarter(fields);
   const auto &radius = fields[0], &sigma = fields[1];  // clang 14's lambdas take no structured bindings
@@ -290,7 +288,7 @@ Result<FaceMesh> GenericHeadCompletion::complete(FaceMesh mesh, const Vec3d& acr
   const std::vector<char> free = apart(globe, off);
   if (free[0] == 0) return mesh;  // surface behind the head: no face
   continue_over_globe(globe, kStepMm, radius, off);
-  if (context.stop()) return stopped;
+  if (context.stop()) return stopped();
 
   const RigidTransform camera_from_head = inverse(frame->head_from_camera);
   const auto addition = [&](std::size_t v) {

@@ -7,7 +7,6 @@
 // more for every millimetre from the seam. Errors: those of Completion. Thread: any.
 #pragma once
 
-#include <array>
 #include <cstdint>
 #include <memory_resource>
 #include <span>
@@ -15,6 +14,7 @@
 
 #include "pipeline/base/kinds.h"
 #include "pipeline/base/options.h"
+#include "pipeline/model/face_mesh.h"
 #include "pipeline/model/geometry.h"
 
 namespace relievo::pipeline {
@@ -22,7 +22,7 @@ namespace relievo::pipeline {
 // Nothing is added. Thread: any.
 struct MeasuredOnly {
   Result<FaceMesh> complete(FaceMesh mesh, const Vec3d&, StageContext& context) const {
-    if (context.stop()) return Error{Errc::Cancelled, "completion was stopped"};
+    if (context.stop()) return stopped();
     return mesh;
   }
 };
@@ -62,8 +62,8 @@ struct Globe {
   // edges as folds; without fields the nodes keep their places.
   void quarter(std::span<std::pmr::vector<double>> fields);
 
-  std::pmr::vector<Vec3d> direction;                         // unit length; the first looks along -z
-  std::pmr::vector<std::array<std::uint32_t, 3>> triangles;  // counter-clockwise from outside
+  std::pmr::vector<Vec3d> direction;     // unit length; the first looks along -z
+  std::pmr::vector<Triangle> triangles;  // counter-clockwise from outside
 };
 
 struct GenericHeadCompletion {

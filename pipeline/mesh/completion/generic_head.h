@@ -6,7 +6,7 @@
 // synthesis of 3D faces, 1999, without their correspondences: a radius is where it is). Two sets of radii:
 // of the face about the head's upright axis (UnrolledHead), and of the whole head, its neck cut off, at
 // the nodes of a globe (Globe) about a point within it; its modes are what goes with those of the face.
-// Learned from kHeadPeople heads of hal/sim, whose measures follow Farkas, each laid into the frame that
+// Learned from 300 heads of hal/sim, whose measures follow Farkas, each laid into the frame that
 // find_head_frame() found on it. generic_head.bin holds them and is part of the program;
 // generic_head.bin.license says how it is made. Millimetres, head frame. Thread: any.
 #pragma once
@@ -33,7 +33,6 @@ inline constexpr int kGlobeTimes = 4;    // the globe's triangles were quartered
 inline constexpr int kGlobeNodes = 2562;
 inline constexpr Vec3d kGlobeCentre{0, 10, -100};
 inline constexpr int kHeadModes = 24;
-inline constexpr int kHeadPeople = 300;
 inline constexpr double kHeadMeanUnit = 0.01;  // mm a count
 inline constexpr double kHeadModeUnit = 0.001;
 

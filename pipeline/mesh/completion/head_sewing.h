@@ -42,10 +42,11 @@ FaceMesh sew(const FaceMesh& mesh, std::span<const Vec3f> flat, std::span<const 
 // no triangle yet. Returns triangles outside the surface, counter-clockwise, in a fixed order: each with an
 // added vertex; or, where `far_point` is given, notches of the border up to 8 wide, too, and what lies beyond
 // the convex hull runs to that vertex.
-std::pmr::vector<std::array<std::uint32_t, 3>> triangulate_gap(
-    std::span<const Vec2f> plane, std::span<const std::array<std::uint32_t, 2>> border,
-    std::span<const std::uint32_t> added, std::optional<std::uint32_t> far_point,
-    std::pmr::memory_resource* memory);
+std::pmr::vector<Triangle> triangulate_gap(std::span<const Vec2f> plane,
+                                           std::span<const std::array<std::uint32_t, 2>> border,
+                                           std::span<const std::uint32_t> added,
+                                           std::optional<std::uint32_t> far_point,
+                                           std::pmr::memory_resource* memory);
 
 // Closes every hole: one of three edges by a triangle, a larger one by a fan about a vertex in its middle.
 void fan_holes(FaceMesh& mesh, Arena& scratch);

@@ -18,8 +18,7 @@ using Sparse = Eigen::SparseMatrix<double>;
 
 }  // namespace
 
-MeshLaplacian laplacian_of(std::span<const Eigen::Vector3d> at,
-                           std::span<const std::array<std::uint32_t, 3>> triangles) {
+MeshLaplacian laplacian_of(std::span<const Eigen::Vector3d> at, std::span<const Triangle> triangles) {
   MeshLaplacian laplacian{std::vector<std::vector<MeshLaplacian::Neighbour>>(at.size()),
                           std::vector<double>(at.size(), 0.0)};
   const auto add = [&](std::uint32_t from, std::uint32_t to, double weight) {
@@ -42,8 +41,8 @@ MeshLaplacian laplacian_of(std::span<const Eigen::Vector3d> at,
   return laplacian;
 }
 
-void fair(std::span<Eigen::Vector3d> at, std::span<const std::array<std::uint32_t, 3>> triangles,
-          std::span<const char> free, double tension_mm) {
+void fair(std::span<Eigen::Vector3d> at, std::span<const Triangle> triangles, std::span<const char> free,
+          double tension_mm) {
   const MeshLaplacian laplacian = laplacian_of(at, triangles);
   std::vector<int> place(at.size(), -1);
   int count = 0;

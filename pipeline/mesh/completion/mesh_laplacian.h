@@ -6,12 +6,13 @@
 // are no bend. Thread: any. Throws std::bad_alloc.
 #pragma once
 
-#include <array>
 #include <cstdint>
 #include <span>
 #include <vector>
 
 #include <Eigen/Core>
+
+#include "pipeline/model/face_mesh.h"
 
 namespace relievo::pipeline {
 
@@ -25,14 +26,13 @@ struct MeshLaplacian {
 };
 
 // `at`: where the vertices lie, any unit. Angles count as at least 3 and at most 177 degrees.
-MeshLaplacian laplacian_of(std::span<const Eigen::Vector3d> at,
-                           std::span<const std::array<std::uint32_t, 3>> triangles);
+MeshLaplacian laplacian_of(std::span<const Eigen::Vector3d> at, std::span<const Triangle> triangles);
 
 // Lays the vertices with `free` 1 anew so that the surface bends as little as it can (a thin plate) and goes
 // on from the others, which stay, without a crease. With a tension it also stretches as little as it can:
 // what is wider than `tension_mm` does not bulge, and no vertex of a fold, whose cotangents cancel, flies off
 // as a needle; 0 for none.
-void fair(std::span<Eigen::Vector3d> at, std::span<const std::array<std::uint32_t, 3>> triangles,
-          std::span<const char> free, double tension_mm = 0);
+void fair(std::span<Eigen::Vector3d> at, std::span<const Triangle> triangles, std::span<const char> free,
+          double tension_mm = 0);
 
 }  // namespace relievo::pipeline

@@ -9,7 +9,6 @@
 // Frame and units: the model's. Memory: `memory`. Thread: any.
 #pragma once
 
-#include <array>
 #include <cstddef>
 #include <cstdint>
 #include <memory_resource>
@@ -30,8 +29,7 @@ struct SurfaceDistance {
 
 // Zero for no points. Throws std::bad_alloc when `memory` is used up.
 SurfaceDistance distance_to_surface(std::span<const Vec3f> points_mm, std::span<const Vec3f> vertices_mm,
-                                    std::span<const std::array<std::uint32_t, 3>> triangles,
-                                    std::pmr::memory_resource* memory);
+                                    std::span<const Triangle> triangles, std::pmr::memory_resource* memory);
 
 // Squared, of a point to a triangle.
 double squared_distance_to_triangle(const Vec3f& p, const Vec3f& a, const Vec3f& b, const Vec3f& c);

@@ -3,7 +3,6 @@
 #include "pipeline/mesh/landmarks/face_relief.h"
 
 #include <algorithm>
-#include <array>
 #include <cmath>
 #include <cstdint>
 #include <limits>
@@ -15,10 +14,6 @@ namespace {
 
 constexpr float kNothing = std::numeric_limits<float>::quiet_NaN();
 constexpr int kParts = 4;  // of a mesh, laid side by side
-
-bool is_measured(const FaceMesh& mesh, const std::array<std::uint32_t, 3>& t) {
-  return mesh.measured[t[0]] != 0 && mesh.measured[t[1]] != 0 && mesh.measured[t[2]] != 0;
-}
 
 }  // namespace
 
@@ -70,8 +65,8 @@ void FaceRelief::add_triangle(const Vec3f& a, const Vec3f& b, const Vec3f& c) {
 
 void FaceRelief::add(const FaceMesh& mesh, const RigidTransform& frame_from_mesh, bool completed_too) {
   const auto corner = [&](std::uint32_t v) { return in_cells(mesh.vertices_mm[v], frame_from_mesh); };
-  for (const auto& t : mesh.triangles)
-    if (completed_too || is_measured(mesh, t)) add_triangle(corner(t[0]), corner(t[1]), corner(t[2]));
+  for (const Triangle& t : mesh.triangles)
+    if (completed_too || all_three(mesh.measured, t)) add_triangle(corner(t[0]), corner(t[1]), corner(t[2]));
 }
 
 void FaceRelief::add_both(const FaceMesh& mesh, const RigidTransform& frame_from_mesh, FaceRelief& measured,
@@ -93,7 +88,7 @@ void FaceRelief::add_both(const FaceMesh& mesh, const RigidTransform& frame_from
     Part& part = parts[std::size_t(k)];
     for (auto i = std::size_t(from); i < std::size_t(to); ++i) {
       const auto& t = mesh.triangles[i];
-      FaceRelief& relief = is_measured(mesh, t) ? part.measured : part.completed;
+      FaceRelief& relief = all_three(mesh.measured, t) ? part.measured : part.completed;
       relief.add_triangle(corners[t[0]], corners[t[1]], corners[t[2]]);
     }
   });

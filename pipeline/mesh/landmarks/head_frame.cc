@@ -112,17 +112,14 @@ Points sample(const FaceMesh& mesh, int wanted, Arena& scratch) {
     const Vector3d a = to_eigen(mesh.vertices_mm[t[0]]);
     return 0.5 * (to_eigen(mesh.vertices_mm[t[1]]) - a).cross(to_eigen(mesh.vertices_mm[t[2]]) - a).norm();
   };
-  const auto counts = [&](const auto& t) {
-    return mesh.measured[t[0]] && mesh.measured[t[1]] && mesh.measured[t[2]];
-  };
   for (const auto& t : mesh.triangles)
-    if (counts(t)) total += area(t);
+    if (all_three(mesh.measured, t)) total += area(t);
   Points points(&scratch);
   if (!(total > 0)) return points;
   points.reserve(std::size_t(wanted) + 1);
   double due = 0;
   for (const auto& t : mesh.triangles) {
-    if (!counts(t)) continue;
+    if (!all_three(mesh.measured, t)) continue;
     due += area(t) * wanted / total;
     if (due < 1 || points.size() >= std::size_t(wanted)) continue;
     due -= std::floor(due);
@@ -293,7 +290,7 @@ Result<void> set_upright(const FaceMesh& mesh, Frame& frame, Points& points, Sta
                                     // along a nose that is missing
   const Vector3d start = frame.origin;
   for (int round = 0; round < 8; ++round) {
-    if (context.stop()) return Error{Errc::Cancelled, "the search for the head's frame was stopped"};
+    if (context.stop()) return stopped();
     const FaceCore core = face_core(mesh, to_transform(frame), context);
     Frame tip;
     tip.origin = core.tip;
@@ -329,7 +326,7 @@ HeadFrame measured(const Points& points, const Frame& frame, StageContext& conte
 }  // namespace
 
 Result<HeadFrame> find_head_frame(const FaceMesh& mesh, StageContext& context, const Vec3d& across) {
-  if (context.stop()) return Error{Errc::Cancelled, "the search for the head's frame was stopped"};
+  if (context.stop()) return stopped();
   Points points = sample(mesh, kSamplePoints, context.scratch);
   if (points.size() < 400)
     return Error{Errc::PoorGeometry, "too little measured surface to tell how the head is turned"};

@@ -149,7 +149,7 @@ class Finder {
 
 Result<Landmarks> find_landmarks(const FaceMesh& mesh, const RigidTransform& head_from_camera,
                                  const std::array<std::optional<Lids>, 2>& eyes, StageContext& context) {
-  if (context.stop()) return Error{Errc::Cancelled, "the search for landmarks was stopped"};
+  if (context.stop()) return stopped();
   const Arena::Mark mark(context.scratch);
   return Finder(mesh, head_from_camera, eyes, context).find();
 }

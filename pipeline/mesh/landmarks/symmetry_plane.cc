@@ -172,7 +172,7 @@ std::array<Start, 3> raster(const HeightMap& map, std::span<const SurfacePoint> 
 Result<SymmetryPlane> find_symmetry_plane(std::span<const SurfacePoint> points, StageContext& context) {
   const HeightMap map(points, &context.scratch);
   std::array<Start, 3> ends = raster(map, points, context.pool);
-  if (context.stop()) return Error{Errc::Cancelled, "the search for the head's frame was stopped"};
+  if (context.stop()) return stopped();
   context.pool.for_each_band(int(ends.size()), int(ends.size()), [&](int, int, int k) {
     Start& end = ends[std::size_t(k)];
     const Pose pose = descend(map, points, end.pose);

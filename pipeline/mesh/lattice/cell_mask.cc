@@ -124,20 +124,17 @@ void MaskShaper::mark_within(CellMask& mask, std::uint8_t wanted, float radius_m
 // Turns the piece of `from` around `seed` into `to`; its cells are in piece_ afterwards.
 template <bool Corners>
 void MaskShaper::flood(CellMask& mask, std::uint32_t seed, std::uint8_t from, std::uint8_t to) {
-  piece_.assign(1, seed);
-  mask[seed] = to;
+  piece_.clear();
+  const auto join = [&](std::size_t k) {
+    if (mask[k] != from) return;
+    mask[k] = to;
+    piece_.push_back(std::uint32_t(k));
+  };
+  join(seed);
   for (std::size_t next = 0; next < piece_.size(); ++next) {
-    const int c = int(piece_[next]) % columns_;
-    const int r = int(piece_[next]) / columns_;
-    for (int dr = -1; dr <= 1; ++dr)
-      for (int dc = -1; dc <= 1; ++dc) {
-        if (!Corners && dr != 0 && dc != 0) continue;
-        if (c + dc < 0 || c + dc >= columns_ || r + dr < 0 || r + dr >= rows_) continue;
-        const std::uint32_t k = std::uint32_t((r + dr) * columns_ + c + dc);
-        if (mask[k] != from) continue;
-        mask[k] = to;
-        piece_.push_back(k);
-      }
+    const std::uint32_t k = piece_[next];
+    if constexpr (Corners) for_each_around(int(k) % columns_, int(k) / columns_, columns_, rows_, join);
+    else for_each_beside(k, std::size_t(columns_), mask.size(), join);
   }
 }
 

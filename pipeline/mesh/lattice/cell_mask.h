@@ -7,12 +7,13 @@
 // is in. Thread: any; deterministic. Throws std::bad_alloc when `memory` is used up.
 #pragma once
 
-#include <algorithm>
 #include <cstddef>
 #include <cstdint>
 #include <memory_resource>
 #include <span>
 #include <vector>
+
+#include "pipeline/base/parts.h"
 
 namespace relievo::pipeline {
 
@@ -24,11 +25,8 @@ using CellMask = std::pmr::vector<std::uint8_t>;
 template <typename Place>
 void spread_inwards(int columns, int rows, std::span<const std::uint32_t> free, CellMask& known,
                     Place&& place, std::pmr::memory_resource* memory) {
-  const auto for_each_beside = [&](std::uint32_t k, auto&& visit) {
-    const int column = int(k) % columns, row = int(k) / columns;
-    for (int r = std::max(row - 1, 0); r <= std::min(row + 1, rows - 1); ++r)
-      for (int c = std::max(column - 1, 0); c <= std::min(column + 1, columns - 1); ++c)
-        visit(std::uint32_t(r * columns + c));
+  const auto around = [&](std::uint32_t k, auto&& visit) {
+    for_each_around(int(k) % columns, int(k) / columns, columns, rows, visit);
   };
   CellMask open(known.size(), 0, memory);  // free, and in no ring yet
   std::pmr::vector<std::uint32_t> ring(memory), next(memory);
@@ -37,21 +35,21 @@ void spread_inwards(int columns, int rows, std::span<const std::uint32_t> free, 
   for (const std::uint32_t k : free) open[k] = known[k] == 0;
   for (const std::uint32_t k : free) {
     bool beside = false;
-    if (open[k]) for_each_beside(k, [&](std::uint32_t n) { beside = beside || known[n]; });
+    if (open[k]) around(k, [&](std::uint32_t n) { beside = beside || known[n]; });
     if (beside) ring.push_back(k);
   }
   for (const std::uint32_t k : ring) open[k] = 0;
   while (!ring.empty()) {
     for (const std::uint32_t k : ring)
       place(k, [&](auto&& look) {
-        for_each_beside(k, [&](std::uint32_t n) {
+        around(k, [&](std::uint32_t n) {
           if (known[n]) look(n);
         });
       });
     for (const std::uint32_t k : ring) known[k] = 1;
     next.clear();
     for (const std::uint32_t k : ring)
-      for_each_beside(k, [&](std::uint32_t n) {
+      around(k, [&](std::uint32_t n) {
         if (open[n]) next.push_back(n);
         open[n] = 0;
       });

@@ -224,7 +224,6 @@ CellMask open_cells(const PointLattice& l, const FaceOutline& outline, std::span
 
 Result<std::optional<ShapedLattice>> close_face(const PointLattice& seen, const Vec3d& right_camera_mm,
                                                 const LatticeLimits& limits, StageContext& context) {
-  const Error stopped{Errc::Cancelled, "meshing was stopped"};
   Arena& scratch = context.scratch;
   const FaceMesh rough = rough_surface(seen, scratch);
   const auto head = find_head_frame(rough, context, right_camera_mm);
@@ -233,23 +232,23 @@ Result<std::optional<ShapedLattice>> close_face(const PointLattice& seen, const 
   const FaceOutline outline = outline_of(rough, head->head_from_camera, scratch);
   PointLattice l = lay_on_head(seen, outline.chart, kRoomMm, context.pool, &scratch);
   if (!(l.cell_width_mm > 0 && l.cell_height_mm > 0)) return std::optional<ShapedLattice>{};
-  if (context.stop()) return stopped;
+  if (context.stop()) return stopped();
   join_neighbours(l, limits, &scratch);
   MaskShaper shaper(l.columns, l.rows, l.cell_width_mm, l.cell_height_mm, &scratch);
   const Vec3d between_cameras = minus(times(right_camera_mm, 0.5), outline.chart.centre_mm);
   drop_poor_rims(l, narrow(between_cameras), shaper, scratch);
   auto mirror = mirrored(l, scratch);
-  if (context.stop()) return stopped;
+  if (context.stop()) return stopped();
   add_generic_head(rough, head->head_from_camera, l, mirror, shaper, scratch);
-  if (context.stop()) return stopped;
+  if (context.stop()) return stopped();
   drop_beyond(l, outline);
   const CellMask open = open_cells(l, outline, mirror, shaper, scratch);
-  if (context.stop()) return stopped;
+  if (context.stop()) return stopped();
   {
     const Arena::Mark filling(scratch);
     fill_cells(l, open, kSteepest, mirror, &scratch, &context.cancelled);
   }
-  if (context.stop()) return stopped;
+  if (context.stop()) return stopped();
   drop_beyond(l, outline);
   CellMask inside(l.size(), 0, &scratch);
   for (std::size_t k = 0; k < l.size(); ++k) inside[k] = l.cells[k] != 0;

@@ -305,7 +305,7 @@ PointLattice lay_on_head(const PointLattice& old, const HeadChart& chart, float 
   for (Vec2f& p : place) p = {p.x + float(left), p.y + float(top)};
   const Reader reader(old);
   std::pmr::vector<float> radius(made.size(), 0.0F, memory);
-  for_each_triangle(old, [&](const std::array<std::uint32_t, 3>& t) {
+  for_each_triangle(old, [&](const Triangle& t) {
     const Vec2f &a = place[t[0]], &b = place[t[1]], &c = place[t[2]];
     if ((b.x - a.x) * (c.y - a.y) - (b.y - a.y) * (c.x - a.x) <= 0)
       return;  // seen from outside it turns away

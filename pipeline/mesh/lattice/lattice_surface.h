@@ -12,7 +12,6 @@
 #pragma once
 
 #include <algorithm>
-#include <array>
 #include <cmath>
 #include <cstddef>
 #include <cstdint>
@@ -21,6 +20,7 @@
 #include <vector>
 
 #include "pipeline/mesh/lattice/head_chart.h"
+#include "pipeline/model/face_mesh.h"
 #include "pipeline/model/point_cloud.h"
 #include "pipeline/model/vector3.h"
 
@@ -69,6 +69,8 @@ struct PointLattice {
     sigma_mm.assign(nodes, 0.0F);
   }
   bool inside(int column, int row) const { return column >= 0 && row >= 0 && column < columns && row < rows; }
+  // No cell begins at a node of the last column or row.
+  bool is_cell(std::size_t k) const { return inside(int(k) % columns + 1, int(k) / columns + 1); }
 };
 
 // An edge as the camera at the origin sees it: how far it leads along the line of sight and how far across.
@@ -114,10 +116,10 @@ void for_each_triangle(const PointLattice& lattice, Visit&& visit) {
   const std::uint32_t w = std::uint32_t(lattice.columns);
   for (std::uint32_t a = 0; a < lattice.cells.size(); ++a) {
     const std::uint8_t cell = lattice.cells[a];
-    if (cell & kUnder) visit(std::array<std::uint32_t, 3>{a, a + w, a + w + 1});
-    if (cell & kOver) visit(std::array<std::uint32_t, 3>{a, a + w + 1, a + 1});
-    if (cell & kLeft) visit(std::array<std::uint32_t, 3>{a, a + w, a + 1});
-    if (cell & kRight) visit(std::array<std::uint32_t, 3>{a + 1, a + w, a + w + 1});
+    if (cell & kUnder) visit(Triangle{a, a + w, a + w + 1});
+    if (cell & kOver) visit(Triangle{a, a + w + 1, a + 1});
+    if (cell & kLeft) visit(Triangle{a, a + w, a + 1});
+    if (cell & kRight) visit(Triangle{a + 1, a + w, a + w + 1});
   }
 }
 

@@ -67,7 +67,7 @@ class GapCloser {
     for (std::size_t k = 0; k < whole_.size(); ++k) gap_[k] = gap_[k] && !large_[k];
     shaper_.dilate(gap_, kPinholeRimMm);
     for (std::size_t k = 0; k < whole_.size(); ++k) {
-      gap_[k] = gap_[k] && !large_[k] && inner(k);
+      gap_[k] = gap_[k] && !large_[k] && lattice_.is_cell(k);
       if (gap_[k]) lattice_.cells[k] = 0;
     }
     fill_cells(lattice_, gap_, limits_.max_slope, {}, memory_);
@@ -113,15 +113,13 @@ class GapCloser {
     for (std::uint32_t k = 0; k < gap_.size(); ++k)
       if (gap_[k] == kOpen && !whole_[k]) opened.push_back(k);
     for (std::size_t next = 0; next < opened.size(); ++next) {
-      const int c = int(opened[next]) % lattice_.columns;
-      const int r = int(opened[next]) / lattice_.columns;
-      for (int y = std::max(r - 1, 0); y <= std::min(r + 1, lattice_.rows - 1); ++y)
-        for (int x = std::max(c - 1, 0); x <= std::min(c + 1, lattice_.columns - 1); ++x) {
-          const std::size_t k = lattice_.index(x, y);
-          if (gap_[k] != kUndecided) continue;
-          gap_[k] = kOpen;
-          opened.push_back(std::uint32_t(k));
-        }
+      const int at = int(opened[next]);
+      for_each_around(at % lattice_.columns, at / lattice_.columns, lattice_.columns, lattice_.rows,
+                      [&](std::uint32_t k) {
+                        if (gap_[k] != kUndecided) return;
+                        gap_[k] = kOpen;
+                        opened.push_back(k);
+                      });
     }
     bridge_specks(opened);
     for (std::uint8_t& gap : gap_) gap = gap != kOpen;
@@ -134,11 +132,6 @@ class GapCloser {
     shaper_.drop_pieces_below(large_, std::size_t(kSpeckMm2 / cell_mm2_));
     for (const std::uint32_t k : opened)
       if (was_gap_[k] && !large_[k]) gap_[k] = kBridged;
-  }
-
-  // Not of the last column or row, which are no cells.
-  bool inner(std::size_t k) const {
-    return lattice_.inside(int(k) % lattice_.columns + 1, int(k) / lattice_.columns + 1);
   }
 
   bool continues_both(const ViewEdge& edge, float width, float before, float after) const {
@@ -235,9 +228,7 @@ void grow(PointLattice& l, const CellMask& before, const CellMask& wanted, float
                1.5F * std::max(l.cell_width_mm, l.cell_height_mm));  // the steps along the old line too
   for (std::size_t k = 0; k < l.size(); ++k) {
     if (!before[k]) l.cells[k] = 0;
-    gained[k] = wanted[k] && !gained[k] && triangle_count(l.cells[k]) < 2 &&
-                l.inside(int(k) % l.columns + 1,
-                         int(k) / l.columns + 1);  // the last column and row are no cells
+    gained[k] = wanted[k] && !gained[k] && triangle_count(l.cells[k]) < 2 && l.is_cell(k);
   }
   const std::pmr::vector<Vec3f> at_mm(l.at_mm, memory);
   const std::pmr::vector<float> sigma_mm(l.sigma_mm, memory);

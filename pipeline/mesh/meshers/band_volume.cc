@@ -281,6 +281,7 @@ void fill_field(std::span<const FieldPoint> points, float radius_mm, BandVolume&
   context.pool.for_each_band(volume.nz, kBands, [&](int begin, int end, int) {
     const float low = volume.at(0, 0, begin).z - radius_mm, high = volume.at(0, 0, end - 1).z + radius_mm;
     for (const FieldPoint& p : points) {
+      if (context.stop()) return;
       if (p.at_mm.z < low || p.at_mm.z > high) continue;
       const AxisNear x(p.at_mm.x, volume.corner_mm.x, volume.voxel_mm, radius_mm),
           y(p.at_mm.y, volume.corner_mm.y, volume.voxel_mm, radius_mm),

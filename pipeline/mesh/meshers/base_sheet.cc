@@ -23,16 +23,19 @@ constexpr float kAnySlope = 1e6F;
 constexpr float kBeyondEdges = 0.3F;  // and so many beyond the border it may lie
 constexpr float kSigmaPerMm = 0.05F;  // what a vertex further from the points loses in certainty
 
-// The vertices as they go into the mesh; none where one lies too far from what was measured.
-std::pmr::vector<std::optional<PackedVertex>> carry_over(const FaceMesh& base,
-                                                         std::span<const Vec3f> vertices,
-                                                         const FinishOptions& options,
-                                                         StageContext& context) {
+struct Carried {
+  float sigma_mm;
+  std::uint8_t measured;
+};
+
+// Of every vertex; none where one lies too far from what was measured. Half of it where it was stopped.
+std::pmr::vector<std::optional<Carried>> carry_over(const FaceMesh& base, std::span<const Vec3f> vertices,
+                                                    const FinishOptions& options, StageContext& context) {
   const NearestVertex nearest(base.vertices_mm, &context.scratch);
   const auto border = border_vertices(base, &context.scratch);
   const float usual = usual_edge_mm(base.vertices_mm, base.triangles, &context.scratch);
-  std::pmr::vector<std::optional<PackedVertex>> carried(vertices.size(), &context.scratch);
-  for (std::size_t v = 0; v < vertices.size(); ++v) {
+  std::pmr::vector<std::optional<Carried>> carried(vertices.size(), &context.scratch);
+  for (std::size_t v = 0; v < vertices.size() && !context.stop(); ++v) {
     if (!(vertices[v].z > 0)) continue;
     const auto hit = nearest.find(vertices[v], float(options.max_gap_mm));
     if (hit.vertex == NearestVertex::kNone) continue;
@@ -40,7 +43,7 @@ std::pmr::vector<std::optional<PackedVertex>> carry_over(const FaceMesh& base,
     if (border[hit.vertex] && distance > kBeyondEdges * usual)
       continue;  // nothing grows over the measured border
     const bool measured = base.measured[hit.vertex] && distance <= kMeasuredEdges * usual;
-    carried[v] = {vertices[v], base.sigma_mm[hit.vertex] + kSigmaPerMm * std::max(distance - usual, 0.0F),
+    carried[v] = {base.sigma_mm[hit.vertex] + kSigmaPerMm * std::max(distance - usual, 0.0F),
                   measured ? std::uint8_t{1} : std::uint8_t{0}};
   }
   return carried;
@@ -104,7 +107,7 @@ Result<FaceMesh> finish_surface(const FaceMesh& base, std::span<const Vec3f> ver
                                 std::pmr::vector<Triangle>& triangles, const FinishOptions& options,
                                 StageContext& context) {
   const auto carried = carry_over(base, vertices, options, context);
-  if (context.stop()) return Error{Errc::Cancelled, "meshing was stopped"};
+  if (context.stop()) return stopped();
   const float max_slope = float(std::tan(options.max_incidence_deg * std::numbers::pi / 180));
   const float min_cosine = cosine_of_slope(max_slope);
   std::erase_if(triangles,
@@ -123,12 +126,14 @@ Result<FaceMesh> finish_surface(const FaceMesh& base, std::span<const Vec3f> ver
   const std::size_t most = std::size_t(options.max_triangles);
   if (triangles.size() > most) collapse_edges(vertices, triangles, most, {}, &context.scratch);
   mend(max_slope);
-  if (context.stop()) return Error{Errc::Cancelled, "meshing was stopped"};
+  if (context.stop()) return stopped();
   if (triangles.empty() || area_mm2(vertices, triangles) < options.min_area_mm2) return no_surface();
   if (triangles.size() > most)
     return Error{Errc::InvalidInput, "the surface cannot be simplified to so few triangles: allow more"}.at(
         "max_triangles");
-  FaceMesh mesh = pack_mesh(vertices.size(), triangles, context, [&](std::size_t v) { return *carried[v]; });
+  FaceMesh mesh = pack_mesh(vertices.size(), triangles, context, [&](std::size_t v) {
+    return PackedVertex{vertices[v], carried[v]->sigma_mm, carried[v]->measured};
+  });
   compute_normals(mesh, 1, &context.scratch);
   context.progress.done.store(1, std::memory_order_relaxed);
   return mesh;
@@ -180,7 +185,7 @@ Result<FaceMesh> mesh_sheet(const FaceMesh& base, const DepthSamples& samples, c
       for (std::size_t c = 0; c < columns; ++c)
         depths[std::size_t(r) * columns + c] = function(u_of(c), v_of(r));
   });
-  if (context.stop()) return Error{Errc::Cancelled, "meshing was stopped"};
+  if (context.stop()) return stopped();
   const float usual = usual_edge_mm(base.vertices_mm, base.triangles, &context.scratch);
   const float reach = kReachEdges * std::max(usual, float(options.step_mm));
   PointCloud cloud(&context.scratch);

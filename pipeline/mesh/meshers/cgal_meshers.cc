@@ -79,7 +79,7 @@ Result<FaceMesh> AdvancingFrontMesher::mesh(const PointCloud& cloud, StageContex
       std::min(max_edge_mm,
                max_edge_ratio * double(usual_edge_mm(base.vertices_mm, base.triangles, &context.scratch)));
   std::pmr::vector<Triangle> triangles = grow(base, longest, context);
-  if (context.stop()) return Error{Errc::Cancelled, "meshing was stopped"};
+  if (context.stop()) return stopped();
   return finish_surface(base, base.vertices_mm, triangles, finish, context);
 }
 
@@ -146,7 +146,7 @@ Result<FaceMesh> PoissonMesher::mesh(const PointCloud& cloud, StageContext& cont
       std::max(float(voxel_mm), 0.6F * usual_edge_mm(base.vertices_mm, base.triangles, &context.scratch));
   BandVolume volume = volume_around(base.vertices_mm, voxel, int(band_voxels) + 2, &context.scratch);
   if (!fill_field(base, volume, float(band_voxels) * voxel, context))
-    return context.stop() ? Error{Errc::Cancelled, "meshing was stopped"} : no_surface();
+    return context.stop() ? stopped() : no_surface();
   const std::size_t row = std::size_t(volume.nx);
   for (int pass = 0; pass < kSmoothings; ++pass)
     for (const std::size_t stride : {std::size_t{1}, row, row * std::size_t(volume.ny)}) {
@@ -228,12 +228,11 @@ std::pmr::vector<Triangle> triangulate(const PointCloud& cloud, int max_triangle
 template <typename Longest>
 Result<FaceMesh> join(const PointCloud& cloud, const DelaunayMesher& options, StageContext& context,
                       Longest&& longest_mm) {
-  const Error stopped{Errc::Cancelled, "meshing was stopped"};
-  if (context.stop()) return stopped;
+  if (context.stop()) return stopped();
   if (cloud.points.size() < 3) return no_surface();
   std::pmr::vector<Triangle> triangles = triangulate(cloud, options.max_triangles, context.scratch);
   context.progress.done.store(0.6F, std::memory_order_relaxed);
-  if (context.stop()) return stopped;
+  if (context.stop()) return stopped();
 
   std::pmr::vector<Vec3f> at(&context.scratch);
   at.reserve(cloud.points.size());
@@ -244,7 +243,7 @@ Result<FaceMesh> join(const PointCloud& cloud, const DelaunayMesher& options, St
     return !shorter(at, t, longest) || !facing(at[t[0]], at[t[1]], at[t[2]], min_cosine);
   });
   keep_one_surface(at, triangles, {options.ear_passes}, &context.scratch);
-  if (context.stop()) return stopped;
+  if (context.stop()) return stopped();
   if (triangles.empty() || area_mm2(at, triangles) < options.min_area_mm2) return no_surface();
 
   FaceMesh mesh = pack_mesh(at.size(), triangles, context, [&](std::size_t v) {

@@ -14,8 +14,6 @@
 namespace relievo::pipeline {
 namespace {
 
-Error stopped() { return {Errc::Cancelled, "meshing was stopped"}; }
-
 constexpr double kCutAway = 0.018;      // of the triangles, by the outline's cut
 constexpr float kThinnerStep = 1.003F;  // where the triangles at hand are exceeded by a few
 

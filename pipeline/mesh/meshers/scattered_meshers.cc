@@ -42,7 +42,7 @@ Result<FaceMesh> MarchingCubesMesher::mesh(const PointCloud& cloud, StageContext
   add_points(base, 1, points);
   add_points(between, kBetweenShare, points);
   fill_field(points, radius, volume, context);
-  if (context.stop()) return Error{Errc::Cancelled, "meshing was stopped"};
+  if (context.stop()) return stopped();
   Polygonised surface = polygonise(volume, &context.scratch);
   return finish_surface(base, surface.vertices_mm, surface.triangles, finish, context);
 }
@@ -195,7 +195,7 @@ Result<FaceMesh> RbfMesher::mesh(const PointCloud& cloud, StageContext& context)
   RELIEVO_TRY_ASSIGN(const FaceMesh base, base_sheet(cloud, max_points, context));
   const DepthSamples samples = sample_depths(base, &context.scratch);
   Rbf function(samples, *this, context);
-  if (!function.fit()) return Error{Errc::Cancelled, "meshing was stopped"};
+  if (!function.fit()) return stopped();
   return mesh_sheet(
       base, samples, [&function](double u, double v) { return function.at(u, v); }, sheet, context);
 }
@@ -257,12 +257,12 @@ class Normal {
   }
 
   // Conjugate gradients, scaled by the diagonal.
-  void solve(int most_turns, double enough) {
+  void solve(int most_turns, double enough, const StageContext& context) {
     residual_ = right_;
     step_.assign(size(), 0.0);
     product_.assign(size(), 0.0);
     double before = 0, first = 0;
-    for (int turn = 0; turn < most_turns; ++turn) {
+    for (int turn = 0; turn < most_turns && !context.stop(); ++turn) {
       double now = 0;
       for (std::size_t i = 0; i < size(); ++i) now += residual_[i] * residual_[i] / diagonal(i);
       if (turn == 0) first = now;
@@ -328,16 +328,15 @@ Share share_of(double at, double from, double side, int count) {
 
 }  // namespace
 
-BezierNet::BezierNet(const DepthSamples& samples, double patch_mm, double bending,
-                     std::pmr::memory_resource* memory)
+BezierNet::BezierNet(const DepthSamples& samples, double patch_mm, double bending, StageContext& context)
     : left_(samples.left),
       top_(samples.top),
       side_(patch_mm),
       middle_(samples.usual_depth_mm),
       columns_(int((samples.right - samples.left) / patch_mm) + 1),
       rows_(int((samples.bottom - samples.top) / patch_mm) + 1),
-      patches_(std::size_t(columns_) * std::size_t(rows_), Patch{}, memory) {
-  Normal normal(columns_ + 3, rows_ + 3, memory);
+      patches_(std::size_t(columns_) * std::size_t(rows_), Patch{}, &context.scratch) {
+  Normal normal(columns_ + 3, rows_ + 3, &context.scratch);
   double weights = 0;
   for (std::size_t i = 0; i < samples.u.size(); ++i) {
     const Share u = share_of(samples.u[i], left_, side_, columns_),
@@ -353,7 +352,7 @@ BezierNet::BezierNet(const DepthSamples& samples, double patch_mm, double bendin
     weights += weight;
   }
   add_bending(normal, columns_ + 3, rows_ + 3, bending * weights / double(normal.size()));
-  normal.solve(2000, 1e-14);
+  normal.solve(2000, 1e-14, context);
   const std::pmr::vector<double>& coefficient = normal.solution();
   for (int r = 0; r < rows_; ++r)
     for (int c = 0; c < columns_; ++c) {
@@ -380,8 +379,8 @@ double BezierNet::depth(double u, double v) const {
 Result<FaceMesh> BezierMesher::mesh(const PointCloud& cloud, StageContext& context) const {
   RELIEVO_TRY_ASSIGN(const FaceMesh base, base_sheet(cloud, max_points, context));
   const DepthSamples samples = sample_depths(base, &context.scratch);
-  const BezierNet net(samples, patch_mm, bending, &context.scratch);
-  if (context.stop()) return Error{Errc::Cancelled, "meshing was stopped"};
+  const BezierNet net(samples, patch_mm, bending, context);
+  if (context.stop()) return stopped();
   return mesh_sheet(
       base, samples, [&net](double u, double v) { return net.depth(u, v); }, sheet, context);
 }

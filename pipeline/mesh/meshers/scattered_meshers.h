@@ -138,8 +138,8 @@ class BezierNet {
  public:
   using Patch = std::array<std::array<double, 4>, 4>;  // control values: [row][column]
 
-  // Fitted to the samples. Throws std::bad_alloc when `memory` is used up.
-  BezierNet(const DepthSamples& samples, double patch_mm, double bending, std::pmr::memory_resource* memory);
+  // Fitted to the samples, in `scratch`; not to the end where it was stopped. Throws std::bad_alloc.
+  BezierNet(const DepthSamples& samples, double patch_mm, double bending, StageContext& context);
 
   int columns() const { return columns_; }
   int rows() const { return rows_; }

@@ -99,22 +99,13 @@ namespace {
 
 constexpr int kLevelCell = 16;  // texels a cell and side
 
-struct Cell {
-  Level sum{0, 0, 0};
-  float weight = 0;
-  void add(const Cell& other, float share) {
-    for (std::size_t c = 0; c < 3; ++c) sum[c] += share * other.sum[c];
-    weight += share * other.weight;
-  }
-};
-
 // Weighted means with the neighbours (binomial, twice): normalised convolution.
-void smooth(Plane<Cell>& cells, std::pmr::memory_resource* memory) {
-  Plane<Cell> next(memory, cells.width, cells.height);
+void smooth(Plane<LevelSum>& cells, std::pmr::memory_resource* memory) {
+  Plane<LevelSum> next(memory, cells.width, cells.height);
   for (int pass = 0; pass < 2; ++pass) {
     for (int y = 0; y < cells.height; ++y)
       for (int x = 0; x < cells.width; ++x) {
-        Cell sum;
+        LevelSum sum;
         for (int v = std::max(0, y - 1); v <= std::min(cells.height - 1, y + 1); ++v)
           for (int u = std::max(0, x - 1); u <= std::min(cells.width - 1, x + 1); ++u)
             sum.add(cells.row(v)[u], (u == x ? 2.0F : 1.0F) * (v == y ? 2.0F : 1.0F) / 16);
@@ -126,13 +117,13 @@ void smooth(Plane<Cell>& cells, std::pmr::memory_resource* memory) {
 
 // Cells nobody knows take the mean of what is known in ever larger squares around them; a few grey
 // levels of evidence count as known, so that a cell at the border is not its one texel's slave.
-Plane<Level> extended(const Plane<Cell>& cells, std::pmr::memory_resource* memory) {
+Plane<Level> extended(const Plane<LevelSum>& cells, std::pmr::memory_resource* memory) {
   constexpr float kEnough = 32;  // texels
   Plane<Level> field(memory, cells.width, cells.height);
   const int largest = std::max(cells.width, cells.height);
   for (int y = 0; y < cells.height; ++y)
     for (int x = 0; x < cells.width; ++x) {
-      Cell sum = cells.row(y)[x];
+      LevelSum sum = cells.row(y)[x];
       for (int radius = 1; sum.weight < kEnough && radius <= largest; radius *= 2) {
         sum = {};
         for (int v = std::max(0, y - radius); v <= std::min(cells.height - 1, y + radius); ++v)
@@ -149,13 +140,13 @@ Plane<Level> extended(const Plane<Cell>& cells, std::pmr::memory_resource* memor
 Plane<Level> measure_levels(const Chart& chart, const ShotPlanes& planes, const ExposureMatch& exposure,
                             std::span<const std::uint8_t> shines, std::pmr::memory_resource* memory) {
   constexpr float kFarthest = 40;  // grey levels: more is an edge that does not meet, not a level
-  Plane<Cell> cells(memory, (chart.width_px + kLevelCell - 1) / kLevelCell,
-                    (chart.height_px + kLevelCell - 1) / kLevelCell);
+  Plane<LevelSum> cells(memory, (chart.width_px + kLevelCell - 1) / kLevelCell,
+                        (chart.height_px + kLevelCell - 1) / kLevelCell);
   for (int y = 0; y < chart.height_px; ++y)
     for (int x = 0; x < chart.width_px; ++x) {
       const std::size_t k = chart.index(x, y);
       if (std::min(planes.say_left[k], planes.say_right[k]) < 128 || shines[k] != 0) continue;
-      Cell here{{}, 1};
+      LevelSum here{{}, 1};
       for (std::size_t c = 0; c < 3; ++c)
         here.sum[c] = exposure.matched(c, planes.right[3 * k + c]) - float(planes.left[3 * k + c]);
       if (std::abs(here.sum[1]) <= kFarthest) cells.row(y / kLevelCell)[x / kLevelCell].add(here, 1);

@@ -20,8 +20,6 @@ constexpr float kLevels = 3, kShare = 0.17F;  // by which colour may leave that 
 constexpr float kHue = 0.025F;                // of a channel's part in all three
 constexpr float kMemory = 0.93F;              // ... which remembers so much of where it came from
 
-using Triangle = std::array<std::uint32_t, 3>;
-
 // Those that hold a vertex that was completed.
 std::pmr::vector<Triangle> completed_triangles(const FaceMesh& mesh, std::pmr::memory_resource* memory) {
   std::pmr::vector<Triangle> found(memory);
@@ -30,28 +28,13 @@ std::pmr::vector<Triangle> completed_triangles(const FaceMesh& mesh, std::pmr::m
   return found;
 }
 
-// Calls step(from, to) along edges until no call says that it changed anything. Triangles run along rows: a
-// pass each way reaches far.
-template <typename Step>
-void sweep(std::span<const Triangle> triangles, Step&& step) {
-  bool changed = true;
-  const auto go = [&](const Triangle& t) {
-    for (std::size_t i = 0; i < 3; ++i)
-      for (std::size_t j = 1; j < 3; ++j) changed = step(t[i], t[(i + j) % 3]) || changed;
-  };
-  while (changed) {
-    changed = false;
-    std::ranges::for_each(triangles, go);
-    std::for_each(triangles.rbegin(), triangles.rend(), go);
-  }
-}
-
 // 1 at vertices that were completed and are joined by such to the surface's border nearby.
 std::pmr::vector<std::uint8_t> completed_to_border(const FaceMesh& mesh,
                                                    std::span<const Triangle> completed_parts,
-                                                   std::pmr::memory_resource* memory) {
+                                                   StageContext& context) {
   constexpr float kReachMm = 38;
   constexpr std::uint32_t kNone = 0xFFFFFFFFU;
+  std::pmr::memory_resource* const memory = &context.scratch;
   const std::pmr::vector<std::uint8_t> at_border = border_vertices(mesh, memory);
   std::pmr::vector<std::uint32_t> border(mesh.vertices_mm.size(), kNone, memory);  // the nearest vertex of it
   const auto completed = [&](std::uint32_t v) { return !mesh.measured.empty() && mesh.measured[v] == 0; };
@@ -60,7 +43,7 @@ std::pmr::vector<std::uint8_t> completed_to_border(const FaceMesh& mesh,
   const auto squared_mm = [&](std::uint32_t v, std::uint32_t w) {
     return squared_distance(mesh.vertices_mm[v], mesh.vertices_mm[w]);
   };
-  sweep(completed_parts, [&](std::uint32_t from, std::uint32_t to) {
+  sweep_edges(completed_parts, context, [&](std::uint32_t from, std::uint32_t to) {
     if (border[from] == kNone || border[to] == border[from] || !completed(to)) return false;
     if (squared_mm(to, border[from]) >=
         (border[to] == kNone ? kReachMm * kReachMm : squared_mm(to, border[to])))
@@ -79,13 +62,13 @@ std::pmr::vector<std::uint8_t> completed_to_border(const FaceMesh& mesh,
 template <typename Colour>
 void forget_what_lies_behind(std::span<const Triangle> completed_parts, std::span<const std::uint8_t> beyond,
                              std::uint8_t bit, Colour&& colour, std::span<std::uint8_t> seen,
-                             std::pmr::memory_resource* memory) {
+                             StageContext& context) {
   using Rgb = std::array<float, 3>;
-  std::pmr::vector<Rgb> usual(seen.size(), Rgb{-1, 0, 0}, memory);
+  std::pmr::vector<Rgb> usual(seen.size(), Rgb{-1, 0, 0}, &context.scratch);
   const auto known = [&](std::uint32_t v) { return usual[v][0] >= 0; };
   for (std::uint32_t v = 0; v < seen.size(); ++v)
     if ((seen[v] & bit) != 0 && beyond[v] == 0) usual[v] = colour(v);
-  sweep(completed_parts, [&](std::uint32_t from, std::uint32_t to) {
+  sweep_edges(completed_parts, context, [&](std::uint32_t from, std::uint32_t to) {
     if (!known(from) || known(to) || (seen[to] & bit) == 0) return false;
     const Rgb here = colour(to);
     const float light = here[0] + here[1] + here[2] + 1,
@@ -130,8 +113,7 @@ float cosine_towards(const Vec3f& camera, const Vec3f& at, const Vec3f& normal) 
 bool covered(const RectifiedView& view, const RectifiedPair& pair, float x, float y) {
   const int column = int(std::lround(x));
   const int row = int(std::lround(y));
-  if (column < 0 || row < 0 || column >= pair.width_px || row >= pair.height_px) return false;
-  return view.valid.empty() || view.valid[pair.index(column, row)] != 0;
+  return pair.inside(column, row) && (view.valid.empty() || view.valid[pair.index(column, row)] != 0);
 }
 
 // Everything a band of rows needs.
@@ -179,7 +161,7 @@ struct Shooting {
     }
   }
 
-  void shoot_texel(std::size_t k, int x, int y, const std::array<std::uint32_t, 3>& t, const PhotoRow& left,
+  void shoot_texel(std::size_t k, int x, int y, const Triangle& t, const PhotoRow& left,
                    const PhotoRow& right) const {
     const Vec2f at{float(x), float(y)};
     const float disparity = maps[0].nearest[k];
@@ -201,7 +183,7 @@ struct Shooting {
     planes.share[k] = to_byte(255 * share_at(at, t));
   }
 
-  float share_at(const Vec2f& at, const std::array<std::uint32_t, 3>& t) const {
+  float share_at(const Vec2f& at, const Triangle& t) const {
     const Vec2f& a = chart.texel[t[0]];
     const Vec2f& b = chart.texel[t[1]];
     const Vec2f& c = chart.texel[t[2]];
@@ -270,7 +252,7 @@ VertexViews look_at_vertices(const FaceMesh& mesh, const RectifiedPair& pair, co
   });
   if (context.stop()) return views;
   const auto parts = completed_triangles(mesh, memory);
-  const auto beyond = completed_to_border(mesh, parts, memory);
+  const auto beyond = completed_to_border(mesh, parts, context);
   const auto look = [&](const RectifiedView& view, float side, std::uint8_t bit, std::span<float> light) {
     const PhotoSampler photo(view.rgb, pair.width_px, pair.height_px);
     const auto colour = [&](std::uint32_t v) {
@@ -280,7 +262,7 @@ VertexViews look_at_vertices(const FaceMesh& mesh, const RectifiedPair& pair, co
       return std::array<float, 3>{rgb[0], rgb[1], rgb[2]};
     };
     if (context.stop()) return;
-    forget_what_lies_behind(parts, beyond, bit, colour, views.seen, memory);
+    forget_what_lies_behind(parts, beyond, bit, colour, views.seen, context);
     if (context.stop()) return;
     for_each_vertex([&](std::size_t v) {
       const auto rgb = colour(std::uint32_t(v));
@@ -298,7 +280,7 @@ VertexViews look_at_vertices(const FaceMesh& mesh, const RectifiedPair& pair, co
 ShotPlanes shoot(const FaceMesh& mesh, const RectifiedPair& pair, const Chart& chart, const RowBands& bands,
                  std::span<const FrontMap> maps, const VertexViews& views, std::span<const std::uint8_t> kept,
                  const ShotOptions& options, StageContext& context) {
-  ShotPlanes planes(chart.size(), &context.scratch);
+  ShotPlanes planes(chart.pixels(), &context.scratch);
   const std::size_t band_count = std::size_t(bands.count());
   std::pmr::vector<float> rows(band_count * 6 * std::size_t(pair.width_px), 0.0F, &context.scratch);
   std::pmr::vector<BoxSum> columns(band_count * std::size_t(chart.width_px), BoxSum{}, &context.scratch);

@@ -6,8 +6,10 @@
 // SIGGRAPH 1996; a view's say fades before an occlusion begins (feathering).
 #pragma once
 
+#include <algorithm>
 #include <cstdint>
 #include <memory_resource>
+#include <span>
 #include <vector>
 
 #include "pipeline/base/stage.h"
@@ -25,6 +27,22 @@ struct ShotOptions {
 };
 
 inline constexpr std::uint8_t kSeenLeft = 1, kSeenRight = 2, kSurface = 4;
+
+// Calls step(from, to) along edges until no call says that it changed anything, or until it is stopped.
+// Triangles run along rows: a pass each way reaches far.
+template <typename Step>
+void sweep_edges(std::span<const Triangle> triangles, const StageContext& context, Step&& step) {
+  bool changed = true;
+  const auto go = [&](const Triangle& t) {
+    for (std::size_t i = 0; i < 3; ++i)
+      for (std::size_t j = 1; j < 3; ++j) changed = step(t[i], t[(i + j) % 3]) || changed;
+  };
+  while (changed && !context.stop()) {
+    changed = false;
+    std::ranges::for_each(triangles, go);
+    std::for_each(triangles.rbegin(), triangles.rend(), go);
+  }
+}
 
 // What is known of the vertices before any texel is looked at; half of it where it was stopped.
 struct VertexViews {

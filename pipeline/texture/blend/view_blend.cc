@@ -6,6 +6,7 @@
 #include <cmath>
 #include <functional>
 
+#include "pipeline/base/parts.h"
 #include "pipeline/model/photo_sampler.h"
 #include "pipeline/texture/chart/raster.h"
 
@@ -19,14 +20,6 @@ constexpr std::size_t kFewestBlocks = 12;
 constexpr float kOneSided = 0.8F;  // of the difference, on one side: a reflection, not a movement
 
 using Choices = Plane<ViewChoice>;  // one a block
-
-// Calls see(block) for the block itself and its neighbours, through sides and corners.
-template <typename See>
-void around(const Choices& blocks, int u, int v, See&& see) {
-  for (int y = std::max(v - 1, 0); y <= std::min(v + 1, blocks.height - 1); ++y)
-    for (int x = std::max(u - 1, 0); x <= std::min(u + 1, blocks.width - 1); ++x)
-      see(std::size_t(y) * std::size_t(blocks.width) + std::size_t(x));
-}
 
 // Every patch of blocks that differ by `limit` and more, joined through sides and corners, gets its camera.
 // `excess`: of the left view.
@@ -53,10 +46,10 @@ void choose(const Chart& chart, const ShotPlanes& planes, const Plane<float>& ex
       const float share = float(planes.share[k]) / 255;
       left += float(planes.say_left[k]) * (1 - share);
       right += float(planes.say_right[k]) * share;
-      around(blocks, u, v, [&](std::size_t other) {
+      for_each_around(u, v, blocks.width, blocks.height, [&](std::uint32_t other) {
         if (taken[other] != 0 || difference.values[other] < limit) return;
         taken[other] = 1;
-        patch.push_back(std::uint32_t(other));
+        patch.push_back(other);
       });
     }
     if (patch.size() < kFewestBlocks || std::abs(one_way) > kOneSided * all) continue;
@@ -72,7 +65,7 @@ void widen(int reach, Choices& blocks, std::pmr::memory_resource* memory) {
     for (int v = 0; v < blocks.height; ++v)
       for (int u = 0; u < blocks.width; ++u) {
         if (before.row(v)[u].strength > 0) continue;
-        around(blocks, u, v, [&](std::size_t k) {
+        for_each_around(u, v, blocks.width, blocks.height, [&](std::uint32_t k) {
           if (before.values[k].strength > 0) blocks.row(v)[u] = before.values[k];
         });
       }
@@ -89,7 +82,7 @@ void fade(int reach, Choices& blocks, std::pmr::memory_resource* memory) {
       for (int u = 0; u < blocks.width; ++u) {
         if (before.row(v)[u].strength > 0) continue;
         ViewChoice sum;
-        around(blocks, u, v, [&](std::size_t k) {
+        for_each_around(u, v, blocks.width, blocks.height, [&](std::uint32_t k) {
           sum.right += before.values[k].right, sum.strength += before.values[k].strength;
         });
         if (sum.strength > 0) blocks.row(v)[u] = {strength * sum.right / sum.strength, strength};
@@ -164,8 +157,8 @@ ViewBlend::ViewBlend(const Chart& chart, const ShotPlanes& planes, const RowBand
     : chart_(chart),
       planes_(planes),
       exposure_(match_exposure(chart, planes)),
-      excess_(chart.size(), std::int16_t{0}, &context.scratch),
-      shines_(chart.size(), std::uint8_t{0}, &context.scratch) {
+      excess_(chart.pixels(), std::int16_t{0}, &context.scratch),
+      shines_(chart.pixels(), std::uint8_t{0}, &context.scratch) {
   // Noise and what is left between the exposures are no highlight, whatever was asked for.
   constexpr float kNoiseSigmas = 3;
   if (highlight_level > 0)
@@ -193,7 +186,7 @@ void ViewBlend::find_highlights(const RowBands& bands, StageContext& context) {
   constexpr std::int16_t kUnknown = -32768;
   constexpr int kRadius = 2;  // texels: noise and a tenth of a pixel of misplacement are smoothed away
   const auto width = std::size_t(chart_.width_px);
-  std::pmr::vector<std::int16_t> raw(chart_.size(), kUnknown, &context.scratch);
+  std::pmr::vector<std::int16_t> raw(chart_.pixels(), kUnknown, &context.scratch);
   std::pmr::vector<BoxSum> columns(std::size_t(bands.count()) * width, BoxSum{}, &context.scratch);
   const auto compare = [&](int begin, int end, int) {
     for (std::size_t k = std::size_t(bands.rows(begin).begin) * width;

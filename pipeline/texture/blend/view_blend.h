@@ -41,6 +41,14 @@ ExposureMatch match_exposure(const Chart& chart, const ShotPlanes& planes);
 // (A multiresolution spline with application to image mosaics, ACM TOG 1983), continued as Lempitsky and
 // Ivanov level seams (Seamless mosaicing of image-based texture maps, CVPR 2007).
 using Level = std::array<float, 3>;
+struct LevelSum {
+  Level sum{};
+  float weight = 0;
+  void add(const LevelSum& other, float share) {
+    for (std::size_t c = 0; c < 3; ++c) sum[c] += share * other.sum[c];
+    weight += share * other.weight;
+  }
+};
 // One a cell. `shines`: one a texel, 1 where a highlight makes the views incomparable.
 Plane<Level> measure_levels(const Chart& chart, const ShotPlanes& planes, const ExposureMatch& exposure,
                             std::span<const std::uint8_t> shines, std::pmr::memory_resource* memory);

@@ -27,18 +27,14 @@ struct ChartOptions {
   double finer;   // texels a pixel and side of the better photograph
 };
 
-struct Chart {
+struct Chart : PixelGrid {
   explicit Chart(std::pmr::memory_resource* memory) : texel(memory), disparity_px(memory), placed(memory) {}
-  int width_px = 0;
-  int height_px = 0;
   double texels_per_px = 1;               // of the photographs
   Vec2d origin_px;                        // where texel (0, 0) lies in the middle view
   std::pmr::vector<Vec2f> texel;          // one a vertex
   std::pmr::vector<float> disparity_px;   // one a vertex
   std::pmr::vector<std::uint8_t> placed;  // one a vertex: 1 where it lies within the chart
 
-  std::size_t size() const { return std::size_t(width_px) * std::size_t(height_px); }
-  std::size_t index(int x, int y) const { return std::size_t(y) * std::size_t(width_px) + std::size_t(x); }
   // Of a photograph, where the surface has this disparity. side: kLeftSide or kRightSide.
   float view_x(float texel_x, float disparity, float side) const {
     return float(origin_px.x) + texel_x / float(texels_per_px) + side * disparity;
@@ -54,13 +50,8 @@ inline constexpr float kRightSide = -0.5F;
 Chart lay_out(const FaceMesh& mesh, const RectifiedPair& pair, const ChartOptions& options,
               std::pmr::memory_resource* memory);
 
-// Whether all of a triangle's corners are marked. `marks`: one a vertex.
-inline bool all_three(std::span<const std::uint8_t> marks, const std::array<std::uint32_t, 3>& t) {
-  return marks[t[0]] != 0 && marks[t[1]] != 0 && marks[t[2]] != 0;
-}
-
 // Negative where the triangle faces the cameras, in square texels (twice the area).
-inline float signed_area(const Chart& chart, const std::array<std::uint32_t, 3>& t) {
+inline float signed_area(const Chart& chart, const Triangle& t) {
   const Vec2f& a = chart.texel[t[0]];
   const Vec2f& b = chart.texel[t[1]];
   const Vec2f& c = chart.texel[t[2]];

@@ -32,11 +32,8 @@ int RowBands::band_of(float y) const {
 }
 
 FrontMap::FrontMap(const Chart& chart, float at_side, std::pmr::memory_resource* memory)
-    : side(at_side),
-      scale(float(chart.texels_per_px)),
-      height_px(chart.height_px),
-      nearest(memory),
-      owner(memory) {
+    : side(at_side), scale(float(chart.texels_per_px)), nearest(memory), owner(memory) {
+  height_px = chart.height_px;
   float least = 1e30F;
   float most = -1e30F;
   for (std::size_t v = 0; v < chart.texel.size(); ++v) {
@@ -48,7 +45,7 @@ FrontMap::FrontMap(const Chart& chart, float at_side, std::pmr::memory_resource*
   shift = middle || most < least ? 0.0F : std::floor(least) - 1;
   // A view is a picture's part: what would be wider is no surface of one.
   width_px = middle ? chart.width_px : int(std::clamp(most - least, 0.0F, 16384.0F)) + 4;
-  const std::size_t size = std::size_t(width_px) * std::size_t(height_px);
+  const std::size_t size = pixels();
   nearest.assign(size, kNothingThere);
   if (middle) owner.assign(size, kNoTriangle);
 }
@@ -56,8 +53,7 @@ FrontMap::FrontMap(const Chart& chart, float at_side, std::pmr::memory_resource*
 bool FrontMap::sees(const Vec2f& texel, float disparity, float tolerance_px) const {
   const int x = int(std::lround(column(texel.x, disparity)));
   const int y = int(std::lround(texel.y));
-  if (x < 0 || y < 0 || x >= width_px || y >= height_px) return true;
-  return nearest[index(x, y)] <= disparity + tolerance_px;
+  return !inside(x, y) || nearest[index(x, y)] <= disparity + tolerance_px;
 }
 
 namespace {

@@ -36,16 +36,14 @@ inline constexpr float kNothingThere = -1e30F;
 inline constexpr std::uint32_t kNoTriangle = ~std::uint32_t{0};
 
 // What stands in front in one view: the largest disparity on each of its texels.
-struct FrontMap {
+struct FrontMap : PixelGrid {
   FrontMap(const Chart& chart, float side, std::pmr::memory_resource* memory);
-  float side;       // 0 the middle view, kLeftSide, kRightSide
-  float scale;      // texels a pixel
-  float shift = 0;  // of its columns against the chart's
-  int width_px = 0, height_px = 0;
+  float side;                             // 0 the middle view, kLeftSide, kRightSide
+  float scale;                            // texels a pixel
+  float shift = 0;                        // of its columns against the chart's
   std::pmr::vector<float> nearest;        // kNothingThere where nothing is
   std::pmr::vector<std::uint32_t> owner;  // the triangle it belongs to; kept for the middle view alone
 
-  std::size_t index(int x, int y) const { return std::size_t(y) * std::size_t(width_px) + std::size_t(x); }
   float column(float texel_x, float disparity) const { return texel_x + side * disparity * scale - shift; }
   // Whether a point of the chart is hidden by something nearer by more than `tolerance_px` of disparity.
   bool sees(const Vec2f& texel, float disparity, float tolerance_px) const;

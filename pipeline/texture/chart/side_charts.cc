@@ -76,7 +76,7 @@ class Builder {
     lay_flat(axis, from, photograph, sides);
   }
 
-  static bool share_an_edge(const std::array<std::uint32_t, 3>& a, const std::array<std::uint32_t, 3>& b) {
+  static bool share_an_edge(const Triangle& a, const Triangle& b) {
     int shared = 0;
     for (const std::uint32_t v : a) shared += std::ranges::count(b, v) > 0 ? 1 : 0;
     return shared >= 2;

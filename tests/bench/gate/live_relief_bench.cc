@@ -99,7 +99,7 @@ int run(int argc, char** argv) {
   work.output.reset();
   pipeline::StageContext& c = work.context;
   pipeline::RectifierOptions volume;
-  volume.near_mm = live.near_mm, volume.far_mm = live.far_mm;
+  volume.near_mm = live.kNearMm, volume.far_mm = live.kFarMm;
   const pipeline::StereoFrame small{pipeline::reduced(frame.left, 4, c),
                                     pipeline::reduced(frame.right, 4, c)};
   const auto pair = need(volume.rectify(small, pipeline::reduced(calibration, 4), c));

@@ -30,6 +30,7 @@ namespace {
 using namespace pipeline;  // NOLINT: one small program
 
 constexpr std::uint32_t kFirstSeed = 5000;  // other people than in any test
+constexpr int kHeadPeople = 300;
 constexpr int kKeptApart = 30;
 constexpr int kCells = kHeadColumns * kHeadRows;
 constexpr double kNeckEnd = -125;  // y of the head's frame, rounded over 12 mm

@@ -91,6 +91,19 @@ TEST_F(KioskMomentsTest, AWrongClockBarsTheWayUntilItIsSet) {
   EXPECT_TRUE(reach(ui::Step::Attract)) << "it goes on by itself";
 }
 
+TEST_F(KioskMomentsTest, AnotherAppliancesDateSaysNothingOfThisClock) {
+  {
+    auto store = storage::open_sqlite_store(args.store, clock, {});
+    ASSERT_TRUE(store.has_value());
+    const auto ahead =
+        std::chrono::floor<std::chrono::milliseconds>(clock.wall_now()) + std::chrono::years(1);
+    ASSERT_TRUE((*store)->add_person({"Ada", 123'456'789'012, ahead, {}}).has_value());
+  }
+  open();
+  EXPECT_TRUE(reach(ui::Step::Attract));
+  EXPECT_EQ(kiosk->view().out_of_order, ui::Trouble::None);
+}
+
 TEST_F(KioskMomentsTest, AfterACrashItIsSaidOnce) {
   open();
   EXPECT_TRUE(std::filesystem::exists(args.store / "relievo.running"));

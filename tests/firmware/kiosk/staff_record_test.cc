@@ -99,13 +99,15 @@ class StaffRecordTest : public StaffHands {
     for (std::size_t side = 0; side < 2; ++side) {
       const auto frame = cameras[side]->next_frame(device.clock().now() + std::chrono::seconds(5));
       ASSERT_TRUE(frame.has_value());
-      const ImageView& seen = frame->image();
-      const ImageView wanted = taken[side].view();
+      const hal::RawImage& seen = frame->raw();
+      const hal::RawImage wanted = hal::raw_of(taken[side].view());
       ASSERT_EQ(seen.width_px, wanted.width_px);
       ASSERT_EQ(seen.height_px, wanted.height_px);
       ASSERT_EQ(seen.format, wanted.format);
       for (int y = 0; y < seen.height_px; ++y)
-        ASSERT_EQ(std::memcmp(seen.row(y), wanted.row(y), static_cast<std::size_t>(3 * seen.width_px)), 0)
+        ASSERT_EQ(std::memcmp(seen.bytes + y * seen.stride_bytes, wanted.bytes + y * wanted.stride_bytes,
+                              static_cast<std::size_t>(3 * seen.width_px)),
+                  0)
             << side << ' ' << y;
     }
   }

@@ -8,6 +8,8 @@
 
 #include "firmware/base/budget.h"
 #include "firmware/command/commands.h"
+#include "firmware/records/event_log.h"
+#include "firmware/service/statistics.h"
 #include "tests/firmware/kiosk/staff_hands.h"
 #include "tests/support/played_device.h"
 #include "ui/draw/theme.h"
@@ -214,6 +216,28 @@ TEST_F(StaffStatusTest, HealthShowsWhatTheLastVisitsCostAlsoAfterARestart) {
   EXPECT_EQ(std::sscanf(said.c_str() + match, "Match %f MiB %f s", &mib, &seconds), 2) << said;
   EXPECT_GT(mib, 1);
   EXPECT_GT(seconds, 0);
+}
+
+TEST_F(StaffStatusTest, AVisitIsCountedAlsoWhereTheLogCannotBeWritten) {
+  std::filesystem::create_directories(args.store / kLogFile);  // a folder in the place of its file
+  play_device();
+  start();
+  const Result<void> played = play("tap start\ntap agree\ntype Grace\ntap done\nwait position\ntap back\n");
+  ASSERT_TRUE(played.has_value()) << played.error().where();
+  const auto at_rest = [this] {
+    return kiosk->appliance().state() == State::Idle && !kiosk->staff().side_tasks().busy(JobLane::Keeper);
+  };
+  ASSERT_TRUE(until(at_rest));
+  kiosk->turn();  // what is not written yet is sent now
+  ASSERT_TRUE(until(at_rest));
+  kiosk.reset();
+  auto store = storage::open_sqlite_store(args.store, wall(), {});
+  ASSERT_TRUE(store.has_value());
+  const auto kept = (*store)->setting(kStatisticsSetting);
+  ASSERT_TRUE(kept.has_value());
+  Statistics statistics;
+  ASSERT_TRUE(statistics.read(*kept)) << "'" << *kept << "'";
+  EXPECT_EQ(statistics.view(std::chrono::floor<std::chrono::days>(wall().wall_now())).visits, 1U);
 }
 
 }  // namespace

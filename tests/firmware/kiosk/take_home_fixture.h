@@ -37,6 +37,7 @@ class Socket final : public hal::RemovableMedia {
   Result<void> settle(const std::filesystem::path& folder) override { return stick.load()->settle(folder); }
   Result<void> flush_and_eject() override { return stick.load()->flush_and_eject(); }
   Result<void> take_up_again() override { return stick.load()->take_up_again(); }
+  bool is_taken_up() override { return stick.load()->is_taken_up(); }
 };
 
 class TakeHomeTest : public ApplianceTest {

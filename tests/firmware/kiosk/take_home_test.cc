@@ -125,13 +125,36 @@ TEST_F(TakeHomeTest, AStickThatAnExportLetsGoAndTakesUpAgainIsNoVisitors) {
   turn();
   BusyLane keeper(side_tasks, JobLane::Keeper);
   begins_a_visit();
-  plug(nullptr);
-  plug(&faulty);
-  keeper.go_on();
-  ends();
   comes_to_the_end();
   EXPECT_EQ(taking(), Taking::NotOurs);
+  ASSERT_TRUE(faulty.flush_and_eject());
+  turn();
+  EXPECT_EQ(taking(), Taking::NoStick);
+  ASSERT_TRUE(faulty.take_up_again());
+  turn();
+  EXPECT_EQ(taking(), Taking::NotOurs);
+  keeper.go_on();
+  ends();
+  EXPECT_EQ(taking(), Taking::NotOurs);
+  faulty.plug_in_again();
   ends_well_on(faulty, stick_folder());
+}
+
+// Nothing was there before: what comes is the visitor's, whatever else the keeper still does.
+TEST_F(TakeHomeTest, AStickThatComesWhileTheKeeperIsBusyIsTheVisitors) {
+  BusyLane keeper(side_tasks, JobLane::Keeper);
+  begins_a_visit();
+  comes_to_the_end();
+  EXPECT_EQ(taking(), Taking::NoStick);
+  plug(&faulty);
+  EXPECT_EQ(taking(), Taking::Ready);
+  take_home.take(enrolment, view.settings);
+  turn();
+  EXPECT_EQ(taking(), Taking::Busy) << "it waits for its turn";
+  keeper.go_on();
+  ends();
+  EXPECT_EQ(view.take_home.outcome, Outcome::Done);
+  EXPECT_EQ(copies(stick_folder()), code + " ");
 }
 
 // As the log is, once a copy has left.
@@ -151,8 +174,7 @@ TEST_F(TakeHomeTest, WhatTheKeeperDoesAfterACopyDoesNotOfferTheStickAgain) {
   ends();
 }
 
-// What the keeper does meanwhile is somebody else's: the printing of the code. It begins after the visit:
-// what is plugged while a keeper that was at work before it goes on passes for the staff's.
+// What the keeper does meanwhile is somebody else's: the printing of the code.
 TEST_F(TakeHomeTest, WhoStopsBeforeItHasBegunStopsNothingElse) {
   begins_a_visit();
   comes_to_the_end();

@@ -12,6 +12,7 @@
 
 #include "hal/sim/optics/rig.h"
 #include "pipeline/calibrate/file/calibration_file.h"
+#include "tests/firmware/busy_lane.h"
 
 namespace relievo::firmware {
 namespace {
@@ -134,6 +135,38 @@ TEST_F(TechnicianTest, ACalibrationForPicturesOfAnotherSizeComesIntoUseByNoWay) 
   ASSERT_TRUE(rig().until(done));
   EXPECT_EQ(rig().store->active_calibration()->revision, own);
   EXPECT_NE(rig().revision, *stored);
+}
+
+// It would be lost: the page would not offer to store it.
+TEST_F(TechnicianTest, WhatIsCalibratedWhileTheOneBeforeIsBeingStoredIsNotStoredYet) {
+  const auto keeper_is_free = [] { return !rig().side_tasks->busy(JobLane::Keeper); };
+  const std::uint32_t own = rig().stages->calibration()->revision;
+  rig().open(StaffPage::Calibrate);
+  ASSERT_TRUE(rig().until(keeper_is_free));
+  const std::size_t count = rig().store->calibrations()->size();
+  ASSERT_NO_FATAL_FAILURE(calibrate());
+  {
+    const BusyLane keeper(*rig().side_tasks, JobLane::Keeper);
+    rig().tap("calibration store");
+    rig().tap("calibration begin");
+    ASSERT_TRUE(rig().until([] { return rig().appliance->state() == State::Calibrate; }));
+  }
+  ASSERT_TRUE(rig().until(keeper_is_free));
+  EXPECT_EQ(rig().store->calibrations()->size(), count + 1) << "the first is";
+  ASSERT_TRUE(
+      rig().until([] { return rig().now().calibration.views >= 7 || !rig().now().calibration.running; }));
+  if (rig().now().calibration.running) rig().tap("calibration finish");
+  ASSERT_TRUE(rig().until([] { return rig().now().calibration.ended; }))
+      << rig().now().calibration.problem.detail;
+  EXPECT_FALSE(rig().now().calibration.stored);
+  rig().tap("calibration store");
+  ASSERT_TRUE(rig().until([] { return rig().now().calibration.stored; }));
+  ASSERT_TRUE(rig().until(keeper_is_free));
+  EXPECT_EQ(rig().store->calibrations()->size(), count + 2);
+  // Back to the one that fits the test captures.
+  ASSERT_TRUE(rig().store->activate_calibration(own).has_value());
+  rig().stages->replace(
+      *pipeline::Pipeline::make(rig().stages->algorithms(), *rig().store->calibration(own)));
 }
 
 }  // namespace

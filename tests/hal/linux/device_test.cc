@@ -129,7 +129,7 @@ TEST(LinuxDevice, OneDeviceGivesBothViewsTogetherWithoutAWire) {
   const auto left = device.left().next_frame(soon);
   const auto right = device.right().next_frame(soon);
   ASSERT_TRUE(left && right);
-  EXPECT_EQ(left->image().width_px, 32);
+  EXPECT_EQ(left->raw().width_px, 32);
 }
 
 TEST(LinuxDevice, TwoCamerasWithoutAWireDoNotExposeTogether) {

@@ -179,8 +179,19 @@ TEST(MountedStick, IsTakenUpAgainWhereItWasOnceForEveryEjection) {
   ASSERT_TRUE(stick.take_up_again());
   EXPECT_EQ(mounts.calls.back(), "mount vfat /dev/sdx1 " + root);
   ASSERT_TRUE(stick.current());
+  EXPECT_TRUE(stick.is_taken_up()) << "nobody has plugged it";
   ASSERT_TRUE(stick.flush_and_eject());
   EXPECT_FALSE(stick.current());
+  mounts.mounted.insert(root);
+  ASSERT_TRUE(stick.current());
+  EXPECT_FALSE(stick.is_taken_up()) << "another, by a hand";
+  ASSERT_TRUE(stick.flush_and_eject());
+  ASSERT_TRUE(stick.take_up_again());
+  mounts.mounted.erase(root);  // pulled out
+  EXPECT_FALSE(stick.current());
+  mounts.mounted.insert(root);
+  ASSERT_TRUE(stick.current());
+  EXPECT_FALSE(stick.is_taken_up());
   for (const auto& [refused, code] :
        {std::pair{-ENXIO, Errc::MediaMissing}, std::pair{-ENOENT, Errc::MediaMissing},
         std::pair{-EPERM, Errc::Unsupported}, std::pair{-EIO, Errc::Unsupported}}) {

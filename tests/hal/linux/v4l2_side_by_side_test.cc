@@ -37,13 +37,13 @@ TEST_F(SideBySideTest, EachPictureIsHandedOutTwiceWithoutCopying) {
     const auto left = next(both.left());
     const auto right = next(both.right());
     ASSERT_TRUE(left && right);
-    EXPECT_EQ(left->image().width_px, 32);
-    EXPECT_EQ(right->image().bytes - left->image().bytes, 32) << "the same memory";
-    EXPECT_EQ(left->image().stride_bytes, right->image().stride_bytes);
+    EXPECT_EQ(left->raw().width_px, 32);
+    EXPECT_EQ(right->raw().bytes - left->raw().bytes, 32) << "the same memory";
+    EXPECT_EQ(left->raw().stride_bytes, right->raw().stride_bytes);
     EXPECT_EQ(left->exposed_at(), right->exposed_at());
     EXPECT_EQ(left->sequence(), right->sequence());
     EXPECT_FALSE(is_short(left->raw()) || is_short(right->raw()));
-    EXPECT_EQ(left->image().row(47)[31], i);
+    EXPECT_EQ(left->raw().bytes[47 * left->raw().stride_bytes + 31], std::byte(i));
     EXPECT_EQ(kernel.queued(), 3);
   }
   EXPECT_EQ(kernel.queued(), 4);
@@ -64,7 +64,7 @@ TEST_F(SideBySideTest, ASideThatIsAskedLessOftenFindsTheNewest) {
     kernel.expose({static_cast<std::uint8_t>(i)});
     ASSERT_TRUE(next(both.left()));
   }
-  EXPECT_EQ(next(both.right())->image().row(0)[0], 3);
+  EXPECT_EQ(next(both.right())->raw().bytes[0], std::byte{3});
   EXPECT_EQ(kernel.queued(), 4);
   EXPECT_EQ(next(both.right()).error().code, Errc::Timeout) << "and each picture once";
 }
@@ -81,7 +81,7 @@ TEST_F(SideBySideTest, OneSideMayStopAndStart) {
   ASSERT_TRUE(both.left().start() && both.right().start());
   kernel.expose({2});
   EXPECT_TRUE(next(both.right()));
-  EXPECT_EQ(next(both.left())->image().row(0)[0], 2);
+  EXPECT_EQ(next(both.left())->raw().bytes[0], std::byte{2});
 }
 
 TEST_F(SideBySideTest, HeldHalvesRunOutAndComeBack) {

@@ -31,13 +31,14 @@ struct Noise {
   ImageView view;
 };
 
-void expect_same(const ImageView& a, const ImageView& b) {
+void expect_same(const RawImage& a, const RawImage& b) {
   ASSERT_EQ(a.width_px, b.width_px);
   ASSERT_EQ(a.height_px, b.height_px);
   ASSERT_EQ(a.format, b.format);
   for (int y = 0; y < a.height_px; ++y)
-    EXPECT_EQ(
-        std::memcmp(a.row(y), b.row(y), static_cast<std::size_t>(a.width_px * bytes_per_pixel(a.format))), 0)
+    EXPECT_EQ(std::memcmp(a.bytes + y * a.stride_bytes, b.bytes + y * b.stride_bytes,
+                          raw_row_bytes(a.format.coding, a.width_px)),
+              0)
         << y;
 }
 
@@ -64,8 +65,8 @@ TEST(Recording, IsReplayedBitForBit) {
       const auto left = device.left().next_frame(device.clock().now() + std::chrono::seconds(5));
       const auto right = device.right().next_frame(device.clock().now() + std::chrono::seconds(5));
       ASSERT_TRUE(left && right);
-      expect_same(left->image(), views[i].view);
-      expect_same(right->image(), views[i + 1].view);
+      expect_same(left->raw(), raw_of(views[i].view));
+      expect_same(right->raw(), raw_of(views[i + 1].view));
       EXPECT_EQ(right->exposed_at() - left->exposed_at(), std::chrono::nanoseconds(40'000));
     }
   }
@@ -77,8 +78,8 @@ void expect_next(Device& device, const Noise& left, const Noise& right) {
   const auto l = device.left().next_frame(device.clock().now() + std::chrono::seconds(5));
   const auto r = device.right().next_frame(device.clock().now() + std::chrono::seconds(5));
   ASSERT_TRUE(l && r);
-  expect_same(l->image(), left.view);
-  expect_same(r->image(), right.view);
+  expect_same(l->raw(), raw_of(left.view));
+  expect_same(r->raw(), raw_of(right.view));
 }
 
 TEST(Recording, AHeadTurnsToItsNextSideWhenItIsAskedTo) {

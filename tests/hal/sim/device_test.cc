@@ -23,7 +23,7 @@ void put_picture(const std::filesystem::path& file, int value, int width = 16) {
   ASSERT_TRUE(write_picture(file, p.view()));
 }
 
-int first_pixel(const Frame& frame) { return frame.image().row(0)[0]; }
+int first_pixel(const Frame& frame) { return std::to_integer<int>(frame.raw().bytes[0]); }
 Instant soon(Device& device) { return device.clock().now() + std::chrono::seconds(5); }
 
 TEST(FolderDevice, ReplaysPairsInNameOrderForEver) {
@@ -202,13 +202,14 @@ TEST(SimDevice, ShowsCalibrationBoardsOneAfterAnother) {
   Device& device = **made;
   for (Camera* camera : {&device.left(), &device.right()})
     ASSERT_TRUE(camera->open(device.preferred_mode()) && camera->start());
-  std::vector<std::vector<std::uint8_t>> rows;
+  std::vector<std::vector<std::byte>> rows;
   for (int i = 0; i < 2; ++i) {
     ASSERT_TRUE(device.trigger().pulse(std::chrono::microseconds(100)));
     const auto left = device.left().next_frame(soon(device));
     const auto right = device.right().next_frame(soon(device));
     ASSERT_TRUE(left && right);
-    rows.emplace_back(left->image().row(75), left->image().row(75) + 240);
+    const std::byte* row = left->raw().bytes + std::ptrdiff_t{75} * left->raw().stride_bytes;
+    rows.emplace_back(row, row + 240);
   }
   EXPECT_NE(rows[0], rows[1]);
 }
@@ -222,8 +223,7 @@ std::vector<std::byte> first_picture(const SimDeviceOptions& options) {
   EXPECT_TRUE(device.trigger().pulse(std::chrono::microseconds(100)));
   const auto frame = device.left().next_frame(soon(device));
   EXPECT_TRUE(frame);
-  const ImageView image = frame->image();
-  return {image.bytes, image.bytes + std::ptrdiff_t{image.stride_bytes} * image.height_px};
+  return {frame->raw().bytes, frame->raw().bytes + frame->raw().size_bytes};
 }
 
 TEST(SimDevice, KeepsAHeadInItsAlbumAndRendersItAnewWhereThatIsDamaged) {

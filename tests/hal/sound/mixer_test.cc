@@ -7,6 +7,7 @@
 #include <algorithm>
 #include <cmath>
 #include <numeric>
+#include <span>
 #include <vector>
 
 namespace relievo::hal {
@@ -96,6 +97,32 @@ TEST(Mixer, WhatIsCutIsSilentAtOnceHoweverLateItComes) {
   ASSERT_TRUE(mixer.finish(second));
   EXPECT_TRUE(silent(played(mixer, 8)));
   EXPECT_FALSE(mixer.is_speaking());
+}
+
+// A visitor's name may have been spelled.
+TEST(Mixer, KeepsNothingOfWhatItPlayedOrWillNot) {
+  Mixer mixer;
+  const Samples spoken(Mixer::kPiece, 0x5AC3);
+  // In whole words of it: no other number of the mixer is one.
+  const auto kept = [&mixer] {
+    const std::span bytes(reinterpret_cast<const std::byte*>(&mixer), sizeof mixer);
+    int count = 0;
+    for (std::size_t at = 0; at + 2 <= bytes.size(); at += 2)
+      count += bytes[at] == std::byte{0xC3} && bytes[at + 1] == std::byte{0x5A};
+    return count;
+  };
+  const auto text = mixer.begin();
+  ASSERT_TRUE(mixer.put(text, spoken));
+  ASSERT_TRUE(mixer.put(text, spoken));
+  EXPECT_EQ(kept(), 2 * static_cast<int>(Mixer::kPiece))
+      << "there is nothing to wipe: this test shows nothing";
+  (void)played(mixer, Mixer::kPiece + 1);
+  EXPECT_EQ(kept(), static_cast<int>(Mixer::kPiece)) << "what was played is gone";
+  while (mixer.put(text, spoken)) {
+  }
+  mixer.cut();
+  (void)played(mixer, 1);
+  EXPECT_EQ(kept(), 0) << "and what is not to be played any more";
 }
 
 TEST(Mixer, EverySoundIsShortQuietAndItsOwn) {

@@ -204,9 +204,7 @@ TEST(CaptureGate, FastPicturesOfAMovingHeadSayThatItMoves) {
 }
 
 TEST(CaptureGate, WithoutItsCascadesItDoesNotOpen) {
-  CaptureGateOptions options;
-  options.cascade_dir = "/nonexistent";
-  const auto gate = CaptureGate::open(options);
+  const auto gate = CaptureGate::open({}, "/nonexistent");
   ASSERT_FALSE(gate);
   EXPECT_EQ(gate.error().code, Errc::NotFound);
 }

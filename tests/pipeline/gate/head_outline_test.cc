@@ -53,7 +53,7 @@ TEST(HeadOutline, TellsTheSideOfAHeadWhoseCheekWasTakenForItsFace) {
       Developing how;
       how.noise_seed = noise;
       const GateMeasures m = gate.first_look(album, shot, how).answer.measures;
-      if (judge(m, {}, Advice::None) != Advice::TurnedAside) continue;
+      if (judge(m, Advice::None) != Advice::TurnedAside) continue;
       ++told;
       EXPECT_GT(m.head.yaw_deg, 0) << person << " " << noise << ": asymmetry " << m.head.asymmetry_mm;
     }

@@ -115,7 +115,7 @@ class TurnGuide : public testing::Test {
     x_ += moved;
     turn.now_from_front.translation_mm.x = x_;
     now_ += 100ms;
-    return guide_turn(front_, turn, now_, 10, {}, history_);
+    return guide_turn(front_, turn, now_, 10, history_);
   }
   FrontFace front_;
   TurnHistory history_;
@@ -165,7 +165,7 @@ TEST_F(TurnGuide, TakesNoNoddingOrLostHead) {
     EXPECT_FALSE(nods.take);
   }
   EXPECT_FALSE(look(25).take);
-  EXPECT_EQ(guide_turn(front_, {}, now_ += 100ms, 10, {}, history_).advice, TurnAdvice::Lost);
+  EXPECT_EQ(guide_turn(front_, {}, now_ += 100ms, 10, history_).advice, TurnAdvice::Lost);
   EXPECT_FALSE(look(25).take) << "after it was lost nothing is known of its speed";
   EXPECT_FALSE(look(25).take);
   EXPECT_TRUE(look(25).take);
@@ -185,7 +185,7 @@ TEST_F(TurnGuide, SaysTheSameUntilThereIsEnoughTimeToTell) {
   };
   for (int i = 0; i < 10; ++i) EXPECT_EQ(soon(12).advice, TurnAdvice::ToRight) << i;
   for (int i = 0; i < 10; ++i) EXPECT_EQ(soon(12, 20).advice, TurnAdvice::Level) << i;
-  EXPECT_EQ(guide_turn(front_, {}, now_ += 33ms, 10, {}, history_).advice, TurnAdvice::Lost);
+  EXPECT_EQ(guide_turn(front_, {}, now_ += 33ms, 10, history_).advice, TurnAdvice::Lost);
   EXPECT_NE(soon(12).advice, TurnAdvice::Lost) << "it is found";
 }
 
@@ -233,7 +233,7 @@ Visit visit(Kind kind, std::uint32_t seed) {
     const HeadTurn now_seen = seen(person, front);
     const auto now =
         std::chrono::duration_cast<std::chrono::nanoseconds>(std::chrono::duration<double>(made.seconds + 1));
-    const TurnAnswer answer = guide_turn(front, now_seen, now, 14, {}, history);
+    const TurnAnswer answer = guide_turn(front, now_seen, now, 14, history);
     said = answer.advice;
     if (answer.take) {
       made.worst_mm_s = std::max(made.worst_mm_s, moved_mm(front, before, now_seen) / kLookS);

@@ -5,9 +5,11 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <string>
 
+#include "pipeline/texture/blend/shot_planes.h"
 #include "pipeline/texture/texturers.h"
 #include "tests/pipeline/texture/painted_plane.h"
 #include "tests/support/names_of.h"
@@ -124,6 +126,19 @@ TEST_P(TexturerContract, Cancelled) {
   const auto cancelled = texture(plane_mesh(), photographed_plane(), room);
   ASSERT_FALSE(cancelled);
   EXPECT_EQ(cancelled.error().code, Errc::Cancelled);
+}
+
+// As many passes as a surface takes whose triangles lie badly: what changes for ever ends all the same.
+TEST(SweepEdges, EndWhenTheStageIsStopped) {
+  StageRoom room;
+  constexpr std::array<Triangle, 1> kOne{{{0, 1, 2}}};
+  int steps = 0;
+  sweep_edges(kOne, room.context, [&](std::uint32_t, std::uint32_t) {
+    if (++steps == 100) room.cancelled = true;
+    return steps < 1000;
+  });
+  EXPECT_GE(steps, 100);
+  EXPECT_LT(steps, 200);
 }
 
 TEST_P(TexturerContract, TheSameTwiceAndForAnyNumberOfThreads) {

@@ -87,6 +87,32 @@ TEST(Persons, GoFromOneStoreToAnotherWithoutLoss) {
   EXPECT_EQ(to->subjects({})->size(), 2U);
 }
 
+TEST(Persons, OfAStoreWhoseClockRanAheadCameInWhenThisOneSays) {
+  const TemporaryFolder folder;
+  test::StillClock clock;
+  const auto opened_to = open_sqlite_store(folder / "to", clock, kNoReserve);
+  ASSERT_TRUE(opened_to);
+  Store& to = **opened_to;
+  EXPECT_EQ(*to.last_added_at(), WallTime());
+  auto ada = *with_ada(folder / "from")->person(SubjectId{1});
+  ada.created_at += std::chrono::years(1);
+  for (PersonRecord::Portrait& portrait : ada.portraits) portrait.created_at += std::chrono::years(1);
+  const auto id = to.add_person(ada);
+  ASSERT_TRUE(id);
+  const auto now = [&clock] { return std::chrono::floor<std::chrono::milliseconds>(clock.at); };
+  const WallTime first = now();
+  EXPECT_EQ(*to.last_added_at(), first);
+  clock.at += std::chrono::hours(1);
+  ASSERT_TRUE(to.add_enrolment(*id, test::sample_enrolment(test::sample_model())));
+  EXPECT_EQ(*to.last_added_at(), now());
+  clock.at += std::chrono::hours(1);
+  const auto grace = to.add_subject({"Grace"});
+  ASSERT_TRUE(grace);
+  EXPECT_EQ(*to.last_added_at(), now());
+  ASSERT_TRUE(to.erase_subject(*grace));
+  EXPECT_EQ(*to.last_added_at(), first + std::chrono::hours(1)) << "who is erased counts no more";
+}
+
 TEST(Persons, AreRefusedAsAWholeWhereSomethingCannotBe) {
   const TemporaryFolder folder;
   const auto good = *with_ada(folder / "from")->person(SubjectId{1});

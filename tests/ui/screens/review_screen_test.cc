@@ -57,6 +57,35 @@ TEST(ReviewScreen, TwoFingersZoomTheModelAndNothingElse) {
   EXPECT_FLOAT_EQ(zoom_on(Step::Position), 1);
 }
 
+// It has lain there for so long that nobody waits for it any more.
+TEST(ReviewScreen, AThumbThatRestsOnThePanelIsNoneOfTheTwoFingers) {
+  const auto ui = test::make_screen();
+  const pipeline::FaceModel model(std::pmr::get_default_resource());
+  ViewState view;
+  view.model = &model;
+  Visit visit;
+  visit.step = Step::Review;
+  ui->show(view, visit);
+  const Rect where = ui->tree().find("face")->rect;
+  const float x = where.x + where.w / 2, y = where.y + where.h / 2;
+  for (const float thumb_x : {1.0F, x - 100}) {  // beside the model, and on it
+    const FaceLook before = ui->visit().look;
+    ui->feed({Input::Kind::Down, 1, thumb_x, y}, view);
+    view.now += std::chrono::seconds(11);
+    ui->feed({Input::Kind::Down, 2, x - 30, y}, view);
+    ui->feed({Input::Kind::Down, 3, x + 30, y}, view);
+    ui->feed({Input::Kind::Move, 3, x + 60, y}, view);
+    EXPECT_FLOAT_EQ(ui->visit().look.zoom, 1.5F * before.zoom);
+    ui->feed({Input::Kind::Move, 1, thumb_x + 20, y}, view);
+    ui->feed({Input::Kind::Up, 1, thumb_x + 20, y}, view);
+    EXPECT_FLOAT_EQ(ui->visit().look.zoom, 1.5F * before.zoom) << "it holds no end of what is zoomed";
+    EXPECT_FLOAT_EQ(ui->visit().look.yaw_deg, before.yaw_deg) << "nor does it turn it";
+    ui->feed({Input::Kind::Move, 3, x + 30, y}, view);
+    EXPECT_FLOAT_EQ(ui->visit().look.zoom, before.zoom) << "and the two still do when it has gone";
+    for (const int finger : {2, 3}) ui->feed({Input::Kind::Up, finger, x, y}, view);
+  }
+}
+
 // A panel that is pulled out, or fails for a moment, never says that the finger on it has gone.
 TEST(ReviewScreen, AFingerNobodyHeardOfAgainDoesNotBarTheNext) {
   const auto ui = test::make_screen();

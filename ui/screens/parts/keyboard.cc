@@ -64,9 +64,8 @@ void letters(Page& page, std::string_view row) {
 }
 
 Node key_row(Page& page) {
-  Node row = page.box(Flow::Row, 8);
-  row.box.left_to_right = true;  // keys lie as on a desk, also where the words run to the left
-  return row;
+  // Keys lie as on a desk, also where the words run to the left.
+  return left_first(page.box(Flow::Row, 8));
 }
 
 void last_row(Page& page, Action done, Language language) {

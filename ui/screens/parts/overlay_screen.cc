@@ -86,7 +86,7 @@ void begin_card(Page& page) {
 
 // Two answers: side by side where there is room for their words.
 void answers(Page& page, const char* quiet, Action quiet_action, const char* main, Action main_action) {
-  const bool row = page.text_share < 1.4F && !(page.portrait && page.text_share > 1.2F);
+  const bool row = page.text_share < 1.4F && !(page.portrait && page.large_words());
   const auto in_box = page.tree.inside(page.box(row ? Flow::Row : Flow::Column, space::kS));
   page.button("answer_quiet", quiet, nullptr, ButtonLook::Quiet, quiet_action, row ? 1.0F : 0.0F);
   page.button("answer_main", main, nullptr, ButtonLook::Main, main_action, row ? 1.0F : 0.0F);

@@ -68,6 +68,8 @@ inline void tell(Node& node, Role role, std::string_view id, std::string_view sp
 inline Node justified(Node node, Justify where) { return node.box.justify = where, node; }
 inline Node aligned(Node node, Align where) { return node.box.align = where, node; }
 inline Node centred(const Node& node) { return aligned(justified(node, Justify::Centre), Align::Centre); }
+// A row whose first child lies on the left in every language: digits, keys, a camera beside the other.
+inline Node left_first(Node row) { return row.box.left_to_right = true, row; }
 // It goes on where it has no room.
 inline Node scroller(std::string_view id, Node node) { return node.id = id, node.box.scroll = true, node; }
 inline Node shrinking(Node node) { return node.box.shrink = true, node; }
@@ -105,6 +107,9 @@ class Page {
   bool portrait;
 
   float px(float dp) const { return dp * unit; }
+  // Then less stands beside each other.
+  bool large_words() const { return text_share > 1.2F; }
+  bool little_room() const { return portrait || large_words(); }
   bool mirrored() const { return info_of(visit.language).right_to_left; }
   // A box with nothing in it yet; gap and padding in dp.
   Node box(Flow flow, float gap = 0, float pad_x = 0, float pad_y = 0) const;

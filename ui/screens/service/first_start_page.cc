@@ -17,12 +17,11 @@ namespace {
 
 // As many dots as digits: nobody behind reads them.
 void dots(StaffFrame& page) {
-  Node row = page.row_box(14);
+  Node row = left_first(page.row_box(14));
   tell(row, Role::Field, "typed", page.tr("Your PIN"));
   row.box.justify = page.portrait     ? Justify::Centre
                     : page.mirrored() ? Justify::End
                                       : Justify::Start;  // as the words above it
-  row.box.left_to_right = true;
   row.box.height = page.px(36);
   const auto in_row = page.tree.inside(row);
   for (std::size_t i = 0; i < kMostPinDigits; ++i) {
@@ -112,9 +111,7 @@ void welcome(StaffFrame& page) {
 void mover(StaffFrame& page, const char* label, std::string_view id, int minutes) {
   page.tree.open(page.grown(page.box(Flow::Column, space::kXs)));
   page.write(label, type::kSmall, Weight::Medium, page.palette.ink, TextAlign::Centre);
-  Node row = justified(page.box(Flow::Row, space::kXs), Justify::Centre);
-  row.box.left_to_right = true;
-  page.tree.open(row);
+  page.tree.open(left_first(justified(page.box(Flow::Row, space::kXs), Justify::Centre)));
   page.square_button(page.joined({id, " less"}), page.tr("Less"), icon::kLess, MoveClock{-minutes});
   page.square_button(page.joined({id, " more"}), page.tr("More"), icon::kMore, MoveClock{minutes});
   page.tree.close();
@@ -219,9 +216,8 @@ namespace {
 enum RecoveryMode : int { kSheet, kTypeWord };
 
 void word(StaffFrame& page, const RecoveryView& seen, std::size_t i) {
-  Node row = page.grown(page.row_box(space::kS));
-  row.box.left_to_right = true;  // English, and in this order
-  const auto in_row = page.tree.inside(row);
+  // English, and in this order.
+  const auto in_row = page.tree.inside(left_first(page.grown(page.row_box(space::kS))));
   Node number =
       page.text(page.number(i + 1), type::kSmall, Weight::Regular, page.palette.ink_soft, TextAlign::End);
   number.box.width = page.px(36 * page.text_share);
@@ -233,11 +229,10 @@ void word(StaffFrame& page, const RecoveryView& seen, std::size_t i) {
 
 // Downwards in columns, as the sheet is written.
 void words(StaffFrame& page, const RecoveryView& seen) {
-  const std::size_t columns = page.text_share > 1.2F ? 2 : 3, rows = seen.words.size() / columns;
-  Node card = page.box(Flow::Row, space::kM, space::kM, space::kM);
+  const std::size_t columns = page.large_words() ? 2 : 3, rows = seen.words.size() / columns;
+  Node card = left_first(page.box(Flow::Row, space::kM, space::kM, space::kM));
   page.card(card, size::kRadius);
   card.id = "words";
-  card.box.left_to_right = true;
   const auto in_card = page.tree.inside(card);
   for (std::size_t c = 0; c < columns; ++c) {
     const auto in_box = page.tree.inside(page.grown(page.box(Flow::Column, space::kXs)));

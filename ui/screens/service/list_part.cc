@@ -110,7 +110,7 @@ void list_pager(StaffFrame& page, const ListPlace& place, ListFilters filters) {
     step(page, "last page", tr("Last page"), turned ? kFirstSign : kLastSign, last, at_last);
   }
   // The name of a rule is long: where the row has no room for it, it stands below.
-  const bool below = place.pages > 1 && (page.portrait || page.text_share > 1.2F);
+  const bool below = place.pages > 1 && page.little_room();
   if (below && !filters.empty()) {
     page.tree.close();
     page.tree.open(page.box(Flow::Row, space::kXs));

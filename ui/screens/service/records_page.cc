@@ -83,7 +83,7 @@ void list(StaffFrame& page, const RecordsView& seen, ListFilters filters) {
   const bool filtered = seen.place.filter > 0;
   list_pager(page, seen.place,
              seen.searched.empty() && (filtered || !seen.rows.empty()) ? filters : ListFilters());
-  const bool narrow = page.portrait || page.text_share > 1.2F;
+  const bool narrow = page.little_room();
   const float share = narrow ? 1.0F : 0.0F;
   const auto in_box = page.tree.inside(page.box(Flow::Row, space::kS));
   page.small_button("search", tr("Search"), "\uf349", ButtonLook::Main, {ActionKind::StaffMode, kTyping},

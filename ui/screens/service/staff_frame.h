@@ -12,7 +12,7 @@
 #include <string_view>
 
 #include "ui/screens/parts/page.h"
-#include "ui/screens/parts/plot.h"
+#include "ui/screens/service/plot.h"
 #include "ui/view/service.h"
 #include "ui/view/service_view.h"
 

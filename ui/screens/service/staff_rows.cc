@@ -238,9 +238,8 @@ void StaffFrame::stepper(std::string_view id, std::string_view label, std::strin
   tree.open(row);
   wide(text(filled("{}", label), type::kSmall, Weight::Medium, palette.ink));
   tree.open(justified(row_box(space::kS), Justify::End));
-  Node scale = row_box(space::kS);
-  scale.box.left_to_right = true;  // less, then more, as on every page that counts
-  tree.open(scale);
+  // Less, then more, as on every page that counts.
+  tree.open(left_first(row_box(space::kS)));
   step_button(id, "less", tr("Less"), label, icon::kLess, less);
   Node middle = box(Flow::Column);
   middle.box.width = px(150 * std::min(1.3F, text_share));
@@ -251,14 +250,6 @@ void StaffFrame::stepper(std::string_view id, std::string_view label, std::strin
   tree.close();
   tree.close();
   tree.close();
-  rule_due_ = true;
-}
-
-void StaffFrame::plot(const Plot& what) {
-  due_rule();
-  ui::plot(*this, what, [](Page& page, double value, int decimals, const char* unit_name) {
-    return static_cast<StaffFrame&>(page).number(value, decimals, unit_name);
-  });
   rule_due_ = true;
 }
 

@@ -135,7 +135,7 @@ void touch_page(StaffFrame& page) {
   const Told& told = kTold[std::size_t(seen->verdict)];
   if (told.words != nullptr) page.status("verdict", tr(told.words), told.mood);
   figures(page, *seen);
-  const bool upright = page.portrait || page.text_share > 1.2F;
+  const bool upright = page.little_room();
   const auto in_box = page.tree.inside(page.box(upright ? Flow::Column : Flow::Row, space::kS));
   page.small_button("begin", tr("Start"), kCross, ButtonLook::Main, BeginTouchTrial{});
   if (seen->corrected)

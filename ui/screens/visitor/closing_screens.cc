@@ -29,7 +29,7 @@ void tools(Page& page) {
 
 // The way on stands under the words; where those are so large that they may have to be scrolled, at the foot
 // of the page.
-bool at_foot(const Page& page) { return !page.portrait && page.text_share > 1.2F; }
+bool at_foot(const Page& page) { return !page.portrait && page.large_words(); }
 // Two codes beside each other.
 bool abreast(const Page& page) {
   return !page.portrait && !at_foot(page) && !page.view.take_home.link.empty();
@@ -270,7 +270,7 @@ void thanks_screen(Page& page) {
   if (!at_foot(page)) codes(page);
   printing(page);
   // What is said of a stick is seen without scrolling.
-  const bool tall = page.text_share > 1.2F && page.view.take_home.taking != Taking::None;
+  const bool tall = page.large_words() && page.view.take_home.taking != Taking::None;
   end_message(page, !page.portrait || tall, [&] { take_or_leave(page); });
 }
 

@@ -185,7 +185,7 @@ void ask_code(Page& page, const char* asked) {
   page.heading("title", asked, kAsked);
   field(page, asked, 0);
   wrong_code(page);
-  finder(page, !page.portrait && page.text_share > 1.2F ? kFinderHighAbreast : kFinderHigh);
+  finder(page, !page.portrait && page.large_words() ? kFinderHighAbreast : kFinderHigh);
   page.button("lost_code", page.tr("I lost my code"), icon::kHelp, ButtonLook::Quiet, ActionKind::LostCode);
   page.tree.close();
   number_pad(page, {"key ", "done"},

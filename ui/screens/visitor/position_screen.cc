@@ -148,7 +148,7 @@ void sides(Page& page) {
     return disc;
   };
   constexpr float kHighDp = kStopDp + 18;
-  Node rail = page.grown(page.box(Flow::Stack));
+  Node rail = left_first(page.grown(page.box(Flow::Stack)));
   // Beside large letters the button breaks its words; on a shorter rail the stops would lie on each other.
   if (!page.portrait && page.text_share > 1.6F) rail.box.grow = 0, rail.box.width = page.px(310);
   rail.box.max_width = page.px(620);
@@ -156,7 +156,6 @@ void sides(Page& page) {
   tell(rail, Role::Status, "sides", page.tr("How far it is"));
   rail.value = page.share_of(turn ? turn->taken.count() : 0, pipeline::kSides);
   frame(rail, page.palette.card, page.palette.quiet_border, page.px(2), page.px(kHighDp / 2));
-  rail.box.left_to_right = true;
   const auto in_rail = page.tree.inside(rail);
   for (std::size_t i = 0; i < pipeline::kSides; ++i) {
     const bool taken = turn && turn->taken[i];

@@ -32,9 +32,8 @@ Quality quality_of(const Page& page) {
 
 void tools(Page& page) {
   const auto& tr = page.tr;
-  Node row = justified(page.box(Flow::Row, 10), Justify::Centre);
-  row.box.left_to_right = true;  // what turns the face to the left lies on the left
-  const auto in_row = page.tree.inside(row);
+  // What turns the face to the left lies on the left.
+  const auto in_row = page.tree.inside(left_first(justified(page.box(Flow::Row, 10), Justify::Centre)));
   page.turning_tools();
   page.square_button("shape", tr("With and without colour"), icon::kShape, ActionKind::ShowShape);
   page.square_button("at_first", tr("As at first"), icon::kUndo, ActionKind::LookAtFirst);

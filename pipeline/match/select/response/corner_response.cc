@@ -42,7 +42,7 @@ Result<void> check_start(const RectifiedPair& pair, StageContext& context) {
   RELIEVO_TRY(check_pixels(pair));
   if (!pair.region.empty() && pair.region.size() != pair.left.grey.size())
     return Error{Errc::InvalidInput, "the region is not the pair's"};
-  if (context.stop()) return selection_stopped();
+  if (context.stop()) return stopped();
   return {};
 }
 
@@ -125,8 +125,6 @@ bool Selectable::operator()(int x, int y, int margin) const {
   return valid_block(x - margin, y - margin, 2 * margin + 1) && selectable_at(pair_, x, y);
 }
 
-Error selection_stopped() { return {Errc::Cancelled, "the choice of keypoints was stopped"}; }
-
 Result<Selectable> selectable_of(const RectifiedPair& pair, StageContext& context) {
   RELIEVO_TRY(check_start(pair, context));
   Selectable selectable(pair, &context.scratch);
@@ -141,9 +139,9 @@ Result<void> mark_peaks(Plane<float>& response, const PeakChoice& choice, Plane<
   for (float& r : response.values) r /= greatest;
   Arena::Mark mark(context.scratch);
   Candidates peaks = peaks_of(response, float(choice.least), choice.radius_px, context, &context.scratch);
-  if (context.stop()) return selection_stopped();
+  if (context.stop()) return stopped();
   choose_spread(peaks, choice.distance_px, choice.max_points, chosen, context.scratch);
-  if (context.stop()) return selection_stopped();
+  if (context.stop()) return stopped();
   return {};
 }
 
@@ -352,7 +350,7 @@ Result<void> corner_response(const std::pmr::vector<float>& grey, const Selectab
   products(grey, context.pool, xx, xy, yy);
   for (Plane<float>* plane : {&xx, &xy, &yy})
     for (int pass = 0; pass < window.passes; ++pass) {
-      if (context.stop()) return selection_stopped();
+      if (context.stop()) return stopped();
       box_sum(*plane, window.radius_px, context.pool, across, *plane);
     }
   const float side = float(2 * window.radius_px + 1);
@@ -365,7 +363,7 @@ Result<void> corner_response(const std::pmr::vector<float>& grey, const Selectab
           response.row(y)[x] = std::max(
               0.0F, measure(mean * xx.row(y)[x], mean * xy.row(y)[x], mean * yy.row(y)[x], parameter));
   });
-  if (context.stop()) return selection_stopped();
+  if (context.stop()) return stopped();
   return {};
 }
 

@@ -36,7 +36,6 @@ class Selectable {
 // Where every selector but those of a lattice begins.
 // Errors: InvalidInput (no pixels), Cancelled, NoFace (nothing selectable).
 Result<Selectable> selectable_of(const RectifiedPair& pair, StageContext& context);
-Error selection_stopped();  // Cancelled
 
 struct Candidate {
   std::int32_t x, y;

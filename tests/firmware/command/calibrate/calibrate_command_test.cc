@@ -7,7 +7,6 @@
 #include <filesystem>
 #include <fstream>
 #include <set>
-#include <sstream>
 #include <string>
 
 #include <gtest/gtest.h>
@@ -15,6 +14,7 @@
 
 #include "hal/picture_file.h"
 #include "pipeline/calibrate/file/calibration_file.h"
+#include "tests/firmware/command/calibrate/kept_lines.h"
 #include "tests/pipeline/calibrate/board/drawn_board.h"
 
 namespace relievo::tests {
@@ -49,8 +49,8 @@ class CalibrateCommand : public ::testing::Test {
     std::ofstream(folder_ / "in" / name) << text;
   }
   Errc error() {
-    std::ostringstream out;
-    const auto done = firmware::run_calibrate(args_, out);
+    KeptLines out;
+    const auto done = firmware::run_calibrate(args_, out.tell());
     EXPECT_FALSE(done);
     if (done) return Errc::InvalidState;
     where_ = done.error().where();
@@ -106,13 +106,24 @@ TEST_F(CalibrateCommand, RefusesTooFewViewsAndWrongNumbers) {
   EXPECT_EQ(error(), Errc::NotFound);
 }
 
+TEST_F(CalibrateCommand, EndsWhereNobodyListensAnyMore) {
+  picture("left1.png");
+  picture("right1.png");
+  const auto done = firmware::run_calibrate(args_, [](const std::string&) -> Result<void> {
+    return Error{Errc::Cancelled, "nobody listens"};
+  });
+  ASSERT_FALSE(done);
+  EXPECT_EQ(done.error().code, Errc::Cancelled);
+  EXPECT_FALSE(fs::exists(args_.output));
+}
+
 TEST(TellQuality, SaysALongReasonWhole) {
   pipeline::CalibrationQuality quality;
   pipeline::ViewQuality& view = quality.views.emplace_back();
   view.name = std::string(200, 'n');
   view.reason = std::string(200, 'r');
-  std::ostringstream out;
-  firmware::tell_quality(quality, out);
+  KeptLines out;
+  EXPECT_TRUE(firmware::tell_quality(quality, out.tell()));
   EXPECT_NE(out.str().find("view " + view.name + ": left out, " + view.reason + "\n"), std::string::npos);
 }
 
@@ -140,8 +151,8 @@ TEST_F(MeasuredPictures, ARigThatMovedIsFoundOut) {
   if (!measured("real_faces/calibration", 9, 6, 10))
     GTEST_SKIP() << "real_faces/calibration is not below RELIEVO_TEST_DATA";
   args_.report = folder_ / "report";
-  std::ostringstream out;
-  const auto done = firmware::run_calibrate(args_, out);
+  KeptLines out;
+  const auto done = firmware::run_calibrate(args_, out.tell());
   ASSERT_TRUE(done) << done.error().what.view();
   const pipeline::CalibrationQuality& q = done->quality;
   const auto out_names = left_out(q);
@@ -164,8 +175,8 @@ TEST_F(MeasuredPictures, ARigThatMovedIsFoundOut) {
 
 TEST_F(MeasuredPictures, AFirmRigPasses) {
   if (!measured("rendered/board", 10, 7, 20)) GTEST_SKIP() << "rendered/board is not below RELIEVO_TEST_DATA";
-  std::ostringstream out;
-  const auto done = firmware::run_calibrate(args_, out);
+  KeptLines out;
+  const auto done = firmware::run_calibrate(args_, out.tell());
   ASSERT_TRUE(done) << done.error().what.view();
   EXPECT_TRUE(left_out(done->quality).empty());
   EXPECT_EQ(done->quality.verdict, pipeline::CalibrationVerdict::Pass);
@@ -179,8 +190,8 @@ TEST_F(MeasuredPictures, AFirmRigPasses) {
 TEST_F(MeasuredPictures, OpenCvsOwnPairs) {
   args_ = {"/usr/share/doc/opencv-doc/examples/data", {9, 6, 30}, folder_ / "rig.yml", {}, {}};
   if (!fs::exists(args_.pictures / "left01.jpg")) GTEST_SKIP() << "Debian's opencv-doc is not installed";
-  std::ostringstream out;
-  const auto done = firmware::run_calibrate(args_, out);
+  KeptLines out;
+  const auto done = firmware::run_calibrate(args_, out.tell());
   ASSERT_TRUE(done) << done.error().what.view();
   EXPECT_GE(done->quality.used, 11);
   EXPECT_TRUE(left_out(done->quality).contains("left/right"));

@@ -4,13 +4,13 @@
 #include "firmware/demo/hand_pairs.h"
 
 #include <filesystem>
-#include <sstream>
 
 #include <gtest/gtest.h>
 
 #include "hal/picture_file.h"
 #include "hal/sim/device.h"
 #include "pipeline/calibrate/file/calibration_file.h"
+#include "tests/firmware/command/calibrate/kept_lines.h"
 #include "tests/pipeline/calibrate/live/held_board_pictures.h"
 #include "tests/support/proof.h"
 #include "tests/support/temporary_folder.h"
@@ -116,7 +116,7 @@ class CalibrateLive : public ::testing::Test {
     RELIEVO_TRY_ASSIGN(auto device, hal::make_folder_device(pictures()));
     RELIEVO_TRY_ASSIGN(const auto pairs,
                        firmware::make_device_pairs(std::move(device), "folder:" + pictures().string()));
-    return firmware::run_calibrate_live(args(), *pairs, out_);
+    return firmware::run_calibrate_live(args(), *pairs, out_.tell());
   }
   fs::path pictures() const { return folder_.path() / "in"; }
   int said(const std::string& words) const {
@@ -128,7 +128,7 @@ class CalibrateLive : public ::testing::Test {
   }
 
   test::TemporaryFolder folder_;
-  std::ostringstream out_;
+  KeptLines out_;
 };
 
 // Pictures, a hand, motion blur, and all: the whole way at a quarter of the size.
@@ -140,7 +140,7 @@ TEST_F(CalibrateLive, AHandBeforeTheSimulatedRigGetsACalibration) {
         return firmware::HeldPair{std::move(pair.left), std::move(pair.right)};
       },
       3);
-  const auto done = firmware::run_calibrate_live(args(), *pairs, out_);
+  const auto done = firmware::run_calibrate_live(args(), *pairs, out_.tell());
   ASSERT_TRUE(done) << done.error().what.view();
   EXPECT_EQ(said("goal reached"), 1) << out_.str();
   EXPECT_EQ(said("verdict: pass"), 1);
@@ -194,12 +194,12 @@ TEST_F(CalibrateLive, SaysWhatIsWrong) {
   where.output = folder_.path() / "no" / "rig.yml";
   auto pairs =
       *firmware::make_device_pairs(*hal::make_folder_device(pictures()), "folder:" + pictures().string());
-  EXPECT_EQ(firmware::run_calibrate_live(where, *pairs, out_).error().code, Errc::NotFound);
+  EXPECT_EQ(firmware::run_calibrate_live(where, *pairs, out_.tell()).error().code, Errc::NotFound);
   EXPECT_TRUE(out_.str().empty()) << "asked before anything is looked at";
   pairs = *firmware::make_device_pairs(*hal::make_folder_device(pictures()), "folder:" + pictures().string());
   auto tiny = args();
   tiny.board = {2, 2, 20};
-  EXPECT_EQ(firmware::run_calibrate_live(tiny, *pairs, out_).error().code, Errc::InvalidInput);
+  EXPECT_EQ(firmware::run_calibrate_live(tiny, *pairs, out_.tell()).error().code, Errc::InvalidInput);
   EXPECT_EQ(replay().error().code, Errc::PoorGeometry);
   EXPECT_FALSE(fs::exists(args().output));
 }

@@ -2,11 +2,10 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "firmware/calibrate/calibrate_command.h"
 
-#include <sstream>
-
 #include <gtest/gtest.h>
 
 #include "hal/picture_file.h"
+#include "tests/firmware/command/calibrate/kept_lines.h"
 #include "tests/pipeline/calibrate/simulated_boards.h"
 #include "tests/support/html_reader.h"
 #include "tests/support/temporary_folder.h"
@@ -53,14 +52,14 @@ class CalibrateReport : public ::testing::Test {
   }
   Result<void> report(const fs::path& folder) {
     return firmware::write_calibration_report(folder, pairs_, boards_.input(), output_,
-                                              "2026-03-14 09:26 UTC", out_);
+                                              "2026-03-14 09:26 UTC", out_.tell());
   }
 
   test::TemporaryFolder here;
   BoardSimulator boards_;
   std::vector<firmware::PicturePairFiles> pairs_;
   pipeline::CalibratorOutput output_;
-  std::ostringstream out_;
+  KeptLines out_;
 };
 
 TEST_F(CalibrateReport, EveryLinkLeadsToAPicture) {

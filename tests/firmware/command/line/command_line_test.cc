@@ -304,6 +304,7 @@ TEST(CommandLine, WrongWordsAreUsageErrorsInOneLine) {
       {"calibrate", "dir", "--corners", "-4x7", "--square-mm", "20", "-o", "rig.yml"},
       {"calibrate", "dir", "--corners", "10x7", "--square-mm", "-1", "-o", "rig.yml"},
       {"calibrate", "dir", "--corners", "10x7", "--square-mm", "nan", "-o", "rig.yml"},
+      {"calibrate", "dir", "--corners", "10x7", "--square-mm", "0x14", "-o", "rig.yml"},
       {"calibrate", "dir", "--corners", "10x7", "--square-mm", "20", "-o", "rig.yml", "--baseline-mm", "-5"},
       {"subjects"},
       {"subjects", "show"},

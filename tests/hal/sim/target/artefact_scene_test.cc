@@ -73,20 +73,6 @@ TEST(PlateScene, IsFlatAndEnds) {
   EXPECT_FALSE(scene.solid({0, 0, 0}, normalised(turned().to_world({0, 90.1, 0})), s));
 }
 
-TEST(ArtefactScenes, TheMeshIsTheSurface) {
-  const DumbbellScene dumbbell(Dumbbell{}, turned());
-  for (const auto& p : dumbbell.solid_mesh().points) {
-    const Vec3 at{static_cast<double>(p[0]), static_cast<double>(p[1]), static_cast<double>(p[2])};
-    EXPECT_NEAR(std::min(length(at - dumbbell.centre_mm(0)), length(at - dumbbell.centre_mm(1))), 30, 1e-3);
-  }
-  const PlateScene plate(FlatPlate{}, turned());
-  for (const auto& p : plate.solid_mesh().points) {
-    const Vec3 at = turned().to_artefact(
-        {static_cast<double>(p[0]), static_cast<double>(p[1]), static_cast<double>(p[2])});
-    EXPECT_NEAR(at.z, 0, 1e-3);
-  }
-}
-
 TEST(Speckle, IsThereAtEverySizeAndDiffersFromSeedToSeed) {
   double squares = 0, sum = 0, other = 0;
   constexpr int kCount = 20000;

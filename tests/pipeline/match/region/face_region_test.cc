@@ -15,7 +15,7 @@
 namespace relievo::pipeline {
 namespace {
 
-bool cascades_installed() { return std::filesystem::exists(FaceFinderOptions{}.cascade_dir); }
+bool cascades_installed() { return std::filesystem::exists(kCascadeFolder); }
 
 RectifiedPair blank_pair(int width, int height) {
   RectifiedPair pair(std::pmr::get_default_resource());
@@ -29,18 +29,14 @@ TEST(FaceFinder, AForeignCascadeIsNotParsed) {
   std::filesystem::create_directories(dir);
   for (const char* name : {"alt2", "default", "alt"})
     std::ofstream(dir / (std::string("haarcascade_frontalface_") + name + ".xml")) << "<opencv_storage/>";
-  FaceFinderOptions options;
-  options.cascade_dir = dir.string();
-  const auto finder = FaceFinder::open(options);
+  const auto finder = FaceFinder::open(dir.string());
   ASSERT_FALSE(finder);
   EXPECT_EQ(finder.error().code, Errc::StoreCorrupt);
   std::filesystem::remove_all(dir);
 }
 
 TEST(FaceFinder, MissingCascadesSayWhatToInstall) {
-  FaceFinderOptions options;
-  options.cascade_dir = "/nonexistent";
-  const auto finder = FaceFinder::open(options);
+  const auto finder = FaceFinder::open("/nonexistent");
   ASSERT_FALSE(finder);
   EXPECT_EQ(finder.error().code, Errc::NotFound);
   EXPECT_NE(finder.error().what.view().find("opencv-data"), std::string_view::npos);
@@ -48,7 +44,7 @@ TEST(FaceFinder, MissingCascadesSayWhatToInstall) {
 
 TEST(FaceFinder, NoFaceInNoiseAndNoneInNothing) {
   if (!cascades_installed()) GTEST_SKIP() << "opencv-data is not installed";
-  auto finder = FaceFinder::open({});
+  auto finder = FaceFinder::open();
   ASSERT_TRUE(finder);
   std::vector<std::byte> pixels(640 * 480);
   std::mt19937 random(1);
@@ -70,7 +66,7 @@ TEST(FaceFinder, NoFaceInNoiseAndNoneInNothing) {
 // The judged face of each rendered head lies inside the region that is marked for it.
 TEST(FaceFinder, TheRegionHoldsTheRenderedFaces) {
   if (!cascades_installed()) GTEST_SKIP() << "opencv-data is not installed";
-  auto finder = FaceFinder::open({});
+  auto finder = FaceFinder::open();
   ASSERT_TRUE(finder);
   for (const char* name : {"d1", "d2", "d3"}) {
     const auto dir = rendered_head(name);

@@ -10,6 +10,7 @@
 #include <random>
 
 #include "pipeline/model/vector3.h"
+#include "tests/support/stage_fixture.h"
 
 namespace relievo::pipeline {
 namespace {
@@ -88,6 +89,19 @@ TEST(BandVolume, TheSaddleDecides) {
       EXPECT_EQ(beside_an_inner_corner, high > 1) << "the saddle is (high^2 - 1) / (2 high + 2)";
     }
   }
+}
+
+TEST(FillField, StopsWhenTold) {
+  test::StageFixture room;
+  const FieldPoint point{{5, 5, 5}, {0, 0, 1}, 1};
+  BandVolume volume = cube(10);
+  const auto fill = [&] {
+    fill_field({&point, 1}, 2, volume, room.context);
+    return std::isnan(volume.value[volume.index(5, 5, 5)]);
+  };
+  EXPECT_FALSE(fill());
+  room.cancelled = true;
+  EXPECT_TRUE(fill());
 }
 
 TEST(BandVolume, OutsideTheBandThereIsNothing) {

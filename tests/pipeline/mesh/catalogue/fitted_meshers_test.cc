@@ -37,7 +37,8 @@ DepthSamples hills(double noise_mm) {
 }
 
 TEST(BezierNet, NeighboursShareBorderAndTangent) {
-  const BezierNet net(hills(0.1), 2, 0.01, std::pmr::get_default_resource());
+  StageRoom room;
+  const BezierNet net(hills(0.1), 2, 0.01, room.context);
   ASSERT_GT(net.columns(), 20);
   for (int r = 0; r + 1 < net.rows(); ++r)
     for (int c = 0; c + 1 < net.columns(); ++c)
@@ -52,7 +53,8 @@ TEST(BezierNet, NeighboursShareBorderAndTangent) {
 }
 
 TEST(BezierNet, FollowsTheFunctionAndCarriesItOverGaps) {
-  const BezierNet net(hills(0.1), 2, 0.01, std::pmr::get_default_resource());
+  StageRoom room;
+  const BezierNet net(hills(0.1), 2, 0.01, room.context);
   double sum = 0;
   int count = 0;
   for (double v = -26; v <= 26; v += 0.7)
@@ -63,6 +65,14 @@ TEST(BezierNet, FollowsTheFunctionAndCarriesItOverGaps) {
       ++count;
     }
   EXPECT_LT(std::sqrt(sum / count), 0.05) << "of 0.1 mm noise, 16 points a patch leave a third";
+}
+
+TEST(BezierNet, IsNotFittedOnceItIsStopped) {
+  StageRoom room;
+  room.cancelled = true;
+  const DepthSamples samples = hills(0.1);
+  const BezierNet net(samples, 2, 0.01, room.context);
+  EXPECT_EQ(net.depth(8, 0), samples.usual_depth_mm);
 }
 
 TEST(NearestVertex, IsTheNearestOfAll) {

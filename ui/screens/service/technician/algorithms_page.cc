@@ -47,7 +47,7 @@ void kinds(TechnicianFrame& f) {
 
 void names(TechnicianFrame& f) {
   const TechnicianChoice& choice = f.seen.choice;
-  f.in_full_rows(choice.names.size(), f.text_share > 1.2F ? 2 : 3, space::kXs, [&](std::size_t i) {
+  f.in_full_rows(choice.names.size(), f.large_words() ? 2 : 3, space::kXs, [&](std::size_t i) {
     f.choice(f.id("name", i), f.left_to_right(choice.names[i].name), choice.names[i].chosen, ChooseName{i});
   });
 }
@@ -165,7 +165,7 @@ void technician_algorithms_page(TechnicianFrame& f) {
   const bool editing = f.seen.choice.edited != nullptr;
   f.tree.open(f.grown(f.abreast_box(space::kM)));
   // Large letters leave room for one of the two while an option is edited.
-  if (!editing || !(f.portrait || f.text_share > 1.2F)) {
+  if (!editing || !f.little_room()) {
     const auto in_box = f.tree.inside(f.grown(f.box(Flow::Column)));
     kinds(f);
   }

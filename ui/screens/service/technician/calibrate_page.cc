@@ -56,9 +56,7 @@ void coverage(TechnicianFrame& f, std::size_t side, float aspect) {
        f.filled("{}: {}", {f.camera_name(side), f.tr("Views taken")}));
   const auto in_map = f.tree.inside(map);
   for (std::size_t row = 0; row < kCoverageCells; ++row) {
-    Node line = f.grown(f.box(Flow::Row, 3));
-    line.box.left_to_right = true;
-    const auto in_line = f.tree.inside(line);
+    const auto in_line = f.tree.inside(left_first(f.grown(f.box(Flow::Row, 3))));
     for (std::size_t column = 0; column < kCoverageCells; ++column) {
       Node cell = f.grown(f.box(Flow::Column));
       const float share = std::min(1.0F, float(seen[row * kCoverageCells + column]) / 40);
@@ -72,9 +70,7 @@ void coverage(TechnicianFrame& f, std::size_t side, float aspect) {
 // The pictures above, what of each has been seen below.
 void live_pictures(TechnicianFrame& f) {
   const auto pair = [&](const auto& one) {
-    Node row = f.grown(f.box(Flow::Row, space::kS));
-    row.box.left_to_right = true;
-    const auto in_row = f.tree.inside(row);
+    const auto in_row = f.tree.inside(left_first(f.grown(f.box(Flow::Row, space::kS))));
     for (std::size_t side = 0; side < 2; ++side) one(side);
   };
   const auto in_column = f.tree.inside(f.grown(f.box(Flow::Column, space::kS), f.picture_share(1.6F)));

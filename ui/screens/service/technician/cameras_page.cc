@@ -87,9 +87,7 @@ void pair_row(TechnicianFrame& f, const CameraRow& what) {
   f.tree.open(f.grown(f.box(Flow::Column), 1.4F));
   f.write(f.tr(what.label), type::kSmall, Weight::Medium, f.palette.ink);
   f.tree.close();
-  Node both = f.grown(f.box(Flow::Row, space::kS), 2);
-  both.box.left_to_right = true;
-  const auto in_both = f.tree.inside(both);
+  const auto in_both = f.tree.inside(left_first(f.grown(f.box(Flow::Row, space::kS), 2)));
   for (const Camera& camera : f.seen.cameras.camera) {
     const Mood mood = what.doubtful == nullptr ? Mood::Plain
                       : what.doubtful(camera)  ? Mood::Warn
@@ -121,9 +119,7 @@ void technician_cameras_page(TechnicianFrame& f) {
   const TechnicianCameras& cameras = f.seen.cameras;
   if (f.service.mode > 0 && cameras.watched) return whole_page(f, f.service.mode == 1 ? 0 : 1);
   f.tree.open(f.grown(f.abreast_box(space::kM)));
-  Node pair = f.grown(f.box(Flow::Row, space::kS), f.picture_share(1.5F));
-  pair.box.left_to_right = true;
-  f.tree.open(pair);
+  f.tree.open(left_first(f.grown(f.box(Flow::Row, space::kS), f.picture_share(1.5F))));
   live(f, "left live", f.tr("Left camera"), cameras.camera[0].picture, PictureSlot::TechnicianLeft, 1);
   if (cameras.relief_shown)
     live(f, "relief", f.tr("Relief"), cameras.relief, PictureSlot::TechnicianRight, 0);

@@ -18,9 +18,8 @@ namespace {
 void difference_scale(TechnicianFrame& f) {
   if (f.seen.scale.empty()) return;
   const auto end = double(f.seen.full_colour_mm);
-  Node row = f.row_box(space::kXs, 0, 5);
+  Node row = left_first(f.row_box(space::kXs, 0, 5));
   row.id = "difference scale";
-  row.box.left_to_right = true;
   f.tree.open(row);
   f.write(f.number(-end, 2, "mm"), 18, Weight::Regular, f.palette.ink);
   Node strip = f.grown(f.box(Flow::Column));
@@ -111,7 +110,7 @@ class Columns {
   const std::size_t count;
 
   bool is_now(std::size_t i) const { return i == f.seen.put_aside; }
-  bool labels_above() const { return f.portrait || f.text_share > 1.2F; }
+  bool labels_above() const { return f.little_room(); }
   const R& result(std::size_t i) const { return f.seen.compared[i].result; }
   std::string_view name_of(std::size_t i) const {
     return is_now(i) ? std::string_view(f.tr("Now")) : f.number(i + 1);

@@ -26,7 +26,7 @@ bool makes_pairs(const TechnicianFrame& f) {
 }
 
 void tabs(TechnicianFrame& f) {
-  const bool narrow = f.portrait && f.text_share > 1.2F;  // for long words
+  const bool narrow = f.portrait && f.large_words();  // for long words
   const std::size_t across = narrow ? 3 : f.across(kTechnicianStages);
   f.in_rows(kTechnicianStages, across, 6, [&](std::size_t i) {
     const auto stage = static_cast<TechnicianStage>(i);
@@ -49,9 +49,7 @@ void pin_pairs(TechnicianFrame& f, std::size_t side) {
 
 void pair_pictures(TechnicianFrame& f) {
   const bool touchable = f.seen.stage == TechnicianStage::Rectified;
-  Node row = f.grown(f.box(Flow::Row, space::kS), f.picture_share(2.4F));
-  row.box.left_to_right = true;
-  const auto in_row = f.tree.inside(row);
+  const auto in_row = f.tree.inside(left_first(f.grown(f.box(Flow::Row, space::kS), f.picture_share(2.4F))));
   for (std::size_t side = 0; side < 2; ++side) {
     Action action{}, dragged{};
     if (touchable) action = TouchPicture{side != 0, false};

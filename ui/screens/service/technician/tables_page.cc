@@ -22,9 +22,9 @@ void switches(TechnicianFrame& f) {
 }
 
 void hands(TechnicianFrame& f) {
-  Node row = justified(f.box(Flow::Row, space::kXs, space::kXs, space::kXs), Justify::Centre);
-  row.box.left_to_right = true;  // as on the page where a visitor looks at it
-  const auto in_row = f.tree.inside(row);
+  // As on the page where a visitor looks at it.
+  const auto in_row = f.tree.inside(
+      left_first(justified(f.box(Flow::Row, space::kXs, space::kXs, space::kXs), Justify::Centre)));
   f.turning_tools();
 }
 
@@ -38,7 +38,7 @@ void technician_model_page(TechnicianFrame& f) {
     const auto in_box = f.tree.inside(f.grown(f.abreast_box(space::kM)));
     f.face(3, hands, size::kTarget + 2 * space::kXs);
     Node side = justified(f.box(Flow::Column, space::kS), Justify::Centre);
-    if (!f.portrait) side.box.width = f.px(f.text_share > 1.2F ? 330 : 260);
+    if (!f.portrait) side.box.width = f.px(f.large_words() ? 330 : 260);
     const auto in_side = f.tree.inside(side);
     switches(f);
     f.measure_button(0);
@@ -99,8 +99,7 @@ void cell(TechnicianFrame& f, std::string_view words, bool heading) {
 void record(TechnicianFrame& f, std::span<const std::string_view> texts, bool heading, const Shape& shape) {
   const bool divided = shape.abreast < shape.columns;
   for (std::size_t first = 0; first < shape.columns; first += shape.abreast) {
-    Node row = aligned(f.box(Flow::Row, kGap, 4, 0), Align::Centre);
-    row.box.left_to_right = true;
+    Node row = left_first(aligned(f.box(Flow::Row, kGap, 4, 0), Align::Centre));
     row.box.min_height = f.px(36);
     const auto in_row = f.tree.inside(row);
     for (std::size_t i = first; i < first + shape.abreast; ++i) {
@@ -129,7 +128,7 @@ void technician_tables_page(TechnicianFrame& f) {
   FilterNames names;
   const ListFilters filters = filters_of(f, names);
   if (list_choice(f, rows.place, filters)) return;
-  const std::size_t across = f.portrait || f.text_share > 1.2F ? 2 : kTechnicianTables;
+  const std::size_t across = f.little_room() ? 2 : kTechnicianTables;
   f.in_rows(kTechnicianTables, across, space::kXs, [&](std::size_t i) {
     const auto table = static_cast<TechnicianTable>(i);
     f.choice(f.id("table", i), one_of(f.tr, kTableNames, table), rows.table == table, ShowTable{table});
@@ -144,7 +143,7 @@ void technician_tables_page(TechnicianFrame& f) {
   const std::size_t columns = rows.heads.size(), places = rows.cells.size();
   if (columns == 0) return;
   const Wide wide = rows.table == TechnicianTable::Calibration
-                        ? Wide{3, f.portrait && f.text_share > 1.2F ? 2.0F : 3.0F}
+                        ? Wide{3, f.portrait && f.large_words() ? 2.0F : 3.0F}
                     : rows.table == TechnicianTable::Matches ? Wide{columns - 1, 1.8F, 4.4F}
                                                              : Wide{};
   f.begin_list("table");

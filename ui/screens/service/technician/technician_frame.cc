@@ -69,7 +69,7 @@ void TechnicianFrame::scale_words(float full_colour_mm, float size) {
 }
 
 float TechnicianFrame::open_buttons() {
-  const bool stacked = portrait && text_share > 1.2F;
+  const bool stacked = portrait && large_words();
   tree.open(box(stacked ? Flow::Column : Flow::Row, space::kS));
   return stacked ? 0 : 1;
 }

@@ -30,7 +30,7 @@ class TechnicianFrame : public StaffFrame {
   // One of several: the chosen one is filled and ticked.
   void choice(std::string_view id, std::string_view label, bool chosen, Action action, float grow = 1);
   // Pages whose words are large, or narrow ones, put less beside each other.
-  std::size_t across(std::size_t most) const { return portrait || text_share > 1.2F ? (most + 1) / 2 : most; }
+  std::size_t across(std::size_t most) const { return little_room() ? (most + 1) / 2 : most; }
   // An explanation among the figures, or in their place.
   void note(std::string_view words, float size = type::kSmall) {
     write(words, size, Weight::Regular, palette.ink_soft);
@@ -45,9 +45,7 @@ class TechnicianFrame : public StaffFrame {
     return static_cast<PictureSlot>(std::size_t(PictureSlot::TechnicianLeft) + place);
   }
   // How much wider than the figures beside them pictures are: large words take room from them.
-  float picture_share(float usual) const {
-    return portrait ? 1.0F : text_share > 1.2F ? usual * 0.65F : usual;
-  }
+  float picture_share(float usual) const { return portrait ? 1.0F : large_words() ? usual * 0.65F : usual; }
 
   // A dark card of the picture's shape in the room there is; what comes until Tree::close() can be pinned
   // to it (Node::pinned). Touched, `action` says where; `dragged` as in Node.

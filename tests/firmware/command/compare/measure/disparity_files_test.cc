@@ -71,7 +71,8 @@ TEST(Pfm, RefusesWhatIsNoWholeMap) {
   test::write_text(here / "colour.pfm", "PF 1 1 -1 " + std::string(12, 'x'));
   test::write_text(here / "huge.pfm", "Pf 99999999 99999999 -1 x");
   test::write_text(here / "words.pfm", "this is no map at all");
-  for (const char* name : {"cut.pfm", "colour.pfm", "huge.pfm", "words.pfm"}) {
+  test::write_text(here / "hex.pfm", "Pf 1 1 -0x1 " + std::string(4, 'x'));
+  for (const char* name : {"cut.pfm", "colour.pfm", "huge.pfm", "words.pfm", "hex.pfm"}) {
     const auto map = read_pfm(here / name);
     ASSERT_FALSE(map) << name;
     EXPECT_EQ(map.error().code, Errc::InvalidInput) << name;

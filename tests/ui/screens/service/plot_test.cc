@@ -2,7 +2,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 //
 // A known series, and where its marks stand in the draw list: by the axis' own numbers.
-#include "ui/screens/parts/plot.h"
+#include "ui/screens/service/plot.h"
 
 #include <gtest/gtest.h>
 
@@ -10,16 +10,12 @@
 #include <cstdio>
 #include <vector>
 
+#include "ui/screens/service/staff_frame.h"
+
 namespace relievo::ui {
 namespace {
 
 constexpr float kNone = std::numeric_limits<float>::quiet_NaN();
-
-std::string_view plain(Page& page, double value, int decimals, const char* unit) {
-  char text[48];
-  std::snprintf(text, sizeof text, "%.*f%s", decimals, value, unit);
-  return page.tree.keep(text);
-}
 
 class PlotTest : public testing::Test {
  protected:
@@ -33,9 +29,10 @@ class PlotTest : public testing::Test {
   void draw(const Plot& what, Language language = Language::English) {
     visit.language = language;
     tree.begin(info_of(language).right_to_left);
-    Page page(tree, view, visit, kLight, screen);
+    view.service = &staff;
+    StaffFrame page(tree, view, visit, service, kLight, screen);
     tree.open(page.box(Flow::Column));
-    plot(page, what, plain);
+    page.plot(what);
     tree.close();
     tree.layout(screen, *text, {});
     list.clear();
@@ -55,8 +52,10 @@ class PlotTest : public testing::Test {
   }
   std::string value_of(std::string_view id) const { return std::string(tree.find(id)->value); }
 
+  ServiceView staff;
   ViewState view;
   Visit visit;
+  Service service;
   Tree tree;
   std::unique_ptr<TextEngine> text;
   DrawList list;
@@ -102,7 +101,7 @@ TEST_F(PlotTest, BarsAreAsHighAsTheirValuesAndStandInTheirOrder) {
     }
   }
   draw(what);
-  EXPECT_EQ(value_of("p"), "Highest: \u206812\u2069 (\u2068c\u2069)");
+  EXPECT_EQ(value_of("p"), "Highest: \u2068\u206612\u2069\u2069 (\u2068c\u2069)");
 }
 
 TEST_F(PlotTest, TheNumbersOfTheAxisStandAtTheirHeights) {
@@ -114,7 +113,7 @@ TEST_F(PlotTest, TheNumbersOfTheAxisStandAtTheirHeights) {
   int seen = 0;
   for (const Node& node : tree.nodes()) {
     double number = 0;
-    if (node.text.empty() || std::sscanf(std::string(node.text).c_str(), "%lf", &number) != 1) continue;
+    if (node.text.empty() || std::sscanf(std::string(node.text).c_str(), "\u2066%lf", &number) != 1) continue;
     EXPECT_NEAR(value_at(node.rect.y + node.rect.h / 2, scale), number,
                 1.01 * scale.to() / static_cast<double>(field.h))
         << "to a pixel";
@@ -146,8 +145,8 @@ TEST_F(PlotTest, ALineHoldsEachValueAndTheLimitLiesAtItsOwn) {
   EXPECT_NEAR(bad.back().w, field.w, 0.01);
   EXPECT_EQ(
       value_of("p"),
-      "\u2068\u2068Highest: \u206895°C\u2069 (\u2068d\u2069)\u2069. \u2068Now\u2069: \u206895°C\u2069\u2069. \u2068Limit: "
-      "\u206890°C\u2069\u2069");
+      "\u2068\u2068Highest: \u2068\u206695\u00a0°C\u2069\u2069 (\u2068d\u2069)\u2069. \u2068Now\u2069: "
+      "\u2068\u206695\u00a0°C\u2069\u2069\u2069. \u2068Limit: \u2068\u206690\u00a0°C\u2069\u2069\u2069");
 }
 
 TEST_F(PlotTest, NothingAndOneValueAreToldToo) {
@@ -162,7 +161,8 @@ TEST_F(PlotTest, NothingAndOneValueAreToldToo) {
   draw(what);
   ASSERT_EQ(marks(kLight.accent).size(), 1U);
   EXPECT_NEAR(marks(kLight.accent)[0].w, field.w, 0.01);
-  EXPECT_EQ(value_of("p"), "\u20680\u2069. \u2068Highest: \u20685\u2069 (\u2068today\u2069)\u2069");
+  EXPECT_EQ(value_of("p"),
+            "\u20680\u2069. \u2068Highest: \u2068\u20665\u2069\u2069 (\u2068today\u2069)\u2069");
 }
 
 }  // namespace

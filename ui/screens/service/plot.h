@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: 2026 The Relievo authors
 // SPDX-License-Identifier: GPL-3.0-or-later
 //
-// plot(): a series of values as bars or as a line, with an axis of round numbers and the limit across it. Who
+// Plot: a series of values as bars or as a line, with an axis of round numbers and the limit across it. Who
 // listens is told the highest, the newest and the limit. It runs from left to right in every language, as
 // tables of measurements do. Thread: main. Errors: none.
 #pragma once
@@ -11,7 +11,7 @@
 #include <span>
 #include <string_view>
 
-#include "ui/screens/parts/page.h"
+#include "ui/draw/theme.h"
 
 namespace relievo::ui {
 
@@ -41,9 +41,5 @@ struct PlotScale {
 };
 // Holds 0 and all that is known; of nothing: 0 to 1.
 PlotScale plot_scale(std::span<const float> values, float limit);
-
-// How the page writes a number.
-using SayNumber = std::string_view (*)(Page& page, double value, int decimals, const char* unit);
-void plot(Page& page, const Plot& what, SayNumber number);
 
 }  // namespace relievo::ui

@@ -1,9 +1,11 @@
 // SPDX-FileCopyrightText: 2026 The Relievo authors
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include "ui/screens/parts/plot.h"
+#include "ui/screens/service/plot.h"
 
 #include <algorithm>
 #include <cmath>
+
+#include "ui/screens/service/staff_frame.h"
 
 namespace relievo::ui {
 namespace {
@@ -27,8 +29,8 @@ Known known_of(std::span<const float> values) {
 
 class Drawing {
  public:
-  Drawing(Page& on, const Plot& of, SayNumber say)
-      : page(on), what(of), number(say), scale(plot_scale(of.values, of.limit)), known(known_of(of.values)) {}
+  Drawing(StaffFrame& on, const Plot& of)
+      : page(on), what(of), scale(plot_scale(of.values, of.limit)), known(known_of(of.values)) {}
 
   void all() {
     Node whole = page.box(Flow::Column, 4, 0, 8);  // told as one: nobody wants to hear the axes
@@ -36,8 +38,7 @@ class Drawing {
     whole.value = words();
     const auto in_whole = page.tree.inside(whole);
     head();
-    Node row = aligned(page.box(Flow::Row, 6), Align::Start);
-    row.box.left_to_right = true;
+    Node row = left_first(aligned(page.box(Flow::Row, 6), Align::Start));
     const auto in_row = page.tree.inside(row);
     upright_axis();
     const auto in_box = page.tree.inside(page.grown(page.box(Flow::Column, 2)));
@@ -46,9 +47,8 @@ class Drawing {
   }
 
  private:
-  Page& page;
+  StaffFrame& page;
   const Plot& what;
-  const SayNumber number;
   const PlotScale scale;
   const Known known;
 
@@ -57,7 +57,7 @@ class Drawing {
   float height_px() const { return page.px(kHeight) + line_px(); }
   std::string_view said(double value) const {
     const int more = value == std::floor(value) ? 0 : 1;
-    return number(page, value, std::max(scale.decimals(), more) + (scale.decimals() > 0 ? 1 : 0), what.unit);
+    return page.number(value, std::max(scale.decimals(), more) + (scale.decimals() > 0 ? 1 : 0), what.unit);
   }
   // Numbers are as large in every language, and their lines as high.
   Node label(std::string_view words, TextAlign align) const {
@@ -83,7 +83,7 @@ class Drawing {
     if (!std::isnan(what.limit)) page.write(limit_words(), 18, Weight::Regular, page.palette.bad);
   }
   std::string_view limit_words() {
-    return page.filled(page.tr("Limit: {}"), number(page, double(what.limit), scale.decimals(), what.unit));
+    return page.filled(page.tr("Limit: {}"), page.number(what.limit, scale.decimals(), what.unit));
   }
 
   // Evenly spaced, the middle of each at its height.
@@ -92,9 +92,9 @@ class Drawing {
     axis.box.height = height_px();
     const auto in_axis = page.tree.inside(axis);
     for (int i = scale.steps; i >= 0; --i)
-      page.tree.leaf(label(
-          number(page, scale.from + i * scale.step, scale.decimals(), i == scale.steps ? what.unit : ""),
-          TextAlign::End));
+      page.tree.leaf(
+          label(page.number(scale.from + i * scale.step, scale.decimals(), i == scale.steps ? what.unit : ""),
+                TextAlign::End));
   }
 
   void level_axis() {
@@ -105,9 +105,7 @@ class Drawing {
       if (count > 2 && count % 2 == 1) under[1] = what.names[count / 2];
       if (count > 1) under[2] = what.names[count - 1];
     }
-    Node row = page.box(Flow::Row);
-    row.box.left_to_right = true;
-    const auto in_row_2 = page.tree.inside(row);
+    const auto in_row_2 = page.tree.inside(left_first(page.box(Flow::Row)));
     const TextAlign aligned[] = {TextAlign::Start, TextAlign::Centre, TextAlign::End};
     for (std::size_t i = 0; i < under.size(); ++i) {
       const auto in_box_2 = page.tree.inside(page.grown(page.box(Flow::Column)));
@@ -199,6 +197,10 @@ PlotScale plot_scale(std::span<const float> values, float limit) {
   return scale;
 }
 
-void plot(Page& page, const Plot& what, SayNumber number) { Drawing(page, what, number).all(); }
+void StaffFrame::plot(const Plot& what) {
+  due_rule();
+  Drawing(*this, what).all();
+  rule_due_ = true;
+}
 
 }  // namespace relievo::ui
