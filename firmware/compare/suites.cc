@@ -81,11 +81,11 @@ Words constraints() {
 
 Words selectors() {
   Words words;
-  for (const std::string& name : names_of("selector")) {
-    if (name.starts_with("file")) continue;  // chooses nothing without its file
-    words.push_back({name, {"selector=" + name}});
-    const bool lattice = name == "dense" || name == "grid-points";
-    if (!lattice) words.back().settings.emplace_back("mesher=delaunay");  // which joins scattered points
+  for (SetWords& set : each_of("selector")) {
+    pipeline::AlgorithmSet chosen;
+    if (!chosen.set("selector", set.name) || !pipeline::check_neighbours(chosen))
+      set.settings.emplace_back("mesher=delaunay");  // which joins scattered points
+    words.push_back(std::move(set));
   }
   return words;
 }

@@ -18,9 +18,10 @@ using ui::Screen;
 using ui::Step;
 using ui::Trouble;
 
-constexpr std::string_view kNames[ui::kLanguages] = {"Ada Lovelace", "Jürgen Müller", "Zoé Lefèvre",
-                                                     "Iñaki Muñoz",  "ليلى حسن",      "נועה לוי",
-                                                     "Wang Wei",     "Sato Yuki"};
+// In the order of Language.
+constexpr std::array kNames{"Ada Lovelace", "Jürgen Müller", "Zoé Lefèvre", "Iñaki Muñoz",
+                            "ليلى حسن",     "נועה לוי",      "Wang Wei",    "Sato Yuki"};
+static_assert(kNames.size() == ui::kLanguages);
 
 class Gallery {
  public:

@@ -88,7 +88,8 @@ void Visitor::answer(ui::Step step, Manner manner) {
     case ui::Step::Declined: return visits_ % 50 == 2 ? void() : tap("finish");
     case ui::Step::Starting:
     case ui::Step::Attract:
-    case ui::Step::Working: return;  // the page goes on by itself, or is visit()'s
+    case ui::Step::Working:
+    case ui::Step::Count: return;  // the page goes on by itself, or is visit()'s
   }
 }
 

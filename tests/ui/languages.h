@@ -7,14 +7,17 @@
 #include <gtest/gtest.h>
 
 #include <string>
+#include <vector>
 
 #include "ui/language/language.h"
 
 namespace relievo::ui {
 
-inline const auto kEveryLanguage =
-    testing::Values(Language::English, Language::German, Language::French, Language::Spanish,
-                    Language::Arabic, Language::Hebrew, Language::Chinese, Language::Japanese);
+inline const auto kEveryLanguage = [] {
+  std::vector<Language> all;
+  for (std::size_t i = 0; i < kLanguages; ++i) all.push_back(static_cast<Language>(i));
+  return testing::ValuesIn(all);
+}();
 
 inline std::string language_code(const testing::TestParamInfo<Language>& info) {
   return std::string(info_of(info.param).code).substr(0, 2);

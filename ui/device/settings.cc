@@ -42,6 +42,11 @@ constexpr std::array<SettingInfo, kSettings> kInfos{{
     // Off: it is the operator who opens a port to strangers, and lets a face go unsealed.
     {Setting::TakeHome, "take_home", kSwitch, 0, false, true},
 }};
+static_assert([] {
+  for (std::size_t i = 0; i < kSettings; ++i)
+    if (kInfos[i].setting != Setting(i)) return false;
+  return true;
+}());
 
 }  // namespace
 

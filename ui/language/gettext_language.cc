@@ -27,6 +27,7 @@ constexpr std::array<Row, kLanguages> kRows{{
     {{"zh-Hans", "简体中文", false, '.'}, "relievo-zh"},
     {{"ja", "日本語", false, '.'}, "relievo-ja"},
 }};
+static_assert(kRows.back().domain != nullptr);
 
 const char* domain_of(Language language) { return kRows[std::size_t(language)].domain; }
 

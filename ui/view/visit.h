@@ -37,25 +37,28 @@ enum class Step : std::uint8_t {
   Thanks,
   Trouble,
   Starting,
-  Declined
+  Declined,
+  Count
 };
 struct StepInfo {
   std::string_view name;
   int number = -1;               // of the four parts of the way; -1: it is none of them
   bool person_expected = false;  // who is silent there is asked, and the visit then ends
 };
-inline constexpr std::array<StepInfo, 12> kSteps{{{"Attract"},
-                                                  {"Consent", 0, true},
-                                                  {"Name", 1, true},
-                                                  {"Known", 1, true},
-                                                  {"Position", 2, true},
-                                                  {"Turn", 2},
-                                                  {"Working", 3},
-                                                  {"Review", 3, true},
-                                                  {"Thanks", -1, true},
-                                                  {"Trouble"},
-                                                  {"Starting"},
-                                                  {"Declined"}}};
+// In the order of Step.
+inline constexpr std::array<StepInfo, std::size_t(Step::Count)> kSteps{{{"Attract"},
+                                                                        {"Consent", 0, true},
+                                                                        {"Name", 1, true},
+                                                                        {"Known", 1, true},
+                                                                        {"Position", 2, true},
+                                                                        {"Turn", 2},
+                                                                        {"Working", 3},
+                                                                        {"Review", 3, true},
+                                                                        {"Thanks", -1, true},
+                                                                        {"Trouble"},
+                                                                        {"Starting"},
+                                                                        {"Declined"}}};
+static_assert(!kSteps.back().name.empty());
 constexpr const StepInfo& info_of(Step step) { return kSteps[std::size_t(step)]; }
 enum class Overlay : std::uint8_t { None, Help, Languages, Leave, StillThere, LostCode, Privacy };
 

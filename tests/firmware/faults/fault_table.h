@@ -59,7 +59,7 @@ using F = Fault;
 struct Row {
   Fault fault;
   Fate fate;
-  std::array<State, 9> in;  // Count: no more
+  std::array<State, kStates> in;  // Count: no more
 };
 constexpr Row row(Fault fault, Fate fate, std::initializer_list<State> in) {
   Row made{fault, fate, {}};

@@ -76,6 +76,22 @@ TEST_F(StaffSettingsTest, WhatIsChosenHoldsAtOnceAndOverARestart) {
   EXPECT_EQ(kiosk->ui().visit().overlay, ui::Overlay::StillThere);
 }
 
+TEST_F(StaffSettingsTest, EachStandsOnThePageOfWhoMayChooseIt) {
+  start();
+  first_start();
+  for (const auto& [pin, role] : {std::pair("4711", StaffRole::Technician), {"80526", StaffRole::Operator}}) {
+    sign_in(pin, role);
+    tap("open settings");
+    for (std::size_t i = 0; i < ui::kSettings; ++i) {
+      const ui::SettingInfo& info = ui::info_of(static_cast<Setting>(i));
+      EXPECT_EQ(find(std::string(info.key) + " more") != nullptr,
+                role == StaffRole::Technician ? info.technician : info.clerk)
+          << info.key;
+    }
+    sign_out();
+  }
+}
+
 TEST_F(StaffSettingsTest, AValueThatIsNoneLeavesTheUsualOneAndIsTold) {
   store_setting(kDeviceSetting, "patience_s 1\nattempts 2\nnonsense\n");
   start();

@@ -153,7 +153,8 @@ class RandomKiosk : public FaultHands {
         return;
       case ui::Step::Working: return wait_a_little();
       case ui::Step::Starting:
-      case ui::Step::Declined: return;
+      case ui::Step::Declined:
+      case ui::Step::Count: return;
     }
   }
   void wait_a_little() {

@@ -32,7 +32,7 @@ RectifiedPair rig() {
   return pair;
 }
 
-class Triangulators : public testing::TestWithParam<const char*> {};
+class Triangulators : public testing::TestWithParam<std::string> {};
 
 TEST_P(Triangulators, FindPointsWhereTheyWere) {
   const RectifiedPair pair = rig();
@@ -107,14 +107,36 @@ TEST_P(Triangulators, SayWhenMemoryIsUsedUpAndWhenCancelled) {
   EXPECT_EQ(cloud.error().code, Errc::Cancelled);
 }
 
-INSTANTIATE_TEST_SUITE_P(All, Triangulators,
-                         testing::Values("inverse-disparity", "linear-least-squares", "optimal"),
-                         [](const auto& chosen) {
-                           const std::string name = chosen.param;
-                           return name == "optimal"             ? "Optimal"
-                                  : name == "inverse-disparity" ? "InverseDisparity"
-                                                                : "LinearLeastSquares";
-                         });
+TEST_P(Triangulators, GiveTheSameBytesForAnyNumberOfThreads) {
+  const RectifiedPair pair = rig();
+  std::vector<CloudPoint> first;
+  for (const int threads : {1, 2, 3}) {
+    test::StageFixture fixture(1 << 22, 1 << 20, threads);
+    MatchSet set(&fixture.output);
+    for (int k = 0; k < 2000; ++k) {
+      const double z = 500 + 0.1 * k;
+      set.matches.push_back({{300.0F + 0.2F * static_cast<float>(k), 400},
+                             static_cast<float>(pair.disparity_px(z)),
+                             0,
+                             0.1F,
+                             0});
+    }
+    const auto cloud =
+        run_stage(fixture.context, [&](StageContext& c) { return make(GetParam())(pair, set, c); });
+    ASSERT_TRUE(cloud);
+    if (first.empty()) first.assign(cloud->points.begin(), cloud->points.end());
+    ASSERT_EQ(cloud->points.size(), first.size());
+    for (std::size_t k = 0; k < first.size(); ++k) {
+      const CloudPoint &is = cloud->points[k], &was = first[k];
+      ASSERT_TRUE(is.at_mm.x == was.at_mm.x && is.at_mm.y == was.at_mm.y && is.at_mm.z == was.at_mm.z &&
+                  is.sigma_mm == was.sigma_mm)
+          << threads << " threads, point " << k;
+    }
+  }
+}
+
+INSTANTIATE_TEST_SUITE_P(All, Triangulators, testing::ValuesIn(relievo::test::names_of("triangulator")),
+                         [](const auto& chosen) { return relievo::test::test_name(chosen.param); });
 
 // Two cameras turned towards each other by 20 degrees, lines of sight as x y 1.
 struct ToedRig {

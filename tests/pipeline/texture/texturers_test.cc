@@ -225,10 +225,8 @@ TEST_P(TexturerContract, WhatTurnsAwayHasTexelsOfItsOwn) {
   }
 }
 
-INSTANTIATE_TEST_SUITE_P(All, TexturerContract, testing::Values("single-view", "two-view"),
-                         [](const auto& test_case) {
-                           return test_case.param == "two-view" ? "two" : "single";
-                         });
+INSTANTIATE_TEST_SUITE_P(All, TexturerContract, testing::ValuesIn(relievo::test::names_of("texturer")),
+                         [](const auto& test_case) { return relievo::test::test_name(test_case.param); });
 
 }  // namespace
 }  // namespace relievo::pipeline

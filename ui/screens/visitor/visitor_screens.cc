@@ -19,7 +19,7 @@ const Palette& palette_of(const Visit& visit) {
 constexpr std::array kStepScreens{attract_screen,  consent_screen, name_screen,     known_screen,
                                   position_screen, turn_screen,    working_screen,  review_screen,
                                   thanks_screen,   trouble_screen, starting_screen, declined_screen};
-static_assert(kStepScreens.size() == std::size_t(Step::Declined) + 1 && kStepScreens.size() == kSteps.size());
+static_assert(kStepScreens.size() == kSteps.size());
 
 // The simulated head: it invites, and shows what to do.
 bool shows_invitation(const Visit& visit) {

@@ -37,6 +37,20 @@ TEST(SetChoice, AllSetsStartFromTheSettingsForAll) {
   for (const NamedSet& set : *sets) EXPECT_EQ(set.set.get("dense.step_px"), "3");
 }
 
+TEST(SetChoice, ScatteredPlacesGetAMesherThatJoinsThem) {
+  CompareArgs args;
+  args.suites = {"selectors"};
+  const auto sets = choose_sets(args);
+  ASSERT_TRUE(sets);
+  std::size_t scattered = 0;
+  for (const NamedSet& set : *sets) {
+    EXPECT_TRUE(pipeline::check_neighbours(set.set)) << set.name;
+    scattered += set.set.get("mesher") == "delaunay" ? 1 : 0;
+  }
+  EXPECT_GT(scattered, 0U);
+  EXPECT_LT(scattered, sets->size()) << "a lattice keeps its own";
+}
+
 // A limit that the matcher has already held to would make a rule of figure 7 that says nothing.
 TEST(SetChoice, TheDissertationsSimilarityAsksForMoreThanItsMatcher) {
   for (const auto& words : {dissertation_rule_sets(), dissertation_face_sets()}) {
