@@ -57,9 +57,10 @@ Result<std::unique_ptr<hal::Device>> open_device(std::string_view device) {
     options.threads = pool_size();
     return hal::make_sim_device(options);
   }
-  if (device.substr(0, kFolder.size()) == kFolder)
+  if (device.size() > kFolder.size() && device.starts_with(kFolder))
     return hal::make_folder_device(device.substr(kFolder.size()));
-  if (device == kLinux || (device.starts_with(kLinux) && device[kLinux.size()] == ':'))
+  if (device == kLinux ||
+      (device.size() > kLinux.size() + 1 && device.starts_with(kLinux) && device[kLinux.size()] == ':'))
     return open_linux_device(device);
   return Error{Errc::InvalidInput,
                "is no board: use sim, linux, linux:FILE, or folder:DIR with recorded pairs"}
@@ -87,8 +88,10 @@ Result<std::unique_ptr<storage::Store>> open_store(const Path& folder, bool to_w
   storage::SqliteStoreOptions options;
   options.mode = to_write ? storage::OpenMode::ReadWrite : storage::OpenMode::ReadOnly;
   options.keys = key_source(folder, key);
-  std::error_code ignored;
-  const bool first = to_write && !std::filesystem::exists(folder / storage::kStoreFile, ignored);
+  // An empty file is left where the disk was full.
+  std::error_code missing;
+  const auto bytes = std::filesystem::file_size(folder / storage::kStoreFile, missing);
+  const bool first = to_write && (missing || bytes == 0);
   auto store = storage::open_sqlite_store(folder, clock, options);
   if (store && first)
     console.say(

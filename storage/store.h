@@ -123,7 +123,8 @@ class StoreKeeping {
  public:
   virtual ~StoreKeeping() = default;
 
-  // A copy as sealed as the store, whole or not there; opened by the same key and the same words.
+  // A copy as sealed as the store, whole or not there; opened by the same key and the same words. It may
+  // replace an older copy. InvalidInput: another file is there, or it would lie in a store's own folder.
   virtual Result<void> backup(const std::filesystem::path& file) = 0;
   // Whom the store has erased since that copy was made of it. InvalidInput: it is no copy of this store.
   virtual Result<std::vector<SubjectId>> erased_since(const std::filesystem::path& backup) = 0;

@@ -13,10 +13,15 @@
 
 namespace relievo::firmware {
 
+std::string check_not_empty(const std::string& word) {
+  return word.empty() ? "wants a name, and was given an empty word" : "";
+}
+
 void add_store(CLI::App& command, Path& store) {
   word(command, "--store", store, "DIR", "folder of the store");
   command.add_option(kKeyOption, "file with the store's key, if it does not lie beside the store")
-      ->type_name("FILE");
+      ->type_name("FILE")
+      ->check(check_not_empty);
 }
 
 CLI::Option* add_two_numbers(CLI::App& command, const char* name, int& first, int& second,
@@ -178,10 +183,11 @@ void add_subjects(CLI::App& app, CommandArgs& chosen, SubjectsArgs& args) {
   verb("list", "everyone, one a line", Verb::List);
   verb("show", "the enrolments of one", Verb::Show);
   CLI::App* exported = verb("export", "the newest model of one as files", Verb::Export);
-  exported->add_option("-o,--output", args.output)->required()->type_name("DIR");
+  word(*exported, "-o,--output", args.output, "DIR", "")->required();
   add_further(*exported, args.further);
   CLI::Option* to =
-      word(*exported, "--to", args.recipient, "age1...", "one file instead, sealed to this recipient of age");
+      word(*exported, "--to", args.recipient, "age1...", "one file instead, sealed to this recipient of age")
+          ->check(check_not_empty);
   CLI::Option* by = word(*exported, "--passphrase-file", args.passphrase, "FILE",
                          "one file instead, sealed by the passphrase that stands in this one")
                         ->excludes(to);
@@ -189,7 +195,7 @@ void add_subjects(CLI::App& app, CommandArgs& chosen, SubjectsArgs& args) {
     for (CLI::Option* sealed : {to, by}) sealed->excludes(exported->get_option(folder_only));
   CLI::App* imported = verb("import", "takes in somebody whom another store exported", Verb::Import);
   word(*imported, "copy", args.copy, "FILE",
-       "what the export made: a folder, a tar of it, or one sealed file")
+       "what the export made: a folder, one sealed file, or the tar that was in it")
       ->required();
   CLI::Option* identity = word(*imported, "--identity", args.identity, "FILE",
                                "the key it was sealed to, as age-keygen makes it");
@@ -228,16 +234,13 @@ void add_store_keeping(CLI::App& app, CommandArgs& chosen, StoreArgs& args) {
   const auto verb = [&](const char* name, const char* help, StoreArgs::Verb which) {
     return &add_verb(*command, name, help, args, which, chosen);
   };
-  verb("check", "every page, model and line of the log", StoreArgs::Verb::Check)
-      ->add_option("--backup", args.file, "a copy of this store: who in it has been erased since?")
-      ->type_name("FILE");
-  verb("backup", "a copy, sealed as the store is; the key is not in it", StoreArgs::Verb::Backup)
-      ->add_option("file", args.file, "where to")
-      ->required()
-      ->type_name("FILE");
+  word(*verb("check", "every page, model and line of the log", StoreArgs::Verb::Check), "--backup", args.file,
+       "FILE", "a copy of this store: who in it has been erased since?");
+  word(*verb("backup", "a copy, sealed as the store is; the key is not in it", StoreArgs::Verb::Backup),
+       "file", args.file, "FILE", "where to")
+      ->required();
   CLI::App* rekey = verb("rekey", "new keys; copies made before keep the old ones", StoreArgs::Verb::Rekey);
-  CLI::Option* to_file = rekey->add_option("--new-key", args.file, "the key moves to this file");
-  to_file->type_name("FILE");
+  CLI::Option* to_file = word(*rekey, "--new-key", args.file, "FILE", "the key moves to this file");
   rekey->add_flag("--tpm", args.tpm, "the key moves beside the store, sealed by this board's TPM")
       ->excludes(to_file);
   verb("recovery-words",

@@ -303,7 +303,7 @@ CLI::App* add_compare(CLI::App& app, CommandArgs& chosen, CompareArgs& args) {
   word(*command, "pictures", args.pictures, "LEFT RIGHT",
        "left, right, left, right, ...; none is needed for --suite dissertation");
   const auto each = [command](const char* name, std::vector<Path>& to, const char* help, const char* type) {
-    return command->add_option(name, to, help)->type_name(type)->take_all()->allow_extra_args(false);
+    return word(*command, name, to, type, help)->take_all()->allow_extra_args(false);
   };
   each("--calibration", args.calibrations, "once, or once for every pair", "rig.yml");
   CLI::Option* rectified =

@@ -7,6 +7,8 @@
 #pragma once
 
 #include <string>
+#include <type_traits>
+#include <vector>
 
 #include "firmware/arguments/command_line.h"
 
@@ -22,11 +24,18 @@ namespace relievo::firmware {
 inline constexpr const char* kDevices =
     "sim; folder:DIR with recorded pairs; linux, or linux:FILE that says what is wired where (default /etc/relievo/board.toml)";
 
-// An option of a word or several, `type` as its help calls them; and one of a number, within `range`, with
-// its default. The templates know App no better than this header does.
+// A complaint where a script's variable was empty: the word would mean another place, or none, than was asked
+// for.
+std::string check_not_empty(const std::string& word);
+
+// An option of a word or several, `type` as its help calls them, a path never empty; and one of a number,
+// within `range`, with its default. The templates know App no better than this header does.
 template <typename App, typename Value>
 auto* word(App& command, const char* name, Value& value, const char* type, const std::string& help) {
-  return command.add_option(name, value, help)->type_name(type);
+  auto* option = command.add_option(name, value, help)->type_name(type);
+  if constexpr (std::is_same_v<Value, Path> || std::is_same_v<Value, std::vector<Path>>)
+    option->check(check_not_empty);
+  return option;
 }
 template <typename App, typename Value>
 auto* number(App& command, const char* name, Value& value, const std::string& help) {

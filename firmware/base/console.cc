@@ -3,6 +3,7 @@
 #include "firmware/base/console.h"
 
 #include <algorithm>
+#include <cerrno>
 #include <cstdio>
 #include <string>
 
@@ -16,8 +17,15 @@ Console::Console() : terminal_(isatty(STDERR_FILENO) == 1) {}
 
 void Console::say(std::string_view line) {
   clear_progress();
-  std::printf("%.*s\n", int(line.size()), line.data());
-  std::fflush(stdout);
+  const bool written = std::printf("%.*s\n", int(line.size()), line.data()) >= 0 && std::fflush(stdout) == 0;
+  if (!written && failed_ == 0 && errno != EBADF) failed_ = errno;
+}
+
+Result<void> Console::all_said() const {
+  if (failed_ == 0) return {};
+  return Error{failed_ == ENOSPC || failed_ == EDQUOT ? Errc::MediaFull : Errc::IoFailed,
+               "not all of it could be written there: make room, or send it elsewhere", failed_}
+      .at("standard output");
 }
 
 void Console::progress(std::string_view what, float done) {

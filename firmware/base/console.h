@@ -19,7 +19,9 @@ class Console {
   Console(const Console&) = delete;
   Console& operator=(const Console&) = delete;
 
-  void say(std::string_view line);                   // results: standard output
+  void say(std::string_view line);  // results: standard output
+  // MediaFull, IoFailed: not every line reached it. Nothing is wrong where it was closed from the beginning.
+  Result<void> all_said() const;
   void progress(std::string_view what, float done);  // 0 to 1
   void clear_progress();
   void fail(const Error& error);  // "relievo: where: what"
@@ -27,6 +29,7 @@ class Console {
  private:
   bool terminal_ = false;
   bool shown_ = false;
+  int failed_ = 0;  // errno of the first line that was lost
 };
 
 }  // namespace relievo::firmware

@@ -22,7 +22,8 @@ const std::atomic<bool>& interrupted() {
   static const bool installed = [] {
     std::signal(SIGINT, on_signal);
     std::signal(SIGTERM, on_signal);
-    std::signal(SIGHUP, on_signal);  // the terminal has gone
+    // The terminal has gone: not for what was started to outlive it (nohup).
+    if (std::signal(SIGHUP, on_signal) == SIG_IGN) std::signal(SIGHUP, SIG_IGN);
     return true;
   }();
   (void)installed;

@@ -42,7 +42,8 @@ fs::path first_missing(fs::path folder) {
 Result<OutputFolder> OutputFolder::begin(const fs::path& target) {
   std::error_code error;
   OutputFolder folder;
-  folder.target_ = fs::absolute(target).lexically_normal();
+  folder.target_ = fs::absolute(target, error).lexically_normal();
+  if (error) return failed(target, error.value());  // no name, or the current folder has been removed
   if (folder.target_.filename().empty()) folder.target_ = folder.target_.parent_path();  // "out/"
   if (fs::exists(folder.target_, error) && !fs::is_directory(folder.target_, error)) {
     return Error{Errc::InvalidInput, "is a file, not a folder: choose another name"}.at(target.native());

@@ -128,6 +128,10 @@ Result<void> run(const MemoryArgs& args, Services& services) {
   VisitCosts costs;
   costs.read(kept);
   const ui::VisitCostsView most = costs.view();
+  if (most.visits == 0) {
+    console.say("no visit of its kiosk has been measured yet");
+    return {};
+  }
   char line[96];
   std::snprintf(line, sizeof line, "the last %d visits at most, products and scratch together", most.visits);
   console.say(line);
@@ -197,7 +201,8 @@ int run_command(const CommandLine& line, Services& services) {
         if constexpr (std::is_same_v<std::decay_t<decltype(args)>, NothingArgs>) {
           return line.exit_code;
         } else {
-          const Result<void> done = run_in_memory_there_is(args, services);
+          Result<void> done = run_in_memory_there_is(args, services);
+          if (done) done = services.console.all_said();
           if (!done) services.console.fail(done.error());
           return done ? 0 : 1;
         }

@@ -218,9 +218,12 @@ Result<void> import(const SubjectsArgs& args, const Path& folder, Services& serv
 }  // namespace
 
 Result<void> check_subject(std::string_view name_or_number) {
-  if (storage::is_name(name_or_number)) return {};
-  return Error{Errc::InvalidInput,
-               "no possible name: give 1 to 200 bytes of UTF-8 without control characters"}
+  // With a space around it a name looks like another's in every list, and is not found by that.
+  if (storage::is_name(name_or_number) && !name_or_number.starts_with(' ') && !name_or_number.ends_with(' '))
+    return {};
+  return Error{
+      Errc::InvalidInput,
+      "no possible name: give 1 to 200 bytes of UTF-8 without control characters, and no space around it"}
       .at("--subject");
 }
 

@@ -40,7 +40,7 @@ std::string name_of(const Path& left, const std::vector<ComparedPair>& others) {
 Result<void> read_truth(const Path& truth, const CompareArgs& args, ComparedPair& pair) {
   std::error_code ignored;
   if (!std::filesystem::is_directory(truth, ignored)) {
-    if (!args.rectified)
+    if (!args.rectified && std::filesystem::exists(truth, ignored))
       return Error{
           Errc::InvalidInput,
           "is a disparity map, which fits rectified pictures: give --rectified, or a folder of 'relievo simulate face --truth'"}

@@ -36,6 +36,7 @@ void SignIn::opened(StaffPage page) {
   view_.failed.reset();
   if (page == StaffPage::FirstStart) parts_.consent.opened();
   clock_moved_ = std::chrono::minutes(0);
+  home_.reset();
   view_.fault = PinFault::None;
   view_.step = page == StaffPage::Pins             ? PinStep::Own
                : forgotten_ == StaffRole::Operator ? PinStep::Operator
@@ -61,6 +62,7 @@ void SignIn::ask(const ui::StaffRequest& request, StaffRole role) {
   if (clock && move != nullptr) clock_moved_ += std::chrono::minutes(move->minutes);
   if (clock && request.as<ui::SetClock>() != nullptr) set_clock();
   if (!first) return;
+  if (const auto* home = request.as<ui::ChooseHome>()) home_ = home->language;
   if (request.as<ui::TakeConsentText>() != nullptr) parts_.consent.take();
   if (request.as<ui::ConfirmConsentText>() != nullptr) view_.consent_right = true;
 }
@@ -187,18 +189,26 @@ void SignIn::save(const Pins& pins, PinStep begins, std::function<Result<void>(c
         *kept = {};
         return saved;
       },
-      [this, begins, said = std::move(said), visit = visit_](const std::optional<Error>& error) {
+      [this, begins, said = std::move(said), home = home_,
+       visit = visit_](const std::optional<Error>& error) {
         view_.checking = false;
         if (error && visit != visit_) return parts_.log.fault(*error);
         if (error) return refuse(*error, begins);
         if (begins != PinStep::Own) {
           forgotten_ = StaffRole::None;
           view_.set_up = true;
+          if (home) settle_in(*home);
         }
         if (visit == visit_) view_.step = PinStep::Done;
         for (const ui::LogEvent event : said) parts_.log.say(event);
       },
       SideTasks::Whose::Device);
+}
+
+// Who sets a device up chooses for its visitors, too.
+void SignIn::settle_in(ui::Language home) {
+  if (parts_.settings.wanted().of(ui::Setting::Language) == std::int32_t(home)) return;
+  parts_.settings.change(ui::Setting::Language, std::int32_t(home), [](const std::optional<Error>&) {});
 }
 
 void SignIn::show(ui::AccessView& view) const {

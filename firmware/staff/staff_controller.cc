@@ -189,7 +189,7 @@ StaffController::StaffController(Parts parts)
       services_{parts_.appliance, parts_.device, parts_.store,      side_tasks_, log_,
                 statistics_,      costs_,        settings_,         retention_,  touch_,
                 consent_,         parts_.folder, parts_.calibration},
-      sign_in_({parts_.store, parts_.device.clock(), side_tasks_, log_, parts_.set_clock, consent_,
+      sign_in_({parts_.store, parts_.device.clock(), side_tasks_, log_, parts_.set_clock, consent_, settings_,
                 parts_.device.is_live()}) {
   fill_page_controllers(services_, pages_);
   parts_.appliance.on_change([this](const Transition& change) { noted(change); });

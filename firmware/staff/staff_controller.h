@@ -15,6 +15,7 @@
 #include <filesystem>
 #include <functional>
 #include <memory>
+#include <optional>
 #include <string>
 #include <string_view>
 #include <utility>
@@ -48,6 +49,7 @@ class SignIn {
     EventLog& log;
     SetClock set_clock;
     ConsentTextStore& consent;
+    DeviceSettings& settings;
     bool demands_set_up = false;  // see ui::AccessView::demanded
   };
   explicit SignIn(Parts parts) : parts_(std::move(parts)), access_(parts_.store, parts_.clock) {}
@@ -76,12 +78,14 @@ class SignIn {
             std::vector<ui::LogEvent> said);
   void refuse(const Error& error, ui::PinStep again);
   void set_clock();
+  void settle_in(ui::Language home);
 
   Parts parts_;
   Access access_;
   ui::AccessView view_;                            // without what time changes (show())
   ui::StaffRole forgotten_ = ui::StaffRole::None;  // whose PIN is to be chosen anew
   std::chrono::minutes clock_moved_{0};
+  std::optional<ui::Language> home_;  // of the device, until both PINs are chosen
   hal::Instant wait_until_{};
   WipedText first_, technician_;  // typed once; the technician's, until the operator's is there
   std::uint32_t visit_ = 0;       // of the page: what was asked before it was left is not answered after

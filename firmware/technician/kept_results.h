@@ -56,7 +56,7 @@ class KeptResults {
     One();
     void wipe();
     TechnicianFigures figures;
-    TechnicianPictures pictures;
+    TechnicianPictures pictures{false};
     PageBlock block;
     Arena memory;
     std::optional<pipeline::FaceModel> model;

@@ -51,7 +51,7 @@ bool is_plain_name(std::string_view name) {
 Result<std::vector<BundleFile>> bundle_files(std::span<const std::byte> tar) {
   const Error strange{
       Errc::InvalidInput,
-      "this is no bundle as it was exported: it was changed or cut, or packed by another program"};
+      "this is no bundle as it was exported: it was changed or cut, or packed by another program: unpack that and give the folder"};
   const std::unique_ptr<archive, int (*)(archive*)> reader(archive_read_new(), archive_read_free);
   if (!reader || archive_read_support_format_tar(reader.get()) != ARCHIVE_OK)
     return Error{Errc::OutOfMemory, "not enough memory to read the bundle"};
@@ -62,12 +62,12 @@ Result<std::vector<BundleFile>> bundle_files(std::span<const std::byte> tar) {
   int told = ARCHIVE_OK;
   while ((told = archive_read_next_header(reader.get(), &entry)) == ARCHIVE_OK) {
     const char* name = archive_entry_pathname(entry);
+    if (archive_entry_filetype(entry) == AE_IFDIR) return strange;  // tar packs a folder before what is in it
     if (name == nullptr || !is_plain_name(name))
       return Error{Errc::InvalidInput, "a file of the bundle would lie outside of it: nothing was taken"}.at(
           name == nullptr ? "" : name);
     if (archive_entry_filetype(entry) != AE_IFREG || archive_entry_hardlink(entry) != nullptr)
-      return Error{Errc::InvalidInput, "is no file but a link, a folder or a device: nothing was taken"}.at(
-          name);
+      return Error{Errc::InvalidInput, "is no file but a link or a device: nothing was taken"}.at(name);
     const auto size = std::size_t(std::max<la_int64_t>(0, archive_entry_size(entry)));
     if (size > left) return strange;
     left -= size;

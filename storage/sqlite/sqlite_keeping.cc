@@ -31,18 +31,22 @@ class SqliteKeeping final : public StoreKeeping {
 
   Result<void> backup(const std::filesystem::path& file) override {
     RELIEVO_TRY_ASSIGN(const auto store, open(OpenMode::ReadOnly));
-    return without_exceptions(file.native(), [&] { return copy_whole(*store->database_, file); });
+    return without_exceptions(file.native(), [&]() -> Result<void> {
+      RELIEVO_TRY(must_be_a_place_for_a_copy(file));
+      return copy_whole(*store->database_, file);
+    });
   }
   Result<std::vector<SubjectId>> erased_since(const std::filesystem::path& backup) override {
     RELIEVO_TRY_ASSIGN(const auto store, open(OpenMode::ReadOnly));
     return without_exceptions(backup.native(), [&]() -> Result<std::vector<SubjectId>> {
       Database copy(backup);
       RELIEVO_TRY(copy.open(false));
-      RELIEVO_TRY_ASSIGN(const std::int64_t version, version_of(copy));
+      const auto version = version_of(copy);
       const Error another =
-          Error{Errc::InvalidInput, "this is no copy of this store, or an older version's"}.at(
-              backup.native());
-      if (version < store_version()) return another;
+          Error{Errc::InvalidInput, "this is no copy of this store, or a damaged or an older version's one"}
+              .at(backup.native());
+      if (!version && version.error().code != Errc::StoreCorrupt) return version.error();
+      if (!version || *version < store_version()) return another;
       RELIEVO_TRY_ASSIGN(const auto end, copy.row("SELECT number, hash FROM audit_end"));
       if (!end) return another;
       // The same store, if its log goes on where the copy's ends.
@@ -101,6 +105,20 @@ class SqliteKeeping final : public StoreKeeping {
   }
 
  private:
+  // What a copy replaces is lost for ever: a key, or a store that a kiosk is writing to.
+  Result<void> must_be_a_place_for_a_copy(const std::filesystem::path& file) const {
+    std::error_code ignored;
+    const auto folder = file.has_parent_path() ? file.parent_path() : std::filesystem::path(".");
+    if (std::filesystem::equivalent(folder, dir_, ignored) ||
+        std::filesystem::exists(folder / kLockFile, ignored))
+      return Error{Errc::InvalidInput, "lies among a store's own files: choose another folder"}.at(
+          file.native());
+    if (!std::filesystem::is_regular_file(file, ignored)) return {};
+    Database there(std::filesystem::canonical(file));
+    if (there.open(false) && version_of(there)) return {};
+    return Error{Errc::InvalidInput, "this file is there, and is no copy of a store: name another"}.at(
+        file.native());
+  }
   static Result<void> rekey(SqliteStore& store, KeySource& to) {
     RELIEVO_TRY(remove_old_copies(store.database_->file()));
     const auto changed = store.change([&](WallTime at) -> Result<void> {

@@ -111,7 +111,7 @@ Result<std::unique_ptr<SqliteStore>> SqliteStore::open(const fs::path& dir, cons
     const fs::path home = fs::weakly_canonical(dir, failed);
     if (!options.keys) options.keys = key_file(home / kKeyFile);
     auto lock = std::make_unique<StoreLock>();
-    if (writable) RELIEVO_TRY(lock->take(home / "relievo.lock", options.wait_for_lock));
+    if (writable) RELIEVO_TRY(lock->take(home / kLockFile, options.wait_for_lock));
     auto database = std::make_unique<Database>(home / kStoreFile);
     RELIEVO_TRY_ASSIGN(auto keys, StoreKeys::make(options.keys));
     const WallTime at = time_of(clock);

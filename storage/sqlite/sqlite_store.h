@@ -45,8 +45,8 @@ struct SqliteStoreOptions {
   std::string recovery_words{};
 };
 
-inline constexpr const char *kStoreFile = "relievo.db",
-                            *kKeyFile = "relievo.key";  // in the store's directory
+inline constexpr const char *kStoreFile = "relievo.db", *kKeyFile = "relievo.key",
+                            *kLockFile = "relievo.lock";  // in the store's directory
 
 class SqliteStore final : public Store {
  public:

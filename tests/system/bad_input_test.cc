@@ -209,6 +209,9 @@ TEST_F(BadInput, CalibratingFromWhatShowsNoBoard) {
 TEST_F(BadInput, EnrollingWithoutWhatItNeeds) {
   refused({"enrol", "--board", "toaster", "--subject", "Ada", "--calibration", "rig.yml", "--store", "store"},
           "toaster");
+  for (const char* nothing : {"folder:", "linux:"})
+    refused({"enrol", "--board", nothing, "--subject", "Ada", "--calibration", "rig.yml", "--store", "store"},
+            nothing, "is no board");
   refused({"enrol", "--board", "folder:missing", "--subject", "Ada", "--calibration", "rig.yml", "--store",
            "store"},
           "missing");
@@ -228,9 +231,10 @@ TEST_F(BadInput, EnrollingWithoutWhatItNeeds) {
       "no.yml");
   refused({"enrol", "--board", "folder:pair", "--subject", "Ada", "--store", "store"}, "store",
           "relievo calibrate");
-  refused(
-      {"enrol", "--board", "folder:pair", "--subject", "", "--calibration", "rig.yml", "--store", "store"},
-      "no possible name");
+  for (const char* name : {"", " ", "Ada ", " Ada"})
+    refused({"enrol", "--board", "folder:pair", "--subject", name, "--calibration", "rig.yml", "--store",
+             "store"},
+            "no possible name");
 }
 
 TEST_F(BadInput, APersonWhoIsNotThere) {
@@ -251,6 +255,23 @@ TEST_F(BadInput, AKioskThatEndsForWantOfAScreenLeavesItsMark) {
                                 here.path());
   EXPECT_EQ(said.exit_code, 1) << said.err;
   EXPECT_TRUE(fs::exists(here / "store/relievo.running")) << said.err;
+}
+
+TEST_F(BadInput, ATruthThatIsNotThere) {
+  refused({"compare", "left.png", "right.png", "--calibration", "rig.yml", "--truth", "gone", "-o", "out"},
+          "gone", "there is no such file");
+}
+
+TEST_F(BadInput, WhatCouldNotBePrintedIsNoSuccess) {
+  const auto print = [this](const char* to) {
+    return run_program({"/bin/sh", "-c", std::string("exec \"" RELIEVO_BINARY "\" algorithms ") + to},
+                       here.path());
+  };
+  const Said full = print(">/dev/full");
+  EXPECT_EQ(full.exit_code, 1);
+  EXPECT_EQ(full.err.rfind("relievo: standard output: ", 0), 0U) << full.err;
+  EXPECT_EQ(std::count(full.err.begin(), full.err.end(), '\n'), 1) << full.err;
+  EXPECT_EQ(print(">&-").exit_code, 0) << "nobody wanted to read it";
 }
 
 TEST_F(BadInput, WrongWordsAreToldFromWrongFiles) {

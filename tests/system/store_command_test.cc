@@ -46,6 +46,12 @@ TEST_F(StoreCommand, KeepsCopiesKeysAndWords) {
   EXPECT_EQ(done({"calibration", "list", "--store", "store", "--key", "stick/key"}).out.find("its key"),
             std::string::npos)
       << "said once";
+  // Where the disk was full, the first start has left an empty file.
+  std::filesystem::create_directory(here / "begun");
+  write_text(here / "begun/relievo.db", "");
+  EXPECT_NE(done({"calibration", "import", "board/rig.yml", "--store", "begun"}).out.find("its key"),
+            std::string::npos);
+  EXPECT_NE(done({"memory", "--store", "begun"}).out.find("no visit"), std::string::npos);
   EXPECT_FALSE(std::filesystem::exists(here / "store/relievo.key"));
   refused({"calibration", "list", "--store", "store"}, "relievo.key",
           "put it back, or name its place (--key)");

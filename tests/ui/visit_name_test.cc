@@ -71,6 +71,28 @@ TEST_F(VisitNameTest, TheDigitsOfAKeypadTypeLettersAndACodeItsDigits) {
   EXPECT_EQ(visit.name().size(), kCodeDigits);
 }
 
+TEST_F(VisitNameTest, BackFromTheCodeAsksForANameAgain) {
+  act(ActionKind::Start);
+  visit.reads_to_the_end();
+  act(ActionKind::Agree);
+  visit.type("A");
+  act(ActionKind::Done);
+  view.known = Known::Name;
+  pass(milliseconds(1));
+  act(ActionKind::HaveCode);
+  visit.type("4821");
+  EXPECT_EQ(act(ActionKind::Back), std::nullopt);
+  EXPECT_EQ(visit.step, Step::Name);
+  EXPECT_FALSE(visit.quotes_code()) << "who touched the wrong button has a way out";
+  EXPECT_EQ(visit.name(), "");
+  visit.type("B");
+  EXPECT_EQ(visit.name(), "B");
+  EXPECT_EQ(act(ActionKind::Done), Intent::LookUp);
+  view.known = Known::Nobody;
+  EXPECT_EQ(pass(milliseconds(1)), Intent::Pose);
+  EXPECT_EQ(visit.enrolment_kind(), EnrolmentKind::NewSubject);
+}
+
 TEST_F(VisitNameTest, ALetterThatIsRefusedTakesNoneAwayWithTheNext) {
   act(ActionKind::Start);
   visit.reads_to_the_end();

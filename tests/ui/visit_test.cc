@@ -324,6 +324,19 @@ TEST_F(VisitTest, LeavingWipesWhatWasTyped) {
   EXPECT_EQ(visit.step, Step::Attract);
 }
 
+TEST_F(VisitTest, WhoGoesBackToTheFirstPageReadsItAsBefore) {
+  act(ActionKind::BiggerText);
+  act(ActionKind::ChooseLanguage, static_cast<int>(Language::Arabic));
+  act(ActionKind::Start);
+  act(ActionKind::Back);
+  EXPECT_EQ(visit.step, Step::Attract);
+  EXPECT_EQ(visit.language, Language::Arabic);
+  EXPECT_EQ(visit.text_percent(), 125);
+  pass(kPatience + seconds(1));
+  EXPECT_EQ(visit.language, Language::English) << "they have gone";
+  EXPECT_EQ(visit.text_percent(), 100);
+}
+
 TEST_F(VisitTest, TextGrowsInThreeStepsAndForgetsWithThePerson) {
   act(ActionKind::BiggerText);
   EXPECT_EQ(visit.text_percent(), 125);

@@ -98,6 +98,7 @@ struct TechnicianCamera {
   std::uint64_t frames = 0, lost = 0, damaged = 0;
 };
 struct TechnicianCameras {
+  bool starting = false;  // wanted, and no pair has come yet
   bool watched = false;
   std::array<TechnicianCamera, 2> camera;  // left, right
   float skew_us = 0, pairs_per_second = 0;

@@ -12,6 +12,7 @@
 
 #include "hal/base/wiped_text.h"
 #include "ui/device/settings.h"
+#include "ui/language/language.h"
 #include "ui/view/service_view.h"
 
 namespace relievo::ui {
@@ -26,6 +27,9 @@ struct CheckPin {};
 struct OfferPin {};
 struct MoveClock {
   std::int32_t minutes = 0;
+};
+struct ChooseHome {  // a visit begins in this language, as soon as both PINs are chosen
+  Language language{};
 };
 struct SetClock {};            // the shown time is right
 struct TakeConsentText {};     // from the stick
@@ -164,7 +168,7 @@ using TechnicianRequest =
     std::variant<TechnicianAct, RunStages, ShowStage, ShowTable, ListRequest, TouchPicture, ChooseKind,
                  ChooseName, EditOption, TypeDigit, DropResult, ChangeBoard, UseCalibration, LoadSaved>;
 using StaffAsk =
-    std::variant<std::monostate, PageOpened, PageLeft, CheckPin, OfferPin, MoveClock, SetClock,
+    std::variant<std::monostate, PageOpened, PageLeft, CheckPin, OfferPin, MoveClock, ChooseHome, SetClock,
                  TakeConsentText, ConfirmConsentText, ListRequest, FindRecords, ShowRecord, EraseRecord,
                  ExportRecord, ExportFound, StopExport, OfferWord, ChangeSetting, BeginSelfTest,
                  BeginTriggerTest, BeginTouchTrial, TakePlainTouch, TechnicianRequest>;

@@ -73,7 +73,17 @@ void Visit::go(Step to, hal::Instant now) {
 std::optional<Intent> Visit::back(const ViewState& view) {
   if (std::exchange(overlay, Overlay::None) != Overlay::None) return std::nullopt;
   const Step before = step;
-  if (before == Step::Consent) go(Step::Attract, view.now);
+  if (before == Step::Consent) {  // they look at the first page once more, and read it as before
+    step = Step::Attract;
+    entered_ = view.now;
+    forget_person();
+  }
+  if (before == Step::Name && quotes_code_) {  // a name again: it may be another one
+    name_.wipe();
+    quotes_code_ = false;
+    capitals = true;
+    return std::nullopt;
+  }
   if (before == Step::Name) step = Step::Consent;
   if (before == Step::Known || before == Step::Position) step = Step::Name;
   if (before == Step::Position) return Intent::Cancel;

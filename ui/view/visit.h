@@ -66,7 +66,7 @@ enum class Overlay : std::uint8_t { None, Help, Languages, Leave, StillThere, Lo
 inline constexpr std::chrono::seconds kLastCall{20}, kReceiptPatience{120}, kToldFor{30};
 inline constexpr std::chrono::milliseconds kTooLate{1000};  // a touch that came as what it was for had ended
 inline constexpr std::chrono::minutes kFaceAlone{5};        // a face keeps a visit no longer without a touch
-inline constexpr float kSteadyFor = 0.6F;                   // seconds, before the countdown begins
+inline constexpr float kSteadyFor = 0.3F;                   // seconds, before the countdown begins
 inline constexpr std::size_t kMostNameBytes = 128, kCodeDigits = 14;
 inline constexpr const char* kConsentWording = "sample-2";  // where the operator has no text of their own
 inline constexpr std::string_view kToRead = "points";       // the scroller of what one agrees to

@@ -26,10 +26,8 @@ constexpr std::uint32_t kFirstModel = 1U << 20;
 // What is found sooner needs no sign that it is looked for.
 constexpr std::chrono::milliseconds kLongLook{300};
 
-std::string minute_of(storage::WallTime at) { return text_of(at).substr(0, 16); }
-
 ui::RecordRow row_of(const storage::Subject& subject) {
-  return {std::int64_t(subject.id), subject.name, minute_of(subject.created_at), receipt_of(subject),
+  return {std::int64_t(subject.id), subject.name, text_of(subject.created_at), receipt_of(subject),
           subject.enrolments};
 }
 
@@ -218,7 +216,7 @@ class RecordsController final : public PageController {
           RELIEVO_TRY_ASSIGN(const Passed passed, passed_by(services().store, *choice, control));
           for (const std::int64_t row : rows) {
             RELIEVO_TRY_ASSIGN(const auto one, rows_of(services().store, passed, row, 1));
-            labels.push_back(one.empty() ? std::string() : minute_of(one.front().created_at));
+            labels.push_back(one.empty() ? std::string() : text_of(one.front().created_at));
           }
           return labels;
         },
@@ -241,7 +239,7 @@ class RecordsController final : public PageController {
           if (enrolments.empty()) return person;
           const storage::Consent& consent = enrolments.back().consent;
           person->consent = consent.wording + " (" + consent.language + ")";
-          person->consented_at = minute_of(consent.given_at);
+          person->consented_at = text_of(consent.given_at);
           RELIEVO_TRY_ASSIGN(auto model, services().store.load_model(enrolments.back().id, &person->memory));
           person->model.emplace(std::move(model));
           return person;

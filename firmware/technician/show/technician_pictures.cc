@@ -3,10 +3,12 @@
 #include "firmware/technician/show/technician_pictures.h"
 
 #include <algorithm>
+#include <array>
 #include <atomic>
 #include <cmath>
 #include <cstring>
 #include <limits>
+#include <utility>
 
 #include <string.h>
 
@@ -23,6 +25,8 @@ constexpr float kLeastFullColourMm = 0.5F, kLeastFullResidualMm = 0.1F;
 
 using ui::TechnicianStage;
 constexpr std::size_t kBytes = budget::kTechnicianPictureBytes;
+constexpr std::array kWithRight{TechnicianStage::Input, TechnicianStage::Processed,
+                                TechnicianStage::Rectified, TechnicianStage::Mesh, TechnicianStage::Poses};
 
 // No two pictures have the same number: a renderer tells by it what it has to load.
 std::uint32_t next_version() {
@@ -94,10 +98,13 @@ void HandChange::tell(std::span<ui::TechnicianPoint> points) const {
   }
 }
 
-TechnicianPictures::TechnicianPictures() {
-  for (auto& stage : all_) {
-    for (One& one : stage) one.rgb.reset(new std::uint8_t[kBytes]);
-  }
+TechnicianPictures::TechnicianPictures(bool right_too)
+    : block_((ui::kTechnicianStages + (right_too ? kWithRight.size() : 0)) * kBytes) {
+  auto* place = reinterpret_cast<std::uint8_t*>(block_.bytes().data());
+  for (auto& stage : all_) stage[0].rgb = std::exchange(place, place + kBytes);
+  if (!right_too) return;
+  for (const TechnicianStage stage : kWithRight)
+    all_[std::size_t(stage)][1].rgb = std::exchange(place, place + kBytes);
 }
 
 TechnicianPictures::One& TechnicianPictures::begin(TechnicianStage stage, std::size_t side, int width_px,
@@ -117,7 +124,7 @@ void TechnicianPictures::draw_input(const ImageView& view, std::size_t side) {
     const std::uint8_t* pixel = view.row(y) + std::ptrdiff_t(x) * bytes;
     return float(view.format == PixelFormat::Rgb8 ? pixel[c] : pixel[high]);
   };
-  shrink(view.width_px, view.height_px, one.width_px, one.height_px, one.rgb.get(), value);
+  shrink(view.width_px, view.height_px, one.width_px, one.height_px, one.rgb, value);
 }
 
 void TechnicianPictures::draw_pair(TechnicianStage stage, const pipeline::RectifiedPair& pair, bool colour) {
@@ -129,12 +136,12 @@ void TechnicianPictures::draw_pair(TechnicianStage stage, const pipeline::Rectif
       const std::size_t i = std::size_t(y) * std::size_t(pair.width_px) + std::size_t(x);
       return rgb ? float(view.rgb[3 * i + std::size_t(c)]) : view.grey[i];
     };
-    shrink(pair.width_px, pair.height_px, one.width_px, one.height_px, one.rgb.get(), value);
+    shrink(pair.width_px, pair.height_px, one.width_px, one.height_px, one.rgb, value);
   }
 }
 
 void TechnicianPictures::draw_rules(const pipeline::RectifiedPair& pair, const pipeline::MatchSet& matches) {
-  StageCanvas canvas(begin(TechnicianStage::Matches, 0).rgb.get(), kSide);
+  StageCanvas canvas(begin(TechnicianStage::Matches, 0).rgb, kSide);
   draw_photograph(pair, 1, canvas);
   const std::vector<std::uint8_t> rejected = compare::rejected_map(matches, pair.width_px, pair.height_px);
   paint(pair, canvas, [&](int x, int y) -> std::optional<compare::Rgb> {
@@ -147,7 +154,7 @@ void TechnicianPictures::draw_rules(const pipeline::RectifiedPair& pair, const p
 void TechnicianPictures::draw_disparity(const pipeline::RectifiedPair& pair,
                                         const pipeline::MatchSet& matches) {
   constexpr int kScatteredPx = 7;
-  StageCanvas canvas(begin(TechnicianStage::Disparity, 0).rgb.get(), kSide);
+  StageCanvas canvas(begin(TechnicianStage::Disparity, 0).rgb, kSide);
   compare::DisparityMap map = compare::disparity_map(matches, pair.width_px, pair.height_px);
   if (matches.lattice_step_px == 0) map = compare::thickened(map, kScatteredPx);
   const compare::Reach reach = compare::reach_of(map);
@@ -160,18 +167,18 @@ void TechnicianPictures::draw_disparity(const pipeline::RectifiedPair& pair,
 void TechnicianPictures::draw_shapes(const Products& products) {
   const pipeline::RectifiedPair& pair = *products.pair;
   if (products.cloud) {
-    StageCanvas canvas(begin(TechnicianStage::Cloud, 0).rgb.get(), kSide);
+    StageCanvas canvas(begin(TechnicianStage::Cloud, 0).rgb, kSide);
     draw_cloud(pair, *products.cloud, canvas);
   }
   const pipeline::FaceMesh* mesh = products.model  ? &products.model->mesh
                                    : products.mesh ? &*products.mesh
                                                    : nullptr;
   if (mesh != nullptr) {
-    StageCanvas canvas(begin(TechnicianStage::Mesh, 0).rgb.get(), kSide);
+    StageCanvas canvas(begin(TechnicianStage::Mesh, 0).rgb, kSide);
     draw_surface(pair, *mesh, nullptr, canvas);
   }
   if (products.model) {
-    StageCanvas canvas(begin(TechnicianStage::Texture, 0).rgb.get(), kSide);
+    StageCanvas canvas(begin(TechnicianStage::Texture, 0).rgb, kSide);
     draw_surface(pair, products.model->mesh, &products.model->texture, canvas);
   }
 }
@@ -191,7 +198,7 @@ void TechnicianPictures::draw(const Products& products, const HandChange& change
   }
   draw_shapes(products);
   if (!change.figures().known) return;
-  StageCanvas canvas(begin(TechnicianStage::Mesh, 1).rgb.get(), kSide);
+  StageCanvas canvas(begin(TechnicianStage::Mesh, 1).rgb, kSide);
   draw_nearer(
       *products.pair, [&change](int x, int y) { return change.nearer_mm(x, y); },
       change.figures().full_colour_mm, canvas);
@@ -207,8 +214,8 @@ float full_residual_mm(const pipeline::Registration& registration) {
 void TechnicianPictures::draw_poses(const Products& products, std::span<const pipeline::HeadPose> poses) {
   if (!products.registration || poses.empty()) return;
   const float full_mm = full_residual_mm(*products.registration);
-  StageCanvas photographs(begin(TechnicianStage::Poses, 0).rgb.get(), kSide);
-  StageCanvas residuals(begin(TechnicianStage::Poses, 1).rgb.get(), kSide);
+  StageCanvas photographs(begin(TechnicianStage::Poses, 0).rgb, kSide);
+  StageCanvas residuals(begin(TechnicianStage::Poses, 1).rgb, kSide);
   const int across = int(std::ceil(std::sqrt(double(poses.size()))));
   const int cell = kSide / across;
   for (std::size_t k = 0; k < poses.size(); ++k) {
@@ -241,7 +248,7 @@ void TechnicianPictures::draw_poses(const Products& products, std::span<const pi
 ui::Picture TechnicianPictures::picture(TechnicianStage stage, std::size_t side) const {
   const One& one = all_[std::size_t(stage)][side];
   if (one.version == 0) return {};
-  return {{reinterpret_cast<const std::byte*>(one.rgb.get()), one.width_px, one.height_px, 3 * one.width_px,
+  return {{reinterpret_cast<const std::byte*>(one.rgb), one.width_px, one.height_px, 3 * one.width_px,
            PixelFormat::Rgb8},
           one.version};
 }
@@ -255,15 +262,14 @@ void TechnicianPictures::copy_from(const TechnicianPictures& other) {
     to.width_px = from.width_px;
     to.height_px = from.height_px;
     to.version = next_version();
-    std::memcpy(to.rgb.get(), from.rgb.get(),
-                std::size_t{3} * std::size_t(from.width_px) * std::size_t(from.height_px));
+    std::memcpy(to.rgb, from.rgb, std::size_t{3} * std::size_t(from.width_px) * std::size_t(from.height_px));
   }
 }
 
 void TechnicianPictures::wipe() {
   for (auto& stage : all_) {
     for (One& one : stage) {
-      if (one.version != 0) explicit_bzero(one.rgb.get(), kBytes);
+      if (one.version != 0) explicit_bzero(one.rgb, kBytes);
       one.version = 0;
     }
   }

@@ -13,10 +13,10 @@
 
 #include <array>
 #include <cstdint>
-#include <memory>
 #include <span>
 #include <string>
 
+#include "firmware/base/boot_memory.h"
 #include "firmware/measure/disparity_map.h"
 #include "firmware/session/session.h"
 #include "firmware/work/session_document.h"
@@ -59,7 +59,8 @@ class TechnicianPictures {
  public:
   static constexpr int kSide = budget::kTechnicianPictureSidePx;
 
-  TechnicianPictures();
+  // Of what is put aside, the left ones alone are kept.
+  explicit TechnicianPictures(bool right_too = true);
   // Draws what the products have.
   void draw(const Products& products, const HandChange& change);
   // Of a head: what its poses were measured as.
@@ -72,7 +73,7 @@ class TechnicianPictures {
 
  private:
   struct One {
-    std::unique_ptr<std::uint8_t[]> rgb;  // not initialised: untouched
+    std::uint8_t* rgb = nullptr;  // in block_
     int width_px = 0, height_px = 0;
     std::uint32_t version = 0;  // 0: none
   };
@@ -84,6 +85,7 @@ class TechnicianPictures {
   void draw_disparity(const pipeline::RectifiedPair& pair, const pipeline::MatchSet& matches);
   void draw_shapes(const Products& products);
 
+  PageBlock block_;
   std::array<std::array<One, 2>, ui::kTechnicianStages> all_;
 };
 

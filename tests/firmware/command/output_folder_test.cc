@@ -70,6 +70,7 @@ TEST(OutputFolder, RefusesAFileAndAPlaceThatCannotBe) {
   EXPECT_EQ(OutputFolder::begin(here / "file").error().code, Errc::InvalidInput);
   EXPECT_FALSE(OutputFolder::begin(here / "file/below"));
   EXPECT_FALSE(OutputFolder::begin("/proc/nowhere/out"));
+  EXPECT_EQ(OutputFolder::begin("").error().code, Errc::IoFailed);
   EXPECT_EQ(listing(here.path()), "file\n");
 }
 

@@ -78,6 +78,10 @@ TEST_P(StaffForgottenTest, ForgettingGivesNobodyFurtherTries) {
     kiosk->turn();
     type_pin("1999");
     ASSERT_TRUE(kiosk->view().service->access.wrong);
+    kiosk->turn();
+    const bool locked = wait == 9s;
+    EXPECT_EQ(says("Too many wrong PINs"), locked) << "one that was mistyped is not too many";
+    EXPECT_EQ(says("That was not right."), !locked);
   }
   ASSERT_GT(kiosk->view().service->access.wait_s, 60);
   kiosk.reset();

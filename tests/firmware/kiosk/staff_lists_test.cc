@@ -41,6 +41,7 @@ TEST_F(StaffListsTest, RecordsAreTurnedAndJumpedInAlsoWhereSomebodyWasSearchedFo
   open_the_records();
   EXPECT_EQ(records().place.pages, 3);
   EXPECT_EQ(find("page back"), nullptr) << "there is none before the first";
+  EXPECT_TRUE(records().rows.front().since.ends_with(" UTC")) << "as the clock and the log tell it";
   tap("last page");
   ASSERT_TRUE(shows_first("Anna 20"));
   EXPECT_EQ(records().rows.size(), 20U);

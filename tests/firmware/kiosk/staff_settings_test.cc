@@ -76,6 +76,44 @@ TEST_F(StaffSettingsTest, WhatIsChosenHoldsAtOnceAndOverARestart) {
   EXPECT_EQ(kiosk->ui().visit().overlay, ui::Overlay::StillThere);
 }
 
+TEST_F(StaffSettingsTest, AVisitBeginsInTheLanguageTheDeviceWasSetUpIn) {
+  start();
+  knock();
+  tap("fr");
+  tap("go on");
+  tap("sign out");  // nobody has shown that the device is theirs
+  kiosk->turn();
+  EXPECT_EQ(kiosk->staff().settings().of(Setting::Language), static_cast<int>(ui::Language::English));
+  knock();
+  tap("de");
+  choose_pins();
+  ASSERT_TRUE(until([this] {
+    return kiosk->staff().settings().of(Setting::Language) == static_cast<int>(ui::Language::German);
+  }));
+  tap("sign out");
+  time.advance(std::chrono::minutes(5));
+  kiosk->turn();
+  EXPECT_EQ(kiosk->ui().visit().language, ui::Language::German);
+  kiosk.reset();
+  start();
+  EXPECT_EQ(kiosk->ui().visit().language, ui::Language::German);
+}
+
+TEST_F(StaffSettingsTest, HowTheStaffReadTheirPagesIsNotHowAVisitBegins) {
+  start();
+  first_start();
+  sign_in("4711", StaffRole::Technician);
+  tap("bigger");
+  tap("contrast");
+  tap("language");
+  tap("ar");
+  EXPECT_EQ(kiosk->ui().visit().language, ui::Language::Arabic);
+  sign_out();
+  EXPECT_EQ(kiosk->ui().visit().language, ui::Language::English) << "at once: a visitor may stand there";
+  EXPECT_EQ(kiosk->ui().visit().text_percent(), 100);
+  EXPECT_FALSE(kiosk->ui().visit().high_contrast);
+}
+
 TEST_F(StaffSettingsTest, EachStandsOnThePageOfWhoMayChooseIt) {
   start();
   first_start();

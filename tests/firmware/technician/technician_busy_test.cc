@@ -65,6 +65,22 @@ TEST_F(TechnicianTest, WhatIsForVisitorsComesIntoUseThoughTheTechnicianLeavesMea
   sign_in(rig());
 }
 
+TEST_F(TechnicianTest, WhatIsPutIntoUseIsSaidAlsoWhileARunGoesOn) {
+  capture();
+  rig().open(StaffPage::Algorithms);
+  {
+    const BusyLane worker(*rig().side_tasks, JobLane::Worker);
+    rig().tap("run");
+    rig().tap("apply");
+    ASSERT_TRUE(rig().until([] { return rig().now().applied; }));
+    rig().turn();
+    EXPECT_EQ(rig().now().phase, TechnicianPhase::Running);
+    EXPECT_TRUE(rig().shows("run progress"));
+    EXPECT_TRUE(rig().shows("applied"));
+  }
+  ASSERT_TRUE(rig().until(finished));
+}
+
 TEST_F(TechnicianTest, WhatWentWrongWithACalibrationIsNotTheNextTechnicians) {
   dynamic_cast<hal::FolderMedia&>(rig().device->media()).unplug();
   rig().open(StaffPage::Calibrate);

@@ -8,6 +8,7 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <atomic>
 #include <chrono>
 #include <filesystem>
@@ -149,6 +150,11 @@ class TechnicianRig {
   // After what was written the stick was let go.
   void plug_in() { dynamic_cast<hal::FolderMedia&>(device->media()).plug(stick()); }
   bool shows(std::string_view id) const { return screen->tree().find(id) != nullptr; }
+  bool says(std::string_view words) const {
+    return std::ranges::any_of(screen->tree().nodes(), [&](const ui::Node& node) {
+      return node.text.find(words) != std::string_view::npos;
+    });
+  }
   std::string_view focused() const { return screen->focus(); }
   const ui::TechnicianView& now() { return test_capture->view(); }
 

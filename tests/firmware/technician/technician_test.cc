@@ -285,6 +285,14 @@ TEST_F(TechnicianTest, CamerasAreWatchedOnlyWhileTheirPageIsOpen) {
   }
   rig().tap("show edges");
   ASSERT_TRUE(rig().until([] { return !rig().now().cameras.edges_shown; }));
+  rig().tap("watch");
+  ASSERT_TRUE(rig().until([] { return !rig().side_tasks->busy(JobLane::Capture); }));
+  EXPECT_TRUE(rig().says("It was stopped"));
+  EXPECT_FALSE(rig().says("One moment, please")) << "nothing is on its way";
+  EXPECT_EQ(rig().screen->tree().find("watch")->name, "Start");
+  rig().tap("watch");
+  EXPECT_TRUE(rig().now().cameras.watched || rig().says("One moment, please"));
+  EXPECT_EQ(rig().screen->tree().find("watch")->name, "Stop") << "also before the first pair";
   rig().open(StaffPage::Stages);
   ASSERT_TRUE(rig().until([] { return !rig().side_tasks->busy(JobLane::Capture); }));
   EXPECT_FALSE(rig().now().cameras.watched);

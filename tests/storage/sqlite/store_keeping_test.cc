@@ -240,6 +240,31 @@ TEST(StoreKeeping, ACopyIsSealedAndTellsWhoWasErasedSince) {
   EXPECT_EQ(relievo::test::listing(folder.path()).find(".tmp"), std::string::npos);
 }
 
+TEST(StoreKeeping, ACopyReplacesOnlyACopy) {
+  const TemporaryFolder folder;
+  const auto dir = folder / "store", copy = folder / "copy.db";
+  fill(dir);
+  ASSERT_TRUE(keeping(dir)->backup(copy));
+  ASSERT_TRUE(opened(dir, kNoReserve)->erase_subject(SubjectId{1}));
+  EXPECT_TRUE(keeping(dir)->backup(copy));
+  EXPECT_TRUE(keeping(dir)->erased_since(copy)->empty()) << "the new one";
+  relievo::test::write_text(folder / "empty", "");  // as mktemp makes it
+  EXPECT_TRUE(keeping(dir)->backup(folder / "empty"));
+
+  const std::string key = relievo::test::read_text(dir / "relievo.key");
+  relievo::test::write_text(folder / "key", key);
+  fill(folder / "other");
+  for (const auto& place : {folder / "key", dir / "relievo.key", dir / "relievo.db", dir / "relievo.lock",
+                            dir / "new.db", folder / "store/../store/new.db", folder / "other/relievo.db"}) {
+    EXPECT_EQ(code_of(keeping(dir)->backup(place)), Errc::InvalidInput) << place;
+  }
+  EXPECT_EQ(relievo::test::read_text(folder / "key"), key);
+  EXPECT_EQ(relievo::test::read_text(dir / "relievo.key"), key);
+  EXPECT_FALSE(std::filesystem::exists(dir / "new.db"));
+  judge(folder / "other");
+  EXPECT_EQ(code_of(keeping(dir)->erased_since(folder / "key")), Errc::InvalidInput) << "not: damaged";
+}
+
 // An older copy put in the store's place brings nobody back, and nobody else is taken for them.
 TEST(StoreKeeping, AnOlderCopyInItsPlaceErasesAgainWhoWasErasedSince) {
   const TemporaryFolder folder;

@@ -4,7 +4,11 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
+#include <string>
+#include <string_view>
 #include <utility>
+#include <vector>
 
 namespace relievo::firmware {
 namespace {
@@ -279,6 +283,37 @@ TEST(CommandLine, WhatStandsBeforeACommandIsAUsageError) {
   EXPECT_EQ(parse({"subjects", "erase", "Ada", "--store", "st"}).exit_code, 0);
   EXPECT_EQ(parse({"--store", "st", "subjects", "erase", "Ada"}).exit_code, 2);
   EXPECT_EQ(parse({"--key", "k", "memory", "--store", "st"}).exit_code, 2);
+}
+
+// A script's variable was empty. Taken for a word that is not there it would mean the usual store, a model
+// that is not saved, a person's copy that is not sealed.
+TEST(CommandLine, AnEmptyWordIsNoPlace) {
+  const std::vector<std::vector<const char*>> calls{
+      {"subjects", "erase", "Ada", "--store", "X"},
+      {"subjects", "list", "--key", "X"},
+      {"subjects", "export", "Ada", "-o", "X"},
+      {"subjects", "export", "Ada", "-o", "out", "--to", "X"},
+      {"subjects", "export", "Ada", "-o", "out", "--passphrase-file", "X"},
+      {"store", "backup", "X"},
+      {"store", "check", "--backup", "X"},
+      {"store", "rekey", "--new-key", "X"},
+      {"reconstruct", "l.png", "X", "--calibration", "rig.yml", "-o", "out"},
+      {"reconstruct", "l.png", "r.png", "--calibration", "rig.yml", "-o", "X"},
+      {"reconstruct", "l.png", "r.png", "--calibration", "X", "-o", "out"},
+      {"reconstruct", "l.png", "r.png", "--calibration", "rig.yml", "-o", "out", "--save", "X"},
+      {"reconstruct", "--load", "X", "-o", "out"},
+      {"compare", "l.png", "r.png", "--calibration", "rig.yml", "-o", "out", "--truth", "X"},
+      {"simulate", "face", "-o", "X"},
+      {"calibrate", "X", "--corners", "10x7", "--square-mm", "20", "-o", "rig.yml"},
+      {"--screenshots", "X"}};
+  for (std::vector<const char*> words : calls) {
+    EXPECT_EQ(parse(words).exit_code, 0) << words.front() << ' ' << words.back();
+    std::ranges::replace_if(
+        words, [](const char* word) { return std::string_view(word) == "X"; }, "");
+    testing::internal::CaptureStderr();
+    EXPECT_EQ(parse(words).exit_code, 2) << words.front() << ' ' << words[1];
+    EXPECT_NE(testing::internal::GetCapturedStderr().find("an empty word"), std::string::npos);
+  }
 }
 
 TEST(CommandLine, WrongWordsAreUsageErrorsInOneLine) {

@@ -153,7 +153,7 @@ void editor(TechnicianFrame& f) {
 void status(TechnicianFrame& f) {
   if (!f.seen.calibrated) return f.status("uncalibrated", f.tr("The cameras must be calibrated"), Mood::Warn);
   f.problem(f.seen.problem);
-  if (f.busy()) return f.progress("run progress", f.done());
+  if (f.busy()) f.progress("run progress", f.done());
   if (f.seen.applied) f.status("applied", f.tr("It applies from now on."), Mood::Good);
 }
 

@@ -129,7 +129,7 @@ void technician_cameras_page(TechnicianFrame& f) {
   f.tree.open(f.grown(f.box(Flow::Column)));
   f.begin_panel("camera figures");
   if (cameras.watched) figures(f);
-  else f.line(f.tr("One moment, please"));
+  else f.line(cameras.starting ? f.tr("One moment, please") : f.tr("It was stopped"));
   f.tree.close();
   f.tree.close();
   f.tree.close();
@@ -144,9 +144,9 @@ void technician_cameras_page(TechnicianFrame& f) {
     edges_button(f, grow);
     f.choice("show relief", f.tr("Relief"), cameras.relief_shown, TechnicianAct::ShowRelief, grow);
   }
-  f.small_button("watch", cameras.watched ? f.tr("Stop") : f.tr("Start"),
-                 cameras.watched ? icon::kClose : icon::kCamera, ButtonLook::Main,
-                 TechnicianAct::WatchCameras, grow);
+  const bool on = cameras.starting || cameras.watched;
+  f.small_button("watch", on ? f.tr("Stop") : f.tr("Start"), on ? icon::kClose : icon::kCamera,
+                 ButtonLook::Main, TechnicianAct::WatchCameras, grow);
   f.tree.close();
 }
 
