@@ -261,7 +261,12 @@ Result<void> plug_stick(hal::Device& device, const std::string& folder) {
 
 int main(int argc, char** argv) {
   namespace fw = relievo::firmware;
+  const auto streams = fw::open_closed_streams();
   fw::Console console;
+  if (!streams) {
+    console.fail(streams.error());
+    return 1;
+  }
   const fw::CommandLine line = fw::parse_command_line(argc, argv);
   // compare opens no store, and measures memory.
   if (const auto forbidden = fw::forbid_core_dumps(std::holds_alternative<fw::CompareArgs>(line.command));

@@ -44,7 +44,8 @@ class Store {
   virtual Result<std::vector<Subject>> subjects(const SubjectFilter& filter) = 0;
   virtual Result<std::int64_t> count_subjects() = 0;
   // When the last portrait or person that is still there came in, by this store's own clock: where they come
-  // from another store, what they were given there says nothing of it. The epoch: there is none.
+  // from another store, what they were given there says nothing of it. Where only people of a store without a
+  // log (version 1) are left, when the last of them was made. The epoch: there is none.
   virtual Result<WallTime> last_added_at() = 0;
   virtual Result<Subject> subject(SubjectId id) = 0;  // NotFound
   // Everybody once, the newest first, but for code and number of enrolments, with the consent they gave last
@@ -124,7 +125,9 @@ class StoreKeeping {
   virtual ~StoreKeeping() = default;
 
   // A copy as sealed as the store, whole or not there; opened by the same key and the same words. It may
-  // replace an older copy. InvalidInput: another file is there, or it would lie in a store's own folder.
+  // replace an empty file, or an older copy of this store by a program of this version. InvalidInput:
+  // anything else is there, or it would lie in a store's own folder, or beside a key. Others: the older
+  // copy's.
   virtual Result<void> backup(const std::filesystem::path& file) = 0;
   // Whom the store has erased since that copy was made of it. InvalidInput: it is no copy of this store.
   virtual Result<std::vector<SubjectId>> erased_since(const std::filesystem::path& backup) = 0;

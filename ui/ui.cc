@@ -255,8 +255,8 @@ void Ui::pinch(const Finger& moved, float old_x, float old_y, const Finger& othe
 
 void Ui::frame(const ViewState& view) {
   follow_staff(view);
-  // As the staff read their pages, no visitor need.
-  if (last_.page && !service_.open) visit_.forget();
+  // As the staff read their pages, no visitor need. Who has not signed in reads on as before.
+  if (last_.page && needs_role(*last_.page) && !service_.open) visit_.forget();
   ask(visit_.follow(view));
   const Place now{visit_.step, visit_.overlay, service_.open ? std::optional(service_.page) : std::nullopt,
                   service_.mode};

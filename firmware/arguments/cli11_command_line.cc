@@ -177,7 +177,7 @@ void add_subjects(CLI::App& app, CommandArgs& chosen, SubjectsArgs& args) {
   const auto verb = [&](const char* name, const char* help, Verb which) {
     CLI::App* sub = &add_verb(*command, name, help, args, which, chosen);
     if (which != Verb::List && which != Verb::Import)
-      sub->add_option("subject", args.subject)->required()->type_name("NAME");
+      sub->add_option("subject", args.subject)->required()->type_name("NAME")->check(check_not_empty);
     return sub;
   };
   verb("list", "everyone, one a line", Verb::List);
@@ -295,8 +295,12 @@ CommandLine parse_command_line(int argc, const char* const* argv) {
     const CLI::Option* key = innermost->get_option_no_throw(kKeyOption);
     if (key != nullptr && key->count() > 0) line.key = key->as<std::string>();
   } catch (const CLI::CallForHelp&) {
-    std::printf("%s", app.help().c_str());  // of the innermost command that was named
+    const std::string help = app.help();  // of the innermost command that was named
     line.command = NothingArgs{};
+    if (std::printf("%s", help.c_str()) < 0 || std::fflush(stdout) != 0) {
+      std::fprintf(stderr, "relievo: standard output: the help could not be written there\n");
+      line.exit_code = 1;
+    }
   } catch (const CLI::ParseError& error) {
     std::string what = error.what();
     std::ranges::replace(what, '\n', ' ');

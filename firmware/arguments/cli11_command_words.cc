@@ -15,8 +15,10 @@ namespace {
 
 using Verb = CalibrationArgs::Verb;
 
-// Not a number where it is none, whatever the locale.
+// Not a number where it is none, whatever the locale. CLI11 takes a plus before it, from_chars does not.
 double word_as_number(std::string_view word) {
+  if (word.size() > 1 && word[0] == '+' && (word[1] == '.' || (word[1] >= '0' && word[1] <= '9')))
+    word.remove_prefix(1);
   double number = 0;
   const auto [end, bad] = std::from_chars(word.data(), word.data() + word.size(), number);
   return bad == std::errc() && end == word.data() + word.size() ? number

@@ -72,7 +72,7 @@ inline constexpr std::size_t kLiveBytes =
 
 // The heap, everybody's: screen, store, libraries, and the textures of a GL driver that draws in software.
 // What comes on top of it is refused (base/process_memory.h): pages that a driver maps, and stacks.
-inline constexpr std::size_t kHeapBytes = 352 * kMiB, kDriverBytes = 128 * kMiB;
+inline constexpr std::size_t kHeapBytes = 384 * kMiB, kDriverBytes = 128 * kMiB;
 // For the solid beside an exported model, while it is made: 27 and 147 MiB of a face at 1920 x 1200, which
 // grow with its mesh.
 inline constexpr std::size_t kSolidProductBytes = 80 * kMiB, kSolidScratchBytes = 400 * kMiB;

@@ -7,24 +7,39 @@
 #include <cstdio>
 #include <string>
 
+#include <fcntl.h>
 #include <unistd.h>
 
 #include "hal/base/words.h"
 
 namespace relievo::firmware {
 
+Result<void> open_closed_streams() {
+  for (const int stream : {STDIN_FILENO, STDOUT_FILENO, STDERR_FILENO}) {
+    if (::fcntl(stream, F_GETFD) >= 0 || errno != EBADF) continue;
+    // Gets the lowest number that is free: this one.
+    if (::open("/dev/null", O_RDWR) < 0)
+      return Error{Errc::IoFailed, "is wanted in place of a standard stream that is closed", errno}.at(
+          "/dev/null");
+  }
+  return {};
+}
+
 Console::Console() : terminal_(isatty(STDERR_FILENO) == 1) {}
 
 void Console::say(std::string_view line) {
   clear_progress();
   const bool written = std::printf("%.*s\n", int(line.size()), line.data()) >= 0 && std::fflush(stdout) == 0;
-  if (!written && failed_ == 0 && errno != EBADF) failed_ = errno;
+  if (!written && failed_ == 0) failed_ = errno;
 }
 
 Result<void> Console::all_said() const {
   if (failed_ == 0) return {};
-  return Error{failed_ == ENOSPC || failed_ == EDQUOT ? Errc::MediaFull : Errc::IoFailed,
-               "not all of it could be written there: make room, or send it elsewhere", failed_}
+  return Error{
+      failed_ == ENOSPC || failed_ == EDQUOT ? Errc::MediaFull : Errc::IoFailed,
+      "what was asked for has been done, but not all that there is to say could be written there: make "
+      "room, or send it elsewhere",
+      failed_}
       .at("standard output");
 }
 

@@ -12,6 +12,10 @@
 
 namespace relievo::firmware {
 
+// To be called before any file is opened. A standard stream that was closed from the beginning becomes
+// /dev/null: else the first file would get its number, and lines be written into it. IoFailed: it cannot.
+Result<void> open_closed_streams();
+
 class Console {
  public:
   Console();
@@ -20,7 +24,7 @@ class Console {
   Console& operator=(const Console&) = delete;
 
   void say(std::string_view line);  // results: standard output
-  // MediaFull, IoFailed: not every line reached it. Nothing is wrong where it was closed from the beginning.
+  // Asked when the command is done. MediaFull, IoFailed: not every line reached it.
   Result<void> all_said() const;
   void progress(std::string_view what, float done);  // 0 to 1
   void clear_progress();

@@ -37,10 +37,11 @@ Result<std::optional<pipeline::StereoCalibration>> known_calibration(const Path&
 
 // From what a person typed to somebody in the store: a name, a number as "#3", or the code a visitor was
 // given. Nobody: none has that name; a number or a code is somebody's, or NotFound. Errors: InvalidInput
-// (several have the name: the numbers tell them apart).
+// (several have the name: the numbers tell them apart; an empty word).
 Result<std::optional<storage::SubjectId>> choose_subject(storage::Store& store,
                                                          std::string_view name_or_number);
-// Could somebody have this name? Asked before anything is opened: nobody is photographed in vain.
+// May somebody be enrolled by this name or number? Asked before anything is opened: nobody is photographed in
+// vain. Who was stored with a space around the name is enrolled again by the number.
 Result<void> check_subject(std::string_view name_or_number);
 
 }  // namespace relievo::firmware

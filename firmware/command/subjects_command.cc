@@ -223,12 +223,15 @@ Result<void> check_subject(std::string_view name_or_number) {
     return {};
   return Error{
       Errc::InvalidInput,
-      "no possible name: give 1 to 200 bytes of UTF-8 without control characters, and no space around it"}
+      "no name to enrol by: give 1 to 200 bytes of UTF-8 without control characters, and no space around it; "
+      "somebody stored under such a name has a number, as in '#3' ('relievo subjects list' shows it)"}
       .at("--subject");
 }
 
 Result<std::optional<storage::SubjectId>> choose_subject(storage::Store& store,
                                                          std::string_view name_or_number) {
+  if (name_or_number.empty())  // to the store it would mean everybody
+    return Error{Errc::InvalidInput, "an empty word is nobody: give a name, a number as in '#3', or a code"};
   const auto number = number_in(name_or_number);
   // Whoever types a code means its owner: as a name it would stand readable in every list.
   if (number || is_receipt(name_or_number)) {

@@ -208,6 +208,7 @@ void add_recovery(const Lender& all) {
 void add_sign_in(const Lender& all) {
   ServiceView sign_in;
   all.add("staff_pin", StaffPage::Pin, sign_in);
+  sign_in.access.locked = true;
   sign_in.access.wait_s = 300;
   all.add("staff_pin_locked", StaffPage::Pin, sign_in);
   sign_in.access.wait_s = 0;

@@ -294,14 +294,20 @@ void Kiosk::ask(ui::Intent intent) {
     return;
   if (intent == ui::Intent::Pose && appliance_->state() == State::Idle)
     appliance_->expect(record_of(ui_->request()));
-  if (intent == ui::Intent::LookUp && appliance_->answer().known != ui::Known::Asking) {
-    const ui::VisitRequest request = ui_->request();
-    if (!request.quotes_code) quoted_.wipe();
-    (request.quotes_code ? quoted_ : claimed_) = request.name;
-    const bool tells = may_tell_known_ && view_.settings.is_on(ui::Setting::TellsKnown);
-    appliance_->ask_records({claimed_, quoted_, tells});
-  }
-  if (intent != ui::Intent::LookUp) appliance_->ask(intent);
+  if (intent == ui::Intent::LookUp) return look_up();
+  appliance_->ask(intent);
+}
+
+// Who touches "Done" once more has asked already; another name or code is another question.
+void Kiosk::look_up() {
+  const ui::VisitRequest request = ui_->request();
+  const bool asked = request.quotes_code ? quoted_.view() == request.name
+                                         : quoted_.empty() && claimed_.view() == request.name;
+  if (asked && appliance_->answer().known == ui::Known::Asking) return;
+  if (!request.quotes_code) quoted_.wipe();
+  (request.quotes_code ? quoted_ : claimed_) = request.name;
+  const bool tells = may_tell_known_ && view_.settings.is_on(ui::Setting::TellsKnown);
+  appliance_->ask_records({claimed_, quoted_, tells});
 }
 
 // Before the simulated rig, and in a recorded head, somebody does as the page says: on to the nearest side

@@ -73,6 +73,7 @@ class Kiosk {
   void turn_once();
   void look();
   void ask(ui::Intent intent);
+  void look_up();
 
   std::unique_ptr<hal::Device> device_;
   std::function<void(double yaw_deg)> turn_head_;  // of the simulated person; empty: a living one does it

@@ -86,10 +86,15 @@ Result<seconds> Access::wait() {
   return wait(record);
 }
 
+Result<bool> Access::is_locked() {
+  RELIEVO_TRY_ASSIGN(const Record record, read());
+  return record.wrong > kFreeTries;
+}
+
 Result<Attempt> Access::attempt(std::string_view pin) {
   RELIEVO_TRY_ASSIGN(Record record, read());
   RELIEVO_TRY_ASSIGN(const seconds early, wait(record));
-  if (early > seconds(0)) return Attempt{ui::StaffRole::None, false, early};
+  if (early > seconds(0)) return Attempt{ui::StaffRole::None, false, early, record.wrong > kFreeTries};
   ++record.wrong;
   record.wrong_at_s = now_s();
   RELIEVO_TRY(write(record));
@@ -100,10 +105,11 @@ Result<Attempt> Access::attempt(std::string_view pin) {
     RELIEVO_TRY(write(record));
     return technician ? clerk.error() : technician.error();
   }
-  if (!*technician && !*clerk) return Attempt{ui::StaffRole::None, true, wait_after(record.wrong)};
+  if (!*technician && !*clerk)
+    return Attempt{ui::StaffRole::None, true, wait_after(record.wrong), record.wrong > kFreeTries};
   record.wrong = 0;
   RELIEVO_TRY(write(record));
-  return Attempt{*technician ? ui::StaffRole::Technician : ui::StaffRole::Operator, false, seconds(0)};
+  return Attempt{*technician ? ui::StaffRole::Technician : ui::StaffRole::Operator};
 }
 
 Result<void> Access::check_new(ui::StaffRole role, std::string_view pin) {

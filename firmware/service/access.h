@@ -32,6 +32,7 @@ struct Attempt {
   ui::StaffRole role = ui::StaffRole::None;  // None: wrong, or too early
   bool wrong = false;
   std::chrono::seconds wait{0};  // until the next try
+  bool locked = false;           // it was put off for minutes; else for a moment
 };
 
 // How long the next try is put off after so many wrong ones in a row.
@@ -47,6 +48,8 @@ class Access {
   // Of whom one has been forgotten while the other role's is there; None: of nobody, or of both.
   Result<ui::StaffRole> forgotten();
   Result<std::chrono::seconds> wait();
+  // Was the next try put off for minutes, however many of them are left? Else for a moment.
+  Result<bool> is_locked();
   Result<Attempt> attempt(std::string_view pin);
   // InvalidInput: not four to eight digits, or too simple. InvalidState: the other role has it.
   Result<void> check_new(ui::StaffRole role, std::string_view pin);

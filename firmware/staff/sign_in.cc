@@ -26,6 +26,7 @@ Result<void> SignIn::look() {
   RELIEVO_TRY_ASSIGN(view_.set_up, access_.is_set_up());
   RELIEVO_TRY_ASSIGN(forgotten_, access_.forgotten());
   RELIEVO_TRY_ASSIGN(const auto wait, access_.wait());
+  RELIEVO_TRY_ASSIGN(view_.locked, access_.is_locked());
   wait_until_ = parts_.clock.now() + wait;
   return {};
 }
@@ -94,6 +95,7 @@ void SignIn::check(std::string_view pin) {
         if (!answer) parts_.log.fault(answer.error());
         const Attempt attempt = answer ? *answer : Attempt();
         wait_until_ = parts_.clock.now() + attempt.wait;
+        view_.locked = attempt.locked;
         if (attempt.wrong) parts_.log.say(ui::LogEvent::WrongPin);
         if (visit != visit_) return;  // whoever typed it has gone: the next one at the lock is another
         view_.failed = answer ? std::nullopt : std::optional(answer.error().code);

@@ -47,7 +47,7 @@ void TestCapture::say(const Error& error) { problem_ = ui::fault_of(error); }
 
 void TestCapture::opened(ui::StaffPage page) {
   recording_.hide();
-  if (page == ui::StaffPage::Cameras) watch_cameras(true);
+  if (page == ui::StaffPage::Cameras) want_watch(true);
   if (page == ui::StaffPage::Calibrate) calibrations_.load_history();
   if (page == ui::StaffPage::Algorithms) algorithms_.act(TechnicianAct::LeaveOption);
   page_ = page;
@@ -55,7 +55,7 @@ void TestCapture::opened(ui::StaffPage page) {
 }
 
 void TestCapture::closed(ui::StaffPage page) {
-  if (page == ui::StaffPage::Cameras) watch_cameras(false);
+  if (page == ui::StaffPage::Cameras) want_watch(false);
 }
 
 void TestCapture::act(const ui::TechnicianRequest& request) {
@@ -88,7 +88,7 @@ void TestCapture::act_alone(TechnicianAct act) {
     case TechnicianAct::ByHand: point_ = {}; return void(by_hand_ = !by_hand_);
     case TechnicianAct::ApplySet: return apply_set();
     case TechnicianAct::KeepResult: return keep_result();
-    case TechnicianAct::WatchCameras: return watch_cameras(!watching_);
+    case TechnicianAct::WatchCameras: return want_watch(!watch_wanted_);
     case TechnicianAct::ShowRelief: return watch_.show_relief(!watch_.shows_relief());
     case TechnicianAct::ShowDifference: return void(differences_ = !differences_);
     case TechnicianAct::ShowEdges: return watch_.show_edges(!watch_.shows_edges());
@@ -122,7 +122,7 @@ void TestCapture::wait_for_cameras(Next what) {
   const bool works = phase_ == TechnicianPhase::Capturing || phase_ == TechnicianPhase::Running;
   if (loaded || !works) next_ = what;
   if (!loaded && !works) saved_.reset();
-  watch_cameras(false);
+  if (watching_) parts_.side_tasks.stop(taking_);
 }
 
 void TestCapture::keep_result() {
@@ -327,12 +327,22 @@ void TestCapture::apply_set() {
       SideTasks::Whose::Device);
 }
 
-void TestCapture::watch_cameras(bool on) {
-  if (on == watching_) return;
-  if (!on) return parts_.side_tasks.stop(taking_);
-  if (parts_.side_tasks.busy(JobLane::Capture) || phase_ == TechnicianPhase::Capturing) return;
-  if (!session_.is_open() && !session_.open("")) return;
-  problem_ = {};
+void TestCapture::want_watch(bool on) {
+  watch_wanted_ = on;
+  if (on) problem_ = {};
+  else if (watching_) parts_.side_tasks.stop(taking_);
+}
+
+// When nobody else is at the cameras any more.
+void TestCapture::begin_watch() {
+  if (!watch_wanted_ || watching_ || next_ != Next::None || phase_ == TechnicianPhase::Capturing ||
+      parts_.side_tasks.busy(JobLane::Capture))
+    return;
+  const Result<void> opened = session_.is_open() ? Result<void>() : session_.open("");
+  if (!opened) {
+    watch_wanted_ = false;
+    return say(opened.error());
+  }
   watch_.prepare(parts_.stages.calibration());
   watching_ = true;
   taking_ = parts_.side_tasks.send(
@@ -340,7 +350,9 @@ void TestCapture::watch_cameras(bool on) {
       [this](const std::optional<Error>& error) {
         watching_ = false;
         watch_.wipe();
-        if (error && error->code != Errc::Cancelled) say(*error);
+        if (!error || error->code == Errc::Cancelled) return;
+        watch_wanted_ = false;
+        say(*error);
       });
 }
 
@@ -349,7 +361,7 @@ void TestCapture::leave() {
   ++visit_;
   watch_.show_relief(false);
   watch_.show_edges(false);
-  watching_ = by_hand_ = applied_ = applying_ = differences_ = false;
+  watch_wanted_ = watching_ = by_hand_ = applied_ = applying_ = differences_ = false;
   next_ = Next::None;
   saved_.reset();
   watch_.wipe();
@@ -375,6 +387,7 @@ void TestCapture::turn() {
   // It took longer than the state may: what has been seen is not worked out.
   if (calibrations_.running() && state == State::Staff) parts_.side_tasks.stop(taking_);
   begin_next();
+  begin_watch();
   // Until they are compared the page shows them as they are.
   const Products* made = products();
   if (differences_ && made != nullptr) kept_.compare_on_worker(parts_.side_tasks, *made, model_number_);

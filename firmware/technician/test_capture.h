@@ -87,7 +87,8 @@ class TestCapture {
   void run_done(const std::optional<Error>& error);
   void touch(const ui::TouchPicture& touch);
   void apply_set();
-  void watch_cameras(bool on);
+  void want_watch(bool on);
+  void begin_watch();
   void act_alone(ui::TechnicianAct act);
   void keep_result();
   void record();
@@ -123,7 +124,8 @@ class TestCapture {
   std::optional<Saved> saved_;  // read from the stick, to be loaded
   bool loaded_ = false;         // what is in the session was, with a calibration of its own
   bool by_hand_ = false;        // pairs are set by hand
-  bool watching_ = false;       // the cameras
+  bool watch_wanted_ = false;   // of the cameras, by whoever is on their page ...
+  bool watching_ = false;       // ... and under way
   bool applied_ = false;        // the algorithms: visitors are measured with them ...
   bool applying_ = false;       // ... or soon will be
   std::uint32_t visit_ = 0;     // what a technician asked for who has left is not told the next one

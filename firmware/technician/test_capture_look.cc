@@ -26,10 +26,8 @@ const ui::TechnicianView& TestCapture::view() {
   view_.choice = algorithms_.view();
   view_.calibration = calibrations_.view();
   view_.rows = tables_.view();
-  if (watching_) {
-    view_.cameras = watch_.newest();
-    view_.cameras.starting = !view_.cameras.watched;
-  }
+  if (watching_ && watch_wanted_) view_.cameras = watch_.newest();
+  view_.cameras.starting = watch_wanted_ && !view_.cameras.watched;
   view_.put_aside = kept_.count();
   for (std::size_t i = 0; i < view_.put_aside; ++i) view_.compared[i] = kept_.view(i, stage_);
   view_.differences = differences_;

@@ -32,7 +32,7 @@ class SqliteKeeping final : public StoreKeeping {
   Result<void> backup(const std::filesystem::path& file) override {
     RELIEVO_TRY_ASSIGN(const auto store, open(OpenMode::ReadOnly));
     return without_exceptions(file.native(), [&]() -> Result<void> {
-      RELIEVO_TRY(must_be_a_place_for_a_copy(file));
+      RELIEVO_TRY(must_be_a_place_for_a_copy(*store->database_, file));
       return copy_whole(*store->database_, file);
     });
   }
@@ -40,22 +40,17 @@ class SqliteKeeping final : public StoreKeeping {
     RELIEVO_TRY_ASSIGN(const auto store, open(OpenMode::ReadOnly));
     return without_exceptions(backup.native(), [&]() -> Result<std::vector<SubjectId>> {
       Database copy(backup);
-      RELIEVO_TRY(copy.open(false));
-      const auto version = version_of(copy);
+      const auto end = end_of(copy);
       const Error another =
           Error{Errc::InvalidInput, "this is no copy of this store, or a damaged or an older version's one"}
               .at(backup.native());
-      if (!version && version.error().code != Errc::StoreCorrupt) return version.error();
-      if (!version || *version < store_version()) return another;
-      RELIEVO_TRY_ASSIGN(const auto end, copy.row("SELECT number, hash FROM audit_end"));
-      if (!end) return another;
-      // The same store, if its log goes on where the copy's ends.
-      RELIEVO_TRY_ASSIGN(const auto same,
-                         store->database_->row("SELECT hash FROM audit WHERE number = ?", end->integer(0)));
-      if (!same || !std::ranges::equal(same->blob(0), end->blob(1))) return another;
+      if (!end && end.error().code != Errc::StoreCorrupt) return end.error();
+      if (!end || !*end) return another;
+      RELIEVO_TRY_ASSIGN(const bool same, goes_on_from(*store->database_, **end));
+      if (!same) return another;
       RELIEVO_TRY_ASSIGN(
           auto query, store->database_->prepare("SELECT subject_id FROM audit WHERE number > ? AND what = ?",
-                                                end->integer(0), kSubjectErased));
+                                                (*end)->integer(0), kSubjectErased));
       std::vector<SubjectId> erased;
       for (;;) {
         RELIEVO_TRY_ASSIGN(const bool row, query.step());
@@ -105,19 +100,42 @@ class SqliteKeeping final : public StoreKeeping {
   }
 
  private:
-  // What a copy replaces is lost for ever: a key, or a store that a kiosk is writing to.
-  Result<void> must_be_a_place_for_a_copy(const std::filesystem::path& file) const {
+  // The last line of a copy's log. None: an older version made it, whose log cannot be compared.
+  static Result<std::optional<Statement>> end_of(Database& copy) {
+    RELIEVO_TRY(copy.open(false));
+    RELIEVO_TRY_ASSIGN(const std::int64_t version, version_of(copy));
+    if (version < store_version()) return std::optional<Statement>();
+    return copy.row("SELECT number, hash FROM audit_end");
+  }
+  // The copy is this store's, if the log goes on where the copy's ends.
+  static Result<bool> goes_on_from(Database& store, const Statement& end) {
+    RELIEVO_TRY_ASSIGN(const auto same, store.row("SELECT hash FROM audit WHERE number = ?", end.integer(0)));
+    return same && std::ranges::equal(same->blob(0), end.blob(1));
+  }
+  // What a copy replaces is lost for ever: a key, a store that a kiosk is writing to, another store's copy.
+  Result<void> must_be_a_place_for_a_copy(Database& store, const std::filesystem::path& file) const {
+    const auto refused = [&](Literal what) { return Error{Errc::InvalidInput, what}.at(file.native()); };
     std::error_code ignored;
     const auto folder = file.has_parent_path() ? file.parent_path() : std::filesystem::path(".");
     if (std::filesystem::equivalent(folder, dir_, ignored) ||
-        std::filesystem::exists(folder / kLockFile, ignored))
-      return Error{Errc::InvalidInput, "lies among a store's own files: choose another folder"}.at(
-          file.native());
-    if (!std::filesystem::is_regular_file(file, ignored)) return {};
-    Database there(std::filesystem::canonical(file));
-    if (there.open(false) && version_of(there)) return {};
-    return Error{Errc::InvalidInput, "this file is there, and is no copy of a store: name another"}.at(
-        file.native());
+        std::filesystem::exists(folder / kLockFile, ignored) ||
+        std::filesystem::exists(folder / kKeyFile, ignored))
+      return refused("lies among a store's own files: choose another folder");
+    if (!std::filesystem::exists(std::filesystem::symlink_status(file, ignored))) return {};
+    if (!std::filesystem::is_regular_file(file, ignored))
+      return refused("this is there, and is no file: name another");
+    if (std::filesystem::is_empty(file, ignored)) return {};  // as mktemp makes it
+    Database copy(std::filesystem::canonical(file, ignored));
+    const auto end = end_of(copy);
+    if (!end && end.error().code == Errc::StoreCorrupt)
+      return refused("is damaged or no copy: remove it, or name another");
+    if (!end && end.error().code != Errc::InvalidInput) return end.error();
+    if (end && *end) {
+      RELIEVO_TRY_ASSIGN(const bool same, goes_on_from(store, **end));
+      if (same) return {};
+    }
+    return refused(
+        "this is there, and is no copy of this store, or an older version's one: remove it, or name another");
   }
   static Result<void> rekey(SqliteStore& store, KeySource& to) {
     RELIEVO_TRY(remove_old_copies(store.database_->file()));

@@ -103,13 +103,16 @@ Result<std::int64_t> SqliteStore::count_subjects() {
   return database_->integer("SELECT count(*) FROM subject WHERE code_hash IS NOT NULL");
 }
 
-// The audit log is read from its end, to the first line that will do.
+// The audit log is read from its end, to the first line that will do. People of version 1 have none: of them,
+// when they were made.
 Result<WallTime> SqliteStore::last_added_at() {
   RELIEVO_TRY_ASSIGN(
       const std::int64_t at_ms,
-      database_->integer("SELECT at_ms FROM audit WHERE what IN ('subject.added', 'enrolment.added') "
+      database_->integer("SELECT coalesce("
+                         "(SELECT at_ms FROM audit WHERE what IN ('subject.added', 'enrolment.added') "
                          "AND EXISTS (SELECT 1 FROM subject WHERE id = audit.subject_id "
-                         "AND code_hash IS NOT NULL) ORDER BY number DESC LIMIT 1"));
+                         "AND code_hash IS NOT NULL) ORDER BY number DESC LIMIT 1), "
+                         "(SELECT max(created_at_ms) FROM subject WHERE code_hash IS NOT NULL), 0)"));
   return from_ms(at_ms);
 }
 

@@ -46,6 +46,10 @@ class BadInput : public RelievoProcess {
                            const std::string& trouble = "", const std::string& calibration = "rig.yml") {
     refused({"reconstruct", left, right, "--calibration", calibration, "-o", "out"}, place, trouble);
   }
+  // What follows the program's name, as a shell reads it.
+  Said in_shell(const std::string& words) {
+    return run_program({"/bin/sh", "-c", "exec \"" RELIEVO_BINARY "\" " + words}, here.path());
+  }
   void edit_rig(const std::string& from, const std::string& to) {
     std::string text = read_text(here / "rig.yml");
     const std::size_t at = text.find(from);
@@ -234,7 +238,7 @@ TEST_F(BadInput, EnrollingWithoutWhatItNeeds) {
   for (const char* name : {"", " ", "Ada ", " Ada"})
     refused({"enrol", "--board", "folder:pair", "--subject", name, "--calibration", "rig.yml", "--store",
              "store"},
-            "no possible name");
+            "no name to enrol by");
 }
 
 TEST_F(BadInput, APersonWhoIsNotThere) {
@@ -263,15 +267,22 @@ TEST_F(BadInput, ATruthThatIsNotThere) {
 }
 
 TEST_F(BadInput, WhatCouldNotBePrintedIsNoSuccess) {
-  const auto print = [this](const char* to) {
-    return run_program({"/bin/sh", "-c", std::string("exec \"" RELIEVO_BINARY "\" algorithms ") + to},
-                       here.path());
-  };
-  const Said full = print(">/dev/full");
-  EXPECT_EQ(full.exit_code, 1);
-  EXPECT_EQ(full.err.rfind("relievo: standard output: ", 0), 0U) << full.err;
-  EXPECT_EQ(std::count(full.err.begin(), full.err.end(), '\n'), 1) << full.err;
-  EXPECT_EQ(print(">&-").exit_code, 0) << "nobody wanted to read it";
+  for (const char* words : {"algorithms", "--help"}) {
+    const Said full = in_shell(std::string(words) + " >/dev/full");
+    EXPECT_EQ(full.exit_code, 1) << words;
+    EXPECT_EQ(full.err.rfind("relievo: standard output: ", 0), 0U) << full.err;
+    EXPECT_EQ(std::count(full.err.begin(), full.err.end(), '\n'), 1) << full.err;
+    EXPECT_EQ(in_shell(std::string(words) + " >&-").exit_code, 0) << "nobody wanted to read it";
+  }
+  const Said told = in_shell("calibration import rig.yml --store store >/dev/full");
+  EXPECT_EQ(told.exit_code, 1);
+  EXPECT_NE(told.err.find("has been done"), std::string::npos) << told.err;
+  EXPECT_NE(done({"calibration", "list", "--store", "store"}).out.find("rig.yml"), std::string::npos);
+}
+
+TEST_F(BadInput, WhatNobodyReadsIsWrittenIntoNoFile) {
+  EXPECT_EQ(in_shell("calibration import rig.yml --store store >&-").exit_code, 0);
+  EXPECT_EQ(fs::file_size(here / "store/relievo.lock"), 0U) << read_text(here / "store/relievo.lock");
 }
 
 TEST_F(BadInput, WrongWordsAreToldFromWrongFiles) {

@@ -93,6 +93,52 @@ TEST_F(VisitNameTest, BackFromTheCodeAsksForANameAgain) {
   EXPECT_EQ(visit.enrolment_kind(), EnrolmentKind::NewSubject);
 }
 
+TEST_F(VisitNameTest, WhatWasAskedBeforeBackIsNoAnswerAfterIt) {
+  act(ActionKind::Start);
+  visit.reads_to_the_end();
+  act(ActionKind::Agree);
+  visit.type("A");
+  act(ActionKind::Done);
+  view.known = Known::Name;
+  pass(milliseconds(1));
+  act(ActionKind::HaveCode);
+  visit.type("48219037551271");
+  EXPECT_EQ(act(ActionKind::Done), Intent::LookUp);
+  view.known = Known::Asking;
+  pass(milliseconds(1));
+  act(ActionKind::Back);
+  view.known = Known::Code;
+  EXPECT_EQ(pass(milliseconds(1)), std::nullopt);
+  EXPECT_EQ(visit.step, Step::Name) << "they went back";
+  visit.type("B");
+  EXPECT_EQ(act(ActionKind::Done), Intent::LookUp);
+  for (const Known of_the_code : {Known::Code, Known::NoSuchCode}) {
+    view.known = of_the_code;
+    EXPECT_EQ(pass(milliseconds(1)), std::nullopt);
+    EXPECT_EQ(visit.step, Step::Name);
+  }
+  view.known = Known::Name;
+  pass(milliseconds(1));
+  EXPECT_EQ(visit.step, Step::Known) << "that was said of the name";
+  act(ActionKind::SomebodyElse);
+  EXPECT_EQ(visit.enrolment_kind(), EnrolmentKind::NewSubject);
+}
+
+TEST_F(VisitNameTest, ANameThatWasAskedForIsNotAnsweredAfterTheConsentWasReadOnceMore) {
+  act(ActionKind::Start);
+  visit.reads_to_the_end();
+  act(ActionKind::Agree);
+  visit.type("A");
+  act(ActionKind::Done);
+  view.known = Known::Asking;
+  pass(milliseconds(1));
+  act(ActionKind::Back);
+  act(ActionKind::Agree);
+  view.known = Known::Nobody;
+  EXPECT_EQ(pass(milliseconds(1)), std::nullopt) << "nobody touched \"Done\" again";
+  EXPECT_EQ(visit.step, Step::Name);
+}
+
 TEST_F(VisitNameTest, ALetterThatIsRefusedTakesNoneAwayWithTheNext) {
   act(ActionKind::Start);
   visit.reads_to_the_end();

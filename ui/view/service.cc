@@ -8,11 +8,6 @@
 #include "ui/view/view_state.h"
 
 namespace relievo::ui {
-namespace {
-
-bool needs_role(StaffPage page) { return page != StaffPage::Pin && page != StaffPage::FirstStart; }
-
-}  // namespace
 
 bool Service::takes(ActionKind kind) const {
   if (kind == ActionKind::StaffEnter) return true;

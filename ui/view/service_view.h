@@ -95,6 +95,7 @@ struct AccessView {
   bool wrong = false;          // the last one was
   std::optional<Errc> failed;  // why the last one could not be checked or kept
   int wait_s = 0;              // until the next try
+  bool locked = false;         // that is a wait of minutes, after too many wrong ones; else of a moment
   bool consent_right = false;  // somebody has seen which consent text is in force, and goes on with it
   bool forgotten = false;      // not set up, because one of the two is to be chosen anew
   bool words_due = false;      // no recovery words open the store yet

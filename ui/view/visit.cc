@@ -78,7 +78,8 @@ std::optional<Intent> Visit::back(const ViewState& view) {
     entered_ = view.now;
     forget_person();
   }
-  if (before == Step::Name && quotes_code_) {  // a name again: it may be another one
+  if (before == Step::Name) looking_up_ = false;  // what was asked there is not wanted any more
+  if (before == Step::Name && quotes_code_) {     // a name again: it may be another one
     name_.wipe();
     quotes_code_ = false;
     capitals = true;
@@ -211,9 +212,11 @@ std::optional<Intent> Visit::act_on_record(ActionKind kind) {
   return Intent::Pose;
 }
 
-// The records have answered: who is new goes on, who is not is asked.
+// The records have answered: who is new goes on, who is not is asked. What they say of a code is no answer to
+// a name.
 std::optional<Intent> Visit::follow_look_up(const ViewState& view) {
   if (!looking_up_ || view.known == Known::NotAsked || view.known == Known::Asking) return std::nullopt;
+  if (!quotes_code_ && (view.known == Known::Code || view.known == Known::NoSuchCode)) return std::nullopt;
   looking_up_ = false;
   if (step != Step::Name || overlay == Overlay::Leave) return std::nullopt;
   enrolment_kind_ = EnrolmentKind::NewSubject;

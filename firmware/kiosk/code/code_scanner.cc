@@ -7,6 +7,7 @@
 
 #include "firmware/base/budget.h"
 #include "firmware/kiosk/code/qr_code.h"
+#include "firmware/records/receipt.h"
 #include "hal/base/utf8.h"
 #include "ui/view/visit.h"
 
@@ -63,6 +64,8 @@ CodeScanner::~CodeScanner() {
 
 WipedText CodeScanner::turn(const ui::Visit& visit, hal::Instant now) {
   const bool wants = wanted(visit, appliance_);
+  // A look begun on the page for a code is none for a name.
+  const bool fits = wants && visit.quotes_code() == for_code_;
   WipedText text;
   if (running_ && ended_.load(std::memory_order_acquire)) {
     running_ = false;
@@ -71,13 +74,14 @@ WipedText CodeScanner::turn(const ui::Visit& visit, hal::Instant now) {
     text = text_;
     text_.wipe();
   }
-  if (running_ && !wants) appliance_.cancel_side_job(JobLane::Capture);
+  if (running_ && !fits) appliance_.cancel_side_job(JobLane::Capture);
   if (!running_ && wants && now >= next_try_) {
+    for_code_ = visit.quotes_code();
     ended_.store(false);
     running_ = appliance_.start_side_job(JobLane::Capture, look_).has_value();
     if (!running_) ended_.store(true);
   }
-  if (!wants) text.wipe();  // read in the moment the page was left
+  if (!fits) text.wipe();  // read in the moment the page was left
   return text;
 }
 
@@ -90,7 +94,8 @@ Result<void> CodeScanner::look(JobControl& control) {
     appliance_.session().live().fill(frame.left);
     appliance_.session().live().publish({});
     const auto raw = read_code(pair % 2 == 0 ? frame.left : frame.right);
-    if (const auto text = raw ? code_text(*raw) : std::nullopt) {
+    const auto text = raw ? code_text(*raw) : std::nullopt;
+    if (text && (for_code_ || !is_receipt(*text))) {  // nobody is called as their record's code
       text_ = std::string_view(*text);
       return {};
     }

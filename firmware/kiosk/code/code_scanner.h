@@ -41,7 +41,8 @@ class CodeScanner {
   hal::Device& device_;
   FunctionJob look_;
   std::atomic<bool> ended_{true};
-  WipedText text_;  // the job's until it has ended
+  WipedText text_;         // the job's until it has ended
+  bool for_code_ = false;  // the page that was shown when it began; not written while it runs
   bool running_ = false;
   hal::Instant next_try_{};
 };

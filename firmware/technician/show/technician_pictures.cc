@@ -17,6 +17,7 @@
 #include "firmware/measure/match_figures.h"
 #include "firmware/technician/show/surface_difference.h"
 #include "firmware/work/stage_drawing.h"
+#include "hal/base/assert.h"
 
 namespace relievo::firmware {
 namespace {
@@ -27,6 +28,11 @@ using ui::TechnicianStage;
 constexpr std::size_t kBytes = budget::kTechnicianPictureBytes;
 constexpr std::array kWithRight{TechnicianStage::Input, TechnicianStage::Processed,
                                 TechnicianStage::Rectified, TechnicianStage::Mesh, TechnicianStage::Poses};
+// The plan counts the same pictures: of the newest result, and the left ones of what is put aside.
+static_assert(budget::kTechnicianBytes ==
+              (ui::kTechnicianStages + kWithRight.size() + ui::kTechnicianStages * budget::kKeptResults) *
+                      kBytes +
+                  budget::kKeptResults * budget::kKeptModelBytes);
 
 // No two pictures have the same number: a renderer tells by it what it has to load.
 std::uint32_t next_version() {
@@ -110,6 +116,7 @@ TechnicianPictures::TechnicianPictures(bool right_too)
 TechnicianPictures::One& TechnicianPictures::begin(TechnicianStage stage, std::size_t side, int width_px,
                                                    int height_px) {
   One& one = all_[std::size_t(stage)][side];
+  RELIEVO_ASSERT(one.rgb != nullptr);  // a right one: kWithRight names its stage
   const double scale = std::min(1.0, double(kSide) / std::max(width_px, height_px));
   one.width_px = std::max(1, int(width_px * scale));
   one.height_px = std::max(1, int(height_px * scale));

@@ -31,12 +31,15 @@ void FolderMedia::unplug() {
   const std::lock_guard lock(mutex_);
   root_.reset();
   ejected_.reset();
+  taken_up_ = false;
 }
 
 std::optional<std::filesystem::path> FolderMedia::current() {
   const std::lock_guard lock(mutex_);
   std::error_code failed;
-  return root_ && std::filesystem::is_directory(*root_, failed) ? root_ : std::nullopt;
+  if (root_ && std::filesystem::is_directory(*root_, failed)) return root_;
+  taken_up_ = false;  // what comes there next was put there by a hand
+  return std::nullopt;
 }
 
 Result<void> FolderMedia::flush_and_eject() {

@@ -4,12 +4,15 @@
 // What a person types to get a lost store back is nowhere on the stack of the command that has ended.
 #include <gtest/gtest.h>
 
+#include <algorithm>
+#include <array>
 #include <iostream>
 #include <sstream>
 #include <string>
 #include <vector>
 
 #include "firmware/command/commands.h"
+#include "hal/base/wiped_text.h"
 #include "hal/clock.h"
 #include "tests/support/stack_search.h"
 
@@ -19,6 +22,12 @@ namespace {
 #ifndef RELIEVO_SANITIZED
 
 constexpr std::string_view kLastWord = "qvwordxz";
+
+[[gnu::noinline]] void leave_the_word() {
+  std::array<char, kLastWord.size()> word{};
+  std::ranges::copy(kLastWord, word.begin());
+  asm volatile("" : : "r"(word.data()) : "memory");  // written, though nobody reads it
+}
 
 // A store that no words open.
 class NoStoreToKeep final : public storage::StoreKeeping {
@@ -43,6 +52,10 @@ TEST(StoreWords, AreNotLeftOnTheStackOfTheCommand) {
   std::vector<std::byte> disguised;
   for (const char letter : kLastWord)
     disguised.push_back(std::byte(static_cast<unsigned char>(letter)) ^ test::kStackDisguise);
+  test::call_deep([] { leave_the_word(); });
+  const int found = test::left_on_stack(disguised);
+  EXPECT_GT(found, 0) << "it is not found where it is: this test shows nothing";
+  wipe_stack();
   std::string typed;
   for (int word = 1; word < 12; ++word) typed += "aaa ";
   typed += std::string(kLastWord) + "\n";

@@ -7,6 +7,7 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <atomic>
 #include <chrono>
 #include <fstream>
 #include <thread>
@@ -18,6 +19,7 @@
 #include "pipeline/calibrate/file/calibration_file.h"
 #include "storage/sqlite/sqlite_store.h"
 #include "tests/firmware/kiosk/kiosk_hands.h"
+#include "tests/support/faulty_store.h"
 #include "tests/support/played_device.h"
 #include "tests/support/temporary_folder.h"
 
@@ -251,6 +253,52 @@ TEST_F(KioskMomentsTest, AfterTenWrongCodesAnHourTheRightOneIsNoneEither) {
   open();
   quote(code);
   EXPECT_EQ(kiosk->view().known, ui::Known::Code);
+}
+
+// A store that does not say how many codes were wrong, until it may.
+class SlowCodes final : public test::FaultyStore {
+ public:
+  SlowCodes(std::unique_ptr<storage::Store> real, const std::atomic<bool>& held)
+      : FaultyStore(std::move(real), none_), held_(held) {}
+  Result<std::string> setting(std::string_view key) override {
+    if (key == kCodesSetting) held_.wait(true);
+    return FaultyStore::setting(key);
+  }
+
+ private:
+  std::atomic<std::optional<Errc>> none_;
+  const std::atomic<bool>& held_;
+};
+
+TEST_F(KioskMomentsTest, ANameIsAskedForThoughTheRecordsStillLookForTheCodeBeforeIt) {
+  put_into_the_store("Ada");
+  std::atomic<bool> held{true};
+  services.open_store = [&](const Path& at, bool) -> Result<std::unique_ptr<storage::Store>> {
+    RELIEVO_TRY_ASSIGN(auto real, storage::open_sqlite_store(at, clock, {}));
+    return std::unique_ptr<storage::Store>(std::make_unique<SlowCodes>(std::move(real), held));
+  };
+  open();
+  type_name("Ada");
+  ASSERT_TRUE(reach(ui::Step::Known));
+  tap("have_code");
+  kiosk->ui().visit().type("00000000099911");
+  kiosk->turn();
+  tap("done");
+  EXPECT_EQ(kiosk->view().known, ui::Known::Asking);
+  kiosk->feed({ui::Input::Kind::Back});
+  kiosk->turn();
+  kiosk->ui().visit().type("Bob");
+  kiosk->turn();
+  std::thread disk([&held] {
+    std::this_thread::sleep_for(std::chrono::milliseconds(50));
+    held = false;
+    held.notify_all();
+  });
+  tap("done");
+  disk.join();
+  EXPECT_TRUE(reach(ui::Step::Position));
+  EXPECT_EQ(kiosk->appliance().session().subject(), "Bob");
+  kiosk.reset();  // its store reads `held`
 }
 
 TEST_F(KioskMomentsTest, WhereTheOperatorWantsItNobodyIsTold) {

@@ -94,6 +94,7 @@ TEST_F(ReceiptInTheStoreTest, IsNobodysName) {
   const auto grace = choose_subject(*store, "Grace");
   ASSERT_TRUE(grace);
   EXPECT_EQ(*grace, std::nullopt) << "somebody new";
+  EXPECT_EQ(choose_subject(*store, "").error().code, Errc::InvalidInput) << "not: the only person";
 }
 
 }  // namespace

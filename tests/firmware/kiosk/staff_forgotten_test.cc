@@ -82,6 +82,11 @@ TEST_P(StaffForgottenTest, ForgettingGivesNobodyFurtherTries) {
     const bool locked = wait == 9s;
     EXPECT_EQ(says("Too many wrong PINs"), locked) << "one that was mistyped is not too many";
     EXPECT_EQ(says("That was not right."), !locked);
+    kiosk->feed({ui::Input::Kind::Back});
+    kiosk->turn();
+    knock();
+    EXPECT_EQ(says("Too many wrong PINs"), locked) << "nor when they come back to the page";
+    EXPECT_EQ(says("One moment, please"), !locked);
   }
   ASSERT_GT(kiosk->view().service->access.wait_s, 60);
   kiosk.reset();
@@ -90,7 +95,13 @@ TEST_P(StaffForgottenTest, ForgettingGivesNobodyFurtherTries) {
   for (int i = 0; i < 2; ++i) type_pin("2718");
   ASSERT_TRUE(until([this] { return kiosk->ui().service().page == StaffPage::Pin; }));
   EXPECT_GT(kiosk->view().service->access.wait_s, 60) << "the wait goes on";
-  time.advance(301s);
+  time.advance(292s);
+  ASSERT_TRUE(until([this] { return !kiosk->ui().service().open; })) << "nobody touches it so long";
+  knock();
+  ASSERT_GT(kiosk->view().service->access.wait_s, 0);
+  ASSERT_LE(kiosk->view().service->access.wait_s, 8);
+  EXPECT_TRUE(says("Too many wrong PINs")) << "the end of a long wait is none of a moment";
+  time.advance(9s);
   kiosk->feed({ui::Input::Kind::Down, finger, 1, 1});
   kiosk->feed({ui::Input::Kind::Up, finger, 1, 1});
   kiosk->turn();

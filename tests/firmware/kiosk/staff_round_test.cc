@@ -63,6 +63,30 @@ TEST_F(StaffRoundTest, AFingerThatOnlyPassesDoesNotSignIn) {
   EXPECT_FALSE(kiosk->ui().service().open);
 }
 
+TEST_F(StaffRoundTest, WhoOnlyCameUponTheLockReadsOnAsTheyChose) {
+  start();
+  first_start();
+  kiosk->feed({ui::Input::Kind::Back});
+  kiosk->turn();
+  ASSERT_FALSE(kiosk->ui().service().open);
+  ui::Visit& visit = kiosk->ui().visit();
+  visit.language = ui::Language::French;
+  visit.text_size = 2;
+  visit.high_contrast = true;
+  knock();
+  kiosk->feed({ui::Input::Kind::Back});
+  kiosk->turn();
+  ASSERT_FALSE(kiosk->ui().service().open);
+  EXPECT_EQ(visit.language, ui::Language::French) << "they came upon the lock by chance";
+  EXPECT_EQ(visit.text_size, 2U);
+  EXPECT_TRUE(visit.high_contrast);
+  sign_in("4711", StaffRole::Technician);
+  sign_out();
+  EXPECT_EQ(visit.language, ui::Language::English);
+  EXPECT_EQ(visit.text_size, 0U);
+  EXPECT_FALSE(visit.high_contrast);
+}
+
 TEST_F(StaffRoundTest, FirstStartThenEachRoleHasItsPages) {
   start();
   first_start();

@@ -71,7 +71,9 @@ TEST_F(AccessTest, WrongPinsCostTimeAndARestartGivesNoFurtherTry) {
     const Attempt tried = attempt("1999");
     EXPECT_TRUE(tried.wrong);
     EXPECT_EQ(tried.wait, wait_after(wrong));
+    EXPECT_EQ(tried.locked, tried.wait >= seconds(60));
     restart();
+    EXPECT_EQ(*access->is_locked(), tried.locked);
     EXPECT_EQ(attempt("4711").role, StaffRole::None) << "the right one, too early";
     EXPECT_EQ(*access->wait(), wait_after(wrong)) << "asking early costs nothing more";
     clock.at += tried.wait;

@@ -174,6 +174,37 @@ TEST_F(TechnicianTest, ASaveThatIsStoppedBeforeItIsOnTheStickIsNotThere) {
   EXPECT_EQ(saved(), before);
 }
 
+// At a test capture, or at the watch of the page that was open before.
+TEST_F(TechnicianTest, TheCamerasAreWatchedAsSoonAsNobodyElseIsAtThem) {
+  const auto waits = [] {
+    EXPECT_TRUE(rig().says("One moment, please"));
+    EXPECT_FALSE(rig().says("It was stopped")) << "nobody did";
+    EXPECT_EQ(rig().screen->tree().find("watch")->name, "Stop");
+  };
+  rig().open(StaffPage::Stages);
+  {
+    const BusyLane cameras(*rig().side_tasks, JobLane::Capture);
+    rig().open(StaffPage::Cameras);
+    waits();
+  }
+  ASSERT_TRUE(rig().until([] { return rig().now().cameras.watched; })) << rig().now().problem.detail;
+  rig().open(StaffPage::Stages);
+  {
+    const BusyLane cameras(*rig().side_tasks, JobLane::Capture);
+    rig().open(StaffPage::Cameras);
+    ASSERT_TRUE(rig().until([] { return !rig().now().cameras.watched; })) << "the watch before has ended";
+    rig().turn();
+    waits();
+    rig().tap("watch");
+    EXPECT_TRUE(rig().says("It was stopped"));
+    rig().tap("watch");
+    waits();
+  }
+  ASSERT_TRUE(rig().until([] { return rig().now().cameras.watched; })) << rig().now().problem.detail;
+  rig().open(StaffPage::Stages);
+  ASSERT_TRUE(rig().until([] { return !rig().side_tasks->busy(JobLane::Capture); }));
+}
+
 TEST_F(TechnicianTest, WhatIsLoadedWhileARunGoesOnIsThereAfterIt) {
   capture();
   rig().plug_in();

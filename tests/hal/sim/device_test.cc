@@ -180,6 +180,29 @@ TEST(FolderMedia, ComesAndGoes) {
   EXPECT_FALSE(media.current());
 }
 
+TEST(FolderMedia, IsTakenUpUntilAHandPullsItOut) {
+  const TemporaryFolder folder;
+  const auto root = folder / "stick";
+  std::filesystem::create_directory(root);
+  FolderMedia media;
+  const auto take_up = [&] {
+    media.plug(root);
+    ASSERT_TRUE(media.flush_and_eject());
+    ASSERT_TRUE(media.take_up_again());
+    ASSERT_TRUE(media.current());
+    EXPECT_TRUE(media.is_taken_up());
+  };
+  take_up();
+  media.unplug();
+  EXPECT_FALSE(media.is_taken_up());
+  take_up();
+  std::filesystem::rename(root, folder / "pulled out");
+  EXPECT_FALSE(media.current());
+  std::filesystem::rename(folder / "pulled out", root);
+  ASSERT_TRUE(media.current());
+  EXPECT_FALSE(media.is_taken_up()) << "plugged by a hand";
+}
+
 TEST(FolderMedia, APipeThatLiesThereIsNotWaitedFor) {
   const TemporaryFolder folder;
   ASSERT_EQ(::mkfifo((folder / "pipe").c_str(), 0600), 0);

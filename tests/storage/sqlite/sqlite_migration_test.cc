@@ -73,6 +73,7 @@ TEST(SqliteMigration, EveryOlderVersionIsBroughtUpAndSealed) {
     auto store = opened(dir);
     ASSERT_TRUE(store);
     EXPECT_EQ(store->subjects({})->front().name, "Ada Lovelace");
+    EXPECT_EQ(*store->last_added_at(), from_ms(1)) << "no line of the log says when";
     const std::int64_t receipt = store->subjects({})->front().receipt;
     EXPECT_GE(receipt, kLeastReceipt) << "who came before receipts were drawn has one now";
     EXPECT_LE(receipt, kMostReceipt);

@@ -9,6 +9,7 @@
 #include <fstream>
 
 #include "storage/cipher/recovery.h"
+#include "storage/sqlite/sqlite_parts.h"
 #include "tests/storage/raw_database.h"
 #include "tests/storage/sample.h"
 #include "tests/storage/store_of_before.h"
@@ -250,19 +251,55 @@ TEST(StoreKeeping, ACopyReplacesOnlyACopy) {
   EXPECT_TRUE(keeping(dir)->erased_since(copy)->empty()) << "the new one";
   relievo::test::write_text(folder / "empty", "");  // as mktemp makes it
   EXPECT_TRUE(keeping(dir)->backup(folder / "empty"));
+  EXPECT_TRUE(keeping(dir)->erased_since(folder / "empty")->empty());
 
   const std::string key = relievo::test::read_text(dir / "relievo.key");
   relievo::test::write_text(folder / "key", key);
   fill(folder / "other");
+  ASSERT_TRUE(keeping(folder / "other")->backup(folder / "others.db"));
+  std::filesystem::create_directory(folder / "keyed");  // a store's, though no kiosk has opened it yet
+  relievo::test::write_text(folder / "keyed/relievo.key", key);
+  ASSERT_EQ(::mkfifo((folder / "pipe").c_str(), 0600), 0);
+  std::filesystem::create_symlink("pipe", folder / "link to a pipe");
+  std::filesystem::create_symlink("/dev/null", folder / "link to a device");
+  std::filesystem::create_directory(folder / "folder");
   for (const auto& place : {folder / "key", dir / "relievo.key", dir / "relievo.db", dir / "relievo.lock",
-                            dir / "new.db", folder / "store/../store/new.db", folder / "other/relievo.db"}) {
+                            dir / "new.db", folder / "store/../store/new.db", folder / "other/relievo.db",
+                            folder / "others.db", folder / "keyed/new.db", folder / "pipe",
+                            folder / "link to a pipe", folder / "link to a device", folder / "folder"}) {
     EXPECT_EQ(code_of(keeping(dir)->backup(place)), Errc::InvalidInput) << place;
   }
   EXPECT_EQ(relievo::test::read_text(folder / "key"), key);
   EXPECT_EQ(relievo::test::read_text(dir / "relievo.key"), key);
   EXPECT_FALSE(std::filesystem::exists(dir / "new.db"));
+  EXPECT_FALSE(std::filesystem::exists(folder / "keyed/new.db"));
+  EXPECT_TRUE(std::filesystem::is_fifo(folder / "pipe"));
+  EXPECT_TRUE(std::filesystem::is_symlink(folder / "link to a pipe"));
+  EXPECT_TRUE(std::filesystem::is_symlink(folder / "link to a device"));
+  EXPECT_TRUE(keeping(folder / "other")->erased_since(folder / "others.db")->empty()) << "still its own";
   judge(folder / "other");
   EXPECT_EQ(code_of(keeping(dir)->erased_since(folder / "key")), Errc::InvalidInput) << "not: damaged";
+}
+
+// What keeps a copy from being read is said as it is: only a damaged one is to be removed.
+TEST(StoreKeeping, ACopyThatCannotBeReadIsNotReplaced) {
+  const TemporaryFolder folder;
+  const auto dir = folder / "store", copy = folder / "copy.db";
+  fill(dir);
+  ASSERT_TRUE(keeping(dir)->backup(copy));
+  {
+    Raw busy(copy);
+    busy.run("BEGIN EXCLUSIVE");
+    EXPECT_EQ(code_of(keeping(dir)->backup(copy)), Errc::Timeout);
+  }
+  const std::string newer = std::to_string(store_version() + 1);
+  Raw(copy).run("UPDATE store_info SET compatible_version = " + newer + "; PRAGMA user_version = " + newer);
+  EXPECT_EQ(code_of(keeping(dir)->backup(copy)), Errc::StoreNewer);
+  relievo::test::write_text(copy, std::string(8192, 'x'));
+  const auto damaged = keeping(dir)->backup(copy);
+  ASSERT_FALSE(damaged);
+  EXPECT_EQ(damaged.error().code, Errc::InvalidInput);
+  EXPECT_NE(damaged.error().what.view().find("is damaged or no copy"), std::string_view::npos);
 }
 
 // An older copy put in the store's place brings nobody back, and nobody else is taken for them.

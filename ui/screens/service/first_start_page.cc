@@ -46,12 +46,11 @@ struct PinWords {
   std::string_view told;       // empty: nothing
   Mood mood = Mood::Plain;     // of what is told
 };
-constexpr int kMomentS = 8;  // the first wrong PINs cost no more
 PinWords words_of(StaffFrame& page) {
   const AccessView& access = page.staff.access;
   if (access.checking) return {page.tr("One moment, please"), {}, Mood::Plain};
-  if (access.wrong && access.wait_s > 0 && access.wait_s <= kMomentS)
-    return {page.tr("One moment, please"), page.tr("That was not right."), Mood::Bad};
+  if (access.wait_s > 0 && !access.locked)
+    return {page.tr("One moment, please"), access.wrong ? page.tr("That was not right.") : "", Mood::Bad};
   if (access.wait_s > 0)
     return {nullptr,
             page.plural_tr("Too many wrong PINs. The next try is possible in {} second.",

@@ -186,6 +186,10 @@ TEST(CommandLine, SimulatedPhotograph) {
   EXPECT_EQ(args.held.axis_deg, 30);
   EXPECT_TRUE(args.held.screen);
   EXPECT_EQ(args.yaw_deg, 5);
+  const auto plus = parse({"simulate", "face", "-o", "out", "--yaw", "+10", "--roll", "+.5"});
+  ASSERT_EQ(plus.exit_code, 0);
+  EXPECT_EQ(std::get<SimulateArgs>(plus.command).yaw_deg, 10);
+  EXPECT_EQ(std::get<SimulateArgs>(plus.command).roll_deg, 0.5);
   EXPECT_FALSE(args.board);
 }
 
@@ -285,10 +289,13 @@ TEST(CommandLine, WhatStandsBeforeACommandIsAUsageError) {
   EXPECT_EQ(parse({"--key", "k", "memory", "--store", "st"}).exit_code, 2);
 }
 
-// A script's variable was empty. Taken for a word that is not there it would mean the usual store, a model
-// that is not saved, a person's copy that is not sealed.
+// A script's variable was empty. Taken for a word that is not there it would mean the only person of a store,
+// the usual store, a model that is not saved, a person's copy that is not sealed.
 TEST(CommandLine, AnEmptyWordIsNoPlace) {
   const std::vector<std::vector<const char*>> calls{
+      {"subjects", "erase", "X"},
+      {"subjects", "show", "X"},
+      {"subjects", "export", "X", "-o", "out"},
       {"subjects", "erase", "Ada", "--store", "X"},
       {"subjects", "list", "--key", "X"},
       {"subjects", "export", "Ada", "-o", "X"},
@@ -334,6 +341,8 @@ TEST(CommandLine, WrongWordsAreUsageErrorsInOneLine) {
       {"calibrate", "dir", "--print-pattern", "charuco", "--corners", "10x7", "--square-mm", "20", "-o",
        "board.pdf"},
       {"simulate", "board", "-o", "out", "--lamp", "nan"},
+      {"simulate", "face", "-o", "out", "--yaw", "++10"},
+      {"simulate", "face", "-o", "out", "--yaw", "+-10"},
       {"simulate", "photograph", "-o", "out"},
       {"calibrate", "dir", "--corners", "10x7x3", "--square-mm", "20", "-o", "rig.yml"},
       {"calibrate", "dir", "--corners", "-4x7", "--square-mm", "20", "-o", "rig.yml"},

@@ -8,6 +8,7 @@
 #include <opencv2/core.hpp>
 
 #include "firmware/kiosk/code/qr_code.h"
+#include "firmware/records/receipt.h"
 #include "hal/clock.h"
 #include "hal/sim/device.h"
 #include "hal/sim/sheet/sheet_photo.h"
@@ -108,6 +109,45 @@ TEST_F(CodeScannerTest, ACodeStandsInTheFieldAfterTheConsentAndIsConfirmedByTouc
   ASSERT_TRUE(reach(ui::Step::Position));
   EXPECT_EQ(kiosk->appliance().session().subject(), "A-2041");
   EXPECT_LE(kiosk->ui().visit().touches, 2);
+}
+
+// Also where it is read in the moment in which they go back to their name.
+TEST_F(CodeScannerTest, TheCodeOfARecordIsTakenOnItsOwnPageAlone) {
+  std::string code;
+  {
+    auto store = storage::open_sqlite_store(folder.path() / "store", clock, {});
+    ASSERT_TRUE(store.has_value());
+    code = receipt_of(*(*store)->subject(*(*store)->add_subject({"Ada"})));
+  }
+  show(test::printed_code(code));
+  std::erase(code, '-');
+  ASSERT_TRUE(reach(ui::Step::Attract));
+  tap("start");
+  tap("agree");
+  ASSERT_TRUE(until([this] { return !kiosk->view().live.picture.empty(); }));
+  turns(150);
+  EXPECT_EQ(name(), "") << "it is nobody's name";
+  const auto ask_for_the_code = [this] {
+    kiosk->ui().visit().type("Ada");
+    kiosk->turn();
+    tap("done");
+    ASSERT_TRUE(reach(ui::Step::Known));
+    turns(50);
+    std::this_thread::sleep_for(std::chrono::milliseconds(1100));  // after a look it rests
+    tap("have_code");
+  };
+  ask_for_the_code();
+  ASSERT_TRUE(until([this] { return !name().empty(); }));
+  EXPECT_EQ(name(), code);
+  kiosk->feed({ui::Input::Kind::Back});
+  kiosk->turn();
+  ASSERT_EQ(name(), "");
+  ask_for_the_code();
+  std::this_thread::sleep_for(std::chrono::milliseconds(500));  // it is read, and nobody has heard of it
+  kiosk->feed({ui::Input::Kind::Back});
+  turns(50);
+  EXPECT_EQ(kiosk->ui().visit().step, ui::Step::Name);
+  EXPECT_EQ(name(), "");
 }
 
 TEST_F(CodeScannerTest, AnAddressIsNoNameAndWhoLeavesIsForgotten) {
