@@ -51,7 +51,8 @@ bool is_plain_name(std::string_view name) {
 Result<std::vector<BundleFile>> bundle_files(std::span<const std::byte> tar) {
   const Error strange{
       Errc::InvalidInput,
-      "this is no bundle as it was exported: it was changed or cut, or packed by another program: unpack that and give the folder"};
+      "this is no bundle as it was exported: it was changed or cut, or packed by another program: unpack "
+      "that and give the folder"};
   const std::unique_ptr<archive, int (*)(archive*)> reader(archive_read_new(), archive_read_free);
   if (!reader || archive_read_support_format_tar(reader.get()) != ARCHIVE_OK)
     return Error{Errc::OutOfMemory, "not enough memory to read the bundle"};

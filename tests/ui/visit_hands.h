@@ -32,10 +32,22 @@ class VisitHands : public testing::Test {
     view.now += time;
     return visit.follow(view);
   }
-  void to_position() {
+  void to_name() {
     act(ActionKind::Start);
     visit.reads_to_the_end();
     act(ActionKind::Agree);
+  }
+  // Somebody has that name already.
+  void to_known() {
+    to_name();
+    visit.type("A");
+    act(ActionKind::Done);
+    view.known = Known::Name;
+    pass(std::chrono::milliseconds(1));
+    ASSERT_EQ(visit.step, Step::Known);
+  }
+  void to_position() {
+    to_name();
     visit.type("Z");
     ASSERT_EQ(act(ActionKind::Done), Intent::LookUp);
     view.known = Known::Nobody;

@@ -14,9 +14,7 @@ using std::chrono::milliseconds;
 class VisitNameTest : public VisitHands {};
 
 TEST_F(VisitNameTest, ErasingTakesWholeLetters) {
-  act(ActionKind::Start);
-  visit.reads_to_the_end();
-  act(ActionKind::Agree);
+  to_name();
   for (const char* letter : {"J", "ü", "ل", "r"}) visit.type(letter);
   act(ActionKind::Erase);
   EXPECT_EQ(visit.name(), "Jüل");
@@ -30,9 +28,7 @@ TEST_F(VisitNameTest, ErasingTakesWholeLetters) {
 }
 
 TEST_F(VisitNameTest, ANameHasItsLimitAndNoSpacesAround) {
-  act(ActionKind::Start);
-  visit.reads_to_the_end();
-  act(ActionKind::Agree);
+  to_name();
   visit.type(" ");
   EXPECT_EQ(visit.name(), "");
   for (int i = 0; i < 300; ++i) visit.type("ä");
@@ -45,9 +41,7 @@ TEST_F(VisitNameTest, ANameHasItsLimitAndNoSpacesAround) {
 }
 
 TEST_F(VisitNameTest, TheDigitsOfAKeypadTypeLettersAndACodeItsDigits) {
-  act(ActionKind::Start);
-  visit.reads_to_the_end();
-  act(ActionKind::Agree);
+  to_name();
   visit.type_by_digit('2', view.now);
   EXPECT_EQ(visit.name(), "A");
   pass(milliseconds(300));
@@ -72,13 +66,7 @@ TEST_F(VisitNameTest, TheDigitsOfAKeypadTypeLettersAndACodeItsDigits) {
 }
 
 TEST_F(VisitNameTest, BackFromTheCodeAsksForANameAgain) {
-  act(ActionKind::Start);
-  visit.reads_to_the_end();
-  act(ActionKind::Agree);
-  visit.type("A");
-  act(ActionKind::Done);
-  view.known = Known::Name;
-  pass(milliseconds(1));
+  to_known();
   act(ActionKind::HaveCode);
   visit.type("4821");
   EXPECT_EQ(act(ActionKind::Back), std::nullopt);
@@ -94,13 +82,7 @@ TEST_F(VisitNameTest, BackFromTheCodeAsksForANameAgain) {
 }
 
 TEST_F(VisitNameTest, WhatWasAskedBeforeBackIsNoAnswerAfterIt) {
-  act(ActionKind::Start);
-  visit.reads_to_the_end();
-  act(ActionKind::Agree);
-  visit.type("A");
-  act(ActionKind::Done);
-  view.known = Known::Name;
-  pass(milliseconds(1));
+  to_known();
   act(ActionKind::HaveCode);
   visit.type("48219037551271");
   EXPECT_EQ(act(ActionKind::Done), Intent::LookUp);
@@ -125,9 +107,7 @@ TEST_F(VisitNameTest, WhatWasAskedBeforeBackIsNoAnswerAfterIt) {
 }
 
 TEST_F(VisitNameTest, ANameThatWasAskedForIsNotAnsweredAfterTheConsentWasReadOnceMore) {
-  act(ActionKind::Start);
-  visit.reads_to_the_end();
-  act(ActionKind::Agree);
+  to_name();
   visit.type("A");
   act(ActionKind::Done);
   view.known = Known::Asking;
@@ -140,9 +120,7 @@ TEST_F(VisitNameTest, ANameThatWasAskedForIsNotAnsweredAfterTheConsentWasReadOnc
 }
 
 TEST_F(VisitNameTest, ALetterThatIsRefusedTakesNoneAwayWithTheNext) {
-  act(ActionKind::Start);
-  visit.reads_to_the_end();
-  act(ActionKind::Agree);
+  to_name();
   for (const char* letter : {"A", "n", "n", "a", " "}) visit.type(letter);
   visit.type_by_digit('1', view.now);
   EXPECT_EQ(visit.name(), "Anna ") << "no second blank";

@@ -190,14 +190,7 @@ TEST_F(VisitTest, TheInvitationMovesRestsAndWakesWhenSomebodyComesNear) {
 }
 
 TEST_F(VisitTest, WhoTriesManyCodesIsSentAway) {
-  act(ActionKind::Start);
-  visit.reads_to_the_end();
-  act(ActionKind::Agree);
-  visit.type("A");
-  act(ActionKind::Done);
-  view.known = Known::Name;
-  pass(milliseconds(1));
-  ASSERT_EQ(visit.step, Step::Known);
+  to_known();
   act(ActionKind::HaveCode);
   EXPECT_EQ(visit.name(), "");
   EXPECT_TRUE(visit.quotes_code());
