@@ -29,6 +29,14 @@
 
 namespace relievo::firmware {
 
+// What reliefs are made in: the session's memory may be the worker's meanwhile.
+struct ReliefRoom {
+  BootMemory memory{0, std::size_t{4} << 20, std::size_t{64} << 20};  // touched: 1 MB and 27 MB
+  Arena output{memory.output()}, scratch{memory.scratch()};
+  ThreadPool pool{1};
+  ~ReliefRoom() { output.wipe(), scratch.wipe(); }
+};
+
 class CameraWatchJob final : public Job {
  public:
   CameraWatchJob(StereoGrabber& grabber, EnrolmentSession& session, hal::Device& device)
@@ -56,14 +64,6 @@ class CameraWatchJob final : public Job {
   // unknown; valid until the next one or wipe(). Errors: InvalidState (no calibration), those of LiveRelief,
   // OutOfMemory.
   Result<ImageView> relief_of(const pipeline::StereoFrame& frame, JobControl& control);
-  // The session's memory may be the worker's meanwhile: the first relief takes some, wipe() gives it back.
-  struct ReliefRoom {
-    BootMemory memory{0, std::size_t{4} << 20, std::size_t{64} << 20};  // touched: 1 MB and 27 MB
-    Arena output{memory.output()}, scratch{memory.scratch()};
-    ThreadPool pool{1};
-    ~ReliefRoom() { output.wipe(), scratch.wipe(); }
-  };
-
   StereoGrabber& grabber_;
   EnrolmentSession& session_;
   hal::Device& device_;
@@ -72,7 +72,7 @@ class CameraWatchJob final : public Job {
   std::array<FocusHelp, 2> focus_;
   FocusPeaking peaking_;
   std::optional<pipeline::StereoCalibration> calibration_;
-  std::optional<ReliefRoom> relief_room_;
+  std::optional<ReliefRoom> relief_room_;  // the first relief takes it, wipe() gives it back
   std::vector<std::uint8_t> relief_grey_;
   std::atomic<int> steps_{0};
   std::atomic<bool> relief_shown_{false}, edges_shown_{false};
