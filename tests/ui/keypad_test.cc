@@ -62,7 +62,8 @@ class KeypadTest : public testing::TestWithParam<Language> {
   void touch_in(const std::string& name) {
     for (const std::string& letter : letters(name)) {
       const std::string key = letter == " " ? "space" : "key " + letter;
-      if (ui->tree().find(key) == nullptr && ui->tree().find("accents") != nullptr) tap("accents");
+      if (ui->tree().find(key) == nullptr && ui->tree().find("other_letters") != nullptr)
+        tap("other_letters");
       tap(key);
     }
     tap("done");
@@ -134,6 +135,33 @@ TEST_P(KeypadTest, ANameTakesAtMostTwiceAsManyKeysAsTouches) {
     ui->visit().act({ActionKind::LeaveNow, 0}, view);
     frame();
   }
+}
+
+// As in their passport: also who writes in another script.
+TEST_P(KeypadTest, ANameInLatinLettersCanBeTyped) {
+  to_name();
+  const std::string home = names_of(GetParam()).back();
+  if (!info_of(GetParam()).latin) {
+    EXPECT_EQ(ui->tree().find("key L"), nullptr);
+    tap("other_letters");
+  }
+  touch_in("Ada-Li");
+  EXPECT_EQ(ui->visit().name(), "Ada-Li");
+  EXPECT_TRUE(asks_the_records());
+  ui->visit().act({ActionKind::LeaveNow, 0}, view);
+  frame();
+  to_name();
+  if (!info_of(GetParam()).latin) tap("other_letters");
+  press(Kind::Digit, "2");
+  EXPECT_EQ(ui->visit().name(), "A") << "the keypad's letters are those that are shown";
+  while (!ui->visit().name().empty()) press(Kind::Erase);
+  if (!info_of(GetParam()).latin) tap("other_letters");
+  touch_in(home);
+  EXPECT_EQ(ui->visit().name(), home) << "and back";
+  ui->visit().act({ActionKind::LeaveNow, 0}, view);
+  frame();
+  to_name();
+  EXPECT_FALSE(ui->visit().other_letters) << "the next one begins with their own";
 }
 
 TEST_P(KeypadTest, ArrowsGoAsTheEyeSeesItAndBackAgain) {

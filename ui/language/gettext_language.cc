@@ -18,14 +18,14 @@ struct Row {
   const char* domain;  // of its words; English has them from the source
 };
 constexpr std::array<Row, kLanguages> kRows{{
-    {{"en", "English", false, '.'}, nullptr},
-    {{"de", "Deutsch", false, ','}, "relievo-de"},
-    {{"fr", "Français", false, ','}, "relievo-fr"},
-    {{"es", "Español", false, ','}, "relievo-es"},
-    {{"ar", "العربية", true, '.'}, "relievo-ar"},
-    {{"he", "עברית", true, '.'}, "relievo-he"},
-    {{"zh-Hans", "简体中文", false, '.'}, "relievo-zh"},
-    {{"ja", "日本語", false, '.'}, "relievo-ja"},
+    {{"en", "English", false, true, '.'}, nullptr},
+    {{"de", "Deutsch", false, true, ','}, "relievo-de"},
+    {{"fr", "Français", false, true, ','}, "relievo-fr"},
+    {{"es", "Español", false, true, ','}, "relievo-es"},
+    {{"ar", "العربية", true, false, '.'}, "relievo-ar"},
+    {{"he", "עברית", true, false, '.'}, "relievo-he"},
+    {{"zh-Hans", "简体中文", false, true, '.'}, "relievo-zh"},
+    {{"ja", "日本語", false, true, '.'}, "relievo-ja"},
 }};
 static_assert(kRows.back().domain != nullptr);
 

@@ -30,6 +30,7 @@ struct LanguageInfo {
   const char* code;      // BCP 47
   const char* own_name;  // as its speakers write it
   bool right_to_left;
+  bool latin;  // typed with Latin letters; Chinese and Japanese names are, as in a passport
   char decimal_mark;
 };
 const LanguageInfo& info_of(Language language);

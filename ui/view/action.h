@@ -76,7 +76,7 @@ enum class ActionKind : std::uint8_t {
   TypeKey,
   Erase,
   Shift,
-  Accents,  // value: a space types one, else the node's text
+  OtherLetters,  // value: a space types one, else the node's text
   TakePicture,
   EnoughSides,
   Accept,

@@ -57,7 +57,7 @@ void Visit::forget_person() {
   shot_ = false;
   overlay = Overlay::None;
   capitals = true;
-  accents = false;
+  other_letters = false;
 }
 
 void Visit::go(Step to, hal::Instant now) {
@@ -106,6 +106,7 @@ std::optional<Intent> Visit::act(Action action, const ViewState& view) {
     case ActionKind::Stay: overlay = Overlay::None; break;
     case ActionKind::ChooseLanguage:
       overlay = Overlay::None;
+      other_letters = false;
       if (offered(view)[std::size_t(action.value)]) language = static_cast<Language>(action.value);
       break;
     case ActionKind::Speech: spoken = !spoken && voices_; break;
@@ -130,7 +131,7 @@ std::optional<Intent> Visit::act(Action action, const ViewState& view) {
     case ActionKind::LookAtFirst: look = {}; break;
     case ActionKind::Erase: erase_letter(); break;
     case ActionKind::Shift: capitals = !capitals; break;
-    case ActionKind::Accents: accents = !accents; break;
+    case ActionKind::OtherLetters: other_letters = !other_letters; break;
     case ActionKind::Start:
     case ActionKind::Agree:
     case ActionKind::Decline:

@@ -89,7 +89,7 @@ class Visit {
   bool spoken = false;  // the pages are read aloud: by the plug of headphones, or asked for
   std::size_t volume = kUsualVolume, speed = kUsualSpeed;  // indices into kVolumePercents, kSpeedPercents
   bool capitals = true;
-  bool accents = false;  // the keyboard shows á, ß, ø ...
+  bool other_letters = false;  // the keyboard shows á, ß, ø ..., or Latin letters instead of others
   FaceLook look;
   int touches = 0;  // since "I agree", typing not counted
 

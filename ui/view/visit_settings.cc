@@ -56,7 +56,7 @@ void Visit::type(std::string_view letter) {
   if (letter == " " && (name().empty() || name().ends_with(' '))) return;
   if (!name_.add(letter)) return;
   capitals = letter == " " || letter == "-";
-  accents = false;
+  if (info_of(language).latin) other_letters = false;  // a single ö; a name has all letters of its script
 }
 
 // Its digits alone: they are grouped where they are shown.
@@ -71,7 +71,8 @@ void Visit::type_by_digit(char digit, hal::Instant now) {
   const std::size_t times = again ? digit_times_ + 1 : 0;
   if (again && name().size() > digit_after_) erase_letter();  // the letter before may have been refused
   digit_after_ = name().size();
-  type(keypad_letter(language, digit, times, capitals));
+  const Language typed = other_letters && !info_of(language).latin ? Language::English : language;
+  type(keypad_letter(typed, digit, times, capitals));
   digit_ = digit;
   digit_times_ = times;
   digit_at_ = now;
@@ -83,7 +84,7 @@ void Visit::enter(std::string_view text, hal::Instant now) {
   touched(now);
   if (quotes_code_) return type_code(text);
   name_ = text;
-  capitals = accents = false;
+  capitals = other_letters = false;
 }
 
 void Visit::erase_letter() {

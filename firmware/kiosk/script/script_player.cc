@@ -105,7 +105,7 @@ Result<ScriptAction> numbers_of(ScriptAction action, std::istringstream& words) 
 
 constexpr double kOnTheScreenS = 20;  // an id is waited for
 constexpr int kDragSteps = 8;
-constexpr std::array<const char*, 3> kKeysToTry{"shift", "accents", "shift"};
+constexpr std::array<const char*, 3> kKeysToTry{"shift", "other_letters", "shift"};
 
 bool same(std::string_view a, std::string_view b) {
   return a.size() == b.size() && strncasecmp(a.data(), b.data(), a.size()) == 0;

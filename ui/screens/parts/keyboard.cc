@@ -16,16 +16,16 @@ namespace {
 // Three rows, left to right as they lie on a desk.
 using KeyRows = std::array<std::string_view, 3>;
 struct Letters {
-  KeyRows small, capital;
-  bool cased() const { return !capital[0].empty(); }  // does the language write in large and small letters?
+  KeyRows small, capital;    // without capital ones: the same
+  const char* sign = "abc";  // on the key that leads to them
 };
 constexpr Letters kEnglish{{"qwertyuiop", "asdfghjkl-", "zxcvbnm'."},
                            {"QWERTYUIOP", "ASDFGHJKL-", "ZXCVBNM'."}},
     kGerman{{"qwertzuiopü", "asdfghjklöä", "yxcvbnmß-"}, {"QWERTZUIOPÜ", "ASDFGHJKLÖÄ", "YXCVBNMẞ-"}},
     kFrench{{"azertyuiopé", "qsdfghjklmè", "wxcvbnç'-"}, {"AZERTYUIOPÉ", "QSDFGHJKLMÈ", "WXCVBNÇ'-"}},
     kSpanish{{"qwertyuiop", "asdfghjklñ", "zxcvbnm'-"}, {"QWERTYUIOP", "ASDFGHJKLÑ", "ZXCVBNM'-"}},
-    kArabic{{"ضصثقفغعهخحجد", "شسيبلاتنمكطذ", "ئءؤرىةوزظأإ"}, {}},
-    kHebrew{{"קראטוןםפ'-", "שדגכעיחלךף", "זסבהנמצתץ"}, {}},
+    kArabic{{"ضصثقفغعهخحجد", "شسيبلاتنمكطذ", "ئءؤرىةوزظأإ"}, {}, "أبج"},
+    kHebrew{{"קראטוןםפ'-", "שדגכעיחלךף", "זסבהנמצתץ"}, {}, "אבג"},
     kAccents{{"áàâäãåæçéèêë", "íìîïñóòôöõøœ", "úùûüýÿßšžł"}, {"ÁÀÂÄÃÅÆÇÉÈÊË", "ÍÌÎÏÑÓÒÔÖÕØŒ", "ÚÙÛÜÝŸẞŠŽŁ"}};
 // In the order of Language. Chinese and Japanese have the Latin letters: names are typed as in a passport.
 constexpr std::array kLettersOf{&kEnglish, &kGerman, &kFrench,  &kSpanish,
@@ -70,10 +70,14 @@ Node key_row(Page& page) {
 
 void last_row(Page& page, Action done, Language language) {
   const auto in_box = page.tree.inside(page.box(Flow::Row, 10));
-  if (letters_of(language).cased()) {
-    const char* sign = page.visit.accents ? "abc" : page.visit.capitals ? "ÁÑß" : "áñß";
-    key(page, "accents", sign, page.tr("Letters with accents"), false, ActionKind::Accents, 0.6F);
-  }
+  const bool latin = info_of(language).latin, other = page.visit.other_letters;
+  const char* sign = other                 ? letters_of(language).sign
+                     : !latin              ? kEnglish.sign
+                     : page.visit.capitals ? "ÁÑß"
+                                           : "áñß";
+  key(page, "other_letters", sign,
+      latin ? page.tr("Letters with accents") : info_of(other ? language : Language::English).own_name, false,
+      ActionKind::OtherLetters, 0.6F);
   key(page, "space", page.tr("Space"), nullptr, false, {ActionKind::TypeKey, ' '}, 2);
   page.button("done", page.tr("Done"), icon::kGood, ButtonLook::Main,
               done.kind == ActionKind::Done && page.visit.name().empty() ? Action{} : done,
@@ -93,8 +97,10 @@ void keyboard(Page& page, Action done, Language language) {
   page.tree.open(key_row(page));
   letters(page, "1234567890");
   page.tree.close();
-  const bool cased = letters_of(language).cased();
-  const Letters& shown = cased && page.visit.accents ? kAccents : letters_of(language);
+  const Letters& shown = !page.visit.other_letters ? letters_of(language)
+                         : info_of(language).latin ? kAccents
+                                                   : kEnglish;
+  const bool cased = !shown.capital[0].empty();
   const KeyRows& rows = cased && page.visit.capitals ? shown.capital : shown.small;
   for (std::size_t i = 0; i < rows.size(); ++i) {
     const auto in_box = page.tree.inside(key_row(page));
