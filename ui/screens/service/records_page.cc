@@ -70,6 +70,9 @@ ListFilters filters_of(StaffFrame& page, const RecordsView& seen, FilterNames& n
 void list(StaffFrame& page, const RecordsView& seen, ListFilters filters) {
   const auto& tr = page.tr;
   said(page, seen);
+  if (!seen.searched.empty())
+    page.put("searched", Role::Status, page.joined({tr("Search"), ": ", seen.searched}), type::kSmall,
+             Weight::Medium, page.palette.ink);
   page.begin_list("records");
   for (const RecordRow& row : seen.rows)
     page.row(page.id("record", std::size_t(row.number)), row.name, page.date(row.since), Mood::Plain,
