@@ -133,7 +133,7 @@ void continue_outwards(TextureAtlas& atlas, int margin_px, std::pmr::memory_reso
   const auto beside = [&](std::size_t k, const auto& visit) {
     for_each_beside(k, std::size_t(atlas.width_px), size, visit);
   };
-  enum : std::uint8_t { kOutside, kInner, kRim, kReached };
+  enum : std::uint8_t { kOutside, kInner, kRim, kNear, kReached };
   std::pmr::vector<std::uint8_t> state(size, kOutside, memory);
   for (std::size_t k = 0; k < size; ++k) state[k] = atlas.origin[k] != kNoSurfaceTexel ? kInner : kOutside;
   struct Step {
@@ -162,9 +162,20 @@ void continue_outwards(TextureAtlas& atlas, int margin_px, std::pmr::memory_reso
       state[n] = step + 1 < kInside ? kRim : kReached;
       put(n, n);
     });
+  // What is too thin for such a ring goes on from its own rim.
+  std::pmr::vector<std::size_t> near(memory);
+  for (std::size_t i = begin; i < steps.size(); ++i) near.push_back(steps[i].at);
+  std::size_t looked_at = 0;
+  for (int step = 0; step < kInside + margin_px; ++step)
+    for (const std::size_t end = near.size(); looked_at < end; ++looked_at)
+      beside(near[looked_at], [&](std::size_t n) {
+        if (state[n] == kRim) state[n] = kNear, near.push_back(n);
+      });
+  for (std::size_t k = 0; k < size; ++k)
+    if (state[k] == kRim) state[k] = kReached, put(k, k);
   for (int step = 0; step < kInside + margin_px; ++step)
     next_ring([&](std::size_t n, std::size_t from) {
-      if (state[n] != kRim && state[n] != kOutside) return;
+      if (state[n] != kNear && state[n] != kOutside) return;
       state[n] = kReached;
       put(n, from);
     });

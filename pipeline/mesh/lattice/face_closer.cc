@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include <algorithm>
 #include <cmath>
+#include <span>
 
 #include "hal/base/statistics.h"
 #include "pipeline/mesh/completion/generic_head.h"
@@ -30,6 +31,8 @@ constexpr double kUnsure = 6;        // times the usual sigma: in the lower face
 constexpr double kBelowTipMm = 2;    // of a nose begins the lower face
 constexpr double kStepCells = 8;     // of radius between neighbours, in widths of a cell: more is no slope
 constexpr double kChinBelowPogonion = 22;
+constexpr double kBelowChin = 4;  // of the lowest skin of it that was seen: what follows is throat
+constexpr double kChinFrom = -55, kChinGap = 10;  // below the tip of the nose; of what is still the same chin
 constexpr double kShortest = 70, kLongest = 110;  // of what lies below the tip of a nose
 
 // Nostrils, wings and what is between them and the lip: both sides hide there what the other would tell.
@@ -66,11 +69,21 @@ FaceMesh rough_surface(const PointLattice& l, Arena& scratch) {
   return mesh;
 }
 
+// Where the skin ends that was seen of a chin; the profile runs upwards.
+double lowest_of_chin(std::span<const ProfilePoint> profile, double from_mm) {
+  double lowest = from_mm;
+  for (auto at = profile.rbegin(); at != profile.rend(); ++at)
+    if (at->y_mm < lowest && at->y_mm > lowest - kChinGap) lowest = at->y_mm;
+  return lowest;
+}
+
 FaceOutline outline_of(const FaceMesh& rough, const RigidTransform& head_from_camera, Arena& scratch) {
   FaceOutline outline{HeadChart(head_from_camera)};
   const auto profile = profile_of(rough, head_from_camera, &scratch);
-  if (const auto chin = find_profile_marks(profile).chin)
-    outline.below_mm = std::clamp(kChinBelowPogonion - chin->y_mm, kShortest, kLongest);
+  const auto chin = find_profile_marks(profile).chin;
+  if (chin) outline.below_mm = kChinBelowPogonion - chin->y_mm;
+  const double seen = kBelowChin - lowest_of_chin(profile, chin ? chin->y_mm : kChinFrom);
+  outline.below_mm = std::clamp(std::min(outline.below_mm, seen), kShortest, kLongest);
   return outline;
 }
 

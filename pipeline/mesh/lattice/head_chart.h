@@ -55,7 +55,7 @@ struct HeadChart {
 // reach is left to the edge of what was measured. Thread: any.
 struct FaceOutline {
   HeadChart chart;
-  double below_mm = 82;  // of the tip of the nose, on the plane of symmetry
+  double below_mm = 92;  // of the tip of the nose, on the plane of symmetry
 
   // How far inside the curve a point lies, about in mm near it; negative outside.
   float depth_mm(const Vec3f& from_chart_centre_mm) const;

@@ -242,7 +242,8 @@ class Cutter {
 
 float FaceOutline::depth_mm(const Vec3f& from_chart_centre_mm) const {
   const Vec3d p = chart.in_head(from_chart_centre_mm);
-  const double share = std::max(std::hypot(p.x / kAcross, p.y / kUp, p.z / kBack), 1e-3);
+  const double up = p.y > 0 ? kUp : std::max(kUp, below_mm + kBend);  // a long chin is the face's, too
+  const double share = std::max(std::hypot(p.x / kAcross, p.y / up, p.z / kBack), 1e-3);
   const double to_reach = std::hypot(p.x, p.y, p.z) * (1 / share - 1);
   const double to_chin = p.y + below_mm - p.x * p.x / kJaw;
   // The lesser of both, rounded off.
