@@ -3,6 +3,7 @@
 //
 // The one file that names implementations: which device, which store, which simulation.
 #include <stdlib.h>
+#include <sys/stat.h>
 #include <time.h>
 
 #include <algorithm>
@@ -44,8 +45,9 @@ Result<std::unique_ptr<hal::Device>> open_linux_device(std::string_view device) 
   const bool named = device.size() > kLinux.size();
   const auto options = hal::read_linux_device_file(named ? device.substr(kLinux.size() + 1) : kDeviceFile);
   if (!options && !named && options.error().code == Errc::NotFound)
-    return Error{Errc::NotFound,
-                 "says what is wired where, and is not there: write it, as hal/linux/README.md says"}
+    return Error{
+        Errc::NotFound,
+        "says what is wired where, and is not there: write it, see hal/linux/README.md (installed: share/doc/relievo/board.md)"}
         .at(kDeviceFile);
   if (!options) return options.error();
   return hal::make_linux_device(*options);
@@ -267,6 +269,7 @@ int main(int argc, char** argv) {
     console.fail(streams.error());
     return 1;
   }
+  ::umask(::umask(077) & 077);  // whatever it was: what this program makes it may read and write itself
   const fw::CommandLine line = fw::parse_command_line(argc, argv);
   // compare opens no store, and measures memory.
   if (const auto forbidden = fw::forbid_core_dumps(std::holds_alternative<fw::CompareArgs>(line.command));

@@ -100,12 +100,16 @@ void Ui::hear(ActionKind kind, const ViewState& view) {
 const Utterance& Ui::speak(const ViewState& view, bool busy) {
   const bool heard = is_heard(view);
   const Listener to{Words(visit_.language), view.headphones};
-  if (heard != std::exchange(heard_, heard)) {
-    narrator_.forget();
-    if (heard && !service_.open)
-      narrator_.read_again(to.tr(
-          "These pages are now read to you. The arrow keys lead from one button to the next, Enter presses it. Help has volume and speed."));
-  }
+  const bool begins = heard != std::exchange(heard_, heard);
+  if (begins) narrator_.forget();
+  // How to go on is said in the language that is understood: the first one may be another.
+  if (heard && !service_.open && (std::exchange(introduced_, visit_.language) != visit_.language || begins))
+    narrator_.read_again(to.tr(
+        "These pages are now read to you. The arrow keys lead from one button to the next, Enter presses it. Help has volume and speed."));
+  // A loudspeaker falls silent on the staff's pages; who came there by mistake hears why.
+  const bool withheld = visit_.spoken && !heard;
+  if (std::exchange(withheld_, withheld) != withheld && withheld)
+    return narrator_.tell(to.tr("Only said into headphones"), to);
   if (!heard) return narrator_.nothing();
   // Numbers of pages that no two have in common: the visitor's, the staff's.
   const auto number = [](auto page, auto part) { return std::size_t(page) * 256 + std::size_t(part); };
@@ -236,6 +240,7 @@ void Ui::activate(const Node& node, const ViewState& view) {
     return;
   }
   if (node.action.kind == ActionKind::ReadOn) return read_on();
+  if (does_nothing(node.action.kind)) return narrator_.read_again();
   if (node.action.kind == ActionKind::TypeKey)
     return visit_.type(node.action.value == ' ' ? std::string_view(" ") : node.text);
   ask(visit_.act(node.action, view));

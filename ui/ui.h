@@ -85,11 +85,13 @@ class Ui {
   void move(const Input& input, const ViewState& view);
   void up(const Input& input, const ViewState& view);
   void focus_on(int direction);
+  const Node* before_content() const;
   void focus_beside(float right, float down, const ViewState& view);
   void move_focus(const Node* at, const Node* next, int direction);
   const Node* focused() const { return hands_.show_focus ? tree_.find(hands_.focus) : nullptr; }
   const Node* field() const;  // where letters are asked for
   void type(const Input& input, const ViewState& view);
+  bool does_nothing(ActionKind kind) const;
   void keep_focus();
   float scrolled_px(const Node& scroller) const {
     return hands_.scrolled == scroller.id ? hands_.scroll_px : 0;
@@ -112,8 +114,10 @@ class Ui {
   Visit visit_;
   Service service_;
   Narrator narrator_;
-  bool heard_ = false;        // the last time it was asked what to say
-  std::size_t focus_at_ = 0;  // of the node with the focus, in the tree
+  bool heard_ = false;                       // the last time it was asked what to say
+  bool withheld_ = false;                    // then: asked for, and not said
+  Language introduced_ = Language::English;  // in which it was said how to go on
+  std::size_t focus_at_ = 0;                 // of the node with the focus, in the tree
   Tree tree_;
   FaceStand stand_;  // of the model that is measured on, and which
   std::uint32_t stands_ = 0;

@@ -47,7 +47,15 @@ void Ui::keep_focus() {
 
 void Ui::focus_on(int direction) {
   const Node* at = focused();
-  move_focus(at, tree_.after(at != nullptr ? at : tree_.question(), direction), direction);
+  move_focus(at, tree_.after(at != nullptr ? at : before_content(), direction), direction);
+}
+
+// What a page asks comes first, not the tools above it; the staff's title stands among those: behind the sign
+// of the last.
+const Node* Ui::before_content() const {
+  const Node *question = tree_.question(), *last = tree_.find(kBarsEnd);
+  if (last == nullptr || !tree_.is_on_top(*last) || (question != nullptr && question > last)) return question;
+  return &tree_.nodes()[std::size_t(last->first_child)];
 }
 
 // Who listens goes through everything in its order.
@@ -95,8 +103,17 @@ void Ui::type(const Input& input, const ViewState& view) {
     return ask(visit_.act(ActionKind::Erase, view));
   }
   if (service_.open) return service_.type(letter);
+  if (does_nothing(ActionKind::TypeKey)) return narrator_.read_again();
   if (input.kind == Input::Kind::Digit) return visit_.type_by_digit(letter[0], view.now);
   visit_.type(letter);
+}
+
+// A code that is whole takes no further digit, one that is not cannot be handed in: who listens hears how it
+// stands.
+bool Ui::does_nothing(ActionKind kind) const {
+  if (!visit_.quotes_code() || visit_.step != Step::Name || service_.open) return false;
+  const bool whole = visit_.name().size() == kCodeDigits;
+  return (kind == ActionKind::TypeKey && whole) || (kind == ActionKind::Done && !whole);
 }
 
 bool Ui::scroll(const Node& scroller, float to_px) {

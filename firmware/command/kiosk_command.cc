@@ -103,9 +103,9 @@ Result<void> run(const KioskArgs& args, Services& services) {
     return Error{Errc::IoFailed, "no folder can be made there: choose another"}.at(args.screenshots.string());
   Sentinel sentinel(services.clock);  // also while the kiosk closes
   RELIEVO_TRY_ASSIGN(const auto kiosk, Kiosk::open(args, services));
-  kiosk->leave_mark(true);  // whatever ends this from here on, also what is thrown
   RELIEVO_TRY_ASSIGN(const auto display, services.open_display({pictures ? 1280 : args.width_px,
                                                                 pictures ? 800 : args.height_px}));
+  kiosk->leave_mark(true);  // whatever ends this from here on, also what is thrown
   // What a simulated rig or a recording holds is none of the appliance's.
   if (kiosk->device().is_live()) RELIEVO_TRY(bound_memory(budget::kDriverBytes + budget::kSolidBytes));
   const Result<void> done =

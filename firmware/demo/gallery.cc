@@ -161,7 +161,9 @@ void add_beginning(Gallery& g, const ui::ViewState& idle) {
   met.known = ui::Known::Name;
   g.add("known_name", met, g.at(Step::Known));
   met.known = ui::Known::NoSuchCode;
-  g.add("wrong_code", met, g.quoting("4821-9037-5512-17"));
+  ui::Visit refused = g.quoting("4821-9037-5512-17");
+  refused.act(ui::ActionKind::Done, met);
+  g.add("wrong_code", met, refused);
   g.add("code", idle, g.quoting("4821-90"));
   g.add("lost_code", idle, g.at(Step::Known, Overlay::LostCode));
   met.known = ui::Known::Code;

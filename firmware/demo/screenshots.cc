@@ -85,13 +85,18 @@ Result<void> may_be_passed_by(Kiosk& kiosk, int& troubles) {
   return {};
 }
 
+Result<void> not_cancelled() {
+  if (interrupted().load()) return Error{Errc::Cancelled, "the screenshots were cancelled"};
+  return {};
+}
+
 // One whole visit up to Review, by touch. The live picture is copied: it is wiped when the real one is taken.
 Result<void> reach_review(Kiosk& kiosk, hal::Picture& live, ui::ViewState& view, Console& console) {
   kiosk.ui().resize(1280, 800);
   int troubles = 0;
   ui::Step before = ui::Step::Starting;
   while (kiosk.appliance().state() != State::Review) {
-    if (interrupted().load()) return Error{Errc::Cancelled, "the screenshots were cancelled"};
+    RELIEVO_TRY(not_cancelled());
     kiosk.turn();
     const ui::Step step = kiosk.ui().visit().step;
     console.progress(name_of(kiosk.appliance().state()), 0);
@@ -215,6 +220,7 @@ class Photographer {
     picture.height_px = size.height_px;
     picture.bytes.resize(std::size_t{3} * std::size_t(size.width_px) * std::size_t(size.height_px));
     for (const auto& [page, exhibit] : wanted) {
+      RELIEVO_TRY(not_cancelled());
       ui_.show(exhibit->view, exhibit->visit, exhibit->service);
       target->begin();
       renderer_->draw(ui_.draw_list(), ui_.text().atlas(), size.width_px, size.height_px);

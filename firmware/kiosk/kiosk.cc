@@ -122,7 +122,7 @@ Result<void> Kiosk::prepare(const KioskArgs& args, Services& services) {
   appliance_->remember_moved(moved.faces, std::move(moved.note));
   if (const auto* calibration = stages_->calibration()) appliance_->grabber().expect(calibration->cameras);
   RELIEVO_TRY_ASSIGN(staff_, StaffController::open({*appliance_, *device_, *store_, store_folder(args.store),
-                                                    revision_, services.set_clock}));
+                                                    revision_, services.set_clock, services.console}));
   for (const std::string& line : unknown) staff_->log().say(ui::LogEvent::SettingUnknown, {line});
   staff_->set_test_capture(make_test_capture(args, services));
   code_scanner_ = std::make_unique<CodeScanner>(*appliance_, *device_);
@@ -141,6 +141,7 @@ Result<void> Kiosk::prepare(const KioskArgs& args, Services& services) {
   // Last: a start that fails leaves the mark as it was.
   RELIEVO_TRY_ASSIGN(run_mark_, RunMark::set(store_folder(args.store)));
   restarted_ = run_mark_->ended_early();
+  if (restarted_) staff_->log().say(ui::LogEvent::EndedEarly);
   look();
   return {};
 }

@@ -41,7 +41,7 @@ class Kiosk {
   void feed(const ui::Input& input);
   // One turn of the main loop: hears what has happened, makes the next frame.
   void turn();
-  // Shall the next start say that this run ended early? Not where nobody says so.
+  // Shall the next start say that this run ended early? Where nobody says so: as this start found it.
   void leave_mark(bool stays) { run_mark_->leave(stays); }
   // A visit has ended: what the renderer keeps of it must go.
   bool take_forgotten() { return std::exchange(forgotten_, false); }

@@ -143,7 +143,7 @@ Result<std::unique_ptr<RunMark>> RunMark::set(const std::filesystem::path& folde
   std::error_code error;
   const bool there = std::filesystem::exists(file, error);
   // On the disk before anybody comes, and gone from it before the program says that it has ended.
-  if (!there) RELIEVO_TRY(write_whole_file(file, {}));
+  if (!there) RELIEVO_TRY(write_whole_file(file, {}, {}, 0600));
   return std::unique_ptr<RunMark>(new RunMark(file, there));
 }
 

@@ -91,7 +91,8 @@ class MovedFaces {
 };
 
 // RunMark: a file that is there while the kiosk runs, and gone when it ended as it should. One that is
-// found at the start means the power went, or the program did. Thread: main. Errors of set(): IoFailed,
+// found at the start means the power went, or the program did. Until leave() says otherwise it is left as it
+// was found: a start that comes to nothing has told nobody. Thread: main. Errors of set(): IoFailed,
 // MediaFull.
 class RunMark {
  public:
@@ -104,9 +105,10 @@ class RunMark {
   bool ended_early() const { return ended_early_; }
 
  private:
-  RunMark(std::filesystem::path file, bool ended_early) : file_(std::move(file)), ended_early_(ended_early) {}
+  RunMark(std::filesystem::path file, bool ended_early)
+      : file_(std::move(file)), ended_early_(ended_early), stays_(ended_early) {}
   std::filesystem::path file_;
-  bool ended_early_, stays_ = false;
+  bool ended_early_, stays_;
 };
 
 }  // namespace relievo::firmware

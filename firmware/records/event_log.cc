@@ -124,7 +124,7 @@ Result<void> EventLog::save() {
     saved_ = said;  // one that cannot be written is not tried for ever
   }
   if (file_.empty()) return {};
-  return write_whole_file(file_, std::as_bytes(std::span(text)));
+  return write_whole_file(file_, std::as_bytes(std::span(text)), {}, 0600);
 }
 
 }  // namespace relievo::firmware

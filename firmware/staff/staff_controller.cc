@@ -200,6 +200,8 @@ StaffController::~StaffController() {
   close_page();
   for (const JobLane lane : {JobLane::Capture, JobLane::Worker, JobLane::Keeper})
     parts_.appliance.end_side_job(lane);  // it uses what is below
+  // One that never came to rest has written nothing yet; one that never had a screen has nothing to say.
+  if (turned_ && log_.unsaved()) (void)log_.save();
 }
 
 Result<std::unique_ptr<StaffController>> StaffController::open(Parts parts) {
@@ -236,9 +238,21 @@ void StaffController::noted(const Transition& change) {
                                change.event == Event::AdviceGiven || change.event == Event::Timeout);
   statistics_.noted(change, problem ? &*problem : nullptr, total,
                     std::chrono::floor<std::chrono::days>(parts_.device.clock().wall_now()));
-  if (wrong && problem) log_.fault(*problem);
+  if (change.to == State::Idle) fault_.reset();
+  if (wrong && problem) note_fault(change, *problem);
   const bool ends = change.to == State::Idle || change.to == State::Fault;
   if (ends && is_of_a_visit(change.from)) costs_.noted(parts_.appliance.records(), peak_rss_bytes());
+}
+
+// A fault tests itself again every few seconds: what it finds each time is said once.
+void StaffController::note_fault(const Transition& change, const Error& problem) {
+  const bool tested = change.from == State::SelfTest;
+  if (tested && fault_ && fault_->code == problem.code && fault_->what.view() == problem.what.view()) return;
+  log_.fault(problem);
+  if (change.to != State::Fault) return;
+  fault_ = problem;
+  // The place may be somebody's, but for the self-test's, which are the cameras.
+  parts_.console.fail(tested ? problem : Error{problem.code, problem.what});
 }
 
 bool StaffController::inside() const { return role_ != StaffRole::None; }
@@ -298,6 +312,7 @@ int StaffController::seconds_left() const {
 }
 
 void StaffController::turn() {
+  turned_ = true;
   side_tasks_.turn();
   touch_.turn();
   let_in();
@@ -317,8 +332,8 @@ void StaffController::turn() {
     log_.say(ui::LogEvent::SignedOut);
   }
   if (test_capture_ != nullptr) test_capture_->turn();
+  if (state == State::Idle || state == State::Staff || state == State::Fault) save_what_changed();
   if (state == State::Idle || state == State::Staff) {
-    save_what_changed();
     for (const auto& page : pages_)
       if (page != nullptr) page->turn();
   }

@@ -21,6 +21,7 @@
 #include <utility>
 #include <vector>
 
+#include "firmware/base/console.h"
 #include "firmware/service/access.h"
 #include "firmware/service/consent_text_store.h"
 #include "firmware/service/device_settings.h"
@@ -104,6 +105,7 @@ class StaffController {
     std::filesystem::path folder;      // of the store: for the log's file and the disk's room
     const std::uint32_t& calibration;  // the revision that is measured with, 0 for none
     SetClock set_clock;
+    Console& console;  // for whoever administers the machine: why it cannot work
   };
   // Before a thread uses the store.
   static Result<std::unique_ptr<StaffController>> open(Parts parts);
@@ -135,6 +137,7 @@ class StaffController {
   void leave();
   void close_page();
   void noted(const Transition& change);
+  void note_fault(const Transition& change, const Error& problem);
   void save_what_changed();
   bool inside() const;
   int seconds_left() const;
@@ -154,8 +157,10 @@ class StaffController {
   std::unique_ptr<TestCapture> test_capture_;
   PageController* page_ = nullptr;
   ui::StaffRole role_ = ui::StaffRole::None, waiting_ = ui::StaffRole::None;
+  bool turned_ = false;  // the kiosk has begun to serve
   hal::Instant last_touch_{};
-  float kept_ = 0;  // of the keeper's work, a turn ago
+  float kept_ = 0;              // of the keeper's work, a turn ago
+  std::optional<Error> fault_;  // why it does not work, until it does again
   ui::ServiceView view_;
 };
 

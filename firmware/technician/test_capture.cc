@@ -56,6 +56,10 @@ void TestCapture::opened(ui::StaffPage page) {
 
 void TestCapture::closed(ui::StaffPage page) {
   if (page == ui::StaffPage::Cameras) want_watch(false);
+  if (page != ui::StaffPage::Calibrate) return;
+  // Out of sight it would keep the cameras from every other page: who leaves it is done with showing views.
+  if (next_ == Next::Calibration) next_ = Next::None;
+  if (parts_.appliance.state() == State::Calibrate) calibrate_.finish();
 }
 
 void TestCapture::act(const ui::TechnicianRequest& request) {
@@ -153,7 +157,8 @@ void TestCapture::begin_next() {
   const Next what = std::exchange(next_, Next::None);
   problem_ = {};
   if (what == Next::Side) return may_add_side() ? shoot(true) : void();
-  if (what == Next::Loaded && saved_->beside) keep_result();
+  // What a calibration puts an end to can still be compared, where there is room.
+  if (what == Next::Calibration || (what == Next::Loaded && saved_->beside)) keep_result();
   forget_capture();
   if (session_.is_open()) session_.retake();
   else if (const Result<void> opened = session_.open(""); !opened) return say(opened.error());

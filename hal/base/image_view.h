@@ -19,10 +19,16 @@ struct ImageView {
   const std::byte* bytes = nullptr;
   int width_px = 0;
   int height_px = 0;
+  // From one row to the next: a row's bytes at least. Less than nothing where the picture is stored from
+  // below; `bytes` is then still its top row.
   int stride_bytes = 0;
   PixelFormat format = PixelFormat::Grey8;
 
   bool empty() const { return bytes == nullptr || width_px <= 0 || height_px <= 0; }
+  bool rows_overlap() const {
+    const std::int64_t row = std::int64_t{width_px} * bytes_per_pixel(format);
+    return stride_bytes < row && stride_bytes > -row;
+  }
   const std::uint8_t* row(int y) const {
     return reinterpret_cast<const std::uint8_t*>(bytes) + std::ptrdiff_t(y) * stride_bytes;
   }

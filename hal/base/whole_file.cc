@@ -151,7 +151,7 @@ Result<void> sync_renamed(const fs::path& target) {
 }
 
 Result<void> write_whole_file(const fs::path& file, std::span<const std::byte> bytes,
-                              const std::function<Result<void>()>& before) {
+                              const std::function<Result<void>()>& before, unsigned mode) {
   if (file.filename().empty())
     return Error{Errc::InvalidInput, "this is not the name of a file"}.at(file.native());
   if (is_device(file)) {
@@ -162,7 +162,7 @@ Result<void> write_whole_file(const fs::path& file, std::span<const std::byte> b
   }
   std::error_code ignored;
   if (fs::is_directory(file, ignored)) return failed(file, EISDIR);
-  RELIEVO_TRY_ASSIGN(auto pending, PendingFile::create(file));
+  RELIEVO_TRY_ASSIGN(auto pending, PendingFile::create(file, mode));
   RELIEVO_TRY(pending.write(bytes));
   RELIEVO_TRY(pending.finish());
   if (before) RELIEVO_TRY(before());

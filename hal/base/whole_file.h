@@ -22,9 +22,9 @@ namespace relievo {
 Result<std::vector<std::byte>> read_whole_file(const std::filesystem::path& file, std::size_t limit_bytes);
 // All that PendingFile does at once. Only a device (/dev/full, /dev/stdout) is written in place, since a
 // rename would replace it. `before`: what must have been done when the file gets its name; done when all its
-// bytes are on the disk. Where that fails there is no file.
+// bytes are on the disk. Where that fails there is no file. `mode` as open(2) takes it.
 Result<void> write_whole_file(const std::filesystem::path& file, std::span<const std::byte> bytes,
-                              const std::function<Result<void>()>& before = {});
+                              const std::function<Result<void>()>& before = {}, unsigned mode = 0666);
 
 class PendingFile {
  public:

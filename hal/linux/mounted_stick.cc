@@ -62,9 +62,10 @@ Error cannot_unmount(int negative_errno) {
   if (negative_errno == -EBUSY)
     return {Errc::IoFailed, "something still uses the stick: wait a little and eject it again", EBUSY};
   if (negative_errno == -EPERM || negative_errno == -EACCES)
-    return {Errc::IoFailed,
-            "everything is written, but this user may not unmount the stick: see hal/linux/README.md",
-            -negative_errno};
+    return {
+        Errc::IoFailed,
+        "everything is written, but this user may not unmount the stick: see hal/linux/README.md (installed: share/doc/relievo/board.md)",
+        -negative_errno};
   if (negative_errno == -EINVAL || negative_errno == -ENOENT)
     return {Errc::MediaMissing, "the stick is gone", -negative_errno};
   return {Errc::IoFailed, "the stick could not be unmounted; do not trust what was written", -negative_errno};

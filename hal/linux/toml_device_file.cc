@@ -49,6 +49,13 @@ class Words {
     if (!value) wrong(node, word);
     return value.value_or(otherwise);
   }
+  std::string path(const toml::table& table, std::string_view word) {
+    auto value = get<std::string>(table, word, {}, true);
+    const auto is_control = [](unsigned char c) { return c < ' ' || c == 127; };
+    if (!value.starts_with('/') || std::ranges::any_of(value, is_control))
+      wrong(table.get(word), std::string(word) + ": the whole path, from / on");
+    return value;
+  }
   std::int64_t number(const toml::table& table, std::string_view word, std::int64_t least, std::int64_t most,
                       std::int64_t otherwise, bool must = false) {
     const auto value = get<std::int64_t>(table, word, otherwise, must);
@@ -59,7 +66,9 @@ class Words {
     if (problem_) return;
     const auto line = node == nullptr ? 0 : node->source().begin.line;
     problem_ =
-        Error{Errc::InvalidInput, "this word is missing, unknown or cannot be used: see hal/linux/README.md"}
+        Error{
+            Errc::InvalidInput,
+            "this word is missing, unknown or cannot be used: see hal/linux/README.md (installed: share/doc/relievo/board.md)"}
             .at(file_ + (line > 0 ? " line " + std::to_string(line) : std::string()) + ": " +
                 std::string(word));
   }
@@ -73,7 +82,7 @@ class Words {
 
 V4l2CameraOptions camera_of(Words& words, const toml::table& table, bool triggered) {
   V4l2CameraOptions camera;
-  camera.device = words.get<std::string>(table, "device", {}, true);
+  camera.device = words.path(table, "device");
   camera.serial = words.get<std::string>(table, "serial", {});
   camera.triggered = triggered;
   const auto format = words.get<std::string>(table, "format", {});
@@ -98,7 +107,7 @@ void read_wires(Words& words, LinuxDeviceOptions& options) {
   if (lamp != nullptr && trigger == nullptr) words.wrong(lamp, "[lamp] without [trigger]");
   if (trigger == nullptr) return;
   GpioOptions gpio;
-  gpio.chip = words.get<std::string>(*trigger, "chip", {}, true);
+  gpio.chip = words.path(*trigger, "chip");
   gpio.trigger = unsigned(words.number(*trigger, "line", 0, 4095, 0, true));
   gpio.active_low = words.get<bool>(*trigger, "active_low", false);
   options.timing.delay = std::chrono::microseconds(words.number(*trigger, "delay_us", 0, longest, 0));
@@ -119,13 +128,11 @@ void read_wires(Words& words, LinuxDeviceOptions& options) {
 
 void read_machine(Words& words, LinuxDeviceOptions& options) {
   if (const toml::table* stick = words.table("stick", {"folder"})) {
-    options.stick_folder = words.get<std::string>(*stick, "folder", {}, true);
-    if (!options.stick_folder.starts_with('/'))
-      words.wrong(stick->get("folder"), "folder: the whole path, from / on");
+    options.stick_folder = words.path(*stick, "folder");
   }
   if (const toml::table* table = words.table("watchdog", {"device", "timeout_s"})) {
     WatchdogOptions watchdog;
-    watchdog.device = words.get<std::string>(*table, "device", watchdog.device);
+    if (table->contains("device")) watchdog.device = words.path(*table, "device");
     watchdog.timeout =
         std::chrono::seconds(words.number(*table, "timeout_s", 2, 300, watchdog.timeout.count()));
     options.watchdog = watchdog;
@@ -164,8 +171,9 @@ Result<LinuxDeviceOptions> read_linux_device_file(const std::filesystem::path& f
   try {
     return options_of(toml::parse(text, file.native()), file.native());
   } catch (const toml::parse_error& error) {
-    return Error{Errc::InvalidInput, "this is not valid TOML: see hal/linux/README.md"}.at(
-        file.native() + " line " + std::to_string(error.source().begin.line));
+    return Error{Errc::InvalidInput,
+                 "this is not valid TOML: see hal/linux/README.md (installed: share/doc/relievo/board.md)"}
+        .at(file.native() + " line " + std::to_string(error.source().begin.line));
   }
 }
 

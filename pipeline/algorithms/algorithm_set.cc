@@ -39,6 +39,8 @@ Result<void> check_value(const OptionDescription& option, const std::string& val
     std::ranges::sort(parts);
     if (std::ranges::adjacent_find(parts) != parts.end())
       return Error{Errc::InvalidInput, "names an algorithm twice"}.at(option.key + " = " + value);
+    if (parts.size() > 1 && std::ranges::find(parts, "none") != parts.end())
+      return Error{Errc::InvalidInput, "names none and an algorithm"}.at(option.key + " = " + value);
     return {};
   }
   const std::optional<double> number = number_in(value);

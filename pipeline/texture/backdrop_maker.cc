@@ -25,6 +25,10 @@ constexpr float kTurned = 0, kFacing = 0.25F;  // cosines to the camera
 constexpr int kAbout = 5;                      // steps over which it is looked at how the shape turns
 constexpr float kBlurMm = 5;
 constexpr int kTaps = 5;  // samples a side over that
+// Beside the jaw is the neck, or the room: what the chart's outermost columns show there.
+constexpr int kRoomColumns = 3;
+constexpr float kRoomFromMm = 20, kRoomToMm = 90;  // below about the tip of the nose
+constexpr float kLevels = 8, kShare = 0.2F;        // by which the room's colour varies
 
 float smooth_step(float from, float to, float at) {
   const float t = std::clamp((at - from) / (to - from), 0.0F, 1.0F);
@@ -61,6 +65,7 @@ class Maker {
       for (int c = 0; c < kColumns; ++c)
         made_.at_mm[index(c, r)] =
             plus(chart_.at(place(c, r), double(radius_[index(c, r)])), narrow(chart_.centre_mm));
+    find_room();
     made_.rgba.resize(kVertices);
     for (int r = 0; r < kRows; ++r)
       for (int c = 0; c < kColumns; ++c) made_.rgba[index(c, r)] = colour(c, r);
@@ -127,13 +132,16 @@ class Maker {
     return std::abs(dot(n, unit(at(c, r))));
   }
 
-  std::array<std::uint8_t, 4> colour(int c, int r) const {
-    const std::size_t k = index(c, r);
-    const Vec3d p = apply(pair_.rectified_from_left, wide(made_.at_mm[k]));
-    if (p.z <= 0) return {};
-    const double scale = pair_.focal_px / p.z;
+  // What the photograph shows there and around it, and how many of the samples it has.
+  struct Seen {
     std::array<float, 3> sum{};
     int taps = 0;
+  };
+  Seen photograph(std::size_t k) const {
+    Seen seen;
+    const Vec3d p = apply(pair_.rectified_from_left, wide(made_.at_mm[k]));
+    if (p.z <= 0) return seen;
+    const double scale = pair_.focal_px / p.z;
     for (int j = 0; j < kTaps; ++j)
       for (int i = 0; i < kTaps; ++i) {
         const auto aside = [&](int n) { return (2.0 * n / (kTaps - 1) - 1) * double(kBlurMm); };
@@ -142,20 +150,55 @@ class Maker {
         if (x < 0 || y < 0 || x >= pair_.width_px || y >= pair_.height_px) continue;
         const std::size_t at = pair_.index(int(x), int(y));
         if (!pair_.left.valid.empty() && pair_.left.valid[at] == 0) continue;
-        for (std::size_t n = 0; n < 3; ++n) sum[n] += float(pair_.left.rgb[3 * at + n]);
-        ++taps;
+        for (std::size_t n = 0; n < 3; ++n) seen.sum[n] += float(pair_.left.rgb[3 * at + n]);
+        ++seen.taps;
       }
-    if (taps == 0) return {};
+    return seen;
+  }
+
+  // What is seen far beside the jaw, on either side.
+  void find_room() {
+    for (int side = 0; side < 2; ++side) {
+      Seen& room = room_[std::size_t(side)];
+      for (int r = 0; r < kRows; ++r)
+        for (int i = 0; i < kRoomColumns; ++i) {
+          const int c = side == 0 ? i : kColumns - 1 - i;
+          if (const double below = place(c, r).y; below < kRoomFromMm || below > kRoomToMm) continue;
+          const Seen seen = photograph(index(c, r));
+          for (std::size_t n = 0; n < 3; ++n) room.sum[n] += seen.sum[n];
+          room.taps += seen.taps;
+        }
+    }
+  }
+
+  // 0 beside the jaw where what is shown looks like the room beside it: it would stain the face.
+  float belongs(int c, int r, const Seen& seen) const {
+    const Seen& room = room_[c < kColumns / 2 ? 0 : 1];
+    if (room.taps == 0) return 1;
+    float unlike = 0;
+    for (std::size_t n = 0; n < 3; ++n) {
+      const float there = room.sum[n] / float(room.taps), here = seen.sum[n] / float(seen.taps);
+      unlike = std::max(unlike, std::abs(here - there) / (kLevels + kShare * there));
+    }
+    const float below = smooth_step(0, kRoomFromMm, float(place(c, r).y));
+    return 1 - below * (1 - smooth_step(1, 2, unlike));
+  }
+
+  std::array<std::uint8_t, 4> colour(int c, int r) const {
+    const std::size_t k = index(c, r);
+    const Seen seen = photograph(k);
+    if (seen.taps == 0) return {};
     const float away = away_mm_[k];
     const float light = 1 - (1 - kDimmed) * smooth_step(0, kDimMm, away);
     const float beside = smooth_step(0, kDimMm, away);  // what continues the rim is shown however it turns
-    const float seen = 1 - beside * (1 - smooth_step(kTurned, kFacing, facing(c, r)));
+    const float faces = 1 - beside * (1 - smooth_step(kTurned, kFacing, facing(c, r)));
     const int to_edge = std::min({c, r, kColumns - 1 - c, kRows - 1 - r});
     const float opacity = (1 - smooth_step(kClearMm, kGoneMm, away)) *
-                          smooth_step(0, kDimMm, float(to_edge * kStepMm)) * seen * float(taps) /
-                          (kTaps * kTaps);
+                          smooth_step(0, kDimMm, float(to_edge * kStepMm)) * faces * belongs(c, r, seen) *
+                          float(seen.taps) / (kTaps * kTaps);
     std::array<std::uint8_t, 4> rgba{};
-    for (std::size_t n = 0; n < 3; ++n) rgba[n] = std::uint8_t(std::lround(light * sum[n] / float(taps)));
+    for (std::size_t n = 0; n < 3; ++n)
+      rgba[n] = std::uint8_t(std::lround(light * seen.sum[n] / float(seen.taps)));
     rgba[3] = std::uint8_t(std::lround(255 * opacity));
     return rgba;
   }
@@ -164,6 +207,7 @@ class Maker {
   HeadChart chart_;
   std::pmr::vector<float> radius_;   // of a vertex, from the chart's centre
   std::pmr::vector<float> away_mm_;  // from the face; 0 on it
+  std::array<Seen, 2> room_{};       // at the left and the right
   Backdrop made_;
 };
 

@@ -164,6 +164,7 @@ void continue_outwards(TextureAtlas& atlas, int margin_px, std::pmr::memory_reso
     });
   // What is too thin for such a ring goes on from its own rim.
   std::pmr::vector<std::size_t> near(memory);
+  near.reserve(steps.size());
   for (std::size_t i = begin; i < steps.size(); ++i) near.push_back(steps[i].at);
   std::size_t looked_at = 0;
   for (int step = 0; step < kInside + margin_px; ++step)

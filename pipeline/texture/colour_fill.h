@@ -31,8 +31,8 @@ void fill_triangle(const Vec2f& a, const Vec2f& b, const Vec2f& c, const Triangl
 void write_vertex_colours(std::span<const VertexColour> colours, TextureAtlas& atlas);
 
 // Paints what lies beyond the charts: `margin_px` texels with the nearest colour from a little inside
-// (the outermost texels mix in what lies behind the face), the rest with the mean: filters and smaller copies
-// mix in skin, not black. Nothing of the room gets into the atlas.
+// (the outermost texels mix in what lies behind the face; a chart too thin goes on from those), the rest with
+// the mean: filters and smaller copies mix in skin, not black. Nothing of the room gets into the atlas.
 void continue_outwards(TextureAtlas& atlas, int margin_px, std::pmr::memory_resource* memory);
 
 }  // namespace relievo::pipeline

@@ -82,7 +82,7 @@ class SqliteKeeping final : public StoreKeeping {
     if (auto known = bits_of(words); !known) return known.error();
     SqliteStoreOptions options = options_;
     options.recovery_words = words;
-    RELIEVO_TRY(must_exist());
+    RELIEVO_TRY(must_be_there(dir_ / kStoreFile));
     Database before(dir_ / kStoreFile);
     RELIEVO_TRY(before.open(false));
     RELIEVO_TRY_ASSIGN(const std::int64_t version, version_of(before));
@@ -157,16 +157,10 @@ class SqliteKeeping final : public StoreKeeping {
     return Error{Errc::InvalidInput, "the file of --key is there, and is not this store's key: name another"}
         .at(dir_.native());
   }
-  // A store that is named wrongly is not made.
-  Result<void> must_exist() const {
-    std::error_code ignored;
-    if (std::filesystem::exists(dir_ / kStoreFile, ignored)) return {};
-    return Error{Errc::NotFound, "there is no store: check the path"}.at(dir_.native());
-  }
   Result<std::unique_ptr<SqliteStore>> open(OpenMode mode) {
     SqliteStoreOptions options = options_;
     options.mode = mode;
-    RELIEVO_TRY(must_exist());
+    RELIEVO_TRY(must_be_there(dir_ / kStoreFile));  // one that is named wrongly is not made
     return SqliteStore::open(dir_, clock_, options);
   }
   std::filesystem::path dir_;

@@ -75,14 +75,14 @@ Result<void> open_to_write(Database& database, StoreKeys& keys, WallTime at,
 }
 
 Result<void> open_to_read(Database& database, StoreKeys& keys, const SqliteStoreOptions& options) {
-  std::error_code ignored;
-  if (!fs::exists(database.file(), ignored)) {
-    return database.error(Errc::NotFound, "there is no store: check the path");
-  }
+  RELIEVO_TRY(must_be_there(database.file()));
   RELIEVO_TRY(database.open(false));
   RELIEVO_TRY(set_up(database, options));
-  RELIEVO_TRY_ASSIGN(const std::int64_t version, version_of(database));
-  if (version < store_version()) {
+  const Result<std::int64_t> version = version_of(database);
+  if (!version && version.error().code == Errc::IoFailed)
+    RELIEVO_TRY(must_take_files(database.file().parent_path()));
+  if (!version) return version.error();
+  if (*version < store_version()) {
     return database.error(Errc::InvalidState, "the store is of an older version: open it to write once");
   }
   return keys.load(database, true);
@@ -107,8 +107,7 @@ Result<std::unique_ptr<SqliteStore>> SqliteStore::open(const fs::path& dir, cons
     const bool writable = options.mode == OpenMode::ReadWrite;
     std::error_code failed;
     if (writable) RELIEVO_TRY(make_store_directory(fs::absolute(dir, failed)));
-    // No link may stand in for the file; links on the way to it are the caller's business.
-    const fs::path home = fs::weakly_canonical(dir, failed);
+    RELIEVO_TRY_ASSIGN(const fs::path home, home_of(dir));
     if (!options.keys) options.keys = key_file(home / kKeyFile);
     auto lock = std::make_unique<StoreLock>();
     if (writable) RELIEVO_TRY(lock->take(home / kLockFile, options.wait_for_lock));

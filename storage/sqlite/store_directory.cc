@@ -26,6 +26,12 @@ Error failed(const fs::path& place, int cause) {
       .at(place.native());
 }
 
+Error unseen(const fs::path& place, int cause) {
+  return Error{Errc::IoFailed,
+               "the store cannot be looked for here: check the path, its owner and permissions", cause}
+      .at(place.native());
+}
+
 }  // namespace
 
 StoreLock::~StoreLock() {
@@ -66,6 +72,29 @@ Result<void> make_store_directory(const fs::path& named) {
   for (fs::path made = dir; made != there; made = made.parent_path())
     RELIEVO_TRY(sync_directory(made.parent_path()));
   return {};
+}
+
+Result<fs::path> home_of(const fs::path& dir) {
+  std::error_code failed;
+  fs::path home = fs::weakly_canonical(dir, failed);
+  if (failed) return unseen(dir, failed.value());
+  return home;
+}
+
+Result<void> must_be_there(const fs::path& file) {
+  std::error_code failed;
+  if (fs::exists(file, failed)) return {};
+  if (failed) return unseen(file, failed.value());
+  return Error{Errc::NotFound, "there is no store: check the path"}.at(file.native());
+}
+
+Result<void> must_take_files(const fs::path& dir) {
+  if (::access(dir.c_str(), W_OK) == 0) return {};
+  return Error{
+      Errc::IoFailed,
+      "this store can be read only where this user may also write: make a copy of it, and look at that",
+      errno}
+      .at(dir.native());
 }
 
 Result<void> make_private_file(const fs::path& file) {

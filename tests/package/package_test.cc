@@ -112,6 +112,17 @@ TEST_F(Package, IsInstalledFoundBuiltAndMeasuresAFace) {
   RecordProperty("p95_um", static_cast<int>(1000 * errors[errors.size() * 95 / 100]));
 }
 
+TEST_F(Package, AllHeadersCompileTogetherWhereTheyWereInstalled) {
+  ASSERT_TRUE(done({RELIEVO_CMAKE, "--install", RELIEVO_BUILD, "--component", "library", "--prefix",
+                    (here / "installed").string()}));
+  EXPECT_TRUE(std::filesystem::exists(here / "installed/share/doc/relievo/GPL-3.0-or-later.txt"));
+  ASSERT_TRUE(done({RELIEVO_CMAKE, "-S", RELIEVO_PACKAGE_TESTS "/every_header", "-B", "every", "-G",
+                    RELIEVO_GENERATOR, "-DCMAKE_CXX_COMPILER=" RELIEVO_COMPILER,
+                    "-DCMAKE_PREFIX_PATH=" + (here / "installed").string()}));
+  EXPECT_NE(read_text(here / "every/every_header.cc").find("\"pipeline/pipeline.h\""), std::string::npos);
+  EXPECT_TRUE(done({RELIEVO_CMAKE, "--build", "every"}));
+}
+
 // Who links an older or a newer library than the program was written for is told.
 TEST_F(Package, AnotherVersionIsRefused) {
   ASSERT_TRUE(done({RELIEVO_CMAKE, "--install", RELIEVO_BUILD, "--component", "library", "--prefix",
@@ -136,8 +147,17 @@ TEST_F(Package, TheKioskIsInstalledWithItsWordsAndItsUnit) {
   const std::string program = (prefix / "bin/relievo").string();
   ASSERT_TRUE(done({program, "version"}));
   EXPECT_TRUE(std::filesystem::exists(prefix / "share/relievo/assets/invitation_head.face"));
-  EXPECT_TRUE(std::filesystem::exists(prefix / "lib/sysusers.d/relievo.conf"));
+  // What its messages name, and the licence.
+  EXPECT_NE(read_text(prefix / "share/doc/relievo/board.md").find("[trigger]"), std::string::npos);
+  EXPECT_TRUE(std::filesystem::exists(prefix / "share/doc/relievo/GPL-3.0-or-later.txt"));
+  const std::string users = read_text(prefix / "lib/sysusers.d/relievo.conf");
   const std::string unit = read_text(prefix / "lib/systemd/system/relievo.service");
+  for (const char* line : {"\ng tss -", "\nm relievo tss"}) EXPECT_NE(users.find(line), std::string::npos);
+  EXPECT_NE(unit.find("\nSupplementaryGroups=video render input audio tss\n"), std::string::npos) << unit;
+  // Each of these gives it mounts of its own: no stick could be unmounted.
+  for (const char* word : {"ProtectSystem", "ProtectHome", "ProtectKernel", "ProtectControlGroups",
+                           "ProtectProc", "Private", "ReadOnlyPaths", "InaccessiblePaths", "DynamicUser"})
+    EXPECT_EQ(unit.find(std::string("\n") + word), std::string::npos) << word;
   EXPECT_NE(unit.find("\nExecStart=" + program + " --board linux"), std::string::npos) << unit;
   EXPECT_EQ(unit.find('@'), unit.find("@tty1")) << "something was not filled in";
   const std::filesystem::path words = prefix / "share/relievo/locale";

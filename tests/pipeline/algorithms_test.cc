@@ -146,6 +146,11 @@ TEST(Algorithms, AConstraintIsNamedOnce) {
   ASSERT_FALSE(refused);
   EXPECT_EQ(refused.error().code, Errc::InvalidInput);
   EXPECT_EQ(refused.error().where(), "constraints = similarity+uniqueness+similarity");
+  for (const char* both : {"none+similarity", "similarity+none"}) {
+    const auto contradicts = set.set("constraints", both);
+    ASSERT_FALSE(contradicts) << both;
+    EXPECT_EQ(contradicts.error().code, Errc::InvalidInput);
+  }
 }
 
 TEST(Algorithms, MatchesOfAFileAreNoLattice) {

@@ -249,16 +249,24 @@ TEST_F(BadInput, APersonWhoIsNotThere) {
   refused({"calibration", "import", "missing.yml", "--store", "nowhere"}, "missing.yml");
 }
 
-// Not as one that was ended: its next start says so (firmware/kiosk/stored_visits.h).
-TEST_F(BadInput, AKioskThatEndsForWantOfAScreenLeavesItsMark) {
+// What the next start says (firmware/kiosk/stored_visits.h): that this one ended early, where there was a
+// screen; where there was none, what this one would have said.
+TEST_F(BadInput, AKioskThatFindsNoScreenLeavesItsMarkAsItWas) {
   fs::create_directory(here / "pair");
   fs::copy_file(here / "left.png", here / "pair/left_000000.png");
   fs::copy_file(here / "right.png", here / "pair/right_000000.png");
-  const Said said = run_program({"/usr/bin/env", "SDL_VIDEODRIVER=none", RELIEVO_BINARY, "--board",
-                                 "folder:pair", "--calibration", "rig.yml", "--store", "store"},
-                                here.path());
-  EXPECT_EQ(said.exit_code, 1) << said.err;
-  EXPECT_TRUE(fs::exists(here / "store/relievo.running")) << said.err;
+  write_text(here / "in_vain.script", "wait review 0.1\n");
+  const auto mark_after = [this](const std::string& driver) {
+    const Said said = run_program({"/usr/bin/env", "SDL_VIDEODRIVER=" + driver, RELIEVO_BINARY, "--board",
+                                   "folder:pair", "--calibration", "rig.yml", "--store", "store",
+                                   "--windowed", "640x480", "--script", "in_vain.script"},
+                                  here.path());
+    EXPECT_EQ(said.exit_code, 1) << said.err;
+    return fs::exists(here / "store/relievo.running");
+  };
+  EXPECT_FALSE(mark_after("none"));
+  EXPECT_TRUE(mark_after("offscreen"));
+  EXPECT_TRUE(mark_after("none"));
 }
 
 TEST_F(BadInput, ATruthThatIsNotThere) {

@@ -32,6 +32,21 @@ wait $pid)");
   }
 };
 
+// A umask may keep others out, never the program itself.
+TEST_F(StoreCommand, NoUmaskTakesItsOwnFilesAway) {
+  done({"simulate", "board", "--pairs", "1", "--scale", "0.5", "-o", "board"});
+  const Said said = run_program(
+      {"/bin/sh", "-c",
+       "umask 777; exec \"" RELIEVO_BINARY "\" calibration import board/rig.yml --store new/store"},
+      here.path());
+  EXPECT_EQ(said.exit_code, 0) << said.err;
+  const auto mode = [this](const char* name) { return std::filesystem::status(here / name).permissions(); };
+  EXPECT_EQ(mode("new"), std::filesystem::perms(0700));
+  EXPECT_EQ(mode("new/store"), std::filesystem::perms(0700));
+  for (const char* name : {"relievo.db", "relievo.key", "relievo.lock", "relievo.reserve"})
+    EXPECT_EQ(mode((std::string("new/store/") + name).c_str()), std::filesystem::perms(0600)) << name;
+}
+
 TEST_F(StoreCommand, KeepsCopiesKeysAndWords) {
   refused({"store", "check", "--store", "store"}, "store", "there is no store");
   refused({"store", "backup", "copy", "--store", "store"}, "store", "there is no store");

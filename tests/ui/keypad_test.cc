@@ -137,6 +137,22 @@ TEST_P(KeypadTest, ANameTakesAtMostTwiceAsManyKeysAsTouches) {
   }
 }
 
+// What is seen by the letters is said: capitals, and letters with accents.
+TEST_P(KeypadTest, KeysThatChangeTheOthersSayHowTheyStand) {
+  to_name();
+  const Words tr(GetParam());
+  const auto stands = [&](std::string_view id) { return std::string(ui->tree().find(id)->value); };
+  if (ui->tree().find("shift") != nullptr) {
+    EXPECT_EQ(stands("shift"), tr("yes")) << "a name begins with one";
+    tap("shift");
+    EXPECT_EQ(stands("shift"), tr("no"));
+  }
+  if (!info_of(GetParam()).latin) return;
+  EXPECT_EQ(stands("other_letters"), tr("no"));
+  tap("other_letters");
+  EXPECT_EQ(stands("other_letters"), tr("yes"));
+}
+
 // As in their passport: also who writes in another script.
 TEST_P(KeypadTest, ANameInLatinLettersCanBeTyped) {
   to_name();

@@ -81,6 +81,26 @@ TEST_F(VisitNameTest, BackFromTheCodeAsksForANameAgain) {
   EXPECT_EQ(visit.enrolment_kind(), EnrolmentKind::NewSubject);
 }
 
+TEST_F(VisitNameTest, ACodeIsHandedInAsItStands) {
+  to_known();
+  act(ActionKind::HaveCode);
+  visit.type("48219037551271");
+  EXPECT_FALSE(visit.code_handed_in());
+  act(ActionKind::Done);
+  EXPECT_TRUE(visit.code_handed_in());
+  visit.type("9");
+  EXPECT_TRUE(visit.code_handed_in()) << "it has no room: nothing has changed";
+  act(ActionKind::Erase);
+  EXPECT_FALSE(visit.code_handed_in());
+  visit.type("1");
+  act(ActionKind::Done);
+  act(ActionKind::Back);
+  EXPECT_FALSE(visit.quotes_code());
+  visit.type("A");
+  act(ActionKind::Done);
+  EXPECT_FALSE(visit.code_handed_in()) << "that is a name";
+}
+
 TEST_F(VisitNameTest, WhatWasAskedBeforeBackIsNoAnswerAfterIt) {
   to_known();
   act(ActionKind::HaveCode);

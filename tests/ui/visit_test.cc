@@ -18,6 +18,7 @@ TEST_F(VisitTest, WhoTurnsTheHeadMaySayThatIsEnough) {
   to_position();
   act(ActionKind::TakePicture);
   machine(Screen::Capture);
+  EXPECT_EQ(visit.step, Step::Position) << "nobody is told for a moment that they may move";
   machine(Screen::Turn);
   EXPECT_EQ(visit.step, Step::Turn);
   EXPECT_EQ(pass(kPatience + kLastCall + std::chrono::seconds(1)), std::nullopt)
@@ -27,6 +28,14 @@ TEST_F(VisitTest, WhoTurnsTheHeadMaySayThatIsEnough) {
   EXPECT_EQ(visit.step, Step::Working);
   machine(Screen::Review);
   EXPECT_EQ(visit.step, Step::Review);
+}
+
+TEST_F(VisitTest, WithoutSidesThePictureIsTheLast) {
+  to_position();
+  ASSERT_TRUE(view.settings.set(Setting::Sides, 0));
+  act(ActionKind::TakePicture);
+  machine(Screen::Capture);
+  EXPECT_EQ(visit.step, Step::Working);
 }
 
 TEST_F(VisitTest, NoCameraRunsBeforeConsentAndName) {
@@ -335,6 +344,9 @@ TEST_F(VisitTest, TextGrowsInThreeStepsAndForgetsWithThePerson) {
   EXPECT_EQ(visit.text_percent(), 125);
   act(ActionKind::BiggerText);
   EXPECT_EQ(visit.text_percent(), 150);
+  act(ActionKind::BiggerText, 3);
+  EXPECT_EQ(visit.text_percent(), 100) << "where three sizes are all";
+  act(ActionKind::BiggerText);
   act(ActionKind::ChooseLanguage, static_cast<int>(Language::Arabic));
   EXPECT_EQ(visit.language, Language::Arabic);
   pass(kPatience + seconds(1));

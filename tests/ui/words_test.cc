@@ -9,6 +9,7 @@
 #include <fstream>
 #include <set>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "ui/language/language.h"
@@ -147,6 +148,13 @@ TEST_F(WordsTest, ArabicHasItsSixForms) {
   for (const unsigned long n : {0UL, 1UL, 2UL, 5UL})
     forms.insert(words.plural("Everything is wiped in {} second.", "Everything is wiped in {} seconds.", n));
   EXPECT_EQ(forms.size(), 4U);
+  // One and two are words, not figures.
+  for (const unsigned long n : {1UL, 2UL}) {
+    for (const auto& [one, many] :
+         {std::pair("{} day", "{} days"), std::pair("In {} second everything goes back to what it was.",
+                                                    "In {} seconds everything goes back to what it was.")})
+      EXPECT_EQ(holes(words.plural(one, many, n)), 0U) << words.plural(one, many, n);
+  }
   EXPECT_EQ(words.plural("Everything is wiped in {} second.", "Everything is wiped in {} seconds.", 103),
             std::string(
                 words.plural("Everything is wiped in {} second.", "Everything is wiped in {} seconds.", 3)));

@@ -183,6 +183,7 @@ def service(machine, pages):
     for what, command, wanted in (("its user", f"stat -c %U {process}", "relievo"),
                                   ("its store", "stat -c '%a %U' /var/lib/relievo", "700 relievo"),
                                   ("the rights to set the clock and to mount sticks", f"awk '/CapAmb/ {{print $2}}' {process}/status", "0000000002200000"),
+                                  ("no mounts of its own: sticks", f"[ $(readlink {process}/ns/mnt) = $(readlink /proc/1/ns/mnt) ] && echo shared", "shared"),
                                   ("core dumps", f"awk '/core file size/ {{print $5}}' {process}/limits", "0")):
         said = machine.run(command)
         check(said == wanted, f"{what}: {said!r}, wanted {wanted!r}")

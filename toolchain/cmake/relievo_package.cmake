@@ -12,6 +12,7 @@ install(EXPORT relievo NAMESPACE relievo:: FILE relievoTargets.cmake DESTINATION
 install(DIRECTORY ${PROJECT_SOURCE_DIR}/hal/base DESTINATION include/relievo/hal COMPONENT library FILES_MATCHING PATTERN "*.h")
 install(DIRECTORY ${PROJECT_SOURCE_DIR}/pipeline DESTINATION include/relievo COMPONENT library
   FILES_MATCHING PATTERN "*.h" PATTERN examples EXCLUDE)
+install(FILES ${PROJECT_SOURCE_DIR}/LICENSES/GPL-3.0-or-later.txt DESTINATION share/doc/relievo COMPONENT library)
 configure_package_config_file(${CMAKE_CURRENT_LIST_DIR}/relievoConfig.cmake.in ${PROJECT_BINARY_DIR}/relievoConfig.cmake
   INSTALL_DESTINATION ${package_dir})
 write_basic_package_version_file(${PROJECT_BINARY_DIR}/relievoConfigVersion.cmake COMPATIBILITY SameMinorVersion)

@@ -47,7 +47,7 @@ constexpr auto kPages = [] {
       {Compare, "open compare", mark_tr("Comparison"), kCompare, true, false,
        technician<technician_compare_page>},
       {Settings, "open settings", mark_tr("Settings"), kCog, true, true, settings_page, mark_tr("Settings")},
-      {Clock, "open clock", mark_tr("Time"), kClock, true, true, clock_page},
+      {Clock, "open clock", mark_tr("Date and time"), kClock, true, true, clock_page},
       {Touch, "open touch", mark_tr("Touch screen"), kTarget, true, false, touch_page},
       {Recovery, "open recovery", mark_tr("Recovery words"), kKey, false, true, recovery_page},
       {Pins, "open pins", mark_tr("Change my PIN"), kKey, true, true, pins_page},

@@ -6,6 +6,7 @@
 #include <cmath>
 #include <functional>
 #include <initializer_list>
+#include <span>
 #include <utility>
 
 #include "hal/base/utf8.h"
@@ -19,7 +20,8 @@ bool is_one_of(std::string_view letter, std::initializer_list<std::string_view> 
 }
 
 bool steers_the_eye(std::string_view letter) {
-  return is_one_of(letter, {"\u00ad", "\u200e", "\u200f", "\u2066", "\u2067", "\u2068", "\u2069"});
+  return is_one_of(
+      letter, {"\u00ad", "\u200e", "\u200f", "\u2066", "\u2067", "\u2068", "\u2069", "\u2060", "\u200b"});
 }
 
 std::string_view as_spoken(std::string_view letter) {
@@ -184,11 +186,15 @@ Narrator::Told* Narrator::told_of(std::size_t id) {
 }
 
 void Narrator::follow_statuses(const Tree& tree, const Moment& moment, const Listener& to, bool said_all) {
+  const std::span<Told> all(told_);
+  for (Told& told : all.first(told_count_)) told.there = false;
   for (const Node& node : tree.nodes()) {
     if ((node.role != Role::Status && node.role != Role::Alert) || node.id.empty() || !tree.is_on_top(node))
       continue;
     Told* told = told_of(print_of(node.id));
-    if (told == nullptr) break;
+    if (told == nullptr) continue;
+    told->there = true;
+    told->alert = node.role == Role::Alert;
     scratch_.clear();
     say_node(tree, node, to, scratch_);
     const std::size_t words = print_of(scratch_.text());
@@ -203,6 +209,10 @@ void Narrator::follow_statuses(const Tree& tree, const Moment& moment, const Lis
     if (!said_all) said_.say(scratch_.text());
     told_to_wait_ = node.waits && !said_all;
   }
+  // An alert that comes again is new: the second wrong code is told as the first was.
+  const auto gone =
+      std::ranges::remove_if(all.first(told_count_), [](const Told& t) { return t.alert && !t.there; });
+  told_count_ -= gone.size();
   scratch_.clear();
 }
 

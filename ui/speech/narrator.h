@@ -12,7 +12,8 @@
 //                                                any other when nothing is being said
 //   an alert that insists still stands       ->  the same again, every kAgain
 //
-// Nothing is said twice without one of these. It keeps prints of texts, no texts. Thread: main. Errors: none.
+// Nothing is said twice without one of these, but an alert that went and came again. It keeps prints of
+// texts, no texts. Thread: main. Errors: none.
 #pragma once
 
 #include <array>
@@ -89,11 +90,19 @@ class Narrator {
     said_.clear();
     return said_;
   }
+  // These words alone, whatever the page.
+  const Utterance& tell(std::string_view words, const Listener& to) {
+    said_.clear();
+    said_.language = info_of(to.tr.language()).code;
+    said_.say(words);
+    return said_;
+  }
 
  private:
   struct Told {
     std::size_t id = 0, said = 0, seen = 0;  // prints
     hal::Instant since{}, last{};            // seen; said
+    bool there = false, alert = false;       // as last looked at
   };
   static constexpr std::size_t kStatuses = 32;
   void read_page(const Tree& tree, const Moment& moment, const Listener& to);

@@ -71,7 +71,10 @@ class Paragraph final : public PangoParagraph {
       const bool same = got != nullptr && std::strcmp(pango_font_description_get_family(got), family) == 0;
       if (got != nullptr) pango_font_description_free(got);
       if (!same)
-        return Error{Errc::NotFound, "is not installed: run toolchain/setup for the fonts"}.at(family);
+        return Error{
+            Errc::NotFound,
+            "is not installed: Debian has it in fonts-inter, fonts-noto-core, fonts-noto-cjk, fonts-materialdesignicons-webfont"}
+            .at(family);
     }
     return {};
   }

@@ -66,17 +66,17 @@ enum class ActionKind : std::uint8_t {
   ChooseLanguage,
   ShowHelp,
   CloseOverlay,
-  BiggerText,
+  BiggerText,  // value: of so many sizes, the smallest first; 0: of all
   Contrast,
   Reach,
   Speech,
   Quieter,
   Louder,
   Speed,  // what is heard (ui/speech/)
-  TypeKey,
+  TypeKey,  // value: a space types one, else the node's text
   Erase,
   Shift,
-  OtherLetters,  // value: a space types one, else the node's text
+  OtherLetters,  // with accents, or Latin ones instead of another script's
   TakePicture,
   EnoughSides,
   Accept,

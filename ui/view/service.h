@@ -61,6 +61,7 @@ struct ViewState;
 // Whoever is on such a page has signed in.
 constexpr bool needs_role(StaffPage page) { return page != StaffPage::Pin && page != StaffPage::FirstStart; }
 
+inline constexpr std::string_view kBarsEnd = "sign out";  // the last button above what a page is about
 inline constexpr std::size_t kMostPinDigits = 8, kLeastPinDigits = 4;
 inline constexpr std::chrono::seconds kPinPatience{30};
 inline constexpr std::chrono::seconds kHold{3};  // a finger on the way in

@@ -40,6 +40,7 @@ enum class LogEvent : std::uint8_t {
   ConsentTaken,    // its version
   SettingUnknown,  // what is stored in place of one
   TakenHome,       // a visitor has a copy of their own
+  EndedEarly,      // the run before this one: the power or the program failed
   Count
 };
 

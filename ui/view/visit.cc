@@ -48,7 +48,7 @@ void Visit::forget() {
 void Visit::forget_person() {
   name_.wipe();
   enrolment_kind_ = EnrolmentKind::NewSubject;
-  quotes_code_ = looking_up_ = false;
+  quotes_code_ = code_handed_in_ = looking_up_ = false;
   look_ups_ = 0;
   agreed_at_ = {};
   look = {};
@@ -94,7 +94,11 @@ std::optional<Intent> Visit::back(const ViewState& view) {
 std::optional<Intent> Visit::act(Action action, const ViewState& view) {
   switch (action.kind) {
     // How it is read, and what lies over it: wherever the person is.
-    case ActionKind::BiggerText: text_size = (text_size + 1) % kTextPercents.size(); break;
+    case ActionKind::BiggerText: {
+      const std::size_t sizes = action.value > 0 ? std::size_t(action.value) : kTextPercents.size();
+      text_size = text_size + 1 < sizes ? text_size + 1 : 0;
+      break;
+    }
     case ActionKind::Contrast: high_contrast = !high_contrast; break;
     case ActionKind::Reach: reach = static_cast<Reach>((int(reach) + 1) % 3); break;
     case ActionKind::ShowLanguages: overlay = Overlay::Languages; break;
@@ -183,6 +187,7 @@ std::optional<Intent> Visit::act_on_path(ActionKind kind, const ViewState& view)
     if (++look_ups_ > kMostLookUps && quotes_code_) return leave_now(view);
     if (look_ups_ > kMostLookUps) return Intent::Pose;
     looking_up_ = true;
+    code_handed_in_ = quotes_code_;
     return Intent::LookUp;
   }
   if (kind == ActionKind::TakePicture) {
@@ -204,6 +209,7 @@ std::optional<Intent> Visit::act_on_record(ActionKind kind) {
   if (kind == ActionKind::HaveCode) {
     name_.wipe();
     quotes_code_ = true;
+    code_handed_in_ = false;
     step = Step::Name;
     return std::nullopt;
   }
@@ -255,6 +261,8 @@ std::optional<Intent> Visit::follow_face(const ViewState& view) {
 void Visit::follow_machine(const ViewState& view) {
   const Screen before = std::exchange(last_screen_, view.screen);
   if (before == view.screen) return;
+  // Where the head is to be turned next, nobody is shown and told for a moment that all is taken.
+  if (view.screen == Screen::Capture && step == Step::Position && settings_.is_on(Setting::Sides)) return;
   if (view.screen == Screen::Position) {
     go(Step::Position, view.now);
     last_touch_ = by_hand_ = view.now;

@@ -97,6 +97,8 @@ class Visit {
   std::string_view name() const { return name_.view(); }
   // Is the code of an earlier record asked for, instead of a name?
   bool quotes_code() const { return quotes_code_; }
+  // Was the code, as it stands, handed in? What the records said of another one is no answer to it.
+  bool code_handed_in() const { return code_handed_in_; }
   EnrolmentKind enrolment_kind() const { return enrolment_kind_; }
   std::chrono::system_clock::time_point agreed_at() const { return agreed_at_; }
   // Seconds until the visit is wiped; only while Overlay::StillThere asks.
@@ -180,7 +182,7 @@ class Visit {
   bool voices_ = false;
   Settings settings_;  // as the last view had them
   EnrolmentKind enrolment_kind_ = EnrolmentKind::NewSubject;
-  bool quotes_code_ = false;
+  bool quotes_code_ = false, code_handed_in_ = false;
   bool looking_up_ = false;
   int look_ups_ = 0;
   bool by_itself_ = false;  // the portrait comes to be and turns; nobody has touched anything since

@@ -61,8 +61,11 @@ void Visit::type(std::string_view letter) {
 
 // Its digits alone: they are grouped where they are shown.
 void Visit::type_code(std::string_view letters) {
-  for (const char& c : letters)
-    if (c >= '0' && c <= '9' && name().size() < kCodeDigits) name_.add({&c, 1});
+  for (const char& c : letters) {
+    if (c < '0' || c > '9' || name().size() == kCodeDigits) continue;
+    name_.add({&c, 1});
+    code_handed_in_ = false;
+  }
 }
 
 void Visit::type_by_digit(char digit, hal::Instant now) {
@@ -89,6 +92,7 @@ void Visit::enter(std::string_view text, hal::Instant now) {
 
 void Visit::erase_letter() {
   digit_ = 0;
+  code_handed_in_ = false;
   name_.cut(last_letter_at(name()));
   capitals = name().empty() || name().ends_with(' ') || name().ends_with('-');
 }

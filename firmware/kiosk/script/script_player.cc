@@ -170,8 +170,9 @@ void VisitFigures::follow(const Kiosk& kiosk, steady_clock::time_point now) {
       still_at_ =
           now - std::chrono::duration_cast<steady_clock::duration>(duration<float>(view.live.steady_s));
   }
-  if (visit.step == ui::Step::Working && still_at_ && !still_to_shot_s_)
-    still_to_shot_s_ = duration<double>(now - *still_at_).count();
+  const bool shot =
+      view.screen == ui::Screen::Capture || visit.step == ui::Step::Turn || visit.step == ui::Step::Working;
+  if (shot && still_at_ && !still_to_shot_s_) still_to_shot_s_ = duration<double>(now - *still_at_).count();
   const bool face = visit.step == ui::Step::Review && kiosk.ui().draw_list().faces[0].model != nullptr;
   if (face && still_at_) {
     still_to_face_s_ = duration<double>(now - *still_at_).count();

@@ -173,8 +173,15 @@ void resample(const RectifiedPair& pair, const ViewGeometry& geometry, const Ima
   }
 }
 
-Result<void> check_picture(const ImageView& image, const CameraIntrinsics& camera, const char* side) {
+Result<void> check_bytes(const ImageView& image, const char* side) {
   if (image.empty()) return Error{Errc::InvalidInput, "the picture is empty: capture again"}.at(side);
+  if (image.rows_overlap())
+    return Error{Errc::InvalidInput, "the picture's stride is shorter than its rows"}.at(side);
+  return {};
+}
+
+Result<void> check_picture(const ImageView& image, const CameraIntrinsics& camera, const char* side) {
+  RELIEVO_TRY(check_bytes(image, side));
   if (image.width_px != camera.width_px || image.height_px != camera.height_px)
     return Error{
         Errc::InvalidInput,
@@ -306,7 +313,8 @@ Result<void> DisparityRange::check() const {
 Result<RectifiedPair> take_rectified(const StereoFrame& frame, const DisparityRange& range,
                                      StageContext& context) {
   RELIEVO_TRY(range.check());
-  if (frame.left.empty() || frame.right.empty()) return Error{Errc::InvalidInput, "the picture is empty"};
+  RELIEVO_TRY(check_bytes(frame.left, "left"));
+  RELIEVO_TRY(check_bytes(frame.right, "right"));
   if (frame.left.width_px != frame.right.width_px || frame.left.height_px != frame.right.height_px)
     return Error{Errc::InvalidInput, "the two pictures of a rectified pair differ in size"};
   RectifiedPair pair(&context.output);

@@ -8,8 +8,8 @@
 // neither zoomed nor cut (cf. Fusiello, Trucco, Verri 2000 for the rotation). Luminance is resampled
 // by cubic convolution (Keys 1981, a = -1/2), colour linearly.
 // Memory: the pair in `output`; scratch holds one grey source plane.
-// Errors: InvalidInput (empty picture, size other than calibrated, impossible geometry), OutOfMemory,
-// Cancelled. Thread: any; holds no state between calls.
+// Errors: InvalidInput (empty picture, rows that overlap, size other than calibrated, impossible geometry),
+// OutOfMemory, Cancelled. Thread: any; holds no state between calls.
 #pragma once
 
 #include "hal/base/image_view.h"

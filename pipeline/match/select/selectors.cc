@@ -168,7 +168,7 @@ Result<Keypoints> GoodFeaturesSelector::select(const RectifiedPair& pair, StageC
   RELIEVO_TRY_ASSIGN(const auto wanted, read_levels(levels));
   RELIEVO_TRY_ASSIGN(const auto thresholds, read_thresholds(binary_thresholds));
   RELIEVO_TRY_ASSIGN(const Selectable selectable, selectable_of(pair, context));
-  const CornerWindow window{window_px / 2, 1};
+  const ResponseWindow window{window_px / 2, 1};
   Plane<float> response(&context.scratch, pair.width_px, pair.height_px);
   Plane<float> chosen(&context.scratch, pair.width_px, pair.height_px);
 

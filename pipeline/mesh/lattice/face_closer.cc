@@ -69,7 +69,7 @@ FaceMesh rough_surface(const PointLattice& l, Arena& scratch) {
   return mesh;
 }
 
-// Where the skin ends that was seen of a chin; the profile runs upwards.
+// Where the skin ends that was seen of a chin, or where that should begin; the profile runs upwards.
 double lowest_of_chin(std::span<const ProfilePoint> profile, double from_mm) {
   double lowest = from_mm;
   for (auto at = profile.rbegin(); at != profile.rend(); ++at)
@@ -82,8 +82,10 @@ FaceOutline outline_of(const FaceMesh& rough, const RigidTransform& head_from_ca
   const auto profile = profile_of(rough, head_from_camera, &scratch);
   const auto chin = find_profile_marks(profile).chin;
   if (chin) outline.below_mm = kChinBelowPogonion - chin->y_mm;
-  const double seen = kBelowChin - lowest_of_chin(profile, chin ? chin->y_mm : kChinFrom);
-  outline.below_mm = std::clamp(std::min(outline.below_mm, seen), kShortest, kLongest);
+  const double from = chin ? chin->y_mm : kChinFrom;
+  const double lowest = lowest_of_chin(profile, from);
+  if (lowest < from) outline.below_mm = std::min(outline.below_mm, kBelowChin - lowest);
+  outline.below_mm = std::clamp(outline.below_mm, kShortest, kLongest);
   return outline;
 }
 

@@ -11,7 +11,7 @@ namespace {
 
 // Half axes of an ellipsoid around the tip of the nose, mm. It holds what 3D face recognition crops, 95 mm
 // around the tip, and stands upright on the skin before the ears, so that a bump there moves the curve
-// little.
+// little. Downwards it holds the chin, however long.
 constexpr double kAcross = 112, kUp = 101, kBack = 91;
 constexpr double kJaw = 130;  // mm: from the chin the curve rises sideways as a parabola
 constexpr double kBend = 12;  // mm over which the curve turns from the cheeks to below the chin

@@ -5,6 +5,9 @@
 // loudspeaker does not get those that are a person's own.
 #include <gtest/gtest.h>
 
+#include <algorithm>
+#include <map>
+#include <set>
 #include <string>
 
 #include "firmware/demo/gallery.h"
@@ -45,6 +48,14 @@ class GallerySpeechTest : public testing::TestWithParam<ui::Language> {
     return std::string(said.text());
   }
 
+  // By id, what a finger presses says to headphones.
+  std::map<std::string, std::string> words_of_buttons() {
+    std::map<std::string, std::string> all;
+    for (const ui::Node& node : tree.nodes())
+      if (node.role == ui::Role::Button) all.emplace(node.id, focus(node, true));
+    return all;
+  }
+
   // Without the rests between digits that are spoken one by one.
   static std::string bare(std::string text) {
     std::erase_if(text, [](char c) { return c == ' ' || c == ','; });
@@ -75,6 +86,35 @@ TEST_P(GallerySpeechTest, EveryPageAndEveryButtonHasWords) {
       EXPECT_FALSE(has_icon(button)) << button;
     }
   }
+}
+
+// What two buttons of a page do is told apart in this language as in English.
+TEST_P(GallerySpeechTest, ButtonsThatDifferInEnglishDifferHere) {
+  const auto here = gallery({}, GetParam(), 0, false), english = gallery({}, ui::Language::English, 0, false);
+  ASSERT_EQ(here.size(), english.size());
+  for (std::size_t i = 0; i < here.size(); ++i) {
+    SCOPED_TRACE(here[i].name);
+    build(english[i]);
+    const auto in_english = words_of_buttons();
+    build(here[i]);
+    std::map<std::string, std::string> meant;  // by what is heard
+    for (const auto& [id, words] : words_of_buttons()) {
+      const auto same = in_english.find(id);
+      if (same == in_english.end()) continue;
+      EXPECT_EQ(meant.emplace(words, same->second).first->second, same->second) << words;
+    }
+  }
+}
+
+// Six times "less" and "more", each of something else.
+TEST_P(GallerySpeechTest, TheButtonsOfTheClockSayWhatTheyMove) {
+  const auto all = gallery({}, GetParam(), 0, false);
+  const auto clock = std::ranges::find(all, "staff_first_clock", &Exhibit::name);
+  ASSERT_NE(clock, all.end());
+  build(*clock);
+  std::set<std::string> heard;
+  for (const auto& [id, words] : words_of_buttons()) EXPECT_TRUE(heard.insert(words).second) << words;
+  EXPECT_GT(heard.size(), 12U);
 }
 
 TEST_P(GallerySpeechTest, ALoudspeakerIsToldNothingPrivate) {

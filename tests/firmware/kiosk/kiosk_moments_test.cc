@@ -74,6 +74,12 @@ class KioskMomentsTest : public KioskHands {
     return code;
   }
 
+  std::string log_file() const { return test::read_text(args.store / kLogFile); }
+  bool is_logged(ui::LogEvent event) const {
+    const auto entries = kiosk->staff().log().entries();
+    return std::ranges::count(entries, std::optional(event), &ui::LogLine::event) > 0;
+  }
+
   test::PlayedWorld world;
   test::TemporaryFolder folder;
   hal::MonotonicClock clock;
@@ -111,14 +117,54 @@ TEST_F(KioskMomentsTest, AfterACrashItIsSaidOnce) {
   EXPECT_TRUE(std::filesystem::exists(args.store / "relievo.running"));
   kiosk.reset();
   EXPECT_FALSE(std::filesystem::exists(args.store / "relievo.running")) << "it ended as it should";
+  open();
+  EXPECT_FALSE(is_logged(ui::LogEvent::EndedEarly));
+  kiosk.reset();
   std::ofstream(args.store / "relievo.running").put('\n');  // the power went
   open();
+  EXPECT_TRUE(is_logged(ui::LogEvent::EndedEarly));
   ASSERT_TRUE(reach(ui::Step::Trouble));
   EXPECT_TRUE(says("restarted"));
   tap("finish");
   ASSERT_TRUE(reach(ui::Step::Attract));
   for (int turn = 0; turn < 5; ++turn) kiosk->turn();
   EXPECT_EQ(kiosk->ui().visit().step, ui::Step::Attract) << "once";
+}
+
+// Whoever administers the machine reads it in the journal and in the file, though nobody can open a page.
+TEST_F(KioskMomentsTest, AKioskThatCannotWorkWritesOnceWhy) {
+  const auto lines_in = [](const std::string& text) {
+    std::size_t lines = 0;
+    for (std::size_t at = 0; (at = text.find("as the test says", at)) != std::string::npos; ++at) ++lines;
+    return lines;
+  };
+  world.pulled = true;
+  open();
+  testing::internal::CaptureStderr();
+  int tests = 0;
+  State before = State::SelfTest;
+  EXPECT_TRUE(until([&] {
+    const State state = kiosk->appliance().state();
+    tests += before == State::SelfTest && state == State::Fault ? 1 : 0;
+    if (state == State::Fault && lines_in(log_file()) > 0) world.ahead_s += 10;  // as long as a fault waits
+    before = state;
+    return tests == 3;
+  })) << log_file();
+  EXPECT_EQ(lines_in(testing::internal::GetCapturedStderr()), 1U);
+  kiosk.reset();
+  EXPECT_EQ(lines_in(log_file()), 1U) << log_file();
+}
+
+TEST_F(KioskMomentsTest, WhatHasHappenedIsWrittenWhenItCloses) {
+  const auto mode = [this](const char* name) {
+    return std::filesystem::status(args.store / name).permissions();
+  };
+  open();
+  ASSERT_EQ(log_file(), "");
+  EXPECT_EQ(mode("relievo.running"), std::filesystem::perms(0600));
+  kiosk.reset();
+  EXPECT_NE(log_file().find("Started"), std::string::npos);
+  EXPECT_EQ(mode(kLogFile), std::filesystem::perms(0600)) << "the folder may be open to others";
 }
 
 TEST_F(KioskMomentsTest, APulledCameraIsSaidAndNothingOfThePersonStays) {

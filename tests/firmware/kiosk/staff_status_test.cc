@@ -96,6 +96,12 @@ TEST_F(StaffStatusTest, AWrongClockReddensItUntilItIsSetOnThePageItLeadsTo) {
   ASSERT_TRUE(red("status clock"));
   tap("status clock");
   ASSERT_EQ(kiosk->ui().service().page, StaffPage::Clock);
+  const auto shown = [this] { return std::string(kiosk->view().service->access.clock); };
+  const std::string before = shown();
+  for (const char* button : {"year more", "year more"}) tap(button);  // years, not a thousand touches
+  kiosk->turn();
+  EXPECT_NE(shown().substr(0, 4), before.substr(0, 4));
+  for (const char* button : {"year less", "year less", "month more", "month less"}) tap(button);
   for (int day = 0; day < 3; ++day) tap("day more");
   tap("clock right");
   kiosk->turn();

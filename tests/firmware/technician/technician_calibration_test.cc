@@ -137,6 +137,27 @@ TEST_F(TechnicianTest, ACalibrationForPicturesOfAnotherSizeComesIntoUseByNoWay) 
   EXPECT_NE(rig().revision, *stored);
 }
 
+// Out of sight it would hold the cameras that the other pages need. What was made before can be compared.
+TEST_F(TechnicianTest, WhoLeavesTheirCalibrationEndsItAndFindsItAgain) {
+  ASSERT_NO_FATAL_FAILURE(capture());
+  const std::size_t before = rig().now().put_aside;
+  const std::string name(rig().now().result.name);
+  rig().open(StaffPage::Calibrate);
+  rig().tap("calibration begin");
+  ASSERT_TRUE(
+      rig().until([] { return rig().now().calibration.views >= 7 || !rig().now().calibration.running; }));
+  rig().open(StaffPage::Cameras);
+  ASSERT_TRUE(rig().until([] { return rig().now().cameras.watched; })) << "the cameras are free";
+  EXPECT_EQ(rig().appliance->state(), State::Staff);
+  rig().open(StaffPage::Calibrate);
+  EXPECT_TRUE(rig().now().calibration.ended) << rig().now().calibration.problem.detail;
+  EXPECT_TRUE(rig().shows("calibration store")) << "nothing of it is lost";
+  EXPECT_FALSE(rig().shows("ended")) << "who ended it knows";
+  rig().open(StaffPage::Compare);
+  ASSERT_EQ(rig().now().put_aside, before + 1) << "the test capture has left its result";
+  EXPECT_EQ(rig().now().compared[before].result.name, name);
+}
+
 // It would be lost: the page would not offer to store it.
 TEST_F(TechnicianTest, WhatIsCalibratedWhileTheOneBeforeIsBeingStoredIsNotStoredYet) {
   const auto keeper_is_free = [] { return !rig().side_tasks->busy(JobLane::Keeper); };

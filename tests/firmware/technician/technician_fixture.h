@@ -21,6 +21,15 @@ class TechnicianTest : public testing::Test {
  protected:
   static void SetUpTestSuite() { rig_ = new TechnicianRig; }
   static void TearDownTestSuite() { delete rig_; }
+  // What a test has put aside is none of the next one's.
+  void TearDown() override {
+    if (rig().now().put_aside == 0) return;
+    rig().open(StaffPage::Compare);
+    EXPECT_TRUE(rig().until([] {
+      if (rig().shows("drop 0")) rig().tap("drop 0");
+      return rig().now().put_aside == 0;
+    }));
+  }
   static TechnicianRig& rig() { return *rig_; }
   static bool finished() {
     return rig().now().phase == TechnicianPhase::Ready || rig().now().phase == TechnicianPhase::Failed;

@@ -4,6 +4,9 @@
 
 #include <gtest/gtest.h>
 
+#include <sys/stat.h>
+
+#include <fstream>
 #include <string_view>
 
 #include "tests/support/temporary_folder.h"
@@ -36,6 +39,18 @@ TEST(WholeFile, GetsItsNameAfterWhatMustBeThereBefore) {
     return {};
   }));
   EXPECT_FALSE(named);
+}
+
+TEST(WholeFile, IsNobodyElsesWhereThatIsAsked) {
+  const test::TemporaryFolder folder;
+  std::ofstream(folder / "own") << "as an older version wrote it";
+  ASSERT_TRUE(write_whole_file(folder / "own", {}, {}, 0600));
+  ASSERT_TRUE(write_whole_file(folder / "other", {}));
+  const auto mode = [&](const char* name) { return std::filesystem::status(folder / name).permissions(); };
+  EXPECT_EQ(mode("own"), std::filesystem::perms(0600));
+  const auto umask = ::umask(0);
+  ::umask(umask);
+  EXPECT_EQ(mode("other"), std::filesystem::perms(0666 & ~umask)) << "as the umask says";
 }
 
 }  // namespace

@@ -40,7 +40,7 @@ TEST(Backdrop, ShowsWhatThePhotographShowedAroundTheFaceAndFadesToNothing) {
   const Backdrop& b = model->backdrop;
   ASSERT_EQ(b.at_mm.size(), static_cast<std::size_t>(b.columns) * static_cast<std::size_t>(b.rows));
   ASSERT_EQ(b.rgba.size(), b.at_mm.size());
-  std::size_t shown = 0, above = 0;
+  std::size_t shown = 0, above = 0, neck = 0;
   for (int row = 0; row < b.rows; ++row)
     for (int column = 0; column < b.columns; ++column) {
       const std::size_t k = static_cast<std::size_t>(row) * static_cast<std::size_t>(b.columns) +
@@ -54,6 +54,10 @@ TEST(Backdrop, ShowsWhatThePhotographShowedAroundTheFaceAndFadesToNothing) {
           apply(model->head_from_camera,
                 {static_cast<double>(p.x), static_cast<double>(p.y), static_cast<double>(p.z)});
       if (in_head.y > 105) ++above;
+      if (in_head.y < -30) {
+        ++neck;
+        EXPECT_GT(b.rgba[k][0], 1.15 * b.rgba[k][2]) << "skin is redder than the grey room beside a jaw";
+      }
       const Vec3d q = apply(pair.rectified_from_left,
                             {static_cast<double>(p.x), static_cast<double>(p.y), static_cast<double>(p.z)});
       const auto at = [&](double centre, double aside) {
@@ -76,6 +80,7 @@ TEST(Backdrop, ShowsWhatThePhotographShowedAroundTheFaceAndFadesToNothing) {
       EXPECT_LE(b.rgba[k][0], brightest) << "nothing is brighter than the photograph";
     }
   EXPECT_GT(shown, 500U);
+  EXPECT_GT(neck, 20U);
   EXPECT_GT(above, 20U) << "hair, above what is measured of a face";
 }
 

@@ -7,9 +7,12 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <memory_resource>
+#include <span>
 #include <string>
 
 #include "pipeline/texture/blend/shot_planes.h"
+#include "pipeline/texture/colour_fill.h"
 #include "pipeline/texture/texturers.h"
 #include "tests/pipeline/texture/painted_plane.h"
 #include "tests/support/names_of.h"
@@ -29,6 +32,31 @@ class TexturerContract : public testing::TestWithParam<std::string> {
     return room.run([&](StageContext& c) { return make(GetParam())(mesh, pair, c); });
   }
 };
+
+// Without an inside it has no colours to go on from but those of its rim: not the mean of all, which shows.
+TEST(ContinueOutwards, AThinChartHasAMarginOfItsOwnColour) {
+  constexpr int kSide = 64, kMargin = 4, kLeft = 40, kTop = 20, kBottom = 40;
+  constexpr std::array<std::uint8_t, 3> kHair{30, 60, 90};
+  for (const int wide : {1, 2, 3, 4, 9}) {
+    TextureAtlas atlas(std::pmr::get_default_resource());
+    atlas.width_px = atlas.height_px = kSide;
+    atlas.rgb.assign(3 * kSide * kSide, 200);
+    atlas.origin.assign(kSide * kSide, kNoSurfaceTexel);
+    const auto cover = [&](int left, int right, std::span<const std::uint8_t> colour) {
+      for (int y = kTop; y < kBottom; ++y)
+        for (int x = left; x < right; ++x) {
+          atlas.origin[atlas.index(x, y)] = kLeftPhotographTexel;
+          for (std::size_t c = 0; c < colour.size(); ++c) atlas.rgb[3 * atlas.index(x, y) + c] = colour[c];
+        }
+    };
+    cover(4, 24, {});
+    cover(kLeft, kLeft + wide, kHair);
+    continue_outwards(atlas, kMargin, std::pmr::get_default_resource());
+    for (int y = kTop + kMargin; y < kBottom - kMargin; ++y)
+      for (int x = kLeft - kMargin; x < kLeft + wide + kMargin; ++x)
+        ASSERT_EQ(atlas.rgb[3 * atlas.index(x, y)], kHair[0]) << wide << " wide: " << x << ", " << y;
+  }
+}
 
 TEST_P(TexturerContract, EveryCornerShowsThePaint) {
   StageRoom room;

@@ -147,6 +147,45 @@ TEST(StoreFaults, ADiskTooSmallForAnEmptyStoreSaysSo) {
   EXPECT_EQ(store.error().code, Errc::MediaFull) << store.error().what.view();
 }
 
+// Whoever was told that there is none would make another.
+TEST(StoreFaults, AStoreThatMayNotBeReadIsNotCalledMissing) {
+  const TemporaryFolder folder;
+  const auto dir = folder / "store";
+  std::filesystem::create_directory(folder / "empty");
+  ASSERT_TRUE(opened(dir, test::kNoReserve));
+  const test::StillClock clock;
+  const SqliteStoreOptions to_read{.mode = OpenMode::ReadOnly};
+  const auto code = [&](const std::filesystem::path& at) {
+    return test::code_of(open_sqlite_store(at, clock, to_read));
+  };
+  const bool root = ::geteuid() == 0;  // reads everything
+  for (const auto& locked : {dir, folder.path()}) {
+    std::filesystem::permissions(folder.path(), std::filesystem::perms(0755));
+    std::filesystem::permissions(locked, std::filesystem::perms(0));
+    ASSERT_TRUE(!root || ::seteuid(65'534) == 0);
+    EXPECT_EQ(code(dir), Errc::IoFailed) << locked;
+    EXPECT_EQ(test::code_of(keep_sqlite_store(dir, clock, {})->rekey({})), Errc::IoFailed) << locked;
+    ASSERT_TRUE(!root || ::seteuid(0) == 0);
+    std::filesystem::permissions(locked, std::filesystem::perms(0755));
+  }
+  EXPECT_EQ(code(folder / "none"), Errc::NotFound);
+  EXPECT_EQ(code(folder / "empty"), Errc::NotFound);
+  EXPECT_TRUE(open_sqlite_store(dir, clock, to_read));
+}
+
+TEST(StoreFaults, OnADiskThatMayOnlyBeReadACopyIsAskedFor) {
+  const TinyDisk disk(4'000'000);
+  if (!disk.mounted()) GTEST_SKIP() << disk.why_not();
+  ASSERT_TRUE(opened(disk.path() / "store", test::kNoReserve));
+  ASSERT_TRUE(disk.protect(true));
+  const test::StillClock clock;
+  const auto store = open_sqlite_store(disk.path() / "store", clock, {.mode = OpenMode::ReadOnly});
+  ASSERT_FALSE(store);
+  EXPECT_EQ(store.error().code, Errc::IoFailed);
+  EXPECT_EQ(store.error().sys_errno, EROFS);
+  EXPECT_NE(store.error().what.view().find("make a copy"), std::string_view::npos);
+}
+
 TEST(StoreFaults, AnExportOntoAFullDiskLeavesItAsItWas) {
   const TinyDisk disk(300'000);
   if (!disk.mounted()) GTEST_SKIP() << disk.why_not();

@@ -37,11 +37,13 @@ class NarratorTest : public testing::Test {
     tree.begin(false);
     tree.open(node(Role::Group, "screen", {}));
     tree.leaf(node(Role::Heading, "title", {}, shown.heading));
-    Node advice = node(Role::Alert, "advice", shown.advice);
-    advice.insists = shown.insists, advice.waits = shown.waits;
-    tree.open(advice);
-    tree.leaf(node(Role::Text, {}, {}, "what is drawn of it"));
-    tree.close();
+    if (!shown.advice.empty()) {
+      Node advice = node(Role::Alert, "advice", shown.advice);
+      advice.insists = shown.insists, advice.waits = shown.waits;
+      tree.open(advice);
+      tree.leaf(node(Role::Text, {}, {}, "what is drawn of it"));
+      tree.close();
+    }
     if (!shown.progress.empty()) {
       Node gauge = node(Role::Status, "progress", "How far it is");
       gauge.value = shown.progress;
@@ -194,6 +196,15 @@ TEST_F(NarratorTest, AnAlertIsToldOnceItHasStood) {
   EXPECT_EQ(hear_later(), "");
   shown.advice = "Hold still";
   EXPECT_EQ(hear_later(), "Hold still");
+}
+
+TEST_F(NarratorTest, AnAlertThatWentAndCameAgainIsToldAgain) {
+  hear();
+  shown.advice = {};
+  EXPECT_EQ(hear_later(), "");
+  shown.advice = "Too far";
+  EXPECT_EQ(hear_later(), "Too far") << "it is another mistake, in the same words";
+  EXPECT_EQ(hear_later(), "");
 }
 
 TEST_F(NarratorTest, AStatusWaitsForQuietAndTheNewestCounts) {

@@ -34,8 +34,8 @@ static_assert(kLettersOf.size() == kLanguages);
 
 const Letters& letters_of(Language language) { return *kLettersOf[std::size_t(language)]; }
 
-void key(Page& page, std::string_view id, std::string_view letter, const char* spoken, bool sign,
-         Action action, float grow = 1, bool mirrored = false) {
+Node& key(Page& page, std::string_view id, std::string_view letter, const char* spoken, bool sign,
+          Action action, float grow = 1, bool mirrored = false) {
   Node node = page.text(letter, type::kButton, Weight::Medium, page.palette.link, TextAlign::Centre);
   // Twelve letters abreast have no room to grow on an upright screen.
   const float growth = page.portrait ? 0.15F : 0.6F;
@@ -46,8 +46,11 @@ void key(Page& page, std::string_view id, std::string_view letter, const char* s
   page.card(node, 16);
   node.box.grow = grow;
   node.box.min_height = page.px(page.portrait ? size::kTarget : size::kKeyLeast);
-  page.tree.leaf(node);
+  return page.tree.leaf(node);
 }
+
+// What a key switches on or off is seen by the letters; who listens is told.
+const char* spoken_state(const Page& page, bool on) { return on ? page.tr("yes") : page.tr("no"); }
 
 // What a voice would pass over.
 const char* spoken_sign(const Page& page, std::string_view letter) {
@@ -75,9 +78,11 @@ void last_row(Page& page, Action done, Language language) {
                      : !latin              ? kEnglish.sign
                      : page.visit.capitals ? "ÁÑß"
                                            : "áñß";
-  key(page, "other_letters", sign,
-      latin ? page.tr("Letters with accents") : info_of(other ? language : Language::English).own_name, false,
-      ActionKind::OtherLetters, 0.6F);
+  Node& others =
+      key(page, "other_letters", sign,
+          latin ? page.tr("Letters with accents") : info_of(other ? language : Language::English).own_name,
+          false, ActionKind::OtherLetters, 0.6F);
+  if (latin) others.value = spoken_state(page, other);
   key(page, "space", page.tr("Space"), nullptr, false, {ActionKind::TypeKey, ' '}, 2);
   page.button("done", page.tr("Done"), icon::kGood, ButtonLook::Main,
               done.kind == ActionKind::Done && page.visit.name().empty() ? Action{} : done,
@@ -105,7 +110,9 @@ void keyboard(Page& page, Action done, Language language) {
   for (std::size_t i = 0; i < rows.size(); ++i) {
     const auto in_box = page.tree.inside(key_row(page));
     const bool last = i == rows.size() - 1;
-    if (last && cased) key(page, "shift", icon::kShift, page.tr("Capital letters"), true, ActionKind::Shift);
+    if (last && cased)
+      key(page, "shift", icon::kShift, page.tr("Capital letters"), true, ActionKind::Shift).value =
+          spoken_state(page, page.visit.capitals);
     letters(page, rows[i]);
     // Its arrow points to where letters go: the last one of a word that runs to the left is erased to the
     // right.

@@ -169,8 +169,8 @@ void Page::turning_tools() {
 }
 
 void Page::bigger_text() {
-  square_button("bigger", tr("Bigger text"), icon::kText, ActionKind::BiggerText,
-                filled("{} %", std::to_string(visit.text_percent())));
+  square_button("bigger", tr("Bigger text"), icon::kText, {ActionKind::BiggerText, int(text_sizes)},
+                filled("{} %", std::to_string(kTextPercents[std::min(visit.text_size, text_sizes - 1)])));
 }
 
 void Page::more_contrast() {

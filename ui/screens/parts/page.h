@@ -31,7 +31,8 @@ inline constexpr const char *kBack = "\uf04d", *kNext = "\uf054", *kUp = "\uf05d
                             *kPerson = "\uf64a", *kStill = "\uf51f", *kBin = "\uf1c0", *kLess = "\uf374",
                             *kMore = "\uf415", *kSpeaker = "\uf57e", *kQuieter = "\uf57f", *kSpeed = "\uf4c5",
                             *kUndo = "\uf54c", *kReach = "\uf5a4", *kCameraOff = "\uf5df",
-                            *kShield = "\uf498", *kPrinter = "\uf42a", *kStick = "\uf553";
+                            *kShield = "\uf498", *kPrinter = "\uf42a", *kStick = "\uf553",
+                            *kSearch = "\uf349";
 }  // namespace icon
 
 // What keeps a text apart from the direction of the words around it, letter by letter: a literal with one of
@@ -101,8 +102,9 @@ class Page {
   const Visit& visit;
   const Palette& palette;
   Words tr;
-  float unit;        // pixels of a dp
-  float text_share;  // 1 to 2, on the staff's pages to 1.5
+  float unit;                                     // pixels of a dp
+  float text_share;                               // 1 to 2, on the staff's pages to 1.5
+  std::size_t text_sizes = kTextPercents.size();  // of kTextPercents those that look different here
   float width_dp, height_dp;
   bool portrait;
 

@@ -51,7 +51,8 @@ constexpr std::array<std::array<const char*, 2>, std::size_t(LogEvent::Count)> k
      {mark_tr("Self-test")},
      {mark_tr("Consent text {} was taken over")},
      {mark_tr("The setting “{}” is not one: what is usual holds")},
-     {mark_tr("A visitor took their portrait on a stick")}}};
+     {mark_tr("A visitor took their portrait on a stick")},
+     {mark_tr("This device has just restarted")}}};
 static_assert(kLogWords.back()[0] != nullptr);
 
 }  // namespace

@@ -16,9 +16,10 @@ namespace relievo::ui {
 namespace {
 
 // As many dots as digits: nobody behind reads them.
-void dots(StaffFrame& page) {
+void dots(StaffFrame& page, const Action& done) {
   Node row = left_first(page.row_box(14));
   tell(row, Role::Field, "typed", page.tr("Your PIN"));
+  row.by_key = done;
   row.box.justify = page.portrait     ? Justify::Centre
                     : page.mirrored() ? Justify::End
                                       : Justify::Start;  // as the words above it
@@ -71,7 +72,7 @@ void pin_entry(StaffFrame& page, std::string_view title, const PinWords& words, 
   page.heading("pin title", title, type::kHeading, align);
   if (words.hint != nullptr) told(page, "pin hint", words.hint, Mood::Plain);
   if (!words.told.empty()) told(page, "pin state", words.told, words.mood);
-  dots(page);
+  dots(page, done);
   page.tree.close();
   number_pad(page, {"digit ", "pin done"}, done);
 }
@@ -112,12 +113,12 @@ void welcome(StaffFrame& page) {
   page.button("go on", tr("Go on"), page.onward(), ButtonLook::Main, on);
 }
 
-void mover(StaffFrame& page, const char* label, std::string_view id, int minutes) {
+void mover(StaffFrame& page, std::string_view label, std::string_view id, int minutes) {
   page.tree.open(page.grown(page.box(Flow::Column, space::kXs)));
   page.write(label, type::kSmall, Weight::Medium, page.palette.ink, TextAlign::Centre);
   page.tree.open(left_first(justified(page.box(Flow::Row, space::kXs), Justify::Centre)));
-  page.square_button(page.joined({id, " less"}), page.tr("Less"), icon::kLess, MoveClock{-minutes});
-  page.square_button(page.joined({id, " more"}), page.tr("More"), icon::kMore, MoveClock{minutes});
+  page.square_button(page.joined({id, " less"}), page.tr("Less"), icon::kLess, MoveClock{-minutes}, label);
+  page.square_button(page.joined({id, " more"}), page.tr("More"), icon::kMore, MoveClock{minutes}, label);
   page.tree.close();
   page.tree.close();
 }
@@ -131,13 +132,18 @@ void clock(StaffFrame& page) {
                         TextAlign::Centre);
   time.style.size_px = page.px(type::kTitle * (1 + (page.text_share - 1) * 0.5F));  // it stays on one line
   page.put("clock", Role::Status, time);
-  page.tree.open(page.box(Flow::Row, space::kM));
-  mover(page, tr("Day"), "day", 24 * 60);
-  mover(page, tr("Hour"), "hour", 60);
-  if (page.portrait) {
+  // From coarse to fine, from the left as the figures above in every language. A clock whose battery is dead
+  // has years to go.
+  constexpr int kDay = 24 * 60;
+  page.tree.open(left_first(page.box(Flow::Row, space::kM)));
+  mover(page, page.days(365), "year", 365 * kDay);
+  mover(page, page.days(30), "month", 30 * kDay);
+  mover(page, tr("Day"), "day", kDay);
+  if (page.little_room()) {
     page.tree.close();
-    page.tree.open(page.box(Flow::Row, space::kM));
+    page.tree.open(left_first(page.box(Flow::Row, space::kM)));
   }
+  mover(page, tr("Hour"), "hour", 60);
   mover(page, tr("Ten minutes"), "ten", 10);
   mover(page, tr("Minute"), "minute", 1);
   page.tree.close();
@@ -264,14 +270,15 @@ void sheet(StaffFrame& page, const RecoveryView& seen) {
 
 void typing(StaffFrame& page, const RecoveryView& seen) {
   const bool busy = seen.state == SheetState::Saving;
-  page.typed_field("word field", page.filled(page.tr("Word {} of the sheet"), page.number(seen.asked)));
   const std::string_view typed = page.service.typed();
+  const Action done = typed.empty() || busy ? Action{} : OfferWord{};
+  page.typed_field("word field", page.filled(page.tr("Word {} of the sheet"), page.number(seen.asked)), done);
   if (busy) page.status("state", page.tr("One moment, please"), Mood::Plain);
   if (seen.state == SheetState::Wrong && typed.empty())
     page.status("state", page.tr("That was not right."), Mood::Bad);
   if (seen.state == SheetState::Failed) page.outcome();
   if (page.portrait) page.space(1);
-  keyboard(page, typed.empty() || busy ? Action{} : OfferWord{}, Language::English);
+  keyboard(page, done, Language::English);
 }
 
 }  // namespace

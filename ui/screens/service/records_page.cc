@@ -16,9 +16,10 @@ enum RecordsMode : int { kList, kTyping, kErasing };
 
 // What one has typed, and the keys.
 void typing(StaffFrame& page) {
-  page.typed_field("search field", page.tr("Search"));
+  const Action done(FindRecords{}, true);
+  page.typed_field("search field", page.tr("Search"), done);
   if (page.portrait) page.space(1);
-  keyboard(page, Action(FindRecords{}, true));
+  keyboard(page, done);
 }
 
 void working(StaffFrame& page) {
@@ -70,9 +71,11 @@ ListFilters filters_of(StaffFrame& page, const RecordsView& seen, FilterNames& n
 void list(StaffFrame& page, const RecordsView& seen, ListFilters filters) {
   const auto& tr = page.tr;
   said(page, seen);
-  if (!seen.searched.empty())
-    page.put("searched", Role::Status, page.joined({tr("Search"), ": ", seen.searched}), type::kSmall,
-             Weight::Medium, page.palette.ink);
+  if (!seen.searched.empty()) {
+    const auto in_row = page.tree.inside(page.row_box(space::kXs));
+    page.sign(icon::kSearch, 22, page.palette.ink_soft);
+    page.put("searched", Role::Status, seen.searched, type::kSmall, Weight::Medium, page.palette.ink);
+  }
   page.begin_list("records");
   for (const RecordRow& row : seen.rows)
     page.row(page.id("record", std::size_t(row.number)), row.name, page.date(row.since), Mood::Plain,
@@ -89,7 +92,7 @@ void list(StaffFrame& page, const RecordsView& seen, ListFilters filters) {
   const bool narrow = page.little_room();
   const float share = narrow ? 1.0F : 0.0F;
   const auto in_box = page.tree.inside(page.box(Flow::Row, space::kS));
-  page.small_button("search", tr("Search"), "\uf349", ButtonLook::Main, {ActionKind::StaffMode, kTyping},
+  page.small_button("search", tr("Search"), icon::kSearch, ButtonLook::Main, {ActionKind::StaffMode, kTyping},
                     share);
   if (!seen.searched.empty())
     page.small_button("all", tr("All"), nullptr, ButtonLook::Quiet, FindRecords{}, share);

@@ -62,7 +62,7 @@ void StaffFrame::begin(const char* title, const char* letter) {
   if (portrait) space(1);
   else name_page();
   reading_tools();
-  square_button("sign out", tr("Sign out"), kLeaveSign, ActionKind::StaffLeave);
+  square_button(kBarsEnd, tr("Sign out"), kLeaveSign, ActionKind::StaffLeave);
   tree.close();
   if (portrait) {
     Node row = box(Flow::Row);
@@ -83,13 +83,16 @@ void StaffFrame::leaving() {
   put("leaves", Role::Status, soon);
 }
 
-void StaffFrame::typed_field(std::string_view id, std::string_view asked) {
+void StaffFrame::typed_field(std::string_view id, std::string_view asked, const Action& done) {
+  const std::string_view typed = service.typed();
   Node field = row_box(3, 20, 8);
   tell(field, Role::Field, id, asked);
+  field.value = typed;
+  field.secret = true;
+  field.by_key = done;
   frame(field, palette.card, palette.accent, px(3), px(18));
   field.box.min_height = px(56);
   const auto in_field = tree.inside(field);
-  const std::string_view typed = service.typed();
   write(typed.empty() ? asked : typed, type::kBody, Weight::Medium,
         typed.empty() ? palette.ink_soft : palette.ink);
 }

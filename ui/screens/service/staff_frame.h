@@ -42,6 +42,8 @@ class StaffFrame : public Page {
              const Palette& palette_in, const Rect& screen)
       : Page(tree_in, view_in, visit_in, palette_in, screen), service(service_in), staff(*view_in.service) {
     text_share = std::min(text_share, kMostTextShare);
+    text_sizes = std::size_t(std::ranges::count_if(
+        kTextPercents, [](int percent) { return float(percent) <= 100 * kMostTextShare; }));
   }
 
   const Service& service;
@@ -60,8 +62,9 @@ class StaffFrame : public Page {
            Action action = {});
   // Label, then less, the value, more; an end has no action. Ids: "ID less", "ID more".
   void stepper(std::string_view id, std::string_view label, std::string_view value, Action less, Action more);
-  // What is being typed; before the first letter, what is asked.
-  void typed_field(std::string_view id, std::string_view asked);
+  // What is being typed; before the first letter, what is asked. `done`: of the key that ends it, Enter does
+  // the same.
+  void typed_field(std::string_view id, std::string_view asked, const Action& done);
   // A series of values, as a row of a card.
   void plot(const Plot& what);
   // A heading between rows.

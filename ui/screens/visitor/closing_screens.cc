@@ -126,7 +126,7 @@ Message words_of(const Page& page) {
           tr("Please tell the staff. This device tries again by itself. Nothing about you was kept.")};
 }
 
-constexpr float kCodeSide = 190, kLinkWords = 220;
+constexpr float kCodeSide = 190, kLinkWords = 220, kLinkLetters = 18;  // so many on one of its lines
 
 void qr(Page& page, std::string_view id, PictureSlot slot) {
   Node code = page.sized(page.box(Flow::Column), kCodeSide, kCodeSide);
@@ -169,10 +169,12 @@ void link(Page& page) {
   Node card = code_card(page, "link", page.tr("Your portrait"), page.palette.card_border);
   card.value = site;
   const auto in_card = page.tree.inside(card);
-  Node words = page.text(
-      page.filled(page.tr("Photograph this code to find your portrait at {}."), page.breakable(site, ".")),
-      type::kSmall, Weight::Medium, page.palette.ink_soft,
-      page.portrait ? TextAlign::Centre : TextAlign::Start);
+  // A line that may end at a point does, though the whole address has room on the next.
+  const bool has_room = float(site.size()) * page.text_share < kLinkLetters;
+  Node words = page.text(page.filled(page.tr("Photograph this code to find your portrait at {}."),
+                                     has_room ? site : page.breakable(site, ".")),
+                         type::kSmall, Weight::Medium, page.palette.ink_soft,
+                         page.portrait ? TextAlign::Centre : TextAlign::Start);
   words.id = "link_words";
   if (!page.portrait && !at_foot(page)) words.box.width = page.px(kLinkWords);
   page.tree.leaf(at_foot(page) ? page.grown(words) : words);

@@ -88,7 +88,9 @@ void field(Page& page, const char* asked, float grow) {
   const std::string_view name = page.visit.name();
   const bool code = page.visit.quotes_code();
   Node field = page.row_box(3, 26, 14);
-  tell(field, Role::Field, "name", asked);
+  // How long a code is the eye sees by what is still to come.
+  tell(field, Role::Field, "name",
+       code ? page.filled("{} – {}", {asked, page.share_of(name.size(), kCodeDigits)}) : asked);
   field.by_key = ActionKind::Done;
   field.box.grow = grow;
   // Letter by letter while it is typed; a code that is whole, digit by digit.
@@ -144,7 +146,7 @@ void finder(Page& page, float high_dp) {
 }
 
 void wrong_code(Page& page) {
-  if (page.view.known != Known::NoSuchCode || page.visit.name().empty()) return;
+  if (page.view.known != Known::NoSuchCode || !page.visit.code_handed_in()) return;
   page.put("wrong_code", Role::Alert, page.tr("No record has this code. Please check it, or ask the staff."),
            type::kSmall, Weight::Bold, page.palette.bad);
 }

@@ -24,6 +24,7 @@ Said side_of(const Page& page) {
 Said said(const Page& page) {
   using pipeline::Advice;
   const auto& tr = page.tr;
+  if (page.view.screen == Screen::Capture) return {tr("Please hold still"), icon::kStill, true};
   if (page.view.live.number == 0) return {tr("The cameras are starting"), icon::kWait};
   switch (page.view.live.advice) {
     case Advice::None:

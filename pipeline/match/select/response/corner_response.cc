@@ -338,7 +338,7 @@ float harris_measure(float xx, float xy, float yy, float sensitivity) {
 }
 
 Result<void> corner_response(const std::pmr::vector<float>& grey, const Selectable& selectable,
-                             const CornerWindow& window, CornerMeasure measure, float parameter,
+                             const ResponseWindow& window, CornerMeasure measure, float parameter,
                              StageContext& context, Plane<float>& response) {
   std::ranges::fill(response.values, 0.0F);
   if (response.width < 3 || response.height < 3) return {};

@@ -116,7 +116,7 @@ class FastHessian {
   Plane<double> above_;  // sum of all pixels above and left of (x, y)
 };
 
-struct CornerWindow {
+struct ResponseWindow {
   int radius_px = 3;
   int passes = 1;  // 1: a square, each pixel counts the same; 3: close to a Gaussian
   // How far from its centre a response looks, gradients included.
@@ -132,7 +132,7 @@ float harris_measure(float xx, float xy, float yy, float sensitivity);  // Harri
 // Fills `response`: 0 where nothing may be selected and where the measure is negative. Error:
 // Cancelled.
 Result<void> corner_response(const std::pmr::vector<float>& grey, const Selectable& selectable,
-                             const CornerWindow& window, CornerMeasure measure, float parameter,
+                             const ResponseWindow& window, CornerMeasure measure, float parameter,
                              StageContext& context, Plane<float>& response);
 
 }  // namespace relievo::pipeline

@@ -199,6 +199,35 @@ TEST(Rectifier, RefusesWhatIsNotThisCalibrations) {
   }
 }
 
+TEST(Rectifier, TakesAPictureStoredFromBelowAndRefusesRowsThatOverlap) {
+  const StereoCalibration c = toed_in(160, 120);
+  std::vector<std::byte> bytes(160 * 120 * 3);
+  for (std::size_t i = 0; i < bytes.size(); ++i) bytes[i] = static_cast<std::byte>(i / 480 + i % 7);
+  std::vector<std::byte> from_below;
+  for (std::size_t y = 120; y-- > 0;)
+    from_below.insert(from_below.end(), bytes.begin() + std::ptrdiff_t(y * 480),
+                      bytes.begin() + std::ptrdiff_t(y * 480 + 480));
+  const ImageView view{bytes.data(), 160, 120, 480, PixelFormat::Rgb8};
+  const ImageView upwards{from_below.data() + 119 * 480, 160, 120, -480, PixelFormat::Rgb8};
+  test::StageFixture fixture(1 << 22, 1 << 22);
+  const auto rectified = [&](const ImageView& left, const ImageView& right) {
+    return run_stage(fixture.context, [&](StageContext& ctx) {
+      return RectifierOptions{}.rectify({left, right}, c, ctx);
+    });
+  };
+  const auto pair = rectified(view, upwards), same = rectified(view, view);
+  ASSERT_TRUE(pair && same);
+  EXPECT_EQ(pair->right.grey, same->right.grey);
+  for (const int stride : {0, 479, -479, 160}) {
+    ImageView wrong = view;
+    wrong.stride_bytes = stride;
+    for (const auto& refused : {rectified(wrong, view), rectified(view, wrong)}) {
+      ASSERT_FALSE(refused) << stride;
+      EXPECT_EQ(refused.error().code, Errc::InvalidInput);
+    }
+  }
+}
+
 TEST(Rectifier, EveryArenaTooSmallSaysSo) {
   const StereoCalibration c = toed_in(160, 120);
   std::vector<std::byte> bytes(160 * 120 * 3);

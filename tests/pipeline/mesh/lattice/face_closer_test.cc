@@ -14,6 +14,7 @@
 #include <vector>
 
 #include "hal/base/statistics.h"
+#include "pipeline/mesh/lattice/head_chart.h"
 #include "pipeline/mesh/meshers/grid_mesher.h"
 #include "tests/pipeline/mesh/landmarks/field_head.h"
 #include "tests/pipeline/mesh/mesh_checks.h"
@@ -39,6 +40,12 @@ FaceMesh closed_face(const FieldHead& head, const hal::sim::HeadPose& pose, Stag
   return std::move(*mesh);
 }
 
+Vec3d in_true_head(const hal::sim::HeadPose& pose, const Vec3f& v) {
+  const hal::sim::Vec3 p{static_cast<double>(v.x), static_cast<double>(v.y), static_cast<double>(v.z)};
+  const hal::sim::Vec3 h = pose.world_from_head().transposed() * (p - pose.origin_mm());
+  return {h.x, h.y, h.z};
+}
+
 double off_the_head(const FieldHead& head, const hal::sim::HeadPose& pose, const Vec3f& v) {
   const hal::sim::Vec3 p{static_cast<double>(v.x), static_cast<double>(v.y), static_cast<double>(v.z)};
   return std::abs(head.field().distance(pose.world_from_head().transposed() * (p - pose.origin_mm())));
@@ -53,8 +60,15 @@ TEST(FaceCloser, LeavesNoHoleAndMovesNothingThatWasMeasured) {
     expect_one_manifold_surface(mesh);
     EXPECT_EQ(boundary_loops(mesh), 1U) << seed;
     std::vector<double> measured, completed;
-    for (std::size_t v = 0; v < mesh.vertices_mm.size(); ++v)
+    double lowest_measured = 0, lowest = 0;  // of the chin
+    for (std::size_t v = 0; v < mesh.vertices_mm.size(); ++v) {
       (mesh.measured[v] != 0 ? measured : completed).push_back(off_the_head(head, pose, mesh.vertices_mm[v]));
+      const Vec3d at = in_true_head(pose, mesh.vertices_mm[v]);
+      if (std::abs(at.x) > 4) continue;
+      lowest = std::min(lowest, at.y);
+      if (mesh.measured[v] != 0) lowest_measured = std::min(lowest_measured, at.y);
+    }
+    EXPECT_GT(lowest, lowest_measured - 7) << "no throat that nobody saw hangs from a chin";
     EXPECT_GT(completed.size(), 300U) << "beside the nose, at least";
     EXPECT_LT(percentile(measured, 0.95), 0.35) << seed;
     EXPECT_LT(percentile(completed, 0.5), 0.5) << seed;
@@ -96,6 +110,16 @@ TEST(FaceCloser, LaysAnewWhatIsUnsureInTheLowerFace) {
   }
 }
 
+// Chins of open mouths lie far from the nose.
+TEST(FaceOutline, HoldsALongChin) {
+  FaceOutline outline{HeadChart(RigidTransform{})};
+  const Vec3f chin = narrow(minus(Vec3d{0, -98, -12}, HeadChart::kCentreMm));
+  outline.below_mm = 105;
+  EXPECT_GT(outline.depth_mm(chin), 3);
+  outline.below_mm = 95;
+  EXPECT_LT(outline.depth_mm(chin), 0);
+}
+
 // A heap that is used up ends no visit, and what was known of a face is wiped with the arenas.
 TEST(FaceCloser, TakesNothingButTheStagesMemory) {
   const FieldHead head(1);
@@ -115,10 +139,7 @@ std::vector<Vec3d> outline(const FaceMesh& mesh, const hal::sim::HeadPose& pose)
   std::vector<Vec3d> border;
   for (const auto& [edge, count] : triangles_of) {
     if (count != 1) continue;
-    const Vec3f& v = mesh.vertices_mm[edge.first];
-    const hal::sim::Vec3 p{static_cast<double>(v.x), static_cast<double>(v.y), static_cast<double>(v.z)};
-    const hal::sim::Vec3 h = pose.world_from_head().transposed() * (p - pose.origin_mm());
-    border.push_back({h.x, h.y, h.z});
+    border.push_back(in_true_head(pose, mesh.vertices_mm[edge.first]));
   }
   return border;
 }
@@ -148,9 +169,9 @@ TEST(FaceCloser, CutsTheSameOutlineHoweverTheHeadIsTurned) {
     for (const auto& [yaw, pitch] :
          {std::pair{0.0, 0.0}, {2.0, 3.0}, {15.0, 0.0}, {14.0, -3.0}, {8.0, 6.0}}) {
       const std::vector<Vec3d> other = cut_at(yaw, pitch);
-      EXPECT_LT(rms_between(other, facing), 2.0)
+      EXPECT_LT(rms_between(other, facing), 2.6)
           << "seed " << seed << ", turned by " << yaw << ", bowed by " << pitch;
-      EXPECT_LT(rms_between(facing, other), 2.0)
+      EXPECT_LT(rms_between(facing, other), 2.6)
           << "seed " << seed << ", turned by " << yaw << ", bowed by " << pitch;
     }
   }

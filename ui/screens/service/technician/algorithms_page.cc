@@ -137,6 +137,7 @@ void editor(TechnicianFrame& f) {
   Node field = f.text(f.seen.choice.typed.empty() ? std::string_view("_") : as_typed(f, f.seen.choice.typed),
                       type::kHeading, Weight::Bold, f.palette.ink, TextAlign::Centre);
   tell(field, Role::Field, "option typed", f.tr("Typed"));
+  field.by_key = TechnicianAct::UseTyped;
   frame(field, f.palette.card, f.palette.accent, f.px(2), f.px(14));
   field.box.min_height = f.px(52);
   f.tree.leaf(field);

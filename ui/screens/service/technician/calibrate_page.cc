@@ -38,8 +38,8 @@ constexpr std::array kAdviceWords{mark_tr("Show the whole board to both cameras"
                                   mark_tr("Enough has been seen")};
 static_assert(kAdviceWords.size() == std::size_t(LiveAdvice::Done) + 1);
 
-// In the order of LiveEnd.
-constexpr std::array kEndWords{mark_tr("It was stopped"), mark_tr("The goal is reached."),
+// In the order of LiveEnd. Who ended it by hand knows.
+constexpr std::array kEndWords{"", mark_tr("The goal is reached."),
                                mark_tr("More views would hardly improve it."),
                                mark_tr("Enough has been seen")};
 static_assert(kEndWords.size() == std::size_t(LiveEnd::Full) + 1);
@@ -143,7 +143,7 @@ void verdict(TechnicianFrame& f) {
   f.row("verdict", said, {}, mood);
   for (const std::string& reason : c.reasons) f.detail(reason);
   if (!c.reasons.empty()) f.rule();
-  f.row("ended", one_of(f.tr, kEndWords, c.end), {});
+  if (c.end != LiveEnd::NotYet) f.row("ended", one_of(f.tr, kEndWords, c.end), {});
   f.row("depth error", f.tr("Predicted error"), f.number(c.depth_error_mm, 3, "mm"), mood);
   views(f);
   f.row("baseline", f.tr("Distance of the cameras"), f.number(c.baseline_mm, 2, "mm"));

@@ -197,8 +197,7 @@ void sigma_plot(TechnicianFrame& f) {
 void time_rows(TechnicianFrame& f) {
   const TechnicianResult& r = f.seen.result;
   for (std::size_t i = 0; i < r.seconds.size(); ++i) {
-    f.section(work_of(f.tr, i));
-    f.row(f.id("time", i), f.tr("Time"), f.number(r.seconds[i], 2, "s"));
+    f.row(f.id("time", i), work_of(f.tr, i), f.number(r.seconds[i], 2, "s"));
     f.row(f.id("made", i), made_by(f.tr, i), f.number(r.made[i]));
   }
 }
