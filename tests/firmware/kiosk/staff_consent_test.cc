@@ -165,7 +165,7 @@ TEST_F(StaffConsentTest, WhatIsWrongIsSaidAndNothingChanges) {
   sample_is_in_force();
   media->unplug();
   EXPECT_EQ(take(), Outcome::NoStick);
-  EXPECT_NE(said().find("There is no stick"), std::string::npos) << said();
+  EXPECT_NE(said().find("No stick is ready"), std::string::npos) << said();
   sample_is_in_force();
 }
 

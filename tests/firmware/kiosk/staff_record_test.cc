@@ -126,7 +126,7 @@ TEST_F(StaffRecordTest, WhatWasCapturedIsReplayedBitForBit) {
   EXPECT_TRUE(says("captures/" + names.front())) << "where it lies";
   is_replayed_bit_for_bit(stick() / "captures" / names.front());
   EXPECT_EQ(record(), Outcome::NoStick) << "it was let go";
-  EXPECT_TRUE(says("There is no stick"));
+  EXPECT_TRUE(says("No stick is ready"));
 }
 
 TEST_F(StaffRecordTest, TheLightThatIsRecordedIsTheOneTheCaptureWasTakenIn) {

@@ -10,24 +10,25 @@ namespace relievo::ui {
 namespace {
 
 // In the order of Errc.
-constexpr std::array kFaultWords{mark_tr("This cannot be accepted."),
-                                 mark_tr("Something is missing"),
-                                 mark_tr("It took too long"),
-                                 mark_tr("A device was pulled out or does not answer"),
-                                 mark_tr("The cameras must be calibrated"),
-                                 mark_tr("No face found"),
-                                 mark_tr("Too little could be matched"),
-                                 mark_tr("The measurement is not good enough"),
-                                 mark_tr("The program could not finish this"),
-                                 mark_tr("Not enough memory"),
-                                 mark_tr("There is no stick. Plug one in, then try again."),
-                                 mark_tr("There is no room left"),
-                                 mark_tr("The store is damaged"),
-                                 mark_tr("The store is from a newer version"),
-                                 mark_tr("Reading or writing failed"),
-                                 mark_tr("It was stopped"),
-                                 mark_tr("This is not possible now"),
-                                 mark_tr("This device cannot do that")};
+constexpr std::array kFaultWords{
+    mark_tr("This cannot be accepted."),
+    mark_tr("Something is missing"),
+    mark_tr("It took too long"),
+    mark_tr("A device was pulled out or does not answer"),
+    mark_tr("The cameras must be calibrated"),
+    mark_tr("No face found"),
+    mark_tr("Too little could be matched"),
+    mark_tr("The measurement is not good enough"),
+    mark_tr("The program could not finish this"),
+    mark_tr("Not enough memory"),
+    mark_tr("No stick is ready. Plug one in, or pull this one out and plug it in again."),
+    mark_tr("There is no room left"),
+    mark_tr("The store is damaged"),
+    mark_tr("The store is from a newer version"),
+    mark_tr("Reading or writing failed"),
+    mark_tr("It was stopped"),
+    mark_tr("This is not possible now"),
+    mark_tr("This device cannot do that")};
 static_assert(kFaultWords.size() == std::size_t(Errc::Unsupported) + 1);
 
 // In the order of LogEvent: what is said, and of whom.

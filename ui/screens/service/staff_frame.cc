@@ -14,7 +14,7 @@ constexpr const char* kLeaveSign = "\uf343";
 constexpr std::array kOutcomes{
     Told{mark_tr("Done."), Mood::Good},
     Told{mark_tr("Cancelled. Nothing was left half done."), Mood::Warn},
-    Told{mark_tr("There is no stick. Plug one in, then try again.")},
+    Told{mark_tr("No stick is ready. Plug one in, or pull this one out and plug it in again.")},
     Told{mark_tr("There is no room left. Nothing was left half written.")},
     Told{mark_tr("The stick was pulled out too early. Plug it in, then try again.")},
     Told{mark_tr("The stick is write-protected. Please use another one.")},
