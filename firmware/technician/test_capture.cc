@@ -57,8 +57,7 @@ void TestCapture::opened(ui::StaffPage page) {
 void TestCapture::closed(ui::StaffPage page) {
   if (page == ui::StaffPage::Cameras) want_watch(false);
   if (page != ui::StaffPage::Calibrate) return;
-  // Out of sight it would keep the cameras from every other page: who leaves it is done with showing views.
-  if (next_ == Next::Calibration) next_ = Next::None;
+  if (next_ == Next::Calibration) next_ = Next::None;  // out of sight it would hold the cameras
   if (parts_.appliance.state() == State::Calibrate) calibrate_.finish();
 }
 
@@ -149,7 +148,8 @@ void TestCapture::record() {
   recording_.record(shots, as_taken);
 }
 
-// What fills the slot of the test capture waits until nobody else is at the cameras.
+// What fills the slot of the test capture waits until nobody else is at the cameras. What a calibration ends
+// can be compared, where there is room.
 void TestCapture::begin_next() {
   if (next_ == Next::None || parts_.side_tasks.busy(JobLane::Capture) ||
       parts_.side_tasks.busy(JobLane::Worker))
@@ -157,7 +157,6 @@ void TestCapture::begin_next() {
   const Next what = std::exchange(next_, Next::None);
   problem_ = {};
   if (what == Next::Side) return may_add_side() ? shoot(true) : void();
-  // What a calibration puts an end to can still be compared, where there is room.
   if (what == Next::Calibration || (what == Next::Loaded && saved_->beside)) keep_result();
   forget_capture();
   if (session_.is_open()) session_.retake();

@@ -72,7 +72,7 @@ enum class ActionKind : std::uint8_t {
   Speech,
   Quieter,
   Louder,
-  Speed,  // what is heard (ui/speech/)
+  Speed,    // what is heard (ui/speech/)
   TypeKey,  // value: a space types one, else the node's text
   Erase,
   Shift,

@@ -155,7 +155,7 @@ TEST_F(StaffRoundTest, TheOperatorFindsExportsAndErasesARecord) {
   ASSERT_TRUE(until([this] { return find("record " + std::to_string(2)) == nullptr; }))
       << "only who was searched for";
   ASSERT_NE(find("searched"), nullptr);
-  EXPECT_EQ(find("searched")->text, "Ada") << "and it says so";
+  EXPECT_EQ(find("searched")->text, "ada") << "and it says so";
   tap("record " + std::to_string(1));
   ASSERT_TRUE(until([this] { return kiosk->ui().draw_list().faces[0].model != nullptr; }))
       << "the portrait is there to be turned";
