@@ -7,6 +7,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <cstdio>
 #include <map>
 #include <memory_resource>
 #include <span>
@@ -74,7 +75,9 @@ TEST(FaceCloser, LeavesNoHoleAndMovesNothingThatWasMeasured) {
     EXPECT_LT(percentile(completed, 0.5), 0.5) << seed;
     EXPECT_LT(percentile(completed, 0.8), 2.2)
         << seed << ", the rest is under the chin and beyond what either side shows";
-    EXPECT_LT(percentile(completed, 0.95), 9.2) << seed;
+    EXPECT_LT(percentile(completed, 0.95), 5) << seed;
+    std::printf("completed: median %.2f, 95 %% %.2f mm\n", percentile(completed, 0.5),
+                percentile(completed, 0.95));
   }
 }
 
@@ -169,9 +172,9 @@ TEST(FaceCloser, CutsTheSameOutlineHoweverTheHeadIsTurned) {
     for (const auto& [yaw, pitch] :
          {std::pair{0.0, 0.0}, {2.0, 3.0}, {15.0, 0.0}, {14.0, -3.0}, {8.0, 6.0}}) {
       const std::vector<Vec3d> other = cut_at(yaw, pitch);
-      EXPECT_LT(rms_between(other, facing), 2.6)
+      EXPECT_LT(rms_between(other, facing), 2.5)
           << "seed " << seed << ", turned by " << yaw << ", bowed by " << pitch;
-      EXPECT_LT(rms_between(facing, other), 2.6)
+      EXPECT_LT(rms_between(facing, other), 2.5)
           << "seed " << seed << ", turned by " << yaw << ", bowed by " << pitch;
     }
   }
