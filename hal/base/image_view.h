@@ -20,7 +20,7 @@ struct ImageView {
   int width_px = 0;
   int height_px = 0;
   // From one row to the next: a row's bytes at least. Less than nothing where the picture is stored from
-  // below; `bytes` is then still its top row.
+  // below, as the rectifier takes it, too; `bytes` is then still its top row.
   int stride_bytes = 0;
   PixelFormat format = PixelFormat::Grey8;
 
