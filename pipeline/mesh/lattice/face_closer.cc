@@ -23,6 +23,9 @@ constexpr float kNoseSeamMm = 1;  // the same below the tip of the nose; less sh
 constexpr double kHeadCellMm = 2, kHeadMisfitMm = 1.5;
 constexpr double kAboveJawMm = -35;  // from the tip of the nose: jaws differ too much
 constexpr float kUnsureMm = 8;       // of the outline, where that is only known about
+constexpr float kSoftMm = 1.2F;      // on either side of where a completed part begins
+constexpr float kSoftMm2 = 150;      // of a part that is no opening of lips or lids
+constexpr float kLikely = 2;         // sigmas
 constexpr float kRimMm = 2;          // so near to a hole ...
 constexpr float kCrumbMm = 1;        // half the width of the narrowest strip that stays
 constexpr double kLeastPart = 0.05;  // of the surface: what is smaller and by itself is a crumb
@@ -191,6 +194,32 @@ void drop_poor_rims(PointLattice& l, const Vec3f& from_mm, MaskShaper& shaper, A
     if (!kept[k]) l.cells[k] = 0;
 }
 
+// Where a completed part meets the measured surface at a tilt nobody's skin has an edge: a strip along the
+// seam is laid anew from both sides. What that moves by no more than is likely stays measured. Not below a
+// nose, and not around small parts: nostrils, lips and lids do have edges.
+void soften_seams(PointLattice& l, const CellMask& completed, MaskShaper& shaper, Arena& scratch,
+                  const std::atomic<bool>& cancelled) {
+  CellMask strip(completed, &scratch), measured(l.size(), 0, &scratch);
+  shaper.drop_pieces_below(strip, std::size_t(kSoftMm2 / (l.cell_width_mm * l.cell_height_mm)));
+  for (std::size_t k = 0; k < l.size(); ++k) measured[k] = !completed[k] && triangle_count(l.cells[k]) == 2;
+  shaper.dilate(strip, kSoftMm);
+  shaper.dilate(measured, kSoftMm);
+  for (std::size_t k = 0; k < l.size(); ++k) {
+    strip[k] = strip[k] && measured[k] && triangle_count(l.cells[k]) == 2 && !below_nose(l, l.at_mm[k]);
+    if (strip[k]) l.cells[k] = 0;
+  }
+  const std::pmr::vector<Vec3f> at_mm(l.at_mm, &scratch);
+  const std::pmr::vector<float> sigma_mm(l.sigma_mm, &scratch);
+  const std::pmr::vector<Node> node(l.node, &scratch);
+  fill_cells(l, strip, kSteepest, {}, &scratch, &cancelled);
+  for (std::size_t k = 0; k < l.size(); ++k) {
+    const float moved = distance(l.at_mm[k], at_mm[k]);
+    if (node[k] != Node::Measured || moved > kLikely * sigma_mm[k]) continue;
+    l.sigma_mm[k] = std::hypot(sigma_mm[k], moved);
+    l.node[k] = node[k];
+  }
+}
+
 // Surface that the outline's cut will not come near.
 void drop_beyond(PointLattice& l, const FaceOutline& outline) {
   for (std::size_t k = 0; k < l.size(); ++k)
@@ -262,6 +291,7 @@ Result<std::optional<ShapedLattice>> close_face(const PointLattice& seen, const 
   {
     const Arena::Mark filling(scratch);
     fill_cells(l, open, kSteepest, mirror, &scratch, &context.cancelled);
+    if (!context.stop()) soften_seams(l, open, shaper, scratch, context.cancelled);
   }
   if (context.stop()) return stopped();
   drop_beyond(l, outline);

@@ -10,6 +10,7 @@
 #include <cstdio>
 #include <map>
 #include <memory_resource>
+#include <numbers>
 #include <span>
 #include <utility>
 #include <vector>
@@ -17,6 +18,8 @@
 #include "hal/base/statistics.h"
 #include "pipeline/mesh/lattice/head_chart.h"
 #include "pipeline/mesh/meshers/grid_mesher.h"
+#include "pipeline/mesh/surface_cleaner.h"
+#include "pipeline/model/vector3.h"
 #include "tests/pipeline/mesh/landmarks/field_head.h"
 #include "tests/pipeline/mesh/mesh_checks.h"
 #include "tests/pipeline/mesh/stage_room.h"
@@ -79,6 +82,48 @@ TEST(FaceCloser, LeavesNoHoleAndMovesNothingThatWasMeasured) {
     std::printf("completed: median %.2f, 95 %% %.2f mm\n", percentile(completed, 0.5),
                 percentile(completed, 0.95));
   }
+}
+
+// The last rows before the hidden side of a nose are what a matcher's window mixes with what lies behind.
+// Where the completed side meets them no edge is seen.
+TEST(FaceCloser, MeetsWhatWasMeasuredWithoutAnEdge) {
+  constexpr double kMixedMm = 3, kLean = 0.5;
+  const FieldHead head(1);
+  const hal::sim::HeadPose pose = turned(25, 0);
+  const hal::sim::Vec3 tip = head.field().nose.tip();
+  const auto beside_nose = [&](const Vec3f& v) {
+    const Vec3d at = in_true_head(pose, v);
+    return std::abs(at.x - tip.x) < 25 && at.y > tip.y + 3 && at.y < tip.y + 30;
+  };
+  StageRoom room;
+  PointCloud cloud = head.cloud_of_two(pose, room.pool);
+  std::map<std::int64_t, std::vector<CloudPoint*>> rows;  // from left to right
+  for (CloudPoint& p : cloud.points) rows[std::lround(p.at_mm.y / p.at_mm.z * 2000)].push_back(&p);
+  for (auto& [row, points] : rows) {
+    std::ranges::sort(points, {}, [](const CloudPoint* p) { return p->at_mm.x / p->at_mm.z; });
+    for (std::size_t k = 0; k + 1 < points.size(); ++k) {
+      const Vec3f rim = points[k]->at_mm, behind = points[k + 1]->at_mm;
+      if (!beside_nose(rim) || distance(rim, behind) < 4) continue;
+      for (std::size_t i = 0; i <= k; ++i) {
+        const double mm = kMixedMm - double(distance(points[i]->at_mm, rim));
+        if (mm > 0) points[i]->at_mm = times(points[i]->at_mm, float(1 - kLean * mm / double(rim.z)));
+      }
+    }
+  }
+  const auto mesh = room.run([&](StageContext& c) { return GridMesher({}).mesh(cloud, c); });
+  ASSERT_TRUE(mesh);
+  std::vector<double> turns;  // of the normal, degrees within a millimetre of the seam
+  for (const auto& t : mesh->triangles) {
+    const Vec3f& at = mesh->vertices_mm[t[0]];
+    if (mesh->measured[t[0]] == mesh->measured[t[1]] || !beside_nose(at)) continue;
+    float least = 1;
+    for (std::size_t v = 0; v < mesh->vertices_mm.size(); ++v)
+      if (distance(mesh->vertices_mm[v], at) < 1)
+        least = std::min(least, dot(mesh->normals[v], mesh->normals[t[0]]));
+    turns.push_back(std::acos(double(least)) * 180 / std::numbers::pi);
+  }
+  ASSERT_GT(turns.size(), 50U);
+  EXPECT_LT(percentile(turns, 0.5), 8);
 }
 
 // In dark nostrils a matcher leads flaps from rim to rim, on one side of a jaw a pin to what lies behind, and
