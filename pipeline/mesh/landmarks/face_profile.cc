@@ -108,6 +108,7 @@ constexpr double kChinFrom = -48, kChinTo = -98;  // sublabiale to the lowest ch
 constexpr double kChinRise = 0.3;                 // of the chin out of the fold above it
 constexpr double kSecondRise = 0.5;  // as much lies a second fold behind what stands above and below it
 constexpr double kLipBeforeChin = 8, kAboveChinMm = 3;
+constexpr double kRecedingFrom = -54;  // lower than lips
 
 using Profile = std::span<const ProfilePoint>;
 
@@ -207,13 +208,26 @@ std::optional<ProfilePoint> below_lip(Profile profile, double from_mm, const Pro
 }
 
 std::optional<ProfilePoint> find_chin(Profile profile, const ProfilePoint& tip) {
-  const auto fold = extreme(profile, tip.y_mm + kChinTo + 20, tip.y_mm + kChinFrom + 10, -1);
-  const double from = tip.y_mm + kChinTo;
+  const double from = tip.y_mm + kChinTo, fold_from = from + 20, fold_to = tip.y_mm + kChinFrom + 10;
+  auto fold = extreme(profile, fold_from, fold_to, -1);
+  // Where the throat lies behind it, it is only the deepest below the hull.
+  if (!fold)
+    if (const Deepest d = deepest_below_hull(profile, from, fold_to, fold_from, fold_to);
+        d.depth_mm > kChinRise)
+      fold = d.at;
   const double to = fold ? fold->y_mm : tip.y_mm + kChinFrom;
   const auto chin = extreme(profile, from, to, 1);
   if (!chin || (fold && chin->z_mm < fold->z_mm + kChinRise)) return std::nullopt;
   const auto lower = below_lip(profile, from, *chin);
   return lower ? lower : chin;
+}
+
+std::optional<ProfilePoint> touched_from(Profile profile, const ProfilePoint& tip) {
+  const Profile range = part(profile, tip.y_mm + kChinTo, tip.y_mm + kRecedingFrom);
+  const auto touched = std::ranges::min_element(
+      range, {}, [&](const ProfilePoint& p) { return (tip.z_mm - p.z_mm) / (tip.y_mm - p.y_mm); });
+  if (range.size() < 6 || touched == range.begin() || touched + 1 == range.end()) return std::nullopt;
+  return *touched;
 }
 
 }  // namespace
@@ -250,6 +264,10 @@ ProfileMarks find_profile_marks(Profile profile) {
   if (!marks.tip) return marks;
   marks.nasion = find_nasion(profile, *marks.tip);
   marks.chin = find_chin(profile, *marks.tip);
+  if (!marks.chin) {
+    marks.chin = touched_from(profile, *marks.tip);
+    marks.chin_recedes = marks.chin.has_value();
+  }
   const Deepest base = deepest_below_hull(profile, marks.tip->y_mm - kLipFoot, marks.tip->y_mm,
                                           marks.tip->y_mm - kLipFoot, marks.tip->y_mm - 3);
   if (base.depth_mm >= kSubnasaleDepth) marks.subnasale = base.at;

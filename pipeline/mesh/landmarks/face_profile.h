@@ -4,7 +4,8 @@
 // The face's profile: where its plane of symmetry cuts it, and the points that anatomy names on it.
 // Nasion and subnasale are what lies deepest below the profile's convex hull, so that they do not depend on
 // how the head nods; tip, nasion's depth and chin are extremes along z, so that their depth does so only in
-// second order. A nod that sets nasion and chin upright is therefore found by turning a few times.
+// second order. A chin of which nothing is foremost is where a line from the tip of the nose touches it (the
+// line of Ricketts 1968).
 // Millimetres, in a frame with x = 0 on the plane of symmetry, y up, z out of the face. Thread: any.
 #pragma once
 
@@ -45,6 +46,7 @@ std::pmr::vector<ProfilePoint> profile_of(const FaceMesh& mesh, const RigidTrans
 
 struct ProfileMarks {
   std::optional<ProfilePoint> tip, nasion, subnasale, chin;
+  bool chin_recedes = false;  // it is where that line touches it
 };
 
 // `profile` in a frame whose origin lies within about 15 mm of the tip.

@@ -26,7 +26,8 @@ constexpr double kNasionOverCanthus = 3;                   // sellion lies that 
 constexpr double kStomionBelowSubnasale = 21;
 
 // Sigmas, mm, each coordinate.
-constexpr float kTipSigma = 0.7F, kNasionSigma = 1.7F, kSubnasaleSigma = 1.5F, kChinSigma = 1.7F;
+constexpr float kTipSigma = 0.7F, kNasionSigma = 1.7F, kSubnasaleSigma = 1.5F, kChinSigma = 1.7F,
+                kRecedingChinSigma = 3;
 constexpr float kInnerEyeSigma = 2.0F, kOuterEyeSigma = 4.0F, kMouthSigma = 3.0F, kLidCornerSigma = 1.5F;
 constexpr float kCompleted = 2;  // times as uncertain where the surface was not measured
 
@@ -80,7 +81,7 @@ class Finder {
     if (marks_.tip) mark(LandmarkName::Pronasale, ProfilePoint{}, kTipSigma);
     mark(LandmarkName::Nasion, marks_.nasion, kNasionSigma);
     mark(LandmarkName::Subnasale, marks_.subnasale, kSubnasaleSigma);
-    mark(LandmarkName::Pogonion, marks_.chin, kChinSigma);
+    mark(LandmarkName::Pogonion, marks_.chin, marks_.chin_recedes ? kRecedingChinSigma : kChinSigma);
     eyes();
     mouth();
     return found_;

@@ -83,7 +83,8 @@ double lowest_of_chin(std::span<const ProfilePoint> profile, double from_mm) {
 FaceOutline outline_of(const FaceMesh& rough, const RigidTransform& head_from_camera, Arena& scratch) {
   FaceOutline outline{HeadChart(head_from_camera)};
   const auto profile = profile_of(rough, head_from_camera, &scratch);
-  const auto chin = find_profile_marks(profile).chin;
+  const ProfileMarks marks = find_profile_marks(profile);
+  const auto chin = marks.chin_recedes ? std::nullopt : marks.chin;
   if (chin) outline.below_mm = kChinBelowPogonion - chin->y_mm;
   const double from = chin ? chin->y_mm : kChinFrom;
   const double lowest = lowest_of_chin(profile, from);

@@ -169,5 +169,24 @@ TEST(Landmarks, TheLowerLipOfAnOpenMouthIsNoChin) {
   EXPECT_NEAR(throat.chin->y_mm, -80, 2);
 }
 
+// The throat, or a chin that leans back from the lips to the neck.
+TEST(Landmarks, AChinThatHardlyStandsOutIsFound) {
+  const auto throat = find_profile_marks(profile_through(
+      {{-90, -60}, {-66, -22}, {-55, -24}, {-43, -17}, {-25, -16}, {0, 0}, {40, -25}, {80, -20}}));
+  ASSERT_TRUE(throat.chin);
+  EXPECT_FALSE(throat.chin_recedes);
+  EXPECT_NEAR(throat.chin->y_mm, -66, 2);
+  const auto recedes = find_profile_marks(profile_through(
+      {{-90, -70}, {-64, -29}, {-52, -26.5}, {-43, -18}, {-25, -15}, {0, 0}, {40, -25}, {80, -20}}));
+  ASSERT_TRUE(recedes.chin);
+  EXPECT_TRUE(recedes.chin_recedes);
+  EXPECT_NEAR(recedes.chin->y_mm, -64, 3);
+  // A profile that ends before its chin shows none.
+  EXPECT_FALSE(
+      find_profile_marks(
+          profile_through({{-60, -29}, {-52, -26.5}, {-43, -18}, {-25, -15}, {0, 0}, {40, -25}, {80, -20}}))
+          .chin);
+}
+
 }  // namespace
 }  // namespace relievo::pipeline
