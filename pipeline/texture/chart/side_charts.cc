@@ -6,6 +6,7 @@
 #include <cmath>
 
 #include "hal/base/groups.h"
+#include "pipeline/mesh/triangle_raster.h"
 #include "pipeline/model/vector3.h"
 
 namespace relievo::pipeline {
@@ -27,6 +28,53 @@ Vec3f normal_of(const FaceMesh& mesh, std::uint32_t triangle) {
   return unit(cross(minus(mesh.vertices_mm[t[1]], a), minus(mesh.vertices_mm[t[2]], a)));
 }
 
+// The plane a chart is laid flat on: across and down in millimetres, and where it is taken already.
+class FlatSide {
+ public:
+  explicit FlatSide(std::pmr::memory_resource* memory)
+      : taken_by_(std::size_t(kSide) * std::size_t(kSide), 0, memory) {}
+
+  // Down the picture stays down, so that charts are as high as they are wide or higher.
+  void turn_to(const Vec3f& axis, const Vec3f& middle) {
+    across_ = cross(Vec3f{0, 1, 0}, axis);
+    across_ = dot(across_, across_) > 1e-6F ? unit(across_) : Vec3f{1, 0, 0};
+    down_ = cross(axis, across_);
+    middle_ = on_it(middle);
+    ++chart_;
+  }
+  Vec2f on_it(const Vec3f& p) const { return {dot(p, across_), dot(p, down_)}; }
+
+  // False where something of this chart lies there: what is one way within 60 degrees may still lie before
+  // itself, as the lip of a nostril before its floor.
+  bool take(const FaceMesh& mesh, const Triangle& t) {
+    Vec2f at[3];
+    for (std::size_t k = 0; k < 3; ++k) {
+      const Vec2f p = on_it(mesh.vertices_mm[t[k]]);
+      at[k] = {(p.x - middle_.x) * kPerMm + kSide / 2, (p.y - middle_.y) * kPerMm + kSide / 2};
+    }
+    const Vec2f centre{(at[0].x + at[1].x + at[2].x) / 3, (at[0].y + at[1].y + at[2].y) / 3};
+    for (Vec2f& p : at)  // neighbours share an edge
+      p = {centre.x + kWithin * (p.x - centre.x), centre.y + kWithin * (p.y - centre.y)};
+    bool free = true;
+    const auto for_each_place = [&](auto&& work) {
+      for_each_texel(at[0], at[1], at[2], kSide, {0, kSide}, [&](int x, int y, float, float, float) {
+        work(taken_by_[std::size_t(y) * std::size_t(kSide) + std::size_t(x)]);
+      });
+    };
+    for_each_place([&](std::uint32_t& by) { free = free && by != chart_; });
+    if (free) for_each_place([&](std::uint32_t& by) { by = chart_; });
+    return free;
+  }
+
+ private:
+  static constexpr int kSide = 1200;
+  static constexpr float kPerMm = 4, kWithin = 0.9F;
+  std::pmr::vector<std::uint32_t> taken_by_;  // the last chart, from 1
+  std::uint32_t chart_ = 0;
+  Vec3f across_, down_;
+  Vec2f middle_;
+};
+
 class Builder {
  public:
   Builder(const FaceMesh& mesh, std::span<const std::uint8_t> kept,
@@ -35,6 +83,7 @@ class Builder {
         photographed_(photographed),
         around_(memory),
         taken_(kept.begin(), kept.end(), memory),
+        plane_(memory),
         pieces_(memory) {
     around_.sort(mesh.vertices_mm.size(), [&](auto&& add) {
       for (std::uint32_t t = 0; t < mesh.triangles.size(); ++t)
@@ -60,6 +109,8 @@ class Builder {
     const Vec3f axis = normal_of(mesh_, seed);
     const bool photograph = seen(seed);
     const std::size_t from = sides.triangles.size();
+    plane_.turn_to(axis, mesh_.vertices_mm[mesh_.triangles[seed][0]]);
+    plane_.take(mesh_, mesh_.triangles[seed]);
     taken_[seed] = 1;
     sides.triangles.push_back(seed);
     for (std::size_t next = from; next < sides.triangles.size(); ++next) {
@@ -68,12 +119,13 @@ class Builder {
         for (const std::uint32_t other : around_[v]) {
           if (taken_[other] != 0 || seen(other) != photograph || !share_an_edge(t, mesh_.triangles[other]))
             continue;
-          if (dot(normal_of(mesh_, other), axis) < kSameWay) continue;
+          if (dot(normal_of(mesh_, other), axis) < kSameWay || !plane_.take(mesh_, mesh_.triangles[other]))
+            continue;
           taken_[other] = 1;
           sides.triangles.push_back(other);
         }
     }
-    lay_flat(axis, from, photograph, sides);
+    lay_flat(from, photograph, sides);
   }
 
   static bool share_an_edge(const Triangle& a, const Triangle& b) {
@@ -82,16 +134,12 @@ class Builder {
     return shared >= 2;
   }
 
-  void lay_flat(const Vec3f& axis, std::size_t from, bool photograph, SideCharts& sides) {
-    // Down the picture stays down, so that charts are as high as they are wide or higher.
-    Vec3f across = cross(Vec3f{0, 1, 0}, axis);
-    across = dot(across, across) > 1e-6F ? unit(across) : Vec3f{1, 0, 0};
-    const Vec3f down = cross(axis, across);
+  void lay_flat(std::size_t from, bool photograph, SideCharts& sides) {
     Vec2f low{1e30F, 1e30F};
     Vec2f high{-1e30F, -1e30F};
     for (std::size_t k = from; k < sides.triangles.size(); ++k)
       for (const std::uint32_t v : mesh_.triangles[sides.triangles[k]]) {
-        const Vec2f at{dot(mesh_.vertices_mm[v], across), dot(mesh_.vertices_mm[v], down)};
+        const Vec2f at = plane_.on_it(mesh_.vertices_mm[v]);
         sides.corner.push_back(at);
         low = {std::min(low.x, at.x), std::min(low.y, at.y)};
         high = {std::max(high.x, at.x), std::max(high.y, at.y)};
@@ -106,6 +154,7 @@ class Builder {
   std::span<const std::uint8_t> photographed_;
   Groups around_;  // side triangles around each vertex
   std::pmr::vector<std::uint8_t> taken_;
+  FlatSide plane_;
   std::pmr::vector<Piece> pieces_;
 };
 
