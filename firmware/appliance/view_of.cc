@@ -42,7 +42,8 @@ ui::Trouble trouble_of(const Error& problem, State state) {
     case Errc::NotFound:
     case Errc::IoFailed:
     case Errc::InvalidState:
-    case Errc::Unsupported: break;
+    case Errc::Unsupported:
+    case Errc::Count: break;
   }
   return ui::Trouble::Other;
 }

@@ -292,6 +292,8 @@ CommandLine parse_command_line(int argc, const char* const* argv) {
         throw CLI::ValidationError(option->get_name(), "is the kiosk's here: write it behind the command");
     const CLI::App* innermost = &app;
     while (!innermost->get_subcommands().empty()) innermost = innermost->get_subcommands().front();
+    if (innermost != &app && std::holds_alternative<NothingArgs>(line.command))
+      throw CLI::ValidationError(innermost->get_name(), "does nothing: its callback chooses no command");
     const CLI::Option* key = innermost->get_option_no_throw(kKeyOption);
     if (key != nullptr && key->count() > 0) line.key = key->as<std::string>();
   } catch (const CLI::CallForHelp&) {

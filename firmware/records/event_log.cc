@@ -15,7 +15,7 @@
 namespace relievo::firmware {
 namespace {
 
-constexpr int kLastCode = int(Errc::Unsupported);
+constexpr int kLastCode = int(Errc::Count) - 1;
 constexpr std::string_view kGap = "  ", kFault = "  fault: ";
 
 // Up to the next tab, and what is behind it.

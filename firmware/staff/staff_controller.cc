@@ -173,7 +173,8 @@ ui::Outcome outcome_of(const Error& error) {
     case Errc::OutOfMemory:
     case Errc::StoreCorrupt:
     case Errc::StoreNewer:
-    case Errc::IoFailed: break;
+    case Errc::IoFailed:
+    case Errc::Count: break;
   }
   return ui::Outcome::Failed;
 }

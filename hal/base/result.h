@@ -36,6 +36,7 @@ enum class Errc : std::uint8_t {
   Cancelled,
   InvalidState,
   Unsupported,
+  Count
 };
 
 // A message that is certainly a literal, so an Error never owns memory.

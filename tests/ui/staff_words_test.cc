@@ -104,7 +104,7 @@ TEST_F(StaffWordsTest, EveryCodeAndEveryEventHasASentenceOfItsOwn) {
   for (std::size_t l = 0; l < kLanguages; ++l) {
     const Words tr(static_cast<Language>(l));
     std::set<std::string> said;
-    for (int code = 0; code <= static_cast<int>(Errc::Unsupported); ++code)
+    for (int code = 0; code < static_cast<int>(Errc::Count); ++code)
       EXPECT_TRUE(said.insert(words_of(tr, static_cast<Errc>(code))).second) << code;
     for (int event = 0; event < static_cast<int>(LogEvent::Count); ++event) {
       const LogWords words = words_of(tr, static_cast<LogEvent>(event));
@@ -153,8 +153,9 @@ TEST_F(StaffWordsTest, AChangedSettingIsCalledAsOnItsPage) {
     }
   }
   StaffFrame page = in(Language::German);
-  for (const auto& [key, value] : {std::pair{"no_such", "1"}, std::pair{"language", "8"},
-                                   std::pair{"patience_s", "30 s"}, std::pair{"patience_s", ""}})
+  for (const auto& [key, value] :
+       {std::pair{"no_such", std::string("1")}, std::pair{"language", std::to_string(kLanguages)},
+        std::pair{"patience_s", std::string("30 s")}, std::pair{"patience_s", std::string()}})
     EXPECT_EQ(said_change(page, key, value), "") << key << value;
 }
 

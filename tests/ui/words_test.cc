@@ -65,7 +65,7 @@ std::vector<std::string> entries(const std::string& code, const std::string& key
     if (line.rfind(keyword, 0) == 0 && line.size() > quote + 2)
       all.push_back(line.substr(quote + 1, line.size() - quote - 2));
   }
-  EXPECT_GT(all.size(), 400U) << code << ".po was not read";
+  EXPECT_GT(all.size(), 400U) << code << ".po has fewer texts than any language, or was not read";
   return all;
 }
 

@@ -1,7 +1,8 @@
 // SPDX-FileCopyrightText: 2026 The Relievo authors
 // SPDX-License-Identifier: GPL-3.0-or-later
 //
-// Behind the technician's tests: SelfTestController asks memory, store, calibration, disk and cameras;
+// Behind the pages that look at the device: RecoveryController and StatusController, as it says where they
+// stand. Behind the technician's tests: SelfTestController asks memory, store, calibration, disk and cameras;
 // TriggerController pulses the line and counts what both cameras saw; LogController shows the lines of the
 // log, the newest first. The store is read on the keeper, cameras are asked on the capture thread; the
 // pictures of a test are wiped before it is reported. Thread: main.

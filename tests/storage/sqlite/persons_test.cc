@@ -229,5 +229,22 @@ TEST(Persons, OnAFullDiskNobodyIsHalfTakenIn) {
   EXPECT_TRUE(opened(disk.path() / "store", kNoReserve)->check());
 }
 
+// A new column is known here only once somebody has said whether it goes along (person_record.h).
+TEST(Persons, EveryColumnIsCarriedOrBelongsToTheStoreAlone) {
+  const TemporaryFolder folder;
+  { const auto store = with_ada(folder.path()); }
+  test::Raw raw(folder / "relievo.db");
+  const auto columns = [&](const std::string& table) {
+    std::string all;
+    for (const std::string& name : raw.rows("SELECT name FROM pragma_table_info('" + table + "')"))
+      all += name + " ";
+    return all;
+  };
+  EXPECT_EQ(columns("subject"), "id created_at_ms name key_id name_hash code code_hash ");
+  EXPECT_EQ(columns("enrolment"), "id subject_id created_at_ms calibration_revision record ");
+  EXPECT_EQ(columns("consent"), "enrolment_id record ");
+  EXPECT_EQ(columns("model"), "enrolment_id key_id nonce bytes ");
+}
+
 }  // namespace
 }  // namespace relievo::storage

@@ -29,7 +29,7 @@ constexpr std::array kFaultWords{
     mark_tr("It was stopped"),
     mark_tr("This is not possible now"),
     mark_tr("This device cannot do that")};
-static_assert(kFaultWords.size() == std::size_t(Errc::Unsupported) + 1);
+static_assert(kFaultWords.size() == std::size_t(Errc::Count));
 
 // In the order of LogEvent: what is said, and of whom.
 constexpr std::array<std::array<const char*, 2>, std::size_t(LogEvent::Count)> kLogWords{

@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: 2026 The Relievo authors
 // SPDX-License-Identifier: GPL-3.0-or-later
 //
-// The touch screen's correction: crosses to be touched, what came of it.
+// The page of settings; and the touch screen's correction: crosses to be touched, what came of it.
 #include "ui/device/settings.h"
 #include "ui/device/touch_map.h"
 #include "ui/screens/service/fault_words.h"
