@@ -11,75 +11,21 @@
 // sentence.
 #pragma once
 
-#include <array>
-#include <atomic>
 #include <functional>
-#include <memory>
-#include <mutex>
 #include <optional>
 #include <string>
 #include <vector>
 
 #include "firmware/base/list_walk.h"
-#include "firmware/calibrate/calibrate_live.h"
-#include "firmware/capture/live_feed.h"
 #include "firmware/records/event_log.h"
 #include "firmware/service/side_tasks.h"
-#include "firmware/work/jobs.h"
+#include "firmware/technician/calibrate_job.h"
 #include "firmware/work/pipeline_stages.h"
-#include "pipeline/calibrate/live/live_calibration.h"
 #include "storage/store.h"
 #include "ui/technician/technician_view.h"
 #include "ui/view/staff_request.h"
 
 namespace relievo::firmware {
-
-// CalibrateJob: a live calibration (pipeline/calibrate/live) on pairs of the cameras, or of whoever holds a
-// board before them; its state and its pictures, with the corners seen (green) and the wanted board's outline
-// (orange) drawn in, go to the screen. Ends when the calibration is done, when it is told to finish with the
-// views it has, or cancelled.
-// Errors of run(): LiveCalibration's, the pairs' own, Cancelled. Thread: run() capture; newest(), finish()
-// any; the rest main, while it does not run.
-
-// Who shows boards instead of the cameras; empty: the cameras do.
-using ShowBoards = std::function<Result<std::unique_ptr<LivePairs>>(const BoardArgs& board)>;
-
-class CalibrateJob final : public Job {
- public:
-  struct Order {
-    BoardArgs board;
-    std::optional<pipeline::StereoCalibration> in_use;
-  };
-  CalibrateJob(StereoGrabber& grabber, EnrolmentSession& session, hal::Device& device, ThreadPool& pool,
-               ShowBoards show)
-      : grabber_(grabber), session_(session), device_(device), pool_(pool), show_(std::move(show)) {}
-  void order(const Order& order);
-  Result<void> run(JobControl& control) override;
-  void finish() { finish_.store(true, std::memory_order_relaxed); }
-
-  // The live part of the view: pictures, advice, bars, all of one pair.
-  ui::TechnicianCalibration newest();
-  const Result<void>& outcome() const { return outcome_; }
-  const std::optional<pipeline::CalibratorOutput>& result() const { return result_; }
-  void wipe();
-
- private:
-  Result<void> calibrate(JobControl& control);
-  void publish(const LivePair& pair, const pipeline::LiveState& state);
-
-  StereoGrabber& grabber_;
-  EnrolmentSession& session_;
-  hal::Device& device_;
-  ThreadPool& pool_;
-  ShowBoards show_;
-  Order order_;
-  std::array<LiveFeed, 2> feeds_;
-  std::atomic<bool> finish_{false};
-  std::mutex mutex_;
-  ui::TechnicianCalibration figures_;  // without pictures and texts; with those of the feeds, under the mutex
-  std::optional<pipeline::CalibratorOutput> result_;
-  Result<void> outcome_;
-};
 
 class CalibrationController {
  public:

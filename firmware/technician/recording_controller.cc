@@ -7,6 +7,7 @@
 
 #include "firmware/base/output_folder.h"
 #include "firmware/base/wall_time.h"
+#include "hal/base/words.h"
 
 namespace relievo::firmware {
 namespace {
@@ -77,8 +78,8 @@ void RecordingController::ended(const std::optional<Error>& error, const ExportT
 }
 
 std::string RecordingController::saved_name(std::size_t row) const {
-  if (!names_ || row >= names_->size()) return {};
-  const std::string& file = names_->at(row);
+  if (!files_ || row >= files_->size()) return {};
+  const std::string& file = shown_.at(row);
   return file.substr(0, file.size() - std::string_view(kSavedEnding).size());
 }
 
@@ -131,17 +132,22 @@ void RecordingController::list() {
   if (!begin()) return;
   task_ = side_tasks_.ask(
       JobLane::Keeper, [this](JobControl&) { return saved_reconstructions(device_.media(), ui::kSavedRows); },
-      [this](Result<std::vector<std::string>> names) {
+      [this](Result<std::vector<std::string>> files) {
         running_ = false;
-        if (names) names_ = *std::move(names);
-        else outcome_ = outcome_of_export(names.error(), {});
+        if (!files) {
+          outcome_ = outcome_of_export(files.error(), {});
+          return;
+        }
+        files_ = *std::move(files);
+        shown_.clear();
+        for (const std::string& file : *files_) shown_.push_back(shown_name(file));
       });
 }
 
 void RecordingController::load(std::size_t row, std::function<void(SavedBytes)> read,
                                std::function<void(const Error&)> refused) {
-  if (!names_ || row >= names_->size() || !begin()) return;
-  const std::string name = names_->at(row);
+  if (!files_ || row >= files_->size() || !begin()) return;
+  const std::string name = files_->at(row);
   hide();
   task_ = side_tasks_.ask(
       JobLane::Keeper,
@@ -169,7 +175,7 @@ void RecordingController::capture_gone() {
 
 void RecordingController::forget() {
   running_ = false;
-  names_.reset();
+  hide();
   capture_gone();
 }
 

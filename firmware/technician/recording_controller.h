@@ -35,18 +35,18 @@ class RecordingController {
   void save(std::function<Result<SavedBytes>()> make);
   // Those on the stick; shown from then on, until hide().
   void list();
-  void hide() { names_.reset(); }
+  void hide() { files_.reset(); }
   // `read` hears the bytes of a whole document.
   void load(std::size_t row, std::function<void(SavedBytes)> read, std::function<void(const Error&)> refused);
   void stop();
-  // Of what list() has found: without its ending.
+  // Of what list() has found: without its ending, as shown_name().
   std::string saved_name(std::size_t row) const;
   // There is another capture now.
   void capture_gone();
   void forget();
   ui::TechnicianRecording view() const;
   ui::TechnicianSaved saved() const {
-    return names_ ? ui::TechnicianSaved{true, *names_} : ui::TechnicianSaved{};
+    return files_ ? ui::TechnicianSaved{true, shown_} : ui::TechnicianSaved{};
   }
 
  private:
@@ -62,7 +62,8 @@ class RecordingController {
   bool running_ = false;
   bool stopped_ = false;    // a document whose making does not look at it: then it is not written
   std::uint32_t task_ = 0;  // what runs
-  std::optional<std::vector<std::string>> names_;  // on the stick, while they are shown
+  std::optional<std::vector<std::string>> files_;  // on the stick, while they are shown ...
+  std::vector<std::string> shown_;                 // ... under these names
 };
 
 }  // namespace relievo::firmware

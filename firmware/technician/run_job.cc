@@ -36,6 +36,19 @@ bool RunJob::take_back() {
   return true;
 }
 
+Making RunJob::making_with(std::vector<pipeline::Match> by_hand) const {
+  Making making = making_;
+  const bool the_same =
+      std::ranges::equal(by_hand, making_.by_hand, [](const pipeline::Match& a, const pipeline::Match& b) {
+        return a.left_px.x == b.left_px.x && a.left_px.y == b.left_px.y && a.disparity_px == b.disparity_px &&
+               a.sigma_px == b.sigma_px;
+      });
+  if (the_same || !session_.products().pair) return making;
+  making.by_hand = std::move(by_hand);
+  making.records.resize(std::min(making.records.size(), number_of(State::Reconstruct)));
+  return making;
+}
+
 Result<void> RunJob::run(JobControl& control) {
   before_.reset();
   pictures_.wipe();

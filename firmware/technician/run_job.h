@@ -47,6 +47,9 @@ class RunJob final : public Job {
   HandChange& change() { return change_; }
   // Of what is in the session.
   const Making& making() const { return making_; }
+  // The same with these pairs by hand, of the rectified pair: nothing that was calculated with others is
+  // done.
+  Making making_with(std::vector<pipeline::Match> by_hand) const;
 
  private:
   Result<void> load(JobControl& control);

@@ -37,10 +37,19 @@ Error unread(const fs::path& file) {
       .at(file.filename().string());
 }
 
+// Who opens a pipe waits for its other end.
+Result<void> check_regular(const fs::path& file) {
+  std::error_code error;
+  if (const auto status = fs::status(file, error); fs::exists(status) && !fs::is_regular_file(status))
+    return Error{Errc::InvalidInput, "this is not a file"}.at(file.filename().string());
+  return {};
+}
+
 // Every piece of the file, in its order, until `take` says no.
 template <typename Take>
 Result<void> each_piece(const fs::path& file, JobControl& control, float from_share, float to_share,
                         const Take& take) {
+  RELIEVO_TRY(check_regular(file));
   std::ifstream in(file, std::ios::binary | std::ios::ate);
   if (!in) return unread(file);
   const auto size = std::size_t(in.tellg());
@@ -117,8 +126,10 @@ Result<void> save_reconstruction(const SavedBytes& document, const std::string& 
 Result<std::vector<std::string>> saved_reconstructions(hal::RemovableMedia& media, std::size_t most) {
   RELIEVO_TRY_ASSIGN(const fs::path stick, plugged_in(media));
   std::vector<std::string> names;
+  std::error_code error;
   for (const fs::path& entry : entries_of(stick / kSavedFolder))
-    if (entry.string().ends_with(kSavedEnding)) names.push_back(entry.filename().string());
+    if (entry.string().ends_with(kSavedEnding) && fs::is_regular_file(entry, error))
+      names.push_back(entry.filename().string());
   std::ranges::sort(names, std::greater<>());  // a name is the time at which it was saved
   names.resize(std::min(names.size(), most));
   return names;

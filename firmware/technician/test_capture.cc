@@ -234,8 +234,8 @@ void TestCapture::send_run() {
 void TestCapture::save() {
   const Products* made = products();
   if (made == nullptr || !made->frame) return;
-  // A copy: the next run is ordered while this waits on the worker.
-  recording_.save([this, making = run_.making()] { return make_document(session_.products(), making); });
+  auto making = run_.making_with(pairs_.matches());  // a copy: the next run may be ordered meanwhile
+  recording_.save([this, making = std::move(making)] { return make_document(session_.products(), making); });
 }
 
 // What is in the session stays until a whole document has been read.

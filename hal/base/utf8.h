@@ -42,4 +42,10 @@ inline std::size_t last_letter_at(std::string_view text) {
 
 inline bool is_control(char32_t code) { return code < 0x20 || (code >= 0x7F && code < 0xA0); }
 
+// Turns the words around it, or ends their line.
+inline bool is_steering(char32_t code) {
+  return code == 0x061C || code == 0x200E || code == 0x200F || (code >= 0x2028 && code <= 0x202E) ||
+         (code >= 0x2066 && code <= 0x2069);
+}
+
 }  // namespace relievo

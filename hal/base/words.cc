@@ -7,6 +7,8 @@
 #include <cstdio>
 #include <cstring>
 
+#include "hal/base/utf8.h"
+
 namespace relievo {
 
 std::string decimal(double number, int decimals, bool with_sign) {
@@ -27,14 +29,24 @@ std::string filled(std::string_view pattern, std::initializer_list<std::string_v
   return text.append(pattern);
 }
 
+std::string shown_name(std::string_view name) {
+  std::string shown;
+  while (!name.empty()) {
+    const Utf8Letter letter = first_letter_of(name);
+    const std::string_view one = name.substr(0, std::max<std::size_t>(letter.bytes, 1));
+    name.remove_prefix(one.size());
+    if (letter.bytes == 0 || is_control(letter.code) || is_steering(letter.code)) shown += '?';
+    else shown += one;
+  }
+  return shown;
+}
+
 std::string detail_of(const Error& error) {
   std::string line;
   if (!error.where().empty()) line.append(error.where()).append(": ");
   line.append(error.what.view());
   if (error.sys_errno != 0) line.append(" (").append(std::strerror(error.sys_errno)).append(")");
-  std::replace_if(
-      line.begin(), line.end(), [](unsigned char c) { return c < ' ' || c == 127; }, '?');
-  return line;
+  return shown_name(line);
 }
 
 }  // namespace relievo

@@ -19,7 +19,11 @@ std::string decimal(double number, int decimals, bool with_sign = false);
 // `pattern` with the values in its places {}, in their order.
 std::string filled(std::string_view pattern, std::initializer_list<std::string_view> values);
 
-// "where: what (what the system said)" on one line, whatever a file is called: control characters become '?'.
+// A name that somebody else gave, as a person may see it: on one line, in its own direction. What steers a
+// line, and bytes that are no UTF-8, become '?'.
+std::string shown_name(std::string_view name);
+
+// "where: what (what the system said)" on one line, whatever a file is called, as shown_name().
 std::string detail_of(const Error& error);
 
 }  // namespace relievo

@@ -6,8 +6,8 @@
 // is made and read in memory: whoever has the bytes writes them to a file whole. It holds a person's face,
 // unencrypted.
 //
-// Errors: InvalidInput (no such document), StoreNewer (of a newer form), StoreCorrupt (cut, changed),
-// OutOfMemory. Thread: any, one at a time.
+// Errors: InvalidInput (no such document, cut, changed), Unsupported (of a newer form), OutOfMemory; none of
+// the store's, since it is a file that somebody brought. Thread: any, one at a time.
 #pragma once
 
 #include <array>

@@ -3,7 +3,7 @@
 //
 // The stages' products as bytes and back, bit for bit: little-endian, arrays behind their length. What comes
 // back hangs together (lengths fit, indices and places lie within), whoever wrote it. A model is model_blob's
-// work. Errors: StoreCorrupt. May throw std::bad_alloc. Thread: any.
+// work. Errors: InvalidInput. May throw std::bad_alloc. Thread: any.
 #pragma once
 
 #include <cstddef>

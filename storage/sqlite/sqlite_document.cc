@@ -29,7 +29,7 @@ constexpr const char* kSchema =
 static_assert(kDocumentId == 1380734543 && kForm == 3);
 
 Error damaged() {
-  return {Errc::StoreCorrupt, "this saved reconstruction is cut off or damaged: take another copy of it"};
+  return {Errc::InvalidInput, "this saved reconstruction is cut off or damaged: take another copy of it"};
 }
 
 // All is in memory: but for memory itself, what SQLite finds wrong is wrong with the bytes.
@@ -156,7 +156,7 @@ Result<void> check_header(std::span<const std::byte> bytes) {
                  "this is no saved reconstruction: choose a file that the technician's page or 'relievo "
                  "reconstruct --save' has written"};
   if (header<std::uint32_t>(bytes, 60) > kForm)
-    return Error{Errc::StoreNewer, "this reconstruction was saved by a newer version: update Relievo"};
+    return Error{Errc::Unsupported, "this reconstruction was saved by a newer version: update Relievo"};
   const std::size_t page = header<std::uint16_t>(bytes, 16);
   if (page * header<std::uint32_t>(bytes, 28) != bytes.size()) return damaged();
   return {};

@@ -178,7 +178,7 @@ struct TechnicianRecording : Work {
   std::string_view where;  // the folder on the stick; empty: nothing is there
 };
 
-inline constexpr std::size_t kSavedRows = 6;
+inline constexpr std::size_t kSavedRows = 32;
 struct TechnicianSaved {
   bool listed = false;                 // shown in place of the capture
   std::span<const std::string> names;  // the newest first, kSavedRows at most

@@ -69,6 +69,21 @@ std::string rest_of(std::istringstream& words) {
   return rest;
 }
 
+// What stands before so many numbers at the end of the line: ids have blanks in them.
+std::string id_before(std::size_t numbers, std::istringstream& words) {
+  std::string id = rest_of(words);
+  std::size_t at = id.size();
+  for (; numbers > 0 && at != std::string::npos; --numbers) {
+    at = id.find_last_of(" \t", at - 1);
+    if (at != std::string::npos) at = id.find_last_not_of(" \t", at) + 1;
+  }
+  if (at == std::string::npos || at == 0) return {};
+  words = std::istringstream(id.substr(at));
+  words.imbue(std::locale::classic());
+  id.resize(at);
+  return id;
+}
+
 Result<ScriptAction> numbers_of(ScriptAction action, std::istringstream& words) {
   switch (action.kind) {
     case Kind::Wait:
@@ -78,11 +93,13 @@ Result<ScriptAction> numbers_of(ScriptAction action, std::istringstream& words) 
         return wrong(action.where, "wants a number of seconds, 0 to 3600");
       break;
     case Kind::Hold:
-      if (!(words >> action.word) || !length_of(words, action.seconds))
+      action.word = id_before(1, words);
+      if (action.word.empty() || !length_of(words, action.seconds))
         return wrong(action.where, "wants an id and a number of seconds, as hold staff 3");
       break;
     case Kind::Drag:
-      if (!(words >> action.word >> action.dx_px >> action.dy_px))
+      action.word = id_before(2, words);
+      if (action.word.empty() || !(words >> action.dx_px >> action.dy_px))
         return wrong(action.where, "wants an id and two numbers of pixels, as drag face 120 0");
       break;
     case Kind::Pause:

@@ -34,10 +34,22 @@ TEST(Script, EveryWordIsRead) {
   EXPECT_NE((*script)[8].where.find(":11"), std::string::npos);
 }
 
+TEST(Script, AnIdMayHaveBlanksInIt) {
+  const auto drag = read_script_line("drag  kept picture 1\t-40  8 ", "a:1");
+  ASSERT_TRUE(drag && *drag);
+  EXPECT_EQ((*drag)->word, "kept picture 1");
+  EXPECT_EQ((*drag)->dx_px, -40);
+  EXPECT_EQ((*drag)->dy_px, 8);
+  const auto hold = read_script_line("hold record 2 3.5", "a:1");
+  ASSERT_TRUE(hold && *hold);
+  EXPECT_EQ((*hold)->word, "record 2");
+  EXPECT_EQ((*hold)->seconds, 3.5);
+}
+
 TEST(Script, WrongWordsAreToldWithTheirLine) {
-  for (const char* bad :
-       {"jump", "wait", "wait review soon", "wait review -1", "tap", "hold staff", "drag face 1", "type",
-        "pause nan", "pause 1 2", "screenshot ../x", "screenshot .hidden", "plug", "unplug now"}) {
+  for (const char* bad : {"jump", "wait", "wait review soon", "wait review -1", "tap", "hold staff", "hold 3",
+                          "drag face 1", "drag face 1 x", "drag 1 2", "drag", "type", "pause nan",
+                          "pause 1 2", "screenshot ../x", "screenshot .hidden", "plug", "unplug now"}) {
     const auto read = read_script_line(bad, "a:1");
     ASSERT_FALSE(read.has_value()) << bad;
     EXPECT_EQ(read.error().code, Errc::InvalidInput);

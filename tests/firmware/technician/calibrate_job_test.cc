@@ -2,16 +2,20 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 //
 // Who reads the newest pair of a live calibration while the next one is being drawn sees left and right of
-// one instant.
-#include "firmware/technician/calibration_controller.h"
+// one instant. Nothing that happens to the cameras takes the views that they have given.
+#include "firmware/technician/calibrate_job.h"
 
 #include <gtest/gtest.h>
 
 #include <atomic>
+#include <optional>
 #include <thread>
 #include <vector>
 
 #include "hal/sim/device.h"
+#include "tests/firmware/held_hand.h"
+#include "tests/firmware/technician/spoiled_pairs.h"
+#include "tests/support/played_device.h"
 #include "tests/support/small_device.h"
 
 namespace relievo::firmware {
@@ -67,6 +71,129 @@ TEST(CalibrateJob, LeftAndRightAreOfTheSameInstantWheneverTheyAreRead) {
   worker.join();
   EXPECT_GT(seen, 5);
   EXPECT_EQ(apart, 0) << "of " << seen;
+}
+
+constexpr int kEnoughViews = 7;
+
+// On a board in a hand.
+class CalibrateJobTest : public testing::Test {
+ protected:
+  Result<void> run() {
+    job.order({{10, 7, 20}, std::nullopt});
+    const std::atomic<bool> cancelled{false};
+    pipeline::Progress progress;
+    JobControl control{cancelled, progress};
+    return job.run(control);
+  }
+
+  test::PlayedWorld world;  // its clock
+  test::PlayedDevice device{world, kWidth, kHeight};
+  const BootMemory memory;
+  EnrolmentSession session{memory};
+  StereoGrabber grabber{device};
+  ThreadPool pool{2};
+  SpoiledPairs::Spoils spoils;
+  CalibrateJob job{grabber, session, device, pool,
+                   [this](const BoardArgs& args) -> Result<std::unique_ptr<LivePairs>> {
+                     return std::unique_ptr<LivePairs>(std::make_unique<SpoiledPairs>(
+                         make_hand_pairs(held_board(test::small_rig(0.25), args), 1), spoils));
+                   }};
+};
+
+TEST_F(CalibrateJobTest, APairThatDoesNotComeTakesNothingOfWhatWasSeenAndIsTold) {
+  std::vector<Errc> to_come{Errc::IoFailed, Errc::Disconnected, Errc::Timeout};
+  std::optional<Errc> told;
+  spoils = [&](const pipeline::LiveState& state) -> Result<bool> {
+    const ui::Fault problem = job.newest().problem;
+    EXPECT_EQ(problem.empty(), !told);
+    if (told) {
+      EXPECT_EQ(problem.code, *told);
+    }
+    told.reset();
+    if (state.views >= kEnoughViews) job.finish();
+    if (state.views != 3 || to_come.empty()) return false;
+    told = to_come.back();
+    to_come.pop_back();
+    return Error{*told, "as the test says"};
+  };
+  EXPECT_TRUE(run());
+  EXPECT_TRUE(to_come.empty());
+  ASSERT_TRUE(job.result());
+  EXPECT_GE(job.result()->quality.used, kEnoughViews - 1);
+  EXPECT_TRUE(job.newest().problem.empty());
+}
+
+TEST_F(CalibrateJobTest, WhatWasSeenBeforeTheCamerasWentForGoodIsJudged) {
+  int tries = 0;
+  spoils = [&](const pipeline::LiveState& state) -> Result<bool> {
+    if (state.views < kEnoughViews) return false;
+    ++tries;
+    world.ahead_s += 3600;
+    return Error{Errc::Disconnected, "as the test says"};
+  };
+  EXPECT_TRUE(run());
+  EXPECT_TRUE(job.result());
+  EXPECT_EQ(tries, 2) << "once more, and then it was too long";
+  EXPECT_EQ(job.newest().problem.code, Errc::Disconnected);
+}
+
+TEST_F(CalibrateJobTest, WhatWasSeenBeforePicturesOfAnotherSizeIsJudged) {
+  spoils = [](const pipeline::LiveState& state) -> Result<bool> { return state.views >= kEnoughViews; };
+  EXPECT_TRUE(run());
+  EXPECT_TRUE(job.result());
+  EXPECT_EQ(job.newest().problem.code, Errc::InvalidInput);
+}
+
+TEST_F(CalibrateJobTest, WhereNothingWasSeenTheReasonIsTold) {
+  spoils = [](const pipeline::LiveState&) -> Result<bool> {
+    return Error{Errc::LibraryFailed, "as the test says"};
+  };
+  const Result<void> done = run();
+  ASSERT_FALSE(done);
+  EXPECT_EQ(done.error().code, Errc::LibraryFailed);
+  EXPECT_FALSE(job.result());
+}
+
+TEST(CalibrateJob, CamerasThatWereAwayComeBackAndOthersInTheirPlacesEndIt) {
+  test::PlayedWorld world;
+  test::PlayedDevice device(world, kWidth, kHeight);
+  device.left_camera.number = "L", device.right_camera.number = "R";
+  const BootMemory memory;
+  EnrolmentSession session(memory);
+  StereoGrabber grabber(device);
+  ThreadPool pool(1);
+  CalibrateJob job(grabber, session, device, pool, {});
+  job.order({{10, 7, 20}, std::nullopt});
+  std::atomic<bool> over{false};
+  const std::atomic<bool> cancelled{false};
+  std::thread worker([&] {
+    pipeline::Progress progress;
+    JobControl control{cancelled, progress};
+    (void)job.run(control);
+    over = true;
+  });
+  // Minutes are "never".
+  const auto until = [](const auto& condition) {
+    for (int i = 0; i < 12'000 && !condition(); ++i)
+      std::this_thread::sleep_for(std::chrono::milliseconds(5));
+    return condition();
+  };
+  const auto troubled = [&] { return !job.newest().problem.empty(); };
+  EXPECT_TRUE(until([&] { return !job.newest().pictures[0].pixels.empty(); }));
+  world.pulled = true;
+  EXPECT_TRUE(until(troubled));
+  world.pulled = false;
+  EXPECT_TRUE(until([&] { return !troubled(); })) << "pairs come again";
+  EXPECT_FALSE(over);
+  world.pulled = true;
+  EXPECT_TRUE(until(troubled));
+  device.left_camera.number = "X";
+  world.pulled = false;
+  EXPECT_TRUE(until([&] { return over.load(); }));
+  job.finish();
+  worker.join();
+  ASSERT_FALSE(job.outcome());
+  EXPECT_EQ(job.outcome().error().code, Errc::NotCalibrated);
 }
 
 }  // namespace

@@ -3,6 +3,7 @@
 #include "firmware/technician/stick_files.h"
 
 #include <gtest/gtest.h>
+#include <sys/stat.h>
 
 #include <atomic>
 #include <fstream>
@@ -121,6 +122,28 @@ TEST_F(CalibrationStick, WhoStopsWhatHasItsNameAlreadyHasItAndTheStickIsLetGo) {
   EXPECT_TRUE(cancelled) << "it was stopped";
   EXPECT_TRUE(fs::exists(file));
   EXPECT_EQ(stick.ejected, 1);
+}
+
+// Who opens a pipe waits for its other end: for ever.
+TEST_F(CalibrationStick, WhatIsNoFileIsNeitherListedNorOpened) {
+  const fs::path saved = root / kSavedFolder;
+  fs::create_directories(saved / "folder.relievo");
+  ASSERT_EQ(mkfifo((saved / "pipe.relievo").c_str(), 0600), 0);
+  fs::create_symlink("pipe.relievo", saved / "link.relievo");
+  std::ofstream(saved / "file.relievo") << "x";
+  const auto names = saved_reconstructions(stick, 9);
+  ASSERT_TRUE(names);
+  EXPECT_EQ(*names, std::vector<std::string>{"file.relievo"});
+  const std::atomic<bool> cancelled{false};
+  pipeline::Progress progress;
+  JobControl control{cancelled, progress};
+  for (const char* name : {"pipe.relievo", "link.relievo", "folder.relievo"}) {
+    const auto read = read_saved(name, stick, control);
+    ASSERT_FALSE(read) << name;
+    EXPECT_EQ(read.error().code, Errc::InvalidInput) << name;
+    EXPECT_EQ(read.error().what.view(), "this is not a file");
+  }
+  EXPECT_EQ(read_saved("none.relievo", stick, control).error().code, Errc::IoFailed);
 }
 
 // What a stick that was pulled out has left: the next export clears the one and brings back the other.

@@ -71,6 +71,21 @@ TEST_F(TechnicianTest, ACalibrationIsMadeJudgedStoredAndUsed) {
   std::filesystem::remove_all(rig().stick() / "calibrations");
 }
 
+// Somebody has changed the cameras' mode: the views before are worth their verdict all the same.
+TEST_F(TechnicianTest, WhatEndedACalibrationStandsAboveItsVerdict) {
+  rig().spoils = [](const pipeline::LiveState& state) -> Result<bool> { return state.views >= 7; };
+  rig().open(StaffPage::Calibrate);
+  rig().tap("calibration begin");
+  ASSERT_TRUE(rig().until([] { return rig().appliance->state() == State::Calibrate; }));
+  ASSERT_TRUE(rig().until([] { return !rig().now().calibration.running; }));
+  EXPECT_TRUE(rig().now().calibration.ended);
+  EXPECT_EQ(rig().now().calibration.problem.code, Errc::InvalidInput);
+  rig().turn();
+  EXPECT_TRUE(rig().shows("verdict"));
+  EXPECT_TRUE(rig().says("another size"));
+  rig().spoils = {};
+}
+
 // Cameras at another distance than the calibration in use says are refused, unless the technician says why.
 TEST_F(TechnicianTest, CamerasThatWereMountedAnewMayHaveAnotherDistance) {
   const std::uint32_t own = rig().stages->calibration()->revision;

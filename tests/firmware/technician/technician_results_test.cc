@@ -6,7 +6,9 @@
 
 #include <cmath>
 #include <filesystem>
+#include <fstream>
 #include <string>
+#include <vector>
 
 #include "firmware/measure/match_figures.h"
 #include "storage/model_blob.h"
@@ -110,6 +112,87 @@ TEST_F(TechnicianTest, APairByHandMendsTheSurfaceAndIsMovedRemovedSavedAndLoaded
   ASSERT_TRUE(rig().until(finished));
 }
 
+// What the page shows is saved: of a pair that waits for its calculation, that it waits.
+TEST_F(TechnicianTest, APairThatWasNotCalculatedWithIsSavedAndWhatWasMadeWithoutItIsNot) {
+  capture();
+  rig().tap("stage 2");
+  rig().tap("by hand");
+  const pipeline::RectifiedPair& pair = *products().pair;
+  rig().tap("left", float(pair.face_centre_px.x / pair.width_px),
+            float(pair.face_centre_px.y / pair.height_px));
+  const ui::TechnicianPoint set = rig().now().point;
+  ASSERT_TRUE(set.matched);
+  const auto save = [] {
+    rig().plug_in();
+    rig().tap("save");
+    ASSERT_TRUE(rig().until([] { return rig().now().recording.outcome != ui::Outcome::None; }));
+    ASSERT_EQ(rig().now().recording.outcome, ui::Outcome::Done);
+  };
+  save();
+  const auto waiting = rig().saved_making();
+  ASSERT_TRUE(waiting);
+  ASSERT_EQ(waiting->by_hand.size(), 1U);
+  EXPECT_EQ(waiting->by_hand[0].disparity_px, set.disparity_px);
+  EXPECT_EQ(waiting->records.size(), 1U) << "the matches";
+  const std::filesystem::path last = rig().stick() / kSavedFolder / "last.relievo";
+  std::filesystem::rename(rig().stick() / rig().now().recording.where, last);
+
+  rig().tap("remove pair");
+  save();
+  const auto without = rig().saved_making();
+  ASSERT_TRUE(without);
+  EXPECT_TRUE(without->by_hand.empty());
+  EXPECT_EQ(without->records.size(), 5U) << "all is as it was calculated";
+
+  rig().plug_in();
+  rig().tap("list saved");
+  ASSERT_TRUE(rig().until([] { return rig().shows("saved 0"); }));
+  rig().tap("saved 0");
+  ASSERT_TRUE(rig().until([] { return rig().now().phase == TechnicianPhase::Running; }));
+  ASSERT_TRUE(rig().until(finished));
+  ASSERT_EQ(rig().now().pairs.size(), 1U) << rig().now().problem.detail;
+  EXPECT_NE(rig().now().result.failure.detail.find("calculate again"), std::string_view::npos);
+  rig().tap("stage 6");
+  rig().tap("run from");
+  ASSERT_TRUE(rig().until(finished));
+  EXPECT_EQ(rig().now().result.failure.detail, "");
+  EXPECT_TRUE(products().model.has_value());
+  std::filesystem::remove(last);
+  rig().tap("stage 2");
+  rig().tap("by hand");
+  rig().tap("capture");
+  ASSERT_TRUE(rig().until(finished));
+}
+
+// Names come from a stick that anybody may have written.
+TEST_F(TechnicianTest, ManySavedReconstructionsAreListedUnderNamesThatCanBeRead) {
+  const std::filesystem::path folder = rig().stick() / kSavedFolder;
+  std::filesystem::create_directories(folder);
+  const std::vector<std::string> names{"z1\xe2\x80\xaetxt.relievo",
+                                       "z2\nline.relievo",
+                                       "z3\xff.relievo",
+                                       "z4.relievo",
+                                       "z5.relievo",
+                                       "z6.relievo",
+                                       "z7.relievo",
+                                       "z8 \xc3\xa9.relievo"};
+  for (const std::string& name : names) std::ofstream(folder / name) << "x";
+  rig().plug_in();
+  rig().open(StaffPage::Stages);
+  rig().tap("list saved");
+  ASSERT_TRUE(rig().until([] { return rig().shows("saved 0"); }));
+  ASSERT_GE(rig().now().saved.names.size(), names.size());
+  EXPECT_TRUE(rig().shows("saved 7"));
+  const char* shown[] = {"z8 \xc3\xa9.relievo", "z7.relievo",  "z6.relievo",      "z5.relievo",
+                         "z4.relievo",          "z3?.relievo", "z2?line.relievo", "z1?txt.relievo"};
+  for (std::size_t i = 0; i < names.size(); ++i) EXPECT_EQ(rig().now().saved.names[i], shown[i]);
+  rig().tap("saved 5");
+  ASSERT_TRUE(rig().until([] { return !rig().now().problem.empty(); }));
+  EXPECT_NE(rig().now().problem.detail.find("z3?.relievo: this is no saved"), std::string_view::npos)
+      << rig().now().problem.detail;
+  for (const std::string& name : names) std::filesystem::remove(folder / name);
+}
+
 TEST_F(TechnicianTest, ASavedReconstructionComesBackAndIsTheSameCalculatedAgainFromEveryStage) {
   capture();
   const auto model = [] { return *storage::encode_model(*products().model); };
@@ -169,6 +252,7 @@ TEST_F(TechnicianTest, ASavedReconstructionComesBackAndIsTheSameCalculatedAgainF
   rig().tap("saved 0");
   ASSERT_TRUE(rig().until([] { return !rig().now().problem.empty(); }));
   EXPECT_NE(rig().now().problem.detail.find("damaged"), std::string_view::npos);
+  EXPECT_EQ(rig().now().problem.code, Errc::InvalidInput) << "the file is, not the store";
   EXPECT_EQ(rig().now().phase, TechnicianPhase::Ready);
   EXPECT_EQ(model(), as_saved);
 }

@@ -27,6 +27,7 @@
 #include "storage/document/document.h"
 #include "storage/sqlite/sqlite_store.h"
 #include "tests/firmware/held_hand.h"
+#include "tests/firmware/technician/spoiled_pairs.h"
 #include "tests/firmware/test_records.h"
 #include "tests/support/faulty_store.h"
 #include "tests/support/made_screen.h"
@@ -73,7 +74,8 @@ class TechnicianRig {
     test_capture = std::make_unique<TestCapture>(TestCapture::Parts{
         *appliance, *side_tasks, *device, *stages, pool, *store, log,
         [this](const BoardArgs& args) -> Result<std::unique_ptr<LivePairs>> {
-          return make_hand_pairs(held_board(boards, args), 1);
+          return std::unique_ptr<LivePairs>(
+              std::make_unique<SpoiledPairs>(make_hand_pairs(held_board(boards, args), 1), spoils));
         },
         [this](const pipeline::StereoCalibration& in_use) { revision = in_use.revision; }});
     EXPECT_TRUE(until([&] { return appliance->state() == State::Idle; }));
@@ -185,6 +187,7 @@ class TechnicianRig {
   ui::ServiceView staff;
   ui::ViewState view;
   hal::sim::RigOptions boards = test::small_rig(kBoardScale);  // the cameras that are shown one
+  SpoiledPairs::Spoils spoils;                                 // ... and what happens to their pairs
   ui::StaffPage page = ui::StaffPage::Count;
   std::uint32_t revision = 0;
 

@@ -52,9 +52,27 @@ TEST(Error, KeepsTheEndOfALongPath) {
   EXPECT_TRUE(error.where().ends_with("/end.png"));
 }
 
+TEST(Words, ANameIsShownInItsOwnDirectionAndWithoutWhatIsNoLetter) {
+  EXPECT_EQ(shown_name("Zo\xc3\xab \xd7\x90 1.relievo"), "Zo\xc3\xab \xd7\x90 1.relievo");
+  EXPECT_EQ(shown_name("a\xe2\x80\xae"
+                       "b\xe2\x81\xa6"
+                       "c\xd8\x9c"
+                       "d"),
+            "a?b?c?d");
+  EXPECT_EQ(shown_name("a\xe2\x80\xa8"
+                       "b\xc2\x85"
+                       "c\x7f\n"),
+            "a?b?c??");
+  EXPECT_EQ(shown_name("a\xff\xc3"), "a??");
+  EXPECT_EQ(shown_name(""), "");
+}
+
 TEST(Words, ADetailIsOneLineWhateverTheFileIsCalled) {
   const Error error = Error{Errc::NotFound, "is not there: check the name"}.at("a\nb\x1b[31m.png");
   EXPECT_EQ(detail_of(error), "a?b?[31m.png: is not there: check the name");
+  std::string long_name;
+  for (int i = 0; i < 100; ++i) long_name += "\xc3\xa9";  // is cut within a letter
+  EXPECT_TRUE(detail_of(Error{Errc::NotFound, "gone"}.at(long_name)).starts_with("?\xc3\xa9"));
   EXPECT_EQ(detail_of(Error{Errc::NotFound, "is not there", 2}), "is not there (No such file or directory)");
 }
 

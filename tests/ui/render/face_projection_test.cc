@@ -15,6 +15,7 @@
 #include <string>
 #include <vector>
 
+#include "tests/support/contrast.h"
 #include "tests/support/made_screen.h"
 #include "tests/ui/quiet_driver.h"
 #include "ui/platform/sdl_display.h"
@@ -296,6 +297,16 @@ TEST(FaceRuler, TwoTapsOnThePageSayTheirDistance) {
   char mm[16];
   std::snprintf(mm, sizeof mm, "%.1f", static_cast<double>(ui.service().ruler.distance_mm()));
   EXPECT_NE(std::string(ui.tree().find("distance")->text).find(mm), std::string::npos);
+  // The words can be read where they come to lie on a white face.
+  const Node& words = *ui.tree().find("distance");
+  const Node& ground = ui.tree().nodes()[std::size_t(words.parent)];
+  const auto under = static_cast<std::uint8_t>(255 - ground.box.fill.a);
+  EXPECT_GE(contrast(words.colour, {under, under, under, 255}), 4.5);
+  EXPECT_EQ(ground.box.fill.r + ground.box.fill.g + ground.box.fill.b, 0);
+  EXPECT_TRUE(ground.rect.holds(words.rect.x, words.rect.y) &&
+              ground.rect.holds(words.rect.right() - 1, words.rect.bottom() - 1));
+  EXPECT_LT(ground.rect.w * ground.rect.h,
+            0.2F * ui.tree().find("face")->rect.w * ui.tree().find("face")->rect.h);
   // The dots stand where the fingers were, the line between them.
   const Node& face = *ui.tree().find("face");
   int dots = 0;

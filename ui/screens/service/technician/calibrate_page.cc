@@ -143,7 +143,8 @@ void verdict(TechnicianFrame& f) {
   f.row("verdict", said, {}, mood);
   for (const std::string& reason : c.reasons) f.detail(reason);
   if (!c.reasons.empty()) f.rule();
-  if (c.end != LiveEnd::NotYet) f.row("ended", one_of(f.tr, kEndWords, c.end), {});
+  // What was wrong with it is said above.
+  if (c.end != LiveEnd::NotYet && !refused) f.row("ended", one_of(f.tr, kEndWords, c.end), {});
   f.row("depth error", f.tr("Predicted error"), f.number(c.depth_error_mm, 3, "mm"), mood);
   views(f);
   f.row("baseline", f.tr("Distance of the cameras"), f.number(c.baseline_mm, 2, "mm"));

@@ -9,8 +9,8 @@
 namespace relievo::ui {
 namespace {
 
-constexpr Colour kLine{255, 170, 40, 255}, kScale{255, 255, 255, 255};
-constexpr float kMargin = 20, kScaleDp = 5, kDotDp = 14, kLineDp = 5;
+constexpr Colour kLine{255, 170, 40, 255}, kScale{255, 255, 255, 255}, kGround{0, 0, 0, 170};
+constexpr float kMargin = 20, kScaleDp = 5, kDotDp = 14, kLineDp = 5, kGroundPadDp = 8;
 constexpr int kLineDots = 40;
 constexpr float kMostOfWidth = 0.25F;  // of the window, that the scale is long
 
@@ -59,7 +59,12 @@ void TechnicianFrame::ruler() {
   const float mm = scale_mm(ruler), from = px(kMargin) / ruler.width_px,
               long_share = mm * ruler.px_per_mm / ruler.width_px, y = px(kMargin) / ruler.height_px;
   tree.mark({{mirrored() ? 1 - from - long_share : from, y, long_share, 0}, kScale, px(kScaleDp), false});
-  const auto in_words = tree.inside(box(Flow::Column, 4, kMargin, kMargin + kScaleDp + 2));
+  const auto in_corner = tree.inside(
+      aligned(box(Flow::Column, 0, kMargin - kGroundPadDp, kMargin + kScaleDp + 2), Align::Start));
+  Node words = box(Flow::Column, 4, kGroundPadDp, 4);
+  words.box.fill = kGround;  // the words may come to lie on the face
+  words.box.radius = px(kGroundPadDp);
+  const auto in_words = tree.inside(words);
   put("scale", Role::Text, number(mm, 0, "mm"), 18, Weight::Medium, kScale);
   if (ruler.on) {
     const bool both = ruler.count == 2;

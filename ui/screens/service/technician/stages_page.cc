@@ -121,9 +121,10 @@ void point_rows(TechnicianFrame& f) {
 }
 
 void change_rows(TechnicianFrame& f) {
-  if (f.seen.pairs.empty()) return;
+  const auto pairs = std::ranges::count_if(f.seen.pairs, &TechnicianPoint::matched);  // the others wait
+  if (pairs == 0) return;
   f.rule();
-  f.row("pairs", f.tr("Match by hand"), f.number(f.seen.pairs.size()));
+  f.row("pairs", f.tr("Match by hand"), f.number(pairs));
   const TechnicianChange& change = f.seen.change;
   if (!change.known) return;
   f.row("moved", f.tr("Surface moved"), f.number(change.moved_mm2, 0, "mm²"));

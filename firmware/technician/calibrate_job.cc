@@ -1,0 +1,195 @@
+// SPDX-FileCopyrightText: 2026 The Relievo authors
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "firmware/technician/calibrate_job.h"
+
+#include <algorithm>
+#include <cmath>
+#include <thread>
+#include <utility>
+
+#include "firmware/calibrate/calibrate_command.h"
+
+namespace relievo::firmware {
+namespace {
+
+// The kiosk's own cameras.
+class GrabbedPairs final : public LivePairs {
+ public:
+  GrabbedPairs(StereoGrabber& grabber, StereoSlot& slot, hal::Device& device,
+               const std::atomic<bool>& cancelled)
+      : grabber_(grabber), slot_(slot), device_(device), cancelled_(cancelled), first_(grabber.cameras()) {}
+  // Cameras that have been away are opened again.
+  Result<std::optional<LivePair>> next(const pipeline::LiveState&) override {
+    RELIEVO_TRY(grabber_.start(device_.preferred_mode()));
+    if (grabber_.cameras() != first_)
+      return Error{Errc::NotCalibrated,
+                   "these are not the cameras that the views before were taken with: begin again"};
+    RELIEVO_TRY_ASSIGN(const pipeline::StereoFrame frame, grabber_.grab(slot_, cancelled_));
+    return std::optional<LivePair>({frame.left, frame.right, device_.clock().now().time_since_epoch()});
+  }
+
+ private:
+  StereoGrabber& grabber_;
+  StereoSlot& slot_;
+  hal::Device& device_;
+  const std::atomic<bool>& cancelled_;
+  const pipeline::RigCameras first_;
+};
+
+// Rgb8, rows without padding.
+class Drawing {
+ public:
+  Drawing(std::uint8_t* rgb, const ImageView& view, double scale)
+      : rgb_(rgb), width_(view.width_px), height_(view.height_px), scale_(scale) {}
+  void dot(const pipeline::Vec2d& at, std::array<std::uint8_t, 3> colour) {
+    const int x = int(std::lround(at.x * scale_)), y = int(std::lround(at.y * scale_));
+    for (int v = y - 2; v <= y + 2; ++v) {
+      for (int u = x - 2; u <= x + 2; ++u) put(u, v, colour);
+    }
+  }
+  void line(const pipeline::Vec2d& from, const pipeline::Vec2d& to, std::array<std::uint8_t, 3> colour) {
+    const double dx = (to.x - from.x) * scale_, dy = (to.y - from.y) * scale_;
+    const int steps = std::clamp(int(std::max(std::abs(dx), std::abs(dy))), 1, 4 * budget::kLiveSidePx);
+    for (int i = 0; i <= steps; ++i) {
+      const double t = double(i) / steps;
+      const int x = int(std::lround(from.x * scale_ + t * dx)),
+                y = int(std::lround(from.y * scale_ + t * dy));
+      put(x, y, colour);
+      put(x + 1, y, colour);
+      put(x, y + 1, colour);
+    }
+  }
+
+ private:
+  void put(int x, int y, std::array<std::uint8_t, 3> colour) {
+    if (x < 0 || y < 0 || x >= width_ || y >= height_) return;
+    std::ranges::copy(colour, rgb_ + std::ptrdiff_t{3} * (std::ptrdiff_t(y) * width_ + x));
+  }
+  std::uint8_t* rgb_;
+  int width_, height_;
+  double scale_;
+};
+
+static_assert(ui::kCoverageCells == pipeline::kCoverageColumns &&
+              ui::kCoverageCells == pipeline::kCoverageRows);
+
+constexpr std::array<std::uint8_t, 3> kSeen{64, 240, 120}, kWanted{255, 170, 40};
+
+constexpr std::chrono::seconds kPatience{8};  // with cameras that give no pair
+
+}  // namespace
+
+void CalibrateJob::order(const Order& order) {
+  order_ = order;
+  finish_.store(false, std::memory_order_relaxed);
+  result_.reset();
+  outcome_ = {};
+  const std::lock_guard lock(mutex_);
+  figures_ = {};
+}
+
+Result<void> CalibrateJob::run(JobControl& control) {
+  outcome_ = Error{Errc::LibraryFailed, "the calibration ended early"};
+  return outcome_ = calibrate(control);
+}
+
+Result<void> CalibrateJob::calibrate(JobControl& control) {
+  pipeline::LiveOptions options;
+  options.in_use = order_.in_use;
+  RELIEVO_TRY_ASSIGN(auto live, pipeline::LiveCalibration::begin(pattern_of(order_.board), options, pool_));
+  std::unique_ptr<LivePairs> pairs;
+  if (show_) {
+    RELIEVO_TRY_ASSIGN(pairs, show_(order_.board));
+  } else {
+    RELIEVO_TRY(grabber_.start(device_.preferred_mode()));
+    pairs = std::make_unique<GrabbedPairs>(grabber_, session_.slot(), device_, control.cancelled);
+  }
+  const pipeline::RigCameras cameras = grabber_.cameras();
+  std::optional<Error> trouble;  // since the last pair
+  hal::Instant since;
+  while (!live.state().done() && !finish_.load(std::memory_order_relaxed)) {
+    if (control.cancelled.load(std::memory_order_relaxed))
+      return Error{Errc::Cancelled, "the calibration was left"};
+    const Result<bool> looked = look_at_next(*pairs, live);
+    if (looked) {
+      trouble.reset();
+      if (!*looked) break;
+      continue;
+    }
+    if (looked.error().code == Errc::Cancelled) return looked.error();
+    const hal::Instant now = device_.clock().now();
+    if (!trouble) since = now;
+    trouble = looked.error();
+    tell(*trouble);
+    if (!may_pass(*trouble) || now - since > kPatience) break;
+    std::this_thread::sleep_for(budget::kCameraRetryFirst);
+  }
+  auto made = live.finish();
+  if (!made) return trouble.value_or(made.error());
+  result_ = *std::move(made);
+  result_->calibration.cameras = cameras;
+  return {};
+}
+
+Result<bool> CalibrateJob::look_at_next(LivePairs& pairs, pipeline::LiveCalibration& live) {
+  RELIEVO_TRY_ASSIGN(const auto pair, pairs.next(live.state()));
+  if (!pair) return false;
+  RELIEVO_TRY(live.look(pair->left, pair->right, pair->at));
+  publish(*pair, live.state());
+  return true;
+}
+
+// One that is away may say anything when it is opened again.
+bool CalibrateJob::may_pass(const Error& trouble) const {
+  return trouble.code == Errc::Timeout || trouble.code == Errc::Disconnected ||
+         trouble.code == Errc::IoFailed || grabber_.watch() != CameraWatch::Well;
+}
+
+void CalibrateJob::tell(const Error& trouble) {
+  const std::lock_guard lock(mutex_);
+  figures_.problem = ui::fault_of(trouble);
+}
+
+void CalibrateJob::publish(const LivePair& pair, const pipeline::LiveState& state) {
+  for (std::size_t i = 0; i < 2; ++i) {
+    const ImageView& view = i == 0 ? pair.left : pair.right;
+    const ImageView small = feeds_[i].fill(view);
+    Drawing drawing(feeds_[i].filled(), small, double(small.width_px) / view.width_px);
+    for (const pipeline::Vec2d& corner : state.corners[i]) {
+      if (pipeline::seen(corner)) drawing.dot(corner, kSeen);
+    }
+    if (state.wanted) {
+      const pipeline::BoardOutline& outline = (*state.wanted)[i];
+      for (std::size_t k = 0; k < outline.size(); ++k)
+        drawing.line(outline[k], outline[(k + 1) % outline.size()], kWanted);
+    }
+  }
+  ui::TechnicianCalibration now;
+  now.advice = state.advice;
+  now.end = state.end;
+  now.views = state.views;
+  now.disagreeing = state.disagreeing;
+  now.bars = {float(state.bars.x), float(state.bars.y), float(state.bars.size), float(state.bars.skew)};
+  for (std::size_t k = 0; k < 2; ++k) std::ranges::copy(state.maps[k], now.seen[k].begin());
+  now.error_mm = float(state.error_mm);
+  now.goal_mm = float(state.goal_mm);
+  const std::lock_guard lock(mutex_);
+  for (LiveFeed& feed : feeds_) feed.publish({});
+  figures_ = now;
+}
+
+ui::TechnicianCalibration CalibrateJob::newest() {
+  const std::lock_guard lock(mutex_);
+  ui::TechnicianCalibration now = figures_;
+  for (std::size_t i = 0; i < 2; ++i) {
+    const ui::LiveView live = feeds_[i].newest();
+    now.pictures[i] = {live.picture, live.number};
+  }
+  return now;
+}
+
+void CalibrateJob::wipe() {
+  for (LiveFeed& feed : feeds_) feed.wipe();
+}
+
+}  // namespace relievo::firmware
