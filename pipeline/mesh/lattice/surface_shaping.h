@@ -66,8 +66,8 @@ inline constexpr float kSteepest = 28.6F;
 // Closes a face on its head's chart (head_chart.h): everything within its outline that was not measured gets
 // a surface that continues what was, as curved as the mirrored other side where that was measured. Beside a
 // nose, under it, in corners of eyes and mouth, beyond what both cameras saw of a cheek. Measured surface
-// stays where it is, but for the steep last two millimetres before a hole, what is most unsure below the tip of
-// the nose, and a strip along the seam of a large completed part, which are laid anew.
+// stays where it is, but for the steep last two millimetres before a hole, what is most unsure below the tip
+// of the nose, and a strip along the seam of a large completed part, which are laid anew.
 //
 // `seen`: the left view's lattice. None where no head is found in it. The face is in scratch. Error:
 // Cancelled.
