@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 //
 // The one file that names implementations: which device, which store, which simulation.
+#include <signal.h>
 #include <stdlib.h>
 #include <sys/stat.h>
 #include <time.h>
@@ -269,6 +270,7 @@ int main(int argc, char** argv) {
     console.fail(streams.error());
     return 1;
   }
+  ::signal(SIGXFSZ, SIG_IGN);   // a file that grows past a limit is an error like a full disk
   ::umask(::umask(077) & 077);  // whatever it was: what this program makes it may read and write itself
   const fw::CommandLine line = fw::parse_command_line(argc, argv);
   // compare opens no store, and measures memory.

@@ -23,6 +23,8 @@ static png_voidp take(png_structp png, png_alloc_size_t size) {
 }
 static void give_back(png_structp, png_voidp memory) { std::free(memory); }
 static void say_nothing(png_structp, png_const_charp) {}
+// libpng's own prints a line first; whoever called us tells what is wrong.
+[[noreturn]] static void jump_back(png_structp png, png_const_charp) { png_longjmp(png, 1); }
 
 static void append(png_structp png, png_bytep bytes, std::size_t size) {
   auto& out = *static_cast<std::vector<std::byte>*>(png_get_io_ptr(png));
@@ -46,7 +48,7 @@ static void read(png_structp png, png_bytep to, std::size_t size) {
 }
 
 bool write(const ImageView& image, const PngForm& form, std::vector<std::byte>* out) {
-  png_structp png = png_create_write_struct(PNG_LIBPNG_VER_STRING, nullptr, nullptr, say_nothing);
+  png_structp png = png_create_write_struct(PNG_LIBPNG_VER_STRING, nullptr, jump_back, say_nothing);
   png_infop info = png == nullptr ? nullptr : png_create_info_struct(png);
   if (info == nullptr || setjmp(png_jmpbuf(png)) != 0) {  // NOLINT(cert-err52-cpp): C has no other way out
     png_destroy_write_struct(&png, &info);
@@ -78,8 +80,8 @@ struct Reading {
 };
 
 bool begin(Reading& reading, bool* refused, std::span<const std::byte>* bytes) {
-  reading.png = png_create_read_struct_2(PNG_LIBPNG_VER_STRING, nullptr, nullptr, say_nothing, refused, take,
-                                         give_back);
+  reading.png = png_create_read_struct_2(PNG_LIBPNG_VER_STRING, nullptr, jump_back, say_nothing, refused,
+                                         take, give_back);
   reading.info = reading.png == nullptr ? nullptr : png_create_info_struct(reading.png);
   if (reading.info == nullptr) return false;
   if (setjmp(png_jmpbuf(reading.png)) != 0) return false;  // NOLINT(cert-err52-cpp): C has no other way out

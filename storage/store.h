@@ -54,7 +54,8 @@ class Store {
   enum class Opened : std::uint8_t { Names, NamesAndConsents };
   using Visit = std::function<Result<void>(Subject& subject, const Consent* newest)>;
   virtual Result<void> for_each_subject(Opened opened, const Visit& visit) = 0;
-  // Name, consents, models, and their traces in free pages, write-ahead log and old copies. NotFound.
+  // Name, consents, models, and their traces in free pages, write-ahead log and old copies. NotFound. Errors
+  // that begin with "erased" tell what else could not be done.
   virtual Result<void> erase_subject(SubjectId id) = 0;
 
   // NotFound: no such subject or calibration. InvalidInput: the model does not hang together.

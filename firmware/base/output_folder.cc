@@ -3,14 +3,17 @@
 #include "firmware/base/output_folder.h"
 
 #include <cerrno>
+#include <charconv>
 #include <span>
 #include <string>
 #include <system_error>
 #include <utility>
 
+#include <signal.h>
 #include <unistd.h>
 
 #include "hal/base/whole_file.h"
+#include "storage/store_folder.h"
 
 namespace relievo::firmware {
 namespace {
@@ -37,6 +40,22 @@ fs::path first_missing(fs::path folder) {
   return missing;
 }
 
+// What runs that were killed have left: there may be a face in it.
+void remove_abandoned(const fs::path& parent, const std::string& prefix) {
+  std::error_code error, ignored;
+  fs::directory_iterator entry(parent, error);
+  for (; !error && entry != fs::directory_iterator(); entry.increment(error)) {
+    const std::string name = entry->path().filename().string();
+    if (!name.starts_with(prefix)) continue;
+    pid_t process = 0;
+    const auto [end, wrong] =
+        std::from_chars(name.data() + prefix.size(), name.data() + name.size(), process);
+    if (wrong != std::errc() || end != name.data() + name.size() || process <= 0) continue;
+    const bool gone = process == ::getpid() || (::kill(process, 0) != 0 && errno == ESRCH);
+    if (gone) fs::remove_all(entry->path(), ignored);
+  }
+}
+
 }  // namespace
 
 Result<OutputFolder> OutputFolder::begin(const fs::path& target) {
@@ -48,11 +67,14 @@ Result<OutputFolder> OutputFolder::begin(const fs::path& target) {
   if (fs::exists(folder.target_, error) && !fs::is_directory(folder.target_, error)) {
     return Error{Errc::InvalidInput, "is a file, not a folder: choose another name"}.at(target.native());
   }
+  if (storage::is_store_folder(folder.target_))
+    return Error{Errc::InvalidInput, "holds a store or its key: choose another folder"}.at(target.native());
   const fs::path parent = folder.target_.parent_path();
   folder.made_parent_ = first_missing(parent);
-  folder.work_ = parent / ("." + folder.target_.filename().string() + ".part" + std::to_string(getpid()));
-  fs::remove_all(folder.work_, error);  // of a run that was killed, and had this number, too
-  if (!error) fs::create_directories(folder.work_, error);
+  const std::string prefix = "." + folder.target_.filename().string() + ".part";
+  folder.work_ = parent / (prefix + std::to_string(getpid()));
+  remove_abandoned(parent, prefix);
+  fs::create_directories(folder.work_, error);
   if (error) return failed(target, error.value());
   return folder;
 }

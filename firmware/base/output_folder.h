@@ -3,9 +3,9 @@
 //
 // OutputFolder: results appear whole or not at all. Files are made in a hidden folder beside the
 // target; commit() renames it into place, or, where the target exists already, each file over its
-// predecessor. Without commit() the destructor leaves nothing behind.
-// Errors: InvalidInput (the target is a file), IoFailed (cannot be made or written), MediaFull.
-// Thread: main.
+// predecessor. Without commit() the destructor leaves nothing behind; what a run that was killed has left
+// goes when the next one begins with the same target. Errors: InvalidInput (the target is a file, or a
+// store's folder), IoFailed (cannot be made or written), MediaFull. Thread: main.
 #pragma once
 
 #include <filesystem>

@@ -21,6 +21,7 @@
 #include "pipeline/calibrate/file/calibration_file.h"
 #include "pipeline/calibrate/report/calibration_report.h"
 #include "pipeline/match/rectify/rectifier.h"
+#include "storage/store_folder.h"
 
 namespace relievo::firmware {
 namespace {
@@ -304,7 +305,7 @@ Result<void> check_calibration_output(const Path& output) {
         folder.native());
   if (std::filesystem::is_directory(output, error))
     return Error{Errc::InvalidInput, "is a folder; name a file such as rig.yml"}.at(output.native());
-  return {};
+  return storage::must_lie_outside_stores(output);
 }
 
 Result<std::vector<PicturePairFiles>> find_picture_pairs(const Path& folder) {

@@ -20,6 +20,7 @@
 #include "firmware/command/commands.h"
 #include "hal/base/whole_file.h"
 #include "pipeline/calibrate/file/calibration_file.h"
+#include "storage/store_folder.h"
 
 namespace relievo::firmware {
 namespace {
@@ -64,9 +65,11 @@ Result<pipeline::StereoCalibration> chosen(const CalibrationArgs& args, Services
 }
 
 Result<void> export_one(const CalibrationArgs& args, Services& services) {
+  if (!args.ros) RELIEVO_TRY(storage::must_lie_outside_stores(args.file));
   RELIEVO_TRY_ASSIGN(const auto calibration, chosen(args, services));
   if (!args.ros) return pipeline::write_calibration(args.file, calibration);
   RELIEVO_TRY_ASSIGN(const auto texts, pipeline::camera_info_texts(calibration));
+  (void)interrupted();  // nothing half-written stays behind
   RELIEVO_TRY_ASSIGN(OutputFolder folder, OutputFolder::begin(args.file));
   RELIEVO_TRY(write_text(folder.path() / "left.yaml", texts.left, args.file));
   RELIEVO_TRY(write_text(folder.path() / "right.yaml", texts.right, args.file));
@@ -164,6 +167,7 @@ Result<void> run(const CalibrationArgs& args, Services& services) {
 }
 
 Result<void> run(const PrintPatternArgs& args, Services& services) {
+  RELIEVO_TRY(storage::must_lie_outside_stores(args.output));
   RELIEVO_TRY_ASSIGN(const PageFormat format, page_format(args.output.filename().native()));
   const pipeline::BoardPattern pattern = pattern_of(args.board);
   RELIEVO_TRY_ASSIGN(const PatternPage page, lay_out_pattern(pattern));

@@ -13,6 +13,7 @@
 #include "hal/base/words.h"
 #include "hal/recording/capture_file.h"
 #include "storage/export/model_files.h"
+#include "storage/store_folder.h"
 
 namespace relievo::firmware {
 namespace {
@@ -81,6 +82,7 @@ Result<void> reconstruct_recording(const ReconstructArgs& args, Services& servic
 
 Result<void> run(const ReconstructArgs& args, Services& services) {
   if (args.pictures.size() == 1) return reconstruct_recording(args, services);
+  if (!args.save.empty()) RELIEVO_TRY(storage::must_lie_outside_stores(args.save));
   Reconstruction made;
   RELIEVO_TRY(args.load.empty() ? made.run(args, services.console) : made.load(args, services.console));
   RELIEVO_TRY_ASSIGN(const std::vector<std::string> further, write_results(args, made));

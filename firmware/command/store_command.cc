@@ -6,6 +6,7 @@
 #include <sstream>
 #include <string>
 
+#include "firmware/base/interrupt.h"
 #include "firmware/base/settings.h"
 #include "firmware/command/commands.h"
 #include "firmware/records/bundle_manifest.h"
@@ -56,6 +57,7 @@ Result<void> recover(storage::StoreKeeping& keeping, Services& services) {
   std::string words;
   std::size_t count = 0;
   for (std::string word; count < storage::kRecoveryWords && std::cin >> word; ++count) words += word + " ";
+  (void)interrupted();  // as for the other verbs that write, once nothing is read from a person any more
   RELIEVO_TRY_ASSIGN(const auto erased, keeping.recover(words));
   services.console.say("the store has a new key and opens again");
   for (const storage::SubjectId id : erased)
@@ -71,11 +73,13 @@ Result<void> recover(storage::StoreKeeping& keeping, Services& services) {
   switch (args.verb) {
     case StoreArgs::Verb::Check: return check(args, folder, services);
     case StoreArgs::Verb::Backup:
+      (void)interrupted();  // from here on Ctrl-C waits: neither half a copy nor a key stays behind
       RELIEVO_TRY(keeping->backup(args.file));
       services.console.say("copied to " + args.file.string() +
                            "; keep its key, or the recovery words, elsewhere");
       return {};
     case StoreArgs::Verb::Rekey:
+      (void)interrupted();
       RELIEVO_TRY(keeping->rekey({args.file, args.tpm}));
       services.console.say("the keys are new; the old key opens only copies made before");
       return {};

@@ -25,6 +25,7 @@
 #include "pipeline/recognition/recognition_images.h"
 #include "storage/cipher/age.h"
 #include "storage/export/model_files.h"
+#include "storage/store_folder.h"
 #include "storage/text.h"
 
 namespace relievo::firmware {
@@ -92,6 +93,11 @@ Result<std::optional<WipedText>> passphrase_in(const Path& file) {
   return std::optional(WipedText(text));
 }
 
+Result<void> go_on(const SubjectsArgs& args) {
+  if (!interrupted().load()) return {};
+  return Error{Errc::Cancelled, "cancelled: nothing was written"}.at(args.output.string());
+}
+
 // One file, sealed: nothing of it is written to a disk in the clear.
 Result<void> write_sealed(const SubjectsArgs& args, std::vector<storage::BundleFile>& files) {
   RELIEVO_TRY_ASSIGN(const auto passphrase, passphrase_in(args.passphrase));
@@ -103,12 +109,16 @@ Result<void> write_sealed(const SubjectsArgs& args, std::vector<storage::BundleF
   }
   RELIEVO_TRY_ASSIGN(const auto bundle, storage::bundle_bytes(files));
   RELIEVO_TRY_ASSIGN(const auto sealed, storage::age_seal(to, bundle));
+  RELIEVO_TRY(go_on(args));
   return write_whole_file(args.output, sealed);
 }
 
 Result<void> export_newest(storage::Store& store, const storage::Subject& subject, const SubjectsArgs& args,
                            Services& services) {
+  (void)interrupted();  // from here on Ctrl-C is ours: nothing half-written stays behind
   Console& console = services.console;
+  const bool sealed = !args.recipient.empty() || !args.passphrase.empty();
+  if (sealed) RELIEVO_TRY(storage::must_lie_outside_stores(args.output));
   RELIEVO_TRY_ASSIGN(const auto enrolments, store.enrolments(subject.id));
   if (enrolments.empty()) return Error{Errc::NotFound, "has no enrolment: enrol first"}.at(args.subject);
   const storage::Enrolment& newest = enrolments.back();
@@ -124,7 +134,7 @@ Result<void> export_newest(storage::Store& store, const storage::Subject& subjec
   storage::ExportOptions options(storage::ExportFrame::Head);
   options.version = kVersion;
   if (images) options.images = &*images;
-  if (!args.recipient.empty() || !args.passphrase.empty()) {
+  if (sealed) {
     RELIEVO_TRY_ASSIGN(auto files, storage::make_model_files(model, options));
     const auto report = std::as_bytes(std::span(newest.report_json));
     if (!report.empty()) files.push_back({"report.json", {report.begin(), report.end()}});
@@ -136,6 +146,7 @@ Result<void> export_newest(storage::Store& store, const storage::Subject& subjec
     console.say(done + ", sealed: age -d opens it, tar unpacks it");
     return {};
   }
+  RELIEVO_TRY(go_on(args));
   RELIEVO_TRY_ASSIGN(OutputFolder folder, OutputFolder::begin(args.output));
   if (const auto files = storage::write_model_files(model, folder.path(), options); !files) {
     return files.error().at(args.output.string());
@@ -147,6 +158,7 @@ Result<void> export_newest(storage::Store& store, const storage::Subject& subjec
   if (!newest.report_json.empty())
     RELIEVO_TRY(write_text(folder.path() / "report.json", newest.report_json, args.output));
   RELIEVO_TRY(write_manifest(store, copy, folder.path(), args.output));
+  RELIEVO_TRY(go_on(args));
   RELIEVO_TRY(folder.commit());
   console.say(done);
   return {};

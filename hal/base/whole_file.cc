@@ -75,18 +75,15 @@ Result<std::size_t> regular_size(int fd, const fs::path& file, std::size_t limit
   struct stat info {};
   if (::fstat(fd, &info) != 0) return Error{Errc::IoFailed, "cannot read this file", errno}.at(file.native());
   if (!S_ISREG(info.st_mode)) return Error{Errc::InvalidInput, "this is not a file"}.at(file.native());
-  if (info.st_size == 0) return Error{Errc::InvalidInput, "this file is empty"}.at(file.native());
   const auto size = std::size_t(info.st_size);
   if (size > limit_bytes)
     return Error{Errc::InvalidInput, "this file is larger than its limit"}.at(file.native());
   return size;
 }
 
-}  // namespace
-
-Result<std::vector<std::byte>> read_whole_file(const fs::path& file, std::size_t limit_bytes) try {
+Result<std::vector<std::byte>> read_file(const fs::path& file, std::size_t limit_bytes, int flags) try {
   // O_NONBLOCK: a FIFO under this name must not hold us up; regular files do not care.
-  const Descriptor in{::open(file.c_str(), O_RDONLY | O_CLOEXEC | O_NONBLOCK)};
+  const Descriptor in{::open(file.c_str(), O_RDONLY | O_CLOEXEC | O_NONBLOCK | flags)};
   if (in.fd < 0) {
     const int number = errno;
     if (number == ENOENT || number == ENOTDIR)
@@ -106,6 +103,27 @@ Result<std::vector<std::byte>> read_whole_file(const fs::path& file, std::size_t
   return bytes;
 } catch (const std::bad_alloc&) {
   return Error{Errc::OutOfMemory, "no memory to read this file"}.at(file.native());
+}
+
+}  // namespace
+
+Result<std::vector<std::byte>> read_whole_file(const fs::path& file, std::size_t limit_bytes) {
+  auto bytes = read_file(file, limit_bytes, 0);
+  if (bytes && bytes->empty()) return Error{Errc::InvalidInput, "this file is empty"}.at(file.native());
+  return bytes;
+}
+
+Result<std::vector<std::byte>> read_own_file(const fs::path& file, std::size_t limit_bytes) {
+  return read_file(file, limit_bytes, O_NOFOLLOW);
+}
+
+void give_to_owner_of(const fs::path& place, int fd) {
+  struct stat owner {
+  }, file{};
+  if (::geteuid() != 0 || ::stat(place.c_str(), &owner) != 0 || ::fstat(fd, &file) != 0) return;
+  if (!S_ISREG(file.st_mode) || file.st_nlink != 1) return;
+  // Not every file system has owners.
+  if (::fchown(fd, owner.st_uid, owner.st_gid) != 0) return;
 }
 
 Result<PendingFile> PendingFile::create(const fs::path& target, unsigned mode) {

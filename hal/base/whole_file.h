@@ -20,6 +20,12 @@
 namespace relievo {
 
 Result<std::vector<std::byte>> read_whole_file(const std::filesystem::path& file, std::size_t limit_bytes);
+// The same of a file that this program made: no link may stand in its place, and it may be empty, as a power
+// cut leaves it.
+Result<std::vector<std::byte>> read_own_file(const std::filesystem::path& file, std::size_t limit_bytes);
+// What root makes or writes for another user stays that user's: the open file gets the owner of `place`.
+// Never a file with a second name, which may be anybody's. For anybody but root nothing is done.
+void give_to_owner_of(const std::filesystem::path& place, int fd);
 // All that PendingFile does at once. Only a device (/dev/full, /dev/stdout) is written in place, since a
 // rename would replace it. `before`: what must have been done when the file gets its name; done when all its
 // bytes are on the disk. Where that fails there is no file. `mode` as open(2) takes it.
@@ -39,6 +45,7 @@ class PendingFile {
   }
   PendingFile& operator=(PendingFile&&) = delete;
 
+  void give_to_owner_of(const std::filesystem::path& place) { relievo::give_to_owner_of(place, fd_); }
   Result<void> write(std::span<const std::byte> bytes);
   Result<void> finish();   // no more bytes: all of them reach the disk
   Result<void> publish();  // after finish()

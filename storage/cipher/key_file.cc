@@ -23,15 +23,18 @@ Result<LockedBytes> read_file(const fs::path& file, bool must_be_private, std::s
     return Error{code, what, cause}.at(file.native());
   };
   RELIEVO_TRY_ASSIGN(auto room, LockedBytes::make(kMostSealedByTpm));
-  const int fd = ::open(file.c_str(), O_RDONLY | O_CLOEXEC);
+  // O_NONBLOCK: a FIFO under this name must not hold us up.
+  const int fd = ::open(file.c_str(), O_RDONLY | O_CLOEXEC | O_NONBLOCK);
   if (fd < 0 && errno == ENOENT)
     return failed(Errc::NotFound, "the store's key is not there: put it back, or name its place (--key)", 0);
   if (fd < 0) return failed(Errc::IoFailed, "the store's key cannot be read: check its owner", errno);
   struct stat status {};
   const bool known = ::fstat(fd, &status) == 0;
-  const ssize_t got = ::read(fd, room.bytes().data(), room.bytes().size());
+  const bool is_file = S_ISREG(status.st_mode);
+  const ssize_t got = is_file ? ::read(fd, room.bytes().data(), room.bytes().size()) : 0;
   const int cause = errno;
   ::close(fd);
+  if (known && !is_file) return failed(Errc::InvalidInput, "this is not a file, and no store's key", 0);
   if (!known || got < 0)
     return failed(Errc::IoFailed, "the store's key cannot be read: check the disk", cause);
   if (must_be_private && (status.st_mode & 077) != 0)
@@ -92,6 +95,8 @@ class KeyFile final : public KeySource {
   }
   Result<void> put_next(std::span<const std::byte> bytes) const {
     RELIEVO_TRY_ASSIGN(auto file, PendingFile::create(next(), 0600));
+    // Changed by root, it stays the kiosk's to read.
+    file.give_to_owner_of(beside_ ? file_.parent_path() : file_);
     RELIEVO_TRY(file.write(bytes));
     RELIEVO_TRY(file.finish());
     RELIEVO_TRY(file.publish());

@@ -76,7 +76,8 @@ CREATE TABLE settings (
   record BLOB NOT NULL
 ) STRICT;
 
--- A chain: hash = BLAKE2b with the store's key of the hash before and this line. subject_id is no reference on purpose:
+-- A chain: hash = BLAKE2b with the store's key of the end before and this line; the end's hash is BLAKE2b with
+-- that key of its number and its line's hash (storage/sqlite/sqlite_parts.h). subject_id is no reference on purpose:
 -- the number stays when the person is erased.
 CREATE TABLE audit (
   number INTEGER PRIMARY KEY AUTOINCREMENT,
@@ -97,4 +98,4 @@ CREATE TABLE audit_end (
 INSERT INTO audit_end (one, number, hash) VALUES (1, 0, zeroblob(32));
 
 -- The oldest version of Relievo that may still open this store.
-INSERT INTO store_info (one, compatible_version) VALUES (1, 8);
+INSERT INTO store_info (one, compatible_version) VALUES (1, 9);

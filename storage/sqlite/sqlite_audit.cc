@@ -5,6 +5,10 @@
 #include "storage/sqlite/sqlite_parts.h"
 
 #include <algorithm>
+#include <charconv>
+#include <limits>
+#include <map>
+#include <set>
 
 #include "storage/byte_order.h"
 #include "storage/sodium_sha256.h"
@@ -20,6 +24,17 @@ struct Line {
   std::string_view what;
   std::span<const std::byte> detail;  // as it is stored
 };
+
+// What audit_end holds, and the next line is chained to. Keyed on its own: nobody without the key can make
+// another line the last.
+KeyedHash end_at(const StoreKeys& keys, std::int64_t number, std::span<const std::byte> hash) {
+  std::vector<std::byte> bytes;
+  ByteWriter to(bytes);
+  to.put(bytes_of("end"));
+  to.put(number);
+  to.put(hash);
+  return keyed_hash(keys.chain(), bytes);
+}
 
 std::vector<std::byte> chained(std::span<const std::byte> before, const Line& line) {
   std::vector<std::byte> bytes;
@@ -67,6 +82,64 @@ Result<End> read_end(Database& database) {
   return end;
 }
 
+End empty_log(const StoreKeys& keys) { return {0, end_at(keys, 0, {})}; }
+
+// Who is there, each with their enrolments; and from which number on the log tells of them: people and
+// enrolments of before there was a log have no line.
+struct People {
+  std::map<std::int64_t, std::set<std::int64_t>> enrolments;
+  std::int64_t first = std::numeric_limits<std::int64_t>::max(), first_enrolment = first;
+
+  void read(const Line& line, std::string_view detail) {
+    std::int64_t enrolment = 0;
+    std::from_chars(detail.data(), detail.data() + detail.size(), enrolment);
+    if (line.what == kSubjectAdded) {
+      enrolments[line.subject];
+      first = std::min(first, line.subject);
+    } else if (line.what == kEnrolmentAdded) {
+      enrolments[line.subject].insert(enrolment);
+      first_enrolment = std::min(first_enrolment, enrolment);
+    } else if (line.what == kEnrolmentRenewed) {
+      enrolments[line.subject] = {enrolment};
+    } else if (line.what == kSubjectErased) {
+      enrolments.erase(line.subject);
+    }
+  }
+};
+
+Result<void> compare(Database& database, const People& told) {
+  RELIEVO_TRY_ASSIGN(auto query,
+                     database.prepare("SELECT subject.id, enrolment.id FROM subject LEFT JOIN enrolment ON "
+                                      "subject_id = subject.id WHERE code_hash IS NOT NULL"));
+  People there;
+  for (;;) {
+    RELIEVO_TRY_ASSIGN(const bool row, query.step());
+    if (!row) break;
+    auto& theirs = there.enrolments[query.integer(0)];
+    if (query.integer(1) != 0) theirs.insert(query.integer(1));
+  }
+  const auto wrong = [](const char* kind, std::int64_t number, Literal what) {
+    return Error{Errc::StoreCorrupt, what}.at(kind + std::to_string(number));
+  };
+  constexpr Literal kGone = "is gone, and the audit log tells of no erasure: restore a copy";
+  constexpr Literal kUntold = "is there, and the audit log does not tell since when: restore a copy";
+  for (const auto& [person, enrolments] : told.enrolments) {
+    const auto found = there.enrolments.find(person);
+    if (found == there.enrolments.end()) return wrong("subject ", person, kGone);
+    for (const std::int64_t one : enrolments)
+      if (!found->second.contains(one)) return wrong("enrolment ", one, kGone);
+  }
+  for (const auto& [person, enrolments] : there.enrolments) {
+    const auto found = told.enrolments.find(person);
+    const bool known = found != told.enrolments.end();
+    if (!known && person >= told.first) return wrong("subject ", person, kUntold);
+    for (const std::int64_t one : enrolments)
+      if (one >= told.first_enrolment && !(known && found->second.contains(one)))
+        return wrong("enrolment ", one, kUntold);
+  }
+  return {};
+}
+
 }  // namespace
 
 Result<std::string> open_detail(const StoreKeys& keys, std::int64_t line, std::span<const std::byte> sealed) {
@@ -87,31 +160,78 @@ Result<std::int64_t> append_audit_line(Database& database, const StoreKeys& keys
   RELIEVO_TRY(database.run(
       "INSERT INTO audit (number, at_ms, what, subject_id, detail, hash) VALUES (?, ?, ?, ?, ?, ?)",
       line.number, line.at_ms, line.what, line.subject, detail, hash));
-  RELIEVO_TRY(database.run("UPDATE audit_end SET number = ?, hash = ?", line.number, hash));
+  RELIEVO_TRY(database.run("UPDATE audit_end SET number = ?, hash = ?", line.number,
+                           end_at(keys, line.number, hash)));
   return line.number;
 }
 
-Result<void> check_audit_chain(Database& database, const StoreKeys& keys) {
+Result<void> begin_audit(Database& database, const StoreKeys& keys) {
+  return database.run("UPDATE audit_end SET hash = ?", empty_log(keys).hash);
+}
+
+Result<bool> ended_so(Database& database, const StoreKeys& keys, std::int64_t number,
+                      std::span<const std::byte> end) {
+  if (number == 0) return std::ranges::equal(end, empty_log(keys).hash);
+  RELIEVO_TRY_ASSIGN(const auto line, database.row("SELECT hash FROM audit WHERE number = ?", number));
+  return line && std::ranges::equal(end, end_at(keys, number, line->blob(0)));
+}
+
+Result<void> check_audit(Database& database, const StoreKeys& keys) {
+  // Log and people of one instant: a kiosk may be enrolling somebody.
+  struct Instant {
+    Database& database;
+    ~Instant() {
+      if (database.in_transaction()) (void)database.run("ROLLBACK");
+    }
+  } instant{database};
+  if (!database.in_transaction()) RELIEVO_TRY(database.run("BEGIN"));
   RELIEVO_TRY_ASSIGN(const End end, read_end(database));
   RELIEVO_TRY_ASSIGN(auto query, database.prepare(kLines));
-  End reached;
+  End reached = empty_log(keys);
+  People told;
   for (;;) {
     RELIEVO_TRY_ASSIGN(const bool row, query.step());
     if (!row) break;
     const Line line{query.integer(0), query.integer(1), query.integer(2), query.text(3), query.blob(4)};
     if (line.number != reached.number + 1) return broken(database);
-    reached = {line.number, keyed_hash(keys.chain(), chained(reached.hash, line))};
-    if (!std::ranges::equal(query.blob(5), reached.hash)) return broken(database);
-    RELIEVO_TRY(open_detail(keys, line.number, line.detail));
+    const KeyedHash hash = keyed_hash(keys.chain(), chained(reached.hash, line));
+    if (!std::ranges::equal(query.blob(5), hash)) return broken(database);
+    reached = {line.number, end_at(keys, line.number, hash)};
+    RELIEVO_TRY_ASSIGN(const std::string detail, open_detail(keys, line.number, line.detail));
+    told.read(line, detail);
   }
   if (reached.number != end.number || reached.hash != end.hash) return broken(database);
-  return {};
+  return compare(database, told);
+}
+
+Result<void> key_audit_end(Database& database, const StoreKeys& keys) {
+  RELIEVO_TRY_ASSIGN(const End end, read_end(database));
+  RELIEVO_TRY_ASSIGN(auto query, database.prepare(kLines));
+  End old, made = empty_log(keys);
+  for (;;) {
+    RELIEVO_TRY_ASSIGN(const bool row, query.step());
+    if (!row) break;
+    const Line line{query.integer(0), query.integer(1), query.integer(2), query.text(3), query.blob(4)};
+    const KeyedHash before = keyed_hash(keys.chain(), chained(old.hash, line));
+    if (line.number != old.number + 1 || !std::ranges::equal(query.blob(5), before)) return {};
+    old = {line.number, before};
+    const KeyedHash hash = keyed_hash(keys.chain(), chained(made.hash, line));
+    made = {line.number, end_at(keys, line.number, hash)};
+    RELIEVO_TRY(database.run("UPDATE audit SET hash = ? WHERE number = ?", hash, line.number));
+  }
+  if (old.number != end.number || old.hash != end.hash) return {};
+  // An empty log needs no key: whoever has emptied theirs could say that their store is of version 8.
+  RELIEVO_TRY_ASSIGN(
+      const std::int64_t others,
+      database.integer("SELECT (SELECT count(*) FROM subject) + (SELECT count(*) FROM calibration)"));
+  if (end.number == 0 && others != 0) return {};
+  return database.run("UPDATE audit_end SET hash = ?", made.hash);
 }
 
 Result<void> seal_audit(Database& database, const StoreKeys& keys) {
   RELIEVO_TRY_ASSIGN(const End end, read_end(database));
   RELIEVO_TRY_ASSIGN(auto query, database.prepare(kLines));
-  End old, made;
+  End old, made = empty_log(keys);
   for (;;) {
     RELIEVO_TRY_ASSIGN(const bool row, query.step());
     if (!row) break;
@@ -120,8 +240,9 @@ Result<void> seal_audit(Database& database, const StoreKeys& keys) {
     const bool whole = line.number == old.number + 1 && std::ranges::equal(query.blob(5), old.hash);
     const auto detail = sealed_detail(keys, line.number, query.text(4));
     line.detail = detail;
-    made = {line.number, keyed_hash(keys.chain(), chained(made.hash, line))};
-    const auto kept = whole ? std::span<const std::byte>(made.hash) : query.blob(5);
+    const KeyedHash hash = keyed_hash(keys.chain(), chained(made.hash, line));
+    made = {line.number, end_at(keys, line.number, hash)};
+    const auto kept = whole ? std::span<const std::byte>(hash) : query.blob(5);
     if (query.blob(5).size() == old.hash.size()) std::ranges::copy(query.blob(5), old.hash.begin());
     old.number = line.number;
     RELIEVO_TRY(database.run("UPDATE audit SET sealed_detail = ?, detail = '', hash = ? WHERE number = ?",
@@ -137,7 +258,9 @@ Result<void> SqliteStore::append_line(const AuditEvent& event, WallTime at) {
 }
 
 Result<void> SqliteStore::append_audit(const AuditEvent& event) {
-  if (event.what == kSettingChanged || event.what == kSubjectErased)
+  constexpr std::string_view kOwn[] = {kSettingChanged, kSubjectAdded, kSubjectErased, kEnrolmentAdded,
+                                       kEnrolmentRenewed};
+  if (std::ranges::find(kOwn, event.what) != std::end(kOwn))
     return Error{Errc::InvalidInput, "only the store itself writes this line of the audit log"}.at(
         event.what);
   return change([&](WallTime at) { return append_line(event, at); });

@@ -63,7 +63,7 @@ Result<EnrolmentId> SqliteStore::insert_enrolment(SubjectId subject, const NewEn
   RELIEVO_TRY(database_->run("INSERT INTO consent (enrolment_id) VALUES (?)", number(id)));
   RELIEVO_TRY(seal_consent(*database_, *keys_, id, enrolment.consent));
   RELIEVO_TRY(seal_model(*database_, *keys_, id, blob));
-  RELIEVO_TRY(append_line({"enrolment.added", subject, std::to_string(number(id))}, at));
+  RELIEVO_TRY(append_line({std::string(kEnrolmentAdded), subject, std::to_string(number(id))}, at));
   return id;
 }
 
@@ -105,7 +105,7 @@ Result<void> SqliteStore::renew_key(SubjectId id) {
 Result<void> SqliteStore::erase_others(SubjectId subject, EnrolmentId but, WallTime at) {
   RELIEVO_TRY(
       database_->run("DELETE FROM enrolment WHERE subject_id = ? AND id <> ?", number(subject), number(but)));
-  return append_line({"enrolment.renewed", subject, std::to_string(number(but))}, at);
+  return append_line({std::string(kEnrolmentRenewed), subject, std::to_string(number(but))}, at);
 }
 
 Result<std::vector<Enrolment>> SqliteStore::enrolments(SubjectId subject) {

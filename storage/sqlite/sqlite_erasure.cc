@@ -7,7 +7,6 @@
 #include <unistd.h>
 
 #include <algorithm>
-#include <fstream>
 #include <string>
 
 #include "hal/base/whole_file.h"
@@ -18,6 +17,7 @@ namespace relievo::storage {
 namespace {
 
 constexpr off_t kRecordBytes = 8 + sizeof(KeyedHash);
+constexpr std::size_t kMostListBytes = 64'000'000;  // a million people and a half
 
 std::filesystem::path list_of(const Database& database) {
   return database.file().parent_path() / "relievo.erased";
@@ -34,16 +34,18 @@ Result<std::int64_t> last_line(Database& database) {
 }
 
 bool append(const std::filesystem::path& file, std::span<const std::byte> record) {
-  const int fd = ::open(file.c_str(), O_CREAT | O_WRONLY | O_CLOEXEC | O_NOFOLLOW, 0600);
+  const auto folder = file.parent_path();
+  const int fd = ::open(file.c_str(), O_CREAT | O_WRONLY | O_CLOEXEC | O_NOFOLLOW | O_NONBLOCK, 0600);
   if (fd < 0) return false;
+  give_to_owner_of(folder, fd);
   // What a power cut left of a record does not shift those behind it.
   struct stat status {};
-  bool done = ::fstat(fd, &status) == 0;
+  bool done = ::fstat(fd, &status) == 0 && S_ISREG(status.st_mode);
   const off_t end = status.st_size - status.st_size % kRecordBytes;
   done = done && ::pwrite(fd, record.data(), record.size(), end) == static_cast<ssize_t>(record.size()) &&
          ::fsync(fd) == 0;
   ::close(fd);
-  return done && sync_directory(file.parent_path()).has_value();
+  return done && sync_directory(folder).has_value();
 }
 
 struct Erased {
@@ -51,11 +53,18 @@ struct Erased {
   KeyedHash trace{};
 };
 
-std::vector<Erased> read_list(const Database& database) {
-  std::ifstream file(list_of(database), std::ios::binary);
-  const std::string bytes(std::istreambuf_iterator<char>(file), {});
+// A list that cannot be read is not an empty one: an older copy would bring everybody back.
+Result<std::vector<Erased>> read_list(const Database& database) {
+  const auto list = list_of(database);
+  const auto bytes = read_own_file(list, kMostListBytes);
   std::vector<Erased> all;
-  ByteReader from(bytes_of(bytes));
+  if (!bytes && bytes.error().code == Errc::NotFound) return all;
+  if (!bytes)
+    return Error{bytes.error().code,
+                 "who was erased cannot be read here: it must be a file that the store's owner may read",
+                 bytes.error().sys_errno}
+        .at(list.native());
+  ByteReader from(*bytes);
   while (from.left() >= std::size_t(kRecordBytes)) {
     Erased& one = all.emplace_back();
     one.line = from.get<std::int64_t>();
@@ -73,7 +82,7 @@ Result<KeyedHash> trace_of(Database& database, const StoreKeys& keys, SubjectId 
 
 }  // namespace
 
-Result<void> remember_erased(Database& database, const StoreKeys& keys, SubjectId id) {
+Result<bool> remember_erased(Database& database, const StoreKeys& keys, SubjectId id) {
   RELIEVO_TRY_ASSIGN(const std::int64_t line, last_line(database));
   RELIEVO_TRY_ASSIGN(const KeyedHash trace, trace_of(database, keys, id));
   std::vector<std::byte> record;
@@ -81,15 +90,14 @@ Result<void> remember_erased(Database& database, const StoreKeys& keys, SubjectI
   to.put(line + 1);
   to.put(trace);
   const auto list = list_of(database);
-  // An erasure does not wait for it.
-  if (!append(list, record) && give_up_reserve(list.parent_path())) (void)append(list, record);
-  return {};
+  return append(list, record) || (give_up_reserve(list.parent_path()) && append(list, record));
 }
 
 Result<std::vector<SubjectId>> erased_and_back(Database& database, const StoreKeys& keys) {
   RELIEVO_TRY_ASSIGN(const std::int64_t last, last_line(database));
+  RELIEVO_TRY_ASSIGN(const auto list, read_list(database));
   std::vector<KeyedHash> erased;
-  for (const Erased& one : read_list(database))
+  for (const Erased& one : list)
     if (one.line > last) erased.push_back(one.trace);
   std::vector<SubjectId> back;
   if (erased.empty()) return back;
@@ -106,8 +114,8 @@ Result<std::vector<SubjectId>> erased_and_back(Database& database, const StoreKe
 
 Result<bool> was_erased(Database& database, const StoreKeys& keys, std::int64_t code) {
   const KeyedHash trace = trace_of(keys, keys.code_hash(code));
-  for (const Erased& one : read_list(database))
-    if (one.trace == trace) return true;
+  RELIEVO_TRY_ASSIGN(const auto list, read_list(database));
+  if (std::ranges::find(list, trace, &Erased::trace) != list.end()) return true;
   RELIEVO_TRY_ASSIGN(auto query,
                      database.prepare("SELECT number, detail FROM audit WHERE what = ?", kSubjectErased));
   for (;;) {

@@ -32,8 +32,10 @@ class SqliteKeeping final : public StoreKeeping {
   Result<void> backup(const std::filesystem::path& file) override {
     RELIEVO_TRY_ASSIGN(const auto store, open(OpenMode::ReadOnly));
     return without_exceptions(file.native(), [&]() -> Result<void> {
-      RELIEVO_TRY(must_be_a_place_for_a_copy(*store->database_, file));
-      return copy_whole(*store->database_, file);
+      RELIEVO_TRY(must_be_a_place_for_a_copy(*store, file));
+      // Hidden, as every file is until it is whole.
+      return copy_whole(*store->database_, file,
+                        file.parent_path() / ("." + file.filename().string() + ".part"));
     });
   }
   Result<std::vector<SubjectId>> erased_since(const std::filesystem::path& backup) override {
@@ -46,7 +48,7 @@ class SqliteKeeping final : public StoreKeeping {
               .at(backup.native());
       if (!end && end.error().code != Errc::StoreCorrupt) return end.error();
       if (!end || !*end) return another;
-      RELIEVO_TRY_ASSIGN(const bool same, goes_on_from(*store->database_, **end));
+      RELIEVO_TRY_ASSIGN(const bool same, goes_on_from(*store, **end));
       if (!same) return another;
       RELIEVO_TRY_ASSIGN(
           auto query, store->database_->prepare("SELECT subject_id FROM audit WHERE number > ? AND what = ?",
@@ -108,18 +110,17 @@ class SqliteKeeping final : public StoreKeeping {
     return copy.row("SELECT number, hash FROM audit_end");
   }
   // The copy is this store's, if the log goes on where the copy's ends.
-  static Result<bool> goes_on_from(Database& store, const Statement& end) {
-    RELIEVO_TRY_ASSIGN(const auto same, store.row("SELECT hash FROM audit WHERE number = ?", end.integer(0)));
-    return same && std::ranges::equal(same->blob(0), end.blob(1));
+  static Result<bool> goes_on_from(SqliteStore& store, const Statement& end) {
+    return ended_so(*store.database_, *store.keys_, end.integer(0), end.blob(1));
   }
   // What a copy replaces is lost for ever: a key, a store that a kiosk is writing to, another store's copy.
-  Result<void> must_be_a_place_for_a_copy(Database& store, const std::filesystem::path& file) const {
+  Result<void> must_be_a_place_for_a_copy(SqliteStore& store, const std::filesystem::path& file) const {
     const auto refused = [&](Literal what) { return Error{Errc::InvalidInput, what}.at(file.native()); };
     std::error_code ignored;
+    RELIEVO_TRY(must_lie_outside_stores(file));
     const auto folder = file.has_parent_path() ? file.parent_path() : std::filesystem::path(".");
-    if (std::filesystem::equivalent(folder, dir_, ignored) ||
-        std::filesystem::exists(folder / kLockFile, ignored) ||
-        std::filesystem::exists(folder / kKeyFile, ignored))
+    // This one may have neither lock nor key: never opened to write, its key elsewhere.
+    if (std::filesystem::equivalent(folder, dir_, ignored))
       return refused("lies among a store's own files: choose another folder");
     if (!std::filesystem::exists(std::filesystem::symlink_status(file, ignored))) return {};
     if (!std::filesystem::is_regular_file(file, ignored))
@@ -182,11 +183,12 @@ Result<void> SqliteStore::check(const std::atomic<bool>& stop) {
   database_->stop_at(&stop);
   return without_exceptions(database_->where(), [&]() -> Result<void> {
     RELIEVO_TRY(check_pages());
+    RELIEVO_TRY(check_schema(*database_));
     RELIEVO_TRY(check_calibrations());
     RELIEVO_TRY(check_subjects());
     RELIEVO_TRY(check_models());
     RELIEVO_TRY(read_settings(*database_, *keys_));
-    return check_audit_chain(*database_, *keys_);
+    return check_audit(*database_, *keys_);
   });
 }
 
@@ -195,16 +197,17 @@ Result<void> SqliteStore::check_pages() {
   if (!pages || pages->text(0) != "ok") {
     return database_->error(Errc::StoreCorrupt, "the store is damaged: stop using it and restore a copy");
   }
+  constexpr Literal kHalf = "a record of the store has lost a part of it: restore a copy";
   RELIEVO_TRY_ASSIGN(const auto orphan, database_->row("PRAGMA foreign_key_check"));
+  if (orphan)
+    return Error{Errc::StoreCorrupt, kHalf}.at(std::string(orphan->text(0)) + " " +
+                                               std::to_string(orphan->integer(1)));
   RELIEVO_TRY_ASSIGN(
-      const std::int64_t halves,
+      const std::int64_t half,
       database_->integer(
-          "SELECT count(*) FROM enrolment WHERE NOT EXISTS (SELECT 1 FROM model WHERE enrolment_id = "
-          "enrolment.id) OR NOT EXISTS (SELECT 1 FROM consent WHERE enrolment_id = enrolment.id)"));
-  if (orphan || halves != 0) {
-    return database_->error(Errc::StoreCorrupt,
-                            "a record of the store has lost a part of it: restore a copy");
-  }
+          "SELECT id FROM enrolment WHERE NOT EXISTS (SELECT 1 FROM model WHERE enrolment_id = "
+          "enrolment.id) OR NOT EXISTS (SELECT 1 FROM consent WHERE enrolment_id = enrolment.id) LIMIT 1"));
+  if (half != 0) return Error{Errc::StoreCorrupt, kHalf}.at("enrolment " + std::to_string(half));
   return {};
 }
 
@@ -213,8 +216,12 @@ Result<void> SqliteStore::check_calibrations() {
   for (;;) {
     RELIEVO_TRY_ASSIGN(const bool row, query.step());
     if (!row) break;
-    RELIEVO_TRY_ASSIGN(const auto read, calibration(std::uint32_t(query.integer(0))));
-    RELIEVO_TRY(check_calibration(read));
+    const auto named = [&](const Error& error) {
+      return error.at("calibration " + std::to_string(query.integer(0)));
+    };
+    const auto read = calibration(std::uint32_t(query.integer(0)));
+    if (!read) return named(read.error());
+    if (const auto sound = check_calibration(*read); !sound) return named(sound.error());
   }
   RELIEVO_TRY(calibrations());  // their notes
   return {};

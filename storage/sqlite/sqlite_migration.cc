@@ -7,6 +7,7 @@
 #include <unistd.h>
 
 #include <cerrno>
+#include <map>
 #include <string>
 #include <system_error>
 
@@ -18,6 +19,10 @@ namespace {
 
 // The migrations before and after the sealing of what an older store holds in the clear.
 constexpr std::int64_t kRoomToSeal = 7, kAllSealed = 8;
+
+std::filesystem::path with_end(const std::filesystem::path& file, const char* end) {
+  return file.string() + end;
+}
 
 std::filesystem::path copy_before(const std::filesystem::path& file, std::int64_t version) {
   return file.string() + ".before-" + std::to_string(version);
@@ -48,8 +53,8 @@ Result<void> remove_copies(const std::filesystem::path& database_file, std::int6
   bool removed = false;
   for (std::int64_t version = 2; version <= last; ++version) {
     const auto copy = copy_before(database_file, version);
-    // The second: of a copy that a power cut stopped.
-    for (const auto& file : {copy, std::filesystem::path(copy.string() + ".tmp")}) {
+    // The others: of a copy that a power cut stopped.
+    for (const auto& file : {copy, with_end(copy, ".tmp"), with_end(copy, ".tmp-journal")}) {
       if (::unlink(file.c_str()) == 0) {
         removed = true;
       } else if (errno != ENOENT) {
@@ -66,13 +71,14 @@ Result<void> remove_copies(const std::filesystem::path& database_file, std::int6
 
 }  // namespace
 
-Result<void> copy_whole(Database& database, const std::filesystem::path& target) {
-  const auto unfinished = std::filesystem::path(target.string() + ".tmp");
+Result<void> copy_whole(Database& database, const std::filesystem::path& target,
+                        const std::filesystem::path& unfinished) {
   const auto failed = [&] {
     return Error{Errc::IoFailed, "the store could not be copied here: check the place", errno}.at(
         target.string());
   };
   ::unlink(unfinished.c_str());
+  ::unlink(with_end(unfinished, "-journal").c_str());
   // Made here so that nobody else may read it, not even while it grows.
   const int made = ::open(unfinished.c_str(), O_CREAT | O_EXCL | O_WRONLY | O_CLOEXEC, 0600);
   if (made < 0) return failed();
@@ -87,6 +93,37 @@ Result<void> copy_whole(Database& database, const std::filesystem::path& target)
     return error;
   }
   return sync_directory(target.parent_path());
+}
+
+Result<void> check_schema(Database& database) {
+  RELIEVO_TRY_ASSIGN(const std::int64_t version, version_of(database));
+  if (version != store_version()) return {};         // a newer one may have more
+  using Parts = std::map<std::string, std::string>;  // the name: all of it
+  const auto parts_of = [](Database& one, Parts& parts) -> Result<void> {
+    RELIEVO_TRY_ASSIGN(auto query, one.prepare("SELECT type || ' ' || name, tbl_name || coalesce(sql, '') "
+                                               "FROM sqlite_schema"));
+    for (;;) {
+      RELIEVO_TRY_ASSIGN(const bool row, query.step());
+      if (!row) return {};
+      parts.insert_or_assign(std::string(query.text(0)), std::string(query.text(1)));
+    }
+  };
+  Database made(":memory:");
+  RELIEVO_TRY(made.open(true));
+  RELIEVO_TRY(made.run(std::string(schema_sql()).c_str()));
+  Parts ours, theirs;
+  RELIEVO_TRY(parts_of(made, ours));
+  RELIEVO_TRY(parts_of(database, theirs));
+  for (const auto& [name, whole] : theirs) {
+    const auto found = ours.find(name);
+    if (found == ours.end() || found->second != whole)
+      return Error{Errc::StoreCorrupt, "is in the store, and Relievo did not make it: restore a copy"}.at(
+          name);
+  }
+  for (const auto& [name, whole] : ours)
+    if (!theirs.contains(name))
+      return Error{Errc::StoreCorrupt, "is missing in the store: restore a copy"}.at(name);
+  return {};
 }
 
 std::int64_t store_version() { return std::int64_t(migrations().size()); }
@@ -114,13 +151,20 @@ Result<std::int64_t> version_of(Database& database) {
 Result<void> make_current(Database& database, std::int64_t version, StoreKeys& keys, WallTime at) {
   const auto nothing = [] { return Result<void>(); };
   const auto make_keys = [&] { return keys.create(database, at); };
-  if (version == 0) return step(database, 0, store_version(), nothing, make_keys);
+  const auto make_all = [&]() -> Result<void> {
+    RELIEVO_TRY(make_keys());
+    return begin_audit(database, keys);
+  };
+  if (version == 0) return step(database, 0, store_version(), nothing, make_all);
   if (version >= store_version()) return keys.load(database, false);
   // Half way through the sealing the copy is there already.
-  if (version != kRoomToSeal) RELIEVO_TRY(copy_whole(database, copy_before(database.file(), version + 1)));
+  const auto copy = copy_before(database.file(), version + 1);
+  if (version != kRoomToSeal) RELIEVO_TRY(copy_whole(database, copy, with_end(copy, ".tmp")));
   if (version < kRoomToSeal) RELIEVO_TRY(step(database, version, kRoomToSeal, nothing, make_keys));
   else RELIEVO_TRY(keys.load(database, false));
-  if (version >= kAllSealed) return step(database, version, store_version(), nothing, nothing);
+  const auto key_end = [&] { return key_audit_end(database, keys); };
+  if (version == kAllSealed) return step(database, version, store_version(), nothing, key_end);
+  if (version > kAllSealed) return step(database, version, store_version(), nothing, nothing);
   RELIEVO_TRY(seal_people(database, keys));
   return step(
       database, kRoomToSeal, store_version(), [&] { return seal_the_rest(database, keys); }, nothing);

@@ -27,12 +27,17 @@ constexpr std::int64_t number(EnrolmentId id) { return std::int64_t(id); }
 inline std::int64_t to_ms(WallTime at) { return at.time_since_epoch().count(); }
 inline WallTime from_ms(std::int64_t ms) { return WallTime(std::chrono::milliseconds(ms)); }
 
-// The audit log: a chain of lines, each hashed with the store's key together with the one before; audit_end
-// repeats the last, so that a cut tail is noticed. Who has no key can make no line. Details are sealed; the
-// hash is of what is stored.
+// The audit log: a chain of lines, each hashed with the store's key together with the end as it was before;
+// audit_end is hashed with it, too, so that a cut tail is noticed. Who has no key can make no line, nor
+// another line the last. Details are sealed; the hash is of what is stored.
 
 // What the store itself goes by: nobody else may write such lines.
-inline constexpr std::string_view kSettingChanged = "setting.changed", kSubjectErased = "subject.erased";
+inline constexpr std::string_view kSettingChanged = "setting.changed", kSubjectAdded = "subject.added",
+                                  kSubjectErased = "subject.erased", kEnrolmentAdded = "enrolment.added",
+                                  kEnrolmentRenewed = "enrolment.renewed";
+
+// Of a new store, in the caller's transaction.
+Result<void> begin_audit(Database& database, const StoreKeys& keys);
 
 // Inside the caller's transaction. Returns the line's number.
 Result<std::int64_t> append_audit_line(Database& database, const StoreKeys& keys, const AuditEvent& event,
@@ -41,8 +46,18 @@ Result<std::int64_t> append_audit_line(Database& database, const StoreKeys& keys
 // What is sealed of a line, as plain text. StoreCorrupt: it was changed, or is another line's.
 Result<std::string> open_detail(const StoreKeys& keys, std::int64_t line, std::span<const std::byte> sealed);
 
-// StoreCorrupt: a line was edited, dropped, moved, or the tail was cut.
-Result<void> check_audit_chain(Database& database, const StoreKeys& keys);
+// StoreCorrupt: a line was edited, dropped, moved, or the tail was cut; or people or enrolments are there
+// that it does not tell of, or gone without a line.
+Result<void> check_audit(Database& database, const StoreKeys& keys);
+
+// Whether this was once the end of this log: as audit_end of a copy has it.
+Result<bool> ended_so(Database& database, const StoreKeys& keys, std::int64_t number,
+                      std::span<const std::byte> end);
+
+// Of a store of version 8, in the transaction of migration 9: its end was no more than the last line's hash.
+// The lines are chained anew, so that no log of version 9 passes for one of version 8. What was broken does
+// not become whole.
+Result<void> key_audit_end(Database& database, const StoreKeys& keys);
 
 // Of a store of before migration 8, in the caller's transaction: details are sealed, the chain is hashed with
 // the key. A line whose old hash is not right keeps it: what was broken does not become whole.
@@ -92,9 +107,8 @@ Result<std::vector<std::byte>> open_model(Database& database, StoreKeys& keys, E
 // back in its place is noticed, and who was erased since is erased again when it is opened. Errors: the
 // database's; Timeout (another program keeps traces in the log).
 
-// Before their code is destroyed. That the list cannot be written is no error: an erasure does not wait for
-// it.
-Result<void> remember_erased(Database& database, const StoreKeys& keys, SubjectId id);
+// Before their code is destroyed. false: the list cannot be written; an erasure does not wait for it.
+Result<bool> remember_erased(Database& database, const StoreKeys& keys, SubjectId id);
 // Whom this database still has although they were erased after it was copied.
 Result<std::vector<SubjectId>> erased_and_back(Database& database, const StoreKeys& keys);
 
@@ -132,8 +146,13 @@ Result<std::int64_t> version_of(Database& database);
 // but for the sealing. MediaFull, IoFailed as every change, and what the keys' source says.
 Result<void> make_current(Database& database, std::int64_t version, StoreKeys& keys, WallTime at);
 
-// The database as it is now, in a file of 0600 that is whole or not there. IoFailed, MediaFull.
-Result<void> copy_whole(Database& database, const std::filesystem::path& target);
+// StoreCorrupt names a table, an index, a trigger or a view that no migration makes, or that is not there.
+Result<void> check_schema(Database& database);
+
+// The database as it is now, in a file of 0600 that is whole or not there; until it is whole it is the file
+// `unfinished`. IoFailed, MediaFull.
+Result<void> copy_whole(Database& database, const std::filesystem::path& target,
+                        const std::filesystem::path& unfinished);
 
 // relievo.db.before-N, for each N this program can have made.
 Result<void> remove_old_copies(const std::filesystem::path& database_file);

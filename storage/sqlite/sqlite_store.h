@@ -28,6 +28,7 @@
 #include "storage/sqlite/sqlite_keys.h"
 #include "storage/sqlite/store_directory.h"
 #include "storage/store.h"
+#include "storage/store_folder.h"
 
 namespace relievo::storage {
 
@@ -44,9 +45,6 @@ struct SqliteStoreOptions {
   // recover()).
   std::string recovery_words{};
 };
-
-inline constexpr const char *kStoreFile = "relievo.db", *kKeyFile = "relievo.key",
-                            *kLockFile = "relievo.lock";  // in the store's directory
 
 class SqliteStore final : public Store {
  public:

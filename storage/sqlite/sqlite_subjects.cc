@@ -58,7 +58,7 @@ Result<SubjectId> SqliteStore::insert_subject(std::string_view name, std::int64_
   RELIEVO_TRY(database_->run("INSERT INTO subject (created_at_ms, name) VALUES (?, x'00')", to_ms(created)));
   const SubjectId id{database_->last_row_id()};
   RELIEVO_TRY(seal_subject(*database_, *keys_, id, name, receipt));
-  RELIEVO_TRY(append_line({"subject.added", id, ""}, at));
+  RELIEVO_TRY(append_line({std::string(kSubjectAdded), id, ""}, at));
   return id;
 }
 
@@ -161,9 +161,10 @@ Result<Subject> SqliteStore::subject(SubjectId id) {
 Result<void> SqliteStore::erase_subject(SubjectId id) {
   const Result<void> erased = without_exceptions(database_->where(), [&]() -> Result<void> {
     RELIEVO_TRY(subject_must_exist(id));
+    bool remembered = true;
     if (mode_ == OpenMode::ReadWrite) {
       RELIEVO_TRY(remove_old_copies(database_->file()));
-      RELIEVO_TRY(remember_erased(*database_, *keys_, id));
+      RELIEVO_TRY_ASSIGN(remembered, remember_erased(*database_, *keys_, id));
     }
     const auto destroyed =
         change_in_reserve([&](WallTime at) { return destroy_subject_key(*database_, *keys_, id, at); });
@@ -175,7 +176,12 @@ Result<void> SqliteStore::erase_subject(SubjectId id) {
                    "erased; the room it took is not free yet: close the store and open it again",
                    removed.error().sys_errno}
           .at(database_->where());
-    return empty_the_log(*database_);
+    RELIEVO_TRY(empty_the_log(*database_));
+    if (remembered) return {};
+    return Error{Errc::IoFailed,
+                 "erased; but relievo.erased beside it could not be written, and an older copy of the store "
+                 "would bring this person back: check that file and its owner"}
+        .at(database_->where());
   });
   if (mode_ == OpenMode::ReadWrite) set_aside_reserve(home_, reserve_bytes_);
   return erased;

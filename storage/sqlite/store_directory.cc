@@ -42,6 +42,7 @@ StoreLock::~StoreLock() {
 Result<void> StoreLock::take(const fs::path& file, std::chrono::milliseconds wait) {
   fd_ = ::open(file.c_str(), O_CREAT | O_RDWR | O_CLOEXEC | O_NOFOLLOW, 0600);
   if (fd_ < 0) return failed(file, errno);
+  give_to_owner_of(file.parent_path(), fd_);
   constexpr std::chrono::milliseconds kPause{20};
   for (auto waited = kPause * 0; ::flock(fd_, LOCK_EX | LOCK_NB) != 0; waited += kPause) {
     if (errno != EWOULDBLOCK && errno != EINTR) {
@@ -98,8 +99,12 @@ Result<void> must_take_files(const fs::path& dir) {
 }
 
 Result<void> make_private_file(const fs::path& file) {
+  const fs::path folder = file.parent_path();
   const int fd = ::open(file.c_str(), O_CREAT | O_EXCL | O_RDWR | O_CLOEXEC | O_NOFOLLOW, 0600);
-  if (fd >= 0) ::close(fd);
+  if (fd >= 0) {
+    give_to_owner_of(folder, fd);
+    ::close(fd);
+  }
   if ((fd < 0 && errno != EEXIST) || ::chmod(file.c_str(), 0600) != 0) {
     return failed(file, errno);
   }
@@ -109,11 +114,13 @@ Result<void> make_private_file(const fs::path& file) {
 void set_aside_reserve(const fs::path& dir, std::int64_t bytes) noexcept try {
   constexpr std::int64_t kTooSmall = 65'536;
   const fs::path file = dir / "relievo.reserve";
-  const int fd = ::open(file.c_str(), O_CREAT | O_WRONLY | O_CLOEXEC | O_NOFOLLOW, 0600);
+  // O_NONBLOCK: what is no file under this name must not hold us up.
+  const int fd = ::open(file.c_str(), O_CREAT | O_WRONLY | O_CLOEXEC | O_NOFOLLOW | O_NONBLOCK, 0600);
   if (fd < 0) return;
+  give_to_owner_of(dir, fd);
   // A power cut may have left it empty.
   struct stat kept {};
-  if (::fstat(fd, &kept) == 0 && kept.st_size >= kTooSmall) {
+  if (::fstat(fd, &kept) != 0 || !S_ISREG(kept.st_mode) || kept.st_size >= kTooSmall) {
     ::close(fd);
     return;
   }

@@ -88,11 +88,13 @@ TEST(PictureFile, EveryTruncationOfAJpegIsAnError) {
 TEST(PictureFile, EveryDamagedByteOfAPngIsSurvived) {
   auto png = encode_png(pattern(9, 7, PixelFormat::Rgb8).view());
   ASSERT_TRUE(png);
+  testing::internal::CaptureStderr();
   for (std::size_t i = 0; i < png->size(); ++i) {
     std::vector<std::byte> damaged = *png;
     damaged[i] ^= std::byte{0x5a};
     (void)decode_picture(damaged.data(), damaged.size()).has_value();
   }
+  EXPECT_EQ(testing::internal::GetCapturedStderr(), "") << "what is wrong is told by whoever asked, once";
 }
 
 TEST(PictureFile, SaysWhichFileIsMissingEmptyOrNoPicture) {

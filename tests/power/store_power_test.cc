@@ -187,6 +187,15 @@ TEST_F(StorePower, AnOlderStoreIsSealed) {
   EXPECT_GT(counts.different, 100);
 }
 
+TEST_F(StorePower, AnOlderLogGetsAKeyedEnd) {
+  ASSERT_TRUE(open().work() && enrol(NewSubject{"Ada Canary"}).work() && close().work());
+  test::set_log_back_to_8(dir());
+  test::Raw(dir() / "relievo.db")
+      .run("UPDATE store_info SET compatible_version = 8; PRAGMA user_version = 8");
+  const auto counts = cut({open(), enrol(NewSubject{"Eva Canary"}), close()});
+  EXPECT_GT(counts.different, 10);
+}
+
 TEST_F(StorePower, NewKeysWordsAndRecovery) {
   fs::create_directory(disk / "stick");
   ASSERT_TRUE(open().work() && enrol(NewSubject{"Ada Canary"}).work() &&

@@ -29,6 +29,33 @@ void make_version(const std::filesystem::path& dir, std::int64_t version) {
   raw.run("PRAGMA application_id = " + number(kApplicationId) + "; PRAGMA user_version = " + number(version));
 }
 
+void set_log_back_to_8(const std::filesystem::path& dir) {
+  const auto keys = *StoreKeys::make(key_file(dir / "relievo.key"));
+  Database database(dir / "relievo.db");
+  ASSERT_TRUE(database.open(true));
+  ASSERT_TRUE(keys->load(database, true));
+  KeyedHash hash{};
+  std::int64_t last = 0;
+  {
+    auto query =
+        database.prepare("SELECT number, at_ms, subject_id, what, detail FROM audit ORDER BY number");
+    while (*query->step()) {
+      std::vector<std::byte> bytes;
+      ByteWriter to(bytes);
+      to.put(hash);
+      for (const int column : {0, 1, 2}) to.put(query->integer(column));
+      for (const auto field : {bytes_of(query->text(3)), query->blob(4)}) {
+        to.put(static_cast<std::uint64_t>(field.size()));
+        to.put(field);
+      }
+      hash = keyed_hash(keys->chain(), bytes);
+      last = query->integer(0);
+      ASSERT_TRUE(database.run("UPDATE audit SET hash = ? WHERE number = ?", hash, last));
+    }
+  }
+  ASSERT_TRUE(database.run("UPDATE audit_end SET number = ?, hash = ?", last, hash));
+}
+
 OfBefore::OfBefore(const std::filesystem::path& dir, int people) : dir_(dir) {
   make_version(dir, kLastPlain);
   Raw raw(dir / "relievo.db");

@@ -19,6 +19,10 @@ inline constexpr std::int64_t kLastPlain = 6;  // the last version that knew no 
 
 void make_version(const std::filesystem::path& dir, std::int64_t version);  // empty
 
+// A store whose log is today's, with its key beside it: the log as version 8 wrote it, which had no keyed
+// end.
+void set_log_back_to_8(const std::filesystem::path& dir);
+
 // A store of version 6 as it was filled: people with models, notes, settings, a log.
 struct OfBefore {
   OfBefore(const std::filesystem::path& dir, int people);

@@ -115,6 +115,40 @@ TEST_F(StoreCommand, KeepsCopiesKeysAndWords) {
       std::string::npos);
 }
 
+// Their names are ordinary ones to every other command.
+TEST_F(StoreCommand, NoOtherCommandWritesOverItsFiles) {
+  done({"simulate", "board", "--pairs", "1", "--scale", "0.5", "-o", "board"});
+  done({"calibration", "import", "board/rig.yml", "--store", "store"});
+  const std::string key = read_text(here / "store/relievo.key");
+  const std::string own = "a store's own files";
+  refused({"calibration", "export", "1", "-o", "store/relievo.key", "--store", "store"}, "store/relievo.key",
+          own);
+  refused({"calibrate", "board", "--corners", "10x7", "--square-mm", "20", "-o", "store/relievo.db"},
+          "store/relievo.db", own);
+  refused({"calibrate", "--print-pattern", "chessboard", "--corners", "10x7", "--square-mm", "20", "-o",
+           "store/board.pdf"},
+          "store/board.pdf", own);
+  refused({"reconstruct", "board/left1.png", "board/right1.png", "--calibration", "board/rig.yml", "-o",
+           "out", "--save", "store/relievo.db"},
+          "store/relievo.db", own);
+  EXPECT_EQ(read_text(here / "store/relievo.key"), key);
+  done({"store", "check", "--store", "store"});
+}
+
+// A limit of the shell's is a disk that is full, not the end of the program.
+TEST_F(StoreCommand, AFileSizeLimitIsAnErrorLikeAFullDisk) {
+  done({"simulate", "board", "--pairs", "1", "--scale", "0.5", "-o", "board"});
+  done({"calibration", "import", "board/rig.yml", "--store", "store"});
+  std::filesystem::create_directory(here / "copies");
+  const Said said =
+      run_program({"/bin/bash", "-c",
+                   "ulimit -f 40; exec \"" RELIEVO_BINARY "\" store backup copies/copy.db --store store"},
+                  here.path());
+  EXPECT_EQ(said.exit_code, 1) << said.err;
+  EXPECT_NE(said.err.find("full"), std::string::npos) << said.err;
+  EXPECT_EQ(listing(here / "copies"), "");
+}
+
 // Words and keys are in it while it runs.
 TEST_F(StoreCommand, LeavesNoPictureOfItsMemory) {
   done({"simulate", "board", "--pairs", "1", "--scale", "0.5", "-o", "board"});

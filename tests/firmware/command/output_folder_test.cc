@@ -3,6 +3,7 @@
 #include "firmware/base/output_folder.h"
 
 #include <gtest/gtest.h>
+#include <sys/wait.h>
 #include <unistd.h>
 
 #include <string>
@@ -62,6 +63,35 @@ TEST(OutputFolder, WhatARunThatWasKilledLeftComesIntoNoResult) {
   write_text(folder->path() / "a.txt", "a");
   ASSERT_TRUE(folder->commit());
   EXPECT_EQ(listing(here.path()), "out\nout/a.txt\n");
+}
+
+TEST(OutputFolder, WhatOtherRunsLeftGoesUnlessTheyStillRun) {
+  const test::TemporaryFolder here;
+  const pid_t gone = ::fork();
+  if (gone == 0) ::_exit(0);
+  ASSERT_EQ(::waitpid(gone, nullptr, 0), gone);
+  const auto of = [](const std::string& process) { return ".out.part" + process; };
+  const std::string running = of(std::to_string(::getppid()));
+  for (const std::string& name :
+       {of(std::to_string(gone)), running, of(""), of("1x"), std::string(".out2.part9")}) {
+    std::filesystem::create_directory(here / name);
+    write_text(here / name / "face.ply", "x");
+  }
+  ASSERT_TRUE(OutputFolder::begin(here / "out"));
+  EXPECT_FALSE(std::filesystem::exists(here / of(std::to_string(gone))));
+  for (const std::string& name : {running, of(""), of("1x"), std::string(".out2.part9")})
+    EXPECT_TRUE(std::filesystem::exists(here / name / "face.ply")) << name;
+}
+
+TEST(OutputFolder, NothingIsWrittenAmongAStoresFiles) {
+  for (const char* name : {"relievo.lock", "relievo.key"}) {
+    const test::TemporaryFolder here;
+    std::filesystem::create_directory(here / "store");
+    write_text(here / "store" / name, "x");
+    EXPECT_EQ(OutputFolder::begin(here / "store").error().code, Errc::InvalidInput);
+    EXPECT_TRUE(OutputFolder::begin(here / "store/consent"));
+    EXPECT_EQ(listing(here.path()), "store\nstore/" + std::string(name) + "\n");
+  }
 }
 
 TEST(OutputFolder, RefusesAFileAndAPlaceThatCannotBe) {

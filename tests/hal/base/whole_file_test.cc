@@ -53,5 +53,22 @@ TEST(WholeFile, IsNobodyElsesWhereThatIsAsked) {
   EXPECT_EQ(mode("other"), std::filesystem::perms(0666 & ~umask)) << "as the umask says";
 }
 
+TEST(WholeFile, OfItsOwnTheProgramReadsNoLinkAndNothingEndless) {
+  const test::TemporaryFolder folder;
+  test::write_text(folder / "empty", "");
+  test::write_text(folder / "some", "text");
+  EXPECT_TRUE(read_own_file(folder / "empty", 10)->empty());
+  EXPECT_EQ(read_own_file(folder / "some", 4)->size(), 4U);
+  EXPECT_EQ(read_own_file(folder / "some", 3).error().code, Errc::InvalidInput);
+  EXPECT_EQ(read_own_file(folder / "none", 10).error().code, Errc::NotFound);
+  std::filesystem::create_symlink("some", folder / "link");
+  EXPECT_FALSE(read_own_file(folder / "link", 10));
+  EXPECT_TRUE(read_whole_file(folder / "link", 10));
+  ASSERT_EQ(::mkfifo((folder / "pipe").c_str(), 0600), 0);
+  for (const auto& place : {folder / "pipe", folder.path(), std::filesystem::path("/dev/zero")})
+    EXPECT_EQ(read_own_file(place, 10).error().code, Errc::InvalidInput) << place;
+  EXPECT_EQ(read_whole_file(folder / "empty", 10).error().code, Errc::InvalidInput);
+}
+
 }  // namespace
 }  // namespace relievo

@@ -191,13 +191,11 @@ TEST(Persons, WhoseErasureFailedIsNotCalledErased) {
     return told ? std::string() : std::string(told.error().what.view());
   };
   test::Raw(folder / "store/relievo.db")
-      .run(
-          "CREATE TRIGGER no BEFORE INSERT ON audit WHEN NEW.what = 'subject.erased' "
-          "BEGIN SELECT RAISE(ABORT, 'as the test says'); END");
+      .run("CREATE UNIQUE INDEX no ON audit (subject_id) WHERE what IN ('subject.added', 'subject.erased')");
   ASSERT_FALSE(store->erase_subject(SubjectId{1}));
   ASSERT_TRUE(store->subject(SubjectId{1}));
   EXPECT_NE(why_not().find("is in the store"), std::string::npos);
-  test::Raw(folder / "store/relievo.db").run("DROP TRIGGER no");
+  test::Raw(folder / "store/relievo.db").run("DROP INDEX no");
   ASSERT_TRUE(store->erase_subject(SubjectId{1}));
   EXPECT_NE(why_not().find("was erased from this store"), std::string::npos);
 }

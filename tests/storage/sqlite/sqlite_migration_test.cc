@@ -34,8 +34,8 @@ std::string number(std::int64_t n) { return std::to_string(n); }
 
 std::vector<std::string> schema_of(Raw& raw) {
   auto all = raw.rows("SELECT type, name, tbl_name, sql FROM sqlite_schema ORDER BY type, name");
-  for (const char* table : {"store_info", "audit_end"}) {
-    for (const auto& row : raw.rows(std::string("SELECT * FROM ") + table)) all.push_back(row);
+  for (const char* sql : {"SELECT * FROM store_info", "SELECT one, number FROM audit_end"}) {
+    for (const auto& row : raw.rows(sql)) all.push_back(row);
   }
   return all;
 }
@@ -120,6 +120,7 @@ TEST(SqliteMigration, EverySealedVersionIsBroughtUpWithAllThatItHolds) {
     }
     const auto dir = folder / "store";
     set_back(folder / "today", dir, version);
+    if (version == 8) test::set_log_back_to_8(dir);
     const auto store = opened(dir, kNoReserve);
     ASSERT_TRUE(store) << version;
     const auto copy = dir / ("relievo.db.before-" + number(version + 1));
@@ -155,6 +156,24 @@ TEST(SqliteMigration, ABrokenLogStaysBroken) {
   const auto checked = opened(folder.path())->check();
   ASSERT_FALSE(checked) << "to seal is not to mend";
   EXPECT_EQ(checked.error().code, Errc::StoreCorrupt);
+}
+
+TEST(SqliteMigration, ABrokenLogOfVersion8StaysBroken) {
+  for (const char* sql : {"UPDATE audit SET at_ms = 1 WHERE number = 2", "DELETE FROM audit WHERE number = 3",
+                          "UPDATE audit_end SET number = 2",
+                          "DELETE FROM audit; UPDATE audit_end SET number = 0, hash = zeroblob(32)"}) {
+    const TemporaryFolder folder;
+    ASSERT_TRUE(opened(folder / "today", kNoReserve)
+                    ->add_enrolment(NewSubject{"Ada"}, test::sample_enrolment(test::sample_model(5))));
+    ASSERT_TRUE(opened(folder / "today", kNoReserve)->set_setting("language", "de"));
+    const auto dir = folder / "store";
+    set_back(folder / "today", dir, 8);
+    test::set_log_back_to_8(dir);
+    Raw(dir / "relievo.db").run(sql);
+    const auto checked = opened(dir, kNoReserve)->check();
+    ASSERT_FALSE(checked) << sql;
+    EXPECT_EQ(checked.error().code, Errc::StoreCorrupt);
+  }
 }
 
 TEST(SqliteMigration, CalibrationsOfBeforeAreReadAndNewOnesJoinThem) {

@@ -238,7 +238,7 @@ TEST(StoreKeeping, ACopyIsSealedAndTellsWhoWasErasedSince) {
   EXPECT_EQ(code_of(keeping(folder / "other")->erased_since(copy)), Errc::InvalidInput);
   EXPECT_EQ(code_of(keeping(dir)->backup(folder / "no/such/folder")), Errc::IoFailed);
   EXPECT_EQ(code_of(keeping(folder / "nowhere")->backup(copy)), Errc::NotFound);
-  EXPECT_EQ(relievo::test::listing(folder.path()).find(".tmp"), std::string::npos);
+  EXPECT_EQ(relievo::test::listing(folder.path()).find(".part"), std::string::npos);
 }
 
 TEST(StoreKeeping, ACopyReplacesOnlyACopy) {
@@ -252,6 +252,9 @@ TEST(StoreKeeping, ACopyReplacesOnlyACopy) {
   relievo::test::write_text(folder / "empty", "");  // as mktemp makes it
   EXPECT_TRUE(keeping(dir)->backup(folder / "empty"));
   EXPECT_TRUE(keeping(dir)->erased_since(folder / "empty")->empty());
+  relievo::test::write_text(folder / "copy.db.tmp", "somebody's own");
+  EXPECT_TRUE(keeping(dir)->backup(copy));
+  EXPECT_EQ(relievo::test::read_text(folder / "copy.db.tmp"), "somebody's own");
 
   const std::string key = relievo::test::read_text(dir / "relievo.key");
   relievo::test::write_text(folder / "key", key);

@@ -263,12 +263,8 @@ TEST(StoreSealed, ACodeLeadsNobodyToAnother) {
 TEST(StoreSealed, WhatWasOnceTrueIsRefusedLater) {
   const TemporaryFolder folder;
   fill(*opened(folder.path(), kNoReserve));
-  {
-    Raw raw(folder / "relievo.db");
-    raw.run("CREATE TABLE old_settings AS SELECT * FROM settings");
-    raw.run("CREATE TABLE old_subject AS SELECT * FROM subject WHERE id = 1");
-    raw.run("CREATE TABLE old_key AS SELECT * FROM subject_key");
-  }
+  std::filesystem::copy(folder / "relievo.db", folder / "old");
+  const std::string with_old = "ATTACH '" + (folder / "old").string() + "' AS old; ";
   {
     const auto store = opened(folder.path(), kNoReserve);
     ASSERT_TRUE(store->set_setting("canary.setting", "a newer one"));
@@ -277,7 +273,8 @@ TEST(StoreSealed, WhatWasOnceTrueIsRefusedLater) {
   }
   // An older PIN.
   std::filesystem::copy(folder.path(), folder / "pin");
-  Raw(folder / "pin/relievo.db").run("DELETE FROM settings; INSERT INTO settings SELECT * FROM old_settings");
+  Raw(folder / "pin/relievo.db")
+      .run(with_old + "DELETE FROM settings; INSERT INTO settings SELECT * FROM old.settings");
   const auto store = opened(folder / "pin", kNoReserve);
   const auto setting = store->setting("canary.setting");
   ASSERT_FALSE(setting);
@@ -287,9 +284,9 @@ TEST(StoreSealed, WhatWasOnceTrueIsRefusedLater) {
   // Somebody erased.
   std::filesystem::copy(folder.path(), folder / "person");
   Raw(folder / "person/relievo.db")
-      .run(
-          "INSERT INTO subject SELECT * FROM old_subject; DELETE FROM subject_key; INSERT INTO subject_key SELECT * "
-          "FROM old_key");
+      .run(with_old +
+           "INSERT INTO subject SELECT * FROM old.subject WHERE id = 1; DELETE FROM subject_key; INSERT INTO "
+           "subject_key SELECT * FROM old.subject_key");
   const auto checked = opened(folder / "person", kNoReserve)->check();
   ASSERT_FALSE(checked);
   EXPECT_EQ(checked.error().where(), "subject 1");
