@@ -53,7 +53,10 @@ void Ui::feed(const Input& input, const ViewState& view) {
     service_.touched(view.now);
     if (input.kind == Input::Kind::Down) pressed_at_ = view.now;
     if (input.kind != Input::Kind::Move && input.kind != Input::Kind::Up) ask(Intent::StillHere);
-    if (asked && input.kind == Input::Kind::Down) return;  // the touch that wakes does nothing else
+    if (asked && input.kind == Input::Kind::Down) {
+      acted_ = true;
+      return;  // the touch that wakes does nothing else
+    }
   }
   // A key that takes its time is called back by whatever comes after it.
   if (key_held_ && input.kind != Input::Kind::Move && input.kind != Input::Kind::Up) {
@@ -77,6 +80,7 @@ void Ui::feed(const Input& input, const ViewState& view) {
     case Input::Kind::Activate: return activate_focus(view);
     case Input::Kind::Back:
       if (visit_.overlay == Overlay::None && service_.open) return service_.act(ActionKind::Back, view);
+      acted_ = true;
       return ask(visit_.act(ActionKind::Back, view));
     case Input::Kind::Repeat:
       if (input.letter[0] != 0 && field() != nullptr &&
@@ -119,15 +123,30 @@ const Utterance& Ui::speak(const ViewState& view, bool busy) {
   return narrator_.follow(tree_, {over + page, focus(), view.now, busy}, to);
 }
 
+bool Ui::on_model(const Finger& finger) const {
+  const Node* under = finger.down ? tree_.at(finger.start_x, finger.start_y) : nullptr;
+  return under != nullptr && under->action.kind == ActionKind::TurnFace;
+}
+
+// Two fingers on a model zoom it. Elsewhere the newest counts, wherever a palm rests.
 void Ui::down(const Input& input, const ViewState& view) {
   hands_.show_focus = false;
   for (Finger& finger : fingers_)
     finger.down = finger.down && finger.id != input.finger && view.now - finger.felt < kLost;
-  const auto free = std::ranges::find(fingers_, false, &Finger::down);
-  if (free != fingers_.end())
-    *free = {true, input.finger, input.x, input.y, input.x, input.y, false, view.now};
   const Node* node = tree_.at(input.x, input.y);
-  hands_.pressed = node != nullptr && !fingers_[1].down ? node->id : std::string_view{};
+  auto place = std::ranges::find(fingers_, false, &Finger::down);
+  if (place == fingers_.end())
+    place = std::ranges::find_if(fingers_, [&](const Finger& finger) { return !on_model(finger); });
+  if (place == fingers_.end()) {
+    if (node != nullptr && node->action.kind == ActionKind::TurnFace) return;  // a third one on it
+    place = fingers_.begin();
+  }
+  *place = {true, input.finger, input.x, input.y, input.x, input.y, false, view.now};
+  newest_ = input.finger;
+  const bool zooms = std::ranges::all_of(fingers_, [&](const Finger& finger) { return on_model(finger); });
+  const bool is_button = node != nullptr && (node->role == Role::Button || node->role == Role::Key);
+  const bool late = is_button && !node->hold && has_just_come(view.now);
+  hands_.pressed = node != nullptr && !zooms && !late ? node->id : std::string_view{};
   if (node != nullptr && !hands_.pressed.empty() && node->dragged.kind != ActionKind::None)
     touch(*node, node->action, input, view);
 }
@@ -142,18 +161,16 @@ void Ui::move(const Input& input, const ViewState& view) {
     finger.felt = view.now;
     if (std::hypot(finger.x - finger.start_x, finger.y - finger.start_y) > kSlopPx) finger.dragging = true;
     if (!finger.dragging) return;
+    const Finger& other = fingers_[1 - i];
+    if (on_model(finger) && on_model(other)) {
+      fingers_[1 - i].felt = view.now;  // it may lie still: it holds the other end of what is zoomed
+      return pinch(finger, old_x, old_y, other);
+    }
+    if (finger.id != newest_) return;
     const Node* node = tree_.find(hands_.pressed);
     if (node != nullptr && node->hold && !node->rect.holds(finger.x, finger.y))
       hands_.pressed.clear();  // it slid off: that is no holding
     const bool on_face = node != nullptr && node->action.kind == ActionKind::TurnFace;
-    if (fingers_[0].down && fingers_[1].down) {
-      const Node* under = tree_.at(fingers_[0].start_x, fingers_[0].start_y);
-      if (under != nullptr && under->action.kind == ActionKind::TurnFace) {
-        fingers_[1 - i].felt = view.now;  // it may lie still: it holds the other end of what is zoomed
-        pinch(finger, old_x, old_y, fingers_[1 - i]);
-      }
-      return;
-    }
     if (node != nullptr && node->dragged.kind != ActionKind::None)
       return touch(*node, node->dragged, input, view);
     if (on_face) return drag_face(finger.x - old_x, finger.y - old_y);
@@ -174,6 +191,7 @@ void Ui::up(const Input& input, const ViewState& view) {
   for (Finger& finger : fingers_) {
     if (!finger.down || finger.id != input.finger) continue;
     finger.down = false;
+    if (finger.id != newest_) return;
     const Node* node = tree_.at(input.x, input.y);
     if (node != nullptr && !hands_.pressed.empty() && node->id == hands_.pressed && !node->hold &&
         node->dragged.kind == ActionKind::None) {
@@ -233,6 +251,7 @@ void Ui::touch(const Node& node, Action action, const Input& input, const ViewSt
 }
 
 void Ui::activate(const Node& node, const ViewState& view) {
+  acted_ = true;
   if (visit_.overlay == Overlay::None && service_.takes(node.action.kind)) {
     if (node.action.kind != ActionKind::TypeKey) return service_.act(node.action, view);
     service_.type(node.action.value == ' ' ? std::string_view(" ") : node.text);
@@ -248,8 +267,7 @@ void Ui::activate(const Node& node, const ViewState& view) {
 
 void Ui::drag_face(float dx, float dy) {
   const float turn = 160.0F / float(std::min(width_px_, height_px_));
-  visit_.look.yaw_deg = std::clamp(visit_.look.yaw_deg + dx * turn, -80.0F, 80.0F);
-  visit_.look.pitch_deg = std::clamp(visit_.look.pitch_deg + dy * turn, -50.0F, 50.0F);
+  visit_.turn_face(dx * turn, dy * turn, 80);
 }
 
 void Ui::pinch(const Finger& moved, float old_x, float old_y, const Finger& other) {
@@ -258,13 +276,19 @@ void Ui::pinch(const Finger& moved, float old_x, float old_y, const Finger& othe
   if (before > 1) visit_.look.zoom = std::clamp(visit_.look.zoom * now / before, 0.8F, 3.0F);
 }
 
+// Who touched twice, or touched as the page before went by itself, means nothing of this one.
+void Ui::comes(bool asked_for, hal::Instant now) {
+  visit_.takes_touches_from = now + (asked_for ? kStruckTwice : kTooLate);
+}
+
 void Ui::frame(const ViewState& view) {
   follow_staff(view);
+  const bool acted = std::exchange(acted_, false);
   // As the staff read their pages, no visitor need. Who has not signed in reads on as before.
   if (last_.page && needs_role(*last_.page) && !service_.open) visit_.forget();
   ask(visit_.follow(view));
   const Place now{visit_.step, visit_.overlay, service_.open ? std::optional(service_.page) : std::nullopt,
-                  service_.mode};
+                  service_.mode, visit_.quotes_code()};
   const Place last = std::exchange(last_, now);
   if (now != last) {
     hands_.scrolled.clear();
@@ -273,6 +297,7 @@ void Ui::frame(const ViewState& view) {
     hands_.held = 0;
     key_held_ = false;
     hands_.show_focus = false;
+    comes(acted, view.now);
   }
   const bool begins_anew = now.step == Step::Attract || now.step == Step::Trouble;
   if ((begins_anew && now.step != last.step) || now.page != last.page) {
@@ -317,7 +342,10 @@ void Ui::draw(const ViewState& view) {
                                          : build_visitor_screen(tree_, view, visit_, screen);
   keep_focus();
   tree_.layout(screen, *text_, hands_);
-  if (comes_to_the_end()) return draw(view);
+  if (comes_to_the_end()) {
+    comes(true, view.now);  // where one went on reading one agrees now
+    return draw(view);
+  }
   if (service_.open) fill_staff_pictures(list_, view, visit_, service_);
   else fill_pictures(list_, view, visit_);
   if (follow_ruler()) return draw(view);

@@ -56,6 +56,9 @@ class Ui {
   Visit& visit() { return visit_; }
   const Visit& visit() const { return visit_; }
   Service& service() { return service_; }
+  // A page that a visitor has had no time to see: its buttons are not pressed yet. The staff know theirs, and
+  // hold what cannot be undone.
+  bool has_just_come(hal::Instant now) const { return !service_.open && now < visit_.takes_touches_from; }
   std::string_view focus() const {
     return hands_.show_focus ? std::string_view(hands_.focus) : std::string_view();
   }
@@ -74,6 +77,7 @@ class Ui {
     Overlay overlay = Overlay::None;
     std::optional<StaffPage> page;  // none: the visitor's side
     int mode = 0;
+    bool code = false;  // is asked for, not a name
     bool operator==(const Place&) const = default;
   };
   static constexpr std::size_t kIntents = 8;
@@ -82,6 +86,8 @@ class Ui {
   void ask(std::optional<Intent> intent);
   void hear(ActionKind kind, const ViewState& view);
   void down(const Input& input, const ViewState& view);
+  void comes(bool asked_for, hal::Instant now);
+  bool on_model(const Finger& finger) const;
   void move(const Input& input, const ViewState& view);
   void up(const Input& input, const ViewState& view);
   void focus_on(int direction);
@@ -124,11 +130,13 @@ class Ui {
   Interaction hands_;
   DrawList list_;
   std::array<Finger, 2> fingers_{};
+  std::int64_t newest_ = 0;  // of the fingers
   std::array<Intent, kIntents> intents_{};
   std::size_t intent_count_ = 0;
   Place last_;
   hal::Instant pressed_at_{};
   bool key_held_ = false;  // what is pressed was asked for by the keypad
+  bool acted_ = false;     // somebody pressed something since the last frame
   bool forgotten_ = false;
   int width_px_ = 1280, height_px_ = 800;
 };

@@ -19,6 +19,7 @@ constexpr float kScreenful = 0.7F;  // the last lines of one are seen again, and
 void Ui::activate_focus(const ViewState& view) {
   const Node* node = focused();
   if (node == nullptr && !hands_.show_focus) {  // who types has the focus where they type
+    if (has_just_come(view.now)) return;
     node = field();
     if (node != nullptr && node->by_key.kind == ActionKind::None) return;
   }
@@ -108,10 +109,11 @@ void Ui::type(const Input& input, const ViewState& view) {
   visit_.type(letter);
 }
 
-// A code that is whole takes no further digit, one that is not cannot be handed in: who listens hears how it
-// stands.
+// A code that is whole takes no further digit; one that is not, and no name, cannot be handed in: who listens
+// hears how it stands.
 bool Ui::does_nothing(ActionKind kind) const {
-  if (!visit_.quotes_code() || visit_.step != Step::Name || service_.open) return false;
+  if (visit_.step != Step::Name || service_.open) return false;
+  if (!visit_.quotes_code()) return kind == ActionKind::Done && visit_.name().empty();
   const bool whole = visit_.name().size() == kCodeDigits;
   return (kind == ActionKind::TypeKey && whole) || (kind == ActionKind::Done && !whole);
 }

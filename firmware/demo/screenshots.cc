@@ -63,7 +63,7 @@ constexpr int kThumbAcross = 6, kMostRows = 10, kThumbWidthPx = 480;
 
 void tap(Kiosk& kiosk, std::string_view id) {
   const ui::Node* node = kiosk.ui().tree().find(id);
-  if (node == nullptr) return;
+  if (node == nullptr || kiosk.ui().has_just_come(kiosk.view().now)) return;
   const float x = node->rect.x + node->rect.w / 2, y = node->rect.y + node->rect.h / 2;
   kiosk.feed({ui::Input::Kind::Down, 1, x, y});
   kiosk.feed({ui::Input::Kind::Up, 1, x, y});
@@ -116,7 +116,7 @@ Result<void> reach_review(Kiosk& kiosk, hal::Picture& live, ui::ViewState& view,
     }
     if (step == ui::Step::Turn) tap(kiosk, "enough");
     if (step == ui::Step::Name) {
-      kiosk.ui().visit().type("1");
+      if (kiosk.ui().visit().name().empty()) kiosk.ui().visit().type("1");
       kiosk.turn();
       tap(kiosk, "done");
     }

@@ -50,6 +50,8 @@ class HeardTest : public testing::Test {
   void to_code() {
     ui->visit().step = Step::Known;
     act(ActionKind::HaveCode);
+    view.now += kTooLate;
+    turn();
   }
   void type(std::string_view digits) {
     for (const char& digit : digits) press(Input::Kind::Digit, {&digit, 1});
@@ -112,6 +114,54 @@ TEST_F(HeardTest, HowToGoOnIsSaidInTheLanguageThatIsChosen) {
   heard.clear();
   act(ActionKind::Start);
   EXPECT_FALSE(hears("Die Pfeiltasten")) << "once";
+}
+
+// Each with its own button: one after the other they would contradict each other.
+TEST_F(HeardTest, WhatAChoiceMeansIsHeardWithItsButton) {
+  heard.clear();
+  view.known = Known::Code;
+  ui->visit().step = Step::Known;
+  turn();
+  EXPECT_TRUE(hears("What would you like to do?")) << heard;
+  EXPECT_FALSE(hears("The old portrait")) << heard;
+  for (const auto& [id, words] :
+       {std::pair("renew", "Renew it. The old portrait is erased the moment the new one is stored. Button"),
+        std::pair("add", "Add another one. The old portrait is kept beside the new one. Button")}) {
+    heard.clear();
+    for (int i = 0; i < 20 && ui->focus() != id; ++i) press(Input::Kind::Next);
+    EXPECT_TRUE(hears(words)) << heard;
+  }
+}
+
+TEST_F(HeardTest, WhoHandsInNoNameHearsThePageAgain) {
+  ui->visit().step = Step::Name;
+  turn();
+  view.now += kTooLate;
+  turn();
+  heard.clear();
+  press(Input::Kind::Activate);
+  EXPECT_TRUE(hears("Your name or your number")) << heard;
+  EXPECT_EQ(asked, std::nullopt);
+}
+
+// They run while a name is typed, and rest soon after whoever goes back.
+TEST_F(HeardTest, WhoGoesBackIsNotToldOfCamerasThatAreAboutToRest) {
+  for (const bool rest : {true, false}) {
+    ui->visit().step = Step::Name;
+    view.cameras_on = true;
+    turn();
+    heard.clear();
+    press(Input::Kind::Back);
+    ASSERT_EQ(ui->visit().step, Step::Consent);
+    view.now += std::chrono::milliseconds(900);
+    turn();
+    EXPECT_FALSE(hears("The cameras are on")) << heard;
+    view.cameras_on = !rest;
+    for (int i = 0; i < 8; ++i) wait();
+    EXPECT_EQ(hears("The cameras are off"), rest) << heard;
+    for (int i = 0; i < 8; ++i) wait();
+    EXPECT_EQ(hears("The cameras are on"), !rest) << "so it is, then: " << heard;
+  }
 }
 
 TEST_F(HeardTest, ALoudspeakerSaysWhyItIsSilentOnTheStaffsPages) {

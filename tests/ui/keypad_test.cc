@@ -44,6 +44,7 @@ class KeypadTest : public testing::TestWithParam<Language> {
     const Node* node = ui->tree().find(id);
     ASSERT_NE(node, nullptr) << id;
     const float x = node->rect.x + node->rect.w / 2, y = node->rect.y + node->rect.h / 2;
+    view.now += kTooLate;  // the page has been seen
     ui->feed({Kind::Down, 1, x, y}, view);
     ui->feed({Kind::Up, 1, x, y}, view);
     frame();
@@ -54,6 +55,7 @@ class KeypadTest : public testing::TestWithParam<Language> {
     while (ui->tree().find("read_on") != nullptr) tap("read_on");
     tap("agree");
     ASSERT_EQ(ui->visit().step, Step::Name);
+    view.now += kTooLate;
     tapped = pressed = 0;
   }
   const Rect& at(std::string_view id) const { return ui->tree().find(id)->rect; }

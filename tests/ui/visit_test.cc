@@ -157,6 +157,41 @@ TEST_F(VisitTest, ThePortraitComesToBeThenTurnsUntilSomebodyTouchesIt) {
   EXPECT_EQ(visit.shown_look(view.now), FaceLook{});
 }
 
+// It is open behind.
+TEST_F(VisitTest, AFaceWithoutSidesIsSeenFromNoFurtherThanItReaches) {
+  for (const bool sides : {false, true}) {
+    to_position();
+    if (sides) {
+      view.live.turn = TurnView{pipeline::TurnAdvice::Hold, 0, 1};
+      machine(Screen::Turn);
+    }
+    machine(Screen::Match);
+    view.live.turn.reset();
+    machine(Screen::Review);
+    visit.turn_face(0, 200, 80);
+    EXPECT_FLOAT_EQ(visit.look.pitch_deg, sides ? 50 : 30);
+    visit.turn_face(200, 0, 80);
+    EXPECT_FLOAT_EQ(visit.look.yaw_deg, sides ? 80 : 60);
+    EXPECT_FLOAT_EQ(visit.look.pitch_deg, sides ? 50 : 7.5F) << "the less the further aside";
+    for (int i = 0; i < 9; ++i) act(ActionKind::TurnLeft);
+    EXPECT_FLOAT_EQ(visit.look.yaw_deg, sides ? -75 : -60);
+    act(ActionKind::LeaveNow);
+    machine(Screen::Idle);
+  }
+}
+
+TEST_F(VisitTest, APictureThatWasWantedInTheDarkIsKnownAsOne) {
+  to_position();
+  view.live.advice = pipeline::Advice::TooDark;
+  EXPECT_EQ(act(ActionKind::TakePicture), Intent::Begin) << "it may be the cameras that cannot see them";
+  EXPECT_TRUE(visit.shot_in_the_dark);
+  machine(Screen::Match);
+  machine(Screen::Position);
+  view.live.advice = pipeline::Advice::None;
+  act(ActionKind::TakePicture);
+  EXPECT_FALSE(visit.shot_in_the_dark);
+}
+
 TEST_F(VisitTest, NothingMovesByItselfWhereTheStaffWantThat) {
   view.settings.set(Setting::Motion, 0);
   to_review();

@@ -2,6 +2,7 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 """Kiosk: the product on the machine's console, and a person before it, who sees the screen and has fingers."""
 import pathlib
+import time
 
 from PIL import Image
 
@@ -9,6 +10,7 @@ from machine import Failed, until
 
 PANEL_STEPS = 32767
 FIFO = "/run/fingers"
+LOOKS_S = 1.5    # a page that has just come takes no touch (ui/view/visit.h: kTooLate)
 
 
 class Panel:
@@ -100,6 +102,7 @@ class Kiosk:
         raise Failed(f"the page {name} should have stayed: {became}")
 
     def tap(self, x, y):
+        time.sleep(LOOKS_S)
         self.panel.tell(("down 0", x, y), ("up 0",))
 
     def tap_node(self, page, node):
@@ -111,4 +114,5 @@ class Kiosk:
         for letter in text:
             page, key = ("name", "space") if letter == " " else ("name_empty" if letter.isupper() else "name", f"key {letter}")
             taps += [("down 0", *self.pages[page].middle(key)), ("up 0",)]
+        time.sleep(LOOKS_S)
         self.panel.tell(*taps)

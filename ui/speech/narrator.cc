@@ -89,7 +89,7 @@ void Utterance::say(std::string_view words) {
 std::size_t print_of(std::string_view text) { return std::hash<std::string_view>{}(text); }
 
 void say_node(const Tree& tree, const Node& node, const Listener& to, Utterance& said) {
-  if (node.role == Role::Icon) return;
+  if (node.role == Role::Icon || node.unspoken) return;
   const bool types = node.action.kind == ActionKind::TypeKey, told = to.alone || !(node.secret || types);
   const auto own = [&](std::string_view words) {
     if (!words.empty()) said.say(told ? words : to.tr("Only said into headphones"));
@@ -189,7 +189,8 @@ void Narrator::follow_statuses(const Tree& tree, const Moment& moment, const Lis
   const std::span<Told> all(told_);
   for (Told& told : all.first(told_count_)) told.there = false;
   for (const Node& node : tree.nodes()) {
-    if ((node.role != Role::Status && node.role != Role::Alert) || node.id.empty() || !tree.is_on_top(node))
+    if ((node.role != Role::Status && node.role != Role::Alert) || node.unspoken || node.id.empty() ||
+        !tree.is_on_top(node))
       continue;
     Told* told = told_of(print_of(node.id));
     if (told == nullptr) continue;

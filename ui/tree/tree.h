@@ -77,10 +77,11 @@ struct Node {
   Action action{};
   Action by_key{};  // done by a keypad that presses it where a finger does nothing or something else: it can
                     // have the focus
-  bool secret = false;   // a person's own, spoken into headphones alone: its value, and words without a name
-  bool waits = false;    // Alert: leaves time to do what another said before
-  bool insists = false;  // an alert that is said again and again while it stands
-  bool modal = false;    // nothing under it can be touched
+  bool secret = false;    // a person's own, spoken into headphones alone: its value, and words without a name
+  bool unspoken = false;  // said elsewhere, or not yet
+  bool waits = false;     // Alert: leaves time to do what another said before
+  bool insists = false;   // an alert that is said again and again while it stands
+  bool modal = false;     // nothing under it can be touched
   // Where it is set, `action` is done when a finger comes down, and this wherever it goes from there.
   Action dragged{};
   bool hold = false;        // done by a finger that rests (ui/view/service.h: kHold), not by a tap

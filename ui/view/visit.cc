@@ -122,8 +122,8 @@ std::optional<Intent> Visit::act(Action action, const ViewState& view) {
     case ActionKind::StopTaking: return Intent::StopTaking;
     case ActionKind::LeaveNow: return leave_now(view);
     case ActionKind::Back: return back(view);
-    case ActionKind::TurnLeft: look.yaw_deg = std::max(-75.0F, look.yaw_deg - 25); break;
-    case ActionKind::TurnRight: look.yaw_deg = std::min(75.0F, look.yaw_deg + 25); break;
+    case ActionKind::TurnLeft: turn_face(-25, 0, 75); break;
+    case ActionKind::TurnRight: turn_face(25, 0, 75); break;
     case ActionKind::ZoomIn: look.zoom = std::min(3.0F, look.zoom * 1.25F); break;
     case ActionKind::ZoomOut: look.zoom = std::max(0.8F, look.zoom / 1.25F); break;
     case ActionKind::MoveLight: look.light_deg = look.light_deg >= 55 ? -55 : look.light_deg + 30; break;
@@ -192,6 +192,7 @@ std::optional<Intent> Visit::act_on_path(ActionKind kind, const ViewState& view)
   }
   if (kind == ActionKind::TakePicture) {
     shot_ = true;
+    shot_in_the_dark = view.live.advice == pipeline::Advice::TooDark;
     return Intent::Begin;
   }
   if (kind == ActionKind::EnoughSides) return Intent::Enough;
@@ -266,7 +267,7 @@ void Visit::follow_machine(const ViewState& view) {
   if (view.screen == Screen::Position) {
     go(Step::Position, view.now);
     last_touch_ = by_hand_ = view.now;
-    shot_ = false;
+    shot_ = has_sides_ = false;
   } else if (view.screen == Screen::Turn) go(Step::Turn, view.now);
   else if (is_stage(view.screen) || view.screen == Screen::Store) go(Step::Working, view.now);
   else if (view.screen == Screen::Review) {
@@ -291,6 +292,7 @@ std::optional<Intent> Visit::follow(const ViewState& view) {
   follow_language(view);
   follow_settings(view);
   follow_machine(view);
+  if (step == Step::Turn && view.live.turn) has_sides_ = view.live.turn->taken.any();
   // Out of order is said before anybody begins, and to who is in the middle only when they are done.
   const bool idle = view.screen == Screen::Idle;
   if (idle && step == Step::Attract && view.out_of_order != Trouble::None) go(Step::Trouble, view.now);
@@ -318,6 +320,7 @@ std::optional<Intent> Visit::follow(const ViewState& view) {
     const auto left = countdown(view.live);
     if (left && *left <= 0) {
       shot_ = true;
+      shot_in_the_dark = false;
       return Intent::Begin;
     }
   }

@@ -65,8 +65,9 @@ enum class Overlay : std::uint8_t { None, Help, Languages, Leave, StillThere, Lo
 // WCAG 2.2.1 wants 20 seconds for an answer; a code that is seen nowhere else stands longer than other pages.
 inline constexpr std::chrono::seconds kLastCall{20}, kReceiptPatience{120}, kToldFor{30};
 inline constexpr std::chrono::milliseconds kTooLate{1000};  // a touch that came as what it was for had ended
-inline constexpr std::chrono::minutes kFaceAlone{5};        // a face keeps a visit no longer without a touch
-inline constexpr float kSteadyFor = 0.3F;                   // seconds, before the countdown begins
+inline constexpr std::chrono::milliseconds kStruckTwice{600};  // a touch so soon after another is the same
+inline constexpr std::chrono::minutes kFaceAlone{5};  // a face keeps a visit no longer without a touch
+inline constexpr float kSteadyFor = 0.3F;             // seconds, before the countdown begins
 inline constexpr std::size_t kMostNameBytes = 128, kCodeDigits = 14;
 inline constexpr const char* kConsentWording = "sample-2";  // where the operator has no text of their own
 inline constexpr std::string_view kToRead = "points";       // the scroller of what one agrees to
@@ -91,7 +92,9 @@ class Visit {
   bool capitals = true;
   bool other_letters = false;  // the keyboard shows á, ß, ø ..., or Latin letters instead of others
   FaceLook look;
-  int touches = 0;  // since "I agree", typing not counted
+  hal::Instant takes_touches_from{};  // on the page as it is: a touch before that was for another one
+  bool shot_in_the_dark = false;      // the last picture was asked for though it was too dark for the cameras
+  int touches = 0;                    // since "I agree", typing not counted
 
   int text_percent() const { return kTextPercents[text_size]; }
   std::string_view name() const { return name_.view(); }
@@ -137,6 +140,8 @@ class Visit {
   // A text that was shown to the cameras, as though it had been typed; not over something typed.
   void enter(std::string_view text, hal::Instant now);
   void forget();
+  // Turns the face by so much; to the side no further than `most_deg`.
+  void turn_face(float yaw_deg, float pitch_deg, float most_deg);
 
  private:
   void go(Step to, hal::Instant now);
@@ -187,6 +192,7 @@ class Visit {
   int look_ups_ = 0;
   bool by_itself_ = false;  // the portrait comes to be and turns; nobody has touched anything since
   bool shot_ = false;       // asked for, and not yet under way
+  bool has_sides_ = false;  // the face that is looked at
 };
 
 // The letters on the digit keys of a keypad: on the keys where telephones have them (ITU-T E.161, ETSI ES 202

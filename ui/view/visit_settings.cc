@@ -122,6 +122,17 @@ FaceLook Visit::shown_look(hal::Instant now) const {
   return moved;
 }
 
+// A face without sides is open behind: seen from far aside or from above it would be a mask.
+void Visit::turn_face(float yaw_deg, float pitch_deg, float most_deg) {
+  constexpr float kMostYaw = 60, kMostPitch = 30, kMostPitchOfHead = 50;
+  const bool mask = step == Step::Review && !has_sides_;
+  if (mask) most_deg = std::min(most_deg, kMostYaw);
+  look.yaw_deg = std::clamp(look.yaw_deg + yaw_deg, -most_deg, most_deg);
+  const float most_pitch =
+      mask ? kMostPitch * (1 - 0.75F * std::abs(look.yaw_deg) / kMostYaw) : kMostPitchOfHead;
+  look.pitch_deg = std::clamp(look.pitch_deg + pitch_deg, -most_pitch, most_pitch);
+}
+
 // Nobody is near and nobody was: the page that invites rests.
 bool Visit::rests(hal::Instant now) const {
   return step == Step::Attract && !near_ && now - std::max(near_until_, last_touch_) > kReads;

@@ -133,10 +133,10 @@ bool is_there(std::string_view state, const Kiosk& kiosk) {
          same(state, name_of(kiosk.appliance().state()));
 }
 
-// Where a finger would go, if it can.
+// Where a finger would go, if it can. Whoever reads the page comes no sooner.
 const ui::Node* touchable(const Kiosk& kiosk, std::string_view id) {
   const ui::Node* node = kiosk.ui().tree().find(id);
-  if (node == nullptr) return nullptr;
+  if (node == nullptr || kiosk.ui().has_just_come(kiosk.view().now)) return nullptr;
   const ui::Node* const met =
       kiosk.ui().tree().at(node->rect.x + node->rect.w / 2, node->rect.y + node->rect.h / 2);
   return met != nullptr && met->id == node->id ? node : nullptr;
@@ -186,6 +186,12 @@ void VisitFigures::follow(const Kiosk& kiosk, steady_clock::time_point now) {
     else if (!still_at_)
       still_at_ =
           now - std::chrono::duration_cast<steady_clock::duration>(duration<float>(view.live.steady_s));
+  }
+  // How long the head turns is the person's own time.
+  if (visit.step == ui::Step::Turn && !turns_at_) turns_at_ = now;
+  if (visit.step != ui::Step::Turn && turns_at_) {
+    if (still_at_) *still_at_ += now - *turns_at_;
+    turns_at_.reset();
   }
   const bool shot =
       view.screen == ui::Screen::Capture || visit.step == ui::Step::Turn || visit.step == ui::Step::Working;

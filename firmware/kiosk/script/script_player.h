@@ -52,7 +52,7 @@ class VisitFigures {
   double begun_s_ = 0, made_s_ = 0;
   long taken_before_ = 0, taken_after_ = 0;
   ui::Step last_ = ui::Step::Starting;
-  std::optional<hal::Instant> still_at_;
+  std::optional<hal::Instant> still_at_, turns_at_;
   std::optional<double> still_to_face_s_;
   std::optional<double> still_to_shot_s_;
   int touches_ = 0;  // until Thanks; 0: it was not reached

@@ -51,7 +51,12 @@ class KioskHands : public testing::Test {
   // Before what the test lends it goes.
   void TearDown() override { kiosk.reset(); }
   const ui::Node* find(std::string_view id) const { return kiosk->ui().tree().find(id); }
+  // A page takes no touch in its first moment.
+  virtual void let_it_stand() {
+    EXPECT_TRUE(until([this] { return !kiosk->ui().has_just_come(kiosk->view().now); }));
+  }
   void tap(std::string_view id) {
+    if (kiosk->ui().has_just_come(kiosk->view().now)) let_it_stand();
     const ui::Node* node = find(id);
     ASSERT_NE(node, nullptr) << id << " is not on the screen";
     const float x = node->rect.x + node->rect.w / 2, y = node->rect.y + node->rect.h / 2;

@@ -16,6 +16,7 @@ class StaffTouchTest : public StaffHands {
   StaffTouchTest() { changes.clock = &time; }
   // A finger on the glass, in shares of the picture: what the turned panel makes of it.
   void press(float x, float y) {
+    if (kiosk->ui().has_just_come(kiosk->view().now)) let_it_stand();
     const float w = static_cast<float>(kiosk->ui().width_px()),
                 h = static_cast<float>(kiosk->ui().height_px());
     for (const auto kind : {ui::Input::Kind::Down, ui::Input::Kind::Up})

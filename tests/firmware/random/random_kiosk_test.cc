@@ -53,6 +53,12 @@ class RandomKiosk : public FaultHands {
     const ui::Node* node = find(id);
     if (node == nullptr) return false;
     events.note("touch " + std::string(id));
+    if (kiosk->ui().has_just_come(kiosk->view().now) && !events.one_in(4)) {  // few are so quick
+      faults.ahead_s += 1;
+      turn();
+      node = find(id);
+      if (node == nullptr) return false;
+    }
     down_up(node->rect.x + node->rect.w / 2, node->rect.y + node->rect.h / 2);
     return true;
   }

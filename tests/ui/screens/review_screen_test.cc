@@ -121,6 +121,19 @@ TEST(ReviewScreen, SaysThatTheMemoryIsFullOnlyWhereItIs) {
   EXPECT_EQ(told(Trouble::Storage), "Nothing can be stored at the moment");
 }
 
+TEST(TurnScreen, PromisesNothingBeforeItsFirstPicture) {
+  const auto ui = test::make_screen();
+  ViewState view;
+  view.screen = Screen::Turn;
+  Visit visit;
+  visit.step = Step::Turn;
+  ui->show(view, visit);
+  EXPECT_EQ(ui->tree().find("oval")->name, "An oval for your face");
+  view.live.turn = TurnView{pipeline::TurnAdvice::Hold, 0, 0};
+  ui->show(view, visit);
+  EXPECT_EQ(ui->tree().find("oval")->name, "Your face is in the oval");
+}
+
 // With the setting Automatic it is, without it a button takes it: help holds for both.
 TEST(PositionScreen, HelpPromisesNoPictureByItself) {
   const auto ui = test::make_screen();

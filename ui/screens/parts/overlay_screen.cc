@@ -139,8 +139,10 @@ void leave(Page& page) {
 
 // The code is seen nowhere else: it is in view to the last second.
 void code_goes(Page& page, std::string_view seconds) {
+  page.tree.open(shrinking(scroller("overlay_words", page.box(Flow::Column))));
   page.body("overlay_text",
             page.tr("To have it erased, quote this code to the staff. You can take a photo of it."));
+  page.tree.close();
   page.tree.open(page.row_box(space::kM));
   Node code = page.text(page.filled("{}", page.view.receipt), type::kTitle, Weight::Bold, page.palette.ink);
   code.style.size_px = page.px(type::kTitle);

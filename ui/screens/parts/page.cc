@@ -10,6 +10,7 @@ namespace relievo::ui {
 namespace {
 
 constexpr Colour kNone{};
+constexpr std::chrono::seconds kCamerasRest{2};
 constexpr float kMostSignShare = 1.35F;  // signs on buttons that stay as large as they are grow no further
 
 constexpr std::string_view kUnits[] = {"mm", "px", "sr", "%"};
@@ -106,7 +107,7 @@ void Page::sign(const char* letter, float size, Colour colour) {
 }
 
 void Page::button(std::string_view id, std::string_view label, const char* letter, ButtonLook look,
-                  Action action, float grow, const ButtonSize& lengths) {
+                  Action action, float grow, const ButtonSize& lengths, std::string_view value) {
   const float thin = std::max(1.5F, px(2));
   const struct {
     Colour fill, border, ink;
@@ -121,6 +122,7 @@ void Page::button(std::string_view id, std::string_view label, const char* lette
   Node node = centred(box(Flow::Row, lengths.gap,
                           text_share > 1.3F ? std::min(14.0F, lengths.pad_x) : lengths.pad_x, lengths.pad_y));
   tell(node, Role::Button, id, label, action);
+  node.value = value;
   frame(node, fill, border, border_px, px(lengths.radius));
   node.box.grow = grow;
   node.box.min_height = px(lengths.height);
@@ -190,6 +192,9 @@ void Page::cameras() {
   const char* words = on ? tr("The cameras are on") : tr("The cameras are off");
   Node row = row_box(10);
   tell(row, Role::Status, "cameras", words);
+  // They rest soon after somebody comes here who was before them: who listens is not told first that they are
+  // on, unless they stay so.
+  row.unspoken = on && view.now < visit.takes_touches_from + kCamerasRest;
   const auto in_row = tree.inside(row);
   sign(on ? icon::kCamera : icon::kCameraOff, 24, on ? palette.warn : palette.good);
   write(words, type::kSmall, Weight::Medium, on ? palette.warn : palette.good);

@@ -184,9 +184,10 @@ class Page {
   const char* backward() const { return mirrored() ? icon::kNext : icon::kBack; }
 
   void button(std::string_view id, std::string_view label, const char* letter, ButtonLook look, Action action,
-              float grow = 0) {
+              float grow = 0, std::string_view value = {}) {
     button(id, label, letter, look, action, grow,
-           look == ButtonLook::Main || look == ButtonLook::Grave ? size::kMainButton : size::kOtherButton);
+           look == ButtonLook::Main || look == ButtonLook::Grave ? size::kMainButton : size::kOtherButton,
+           value);
   }
   void square_button(std::string_view id, std::string_view spoken, const char* letter, Action action,
                      std::string_view value = {});
@@ -236,7 +237,7 @@ class Page {
 
  protected:
   void button(std::string_view id, std::string_view label, const char* letter, ButtonLook look, Action action,
-              float grow, const ButtonSize& lengths);
+              float grow, const ButtonSize& lengths, std::string_view value = {});
 
   bool with_back_ = false;
 

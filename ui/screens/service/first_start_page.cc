@@ -1,8 +1,8 @@
 // SPDX-FileCopyrightText: 2026 The Relievo authors
 // SPDX-License-Identifier: GPL-3.0-or-later
 //
-// The first start: language, clock, consent text, both PINs, the sheet with the recovery words. Signing in, the
-// clock's page, and the page on which somebody changes their own PIN.
+// The first start: language, clock, consent text, both PINs, the sheet with the recovery words. Signing in,
+// the clock's page, and the page on which somebody changes their own PIN.
 #include <array>
 
 #include "ui/screens/parts/page.h"

@@ -144,6 +144,14 @@ Node code_card(const Page& page, std::string_view id, const char* name, Colour b
   return card;
 }
 
+// Large words leave room for it where nothing else is offered.
+bool has_room_for_qr(const Page& page) {
+  constexpr float kRoom = 1.3F;
+  return !at_foot(page) ||
+         (page.text_share < kRoom && page.view.take_home.link.empty() &&
+          page.view.take_home.taking == Taking::None && page.view.printing == Printing::None);
+}
+
 // The code in digits, and where there is room as a QR code for a photograph.
 void erasure_code(Page& page) {
   const auto& tr = page.tr;
@@ -160,7 +168,7 @@ void erasure_code(Page& page) {
   code.style.size_px = page.px(code_dp);
   page.tree.leaf(code);
   page.tree.close();
-  if (!page.view.receipt_code.pixels.empty() && !at_foot(page)) qr(page, "qr", PictureSlot::Receipt);
+  if (!page.view.receipt_code.pixels.empty() && has_room_for_qr(page)) qr(page, "qr", PictureSlot::Receipt);
 }
 
 // Where the operator offers the portrait.
@@ -271,8 +279,9 @@ void thanks_screen(Page& page) {
             TextAlign::Centre);
   if (!at_foot(page)) codes(page);
   printing(page);
-  // What is said of a stick is seen without scrolling.
-  const bool tall = page.large_words() && page.view.take_home.taking != Taking::None;
+  // What is said of a stick is seen without scrolling, and the way on where two codes leave no room for it.
+  const bool tall =
+      page.large_words() && (page.view.take_home.taking != Taking::None || !page.view.take_home.link.empty());
   end_message(page, !page.portrait || tall, [&] { take_or_leave(page); });
 }
 
@@ -290,6 +299,8 @@ void trouble_screen(Page& page) {
   const Message said = words_of(page);
   begin_message(page, said.letter, page.palette.warn, true);
   page.heading("title", said.title, type::kTitle, TextAlign::Centre);
+  if (page.view.trouble == Trouble::Refused && page.visit.shot_in_the_dark)
+    page.body("why", page.tr("It is too dark here for the cameras"), TextAlign::Centre);
   page.body("what", said.words, TextAlign::Centre);
   if (page.view.screen == Screen::Idle && !bars_the_way(page.view.out_of_order))
     end_message(page, page.tr("Back to the start"), icon::kAgain, at_foot(page));

@@ -14,12 +14,15 @@ namespace {
 
 bool narrow(const Page& page) { return page.portrait || page.text_share > 1.3F; }
 
-// One of two ways on: what it is called, what it means.
+// One of two ways on: what it is called, what it means. Who listens hears what it means with its button, not
+// with the other's.
 void way(Page& page, std::string_view id, const char* label, const char* letter, const char* words,
          Action action) {
   const auto in_box = page.tree.inside(page.grown(page.box(Flow::Column, space::kS)));
-  page.button(id, label, letter, ButtonLook::Main, action);
-  page.write(words, 22, Weight::Regular, page.palette.ink_soft, TextAlign::Centre);
+  page.button(id, label, letter, ButtonLook::Main, action, 0, words);
+  Node meaning = page.text(words, 22, Weight::Regular, page.palette.ink_soft, TextAlign::Centre);
+  meaning.unspoken = true;
+  page.tree.leaf(meaning);
 }
 
 void two_ways(Page& page) {
@@ -177,7 +180,7 @@ void ask_name(Page& page, const char* asked) {
 // Digits only: a pad of them, beside the question where there is room.
 void ask_code(Page& page, const char* asked) {
   Node room = justified(page.grown(page.sided(page.abreast_box(space::kXl))), Justify::Centre);
-  if (page.portrait) room.box.align = Align::Centre;
+  if (page.portrait) room.box.align = Align::Centre, room.box.shrink = true;
   const auto in_room = page.tree.inside(room);
   Node said = scroller("said", justified(page.box(Flow::Column, space::kM), Justify::Centre));
   said.box.shrink = page.portrait;

@@ -124,8 +124,10 @@ namespace {
 Said said_of_turn(const Page& page) {
   using pipeline::TurnAdvice;
   const auto& tr = page.tr;
+  // Before the first picture of the turn nothing is known of the face.
+  if (!page.view.live.turn) return {tr("Please hold still"), icon::kStill};
   // In the mirror the picture's left is on the right.
-  switch (page.view.live.turn ? page.view.live.turn->advice : TurnAdvice::Hold) {
+  switch (page.view.live.turn->advice) {
     case TurnAdvice::ToLeft: return {tr("Turn your head slowly to your right"), icon::kNext};
     case TurnAdvice::ToRight: return {tr("Turn your head slowly to your left"), icon::kBack};
     case TurnAdvice::Level: return {tr("Please hold your head level"), icon::kPerson};
