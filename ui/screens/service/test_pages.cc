@@ -1,7 +1,8 @@
 // SPDX-FileCopyrightText: 2026 The Relievo authors
 // SPDX-License-Identifier: GPL-3.0-or-later
 //
-// What the staff let the device say of itself: figures of its visits, consent texts, self-test, trigger test, log.
+// What the staff let the device say of itself: figures of its visits, consent texts, self-test, trigger test,
+// log.
 #include <array>
 
 #include "ui/screens/service/fault_words.h"
