@@ -14,7 +14,7 @@ namespace relievo::storage {
 inline constexpr const char *kStoreFile = "relievo.db", *kKeyFile = "relievo.key",
                             *kLockFile = "relievo.lock";  // in the store's directory
 
-// A store lies in it, or a store's key.
+// A store that was opened for writing lies in it, or a store's key.
 bool is_store_folder(const std::filesystem::path& folder);
 
 // InvalidInput: the folder of this file is one.

@@ -5,7 +5,7 @@
 // target; commit() renames it into place, or, where the target exists already, each file over its
 // predecessor. Without commit() the destructor leaves nothing behind; what a run that was killed has left
 // goes when the next one begins with the same target. Errors: InvalidInput (the target is a file, or a
-// store's folder), IoFailed (cannot be made or written), MediaFull. Thread: main.
+// store's folder), IoFailed (cannot be made or written), MediaFull. Thread: any, one a target.
 #pragma once
 
 #include <filesystem>

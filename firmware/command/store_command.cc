@@ -73,7 +73,7 @@ Result<void> recover(storage::StoreKeeping& keeping, Services& services) {
   switch (args.verb) {
     case StoreArgs::Verb::Check: return check(args, folder, services);
     case StoreArgs::Verb::Backup:
-      (void)interrupted();  // from here on Ctrl-C waits: neither half a copy nor a key stays behind
+      (void)interrupted();  // from here on a first Ctrl-C waits: neither half a copy nor a key stays behind
       RELIEVO_TRY(keeping->backup(args.file));
       services.console.say("copied to " + args.file.string() +
                            "; keep its key, or the recovery words, elsewhere");

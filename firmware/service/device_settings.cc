@@ -30,15 +30,17 @@ Result<void> trust_clock(storage::Store& store, WallTime now) {
   return store.set_setting(kClockSeenSetting, std::to_string(now.time_since_epoch().count()));
 }
 
-Result<void> erase_person(storage::Store& store, storage::SubjectId id) {
+Result<void> erase_person(storage::Store& store, storage::SubjectId id, EventLog& log) {
   const Result<void> erased = store.erase_subject(id);
   if (erased || erased.error().code == Errc::NotFound) return erased;
   const auto left = store.subject(id);
-  return !left && left.error().code == Errc::NotFound ? Result<void>{} : erased;
+  if (left || left.error().code != Errc::NotFound) return erased;
+  if (erased.error().code != Errc::Timeout) log.fault(erased.error());
+  return {};
 }
 
-Result<void> erase_expired(storage::Store& store, WallTime now, int keep_days, JobControl& control,
-                           int& erased) {
+Result<void> erase_expired(storage::Store& store, WallTime now, int keep_days, EventLog& log,
+                           JobControl& control, int& erased) {
   if (keep_days <= 0) return {};
   RELIEVO_TRY_ASSIGN(const bool jumped, has_jumped(store, now));
   if (jumped)
@@ -54,7 +56,7 @@ Result<void> erase_expired(storage::Store& store, WallTime now, int keep_days, J
                               }));
   for (const storage::SubjectId id : expired) {
     if (control.cancelled.load()) return Error{Errc::Cancelled, "the rest is erased later"};
-    const Result<void> gone = erase_person(store, id);
+    const Result<void> gone = erase_person(store, id, log);
     if (!gone && gone.error().code != Errc::NotFound) return gone.error();
     ++erased;
   }
@@ -70,7 +72,7 @@ void RetentionWatch::turn(const ui::Settings& settings) {
       JobLane::Keeper,
       [this, erased, days](JobControl& control) -> Result<void> {
         return erase_expired(store_, std::chrono::floor<std::chrono::milliseconds>(clock_.wall_now()), days,
-                             control, *erased);
+                             log_, control, *erased);
       },
       [this, erased](const std::optional<Error>& error) {
         if (error && error->code == Errc::Cancelled) next_ = {};  // a visitor came in between

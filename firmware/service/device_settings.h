@@ -54,12 +54,13 @@ inline constexpr const char* kClockSeenSetting = "clock.seen";
 
 // The clock is right: so says somebody who has looked at it.
 Result<void> trust_clock(storage::Store& store, storage::WallTime now);
-// Whoever reads the store meanwhile keeps traces in its log, and nobody in the store: no error. Thread: the
+// What goes wrong once the person is gone is no error, but for the log: that an older copy would bring them
+// back. Whoever reads the store meanwhile keeps traces in its log, and nobody in the store. Thread: the
 // keeper. Errors: NotFound; the store's, and then the person is still there.
-Result<void> erase_person(storage::Store& store, storage::SubjectId id);
+Result<void> erase_person(storage::Store& store, storage::SubjectId id, EventLog& log);
 // A record's age is that of its newest consent. `erased`: how many were, also where it ends early.
-Result<void> erase_expired(storage::Store& store, storage::WallTime now, int keep_days, JobControl& control,
-                           int& erased);
+Result<void> erase_expired(storage::Store& store, storage::WallTime now, int keep_days, EventLog& log,
+                           JobControl& control, int& erased);
 
 class RetentionWatch {
  public:

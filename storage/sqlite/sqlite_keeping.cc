@@ -2,6 +2,9 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 //
 // SqliteStore as a whole: copies, and its keys.
+#include <fcntl.h>
+#include <unistd.h>
+
 #include <algorithm>
 
 #include "storage/calibration_record.h"
@@ -72,10 +75,17 @@ class SqliteKeeping final : public StoreKeeping {
       by_it.mode = OpenMode::ReadOnly;
       by_it.keys = key_file(to.file, false);
       std::error_code ignored;
-      if (std::filesystem::exists(to.file, ignored) && !SqliteStore::open(dir_, clock_, by_it))
+      const bool is_new = !std::filesystem::exists(to.file, ignored);
+      if (!is_new && !SqliteStore::open(dir_, clock_, by_it))
         return Error{Errc::InvalidInput, "this file is there, and is not this store's key: name another"}.at(
             to.file.native());
-      return rekey(*store, *by_it.keys);
+      RELIEVO_TRY(rekey(*store, *by_it.keys));
+      // Made by root, it is the kiosk's to read.
+      if (const int fd = is_new ? ::open(to.file.c_str(), O_RDONLY | O_CLOEXEC | O_NOFOLLOW) : -1; fd >= 0) {
+        give_to_owner_of(dir_, fd);
+        ::close(fd);
+      }
+      return {};
     }
     const auto same = options_.keys ? options_.keys : std::shared_ptr<KeySource>(key_file(dir_ / kKeyFile));
     return rekey(*store, *same);

@@ -257,7 +257,9 @@ class RecordsController final : public PageController {
     person_.reset();
     services().side_tasks.send(
         JobLane::Keeper,
-        [this, id = storage::SubjectId{number}](JobControl&) { return erase_person(services().store, id); },
+        [this, id = storage::SubjectId{number}](JobControl&) {
+          return erase_person(services().store, id, services().log);
+        },
         [this, number, visit = visit_](const std::optional<Error>& error) {
           if (!error) services().log.say(ui::LogEvent::RecordErased, {std::to_string(number)});
           if (visit != visit_) return error ? services().log.fault(*error) : void();

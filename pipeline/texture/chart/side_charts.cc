@@ -44,14 +44,19 @@ class FlatSide {
   }
   Vec2f on_it(const Vec3f& p) const { return {dot(p, across_), dot(p, down_)}; }
 
-  // False where something of this chart lies there: what is one way within 60 degrees may still lie before
-  // itself, as the lip of a nostril before its floor.
+  // False where something of this chart lies there: what faces one way within 60 degrees may still lie before
+  // itself, as the lip of a nostril before its floor. So far from its first triangle that it is not known,
+  // too. Triangles smaller than a place of the plane may slip through.
   bool take(const FaceMesh& mesh, const Triangle& t) {
     Vec2f at[3];
     for (std::size_t k = 0; k < 3; ++k) {
       const Vec2f p = on_it(mesh.vertices_mm[t[k]]);
       at[k] = {(p.x - middle_.x) * kPerMm + kSide / 2, (p.y - middle_.y) * kPerMm + kSide / 2};
     }
+    if (std::ranges::any_of(at, [](const Vec2f& p) {
+          return !(p.x >= 0 && p.y >= 0 && p.x <= kSide - 1 && p.y <= kSide - 1);
+        }))
+      return false;
     const Vec2f centre{(at[0].x + at[1].x + at[2].x) / 3, (at[0].y + at[1].y + at[2].y) / 3};
     for (Vec2f& p : at)  // neighbours share an edge
       p = {centre.x + kWithin * (p.x - centre.x), centre.y + kWithin * (p.y - centre.y)};

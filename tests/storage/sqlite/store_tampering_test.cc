@@ -221,6 +221,8 @@ TEST(StoreTampering, WhatRootMakesStaysTheOwners) {
     ASSERT_TRUE(store->erase_subject(*store->add_subject({"Eva"})));
   }
   EXPECT_EQ(owner(folder / "another file of root"), 0U);
+  ASSERT_TRUE(keep_sqlite_store(dir, kSameTime, kNoReserve)->rekey({.file = folder / "elsewhere.key"}));
+  EXPECT_EQ(owner(folder / "elsewhere.key"), kOwner);
 }
 
 }  // namespace

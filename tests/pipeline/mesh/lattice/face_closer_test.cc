@@ -55,7 +55,7 @@ double off_the_head(const FieldHead& head, const hal::sim::HeadPose& pose, const
   return std::abs(head.field().distance(pose.world_from_head().transposed() * (p - pose.origin_mm())));
 }
 
-TEST(FaceCloser, LeavesNoHoleAndMovesNothingThatWasMeasured) {
+TEST(FaceCloser, LeavesNoHoleAndLiesNearTheHead) {
   for (const auto& [seed, yaw] : {std::pair{1U, 0.0}, {2U, 12.0}, {3U, -12.0}}) {
     const FieldHead head(seed);
     const hal::sim::HeadPose pose = turned(yaw, 0);
