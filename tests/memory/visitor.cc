@@ -36,7 +36,9 @@ Result<void> Visitor::open() {
   services_.open_store = [this](const std::filesystem::path& at, bool) {
     return storage::open_sqlite_store(at, clock_, {});
   };
-  services_.turn_head = [this](hal::Device&, double yaw_deg) { people_.turn(yaw_deg); };
+  services_.turn_head = [this](hal::Device&, double yaw_deg) {
+    if (turns_) people_.turn(yaw_deg);  // who does not keeps still until "enough" can be touched
+  };
   services_.simulated_calibration = [this]() -> Result<pipeline::StereoCalibration> {
     return people_.calibration();
   };
@@ -169,6 +171,7 @@ VisitEnd Visitor::visit(std::size_t person, Manner manner) {
   const Exempt own;
   ++visits_;
   again_ = false;
+  turns_ = manner == Manner::Turns;
   people_.shows(person);
   VisitEnd end;
   bool began = false, refused = false;

@@ -78,6 +78,7 @@ class Visitor {
   std::unique_ptr<firmware::Kiosk> kiosk_;
   int visits_ = 0;
   bool again_ = false;  // the picture was taken a second time
+  bool turns_ = false;  // the head, this time
 };
 
 }  // namespace relievo::test
