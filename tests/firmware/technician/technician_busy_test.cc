@@ -148,13 +148,13 @@ TEST_F(TechnicianTest, ARunThatIsStoppedBeforeItsTurnLeavesWhatIsSavedAsItWas) {
     rig().test_capture->act(ui::TechnicianAct::Stop);
   }
   EXPECT_TRUE(rig().now().pairs_changed) << "a pair by hand still waits to be calculated with";
+  rig().tap("remove pair");
   rig().tap("save");
   ASSERT_TRUE(rig().until([] { return rig().now().recording.outcome != ui::Outcome::None; }));
   const auto making = rig().saved_making();
   ASSERT_TRUE(making);
   EXPECT_EQ(making->records.size(), kStages.size());
   EXPECT_TRUE(making->by_hand.empty());
-  rig().tap("remove pair");
   rig().tap("by hand");
   rig().plug_in();
 }
