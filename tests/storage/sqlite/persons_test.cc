@@ -235,7 +235,7 @@ TEST(Persons, EveryColumnIsCarriedOrBelongsToTheStoreAlone) {
   const auto columns = [&](const std::string& table) {
     std::string all;
     for (const std::string& name : raw.rows("SELECT name FROM pragma_table_info('" + table + "')"))
-      all += name + " ";
+      all += name.substr(0, name.find('|')) + " ";
     return all;
   };
   EXPECT_EQ(columns("subject"), "id created_at_ms name key_id name_hash code code_hash ");
