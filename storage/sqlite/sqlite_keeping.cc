@@ -7,6 +7,7 @@
 
 #include <algorithm>
 
+#include "hal/base/whole_file.h"
 #include "storage/calibration_record.h"
 #include "storage/cipher/recovery.h"
 #include "storage/model_blob.h"

@@ -211,9 +211,9 @@ void Narrator::follow_statuses(const Tree& tree, const Moment& moment, const Lis
     told_to_wait_ = node.waits && !said_all;
   }
   // An alert that comes again is new: the second wrong code is told as the first was.
-  const auto gone =
-      std::ranges::remove_if(all.first(told_count_), [](const Told& t) { return t.alert && !t.there; });
-  told_count_ -= gone.size();
+  const auto end = told_.begin() + std::ptrdiff_t(told_count_);
+  told_count_ -= std::size_t(
+      end - std::remove_if(told_.begin(), end, [](const Told& t) { return t.alert && !t.there; }));
   scratch_.clear();
 }
 
