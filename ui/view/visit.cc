@@ -43,6 +43,7 @@ void Visit::touched(hal::Instant now) {
 void Visit::forget() {
   forget_person();
   look_as_set();
+  shot_in_the_dark = has_sides_ = false;
 }
 
 void Visit::forget_person() {
